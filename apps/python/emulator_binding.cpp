@@ -126,11 +126,11 @@ py::dict noisyContacts(std::uint64_t seed,
   result["profile"] = made.profile;
   result["touched"] = grid<bool>(
       made.truth.size(), made.profile.layout().numCells(), [&](std::size_t i, std::size_t place) {
-        return made.truth[i][place] == Touch::kTouched;
+        return made.truth[i][place] == CellTruth::kTouched;
       });
   result["nothing"] = grid<bool>(
       made.truth.size(), made.profile.layout().numCells(), [&](std::size_t i, std::size_t place) {
-        return made.truth[i][place] == Touch::kNothing;
+        return made.truth[i][place] == CellTruth::kNothing;
       });
   result["contacts"] = list;
   result["threshold_counts"] = made.thresholdCounts;

@@ -55,8 +55,8 @@ py::object classify(const TrainedModel& model, const py::object& source, const p
   Classification said;
   if (!table.rows.empty()) said = classifyTable(model, table, chosen);
   for (const std::string& warning : said.use.warnings) warnings.push(warning);
-  for (std::size_t i = 0; i < said.verdicts.size(); ++i)
-    grasps.push(predictionJson(model, table.rows[i], said.verdicts[i]));
+  for (std::size_t i = 0; i < said.predictions.size(); ++i)
+    grasps.push(predictionJson(model, table.rows[i], said.predictions[i]));
   return toPython(Json::object()
                       .set("grasps", std::move(grasps))
                       .set("session_offset", offsetJson(said.use.offset))

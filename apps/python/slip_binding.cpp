@@ -71,7 +71,7 @@ struct SlipRow {
   std::size_t frame = 0;
   std::int64_t timeUs = 0;
   std::size_t matrix = 0;
-  SlipDetection verdict;
+  SlipDetection detection;
 };
 
 py::dict slipTableOf(const std::vector<SlipRow>& rows) {
@@ -82,46 +82,46 @@ py::dict slipTableOf(const std::vector<SlipRow>& rows) {
   };
   const auto number = [&](const char* name, const auto& of) {
     table[name] = column<double>(
-        n, [&](std::size_t i) { return of(rows[i].verdict.motion, rows[i].verdict); });
+        n, [&](std::size_t i) { return of(rows[i].detection.motion, rows[i].detection); });
   };
   const auto flag = [&](const char* name, const auto& of) {
-    table[name] = column<bool>(n, [&](std::size_t i) { return of(rows[i].verdict); });
+    table[name] = column<bool>(n, [&](std::size_t i) { return of(rows[i].detection); });
   };
   using Motion = const SlipMotion&;
-  using Verdict = const SlipDetection&;
+  using Detection = const SlipDetection&;
   whole("frame", [](const SlipRow& row) { return row.frame; });
   whole("time_ms", [](const SlipRow& row) { return row.timeUs / kUsPerMs; });
   whole("matrix", [](const SlipRow& row) { return row.matrix; });
-  whole("active", [](const SlipRow& row) { return row.verdict.motion.active; });
-  number("x", [](Motion m, Verdict) { return m.x; });
-  number("y", [](Motion m, Verdict) { return m.y; });
-  flag("valid", [](Verdict v) { return v.motion.valid; });
-  number("dx", [](Motion m, Verdict) { return m.valid ? m.dx : kSlipUnknown; });
-  number("dy", [](Motion m, Verdict) { return m.valid ? m.dy : kSlipUnknown; });
+  whole("active", [](const SlipRow& row) { return row.detection.motion.active; });
+  number("x", [](Motion m, Detection) { return m.x; });
+  number("y", [](Motion m, Detection) { return m.y; });
+  flag("valid", [](Detection v) { return v.motion.valid; });
+  number("dx", [](Motion m, Detection) { return m.valid ? m.dx : kSlipUnknown; });
+  number("dy", [](Motion m, Detection) { return m.valid ? m.dy : kSlipUnknown; });
   number("ref_dx",
-         [](Motion m, Verdict) { return m.valid && m.refValid ? m.refDx : kSlipUnknown; });
+         [](Motion m, Detection) { return m.valid && m.refValid ? m.refDx : kSlipUnknown; });
   number("ref_dy",
-         [](Motion m, Verdict) { return m.valid && m.refValid ? m.refDy : kSlipUnknown; });
-  flag("rotation_valid", [](Verdict v) { return v.motion.rotation.valid; });
-  number("rotation_deg", [](Motion m, Verdict) {
+         [](Motion m, Detection) { return m.valid && m.refValid ? m.refDy : kSlipUnknown; });
+  flag("rotation_valid", [](Detection v) { return v.motion.rotation.valid; });
+  number("rotation_deg", [](Motion m, Detection) {
     return m.rotation.valid ? m.rotation.rotationDeg : kSlipUnknown;
   });
-  number("ref_rotation_deg", [](Motion m, Verdict) {
+  number("ref_rotation_deg", [](Motion m, Detection) {
     return m.rotation.valid && m.rotation.refValid ? m.rotation.refRotationDeg : kSlipUnknown;
   });
-  number("orientation_deg", [](Motion m, Verdict) { return m.rotation.axis.orientationDeg; });
-  number("eccentricity", [](Motion m, Verdict) { return m.rotation.axis.eccentricity; });
-  number("roundness", [](Motion m, Verdict) { return m.rotation.roundness; });
-  number("residual", [](Motion, Verdict v) { return v.residual; });
-  number("confidence", [](Motion, Verdict v) { return v.confidence; });
-  number("p_moved", [](Motion, Verdict v) { return v.pMoved.value_or(kSlipUnknown); });
+  number("orientation_deg", [](Motion m, Detection) { return m.rotation.axis.orientationDeg; });
+  number("eccentricity", [](Motion m, Detection) { return m.rotation.axis.eccentricity; });
+  number("roundness", [](Motion m, Detection) { return m.rotation.roundness; });
+  number("residual", [](Motion, Detection v) { return v.residual; });
+  number("confidence", [](Motion, Detection v) { return v.confidence; });
+  number("p_moved", [](Motion, Detection v) { return v.pMoved.value_or(kSlipUnknown); });
   std::vector<std::string> names;
   for (int state = 0; state <= static_cast<int>(SlipState::kSlip); ++state)
     names.emplace_back(nameOf(static_cast<SlipState>(state)));
   std::vector<int> states;
-  for (const SlipRow& row : rows) states.push_back(static_cast<int>(row.verdict.state));
+  for (const SlipRow& row : rows) states.push_back(static_cast<int>(row.detection.state));
   table["state"] = words(names, states);
-  flag("slipping", [](Verdict v) { return v.slipping; });
+  flag("slipping", [](Detection v) { return v.slipping; });
   return table;
 }
 
@@ -136,10 +136,10 @@ py::dict slip(const Profile& profile,
   std::vector<SlipRow> rows;
   unlocked([&](const Progress& progress) {
     const auto take =
-        [&](std::size_t frame, std::int64_t timeUs, const std::vector<SlipDetection>& verdicts) {
-          for (std::size_t m = 0; m < verdicts.size(); ++m)
-            if (verdicts[m].motion.active > 0 && (!request.matrix || *request.matrix == m))
-              rows.push_back({frame, timeUs, m, verdicts[m]});
+        [&](std::size_t frame, std::int64_t timeUs, const std::vector<SlipDetection>& detections) {
+          for (std::size_t m = 0; m < detections.size(); ++m)
+            if (detections[m].motion.active > 0 && (!request.matrix || *request.matrix == m))
+              rows.push_back({frame, timeUs, m, detections[m]});
         };
     runSlipDetector(profile, request.pass, take, progress);
   });

@@ -60,7 +60,7 @@ void addTemperatures(const Profile& profile, std::size_t matrix, FittedStep& fit
   if (numAll > 0) fitted.allSensorsDegC = all / static_cast<double>(numAll);
 }
 
-void judge(const StepSignal& signal, double taxelAreaMm2, FittedStep& fitted) {
+void assess(const StepSignal& signal, double taxelAreaMm2, FittedStep& fitted) {
   const LoadingStep& step = fitted.step;
   const auto note = [&](std::string text) { fitted.notes.push_back(std::move(text)); };
   const std::size_t frames = step.end - step.begin + 1;
@@ -193,7 +193,7 @@ StepReport reportSteps(const Profile& profile,
     fitted.fit = fitStep(samples.timeS, samples.values, options.fit);
     if (fitted.fit.converged) fitted.characteristics = characteristicsOf(fitted.fit.parameters);
     addTemperatures(profile, matrix, fitted);
-    judge(signal, profile.layout().matrix(matrix).taxelAreaMm2(), fitted);
+    assess(signal, profile.layout().matrix(matrix).taxelAreaMm2(), fitted);
     report.steps.push_back(std::move(fitted));
   }
   const bool touched = std::any_of(signal.values.begin(), signal.values.end(), [&](double v) {

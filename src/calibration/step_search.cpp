@@ -117,9 +117,9 @@ class ProjectedStep {
         phi_(size()) {}
 
   bool residuals(std::span<const double> x, std::span<double> out) {
-    const bool told = project(x);
-    if (told) Eigen::Map<Eigen::VectorXd>(out.data(), size()) = y_ - gain_ * phi_;
-    return told;
+    const bool defined = project(x);
+    if (defined) Eigen::Map<Eigen::VectorXd>(out.data(), size()) = y_ - gain_ * phi_;
+    return defined;
   }
   bool jacobian(std::span<const double> x, std::span<double> out) {
     if (!project(x)) return false;

@@ -79,7 +79,7 @@ CaptureSession::~CaptureSession() {
   stop();
   recorder_.stop();  // one that was asked for, though the device was never started
   const std::lock_guard lock(feedsMutex_);
-  for (const auto& feed : feeds_) feed->close();
+  for (const auto& queue : feeds_) queue->close();
 }
 
 void CaptureSession::start() {
@@ -189,11 +189,11 @@ void CaptureSession::pass(const CaptureItem& item) {
     std::vector<std::shared_ptr<CaptureQueue>> feeds;
     {
       const std::lock_guard lock(feedsMutex_);
-      std::erase_if(feeds_, [](const auto& feed) { return feed->closed(); });
+      std::erase_if(feeds_, [](const auto& queue) { return queue->closed(); });
       numFeeds_ = feeds_.size();
       feeds = feeds_;
     }
-    for (const auto& feed : feeds) feed->put(item);  // one for a replay may wait here
+    for (const auto& queue : feeds) queue->put(item);  // one for a replay may wait here
   }
   recorder_.push(item);
 }
@@ -206,13 +206,13 @@ void CaptureSession::show(const RecordingEvent& event) {
 
 std::shared_ptr<CaptureQueue> CaptureSession::subscribe(std::string consumer,
                                                         const CaptureQueueOptions& options) {
-  auto feed = std::make_shared<CaptureQueue>(std::move(consumer), options);
+  auto queue = std::make_shared<CaptureQueue>(std::move(consumer), options);
   const std::lock_guard lock(feedsMutex_);
-  feeds_.push_back(feed);
+  feeds_.push_back(queue);
   numFeeds_ = feeds_.size();
   // Let go, it is closed, so that nobody waits for room in it.
-  CaptureQueue* const bare = feed.get();
-  return {bare, [owner = std::move(feed)](CaptureQueue*) { owner->close(); }};
+  CaptureQueue* const bare = queue.get();
+  return {bare, [owner = std::move(queue)](CaptureQueue*) { owner->close(); }};
 }
 
 SharedFrame CaptureSession::takeFrame() { return screenFrame_.take().value_or(nullptr); }

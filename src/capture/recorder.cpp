@@ -42,7 +42,7 @@ CaptureQueueOptions feedFor(CaptureQueueOptions options) {
 
 struct Recorder::Impl {
   Impl(RecorderOptions given, const Clock& theClock)
-      : options(std::move(given)), clock(theClock), feed("the recorder", feedFor(options.feed)) {
+      : options(std::move(given)), clock(theClock), queue("the recorder", feedFor(options.queue)) {
     requireRecorder(options.preTriggerS >= 0.0 && options.preTriggerS <= 60.0,
                     "preTriggerS must be 0..60");
     requireRecorder(options.commitIntervalMs >= 1.0 && options.commitIntervalMs <= 10'000.0,
@@ -58,7 +58,7 @@ struct Recorder::Impl {
   std::int64_t nowUs() const { return otherTime.load() ? newestUs.load() : host->nowUs(); }
 
   std::int64_t lostInQueues() const {
-    const auto lost = feed.stats().lost;
+    const auto lost = queue.stats().lost;
     return static_cast<std::int64_t>(std::accumulate(lost.begin(), lost.end(), std::uint64_t{0}));
   }
 
@@ -134,8 +134,8 @@ struct Recorder::Impl {
     // However long the disk kept us: what came meanwhile is as old as that.
     const std::int64_t takingMonoUs = clock.monotonicUs();
     std::vector<RecordingEvent> ownGaps;
-    feed.take(items, &ownGaps);
-    if (stopping) feed.takeOpenGaps(items, &ownGaps);
+    queue.take(items, &ownGaps);
+    if (stopping) queue.takeOpenGaps(items, &ownGaps);
     for (const RecordingEvent& gap : ownGaps) notify(gap);
     checkClock(items);
     handle(items);
@@ -195,7 +195,7 @@ struct Recorder::Impl {
   RecorderOptions options;
   const Clock& clock;
   std::optional<HostTime> host{clock};  // as stamps of a live hand
-  CaptureQueue feed;
+  CaptureQueue queue;
   std::atomic<bool> otherTime = false;          // stamps come from another time than the clock's
   std::atomic<std::int64_t> newestUs = 0;       // stamp of the newest sample offered
   std::atomic<std::int64_t> roundBeganUs = -1;  // monotonic; -1 between rounds
@@ -237,7 +237,7 @@ void Recorder::run() {
   if (impl.thread.joinable()) return;
   impl.thread = std::jthread([&impl](const std::stop_token& stop) {
     while (!stop.stop_requested()) {
-      impl.feed.wait(impl.finishing ? kFinishRetry : kRound, stop);
+      impl.queue.wait(impl.finishing ? kFinishRetry : kRound, stop);
       try {
         impl.round();
       } catch (const std::exception& error) {  // out of memory: what was committed is safe
@@ -268,15 +268,15 @@ bool Recorder::push(CaptureItem item) {
     impl_->newestUs.store(stampUs);
     impl_->otherTime.store(std::abs(stampUs - impl_->host->nowUs()) > kOtherTimeUs);
   }
-  return impl_->feed.put(std::move(item));
+  return impl_->queue.put(std::move(item));
 }
 
 void Recorder::clearPreTrigger() {
   Impl& impl = *impl_;
   if (impl.thread.joinable() || recording())
     throw std::logic_error("Recorder: can't forget while it runs");
-  impl.feed.take(impl.items);
-  impl.feed.takeOpenGaps(impl.items);
+  impl.queue.take(impl.items);
+  impl.queue.takeOpenGaps(impl.items);
   impl.items.clear();
   impl.kept.clear();
   impl.keptNewestUs = INT64_MIN;
@@ -312,7 +312,7 @@ RecordingReport Recorder::stop() {
   impl.stopRequested = true;
   lock.unlock();
   if (impl.thread.joinable()) {
-    impl.feed.wake();
+    impl.queue.wake();
     lock.lock();
     impl.stopped.wait(lock, [&impl] { return !impl.active; });
     return impl.report;
@@ -339,7 +339,7 @@ RecorderStatus Recorder::status() const {
   return status;
 }
 
-CaptureQueueStats Recorder::queueStats() const { return impl_->feed.stats(); }
+CaptureQueueStats Recorder::queueStats() const { return impl_->queue.stats(); }
 
 std::int64_t Recorder::nowUs() const { return impl_->nowUs(); }
 

@@ -75,14 +75,14 @@ struct Replay::Impl {
       try {
         return timeOf(next);
       } catch (const Error& error) {
-        lose(lastUs, tactile, error.what());
+        closeAfterError(lastUs, tactile, error.what());
       }
     }
     return kNever;
   }
 
   // A sample that can't be read: counted, and told the first time.
-  void lose(std::int64_t atUs, bool tactile, const std::string& fault) {
+  void closeAfterError(std::int64_t atUs, bool tactile, const std::string& fault) {
     {
       const std::lock_guard lock(mutex);
       PortStatus& port = tactile ? status.tactile : *status.motion;
@@ -116,7 +116,7 @@ struct Replay::Impl {
     try {
       delivers();
     } catch (const Error& error) {
-      return lose(atUs, tactile, error.what());
+      return closeAfterError(atUs, tactile, error.what());
     }
     const std::lock_guard lock(mutex);
     PortStatus& port = tactile ? status.tactile : *status.motion;

@@ -42,7 +42,7 @@ bool isSetting(const DeviceCommand& command) {
 GraspControl::GraspControl(CaptureSession& session, const Clock& clock)
     : session_(session),
       clock_(clock),
-      feed_(session.subscribe("motion control", smallFeed())),
+      queue_(session.subscribe("motion control", smallFeed())),
       machine_(session.device().hand()) {}
 
 GraspControl::~GraspControl() {
@@ -80,7 +80,7 @@ void GraspControl::loop(const std::stop_token& stop) {
       if (const auto nextUs = machine_.nextUs())
         waitUs = std::clamp<std::int64_t>(*nextUs - nowUs, 0, waitUs);
     }
-    feed_->wait(microseconds(waitUs), stop);
+    queue_->wait(microseconds(waitUs), stop);
     if (!stop.stop_requested()) step();
   }
 }
@@ -138,7 +138,7 @@ void GraspControl::fault(const char* what) noexcept {
 
 void GraspControl::processFrames() {
   items_.clear();
-  feed_->take(items_);
+  queue_->take(items_);
   const std::int64_t nowUs = clock_.monotonicUs();
   for (const CaptureItem& item : items_)
     if (const auto* frame = std::get_if<SharedFrame>(&item))
@@ -286,7 +286,7 @@ void GraspControl::grasp(const GraspRequest& request) {
     send();
     report();
   }
-  feed_->wake();
+  queue_->wake();
 }
 
 void GraspControl::preshape(const std::string& name, double velocityDegPerS) {
@@ -316,7 +316,7 @@ void GraspControl::stop() noexcept {
     }
   }
   deliverHere();
-  feed_->wake();
+  queue_->wake();
 }
 
 void GraspControl::relax() noexcept {
@@ -392,19 +392,19 @@ void GraspControl::note(RecordingEvent event, bool ends) {
 
 void GraspControl::deliverEvents() {
   while (true) {
-    PendingEvent owed;
+    PendingEvent pending;
     {
       const std::lock_guard lock(mutex_);
       if (pendingEvents_.empty()) return;
-      owed = std::move(pendingEvents_.front());
+      pending = std::move(pendingEvents_.front());
       pendingEvents_.pop_front();
     }
     try {
-      session_.note(owed.event);
+      session_.note(pending.event);
     } catch (...) {
       // No memory: what moves a hand goes on without this line.
     }
-    if (!owed.ends) continue;
+    if (!pending.ends) continue;
     const std::lock_guard lock(mutex_);
     --pendingEndEvents_;
   }

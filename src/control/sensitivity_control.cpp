@@ -60,8 +60,8 @@ void SensitivityControl::begin(SensitivityMode mode, const std::string& text) {
   stampsUs_.clear();
   degC_.clear();
   begunS_ = nowS();
-  feed_.reset();
-  if (mode != SensitivityMode::kManual) feed_ = session_.subscribe("sensitivity", kFeed);
+  queue_.reset();
+  if (mode != SensitivityMode::kManual) queue_ = session_.subscribe("sensitivity", kFeed);
   if (mode == SensitivityMode::kManual && !was) return;
   const std::int64_t us = session_.nowUs();
   session_.note({us, us, "sensitivity_mode", std::nullopt, text, ""});
@@ -167,7 +167,7 @@ void SensitivityControl::onFrame(const TactileFrame& frame) {
 
 void SensitivityControl::processFrames() {
   items_.clear();
-  feed_->take(items_);
+  queue_->take(items_);
   for (const CaptureItem& item : items_) {
     if (const auto* frame = std::get_if<SharedFrame>(&item)) onFrame(**frame);
     if (const auto* temperatures = std::get_if<Temperatures>(&item)) degC_ = temperatures->degC;
@@ -189,7 +189,7 @@ void SensitivityControl::startHighSensitivity() {
 
 void SensitivityControl::step() {
   pollReplies();
-  if (!feed_) return applyWantedSettings();
+  if (!queue_) return applyWantedSettings();
   processFrames();
   if (status_.mode == SensitivityMode::kAdaptive && !search_) {
     const TactileSettings now = session_.device().facts().matrices;

@@ -29,11 +29,11 @@ std::string problemOf(const TactileSettings& settings) {
 // Commands that make `get` of all matrices what it is in `to`; `command` makes one, for a matrix or
 // for all.
 template <typename Get, typename MakeCommand>
-void bring(const TactileSettings& from,
-           const TactileSettings& to,
-           std::vector<DeviceCommand>& commands,
-           Get get,
-           MakeCommand command) {
+void appendCommands(const TactileSettings& from,
+                    const TactileSettings& to,
+                    std::vector<DeviceCommand>& commands,
+                    Get get,
+                    MakeCommand command) {
   std::vector<std::size_t> different;
   for (std::size_t m = 0; m < to.size(); ++m)
     if (get(from[m]) != get(to[m])) different.push_back(m);
@@ -64,7 +64,7 @@ std::vector<DeviceCommand> commandsBetween(const TactileSettings& from, const Ta
   if (const std::string problem = problemOf(to); !problem.empty())
     throw std::invalid_argument("settings: " + problem);
   std::vector<DeviceCommand> commands;
-  bring(
+  appendCommands(
       from,
       to,
       commands,
@@ -73,7 +73,7 @@ std::vector<DeviceCommand> commandsBetween(const TactileSettings& from, const Ta
       [](std::optional<int> matrix, float value) -> DeviceCommand {
         return SetSensitivity{matrix, static_cast<double>(value)};
       });
-  bring(
+  appendCommands(
       from,
       to,
       commands,

@@ -45,18 +45,18 @@ class Pieces {
   // In the caller's thread, until `threads` of them have ended.
   void await(std::size_t threads, const Progress& progress) {
     std::unique_lock lock(mutex_);
-    std::size_t told = 0;
+    std::size_t reported = 0;
     while (ended_ < threads) {
-      if (progress && !stopped_ && done_ != told) {
-        told = done_;
+      if (progress && !stopped_ && done_ != reported) {
+        reported = done_;
         lock.unlock();
-        const bool goOn = progress(static_cast<double>(told) / static_cast<double>(count_));
+        const bool goOn = progress(static_cast<double>(reported) / static_cast<double>(count_));
         lock.lock();
         if (!goOn) stopped_ = cancelled_ = true;
         continue;
       }
-      changed_.wait(lock, [&] { return ended_ == threads || (progress && done_ != told); });
-      if (stopped_) told = done_;
+      changed_.wait(lock, [&] { return ended_ == threads || (progress && done_ != reported); });
+      if (stopped_) reported = done_;
     }
   }
 

@@ -278,12 +278,12 @@ DsaControllerStats DsaController::stats() const {
 bool DsaController::looksLikeMotionController() {
   static constexpr std::string_view kQuestion = " \r\nver\r\n";
   channel_.write(std::as_bytes(std::span(kQuestion)));
-  std::string heard;
+  std::string received;
   const std::int64_t endUs = clock_.monotonicUs() + usOf(milliseconds(300));
-  while (clock_.monotonicUs() < endUs && heard.size() < 4096) {
+  while (clock_.monotonicUs() < endUs && received.size() < 4096) {
     const std::size_t n = channel_.read(buffer_, milliseconds(50));
-    for (std::size_t i = 0; i < n; ++i) heard += static_cast<char>(buffer_[i]);
-    if (heard.find("VER=") != std::string::npos) return true;
+    for (std::size_t i = 0; i < n; ++i) received += static_cast<char>(buffer_[i]);
+    if (received.find("VER=") != std::string::npos) return true;
   }
   return false;
 }

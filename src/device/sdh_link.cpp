@@ -119,7 +119,7 @@ void SdhLink::takeError(int code, const std::string& what) {
   failExchange(what);
 }
 
-std::optional<SdhReply> SdhLink::matchReply(const std::string& what, const ReplyMatcher& judge) {
+std::optional<SdhReply> SdhLink::matchReply(const std::string& what, const ReplyMatcher& match) {
   std::vector<SdhReply> replies = std::move(replies_);
   replies_.clear();
   for (SdhReply& reply : replies) {
@@ -132,7 +132,7 @@ std::optional<SdhReply> SdhLink::matchReply(const std::string& what, const Reply
       takeError(line->error, what);
       return std::nullopt;
     }
-    switch (judge(reply)) {
+    switch (match(reply)) {
       case ReplyMatch::kStray:
         ++stats_.strayReplies;
         break;
@@ -153,7 +153,7 @@ std::optional<SdhReply> SdhLink::matchReply(const std::string& what, const Reply
 
 std::optional<SdhReply> SdhLink::attempt(Bytes request,
                                          const std::string& what,
-                                         const ReplyMatcher& judge,
+                                         const ReplyMatcher& match,
                                          const SdhRetryPolicy& retryPolicy) {
   replies_.clear();
   problem_ = FailureCause::kSilence;
@@ -180,7 +180,7 @@ std::optional<SdhReply> SdhLink::attempt(Bytes request,
     if (readOnce(urgent_ ? std::min(wait, kSdhLinkSlice) : wait) == 0) continue;
     heardUs = clock_.monotonicUs();
     if (parser_.stats().badChecksums != before.badChecksums) problem_ = FailureCause::kBroken;
-    if (auto answer = matchReply(what, judge)) {
+    if (auto answer = matchReply(what, match)) {
       needsResync_ = parser_.pendingBytes() > 0;
       return answer;
     }
@@ -214,14 +214,14 @@ bool SdhLink::mayBeLost() const noexcept {
 
 SdhReply SdhLink::exchange(Bytes request,
                            const std::string& what,
-                           const ReplyMatcher& judge,
+                           const ReplyMatcher& match,
                            const SdhRetryPolicy& retryPolicy) {
   if (retryPolicy.abortsForStop) abortIfUrgent();
   ++stats_.exchanges;
   if (needsResync_) resync(false);
   const std::int64_t startUs = clock_.monotonicUs();
   for (int tries = 1;; ++tries) {
-    if (auto answer = attempt(request, what, judge, retryPolicy)) return std::move(*answer);
+    if (auto answer = attempt(request, what, match, retryPolicy)) return std::move(*answer);
     if (tries >= retryPolicy.tries || clock_.monotonicUs() - startUs > usOf(kExchangeLimit)) break;
     ++stats_.retries;
     resync(tries > 1);
@@ -234,27 +234,27 @@ SdhLine SdhLink::ask(const std::string& request,
                      std::optional<int> axis,
                      const LineCheck& check,
                      const SdhRetryPolicy& retryPolicy) {
-  const ReplyMatcher judge = [&](SdhReply& reply) {
+  const ReplyMatcher match = [&](SdhReply& reply) {
     const auto* line = std::get_if<SdhLine>(&reply);
     if (!line || line->kind != SdhLine::Kind::kValue || line->name != name || line->axis != axis)
       return ReplyMatch::kStray;
     return check(*line) ? ReplyMatch::kAnswer : ReplyMatch::kImplausible;
   };
   const std::string text = request + "\r\n";
-  return std::get<SdhLine>(exchange(bytesOf(text), request, judge, retryPolicy));
+  return std::get<SdhLine>(exchange(bytesOf(text), request, match, retryPolicy));
 }
 
 std::vector<double> SdhLink::askRecord(SdhCommand command,
                                        std::span<const double> values,
                                        const RecordCheck& check) {
-  const ReplyMatcher judge = [&](SdhReply& reply) {
+  const ReplyMatcher match = [&](SdhReply& reply) {
     const auto* record = std::get_if<SdhRecord>(&reply);
     if (!record || record->command != command) return ReplyMatch::kStray;
     if (record->status != 0) return ReplyMatch::kAnswer;
     return check(record->values) ? ReplyMatch::kAnswer : ReplyMatch::kImplausible;
   };
   const auto request = sdhRecordRequest(command, values, !channel_.isNetwork());
-  return std::get<SdhRecord>(exchange(request, std::string(sdhName(command)), judge, {})).values;
+  return std::get<SdhRecord>(exchange(request, std::string(sdhName(command)), match, {})).values;
 }
 
 // --- stop
@@ -263,7 +263,7 @@ std::vector<double> SdhLink::askRecord(SdhCommand command,
 void SdhLink::stop() {
   ++stats_.stops;
   constexpr milliseconds kWaits[] = {milliseconds(150), milliseconds(300), milliseconds(500)};
-  bool first = true, heard = false;
+  bool first = true, anyReply = false;
   for (const milliseconds timeout : kWaits) {
     replies_.clear();
     parser_.reset();
@@ -283,14 +283,14 @@ void SdhLink::stop() {
           needsResync_ = false;
           return;
         }
-        heard = true;
+        anyReply = true;
       }
       replies_.clear();
     }
     // Another line may answer an earlier question, or be how this hand confirms: the line is alive,
     // and the next question starts by a resync. But a stop that was lost must not pass for taken by
     // such a line: not the first one.
-    if (heard && timeout != kWaits[0]) return;
+    if (anyReply && timeout != kWaits[0]) return;
   }
   fail(DeviceFault::kSilent,
        "'stop' was sent, but the hand doesn't confirm it: use its emergency stop if it moves");

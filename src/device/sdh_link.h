@@ -67,14 +67,14 @@ class SdhLink {
   // The answer, after as many tries as `patience` has.
   SdhReply exchange(Bytes request,
                     const std::string& what,
-                    const ReplyMatcher& judge,
+                    const ReplyMatcher& match,
                     const SdhRetryPolicy& retryPolicy);
   // One try; nothing: silence, or an answer that can't be used (problem_ says which).
   std::optional<SdhReply> attempt(Bytes request,
                                   const std::string& what,
-                                  const ReplyMatcher& judge,
+                                  const ReplyMatcher& match,
                                   const SdhRetryPolicy& retryPolicy);
-  std::optional<SdhReply> matchReply(const std::string& what, const ReplyMatcher& judge);
+  std::optional<SdhReply> matchReply(const std::string& what, const ReplyMatcher& match);
   void takeError(int code, const std::string& what);
   std::size_t readOnce(std::chrono::milliseconds timeout);
   void write(Bytes bytes);

@@ -188,15 +188,15 @@ class NoisyContactsGenerator {
   }
 
   CellTruthMask truthNow() {
-    CellTruthMask truth(layout_.numCells(), Touch::kNothing);
+    CellTruthMask truth(layout_.numCells(), CellTruth::kNothing);
     quiet_.scan(degC_, options_.degC, counts_);
     for (std::size_t i = 0; i < truth.size(); ++i) {
       const double kpa = quiet_.responseKpa(i);
       if (counts_[i] > restCounts_[i])
-        truth[i] = Touch::kTouched;
+        truth[i] = CellTruth::kTouched;
       else if (kpa > 0.0 &&
                options_.sensitivity * sdh2Sensor().countsAbove(kpa, options_.degC) >= kFaintCounts)
-        truth[i] = Touch::kFaint;
+        truth[i] = CellTruth::kFaint;
     }
     return truth;
   }

@@ -113,11 +113,11 @@ class Counter {
       if (layout.staticMask[i] == 0 || layout.dynamicMask[i] == 0) continue;
       const float before = raw_.values[offset + i];
       const float after = filtered[offset + i];
-      const Touch is = touch ? (*touch)[offset + i] : Touch::kNothing;
-      if (is == Touch::kNothing) {
+      const CellTruth is = touch ? (*touch)[offset + i] : CellTruth::kNothing;
+      if (is == CellTruth::kNothing) {
         ghosts.before += active(before) ? 1 : 0;
         ghosts.after += active(after) ? 1 : 0;
-      } else if (is == Touch::kTouched) {
+      } else if (is == CellTruth::kTouched) {
         ++touched.taxels;
         touched.active.before += active(before) ? 1 : 0;
         touched.active.after += active(after) ? 1 : 0;

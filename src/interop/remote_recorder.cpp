@@ -273,18 +273,19 @@ struct RemoteRecorder::Impl {
             .count();
     // In this order: what is on disk stays true when it ends in between.
     const bool recording = session.recording();
-    const auto verdict = startResult(session.recorderStatus(), recording, waitedS, options.limits);
-    if (!verdict) return;
+    const auto detection =
+        startResult(session.recorderStatus(), recording, waitedS, options.limits);
+    if (!detection) return;
     const Done done = std::exchange(starting, std::nullopt)->done;
     try {
-      if (verdict->ok())
+      if (detection->ok())
         become(State::kRecording);
       else
         finish();
     } catch (...) {
       return sayFailed(done);
     }
-    done(*verdict);
+    done(*detection);
   }
 
   struct Starting {

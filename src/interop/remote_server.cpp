@@ -158,7 +158,7 @@ struct RemoteServer::Impl {
     if ((events & POLLOUT) != 0 && !write(client)) return false;
     if ((events & POLLIN) != 0 && !read(client)) return false;
     if ((events & (POLLHUP | POLLERR | POLLNVAL)) != 0 && (events & POLLIN) == 0) return false;
-    return heed(client);
+    return processRequests(client);
   }
 
   bool read(Client& client) const {
@@ -181,7 +181,7 @@ struct RemoteServer::Impl {
   }
 
   // Takes requests until one must be waited for; false: the client is done with.
-  bool heed(Client& client) {
+  bool processRequests(Client& client) {
     while (!client.pending && client.out.empty()) {
       const auto line = client.lines.next();
       if (!line) return !client.ended;
@@ -244,7 +244,7 @@ struct RemoteServer::Impl {
       // Whoever is told may fail: the client has its answer all the same.
     }
     try {
-      if (answer(*client, item.answer, nameOf(request.verb)) && heed(*client)) return;
+      if (answer(*client, item.answer, nameOf(request.verb)) && processRequests(*client)) return;
     } catch (...) {
       // No memory, most likely: this client goes without.
     }
@@ -259,9 +259,9 @@ struct RemoteServer::Impl {
       return;
     }
     if (clients.size() >= options.maxClients && !makeRoom()) {
-      Client stranger;
-      stranger.socket = std::move(socket);
-      answer(stranger, RemoteAnswer::refused("busy", "too many clients: close one"), {});
+      Client rejected;
+      rejected.socket = std::move(socket);
+      answer(rejected, RemoteAnswer::refused("busy", "too many clients: close one"), {});
       return turnAway();
     }
     Client client;

@@ -35,18 +35,18 @@ ProcessingChain::~ProcessingChain() { stop(); }
 
 void ProcessingChain::connect(CaptureSession& session) {
   if (thread_.joinable()) throw std::logic_error("ProcessingChain::connect: it is running");
-  CaptureQueueOptions feed;
-  feed.tactileItems = options_.waitingFrames;
-  feed.motionItems = options_.waitingFrames * kMotionPerFrame;
-  feed.blockWhenFull = options_.lossless;
-  feed_.reset();
+  CaptureQueueOptions queue;
+  queue.tactileItems = options_.waitingFrames;
+  queue.motionItems = options_.waitingFrames * kMotionPerFrame;
+  queue.blockWhenFull = options_.lossless;
+  queue_.reset();
   reset();
-  feed_ = session.subscribe("live processing", feed);
+  queue_ = session.subscribe("live processing", queue);
 }
 
 void ProcessingChain::start() {
   if (thread_.joinable()) return;
-  if (!feed_) throw std::logic_error("ProcessingChain::start: it listens to no session");
+  if (!queue_) throw std::logic_error("ProcessingChain::start: it listens to no session");
   thread_ = std::jthread([this](const std::stop_token& stop) { run(stop); });
 }
 
@@ -58,12 +58,12 @@ void ProcessingChain::stop() noexcept {
 }
 
 void ProcessingChain::run(const std::stop_token& stop) {
-  const auto feed = feed_;
+  const auto queue = queue_;
   try {
     while (!stop.stop_requested()) {
       if (processWaiting() > 0) continue;
-      if (feed->closed()) return;
-      feed->wait(kLook, stop);
+      if (queue->closed()) return;
+      queue->wait(kLook, stop);
     }
     return;
   } catch (const std::exception& error) {
@@ -73,11 +73,11 @@ void ProcessingChain::run(const std::stop_token& stop) {
     const std::lock_guard lock(mutex_);
     failure_ = "an exception of no known kind";
   }
-  feed->close();  // a lossless source would wait for ever
+  queue->close();  // a lossless source would wait for ever
 }
 
 std::size_t ProcessingChain::step() {
-  if (!feed_) throw std::logic_error("ProcessingChain::step: it listens to no session");
+  if (!queue_) throw std::logic_error("ProcessingChain::step: it listens to no session");
   const std::uint64_t before = stats().frames;
   while (processWaiting() > 0) {
   }
@@ -93,8 +93,8 @@ std::size_t ProcessingChain::processWaiting() {
   std::int64_t safeUs = std::numeric_limits<std::int64_t>::min();
   for (const CaptureItem& item : items_) safeUs = std::max(safeUs, stampOf(item));  // held back
   const std::size_t held = items_.size();
-  const std::size_t taken = feed_->take(items_);
-  if (taken == 0) feed_->takeOpenGaps(items_);
+  const std::size_t taken = queue_->take(items_);
+  if (taken == 0) queue_->takeOpenGaps(items_);
   for (const CaptureItem& item : items_)
     if (streamOf(item) == CaptureStream::kTactile || taken == 0)
       safeUs = std::max(safeUs, stampOf(item));
@@ -106,7 +106,7 @@ std::size_t ProcessingChain::processWaiting() {
   std::for_each(items_.begin(), end, [this](const CaptureItem& item) { process(item); });
   items_.erase(items_.begin(), end);
   const std::uint64_t skipped =
-      feed_->stats().lost.at(static_cast<std::size_t>(CaptureStream::kTactile));
+      queue_->stats().lost.at(static_cast<std::size_t>(CaptureStream::kTactile));
   const std::lock_guard lock(mutex_);
   stats_.skipped = skipped;
   return handled;

@@ -99,23 +99,23 @@ void SlipStage::onFrame(LiveResults& results, std::vector<RecordingEvent>& out) 
 }
 
 void SlipStage::emitSlipEvents(std::size_t matrix,
-                               const SlipDetection& verdict,
+                               const SlipDetection& detection,
                                std::int64_t hostUs,
                                std::vector<RecordingEvent>& out) {
   auto& slip = slipping_[matrix];
   const int number = static_cast<int>(matrix);
-  if (verdict.slipping && !slip) {
+  if (detection.slipping && !slip) {
     slip = Slipping{.sinceUs = hostUs};
     out.push_back({hostUs, hostUs, "slip", number, "slip begins", {}});
   }
   if (!slip) return;
-  if (verdict.motion.valid) {
-    slip->dx += verdict.motion.dx;
-    slip->dy += verdict.motion.dy;
-    slip->pathTaxels += std::hypot(verdict.motion.dx, verdict.motion.dy);
+  if (detection.motion.valid) {
+    slip->dx += detection.motion.dx;
+    slip->dy += detection.motion.dy;
+    slip->pathTaxels += std::hypot(detection.motion.dx, detection.motion.dy);
   }
-  if (verdict.motion.rotation.valid) slip->turnDeg += verdict.motion.rotation.rotationDeg;
-  if (verdict.slipping) return;
+  if (detection.motion.rotation.valid) slip->turnDeg += detection.motion.rotation.rotationDeg;
+  if (detection.slipping) return;
   Json json = Json::object();
   json.set("dx_taxels", slip->dx)
       .set("dy_taxels", slip->dy)

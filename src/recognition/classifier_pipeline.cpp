@@ -161,7 +161,7 @@ ClassifierPipeline ofDay(const SampleSet& samples) {
   ClassifierPipeline pipeline;
   pipeline.classifier = ClassifierKind::kGauss;
   pipeline.numClasses = samples.numClasses();
-  pipeline.day =
+  pipeline.sessionAdaptive =
       SessionAdaptiveClassifier::learn(samples.x, samples.y, samples.classes, samples.features);
   pipeline.calibrated = true;
   return pipeline;
@@ -177,8 +177,8 @@ Eigen::VectorXd separationWeights(const Eigen::MatrixXd& means, const Eigen::Vec
   return weights.sum() > 0.0 ? Eigen::VectorXd(weights / weights.sum()) : weights;
 }
 
-Eigen::VectorXd separationWeights(const SessionAdaptiveClassifier& day) {
-  const SessionAdaptiveParameters& data = day.data();
+Eigen::VectorXd separationWeights(const SessionAdaptiveClassifier& sessionAdaptive) {
+  const SessionAdaptiveParameters& data = sessionAdaptive.data();
   Eigen::MatrixXd means(static_cast<Eigen::Index>(data.classComponents.size()), data.pooled.cols());
   for (std::size_t c = 0; c < data.classComponents.size(); ++c)
     means.row(static_cast<Eigen::Index>(c)) = data.classComponents[c].mean.transpose();
@@ -243,10 +243,10 @@ ClassifierPipeline ClassifierPipeline::of(const SampleSet& samples,
 }
 
 Eigen::MatrixXd ClassifierPipeline::scores(const Eigen::MatrixXd& x) const {
-  if (day) {
+  if (sessionAdaptive) {
     Eigen::MatrixXd all(x.rows(), static_cast<Eigen::Index>(numClasses));
     for (Eigen::Index i = 0; i < x.rows(); ++i)
-      all.row(i) = day->logLikelihoods(x.row(i).transpose(), 0.0).transpose();
+      all.row(i) = sessionAdaptive->logLikelihoods(x.row(i).transpose(), 0.0).transpose();
     return all;
   }
   const Eigen::MatrixXd z = projected(*this, x);
@@ -260,10 +260,11 @@ Eigen::MatrixXd ClassifierPipeline::scores(const Eigen::MatrixXd& x) const {
 
 Eigen::MatrixXd ClassifierPipeline::probabilities(const Eigen::MatrixXd& x) const {
   if (!calibrated) throw std::invalid_argument("ClassifierPipeline: not calibrated");
-  if (day) {
+  if (sessionAdaptive) {
     Eigen::MatrixXd all(x.rows(), static_cast<Eigen::Index>(numClasses));
     for (Eigen::Index i = 0; i < x.rows(); ++i)
-      all.row(i) = predict(*day, x.row(i).transpose(), givenOffset(0.0)).probability.transpose();
+      all.row(i) =
+          predict(*sessionAdaptive, x.row(i).transpose(), givenOffset(0.0)).probability.transpose();
     return all;
   }
   if (classifier != ClassifierKind::kSvm) return softmaxRows(scores(x), exponent);
@@ -275,10 +276,11 @@ Eigen::MatrixXd ClassifierPipeline::probabilities(const Eigen::MatrixXd& x) cons
 }
 
 Eigen::VectorXd ClassifierPipeline::noveltyScores(const Eigen::MatrixXd& x) const {
-  if (day) {
+  if (sessionAdaptive) {
     Eigen::VectorXd all(x.rows());
     for (Eigen::Index i = 0; i < x.rows(); ++i)
-      all[i] = -predict(*day, x.row(i).transpose(), givenOffset(0.0)).logLikelihoodRatio;
+      all[i] =
+          -predict(*sessionAdaptive, x.row(i).transpose(), givenOffset(0.0)).logLikelihoodRatio;
     return all;
   }
   if (novelty.classes.empty()) throw std::invalid_argument("ClassifierPipeline: not calibrated");
@@ -286,7 +288,7 @@ Eigen::VectorXd ClassifierPipeline::noveltyScores(const Eigen::MatrixXd& x) cons
 }
 
 Eigen::VectorXd ClassifierPipeline::featureWeights() const {
-  if (day) return separationWeights(*day);
+  if (sessionAdaptive) return separationWeights(*sessionAdaptive);
   if (!discriminant) {
     if (classifier == ClassifierKind::kSvm) return svm.featureWeights();
     return separationWeights(gaussian);

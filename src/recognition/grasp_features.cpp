@@ -15,9 +15,11 @@ std::array<double, kSessionPadNames.size()> sessionOf(const PlateauPad& pad) {
   return {pad.row, pad.column, pad.lnSum, pad.lnPeak, pad.lnMajor, pad.lnMinor};
 }
 
-void appendSession(const PlateauFeatures& day, const PinchHand& hand, std::vector<double>& values) {
-  for (const std::size_t axis : hand.gripAxes) values.push_back(day.plateauAnglesDeg[axis]);
-  for (const PlateauPad& pad : day.pads)
+void appendSession(const PlateauFeatures& plateau,
+                   const PinchHand& hand,
+                   std::vector<double>& values) {
+  for (const std::size_t axis : hand.gripAxes) values.push_back(plateau.plateauAnglesDeg[axis]);
+  for (const PlateauPad& pad : plateau.pads)
     for (const double value : sessionOf(pad)) values.push_back(value);
 }
 
@@ -71,13 +73,13 @@ GraspFeatures graspFeatures(const Profile& profile,
     out.values = std::move(study.values);
     return out;
   }
-  PlateauFeatures day = plateauFeatures(profile, grasp, hand);
-  out.problem = std::move(day.problem);
-  out.initialFrame = day.startFrame;
-  out.endFrame = day.plateauEndFrame;
+  PlateauFeatures plateau = plateauFeatures(profile, grasp, hand);
+  out.problem = std::move(plateau.problem);
+  out.initialFrame = plateau.startFrame;
+  out.endFrame = plateau.plateauEndFrame;
   if (!out.problem.empty()) return out;
-  out.values = std::move(day.values);
-  if (set == FeatureSet::kSession) appendSession(day, hand, out.values);
+  out.values = std::move(plateau.values);
+  if (set == FeatureSet::kSession) appendSession(plateau, hand, out.values);
   return out;
 }
 

@@ -42,7 +42,7 @@ SessionContext adaptedUse(const TrainedModel& adapted,
   SessionContext use;
   use.offset = adapted.offset;
   if (choice.kind == OffsetChoice::Kind::kBatch)
-    use.offset = offsetFromBatch(*adapted.pipeline.day, x, adapted.offset);
+    use.offset = offsetFromBatch(*adapted.pipeline.sessionAdaptive, x, adapted.offset);
   if (choice.kind == OffsetChoice::Kind::kGiven) use.offset = givenOffset(choice.mm);
   if (!use.offset.trusted) use.warnings.push_back("nothing is sure: " + use.offset.text());
   return use;
@@ -110,7 +110,8 @@ SessionContext sessionFor(const TrainedModel& model,
       use.offset = unknownOffset();
       break;
     case OffsetChoice::Kind::kBatch:
-      use.offset = x.rows() == 0 ? unknownOffset() : offsetFromBatch(*model.pipeline.day, x);
+      use.offset =
+          x.rows() == 0 ? unknownOffset() : offsetFromBatch(*model.pipeline.sessionAdaptive, x);
       if (!use.offset.trusted)
         use.warnings.push_back("nothing is sure: the offset rests on " +
                                std::to_string(use.offset.objects) +
@@ -131,7 +132,7 @@ Classification classifyTable(const TrainedModel& model,
   const Eigen::MatrixXd x = valuesOf(table);
   Classification result;
   result.use = sessionFor(model, x, timesOf(table), choice);
-  result.verdicts = classifyRows(model, x, result.use.offset, result.use.sameSession);
+  result.predictions = classifyRows(model, x, result.use.offset, result.use.sameSession);
   return result;
 }
 
@@ -170,27 +171,28 @@ ModelEvaluation evaluateModel(const TrainedModel& model,
     const Eigen::MatrixXd x = samples.rows(rest).x;
     std::vector<std::int64_t> times;
     for (const std::size_t i : rest) times.push_back(timesUs[i]);
-    std::vector<Prediction> verdicts;
+    std::vector<Prediction> predictions;
     if (labelled.empty()) {
       evaluation.sessions.push_back(sessionFor(model, x, times, options.offset));
       const SessionContext& use = evaluation.sessions.back();
-      verdicts = classifyRows(model, x, use.offset, use.sameSession);
+      predictions = classifyRows(model, x, use.offset, use.sameSession);
     } else {
       TrainedModel adapted = model;
       adaptModel(adapted, samples.rows(labelled));
       evaluation.sessions.push_back(adaptedUse(adapted, x, options.offset));
-      verdicts = classifyRows(adapted, x, evaluation.sessions.back().offset, false);
+      predictions = classifyRows(adapted, x, evaluation.sessions.back().offset, false);
     }
     for (std::size_t k = 0; k < rest.size(); ++k) {
       const int truth = samples.y[rest[k]];
-      Prediction& verdict = verdicts[k];
-      evaluation.confusion.add(truth, verdict.label);
-      const auto top = verdict.ranking.begin() + static_cast<std::ptrdiff_t>(std::min<std::size_t>(
-                                                     3, verdict.ranking.size()));
-      evaluation.top3 += std::find(verdict.ranking.begin(), top, truth) != top ? 1 : 0;
-      evaluation.sure += verdict.sure ? 1 : 0;
-      evaluation.sureRight += verdict.sure && verdict.label == truth ? 1 : 0;
-      evaluation.grasps.push_back({rest[k], evaluation.sessions.size() - 1, std::move(verdict)});
+      Prediction& prediction = predictions[k];
+      evaluation.confusion.add(truth, prediction.label);
+      const auto top =
+          prediction.ranking.begin() +
+          static_cast<std::ptrdiff_t>(std::min<std::size_t>(3, prediction.ranking.size()));
+      evaluation.top3 += std::find(prediction.ranking.begin(), top, truth) != top ? 1 : 0;
+      evaluation.sure += prediction.sure ? 1 : 0;
+      evaluation.sureRight += prediction.sure && prediction.label == truth ? 1 : 0;
+      evaluation.grasps.push_back({rest[k], evaluation.sessions.size() - 1, std::move(prediction)});
     }
   }
   if (evaluation.grasps.empty())
@@ -228,19 +230,22 @@ std::string labelOf(const TrainedModel& model, int label) {
   return label == Prediction::kUnknown ? "unknown" : model.classes[static_cast<std::size_t>(label)];
 }
 
-Json predictionJson(const TrainedModel& model, const FeatureRow& row, const Prediction& verdict) {
+Json predictionJson(const TrainedModel& model,
+                    const FeatureRow& row,
+                    const Prediction& prediction) {
   Json top = Json::array();
-  for (std::size_t k = 0; k < std::min(kTop, verdict.ranking.size()); ++k)
-    top.push(
-        Json::object().set("label", labelOf(model, verdict.ranking[k])).set("p", verdict.p[k]));
+  for (std::size_t k = 0; k < std::min(kTop, prediction.ranking.size()); ++k)
+    top.push(Json::object()
+                 .set("label", labelOf(model, prediction.ranking[k]))
+                 .set("p", prediction.p[k]));
   return Json::object()
       .set("file", row.file.string())
       .set("begin", row.begin)
       .set("end", row.end)
-      .set("label", labelOf(model, verdict.label))
-      .set("confidence", verdict.confidence)
-      .set("sure", verdict.sure)
-      .set("novelty", verdict.novelty)
+      .set("label", labelOf(model, prediction.label))
+      .set("confidence", prediction.confidence)
+      .set("sure", prediction.sure)
+      .set("novelty", prediction.novelty)
       .set("top", std::move(top));
 }
 

@@ -59,12 +59,12 @@ std::optional<EmptyHandZero> zeroFrom(const Json& json, std::string_view key) {
 void requireAgreement(const TrainedModel& model) {
   const ClassifierPipeline& pipeline = model.pipeline;
   const auto features = static_cast<std::size_t>(
-      pipeline.day ? pipeline.day->numFeatures()
-                   : static_cast<std::size_t>(pipeline.standardisation.mean.size()));
+      pipeline.sessionAdaptive ? pipeline.sessionAdaptive->numFeatures()
+                               : static_cast<std::size_t>(pipeline.standardisation.mean.size()));
   if (features != model.features.size() || pipeline.numClasses != model.classes.size())
     throw Error("model: its classifier has other classes or features than it names");
-  if (pipeline.day && (pipeline.day->data().features != model.features ||
-                       pipeline.day->data().classes != model.classes))
+  if (pipeline.sessionAdaptive && (pipeline.sessionAdaptive->data().features != model.features ||
+                                   pipeline.sessionAdaptive->data().classes != model.classes))
     throw Error("model: its classifier names other classes or features");
   if (!pipeline.calibrated) throw Error("model: its probabilities aren't calibrated");
 }

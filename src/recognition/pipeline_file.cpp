@@ -90,11 +90,11 @@ std::vector<Sigmoid> sigmoidsFrom(const Json& json, std::size_t pairs) {
 }  // namespace
 
 Json jsonOf(const ClassifierPipeline& pipeline) {
-  if (pipeline.day)
+  if (pipeline.sessionAdaptive)
     return Json::object()
         .set("classifier", classifierName(pipeline.classifier))
         .set("classes", pipeline.numClasses)
-        .set("day", sessionAdaptiveJson(*pipeline.day));
+        .set("day", sessionAdaptiveJson(*pipeline.sessionAdaptive));
   Json json = Json::object()
                   .set("classifier", classifierName(pipeline.classifier))
                   .set("classes", pipeline.numClasses)
@@ -130,8 +130,8 @@ ClassifierPipeline pipelineFrom(const Json& json) {
   pipeline.classifier = *kind;
   pipeline.numClasses = js::count(json, "classes");
   if (*kind == ClassifierKind::kGauss) {
-    pipeline.day = sessionAdaptiveFrom(js::member(json, "day"));
-    if (pipeline.day->numClasses() != pipeline.numClasses)
+    pipeline.sessionAdaptive = sessionAdaptiveFrom(js::member(json, "day"));
+    if (pipeline.sessionAdaptive->numClasses() != pipeline.numClasses)
       refusePipelineFile("'day' has other classes");
     pipeline.calibrated = true;
     return pipeline;

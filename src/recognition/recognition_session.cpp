@@ -15,7 +15,7 @@ constexpr std::int64_t kPauseUs = 8LL * 3600 * 1'000'000;
 }  // namespace
 
 RecognitionSession::RecognitionSession(TrainedModel model)
-    : model_(std::move(model)), today_(model_) {
+    : model_(std::move(model)), adapted_(model_) {
   renew();
 }
 
@@ -83,7 +83,7 @@ Eigen::MatrixXd RecognitionSession::rows(bool labelledOnly) const {
 }
 
 void RecognitionSession::renew() {
-  today_ = model_;
+  adapted_ = model_;
   std::vector<std::int64_t> times;
   for (const Grasp& grasp : grasps_) times.push_back(grasp.timeUs);
   const bool known = zeroOffset_.has_value() || numLabelled() > 0;
@@ -95,20 +95,20 @@ void RecognitionSession::renew() {
   offset_ = use.offset;
   if (known && !given) {
     offset_ = zeroOffset_.value_or(unknownOffset());
-    SessionAdaptiveClassifier& day = *today_.pipeline.day;
+    SessionAdaptiveClassifier& classifier = *adapted_.pipeline.sessionAdaptive;
     if (numLabelled() > 0) {
       std::vector<int> y;
       for (const Grasp& grasp : grasps_)
         if (grasp.labelledClass) y.push_back(*grasp.labelledClass);
       const Eigen::MatrixXd x = rows(true);
-      offset_ = offsetFromReferences(day, x, y, offset_);
-      day.addSessionComponents(x, y, offset_.mm);
+      offset_ = offsetFromReferences(classifier, x, y, offset_);
+      classifier.addSessionComponents(x, y, offset_.mm);
     }
     if (batch && grasps_.size() > numLabelled())
-      offset_ = offsetFromBatch(*today_.pipeline.day, rows(false), offset_);
+      offset_ = offsetFromBatch(*adapted_.pipeline.sessionAdaptive, rows(false), offset_);
   }
-  if (zero_ && !given) today_.sessionZero = zero_;
-  today_.offset = offset_;
+  if (zero_ && !given) adapted_.sessionZero = zero_;
+  adapted_.offset = offset_;
   const bool assumed = offset_.origin == OffsetSource::kNone;
   unsure_.clear();
   if (!model_.adaptsToSession() && !sameSession_ && !grasps_.empty())
@@ -129,11 +129,11 @@ Prediction RecognitionSession::predict(const std::vector<double>& values,
   const Eigen::MatrixXd x =
       Eigen::Map<const Eigen::RowVectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
   const bool same = grasps_.empty() ? model_.sameSession(timeUs) : sameSession_;
-  return classifyRows(today_, x, offset_, same).front();
+  return classifyRows(adapted_, x, offset_, same).front();
 }
 
 TrainedModel RecognitionSession::adapted() const {
-  TrainedModel model = today_;
+  TrainedModel model = adapted_;
   for (const Grasp& grasp : grasps_)
     if (grasp.labelledClass) {
       ModelInput input;

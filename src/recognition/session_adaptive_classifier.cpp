@@ -81,9 +81,9 @@ Scatters scattersOf(const Eigen::MatrixXd& x, const std::vector<int>& y, std::si
   return out;
 }
 
-Eigen::VectorXd dayVariance(const Eigen::MatrixXd& pooled,
-                            const std::vector<std::string>& features,
-                            const SessionAdaptiveOptions& options) {
+Eigen::VectorXd sessionVariance(const Eigen::MatrixXd& pooled,
+                                const std::vector<std::string>& features,
+                                const SessionAdaptiveOptions& options) {
   Eigen::VectorXd variance = options.sessionVarianceFraction * pooled.diagonal();
   for (std::size_t f = 0; f < features.size(); ++f)
     for (const auto& [name, sd] : options.sessionSd)
@@ -150,7 +150,7 @@ SessionAdaptiveClassifier SessionAdaptiveClassifier::learn(const Eigen::MatrixXd
     if (all == 0.0) constant.push_back(features[static_cast<std::size_t>(f)]);
     data.pooled(f, f) = std::max(data.pooled(f, f), least);
   }
-  const Eigen::VectorXd day = dayVariance(data.pooled, features, options);
+  const Eigen::VectorXd sessionVariances = sessionVariance(data.pooled, features, options);
   for (std::size_t c = 0; c < classes.size(); ++c) {
     Eigen::MatrixXd scatter = data.pooled;
     if (scatters.own[c].size() > 0)
@@ -158,14 +158,15 @@ SessionAdaptiveClassifier SessionAdaptiveClassifier::learn(const Eigen::MatrixXd
                 (1.0 - options.classCovarianceFraction) * data.pooled;
     const Eigen::VectorXd variances = scatter.diagonal();
     scatter *= options.correlationScale;
-    scatter.diagonal() = variances.cwiseMax(kLeastVariancePart * data.pooled.diagonal()) + day;
+    scatter.diagonal() =
+        variances.cwiseMax(kLeastVariancePart * data.pooled.diagonal()) + sessionVariances;
     data.classComponents.push_back({scatters.means[c], scatter});
   }
   data.background.mean = Eigen::VectorXd::Zero(x.cols());
   for (const Eigen::VectorXd& mean : scatters.means) data.background.mean += mean;
   data.background.mean /= static_cast<double>(classes.size());
   data.background.scatter = between(scatters.means, data.background.mean) + data.pooled;
-  data.background.scatter.diagonal() += day;
+  data.background.scatter.diagonal() += sessionVariances;
   data.classes = std::move(classes);
   data.features = std::move(features);
   SessionAdaptiveClassifier model(std::move(data));
@@ -196,8 +197,8 @@ SessionAdaptiveClassifier::SessionAdaptiveClassifier(SessionAdaptiveParameters d
   for (const SessionComponent& component : data_.today) {
     if (component.classIndex >= data_.classes.size())
       throw Error("a model that saw today what is none of its classes");
-    today_.push_back(prepare(component.distribution,
-                             "class '" + data_.classes[component.classIndex] + "' of today"));
+    sessionComponents_.push_back(prepare(
+        component.distribution, "class '" + data_.classes[component.classIndex] + "' of today"));
   }
 }
 
@@ -265,9 +266,9 @@ Eigen::VectorXd SessionAdaptiveClassifier::logLikelihoods(const Eigen::VectorXd&
   Eigen::VectorXd out(static_cast<Eigen::Index>(classComponents_.size()));
   for (std::size_t c = 0; c < classComponents_.size(); ++c)
     out[static_cast<Eigen::Index>(c)] = logDensity(classComponents_[c], at);
-  for (std::size_t i = 0; i < today_.size(); ++i) {
+  for (std::size_t i = 0; i < sessionComponents_.size(); ++i) {
     double& best = out[static_cast<Eigen::Index>(data_.today[i].classIndex)];
-    best = std::max(best, logDensity(today_[i], at));
+    best = std::max(best, logDensity(sessionComponents_[i], at));
   }
   return out;
 }
@@ -309,10 +310,10 @@ void SessionAdaptiveClassifier::addSessionComponents(const Eigen::MatrixXd& x,
       return known.classIndex == c;
     });
     if (same != data_.today.end()) {
-      today_[static_cast<std::size_t>(same - data_.today.begin())] = prepared;
+      sessionComponents_[static_cast<std::size_t>(same - data_.today.begin())] = prepared;
       *same = std::move(component);
     } else {
-      today_.push_back(prepared);
+      sessionComponents_.push_back(prepared);
       data_.today.push_back(std::move(component));
     }
   }

@@ -109,15 +109,15 @@ class ShapeDistance {
 // Different objects: classes that were told with certainty in enough grasps, and can't be taken for
 // one another by a wrong offset.
 std::size_t objectsIn(const SessionAdaptiveClassifier& model,
-                      const std::vector<std::pair<std::size_t, double>>& told,
+                      const std::vector<std::pair<std::size_t, double>>& confident,
                       const SessionOffsetOptions& options) {
   std::vector<std::size_t> times(model.numClasses(), 0);
-  for (const auto& [best, probability] : told)
+  for (const auto& [best, probability] : confident)
     if (probability >= options.objectProbability) ++times[best];
   // One stray grasp among many is no object.
   constexpr double kStray = 0.15;
   const auto needed = static_cast<std::size_t>(
-      std::clamp(std::ceil(kStray * static_cast<double>(told.size())), 1.0, 2.0));
+      std::clamp(std::ceil(kStray * static_cast<double>(confident.size())), 1.0, 2.0));
   const auto column = model.data().sizeColumn;
   const auto sizeOf = [&](std::size_t c) {
     return column ? distanceOfSizeZ(
@@ -279,17 +279,17 @@ SessionOffset offsetFromBatch(const SessionAdaptiveClassifier& model,
   }
   // What was told with what is known now.
   const Eigen::VectorXd now = lnOf(out);
-  std::vector<std::pair<std::size_t, double>> told;
+  std::vector<std::pair<std::size_t, double>> confident;
   for (const Eigen::MatrixXd& likelihoods : all) {
     Eigen::VectorXd scores(likelihoods.rows());
     for (Eigen::Index c = 0; c < scores.size(); ++c)
       scores[c] = lnSumExp(likelihoods.row(c).transpose() + now);
     Eigen::Index best = 0;
     const double largest = scores.maxCoeff(&best);
-    told.emplace_back(static_cast<std::size_t>(best), std::exp(largest - lnSumExp(scores)));
+    confident.emplace_back(static_cast<std::size_t>(best), std::exp(largest - lnSumExp(scores)));
   }
-  out.grasps = before.grasps + told.size();
-  out.objects = std::max(before.objects, objectsIn(model, told, options));
+  out.grasps = before.grasps + confident.size();
+  out.objects = std::max(before.objects, objectsIn(model, confident, options));
   if (!isFixed(before)) setTrust(out, options);
   return out;
 }
@@ -306,7 +306,7 @@ SessionOffset offsetFromReferences(const SessionAdaptiveClassifier& model,
                                 std::to_string(y.size()) + " labels");
   SessionOffset out = before;
   Eigen::VectorXd ln = lnOf(before);
-  std::vector<std::pair<std::size_t, double>> told;
+  std::vector<std::pair<std::size_t, double>> confident;
   for (std::size_t c = 0; c < model.numClasses(); ++c) {
     Eigen::VectorXd sum = Eigen::VectorXd::Zero(ln.size());
     double count = 0.0;
@@ -316,25 +316,25 @@ SessionOffset offsetFromReferences(const SessionAdaptiveClassifier& model,
           overGrid(model, x.row(static_cast<Eigen::Index>(i)).transpose(), before);
       sum += likelihoods.row(static_cast<Eigen::Index>(c)).transpose();
       count += 1.0;
-      told.emplace_back(c, 1.0);
+      confident.emplace_back(c, 1.0);
     }
     if (count > 0.0) ln += sum / count * std::min(count, options.maxEffectiveReferences);
   }
-  if (told.size() != y.size())
+  if (confident.size() != y.size())
     throw std::invalid_argument("session offset: a label that is no class of the model");
-  if (told.empty()) return out;
+  if (confident.empty()) return out;
   if (!isFixed(before)) {
     setDistribution(out, ln);
     out.origin = OffsetSource::kReferences;
   }
-  out.grasps = before.grasps + told.size();
+  out.grasps = before.grasps + confident.size();
   // Labels are certain: a single grasp of an object is one.
-  std::sort(told.begin(), told.end());
-  told.erase(std::unique(told.begin(), told.end()), told.end());
+  std::sort(confident.begin(), confident.end());
+  confident.erase(std::unique(confident.begin(), confident.end()), confident.end());
   SessionOffsetOptions each = options;
   each.objectProbability = 0.0;
-  std::vector<std::pair<std::size_t, double>> twice = told;
-  twice.insert(twice.end(), told.begin(), told.end());
+  std::vector<std::pair<std::size_t, double>> twice = confident;
+  twice.insert(twice.end(), confident.begin(), confident.end());
   out.objects = std::max(before.objects, objectsIn(model, twice, each));
   if (!isFixed(before)) setTrust(out, options);
   return out;

@@ -55,17 +55,17 @@ void requireCarriesOver(const TrainedModel& model) {
                 " can't adapt to a day: train one with --classifier gauss");
 }
 
-Prediction verdictOf(const OpenSetPrediction& day) {
-  Prediction verdict;
+Prediction predictionOf(const OpenSetPrediction& day) {
+  Prediction prediction;
   for (const std::size_t c : day.ranking) {
-    verdict.ranking.push_back(static_cast<int>(c));
-    verdict.p.push_back(day.probability[static_cast<Eigen::Index>(c)]);
+    prediction.ranking.push_back(static_cast<int>(c));
+    prediction.p.push_back(day.probability[static_cast<Eigen::Index>(c)]);
   }
-  verdict.label = day.unknown ? Prediction::kUnknown : verdict.ranking.front();
-  verdict.confidence = verdict.p.front();
-  verdict.sure = day.sure;
-  verdict.novelty = -day.logLikelihoodRatio;
-  return verdict;
+  prediction.label = day.unknown ? Prediction::kUnknown : prediction.ranking.front();
+  prediction.confidence = prediction.p.front();
+  prediction.sure = day.sure;
+  prediction.novelty = -day.logLikelihoodRatio;
+  return prediction;
 }
 
 }  // namespace
@@ -124,29 +124,29 @@ std::vector<Prediction> classifyRows(const TrainedModel& model,
                                      const Eigen::MatrixXd& x,
                                      const SessionOffset& offset,
                                      bool sameSession) {
-  std::vector<Prediction> verdicts;
-  if (x.rows() == 0) return verdicts;
-  if (model.pipeline.day) {
+  std::vector<Prediction> predictions;
+  if (x.rows() == 0) return predictions;
+  if (model.pipeline.sessionAdaptive) {
     SessionOffset used = offset;
     if (used.origin == OffsetSource::kNone && sameSession) used.trusted = true;
-    for (const OpenSetPrediction& day : predictAll(*model.pipeline.day, x, used))
-      verdicts.push_back(verdictOf(day));
-    return verdicts;
+    for (const OpenSetPrediction& day : predictAll(*model.pipeline.sessionAdaptive, x, used))
+      predictions.push_back(predictionOf(day));
+    return predictions;
   }
   const Eigen::MatrixXd p = model.pipeline.probabilities(x);
   const Eigen::VectorXd novelty = model.pipeline.noveltyScores(x);
   for (Eigen::Index i = 0; i < x.rows(); ++i) {
-    Prediction verdict;
-    verdict.ranking = rankedClasses(p.row(i).transpose());
-    for (const int c : verdict.ranking) verdict.p.push_back(p(i, c));
-    verdict.novelty = novelty[i];
-    verdict.confidence = verdict.p.front();
+    Prediction prediction;
+    prediction.ranking = rankedClasses(p.row(i).transpose());
+    for (const int c : prediction.ranking) prediction.p.push_back(p(i, c));
+    prediction.novelty = novelty[i];
+    prediction.confidence = prediction.p.front();
     const bool known = novelty[i] <= model.maxNovelty;
-    verdict.label = known ? verdict.ranking.front() : Prediction::kUnknown;
-    verdict.sure = known && sameSession && verdict.confidence >= model.minSureConfidence;
-    verdicts.push_back(std::move(verdict));
+    prediction.label = known ? prediction.ranking.front() : Prediction::kUnknown;
+    prediction.sure = known && sameSession && prediction.confidence >= model.minSureConfidence;
+    predictions.push_back(std::move(prediction));
   }
-  return verdicts;
+  return predictions;
 }
 
 void requireFits(const TrainedModel& model, const FeatureTable& table) {
@@ -161,7 +161,7 @@ void requireFits(const TrainedModel& model, const FeatureTable& table) {
 void adaptModel(TrainedModel& model, const SampleSet& today, const SessionOffset& before) {
   requireCarriesOver(model);
   if (today.numSamples() == 0) throw Error("there is no grasp to adapt to");
-  SessionAdaptiveClassifier& day = *model.pipeline.day;
+  SessionAdaptiveClassifier& day = *model.pipeline.sessionAdaptive;
   model.offset = offsetFromReferences(day, today.x, today.y, before);
   day.addSessionComponents(today.x, today.y, model.offset.mm);
 }
@@ -180,10 +180,10 @@ void resetSession(TrainedModel& model) {
   model.offset = noOffset();
   model.sessionZero.reset();
   model.adaptedFrom.clear();
-  if (!model.pipeline.day) return;
-  SessionAdaptiveParameters data = model.pipeline.day->data();
+  if (!model.pipeline.sessionAdaptive) return;
+  SessionAdaptiveParameters data = model.pipeline.sessionAdaptive->data();
   data.today.clear();
-  model.pipeline.day = SessionAdaptiveClassifier(std::move(data));
+  model.pipeline.sessionAdaptive = SessionAdaptiveClassifier(std::move(data));
 }
 
 void adaptToEmptyHand(TrainedModel& model, const EmptyHandZero& today) {

@@ -66,9 +66,10 @@ void requireThreeClasses(const SampleSet& samples) {
 }
 
 SessionOffset offsetOf(const SessionAdaptiveClassifier& model,
-                       const Eigen::MatrixXd& day,
+                       const Eigen::MatrixXd& sessionSamples,
                        UnknownClassOffset kind) {
-  return kind == UnknownClassOffset::kUnknown ? unknownOffset() : offsetFromBatch(model, day);
+  return kind == UnknownClassOffset::kUnknown ? unknownOffset()
+                                              : offsetFromBatch(model, sessionSamples);
 }
 
 }  // namespace
@@ -118,7 +119,7 @@ UnknownReport unknownOnAnotherDay(const SampleSet& training,
   PipelineOptions options;
   options.classifier = ClassifierKind::kGauss;
   const auto modelOf = [&](int taken) {
-    return *ClassifierPipeline::of(without(training, taken), options).day;
+    return *ClassifierPipeline::of(without(training, taken), options).sessionAdaptive;
   };
   const SessionAdaptiveClassifier whole = modelOf(kNone);
   std::vector<double> known;
@@ -127,8 +128,8 @@ UnknownReport unknownOnAnotherDay(const SampleSet& training,
                               const Eigen::MatrixXd& x,
                               const SessionOffset& with,
                               std::vector<double>& out) {
-    for (const OpenSetPrediction& verdict : predictAll(model, x, with))
-      out.push_back(-verdict.logLikelihoodRatio);
+    for (const OpenSetPrediction& prediction : predictAll(model, x, with))
+      out.push_back(-prediction.logLikelihoodRatio);
   };
   std::vector<std::pair<std::size_t, int>> strangers;
   for (std::size_t s = 0; s < sessions.size(); ++s)
@@ -142,12 +143,13 @@ UnknownReport unknownOnAnotherDay(const SampleSet& training,
   for (std::size_t k = 0; k < strangers.size(); ++k) {
     reportProgress(progress, k, strangers.size());
     const auto [session, c] = strangers[k];
-    const SampleSet day = later.rows(sessions[session]);
+    const SampleSet sessionSamples = later.rows(sessions[session]);
     const SessionAdaptiveClassifier rest = modelOf(c);
-    strangeness(rest,
-                day.rows(rowsOf(day, c)).x,
-                offsetOf(offset == UnknownClassOffset::kKnown ? whole : rest, day.x, offset),
-                ofClass[static_cast<std::size_t>(c)]);
+    strangeness(
+        rest,
+        sessionSamples.rows(rowsOf(sessionSamples, c)).x,
+        offsetOf(offset == UnknownClassOffset::kKnown ? whole : rest, sessionSamples.x, offset),
+        ofClass[static_cast<std::size_t>(c)]);
   }
   return unknownObjectsReportOf(later, known, ofClass);
 }

@@ -85,7 +85,7 @@ bool SlipDetector::updateReference() {
   if (!reference_.set(windows_.frame())) return false;
   hasReference_ = true;
   wantsReference_ = false;
-  condition_ = motionSdInflation(reference_, options_.windows.contest.registration);
+  condition_ = motionSdInflation(reference_, options_.windows.hypotheses.registration);
   return true;
 }
 
@@ -148,8 +148,8 @@ void SlipDetector::applyMotionScore(const SlipMotion& moved) {
                             .dy = moved.refDy,
                             .angleDeg = moved.rotation.refValid ? moved.rotation.refRotationDeg : 0,
                             .gain = moved.sum / reference_.sum()};
-    referenceHypotheses_ =
-        contest(reference_, windows_.frame(), std::span(&start, 1), options_.windows.contest);
+    referenceHypotheses_ = compareSlipHypotheses(
+        reference_, windows_.frame(), std::span(&start, 1), options_.windows.hypotheses);
     if (referenceHypotheses_->computed) {
       p = referenceHypotheses_->pMoved;
       // The less the shape can tell, the more it must say.
@@ -210,7 +210,7 @@ void SlipDetector::decideByHypotheses(const SlipEvidence& seen) {
   latchAlarm(outcome.alarm || outcome.rotating, calm);
   if (outcome.alarm && hasReference_) latched_ = true;
 
-  const SlipHypothesisResult* deciding = asked ? &evidence.windows[*asked].contest : nullptr;
+  const SlipHypothesisResult* deciding = asked ? &evidence.windows[*asked].hypotheses : nullptr;
   if (!deciding && referenceHypotheses_) deciding = &*referenceHypotheses_;
   if (deciding && deciding->computed) {
     verdict_.pMoved = deciding->pMoved;

@@ -55,8 +55,9 @@ double slipEvaluationShift(const WindowEvidence& window) {
 }
 
 double registered(const WindowEvidence& window) {
-  return window.contest.computed ? std::hypot(window.contest.motion.dx, window.contest.motion.dy)
-                                 : slipEvaluationShift(window);
+  return window.hypotheses.computed
+             ? std::hypot(window.hypotheses.motion.dx, window.hypotheses.motion.dy)
+             : slipEvaluationShift(window);
 }
 
 double medianIntervalUs(const Profile& profile) {

@@ -138,10 +138,10 @@ double motionScore(double loadShiftResidual,
   return 1.0 / (1.0 + std::pow((motionResidual + 1.0) / (loadShiftResidual + 1.0), power));
 }
 
-SlipHypothesisResult contest(const KeyFrame& key,
-                             const ConstMatrixMap& frame,
-                             std::span<const RigidMotion> starts,
-                             const SlipHypothesisOptions& options) {
+SlipHypothesisResult compareSlipHypotheses(const KeyFrame& key,
+                                           const ConstMatrixMap& frame,
+                                           std::span<const RigidMotion> starts,
+                                           const SlipHypothesisOptions& options) {
   if (key.options().blurTaxels > 0.0)
     throw std::invalid_argument("contest: the key frame is blurred");
   SlipHypothesisResult result;
@@ -206,9 +206,9 @@ MotionSdInflation motionSdInflation(const KeyFrame& key, const RegistrationOptio
   const Eigen::Matrix4d known = information.topLeftCorner<4, 4>().inverse();
   const Eigen::Matrix<double, 6, 6> free = information.inverse();
   const auto ratio = [&](int axis) {
-    const double told = 1.0 / free(axis, axis) - noise;
-    if (!(told > 0.0)) return kUnboundedMotionSdInflation;
-    const double value = 1.0 / std::sqrt(told * known(axis, axis));
+    const double axisInformation = 1.0 / free(axis, axis) - noise;
+    if (!(axisInformation > 0.0)) return kUnboundedMotionSdInflation;
+    const double value = 1.0 / std::sqrt(axisInformation * known(axis, axis));
     return std::isfinite(value) ? std::clamp(value, 1.0, kUnboundedMotionSdInflation)
                                 : kUnboundedMotionSdInflation;
   };

@@ -106,7 +106,7 @@ SlipRuleResult SlipRule::decide(const SlipEvidence& evidence) {
   }
   if (const auto asked = windowToEvaluate(evidence)) {
     const WindowEvidence& window = evidence.windows[*asked];
-    const SlipHypothesisResult& contest = window.contest;
+    const SlipHypothesisResult& hypotheses = window.hypotheses;
     outcome.leading = asked;
     outcome.thresholdRatio = kSlipRuleCentroidPart * shiftOf(window) / threshold(*asked);
     const double allowed = allowance(window, *asked);
@@ -115,11 +115,11 @@ SlipRuleResult SlipRule::decide(const SlipEvidence& evidence) {
     // Where nothing could be registered the centroid alone speaks, and P is undecided.
     const double shift = shiftOf(window);
     const double registered =
-        contest.computed ? std::hypot(contest.motion.dx, contest.motion.dy) : shift;
+        hypotheses.computed ? std::hypot(hypotheses.motion.dx, hypotheses.motion.dy) : shift;
     const double motion = std::min(kSlipRuleCentroidPart * shift, registered);
     const bool believed =
-        contest.computed && registered <= options_.maxShiftRatio * shift + kFarSlack;
-    above = motion * (believed ? contest.pMoved : 0.5) > threshold(*asked) + allowed;
+        hypotheses.computed && registered <= options_.maxShiftRatio * shift + kFarSlack;
+    above = motion * (believed ? hypotheses.pMoved : 0.5) > threshold(*asked) + allowed;
     if (*asked == kShortWindow && above) outcome.alarm = true;
     if (*asked == kMiddleWindow &&
         motion > options_.accumulatedThreshold * options_.referenceTaxels + allowed)
@@ -129,12 +129,12 @@ SlipRuleResult SlipRule::decide(const SlipEvidence& evidence) {
   pending_ = above;
   const WindowEvidence& middle = evidence.windows[kMiddleWindow];
   if (!evidence.computable) turnPending_ = false;
-  if (counts(evidence, kMiddleWindow) && middle.contest.computed) {
-    const SlipHypothesisResult& contest = middle.contest;
-    const bool turns = std::abs(contest.motion.angleDeg) - kSds * contest.sdAngleDeg >
+  if (counts(evidence, kMiddleWindow) && middle.hypotheses.computed) {
+    const SlipHypothesisResult& hypotheses = middle.hypotheses;
+    const bool turns = std::abs(hypotheses.motion.angleDeg) - kSds * hypotheses.sdAngleDeg >
                            options_.rotationDeg + options_.rotationAllowancePerLogChange *
                                                       std::abs(middle.logLoadRatio) &&
-                       contest.pMoved > kUndecided;
+                       hypotheses.pMoved > kUndecided;
     outcome.rotating = turns && turnPending_;
     turnPending_ = turns;
   }

@@ -42,19 +42,20 @@ SlipSegmenter::SlipSegmenter(std::size_t numMatrices, std::size_t bridgedFrames)
 
 void SlipSegmenter::add(std::size_t frame,
                         std::int64_t timeUs,
-                        const std::vector<SlipDetection>& verdicts) {
-  for (std::size_t m = 0; m < open_.size() && m < verdicts.size(); ++m) {
-    const SlipDetection& verdict = verdicts[m];
+                        const std::vector<SlipDetection>& detections) {
+  for (std::size_t m = 0; m < open_.size() && m < detections.size(); ++m) {
+    const SlipDetection& detection = detections[m];
     Open& open = open_[m];
     if (open.segment && (frame > open.segment->end + bridgedFrames_ + 1 ||
-                         verdict.motion.afterGap || verdict.motion.active == 0)) {
+                         detection.motion.afterGap || detection.motion.active == 0)) {
       closed_.push_back(*open.segment);
       open = {};
     }
     const double step =
-        verdict.motion.valid ? std::hypot(verdict.motion.dx, verdict.motion.dy) : 0.0;
-    const double turn = verdict.motion.rotation.valid ? verdict.motion.rotation.rotationDeg : 0.0;
-    if (!verdict.slipping) {
+        detection.motion.valid ? std::hypot(detection.motion.dx, detection.motion.dy) : 0.0;
+    const double turn =
+        detection.motion.rotation.valid ? detection.motion.rotation.rotationDeg : 0.0;
+    if (!detection.slipping) {
       open.pendingPath += open.segment ? step : 0.0;
       open.pendingTurn += open.segment ? turn : 0.0;
       continue;
@@ -67,7 +68,7 @@ void SlipSegmenter::add(std::size_t frame,
     segment.endUs = timeUs;
     segment.pathTaxels += open.pendingPath + step;
     segment.rotationDeg += open.pendingTurn + turn;
-    segment.confidence = std::max(segment.confidence, verdict.confidence);
+    segment.confidence = std::max(segment.confidence, detection.confidence);
     open.pendingPath = open.pendingTurn = 0.0;
   }
 }
@@ -89,8 +90,8 @@ std::vector<SlipSegment> findSlips(const Profile& profile,
   runSlipDetector(
       profile,
       options.pass,
-      [&](std::size_t frame, std::int64_t timeUs, const std::vector<SlipDetection>& verdicts) {
-        segmenter.add(frame, timeUs, verdicts);
+      [&](std::size_t frame, std::int64_t timeUs, const std::vector<SlipDetection>& detections) {
+        segmenter.add(frame, timeUs, detections);
       },
       progress);
   return segmenter.segments();

@@ -28,8 +28,8 @@ SlipDetectorOptions detectorOptions(const SlipSeriesOptions& options) {
   return detector;
 }
 
-SlipSample sampleOf(const SlipDetection& verdict, std::size_t frame) {
-  const SlipMotion& motion = verdict.motion;
+SlipSample sampleOf(const SlipDetection& detection, std::size_t frame) {
+  const SlipMotion& motion = detection.motion;
   const SlipRotation& rotation = motion.rotation;
   const auto f = [](double value) { return static_cast<float>(value); };
   return {.frame = static_cast<std::uint32_t>(frame),
@@ -40,10 +40,10 @@ SlipSample sampleOf(const SlipDetection& verdict, std::size_t frame) {
           .rotationValid = rotation.valid,
           .refRotationValid = rotation.refValid,
           .reliable = rotation.reliable,
-          .newReference = verdict.newReference,
-          .slipping = verdict.slipping,
-          .state = verdict.state,
-          .lamp = verdict.lamp,
+          .newReference = detection.newReference,
+          .slipping = detection.slipping,
+          .state = detection.state,
+          .lamp = detection.lamp,
           .x = f(motion.x),
           .y = f(motion.y),
           .dx = f(motion.dx),
@@ -59,9 +59,9 @@ SlipSample sampleOf(const SlipDetection& verdict, std::size_t frame) {
           .skewY = f(rotation.axis.skewY),
           .eccentricity = f(rotation.axis.eccentricity),
           .roundness = f(rotation.roundness),
-          .residual = f(verdict.residual),
-          .confidence = f(verdict.confidence),
-          .pMoved = verdict.pMoved ? f(*verdict.pMoved) : -1.0F};
+          .residual = f(detection.residual),
+          .confidence = f(detection.confidence),
+          .pMoved = detection.pMoved ? f(*detection.pMoved) : -1.0F};
 }
 
 const SlipSample* SlipSeries::at(std::size_t matrix, std::size_t frame) const {
@@ -152,11 +152,12 @@ SlipSeries slipSeries(const Profile& profile,
                             .referenceFrame = options.referenceFrame.value_or(0)};
   SlipSegmenter segmenter(series.matrices.size());
   series.firstUs = profile.numFrames() > 0 ? profile.frameTimeUs(0) : 0;
-  const auto take = [&](std::size_t frame, std::int64_t timeUs, const auto& verdicts) {
+  const auto take = [&](std::size_t frame, std::int64_t timeUs, const auto& detections) {
     series.timeS.push_back(static_cast<double>(timeUs - series.firstUs) / kUsPerS);
-    for (std::size_t m = 0; m < verdicts.size(); ++m)
-      if (verdicts[m].motion.active > 0) series.matrices[m].push_back(sampleOf(verdicts[m], frame));
-    segmenter.add(frame, timeUs, verdicts);
+    for (std::size_t m = 0; m < detections.size(); ++m)
+      if (detections[m].motion.active > 0)
+        series.matrices[m].push_back(sampleOf(detections[m], frame));
+    segmenter.add(frame, timeUs, detections);
   };
   runSlipDetector(profile, pass, take, [&](double done) { return !progress || progress(done); });
   series.slips = segmenter.segments();

@@ -21,7 +21,7 @@ void checkSlipWindows(bool good, const char* field, double value) {
 }  // namespace
 
 void SlipWindowsOptions::validate() const {
-  contest.validate();
+  hypotheses.validate();
   checkSlipWindows(minActiveTaxels >= 2, "minActiveTaxels", minActiveTaxels);
   checkSlipWindows(minCounts >= 0.0, "minCounts", minCounts);
   checkSlipWindows(keepUs >= 0, "keepUs", static_cast<double>(keepUs));
@@ -104,7 +104,8 @@ void SlipWindows::evaluateHypotheses(SlipWindow which) {
   const std::array<RigidMotion, 2> starts = {
       RigidMotion{.dx = window.centroidX, .dy = window.centroidY, .gain = gain}, RigidMotion{}};
   const bool far = std::abs(window.centroidX) + std::abs(window.centroidY) > kLongWay;
-  window.contest = contest(key_, frame(), std::span(starts).first(far ? 2 : 1), options_.contest);
+  window.hypotheses = compareSlipHypotheses(
+      key_, frame(), std::span(starts).first(far ? 2 : 1), options_.hypotheses);
 }
 
 }  // namespace palpate

@@ -55,7 +55,8 @@ void contestOfAPair(benchmark::State& state) {
   std::size_t i = 0;
   for (auto _ : state) {
     key.set(view(frames[i % kFrames]));
-    benchmark::DoNotOptimize(contest(key, view(frames[(i + 3) % kFrames]), kFromRest, options));
+    benchmark::DoNotOptimize(
+        compareSlipHypotheses(key, view(frames[(i + 3) % kFrames]), kFromRest, options));
     ++i;
   }
 }

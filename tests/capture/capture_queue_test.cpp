@@ -21,23 +21,23 @@ CaptureQueueOptions small(std::size_t items) {
   return options;
 }
 
-std::vector<CaptureItem> taken(CaptureQueue& feed) {
+std::vector<CaptureItem> taken(CaptureQueue& queue) {
   std::vector<CaptureItem> items;
-  feed.take(items);
+  queue.take(items);
   return items;
 }
 
 TEST(CaptureQueue, handsOutInOrderOfTimeWhateverThePort) {
-  CaptureQueue feed("nobody");
-  feed.put(frameAt(20));
-  feed.put(frameAt(40));
-  feed.put(JointAngles{10, {1.0}});
-  feed.put(JointAngles{40, {2.0}});
-  feed.put(Temperatures{40, {30.0}});
-  feed.put(RecordingEvent{30, 30, "label", {}, "x", ""});
+  CaptureQueue queue("nobody");
+  queue.put(frameAt(20));
+  queue.put(frameAt(40));
+  queue.put(JointAngles{10, {1.0}});
+  queue.put(JointAngles{40, {2.0}});
+  queue.put(Temperatures{40, {30.0}});
+  queue.put(RecordingEvent{30, 30, "label", {}, "x", ""});
   std::vector<std::int64_t> stamps;
   std::vector<CaptureStream> streams;
-  for (const CaptureItem& item : taken(feed)) {
+  for (const CaptureItem& item : taken(queue)) {
     stamps.push_back(stampOf(item));
     streams.push_back(streamOf(item));
   }
@@ -46,18 +46,18 @@ TEST(CaptureQueue, handsOutInOrderOfTimeWhateverThePort) {
   EXPECT_EQ(streams[3], CaptureStream::kTemperatures);
   EXPECT_EQ(streams[4], CaptureStream::kAngles);
   EXPECT_EQ(streams[5], CaptureStream::kTactile);
-  EXPECT_TRUE(taken(feed).empty());
+  EXPECT_TRUE(taken(queue).empty());
 }
 
 TEST(CaptureQueue, whatDoesNotFitIsOneGapOverExactlyTheLostSpan) {
-  CaptureQueue feed("the test", small(3));
-  for (std::int64_t t = 1; t <= 8; ++t) EXPECT_EQ(feed.put(frameAt(t)), t <= 3);
-  EXPECT_EQ(feed.stats().lost[0], 5u);
-  EXPECT_EQ(feed.stats().tactile.depth, 3u);
-  EXPECT_EQ(feed.stats().tactile.highWater, 3u);
-  EXPECT_EQ(taken(feed).size(), 3u);  // the gap goes on
-  EXPECT_TRUE(feed.put(frameAt(9)));
-  const auto items = taken(feed);
+  CaptureQueue queue("the test", small(3));
+  for (std::int64_t t = 1; t <= 8; ++t) EXPECT_EQ(queue.put(frameAt(t)), t <= 3);
+  EXPECT_EQ(queue.stats().lost[0], 5u);
+  EXPECT_EQ(queue.stats().tactile.depth, 3u);
+  EXPECT_EQ(queue.stats().tactile.highWater, 3u);
+  EXPECT_EQ(taken(queue).size(), 3u);  // the gap goes on
+  EXPECT_TRUE(queue.put(frameAt(9)));
+  const auto items = taken(queue);
   ASSERT_EQ(items.size(), 2u);
   const auto& gap = std::get<RecordingEvent>(items[0]);
   EXPECT_EQ(gap.kind, "gap");
@@ -67,26 +67,26 @@ TEST(CaptureQueue, whatDoesNotFitIsOneGapOverExactlyTheLostSpan) {
   EXPECT_EQ(Json::parse(gap.json).at("stream").asString(), "tactile");
   EXPECT_EQ(gap.text, "5 frames lost: the test could not keep up");
   EXPECT_EQ(stampOf(items[1]), 9);
-  EXPECT_TRUE(taken(feed).empty());
+  EXPECT_TRUE(taken(queue).empty());
 }
 
 TEST(CaptureQueue, onePortThatOverflowsCostsTheOtherNothing) {
-  CaptureQueue feed("the test", small(2));
-  for (std::int64_t t = 1; t <= 5; ++t) feed.put(JointAngles{t, {0.0}});
-  EXPECT_TRUE(feed.put(frameAt(6)));
-  EXPECT_TRUE(feed.put(RecordingEvent{7, 7, "mark", {}, "", ""}));
-  EXPECT_EQ(feed.stats().lost, (std::array<std::uint64_t, 4>{0, 3, 0, 0}));
+  CaptureQueue queue("the test", small(2));
+  for (std::int64_t t = 1; t <= 5; ++t) queue.put(JointAngles{t, {0.0}});
+  EXPECT_TRUE(queue.put(frameAt(6)));
+  EXPECT_TRUE(queue.put(RecordingEvent{7, 7, "mark", {}, "", ""}));
+  EXPECT_EQ(queue.stats().lost, (std::array<std::uint64_t, 4>{0, 3, 0, 0}));
   std::vector<CaptureItem> open;
-  feed.takeOpenGaps(open);
+  queue.takeOpenGaps(open);
   ASSERT_EQ(open.size(), 1u);
   EXPECT_EQ(std::get<RecordingEvent>(open[0]).text,
             "3 angle samples lost: the test could not keep up");
-  feed.takeOpenGaps(open);
+  queue.takeOpenGaps(open);
   EXPECT_EQ(open.size(), 1u);  // told once
 }
 
 TEST(CaptureQueue, everyItemIsEitherHandedOutOrInAGap) {
-  CaptureQueue feed("the test", small(7));
+  CaptureQueue queue("the test", small(7));
   std::uint64_t got = 0;
   std::uint64_t gone = 0;
   const auto count = [&](std::vector<CaptureItem> items) {
@@ -98,46 +98,46 @@ TEST(CaptureQueue, everyItemIsEitherHandedOutOrInAGap) {
     }
   };
   for (std::int64_t t = 1; t <= 1000; ++t) {
-    feed.put(frameAt(t));
-    if (t * t % 11 == 0) count(taken(feed));
+    queue.put(frameAt(t));
+    if (t * t % 11 == 0) count(taken(queue));
   }
-  count(taken(feed));
+  count(taken(queue));
   std::vector<CaptureItem> open;
-  feed.takeOpenGaps(open);
+  queue.takeOpenGaps(open);
   count(open);
   EXPECT_GT(gone, 0u);
   EXPECT_EQ(got + gone, 1000u);
-  EXPECT_EQ(feed.stats().lost[0], gone);
+  EXPECT_EQ(queue.stats().lost[0], gone);
 }
 
 TEST(CaptureQueue, aReplayWaitsForRoomAndLosesNothing) {
   CaptureQueueOptions options = small(4);
   options.blockWhenFull = true;
-  CaptureQueue feed("the test", options);
-  std::jthread producer([&feed] {
-    for (std::int64_t t = 1; t <= 500; ++t) feed.put(frameAt(t));
+  CaptureQueue queue("the test", options);
+  std::jthread producer([&queue] {
+    for (std::int64_t t = 1; t <= 500; ++t) queue.put(frameAt(t));
   });
   std::int64_t expected = 1;
   while (expected <= 500) {
-    feed.wait(std::chrono::seconds(1));
-    for (const CaptureItem& item : taken(feed)) ASSERT_EQ(stampOf(item), expected++);
+    queue.wait(std::chrono::seconds(1));
+    for (const CaptureItem& item : taken(queue)) ASSERT_EQ(stampOf(item), expected++);
   }
-  EXPECT_EQ(feed.stats().lost[0], 0u);
+  EXPECT_EQ(queue.stats().lost[0], 0u);
 }
 
 TEST(CaptureQueue, closingEndsAllWaiting) {
   CaptureQueueOptions options = small(1);
   options.blockWhenFull = true;
-  CaptureQueue feed("the test", options);
-  ASSERT_TRUE(feed.put(frameAt(1)));
+  CaptureQueue queue("the test", options);
+  ASSERT_TRUE(queue.put(frameAt(1)));
   std::atomic<bool> refused = false;
-  std::jthread producer([&] { refused = !feed.put(frameAt(2)); });
-  feed.close();
+  std::jthread producer([&] { refused = !queue.put(frameAt(2)); });
+  queue.close();
   producer.join();
   EXPECT_TRUE(refused);
-  feed.wait(std::chrono::hours(1));  // returns at once
-  EXPECT_FALSE(feed.put(frameAt(3)));
-  EXPECT_EQ(taken(feed).size(), 1u);
+  queue.wait(std::chrono::hours(1));  // returns at once
+  EXPECT_FALSE(queue.put(frameAt(3)));
+  EXPECT_EQ(taken(queue).size(), 1u);
 }
 
 TEST(CaptureQueue, needsRoomForOneItem) {

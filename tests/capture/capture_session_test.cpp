@@ -159,10 +159,10 @@ TEST(CaptureSession, theScreenGetsTheNewestOnce) {
 
 TEST(CaptureSession, aSubscriberGetsEverythingInOrderWhateverTheRecorderDoes) {
   ScriptedSession scripted;
-  const auto feed = scripted.session->subscribe("live processing");
+  const auto queue = scripted.session->subscribe("live processing");
   scripted.run(1.0, false);  // the recorder does nothing at all
   std::vector<CaptureItem> items;
-  EXPECT_EQ(feed->take(items), 100u + 200u + 1u);
+  EXPECT_EQ(queue->take(items), 100u + 200u + 1u);
   for (std::size_t i = 1; i < items.size(); ++i)
     ASSERT_LE(stampOf(items[i - 1]), stampOf(items[i]));
 }
@@ -172,10 +172,10 @@ TEST(CaptureSession, aSubscriberThatIsTooSlowLosesItsOwnItemsOnly) {
   ScriptedSession scripted;
   CaptureQueueOptions few;
   few.tactileItems = few.motionItems = 10;
-  const auto feed = scripted.session->subscribe("live processing", few);
+  const auto queue = scripted.session->subscribe("live processing", few);
   scripted.session->startRecording(to(folder / "a.palpate"));
   scripted.run(1.0);
-  EXPECT_EQ(feed->stats().lost[0], 90u);
+  EXPECT_EQ(queue->stats().lost[0], 90u);
   EXPECT_TRUE(scripted.session->stopRecording().complete);
   EXPECT_EQ(openRecording(folder / "a.palpate").numFrames(), 100u);
   EXPECT_TRUE(readEvents(folder / "a.palpate").events.empty());
@@ -183,10 +183,10 @@ TEST(CaptureSession, aSubscriberThatIsTooSlowLosesItsOwnItemsOnly) {
 
 TEST(CaptureSession, aSubscriptionLetGoIsForgotten) {
   ScriptedSession scripted;
-  auto feed = scripted.session->subscribe("one");
+  auto queue = scripted.session->subscribe("one");
   const auto other = scripted.session->subscribe("two");
   scripted.run(0.1);
-  feed.reset();
+  queue.reset();
   scripted.run(0.1);
   EXPECT_EQ(other->stats().tactile.depth, 20u);
   scripted.session.reset();

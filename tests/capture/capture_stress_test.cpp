@@ -105,7 +105,7 @@ TEST(CaptureStress, everyFrameOfALongRunIsRecordedAndNothingGrows) {
   const std::size_t frames = countFrom("PALPATE_STRESS_FRAMES", 100'000);
   const TemporaryFolder folder;
   CaptureOptions options;
-  options.recorder.feed.blockWhenFull = true;  // as fast as the disk takes it
+  options.recorder.queue.blockWhenFull = true;  // as fast as the disk takes it
   auto owned = std::make_unique<EagerDevice>(frames);
   EagerDevice& device = *owned;
   CaptureSession session(std::move(owned), options);
@@ -158,8 +158,8 @@ TEST(CaptureStress, startsAndStopsWhileEverythingPulls) {
   auto owned = std::make_unique<EagerDevice>(std::size_t{1} << 40);
   EagerDevice& device = *owned;
   CaptureOptions options;
-  options.recorder.feed.tactileItems = 256;  // overflows, too
-  options.recorder.feed.motionItems = 256;
+  options.recorder.queue.tactileItems = 256;  // overflows, too
+  options.recorder.queue.motionItems = 256;
   CaptureSession session(std::move(owned), options);
   std::atomic<std::size_t> seen = 0;
   std::atomic<std::size_t> processed = 0;
@@ -177,12 +177,12 @@ TEST(CaptureStress, startsAndStopsWhileEverythingPulls) {
   std::size_t recorded = 0;
   Footprint early;
   for (std::size_t cycle = 0; cycle < cycles; ++cycle) {
-    const auto feed = session.subscribe("live processing");
+    const auto queue = session.subscribe("live processing");
     std::jthread live([&](const std::stop_token& stop) {
       std::vector<CaptureItem> items;
       while (!stop.stop_requested()) {
-        feed->wait(std::chrono::milliseconds(5), stop);
-        processed += feed->take(items);
+        queue->wait(std::chrono::milliseconds(5), stop);
+        processed += queue->take(items);
         items.clear();
       }
     });

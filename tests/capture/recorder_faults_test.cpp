@@ -223,7 +223,7 @@ TEST(RecorderFaults, blockedTooLongLeavesOneExactGapAndAnAlarm) {
 TEST(RecorderFaults, aGapThatIsStillOpenAtTheStopIsToldToo) {
   const TemporaryFolder folder;
   CaptureOptions options;
-  options.recorder.feed.tactileItems = 10;
+  options.recorder.queue.tactileItems = 10;
   ScriptedSession scripted(options);
   scripted.session->startRecording(to(folder / "a.palpate"));
   scripted.run(0.5, false);  // 50 frames, no round
@@ -313,7 +313,7 @@ TEST(RecorderFaults, aPartThatCanNotBeBegunLeavesNothing) {
   const TemporaryFolder folder;
   FaultyVfs vfs;
   CaptureOptions options = onFaultyDisk();
-  options.recorder.feed.eventItems = 4096;
+  options.recorder.queue.eventItems = 4096;
   ScriptedSession scripted(options);
   RecordingOptions recording = to(folder / "a.palpate");
   recording.splitS = 20.0;

@@ -310,8 +310,8 @@ TEST(Recorder, onlyItsOwnGapsAreToldAsItsOwn) {
 TEST(Recorder, aClockThatJumpsWhileTheEventsWaitIsTold) {
   std::vector<RecordingEvent> told;
   CaptureOptions options;
-  options.recorder.feed.blockWhenFull = true;
-  options.recorder.feed.eventItems = 2;
+  options.recorder.queue.blockWhenFull = true;
+  options.recorder.queue.eventItems = 2;
   options.recorder.notice = [&told](const RecordingEvent& event) { told.push_back(event); };
   const TemporaryFolder folder;
   ScriptedSession scripted(options);

@@ -223,7 +223,7 @@ void expectSame(const Profile& a, const Profile& b) {
 // Replays a profile through a session into a recording of its own.
 Profile recordedAgain(const Profile& profile, const std::filesystem::path& path) {
   CaptureOptions options;
-  options.recorder.feed.blockWhenFull = true;
+  options.recorder.queue.blockWhenFull = true;
   auto replay = std::make_unique<Replay>(profile, ReplayOptions{ReplayPace::kUnpaced, 1.0});
   const Replay& running = *replay;
   CaptureSession session(std::move(replay), options);

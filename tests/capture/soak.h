@@ -53,7 +53,7 @@ inline void soak(std::size_t frames) {
   ports.sdhPort = hand.sdhPort();
   CaptureOptions capture;
   // the hand waits for the disk: it runs faster than any real one
-  capture.recorder.feed.blockWhenFull = true;
+  capture.recorder.queue.blockWhenFull = true;
   CaptureSession session(std::make_unique<LiveHand>(ports), capture);
   RecordingOptions recording;
   recording.path = folder / "day.palpate";

@@ -78,7 +78,7 @@ TEST(DemoPage, SaysWhatIsWrongAndWhatWasNotSeen) {
   DemoFacts facts = hostileFacts();
   AskedGrasp& asked = facts.recognition->grasps.front();
   asked.inTraining = true;
-  asked.verdict.emplace();
+  asked.prediction.emplace();
   asked.called = "pen";
   asked.rank = 4;
   asked.probability = 0.0123;

@@ -71,7 +71,7 @@ TEST_F(DemoRecognitionTest, SaysWhatIsWrong) {
   ASSERT_TRUE(asked.grasps[1].rank);
   EXPECT_GT(*asked.grasps[1].rank, 1u);
   EXPECT_LT(asked.grasps[1].probability, 0.05);
-  EXPECT_FALSE(asked.grasps[2].verdict);
+  EXPECT_FALSE(asked.grasps[2].prediction);
   const std::string text = demoRecognitionText(asked);
   for (const char* part : {"0 of 3",
                            "wrong: the ball is called unknown; its own name is at rank",

@@ -6,10 +6,10 @@ namespace palpate::stream_monitor_test {
 namespace {
 
 // `frames` frames, one every `periodUs`; returns the time of the last one.
-std::int64_t feed(StreamMonitor& watch,
-                  int frames,
-                  std::int64_t periodUs,
-                  std::int64_t fromUs = 0) {
+std::int64_t queue(StreamMonitor& watch,
+                   int frames,
+                   std::int64_t periodUs,
+                   std::int64_t fromUs = 0) {
   std::int64_t us = fromUs;
   for (int i = 0; i < frames; ++i) {
     us += periodUs;
@@ -20,7 +20,7 @@ std::int64_t feed(StreamMonitor& watch,
 
 TEST(StreamMonitor, IsDeadAfterAHundredMillisecondsOfSilence) {
   StreamMonitor watch;
-  const std::int64_t last = feed(watch, 40, 31'546);  // 31.7 frames/s: three periods are 94.6 ms
+  const std::int64_t last = queue(watch, 40, 31'546);  // 31.7 frames/s: three periods are 94.6 ms
   EXPECT_EQ(watch.medianPeriodUs(), 31'546);
   EXPECT_EQ(watch.silenceLimitUs(), 100'000);
   EXPECT_EQ(watch.deadAtUs(), last + 100'000);
@@ -31,7 +31,7 @@ TEST(StreamMonitor, IsDeadAfterAHundredMillisecondsOfSilence) {
 
 TEST(StreamMonitor, GivesASlowStreamThreePeriods) {
   StreamMonitor watch;
-  const std::int64_t last = feed(watch, 40, 85'000);  // raw
+  const std::int64_t last = queue(watch, 40, 85'000);  // raw
   EXPECT_EQ(watch.silenceLimitUs(), 255'000);
   EXPECT_TRUE(watch.alive(last + 255'000));
   EXPECT_FALSE(watch.alive(last + 255'001));
@@ -41,15 +41,15 @@ TEST(StreamMonitor, DoesNotKnowAStreamThatHasHardlyBegun) {
   StreamMonitor watch;
   EXPECT_FALSE(watch.alive(0));
   EXPECT_FALSE(watch.silenceUs(0).has_value());
-  const std::int64_t last = feed(watch, 3, 30'000);  // two periods
+  const std::int64_t last = queue(watch, 3, 30'000);  // two periods
   EXPECT_FALSE(watch.alive(last));
-  feed(watch, 1, 30'000, last);
+  queue(watch, 1, 30'000, last);
   EXPECT_TRUE(watch.alive(last + 30'000));
 }
 
 TEST(StreamMonitor, OnePauseDoesNotMakeItPatient) {
   StreamMonitor watch;
-  std::int64_t last = feed(watch, 20, 31'000);
+  std::int64_t last = queue(watch, 20, 31'000);
   last += 900'000;  // a setting was changed
   EXPECT_EQ(watch.frame(1'000'000'000 + last, last), 900'000);
   EXPECT_EQ(watch.silenceLimitUs(), 100'000);
@@ -60,7 +60,7 @@ TEST(StreamMonitor, OnePauseDoesNotMakeItPatient) {
 // read.
 TEST(StreamMonitor, FindsSilenceByTheStampsOfFrames) {
   StreamMonitor watch;
-  const std::int64_t last = feed(watch, 20, 31'000);
+  const std::int64_t last = queue(watch, 20, 31'000);
   const std::int64_t seen = last + 400'000;
   EXPECT_FALSE(watch.frame(1'000'000'000 + last + 31'000, seen).has_value());
   EXPECT_EQ(watch.frame(1'000'000'000 + last + 331'000, seen), 300'000);
@@ -68,8 +68,8 @@ TEST(StreamMonitor, FindsSilenceByTheStampsOfFrames) {
 
 TEST(StreamMonitor, FollowsANewRate) {
   StreamMonitor watch;
-  const std::int64_t last = feed(watch, 100, 13'000);
-  feed(watch, 15, 65'000, last);
+  const std::int64_t last = queue(watch, 100, 13'000);
+  queue(watch, 15, 65'000, last);
   EXPECT_EQ(watch.medianPeriodUs(), 65'000);
   watch.reset();
   EXPECT_FALSE(watch.known());

@@ -54,9 +54,9 @@ TEST(NoisyContacts, TruthIsWhatTheSensorReportsWithoutNoise) {
     ASSERT_EQ(made.truth[i].size(), frame.values.size());
     for (std::size_t place = 0; place < frame.values.size(); ++place) {
       const bool active = frame.values[place] > 0.0F;
-      ghosts += made.truth[i][place] == Touch::kNothing && active;
-      touched += made.truth[i][place] == Touch::kTouched;
-      seen += made.truth[i][place] == Touch::kTouched && active;
+      ghosts += made.truth[i][place] == CellTruth::kNothing && active;
+      touched += made.truth[i][place] == CellTruth::kTouched;
+      seen += made.truth[i][place] == CellTruth::kTouched && active;
     }
   }
   EXPECT_EQ(ghosts, 0u);
@@ -70,8 +70,9 @@ TEST(NoisyContacts, LowerThresholdsShowMoreGhosts) {
     const NoisyContacts made =
         makeNoisyContacts({.frames = 400, .belowCounts = below, .contacts = false});
     for (const auto& frame : made.truth)
-      ASSERT_TRUE(std::all_of(
-          frame.begin(), frame.end(), [](Touch truth) { return truth == Touch::kNothing; }));
+      ASSERT_TRUE(std::all_of(frame.begin(), frame.end(), [](CellTruth truth) {
+        return truth == CellTruth::kNothing;
+      }));
     EXPECT_TRUE(made.contacts.empty());
     const double share = shareActive(made);
     if (below < 10.0) {
@@ -96,14 +97,14 @@ TEST(NoisyContacts, SizesComeInTurnOnAllMatrices) {
     if (end == made.profile.numFrames()) continue;  // cut off
     std::ptrdiff_t most = 0;
     for (std::size_t i = contact.begin; i < contact.end; ++i)
-      most =
-          std::max(most, std::count(made.truth[i].begin(), made.truth[i].end(), Touch::kTouched));
+      most = std::max(most,
+                      std::count(made.truth[i].begin(), made.truth[i].end(), CellTruth::kTouched));
     taxels[contact.size] += static_cast<double>(most);
     ++number[contact.size];
     ++combinations[{contact.size, contact.matrix}];
     // It has gone before the next one comes.
     const auto& last = made.truth[contact.end - 1];
-    EXPECT_EQ(std::count(last.begin(), last.end(), Touch::kTouched), 0);
+    EXPECT_EQ(std::count(last.begin(), last.end(), CellTruth::kTouched), 0);
   }
   EXPECT_EQ(combinations.size(), kAllContactSizes.size() * made.profile.layout().numMatrices());
   double before = 0.0;

@@ -48,11 +48,11 @@ class GhostingTest : public ::testing::Test {
                     std::size_t place,
                     std::size_t from,
                     std::size_t to,
-                    Touch how = Touch::kTouched) {
+                    CellTruth how = CellTruth::kTouched) {
     for (std::size_t i = from; i <= to; ++i) truth.at(i).at(place) = how;
   }
   static std::vector<CellTruthMask> untouched(std::size_t frames) {
-    return std::vector<CellTruthMask>(frames, CellTruthMask(2 * kPlaces, Touch::kNothing));
+    return std::vector<CellTruthMask>(frames, CellTruthMask(2 * kPlaces, CellTruth::kNothing));
   }
   static Recipe recipe(const std::string& text) { return parseRecipe(std::array{text}); }
 };
@@ -166,7 +166,7 @@ TEST_F(GhostingTest, FramesThatAreHeldBackBelongToTheirOwnTruth) {
 
 TEST_F(GhostingTest, FaintContactIsNeitherTrueNorFalse) {
   auto truth = untouched(3);
-  touch(truth, 7, 0, 2, Touch::kFaint);
+  touch(truth, 7, 0, 2, CellTruth::kFaint);
   const GhostingReport report = measureGhosting(profileOf(3, {{1, 7, 1.0F}}), {}, truth);
   expectCounts(report.total().falseTaxels, 0, 0);
   expectCounts(report.touched, 0, 0);

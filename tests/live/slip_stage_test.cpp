@@ -33,7 +33,7 @@ Profile slipOnce() {
 }
 
 struct Found {
-  std::vector<std::vector<SlipDetection>> verdicts;
+  std::vector<std::vector<SlipDetection>> detections;
   std::vector<RecordingEvent> events;
 };
 
@@ -48,8 +48,8 @@ Found processed(const Profile& profile,
   Found found;
   ChainOptions options;
   options.onResults = [&](const LiveResults& results) {
-    found.verdicts.push_back(results.slip);
-    if (before) before(slip, found.verdicts.size());
+    found.detections.push_back(results.slip);
+    if (before) before(slip, found.detections.size());
   };
   options.onEvent = [&](const RecordingEvent& event) { found.events.push_back(event); };
   ProcessingChain(std::move(stages), options).runOver(profile);
@@ -59,14 +59,14 @@ Found processed(const Profile& profile,
 TEST(SlipStage, ShowsTheVectorOfEveryMatrixAndTellsOfSlip) {
   const Profile profile = slipOnce();
   const Found found = processed(profile);
-  ASSERT_EQ(found.verdicts.size(), 200U);
-  ASSERT_EQ(found.verdicts[50].size(), 6U);
-  EXPECT_EQ(found.verdicts[50][0].motion.active, 0);
-  EXPECT_TRUE(found.verdicts[50][3].motion.valid);
-  EXPECT_FALSE(found.verdicts[90][3].slipping);
-  EXPECT_NEAR(found.verdicts[100][3].motion.dy, 0.25, 0.1);
-  EXPECT_TRUE(found.verdicts[104][3].slipping);
-  EXPECT_FALSE(found.verdicts[199][3].slipping);
+  ASSERT_EQ(found.detections.size(), 200U);
+  ASSERT_EQ(found.detections[50].size(), 6U);
+  EXPECT_EQ(found.detections[50][0].motion.active, 0);
+  EXPECT_TRUE(found.detections[50][3].motion.valid);
+  EXPECT_FALSE(found.detections[90][3].slipping);
+  EXPECT_NEAR(found.detections[100][3].motion.dy, 0.25, 0.1);
+  EXPECT_TRUE(found.detections[104][3].slipping);
+  EXPECT_FALSE(found.detections[199][3].slipping);
   ASSERT_EQ(found.events.size(), 2U);
   const RecordingEvent& begins = found.events[0];
   EXPECT_EQ(begins.kind, "slip");
@@ -83,15 +83,15 @@ TEST(SlipStage, ShowsTheVectorOfEveryMatrixAndTellsOfSlip) {
 TEST(SlipStage, MatricesCanBeSwitchedOff) {
   const Found found = processed(slipOnce(), [](SlipStage& stage) { stage.setOn(3, false); });
   EXPECT_TRUE(found.events.empty());
-  EXPECT_EQ(found.verdicts[104][3].lamp, SlipIndicator::kOff);
+  EXPECT_EQ(found.detections[104][3].lamp, SlipIndicator::kOff);
 }
 
 TEST(SlipStage, ReferenceIsTakenFromTheNextFrame) {
   const Found found = processed(slipOnce(), {}, [](SlipStage& stage, std::size_t frames) {
     if (frames == 101) stage.setReference(3);
   });
-  EXPECT_NEAR(found.verdicts[102][3].motion.refDy, 0.25, 0.12);
-  EXPECT_NEAR(found.verdicts[103][3].motion.refDy, 0.5, 0.15);
+  EXPECT_NEAR(found.detections[102][3].motion.refDy, 0.25, 0.12);
+  EXPECT_NEAR(found.detections[103][3].motion.refDy, 0.5, 0.15);
 }
 
 TEST(SlipStage, OtherOptionsBeginAnew) {
@@ -101,9 +101,9 @@ TEST(SlipStage, OtherOptionsBeginAnew) {
     options.method = SlipMethod::kRegister;
     stage.setOptions(options);
   });
-  EXPECT_TRUE(found.verdicts[49][3].motion.valid);
-  EXPECT_FALSE(found.verdicts[50][3].motion.valid);
-  EXPECT_TRUE(found.verdicts[51][3].motion.valid);
+  EXPECT_TRUE(found.detections[49][3].motion.valid);
+  EXPECT_FALSE(found.detections[50][3].motion.valid);
+  EXPECT_TRUE(found.detections[51][3].motion.valid);
   SlipStage stage;
   EXPECT_EQ(stage.options().method, SlipMethod::kCentroid);
   SlipDetectorOptions wrong;

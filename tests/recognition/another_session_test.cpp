@@ -127,15 +127,15 @@ class AnotherDay : public ::testing::Test {
 struct Score {
   int all = 0, first = 0, three = 0, sure = 0, sureRight = 0;
 
-  void add(const std::vector<OpenSetPrediction>& verdicts, const std::vector<int>& y) {
+  void add(const std::vector<OpenSetPrediction>& predictions, const std::vector<int>& y) {
     for (std::size_t i = 0; i < y.size(); ++i) {
       const auto c = static_cast<std::size_t>(y[i]);
-      const auto& ranking = verdicts[i].ranking;
+      const auto& ranking = predictions[i].ranking;
       ++all;
       first += ranking[0] == c ? 1 : 0;
       three += ranking[0] == c || ranking[1] == c || ranking[2] == c ? 1 : 0;
-      sure += verdicts[i].sure ? 1 : 0;
-      sureRight += verdicts[i].sure && ranking[0] == c ? 1 : 0;
+      sure += predictions[i].sure ? 1 : 0;
+      sureRight += predictions[i].sure && ranking[0] == c ? 1 : 0;
     }
   }
   double top1() const { return static_cast<double>(first) / all; }
@@ -164,19 +164,20 @@ TEST_F(AnotherDay, WithinTheDay) {
   const Samples tests = late();
   SessionOffset exact = givenOffset(0.0);
   Score score;
-  const auto verdicts = predictAll(model, tests.x, exact);
-  score.add(verdicts, tests.y);
+  const auto predictions = predictAll(model, tests.x, exact);
+  score.add(predictions, tests.y);
   score.print("same day, last third");
   EXPECT_GE(score.top1(), 0.97);
   EXPECT_EQ(score.top3(), 1.0);
   EXPECT_GE(score.sureRight, 0.95 * score.sure);
 
   std::vector<double> known, unknown;
-  for (const OpenSetPrediction& verdict : verdicts) known.push_back(verdict.logLikelihoodRatio);
+  for (const OpenSetPrediction& prediction : predictions)
+    known.push_back(prediction.logLikelihoodRatio);
   for (int c = 0; c < static_cast<int>(classes_.size()); ++c)
-    for (const OpenSetPrediction& verdict :
+    for (const OpenSetPrediction& prediction :
          predictAll(learnWithout(early(), c), tests.of(c).x, exact))
-      unknown.push_back(verdict.logLikelihoodRatio);
+      unknown.push_back(prediction.logLikelihoodRatio);
   const double found = auroc(known, unknown);
   std::sort(known.begin(), known.end());
   std::sort(unknown.begin(), unknown.end());
@@ -324,9 +325,9 @@ TEST_F(AnotherDay, OnSimulatedDaysTheUnknownIsTold) {
     const Samples day = days.day(5);
     const int stranger = day.y[0];
     const SessionAdaptiveClassifier model = learnWithout(training, stranger);
-    const auto verdicts = predictAll(model, day.x, offsetFromBatch(model, day.x));
-    for (std::size_t k = 0; k < verdicts.size(); ++k)
-      (day.y[k] == stranger ? unknown : known).push_back(verdicts[k].logLikelihoodRatio);
+    const auto predictions = predictAll(model, day.x, offsetFromBatch(model, day.x));
+    for (std::size_t k = 0; k < predictions.size(); ++k)
+      (day.y[k] == stranger ? unknown : known).push_back(predictions[k].logLikelihoodRatio);
   }
   const double found = auroc(known, unknown);
   std::printf("  AUROC of a fifth object that is unknown: %.3f (%zu known, %zu unknown grasps)\n",
@@ -355,8 +356,8 @@ TEST_F(AnotherDay, ElevenWeeksLaterTheUnknownIsToldWhereTheOffsetIsKnown) {
   std::vector<double> known, unknown, unknownInBatch;
   for (const Samples* day : {&november27_, &november28_}) {
     const SessionOffset offset = offsetFromBatch(model, day->x);
-    for (const OpenSetPrediction& verdict : predictAll(model, day->x, offset))
-      known.push_back(verdict.logLikelihoodRatio);
+    for (const OpenSetPrediction& prediction : predictAll(model, day->x, offset))
+      known.push_back(prediction.logLikelihoodRatio);
     std::vector<int> present = day->y;
     std::sort(present.begin(), present.end());
     present.erase(std::unique(present.begin(), present.end()), present.end());
@@ -364,14 +365,14 @@ TEST_F(AnotherDay, ElevenWeeksLaterTheUnknownIsToldWhereTheOffsetIsKnown) {
       const SessionAdaptiveClassifier without = learnWithout(september_, c);
       const MatrixXd x = day->of(c).x;
       std::vector<double> own;
-      for (const OpenSetPrediction& verdict : predictAll(without, x, offset))
-        own.push_back(verdict.logLikelihoodRatio);
+      for (const OpenSetPrediction& prediction : predictAll(without, x, offset))
+        own.push_back(prediction.logLikelihoodRatio);
       std::printf(
           "  %s: AUROC %.3f\n", classes_[static_cast<std::size_t>(c)].c_str(), auroc(known, own));
       unknown.insert(unknown.end(), own.begin(), own.end());
-      for (const OpenSetPrediction& verdict :
+      for (const OpenSetPrediction& prediction :
            predictAll(without, x, offsetFromBatch(without, day->x)))
-        unknownInBatch.push_back(verdict.logLikelihoodRatio);
+        unknownInBatch.push_back(prediction.logLikelihoodRatio);
     }
   }
   std::printf("  AUROC %.3f, with the offset from the batch itself %.3f\n",

@@ -85,7 +85,7 @@ TEST(RecognitionSession, WhatIsToldGivesTheOffset) {
   EXPECT_GT(shareRight(day, today), 0.9);
   const TrainedModel adapted = day.adapted();
   EXPECT_EQ(adapted.offset.mm, day.offset().mm);
-  EXPECT_EQ(adapted.pipeline.day->data().today.size(), 2u);
+  EXPECT_EQ(adapted.pipeline.sessionAdaptive->data().today.size(), 2u);
   EXPECT_TRUE(adapted.sameSession(kTodayUs + kHourUs));
   EXPECT_NO_THROW(trainedModelFrom(Json::parse(jsonOf(adapted).text())));
   day.setLabel(second, std::nullopt);

@@ -81,9 +81,9 @@ TEST(SessionOffset, IsFoundFromUnlabelledGraspsOfSeveralObjects) {
     EXPECT_EQ(found.objects, 3u);
     EXPECT_TRUE(found.trusted);
     const MatrixXd x = world.grasps({4}, 10, truthMm);
-    for (const OpenSetPrediction& verdict : predictAll(model, x, found)) {
-      EXPECT_EQ(verdict.ranking[0], 4u);
-      EXPECT_TRUE(verdict.sure);
+    for (const OpenSetPrediction& prediction : predictAll(model, x, found)) {
+      EXPECT_EQ(prediction.ranking[0], 4u);
+      EXPECT_TRUE(prediction.sure);
     }
   }
 }
@@ -96,7 +96,8 @@ TEST(SessionOffset, OneObjectIsNeverEnoughToBeSure) {
   const SessionOffset found = offsetFromBatch(model, x);
   EXPECT_LT(found.objects, 2u);
   EXPECT_FALSE(found.trusted);
-  for (const OpenSetPrediction& verdict : predictAll(model, x, found)) EXPECT_FALSE(verdict.sure);
+  for (const OpenSetPrediction& prediction : predictAll(model, x, found))
+    EXPECT_FALSE(prediction.sure);
   // Nor a labelled one.
   const SessionOffset labelled = offsetFromReferences(model, x, std::vector<int>(12, 3));
   EXPECT_NEAR(labelled.mm, -3.0, 0.5);
@@ -231,9 +232,9 @@ TEST(SessionOffset, WrongQuestionsAreRefused) {
   SessionOffsetOptions options;
   options.stepMm = 0.0;
   EXPECT_THROW(options.validate(), std::invalid_argument);
-  OpenSetOptions verdict;
-  verdict.sureProbability = 0.2;
-  EXPECT_THROW(verdict.validate(), std::invalid_argument);
+  OpenSetOptions prediction;
+  prediction.sureProbability = 0.2;
+  EXPECT_THROW(prediction.validate(), std::invalid_argument);
 }
 
 }  // namespace

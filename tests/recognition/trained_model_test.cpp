@@ -39,9 +39,9 @@ TrainedModel modelOf(const SampleSet& samples, ClassifierKind kind) {
   return model;
 }
 
-double shareRight(const std::vector<Prediction>& verdicts, const std::vector<int>& y) {
+double shareRight(const std::vector<Prediction>& predictions, const std::vector<int>& y) {
   double right = 0.0;
-  for (std::size_t i = 0; i < y.size(); ++i) right += verdicts[i].label == y[i] ? 1.0 : 0.0;
+  for (std::size_t i = 0; i < y.size(); ++i) right += predictions[i].label == y[i] ? 1.0 : 0.0;
   return right / static_cast<double>(y.size());
 }
 
@@ -54,12 +54,12 @@ TEST(TrainedModel, IsSureInItsOwnSessionOnly) {
     EXPECT_GT(std::count_if(here.begin(), here.end(), [](const Prediction& v) { return v.sure; }),
               50)
         << classifierName(kind);
-    for (const Prediction& verdict : classifyRows(model, test.x, noOffset(), false))
-      EXPECT_FALSE(verdict.sure);
-    for (const Prediction& verdict : here) {
-      EXPECT_EQ(verdict.ranking.size(), 5u);
-      EXPECT_TRUE(std::is_sorted(verdict.p.rbegin(), verdict.p.rend()));
-      EXPECT_EQ(verdict.confidence, verdict.p.front());
+    for (const Prediction& prediction : classifyRows(model, test.x, noOffset(), false))
+      EXPECT_FALSE(prediction.sure);
+    for (const Prediction& prediction : here) {
+      EXPECT_EQ(prediction.ranking.size(), 5u);
+      EXPECT_TRUE(std::is_sorted(prediction.p.rbegin(), prediction.p.rend()));
+      EXPECT_EQ(prediction.confidence, prediction.p.front());
     }
   }
 }
@@ -70,10 +70,10 @@ TEST(TrainedModel, CallsWhatItNeverFeltUnknown) {
   strange << sizeZ(35.0), 20.0;
   for (const ClassifierKind kind :
        {ClassifierKind::kGauss, ClassifierKind::kSvm, ClassifierKind::kQda}) {
-    const auto verdict = classifyRows(modelOf(train, kind), strange, noOffset(), true).front();
-    EXPECT_EQ(verdict.label, Prediction::kUnknown) << classifierName(kind);
-    EXPECT_FALSE(verdict.sure);
-    EXPECT_GE(verdict.ranking.size(), 3u)
+    const auto prediction = classifyRows(modelOf(train, kind), strange, noOffset(), true).front();
+    EXPECT_EQ(prediction.label, Prediction::kUnknown) << classifierName(kind);
+    EXPECT_FALSE(prediction.sure);
+    EXPECT_GE(prediction.ranking.size(), 3u)
         << "the likeliest of the known ones are told all the same";
   }
 }
@@ -188,7 +188,7 @@ TEST(TrainedModel, AdaptsByTheTouchOfTheEmptyHand) {
   EXPECT_EQ(both.offset.origin, OffsetSource::kNone);
   EXPECT_FALSE(both.sessionZero);
   EXPECT_TRUE(both.trainingZero) << "its own it keeps";
-  EXPECT_TRUE(both.pipeline.day->data().today.empty());
+  EXPECT_TRUE(both.pipeline.sessionAdaptive->data().today.empty());
   EXPECT_TRUE(both.sameSession(100 * kHourUs));
   TrainedModel svm = modelOf(things(4, 8, 0.0, 1), ClassifierKind::kSvm);
   svm.trainingZero = zeroOf(-1.0, 100 * kHourUs);

@@ -23,11 +23,11 @@ TEST(SensorSlipDetector, SaysWhichMatrixSlips) {
     frame.hostUs = 31'500 * i;
     slip.read({.y = 5.0 + 0.2 * std::max(0, i - 50)}, frame.matrix(5));
     slip.read({}, frame.matrix(1));
-    const auto& verdicts = detector.update(frame);
-    ASSERT_EQ(verdicts.size(), 6U);
-    slipped |= verdicts[5].slipping;
-    other |= verdicts[1].slipping || verdicts[0].slipping;
-    EXPECT_EQ(detector.slipping(), verdicts[5].slipping);
+    const auto& detections = detector.update(frame);
+    ASSERT_EQ(detections.size(), 6U);
+    slipped |= detections[5].slipping;
+    other |= detections[1].slipping || detections[0].slipping;
+    EXPECT_EQ(detector.slipping(), detections[5].slipping);
   }
   EXPECT_TRUE(slipped);
   EXPECT_FALSE(other);

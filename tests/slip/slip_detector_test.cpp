@@ -50,12 +50,12 @@ TEST(SlipDetector, IsReadyOnceAContactSettledAndStill) {
   EXPECT_EQ(watch.nothing().lamp, SlipIndicator::kNotComputable);
   EXPECT_EQ(watch.read({}).state, SlipState::kInvalid);
   watch.rest(40);
-  const SlipDetection& verdict = watch.detector.last();
-  EXPECT_EQ(verdict.lamp, SlipIndicator::kReady);
-  EXPECT_EQ(verdict.state, SlipState::kStill);
-  EXPECT_GT(verdict.confidence, 0.8);
-  EXPECT_TRUE(verdict.motion.refValid);
-  EXPECT_NEAR(verdict.motion.refDx, 0.0, 0.02);
+  const SlipDetection& detection = watch.detector.last();
+  EXPECT_EQ(detection.lamp, SlipIndicator::kReady);
+  EXPECT_EQ(detection.state, SlipState::kStill);
+  EXPECT_GT(detection.confidence, 0.8);
+  EXPECT_TRUE(detection.motion.refValid);
+  EXPECT_NEAR(detection.motion.refDx, 0.0, 0.02);
 }
 
 TEST(SlipDetector, FlagsSlipWithinThreeFramesAndHoldsIt) {
@@ -63,12 +63,12 @@ TEST(SlipDetector, FlagsSlipWithinThreeFramesAndHoldsIt) {
   watch.rest(40);
   int first = -1;
   for (int i = 1; i <= 8; ++i) {
-    const SlipDetection& verdict = watch.read({.y = 6.5 + 0.2 * i});
-    if (verdict.slipping && first < 0) first = i;
+    const SlipDetection& detection = watch.read({.y = 6.5 + 0.2 * i});
+    if (detection.slipping && first < 0) first = i;
     if (first > 0) {
-      EXPECT_TRUE(verdict.slipping) << i;
-      EXPECT_EQ(verdict.lamp, SlipIndicator::kSlipping);
-      EXPECT_EQ(verdict.state, SlipState::kSlip);
+      EXPECT_TRUE(detection.slipping) << i;
+      EXPECT_EQ(detection.lamp, SlipIndicator::kSlipping);
+      EXPECT_EQ(detection.state, SlipState::kSlip);
     }
   }
   EXPECT_GE(first, 1);
@@ -101,11 +101,11 @@ TEST(SlipDetector, CallsATiltALoadShiftNotSlip) {
   watch.rest(40, {.shape = SlipShape::kBar});
   std::set<SlipState> states;
   for (int i = 1; i <= 30; ++i) {
-    const SlipDetection& verdict =
+    const SlipDetection& detection =
         watch.read({.shape = SlipShape::kBar, .tiltY = 0.4 * std::min(1.0, i / 3.0)});
-    states.insert(verdict.state);
-    EXPECT_FALSE(verdict.slipping);
-    EXPECT_LT(std::hypot(verdict.motion.refDx, verdict.motion.refDy), 0.1) << i;
+    states.insert(detection.state);
+    EXPECT_FALSE(detection.slipping);
+    EXPECT_LT(std::hypot(detection.motion.refDx, detection.motion.refDy), 0.1) << i;
   }
   EXPECT_TRUE(states.contains(SlipState::kLoadShift));
 }
@@ -115,10 +115,10 @@ TEST(SlipDetector, CallsAShiftOfARisingLoadLoading) {
   watch.rest(40);
   std::set<SlipState> states;
   for (int i = 1; i <= 4; ++i) {  // 30 % per frame more, and 0.15 taxel
-    const SlipDetection& verdict =
+    const SlipDetection& detection =
         watch.read({.y = 6.5 + 0.15 * i, .peakCounts = 1500.0 * std::pow(1.2, i)});
-    states.insert(verdict.state);
-    EXPECT_FALSE(verdict.slipping);
+    states.insert(detection.state);
+    EXPECT_FALSE(detection.slipping);
   }
   EXPECT_TRUE(states.contains(SlipState::kLoading));
 }
@@ -140,11 +140,11 @@ TEST(SlipDetector, AGapIsNoSlip) {
   Watch watch;
   watch.rest(40);
   watch.timeUs += 147'000'000;
-  const SlipDetection& verdict = watch.read({.y = 8.5});
-  EXPECT_TRUE(verdict.motion.afterGap);
-  EXPECT_FALSE(verdict.motion.valid);
-  EXPECT_FALSE(verdict.slipping);
-  EXPECT_EQ(verdict.lamp, SlipIndicator::kNotComputable);
+  const SlipDetection& detection = watch.read({.y = 8.5});
+  EXPECT_TRUE(detection.motion.afterGap);
+  EXPECT_FALSE(detection.motion.valid);
+  EXPECT_FALSE(detection.slipping);
+  EXPECT_EQ(detection.lamp, SlipIndicator::kNotComputable);
 }
 
 // 6 taxels per second is slip at any rate: 0.02 per frame at 300 Hz; at 0.3 Hz, 0.2 per frame are.
@@ -167,10 +167,10 @@ TEST(SlipDetector, KnowsNothingOfTooLittle) {
   for (int i = 0; i < 60; ++i) {
     watch.values.setZero();
     watch.values(i % 14, 2) = 2000.0F;  // a single taxel that jumps
-    const SlipDetection& verdict = watch.next();
-    EXPECT_FALSE(verdict.motion.valid);
-    EXPECT_EQ(verdict.state, SlipState::kInvalid);
-    EXPECT_FALSE(verdict.slipping);
+    const SlipDetection& detection = watch.next();
+    EXPECT_FALSE(detection.motion.valid);
+    EXPECT_EQ(detection.state, SlipState::kInvalid);
+    EXPECT_FALSE(detection.slipping);
   }
 }
 
@@ -180,8 +180,8 @@ TEST(SlipDetector, StandsSaturatedMaskedAndBrokenTaxels) {
   sensor.layout.dynamicMask[static_cast<std::size_t>(8 * 6 + 3)] = 0;
   Watch watch({}, kFrameUs, sensor);
   for (int i = 0; i < 60; ++i) {
-    const SlipDetection& verdict = watch.read({.peakCounts = 9000.0});
-    EXPECT_FALSE(verdict.slipping) << i;
+    const SlipDetection& detection = watch.read({.peakCounts = 9000.0});
+    EXPECT_FALSE(detection.slipping) << i;
   }
   EXPECT_GT(watch.detector.last().motion.saturated, 0);
   watch.values(5, 2) = std::numeric_limits<float>::quiet_NaN();

@@ -74,10 +74,10 @@ TEST(LoadField, OfNothingIsNothing) {
   Pair pair = everywhere();
   pair.after.setZero();
   EXPECT_EQ(fitLoadField(pair.key, pair.now(), {}).taxels, 0);
-  EXPECT_FALSE(contest(pair.key, pair.now(), kFromRest, {}).computed);
+  EXPECT_FALSE(compareSlipHypotheses(pair.key, pair.now(), kFromRest, {}).computed);
   pair.key.clear();
   EXPECT_EQ(fitLoadField(pair.key, pair.then(), {}).taxels, 0);
-  EXPECT_FALSE(contest(pair.key, pair.then(), kFromRest, {}).computed);
+  EXPECT_FALSE(compareSlipHypotheses(pair.key, pair.then(), kFromRest, {}).computed);
 }
 
 // By hand: ((0 + 1) / (3 + 1))^3 = 1/64 where the better one fits perfectly; ((39 + 1) / (9 +
@@ -96,7 +96,8 @@ TEST(Contest, MotionWinsWhenEdgedShapesMove) {
       const Pair pair = pairOf(
           {.shape = shape},
           {.shape = shape, .x = 2.5 + 0.8 * std::cos(angle), .y = 6.5 + 0.8 * std::sin(angle)});
-      const SlipHypothesisResult result = contest(pair.key, pair.now(), kFromRest, {});
+      const SlipHypothesisResult result =
+          compareSlipHypotheses(pair.key, pair.now(), kFromRest, {});
       ASSERT_TRUE(result.computed);
       EXPECT_GT(result.pMoved, 0.75) << nameOf(shape) << ' ' << angle;
       EXPECT_NEAR(result.motion.dx, 0.8 * std::cos(angle), 0.1) << nameOf(shape);
@@ -107,7 +108,7 @@ TEST(Contest, MotionWinsWhenEdgedShapesMove) {
 TEST(Contest, TheLoadFieldWinsWhenEdgedShapesTilt) {
   for (const SlipShape shape : slipShapes()) {
     const Pair pair = pairOf({.shape = shape}, {.shape = shape, .tiltY = 0.4});
-    const SlipHypothesisResult result = contest(pair.key, pair.now(), kFromRest, {});
+    const SlipHypothesisResult result = compareSlipHypotheses(pair.key, pair.now(), kFromRest, {});
     ASSERT_TRUE(result.computed);
     EXPECT_LT(result.pMoved, hasEdge(shape) ? 0.1 : 0.5) << nameOf(shape);
     EXPECT_GT(result.field.alongY, 0.05) << nameOf(shape);
@@ -117,7 +118,7 @@ TEST(Contest, TheLoadFieldWinsWhenEdgedShapesTilt) {
 TEST(Contest, TakesTheBestStart) {
   const Pair pair = pairOf({.y = 4.5}, {.y = 8.5});  // 4 taxels: from rest it is not found
   const std::array<RigidMotion, 2> starts = {RigidMotion{}, RigidMotion{.dy = 3.8}};
-  const SlipHypothesisResult result = contest(pair.key, pair.now(), starts, {});
+  const SlipHypothesisResult result = compareSlipHypotheses(pair.key, pair.now(), starts, {});
   EXPECT_NEAR(result.motion.dy, 4.0, 0.05);
   EXPECT_GT(result.pMoved, 0.9);
 }
@@ -125,11 +126,11 @@ TEST(Contest, TakesTheBestStart) {
 TEST(Contest, RefusesWhatItCannotCompare) {
   Pair pair = everywhere();
   const MatrixValues other = MatrixValues::Zero(13, 6);
-  EXPECT_THROW(contest(pair.key, ConstMatrixMap(other.data(), 13, 6), kFromRest, {}),
+  EXPECT_THROW(compareSlipHypotheses(pair.key, ConstMatrixMap(other.data(), 13, 6), kFromRest, {}),
                std::invalid_argument);
   KeyFrame blurred(pair.layout, {.blurTaxels = 0.6});
   blurred.set(pair.then());
-  EXPECT_THROW(contest(blurred, pair.then(), kFromRest, {}), std::invalid_argument);
+  EXPECT_THROW(compareSlipHypotheses(blurred, pair.then(), kFromRest, {}), std::invalid_argument);
   EXPECT_THROW(SlipHypothesisOptions{.sharpness = 0.0}.validate(), std::invalid_argument);
   EXPECT_THROW(SlipHypothesisOptions{.misfit = -1.0}.validate(), std::invalid_argument);
 }

@@ -15,9 +15,9 @@ SlipEvidence shifted(SlipWindow window, double taxels, double pMoved = 1.0, doub
   seen.filled = true;
   seen.centroidX = taxels;
   seen.logLoadRatio = logRise;
-  seen.contest.computed = true;
-  seen.contest.motion.dx = taxels;
-  seen.contest.pMoved = pMoved;
+  seen.hypotheses.computed = true;
+  seen.hypotheses.motion.dx = taxels;
+  seen.hypotheses.pMoved = pMoved;
   return evidence;
 }
 
@@ -94,14 +94,14 @@ TEST(SlipRule, AContactSettlesFirst) {
 TEST(SlipRule, CentroidAndRegistrationMustAgree) {
   SlipRule rule;
   SlipEvidence evidence = shifted(kShortWindow, 1.0);
-  evidence.windows[kShortWindow].contest.motion.dx = 0.3;
+  evidence.windows[kShortWindow].hypotheses.motion.dx = 0.3;
   EXPECT_FALSE(rule.decide(evidence).alarm);
   evidence = shifted(kShortWindow, 0.26);  // 1.3 * 0.26 = 0.338
-  evidence.windows[kShortWindow].contest.motion.dx = 1.0;
+  evidence.windows[kShortWindow].hypotheses.motion.dx = 1.0;
   EXPECT_FALSE(rule.decide(evidence).alarm);
   // a registration that far off isn't believed: P counts 0.5
   evidence = shifted(kShortWindow, 0.4);
-  evidence.windows[kShortWindow].contest.motion.dx = 4.0;
+  evidence.windows[kShortWindow].hypotheses.motion.dx = 4.0;
   EXPECT_FALSE(rule.decide(evidence).alarm);
 }
 
@@ -129,13 +129,13 @@ TEST(SlipRule, ThresholdsScaleWithSteps) {
 TEST(SlipRule, TellsTurningWhereTheAngleIsKnown) {
   SlipRule rule;
   SlipEvidence evidence = shifted(kMiddleWindow, 0.1, 0.8);
-  evidence.windows[kMiddleWindow].contest.motion.angleDeg = -7.5;
-  evidence.windows[kMiddleWindow].contest.sdAngleDeg = 1.0;  // 7.5 - 2 > 5
+  evidence.windows[kMiddleWindow].hypotheses.motion.angleDeg = -7.5;
+  evidence.windows[kMiddleWindow].hypotheses.sdAngleDeg = 1.0;  // 7.5 - 2 > 5
   EXPECT_FALSE(rule.decide(evidence).rotating);
   const SlipRuleResult second = rule.decide(evidence);
   EXPECT_TRUE(second.rotating);
   EXPECT_FALSE(second.alarm);
-  evidence.windows[kMiddleWindow].contest.sdAngleDeg = 1.5;
+  evidence.windows[kMiddleWindow].hypotheses.sdAngleDeg = 1.5;
   EXPECT_FALSE(rule.decide(evidence).rotating);
 }
 

@@ -17,13 +17,13 @@ namespace palpate::slip_segments_test {
 namespace {
 
 SlipDetection verdictOf(bool slipping, double dx = 0.0) {
-  SlipDetection verdict;
-  verdict.slipping = slipping;
-  verdict.motion.active = 9;
-  verdict.motion.valid = true;
-  verdict.motion.dx = dx;
-  verdict.confidence = 0.7;
-  return verdict;
+  SlipDetection detection;
+  detection.slipping = slipping;
+  detection.motion.active = 9;
+  detection.motion.valid = true;
+  detection.motion.dx = dx;
+  detection.confidence = 0.7;
+  return detection;
 }
 
 TEST(SlipSegmenter, BridgesShortPausesAndAddsTheWay) {
@@ -89,10 +89,10 @@ TEST(PassSlip, TakesTheFrameThatIsGivenAsReference) {
   options.detector.reference = SlipReference::kGiven;
   options.referenceFrame = 45;
   double before = -1.0, at = -1.0, after = 0.0;
-  runSlipDetector(slipping(), options, [&](std::size_t i, std::int64_t, const auto& verdicts) {
-    if (i == 44) before = verdicts[1].motion.refValid ? 1.0 : 0.0;
-    if (i == 45) at = verdicts[1].motion.refDy;
-    if (i == 89) after = verdicts[1].motion.refDy;
+  runSlipDetector(slipping(), options, [&](std::size_t i, std::int64_t, const auto& detections) {
+    if (i == 44) before = detections[1].motion.refValid ? 1.0 : 0.0;
+    if (i == 45) at = detections[1].motion.refDy;
+    if (i == 89) after = detections[1].motion.refDy;
   });
   EXPECT_EQ(before, 0.0);
   EXPECT_EQ(at, 0.0);

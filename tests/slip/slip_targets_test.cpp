@@ -58,11 +58,11 @@ Tilted tilt(SlipShape shape, std::uint64_t seed, int ramp) {
   for (int i = 0; i < kRest + ramp + 30; ++i) {
     trial.contact.tiltY = (seed % 2 == 0 ? 0.4 : -0.4) *
                           std::clamp((i - kRest) / static_cast<double>(ramp), 0.0, 1.0);
-    const SlipDetection& verdict = trial.read();
-    result.alarm |= verdict.slipping;
-    if (i > kRest && verdict.motion.refValid)
+    const SlipDetection& detection = trial.read();
+    result.alarm |= detection.slipping;
+    if (i > kRest && detection.motion.refValid)
       result.reading =
-          std::max(result.reading, std::hypot(verdict.motion.refDx, verdict.motion.refDy));
+          std::max(result.reading, std::hypot(detection.motion.refDx, detection.motion.refDy));
   }
   return result;
 }

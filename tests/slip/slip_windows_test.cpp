@@ -112,7 +112,7 @@ TEST(SlipWindows, TakeWhatIsNoNumberForNothing) {
   for (int i = 0; i < 12; ++i) feed.add({});
   EXPECT_EQ(feed.windows.moments().active, 5);
   feed.windows.evaluateHypotheses(kMiddleWindow);
-  EXPECT_TRUE(std::isfinite(feed.windows.evidence().windows[kMiddleWindow].contest.pMoved));
+  EXPECT_TRUE(std::isfinite(feed.windows.evidence().windows[kMiddleWindow].hypotheses.pMoved));
 }
 
 TEST(SlipWindows, SeeJointsMove) {
@@ -129,9 +129,9 @@ TEST(SlipWindows, LetTwoFramesCompete) {
   Feed feed(32'000);
   for (int i = 0; i < 20; ++i) feed.read({.y = 5.0 + 0.08 * i});
   feed.windows.evaluateHypotheses(kLongWindow);  // not filled: nothing
-  EXPECT_FALSE(feed.windows.evidence().windows[kLongWindow].contest.computed);
+  EXPECT_FALSE(feed.windows.evidence().windows[kLongWindow].hypotheses.computed);
   feed.windows.evaluateHypotheses(kMiddleWindow);
-  const SlipHypothesisResult& result = feed.windows.evidence().windows[kMiddleWindow].contest;
+  const SlipHypothesisResult& result = feed.windows.evidence().windows[kMiddleWindow].hypotheses;
   ASSERT_TRUE(result.computed);
   EXPECT_NEAR(result.motion.dy, 0.8, 0.05);
   EXPECT_GT(result.pMoved, 0.9);
@@ -141,8 +141,9 @@ TEST(SlipWindows, RefuseOtherSizesAndOptions) {
   Feed feed(32'000);
   const MatrixValues other = MatrixValues::Zero(13, 6);
   EXPECT_THROW(feed.windows.add(ConstMatrixMap(other.data(), 13, 6), 0), std::invalid_argument);
-  EXPECT_THROW(SlipWindows(MatrixLayout::full(14, 6, 3.4), {.contest = {}, .minActiveTaxels = 1}),
-               std::invalid_argument);
+  EXPECT_THROW(
+      SlipWindows(MatrixLayout::full(14, 6, 3.4), {.hypotheses = {}, .minActiveTaxels = 1}),
+      std::invalid_argument);
 }
 
 }  // namespace

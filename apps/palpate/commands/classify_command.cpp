@@ -15,18 +15,18 @@ namespace {
 
 void printTable(const TrainedModel& model,
                 const FeatureTable& table,
-                const std::vector<Prediction>& verdicts,
+                const std::vector<Prediction>& predictions,
                 const SessionContext& use) {
   StandardOutput out;
-  for (std::size_t i = 0; i < verdicts.size(); ++i) {
+  for (std::size_t i = 0; i < predictions.size(); ++i) {
     const FeatureRow& row = table.rows[i];
-    const Prediction& verdict = verdicts[i];
+    const Prediction& prediction = predictions[i];
     std::string line = row.file.string() + " " + std::to_string(row.begin) + "-" +
-                       std::to_string(row.end) + ": " + labelOf(model, verdict.label) +
-                       (verdict.sure ? " (sure)" : "") + ";";
-    for (std::size_t k = 0; k < std::min<std::size_t>(3, verdict.ranking.size()); ++k)
-      line += (k == 0 ? " " : ", ") + labelOf(model, verdict.ranking[k]) + " " +
-              fixedText(verdict.p[k], 2);
+                       std::to_string(row.end) + ": " + labelOf(model, prediction.label) +
+                       (prediction.sure ? " (sure)" : "") + ";";
+    for (std::size_t k = 0; k < std::min<std::size_t>(3, prediction.ranking.size()); ++k)
+      line += (k == 0 ? " " : ", ") + labelOf(model, prediction.ranking[k]) + " " +
+              fixedText(prediction.p[k], 2);
     out.write(line + "\n");
   }
   if (model.adaptsToSession()) {
@@ -72,15 +72,15 @@ int classifyCommand(const Arguments& words) {
   const TrainedModel model = loadModel(given.words().front());
   const FeatureTable table =
       extractFeatureTable(given, {given.words().begin() + 1, given.words().end()}, model.set);
-  const auto [use, verdicts] = classifyTable(model, table, choice);
+  const auto [use, predictions] = classifyTable(model, table, choice);
   for (const std::string& warning : use.warnings) sayLine(warning);
   if (!given.has("json")) {
-    printTable(model, table, verdicts, use);
+    printTable(model, table, predictions, use);
     return codeFor(table);
   }
   Json grasps = Json::array();
-  for (std::size_t i = 0; i < verdicts.size(); ++i)
-    grasps.push(predictionJson(model, table.rows[i], verdicts[i]));
+  for (std::size_t i = 0; i < predictions.size(); ++i)
+    grasps.push(predictionJson(model, table.rows[i], predictions[i]));
   printObject(Json::object()
                   .set("grasps", std::move(grasps))
                   .set("session_offset",

@@ -51,7 +51,7 @@ class ReplayComparison : public DeviceSink {
   }
   void onEvent(DeviceEvent&&) override {}
 
-  std::string verdict() const {
+  std::string prediction() const {
     if (different_ > 0 || frames_ != profile_.numFrames() || angles_ != profile_.numAngles() ||
         temperatures_ != profile_.numTemperatures())
       throw Error("the replay differs from the recording in " + std::to_string(different_) +
@@ -190,7 +190,7 @@ std::string replayAndCompare(const Profile& profile) {
   constexpr std::int64_t kStepUs = 1'000'000;
   while (!replay.finished()) replay.advance(kStepUs);
   replay.stop();
-  return comparison.verdict();
+  return comparison.prediction();
 }
 
 }  // namespace palpate::commands

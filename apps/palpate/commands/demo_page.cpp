@@ -76,7 +76,7 @@ std::string pageSteps(const DemoFacts& facts) {
 std::string pageNamed(const DemoFacts& facts, const std::string& object) {
   if (facts.recognition)
     for (const AskedGrasp& asked : facts.recognition->grasps)
-      if (asked.known.object == object && asked.verdict) return "; named: " + asked.called;
+      if (asked.known.object == object && asked.prediction) return "; named: " + asked.called;
   return {};
 }
 
@@ -102,9 +102,9 @@ std::string pageHands(const DemoFacts& facts) {
 std::string pageRecognitionRow(const AskedGrasp& asked) {
   const std::string rank = asked.rank ? std::to_string(*asked.rank) : "not taught";
   std::string said = asked.problem, sure, probability;
-  if (asked.verdict) {
+  if (asked.prediction) {
     said = asked.called;
-    sure = asked.verdict->sure ? "sure" : "not sure";
+    sure = asked.prediction->sure ? "sure" : "not sure";
     if (asked.rank) probability = fixedText(asked.probability, 3);
     if (asked.called == "unknown") sure.clear();
   }

@@ -16,22 +16,22 @@ constexpr int kProbabilityDecimals = 2;
 std::size_t lengthInFrames(const FeatureRow& row) { return row.end - row.begin; }
 
 void compareWithObject(const TrainedModel& model, AskedGrasp& asked) {
-  const Prediction& verdict = *asked.verdict;
-  asked.called = labelOf(model, verdict.label);
-  for (std::size_t k = 0; k < verdict.ranking.size(); ++k) {
-    if (labelOf(model, verdict.ranking[k]) != asked.known.object) continue;
+  const Prediction& prediction = *asked.prediction;
+  asked.called = labelOf(model, prediction.label);
+  for (std::size_t k = 0; k < prediction.ranking.size(); ++k) {
+    if (labelOf(model, prediction.ranking[k]) != asked.known.object) continue;
     asked.rank = k + 1;
-    asked.probability = verdict.p[k];
+    asked.probability = prediction.p[k];
   }
 }
 
 // "the ball is called pen (0.93); at rank 2, 0.05"
 std::string wrongText(const AskedGrasp& asked) {
   std::string text = "the " + asked.known.object;
-  if (!asked.verdict) return text + " could not be asked about: " + asked.problem;
+  if (!asked.prediction) return text + " could not be asked about: " + asked.problem;
   text += " is called " + asked.called;
   if (!asked.rank)
-    return text + " (" + fixedText(asked.verdict->confidence, kProbabilityDecimals) + ")";
+    return text + " (" + fixedText(asked.prediction->confidence, kProbabilityDecimals) + ")";
   return text + "; its own name is at rank " + std::to_string(*asked.rank) + " with probability " +
          fixedText(asked.probability, kProbabilityDecimals);
 }
@@ -39,7 +39,8 @@ std::string wrongText(const AskedGrasp& asked) {
 }  // namespace
 
 bool AskedGrasp::right() const {
-  return verdict && (inTraining ? called == known.object : verdict->label == Prediction::kUnknown);
+  return prediction &&
+         (inTraining ? called == known.object : prediction->label == Prediction::kUnknown);
 }
 
 std::size_t DemoRecognition::numInTraining() const {
@@ -86,13 +87,13 @@ DemoRecognition askModel(const TrainedModel& model,
   }
   table.rows = std::move(longest);
   if (table.rows.empty()) return result;
-  auto [use, verdicts] = classifyTable(model, table, {OffsetChoice::Kind::kGiven, 0.0});
+  auto [use, predictions] = classifyTable(model, table, {OffsetChoice::Kind::kGiven, 0.0});
   result.warnings = std::move(use.warnings);
   result.sessionOffset = offsetJson(use.offset);
-  auto next = verdicts.begin();
+  auto next = predictions.begin();
   for (AskedGrasp& asked : result.grasps) {
     if (!asked.problem.empty()) continue;
-    asked.verdict = std::move(*next++);
+    asked.prediction = std::move(*next++);
     compareWithObject(model, asked);
   }
   return result;
@@ -108,7 +109,7 @@ std::string demoRecognitionText(const DemoRecognition& recognition) {
     } else if (asked.inTraining) {
       named += (named.empty() ? " (" : ", ") + asked.known.object + " " +
                fixedText(asked.probability, kProbabilityDecimals);
-      allSure = allSure && asked.verdict->sure;
+      allSure = allSure && asked.prediction->sure;
     } else {
       other += "; the " + asked.known.object + ", which was never taught, is called unknown";
     }
@@ -127,11 +128,11 @@ Json demoRecognitionJson(const DemoRecognition& recognition,
   for (const AskedGrasp& asked : recognition.grasps) {
     FeatureRow row = asked.row;
     row.file = asked.known.file.filename();
-    Json json = asked.verdict ? predictionJson(model, row, *asked.verdict)
-                              : Json::object()
-                                    .set("file", row.file.string())
-                                    .set("label", Json())
-                                    .set("trouble", asked.problem);
+    Json json = asked.prediction ? predictionJson(model, row, *asked.prediction)
+                                 : Json::object()
+                                       .set("file", row.file.string())
+                                       .set("label", Json())
+                                       .set("trouble", asked.problem);
     grasps.push(json.set("object", asked.known.object)
                     .set("taught", asked.inTraining)
                     .set("rank", asked.rank ? Json(*asked.rank) : Json())

@@ -23,10 +23,10 @@ struct KnownGrasp {
 
 struct AskedGrasp {
   KnownGrasp known;
-  bool inTraining = false;            // whether the model knows the object
-  FeatureRow row;                     // of the longest grasp of the recording
-  std::optional<Prediction> verdict;  // nothing: there was none to ask about
-  std::string called;                 // the verdict's label; empty without one
+  bool inTraining = false;               // whether the model knows the object
+  FeatureRow row;                        // of the longest grasp of the recording
+  std::optional<Prediction> prediction;  // nothing: there was none to ask about
+  std::string called;                    // the verdict's label; empty without one
   // of the object among the classes, from 1; nothing: not taught, or no verdict
   std::optional<std::size_t> rank;
   double probability = 0.0;  // of the object, were it one of the known ones

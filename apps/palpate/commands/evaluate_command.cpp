@@ -181,7 +181,7 @@ Json verdictsJson(const ModelEvaluation& evaluation,
   Json list = Json::array();
   for (const EvaluatedGrasp& one : evaluation.grasps) {
     const FeatureRow& row = table.rows[one.sample];
-    const int label = one.verdict.label;
+    const int label = one.prediction.label;
     list.push(Json::object()
                   .set("file", row.file.string())
                   .set("begin", row.begin)
@@ -191,9 +191,9 @@ Json verdictsJson(const ModelEvaluation& evaluation,
                        label == Prediction::kUnknown
                            ? std::string("unknown")
                            : samples.classes[static_cast<std::size_t>(label)])
-                  .set("confidence", one.verdict.confidence)
-                  .set("sure", one.verdict.sure)
-                  .set("novelty", one.verdict.novelty)
+                  .set("confidence", one.prediction.confidence)
+                  .set("sure", one.prediction.sure)
+                  .set("novelty", one.prediction.novelty)
                   .set("session", one.session));
   }
   return list;
@@ -229,7 +229,7 @@ int withModel(const CommandLine& given) {
   Json json = jsonOf(evaluation);
   std::vector<ScoredPrediction> answers;
   for (const EvaluatedGrasp& one : evaluation.grasps)
-    answers.push_back({one.verdict.confidence, one.verdict.label == samples.y[one.sample]});
+    answers.push_back({one.prediction.confidence, one.prediction.label == samples.y[one.sample]});
   json.set("calibration_error", expectedCalibrationError(answers))
       .set("coverage_curve", coverageJson(coverageCurve(answers)))
       .set("verdicts", verdictsJson(evaluation, table, samples));

@@ -8,8 +8,8 @@
 namespace palpate::commands {
 namespace {
 
-void appendVerdict(std::string& row, const SlipDetection& verdict) {
-  const SlipMotion& motion = verdict.motion;
+void appendVerdict(std::string& row, const SlipDetection& detection) {
+  const SlipMotion& motion = detection.motion;
   const SlipRotation& rotation = motion.rotation;
   appendNumber(row, static_cast<std::int64_t>(motion.active));
   row += motion.valid ? ",1" : ",0";
@@ -23,12 +23,12 @@ void appendVerdict(std::string& row, const SlipDetection& verdict) {
   appendSlipCell(row, true, rotation.axis.orientationDeg);
   appendSlipCell(row, true, rotation.axis.eccentricity);
   appendSlipCell(row, true, rotation.roundness);
-  appendSlipCell(row, true, verdict.residual);
-  appendSlipCell(row, true, verdict.confidence);
-  appendSlipCell(row, verdict.pMoved.has_value(), verdict.pMoved.value_or(0.0));
+  appendSlipCell(row, true, detection.residual);
+  appendSlipCell(row, true, detection.confidence);
+  appendSlipCell(row, detection.pMoved.has_value(), detection.pMoved.value_or(0.0));
   row += ',';
-  row += nameOf(verdict.state);
-  row += verdict.slipping ? ",1" : ",0";
+  row += nameOf(detection.state);
+  row += detection.slipping ? ",1" : ",0";
 }
 
 }  // namespace
@@ -52,9 +52,9 @@ void forEachSlipRow(const Profile& profile,
   runSlipDetector(
       profile,
       pass,
-      [&](std::size_t frame, std::int64_t timeUs, const std::vector<SlipDetection>& verdicts) {
-        for (std::size_t m = 0; m < verdicts.size(); ++m) {
-          if (verdicts[m].motion.active == 0) continue;
+      [&](std::size_t frame, std::int64_t timeUs, const std::vector<SlipDetection>& detections) {
+        for (std::size_t m = 0; m < detections.size(); ++m) {
+          if (detections[m].motion.active == 0) continue;
           if (matrix && *matrix != static_cast<std::int64_t>(m)) continue;
           row.clear();
           appendNumber(row, static_cast<std::int64_t>(frame));
@@ -63,7 +63,7 @@ void forEachSlipRow(const Profile& profile,
           row += ',';
           appendNumber(row, static_cast<std::int64_t>(m));
           row += ',';
-          appendVerdict(row, verdicts[m]);
+          appendVerdict(row, detections[m]);
           sink(row);
         }
       },

@@ -19,14 +19,14 @@ namespace fs = std::filesystem;
 // the recordings doesn't count against that. Everything else is chosen by cross-validation.
 ModelSearchOptions searchGiven(const CommandLine& given, FeatureSet set) {
   ModelSearchOptions search;
-  PipelineOptions told;
-  told.classifier =
+  PipelineOptions requested;
+  requested.classifier =
       set == FeatureSet::kBest && !given.has("lda") ? ClassifierKind::kGauss : ClassifierKind::kSvm;
-  takePipelineOptions(given, told);
-  if (given.has("classifier") || told.classifier == ClassifierKind::kGauss)
-    search.classifier = told.classifier;
-  search.components = told.components;
-  if (given.has("c")) search.costs = {told.svm.c};
+  takePipelineOptions(given, requested);
+  if (given.has("classifier") || requested.classifier == ClassifierKind::kGauss)
+    search.classifier = requested.classifier;
+  search.components = requested.components;
+  if (given.has("c")) search.costs = {requested.svm.c};
   return search;
 }
 
@@ -104,10 +104,10 @@ int trainCommand(const Arguments& words) {
   PipelineOptions chosen =
       found.candidates.empty() ? grid.front() : found.candidates[found.chosen].options;
   if (given.text("shrinkage")) {
-    PipelineOptions told = chosen;
-    told.components.reset();
-    takePipelineOptions(given, told);
-    chosen.discriminant = told.discriminant;
+    PipelineOptions requested = chosen;
+    requested.components.reset();
+    takePipelineOptions(given, requested);
+    chosen.discriminant = requested.discriminant;
   }
   runInterruptibly(given, "training", [&](const Progress& progress) {
     model = trainModel(samples, set, table.sensor, chosen, progress);

@@ -28,7 +28,7 @@ struct RecorderOptions {
   double preTriggerS = 2.0;        // what is kept from before a start [s], 0..60
   double commitIntervalMs = 50.0;  // oldest item not committed, at most [ms], 1..10000
   std::string vfs;                 // SQLite file system to write with; empty: the default one
-  CaptureQueueOptions feed;        // queues; wakeAtItems 1 means half of the tactile one
+  CaptureQueueOptions queue;       // queues; wakeAtItems 1 means half of the tactile one
   // Bytes left on the disk of a folder, nothing when unknown; empty: statvfs.
   std::function<std::optional<std::uint64_t>(const std::filesystem::path&)> freeBytes;
   // Told of every event that the recorder itself makes (gap, clock, alarm); on its thread.

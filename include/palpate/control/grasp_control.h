@@ -119,7 +119,7 @@ class GraspControl {
 
   CaptureSession& session_;
   const Clock& clock_;
-  std::shared_ptr<CaptureQueue> feed_;
+  std::shared_ptr<CaptureQueue> queue_;
 
   mutable std::mutex mutex_;
   GraspStateMachine machine_;

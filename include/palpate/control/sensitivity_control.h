@@ -74,7 +74,7 @@ class SensitivityControl {
   GraspControl& control_;
   const Clock& clock_;
   SensitivityStatus status_;
-  std::shared_ptr<CaptureQueue> feed_;  // null: no mode
+  std::shared_ptr<CaptureQueue> queue_;  // null: no mode
   std::vector<CaptureItem> items_;
   std::optional<NoiseFloor> floor_;
   NoiseThresholdOptions highOptions_;

@@ -11,8 +11,8 @@
 
 #include <palpate/core/progress.h>
 #include <palpate/filter/recipe.h>
+#include <palpate/model/cell_truth.h>
 #include <palpate/model/profile.h>
-#include <palpate/model/touch.h>
 
 namespace palpate {
 

@@ -85,7 +85,7 @@ class ProcessingChain {
 
   const std::vector<std::unique_ptr<Stage>> stages_;
   const ChainOptions options_;
-  std::shared_ptr<CaptureQueue> feed_;
+  std::shared_ptr<CaptureQueue> queue_;
   std::vector<CaptureItem> items_;  // held back
   std::vector<RecordingEvent> found_;
   std::optional<JointAngles> angles_;

@@ -52,7 +52,7 @@ class SlipStage final : public Stage {
   };
   void applyReferenceRequests(const SensorLayout& layout);
   void emitSlipEvents(std::size_t matrix,
-                      const SlipDetection& verdict,
+                      const SlipDetection& detection,
                       std::int64_t hostUs,
                       std::vector<RecordingEvent>& out);
 

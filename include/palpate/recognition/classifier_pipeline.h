@@ -50,7 +50,7 @@ struct ClassifierPipeline {
   SupportVectorMachine svm;     // of svm
   GaussianClassifier gaussian;  // of qda, lda
   std::optional<SessionAdaptiveClassifier>
-      day;  // of gauss; nothing else of the pipeline is used then
+      sessionAdaptive;  // of gauss; nothing else of the pipeline is used then
   bool calibrated = false;
   std::vector<Sigmoid> sigmoids;  // per pair of svm
   double exponent = 1.0;       // on the coupled probabilities of svm, the densities of the others

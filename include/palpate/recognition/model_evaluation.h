@@ -46,7 +46,7 @@ SessionContext sessionFor(const TrainedModel& model,
 // What a model says of every row of a table, all of one session.
 struct Classification {
   SessionContext use;
-  std::vector<Prediction> verdicts;  // one per row
+  std::vector<Prediction> predictions;  // one per row
 };
 // Throws Error: the table doesn't fit the model, or the model has no use for such an offset.
 Classification classifyTable(const TrainedModel& model,
@@ -67,7 +67,7 @@ struct EvaluationOptions {
 struct EvaluatedGrasp {
   std::size_t sample = 0;
   std::size_t session = 0;
-  Prediction verdict;
+  Prediction prediction;
 };
 
 struct ModelEvaluation {
@@ -95,6 +95,6 @@ Json jsonOf(const ModelEvaluation& evaluation);
 std::string labelOf(const TrainedModel& model, int label);
 // file, begin, end, label, confidence, sure, novelty, top: [{label, p}], the best five (interfaces
 // of `palpate classify`).
-Json predictionJson(const TrainedModel& model, const FeatureRow& row, const Prediction& verdict);
+Json predictionJson(const TrainedModel& model, const FeatureRow& row, const Prediction& prediction);
 
 }  // namespace palpate

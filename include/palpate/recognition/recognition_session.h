@@ -63,7 +63,7 @@ class RecognitionSession {
   std::optional<EmptyHandZero> zero_;
   std::optional<SessionOffset> zeroOffset_;  // by it
   OffsetChoice choice_;
-  TrainedModel today_;  // the model with today's components
+  TrainedModel adapted_;  // the model with today's components
   SessionOffset offset_ = noOffset();
   bool sameSession_ = false;
   std::string unsure_;

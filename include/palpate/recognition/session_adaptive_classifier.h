@@ -132,7 +132,7 @@ class SessionAdaptiveClassifier {
   Eigen::VectorXd moved(const Eigen::VectorXd& x, double offsetMm) const;
 
   SessionAdaptiveParameters data_;
-  std::vector<Prepared> classComponents_, today_;
+  std::vector<Prepared> classComponents_, sessionComponents_;
   Prepared background_;
   std::vector<std::string> constant_;
 };

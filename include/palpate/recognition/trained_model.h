@@ -66,7 +66,7 @@ struct TrainedModel {
   Json validation = Json::object();  // how well it did on blocks of its own recordings
 
   // Whether the classifier models a session offset and can be adapted; true for gauss only.
-  bool adaptsToSession() const noexcept { return pipeline.day.has_value(); }
+  bool adaptsToSession() const noexcept { return pipeline.sessionAdaptive.has_value(); }
   // Whether a time lies within half a day of the day its offset is of: that of what it learnt from,
   // or, once it is adapted, of what adapted it. The same session, as far as one can tell.
   bool sameSession(std::int64_t timeUs) const noexcept;

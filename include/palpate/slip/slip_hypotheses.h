@@ -77,10 +77,10 @@ double motionScore(double loadShiftResidual,
 // Fits the motion from each start and keeps the one with the smallest residual. The key frame must
 // not be blurred (KeyFrameOptions);
 // throws std::invalid_argument (size, blur).
-SlipHypothesisResult contest(const KeyFrame& key,
-                             const ConstMatrixMap& frame,
-                             std::span<const RigidMotion> starts,
-                             const SlipHypothesisOptions& options);
+SlipHypothesisResult compareSlipHypotheses(const KeyFrame& key,
+                                           const ConstMatrixMap& frame,
+                                           std::span<const RigidMotion> starts,
+                                           const SlipHypothesisOptions& options);
 
 // Ratio, per axis, of the standard deviation of the motion with a free load field to that with only
 // a free gain, to first order, from one key frame: the square root of the variance inflation factor

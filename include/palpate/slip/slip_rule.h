@@ -31,9 +31,9 @@ struct WindowEvidence {
   bool filled = false;     // its earlier frame is of this contact, without a gap between
   double centroidX = 0.0;  // shift of the centroid [taxels]
   double centroidY = 0.0;
-  double logLoadRatio = 0.0;     // ln(load now / load then)
-  double jointsDeg = 0.0;        // largest change of a joint angle; 0 where none are known
-  SlipHypothesisResult contest;  // of the two frames, where asked for
+  double logLoadRatio = 0.0;        // ln(load now / load then)
+  double jointsDeg = 0.0;           // largest change of a joint angle; 0 where none are known
+  SlipHypothesisResult hypotheses;  // of the two frames, where asked for
 };
 
 struct SlipEvidence {

@@ -24,7 +24,7 @@ struct SlipRunOptions {
 // matrix. Joint angles of the profile are used if it has any. Throws Cancelled;
 // std::invalid_argument (options, reference frame not in the profile).
 using SlipSink = std::function<void(
-    std::size_t frame, std::int64_t timeUs, const std::vector<SlipDetection>& verdicts)>;
+    std::size_t frame, std::int64_t timeUs, const std::vector<SlipDetection>& detections)>;
 void runSlipDetector(const Profile& profile,
                      const SlipRunOptions& options,
                      const SlipSink& sink,
@@ -57,7 +57,7 @@ std::vector<SlipSegment> findSlips(const Profile& profile,
 class SlipSegmenter {
  public:
   SlipSegmenter(std::size_t numMatrices, std::size_t bridgedFrames = 5);
-  void add(std::size_t frame, std::int64_t timeUs, const std::vector<SlipDetection>& verdicts);
+  void add(std::size_t frame, std::int64_t timeUs, const std::vector<SlipDetection>& detections);
   // All so far, those that still run among them.
   std::vector<SlipSegment> segments() const;
 

@@ -65,7 +65,7 @@ struct SlipSample {
   float pMoved = -1.0F;                 // below 0: no contest was needed
   double shiftTaxels() const noexcept;  // |refDx, refDy|
 };
-SlipSample sampleOf(const SlipDetection& verdict, std::size_t frame);
+SlipSample sampleOf(const SlipDetection& detection, std::size_t frame);
 
 // What a contact did within a span of time.
 struct RecentSlip {

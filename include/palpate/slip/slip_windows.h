@@ -19,7 +19,7 @@
 namespace palpate {
 
 struct SlipWindowsOptions {
-  SlipHypothesisOptions contest;
+  SlipHypothesisOptions hypotheses;
   int minActiveTaxels = 4;       // taxels, >= 2
   double minCounts = 400.0;      // load: sum of all taxels [counts], >= 0
   std::int64_t keepUs = 20'000;  // >= 0

@@ -77,7 +77,7 @@ TEST_F(PressuresWindowTest, AnAppliedOneTellsForcesOfEveryFrame) {
   start();
   open({"rich.dsa"});
   EXPECT_EQ(fact(), "hand.json");
-  const Profile& profile = window().state().displayed.behind()->profile;
+  const Profile& profile = window().state().displayed.unfilteredRecording()->profile;
   const ForceSeries series = forceSeries(profile, calibration());
   std::size_t strongest = 0;
   for (std::size_t i = 0; i < profile.numFrames(); ++i)

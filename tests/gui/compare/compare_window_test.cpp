@@ -34,7 +34,7 @@ TEST_F(CompareWindowTest, SwappingKeepsTheMoment) {
   settle();
   EXPECT_EQ(name(compare().a()), "late");
   EXPECT_EQ(name(compare().b()), "early");
-  EXPECT_EQ(window().state().displayed.behind(), compare().a());
+  EXPECT_EQ(window().state().displayed.unfilteredRecording(), compare().a());
   EXPECT_NEAR(*compare().offsetS(), 1.0, 1e-9);
   EXPECT_EQ(playback().frame(), 40u);
   EXPECT_EQ(playback().numFrames(), 80u) << "what is played is A";
@@ -60,7 +60,8 @@ TEST_F(CompareWindowTest, AAndBAreChosenAmongWhatIsOpen) {
   EXPECT_EQ(name(compare().b()), "third");
   choose("compareB", "late.dsa");
   choose("compareA", "third.dsa");
-  EXPECT_EQ(name(window().state().displayed.behind()), "third") << "A is what is shown and played";
+  EXPECT_EQ(name(window().state().displayed.unfilteredRecording()), "third")
+      << "A is what is shown and played";
   EXPECT_EQ(name(compare().b()), "late");
   EXPECT_NEAR(*compare().offsetS(), 0.25 - 1.5, 1e-9);
   // The window shows another one: that is A.

@@ -131,7 +131,7 @@ TEST_F(ExportControllerTest, NumbersReadBackToTheSameDoubles) {
   playback().seekFrame(60);
   const auto rows = cellsOf(written(request("Inspect", ExportFormat::kCsv, "a")), ',');
   const auto expected =
-      characteristicSignals(window().state().displayed.behind()->profile.frame(60));
+      characteristicSignals(window().state().displayed.unfilteredRecording()->profile.frame(60));
   ASSERT_EQ(rows.size(), expected.size() + 2);
   EXPECT_EQ(rows[0][2], "mean [counts]");
   bool anyFraction = false;

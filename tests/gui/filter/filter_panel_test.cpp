@@ -142,12 +142,12 @@ TEST_F(FilterPanelTest, RecipesArePresetsAndFiles) {
   panel_.askForRecipe = [&] { return folder.path() / "mine.json"; };
   trigger("Open a recipe…");
   EXPECT_TRUE(panel_.editor().recipe().sameSteps(recipePresets()[2]));
-  QSignalSpy told(&panel_, &FilterPanel::told);
+  QSignalSpy message(&panel_, &FilterPanel::message);
   testing::writeFile(folder / "bad.json", "{}");
   panel_.askForRecipe = [&] { return folder.path() / "bad.json"; };
   trigger("Open a recipe…");
-  ASSERT_EQ(told.size(), 1);
-  EXPECT_TRUE(told[0][0].toString().contains("bad.json"));
+  ASSERT_EQ(message.size(), 1);
+  EXPECT_TRUE(message[0][0].toString().contains("bad.json"));
   EXPECT_TRUE(panel_.editor().recipe().sameSteps(recipePresets()[2]));
 }
 

@@ -50,7 +50,9 @@ class FilterWindowTest : public WindowTest {
         parseRecipe(std::vector<std::string>{text}));
     window().settle();
   }
-  std::size_t loudest() { return window().state().displayed.behind()->table.frameOfLargestSum(); }
+  std::size_t loudest() {
+    return window().state().displayed.unfilteredRecording()->table.frameOfLargestSum();
+  }
   const std::vector<float>& seen() { return window().findChild<MatricesPanel*>()->frame().values; }
   std::string path_;
 };
@@ -58,8 +60,8 @@ class FilterWindowTest : public WindowTest {
 TEST_F(FilterWindowTest, BeforeAndAfterOnOneKey) {
   const std::size_t frame = loudest();
   playback().seekFrame(frame);
-  const auto raw = window().state().displayed.behind()->profile.frame(frame).values;
-  const auto filtered = filteredProfile(window().state().displayed.behind()->profile,
+  const auto raw = window().state().displayed.unfilteredRecording()->profile.frame(frame).values;
+  const auto filtered = filteredProfile(window().state().displayed.unfilteredRecording()->profile,
                                         parseRecipe(std::vector<std::string>{"gaussian:size=5"}))
                             .frame(frame)
                             .values;
@@ -71,7 +73,7 @@ TEST_F(FilterWindowTest, BeforeAndAfterOnOneKey) {
   EXPECT_TRUE(window().state().activeFilters.applied());
   EXPECT_TRUE(find<StatusStrip>("statusStrip")->status().state.contains("filtered"));
   // All that is shown is the same recording, filtered.
-  EXPECT_EQ(window().state().displayed.seen()->table.at(frame, 1).maximum,
+  EXPECT_EQ(window().state().displayed.filteredRecording()->table.at(frame, 1).maximum,
             *std::max_element(filtered.begin() + 84, filtered.begin() + 162));
   press(Qt::Key_A);
   EXPECT_EQ(seen(), raw);
@@ -102,14 +104,14 @@ TEST_F(FilterWindowTest, ChangesAreSeenAtOnce) {
   for (const char* text : {"box", "box:size=5", "kalman", "median | (box)", "rts"}) {
     setRecipe(text);
     EXPECT_EQ(seen(),
-              filteredProfile(window().state().displayed.behind()->profile,
+              filteredProfile(window().state().displayed.unfilteredRecording()->profile,
                               parseRecipe(std::vector<std::string>{text}))
                   .frame(frame)
                   .values)
         << text;
   }
   setRecipe("(box)");
-  EXPECT_EQ(seen(), window().state().displayed.behind()->profile.frame(frame).values);
+  EXPECT_EQ(seen(), window().state().displayed.unfilteredRecording()->profile.frame(frame).values);
   EXPECT_FALSE(window().state().activeFilters.applied());
 }
 
@@ -132,9 +134,11 @@ TEST_F(FilterWindowTest, AChainForAnotherHandIsRefusedWithAWord) {
   press(Qt::Key_A);
   setRecipe("median:matrices=9");
   EXPECT_TRUE(find<QLabel>("filterTotals")->text().contains("no matrix 9"));
-  EXPECT_EQ(window().state().displayed.seen(), window().state().displayed.behind());
+  EXPECT_EQ(window().state().displayed.filteredRecording(),
+            window().state().displayed.unfilteredRecording());
   setRecipe("median");
-  EXPECT_NE(window().state().displayed.seen(), window().state().displayed.behind());
+  EXPECT_NE(window().state().displayed.filteredRecording(),
+            window().state().displayed.unfilteredRecording());
 }
 
 TEST_F(FilterWindowTest, TheRecipeIsKeptWithTheRecordingAndFoundAgain) {

@@ -198,7 +198,7 @@ TEST_F(HandWindowTest, FollowsTheCursorTheSelectionAndTheColours) {
   playback().seekFrame(12);
   ASSERT_TRUE(panel().view().drawing().handState().frame);
   EXPECT_EQ(panel().view().drawing().handState().frame->values,
-            window().state().displayed.behind()->profile.frame(12).values);
+            window().state().displayed.unfilteredRecording()->profile.frame(12).values);
   EXPECT_TRUE(panel().view().drawing().posed());
   TaxelSelection chosen(*sdh2().layout);
   chosen.add(3, 2, 2, 4, 4);
@@ -217,7 +217,7 @@ TEST_F(HandWindowTest, FollowsTheCursorTheSelectionAndTheColours) {
 
 TEST_F(HandWindowTest, TheFirstViewHasRoomForTheLargestGrasp) {
   open({"rich.dsa"});
-  playback().seekFrame(window().state().displayed.behind()->table.frameOfLargestSum());
+  playback().seekFrame(window().state().displayed.unfilteredRecording()->table.frameOfLargestSum());
   const HandView& view = panel().view();
   ASSERT_TRUE(view.drawing().handState().contact.taxelSphere);
   for (const Eigen::Vector3d& point : view.drawing().extent(look())) {
@@ -289,7 +289,7 @@ TEST_F(HandWindowTest, ADamagedBlockIsSaidAndTheWindowGoesOn) {
       .dataFolder = folder_.path(), .settingsPath = settingsFile(), .clock = &clock_});
   window_->show();
   open({"damaged.palpate"});
-  ASSERT_TRUE(window().state().displayed.behind());
+  ASSERT_TRUE(window().state().displayed.unfilteredRecording());
   std::size_t numSaid = 0;
   const std::size_t numFrames = playback().numFrames();
   for (std::size_t frame = 0; frame < numFrames; frame += 5) {
@@ -319,7 +319,8 @@ TEST_F(HandWindowTest, CanBeTakenAway) {
   EXPECT_EQ(image.pixelColor(3, 200), colorsOf(Theme::kLight).window);
   const auto pictures = hand->framePicturesNow();
   ASSERT_TRUE(pictures);
-  EXPECT_EQ(pictures->numFrames, window().state().displayed.behind()->profile.numFrames());
+  EXPECT_EQ(pictures->numFrames,
+            window().state().displayed.unfilteredRecording()->profile.numFrames());
   QImage of(400, 300, QImage::Format_RGB32);
   QPainter onImage(&of);
   pictures->painter({.size = {400.0, 300.0}, .pixelRatio = 1.0})(onImage, 5);

@@ -108,7 +108,7 @@ TEST_F(InspectTest, SaysWhereThereAreNoAnglesAndTemperatures) {
 
 TEST_F(InspectTest, ShowsAnglesAndTemperaturesAtTheCursor) {
   open({"rich.dsa"});
-  const Profile& profile = window().state().displayed.behind()->profile;
+  const Profile& profile = window().state().displayed.unfilteredRecording()->profile;
   for (const std::size_t frame : {std::size_t{0}, profile.numFrames() / 2}) {
     playback().seekFrame(frame);
     const auto angles = profile.anglesAtFrame(frame);

@@ -39,8 +39,8 @@ TEST_F(LibraryWindowTest, IsThereWithNothingOpenAndOpensByKeyboard) {
   QTest::keyClick(field, Qt::Key_Return);
   QTest::keyClick(table(), Qt::Key_Return);
   waitUntilOpened();
-  ASSERT_TRUE(window().state().displayed.behind());
-  EXPECT_EQ(window().state().displayed.behind()->path.filename(), "good2.dsa");
+  ASSERT_TRUE(window().state().displayed.unfilteredRecording());
+  EXPECT_EQ(window().state().displayed.unfilteredRecording()->path.filename(), "good2.dsa");
   EXPECT_TRUE(library().isVisible()) << "it stays when a recording is shown";
   toggle();
   EXPECT_FALSE(library().isVisible());
@@ -74,8 +74,8 @@ TEST_F(LibraryWindowTest, ComparesWithWhatIsShown) {
   QTest::keyClick(table(), Qt::Key_Return, Qt::ControlModifier);
   waitUntilOpened();
   EXPECT_TRUE(window().state().comparison.on());
-  ASSERT_TRUE(window().state().displayed.behind());
-  EXPECT_EQ(window().state().displayed.behind()->path.filename(), "good1.dsa");
+  ASSERT_TRUE(window().state().displayed.unfilteredRecording());
+  EXPECT_EQ(window().state().displayed.unfilteredRecording()->path.filename(), "good1.dsa");
   ASSERT_TRUE(window().feature<CompareFeature>().panel().b());
   EXPECT_EQ(window().feature<CompareFeature>().panel().b()->path.filename(), "good2.dsa");
   // Open already, it is only shown.

@@ -46,10 +46,10 @@ TEST_F(MatricesFeatureTest, NothingUnseenIsChosen) {
 TEST_F(MatricesFeatureTest, MatricesThatFeelNoLimitStayMarkedWhenOtherTaxelsAreScanned) {
   connectEmulated();
   const std::vector<QString> why{"", "its threshold is above the limit"};
-  windowState_->derivedResults.setBlind(why);
-  EXPECT_EQ(view().blind(), why);
+  windowState_->derivedResults.setUnmeasurable(why);
+  EXPECT_EQ(view().unmeasurable(), why);
   emit windowState_->displayed.handChanged();
-  EXPECT_EQ(view().blind(), why);
+  EXPECT_EQ(view().unmeasurable(), why);
 }
 
 TEST_F(MatricesFeatureTest, ALivePictureWithoutAFrameSaysWhyFromTheStart) {

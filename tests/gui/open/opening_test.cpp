@@ -31,8 +31,8 @@ namespace {
 class OpeningTest : public WindowTest {
  protected:
   std::string currentName() {
-    return window().state().displayed.behind()
-               ? window().state().displayed.behind()->path.filename().string()
+    return window().state().displayed.unfilteredRecording()
+               ? window().state().displayed.unfilteredRecording()->path.filename().string()
                : "";
   }
   bool onStartPage() { return window().findChild<StartPage*>()->isVisible(); }
@@ -340,7 +340,7 @@ TEST(Demo, PlaysInALoopThatIsNotRemembered) {
     QSignalSpy finished(&window.state().opener, &RecordingOpener::finished);
     QTest::mouseClick(window.findChild<QPushButton*>("startDemo"), Qt::LeftButton);
     ASSERT_TRUE(finished.wait(30'000));
-    ASSERT_NE(window.state().displayed.behind(), nullptr);
+    ASSERT_NE(window.state().displayed.unfilteredRecording(), nullptr);
     EXPECT_TRUE(window.state().playback.playing());
     EXPECT_TRUE(window.state().playback.loop());
     window.close();
@@ -358,7 +358,7 @@ TEST(Demo, PlaysWhateverElseIsOpenedMeanwhile) {
   window.state().actions.at("openDemo")->trigger();
   window.state().open({folder / "nothing.dsa"});
   ASSERT_TRUE(finished.wait(30'000));
-  ASSERT_NE(window.state().displayed.behind(), nullptr);
+  ASSERT_NE(window.state().displayed.unfilteredRecording(), nullptr);
   EXPECT_TRUE(window.state().playback.playing());
   EXPECT_TRUE(window.state().playback.loop());
 }
@@ -376,7 +376,7 @@ TEST(RealRecording, OpensAndShowsTheFrameOfTheSketch) {
   window.state().playback.seekFrame(2411);
   // window.png: 36 active taxels of mean 500 and maximum 1013 in finger 0 distal; 24, 184, 338 in
   // finger 2 distal.
-  const OpenedRecording& recording = *window.state().displayed.behind();
+  const OpenedRecording& recording = *window.state().displayed.unfilteredRecording();
   EXPECT_EQ(recording.profile.numFrames(), 3289u);
   EXPECT_EQ(recording.at(2411, 1).active, 36);
   EXPECT_NEAR(recording.at(2411, 1).mean, 500, 0.5);

@@ -72,7 +72,8 @@ class GoldenPicturesTest : public WindowTest {
     window_->setFixedSize(size);
     window_->show();
     open({"any.dsa"});
-    playback().seekFrame(window().state().displayed.behind()->table.frameOfLargestSum());
+    playback().seekFrame(
+        window().state().displayed.unfilteredRecording()->table.frameOfLargestSum());
     window().feature<TimelineFeature>().panel().chart().setSelection(TimeSpan{4.0, 6.0});
     for (int i = 0; i < 5; ++i) QCoreApplication::processEvents();
   }

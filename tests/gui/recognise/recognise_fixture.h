@@ -74,7 +74,7 @@ class RecogniseWindowTest : public WindowTest {
   }
   QDockWidget* dock() { return window().findChild<QDockWidget*>("Recognise"); }
   RecognisePanel& panel() { return *find<RecognisePanel>("RecognisePanel"); }
-  const RecognitionAnswer& answer() { return panel().desk().answer(); }
+  const RecognitionAnswer& answer() { return panel().controller().answer(); }
   void settle() {
     panel().settle();
     QCoreApplication::processEvents();

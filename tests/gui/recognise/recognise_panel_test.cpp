@@ -20,21 +20,22 @@ namespace {
 using Kind = RecognitionAnswer::Kind;
 
 TEST_F(RecognisePanelTest, WithoutAModelItSaysSo) {
-  panel_->desk().setEmulated(false);
+  panel_->controller().setEmulated(false);
   settle();
-  panel_->desk().ask({graspsOf("pen", 1), std::nullopt, "a pen"});
+  panel_->controller().ask({graspsOf("pen", 1), std::nullopt, "a pen"});
   settle();
-  EXPECT_EQ(panel_->desk().answer().kind, Kind::kProblem);
-  EXPECT_TRUE(panel_->desk().answer().text.startsWith("No model is chosen."));
+  EXPECT_EQ(panel_->controller().answer().kind, Kind::kProblem);
+  EXPECT_TRUE(panel_->controller().answer().text.startsWith("No model is chosen."));
   EXPECT_EQ(find<QLabel>("recogniseModel")->text(), "no model");
   EXPECT_FALSE(find<QPushButton>("tell")->isEnabled());
 }
 
 TEST_F(RecognisePanelTest, NamesAGraspWithItsRunnersUp) {
-  panel_->desk().setEmulated(true);
-  panel_->desk().ask({graspsOf("pen", 1), std::nullopt, "a pen"});  // the model is still being read
+  panel_->controller().setEmulated(true);
+  panel_->controller().ask(
+      {graspsOf("pen", 1), std::nullopt, "a pen"});  // the model is still being read
   settle();
-  const RecognitionAnswer& answer = panel_->desk().answer();
+  const RecognitionAnswer& answer = panel_->controller().answer();
   EXPECT_EQ(answer.kind, Kind::kNamed) << answer.text.toStdString();
   EXPECT_EQ(answer.name(), "pen");
   EXPECT_EQ(answer.confidenceWord(), "sure");
@@ -47,14 +48,14 @@ TEST_F(RecognisePanelTest, NamesAGraspWithItsRunnersUp) {
 }
 
 TEST_F(RecognisePanelTest, WhatCanNotBeJudgedIsSaid) {
-  panel_->desk().setEmulated(true);
+  panel_->controller().setEmulated(true);
   settle();
   const Profile pen = graspsOf("pen", 1);
   const auto troubleOf = [&](const RecogniseQuestion& question) {
-    panel_->desk().ask(question);
+    panel_->controller().ask(question);
     settle();
-    EXPECT_EQ(panel_->desk().answer().kind, Kind::kProblem);
-    return panel_->desk().answer().text.toStdString();
+    EXPECT_EQ(panel_->controller().answer().kind, Kind::kProblem);
+    return panel_->controller().answer().text.toStdString();
   };
   EXPECT_NE(troubleOf({pen, std::pair<std::size_t, std::size_t>(0, 15), ""}).find("No grasp"),
             std::string::npos);
@@ -70,52 +71,52 @@ TEST_F(RecognisePanelTest, WhatCanNotBeJudgedIsSaid) {
   EXPECT_NE(troubleOf({other.finish({}), std::nullopt, ""}).find("another sensor"),
             std::string::npos);
   testing::writeFile(folder_ / "damaged.json", "{\"kind\": \"palpate");
-  panel_->desk().openModel(folder_ / "damaged.json");
+  panel_->controller().openModel(folder_ / "damaged.json");
   settle();
   EXPECT_NE(find<QLabel>("recogniseModel")->text().indexOf("can't be used"), -1);
-  EXPECT_EQ(panel_->desk().answer().kind, Kind::kProblem);
+  EXPECT_EQ(panel_->controller().answer().kind, Kind::kProblem);
 }
 
 TEST_F(RecognisePanelTest, WhatWasHeldTooShortIsNotSaidOfAnEmptyHand) {
-  panel_->desk().setEmulated(true);
+  panel_->controller().setEmulated(true);
   settle();
-  panel_->desk().sayTrouble("Held too short yet: ask again in a second.", kHeldNow);
-  panel_->desk().contactEnded();
-  EXPECT_EQ(panel_->desk().answer().kind, Kind::kNothing);
+  panel_->controller().sayTrouble("Held too short yet: ask again in a second.", kHeldNow);
+  panel_->controller().contactEnded();
+  EXPECT_EQ(panel_->controller().answer().kind, Kind::kNothing);
   EXPECT_EQ(find<AnswerView>("answerView")->answer().kind, Kind::kNothing);
-  EXPECT_FALSE(panel_->desk().answer().text.contains("too short"));
+  EXPECT_FALSE(panel_->controller().answer().text.contains("too short"));
 }
 
 TEST_F(RecognisePanelTest, WhatIsToldAdaptsTheDay) {
-  panel_->desk().setEmulated(true);
+  panel_->controller().setEmulated(true);
   settle();
-  panel_->desk().changeDay([](RecognitionSession& day) { day.choose({}); });
-  panel_->desk().ask({graspsOf("pen", 1), std::nullopt, ""});
+  panel_->controller().changeSession([](RecognitionSession& session) { session.choose({}); });
+  panel_->controller().ask({graspsOf("pen", 1), std::nullopt, ""});
   settle();
   find<QPushButton>("tell")->click();
-  EXPECT_EQ(panel_->desk().day()->numLabelled(), 1u);
-  EXPECT_EQ(panel_->desk().day()->offset().origin, OffsetSource::kReferences);
-  EXPECT_EQ(panel_->desk().answer().confidenceWord(), "not sure")
+  EXPECT_EQ(panel_->controller().session()->numLabelled(), 1u);
+  EXPECT_EQ(panel_->controller().session()->offset().origin, OffsetSource::kReferences);
+  EXPECT_EQ(panel_->controller().answer().confidenceWord(), "not sure")
       << "a single object makes nothing sure";
-  EXPECT_TRUE(panel_->desk().answer().unsure.contains("single object"));
+  EXPECT_TRUE(panel_->controller().answer().unsure.contains("single object"));
   EXPECT_TRUE(find<QLabel>("todayOffset")->text().contains("1 named grasp, 1 object"));
   EXPECT_EQ(find<FiguresTable>("todayGrasps")->item(0, 3)->text(), "pen");
   find<QPushButton>("todayForget")->click();
-  EXPECT_EQ(panel_->desk().day()->numLabelled(), 0u);
+  EXPECT_EQ(panel_->controller().session()->numLabelled(), 0u);
 }
 
 TEST_F(RecognisePanelTest, ATypedOffsetIsTaken) {
-  panel_->desk().setEmulated(true);
+  panel_->controller().setEmulated(true);
   settle();
   auto* source = find<QComboBox>("todaySource");
   EXPECT_EQ(source->currentText(), "typed") << "the emulated hand has none: 0 mm";
-  panel_->desk().ask({graspsOf("ball", 1), std::nullopt, ""});
+  panel_->controller().ask({graspsOf("ball", 1), std::nullopt, ""});
   settle();
-  EXPECT_EQ(panel_->desk().answer().name(), "ball");
+  EXPECT_EQ(panel_->controller().answer().name(), "ball");
   source->setCurrentIndex(1);
   emit source->activated(1);
-  EXPECT_EQ(panel_->desk().day()->offset().origin, OffsetSource::kUnknown);
-  EXPECT_FALSE(panel_->desk().answer().sure);
+  EXPECT_EQ(panel_->controller().session()->offset().origin, OffsetSource::kUnknown);
+  EXPECT_FALSE(panel_->controller().answer().sure);
 }
 
 TEST_F(RecognisePanelTest, AFolderTeachesAndIsChecked) {
@@ -230,10 +231,10 @@ TEST_F(RecognisePanelTest, ThePhotoOfTheFolderIsDrawn) {
   auto* view = find<AnswerView>("answerView");
   const QColor paint(255, 0, 255);  // of nothing else
   const auto painted = [&] {
-    panel_->desk().changeDay([](RecognitionSession& day) { day.choose({}); });
-    panel_->desk().ask({graspsOf("pen", 1), std::nullopt, ""});
+    panel_->controller().changeSession([](RecognitionSession& session) { session.choose({}); });
+    panel_->controller().ask({graspsOf("pen", 1), std::nullopt, ""});
     settle();
-    EXPECT_EQ(panel_->desk().answer().name(), "pen");
+    EXPECT_EQ(panel_->controller().answer().name(), "pen");
     const QImage image = view->grab().toImage();
     int count = 0;
     for (int y = 0; y < image.height(); ++y)
@@ -244,7 +245,7 @@ TEST_F(RecognisePanelTest, ThePhotoOfTheFolderIsDrawn) {
   QImage photo(200, 150, QImage::Format_RGB32);
   photo.fill(paint);
   ASSERT_TRUE(photo.save(QString::fromStdString((folder / "pen" / "pen.png").string())));
-  panel_->desk().setPhotoFolder(folder);  // looked for anew
+  panel_->controller().setPhotoFolder(folder);  // looked for anew
   EXPECT_GT(painted(), 500);
 }
 
@@ -261,7 +262,7 @@ TEST_F(RecognisePanelTest, EscGivesUpTrainingAndLeavesNoModel) {
   EXPECT_FALSE(std::filesystem::exists(out));
   for (const auto& entry : std::filesystem::directory_iterator(folder_.path()))
     EXPECT_NE(entry.path().extension(), ".json") << "half a model";
-  EXPECT_EQ(panel_->desk().model(), nullptr);
+  EXPECT_EQ(panel_->controller().model(), nullptr);
   EXPECT_FALSE(panel_->cancel()) << "nothing is left to give up";
   // And it goes when it is asked again.
   find<QPushButton>("teachTrain")->click();

@@ -80,31 +80,31 @@ TEST_F(RecogniseSlowTest, TheZeroOfTheEmptyHandIsTakenAndUsed) {
   ASSERT_TRUE(
       await([&] { return window().state().displayed.isLive() && status().cannotReact.empty(); }));
   settle();
-  panel().desk().openModel(folder_ / "own.json");
+  panel().controller().openModel(folder_ / "own.json");
   settle();
-  ASSERT_TRUE(panel().desk().day());
+  ASSERT_TRUE(panel().controller().session());
   // What the status line said last of it.
   std::string said;
   const auto hear = [&] {
     for (const QLabel* label : window().findChildren<QLabel*>())
       if (label->text().contains("no zero") || label->text().contains("empty hand reads"))
         said = label->text().toStdString();
-    return panel().desk().day()->hasZero() || said.find("no zero") != std::string::npos;
+    return panel().controller().session()->hasZero() || said.find("no zero") != std::string::npos;
   };
   emit window().findChild<TodayPage*>()->zeroAsked();
   EXPECT_TRUE(await(hear)) << (status().last ? status().last->text : "");
-  ASSERT_TRUE(panel().desk().day()->hasZero()) << said;
-  const SessionOffset& offset = panel().desk().day()->offset();
+  ASSERT_TRUE(panel().controller().session()->hasZero()) << said;
+  const SessionOffset& offset = panel().controller().session()->offset();
   EXPECT_EQ(offset.origin, OffsetSource::kEmptyHand);
   EXPECT_TRUE(offset.trusted);
   EXPECT_NEAR(offset.mm, 3.0, 2.0 * offset.sdMm);
   EXPECT_LE(offset.sdMm, 1.0);
   // It opened again: the fingers don't touch any more, and stand.
   ASSERT_TRUE(await([&] { return status().phase == GraspPhase::kIdle; }));
-  panel().desk().ask({graspsOf("pen", 1), std::nullopt, "a pen"});
+  panel().controller().ask({graspsOf("pen", 1), std::nullopt, "a pen"});
   settle();
   EXPECT_TRUE(answer().offset.contains("empty hand")) << answer().offset.toStdString();
-  EXPECT_EQ(panel().desk().day()->adapted().sessionZero->origin, "the connected hand");
+  EXPECT_EQ(panel().controller().session()->adapted().sessionZero->origin, "the connected hand");
 }
 
 // A series of a thing that the hand grasps again and again: each grasp becomes a clip by itself,

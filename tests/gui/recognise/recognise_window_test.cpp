@@ -34,7 +34,7 @@ TEST_F(RecogniseWindowTest, NamesTheSelectedGrasp) {
   press(Qt::Key_Q);
   EXPECT_TRUE(dock()->isVisible());
   settle();
-  panel().desk().useEmulatedModel();
+  panel().controller().useEmulatedModel();
   settle();
   press(Qt::Key_Q);
   settle();
@@ -53,7 +53,7 @@ TEST_F(RecogniseWindowTest, AnswersOnTheWholeScreen) {
   auto* full = window().findChild<PresentationWindow*>("showWindow");
   ASSERT_NE(full, nullptr);
   EXPECT_TRUE(full->isFullScreen());
-  panel().desk().useEmulatedModel();
+  panel().controller().useEmulatedModel();
   settle();
   press(Qt::Key_N);
   QTest::keyClick(full, Qt::Key_Q);
@@ -70,14 +70,14 @@ TEST_F(RecogniseWindowTest, AGraspOfTheCheckIsOpenedAndSelected) {
   emit panel().check().graspAsked(ball, 60, 200);
   ASSERT_TRUE(QTest::qWaitFor(
       [&] {
-        return window().state().displayed.behind() &&
-               window().state().displayed.behind()->path == ball;
+        return window().state().displayed.unfilteredRecording() &&
+               window().state().displayed.unfilteredRecording()->path == ball;
       },
       20'000));
   const auto& selection = window().feature<TimelineFeature>().panel().chart().selection();
   ASSERT_TRUE(selection);
-  EXPECT_NEAR(selection->fromS, window().state().displayed.behind()->timeAt(60), 1e-6);
-  EXPECT_NEAR(selection->toS, window().state().displayed.behind()->timeAt(200), 1e-6);
+  EXPECT_NEAR(selection->fromS, window().state().displayed.unfilteredRecording()->timeAt(60), 1e-6);
+  EXPECT_NEAR(selection->toS, window().state().displayed.unfilteredRecording()->timeAt(200), 1e-6);
 }
 
 TEST_F(RecogniseWindowTest, NamesWhatTheEmulatedHandHolds) { EXPECT_EQ(heldName("pen"), "pen"); }
@@ -139,7 +139,7 @@ TEST_F(RecogniseLiveTest, WhatWasLetGoWhileTheWindowWasBusyIsNotHeldNow) {
   ASSERT_TRUE(await([&] { return answer().of == kHeldNow && answer().name() == "pen"; }))
       << answer().accessibleText().toStdString();
   byItself->setChecked(false);
-  panel().desk().settle();
+  panel().controller().settle();
   const auto moveBeside = [&](double closeRatio) {
     GraspRequest request;
     request.preshape = "pinch-parallel";

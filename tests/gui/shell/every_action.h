@@ -366,7 +366,7 @@ class PressedWindow {
     std::erase_if(files, open);
     if (!files.empty()) window_->state().open(files);
     return await([&] {
-      return !window_->state().opener.busy() && window_->state().displayed.behind() &&
+      return !window_->state().opener.busy() && window_->state().displayed.unfilteredRecording() &&
              window_->state().recordings.all().size() >= wanted;
     });
   }

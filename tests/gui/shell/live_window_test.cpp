@@ -155,7 +155,7 @@ TEST_F(LiveWindowTest, EscapeStopsTheHandWhateverIsShown) {
   EXPECT_FALSE(window().state().displayed.isLive());
   press(Qt::Key_Escape);
   ASSERT_TRUE(await([&] { return !bench_->handMoves(); }));
-  EXPECT_NE(window().state().displayed.behind(), nullptr)
+  EXPECT_NE(window().state().displayed.unfilteredRecording(), nullptr)
       << "Escape stopped the hand and did nothing else";
 }
 
@@ -514,14 +514,15 @@ TEST_F(LiveWindowTest, ABlindMatrixIsMarkedInTheHeatMaps) {
   ASSERT_TRUE(await([&] { return view().paintedUs() > 0; }));
   const QImage seeing = pictureOf(view());
   live().source()->control->change(SetThreshold{1, 4095});
-  ASSERT_TRUE(await([&] { return view().blind().size() == 2; }));
-  EXPECT_TRUE(view().blind()[0].isEmpty());
-  EXPECT_TRUE(view().blind()[1].contains("finger 0 distal")) << view().blind()[1].toStdString();
+  ASSERT_TRUE(await([&] { return view().unmeasurable().size() == 2; }));
+  EXPECT_TRUE(view().unmeasurable()[0].isEmpty());
+  EXPECT_TRUE(view().unmeasurable()[1].contains("finger 0 distal"))
+      << view().unmeasurable()[1].toStdString();
   EXPECT_NE(pictureOf(view()), seeing);
   open({"good.dsa"});
-  EXPECT_TRUE(view().blind().empty()) << "of a recording nothing is to be grasped";
+  EXPECT_TRUE(view().unmeasurable().empty()) << "of a recording nothing is to be grasped";
   press(Qt::Key_F6);
-  EXPECT_EQ(view().blind().size(), 2u);
+  EXPECT_EQ(view().unmeasurable().size(), 2u);
 }
 
 // L-M13: what the chart marks and the log says.
@@ -586,7 +587,7 @@ TEST_F(LiveWindowTest, DisconnectingComesBackToWhatWasOpen) {
   press(Qt::Key_K, Qt::ControlModifier | Qt::ShiftModifier);
   ASSERT_TRUE(await([&] { return live().state() == State::kNone; }));
   EXPECT_FALSE(window().state().displayed.isLive());
-  ASSERT_NE(window().state().displayed.behind(), nullptr);
+  ASSERT_NE(window().state().displayed.unfilteredRecording(), nullptr);
   EXPECT_TRUE(window().findChild<TimelineChart*>()->isVisible());
   EXPECT_TRUE(view().notice().isEmpty());
 }

@@ -206,12 +206,12 @@ TEST_F(SlipPanelTest, SettingsThatMakeNoSenseAreTheUsualOnes) {
 
 TEST_F(SlipPanelTest, WhatWasComputedIsKept) {
   show(slip());
-  const SlipSeries* contest = panel_->found();
+  const SlipSeries* hypotheses = panel_->found();
   chooseMethod("register");
-  EXPECT_NE(panel_->found(), contest);
+  EXPECT_NE(panel_->found(), hypotheses);
   EXPECT_EQ(panel_->found()->options.method, SlipMethod::kRegister);
   chooseMethod("contest");
-  EXPECT_EQ(panel_->found(), contest);
+  EXPECT_EQ(panel_->found(), hypotheses);
 }
 
 TEST_F(SlipPanelTest, IsGivenUpAndBegunAgain) {

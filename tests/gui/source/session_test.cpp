@@ -40,7 +40,7 @@ TEST_F(SessionTest, WhatMakesNoSenseIsLeftOut) {
 TEST_F(SessionTest, FilesCursorRangeAndSelectionComeBack) {
   open({"good1.dsa", "rich.dsa", "good2.dsa"});
   press(Qt::Key_Tab, Qt::ControlModifier);  // rich.dsa
-  ASSERT_EQ(window().state().displayed.behind()->path.filename(), "rich.dsa");
+  ASSERT_EQ(window().state().displayed.unfilteredRecording()->path.filename(), "rich.dsa");
   auto& chart = window().feature<TimelineFeature>().panel().chart();
   playback().seekFrame(50);
   chart.setVisibleRange(1.0, 2.5);
@@ -50,7 +50,7 @@ TEST_F(SessionTest, FilesCursorRangeAndSelectionComeBack) {
   restoreSession(window().state());
   waitUntilOpened();
   ASSERT_EQ(window().state().recordings.all().size(), 3u);
-  EXPECT_EQ(window().state().displayed.behind()->path.filename(), "rich.dsa");
+  EXPECT_EQ(window().state().displayed.unfilteredRecording()->path.filename(), "rich.dsa");
   EXPECT_EQ(playback().frame(), 50u);
   EXPECT_EQ(window().feature<TimelineFeature>().panel().chart().selection(), (TimeSpan{1.2, 1.7}));
   EXPECT_NEAR(window().feature<TimelineFeature>().panel().chart().seen().lower, 1.0, 1e-9);

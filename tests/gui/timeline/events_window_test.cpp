@@ -86,7 +86,8 @@ TEST_F(EventsWindowTest, TheThirdGraspIsFoundSelectedAndCropped) {
     ASSERT_EQ(part.frame(i).values, all.frame(first + i).values);
   waitUntilOpened();
   EXPECT_EQ(window().state().recordings.all().size(), 2u) << "the part is open, too";
-  EXPECT_EQ(window().state().displayed.behind()->path, path_) << "what is looked at stays";
+  EXPECT_EQ(window().state().displayed.unfilteredRecording()->path, path_)
+      << "what is looked at stays";
 }
 
 TEST_F(EventsWindowTest, ShiftNGoesBack) {
@@ -115,7 +116,8 @@ TEST_F(EventsWindowTest, LabelsAndNotesAreMadeUndoneAndSaved) {
   ASSERT_EQ(events.size(), 2u);
   EXPECT_EQ(events[0].kind, "label");
   EXPECT_EQ(events[0].text, "touch");
-  EXPECT_EQ(events[0].tUs, window().state().displayed.behind()->profile.frameTimeUs(0) + 2'000'000);
+  EXPECT_EQ(events[0].tUs,
+            window().state().displayed.unfilteredRecording()->profile.frameTimeUs(0) + 2'000'000);
   EXPECT_EQ(events[1].kind, "note");
   EXPECT_EQ(events[1].t1Us - events[1].tUs, 1'000'000);
   EXPECT_EQ(verifyRecording(path_).state, VerifyReport::State::kSound);
@@ -173,10 +175,10 @@ TEST_F(EventsWindowTest, UnsavedWorkIsAskedAboutOnce) {
   EXPECT_TRUE(window().isVisible()) << "the user would rather go on";
   press(Qt::Key_W, Qt::ControlModifier);
   EXPECT_EQ(asked_, 2);
-  EXPECT_TRUE(window().state().displayed.behind());
+  EXPECT_TRUE(window().state().displayed.unfilteredRecording());
   unsaved_ = UserPrompts::Unsaved::kDiscard;
   press(Qt::Key_W, Qt::ControlModifier);
-  EXPECT_FALSE(window().state().displayed.behind());
+  EXPECT_FALSE(window().state().displayed.unfilteredRecording());
   EXPECT_TRUE(readEvents(path_).events.empty());
 }
 
@@ -255,7 +257,7 @@ TEST_F(EventsWindowTest, NothingIsCroppedOntoItself) {
   window().settle();
   EXPECT_FALSE(bannerText().isEmpty());
   EXPECT_EQ(openRecording(path_).numFrames(),
-            window().state().displayed.behind()->profile.numFrames());
+            window().state().displayed.unfilteredRecording()->profile.numFrames());
 }
 
 TEST_F(EventsWindowTest, TheLabelsOfAPartGoWithIt) {
@@ -271,7 +273,7 @@ TEST_F(EventsWindowTest, TheLabelsOfAPartGoWithIt) {
 
 TEST_F(EventsWindowTest, ChosenTaxelsAreACurveAndCanBeNamed) {
   const int before = chart().graphCount();
-  TaxelSelection taxels(window().state().displayed.behind()->profile.layout());
+  TaxelSelection taxels(window().state().displayed.unfilteredRecording()->profile.layout());
   taxels.add(1, 5, 2, 7, 3);
   window().feature<MatricesFeature>().panel().view().select(taxels);
   EXPECT_EQ(chart().graphCount(), before + 1);
@@ -284,8 +286,9 @@ TEST_F(EventsWindowTest, ChosenTaxelsAreACurveAndCanBeNamed) {
   const auto samples = chart().store().samples(chart().curves().back().choice);
   ASSERT_TRUE(samples);
   const std::size_t frame = 60;
-  EXPECT_DOUBLE_EQ(samples->values[frame],
-                   meanOf(window().state().displayed.behind()->profile.frame(frame), taxels));
+  EXPECT_DOUBLE_EQ(
+      samples->values[frame],
+      meanOf(window().state().displayed.unfilteredRecording()->profile.frame(frame), taxels));
   reopen();
   EXPECT_EQ(chart().curves().back().name, "tip") << "remembered";
 }

@@ -25,7 +25,7 @@ TEST_F(ActiveFiltersTest, OffWhatIsSeenIsAsRecorded) {
   setRecipe("gaussian:size=5");
   windowState_->displayed.show(recording("a"));
   wait();
-  EXPECT_EQ(windowState_->displayed.seen(), windowState_->displayed.recorded());
+  EXPECT_EQ(windowState_->displayed.filteredRecording(), windowState_->displayed.recorded());
   EXPECT_FALSE(activeFilters_.applied());
   EXPECT_EQ(activeFilters_.caption(), "");
 }
@@ -37,7 +37,7 @@ TEST_F(ActiveFiltersTest, OnTheRecordingIsFilteredBesideTheWindow) {
   EXPECT_FALSE(activeFilters_.applied()) << "not made yet";
   wait();
   EXPECT_TRUE(activeFilters_.applied());
-  EXPECT_NE(windowState_->displayed.seen(), windowState_->displayed.recorded());
+  EXPECT_NE(windowState_->displayed.filteredRecording(), windowState_->displayed.recorded());
   EXPECT_TRUE(activeFilters_.caption().contains("gaussian"));
 }
 

@@ -25,7 +25,7 @@ TEST_F(CurrentFrameTest, IsTheFrameAtWhichThePlaybackStands) {
   windowState_->playback.seekFrame(4);
   EXPECT_EQ(value(), 50.0F);
   EXPECT_EQ(currentFrame_.index(), 4u);
-  windowState_->displayed.replace(windowState_->displayed.behind(), nullptr);
+  windowState_->displayed.replace(windowState_->displayed.unfilteredRecording(), nullptr);
   windowState_->displayed.show(nullptr);
   EXPECT_FALSE(currentFrame_.hasFrame());
 }
@@ -38,7 +38,7 @@ TEST_F(CurrentFrameTest, CountsSaturatedTaxelsAsRecordedWhateverTheFiltersMakeOf
   const auto full = makeOpenedRecording("full", builder.finish({}));
   windowState_->displayed.show(full);
   EXPECT_EQ(currentFrame_.saturated(), 1);
-  windowState_->displayed.setSeen(recording("full, filtered"));
+  windowState_->displayed.setFilteredRecording(recording("full, filtered"));
   EXPECT_EQ(value(), 10.0F);
   EXPECT_EQ(currentFrame_.saturated(), 1);
 }

@@ -16,7 +16,7 @@ class DisplayedSourceTest : public WindowStateTest {
   DisplayedSourceTest() : displayed_(windowState_->displayed) {
     const auto note = [this](const char* name) { return [this, name] { heard_.append(name); }; };
     QObject::connect(&displayed_, &DisplayedSource::changed, note("changed"));
-    QObject::connect(&displayed_, &DisplayedSource::seenChanged, note("seen"));
+    QObject::connect(&displayed_, &DisplayedSource::filteredRecordingChanged, note("seen"));
     QObject::connect(&displayed_, &DisplayedSource::valuesChanged, note("values"));
     QObject::connect(&displayed_, &DisplayedSource::shown, note("shown"));
   }
@@ -38,9 +38,9 @@ TEST_F(DisplayedSourceTest, EachSignalComesOnceAndInOrder) {
   EXPECT_EQ(heard(), QStringList({"changed", "seen", "shown"}));
   displayed_.show(recording("b"));
   EXPECT_EQ(heard(), QStringList({"changed", "seen", "shown"}));
-  displayed_.show(displayed_.behind());
+  displayed_.show(displayed_.unfilteredRecording());
   EXPECT_EQ(heard(), QStringList()) << "the same one again";
-  displayed_.setSeen(recording("b filtered"));
+  displayed_.setFilteredRecording(recording("b filtered"));
   EXPECT_EQ(heard(), QStringList({"seen", "values", "shown"}));
 }
 
@@ -52,7 +52,7 @@ TEST_F(DisplayedSourceTest, WhoHearsOfItFindsEverythingNew) {
     looked = true;
     EXPECT_EQ(displayed_.kind(), Kind::kRecording);
     EXPECT_EQ(displayed_.recorded(), next);
-    EXPECT_EQ(displayed_.seen(), next);
+    EXPECT_EQ(displayed_.filteredRecording(), next);
     EXPECT_EQ(displayed_.hand(), &next->profile.hand());
     EXPECT_EQ(windowState_->selection.span(), std::nullopt);
     EXPECT_FALSE(windowState_->playback.hasFrames()) << "nobody asks it for the old one's frame";
@@ -79,7 +79,7 @@ TEST_F(DisplayedSourceTest, FilteredValuesLeaveTheFrameWhereItIs) {
   displayed_.show(recording("a"));
   windowState_->playback.seekFrame(5);
   QSignalSpy frames(&windowState_->currentFrame, &CurrentFrame::frameChanged);
-  displayed_.setSeen(recording("a filtered"));
+  displayed_.setFilteredRecording(recording("a filtered"));
   EXPECT_EQ(windowState_->playback.frame(), 5u);
   EXPECT_EQ(frames.count(), 1) << "the moment is read once";
 }
@@ -104,7 +104,7 @@ TEST_F(DisplayedSourceTest, LiveAndBackTheRecordingStandsWhereItWas) {
   EXPECT_EQ(heard(), QStringList({"changed", "seen", "shown"}));
   EXPECT_TRUE(displayed_.isLive());
   EXPECT_EQ(displayed_.recorded(), nullptr);
-  EXPECT_EQ(displayed_.behind(), first);
+  EXPECT_EQ(displayed_.unfilteredRecording(), first);
   ASSERT_NE(displayed_.hand(), nullptr);
   EXPECT_EQ(displayed_.hand()->name, windowState_->live.source()->session->device().hand().name);
   displayed_.showLive();
@@ -120,7 +120,7 @@ TEST_F(DisplayedSourceTest, BehindWhatIsLiveAFileThatIsReadAnewIsTheNewOne) {
   displayed_.show(first);
   connectEmulated();
   displayed_.replace(first, anew);
-  EXPECT_EQ(displayed_.behind(), anew);
+  EXPECT_EQ(displayed_.unfilteredRecording(), anew);
   disconnect();
   EXPECT_EQ(displayed_.recorded(), anew);
 }

@@ -105,7 +105,7 @@ void CalibrateFeature::connectNoise() {
 
 void CalibrateFeature::takeSource() {
   const DisplayedSource& displayed = state().displayed;
-  panel_->setSource(displayed.behind(), displayed.isLive());
+  panel_->setSource(displayed.unfilteredRecording(), displayed.isLive());
   panel_->setPosition(state().playback.positionS());
   takeKept();
   pressures_->renew();
@@ -122,7 +122,7 @@ void CalibrateFeature::takeKept() {
 
 // To the hand of what is looked at, else to the one that the calibration was made of.
 void CalibrateFeature::apply(const QString& path) {
-  const OpenedRecordingPtr& recording = state().displayed.behind();
+  const OpenedRecordingPtr& recording = state().displayed.unfilteredRecording();
   const auto& made = panel_->pressure().shownCalibration();
   applyCalibration(
       state().settings, recording ? recording->profile.hand().name : made->calibration.hand, path);

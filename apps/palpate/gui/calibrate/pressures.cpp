@@ -39,7 +39,7 @@ void Pressures::renew() {
   const std::string hand = displayed.hand() ? displayed.hand()->name : std::string();
   const QString path = hand.empty() ? QString() : appliedCalibration(windowState_.settings, hand);
   Of now{source ? static_cast<const void*>(source->history.get())
-                : static_cast<const void*>(displayed.behind().get()),
+                : static_cast<const void*>(displayed.unfilteredRecording().get()),
          path,
          source ? KeptWithRecording{} : kept_};
   if (of_ && *of_ == now) return;
@@ -70,7 +70,7 @@ void Pressures::renewLive(const QString& path) {
 
 void Pressures::renewRecording(const QString& path) {
   if (!kept_.problem.isEmpty()) throw Error(kept_.problem.toStdString());
-  reader_ = std::make_unique<PressureReader>(windowState_.displayed.behind()->profile,
+  reader_ = std::make_unique<PressureReader>(windowState_.displayed.unfilteredRecording()->profile,
                                              usableCalibration(path),
                                              pressureOptions(kept_, std::nullopt),
                                              kept_.tare);

@@ -42,8 +42,9 @@ void CompareFeature::connectPanel() {
           });
   connect(panel_, &ComparePanel::openRequested, this, [&windowState] {
     // A stays: what is opened here is to be B.
-    windowState.askAndOpen(windowState.displayed.behind() ? OpenRequest::Then::kList
-                                                          : OpenRequest::Then::kShowFirst);
+    windowState.askAndOpen(windowState.displayed.unfilteredRecording()
+                               ? OpenRequest::Then::kList
+                               : OpenRequest::Then::kShowFirst);
   });
   connect(panel_, &ComparePanel::signalChosen, this, [&windowState](PlottedSignal signal) {
     windowState.appearance.change([&](ViewSettings& view) { view.signal = signal; });
@@ -60,7 +61,8 @@ void CompareFeature::connectBench() {
   WindowState& windowState = state();
   on(action_, [this](bool on) { show(on); });
   const auto list = [this, &windowState] {
-    panel_->setRecordings(windowState.recordings.all(), windowState.displayed.behind());
+    panel_->setRecordings(windowState.recordings.all(),
+                          windowState.displayed.unfilteredRecording());
   };
   connect(&windowState.comparison,
           &ComparisonMode::bChosen,
@@ -89,7 +91,7 @@ void CompareFeature::connectBench() {
 }
 
 void CompareFeature::start() {
-  panel_->setRecordings(state().recordings.all(), state().displayed.behind());
+  panel_->setRecordings(state().recordings.all(), state().displayed.unfilteredRecording());
 }
 
 // Where A has no frame any more B may still have one: then the playback waits at A's end.

@@ -37,7 +37,7 @@ FilterFeature::FilterFeature(WindowState& windowState, QWidget* window)
   connect(&activeFilters, &ActiveFilters::progressed, panel_, &FilterPanel::showProgress);
   connect(&activeFilters, &ActiveFilters::measured, panel_, &FilterPanel::showFigures);
   connect(&activeFilters, &ActiveFilters::failed, panel_, &FilterPanel::showFailure);
-  connect(panel_, &FilterPanel::told, &windowState.messages, &Messages::flash);
+  connect(panel_, &FilterPanel::message, &windowState.messages, &Messages::flash);
   connect(panel_, &FilterPanel::keepRequested, &activeFilters, &ActiveFilters::keepWithRecording);
   connect(&windowState.live, &LiveController::refreshed, this, [this, &windowState] {
     if (windowState.live.source() && !dock_->isHidden())
@@ -50,8 +50,9 @@ void FilterFeature::takeSource() {
   if (displayed.isLive())
     panel_->setSource(matrixNamesOf(*displayed.hand()), state().live.health().frames.rateHz, true);
   else if (displayed.isRecording())
-    panel_->setSource(
-        matrixNamesOf(*displayed.hand()), displayed.behind()->timingNow().rateHz, false);
+    panel_->setSource(matrixNamesOf(*displayed.hand()),
+                      displayed.unfilteredRecording()->timingNow().rateHz,
+                      false);
   panel_->setKeepable(displayed.isRecording());
 }
 

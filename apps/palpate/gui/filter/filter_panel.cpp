@@ -213,7 +213,7 @@ void FilterPanel::addStep(const std::string& name) {
   try {
     editor_.insert(index, {.name = name});
   } catch (const std::invalid_argument& error) {
-    emit told(error.what());
+    emit message(error.what());
     return;
   }
   list_->choose(index);
@@ -228,7 +228,7 @@ void FilterPanel::openRecipe() {
     editor_.setRecipe(readRecipe(path));
     setOn(true);
   } catch (const Error& error) {
-    emit told(error.what());
+    emit message(error.what());
   }
 }
 
@@ -239,9 +239,9 @@ void FilterPanel::saveRecipe() {
     Recipe recipe = editor_.recipe();
     recipe.name = path.stem().string();
     writeRecipe(path, recipe, true);
-    emit told("saved " + QString::fromStdString(path.filename().string()));
+    emit message("saved " + QString::fromStdString(path.filename().string()));
   } catch (const Error& error) {
-    emit told(error.what());
+    emit message(error.what());
   }
 }
 

@@ -48,7 +48,7 @@ class FilterPanel : public QWidget {
  signals:
   void onChanged(bool on);
   void keepRequested();  // with the recording
-  void told(const QString& message);
+  void message(const QString& message);
 
  private:
   QWidget* makeTop();

@@ -168,7 +168,7 @@ void HandDock::setHand(CaptureSession* session, GraspControl* control) {
   judged_.reset();
   layout_.reset();
   goneUs_.reset();
-  feed_ = session ? session->subscribe("the dock Hand", smallFeed()) : nullptr;
+  queue_ = session ? session->subscribe("the dock Hand", smallFeed()) : nullptr;
   grasp_->setControl(control);
   sensitivity_->setHand(session, control);
   tactile_->setHand(session, control);
@@ -197,7 +197,7 @@ void HandDock::refresh() {
   grasp_->showStatus(status);
   sensitivity_->refresh();
   const DeviceInfo facts = session_ ? session_->device().facts() : DeviceInfo{};
-  showBlind(facts.matrices);
+  showUnmeasurable(facts.matrices);
   tactile_->refresh(status, facts);
   showSamples();
   const bool gone = control_ && !status.cannotMove.empty();
@@ -225,7 +225,7 @@ void HandDock::bind(const HandActions& actions) {
 
 // As the grasps would judge them that are offered now: the reactive one, and where that one feels
 // everything the slip-aware one.
-void HandDock::showBlind(const std::vector<MatrixSettings>& settings) {
+void HandDock::showUnmeasurable(const std::vector<MatrixSettings>& settings) {
   const GraspRequest reactive = grasp_->request(GraspMode::kReactive);
   Judged now{settings, layout_, reactive.preshape, reactive.limitCounts};
   if (judged_ == now) return;
@@ -244,10 +244,10 @@ void HandDock::showBlind(const std::vector<MatrixSettings>& settings) {
       why[each.matrix] = QString::fromStdString(each.why);
     }
   }
-  tactile_->showBlind(why, maxLimitOf(judged));
-  if (why == blind_) return;
-  blind_ = why;
-  emit blindChanged(blind_);
+  tactile_->showUnmeasurable(why, maxLimitOf(judged));
+  if (why == unmeasurable_) return;
+  unmeasurable_ = why;
+  emit unmeasurableChanged(unmeasurable_);
 }
 
 void HandDock::showBound() {
@@ -327,9 +327,9 @@ std::optional<QString> HandDock::lastGraspText(const GraspReport& report,
 }
 
 void HandDock::showSamples() {
-  if (!feed_) return;
+  if (!queue_) return;
   items_.clear();
-  feed_->take(items_);
+  queue_->take(items_);
   const JointAngles* angles = nullptr;
   const Temperatures* temperatures = nullptr;
   for (const CaptureItem& item : items_) {

@@ -44,7 +44,9 @@ class HandDock : public QWidget {
   void bind(const HandActions& actions);
   void setTheme(Theme theme);
   TactileSettingsPanel& tactileSettings() noexcept { return *tactile_; }
-  const std::vector<QString>& blind() const noexcept { return blind_; }  // as blindChanged()
+  const std::vector<QString>& unmeasurable() const noexcept {
+    return unmeasurable_;
+  }  // as unmeasurableChanged()
   SensitivityModes& sensitivity() noexcept { return *sensitivity_; }
   // What the timer does while a hand is connected.
   void refresh();
@@ -55,7 +57,7 @@ class HandDock : public QWidget {
   void asked();  // a motion was begun by it, or refused
   // Why matrices can't tell the limit that is chosen: one text per matrix, empty: it can; none: all
   // can.
-  void blindChanged(const std::vector<QString>& why);
+  void unmeasurableChanged(const std::vector<QString>& why);
 
  protected:
   void showEvent(QShowEvent* event) override;
@@ -66,7 +68,7 @@ class HandDock : public QWidget {
   void say(const QString& text, bool bad);
   void showState(const GraspStatus& status);
   void showBound();
-  void showBlind(const std::vector<MatrixSettings>& settings);
+  void showUnmeasurable(const std::vector<MatrixSettings>& settings);
   QString phaseText(const GraspStatus& status) const;
   QString motionBlockedReason(const GraspStatus& status) const;
   std::optional<QString> lastGraspText(const GraspReport& report, const GraspStatus& status) const;
@@ -76,7 +78,7 @@ class HandDock : public QWidget {
   QScrollArea* body_ = nullptr;
   CaptureSession* session_ = nullptr;
   GraspControl* control_ = nullptr;
-  std::shared_ptr<CaptureQueue> feed_;
+  std::shared_ptr<CaptureQueue> queue_;
   std::vector<CaptureItem> items_;
   QLabel* state_;
   QLabel* heat_;
@@ -91,8 +93,8 @@ class HandDock : public QWidget {
   std::optional<std::int64_t> goneUs_;  // when the hand could not be moved last [us since 1970]
   QString said_;                        // a refusal, until something else is asked for
   std::vector<std::pair<QAction*, QPushButton*>> bound_;
-  std::vector<QString> blind_;
-  // What blind_ was judged by.
+  std::vector<QString> unmeasurable_;
+  // What unmeasurable_ was judged by.
   struct Judged {
     std::vector<MatrixSettings> settings;
     std::shared_ptr<const SensorLayout> layout;

@@ -17,7 +17,10 @@ HandFeature::HandFeature(WindowState& windowState, QWidget* window)
     panel_->setHand(live.source()->session.get(), live.source()->control.get());
   });
   connect(&live, &LiveController::leaving, this, [this] { panel_->setHand(nullptr, nullptr); });
-  connect(panel_, &HandDock::blindChanged, &windowState.derivedResults, &DerivedResults::setBlind);
+  connect(panel_,
+          &HandDock::unmeasurableChanged,
+          &windowState.derivedResults,
+          &DerivedResults::setUnmeasurable);
   connect(panel_, &HandDock::stopPressed, &windowState.handCommands, &HandCommands::asked);
   connect(panel_, &HandDock::asked, &windowState.handCommands, &HandCommands::asked);
   followTheme(panel_);

@@ -209,7 +209,7 @@ void TactileSettingsPanel::refresh(const GraspStatus& status, const DeviceInfo& 
   else if (!pending_.empty())
     why = "Being changed: the stream pauses for half a second.";
   const bool may = why.isEmpty() || !pending_.empty();
-  if (why.isEmpty()) why = blindText_;
+  if (why.isEmpty()) why = unmeasurableText_;
   if (note_->text() != why) note_->setText(why);
   table_->setEnabled(may);
   reset_->setEnabled(may);
@@ -236,11 +236,11 @@ void TactileSettingsPanel::showValues(const TactileSettings& values) {
   rows_[0].threshold->showValue(values[0].thresholdCounts);
 }
 
-void TactileSettingsPanel::showBlind(const std::vector<QString>& why, int limitCounts) {
-  int blind = 0;
+void TactileSettingsPanel::showUnmeasurable(const std::vector<QString>& why, int limitCounts) {
+  int unmeasurable = 0;
   for (std::size_t m = 0; m + 1 < rows_.size(); ++m) {
     const QString reason = m < why.size() ? why[m] : QString();
-    blind += reason.isEmpty() ? 0 : 1;
+    unmeasurable += reason.isEmpty() ? 0 : 1;
     QLabel* name = rows_[m + 1].name;
     if (name->toolTip() != reason) name->setToolTip(reason);
     const QString style = reason.isEmpty()
@@ -248,10 +248,11 @@ void TactileSettingsPanel::showBlind(const std::vector<QString>& why, int limitC
                               : "color: " + colorsOf(theme_).danger.name() + "; font-weight: bold;";
     if (name->styleSheet() != style) name->setStyleSheet(style);
   }
-  blindText_ = blind == 0 ? QString()
+  unmeasurableText_ = unmeasurable == 0
+                          ? QString()
                           : "Blind to a limit of " + QString::number(limitCounts) +
-                                " counts: " + QString::number(blind) +
-                                (blind == 1 ? " matrix (red)." : " matrices (red).");
+                                " counts: " + QString::number(unmeasurable) +
+                                (unmeasurable == 1 ? " matrix (red)." : " matrices (red).");
 }
 
 void TactileSettingsPanel::setTheme(Theme theme) {

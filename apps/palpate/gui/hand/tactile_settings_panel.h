@@ -33,7 +33,7 @@ class TactileSettingsPanel : public QWidget {
   void setTheme(Theme theme);
   // Marks the matrices that can't tell a limit [counts], as they are set: why, one text per matrix;
   // empty: it can.
-  void showBlind(const std::vector<QString>& why, int limitCounts);
+  void showUnmeasurable(const std::vector<QString>& why, int limitCounts);
   // How a name is asked for; an empty answer means cancelled. Tests answer themselves.
   std::function<QString(const QString& suggestion)> askForName;
 
@@ -67,8 +67,8 @@ class TactileSettingsPanel : public QWidget {
   QComboBox* names_;
   QPushButton* save_;
   QPushButton* remove_;
-  QString listedFor_;  // serial number
-  QString blindText_;  // which can't tell the limit; empty: all can
+  QString listedFor_;         // serial number
+  QString unmeasurableText_;  // which can't tell the limit; empty: all can
   Theme theme_ = Theme::kDark;
   std::vector<std::shared_future<CommandAnswer>> pending_;
 };

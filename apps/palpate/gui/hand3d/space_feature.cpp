@@ -43,7 +43,10 @@ SpaceFeature::SpaceFeature(WindowState& windowState, QWidget* window, MatricesPa
 void SpaceFeature::connectMoment() {
   WindowState& windowState = state();
   HandView& view = panel_->view();
-  connect(&windowState.displayed, &DisplayedSource::seenChanged, this, &SpaceFeature::takeSource);
+  connect(&windowState.displayed,
+          &DisplayedSource::filteredRecordingChanged,
+          this,
+          &SpaceFeature::takeSource);
   connect(&windowState.displayed, &DisplayedSource::handChanged, this, [this] {
     panel_->setHand(*this->state().displayed.hand());
   });
@@ -89,7 +92,7 @@ void SpaceFeature::takeSource() {
   if (displayed.isLive())
     panel_->setHand(*displayed.hand());
   else
-    panel_->setRecording(displayed.seen());
+    panel_->setRecording(displayed.filteredRecording());
 }
 
 void SpaceFeature::showMoment() {
@@ -232,7 +235,7 @@ std::vector<ExportedView> SpaceFeature::views() {
   view.framePictures = [this, &windowState]() -> std::optional<FramePictures> {
     std::optional<FramePictures> pictures = windowState.framePictures("_hand");
     if (!pictures) return pictures;
-    const OpenedRecordingPtr recording = windowState.displayed.seen();
+    const OpenedRecordingPtr recording = windowState.displayed.filteredRecording();
     pictures->painter = [recording,
                          options = pictureOptions(windowState, matrices_),
                          shown = &panel_->view()](const PictureLook& look) {

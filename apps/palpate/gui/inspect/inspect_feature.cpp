@@ -50,7 +50,8 @@ InspectFeature::InspectFeature(WindowState& windowState, QWidget* window)
   panel_->setCalibration(windowState.derivedResults.calibration());
   MatrixTableModel& table = panel_->table();
   DisplayedSource& displayed = windowState.displayed;
-  connect(&displayed, &DisplayedSource::seenChanged, this, &InspectFeature::takeSource);
+  connect(
+      &displayed, &DisplayedSource::filteredRecordingChanged, this, &InspectFeature::takeSource);
   connect(&displayed, &DisplayedSource::handChanged, this, [this, &displayed] {
     panel_->renewHand(*displayed.hand());
   });
@@ -113,7 +114,7 @@ void InspectFeature::takeSource() {
     for (std::size_t row = 0; row < ticks.size(); ++row)
       panel_->table().setPlotted(row, ticks[row]);
   } else {
-    panel_->setRecording(displayed.seen());
+    panel_->setRecording(displayed.filteredRecording());
   }
   panel_->table().setStale(displayed.isLive() && !state().currentFrame.old().notice.isEmpty());
   showPlotted();

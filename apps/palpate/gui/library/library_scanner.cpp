@@ -45,7 +45,7 @@ struct LibraryScanner::Run {
 
   // Changes something, and calls the owner once.
   template <typename Change>
-  void tell(Change change) {
+  void post(Change change) {
     const std::lock_guard lock(mutex);
     change();
     if (owner == nullptr || called) return;
@@ -97,17 +97,17 @@ void LibraryScanner::work(const std::shared_ptr<Run>& run,
                           const std::filesystem::path& folder,
                           const std::filesystem::path& cacheFolder) {
   CatalogSink sink;
-  sink.listed = [&](std::size_t numFiles) { run->tell([&] { run->listed = numFiles; }); };
+  sink.listed = [&](std::size_t numFiles) { run->post([&] { run->listed = numFiles; }); };
   sink.take = [&](RecordingDetails&& details) {
     LibraryEntry entry{std::move(details), {}};
     entry.text = searchableText(entry.details, folder, caseFolded);
-    run->tell([&] { run->entries.push_back(std::move(entry)); });
+    run->post([&] { run->entries.push_back(std::move(entry)); });
   };
   double told = -1.0;
   const Progress progress = [&](double fraction) {
     if (fraction - told >= kLibraryScannerSmallestNews) {
       told = fraction;
-      run->tell([&] { run->fraction = fraction; });
+      run->post([&] { run->fraction = fraction; });
     }
     return !run->cancelled;
   };
@@ -119,7 +119,7 @@ void LibraryScanner::work(const std::shared_ptr<Run>& run,
   } catch (const std::exception& error) {
     failure = QString::fromUtf8(error.what());
   }
-  run->tell([&] {
+  run->post([&] {
     run->report = std::move(report);
     run->failure = failure;
     run->done = true;

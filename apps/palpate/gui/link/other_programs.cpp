@@ -20,7 +20,7 @@ OtherPrograms::OtherPrograms(const OtherProgramsOptions& options, QObject* paren
       actions_(options.actions),
       live_(options.live),
       settings_(options.settings),
-      desk_(options.live, options.recordingSettings) {
+      controller_(options.live, options.recordingSettings) {
   for (const StreamKind kind : kAllStreamKinds) {
     actionOf(kind)->setChecked(settings_.value(otherProgramsKeyOf(kind), false).toBool());
     connect(actionOf(kind), &QAction::toggled, this, [this, kind](bool on) {
@@ -84,7 +84,7 @@ void OtherPrograms::switchRemote(bool on) {
     };
     server_ = std::make_unique<RemoteServer>(
         named.isEmpty() ? usualRemoteSocket() : std::filesystem::path(named.toStdString()),
-        desk_,
+        controller_,
         std::move(options));
   } catch (const Error& error) {
     actions_.remoteControl->setChecked(false);

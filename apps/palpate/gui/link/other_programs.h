@@ -38,7 +38,7 @@ class OtherPrograms : public QObject {
   std::vector<Fact> facts() const;
   // "streaming, remote control"; empty: nothing is open.
   static QString shortText(const ActionRegistry& actions);
-  RemoteController& desk() noexcept { return desk_; }
+  RemoteController& controller() noexcept { return controller_; }
 
  signals:
   void changed();                       // facts() did
@@ -56,7 +56,7 @@ class OtherPrograms : public QObject {
   const LinkActions& actions_;
   LiveController& live_;
   QSettings& settings_;
-  RemoteController desk_;
+  RemoteController controller_;
   std::unique_ptr<RemoteServer> server_;  // null: off
 };
 

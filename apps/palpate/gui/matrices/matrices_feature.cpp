@@ -18,10 +18,11 @@ MatricesFeature::MatricesFeature(WindowState& windowState, QWidget* window)
       panel_(new MatricesPanel(actions_.interpolated, actions_.values, window)),
       scan_(windowState, actions_) {
   DisplayedSource& displayed = windowState.displayed;
-  connect(&displayed, &DisplayedSource::seenChanged, this, &MatricesFeature::takeSource);
+  connect(
+      &displayed, &DisplayedSource::filteredRecordingChanged, this, &MatricesFeature::takeSource);
   connect(&displayed, &DisplayedSource::handChanged, this, [this] {
     panel_->setHand(*this->state().displayed.hand());
-    panel_->view().setBlind(this->state().derivedResults.blind());
+    panel_->view().setUnmeasurable(this->state().derivedResults.unmeasurable());
     this->state().selection.setTaxels(panel_->view().selection());
   });
   connect(&displayed, &DisplayedSource::moreKnown, panel_, &MatricesPanel::renewRange);
@@ -35,9 +36,9 @@ MatricesFeature::MatricesFeature(WindowState& windowState, QWidget* window)
   connect(&derivedResults, &DerivedResults::pressureChanged, this, [this, &derivedResults] {
     panel_->view().setPressure(derivedResults.pressure());
   });
-  connect(&derivedResults, &DerivedResults::blindChanged, this, [this, &derivedResults] {
-    const std::vector<QString>& why = derivedResults.blind();
-    if (this->state().displayed.isLive() || why.empty()) panel_->view().setBlind(why);
+  connect(&derivedResults, &DerivedResults::unmeasurableChanged, this, [this, &derivedResults] {
+    const std::vector<QString>& why = derivedResults.unmeasurable();
+    if (this->state().displayed.isLive() || why.empty()) panel_->view().setUnmeasurable(why);
   });
   connect(&windowState.live, &LiveController::leaving, panel_, &MatricesPanel::forgetLargest);
   connectLook();
@@ -46,10 +47,10 @@ MatricesFeature::MatricesFeature(WindowState& windowState, QWidget* window)
 
 void MatricesFeature::takeSource() {
   const DisplayedSource& displayed = state().displayed;
-  panel_->setRecording(displayed.isRecording() ? displayed.seen() : nullptr);
+  panel_->setRecording(displayed.isRecording() ? displayed.filteredRecording() : nullptr);
   if (displayed.isLive()) panel_->setHand(*displayed.hand());
-  panel_->view().setBlind(displayed.isLive() ? state().derivedResults.blind()
-                                             : std::vector<QString>());
+  panel_->view().setUnmeasurable(displayed.isLive() ? state().derivedResults.unmeasurable()
+                                                    : std::vector<QString>());
   panel_->view().setStale(state().currentFrame.old());
   state().selection.setTaxels(panel_->view().selection());  // of these matrices
 }
@@ -156,7 +157,7 @@ std::vector<ExportedView> MatricesFeature::views() {
   view.framePictures = [this, &windowState]() -> std::optional<FramePictures> {
     std::optional<FramePictures> pictures = windowState.framePictures({});
     if (!pictures) return pictures;
-    const OpenedRecordingPtr recording = windowState.displayed.seen();
+    const OpenedRecordingPtr recording = windowState.displayed.filteredRecording();
     MatricesPictureOptions options = pictureOptions(windowState, *panel_);
     if (windowState.appearance.view().range == RangeMode::kFrame)
       options.rangeMax = options.rangeMin = 0.0;  // of each

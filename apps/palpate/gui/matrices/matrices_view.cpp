@@ -29,7 +29,7 @@ void MatricesView::setHand(const HandDescription& hand) {
   if (selection_.numMatrices() != fresh.numMatrices()) selection_ = fresh;
   hand_ = hand;
   frame_.reset();
-  blind_.clear();
+  unmeasurable_.clear();
   paintedUs_ = 0;
   setHover(std::nullopt);
   renew();
@@ -39,7 +39,7 @@ void MatricesView::clear() {
   hand_.reset();
   selection_ = {};
   stale_ = {};
-  blind_.clear();
+  unmeasurable_.clear();
   paintedUs_ = 0;
   frame_.reset();
   setHover(std::nullopt);
@@ -117,7 +117,7 @@ void MatricesView::paintEvent(QPaintEvent* event) {
     painter.setBrush(Qt::NoBrush);
     painter.drawRect(geometry_.taxelRect(hover_->matrix, hover_->y, hover_->x));
   }
-  paintBlind(painter);
+  paintUnmeasurable(painter);
   paintSelection(painter);
   paintStaleNotice(painter, rect(), stale_, look_.theme);
   if (!frame_ || frame_->hostUs == paintedUs_) return;
@@ -147,17 +147,17 @@ void MatricesView::paintSelection(QPainter& painter) const {
   }
 }
 
-void MatricesView::setBlind(const std::vector<QString>& why) {
-  if (why == blind_) return;
-  blind_ = why;
+void MatricesView::setUnmeasurable(const std::vector<QString>& why) {
+  if (why == unmeasurable_) return;
+  unmeasurable_ = why;
   update();
 }
 
 // A frame around it, and a word in its middle: what is dark there says nothing.
-void MatricesView::paintBlind(QPainter& painter) const {
+void MatricesView::paintUnmeasurable(QPainter& painter) const {
   const QColor& color = colorsOf(look_.theme).danger;
-  for (std::size_t m = 0; m < std::min(blind_.size(), geometry_.numMatrices()); ++m) {
-    if (blind_[m].isEmpty()) continue;
+  for (std::size_t m = 0; m < std::min(unmeasurable_.size(), geometry_.numMatrices()); ++m) {
+    if (unmeasurable_[m].isEmpty()) continue;
     const QRectF rect = geometry_.matrixRect(m);
     painter.setPen(QPen(color, 3.0));
     painter.setBrush(Qt::NoBrush);
@@ -258,7 +258,8 @@ QString MatricesView::hoverText() const {
   if (!hover_ || !hand_) return {};
   const QString text = taxelText(*hand_, *hover_, frame_, pressure_.get());
   const std::size_t m = hover_->matrix;
-  return m < blind_.size() && !blind_[m].isEmpty() ? text + " · " + blind_[m] : text;
+  return m < unmeasurable_.size() && !unmeasurable_[m].isEmpty() ? text + " · " + unmeasurable_[m]
+                                                                 : text;
 }
 
 }  // namespace palpate::gui

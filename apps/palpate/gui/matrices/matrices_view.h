@@ -54,8 +54,8 @@ class MatricesView : public QWidget {
   void clearSelection();
   // Why a matrix can't tell the limit of a grasp, as it is set: marked, and told beside its counts.
   // One text per matrix, empty: it can; none at all: all can, or nothing is connected.
-  void setBlind(const std::vector<QString>& why);
-  const std::vector<QString>& blind() const noexcept { return blind_; }
+  void setUnmeasurable(const std::vector<QString>& why);
+  const std::vector<QString>& unmeasurable() const noexcept { return unmeasurable_; }
   // Over an old picture, one that is held, too.
   void setStale(const StaleNotice& old);
   const QString& notice() const noexcept { return stale_.notice; }
@@ -87,7 +87,7 @@ class MatricesView : public QWidget {
   void setHover(std::optional<TaxelPlace> place);
   void choose(const TaxelPlace& from, const TaxelPlace& to);
   void paintSelection(QPainter& painter) const;
-  void paintBlind(QPainter& painter) const;
+  void paintUnmeasurable(QPainter& painter) const;
 
   std::optional<HandDescription> hand_;
   std::optional<TactileFrame> frame_;
@@ -100,7 +100,7 @@ class MatricesView : public QWidget {
   TaxelSelection selectedBefore_;      // what a drag adds to
   std::optional<TaxelPlace> pressed_;  // where the drag began
   StaleNotice stale_;
-  std::vector<QString> blind_;
+  std::vector<QString> unmeasurable_;
   std::int64_t paintedUs_ = 0;
 };
 

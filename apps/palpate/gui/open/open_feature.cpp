@@ -146,7 +146,7 @@ void OpenFeature::take(const OpenedRecordingPtr& recording, const OpenArrival& a
   const bool first = arrival.place == 0 && arrival.then != Then::kList;
   // A file that was open and looked at, and was read anew, is looked at again; not behind what is
   // live.
-  const bool again = arrival.replaced && !displayed.isLive() && !displayed.behind();
+  const bool again = arrival.replaced && !displayed.isLive() && !displayed.unfilteredRecording();
   const bool shown = again || (first && (!compared || !displayed.isRecording()));
   if (shown)
     displayed.show(recording);
@@ -168,7 +168,7 @@ void OpenFeature::listRecordings() {
   box->clear();
   const auto& all = state().recordings.all();
   for (const auto& each : all) box->addItem(nameAndDate(*each));
-  const auto at = std::find(all.begin(), all.end(), state().displayed.behind());
+  const auto at = std::find(all.begin(), all.end(), state().displayed.unfilteredRecording());
   if (at != all.end()) box->setCurrentIndex(static_cast<int>(at - all.begin()));
   state().menus.recordingsShown->setVisible(!all.empty());
 }
@@ -201,7 +201,7 @@ void OpenFeature::fillRecentMenu() {
 }
 
 void OpenFeature::showNeighbour(int step) {
-  if (const auto next = state().recordings.neighbour(state().displayed.behind(), step))
+  if (const auto next = state().recordings.neighbour(state().displayed.unfilteredRecording(), step))
     state().displayed.show(next);
 }
 

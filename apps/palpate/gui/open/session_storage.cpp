@@ -14,7 +14,8 @@ void rememberSession(WindowState& windowState) {
   Session session;
   for (const OpenedRecordingPtr& recording : windowState.recordings.all()) {
     if (recording->path == windowState.demoRecording()) continue;
-    if (recording == displayed.behind()) session.current = static_cast<int>(session.files.size());
+    if (recording == displayed.unfilteredRecording())
+      session.current = static_cast<int>(session.files.size());
     const ViewPosition* left = displayed.viewPosition(recording->path);
     session.files.push_back(
         {QFileInfo(pathText(recording->path)).absoluteFilePath(), left ? *left : ViewPosition()});

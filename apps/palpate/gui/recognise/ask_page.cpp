@@ -18,7 +18,8 @@ constexpr double kButtonScale = 1.25;
 
 }  // namespace
 
-AskPage::AskPage(RecognitionController& desk, QWidget* parent) : QWidget(parent), desk_(desk) {
+AskPage::AskPage(RecognitionController& controller, QWidget* parent)
+    : QWidget(parent), controller_(controller) {
   setObjectName("askPage");
   model_ = new QLabel(this);
   model_->setObjectName("recogniseModel");
@@ -29,11 +30,11 @@ AskPage::AskPage(RecognitionController& desk, QWidget* parent) : QWidget(parent)
   choose->setObjectName("recogniseModelButton");
   choose->setMenu(models_);
   connect(models_->addAction("&Open a model…"), &QAction::triggered, this, [this] {
-    if (const auto path = askForModel(); !path.empty()) desk_.openModel(path);
+    if (const auto path = askForModel(); !path.empty()) controller_.openModel(path);
   });
   connect(models_->addAction("The &emulated objects"),
           &QAction::triggered,
-          &desk_,
+          &controller_,
           &RecognitionController::useEmulatedModel);
   ask_ = new QPushButton(this);
   ask_->setObjectName("whatIsIt");
@@ -48,7 +49,7 @@ AskPage::AskPage(RecognitionController& desk, QWidget* parent) : QWidget(parent)
   auto* show = new QPushButton("Show", this);
   show->setObjectName("showMode");
   show->setToolTip("Full screen, for an audience (Shift+Q)");
-  view_ = new AnswerView(desk.photos(), 1.0, this);
+  view_ = new AnswerView(controller.photos(), 1.0, this);
   view_->setObjectName("answerView");
   classes_ = new QComboBox(this);
   classes_->setObjectName("tellClass");
@@ -86,27 +87,31 @@ AskPage::AskPage(RecognitionController& desk, QWidget* parent) : QWidget(parent)
 
   connect(ask_, &QPushButton::clicked, this, &AskPage::asked);
   connect(show, &QPushButton::clicked, this, &AskPage::showAsked);
-  connect(&desk_, &RecognitionController::modelChanged, this, &AskPage::showModel);
-  connect(&desk_, &RecognitionController::answered, this, [this](const RecognitionAnswer& answer) {
-    view_->setAnswer(answer);
-    showTelling();
-  });
+  connect(&controller_, &RecognitionController::modelChanged, this, &AskPage::showModel);
+  connect(&controller_,
+          &RecognitionController::answered,
+          this,
+          [this](const RecognitionAnswer& answer) {
+            view_->setAnswer(answer);
+            showTelling();
+          });
   connect(tell_, &QPushButton::clicked, this, [this] {
-    const auto grasp = desk_.answer().grasp;
+    const auto grasp = controller_.answer().grasp;
     if (!grasp) return;
     const int chosen = classes_->currentIndex();
-    desk_.changeDay([&](RecognitionSession& day) { day.setLabel(*grasp, chosen); });
-    emit desk_.said("told: " + classes_->currentText());
+    controller_.changeSession(
+        [&](RecognitionSession& session) { session.setLabel(*grasp, chosen); });
+    emit controller_.said("told: " + classes_->currentText());
   });
   askForModel = [this] {
     return std::filesystem::path(
         QFileDialog::getOpenFileName(this,
                                      "Open a model",
-                                     QString::fromStdString(desk_.modelPath().string()),
+                                     QString::fromStdString(controller_.modelPath().string()),
                                      "Models (*.json);;All files (*)")
             .toStdString());
   };
-  view_->setAnswer(desk_.answer());
+  view_->setAnswer(controller_.answer());
   setLive(false, false);
   showModel();
 }
@@ -122,14 +127,14 @@ void AskPage::setLive(bool live, bool held) {
 bool AskPage::byItself() const { return byItself_->isChecked(); }
 
 void AskPage::showModel() {
-  const TrainedModel* model = desk_.model();
+  const TrainedModel* model = controller_.model();
   const auto count = model ? static_cast<int>(model->classes.size()) : 0;
-  const QString file = QString::fromStdString(desk_.modelPath().filename().string());
+  const QString file = QString::fromStdString(controller_.modelPath().filename().string());
   model_->setText(model ? file + " · " + QString::number(count) + " objects"
-                  : desk_.modelProblem().isEmpty() ? QString("no model")
-                                                   : file + " can't be used");
-  model_->setToolTip(model ? QString::fromStdString(desk_.modelPath().string())
-                           : desk_.modelProblem());
+                  : controller_.modelProblem().isEmpty() ? QString("no model")
+                                                         : file + " can't be used");
+  model_->setToolTip(model ? QString::fromStdString(controller_.modelPath().string())
+                           : controller_.modelProblem());
   classes_->clear();
   if (model)
     for (const std::string& name : model->classes) classes_->addItem(QString::fromStdString(name));
@@ -137,13 +142,13 @@ void AskPage::showModel() {
 }
 
 void AskPage::showTelling() {
-  const RecognitionAnswer& answer = desk_.answer();
-  const bool can = desk_.model() && desk_.model()->adaptsToSession() && answer.grasp &&
-                   *answer.grasp < desk_.day()->grasps().size();
+  const RecognitionAnswer& answer = controller_.answer();
+  const bool can = controller_.model() && controller_.model()->adaptsToSession() && answer.grasp &&
+                   *answer.grasp < controller_.session()->grasps().size();
   classes_->setEnabled(can);
   tell_->setEnabled(can);
   if (!can || answer.best.empty()) return;
-  const auto& labelledClass = desk_.day()->grasps()[*answer.grasp].labelledClass;
+  const auto& labelledClass = controller_.session()->grasps()[*answer.grasp].labelledClass;
   classes_->setCurrentIndex(labelledClass ? *labelledClass
                                           : classes_->findText(answer.best.front().name));
 }

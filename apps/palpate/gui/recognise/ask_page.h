@@ -22,7 +22,7 @@ class AnswerView;
 class AskPage : public QWidget {
   Q_OBJECT
  public:
-  explicit AskPage(RecognitionController& desk, QWidget* parent = nullptr);
+  explicit AskPage(RecognitionController& controller, QWidget* parent = nullptr);
   void setTheme(Theme theme);
   // What a hand is connected to that is shown; the button says what is asked about.
   void setLive(bool live, bool held);
@@ -40,7 +40,7 @@ class AskPage : public QWidget {
   void showModel();
   void showTelling();
 
-  RecognitionController& desk_;
+  RecognitionController& controller_;
   QLabel* model_;
   QMenu* models_;
   QPushButton* ask_;

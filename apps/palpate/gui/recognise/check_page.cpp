@@ -69,7 +69,8 @@ TextTable figureTable(const std::shared_ptr<const TrainingValidation>& check) {
 
 }  // namespace
 
-CheckPage::CheckPage(TrainingController& desk, QWidget* parent) : QWidget(parent), desk_(desk) {
+CheckPage::CheckPage(TrainingController& controller, QWidget* parent)
+    : QWidget(parent), controller_(controller) {
   setObjectName("checkPage");
   protocol_ = new QComboBox(this);
   protocol_->setObjectName("checkProtocol");
@@ -124,13 +125,14 @@ CheckPage::CheckPage(TrainingController& desk, QWidget* parent) : QWidget(parent
   column->addWidget(result_);
   column->addWidget(pages_, 1);
 
-  connect(
-      check_, &QPushButton::clicked, this, [this] { desk_.check(protocol_->currentIndex() == 0); });
-  connect(&desk_, &TrainingController::checkedChanged, this, &CheckPage::showCheck);
-  connect(&desk_, &TrainingController::folderChanged, this, &CheckPage::showCheck);
-  connect(&desk_.job(), &BackgroundJob::started, this, [this] { check_->setEnabled(false); });
-  connect(&desk_.job(), &BackgroundJob::finished, this, [this] {
-    check_->setEnabled(!desk_.folder().empty());
+  connect(check_, &QPushButton::clicked, this, [this] {
+    controller_.check(protocol_->currentIndex() == 0);
+  });
+  connect(&controller_, &TrainingController::checkedChanged, this, &CheckPage::showCheck);
+  connect(&controller_, &TrainingController::folderChanged, this, &CheckPage::showCheck);
+  connect(&controller_.job(), &BackgroundJob::started, this, [this] { check_->setEnabled(false); });
+  connect(&controller_.job(), &BackgroundJob::finished, this, [this] {
+    check_->setEnabled(!controller_.folder().empty());
   });
   connect(confusion_, &ConfusionView::cellChosen, this, &CheckPage::listCell);
   // The only one is what was meant.
@@ -153,26 +155,26 @@ CheckPage::CheckPage(TrainingController& desk, QWidget* parent) : QWidget(parent
 
 void CheckPage::openGrasp(std::size_t row) {
   if (row >= listed_.size()) return;
-  const FeatureRow& grasp = desk_.checked()->table->rows.at(listed_[row]);
+  const FeatureRow& grasp = controller_.checked()->table->rows.at(listed_[row]);
   emit graspAsked(grasp.file, grasp.begin, grasp.end);
 }
 
 bool CheckPage::shown() const { return isVisible() && pages_->currentWidget() != empty_; }
 
 void CheckPage::showCheck() {
-  const auto& checked = desk_.checked();
-  check_->setEnabled(!desk_.folder().empty() && !desk_.busy());
+  const auto& checked = controller_.checked();
+  check_->setEnabled(!controller_.folder().empty() && !controller_.busy());
   if (!checked) {
     result_->clear();
     result_->hide();
-    empty_->say(desk_.folder().empty()
+    empty_->say(controller_.folder().empty()
                     ? "Choose a folder of grasps on the page Teach: they examine one another here."
                     : "Check tells how well the objects of the folder are told apart, each grasp "
                       "judged by a model that never saw it.");
     pages_->setCurrentWidget(empty_);
     return;
   }
-  if (confusion_->matrix() && pages_->currentWidget() != empty_ && sender() == &desk_ &&
+  if (confusion_->matrix() && pages_->currentWidget() != empty_ && sender() == &controller_ &&
       confusion_->matrix()->total() == checked->report->confusion.total() && confusion_->chosen())
     return;
   const ValidationReport& report = *checked->report;
@@ -189,7 +191,7 @@ void CheckPage::showCheck() {
 
 void CheckPage::listObjects() {
   std::vector<std::vector<FigureCell>> rows;
-  for (const ClassMetrics& one : desk_.checked()->report->confusion.classMetrics())
+  for (const ClassMetrics& one : controller_.checked()->report->confusion.classMetrics())
     rows.push_back({{.text = QString::fromStdString(one.name)},
                     {.text = figure(one.precision, 2)},
                     {.text = figure(one.recall, 2), .warning = one.recall < 0.9},
@@ -205,7 +207,7 @@ void CheckPage::listObjects() {
 }
 
 void CheckPage::listCell(int truth, int called) {
-  const TrainingValidation& check = *desk_.checked();
+  const TrainingValidation& check = *controller_.checked();
   listed_.clear();
   std::vector<std::vector<FigureCell>> rows;
   for (const TestPrediction& one : check.report->testPredictions) {
@@ -241,7 +243,7 @@ void CheckPage::setTheme(Theme theme) {
 
 std::vector<ExportedTable> CheckPage::tables() const {
   if (!shown()) return {};
-  const auto check = desk_.checked();
+  const auto check = controller_.checked();
   return {{"confusion", [check] { return confusionTable(check); }},
           {"objects", [check] { return figureTable(check); }}};
 }
@@ -258,7 +260,7 @@ void CheckPage::paint(QPainter& painter, const PictureLook& look) {
   painter.drawText(QRectF(16, 8, area.width() - 32, line), Qt::AlignVCenter, result_->text());
   paintConfusion(painter,
                  QRectF(16, 12 + line, area.width() - 32, area.height() - line - 28),
-                 desk_.checked()->report->confusion,
+                 controller_.checked()->report->confusion,
                  theme);
 }
 

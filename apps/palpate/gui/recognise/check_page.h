@@ -24,7 +24,7 @@ class FiguresTable;
 class CheckPage : public QWidget {
   Q_OBJECT
  public:
-  explicit CheckPage(TrainingController& desk, QWidget* parent = nullptr);
+  explicit CheckPage(TrainingController& controller, QWidget* parent = nullptr);
   void setTheme(Theme theme);
   // The grasps that are listed now, rows of the table of features.
   const std::vector<std::size_t>& listed() const noexcept { return listed_; }
@@ -43,7 +43,7 @@ class CheckPage : public QWidget {
   void listCell(int truth, int called);
   void openGrasp(std::size_t row);  // of those that are listed
 
-  TrainingController& desk_;
+  TrainingController& controller_;
   QComboBox* protocol_;
   QPushButton* check_;
   QLabel* result_;

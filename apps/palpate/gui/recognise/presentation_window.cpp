@@ -8,11 +8,11 @@
 
 namespace palpate::gui {
 
-PresentationWindow::PresentationWindow(RecognitionController& desk,
+PresentationWindow::PresentationWindow(RecognitionController& controller,
                                        bool live,
                                        Theme theme,
                                        QWidget* parent)
-    : QWidget(parent, Qt::Window), desk_(desk), live_(live) {
+    : QWidget(parent, Qt::Window), controller_(controller), live_(live) {
   setObjectName("showWindow");
   setWindowTitle("What is it? – Palpate");
   setAttribute(Qt::WA_DeleteOnClose);
@@ -20,11 +20,11 @@ PresentationWindow::PresentationWindow(RecognitionController& desk,
   plain.setColor(QPalette::Window, colorsOf(theme).window);
   setPalette(plain);
   setAutoFillBackground(true);
-  view_ = new AnswerView(desk.photos(), 0.0, this);
+  view_ = new AnswerView(controller.photos(), 0.0, this);
   view_->setObjectName("showAnswer");
   view_->setTheme(theme);
   showAnswer();
-  connect(&desk, &RecognitionController::answered, this, &PresentationWindow::showAnswer);
+  connect(&controller, &RecognitionController::answered, this, &PresentationWindow::showAnswer);
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(0, 0, 0, 0);
   column->addWidget(view_);
@@ -37,7 +37,7 @@ void PresentationWindow::setLive(bool live) {
 }
 
 void PresentationWindow::showAnswer() {
-  RecognitionAnswer answer = desk_.answer();
+  RecognitionAnswer answer = controller_.answer();
   const bool ofNow = answer.of.isEmpty() || answer.of == kHeldNow;
   if (answer.of == kLastGrasp || (live_ && !ofNow)) answer = {};
   answer.of.clear();

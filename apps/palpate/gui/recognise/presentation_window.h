@@ -13,7 +13,7 @@ class AnswerView;
 class PresentationWindow : public QWidget {
   Q_OBJECT
  public:
-  PresentationWindow(RecognitionController& desk,
+  PresentationWindow(RecognitionController& controller,
                      bool live,
                      Theme theme,
                      QWidget* parent = nullptr);
@@ -32,7 +32,7 @@ class PresentationWindow : public QWidget {
  private:
   void showAnswer();
 
-  RecognitionController& desk_;
+  RecognitionController& controller_;
   bool live_;
   AnswerView* view_;
 };

@@ -36,7 +36,7 @@ RecogniseFeature::RecogniseFeature(WindowState& windowState, QWidget* window)
 
 RecogniseFeature::~RecogniseFeature() {
   liveTimer_.stop();
-  feed_.reset();
+  queue_.reset();
   zeroRun_.reset();
   delete full_;
 }
@@ -80,7 +80,7 @@ void RecogniseFeature::renew() {
   const LiveSource* source = state().live.source();
   const LiveSource* shown = state().displayed.source();
   if (full_) full_->setLive(shown != nullptr);
-  panel_->desk().setEmulated(shown && shown->emulated);
+  panel_->controller().setEmulated(shown && shown->emulated);
   panel_->ask().setLive(shown != nullptr, collector_ && collector_->touched());
   panel_->teach().setLive(source != nullptr);
   if (!source || !source->control)
@@ -98,17 +98,18 @@ void RecogniseFeature::ask() {
 
 // The selection; else the grasp under the cursor; else the only one.
 void RecogniseFeature::askOfRecording() {
-  RecognitionController& desk = panel_->desk();
+  RecognitionController& controller = panel_->controller();
   const OpenedRecordingPtr recording = state().displayed.recorded();
-  if (!recording) return desk.sayTrouble("Open a recording, or connect a hand.");
-  if (recording->profile.numFrames() == 0) return desk.sayTrouble("This recording holds no frame.");
+  if (!recording) return controller.sayTrouble("Open a recording, or connect a hand.");
+  if (recording->profile.numFrames() == 0)
+    return controller.sayTrouble("This recording holds no frame.");
   const QString name = QString::fromStdString(recording->path.filename().string());
   const auto question = [&](double fromS, double toS) {
     const auto frames = recording->framesWithin(fromS, toS);
-    if (!frames) return desk.sayTrouble("No frame is selected.");
-    desk.ask({recording->profile,
-              frames,
-              name + ", " + figure(fromS, 2) + " – " + figure(toS, 2) + " s"});
+    if (!frames) return controller.sayTrouble("No frame is selected.");
+    controller.ask({recording->profile,
+                    frames,
+                    name + ", " + figure(fromS, 2) + " – " + figure(toS, 2) + " s"});
   };
   if (const auto& span = state().selection.span()) return question(span->fromS, span->toS);
   const auto frame = static_cast<std::size_t>(state().playback.frame());
@@ -118,50 +119,51 @@ void RecogniseFeature::askOfRecording() {
   });
   const auto* chosen = at != grasps.end() ? &*at : grasps.size() == 1 ? &grasps.front() : nullptr;
   if (!chosen)
-    return desk.sayTrouble(grasps.empty()
-                               ? "There is no grasp in this recording."
-                               : "No grasp is chosen: select one in the timeline (N), or put the "
-                                 "cursor into one.");
+    return controller.sayTrouble(
+        grasps.empty() ? "There is no grasp in this recording."
+                       : "No grasp is chosen: select one in the timeline (N), or put the "
+                         "cursor into one.");
   question(recording->timeAt(chosen->begin), recording->timeAt(chosen->end));
 }
 
 // What is held now; else the last grasp.
 void RecogniseFeature::askOfHand() {
   takeItems();
-  RecognitionController& desk = panel_->desk();
-  if (!collector_) return desk.sayTrouble("No hand is connected.");
+  RecognitionController& controller = panel_->controller();
+  if (!collector_) return controller.sayTrouble("No hand is connected.");
   sinceAsked_ = 0;
-  if (auto held = collector_->now()) return desk.ask({std::move(*held), std::nullopt, kHeldNow});
+  if (auto held = collector_->now())
+    return controller.ask({std::move(*held), std::nullopt, kHeldNow});
   if (collector_->touched())
-    return desk.sayTrouble("Held too short yet: ask again in a second.", kHeldNow);
-  if (lastGrasp_) return desk.ask({*lastGrasp_, std::nullopt, kLastGrasp});
-  desk.sayTrouble("Nothing is held, and nothing was.", kHeldNow);
+    return controller.sayTrouble("Held too short yet: ask again in a second.", kHeldNow);
+  if (lastGrasp_) return controller.ask({*lastGrasp_, std::nullopt, kLastGrasp});
+  controller.sayTrouble("Nothing is held, and nothing was.", kHeldNow);
 }
 
 void RecogniseFeature::listen(bool on) {
   liveTimer_.stop();
-  feed_.reset();
+  queue_.reset();
   collector_.reset();
   lastGrasp_.reset();
   zeroRun_.reset();
   zero_.reset();
-  panel_->desk().contactEnded();
+  panel_->controller().contactEnded();
   if (!on) panel_->teach().setLive(false);
   LiveSource* source = state().live.source();
   if (!on || !source) return;
   CaptureQueueOptions options;
   options.tactileItems = options.motionItems = kWaitingItems;
-  feed_ = source->session->subscribe("recognition", options);
+  queue_ = source->session->subscribe("recognition", options);
   collector_ = std::make_unique<GraspCollector>(source->session->device().hand());
   if (source->control) zeroRun_ = std::make_unique<EmptyHandCycle>(*source->control);
   liveTimer_.start();
 }
 
 void RecogniseFeature::takeItems() {
-  if (!feed_) return;
+  if (!queue_) return;
   const bool held = collector_->touched();
   items_.clear();
-  feed_->take(items_);
+  queue_->take(items_);
   for (CaptureItem& item : items_) {
     if (auto* frame = std::get_if<SharedFrame>(&item))
       collector_->addFrame(std::move(*frame));
@@ -171,13 +173,13 @@ void RecogniseFeature::takeItems() {
   items_.clear();
   std::vector<Profile> ended = collector_->takeEnded();
   // Also when something else is held by now.
-  if (held && (!collector_->touched() || !ended.empty())) panel_->desk().contactEnded();
-  if (!held && collector_->touched()) panel_->desk().touchBegins();
+  if (held && (!collector_->touched() || !ended.empty())) panel_->controller().contactEnded();
+  if (!held && collector_->touched()) panel_->controller().touchBegins();
   for (Profile& grasp : ended) takeEnded(std::move(grasp));
 }
 
 void RecogniseFeature::readLiveGrasps() {
-  if (!feed_) return;
+  if (!queue_) return;
   takeItems();
   goOnWithZero();
   ++sinceAsked_;
@@ -185,7 +187,7 @@ void RecogniseFeature::readLiveGrasps() {
   if (!state().displayed.isLive() || (!dock_->isVisible() && !full_)) return;
   panel_->ask().setLive(true, collector_->touched());
   if ((panel_->ask().byItself() || full_) && sinceAsked_ >= kAskAgainRounds &&
-      collector_->touchedS() >= kSteadyS && !panel_->desk().busy())
+      collector_->touchedS() >= kSteadyS && !panel_->controller().busy())
     askOfHand();
 }
 
@@ -194,8 +196,10 @@ void RecogniseFeature::showFull() {
     full_->close();
     return;
   }
-  full_ = new PresentationWindow(
-      panel_->desk(), state().displayed.source() != nullptr, state().appearance.theme(), window());
+  full_ = new PresentationWindow(panel_->controller(),
+                                 state().displayed.source() != nullptr,
+                                 state().appearance.theme(),
+                                 window());
   connect(full_, &PresentationWindow::asked, this, &RecogniseFeature::ask);
   full_->showFullScreen();
   renew();
@@ -214,7 +218,7 @@ void RecogniseFeature::takeEnded(Profile grasp) {
   zero_ = zero;
   state().messages.flash("the empty hand reads " + figure(zero.mm, 1) + " ± " +
                          figure(zero.sdMm, 1) + " mm");
-  panel_->desk().changeDay([&](RecognitionSession& day) { day.setZero(zero); });
+  panel_->controller().changeSession([&](RecognitionSession& session) { session.setZero(zero); });
 }
 
 void RecogniseFeature::beginZero() {
@@ -294,17 +298,17 @@ std::vector<ExportedView> RecogniseFeature::views() {
   view.widget = panel_;
   view.isThere = [this] {
     return panel_->isVisible() &&
-           (panel_->check().shown() || !panel_->desk().answer().name().isEmpty());
+           (panel_->check().shown() || !panel_->controller().answer().name().isEmpty());
   };
   view.fileName = [] { return QString("recognised"); };
   view.tables = [this] { return panel_->check().tables(); };
   view.paint = [this](QPainter& painter, const PictureLook& look) {
     if (panel_->check().shown()) return panel_->check().paint(painter, look);
-    const RecognitionAnswer& answer = panel_->desk().answer();
+    const RecognitionAnswer& answer = panel_->controller().answer();
     paintAnswer(painter,
                 QRectF(QPointF(0, 0), look.size).adjusted(24, 24, -24, -24),
                 answer,
-                panel_->desk().photos().photo(answer.name()),
+                panel_->controller().photos().photo(answer.name()),
                 look.forPrint ? Theme::kLight : state().appearance.theme(),
                 look.textUnits > 0 ? look.textUnits : 16);
   };

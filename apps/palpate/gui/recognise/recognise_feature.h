@@ -60,7 +60,7 @@ class RecogniseFeature : public Feature {
   Dock* dock_;
   QPointer<PresentationWindow> full_;
   // Of what is connected.
-  std::shared_ptr<CaptureQueue> feed_;
+  std::shared_ptr<CaptureQueue> queue_;
   std::unique_ptr<GraspCollector> collector_;
   std::vector<CaptureItem> items_;
   std::optional<Profile> lastGrasp_;

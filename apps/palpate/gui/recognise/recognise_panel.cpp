@@ -16,10 +16,10 @@ RecognisePanel::RecognisePanel(QSettings& settings,
                                QWidget* parent)
     : PagedPanel(settings, "recognise", parent) {
   setObjectName("RecognisePanel");
-  desk_ = new RecognitionController(settings, dataFolder, this);
+  controller_ = new RecognitionController(settings, dataFolder, this);
   teaching_ = new TrainingController(settings, this);
-  ask_ = new AskPage(*desk_, &pages());
-  today_ = new TodayPage(*desk_, &pages());
+  ask_ = new AskPage(*controller_, &pages());
+  today_ = new TodayPage(*controller_, &pages());
   teach_ = new TrainingPage(*teaching_, &pages());
   check_ = new CheckPage(*teaching_, &pages());
   strip_ = new OpeningStrip(this, "Working on", "recognise");
@@ -37,17 +37,17 @@ RecognisePanel::RecognisePanel(QSettings& settings,
   connect(&job, &BackgroundJob::progressed, strip_, &OpeningStrip::setProgress);
   connect(&job, &BackgroundJob::finished, strip_, &OpeningStrip::end);
   connect(strip_, &OpeningStrip::cancelRequested, teaching_, &TrainingController::cancel);
-  connect(desk_, &RecognitionController::said, this, &RecognisePanel::said);
+  connect(controller_, &RecognitionController::said, this, &RecognisePanel::said);
   connect(teaching_, &TrainingController::said, this, &RecognisePanel::said);
   connect(teaching_, &TrainingController::failed, this, &RecognisePanel::failed);
   connect(teaching_, &TrainingController::folderChanged, this, [this] {
-    desk_->setPhotoFolder(teaching_->folder());
+    controller_->setPhotoFolder(teaching_->folder());
   });
   connect(teaching_,
           &TrainingController::trained,
           this,
           [this](const TrainedModel& model, const QString& path) {
-            desk_->takeModel(model, path.toStdString());
+            controller_->takeModel(model, path.toStdString());
             emit said("trained with " + QString::number(model.classes.size()) +
                       " objects: " + path.section('/', -1));
           });
@@ -63,10 +63,10 @@ void RecognisePanel::setTheme(Theme theme) {
   check_->setTheme(theme);
 }
 
-bool RecognisePanel::cancel() { return desk_->cancel() || teaching_->cancel(); }
+bool RecognisePanel::cancel() { return controller_->cancel() || teaching_->cancel(); }
 
 void RecognisePanel::settle() {
-  desk_->settle();
+  controller_->settle();
   teaching_->settle();
 }
 

@@ -26,7 +26,7 @@ class RecognisePanel : public PagedPanel {
                  QWidget* parent = nullptr);
   void setTheme(Theme theme);
 
-  RecognitionController& desk() noexcept { return *desk_; }
+  RecognitionController& controller() noexcept { return *controller_; }
   TrainingController& teaching() noexcept { return *teaching_; }
   AskPage& ask() noexcept { return *ask_; }
   TodayPage& today() noexcept { return *today_; }
@@ -45,7 +45,7 @@ class RecognisePanel : public PagedPanel {
 
  private:
   std::optional<Theme> theme_;
-  RecognitionController* desk_;
+  RecognitionController* controller_;
   TrainingController* teaching_;
   OpeningStrip* strip_;
   AskPage* ask_;

@@ -92,15 +92,15 @@ QString RecognitionAnswer::accessibleText() const {
   return name() + ", " + percent(best.front().p) + ", " + confidenceWord();
 }
 
-RecognitionAnswer answerOf(const TrainedModel& model, const Prediction& verdict) {
+RecognitionAnswer answerOf(const TrainedModel& model, const Prediction& prediction) {
   RecognitionAnswer answer;
-  answer.kind = verdict.label == Prediction::kUnknown ? RecognitionAnswer::Kind::kUnknown
-                                                      : RecognitionAnswer::Kind::kNamed;
-  answer.sure = verdict.sure;
-  for (std::size_t k = 0; k < std::min(kBest, verdict.ranking.size()); ++k)
+  answer.kind = prediction.label == Prediction::kUnknown ? RecognitionAnswer::Kind::kUnknown
+                                                         : RecognitionAnswer::Kind::kNamed;
+  answer.sure = prediction.sure;
+  for (std::size_t k = 0; k < std::min(kBest, prediction.ranking.size()); ++k)
     answer.best.push_back(
-        {QString::fromStdString(model.classes[static_cast<std::size_t>(verdict.ranking[k])]),
-         verdict.p[k]});
+        {QString::fromStdString(model.classes[static_cast<std::size_t>(prediction.ranking[k])]),
+         prediction.p[k]});
   return answer;
 }
 

@@ -47,7 +47,7 @@ struct RecognitionAnswer {
 };
 
 // Of a verdict with a model.
-RecognitionAnswer answerOf(const TrainedModel& model, const Prediction& verdict);
+RecognitionAnswer answerOf(const TrainedModel& model, const Prediction& prediction);
 // What a person reads of an offset; `emulated`: the hand has none.
 QString offsetText(const SessionOffset& offset, bool emulated);
 

@@ -56,7 +56,7 @@ void RecognitionController::takeDefault() {
   if (path.empty() || !std::filesystem::exists(path, ignored))
     path = emulated_ && std::filesystem::exists(emulatedModel_, ignored) ? emulatedModel_
                                                                          : std::filesystem::path();
-  if (path == path_ && (day_ || path.empty())) return;
+  if (path == path_ && (session_ || path.empty())) return;
   if (!path.empty()) return openModel(path);
   path_.clear();
   setModel(std::nullopt, {});
@@ -89,10 +89,10 @@ void RecognitionController::setModel(std::optional<TrainedModel> model,
                                      const std::filesystem::path& path) {
   path_ = path;
   modelProblem_.clear();
-  day_ = model ? std::make_unique<RecognitionSession>(std::move(*model)) : nullptr;
+  session_ = model ? std::make_unique<RecognitionSession>(std::move(*model)) : nullptr;
   // Its joints are never referenced anew.
-  if (day_ && emulated_ && isEmulatedModel() && day_->model().adaptsToSession())
-    day_->choose({OffsetChoice::Kind::kGiven, 0.0});
+  if (session_ && emulated_ && isEmulatedModel() && session_->model().adaptsToSession())
+    session_->choose({OffsetChoice::Kind::kGiven, 0.0});
   setPhotoFolder(photoFolder_);
   last_.reset();
   ++generation_;
@@ -100,44 +100,44 @@ void RecognitionController::setModel(std::optional<TrainedModel> model,
   answer_ = {};
   answer_.text = kHowToAsk;
   emit modelChanged();
-  emit dayChanged();
+  emit sessionChanged();
   emit answered(answer_);
-  if (day_ && waiting_) ask(*std::exchange(waiting_, std::nullopt));
+  if (session_ && waiting_) ask(*std::exchange(waiting_, std::nullopt));
 }
 
 void RecognitionController::setPhotoFolder(const std::filesystem::path& folder) {
   photoFolder_ = folder;
   std::vector<std::filesystem::path> folders{path_.parent_path(), folder};
-  if (day_ && day_->model().options.at("path").isString())
-    folders.emplace_back(day_->model().options.at("path").asString());
+  if (session_ && session_->model().options.at("path").isString())
+    folders.emplace_back(session_->model().options.at("path").asString());
   photos_.setFolders(std::move(folders));
 }
 
-void RecognitionController::changeDay(const std::function<void(RecognitionSession&)>& change) {
-  if (!day_) return sayTrouble(kNoModel);
+void RecognitionController::changeSession(const std::function<void(RecognitionSession&)>& change) {
+  if (!session_) return sayTrouble(kNoModel);
   try {
-    change(*day_);
+    change(*session_);
   } catch (const std::exception& error) {
     emit said(error.what());
     return;
   }
-  emit dayChanged();
-  if (last_) judge(last_->first, last_->second);
+  emit sessionChanged();
+  if (last_) classify(last_->first, last_->second);
 }
 
 void RecognitionController::ask(const RecogniseQuestion& question) {
-  if (!day_) {
+  if (!session_) {
     if (!opening_.busy()) return sayTrouble(modelProblem_.isEmpty() ? kNoModel : modelProblem_);
     waiting_ = question;
     return;
   }
   const std::string sensor = sensorText(question.profile.layout());
   FeatureTable table;
-  table.set = day_->model().set;
+  table.set = session_->model().set;
   table.names = featureNames(table.set);
   table.sensor = sensor;
   try {
-    requireFits(day_->model(), table);
+    requireFits(session_->model(), table);
   } catch (const Error& error) {
     return sayTrouble(error.what());
   }
@@ -157,20 +157,20 @@ void RecognitionController::ask(const RecogniseQuestion& question) {
                       : graspOf(question.profile, set, sdh2PinchHand(), progress);
       },
       [this, chosen, of = question.of, generation = ++generation_, contact = contact_] {
-        if (generation != generation_ || !day_) return;
+        if (generation != generation_ || !session_) return;
         if (chosen->features.problem.empty()) {
           try {
-            day_->add(chosen->features.values, chosen->timeUs);
-            emit dayChanged();
+            session_->add(chosen->features.values, chosen->timeUs);
+            emit sessionChanged();
           } catch (const std::invalid_argument&) {
             return;  // of the model before
           }
         }
-        judge(*chosen, of == kHeldNow && contact != contact_ ? QString(kLastGrasp) : of);
+        classify(*chosen, of == kHeldNow && contact != contact_ ? QString(kLastGrasp) : of);
       });
 }
 
-void RecognitionController::judge(const ChosenGrasp& chosen, const QString& of) {
+void RecognitionController::classify(const ChosenGrasp& chosen, const QString& of) {
   last_ = {chosen, of};
   if (!chosen.features.problem.empty()) {
     RecognitionAnswer answer;
@@ -181,13 +181,14 @@ void RecognitionController::judge(const ChosenGrasp& chosen, const QString& of) 
     return showAnswer(answer);
   }
   RecognitionAnswer answer =
-      answerOf(day_->model(), day_->predict(chosen.features.values, chosen.timeUs));
+      answerOf(session_->model(), session_->predict(chosen.features.values, chosen.timeUs));
   answer.of = of;
   const bool none = emulated_ && isEmulatedModel() &&
-                    day_->offset().origin == OffsetSource::kGiven && day_->offset().mm == 0.0;
-  if (day_->model().adaptsToSession()) answer.offset = offsetText(day_->offset(), none);
-  answer.unsure = QString::fromStdString(day_->unsure());
-  const auto& grasps = day_->grasps();
+                    session_->offset().origin == OffsetSource::kGiven &&
+                    session_->offset().mm == 0.0;
+  if (session_->model().adaptsToSession()) answer.offset = offsetText(session_->offset(), none);
+  answer.unsure = QString::fromStdString(session_->unsure());
+  const auto& grasps = session_->grasps();
   for (std::size_t i = 0; i < grasps.size(); ++i)
     if (grasps[i].timeUs == chosen.timeUs) answer.grasp = i;
   showAnswer(answer);

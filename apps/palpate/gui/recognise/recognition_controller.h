@@ -43,13 +43,13 @@ class RecognitionController : public QObject {
   void useEmulatedModel();
   // Made here, and saved there.
   void takeModel(TrainedModel model, const std::filesystem::path& path);
-  const TrainedModel* model() const { return day_ ? &day_->model() : nullptr; }
+  const TrainedModel* model() const { return session_ ? &session_->model() : nullptr; }
   const std::filesystem::path& modelPath() const noexcept { return path_; }
   QString modelProblem() const { return modelProblem_; }
   // Null without a model.
-  RecognitionSession* day() noexcept { return day_.get(); }
+  RecognitionSession* session() noexcept { return session_.get(); }
   // After day() was changed: tells it, and judges the last grasp anew.
-  void changeDay(const std::function<void(RecognitionSession&)>& change);
+  void changeSession(const std::function<void(RecognitionSession&)>& change);
 
   // Answered by answered(), later. Replaces a question that is at work.
   void ask(const RecogniseQuestion& question);
@@ -68,14 +68,14 @@ class RecognitionController : public QObject {
 
  signals:
   void modelChanged();
-  void dayChanged();
+  void sessionChanged();
   void answered(const palpate::gui::RecognitionAnswer& answer);
   void said(const QString& text);
 
  private:
   void setModel(std::optional<TrainedModel> model, const std::filesystem::path& path);
   void takeDefault();
-  void judge(const ChosenGrasp& chosen, const QString& of);
+  void classify(const ChosenGrasp& chosen, const QString& of);
   void sayHowToAsk();
   void showAnswer(RecognitionAnswer answer);
   bool isEmulatedModel() const;
@@ -87,7 +87,7 @@ class RecognitionController : public QObject {
   bool started_ = false;
   std::filesystem::path path_, photoFolder_;
   QString modelProblem_;
-  std::unique_ptr<RecognitionSession> day_;
+  std::unique_ptr<RecognitionSession> session_;
   RecognitionAnswer answer_;
   std::optional<std::pair<ChosenGrasp, QString>> last_;  // that was judged, and what it is of
   std::optional<RecogniseQuestion> waiting_;             // for the model

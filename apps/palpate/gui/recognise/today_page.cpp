@@ -32,7 +32,8 @@ std::vector<FigureColumn> todayPageColumns() {
 
 }  // namespace
 
-TodayPage::TodayPage(RecognitionController& desk, QWidget* parent) : QWidget(parent), desk_(desk) {
+TodayPage::TodayPage(RecognitionController& controller, QWidget* parent)
+    : QWidget(parent), controller_(controller) {
   setObjectName("todayPage");
   offset_ = new QLabel(this);
   offset_->setObjectName("todayOffset");
@@ -84,18 +85,19 @@ TodayPage::TodayPage(RecognitionController& desk, QWidget* parent) : QWidget(par
   connect(typed_, &QDoubleSpinBox::valueChanged, this, &TodayPage::choose);
   connect(zero_, &QPushButton::clicked, this, &TodayPage::zeroAsked);
   connect(forget_, &QPushButton::clicked, this, [this] {
-    desk_.changeDay([](RecognitionSession& day) { day.reset(); });
+    controller_.changeSession([](RecognitionSession& session) { session.reset(); });
   });
   connect(save_, &QPushButton::clicked, this, [this] {
-    const auto& from = desk_.modelPath();
+    const auto& from = controller_.modelPath();
     const auto path = askForPlace(QString::fromStdString(
         (from.parent_path() / (from.stem().string() + "_today.json")).string()));
     if (path.empty()) return;
     try {
-      saveModel(desk_.day()->adapted(), path, Overwrite::kReplace);  // the dialog has asked
-      emit desk_.said("saved " + QString::fromStdString(path.filename().string()));
+      saveModel(
+          controller_.session()->adapted(), path, Overwrite::kReplace);  // the dialog has asked
+      emit controller_.said("saved " + QString::fromStdString(path.filename().string()));
     } catch (const Error& error) {
-      emit desk_.said(error.what());
+      emit controller_.said(error.what());
     }
   });
   askForPlace = [this](const QString& suggestion) {
@@ -104,14 +106,16 @@ TodayPage::TodayPage(RecognitionController& desk, QWidget* parent) : QWidget(par
     if (!path.isEmpty() && !path.endsWith(".json")) path += ".json";
     return std::filesystem::path(path.toStdString());
   };
-  connect(&desk_, &RecognitionController::dayChanged, this, &TodayPage::showDay);
+  connect(&controller_, &RecognitionController::sessionChanged, this, &TodayPage::showDay);
   showDay();
 }
 
 void TodayPage::choose() {
   const TodayPageKind kind = kKinds[static_cast<std::size_t>(source_->currentIndex())];
   typed_->setEnabled(kind == TodayPageKind::kGiven);
-  desk_.changeDay([&](RecognitionSession& day) { day.choose({kind, typed_->value()}); });
+  controller_.changeSession([&](RecognitionSession& session) {
+    session.choose({kind, typed_->value()});
+  });
 }
 
 void TodayPage::setZeroPossible(const QString& why, bool closing) {
@@ -122,15 +126,15 @@ void TodayPage::setZeroPossible(const QString& why, bool closing) {
 }
 
 void TodayPage::showDay() {
-  RecognitionSession* day = desk_.day();
-  const bool can = day && day->model().adaptsToSession();
+  RecognitionSession* session = controller_.session();
+  const bool can = session && session->model().adaptsToSession();
   for (QWidget* each : std::initializer_list<QWidget*>{source_, typed_, forget_, save_})
     each->setEnabled(can);
   zero_->setEnabled(can && why_.isEmpty() && !closing_);
   zero_->setText(closing_ ? "Closing until the pads touch …" : "Zero: close the empty hand");
   zero_->setToolTip(
       why_.isEmpty() ? "Closes slowly until the pads touch, and opens again (Esc stops)" : why_);
-  if (!day) {
+  if (!session) {
     offset_->setText("No model is chosen.");
     unsure_->clear();
     return grasps_->setRows({});
@@ -140,32 +144,33 @@ void TodayPage::showDay() {
         "This model knows no session offset: it is good for the session it learnt in.");
     unsure_->clear();
   } else {
-    QString text = offsetText(day->offset(), false);
+    QString text = offsetText(session->offset(), false);
     text[0] = text[0].toUpper();
     offset_->setText(text + ".");
-    QString unsure = QString::fromStdString(day->unsure());
+    QString unsure = QString::fromStdString(session->unsure());
     if (!unsure.isEmpty()) unsure[0] = unsure[0].toUpper();
     unsure_->setText(unsure);
     unsure_->setVisible(!unsure.isEmpty());
     const QSignalBlocker first(source_), second(typed_);
     for (std::size_t i = 0; i < kKinds.size(); ++i)
-      if (kKinds[i] == day->choice().kind) source_->setCurrentIndex(static_cast<int>(i));
-    typed_->setEnabled(day->choice().kind == TodayPageKind::kGiven);
-    if (day->choice().kind == TodayPageKind::kGiven) typed_->setValue(day->choice().mm);
+      if (kKinds[i] == session->choice().kind) source_->setCurrentIndex(static_cast<int>(i));
+    typed_->setEnabled(session->choice().kind == TodayPageKind::kGiven);
+    if (session->choice().kind == TodayPageKind::kGiven) typed_->setValue(session->choice().mm);
   }
   std::vector<std::vector<FigureCell>> rows;
-  const auto& grasps = day->grasps();
+  const auto& grasps = session->grasps();
   for (auto grasp = grasps.rbegin(); grasp != grasps.rend(); ++grasp) {
     const RecognitionAnswer answer =
-        answerOf(day->model(), day->predict(grasp->values, grasp->timeUs));
+        answerOf(session->model(), session->predict(grasp->values, grasp->timeUs));
     rows.push_back(
         {{.text = QString::fromStdString(utcText(grasp->timeUs)).mid(11, 8)},
          {.text = answer.name(), .tip = answer.accessibleText(), .warning = !answer.sure},
          {.text = figure(answer.best.front().p, 2)},
-         {.text = grasp->labelledClass
-                      ? QString::fromStdString(
-                            day->model().classes[static_cast<std::size_t>(*grasp->labelledClass)])
-                      : QString("–")}});
+         {.text =
+              grasp->labelledClass
+                  ? QString::fromStdString(
+                        session->model().classes[static_cast<std::size_t>(*grasp->labelledClass)])
+                  : QString("–")}});
   }
   grasps_->setRows(rows);
 }

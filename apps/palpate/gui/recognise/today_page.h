@@ -21,7 +21,7 @@ class FiguresTable;
 class TodayPage : public QWidget {
   Q_OBJECT
  public:
-  explicit TodayPage(RecognitionController& desk, QWidget* parent = nullptr);
+  explicit TodayPage(RecognitionController& controller, QWidget* parent = nullptr);
   void setTheme(Theme theme);
   // Why the hand can't be closed now; empty: it can. `closing`: it is being done.
   void setZeroPossible(const QString& why, bool closing);
@@ -35,7 +35,7 @@ class TodayPage : public QWidget {
   void showDay();
   void choose();
 
-  RecognitionController& desk_;
+  RecognitionController& controller_;
   QLabel* offset_;
   QLabel* unsure_;
   QComboBox* source_;

@@ -47,8 +47,8 @@ QString stateText(const TrainingClip& clip) {
 
 }  // namespace
 
-TrainingPage::TrainingPage(TrainingController& desk, QWidget* parent)
-    : QWidget(parent), desk_(desk) {
+TrainingPage::TrainingPage(TrainingController& controller, QWidget* parent)
+    : QWidget(parent), controller_(controller) {
   setObjectName("teachPage");
   const auto button = [this](const char* name, const QString& text, const QString& tip) {
     auto* made = new QPushButton(text, this);
@@ -106,7 +106,7 @@ TrainingPage::TrainingPage(TrainingController& desk, QWidget* parent)
   column->addLayout(bottom);
 
   connect(choose, &QPushButton::clicked, this, [this] {
-    if (const auto path = askForFolder(); !path.empty()) desk_.setFolder(path);
+    if (const auto path = askForFolder(); !path.empty()) controller_.setFolder(path);
   });
   connect(objects_, &FiguresTable::rowChosen, this, [this](int row) {
     if (!capturing()) object_->setText(objects_->item(row, 0)->text());
@@ -116,15 +116,15 @@ TrainingPage::TrainingPage(TrainingController& desk, QWidget* parent)
   connect(clips_, &QTableWidget::itemSelectionChanged, this, &TrainingPage::showState);
   connect(act_, &QPushButton::clicked, this, &TrainingPage::actOnClip);
   connect(train_, &QPushButton::clicked, this, &TrainingPage::train);
-  connect(&desk_, &TrainingController::folderChanged, this, &TrainingPage::showFolder);
-  connect(&desk_, &TrainingController::clipsChanged, this, &TrainingPage::showClips);
-  connect(&desk_.job(), &BackgroundJob::started, this, &TrainingPage::showState);
-  connect(&desk_.job(), &BackgroundJob::finished, this, &TrainingPage::showState);
+  connect(&controller_, &TrainingController::folderChanged, this, &TrainingPage::showFolder);
+  connect(&controller_, &TrainingController::clipsChanged, this, &TrainingPage::showClips);
+  connect(&controller_.job(), &BackgroundJob::started, this, &TrainingPage::showState);
+  connect(&controller_.job(), &BackgroundJob::finished, this, &TrainingPage::showState);
   askForFolder = [this] {
     return std::filesystem::path(
         QFileDialog::getExistingDirectory(this,
                                           "A folder with a folder of recordings per object",
-                                          QString::fromStdString(desk_.folder().string()))
+                                          QString::fromStdString(controller_.folder().string()))
             .toStdString());
   };
   askForPlace = [this](const QString& suggestion) {
@@ -149,17 +149,17 @@ bool TrainingPage::capturing() const { return capture_->isChecked(); }
 QString TrainingPage::object() const { return object_->text().simplified(); }
 
 void TrainingPage::take(const Profile& clip) {
-  if (capturing()) desk_.capture(object(), clip);
+  if (capturing()) controller_.capture(object(), clip);
 }
 
 void TrainingPage::showFolder() {
-  const auto& folder = desk_.folder();
+  const auto& folder = controller_.folder();
   folder_->setText(folder.empty() ? QString("no folder is chosen")
                                   : QString::fromStdString(folder.filename().string()));
   folder_->setToolTip(QString::fromStdString(folder.string()));
   std::vector<std::vector<FigureCell>> rows;
   QStringList names;
-  for (const auto& [name, count] : desk_.counts()) {
+  for (const auto& [name, count] : controller_.counts()) {
     names.append(name);
     rows.push_back({{.text = name},
                     {.text = QString::number(count)},
@@ -176,7 +176,7 @@ void TrainingPage::showFolder() {
 
 void TrainingPage::showClips() {
   std::vector<std::vector<FigureCell>> rows;
-  const auto& clips = desk_.clips();
+  const auto& clips = controller_.clips();
   for (auto clip = clips.rbegin(); clip != clips.rend(); ++clip) {
     const bool odd =
         clip->state == TeachPageState::kWaiting || clip->state == TeachPageState::kFailed;
@@ -193,27 +193,27 @@ void TrainingPage::showClips() {
 
 // The newest stand on top. -1: none.
 int TrainingPage::chosenClip() const {
-  const auto count = static_cast<int>(desk_.clips().size());
+  const auto count = static_cast<int>(controller_.clips().size());
   const int row = clips_->chosenRow();
   if (row >= 0 && row < count) return count - 1 - row;
   return count - 1;
 }
 
 void TrainingPage::showState() {
-  const bool folder = !desk_.folder().empty();
+  const bool folder = !controller_.folder().empty();
   capture_->setEnabled(folder && live_ && (!object().isEmpty() || capturing()));
   object_->setEnabled(!capturing());
-  train_->setEnabled(folder && !desk_.busy());
+  train_->setEnabled(folder && !controller_.busy());
   capture_->setText(capturing() ? "End capture" : "Capture");
   state_->setText(!folder       ? "Choose a folder first: captured grasps go there."
                   : capturing() ? "Capturing " + object() + ": grasp it, again and again."
-                  : !desk_.problem().isEmpty() ? desk_.problem()
-                  : !live_                     ? QString("Connect a hand to capture.")
-                  : object().isEmpty()         ? QString("What will be grasped?")
-                                               : QString());
+                  : !controller_.problem().isEmpty() ? controller_.problem()
+                  : !live_                           ? QString("Connect a hand to capture.")
+                  : object().isEmpty()               ? QString("What will be grasped?")
+                                                     : QString());
   const int clip = chosenClip();
-  const TeachPageState state =
-      clip < 0 ? TeachPageState::kSaving : desk_.clips()[static_cast<std::size_t>(clip)].state;
+  const TeachPageState state = clip < 0 ? TeachPageState::kSaving
+                                        : controller_.clips()[static_cast<std::size_t>(clip)].state;
   act_->setEnabled(state != TeachPageState::kSaving);
   act_->setText(clip < 0 || state == TeachPageState::kAccepted || state == TeachPageState::kSaving
                     ? "Undo"
@@ -225,24 +225,24 @@ void TrainingPage::actOnClip() {
   const int clip = chosenClip();
   if (clip < 0) return;
   const auto index = static_cast<std::size_t>(clip);
-  if (desk_.clips()[index].state == TeachPageState::kAccepted)
-    desk_.takeOut(index);
+  if (controller_.clips()[index].state == TeachPageState::kAccepted)
+    controller_.takeOut(index);
   else
-    desk_.accept(index);
+    controller_.accept(index);
 }
 
 bool TrainingPage::undo() {
-  const auto newest = desk_.newestAccepted();
-  if (newest) desk_.takeOut(*newest);
+  const auto newest = controller_.newestAccepted();
+  if (newest) controller_.takeOut(*newest);
   return newest.has_value();
 }
 
 void TrainingPage::train() {
-  const auto& folder = desk_.folder();
+  const auto& folder = controller_.folder();
   const auto out = askForPlace(
       QString::fromStdString((folder.parent_path() / folder.filename()).string()) + ".json");
   if (out.empty()) return;
-  desk_.train(out, zeroNow ? zeroNow() : std::nullopt);
+  controller_.train(out, zeroNow ? zeroNow() : std::nullopt);
 }
 
 void TrainingPage::setTheme(Theme theme) {

@@ -20,7 +20,7 @@ class FiguresTable;
 class TrainingPage : public QWidget {
   Q_OBJECT
  public:
-  explicit TrainingPage(TrainingController& desk, QWidget* parent = nullptr);
+  explicit TrainingPage(TrainingController& controller, QWidget* parent = nullptr);
   void setTheme(Theme theme);
   // A hand is connected: there is something to capture.
   void setLive(bool live);
@@ -45,7 +45,7 @@ class TrainingPage : public QWidget {
   void actOnClip();
   int chosenClip() const;
 
-  TrainingController& desk_;
+  TrainingController& controller_;
   bool live_ = false;
   QLabel* folder_;
   FiguresTable* objects_;

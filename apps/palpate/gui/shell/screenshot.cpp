@@ -89,7 +89,7 @@ void goToFrame(MainWindow& window, const ScreenshotOptions& options) {
   PlaybackController& playback = window.state().playback;
   if (options.frame && *options.frame >= playback.numFrames())
     throw Error("no frame " + std::to_string(*options.frame) + ": " +
-                window.state().displayed.behind()->path.string() + " has frames 0.." +
+                window.state().displayed.unfilteredRecording()->path.string() + " has frames 0.." +
                 std::to_string(static_cast<long long>(playback.numFrames()) - 1));
   if (options.afterS > 0.0) {
     playback.play();
@@ -99,7 +99,7 @@ void goToFrame(MainWindow& window, const ScreenshotOptions& options) {
   if (options.frame)
     playback.seekFrame(*options.frame);
   else if (options.afterS <= 0.0)
-    playback.seekFrame(window.state().displayed.behind()->table.frameOfLargestSum());
+    playback.seekFrame(window.state().displayed.unfilteredRecording()->table.frameOfLargestSum());
 }
 
 // Of a demo --after counts while it runs; of a recording it was played before: then time for what

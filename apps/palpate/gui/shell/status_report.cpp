@@ -75,7 +75,7 @@ void StatusReport::report() {
               (windowState_.activeFilters.applied() ? " · filtered" : "") +
               (opening ? " · opening another" : "");
   if (playback.hasFrames()) {
-    const OpenedRecordingPtr& seen = windowState_.displayed.seen();
+    const OpenedRecordingPtr& seen = windowState_.displayed.filteredRecording();
     const CharacteristicSignals all = seen->at(playback.frame(), seen->numMatrices());
     now.figures = {"active " + QString::number(all.active),
                    "max " + QString::number(all.maximum, 'f', 0),

@@ -67,7 +67,7 @@ void SlipFeature::connectBench() {
 
 void SlipFeature::takeSource() {
   const DisplayedSource& displayed = state().displayed;
-  panel_->setSource(displayed.behind(), displayed.isLive());
+  panel_->setSource(displayed.unfilteredRecording(), displayed.isLive());
   if (displayed.isLive()) return;
   liveOf_ = nullptr;
   panel_->setVisibleRange(state().selection.visibleSpan().fromS,

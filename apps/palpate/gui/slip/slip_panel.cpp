@@ -351,21 +351,21 @@ void SlipPanel::renewLiveHand(const HandDescription& hand) {
   liveHand_ = hand;
 }
 
-void SlipPanel::showLive(const TactileFrame& frame, const std::vector<SlipDetection>& verdicts) {
-  if (!live() || !liveHand_ || verdicts.size() != liveSeries_.matrices.size()) return;
+void SlipPanel::showLive(const TactileFrame& frame, const std::vector<SlipDetection>& detections) {
+  if (!live() || !liveHand_ || detections.size() != liveSeries_.matrices.size()) return;
   if (liveSeries_.timeS.empty()) liveSeries_.firstUs = frame.hostUs;
   if (liveSeries_.timeS.size() >= 2 * kMostLive) {
     liveSeries_.dropFirst(kMostLive);
     liveSlips_.reset();
   }
-  if (!liveSlips_) liveSlips_.emplace(verdicts.size());
+  if (!liveSlips_) liveSlips_.emplace(detections.size());
   liveSeries_.options = controls_->options();
   frame_ = liveSeries_.timeS.size();
   liveSeries_.timeS.push_back(static_cast<double>(frame.hostUs - liveSeries_.firstUs) / kUsPerS);
-  for (std::size_t m = 0; m < verdicts.size(); ++m)
-    if (verdicts[m].motion.active > 0)
-      liveSeries_.matrices[m].push_back(sampleOf(verdicts[m], frame_));
-  liveSlips_->add(frame_, frame.hostUs, verdicts);
+  for (std::size_t m = 0; m < detections.size(); ++m)
+    if (detections[m].motion.active > 0)
+      liveSeries_.matrices[m].push_back(sampleOf(detections[m], frame_));
+  liveSlips_->add(frame_, frame.hostUs, detections);
   emit frameChanged();
   if (!isVisible()) return;
   liveSeries_.slips = liveSlips_->segments();

@@ -48,7 +48,7 @@ class SlipPanel : public ComputedPage {
   void setLiveHand(const HandDescription& hand);
   // Of the same hand other taxels are scanned: what came stays.
   void renewLiveHand(const HandDescription& hand);
-  void showLive(const TactileFrame& frame, const std::vector<SlipDetection>& verdicts);
+  void showLive(const TactileFrame& frame, const std::vector<SlipDetection>& detections);
 
  signals:
   void foundChanged();  // also when there is nothing any more

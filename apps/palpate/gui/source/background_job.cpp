@@ -38,10 +38,10 @@ void BackgroundJob::startNext() {
   emit started(now.text);
   if (worker_.joinable()) worker_.join();  // it has reported already: this takes no time
   worker_ = std::jthread([this, now = std::move(now)] {
-    double told = -1.0;
+    double reported = -1.0;
     const Progress progress = [&](double fraction) {
-      if (fraction - told >= kBackgroundJobSmallestNews || fraction < told) {
-        told = fraction;
+      if (fraction - reported >= kBackgroundJobSmallestNews || fraction < reported) {
+        reported = fraction;
         QMetaObject::invokeMethod(
             this, [this, fraction] { emit progressed(fraction); }, Qt::QueuedConnection);
       }

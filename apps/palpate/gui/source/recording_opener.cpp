@@ -55,12 +55,12 @@ void RecordingOpener::startNext() {
 void RecordingOpener::work(const Asked& asked) {
   const std::filesystem::path& path = asked.path;
   const QString name = QString::fromStdString(path.string());
-  double told = -1.0;
+  double reported = -1.0;
   const auto part = [&](double from, double share) {
-    return [this, &told, from, share](double fraction) {
+    return [this, &reported, from, share](double fraction) {
       const double now = from + share * fraction;
-      if (now - told >= kRecordingOpenerSmallestNews) {
-        told = now;
+      if (now - reported >= kRecordingOpenerSmallestNews) {
+        reported = now;
         QMetaObject::invokeMethod(
             this, [this, now] { emit progressed(now); }, Qt::QueuedConnection);
       }

@@ -42,7 +42,7 @@ void SpectrumFeature::connectChart() {
 }
 
 void SpectrumFeature::takeSource() {
-  panel_->setSource(state().displayed.seen(), state().displayed.isLive());
+  panel_->setSource(state().displayed.filteredRecording(), state().displayed.isLive());
   takeTaxels();
   takeLook();
   takeSight();

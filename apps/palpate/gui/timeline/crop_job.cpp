@@ -43,7 +43,7 @@ CropJob::CropJob(WindowState& windowState, QAction& crop, QWidget* window)
 }
 
 void CropJob::cropSelection() {
-  const OpenedRecordingPtr recording = windowState_.displayed.behind();
+  const OpenedRecordingPtr recording = windowState_.displayed.unfilteredRecording();
   if (!recording || !windowState_.selection.span())
     return windowState_.messages.flash(
         "nothing is selected: drag in the timeline, or press [ and ]");
@@ -67,8 +67,11 @@ void CropJob::start(const QString& path, std::size_t first, std::size_t last) {
   std::vector<RecordingEvent> noted = editor ? editor->events() : std::vector<RecordingEvent>();
   job_.start(
       path,
-      [recording = windowState_.displayed.behind(), first, last, path, noted = std::move(noted)](
-          const Progress& progress) {
+      [recording = windowState_.displayed.unfilteredRecording(),
+       first,
+       last,
+       path,
+       noted = std::move(noted)](const Progress& progress) {
         const std::filesystem::path out = path.toStdString();
         requireOther(recording->path, out);
         const auto half = [&](double from) {

@@ -62,7 +62,8 @@ void TimelineFeature::connectSubject() {
   connect(&displayed, &DisplayedSource::changed, this, [this, &displayed] {
     charts_->setCurrentIndex(displayed.isLive() ? 1 : 0);
   });
-  connect(&displayed, &DisplayedSource::seenChanged, this, &TimelineFeature::takeSource);
+  connect(
+      &displayed, &DisplayedSource::filteredRecordingChanged, this, &TimelineFeature::takeSource);
   connect(&displayed, &DisplayedSource::shown, this, [this] {
     showCurves();
     showReading();
@@ -100,9 +101,9 @@ void TimelineFeature::connectSubject() {
 
 void TimelineFeature::takeSource() {
   const DisplayedSource& displayed = state().displayed;
-  const OpenedRecordingPtr& behind = displayed.behind();
-  chart_->setRecording(displayed.seen());
-  chart_->setBefore(displayed.seen() != behind ? behind : nullptr);
+  const OpenedRecordingPtr& behind = displayed.unfilteredRecording();
+  chart_->setRecording(displayed.filteredRecording());
+  chart_->setBefore(displayed.filteredRecording() != behind ? behind : nullptr);
   const QCPRange seen = chart_->seen();
   state().selection.setVisibleSpan({seen.lower, seen.upper});
   if (displayed.isRecording())
@@ -375,9 +376,10 @@ std::vector<ExportedView> TimelineFeature::views() {
     if (!recording) return tables;
     const auto add = [&](const QString& name, const std::optional<FrameSpan>& span) {
       if (!span) return;
-      tables.push_back({name, [seen = windowState.displayed.seen(), now = curves(), span = *span] {
-                          return curveTable(seen, now, span);
-                        }});
+      tables.push_back(
+          {name, [seen = windowState.displayed.filteredRecording(), now = curves(), span = *span] {
+             return curveTable(seen, now, span);
+           }});
     };
     add("the selected range", windowState.selectedFrames());
     const QCPRange seen = chart_->seen();

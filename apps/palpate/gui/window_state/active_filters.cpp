@@ -42,7 +42,7 @@ ActiveFilters::ActiveFilters(DisplayedSource& displayed,
     return made && !recipe().empty() ? made_ : nullptr;
   };
   connect(&displayed_, &DisplayedSource::changed, this, [this] {
-    if (made_ && madeOf_ != displayed_.behind()) made_ = madeOf_ = nullptr;
+    if (made_ && madeOf_ != displayed_.unfilteredRecording()) made_ = madeOf_ = nullptr;
     sourceIsNew_ = true;
     emit sourceChanged();
   });
@@ -72,11 +72,11 @@ ActiveFilters::ActiveFilters(DisplayedSource& displayed,
             madeOf_ = source;
             made_ = filtered;
             madeBy_ = recipe();
-            if (source == displayed_.recorded() && on_) displayed_.setSeen(filtered);
+            if (source == displayed_.recorded() && on_) displayed_.setFilteredRecording(filtered);
           });
   connect(&worker_, &FilterWorker::failed, this, [this](const QString& message) {
     emit failed(message);
-    displayed_.setSeen(displayed_.recorded());
+    displayed_.setFilteredRecording(displayed_.recorded());
   });
 }
 
@@ -111,8 +111,8 @@ void ActiveFilters::noteInLiveRecording() {
 
 bool ActiveFilters::applied() const {
   if (!on_ || recipe().empty()) return false;
-  return displayed_.isLive() ||
-         (displayed_.isRecording() && displayed_.seen() != displayed_.behind());
+  return displayed_.isLive() || (displayed_.isRecording() && displayed_.filteredRecording() !=
+                                                                 displayed_.unfilteredRecording());
 }
 
 QString ActiveFilters::text() const {
@@ -139,9 +139,9 @@ void ActiveFilters::apply() {
   const OpenedRecordingPtr recording = displayed_.recorded();
   if (!recording) return;
   if (now.empty())
-    displayed_.setSeen(recording);
+    displayed_.setFilteredRecording(recording);
   else if (made_ && madeOf_ == recording && madeBy_.sameSteps(now))
-    displayed_.setSeen(made_);
+    displayed_.setFilteredRecording(made_);
   else
     worker_.start(recording, now);
 }

@@ -61,7 +61,7 @@ void CurrentFrame::hold(bool on) {
 }
 
 void CurrentFrame::showFrame(std::size_t index) {
-  const OpenedRecordingPtr& seen = displayed_.seen();
+  const OpenedRecordingPtr& seen = displayed_.filteredRecording();
   if (!displayed_.isRecording() || !seen || index >= seen->profile.numFrames()) return;
   angles_.reset();
   temperatures_.reset();
@@ -120,7 +120,7 @@ std::ptrdiff_t CurrentFrame::saturated() const {
       return value >= saturation;
     });
   };
-  if (displayed_.seen() == recording) return count(frame_);
+  if (displayed_.filteredRecording() == recording) return count(frame_);
   try {
     return count(recording->profile.frame(playback_.frame()));
   } catch (const Error&) {

@@ -38,23 +38,23 @@ class DerivedResults : public QObject {
   }
   // Why matrices of the connected hand can't tell the limit that is chosen: one text per matrix,
   // empty: it can; none: all.
-  const std::vector<QString>& blind() const noexcept { return blind_; }
-  void setBlind(const std::vector<QString>& why) {
-    blind_ = why;
-    emit blindChanged();
+  const std::vector<QString>& unmeasurable() const noexcept { return unmeasurable_; }
+  void setUnmeasurable(const std::vector<QString>& why) {
+    unmeasurable_ = why;
+    emit unmeasurableChanged();
   }
 
  signals:
   void pressureChanged();
   void calibrationChanged();
   void slipsChanged();
-  void blindChanged();
+  void unmeasurableChanged();
 
  private:
   std::shared_ptr<const PressureFrame> pressure_;
   QString calibration_ = "none: values are counts";
   std::vector<HandSlip> slips_;
-  std::vector<QString> blind_;
+  std::vector<QString> unmeasurable_;
 };
 
 }  // namespace palpate::gui

@@ -12,7 +12,7 @@ DisplayedSource::DisplayedSource(LiveController& live,
   connect(&live_, &LiveController::leaving, this, [this] { history_ = nullptr; });
   connect(&live_, &LiveController::refreshed, this, &DisplayedSource::look);
   connect(&live_, &LiveController::ended, this, [this] {
-    if (isLive() && live_.state() == LiveController::State::kNone) show(behind_);
+    if (isLive() && live_.state() == LiveController::State::kNone) show(unfiltered_);
   });
 }
 
@@ -22,15 +22,15 @@ void DisplayedSource::follow() {
 
 const HandDescription* DisplayedSource::hand() const {
   if (isLive()) return hand_ ? &*hand_ : nullptr;
-  return behind_ ? &behind_->profile.hand() : nullptr;
+  return unfiltered_ ? &unfiltered_->profile.hand() : nullptr;
 }
 
 bool DisplayedSource::hasFrames() const { return isRecording() && playback_.hasFrames(); }
 
 void DisplayedSource::show(OpenedRecordingPtr recording) {
-  if (recording && isRecording() && recording == behind_) return;
+  if (recording && isRecording() && recording == unfiltered_) return;
   if (!recording && live_.source()) {
-    behind_ = seen_ = nullptr;
+    unfiltered_ = filtered_ = nullptr;
     playback_.setProfile(std::nullopt);
     if (isLive()) history_ = nullptr;  // to be taken anew by all
     return showLive();
@@ -38,17 +38,17 @@ void DisplayedSource::show(OpenedRecordingPtr recording) {
   saveViewPosition();
   // Until the new one is everywhere nobody asks it for the old one's frame.
   playback_.setProfile(std::nullopt);
-  behind_ = recording;
-  seen_ = recording;
+  unfiltered_ = recording;
+  filtered_ = recording;
   if (recording && filtered)
-    if (const OpenedRecordingPtr made = filtered(recording)) seen_ = made;
+    if (const OpenedRecordingPtr made = filtered(recording)) filtered_ = made;
   kind_ = recording ? Kind::kRecording : Kind::kNothing;
   hand_.reset();
   history_ = nullptr;
   const bool frames = recording && recording->profile.numFrames() > 0;
   selection_.begin(frames ? std::max(recording->durationS(), Selection::kShortestS) : 0.0);
   emit changed();
-  emit seenChanged();
+  emit filteredRecordingChanged();
   if (recording) {
     playback_.setProfile(recording->profile, recording->timingNow().gaps);
     goBack();
@@ -65,15 +65,15 @@ void DisplayedSource::showLive() {
   history_ = source->history.get();
   hand_ = source->session->device().hand();
   emit changed();
-  emit seenChanged();
+  emit filteredRecordingChanged();
   emit shown();
 }
 
-void DisplayedSource::setSeen(OpenedRecordingPtr seen) {
-  if (!isRecording() || seen == seen_) return;
+void DisplayedSource::setFilteredRecording(OpenedRecordingPtr seen) {
+  if (!isRecording() || seen == filtered_) return;
   saveViewPosition();
-  seen_ = seen;
-  emit seenChanged();
+  filtered_ = seen;
+  emit filteredRecordingChanged();
   goBack();
   emit valuesChanged();
   emit shown();
@@ -81,14 +81,14 @@ void DisplayedSource::setSeen(OpenedRecordingPtr seen) {
 
 void DisplayedSource::notifyMoreKnown() {
   if (!isRecording()) return;
-  playback_.setGaps(behind_->timingNow().gaps);
+  playback_.setGaps(unfiltered_->timingNow().gaps);
   emit moreKnown();
 }
 
 void DisplayedSource::replace(const OpenedRecordingPtr& recording, const OpenedRecordingPtr& now) {
   leftAt_.erase(recording->path);
-  if (behind_ != recording) return;
-  behind_ = seen_ = isLive() ? now : nullptr;
+  if (unfiltered_ != recording) return;
+  unfiltered_ = filtered_ = isLive() ? now : nullptr;
 }
 
 // Four times a second.
@@ -107,9 +107,9 @@ const ViewPosition* DisplayedSource::viewPosition(const std::filesystem::path& p
 }
 
 void DisplayedSource::saveViewPosition() {
-  if (!isRecording() || !behind_) return;
+  if (!isRecording() || !unfiltered_) return;
   constexpr double kWhole = 0.9999;
-  ViewPosition& left = leftAt_[behind_->path];
+  ViewPosition& left = leftAt_[unfiltered_->path];
   left.frame = playback_.frame();
   const TimeSpan& seen = selection_.visibleSpan();
   const bool whole = seen.toS - seen.fromS > selection_.durationS() * kWhole;
@@ -118,7 +118,7 @@ void DisplayedSource::saveViewPosition() {
 }
 
 void DisplayedSource::goBack() {
-  const auto left = leftAt_.find(behind_->path);
+  const auto left = leftAt_.find(unfiltered_->path);
   if (left == leftAt_.end()) return;
   const ViewPosition at = left->second;
   playback_.seekFrame(at.frame);

@@ -38,11 +38,11 @@ class DisplayedSource : public QObject {
   bool isLive() const noexcept { return kind_ == Kind::kLive; }
   bool isRecording() const noexcept { return kind_ == Kind::kRecording; }
   // As recorded; null unless a recording is looked at.
-  OpenedRecordingPtr recorded() const { return isRecording() ? behind_ : nullptr; }
+  OpenedRecordingPtr recorded() const { return isRecording() ? unfiltered_ : nullptr; }
   // The recording that is looked at, or that comes back when what is live is left; null: none.
-  const OpenedRecordingPtr& behind() const noexcept { return behind_; }
-  // behind(), or the same through the filters.
-  const OpenedRecordingPtr& seen() const noexcept { return seen_; }
+  const OpenedRecordingPtr& unfilteredRecording() const noexcept { return unfiltered_; }
+  // unfilteredRecording(), or the same through the filters.
+  const OpenedRecordingPtr& filteredRecording() const noexcept { return filtered_; }
   // What is connected, where that is looked at; null: it isn't, or is about to go.
   LiveSource* source() const { return isLive() ? live_.source() : nullptr; }
   // Of what is looked at; null: nothing is.
@@ -54,7 +54,7 @@ class DisplayedSource : public QObject {
   void show(OpenedRecordingPtr recording);
   void showLive();
   // The same recording, other values: filtered, or as recorded.
-  void setSeen(OpenedRecordingPtr seen);
+  void setFilteredRecording(OpenedRecordingPtr seen);
   // A long recording has been read through: its range, gaps and what is found in it are known now.
   void notifyMoreKnown();
   // Closed, or read anew as `now` (null: closed): it isn't looked at any more. show() follows.
@@ -73,8 +73,8 @@ class DisplayedSource : public QObject {
  signals:
   // What is looked at is another one.
   void changed();
-  // So are the values of seen() or of the source, or they alone: take them.
-  void seenChanged();
+  // So are the values of filteredRecording() or of the source, or they alone: take them.
+  void filteredRecordingChanged();
   // Of the same recording the moment that is shown has other values.
   void valuesChanged();
   // All have taken it, and the frame where it was left is shown.
@@ -91,8 +91,8 @@ class DisplayedSource : public QObject {
   PlaybackController& playback_;
   Selection& selection_;
   Kind kind_ = Kind::kNothing;
-  OpenedRecordingPtr behind_;
-  OpenedRecordingPtr seen_;
+  OpenedRecordingPtr unfiltered_;
+  OpenedRecordingPtr filtered_;
   std::optional<HandDescription> hand_;     // of what is live
   const SignalHistory* history_ = nullptr;  // of what is live; never looked into
   std::map<std::filesystem::path, ViewPosition> leftAt_;

@@ -69,7 +69,7 @@ void WindowState::connectTo(const Connection& connection) {
 }
 
 std::optional<FrameSpan> WindowState::selectedFrames() const {
-  const OpenedRecordingPtr& recording = displayed.behind();
+  const OpenedRecordingPtr& recording = displayed.unfilteredRecording();
   const auto& span = selection.span();
   if (!recording || !span) return std::nullopt;
   const auto frames = recording->framesWithin(span->fromS, span->toS);
@@ -79,7 +79,7 @@ std::optional<FrameSpan> WindowState::selectedFrames() const {
 
 std::optional<FramePictures> WindowState::framePictures(const QString& suffix) const {
   if (!displayed.isRecording()) return std::nullopt;
-  const OpenedRecordingPtr recording = displayed.seen();
+  const OpenedRecordingPtr recording = displayed.filteredRecording();
   FramePictures pictures;
   pictures.fileName = recordingStem() + suffix;
   pictures.numFrames = recording->profile.numFrames();
@@ -92,20 +92,21 @@ std::optional<FramePictures> WindowState::framePictures(const QString& suffix) c
 
 QString WindowState::recordingStem() const {
   if (!displayed.isRecording()) return frameStem();
-  return QFileInfo(fileNameOf(*displayed.behind())).completeBaseName();
+  return QFileInfo(fileNameOf(*displayed.unfilteredRecording())).completeBaseName();
 }
 
 QString WindowState::frameStem() const {
   if (!displayed.isRecording()) return "live_" + QTime::currentTime().toString("HHmmss");
   return QString("%1_frame_%2")
-      .arg(QFileInfo(fileNameOf(*displayed.behind())).completeBaseName())
+      .arg(QFileInfo(fileNameOf(*displayed.unfilteredRecording())).completeBaseName())
       .arg(playback.frame(), 5, 10, QChar('0'));
 }
 
 QString WindowState::pictureTitle() const {
   if (displayed.isLive()) return describe(live.connection()) + activeFilters.caption();
-  return displayed.isRecording() ? fileNameOf(*displayed.behind()) + activeFilters.caption()
-                                 : QString();
+  return displayed.isRecording()
+             ? fileNameOf(*displayed.unfilteredRecording()) + activeFilters.caption()
+             : QString();
 }
 
 QString WindowState::pictureCaption() const {
@@ -113,7 +114,7 @@ QString WindowState::pictureCaption() const {
     return QDateTime::fromMSecsSinceEpoch(currentFrame.frame().hostUs / kUsPerMs)
         .toString("yyyy-MM-dd HH:mm:ss.zzz");
   if (!displayed.isRecording()) return {};
-  const double seconds = displayed.behind()->timeAt(playback.frame());
+  const double seconds = displayed.unfilteredRecording()->timeAt(playback.frame());
   return "frame " + QString::number(playback.frame()) + " · " +
          QString::fromStdString(fixedText(seconds, 2)) + " s";
 }
