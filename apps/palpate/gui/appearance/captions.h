@@ -1,4 +1,4 @@
-// Words and figures as all docks write them.
+// Headings and numbers in the form that all docks use.
 #pragma once
 
 #include <QString>
@@ -8,9 +8,9 @@ class QWidget;
 
 namespace palpate::gui {
 
-// The small heading of a part of a dock: "JOINT ANGLES".
+// The small heading of a part of a dock, for example "JOINT ANGLES".
 QLabel* sectionHeading(const QString& text, QWidget* parent);
-// "31.7": with so many decimals, whatever the locale.
+// The value with so many decimals, independent of the locale: "31.7".
 QString figure(double value, int decimals);
 
 }  // namespace palpate::gui

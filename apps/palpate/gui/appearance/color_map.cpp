@@ -91,7 +91,8 @@ const ColorTable& colorTable(ColorMapName map) {
 int colorIndex(double value, double rangeMin, double rangeMax) {
   if (!(rangeMax > rangeMin)) return 0;
   const double fraction = (value - rangeMin) / (rangeMax - rangeMin);
-  if (!(fraction > 0.0)) return 0;  // NaN too
+  // Also for NaN.
+  if (!(fraction > 0.0)) return 0;
   return static_cast<int>(std::lround(std::min(fraction, 1.0) * kLast));
 }
 

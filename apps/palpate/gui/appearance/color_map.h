@@ -1,5 +1,5 @@
-// Colour maps of the heat maps: 256 colours each. Perceptually uniform ones, so that equal steps in
-// counts look equal, plus turbo and grey by choice.
+// The colour maps of the heat maps, 256 colours each. All but turbo and grey are perceptually
+// uniform: equal steps in counts look equal.
 #pragma once
 
 #include <QColor>
@@ -21,12 +21,12 @@ inline constexpr std::array kAllColorMaps = {ColorMapName::kInferno,
 
 using ColorTable = std::array<QRgb, 256>;
 
-// "inferno", "viridis", ..; the word used in menus, settings and captions.
+// "inferno", "viridis", ..; the name in menus, settings and captions.
 const char* nameOf(ColorMapName map);
 std::optional<ColorMapName> colorMapFrom(std::string_view name);
-// From the lowest value to the highest, opaque. Computed once.
+// The opaque colours from the lowest value to the highest. Computed once.
 const ColorTable& colorTable(ColorMapName map);
-// Index into a table for a value in a range, clamped at both ends; 0 for an empty range.
+// Index into a colour table for a value in a range, clamped at both ends; 0 for an empty range.
 int colorIndex(double value, double rangeMin, double rangeMax);
 
 }  // namespace palpate::gui

@@ -8,7 +8,8 @@
 namespace palpate::gui {
 namespace {
 
-using Oklab = std::array<double, 3>;  // lightness 0..1, green to red, blue to yellow
+// Lightness 0..1, green to red, blue to yellow.
+using Oklab = std::array<double, 3>;
 
 double linear(double channel) {
   return channel <= 0.04045 ? channel / 12.92 : std::pow((channel + 0.055) / 1.055, 2.4);
@@ -42,7 +43,7 @@ QRgb rgbOf(const Oklab& color) {
               byte(-0.0041960863 * l - 0.7034186147 * m + 1.7076147010 * s));
 }
 
-// The ends are as light as each other.
+// The two ends of the map; both have the same lightness.
 struct Ends {
   QColor b;
   QColor a;

@@ -1,6 +1,6 @@
-// The colours of a comparison: of A, of B, and the map of A - B between them. Orange where A is
-// larger, blue where B is: told apart by colour-blind eyes; in the middle the colour of a taxel at
-// rest.
+// Colours for the comparison of two recordings: those of A and B, and the colour map of A - B.
+// Orange where A is larger, blue where B is larger, which colour-blind people can tell apart; the
+// middle has the colour of a taxel at rest.
 #pragma once
 
 #include <QColor>
@@ -12,14 +12,15 @@
 namespace palpate::gui {
 
 enum class CompareSide { kA, kB };
-// Of names and curves.
+// Colour of the names and curves of A or B.
 QColor sideColor(CompareSide side, Theme theme);
 
-// From "B is larger" over 0 (the two entries in the middle) to "A is larger"; equal steps look
-// equal (Oklab, Björn Ottosson 2020), and equal ones on both sides are equally far from the middle.
+// The colour map from "B is larger" over 0 (the two entries in the middle) to "A is larger". Equal
+// steps look equal (Oklab, Björn Ottosson 2020), and equal differences on both sides are equally
+// far from the middle.
 const ColorTable& differenceTable(Theme theme);
 
-// "+12", "−7", "0": with so many decimals, always with its sign.
+// The value with so many decimals and its sign: "+12", "−7", "0".
 QString signedText(double value, int decimals);
 
 }  // namespace palpate::gui

@@ -8,7 +8,7 @@
 namespace palpate::gui {
 namespace {
 
-// All shapes live in a square of 16 x 16 units.
+// All shapes are drawn in a square of 16 x 16 units.
 constexpr double kIconsUnits = 16.0;
 constexpr double kIconsStroke = 1.6;
 
@@ -110,7 +110,7 @@ QPainterPath strokedPart(IconShape shape) {
       path = lines({{4, 4}, {12, 12}});
       path.addPath(lines({{12, 4}, {4, 12}}));
       return path;
-    case IconShape::kConnect:  // a plug before its socket
+    case IconShape::kConnect:  // a plug in front of its socket
       path = lines({{1, 8}, {4.5, 8}});
       path.addPath(iconsPolygon({{4.5, 4.5}, {8, 4.5}, {8, 11.5}, {4.5, 11.5}}));
       path.addPath(lines({{8, 6.2}, {10.6, 6.2}}));

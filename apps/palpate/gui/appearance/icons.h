@@ -1,4 +1,5 @@
-// Icons drawn as paths in the colours of the theme: sharp at every scale, no files, no font glyphs.
+// Draws the icons of the window as paths in the colours of the theme: sharp at every scale, without
+// files or font glyphs.
 #pragma once
 
 #include <QIcon>
@@ -22,12 +23,13 @@ enum class IconShape {
   kInterpolated,
   kValues,
   kConnect,
-  kRecord,  // in the colour of danger
+  // In the theme's colour "danger".
+  kRecord,
   kStopRecording,
   kLive
 };
 
-// Switched on (checked) it takes the accent colour, disabled a faded one.
+// The icon takes the accent colour when checked, a faded one when disabled.
 QIcon makeIcon(IconShape shape, Theme theme);
 
 }  // namespace palpate::gui

@@ -1,4 +1,4 @@
-// A path as Qt writes it.
+// Converts a std::filesystem::path into a QString.
 #pragma once
 
 #include <QString>

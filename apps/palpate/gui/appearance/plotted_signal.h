@@ -10,8 +10,11 @@ namespace palpate::gui {
 using PlottedSignal = SignalKind;
 inline constexpr const auto& kAllPlottedSignals = kAllSignalKinds;
 
-QString nameOf(PlottedSignal signal);  // "mean", "filtered mean", ..; also the key in the settings
-QString unitOf(PlottedSignal signal);  // "counts", "taxels", "mm²"
-PlottedSignal plottedSignalFrom(const QString& name);  // kMean for an unknown name
+// "mean", "filtered mean", ..; also the key in the settings.
+QString nameOf(PlottedSignal signal);
+// "counts", "taxels", "mm²".
+QString unitOf(PlottedSignal signal);
+// The signal of this name; kMean for an unknown name.
+PlottedSignal plottedSignalFrom(const QString& name);
 
 }  // namespace palpate::gui

@@ -35,7 +35,7 @@ QPalette paletteOf(Theme theme) {
   return palette;
 }
 
-// @name stands for a colour of the theme.
+// Style sheet of the program; @name is replaced by a colour of the theme.
 constexpr const char* kThemeStyle = R"(
 QMainWindow::separator { background: @border; width: 1px; height: 1px; }
 QMainWindow::separator:hover { background: @accent; }
@@ -111,7 +111,7 @@ QToolButton[recording="true"] { background: @dangerSoft; border: 1px solid @dang
 QString styleOf(Theme theme) {
   const ThemeColors& colors = colorsOf(theme);
   QString style = kThemeStyle;
-  // Longer names first: @accentSoft begins with @accent.
+  // Longer names are replaced first: @accentSoft begins with @accent.
   const std::pair<const char*, QColor> names[] = {{"@accentSoft", colors.accentSoft},
                                                   {"@dangerSoft", colors.dangerSoft},
                                                   {"@accent", colors.accent},
@@ -127,8 +127,8 @@ QString styleOf(Theme theme) {
   return style;
 }
 
-// The style takes outlines from the background and darkens it: on a dark one nothing is seen of
-// them.
+// The style Fusion derives outlines from the background by darkening it; on a dark background such
+// outlines would be invisible.
 void outlineFields(Theme theme) {
   QPalette palette = paletteOf(theme);
   if (theme == Theme::kDark) palette.setColor(QPalette::Window, colorsOf(theme).muted);
@@ -222,8 +222,9 @@ ThemeChoice themeChoiceFrom(const QString& name) {
 }
 
 void applyTheme(QApplication& application, Theme theme) {
-  systemTheme();  // read before the palette is ours
-  // Every widget there is would be styled anew, several times over.
+  // Reads the theme of the desktop before the palette is replaced.
+  systemTheme();
+  // Setting the same style again would restyle every widget several times.
   if (application.styleSheet() == styleOf(theme)) return;
   QApplication::setStyle(QStyleFactory::create("Fusion"));
   QApplication::setPalette(paletteOf(theme));

@@ -1,4 +1,5 @@
-// Dark and light: the colours of the window, of the pictures, and of the matrices in charts.
+// The dark and the light theme: colours of the window, of exported pictures, and of the matrices in
+// charts.
 #pragma once
 
 #include <QColor>
@@ -11,45 +12,60 @@ class QApplication;
 namespace palpate::gui {
 
 enum class Theme { kDark, kLight };
-// What the user asked for; kSystem follows the desktop.
+// The theme that the user chose; kSystem follows the desktop.
 enum class ThemeChoice { kSystem, kDark, kLight };
 inline constexpr std::array kAllThemeChoices = {
     ThemeChoice::kSystem, ThemeChoice::kDark, ThemeChoice::kLight};
 
 struct ThemeColors {
-  QColor window;      // behind everything
-  QColor panel;       // bars, docks
-  QColor raised;      // buttons, fields
-  QColor border;      // hairlines
-  QColor text;        // 7:1 and more on window and panel
-  QColor muted;       // captions; 4.5:1 and more
-  QColor accent;      // what is on, the cursor
-  QColor accentSoft;  // background of what is on
-  QColor danger;      // failures
-  QColor dangerSoft;  // background of a failure's message
-  QColor warning;     // what needs a look: gaps, saturated taxels
-  QColor taxel;       // a taxel that feels nothing
-  QColor maskedLine;  // hatching of a taxel that isn't scanned
-  QColor grid;        // of charts
-  QColor gap;         // shade over a gap of a recording
+  // Background of the window.
+  QColor window;
+  // Background of bars and docks.
+  QColor panel;
+  // Background of buttons and fields.
+  QColor raised;
+  // Hairlines.
+  QColor border;
+  // Contrast of at least 7:1 on `window` and `panel`.
+  QColor text;
+  // Captions; contrast of at least 4.5:1.
+  QColor muted;
+  // Whatever is switched on, and the cursor.
+  QColor accent;
+  // Background of whatever is switched on.
+  QColor accentSoft;
+  // Failures.
+  QColor danger;
+  // Background of the message of a failure.
+  QColor dangerSoft;
+  // Whatever needs attention: gaps, saturated taxels.
+  QColor warning;
+  // A taxel without contact.
+  QColor taxel;
+  // Hatching of a taxel that isn't scanned.
+  QColor maskedLine;
+  // Grid of charts.
+  QColor grid;
+  // Shade over a gap of a recording.
+  QColor gap;
 };
 
 const ThemeColors& colorsOf(Theme theme);
-// One colour per matrix, the same wherever it is named; told apart by colour-blind eyes (after
+// One colour per matrix, the same in all views; colour-blind people can tell them apart (after
 // Okabe and Ito). Repeats after six.
 QColor matrixColor(std::size_t matrix, Theme theme);
-// The hand as a whole.
+// Colour of the hand as a whole.
 QColor wholeColor(Theme theme);
-// `part` of the way from one to the other, 0..1.
+// Mixes two colours; `part`: share of `to`, 0..1.
 QColor mixed(const QColor& from, const QColor& to, double part);
 
-// The desktop's own theme, as it was when the program started.
+// The theme of the desktop when the program started.
 Theme systemTheme();
 Theme resolved(ThemeChoice choice);
-// "system", "dark", "light"; anything else reads as kSystem.
+// "system", "dark", "light"; themeChoiceFrom() returns kSystem for any other text.
 QString nameOf(ThemeChoice choice);
 ThemeChoice themeChoiceFrom(const QString& name);
-// Gives the whole program a theme.
+// Applies a theme to the whole program.
 void applyTheme(QApplication& application, Theme theme);
 
 }  // namespace palpate::gui

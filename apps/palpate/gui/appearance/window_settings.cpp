@@ -8,7 +8,8 @@
 namespace palpate::gui {
 namespace {
 
-constexpr double kLargestValue = 1e9;  // of a manual range [counts]
+// Largest end of a manual range [counts].
+constexpr double kLargestValue = 1e9;
 
 double windowSettingsNumberIn(const QSettings& settings,
                               const char* key,

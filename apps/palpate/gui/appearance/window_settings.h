@@ -1,4 +1,5 @@
-// How the window looks, as it is remembered from one day to the next.
+// The appearance settings of the window (theme, colour map, range, plotted signal, playback),
+// stored from one start to the next.
 #pragma once
 
 #include <QSettings>
@@ -13,14 +14,18 @@ namespace palpate::gui {
 
 // Where the colour range of the heat maps ends.
 enum class RangeMode {
-  kRecording,  // the largest value of the whole recording
-  kFrame,      // the largest value of the frame
-  kFullScale,  // what the converter can deliver
+  // The largest value of the whole recording.
+  kRecording,
+  // The largest value of the frame.
+  kFrame,
+  // The largest value that the AD converter can deliver.
+  kFullScale,
   kManual
 };
 inline constexpr std::array kAllRangeModes = {
     RangeMode::kRecording, RangeMode::kFrame, RangeMode::kFullScale, RangeMode::kManual};
-QString nameOf(RangeMode mode);  // "whole recording", ..; also the key in the settings
+// "whole recording", ..; also the key in the settings.
+QString nameOf(RangeMode mode);
 
 struct ViewSettings {
   ThemeChoice theme = ThemeChoice::kSystem;

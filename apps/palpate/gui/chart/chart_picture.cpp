@@ -18,7 +18,8 @@ constexpr double kChartPictureMargin = 12.0;  // [units] around the words
 constexpr double kChartPictureLine = 18.0;    // [units] length of a line in the legend
 constexpr double kChartPictureGap = 6.0;      // [units] between a line and its name
 constexpr double kEntryGap = 18.0;            // [units] between entries
-constexpr double kLineSpacing = 1.3;          // of the legend's rows
+// Line spacing of the legend.
+constexpr double kLineSpacing = 1.3;
 constexpr double kLeastContrast = 3.0;
 
 double luminance(const QColor& color) {
@@ -31,7 +32,7 @@ double luminance(const QColor& color) {
 
 double contrastOnWhite(const QColor& color) { return 1.05 / (luminance(color) + 0.05); }
 
-// QCustomPlot tells nobody what its ground is.
+// Reads the background brush, for which QCustomPlot has no public getter.
 QBrush groundOf(const QCustomPlot& plot) {
   struct Opened : QCustomPlot {
     static QBrush of(const QCustomPlot& whose) { return whose.*(&Opened::mBackgroundBrush); }
@@ -39,7 +40,7 @@ QBrush groundOf(const QCustomPlot& plot) {
   return Opened::of(plot);
 }
 
-// Changes the look of a chart, and back again.
+// Changes the look of a chart and restores it in the destructor.
 class Restyled {
  public:
   Restyled(QCustomPlot& plot, const PictureLook& look, const QFont& font) : plot_(plot) {
@@ -70,7 +71,7 @@ class Restyled {
   }
   QColor ink(const QColor& color) const { return look_.forPrint ? inkOf(color) : color; }
 
-  // Sets what `get` reads to `value`, and notes how to undo it.
+  // Sets the property that `get` reads to `value`, and stores how to undo it.
   template <class Object, class Get, class Set, class Value>
   void change(Object& object, Get get, Set set, const Value& value) {
     const auto before = (object.*get)();
@@ -130,7 +131,7 @@ std::vector<ChartLegendEntry> ownNames(const QCustomPlot& plot) {
   return entries;
 }
 
-// Paints the legend from `top` on, in as many rows as it takes; returns where it ends.
+// Paints the legend from `top` downwards, in as many rows as it needs; returns its lower end.
 double paintLegend(QPainter& painter,
                    const std::vector<ChartLegendEntry>& entries,
                    const PictureLook& look,
@@ -185,7 +186,8 @@ QColor inkOf(const QColor& color) {
     for (const auto& [from, to] : kin)
       if (color == from) return to;
   }
-  if (color.alpha() < 255) return color;  // a shade lies over white as it does over black
+  // Translucent shades work on white as on black.
+  if (color.alpha() < 255) return color;
   QColor ink = color;
   while (contrastOnWhite(ink) < kLeastContrast) ink = ink.darker(110);
   return ink;
@@ -235,7 +237,8 @@ void paintChart(QPainter& painter,
   painter.translate(0.0, top);
   replay(painter, picture);
   painter.restore();
-  plot.replot(QCustomPlot::rpQueuedReplot);  // its layout was that of the picture
+  // Restores the layout of the screen.
+  plot.replot(QCustomPlot::rpQueuedReplot);
 }
 
 }  // namespace palpate::gui

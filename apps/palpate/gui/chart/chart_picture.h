@@ -1,4 +1,5 @@
-// A chart as a picture of its own: with its legend, in the colours of the screen or of paper.
+// Paints a chart as a picture for export: with its legend, in the colours of the screen or of
+// paper.
 #pragma once
 
 #include <QColor>
@@ -15,21 +16,24 @@ namespace palpate::gui {
 
 struct ChartLegendEntry {
   QString name;
-  QPen pen;  // as on screen
+  // The pen as on screen.
+  QPen pen;
 };
 
 struct ChartPictureOptions {
-  QString title = {};    // top left
-  QString caption = {};  // top right
-  // Empty: the chart's graphs that have a name of their own.
+  // At the top left.
+  QString title = {};
+  // At the top right.
+  QString caption = {};
+  // Empty: the legend lists the graphs of the chart that have a name.
   std::vector<ChartLegendEntry> legend = {};
 };
 
-// What a colour of either theme becomes on paper: the light theme's, or darkened until it can be
-// seen on white.
+// Converts a colour of either theme for paper: into that of the light theme, or darkened until it
+// is visible on white.
 QColor inkOf(const QColor& color);
 
-// The chart itself is as before afterwards. In the window's thread.
+// Paints the chart, which looks as before afterwards. To be called in the thread of the window.
 void paintChart(QPainter& painter,
                 const PictureLook& look,
                 QCustomPlot& plot,

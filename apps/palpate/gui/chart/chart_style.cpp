@@ -18,7 +18,7 @@ void styleAxis(QCPAxis& axis, const ThemeColors& colors, const QFont& font) {
   axis.grid()->setSubGridVisible(false);
 }
 
-// Along the time, and in parts of the height.
+// Makes x a time on the axis, and y a share of the height.
 void anchor(QCPItemPosition& position) {
   position.setTypeX(QCPItemPosition::ptPlotCoords);
   position.setTypeY(QCPItemPosition::ptAxisRectRatio);
@@ -88,7 +88,8 @@ QCPItemRect* shadeSpan(QCustomPlot& plot, double beginS, double endS, Theme them
 
 QCPItemText* wordAt(
     QCustomPlot& plot, double atS, const QString& text, Qt::Alignment side, const QColor& color) {
-  constexpr double kTop = 0.04;  // part of the height
+  // Share of the height.
+  constexpr double kTop = 0.04;
   auto* word = new QCPItemText(&plot);
   anchor(*word->position);
   word->position->setCoords(atS, kTop);

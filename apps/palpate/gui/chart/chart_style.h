@@ -1,4 +1,4 @@
-// What the charts have in common: axes, curves, spans and their names.
+// The common style of all charts: axes, curves, shaded spans and their names.
 #pragma once
 
 #include <QColor>
@@ -17,25 +17,26 @@ class QWidget;
 
 namespace palpate::gui {
 
-// Of the mouse's wheel.
-inline constexpr double kWheelNotch = 120.0;  // QWheelEvent::angleDelta() of one notch
-inline constexpr double kWheelZoom = 1.25;    // per notch
+// QWheelEvent::angleDelta() of one notch of the mouse wheel.
+inline constexpr double kWheelNotch = 120.0;
+// Zoom factor per notch.
+inline constexpr double kWheelZoom = 1.25;
 
-// Numbers of both axes, their ticks and margins; once.
+// Sets up the numbers, ticks and margins of both axes; called once per chart.
 void arrangeChart(QCustomPlot& plot);
-// Background and axes in the colours of a theme.
+// Gives background and axes the colours of a theme.
 void styleChart(QCustomPlot& plot, Theme theme);
-// Of a matrix; of all matrices together (`whole`) dashed.
+// The pen of a matrix; that of all matrices together (`whole`) is dashed.
 QPen curvePen(std::size_t matrix, bool whole, Theme theme);
-// "mean in counts"; a low chart has no room for more than the unit.
+// "mean in counts"; in a low chart only the unit.
 QString signalAxisName(PlottedSignal signal, const QWidget& plot);
-// The long name of an axis, or, where the chart is too low for it, the short one.
+// The long name of an axis or, if the chart is too low for it, the short one.
 QString fittingName(const QString& name, const QString& shortName, const QWidget& plot);
-// An axis beside the first one.
+// Styles an additional vertical axis.
 void styleExtraAxis(QCPAxis& axis, const QWidget& plot, Theme theme);
-// A shade over a span of time, behind the curves.
+// Adds a shade over a span of time [s], behind the curves.
 QCPItemRect* shadeSpan(QCustomPlot& plot, double beginS, double endS, Theme theme);
-// A word at the top of the chart.
+// Adds a text at the top of the chart, at the time `atS` [s].
 QCPItemText* wordAt(
     QCustomPlot& plot, double atS, const QString& text, Qt::Alignment side, const QColor& color);
 

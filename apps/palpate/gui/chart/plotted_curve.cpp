@@ -65,7 +65,7 @@ PlottedCurve taxelCurve(const TaxelSelection& taxels,
                         const QString& name,
                         std::size_t place,
                         Theme theme) {
-  // The first one in the colour of what is chosen everywhere.
+  // The first curve has the accent colour, which marks selections in all views.
   const QColor color = place == 0 ? colorsOf(theme).accent : matrixColor(place + 1, theme);
   return curve({.kind = PlottedCurveKind::kTaxels, .taxels = taxels}, name, color, Qt::SolidLine);
 }

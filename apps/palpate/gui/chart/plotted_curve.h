@@ -1,4 +1,4 @@
-// A curve of the timeline: what it shows, its name, unit and colour.
+// Describes a curve of the timeline: which series it shows, its name, unit, axis and colour.
 #pragma once
 
 #include <QPen>
@@ -15,20 +15,22 @@ namespace palpate::gui {
 struct PlottedCurve {
   SeriesChoice choice;
   QString name;  // "finger 0 distal", "thumb tip", "finger 1 distal (joint)", "motor 3"
-  QString unit;  // "counts", "°C"; the axis it belongs to
-  QString axis;  // what the axis is called: "mean in counts", "joint angle in °"
+  // "counts", "°C"; curves of one unit share an axis.
+  QString unit;
+  // Name of the axis: "mean in counts", "joint angle in °".
+  QString axis;
   QPen pen;
 };
 
 QString unitOf(const SeriesChoice& choice);
-// Of the axis: "mean in counts", "taxels in counts", "joint angle in °", "temperature in °C".
+// Name of the axis: "mean in counts", "taxels in counts", "joint angle in °", "temperature in °C".
 QString axisNameOf(const SeriesChoice& choice);
 
 PlottedCurve matrixCurve(const HandDescription& hand,
                          std::size_t row,
                          SignalKind signal,
                          Theme theme);
-// The `place`-th of the taxel curves.
+// `place`: index among the taxel curves, which decides the colour.
 PlottedCurve taxelCurve(const TaxelSelection& taxels,
                         const QString& name,
                         std::size_t place,

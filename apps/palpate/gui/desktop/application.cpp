@@ -8,13 +8,15 @@
 #include "gui/desktop/button_keys.h"
 #include "gui/desktop/wheel_guard.h"
 
-// A static library's resources are there only when asked for, and by a function of no namespace.
+// Resources of a static library must be initialised explicitly, by a function outside of any
+// namespace.
 static void initIcons() { Q_INIT_RESOURCE(icons); }
 
 namespace palpate::gui {
 namespace {
 
-// What the window shows until the desktop entry of an installed program tells the desktop.
+// The icon of the window, for a desktop that doesn't know the desktop entry of an installed
+// program.
 QIcon programIcon() {
   initIcons();
   QIcon icon;
@@ -23,7 +25,8 @@ QIcon programIcon() {
   return icon;
 }
 
-constexpr int kMostTold = 20;  // texts
+// Most texts that are reported.
+constexpr int kMostTold = 20;
 
 }  // namespace
 
@@ -38,14 +41,15 @@ bool GuardedApplication::notify(QObject* receiver, QEvent* event) {
   return false;
 }
 
-// In the thread whose event it was; telling is for the window's own one, when the event is over.
+// Runs in the thread that handled the event; the report is queued to the thread of the window.
 void GuardedApplication::note(const char* what) noexcept {
   ++numFailures_;
   try {
     QMetaObject::invokeMethod(
         this, [this, text = QString::fromUtf8(what)] { showFailure(text); }, Qt::QueuedConnection);
   } catch (...) {
-    qCritical("The window failed at an event, and goes on");  // there is no memory to say more
+    // There is no memory for a longer message.
+    qCritical("The window failed at an event, and goes on");
   }
 }
 
@@ -84,7 +88,7 @@ std::unique_ptr<QApplication> makeApplication(int& argc, char** argv) {
   QApplication::setApplicationVersion(PALPATE_VERSION);
   QApplication::setDesktopFileName("palpate");
   if (QApplication::windowIcon().isNull()) QApplication::setWindowIcon(programIcon());
-  // QApplication has taken over the user's locale; '.' stays the decimal sign in files and fields.
+  // QApplication has set the user's locale; '.' must stay the decimal sign in files and fields.
   std::setlocale(LC_NUMERIC, "C");
   QLocale numbers = QLocale::c();
   numbers.setNumberOptions(QLocale::OmitGroupSeparator);

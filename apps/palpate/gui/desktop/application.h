@@ -1,4 +1,5 @@
-// The one QApplication, set up the same way for window, pictures and tests.
+// Creates the QApplication with the same settings for the window, for pictures of the command line,
+// and for tests.
 #pragma once
 
 #include <QApplication>
@@ -10,19 +11,20 @@
 
 namespace palpate::gui {
 
-// What is thrown while the window answers an event (no memory, a bug) costs that event, not the
-// process: a hand may be moving, and its stop must be heard.
+// Catches exceptions thrown while an event is handled (no memory, a bug), so that only that event
+// is lost and not the process: a hand may be moving, and Stop must still work.
 class GuardedApplication : public QApplication {
   Q_OBJECT
  public:
   using QApplication::QApplication;
   bool notify(QObject* receiver, QEvent* event) override;
-  // How often something was thrown, since the start or since forgetFailures().
+  // Number of exceptions since the start or since forgetFailures().
   std::size_t numFailures() const noexcept { return numFailures_; }
   void forgetFailures();
 
  signals:
-  // One line for the user. Each text once, and of a few only: what fails may be a timer of 16 ms.
+  // One line for the user. Every text is emitted only once, and only a few texts at all: the
+  // failing event may come from a timer of 16 ms.
   void failed(const QString& message);
 
  private:
@@ -33,11 +35,12 @@ class GuardedApplication : public QApplication {
   QSet<QString> reportedFailures_;
 };
 
-// Of the application that is there; 0 when it is none of ours.
+// Number of failures of the present application; 0 when it isn't a GuardedApplication.
 std::size_t failuresAtEvents() noexcept;
 void forgetFailuresAtEvents();
 
-// Null when there is one already. Numbers stay the same in every locale.
+// Creates the application; null when there is one already. Numbers are written the same way in
+// every locale.
 std::unique_ptr<QApplication> makeApplication(int& argc, char** argv);
 
 }  // namespace palpate::gui

@@ -18,9 +18,9 @@ bool ButtonKeys::eventFilter(QObject* watched, QEvent* event) {
   if (key->key() == Qt::Key_Space) return button->property(kMovesHand).toBool();
   const bool presses = key->key() == Qt::Key_Return || key->key() == Qt::Key_Enter;
   const bool plain = (key->modifiers() & ~Qt::KeypadModifier) == Qt::NoModifier;
-  // A dialogue has a default button of its own.
+  // A dialogue handles these keys itself, by its default button.
   if (!presses || !plain || qobject_cast<QDialog*>(button->window())) return false;
-  // A key that is held down presses once.
+  // A key that is held down presses the button only once.
   if (event->type() == QEvent::KeyPress && !key->isAutoRepeat() && button->isEnabled()) {
     auto* tool = qobject_cast<QToolButton*>(button);
     if (tool && tool->menu() && tool->popupMode() == QToolButton::InstantPopup)

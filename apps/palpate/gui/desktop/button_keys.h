@@ -1,12 +1,12 @@
-// Return and Enter press the button that has the focus, as in a dialogue, everywhere else in the
-// window, too. Space marks the moment or plays: it never presses a button that moves the hand.
+// Makes Return and Enter press the button that has the focus, everywhere in the window as in a
+// dialogue. Space marks a moment or plays; it never presses a button that moves the hand.
 #pragma once
 
 #include <QObject>
 
 namespace palpate::gui {
 
-// The property of buttons that move the hand.
+// Name of the property that marks buttons that move the hand.
 inline constexpr const char* kMovesHand = "movesHand";
 
 class ButtonKeys : public QObject {
@@ -14,7 +14,7 @@ class ButtonKeys : public QObject {
   explicit ButtonKeys(QObject* parent);
 
  protected:
-  // Of the whole application.
+  // Filters the events of the whole application.
   bool eventFilter(QObject* watched, QEvent* event) override;
 };
 

@@ -15,8 +15,8 @@ namespace {
 
 Q_LOGGING_CATEGORY(startup, "palpate.startup", QtInfoMsg)
 
-// Since the start of this process, by the kernel's own stamp (proc(5), field 22, in ticks since
-// boot); the linker's work counts, too.
+// Seconds since the start of this process, from the start time that the kernel stores (proc(5),
+// field 22, in ticks since boot); it includes the time of the dynamic linker.
 double secondsSinceStart() {
   std::ifstream stat("/proc/self/stat");
   std::string word;
@@ -37,8 +37,8 @@ FirstPaint::FirstPaint(QWidget& window) { window.installEventFilter(this); }
 bool FirstPaint::eventFilter(QObject* watched, QEvent* event) {
   if (event->type() != QEvent::Paint) return false;
   watched->removeEventFilter(this);
-  // The children paint in the same round, and the round is flushed to the screen before the next
-  // event is taken.
+  // The child widgets paint in the same round of events, and the result is flushed to the screen
+  // before the next event is handled.
   QTimer::singleShot(0, this, [] {
     qCDebug(
         startup, "first paint %.0f ms after the start of the process", 1e3 * secondsSinceStart());

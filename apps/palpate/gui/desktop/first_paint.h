@@ -1,5 +1,6 @@
-// Tells once how long the program took to its first paint, for the figure in the README:
-// QT_LOGGING_RULES="palpate.startup.debug=true" palpate
+// Logs once the time from the start of the process to the first paint of the window. It measures
+// the figure in the README:
+//   QT_LOGGING_RULES="palpate.startup.debug=true" palpate
 #pragma once
 
 #include <QObject>

@@ -7,7 +7,7 @@
 
 namespace palpate::gui {
 
-// org.freedesktop.FileManager1 (file-manager-interface of freedesktop.org) marks the file.
+// org.freedesktop.FileManager1 (file-manager-interface of freedesktop.org) selects the file.
 void revealInFileManager(const QString& path) {
   const QUrl folder = QUrl::fromLocalFile(QFileInfo(path).absolutePath());
   auto* call = new QProcess;
@@ -21,7 +21,7 @@ void revealInFileManager(const QString& path) {
   QObject::connect(call, &QProcess::errorOccurred, [orFolder](QProcess::ProcessError error) {
     if (error == QProcess::FailedToStart) orFolder(false);
   });
-  // A comma would part two files.
+  // dbus-send would take a comma as the separator of two files.
   const QString url =
       QString::fromLatin1(QUrl::fromLocalFile(path).toEncoded()).replace(',', "%2C");
   call->start("dbus-send",

@@ -1,11 +1,11 @@
-// The desktop's file manager.
+// Shows a file in the file manager of the desktop.
 #pragma once
 
 #include <QString>
 
 namespace palpate::gui {
 
-// Shows a file in the file manager of the desktop; where that can't mark one, its folder.
+// Opens the file manager with the file selected; if it can't select a file, opens the folder.
 void revealInFileManager(const QString& path);
 
 }  // namespace palpate::gui

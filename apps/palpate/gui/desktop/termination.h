@@ -1,5 +1,5 @@
-// Ctrl-C, a closed terminal, a machine that is shut down: the window hears of it and ends as if it
-// was closed, so that a hand that moves is stopped and a recording finished.
+// Turns SIGINT, SIGTERM and SIGHUP (Ctrl-C, a closed terminal, a shutdown) into a signal on which
+// the window closes normally, so that a moving hand is stopped and a recording finished.
 #pragma once
 
 #include <QObject>
@@ -8,14 +8,15 @@
 
 namespace palpate::gui {
 
-// One at a time, and no other Interruption beside it.
+// Only one object at a time, and no other Interruption beside it.
 class Termination : public QObject {
   Q_OBJECT
  public:
   explicit Termination(QObject* parent = nullptr);
 
  signals:
-  void asked();  // SIGINT, SIGTERM, SIGHUP; in the thread of this object
+  // SIGINT, SIGTERM or SIGHUP has arrived; emitted in the thread of this object.
+  void asked();
 
  private:
   Interruption interruption_;

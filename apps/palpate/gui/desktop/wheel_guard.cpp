@@ -26,12 +26,13 @@ bool WheelGuard::eventFilter(QObject* watched, QEvent* event) {
   auto* widget = qobject_cast<QWidget*>(watched);
   if (!widget || !isGuarded(*widget)) return false;
   if (event->type() == QEvent::Polish) {
-    // Else the wheel would give it the focus first.
+    // With Qt::WheelFocus the wheel would give the control the focus first.
     if (widget->focusPolicy() == Qt::WheelFocus) widget->setFocusPolicy(Qt::StrongFocus);
     return false;
   }
   if (widget->hasFocus()) return false;
-  event->ignore();  // what it lies on scrolls
+  // An ignored event goes to the parent, which scrolls.
+  event->ignore();
   return true;
 }
 

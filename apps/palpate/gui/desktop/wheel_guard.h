@@ -1,12 +1,13 @@
-// The wheel scrolls; it changes a number, a slider or a choice only where the keyboard already is.
-// Of the whole application: whoever scrolls over the settings of a hand sets nothing.
+// Event filter of the whole application: the mouse wheel changes a number, a slider or a choice
+// only if that control has the keyboard focus; otherwise it scrolls. So scrolling over the settings
+// of a hand doesn't change them.
 #pragma once
 
 #include <QObject>
 
 namespace palpate::gui {
 
-// A slider with this property takes the wheel as its own: the bar that scrubs through a recording.
+// Name of the property of sliders that always take the wheel: the position slider of the playback.
 inline constexpr const char* kTakesWheel = "takesWheel";
 
 class WheelGuard : public QObject {

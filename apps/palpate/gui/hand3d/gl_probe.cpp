@@ -19,9 +19,10 @@ namespace palpate::gui {
 
 namespace {
 
-constexpr int kSide = 8;  // of the picture that is tried [px]
+// Side of the picture that is drawn as a trial [px].
+constexpr int kSide = 8;
 
-// Drawn and read back: a red square that fills the picture.
+// Draws a red square that fills the picture, and reads it back.
 QString tryToDraw() {
   HandGl gl;
   if (const QString why = gl.initialize(); !why.isEmpty()) return why;
@@ -88,7 +89,7 @@ void askForOpenGl(const std::filesystem::path& program,
                   std::function<void(const QString& why)> answer,
                   int patienceMs) {
   auto* process = new QProcess(QCoreApplication::instance());
-  // It ends, doesn't start, or takes too long: the first of them answers.
+  // The process ends, doesn't start, or takes too long: the first of these gives the answer.
   const auto finish = [answer = std::move(answer),
                        done = std::make_shared<bool>(false)](const QString& why) {
     if (!std::exchange(*done, true)) answer(why);

@@ -12,7 +12,7 @@ namespace {
 constexpr double kRadPerDeg = std::numbers::pi / 180.0;
 constexpr double kLargestElevationDeg = 89.0;
 constexpr double kLargestTargetMm = 1e6;
-// Part of the picture, from its middle, that fit() fills.
+// Share of the picture that fit() fills.
 constexpr double kFilledByFit = 0.92;
 
 double finiteOr(double value, double otherwise) { return std::isfinite(value) ? value : otherwise; }
@@ -26,7 +26,8 @@ bool hasArea(const QSizeF& size) {
          size.height() > 0.0;
 }
 
-// Rows: right, up, towards the eye. By angle, so that it holds at the poles as well.
+// Rows: right, up, towards the eye. Computed from the angles, so that it is also valid at the
+// poles.
 Eigen::Matrix3d axesOf(const HandCamera& camera) {
   const double azimuth = kRadPerDeg * camera.azimuthDeg;
   const double elevation = kRadPerDeg * camera.elevationDeg;
@@ -140,8 +141,8 @@ void HandCamera::zoom(double factor, const QPointF& at, const QSizeF& size) {
   const double scale = hasArea(size) ? pxPerMm(size.height()) : 0.0;
   distanceMm = std::clamp(before / factor, kMinDistanceMm, kMaxDistanceMm);
   if (!(scale > 0.0) || !std::isfinite(at.x()) || !std::isfinite(at.y())) return;
-  // The point of the target's plane under the mouse keeps its place when its offset from the target
-  // shrinks as the distance does.
+  // The point of the target's plane under the mouse pointer keeps its place when its offset from
+  // the target shrinks in proportion to the distance.
   const Eigen::Matrix3d axes = axesOf(*this);
   const Eigen::Vector3d offsetMm =
       (axes.row(0) * (at.x() - 0.5 * size.width()) - axes.row(1) * (at.y() - 0.5 * size.height()))
@@ -154,8 +155,8 @@ void HandCamera::zoom(double factor, const QPointF& at, const QSizeF& size) {
 // In the eye's axes (x right, y up, z towards it) an eye at (cx, cy, ez) has a point (x, y, z) in
 // its picture when
 //   |x - cx| <= t (ez - z), t = tangent of half the angle of view sideways;  the same for y.
-// So t ez + cx >= max(x + t z) and t ez - cx >= max(t z - x): the smallest ez, and cx in the
-// middle, follow from the two maxima, for x and for y by itself; the larger ez serves both.
+// So t ez + cx >= max(x + t z) and t ez - cx >= max(t z - x): the two maxima give the smallest ez
+// and the cx in the middle, separately for x and y; the larger ez is valid for both.
 void HandCamera::fit(const std::vector<Eigen::Vector3d>& pointsMm, double aspect) {
   *this = inRange();
   const double sideways = std::isfinite(aspect) && aspect > 0.0 ? aspect : 1.0;
@@ -176,7 +177,7 @@ void HandCamera::fit(const std::vector<Eigen::Vector3d>& pointsMm, double aspect
     furthest = std::min(furthest, p.z());
   }
   if (nearest < furthest) return;
-  // The nearest point stays clear of the near plane.
+  // Keeps the nearest point in front of the near plane.
   double eye = nearest + std::max(kMinDistanceMm, 0.05 * (nearest - furthest));
   for (int i = 0; i < 2; ++i) eye = std::max(eye, 0.5 * (upper[i] + lower[i]) / tangent[i]);
   const Eigen::Vector3d middle(

@@ -1,4 +1,4 @@
-// The hand in space at single frames of a recording, as files take it.
+// Paints the hand in space at single frames of a recording, for exported files.
 #pragma once
 
 #include <vector>
@@ -10,7 +10,8 @@
 
 namespace palpate::gui {
 
-// As matricesFramePainter(). `assumedDeg`: for a recording without joint angles; empty: at rest.
+// As matricesFramePainter(). `assumedDeg`: joint angles [deg] for a recording that has none; empty:
+// the rest pose.
 FramePictures::Paint handFramePainter(const Profile& profile,
                                       const HandPictureOptions& options,
                                       const std::vector<double>& assumedDeg);

@@ -15,7 +15,7 @@ namespace palpate::gui {
 
 namespace {
 
-// Colours are 0xAARRGGBB numbers, taken apart here: whatever the order of bytes.
+// Colours are 0xAARRGGBB numbers; unpacking them in the shader is independent of the byte order.
 constexpr const char* kUnpack = R"(
 vec4 unpacked(uint argb) {
   return vec4((argb >> 16) & 255u, (argb >> 8) & 255u, argb & 255u, argb >> 24) / 255.0;
@@ -41,7 +41,7 @@ void main() {
 }
 )";
 
-// Lines and points are in clip space already.
+// Lines and points are already in clip space.
 constexpr const char* kFlatVertex = R"(
 layout(location = 0) in vec4 position;
 layout(location = 1) in uint argb;
@@ -62,7 +62,8 @@ QString source(const char* text) {
   return QStringLiteral("#version 330 core\n") + QLatin1String(text);
 }
 
-// Whole triangles of numbers; a normal that is none: not lit.
+// Copies the triangles whose vertices are numbers; a normal that isn't a number becomes zero (not
+// lit).
 void copyNumbers(const std::vector<SceneVertex>& from, std::vector<SceneVertex>& to) {
   to.clear();
   for (std::size_t i = 0; i + 2 < from.size(); i += 3) {
@@ -81,7 +82,7 @@ void copyNumbers(const std::vector<SceneVertex>& from, std::vector<SceneVertex>&
 struct HandGl::Gl {
   QOpenGLFunctions_3_3_Core* functions = nullptr;
   QOpenGLShaderProgram surface, flat;
-  // A buffer and how to read it, for each kind.
+  // A vertex buffer and its layout, for each kind of primitive.
   struct Kind {
     QOpenGLVertexArrayObject reading;
     QOpenGLBuffer buffer{QOpenGLBuffer::VertexBuffer};

@@ -1,5 +1,5 @@
-// Draws a hand in space with OpenGL 3.3 (core profile) into whatever framebuffer is bound. The same
-// picture as hand_raster.h, but for what drivers make of edges.
+// Draws a hand in space with OpenGL 3.3 (core profile) into the bound framebuffer. The picture is
+// that of hand_raster.h, except for how drivers draw edges.
 #pragma once
 
 #include <QSizeF>
@@ -11,8 +11,8 @@
 
 namespace palpate::gui {
 
-// Every function needs the same current context, but for the constructor, and for the destructor
-// once release() was called or initialize() said no.
+// Every function needs the same current context, except the constructor, and the destructor after
+// release() or a failed initialize().
 class HandGl {
  public:
   HandGl();
@@ -20,19 +20,19 @@ class HandGl {
   HandGl(const HandGl&) = delete;
   HandGl& operator=(const HandGl&) = delete;
 
-  // Empty when it can draw now; else why it can't: no context, too old, a shader that the driver
-  // doesn't take. May be called again, in another context as well when release() was called in the
-  // one before.
+  // Returns an empty text when drawing is possible; else the reason: no context, too old, a shader
+  // that the driver rejects. May be called again, also in another context if release() was called
+  // in the previous one.
   QString initialize();
   bool canDraw() const { return gl_ != nullptr; }
-  // The scene without its labels, over all of the framebuffer's first size * pixelRatio pixels
-  // (rounded). Triangles with a vertex that isn't a number are left out. Leaves the context as Qt
-  // expects it (no buffer, no program, no depth test). Nothing happens when it can't draw.
+  // Draws the scene without its labels over the first size * pixelRatio pixels (rounded) of the
+  // framebuffer. Triangles with a vertex that isn't a number are left out. Leaves the context as Qt
+  // expects it (no buffer, no program, no depth test). Does nothing when canDraw() is false.
   void draw(const HandScene& scene,
             const HandCamera& camera,
             const QSizeF& size,
             double pixelRatio = 1.0);
-  // Gives back what it has in the context. May be called at any time, also twice.
+  // Frees all resources in the context. May be called at any time, also twice.
   void release();
 
  private:

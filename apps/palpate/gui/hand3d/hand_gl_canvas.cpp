@@ -30,7 +30,7 @@ HandGlCanvas::~HandGlCanvas() {
 }
 
 void HandGlCanvas::initializeGL() {
-  // A widget that goes into another window gets another context.
+  // A widget that moves into another window gets another context.
   connect(context(), &QOpenGLContext::aboutToBeDestroyed, this, [this] {
     makeCurrent();
     gl_.release();
@@ -50,7 +50,8 @@ void HandGlCanvas::fail(const QString& why) {
 void HandGlCanvas::paintGL() {
   if (failed_) return;
   gl_.draw(scene(), camera(), size(), devicePixelRatioF());
-  // Not on this widget: while somebody takes a picture of the window, its painters lead elsewhere.
+  // Not a painter on this widget: while a picture of the window is taken, painters of its widgets
+  // are redirected.
   QOpenGLPaintDevice device(size() * devicePixelRatioF());
   device.setDevicePixelRatio(devicePixelRatioF());
   QPainter painter(&device);

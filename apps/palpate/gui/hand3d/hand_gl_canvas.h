@@ -1,5 +1,5 @@
-// Where a view of the hand is drawn with OpenGL. Only draws: what, and what the mouse means, is its
-// owner's affair.
+// The widget on which HandView draws with OpenGL. It only draws; its owner supplies the scene and
+// handles the mouse.
 #pragma once
 
 #include <QOpenGLWidget>
@@ -16,13 +16,13 @@ class HandGlCanvas : public QOpenGLWidget {
   explicit HandGlCanvas(QWidget* parent = nullptr);
   ~HandGlCanvas() override;
 
-  // Asked for whenever it is drawn.
+  // Called whenever the widget is drawn.
   std::function<const HandScene&()> scene;
   std::function<const HandCamera&()> camera;
   std::function<void(QPainter&)> paintOver;
 
  signals:
-  // OpenGL said no; sent once, after the painting that found it out.
+  // OpenGL can't be used; emitted once, after the paint event that found it out.
   void failed(const QString& why);
 
  protected:

@@ -1,5 +1,5 @@
-// The words of a scene: beside the place they name, each where no other word is yet, with a rim in
-// the colour of the ground so that they are read on any surface.
+// Paints the labels of a scene, each beside its place where no other label is yet, with an outline
+// in the background colour so that they are readable on any surface.
 #include <QFontMetricsF>
 #include <QPainter>
 #include <QPainterPath>
@@ -13,7 +13,7 @@ namespace palpate::gui {
 
 namespace {
 
-constexpr double kGapPx = 6.0;  // between the place and its words
+constexpr double kGapPx = 6.0;  // [px] between the place and its text
 constexpr double kRimPx = 3.0;
 
 struct Placed {
@@ -21,7 +21,7 @@ struct Placed {
   HandCamera::Projected place;
 };
 
-// Right of the place, left, above, below.
+// The positions for a label: right of the place, left, above, below.
 std::array<QRectF, 4> placesAround(const QPointF& at, const QSizeF& text) {
   const double w = text.width(), h = text.height();
   return {QRectF(at.x() + kGapPx, at.y() - 0.5 * h, w, h),
@@ -62,7 +62,7 @@ void paintLabels(QPainter& painter,
     if (place && picture.contains(place->at) && !label.text.isEmpty())
       shown.push_back({.label = &label, .place = *place});
   }
-  // The nearest first: it has the choice of places.
+  // The nearest label comes first: it has the free choice of positions.
   std::stable_sort(shown.begin(), shown.end(), [](const Placed& a, const Placed& b) {
     return a.place.depthMm < b.place.depthMm;
   });

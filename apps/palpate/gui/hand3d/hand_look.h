@@ -1,4 +1,4 @@
-// How the hand in space is drawn.
+// The settings of how the hand in space is drawn.
 #pragma once
 
 #include <QSettings>
@@ -13,15 +13,16 @@
 
 namespace palpate::gui {
 
-// The taxels: on the hand or laid flat side by side, as their surface, as bars along the normal, as
-// points.
+// How taxels are drawn: as their surface, as bars along the normal, or as points; on the hand, or
+// laid flat with the matrices side by side.
 enum class TaxelShape { kCells, kBars, kPoints, kFlatCells, kFlatBars };
 inline constexpr std::array kAllTaxelShapes = {TaxelShape::kCells,
                                                TaxelShape::kBars,
                                                TaxelShape::kPoints,
                                                TaxelShape::kFlatCells,
                                                TaxelShape::kFlatBars};
-QString nameOf(TaxelShape shape);  // "cells", "bars", ..: in menus and settings
+// "cells", "bars", ..: the name in menus and settings.
+QString nameOf(TaxelShape shape);
 bool isFlat(TaxelShape shape);
 
 enum class SphereLook { kGlass, kOpaque, kWire, kNone };
@@ -29,7 +30,7 @@ inline constexpr std::array kAllSphereLooks = {
     SphereLook::kGlass, SphereLook::kOpaque, SphereLook::kWire, SphereLook::kNone};
 QString nameOf(SphereLook look);
 
-// What the sphere encloses.
+// What the enclosing sphere encloses.
 enum class SphereOf { kTaxels, kCentroids };
 
 struct HandLook {
@@ -37,19 +38,24 @@ struct HandLook {
   SphereLook sphere = SphereLook::kGlass;
   SphereOf sphereOf = SphereOf::kTaxels;
   bool normals = false;
-  bool wire = false;     // the links as a wire frame
-  bool contacts = true;  // centroids, principal axes and mean normals of the contacts
-  bool slip = true;      // how the contacts and the object move, where the dock Slip measures it
-  bool axes = false;     // of the hand's base frame
-  std::optional<std::size_t> only = {};  // one matrix alone; not remembered
-  // Shared with the heat maps.
+  // Draws the links as a wire frame.
+  bool wire = false;
+  // Draws centroids, principal axes and mean normals of the contacts.
+  bool contacts = true;
+  // Draws the motion of the contacts and the object, as measured by the dock Slip.
+  bool slip = true;
+  // Draws the axes of the hand's base frame.
+  bool axes = false;
+  // Shows one matrix alone; not stored in the settings.
+  std::optional<std::size_t> only = {};
+  // The same as in the heat maps.
   ColorMapName map = ColorMapName::kInferno;
   ValueRange range = {};
   Theme theme = Theme::kDark;
   bool operator==(const HandLook&) const = default;
 };
 
-// What is remembered of it from day to day; what makes no sense in the settings is the default.
+// Load and store the look in the settings; values that make no sense become the defaults.
 HandLook loadHandLook(const QSettings& settings);
 void saveHandLook(const HandLook& look, QSettings& settings);
 

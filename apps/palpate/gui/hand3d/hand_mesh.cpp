@@ -13,16 +13,24 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 using Eigen::Vector3f;
 
-constexpr double kSmoothBelow = 0.82;  // cosine between neighbouring faces that make one surface
-constexpr int kRound = 28;             // corners of a circle
+// Above this cosine of their normals, neighbouring faces are shaded as one smooth surface.
+constexpr double kSmoothBelow = 0.82;
+// Corners of a circle.
+constexpr int kRound = 28;
 constexpr double kChamferMm = 2.0;
-constexpr double kBesideMm = 2.6;      // of the sensor's edge
-constexpr double kUnderMm = 0.6;       // the taxels lie so much above the body
-constexpr double kBackShare = 0.78;    // of the sensor's height: how deep a link is behind its axis
-constexpr double kKnuckleShare = 0.9;  // its radius, of the sensor's height
-constexpr double kPlainHeightMm = 14.0;  // of a link without a sensor
+// The body is wider than the sensor by this much on either side.
+constexpr double kBesideMm = 2.6;
+// Height of the taxels above the body.
+constexpr double kUnderMm = 0.6;
+// Depth of a link behind its axis, as a share of the sensor's height.
+constexpr double kBackShare = 0.78;
+// Radius of a knuckle, as a share of the sensor's height.
+constexpr double kKnuckleShare = 0.9;
+// Height of a link without a sensor.
+constexpr double kPlainHeightMm = 14.0;
 constexpr double kPlainHalfWidthMm = 12.8;
-constexpr double kPalmAroundMm = 25.0;  // of the fingers' bases
+// Radius of the palm around the base of a finger.
+constexpr double kPalmAroundMm = 25.0;
 constexpr double kPalmDepthMm = 44.0;
 
 std::vector<Vector2d> circle(const Vector2d& centre, double radius) {
@@ -80,9 +88,10 @@ void turn(HandBody& body,
     body.edges[i] = {move * body.edges[i].first, move * body.edges[i].second};
 }
 
-// Where the surface of a matrix runs in the frame of its link: from the palm to the tip.
+// The course of a matrix' surface in the frame of its link, from the palm to the tip.
 struct SurfaceLine {
-  std::vector<Vector2d> pointsMm;  // x along the link, y out of the surface
+  // x along the link, y out of the surface.
+  std::vector<Vector2d> pointsMm;
   double halfWidthMm = 0.0;
   double heightMm = 0.0;
 };
@@ -102,8 +111,8 @@ SurfaceLine lineOf(const GeometryDescription& hand, const HandPose& pose, std::s
   return line;
 }
 
-// Seen from the side: joint at -lengthMm, the next joint or the tip at 0, the sensor's surface on
-// top.
+// Outline of a link seen from the side: its joint at -lengthMm, the next joint or the tip at 0, the
+// sensor's surface on top.
 std::vector<Vector2d> linkOutline(const std::optional<SurfaceLine>& surface,
                                   double lengthMm,
                                   bool tip) {
@@ -186,7 +195,7 @@ void appendExtrusion(HandBody& body,
     const Vector2d along = (outline[(i + 1) % n] - outline[i]).normalized();
     faceNormals.emplace_back(along.y(), -along.x());
   }
-  // The normal of face `i` at its corner shared with face `j`.
+  // The normal of face `i` at the corner that it shares with face `j`.
   const auto normal = [&](std::size_t i, std::size_t j) {
     const bool smooth = faceNormals[i].dot(faceNormals[j]) > kSmoothBelow;
     const Vector2d both = smooth ? (faceNormals[i] + faceNormals[j]).normalized() : faceNormals[i];
@@ -247,7 +256,7 @@ std::vector<HandBody> handBodies(const HandGeometry& geometry) {
         appendExtrusion(
             body, linkOutline(surface, links[l].rMm, tip), -halfWidthMm, halfWidthMm, kChamferMm);
       } else if (links[l].dMm != 0.0) {
-        // A column from the origin before to this one, which is at 0 of this frame.
+        // A column from the previous joint's origin to the origin of this frame.
         const double alpha = links[l].alphaDeg * std::numbers::pi / 180.0;
         const Vector3d before(
             0.0, -links[l].dMm * std::sin(alpha), -links[l].dMm * std::cos(alpha));
@@ -259,7 +268,7 @@ std::vector<HandBody> handBodies(const HandGeometry& geometry) {
       }
       if (!body.triangles.empty()) bodies.push_back(std::move(body));
       if (l + 1 == links.size()) continue;
-      // The knuckle that turns the next link lies in this one's frame.
+      // The knuckle of the next link is given in the frame of this one.
       HandBody knuckle{
           .role = HandBodyRole::kKnuckle, .finger = f, .link = l, .triangles = {}, .edges = {}};
       const double wideMm = kPlainHalfWidthMm + 1.2;

@@ -1,5 +1,5 @@
-// The bodies of a hand as simple shapes made from its geometry: palm, knuckles, links that carry
-// their sensor surface. No third-party mesh: another hand is another GeometryDescription.
+// Builds the bodies of a hand (palm, knuckles, links with their sensor surface) as simple shapes
+// from its geometry. No third-party mesh is needed: another hand is another GeometryDescription.
 #pragma once
 
 #include <cstddef>
@@ -15,29 +15,33 @@ namespace palpate::gui {
 
 enum class HandBodyRole { kPalm, kKnuckle, kLink };
 
-// Moves as one. In the frame of a link [mm], or in the hand's base frame.
+// A rigid body, in the frame of a link [mm] or in the hand's base frame.
 struct HandBody {
   struct Corner {
     Eigen::Vector3f atMm;
-    Eigen::Vector3f normal;  // out of the body
+    // Points out of the body.
+    Eigen::Vector3f normal;
   };
   HandBodyRole role = HandBodyRole::kLink;
   std::size_t finger = 0;
-  std::optional<std::size_t> link;  // nothing: fixed to the palm
-  std::vector<Corner> triangles;    // three each, counter-clockwise seen from outside
-  std::vector<std::pair<Eigen::Vector3f, Eigen::Vector3f>> edges;  // for a wire frame
+  // Nothing: the body is fixed to the palm.
+  std::optional<std::size_t> link;
+  // Three corners per triangle, counter-clockwise seen from outside.
+  std::vector<Corner> triangles;
+  // Edges for the wire frame.
+  std::vector<std::pair<Eigen::Vector3f, Eigen::Vector3f>> edges;
 };
 
 std::vector<HandBody> handBodies(const HandGeometry& geometry);
 
-// A convex outline (counter-clockwise, x right, y up), drawn out from zMin to zMax, its rims cut by
-// `chamferMm`.
+// Appends a convex outline (counter-clockwise, x right, y up), extruded from zMin to zMax, its rims
+// chamfered by `chamferMm`.
 void appendExtrusion(HandBody& body,
                      const std::vector<Eigen::Vector2d>& outlineMm,
                      double zMinMm,
                      double zMaxMm,
                      double chamferMm);
-// The smallest convex outline around points, counter-clockwise.
+// The convex hull of the points, counter-clockwise.
 std::vector<Eigen::Vector2d> convexOutline(std::vector<Eigen::Vector2d> pointsMm);
 
 }  // namespace palpate::gui

@@ -17,14 +17,16 @@ namespace palpate::gui {
 namespace {
 
 constexpr int kHandPanelControlHeight = 26;  // [px] of boxes beside buttons
-constexpr int kBoxesAbove = 400;             // [px] of width: room for the sphere's box
+// From this width [px] there is room for the box of the sphere.
+constexpr int kBoxesAbove = 400;
 
 template <class All, class Value>
 int handPanelIndexOf(const All& all, Value value) {
   return static_cast<int>(std::find(all.begin(), all.end(), value) - all.begin());
 }
 
-// Of the hand at the ends of a recording and where it holds most.
+// Points of the hand at the first, the last and the strongest frame of a recording, for the first
+// view.
 std::vector<Eigen::Vector3d> handPanelExtentOf(const OpenedRecording& recording,
                                                const HandLook& look) {
   std::vector<Eigen::Vector3d> points;
@@ -38,7 +40,8 @@ std::vector<Eigen::Vector3d> handPanelExtentOf(const OpenedRecording& recording,
       const auto angles = profile.anglesAtFrame(frame);
       drawing.setMoment(profile.frame(frame), angles ? angles->deg : std::vector<double>());
     } catch (const Error&) {
-      continue;  // damaged: whoever shows this frame says so
+      // The frame is damaged; that is reported when it is shown.
+      continue;
     }
     const auto now = drawing.extent(look);
     points.insert(points.end(), now.begin(), now.end());
@@ -55,7 +58,7 @@ HandPanel::HandPanel(const QList<QAction*>& shown, QWidget* parent) : QWidget(pa
   const auto box = [header](const char* name, const char* tip) {
     auto* made = new QComboBox(header);
     made->setObjectName(name);
-    made->setFocusPolicy(Qt::NoFocus);  // it has a key
+    made->setFocusPolicy(Qt::NoFocus);  // has a shortcut instead
     made->setToolTip(tip);
     made->setMinimumHeight(kHandPanelControlHeight);
     made->setSizeAdjustPolicy(QComboBox::AdjustToContents);

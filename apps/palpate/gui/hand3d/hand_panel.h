@@ -1,5 +1,5 @@
-// The hand in space with its controls: how taxels are drawn, which sphere, which matrix alone, what
-// else is seen.
+// The hand in space with its controls: how taxels are drawn, which sphere, which single matrix,
+// what else is visible.
 #pragma once
 
 #include <QWidget>
@@ -17,22 +17,24 @@ namespace palpate::gui {
 class HandPanel : public QWidget {
   Q_OBJECT
  public:
-  // `shown`: what can be ticked to be seen, offered by a button of the header.
+  // `shown`: checkable actions for what is visible, offered by a button of the header.
   explicit HandPanel(const QList<QAction*>& shown, QWidget* parent = nullptr);
 
-  void setRecording(const OpenedRecordingPtr& recording);  // null: none
-  // A live hand instead of a recording.
+  // Shows a recording; null: none.
+  void setRecording(const OpenedRecordingPtr& recording);
+  // Shows a live hand instead of a recording.
   void setHand(const HandDescription& hand);
-  // At one moment; no angles: they aren't known.
+  // Shows one frame with its joint angles [deg]; empty: the angles aren't known.
   void show(const TactileFrame& frame, const std::vector<double>& anglesDeg);
-  // Colours as in the heat maps.
+  // Takes the colours of the heat maps.
   void setColors(const MatricesLook& look);
-  void setLook(const HandLook& look);  // its colours are left as they are
+  // Sets the look except its colours.
+  void setLook(const HandLook& look);
   const HandLook& look() const noexcept { return view_->look(); }
   HandView& view() noexcept { return *view_; }
 
  signals:
-  // By the header's boxes.
+  // The user chose a look with the controls of the header.
   void lookChosen(const palpate::gui::HandLook& look);
 
  protected:

@@ -14,15 +14,19 @@ namespace palpate::gui {
 namespace {
 
 constexpr double kHandPictureMargin = 12.0;    // [px]
-constexpr double kHandPictureBarWidth = 12.0;  // of the colours
+constexpr double kHandPictureBarWidth = 12.0;  // [px] of the colour bar
 constexpr double kHandPictureBarLabels = 44.0;
 constexpr double kHighestBar = 220.0;
-constexpr double kLowestPicture = 220.0;  // [px] below, there is no room for a bar
-constexpr double kScaleShare = 0.16;      // of the width, at most
-constexpr double kFine = 2.0;             // device pixels per unit
-constexpr double kVectorRatio = 2.5;      // dots per unit on paper
+// Below this height [px] there is no room for a colour bar.
+constexpr double kLowestPicture = 220.0;
+// Longest scale bar, as a share of the width.
+constexpr double kScaleShare = 0.16;
+// Device pixels per unit from which fewer samples suffice.
+constexpr double kFine = 2.0;
+// Dots per unit on paper.
+constexpr double kVectorRatio = 2.5;
 
-// 1, 2, 5, 10, 20, .. mm, the longest that fits.
+// The longest of 1, 2, 5, 10, 20, .. mm that fits.
 double roundLength(double longestMm) {
   const double power = std::pow(10.0, std::floor(std::log10(longestMm)));
   for (const double step : {5.0, 2.0})
@@ -44,7 +48,7 @@ void paintScale(QPainter& painter, const QRectF& area, const HandPictureOptions&
   painter.drawText(left + QPointF(length + 8.0, 2.0), text);
 }
 
-// How large the sphere is, where it is seen.
+// Paints the diameter of the sphere, if the sphere is visible.
 double paintSphereText(QPainter& painter,
                        const QRectF& area,
                        double top,

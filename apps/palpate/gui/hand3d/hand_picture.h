@@ -1,5 +1,5 @@
-// The hand in space as a picture: the scene, and over it title, colour bar, scale and what there is
-// to say. Used by the window, by exported files and by `palpate render --view hand`.
+// Paints the hand in space as a picture: the scene and, over it, title, colour bar, scale and
+// notices. Used by the window, by exported files and by `palpate render --view hand`.
 #pragma once
 
 #include <QRectF>
@@ -15,30 +15,34 @@ class QPainter;
 namespace palpate::gui {
 
 struct HandPictureOptions {
-  MatricesPictureOptions page;  // size, title, caption, colour bar, theme, font, pixel ratio
-  HandLook look;                // its map, range and theme follow the page's
+  // Size, title, caption, colour bar, theme, font, pixel ratio.
+  MatricesPictureOptions page;
+  // Its colour map, range and theme are replaced by those of the page.
+  HandLook look;
   HandCamera camera;
-  QString notice;  // "no joint angles: the hand at rest"; empty: nothing to say
+  // For example "no joint angles: the hand at rest"; empty: no notice.
+  QString notice;
 };
 
-// The look with the colours of the page; a range that is empty there is that of the frame.
+// The look with the colours of the page; an empty range becomes that of the frame.
 HandLook lookOf(const HandPictureOptions& options, const HandSceneBuilder& drawing);
-// What lies over the scene; `area` is the picture's.
+// Paints everything over the scene; `area` is that of the picture.
 void paintHandOverlay(QPainter& painter,
                       const QRectF& area,
                       const HandSceneBuilder& drawing,
                       const HandScene& scene,
                       const HandPictureOptions& options);
-// Everything, drawn without OpenGL. On vector devices the scene is an image of 300 dots per inch.
+// Paints the whole picture without OpenGL. On vector devices the scene is an image of 300 dots per
+// inch.
 void paintHandPicture(QPainter& painter,
                       const QRectF& area,
                       const HandSceneBuilder& drawing,
                       const HandPictureOptions& options);
 
-// "enclosing sphere 65.9 mm across"; empty: there is none.
+// "enclosing sphere 65.9 mm across"; empty: there is no sphere.
 QString sphereText(const HandSceneBuilder& drawing, SphereOf of);
-// What a user should know about the pose that is shown; empty: all is well. `assumed`: the angles
-// aren't the recording's.
+// What the user should know about the displayed pose; empty: nothing. `assumed`: the angles aren't
+// those of the recording.
 QString poseNotice(const HandSceneBuilder& drawing, bool assumed);
 
 }  // namespace palpate::gui

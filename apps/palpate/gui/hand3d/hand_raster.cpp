@@ -14,8 +14,8 @@ namespace palpate::gui {
 
 namespace {
 
-// Four in sixteenths of a pixel, no two in a row or column: where OpenGL drivers put them (y down
-// here).
+// Four sample places in sixteenths of a pixel, no two in the same row or column: where OpenGL
+// drivers put them (here with y down).
 constexpr std::array<std::array<int, 2>, 4> kFour = {{{-2, 6}, {6, 2}, {-6, -2}, {2, -6}}};
 
 std::vector<SamplePlaces> handRasterPlacesOf(RasterQuality quality) {
@@ -25,7 +25,8 @@ std::vector<SamplePlaces> handRasterPlacesOf(RasterQuality quality) {
       if (quality == RasterQuality::kScreen) {
         passes[pass].x[i] = static_cast<float>(kFour[i][0]) / 16.0F;
         passes[pass].y[i] = static_cast<float>(kFour[i][1]) / 16.0F;
-      } else {  // Hammersley's points: in every row, column and 4 x 4 cell one
+      } else {
+        // Hammersley's points: one in every row, column and 4 x 4 cell.
         const std::size_t n = 4 * i + pass;
         const std::size_t turned = ((n & 1) << 3) | ((n & 2) << 1) | ((n & 4) >> 1) | (n >> 3);
         passes[pass].x[i] = (static_cast<float>(n) + 0.5F) / 16.0F - 0.5F;
@@ -37,7 +38,8 @@ std::vector<SamplePlaces> handRasterPlacesOf(RasterQuality quality) {
 
 QSize pixelsOf(const QSizeF& size, double pixelRatio) {
   const double width = size.width() * pixelRatio, height = size.height() * pixelRatio;
-  constexpr double kMost = 32767.0;  // of a QImage
+  // Largest side of a QImage [pixels].
+  constexpr double kMost = 32767.0;
   if (!(size.width() > 0.0) || !(size.height() > 0.0) || !(pixelRatio > 0.0) || !(width <= kMost) ||
       !(height <= kMost))
     return {};
@@ -52,7 +54,8 @@ struct HandRaster::Work {
   RasterSetup setup;
   RasterList list;
   HandTile tile;
-  std::vector<std::vector<std::uint32_t>> ofTile;  // triangles that may touch it, in a row of tiles
+  // For each tile of a row of tiles: the triangles that may touch it.
+  std::vector<std::vector<std::uint32_t>> ofTile;
 
   void sortIntoTiles(int top, int numTiles) {
     ofTile.resize(std::max(ofTile.size(), static_cast<std::size_t>(numTiles)));
@@ -70,7 +73,7 @@ struct HandRaster::Work {
     tile.clear(background);
     for (const std::uint32_t i : triangles) tile.draw(list.triangles[i], list.shades, samples);
   }
-  // Of `width` x `height` pixels, all passes.
+  // Draws all passes of a tile of `width` x `height` pixels.
   void drawTile(const std::vector<std::uint32_t>& triangles,
                 const std::vector<SamplePlaces>& passes,
                 QRgb background,
@@ -107,7 +110,8 @@ const QImage& HandRaster::draw(const HandScene& scene,
   QImage& image = work_->image;
   const QSize pixels = pixelsOf(size, pixelRatio);
   if (image.size() != pixels) {
-    image = QImage();  // frees the memory before it takes more
+    // Frees the memory before new memory is allocated.
+    image = QImage();
     image = QImage(pixels, QImage::Format_RGB32);
   }
   if (image.isNull()) return image;

@@ -1,6 +1,6 @@
-// Draws a hand in space without OpenGL: where there is none (--no-gl, no driver), for pictures of
-// any size and for pictures that are compared. The same scene gives the same pixels, whatever the
-// machine.
+// Draws a hand in space without OpenGL: where OpenGL isn't available (--no-gl, no driver), for
+// exported pictures of any size, and for pictures that tests compare. The same scene gives the same
+// pixels on every machine.
 #pragma once
 
 #include <QImage>
@@ -14,13 +14,15 @@
 
 namespace palpate::gui {
 
-// Samples per pixel: what an edge looks like, and the time it takes (4 to 1).
+// Samples per pixel; more of them give smoother edges and take more time (4 to 1).
 enum class RasterQuality {
-  kScreen,   // 4, where a graphics card with fourfold multisampling has them
-  kPicture,  // 16
+  // 4, at the places of a graphics card with fourfold multisampling.
+  kScreen,
+  // 16.
+  kPicture,
 };
 
-// Not thread-safe; several of them may draw at once.
+// Not thread-safe, but several objects may draw at the same time.
 class HandRaster {
  public:
   HandRaster();
@@ -28,10 +30,10 @@ class HandRaster {
   HandRaster(const HandRaster&) = delete;
   HandRaster& operator=(const HandRaster&) = delete;
 
-  // The scene without its labels, opaque, Format_RGB32, of size * pixelRatio pixels (rounded, at
-  // least 1) and with that device pixel ratio. Triangles with a vertex that isn't a number are left
-  // out. A null image: no size, or no memory for it. Throws Cancelled when `progress` says so; else
-  // valid until the next draw.
+  // Draws the scene without its labels: opaque, Format_RGB32, size * pixelRatio pixels (rounded, at
+  // least 1), with that device pixel ratio. Triangles with a vertex that isn't a number are left
+  // out. Returns a null image for an empty size or when there is not enough memory. Throws
+  // Cancelled when `progress` asks for it. The image is valid until the next call.
   const QImage& draw(const HandScene& scene,
                      const HandCamera& camera,
                      const QSizeF& size,
@@ -41,10 +43,11 @@ class HandRaster {
 
  private:
   struct Work;
-  std::unique_ptr<Work> work_;  // buffers, kept from one picture to the next
+  // Buffers, reused from one picture to the next.
+  std::unique_ptr<Work> work_;
 };
 
-// The same for one picture. May be called in any thread.
+// The same for a single picture. May be called in any thread.
 QImage rasterize(const HandScene& scene,
                  const HandCamera& camera,
                  const QSizeF& size,

@@ -9,20 +9,20 @@ namespace palpate::gui {
 
 namespace {
 
-// Of a line's or point's depth, how much nearer it is drawn at most.
+// Lines and points are drawn nearer to the eye by at most this share of their depth.
 constexpr double kMostNearer = 0.05;
 
 int litChannel(int value, float light) {
   return std::clamp(static_cast<int>(static_cast<float>(value) * light + 0.5F), 0, 255);
 }
 
-// From the base to the eye's frame, and from there to pixels and clip space.
+// Transforms from the base frame to the eye's frame, and from there to pixels and clip space.
 class Eye {
  public:
   Eye(const HandCamera& camera, const QSizeF& size)
       : axes_(camera.eyeFromBase()),
         eyeMm_(camera.eyeMm()),
-        // Twice: what is drawn nearer than it is must still lie behind the near plane.
+        // Doubled, because what is moved nearer must still be behind the near plane.
         nearMm_(2.0 * kMostNearer * camera.nearMm() + camera.nearMm()),
         mmPerPxAndMm_(2.0 * std::tan(camera.inRange().fieldDeg * std::numbers::pi / 360.0) /
                       size.height()),
@@ -40,12 +40,12 @@ class Eye {
   }
   bool inFront(const Eigen::Vector3d& inEye) const { return -inEye.z() >= nearMm_; }
   double nearMm() const { return nearMm_; }
-  // Of something that reaches `px` to all sides: nearer to the eye by that much and one pixel more,
-  // so that it stands clear of a surface of up to 45 degrees that it lies on.
+  // Moves a point nearer to the eye by `px` plus one pixel, so that a shape that extends `px` to
+  // all sides isn't hidden by the surface on which it lies, up to a slope of 45 degrees.
   Eigen::Vector3d nearer(const Eigen::Vector3d& inEye, double px) const {
     return inEye * (1.0 - std::min(kMostNearer, (px + 1.0) * mmPerPxAndMm_));
   }
-  // From the middle of the picture, x right, y up.
+  // Position in the picture from its middle, x right, y up [px].
   Eigen::Vector2d px(const Eigen::Vector3d& inEye) const {
     return inEye.head<2>() / (-inEye.z() * mmPerPxAndMm_);
   }
@@ -62,13 +62,14 @@ class Eye {
   Eigen::Matrix3d axes_;
   Eigen::Vector3d eyeMm_;
   double nearMm_ = 0.0;
-  double mmPerPxAndMm_ = 0.0;  // how wide a pixel is, per mm of depth
+  // Width of a pixel per mm of depth.
+  double mmPerPxAndMm_ = 0.0;
   double clipPerEyeX_, clipPerEyeY_;
   double clipPerPxX_, clipPerPxY_;
   double depthScale_ = 0.0, depthOffset_ = 0.0;
 };
 
-// The part of a line that is in front of the eye.
+// Shortens a line to its part in front of the eye; false: it has none.
 bool cutBehind(const Eye& eye, Eigen::Vector3d& from, Eigen::Vector3d& to) {
   if (!eye.inFront(from) && !eye.inFront(to)) return false;
   const auto onPlane = [&](const Eigen::Vector3d& behind, const Eigen::Vector3d& front) {
@@ -91,7 +92,7 @@ void appendLine(const Eye& eye, const SceneLine& line, std::vector<ClipVertex>& 
   const double half = 0.5 * std::min(static_cast<double>(line.widthPx), 1000.0);
   from = eye.nearer(from, half);
   to = eye.nearer(to, half);
-  // Half a width longer at both ends: where lines meet there is no notch.
+  // Longer by half a width at both ends, so that joined lines show no notch.
   Eigen::Vector2d along = eye.px(to) - eye.px(from);
   const double length = along.norm();
   along = length > 1e-9 ? Eigen::Vector2d(along * (half / length)) : Eigen::Vector2d(half, 0.0);

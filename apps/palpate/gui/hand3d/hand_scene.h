@@ -1,6 +1,6 @@
-// What is to be seen of a hand in space, ready to draw: triangles, lines and points in the hand's
-// base frame [mm], and how they are lit. Both ways to draw it (hand_raster.h without OpenGL,
-// hand_gl.h with it) give the same picture.
+// The scene of a hand in space, ready to draw: triangles, lines and points in the hand's base frame
+// [mm], and how they are lit. hand_raster.h (without OpenGL) and hand_gl.h (with OpenGL) draw the
+// same picture from it.
 #pragma once
 
 #include <QColor>
@@ -18,12 +18,12 @@ namespace palpate::gui {
 
 struct SceneVertex {
   std::array<float, 3> positionMm{};
-  // unit vector out of the surface; zero: not lit, the colour as it is
+  // Unit vector out of the surface; zero: not lit, the colour stays as it is.
   std::array<float, 3> normal{};
   QRgb color = 0;
 };
 
-// Position and normal are numbers.
+// Whether position and normal are numbers.
 bool isFinite(const SceneVertex& vertex);
 
 struct SceneLine {
@@ -32,14 +32,14 @@ struct SceneLine {
   QRgb color = 0;
 };
 
-// A disc that faces the eye.
+// A point, drawn as a disc that faces the eye.
 struct ScenePoint {
   Eigen::Vector3f atMm;
   float radiusPx = 2.0F;
   QRgb color = 0;
 };
 
-// Words at a place, in front of everything.
+// A text at a place, drawn in front of everything.
 struct SceneLabel {
   Eigen::Vector3d atMm;
   QString text;
@@ -47,19 +47,22 @@ struct SceneLabel {
 };
 
 struct HandScene {
-  // triangles, three each, counter-clockwise seen from outside; opaque
+  // Opaque triangles, three vertices each, counter-clockwise seen from outside.
   std::vector<SceneVertex> solid;
-  // the same, transparent: after what is solid, seen from both sides
+  // Transparent triangles, drawn after the solid ones and visible from both sides.
   std::vector<SceneVertex> clear;
-  std::vector<SceneLine> lines;    // hidden by what is solid
-  std::vector<ScenePoint> points;  // the same
+  // Lines, hidden by solid triangles in front of them.
+  std::vector<SceneLine> lines;
+  // Points, hidden in the same way.
+  std::vector<ScenePoint> points;
   std::vector<SceneLabel> labels;
   QRgb background = 0;
 
-  void clearAll();  // keeps the memory
+  // Empties the scene but keeps its memory.
+  void clearAll();
 };
 
-// The light stands at the eye's left shoulder and moves with it. A lit colour is
+// The light is above and to the left of the eye and moves with it. A lit colour is
 //   color * (kAmbient + kDiffuse * |n . l|), l = kTowardsLight in the eye's frame.
 // (|.|: a surface seen from behind is lit as well.)
 inline constexpr float kAmbient = 0.38F;
@@ -67,8 +70,9 @@ inline constexpr float kDiffuse = 0.66F;
 inline const Eigen::Vector3f kTowardsLight = Eigen::Vector3f(-0.35F, 0.55F, 0.76F).normalized();
 QRgb litColor(QRgb color, const Eigen::Vector3f& normal, const Eigen::Matrix3f& eyeFromBase);
 
-// Lines and points as triangles that face the eye, in clip space, three vertices each: how both
-// ways draw them. A little nearer than they are, so that what lies on a surface isn't hidden by it.
+// Converts lines and points into triangles that face the eye, in clip space, three vertices each;
+// both ways to draw use them. They are moved a little nearer to the eye, so that the surface on
+// which they lie doesn't hide them.
 struct ClipVertex {
   std::array<float, 4> clip{};
   QRgb color = 0;
@@ -78,7 +82,7 @@ void appendLinesAndPoints(const HandScene& scene,
                           const QSizeF& size,
                           std::vector<ClipVertex>& out);
 
-// The words of a scene, over its picture.
+// Paints the labels of a scene over its picture.
 void paintLabels(QPainter& painter,
                  const HandScene& scene,
                  const HandCamera& camera,

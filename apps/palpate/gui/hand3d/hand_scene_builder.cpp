@@ -18,14 +18,16 @@ namespace {
 using Eigen::Vector3d;
 using Eigen::Vector3f;
 
-// of a taxel's side that is filled: a line of the body stays between
+// Share of a taxel's side that is filled; the body remains visible between the taxels.
 constexpr float kCellShare = 0.93F;
 constexpr float kCellLiftMm = 0.15F;
 constexpr float kBarShare = 0.8F;
-constexpr float kTallestBarMm = 30.0F;  // at the end of the colour range
+// Height of a bar at the upper end of the colour range.
+constexpr float kTallestBarMm = 30.0F;
 constexpr float kOutlineLiftMm = 0.45F;
 constexpr float kTaxelDotPx = 3.2F;
-constexpr double kBodyVeil = 0.62;  // how much of the background a greyed hand takes on
+// Share of the background colour in a greyed hand.
+constexpr double kBodyVeil = 0.62;
 
 QColor bodyColor(HandBodyRole role, Theme theme) {
   const bool dark = theme == Theme::kDark;
@@ -96,14 +98,19 @@ void eachTaxel(const SensorLayout& layout, const HandLook& look, Visit visit) {
 using Eigen::Vector3d;
 using Eigen::Vector3f;
 
-constexpr int kHandDrawingContactAround = 48;  // segments of a circle
-constexpr int kRings = 24;                     // of a sphere from pole to pole
+// Segments of a circle.
+constexpr int kHandDrawingContactAround = 48;
+// Rings of a sphere from pole to pole.
+constexpr int kRings = 24;
 constexpr float kNormalMm = 5.0F;
 constexpr float kMeanNormalMm = 18.0F;
 constexpr float kAxisMm = 45.0F;
-constexpr float kClearestGlass = 0.07F;  // seen head on
-constexpr float kDensestGlass = 0.55F;   // at its rim
-constexpr double kLeastRadiusMm = 0.1;   // of a sphere that is seen
+// Opacity of the sphere where the surface faces the eye.
+constexpr float kClearestGlass = 0.07F;
+// Opacity at the rim of the sphere.
+constexpr float kDensestGlass = 0.55F;
+// Least radius of a sphere that is drawn.
+constexpr double kLeastRadiusMm = 0.1;
 
 QRgb withAlpha(const QColor& color, float alpha) {
   return qRgba(color.red(), color.green(), color.blue(), static_cast<int>(alpha * 255.0F));
@@ -136,19 +143,24 @@ void addCircle(HandScene& scene,
 using Eigen::Vector3d;
 using Eigen::Vector3f;
 
-constexpr double kHandDrawingSlipLeastMm = 0.2;  // motion that is drawn
+// Least motion that is drawn.
+constexpr double kHandDrawingSlipLeastMm = 0.2;
 constexpr double kLeastTurnDeg = 1.0;
-// Within the arrows' time: more is what contacts in one line make of noise.
+// Largest motion of the object that is drawn. A larger estimate is noise, amplified because the
+// contacts are nearly in one line.
 constexpr double kMostMm = 40.0;
 constexpr double kMaxDeg = 60.0;
-constexpr double kLiftMm = 1.2;  // above the surface
+// Height above the surface.
+constexpr double kLiftMm = 1.2;
 constexpr double kHeadMm = 5.0;
-constexpr double kArcMm = 22.0;  // radius of the object's turn
+// Radius of the arc that shows the rotation of the object.
+constexpr double kArcMm = 22.0;
 constexpr int kArcSteps = 24;
 constexpr float kContactPx = 3.0F;
 constexpr float kObjectPx = 4.5F;
 constexpr double kDegPerRad = 180.0 / std::numbers::pi;
-constexpr int kLeastRank = 2;  // fewer numbers of six tell nothing of an object
+// With fewer known components of the six, the motion of the object isn't drawn.
+constexpr int kLeastRank = 2;
 constexpr int kWholeRank = 6;
 
 void addHead(
@@ -168,7 +180,7 @@ void addArrow(
   addHead(scene, tip, way.normalized(), widthPx, color);
 }
 
-// Of a turn about an axis through `centre`, as far as it turns.
+// Adds an arc for a rotation about an axis through `centre`, as long as the angle.
 void addTurn(HandScene& scene, const Vector3d& centre, const Vector3d& turn, QRgb color) {
   const Vector3d axis = turn.normalized();
   const Vector3d u = axis.unitOrthogonal(), v = axis.cross(u);
@@ -310,8 +322,7 @@ void HandSceneBuilder::addTaxels(HandScene& scene, const HandLook& look) const {
                  scanned ? color : colors.maskedLine.rgb());
       if (!scanned || !active) return;
     }
-    // What is at rest is part of the hand and lit like it; a value has the colour of the colour
-    // bar.
+    // A taxel at rest is lit like the hand; a value has exactly its colour of the colour bar.
     addQuad(scene.solid,
             shrunk(patch, kCellShare, kCellLiftMm),
             active ? Vector3f(Vector3f::Zero()) : patch.normal,
@@ -386,7 +397,7 @@ std::optional<TaxelPlace> HandSceneBuilder::taxelUnder(const Vector3d& eyeMm,
   if (!hand_) return std::nullopt;
   const HandLook look = effective(wanted);
   const Vector3f eye = eyeMm.cast<float>(), along = ray.cast<float>();
-  // How far along the ray a triangle is met (Moeller and Trumbore).
+  // Distance along the ray at which it hits a triangle (Moeller and Trumbore).
   const auto met = [&](const Vector3f& a, const Vector3f& b, const Vector3f& c) {
     constexpr float kNever = std::numeric_limits<float>::infinity();
     const Vector3f ab = b - a, ac = c - a, p = along.cross(ac);
@@ -411,7 +422,8 @@ std::optional<TaxelPlace> HandSceneBuilder::taxelUnder(const Vector3d& eyeMm,
     found = TaxelPlace{m, y, x};
   });
   if (!found || isFlat(look.taxels) || look.wire) return found;
-  constexpr float kSkinMm = 1.0F;  // a link's surface lies just under its taxels
+  // Tolerance, because the surface of a link is just below its taxels.
+  constexpr float kSkinMm = 1.0F;
   for (const HandBody& body : bodies_) {
     if (!isShown(body, look)) continue;
     const Eigen::Isometry3f to =
@@ -428,7 +440,8 @@ std::optional<TaxelPlace> HandSceneBuilder::taxelUnder(const Vector3d& eyeMm,
 
 HandCamera HandSceneBuilder::usualCamera(const HandLook& wanted) const {
   constexpr double kFlatElevationDeg = 89.0, kBarsElevationDeg = 48.0;
-  constexpr double kAsideDeg = 25.0, kAboveDeg = 10.0;  // of a matrix alone: depth is seen
+  // Oblique view of a single matrix, so that depth is visible.
+  constexpr double kAsideDeg = 25.0, kAboveDeg = 10.0;
   constexpr double kSteepestDeg = 80.0;
   HandCamera camera;
   const HandLook look = effective(wanted);
@@ -437,7 +450,7 @@ HandCamera HandSceneBuilder::usualCamera(const HandLook& wanted) const {
     camera.elevationDeg =
         look.taxels == TaxelShape::kFlatBars ? kBarsElevationDeg : kFlatElevationDeg;
   } else if (look.only && hand_) {
-    // From where its taxels face.
+    // The camera is placed where the taxels face it.
     const SensorLayout& layout = *hand_->layout;
     Vector3f facing = Vector3f::Zero();
     for (std::size_t i = 0; i < layout.matrix(*look.only).numCells(); ++i)
@@ -492,7 +505,7 @@ void HandSceneBuilder::addSphere(HandScene& scene,
     const Vector3f at = centre + radius * normal;
     float alpha = 1.0F;
     if (glass) {
-      // Like glass it is denser where it is looked through aslant.
+      // Like glass, the sphere is less transparent where the view is oblique.
       const float aslant = 1.0F - std::abs(normal.dot((eye - at).normalized()));
       alpha = kClearestGlass + (kDensestGlass - kClearestGlass) * aslant * aslant * aslant;
     }
@@ -590,8 +603,8 @@ void HandSceneBuilder::addSlip(HandScene& scene, const HandLook& look) const {
     addArrow(scene, from, way, kContactPx, color.rgb());
     scene.labels.push_back({from + way, figure(mm, 1) + " mm", color});
   }
-  // Of an object only while something slips: else it is noise, and what the load does.
-  // Where the fingers are has to be known.
+  // The motion of the object is drawn only while a contact slips; otherwise it is noise and the
+  // effect of the load. It needs the pose of the fingers.
   if (!moves || arrows.size() < 2 || look.only || !posed()) return;
   const ObjectMotion object = objectMotion(arrows);
   if (object.rank < kLeastRank) return;

@@ -1,5 +1,5 @@
-// Fills the scene of a hand in space: bodies in their pose, taxels with their values, and what was
-// computed of the contact. Keeps what doesn't change.
+// Builds the scene of a hand in space: bodies in their pose, taxels with their values, and the
+// computed contact. Caches what doesn't change between frames.
 #pragma once
 
 #include <memory>
@@ -22,42 +22,47 @@
 
 namespace palpate::gui {
 
-inline constexpr float kSlipEnlarged = 3.0F;  // of arrows
+// Factor by which arrows of slip are longer than the motion.
+inline constexpr float kSlipEnlarged = 3.0F;
 
-// A hand at one moment.
+// The hand at one frame.
 struct HandState {
-  std::vector<double> anglesDeg;      // one per axis; empty: not known, the rest pose, greyed
-  std::optional<TactileFrame> frame;  // nothing: no values yet
-  HandContact contact;                // of both; empty without either
+  // One per axis; empty: not known, then the rest pose is drawn, greyed.
+  std::vector<double> anglesDeg;
+  // Nothing: no values yet.
+  std::optional<TactileFrame> frame;
+  // Computed from angles and frame; empty if either is missing.
+  HandContact contact;
 };
 
 class HandSceneBuilder {
  public:
-  // Another hand. One whose geometry isn't known (a pad, another layout) can be laid flat only.
+  // Sets another hand. One whose geometry isn't known (a pad, another layout) can only be drawn
+  // laid flat.
   void setHand(const HandDescription& hand);
   void clear();
   bool hasHand() const noexcept { return hand_.has_value(); }
   bool hasGeometry() const noexcept { return geometry_ != nullptr; }
   const HandDescription& hand() const { return *hand_; }
 
-  // The angles of a frame and what touches there. Angles that are no numbers, or too few, are none.
+  // Sets frame and joint angles [deg]. Angles that aren't numbers, or too few, count as unknown.
   void setMoment(const TactileFrame& frame, const std::vector<double>& anglesDeg);
   void setSelection(const TaxelSelection& selection) { selection_ = selection; }
-  // Of the moment; empty: not known.
+  // Slip of the contacts at this frame; empty: not known.
   void setSlip(std::vector<HandSlip> slip) { slip_ = std::move(slip); }
   const std::vector<HandSlip>& slip() const noexcept { return slip_; }
   const HandState& handState() const noexcept { return handState_; }
   bool posed() const noexcept { return !handState_.anglesDeg.empty(); }
   const HandPose& pose() const noexcept { return pose_; }
 
-  // What is drawn: taxels laid flat where the geometry isn't known, whatever the look says.
+  // The look that is really drawn: taxels are laid flat when the geometry isn't known.
   HandLook effective(HandLook look) const;
   void fill(HandScene& scene, const HandLook& look, const HandCamera& camera) const;
-  // From where it is looked at first; not yet fitted.
+  // The default camera for a look, not yet fitted to the hand.
   HandCamera usualCamera(const HandLook& look) const;
-  // What a camera has to have in its picture [mm].
+  // Points that the camera must have in its picture [mm].
   std::vector<Eigen::Vector3d> extent(const HandLook& look) const;
-  // The place whose taxel is under a ray, in front of everything else.
+  // The taxel that a ray hits first, unless a body hides it.
   std::optional<TaxelPlace> taxelUnder(const Eigen::Vector3d& eyeMm,
                                        const Eigen::Vector3d& ray,
                                        const HandLook& look) const;
@@ -85,7 +90,7 @@ class HandSceneBuilder {
   std::vector<HandSlip> slip_;
 };
 
-// The geometry of a hand that is known; nothing for others. One for the whole program.
+// The geometry of a known hand; null for others. Shared by the whole program.
 std::shared_ptr<const HandGeometry> geometryOf(const HandDescription& hand);
 
 }  // namespace palpate::gui

@@ -11,13 +11,13 @@ namespace {
 using Byte4 = std::uint8_t __attribute__((vector_size(4)));
 using Long2 = std::int64_t __attribute__((vector_size(16)));
 
-// True where any of its bits is.
+// Whether any bit of the mask is set.
 bool any(Int4 mask) {
   const auto halves = reinterpret_cast<Long2>(mask);
   return (halves[0] | halves[1]) != 0;
 }
 
-// Bit by bit: of `yes` where the mask is set, else of `no`.
+// Selects bit by bit: from `yes` where the mask is set, else from `no`.
 Float4 whereSet(Int4 mask, Float4 yes, Float4 no) {
   return reinterpret_cast<Float4>((mask & reinterpret_cast<Int4>(yes)) |
                                   (~mask & reinterpret_cast<Int4>(no)));
@@ -30,14 +30,15 @@ Uint4 whereSet(Int4 mask, Uint4 yes, Uint4 no) {
 
 float largest(Float4 v) { return std::max(std::max(v[0], v[1]), std::max(v[2], v[3])); }
 
-// Blue first: in memory as in the number.
+// Packs a colour, blue in the lowest byte, which also comes first in memory.
 QRgb packed(Float4 bgra) {
   static_assert(std::endian::native == std::endian::little);
   const Int4 whole = __builtin_convertvector(bgra + splat(0.5F), Int4);
   return std::bit_cast<QRgb>(__builtin_convertvector(whole, Byte4));
 }
 
-// source * alpha + old * (1 - alpha), of 256ths; red and blue together in one word.
+// source * alpha + old * (1 - alpha) in units of 1/256; red and blue are computed together in one
+// word.
 Uint4 blended(QRgb source, Uint4 old) {
   const auto alpha = static_cast<std::uint32_t>(qAlpha(source) + (qAlpha(source) >> 7));
   const Uint4 rest = splat(256U - alpha);
@@ -80,8 +81,8 @@ void HandTile::draw(const RasterTriangle& triangle,
   }
 }
 
-// Edge functions are computed from the tile's corner and the pixel's number in it, never stepwise:
-// that keeps the two triangles at an edge exactly opposite.
+// Edge functions are computed from the corner of the tile and the index of the pixel, never
+// incrementally: so the values of two triangles at a shared edge stay exactly opposite.
 template <Paint paint, bool kShaded>
 void HandTile::fill(const RasterTriangle& triangle,
                     const RasterShade* shade,
@@ -106,7 +107,7 @@ void HandTile::fill(const RasterTriangle& triangle,
       static_cast<float>(triangle.nearness + (static_cast<double>(triangle.nearnessX) * cornerX +
                                               static_cast<double>(triangle.nearnessY) * cornerY));
   const Float4 nearnessBySample = triangle.nearnessX * samples.x + triangle.nearnessY * samples.y;
-  // In registers, where the compiler can't know that drawing doesn't change them.
+  // Copied into local variables: the compiler can't know that drawing doesn't change the originals.
   const std::array<Float4, 3> step = {
       splat(triangle.edges[0].a), splat(triangle.edges[1].a), splat(triangle.edges[2].a)};
   const std::array<Float4, 3> least = {splat(triangle.edges[0].least),
@@ -120,7 +121,7 @@ void HandTile::fill(const RasterTriangle& triangle,
 
   for (int y = firstY; y <= lastY; ++y) {
     const auto fy = static_cast<float>(y);
-    // From where to where the row may be covered at all, with a pixel to spare for rounding.
+    // Range of the row that may be covered, with a pixel to spare for rounding.
     auto from = static_cast<float>(firstX), to = static_cast<float>(lastX);
     std::array<Float4, 3> row{};
     bool outside = false;

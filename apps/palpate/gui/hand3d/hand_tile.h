@@ -1,9 +1,9 @@
-// A square piece of a picture while triangles are drawn into it, four samples a pixel with their
-// depth: small enough to stay in the processor's nearest memory. Private to hand_raster.cpp.
+// A square tile of a picture into which triangles are drawn, with four samples per pixel and their
+// depth: small enough to stay in the processor's cache. Private to hand_raster.cpp.
 //
-// A pixel's four samples are one vector. A triangle covers a sample when its three edge functions
-// are positive there (J. Pineda, A parallel algorithm for polygon rasterization, SIGGRAPH 1988).
-// Nearer is the larger 1 / w, which is linear in the picture.
+// The four samples of a pixel form one vector. A triangle covers a sample when its three edge
+// functions are positive there (J. Pineda, A parallel algorithm for polygon rasterization, SIGGRAPH
+// 1988). The nearer of two samples has the larger 1 / w, which is linear in the picture.
 #pragma once
 
 #include <QRgb>
@@ -18,7 +18,7 @@ using Float4 = float __attribute__((vector_size(16)));
 using Int4 = std::int32_t __attribute__((vector_size(16)));
 using Uint4 = std::uint32_t __attribute__((vector_size(16)));
 
-// The same in all four.
+// A vector with the same value in all four elements.
 inline Float4 splat(float value) { return Float4{value, value, value, value}; }
 inline Uint4 splat(std::uint32_t value) { return Uint4{value, value, value, value}; }
 inline bool isFinite(const Float4& v) {
@@ -27,41 +27,50 @@ inline bool isFinite(const Float4& v) {
 
 enum class Paint : std::uint8_t {
   kOpaque,
-  kLine,   // blended, hides what lies behind
-  kClear,  // blended, hides nothing
+  // Blended; hides what is behind it.
+  kLine,
+  // Blended; hides nothing.
+  kClear,
 };
 
-// Of pixels: x right, y down, from the picture's top left corner.
+// A triangle in pixel coordinates: x right, y down, from the top left corner of the picture.
 struct RasterTriangle {
-  // a x + b y + c: positive inside. Of an edge that two triangles share, both have exactly the same
-  // numbers with the opposite sign, and only one counts what lies on the line (least = below 0): no
-  // sample is drawn twice or left out.
+  // Edge function a x + b y + c, positive inside. Two triangles that share an edge have exactly the
+  // same numbers with opposite signs, and only one of them includes samples on the edge (least =
+  // below 0): no sample is drawn twice or left out.
   struct Edge {
     float a = 0.0F, b = 0.0F;
     float least = 0.0F;
     double c = 0.0;
   };
   std::array<Edge, 3> edges{};
-  float nearnessX = 0.0F, nearnessY = 0.0F;      // 1 / w, its change per pixel
-  double nearness = 0.0;                         // at (0, 0)
-  int left = 0, right = 0, top = 0, bottom = 0;  // pixels it may touch, inclusive
-  std::int32_t shade = -1;                       // of the shades; below 0: `color` everywhere
+  // Change of 1 / w per pixel.
+  float nearnessX = 0.0F, nearnessY = 0.0F;
+  // 1 / w at (0, 0).
+  double nearness = 0.0;
+  // Bounds of the pixels that the triangle may touch, inclusive.
+  int left = 0, right = 0, top = 0, bottom = 0;
+  // Index of the shade; below 0: `color` everywhere.
+  std::int32_t shade = -1;
   QRgb color = 0;
   Paint paint = Paint::kOpaque;
 };
 
-// A colour that changes from vertex to vertex: blue, green, red, alpha, 0..255.
+// A colour that varies over a triangle: blue, green, red, alpha, 0..255.
 struct RasterShade {
-  Float4 atMiddle{}, byX{}, byY{};  // around (middleX, middleY)
-  Float4 least{},
-      most{};  // of the three vertices: a pixel's middle may lie outside of the triangle
+  // Colour at (middleX, middleY), and its change per pixel in x and y.
+  Float4 atMiddle{}, byX{}, byY{};
+  // Least and greatest colour of the three vertices: the middle of a pixel may be outside of the
+  // triangle.
+  Float4 least{}, most{};
   float middleX = 0.0F, middleY = 0.0F;
-  // The colour is linear in space, so what is linear in the picture is colour / w: the three above
-  // are of that. False: they are of the colour itself, where w hardly changes.
+  // True: the three fields above are of colour / w, since the colour is linear in space and so
+  // colour / w is linear in the picture. False: they are of the colour itself, where w hardly
+  // changes.
   bool overDepth = false;
 };
 
-// Where in a pixel its four samples are, from its middle, -0.5..0.5.
+// The places of the four samples in a pixel, from its middle, -0.5..0.5.
 struct SamplePlaces {
   Float4 x{}, y{};
 };
@@ -70,14 +79,14 @@ class HandTile {
  public:
   static constexpr int kSide = 32;
 
-  // The pixel at the tile's top left corner.
+  // Sets the pixel at the top left corner of the tile.
   void moveTo(int left, int top);
   void clear(QRgb background);
   void draw(const RasterTriangle& triangle,
             const std::vector<RasterShade>& shades,
             const SamplePlaces& samples);
-  // The mean of the four samples into each pixel; when there are several passes with other sample
-  // places, add() each of them and then take the mean of all.
+  // Writes the mean of the four samples to each pixel. With several passes of different sample
+  // places, call add() after each of them, and then writeMeanOfSums().
   void writeMean(QRgb* pixels, std::ptrdiff_t stride, int width, int height) const;
   void clearSums();
   void add();

@@ -14,10 +14,14 @@
 namespace palpate::gui {
 namespace {
 
-constexpr double kClickPx = 4.0;               // less is no drag
-constexpr double kHandViewWheelStep = 1.0015;  // per eighth of a degree
-constexpr double kRoom = 1.06;                 // around what is fitted: fingers move, spheres come
-constexpr double kDragZoom = 1.006;            // per px
+// A shorter movement is a click, not a drag.
+constexpr double kClickPx = 4.0;
+// Zoom factor per eighth of a degree of the wheel.
+constexpr double kHandViewWheelStep = 1.0015;
+// Margin around the fitted points, since fingers move and spheres appear.
+constexpr double kRoom = 1.06;
+// Zoom factor per px.
+constexpr double kDragZoom = 1.006;
 
 }  // namespace
 
@@ -44,7 +48,7 @@ void HandView::useOpenGl() {
   canvas_->show();
 }
 
-// Not from within its own painting.
+// Must not be called during a paint event of the canvas.
 void HandView::fallBack(const QString& why) {
   if (!canvas_) return;
   canvas_->hide();
@@ -56,7 +60,7 @@ void HandView::fallBack(const QString& why) {
 }
 
 void HandView::setHand(const HandDescription& hand) {
-  // With other taxels scanned it is the same hand, looked at from where it was.
+  // When only the scanned taxels change, the hand is the same and the camera stays.
   const TaxelSelection fresh(*hand.layout);
   const bool same = drawing_.hasHand() && TaxelSelection(*drawing_.hand().layout).sameSensor(fresh);
   drawing_.setHand(hand);
@@ -99,7 +103,7 @@ void HandView::setLook(const HandLook& look) {
   if (look == look_) return;
   const HandLook before = drawing_.effective(look_), after = drawing_.effective(look);
   look_ = look;
-  // Another thing is looked at: from where it is seen best.
+  // Another object is shown: the camera returns to its default.
   if (isFlat(before.taxels) != isFlat(after.taxels) || before.only != after.only ||
       (isFlat(after.taxels) && before.taxels != after.taxels))
     resetCamera();
@@ -313,7 +317,7 @@ void HandView::mouseMoveEvent(QMouseEvent* event) {
 }
 
 void HandView::mouseReleaseEvent(QMouseEvent* event) {
-  // A click without a drag chooses, as in the heat maps; beside the taxels it lets go.
+  // A click without a drag selects, as in the heat maps; beside the taxels it clears the selection.
   if (drag_ == Drag::kClick && drawing_.hasHand()) {
     TaxelSelection none = selection_;
     none.clear();

@@ -1,5 +1,5 @@
-// The hand in space as a widget: with OpenGL where it can be had, painted without else. Turned by
-// dragging; taxels are chosen with Ctrl. Draws only when something has changed.
+// The widget that shows the hand in space: with OpenGL where available, else drawn by HandRaster.
+// Dragging turns it; Ctrl selects taxels. It draws only when something has changed.
 #pragma once
 
 #include <QPoint>
@@ -26,50 +26,53 @@ class HandView : public QWidget {
  public:
   explicit HandView(QWidget* parent = nullptr);
 
-  // From now on with OpenGL; for those who know that it can be had (gl_probe.h). Back to painting
-  // if it fails.
+  // Draws with OpenGL from now on; call it only if OpenGL is available (gl_probe.h). Returns to
+  // drawing without it if it fails.
   void useOpenGl();
 
-  // Another hand; the camera goes back to where it shows all of it.
+  // Sets another hand; the camera returns to the view of the whole hand.
   void setHand(const HandDescription& hand);
   void clear();
-  // Of one frame: no angles, the rest pose, greyed.
+  // Sets frame and joint angles [deg]; without angles the rest pose is drawn, greyed.
   void setMoment(const TactileFrame& frame, const std::vector<double>& anglesDeg);
-  // For a hand without recorded angles; empty: none are assumed.
+  // Angles for a recording that has none [deg]; empty: none are assumed.
   void setAssumedAngles(const std::vector<double>& anglesDeg);
   const std::vector<double>& assumedAngles() const noexcept { return assumedDeg_; }
   void setLook(const HandLook& look);
   const HandLook& look() const noexcept { return look_; }
-  // Where no heat maps stand beside it.
+  // Shows a colour bar; needed when the heat maps aren't visible beside this view.
   void setColorBar(bool shown);
   void select(const TaxelSelection& selection);
   const TaxelSelection& selection() const noexcept { return selection_; }
 
-  // Over an old picture, as in the heat maps.
+  // Shows the notice over a stale picture, as in the heat maps.
   void setStale(const StaleNotice& old);
   const QString& notice() const noexcept { return stale_.notice; }
 
   const HandSceneBuilder& drawing() const noexcept { return drawing_; }
   const HandCamera& camera() const noexcept { return camera_; }
   void setCamera(const HandCamera& camera);
-  // What the first view shows all of [mm]; forgotten with the next hand. Empty: the first frame.
+  // Points that the first view must show [mm], valid until the next hand. Empty: those of the first
+  // frame.
   void setExtent(std::vector<Eigen::Vector3d> pointsMm);
-  // Everything that is drawn, from where the eye is; from where it stood at first.
+  // fit() shows everything from the present direction, resetCamera() from the default one.
   void fit();
   void resetCamera();
-  // By keys: part of a turn or of the height of the view; a factor > 1 comes nearer.
+  // For keys: angles, shares of the height of the view, and a factor > 1 that comes nearer.
   void orbitBy(double rightDeg, double upDeg);
   void panBy(double rightShare, double upShare);
   void zoomBy(double factor);
-  // "finger 0 distal · x 3, y 5 · 812 counts"; empty beside the taxels.
+  // Describes the taxel under the mouse pointer: "finger 0 distal · x 3, y 5 · 812 counts"; empty
+  // beside the taxels.
   QString hoverText() const;
-  // How the contacts move; empty: not known.
+  // Slip of the contacts; empty: not known.
   void setSlip(std::vector<HandSlip> slip);
-  void setPressure(std::shared_ptr<const PressureFrame> pressure);  // as MatricesView has it
-  // What is seen, for a picture of its own: `page` gives size and colours.
+  // As in MatricesView.
+  void setPressure(std::shared_ptr<const PressureFrame> pressure);
+  // Options for an exported picture of the view; `page` gives size and colours.
   HandPictureOptions pictureOptions(const MatricesPictureOptions& page) const;
   bool usesOpenGl() const noexcept { return canvas_ != nullptr; }
-  // How many times it has been drawn.
+  // Number of times the view has been drawn.
   int numPaints() const noexcept { return numPaints_; }
   QSize sizeHint() const override { return {520, 560}; }
   QSize minimumSizeHint() const override { return {240, 200}; }
@@ -111,7 +114,8 @@ class HandView : public QWidget {
   HandLook look_;
   HandCamera camera_;
   std::vector<Eigen::Vector3d> extent_;
-  bool moved_ = false;  // by the user: a resize leaves the camera alone
+  // The user has moved the camera: a resize doesn't change it then.
+  bool moved_ = false;
   bool colorBar_ = false;
   std::vector<double> assumedDeg_;
   bool assumed_ = false;

@@ -8,11 +8,11 @@ namespace palpate::gui {
 
 namespace {
 
-// So many times as far from the middle as the edge of the picture, a triangle is cut: further out
-// its edges would be computed too coarsely.
+// Triangles are clipped at this multiple of the distance from the middle to the edge of the
+// picture: further out their edges would be computed too coarsely.
 constexpr float kGuard = 8.0F;
-// Up to this ratio of depths the colour is taken as linear in the picture: at most one level of 255
-// off.
+// Up to this ratio of depths the colour is treated as linear in the picture; the error is at most
+// one level of 255.
 constexpr double kSameDepth = 1.015;
 
 Float4 channels(QRgb color) {
@@ -32,7 +32,7 @@ Float4 larger(Float4 a, Float4 b) {
   return a;
 }
 
-// Positive inside, for each of the planes that a triangle is cut at.
+// Signed distance to a clipping plane, positive inside.
 constexpr int kNumPlanes = 6;
 float inside(const Float4& clip, int plane) {
   const float w = clip[3];
@@ -52,7 +52,7 @@ float inside(const Float4& clip, int plane) {
   }
 }
 
-// Bits of the planes a corner is outside of.
+// Bit set of the planes that a corner is outside of.
 unsigned outsideOf(const Float4& clip) {
   unsigned bits = 0;
   for (int plane = 0; plane < kNumPlanes; ++plane)
@@ -60,7 +60,7 @@ unsigned outsideOf(const Float4& clip) {
   return bits;
 }
 
-// Bits of the picture's edges a corner is beyond.
+// Bit set of the edges of the picture that a corner is beyond.
 unsigned beyond(const Float4& clip) {
   const float w = clip[3];
   return (clip[0] > w ? 1U : 0U) | (clip[0] < -w ? 2U : 0U) | (clip[1] > w ? 4U : 0U) |
@@ -75,7 +75,7 @@ struct RasterSetup::OnScreen {
   Float4 bgra{};
 
   bool before(const OnScreen& other) const { return x < other.x || (x == other.x && y < other.y); }
-  // Exactly opposite for the same edge seen from the other side.
+  // Gives exactly opposite numbers for the same edge in the other direction.
   static RasterTriangle::Edge edge(const OnScreen& from, const OnScreen& to) {
     const bool turned = to.before(from);
     const OnScreen& first = turned ? to : from;
@@ -162,8 +162,9 @@ void RasterSetup::addWhole(const std::array<Corner, 3>& corners,
     addOnScreen(corners[0], corners[1], corners[2], flat, side, paint);
 }
 
-// I. Sutherland and G. Hodgman, Reentrant polygon clipping, CACM 17 (1974). A new corner is always
-// computed from the one inside: the neighbour at the cut edge gets the same.
+// Clips a triangle: I. Sutherland and G. Hodgman, Reentrant polygon clipping, CACM 17 (1974). A new
+// corner is always computed from the corner inside, so that the neighbour at the clipped edge gets
+// the same one.
 void RasterSetup::cutAndAdd(const std::array<Corner, 3>& corners,
                             bool flat,
                             Side side,
@@ -224,7 +225,7 @@ void RasterSetup::addOnScreen(
   triangle.bottom = static_cast<int>(std::min(bottom, static_cast<double>(height_) - 1.0));
   for (std::size_t i = 0; i < 3; ++i) triangle.edges[i] = OnScreen::edge(p[i], p[(i + 1) % 3]);
 
-  // What is linear in the picture: value at p0 and its change per pixel, from the three corners.
+  // Linear functions over the picture from the three corners: value at p0 and change per pixel.
   const double ax = (p[2].y - p[0].y) / area, bx = (p[0].y - p[1].y) / area;
   const double ay = (p[0].x - p[2].x) / area, by = (p[1].x - p[0].x) / area;
   const double d1 = p[1].nearness - p[0].nearness, d2 = p[2].nearness - p[0].nearness;

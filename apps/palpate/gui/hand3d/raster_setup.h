@@ -1,5 +1,5 @@
-// From the triangles of a scene to triangles in pixels: projected, lit, cut at the edges of what is
-// seen. Private to hand_raster.cpp.
+// Converts the triangles of a scene into triangles in pixels: projects, lights and clips them.
+// Private to hand_raster.cpp.
 #pragma once
 
 #include <QSize>
@@ -12,7 +12,7 @@
 
 namespace palpate::gui {
 
-// In the order they are drawn in.
+// Triangles in the order in which they are drawn.
 struct RasterList {
   std::vector<RasterTriangle> triangles;
   std::vector<RasterShade> shades;
@@ -20,7 +20,7 @@ struct RasterList {
 
 class RasterSetup {
  public:
-  // Replaces what is in `list`. The picture is `size`, on so many pixels.
+  // Replaces the content of `list`. The picture has the size `size` on `pixels` pixels.
   void fill(const HandScene& scene,
             const HandCamera& camera,
             const QSizeF& size,
@@ -37,7 +37,7 @@ class RasterSetup {
 
   void addTriangles(const std::vector<SceneVertex>& vertices, Side side, Paint paint);
   void addLinesAndPoints();
-  // All three corners of one colour: no shade.
+  // `flat`: all three corners have one colour, so there is no shade.
   void addWhole(const std::array<Corner, 3>& corners, bool flat, Side side, Paint paint);
   void cutAndAdd(const std::array<Corner, 3>& corners, bool flat, Side side, Paint paint);
   void addOnScreen(
@@ -45,7 +45,8 @@ class RasterSetup {
   OnScreen onScreen(const Corner& corner) const;
 
   RasterList* list_ = nullptr;
-  std::array<Float4, 4> clipFromBase_{};  // columns
+  // Columns of the matrix.
+  std::array<Float4, 4> clipFromBase_{};
   Eigen::Matrix3f eyeFromBase_;
   float width_ = 0.0F, height_ = 0.0F;  // [pixels]
   std::vector<ClipVertex> flatTriangles_;

@@ -1,4 +1,4 @@
-// What the hand in space does, as actions.
+// The actions of the hand in space.
 #pragma once
 
 #include <QAction>
@@ -12,7 +12,7 @@ namespace palpate::gui {
 struct SpaceActions {
   explicit SpaceActions(ActionRegistry& book);
 
-  // checked: the heat maps are seen; one of both always is
+  // Checked: the view is visible; one of the two always is.
   QAction* matricesShown = nullptr;
   QAction* handShown = nullptr;
   QAction* nextTaxelShape = nullptr;
@@ -27,11 +27,11 @@ struct SpaceActions {
   QAction* resetHand = nullptr;
   QAction* nearer = nullptr;
   QAction* further = nullptr;
-  // left, right, up, down
+  // Left, right, up, down.
   QList<QAction*> orbits;
-  // the same
+  // Left, right, up, down.
   QList<QAction*> pans;
-  // the whole hand, then one matrix alone
+  // The whole hand, then each matrix alone.
   QList<QAction*> onlys;
 };
 

@@ -13,8 +13,10 @@
 namespace palpate::gui {
 namespace {
 
-constexpr double kTurnDeg = 10.0;    // by a key
-constexpr double kMoveShare = 0.06;  // of the view's height, by a key
+// Turn by one key press.
+constexpr double kTurnDeg = 10.0;
+// Movement by one key press, as a share of the height of the view.
+constexpr double kMoveShare = 0.06;
 constexpr double kNearer = 1.2;
 
 HandPanel* makePanel(const SpaceActions& actions, QWidget* window) {
@@ -72,7 +74,7 @@ void SpaceFeature::connectMoment() {
   connect(&windowState.derivedResults, &DerivedResults::slipsChanged, this, [&windowState, &view] {
     view.setSlip(windowState.derivedResults.slips());
   });
-  // One selection, one range of colours, one text of what is under the mouse.
+  // Both views share selection, colour range and the text of the taxel under the mouse pointer.
   connect(&matrices_, &MatricesPanel::lookChanged, panel_, &HandPanel::setColors);
   connect(&windowState.selection, &Selection::taxelsChanged, this, [&windowState, &view] {
     if (!(view.selection() == windowState.selection.taxels()))
@@ -98,7 +100,8 @@ void SpaceFeature::takeSource() {
 void SpaceFeature::showMoment() {
   const DisplayedSource& displayed = state().displayed;
   if (panel_->isHidden() || !displayed.isRecording() || !state().currentFrame.hasFrame()) return;
-  if (state().currentFrame.damaged()) return;  // it stays as it was, and says so
+  // The view stays as it was and shows the notice.
+  if (state().currentFrame.damaged()) return;
   const auto& angles = state().currentFrame.angles();
   panel_->show(state().currentFrame.frame(), angles ? angles->deg : std::vector<double>());
 }
@@ -197,7 +200,7 @@ void SpaceFeature::showLook() {
   }
 }
 
-// One of the two is always there.
+// One of the two views is always visible.
 void SpaceFeature::showViews(bool matrices, bool hand) {
   if (!matrices && !hand) matrices = true;
   matrices_.setVisible(matrices);

@@ -1,5 +1,5 @@
-// The hand in space, beside the heat maps: what it shows of the moment, how it looks, one selection
-// and one range of colours with them.
+// The feature of the hand in space, beside the heat maps: shows the current frame, and shares
+// selection and colour range with the heat maps.
 #pragma once
 
 #include <functional>
@@ -16,7 +16,7 @@ class MatricesPanel;
 class SpaceFeature : public Feature {
   Q_OBJECT
  public:
-  // `matrices`: beside it, one of both is always seen.
+  // `matrices`: the heat maps beside it; one of the two views is always visible.
   SpaceFeature(WindowState& windowState, QWidget* window, MatricesPanel& matrices);
 
   HandPanel& panel() noexcept { return *panel_; }

@@ -6,7 +6,7 @@
 namespace palpate::gui {
 namespace {
 
-constexpr float kApart = 2.0F;  // between matrices laid flat [taxels]
+constexpr float kApart = 2.0F;  // [taxels] between matrices laid flat
 
 template <class Visit>
 void eachPlace(const MatrixLayout& layout, Visit visit) {
@@ -32,7 +32,7 @@ void patchesOnHand(const HandPose& pose, const SensorLayout& layout, TaxelPatche
       patch.centreMm = pose.positionMm(m, y, x).cast<float>();
       patch.normal = pose.normal(m, y, x).cast<float>();
       patch.cornersMm = {corner(0, 0), corner(1, 0), corner(1, 1), corner(0, 1)};
-      // Which way round the corners go depends on the surface's frame.
+      // The sense of rotation of the corners depends on the surface's frame.
       const Eigen::Vector3f facing =
           (patch.cornersMm[1] - patch.cornersMm[0]).cross(patch.cornersMm[3] - patch.cornersMm[0]);
       if (facing.dot(patch.normal) < 0.0F) std::swap(patch.cornersMm[1], patch.cornersMm[3]);
@@ -43,7 +43,7 @@ void patchesOnHand(const HandPose& pose, const SensorLayout& layout, TaxelPatche
 void patchesLaidFlat(const HandDescription& hand, TaxelPatches& out) {
   const SensorLayout& layout = *hand.layout;
   out.resize(layout.numCells());
-  // The widest matrix of each column and the highest of each row make the grid.
+  // The widest matrix of each column and the highest of each row define the grid.
   std::map<int, float> widths, heights;
   float pitch = 0.0F;
   for (std::size_t m = 0; m < layout.numMatrices(); ++m) {

@@ -1,5 +1,5 @@
-// Where each taxel lies in space: on the hand, or with all matrices laid flat side by side like the
-// heat maps.
+// Computes where each taxel is in space: on the hand, or with all matrices laid flat side by side
+// like the heat maps.
 #pragma once
 
 #include <array>
@@ -13,9 +13,10 @@
 
 namespace palpate::gui {
 
-// One place of a matrix [mm].
+// The surface of one place of a matrix [mm].
 struct TaxelPatch {
-  std::array<Eigen::Vector3f, 4> cornersMm;  // counter-clockwise seen from outside
+  // Counter-clockwise seen from outside.
+  std::array<Eigen::Vector3f, 4> cornersMm;
   Eigen::Vector3f centreMm;
   Eigen::Vector3f normal;
 };
@@ -23,8 +24,8 @@ struct TaxelPatch {
 // One per place, matrix after matrix, row by row, as in a frame.
 using TaxelPatches = std::vector<TaxelPatch>;
 void patchesOnHand(const HandPose& pose, const SensorLayout& layout, TaxelPatches& out);
-// Matrices as HandDescription::pictureColumn and pictureRow say, x right, y up, around the origin,
-// facing z.
+// Arranges the matrices by HandDescription::pictureColumn and pictureRow, x right, y up, around the
+// origin, facing z.
 void patchesLaidFlat(const HandDescription& hand, TaxelPatches& out);
 
 }  // namespace palpate::gui

@@ -11,7 +11,7 @@
 namespace palpate::gui {
 namespace {
 
-// What is known of the source besides its frames.
+// Facts about the live source besides its frames.
 std::vector<Fact> linkFacts(const LiveSource& source, const QString& calibration) {
   const DeviceInfo device = source.session->device().facts();
   const QString hand = QString::fromStdString(source.session->device().hand().name);
@@ -108,7 +108,7 @@ void InspectFeature::makeActions() {
 void InspectFeature::takeSource() {
   const DisplayedSource& displayed = state().displayed;
   if (displayed.isLive()) {
-    // as they were left, before a recording was looked at
+    // Restores the ticks from before a recording was shown.
     const std::vector<bool> ticks = liveTicks_;
     panel_->setHand(*displayed.hand());
     for (std::size_t row = 0; row < ticks.size(); ++row)
@@ -137,7 +137,7 @@ void InspectFeature::showForces() {
   panel_->table().showForces(rows, "no calibration: Calibrate, Ctrl+Shift+N");
 }
 
-// The keys Ctrl+1 .. Ctrl+9 and the menu follow the ticks of the table.
+// The actions of the keys Ctrl+1 .. Ctrl+9 and of the menu follow the ticks of the table.
 void InspectFeature::showPlotted() {
   const MatrixTableModel& table = panel_->table();
   const auto& plotted = table.plotted();

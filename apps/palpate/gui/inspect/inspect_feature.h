@@ -1,5 +1,5 @@
-// The dock Inspect: the moment and the recording (or the link) in numbers, and which rows are
-// plotted.
+// The feature of the dock Inspect: shows the current frame and the recording (or the connection) in
+// numbers, and which rows are plotted.
 #pragma once
 
 #include "gui/window_state/feature.h"
@@ -24,8 +24,10 @@ class InspectFeature : public Feature {
   void showForces();
   void showPlotted();
 
-  QList<QAction*> plots_;        // a matrix: the first nine, then the whole hand
-  std::vector<bool> liveTicks_;  // of the rows of what is connected; none: it was not looked at yet
+  // Actions that plot a matrix, for the first nine; then the whole hand.
+  QList<QAction*> plots_;
+  // Which rows of the live source are plotted; empty: it wasn't shown yet.
+  std::vector<bool> liveTicks_;
   InspectPanel* panel_;
   Dock* dock_;
 };

@@ -12,9 +12,11 @@
 namespace palpate::gui {
 namespace {
 
-constexpr int kTwoColumnsFrom = 430;  // [px] of width
+// From this width [px] the panel has two columns.
+constexpr int kTwoColumnsFrom = 430;
 
-// A recording may have 30 frames a second, or one in three seconds.
+// Frame rate as text; slow rates get more decimals, as a recording may have 30 frames per second,
+// or one in three seconds.
 QString rate(double hz) {
   constexpr double kSlow = 10.0;
   return figure(hz, hz < kSlow ? 2 : 1);
@@ -71,7 +73,7 @@ std::vector<Fact> inspectPanelFactsOf(const OpenedRecording& recording,
   return facts;
 }
 
-// At its time, what it is. Labels stand as they are; of other kinds the kind is said.
+// One fact per event, up to 200: its time [s] as the name; its kind and text as the value.
 std::vector<Fact> inspectPanelEventFacts(const OpenedRecording& recording,
                                          const std::vector<RecordingEvent>& events) {
   constexpr std::size_t kMostListed = 200;
@@ -154,7 +156,8 @@ InspectPanel::InspectPanel(QWidget* parent) : QScrollArea(parent) {
 void InspectPanel::setRecording(const OpenedRecordingPtr& recording) {
   recording_ = recording;
   model_->setRecording(recording);
-  showEvents({});  // as they are edited they come by showEvents()
+  // Events follow by showEvents(), as edited.
+  showEvents({});
   if (!recording) {
     facts_->setFacts({});
     angles_->setFacts({});

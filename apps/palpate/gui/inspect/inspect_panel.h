@@ -1,4 +1,4 @@
-// What is in the current frame and in the recording, in numbers.
+// The content of the dock Inspect: the current frame and the recording, in numbers.
 #pragma once
 
 #include <QScrollArea>
@@ -20,21 +20,22 @@ class InspectPanel : public QScrollArea {
  public:
   explicit InspectPanel(QWidget* parent = nullptr);
   void setRecording(const OpenedRecordingPtr& recording);
-  // Of that recording; angles and temperatures that aren't known stay as they are.
+  // Shows a frame of the recording; angles and temperatures that aren't known keep their values.
   void showFrame(std::size_t frame,
                  const std::optional<JointAngles>& angles,
                  const std::optional<Temperatures>& temperatures);
-  // Events of the recording, as they were edited, too.
+  // Shows the events of the recording as edited.
   void showEvents(const std::vector<RecordingEvent>& events);
-  // What values are told in beside counts: "none: values are counts", or the calibration's name.
+  // The calibration as text: "none: values are counts", or its name.
   void setCalibration(const QString& text);
-  // More is known of a long recording now.
+  // To be called when a long recording has been read completely.
   void renewFacts();
-  // A live hand instead of a recording.
+  // Shows a live hand instead of a recording.
   void setHand(const HandDescription& hand);
-  // Of the same hand other taxels are scanned.
+  // To be called when the same hand scans other taxels.
   void renewHand(const HandDescription& hand) { model_->renewHand(hand); }
-  void setLiveFacts(std::vector<Fact> facts);  // of the link
+  // Facts about the connection.
+  void setLiveFacts(std::vector<Fact> facts);
   void showLive(const LiveResults& results);
   void setTheme(Theme theme);
   MatrixTableModel& table() noexcept { return *model_; }

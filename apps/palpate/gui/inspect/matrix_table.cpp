@@ -11,9 +11,12 @@
 namespace palpate::gui {
 namespace {
 
-constexpr int kLastAlways = MatrixTableModel::kMaximum;  // column that never gives way
-constexpr int kFirstNumber = 1;                          // column
-constexpr int kMatrixTableMostRowsSeen = 13;             // a sensor with more matrices scrolls
+// The last column that is always visible.
+constexpr int kLastAlways = MatrixTableModel::kMaximum;
+// The first column with a number.
+constexpr int kFirstNumber = 1;
+// With more matrices the table scrolls.
+constexpr int kMatrixTableMostRowsSeen = 13;
 
 bool sameText(const CharacteristicSignals& a, const CharacteristicSignals& b) {
   return a.active == b.active && a.sum == b.sum && a.maximum == b.maximum && a.minimum == b.minimum;
@@ -21,7 +24,7 @@ bool sameText(const CharacteristicSignals& a, const CharacteristicSignals& b) {
 
 }  // namespace
 
-// Draws ticks in the colours of the theme: a box that is seen when it is empty, too.
+// Draws check boxes in the colours of the theme, so that an empty box is visible, too.
 class TickDelegate : public QItemDelegate {
  public:
   using QItemDelegate::QItemDelegate;
@@ -67,7 +70,8 @@ void MatrixTableModel::setRecording(const OpenedRecordingPtr& recording) {
   if (recording_) {
     hand_ = recording_->profile.hand();
     shown_.resize(recording_->numMatrices() + 1);
-    // What never felt anything isn't worth a line; neither is the sum of all, until asked for.
+    // Matrices that were never touched aren't plotted, nor is the sum of all until the user asks
+    // for it.
     plotted_ = recording_->touched;
     plotted_.push_back(false);
   }
@@ -251,7 +255,8 @@ MatrixTable::MatrixTable(MatrixTableModel* model, QWidget* parent) : QTableView(
   ticks_ = new TickDelegate(this);
   setItemDelegate(ticks_);
   setSelectionMode(QAbstractItemView::NoSelection);
-  setFocusPolicy(Qt::NoFocus);  // ticks have keys of their own
+  // The ticks have keys of their own.
+  setFocusPolicy(Qt::NoFocus);
   setShowGrid(false);
   setFrameShape(QFrame::NoFrame);
   setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);

@@ -1,5 +1,5 @@
-// The table of the Inspect dock: a row per matrix and one for the whole hand; signals of the
-// current frame, of a recording or live; a tick plots the row in the timeline.
+// The table of the dock Inspect: one row per matrix and one for the whole hand, with the signals of
+// the current frame, recorded or live; a tick plots the row in the timeline.
 #pragma once
 
 #include <QAbstractTableModel>
@@ -21,25 +21,26 @@ class MatrixTableModel : public QAbstractTableModel {
 
   using QAbstractTableModel::QAbstractTableModel;
 
-  void setRecording(const OpenedRecordingPtr& recording);  // null: empty
-  // A live hand: all matrices are plotted; values come by showSignals().
+  // Null: the table is empty.
+  void setRecording(const OpenedRecordingPtr& recording);
+  // Shows a live hand: all matrices are plotted; values follow by showSignals().
   void setHand(const HandDescription& hand);
-  // Of the same hand other taxels are scanned: what is plotted stays.
+  // The same hand scans other taxels: the plotted rows stay.
   void renewHand(const HandDescription& hand);
   void showFrame(std::size_t frame);
-  // One per matrix, the whole last; another number is ignored.
+  // One entry per matrix, the whole hand last; any other number of entries is ignored.
   void showSignals(const std::vector<CharacteristicSignals>& rows);
-  // Force of one row [N]; nothing: no calibration is applied.
+  // Force of one row [N].
   struct Force {
     double newtons = 0.0;
     double sd = 0.0;
     bool inRange = true;
     bool operator==(const Force&) const = default;
   };
-  // One per matrix, the whole last; empty: no calibration is applied. `why`: says so, for the tool
-  // tip.
+  // One entry per matrix, the whole hand last; empty: no calibration is applied. `why`: tells that
+  // in the tool tip.
   void showForces(const std::vector<Force>& forces, const QString& why);
-  // What is shown is of before: greyed.
+  // Greys the values when they are stale.
   void setStale(bool old);
   std::size_t numMatrices() const noexcept { return shown_.empty() ? 0 : shown_.size() - 1; }
   const HandDescription& hand() const noexcept { return hand_; }
@@ -66,8 +67,10 @@ class MatrixTableModel : public QAbstractTableModel {
 
   OpenedRecordingPtr recording_;
   HandDescription hand_;
-  std::vector<CharacteristicSignals> shown_;  // of the current frame, the whole last
-  std::vector<Force> forces_;                 // as shown_, or empty
+  // Signals of the current frame, the whole hand last.
+  std::vector<CharacteristicSignals> shown_;
+  // In the order of shown_, or empty.
+  std::vector<Force> forces_;
   QString forceTip_;
   std::vector<bool> plotted_;
   bool stale_ = false;
@@ -76,7 +79,7 @@ class MatrixTableModel : public QAbstractTableModel {
 
 class TickDelegate;
 
-// As high as its rows.
+// The view of the table, as high as its rows.
 class MatrixTable : public QTableView {
   Q_OBJECT
  public:
@@ -86,7 +89,7 @@ class MatrixTable : public QTableView {
   QSize minimumSizeHint() const override;
 
  protected:
-  // Where there is no room for all columns the last ones give way.
+  // Hides the last columns when there is no room for all.
   void resizeEvent(QResizeEvent* event) override;
 
  private:

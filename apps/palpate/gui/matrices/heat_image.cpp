@@ -9,11 +9,13 @@ namespace {
 constexpr int kOpaque = 255;
 
 struct Blend {
-  double value = 0.0;     // weighted mean over the enabled neighbours
-  double activity = 0.0;  // 0..1: how much of the weight lies on active taxels
+  // Weighted mean over the enabled neighbours.
+  double value = 0.0;
+  // Share of the weight that belongs to active taxels, 0..1.
+  double activity = 0.0;
 };
 
-// At (x, y) in taxels, the centre of the first taxel being (0, 0).
+// Interpolates at (x, y) [taxels]; the centre of the first taxel is (0, 0).
 Blend blendAt(
     const ConstMatrixMap& values, const MatrixLayout& layout, double y, double x, bool isSigned) {
   const int y0 = static_cast<int>(std::floor(y));
@@ -23,7 +25,7 @@ Blend blendAt(
   double active = 0.0;
   for (int dy = 0; dy < 2; ++dy) {
     for (int dx = 0; dx < 2; ++dx) {
-      // Beyond the border the border's taxel continues.
+      // Beyond the border the value of the border taxel is used.
       const int row = std::clamp(y0 + dy, 0, layout.rows - 1);
       const int column = std::clamp(x0 + dx, 0, layout.columns - 1);
       if (!layout.enabled(row, column)) continue;

@@ -1,4 +1,5 @@
-// One matrix as a small image, for drawing scaled: smooth between taxels, or one pixel per place.
+// Renders one matrix as a small image that the painter scales: smooth between taxels, or one pixel
+// per taxel.
 #pragma once
 
 #include <QImage>
@@ -14,19 +15,20 @@ struct HeatImageOptions {
   ColorMapName map = ColorMapName::kInferno;
   double rangeMin = 0.0;  // [counts]
   double rangeMax = 1.0;
-  int pixelsPerTaxel = 8;  // of a smooth image
-  // Of signed values, instead of `map`: every enabled taxel counts, whatever its sign.
+  // Pixels per taxel of a smooth image.
+  int pixelsPerTaxel = 8;
+  // Colour table for signed values, used instead of `map` when set; then every enabled taxel is
+  // drawn, whatever its sign.
   const ColorTable* difference = nullptr;
 };
 
-// Values are interpolated bilinearly between the centres of enabled taxels (not colours, and not
-// across places without a taxel), then coloured. Opacity is the interpolated share of active
-// taxels, so a contact fades into the colour of taxels at rest. Places that aren't enabled are
-// transparent.
+// Interpolates the values (not the colours) bilinearly between the centres of enabled taxels, not
+// across disabled ones, and then colours them. The opacity is the interpolated share of active
+// taxels, so a contact fades into the colour of taxels at rest. Disabled places are transparent.
 QImage smoothHeatImage(const ConstMatrixMap& values,
                        const MatrixLayout& layout,
                        const HeatImageOptions& options);
-// One pixel per place; active taxels are opaque, everything else is transparent.
+// One pixel per place; active taxels are opaque, all others transparent.
 QImage plainHeatImage(const ConstMatrixMap& values,
                       const MatrixLayout& layout,
                       const HeatImageOptions& options);

@@ -1,4 +1,4 @@
-// What the heat maps do, and which taxels are scanned, as actions.
+// The actions of the heat maps, including those that choose which taxels the hand scans.
 #pragma once
 
 #include <QAction>
@@ -16,7 +16,7 @@ struct MatricesActions {
   QAction* values = nullptr;
   QAction* nextMap = nullptr;
   QAction* nextRange = nullptr;
-  // masks, from the taxels that are chosen
+  // Set the mask of scanned taxels from the selected taxels.
   QAction* scanOnly = nullptr;
   QAction* scanWithout = nullptr;
   QAction* scanAlso = nullptr;

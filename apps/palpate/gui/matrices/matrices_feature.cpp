@@ -52,7 +52,8 @@ void MatricesFeature::takeSource() {
   panel_->view().setUnmeasurable(displayed.isLive() ? state().derivedResults.unmeasurable()
                                                     : std::vector<QString>());
   panel_->view().setStale(state().currentFrame.old());
-  state().selection.setTaxels(panel_->view().selection());  // of these matrices
+  // From now on the selection is one of the matrices of this hand.
+  state().selection.setTaxels(panel_->view().selection());
 }
 
 void MatricesFeature::connectLook() {
@@ -160,7 +161,8 @@ std::vector<ExportedView> MatricesFeature::views() {
     const OpenedRecordingPtr recording = windowState.displayed.filteredRecording();
     MatricesPictureOptions options = pictureOptions(windowState, *panel_);
     if (windowState.appearance.view().range == RangeMode::kFrame)
-      options.rangeMax = options.rangeMin = 0.0;  // of each
+      // Each frame gets its own range.
+      options.rangeMax = options.rangeMin = 0.0;
     pictures->painter = [recording, options](const PictureLook& look) {
       return matricesFramePainter(recording, fitted(options, look));
     };

@@ -1,5 +1,5 @@
-// The heat maps in the middle of the window: what they show, which taxels are chosen in them, which
-// ones the hand scans.
+// The feature of the heat maps in the centre of the window: shows the current frame, the selected
+// taxels, and which taxels the hand scans.
 #pragma once
 
 #include "gui/matrices/matrices_actions.h"
@@ -30,7 +30,7 @@ class MatricesFeature : public Feature {
   ScanChoice scan_;
 };
 
-// Title, caption and look of a picture of what is shown.
+// Title, caption and look for a picture of the displayed frame.
 MatricesPictureOptions pictureOptions(const WindowState& windowState, const MatricesPanel& panel);
 
 }  // namespace palpate::gui

@@ -1,4 +1,4 @@
-// Heat maps of single frames of a recording, as files take them.
+// Paints the heat maps of single frames of a recording, for exported files.
 #pragma once
 
 #include "gui/matrices/matrices_painter.h"
@@ -7,12 +7,13 @@
 
 namespace palpate::gui {
 
-// Options for a picture on paper instead of on screen.
+// Converts options for the screen into options for an exported picture.
 MatricesPictureOptions fitted(MatricesPictureOptions options, const PictureLook& look);
 // "frame 42 · 1.31 s"
 QString captionOf(const Profile& profile, std::size_t frame);
-// Holds its data itself and may be called in any thread, by one at a time. Where options.title
-// isn't empty, each picture says which frame it is.
+// Returns a function that paints the heat maps of a frame. It owns its data and may be called in
+// any thread, by one thread at a time. Unless options.title is empty, every picture names its
+// frame.
 FramePictures::Paint matricesFramePainter(const OpenedRecordingPtr& recording,
                                           const MatricesPictureOptions& options);
 

@@ -13,11 +13,11 @@ constexpr double kMatricesGeometryBarWidth = 14.0;   // [px] of the colour bar
 constexpr double kMatricesGeometryBarLabels = 46.0;  // [px] for its numbers
 constexpr double kBarGap = 26.0;                     // [px] between matrices and bar
 constexpr double kNarrowGap = 18.0;                  // [px] least space between columns of matrices
-constexpr double kWideGapTaxels = 2.5;               // most space between them
+constexpr double kWideGapTaxels = 2.5;               // [taxels] most space between them
 constexpr double kRowGap = 10.0;                     // [px] between rows of matrices
-constexpr double kMatricesGeometryLargestTaxel = 64.0;  // [px] a small pad doesn't fill the screen
+constexpr double kMatricesGeometryLargestTaxel = 64.0;  // [px]; limits small pads
 
-// Extent of the picture's grid [mm].
+// Extent of the columns and rows of the picture [mm].
 struct Grid {
   std::vector<double> columnMm;
   std::vector<double> rowMm;
@@ -45,7 +45,7 @@ double matricesGeometrySum(const std::vector<double>& values) {
   return total;
 }
 
-// Down to whole device pixels, so that squares are equal and edges sharp.
+// Rounds down to whole device pixels, so that squares are equal and edges sharp.
 double snapped(double value, double pixelRatio) {
   return pixelRatio > 0.0 ? std::floor(value * pixelRatio) / pixelRatio : value;
 }
@@ -83,13 +83,13 @@ MatricesGeometry::MatricesGeometry(const QRectF& area,
   const double freeHeight = inside.height() - rows * nameHeight - (rows - 1) * kRowGap;
   double pxPerMm = std::min(freeWidth / matricesGeometrySum(grid.columnMm),
                             freeHeight / matricesGeometrySum(grid.rowMm));
-  // The first matrix' pitch gets whole pixels; all of an SDH-2's are equal.
+  // The pitch of the first matrix gets whole pixels; all pitches of an SDH-2 are equal.
   const double pitchMm = hand.layout->matrix(0).pitchMm;
   double side = std::clamp(pxPerMm * pitchMm, 1.0, kMatricesGeometryLargestTaxel);
   if (side >= 3.0) side = snapped(side, options.pixelRatio);
   pxPerMm = side / pitchMm;
 
-  // Width that is left goes between the fingers, up to a point, then to both sides.
+  // Spare width goes between the fingers up to a limit, the rest to both sides.
   const double spare = inside.width() - barSpace - pxPerMm * matricesGeometrySum(grid.columnMm);
   double gap = kNarrowGap;
   if (columns > 1) gap = std::clamp(spare / (columns - 1), kNarrowGap, kWideGapTaxels * side);
@@ -133,7 +133,7 @@ QRectF MatricesGeometry::taxelRect(std::size_t matrix, int y, int x) const {
 std::optional<TaxelPlace> MatricesGeometry::placeAt(const QPointF& point) const {
   for (std::size_t m = 0; m < matrices_.size(); ++m) {
     const QRectF& rect = matrices_[m];
-    // Half open, so that a point on a seam belongs to one taxel only.
+    // Half-open intervals, so that a point on a border belongs to one taxel only.
     if (point.x() < rect.left() || point.x() >= rect.right() || point.y() < rect.top() ||
         point.y() >= rect.bottom())
       continue;

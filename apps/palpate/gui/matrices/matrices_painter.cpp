@@ -16,9 +16,10 @@ namespace {
 constexpr double kGridFrom = 5.0;        // [px] below this taxel side squares touch each other
 constexpr double kGridLine = 1.0;        // [px] between squares
 constexpr double kValuesFrom = 11.0;     // [px] below this side numbers can't be read
-constexpr double kSmallestFontPx = 5.0;  // of values
+constexpr double kSmallestFontPx = 5.0;  // of values [px]
 constexpr double kLargestFontPx = 15.0;
-constexpr float kLeastSeenCounts = 0.5F;  // of taxels that weren't active as recorded
+// Least value at which a taxel is drawn that wasn't active as recorded.
+constexpr float kLeastSeenCounts = 0.5F;
 
 QRectF squareOf(const QRectF& taxel) {
   if (taxel.width() < kGridFrom) return taxel;
@@ -55,7 +56,7 @@ void paintTicks(QPainter& painter,
     const QRectF text(bar.right() + 7, y - metrics.height() / 2, 60, metrics.height());
     painter.drawText(text, Qt::AlignLeft | Qt::AlignVCenter, tickText(value));
   };
-  // The ends are always named; a step that comes too close to one gives way.
+  // The ends always have labels; a step too close to an end has none.
   const double clearance = span * 1.2 * metrics.height() / bar.height();
   tick(range.minimum);
   tick(range.maximum);
@@ -63,7 +64,7 @@ void paintTicks(QPainter& painter,
     if (value - range.minimum > clearance && range.maximum - value > clearance) tick(value);
 }
 
-// A taxel that exists but isn't scanned: crossed out, so that it can't be taken for one at rest.
+// Paints a taxel that exists but isn't scanned: crossed out, so that it differs from one at rest.
 void paintMasked(QPainter& painter, const QRectF& square, const ThemeColors& colors) {
   painter.setPen(QPen(colors.maskedLine, 1.0));
   painter.setBrush(Qt::NoBrush);
@@ -90,7 +91,7 @@ void matricesPainterPaintNames(QPainter& painter,
   }
 }
 
-// Two frames, one black and one white: seen on every colour of every map.
+// Paints two frames, one black and one white, which are visible on every colour of every map.
 void paintSaturated(QPainter& painter, const QRectF& square) {
   painter.setBrush(Qt::NoBrush);
   painter.setPen(QPen(Qt::white, 1.0));
@@ -100,7 +101,7 @@ void paintSaturated(QPainter& painter, const QRectF& square) {
   painter.drawRect(square.adjusted(1.5, 1.5, -1.5, -1.5));
 }
 
-// Black or white, whichever stands out more from `background` (relative luminance, WCAG 2).
+// Black or white, whichever has more contrast to `background` (relative luminance, WCAG 2).
 QColor contrasting(const QColor& background) {
   const auto linear = [](double channel) {
     return channel <= 0.03928 ? channel / 12.92 : std::pow((channel + 0.055) / 1.055, 2.4);
@@ -111,10 +112,10 @@ QColor contrasting(const QColor& background) {
   return luminance > 0.179 ? Qt::black : Qt::white;
 }
 
-// Large enough to read, small enough for "4095" in a square.
+// The font of the values: as large as "4095" allows in a square.
 QFont valueFont(const MatricesPictureOptions& options, double side) {
   QFont font = options.font;
-  // "4095" is about 2.6 times as wide as its font is large.
+  // "4095" is about 2.6 times as wide as the font size.
   const double widthPerPx = options.difference ? 3.3 : 2.62;
   const double px = std::clamp((side - 2.0) / widthPerPx, kSmallestFontPx, kLargestFontPx);
   font.setPixelSize(std::max(1, static_cast<int>(std::lround(px))));

@@ -1,6 +1,6 @@
-// The heat maps as a picture: pure painting, used by the window, by exported files and by
-// `palpate render`. Matrices lie like the fingers (HandDescription::pictureColumn, pictureRow), all
-// at the same scale, row 0 (the fingertip) on top; a colour bar with its unit stands beside them.
+// Paints the heat maps, for the window, for exported files and for `palpate render`. The matrices
+// are arranged like the fingers (HandDescription::pictureColumn, pictureRow), all at the same
+// scale, row 0 (the fingertip) on top, beside a colour bar with its unit.
 #pragma once
 
 #include <QFont>
@@ -23,26 +23,39 @@ class QPainter;
 namespace palpate::gui {
 
 struct MatricesPictureOptions {
-  QSizeF size{900, 720};  // of a picture of its own [px]
+  // Size of an exported picture [px].
+  QSizeF size{900, 720};
   ColorMapName map = ColorMapName::kInferno;
-  bool interpolated = false;  // smooth between taxels instead of one square per taxel
-  bool values = false;        // print each active taxel's value
-  double rangeMin = 0.0;      // value of the lowest colour [counts]
-  double rangeMax = 0.0;      // of the highest; not above rangeMin: 0..maximum of the frame
+  // Smooth between taxels instead of one square per taxel.
+  bool interpolated = false;
+  // Print the value of each active taxel.
+  bool values = false;
+  // Value of the lowest colour [counts].
+  double rangeMin = 0.0;
+  // Value of the highest colour [counts]; if not above rangeMin, the range is 0..maximum of the
+  // frame.
+  double rangeMax = 0.0;
   Theme theme = Theme::kLight;
-  QString title;            // top left; empty together with caption: no line for them
-  QString caption;          // top right
-  QString unit = "counts";  // of the values
+  // At the top left; if title and caption are both empty, there is no line for them.
+  QString title;
+  // At the top right.
+  QString caption;
+  // Unit of the values.
+  QString unit = "counts";
   bool colorBar = true;
-  bool difference = false;  // values are signed: the map of differences, 0 in its middle
-  double pixelRatio = 0.0;  // device pixels per pixel: taxels get whole ones; 0: exact (vector)
+  // The values are signed: the difference map is used, with 0 in its middle.
+  bool difference = false;
+  // Device pixels per pixel, so that taxels get whole device pixels; 0: exact sizes (vector
+  // graphics).
+  double pixelRatio = 0.0;
   QFont font;
 };
 
-// The font of options in pixels, so that it has the same size on every device.
+// The font of `options` with its size in pixels, so that it has the same size on every device.
 QFont pictureFont(const MatricesPictureOptions& options);
 
-// Where everything lies in an area.
+// The layout of the picture in an area: rectangles of matrices, taxels, names, title and colour
+// bar.
 class MatricesGeometry {
  public:
   MatricesGeometry() = default;
@@ -58,7 +71,7 @@ class MatricesGeometry {
   QRectF titleRect() const noexcept { return title_; }
   QRectF colorBarRect() const noexcept { return colorBar_; }
   const QRectF& area() const noexcept { return area_; }
-  // The place under a point; existing or not.
+  // The place under a point, whether or not a taxel exists there.
   std::optional<TaxelPlace> placeAt(const QPointF& point) const;
 
  private:
@@ -70,7 +83,7 @@ class MatricesGeometry {
   std::vector<double> sides_;
 };
 
-// The range that `options` ask for, given the frame.
+// The value range of a frame according to `options`.
 struct ValueRange {
   double minimum = 0.0;
   double maximum = 1.0;
@@ -78,13 +91,13 @@ struct ValueRange {
 };
 ValueRange rangeOf(const MatricesPictureOptions& options, const TactileFrame& frame);
 
-// Whether there is something to see in a taxel: it was touched as recorded (`contact`), or filters
-// left at least half a count in it.
+// Whether a taxel is drawn: it was active as recorded (`contact`), or the filters leave at least
+// half a count in it.
 bool isSeen(float contact, float value) noexcept;
 
-// The parts, for a widget that keeps the first as a pixmap. Background: everything that doesn't
-// depend on the values (names, colour bar, taxels at rest, masks). Values: one matrix' active
-// taxels.
+// The parts of the picture, for a widget that caches the background as a pixmap. The background is
+// everything that doesn't depend on the values (names, colour bar, taxels at rest, masks); the
+// values are the active taxels of one matrix.
 void paintMatricesBackground(QPainter& painter,
                              const MatricesGeometry& geometry,
                              const HandDescription& hand,
@@ -98,15 +111,14 @@ void paintMatrixValues(QPainter& painter,
                        const ValueRange& range,
                        const MatricesPictureOptions& options);
 
-// The colours with their values and unit, which stands above the bar; title and caption in one
-// line.
+// Paints the colour bar with its values and, above it, the unit; and title and caption in one line.
 void paintColorBar(QPainter& painter,
                    const QRectF& bar,
                    const ValueRange& range,
                    const MatricesPictureOptions& options);
 void paintTitle(QPainter& painter, const QRectF& rect, const MatricesPictureOptions& options);
 
-// The whole picture. Throws std::invalid_argument when the frame isn't one of this hand.
+// Paints the whole picture. Throws std::invalid_argument when the frame doesn't fit this hand.
 void paintMatricesPicture(QPainter& painter,
                           const QRectF& area,
                           const TactileFrame& frame,

@@ -18,8 +18,10 @@ namespace {
 constexpr int kMatricesPanelControlHeight = 26;  // [px] of boxes beside buttons
 constexpr int kMatricesPanelNarrowest = 360;     // [px]
 constexpr int kMatricesPanelCompactBelow = 700;  // [px] of width: buttons lose their text
-constexpr double kLeastLiveRange = 500.0;        // [counts] a first light touch isn't glaring
-constexpr double kLiveRangeStep = 250.0;         // [counts]
+// Least end of the range of a live hand, so that a first light touch isn't shown in the brightest
+// colour.
+constexpr double kLeastLiveRange = 500.0;
+constexpr double kLiveRangeStep = 250.0;  // [counts]
 
 QToolButton* buttonFor(QAction* action, QWidget* parent) {
   auto* button = new QToolButton(parent);
@@ -54,12 +56,12 @@ MatricesPanel::MatricesPanel(QAction* interpolated, QAction* values, QWidget* pa
   auto* title = new QLabel("<b>Matrices</b>", header);
   map_ = new QComboBox(header);
   map_->setObjectName("mapBox");
-  map_->setFocusPolicy(Qt::NoFocus);  // it has a key
+  map_->setFocusPolicy(Qt::NoFocus);  // has a shortcut instead
   map_->setToolTip("Colour map (M)");
   for (const ColorMapName map : kAllColorMaps) map_->addItem(nameOf(map));
   range_ = new QComboBox(header);
   range_->setObjectName("rangeBox");
-  range_->setFocusPolicy(Qt::NoFocus);  // it has a key
+  range_->setFocusPolicy(Qt::NoFocus);  // has a shortcut instead
   for (QComboBox* box : {map_, range_}) box->setMinimumHeight(kMatricesPanelControlHeight);
   range_->setToolTip("Where the colour range ends (R)");
   for (const RangeMode mode : kAllRangeModes) range_->addItem(nameOf(mode));
@@ -97,7 +99,7 @@ MatricesPanel::MatricesPanel(QAction* interpolated, QAction* values, QWidget* pa
     emit rangeChosen(kAllRangeModes[static_cast<std::size_t>(index)]);
   });
   const auto manual = [this] {
-    // The end that was typed pushes the other one along.
+    // A maximum that is not above the minimum is raised to minimum + 1.
     const double low = minimum_->value();
     emit manualRangeChosen(low, std::max(maximum_->value(), low + 1.0));
   };
@@ -131,7 +133,8 @@ void MatricesPanel::forgetLargest() { largestLive_ = kLeastLiveRange; }
 void MatricesPanel::setHand(const HandDescription& hand) {
   recording_.reset();
   frame_ = TactileFrame();
-  range_->setItemText(0, "largest so far");  // there is no whole recording yet
+  // A live source has no whole recording yet.
+  range_->setItemText(0, "largest so far");
   hand_ = hand;
   view_->setHand(hand);
   applyLook();
@@ -144,7 +147,7 @@ void MatricesPanel::show(const TactileFrame& frame) {
   } else if (!recording_) {
     const auto largest =
         static_cast<double>(*std::max_element(frame_.values.begin(), frame_.values.end()));
-    // In steps, so that the colours don't creep while somebody presses harder.
+    // In steps, so that the colours don't change continuously while the force increases.
     if (largest > largestLive_) {
       largestLive_ = std::ceil(largest / kLiveRangeStep) * kLiveRangeStep;
       applyLook();
@@ -188,7 +191,8 @@ ValueRange MatricesPanel::rangeNow() const {
           std::max(maximum, recording_ ? recording_->maximumNow().value_or(0.0) : largestLive_);
       break;
   }
-  return {0.0, std::ceil(maximum)};  // filters make fractions, which nobody reads on a scale
+  // Filters produce fractions; the scale needs whole counts.
+  return {0.0, std::ceil(maximum)};
 }
 
 void MatricesPanel::renewRange() {

@@ -1,4 +1,4 @@
-// The heat maps with their controls: look, colour map, range.
+// The heat maps with the controls of their look, colour map and range.
 #pragma once
 
 #include <QList>
@@ -20,29 +20,30 @@ namespace palpate::gui {
 class MatricesPanel : public QWidget {
   Q_OBJECT
  public:
-  // The actions stand as buttons in the header.
+  // The actions become buttons in the header.
   MatricesPanel(QAction* interpolated, QAction* values, QWidget* parent = nullptr);
 
-  void setRecording(const OpenedRecordingPtr& recording);  // null: none
-  // Of that recording, or of the live hand.
+  // Shows a recording; null: none.
+  void setRecording(const OpenedRecordingPtr& recording);
+  // Shows a frame of the recording or of the live hand.
   void show(const TactileFrame& frame);
-  // More is known of a long recording now.
+  // To be called when a long recording has been read completely and its maximum is known.
   void renewRange();
-  // The connection ends: the largest value of the next hand is not known yet.
+  // To be called when the connection ends: the largest value of the next hand isn't known yet.
   void forgetLargest();
-  // A live hand instead of a recording.
+  // Shows a live hand instead of a recording.
   void setHand(const HandDescription& hand);
-  // Whose frames are shown; null: nobody's.
+  // The hand of the displayed frames; null: none.
   const HandDescription* hand() const noexcept { return hand_ ? &*hand_ : nullptr; }
-  // Map, look and range; theme as resolved.
+  // Takes colour map, look and range; `theme` is the resolved theme.
   void setSettings(const ViewSettings& settings, Theme theme);
   MatricesView& view() noexcept { return *view_; }
   const TactileFrame& frame() const noexcept { return frame_; }
-  // What is seen, for a picture of its own.
+  // Options for an exported picture that looks like the view.
   MatricesPictureOptions pictureOptions() const;
 
  signals:
-  // Map, range or theme; the views beside follow.
+  // Colour map, range or theme has changed; the other views follow.
   void lookChanged(const palpate::gui::MatricesLook& look);
   void mapChosen(palpate::gui::ColorMapName map);
   void rangeChosen(palpate::gui::RangeMode mode);
@@ -64,7 +65,8 @@ class MatricesPanel : public QWidget {
   QDoubleSpinBox* maximum_;
   OpenedRecordingPtr recording_;
   std::optional<HandDescription> hand_;
-  double largestLive_ = 0.0;  // end of the colour range of a live hand [counts]
+  // Upper end of the colour range of a live hand [counts].
+  double largestLive_ = 0.0;
   TactileFrame frame_;
   ViewSettings settings_;
   Theme theme_ = Theme::kDark;

@@ -24,7 +24,7 @@ MatricesView::MatricesView(QWidget* parent) : QWidget(parent) {
 }
 
 void MatricesView::setHand(const HandDescription& hand) {
-  // Another mask of the same hand: what is chosen stays.
+  // When only the mask of the hand changes, the selection stays.
   const TaxelSelection fresh(*hand.layout);
   if (selection_.numMatrices() != fresh.numMatrices()) selection_ = fresh;
   hand_ = hand;
@@ -125,7 +125,7 @@ void MatricesView::paintEvent(QPaintEvent* event) {
   emit painted(paintedUs_);
 }
 
-// An outline around what is chosen: inner borders would hide the values.
+// Paints an outline around the selection; inner borders would hide the values.
 void MatricesView::paintSelection(QPainter& painter) const {
   if (selection_.empty()) return;
   painter.setPen(QPen(colorsOf(look_.theme).accent, 2.0));
@@ -153,7 +153,8 @@ void MatricesView::setUnmeasurable(const std::vector<QString>& why) {
   update();
 }
 
-// A frame around it, and a word in its middle: what is dark there says nothing.
+// Paints a frame around a matrix that can't measure the limit, and a text in its middle: its dark
+// taxels don't mean that there is no contact.
 void MatricesView::paintUnmeasurable(QPainter& painter) const {
   const QColor& color = colorsOf(look_.theme).danger;
   for (std::size_t m = 0; m < std::min(unmeasurable_.size(), geometry_.numMatrices()); ++m) {
@@ -193,7 +194,8 @@ void MatricesView::clearSelection() {
 void MatricesView::choose(const TaxelPlace& from, const TaxelPlace& to) {
   TaxelSelection wanted = selectedBefore_;
   if (from == to && wanted.contains(from.matrix, from.y, from.x))
-    wanted.toggle(from.matrix, from.y, from.x);  // Ctrl+click on a chosen one
+    // Ctrl+click on a selected taxel.
+    wanted.toggle(from.matrix, from.y, from.x);
   else
     wanted.add(from.matrix, from.y, from.x, to.y, to.x);
   select(wanted);
@@ -234,7 +236,7 @@ void MatricesView::mouseMoveEvent(QMouseEvent* event) {
   std::optional<TaxelPlace> place;
   if (hand_) place = geometry_.placeAt(event->position());
   if (pressed_ && (event->buttons() & Qt::LeftButton)) {
-    // A drag stays in its matrix, whatever the mouse is over.
+    // A drag stays in its matrix, wherever the mouse pointer is.
     const QRectF matrix = geometry_.matrixRect(pressed_->matrix);
     const double side = geometry_.taxelSide(pressed_->matrix);
     const QPointF inside(std::clamp(event->position().x(), matrix.left(), matrix.right() - 1),

@@ -1,5 +1,5 @@
-// The heat maps as a widget. Keeps everything that doesn't change as a pixmap, repaints only the
-// matrices whose values changed, and tells what lies under the mouse.
+// The widget that shows the heat maps. It caches everything that doesn't change as a pixmap,
+// repaints only matrices whose values changed, and describes the taxel under the mouse pointer.
 #pragma once
 
 #include <QPixmap>
@@ -20,7 +20,7 @@ struct PressureFrame;
 
 namespace palpate::gui {
 
-// How the view shows values; where the range ends is its owner's affair.
+// How the view shows values; its owner computes the range.
 struct MatricesLook {
   ColorMapName map = ColorMapName::kInferno;
   bool interpolated = false;
@@ -35,31 +35,34 @@ class MatricesView : public QWidget {
  public:
   explicit MatricesView(QWidget* parent = nullptr);
 
-  // Another hand; nothing is shown until the first frame.
+  // Sets another hand; nothing is shown until its first frame.
   void setHand(const HandDescription& hand);
   void clear();
   void setFrame(const TactileFrame& frame);
-  // Told beside the counts of the taxel under the mouse; null: no calibration is applied.
+  // Pressures, shown with the counts of the taxel under the mouse pointer; null: no calibration is
+  // applied.
   void setPressure(std::shared_ptr<const PressureFrame> pressure);
   void setLook(const MatricesLook& look);
   const MatricesLook& look() const noexcept { return look_; }
   const MatricesGeometry& geometryOfMatrices() const noexcept { return geometry_; }
-  // What lies under the mouse: "finger 0 distal · x 3, y 5 · 812 counts"; empty beside the taxels.
+  // Describes the taxel under the mouse pointer: "finger 0 distal · x 3, y 5 · 812 counts"; empty
+  // beside the taxels.
   QString hoverText() const;
 
-  // Click and drag choose taxels, Ctrl adds to what is chosen, a click beside them (or Escape) lets
-  // go.
+  // Click and drag select taxels, Ctrl adds to the selection, a click beside the taxels (or Escape)
+  // clears it.
   const TaxelSelection& selection() const noexcept { return selection_; }
   void select(const TaxelSelection& selection);
   void clearSelection();
-  // Why a matrix can't tell the limit of a grasp, as it is set: marked, and told beside its counts.
-  // One text per matrix, empty: it can; none at all: all can, or nothing is connected.
+  // Marks matrices that can't measure the limit set for a grasp; the reason is also shown with
+  // their counts. One text per matrix, empty: it can. An empty vector: all can, or nothing is
+  // connected.
   void setUnmeasurable(const std::vector<QString>& why);
   const std::vector<QString>& unmeasurable() const noexcept { return unmeasurable_; }
-  // Over an old picture, one that is held, too.
+  // Shows the notice over a stale or held picture.
   void setStale(const StaleNotice& old);
   const QString& notice() const noexcept { return stale_.notice; }
-  // Of the newest frame that is wholly on screen [us since 1970]; 0: none yet.
+  // Time of the newest frame that is completely painted [us since 1970]; 0: none yet.
   std::int64_t paintedUs() const noexcept { return paintedUs_; }
   QSize sizeHint() const override { return {560, 560}; }
   QSize minimumSizeHint() const override { return {320, 240}; }
@@ -67,8 +70,9 @@ class MatricesView : public QWidget {
  signals:
   void hovered(const QString& text);
   void selectionChanged();
-  void menuRequested(const QPoint& globalPosition);  // the right button
-  // The paint event that first shows a frame has ended.
+  // The right mouse button was pressed.
+  void menuRequested(const QPoint& globalPosition);
+  // The first paint event that shows a frame has ended.
   void painted(qint64 frameHostUs);
 
  protected:
@@ -97,8 +101,10 @@ class MatricesView : public QWidget {
   QPixmap background_;
   std::optional<TaxelPlace> hover_;
   TaxelSelection selection_;
-  TaxelSelection selectedBefore_;      // what a drag adds to
-  std::optional<TaxelPlace> pressed_;  // where the drag began
+  // The selection to which a drag adds.
+  TaxelSelection selectedBefore_;
+  // Where the drag began.
+  std::optional<TaxelPlace> pressed_;
   StaleNotice stale_;
   std::vector<QString> unmeasurable_;
   std::int64_t paintedUs_ = 0;

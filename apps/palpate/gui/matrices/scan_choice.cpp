@@ -24,7 +24,7 @@ ScanChoice::ScanChoice(WindowState& windowState, const MatricesActions& actions)
     actions.scanAll->setEnabled(live);
     actions.chooseNone->setEnabled(chosen);
   });
-  // Enabled again when the menu is gone: their keys must not depend on it.
+  // The actions are enabled again when the menu closes, so that their keys don't depend on it.
   connect(windowState.menus.scanned, &QMenu::aboutToHide, this, [&actions] {
     actions.chooseNone->setEnabled(true);
   });

@@ -1,4 +1,4 @@
-// Which taxels the connected hand scans, from those that are chosen.
+// Sets which taxels the connected hand scans, according to the selected taxels.
 #pragma once
 
 #include <QObject>
@@ -16,7 +16,7 @@ namespace palpate::gui {
 class ScanChoice : public QObject {
   Q_OBJECT
  public:
-  // Both must outlive it.
+  // Both must outlive this object.
   ScanChoice(WindowState& windowState, const MatricesActions& actions);
 
  private:
@@ -24,7 +24,8 @@ class ScanChoice : public QObject {
   void takeAnswers();
 
   WindowState& windowState_;
-  std::vector<std::shared_future<CommandAnswer>> answers_;  // that the hand hasn't given yet
+  // Answers that the hand hasn't given yet.
+  std::vector<std::shared_future<CommandAnswer>> answers_;
 };
 
 }  // namespace palpate::gui

@@ -1,4 +1,4 @@
-// What a taxel says under the mouse: where it is and what it feels.
+// Text for the taxel under the mouse pointer: where it is and what it measures.
 #pragma once
 
 #include <QString>
@@ -12,7 +12,7 @@
 
 namespace palpate::gui {
 
-// "finger 0 distal · x 3, y 5 · 812 counts"; with pressures " · 12.3 kPa · 0.14 N" as well.
+// "finger 0 distal · x 3, y 5 · 812 counts"; with pressures also " · 12.3 kPa · 0.14 N".
 QString taxelText(const HandDescription& hand,
                   const TaxelPlace& place,
                   const std::optional<TactileFrame>& frame,

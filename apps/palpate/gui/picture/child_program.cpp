@@ -21,19 +21,21 @@ namespace palpate::gui {
 namespace {
 
 constexpr int kPatienceMs = 50;
-constexpr std::size_t kMostSaid = 256 * 1024;  // [bytes]
-constexpr int kFirstFree = 10;                 // above all that the program is given
+constexpr std::size_t kMostSaid = 256 * 1024;  // [bytes] kept of the output
+// Above all descriptors that the program receives.
+constexpr int kFirstFree = 10;
 
 std::string childProgramMessageOf(int error) { return std::generic_category().message(error); }
 
-// With a number that isn't overwritten when it becomes another of the program's.
+// Duplicates the descriptor under a higher number, which isn't overwritten when it becomes one of
+// the program's own.
 FileDescriptor movedUp(const FileDescriptor& descriptor) {
   const int higher = ::fcntl(descriptor.get(), F_DUPFD_CLOEXEC, kFirstFree);
   if (higher < 0) throw Error("too many files are open: " + childProgramMessageOf(errno));
   return FileDescriptor(higher);
 }
 
-// What the program inherits; nothing else does, ours are all closed at its start.
+// The descriptors that the program inherits; all others of this process are closed when it starts.
 class SpawnPlan {
  public:
   SpawnPlan() {
@@ -88,7 +90,7 @@ ChildProgram::ChildProgram(const std::filesystem::path& program,
   plan.give(theirInput.get(), STDIN_FILENO);
   plan.give(theirOutput.get(), STDOUT_FILENO);
   plan.give(theirOutput.get(), STDERR_FILENO);
-  // Last: it may be one of those numbers itself, never one that was just given.
+  // This one comes last: its number may be one of those that are assigned above.
   FileDescriptor passed(descriptor < 0 ? -1 : ::fcntl(descriptor, F_DUPFD_CLOEXEC, kFirstFree));
   if (passed.get() >= 0) plan.give(passed.get(), kPassedAs);
 
@@ -156,7 +158,8 @@ int ChildProgram::finish(const KeepGoing& keepGoing) {
   input_ = FileDescriptor();
   int status = 0;
   while (pid_ >= 0) {
-    // Not waited for yet: as long as it is a zombie, its number and its group's are nobody else's.
+    // WNOWAIT leaves the program a zombie: until it is waited for, its process id and group id
+    // can't be reused.
     siginfo_t facts{};
     const int asked = ::waitid(P_PID, static_cast<id_t>(pid_), &facts, WEXITED | WNOHANG | WNOWAIT);
     if (asked == 0 && facts.si_pid == pid_) {
@@ -172,7 +175,7 @@ int ChildProgram::finish(const KeepGoing& keepGoing) {
       wait(false);
     }
   }
-  // What it said last is in the pipe still.
+  // Reads the last output, which is still in the pipe.
   for (std::size_t before = said_.size() + 1; output_.get() >= 0 && before != said_.size();) {
     before = said_.size();
     wait(false);

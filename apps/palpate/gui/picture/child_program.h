@@ -1,5 +1,6 @@
-// Another program that is fed bytes: without a shell, so that no name needs quoting; what it says
-// is kept; it never outlives us by neglect.
+// Runs another program, writes bytes to its standard input and keeps its output. No shell is
+// involved, so no file name needs quoting. The program is killed when this object is destroyed.
+// ffmpeg.h and movie_writer.h use it.
 #pragma once
 
 #include <cstddef>
@@ -17,39 +18,45 @@ namespace palpate::gui {
 
 class ChildProgram {
  public:
-  // Asked every 50 ms while we wait; false: what is waited for throws Cancelled.
+  // Called every 50 ms during a wait; when it returns false, the waiting function throws Cancelled.
   using KeepGoing = std::function<bool()>;
 
-  // Where the program finds `descriptor` of ours.
+  // Number under which the program finds `descriptor`.
   static constexpr int kPassedAs = 3;
-  // Starts it in a process group of its own (Ctrl-C in a terminal is ours to answer). descriptor:
-  // open in the program as kPassedAs; -1: none. Throws Error: no such program, not to be executed,
-  // ..
+  // Starts the program in a process group of its own, so that Ctrl-C in a terminal reaches only
+  // Palpate. descriptor: open in the program as kPassedAs; -1: none. Throws Error: no such program,
+  // not executable, ..
   ChildProgram(const std::filesystem::path& program,
                const std::vector<std::string>& arguments,
                int descriptor = -1);
-  // Killed with all that it started, and waited for, unless finish() has returned.
+  // Unless finish() has returned, kills the program and all processes that it started, and waits
+  // for it.
   ~ChildProgram();
   ChildProgram(const ChildProgram&) = delete;
   ChildProgram& operator=(const ChildProgram&) = delete;
 
-  // Writes all of it to its standard input. False: it reads no more, see finish(). Throws
-  // Cancelled.
+  // Writes all bytes to the program's standard input. Returns false when the program has closed it;
+  // finish() then gives the exit code. Throws Cancelled.
   bool write(std::span<const std::byte> bytes, const KeepGoing& keepGoing = {});
-  // Ends its standard input and waits for its end; what it started and left running is killed.
-  // Returns the exit code, 128 + signal when it was killed. Throws Cancelled.
+  // Closes the standard input and waits until the program ends; processes that it started and left
+  // running are killed. Returns the exit code, or 128 + signal when it was killed. Throws
+  // Cancelled.
   int finish(const KeepGoing& keepGoing = {});
-  // What it has said so far, on standard output and error; of very much the end.
+  // What the program has written so far to standard output and error; of a very long text only the
+  // end.
   const std::string& said() const noexcept { return said_; }
 
  private:
-  // Waits until its input takes more or it says something, 50 ms at most.
+  // Waits up to 50 ms until the program takes more input or writes something.
   void wait(bool toWrite);
   void kill();
 
-  pid_t pid_ = -1;         // -1: ended, and waited for
-  FileDescriptor input_;   // a socket: writing to it raises no SIGPIPE
-  FileDescriptor output_;  // none: it has closed its own
+  // -1: the program has ended and was waited for.
+  pid_t pid_ = -1;
+  // A socket, since writing to it raises no SIGPIPE.
+  FileDescriptor input_;
+  // Invalid once the program has closed its output.
+  FileDescriptor output_;
   std::string said_;
 };
 

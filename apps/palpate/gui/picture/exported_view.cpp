@@ -3,7 +3,8 @@
 namespace palpate::gui {
 
 QSizeF ExportedView::sizeOnScreen() const {
-  constexpr QSizeF kLeast(160.0, 120.0);  // of a dock that is nearly closed
+  // Least size [px], for a dock that is nearly closed.
+  constexpr QSizeF kLeast(160.0, 120.0);
   const QSizeF shown = size ? size() : widget ? QSizeF(widget->size()) : QSizeF(900, 720);
   return shown.expandedTo(kLeast);
 }

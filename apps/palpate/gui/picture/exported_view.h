@@ -1,5 +1,6 @@
-// A view that can be taken away: as a picture, as a table, as a picture of each frame. Whoever owns
-// the view says how; export_controller.h does the rest.
+// Describes how a view of the window is exported: as a picture, as a table, as a picture of each
+// frame. The feature that owns the view supplies the functions; export_controller.h writes the
+// files.
 #pragma once
 
 #include <QPointer>
@@ -18,14 +19,17 @@ class QPainter;
 
 namespace palpate::gui {
 
-// How a picture shall look. The painter counts in units; how large one is on paper is not the
-// view's business.
+// How a picture looks. The painter works in units; their size on paper is set by PicturePaper.
 struct PictureLook {
-  QSizeF size{900, 720};    // [units]
-  bool forPrint = false;    // white ground, dark ink, whatever the theme
-  int textUnits = 0;        // size of text [units]; 0: as on screen, a unit being a pixel
-  bool titled = true;       // with a line that says what of, and when
-  double pixelRatio = 0.0;  // device pixels per unit; 0: none, it is a vector graphic
+  QSizeF size{900, 720};  // [units]
+  // White background and dark ink, whatever the theme.
+  bool forPrint = false;
+  // Size of text [units]; 0: as on screen, one unit being one pixel.
+  int textUnits = 0;
+  // Whether the picture has a line with its subject and time.
+  bool titled = true;
+  // Device pixels per unit; 0: a vector graphic, which has none.
+  double pixelRatio = 0.0;
 };
 
 // Frames from first to last, both inclusive.
@@ -36,39 +40,51 @@ struct FrameSpan {
   bool operator==(const FrameSpan&) const = default;
 };
 
-// A picture of each frame.
+// How to paint a picture of each frame of a recording.
 struct FramePictures {
-  // Paints one frame. Called in any thread, by one at a time, long after it was made: holds its
-  // data itself.
+  // Paints one frame. It is called in any thread, by one thread at a time, possibly long after its
+  // creation; therefore it owns its data.
   using Paint = std::function<void(QPainter&, std::size_t frame)>;
 
-  QString fileName;  // "ball": its files are ball_00042.png
+  // Base of the file names: "ball" gives ball_00042.png.
+  QString fileName;
   std::size_t numFrames = 0;
   std::optional<FrameSpan> selected = {};
   std::function<Paint(const PictureLook&)> painter;
-  // Stamp of a frame [us], ascending; called as Paint is. Empty: there is no movie of it.
+  // Time stamp of a frame [us], ascending; called under the same conditions as Paint. Empty: no
+  // movie can be made.
   using TimeUs = std::function<std::int64_t(std::size_t frame)>;
   TimeUs timeUs = {};
 };
 
-// Rows of what is shown.
+// A table of the displayed data.
 struct ExportedTable {
-  QString name;  // "seen range", "selected range"
-  // Of this moment; its rows are made later, in any thread.
+  // "seen range", "selected range".
+  QString name;
+  // Makes the table of the present moment; its rows are computed later, in any thread.
   std::function<TextTable()> make;
 };
 
-// All functions but those above are called in the window's thread.
+// All functions except those above are called in the thread of the window.
 struct ExportedView {
-  QString name;                       // "Matrices"
-  int rank = 0;                       // offered in this order
-  QPointer<QWidget> widget;           // whose part of the window is this view
-  std::function<bool()> isThere;      // is there anything to take away now
-  std::function<QString()> fileName;  // suggested, without folder and ending: "ball_frame_00042"
-  std::function<QSizeF()> size = {};  // of the picture as on screen [px]; empty: the widget's
-  std::function<void(QPainter&, const PictureLook&)> paint = {};     // empty: no picture
-  std::function<std::vector<ExportedTable>()> tables = {};           // empty: none
-  std::function<std::optional<FramePictures>()> framePictures = {};  // empty: none
+  // Name in the export dialogue, for example "Matrices".
+  QString name;
+  // Views are offered in ascending rank.
+  int rank = 0;
+  // The widget that shows this view.
+  QPointer<QWidget> widget;
+  // Whether there is anything to export now.
+  std::function<bool()> isThere;
+  // Suggested name without folder and extension: "ball_frame_00042".
+  std::function<QString()> fileName;
+  // Size of the picture as on screen [px]; empty: that of the widget.
+  std::function<QSizeF()> size = {};
+  // Empty: the view has no picture.
+  std::function<void(QPainter&, const PictureLook&)> paint = {};
+  // Empty: the view has no tables.
+  std::function<std::vector<ExportedTable>()> tables = {};
+  // Empty: the view has no pictures of frames.
+  std::function<std::optional<FramePictures>()> framePictures = {};
 
   QSizeF sizeOnScreen() const;
   std::vector<ExportedTable> tablesNow() const;

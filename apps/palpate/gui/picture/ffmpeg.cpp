@@ -15,7 +15,7 @@ namespace {
 
 constexpr const char* kVariable = "PALPATE_FFMPEG";
 
-// Empty: not set.
+// The value of $PALPATE_FFMPEG; empty: not set.
 std::string chosenByHand() {
   const char* value = std::getenv(kVariable);
   return value ? value : "";
@@ -100,9 +100,10 @@ std::vector<std::string> ffmpegArguments(const std::string& encoder,
   const auto add = [&](std::initializer_list<const char*> more) {
     words.insert(words.end(), more.begin(), more.end());
   };
-  // As good as can be told by eye.
+  // Quality at which no difference is visible.
   if (encoder == "libx264")
-    add({"-preset", "veryfast", "-crf", "18"});  // a fifth less work than medium, no larger
+    // "veryfast" takes a fifth less time than "medium" and its files are no larger.
+    add({"-preset", "veryfast", "-crf", "18"});
   else
     add({"-q:v", "2"});
   add({"-pix_fmt", "yuv420p", "-colorspace", "bt709", "-color_primaries", "bt709"});
@@ -123,9 +124,10 @@ std::string lastError(const std::string& said) {
     const auto end = line.find_last_not_of(" \t\r");
     if (end == std::string::npos) continue;
     line.resize(end + 1);
-    if (line != "Conversion failed!") last = line;  // which says nothing
+    // "Conversion failed!" doesn't tell the cause.
+    if (line != "Conversion failed!") last = line;
   }
-  // Our file has no name there.
+  // ffmpeg knows the movie only by its descriptor.
   const std::string name = outputName();
   if (const auto at = last.find(name); at != std::string::npos)
     last.replace(at, name.size(), "the movie");

@@ -32,7 +32,7 @@ bool isEmpty(int descriptor) {
   return ::fstat(descriptor, &facts) != 0 || facts.st_size == 0;
 }
 
-// The paper whose pixels are even.
+// The same paper with an even number of pixels in both directions.
 PicturePaper evenPaper(const PicturePaper& paper) {
   PicturePaper even = paper;
   even.size = QSizeF(moviePixels(paper)) / paper.scale();

@@ -1,4 +1,4 @@
-// A movie of frames, as MP4, by the program ffmpeg.
+// Writes frames of a recording as an MP4 movie, with the program ffmpeg.
 #pragma once
 
 #include <cstddef>
@@ -13,26 +13,28 @@
 
 namespace palpate::gui {
 
-// What a movie shows, and when.
+// The frames of a movie and their times.
 struct Movie {
   FrameSpan frames;
-  MovieTiming timing;  // its frames count from frames.first
+  // Its frame indices count from frames.first.
+  MovieTiming timing;
   double picturesPerS = 30.0;
 };
-// timeUs: stamp of a frame [us]; asked for all of the span. Throws std::invalid_argument (options),
-// Cancelled.
+// Plans a movie. timeUs: time stamp of a frame [us], called for every frame of the span. Throws
+// std::invalid_argument (options), Cancelled.
 Movie plannedMovie(const FrameSpan& frames,
                    const FramePictures::TimeUs& timeUs,
                    const MovieOptions& options,
                    const Progress& progress = {});
 
-// A PNG's pixels made even, as the coding of colours needs it: up to a row and a column more, of
-// background.
+// Size of the movie [pixels]: that of a PNG, made even by up to one row and one column of
+// background, because the chroma coding needs even sizes.
 QSize moviePixels(const PicturePaper& paper);
 
-// Paints each frame once, however many pictures show it. The file is whole or not there: until it
-// is whole it has no name. Needs a QGuiApplication; may run in any thread. Throws FileError: exists
-// already, no ffmpeg, what ffmpeg says; Cancelled.
+// Writes the movie; each frame is painted once, even if several pictures show it. The file is
+// complete or doesn't exist: it gets its name only at the end. Needs a QGuiApplication; may run in
+// any thread. Throws FileError: the file exists already, ffmpeg is missing or reports an error;
+// Cancelled.
 void writeMovie(const std::filesystem::path& path,
                 const Movie& movie,
                 const FramePictures::Paint& paint,

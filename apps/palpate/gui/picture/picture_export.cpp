@@ -16,7 +16,8 @@
 namespace palpate::gui {
 namespace {
 
-constexpr int kPdfDpi = 1200;  // resolution that positions in a PDF are rounded to
+// Resolution to which positions in a PDF are rounded.
+constexpr int kPdfDpi = 1200;
 constexpr double kPictureExportMmPerInch = 25.4;
 constexpr double kMPerInch = 0.0254;
 constexpr double kPictureExportPointsPerInch = 72.0;
@@ -89,14 +90,15 @@ void replay(QPainter& painter, const QPicture& picture) {
 
 QImage pictureImage(const PaintPicture& paint, const PicturePaper& paper) {
   QImage image(paper.pixels(), QImage::Format_RGB32);
-  if (image.isNull()) return image;  // no memory for it
+  // Not enough memory.
+  if (image.isNull()) return image;
   image.fill(paper.background);
   QPainter painter(&image);
   painter.setRenderHint(QPainter::Antialiasing, true);
   painter.scale(paper.scale(), paper.scale());
   paint(painter);
   painter.end();
-  // Only now: a painter would scale fonts by it.
+  // Set after painting, since a painter would scale fonts by it.
   const int dotsPerM = static_cast<int>(std::lround(paper.dpi / kMPerInch));
   image.setDotsPerMeterX(dotsPerM);
   image.setDotsPerMeterY(dotsPerM);
@@ -127,7 +129,8 @@ void writePicture(const std::filesystem::path& path,
                   Overwrite overwrite) {
   const auto form = imageFormatOf(path);
   if (!form) throw FileError(path, "a picture's name must end in .png, .svg or .pdf");
-  requireWritable(path, overwrite);  // before the work, not after it
+  // Fails before the work, not after it.
+  requireWritable(path, overwrite);
   writeBytes(path, pictureBytes(*form, paint, paper, path), overwrite);
 }
 

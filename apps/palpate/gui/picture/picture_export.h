@@ -1,4 +1,4 @@
-// Pictures as files: PNG, SVG or PDF by the file's ending.
+// Writes pictures as PNG, SVG or PDF files; the extension of the file decides which.
 #pragma once
 
 #include <QByteArray>
@@ -19,44 +19,49 @@ namespace palpate::gui {
 
 enum class ImageFormat { kPng, kSvg, kPdf };
 
-// By the ending, in small or capital letters; nothing for any other.
+// The format by the extension, in lower or upper case; nothing for any other extension.
 std::optional<ImageFormat> imageFormatOf(const std::filesystem::path& path);
 
-// What a picture is painted on.
+// Size, resolution and background of an exported picture.
 struct PicturePaper {
-  QSizeF size{900, 720};       // [units], what the painter counts in
-  double unitsPerInch = 96.0;  // so many of them are an inch on paper
-  double dpi = 192.0;          // of a PNG; its pixels are size / unitsPerInch * dpi
+  QSizeF size{900, 720};  // [units] of the painter
+  // Units per inch on paper.
+  double unitsPerInch = 96.0;
+  // Resolution of a PNG; its size in pixels is size / unitsPerInch * dpi.
+  double dpi = 192.0;
   QColor background = Qt::white;
-  QString title = {};  // both go into the file's own description
+  // Title and description are stored in the metadata of the file.
+  QString title = {};
   QString description = {};
 
-  double scale() const { return dpi / unitsPerInch; }  // pixels of a PNG per unit
-  QSize pixels() const;                                // of a PNG; at least 1 x 1
+  // Pixels of a PNG per unit.
+  double scale() const { return dpi / unitsPerInch; }
+  // Pixels of a PNG; at least 1 x 1.
+  QSize pixels() const;
   QSizeF sizeMm() const;
 };
-// Paints a picture; the painter is scaled to units and stands at the top left.
+// Paints a picture; the painter is scaled to units, with its origin at the top left.
 using PaintPicture = std::function<void(QPainter&)>;
 
-// Draws what was recorded in the painter's own units. QPicture::play() would scale it by the
+// Draws a recorded QPicture in the painter's own units; QPicture::play() would scale it by the
 // resolution of the device.
 void replay(QPainter& painter, const QPicture& picture);
 
-// Needs a QGuiApplication (fonts); may run in any thread when `paint` may.
+// Paints into an image. Needs a QGuiApplication (fonts); may run in any thread if `paint` may.
 QImage pictureImage(const PaintPicture& paint, const PicturePaper& paper);
-// The whole file. Throws FileError (which names `path`).
+// The content of the file. Throws FileError, which names `path`.
 QByteArray pictureBytes(ImageFormat form,
                         const PaintPicture& paint,
                         const PicturePaper& paper,
                         const std::filesystem::path& path);
-// Writes the whole file or nothing. Throws FileError: unknown ending, can't be written, exists
+// Writes the complete file or nothing. Throws FileError: unknown extension, not writable, exists
 // already (kRefuse).
 void writePicture(const std::filesystem::path& path,
                   const PaintPicture& paint,
                   const PicturePaper& paper,
                   Overwrite overwrite = Overwrite::kRefuse);
 
-// Writes an image as PNG, whole or not at all. Throws FileError.
+// Writes an image as PNG, the complete file or nothing. Throws FileError.
 void writePng(const std::filesystem::path& path, const QImage& image, Overwrite overwrite);
 
 }  // namespace palpate::gui

@@ -1,4 +1,4 @@
-// A picture of each frame of a range, as numbered files.
+// Writes a picture of each frame of a range, as numbered files.
 #pragma once
 
 #include <cstddef>
@@ -15,12 +15,13 @@ namespace palpate::gui {
 struct SeriesReport {
   std::size_t written = 0;
   bool cancelled = false;
-  std::string failure;  // why not all of them are there: disk full, ..; empty: none
+  // Why some files are missing: disk full, ..; empty: none is.
+  std::string failure;
 };
 
-// Makes the folder where it isn't there, and one file after the other, each whole or not there:
-// what was written before a cancel or a failure stays. Throws FileError before anything is written:
-// the folder can't be made, or holds some of these names and they may not be replaced.
+// Creates the folder if needed and writes one file after the other, each complete or not at all;
+// files written before a cancel or a failure stay. Throws FileError before anything is written: the
+// folder can't be created, or it contains some of these names and they may not be replaced.
 SeriesReport writePictureSeries(const FileSeries& series,
                                 const FramePictures::Paint& paint,
                                 const PicturePaper& paper,

@@ -6,10 +6,11 @@
 namespace palpate::gui {
 namespace {
 
-constexpr int kOldVeil = 150, kHeldVeil = 80;  // of 255
-constexpr double kAroundText = 12.0;           // [px]
-constexpr double kAtSides = 40.0;              // [px] that the text keeps free
-constexpr double kFrameWidth = 3.0;            // [px]
+// Opacity of the veil over a stale and over a held picture, of 255.
+constexpr int kOldVeil = 150, kHeldVeil = 80;
+constexpr double kAroundText = 12.0;  // [px]
+constexpr double kAtSides = 40.0;     // [px] free beside the text
+constexpr double kFrameWidth = 3.0;   // [px]
 
 }  // namespace
 
@@ -21,7 +22,8 @@ void paintStaleNotice(QPainter& painter, const QRectF& area, const StaleNotice& 
   painter.save();
   painter.fillRect(area, veil);
   painter.setRenderHint(QPainter::Antialiasing);
-  // What is held is looked at: its line stands above, and a frame tells from afar.
+  // The user looks at a held picture: its text is at the top, and a frame makes it recognisable
+  // from a distance.
   const int where =
       Qt::TextWordWrap | Qt::AlignHCenter | (old.held ? Qt::AlignTop : Qt::AlignVCenter);
   const QRectF room = area.adjusted(kAtSides, kAroundText, -kAtSides, -kAroundText);

@@ -1,5 +1,5 @@
-// How a view says that its picture isn't of now: a veil over it, and a line that tells why. The
-// same in every view.
+// Paints the sign that the picture of a view is stale: a veil over it and a line with the reason.
+// All views use it.
 #pragma once
 
 #include <QRectF>
@@ -11,16 +11,18 @@ class QPainter;
 
 namespace palpate::gui {
 
-// Of a picture that the user holds.
+// Text over a picture that the user holds.
 inline constexpr const char* kHeldText = "held – P goes on";
 
 struct StaleNotice {
-  QString notice;     // why, one line; empty: the picture is of now
-  bool held = false;  // by the user: still to be read, under a light veil
+  // The reason, one line; empty: the picture is current.
+  QString notice;
+  // The user holds the picture; a lighter veil keeps it readable.
+  bool held = false;
   bool operator==(const StaleNotice&) const = default;
 };
 
-// Over what was painted; nothing without a notice.
+// Paints over the picture; without a notice, paints nothing.
 void paintStaleNotice(QPainter& painter, const QRectF& area, const StaleNotice& old, Theme theme);
 
 }  // namespace palpate::gui

@@ -15,11 +15,11 @@
 namespace palpate::gui {
 namespace {
 
-constexpr int kDepth = 24;  // [bits] of a colour
+constexpr int kDepth = 24;  // [bits per colour]
 constexpr double kSvgDeviceMmPerInch = 25.4;
 constexpr double kSvgDevicePointsPerInch = 72.0;
 
-// A thousandth of a unit is finer than any printer.
+// Rounds to a thousandth of a unit, which is finer than any printer.
 std::string svgDeviceText(double value) {
   constexpr double kParts = 1000.0;
   std::string out;
@@ -32,7 +32,7 @@ std::string pair(const QPointF& point) {
 }
 
 std::string escaped(const QString& plain) {
-  // What XML has no place for at all would make the file unreadable.
+  // Control characters, which XML doesn't allow, would make the file unreadable.
   QString kept;
   for (const QChar letter : plain)
     if (letter >= QChar(' ') || letter == '\t') kept += letter;
@@ -201,7 +201,7 @@ class SvgEngine : public QPaintEngine {
   std::string body() const { return body_; }
 
  private:
-  // Everything up to the next change of look stands in one group.
+  // Everything up to the next change of pen or brush goes into one group.
   void open(bool filled) {
     look(strokeOf(painter()->pen()) + (filled ? fillOf(painter()->brush()) : " fill=\"none\""));
   }

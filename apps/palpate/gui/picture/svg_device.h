@@ -1,5 +1,6 @@
-// What a QPainter draws, as an SVG: lines stay lines, text stays text. Unlike QSvgGenerator it
-// heeds clipping (a chart's curves end at its axes) and knows real sizes (millimetres on paper).
+// A paint device that writes what a QPainter draws as an SVG: lines stay lines, text stays text.
+// Unlike QSvgGenerator it supports clipping (the curves of a chart end at its axes) and real sizes
+// (millimetres on paper).
 #pragma once
 
 #include <QByteArray>
@@ -14,13 +15,13 @@ class SvgEngine;
 
 class SvgDevice : public QPaintDevice {
  public:
-  // `size` in units of the painter; so many units are an inch. Fonts are best given in pixels
-  // (units).
+  // `size` is in units of the painter, of which `unitsPerInch` are an inch. Fonts are best given in
+  // pixels (units).
   SvgDevice(const QSizeF& size, double unitsPerInch);
   ~SvgDevice() override;
 
   void setTitle(const QString& title, const QString& description);
-  // The whole document; after the painter has ended.
+  // The complete document; call it after the painter has ended.
   QByteArray bytes() const;
 
   QPaintEngine* paintEngine() const override;

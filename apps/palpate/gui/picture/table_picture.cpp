@@ -11,10 +11,10 @@ namespace {
 
 constexpr double kTablePictureMargin = 12.0;     // [units]
 constexpr double kCellGap = 14.0;                // [units] least space between columns
-constexpr double kTablePictureRowHeight = 1.75;  // in heights of the text
+constexpr double kTablePictureRowHeight = 1.75;  // [heights of the text]
 constexpr int kSmallestText = 5;                 // [units]
 
-// What the table takes with a font.
+// The space that the table needs with a font.
 struct TablePictureExtent {
   std::vector<double> columns;
   double row = 0.0;
@@ -75,7 +75,7 @@ void paintTable(QPainter& painter,
     y += extent.row;
   }
   painter.setFont(fitting);
-  // What is left of the width goes between the columns.
+  // The spare width is distributed between the columns.
   const auto columns = static_cast<double>(table.header.size());
   const double spare = std::max(0.0, look.size.width() - extent.whole.width());
   const double gap = kCellGap + (columns > 1 ? spare / (columns - 1) : 0.0);

@@ -1,5 +1,5 @@
-// A table as a picture of its own: names on the left, figures on the right of their columns,
-// hairlines between rows.
+// Paints a table as a picture for export: names on the left, numbers right-aligned in their
+// columns, hairlines between the rows.
 #pragma once
 
 #include <QString>
@@ -18,11 +18,11 @@ struct TablePicture {
   QString title = {};
   QString caption = {};
   QStringList header = {};
-  // as many cells as the header has; the first is the row's name
+  // Every row has as many cells as the header; the first is the name of the row.
   std::vector<QStringList> rows = {};
 };
 
-// In the colours of `theme`, or of paper. Text shrinks where the table wouldn't fit.
+// Uses the colours of `theme`, or those for paper. The text shrinks where the table wouldn't fit.
 void paintTable(QPainter& painter,
                 const PictureLook& look,
                 const TablePicture& table,

@@ -1,5 +1,5 @@
-// The middle of the window: lines with messages, the start page, or the views of what is looked at
-// and what plays it.
+// The centre of the main window: banners on top; below them the start page, or the views of the
+// displayed source with the playback bar.
 #pragma once
 
 #include <QSettings>
@@ -17,12 +17,13 @@ namespace palpate::gui {
 class CentralWidget : public QWidget {
   Q_OBJECT
  public:
-  // The settings must outlive it: how much room each view has.
+  // Loads the sizes of the views from the settings, which must outlive this object.
   explicit CentralWidget(QSettings& settings, QWidget* parent = nullptr);
 
   void add(const CentralViewSpec& offer);
-  void add(std::vector<BannerSpec> strips);  // all of them, in their order
-  // Once all are there.
+  // Adds all banners, in their order.
+  void add(std::vector<BannerSpec> strips);
+  // To be called once all views have been added.
   void begin();
 
   void setPlace(DisplayedSource::Kind place);
@@ -32,8 +33,10 @@ class CentralWidget : public QWidget {
  private:
   QSettings& settings_;
   QVBoxLayout* lines_;
-  QStackedWidget* pages_;  // start page, or work
-  QStackedWidget* work_;   // views, or two recordings that are compared
+  // Start page, or work_.
+  QStackedWidget* pages_;
+  // Views, or the comparison of two recordings.
+  QStackedWidget* work_;
   QSplitter* views_;
   QVBoxLayout* column_;
   std::vector<QWidget*> below_;

@@ -12,14 +12,17 @@ namespace {
 
 using Kind = DisplayedSource::Kind;
 
-constexpr int kNarrowestRight = 455;   // [px] a table is read without eliding
+// Least width of the right side [px]: a table fits without eliding.
+constexpr int kNarrowestRight = 455;
 constexpr double kRightShare = 0.345;  // of the window's width
 constexpr int kNarrowestRightLive = 330;
 constexpr double kRightShareLive = 0.24;
 constexpr int kLeftLiveWidth = 380;     // [px]
 constexpr double kBottomShare = 0.235;  // of the window's height
-constexpr double kBottomBelow = 0.17;   // likewise, below a dock that was asked for
-constexpr int kLowWindow = 760;         // [px] of height: no room for both
+// Share of the height for the bottom dock below a dock that the user asked for.
+constexpr double kBottomBelow = 0.17;
+// Below this height of the window [px] there is no room for both docks.
+constexpr int kLowWindow = 760;
 
 QString shownKey(const Dock& dock) { return dock.objectName().toLower() + "/shown"; }
 
@@ -77,7 +80,7 @@ const DockSpec* DockArrangement::leftWhileLive() const {
   return at == offers_.end() ? nullptr : &*at;
 }
 
-// The start page stands alone: docks without content would only be in the way.
+// On the start page docks without content are hidden.
 void DockArrangement::setPlace(Kind place) {
   if (placed_ && place == place_) return;
   if (placed_ && place_ != Kind::kNothing) layouts_[place_] = window_.saveState();
@@ -114,7 +117,8 @@ void DockArrangement::placeDocks() {
   if (front()) front()->dock->raise();
 }
 
-// An operator has the hand at his left hand; an analyst asks for it.
+// With a live source the dock Hand is on the left side; with a recording the user shows it when
+// needed.
 void DockArrangement::placeSides() {
   const bool live = place_ == Kind::kLive;
   std::vector<const DockSpec*> tabs;
@@ -190,18 +194,18 @@ QList<QAction*> DockArrangement::toggles() const {
   return toggles;
 }
 
-// Asked for, it is to be read: not as narrow or low as the others leave it.
+// Enlarges a dock that the user asked for, so that its content can be read.
 void DockArrangement::makeRoomFor(const DockSpec& offer) {
   Dock* dock = offer.dock;
   const Dock* below = bottom() ? bottom()->dock : nullptr;
   if (offer.above && below && window_.height() < kLowWindow && !dock->isFloating()) {
-    // Where there is no room for both, one is behind the other.
+    // Without room for both, they become tabs.
     window_.tabifyDockWidget(bottom()->dock, dock);
     dock->raise();
     return;
   }
   if (offer.preferredWidthPx == 0 && offer.shareOfHeight == 0.0) return;
-  // Once it has a place.
+  // Runs after the dock has got its place.
   QTimer::singleShot(0, this, [this, offer, dock] {
     if (dock->isFloating()) return;
     if (offer.preferredWidthPx > 0 && dock->width() < offer.preferredWidthPx)

@@ -1,5 +1,5 @@
-// The docks of the window: where they stand at first, in each place of the window its own layout,
-// and how they come back.
+// Arranges the docks of the main window: their default places, one layout for each kind of source
+// (nothing, recording, live), and how layouts are stored and restored.
 #pragma once
 
 #include <QByteArray>
@@ -20,33 +20,37 @@ namespace palpate::gui {
 class DockArrangement : public QObject {
   Q_OBJECT
  public:
-  // Both must outlive it. Layouts are remembered in the settings.
+  // Both must outlive this object. The settings store the layouts.
   DockArrangement(QMainWindow& window, QSettings& settings);
 
   void add(const DockSpec& offer);
-  // Once all are there.
+  // To be called once all docks have been added.
   void begin();
 
-  // With each place its own layout: nothing is looked at (only docks that stay everywhere), a
-  // recording, live.
+  // Switches to the layout of a kind of source: nothing (only docks that are shown everywhere), a
+  // recording, or live.
   void setPlace(DisplayedSource::Kind place);
-  void reset();  // as they stand at first
-  // Out of the way, and back as they were.
+  // Restores the default places.
+  void reset();
+  // Hides all docks, and shows them again as before.
   void hideAll();
   void bringBack();
   void remember();
   void setTheme(Theme theme);
 
   QStringList names() const;
-  void show(const QString& name);  // one of names(), with room to be read
+  // Shows one of names() and makes it large enough to be read.
+  void show(const QString& name);
   QList<QAction*> toggles() const;
 
  private:
   void placeDocks();
   void placeSides();
   const DockSpec* leftWhileLive() const;
-  const DockSpec* front() const;   // of the tabs on the right
-  const DockSpec* bottom() const;  // across the window
+  // The front one of the tabs on the right.
+  const DockSpec* front() const;
+  // The dock across the bottom of the window.
+  const DockSpec* bottom() const;
   void makeRoomFor(const DockSpec& offer);
 
   QMainWindow& window_;
@@ -55,7 +59,8 @@ class DockArrangement : public QObject {
   DisplayedSource::Kind place_ = DisplayedSource::Kind::kNothing;
   bool placed_ = false;
   std::map<DisplayedSource::Kind, QByteArray> layouts_;
-  QByteArray hidden_;  // the layout before hideAll()
+  // The layout before hideAll().
+  QByteArray hidden_;
 };
 
 }  // namespace palpate::gui

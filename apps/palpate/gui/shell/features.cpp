@@ -30,7 +30,7 @@ std::vector<std::unique_ptr<Feature>> allFeatures(WindowState& windowState, QWid
     all.push_back(std::move(feature));
     return made;
   };
-  // What stands in the middle comes first: the key Tab goes through it in this order.
+  // The central views come first: the key Tab moves the focus in this order.
   add(std::make_unique<OpenFeature>(windowState, window));
   auto& matrices = add(std::make_unique<MatricesFeature>(windowState, window));
   add(std::make_unique<SpaceFeature>(windowState, window, matrices.panel()));

@@ -1,4 +1,4 @@
-// The features of the window, each made in one line.
+// Creates all features of the window.
 #pragma once
 
 #include <memory>
@@ -8,7 +8,7 @@
 
 namespace palpate::gui {
 
-// In the order in which the menu View names their docks, and views are offered to be taken away.
+// In the order in which the menu View lists their docks and the export dialogue offers their views.
 std::vector<std::unique_ptr<Feature>> allFeatures(WindowState& windowState, QWidget* window);
 
 }  // namespace palpate::gui

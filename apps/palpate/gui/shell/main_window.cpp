@@ -19,7 +19,8 @@ namespace {
 
 constexpr QSize kSmallestWindow(900, 600);
 constexpr QSize kUsualWindow(1440, 900);
-constexpr int kCompactBelow = 1340;  // [px] of width: buttons lose their text
+// Below this width of the window [px] buttons have no text.
+constexpr int kCompactBelow = 1340;
 
 }  // namespace
 
@@ -47,7 +48,8 @@ MainWindow::MainWindow(const WindowEnvironment& environment)
   connectActions();
   connectMessages();
   addFeatures();
-  // the dock Hand and its Stop know of a hand before the window changes
+  // Called after the features exist, so that the dock Hand with its Stop learns of a hand before
+  // the window changes.
   windowState_->displayed.follow();
   resize(kUsualWindow);
   restoreGeometry(windowState_->settings.value("window/geometry").toByteArray());
@@ -60,7 +62,7 @@ MainWindow::MainWindow(const WindowEnvironment& environment)
 }
 
 MainWindow::~MainWindow() {
-  // What they show goes while all that it refers to is there.
+  // Features are destroyed while everything that they refer to still exists.
   windowState_->actionEnabler.clear();
   windowState_->escapeHandler.clear();
   windowState_->events.forgetFound();
@@ -93,12 +95,13 @@ void MainWindow::addFeatures() {
   for (ExportedView& view : views) feature<ExportFeature>().exportController().add(std::move(view));
 }
 
-// Before the features hear of another source: their docks stand where they belong by then.
+// Connected before the features, so that their docks are placed before they take another source.
 void MainWindow::connectPlace() {
   DisplayedSource& displayed = windowState_->displayed;
   connect(&displayed, &DisplayedSource::changed, this, [this, &displayed] {
     if (!displayed.isRecording()) windowState_->comparison.set(false);
-    centre_->setPlace(displayed.kind());  // first: the docks get what it leaves
+    // The centre comes first: the docks get the remaining room.
+    centre_->setPlace(displayed.kind());
     docks_->setPlace(displayed.kind());
     menus_->setPlaybackShown(!displayed.isLive());
   });
@@ -157,7 +160,8 @@ void MainWindow::showTitle() {
   const DisplayedSource& displayed = windowState_->displayed;
   if (const LiveSource* source = displayed.source())
     return setWindowTitle(describe(source->connection) + " – Palpate");
-  if (displayed.isLive()) return;  // about to go
+  // The live source is about to be closed: the title stays until then.
+  if (displayed.isLive()) return;
   const OpenedRecordingPtr recording = displayed.recorded();
   if (!recording) return setWindowTitle("Palpate");
   const QString star = windowState_->events.hasUnsaved(recording) ? "*" : "";
@@ -178,7 +182,8 @@ void MainWindow::setFullScreen(bool on) {
 }
 
 void MainWindow::remember() {
-  windowState_->comparison.set(false);  // its layout is not to be remembered
+  // The layout of the comparison isn't stored.
+  windowState_->comparison.set(false);
   for (const auto& feature : features_) feature->remember();
   centre_->remember();
   docks_->remember();
@@ -186,22 +191,23 @@ void MainWindow::remember() {
   windowState_->settings.sync();
 }
 
-// What is connected is ended first, beside the window: a hand that moves is stopped, a recording
-// finished. Then it closes.
+// Ends the connection first, in the background: a moving hand is stopped, a recording finished.
+// Then the window closes.
 void MainWindow::closeEvent(QCloseEvent* event) {
   LiveController& live = windowState_->live;
   if (closing_) {
     if (live.state() != LiveController::State::kNone) return event->ignore();
   } else if ((live.recording() && !windowState_->prompts.endRecording()) ||
              !windowState_->events.settle(windowState_->recordings.all())) {
-    return event->ignore();  // all is asked before anything is given up
+    // All questions come before anything is discarded.
+    return event->ignore();
   }
   if (!closing_) remember();
   windowState_->events.discardAll();
   windowState_->opener.cancel();
   if (live.state() == LiveController::State::kNone) return event->accept();
   event->ignore();
-  // Nothing else is shown any more.
+  // When the connection ends, no other source is shown.
   disconnect(&live, &LiveController::ended, &windowState_->displayed, nullptr);
   closing_ = connect(&live, &LiveController::ended, this, &QWidget::close);
   windowState_->messages.announce("Closing: the hand is let go, a recording is finished …");

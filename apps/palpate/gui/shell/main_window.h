@@ -1,5 +1,5 @@
-// The one main window: a frame for the features, which plug into it. It holds what they share,
-// places their docks, views and lines, and asks before it closes.
+// The main window, into which the features plug. It owns the window state that they share, places
+// their docks, views and banners, and asks before it closes.
 #pragma once
 
 #include <QMainWindow>
@@ -27,7 +27,7 @@ class MainWindow : public QMainWindow {
 
   WindowState& state() noexcept { return *windowState_; }
   DockArrangement& docks() noexcept { return *docks_; }
-  // The one of this class.
+  // The feature of class `Part`. Throws std::logic_error when there is none.
   template <class Part>
   Part& feature() {
     for (const auto& each : features_)
@@ -35,9 +35,10 @@ class MainWindow : public QMainWindow {
     throw std::logic_error("MainWindow: no such feature");
   }
 
-  // Closes without asking: a recording is finished, a hand that moves is stopped.
+  // Closes without asking: unsaved events are saved, a recording is finished, a moving hand is
+  // stopped.
   void endNow();
-  // For tests and pictures: until nothing is read, computed or written any more.
+  // Waits until all reading, computing and writing has ended; for tests and pictures.
   void settle();
 
  protected:
@@ -63,7 +64,8 @@ class MainWindow : public QMainWindow {
   MessageBanner* banner_;
   std::unique_ptr<StatusReport> status_;
   std::vector<std::unique_ptr<Feature>> features_;
-  QMetaObject::Connection closing_;  // as soon as nothing is connected any more; none: it stays
+  // Closes the window as soon as nothing is connected any more; unset: the window stays open.
+  QMetaObject::Connection closing_;
 };
 
 }  // namespace palpate::gui

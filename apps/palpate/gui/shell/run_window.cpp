@@ -28,7 +28,8 @@ int runWindow(int& argc, char** argv, const WindowOptions& options) {
   QObject::connect(&termination, &Termination::asked, &window, &MainWindow::endNow);
   window.show();
   HandView& hand = window.feature<SpaceFeature>().panel().view();
-  // A driver that crashes does so in another process; until it has answered the hand is painted.
+  // OpenGL is probed in another process, since a driver may crash; until the answer arrives the
+  // hand is drawn without it.
   if (options.openGl == OpenGlChoice::kAlways && openGlProblem().isEmpty())
     hand.useOpenGl();
   else if (options.openGl == OpenGlChoice::kFast)
@@ -42,7 +43,7 @@ int runWindow(int& argc, char** argv, const WindowOptions& options) {
     remote->setData(QString::fromStdString(options.remote->string()));
     remote->setChecked(true);
   }
-  // The window is on screen before the first file is read.
+  // The window is visible before the first file is read.
   if (options.demo)
     window.state().connectTo(emulatedBallConnection(true));
   else if (options.files.empty())

@@ -32,7 +32,7 @@
 namespace palpate::gui {
 namespace {
 
-// Opens and waits; throws what went wrong.
+// Opens the recording and waits for it; throws Error when that fails.
 void openAndWait(MainWindow& window, const ScreenshotOptions& options) {
   QEventLoop loop;
   QString failure;
@@ -62,13 +62,13 @@ void showCompare(MainWindow& window, const ScreenshotOptions& options) {
        !window.feature<CompareFeature>().panel().complete() && waitedS < kPatienceS;
        waitedS += kLookS)
     runFor(kLookS);
-  // Where the frame wasn't chosen: one that both have.
+  // Without a chosen frame, shows a time that both recordings have.
   const auto common = window.feature<CompareFeature>().panel().common();
   if (!options.frame && common && window.state().playback.positionS() > common->toS)
     window.state().playback.seekSeconds(common->toS);
 }
 
-// Connects, and waits for the first frame.
+// Connects to the demo and waits for the first frame.
 void runDemo(MainWindow& window) {
   constexpr double kPatienceS = 30.0;
   constexpr double kLookS = 0.02;
@@ -102,8 +102,8 @@ void goToFrame(MainWindow& window, const ScreenshotOptions& options) {
     playback.seekFrame(window.state().displayed.unfilteredRecording()->table.frameOfLargestSum());
 }
 
-// Of a demo --after counts while it runs; of a recording it was played before: then time for what
-// was pressed.
+// For a demo, --after is time during which it runs. A recording has already been played for that
+// time; here it only gets time for the presses.
 QImage pressAll(MainWindow& window, const ScreenshotOptions& options) {
   constexpr double kGraceS = 1.0;
   double forS = options.demo ? options.afterS : 0.0;
@@ -127,7 +127,7 @@ void settle(MainWindow& window) {
   window.feature<CalibrateFeature>().settle();
   window.feature<RecogniseFeature>().settle();
   window.feature<SlipFeature>().settle();
-  // Layout requests and queued replots come one after the other.
+  // Layout requests and queued replots follow one another in several rounds of events.
   constexpr int kRounds = 5;
   for (int i = 0; i < kRounds; ++i) QCoreApplication::processEvents();
 }
@@ -156,7 +156,7 @@ void showDocks(MainWindow& window, const ScreenshotOptions& options) {
                   window.docks().names().join(", ").toStdString());
     if (window.state().displayed.kind() != DisplayedSource::Kind::kNothing)
       window.docks().show(name);
-    // "Calibrate/Noise": one of its pages.
+    // "Calibrate/Noise" names a page of the dock.
     const QString page = QString::fromStdString(dock).section('/', 1);
     if (name == "Calibrate") showPage(window.feature<CalibrateFeature>().panel(), name, page);
     if (name == "Recognise") showPage(window.feature<RecogniseFeature>().panel(), name, page);
@@ -170,8 +170,9 @@ int takeScreenshot(int& argc, char** argv, const ScreenshotOptions& options) {
   std::error_code ignored;
   if (!options.force && std::filesystem::exists(options.out, ignored))
     throw FileError(options.out, "exists already; give another name, or --force to replace it");
-  const QTemporaryDir settings;  // the usual look, whatever this user has chosen
-  // Where nobody is logged in there is no such folder, and Qt says so on standard error.
+  // Default settings, independent of those of the user.
+  const QTemporaryDir settings;
+  // Without a login session this folder doesn't exist, and Qt would warn on standard error.
   if (!qEnvironmentVariableIsSet("XDG_RUNTIME_DIR"))
     qputenv("XDG_RUNTIME_DIR", settings.path().toLocal8Bit());
   const auto application = makeApplication(argc, argv);
@@ -198,7 +199,7 @@ int takeScreenshot(int& argc, char** argv, const ScreenshotOptions& options) {
   QImage image = pressAll(window, options);
   settle(window);
   if (image.isNull()) image = window.grab().toImage();
-  // Nobody is there to be asked; a recording that was opened stays as it was.
+  // There is no user to ask; an opened recording stays unchanged.
   window.state().prompts.endRecording = [] { return true; };
   window.state().prompts.unsaved = [](const QString&) { return UserPrompts::Unsaved::kDiscard; };
   window.close();

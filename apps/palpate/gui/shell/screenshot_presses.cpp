@@ -20,7 +20,7 @@ namespace {
 
 constexpr int kScreenshotPressesLookMs = 10;
 
-// A dialogue or another window in front of `window` that is open; null: none.
+// The dialogue or other window open in front of `window`; null: none.
 QWidget* openBefore(const QWidget& window) {
   if (QWidget* modal = QApplication::activeModalWidget()) return modal;
   for (QWidget* each : QApplication::topLevelWidgets())
@@ -28,7 +28,7 @@ QWidget* openBefore(const QWidget& window) {
   return nullptr;
 }
 
-// As it is read: without mnemonic and dots, blanks at the ends, and the key behind it.
+// The visible text of a button: without mnemonic, dots, surrounding blanks and the key after it.
 QString screenshotPressesWordsOf(const QAbstractButton& button) {
   QString words = button.text();
   words.remove('&').remove("…");
@@ -41,7 +41,7 @@ bool pressKey(const QWidget& window, const QKeySequence& keys) {
     action->trigger();
     return true;
   }
-  // Docks are shown and hidden by actions of their own.
+  // The actions that show and hide docks belong to the docks, not to the window itself.
   for (QAction* action : window.findChildren<QAction*>()) {
     if (keys.isEmpty() || !action->isEnabled() || !action->shortcuts().contains(keys)) continue;
     action->trigger();
@@ -52,7 +52,7 @@ bool pressKey(const QWidget& window, const QKeySequence& keys) {
 
 bool pressButton(const QWidget& window, const QString& words) {
   for (QAbstractButton* button : window.findChildren<QAbstractButton*>()) {
-    // One of a choice that is chosen already would do nothing.
+    // A checked button of a group would do nothing.
     if (!button->isVisible() || !button->isEnabled() || button->isChecked()) continue;
     if (screenshotPressesWordsOf(*button) != words) continue;
     button->click();
@@ -87,19 +87,22 @@ QImage runAndPress(QWidget& window,
   QElapsedTimer since;
   since.start();
   std::size_t done = 0;
-  double waitingS = 0.0;  // how much later than asked the last press was: the end waits as long
+  // Delay of the last press [s]; the end is delayed by as much.
+  double waitingS = 0.0;
   std::optional<std::string> failure;
   QImage dialogue;
-  QObject context;  // no timer outlives this call
-  // A dialogue runs a loop of its own inside a press: the next look is asked for before it, and the
-  // end closes it.
+  // Ends all timers with this call.
+  QObject context;
+  // A press may open a dialogue, which runs its own event loop: therefore the next call is
+  // scheduled before the press, and the last one closes the dialogue.
   std::function<void()> look = [&] {
     QTimer::singleShot(kScreenshotPressesLookMs, &context, look);
     const double nowS = static_cast<double>(since.elapsed()) / kMsPerS;
     QWidget* open = openBefore(window);
     if (!failure && done < presses.size()) {
       if (nowS < presses[done].atS + waitingS) return;
-      // It counts as pressed from here on: a dialogue that it opens doesn't return.
+      // Counted before the press, because a press that opens a dialogue doesn't return until it is
+      // closed.
       const ScreenshotPress wanted = presses[done++];
       const double lateS = nowS - wanted.atS;
       if (press(open ? *open : window, wanted.what)) {

@@ -1,4 +1,4 @@
-// What is the window's own, as actions.
+// The actions of the main window itself.
 #pragma once
 
 #include <QAction>

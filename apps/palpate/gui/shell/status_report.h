@@ -1,5 +1,5 @@
-// The status line, and what stands beside the button Connect: what is shown, how it goes, in a few
-// words.
+// Fills the status line, and the text beside the button Connect, with the state of the displayed
+// source.
 #pragma once
 
 #include <QObject>
@@ -14,7 +14,7 @@ class StatusStrip;
 class StatusReport : public QObject {
   Q_OBJECT
  public:
-  // All of them must outlive it.
+  // All arguments must outlive this object.
   StatusReport(WindowState& windowState, StatusStrip& strip, WindowMenus& menus);
 
  private:

@@ -44,7 +44,7 @@ void WindowMenus::fill(const ActionRegistry& book, const QList<QAction*>& dockTo
   });
 }
 
-// What no line below names stands at the end of the menu of its section.
+// Adds the actions that no other line names to the end of the menu of their section.
 void WindowMenus::addOthers(const ActionRegistry& book) {
   for (QAction* action : book.all())
     if (action->associatedObjects().size() == 1 && !isHiddenInMenus(*action))
@@ -190,7 +190,7 @@ void WindowMenus::buildToolBar(const ActionRegistry& book) {
   connectButton->setDefaultAction(at("connectHand"));
   connectButton->setMenu(menus_.connections);
   connectButton->setPopupMode(QToolButton::InstantPopup);
-  connectButton->setFocusPolicy(Qt::NoFocus);  // it has a key
+  connectButton->setFocusPolicy(Qt::NoFocus);  // has a shortcut instead
   bar->addWidget(connectButton);
   link_ = new QLabel(bar);
   link_->setObjectName("LinkPill");
@@ -213,14 +213,14 @@ void WindowMenus::buildToolBar(const ActionRegistry& book) {
   menus_.recordings->setMinimumHeight(kWindowMenusControlHeight);
   menus_.recordings->setToolTip("Open recordings (Ctrl+Tab)");
   menus_.recordings->setAccessibleName("Open recordings");
-  menus_.recordings->setFocusPolicy(Qt::NoFocus);  // it has a key
+  menus_.recordings->setFocusPolicy(Qt::NoFocus);  // has a shortcut instead
   menus_.recordings->setSizeAdjustPolicy(QComboBox::AdjustToContents);
   menus_.recordings->setMaximumWidth(420);
   menus_.recordingsShown = bar->addWidget(menus_.recordings);
   bar->addAction(at("keys"));
 }
 
-// What plays a recording, as one: while live is shown nothing of it is of use.
+// Groups the playback controls in one widget, which is hidden while a live source is shown.
 QWidget* WindowMenus::makePlayback(QToolBar& bar, const ActionRegistry& book) {
   const auto at = [&book](const char* id) { return book.at(id); };
   auto* group = new QWidget(&bar);
@@ -231,7 +231,7 @@ QWidget* WindowMenus::makePlayback(QToolBar& bar, const ActionRegistry& book) {
     auto* button = new QToolButton(group);
     button->setDefaultAction(action);
     button->setIconSize(bar.iconSize());
-    button->setFocusPolicy(Qt::NoFocus);  // it has a key
+    button->setFocusPolicy(Qt::NoFocus);  // has a shortcut instead
     row->addWidget(button);
     return button;
   };
@@ -243,7 +243,7 @@ QWidget* WindowMenus::makePlayback(QToolBar& bar, const ActionRegistry& book) {
   menus_.speed->setMinimumHeight(kWindowMenusControlHeight);
   menus_.speed->setToolTip("Speed (Up, Down)");
   menus_.speed->setAccessibleName("Speed");
-  menus_.speed->setFocusPolicy(Qt::NoFocus);  // it has a key
+  menus_.speed->setFocusPolicy(Qt::NoFocus);  // has a shortcut instead
   for (const QAction* each : book.group("speeds")->actions()) menus_.speed->addItem(each->text());
   row->addWidget(menus_.speed);
   withText_.append({play_, add(at("loop")), add(at("skipGaps"))});
@@ -257,7 +257,7 @@ void WindowMenus::setCompact(bool on) {
   styleRecord();
   for (QToolButton* button : withText_)
     button->setToolButtonStyle(on ? Qt::ToolButtonIconOnly : Qt::ToolButtonTextBesideIcon);
-  // "Play" and "Pause" take the same room: nothing jumps when the playback starts.
+  // "Play" and "Pause" get the same width, so that nothing moves when the playback starts.
   const int textWidth = play_->fontMetrics().horizontalAdvance(" Pause");
   play_->setMinimumWidth(on ? 0 : textWidth + kIconAndPadding);
 }
@@ -271,7 +271,7 @@ void WindowMenus::showLink(const QString& text, bool good) {
   link_->style()->polish(link_);
 }
 
-// While it records, how long and how much is always read.
+// While recording, the duration and size are always shown.
 void WindowMenus::styleRecord() {
   const bool text = !compact_ || record_->property("recording").toBool();
   record_->setToolButtonStyle(text ? Qt::ToolButtonTextBesideIcon : Qt::ToolButtonIconOnly);

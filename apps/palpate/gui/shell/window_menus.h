@@ -1,4 +1,4 @@
-// Menu bar and toolbar, filled with the actions of the features.
+// Builds the menu bar and the toolbar from the actions of the features.
 #pragma once
 
 #include <QList>
@@ -23,24 +23,28 @@ class WindowMenus {
  public:
   explicit WindowMenus(QMainWindow& window);
 
-  // Once all actions are made: in the order that is written down here; others at the end of the
-  // menu of their section. `dockToggles`: what shows and hides the docks, in the menu View.
+  // To be called once all actions exist. The order of the menus is written in the source; actions
+  // that it doesn't name come at the end of the menu of their section. `dockToggles`: actions that
+  // show and hide the docks, for the menu View.
   void fill(const ActionRegistry& book, const QList<QAction*>& dockToggles);
-  // What features fill, or open elsewhere, too.
+  // The menus and boxes that features fill or also open elsewhere.
   Menus shared() const;
 
-  // Buttons without text, for a narrow window.
+  // Shows buttons without text, for a narrow window.
   void setCompact(bool on);
   void setPlaybackShown(bool on);
-  // What is connected; empty: nothing is shown. `good`: data come.
+  // Shows what is connected; empty: shows nothing. `good`: data arrive.
   void showLink(const QString& text, bool good);
 
  private:
   QMainWindow& window_;
-  QMap<QString, QMenu*> sections_;  // by title
+  // The menus by title.
+  QMap<QString, QMenu*> sections_;
   Menus menus_;
-  QLabel* link_ = nullptr;         // beside Connect: what is connected, in a word
-  QToolButton* record_ = nullptr;  // red while it records
+  // Beside Connect: what is connected, in short.
+  QLabel* link_ = nullptr;
+  // Red while recording.
+  QToolButton* record_ = nullptr;
   QList<QToolButton*> withText_;
   QToolButton* play_ = nullptr;
   QAction* playback_ = nullptr;
@@ -48,7 +52,8 @@ class WindowMenus {
   bool compact_ = false;
 
   void styleRecord();
-  void showRecording(bool on);  // the button turns red
+  // Turns the button red.
+  void showRecording(bool on);
   void buildMenuBar(const ActionRegistry& book, const QList<QAction*>& dockToggles);
   void buildToolBar(const ActionRegistry& book);
   void addOthers(const ActionRegistry& book);

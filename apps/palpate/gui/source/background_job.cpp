@@ -36,7 +36,8 @@ void BackgroundJob::startNext() {
   busy_ = true;
   cancelAsked_ = false;
   emit started(now.text);
-  if (worker_.joinable()) worker_.join();  // it has reported already: this takes no time
+  // The thread has already reported its result: joining it takes no time.
+  if (worker_.joinable()) worker_.join();
   worker_ = std::jthread([this, now = std::move(now)] {
     double reported = -1.0;
     const Progress progress = [&](double fraction) {

@@ -1,5 +1,5 @@
-// Long work beside the window, one piece at a time: with progress, cancel, and a word at its end in
-// this object's thread.
+// Runs long work in a background thread, one job at a time, with progress and cancel. All signals
+// and callbacks come in the thread of this object.
 #pragma once
 
 #include <QObject>
@@ -16,16 +16,18 @@ namespace palpate::gui {
 class BackgroundJob : public QObject {
   Q_OBJECT
  public:
-  // Runs in a thread of its own; what it throws is told, Cancelled too.
+  // The work runs in a thread of its own; an exception that it throws is reported by failed() or,
+  // for Cancelled, by cancelled().
   using Work = std::function<void(const Progress&)>;
 
   explicit BackgroundJob(QObject* parent = nullptr) : QObject(parent) {}
-  // Cancels and waits.
+  // Cancels all jobs and waits for the running one.
   ~BackgroundJob() override;
 
-  // `done` is called once it has ended well. Waits for what is at work.
+  // Starts the work once the running and the waiting jobs have ended. `done` is called when it has
+  // succeeded.
   void start(const QString& text, Work work, std::function<void()> done = {});
-  // Gives up what is at work, and what waits.
+  // Cancels the running job and all that wait.
   void cancel();
   bool busy() const noexcept { return busy_; }
 
@@ -34,7 +36,8 @@ class BackgroundJob : public QObject {
   void progressed(double fraction);
   void failed(const QString& message);
   void cancelled(const QString& text);
-  void finished();  // nothing is at work any more
+  // No job runs or waits any more.
+  void finished();
 
  private:
   struct Waiting {

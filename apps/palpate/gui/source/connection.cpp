@@ -24,10 +24,12 @@ QString connectionKeyOf(Connection::Kind kind) {
   return "emulated";
 }
 
-// "/dev/ttyUSB0" is known by its last part, "tcp:host:1" as a whole; names by-id are long.
+// A short name for a port: the last part of "/dev/ttyUSB0", the whole of "tcp:host:1". Long names
+// (of /dev/serial/by-id) lose their middle.
 QString connectionShortName(const QString& port) {
   constexpr int kLongest = 28;
-  constexpr int kKept = 13;  // of both ends
+  // Letters kept at either end.
+  constexpr int kKept = 13;
   const QString name = port.startsWith('/') ? port.section('/', -1) : port;
   return name.size() <= kLongest ? name : name.left(kKept) + "…" + name.right(kKept);
 }

@@ -1,5 +1,5 @@
-// What the window is connected to, or shall be: a hand on its ports, the emulated hand, a
-// recording.
+// Describes what the window connects to: a hand on its ports, the emulated hand, or the replay of a
+// recording. The dialogue Connect edits it; LiveController opens it.
 #pragma once
 
 #include <QSettings>
@@ -11,13 +11,15 @@ namespace palpate::gui {
 struct Connection {
   enum class Kind { kPorts, kEmulated, kReplay };
   Kind kind = Kind::kEmulated;
-  // kPorts; as openChannel() takes them. Either one may be empty, not both.
-  QString dsaPort = {};  // tactile controller
-  QString sdhPort = {};  // motion controller
-  // kEmulated: a name in data/scenes, or the path of a scene.
+  // For kPorts: addresses as openChannel() takes them. One of the two may be empty.
+  // dsaPort is that of the tactile controller, sdhPort that of the motion controller.
+  QString dsaPort = {};
+  QString sdhPort = {};
+  // For kEmulated: a name in data/scenes, or the path of a scene.
   QString scene = "ball";
-  bool sceneScriptRuns = false;  // its script runs: the emulated hand grasps and lets go by itself
-  // kReplay: path of the recording.
+  // Whether the script of the scene runs: the emulated hand grasps and releases by itself.
+  bool sceneScriptRuns = false;
+  // For kReplay: path of the recording.
   QString recording = {};
   bool operator==(const Connection&) const = default;
 };
@@ -26,10 +28,11 @@ inline constexpr std::array kAllConnectionKinds = {
 
 // "hand on ttyUSB0 and ttyUSB1", "emulated hand · ball", "replay of foam_ball.dsa"
 QString describe(const Connection& connection);
-// What is missing before it can be tried, one line; empty: nothing.
+// What is missing before the connection can be tried, one line; empty: nothing.
 QString problemOf(const Connection& connection);
 
-// The connection that was made last. What can't be read is replaced by the defaults.
+// Loads the last connection from the settings. Values that can't be read are replaced by the
+// defaults.
 Connection loadConnection(const QSettings& settings);
 void saveConnection(const Connection& connection, QSettings& settings);
 

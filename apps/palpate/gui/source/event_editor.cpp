@@ -5,7 +5,7 @@
 
 namespace palpate::gui {
 
-// One event becomes another, comes, or goes.
+// Undo command that changes, adds or removes one event.
 class EventEditor::Change : public QUndoCommand {
  public:
   Change(EventEditor& editor,
@@ -25,11 +25,11 @@ class EventEditor::Change : public QUndoCommand {
 EventEditor::EventEditor(EventsReport asRead, Save save, QObject* parent)
     : QObject(parent), asRead_(std::move(asRead)), events_(asRead_.events), save_(std::move(save)) {
   connect(&undo_, &QUndoStack::cleanChanged, this, &EventEditor::changed);
-  // Undone or redone together: told once.
+  // Changes that are undone or redone together emit changed() once.
   connect(&undo_, &QUndoStack::indexChanged, this, &EventEditor::changed);
 }
 
-// What goes with it isn't a change any more.
+// The undo stack changes its index while it is destroyed; that must not emit changed().
 EventEditor::~EventEditor() { undo_.disconnect(this); }
 
 void EventEditor::apply(const std::optional<RecordingEvent>& out,

@@ -1,5 +1,5 @@
-// The events of a recording while a person edits them: every change can be undone, until it is
-// saved and after.
+// Edits the events of one recording, with undo: every change can be undone, before it is saved and
+// after.
 #pragma once
 
 #include <QObject>
@@ -15,7 +15,7 @@ namespace palpate::gui {
 class EventEditor : public QObject {
   Q_OBJECT
  public:
-  // Stores the events in the file; throws palpate::Error where it can't.
+  // Stores the events in the file; throws palpate::Error when that fails.
   using Save =
       std::function<void(const EventsReport& asRead, const std::vector<RecordingEvent>& now)>;
 
@@ -23,17 +23,19 @@ class EventEditor : public QObject {
 
   ~EventEditor() override;
 
-  const std::vector<RecordingEvent>& events() const noexcept { return events_; }  // by time
-  // `name` is what the undo menu calls it. Throw std::out_of_range for an event that isn't there.
+  // The events, sorted by time.
+  const std::vector<RecordingEvent>& events() const noexcept { return events_; }
+  // `name` names the change in the menu Edit. change() and remove() throw std::out_of_range for an
+  // event that doesn't exist.
   void add(const RecordingEvent& event, const QString& name);
   void change(std::size_t index, const RecordingEvent& to, const QString& name);
   void remove(std::size_t index, const QString& name);
-  // Several changes that are undone together.
+  // Groups several changes, so that they are undone together.
   void changeTogether(const QString& name, const std::function<void()>& changes);
 
   QUndoStack& undoStack() noexcept { return undo_; }
   bool unsaved() const { return !undo_.isClean(); }
-  // Throws palpate::Error: nothing was stored, the changes are still here.
+  // Throws palpate::Error when nothing could be stored; the changes are kept.
   void save();
 
  signals:

@@ -12,7 +12,8 @@ namespace palpate::gui {
 namespace {
 
 constexpr std::size_t kMeasuredFrames = 200;
-constexpr qint64 kMeasuredMs = 200;  // at most, about
+// Measuring takes about this long at most.
+constexpr qint64 kMeasuredMs = 200;
 
 class Nowhere final : public FrameSink {
  public:
@@ -24,7 +25,8 @@ class Nowhere final : public FrameSink {
 OpenedRecordingPtr filteredRecording(const OpenedRecordingPtr& source,
                                      const Recipe& recipe,
                                      const Progress& progress) {
-  // A recipe that needs all frames at once takes its time first.
+  // A recipe that needs all frames at once filters in a first pass, before the signals are
+  // computed.
   const auto part = [&](double from, double to) -> Progress {
     if (!progress) return {};
     return

@@ -1,6 +1,6 @@
-// Looks at a recording through a recipe, beside the window: the filtered recording, and what each
-// step costs and delays. Whoever changes the recipe again while it is at work gets the last one
-// only.
+// Filters a recording by a recipe in a background thread; delivers the filtered recording, and cost
+// and latency of each step. A new start() replaces the work in progress, so that only the last
+// recipe gives a result.
 #pragma once
 
 #include <QObject>
@@ -17,30 +17,35 @@
 namespace palpate::gui {
 
 struct FilterFigures {
-  std::vector<double> costsUs;  // per step and frame; 0: off
-  // per step [frames]; nothing: a step of load never comes through
+  // Time per step and frame [us]; 0: the step is off.
+  std::vector<double> costsUs;
+  // Latency of each step [frames]; nothing: a step of load never appears in its output.
   std::vector<std::optional<int>> latencies;
-  std::optional<int> latency;  // of the chain
+  // Latency of the whole chain [frames]; nothing as above.
+  std::optional<int> latency;
 };
 
-// The same recording, filtered: stamps, angles, events and what was saturated are the source's.
-// Throws std::invalid_argument (a matrix that it hasn't), Error, Cancelled.
+// Returns the recording with filtered values; time stamps, joint angles, events and the saturated
+// frames are those of the source. Throws std::invalid_argument (the recipe names a matrix that the
+// hand doesn't have), Error, Cancelled.
 OpenedRecordingPtr filteredRecording(const OpenedRecordingPtr& source,
                                      const Recipe& recipe,
                                      const Progress& progress = {});
-// Costs are measured on up to 200 frames around the one of largest sum.
+// Measures the costs on up to 200 frames around the frame of largest sum (of a long recording,
+// around the middle frame).
 FilterFigures figuresOf(const OpenedRecording& source, const Recipe& recipe);
 
 class FilterWorker : public QObject {
   Q_OBJECT
  public:
   explicit FilterWorker(QObject* parent = nullptr);
-  ~FilterWorker() override;  // cancels and waits
+  // Cancels and waits.
+  ~FilterWorker() override;
 
   void start(const OpenedRecordingPtr& source, const Recipe& recipe);
   void cancel();
   bool busy() const noexcept { return busy_; }
-  // For tests and pictures: until nothing is at work any more.
+  // Waits until all work has ended; for tests and pictures.
   void wait();
 
  signals:

@@ -6,11 +6,12 @@
 namespace palpate::gui {
 namespace {
 
-constexpr int kLiveControllerRefreshMs = 16;  // a screen's refresh
+// Refresh period of the screen [ms].
+constexpr int kLiveControllerRefreshMs = 16;
 constexpr int kLiveControllerLookMs = 250;
 constexpr int kLooksPerCheck = 4;
 
-// The folder, or what there is of it: its disk is the one that counts.
+// The folder, or its nearest parent that exists: the free space of that disk is examined.
 std::filesystem::path existingPartOf(std::filesystem::path folder) {
   std::error_code ignored;
   while (!folder.empty() && folder != folder.root_path() &&
@@ -54,7 +55,7 @@ void LiveController::release() {
   lookTimer_.stop();
   beforeRun_.reset();
   if (!source_) return;
-  // At once, whatever the worker is busy with.
+  // A motion stops at once, even while the worker is busy.
   if (source_->control && source_->control->status().phase != GraspPhase::kIdle)
     source_->control->stop();
   emit leaving();
@@ -62,7 +63,7 @@ void LiveController::release() {
   recording_ = stopping_ = false;
   ++pending_;
   inWorker([this, recorded, source = std::move(source_)]() mutable {
-    // Whatever moves is stopped before anything else.
+    // Destroying the control stops every motion; that comes first.
     source->control.reset();
     source->session->stop();
     const RecordingReport report = recorded ? source->session->stopRecording() : RecordingReport{};
@@ -107,7 +108,8 @@ void LiveController::opened(std::shared_ptr<LiveSource> source,
                             std::uint64_t generation,
                             const QString& error) {
   --pending_;
-  if (generation != generation_) {  // given up, or another one is wanted by now
+  // The connection was cancelled, or another one was requested meanwhile.
+  if (generation != generation_) {
     if (source) {
       ++pending_;
       inWorker([this, source = std::move(source)]() mutable {
@@ -171,7 +173,8 @@ void LiveController::refresh() {
     emit staleChanged(stale);
   }
   if (frame) emit frameReceived(*frame);
-  if (!source_) return;  // whoever was told may have ended it
+  // A slot of the signals above may have closed the connection.
+  if (!source_) return;
   if (const auto results = source_->chain->take()) emit resultsReceived(*results);
 }
 
@@ -182,7 +185,7 @@ void LiveController::refreshHealth() {
   if (looks_++ % kLooksPerCheck == 0) check();
   if (!events.empty()) emit eventsReceived(events);
   emit refreshed();
-  // It stopped by itself: a limit, or the end of its source.
+  // The recording stopped by itself: at a limit, or at the end of its source.
   if (recording_ && !stopping_ && source_ && looks_ > 1 && !source_->session->recording())
     stopRecording();
 }
@@ -206,7 +209,8 @@ void LiveController::check() {
 void LiveController::startRecording(std::function<RecordingOptions()> make) {
   if (!source_ || recording_) return;
   recording_ = true;
-  looks_ = 0;  // a look that comes before it has begun doesn't take it for ended
+  // refreshHealth() must not take the recording for ended before it has begun.
+  looks_ = 0;
   emit stateChanged();
   inWorker([this, make = std::move(make), source = source_, generation = generation_] {
     QString error;
@@ -240,7 +244,8 @@ void LiveController::stopRecording() {
     QMetaObject::invokeMethod(
         this,
         [this, report, generation] {
-          if (generation != generation_) return;  // release() tells of it
+          // release() reports this recording.
+          if (generation != generation_) return;
           recording_ = stopping_ = false;
           refreshHealth();
           emit stateChanged();

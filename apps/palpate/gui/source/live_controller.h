@@ -1,6 +1,6 @@
-// Connects, ends and watches the live source of the window: pulls what is new once per refresh of
-// the screen, and does what may take time (open, start and finish a recording, end) in a worker,
-// one after the other.
+// Opens, closes and monitors the live source of the window. Takes new frames and results once per
+// refresh of the screen; a worker thread does what may take time (open, start and finish a
+// recording, close), one task after the other.
 #pragma once
 
 #include <QObject>
@@ -25,60 +25,69 @@ class LiveController : public QObject {
   Q_OBJECT
  public:
   enum class State { kNone, kConnecting, kConnected, kEnding };
-  static constexpr int kStaleMs = 400;  // so long without a frame, and the picture is old
+  // Without a frame for so long [ms], the picture is stale.
+  static constexpr int kStaleMs = 400;
 
   explicit LiveController(std::filesystem::path dataFolder, QObject* parent = nullptr);
-  // Ends what is connected and waits for that: a running recording is finished.
+  // Closes the connection and waits until that is done; a running recording is finished.
   ~LiveController() override;
 
-  // Ends what is connected before.
+  // Closes the present connection first.
   void connectTo(const Connection& connection);
-  // Gives up a connection in the making, too. ended() follows when nothing is left.
+  // Closes the connection, or cancels one that is being opened. ended() follows when nothing is
+  // connected any more.
   void end();
   State state() const noexcept { return state_; }
-  const Connection& connection() const noexcept { return connection_; }  // the present or last one
+  // The present connection, or the last one.
+  const Connection& connection() const noexcept { return connection_; }
   // Null unless connected.
   LiveSource* source() noexcept { return source_.get(); }
 
-  // As the last look found it (four a second).
+  // Link health, updated four times a second.
   const LinkHealth& health() const noexcept { return health_; }
   // The newest frame is older than kStaleMs, or there is none.
   bool stale() const noexcept { return stale_; }
-  double silentS() const;  // since the newest frame came, or since connecting [s]
+  // Time since the newest frame arrived, or since connecting [s].
+  double silentS() const;
   bool hasReceivedFrames() const noexcept { return framesCame_; }
 
-  // Asked for, waiting for a frame, running, or being finished.
+  // True while a recording is requested, waits for a frame, runs, or is being finished.
   bool recording() const noexcept { return recording_; }
-  // `make` is called in the worker: it may look for a free name. What it throws is told by
-  // recordingFailed().
+  // `make` is called in the worker thread, since it may search for a free name. What it throws is
+  // reported by recordingFailed().
   void startRecording(std::function<RecordingOptions()> make);
   void stopRecording();
   void mark(const QString& text, std::optional<int> digit);
-  // Where recordings will go: what the check before a run looks at.
+  // Folder of future recordings; the preflight check examines it.
   void setFolder(const std::filesystem::path& folder) { folder_ = folder; }
   const std::optional<PreflightCheck>& preflight() const noexcept { return beforeRun_; }
 
-  // What the timers do.
+  // Called by the timers; public for tests.
   void refresh();
   void refreshHealth();
 
  signals:
   void stateChanged();
-  void sourceOpened();  // source() is there
-  void leaving();       // source() is about to go: let go of it now
-  void ended();         // nothing is connected, and nothing is on its way
+  // source() is not null from now on.
+  void sourceOpened();
+  // source() is about to become null: drop all references to it now.
+  void leaving();
+  // Nothing is connected, and nothing is being opened.
+  void ended();
   void failed(const QString& message);
   void frameReceived(const palpate::TactileFrame& frame);
   void resultsReceived(const palpate::LiveResults& results);
   void staleChanged(bool stale);
   void refreshed();
   void eventsReceived(const std::vector<palpate::RecordingEvent>& events);
-  void recordingStarted();  // frames go to disk, or will with the first one
+  // Frames are written to disk, from now on or from the first one that arrives.
+  void recordingStarted();
   void recordingFailed(const QString& message);
   void recordingEnded(const palpate::RecordingReport& report);
 
  private:
-  void release();  // hands the source to the worker, which ends it
+  // Hands the source to the worker thread, which closes it.
+  void release();
   void opened(std::shared_ptr<LiveSource> source, std::uint64_t generation, const QString& error);
   void setState(State state);
   void inWorker(std::function<void()> work);
@@ -88,23 +97,28 @@ class LiveController : public QObject {
   Connection connection_;
   State state_ = State::kNone;
   std::shared_ptr<LiveSource> source_;
-  std::uint64_t generation_ = 0;  // of connections asked for
+  // Counts the requested connections.
+  std::uint64_t generation_ = 0;
   std::shared_ptr<std::atomic<bool>> cancelled_;
   QTimer refreshTimer_;
   QTimer lookTimer_;
   LinkHealth health_;
   bool stale_ = true;
   bool framesCame_ = false;
-  std::int64_t lastFrameUs_ = 0;  // monotonic time when it was taken [us]
+  // Monotonic time at which the newest frame was taken [us].
+  std::int64_t lastFrameUs_ = 0;
   bool recording_ = false;
   bool stopping_ = false;
   std::filesystem::path folder_;
   std::optional<PreflightCheck> beforeRun_;
   bool checking_ = false;
   int looks_ = 0;
-  int pending_ = 0;      // work in the worker that ends or opens a source
-  QThreadPool checker_;  // a folder that hangs holds up nothing but its own check
-  QThreadPool worker_;   // one thread: one thing after the other
+  // Number of tasks in the worker that open or close a source.
+  int pending_ = 0;
+  // A thread of its own for the preflight check: a folder that doesn't respond delays nothing else.
+  QThreadPool checker_;
+  // One thread: one task after the other.
+  QThreadPool worker_;
 };
 
 }  // namespace palpate::gui

@@ -45,7 +45,8 @@ std::unique_ptr<Device> deviceOf(LiveSource& source,
   return std::make_unique<LiveHand>(std::move(ports));
 }
 
-// What the matrices are set to: the controller says it, or a recording that is replayed.
+// Returns a function that supplies the settings of the matrices: those of the controller, or those
+// of the recording that is replayed.
 PressureStage::AskSettings settingsOf(const CaptureSession& session, const Connection& connection) {
   if (connection.kind == Connection::Kind::kReplay) {
     auto meta = readRecordingMeta(connection.recording.toStdString());

@@ -1,5 +1,6 @@
-// What is connected: a device with its capture session, live processing and control, and the
-// emulated hand where it is one.
+// Owns everything that belongs to one connection: the device with its capture session, live
+// processing and control, and the emulated hand where that is the device. LiveController creates it
+// by openSource().
 #pragma once
 
 #include <filesystem>
@@ -24,27 +25,33 @@ struct LiveSource {
   LiveSource() = default;
   LiveSource(const LiveSource&) = delete;
   LiveSource& operator=(const LiveSource&) = delete;
-  // A motion that runs is stopped first, then a running recording is finished. Up to a few seconds.
+  // Stops a running motion first, then finishes a running recording. Takes up to a few seconds.
   ~LiveSource();
 
-  // A replay that has come to its end: nothing is wrong, and nothing comes any more.
+  // True for a replay that has reached its end: no more frames arrive, and that is no fault.
   bool finished() const;
 
   Connection connection;
-  std::unique_ptr<EmulatedHand> emulated;  // of an emulated hand
+  // Set only for an emulated hand.
+  std::unique_ptr<EmulatedHand> emulated;
   std::unique_ptr<CaptureSession> session;
   std::unique_ptr<SignalHistory> history;
-  std::unique_ptr<LiveStream> stream;  // to other programs; off
+  // Sends live signals to other programs; off at first.
+  std::unique_ptr<LiveStream> stream;
   std::unique_ptr<ProcessingChain> chain;
-  FilterStage* filters = nullptr;         // of the chain, the first stage
-  PressureStage* pressure = nullptr;      // of the chain
-  SlipStage* slip = nullptr;              // of the chain
-  std::unique_ptr<GraspControl> control;  // null: a replay, which nobody can move
+  // The first stage of `chain`.
+  FilterStage* filters = nullptr;
+  // A stage of `chain`.
+  PressureStage* pressure = nullptr;
+  // A stage of `chain`.
+  SlipStage* slip = nullptr;
+  // Null for a replay, which can't be moved.
+  std::unique_ptr<GraspControl> control;
 };
 
-// Makes and starts it; nothing moves. A port that doesn't answer is looked for from now on. In a
-// worker: reading a recording to be replayed may take seconds. `dataFolder` has the scenes. Throws
-// Error, Cancelled, std::invalid_argument.
+// Opens a connection; nothing moves. A port that doesn't answer is retried from then on. To be
+// called in a worker thread: reading a recording for a replay may take seconds. `dataFolder`
+// contains the scenes. Throws Error, Cancelled, std::invalid_argument.
 std::unique_ptr<LiveSource> openSource(const Connection& connection,
                                        const std::filesystem::path& dataFolder,
                                        const Progress& progress = {});

@@ -9,7 +9,7 @@ OpenRecordings::OpenRecordings(RecordingOpener& opener, QObject* parent)
     : QObject(parent), opener_(opener) {
   connect(&opener, &RecordingOpener::opened, this, &OpenRecordings::take);
   connect(&opener, &RecordingOpener::finished, this, [this] {
-    // Somebody else who heard of it may have asked for more.
+    // Another slot of the same signal may have requested more files.
     if (opener_.busy()) return;
     running_.clear();
     emit settled();
@@ -29,7 +29,7 @@ void OpenRecordings::open(const OpenRequest& request) {
 
 void OpenRecordings::take(const OpenedRecordingPtr& recording, std::uint64_t ticket) {
   const auto asked = running_.find(ticket);
-  // Asked for past us, it is a request of its own.
+  // A file requested directly from the opener forms a request of its own.
   const auto request =
       asked != running_.end() ? asked->second : std::make_shared<Running>(Running{});
   if (asked != running_.end()) running_.erase(asked);

@@ -1,5 +1,5 @@
-// The recordings that are open, in the order in which they came. What files were asked for travels
-// with them: several requests may be under way at once, and each keeps what it is for. No widget.
+// Holds the open recordings, in the order in which they were opened. Several requests may run at
+// once; each keeps its purpose (OpenRequest::Then). Knows no widget.
 #pragma once
 
 #include <QObject>
@@ -18,20 +18,26 @@ namespace palpate::gui {
 
 struct OpenRequest {
   enum class Then {
-    kShowFirst,   // of the files, the first that can be opened is shown
-    kPlayInLoop,  // likewise, and plays
-    kList,        // they join the open ones; what is looked at stays
-    kCompare,     // the first is compared with what is shown; the others join
+    // The first file that can be opened is shown.
+    kShowFirst,
+    // As kShowFirst, and it plays in a loop.
+    kPlayInLoop,
+    // The files join the open recordings; the displayed source stays.
+    kList,
+    // The first file is compared with the displayed recording; the others join the open ones.
+    kCompare,
   };
   std::vector<std::filesystem::path> files;
   Then then = Then::kShowFirst;
 };
 
-// What comes with a recording that was asked for.
+// Tells to which request an opened recording belongs.
 struct OpenArrival {
   OpenRequest::Then then = OpenRequest::Then::kShowFirst;
-  std::size_t place = 0;  // among those of its request that could be opened; 0: the first
-  // the same file as it was open before; null: it wasn't, or stays as it is
+  // Index among the files of its request that could be opened.
+  std::size_t place = 0;
+  // The earlier recording of the same file, which this one replaces; null: the file wasn't open, or
+  // its recording stays.
   OpenedRecordingPtr replaced;
 };
 
@@ -40,28 +46,31 @@ class OpenRecordings : public QObject {
  public:
   explicit OpenRecordings(RecordingOpener& opener, QObject* parent = nullptr);
 
-  // In the background; arrived() follows for each file that can be opened.
+  // Opens the files in the background; arrived() follows for each file that can be opened.
   void open(const OpenRequest& request);
-  // What comes in its place: the one behind it, else the last; null: none is left.
+  // Closes a recording and returns the one to show instead: the next one, else the last; null: none
+  // is left.
   OpenedRecordingPtr close(const OpenedRecordingPtr& recording);
 
   const std::vector<OpenedRecordingPtr>& all() const noexcept { return all_; }
-  OpenedRecordingPtr at(const std::filesystem::path& path) const;  // null: not open
-  // `step` places further, around; null where `of` isn't open.
+  // Null: the file isn't open.
+  OpenedRecordingPtr at(const std::filesystem::path& path) const;
+  // The recording `step` places after `of`, cyclically; null when `of` isn't open.
   OpenedRecordingPtr neighbour(const OpenedRecordingPtr& of, int step) const;
 
-  // A file that is open is read anew only where the first says so before, and its recording is
-  // replaced only where the second still says so when it was read: there may be something in it
-  // that isn't saved. Else it arrives as it is. Empty: always.
+  // An open file is read again only if mayReadAnew() allows it, and its recording is replaced only
+  // if mayReplace() still allows it after reading: it may have unsaved events. Otherwise the open
+  // recording arrives unchanged. Empty functions allow everything.
   std::function<bool(const OpenedRecordingPtr&)> mayReadAnew;
   std::function<bool(const OpenedRecordingPtr&)> mayReplace;
 
  signals:
   void arrived(const palpate::gui::OpenedRecordingPtr& recording,
                const palpate::gui::OpenArrival& arrival);
-  // Closed, or about to be replaced by what its file holds now: forget what was kept of it.
+  // The recording was closed or is about to be replaced by the present content of its file: drop
+  // everything stored for it.
   void gone(const palpate::gui::OpenedRecordingPtr& recording);
-  // All that was asked for has arrived, or failed.
+  // All requested files have arrived or failed.
   void settled();
 
  private:
@@ -74,7 +83,8 @@ class OpenRecordings : public QObject {
 
   RecordingOpener& opener_;
   std::vector<OpenedRecordingPtr> all_;
-  std::map<std::uint64_t, std::shared_ptr<Running>> running_;  // by the opener's ticket
+  // The requests by the ticket of the opener.
+  std::map<std::uint64_t, std::shared_ptr<Running>> running_;
 };
 
 }  // namespace palpate::gui

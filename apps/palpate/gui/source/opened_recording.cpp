@@ -15,12 +15,13 @@
 namespace palpate::gui {
 namespace {
 
-constexpr std::int64_t kWholeS = 1'000'000;  // [us]
+constexpr std::int64_t kWholeS = 1'000'000;  // one second [us]
 constexpr std::size_t kFramesPerReport = 256;
-constexpr const char* kNativeFormat = "palpate";  // as ProfileInfo says it
+// Name of the native format in ProfileInfo.
+constexpr const char* kNativeFormat = "palpate";
 
-// What the per-second summary tells before any frame is read. Gaps shorter than two seconds don't
-// show in it.
+// Fills in what the per-second summary tells before any frame is read. It doesn't show gaps shorter
+// than two seconds.
 void takeSummary(OpenedRecording& opened, const std::vector<SecondSummary>& seconds) {
   const Profile& profile = opened.profile;
   opened.timing.durationS = static_cast<double>(profile.durationUs()) / kUsPerS;
@@ -48,9 +49,9 @@ void takeSummary(OpenedRecording& opened, const std::vector<SecondSummary>& seco
   if (!counts.empty()) opened.timing.rateHz = static_cast<double>(upperMedian(counts));
 }
 
-// Of a long one. A native recording holds its summary; of all others, which are read as a whole
-// when they are opened, it is made here. Without one (damaged) nothing is known but how long it is:
-// all is taken for touched, until the overview tells.
+// Opens a long recording. A native recording contains a summary; for all other forms, which are
+// read completely when they are opened, the summary is made here. Without a summary (damaged), only
+// the duration is known, and all matrices count as touched until the overview is complete.
 void openBySummary(OpenedRecording& opened, const Progress& progress) {
   std::vector<SecondSummary> seconds;
   try {
@@ -157,7 +158,7 @@ std::optional<std::pair<std::size_t, std::size_t>> OpenedRecording::framesWithin
   const auto atOrBefore = [&](double seconds) {
     constexpr double kFurthestS = 1e12;
     const double clamped = std::clamp(seconds, -kFurthestS, kFurthestS);
-    // Half a microsecond more: what was read from a stamp finds it again.
+    // Half a microsecond is added so that a time computed from a stamp finds the same frame again.
     return *profile.frameAt(profile.frameTimeUs(0) + std::llround(clamped * kUsPerS + 0.5));
   };
   std::size_t first = atOrBefore(fromS);

@@ -1,5 +1,5 @@
-// A recording that is open, with all that the window wants to know about it: made once, in the
-// worker that opens it, and never changed.
+// An open recording with everything that the window needs of it (timing, signals, maximum, events).
+// The worker that opens the file creates it, and it never changes afterwards.
 #pragma once
 
 #include <QString>
@@ -23,57 +23,70 @@
 namespace palpate::gui {
 
 struct OpenedRecording {
-  // Longer ones (an hour and three quarters of a hand) aren't read through before they are shown,
-  // nor are those whose matrices make as much of fewer frames: a file may claim 64 matrices or
-  // 65,536 places.
-  static constexpr std::size_t kLongFrom = 200'000;           // frames
-  static constexpr std::size_t kLongFromRows = 1'600'000;     // frames x (matrices + 1)
-  static constexpr std::size_t kLongFromPlaces = 97'200'000;  // frames x places
+  // Longer recordings (about 1 h 45 min of an SDH-2) are shown before all their frames have been
+  // read, as are those with as much data in fewer frames: a file may have 64 matrices or 65,536
+  // taxels. The constants are the limits in frames, frames x (matrices + 1), and frames x taxels.
+  static constexpr std::size_t kLongFrom = 200'000;           // [frames]
+  static constexpr std::size_t kLongFromRows = 1'600'000;     // [frames x (matrices + 1)]
+  static constexpr std::size_t kLongFromPlaces = 97'200'000;  // [frames x taxels]
 
   std::filesystem::path path;
   Profile profile;
-  TimingReport timing;                       // of a long one: from its summary, see timingNow()
-  SignalTable table;                         // of every matrix; empty of a long one
-  std::vector<CharacteristicSignals> whole;  // of all matrices together, one per frame; likewise
-  std::vector<double> timeS;                 // from the first frame, one per frame [s]; likewise
-  std::vector<std::size_t> gapFrames;        // last frame before each gap
-  double maximum = 0.0;                      // largest value of all frames [counts]
-  bool maximumKnown = true;                  // false: of a long one without a summary
-  std::size_t saturatedFrames = 0;           // frames with a taxel at or above saturation
-  std::vector<bool> touched;                 // per matrix: has an active taxel in some frame
-  EventsReport events;                       // as the file has them
-  std::map<std::string, std::string> meta = {};  // recording_meta.h; empty of a .dsa
-  std::string eventsFailure;                     // why they could not be read; empty: they could
-  // Of a long one: filled by whoever shows it (compute()); null: the table has everything.
+  // Of a long recording: from its summary, see timingNow().
+  TimingReport timing;
+  // Signals of every matrix; empty for a long recording.
+  SignalTable table;
+  // Signals of all matrices together, one per frame; empty for a long recording.
+  std::vector<CharacteristicSignals> whole;
+  // Time of each frame from the first one [s]; empty for a long recording.
+  std::vector<double> timeS;
+  // Index of the last frame before each gap.
+  std::vector<std::size_t> gapFrames;
+  // Largest value of all frames [counts].
+  double maximum = 0.0;
+  // False for a long recording without a summary.
+  bool maximumKnown = true;
+  // Number of frames with a taxel at or above saturation.
+  std::size_t saturatedFrames = 0;
+  // Per matrix: whether any frame has an active taxel.
+  std::vector<bool> touched;
+  // The events as stored in the file.
+  EventsReport events;
+  // See recording_meta.h; empty for a .dsa.
+  std::map<std::string, std::string> meta = {};
+  // Why the events couldn't be read; empty: they were read.
+  std::string eventsFailure;
+  // Of a long recording: the timeline fills it (compute()). Null: `table` has all signals.
   std::shared_ptr<SignalOverview> overview;
 
   bool isLong() const noexcept { return overview != nullptr; }
-  // What only a pass over all frames tells; of a long one first an estimate. Nothing: not known
-  // yet.
+  // Values that need a pass over all frames; for a long recording an estimate until that pass is
+  // done. Nothing: not known yet.
   const TimingReport& timingNow() const;
   std::optional<double> maximumNow() const;
   std::optional<std::size_t> saturatedFramesNow() const;
 
-  // The signals of a matrix, or (matrix == number of matrices) of the whole.
+  // The signals of a matrix or, if matrix == numMatrices(), of the whole hand.
   CharacteristicSignals at(std::size_t frame, std::size_t matrix) const;
-  double timeAt(std::size_t frame) const;  // from the first frame [s]
+  // Time from the first frame [s].
+  double timeAt(std::size_t frame) const;
   double durationS() const;
   std::size_t numMatrices() const { return profile.layout().numMatrices(); }
-  // First and last frame within a span; nothing: none lies in it.
+  // First and last frame within a span [s]; nothing: the span contains no frame.
   std::optional<std::pair<std::size_t, std::size_t>> framesWithin(double fromS, double toS) const;
-  // The gap that a time lies in; nothing outside of gaps.
+  // The gap that contains this time; null outside of gaps.
   const Gap* gapAt(double seconds) const;
 };
 
 using OpenedRecordingPtr = std::shared_ptr<const OpenedRecording>;
 
-// Of readSeries(): -kEndOfTimeS to kEndOfTimeS is all of any recording [s].
+// For readSeries(): -kEndOfTimeS to kEndOfTimeS covers any recording [s].
 inline constexpr double kEndOfTimeS = std::numeric_limits<double>::max();
 
-// As the window calls it: without its folder.
+// The file name without its folder, as the window shows it.
 QString fileNameOf(const OpenedRecording& recording);
 
-// Computes what isn't in the profile itself. Throws Cancelled.
+// Computes everything that the profile doesn't contain itself. Throws Cancelled.
 OpenedRecordingPtr makeOpenedRecording(std::filesystem::path path,
                                        Profile profile,
                                        const Progress& progress = {},

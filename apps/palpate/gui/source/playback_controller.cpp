@@ -9,7 +9,7 @@
 namespace palpate::gui {
 namespace {
 
-constexpr int kPlaybackControllerRefreshMs = 16;  // 60 Hz
+constexpr int kPlaybackControllerRefreshMs = 16;  // [ms], 60 Hz
 
 }  // namespace
 
@@ -108,7 +108,8 @@ void PlaybackController::seekSeconds(double seconds) {
 
 void PlaybackController::setSpeed(double factor) {
   if (playback_) {
-    tick();  // what has passed, passed at the old speed
+    // The time until now counts at the old speed.
+    tick();
     playback_->setSpeed(factor);
   } else if (!(factor >= Playback::kMinimumSpeed && factor <= Playback::kMaximumSpeed)) {
     throw std::invalid_argument("PlaybackController: speed must be 0.1..16");
@@ -146,7 +147,8 @@ void PlaybackController::tick() {
   lastTickUs_ = nowUs;
   moved();
   if (playing()) return;
-  timer_.stop();  // the end was reached
+  // The end of the recording is reached.
+  timer_.stop();
   emit stateChanged();
 }
 

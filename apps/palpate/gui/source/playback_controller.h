@@ -1,5 +1,5 @@
-// Moves a Playback by real time while it plays, and tells the views where it stands. The clock is
-// handed in, so that tests play without waiting.
+// Advances a Playback by real time and tells the views which frame to show. The clock is a
+// parameter, so that tests play without waiting.
 #pragma once
 
 #include <QObject>
@@ -22,15 +22,17 @@ class PlaybackController : public QObject {
 
   explicit PlaybackController(const Clock& clock = systemClock(), QObject* parent = nullptr);
 
-  // Takes another recording (or none); stands at its first frame. Speed, loop and skipping stay.
+  // Takes another recording (or none) and goes to its first frame. Speed, loop and skipping of gaps
+  // don't change.
   void setProfile(const std::optional<Profile>& profile);
   void setProfile(const Profile& profile, std::span<const Gap> gaps);
-  // Better known than when it was given.
+  // Replaces the gaps, once a long recording has been read completely.
   void setGaps(std::span<const Gap> gaps);
   bool hasFrames() const;
   std::size_t numFrames() const;
   std::size_t frame() const;
-  double positionS() const;  // from the first frame [s]
+  // Position from the first frame [s].
+  double positionS() const;
   double durationS() const;
   bool playing() const { return playback_ && playback_->playing(); }
   double speed() const noexcept { return speed_; }
@@ -40,16 +42,19 @@ class PlaybackController : public QObject {
   void play();
   void pause();
   void togglePlay();
-  void step(std::ptrdiff_t frames);  // pauses
+  // Moves by so many frames and pauses.
+  void step(std::ptrdiff_t frames);
   void seekFrame(std::size_t frame);
   void seekSeconds(double seconds);
-  void setSpeed(double factor);  // throws std::invalid_argument outside 0.1..16
+  // Throws std::invalid_argument outside 0.1..16.
+  void setSpeed(double factor);
   void faster();
   void slower();
   void setLoop(bool on);
   void setSkipGaps(bool on);
 
-  // Lets the time pass since the last call. The timer calls it at the screen's rate while playing.
+  // Advances by the time since the last call. While playing, the timer calls it at the refresh rate
+  // of the screen.
   void tick();
 
  signals:

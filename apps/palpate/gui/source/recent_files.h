@@ -1,4 +1,5 @@
-// The recordings that were opened last, newest first, remembered in the settings.
+// Keeps the list of the recordings that were opened last, newest first, in the settings. The start
+// page and the menu File show it.
 #pragma once
 
 #include <QObject>
@@ -12,16 +13,18 @@ class RecentFiles : public QObject {
  public:
   static constexpr int kMost = 10;
 
-  // `settings` must outlive this.
+  // `settings` must outlive this object.
   explicit RecentFiles(QSettings& settings, QObject* parent = nullptr);
 
-  const QStringList& paths() const noexcept { return paths_; }  // absolute
-  void add(const QString& path);                                // to the front, once
+  // Absolute paths.
+  const QStringList& paths() const noexcept { return paths_; }
+  // Moves the path to the front; no path is listed twice.
+  void add(const QString& path);
   void remove(const QString& path);
   void removeMissing();
   void clear();
   static bool exists(const QString& path);
-  // Where files were chosen last; empty: nowhere yet.
+  // The folder in which files were chosen last; empty: none yet.
   QString lastFolder() const;
   void setLastFolder(const QString& folder);
 

@@ -10,8 +10,10 @@
 namespace palpate::gui {
 namespace {
 
-constexpr double kRecordingOpenerReadShare = 0.6;      // of the whole work; then come the signals
-constexpr double kRecordingOpenerSmallestNews = 0.01;  // progress is reported in steps of this
+// Share of reading in the whole work; computing the signals is the rest.
+constexpr double kRecordingOpenerReadShare = 0.6;
+// Least step of progress that is reported.
+constexpr double kRecordingOpenerSmallestNews = 0.01;
 
 }  // namespace
 
@@ -48,7 +50,8 @@ void RecordingOpener::startNext() {
   busy_ = true;
   cancelRequested_ = false;
   emit started(QString::fromStdString(asked.path.string()));
-  if (worker_.joinable()) worker_.join();  // it has reported already: this takes no time
+  // The thread has already reported its result: joining it takes no time.
+  if (worker_.joinable()) worker_.join();
   worker_ = std::jthread([this, asked] { work(asked); });
 }
 

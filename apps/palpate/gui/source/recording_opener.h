@@ -18,29 +18,30 @@ namespace palpate::gui {
 class RecordingOpener : public QObject {
   Q_OBJECT
  public:
-  // How a file is read; tests hand in their own.
+  // How a file is read; tests supply their own function.
   using Read = std::function<Profile(const std::filesystem::path&, const Progress&)>;
 
   explicit RecordingOpener(QObject* parent = nullptr);
   RecordingOpener(Read read, QObject* parent = nullptr);
-  // Cancels and waits for the worker.
+  // Cancels all files and waits for the worker.
   ~RecordingOpener() override;
 
-  // Appends to what is to be opened. The ticket comes back with opened(); none is given twice.
+  // Adds a file to the queue. Returns a unique ticket, which opened() passes on.
   std::uint64_t open(const std::filesystem::path& path);
-  // Gives up the file in work and all that wait; cancelled() follows when something was given up.
+  // Cancels the file that is being read and all that wait; cancelled() follows if there was any.
   void cancel();
   bool busy() const noexcept { return busy_; }
   std::size_t numWaiting() const noexcept { return waiting_.size(); }
 
  signals:
   void started(const QString& path);
-  void progressed(double fraction);  // 0..1
+  // Progress of the file that is being read, 0..1.
+  void progressed(double fraction);
   void opened(palpate::gui::OpenedRecordingPtr recording, std::uint64_t ticket);
-  // message: one line that says what is wrong, where, and what to do.
+  // `message`: one line that tells what is wrong, where, and what to do.
   void failed(const QString& path, const QString& message);
   void cancelled(const QString& path);
-  // Nothing waits any more.
+  // The queue is empty.
   void finished();
 
  private:
@@ -50,12 +51,13 @@ class RecordingOpener : public QObject {
   };
   void startNext();
   void work(const Asked& asked);
-  // Runs `report` in this object's thread, then goes on with the next file.
+  // Runs `report` in the thread of this object, then starts the next file.
   void conclude(std::function<void()> report);
 
   Read read_;
   std::deque<Asked> waiting_;
-  std::uint64_t tickets_ = 0;  // given
+  // Number of tickets given.
+  std::uint64_t tickets_ = 0;
   std::atomic<bool> cancelRequested_ = false;
   bool busy_ = false;
   std::jthread worker_;

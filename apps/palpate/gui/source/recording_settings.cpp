@@ -15,7 +15,8 @@ namespace palpate::gui {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr int kMostLabel = 60;  // letters; one row of the timeline has room for no more
+// [letters]; one row of the timeline has no room for more.
+constexpr int kMostLabel = 60;
 constexpr const char* kFolder = "recording/folder";
 constexpr const char* kTemplate = "recording/template";
 constexpr const char* kOperator = "recording/operator";
@@ -36,14 +37,15 @@ RecordingNameFields fieldsOf(const RecordingSettings& recording, std::int64_t no
   return {nowUs, recording.operatorName.toStdString(), recording.object.toStdString()};
 }
 
-// Throws Error unless recordings can be put into `folder`, made where it isn't there. True: it
-// isn't.
+// Throws Error unless recordings can be written to `folder`, which may have to be created. Returns
+// true when it doesn't exist yet.
 bool checkFolder(const fs::path& folder) {
   if (folder.empty()) throw Error("choose a folder for recordings");
   if (!folder.is_absolute())
     throw FileError(folder, "is no whole path; choose the folder with Browse");
   std::error_code failure;
-  fs::path there = folder;  // the part of it that exists
+  // The part of the path that exists.
+  fs::path there = folder;
   while (!fs::exists(there, failure) && !failure && there.has_relative_path())
     there = there.parent_path();
   if (failure)
@@ -56,7 +58,8 @@ bool checkFolder(const fs::path& folder) {
   return there != folder;
 }
 
-// What the core says of a template is meant for programmers: "RecordingName: {x} isn't known; ..".
+// Turns a message of the library, which is meant for programmers ("RecordingName: {x} isn't known;
+// .."), into one for the operator.
 std::string inPlainWords(const std::invalid_argument& refusal) {
   std::string_view said = refusal.what();
   constexpr std::string_view kPrefix = "RecordingName: ";
@@ -113,7 +116,7 @@ void saveRecordingSettings(const RecordingSettings& recording, QSettings& settin
 fs::path nextPath(const RecordingSettings& recording, std::int64_t nowUs) {
   const fs::path folder = folderOf(recording);
   try {
-    // A template that makes no sense leaves no empty folder behind.
+    // Checks the template first, so that a wrong one leaves no empty folder behind.
     recordingFileName(recording.nameTemplate.toStdString(), fieldsOf(recording, nowUs), 1);
     if (checkFolder(folder)) {
       std::error_code failure;

@@ -1,4 +1,5 @@
-// What the operator says about the recordings of the day: who, what, where to, under which names.
+// The operator's settings for new recordings: folder, names, operator, object, labels; with the
+// functions that build the path of the next recording from them.
 #pragma once
 
 #include <QSettings>
@@ -12,42 +13,46 @@
 namespace palpate::gui {
 
 struct RecordingSettings {
-  QString folder;  // whole path; empty: nothing was chosen, nothing can be recorded
-  QString nameTemplate = "{date}_{object}_{run}";  // capture/recording_name.h
+  // Absolute path; empty: none is chosen, and nothing can be recorded.
+  QString folder;
+  // Placeholders: see capture/recording_name.h.
+  QString nameTemplate = "{date}_{object}_{run}";
   QString operatorName;
   QString object;
   QString notes;
   bool askEachTime = true;
-  // Of the keys 0..9. An empty one leaves its key without a label.
+  // Labels of the keys 0..9. An empty text leaves its key without a label.
   std::array<QString, 10> markLabels = {
       "start", "contact", "slip", "release", "lift", "place", "shake", "push", "drop", "wrong"};
 };
 
-// "Palpate recordings" in the user's folder of documents; isn't made before it is needed.
+// "Palpate recordings" in the user's documents folder; it isn't created before it is needed.
 QString defaultRecordingsFolder();
 
-// What was typed or chosen as a folder, as a whole path where it tells one: "~/runs/" is
-// "/home/me/runs".
+// Converts a typed folder into an absolute path where possible: "~/runs/" becomes "/home/me/runs".
 QString folderFromText(const QString& typed);
 
-// A settings file never stops the program: what makes no sense there is replaced by the defaults.
+// Values in the settings that make no sense are replaced by the defaults, so that a settings file
+// never stops the program.
 RecordingSettings loadRecordingSettings(const QSettings& settings);
 void saveRecordingSettings(const RecordingSettings& recording, QSettings& settings);
 
-// The path of the next recording, which nothing has; makes the folder if it isn't there. `nowUs` is
-// host time [us since 1970]. Throws Error, whose message is fit for the operator: no such
-// placeholder, the folder can't be made or written.
+// Returns the path of the next recording, at which no file exists; creates the folder if needed.
+// `nowUs` is host time [us since 1970]. Throws Error with a message for the operator: unknown
+// placeholder, or the folder can't be created or written.
 std::filesystem::path nextPath(const RecordingSettings& recording, std::int64_t nowUs);
 
-// The same without making anything, for a preview.
+// The same without creating anything, for a preview.
 struct NextRecording {
-  std::filesystem::path path;  // empty when there is a problem
+  // Empty when there is a problem.
+  std::filesystem::path path;
   bool folderWillBeMade = false;
-  QString problem;  // one line; empty: none
+  // One line; empty: no problem.
+  QString problem;
 };
 NextRecording previewNextPath(const RecordingSettings& recording, std::int64_t nowUs);
 
-// A recording at `path` that says what the operator said.
+// Options of a recording at `path`, with the operator's settings.
 RecordingOptions recordingOptions(const RecordingSettings& recording,
                                   const std::filesystem::path& path);
 

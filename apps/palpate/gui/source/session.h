@@ -1,4 +1,5 @@
-// What was open when the window was closed, and where the user was in it.
+// The recordings that were open when the window was closed, and the position in each; loaded from
+// the settings at the next start.
 #pragma once
 
 #include <QSettings>
@@ -11,10 +12,11 @@
 
 namespace palpate::gui {
 
-// Where a recording was left.
+// Position at which the user left a recording.
 struct ViewPosition {
   std::size_t frame = 0;
-  std::optional<TimeSpan> seen;  // nothing: the whole
+  // Visible span; nothing: the whole recording.
+  std::optional<TimeSpan> seen;
   std::optional<TimeSpan> selection;
   bool operator==(const ViewPosition&) const = default;
 };
@@ -27,11 +29,12 @@ struct Session {
   };
   static constexpr int kMaxFiles = 50;
   std::vector<File> files;
-  int current = -1;  // index; -1: none was shown
+  // Index of the displayed file; -1: none was shown.
+  int current = -1;
   bool operator==(const Session&) const = default;
 };
 
-// What makes no sense in the settings is left out.
+// Entries of the settings that make no sense are left out.
 Session loadSession(QSettings& settings);
 void saveSession(const Session& session, QSettings& settings);
 

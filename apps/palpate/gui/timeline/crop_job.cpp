@@ -78,7 +78,7 @@ void CropJob::start(const QString& path, std::size_t first, std::size_t last) {
           return [&progress, from](double fraction) { return progress(from + 0.5 * fraction); };
         };
         const Profile part = cropped(recording->profile, first, last, half(0.0));
-        // The dialog has asked whether an existing file may be replaced.
+        // The dialogue has already asked whether an existing file may be replaced.
         saveRecording(part, eventsWithin(noted, part), out, Overwrite::kReplace, half(0.5));
       },
       [this, path, count = last - first + 1] {

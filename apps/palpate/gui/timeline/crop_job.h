@@ -1,4 +1,4 @@
-// Cuts the selected part of a recording into a new one, beside the window.
+// Saves the selected part of a recording as a new recording, in the background.
 #pragma once
 
 #include <QObject>
@@ -14,12 +14,12 @@ class OpeningStrip;
 class CropJob : public QObject {
   Q_OBJECT
  public:
-  // The bench must outlive it. `crop` asks for it.
+  // The window state must outlive this object. `crop` starts the job.
   CropJob(WindowState& windowState, QAction& crop, QWidget* window);
 
-  // Of the recording that is looked at: asks where to.
+  // Asks where to save the selected part of the displayed recording, and saves it.
   void cropSelection();
-  // A line over the centre while it is at work.
+  // Shows the progress above the centre of the window.
   OpeningStrip& strip() noexcept { return *strip_; }
   bool busy() const noexcept { return job_.busy(); }
 

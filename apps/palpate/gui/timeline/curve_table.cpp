@@ -6,7 +6,7 @@
 namespace palpate::gui {
 namespace {
 
-// The value of a curve at a frame; joint angles and temperatures are the last ones before it.
+// The value of a curve at a frame; joint angles and temperatures are the last ones at or before it.
 std::string curveCell(const OpenedRecording& recording,
                       const SeriesChoice& choice,
                       std::size_t frame) {

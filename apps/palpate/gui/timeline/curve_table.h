@@ -1,4 +1,4 @@
-// The curves that the timeline shows, as a table.
+// Makes a table of the curves that the timeline shows, for export.
 #pragma once
 
 #include <vector>
@@ -11,9 +11,9 @@
 
 namespace palpate::gui {
 
-// A row per frame of the span: frame, time_ms, time_s, then a column per curve with its unit. Joint
-// angles and temperatures are the last ones at or before the frame. Rows are made when they are
-// asked for, in any thread.
+// One row per frame of the span: frame, time_ms, time_s, then one column per curve with its unit.
+// Joint angles and temperatures are the last ones at or before the frame. Rows are computed on
+// demand, in any thread.
 TextTable curveTable(const OpenedRecordingPtr& recording,
                      const std::vector<PlottedCurve>& curves,
                      const FrameSpan& span);

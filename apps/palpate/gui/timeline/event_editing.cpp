@@ -63,7 +63,7 @@ void EventEditing::connectActions() {
 
 void EventEditing::connectRows() {
   connect(&windowState_.events, &EventController::changed, this, [this] {
-    // Behind what is live they stay, with the one that is chosen.
+    // While a live source is shown, the marks of the recording and the chosen one are kept.
     if (!windowState_.displayed.isLive()) rows_.setMarks(windowState_.events.marks());
     showUndo();
     windowState_.actionEnabler.refresh();
@@ -144,7 +144,7 @@ void EventEditing::showUndo() {
       text("&Redo", stack && stack->canRedo(), stack ? stack->redoText() : QString()));
 }
 
-// The cursor goes to its begin, its span is selected, and it is brought into sight.
+// Moves the cursor to the begin of the mark, selects its span, and scrolls it into view.
 void EventEditing::show(std::size_t index) {
   const EventMark mark = rows_.marks().at(index);
   Selection& selection = windowState_.selection;
@@ -160,7 +160,7 @@ void EventEditing::show(std::size_t index) {
   windowState_.actionEnabler.refresh();
 }
 
-// Of the selection, or of the moment.
+// Adds an event with the selected span or, without a selection, at the time of the cursor.
 void EventEditing::add(const char* kind, const QString& title, const QString& name) {
   const OpenedRecordingPtr recording = windowState_.displayed.recorded();
   if (!recording || !windowState_.playback.hasFrames()) return;

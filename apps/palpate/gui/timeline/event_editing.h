@@ -1,4 +1,4 @@
-// Events edited in the rows below the timeline and by keys: labels, notes and grasps, with undo.
+// Edits events (labels, notes and grasps) in the rows below the timeline and by keys, with undo.
 #pragma once
 
 #include <QObject>
@@ -15,7 +15,7 @@ class EventRows;
 class EventEditing : public QObject {
   Q_OBJECT
  public:
-  // All of them must outlive it.
+  // All arguments must outlive this object.
   EventEditing(WindowState& windowState,
                const TimelineActions& actions,
                EventRows& rows,

@@ -16,12 +16,15 @@ namespace {
 
 constexpr int kAboveText = 3;          // [px] above and below the text of a row
 constexpr double kEventRowsGap = 2.0;  // [px] between rows
-constexpr double kLeastBar = 3.0;      // [px] a moment is as wide
-constexpr double kReach = 5.0;         // [px] beside an end that still take it
-constexpr double kTextRoom = 4.0;      // [px] before a text
-constexpr int kFieldWidth = 180;       // [px]
-constexpr int kLongestText = 2000;     // characters
-constexpr int kMaxTextLength = 300;    // [px] of a moment's name beside it
+// Least width of a bar [px], also that of a moment.
+constexpr double kLeastBar = 3.0;
+// Distance from an end at which the mouse still takes it [px].
+constexpr double kReach = 5.0;
+constexpr double kTextRoom = 4.0;   // [px] before a text
+constexpr int kFieldWidth = 180;    // [px]
+constexpr int kLongestText = 2000;  // [characters]
+// Longest name beside a short bar [px].
+constexpr int kMaxTextLength = 300;
 
 }  // namespace
 
@@ -50,7 +53,7 @@ void EventRows::setMarks(std::vector<EventMark> marks) {
       lanes_.push_back(lane);
   chosen_.reset();
   drag_ = Part::kNone;
-  // The same one, or the one that took its place.
+  // Chooses the same mark again, or the one that replaced it.
   for (std::size_t i = 0; before && i < marks_.size(); ++i)
     if (marks_[i].lane == before->lane &&
         std::abs(marks_[i].fromS - before->fromS) + std::abs(marks_[i].toS - before->toS) < 1e-3)
@@ -133,7 +136,7 @@ void EventRows::paintMark(QPainter& painter, std::size_t index) const {
     painter.drawText(bar, Qt::AlignCenter, mark.text);
     return;
   }
-  // The name of what is too short for it stands behind it, up to the next one.
+  // A name that doesn't fit into its bar is painted after it, up to the next bar.
   double room = std::min<double>(right_ - bar.right(), kMaxTextLength) - kTextRoom;
   for (const EventMark& other : marks_)
     if (other.lane == mark.lane && other.fromS > mark.fromS)
@@ -174,7 +177,7 @@ void EventRows::paintEvent(QPaintEvent*) {
 }
 
 std::optional<std::size_t> EventRows::markAt(const QPointF& at) const {
-  // The last one painted lies on top; what is chosen takes its ends before all others.
+  // The mark painted last is on top; the ends of the chosen one take precedence over all others.
   if (chosen_ && *chosen_ < marks_.size() &&
       barOf(*chosen_).adjusted(-kReach, 0, kReach, 0).contains(at))
     return chosen_;
@@ -338,7 +341,7 @@ void EventRows::focusOutEvent(QFocusEvent* event) {
 
 bool EventRows::event(QEvent* event) {
   if (event->type() == QEvent::ShortcutOverride) {
-    // With the keyboard here the arrows go from event to event, not from frame to frame.
+    // While this widget has the focus, arrow keys go from event to event, not from frame to frame.
     switch (static_cast<QKeyEvent*>(event)->key()) {
       case Qt::Key_Left:
       case Qt::Key_Right:

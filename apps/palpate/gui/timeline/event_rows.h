@@ -1,5 +1,6 @@
-// Rows below the timeline, one for each sort of event: bars over the span they lie in. A click
-// chooses one, its ends can be dragged, a double click names it; arrows go from one to the next.
+// The rows below the timeline, one for each kind of event; every event is a bar over its span of
+// time. A click chooses a bar, its ends can be dragged, a double click renames it; arrow keys go to
+// the next one.
 #pragma once
 
 #include <QWidget>
@@ -19,28 +20,31 @@ class EventRows : public QWidget {
  public:
   explicit EventRows(QWidget* parent = nullptr);
 
-  // Rows without a mark aren't shown.
+  // Sets the marks. Rows without a mark aren't shown.
   void setMarks(std::vector<EventMark> marks);
   const std::vector<EventMark>& marks() const noexcept { return marks_; }
-  // Where seconds lie: the pixels of the left and right ends of what is seen, in this widget.
+  // Sets the scale of time: the visible span [s] and the pixels of its ends in this widget.
   void setScale(double fromS, double toS, int leftPixel, int rightPixel);
   void setTheme(Theme theme);
   std::optional<std::size_t> chosen() const noexcept { return chosen_; }
   void choose(std::optional<std::size_t> mark);
-  // The next (or the one before) in time of the row of the chosen one; of the first row where none
-  // is chosen.
+  // Chooses the next (step 1) or previous (step -1) mark in the row of the chosen one; in the first
+  // row if none is chosen.
   void chooseNext(int step);
-  // A field over the bar; textChanged() when it is left by Enter.
+  // Opens an input field over the bar; textChanged() follows when the user presses Enter.
   void editText(std::size_t mark);
-  QRectF barOf(std::size_t mark) const;  // [px]; empty: not seen
+  // Rectangle of the bar [px]; empty: not visible.
+  QRectF barOf(std::size_t mark) const;
 
   QSize sizeHint() const override;
   QSize minimumSizeHint() const override { return sizeHint(); }
 
  signals:
-  void markChosen(std::size_t mark);  // by mouse or key
+  // The user chose a mark by mouse or key.
+  void markChosen(std::size_t mark);
   void chosenChanged();
-  void spanChanged(std::size_t mark, double fromS, double toS);  // at the end of a drag
+  // Emitted at the end of a drag; the new span [s].
+  void spanChanged(std::size_t mark, double fromS, double toS);
   void textChanged(std::size_t mark, const QString& text);
   void removeRequested(std::size_t mark);
   void menuRequested(std::optional<std::size_t> mark, const QPoint& globalPosition);
@@ -68,7 +72,8 @@ class EventRows : public QWidget {
   QColor colorOf(const EventMark& mark) const;
 
   std::vector<EventMark> marks_;
-  std::vector<EventLane> lanes_;  // that have a mark
+  // Lanes that have a mark.
+  std::vector<EventLane> lanes_;
   double fromS_ = 0.0;
   double toS_ = 1.0;
   int left_ = 0;

@@ -15,11 +15,14 @@ namespace palpate::gui {
 namespace {
 
 constexpr double kLiveChartHeadroom = 1.06;
-constexpr double kShrinkBelow = 0.35;  // of the axis: then it is made shorter
-constexpr double kOldS = 0.4;  // without a frame for so long the picture rolls by itself [s]
+// The axis is shortened when the largest value is below this share of it.
+constexpr double kShrinkBelow = 0.35;
+// Without a frame for so long [s], the chart scrolls by itself.
+constexpr double kOldS = 0.4;
 constexpr std::size_t kMostEvents = 200;
 
-// 1, 2 or 5 times a power of ten, at or above: the axis doesn't creep.
+// The least 1, 2 or 5 times a power of ten at or above `value`, so that the axis changes only in
+// steps.
 double niceAbove(double value) {
   const double power = std::pow(10.0, std::floor(std::log10(std::max(value, 1e-9))));
   for (const double factor : {1.0, 2.0, 5.0})
@@ -164,7 +167,8 @@ void LiveChart::fitHeight(double fromS) {
   for (int g = 0; g < graphCount(); ++g) {
     const auto series = graph(g)->data();
     for (auto at = series->findBegin(fromS, false); at != series->constEnd(); ++at)
-      if (at->value > largest) largest = at->value;  // not for a gap's NaN
+      // False for the NaN of a gap.
+      if (at->value > largest) largest = at->value;
   }
   if (largest > largest_ || largest < kShrinkBelow * largest_)
     largest_ = largest > 0.0 ? niceAbove(largest * kLiveChartHeadroom) : 0.0;
@@ -184,7 +188,8 @@ void LiveChart::addEvent(const RecordingEvent& event) {
   if (!history_) return;
   const ThemeColors& colors = colorsOf(theme_);
   const double beginS = secondsOf(event.tUs);
-  if (event.kind == "gap") return;  // seen in the samples
+  // Gaps are visible in the samples.
+  if (event.kind == "gap") return;
   if (event.kind == "mark" || event.kind == "label")
     line(beginS, nameOfEvent(event), colors.accent);
   else if (event.kind == "grasp")
@@ -201,7 +206,7 @@ void LiveChart::line(double atS, const QString& name, const QColor& color) {
   shape->end->setCoords(atS, 1.0);
   shape->setPen(QPen(color, 1.0));
   auto* text = wordAt(*this, atS, name, Qt::AlignLeft, colorsOf(theme_).text);
-  // Names of neighbours stand one below the other.
+  // Names of neighbouring lines are placed one below the other.
   constexpr std::size_t kLines = 4;
   const auto lineHeight = static_cast<int>(fontMetrics().lineSpacing());
   text->setPadding(QMargins(4, static_cast<int>(lines_++ % kLines) * lineHeight, 0, 0));

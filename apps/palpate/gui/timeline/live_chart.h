@@ -1,5 +1,5 @@
-// The chart of a live source: chosen signals of the last seconds, rolling; gaps shaded, marks and
-// grasps as lines. The wheel changes how many seconds are seen.
+// The chart of a live source: shows the chosen signals of the last seconds and scrolls with time;
+// gaps are shaded, marks and grasps are lines. The mouse wheel changes the visible duration.
 #pragma once
 
 #include <cstdint>
@@ -23,24 +23,27 @@ class LiveChart : public QCustomPlot {
 
   explicit LiveChart(QWidget* parent = nullptr);
 
-  // Another source, with so many matrices; null: nothing. Must outlive this, or be taken away
-  // before.
+  // Sets the signals of another source with so many matrices; null: none. `history` must outlive
+  // this object, or be replaced before it is destroyed.
   void setHistory(const SignalHistory* history, std::size_t numMatrices);
   void setSignal(PlottedSignal signal);
-  // Per matrix and, last, the whole hand.
+  // One entry per matrix and, last, one for the whole hand.
   void setPlotted(const std::vector<bool>& plotted);
   void setTheme(Theme theme);
-  void setWindowS(double seconds);  // clamped to 2..300
+  // Visible duration [s], clamped to 2..300.
+  void setWindowS(double seconds);
   double windowS() const noexcept { return windowS_; }
-  // Held, nothing rolls, and it says so; what comes meanwhile is there afterwards.
+  // While held, the chart doesn't scroll and shows that it is held; data that arrive meanwhile are
+  // drawn afterwards.
   void setHeld(bool held);
 
-  // Takes what is new; when nothing came for `silentS` the picture rolls on by itself.
+  // Takes new samples. `silentS`: time since the last frame [s]; after 0.4 s without a frame the
+  // chart scrolls by itself.
   void refresh(double silentS);
-  // A line with a name at its moment; an event of a span is shaded.
+  // Draws a line with a name at the time of the event; an event with a duration is shaded.
   void addEvent(const RecordingEvent& event);
 
-  // For tests: how many samples and events are drawn.
+  // For tests: number of graphs and of events that are drawn.
   int numGraphs() const { return graphCount(); }
   std::size_t numEvents() const noexcept { return events_.size(); }
   double largestSeen() const noexcept { return largest_; }
@@ -78,17 +81,21 @@ class LiveChart : public QCustomPlot {
   const SignalHistory* history_ = nullptr;
   PlottedSignal signal_ = PlottedSignal::kMean;
   std::vector<bool> plotted_;
-  std::vector<std::size_t> rows_;  // of each graph
+  // Row of each graph: a matrix, or the whole hand.
+  std::vector<std::size_t> rows_;
   QSharedPointer<QCPAxisTickerFixed> secondsTicker_;
   Theme theme_ = Theme::kDark;
   double windowS_ = kUsualS;
   bool held_ = false;
-  std::optional<std::int64_t> originUs_;  // stamp of the first sample: second 0
+  // Time stamp of the first sample [us], which is second 0.
+  std::optional<std::int64_t> originUs_;
   std::int64_t newestUs_ = 0;
   double nowS_ = 0.0;
-  double largest_ = 0.0;  // end of the vertical axis
+  // Upper end of the vertical axis.
+  double largest_ = 0.0;
   std::deque<Shown> events_;
-  std::size_t lines_ = 0;  // ever drawn
+  // Number of lines drawn since the start.
+  std::size_t lines_ = 0;
 };
 
 }  // namespace palpate::gui

@@ -10,13 +10,16 @@
 namespace palpate::gui {
 namespace {
 
-constexpr std::size_t kReadAtOnce = 3000;   // samples, in the window's thread (a few milliseconds)
-constexpr std::size_t kMostExact = 16'000;  // samples that are read for what is seen
-constexpr std::size_t kSpread = 1500;       // samples of the first look at a long recording
-// places in those samples: fewer of a sensor that claims many
+// Up to so many samples are read in the thread of the window (a few milliseconds).
+constexpr std::size_t kReadAtOnce = 3000;
+// Most samples that are read for the visible span.
+constexpr std::size_t kMostExact = 16'000;
+// Samples of the first look at a long recording.
+constexpr std::size_t kSpread = 1500;
+// Most taxels in all these samples together: a sensor with many taxels gets fewer samples.
 constexpr std::size_t kMostLookedAt = 5'000'000;
 constexpr int kNewsMs = 200;
-constexpr double kForever = 1e12;  // [s]
+constexpr double kForever = 1e12;  // [s]; longer than any recording
 
 std::optional<std::pair<double, double>> extremesOf(const std::vector<double>& values) {
   std::optional<std::pair<double, double>> found;
@@ -29,7 +32,7 @@ std::optional<std::pair<double, double>> extremesOf(const std::vector<double>& v
   return found;
 }
 
-// Of a matrix of a short recording everything is there already.
+// The series of a matrix of a short recording, whose signals are all known already.
 Series fromTable(const OpenedRecording& recording, const SeriesChoice& choice) {
   Series series;
   series.timeS = recording.timeS;
@@ -71,15 +74,15 @@ void SeriesStore::setRecording(const OpenedRecordingPtr& recording) {
   fromS_ = 0.0;
   toS_ = recording ? recording->durationS() : 0.0;
   if (!recording_ || !recording_->isLong() || recording_->overview->complete()) return;
-  // The first look comes first: they would only hold each other up.
+  // Waits for the first look: both at once would only slow each other down.
   ++numJobs_;
   passes_.start([this, stop = stop_, overview = recording_->overview, looked = lookAtFrames()] {
     looked.wait();
     try {
       overview->compute([&](double) { return !*stop; });
     } catch (const std::exception&) {
-      // Cancelled, or a damaged block: what is ready stays; the frame itself will say what is
-      // wrong.
+      // Cancelled, or a damaged block: what has been read stays; showing the damaged frame reports
+      // the damage.
     }
     --numJobs_;
     QMetaObject::invokeMethod(this, &SeriesStore::changed, Qt::QueuedConnection);
@@ -88,9 +91,9 @@ void SeriesStore::setRecording(const OpenedRecordingPtr& recording) {
   news_.start();
 }
 
-// All signals of frames spread over the recording, read once for all curves.
+// Reads all signals of frames spread over the recording, once for all curves.
 std::shared_future<void> SeriesStore::lookAtFrames() {
-  // A job that never runs breaks its promise, which ends the waiting, too.
+  // A job that never runs destroys its promise, which also ends the waiting.
   auto done = std::make_shared<std::promise<void>>();
   std::shared_future<void> looked = done->get_future().share();
   ++numJobs_;
@@ -107,7 +110,7 @@ std::shared_future<void> SeriesStore::lookAtFrames() {
         allSignals(frame, look->rows.emplace_back());
       }
     } catch (const std::exception&) {
-      // A damaged block: what was read of it stays.
+      // A damaged block: what has been read before it stays.
       look->rows.resize(look->timeS.size());
     }
     QMetaObject::invokeMethod(
@@ -240,7 +243,7 @@ void SeriesStore::setVisibleRange(double fromS, double toS) {
   askForExact();
 }
 
-// What is seen, and as much again on either side, so that a little panning finds it there.
+// Reads the visible span and as much again on either side, so that small movements need no reading.
 void SeriesStore::askForExact() {
   if (!recording_ || !recording_->isLong()) return;
   for (Entry& entry : entries_) {
@@ -270,11 +273,12 @@ void SeriesStore::askForExact() {
             to.exactFromS = fromS;
             to.exactToS = toS;
             if (series) to.exact = series;
-            askForExact();  // the view may have moved on
+            // The view may have moved meanwhile.
+            askForExact();
           });
           --numJobs_;
         },
-        1);  // before first looks
+        1);  // priority above first looks
   }
 }
 
@@ -283,8 +287,8 @@ const BucketSeries* SeriesStore::bucketsOf(const Entry& entry) const {
   return &recording_->overview->of(entry.choice.index, entry.choice.signal);
 }
 
-// A line isn't drawn over a gap: where the samples are further apart than a gap of the frames is
-// long.
+// Indices of the samples after which the line is interrupted, because a gap of the recording lies
+// between them and the next sample.
 std::vector<std::size_t> SeriesStore::breaksIn(const std::vector<double>& timeS) const {
   std::vector<std::size_t> breaks;
   for (const Gap& gap : recording_->timingNow().gaps) {
@@ -314,7 +318,7 @@ std::vector<SeriesPoint> SeriesStore::points(const SeriesChoice& choice,
   const BucketSeries* buckets = bucketsOf(*entry);
   auto points = buckets->points(options);
   if (buckets->complete() || !entry->sample) return points;
-  // What isn't read yet is shown by the first look at it.
+  // The part that isn't read yet is shown by the samples of the first look.
   const double readyS = buckets->readyS();
   std::erase_if(points, [&](const SeriesPoint& point) { return point.x >= readyS; });
   for (const SeriesPoint& point : thin(*entry->sample))

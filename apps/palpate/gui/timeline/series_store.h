@@ -1,7 +1,7 @@
-// The curves of a recording as data: reads what a chart asks for beside the window, keeps it, and
-// thins it for the width that is there. Short recordings are kept sample by sample. Of long ones
-// there are, in this order: some samples spread evenly (at once), the extremes of every second (as
-// they are read), and every sample of what is seen as soon as that isn't too much.
+// Supplies the data of the plotted curves: reads what a chart needs in the background, caches it,
+// and decimates it for the available width. Short recordings are kept sample by sample. For long
+// ones three forms follow each other: some samples spread evenly (at once), the extremes of every
+// second (as they are read), and every sample of the visible span as soon as those aren't too many.
 #pragma once
 
 #include <QObject>
@@ -27,28 +27,31 @@ class SeriesStore : public QObject {
   explicit SeriesStore(QObject* parent = nullptr);
   ~SeriesStore() override;
 
-  void setRecording(const OpenedRecordingPtr& recording);  // null: none
-  // What is plotted now; what the recording hasn't is left out. Others are forgotten.
+  // Null: none.
+  void setRecording(const OpenedRecordingPtr& recording);
+  // Sets the plotted curves; those that the recording doesn't have are left out. Data of all others
+  // are dropped.
   void setWanted(const std::vector<SeriesChoice>& wanted);
-  // What is seen, from the first frame [s].
+  // Sets the visible span, from the first frame [s].
   void setVisibleRange(double fromS, double toS);
 
-  // Of what is there now; gaps of the recording break the line. Empty: nothing yet.
+  // Decimated points of the data read so far; gaps of the recording break the line. Empty: nothing
+  // has been read yet.
   std::vector<SeriesPoint> points(const SeriesChoice& choice,
                                   const DecimationOptions& options) const;
-  // The value at a time: the last sample at or before it; nothing where none is (or in a gap).
+  // The value at a time: that of the last sample at or before it; nothing if there is none, or in a
+  // gap.
   std::optional<double> valueAt(const SeriesChoice& choice, double timeS) const;
-  // Every sample, where the recording is short; else what is seen, once it is read. Null: not
-  // there.
+  // Every sample of a short recording; of a long one those of the visible span once they are read.
+  // Null: not read yet.
   std::shared_ptr<const Series> samples(const SeriesChoice& choice) const;
-  // Largest and smallest of what is there, of the whole recording.
+  // Smallest and largest value of the data read so far, of the whole recording.
   std::optional<std::pair<double, double>> extremes(const SeriesChoice& choice) const;
 
-  // Part of the recording that has been read for what is plotted; 1: all of it.
+  // Share of the recording that has been read for the plotted curves, 0..1.
   double progress() const;
   bool busy() const { return progress() < 1.0 || numJobs_ > 0; }
-  // For tests and pictures: waits for all that has been asked for, or only for the first look at
-  // it.
+  // Wait for everything that was requested, or only for the first samples; for tests and pictures.
   void waitUntilRead();
   void waitForFirstLook();
 
@@ -58,10 +61,13 @@ class SeriesStore : public QObject {
  private:
   struct Entry {
     SeriesChoice choice;
-    std::shared_ptr<const Series> whole;   // short recording
-    std::shared_ptr<const Series> sample;  // long: spread evenly
+    // Short recording: all samples.
+    std::shared_ptr<const Series> whole;
+    // Long recording: samples spread evenly.
+    std::shared_ptr<const Series> sample;
     std::shared_ptr<BucketSeries> buckets;
-    std::shared_ptr<const Series> exact;  // long: of exactFrom..exactTo
+    // Long recording: every sample of exactFromS..exactToS.
+    std::shared_ptr<const Series> exact;
     double exactFromS = 0.0;
     double exactToS = -1.0;
     bool exactAsked = false;
@@ -73,7 +79,7 @@ class SeriesStore : public QObject {
   const Entry* find(const SeriesChoice& choice) const;
   void begin(Entry& entry);
   void beginLong(Entry& entry);
-  // Ready when it is done, or given up.
+  // The future becomes ready when the reading is done or cancelled.
   std::shared_future<void> lookAtFrames();
   void takeFirstLook(Entry& entry) const;
   void askForExact();
@@ -92,9 +98,12 @@ class SeriesStore : public QObject {
   std::vector<Entry> entries_;
   double fromS_ = 0.0;
   double toS_ = 0.0;
-  Stop stop_;           // of everything that is being read for this recording
-  QThreadPool passes_;  // over whole recordings, one after the other
-  QThreadPool reads_;   // short ones
+  // Stops all reading for this recording.
+  Stop stop_;
+  // Passes over whole recordings, one after the other.
+  QThreadPool passes_;
+  // Short reads.
+  QThreadPool reads_;
   QTimer news_;
   std::atomic<int> numJobs_ = 0;
   double toldProgress_ = 1.0;

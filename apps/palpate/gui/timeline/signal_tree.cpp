@@ -13,9 +13,12 @@
 namespace palpate::gui {
 namespace {
 
-constexpr int kSignalTreeKind = Qt::UserRole;  // what a line ticks
-constexpr int kIndex = Qt::UserRole + 1;       // joint, sensor
-constexpr int kName = Qt::UserRole + 2;        // of a group, as it was
+// What the line stands for (SignalTreeKind).
+constexpr int kSignalTreeKind = Qt::UserRole;
+// Index of the joint or sensor.
+constexpr int kIndex = Qt::UserRole + 1;
+// Name of a group before it is edited.
+constexpr int kName = Qt::UserRole + 2;
 constexpr int kMostNumbers = 64;
 enum SignalTreeKind { kSection, kChosen, kGroup, kAngle, kTemperature };
 
@@ -74,7 +77,7 @@ SignalTree::SignalTree(TaxelGroups& groups, QWidget* parent)
   column->addWidget(tree_, 1);
   column->addWidget(group_);
   connect(tree_, &QTreeWidget::itemChanged, this, &SignalTree::onItemChanged);
-  // A click anywhere on a line ticks it; on the box it has been ticked already.
+  // A click anywhere on a line ticks it; a click on the box has ticked it already.
   connect(group_, &QPushButton::clicked, this, [this] {
     hide();
     emit groupAsked();
@@ -178,7 +181,8 @@ void SignalTree::onItemChanged(QTreeWidgetItem* item) {
       if (item->text(0) != before) {
         const QString name = item->text(0).simplified();
         const bool ticked = extras_.groups.contains(before);
-        if (groups_.rename(before, name) && ticked) {  // `item` is gone: the list was made anew
+        // `item` no longer exists: rename() has rebuilt the list.
+        if (groups_.rename(before, name) && ticked) {
           extras_.groups.erase(before);
           extras_.groups.insert(name);
         }

@@ -1,5 +1,6 @@
-// Which curves the timeline shows beside those of the matrices: the chosen taxels, named groups,
-// joint angles, temperatures. A list with ticks that stays open while several are ticked.
+// A list with check boxes that chooses which curves the timeline shows in addition to those of the
+// matrices: the selected taxels, named groups, joint angles, temperatures. It stays open while
+// several are ticked.
 #pragma once
 
 #include <QFrame>
@@ -19,7 +20,7 @@ class QTreeWidgetItem;
 
 namespace palpate::gui {
 
-// Remembered from day to day.
+// The additional curves, stored in the settings.
 struct PlottedExtras {
   bool chosenTaxels = true;
   std::set<QString> groups;
@@ -35,20 +36,21 @@ class SignalTree : public QFrame {
  public:
   explicit SignalTree(TaxelGroups& groups, QWidget* parent = nullptr);
 
-  // What there is to be ticked.
+  // Sets which curves are available.
   void setSource(const HandDescription& hand, bool hasAngles, bool hasTemperatures);
   void setNumChosen(std::size_t taxels);
   void setExtras(const PlottedExtras& extras);
   const PlottedExtras& extras() const noexcept { return extras_; }
-  // Below a widget, with the keyboard in it.
+  // Opens the list below a widget and gives it the keyboard focus.
   void openBelow(const QWidget& button);
-  // For tests and keys: ticks a line by its text; false: there is none.
+  // Ticks a line by its text, for tests and keys; false: no such line.
   bool setTicked(const QString& text, bool on);
   QStringList lines() const;
 
  signals:
   void extrasChanged();
-  void groupAsked();  // of the chosen taxels
+  // The user asks to make a group of the selected taxels.
+  void groupAsked();
 
  protected:
   void keyPressEvent(QKeyEvent* event) override;

@@ -1,4 +1,4 @@
-// Groups of taxels with names ("thumb tip"), kept from one recording and one day to the next.
+// Named groups of taxels ("thumb tip"), stored in the settings across recordings and sessions.
 #pragma once
 
 #include <QObject>
@@ -19,13 +19,13 @@ class TaxelGroups : public QObject {
 
   explicit TaxelGroups(QSettings& settings, QObject* parent = nullptr);
 
-  // Those that fit a sensor, in order of their names.
+  // The groups that fit a sensor layout, in order of their names.
   struct Group {
     QString name;
     TaxelSelection taxels;
   };
   std::vector<Group> of(const SensorLayout& layout) const;
-  // Under a name that is there already: replaces it. False: an empty name, no taxel, or too many
+  // Stores a group; a group of the same name is replaced. False: empty name, no taxel, or too many
   // groups.
   bool keep(const QString& name, const TaxelSelection& taxels);
   bool rename(const QString& from, const QString& to);

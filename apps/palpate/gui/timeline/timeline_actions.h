@@ -1,4 +1,4 @@
-// What the timeline, its selection and its events do, as actions.
+// The actions of the timeline, its selection and its events.
 #pragma once
 
 #include <QAction>
@@ -29,7 +29,7 @@ struct TimelineActions {
   QAction* crop = nullptr;
   QAction* zoomSelection = nullptr;
   QAction* dropSelection = nullptr;
-  // a group of those that are chosen
+  // Makes a named group of the selected taxels.
   QAction* nameTaxels = nullptr;
   QAction* nextSignal = nullptr;
   QAction* chooseCurves = nullptr;

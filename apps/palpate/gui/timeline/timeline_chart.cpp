@@ -14,16 +14,23 @@
 namespace palpate::gui {
 namespace {
 
-constexpr int kTimelineChartFaint = 110;         // opacity of what stands behind, of 255
-constexpr double kEmptyDurationS = 1.0;          // axis of a recording without extent
-constexpr double kTimelineChartHeadroom = 1.06;  // the highest curve stays below the frame
-constexpr double kTimelineChartAir = 0.08;       // beside a span that is shown, part of it
-constexpr int kTimelineChartCursorWidth = 2;     // [px]
-constexpr double kTimelineChartPageRest = 0.1;   // part of the old page that a new page starts with
+// Opacity of the curves drawn behind, of 255.
+constexpr int kTimelineChartFaint = 110;
+// Length of the axis for a recording without duration [s].
+constexpr double kEmptyDurationS = 1.0;
+// Headroom above the highest curve.
+constexpr double kTimelineChartHeadroom = 1.06;
+// Margin beside a shown span, as a share of it.
+constexpr double kTimelineChartAir = 0.08;
+constexpr int kTimelineChartCursorWidth = 2;  // [px]
+// Share of the old page with which a new page starts.
+constexpr double kTimelineChartPageRest = 0.1;
 constexpr std::size_t kMostGapMarks = 2000;
-constexpr int kHandleWidth = 3;                      // [px]
-constexpr double kTimelineChartLongestInS = 1200.0;  // [s] a longer view tells time as h:min:s
-constexpr double kFewSecondsS = 8.0;  // [s] seen, where its ticks need parts of a second
+constexpr int kHandleWidth = 3;  // [px]
+// A view of later times shows h:min:s [s].
+constexpr double kTimelineChartLongestInS = 1200.0;
+// Below this visible duration [s] ticks need fractions of a second.
+constexpr double kFewSecondsS = 8.0;
 
 QWidget* overlay(QWidget* parent, const char* name) {
   auto* widget = new QWidget(parent);
@@ -33,8 +40,10 @@ QWidget* overlay(QWidget* parent, const char* name) {
   return widget;
 }
 
-constexpr double kTimelineMouseWheelPan = 0.1;  // part of what is seen per notch
-constexpr double kHandleReach = 6.0;  // [px] beside a handle or the cursor that still take it
+// Movement per notch, as a share of the visible span.
+constexpr double kTimelineMouseWheelPan = 0.1;
+// Distance from a handle or the cursor at which the mouse still takes it [px].
+constexpr double kHandleReach = 6.0;
 
 }  // namespace
 
@@ -49,7 +58,7 @@ TimelineChart::TimelineChart(QWidget* parent) : QCustomPlot(parent) {
   shade_ = overlay(this, "selectionShade");
   for (QWidget*& handle : handles_) handle = overlay(this, "selectionHandle");
   cursor_ = overlay(this, "cursor");
-  // Margins are known only once the axes have been laid out.
+  // Margins are known only after the axes have been laid out.
   connect(this, &QCustomPlot::afterReplot, this, [this] {
     placeCursor();
     placeSelection();
@@ -114,7 +123,7 @@ void TimelineChart::setTheme(Theme theme) {
   rebuildGraphs();
 }
 
-// The first unit stands on the left, every other one on the right.
+// The axis of the first unit is on the left, all others on the right.
 QCPAxis* TimelineChart::axisFor(const PlottedCurve& curve) {
   QCPAxis*& axis = axes_[curve.unit];
   if (!axis) {
@@ -129,7 +138,8 @@ QCPAxis* TimelineChart::axisFor(const PlottedCurve& curve) {
     if (axis != yAxis) styleExtraAxis(*axis, *this, theme_);
     axisNames_[curve.unit] = curve.axis;
   } else if (axisNames_[curve.unit] != curve.axis) {
-    axisNames_[curve.unit] = curve.unit;  // several things in one unit
+    // Several quantities share the unit.
+    axisNames_[curve.unit] = curve.unit;
   }
   return axis;
 }
@@ -146,7 +156,8 @@ void TimelineChart::rebuildGraphs() {
   for (const PlottedCurve& curve : curves_) {
     QCPGraph* added = addGraph(xAxis, axisFor(curve));
     added->setPen(curve.pen);
-    added->setAdaptiveSampling(false);  // thinned already
+    // The points are decimated already.
+    added->setAdaptiveSampling(false);
   }
   for (const PlottedCurve& curve : hasBefore_ ? curves_ : std::vector<PlottedCurve>()) {
     QCPGraph* behind = addGraph(xAxis, axisFor(curve));
@@ -180,7 +191,8 @@ void TimelineChart::nameAxes() {
   for (const auto& [unit, axis] : axes_) axis->setLabel(fittingName(axisNames_[unit], unit, *this));
 }
 
-// From zero, where nothing is below; angles and temperatures from their lowest.
+// Axes begin at zero unless values are below; those of angles and temperatures begin at their
+// lowest value.
 void TimelineChart::scaleAxes() {
   for (const auto& [unit, axis] : axes_) {
     std::optional<std::pair<double, double>> extent;
@@ -226,7 +238,7 @@ void TimelineChart::refill() {
   replot(QCustomPlot::rpQueuedReplot);
 }
 
-// A label stands only in a gap that is wide enough for it.
+// Shows a label only in gaps that are wide enough for it.
 void TimelineChart::showGapLabels() {
   for (std::size_t i = 0; i < gapLabels_.size(); ++i) {
     const double begin = recording_->timeAt(gaps_[i].frame);
@@ -270,7 +282,7 @@ void TimelineChart::setSelection(std::optional<TimeSpan> span) {
   emit selectionChanged();
 }
 
-// Laid over the curves: moving it draws none of them anew.
+// The selection is made of widgets over the curves, so moving it redraws no curve.
 void TimelineChart::placeSelection() {
   const QRect plot = axisRect()->rect();
   const auto pixel = [&](double seconds) {
@@ -300,7 +312,7 @@ void TimelineChart::setVisibleRange(double from, double to) {
   refill();
 }
 
-// Hours aren't read in seconds.
+// Long times are shown in hours and minutes, not in seconds.
 void TimelineChart::nameTime() {
   const bool seconds = seen().upper <= kTimelineChartLongestInS;
   if (seconds)
@@ -379,7 +391,7 @@ void TimelineChart::dragTo(const QPointF& at) {
     case Drag::kTo: {
       if (!selection_) return;
       const double other = drag_ == Drag::kFrom ? selection_->toS : selection_->fromS;
-      // A handle that is dragged over the other one takes its place.
+      // A handle dragged past the other one takes over its role.
       if (seconds > other) drag_ = Drag::kTo;
       if (seconds < other) drag_ = Drag::kFrom;
       return setSelection(TimeSpan{other, seconds});
@@ -402,7 +414,7 @@ void TimelineChart::mouseMoveEvent(QMouseEvent* event) {
 void TimelineChart::mouseReleaseEvent(QMouseEvent* event) {
   const bool still =
       std::abs(event->position().x() - pressedAt_.x()) < QApplication::startDragDistance();
-  // A click: there goes the cursor, and what was chosen elsewhere is let go.
+  // A click moves the cursor and clears a selection elsewhere.
   if (drag_ == Drag::kSelect && still && recording_) {
     if (selection_ && (pressedS_ < selection_->fromS || pressedS_ > selection_->toS))
       setSelection(std::nullopt);

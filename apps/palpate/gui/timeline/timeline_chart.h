@@ -1,7 +1,7 @@
-// The chart of a recording: chosen curves over time, an axis for each unit, gaps shaded, a cursor
-// that moves without redrawing them, and a selection with handles. A click seeks, a drag selects, a
-// drag along the axis scrubs; the wheel zooms, the middle button (or Shift) pans, a double click
-// shows everything.
+// The chart of a recording: chosen curves over time, one axis per unit, shaded gaps, a cursor that
+// moves without redrawing the curves, and a selection with handles. A click seeks, a drag selects,
+// a drag along the axis moves the cursor; the wheel zooms, the middle button (or Shift) pans, a
+// double click shows everything.
 #pragma once
 
 #include <map>
@@ -23,23 +23,27 @@ class TimelineChart : public QCustomPlot {
  public:
   explicit TimelineChart(QWidget* parent = nullptr);
 
-  void setRecording(const OpenedRecordingPtr& recording);  // null: empty
-  // Those that the recording hasn't stay empty.
+  // Null: the chart is empty.
+  void setRecording(const OpenedRecordingPtr& recording);
+  // Curves that the recording doesn't have stay empty.
   void setCurves(const std::vector<PlottedCurve>& curves);
   const std::vector<PlottedCurve>& curves() const noexcept { return curves_; }
   SeriesStore& store() noexcept { return store_; }
-  // The same recording as it was before filters: its curves stand faintly behind. Null, or a long
-  // one: none.
+  // The same recording without filters: its curves are drawn faintly behind. Null, or a long
+  // recording: none are drawn.
   void setBefore(const OpenedRecordingPtr& before);
   SeriesStore& storeBefore() noexcept { return before_; }
   void setTheme(Theme theme);
-  // Moves the cursor; a view that is zoomed in turns the page when the cursor leaves it.
+  // Moves the cursor; when it leaves a zoomed view, the view moves on by a page.
   void setPosition(double seconds);
 
   void fit();
-  void zoom(double factor);  // about the cursor where it is seen, else the middle; above 1: closer
+  // A factor above 1 zooms in, about the cursor if visible; below 1 zooms out. Otherwise the middle
+  // of the view is the fixed point.
+  void zoom(double factor);
   void zoomAbout(double seconds, double factor);
-  void showSpan(const TimeSpan& span);  // with a little air
+  // Shows the span with a small margin.
+  void showSpan(const TimeSpan& span);
   void setVisibleRange(double from, double to);
   QCPRange seen() const { return xAxis->range(); }
   double durationS() const;
@@ -48,7 +52,7 @@ class TimelineChart : public QCustomPlot {
   int cursorPixel() const { return cursor_->x() + cursor_->width() / 2; }
 
   const std::optional<TimeSpan>& selection() const noexcept { return selection_; }
-  // Clamped to the recording; nothing: none.
+  // The span is clamped to the recording; nothing: no selection.
   void setSelection(std::optional<TimeSpan> span);
 
   QSize sizeHint() const override { return {900, 210}; }
@@ -57,7 +61,7 @@ class TimelineChart : public QCustomPlot {
  signals:
   void seekRequested(double seconds);
   void selectionChanged();
-  // What is seen, or where its pixels lie, has changed.
+  // The visible span, or its position in pixels, has changed.
   void seenChanged();
   void menuRequested(const QPoint& globalPosition);
 
@@ -89,18 +93,23 @@ class TimelineChart : public QCustomPlot {
 
   OpenedRecordingPtr recording_;
   SeriesStore store_;
-  SeriesStore before_;      // of what stands behind
-  bool hasBefore_ = false;  // something does
+  // Data of the curves drawn behind.
+  SeriesStore before_;
+  // Whether curves are drawn behind.
+  bool hasBefore_ = false;
   std::vector<PlottedCurve> curves_;
-  std::map<QString, QCPAxis*> axes_;  // by unit
+  // The axes by unit.
+  std::map<QString, QCPAxis*> axes_;
   std::map<QString, QString> axisNames_;
   Theme theme_ = Theme::kDark;
   QSharedPointer<QCPAxisTicker> secondsTicker_;
   QSharedPointer<QCPAxisTickerTime> clockTicker_;
   std::vector<Gap> gaps_;
-  std::vector<QCPItemText*> gapLabels_;  // one per gap
+  // One per gap.
+  std::vector<QCPItemText*> gapLabels_;
   QWidget* cursor_;
-  QWidget* shade_;  // of the selection
+  // Shade over the selection.
+  QWidget* shade_;
   QWidget* handles_[2];
   double positionS_ = 0.0;
   std::optional<TimeSpan> selection_;

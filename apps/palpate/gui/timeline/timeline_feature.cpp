@@ -141,7 +141,7 @@ void TimelineFeature::connectLive() {
   connect(&currentFrame, &CurrentFrame::heldChanged, this, [this, &currentFrame] {
     liveChart_->setHeld(currentFrame.held());
   });
-  // Nothing comes: the picture rolls on.
+  // Without new frames the chart still scrolls.
   connect(&live, &LiveController::refreshed, this, [this, &live, &currentFrame] {
     const LiveSource* source = state().displayed.source();
     if (source && live.stale() && !currentFrame.held() && live.hasReceivedFrames() &&
@@ -310,7 +310,8 @@ void TimelineFeature::selectEnd(bool begin) {
   const double end = selection.durationS();
   TimeSpan span = selection.span().value_or(begin ? TimeSpan{now, end} : TimeSpan{0.0, now});
   (begin ? span.fromS : span.toS) = now;
-  // Begun behind its end: it ends at the end of the recording, and the other way round.
+  // A begin after the old end extends the selection to the end of the recording; an end before the
+  // old begin extends it to the start.
   if (span.fromS > span.toS) (begin ? span.toS : span.fromS) = begin ? end : 0.0;
   selection.setSpan(span);
 }

@@ -1,5 +1,5 @@
-// The dock Timeline: curves over time of a recording or of what is live, which part is selected and
-// in sight, what is cut from it.
+// The feature of the dock Timeline: curves over time of a recording or a live source, the selected
+// and the visible span, cropping, and editing of events.
 #pragma once
 
 #include <QStackedWidget>
@@ -59,12 +59,14 @@ class TimelineFeature : public Feature {
   SignalTree* signalTree_;
   QStackedWidget* charts_;
   TimelinePanel* panel_;
-  TimelineChart* chart_;  // of the panel
+  // The chart of panel_.
+  TimelineChart* chart_;
   LiveChart* liveChart_;
   Dock* dock_;
   std::unique_ptr<CropJob> crop_;
   std::unique_ptr<EventEditing> editing_;
-  const SignalHistory* history_ = nullptr;  // that the live chart shows; never looked into
+  // Identifies the source of the live chart; never dereferenced.
+  const SignalHistory* history_ = nullptr;
 };
 
 }  // namespace palpate::gui

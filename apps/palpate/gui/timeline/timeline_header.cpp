@@ -17,7 +17,8 @@ constexpr int kAfterName = 16;             // [px]
 
 Legend::Legend(QWidget* parent) : QWidget(parent) {
   setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Preferred);
-  setAttribute(Qt::WA_TransparentForMouseEvents);  // the title row is there to be dragged
+  // Lets mouse events pass, so that the title row can be dragged.
+  setAttribute(Qt::WA_TransparentForMouseEvents);
 }
 
 void Legend::setEntries(std::vector<Entry> entries, Theme theme) {
@@ -64,13 +65,13 @@ TimelineHeader::TimelineHeader(const QList<QAction*>& ofSelection, QWidget* pare
     : QWidget(parent) {
   signal_ = new QComboBox(this);
   signal_->setObjectName("signalBox");
-  signal_->setFocusPolicy(Qt::NoFocus);  // it has a key
+  signal_->setFocusPolicy(Qt::NoFocus);  // has a shortcut instead
   signal_->setToolTip("What is plotted of each ticked matrix (S)");
   for (const PlottedSignal signal : kAllPlottedSignals) signal_->addItem(nameOf(signal));
   curves_ = new QToolButton(this);
   curves_->setObjectName("curvesButton");
   curves_->setText("Curves");
-  curves_->setFocusPolicy(Qt::NoFocus);  // it has a key
+  curves_->setFocusPolicy(Qt::NoFocus);  // has a shortcut instead
   curves_->setToolTip("Taxels, joint angles and temperatures in the timeline (C)");
   legend_ = new Legend(this);
   reading_ = new QLabel(this);

@@ -1,5 +1,5 @@
-// The header of the timeline: which signal of the matrices is plotted, what else is, a legend in
-// the colours and strokes of the curves, and what can be done with the part that is selected.
+// The header of the timeline: chooses the plotted signal of the matrices and further curves, shows
+// a legend with the colours and strokes of the curves, and offers actions for the selection.
 #pragma once
 
 #include <QPen>
@@ -17,7 +17,7 @@ class QToolButton;
 
 namespace palpate::gui {
 
-// Strokes with names, as many as there is room for.
+// Shows strokes with names, as many as there is room for.
 class Legend : public QWidget {
   Q_OBJECT
  public:
@@ -42,15 +42,15 @@ class Legend : public QWidget {
 class TimelineHeader : public QWidget {
   Q_OBJECT
  public:
-  // The actions become buttons beside the words of setSelection().
+  // The actions become buttons beside the text of setSelection().
   explicit TimelineHeader(const QList<QAction*>& ofSelection = {}, QWidget* parent = nullptr);
   void setSignal(PlottedSignal signal);
   void setCurves(const std::vector<PlottedCurve>& curves, Theme theme);
   // "3.20 – 5.10 s · 61 frames"; empty: nothing is selected.
   void setSelection(const QString& words);
-  // "reading 34 %"; empty: all there.
+  // "reading 34 %"; empty: everything is read.
   void setReading(const QString& words);
-  // Only the signal of the matrices, as live.
+  // Shows only the signal of the matrices, as for a live source.
   void setPlain(bool plain);
   QToolButton* curvesButton() const noexcept { return curves_; }
 

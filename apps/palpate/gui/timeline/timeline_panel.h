@@ -1,4 +1,4 @@
-// The timeline of a recording: the chart with the rows of its events below, on one scale of time.
+// The timeline of a recording: the chart and, below it, the rows of events on the same time scale.
 #pragma once
 
 #include <QWidget>

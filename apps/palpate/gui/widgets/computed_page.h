@@ -1,6 +1,6 @@
-// A page of the dock Calibrate, or the dock Slip: something that is computed of a recording beside
-// the window, only while the page is seen, with progress and a way to give it up; and what stands
-// there when there is nothing to show.
+// Base class of pages whose content is computed from a recording in the background (dock Calibrate,
+// dock Slip). The computation runs only while the page is visible, with progress and cancel; when
+// there is nothing to show, the page tells why.
 #pragma once
 
 #include <QWidget>
@@ -23,56 +23,57 @@ class OpeningStrip;
 class ComputedPage : public QWidget {
   Q_OBJECT
  public:
-  // `part`: the beginning of its parts' names.
+  // `part`: prefix of the object names of its widgets.
   explicit ComputedPage(const QString& part, QWidget* parent = nullptr);
 
-  // Null: none. `live`: what is connected is shown instead. As recorded, whatever filters show.
+  // Sets the recording to compute from, as recorded, without filters; null: none. `live`: the
+  // window shows a live source instead.
   void setSource(const OpenedRecordingPtr& recording, bool live);
   virtual void setTheme(Theme theme) = 0;
   virtual void setPosition(double /*seconds*/) {}
-  // What is shown, to be taken away: only while shown().
+  // The displayed results for export; call both only while shown().
   virtual std::vector<ExportedTable> tables() const = 0;
   virtual void paint(QPainter& painter, const PictureLook& look, const QString& title) = 0;
 
   const OpenedRecordingPtr& source() const noexcept { return recording_; }
-  // Something was found, and it is seen.
+  // Whether there is a result and it is visible.
   bool shown() const;
-  QString emptyText() const;  // why nothing is; empty: something is
+  // Why nothing is shown; empty: there is a result.
+  QString emptyText() const;
   bool busy() const { return job_.busy(); }
-  // Gives up what is being computed; whether there was anything.
+  // Cancels the computation; returns whether one was running.
   bool cancel();
-  // For tests and pictures: until what was asked for is there.
+  // Waits until the result exists; for tests and pictures.
   void settle();
 
  signals:
   void said(const QString& text);
 
  protected:
-  // Applies what was found; in the window's thread.
+  // Applies the result; called in the thread of the window.
   using Take = std::function<void()>;
   using Work = std::function<Take(const Progress&)>;
 
   const OpenedRecordingPtr& recording() const noexcept { return recording_; }
   bool live() const noexcept { return live_; }
-  // Rows above what is found; they are always there.
+  // Layout of the rows above the result, which are always visible.
   QVBoxLayout& top() noexcept { return *top_; }
   void setContent(QWidget* content);
   QWidget* content() const noexcept { return content_; }
 
-  // What is computed is of the recording that is shown; else of something that the page asks for
-  // itself.
+  // True: the result is computed from the displayed recording; false: from something that the page
+  // itself asks for.
   virtual bool ofRecording() const { return true; }
-  // Why there is nothing to ask about now; empty: there is. By default a recording with frames is
-  // needed.
+  // Why nothing can be computed now; empty: it can. By default a recording with frames is needed.
   virtual QString emptyReason() const;
-  // Begins the work, by run().
+  // Starts the computation by calling run().
   virtual void compute() = 0;
-  // Another source came: forget the last one's results.
+  // Called when the source has changed: drops the results of the previous one.
   virtual void forget() {}
 
-  // What is asked for has changed: it is computed as soon as the page is seen.
+  // To be called when the inputs have changed: computes anew as soon as the page is visible.
   void renew();
-  // Replaces what is at work. Cancelled and failures are dealt with.
+  // Starts `work` in place of the running one. Handles Cancelled and failures.
   void run(const QString& text, Work work);
   void say(const QString& text, const QString& button = {});
   void showContent();
@@ -84,8 +85,10 @@ class ComputedPage : public QWidget {
 
   OpenedRecordingPtr recording_;
   bool live_ = false;
-  bool stale_ = true;   // nothing was computed of what is asked for now
-  int generation_ = 0;  // of the newest work
+  // Nothing has been computed from the present inputs yet.
+  bool stale_ = true;
+  // Number of the newest computation.
+  int generation_ = 0;
   BackgroundJob job_;
   QVBoxLayout* top_;
   OpeningStrip* strip_;

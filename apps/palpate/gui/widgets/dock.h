@@ -1,4 +1,5 @@
-// A dock with a calm title row: name, whatever belongs to it, and a way to close it.
+// A dock widget whose title row has its name, an optional header and a close button. All docks of
+// the window are of this class.
 #pragma once
 
 #include <QDockWidget>
@@ -12,8 +13,8 @@ namespace palpate::gui {
 class Dock : public QDockWidget {
   Q_OBJECT
  public:
-  // `name` is the title and, in settings and `--dock`, the key. `header` (or null) stands in the
-  // title row.
+  // `name` is the title and also the key in settings and for `--dock`. `header` (may be null) is
+  // shown in the title row.
   Dock(const QString& name, QWidget* content, QWidget* header, QWidget* parent);
   void setTheme(Theme theme);
 

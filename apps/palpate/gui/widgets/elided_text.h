@@ -1,5 +1,5 @@
-// A text in a label that has less room than it needs: its middle gives way, and the tooltip has all
-// of it.
+// Shows a text in a label that may be too narrow for it: the middle of the text is left out, and
+// the tool tip has all of it.
 #pragma once
 
 #include <QString>

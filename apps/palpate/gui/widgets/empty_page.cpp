@@ -10,12 +10,14 @@ EmptyPage::EmptyPage(const QString& part, QWidget* parent) : QWidget(parent) {
   text_ = new QLabel(this);
   text_->setObjectName(part + "Empty");
   text_->setProperty("role", "muted");
-  text_->setTextFormat(Qt::PlainText);  // names of folders are no mark-up
+  // Names of folders aren't to be read as HTML.
+  text_->setTextFormat(Qt::PlainText);
   text_->setWordWrap(true);
   text_->setAlignment(Qt::AlignCenter);
   button_ = new QPushButton(this);
   button_->setObjectName(part + "EmptyButton");
-  button_->setAutoDefault(true);  // Enter presses it
+  // Enter presses the button.
+  button_->setAutoDefault(true);
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(24, 24, 24, 24);
   column->setSpacing(12);

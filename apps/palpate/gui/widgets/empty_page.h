@@ -1,4 +1,5 @@
-// What stands where there is nothing to show: why, and what can be done about it.
+// Shown in place of a view that has nothing to show: tells why, and offers a button for what can be
+// done.
 #pragma once
 
 #include <QWidget>
@@ -11,9 +12,9 @@ namespace palpate::gui {
 class EmptyPage : public QWidget {
   Q_OBJECT
  public:
-  // `part`: the beginning of its parts' names.
+  // `part`: prefix of the object names of its widgets.
   explicit EmptyPage(const QString& part, QWidget* parent = nullptr);
-  // Without a text on its button there is no button.
+  // Without a text for the button there is no button.
   void say(const QString& text, const QString& button = {});
   QString text() const;
 

@@ -1,5 +1,5 @@
-// Rows of name and value with hairlines between them; changing a value repaints one row and lays
-// nothing out.
+// Shows rows of name and value with hairlines between them. A changed value repaints one row and
+// needs no new layout.
 #pragma once
 
 #include <QString>
@@ -23,7 +23,7 @@ class FactsView : public QWidget {
   void setFacts(std::vector<Fact> facts);
   void setValue(std::size_t row, const QString& value);
   const std::vector<Fact>& facts() const noexcept { return facts_; }
-  // The values are those of before: nothing comes any more that would change them.
+  // The values are stale: no new data arrive.
   void setStale(bool old);
   bool isOld() const noexcept { return stale_; }
   void setTheme(Theme theme);
@@ -32,7 +32,8 @@ class FactsView : public QWidget {
 
  protected:
   void paintEvent(QPaintEvent* event) override;
-  bool event(QEvent* event) override;  // tool tips of values that are too long
+  // Shows tool tips for values that are too long.
+  bool event(QEvent* event) override;
 
  private:
   int rowHeight() const;

@@ -12,12 +12,14 @@ namespace {
 
 constexpr int kDetailRole = Qt::UserRole + 1;
 constexpr int kWarningRole = Qt::UserRole + 2;
-constexpr int kFiguresTablePadding = 6;          // [px] beside a figure
-constexpr int kIcon = 16;                        // [px] side of an icon
-constexpr int kFiguresTableAir = 5;              // [px] above and below
-constexpr double kFiguresTableNarrowest = 0.85;  // of a column's width
-constexpr int kLastLeast = 64;                   // [px] of the last column
-constexpr int kFiguresTableMostRowsSeen = 6;     // the others are scrolled to
+constexpr int kFiguresTablePadding = 6;  // [px] beside a figure
+constexpr int kIcon = 16;                // [px] side of an icon
+constexpr int kFiguresTableAir = 5;      // [px] above and below
+// Least width of a column, as a share of its usual width.
+constexpr double kFiguresTableNarrowest = 0.85;
+constexpr int kLastLeast = 64;  // [px] of the last column
+// Further rows are reached by scrolling.
+constexpr int kFiguresTableMostRowsSeen = 6;
 
 class FigureDelegate : public QStyledItemDelegate {
  public:

@@ -1,5 +1,5 @@
-// A small table of figures: right-aligned, below each one its interval or what else belongs to it,
-// in a quieter colour.
+// A small table of right-aligned numbers; below each one, in a muted colour, its confidence
+// interval or another detail.
 #pragma once
 
 #include <QIcon>
@@ -14,17 +14,23 @@ namespace palpate::gui {
 
 struct FigureCell {
   QString text;
-  QString detail = {};  // second line
+  // Second line of the cell.
+  QString detail = {};
   QString tip = {};
-  bool warning = false;  // needs a look
-  QIcon icon = {};       // before the text
+  // The value needs attention.
+  bool warning = false;
+  // Drawn before the text.
+  QIcon icon = {};
 };
 
 struct FigureColumn {
-  QString name;  // "K [counts]" in two lines: name, unit
+  // "K [counts]" is shown in two lines: name and unit.
+  QString name;
   QString tip = {};
-  int letters = 7;     // of its width
-  bool words = false;  // left-aligned
+  // Width of the column [letters].
+  int letters = 7;
+  // Left-aligned text instead of numbers.
+  bool words = false;
 };
 
 class FiguresTable : public QTableWidget {
@@ -33,9 +39,9 @@ class FiguresTable : public QTableWidget {
   explicit FiguresTable(const std::vector<FigureColumn>& columns, QWidget* parent = nullptr);
   void setRows(const std::vector<std::vector<FigureCell>>& rows);
   void setTheme(Theme theme);
-  // No cell has a second line.
+  // To be called when no cell has a second line; rows are lower then.
   void setSingleLine();
-  // -1: none.
+  // Index of the chosen row; -1: none.
   int chosenRow() const;
 
   QSize sizeHint() const override;
@@ -45,15 +51,16 @@ class FiguresTable : public QTableWidget {
   void rowChosen(int row);
 
  protected:
-  // Keys that move in it move in it, and play nothing back.
+  // Cursor keys move within the table and don't trigger the shortcuts of the playback.
   bool event(QEvent* event) override;
   void resizeEvent(QResizeEvent* event) override;
 
  private:
-  // The last column takes what is left; where there is too little the others give way.
+  // The last column takes the remaining width; where there is too little, the others shrink.
   void fitColumns();
 
-  std::vector<int> widths_;  // of the columns, where there is room [px]
+  // Widths of the columns when there is room [px].
+  std::vector<int> widths_;
 };
 
 }  // namespace palpate::gui

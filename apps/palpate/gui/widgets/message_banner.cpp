@@ -19,7 +19,8 @@ MessageBanner::MessageBanner(QWidget* parent, const QString& name, const QString
   setAttribute(Qt::WA_StyledBackground);
   text_ = new QLabel(this);
   text_->setObjectName(part + "Text");
-  text_->setTextFormat(Qt::PlainText);  // file names are no mark-up
+  // File names aren't to be read as HTML.
+  text_->setTextFormat(Qt::PlainText);
   text_->setWordWrap(true);
   text_->setTextInteractionFlags(Qt::TextSelectableByMouse);
   close_ = new QToolButton(this);

@@ -1,4 +1,4 @@
-// One message inside the window: it blocks nothing, and what is open stays open.
+// A banner with messages inside the window, shown until the user closes it. It blocks nothing.
 #pragma once
 
 #include <QList>
@@ -14,24 +14,25 @@ namespace palpate::gui {
 class MessageBanner : public QWidget {
   Q_OBJECT
  public:
-  // `part`: the beginning of its parts' names.
+  // `name`: object name; `part`: prefix of the object names of its widgets.
   explicit MessageBanner(QWidget* parent = nullptr,
                          const QString& name = "MessageBanner",
                          const QString& part = "banner");
   // Failures of several files are shown together.
   void showMessage(const QString& message) { showAbout({}, message); }
-  // One that is withdrawn with its topic.
+  // Shows a message that withdraw() can remove by its topic.
   void showAbout(const QString& topic, const QString& message);
-  // What was said about a topic isn't so any more.
+  // Removes the messages of a topic, whose cause is gone.
   void withdraw(const QString& topic);
-  // Exactly these, instead of what was shown; none: hides. Of these nothing is said().
+  // Replaces all messages by these, without emitting said(); an empty list hides the banner.
   void showAll(const QStringList& messages);
   void dismiss();
   QString message() const;
   void setTheme(Theme theme);
 
  signals:
-  void said(const QString& message);  // a message, each time it comes
+  // Emitted for every message that is added.
+  void said(const QString& message);
 
  private:
   struct Line {

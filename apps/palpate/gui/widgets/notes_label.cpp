@@ -27,7 +27,8 @@ QLabel* notesLabel(const char* name, QWidget* parent) {
   label->setProperty("role", "muted");
   label->setTextFormat(Qt::PlainText);
   label->setWordWrap(true);
-  label->setMargin(kNotesMargin);  // contents margins would not count for its height
+  // setMargin(), because contents margins don't count for the height of a label.
+  label->setMargin(kNotesMargin);
   return label;
 }
 

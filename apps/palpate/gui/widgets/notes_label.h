@@ -1,4 +1,5 @@
-// What the pages of the dock Calibrate write alike: notes, and who made a file when.
+// Texts that the pages of the dock Calibrate share: notes below tables, and the origin of a
+// calibration file.
 #pragma once
 
 #include <QString>
@@ -13,15 +14,16 @@ class QWidget;
 
 namespace palpate::gui {
 
-// A sentence per line.
+// Joins the notes, one per line.
 QString linesOf(const std::vector<std::string>& notes);
 QString linesOf(const std::vector<std::string>& notes, const std::vector<std::string>& more);
-// Quiet words below a table, in as many lines as they take.
+// A label for notes below a table, in a muted colour, with as many lines as needed.
 QLabel* notesLabel(const char* name, QWidget* parent);
-// As `palpate calibrate` begins its JSON: kind, format version, program version, when.
+// The first members of the JSON of `palpate calibrate`: kind, format version, program version,
+// time.
 Json calibrationProvenance(const std::string& kind);
 std::string programVersion();
-// Now, UTC, ISO 8601: "2014-11-27T10:31:05Z".
+// The present time in UTC, ISO 8601: "2014-11-27T10:31:05Z".
 std::string madeNow();
 
 }  // namespace palpate::gui

@@ -17,7 +17,7 @@ std::optional<double> numberFieldNumberIn(const QString& text) {
   return parseDouble(point.toStdString());
 }
 
-// Anything may stand there while it is typed; fixup() decides at the end.
+// Any text is allowed while the user types; fixup() decides at the end.
 template <class Field>
 QValidator::State stateOf(const Field& field, const QString& text, bool whole) {
   const auto number = numberFieldNumberIn(text);
@@ -39,11 +39,13 @@ QString written(const QDoubleSpinBox& field, double value) {
 void setUp(QAbstractSpinBox& field) {
   field.setButtonSymbols(QAbstractSpinBox::NoButtons);
   field.setAlignment(Qt::AlignRight | Qt::AlignVCenter);
-  field.setKeyboardTracking(false);  // only what is finished moves the playback
+  // Only finished input moves the playback.
+  field.setKeyboardTracking(false);
   field.setFocusPolicy(Qt::ClickFocus);
 }
 
-// Keys that belong to the field while it has the focus, though the window has them as shortcuts.
+// True for keys that belong to the field while it has the focus, although they are also shortcuts
+// of the window.
 bool keepsKey(QEvent* event) {
   if (event->type() != QEvent::ShortcutOverride) return false;
   const int key = static_cast<QKeyEvent*>(event)->key();

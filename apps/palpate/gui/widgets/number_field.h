@@ -1,6 +1,6 @@
-// Fields to type a number into. What is typed is never mutilated: a comma is a point, a number out
-// of range is taken as the nearest in range, anything else as no change. Enter takes it, Escape
-// doesn't.
+// Input fields for a frame index and for seconds. A comma counts as a decimal point, a number out
+// of range becomes the nearest one in range, and anything else changes nothing. Enter accepts the
+// input, Escape discards it.
 #pragma once
 
 #include <QDoubleSpinBox>

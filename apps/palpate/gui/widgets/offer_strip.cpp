@@ -15,7 +15,8 @@ OfferStrip::OfferStrip(QWidget* parent) : QWidget(parent) {
   setAttribute(Qt::WA_StyledBackground);
   text_ = new QLabel(this);
   text_->setObjectName("offerText");
-  text_->setTextFormat(Qt::PlainText);  // file names are no mark-up
+  // File names aren't to be read as HTML.
+  text_->setTextFormat(Qt::PlainText);
   text_->setWordWrap(true);
   text_->setTextInteractionFlags(Qt::TextSelectableByMouse);
   accept_ = new QPushButton(this);

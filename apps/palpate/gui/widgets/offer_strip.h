@@ -1,5 +1,5 @@
-// A calm line inside the window that offers something: "Recorded run_003.palpate: 412 frames
-// [Open]". It blocks nothing and can be closed.
+// A line inside the window that offers an action: "Recorded run_003.palpate: 412 frames [Open]". It
+// blocks nothing and can be closed.
 #pragma once
 
 #include <QWidget>
@@ -17,15 +17,16 @@ class OfferStrip : public QWidget {
   Q_OBJECT
  public:
   explicit OfferStrip(QWidget* parent = nullptr);
-  // Replaces what was offered before. `accept` is called once; `decline` (may be empty) when the
-  // line is closed by its button without it.
+  // Replaces the previous offer. `accept` is called at most once; `decline` (may be empty) is
+  // called when the user closes the line without accepting.
   void offer(const QString& text,
              const QString& button,
              std::function<void()> accept,
              std::function<void()> decline = {});
-  // Text alone, while something that was accepted is done.
+  // Shows only a text, while the accepted action runs.
   void say(const QString& text);
-  void dismiss();  // without declining
+  // Hides the line without calling `decline`.
+  void dismiss();
   QString text() const;
   void setTheme(Theme theme);
 

@@ -9,7 +9,8 @@
 namespace palpate::gui {
 namespace {
 
-constexpr int kAppearAfterMs = 150;  // what is quicker needs no strip that flickers
+// For quicker work the strip would only flicker.
+constexpr int kAppearAfterMs = 150;
 constexpr int kOpeningStripSteps = 1000;
 
 }  // namespace

@@ -1,5 +1,5 @@
-// Progress of opening a recording (or writing one, or pictures), with a way to cancel it. It
-// appears only when that takes long enough to be noticed.
+// Shows the progress of opening a recording (or writing one, or pictures), with a button to cancel
+// it. It appears only when the work takes long enough to be noticed.
 #pragma once
 
 #include <QTimer>
@@ -13,7 +13,7 @@ namespace palpate::gui {
 class OpeningStrip : public QWidget {
   Q_OBJECT
  public:
-  // `verb` stands before the name; `part` begins the names of its parts.
+  // `verb` is shown before the file name; `part`: prefix of the object names of its widgets.
   explicit OpeningStrip(QWidget* parent = nullptr,
                         const QString& verb = "Opening",
                         const QString& part = "opening");

@@ -1,5 +1,5 @@
-// The content of a dock that shows one page at a time. The chooser of pages stands in the dock's
-// title row; the page that was seen last is shown again.
+// The content of a dock that shows one of several pages. The buttons to choose the page are in the
+// title row of the dock; the settings store the last page.
 #pragma once
 
 #include <QSettings>
@@ -14,17 +14,20 @@ namespace palpate::gui {
 class PagedPanel : public QWidget {
   Q_OBJECT
  public:
-  // `key`: of its settings and the chooser's buttons, lower case.
+  // `key`: prefix of its settings and of the names of the buttons, lower case.
   PagedPanel(QSettings& settings, QString key, QWidget* parent = nullptr);
   QWidget& header() noexcept { return *header_; }
   QStringList pageNames() const;
-  void showPage(const QString& name);  // one of pageNames(); another is ignored
-  QString pageName() const;            // of the page that is seen
+  // `name`: one of pageNames(); any other is ignored.
+  void showPage(const QString& name);
+  // Name of the visible page.
+  QString pageName() const;
 
  protected:
   void addPage(QWidget* page, const QString& name, const QString& tip);
-  void showLastPage();  // once all are there
-  // For the layout, and as parent of the pages.
+  // To be called once all pages have been added.
+  void showLastPage();
+  // For the layout, and as parent widget of the pages.
   QStackedWidget& pages() const noexcept { return *pages_; }
 
  private:

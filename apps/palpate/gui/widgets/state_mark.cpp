@@ -6,7 +6,7 @@
 namespace palpate::gui {
 namespace {
 
-// Drawn in a square of 16 x 16 units.
+// The mark is drawn in a square of 16 x 16 units.
 constexpr int kStateMarkUnits = 16;
 constexpr QPointF kStateMarkMiddle(8.0, 8.0);
 constexpr double kStateMarkRadius = 6.5;

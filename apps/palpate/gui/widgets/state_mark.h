@@ -1,5 +1,5 @@
-// A small mark before a line of text: good, bad, needs a look, at work. Told apart by shape, not by
-// colour alone.
+// A small mark before a line of text: good, bad, warning, in progress. The states differ in shape,
+// not only in colour.
 #pragma once
 
 #include <QWidget>

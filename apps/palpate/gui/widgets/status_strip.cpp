@@ -59,7 +59,7 @@ void StatusStrip::paintEvent(QPaintEvent*) {
     x += advance(text) + kStatusStripBetween;
   };
   item(status_.state, status_.lamp == Status::Lamp::kWarning ? colors.warning : colors.text);
-  // Figures get a fixed width, so that they don't dance while playing.
+  // Numbers get a fixed width, so that they don't move while playing.
   for (const QString& figure : status_.figures) {
     const int from = x;
     item(figure, colors.muted);

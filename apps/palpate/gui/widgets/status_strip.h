@@ -1,5 +1,5 @@
-// The status bar's content: what the source does, the frame in numbers, and notices. Painted in one
-// go, so that it can change 60 times a second.
+// The content of the status bar: state of the source, numbers of the frame, and notices. It paints
+// itself in one pass, so that it can change 60 times a second.
 #pragma once
 
 #include <QStringList>
@@ -14,8 +14,9 @@ struct Status {
   Lamp lamp = Lamp::kIdle;
   QString state;        // "recording · playing 1x"
   QStringList figures;  // "active 61", "max 1013", ..
-  QString notice;       // a gap, what lies under the mouse
-  QString right;        // "frame 2411 of 3289   76.15 s"
+  // A gap, or what is under the mouse pointer.
+  QString notice;
+  QString right;  // "frame 2411 of 3289   76.15 s"
   bool operator==(const Status&) const = default;
 };
 

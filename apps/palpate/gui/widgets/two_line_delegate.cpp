@@ -12,7 +12,7 @@ constexpr int kLeading = 1;                 // [px] between the lines
 }  // namespace
 
 QSize TwoLineDelegate::sizeHint(const QStyleOptionViewItem& option, const QModelIndex&) const {
-  // No width: long names are cut in the middle, the list doesn't grow with them.
+  // The hint has no width: long names are elided in the middle and don't widen the list.
   return {0, 2 * option.fontMetrics.height() + kLeading + 2 * kTwoLineDelegatePadding};
 }
 

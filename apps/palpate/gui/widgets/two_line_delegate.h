@@ -1,4 +1,4 @@
-// Items of a list in two lines: the name, and below it in a quieter colour what it is.
+// Paints the items of a list in two lines: the name and, below it in a muted colour, a description.
 #pragma once
 
 #include <QStyledItemDelegate>

@@ -12,8 +12,9 @@
 
 namespace palpate::gui {
 namespace {
-constexpr const char* kWidestUnit = "counts";  // fields of several sliders stand below each other
-}
+// All fields are as wide as with this unit, because several sliders are arranged below each other.
+constexpr const char* kWidestUnit = "counts";
+}  // namespace
 
 ValueSlider::ValueSlider(const QString& name, const SliderRange& range, QWidget* parent)
     : QWidget(parent), range_(range) {
@@ -42,7 +43,8 @@ ValueSlider::ValueSlider(const QString& name, const SliderRange& range, QWidget*
   connect(slider_, &QSlider::valueChanged, this, [this](int ticks) {
     const QSignalBlocker quiet(field_);
     field_->setValue(range_.least + ticks * range_.step - ticksOf(range_.least) * range_.step);
-    if (!slider_->isSliderDown()) choose();  // by keys
+    // Changed by keys.
+    if (!slider_->isSliderDown()) choose();
   });
   connect(slider_, &QSlider::sliderReleased, this, &ValueSlider::choose);
   connect(field_, &QDoubleSpinBox::valueChanged, this, [this](double value) {
@@ -71,7 +73,8 @@ void ValueSlider::showValue(double value) {
 
 void ValueSlider::showUnknown() {
   showValue(range_.least);
-  field_->setSpecialValueText("–");  // of the least value
+  // Shown in place of the least value.
+  field_->setSpecialValueText("–");
 }
 
 void ValueSlider::choose() {

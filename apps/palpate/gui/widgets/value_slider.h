@@ -1,5 +1,5 @@
-// A slider and a field that show the same number. It is chosen when the slider is let go or the
-// field is left: what is on the way isn't sent to a hand.
+// A slider and a number field that show the same value. chosen() comes when the slider is released
+// or the field is left; values in between aren't sent to a hand.
 #pragma once
 
 #include <QWidget>
@@ -11,11 +11,14 @@ namespace palpate::gui {
 
 struct SliderRange {
   double least = 0.0;
-  double most = 1.0;        // of the field
-  double sliderMost = 1.0;  // of the slider: the part that is of use
+  // Largest value of the field.
+  double most = 1.0;
+  // Largest value of the slider: the useful part of the range.
+  double sliderMost = 1.0;
   double step = 0.05;
   int decimals = 2;
-  QString unit = {};  // "deg/s"; may be a blank
+  // "deg/s"; may be a blank.
+  QString unit = {};
 };
 
 class ValueSlider : public QWidget {
@@ -23,9 +26,10 @@ class ValueSlider : public QWidget {
  public:
   ValueSlider(const QString& name, const SliderRange& range, QWidget* parent);
   double value() const;
-  // Shows a value; nothing is chosen by that. While the user is at it, nothing is changed.
+  // Shows a value without emitting chosen(). While the user is editing, nothing changes.
   void showValue(double value);
-  void showUnknown();  // a dash
+  // Shows a dash.
+  void showUnknown();
   QDoubleSpinBox* field() const noexcept { return field_; }
   QSlider* slider() const noexcept { return slider_; }
 
@@ -39,7 +43,8 @@ class ValueSlider : public QWidget {
   const SliderRange range_;
   QSlider* slider_;
   QDoubleSpinBox* field_;
-  double shown_ = 0.0;  // what was shown or chosen last
+  // The value that was shown or chosen last.
+  double shown_ = 0.0;
 };
 
 }  // namespace palpate::gui

@@ -1,5 +1,5 @@
-// Which actions can be chosen now: each has its condition, and all are asked again when what is
-// shown changes.
+// Enables and disables the actions of the window: every action has a condition, and refresh()
+// evaluates all conditions when the displayed source changes.
 #pragma once
 
 #include <QAction>
@@ -12,7 +12,7 @@ namespace palpate::gui {
 
 class ActionEnabler {
  public:
-  // The actions must outlive this.
+  // The actions must outlive this object.
   void add(const QList<QAction*>& actions, std::function<bool()> condition) {
     all_.emplace_back(actions, std::move(condition));
   }

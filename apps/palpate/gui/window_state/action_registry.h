@@ -1,5 +1,5 @@
-// The actions of the window: features make theirs here, with keys, and menus, toolbar and the list
-// of keys (F1) are made from all of them.
+// Holds the actions of the window: the features make their actions here, with keys; the menus, the
+// toolbar and the list of keys (F1) are built from all of them.
 #pragma once
 
 #include <QAction>
@@ -21,35 +21,37 @@ namespace palpate::gui {
 
 class ActionRegistry {
  public:
-  static constexpr int kMatricesWithKeys = 9;  // the first ones have keys of their own
+  // So many matrices have an action with a key; further matrices have none.
+  static constexpr int kMatricesWithKeys = 9;
 
-  // The actions belong to the window and work wherever the keyboard is in it.
+  // The actions belong to the window; their keys work wherever in the window the keyboard focus is.
   explicit ActionRegistry(QWidget* window) : window_(window) {}
 
-  // `id`: how others name it; `section`: of the list of keys. Throws std::logic_error for an id
-  // that is there already.
+  // `id`: name by which other code finds the action; `section`: its section in the list of keys.
+  // Throws std::logic_error for an id that exists already.
   QAction* make(const QString& id,
                 const char* section,
                 const QString& text,
                 const QList<QKeySequence>& keys = {},
                 bool checkable = false);
-  // The next one of several that are alike.
+  // Makes one more action of a group of similar actions; `list` names the group.
   QAction* add(const QString& list,
                const char* section,
                const QString& text,
                const QList<QKeySequence>& keys = {},
                bool checkable = false);
-  // Choices, one at a time; data() is the index. They have no keys.
+  // A group of actions of which one is checked at a time; data() of an action is its index. They
+  // have no keys.
   QActionGroup* choices(const QString& id, const QStringList& names);
-  // In the colours of the theme, from the next setTheme() on.
+  // The icon is drawn in the colours of the theme, from the next setTheme() on.
   void setIcon(QAction* action, IconShape shape) { icons_.emplace_back(action, shape); }
   void setTheme(Theme theme);
 
-  // Throw std::out_of_range for an id that nobody has made.
+  // All three throw std::out_of_range for an id that doesn't exist.
   QAction* at(const QString& id) const;
   const QList<QAction*>& all(const QString& list) const;
   QActionGroup* group(const QString& id) const;
-  // Of make(), in the order in which they were made.
+  // The actions of make(), in the order in which they were made.
   const QList<QAction*>& all() const noexcept { return made_; }
 
  private:
@@ -66,9 +68,9 @@ class ActionRegistry {
   std::vector<std::pair<QAction*, IconShape>> icons_;
 };
 
-// A key of an action: "Ctrl+O".
+// The key sequence of an action, for example "Ctrl+O".
 inline QKeySequence key(const char* text) { return QKeySequence(QString(text)); }
-// The choice of a group that stands where `now` is among `all`.
+// Checks the action of `group` whose index is that of `now` in `all`.
 template <class Choices, class Choice>
 void checkChoice(const QActionGroup* group, const Choices& all, Choice now) {
   qsizetype index = 0;
@@ -79,23 +81,24 @@ void checkChoice(const QActionGroup* group, const Choices& all, Choice now) {
   }
 }
 
-// Of the action record: whether it would stop a recording.
+// Property of the action "record": true while the action would stop a recording.
 inline constexpr const char* kRecordingProperty = "recording";
 
-// The section of the list of keys that an action belongs to ("File", ..); empty: not listed.
+// The section of the list of keys to which an action belongs ("File", ..); empty: the action isn't
+// listed.
 QString sectionOf(const QAction& action);
 void setSection(QAction& action, const QString& section);
-// Actions that are alike, listed by one line for all of them.
+// Similar actions that share one line in the list of keys.
 struct ActionKind {
   QString keys;  // "Ctrl+arrows"
   QString what;
 };
 void setKind(const QList<QAction*>& actions, const QString& keys, const QString& what);
 std::optional<ActionKind> kindOf(const QAction& action);
-// It has a key and no line in a menu.
+// Keeps the action out of the menus; its key still works.
 void hideInMenus(QAction& action);
 bool isHiddenInMenus(const QAction& action);
-// Its text without mnemonic and dots.
+// The text of the action without mnemonic and dots.
 QString plainText(const QAction& action);
 
 }  // namespace palpate::gui

@@ -13,13 +13,15 @@ namespace {
 
 constexpr const char* kRecipeKey = "filter/recipe";
 constexpr const char* kOnKey = "filter/on";
-constexpr const char* kRecipeKind = "recipe";  // of events
+// Kind of the events that hold a recipe.
+constexpr const char* kRecipeKind = "recipe";
 
 std::optional<Recipe> recipeFrom(const std::string& json) {
   try {
     return recipeFromJson(Json::parse(json));
   } catch (const Error&) {
-    return std::nullopt;  // of a later version, or damaged: as if there were none
+    // The recipe is damaged or of a later version: it is ignored.
+    return std::nullopt;
   }
 }
 
@@ -83,7 +85,8 @@ ActiveFilters::ActiveFilters(DisplayedSource& displayed,
 void ActiveFilters::restore(const std::optional<Recipe>& recipe) {
   const auto last =
       recipe ? recipe : recipeFrom(settings_.value(kRecipeKey).toString().toStdString());
-  const QSignalBlocker quiet(editor_);  // what is given for one day is not remembered for the next
+  // A recipe given on the command line isn't written to the settings.
+  const QSignalBlocker quiet(editor_);
   if (last) editor_.restore(*last);
   on_ = recipe || settings_.value(kOnKey, false).toBool();
 }
@@ -100,7 +103,7 @@ void ActiveFilters::setOn(bool on) {
   noteInLiveRecording();
 }
 
-// What the operator saw belongs to what was recorded.
+// Notes the recipe in the running recording, so that the recording tells what the operator saw.
 void ActiveFilters::noteInLiveRecording() {
   LiveSource* source = live_.source();
   if (!source || !live_.recording() || !applied()) return;
@@ -121,10 +124,10 @@ QString ActiveFilters::text() const {
   return QString::fromStdString(recipeText(seen));
 }
 
-// A picture says what it is of.
+// Appears in the captions of pictures.
 QString ActiveFilters::caption() const { return applied() ? " · filtered: " + text() : QString(); }
 
-// Brings what is shown in line with the chain and its switch.
+// Applies the chain, or no filter when it is off, to the displayed source.
 void ActiveFilters::apply() {
   const Recipe now = on_ ? recipe() : Recipe{};
   if (LiveSource* source = live_.source()) {
@@ -146,7 +149,7 @@ void ActiveFilters::apply() {
     worker_.start(recording, now);
 }
 
-// The last one that was kept with it, if it isn't the one that is there.
+// Takes the last recipe that is stored with the recording, unless it equals the present one.
 void ActiveFilters::takeKeptRecipe() {
   const EventEditor* editor = events_.editor();
   if (editor == nullptr || keptTaken_ == displayed_.recorded()) return;

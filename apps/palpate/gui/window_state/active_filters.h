@@ -1,5 +1,5 @@
-// The filters that what is shown is seen through, a recording or a live hand. What is on disk stays
-// as it is.
+// Applies the edited chain of filters to the displayed source, a recording or a live hand, and
+// holds the switch that turns it on. The recording on disk doesn't change.
 #pragma once
 
 #include <QObject>
@@ -20,7 +20,7 @@ namespace palpate::gui {
 class ActiveFilters : public QObject {
   Q_OBJECT
  public:
-  // All of them must outlive it.
+  // All arguments must outlive this object.
   ActiveFilters(DisplayedSource& displayed,
                 EventController& events,
                 LiveController& live,
@@ -28,30 +28,35 @@ class ActiveFilters : public QObject {
                 QSettings& settings,
                 QObject* parent = nullptr);
 
-  // The chain that is edited; changes apply at once.
+  // Edits the chain; changes apply at once.
   RecipeEditor& editor() noexcept { return editor_; }
   const Recipe& recipe() const noexcept { return editor_.recipe(); }
-  // Filtered is what is shown (after), or as it was recorded (before).
+  // True: the filtered values are shown; false: the values as recorded.
   bool on() const noexcept { return on_; }
   void setOn(bool on);
-  // As of the last day, or this one, switched on.
+  // Takes `recipe` and switches it on; without one, takes recipe and switch from the settings of
+  // the last session.
   void restore(const std::optional<Recipe>& recipe);
 
-  // What is shown now is filtered.
+  // Whether the values shown now are filtered.
   bool applied() const;
-  QString text() const;     // of the steps that are on
-  QString caption() const;  // " · filtered: .."; empty: it isn't
-  // With the recording that is looked at, as one of its events.
+  // The enabled steps as text.
+  QString text() const;
+  // " · filtered: .." for captions of pictures; empty when the values aren't filtered.
+  QString caption() const;
+  // Adds the recipe to the displayed recording, as one of its events.
   void keepWithRecording();
-  // Of what is live, four times a second; nothing: nothing is filtered there.
+  // Cost and latency of the steps on the live source, for display four times a second; nothing when
+  // no live source is filtered.
   std::optional<FilterFigures> liveFigures();
-  // For tests and pictures: until nothing is at work any more.
+  // Waits until the filtering of the recording has ended; for tests and pictures.
   void wait() { worker_.wait(); }
 
  signals:
   void onChanged(bool on);
-  void sourceChanged();  // another recording or hand is seen through it
-  // While a recording is being filtered; nothing: done.
+  // Another recording or hand is filtered from now on.
+  void sourceChanged();
+  // Progress while a recording is being filtered, 0..1; nothing: done.
   void progressed(const std::optional<double>& fraction);
   void measured(const std::optional<palpate::gui::FilterFigures>& figures);
   void failed(const QString& message);
@@ -70,11 +75,14 @@ class ActiveFilters : public QObject {
   FilterWorker worker_;
   bool on_ = false;
   bool sourceIsNew_ = false;
-  OpenedRecordingPtr made_;  // madeOf_ through madeBy_; null: none yet
+  // The recording madeOf_ filtered by the recipe madeBy_; null: not made yet.
+  OpenedRecordingPtr made_;
   OpenedRecordingPtr madeOf_;
   Recipe madeBy_;
-  OpenedRecordingPtr keptTaken_;  // whose kept recipe was taken
-  FilterFigures liveFigures_;     // of liveRecipe_
+  // The recording whose stored recipe was taken last.
+  OpenedRecordingPtr keptTaken_;
+  // The figures of liveRecipe_.
+  FilterFigures liveFigures_;
   Recipe liveRecipe_;
 };
 

@@ -90,7 +90,8 @@ QVariant ActivityLog::data(const QModelIndex& index, int role) const {
       if (index.column() == kTime) return timeText(at.timeMs, "HH:mm:ss");
       return index.column() == kSeverity ? nameOf(at.severity) : activityLogTextOf(at);
     case Qt::ToolTipRole:
-      return lineText(index.row()).toHtmlEscaped();  // wraps
+      // HTML, so that the tool tip wraps its lines.
+      return lineText(index.row()).toHtmlEscaped();
     case Qt::TextAlignmentRole:
       return QVariant::fromValue(Qt::Alignment(Qt::AlignLeft | Qt::AlignTop));
     case Qt::ForegroundRole:

@@ -1,5 +1,5 @@
-// What the window said, in order: messages, what was opened and written, what happened on the link.
-// The oldest lines go when there are too many.
+// Keeps the log of the window, in order of time: messages, files opened and written, what happened
+// on the connection. When it holds kMaxLines, the oldest lines are removed.
 #pragma once
 
 #include <QAbstractTableModel>
@@ -14,10 +14,12 @@ namespace palpate::gui {
 
 struct LogLine {
   enum class Severity { kInfo, kWarning, kError };
-  qint64 timeMs = 0;  // [ms since 1970]; of the last one, where it came several times
+  // Time of the message [ms since 1970]; of the last one where it was repeated.
+  qint64 timeMs = 0;
   Severity severity = Severity::kInfo;
   QString text;
-  int count = 1;  // one after the other
+  // How many times the message came in a row.
+  int count = 1;
 };
 
 // "info", "warning", "error".
@@ -28,9 +30,10 @@ class ActivityLog : public QAbstractTableModel {
  public:
   enum Column { kTime, kSeverity, kText, kNumColumns };
   static constexpr int kMaxLines = 10'000;
-  static constexpr int kMaxTextLength = 4000;  // of one line; longer ones are cut
+  // Longest text of one line [letters]; longer texts are cut.
+  static constexpr int kMaxTextLength = 4000;
 
-  // The clock must outlive it.
+  // The clock must outlive this object.
   explicit ActivityLog(const Clock& clock, QObject* parent = nullptr);
 
   void add(LogLine::Severity severity, const QString& text);

@@ -1,5 +1,5 @@
-// Whether two recordings are compared instead of one being looked at. A is the recording that is
-// shown.
+// Holds whether the window compares two recordings, A and B, instead of showing one. A is the
+// displayed recording.
 #pragma once
 
 #include <QObject>
@@ -19,7 +19,7 @@ class ComparisonMode : public QObject {
     on_ = on;
     emit changed(on);
   }
-  // With this one as B.
+  // Starts the comparison with `b` as recording B.
   void with(const OpenedRecordingPtr& b) {
     emit bChosen(b);
     set(true);

@@ -22,7 +22,7 @@ CurrentFrame::CurrentFrame(DisplayedSource& displayed,
   connect(&displayed_, &DisplayedSource::valuesChanged, this, [this] {
     if (playback_.hasFrames()) showFrame(playback_.frame());
   });
-  // Its frames are of other taxels from now on.
+  // The frames that follow have other taxels.
   connect(&displayed_, &DisplayedSource::handChanged, this, [this] { frame_ = TactileFrame(); });
   connect(&playback_, &PlaybackController::frameChanged, this, &CurrentFrame::showFrame);
   connect(&live_, &LiveController::frameReceived, this, [this](const TactileFrame& frame) {
@@ -42,7 +42,7 @@ CurrentFrame::CurrentFrame(DisplayedSource& displayed,
   });
 }
 
-// Another recording, another source, or nothing.
+// Starts anew after the source changed to another recording, another connection or nothing.
 void CurrentFrame::begin() {
   frame_ = TactileFrame();
   angles_.reset();
@@ -69,13 +69,15 @@ void CurrentFrame::showFrame(std::size_t index) {
   try {
     seen->profile.readFrame(index, frame_);
   } catch (const Error& error) {
-    return setStale({error.what()});  // what is seen is of another frame
+    // The frame can't be read: the views still show the previous one.
+    return setStale({error.what()});
   }
   try {
     angles_ = seen->profile.anglesAtFrame(index);
     temperatures_ = seen->profile.temperaturesAtFrame(index);
   } catch (const Error& error) {
-    damage = error.what();  // a part of it is of another one
+    // The frame was read, but angles or temperatures can't be.
+    damage = error.what();
   }
   damaged_ = !damage.isEmpty();
   emit frameChanged();
@@ -124,7 +126,8 @@ std::ptrdiff_t CurrentFrame::saturated() const {
   try {
     return count(recording->profile.frame(playback_.frame()));
   } catch (const Error&) {
-    return 0;  // said where the frame would be
+    // showFrame() reports the failure to read.
+    return 0;
   }
 }
 

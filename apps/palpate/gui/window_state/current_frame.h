@@ -1,4 +1,4 @@
-// The one frame that is seen, of a recording or live, and whether it is of now.
+// Holds the one frame that all views show, of a recording or live, and whether it is stale.
 #pragma once
 
 #include <QObject>
@@ -18,40 +18,43 @@ namespace palpate::gui {
 class CurrentFrame : public QObject {
   Q_OBJECT
  public:
-  // All of them must outlive it.
+  // All arguments must outlive this object.
   CurrentFrame(DisplayedSource& displayed,
                ActiveFilters& activeFilters,
                LiveController& live,
                PlaybackController& playback,
                QObject* parent = nullptr);
 
-  // No values: none yet.
+  // A frame without values: there is no frame yet.
   const TactileFrame& frame() const noexcept { return frame_; }
   bool hasFrame() const { return !frame_.values.empty(); }
-  // Of a recording, the last ones at or before the frame; nothing: it has none, or they are
-  // damaged.
+  // Joint angles and temperatures of a recording: the last ones at or before the frame; nothing
+  // when the recording has none or they are damaged.
   const std::optional<JointAngles>& angles() const noexcept { return angles_; }
   const std::optional<Temperatures>& temperatures() const noexcept { return temperatures_; }
-  // They can't be read: what is known of them is of another frame.
+  // The angles or temperatures at this frame can't be read.
   bool damaged() const noexcept { return damaged_; }
-  // Of a recording; 0 else.
+  // Index of the frame in the recording; 0 for a live source.
   std::size_t index() const { return displayed_.isRecording() ? playback_.frame() : 0; }
-  // Taxels at or above saturation, as recorded, whatever the filters make of them.
+  // Number of taxels at or above saturation, counted on the recorded values, not on the filtered
+  // ones.
   std::ptrdiff_t saturated() const;
 
-  // The live picture stands still until it isn't held any more.
+  // While held, the live picture doesn't change.
   bool held() const noexcept { return held_; }
   void hold(bool on);
-  // Why the picture isn't of now: held, nothing comes, damaged. Without a notice it is.
+  // Why the picture is stale: held, no frames arrive, damaged. An empty notice: the picture is
+  // current.
   const StaleNotice& old() const noexcept { return stale_; }
 
  signals:
-  void frameChanged();  // live: before anything is computed of it
-  // What was computed of a live frame.
+  // For a live frame, comes before anything is computed from it, unless filters are on.
+  void frameChanged();
+  // What was computed from a live frame.
   void resultsReceived(const palpate::LiveResults& results);
   void staleNoticeChanged();
   void heldChanged();
-  // Of this source the first one: there is something to be seen now.
+  // The first frame of this source has arrived.
   void firstFrameReceived();
 
  private:

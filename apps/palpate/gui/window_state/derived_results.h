@@ -1,5 +1,5 @@
-// What some parts of the window work out and others show with the frame: pressures, how contacts
-// slip, matrices that can't feel the limit of a grasp.
+// Holds what some features compute and others show with the frame: pressures, slip of the contacts,
+// matrices that can't measure the limit chosen for a grasp.
 #pragma once
 
 #include <QObject>
@@ -18,13 +18,13 @@ class DerivedResults : public QObject {
  public:
   explicit DerivedResults(QObject* parent = nullptr) : QObject(parent) {}
 
-  // Null: no calibration is applied, or it says nothing of this frame.
+  // Null: no calibration is applied, or it doesn't cover this frame.
   const std::shared_ptr<const PressureFrame>& pressure() const noexcept { return pressure_; }
   void setPressure(std::shared_ptr<const PressureFrame> pressure) {
     pressure_ = std::move(pressure);
     emit pressureChanged();
   }
-  // What values are told in beside counts: "none: values are counts", or the calibration's name.
+  // The calibration as text: "none: values are counts", or its name.
   const QString& calibration() const noexcept { return calibration_; }
   void setCalibration(const QString& text) {
     if (text == calibration_) return;
@@ -36,8 +36,8 @@ class DerivedResults : public QObject {
     slips_ = std::move(slips);
     emit slipsChanged();
   }
-  // Why matrices of the connected hand can't tell the limit that is chosen: one text per matrix,
-  // empty: it can; none: all.
+  // One text per matrix of the connected hand: why the matrix can't measure the limit chosen for a
+  // grasp; an empty text: it can. An empty vector: all matrices can.
   const std::vector<QString>& unmeasurable() const noexcept { return unmeasurable_; }
   void setUnmeasurable(const std::vector<QString>& why) {
     unmeasurable_ = why;

@@ -32,11 +32,13 @@ void DisplayedSource::show(OpenedRecordingPtr recording) {
   if (!recording && live_.source()) {
     unfiltered_ = filtered_ = nullptr;
     playback_.setProfile(std::nullopt);
-    if (isLive()) history_ = nullptr;  // to be taken anew by all
+    // Makes showLive() announce the source again.
+    if (isLive()) history_ = nullptr;
     return showLive();
   }
   saveViewPosition();
-  // Until the new one is everywhere nobody asks it for the old one's frame.
+  // Without a profile, no listener can ask for a frame of the old recording before all have the new
+  // one.
   playback_.setProfile(std::nullopt);
   unfiltered_ = recording;
   filtered_ = recording;
@@ -91,7 +93,7 @@ void DisplayedSource::replace(const OpenedRecordingPtr& recording, const OpenedR
   unfiltered_ = filtered_ = isLive() ? now : nullptr;
 }
 
-// Four times a second.
+// Called four times a second.
 void DisplayedSource::look() {
   LiveSource* now = source();
   if (!now || !hand_) return;

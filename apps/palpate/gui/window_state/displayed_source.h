@@ -1,5 +1,5 @@
-// What is looked at: a recording, as recorded and as seen through the filters, or what is
-// connected. All that is known of it is new before anybody hears of it.
+// Holds what the window shows: a recording, as recorded and as filtered, or the connected hand. All
+// members are up to date before the first signal is emitted.
 #pragma once
 
 #include <QObject>
@@ -24,63 +24,69 @@ class DisplayedSource : public QObject {
  public:
   enum class Kind { kNothing, kRecording, kLive };
 
-  // All of them must outlive it.
+  // All arguments must outlive this object.
   DisplayedSource(LiveController& live,
                   PlaybackController& playback,
                   Selection& selection,
                   QObject* parent = nullptr);
 
-  // From now on what is connected is looked at when it comes: once all others that must know of it
-  // first listen.
+  // From now on a new connection is shown as soon as it is open. Call it once all other objects
+  // that must learn of a connection first are connected to LiveController::sourceOpened.
   void follow();
 
   Kind kind() const noexcept { return kind_; }
   bool isLive() const noexcept { return kind_ == Kind::kLive; }
   bool isRecording() const noexcept { return kind_ == Kind::kRecording; }
-  // As recorded; null unless a recording is looked at.
+  // The displayed recording as recorded; null unless a recording is shown.
   OpenedRecordingPtr recorded() const { return isRecording() ? unfiltered_ : nullptr; }
-  // The recording that is looked at, or that comes back when what is live is left; null: none.
+  // The displayed recording or, while the view is live, the recording to which the window returns;
+  // null: none.
   const OpenedRecordingPtr& unfilteredRecording() const noexcept { return unfiltered_; }
-  // unfilteredRecording(), or the same through the filters.
+  // unfilteredRecording(), as recorded or filtered.
   const OpenedRecordingPtr& filteredRecording() const noexcept { return filtered_; }
-  // What is connected, where that is looked at; null: it isn't, or is about to go.
+  // The live source while it is shown; null when it isn't, or when it is about to be closed.
   LiveSource* source() const { return isLive() ? live_.source() : nullptr; }
-  // Of what is looked at; null: nothing is.
+  // The hand of the displayed source; null: nothing is shown.
   const HandDescription* hand() const;
-  // There is a frame to be seen.
+  // Whether a recording with at least one frame is shown.
   bool hasFrames() const;
 
-  // Null: what is connected is looked at, else nothing.
+  // Shows `recording`. With null, shows the live source, or nothing when there is no connection.
   void show(OpenedRecordingPtr recording);
   void showLive();
-  // The same recording, other values: filtered, or as recorded.
+  // Shows the same recording with other values: filtered, or as recorded.
   void setFilteredRecording(OpenedRecordingPtr seen);
-  // A long recording has been read through: its range, gaps and what is found in it are known now.
+  // To be called when a long recording has been read completely: its range, gaps and findings are
+  // known now.
   void notifyMoreKnown();
-  // Closed, or read anew as `now` (null: closed): it isn't looked at any more. show() follows.
+  // To be called when `recording` was closed (`now` null) or read again as `now`: it isn't shown
+  // any more. A call of show() must follow.
   void replace(const OpenedRecordingPtr& recording, const OpenedRecordingPtr& now);
 
-  // Where a recording was left, and will be found again.
+  // The position at which the user left a recording and at which it opens again; null: not shown
+  // before.
   const ViewPosition* viewPosition(const std::filesystem::path& path) const;
   void setLeftAt(const std::filesystem::path& path, const ViewPosition& left) {
     leftAt_[path] = left;
   }
   void saveViewPosition();
 
-  // Filtered already: what is seen of a recording from the start. Empty, or null: as recorded.
+  // Returns the filtered recording if it exists already, so that it is shown from the start. Empty,
+  // or a null result: it is shown as recorded.
   std::function<OpenedRecordingPtr(const OpenedRecordingPtr&)> filtered;
 
  signals:
-  // What is looked at is another one.
+  // Another source is shown.
   void changed();
-  // So are the values of filteredRecording() or of the source, or they alone: take them.
+  // filteredRecording() or source() has changed, with or without changed() before: listeners take
+  // the new one.
   void filteredRecordingChanged();
-  // Of the same recording the moment that is shown has other values.
+  // The recording and the position are the same, but the values are others.
   void valuesChanged();
-  // All have taken it, and the frame where it was left is shown.
+  // All listeners have taken the new source, and the frame at which the user left it is shown.
   void shown();
   void moreKnown();
-  // Of the connected hand other taxels are scanned, or another hand was found.
+  // The connected hand scans other taxels than before, or another hand was found.
   void handChanged();
 
  private:
@@ -93,8 +99,10 @@ class DisplayedSource : public QObject {
   Kind kind_ = Kind::kNothing;
   OpenedRecordingPtr unfiltered_;
   OpenedRecordingPtr filtered_;
-  std::optional<HandDescription> hand_;     // of what is live
-  const SignalHistory* history_ = nullptr;  // of what is live; never looked into
+  // The hand of the live source.
+  std::optional<HandDescription> hand_;
+  // Identifies the live source; never dereferenced.
+  const SignalHistory* history_ = nullptr;
   std::map<std::filesystem::path, ViewPosition> leftAt_;
 };
 

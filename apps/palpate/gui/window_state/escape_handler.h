@@ -1,5 +1,5 @@
-// What the key Escape does: one thing at a time, the most urgent first. Who can be left or
-// cancelled says so here.
+// Decides what the key Escape does: one thing at a time, the most urgent first. Features register
+// here what can be left or cancelled.
 #pragma once
 
 #include <functional>
@@ -10,25 +10,31 @@ namespace palpate::gui {
 
 class EscapeHandler {
  public:
-  // In this order.
+  // In the order in which Escape tries them.
   enum class Order {
-    kShow,   // what fills the screen
-    kAlarm,  // messages
+    // A view that fills the screen.
+    kShow,
+    // Messages.
+    kAlarm,
     kMessage,
-    kOpening,  // work that runs
+    // Work that runs.
+    kOpening,
     kExport,
     kWork,
     kComputation,
     kConnecting,
-    kTaxels,  // what is chosen
+    // Selections.
+    kTaxels,
     kSpan,
-    kCompare,  // other views
+    // Other views.
+    kCompare,
     kFullScreen
   };
-  // `leave` returns whether there was anything to leave. What it refers to must outlive this.
+  // `leave` returns whether there was anything to leave. What it refers to must outlive this
+  // object.
   void add(Order order, std::function<bool()> leave) { all_[order].push_back(std::move(leave)); }
   void clear() { all_.clear(); }
-  // The first of all that has anything to leave, at this order or behind it.
+  // Calls the registered functions in order, from `from` on, until one has left something.
   void press(Order from = Order::kShow) const {
     for (auto at = all_.lower_bound(from); at != all_.end(); ++at)
       for (const auto& leave : at->second)

@@ -62,7 +62,7 @@ const std::vector<GraspSegment>& EventController::graspsOf(const OpenedRecording
   auto& found = grasps_[recording.get()];
   if (!recording->isLong())
     return found = findGrasps(recording->profile, recording->table, recording->timing);
-  // Of hours: beside the window.
+  // The recording may last hours: its grasps are found in the background.
   auto result = std::make_shared<std::vector<GraspSegment>>();
   finder_.start(
       {},
@@ -70,7 +70,8 @@ const std::vector<GraspSegment>& EventController::graspsOf(const OpenedRecording
         *result = findGrasps(recording->profile, {}, progress);
       },
       [this, result, recording] {
-        if (!grasps_.contains(recording.get())) return;  // closed meanwhile
+        // The recording was closed meanwhile.
+        if (!grasps_.contains(recording.get())) return;
         grasps_[recording.get()] = std::move(*result);
         renewMarks();
       });
@@ -100,7 +101,8 @@ void EventController::addGrasp(const RecordingEvent& segment) {
   });
 }
 
-// What was found becomes what a person says: all but `without`, which is being changed.
+// Turns all grasps found automatically into events of the user, except `without`, which the caller
+// changes or removes.
 void EventController::keepFoundGrasps(EventEditor& editor, std::optional<std::size_t> without) {
   const auto isSegment = [](const RecordingEvent& event) { return event.kind == kSegmentKind; };
   const auto& now = editor.events();
@@ -147,7 +149,7 @@ void EventController::remove(std::size_t index) {
     const bool none = std::none_of(left.begin(), left.end(), [](const RecordingEvent& event) {
       return event.kind == kSegmentKind;
     });
-    // Else what was found would come back.
+    // Without this event the grasps found automatically would be shown again.
     if (mark.lane == EventLane::kGrasps && none)
       now->add(removedGraspEvent(*displayed_.recorded()), name);
   });

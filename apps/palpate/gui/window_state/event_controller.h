@@ -1,6 +1,6 @@
-// The events of the recordings that are open: grasps, labels and notes as they are edited, and what
-// was found, as the marks that stand below the timeline. The user is asked before anything that is
-// not saved would be lost.
+// Holds the events of the open recordings (grasps, labels and notes, as edited, and the grasps
+// found automatically) and the marks made of them, which the rows below the timeline show. Asks the
+// user before unsaved events would be lost.
 #pragma once
 
 #include <QObject>
@@ -28,50 +28,52 @@ namespace palpate::gui {
 class EventController : public QObject {
   Q_OBJECT
  public:
-  // All of them must outlive it.
+  // All arguments must outlive this object.
   EventController(DisplayedSource& displayed,
                   OpenRecordings& recordings,
                   Messages& messages,
                   const UserPrompts& prompts,
                   QObject* parent = nullptr);
 
-  // Of the recording that is looked at; null: none is.
+  // Editor of the events of the displayed recording; null: no recording is shown.
   EventEditor* editor();
-  // As the events say, or as found; of a long recording they are found beside the window, and
-  // changed() follows.
+  // The grasps found in the recording. Those of a long recording are found in the background; then
+  // the result is empty at first and changed() follows.
   const std::vector<GraspSegment>& graspsOf(const OpenedRecordingPtr& recording);
-  // Of the recording that is looked at.
+  // The marks of the displayed recording.
   const std::vector<EventMark>& marks() const noexcept { return marks_; }
-  // What others found, among the marks: called whenever they are made anew. It must outlive this,
-  // or be forgotten.
+  // Lets other features add marks of what they found; called whenever the marks are rebuilt. What
+  // the function refers to must outlive this object, or forgetFound() must be called first.
   using Found = std::function<void(const OpenedRecordingPtr&, std::vector<EventMark>&)>;
   void addFound(Found found) { found_.push_back(std::move(found)); }
   void forgetFound() { found_.clear(); }
   void renewMarks();
 
   void add(const RecordingEvent& event, const QString& name);
-  // A grasp that a person says is there: from then on what was found is what people say, too.
+  // Adds a grasp marked by the user. All grasps found automatically become events of the user, too.
   void addGrasp(const RecordingEvent& segment);
-  // Of a mark that can be edited; others are left as they are.
+  // Changes the event behind a mark; a mark that can't be edited is left as it is.
   void change(std::size_t mark,
               const std::function<void(RecordingEvent&)>& change,
               const QString& name);
   void remove(std::size_t mark);
-  // Instead of the events of its kind that are there; nothing: only takes these away.
+  // Replaces all events of this kind by `event`; with nothing, only removes them.
   void keep(const std::string& kind,
             const std::optional<RecordingEvent>& event,
             const QString& name);
 
   bool hasUnsaved(const OpenedRecordingPtr& recording) const;
-  // False: it couldn't be saved, and was said.
+  // Returns false when saving failed; the failure is shown to the user.
   bool save(const OpenedRecordingPtr& recording);
-  // Asks once about what isn't saved; false: the user would rather go on. What is discarded is
-  // still there: it goes with its recording, or by discardAll().
+  // Asks the user once about all unsaved events; returns false when the user cancels or saving
+  // fails. Discarded events stay in the editor until their recording is closed, or until
+  // discardAll().
   bool settle(const std::vector<OpenedRecordingPtr>& recordings);
   void discardAll() { editors_.clear(); }
 
  signals:
-  void changed();  // marks(), or what the editor holds
+  // marks() or the events in the editor have changed.
+  void changed();
 
  private:
   void keepFoundGrasps(EventEditor& editor, std::optional<std::size_t> without);
@@ -81,10 +83,12 @@ class EventController : public QObject {
   OpenRecordings& recordings_;
   Messages& messages_;
   const UserPrompts& prompts_;
-  BackgroundJob finder_;  // of grasps in long recordings
+  // Finds the grasps of long recordings.
+  BackgroundJob finder_;
   std::map<const OpenedRecording*, std::unique_ptr<EventEditor>> editors_;
-  std::map<const OpenedRecording*, std::vector<GraspSegment>> grasps_;  // that were found
-  // Their files are being read anew, and their labels were discarded.
+  // The grasps that were found.
+  std::map<const OpenedRecording*, std::vector<GraspSegment>> grasps_;
+  // Recordings whose files are being read again and whose unsaved events the user discarded.
   std::set<const OpenedRecording*> discarded_;
   std::vector<Found> found_;
   std::vector<EventMark> marks_;

@@ -36,7 +36,8 @@ EventLane laneOf(const std::string& kind) {
   if (kind == kSegmentKind) return EventLane::kGrasps;
   if (kind == kLabelKind || kind == "mark") return EventLane::kLabels;
   if (kind == kNoteKind) return EventLane::kNotes;
-  if (kind == "slip") return EventLane::kSlips;  // was seen while it was recorded
+  // Slip detected while recording.
+  if (kind == "slip") return EventLane::kSlips;
   return kind == "gap" ? EventLane::kGaps : EventLane::kOthers;
 }
 
@@ -179,7 +180,7 @@ void addSlips(const SlipSeries& series,
   bars.reserve(series.slips.size());
   for (const SlipSegment& slip : series.slips) {
     const double fromS = recording.timeAt(slip.begin), toS = recording.timeAt(slip.end);
-    // Matrices that slip at the same time share a bar.
+    // Matrices that slip at the same time share one bar.
     if (last == nullptr || fromS > last->toS) {
       last = &bars.emplace_back();
       last->lane = EventLane::kSlips;
@@ -206,7 +207,7 @@ std::vector<EventMark> marksOf(const OpenedRecording& recording,
                                std::span<const GraspSegment> grasps) {
   std::vector<EventMark> marks;
   for (std::size_t i = 0; i < events.size(); ++i)
-    // What the stamps say about gaps is exact; the recorder's word for it stands among them.
+    // Gaps are exact from the time stamps; the gap events that the recorder wrote are left out.
     if (events[i].kind != "gap" && !isRemovedGrasp(events[i]))
       marks.push_back(markOf(recording, events[i], i));
   const bool corrected = std::any_of(

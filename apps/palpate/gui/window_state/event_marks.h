@@ -1,5 +1,5 @@
-// What the rows below the timeline show: the grasps, gaps, labels, notes and other events of a
-// recording as spans of time with a name.
+// Makes the marks in the rows below the timeline: the grasps, gaps, labels, notes and other events
+// of a recording, each a span of time with a name.
 #pragma once
 
 #include <QString>
@@ -29,49 +29,59 @@ inline constexpr std::array kAllEventLanes = {EventLane::kGrasps,
                                               EventLane::kLabels,
                                               EventLane::kNotes,
                                               EventLane::kOthers};
-QString nameOf(EventLane lane);  // "grasps", ..
+// "grasps", "gaps", ..
+QString nameOf(EventLane lane);
 
-// Kinds of events that people make.
+// Kinds of events that the user makes.
 inline constexpr const char* kLabelKind = "label";
 inline constexpr const char* kNoteKind = "note";
-inline constexpr const char* kSegmentKind = "segment";  // a grasp that a person has corrected
+// A grasp that the user has corrected.
+inline constexpr const char* kSegmentKind = "segment";
 
 inline constexpr const char* kGraspText = "grasp";
 
 struct EventMark {
   EventLane lane = EventLane::kOthers;
-  double fromS = 0.0;                // from the first frame
-  double toS = 0.0;                  // fromS: a moment
-  QString text;                      // on the bar
-  QString detail;                    // more of it, for a tool tip
-  std::optional<std::size_t> event;  // in the list of events; a grasp that was found has none
-  std::optional<std::size_t> grasp;  // in the list of grasps that were found
+  // [s] from the first frame.
+  double fromS = 0.0;
+  // [s] from the first frame; equal to fromS for a moment.
+  double toS = 0.0;
+  // Text on the bar.
+  QString text;
+  // Longer text for the tool tip.
+  QString detail;
+  // Index in the list of events; a grasp found automatically has none.
+  std::optional<std::size_t> event;
+  // Index in the list of grasps found automatically.
+  std::optional<std::size_t> grasp;
   bool editable = false;
 };
 
-// By lane, then time. Where grasps have been corrected (segments), what was found isn't shown.
+// The marks sorted by lane, then by time. Where the user has corrected grasps (segments), the
+// grasps found automatically aren't shown.
 std::vector<EventMark> marksOf(const OpenedRecording& recording,
                                std::span<const RecordingEvent> events,
                                std::span<const GraspSegment> grasps);
 
-// Loading steps that were found (dock Calibrate), among the others in their order.
+// Inserts the loading steps found by the dock Calibrate into `marks`, in order.
 void addSteps(const StepReport& report,
               const OpenedRecording& recording,
               std::vector<EventMark>& marks);
 
-// Slip that was found (dock Slip), likewise: matrices that slip together share a bar.
+// Inserts the slip found by the dock Slip into `marks`, in order; matrices that slip at the same
+// time share a bar.
 void addSlips(const SlipSeries& series,
               const OpenedRecording& recording,
               std::vector<EventMark>& marks);
 
-// A grasp that was found, as an event.
+// Converts a grasp found automatically into an event.
 RecordingEvent segmentOf(const OpenedRecording& recording, const GraspSegment& grasp);
 
-// Says that a recording has no grasp, whatever would be found.
+// An event that states that the recording has no grasp, so that none is searched for.
 RecordingEvent removedGraspEvent(const OpenedRecording& recording);
 bool isRemovedGrasp(const RecordingEvent& event);
 
-// Seconds from the first frame, as a time of the recording.
+// Converts seconds from the first frame into a time of the recording [us].
 std::int64_t timeUsOf(const OpenedRecording& recording, double seconds);
 
 }  // namespace palpate::gui

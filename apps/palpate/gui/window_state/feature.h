@@ -1,5 +1,6 @@
-// A part of the window that plugs in: it makes its widgets, connects them to the bench, and says
-// what it adds to the window. Features are listed in shell/features.cpp and know each other not.
+// Base class of the features, the parts that plug into the window: a feature makes its widgets,
+// connects them to the window state, and returns the docks, views and banners that it adds to the
+// window. shell/features.cpp lists all features; none knows another one.
 #pragma once
 
 #include <QKeySequence>
@@ -15,36 +16,49 @@ namespace palpate::gui {
 
 class Dock;
 
-// A dock, and where it stands until somebody moves it.
+// A dock and its default place, which the user can change.
 struct DockSpec {
   Dock* dock = nullptr;
-  QKeySequence key;  // shows and hides it
+  // The key that shows and hides the dock.
+  QKeySequence key;
   Qt::DockWidgetArea area = Qt::RightDockWidgetArea;
-  Qt::DockWidgetArea liveArea = Qt::RightDockWidgetArea;  // while what is connected is shown
-  int tab = -1;        // place among the tabs on the right side; -1: it is none of them
-  bool above = false;  // over the dock at the bottom
-  bool shown = false;  // until somebody closes it
+  // The place while a live source is shown.
+  Qt::DockWidgetArea liveArea = Qt::RightDockWidgetArea;
+  // Position among the tabs on the right side; -1: the dock isn't one of the tabs.
+  int tab = -1;
+  // Whether the dock is placed above the dock at the bottom.
+  bool above = false;
+  // Whether the dock is visible by default, with a recording and with a live source.
+  bool shown = false;
   bool shownLive = false;
-  // It stays as it is, whatever else is shown; remembered under its name.
+  // Whether the dock keeps its visibility whatever source is shown; the settings store it under the
+  // name of the dock.
   bool everywhere = false;
-  int preferredWidthPx = 0;          // so wide when somebody asks for it; 0: as it is
-  double shareOfHeight = 0.0;        // of the window, likewise
-  std::function<void()> asked = {};  // somebody has asked for it by its key; may be empty
+  // Least width when the user asks for the dock by its key [px]; 0: as it is.
+  int preferredWidthPx = 0;
+  // Least height then, as a share of the height of the window; 0: as it is.
+  double shareOfHeight = 0.0;
+  // Called when the user asks for the dock by its key; may be empty.
+  std::function<void()> asked = {};
 };
 
-// What stands in the middle of the window.
+// A view in the centre of the window.
 struct CentralViewSpec {
   enum class Where {
-    kStart,    // when nothing is looked at
-    kBeside,   // one next to the other
-    kInstead,  // of these, while two recordings are compared
-    kBelow     // of all, while a recording is looked at
+    // Shown when there is no source.
+    kStart,
+    // Side by side with the other views.
+    kBeside,
+    // In place of the kBeside views while two recordings are compared.
+    kInstead,
+    // Below all other views, while a recording is shown.
+    kBelow
   };
   Where where = Where::kBeside;
   QWidget* widget = nullptr;
 };
 
-// A line over the centre, seen while it has something to say.
+// A line above the centre, visible while it has something to show.
 struct BannerSpec {
   enum class Order { kAlarm, kMessage, kOffer, kOpening, kExport, kWork };
   Order order = Order::kWork;
@@ -58,26 +72,31 @@ class Feature : public QObject {
 
   virtual std::vector<DockSpec> docks() { return {}; }
   virtual std::vector<CentralViewSpec> centre() { return {}; }
-  virtual std::vector<ExportedView> views() { return {}; }  // to be taken away
+  // Views that can be exported.
+  virtual std::vector<ExportedView> views() { return {}; }
   virtual std::vector<BannerSpec> strips() { return {}; }
-  virtual void start() {}     // all features are there
-  virtual void remember() {}  // the window closes: into the settings
-  virtual void settle() {}    // tests and pictures wait
+  // Called once all features exist.
+  virtual void start() {}
+  // Called when the window closes: stores what belongs into the settings.
+  virtual void remember() {}
+  // Waits until all background work has ended; for tests and pictures.
+  virtual void settle() {}
 
  signals:
-  void dockRequested(palpate::gui::Dock* dock);  // one of its own shall be seen
+  // Asks the window to show one of the docks of this feature.
+  void dockRequested(palpate::gui::Dock* dock);
 
  protected:
   WindowState& state() const noexcept { return windowState_; }
   QWidget* window() const noexcept { return window_; }
-  // A widget of its own is in the colours of the window, always.
+  // Keeps a widget of this feature in the colours of the window's theme.
   template <class Widget>
   void followTheme(Widget* widget) {
     connect(&windowState_.appearance, &ViewAppearance::themeChanged, widget, [this, widget] {
       widget->setTheme(windowState_.appearance.theme());
     });
   }
-  // What an action does when it is chosen.
+  // Connects an action to what it does.
   template <class Do>
   void on(QAction* action, Do what) {
     connect(action, &QAction::triggered, this, what);

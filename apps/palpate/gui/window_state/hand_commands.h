@@ -1,4 +1,5 @@
-// What the user asks of the connected hand, for the parts that act on it besides the dock Hand.
+// Announces what the user commands the connected hand to do, for features other than the dock Hand
+// that react to it.
 #pragma once
 
 #include <QObject>
@@ -15,13 +16,14 @@ class HandCommands : public QObject {
  public:
   explicit HandCommands(QObject* parent = nullptr) : QObject(parent) {}
 
-  // The noise lines that the high sensitivity of a hand of this name goes by; nothing, or empty:
-  // none are applied.
+  // Returns the noise lines to which high sensitivity sets the thresholds of the hand of this name.
+  // An empty function, or nothing as its result: no noise lines are applied.
   std::function<std::optional<NoiseFloor>(const std::string& hand)> noiseLines;
 
  signals:
-  void asked();  // a motion, or Stop
-  // High sensitivity begins or ends: thresholds at the noise let ghosts through.
+  // The user commands a motion, or Stop.
+  void asked();
+  // High sensitivity begins or ends. With thresholds at the noise, ghost readings appear.
   void highSensitivityChanged(bool on);
 };
 

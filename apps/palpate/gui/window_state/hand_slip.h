@@ -1,4 +1,4 @@
-// How the contact of a matrix moved lately, for arrows on the hand.
+// How the contact on a matrix moved recently, drawn as arrows on the hand in space.
 #pragma once
 
 #include <cstddef>
@@ -6,14 +6,17 @@
 
 namespace palpate::gui {
 
-// In taxels: x right, y down.
+// Lengths in taxels: x to the right, y down.
 struct HandSlip {
   std::size_t matrix = 0;
-  double x = 0.0;  // where it is
+  // Position of the contact.
+  double x = 0.0;
   double y = 0.0;
-  double dx = 0.0;  // what it moved by
+  // Displacement of the contact.
+  double dx = 0.0;
   double dy = 0.0;
-  std::optional<double> turnDeg = {};  // clockwise on the screen
+  // Rotation [deg], clockwise on the screen.
+  std::optional<double> turnDeg = {};
   bool slipping = false;
   bool operator==(const HandSlip&) const = default;
 };

@@ -1,4 +1,4 @@
-// The menus and boxes of the window that a feature fills or opens elsewhere, too.
+// Menus and combo boxes of the window that features fill or also open elsewhere.
 #pragma once
 
 class QAction;
@@ -8,14 +8,22 @@ class QMenu;
 namespace palpate::gui {
 
 struct Menus {
-  QMenu* edit = nullptr;               // also shown over the timeline
-  QMenu* connections = nullptr;        // of the button Connect
-  QMenu* only = nullptr;               // one matrix of the hand in space alone
-  QMenu* scanned = nullptr;            // which taxels are scanned; also shown over the matrices
-  QMenu* recent = nullptr;             // files that were opened last
-  QComboBox* speed = nullptr;          // of the toolbar; index into PlaybackController::kSpeeds
-  QComboBox* recordings = nullptr;     // that are open
-  QAction* recordingsShown = nullptr;  // shows and hides it
+  // Menu Edit; also the context menu of the timeline.
+  QMenu* edit = nullptr;
+  // Menu of the button Connect.
+  QMenu* connections = nullptr;
+  // Shows only one matrix in the hand in space.
+  QMenu* only = nullptr;
+  // Which taxels are scanned; also the context menu of the matrices.
+  QMenu* scanned = nullptr;
+  // Files that were opened last.
+  QMenu* recent = nullptr;
+  // Speeds in the toolbar; the index is that of PlaybackController::kSpeeds.
+  QComboBox* speed = nullptr;
+  // The open recordings.
+  QComboBox* recordings = nullptr;
+  // Shows and hides the box of open recordings.
+  QAction* recordingsShown = nullptr;
 };
 
 }  // namespace palpate::gui

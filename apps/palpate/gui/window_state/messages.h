@@ -1,5 +1,6 @@
-// What the window says: in passing, in the status line; in the banner, until it is closed; of the
-// link, in its dock. All of it is kept in the log.
+// Distributes the messages of the window: short notices in the status line, failures in the banner
+// until it is closed, reports of the connection in the dock Link. All of them are written to the
+// log.
 #pragma once
 
 #include <QObject>
@@ -13,32 +14,33 @@ namespace palpate::gui {
 class Messages : public QObject {
   Q_OBJECT
  public:
-  // The log must outlive it.
+  // The log must outlive this object.
   explicit Messages(ActivityLog& log, QObject* parent = nullptr);
 
-  // For some seconds in the status line.
+  // Shows a notice in the status line for some seconds.
   void flash(const QString& notice);
   const QString& flashed() const noexcept { return flashed_; }
-  // What lies under the mouse; empty: nothing.
+  // Describes what is under the mouse pointer; empty: nothing.
   void hover(const QString& text);
   const QString& hovered() const noexcept { return hovered_; }
 
-  // A failure, in the banner.
+  // Shows a failure in the banner.
   void fail(const QString& message) { failAbout({}, message); }
-  // One that is withdrawn with its topic, when it isn't so any more.
+  // Shows a failure that withdraw() removes by its topic once the cause is gone.
   void failAbout(const QString& topic, const QString& message);
   void withdraw(const QString& topic);
   void dismissFailures();
 
-  // A line of the link: connected, recording begins, an alarm.
+  // Reports an event of the connection: connected, recording begins, an alarm.
   void logLink(const QString& line);
-  // Instead of what is offered: something goes on that ends by itself.
+  // Announces work that ends by itself, in place of the offer strip.
   void announce(const QString& text);
 
   ActivityLog& log() noexcept { return log_; }
 
  signals:
-  void changed();  // flashed() or hovered()
+  // flashed() or hovered() has changed.
+  void changed();
   void failed(const QString& topic, const QString& message);
   void withdrawn(const QString& topic);
   void failuresDismissed();

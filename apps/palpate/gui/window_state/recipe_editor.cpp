@@ -16,13 +16,13 @@ bool sound(const FilterStep& step) {
   }
 }
 
-// The options that depend on each other, brought into range of the one that was chosen.
+// Brings options that depend on each other into range of the option that was chosen.
 void reconcile(FilterStep& step, const std::string& chosen) {
   const FilterKind& kind = step.kind();
   if (kind.option("window") != nullptr && step.valueOrZero("centred") != 0.0 &&
       step.integer("window") % 2 == 0)
     step.explicitOptions["window"] = step.integer("window") + 1;
-  // What was chosen stays; the other one gives way until the step is sound.
+  // The chosen option stays; the other one changes until the step is valid.
   if (step.name == "median3d") {
     const char* other = chosen == "size" ? "window" : "size";
     while (step.integer(other) > 1 && !sound(step))

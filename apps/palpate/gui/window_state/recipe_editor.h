@@ -1,4 +1,4 @@
-// The recipe that a person edits, with every change undone and redone.
+// Holds the recipe of filters that the user edits, with undo and redo of every change.
 #pragma once
 
 #include <QObject>
@@ -14,20 +14,22 @@ class RecipeEditor : public QObject {
   explicit RecipeEditor(QObject* parent = nullptr) : QObject(parent) {}
 
   const Recipe& recipe() const noexcept { return recipe_; }
-  // The whole of it: a preset, a file. Throws std::invalid_argument; then nothing changes.
+  // Replaces the whole recipe, by a preset or a file. Throws std::invalid_argument and then changes
+  // nothing.
   void setRecipe(const Recipe& recipe);
-  // As setRecipe(), and nothing can be undone: at the start.
+  // As setRecipe(), but can't be undone; used at the start of the program.
   void restore(const Recipe& recipe);
 
-  // Behind `index` - 1. All throw std::out_of_range for a step that isn't there.
+  // Inserts the step before the one at `index`. This and the functions below throw
+  // std::out_of_range for a step that doesn't exist.
   void insert(std::size_t index, const FilterStep& step);
   void remove(std::size_t index);
-  // The step stands at `to` afterwards.
+  // Moves a step; its index is `to` afterwards.
   void move(std::size_t from, std::size_t to);
   void setEnabled(std::size_t index, bool enabled);
-  // One value after the other of the same option (a slider on its way) is one change. NaN:
-  // automatic. Takes what doesn't fit together (a window below its order) by moving the other
-  // options into range.
+  // Successive values of the same option (a slider being dragged) count as one change. NaN:
+  // automatic. Where the value doesn't fit the other options (a window shorter than its order
+  // needs), the others are moved into range.
   void setOption(std::size_t index, const std::string& key, double value);
   void setMatrices(std::size_t index, const std::vector<std::size_t>& matrices);
 
@@ -46,7 +48,9 @@ class RecipeEditor : public QObject {
   Recipe recipe_;
   std::vector<Recipe> past_;
   std::vector<Recipe> future_;
-  std::string lastWhat_;  // what the last change was of; empty: nothing that goes on
+  // The option of the last change, so that further values of it join that change; empty: a change
+  // of its own.
+  std::string lastWhat_;
 };
 
 }  // namespace palpate::gui

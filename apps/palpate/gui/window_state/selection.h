@@ -1,6 +1,6 @@
-// What is chosen of what is shown: taxels, a span of time, the part of the recording that is in
-// sight, the rows that are plotted. Views show it and change it here; each hears of the others'
-// changes.
+// Holds what the user has selected in the displayed source: taxels, a span of time, the visible
+// part of the recording, the plotted rows. Views show the selection and change it here; each is
+// notified of the changes of the others.
 #pragma once
 
 #include <QObject>
@@ -21,28 +21,29 @@ class Selection : public QObject {
   void setTaxels(const TaxelSelection& taxels);
   void clearTaxels();
 
-  // Of the recording that is shown; nothing: none.
+  // The selected span of the displayed recording; nothing: no span is selected.
   const std::optional<TimeSpan>& span() const noexcept { return span_; }
-  // In any order; clamped to the recording.
+  // The ends may come in any order; they are clamped to the recording.
   void setSpan(std::optional<TimeSpan> span);
 
-  // As the timeline shows it. What is asked for may be changed by it: a little air, the ends of the
-  // recording.
+  // The span that the timeline shows. It may differ from the requested one by a margin, or because
+  // it is limited to the recording.
   const TimeSpan& visibleSpan() const noexcept { return visibleSpan_; }
-  void setVisibleSpan(const TimeSpan& span);  // by the timeline: so it is
+  // Called by the timeline, with the span that it shows.
+  void setVisibleSpan(const TimeSpan& span);
   void show(const TimeSpan& span) { emit visibleSpanRequested(span); }
   void showWithMargin(const TimeSpan& span) { emit spanRequested(span); }
   void showAll() { emit fullRangeRequested(); }
   void zoomAbout(double seconds, double factor) { emit zoomRequested(seconds, factor); }
 
-  // Which rows are plotted: a row per matrix, the whole hand last.
+  // Which rows are plotted: one row per matrix, the whole hand last.
   const std::vector<bool>& plotted() const noexcept { return plotted_; }
   void setPlotted(const std::vector<bool>& plotted);
 
-  // A span that is shown is no shorter [s], not even of a single frame.
+  // Shortest visible span [s], even for a single frame.
   static constexpr double kShortestS = 0.05;
-  // Another recording of so many seconds: no span of it is chosen, all of it is in sight. 0: there
-  // is none.
+  // Starts anew for another recording of this duration [s]: no span is selected, all of it is
+  // visible. 0: there is no recording.
   void begin(double durationS);
   double durationS() const noexcept { return durationS_; }
 

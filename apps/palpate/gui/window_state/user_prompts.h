@@ -1,5 +1,5 @@
-// What the window asks the user, each in a dialogue of the feature that wants to know. Tests answer
-// themselves.
+// The questions that the window asks the user; the feature that owns a question supplies its
+// dialogue. Tests supply answers instead.
 #pragma once
 
 #include <QString>
@@ -13,21 +13,21 @@
 namespace palpate::gui {
 
 struct UserPrompts {
-  // Files to open; none: cancelled.
+  // Asks for files to open; an empty list: cancelled.
   std::function<QStringList()> recordings;
-  // Nothing: cancelled.
+  // Asks what to connect to; nothing: cancelled.
   std::function<std::optional<Connection>(const Connection& last)> connection;
-  // What a recording shall be called, before it begins or in between; nothing: cancelled.
+  // Asks for name and settings of recordings, before one begins or in between; nothing: cancelled.
   std::function<std::optional<RecordingSettings>(const RecordingSettings&, const QString& button)>
       recording;
-  // Whether a recording that runs may be ended now.
+  // Asks whether the running recording may be ended now.
   std::function<bool()> endRecording;
-  // The text of a label or a note; nothing: cancelled. `title` says which, `text` is what it is
-  // now.
+  // Asks for the text of a label or a note; nothing: cancelled. `title` is the title of the
+  // dialogue, `text` the present text.
   std::function<std::optional<QString>(const QString& title, const QString& text)> text;
-  // Where a part of a recording shall be saved; an empty answer means cancelled.
+  // Asks where to save a part of a recording; an empty answer: cancelled.
   std::function<QString(const QString& suggestion)> cropped;
-  // Whether labels that aren't saved shall be.
+  // Asks whether to save unsaved labels.
   enum class Unsaved { kSave, kDiscard, kCancel };
   std::function<Unsaved(const QString& names)> unsaved;
 };

@@ -1,5 +1,5 @@
-// How the window looks: theme, colours, range, the signal that is plotted. Remembered from one day
-// to the next.
+// Holds how the window looks (theme, colours, range, the plotted signal) and stores it in the
+// settings for the next start.
 #pragma once
 
 #include <QObject>
@@ -13,7 +13,7 @@ namespace palpate::gui {
 class ViewAppearance : public QObject {
   Q_OBJECT
  public:
-  // The settings must outlive it.
+  // The settings must outlive this object.
   explicit ViewAppearance(QSettings& settings, QObject* parent = nullptr)
       : QObject(parent), settings_(settings), view_(loadViewSettings(settings)) {}
 
@@ -29,7 +29,7 @@ class ViewAppearance : public QObject {
     emit themeChanged();
     emit changed();
   }
-  // Writes it to the settings, with what the playback is set to.
+  // Writes the appearance to the settings, together with the settings of the playback.
   void remember(double speed, bool loop, bool skipGaps) {
     view_.speed = speed;
     view_.loop = loop;
@@ -39,7 +39,8 @@ class ViewAppearance : public QObject {
 
  signals:
   void themeChanged();
-  void changed();  // anything of view()
+  // Any member of view() has changed.
+  void changed();
 
  private:
   QSettings& settings_;

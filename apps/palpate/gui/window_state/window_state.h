@@ -1,5 +1,5 @@
-// What the parts of the window share: what is shown, chosen and said now. Features are given this,
-// and never each other.
+// The state that the features of the window share: the displayed source, the selection, messages,
+// actions. Every feature is given this state, and none knows another feature.
 #pragma once
 
 #include <QSettings>
@@ -36,18 +36,26 @@
 
 namespace palpate::gui {
 
-// What the window takes from outside; tests hand in their own.
+// What the window takes from its surroundings; tests supply their own.
 struct WindowEnvironment {
-  std::filesystem::path dataFolder;           // with the demo recording
-  QString settingsPath;                       // INI file
-  const Clock* clock = nullptr;               // null: the system's
-  RecordingOpener::Read read = {};            // empty: openRecording
-  std::vector<double> assumedAnglesDeg = {};  // of recordings without joint angles; empty: none
-  std::optional<Recipe> recipe = {};          // switched on; nothing: what was there last
-  bool offerUnfinished = false;  // recordings that an earlier day left, when the window opens
+  // Folder with the demo recording.
+  std::filesystem::path dataFolder;
+  // Path of the INI file of the settings.
+  QString settingsPath;
+  // Null: the system's clock.
+  const Clock* clock = nullptr;
+  // How a recording is read; empty: openRecording().
+  RecordingOpener::Read read = {};
+  // Joint angles assumed for recordings that have none [deg]; empty: none.
+  std::vector<double> assumedAnglesDeg = {};
+  // Recipe to switch on; nothing: that of the last session.
+  std::optional<Recipe> recipe = {};
+  // Whether the window, when it opens, offers to salvage recordings that an earlier session left
+  // unfinished.
+  bool offerUnfinished = false;
 };
 
-// Made in this order, and gone in the other one.
+// The members are constructed in this order and destroyed in the reverse order.
 struct WindowState {
   explicit WindowState(const WindowEnvironment& environment, QWidget* window);
 
@@ -77,23 +85,24 @@ struct WindowState {
 
   std::filesystem::path demoRecording() const;
 
-  // In the background; what was said of earlier files is withdrawn.
+  // Opens the files in the background; messages about earlier files are withdrawn.
   void open(const std::vector<std::filesystem::path>& files,
             OpenRequest::Then then = OpenRequest::Then::kShowFirst);
-  // Asks for them first.
+  // Asks the user for the files, then opens them.
   void askAndOpen(OpenRequest::Then then = OpenRequest::Then::kShowFirst);
-  // Ends what is connected before; never moves a hand.
+  // Ends the previous connection first; never moves a hand.
   void connectTo(const Connection& connection);
 
-  // Frames that are selected in the timeline; nothing: none.
+  // The frames selected in the timeline; nothing: none.
   std::optional<FrameSpan> selectedFrames() const;
-  // Of files that are made of what is shown, without folder and ending: "ball", "ball_frame_00042",
+  // Names for exported files, without folder and extension: "ball", "ball_frame_00042",
   // "live_101502".
   QString recordingStem() const;
   QString frameStem() const;
-  // Of every frame of the recording that is looked at, without their painter; nothing: none is.
+  // The pictures of every frame of the displayed recording, without their painter; nothing: no
+  // recording is shown.
   std::optional<FramePictures> framePictures(const QString& suffix) const;
-  // What of, and when, over and below a picture.
+  // Title above a picture and caption below it: what it shows, and of which time.
   QString pictureTitle() const;
   QString pictureCaption() const;
 };
