@@ -1,4 +1,5 @@
-// NumPy arrays in and out, JSON as Python has it, words for choices: what all bindings share.
+// Conversions that all Python bindings share: NumPy arrays, JSON as Python objects, and names of
+// choices.
 #pragma once
 
 #include <cstdint>
@@ -23,15 +24,17 @@ using DoubleArray = pybind11::array_t<double, pybind11::array::c_style>;
 using FloatArray = pybind11::array_t<float, pybind11::array::c_style>;
 using TimeArray = pybind11::array_t<std::int64_t, pybind11::array::c_style>;
 using FlagArray = pybind11::array_t<bool, pybind11::array::c_style>;
-// Arguments: any array or list of numbers.
+// For arguments: any array or list of numbers.
 using Numbers = pybind11::array_t<double, pybind11::array::c_style | pybind11::array::forcecast>;
 
-// All raise ValueError naming the argument and the shape it should have.
+// These functions raise ValueError that names the argument and the required shape.
 std::vector<double> vectorOf(const Numbers& array, const char* name);
-Eigen::MatrixXd matrixOf(const Numbers& array, const char* name);  // (rows, columns)
-// (k, 3): points as rows.
+// Shape (rows, columns).
+Eigen::MatrixXd matrixOf(const Numbers& array, const char* name);
+// Shape (k, 3): one point per row.
 std::vector<Eigen::Vector3d> pointsOf(const Numbers& array, const char* name);
-std::string shapeText(const pybind11::array& array);  // "(3, 4)"
+// The shape as text: "(3, 4)".
+std::string shapeText(const pybind11::array& array);
 
 DoubleArray arrayOf(const Eigen::MatrixXd& matrix);
 DoubleArray arrayOf(const Eigen::VectorXd& vector);
@@ -40,7 +43,7 @@ pybind11::array_t<T> arrayOf(const std::vector<T>& values) {
   return pybind11::array_t<T>(static_cast<pybind11::ssize_t>(values.size()), values.data());
 }
 
-// A column of `count` values: of(i) each.
+// An array of `count` values of(i).
 template <typename T, typename Of>
 pybind11::array_t<T> column(std::size_t count, const Of& of) {
   pybind11::array_t<T> array(static_cast<pybind11::ssize_t>(count));
@@ -48,7 +51,7 @@ pybind11::array_t<T> column(std::size_t count, const Of& of) {
   for (std::size_t i = 0; i < count; ++i) out[i] = static_cast<T>(of(i));
   return array;
 }
-// (rows, columns): of(i, j) each.
+// An array of shape (rows, columns) with the values of(i, j).
 template <typename T, typename Of>
 pybind11::array_t<T> grid(std::size_t rows, std::size_t columns, const Of& of) {
   pybind11::array_t<T> array({rows, columns});
@@ -57,21 +60,22 @@ pybind11::array_t<T> grid(std::size_t rows, std::size_t columns, const Of& of) {
     for (std::size_t j = 0; j < columns; ++j) *out++ = static_cast<T>(of(i, j));
   return array;
 }
-// Array of texts: names[codes[i]].
+// An array of texts: names[codes[i]].
 pybind11::object words(const std::vector<std::string>& names, const std::vector<int>& codes);
 
-// A Python index (negative: from the end) of one of `count` things; raises IndexError.
+// Checks a Python index (negative: from the end) of one of `count` elements; raises IndexError.
 std::size_t checkedIndex(const char* what, std::int64_t index, std::size_t count);
-// start and stop as NumPy slices them: negative from the end, clamped.
+// Converts start and stop as NumPy slices do: negative from the end, clamped.
 std::pair<std::size_t, std::size_t> sliceOf(std::int64_t start,
                                             std::optional<std::int64_t> stop,
                                             std::size_t count);
 
-// null, numbers, texts, lists and dicts.
+// Converts JSON to None, numbers, texts, lists and dicts.
 pybind11::object toPython(const Json& json);
-Json toJson(const pybind11::object& value);  // raises TypeError for what JSON hasn't
+// Converts the value to JSON; raises TypeError for types that JSON does not have.
+Json toJson(const pybind11::object& value);
 
-// The value of a word; raises ValueError listing the known ones.
+// The value that belongs to a word; raises ValueError that lists the known words.
 template <typename T>
 T choice(const char* name,
          const std::string& word,

@@ -1,4 +1,4 @@
-// palpate.from_arrays(): a profile of arrays.
+// Binds palpate.from_arrays(), which makes a profile from NumPy arrays.
 #include <cmath>
 #include <string>
 
@@ -49,7 +49,7 @@ Values taxelValuesOf(const py::handle& given, const char* name) {
   return array;
 }
 
-// (T, places) of one array; or one array (T, rows, columns) per matrix.
+// The taxel values: one array (T, places), or one array (T, rows, columns) for each matrix.
 struct Taxels {
   std::shared_ptr<const SensorLayout> layout;
   std::vector<Values> parts;
@@ -152,8 +152,8 @@ Profile fromArrays(const py::object& timeMs,
   return builder.finish(info);
 }
 
-// Directions and places have three numbers of their own, called x, y, z; what else has several, has
-// one per matrix, axis ..
+// Directions and places have three components x, y, z; other values with several components have
+// one for each matrix, axis and so on.
 bool isVector(const std::string& name) {
   for (const char* vector : {"sphere_mm",
                              "centroid_sphere_mm",

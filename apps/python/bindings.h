@@ -1,4 +1,4 @@
-// The parts of the Python module, one source each.
+// The parts of the Python module `palpate`; each has its own source file.
 #pragma once
 
 #include <pybind11/pybind11.h>

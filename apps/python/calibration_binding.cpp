@@ -1,5 +1,5 @@
-// palpate.calibrate_noise(), calibrate_sensitivity(), calibrate_tare(), calibrate_pressure(),
-// Calibration.
+// Binds palpate.calibrate_noise(), calibrate_sensitivity(), calibrate_tare(), calibrate_pressure()
+// and Calibration.
 #include <filesystem>
 #include <string>
 

@@ -1,4 +1,4 @@
-// palpate.contact(), object_size().
+// Binds palpate.contact() and object_size().
 #include <limits>
 #include <string>
 
@@ -62,12 +62,12 @@ std::vector<ContactRow> contactRowsOf(const Profile& profile,
     ContactRow& row = rows[i - first];
     row.posed = usable;
     contactOf(frame, pose, options, row.contact);
-    row.contact.activeMm = {};  // many, and not asked for
+    row.contact.activeMm = {};  // large, and not part of the result
   }
   return rows;
 }
 
-// (T, 3)
+// Shape (T, 3).
 template <typename Of>
 DoubleArray places(const std::vector<ContactRow>& rows, const Of& of) {
   return grid<double>(rows.size(), 3, [&](std::size_t i, std::size_t axis) {
@@ -84,7 +84,8 @@ DoubleArray radii(const std::vector<ContactRow>& rows, const Of& of) {
   });
 }
 
-// (T, matrices): of(matrix), or NaN where it isn't touched (or not posed where a pose is needed).
+// Shape (T, matrices): of(matrix), or NaN for an untouched matrix and, when a pose is needed, for
+// frames without one.
 template <typename Of>
 DoubleArray perMatrix(const std::vector<ContactRow>& rows,
                       std::size_t numMatrices,
@@ -97,7 +98,7 @@ DoubleArray perMatrix(const std::vector<ContactRow>& rows,
   });
 }
 
-// (T, matrices, 3)
+// Shape (T, matrices, 3).
 template <typename Of>
 DoubleArray vectorsPerMatrix(const std::vector<ContactRow>& rows,
                              std::size_t numMatrices,

@@ -1,4 +1,4 @@
-// palpate.synthesize(), emulate(), scenes(), noisy_contacts().
+// Binds palpate.synthesize(), emulate(), scenes() and noisy_contacts().
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
@@ -22,8 +22,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// $PALPATE_DATA, else beside the installed module (PREFIX/lib/python3/dist-packages), else that of
-// the source tree.
+// The folder with the scenes: that of $PALPATE_DATA, else next to the installed module
+// (PREFIX/lib/python3/dist-packages), else that of the source tree.
 fs::path scenesFolder() {
   if (const char* given = std::getenv("PALPATE_DATA"); given && *given)
     return fs::path(given) / "scenes";

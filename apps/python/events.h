@@ -1,4 +1,5 @@
-// Events of a recording as Python has them: a dict t_us, t1_us, kind, matrix, text, json.
+// Converts events of a recording to Python dicts and back. A dict has t_us, t1_us, kind, matrix,
+// text, json.
 #pragma once
 
 #include <vector>
@@ -10,7 +11,7 @@
 namespace palpate::python {
 
 pybind11::list toPython(const std::vector<RecordingEvent>& events);
-// Of a list of such dicts: t_us and kind must be there. Raises ValueError.
+// From a list of such dicts; t_us and kind are required. Raises ValueError.
 std::vector<RecordingEvent> eventsFrom(const pybind11::object& events);
 
 }  // namespace palpate::python

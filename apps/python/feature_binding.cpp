@@ -1,4 +1,4 @@
-// palpate.grasps(), features(), Features.
+// Binds palpate.grasps(), features() and Features.
 #include <filesystem>
 #include <string>
 

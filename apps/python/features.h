@@ -1,5 +1,5 @@
-// A table of features from what Python gives: a profile, recordings and folders, or a table made
-// before.
+// Makes a feature table from a Python argument: a profile, recordings and folders, or an existing
+// table.
 #pragma once
 
 #include <pybind11/pybind11.h>
@@ -8,12 +8,12 @@
 
 namespace palpate::python {
 
-// "study", "best", "session"; raises ValueError.
+// The feature set with this name: "study", "best", "session"; raises ValueError.
 FeatureSet featureSetOf(const std::string& name);
-// source: Profile, Features, a path, or a list of paths. Takes Python's lock to be held. Raises
-// Error for a table of another set.
+// `source`: Profile, Features, a path, or a list of paths. The caller holds Python's global lock.
+// Raises Error for a table of another feature set.
 FeatureTable featuresOf(const pybind11::object& source, FeatureSet set);
-// Raises Error where the table has no row.
+// Raises Error when the table has no row.
 void requireRows(const FeatureTable& table);
 
 }  // namespace palpate::python

@@ -1,4 +1,4 @@
-// palpate.filter(), the filters there are, recipes, filters of single series, ghosts.
+// Binds palpate.filter(), the catalogue of filters, recipes, filters of single series, and ghosts.
 #include <cmath>
 #include <filesystem>
 #include <string>
@@ -23,7 +23,7 @@ namespace palpate::python {
 namespace py = pybind11;
 namespace {
 
-// Of texts, and lists of texts.
+// The recipe of arguments that are texts or lists of texts.
 Recipe recipeOf(const py::args& specs) {
   std::vector<std::string> texts;
   for (const py::handle spec : specs) {

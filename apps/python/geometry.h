@@ -1,4 +1,5 @@
-// The geometry of the hand by the name of its fingertip radius.
+// The geometry of the hand by the name of its fingertip radius, for the Python functions that take
+// it.
 #pragma once
 
 #include <string>
@@ -7,7 +8,7 @@
 
 namespace palpate::python {
 
-// "study", "effective"; raises ValueError.
+// `fingertip`: "study" or "effective"; raises ValueError for another name.
 GeometryDescription geometryNamed(const std::string& fingertip);
 
 }  // namespace palpate::python

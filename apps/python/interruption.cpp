@@ -16,7 +16,7 @@ Progress Interruptions::progress() {
     nextUs_.store(nowUs + kLookEveryUs, std::memory_order_relaxed);
     const pybind11::gil_scoped_acquire locked;
     if (came_) return false;
-    if (PyErr_CheckSignals() == 0) return true;  // other threads than the main one see none
+    if (PyErr_CheckSignals() == 0) return true;  // only the main thread sees signals
     came_.emplace();
     return false;
   };

@@ -1,5 +1,5 @@
-// Long work without Python's lock: other Python threads go on, and Ctrl-C ends it with
-// KeyboardInterrupt.
+// Runs long work without Python's global lock, so that other Python threads continue and Ctrl-C
+// ends the work with KeyboardInterrupt.
 #pragma once
 
 #include <atomic>
@@ -15,9 +15,9 @@ namespace palpate::python {
 
 class Interruptions {
  public:
-  // Looks for Ctrl-C now and then; may be called from any thread that doesn't hold Python's lock.
+  // Checks for Ctrl-C from time to time; may be called from any thread that does not hold the lock.
   Progress progress();
-  // Throws what came, if something did. Takes Python's lock to be held.
+  // Throws the stored Python exception, if there is one. The caller holds the lock.
   void rethrow();
 
  private:
@@ -25,7 +25,8 @@ class Interruptions {
   std::optional<pybind11::error_already_set> came_;
 };
 
-// What `work(progress)` returns, done without Python's lock: it must touch no Python object.
+// Runs `work(progress)` without the lock and returns its result; `work` must not use Python
+// objects.
 template <typename Work>
 auto unlocked(const Work& work) {
   Interruptions interruptions;

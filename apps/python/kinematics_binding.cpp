@@ -1,4 +1,4 @@
-// palpate.kinematics(), surface_points(), preshape(), bounding_sphere().
+// Binds palpate.kinematics(), surface_points(), preshape() and bounding_sphere().
 #include <cmath>
 #include <string>
 
@@ -25,7 +25,7 @@ GeometryDescription geometryNamed(const std::string& fingertip) {
 
 namespace {
 
-// Poses: (axes,) is one, (n, axes) are n.
+// Poses from an array: shape (axes,) is one pose, (n, axes) are n poses.
 struct Poses {
   bool several = false;
   std::vector<std::vector<double>> anglesDeg;
@@ -41,7 +41,7 @@ Poses posesOf(const Numbers& angles, std::size_t numAxes) {
   const py::ssize_t count = poses.several ? angles.shape(0) : 1;
   for (py::ssize_t i = 0; i < count; ++i)
     poses.anglesDeg.emplace_back(angles.data() + i * width, angles.data() + (i + 1) * width);
-  // As the command refuses it: no hand of this kind has such a pose.
+  // Invalid angles are refused as on the command line, because the hand cannot have such a pose.
   for (std::size_t i = 0; i < poses.anglesDeg.size(); ++i) {
     const AnglesCheck check = checkAngles(poses.anglesDeg[i], sdh2().axes);
     if (check.state == AngleValidity::kValid) continue;
@@ -51,7 +51,7 @@ Poses posesOf(const Numbers& angles, std::size_t numAxes) {
   return poses;
 }
 
-// (n, k, 3), or (k, 3) of a single pose.
+// Shape (n, k, 3), or (k, 3) for a single pose.
 DoubleArray vectors(const Poses& poses, std::size_t k) {
   std::vector<std::size_t> shape = {k, 3};
   if (poses.several) shape.insert(shape.begin(), poses.anglesDeg.size());

@@ -1,4 +1,4 @@
-// palpate.Model.
+// Binds palpate.Model.
 #include <filesystem>
 #include <string>
 

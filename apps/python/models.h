@@ -1,4 +1,5 @@
-// What makes a model one that can be traced: who made it when, of which recordings.
+// Adds to a trained model what makes it traceable: program version, time, and the recordings it was
+// trained with.
 #pragma once
 
 #include <vector>
@@ -8,9 +9,9 @@
 
 namespace palpate::python {
 
-// Program version and time.
+// Stores program version and time in the model.
 void stampProvenance(TrainedModel& model);
-// Recordings of a table as a model names them; of profiles there are none. Throws FileError,
+// The recordings of a table in the form that a model stores; none for profiles. Throws FileError,
 // Cancelled.
 std::vector<ModelInput> inputsFor(const FeatureTable& table, const Progress& progress);
 

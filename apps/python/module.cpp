@@ -1,4 +1,4 @@
-// import palpate
+// The Python module `palpate`: registers all parts and translates exceptions.
 #include <string>
 
 #include "palpate/core/error.h"
@@ -9,7 +9,7 @@ namespace py = pybind11;
 
 namespace {
 
-// What to do is said for the command line; here it is an argument.
+// Replaces command-line options in error messages by Python arguments.
 std::string forPython(std::string text) {
   const std::string option = "--force";
   if (const auto at = text.find(option); at != std::string::npos)
@@ -24,7 +24,8 @@ void translate(std::exception_ptr pending) {
     PyErr_SetString(PyExc_ValueError, error.what());
   } catch (const palpate::FileError& error) {
     PyErr_SetString(PyExc_OSError, forPython(error.what()).c_str());
-  } catch (const py::cast_error&) {  // of a value inside an argument: a list's item, a dict's entry
+    // A value inside an argument has the wrong type: an item of a list, an entry of a dict.
+  } catch (const py::cast_error&) {
     PyErr_SetString(PyExc_TypeError, "an argument holds a value of another type than it should");
   }
 }

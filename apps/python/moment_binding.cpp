@@ -1,4 +1,4 @@
-// palpate.chebyshev_moments(), chebyshev_invariants(), chebyshev_picture().
+// Binds palpate.chebyshev_moments(), chebyshev_invariants() and chebyshev_picture().
 #include <string>
 
 #include "palpate/recognition/chebyshev_moments.h"

@@ -1,4 +1,4 @@
-// palpate.Profile: the data of a recording as arrays.
+// Binds palpate.Profile: the data of a recording as arrays.
 #include <algorithm>
 #include <filesystem>
 #include <string>
@@ -94,7 +94,7 @@ DoubleArray secondsOf(const Profile& profile) {
   });
 }
 
-// (count, width): one row per sample.
+// Shape (count, width): one row for each sample.
 template <typename ValuesOf>
 DoubleArray samples(std::size_t count, std::size_t width, const ValuesOf& valuesOf) {
   DoubleArray array({count, width});

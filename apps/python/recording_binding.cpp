@@ -1,4 +1,4 @@
-// palpate.load(), verify(), recover(), events() and what else a recording says.
+// Binds palpate.load(), verify(), recover(), events() and other functions about recording files.
 #include <algorithm>
 #include <filesystem>
 #include <string>

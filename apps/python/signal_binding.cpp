@@ -1,4 +1,4 @@
-// palpate.signals(), spectrum(), strongest_taxel(), first_contact().
+// Binds palpate.signals(), spectrum(), strongest_taxel() and first_contact().
 #include <cmath>
 #include <string>
 
@@ -18,7 +18,7 @@ namespace palpate::python {
 namespace py = pybind11;
 namespace {
 
-// As palpate signals prints them.
+// The columns in the order that `palpate signals` prints.
 constexpr SignalKind kColumns[] = {SignalKind::kMean,
                                    SignalKind::kFilteredMean,
                                    SignalKind::kMinimum,
@@ -27,7 +27,7 @@ constexpr SignalKind kColumns[] = {SignalKind::kMean,
                                    SignalKind::kActive,
                                    SignalKind::kArea};
 
-// Row per frame: all matrices, then the whole hand.
+// The signals of each frame: one element for each matrix, then one for the whole hand.
 std::vector<std::vector<CharacteristicSignals>> signalRowsOf(const Profile& profile,
                                                              const Progress& progress) {
   std::vector<std::vector<CharacteristicSignals>> rows(profile.numFrames());
@@ -40,7 +40,7 @@ std::vector<std::vector<CharacteristicSignals>> signalRowsOf(const Profile& prof
   return rows;
 }
 
-// One column of the rows: all matrices, or one place of them.
+// One signal as an array: of all matrices, or of one place of the rows.
 py::object columnOf(const std::vector<std::vector<CharacteristicSignals>>& rows,
                     std::size_t numMatrices,
                     std::optional<std::size_t> place,

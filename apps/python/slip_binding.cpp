@@ -1,4 +1,5 @@
-// palpate.slip(), slip_segments(), slip_benchmark(), contact_moments(), synthetic_contact().
+// Binds palpate.slip(), slip_segments(), slip_benchmark(), contact_moments() and
+// synthetic_contact().
 #include <cmath>
 #include <limits>
 #include <string>
@@ -22,7 +23,7 @@ namespace {
 
 constexpr double kSlipUnknown = std::numeric_limits<double>::quiet_NaN();
 
-// What slip() and slip_segments() are told.
+// The arguments of slip() and slip_segments().
 struct Request {
   SlipRunOptions pass;
   std::optional<std::size_t> matrix;

@@ -1,4 +1,4 @@
-// palpate.fit_step(), step_response(), calibrate_step().
+// Binds palpate.fit_step(), step_response() and calibrate_step().
 #include <stdexcept>
 #include <string>
 
@@ -71,7 +71,7 @@ py::dict fit(const Numbers& t,
   return stepToPython(unlocked([&](const Progress&) { return fitStep(times, values, options); }));
 }
 
-// By T1 and T2, or by T and d.
+// The parameters of a step, given by T1 and T2 or by T and d.
 StepParameters parametersOf(double gain,
                             double drift,
                             std::optional<double> t1S,

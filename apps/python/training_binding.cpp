@@ -1,4 +1,4 @@
-// palpate.train(), evaluate().
+// Binds palpate.train() and evaluate().
 #include <string>
 
 #include <pybind11/stl.h>
@@ -18,12 +18,12 @@ namespace {
 
 constexpr std::size_t kBlocks = 5;
 
-// What train() and evaluate() are told of the pipeline; empty: left open.
+// The options of train() and evaluate() for the pipeline; empty ones are chosen by the program.
 struct Wishes {
   std::optional<ClassifierKind> classifier;
   std::optional<std::size_t> components;
   std::optional<double> cost;
-  std::optional<std::optional<double>> shrinkage;  // inner nothing: by Ledoit and Wolf
+  std::optional<std::optional<double>> shrinkage;  // inner nothing: after Ledoit and Wolf
 };
 
 Wishes wishesOf(const std::optional<std::string>& classifier,
@@ -54,8 +54,8 @@ Wishes wishesOf(const std::optional<std::string>& classifier,
   return wishes;
 }
 
-// Of the set best only gauss carries over to another day, and is taken where nothing else is
-// wished.
+// The classifier that the caller requested; else, for the feature set best, gauss, because only
+// that works on another day.
 ClassifierKind classifierFor(const Wishes& wishes, FeatureSet set) {
   if (wishes.classifier) return *wishes.classifier;
   return set == FeatureSet::kBest && !wishes.components ? ClassifierKind::kGauss

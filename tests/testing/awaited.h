@@ -1,4 +1,5 @@
-// Waiting for what other threads or processes do: for the condition, never for a time.
+// Lets tests wait until a condition holds in another thread or process, instead of waiting for a
+// fixed time.
 #pragma once
 
 #include <chrono>
@@ -6,8 +7,8 @@
 
 namespace palpate::testing {
 
-// Looks every millisecond. False: not within the limit, so long that nothing but a fault lasts
-// longer.
+// Checks the condition every millisecond. Returns false when it does not hold within the limit,
+// which is long enough that only a fault exceeds it.
 template <typename Condition>
 bool awaited(Condition&& condition, std::chrono::milliseconds limit = std::chrono::seconds(20)) {
   const auto end = std::chrono::steady_clock::now() + limit;

@@ -1,4 +1,4 @@
-// A program that runs beside the test: its output can be awaited, it can be killed.
+// Runs a program in parallel to a test: its output can be awaited, and it can be killed.
 #pragma once
 
 #include <chrono>
@@ -17,18 +17,21 @@ class BackgroundProgram {
  public:
   BackgroundProgram(const std::filesystem::path& program,
                     const std::vector<std::string>& arguments);
-  ~BackgroundProgram();  // killed when it still runs
+  // Kills the program if it still runs.
+  ~BackgroundProgram();
   BackgroundProgram(const BackgroundProgram&) = delete;
   BackgroundProgram& operator=(const BackgroundProgram&) = delete;
 
-  // Waits for a line of standard output that contains `text`; nothing when time is over or the
-  // program has ended without one.
+  // Waits for a line of standard output that contains `text`; returns nothing when the time is over
+  // or the program has ended without such a line.
   std::optional<std::string> awaitLine(const std::string& text,
                                        std::chrono::milliseconds limit = std::chrono::seconds(20));
   void signal(int number);
-  // Waits for its end: the exit code, 128 + signal when killed. Kills it when time is over (-1).
+  // Waits for the end and returns the exit code, 128 + signal when it was killed. Kills the program
+  // when the time is over and returns -1.
   int wait(std::chrono::milliseconds limit = std::chrono::seconds(20));
-  std::string out() const;  // so far
+  // The output so far.
+  std::string out() const;
   std::string err() const;
   pid_t pid() const noexcept { return pid_; }
 

@@ -1,4 +1,4 @@
-// A program that is called as ffmpeg is, and does what a test wants.
+// Replaces ffmpeg in tests by a shell script that does what the test needs.
 #pragma once
 
 #include <chrono>
@@ -15,13 +15,14 @@
 
 namespace palpate::testing {
 
-// While it lives, it is what findFfmpeg() finds.
+// As long as this object exists, findFfmpeg() finds the script.
 class FakeFfmpeg {
  public:
-  // Takes all pictures, and makes a movie "whole" of them.
+  // Reads all pictures and writes a movie with the content "whole".
   static constexpr const char* kGood = "cat > \"$here/pixels\"; printf whole > /proc/self/fd/3";
 
-  // body: of a shell script, where $here is a folder of its own. It knows the given encoders.
+  // `body`: the commands of a shell script, where $here is a folder of its own. `encoders`: the
+  // encoders that the script lists.
   explicit FakeFfmpeg(const std::string& body = kGood,
                       const std::string& encoders = " V....D libx264 x\\n V.S... mpeg4 y\\n") {
     if (const char* before = std::getenv(kVariable)) before_ = before;
@@ -48,21 +49,22 @@ class FakeFfmpeg {
 
   std::filesystem::path file(std::string_view name) const { return folder_ / name; }
   bool wasCalled() const { return std::filesystem::exists(file("pid")); }
-  // What it was called with.
+  // The arguments that it was called with.
   std::vector<std::string> words() const {
     std::vector<std::string> all;
     std::istringstream text(readFile(file("words")));
     for (std::string word; std::getline(text, word, '\0');) all.push_back(word);
     return all;
   }
-  // The word behind one.
+  // The argument after `option`.
   std::string wordAfter(const std::string& option) const {
     const auto all = words();
     for (std::size_t i = 0; i + 1 < all.size(); ++i)
       if (all[i] == option) return all[i + 1];
     return {};
   }
-  // Whether the process whose number the script wrote into `name` still runs (a zombie doesn't).
+  // Whether the process whose number the script wrote into the file `name` still runs (a zombie
+  // does not).
   bool runs(std::string_view name) const {
     std::string pid = readFile(file(name));
     pid.erase(pid.find_last_not_of(" \n") + 1);
@@ -72,7 +74,7 @@ class FakeFfmpeg {
     const auto behindName = text.rfind(')');  // "1234 (sh) S 1 .."
     return text.substr(behindName + 2, 1) != "Z";
   }
-  // For one that nobody waits for: killed, it needs a moment to be gone.
+  // Waits until a killed process that nobody waits for is gone; returns whether it is.
   bool ends(std::string_view name) const {
     const auto limit = std::chrono::steady_clock::now() + std::chrono::seconds(20);
     while (runs(name) && std::chrono::steady_clock::now() < limit) std::this_thread::yield();

@@ -10,7 +10,7 @@ namespace palpate::testing {
 namespace {
 
 constexpr std::int64_t kBeatUs = 1000;
-// Timers and the way through the scheduler cost this much on a machine that does nothing else.
+// Delay by timers and the scheduler on an otherwise idle machine [us].
 constexpr std::int64_t kUsualUs = 500;
 
 std::int64_t microsecondsOf(clockid_t clock) {
@@ -61,7 +61,7 @@ Heartbeat::Heartbeat() {
   lastUs_.assign(cores.size(), 0);
   for (std::size_t i = 0; i < cores.size(); ++i)
     threads_.emplace_back([this, i, core = cores[i]] { beat(i, core); });
-  // A thread that hasn't begun notices nothing.
+  // Waits until every thread has begun; until then it notices no standstill.
   std::unique_lock lock(mutex_);
   beaten_.wait(lock, [&] {
     return std::all_of(lastUs_.begin(), lastUs_.end(), [](auto lastUs) { return lastUs > 0; });

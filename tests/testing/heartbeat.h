@@ -1,4 +1,5 @@
-// When the machine stood still: the proof that a late answer was late for no reason of ours.
+// Measures when the machine stood still, so that a test can show that a late answer was not caused
+// by the program.
 #pragma once
 
 #include <condition_variable>
@@ -9,19 +10,18 @@
 
 namespace palpate::testing {
 
-// For what must happen at a certain moment [CLOCK_MONOTONIC, us].
+// Sleeps until that moment of CLOCK_MONOTONIC [us].
 void sleepUntilUs(std::int64_t monotonicUs);
 
-// Times of wake-ups that were late, of threads on several cores. All times are those of
-// CLOCK_MONOTONIC [us], as systemClock().monotonicUs().
+// Collects late wake-ups of threads on several cores. All times are those of CLOCK_MONOTONIC [us],
+// as systemClock().monotonicUs().
 class LateWakeUps {
  public:
-  // A thread wanted to wake at `dueUs` and woke at `wokeUs`; meanwhile its own process, all threads
-  // together, computed for `ownWorkUs`. What the process itself computed is not held against the
-  // machine.
+  // A thread was due to wake at `dueUs` and woke at `wokeUs`; in that time all threads of its
+  // process together computed for `ownWorkUs`, which does not count as a standstill of the machine.
   void note(std::int64_t dueUs, std::int64_t wokeUs, std::int64_t ownWorkUs);
-  // How much of this stretch of time a core stood still: what was so on several cores at once
-  // counts once.
+  // How long at least one core stood still between two times; overlapping standstills of several
+  // cores count once.
   std::int64_t standstillUs(std::int64_t beginUs, std::int64_t endUs) const;
 
  private:
@@ -31,12 +31,13 @@ class LateWakeUps {
   std::vector<Standstill> standstills_;
 };
 
-// On each core a thread that wants to wake every millisecond, at the same priority as all others,
-// and notes when it could not. A thread that is free to go elsewhere would only notice when all
-// cores stand still; what is tested is a chain of threads that needs each of its links.
+// Runs one thread on each core that wakes every millisecond, at normal priority, and records late
+// wake-ups. Each thread is bound to its core: an unbound one would move to another core and notice
+// only a standstill of all cores, while the tested chains of threads need every core that one of
+// their threads runs on.
 class Heartbeat {
  public:
-  // Returns when each core's thread has woken once.
+  // Returns when the thread of each core has woken once.
   Heartbeat();
   ~Heartbeat();
   Heartbeat(const Heartbeat&) = delete;
@@ -50,7 +51,8 @@ class Heartbeat {
   std::mutex mutex_;
   std::condition_variable beaten_;
   LateWakeUps late_;
-  std::vector<std::int64_t> lastUs_;  // by thread
+  // The last wake-up of each thread.
+  std::vector<std::int64_t> lastUs_;
   bool ends_ = false;
   std::vector<std::thread> threads_;
 };

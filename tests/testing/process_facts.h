@@ -1,4 +1,4 @@
-// What this process holds: memory, descriptors, threads. For tests that show that none of them
+// Memory, file descriptors and threads of this process, for tests that show that none of them
 // grows.
 #pragma once
 
@@ -6,6 +6,7 @@
 
 namespace palpate::testing {
 
+// The values of one moment.
 struct ProcessFacts {
   std::size_t residentBytes = 0;
   std::size_t descriptors = 0;
@@ -13,11 +14,12 @@ struct ProcessFacts {
 };
 
 ProcessFacts processFacts();
-// The least of each over 50 ms: without what is open for a moment only (a journal, a folder being
-// synced).
+// The minimum of each value over 50 ms, which excludes what is open only for a moment (a journal, a
+// folder being synced).
 ProcessFacts leastProcessFacts();
 
-// Sanitizers keep memory of their own: then residentBytes says nothing about ours.
+// False with sanitizers, which use memory of their own, so that residentBytes says nothing about
+// the program.
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 constexpr bool kMemoryIsOurs = false;
 #else

@@ -1,4 +1,4 @@
-// Runs a program and collects what it said.
+// Runs a program in a test and collects its output.
 #pragma once
 
 #include <filesystem>
@@ -8,13 +8,16 @@
 
 namespace palpate::testing {
 
+// The exit code and the output of a program.
 struct ProgramResult {
-  int exitCode = -1;  // 128 + signal number when it was killed
+  // 128 + signal number when the program was killed.
+  int exitCode = -1;
   std::string out;
   std::string err;
 };
 
-// Waits for the end. `environment` is added to ours; an empty value removes a variable.
+// Runs a program and waits for its end. `environment` is added to that of the test; an empty value
+// removes a variable.
 ProgramResult runProgram(const std::filesystem::path& program,
                          const std::vector<std::string>& arguments,
                          const std::map<std::string, std::string>& environment = {});

@@ -1,6 +1,6 @@
-// Answers that must come in time. Each is measured once: the first time is the figure. A late one
-// is excused only where a heartbeat proves that the machine stood still for as long as it was late,
-// and is counted and published all the same.
+// Checks in tests that answers come in time. Each answer is measured once, without repetition. A
+// late answer is excused only when a heartbeat shows that the machine stood still for as long as
+// the answer was late; it is still counted and reported.
 #pragma once
 
 #include <cstdint>
@@ -12,12 +12,15 @@
 namespace palpate::testing {
 
 struct PunctualityLimits {
-  std::int64_t usualUs = 20'000;   // at least `share` of all answers are within this,
-  double share = 0.995;            // which of fewer than 200 means each
-  std::int64_t worstUs = 100'000;  // and each is within this
+  // At least `share` of all answers are within this time.
+  std::int64_t usualUs = 20'000;
+  // With fewer than 200 answers, 0.995 means all of them.
+  double share = 0.995;
+  // Every answer is within this time.
+  std::int64_t worstUs = 100'000;
 };
 
-// One answer, and how much of the time until then the machine stood still.
+// The time of one answer, and how much of it the machine stood still.
 struct TimedAnswer {
   std::int64_t tookUs = 0;
   std::int64_t standstillUs = 0;
@@ -25,27 +28,34 @@ struct TimedAnswer {
 
 struct PunctualityReport {
   std::size_t answers = 0;
-  double medianMs = 0, p99Ms = 0, worstMs = 0;  // of all, the late and the excused too
-  std::size_t late = 0;                         // of all: beyond usualUs
-  std::size_t lateUnexcused = 0;                // of these: the machine had not stood still
-  std::size_t tooLateUnexcused = 0;             // beyond worstUs
+  // Of all answers, also late and excused ones.
+  double medianMs = 0, p99Ms = 0, worstMs = 0;
+  // The number of answers later than usualUs.
+  std::size_t late = 0;
+  // Those of them without a standstill of the machine.
+  std::size_t lateUnexcused = 0;
+  // The number of answers later than worstUs without a standstill.
+  std::size_t tooLateUnexcused = 0;
   std::size_t lateAllowed = 0;
-  std::string faults;  // empty: punctual
+  // Empty when the answers are punctual.
+  std::string faults;
 };
+// Compares answers with limits.
 PunctualityReport punctualityOf(const std::vector<TimedAnswer>& answers,
                                 const PunctualityLimits& limits);
 
+// Collects the answers of one test and judges them at its end.
 class Punctuality {
  public:
-  // `name` is that of the figures: "stop_on_the_wire".
+  // `name` is the name in the report: "stop_on_the_wire".
   explicit Punctuality(std::string name, PunctualityLimits limits = {});
-  // From the call to the answer, both by CLOCK_MONOTONIC [us].
+  // Adds an answer: from the call to the answer, both in CLOCK_MONOTONIC [us].
   void took(std::int64_t beginUs, std::int64_t endUs);
-  // A call that could not be made or whose answer something else forestalled, in this stretch of
-  // time. That is a failure, unless the machine stood still for `forUs` of it.
+  // Adds a call that could not be made, or whose answer was prevented, in this time span. It is a
+  // failure unless the machine stood still for `forUs` of it.
   void lost(std::int64_t beginUs, std::int64_t endUs, std::int64_t forUs, const std::string& why);
-  // Prints each late answer, then a line `measured {..}` in JSON, which scripts/measure reads;
-  // fails the test when the answers are not punctual.
+  // Prints each late answer, then a line `measured {..}` in JSON for scripts/measure; fails the
+  // test when the answers are not punctual.
   PunctualityReport judge(const std::string& moreJson = "");
 
  private:

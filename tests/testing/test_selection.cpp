@@ -33,7 +33,7 @@ bool selectTests(int& argc, char** argv) {
   }
   argc = rest;
   argv[argc] = nullptr;
-  // GoogleTest makes its reporter when it is initialised.
+  // Set before GoogleTest is initialised, because that creates the XML reporter.
   const std::string folder = variableText("PALPATE_TEST_REPORTS");
   if (!folder.empty() && !entry.empty()) {
     std::string name = entry;
@@ -65,7 +65,8 @@ bool selectTests(int& argc, char** argv) {
   if (chosen.empty() && pattern.empty() && GTEST_FLAG_GET(filter) == "*")
     throw std::invalid_argument("no test is selected" +
                                 (file.empty() ? std::string() : ": no source is named " + file));
-  // An own --gtest_filter narrows what the file has; else the file's tests are the filter.
+  // An explicit --gtest_filter is restricted to the tests of the file; otherwise the tests of the
+  // file are the filter.
   if (GTEST_FLAG_GET(filter) == "*") {
     GTEST_FLAG_SET(filter, chosen.empty() ? "-*" : chosen);
   } else {

@@ -1,5 +1,5 @@
-// Which tests a process runs. One program holds all tests of a module; each file of tests is run by
-// a process of its own, so that files can't disturb each other.
+// Selects which tests a process runs. One program contains all tests of a module; each source file
+// of tests runs in a process of its own, so that files cannot influence each other.
 #pragma once
 
 #include <string>
@@ -7,13 +7,13 @@
 namespace palpate::testing {
 
 // Initialises GoogleTest and selects the tests of this process:
-//   --file=NAME    only the tests of the source NAME.cpp
-//   --entry=NAME   what the process is called in reports, "MODULE/FILE"
-// Environment: TEST_FILTER, a regular expression: only tests whose whole name,
-// "MODULE/FILE.Suite.Test", matches it; PALPATE_TEST_REPORTS, a folder: an XML report
-// MODULE.FILE.xml is written into it. Returns whether any test is left; throws
-// std::invalid_argument for an option it doesn't know, and where no test is left that neither
-// TEST_FILTER nor --gtest_filter took away: a process that has nothing to show must not pass.
+//    --file=NAME    only the tests of the source NAME.cpp
+//    --entry=NAME   the name of the process in reports, "MODULE/FILE"
+// Environment: TEST_FILTER is a regular expression; only tests whose whole name
+// "MODULE/FILE.Suite.Test" matches it are run. PALPATE_TEST_REPORTS is a folder that gets an XML
+// report MODULE.FILE.xml. Returns whether any test is selected. Throws std::invalid_argument for an
+// unknown option, and when no test is selected although neither TEST_FILTER nor --gtest_filter
+// excluded any: a process without tests must not pass.
 bool selectTests(int& argc, char** argv);
 
 }  // namespace palpate::testing

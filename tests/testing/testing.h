@@ -1,4 +1,4 @@
-// What several tests share.
+// Helpers for many tests: temporary folders, test data, files, and skipping.
 #pragma once
 
 #include <filesystem>
@@ -11,7 +11,7 @@
 
 namespace palpate::testing {
 
-// A folder of its own for each object, removed with all its content.
+// A new temporary folder for each object; the destructor removes it with its content.
 class TemporaryFolder {
  public:
   TemporaryFolder();
@@ -25,22 +25,22 @@ class TemporaryFolder {
   std::filesystem::path path_;
 };
 
-// The folder of real recordings ($PALPATE_RECORDINGS, else ../shared/data/recordings beside the
-// project), or of independent numbers ($PALPATE_GOLDEN, else ../shared/golden); nothing when
-// missing. With PALPATE_REQUIRE_DATA=1 a missing folder throws.
+// The folder of real recordings ($PALPATE_RECORDINGS, else ../shared/data/recordings relative to
+// the project), or of independent reference numbers ($PALPATE_GOLDEN, else ../shared/golden);
+// nothing when it is missing. With PALPATE_REQUIRE_DATA=1 a missing folder throws.
 std::optional<std::filesystem::path> recordingsFolder();
 std::optional<std::filesystem::path> goldenFolder();
-// Whether a test may not be skipped for what this machine lacks, recordings or tools
+// Whether tests must not be skipped when recordings or tools are missing on this machine
 // (PALPATE_REQUIRE_DATA=1).
 bool mustShow();
-// The project's own folder data/.
+// The folder data/ of the project.
 std::filesystem::path dataFolder();
 
-// Whether every recording and every size is wanted (PALPATE_EXHAUSTIVE=1, the slow suite). Else
-// tests over all shared recordings take those that differ, and a twentieth of the grasps by class,
-// which are alike.
+// Whether tests run with every recording and every size (PALPATE_EXHAUSTIVE=1, the slow suite).
+// Otherwise tests over all shared recordings use those that differ, and one in twenty of the grasps
+// by class, which are alike.
 bool exhaustive();
-// The .dsa files below `folder` that such a test takes, in the order of their paths.
+// The .dsa files below `folder` that such a test uses, ordered by path.
 std::vector<std::filesystem::path> recordingsToTry(const std::filesystem::path& folder);
 
 std::string readFile(const std::filesystem::path& path);
@@ -48,14 +48,14 @@ void writeFile(const std::filesystem::path& path, std::string_view bytes);
 
 }  // namespace palpate::testing
 
-// Ends the test: `why` it can't be shown on this machine. A failure where it must be.
+// Skips the test with the reason `why`; fails it when mustShow().
 #define PALPATE_CANNOT_SHOW(why)                       \
   do {                                                 \
     if (::palpate::testing::mustShow()) FAIL() << why; \
     GTEST_SKIP() << why;                               \
   } while (false)
 
-// Ends the test as skipped where the real recordings (or golden numbers) are missing.
+// Skips the test when the real recordings (or reference numbers) are missing.
 #define PALPATE_NEED(folder)                                            \
   if (!(folder))                                                        \
   GTEST_SKIP() << "shared data is missing: set PALPATE_RECORDINGS and " \

@@ -1,5 +1,5 @@
-// palpate adapt MODEL.json [PATH] -o MODEL2.json: the session offset of today, from the touch of
-// the empty hand and labelled grasps.
+// The command `palpate adapt MODEL.json [PATH] -o MODEL2.json` adapts a model to a session: it
+// determines the session offset from the zero of the empty hand and labelled grasps.
 #include <filesystem>
 #include <iterator>
 #include <optional>
@@ -14,13 +14,14 @@
 namespace palpate::commands {
 namespace {
 
-// What the model stored of another day is nothing of today's.
+// Removes the session offset of another day from the model.
 void forgetAnotherDay(TrainedModel& model, std::int64_t todayUs) {
   if (model.offset.origin != OffsetSource::kNone && !model.sameSession(todayUs))
     resetSession(model);
 }
 
-// Returns what was left out of the grasps: an exit code.
+// Adapts the model by labelled grasps. Returns the exit code, kPartlyDone when grasps were left
+// out.
 int adaptByGrasps(const CommandLine& given,
                   const std::optional<EmptyHandZero>& zero,
                   TrainedModel& model,

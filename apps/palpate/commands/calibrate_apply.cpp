@@ -1,4 +1,5 @@
-// palpate calibrate apply FILE --calibration C.json: kilopascals and newtons, frame by frame.
+// The command `palpate calibrate apply FILE --calibration C.json` converts a recording to pressures
+// [kPa] and forces [N], frame by frame.
 #include <cstdio>
 
 #include "palpate/core/error.h"
@@ -44,7 +45,7 @@ void calibrateApplyAppendRow(std::string& line,
   line.back() = '\n';
 }
 
-// Angles and temperatures as they were, so that the new recording stands for itself.
+// Copies joint angles and temperatures, so that the new recording is complete.
 void copyState(const Profile& profile, ProfileBuilder& builder) {
   for (std::size_t i = 0; i < profile.numAngles(); ++i) {
     const JointAngles angles = profile.angles(i);

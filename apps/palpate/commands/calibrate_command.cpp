@@ -1,4 +1,5 @@
-// palpate calibrate KIND ..: which kind, and what the kinds share.
+// The command `palpate calibrate KIND ..` selects the kind of calibration; here are also the
+// functions that the kinds share.
 #include <algorithm>
 #include <array>
 #include <cstdint>

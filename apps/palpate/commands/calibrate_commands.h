@@ -1,4 +1,5 @@
-// palpate calibrate KIND ..: one function per kind, each given the words behind it.
+// The subcommands of `palpate calibrate`: one function for each kind, which gets the words after
+// it; and the options that they share.
 #pragma once
 
 #include <filesystem>
@@ -20,17 +21,20 @@ int calibrateSensitivity(const Arguments& words);
 int calibrateStep(const Arguments& words);
 int calibrateTare(const Arguments& words);
 
-// The matrix that --matrix names; throws UsageError where it is missing or negative.
+// The matrix that --matrix names; throws UsageError when it is missing or negative.
 std::size_t matrixGiven(const CommandLine& given);
-// --signal, by the names of `palpate signals`; the filtered mean where it isn't given.
+// The signal that --signal names, as in `palpate signals`; the filtered mean when the option is
+// missing.
 SignalKind signalGiven(const CommandLine& given);
-// Throws Error naming the file and what it has.
+// Throws Error, with the file and its number of matrices, when the recording does not have that
+// matrix.
 void requireMatrix(const std::filesystem::path& file, std::size_t numMatrices, std::size_t matrix);
-// --loss squares|huber|cauchy.
+// The loss function of --loss squares|huber|cauchy.
 StepLoss lossGiven(const CommandLine& given);
-// Begins the JSON of one kind: what it is, format version, program version, when.
+// The common first members of the JSON of one kind: the kind, format version, program version, and
+// time of creation.
 Json provenance(const std::string& kind);
-// To standard output, or into the file of -o (unless that was written already).
+// Prints the JSON to standard output, or writes it into the file of -o unless `outputWritten`.
 void printJson(const CommandLine& given, const Json& json, bool outputWritten = false);
 
 }  // namespace palpate::commands

@@ -1,4 +1,5 @@
-// palpate calibrate noise FILE [-o N.xml]: the noise floor of an unloaded hand.
+// The command `palpate calibrate noise FILE [-o N.xml]` determines the noise floor of an unloaded
+// hand.
 #include <filesystem>
 
 #include "palpate/calibration/noise_floor.h"

@@ -1,4 +1,5 @@
-// palpate calibrate pressure TABLE.csv -o P.json: pressure from gain and temperature.
+// The command `palpate calibrate pressure TABLE.csv -o P.json` fits the pressure as a function of
+// gain and temperature.
 #include <cstdint>
 #include <cstdio>
 #include <optional>

@@ -1,4 +1,5 @@
-// palpate calibrate sensitivity FILE --matrix M: gain against sensitivity.
+// The command `palpate calibrate sensitivity FILE --matrix M` determines the gain as a function of
+// sensitivity.
 #include <algorithm>
 
 #include "palpate/calibration/sensitivity_curve.h"

@@ -1,4 +1,5 @@
-// palpate calibrate step FILE --matrix M: the response to each loading step, as JSON.
+// The command `palpate calibrate step FILE --matrix M` fits the response to each loading step and
+// prints it as JSON.
 #include "palpate/calibration/step_report.h"
 #include "palpate/core/hash.h"
 #include "palpate/recording/recording.h"

@@ -1,4 +1,5 @@
-// palpate calibrate tare FILE [--apply | --remove]: what the taxels read unloaded, as an event.
+// The command `palpate calibrate tare FILE [--apply | --remove]` determines the readings of the
+// unloaded taxels and stores them as an event of the recording, or removes that event.
 #include <cstdio>
 
 #include "palpate/calibration/tare.h"
@@ -11,7 +12,7 @@
 namespace palpate::commands {
 namespace {
 
-// The events without those that tell a tare.
+// The events without those of kind "tare".
 std::vector<RecordingEvent> withoutTare(const EventsReport& events) {
   std::vector<RecordingEvent> kept;
   for (const RecordingEvent& event : events.events)

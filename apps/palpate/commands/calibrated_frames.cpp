@@ -8,7 +8,7 @@
 namespace palpate::commands {
 namespace {
 
-// The tare that was said last.
+// The tare of the last event "tare"; nothing when there is none.
 std::optional<Tare> tareIn(const std::filesystem::path& file, const SensorLayout& layout) {
   std::optional<Tare> tare;
   for (const RecordingEvent& event : readEvents(file).events)
@@ -22,11 +22,12 @@ std::optional<Tare> tareIn(const std::filesystem::path& file, const SensorLayout
   return tare;
 }
 
-// With what the window noted of the recording's sensor, else what the controller itself reported,
-// where the command line says nothing.
+// Adds the sensor settings of the recording when the command line has none: those that the window
+// stored as an event, else those that the controller reported.
 PressureMapOptions withNoted(PressureMapOptions options, const std::filesystem::path& file) {
   if (!options.settings.empty()) return options;
-  std::optional<SensorSettings> noted;  // that was said last
+  // From the last event.
+  std::optional<SensorSettings> noted;
   const std::vector<RecordingEvent> events = readEvents(file).events;
   for (const RecordingEvent& event : events)
     if (event.kind == "sensor_settings") try {

@@ -1,5 +1,5 @@
-// The frames of a recording through a calibration: what `calibrate apply` and `contact
-// --calibration` share.
+// Applies a calibration to the frames of a recording; used by `palpate calibrate apply` and
+// `palpate contact --calibration`.
 #pragma once
 
 #include <filesystem>
@@ -15,29 +15,32 @@
 
 namespace palpate::commands {
 
-// --calibration C.json, --sensor-sensitivity S, --sensor-threshold N, --no-tare, --no-drift.
+// The options --calibration C.json, --sensor-sensitivity S, --sensor-threshold N, --no-tare,
+// --no-drift.
 std::vector<OptionSpec> calibrationOptions();
-// Those of a command, and these.
+// The options of a command followed by calibrationOptions().
 std::vector<OptionSpec> withCalibration(std::vector<OptionSpec> options);
 
+// The calibration and the options that the command line chose.
 struct CalibrationChoice {
   Calibration calibration;
   PressureMapOptions options;
   bool tare = true;
 };
-// Nothing without --calibration. Throws UsageError, FileError, FormatError.
+// Nothing when --calibration is missing. Throws UsageError, FileError, FormatError.
 std::optional<CalibrationChoice> calibrationGiven(const CommandLine& given);
 
+// Computes the pressures of one frame after the other.
 class CalibratedFrames {
  public:
-  // Takes off the tare that the recording's events hold. Throws Error for a sensor that the
-  // calibration can't serve.
+  // Subtracts the tare that the recording's events contain. Throws Error for a sensor that the
+  // calibration cannot be applied to.
   CalibratedFrames(const CalibrationChoice& choice,
                    const std::filesystem::path& file,
                    const Profile& profile);
-  // Frames in order.
+  // Call it with the frames in order.
   const PressureFrame& of(const TactileFrame& frame);
-  // What was assumed, a sentence each.
+  // The assumptions that were made, one sentence each.
   std::vector<std::string> assumptions() const;
 
  private:

@@ -1,4 +1,4 @@
-// palpate classify MODEL.json FILE...: what was grasped.
+// The command `palpate classify MODEL.json FILE...` names the grasped objects.
 #include <algorithm>
 #include <filesystem>
 #include <utility>

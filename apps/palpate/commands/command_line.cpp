@@ -46,7 +46,7 @@ void commandLineShowHelp(const CommandSpec& spec, const po::options_description&
 
 constexpr std::size_t kPercentWidth = 8;  // ": 100 %", and the last column stays free
 
-// Of the terminal behind stderr; 80 where it doesn't know.
+// Columns of the terminal on stderr; 80 when they are unknown.
 std::size_t terminalWidth() {
   winsize size{};
   const bool known =
@@ -65,7 +65,7 @@ CommandLine::CommandLine(const CommandSpec& spec, const std::vector<std::string>
   po::positional_options_description positions;
   positions.add("word", -1);
   try {
-    // Abbreviations are refused: a script must not change its meaning when an option is added.
+    // Abbreviated options are refused, so that a script keeps its meaning when an option is added.
     const int style = po::command_line_style::unix_style & ~po::command_line_style::allow_guessing;
     const auto parsed =
         po::command_line_parser(words).options(all).positional(positions).style(style).run();
@@ -172,7 +172,7 @@ void ProgressLine::show(double fraction) {
   if (percent == lastPercent_) return;
   lastPercent_ = percent;
   shown_ = true;
-  // A line that wraps could not be wiped.
+  // The label is shortened, because a wrapped line could not be cleared.
   const std::string label(beginningOf(label_, terminalWidth() - kPercentWidth));
   std::fprintf(stderr, "\r%s: %d %%\033[K", label.c_str(), percent);
   std::fflush(stderr);

@@ -1,4 +1,5 @@
-// What one command accepts, and what it was given. Parsing is Boost.Program_options' work.
+// Describes what a command accepts and parses what the user typed (by Boost.Program_options); also
+// progress on stderr and buffered standard output for all commands.
 #pragma once
 
 #include <cstdint>
@@ -14,47 +15,56 @@
 
 namespace palpate::commands {
 
-// Wrong usage: exit code 2.
+// The command was used in a wrong way: exit code 2.
 class UsageError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
+// One option of a command.
 struct OptionSpec {
-  std::string name;   // "frame", or "output,o" with a short form
-  std::string value;  // what its value is called in the help ("N"); empty: a flag
+  // The long name, or the long name with a short form: "frame", "output,o".
+  std::string name;
+  // The name of its value in the help ("N"); empty for a flag.
+  std::string value;
   std::string help;
 };
 
+// Everything that a command accepts, also for its help.
 struct CommandSpec {
-  std::string synopsis;             // "palpate info FILE [--json]"
-  std::string purpose;              // a sentence or two
-  std::vector<OptionSpec> options;  // besides --help and --quiet, which every command has
-  std::string example;              // a command that works
-  std::size_t minArguments = 0;     // besides options
+  // The usage line: "palpate info FILE [--json]".
+  std::string synopsis;
+  // What the command does, in one or two sentences.
+  std::string purpose;
+  // In addition to --help and --quiet, which every command has.
+  std::vector<OptionSpec> options;
+  // A complete, working command.
+  std::string example;
+  // The number of words without options.
+  std::size_t minArguments = 0;
   std::size_t maxArguments = SIZE_MAX;
 };
 
-// What the command was given.
+// The parsed options and words of a command.
 class CommandLine {
  public:
-  // Throws UsageError. With --help, prints the help; then helpShown() is true and nothing else
-  // counts.
+  // Throws UsageError. With --help it prints the help; then helpShown() is true, and the other
+  // values are not valid.
   CommandLine(const CommandSpec& spec, const std::vector<std::string>& words);
 
   bool helpShown() const noexcept { return helpShown_; }
   const std::vector<std::string>& words() const noexcept { return words_; }
   bool has(const std::string& option) const { return values_.contains(option); }
   bool quiet() const { return has("quiet"); }
-  // The option's value (the last one given); nothing when absent.
+  // The value of an option (the last one when it is repeated); nothing when it is missing.
   std::optional<std::string> text(const std::string& option) const;
   std::vector<std::string> texts(const std::string& option) const;
-  // As numbers in a range; throw UsageError naming the option and the range.
+  // The value as a number in a range; throw UsageError that names the option and the range.
   std::optional<std::int64_t> integer(const std::string& option,
                                       std::int64_t least,
                                       std::int64_t most) const;
   std::optional<double> number(const std::string& option, double least, double most) const;
-  // One of the given words; throws UsageError naming them all.
+  // The value as one of the known words; throws UsageError that lists them.
   std::optional<std::string> choice(const std::string& option,
                                     const std::vector<std::string>& known) const;
 
@@ -64,18 +74,19 @@ class CommandLine {
   bool helpShown_ = false;
 };
 
-// Shows a percentage on stderr for work that takes over a second; silent when quiet or when stderr
-// is no terminal. Keep it alive while the callback is used.
+// Shows a percentage on stderr when the work takes longer than a second; shows nothing when quiet
+// or when stderr is not a terminal. It must outlive the callback.
 class ProgressLine {
  public:
   ProgressLine(std::string label, bool quiet);
-  ~ProgressLine();  // wipes the line
+  // Clears the line.
+  ~ProgressLine();
   ProgressLine(const ProgressLine&) = delete;
   ProgressLine& operator=(const ProgressLine&) = delete;
   Progress callback();
-  // What comes before the percentage, from now on.
+  // Sets the text before the percentage.
   void setLabel(std::string label);
-  // Takes the line away until there is a new figure: something else is about to be printed.
+  // Clears the line until the next percentage, so that something else can be printed.
   void wipe();
 
  private:
@@ -88,13 +99,14 @@ class ProgressLine {
   std::int64_t startUs_;
 };
 
-// What was to be printed could not be: no fault of the input.
+// Output could not be written; the input is not the cause.
 class OutputError : public Error {
  public:
   using Error::Error;
 };
 
-// Standard output in large pieces. Both throw OutputError: a full disk, a closed pipe.
+// Buffered standard output. Both functions throw OutputError, for example for a full disk or a
+// closed pipe.
 class StandardOutput {
  public:
   void write(const std::string& text);

@@ -39,7 +39,7 @@ void commandsShowHelp() {
       "3 done in part (damaged input, some of several files).");
 }
 
-// Number of letters to insert, delete or change to make one word the other.
+// Number of letters to insert, delete or change to make one word equal to the other.
 std::size_t distance(std::string_view a, std::string_view b) {
   std::vector<std::size_t> row(b.size() + 1);
   for (std::size_t j = 0; j < row.size(); ++j) row[j] = j;
@@ -55,7 +55,7 @@ std::size_t distance(std::string_view a, std::string_view b) {
   return row.back();
 }
 
-// A first word that is neither a command nor a file was most likely meant as a command.
+// Throws for a first word that is neither a command nor a file: it was probably meant as a command.
 void refuseMistypedCommand(const std::string& word) {
   std::error_code ignored;
   if (word.starts_with('-') || word.find_first_of("./") != std::string::npos ||
@@ -95,9 +95,9 @@ int fail(int code, std::string_view message) {
   return code;
 }
 
-// A closed standard stream would give its number to the next file that is opened, and what is meant
-// for the terminal would end up in it. Opened for the wrong direction: using it fails, as it
-// should.
+// Opens closed standard streams, because the next opened file would otherwise get their number and
+// receive output meant for the terminal. Each is opened in the wrong direction, so that using it
+// fails as it should.
 void fillClosedStreams() {
   for (int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
     if (::fcntl(stream, F_GETFD) < 0)
@@ -174,7 +174,7 @@ fs::path dataFolder() {
 int run(int argc, char** argv) {
   fillClosedStreams();
   const int code = runCaught({argv + std::min(argc, 1), argv + argc});
-  // What was printed but could not be written (a full disk, a closed pipe) was not done.
+  // Output that was printed but not written (a full disk, a closed pipe) is a failure.
   std::cout.flush();
   const bool written = std::fflush(stdout) == 0 && std::ferror(stdout) == 0 && std::cout.good();
   return written || code == kFailed ? code : fail(kFailed, "standard output can't be written");

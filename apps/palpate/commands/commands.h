@@ -1,4 +1,5 @@
-// The command line of Palpate: `palpate COMMAND ..` or, without a command, the window.
+// The command line of Palpate: `palpate COMMAND ..` runs a command; without a command the window
+// starts.
 #pragma once
 
 #include <filesystem>
@@ -7,21 +8,28 @@
 
 namespace palpate::commands {
 
-// Exit codes, the same for every command.
+// Exit codes, the same for every command. kDone: success.
 constexpr int kDone = 0;
-constexpr int kFailed = 1;      // one line on stderr: what, where, what to do
-constexpr int kWrongUsage = 2;  // one line on stderr
-constexpr int kPartlyDone = 3;  // damaged input, some of several files: says what and how much
+// Failed; one line on stderr tells what, where, and what to do.
+constexpr int kFailed = 1;
+// Wrong usage; one line on stderr.
+constexpr int kWrongUsage = 2;
+// Done in part: damaged input, or only some of several files; the output tells what and how much.
+constexpr int kPartlyDone = 3;
 
 using Arguments = std::vector<std::string>;
 
+// An entry of the list of commands.
 struct Command {
   const char* name;
-  const char* summary;                 // one line of `palpate --help`
-  int (*run)(const Arguments& words);  // the words after the command's name
+  // One line of `palpate --help`.
+  const char* summary;
+  // The function of the command; it gets the words after the command's name.
+  int (*run)(const Arguments& words);
 };
 
-// One function per command, one file per command. They throw; run() turns that into exit codes.
+// One function and one file for each command. They report errors as exceptions, which run()
+// converts to exit codes.
 int adaptCommand(const Arguments& words);
 int calibrateCommand(const Arguments& words);
 int classifyCommand(const Arguments& words);
@@ -51,14 +59,15 @@ int streamCommand(const Arguments& words);
 int synthesizeCommand(const Arguments& words);
 int trainCommand(const Arguments& words);
 int verifyCommand(const Arguments& words);
-// The window: files to open, --demo, --screenshot.
+// Starts the window, with files to open, --demo or --screenshot.
 int windowCommand(const Arguments& words);
 
+// All commands, in the order of `palpate --help`.
 const std::vector<Command>& allCommands();
 // Runs the whole program; returns its exit code.
 int run(int argc, char** argv);
-// Folder of the program's own data (example recordings): $PALPATE_DATA, else the one that belongs
-// to this program, wherever it lies: ../share/palpate, in a build folder share/palpate.
+// The folder of the program's own data (example recordings): $PALPATE_DATA, else the folder
+// relative to this executable: ../share/palpate when installed, share/palpate in a build folder.
 std::filesystem::path dataFolder();
 
 }  // namespace palpate::commands

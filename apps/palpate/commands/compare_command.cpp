@@ -1,4 +1,5 @@
-// palpate compare A B [--align HOW]: two recordings, frame beside frame, as CSV.
+// The command `palpate compare A B [--align HOW]` prints two recordings side by side, frame by
+// frame, as CSV.
 #include <cstdint>
 #include <cstdio>
 
@@ -15,7 +16,7 @@ namespace palpate::commands {
 namespace {
 
 constexpr double kFurthestS = 1e9;
-constexpr int kMicroseconds = 6;  // decimals: all that stamps have
+constexpr int kMicroseconds = 6;  // decimals: the resolution of time stamps
 
 TimedProfile opened(const std::string& file, bool quiet) {
   ProgressLine progress("reading " + file, quiet);

@@ -1,4 +1,5 @@
-// palpate contact PATH...: where a hand touches in space, frame by frame, as CSV.
+// The command `palpate contact PATH...` computes where a hand touches in space, frame by frame, as
+// CSV.
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
@@ -33,26 +34,26 @@ constexpr const char* kMatrixColumns =
     "surface_y_mm";
 
 struct ContactRequest {
-  std::optional<std::vector<double>> anglesDeg;  // assumed, whatever the recording says
+  std::optional<std::vector<double>> anglesDeg;  // used instead of recorded angles
   bool matrices = false;
   ContactOptions options = {};
   std::optional<std::int64_t> from = std::nullopt, to = std::nullopt;
   std::optional<CalibrationChoice> calibration = std::nullopt;
 };
 
-// What was odd about the joint angles of a recording.
+// Problems with the joint angles or values of a recording.
 struct AngleTroubles {
   std::size_t frames = 0;
   std::size_t outOfRange = 0;
   std::size_t unusable = 0;
   std::string firstOutOfRange = {}, firstUnusable = {};
-  std::size_t notFinite = 0;  // frames with values that are no numbers
+  std::size_t notFinite = 0;  // frames with values that are not finite
 };
 
 void appendVector(std::string& line, const Eigen::Vector3d& vector) {
   for (const double value : {vector.x(), vector.y(), vector.z()}) {
     line += ',';
-    appendNumber(line, value + 0.0);  // no -0
+    appendNumber(line, value + 0.0);  // avoids -0
   }
 }
 
@@ -64,7 +65,7 @@ void appendStart(std::string& line, std::size_t frame, std::int64_t hostUs) {
   line += ',';
 }
 
-// forceN: nothing without a calibration.
+// `forceN`: nothing without a calibration.
 void appendFrame(std::string& line,
                  const HandContact& contact,
                  bool posed,
@@ -108,7 +109,7 @@ void appendMatrix(std::string& line, std::size_t m, const MatrixContact& contact
   }
 }
 
-// First and last frame that were asked for.
+// First and last requested frame.
 std::pair<std::size_t, std::size_t> contactRangeOf(const std::filesystem::path& file,
                                                    const Profile& profile,
                                                    const ContactRequest& request) {
@@ -121,7 +122,8 @@ std::pair<std::size_t, std::size_t> contactRangeOf(const std::filesystem::path& 
   return {static_cast<std::size_t>(from), static_cast<std::size_t>(to)};
 }
 
-// Keeps the pose that belongs to a frame; joint angles change less often than frames.
+// Computes the pose of the hand for each frame; keeps it, because joint angles change less often
+// than frames.
 class PoseOfFrames {
  public:
   PoseOfFrames(const Profile& profile, const HandGeometry& geometry, const ContactRequest& request)
@@ -129,7 +131,8 @@ class PoseOfFrames {
     if (request.anglesDeg) geometry.pose(*request.anglesDeg, pose_);
   }
 
-  // False: the recorded angles are no pose; then pose() is another one.
+  // Updates the pose; returns false when the recorded angles are not a valid pose, and pose() is
+  // then that of an earlier moment, or of angles 0.
   bool posed(std::int64_t hostUs, AngleTroubles& problems) {
     if (request_.anglesDeg) return true;
     const std::size_t sample = profile_.angleSampleAt(hostUs).value();
@@ -198,7 +201,7 @@ AngleTroubles writeContact(StandardOutput& out,
   return problems;
 }
 
-// False when rows lack something for it.
+// Prints the problems; returns false when rows lack values because of them.
 bool sayTroubles(const std::filesystem::path& file, const AngleTroubles& problems, bool quiet) {
   const auto say = [&](std::size_t frames, const std::string& what) {
     std::fprintf(stderr,
@@ -280,7 +283,8 @@ int contactCommand(const Arguments& words) {
                     (recordings.several ? ",file\n" : "\n"));
         headerWritten = true;
         const std::string lineEnd = recordings.several ? "," + csvLine({file.string()}) : "\n";
-        // What was written of a recording that fails on the way stays: whole rows, and it is said.
+        // When a recording fails in the middle, the rows written so far are kept, and the failure
+        // is reported.
         AngleTroubles problems;
         try {
           problems = writeContact(out, file, profile, geometry, request, range, lineEnd, progress);

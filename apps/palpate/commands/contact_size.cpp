@@ -106,7 +106,8 @@ int contactSizes(const CommandLine& given) {
           if (!report.valid) sayContactSize(file, grasp, "no size: " + report.problem);
           whole = whole && report.valid && report.unusableFrames == 0;
         }
-        out.finish();  // each recording's rows as they come
+        // Writes the rows of each recording at once.
+        out.finish();
       });
   return code == kDone && !whole ? kPartlyDone : code;
 }

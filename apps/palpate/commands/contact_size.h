@@ -1,11 +1,11 @@
-// palpate contact --size: diameter and compression of what is held, a row per grasp.
+// `palpate contact --size`: diameter and compression of the held object, one row for each grasp.
 #pragma once
 
 #include "commands/command_line.h"
 
 namespace palpate::commands {
 
-// Returns the exit code; throws UsageError for options that don't go with --size.
+// Returns the exit code; throws UsageError for options that cannot be combined with --size.
 int contactSizes(const CommandLine& given);
 
 }  // namespace palpate::commands

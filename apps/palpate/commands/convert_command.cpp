@@ -1,4 +1,5 @@
-// palpate convert IN OUT: from one form of a recording to another, also of a whole folder.
+// The command `palpate convert IN OUT` converts a recording, or a whole folder of them, to another
+// form.
 #include <algorithm>
 #include <cstdio>
 #include <set>
@@ -24,7 +25,7 @@ std::string doneText(const fs::path& out, const Profile& profile) {
   return out.string() + ": " + std::to_string(profile.numFrames()) + " frames";
 }
 
-// What a .dsa could not hold as it was.
+// Reports the time stamps that a .dsa file could not store unchanged.
 std::string movedText(std::size_t stamps) {
   if (stamps == 0) return "";
   return "; " + std::to_string(stamps) +
@@ -64,7 +65,8 @@ int convertOne(const CommandLine& given, const std::string& in, const std::strin
   return kPartlyDone;
 }
 
-// Otherwise what was made would be among what is to be converted the next time.
+// Throws when `out` is inside `folder`: the result would otherwise be converted again the next
+// time.
 void requireOutside(const fs::path& folder, const fs::path& out) {
   const fs::path inside = fs::weakly_canonical(fs::absolute(folder));
   const fs::path made = fs::weakly_canonical(fs::absolute(out));

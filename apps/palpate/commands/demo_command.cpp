@@ -1,4 +1,5 @@
-// palpate demo -o DIR: a headless tour over what the program can do, a line per step.
+// The command `palpate demo -o DIR` shows without a window what the program can do; it prints one
+// line for each step.
 #include <atomic>
 #include <cstdio>
 #include <filesystem>
@@ -65,7 +66,7 @@ int demoCommand(const Arguments& words) {
       words);
   if (given.helpShown()) return kDone;
   const fs::path folder = makeDemoFolder(given.text("output").value_or("palpate-demo"));
-  Interruption interruption;  // before the first thread
+  Interruption interruption;  // before the first thread starts
   std::atomic<bool> interrupted = false;
   const DemoContinue goOn = [&] {
     if (interruption.waitForSignal(0)) interrupted = true;
@@ -81,7 +82,7 @@ int demoCommand(const Arguments& words) {
     runWholeDemo(run);
     failed = run.failed();
   } catch (const Cancelled&) {
-    // All in it is of this tour, which made it a moment ago.
+    // The demo created this folder, so that everything in it can be removed.
     std::error_code ignored;
     fs::remove_all(folder, ignored);
     throw Error("interrupted: nothing of the tour was kept");

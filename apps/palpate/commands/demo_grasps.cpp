@@ -15,7 +15,7 @@
 namespace palpate::commands {
 namespace {
 
-// A scene of data/scenes and what a person calls the thing in it.
+// A scene of data/scenes, and the common name of the object in it.
 struct HeldThing {
   const char* scene;
   const char* object;
@@ -28,7 +28,7 @@ constexpr std::array<HeldThing, 6> kHeldThings = {{{"ball", "ball", "grasp"},
                                                    {"pen", "pen", "pen"},
                                                    {"slipping_handle", "handle", "handle"}}};
 constexpr const char* kSlipScene = "slipping_pen";
-// Of where things stand: seeds that scripts/make_emulated_model does not use.
+// Seed of the object placements; scripts/make_emulated_model uses other seeds.
 constexpr std::uint64_t kFirstPlacement = 900;
 constexpr double kOpenS = 1.2;
 
@@ -40,7 +40,7 @@ const ScriptStep* stepOf(const Scene& scene) {
   return step == scene.script.end() ? nullptr : &*step;
 }
 
-// How fast the scene's own script closes the fingers.
+// The closing velocity in the scene's own script [deg/s].
 double closingOf(const Scene& scene) {
   const ScriptStep* step = stepOf<GraspAction>(scene);
   return step ? std::get<GraspAction>(step->action).velocityDegPerS : GraspAction().velocityDegPerS;
@@ -64,7 +64,8 @@ DemoGrasps::DemoGrasps(const std::filesystem::path& scenes,
   for (const HeldThing& thing : kHeldThings) {
     Scene scene = variedScene(loadScene(thing.scene, scenes), {}, placement++);
     closingDegPerS_.push_back(closingOf(scene));
-    scene.script.clear();  // this hand is moved over its port
+    // This hand is moved over its port instead.
+    scene.script.clear();
     scenes_.push_back(std::move(scene));
     held_.push_back({folder / (std::string(thing.recording) + ".palpate"), thing.object});
   }

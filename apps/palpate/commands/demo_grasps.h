@@ -1,5 +1,5 @@
-// The live half of `palpate demo`: several emulated hands at once. Each grasps another thing, one
-// lets a pen slip.
+// The live part of `palpate demo`: several emulated hands run at once. Each grasps a different
+// object; one lets a pen slip.
 #pragma once
 
 #include <cstddef>
@@ -16,24 +16,27 @@
 
 namespace palpate::commands {
 
-// When the script of a scene pulls at what is held, since the hand was switched on [s].
+// When the script of a scene pulls at the held object, in seconds since the hand was switched on.
 struct PullTimes {
-  double pullS = 0.0;     // the pull begins to grow
-  double releaseS = 0.0;  // the fingers open
-  double endS = 0.0;      // they are open
+  // The pull begins to increase [s].
+  double pullS = 0.0;
+  // The fingers begin to open [s].
+  double releaseS = 0.0;
+  // The fingers are open [s].
+  double endS = 0.0;
 };
-// Throws Error: the script doesn't pull and release.
+// Throws Error when the script does not pull and release.
 PullTimes pullTimesOf(const Scene& scene);
 
-// Grasps of the five things that data/emulated_objects.json was taught, and of a handle that it
-// wasn't, by the fingers of six hands that are moved over their ports; a seventh plays the scene
-// slipping_pen. The model was taught on grasps of the same things that were simulated without
-// ports, each time differently placed; here each is placed as in none of them. Steps throw as
-// DemoHand's; each returns its figure.
+// Six hands, moved over their ports, grasp the five objects that the model
+// data/emulated_objects.json was trained with, and a handle that is not in its training data; a
+// seventh hand runs the scene slipping_pen. The training grasps of the same objects were simulated
+// without ports, each with a different placement; the placements here are not among them. The steps
+// throw as those of DemoHand do; each returns a text with its result.
 class DemoGrasps {
  public:
-  // Throws FileError, FormatError: a scene that isn't there or is wrong. `folder`: where the
-  // recordings go.
+  // Throws FileError or FormatError when a scene is missing or invalid. The recordings are written
+  // to `folder`.
   DemoGrasps(const std::filesystem::path& scenes,
              const std::filesystem::path& folder,
              DemoContinue goOn);
@@ -42,11 +45,12 @@ class DemoGrasps {
   std::string grasp();
   std::string finishRecordings();
 
-  // What was held, and is to be named; and by how many fingers, as the emulator knows it.
+  // The held objects, which recognition has to name; and the grip on each, as the emulator knows
+  // it.
   const std::vector<KnownGrasp>& held() const noexcept { return held_; }
   const std::vector<DemoGrip>& grips() const noexcept { return grips_; }
-  // Of the pen that slips: its recording, its script, and what the emulator knew until the
-  // recordings were finished.
+  // About the slipping pen: its recording, the times of its script, and the emulator's true values
+  // up to finishRecordings().
   const std::filesystem::path& slipFile() const noexcept { return slipFile_; }
   const PullTimes& pullTimes() const noexcept { return pullTimes_; }
   const std::vector<DemoTruthFrame>& truth() const noexcept { return truth_; }
@@ -54,7 +58,8 @@ class DemoGrasps {
  private:
   void onEachHand(const std::function<void(std::size_t index)>& work) const;
 
-  std::vector<Scene> scenes_;  // one per hand, that of the pen that slips last
+  // One scene for each hand; the scene of the slipping pen is the last.
+  std::vector<Scene> scenes_;
   std::vector<double> closingDegPerS_;
   std::vector<KnownGrasp> held_;
   std::filesystem::path slipFile_;

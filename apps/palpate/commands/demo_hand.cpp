@@ -24,7 +24,7 @@ constexpr double kHoldS = 1.2;
 constexpr double kOpeningDegPerS = 60.0;
 constexpr milliseconds kLook{10};
 
-// Compares what comes with what was recorded, as it comes.
+// Compares the replayed data with the recorded data while it arrives.
 class ReplayComparison : public DeviceSink {
  public:
   explicit ReplayComparison(const Profile& profile) : profile_(profile) {}
@@ -127,7 +127,7 @@ void DemoHand::startRecording(const std::filesystem::path& file) {
 }
 
 void DemoHand::moveTo(double closeRatio, double velocityDegPerS) {
-  constexpr double kBeginS = 0.2;  // until the axes say that they move
+  constexpr double kBeginS = 0.2;  // until the axes report that they move
   constexpr double kPatienceS = 5.0;
   MoveJoints move;
   move.targetDeg = sdh2Preshape(preshape_).anglesDeg(closeRatio);

@@ -1,5 +1,5 @@
-// One hand of `palpate demo`: emulated, on two ptys of its own, with a capture session on them as
-// on a real hand, and a recording of what it felt.
+// One hand of `palpate demo`: an emulated hand on two ptys, with a capture session that treats it
+// as a real hand and records it.
 #pragma once
 
 #include <cstdint>
@@ -19,39 +19,42 @@
 
 namespace palpate::commands {
 
-// Whether the tour shall go on; asked in any thread by whoever waits.
+// Whether the demo continues; called from any thread that waits.
 using DemoContinue = std::function<bool()>;
 
-// What the emulator says that the fingers held, at one moment.
+// How the fingers hold the object at one moment, as the emulator knows it.
 struct DemoGrip {
   int fingers = 0;
-  double forceN = 0.0;  // of all fingers together
+  // [N] sum over all fingers
+  double forceN = 0.0;
 };
 
+// The result of a finished recording.
 struct DemoRecorded {
   RecordingReport report;
-  std::uint64_t lostFrames = 0;  // that the controller sent and that never came whole
+  // Frames that the controller sent and that did not arrive completely.
+  std::uint64_t lostFrames = 0;
 };
 
-// Each step throws an Error when it fails, Cancelled when the tour shall not go on.
+// Every step throws Error when it fails, and Cancelled when the demo does not continue.
 class DemoHand {
  public:
-  // Switches the emulated hand on. `object`: what a person calls the thing it is to hold.
+  // Switches the emulated hand on. `object`: the common name of the object that it will hold.
   DemoHand(const Scene& scene, std::string object, DemoContinue goOn);
   ~DemoHand();
 
   const std::string& object() const noexcept { return object_; }
-  // Returns when frames and joint angles come.
+  // Returns when frames and joint angles arrive.
   DeviceInfo connect();
-  // Begins a recording; what came in the seconds before is in it.
+  // Starts a recording, which includes the seconds before the start.
   void startRecording(const std::filesystem::path& file);
-  // Over its motion port: closes on the object, holds it, opens again. The scene must have no
-  // script.
+  // Closes on the object, holds it, and opens again, by commands over the motion port. The scene
+  // must not have a script.
   DemoGrip grasp(double closingDegPerS);
-  // Returns when the script has come so far [s since the hand was switched on].
+  // Returns when the script has reached that time [s since the hand was switched on].
   void playScript(double untilS);
   DemoRecorded finishRecording();
-  // Of every frame that was scanned so far.
+  // The true values of every frame scanned so far.
   std::vector<DemoTruthFrame> truth() const;
 
  private:
@@ -72,7 +75,8 @@ class DemoHand {
   std::unique_ptr<CaptureSession> session_;
 };
 
-// Replays a profile as a device and compares every frame and sample; returns the figure.
+// Replays a profile as a device and compares every frame and sample; returns a text with the
+// result.
 std::string replayAndCompare(const Profile& profile);
 
 }  // namespace palpate::commands

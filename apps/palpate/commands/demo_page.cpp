@@ -43,7 +43,7 @@ std::string pageMarkedCell(const std::string& text, const char* mark) {
   return "<td class=\"" + std::string(mark) + "\">" + xmlEscaped(text) + "</td>";
 }
 std::string pageRow(const std::string& cells) { return "<tr>" + cells + "</tr>\n"; }
-// `heads`: cells of the first line.
+// `heads`: cells of the header row.
 std::string pageTable(const std::string& heads, const std::string& rows) {
   return "<table>\n" + pageRow(heads) + rows + "</table>\n";
 }
@@ -72,7 +72,7 @@ std::string pageSteps(const DemoFacts& facts) {
          pageTable("<th>step</th><th>what it does</th><th></th><th>figure</th>", rows);
 }
 
-// "; named: ball", where something was asked about it.
+// "; named: ball" when recognition was asked about the object; else empty.
 std::string pageNamed(const DemoFacts& facts, const std::string& object) {
   if (facts.recognition)
     for (const AskedGrasp& asked : facts.recognition->grasps)

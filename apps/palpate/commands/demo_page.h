@@ -1,5 +1,5 @@
-// The page that `palpate demo` leaves: what was done, in plain words, with its figures and
-// pictures; one HTML file that needs no other.
+// The report of `palpate demo`: one self-contained HTML page that describes what was done, with
+// results and pictures.
 #pragma once
 
 #include <cstddef>
@@ -16,39 +16,52 @@
 
 namespace palpate::commands {
 
+// A step of the demo with its result.
 struct DemoStep {
-  std::string name;     // "slip"
-  std::string what;     // what it did, a sentence
-  std::string outcome;  // "ok", "skipped", "failed"
+  // A short name: "slip".
+  std::string name;
+  // What the step did, in one sentence.
+  std::string what;
+  // "ok", "skipped" or "failed".
+  std::string outcome;
   std::string figure;
 };
 
-// A thing that a hand held.
+// An object that a hand held.
 struct DemoThing {
   std::string object;
-  std::optional<DemoGrip> grip;  // as the emulator knows it
-  std::string picturePng;        // the bytes; empty: none was drawn
+  // The grip as the emulator knows it.
+  std::optional<DemoGrip> grip;
+  // Content of a PNG file; empty when there is no picture.
+  std::string picturePng;
 };
 
+// A file that the demo wrote.
 struct DemoFile {
-  std::string name;  // in the folder of the tour
+  // File name in the folder of the demo.
+  std::string name;
   std::string what;
   std::uintmax_t bytes = 0;
 };
 
+// Everything that the page shows.
 struct DemoFacts {
   std::string version;
-  std::string madeAt;  // UTC
+  // Date and time in UTC.
+  std::string madeAt;
   std::vector<DemoStep> steps;
-  std::vector<DemoThing> things;  // in the order of recognition->grasps, where that is known
+  // In the order of recognition->grasps, if that exists.
+  std::vector<DemoThing> things;
   std::optional<DemoRecognition> recognition;
   std::optional<DemoSlip> slip;
-  double pitchMm = 0.0;            // of a taxel
-  std::string slipPng, windowPng;  // the bytes; empty: none was drawn
+  // Pitch of the taxels.
+  double pitchMm = 0.0;
+  // Contents of PNG files; empty when there is no picture.
+  std::string slipPng, windowPng;
   std::vector<DemoFile> files;
 };
 
-// Every text of the facts is escaped.
+// Returns the page as HTML; all texts of the facts are escaped.
 std::string demoPage(const DemoFacts& facts);
 
 }  // namespace palpate::commands

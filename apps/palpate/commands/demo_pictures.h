@@ -1,4 +1,4 @@
-// The pictures of `palpate demo`: the window, and the hand in space; needs no display.
+// Draws the pictures of `palpate demo`, the window and the hand in space, without a display.
 #pragma once
 
 #include <QApplication>
@@ -15,17 +15,19 @@
 
 namespace palpate::commands {
 
-// One at a time; Qt runs as long as it lives.
+// Only one object may exist at a time, because it owns the Qt application.
 class DemoPictures {
  public:
   DemoPictures();
 
-  // The window on a recording as a PNG file. Nothing: the frame of largest sum. Throws Error.
+  // Draws the window with a recording into a PNG file. Without `frame` it shows the frame with the
+  // largest sum. Throws Error.
   void drawWindow(const std::filesystem::path& recording,
                   std::optional<std::size_t> frame,
                   const std::vector<std::string>& docks,
                   const std::filesystem::path& out) const;
-  // The hand in space in one frame: the bytes of a PNG. Throws Error, std::out_of_range (frame).
+  // Draws the hand in space at one frame; returns the content of a PNG file. Throws Error, and
+  // std::out_of_range for `frame`.
   std::string handPng(const Profile& profile, std::size_t frame) const;
 
  private:

@@ -25,7 +25,7 @@ void compareWithObject(const TrainedModel& model, AskedGrasp& asked) {
   }
 }
 
-// "the ball is called pen (0.93); at rank 2, 0.05"
+// Describes a wrong answer: "the ball is called pen (0.93); at rank 2, 0.05".
 std::string wrongText(const AskedGrasp& asked) {
   std::string text = "the " + asked.known.object;
   if (!asked.prediction) return text + " could not be asked about: " + asked.problem;

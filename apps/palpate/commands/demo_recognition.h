@@ -1,5 +1,5 @@
-// The recognition of `palpate demo`: asks a model what was held in each of some recordings of which
-// that is known, and compares.
+// The recognition of `palpate demo`: asks a model which object was held in recordings with a known
+// object, and compares.
 #pragma once
 
 #include <cstddef>
@@ -18,42 +18,56 @@ namespace palpate::commands {
 // A recording of one grasp of a known object.
 struct KnownGrasp {
   std::filesystem::path file;
-  std::string object;  // "foam ball"
+  // The common name: "foam ball".
+  std::string object;
 };
 
+// A grasp with the answer of the model about it.
 struct AskedGrasp {
   KnownGrasp known;
-  bool inTraining = false;               // whether the model knows the object
-  FeatureRow row;                        // of the longest grasp of the recording
-  std::optional<Prediction> prediction;  // nothing: there was none to ask about
-  std::string called;                    // the verdict's label; empty without one
-  // of the object among the classes, from 1; nothing: not taught, or no verdict
+  // Whether the model was trained with the object.
+  bool inTraining = false;
+  // Features of the longest grasp of the recording.
+  FeatureRow row;
+  // Nothing when there was no grasp to evaluate.
+  std::optional<Prediction> prediction;
+  // The predicted label; empty without a prediction.
+  std::string called;
+  // Rank of the true object among the classes, from 1; nothing when the object was not in the
+  // training data or there is no prediction.
   std::optional<std::size_t> rank;
-  double probability = 0.0;  // of the object, were it one of the known ones
-  std::string problem;       // why there is no verdict; else empty
+  // Probability of the true object, given that it is one of the known classes.
+  double probability = 0.0;
+  // Why there is no prediction; else empty.
+  std::string problem;
 
-  // Called by its name; of an object that was not taught: called unknown.
+  // Whether the prediction is the true object, or "unknown" for an object that was not in the
+  // training data.
   bool right() const;
 };
 
+// The answers about all grasps.
 struct DemoRecognition {
-  std::vector<AskedGrasp> grasps;  // in the order asked for
+  // In the order of the input.
+  std::vector<AskedGrasp> grasps;
   std::vector<std::string> warnings;
   Json sessionOffset;
 
   std::size_t numInTraining() const;
-  std::size_t numRight(bool inTraining) const;  // among those that were taught, or that were not
+  // Counts either the grasps of objects in the training data or the others.
+  std::size_t numRight(bool inTraining) const;
 };
 
-// The grasps count as one session of a hand whose joints were never referenced anew: session offset
-// 0. Throws Error: a recording that isn't there, or is of another sensor.
+// Treats the grasps as one session of a hand whose joints were not referenced again: session offset
+// 0. Throws Error for a missing recording or another sensor.
 DemoRecognition askModel(const TrainedModel& model,
                          const std::vector<KnownGrasp>& grasps,
                          const Progress& progress = {});
 
-// One line for a person: how many are right, each with its probability, and what is wrong.
+// One line of text: how many are right, each with its probability, and which are wrong.
 std::string demoRecognitionText(const DemoRecognition& recognition);
-// As `palpate classify --json`, each grasp with `object`, `taught`, `rank`, `probability`, `right`.
+// As `palpate classify --json`, with the additional members `object`, `taught`, `rank`,
+// `probability` and `right` for each grasp.
 Json demoRecognitionJson(const DemoRecognition& recognition,
                          const TrainedModel& model,
                          const std::string& modelName);

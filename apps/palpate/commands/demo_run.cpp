@@ -27,7 +27,7 @@ namespace {
 
 constexpr const char* kDemoModel = "emulated_objects.json";
 
-// What the recording holds, in numbers.
+// A summary of a recording as JSON.
 Json demoRecordingJson(const fs::path& file, const Profile& profile, const SignalTable& table) {
   const TimingReport timing = timingOf(profile);
   Json matrices = Json::array();
@@ -65,7 +65,7 @@ void writeDemoFile(const fs::path& path, const std::string& text) {
   out.commit();
 }
 
-// Empty where there is none.
+// The content of a file; empty when it does not exist.
 std::string bytesOfDemoFile(const fs::path& path) {
   std::ifstream in(path, std::ios::binary);
   return {std::istreambuf_iterator<char>(in), {}};

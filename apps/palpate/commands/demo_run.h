@@ -1,4 +1,4 @@
-// The whole tour of `palpate demo`, in a folder of its own.
+// Runs all parts of `palpate demo` and writes their results into a new folder.
 #pragma once
 
 #include <filesystem>
@@ -14,8 +14,8 @@
 
 namespace palpate::commands {
 
-// The parts in their order; each runs its steps, and skips those that have nothing to work on. They
-// throw Cancelled when the tour shall not go on, report() FileError as well.
+// Call the parts in this order. Each runs its steps and skips those whose input is missing. They
+// throw Cancelled when the demo does not continue; report() also throws FileError.
 class DemoRun {
  public:
   DemoRun(std::filesystem::path folder, DemoContinue goOn);
@@ -43,10 +43,12 @@ class DemoRun {
   DemoTour tour_;
   DemoFacts facts_;
   bool recorded_ = false;
-  std::vector<KnownGrasp> held_;  // the ball first
+  // The held objects; the ball is the first.
+  std::vector<KnownGrasp> held_;
   std::filesystem::path slipFile_;
   PullTimes pull_;
-  std::vector<DemoTruthFrame> truth_;  // of the pen that slips
+  // The emulator's true values of the slipping pen.
+  std::vector<DemoTruthFrame> truth_;
   Json ballJson_, slipJson_, recognitionJson_;
 };
 

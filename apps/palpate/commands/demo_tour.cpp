@@ -11,7 +11,8 @@ namespace palpate::commands {
 namespace fs = std::filesystem;
 
 fs::path makeDemoFolder(fs::path wanted) {
-  if (!wanted.has_filename()) wanted = wanted.parent_path();  // "tour/" is "tour"
+  // "tour/" means "tour".
+  if (!wanted.has_filename()) wanted = wanted.parent_path();
   fs::path folder = wanted;
   for (int number = 2;; ++number) {
     std::error_code failure;

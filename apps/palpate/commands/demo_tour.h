@@ -1,4 +1,5 @@
-// The steps of `palpate demo`: each runs, prints its line, and is kept for the report.
+// The list of steps of `palpate demo`: each step runs, prints its line, and is stored for the
+// report.
 #pragma once
 
 #include <filesystem>
@@ -13,8 +14,8 @@
 
 namespace palpate::commands {
 
-// A folder that did not exist: `wanted`, else wanted-2, wanted-3, .. Throws FileError: it can't be
-// made.
+// Creates a new folder: `wanted`, or wanted-2, wanted-3, .. if that exists. Throws FileError when
+// it cannot be created.
 std::filesystem::path makeDemoFolder(std::filesystem::path wanted);
 
 // Prints "NAME: ok|skipped|failed, FIGURE" for each step.
@@ -22,12 +23,12 @@ class DemoTour {
  public:
   explicit DemoTour(DemoContinue goOn) : continue_(std::move(goOn)) {}
 
-  // `work` returns the figure; what it throws makes the step failed. Throws Cancelled when the tour
-  // shall not go on.
+  // Runs a step. `work` returns the text of the result; an exception of it marks the step as
+  // failed. Throws Cancelled when the demo does not continue.
   void step(const std::string& name,
             const std::string& what,
             const std::function<std::string()>& work);
-  // Only where `ready`; else the step is skipped, because `why`.
+  // Runs the step if `ready`; otherwise the step is skipped with the reason `why`.
   void stepIf(bool ready,
               const std::string& why,
               const std::string& name,

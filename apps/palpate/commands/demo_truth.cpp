@@ -11,8 +11,7 @@ namespace {
 
 constexpr double kLeastWayTaxels = 1.0;
 constexpr std::size_t kHoldingMatrices = 2;
-// Stamps of frames that were received lie behind those of their scans: by the line's time, at most
-// two frames.
+// Largest delay between a scan and the stamp of its received frame, from transmission: two frames.
 constexpr std::int64_t kLineUs = 70 * kUsPerMs;
 
 double wayTaxels(const MatrixTruth& from, const MatrixTruth& to) {
@@ -66,7 +65,7 @@ DemoSlip demoSlip(const SlipSeries& series,
   found.motion = motion;
   const auto held = std::lower_bound(truth.begin(), truth.end(), fromS, isBefore);
   if (held == truth.end()) return found;
-  for (const SlipSegment& slip : series.slips) {  // by their begin
+  for (const SlipSegment& slip : series.slips) {  // ordered by their begin
     if (slip.beginUs > motion.endedUs + kLineUs || slip.endUs < held->hostUs) continue;
     if (slip.endUs < motion.beganUs) {
       ++found.early;

@@ -1,6 +1,6 @@
-// What the emulator knows of the pen that `palpate demo` lets slip, beside what the slip detector
-// says of the recording: when it began to move, how far it went, and whether and when that was
-// seen.
+// Compares, for the pen that slips in `palpate demo`, the emulator's true motion with the result of
+// the slip detector: when it began to move, how far it moved, and whether and when that was
+// detected.
 #pragma once
 
 #include <cstddef>
@@ -15,60 +15,72 @@
 
 namespace palpate::commands {
 
-// The truth of one scan.
+// The true values of one scan.
 struct DemoTruthFrame {
   std::int64_t hostUs = 0;  // [us since 1970]
-  double handS = 0.0;       // since the hand was switched on [s]
+  double handS = 0.0;       // [s] since the hand was switched on
   std::vector<MatrixTruth> matrices;
 };
 
-// The way of an object over the matrix on which it moved furthest, by the emulator's own mechanics.
+// The motion of an object on the matrix where it moved furthest, as the emulator's mechanics
+// computed it.
 struct DemoMotion {
   std::size_t matrix = 0;
-  // Host times [us since 1970] of the first scan in which it had moved by kDemoMovedTaxels, and of
-  // the first one in which it had made all of its way but so much.
+  // Host times [us since 1970]: the first scan after a motion of kDemoMovedTaxels, and the first
+  // scan with less than kDemoMovedTaxels left to move.
   std::int64_t beganUs = 0;
   std::int64_t endedUs = 0;
-  double movedTaxels = 0.0;  // at the end
+  // Length of the motion at its end.
+  double movedTaxels = 0.0;
 };
 inline constexpr double kDemoMovedTaxels = 0.1;
 
-// Between two times of the hand [s]. Nothing: it moved by less than a taxel, or was not held by two
-// matrices at `fromS`.
+// The motion between two times of the hand [s]. Nothing when it was less than a taxel, or when
+// fewer than two matrices held the object at `fromS`.
 std::optional<DemoMotion> demoMotion(const std::vector<DemoTruthFrame>& truth,
                                      double fromS,
                                      double untilS);
 
-// The alarm that belongs to the motion.
+// The alarm that detected the motion.
 struct DemoAlarm {
   std::size_t matrix = 0;
-  std::size_t frame = 0;       // in which it was raised
-  std::size_t lastFrame = 0;   // in which it stood
-  double atS = 0.0;            // since the first frame of the recording [s]
-  double afterS = 0.0;         // behind the begin of the motion [s]; below 0: ahead of it
-  double movedTaxels = 0.0;    // so far the object had gone then, by the emulator's mechanics
-  double imprintTaxels = 0.0;  // how far the imprint was from its reference while it stood, at most
-  std::size_t furthestFrame = 0;             // in which that was
-  SlipIndicator lamp = SlipIndicator::kOff;  // in `frame`
+  // The frame that raised the alarm.
+  std::size_t frame = 0;
+  // The last frame of the alarm.
+  std::size_t lastFrame = 0;
+  double atS = 0.0;     // [s] since the first frame of the recording
+  double afterS = 0.0;  // [s] after the begin of the motion; negative: before it
+  // True motion of the object up to the alarm.
+  double movedTaxels = 0.0;
+  // Largest distance of the contact from its reference during the alarm [taxels].
+  double imprintTaxels = 0.0;
+  // The frame with that distance.
+  std::size_t furthestFrame = 0;
+  // The status symbol in `frame`.
+  SlipIndicator lamp = SlipIndicator::kOff;
   SlipState state = SlipState::kInvalid;
 };
 
+// The true motion compared with the alarms of the slip detector.
 struct DemoSlip {
   DemoMotion motion;
-  std::optional<DemoAlarm> alarm;     // the first one; nothing: it was not seen
-  std::vector<std::size_t> matrices;  // that raised one while it moved, ascending
-  // Alarms while it was held and did not move yet: false ones.
+  // The first alarm; nothing when the motion was not detected.
+  std::optional<DemoAlarm> alarm;
+  // The matrices that raised an alarm during the motion, ascending.
+  std::vector<std::size_t> matrices;
+  // Number of false alarms: while the object was held and did not move yet.
   std::size_t early = 0;
 };
 
-// `truth` and `fromS` as the motion is of: from then on it was held and at rest. An alarm belongs
-// to the motion when it stands between its begin and its end.
+// Evaluates the alarms from `fromS` on, when the object was held and at rest; `truth` and `fromS`
+// are those of demoMotion(). An alarm belongs to the motion when it overlaps the time between its
+// begin and its end.
 DemoSlip demoSlip(const SlipSeries& series,
                   const std::vector<DemoTruthFrame>& truth,
                   double fromS,
                   const DemoMotion& motion);
 
-// One line for a person. `pitchMm` of a taxel.
+// One line of text; `pitchMm` is the pitch of the taxels.
 std::string demoSlipText(const DemoSlip& slip, double pitchMm);
 Json demoSlipJson(const DemoSlip& slip, double pitchMm);
 

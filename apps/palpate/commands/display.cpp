@@ -21,8 +21,8 @@ bool isSet(const char* variable) {
   return value && *value;
 }
 
-// Asks the X server named by DISPLAY. libxcb is what Qt itself connects with; without it there is
-// no X window either.
+// Connects to the X server named by DISPLAY with libxcb, which Qt uses too; without that library
+// there can be no X window.
 bool xServerAnswers() {
   if (!isSet("DISPLAY")) return false;
   void* library = dlopen("libxcb.so.1", RTLD_LAZY | RTLD_LOCAL);
@@ -40,7 +40,7 @@ bool xServerAnswers() {
   return answers;
 }
 
-// Asks the Wayland compositor by its socket.
+// Connects to the socket of the Wayland compositor.
 bool waylandAnswers() {
   if (!isSet("WAYLAND_DISPLAY")) return false;
   std::string path = std::getenv("WAYLAND_DISPLAY");
@@ -57,14 +57,14 @@ bool waylandAnswers() {
          ::connect(socket.get(), reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0;
 }
 
-// What QT_QPA_PLATFORM names, without its options: "offscreen" of "offscreen:size=..".
+// The platform in QT_QPA_PLATFORM without its options: "offscreen" of "offscreen:size=..".
 std::string chosenPlatform() {
   if (!isSet("QT_QPA_PLATFORM")) return {};
   const std::string_view chosen(std::getenv("QT_QPA_PLATFORM"));
   return std::string(chosen.substr(0, chosen.find_first_of(":;")));
 }
 
-// Qt ends the process when it finds no plug-in for a platform.
+// Checked because Qt ends the process when it finds no plug-in for a platform.
 bool hasPlugin(const std::string& platform) {
   const std::string name = platform == "wayland" ? "libqwayland-" : "libq" + platform;
   std::error_code failure;
@@ -88,8 +88,8 @@ bool hasDisplay() {
 
 void drawWithoutDisplay() {
   ::setenv("QT_QPA_PLATFORM", "offscreen", 1);
-  // Where there is no display nobody can be told how large a window may become: Qt says so at each
-  // dialogue, which is no news for whoever wants a picture.
+  // The platform "offscreen" does not support size limits of windows, and Qt prints a warning for
+  // each dialog. That warning does not matter for pictures and is suppressed.
   static QtMessageHandler usual = nullptr;
   static const bool once = [] {
     usual = qInstallMessageHandler(
@@ -106,7 +106,7 @@ RuntimeFolder::RuntimeFolder() {
   if (isSet("XDG_RUNTIME_DIR")) return;
   std::error_code failure;
   std::string pattern = std::filesystem::temp_directory_path(failure) / "palpate-runtime-XXXXXX";
-  if (failure || !mkdtemp(pattern.data())) return;  // then Qt's warning stays
+  if (failure || !mkdtemp(pattern.data())) return;  // then Qt prints its warning
   path_ = pattern;
   ::setenv("XDG_RUNTIME_DIR", path_.c_str(), 1);
 }

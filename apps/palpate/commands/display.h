@@ -1,18 +1,19 @@
-// Whether a window can be shown at all: asked before Qt is, because Qt aborts where it can't.
+// Finds out whether a window can be shown before Qt is started, because Qt aborts the process when
+// it cannot.
 #pragma once
 
 #include <filesystem>
 
 namespace palpate::commands {
 
-// True when an X server or a Wayland compositor answers, or QT_QPA_PLATFORM names a platform that
-// is installed and needs none of them.
+// True when an X server or a Wayland compositor answers, or when QT_QPA_PLATFORM names an installed
+// platform that needs neither.
 bool hasDisplay();
-// Makes Qt draw without a display (platform "offscreen"): pictures need none.
+// Makes Qt draw without a display (platform "offscreen"), which is enough for pictures.
 void drawWithoutDisplay();
 
-// A folder for XDG_RUNTIME_DIR where nobody is logged in (a server, a container): without one Qt
-// says so on standard error. Removed at the end.
+// A temporary folder for XDG_RUNTIME_DIR where no user is logged in (a server, a container);
+// without it Qt prints a warning on standard error. The destructor removes it.
 class RuntimeFolder {
  public:
   RuntimeFolder();

@@ -1,4 +1,4 @@
-// palpate emulate: the emulated hand on two ports, until it is interrupted.
+// The command `palpate emulate` runs the emulated hand on two ports until it is interrupted.
 #include <cstdint>
 #include <cstdio>
 #include <memory>
@@ -91,7 +91,7 @@ CommandSpec emulateSpec() {
       .maxArguments = 0};
 }
 
-// Until a signal comes. Throws what stopped the hand by itself.
+// Waits for a signal. Throws when the emulated hand stops by itself.
 void waitForEnd(const EmulatedHand& hand, Interruption& interruption) {
   constexpr int kLookMs = 200;
   while (!interruption.waitForSignal(kLookMs))
@@ -126,7 +126,8 @@ int emulateCommand(const Arguments& words) {
     if (std::fflush(stdout) != 0) throw std::runtime_error("standard output can't be written");
     waitForEnd(hand, interruption);
   } catch (const std::invalid_argument& error) {
-    throw UsageError(error.what());  // a port of another machine, a firmware that is none
+    // A port of another machine, or an invalid firmware.
+    throw UsageError(error.what());
   }
   if (truth) truth->finish();
   return kDone;

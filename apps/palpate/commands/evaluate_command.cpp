@@ -1,5 +1,5 @@
-// palpate evaluate PATH: how well grasps are recognised, by cross-validation or by a model on other
-// recordings.
+// The command `palpate evaluate PATH` measures how well grasps are recognised, by cross-validation
+// or with a model on other recordings.
 #include <algorithm>
 #include <utility>
 
@@ -92,7 +92,8 @@ std::vector<std::size_t> curveSizes(const SampleSet& samples) {
   return sizes;
 }
 
-// Strangers of the same day; with --later also of another, by what is known of its offset.
+// The recognition of unknown objects from the same day; with --later also from another day, with
+// what is known about its offset.
 Json unknownJson(const CommandLine& given,
                  const SampleSet& samples,
                  const PipelineOptions& options,
@@ -123,7 +124,7 @@ int crossValidation(const CommandLine& given) {
   const SetChoice choice = setGiven(given);
   PipelineOptions options;
   if (choice.set == FeatureSet::kBest && !given.has("lda"))
-    options.classifier = ClassifierKind::kGauss;  // as train
+    options.classifier = ClassifierKind::kGauss;  // as in train
   takePipelineOptions(given, options);
   const bool blocks = given.choice("protocol", {"S", "B"}) == "B";
   const auto numSplits = static_cast<std::size_t>(given.integer("splits", 1, 100000).value_or(10));

@@ -1,4 +1,4 @@
-// palpate features PATH...: what recognition knows of the grasps in recordings, as CSV.
+// The command `palpate features PATH...` prints the features of the grasps in recordings as CSV.
 #include <cstdio>
 #include <filesystem>
 

@@ -1,4 +1,5 @@
-// palpate filter IN OUT: a recording seen through a chain of filters, as a recording.
+// The command `palpate filter IN OUT` writes a recording filtered by a chain of filters as a new
+// recording.
 #include <cstdio>
 
 #include "palpate/core/escaped_line.h"

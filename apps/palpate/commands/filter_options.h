@@ -1,4 +1,5 @@
-// --filter and --recipe, for every command that can look at a recording through filters; --signal.
+// The options --filter and --recipe of every command that can filter a recording, and the option
+// --signal.
 #pragma once
 
 #include <filesystem>
@@ -14,22 +15,24 @@
 
 namespace palpate::commands {
 
-// The options, to be put among a command's own.
+// The filter options, to be added to those of a command.
 std::vector<OptionSpec> filterOptions();
-// `options` and the filter options behind them.
+// `options` followed by the filter options.
 std::vector<OptionSpec> withFilterOptions(std::vector<OptionSpec> options);
 
-// Empty where none is asked for. Throws UsageError (what a text says), Error (what a file says).
+// The recipe that the options describe; empty when there are none. Throws UsageError for an invalid
+// text and Error for an invalid file.
 Recipe recipeOf(const CommandLine& given);
-// The recording as it is where the recipe is empty. Events "settings" restart the filters over
-// time. Throws Error (a matrix that the recording hasn't; a file that can't be read), Cancelled.
+// The filtered recording; the recording itself when the recipe is empty. Events "settings" restart
+// the filters over time. Throws Error (a matrix that the recording does not have; an unreadable
+// file) and Cancelled.
 Profile filteredBy(const Recipe& recipe,
                    const Profile& profile,
                    const std::filesystem::path& file,
                    const Progress& progress = {});
 
-// --signal NAME, a characteristic signal; nothing where it isn't given. Throws UsageError naming
-// all.
+// The characteristic signal of --signal NAME; nothing when the option is missing. Throws UsageError
+// that lists all names.
 std::optional<SignalKind> signalChosen(const CommandLine& given);
 
 // All filters with their options, as `palpate filter --list` prints them.

@@ -1,5 +1,5 @@
-// palpate ghosts [PATH...]: how many false taxels filters leave, and what they take of true
-// contacts.
+// The command `palpate ghosts [PATH...]` measures how many false taxels remain after filters, and
+// how much the filters remove from true contacts.
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -23,7 +23,7 @@ namespace {
 constexpr double kDefaultDegC[] = {30.0, 45.0};
 constexpr double kDefaultBelow[] = {0.0, 2.0, 3.0, 5.0};
 
-// Rows as they come, or one JSON list at the end.
+// Prints rows as they are computed, or one JSON list at the end.
 class Rows {
  public:
   Rows(bool json, bool emulated) : json_(json), emulated_(emulated) {}
@@ -50,7 +50,7 @@ class Rows {
   StandardOutput out_;
 };
 
-// Fraction of the whole, while a part of it runs.
+// Progress of one of several parts of the work.
 Progress partOf(const Progress& whole, std::size_t part, std::size_t parts) {
   return [whole, part, parts](double fraction) {
     return !whole || whole((static_cast<double>(part) + fraction) / static_cast<double>(parts));
@@ -103,8 +103,8 @@ int emulated(const CommandLine& given,
   return kDone;
 }
 
-// What thresholds at the noise floor, or so far below, leave of a recording at threshold 0. The
-// temperature of a matrix is that of the motor beside it.
+// Applies thresholds at the noise floor, or `belowCounts` below it, to a recording with threshold
+// 0. The temperature of a matrix is that of the motor next to it.
 Profile lookedAtOver(double belowCounts,
                      const Profile& profile,
                      const std::filesystem::path& file) {

@@ -1,4 +1,4 @@
-// What `palpate ghosts` prints: a row or a JSON object for each recipe and source of frames.
+// The output of `palpate ghosts`: one row or JSON object for each recipe and source of frames.
 #pragma once
 
 #include <optional>
@@ -11,19 +11,20 @@
 
 namespace palpate::commands {
 
-// Where frames come from: a file, or the emulated hand.
+// A source of frames: a file or the emulated hand.
 struct GhostSource {
   std::string file = {};
-  double degC = 0.0;  // emulated
-  // Counts under the noise floor's thresholds; nothing: a recording as it is.
+  double degC = 0.0;  // [deg C], of the emulated hand
+  // How far the threshold is below the noise floor [counts]; nothing: the recording is used
+  // unchanged.
   std::optional<double> belowCounts = {};
   std::vector<NoisyContact> contacts = {};
 };
 
-// A chain for each filter that might help against ghosts, and each preset, once.
+// A chain for each filter that may help against ghosts, and each preset; without duplicates.
 std::vector<Recipe> ghostCandidates();
 
-// Of emulated frames the columns of contacts, too.
+// The header row; for emulated frames with the columns of contacts.
 std::vector<std::string> ghostHeader(bool emulated);
 std::vector<std::string> ghostCells(const Recipe& recipe,
                                     const GhostSource& source,

@@ -1,4 +1,5 @@
-// palpate grasp --sdh PORT [--dsa PORT] --preshape NAME ..: moves a hand, and says what it does.
+// The command `palpate grasp --sdh PORT [--dsa PORT] --preshape NAME ..` moves a hand and prints
+// its states.
 #include <algorithm>
 #include <cstdio>
 #include <memory>
@@ -101,7 +102,7 @@ GraspRequest graspRequestOf(const CommandLine& given) {
   return request;
 }
 
-// "0.523 closing", at once, for whoever reads along.
+// Prints state lines such as "0.523 closing" at once, so that a reader can follow.
 class StateLines {
  public:
   explicit StateLines(bool quiet) : quiet_(quiet), startUs_(systemClock().monotonicUs()) {}
@@ -121,7 +122,7 @@ class StateLines {
   std::int64_t startUs_;
 };
 
-// Until the hand can do what is asked for. Throws why it can't.
+// Waits until the hand can do what was requested. Throws the reason when it cannot.
 void awaitHand(const GraspControl& control,
                const GraspRequest& request,
                double limitS,
@@ -143,7 +144,7 @@ GraspReport follow(GraspControl& control, const StateLines& lines, Interruption&
     if (interruption.waitForSignal(kGraspLookMs)) control.stop();
     for (const GraspChange& change : control.takeChanges()) {
       if (!change.report) {
-        // What happened in a phase, or that it begins.
+        // A change without a report: a phase begins, or something happened in it.
         const std::string_view phase = nameOf(change.phase);
         const bool begins = change.text.compare(0, phase.size(), phase) == 0;
         lines.show(phase, begins ? std::string() : change.text);
@@ -161,7 +162,7 @@ int exitCodeOf(const GraspReport& report) {
     case GraspOutcome::kLimitReached:
       return kDone;
     case GraspOutcome::kStopped:
-      // To hold until somebody ends it is what was asked for.
+      // Without a holding time, holding until it is stopped is what was requested.
       if (report.held && report.request.holding.holdS == 0.0) return kDone;
       std::fputs("palpate: stopped before the grasp was done\n", stderr);
       return kPartlyDone;

@@ -1,4 +1,4 @@
-// palpate grasps PATH...: where the grasps of recordings are, as CSV.
+// The command `palpate grasps PATH...` finds the grasps in recordings and prints them as CSV.
 #include <algorithm>
 #include <cstdint>
 #include <filesystem>
@@ -16,8 +16,8 @@
 namespace palpate::commands {
 namespace {
 
-// The rule of the study names matrices; of a sensor without them "no grasp" would be the wrong
-// answer.
+// Throws when the sensor lacks the matrices that the rule of the study uses: the result "no grasp"
+// would be wrong.
 void requireMatrices(const std::filesystem::path& file,
                      const Profile& profile,
                      const GraspSegmentOptions& options) {
@@ -92,7 +92,8 @@ int graspsCommand(const Arguments& words) {
       if (list.several) cells.push_back(file.string());
       out.write(csvLine(cells));
     }
-    out.finish();  // each recording's rows as they come
+    // Writes the rows of each recording at once.
+    out.finish();
   };
   const int code = forEachProfile(list, given.quiet(), work);
   out.finish();

@@ -1,5 +1,5 @@
-// What the commands that place taxels in space are told of the hand: joint angles, the fingertips'
-// radius.
+// The options of commands that place taxels in space: joint angles, and the radius of the
+// fingertips.
 #pragma once
 
 #include <filesystem>
@@ -14,20 +14,22 @@
 
 namespace palpate::commands {
 
-// "10,-20,.." as `count` numbers; throws UsageError naming the option and the piece that is none.
+// Parses "10,-20,.." as `count` numbers; throws UsageError that names the option and the invalid
+// part.
 std::vector<double> numbersOf(const std::string& text,
                               const std::string& option,
                               std::size_t count);
 
-// --angles A0,..,A6 of an SDH-2 [deg]: seven numbers within the axes' range; throws UsageError.
+// The option --angles A0,..,A6 of an SDH-2 [deg]: seven numbers within the ranges of the axes;
+// throws UsageError.
 OptionSpec anglesOption();
 std::optional<std::vector<double>> anglesOf(const CommandLine& given);
 
-// --fingertip study|effective.
+// The option --fingertip study|effective.
 OptionSpec fingertipOption(const std::string& defaultName = "study");
 GeometryDescription geometryOf(const CommandLine& given, const std::string& defaultName = "study");
 
-// Throws Error naming the file when its sensor has other matrices than the hand.
+// Throws Error that names the file when its sensor has other matrices than the hand.
 void requireHand(const std::filesystem::path& file,
                  const Profile& profile,
                  const GeometryDescription& hand);

@@ -1,4 +1,4 @@
-// palpate info PATH... [--json]: what is in a recording, or in each of several.
+// The command `palpate info PATH... [--json]` describes the content of one or several recordings.
 #include <algorithm>
 #include <filesystem>
 #include <limits>
@@ -41,13 +41,13 @@ ValueReport valuesOf(const Profile& profile, const Progress& progress) {
   return report;
 }
 
-// What a person said of it; empty: nothing.
+// A detail that the operator entered; empty when there is none.
 std::string saidOf(const ReadableRecording& recording, const std::string& key) {
   const auto at = recording.meta.find(key);
   return at == recording.meta.end() ? std::string() : at->second;
 }
 
-// Texts of events "label" and "segment", each once, in order of time.
+// Texts of events "label" and "segment", each once, ordered by time.
 std::vector<std::string> labelsOf(const ReadableRecording& recording) {
   std::vector<std::string> texts;
   for (const RecordingEvent& event : recording.events)
@@ -57,14 +57,14 @@ std::vector<std::string> labelsOf(const ReadableRecording& recording) {
   return texts;
 }
 
-// What is odd about it, or missing.
+// The warnings of the reader, and the damage.
 std::vector<std::string> warningsOf(const ReadableRecording& recording) {
   std::vector<std::string> warnings = recording.profile.info().warnings;
   if (!recording.damage.empty()) warnings.push_back(recording.damage);
   return warnings;
 }
 
-// What operators are asked before a recording (docs/palpate_format.md).
+// The details that operators enter before a recording (docs/palpate_format.md).
 constexpr const char* kSaid[] = {"operator", "object", "run", "notes"};
 
 Json detailsOf(const RecordingEvent& event) {
@@ -98,7 +98,7 @@ const char* valueTypeText(const Profile& profile) {
   return profile.info().valueType == ValueType::kCounts ? "counts" : "float";
 }
 
-// A rate needs two frames; with fewer it is not known.
+// The rate as JSON; null when it is unknown, because a rate needs two frames.
 Json infoRateJson(double hz) { return hz > 0.0 ? Json(hz) : Json(); }
 
 Json matricesJson(const SensorLayout& layout) {
@@ -116,7 +116,7 @@ Json matricesJson(const SensorLayout& layout) {
   return matrices;
 }
 
-// `report` has what stands before.
+// `report` contains the members that come first.
 Json infoJsonOf(Json report,
                 const ReadableRecording& recording,
                 const TimingReport& timing,
@@ -174,7 +174,7 @@ std::string matricesText(const Profile& profile) {
   return text;
 }
 
-// What was said and noted, then every event at its time since the first frame.
+// The operator's details, then every event with its time since the first frame.
 std::string notesText(const ReadableRecording& recording) {
   const Profile& profile = recording.profile;
   constexpr std::size_t kMostListed = 200;
@@ -247,7 +247,7 @@ constexpr const char* kTableHeader =
     "file,format,value_type,frames,duration_s,rate_hz,mean_rate_hz,gaps,temperatures,joint_angles,"
     "max_value,saturated_frames,serial,warnings,operator,object,run,notes,labels,events\n";
 
-// One row of the table over several recordings; what is not known is empty.
+// One row of the table over several recordings; unknown values are empty.
 std::string tableRow(const std::filesystem::path& file,
                      const ReadableRecording& recording,
                      const TimingReport& timing,
@@ -293,7 +293,7 @@ int infoOfOne(const RecordingList& recordings, bool quiet, bool json) {
       });
 }
 
-// A table with a row each, or one object with an item each: written as it goes.
+// Prints a table with one row, or one object with one item, for each recording while they are read.
 int infoOfSeveral(const RecordingList& recordings, bool quiet, bool json) {
   StandardOutput out;
   if (!recordings.files.empty()) out.write(json ? "{\"recordings\": [" : kTableHeader);

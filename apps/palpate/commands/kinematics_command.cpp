@@ -1,4 +1,4 @@
-// palpate kinematics: where the taxels are at a set of joint angles.
+// The command `palpate kinematics` prints where the taxels are in space for given joint angles.
 #include <cmath>
 #include <optional>
 
@@ -25,7 +25,7 @@ void kinematicsAppendRow(std::string& out,
   for (const double value :
        {x, y, positionMm.x(), positionMm.y(), positionMm.z(), normal.x(), normal.y(), normal.z()}) {
     out += ',';
-    appendNumber(out, value + 0.0);  // no -0
+    appendNumber(out, value + 0.0);  // avoids -0
   }
   out += exists ? ",1\n" : ",0\n";
 }
@@ -70,7 +70,7 @@ int kinematicsCommand(const Arguments& words) {
     const auto matrix = static_cast<std::size_t>(point[0]);
     const double pitchMm = layout.matrix(matrix).pitchMm;
     const double x = point[1] / pitchMm, y = point[2] / pitchMm;
-    // The taxel that the point lies in.
+    // Whether the taxel at that point exists.
     const bool exists = layout.matrix(matrix).exists(static_cast<int>(std::floor(y + 0.5)),
                                                      static_cast<int>(std::floor(x + 0.5)));
     kinematicsAppendRow(out,

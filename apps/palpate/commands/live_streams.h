@@ -1,5 +1,5 @@
-// --to STREAM of the commands that run a hand: what goes to other programs on this machine while
-// they do.
+// Sends live results to other programs on this machine while a command runs a hand, for the option
+// --to STREAM.
 #pragma once
 
 #include <cstdint>
@@ -19,30 +19,35 @@
 
 namespace palpate::commands {
 
+// A stream and the UDP port that it is sent to.
 struct StreamTarget {
   StreamKind kind = StreamKind::kSignals;
-  std::uint16_t port = 0;  // of 127.0.0.1
+  // UDP port on 127.0.0.1.
+  std::uint16_t port = 0;
 };
-// "signals", "tactile", "signals:9999"; throws UsageError naming the option.
+// Parses "signals", "tactile" or "signals:9999"; throws UsageError that names the option.
 StreamTarget streamTargetOf(const std::string& text, const std::string& option);
 std::vector<StreamTarget> streamTargetsOf(const CommandLine& given, const std::string& option);
 
-// The stages that find what is streamed. `calibration`: nothing for no pressures and forces.
+// The stages that compute what is streamed. Without `calibration` there are no pressures and
+// forces.
 std::vector<std::unique_ptr<Stage>> streamedStages(CaptureSession* session,
                                                    const HandDescription& hand,
                                                    const std::optional<Calibration>& calibration);
+// The calibration that --calibration names; nothing when the option is missing. Throws Error.
 std::optional<Calibration> streamCalibrationOf(const CommandLine& given);
 
-// Processes what a session delivers and sends it, as long as it lives. The session must outlive it.
+// Processes the frames of a session and sends the results as long as this object exists. The
+// session must outlive it.
 class LiveStreams {
  public:
   LiveStreams(CaptureSession& session,
               const std::vector<StreamTarget>& targets,
               const std::optional<Calibration>& calibration);
   const LiveStream& stream() const noexcept { return stream_; }
-  // Why it ended by itself; empty: it didn't.
+  // Why processing ended by itself; empty when it did not.
   std::string failure() const { return chain_.failure(); }
-  // "signals to 127.0.0.1:9870: 310 sent, 2 dropped", a line for each.
+  // One line for each target: "signals to 127.0.0.1:9870: 310 sent, 2 dropped".
   std::vector<std::string> lines() const;
 
  private:

@@ -1,4 +1,4 @@
-// Sizes of pictures and windows on the command line.
+// Parses the sizes of pictures and windows on the command line.
 #pragma once
 
 #include <QSize>
@@ -6,7 +6,7 @@
 
 namespace palpate::commands {
 
-// "1280x800": pixels, from `smallest` to 8192 x 8192. Throws UsageError.
+// Parses "1280x800" [px], from `smallest` to 8192 x 8192. Throws UsageError.
 QSize parsedSize(const std::string& text, const QSize& smallest);
 
 }  // namespace palpate::commands

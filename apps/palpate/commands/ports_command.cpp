@@ -1,4 +1,4 @@
-// palpate ports: which ports there are, and what answers behind each.
+// The command `palpate ports` lists the ports and what answers at each.
 #include <algorithm>
 #include <filesystem>
 #include <future>
@@ -23,21 +23,22 @@ constexpr std::size_t kProbesAtOnce = 16;
 
 struct Row {
   PortInfo info;
-  bool wanted = false;             // to be asked
-  std::optional<PortProbe> probe;  // absent: not asked
+  bool wanted = false;             // to be probed
+  std::optional<PortProbe> probe;  // absent: not probed
 };
 
-// Where a name leads to; the name itself where that is no file.
+// The device that a name links to; the name itself when it is not a file.
 std::string portsDeviceOf(const std::string& name) {
   std::error_code failed;
   const std::string path = std::filesystem::canonical(name, failed).string();
   return failed ? name : path;
 }
 
-// The ports of the machine, then those named besides, each device once.
+// The ports of the machine, then the additionally named ones; each device once.
 std::vector<Row> rowsOf(const std::vector<std::string>& named) {
   std::vector<Row> rows;
-  // Opening a Bluetooth port calls the other side.
+  // Opening a Bluetooth port would connect to the remote device, so that only named ones are
+  // probed.
   for (PortInfo& info : listPorts()) {
     const bool wanted = named.empty() && !info.bluetooth;
     rows.push_back({std::move(info), wanted, std::nullopt});
@@ -59,7 +60,7 @@ std::vector<Row> rowsOf(const std::vector<std::string>& named) {
   return rows;
 }
 
-// Asks the wanted ports, several at a time: each takes up to 2.5 s.
+// Probes the wanted ports, several at a time, because each takes up to 2.5 s.
 void probe(std::vector<Row>& rows) {
   std::vector<std::pair<Row*, std::future<PortProbe>>> asked;
   const auto collect = [&] {
@@ -103,8 +104,7 @@ std::string tableText(const std::vector<Row>& rows) {
   return text;
 }
 
-// The one port with that answer, under its lasting name; nothing when there is none or more than
-// one.
+// The stable name of the only port with that answer; nothing when there is none or more than one.
 std::optional<std::string> onlyPort(const std::vector<Row>& rows, PortAnswer answer) {
   std::optional<std::string> found;
   for (const Row& row : rows) {

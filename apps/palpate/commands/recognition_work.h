@@ -1,5 +1,5 @@
-// What train, evaluate, adapt and classify share: gathering features with progress and Ctrl-C,
-// saying what went wrong.
+// Functions that the commands train, evaluate, adapt and classify share: computing features with
+// progress and Ctrl-C, common options, and messages.
 #pragma once
 
 #include <cstdint>
@@ -23,39 +23,40 @@
 
 namespace palpate::commands {
 
-// One line on standard error.
+// Prints one line on standard error.
 void sayLine(const std::string& message);
 
-// Runs `work` with a progress line; Ctrl-C cancels it (Cancelled).
+// Runs `work` with a progress line; Ctrl-C cancels it (throws Cancelled).
 void runInterruptibly(const CommandLine& given,
                       const std::string& label,
                       const std::function<void(const Progress&)>& work);
 
-// The features of recordings; says what troubles there were. Throws Error when no grasp is found.
+// Computes the features of recordings and prints problems. Throws Error when no grasp is found.
 FeatureTable extractFeatureTable(const CommandLine& given,
                                  const std::vector<std::filesystem::path>& paths,
                                  FeatureSet set);
-// --empty-hand-zero: the zero of a recording in which the empty hand closes until its pads touch;
-// nothing: not asked for. Throws Error: there is no touch in it.
+// The option --empty-hand-zero: the zero from a recording in which the empty hand closes until its
+// pads touch; nothing when the option is missing. Throws Error when the recording contains no
+// touch.
 std::optional<EmptyHandZero> zeroGiven(const CommandLine& given);
 OptionSpec zeroOptionSpec();
-// Throws Error: it was taken more than half a day from all of these grasps, and says nothing of
-// them.
+// Throws Error when the zero was measured more than half a day from all of these grasps, so that it
+// does not apply to them.
 void requireSameDay(const EmptyHandZero& zero, const FeatureTable& table);
-// What the offset is, {mm, sd_mm, origin, grasps, objects, trusted}; `today`: the zero it rests on,
-// where it does.
+// The offset as {mm, sd_mm, origin, grasps, objects, trusted}; with `today` also the zero that it
+// is based on.
 Json offsetJson(const SessionOffset& offset, const std::optional<EmptyHandZero>& today = {});
-// Says sessionSetWarning() and what learningNotes() has.
+// Prints sessionSetWarning() and learningNotes().
 void sayNotes(const CommandLine& given, FeatureSet set, const SampleSet& samples);
 
-// --classifier, --lda, --c, --shrinkage; what isn't given is left as it is in `options`. Throws
-// UsageError.
+// The options --classifier, --lda, --c and --shrinkage; missing ones leave `options` unchanged.
+// Throws UsageError.
 void takePipelineOptions(const CommandLine& given, PipelineOptions& options);
 std::vector<OptionSpec> pipelineOptionSpecs();
 
-// kPartlyDone where something was left out, else kDone.
+// kPartlyDone when something was left out, else kDone.
 int codeFor(const FeatureTable& table);
-// To standard output.
+// Prints the JSON to standard output.
 void printObject(const Json& json);
 
 }  // namespace palpate::commands

@@ -1,4 +1,5 @@
-// palpate record --dsa PORT [--sdh PORT] -o OUT.palpate: headless capture of a hand.
+// The command `palpate record --dsa PORT [--sdh PORT] -o OUT.palpate` records a hand without a
+// window.
 #include <algorithm>
 #include <csignal>
 #include <cstdio>
@@ -27,7 +28,7 @@ namespace palpate::commands {
 namespace {
 namespace fs = std::filesystem;
 
-// How it goes, on one line of a terminal.
+// Shows the state of the recording on one line of the terminal.
 class StatusLine {
  public:
   explicit StatusLine(bool quiet) : enabled_(!quiet && ::isatty(STDERR_FILENO) == 1) {}
@@ -95,7 +96,7 @@ RecordingOptions recordingOptions(const CommandLine& given) {
   return options;
 }
 
-// Until it stops by itself, a signal comes, or no first frame does.
+// Waits until the recording stops by itself, a signal arrives, or no first frame arrives in time.
 void recordUntilDone(CaptureSession& session,
                      Interruption& interruption,
                      double firstFrameS,
@@ -114,7 +115,7 @@ void recordUntilDone(CaptureSession& session,
   }
 }
 
-// Why nothing came, and what to do.
+// Why no frame arrived, and what the user can do.
 std::string nothingText(const DeviceStatus& device, const std::string& port) {
   const PortStatus& tactile = device.tactile;
   if (!tactile.message.empty()) return port + ": no frame came: " + tactile.message;
@@ -210,7 +211,7 @@ int recordCommand(const Arguments& words) {
   RecordingOptions options = recordingOptions(given);
   const std::vector<StreamTarget> targets = streamTargetsOf(given, "to");
   const auto calibration = streamCalibrationOf(given);
-  Interruption interruption;  // until the file is finished
+  Interruption interruption;  // must exist until the file is finished
   CaptureSession session(std::make_unique<LiveHand>(std::move(hand)));
   std::unique_ptr<LiveStreams> streams;
   if (!targets.empty()) streams = std::make_unique<LiveStreams>(session, targets, calibration);

@@ -29,7 +29,7 @@ std::string countText(std::size_t part, std::size_t whole) {
   return std::to_string(part) + " of " + std::to_string(whole);
 }
 
-// One way through a list.
+// One loop over a list of recordings.
 class ListRun {
  public:
   ListRun(const RecordingList& list, bool quiet) : list_(list), quiet_(quiet), line_("", quiet) {
@@ -50,7 +50,7 @@ class ListRun {
       if (!outcome) continue;
       if (!outcome->said.empty()) {
         std::printf("%s\n", outcome->said.c_str());
-        std::fflush(stdout);  // a line per file as it comes, also into a pipe
+        std::fflush(stdout);  // each line at once, also into a pipe
       }
       if (outcome->problem.empty()) continue;
       sayRecordingList(outcome->problem);
@@ -59,19 +59,20 @@ class ListRun {
     return end();
   }
 
-  // A remark that is no failure.
+  // Prints a message that is not a failure.
   void note(const std::string& message) {
     if (quiet_ || !list_.several) return;
     line_.wipe();
     sayRecordingList(message);
   }
-  // What a native recording warns of is that it has no end; the oddities of a .dsa cost nothing.
+  // Prints the warnings of native recordings, which tell that the end is missing; those of a .dsa
+  // file don't matter here.
   void noteWarnings(const fs::path& file, const Profile& profile) {
     if (profile.info().format != "palpate") return;
     for (const std::string& warning : profile.info().warnings) note(file.string() + ": " + warning);
   }
-  // Before rows go to a terminal: they would be written behind the progress, and are progress
-  // enough.
+  // Stops showing progress when rows go to a terminal: they would appear behind the percentage, and
+  // they show the progress themselves.
   void leaveTheTerminal() {
     if (::isatty(STDOUT_FILENO) != 1) return;
     line_.wipe();
@@ -134,7 +135,8 @@ class ListRun {
   const RecordingList& list_;
   bool quiet_;
   ProgressLine line_;
-  std::optional<Interruption> interruption_;  // of one file alone the end is as ever
+  // Absent for a single file: Ctrl-C then ends the process as usual.
+  std::optional<Interruption> interruption_;
   std::size_t index_ = 0;
   std::size_t failed_ = 0;
   std::size_t inPart_ = 0;
@@ -142,7 +144,7 @@ class ListRun {
   bool shows_ = true;
 };
 
-// Half of the whole progress, from `begin` on.
+// Progress of half of the work, starting at `begin`.
 Progress halfOf(const Progress& progress, double begin) {
   return [&progress, begin](double fraction) { return progress(begin + 0.5 * fraction); };
 }

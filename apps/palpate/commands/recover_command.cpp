@@ -1,4 +1,4 @@
-// palpate recover IN OUT: saves what can be saved.
+// The command `palpate recover IN OUT` saves what is readable in a damaged or unfinished recording.
 #include <cstdio>
 
 #include "palpate/core/error.h"

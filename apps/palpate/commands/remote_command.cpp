@@ -1,4 +1,5 @@
-// palpate remote: asks a running palpate that is remote-controlled, and prints its answer.
+// The command `palpate remote` sends a request to a running palpate with remote control and prints
+// the answer.
 #include <chrono>
 #include <cstdio>
 #include <string>
@@ -26,7 +27,7 @@ std::string remoteRequestOf(const CommandLine& given) {
   return request;
 }
 
-// A recording that isn't whole is said so, though it was stopped as asked.
+// Whether the answer reports an incomplete recording, although it was stopped as requested.
 bool isPart(const Json& answer) {
   return answer.contains("complete") && !answer.at("complete").asBool();
 }

@@ -1,4 +1,5 @@
-// palpate record --remote: a headless hand whose recordings others start and stop.
+// `palpate record --remote`: runs a hand without a window; other programs start and stop the
+// recordings.
 #pragma once
 
 #include "palpate/core/interruption.h"
@@ -9,15 +10,15 @@
 
 namespace palpate::commands {
 
-// --remote and --socket PATH.
+// The options --remote and --socket PATH.
 OptionSpec remoteOption();
 OptionSpec socketOption();
-// The socket that is named, or the usual one. Throws Error where there is no usual one.
+// The named socket, or the default one. Throws Error when there is no default.
 std::filesystem::path remoteSocketOf(const CommandLine& given);
 
-// Runs the session until it is interrupted; -o is a folder, or a template of names in one. Prints
-// "remote=SOCKET" when it is ready, then a line per recording (--json: as the answer to stop).
-// Returns the exit code.
+// Runs the session until it is interrupted; -o is a folder, or a folder with a template for names.
+// Prints "remote=SOCKET" when it is ready, then one line for each recording (with --json the same
+// object as the answer to stop). Returns the exit code.
 int recordRemotely(const CommandLine& given,
                    CaptureSession& session,
                    Interruption& interruption,

@@ -1,5 +1,5 @@
-// palpate render FILE --frame N -o OUT.{png,svg,pdf}: a picture of one frame; --from N --to M -o
-// FOLDER: of each; -o OUT.mp4: a movie of them.
+// The command `palpate render FILE --frame N -o OUT.{png,svg,pdf}` draws a picture of one frame;
+// --from N --to M -o FOLDER draws a picture of each, -o OUT.mp4 writes a movie.
 #include <QGuiApplication>
 #include <algorithm>
 #include <cmath>
@@ -30,7 +30,7 @@ std::vector<std::string> colorMapNames() {
   return names;
 }
 
-// "MIN,MAX"
+// Parses "MIN,MAX".
 void parseRange(const std::string& text, gui::MatricesPictureOptions& options) {
   const auto comma = text.find(',');
   if (comma != std::string::npos) {
@@ -47,24 +47,25 @@ void parseRange(const std::string& text, gui::MatricesPictureOptions& options) {
 
 constexpr QSize kSmallestPicture{320, 320};
 constexpr double kMmPerInch = 25.4;
-constexpr int kUnitsPerPt = 2;  // on paper half a point is a unit: text sizes are exact in halves
+// On paper a unit is half a point, so that text sizes are exact in steps of 0.5 pt.
+constexpr int kUnitsPerPt = 2;
 constexpr double kUnitsPerInch = 144.0;
-constexpr double kMovieDpi = 96.0;       // a pixel for each of --size
+constexpr double kMovieDpi = 96.0;       // one pixel for each of --size
 constexpr double kUsualWidthMm = 174.0;  // two columns of a journal
 constexpr double kUsualHeight = 0.8;     // of the width
 constexpr double kUsualTextPt = 8.0;
 constexpr double kLeastMm = 20.0, kMostMm = 1200.0;
-constexpr double kMostPixels = 16384.0;  // on a side
+constexpr double kMostPixels = 16384.0;  // largest side
 
 const std::vector<const char*> kPaperOptions = {"width-mm", "height-mm", "text-pt", "print"};
 
-// What it is drawn on, and how large its text is.
+// The paper or screen size of the picture, and its text size.
 struct Sheet {
   gui::PicturePaper paper;
-  int textUnits = 0;  // 0: the usual font
+  int textUnits = 0;  // 0: default font
 };
 
-// Size on screen or on paper; options.size becomes it.
+// Determines the sheet from the options; sets options.size to its size.
 Sheet chosenSheet(const CommandLine& given, gui::MatricesPictureOptions& options) {
   Sheet sheet;
   gui::PicturePaper& paper = sheet.paper;
@@ -91,7 +92,7 @@ Sheet chosenSheet(const CommandLine& given, gui::MatricesPictureOptions& options
   return sheet;
 }
 
-// Of one frame, with its words.
+// Paints one frame with its title.
 class FramePainter {
  public:
   FramePainter(Profile profile, gui::MatricesPictureOptions options)
@@ -112,7 +113,7 @@ class FramePainter {
   gui::MatricesPictureOptions options_;
 };
 
-// What draws the frames of a span.
+// The function that paints the frames of a span.
 gui::FramePictures::Paint painterOf(const CommandLine& given,
                                     const Profile& profile,
                                     const gui::FrameSpan& span,
@@ -121,7 +122,7 @@ gui::FramePictures::Paint painterOf(const CommandLine& given,
   return FramePainter(profile, options);
 }
 
-// The frame asked for, else that of largest sum.
+// The requested frame, else the frame with the largest sum.
 std::size_t chosenFrame(std::optional<std::int64_t> frame,
                         const std::string& file,
                         const Profile& profile) {
@@ -146,7 +147,7 @@ gui::FrameSpan chosenSpan(const CommandLine& given,
   return {static_cast<std::size_t>(from), static_cast<std::size_t>(to)};
 }
 
-// The same colours in all pictures: up to the largest value of all of them.
+// Uses the same colour range in all pictures: up to the largest value of all frames.
 void useOneRange(const Profile& profile,
                  const gui::FrameSpan& span,
                  gui::MatricesPictureOptions& options) {
@@ -218,7 +219,7 @@ int drawOne(const CommandLine& given,
   return kDone;
 }
 
-// What can be said without looking at any file.
+// Checks the options without reading a file.
 void checkUsage(const CommandLine& given, bool isSeries) {
   const auto out = given.text("output");
   if (!out)
@@ -306,7 +307,7 @@ int renderCommand(const Arguments& words) {
   if (isMovie && !given.has("dpi") && sheet.textUnits == 0) sheet.paper.dpi = kMovieDpi;
   const Overwrite overwrite = given.has("force") ? Overwrite::kReplace : Overwrite::kRefuse;
 
-  if (isMovie) requireMovie(*given.text("output"), overwrite);  // before the work, not after it
+  if (isMovie) requireMovie(*given.text("output"), overwrite);  // before the long work
 
   const std::string& file = given.words()[0];
   const Profile profile = [&] {

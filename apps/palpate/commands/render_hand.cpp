@@ -13,11 +13,11 @@
 namespace palpate::commands {
 namespace {
 
-constexpr std::size_t kLooks = 12;  // frames that the camera has to have in its picture
+constexpr std::size_t kLooks = 12;  // frames that the camera must show completely
 
 const std::vector<std::string> kSpheresOf = {"taxels", "centroids"};
 
-// "flat cells" as one word of the command line.
+// Names as words of the command line: "flat cells" becomes "flat-cells".
 template <class All>
 std::vector<std::string> wordsOf(const All& all) {
   std::vector<std::string> words;

@@ -1,4 +1,4 @@
-// palpate render --view hand: the hand in space instead of the heat maps.
+// `palpate render --view hand`: draws the hand in space instead of the heat maps.
 #pragma once
 
 #include <optional>
@@ -15,26 +15,27 @@ namespace palpate::commands {
 
 // The options that --view hand adds.
 std::vector<OptionSpec> handViewOptions();
-// Throws UsageError: an option of the hand without --view hand, or one that makes no sense.
+// Throws UsageError for an option of the hand without --view hand, or an invalid combination.
 void checkHandUsage(const CommandLine& given);
 
-// What is drawn of the hand, and from where.
+// What is drawn of the hand, and the viewpoint.
 struct HandRendering {
   gui::HandLook look = {};
-  std::vector<double> assumedAnglesDeg = {};  // where none are recorded; empty: at rest
-  // Where the eye stands; nothing: as in the window.
+  // Joint angles [deg] for recordings without them; empty: the hand at rest.
+  std::vector<double> assumedAnglesDeg = {};
+  // Direction of the viewpoint; nothing: as in the window.
   struct Eye {
     double azimuthDeg = 0.0, elevationDeg = 0.0;
   };
   std::optional<Eye> eye = std::nullopt;
 };
-// Draws frames of the hand, from one place for all of `span`. Throws Error for a geometry that
-// isn't there.
+// Draws frames of the hand with one camera for all frames of `span`. Throws Error when the geometry
+// does not exist.
 gui::FramePictures::Paint handPainter(const HandRendering& view,
                                       const Profile& profile,
                                       const gui::FrameSpan& span,
                                       const gui::MatricesPictureOptions& page);
-// The same as `given` says. Throws Error for a matrix that isn't there, too.
+// The same with the options of `given`. Also throws Error when a matrix does not exist.
 gui::FramePictures::Paint handPainter(const CommandLine& given,
                                       const Profile& profile,
                                       const gui::FrameSpan& span,

@@ -1,4 +1,4 @@
-// palpate render .. -o OUT.mp4: a movie of the frames.
+// `palpate render .. -o OUT.mp4`: writes a movie of the frames.
 #pragma once
 
 #include "palpate/core/output_file.h"
@@ -10,15 +10,15 @@
 
 namespace palpate::commands {
 
-// By the ending, in small or capital letters.
+// Whether the ending is that of a movie, in small or capital letters.
 bool isMovieName(const std::string& out);
-// What can be said without any file. Throws UsageError: --speed or --fps without a movie, --frame
-// with one.
+// Checks the options without reading a file. Throws UsageError for --speed or --fps without a
+// movie, and for --frame with one.
 void checkMovieUsage(const CommandLine& given);
-// Throws Error: no ffmpeg, OUT is there already or can't be a file.
+// Throws Error when ffmpeg is missing, or when OUT exists already or cannot be a file.
 void requireMovie(const std::string& out, Overwrite overwrite);
 
-// --speed, --fps; returns the exit code. Throws Error.
+// Writes the movie with the options --speed and --fps; returns the exit code. Throws Error.
 int drawMovie(const CommandLine& given,
               const Profile& profile,
               const gui::FrameSpan& span,

@@ -1,4 +1,5 @@
-// palpate signals PATH... [--matrix M] [--filter SPEC..]: characteristic signals as CSV.
+// The command `palpate signals PATH... [--matrix M] [--filter SPEC..]` prints characteristic
+// signals as CSV.
 #include <cstdint>
 #include <filesystem>
 
@@ -18,7 +19,7 @@
 namespace palpate::commands {
 namespace {
 
-// One value after the other, in the order of the columns.
+// The values in the order of the columns.
 SignalValues columnsOf(const CharacteristicSignals& row) {
   return {row.mean,
           row.filteredMean,
@@ -28,7 +29,7 @@ SignalValues columnsOf(const CharacteristicSignals& row) {
           static_cast<double>(row.active),
           row.areaMm2};
 }
-// The same of filtered signals, which come in the order of kAllSignalKinds.
+// The same for filtered signals, which are in the order of kAllSignalKinds.
 SignalValues columnsOf(const SignalValues& row) {
   return {row[0], row[1], row[3], row[2], row[4], row[5], row[6]};
 }
@@ -82,7 +83,7 @@ void writeSignals(StandardOutput& out,
   filter.finish();
 }
 
-// Filters over time for the signals themselves.
+// The filters over time that are applied to the signals themselves (--smooth).
 Recipe smoothOf(const CommandLine& given) {
   try {
     const Recipe recipe = parseRecipe(given.texts("smooth"));
@@ -134,7 +135,8 @@ int signalsCommand(const Arguments& words) {
                     std::string(recordings.several ? ",file\n" : "\n"));
         headerWritten = true;
         const std::string lineEnd = recordings.several ? "," + csvLine({file.string()}) : "\n";
-        // What was written of a recording that fails on the way stays: whole rows, and it is said.
+        // When a recording fails in the middle, the rows written so far are kept, and the failure
+        // is reported.
         try {
           writeSignals(out, profile, only, smooth, lineEnd, progress);
         } catch (const Error&) {

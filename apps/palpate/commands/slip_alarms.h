@@ -1,4 +1,5 @@
-// Alarms of slip scored on a folder of real recordings, as JSON: a part of slip-benchmark.
+// Evaluates the slip alarms on a folder of real recordings, as JSON: a part of `palpate
+// slip-benchmark`.
 #pragma once
 
 #include <filesystem>
@@ -7,8 +8,8 @@
 
 namespace palpate::commands {
 
-// FOLDER/slip-detection holds recordings of slip, FOLDER/grasps_by_class of grasps without. Throws
-// Error when there are none.
+// FOLDER/slip-detection contains recordings with slip, FOLDER/grasps_by_class recordings of grasps
+// without. Throws Error when there are none.
 Json slipAlarms(const std::filesystem::path& folder, bool quiet);
 
 }  // namespace palpate::commands

@@ -1,4 +1,5 @@
-// palpate slip-benchmark: how well every method measures slip, against synthetic truth.
+// The command `palpate slip-benchmark` measures how well every method measures slip, against
+// synthetic truth.
 #include "palpate/core/json.h"
 #include "palpate/slip/slip_accuracy.h"
 

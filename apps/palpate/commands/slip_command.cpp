@@ -1,4 +1,5 @@
-// palpate slip FILE...: how contacts move on every matrix, and whether that is slip, as CSV.
+// The command `palpate slip FILE...` prints as CSV how contacts move on every matrix, and whether
+// that is slip.
 #include <cstdint>
 #include <filesystem>
 #include <optional>

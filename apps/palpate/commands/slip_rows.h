@@ -1,5 +1,5 @@
-// Slip as CSV: what `palpate slip` prints, and `palpate demo` writes, a row per frame and matrix
-// with an active taxel.
+// Slip as CSV, for `palpate slip` and `palpate demo`: one row for each frame and matrix with an
+// active taxel.
 #pragma once
 
 #include <cstdint>
@@ -13,16 +13,16 @@
 
 namespace palpate::commands {
 
-// Without line end.
+// The header row without line end.
 extern const char* const kSlipColumns;
-// Gives `sink` row after row, without line end; of one matrix, or of all. Throws as
-// runSlipDetector, and what the sink throws.
+// Calls `sink` for each row, without line end; of one matrix or of all. Throws as runSlipDetector()
+// does, and what the sink throws.
 void forEachSlipRow(const Profile& profile,
                     const SlipRunOptions& pass,
                     std::optional<std::int64_t> matrix,
                     const std::function<void(const std::string& row)>& sink,
                     const Progress& progress = {});
-// ",VALUE"; "," where it isn't known.
+// Appends ",VALUE", or "," when the value is unknown.
 void appendSlipCell(std::string& row, bool known, double value);
 
 }  // namespace palpate::commands

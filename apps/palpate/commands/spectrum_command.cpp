@@ -1,4 +1,5 @@
-// palpate spectrum FILE: the short-time Fourier transform of a taxel or a matrix signal, as CSV.
+// The command `palpate spectrum FILE` prints the short-time Fourier transform of a taxel or a
+// matrix signal as CSV.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -26,7 +27,7 @@ std::string placeText(std::size_t matrix, std::int64_t x, std::int64_t y) {
          std::to_string(y);
 }
 
-// What a matrix has instead: its few taxels by name, or the columns of that row.
+// Describes the taxels that exist: all by name when they are few, else the columns of that row.
 std::string whatExists(const MatrixLayout& matrix, std::int64_t y) {
   if (matrix.numEnabled() == 0) return "no taxel of this matrix is scanned";
   std::string text;
@@ -84,7 +85,7 @@ SeriesChoice choiceOf(const CommandLine& given, const SensorLayout& layout) {
   return taxelOf(layout, static_cast<std::size_t>(*matrix), *x, *y, file);
 }
 
-// Frames from..to, both inclusive.
+// The series from frame `from` to frame `to`, both inclusive.
 Series seriesOf(const CommandLine& given, const Profile& profile, const Progress& progress) {
   const std::string& file = given.words().front();
   const SeriesChoice choice = choiceOf(given, profile.layout());
@@ -99,7 +100,7 @@ Series seriesOf(const CommandLine& given, const Profile& profile, const Progress
   };
   const double fromS = secondsOf(from), toS = secondsOf(to);
   Series series = readSeries(profile, choice, fromS, toS, progress);
-  // The neighbours on either side that come with a part are not asked for.
+  // readSeries() also returns neighbours of the requested part, which are removed.
   while (!series.timeS.empty() && series.timeS.back() > toS + 1e-7) {
     series.timeS.pop_back();
     series.values.pop_back();
@@ -110,7 +111,7 @@ Series seriesOf(const CommandLine& given, const Profile& profile, const Progress
 SpectrumOptions spectrumOptionsOf(const CommandLine& given) {
   SpectrumOptions options;
   options.window = static_cast<int>(given.integer("window", 2, 65'536).value_or(options.window));
-  // Unasked: all but one sample, as the study has it.
+  // Default: all but one sample, as in the study.
   options.overlap = static_cast<int>(
       given.integer("overlap", 0, options.window - 1).value_or(options.window - 1));
   const std::string detrend = given.choice("detrend", {"mean", "line", "none"}).value_or("mean");
@@ -150,7 +151,7 @@ Json spectrumJsonOf(const SpectrumReport& report,
         .set("rate_hz", known(stretch.rateHz))
         .set("segments", stretch.segments);
   });
-  Json strongest;  // null: nothing moves
+  Json strongest;  // null: the signal is constant
   if (mean.strongestBin() > 0)
     strongest = Json::object()
                     .set("frequency_hz", mean.strongestHz())
@@ -232,7 +233,7 @@ int spectrumCommand(const Arguments& words) {
     };
     visit([&](const SpectrumSegment& segment) { collector.add(segment); });
     const MeanSpectrum mean = collector.result();
-    // When that line was strongest: a second way through, now that it is known.
+    // Reads the segments a second time, to find when that frequency was strongest.
     double largest = -1.0, timeS = 0.0;
     visit([&](const SpectrumSegment& segment) {
       if (segment.binHz != mean.binHz || !(segment.magnitude[mean.strongestBin()] > largest))

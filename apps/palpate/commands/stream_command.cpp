@@ -1,5 +1,5 @@
-// palpate stream: what a hand feels, live to other programs: datagrams to this machine, or lines on
-// standard output.
+// The command `palpate stream` sends the signals of a hand to other programs while it runs: as
+// datagrams to this machine, or as lines on standard output.
 #include <atomic>
 #include <cstdio>
 #include <memory>
@@ -25,8 +25,8 @@ namespace {
 
 constexpr int kStreamLookMs = 50;
 
-// Lines for whoever reads standard output. What can't be written ends the work, not the processing
-// thread.
+// Writes lines to standard output. A failed write ends the command, but does not throw in the
+// processing thread.
 class Lines {
  public:
   Lines(StreamKind kind, bool live) : kind_(kind), live_(live) {}
@@ -79,7 +79,7 @@ CommandSpec streamSpec() {
       .maxArguments = 1};
 }
 
-// What can be read of a recording; `damage` says what is missing.
+// The readable part of a recording; `damage` describes the rest.
 ReadableRecording streamedRecording(const CommandLine& given, std::string& damage) {
   const std::string& file = given.words()[0];
   ProgressLine progress("reading " + file, given.quiet());
@@ -89,15 +89,15 @@ ReadableRecording streamedRecording(const CommandLine& given, std::string& damag
   return readable;
 }
 
-// Says what was missing in the recording. Returns the exit code of work that is done otherwise.
+// Prints the damage of the recording. Returns the exit code of work that is otherwise done.
 int endOf(const std::string& damage) {
   if (damage.empty()) return kDone;
   std::fprintf(stderr, "palpate: %s\n", escapedLine(damage).c_str());
   return kPartlyDone;
 }
 
-// To be played at once: of its samples only those that are sent are read. One that can't be opened
-// is read as far as it can be.
+// Opens a recording that is replayed as a stream; samples are read when they are sent. If it cannot
+// be opened, its readable part is used.
 Profile playedRecording(const CommandLine& given, std::string& damage) {
   const std::string& file = given.words()[0];
   try {
@@ -110,7 +110,7 @@ Profile playedRecording(const CommandLine& given, std::string& damage) {
   }
 }
 
-// What couldn't be read while it was played.
+// Describes what could not be read during the replay.
 std::string playedDamage(const CaptureSession& session, const CommandLine& given) {
   const DeviceStatus status = session.device().status();
   const std::uint64_t lost = status.tactile.lost + (status.motion ? status.motion->lost : 0);
@@ -128,7 +128,7 @@ std::unique_ptr<Device> streamDeviceOf(const CommandLine& given, std::string& da
   return std::make_unique<LiveHand>(std::move(hand));
 }
 
-// Until the source is at its end, time is over, a signal comes, or `over` says so.
+// Runs until the source ends, the duration is over, a signal arrives, or `over` returns true.
 void runSession(const CommandLine& given,
                 CaptureSession& session,
                 Interruption& interruption,
@@ -169,7 +169,7 @@ int streamDatagrams(const CommandLine& given, std::vector<StreamTarget> targets)
   return endOf(damage.empty() ? playedDamage(session, given) : damage);
 }
 
-// The whole recording, as fast as it goes.
+// Prints the lines of the whole recording as fast as possible.
 int streamLinesOf(const CommandLine& given, StreamKind kind) {
   std::string damage;
   const ReadableRecording recording = streamedRecording(given, damage);
@@ -203,7 +203,7 @@ int streamLines(const CommandLine& given, const std::vector<StreamTarget>& targe
   const StreamKind kind = targets.empty() ? StreamKind::kSignals : targets.front().kind;
   if (!given.words().empty()) return streamLinesOf(given, kind);
   Interruption interruption;
-  std::string damage;  // of no recording
+  std::string damage;  // stays empty without a recording
   CaptureSession session(streamDeviceOf(given, damage));
   Lines lines(kind, true);
   ChainOptions options;

@@ -1,4 +1,4 @@
-// palpate synthesize -o OUT.dsa: a synthetic recording with known content.
+// The command `palpate synthesize -o OUT.dsa` makes a synthetic recording with known content.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -15,7 +15,7 @@ namespace palpate::commands {
 namespace {
 
 constexpr std::int64_t kDayUs = 24LL * 3600 * 1'000'000;
-constexpr double kFramesPerGrasp = 12.0;  // at least: SyntheticOptions::validate
+constexpr double kFramesPerGrasp = 12.0;  // at least; see SyntheticOptions::validate
 
 Profile fromScene(const CommandLine& given, const std::string& name, const Progress& progress) {
   const Scene scene = loadScene(name, dataFolder() / "scenes");
@@ -36,7 +36,7 @@ Profile fromOptions(const CommandLine& given) {
   SyntheticOptions options;
   options.durationS = given.number("duration", 0.1, 86'400.0).value_or(options.durationS);
   options.rateHz = given.number("rate", 0.1, 1000.0).value_or(options.rateHz);
-  // Unasked, no more grasps than a short recording holds.
+  // The default is limited to the grasps that fit into a short recording.
   const double fits = std::floor(options.durationS * options.rateHz / kFramesPerGrasp);
   options.grasps = static_cast<int>(std::min<double>(options.grasps, fits));
   options.grasps = static_cast<int>(given.integer("grasps", 0, 10'000).value_or(options.grasps));

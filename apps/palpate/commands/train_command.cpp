@@ -1,4 +1,4 @@
-// palpate train PATH -o MODEL.json: a model of the objects in a folder.
+// The command `palpate train PATH -o MODEL.json` trains a model of the objects in a folder.
 #include <algorithm>
 #include <filesystem>
 #include <utility>
@@ -15,8 +15,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// `best` is there for other days, and only gauss carries over to one: what is more accurate within
-// the recordings doesn't count against that. Everything else is chosen by cross-validation.
+// The choices for the model search. The feature set `best` is meant for other days, and only the
+// classifier gauss works there, so that it is used even if another one is more accurate within the
+// recordings. Everything else is chosen by cross-validation.
 ModelSearchOptions searchGiven(const CommandLine& given, FeatureSet set) {
   ModelSearchOptions search;
   PipelineOptions requested;

@@ -1,4 +1,5 @@
-// palpate verify PATH...: every byte checked, one line per file.
+// The command `palpate verify PATH...` checks every byte of recordings and prints one line for each
+// file.
 #include <filesystem>
 
 #include "palpate/core/escaped_line.h"
@@ -35,7 +36,8 @@ const char* word(VerifyReport::State state) {
   return "unreadable";
 }
 
-// Nothing readable is worse than something readable, though its number is smaller.
+// The worse of two exit codes: kFailed (nothing readable) is worse than kPartlyDone, although its
+// number is smaller.
 int worse(int a, int b) {
   const auto rank = [](int code) { return code == kFailed ? 2 : code == kPartlyDone ? 1 : 0; };
   return rank(a) >= rank(b) ? a : b;

@@ -1,4 +1,5 @@
-// palpate [FILE...], --demo, --screenshot: the window.
+// The command without a name, `palpate [FILE...]`, also with --demo or --screenshot, starts the
+// window.
 #include <cstdio>
 #include <cstdlib>
 #include <string>
@@ -18,7 +19,8 @@
 namespace palpate::commands {
 namespace {
 
-// Nothing where none is asked for: the window has those of last time.
+// The filters of the options; nothing when there are none, and the window then uses those of its
+// last run.
 std::optional<Recipe> filtersOf(const CommandLine& given) {
   Recipe recipe = recipeOf(given);
   return recipe.steps.empty() ? std::nullopt : std::optional(std::move(recipe));
@@ -64,8 +66,8 @@ int screenshot(const CommandLine& given) {
   return gui::takeScreenshot(count, arguments, options);
 }
 
-// What the window asks of another process of this program, because drivers crash: not for people,
-// in no help.
+// Tests OpenGL. The window runs this in another process of this program, because drivers may crash;
+// it is not listed in the help.
 int probeOpenGl() {
   const RuntimeFolder runtime;
   if (!hasDisplay()) {
@@ -125,7 +127,8 @@ int windowCommand(const Arguments& words) {
   const auto filters = filtersOf(given);
   if (!hasDisplay())
     throw Error("no display: run it on a desktop, or use a command ('palpate --help' lists them)");
-  std::optional<std::filesystem::path> remote;  // before the usual folder is a made-up one
+  // Must be determined before RuntimeFolder sets a temporary folder.
+  std::optional<std::filesystem::path> remote;
   if (given.has("remote")) remote = remoteSocketOf(given);
   const RuntimeFolder runtime;
   gui::WindowOptions options;

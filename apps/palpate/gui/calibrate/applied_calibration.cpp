@@ -31,7 +31,8 @@ std::optional<NoiseFloor> appliedNoise(const QSettings& settings, const std::str
   try {
     return noiseFloorFrom(Json::parse(json.toStdString()));
   } catch (const Error&) {
-    return std::nullopt;  // of a later version, or damaged: as if there were none
+    // Written by a later version, or damaged: treated as not set.
+    return std::nullopt;
   }
 }
 

@@ -16,9 +16,10 @@
 namespace palpate::gui {
 namespace {
 
-constexpr const char* kTareKind = "tare";  // of events
+constexpr const char* kTareKind = "tare";  // event kinds
 constexpr const char* kSettingsKind = "sensor_settings";
-constexpr int kCalibrateUsualWidth = 640;  // [px] its tables are read without scrolling
+// [px]; the tables fit without scrolling
+constexpr int kCalibrateUsualWidth = 640;
 
 }  // namespace
 
@@ -120,7 +121,8 @@ void CalibrateFeature::takeKept() {
   pressures_->setKept(kept);
 }
 
-// To the hand of what is looked at, else to the one that the calibration was made of.
+// Applies the calibration to the hand of the shown recording, else to the hand that the calibration
+// was made for.
 void CalibrateFeature::apply(const QString& path) {
   const OpenedRecordingPtr& recording = state().displayed.unfilteredRecording();
   const auto& made = panel_->pressure().shownCalibration();
@@ -131,7 +133,7 @@ void CalibrateFeature::apply(const QString& path) {
   state().messages.flash("applied: " + QFileInfo(path).fileName());
 }
 
-// Thresholds at the noise let ghosts through: a filter takes them away, as long as they are there.
+// While thresholds are at the noise level, ghosts pass them; a filter removes them for that time.
 void CalibrateFeature::filterGhosts(bool on) {
   ActiveFilters& activeFilters = state().activeFilters;
   if (on) {
@@ -141,7 +143,7 @@ void CalibrateFeature::filterGhosts(bool on) {
     return;
   }
   const auto before = std::exchange(filtersBefore_, std::nullopt);
-  // Others were chosen meanwhile: these stay.
+  // The user chose other filters meanwhile; these are kept.
   if (!before || !activeFilters.recipe().sameSteps(highSensitivityRecipe())) return;
   activeFilters.editor().setRecipe(before->recipe);
   activeFilters.setOn(before->on);
@@ -157,7 +159,7 @@ void CalibrateFeature::settle() { panel_->settle(); }
 
 std::vector<DockSpec> CalibrateFeature::docks() {
   return {{.dock = dock_,
-           .key = QKeySequence("Ctrl+Shift+N"),  // newtons
+           .key = QKeySequence("Ctrl+Shift+N"),  // N for newtons
            .tab = 6,
            .preferredWidthPx = kCalibrateUsualWidth}};
 }

@@ -1,5 +1,5 @@
-// The dock Calibrate: what it is given of the recording that is looked at, what it keeps with it
-// and applies to the hand.
+// The feature with the dock Calibrate: gives its pages the recording that is shown, keeps their
+// results as events of the recording, and applies calibrations and noise floors to the hand.
 #pragma once
 
 #include <QPointer>
@@ -41,7 +41,8 @@ class CalibrateFeature : public Feature {
     Recipe recipe;
     bool on = false;
   };
-  std::optional<Filters> filtersBefore_;  // high sensitivity began
+  // The filters from before the high-sensitivity mode was switched on; nothing when it is off.
+  std::optional<Filters> filtersBefore_;
 };
 
 }  // namespace palpate::gui

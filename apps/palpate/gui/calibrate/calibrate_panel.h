@@ -1,5 +1,5 @@
-// The content of the dock Calibrate: one page at a time of what leads from counts to kilopascals
-// and newtons.
+// The content of the dock Calibrate: one page for each step from counts to kilopascals and newtons;
+// one page is visible at a time.
 #pragma once
 
 #include <optional>
@@ -31,7 +31,8 @@ class CalibratePanel : public PagedPanel {
   NoisePage& noise() noexcept { return *noise_; }
   TarePage& tare() noexcept { return *tare_; }
   ForcePage& force() noexcept { return *force_; }
-  ComputedPage& page() const;  // that is seen
+  // The visible page.
+  ComputedPage& page() const;
   QSize sizeHint() const override { return {640, 560}; }
 
  signals:

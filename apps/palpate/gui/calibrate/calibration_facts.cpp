@@ -16,7 +16,7 @@ QString powerOf(const QString& name, int power) {
   return " " + name + (power == 1 ? "" : power == 2 ? "²" : "^" + QString::number(power));
 }
 
-// "12.5 to 431 counts, 27.1 to 38.9 °C"
+// The measured range as text: "12.5 to 431 counts, 27.1 to 38.9 °C"
 QString calibrationFactsRangeOf(const Surface& surface) {
   if (surface.hull.empty()) return "none";
   const auto [leastX, mostX] = std::minmax_element(

@@ -1,4 +1,5 @@
-// A calibration in words and figures: what it says, what it is worth, what it was made from.
+// Describes a calibration in words and numbers for the page Pressure: its formula, its quality, and
+// the data that it was made from.
 #pragma once
 
 #include <vector>
@@ -11,11 +12,12 @@
 
 namespace palpate::gui {
 
-// "P = 31.90 − 0.625 T + 0.0978 K", terms that were left out left out; x stands for the first
-// variable.
+// The formula as text, such as "P = 31.90 − 0.625 T + 0.0978 K", without the terms that the fit
+// left out; `x` is the name of the first variable.
 QString formulaOf(const Surface& surface, const QString& x);
 std::vector<Fact> calibrationFacts(const Calibration& calibration);
-// To be taken away: its samples with what it tells of each, and any facts.
+// Tables for export and copying: the samples of a calibration, each with the pressure that the
+// calibration gives for it; and any list of facts.
 TextTable sampleTable(const ShownCalibrationPtr& shown);
 TextTable factTable(const std::vector<Fact>& facts);
 

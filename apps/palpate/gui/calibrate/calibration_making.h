@@ -1,4 +1,5 @@
-// A calibration as the dock Calibrate has it: made from a table of recordings, or read from a file.
+// Makes a calibration from a table of recordings or reads it from a file, for the page Pressure of
+// the dock Calibrate.
 #pragma once
 
 #include <filesystem>
@@ -8,29 +9,35 @@
 
 namespace palpate::gui {
 
-// How a table becomes a calibration.
+// How a calibration is computed from a table.
 struct CalibrationChoices {
   PressureModelOptions model = {};
   SensorSettings settings = {};
-  std::optional<std::size_t> matrix = std::nullopt;  // nothing: the loaded one
-  bool robust = false;                               // outliers in a step count less (Huber's loss)
+  // The matrix that is evaluated; nothing: the loaded one.
+  std::optional<std::size_t> matrix = std::nullopt;
+  // Outliers in a step get less weight (Huber's loss).
+  bool robust = false;
 };
 
+// A calibration with its origin.
 struct ShownCalibration {
-  std::filesystem::path source;  // the table, or the file it was read from
+  // The table, or the calibration file.
+  std::filesystem::path source;
   Calibration calibration;
-  std::shared_ptr<const CalibrationSteps> gathered = {};  // null: read from a file
-  CalibrationChoices by = {};                             // of a table
+  // The steps of the table's recordings; null when the calibration was read from a file.
+  std::shared_ptr<const CalibrationSteps> gathered = {};
+  // The choices that it was computed with; only of a table.
+  CalibrationChoices by = {};
 };
 using ShownCalibrationPtr = std::shared_ptr<const ShownCalibration>;
 
-// Reads the table's recordings, unless `known` has their steps already. Throws Error (one line:
-// what is missing), Cancelled.
+// Computes a calibration from a table. Reads the recordings of the table, unless `known` already
+// has their steps. Throws Error (one line that names what is missing) and Cancelled.
 ShownCalibrationPtr calibrationFromTable(const std::filesystem::path& table,
                                          const CalibrationChoices& choices,
                                          const ShownCalibrationPtr& known,
                                          const Progress& progress);
-// Throws Error.
+// Reads a calibration file. Throws Error.
 ShownCalibrationPtr calibrationFromFile(const std::filesystem::path& path);
 
 }  // namespace palpate::gui

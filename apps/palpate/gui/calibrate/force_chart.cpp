@@ -15,10 +15,10 @@ namespace palpate::gui {
 namespace {
 
 enum Graph { kLow, kHigh, kForce, kBeyond };
-constexpr double kForceChartSigmas = 1.96;  // the band: 95 %
+constexpr double kForceChartSigmas = 1.96;  // standard deviations: a band of 95 %
 constexpr double kForceChartHeadroom = 1.1;
 constexpr int kForceChartBandAlpha = 46;
-// drawn; more frames: the largest of each bunch
+// Most points that are drawn; with more frames, the largest value of each group of frames.
 constexpr std::size_t kForceChartMostPoints = 20'000;
 
 }  // namespace

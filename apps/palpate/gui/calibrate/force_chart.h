@@ -1,5 +1,5 @@
-// Force over time of one matrix or of the whole hand, with the band of its standard deviation; a
-// cursor like the timeline's. Greyed where the calibration is beyond what was measured.
+// A chart of the force over time of one matrix or of the whole hand, with its 95 % band and a
+// cursor like that of the timeline. The curve is grey where the calibration is extrapolated.
 #pragma once
 
 #include <QString>
@@ -19,11 +19,12 @@ class ForceChart : public QCustomPlot {
   explicit ForceChart(QWidget* parent = nullptr);
 
   void setSeries(const std::shared_ptr<const ForceSeries>& series);
-  void choose(std::size_t matrix, const QString& name);  // the number of matrices: the whole hand
+  // Shows the force of one matrix; the number of matrices as `matrix` means the whole hand.
+  void choose(std::size_t matrix, const QString& name);
   void setVisibleRange(double fromS, double toS);
   void setPosition(double seconds);
   void setTheme(Theme theme);
-  // As a picture of its own.
+  // Paints the chart as a picture for export.
   void paint(QPainter& painter, const PictureLook& look, const QString& title);
 
   QSize sizeHint() const override { return {440, 220}; }

@@ -21,7 +21,7 @@
 namespace palpate::gui {
 namespace {
 
-constexpr double kQuantile = 1.96;  // 95 %
+constexpr double kQuantile = 1.96;  // normal quantile for 95 %
 constexpr double kFullScaleCounts = 4095.0;
 constexpr double kLeastSensitivity = 0.01;
 
@@ -57,7 +57,7 @@ std::vector<FigureCell> forcePageRowOf(const QString& name, const MatrixForce& f
            .warning = !force.inRange || force.saturated}};
 }
 
-// As `palpate calibrate apply` prints it, in seconds.
+// The same columns as `palpate calibrate apply` prints, with times in seconds.
 TextTable forceTable(const std::shared_ptr<const ForceSeries>& found) {
   return {.header = {"frame",
                      "time_s",
@@ -226,7 +226,8 @@ void ForcePage::showCalibration() {
   choose_->setEnabled(hand() != nullptr);
   for (QWidget* each : std::initializer_list<QWidget*>{sensitivity_, threshold_, keep_})
     each->setEnabled(!path.isEmpty());
-  recordedWith_->setVisible(!live());  // a controller says it
+  // A live hand's controller reports its settings.
+  recordedWith_->setVisible(!live());
   chart_->setVisible(!live());
 }
 
@@ -240,7 +241,8 @@ QString ForcePage::emptyReason() const {
 }
 
 void ForcePage::compute() {
-  if (live()) return;  // showLive()
+  // showLive() shows live values.
+  if (live()) return;
   const OpenedRecordingPtr of = recording();
   const QString path = appliedCalibration(settings_, handName());
   run("forces", [this, of, path, typed = said_, kept = kept_](const Progress& progress) -> Take {

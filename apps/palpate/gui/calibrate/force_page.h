@@ -1,6 +1,6 @@
-// The page Force of the dock Calibrate: pressures and forces of the recording by the calibration
-// that is applied to this hand; of the frame that is shown in figures, over time as a chart.
-// Without a calibration there are none.
+// The page Force of the dock Calibrate: pressures and forces by the calibration that is applied to
+// this hand, as numbers for the shown frame and as a chart over time for a recording. It is empty
+// without a calibration.
 #pragma once
 
 #include <QSettings>
@@ -31,20 +31,22 @@ class ForcePage : public ComputedPage {
   void paint(QPainter& painter, const PictureLook& look, const QString& title) override;
 
   void setKept(const KeptWithRecording& kept);
-  // Another calibration is applied now.
+  // Call this when another calibration was applied.
   void calibrationChanged();
-  // What is connected instead of a recording, and what it feels.
+  // Shows the pressures of a connected hand instead of a recording.
   void setLiveHand(const HandDescription& hand);
   void showLive(const PressureFrame& pressure, const std::vector<std::string>& assumptions);
-  // Null: none was computed.
+  // The forces of the recording; null when none were computed.
   const std::shared_ptr<const ForceSeries>& found() const noexcept { return found_; }
 
-  // How a calibration is asked for; empty: cancelled. Tests answer themselves.
+  // Asks the user for a calibration file; returns an empty text when cancelled. Tests replace it.
   std::function<QString()> askForCalibration;
 
  signals:
-  void keepRequested(double sensitivity, double thresholdCounts);  // with the recording
-  void applied();                                                  // another calibration, or none
+  // The typed sensor settings are to be kept as an event of the recording.
+  void keepRequested(double sensitivity, double thresholdCounts);
+  // Another calibration was applied, or the applied one was removed.
+  void applied();
   void seekRequested(double seconds);
 
  protected:
@@ -67,7 +69,8 @@ class ForcePage : public ComputedPage {
 
   QSettings& settings_;
   KeptWithRecording kept_;
-  std::optional<SensorSettings> said_;  // typed, not kept yet
+  // Settings that the user typed and that are not kept yet.
+  std::optional<SensorSettings> said_;
   std::optional<HandDescription> liveHand_;
   double positionS_ = 0.0;
   std::shared_ptr<const ForceSeries> found_;

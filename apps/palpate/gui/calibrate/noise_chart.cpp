@@ -12,7 +12,7 @@ namespace palpate::gui {
 namespace {
 
 constexpr double kNoiseChartSigmas = 3.0;
-constexpr double kNoiseChartAir = 0.06;  // part of a range
+constexpr double kNoiseChartAir = 0.06;  // margin, as a part of the range
 constexpr int kNoiseChartBandAlpha = 40;
 constexpr double kBinSize = 5.0;  // [px]
 

@@ -1,5 +1,5 @@
-// Noise of unloaded matrices over their temperature: every line, and of the chosen matrix its bins
-// and the band of three RMSE above and below.
+// A chart of the noise of unloaded matrices over their temperature: the fitted line of every
+// matrix, and for the chosen matrix its bins and a band of three RMSE above and below the line.
 #pragma once
 
 #include <QString>
@@ -21,7 +21,7 @@ class NoiseChart : public QCustomPlot {
   void setFloor(const NoiseFloor& floor, const QStringList& names);
   void choose(std::size_t matrix);
   void setTheme(Theme theme);
-  // As a picture of its own.
+  // Paints the chart as a picture for export.
   void paint(QPainter& painter, const PictureLook& look, const QString& title);
 
   QSize sizeHint() const override { return {440, 280}; }

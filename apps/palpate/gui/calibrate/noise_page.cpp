@@ -24,7 +24,7 @@
 namespace palpate::gui {
 namespace {
 
-constexpr double kFitShare = 0.9;  // of the work; the rest is the file's hash
+constexpr double kFitShare = 0.9;  // part of the work; the rest is the hash of the file
 constexpr int kMostBins = 1000;
 
 std::vector<FigureColumn> noisePageColumns() {
@@ -212,7 +212,8 @@ void NoisePage::compute() {
     found->file = of->path;
     found->floor = fitNoiseFloor(
         of->profile, options, [&](double done) { return progress(kFitShare * done); });
-    std::error_code ignored;  // a recording that was never on disk has no hash
+    // A recording that was never on disk has no hash.
+    std::error_code ignored;
     if (std::filesystem::exists(of->path, ignored)) found->sha256 = sha256OfFile(of->path);
     return [this, found] { take(found); };
   });
@@ -251,7 +252,8 @@ void NoisePage::showNotes(std::size_t matrix) {
 }
 
 void NoisePage::save(const std::filesystem::path& path) const {
-  OutputFile file(path, Overwrite::kReplace);  // the dialog has asked
+  // The dialog has asked before it replaces a file.
+  OutputFile file(path, Overwrite::kReplace);
   if (path.extension() == ".xml") {
     file.write(noiseXml(found_->floor));
   } else {

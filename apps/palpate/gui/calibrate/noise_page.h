@@ -1,5 +1,5 @@
-// The page Noise of the dock Calibrate: per matrix the line of the largest reading over
-// temperature, its RMSE and range; kept as JSON, or as XML for the prior program.
+// The page Noise of the dock Calibrate: for each matrix a line fitted to the largest reading over
+// temperature, with its RMSE and range. It is saved as JSON, or as XML for the prior program.
 #pragma once
 
 #include <filesystem>
@@ -19,6 +19,7 @@ namespace palpate::gui {
 class FiguresTable;
 class NoiseChart;
 
+// A noise floor with the options and the recording that it was computed from.
 struct FoundNoise {
   NoiseFloor floor;
   NoiseFloorOptions options;
@@ -34,17 +35,18 @@ class NoisePage : public ComputedPage {
   std::vector<ExportedTable> tables() const override;
   void paint(QPainter& painter, const PictureLook& look, const QString& title) override;
 
-  // Null: none was computed.
+  // Null when no noise floor was computed.
   const std::shared_ptr<const FoundNoise>& found() const noexcept { return found_; }
-  // .xml as the prior program reads it, else JSON. Throws FileError.
+  // Saves the noise floor: an .xml file in the form of the prior program, any other as JSON. Throws
+  // FileError.
   void save(const std::filesystem::path& path) const;
 
-  // How a place is asked for; an empty answer means cancelled. Tests answer themselves.
+  // Ask the user for a file; an empty answer means cancelled. Tests replace them.
   std::function<std::filesystem::path(const QString& suggestion)> askForPlace;
   std::function<QString()> askForLines;
 
  signals:
-  // High sensitivity of the hand shall go by these lines from now on.
+  // The high-sensitivity mode of the hand is to use this noise floor from now on.
   void applyRequested(const palpate::NoiseFloor& floor);
 
  protected:

@@ -19,8 +19,8 @@ constexpr double kPressureChartHeadroom = 1.12;
 constexpr int kPressureChartBandAlpha = 36;
 constexpr double kPressureChartPointSize = 6.0;  // [px]
 constexpr double kChosenSize = 11.0;             // [px]
-constexpr double kSame = 0.05;                   // [deg C]
-constexpr std::size_t kCold = 5, kWarm = 3;      // as the colours of these matrices: blue, red
+constexpr double kSame = 0.05;                   // [deg C]; closer temperatures count as equal
+constexpr std::size_t kCold = 5, kWarm = 3;      // matrices with those colours: blue, red
 
 }  // namespace
 
@@ -180,7 +180,8 @@ void PressureChart::fill() {
 }
 
 void PressureChart::paint(QPainter& painter, const PictureLook& look, const QString& title) {
-  legend->setVisible(false);  // the picture has its own
+  // The exported picture has its own legend.
+  legend->setVisible(false);
   paintChart(painter, look, *this, {.title = title, .caption = "P(K, T)"});
   legend->setVisible(true);
 }

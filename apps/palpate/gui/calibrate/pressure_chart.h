@@ -1,6 +1,6 @@
-// The pressure surface P(K, T) in slices: pressure over gain at three temperatures, with the 95 %
-// band of one new measurement about the middle one, and the samples it was made from. Dashed where
-// it is beyond what was measured.
+// A chart of slices through the pressure surface P(K, T): pressure over gain at up to three
+// temperatures, with the 95 % prediction band of one new measurement around the middle slice, and
+// the samples of the fit. Lines are dashed where the surface is extrapolated.
 #pragma once
 
 #include <QString>
@@ -14,9 +14,9 @@
 
 namespace palpate::gui {
 
-// As the model takes it; where there is none, what is assumed.
+// The temperature of a sample that the model uses; where none was measured, the assumed one.
 double temperatureOf(const PressureSample& sample, const PressureModelOptions& options);
-// Coldest, middle and warmest of the used samples [deg C]; fewer where they are the same.
+// Lowest, middle and highest temperature of the used samples [deg C]; fewer when they are equal.
 std::vector<double> sliceTemperatures(const PressureModel& model,
                                       const std::vector<PressureSample>& samples);
 
@@ -26,9 +26,10 @@ class PressureChart : public QCustomPlot {
   explicit PressureChart(QWidget* parent = nullptr);
 
   void setModel(const PressureModel& model, const std::vector<PressureSample>& samples);
-  void choose(std::optional<std::size_t> sample);  // drawn larger
+  // Draws that sample larger.
+  void choose(std::optional<std::size_t> sample);
   void setTheme(Theme theme);
-  // As a picture of its own.
+  // Paints the chart as a picture for export.
   void paint(QPainter& painter, const PictureLook& look, const QString& title);
 
   QSize sizeHint() const override { return {440, 280}; }

@@ -28,7 +28,7 @@
 namespace palpate::gui {
 namespace {
 
-constexpr int kPressurePageWideFrom = 980;  // [px] chart and figures side by side
+constexpr int kPressurePageWideFrom = 980;  // [px]; wider: chart and figures side by side
 constexpr double kLargestArea = 1e6;
 constexpr double kFullScale = 4095.0;
 
@@ -306,7 +306,8 @@ void PressurePage::showOptions() {
 }
 
 void PressurePage::save(const std::filesystem::path& path) {
-  saveCalibration(now_->calibration, path, Overwrite::kReplace);  // the dialog has asked
+  // The dialog has asked before it replaces a file.
+  saveCalibration(now_->calibration, path, Overwrite::kReplace);
   saved_ = path;
 }
 
@@ -323,7 +324,7 @@ void PressurePage::saveAs() {
   }
 }
 
-// What is applied must be on disk: it is read again the next day.
+// An applied calibration must be on disk, because the program reads it again at the next start.
 void PressurePage::apply() {
   if (saved_.empty()) saveAs();
   if (!saved_.empty()) emit applyRequested(QString::fromStdString(saved_.string()));

@@ -1,5 +1,6 @@
-// The page Pressure of the dock Calibrate: a calibration, made from a table of recordings or read
-// from a file; its surface in slices, its samples, what it is worth and what it was made from.
+// The page Pressure of the dock Calibrate: shows a calibration that was made from a table of
+// recordings or read from a file, with slices of its surface, its samples, its quality and its
+// origin.
 #pragma once
 
 #include <filesystem>
@@ -32,20 +33,21 @@ class PressurePage : public ComputedPage {
   std::vector<ExportedTable> tables() const override;
   void paint(QPainter& painter, const PictureLook& look, const QString& title) override;
 
-  // A table (CSV) or a calibration (.json).
+  // Opens a table of recordings (CSV) or a calibration (.json).
   void open(const std::filesystem::path& path);
-  // Null: none is there.
+  // Null when no calibration is shown.
   const ShownCalibrationPtr& shownCalibration() const noexcept { return now_; }
-  // Throws FileError.
+  // Saves the shown calibration as a file. Throws FileError.
   void save(const std::filesystem::path& path);
-  QStringList facts() const;  // "name: value", as they are seen
+  // The shown facts, each as "name: value".
+  QStringList facts() const;
 
-  // How files are asked for; an empty answer means cancelled. Tests answer themselves.
+  // Ask the user for a file; an empty answer means cancelled. Tests replace them.
   std::function<std::filesystem::path()> askForTable;
   std::function<std::filesystem::path(const QString& suggestion)> askForPlace;
 
  signals:
-  // This calibration (a file) shall tell the forces of the hand from now on.
+  // The calibration in this file is to be applied to the hand from now on.
   void applyRequested(const QString& path);
 
  protected:
@@ -62,8 +64,10 @@ class PressurePage : public ComputedPage {
   void apply();
   CalibrationChoices choices() const;
 
-  std::filesystem::path path_;   // that is asked for
-  std::filesystem::path saved_;  // where this very calibration is on disk; empty: nowhere
+  // The opened table or calibration.
+  std::filesystem::path path_;
+  // Where the shown calibration is stored on disk; empty when it is not saved.
+  std::filesystem::path saved_;
   ShownCalibrationPtr now_;
   QLabel* name_ = nullptr;
   QPushButton* save_ = nullptr;
@@ -74,7 +78,8 @@ class PressurePage : public ComputedPage {
   QDoubleSpinBox* area_ = nullptr;
   QDoubleSpinBox* sensitivity_ = nullptr;
   QDoubleSpinBox* threshold_ = nullptr;
-  QCheckBox* above_ = nullptr;  // the surface is seen from above, not in slices
+  // Shows the surface from above instead of in slices.
+  QCheckBox* above_ = nullptr;
   QStackedWidget* charts_;
   PressureChart* chart_;
   SurfaceChart* surface_;

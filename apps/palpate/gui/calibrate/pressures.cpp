@@ -35,7 +35,8 @@ void Pressures::reload() {
 void Pressures::renew() {
   const DisplayedSource& displayed = windowState_.displayed;
   LiveSource* source = displayed.source();
-  if (displayed.isLive() && !source) return of_.reset();  // it is about to go
+  // The source is about to be removed.
+  if (displayed.isLive() && !source) return of_.reset();
   const std::string hand = displayed.hand() ? displayed.hand()->name : std::string();
   const QString path = hand.empty() ? QString() : appliedCalibration(windowState_.settings, hand);
   Of now{source ? static_cast<const void*>(source->history.get())
@@ -76,14 +77,15 @@ void Pressures::renewRecording(const QString& path) {
                                              kept_.tare);
 }
 
-// The frame of the recording at which the cursor stands.
+// Computes the pressures of the recording's frame at the cursor.
 void Pressures::showFrame() {
   if (!reader_ || !windowState_.displayed.hasFrames()) return;
   try {
     windowState_.derivedResults.setPressure(
         std::make_shared<const PressureFrame>(reader_->at(windowState_.playback.frame())));
   } catch (const Error&) {
-    windowState_.derivedResults.setPressure(nullptr);  // said where the frame would be
+    // The view of the frame reports the error.
+    windowState_.derivedResults.setPressure(nullptr);
   }
 }
 

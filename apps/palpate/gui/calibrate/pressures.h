@@ -1,5 +1,5 @@
-// What the applied calibration makes of the counts that are shown, of a recording or live:
-// pressures and forces for the other views.
+// Computes pressures and forces of the shown frames, recorded or live, with the applied
+// calibration, and puts them into DerivedResults for the other views.
 #pragma once
 
 #include <QObject>
@@ -18,14 +18,16 @@ class ForcePage;
 class Pressures : public QObject {
   Q_OBJECT
  public:
-  // Both must outlive it.
+  // `windowState` and `page` must outlive this object.
   Pressures(WindowState& windowState, ForcePage& page);
 
-  // What the recording that is looked at says of its sensor.
+  // Sets what the shown recording contains about its sensor.
   void setKept(const KeptWithRecording& kept);
-  // Another recording, source or calibration. Nothing is done where it is the same.
+  // Call this when the recording, the source or the calibration may have changed; it does nothing
+  // when none of them did.
   void renew();
-  // The same file says something else now.
+  // Reads the calibration again, although its path is the same, because its content may have
+  // changed.
   void reload();
 
  private:
@@ -37,11 +39,14 @@ class Pressures : public QObject {
   WindowState& windowState_;
   ForcePage& page_;
   KeptWithRecording kept_;
-  std::unique_ptr<PressureReader> reader_;  // of the recording that is shown; null: no pressures
-  // What the pressures that are shown are of.
+  // Pressures of the shown recording; null when there are none.
+  std::unique_ptr<PressureReader> reader_;
+  // Identifies what the shown pressures were computed from.
   struct Of {
-    const void* source = nullptr;  // recording or live source
-    QString path;                  // of the calibration
+    // The recording or the history of the live source.
+    const void* source = nullptr;
+    // Path of the calibration.
+    QString path;
     KeptWithRecording kept;
     bool operator==(const Of&) const = default;
   };

@@ -14,7 +14,8 @@ namespace palpate::gui {
 namespace {
 
 constexpr double kStepChartHeadroom = 1.12;
-constexpr double kResidualShare = 0.42;  // height of the residuals, the data having 1
+// Height of the residuals relative to the data.
+constexpr double kResidualShare = 0.42;
 constexpr int kFitPoints = 600;
 constexpr double kDotSize = 3.0;  // [px]
 
@@ -49,7 +50,8 @@ StepChart::StepChart(QWidget* parent) : QCustomPlot(parent) {
   gainName_->setPositionAlignment(Qt::AlignRight | Qt::AlignBottom);
   gainName_->setPadding(QMargins(0, 0, 4, 1));
   legend->setVisible(true);
-  legend->removeItem(legend->itemCount() - 1);  // the residuals have an axis that names them
+  // No legend for the residuals: their axis has a title.
+  legend->removeItem(legend->itemCount() - 1);
   axisRect()->insetLayout()->setInsetAlignment(0, Qt::AlignBottom | Qt::AlignRight);
   cursor_ = new QWidget(this);
   cursor_->setAttribute(Qt::WA_TransparentForMouseEvents);
@@ -88,7 +90,7 @@ void StepChart::fill(const StepSignal& samples) {
   const StepCharacteristics& shape = step_.characteristics;
   if (step_.fit.converged) {
     for (int i = 0; i <= kFitPoints; ++i) {
-      // Closer where it bends.
+      // The points are closer together at the begin, where the curve bends.
       const double share = static_cast<double>(i) / kFitPoints;
       const double t = endS * share * share;
       fit.append({t, stepResponse(fitted, t)});
@@ -191,7 +193,8 @@ void StepChart::paint(QPainter& painter,
                       const PictureLook& look,
                       const QString& title,
                       const QString& name) {
-  legend->setVisible(false);  // the picture has its own
+  // The exported picture has its own legend.
+  legend->setVisible(false);
   paintChart(painter, look, *this, {.title = title, .caption = name});
   legend->setVisible(true);
 }

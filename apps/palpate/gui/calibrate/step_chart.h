@@ -1,5 +1,5 @@
-// One loading step: its signal with the fitted response, the tangent at its inflection, gain and
-// dead time; below it the residuals, on the same axis of time.
+// A chart of one loading step: its signal with the fitted response, the tangent at its inflection,
+// gain and dead time; below it the residuals on the same time axis.
 #pragma once
 
 #include <QString>
@@ -18,23 +18,26 @@ class StepChart : public QCustomPlot {
  public:
   explicit StepChart(QWidget* parent = nullptr);
 
-  // `samples` of the step alone, time [s] from its begin, which is at `beginS` of the recording.
+  // Shows a step. The times of `samples` are seconds since the begin of the step, which is at
+  // `beginS` [s] of the recording.
   void setStep(const FittedStep& step,
                const StepSignal& samples,
                double beginS,
                std::size_t matrix,
                PlottedSignal signal);
   void setTheme(Theme theme);
-  void setPosition(double seconds);  // of the recording
+  // [s] in the recording
+  void setPosition(double seconds);
   QString valuesAt(const QPointF& at) const;
-  // As a picture of its own.
+  // Paints the chart as a picture for export.
   void paint(QPainter& painter, const PictureLook& look, const QString& title, const QString& name);
 
   QSize sizeHint() const override { return {440, 300}; }
   QSize minimumSizeHint() const override { return {220, 170}; }
 
  signals:
-  void seekRequested(double seconds);  // of the recording
+  // [s] in the recording
+  void seekRequested(double seconds);
 
  protected:
   void mousePressEvent(QMouseEvent* event) override;
@@ -55,8 +58,9 @@ class StepChart : public QCustomPlot {
   PlottedSignal signal_ = PlottedSignal::kFilteredMean;
   Theme theme_ = Theme::kDark;
   QCPAxisRect* below_;
-  QCPAxis* time_;      // of the residuals
-  QCPAxis* residual_;  // likewise
+  // Axes of the residuals.
+  QCPAxis* time_;
+  QCPAxis* residual_;
   QCPItemLine* gain_;
   QCPItemText* gainName_;
   QWidget* cursor_;

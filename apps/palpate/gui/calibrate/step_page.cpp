@@ -22,8 +22,8 @@
 namespace palpate::gui {
 namespace {
 
-constexpr double kMatrixShare = 0.3;     // of the work: which matrix is loaded
-constexpr int kStepPageWideFrom = 1240;  // [px] table and chart side by side
+constexpr double kMatrixShare = 0.3;     // part of the work: finding the loaded matrix
+constexpr int kStepPageWideFrom = 1240;  // [px]; wider: table and chart side by side
 constexpr double kLarge = 1000.0;
 
 std::vector<FigureColumn> stepPageColumns() {
@@ -40,7 +40,7 @@ std::vector<FigureColumn> stepPageColumns() {
       {"", "What speaks against it", 16, true}};
 }
 
-// As many decimals as an interval has a meaning for.
+// Writes `value` with as many decimals as its interval justifies.
 QString stepPagePlain(double value, double interval) {
   if (!std::isfinite(value)) return "–";
   const double size =
@@ -57,7 +57,7 @@ FigureCell withInterval(double value, double interval) {
   return cell;
 }
 
-// In a few words each.
+// The warnings of a step, a few words each.
 QStringList flagsOf(const FittedStep& step) {
   QStringList flags;
   if (!step.fit.converged) flags.append("no fit");
@@ -259,7 +259,8 @@ void StepPage::take(const std::shared_ptr<const FoundSteps>& found) {
   for (const FittedStep& step : report.steps) rows.push_back(stepPageRowOf(step, found->signal));
   table_->setRows(rows);
   showContent();
-  const QSignalBlocker blocker(table_);  // nobody chose it: the timeline stays
+  // The program selects this row, not the user, so the timeline does not move.
+  const QSignalBlocker blocker(table_);
   table_->selectRow(0);
   showStep(0);
 }

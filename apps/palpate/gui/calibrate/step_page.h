@@ -1,5 +1,6 @@
-// The page Steps of the dock Calibrate: the loading steps found in a matrix of the recording, each
-// with its fit, the 95 % intervals and what speaks against it; the chosen one as a chart.
+// The page Steps of the dock Calibrate: a table of the loading steps found in one matrix of the
+// recording, each with its fit, its 95 % intervals and its warnings; the chosen step is shown as a
+// chart.
 #pragma once
 
 #include <memory>
@@ -20,7 +21,7 @@ namespace palpate::gui {
 class FiguresTable;
 class StepChart;
 
-// What was found, with the signal that it was found in.
+// The steps that were found, and the signal that they were found in.
 struct FoundSteps {
   StepReport report;
   StepSignal signal;
@@ -35,17 +36,18 @@ class StepPage : public ComputedPage {
   std::vector<ExportedTable> tables() const override;
   void paint(QPainter& painter, const PictureLook& look, const QString& title) override;
 
-  // Null: none was computed.
+  // Null when no steps were searched for.
   const std::shared_ptr<const FoundSteps>& found() const noexcept { return found_; }
   void choose(std::size_t step);
   std::optional<std::size_t> chosen() const;
   StepChart& chart() noexcept { return *chart_; }
 
  signals:
-  // A row was chosen: its span in the recording [s].
+  // The user chose a row: the span of its step in the recording [s].
   void spanChosen(double fromS, double toS);
   void seekRequested(double seconds);
-  void foundChanged();  // other steps than before, or none
+  // Other steps were found, or none.
+  void foundChanged();
 
  protected:
   void compute() override;
@@ -59,7 +61,8 @@ class StepPage : public ComputedPage {
   QString matrixName(std::size_t matrix) const;
 
   std::shared_ptr<const FoundSteps> found_;
-  std::optional<std::size_t> matrix_;  // nothing: the loaded one
+  // The evaluated matrix; nothing: the loaded one.
+  std::optional<std::size_t> matrix_;
   QComboBox* matrices_;
   QComboBox* signal_;
   QCheckBox* robust_;

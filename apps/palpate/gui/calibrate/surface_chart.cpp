@@ -17,11 +17,11 @@
 namespace palpate::gui {
 namespace {
 
-constexpr int kAcross = 120, kUp = 80;     // cells
-constexpr double kSurfaceChartAir = 0.12;  // of the span, beside the samples
+constexpr int kAcross = 120, kUp = 80;     // number of cells
+constexpr double kSurfaceChartAir = 0.12;  // margin beside the samples, as a part of the span
 constexpr double kLeastSpanDegC = 4.0;
 constexpr double kSurfaceChartPointSize = 7.0, kChosenSize = 12.0;  // [px]
-constexpr int kBeyondAlpha = 90;  // of 255, beyond what was measured
+constexpr int kBeyondAlpha = 90;  // of 255; opacity outside the measured region
 
 QCPColorGradient gradient() {
   QCPColorGradient colors;

@@ -1,6 +1,6 @@
-// The pressure surface P(K, T) seen from above: gain to the right, temperature upwards, pressure as
-// colour; the samples it was made from, and the outline of what was measured, beyond which it
-// fades.
+// A chart of the pressure surface P(K, T) from above: gain on the horizontal axis, temperature on
+// the vertical axis, pressure as colour. It shows the samples of the fit and the outline of the
+// measured region, outside which the colours fade.
 #pragma once
 
 #include <optional>
@@ -20,12 +20,12 @@ class SurfaceChart : public QCustomPlot {
   explicit SurfaceChart(QWidget* parent = nullptr);
 
   void setModel(const PressureModel& model, const std::vector<PressureSample>& samples);
-  void choose(std::optional<std::size_t> sample);  // drawn larger
+  // Draws that sample larger.
+  void choose(std::optional<std::size_t> sample);
   void setTheme(Theme theme);
-  // What the mouse is told at a place: "K 512 counts, 31.2 °C: 48.3 ± 4.1 kPa"; empty beside the
-  // axes.
+  // The tool tip at a point: "K 512 counts, 31.2 °C: 48.3 ± 4.1 kPa"; empty outside the axes.
   QString valueAt(const QPointF& at) const;
-  // As a picture of its own.
+  // Paints the chart as a picture for export.
   void paint(QPainter& painter, const PictureLook& look, const QString& title);
 
   QSize sizeHint() const override { return {440, 280}; }

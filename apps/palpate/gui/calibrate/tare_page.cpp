@@ -81,7 +81,7 @@ TextTable matrixTable(const std::shared_ptr<const Tare>& tare, const OpenedRecor
           }};
 }
 
-// Every place of the layout, as events keep it.
+// The zero of every place of the layout, as the event stores it.
 TextTable zeroTable(const std::shared_ptr<const Tare>& tare, const OpenedRecordingPtr& of) {
   struct Place {
     std::size_t matrix;

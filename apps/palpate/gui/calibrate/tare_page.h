@@ -1,6 +1,6 @@
-// The page Tare of the dock Calibrate: what the taxels of each matrix read when nothing touches
-// them, and the windows it was found in. Kept as an event of the recording; the values stay as they
-// are.
+// The page Tare of the dock Calibrate: the readings of each matrix's taxels without contact, and
+// the time windows that they were found in. The tare is kept as an event of the recording; the
+// recorded values are not changed.
 #pragma once
 
 #include <memory>
@@ -17,7 +17,7 @@ namespace palpate::gui {
 
 class FiguresTable;
 
-// The event of a tare of a recording that has frames.
+// The event that stores a tare; `profile` must have frames.
 RecordingEvent tareEvent(const Tare& tare, const Profile& profile);
 
 class TarePage : public ComputedPage {
@@ -28,15 +28,17 @@ class TarePage : public ComputedPage {
   std::vector<ExportedTable> tables() const override;
   void paint(QPainter& painter, const PictureLook& look, const QString& title) override;
 
-  // Whether a tare is kept with the recording now.
+  // Sets whether the recording now has a tare as an event.
   void setKept(bool kept);
-  // Null: none was computed.
+  // Null when no tare was computed.
   const std::shared_ptr<const Tare>& found() const noexcept { return found_; }
 
  signals:
-  void keepRequested();  // what was found
+  // The tare that was found is to be kept.
+  void keepRequested();
   void removeRequested();
-  void spanChosen(double fromS, double toS);  // the longest window of a matrix
+  // The user chose a matrix: its longest window without contact [s].
+  void spanChosen(double fromS, double toS);
 
  protected:
   void compute() override;

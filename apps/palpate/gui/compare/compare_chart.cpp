@@ -17,8 +17,8 @@ namespace {
 
 constexpr double kCompareChartShortestSeenS = 0.05;
 constexpr double kLongestSeenS = 1e9;
-constexpr double kCompareChartHeadroom = 1.06;  // the highest curve stays below the frame
-constexpr double kCompareChartPageRest = 0.1;   // part of the old page that a new page starts with
+constexpr double kCompareChartHeadroom = 1.06;  // the highest curve stays below the upper edge
+constexpr double kCompareChartPageRest = 0.1;   // part of the old page that the new page repeats
 constexpr int kCompareChartCursorWidth = 2;     // [px]
 
 double compareChartLargestOf(const std::shared_ptr<const Series>& series) {
@@ -94,7 +94,8 @@ void CompareChart::rebuild() {
     if (side == CompareSide::kB) pen.setStyle(Qt::DashLine);
     graph->setPen(pen);
     graph->setName(side == CompareSide::kA ? "A" : "B");
-    graph->setAdaptiveSampling(false);  // thinned already
+    // The points are already decimated.
+    graph->setAdaptiveSampling(false);
   }
   const double largest =
       std::max(compareChartLargestOf(curves_.curveA), compareChartLargestOf(curves_.curveB));
@@ -126,7 +127,7 @@ void CompareChart::refill() {
       samples.reserve(static_cast<qsizetype>(points.size()));
       for (const SeriesPoint& point : points) samples.append({point.x + shiftS, point.y});
     }
-    // One sample is no line: a dot.
+    // A single sample makes no line: it is drawn as a dot.
     const bool dot = series && series->timeS.size() == 1;
     graph(index)->setScatterStyle(dot ? QCPScatterStyle(QCPScatterStyle::ssDisc, 7)
                                       : QCPScatterStyle(QCPScatterStyle::ssNone));
@@ -245,7 +246,7 @@ void CompareChart::wheelEvent(QWheelEvent* event) {
 void CompareChart::resizeEvent(QResizeEvent* event) {
   QCustomPlot::resizeEvent(event);
   yAxis->setLabel(signalAxisName(curves_.signal, *this));
-  constexpr int kLow = 130;  // [px]
+  constexpr int kLow = 130;  // [px]; lower: fewer ticks
   yAxis->ticker()->setTickCount(event->size().height() < kLow ? 2 : 4);
   refill();
 }

@@ -1,6 +1,6 @@
-// The curves of a comparison on one axis of time: A solid, B dashed. A click or drag seeks, the
-// wheel zooms, the middle button (or Shift) pans, a double click shows everything; with Ctrl a drag
-// shifts B.
+// The chart of a comparison: the curves of A (solid) and B (dashed) on one time axis. A click or
+// drag seeks, the wheel zooms, the middle button (or Shift) pans, a double click shows everything;
+// a drag with Ctrl shifts B.
 #pragma once
 
 #include <memory>
@@ -15,10 +15,12 @@
 
 namespace palpate::gui {
 
-// Times are those of the common axis [s].
+// The curves of a comparison; their times refer to the common axis [s].
 struct CompareCurves {
-  std::shared_ptr<const TimedProfile> a, b;      // null: not known yet
-  std::shared_ptr<const Series> curveA, curveB;  // null: not known yet, or it hasn't that matrix
+  // null: not known yet
+  std::shared_ptr<const TimedProfile> a, b;
+  // Null when not known yet, or when the recording does not have the chosen matrix.
+  std::shared_ptr<const Series> curveA, curveB;
   double offsetS = 0.0;
   PlottedSignal signal = PlottedSignal::kMean;
 };
@@ -30,8 +32,8 @@ class CompareChart : public QCustomPlot {
 
   void setCurves(const CompareCurves& curves);
   const CompareCurves& curves() const noexcept { return curves_; }
-  // What is seen stays, while B is being dragged; settle() shows everything again, where everything
-  // was seen.
+  // Shifts B. The visible range stays the same while B is dragged; settle() then shows everything
+  // again if everything was visible before.
   void setOffset(double offsetS);
   void settle();
   void setTheme(Theme theme);
@@ -51,9 +53,11 @@ class CompareChart : public QCustomPlot {
 
  signals:
   void seekRequested(double seconds);
-  void shifted(double offsetS);  // by the mouse
+  // The mouse shifted B.
+  void shifted(double offsetS);
   void shiftEnded();
-  void rangeChanged();  // what is seen, or where it lies on screen
+  // The visible range, or its place on the screen, has changed.
+  void rangeChanged();
 
  protected:
   void mousePressEvent(QMouseEvent* event) override;
@@ -77,7 +81,8 @@ class CompareChart : public QCustomPlot {
   QWidget* cursor_;
   QCPItemStraightLine* contact_ = nullptr;
   double positionS_ = 0.0;
-  bool fitted_ = true;  // everything is seen: stays so when B moves
+  // Everything is visible, and stays so when B moves.
+  bool fitted_ = true;
   Drag drag_ = Drag::kNone;
   double dragFromPixel_ = 0.0;
   double dragFromOffsetS_ = 0.0;

@@ -41,7 +41,7 @@ void CompareFeature::connectPanel() {
             if (playing) windowState.playback.play();
           });
   connect(panel_, &ComparePanel::openRequested, this, [&windowState] {
-    // A stays: what is opened here is to be B.
+    // A is kept: the recording that is opened here becomes B.
     windowState.askAndOpen(windowState.displayed.unfilteredRecording()
                                ? OpenRequest::Then::kList
                                : OpenRequest::Then::kShowFirst);
@@ -94,7 +94,7 @@ void CompareFeature::start() {
   panel_->setRecordings(state().recordings.all(), state().displayed.unfilteredRecording());
 }
 
-// Where A has no frame any more B may still have one: then the playback waits at A's end.
+// Where A has ended, B may still have frames; the playback then waits at A's end.
 void CompareFeature::seek(double seconds) {
   PlaybackController& playback = state().playback;
   const double within = std::clamp(seconds, 0.0, playback.durationS());
@@ -105,7 +105,7 @@ void CompareFeature::seek(double seconds) {
 
 void CompareFeature::show(bool on) {
   if (!on || state().displayed.isRecording()) return state().comparison.set(on);
-  // Nothing to compare yet: what is opened now will be.
+  // Without a recording there is nothing to compare: the one that is opened now is compared.
   action_->setChecked(false);
   state().askAndOpen(OpenRequest::Then::kCompare);
 }

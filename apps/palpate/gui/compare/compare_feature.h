@@ -1,4 +1,4 @@
-// Two recordings instead of one. A is the recording that is looked at and played.
+// The feature that compares two open recordings. A is the recording that is shown and played.
 #pragma once
 
 #include "gui/window_state/feature.h"
@@ -23,7 +23,8 @@ class CompareFeature : public Feature {
   void show(bool on);
   void seek(double seconds);
 
-  QAction* action_;  // checked: two recordings are compared
+  // Checked while two recordings are compared.
+  QAction* action_;
   ComparePanel* panel_;
 };
 

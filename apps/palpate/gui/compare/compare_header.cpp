@@ -17,9 +17,9 @@ namespace palpate::gui {
 namespace {
 
 constexpr int kCompareHeaderControlHeight = 26;  // [px]
-constexpr int kCompareHeaderCompactBelow = 760;  // [px] of width: buttons lose their text
-constexpr double kFurthestS = 1e9;               // of an offset: 30 years
-constexpr double kOffsetStepS = 0.05;            // of the arrow keys
+constexpr int kCompareHeaderCompactBelow = 760;  // [px] of width; narrower: buttons without text
+constexpr double kFurthestS = 1e9;               // [s], 30 years: limit of the offset
+constexpr double kOffsetStepS = 0.05;            // [s], of the arrow keys
 constexpr int kOffsetDecimals = 3;
 
 }  // namespace

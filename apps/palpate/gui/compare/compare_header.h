@@ -1,4 +1,4 @@
-// The controls of a comparison: what is A, what is B, how they are aligned.
+// The controls of a comparison: which recordings are A and B, and how they are aligned in time.
 #pragma once
 
 #include <QList>
@@ -20,13 +20,14 @@ namespace palpate::gui {
 class CompareHeader : public QWidget {
   Q_OBJECT
  public:
-  // The actions are behind buttons: `leave` goes back to the matrices.
+  // Each action gets a button; `leave` goes back to the matrices.
   CompareHeader(QAction* leave, QAction* interpolated, QAction* values, QWidget* parent = nullptr);
 
-  // -1: none. Behind the recordings both boxes offer to open another one.
+  // Fills both boxes; `a` and `b` are indices into `names`, -1 for none. The last entry of both
+  // boxes opens another recording.
   void setRecordings(const QStringList& names, int a, int b);
   void setAlignment(Alignment alignment);
-  // Seconds from A's first frame to B's. Unknown: empty.
+  // Time from A's first frame to B's first frame [s]; the field is empty when it is unknown.
   void setOffset(std::optional<double> offsetS);
   void setTheme(Theme theme);
 
@@ -57,7 +58,7 @@ class CompareHeader : public QWidget {
   int chosenB_ = -1;
 };
 
-// "first contact", "start of both", "clock time", "by hand"
+// The name of an alignment: "first contact", "start of both", "clock time", "by hand"
 QString titleOf(Alignment alignment);
 
 }  // namespace palpate::gui

@@ -9,10 +9,11 @@
 namespace palpate::gui {
 namespace {
 
-// [px] more for a group with a colour bar (matrices_geometry.cpp)
+// Additional width of a group with a colour bar [px] (matrices_geometry.cpp).
 constexpr double kBarSpace = 86.0;
-constexpr double kComparePainterAround = 14.0;  // [px] of titles, as of the matrices below them
-constexpr double kSwatch = 10.0;                // [px]
+// [px] around titles, as around the matrices below them
+constexpr double kComparePainterAround = 14.0;
+constexpr double kSwatch = 10.0;  // [px]
 
 std::size_t comparePainterIndexOf(CompareGroup group) { return static_cast<std::size_t>(group); }
 
@@ -21,7 +22,8 @@ MatricesPictureOptions comparePainterOptionsOf(CompareGroup group,
   MatricesPictureOptions own = options.look;
   own.title.clear();
   own.caption.clear();
-  own.colorBar = group != CompareGroup::kA;  // A and B share one
+  // A and B share one colour bar.
+  own.colorBar = group != CompareGroup::kA;
   if (group != CompareGroup::kDifference) return own;
   own.difference = true;
   own.rangeMin = -options.largestDifference;
@@ -69,7 +71,7 @@ void paintTitle(QPainter& painter,
                    metrics.elidedText(content.caption, Qt::ElideRight, second.width()));
 }
 
-// In the middle of the group, on a card, so that it can be read over taxels.
+// Paints the notice on a card in the middle of the group, so that it is legible over taxels.
 void comparePainterPaintNotice(QPainter& painter,
                                const MatricesGeometry& geometry,
                                const QString& notice,
@@ -105,7 +107,8 @@ CompareGeometry::CompareGeometry(const QRectF& area,
   const double line = QFontMetricsF(pictureFont(options.look)).height();
   const double titleHeight = 2 * line + 2;
   const double top = area.top() + kComparePainterAround * 0.6;
-  // Two colour bars; what is left is shared equally, so that all have the same scale.
+  // Two groups have a colour bar; the remaining width is shared equally, so that all have the same
+  // scale.
   const double share = std::max(0.0, (area.width() - 2 * kBarSpace) / 3);
   double left = area.left();
   for (const CompareGroup group : kAllCompareGroups) {

@@ -1,6 +1,6 @@
-// Two frames and their difference as a picture: three groups of heat maps side by side at the same
-// scale, A and B in one colour range, A - B about 0. Pure painting, for the window and for exported
-// files.
+// Paints two frames and their difference: three groups of heat maps side by side at the same scale,
+// A and B in one colour range, A - B in a range around 0. It needs no widget; the window and the
+// export use it.
 #pragma once
 
 #include <QRectF>
@@ -17,32 +17,42 @@ class QPainter;
 
 namespace palpate::gui {
 
+// The three groups of heat maps.
 enum class CompareGroup { kA, kB, kDifference };
 inline constexpr std::array kAllCompareGroups = {
     CompareGroup::kA, CompareGroup::kB, CompareGroup::kDifference};
 
-// What stands in the groups.
+// The hands that the three groups show.
 struct ComparedHands {
   HandDescription a;
   HandDescription b;
-  HandDescription difference;  // A's, with what is compared as its mask (FrameComparison::layout)
+  // A's hand; its mask is the taxels that are compared (FrameComparison::layout).
+  HandDescription difference;
   const HandDescription& of(CompareGroup group) const;
 };
 
+// What one group shows.
 struct CompareGroupContent {
-  TactileFrame frame;  // no values: there is none
-  QString name;        // "foam_ball.dsa"
-  QString caption;     // "frame 241 · 7.60 s"
-  QString notice;      // over the taxels, where there is no frame: "ended at 12.31 s"
+  // Has no values when there is no frame.
+  TactileFrame frame;
+  // Name of the recording: "foam_ball.dsa".
+  QString name;
+  // "frame 241 · 7.60 s"
+  QString caption;
+  // Text over the taxels when there is no frame: "ended at 12.31 s".
+  QString notice;
 };
 using ComparedFrames = std::array<CompareGroupContent, 3>;
 
+// How a comparison is painted.
 struct ComparePictureOptions {
-  MatricesPictureOptions look;     // map, theme, font, .., and the range that A and B share
-  double largestDifference = 1.0;  // value of the outermost colours of A - B [counts]
+  // Colour map, theme, font and so on, and the range that A and B share.
+  MatricesPictureOptions look;
+  // The value of the outermost colours of A - B [counts].
+  double largestDifference = 1.0;
 };
 
-// Where everything lies in an area.
+// The layout of a comparison's picture: where its groups and taxels are in a rectangle.
 class CompareGeometry {
  public:
   CompareGeometry() = default;
@@ -66,17 +76,19 @@ class CompareGeometry {
   std::array<MatricesGeometry, 3> groups_;
 };
 
-// For a widget that keeps the first as a pixmap: taxels at rest, names of matrices, colour bars.
+// Paints what changes rarely, so that a widget can keep it as a pixmap: taxels without values,
+// names of matrices, colour bars.
 void paintCompareBackground(QPainter& painter,
                             const CompareGeometry& geometry,
                             const ComparedHands& hands,
                             const ComparePictureOptions& options);
-// Titles, values, notices.
+// Paints what changes with every frame: titles, values and notices.
 void paintCompareValues(QPainter& painter,
                         const CompareGeometry& geometry,
                         const ComparedHands& hands,
                         const ComparedFrames& frames,
                         const ComparePictureOptions& options);
+// Paints both, for example into a file.
 void paintComparison(QPainter& painter,
                      const QRectF& area,
                      const ComparedHands& hands,

@@ -24,7 +24,7 @@ namespace palpate::gui {
 namespace {
 
 constexpr int kComparePanelControlHeight = 26;  // [px]
-constexpr int kViewShare = 5;                   // of the height, to the chart's two
+constexpr int kViewShare = 5;                   // shares of the height: heat maps and chart
 constexpr int kChartShare = 2;
 
 bool contains(const std::vector<OpenedRecordingPtr>& all, const OpenedRecordingPtr& one) {
@@ -37,7 +37,7 @@ int comparePanelIndexOf(const std::vector<OpenedRecordingPtr>& all, const Opened
 }
 
 constexpr double kLeastRange = 1.0;     // [counts]
-constexpr double kHeatMapShare = 0.62;  // of an exported picture's height
+constexpr double kHeatMapShare = 0.62;  // of the height of an exported picture
 
 QString figure(double value, int decimals) {
   return QString::fromStdString(fixedText(value, decimals));
@@ -221,7 +221,7 @@ void ComparePanel::setRecordings(const std::vector<OpenedRecordingPtr>& recordin
   recordings_ = recordings;
   a_ = contains(recordings_, a) ? a : nullptr;
   if (a_ != beforeA) withItself_ = false;
-  // The recording that was A goes on as B, where B became A.
+  // When B becomes A, the previous A becomes B.
   if (a_ && a_ == b_ && !withItself_ && contains(recordings_, beforeA)) b_ = beforeA;
   if (!contains(recordings_, b_) || (b_ == a_ && !withItself_)) {
     b_ = nullptr;
@@ -264,7 +264,7 @@ void ComparePanel::pairChanged() {
   answer_ = {};
   comparison_.reset();
   asked_ = false;
-  // An offset by hand is of two recordings: of others it means nothing.
+  // A manual offset belongs to two certain recordings; for others it is reset.
   if (alignment_ == Alignment::kManual) alignment_ = Alignment::kContact;
   header_->setAlignment(alignment_);
   header_->setOffset(std::nullopt);
@@ -306,7 +306,8 @@ void ComparePanel::setActive(bool on) {
 void ComparePanel::ask() {
   asked_ = active_ && hasPair();
   if (!asked_) return;
-  // Figures of another curve are not to be taken for those of this one.
+  // Removes the figures of the previous curves, so that they are not taken for those of the new
+  // ones.
   answer_.complete = false;
   answer_.figures.reset();
   answer_.done = 0.0;
@@ -326,7 +327,7 @@ void ComparePanel::take(const CompareAnswer& answer) {
   const double largestValue = answer_.largestValue;
   answer_ = answer;
   if (!answer_.complete && !first && !answer_.largestDifference) {
-    // Colours and curves don't flicker while the same two are looked at anew.
+    // Keeps colours and curves until the new ones are computed, so that they don't flicker.
     answer_.largestDifference = largest;
     answer_.largestValue = largestValue;
   }
@@ -367,7 +368,8 @@ void ComparePanel::setOffset(double offsetS) {
   ask();
 }
 
-// Cheap: it is called for every movement of the mouse. Figures follow once it stands.
+// Must be fast, because every movement of the mouse calls it. The figures are computed after the
+// movement ends.
 void ComparePanel::moveTo(double offsetS, bool keepSeen) {
   if (!answer_.a || !answer_.b) return;
   const bool changed = alignment_ != Alignment::kManual;
@@ -535,7 +537,7 @@ ComparePictureOptions ComparePanel::pictureOptions() const {
       options.largestDifference = comparePanelViewLargestOf(between.frame);
       break;
     case RangeMode::kRecording:
-      // Of a long recording the largest value isn't known before all of it has been read.
+      // The largest value of a long recording is known only after all of it has been read.
       maximum = std::max({answer_.largestValue,
                           comparePanelViewLargestOf(inA.frame),
                           comparePanelViewLargestOf(inB.frame)});
@@ -673,7 +675,7 @@ TextTable ComparePanel::differenceTable() const {
           }};
 }
 
-// A row per frame of A; B where it has one beside it.
+// One row for each frame of A, with B's frame at the same moment if there is one.
 TextTable ComparePanel::curveTable() const {
   TextTable table{.header = {"time_s", "frame_a", "a", "frame_b", "b"}};
   if (!answer_.curveA || !answer_.a || !answer_.b) return table;

@@ -1,5 +1,5 @@
-// Two open recordings side by side on one axis of time: heat maps of A, of B and of A - B at the
-// same moment, their curves on top of each other, one cursor.
+// The comparison of two open recordings on one time axis: heat maps of A, B and A - B at the same
+// moment, their curves in one chart, and one cursor.
 #pragma once
 
 #include <QWidget>
@@ -35,32 +35,35 @@ class ComparePanel : public QWidget {
   ComparePanel(QAction* leave, QAction* interpolated, QAction* values, QWidget* parent = nullptr);
   ~ComparePanel() override;
 
-  // What is open, and which of it is A; null: none. B stays while it is open; else it is the first
-  // other one, or what was opened because the panel asked for it.
+  // Sets the open recordings, and which of them is A (null: none). B is kept while it is open; else
+  // B is the first other recording, or the one that was opened because the panel asked for it.
   void setRecordings(const std::vector<OpenedRecordingPtr>& recordings,
                      const OpenedRecordingPtr& a);
-  void setB(const OpenedRecordingPtr& b);  // may be A, too
-  // Look, range, signal.
+  // Sets B; it may be the same recording as A.
+  void setB(const OpenedRecordingPtr& b);
+  // Sets appearance, colour range and plotted signal.
   void setSettings(const ViewSettings& settings, Theme theme);
-  // Work is done only while somebody looks.
+  // Switches computing on or off; the panel computes only while it is visible.
   void setActive(bool on);
 
   void setAlignment(Alignment alignment);
   Alignment alignment() const noexcept { return alignment_; }
-  // Seconds from A's first frame to B's; nothing while it isn't known.
+  // Time from A's first frame to B's first frame [s]; nothing while it is unknown.
   std::optional<double> offsetS() const;
-  void setOffset(double offsetS);  // by hand
-  // The moment that is shown, from A's first frame [s].
+  // Sets the offset manually [s].
+  void setOffset(double offsetS);
+  // Sets the shown moment: time since A's first frame [s].
   void setTime(double seconds);
   double timeS() const noexcept { return timeS_; }
 
   const OpenedRecordingPtr& a() const noexcept { return a_; }
   const OpenedRecordingPtr& b() const noexcept { return b_; }
-  std::optional<TimeSpan> common() const;  // nothing: not known, or there is none
+  // The time span that both recordings share; nothing when it is unknown or empty.
+  std::optional<TimeSpan> common() const;
   bool hasPair() const;
-  // What has to be said of these two; empty: nothing.
+  // What the user must know about these two recordings; empty when there is nothing to say.
   QString notice() const;
-  // "correlation 0.931 · ..", once it is known.
+  // "correlation 0.931 · ..", once the figures are computed.
   QString figures() const;
   bool complete() const noexcept { return answer_.complete; }
   CompareView& view() noexcept { return *view_; }
@@ -68,23 +71,25 @@ class ComparePanel : public QWidget {
   CompareStrip& strip() noexcept { return *strip_; }
   CompareWorker& worker() noexcept { return worker_; }
 
-  // Of what is shown: a picture of heat maps and curves; figures per matrix; the curves.
+  // Exports: a picture of the heat maps and curves, a table of figures for each matrix, and a table
+  // of the curves.
   void paint(QPainter& painter, const PictureLook& look) const;
   TextTable differenceTable() const;
   TextTable curveTable() const;
 
  signals:
   void aChosen(const palpate::gui::OpenedRecordingPtr& recording);
-  // What was B is to be A, and the moment that is shown is this one of it [s].
+  // B is to become A; the shown moment is then at `timeS` since its first frame [s].
   void swapRequested(const palpate::gui::OpenedRecordingPtr& recording, double timeS);
-  void seekRequested(double seconds);  // from A's first frame
+  // [s] since A's first frame
+  void seekRequested(double seconds);
   void signalChosen(palpate::gui::PlottedSignal signal);
   void alignmentChanged();
   void openRequested();
   void hovered(const QString& text);
 
  private:
-  // compare_panel.cpp: parts, what is compared
+  // Building the panel, and which recordings it compares (compare_panel.cpp).
   void build(QAction* leave, QAction* interpolated, QAction* values);
   QWidget* makeEmpty();
   QWidget* makeCurveHeader();
@@ -96,7 +101,7 @@ class ComparePanel : public QWidget {
   void moveTo(double offsetS, bool keepSeen);
   void swap();
   void askForAnother();
-  // What is seen of it.
+  // Showing the results.
   void showEmpty();
   void showCurves();
   void showFrames();
@@ -115,9 +120,12 @@ class ComparePanel : public QWidget {
   double handOffsetS_ = 0.0;
   double timeS_ = 0.0;
   bool active_ = false;
-  bool asked_ = false;       // the worker has the newest question
-  bool wantsNew_ = false;    // B is to be what is opened next
-  bool withItself_ = false;  // B is A because somebody wants it so
+  // The worker has the newest question.
+  bool asked_ = false;
+  // The next recording that is opened becomes B.
+  bool wantsNew_ = false;
+  // B is the same as A because the user chose so.
+  bool withItself_ = false;
   ViewSettings settings_;
   Theme theme_ = Theme::kDark;
 
@@ -133,7 +141,8 @@ class ComparePanel : public QWidget {
   QLabel* figures_ = nullptr;
   CompareStrip* strip_ = nullptr;
   CompareChart* chart_ = nullptr;
-  CompareWorker worker_;  // last: ends first
+  // Declared last, so that its thread ends before the other members are destroyed.
+  CompareWorker worker_;
 };
 
 }  // namespace palpate::gui

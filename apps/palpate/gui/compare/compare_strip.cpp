@@ -10,11 +10,12 @@
 namespace palpate::gui {
 namespace {
 
-constexpr int kBar = 11;                 // [px] high
+constexpr int kBar = 11;                 // [px] height
 constexpr int kCompareStripBetween = 4;  // [px]
 constexpr int kCompareStripAround = 4;   // [px]
-constexpr double kLeast = 8.0;           // [px] wide: a single frame can be seen and dragged, too
-constexpr double kContact = 2.0;         // [px]
+// [px] smallest width, so that a single frame is visible and can be dragged
+constexpr double kLeast = 8.0;
+constexpr double kContact = 2.0;  // [px]
 
 }  // namespace
 

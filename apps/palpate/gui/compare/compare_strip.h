@@ -1,5 +1,5 @@
-// Two bars over the chart of a comparison: when A and when B were recorded on the common axis,
-// their gaps and first contacts. B's bar is there to be dragged: that shifts B.
+// Two bars above the chart of a comparison: when A and when B were recorded on the common axis,
+// with their gaps and first contacts. Dragging B's bar shifts B.
 #pragma once
 
 #include <QWidget>
@@ -13,10 +13,10 @@ class CompareChart;
 class CompareStrip : public QWidget {
   Q_OBJECT
  public:
-  // As wide as the chart, whose axis it shares; the chart must outlive it.
+  // The strip is as wide as the chart and shares its axis; `chart` must outlive this.
   explicit CompareStrip(const CompareChart& chart, QWidget* parent = nullptr);
   void setTheme(Theme theme);
-  // [px] of the widget; empty: nothing is known of it yet.
+  // The bar of A or B in the widget [px]; empty while its times are unknown.
   QRectF barRect(bool ofB) const;
 
   QSize sizeHint() const override;

@@ -80,7 +80,7 @@ void CompareView::paintEvent(QPaintEvent* event) {
   painter.drawPixmap(0, 0, background_);
   paintCompareValues(painter, geometry_, *hands_, frames_, options_);
   if (!hover_) return;
-  // The same taxel in all three.
+  // Marks the same taxel in all three groups.
   painter.setPen(QPen(colorsOf(options_.look.theme).accent, 2.0));
   painter.setBrush(Qt::NoBrush);
   for (const CompareGroup group : kAllCompareGroups)

@@ -1,5 +1,5 @@
-// The heat maps of a comparison as a widget: keeps what doesn't change as a pixmap; tells what lies
-// under the mouse, in A, in B and between them.
+// The widget with the heat maps of a comparison. It keeps what rarely changes as a pixmap, and
+// shows the values of A, B and A - B of the taxel under the mouse.
 #pragma once
 
 #include <QPixmap>
@@ -18,13 +18,13 @@ class CompareView : public QWidget {
   void setHands(const ComparedHands& hands);
   void clear();
   void setFrames(ComparedFrames frames);
-  // Font and pixels are the widget's own.
+  // Font and pixel size are taken from the widget.
   void setOptions(const ComparePictureOptions& options);
   const ComparePictureOptions& options() const noexcept { return options_; }
   const ComparedFrames& frames() const noexcept { return frames_; }
   const std::optional<ComparedHands>& hands() const noexcept { return hands_; }
   const CompareGeometry& geometryOfGroups() const noexcept { return geometry_; }
-  // "finger 0 distal · x 3, y 5 · A 812 · B 640 · A − B +172 counts"; empty beside the taxels.
+  // "finger 0 distal · x 3, y 5 · A 812 · B 640 · A − B +172 counts"; empty outside the taxels.
   QString hoverText() const;
 
   QSize sizeHint() const override { return {900, 340}; }

@@ -10,14 +10,14 @@
 namespace palpate::gui {
 namespace {
 
-constexpr std::size_t kCompareWorkerMostKept = 12;  // recordings, and curves
-constexpr std::size_t kPairsLookedAt = 4000;        // of a long recording: for the range of colours
+constexpr std::size_t kCompareWorkerMostKept = 12;  // numbers of recordings and of curves
+constexpr std::size_t kPairsLookedAt = 4000;        // of a long recording: for the colour range
 
-// How much of the whole work each part is.
+// Shares of the whole work.
 constexpr double kTimedShare = 0.2;
 constexpr double kCurveShare = 0.3;
 
-// Of A.
+// Number of frames of A within the common span.
 std::size_t framesInCommon(const TimedProfile& a, const TimedProfile& b, double offsetS) {
   const auto span = commonSpan(a, b, offsetS);
   if (!span) return 0;
@@ -30,7 +30,8 @@ std::size_t framesInCommon(const TimedProfile& a, const TimedProfile& b, double 
 
 }  // namespace
 
-// Recordings are compared by address: weak, so that a closed one isn't held here.
+// Results are found by the address of their recording; the pointers are weak, so that a closed
+// recording is freed.
 struct CompareWorker::Kept {
   struct Timed {
     std::weak_ptr<const OpenedRecording> of;
@@ -91,7 +92,7 @@ std::shared_ptr<const TimedProfile> CompareWorker::timed(const OpenedRecordingPt
 std::shared_ptr<const Series> CompareWorker::curve(const OpenedRecordingPtr& recording,
                                                    const SeriesChoice& choice,
                                                    const Progress& progress) {
-  // "All matrices" is another number in another hand.
+  // The index that means "all matrices" differs between hands.
   if (!hasSeries(recording->profile, choice)) return nullptr;
   for (const auto& each : kept_->curves)
     if (each.of.lock() == recording && each.choice == choice) return each.series;
@@ -113,7 +114,7 @@ void CompareWorker::work(const CompareQuestion& question, int generation) {
         },
         Qt::QueuedConnection);
   };
-  // Of one part of the work, which begins at what is done.
+  // Progress of one part of the work, which starts at what is done so far.
   const auto part = [&](double share) {
     return Progress([this, generation, base = answer.done, share, &answer, &report](double done) {
       const double now = base + share * done;
@@ -138,7 +139,7 @@ void CompareWorker::work(const CompareQuestion& question, int generation) {
     report();
     const auto choiceFor = [&](const OpenedRecording& recording) {
       SeriesChoice choice = question.choice;
-      // One past the last of A stands for all of them, in B too.
+      // The index after the last matrix of A means all of them, for B too.
       if (choice.index == question.a->numMatrices()) choice.index = recording.numMatrices();
       return choice;
     };
@@ -181,7 +182,8 @@ void CompareWorker::work(const CompareQuestion& question, int generation) {
   answer.complete = true;
   try {
     report();
-  } catch (const Cancelled&) {  // asked anew meanwhile
+    // A new question was asked meanwhile.
+  } catch (const Cancelled&) {
   }
 }
 

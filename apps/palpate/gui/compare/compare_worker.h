@@ -1,5 +1,5 @@
-// What a comparison needs and takes longer than a blink: first contacts, curves, figures. Computed
-// beside the window, kept, and given up as soon as something else is asked for.
+// Computes in its own thread what a comparison needs and what takes long: first contacts, curves
+// and figures. Results are kept for later questions; a new question cancels the running one.
 #pragma once
 
 #include <QObject>
@@ -17,32 +17,41 @@
 
 namespace palpate::gui {
 
+// What is compared and how.
 struct CompareQuestion {
-  OpenedRecordingPtr a;  // never null
+  // a: never null
+  OpenedRecordingPtr a;
   OpenedRecordingPtr b;
   Alignment alignment = Alignment::kContact;
-  double handOffsetS = 0.0;  // for kManual
-  SeriesChoice choice;       // of the curves
+  // The offset for kManual [s].
+  double handOffsetS = 0.0;
+  // What the curves show.
+  SeriesChoice choice;
 };
 
-// What is known so far; what isn't yet is null.
+// What is known so far; results that are not computed yet are null or empty.
 struct CompareAnswer {
   std::shared_ptr<const TimedProfile> a, b;
-  // kStart where contact was asked for and there is none
+  // kStart when kContact was requested and there is no contact.
   Alignment alignment = Alignment::kContact;
-  double offsetS = 0.0;  // once a and b are there
-  // null although complete: that recording hasn't the chosen matrix.
+  // [s]; valid once a and b are set
+  double offsetS = 0.0;
+  // Null in a complete answer when that recording does not have the chosen matrix.
   std::shared_ptr<const Series> curveA, curveB;
   std::optional<CurveComparison> figures;
-  std::optional<double> largestDifference;  // of any taxel over the common span [counts]
-  double largestValue = 0.0;                // of both, in the frames that were looked at [counts]
-  double done = 0.0;                        // 0..1
+  // Largest difference of any taxel over the common span [counts].
+  std::optional<double> largestDifference;
+  // Largest value of both recordings in the frames that were read [counts].
+  double largestValue = 0.0;
+  // Progress, 0..1.
+  double done = 0.0;
   bool complete = false;
-  QString failure;  // one line; a block of a file that can't be read
+  // Why the work failed, in one line; for example an unreadable block of a file.
+  QString failure;
 };
 
-// The offset of that alignment, and by what: by start, where contacts are asked for and there are
-// none.
+// The offset for an alignment, and the alignment that was used: kStart when kContact was requested
+// and there is no contact.
 struct ChosenOffset {
   Alignment alignment = Alignment::kStart;
   double offsetS = 0.0;
@@ -56,10 +65,11 @@ class CompareWorker : public QObject {
   Q_OBJECT
  public:
   explicit CompareWorker(QObject* parent = nullptr);
-  // Gives up and waits.
+  // Cancels the work and waits until it ends.
   ~CompareWorker() override;
 
-  // Replaces what was asked before; answered() comes several times, the last one complete.
+  // Replaces the previous question; answered() is emitted several times, the last time with a
+  // complete answer.
   void ask(const CompareQuestion& question);
   void cancel();
   void waitForDone() { pool_.waitForDone(); }
@@ -76,9 +86,11 @@ class CompareWorker : public QObject {
                                       const SeriesChoice& choice,
                                       const Progress& progress);
 
-  QThreadPool pool_;  // one thread: what is kept belongs to it
+  // Has one thread, which alone uses `kept_`.
+  QThreadPool pool_;
   std::shared_ptr<Kept> kept_;
-  std::atomic<int> generation_ = 0;  // of the newest question
+  // Number of the newest question.
+  std::atomic<int> generation_ = 0;
 };
 
 }  // namespace palpate::gui

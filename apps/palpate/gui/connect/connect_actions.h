@@ -1,4 +1,4 @@
-// What connects, and shows what is connected, as actions.
+// The actions that connect to a hand and show the connected hand.
 #pragma once
 
 #include <QAction>
@@ -15,7 +15,7 @@ struct ConnectActions {
   QAction* connectHand = nullptr;
   QAction* tryEmulated = nullptr;
   QAction* disconnectHand = nullptr;
-  // checked: what is connected is shown, not a recording
+  // Checked while the connection is shown instead of a recording.
   QAction* live = nullptr;
   QAction* hold = nullptr;
 };

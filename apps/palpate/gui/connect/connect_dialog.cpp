@@ -204,7 +204,8 @@ QString ConnectDialog::problem() const {
 }
 
 void ConnectDialog::refresh() {
-  if (!connect_) return;  // while it is built
+  // The dialog is still being built.
+  if (!connect_) return;
   const QString missing = problem();
   problem_->setText(missing);
   mark_->setState(missing.isEmpty() ? StateMark::State::kNone : StateMark::State::kWarning);

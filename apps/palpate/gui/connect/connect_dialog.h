@@ -1,4 +1,5 @@
-// What to connect: a hand on its ports, the emulated hand, or a recording that is replayed.
+// The Connect dialog: the user chooses what to connect to, which is a hand on its ports, the
+// emulated hand, or a recording that is replayed.
 #pragma once
 
 #include <QDialog>
@@ -22,24 +23,28 @@ class ReplayPage;
 class ScenePage;
 class StateMark;
 
+// The values that the dialog starts with.
 struct ConnectChoices {
-  Connection last;                     // where the dialog begins
-  std::filesystem::path scenesFolder;  // of the emulated hand
-  QStringList recentRecordings = {};   // paths, newest first
+  // The connection that the dialog starts with.
+  Connection last;
+  // Folder with the scenes of the emulated hand.
+  std::filesystem::path scenesFolder;
+  // Paths, newest first.
+  QStringList recentRecordings = {};
   Theme theme = Theme::kDark;
 };
 
 class ConnectDialog : public QDialog {
   Q_OBJECT
  public:
-  // `scan` must outlive this. Ports are asked as soon as the page of the ports is shown, not
-  // before; when the dialog closes they are free again.
+  // `scan` must outlive this. Ports are probed only once the page with the ports is shown; when the
+  // dialog closes, they are free again.
   ConnectDialog(const ConnectChoices& choices, PortScan& scan, QWidget* parent);
   ~ConnectDialog() override;
 
-  // What is chosen; of the other kinds what stands in their fields.
+  // The chosen connection; it also contains the fields of the kinds that are not chosen.
   Connection connection() const;
-  // Why it can't be tried, one line; empty: it can.
+  // Why the chosen connection cannot be tried, in one line; empty when it can.
   QString problem() const;
 
   void done(int result) override;

@@ -52,7 +52,7 @@ void ConnectFeature::addQuestions() {
   windowState.prompts.connection =
       [this, &windowState](const Connection& last) -> std::optional<Connection> {
     PortScan scan;
-    // What is connected now answers us, not a probe.
+    // The current connection gives the answers for its own ports, not a probe.
     const Connection& now = windowState.live.connection();
     if (windowState.live.source() && now.kind == Connection::Kind::kPorts)
       scan.setBusy({now.dsaPort, now.sdhPort},
@@ -105,7 +105,8 @@ void ConnectFeature::connectActions() {
                                 [&windowState] { return windowState.displayed.isLive(); });
 }
 
-// The last one first, then every scene, then what needs a dialogue.
+// Fills the menu: the last connection first, then every scene, then the entries that open the
+// dialog.
 void ConnectFeature::fillMenu() {
   WindowState& windowState = state();
   QMenu* menu = windowState.menus.connections;

@@ -1,5 +1,5 @@
-// What the window is connected to: the dialogue, the menu of the button Connect, showing live,
-// holding the picture.
+// The feature that connects to a hand: the Connect dialog, the menu of the button Connect, and the
+// actions that show the live hand or hold its picture.
 #pragma once
 
 #include "gui/connect/connect_actions.h"
@@ -21,7 +21,7 @@ class ConnectFeature : public Feature {
   ConnectActions actions_;
 };
 
-// An emulated hand before a ball; `acts`: it grasps by itself.
+// A connection to an emulated hand in front of a ball; `runsScript`: it grasps by itself.
 Connection emulatedBallConnection(bool runsScript);
 
 }  // namespace palpate::gui

@@ -20,7 +20,8 @@ PortField::PortField(const QString& title,
   box_->setObjectName(name + "Port");
   box_->setEditable(true);
   box_->setInsertPolicy(QComboBox::NoInsert);
-  box_->setCompleter(nullptr);  // it would turn ttyUSB1 into ttyUSB10
+  // A completer would turn ttyUSB1 into ttyUSB10.
+  box_->setCompleter(nullptr);
   box_->setItemDelegate(new TwoLineDelegate(theme, box_));
   box_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
   box_->setMinimumContentsLength(30);
@@ -37,7 +38,8 @@ PortField::PortField(const QString& title,
   answer_->setProperty("role", "muted");
   answer_->setTextInteractionFlags(Qt::TextSelectableByMouse);
   answer_->setAlignment(Qt::AlignLeft | Qt::AlignTop);
-  answer_->setMinimumHeight(2 * fontMetrics().lineSpacing());  // nothing jumps when it wraps
+  // Two lines, so that the layout does not change when the text wraps.
+  answer_->setMinimumHeight(2 * fontMetrics().lineSpacing());
   auto* grid = new QGridLayout(this);
   grid->setContentsMargins(0, 0, 0, 0);
   grid->setHorizontalSpacing(7);
@@ -56,8 +58,8 @@ PortField::PortField(const QString& title,
   connect(box_->lineEdit(), &QLineEdit::editingFinished, this, &PortField::entered);
 }
 
-// Dying with the keyboard in it, the box says that typing has ended: nobody is there any more to
-// hear it.
+// Disconnects the box first: when it is destroyed with the keyboard focus, it emits that typing has
+// ended, and this object could no longer handle that.
 PortField::~PortField() {
   box_->lineEdit()->disconnect(this);
   box_->disconnect(this);
@@ -90,7 +92,7 @@ void PortField::setChoices(const QList<ScannedPort>& ports) {
 
 void PortField::setDetail(int choice, const QString& detail) {
   {
-    // Told that an item changes, the box writes its text over what is being typed.
+    // When the model reports that an item changed, the box would overwrite what the user is typing.
     const QSignalBlocker quiet(box_->model());
     box_->setItemData(choice, detail, TwoLineDelegate::kDetailRole);
   }

@@ -1,5 +1,5 @@
-// Where one controller of the hand is: a port to choose or to type, and below it what answered
-// there.
+// A field of the page "Hand on ports" for one controller of the hand: a port to choose or type, and
+// below it what answered at that port.
 #pragma once
 
 #include <QComboBox>
@@ -13,7 +13,7 @@
 
 namespace palpate::gui {
 
-// What a field shows of its port.
+// What a field shows about its port.
 struct PortFieldState {
   StateMark::State mark = StateMark::State::kNone;
   QString text;
@@ -22,8 +22,9 @@ struct PortFieldState {
 class PortField : public QWidget {
   Q_OBJECT
  public:
-  // `title` with the mnemonic of the field; `whenEmpty`: what goes without this controller.
-  // `name`: the combo box is NAMEPort, the line of text NAMEAnswer, for tests.
+  // `title` contains the mnemonic of the field; `whenEmpty` tells what works without this
+  // controller. `name` gives the object names for tests: the combo box is NAMEPort, the line of
+  // text NAMEAnswer.
   PortField(const QString& title,
             const QString& whenEmpty,
             const QString& name,
@@ -32,19 +33,22 @@ class PortField : public QWidget {
 
   ~PortField() override;
 
-  QString port() const;  // as openChannel() takes it; empty: none
+  // The port in the form that openChannel() takes; empty when none is chosen.
+  QString port() const;
   void setPort(const QString& port);
-  // The user has chosen or typed something: it is his.
+  // The user has chosen or typed a port, which must not be overwritten.
   bool touched() const noexcept { return touched_; }
-  // The choices, one detail line each; what stands in the field stays.
+  // Sets the choices, each with one line of details; the text in the field does not change.
   void setChoices(const QList<ScannedPort>& ports);
   void setDetail(int choice, const QString& detail);
   void showState(const PortFieldState& state);
   QComboBox* box() { return box_; }
 
  signals:
-  void changed();  // port() has
-  void entered();  // the user is done with typing or has chosen
+  // port() has changed.
+  void changed();
+  // The user has finished typing or has chosen a port.
+  void entered();
 
  private:
   QComboBox* box_;

@@ -14,7 +14,7 @@
 namespace palpate::gui {
 namespace {
 
-constexpr int kAtOnce = 8;  // ports asked at the same time
+constexpr int kAtOnce = 8;  // ports probed at the same time
 constexpr const char* kOurPort = "this window is connected to it";
 
 PortScan::Functions realFunctions() {
@@ -25,7 +25,7 @@ PortScan::Functions realFunctions() {
 }
 
 QString whyNotAsked(const PortInfo& port) {
-  // Opening a Bluetooth port calls the other side.
+  // Opening a Bluetooth port would connect to the remote device.
   if (port.bluetooth) return "Bluetooth: not asked";
   if (!port.readable || !port.writable)
     return "no permission to open it: add yourself to the group dialout (sudo adduser $USER "
@@ -35,8 +35,8 @@ QString whyNotAsked(const PortInfo& port) {
 
 }  // namespace
 
-// The threads of a scan. A thread touches this only, never the PortScan itself: so one that hangs
-// in the system can outlive it.
+// The threads of a scan. A thread uses only this object, never the PortScan itself, so that a
+// thread that is blocked in the system can outlive the PortScan.
 struct PortScan::Round {
   struct Worker {
     std::thread thread;
@@ -46,11 +46,12 @@ struct PortScan::Round {
   std::atomic<bool> cancelled = false;
   std::mutex mutex;
   std::condition_variable idle;
-  QObject* receiver = nullptr;  // null: nobody listens any more
+  // Null when the PortScan is destroyed or has cancelled.
+  QObject* receiver = nullptr;
   int numRunning = 0;
   std::list<Worker> workers;
 
-  // Runs `work` in a thread; what it returns runs in the thread of the receiver.
+  // Runs `work` in a thread; the function that it returns runs in the thread of the receiver.
   static void start(const std::shared_ptr<Round>& round,
                     std::function<std::function<void()>()> work) {
     const std::lock_guard lock(round->mutex);
@@ -68,7 +69,8 @@ struct PortScan::Round {
     ++round->numRunning;
   }
 
-  // Ends the threads that are done. With the mutex held; they need it no more.
+  // Joins the threads that are done. The caller holds the mutex; these threads don't need it any
+  // more.
   void reap() {
     workers.remove_if([](Worker& worker) {
       if (worker.done) worker.thread.join();
@@ -173,7 +175,8 @@ void PortScan::takeList(std::vector<PortInfo> found) {
   const auto round = round_;
   emit listed(ports);
   for (const ScannedPort& port : ports) {
-    if (round != round_) return;  // who heard it has cancelled
+    // A receiver of the signal has cancelled the scan.
+    if (round != round_) return;
     const QString name = QString::fromStdString(port.info.name);
     if (isBusy(name) && probeOfBusy(name).answer != PortAnswer::kBusy)
       emit probed(name, probeOfBusy(name));

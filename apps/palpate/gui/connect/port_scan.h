@@ -1,5 +1,5 @@
-// Lists the serial ports and asks each what is behind it, in threads of its own. Signals come in
-// the thread of this object.
+// Lists the serial ports and probes what answers at each, in its own threads. Signals are emitted
+// in the thread of this object. Used by the Connect dialog.
 #pragma once
 
 #include <QHash>
@@ -20,25 +20,27 @@
 
 namespace palpate::gui {
 
+// A port of the list, and whether it is probed.
 struct ScannedPort {
   PortInfo info;
-  QString notAsked = {};  // why this port isn't asked, one line; empty: it is
+  // Why this port is not probed, in one line; empty when it is.
+  QString notAsked = {};
 };
 
-// What our own connection has found behind its ports, each judged by itself; of one that doesn't
-// answer yet nothing.
+// What the current connection knows about its own ports, each controller judged separately; ports
+// without an answer so far are left out.
 QHash<QString, PortProbe> knownProbes(const Connection& connection, const DeviceStatus& status);
 
-// The device that a name of a port leads to; the name itself where that is no file.
+// The device that a port's name links to; the name itself when it is not a file.
 QString deviceOf(const QString& port);
 
 class PortScan : public QObject {
   Q_OBJECT
  public:
-  // listPorts() and probePort(); tests hand in their own. Both are called from other threads.
+  // listPorts() and probePort(); tests pass their own. Both are called from other threads.
   struct Functions {
     std::function<std::vector<PortInfo>()> list;
-    // Has to return soon after `isCancelled` says true.
+    // Must return soon after `isCancelled` returns true.
     std::function<PortProbe(const std::string& port, const std::function<bool()>& isCancelled)>
         probe;
   };
@@ -46,35 +48,35 @@ class PortScan : public QObject {
   explicit PortScan(QObject* parent = nullptr);
   PortScan(Functions functions, QObject* parent = nullptr);
   static constexpr std::chrono::milliseconds kPatience{150};
-  // As cancel(). A thread that the system holds up longer ends by itself later, and is heard no
-  // more.
+  // Cancels as cancel() does. A thread that is blocked in the system for longer ends by itself
+  // later; its result is ignored.
   ~PortScan() override;
 
-  // Ports (by any of their names) that aren't asked: those of our own connection; and what is known
-  // to answer there.
+  // Sets the ports (by any of their names) that are not probed because the current connection uses
+  // them, and what is known to answer there.
   void setBusy(const QStringList& ports, const QHash<QString, PortProbe>& known = {}) {
     busyPorts_ = ports;
     known_ = known;
   }
   bool isBusy(const QString& port) const;
-  // Lists the ports, then asks them, several at a time. Does nothing while it is running.
+  // Lists the ports, then probes them, several at a time. Does nothing while a scan is running.
   void scan();
-  // Asks one port more that isn't listed: a pty, "tcp:HOST:PORT". One of setBusy() is answered for
-  // at once.
+  // Probes one more port that is not listed: a pty or "tcp:HOST:PORT". For a port of setBusy() the
+  // known answer is reported at once.
   void ask(const QString& port);
-  // Ends what is running, without finished(). Returns when the ports are free again (usually
-  // after 20 ms), at the latest after `patience`; false: one isn't yet.
+  // Stops the running scan without finished(). Returns true once the ports are free again (usually
+  // after 20 ms); false when one is still in use after `patience`.
   bool cancel(std::chrono::milliseconds patience = kPatience);
   // A list or an answer is still to come.
   bool running() const noexcept { return pending_ > 0; }
 
  signals:
-  // In the order of listPorts(); one probed() follows for each that is asked, or of which setBusy()
-  // knows.
+  // The ports in the order of listPorts(). One probed() follows for each port that is probed or
+  // that setBusy() knows.
   void listed(const QList<palpate::gui::ScannedPort>& ports);
-  // `port` as listed (PortInfo::name) or as handed to ask().
+  // `port` is the name as listed (PortInfo::name) or as passed to ask().
   void probed(const QString& port, const palpate::PortProbe& probe);
-  // Nothing is to come any more.
+  // The scan is complete.
   void finished();
 
  private:
@@ -89,9 +91,12 @@ class PortScan : public QObject {
   Functions functions_;
   QStringList busyPorts_;
   QHash<QString, PortProbe> known_;
-  QStringList waiting_;  // to be asked as soon as a thread is free
-  int pending_ = 0;      // the list, and the ports that are asked or wait
-  int asking_ = 0;       // ports that are asked now
+  // Ports to be probed as soon as a thread is free.
+  QStringList waiting_;
+  // The number of results to come: the list, and the ports that are being probed or wait.
+  int pending_ = 0;
+  // The number of ports that are being probed.
+  int asking_ = 0;
   std::shared_ptr<Round> round_;
 };
 

@@ -145,7 +145,7 @@ void PortsPage::takeList(const QList<ScannedPort>& ports) {
   motion_->setChoices(ports);
   for (const ScannedPort& port : ports)
     if (port.notAsked.isEmpty()) asking_.insert(QString::fromStdString(port.info.name));
-  // Those of last time may be none of the listed ones.
+  // The ports of the last connection may not be listed.
   askTyped(tactile_->port());
   askTyped(motion_->port());
   refresh();
@@ -175,7 +175,7 @@ void PortsPage::fill() {
 
 void PortsPage::fill(PortField& field, const PortField& other, PortAnswer wanted) {
   if (field.touched()) return;
-  // A port of last time stays, unless it is no more.
+  // Keeps the port of the last connection, unless it no longer exists.
   const std::optional<PortProbe> present = probeOf(field);
   const bool gone =
       present && present->answer == PortAnswer::kNotFound && !field.port().startsWith("tcp:");
@@ -192,7 +192,7 @@ void PortsPage::fill(PortField& field, const PortField& other, PortAnswer wanted
   }
   if (count == 0) return;
   filled_.insert(&field);
-  // Several hands: which one is ours isn't for us to choose.
+  // With several hands, the user must choose.
   const QString port = count == 1 ? QString::fromStdString(found->info.stableName) : QString();
   if (field.port() != port) field.setPort(port);
 }
@@ -223,7 +223,8 @@ void PortsPage::refresh() {
   const auto all = answered + static_cast<int>(asking_.size());
   look_->setEnabled(!running);
   progress_->setVisible(running);
-  progress_->setRange(0, all);  // none known: it runs to and fro
+  // With no known port, the bar shows a busy state.
+  progress_->setRange(0, all);
   progress_->setValue(answered);
   if (!running)
     progressText_->setText("");
@@ -234,7 +235,7 @@ void PortsPage::refresh() {
   emit changed();
 }
 
-// The listed name of the port's device; else the name as it is.
+// The listed name of the port's device; else the name as given.
 QString PortsPage::keyOf(const QString& port) const {
   for (const ScannedPort& each : ports_)
     if (port == QString::fromStdString(each.info.name) ||

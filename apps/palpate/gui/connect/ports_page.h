@@ -1,5 +1,5 @@
-// The page "Hand on ports" of the Connect dialog: two ports, what answers at each, and what to do
-// when it isn't what was expected.
+// The page "Hand on ports" of the Connect dialog: two ports, what answers at each, and help when
+// the answer is not the expected one.
 #pragma once
 
 #include <QHash>
@@ -30,10 +30,11 @@ class PortsPage : public QWidget {
   void setPorts(const QString& tactile, const QString& motion);
   QString tactilePort() const { return tactile_->port(); }
   QString motionPort() const { return motion_->port(); }
-  // What problemOf() can't know: two names of one port. One line; empty: nothing.
+  // A problem that problemOf() cannot detect: both fields name the same port. One line; empty when
+  // there is none.
   QString problem() const;
-  // Lists and asks the ports, unless that is going on. Fields that the user hasn't touched are
-  // filled with what answers as their controller, when it is one only.
+  // Lists and probes the ports, unless a scan is running. A field that the user has not touched is
+  // filled with the port that answers as its controller, when there is exactly one.
   void look();
 
  signals:
@@ -58,10 +59,13 @@ class PortsPage : public QWidget {
   PortScan& scan_;
   Theme theme_;
   QList<ScannedPort> ports_;
-  QHash<QString, PortProbe> answers_;  // by keyOf()
+  // By keyOf().
+  QHash<QString, PortProbe> answers_;
   QSet<QString> asking_;
-  QSet<const PortField*> filled_;  // by us, not by the user or from last time
-  bool looked_ = false;            // a list has come
+  // Fields that this page filled, rather than the user or the previous connection.
+  QSet<const PortField*> filled_;
+  // A list of ports has arrived.
+  bool looked_ = false;
   PortField* tactile_ = nullptr;
   PortField* motion_ = nullptr;
   QFrame* swapRow_ = nullptr;

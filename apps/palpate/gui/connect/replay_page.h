@@ -1,5 +1,5 @@
-// The page "Replay of a recording" of the Connect dialog: a recording that is played as if it came
-// from a hand.
+// The page "Replay of a recording" of the Connect dialog: the user chooses a recording that is
+// replayed as if it came from a hand.
 #pragma once
 
 #include <QString>
@@ -26,10 +26,10 @@ class ReplayPage : public QWidget {
 
   void setRecording(const QString& path);
   QString recording() const;
-  // Why it can't be replayed, one line; empty: it can, or none is chosen.
+  // Why the recording cannot be replayed, in one line; empty when it can, or when none is chosen.
   QString problem() const;
 
-  // Asks for a recording; empty: none. Tests hand in their own.
+  // Asks the user for a recording; returns an empty text when cancelled. Tests replace it.
   std::function<QString()> askForRecording;
 
  signals:

@@ -16,9 +16,9 @@
 namespace palpate::gui {
 namespace {
 
-constexpr int kSceneRole = Qt::UserRole + 2;    // as loadScene() takes it
-constexpr int kProblemRole = Qt::UserRole + 3;  // why it can't be used
-constexpr int kScriptRole = Qt::UserRole + 4;   // whether there is a script
+constexpr int kSceneRole = Qt::UserRole + 2;    // in the form that loadScene() takes
+constexpr int kProblemRole = Qt::UserRole + 3;  // why the scene cannot be used
+constexpr int kScriptRole = Qt::UserRole + 4;   // whether the scene has a script
 
 }  // namespace
 

@@ -1,5 +1,5 @@
-// The page "Emulated hand" of the Connect dialog: which scene is around it, and whether the scene
-// acts.
+// The page "Emulated hand" of the Connect dialog: the user chooses the scene around the hand, and
+// whether the script of the scene runs.
 #pragma once
 
 #include <QString>
@@ -22,15 +22,15 @@ class ScenePage : public QWidget {
 
   ~ScenePage() override;
 
-  // A name in the folder, or the path of a scene.
+  // `scene`: a name in the folder, or the path of a scene.
   void setScene(const QString& scene);
   QString scene() const;
   void setActs(bool runsScript);
   bool runsScript() const;
-  // Why the scene can't be used, one line; empty: it can.
+  // Why the scene cannot be used, in one line; empty when it can.
   QString problem() const { return problem_; }
 
-  // Asks for a scene's file; empty: none. Tests hand in their own.
+  // Asks the user for a scene file; returns an empty text when cancelled. Tests replace it.
   std::function<QString()> askForScene;
 
  signals:

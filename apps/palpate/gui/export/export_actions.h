@@ -1,4 +1,4 @@
-// What takes views away, as actions.
+// The actions that export or copy views.
 #pragma once
 
 #include <QAction>

@@ -12,8 +12,8 @@
 namespace palpate::gui {
 namespace {
 
-constexpr std::size_t kMostCopiedRows = 100'000;  // what a spreadsheet still pastes
-constexpr double kCopyDpi = 192.0;                // twice the screen's pixels
+constexpr std::size_t kMostCopiedRows = 100'000;  // as many as a spreadsheet can paste
+constexpr double kCopyDpi = 192.0;                // twice the screen's resolution
 constexpr const char* kHasExported = "export/done";
 
 QMimeData* dataOf(const ExportedTable& table, std::size_t& rows) {
@@ -174,7 +174,8 @@ void ExportController::copyPicture() {
   if (!view) return;
   const auto tables = view->tablesNow();
   std::size_t rows = 0;
-  // Heat maps are wanted as a picture; a program that takes text would take their rows instead.
+  // Heat maps are copied only as a picture; a program that accepts text would paste their rows
+  // instead.
   const bool withRows = !tables.empty() && !view->framePictures;
   QMimeData* data = withRows ? dataOf(tables.front(), rows) : new QMimeData;
   if (view->paint) {

@@ -1,5 +1,5 @@
-// Takes what is seen away: asks how, writes it beside the window, repeats it, puts it on the
-// clipboard. Views are registered by whoever shows them.
+// Exports what the views show: asks for the form, writes files in its own thread, repeats the last
+// export, and copies to the clipboard. Each feature registers its views here.
 #pragma once
 
 #include <QObject>
@@ -23,41 +23,46 @@ namespace palpate::gui {
 class ExportController : public QObject {
   Q_OBJECT
  public:
-  // `window`: over which dialogs stand. Both must outlive this.
+  // `window` is the parent of the dialogs. `settings` and `window` must outlive this.
   ExportController(QSettings& settings, QWidget* window);
-  // Cancels what is being written, and waits: no half file is left.
+  // Cancels the running export and waits for it; no incomplete file remains.
   ~ExportController() override;
 
-  // The first one is what is taken when no other has been touched.
+  // Registers a view. The first one is the default when the user has not clicked into another.
   void add(ExportedView view);
-  // Those that have something to show now.
+  // The views that have something to show now.
   std::vector<const ExportedView*> present() const;
   bool anything() const { return !present().empty(); }
-  // The view that was clicked into last, or has the keyboard; the first that is there; null: none
-  // is.
+  // The view that was clicked into last or has the keyboard focus; else the first that has
+  // something to show; null when none has.
   const ExportedView* active() const;
 
-  void exportNow();  // asks what and where
-  void
-  repeatLast();  // as last time, under the next name that is free; asks when there was no last time
-  // The active view: its picture, and where it is a chart or table its rows as text.
+  // Asks what to export and where to.
+  void exportNow();
+  // Repeats the last export under the next free name; asks when there was no export before.
+  void repeatLast();
+  // Copy the active view: its picture, and for a chart or a table also its rows as text.
   void copyPicture();
   void copyTable();
   void write(const ExportRequest& request);
-  void cancel();  // everything that is being written
+  // Cancels everything that is being written.
+  void cancel();
   bool busy() const noexcept { return !waiting_.empty(); }
   void waitForDone();
 
-  // Nothing: cancelled. Tests answer themselves.
+  // Asks the user for a request; returns nothing when cancelled. Tests replace it.
   std::function<std::optional<ExportRequest>(const ExportRequest& suggestion)> ask;
-  // What would be suggested now.
+  // The request that the dialog would start with now.
   ExportRequest suggestion() const;
 
  signals:
   void started(const QString& what);
-  void progressed(double fraction);  // 0..1
-  void finished();                   // nothing is being written any more
-  void said(const QString& text);    // in passing
+  // `fraction`: 0..1.
+  void progressed(double fraction);
+  // Everything is written.
+  void finished();
+  // A short message for the status line.
+  void said(const QString& text);
   void failed(const QString& message);
   void written(const QString& path);
 
@@ -77,8 +82,10 @@ class ExportController : public QObject {
   QSettings& settings_;
   QWidget* window_;
   std::vector<ExportedView> views_;
-  QString touched_;          // name of the view
-  std::deque<Job> waiting_;  // the first one is at work
+  // The name of the view that was used last.
+  QString touched_;
+  // The first job is running.
+  std::deque<Job> waiting_;
   std::atomic<bool> cancelled_ = false;
   QThreadPool worker_;
 };

@@ -134,7 +134,7 @@ QWidget* ExportDialog::makeForm() {
   titled_->setObjectName("exportTitled");
   titled_->setToolTip("Name of the recording, frame and time above the picture");
   fields_->addRow("", titled_);
-  // Which rows are shown changes; where they begin doesn't.
+  // Aligns the fields for all rows, so that they don't move when rows are shown or hidden.
   int labelWidth = 0;
   for (int row = 0; row < fields_->rowCount(); ++row)
     if (const auto* label = fields_->itemAt(row, QFormLayout::LabelRole))
@@ -251,7 +251,7 @@ const ExportedView& ExportDialog::view() const {
   return *views_[static_cast<std::size_t>(std::max(0, view_->currentIndex()))];
 }
 
-// What can be chosen depends on the view.
+// Offers the choices that the view allows.
 void ExportDialog::useView() {
   const ExportedView& now = view();
   const auto tables = now.tablesNow();
@@ -263,7 +263,7 @@ void ExportDialog::useView() {
   suggestName();
 }
 
-// Which frames can be chosen depends on the form, too.
+// Offers the frames that the view and the form allow.
 void ExportDialog::fillFrames() {
   const auto pictures = view().framePicturesNow();
   const QSignalBlocker blocked(frames_);
@@ -350,7 +350,7 @@ void ExportDialog::showProblem() {
   ExportRequest keeping = now;
   keeping.replace = false;
   const QString inTheWay = problemOf(now, view());
-  // Offered only where there is something to replace.
+  // Offers to replace only when a file exists.
   replace_->setVisible(problemOf(keeping, view()) != problemOf(replacing, view()));
   const double needed = preview_->bytes() * static_cast<double>(preview_->numFiles());
   const QString text = inTheWay.isEmpty() ? spaceProblemOf(now, needed) : inTheWay;
@@ -366,7 +366,8 @@ void ExportDialog::showProblem() {
 }
 
 void ExportDialog::accept() {
-  showProblem();  // a file may have come since
+  // A file may have been created meanwhile.
+  showProblem();
   if (problem().isEmpty()) QDialog::accept();
 }
 

@@ -1,5 +1,5 @@
-// Asks what shall be taken away, in which form and size, and where to; shows what it will look
-// like.
+// The Export dialog: the user chooses a view, a file form, a size and a destination; a preview
+// shows the result.
 #pragma once
 
 #include <QDialog>
@@ -25,19 +25,19 @@ class ExportPreview;
 class ExportDialog : public QDialog {
   Q_OBJECT
  public:
-  // views: at least one; they must outlive the dialog.
+  // `views` has at least one element; the views must outlive the dialog.
   ExportDialog(std::vector<const ExportedView*> views,
                const ExportRequest& suggestion,
                QWidget* parent = nullptr);
 
   ExportRequest request() const;
-  // What stands in the way of it; empty: nothing.
+  // Why the request cannot be written; empty when it can.
   QString problem() const;
 
   ExportPlace& place() noexcept { return *place_; }
 
  public slots:
-  // Only when it can be written.
+  // Closes the dialog only when the request can be written.
   void accept() override;
 
  protected:
@@ -58,9 +58,12 @@ class ExportDialog : public QDialog {
   void showProblem();
 
   std::vector<const ExportedView*> views_;
-  ExportRequest first_;                         // what was suggested
-  ExportFrames wanted_ = ExportFrames::kShown;  // where the form has them
-  bool filling_ = false;                        // fields change by us
+  // The suggested request.
+  ExportRequest first_;
+  // The frames that the user chose; used where the form offers them.
+  ExportFrames wanted_ = ExportFrames::kShown;
+  // The dialog itself changes the fields, so that their signals are ignored.
+  bool filling_ = false;
   QFormLayout* fields_ = nullptr;
   QComboBox* view_ = nullptr;
   ExportForms* form_ = nullptr;

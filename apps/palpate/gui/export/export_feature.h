@@ -1,4 +1,4 @@
-// Takes what is seen away: pictures, tables and movies of the views that the features offer.
+// The feature that exports pictures, tables and movies of the views that the other features offer.
 #pragma once
 
 #include "gui/export/export_actions.h"

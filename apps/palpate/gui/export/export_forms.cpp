@@ -9,7 +9,7 @@ namespace {
 
 constexpr int kHeight = 28;  // [px]
 
-// Why the view can't be made into one; empty: it can.
+// Why the view cannot be exported in this form; empty when it can.
 QString emptyReason(ExportFormat form, const ExportedView& view) {
   if (form == ExportFormat::kMovie) return movieProblem(view);
   if (form == ExportFormat::kCsv)

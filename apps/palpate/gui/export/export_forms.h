@@ -1,5 +1,5 @@
-// Which kind of file: a row of buttons; those that the view can't be made into are grey and say
-// why.
+// A row of buttons of the Export dialog that chooses the kind of file. Kinds that the view does not
+// support are grey; their tool tips tell why.
 #pragma once
 
 #include <QWidget>
@@ -18,7 +18,8 @@ class ExportForms : public QWidget {
 
   ExportFormat chosen() const;
   void choose(ExportFormat form);
-  // Leaves a form that isn't possible for PNG, or CSV where there is no picture.
+  // Disables what `view` does not support. If the chosen form is not possible, PNG is chosen, or
+  // CSV for a view without a picture.
   void use(const ExportedView& view);
 
  signals:

@@ -1,4 +1,4 @@
-// How a movie shall be: its speed, its pictures per second, its height.
+// The fields of the Export dialog for a movie: its speed, its pictures per second and its height.
 #pragma once
 
 #include <QObject>
@@ -14,7 +14,7 @@ namespace palpate::gui {
 class ExportMovieFields : public QObject {
   Q_OBJECT
  public:
-  // Adds rows to a form.
+  // Adds its rows to `form`.
   explicit ExportMovieFields(QFormLayout& form);
 
   void fill(const ExportRequest& request);

@@ -14,7 +14,8 @@
 namespace palpate::gui {
 
 ExportPlace::ExportPlace(int labelWidth, QWidget* parent) : QWidget(parent) {
-  constexpr int kMostLetters = 200;  // a file system takes 255 bytes, and an ending comes behind
+  // Most file systems allow 255 bytes, of which the ending needs some.
+  constexpr int kMostLetters = 200;
   askForFolder = [this](const QString& begin) {
     return QFileDialog::getExistingDirectory(this, "Folder to export to", begin);
   };
@@ -42,7 +43,8 @@ ExportPlace::ExportPlace(int labelWidth, QWidget* parent) : QWidget(parent) {
     auto* row = new QHBoxLayout;
     row->setSpacing(8);
     row->addWidget(label);
-    row->addSpacing(4);  // as wide as in a form
+    // The same spacing as in a form.
+    row->addSpacing(4);
     row->addWidget(field, 1);
     row->addWidget(beside);
     column->addLayout(row);
@@ -72,7 +74,7 @@ QString ExportPlace::name() const { return name_->text().trimmed(); }
 QString ExportPlace::folder() const { return folderFromText(folder_->text()); }
 
 void ExportPlace::browse() {
-  // From where the folder is, or was.
+  // Starts at the folder or, if it does not exist, at its nearest existing parent.
   QDir begin(folder());
   while (!begin.exists() && begin.isAbsolute() && !begin.isRoot())
     begin.setPath(QFileInfo(begin.path()).path());

@@ -1,4 +1,5 @@
-// Where an export goes: a name with its ending, and a folder.
+// The fields of the Export dialog for the destination of an export: a file name with its ending,
+// and a folder.
 #pragma once
 
 #include <QString>
@@ -16,15 +17,17 @@ class ExportPlace : public QWidget {
   explicit ExportPlace(int labelWidth, QWidget* parent = nullptr);
 
   void setName(const QString& name, bool isOwn);
-  // Only while the user hasn't chosen a name.
+  // Sets the name, unless the user has typed one.
   void suggestName(const QString& name);
   void setFolder(const QString& folder);
   void setEnding(const QString& ending);
   QString name() const;
-  bool nameIsOwn() const noexcept { return nameIsOwn_; }  // typed by the user
-  QString folder() const;                                 // whole path
+  // The user typed the name.
+  bool nameIsOwn() const noexcept { return nameIsOwn_; }
+  // The absolute path of the folder.
+  QString folder() const;
 
-  // Asks for a folder, an empty answer changes nothing; tests answer for themselves.
+  // Asks the user for a folder; an empty answer changes nothing. Tests replace it.
   std::function<QString(const QString& begin)> askForFolder;
 
  signals:

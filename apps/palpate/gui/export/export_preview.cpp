@@ -13,9 +13,9 @@ namespace palpate::gui {
 namespace {
 
 constexpr double kExportPreviewAround = 16.0;  // [px] around the paper
-constexpr int kMeasureAfterMs = 200;           // not at each step of a spin box
+constexpr int kMeasureAfterMs = 200;           // waits for several steps of a spin box
 constexpr std::size_t kPreviewRows = 40;
-constexpr std::size_t kMeasuredRows = 400;  // whose mean length stands for all
+constexpr std::size_t kMeasuredRows = 400;  // sample for the mean length of a row
 
 }  // namespace
 
@@ -28,7 +28,8 @@ ExportPreview::ExportPreview(QWidget* parent) : QWidget(parent) {
 }
 
 ExportPreview::~ExportPreview() {
-  ++generation_;  // nobody wants it any more
+  // Makes the running work's result obsolete.
+  ++generation_;
   worker_.waitForDone();
 }
 
@@ -70,7 +71,7 @@ void ExportPreview::showTable(const ExportedView& view, const ExportRequest& req
   rows_ = QString::fromStdString(csvText(table, kPreviewRows)).split('\n', Qt::SkipEmptyParts);
   const std::size_t measured = std::min(table.numRows, kMeasuredRows);
   double length = 0.0;
-  // From the whole table: later rows have longer numbers.
+  // Samples rows from the whole table, because later rows have longer numbers.
   for (std::size_t i = 0; i < measured; ++i)
     length += static_cast<double>(csvLine(table.row(i * table.numRows / measured)).size());
   bytes_ = static_cast<double>(csvLine(table.header).size());
@@ -78,7 +79,7 @@ void ExportPreview::showTable(const ExportedView& view, const ExportRequest& req
     bytes_ += length / static_cast<double>(measured) * static_cast<double>(table.numRows);
 }
 
-// Makes the file in memory, beside the window.
+// Writes the file in memory, in the worker thread, to measure its size.
 void ExportPreview::measure() {
   worker_.clear();
   if (request_.isMovie()) return measureMovie();
@@ -96,7 +97,8 @@ void ExportPreview::measure() {
                                           "preview")
                                           .size());
         } catch (const std::exception&) {
-          return;  // too large for the memory: its size in pixels says so
+          // The picture is too large for the memory; its size in pixels is still shown.
+          return;
         }
         QMetaObject::invokeMethod(
             this,
@@ -109,7 +111,7 @@ void ExportPreview::measure() {
       });
 }
 
-// A recording of a day has millions of stamps.
+// Runs in the worker thread, because a recording of a day has millions of time stamps.
 void ExportPreview::measureMovie() {
   if (!timeUs_) return;
   worker_.start([this,
@@ -122,7 +124,8 @@ void ExportPreview::measureMovie() {
       timing =
           plannedMovie(frames, timeUs, options, [&](double) { return now == generation_; }).timing;
     } catch (const std::exception&) {
-      return;  // cancelled; or its file is gone, which is said when it is written
+      // Cancelled, or the file is gone; then the export reports it.
+      return;
     }
     timing.shots.clear();
     QMetaObject::invokeMethod(
@@ -172,8 +175,8 @@ QRectF ExportPreview::paperRect() const {
   return {room.center() - QPointF(size.width() / 2, size.height() / 2), size};
 }
 
-// Larger than it is shown, then made smaller: what is finer than a pixel of the screen is seen as
-// it will look.
+// Draws the picture larger than shown and scales it down, so that details finer than a screen pixel
+// look as in the file.
 void ExportPreview::drawPreview() {
   constexpr double kFiner = 3.0;
   const QSizeF place = paperRect().size() * devicePixelRatioF();

@@ -1,5 +1,5 @@
-// What will be written, as it will look: the picture on its paper, or the first rows of a table;
-// with its size in pixels, millimetres and bytes.
+// The preview of the Export dialog: shows the picture on its paper or the first rows of a table as
+// they will be written, with the size in pixels, millimetres and bytes.
 #pragma once
 
 #include <QImage>
@@ -21,14 +21,14 @@ class ExportPreview : public QWidget {
   explicit ExportPreview(QWidget* parent = nullptr);
   ~ExportPreview() override;
 
-  // `view` must outlive this or be replaced before.
+  // `view` must outlive this or be replaced before it is destroyed.
   void show(const ExportedView& view, const ExportRequest& request);
   // "1004 × 803 px · 85.0 × 68.0 mm · about 142 kB", "1350 × 1080 px · 12.4 s · 372 pictures";
-  // bytes and seconds come a moment later.
+  // bytes and seconds are added once they are computed.
   QString summary() const;
-  // Bytes of one file; 0 while they aren't known.
+  // Size of one file [bytes]; 0 while it is unknown.
   double bytes() const noexcept { return bytes_; }
-  // Files that will be written.
+  // Number of files that will be written.
   std::size_t numFiles() const noexcept { return numFiles_; }
 
   QSize sizeHint() const override { return {460, 420}; }
@@ -52,16 +52,21 @@ class ExportPreview : public QWidget {
   ExportRequest request_;
   PicturePaper paper_;
   QPicture picture_;
-  QImage preview_;  // as large as its place on screen
+  // The picture at the size of its place on the screen.
+  QImage preview_;
   bool isTable_ = false;
-  QStringList rows_;  // first lines of a table
+  // The first lines of a table.
+  QStringList rows_;
   std::size_t numRows_ = 0;
   std::size_t numFiles_ = 1;
   double bytes_ = 0.0;
-  FramePictures::TimeUs timeUs_;  // of a movie
+  // Time stamps of the frames of a movie.
+  FramePictures::TimeUs timeUs_;
   FrameSpan frames_;
-  MovieTiming movie_;                // once it is known; its shots are not kept
-  std::atomic<int> generation_ = 0;  // of what is measured
+  // Once it is computed; without its shots.
+  MovieTiming movie_;
+  // Number of the newest measurement; results of older ones are ignored.
+  std::atomic<int> generation_ = 0;
   QTimer soon_;
   QThreadPool worker_;
 };

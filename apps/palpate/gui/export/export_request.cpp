@@ -17,17 +17,17 @@ namespace {
 
 constexpr double kExportRequestMmPerInch = 25.4;
 constexpr double kScreenPerInch = 96.0;
-// Half a point each: sizes of text, in whole units, are exact in halves of a point, and lines that
-// are one pixel on screen are half a point on paper.
+// Units per inch on paper: a unit is half a point. Text sizes are whole units and thus exact in
+// halves of a point; lines of one pixel on screen are half a point wide on paper.
 constexpr double kPaperPerInch = 144.0;
 constexpr double kUnitsPerPt = 2.0;
 constexpr double kExportRequestLeastMm = 20.0, kMostMm = 1200.0;
 constexpr double kLeastPt = 4.0, kMostPt = 40.0;
-constexpr int kMostPixels = 16384;  // on a side
+constexpr int kMostPixels = 16384;  // largest side
 
 const QString kExportRequestGroup = "export/";
 
-// Of one that has a name already.
+// The problem with the file of a request that has a name.
 QString fileProblemOf(const ExportRequest& request) {
   const QFileInfo file(QString::fromStdString(pathOf(request).string()));
   if (file.isDir()) return file.fileName() + " is a folder.";

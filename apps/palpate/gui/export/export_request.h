@@ -1,5 +1,5 @@
-// What shall be written: which view, in which form and size, under which name. As it is asked for
-// and remembered.
+// An export request: which view is written, in which form and size, and under which name. The
+// Export dialog edits it; the settings store it.
 #pragma once
 
 #include <QSettings>
@@ -16,24 +16,29 @@
 
 namespace palpate::gui {
 
+// The kinds of files that can be written.
 enum class ExportFormat { kPng, kSvg, kPdf, kCsv, kMovie };
 inline constexpr std::array kAllExportForms = {ExportFormat::kPng,
                                                ExportFormat::kSvg,
                                                ExportFormat::kPdf,
                                                ExportFormat::kMovie,
                                                ExportFormat::kCsv};
-QString nameOf(ExportFormat form);         // "PNG", "MP4"; also the key in the settings
-QString endingOf(ExportFormat form);       // ".png"
-QString descriptionOf(ExportFormat form);  // "A drawing that can be edited"
+// The name of a form, "PNG" or "MP4"; it is also stored in the settings.
+QString nameOf(ExportFormat form);
+// The ending of its files, ".png".
+QString endingOf(ExportFormat form);
+// A description for the user, "A drawing that can be edited".
+QString descriptionOf(ExportFormat form);
 
+// Which frames are written: the shown one, those of the selected time span, or all.
 enum class ExportFrames { kShown, kSelected, kAll };
 
-// Sizes that journals and slides ask for.
+// Page sizes that journals and slides require.
 struct PaperPreset {
   const char* name;
-  double widthMm;   // 0: as on screen
-  double heightMm;  // 0: in proportion to the view
-  double textPt;    // 0: as on screen
+  double widthMm;   // [mm]; 0: as on screen
+  double heightMm;  // [mm]; 0: in proportion to the view
+  double textPt;    // [pt]; 0: as on screen
 };
 inline constexpr std::array kPaperPresets = {PaperPreset{"as on screen", 0.0, 0.0, 0.0},
                                              PaperPreset{"single column, 85 mm", 85.0, 0.0, 7.0},
@@ -45,66 +50,83 @@ inline constexpr int kScreenPreset = 0;
 inline constexpr int kOwnPreset = static_cast<int>(kPaperPresets.size()) - 1;
 inline constexpr std::array kExportDpi = {150, 300, 600};
 inline constexpr std::array kMovieSpeeds = {0.25, 0.5, 1.0, 2.0, 4.0, 8.0};
-inline constexpr std::array kMovieRates = {24, 25, 30, 50, 60};            // pictures per second
+inline constexpr std::array kMovieRates = {24, 25, 30, 50, 60};            // [pictures/s]
 inline constexpr std::array kMovieHeights = {480, 720, 1080, 1440, 2160};  // [px]
 
+// All choices of an export.
 struct ExportRequest {
-  QString view;  // ExportedView::name
+  // The name of the view, ExportedView::name.
+  QString view;
   ExportFormat form = ExportFormat::kPng;
-  int preset = kScreenPreset;  // index into kPaperPresets
-  QSizeF sizeMm{120.0, 90.0};  // unless as on screen
-  double textPt = 8.0;         // unless as on screen; in halves
-  int dpi = 300;               // of PNG
-  bool forPrint = true;        // white ground and dark ink
-  bool titled = true;          // a line that says what of
+  // Index into kPaperPresets.
+  int preset = kScreenPreset;
+  QSizeF sizeMm{120.0, 90.0};  // [mm]; not used for the preset "as on screen"
+  double textPt = 8.0;         // [pt], in steps of 0.5; not used for "as on screen"
+  // Resolution of a PNG file [dots per inch].
+  int dpi = 300;
+  // White background and dark lines.
+  bool forPrint = true;
+  // A title line names the recording.
+  bool titled = true;
   ExportFrames frames = ExportFrames::kShown;
-  double movieSpeed = 1.0;     // of kMovieSpeeds; 1: as long as it took
-  int moviePicturesPerS = 30;  // of kMovieRates
-  int movieHeightPx = 1080;    // of kMovieHeights; its width is in proportion
-  QString table = {};          // ExportedTable::name; unknown: the first
-  QString folder = {};         // whole path
-  QString name = {};           // without folder and ending
-  bool nameIsOwn = false;      // chosen by hand: kept when the frame changes
-  bool replace = false;        // files that are there already; never remembered
+  // One of kMovieSpeeds; 1 is real time.
+  double movieSpeed = 1.0;
+  // One of kMovieRates [pictures/s].
+  int moviePicturesPerS = 30;
+  // One of kMovieHeights [px]; the width is in proportion.
+  int movieHeightPx = 1080;
+  // The name of the table, ExportedTable::name; the first table when it is unknown.
+  QString table = {};
+  // Absolute path.
+  QString folder = {};
+  // File name without folder and ending.
+  QString name = {};
+  // The user typed the name, so that it is kept when the frame changes.
+  bool nameIsOwn = false;
+  // Overwrites existing files; never stored.
+  bool replace = false;
 
   bool isSeries() const noexcept {
     return form == ExportFormat::kPng && frames != ExportFrames::kShown;
   }
   bool isMovie() const noexcept { return form == ExportFormat::kMovie; }
-  // Of frames: selected or all ones.
+  // Whether several frames (the selected ones or all) are written.
   bool ofFrames() const noexcept { return isSeries() || isMovie(); }
   bool operator==(const ExportRequest&) const = default;
 };
 
-// A settings file never stops the program: what makes no sense there is replaced by the defaults.
+// Loads the stored request. Invalid values are replaced by the defaults, so that a damaged settings
+// file never stops the program.
 ExportRequest loadExportRequest(const QSettings& settings);
 void saveExportRequest(const ExportRequest& request, QSettings& settings);
 
-// What the picture of a view of that size [px on screen] is painted on, and how.
+// The paper and the appearance for the picture of a view whose size on screen is `sizeOnScreen`
+// [px].
 PicturePaper paperOf(const ExportRequest& request, const QSizeF& sizeOnScreen);
 PictureLook lookOf(const ExportRequest& request, const QSizeF& sizeOnScreen);
 
-// Where one file goes; for a series its folder, which lies in request.folder and has the request's
-// name.
+// The path of the file; for a series the path of its folder, which is in request.folder and has the
+// request's name.
 std::filesystem::path pathOf(const ExportRequest& request);
 FileSeries seriesOf(const ExportRequest& request, const FrameSpan& span);
-// Which frames are asked for; nothing when they aren't there (no selection, no frame). A movie of
-// the one that is shown would be none: it is of the selected ones, else of all.
+// The frames that are requested; nothing when they don't exist (no selection, no frame). A movie of
+// the shown frame alone makes no sense: it covers the selected frames, else all.
 std::optional<FrameSpan> spanOf(const ExportRequest& request, const FramePictures& pictures);
 
-// How the movie's pictures lie in time.
+// The timing of the movie's pictures.
 MovieOptions movieOptionsOf(const ExportRequest& request);
-// What a file of this view is called, when the user doesn't say.
+// The suggested file name for this view.
 QString suggestedName(const ExportRequest& request, const ExportedView& view);
 
-// Why there can't be a movie of the view now; empty: there can.
+// Why no movie of the view can be made now; empty when one can.
 QString movieProblem(const ExportedView& view);
-// What stands in the way, in one line that says what to do; empty: nothing. Looks at the disk.
+// What prevents the export, in one line that tells the user what to do; empty when nothing does.
+// Checks the disk.
 QString problemOf(const ExportRequest& request, const ExportedView& view);
-// Whether so many bytes don't fit on its disk; empty: they do.
+// Why that many bytes do not fit on the disk; empty when they do.
 QString spaceProblemOf(const ExportRequest& request, double bytes);
 
-// "142 kB", "1.3 MB"
+// A number of bytes as text: "142 kB", "1.3 MB".
 QString bytesText(double bytes);
 
 }  // namespace palpate::gui

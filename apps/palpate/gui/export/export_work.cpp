@@ -13,7 +13,7 @@
 namespace palpate::gui {
 namespace {
 
-// What can go wrong becomes a line of the report.
+// Runs `work` and turns exceptions into the report's failure line.
 ExportReport guarded(ExportReport report, const std::function<void(ExportReport&)>& work) {
   try {
     work(report);
@@ -39,7 +39,8 @@ ExportWork tableWork(const ExportedView& view, const ExportRequest& request, Ove
   };
 }
 
-// By way of a QPicture, as a single one: the same frame makes the same picture.
+// Records each frame in a QPicture first, as for a single picture, so that the same frame gives the
+// same picture.
 FramePictures::Paint recorded(FramePictures::Paint paint) {
   return [paint = std::move(paint)](QPainter& painter, std::size_t frame) {
     QPicture picture;

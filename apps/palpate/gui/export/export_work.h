@@ -1,5 +1,5 @@
-// Makes files of views: what has to be read in the window's thread is read at once, the rest is
-// work for another.
+// Prepares the work of an export: reads at once what must be read in the window's thread; the rest
+// can run in another thread.
 #pragma once
 
 #include <QPicture>
@@ -14,21 +14,26 @@
 
 namespace palpate::gui {
 
+// The result of an export.
 struct ExportReport {
-  QString path;             // the file; of a series its folder
-  std::size_t written = 0;  // files
+  // The file; for a series its folder.
+  QString path;
+  // Number of files written.
+  std::size_t written = 0;
   std::size_t wanted = 1;
   bool cancelled = false;
-  QString failure = {};  // one line; empty: none
+  // Why it failed, in one line; empty when it did not.
+  QString failure = {};
 };
 // One line for the user: "written: a.png", "cancelled: 3 of 20 pictures are in ..".
 QString textOf(const ExportReport& report);
 
-// What the view shows now, as it will be drawn.
+// Records what the view shows now as a QPicture.
 QPicture pictureOf(const ExportedView& view, const PictureLook& look);
 
-// The work of a request, which runs in any thread and never throws.
+// The work of a request; it can run in any thread and never throws.
 using ExportWork = std::function<ExportReport(const Progress&)>;
+// Reads what the view shows now and returns the remaining work.
 ExportWork prepareExport(const ExportedView& view, const ExportRequest& request);
 
 }  // namespace palpate::gui

@@ -6,7 +6,7 @@
 namespace palpate::gui {
 namespace {
 
-// As short as buttons in a row are: "0d".
+// Short names for a row of buttons: "0d".
 QStringList matrixNamesOf(const HandDescription& hand) {
   QStringList names;
   for (const MatrixDescription& matrix : hand.matrices)

@@ -1,4 +1,5 @@
-// The dock Filter: the chain that what is shown is seen through.
+// The feature with the dock Filter: edits the chain of filters that the shown source passes
+// through, and switches it on and off.
 #pragma once
 
 #include "gui/window_state/feature.h"
@@ -19,7 +20,8 @@ class FilterFeature : public Feature {
  private:
   void takeSource();
 
-  QAction* action_;  // checked: filtered is what is shown
+  // Checked while the filtered values are shown.
+  QAction* action_;
   FilterPanel* panel_;
   Dock* dock_;
 };

@@ -45,7 +45,7 @@ QString suffixOf(const FilterOption& option) {
   return option.unit.empty() ? QString() : " " + QString::fromStdString(option.unit);
 }
 
-// What an automatic option begins with when it is taken into hand.
+// The start value of an option when the user switches it from automatic to manual.
 double firstValue(const FilterOption& option) {
   return std::clamp(1.0, option.minimum, option.maximum);
 }
@@ -125,7 +125,7 @@ void FilterForm::addField(QGridLayout& grid, int row, const FilterOption& option
       words->setWordWrap(true);
       words->setMinimumWidth(0);
       grid.addWidget(words, row, 1, 1, 2);
-      // The box stands before its words.
+      // A check box is in front of its text, so that the separate label is not needed.
       name->hide();
       box->setText(wordOf(option));
       grid.addWidget(box, row, 0);
@@ -227,7 +227,8 @@ void FilterForm::addMatrices(QGridLayout& grid, int row) {
       std::vector<std::size_t> chosen;
       for (std::size_t m = 0; m < matrices_.size(); ++m)
         if (matrices_[m]->isChecked()) chosen.push_back(m);
-      // All is the same as none named; none at all would be no filter.
+      // An empty list means all matrices. A filter for no matrix makes no sense, so that is stored
+      // as all, too.
       if (chosen.size() == matrices_.size() || chosen.empty()) chosen.clear();
       showMatrices(chosen);
       emit matricesChosen(chosen);

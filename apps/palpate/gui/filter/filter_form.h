@@ -1,4 +1,5 @@
-// The options of one filter: a field each, with unit and range, and what the filter is.
+// The form of the dock Filter for the options of one filter: a field for each option with unit and
+// range, and a description of the filter.
 #pragma once
 
 #include <QWidget>
@@ -18,12 +19,14 @@ class FilterForm : public QWidget {
   Q_OBJECT
  public:
   explicit FilterForm(QWidget* parent);
-  // Null: nothing is chosen. Fields are made anew where it is another kind of filter.
+  // Shows the options of a step; null when none is chosen. The fields are rebuilt when the kind of
+  // filter differs.
   void showStep(const FilterStep* step);
   void setMatrixNames(const QStringList& shortNames);
 
  signals:
-  void optionChosen(const std::string& key, double value);  // NaN: automatic
+  // `value`: NaN means automatic.
+  void optionChosen(const std::string& key, double value);
   void matricesChosen(const std::vector<std::size_t>& matrices);
 
  private:
@@ -33,9 +36,11 @@ class FilterForm : public QWidget {
   void showMatrices(const std::vector<std::size_t>& matrices);
 
   QStringList matrixNames_;
-  std::string kind_;  // that the fields are of; empty: none
+  // The kind of filter that the fields belong to; empty when there is none.
+  std::string kind_;
   QWidget* fields_ = nullptr;
-  std::vector<std::function<void(const FilterStep&)>> show_;  // one per field
+  // Functions that show a step in the fields, one for each field.
+  std::vector<std::function<void(const FilterStep&)>> show_;
   std::vector<QToolButton*> matrices_;
   QLabel* about_;
 };

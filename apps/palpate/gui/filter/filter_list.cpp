@@ -111,7 +111,7 @@ void FilterList::choose(std::optional<std::size_t> index) {
   setCurrentItem(index ? topLevelItem(static_cast<int>(*index)) : nullptr);
 }
 
-// The recipe is changed, and the list shows it then: rows aren't moved here.
+// Only emits the move; the list is filled again when the recipe has changed.
 void FilterList::dropEvent(QDropEvent* event) {
   const auto from = chosen();
   const QPoint at = event->position().toPoint();

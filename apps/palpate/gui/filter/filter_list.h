@@ -1,4 +1,5 @@
-// The steps of a recipe, one below the other: ticked ones are on, dragging changes the order.
+// The list of a recipe's steps in the dock Filter: a tick switches a step on, dragging changes the
+// order.
 #pragma once
 
 #include <QTreeWidget>
@@ -12,11 +13,11 @@ class FilterList : public QTreeWidget {
   Q_OBJECT
  public:
   explicit FilterList(QWidget* parent);
-  // `live`: steps that need later frames are shown as left out.
+  // `live`: steps that need later frames are marked as left out.
   void showRecipe(const Recipe& recipe, bool live);
-  // Nothing: not measured yet.
+  // Shows measured cost and delay; nothing when they are not measured yet.
   void showFigures(const std::optional<FilterFigures>& figures);
-  // The chosen step; nothing: none.
+  // The chosen step; nothing when none is chosen.
   std::optional<std::size_t> chosen() const;
   void choose(std::optional<std::size_t> index);
 

@@ -22,7 +22,7 @@
 namespace palpate::gui {
 namespace {
 
-constexpr double kFastestHz = 230.0;  // frames of a hand that is read by parts
+constexpr double kFastestHz = 230.0;  // [Hz] frame rate of a hand whose matrices are read partially
 constexpr const char* kRecipeFiles = "Recipes (*.json)";
 
 QString quantity(int count, const QString& word) {

@@ -1,5 +1,5 @@
-// The content of the dock Filter: the chain of filters with its options, what it costs and delays,
-// presets and files.
+// The content of the dock Filter: the chain of filters with its options, its computing time and
+// delay, presets and recipe files.
 #pragma once
 
 #include <QWidget>
@@ -25,29 +25,31 @@ class FilterList;
 class FilterPanel : public QWidget {
   Q_OBJECT
  public:
-  // Of this chain, which must outlive it.
+  // Edits the recipe of `editor`, which must outlive this.
   explicit FilterPanel(RecipeEditor& editor, QWidget* parent = nullptr);
 
   RecipeEditor& editor() noexcept { return editor_; }
-  // Filtered is what is shown (after), or the recording as it is (before).
+  // Whether the filtered values are shown (after), or the recording as it is (before).
   bool on() const noexcept { return on_; }
   void setOn(bool on);
-  // Of what is shown: the names of the matrices, frames per second, and whether a hand is live.
+  // Describes the shown source: the names of its matrices, its frame rate [Hz], and whether it is a
+  // live hand.
   void setSource(const QStringList& matrixNames, double rateHz, bool live);
   void showFigures(const std::optional<FilterFigures>& figures);
-  // While a recording is being filtered; nothing: done.
+  // Progress while a recording is filtered; nothing when that is done.
   void showProgress(const std::optional<double>& fraction);
   void showFailure(const QString& message);
   void setKeepable(bool keepable);
   QSize sizeHint() const override { return {455, 520}; }
 
-  // How files are asked for; an empty answer means cancelled. Tests answer themselves.
+  // Ask the user for a file; an empty answer means cancelled. Tests replace them.
   std::function<std::filesystem::path()> askForRecipe;
   std::function<std::filesystem::path(const QString& suggestion)> askForPlace;
 
  signals:
   void onChanged(bool on);
-  void keepRequested();  // with the recording
+  // The recipe is to be kept with the recording.
+  void keepRequested();
   void message(const QString& message);
 
  private:

@@ -81,13 +81,13 @@ GraspPanel::GraspPanel(QSettings& settings, QWidget* parent)
   form->addRow("Close ratio", close_);
   form->addRow("Velocity", velocity_);
   form->addRow("Limit", limit_);
-  // The fields end in one line.
+  // Aligns the right edges of the fields.
   int widest = 0;
   for (const ValueSlider* each : {close_, velocity_, limit_})
     widest = std::max(widest, each->field()->sizeHint().width());
   for (const ValueSlider* each : {close_, velocity_, limit_}) each->field()->setFixedWidth(widest);
 
-  // Tab meets them in this order.
+  // The order of creation is the tab order.
   grasp_ = button("Grasp", "graspHand", this);
   reactive_ = button("Reactive", "reactiveGrasp", this);
   slipAware_ = button("Slip-aware", "slipAwareGrasp", this);
@@ -142,7 +142,7 @@ GraspRequest GraspPanel::request(GraspMode mode) const {
   request.closeRatio = mode == GraspMode::kPlain ? close_->value() : 1.0;
   request.velocityDegPerS = velocity_->value();
   request.limitCounts = static_cast<int>(limit_->value());
-  // A limit that is chosen above the usual highest one stays where it is.
+  // A limit above the default maximum is not reduced.
   request.holding.maxLimitCounts = std::max(request.holding.maxLimitCounts, request.limitCounts);
   return request;
 }

@@ -1,4 +1,5 @@
-// What the hand shall do: preshape, how far, how fast, how hard; and the buttons that begin it.
+// The part of the dock Hand that moves the hand: fields for preshape, closing, velocity and limit,
+// and the buttons that start a motion.
 #pragma once
 
 #include <QSettings>
@@ -17,20 +18,22 @@ class ValueSlider;
 class GraspPanel : public QWidget {
   Q_OBJECT
  public:
-  // Remembers what was chosen in `settings`, which must outlive it.
+  // Stores the chosen values in `settings`, which must outlive this.
   GraspPanel(QSettings& settings, QWidget* parent);
-  // Null: no hand. Must outlive this, or be taken away before.
+  // Null: no hand. `control` must outlive this, or be replaced by null before it is destroyed.
   void setControl(GraspControl* control);
-  // What may be begun now, and why not.
+  // Enables the motions that are possible now; the tool tips tell why others are not.
   void showStatus(const GraspStatus& status);
   GraspRequest request(GraspMode mode) const;
-  // As they stand: Grasp, Reactive, Slip-aware, Open, Relax.
+  // In the order of the dock: Grasp, Reactive, Slip-aware, Open, Relax.
   QList<QPushButton*> buttons() const { return {grasp_, reactive_, slipAware_, open_, relax_}; }
 
  signals:
-  void begins();  // something is asked for now
+  // A motion is about to be requested.
+  void begins();
   void refused(const QString& why);
-  void asked();  // something was begun, or refused
+  // A motion was started or refused.
+  void asked();
 
  private:
   void begin(const GraspRequest& request);

@@ -1,4 +1,4 @@
-// What moves the connected hand: as the buttons of the dock Hand, as actions.
+// The actions that move the connected hand; they do the same as the buttons of the dock Hand.
 #pragma once
 
 #include <QAction>
@@ -17,7 +17,7 @@ struct HandActions {
   QAction* slipAwareGrasp = nullptr;
   QAction* openHand = nullptr;
   QAction* relaxHand = nullptr;
-  // Esc does the same, wherever the keyboard is
+  // Esc does the same, whichever window has the keyboard focus.
   QAction* stopHand = nullptr;
 };
 

@@ -26,7 +26,7 @@ namespace {
 
 constexpr int kHandDockRefreshMs = 50;
 constexpr int kHandDockMargin = 12;
-constexpr int kStateLines = 4;  // room that is kept for what is said
+constexpr int kStateLines = 4;  // lines reserved for the status text
 constexpr const char* kStopTip =
     "Stops the hand now; the motors stay on and hold (Esc, wherever the keyboard is)";
 constexpr const char* kHandDockNothing = "–";
@@ -48,7 +48,7 @@ HandDock::HandDock(QSettings& settings, QWidget* parent) : QWidget(parent) {
   column->setSpacing(0);
   column->addWidget(makeHead());
   column->addWidget(makeBody(settings), 1);
-  // Below everything: it comes and goes, and moves nothing.
+  // At the bottom, so that other parts don't move when it appears or disappears.
   heat_ = new QLabel(this);
   heat_->setObjectName("handHeat");
   heat_->setWordWrap(true);
@@ -88,7 +88,8 @@ QWidget* HandDock::makeHead() {
   state_->setObjectName("handState");
   state_->setWordWrap(true);
   state_->setTextInteractionFlags(Qt::TextSelectableByMouse);
-  // Whatever is said, no button moves: what a robot's buttons mean is learned by where they are.
+  // The height is fixed, so that no button moves: users remember the buttons of a robot by their
+  // position.
   const int stateHeight = kStateLines * fontMetrics().lineSpacing() + 2;
   state_->setFixedHeight(stateHeight);
   stop_ = new QPushButton("Stop  (Esc)", head);
@@ -153,8 +154,8 @@ QWidget* HandDock::makeBody(QSettings& settings) {
   return area;
 }
 
-// Nothing is cut off at the side, where it can't be scrolled: only what is shown knows how wide it
-// is.
+// Sets the minimum width, so that nothing is cut off at the side, where the dock does not scroll.
+// The width is known only when the dock is shown.
 void HandDock::showEvent(QShowEvent* event) {
   QWidget::showEvent(event);
   body_->setMinimumWidth(body_->widget()->minimumSizeHint().width() +
@@ -223,8 +224,8 @@ void HandDock::bind(const HandActions& actions) {
   showBound();
 }
 
-// As the grasps would judge them that are offered now: the reactive one, and where that one feels
-// everything the slip-aware one.
+// Judges the matrices as the offered grasps would: by the reactive grasp; where that detects
+// everything, by the slip-aware grasp.
 void HandDock::showUnmeasurable(const std::vector<MatrixSettings>& settings) {
   const GraspRequest reactive = grasp_->request(GraspMode::kReactive);
   Judged now{settings, layout_, reactive.preshape, reactive.limitCounts};
@@ -260,7 +261,8 @@ void HandDock::showBound() {
 void HandDock::say(const QString& text, bool bad) {
   if (state_->text() != text) {
     state_->setText(text);
-    state_->setToolTip(text);  // all of it, should it be longer than its room
+    // The whole text, in case it does not fit.
+    state_->setToolTip(text);
   }
   const QColor color = bad ? colorsOf(theme_).danger : colorsOf(theme_).text;
   const QString style = "color: " + color.name() + ";";
@@ -271,7 +273,8 @@ void HandDock::showState(const GraspStatus& status) {
   if (!session_) return say("No hand is connected.", false);
   if (!control_) return say("A recording is replayed: there is nothing to move.", false);
   if (status.phase != GraspPhase::kIdle) {
-    if (status.request) said_.clear();  // else the end of one is just being told
+    // Without a request, the phase is only the end of a motion.
+    if (status.request) said_.clear();
     return say(phaseText(status), false);
   }
   if (!status.cannotMove.empty()) return say(motionBlockedReason(status), true);
@@ -295,7 +298,7 @@ QString HandDock::phaseText(const GraspStatus& status) const {
   const QString phase = QString::fromUtf8(name.data(), static_cast<qsizetype>(name.size()));
   if (!status.request) return phase;
   QString what = QString::fromStdString(describe(*status.request));
-  // "opening: centrical, 10 deg/s" says what is done by itself.
+  // "opening: centrical, 10 deg/s" already names the phase.
   if (isOpening(*status.request) && status.phase == GraspPhase::kClosing)
     return what.replace(": ", " · ");
   return phase + " · " + what;
@@ -315,7 +318,7 @@ QString HandDock::motionBlockedReason(const GraspStatus& status) const {
   return gone + "The motion that ran is over, and the motors hold.";
 }
 
-// Where the grasp was ended by what is no longer so.
+// The text when the reason that ended the last grasp no longer exists.
 std::optional<QString> HandDock::lastGraspText(const GraspReport& report,
                                                const GraspStatus& status) const {
   if (report.outcome == GraspOutcome::kPortGone)

@@ -1,6 +1,6 @@
-// The content of the dock Hand: moving it, what its matrices are set to, its joints and
-// temperatures. A Stop that is always there, whatever is scrolled or folded away, and by Escape
-// from everywhere.
+// The content of the dock Hand: motions, settings of the matrices, joint angles and temperatures.
+// The Stop button is always visible, however the dock is scrolled or folded; Escape stops the hand
+// from anywhere in the program.
 #pragma once
 
 #include <QSettings>
@@ -34,29 +34,30 @@ class TactileSettingsPanel;
 class HandDock : public QWidget {
   Q_OBJECT
  public:
-  // Remembers choices and named settings in `settings`, which must outlive it.
+  // Stores choices and named settings in `settings`, which must outlive this.
   explicit HandDock(QSettings& settings, QWidget* parent = nullptr);
   ~HandDock() override;
-  // The hand that is connected, null: none. Both must outlive this, or be taken away by null before
-  // they end.
+  // Sets the connected hand; null when there is none. Both must outlive this, or be replaced by
+  // null before they are destroyed.
   void setHand(CaptureSession* session, GraspControl* control);
-  // Menu entries and keys do what the buttons do, and can be chosen when those can. Once.
+  // Connects menu entries and keys with the buttons: they do the same and are enabled together.
+  // Call it once.
   void bind(const HandActions& actions);
   void setTheme(Theme theme);
   TactileSettingsPanel& tactileSettings() noexcept { return *tactile_; }
-  const std::vector<QString>& unmeasurable() const noexcept {
-    return unmeasurable_;
-  }  // as unmeasurableChanged()
+  // As in unmeasurableChanged().
+  const std::vector<QString>& unmeasurable() const noexcept { return unmeasurable_; }
   SensitivityModes& sensitivity() noexcept { return *sensitivity_; }
-  // What the timer does while a hand is connected.
+  // Updates the dock; a timer calls it while a hand is connected.
   void refresh();
   QSize sizeHint() const override { return {455, 640}; }
 
  signals:
   void stopPressed();
-  void asked();  // a motion was begun by it, or refused
-  // Why matrices can't tell the limit that is chosen: one text per matrix, empty: it can; none: all
-  // can.
+  // The dock started a motion, or it was refused.
+  void asked();
+  // Why matrices cannot detect the chosen limit: one text for each matrix, empty when it can; an
+  // empty vector when all can.
   void unmeasurableChanged(const std::vector<QString>& why);
 
  protected:
@@ -90,11 +91,13 @@ class HandDock : public QWidget {
   FactsView* temperatures_;
   StopKey* stopKey_;
   QTimer timer_;
-  std::optional<std::int64_t> goneUs_;  // when the hand could not be moved last [us since 1970]
-  QString said_;                        // a refusal, until something else is asked for
+  // When the motion port was last missing [us since 1970].
+  std::optional<std::int64_t> goneUs_;
+  // Why a motion was refused; shown until another motion is requested.
+  QString said_;
   std::vector<std::pair<QAction*, QPushButton*>> bound_;
   std::vector<QString> unmeasurable_;
-  // What unmeasurable_ was judged by.
+  // The inputs that unmeasurable_ was computed from.
   struct Judged {
     std::vector<MatrixSettings> settings;
     std::shared_ptr<const SensorLayout> layout;
@@ -103,7 +106,8 @@ class HandDock : public QWidget {
     bool operator==(const Judged&) const = default;
   };
   std::optional<Judged> judged_;
-  std::shared_ptr<const SensorLayout> layout_;  // of the newest frame, its masks; null: none came
+  // The layout with the masks of the newest frame; null before the first frame.
+  std::shared_ptr<const SensorLayout> layout_;
   Theme theme_ = Theme::kDark;
 };
 

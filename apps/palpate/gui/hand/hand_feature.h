@@ -1,4 +1,5 @@
-// The dock Hand, and which matrices of the connected hand can't feel the limit of its grasps.
+// The feature with the dock Hand; it also reports which matrices of the connected hand cannot
+// detect the limit of its grasps.
 #pragma once
 
 #include "gui/hand/hand_actions.h"

@@ -7,7 +7,7 @@
 namespace palpate::gui {
 namespace {
 
-// A name may hold anything, a key no slash.
+// Encodes a name, because a settings key must not contain a slash.
 QString handSettingsStoreEncoded(const QString& text) {
   return QString::fromLatin1(QUrl::toPercentEncoding(text.isEmpty() ? "unknown" : text));
 }

@@ -1,4 +1,5 @@
-// Tactile settings kept by name, for each hand (serial number) its own.
+// Stores tactile settings under names in the program's settings, separately for each hand (serial
+// number). Used by TactileSettingsPanel.
 #pragma once
 
 #include <QSettings>
@@ -11,11 +12,12 @@ namespace palpate::gui {
 
 class HandSettingsStore {
  public:
-  // The settings must outlive it.
+  // `settings` must outlive this.
   explicit HandSettingsStore(QSettings& settings) : settings_(settings) {}
-  QStringList names(const QString& serial) const;  // in order of the alphabet
+  // In alphabetical order.
+  QStringList names(const QString& serial) const;
   void save(const QString& serial, const QString& name, const TactileSettings& values);
-  // Nothing when there is none of this name, or what is there is no settings.
+  // Nothing when that name does not exist or its stored value is invalid.
   std::optional<TactileSettings> load(const QString& serial, const QString& name) const;
   void remove(const QString& serial, const QString& name);
 

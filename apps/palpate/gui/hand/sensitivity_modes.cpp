@@ -45,7 +45,8 @@ SensitivityModes::SensitivityModes(QWidget* parent) : QWidget(parent) {
   text_->setObjectName("sensitivityStatus");
   text_->setProperty("role", "muted");
   text_->setWordWrap(true);
-  text_->setMinimumHeight(2 * fontMetrics().lineSpacing());  // what is below stays where it is
+  // Fixed height, so that the parts below don't move.
+  text_->setMinimumHeight(2 * fontMetrics().lineSpacing());
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(0, 0, 0, 0);
   column->setSpacing(4);

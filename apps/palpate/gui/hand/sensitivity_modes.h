@@ -1,5 +1,6 @@
-// How sensitivity and thresholds of a connected hand are held: by hand, high (just above the noise,
-// following the temperatures), adaptive (the highest without saturation).
+// The buttons of the dock Hand that choose how sensitivity and thresholds of a connected hand are
+// set: manual, high (thresholds just above the noise, following the temperatures), or adaptive (the
+// highest sensitivity without saturation).
 #pragma once
 
 #include <QWidget>
@@ -18,22 +19,24 @@ class SensitivityModes : public QWidget {
   Q_OBJECT
  public:
   explicit SensitivityModes(QWidget* parent = nullptr);
-  // Null: no hand that could be set. Both must outlive this, or be taken away before.
+  // Null: no hand that can be set. Both must outlive this, or be replaced by null before they are
+  // destroyed.
   void setHand(CaptureSession* session, GraspControl* control);
-  // A round; shows how it goes. Several times a second.
+  // Runs one control step and shows its status. Call it several times a second.
   void refresh();
-  // Somebody set a value: no mode holds it any more.
+  // Switches to manual, because the user set a value.
   void endMode();
   SensitivityMode mode() const;
   QString statusText() const;
 
-  // The noise lines of the hand with this name; nothing: none are applied to it.
+  // The noise floor applied to the hand with this name; nothing when there is none.
   std::function<std::optional<NoiseFloor>(const std::string& hand)> noiseLines;
 
  signals:
-  void asked();  // a mode was chosen
+  // The user chose a mode.
+  void asked();
   void refused(const QString& why);
-  // High sensitivity begins or ends: ghosts want a filter.
+  // High sensitivity was switched on or off; while it is on, a filter must remove ghosts.
   void highChanged(bool on);
 
  private:

@@ -22,7 +22,8 @@ bool StopKey::eventFilter(QObject* /*watched*/, QEvent* event) {
   if (!same && !key->isAutoRepeat()) {
     lastPress_ = key->timestamp();
     const bool moves = control_->status().phase != GraspPhase::kIdle;
-    // The press that follows its own override finds the hand stopping, or stopped.
+    // A KeyPress follows the ShortcutOverride of the same press and finds the hand stopping or
+    // stopped.
     swallow_ = moves || (swallow_ && type == QEvent::KeyPress);
     control_->stop();
     emit pressed();

@@ -1,5 +1,5 @@
-// Escape stops the hand, wherever in the program the keyboard is: in a field, a menu, a dialogue,
-// another window.
+// Stops the hand when Escape is pressed anywhere in the program: in a field, a menu, a dialog,
+// another window. Used by HandDock.
 #pragma once
 
 #include <QObject>
@@ -12,22 +12,24 @@ class StopKey : public QObject {
   Q_OBJECT
  public:
   explicit StopKey(QObject* parent);
-  // Whose hand; null: Escape means what it always means. Must outlive this, or be taken away
-  // before.
+  // Sets the hand; null: Escape has only its usual meaning. `control` must outlive this, or be
+  // replaced by null before it is destroyed.
   void setControl(GraspControl* control) { control_ = control; }
 
  signals:
   void pressed();
 
  protected:
-  // Of the whole application. While the hand moves Escape does nothing but stop it; else it goes on
-  // to whoever has the focus, and the stop goes out all the same.
+  // Sees the events of the whole application. While the hand moves, Escape only stops it; otherwise
+  // the stop is sent too, and the key also goes to the focused widget.
   bool eventFilter(QObject* watched, QEvent* event) override;
 
  private:
   GraspControl* control_ = nullptr;
-  quint64 lastPress_ = 0;  // time stamp: one press comes as several events
-  bool swallow_ = false;   // the rest of a press that stopped a motion
+  // Time stamp of the last press: one press arrives as several events.
+  quint64 lastPress_ = 0;
+  // The remaining events of a press that stopped a motion are not passed on.
+  bool swallow_ = false;
 };
 
 }  // namespace palpate::gui

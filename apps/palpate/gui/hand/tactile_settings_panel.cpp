@@ -19,7 +19,7 @@ namespace palpate::gui {
 namespace {
 
 constexpr int kMostThreshold = 4095;       // [counts]
-constexpr int kMostUsefulThreshold = 600;  // of the slider
+constexpr int kMostUsefulThreshold = 600;  // [counts] end of the slider
 constexpr const char* kPick = "Saved settings…";
 
 enum TactileSettingsPanelColumn { kSquare, kName, kSensitivity, kThreshold };
@@ -51,7 +51,8 @@ TactileSettingsPanel::TactileSettingsPanel(QSettings& settings, QWidget* parent)
   for (const MatrixDescription& matrix : sdh2().matrices)
     makeRow(static_cast<int>(rows_.size()), QString::fromStdString(matrix.shortName));
   note_ = tactileSettingsPanelCaption({}, this);
-  note_->setMinimumHeight(fontMetrics().lineSpacing());  // nothing jumps when it says something
+  // Keeps room for one line, so that nothing moves when a note appears.
+  note_->setMinimumHeight(fontMetrics().lineSpacing());
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(0, 0, 0, 0);
   column->setSpacing(8);
@@ -231,7 +232,7 @@ void TactileSettingsPanel::showValues(const TactileSettings& values) {
     rows_[m + 1].sensitivity->showValue(values[m].sensitivity);
     rows_[m + 1].threshold->showValue(values[m].thresholdCounts);
   }
-  // The row of all: what the first one has.
+  // The row for all matrices shows the values of the first one.
   rows_[0].sensitivity->showValue(values[0].sensitivity);
   rows_[0].threshold->showValue(values[0].thresholdCounts);
 }

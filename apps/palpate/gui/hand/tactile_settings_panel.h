@@ -1,5 +1,5 @@
-// Sensitivity and threshold of every matrix, set on the hand as they are chosen; reset; sets kept
-// by name.
+// The part of the dock Hand with the sensitivity and threshold of every matrix. A changed value is
+// sent to the hand at once; the panel also resets them and stores sets of them by name.
 #pragma once
 
 #include <QWidget>
@@ -24,22 +24,24 @@ class ValueSlider;
 class TactileSettingsPanel : public QWidget {
   Q_OBJECT
  public:
-  // `settings` must outlive it.
+  // `settings` must outlive this.
   TactileSettingsPanel(QSettings& settings, QWidget* parent);
-  // Null: no hand. Both must outlive this, or be taken away before.
+  // Null: no hand. Both must outlive this, or be replaced by null before they are destroyed.
   void setHand(CaptureSession* session, GraspControl* control);
-  // Shows what the hand says, and whether it may be changed now. Now and then.
+  // Shows the values that the hand reports, and whether they can be changed now. Call it
+  // repeatedly.
   void refresh(const GraspStatus& status, const DeviceInfo& facts);
   void setTheme(Theme theme);
-  // Marks the matrices that can't tell a limit [counts], as they are set: why, one text per matrix;
-  // empty: it can.
+  // Marks the matrices that cannot detect a limit [counts] with their settings: one reason for each
+  // matrix; empty when it can.
   void showUnmeasurable(const std::vector<QString>& why, int limitCounts);
-  // How a name is asked for; an empty answer means cancelled. Tests answer themselves.
+  // Asks the user for a name; an empty answer means cancelled. Tests replace it.
   std::function<QString(const QString& suggestion)> askForName;
 
  signals:
   void refused(const QString& why);
-  void changedByHand();  // a value was set, a set brought, or a reset asked for
+  // The user set a value, applied a stored set, or requested a reset.
+  void changedByHand();
 
  private:
   struct Row {
@@ -60,15 +62,18 @@ class TactileSettingsPanel : public QWidget {
   HandSettingsStore store_;
   CaptureSession* session_ = nullptr;
   GraspControl* control_ = nullptr;
-  std::vector<Row> rows_;  // the first one is for all matrices
+  // The first row sets all matrices.
+  std::vector<Row> rows_;
   QLabel* note_;
   QWidget* table_;
   QPushButton* reset_;
   QComboBox* names_;
   QPushButton* save_;
   QPushButton* remove_;
-  QString listedFor_;         // serial number
-  QString unmeasurableText_;  // which can't tell the limit; empty: all can
+  // The serial number that the listed names belong to.
+  QString listedFor_;
+  // Which matrices cannot detect the limit; empty when all can.
+  QString unmeasurableText_;
   Theme theme_ = Theme::kDark;
   std::vector<std::shared_future<CommandAnswer>> pending_;
 };

@@ -1,4 +1,4 @@
-// About: version, licence, and what the program is built on.
+// The About dialog: version, licence, and the libraries that the program uses.
 #pragma once
 
 #include <QDialog>

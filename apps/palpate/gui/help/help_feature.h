@@ -1,4 +1,4 @@
-// The list of keys, and what Palpate is.
+// The feature with the menu Help: the list of keys and the About dialog.
 #pragma once
 
 #include "gui/window_state/feature.h"

@@ -15,7 +15,7 @@ namespace {
 
 constexpr int kWidestWords = 190;  // [px]
 
-// What the mouse does has no action to be read from.
+// Mouse gestures have no actions, so they are listed here.
 const std::vector<KeyEntry>& mouseEntries() {
   static const std::vector<KeyEntry> entries = {
       {"Mouse", "Click or drag", "In the timeline or the seek bar: move through time"},
@@ -88,7 +88,7 @@ std::vector<KeyEntry> keysOf(const QList<QAction*>& actions) {
 
 KeysDialog::KeysDialog(const QList<QAction*>& actions, QWidget* parent) : QDialog(parent) {
   setWindowTitle("Keys");
-  // Columns about equally long.
+  // Distributes the sections so that the columns are about equally long.
   std::vector<KeyEntry> left, middle, right, space;
   for (const KeyEntry& entry : keysOf(actions))
     (entry.section == "File" || entry.section == "Hand"   ? left

@@ -1,4 +1,4 @@
-// F1: all keys, read from the actions themselves.
+// The dialog with all keys (F1), collected from the actions of the window.
 #pragma once
 
 #include <QDialog>
@@ -10,13 +10,15 @@ class QAction;
 
 namespace palpate::gui {
 
+// One line of the list: the keys and what they do.
 struct KeyEntry {
   QString section;
-  QString keys;  // "Up or +"
+  // The keys as text: "Up or +".
+  QString keys;
   QString what;
 };
 
-// Every visible action with a key, in the order of the list.
+// Every visible action that has a key, in the order of `actions`.
 std::vector<KeyEntry> keysOf(const QList<QAction*>& actions);
 
 class KeysDialog : public QDialog {

@@ -9,8 +9,8 @@
 namespace palpate::gui {
 namespace {
 
-// Beside settings that aren't the user's own ones (a test's, a screenshot's) nothing is kept among
-// the user's files.
+// Folder of the cache. With settings other than the user's own (of a test or a screenshot) the
+// cache is next to those settings, so that the user's files are not touched.
 QString cacheFolderFor(const QSettings& settings) {
   if (QFileInfo(settings.fileName()) == QFileInfo(settingsPath()))
     return QStandardPaths::writableLocation(QStandardPaths::GenericCacheLocation) + "/palpate";
@@ -47,7 +47,7 @@ LibraryFeature::LibraryFeature(WindowState& windowState, QWidget* window)
   followTheme(panel_);
 }
 
-// What is shown stays A.
+// The shown recording stays A.
 void LibraryFeature::compareWith(const std::filesystem::path& path) {
   if (const OpenedRecordingPtr known = state().recordings.at(path))
     state().comparison.with(known);
@@ -61,7 +61,7 @@ std::vector<DockSpec> LibraryFeature::docks() {
            .area = Qt::LeftDockWidgetArea,
            .liveArea = Qt::LeftDockWidgetArea,
            .everywhere = true,
-           // Asked for by its key, the next thing is to search.
+           // When the user opens the dock by its key, the search gets the keyboard focus.
            .asked = [this] { panel_->startSearch(); }}};
 }
 

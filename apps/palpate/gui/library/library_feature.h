@@ -1,4 +1,5 @@
-// The dock Library: recordings of a folder. It stays as it is, whatever else is shown.
+// The feature with the dock Library, which lists the recordings of a folder. The dock does not
+// depend on the shown source.
 #pragma once
 
 #include "gui/window_state/feature.h"

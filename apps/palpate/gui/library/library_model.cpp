@@ -26,7 +26,7 @@ QString joined(const std::vector<std::string>& labels) {
   return texts.join(", ");
 }
 
-// By what a column of texts is sorted.
+// The sort key of a text column.
 SearchKey searchKeyOf(int column) {
   switch (column) {
     case LibraryModel::kObject:
@@ -107,7 +107,8 @@ void LibraryModel::endScan() {
   if (std::all_of(rows_.begin(), rows_.end(), [](const Row& row) { return row.seen; })) return;
   for (int row = static_cast<int>(rows_.size()) - 1; row >= 0; --row) {
     if (rows_[static_cast<std::size_t>(row)].seen) continue;
-    int first = row;  // a run of rows goes at once
+    // Consecutive rows are removed together.
+    int first = row;
     while (first > 0 && !rows_[static_cast<std::size_t>(first - 1)].seen) --first;
     beginRemoveRows({}, first, row);
     rows_.erase(rows_.begin() + first, rows_.begin() + row + 1);
@@ -186,7 +187,8 @@ QString LibraryModel::tip(const RecordingDetails& details) const {
   if (!details.message.empty()) lines.append(libraryModelWide(details.message));
   if (!details.labels.empty()) lines.append("labels: " + joined(details.labels));
   if (!details.notes.empty()) lines.append(libraryModelWide(details.notes));
-  return lines.join('\n').toHtmlEscaped().replace('\n', "<br>");  // wraps, and is no mark-up
+  // HTML makes the tool tip wrap; the text is escaped.
+  return lines.join('\n').toHtmlEscaped().replace('\n', "<br>");
 }
 
 QVariant LibraryModel::data(const QModelIndex& index, int role) const {
@@ -233,7 +235,8 @@ QMimeData* LibraryModel::mimeData(const QModelIndexList& indexes) const {
   QList<QUrl> urls;
   for (const QModelIndex& index : indexes)
     if (index.column() == kName) urls.append(QUrl::fromLocalFile(path(index.row())));
-  auto* data = new QMimeData;  // Qt's drag owns it
+  // Owned by Qt's drag.
+  auto* data = new QMimeData;
   data->setUrls(urls);
   return data;
 }
@@ -270,7 +273,8 @@ bool LibraryFilter::lessThan(const QModelIndex& left, const QModelIndex& right) 
       if (order != 0) return order < 0;
     }
   }
-  return a.path < b.path;  // one order, whatever came first
+  // The path makes the order unique.
+  return a.path < b.path;
 }
 
 }  // namespace palpate::gui

@@ -1,5 +1,5 @@
-// The recordings of a folder as a table, a row each, and the part of it that a search leaves, in an
-// order.
+// The table model of the library: one row for each recording of a folder; and the filter that
+// searches and sorts its rows.
 #pragma once
 
 #include <QAbstractTableModel>
@@ -31,10 +31,10 @@ class LibraryModel : public QAbstractTableModel {
   };
   using QAbstractTableModel::QAbstractTableModel;
 
-  // Empties the table; names of folders count from `folder` on.
+  // Empties the table; shown folder names are relative to `folder`.
   void setFolder(const QString& folder);
-  // What comes until endScan() replaces what was known of the same file; what doesn't come again
-  // goes.
+  // Between beginScan() and endScan(), take() replaces the entries of the same files; endScan()
+  // removes the rows that were not taken again.
   void beginScan();
   void take(const std::vector<LibraryEntry>& entries);
   void endScan();
@@ -43,21 +43,23 @@ class LibraryModel : public QAbstractTableModel {
   std::size_t numRecordings() const noexcept { return rows_.size(); }
   const LibraryEntry& entry(int row) const { return rows_.at(static_cast<std::size_t>(row)).entry; }
   QString path(int row) const;
-  double totalS() const;  // of all recordings
+  // Total length of all recordings [s].
+  double totalS() const;
 
   int rowCount(const QModelIndex& parent = {}) const override;
   int columnCount(const QModelIndex& parent = {}) const override;
   QVariant data(const QModelIndex& index, int role) const override;
   QVariant headerData(int section, Qt::Orientation orientation, int role) const override;
   Qt::ItemFlags flags(const QModelIndex& index) const override;
-  // Rows can be dragged away as files.
+  // Rows can be dragged to other programs as files.
   QStringList mimeTypes() const override;
   QMimeData* mimeData(const QModelIndexList& indexes) const override;
 
  private:
   struct Row {
     LibraryEntry entry;
-    bool seen = true;  // in the scan that runs
+    // Found by the running scan.
+    bool seen = true;
   };
   QString text(const RecordingDetails& details, int column) const;
   QString tip(const RecordingDetails& details) const;
@@ -68,6 +70,7 @@ class LibraryModel : public QAbstractTableModel {
   Theme theme_ = Theme::kDark;
 };
 
+// The rows of the model that match the search, in the chosen order.
 class LibraryFilter : public QSortFilterProxyModel {
   Q_OBJECT
  public:
@@ -84,7 +87,7 @@ class LibraryFilter : public QSortFilterProxyModel {
   RecordingSearch search_;
 };
 
-// "4.2 s", "3 min 05 s", "2 h 07 min"
+// A duration as text: "4.2 s", "3 min 05 s", "2 h 07 min".
 QString lengthText(double seconds);
 
 }  // namespace palpate::gui

@@ -25,9 +25,10 @@ namespace {
 
 constexpr const char* kLibraryPanelFolderKey = "library/folder";
 constexpr const char* kHeaderKey = "library/columns";
-constexpr int kLibraryPanelCalmMs = 1000;  // so long nothing changes before it is looked at again
-constexpr qsizetype kMostWatched = 500;    // folders
-constexpr int kLibraryPanelSteps = 1000;   // of the progress bar
+// [ms] time without changes before the folder is scanned again
+constexpr int kLibraryPanelCalmMs = 1000;
+constexpr qsizetype kMostWatched = 500;   // folders
+constexpr int kLibraryPanelSteps = 1000;  // of the progress bar
 
 QString countText(int count, const QString& what) {
   return QString::number(count) + " " + what + (count == 1 ? "" : "s");
@@ -206,7 +207,8 @@ void LibraryPanel::refresh() {
   changed_.stop();
   if (folder_.isEmpty()) return;
   stale_ = !isVisible();
-  if (stale_) return scanner_.cancel();  // when it is seen again
+  // The scan follows when the panel is visible again.
+  if (stale_) return scanner_.cancel();
   numListed_ = 0;
   numFound_ = 0;
   problems_.clear();
@@ -250,7 +252,7 @@ void LibraryPanel::showFolder() {
                                               : folder_ + "\nChoose another one");
 }
 
-// The table, or why there is none.
+// Shows the table, or the reason why there is none.
 void LibraryPanel::showState() {
   const bool busy = scanner_.busy();
   bar_->setVisible(busy);
@@ -365,7 +367,7 @@ void LibraryPanel::resizeEvent(QResizeEvent* event) {
   showFolder();
 }
 
-// From the search into what it found, without the mouse.
+// Moves the focus from the search field to the table by keys.
 bool LibraryPanel::eventFilter(QObject* watched, QEvent* event) {
   if (watched != search_ ||
       (event->type() != QEvent::KeyPress && event->type() != QEvent::ShortcutOverride))

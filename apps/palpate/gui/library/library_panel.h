@@ -1,5 +1,5 @@
-// The dock Library: the recordings of a folder and of all below it, to be searched, sorted and
-// opened.
+// The content of the dock Library: lists the recordings of a folder and its subfolders, which can
+// be searched, sorted and opened.
 #pragma once
 
 #include <QFileSystemWatcher>
@@ -26,24 +26,25 @@ class EmptyPage;
 class LibraryPanel : public QWidget {
   Q_OBJECT
  public:
-  // The settings must outlive it: folder, columns and order are remembered there.
+  // `settings` stores folder, columns and sort order; it must outlive this.
   LibraryPanel(QSettings& settings,
                const QString& cacheFolder,
                LibraryScanner::Catalog catalog = catalogRecordings,
                QWidget* parent = nullptr);
   ~LibraryPanel() override;
 
-  // Looks into it as soon as the panel is seen.
+  // The folder is scanned as soon as the panel is visible.
   void setFolder(const QString& folder);
   const QString& folder() const noexcept { return folder_; }
   void setTheme(Theme theme);
-  void refresh();  // looks again
+  // Scans the folder again.
+  void refresh();
   void startSearch();
   bool scanning() const noexcept { return scanner_.busy(); }
 
-  // An empty answer means cancelled.
+  // Asks the user for a folder; an empty answer means cancelled.
   std::function<QString(const QString& start)> askForFolder;
-  // Whether there is something to compare with.
+  // Whether a recording is shown that another can be compared with.
   std::function<bool()> comparable;
   // Shows a file in the file manager.
   std::function<void(const QString& path)> reveal;
@@ -52,9 +53,10 @@ class LibraryPanel : public QWidget {
  signals:
   void openRequested(const QStringList& paths);
   void compareAsked(const QString& path);
-  // A line to be kept: what couldn't be looked into.
+  // A warning for the log: what could not be read.
   void said(const QString& message);
-  void settled();  // a scan has ended
+  // A scan has ended.
+  void settled();
 
  protected:
   void showEvent(QShowEvent* event) override;
@@ -74,7 +76,8 @@ class LibraryPanel : public QWidget {
   void showSummary();
   void showFolder();
   void rememberColumns();
-  QStringList chosen() const;  // paths
+  // Paths of the chosen rows.
+  QStringList chosen() const;
   void openChosen();
 
   QSettings& settings_;
@@ -82,13 +85,17 @@ class LibraryPanel : public QWidget {
   LibraryModel* model_;
   LibraryFilter* filter_;
   QFileSystemWatcher watcher_;
-  QTimer changed_;  // something in the folder: looked at when it is calm again
+  // Restarted by every change in the folder; scans when no change came for a while.
+  QTimer changed_;
   QString folder_;
   QStringList problems_;
   int numListed_ = 0;
-  int numFound_ = 0;     // in the scan that runs
-  bool stale_ = true;    // has to be looked into
-  bool looked_ = false;  // a scan of this folder has ended
+  // Number of recordings found by the running scan.
+  int numFound_ = 0;
+  // The folder must be scanned again.
+  bool stale_ = true;
+  // A scan of this folder has ended.
+  bool looked_ = false;
 
   QToolButton* folderButton_ = nullptr;
   QToolButton* refreshButton_ = nullptr;

@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::size_t kPortion = 200;  // entries that the window takes at once
 constexpr double kLibraryScannerSmallestNews = 0.01;
-constexpr auto kPatience = std::chrono::seconds(2);  // with a thread that shall end
+constexpr auto kPatience = std::chrono::seconds(2);  // waiting time for a thread to end
 
 }  // namespace
 
@@ -29,13 +29,15 @@ std::string caseFolded(std::string_view text) {
       .toStdString();
 }
 
-// What the thread and the object share; outlives either of them.
+// What the thread and the object share; it exists as long as either of them.
 struct LibraryScanner::Run {
   std::atomic<bool> cancelled = false;
   std::mutex mutex;
   std::condition_variable ended;
-  LibraryScanner* owner = nullptr;  // null: nobody listens any more
-  bool called = false;              // the owner will come
+  // Null when the scan was cancelled.
+  LibraryScanner* owner = nullptr;
+  // processScanResults() is already queued.
+  bool called = false;
   bool done = false;
   std::optional<std::size_t> listed;
   std::deque<LibraryEntry> entries;
@@ -43,7 +45,7 @@ struct LibraryScanner::Run {
   std::optional<CatalogReport> report;
   QString failure;
 
-  // Changes something, and calls the owner once.
+  // Makes a change and queues one call of processScanResults().
   template <typename Change>
   void post(Change change) {
     const std::lock_guard lock(mutex);
@@ -127,10 +129,11 @@ void LibraryScanner::work(const std::shared_ptr<Run>& run,
   run->ended.notify_all();
 }
 
-// A portion at a time: the window breathes in between.
+// Takes one portion at a time, so that the window can process other events in between.
 void LibraryScanner::processScanResults() {
   const std::shared_ptr<Run> run = run_;
-  if (!run) return;  // given up meanwhile
+  // The scan was cancelled meanwhile.
+  if (!run) return;
   std::optional<std::size_t> numFiles;
   std::optional<double> fraction;
   std::vector<LibraryEntry> entries;

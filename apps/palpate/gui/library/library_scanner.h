@@ -1,6 +1,6 @@
-// Goes through a folder of recordings beside the window and hands over what it finds, in portions
-// that the window takes without a stop. A folder that hangs holds up nobody: its thread is given
-// up. Signals come in the thread of this object.
+// Scans a folder of recordings in its own thread and delivers the entries in small portions, so
+// that the window stays responsive. A thread that is blocked by its file system is abandoned.
+// Signals are emitted in the thread of this object. Used by LibraryPanel.
 #pragma once
 
 #include <QObject>
@@ -17,11 +17,11 @@
 
 namespace palpate::gui {
 
-// UTF-8 text as it is compared whatever its case: Unicode's case folding, by Qt. Bytes that are no
+// UTF-8 text for comparison without regard to case (Unicode case folding by Qt). Bytes that are not
 // UTF-8 become U+FFFD.
 std::string caseFolded(std::string_view text);
 
-// A recording as the library has it.
+// One recording of the library, with its text for the search.
 struct LibraryEntry {
   RecordingDetails details;
   SearchableText text;
@@ -30,32 +30,35 @@ struct LibraryEntry {
 class LibraryScanner : public QObject {
   Q_OBJECT
  public:
-  // How a folder is gone through; tests hand in their own.
+  // The function that scans a folder; tests pass their own.
   using Catalog = std::function<CatalogReport(const std::filesystem::path& folder,
                                               const std::filesystem::path& cacheFolder,
                                               const CatalogSink& sink,
                                               const Progress& progress)>;
 
   explicit LibraryScanner(const QString& cacheFolder, Catalog catalog, QObject* parent = nullptr);
-  // Cancels; waits for a moment, then leaves a thread that hangs to itself.
+  // Cancels and waits briefly; a blocked thread is then abandoned.
   ~LibraryScanner() override;
 
-  // Gives up what is at work, of which nothing more is heard, and begins anew.
+  // Cancels the running scan, which emits nothing more, and starts a new one.
   void scan(const QString& folder);
-  void cancel();  // cancelled() follows
+  // Cancels the running scan; emits cancelled().
+  void cancel();
   bool busy() const noexcept { return run_ != nullptr; }
 
  signals:
   void listed(int numFiles);
   void found(const std::vector<palpate::gui::LibraryEntry>& entries);
-  void progressed(double fraction);  // 0..1
-  // One of these three ends each scan.
+  // `fraction`: 0..1.
+  void progressed(double fraction);
+  // Each scan ends with exactly one of these three signals, unless scan() replaces it.
   void finished(const palpate::CatalogReport& report);
   void cancelled();
   void failed(const QString& message);
 
  private:
-  struct Run;  // shared with the thread
+  // Shared with the thread.
+  struct Run;
   void abandonScan();
   void processScanResults();
   static void work(const std::shared_ptr<Run>& run,
@@ -65,7 +68,8 @@ class LibraryScanner : public QObject {
 
   QString cacheFolder_;
   Catalog catalog_;
-  std::shared_ptr<Run> run_;  // null: nothing is at work
+  // Null when no scan is running.
+  std::shared_ptr<Run> run_;
 };
 
 }  // namespace palpate::gui

@@ -42,7 +42,8 @@ LibraryTable::LibraryTable(QAbstractItemModel* model, QWidget* parent) : QTableV
   setSelectionBehavior(QAbstractItemView::SelectRows);
   setSelectionMode(QAbstractItemView::ExtendedSelection);
   setEditTriggers(QAbstractItemView::NoEditTriggers);
-  setTabKeyNavigation(false);  // Tab leaves it
+  // Tab leaves the table.
+  setTabKeyNavigation(false);
   setDragEnabled(true);
   setShowGrid(false);
   setWordWrap(false);
@@ -96,7 +97,7 @@ void LibraryTable::keyPressEvent(QKeyEvent* event) {
       break;
     case Qt::Key_Home:
     case Qt::Key_End: {
-      // To the first or the last row, not column.
+      // Moves to the first or last row, not column.
       const int row = event->key() == Qt::Key_Home ? 0 : model()->rowCount() - 1;
       if (row < 0) return;
       if ((event->modifiers() & Qt::ShiftModifier) == 0) selectRow(row);

@@ -1,4 +1,5 @@
-// The table of the library: every key that moves in it moves in it, and nothing else in the window.
+// The table widget of the library. Keys that navigate in the table are not passed on as shortcuts
+// of the window.
 #pragma once
 
 #include <QTableView>
@@ -8,9 +9,9 @@ namespace palpate::gui {
 class LibraryTable : public QTableView {
   Q_OBJECT
  public:
-  // `model`: of the columns of LibraryModel.
+  // `model` has the columns of LibraryModel.
   explicit LibraryTable(QAbstractItemModel* model, QWidget* parent = nullptr);
-  // The chosen rows with the heading of the columns that are seen, for a spreadsheet.
+  // Copies the chosen rows with the headings of the visible columns, for a spreadsheet.
   void copyRows();
 
  signals:

@@ -1,4 +1,5 @@
-// The dock Log: what the window said today. It stays as it is, whatever else is shown.
+// The feature with the dock Log, which lists today's messages of the window. The dock does not
+// depend on the shown source.
 #pragma once
 
 #include "gui/window_state/feature.h"

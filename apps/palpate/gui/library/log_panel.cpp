@@ -163,7 +163,7 @@ void LogPanel::buildTable() {
     words_->clear();
     severity_->setCurrentIndex(0);
   });
-  // Who looks at an older line goes on looking at it.
+  // While an older line is shown, new lines don't scroll the table.
   QScrollBar* bar = table_->verticalScrollBar();
   connect(bar, &QScrollBar::valueChanged, this, [this, bar](int value) {
     atEnd_ = value >= bar->maximum();
@@ -199,7 +199,8 @@ void LogPanel::save() {
   const QString path = askForFile("palpate-log.txt");
   if (path.isEmpty()) return;
   try {
-    OutputFile file(path.toStdString(), Overwrite::kReplace);  // the dialog has asked
+    // The dialog has asked before it replaces a file.
+    OutputFile file(path.toStdString(), Overwrite::kReplace);
     file.write(text().toStdString());
     file.commit();
     emit saved(path);

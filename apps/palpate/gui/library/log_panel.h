@@ -1,5 +1,5 @@
-// The dock Log: what the window said, newest last; by severity and by words, to be copied and
-// saved.
+// The content of the dock Log: the messages of the window, newest last; they can be filtered by
+// severity and words, copied and saved.
 #pragma once
 
 #include <QSortFilterProxyModel>
@@ -18,12 +18,14 @@ namespace palpate::gui {
 
 class EmptyPage;
 
+// The lines of the log that match severity and words.
 class LogFilter : public QSortFilterProxyModel {
   Q_OBJECT
  public:
   explicit LogFilter(ActivityLog& log, QObject* parent = nullptr);
   void setLeast(LogLine::Severity least);
-  void setWords(const QString& words);  // all of them must be in a line
+  // A line is shown when it contains all of these words.
+  void setWords(const QString& words);
 
  protected:
   bool filterAcceptsRow(int row, const QModelIndex& parent) const override;
@@ -34,7 +36,7 @@ class LogFilter : public QSortFilterProxyModel {
   QStringList words_;
 };
 
-// The lines: keys that move in it don't move something else in the window.
+// The table of messages. Keys that navigate in it are not passed on as shortcuts of the window.
 class LogTable : public QTableView {
   Q_OBJECT
  public:
@@ -51,13 +53,13 @@ class LogTable : public QTableView {
 class LogPanel : public QWidget {
   Q_OBJECT
  public:
-  // The log must outlive it.
+  // `log` must outlive this.
   explicit LogPanel(ActivityLog& log, QWidget* parent = nullptr);
   void setTheme(Theme theme);
-  // The lines that are shown, or those chosen among them, one below the other.
+  // The chosen lines, else all shown lines, one below the other.
   QString text() const;
 
-  // Where the log shall be saved; an empty answer means cancelled.
+  // Asks the user for a file to save the log in; an empty answer means cancelled.
   std::function<QString(const QString& suggestion)> askForFile;
   QSize sizeHint() const override { return {420, 300}; }
 
@@ -78,7 +80,8 @@ class LogPanel : public QWidget {
   QStackedWidget* pages_ = nullptr;
   LogTable* table_ = nullptr;
   EmptyPage* empty_ = nullptr;
-  bool atEnd_ = true;  // the newest line is in sight, and shall stay so
+  // The newest line is visible and is kept visible when lines are added.
+  bool atEnd_ = true;
 };
 
 }  // namespace palpate::gui

@@ -1,5 +1,4 @@
-// Makes alarms of the link heard: once when one comes up, and every ten seconds as long as it
-// lasts.
+// Sounds the alarms of the link: once when an alarm appears, and every ten seconds while one lasts.
 #pragma once
 
 #include <QObject>
@@ -19,16 +18,17 @@ class AlarmNotifier : public QObject {
   static constexpr std::int64_t kAgainUs = 10'000'000;
 
   explicit AlarmNotifier(QObject* parent = nullptr);
-  // The alarms of now; `monoUs`: monotonic time [us].
+  // Sets the present alarms; `monoUs`: monotonic time [us].
   void updateAlarms(const std::vector<Alarm>& alarms, std::int64_t monoUs);
   void setMuted(bool muted) { muted_ = muted; }
   bool muted() const noexcept { return muted_; }
-  // How it sounds; the desktop's bell unless a test says otherwise.
+  // Plays the sound: the desktop's bell; tests replace it.
   std::function<void()> playSound;
 
  signals:
-  void raised(const QString& text);  // one that wasn't there before
-  // What there is now, one line each; empty: no alarm.
+  // An alarm appeared that was not there before.
+  void raised(const QString& text);
+  // The present alarms, one line each; empty when there are none.
   void changed(const QStringList& texts);
 
  private:

@@ -1,4 +1,4 @@
-// What alarms and other programs do, as actions.
+// The actions that mute alarms and switch the interfaces for other programs.
 #pragma once
 
 #include <QAction>
@@ -13,10 +13,10 @@ struct LinkActions {
   explicit LinkActions(ActionRegistry& book);
 
   QAction* muteAlarms = nullptr;
-  // other programs; off in a new window
+  // Streams of live data to other programs; the settings store whether they are on.
   QAction* streamSignals = nullptr;
   QAction* streamTactile = nullptr;
-  // data(): its socket; none: the usual one
+  // Off in every new window. data() is the path of the socket; empty: the default path.
   QAction* remoteControl = nullptr;
 };
 

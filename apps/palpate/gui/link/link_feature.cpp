@@ -33,7 +33,7 @@ LinkFeature::LinkFeature(WindowState& windowState, QWidget* window)
   followTheme(alarms_);
 }
 
-// Behind the log: who listens is told that a hand is connected before what streams of it.
+// Called after connectLog(), so that the log reports the connection before its streams.
 void LinkFeature::connectOthers() {
   WindowState& windowState = state();
   others_ = std::make_unique<OtherPrograms>(
@@ -57,7 +57,7 @@ void LinkFeature::connectLog() {
   LiveController& live = state().live;
   connect(&state().messages, &Messages::linkLogged, panel_, &LinkPanel::log);
   connect(panel_, &LinkPanel::logged, this, [this](const QString& line) {
-    // What the banner has just said isn't said again.
+    // Does not log what the banner has just logged.
     ActivityLog& log = state().log;
     const int last = log.rowCount() - 1;
     if (last >= 0 && line.contains(log.line(last).text)) return;
@@ -81,7 +81,7 @@ void LinkFeature::connectLog() {
 void LinkFeature::connectAlarms() {
   connect(&alarmNotifier_, &AlarmNotifier::changed, this, [this](const QStringList& alarms) {
     panel_->showAlarms(alarms);
-    // Closed by the user it stays closed until something new is wrong.
+    // When the user has closed the banner, it stays closed until a new alarm appears.
     if (alarms.isEmpty() || alarmIsNew_ || !alarms_->isHidden()) alarms_->showAll(alarms);
     alarmIsNew_ = false;
   });
@@ -107,7 +107,7 @@ void LinkFeature::mute(bool muted) {
   state().settings.setValue(kMutedKey, muted);
 }
 
-// Four times a second.
+// Called four times a second.
 void LinkFeature::look() {
   LiveController& live = state().live;
   LiveSource* source = live.source();

@@ -1,4 +1,5 @@
-// The dock Link, its alarms, and the doors to other programs.
+// The feature with the dock Link: health of the connection, alarms, and the interfaces for other
+// programs.
 #pragma once
 
 #include <memory>
@@ -33,7 +34,8 @@ class LinkFeature : public Feature {
   Dock* dock_;
   MessageBanner* alarms_;
   AlarmNotifier alarmNotifier_;
-  bool alarmIsNew_ = false;  // since what is in the strip was closed
+  // An alarm appeared after the user closed the banner.
+  bool alarmIsNew_ = false;
   std::unique_ptr<OtherPrograms> others_;
 };
 

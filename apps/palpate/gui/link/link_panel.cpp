@@ -180,7 +180,8 @@ void LinkPanel::showHealth(const LinkHealth& health, const std::optional<Preflig
   recording_ = health.recorder.state != RecorderStatus::State::kIdle;
   lastCheck_ = check;
   LinkHealth known = health;
-  if (!known.freeBytes && check) {  // the recorder asks only while it records
+  // The recorder measures the free space only while it records.
+  if (!known.freeBytes && check) {
     known.freeBytes = check->freeBytes;
     known.diskHours = check->diskHours;
   }

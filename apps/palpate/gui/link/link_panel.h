@@ -1,5 +1,5 @@
-// The content of the dock Link: is everything ready for a run, how does the line do, what is wrong,
-// what happened.
+// The content of the dock Link: whether everything is ready for a recording, the health of the
+// connection, alarms, and a log of events.
 #pragma once
 
 #include <QScrollArea>
@@ -18,23 +18,23 @@ class QPlainTextEdit;
 
 namespace palpate::gui {
 
-// The state of a port for a person: "streaming", "silent for 2 s", ..
+// The state of a port in words: "streaming", "silent for 2 s", ..
 QString nameOf(PortState state);
-// What is known of the link, row by row: for the dock and for tests.
+// What is known about the link, one row for each fact; for the dock and for tests.
 std::vector<Fact> factsOf(const LinkHealth& health);
 
 class LinkPanel : public QWidget {
   Q_OBJECT
  public:
   explicit LinkPanel(QWidget* parent = nullptr);
-  // Nothing is connected; what was logged stays.
+  // Shows that nothing is connected; the log is kept.
   void clear();
   void showHealth(const LinkHealth& health, const std::optional<PreflightCheck>& check);
   void showAlarms(const QStringList& alarms);
-  // What is open to other programs; empty: nothing, and nothing of it is seen.
+  // Shows which interfaces are open to other programs; an empty list hides this part.
   void showOtherPrograms(std::vector<Fact> facts);
   void addEvent(const RecordingEvent& event);
-  // A line of the window's own: "connected to ..".
+  // Adds a message of the window itself: "connected to ..".
   void log(const QString& line);
   void setMuted(bool muted);
   void setTheme(Theme theme);

@@ -1,6 +1,6 @@
-// The window's doors to other programs on this machine, all closed until the operator opens them:
-// live signals and taxels as datagrams, remote control. It is switched by actions, and says in the
-// Link dock what is open.
+// The interfaces of the window for other programs on this machine: live signals and taxels as
+// datagrams, and remote control. All are off until the operator switches them on by actions; the
+// dock Link shows which are on.
 #pragma once
 
 #include <QObject>
@@ -19,6 +19,7 @@
 
 namespace palpate::gui {
 
+// What OtherPrograms needs; the references must outlive it.
 struct OtherProgramsOptions {
   const LinkActions& actions;
   LiveController& live;
@@ -26,23 +27,25 @@ struct OtherProgramsOptions {
   std::function<RecordingSettings()> recordingSettings;
 };
 
-// Streams are as they were left; remote control is off in every window until it is switched on.
-// data() of its action is the socket's path; none: the usual one. Ports: streams/signals_port,
-// streams/tactile_port of the settings.
+// Streams keep the state that they had at the last start; remote control is off in every new
+// window. The data() of its action is the path of the socket; empty: the default path. The settings
+// streams/signals_port and streams/tactile_port contain the ports.
 class OtherPrograms : public QObject {
   Q_OBJECT
  public:
   OtherPrograms(const OtherProgramsOptions& options, QObject* parent);
 
-  // What is open, row by row; empty: nothing is.
+  // The interfaces that are on, one row each; empty when all are off.
   std::vector<Fact> facts() const;
-  // "streaming, remote control"; empty: nothing is open.
+  // "streaming, remote control"; empty when all are off
   static QString shortText(const ActionRegistry& actions);
   RemoteController& controller() noexcept { return controller_; }
 
  signals:
-  void changed();                       // facts() did
-  void failed(const QString& message);  // a door can't be opened
+  // facts() has changed.
+  void changed();
+  // An interface could not be opened.
+  void failed(const QString& message);
   void logged(const QString& line);
 
  private:
@@ -57,7 +60,8 @@ class OtherPrograms : public QObject {
   LiveController& live_;
   QSettings& settings_;
   RemoteController controller_;
-  std::unique_ptr<RemoteServer> server_;  // null: off
+  // null: off
+  std::unique_ptr<RemoteServer> server_;
 };
 
 }  // namespace palpate::gui

@@ -15,7 +15,7 @@ using Verb = RemoteRequest::Verb;
 
 constexpr int kRemoteDeskLookMs = 10;
 
-// Looks at folders: never on the window's thread.
+// Reads folders: must not run in the window's thread.
 void addNames(RemoteAnswer& answer, const RecordingSettings& settings) {
   const NextRecording next = previewNextPath(settings, systemClock().wallUs());
   answer.fields.set("folder", folderFromText(settings.folder).toStdString());
@@ -26,10 +26,12 @@ void addNames(RemoteAnswer& answer, const RecordingSettings& settings) {
   answer.fields.set("free_bytes", freeBytes ? Json(static_cast<std::int64_t>(*freeBytes)) : Json());
 }
 
-// The path of a recording that others ask for; `code` tells what is wrong where it throws.
+// The path of a recording that another program starts. Throws when that is not possible; `code` is
+// then the error code.
 fs::path pathFor(const RecordingSettings& settings, const std::string& name, std::string& code) {
   const std::int64_t nowUs = systemClock().wallUs();
-  const fs::path next = nextPath(settings, nowUs);  // makes the folder
+  // Also creates the folder.
+  const fs::path next = nextPath(settings, nowUs);
   if (const auto refusal = noSpace(freeBytesOf(next.parent_path()))) {
     code = refusal->error;
     throw Error(refusal->message);
@@ -185,7 +187,7 @@ void RemoteController::start(const std::string& name, const Done& done) {
   });
 }
 
-// Until the first commit is on disk; the controller's own looks are too far apart.
+// Runs until the first commit is on disk; the controller's own updates are too infrequent for that.
 void RemoteController::look() {
   LiveSource* source = live_.source();
   if (!starting_ || !source) return timer_.stop();

@@ -1,6 +1,6 @@
-// Carries out remote control in the window: a recording that others start is the window's own,
-// seen, marked and stopped like one by the button, under the names and in the folder that the
-// operator chose.
+// Carries out remote-control requests in the window. A recording that another program starts is a
+// normal recording of the window: it is shown, marked and stopped in the same way, with the
+// operator's names and folder.
 #pragma once
 
 #include <QObject>
@@ -25,25 +25,27 @@ namespace palpate::gui {
 class RemoteController : public QObject, public RemoteTarget {
   Q_OBJECT
  public:
-  // Both must outlive it. `settings`: those of the window now; asked on its thread.
+  // `live` must outlive this. `settings` returns the window's present settings; it is called in the
+  // window's thread.
   RemoteController(LiveController& live,
                    std::function<RecordingSettings()> settings,
                    QObject* parent = nullptr);
-  // Tests hand in shorter ones.
+  // Tests set shorter limits.
   void setLimits(const StartLimits& limits) { limits_ = limits; }
 
-  // On the server's thread: hands it to the window's.
+  // Called in the server's thread; passes the request on to the window's thread.
   void carryOut(const RemoteRequest& request, Done done) override;
 
  private:
-  // What goes wrong in the worker, in the words of remote control.
+  // The error code of remote control for a failure in the worker.
   struct Problem {
     std::string code = "folder";
   };
   struct Starting {
     Done done;
     std::shared_ptr<Problem> problem;
-    std::optional<std::chrono::steady_clock::time_point> begun;  // frames may come to it
+    // When the recording began; from then on frames can be written.
+    std::optional<std::chrono::steady_clock::time_point> begun;
   };
 
   void handle(const RemoteRequest& request, const Done& done);
@@ -59,11 +61,15 @@ class RemoteController : public QObject, public RemoteTarget {
   LiveController& live_;
   const std::function<RecordingSettings()> settings_;
   StartLimits limits_;
-  std::map<std::string, std::string> meta_;  // that was set from outside
-  QString nameTemplate_;                     // the same; empty: the window's
+  // Recording details that were set by remote control.
+  std::map<std::string, std::string> meta_;
+  // Name template set by remote control; empty: the window's own.
+  QString nameTemplate_;
   std::optional<Starting> starting_;
-  std::vector<Done> stopping_;  // who waits for the end
-  QTimer timer_;                // while a start is waited for
+  // Requests that wait for the end of the recording.
+  std::vector<Done> stopping_;
+  // Runs while a start request waits for its answer.
+  QTimer timer_;
 };
 
 }  // namespace palpate::gui

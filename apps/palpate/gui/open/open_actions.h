@@ -1,4 +1,4 @@
-// What opens recordings and goes from one to the other, as actions.
+// The actions that open, close and switch between recordings.
 #pragma once
 
 #include <QAction>

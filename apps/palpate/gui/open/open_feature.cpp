@@ -144,15 +144,15 @@ void OpenFeature::take(const OpenedRecordingPtr& recording, const OpenArrival& a
   listRecordings();
   const bool compared = arrival.then == Then::kCompare;
   const bool first = arrival.place == 0 && arrival.then != Then::kList;
-  // A file that was open and looked at, and was read anew, is looked at again; not behind what is
-  // live.
+  // When a shown file was read again, it is shown again, unless a live source is shown.
   const bool again = arrival.replaced && !displayed.isLive() && !displayed.unfilteredRecording();
   const bool shown = again || (first && (!compared || !displayed.isRecording()));
   if (shown)
     displayed.show(recording);
   else
     windowState.actionEnabler.refresh();
-  // With nothing to compare yet the first is A, and the next is compared with it.
+  // When there is nothing to compare with yet, the first recording becomes A, and the next is
+  // compared with it.
   if (compared && shown && windowState.recordings.all().size() > 1)
     windowState.comparison.set(true);
   if (compared && !shown && displayed.isRecording() &&

@@ -1,4 +1,5 @@
-// Opening recordings: start page, menus, drag and drop, and what is done with each that arrives.
+// The feature that opens recordings: start page, menus, drag and drop, and the handling of each
+// recording that was opened.
 #pragma once
 
 #include "gui/open/open_actions.h"
@@ -20,7 +21,7 @@ class OpenFeature : public Feature {
   void remember() override;
 
  protected:
-  // Files that are dragged over the window.
+  // Handles files that are dragged over the window.
   bool eventFilter(QObject* watched, QEvent* event) override;
 
  private:

@@ -35,7 +35,7 @@ void restoreSession(WindowState& windowState) {
     }
     windowState.displayed.setLeftAt(path, file.viewPosition);
     files.push_back(path);
-    // The first that can be opened is shown: that is the one that was.
+    // The recording that was shown goes first, because the first one that can be opened is shown.
     if (session.current >= 0 && &file == &session.files[static_cast<std::size_t>(session.current)])
       std::rotate(files.begin(), files.end() - 1, files.end());
   }

@@ -24,7 +24,7 @@ QFont scaled(QFont font, double factor, bool bold) {
   return font;
 }
 
-// A button with two lines of text: name and folder.
+// A button with two lines of text: file name and folder.
 class RecentRow : public QPushButton {
  public:
   RecentRow(const QString& path, bool exists, QWidget* parent) : QPushButton(parent) {
@@ -103,7 +103,7 @@ StartPage::StartPage(RecentFiles& recent, bool withDemo, QWidget* parent)
   recentHeading_ = new QLabel("RECENT", this);
   recentHeading_->setProperty("role", "heading");
 
-  // Ten recent files don't fit into the smallest window: then the page scrolls.
+  // The page scrolls when ten recent files don't fit into the window.
   auto* content = new QWidget(this);
   content->setObjectName("StartPage");
   auto* middle = new QWidget(content);
@@ -148,7 +148,8 @@ void StartPage::setTheme(Theme theme) {
 }
 
 void StartPage::showEvent(QShowEvent* event) {
-  listRecent();  // a file may have come or gone since
+  // Files may have been created or deleted meanwhile.
+  listRecent();
   QWidget::showEvent(event);
 }
 
@@ -169,7 +170,8 @@ void StartPage::listRecent() {
     remove->setIcon(makeIcon(IconShape::kClose, theme_));
     remove->setIconSize({10, 10});
     remove->setToolTip("Forget this file (the file itself stays)");
-    // The row dies with the click: not before the click is over.
+    // The row deletes itself, which must not happen before the click is processed (queued
+    // connection).
     connect(
         remove,
         &QToolButton::clicked,

@@ -1,4 +1,5 @@
-// What the window shows when nothing is open: what can be done, and what was open last.
+// The start page of the window, shown when nothing is open: buttons for what can be done, and
+// recent recordings.
 #pragma once
 
 #include <QWidget>
@@ -14,7 +15,7 @@ namespace palpate::gui {
 class StartPage : public QWidget {
   Q_OBJECT
  public:
-  // `recent` must outlive this. The demo is offered only where its file is there.
+  // `recent` must outlive this. `withDemo`: whether the demo recording exists.
   StartPage(RecentFiles& recent, bool withDemo, QWidget* parent = nullptr);
   // A file is being dragged over the window.
   void setDragging(bool on);
@@ -22,7 +23,8 @@ class StartPage : public QWidget {
 
  signals:
   void openRequested();
-  void demoAsked();  // the demo recording
+  // The user wants the demo recording.
+  void demoAsked();
   void connectAsked();
   void emulatedAsked();
   void fileChosen(const QString& path);

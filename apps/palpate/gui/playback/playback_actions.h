@@ -1,4 +1,4 @@
-// What plays a recording, as actions.
+// The actions that play a recording.
 #pragma once
 
 #include <QAction>

@@ -21,7 +21,7 @@ int asInt(std::size_t value) {
       std::min(value, static_cast<std::size_t>(std::numeric_limits<int>::max())));
 }
 
-// A field to type a number into; the arrows would only repeat the step buttons.
+// A number field without arrows, which would only repeat the step buttons.
 template <class Field>
 Field* makeField(QWidget* parent, const char* name, int digits) {
   auto* field = new Field(parent);
@@ -62,8 +62,8 @@ PlaybackBar::PlaybackBar(PlaybackController& playback, QWidget* parent)
   row->addWidget(time_);
   row->addWidget(ofTime_);
 
-  // In the playback's name: closing the window ends what is being typed, perhaps after the
-  // playback.
+  // The playback is the context: when the window closes, a field may emit a value after the
+  // playback is destroyed.
   connect(seekBar_, &SeekBar::seekRequested, &playback_, [this](int frame) {
     playback_.seekFrame(static_cast<std::size_t>(frame));
   });
@@ -73,7 +73,7 @@ PlaybackBar::PlaybackBar(PlaybackController& playback, QWidget* parent)
   connect(time_, &QDoubleSpinBox::valueChanged, &playback_, [this](double seconds) {
     playback_.seekSeconds(seconds);
   });
-  // After Enter the keys belong to the playback again.
+  // After Enter, keys control the playback again.
   for (QAbstractSpinBox* field :
        {static_cast<QAbstractSpinBox*>(frame_), static_cast<QAbstractSpinBox*>(time_)})
     connect(field, &QAbstractSpinBox::editingFinished, field, &QWidget::clearFocus);
@@ -111,12 +111,12 @@ void PlaybackBar::takeRecording() {
 void PlaybackBar::showFrame(std::size_t frame) {
   const QSignalBlocker blockedBar(seekBar_), blockedFrame(frame_);
   seekBar_->setValue(asInt(frame));
-  // What is being typed isn't overwritten by the playback.
+  // The playback does not overwrite what the user is typing.
   if (!frame_->hasFocus() || !playback_.playing()) frame_->setValue(asInt(frame));
   showTime(playback_.positionS());
 }
 
-// Between two frames, too: in a gap the frame stands still and the time goes on.
+// Called between two frames, too: in a gap the time continues while the frame stays.
 void PlaybackBar::showTime(double seconds) {
   const QSignalBlocker blocked(time_);
   if (!time_->hasFocus() || !playback_.playing()) time_->setValue(seconds);

@@ -1,4 +1,5 @@
-// Where the playback stands: a seek bar, and frame and time as fields that can be typed in.
+// The bar below the views with the position of the playback: a seek bar, and editable fields for
+// frame and time.
 #pragma once
 
 #include <QWidget>
@@ -20,7 +21,7 @@ class PlaybackBar : public QWidget {
   // `playback` must outlive this.
   explicit PlaybackBar(PlaybackController& playback, QWidget* parent = nullptr);
   void setTheme(Theme theme);
-  // Puts the keyboard into the frame field.
+  // Moves the keyboard focus to the frame field.
   void editFrame();
 
  private:

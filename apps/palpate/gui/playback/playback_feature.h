@@ -1,4 +1,4 @@
-// Plays the recording that is looked at: the bar below the views, speeds, keys.
+// The feature that plays the shown recording: the bar below the views, speeds and keys.
 #pragma once
 
 #include "gui/playback/playback_actions.h"
@@ -23,7 +23,8 @@ class PlaybackFeature : public Feature {
 
   PlaybackActions actions_;
   PlaybackBar* bar_;
-  bool userLoops_ = false;  // as chosen by hand: the demo's loop is not remembered
+  // Whether the user switched the loop on; the loop of the demo is not stored.
+  bool userLoops_ = false;
 };
 
 }  // namespace palpate::gui

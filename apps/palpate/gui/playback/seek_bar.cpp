@@ -21,7 +21,8 @@ SeekBar::SeekBar(QWidget* parent) : QSlider(Qt::Horizontal, parent) {
   setRange(0, 0);
   setMinimumWidth(120);
   setFixedHeight(22);
-  setFocusPolicy(Qt::NoFocus);  // the keys of the window move it
+  // Shortcuts of the window move it.
+  setFocusPolicy(Qt::NoFocus);
   setAccessibleName("Frame");
 }
 

@@ -1,4 +1,4 @@
-// A slider over the frames of a recording: a click jumps there, a drag scrubs.
+// A slider over the frames of a recording: a click seeks to a frame, a drag follows the mouse.
 #pragma once
 
 #include <QSlider>
@@ -12,12 +12,12 @@ class SeekBar : public QSlider {
  public:
   explicit SeekBar(QWidget* parent = nullptr);
   void setTheme(Theme theme);
-  // Pixel (x) of a frame, and back.
+  // Convert between a frame and its horizontal position [px].
   double pixelOf(int frame) const;
   int frameAt(double pixel) const;
 
  signals:
-  // By mouse only; following the playback is no seek.
+  // Emitted for the mouse only, not while the slider follows the playback.
   void seekRequested(int frame);
 
  protected:

@@ -7,7 +7,7 @@ namespace palpate::gui {
 namespace {
 
 constexpr double kAirUnits = 0.9;
-constexpr double kUnitsHigh = 19.0;  // where the text is as large as fits
+constexpr double kUnitsHigh = 19.0;  // size in text units when the text is as large as fits
 constexpr double kUnitsWide = 30.0;
 
 }  // namespace

@@ -1,4 +1,4 @@
-// An answer of recognition on the screen: as large as there is room.
+// The widget that shows an answer of recognition, scaled to its size.
 #pragma once
 
 #include <QWidget>
@@ -11,7 +11,7 @@ namespace palpate::gui {
 class AnswerView : public QWidget {
   Q_OBJECT
  public:
-  // `scale`: of its text to that of the window; 0: as large as fits.
+  // `scale`: text size relative to the window's; 0: as large as fits.
   AnswerView(PhotoCache& photos, double scale, QWidget* parent = nullptr);
   void setAnswer(const RecognitionAnswer& answer);
   const RecognitionAnswer& answer() const noexcept { return answer_; }

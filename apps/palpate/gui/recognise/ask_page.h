@@ -1,5 +1,5 @@
-// The page Ask of the dock Recognise: what is held, what was grasped; large, with how sure it is,
-// and what it rests on.
+// The page Ask of the dock Recognise: names the object that is held or was grasped, in large type,
+// with the certainty and the basis of the answer.
 #pragma once
 
 #include <QWidget>
@@ -24,17 +24,19 @@ class AskPage : public QWidget {
  public:
   explicit AskPage(RecognitionController& controller, QWidget* parent = nullptr);
   void setTheme(Theme theme);
-  // What a hand is connected to that is shown; the button says what is asked about.
+  // `live`: a connected hand is shown; `held`: something is held. The label of the button depends
+  // on both.
   void setLive(bool live, bool held);
   bool byItself() const;
   AnswerView& view() noexcept { return *view_; }
 
-  // How a model is asked for; an empty answer means cancelled.
+  // Asks the user for a model file; an empty answer means cancelled.
   std::function<std::filesystem::path()> askForModel;
 
  signals:
   void asked();
-  void showAsked();  // full screen
+  // The user wants the full-screen view.
+  void showAsked();
 
  private:
   void showModel();

@@ -135,7 +135,7 @@ CheckPage::CheckPage(TrainingController& controller, QWidget* parent)
     check_->setEnabled(!controller_.folder().empty());
   });
   connect(confusion_, &ConfusionView::cellChosen, this, &CheckPage::listCell);
-  // The only one is what was meant.
+  // If the cell has only one grasp, a click opens it.
   connect(confusion_, &ConfusionView::cellClicked, this, [this] {
     if (listed_.size() == 1) openGrasp(0);
   });

@@ -1,5 +1,5 @@
-// The page Check of the dock Recognise: how well what the folder teaches is recognised, by
-// cross-validation: confusion matrix, figures of the objects, and the grasps behind each cell.
+// The page Check of the dock Recognise: cross-validation of the training folder with its confusion
+// matrix, a table of the objects, and the grasps of each cell.
 #pragma once
 
 #include <QWidget>
@@ -26,7 +26,7 @@ class CheckPage : public QWidget {
  public:
   explicit CheckPage(TrainingController& controller, QWidget* parent = nullptr);
   void setTheme(Theme theme);
-  // The grasps that are listed now, rows of the table of features.
+  // The listed grasps as rows of the feature table.
   const std::vector<std::size_t>& listed() const noexcept { return listed_; }
   ConfusionView& confusion() noexcept { return *confusion_; }
   bool shown() const;
@@ -34,14 +34,15 @@ class CheckPage : public QWidget {
   void paint(QPainter& painter, const PictureLook& look);
 
  signals:
-  // This grasp of a recording shall be seen.
+  // The user wants to see this grasp of a recording.
   void graspAsked(const std::filesystem::path& file, std::size_t begin, std::size_t end);
 
  private:
   void showCheck();
   void listObjects();
   void listCell(int truth, int called);
-  void openGrasp(std::size_t row);  // of those that are listed
+  // `row`: index into the listed grasps.
+  void openGrasp(std::size_t row);
 
   TrainingController& controller_;
   QComboBox* protocol_;

@@ -8,8 +8,8 @@ namespace {
 
 constexpr double kMostNames = 0.38;  // of the width
 constexpr double kLeastSideForText = 13.0;
-constexpr double kNameOfSide = 0.86;  // a name's pixel size
-constexpr int kLeastNamePx = 6;       // smaller ones are left out
+constexpr double kNameOfSide = 0.86;  // font size relative to the side of a cell
+constexpr int kLeastNamePx = 6;       // smaller names are left out
 
 constexpr double kConfusionPainterAir = 4.0;
 
@@ -52,12 +52,12 @@ void confusionPainterPaintNames(QPainter& painter,
         if (!readable && !marked) return;
         QFont font = grid.font;
         if (marked) {
-          // As large as can be read, where it has the room.
+          // Makes the name as large as is legible, if there is room.
           const auto largest = static_cast<int>(kReadableConfusionSide * kNameOfSide);
           while (font.pixelSize() < largest &&
                  QFontMetricsF(font).horizontalAdvance(name) < 0.9 * width)
             font.setPixelSize(font.pixelSize() + 1);
-          // It may be larger than its cell.
+          // Fills the background, because the name may be larger than its cell.
           const QFontMetricsF own(font);
           painter.setPen(Qt::NoPen);
           painter.setBrush(colors.window);
@@ -70,7 +70,7 @@ void confusionPainterPaintNames(QPainter& painter,
                          static_cast<int>(align | Qt::AlignVCenter),
                          QFontMetricsF(font).elidedText(name, Qt::ElideRight, width));
       };
-  // Marked ones last: they lie over their neighbours.
+  // Highlighted names are drawn last, over their neighbours.
   for (const bool marked : {false, true}) {
     painter.save();
     painter.setClipRect(QRectF(area.left(), grid.window.top(), area.width(), grid.window.height()),
@@ -130,7 +130,7 @@ void paintCells(QPainter& painter,
       const std::size_t count = matrix.at(row, called);
       const double share = support > 0.0 ? static_cast<double>(count) / support : 0.0;
       const bool right = called == row;
-      // A single mistake is to be seen.
+      // A single error must be visible, so its tone has a minimum.
       const double tone = count == 0 ? 0.0 : std::max(share, right ? 0.25 : 0.75);
       QColor ground = mixed(colors.taxel, right ? colors.accent : colors.warning, tone);
       if (hovered(marks, row, grid.calledOf(column))) ground = mixed(ground, colors.text, 0.14);
@@ -180,7 +180,8 @@ ConfusionGrid confusionGrid(const ConfusionMatrix& matrix,
   const double most = kMostNames * area.width();
   grid.side = side.value_or(kLargestConfusionSide);
   double names = 0.0, above = 0.0;
-  // Smaller cells have smaller names, which leave room for larger cells: a few rounds settle it.
+  // Smaller cells have smaller names, which leave more room for the cells; a few iterations
+  // suffice.
   for (int round = 0; round < (side ? 1 : 4); ++round) {
     grid.font = nameFont(plain, grid.side);
     names = nameWidth(matrix, grid.font, most);

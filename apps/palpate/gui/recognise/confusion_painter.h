@@ -1,5 +1,5 @@
-// A confusion matrix on paper: where its cells and names are, and how they look. Names are as small
-// as their cells need.
+// Paints a confusion matrix and computes its layout, for ConfusionView and for export. The font of
+// the names shrinks with the cells.
 #pragma once
 
 #include <QFont>
@@ -14,19 +14,27 @@
 
 namespace palpate::gui {
 
-// truth, called (ConfusionMatrix::kUnknown: the last column)
+// (truth, called); called is ConfusionMatrix::kUnknown for the last column.
 using ConfusionCell = std::pair<int, int>;
 
-constexpr double kSmallestConfusionSide = 3.0;   // of a cell [px],
-constexpr double kReadableConfusionSide = 14.0;  // from here on names beside one another are read
+// [px] side of a cell
+constexpr double kSmallestConfusionSide = 3.0;
+// [px] from this side on, the names of neighbouring cells are legible
+constexpr double kReadableConfusionSide = 14.0;
 constexpr double kLargestConfusionSide = 44.0;
 
+// The layout of a painted matrix.
 struct ConfusionGrid {
-  int rows = 0, columns = 0;  // the last column may be "unknown"
-  QFont font;                 // of the names
-  double side = 0.0;          // of a cell
-  QRectF window;              // what shows cells
-  QPointF origin;             // of the first cell, left and above of the window when scrolled
+  // The last column may be "unknown".
+  int rows = 0, columns = 0;
+  // Font of the names.
+  QFont font;
+  // Side of a cell [px].
+  double side = 0.0;
+  // The visible part of the cells.
+  QRectF window;
+  // The top left of the first cell; outside the window when scrolled.
+  QPointF origin;
   double wholeWidth() const { return side * columns; }
   double wholeHeight() const { return side * rows; }
   int calledOf(int column) const { return column < rows ? column : ConfusionMatrix::kUnknown; }
@@ -34,26 +42,31 @@ struct ConfusionGrid {
   QRectF rectOf(const ConfusionCell& cell) const;
 };
 
-// `side`: of a cell; nothing: as large as all of it fits.
+// Computes the layout. `side`: side of a cell [px]; nothing: the largest with which everything
+// fits.
 ConfusionGrid confusionGrid(const ConfusionMatrix& matrix,
                             const QRectF& area,
                             const QFont& plain,
                             std::optional<double> side = {},
                             QPointF scrolled = {});
+// The name of a class; "unknown" for ConfusionMatrix::kUnknown.
 QString confusionName(const ConfusionMatrix& matrix, int index);
 
+// The highlighted cells.
 struct ConfusionMarks {
-  std::optional<ConfusionCell> chosen;   // framed
-  std::optional<ConfusionCell> hovered;  // its row and column stand out
+  // This cell is drawn with a frame.
+  std::optional<ConfusionCell> chosen;
+  // The row and column of this cell are highlighted.
+  std::optional<ConfusionCell> hovered;
 };
-// With the painter's font.
+// Paints a matrix with a given layout; the font is the painter's.
 void paintConfusion(QPainter& painter,
                     const QRectF& area,
                     const ConfusionGrid& grid,
                     const ConfusionMatrix& matrix,
                     Theme theme,
                     const ConfusionMarks& marks = {});
-// All of it, as large as fits.
+// Paints the whole matrix as large as fits.
 void paintConfusion(QPainter& painter,
                     const QRectF& area,
                     const ConfusionMatrix& matrix,

@@ -69,7 +69,7 @@ void ConfusionView::setSide(std::optional<double> side) {
 
 void ConfusionView::showAll() { setSide(kSmallestConfusionSide); }
 
-// Of the matrix that is shown, scrolled as it is.
+// The layout of the shown matrix with its present scroll position.
 ConfusionGrid ConfusionView::gridInSight() const {
   return confusionGrid(*matrix_,
                        areaOf(*viewport()),
@@ -85,7 +85,7 @@ QRectF ConfusionView::rectOf(const Cell& cell) const {
 }
 
 void ConfusionView::layOut() {
-  // Bars take room from each other: twice settles it.
+  // Each scroll bar reduces the room for the other, so the layout is computed twice.
   for (int round = 0; round < 2; ++round) {
     int wide = 0, high = 0, width = 0, height = 0;
     if (matrix_ && !matrix_->classes().empty()) {
@@ -206,7 +206,7 @@ void ConfusionView::keyPressEvent(QKeyEvent* event) {
 }
 
 bool ConfusionView::event(QEvent* event) {
-  // Keys that move in it play nothing back.
+  // Keys that navigate in the matrix must not trigger shortcuts of the playback.
   if (event->type() == QEvent::ShortcutOverride) {
     switch (static_cast<QKeyEvent*>(event)->key()) {
       case Qt::Key_Left:

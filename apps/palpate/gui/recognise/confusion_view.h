@@ -1,7 +1,7 @@
-// A confusion matrix: what it was (rows) against what it was called (columns). A cell can be chosen
-// by mouse or arrow keys; the row and the column under the pointer stand out. As large as its names
-// need to be read: then it scrolls, names stay; Ctrl and the wheel, + and - zoom, 0 shows all of
-// it.
+// The widget for a confusion matrix: rows are true classes, columns are predicted ones. A cell is
+// chosen by mouse or arrow keys; the row and column under the pointer are highlighted. Cells are
+// large enough for legible names; if they don't fit, the view scrolls while the names stay visible.
+// Ctrl with the wheel, + and - zoom; 0 shows everything.
 #pragma once
 
 #include <QAbstractScrollArea>
@@ -25,20 +25,23 @@ class ConfusionView : public QAbstractScrollArea {
   void setTheme(Theme theme);
   void choose(std::optional<Cell> cell);
   const std::optional<Cell>& chosen() const noexcept { return chosen_; }
-  // Side of a cell [px]: as set by zooming, else what is readable. Nothing: as large as that.
-  // Clamped.
+  // Side of a cell [px]: the zoomed one, else one with legible names. setSide() limits the value;
+  // nothing returns to legible names.
   double side() const;
   void setSide(std::optional<double> side);
-  void showAll();  // however small that is
-  // Of a cell, in the viewport; empty: scrolled away.
+  // However small the cells become.
+  void showAll();
+  // The rectangle of a cell in the viewport; empty when it is scrolled out of view.
   QRectF rectOf(const Cell& cell) const;
   QSize sizeHint() const override { return {380, 340}; }
   QSize minimumSizeHint() const override { return {200, 180}; }
 
  signals:
   void cellChosen(int truth, int called);
-  void cellClicked(int truth, int called);  // by mouse, after cellChosen()
-  void cellOpened(int truth, int called);   // double click, Return: what is behind it shall be seen
+  // By mouse; follows cellChosen().
+  void cellClicked(int truth, int called);
+  // Double click or Return: the user wants to see the grasps of the cell.
+  void cellOpened(int truth, int called);
 
  protected:
   void paintEvent(QPaintEvent* event) override;
@@ -55,7 +58,8 @@ class ConfusionView : public QAbstractScrollArea {
  private:
   ConfusionGrid gridInSight() const;
   std::optional<Cell> cellAt(const QPointF& at) const;
-  void layOut();  // scroll bars
+  // Updates the scroll bars.
+  void layOut();
   void reveal(const Cell& cell);
   void moveChosen(int columns, int rows);
 

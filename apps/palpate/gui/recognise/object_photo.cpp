@@ -35,7 +35,7 @@ std::filesystem::path photoOf(const QString& name,
 
 void PhotoCache::setFolders(std::vector<std::filesystem::path> folders) {
   if (folders == folders_) {
-    // What wasn't there may have come.
+    // Photos that were missing may exist now.
     std::erase_if(read_, [](const auto& one) { return one.second.isNull(); });
     return;
   }

@@ -1,6 +1,6 @@
-// Photos of things that are recognised: jpg or png files beside a model or in the folder that
-// taught it, called as the class
-// ("foam ball": foam_ball.jpg or "foam ball.png"), or any in the folder of that name.
+// Finds photos of recognised objects: jpg or png files next to a model or in its training folder,
+// named like the class ("foam ball": foam_ball.jpg or "foam ball.png"), or any photo in a subfolder
+// of that name.
 #pragma once
 
 #include <QPixmap>
@@ -11,15 +11,15 @@
 
 namespace palpate::gui {
 
-// Path of the photo; empty: there is none. The first folder that has one.
+// Path of the photo from the first folder that has one; empty when none has.
 std::filesystem::path photoOf(const QString& name,
                               const std::vector<std::filesystem::path>& folders);
 
-// Reads each photo once, no larger than a screen needs it.
+// Reads each photo once and keeps it no larger than a screen needs.
 class PhotoCache {
  public:
   void setFolders(std::vector<std::filesystem::path> folders);
-  // Null: there is none, or it can't be read.
+  // Null when there is no photo or it cannot be read.
   const QPixmap& photo(const QString& name);
 
  private:

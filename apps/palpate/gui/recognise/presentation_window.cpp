@@ -41,7 +41,7 @@ void PresentationWindow::showAnswer() {
   const bool ofNow = answer.of.isEmpty() || answer.of == kHeldNow;
   if (answer.of == kLastGrasp || (live_ && !ofNow)) answer = {};
   answer.of.clear();
-  // An audience is asked for nothing.
+  // The audience needs no hint about buttons.
   if (answer.kind == RecognitionAnswer::Kind::kNothing) answer.text = "Hold something.";
   view_->setAnswer(answer);
 }

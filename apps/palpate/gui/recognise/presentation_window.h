@@ -1,5 +1,5 @@
-// The show mode: the answer alone, as large as the screen, for an audience. Of a connected hand it
-// names what is held now, and nothing else. Any of Esc and its own key close it.
+// The full-screen window that shows only the answer, for an audience. With a connected hand it
+// names only what is held now. Esc or the key that opened it closes it.
 #pragma once
 
 #include <QWidget>
@@ -18,7 +18,7 @@ class PresentationWindow : public QWidget {
                      Theme theme,
                      QWidget* parent = nullptr);
   AnswerView& view() noexcept { return *view_; }
-  // A connected hand is shown: answers about recordings aren't for now.
+  // `live`: a connected hand is shown, so that answers about recordings are left out.
   void setLive(bool live);
 
  signals:

@@ -1,4 +1,4 @@
-// What asks what is held, as actions.
+// The actions of recognition.
 #pragma once
 
 #include <QAction>
@@ -12,9 +12,9 @@ namespace palpate::gui {
 struct RecogniseActions {
   explicit RecogniseActions(ActionRegistry& book);
 
-  // recognition of the selection, or of what is held
+  // Recognises the selection, or what is held.
   QAction* whatIsIt = nullptr;
-  // its answer on the whole screen
+  // Shows the answer on the full screen.
   QAction* presentationMode = nullptr;
 };
 

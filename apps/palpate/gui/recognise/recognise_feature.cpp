@@ -19,10 +19,10 @@ namespace {
 
 constexpr int kRecogniseUsualWidth = 430;  // [px]
 constexpr int kHearingMs = 50;
-constexpr int kAskAgainRounds = 10;  // by itself: twice a second
-constexpr double kSteadyS = 0.8;     // held so long before it is asked by itself
+constexpr int kAskAgainRounds = 10;  // timer calls: asks twice a second
+constexpr double kSteadyS = 0.8;     // holding time before the first automatic question
 constexpr std::size_t kWaitingItems = 2048;
-constexpr double kAirS = 1.0;  // about a grasp that is shown
+constexpr double kAirS = 1.0;  // [s] margin around a shown grasp
 
 }  // namespace
 
@@ -46,7 +46,7 @@ void RecogniseFeature::connectAll() {
   connect(panel_, &RecognisePanel::said, &windowState.messages, &Messages::flash);
   connect(panel_, &RecognisePanel::failed, &windowState.messages, &Messages::fail);
   connect(&panel_->today(), &TodayPage::zeroAsked, this, &RecogniseFeature::beginZero);
-  // After a stop, or anything else that is asked of the hand, nothing of a zero moves it any more.
+  // After a stop or any other command to the hand, the zero measurement no longer moves it.
   connect(&windowState.handCommands, &HandCommands::asked, this, &RecogniseFeature::cancelZero);
   connect(&panel_->check(), &CheckPage::graspAsked, this, &RecogniseFeature::showGrasp);
   panel_->teach().zeroNow = [this] { return zero_; };
@@ -58,7 +58,7 @@ void RecogniseFeature::connectAll() {
     ask();
   });
   on(actions_.presentationMode, [this] { showFull(); });
-  // However it is shown, its model is looked for.
+  // Whatever makes the dock visible, the model is loaded.
   connect(dock_, &QDockWidget::visibilityChanged, this, [this](bool seen) {
     if (seen) renew();
   });
@@ -96,7 +96,7 @@ void RecogniseFeature::ask() {
     askOfRecording();
 }
 
-// The selection; else the grasp under the cursor; else the only one.
+// Asks about the selection; else about the grasp at the cursor; else about the only grasp.
 void RecogniseFeature::askOfRecording() {
   RecognitionController& controller = panel_->controller();
   const OpenedRecordingPtr recording = state().displayed.recorded();
@@ -126,7 +126,7 @@ void RecogniseFeature::askOfRecording() {
   question(recording->timeAt(chosen->begin), recording->timeAt(chosen->end));
 }
 
-// What is held now; else the last grasp.
+// Asks about the held object; else about the last grasp.
 void RecogniseFeature::askOfHand() {
   takeItems();
   RecognitionController& controller = panel_->controller();
@@ -172,7 +172,7 @@ void RecogniseFeature::takeItems() {
   }
   items_.clear();
   std::vector<Profile> ended = collector_->takeEnded();
-  // Also when something else is held by now.
+  // Also when the next object is already held.
   if (held && (!collector_->touched() || !ended.empty())) panel_->controller().contactEnded();
   if (!held && collector_->touched()) panel_->controller().touchBegins();
   for (Profile& grasp : ended) takeEnded(std::move(grasp));
@@ -265,7 +265,8 @@ void RecogniseFeature::showWanted() {
   const OpenedRecordingPtr recording = state().displayed.recorded();
   if (!wanted_ || !recording || recording->path != wanted_->file) return;
   const Wanted wanted = *std::exchange(wanted_, std::nullopt);
-  if (wanted.end >= recording->profile.numFrames()) return;  // another one by now
+  // The file has changed meanwhile.
+  if (wanted.end >= recording->profile.numFrames()) return;
   const TimeSpan span{recording->timeAt(wanted.begin), recording->timeAt(wanted.end)};
   state().selection.showWithMargin({span.fromS - kAirS, span.toS + kAirS});
   state().selection.setSpan(span);
@@ -277,7 +278,7 @@ bool RecogniseFeature::cancel() {
     full_->close();
     return true;
   }
-  // The key stops the hand, too.
+  // Escape also stops the hand.
   cancelZero();
   return panel_->cancel();
 }

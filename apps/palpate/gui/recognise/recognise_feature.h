@@ -1,5 +1,5 @@
-// The dock Recognise: what it is asked about (the selection, what is held), the answer on the whole
-// screen, and the zero of the empty hand.
+// The feature with the dock Recognise: asks about the selection or the held object, shows answers
+// on the full screen, and measures the zero of the empty hand.
 #pragma once
 
 #include <QPointer>
@@ -34,23 +34,25 @@ class RecogniseFeature : public Feature {
 
  private:
   void connectAll();
-  void renew();  // another recording, another look
+  // The source or the appearance has changed.
+  void renew();
   void ask();
   void askOfRecording();
   void askOfHand();
   void listen(bool on);
-  // Takes in what has come from the hand since the last time; asks nothing.
+  // Processes the items that arrived from the hand since the last call, without asking a question.
   void takeItems();
-  // A round: takes in what has come, goes on with a zero, and asks by itself where that is wanted.
+  // Called by a timer: processes new items, continues a zero measurement, and asks repeatedly when
+  // the user wants that.
   void readLiveGrasps();
   void showFull();
   void takeEnded(Profile grasp);
-  // The zero of the empty hand: close until the pads touch, hold, open.
+  // The zero of the empty hand: closes it until the pads touch, holds, opens.
   void beginZero();
   void goOnWithZero();
   void cancelZero();
   void sayNoZero(const std::string& why);
-  // A grasp of a recording that may have to be opened first.
+  // Shows a grasp; opens its recording first if necessary.
   void showGrasp(const std::filesystem::path& file, std::size_t begin, std::size_t end);
   void showWanted();
   bool cancel();
@@ -59,15 +61,18 @@ class RecogniseFeature : public Feature {
   RecognisePanel* panel_;
   Dock* dock_;
   QPointer<PresentationWindow> full_;
-  // Of what is connected.
+  // The items of the connected hand.
   std::shared_ptr<CaptureQueue> queue_;
   std::unique_ptr<GraspCollector> collector_;
   std::vector<CaptureItem> items_;
   std::optional<Profile> lastGrasp_;
   QTimer liveTimer_;
-  int sinceAsked_ = 0;                       // rounds
-  std::unique_ptr<EmptyHandCycle> zeroRun_;  // null: what is connected can't be moved
-  std::optional<EmptyHandZero> zero_;        // of today
+  // Calls of the timer since the last question.
+  int sinceAsked_ = 0;
+  // Null when the connected source cannot be moved.
+  std::unique_ptr<EmptyHandCycle> zeroRun_;
+  // The zero of the empty hand in this session.
+  std::optional<EmptyHandZero> zero_;
   struct Wanted {
     std::filesystem::path file;
     std::size_t begin = 0, end = 0;

@@ -70,7 +70,7 @@ void RecognisePanel::settle() {
   teaching_->settle();
 }
 
-// The folder of the last time is looked into when it is needed.
+// Reads the last training folder only when the dock is visible.
 void RecognisePanel::showEvent(QShowEvent* event) {
   QWidget::showEvent(event);
   if (!teaching_->folder().empty() && !teaching_->table() && !teaching_->busy()) teaching_->look();

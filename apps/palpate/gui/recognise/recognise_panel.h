@@ -1,5 +1,4 @@
-// The content of the dock Recognise: pages that ask what is in the hand, adapt to today, teach, and
-// check how well it goes.
+// The content of the dock Recognise: the pages Ask, Today, Teach and Check.
 #pragma once
 
 #include <filesystem>

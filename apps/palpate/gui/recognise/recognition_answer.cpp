@@ -12,13 +12,13 @@ namespace palpate::gui {
 namespace {
 
 constexpr std::size_t kBest = 3;
-constexpr double kNameUnits = 3.0;  // of the name, at most
+constexpr double kNameUnits = 3.0;  // largest size of the name
 constexpr double kLeastNameUnits = 1.2;
 constexpr double kPhotoShare = 0.36;            // of the width, at most
-constexpr double kRecognitionAnswerLine = 1.7;  // [units] of a runner-up
+constexpr double kRecognitionAnswerLine = 1.7;  // [units] height of a runner-up's line
 
 QString percent(double p) {
-  // 100 % is nobody's.
+  // Never shows 100 %.
   return QString::number(std::clamp(static_cast<int>(std::lround(100.0 * p)), 0, 99)) + " %";
 }
 
@@ -48,7 +48,7 @@ void paintBar(QPainter& painter, const QRectF& bar, double p, const QColor& colo
   painter.restore();
 }
 
-// Returns where it ends.
+// Returns the lower end of the text.
 double paintWords(QPainter& painter,
                   const QRectF& room,
                   const QString& text,
@@ -162,7 +162,7 @@ void paintAnswer(QPainter& painter,
     return;
   }
   const QColor color = recognitionAnswerColorOf(answer, colors);
-  // As large as it fits.
+  // The name is as large as fits.
   double size = kNameUnits * unit;
   while (size > kLeastNameUnits * unit &&
          QFontMetricsF(fontOf(painter, size, true)).horizontalAdvance(answer.name()) > room.width())
@@ -202,7 +202,7 @@ void paintAnswer(QPainter& painter,
                    colors.muted) +
         0.4 * unit;
   }
-  // The runners-up; of what is unknown the nearest, too.
+  // The runners-up; for an unknown object also the most similar class.
   const double nameWidth = 0.48 * room.width();
   for (std::size_t k = named ? 1 : 0; k < answer.best.size(); ++k) {
     const auto& place = answer.best[k];

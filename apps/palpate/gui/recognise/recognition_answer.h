@@ -1,5 +1,5 @@
-// What recognition says of one grasp, as the window tells it: on a page, on the wall of a lecture
-// hall, on paper.
+// The answer of recognition about one grasp, with its texts and its painting: used by the dock, the
+// full-screen window and exported pictures.
 #pragma once
 
 #include <QPixmap>
@@ -17,10 +17,11 @@ class QPainter;
 
 namespace palpate::gui {
 
-// RecognitionAnswer::of, for a grasp of the connected hand.
+// RecognitionAnswer::of for grasps of the connected hand.
 inline constexpr const char* kHeldNow = "held now";
 inline constexpr const char* kLastGrasp = "the last grasp";
 
+// An answer with the texts that are shown with it.
 struct RecognitionAnswer {
   enum class Kind { kNothing, kProblem, kNamed, kUnknown };
   struct Place {
@@ -29,30 +30,36 @@ struct RecognitionAnswer {
   };
 
   Kind kind = Kind::kNothing;
-  QString text;       // of kProblem: why there is no name; of kNothing: what to do
-  bool sure = false;  // right 95 times in 100
-  // of kNamed, kUnknown: up to three, best first; the first one is what it is called
+  // For kProblem the reason why there is no name; for kNothing what the user can do.
+  QString text;
+  // Answers marked as sure are right in 95 of 100 cases.
+  bool sure = false;
+  // For kNamed and kUnknown: up to three classes, the most probable first.
   std::vector<Place> best;
-  QString of;                        // which grasp: "foam_ball.dsa, 12.40 – 14.10 s"
-  QString offset;                    // "today the hand reads ..."
-  QString unsure;                    // why nothing is sure; may be empty
-  std::optional<std::size_t> grasp;  // of the day's
+  // Which grasp the answer is about: "foam_ball.dsa, 12.40 – 14.10 s".
+  QString of;
+  // The session offset in words: "today the hand reads ...".
+  QString offset;
+  // Why no answer is sure; may be empty.
+  QString unsure;
+  // Index into the grasps of the session.
+  std::optional<std::size_t> grasp;
 
-  // "foam ball", "unknown"; empty without an answer.
+  // "foam ball", "unknown"; empty without an answer
   QString name() const;
-  // "sure", "not sure", "unknown"; empty without an answer.
+  // "sure", "not sure", "unknown"; empty without an answer
   QString confidenceWord() const;
-  // For those who hear it: "foam ball, 97 %, sure".
+  // Text for screen readers: "foam ball, 97 %, sure".
   QString accessibleText() const;
 };
 
-// Of a verdict with a model.
+// The answer for a prediction of `model`.
 RecognitionAnswer answerOf(const TrainedModel& model, const Prediction& prediction);
-// What a person reads of an offset; `emulated`: the hand has none.
+// Describes an offset in words; `emulated`: the emulated hand has no offset.
 QString offsetText(const SessionOffset& offset, bool emulated);
 
-// Large name, word, bar, two runners-up, and the photo where there is one; `unit`: height of plain
-// text.
+// Paints the name in large type, the certainty, a bar, two runners-up, and the photo if there is
+// one; `unit`: height of plain text [px].
 void paintAnswer(QPainter& painter,
                  const QRectF& area,
                  const RecognitionAnswer& answer,

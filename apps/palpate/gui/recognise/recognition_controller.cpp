@@ -90,13 +90,13 @@ void RecognitionController::setModel(std::optional<TrainedModel> model,
   path_ = path;
   modelProblem_.clear();
   session_ = model ? std::make_unique<RecognitionSession>(std::move(*model)) : nullptr;
-  // Its joints are never referenced anew.
+  // The joints of the emulated hand are never referenced again, so that its offset is 0.
   if (session_ && emulated_ && isEmulatedModel() && session_->model().adaptsToSession())
     session_->choose({OffsetChoice::Kind::kGiven, 0.0});
   setPhotoFolder(photoFolder_);
   last_.reset();
   ++generation_;
-  // What the last model said is nothing of this one's.
+  // The answer of the previous model is removed.
   answer_ = {};
   answer_.text = kHowToAsk;
   emit modelChanged();
@@ -163,7 +163,8 @@ void RecognitionController::ask(const RecogniseQuestion& question) {
             session_->add(chosen->features.values, chosen->timeUs);
             emit sessionChanged();
           } catch (const std::invalid_argument&) {
-            return;  // of the model before
+            // The grasp has the features of the previous model.
+            return;
           }
         }
         classify(*chosen, of == kHeldNow && contact != contact_ ? QString(kLastGrasp) : of);
@@ -202,7 +203,7 @@ void RecognitionController::touchBegins() {
 void RecognitionController::contactEnded() {
   ++contact_;
   if (answer_.of != kHeldNow) return;
-  // Why there was no answer yet says nothing of what is gone.
+  // The reason why there was no answer yet no longer applies.
   if (answer_.kind == RecognitionAnswer::Kind::kProblem && !last_) return sayHowToAsk();
   if (last_) last_->second = kLastGrasp;
   answer_.of = kLastGrasp;

@@ -1,5 +1,5 @@
-// What stands behind the dock Recognise: the model in use, the day with it, and questions that are
-// answered beside the window.
+// The controller of the dock Recognise: keeps the model in use and its session, and answers
+// questions in a worker thread.
 #pragma once
 
 #include <QObject>
@@ -20,51 +20,58 @@
 
 namespace palpate::gui {
 
+// A question: which object was grasped in these frames.
 struct RecogniseQuestion {
   Profile profile;
-  std::optional<std::pair<std::size_t, std::size_t>> frames;  // both inclusive; nothing: all
-  QString of;                                                 // as RecognitionAnswer::of
+  // First and last frame, both inclusive; nothing: all frames.
+  std::optional<std::pair<std::size_t, std::size_t>> frames;
+  // As RecognitionAnswer::of.
+  QString of;
 };
 
 class RecognitionController : public QObject {
   Q_OBJECT
  public:
-  // `dataFolder` has the model of emulated objects.
+  // `dataFolder` contains the model for the emulated hand.
   RecognitionController(QSettings& settings,
                         std::filesystem::path dataFolder,
                         QObject* parent = nullptr);
 
-  // The emulated hand is what is connected and shown: its model is taken, as long as nobody chose
-  // another for it.
+  // Sets whether the emulated hand is shown. Its own model is then used, unless the user chose
+  // another one for it.
   void setEmulated(bool emulated);
   bool emulated() const noexcept { return emulated_; }
-  // Of its own accord it takes the last one; in the background.
+  // Opens a model in the background. Without a call, the last used model is opened.
   void openModel(const std::filesystem::path& path);
   void useEmulatedModel();
-  // Made here, and saved there.
+  // Uses a model that was just trained and saved at `path`.
   void takeModel(TrainedModel model, const std::filesystem::path& path);
   const TrainedModel* model() const { return session_ ? &session_->model() : nullptr; }
   const std::filesystem::path& modelPath() const noexcept { return path_; }
   QString modelProblem() const { return modelProblem_; }
-  // Null without a model.
+  // The session with the model; null without a model.
   RecognitionSession* session() noexcept { return session_.get(); }
-  // After day() was changed: tells it, and judges the last grasp anew.
+  // Changes the session by calling `change`, emits sessionChanged(), and evaluates the last grasp
+  // again.
   void changeSession(const std::function<void(RecognitionSession&)>& change);
 
-  // Answered by answered(), later. Replaces a question that is at work.
+  // Asks a question; answered() follows later. Replaces a running question.
   void ask(const RecogniseQuestion& question);
-  // There is nothing to ask about: why. `of` as RecognitionAnswer::of; may be empty.
+  // Answers that there is nothing to ask about, and why. `of` is as in RecognitionAnswer::of and
+  // may be empty.
   void sayTrouble(const QString& text, const QString& of = {});
-  // Something is held from now on: that nothing was is over.
+  // A contact has begun: removes a message that nothing is held.
   void touchBegins();
-  // Nothing is held any more: what was asked of "held now" is from here on of "the last grasp".
+  // The contact has ended: an answer about "held now" becomes one about "the last grasp".
   void contactEnded();
   const RecognitionAnswer& answer() const noexcept { return answer_; }
   PhotoCache& photos() noexcept { return photos_; }
-  void setPhotoFolder(const std::filesystem::path& folder);  // of teaching
+  // Sets the training folder as a folder with photos.
+  void setPhotoFolder(const std::filesystem::path& folder);
   bool busy() const { return asking_.busy() || opening_.busy(); }
   bool cancel();
-  void settle();  // for tests and pictures
+  // Waits until all work is done; for tests and pictures.
+  void settle();
 
  signals:
   void modelChanged();
@@ -89,10 +96,13 @@ class RecognitionController : public QObject {
   QString modelProblem_;
   std::unique_ptr<RecognitionSession> session_;
   RecognitionAnswer answer_;
-  std::optional<std::pair<ChosenGrasp, QString>> last_;  // that was judged, and what it is of
-  std::optional<RecogniseQuestion> waiting_;             // for the model
+  // The last evaluated grasp, and its RecognitionAnswer::of.
+  std::optional<std::pair<ChosenGrasp, QString>> last_;
+  // A question that waits until the model is loaded.
+  std::optional<RecogniseQuestion> waiting_;
   int generation_ = 0;
-  int contact_ = 0;  // counts what the hand held: one more with each contactEnded()
+  // Counts contacts: contactEnded() adds one.
+  int contact_ = 0;
   PhotoCache photos_;
   BackgroundJob opening_;
   BackgroundJob asking_;

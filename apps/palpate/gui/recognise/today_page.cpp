@@ -93,8 +93,8 @@ TodayPage::TodayPage(RecognitionController& controller, QWidget* parent)
         (from.parent_path() / (from.stem().string() + "_today.json")).string()));
     if (path.empty()) return;
     try {
-      saveModel(
-          controller_.session()->adapted(), path, Overwrite::kReplace);  // the dialog has asked
+      // The dialog has asked before it replaces a file.
+      saveModel(controller_.session()->adapted(), path, Overwrite::kReplace);
       emit controller_.said("saved " + QString::fromStdString(path.filename().string()));
     } catch (const Error& error) {
       emit controller_.said(error.what());

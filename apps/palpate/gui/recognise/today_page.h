@@ -1,5 +1,5 @@
-// The page Today of the dock Recognise: by how much the hand reads sizes wrong today, how that is
-// known, and the day's grasps.
+// The page Today of the dock Recognise: the offset with which the hand reads sizes in this session,
+// how it was determined, and the grasps of the session.
 #pragma once
 
 #include <QWidget>
@@ -23,7 +23,8 @@ class TodayPage : public QWidget {
  public:
   explicit TodayPage(RecognitionController& controller, QWidget* parent = nullptr);
   void setTheme(Theme theme);
-  // Why the hand can't be closed now; empty: it can. `closing`: it is being done.
+  // `why`: why the hand cannot be closed now; empty when it can. `closing`: the measurement is
+  // running.
   void setZeroPossible(const QString& why, bool closing);
 
   std::function<std::filesystem::path(const QString& suggestion)> askForPlace;

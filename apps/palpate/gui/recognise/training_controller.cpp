@@ -19,10 +19,10 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kTeachingDeskFolderKey = "recognise/folder";
-constexpr double kGoodQuality = 0.5;  // from here on a clip is taken without asking
+constexpr double kGoodQuality = 0.5;  // a clip of this quality or better is stored at once
 constexpr std::size_t kBlocks = 5, kSplits = 10;
 
-// The classifier that carries over to another day.
+// Options with the classifier that also works on recordings of another day.
 PipelineOptions gauss() {
   PipelineOptions options;
   options.classifier = ClassifierKind::kGauss;
@@ -34,7 +34,7 @@ fs::path objectFolder(const fs::path& folder, const QString& object) {
   return folder / fileNamePart(object.toStdString());
 }
 
-// "objects": beside it "objects_taken_out".
+// The folder for clips that were taken out: "objects_taken_out" next to "objects".
 fs::path takenOutFolder(const fs::path& folder) {
   return folder.parent_path() / (folder.filename().string() + "_taken_out");
 }
@@ -152,7 +152,8 @@ void TrainingController::save(std::size_t index) {
         try {
           const fs::path place = objectFolder(folder, object);
           fs::create_directories(place);
-          if (!from.empty()) {  // it was taken out
+          // The clip was taken out before.
+          if (!from.empty()) {
             written->path = teachingDeskFreePlace(place / from.filename());
             fs::rename(from, written->path);
             return;

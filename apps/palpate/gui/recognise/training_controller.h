@@ -1,6 +1,6 @@
-// Teaching by a folder with a folder of recordings per object: what it holds, clips that are
-// captured into it, the model that learns from it, and how well that goes. All beside the window,
-// one after the other.
+// The controller of the pages Teach and Check: manages a training folder (one subfolder of
+// recordings for each object), captures clips into it, trains a model and validates it. The work
+// runs in a worker thread, one task after the other.
 #pragma once
 
 #include <QObject>
@@ -23,30 +23,38 @@
 
 namespace palpate::gui {
 
-// A grasp that was captured to teach.
+// A captured grasp for training.
 struct TrainingClip {
   enum class State {
-    kWaiting,   // something is wrong with it: it is taken when a person says so
-    kSaving,    //
-    kAccepted,  // it lies in the folder
-    kTakenOut,  // it lies beside the folder
-    kFailed     // it could not be written
+    // It has a problem and is stored only when the user accepts it.
+    kWaiting,
+    // It is being written.
+    kSaving,
+    // It is in the training folder.
+    kAccepted,
+    // It was moved to a folder next to the training folder.
+    kTakenOut,
+    // It could not be written.
+    kFailed
   };
   State state = State::kWaiting;
   QString object;
-  std::filesystem::path path;  // where it lies; empty: nowhere yet
+  // Path of the file; empty when there is none yet.
+  std::filesystem::path path;
   Profile profile;
   double quality = 0.0;  // 0..1
   double seconds = 0.0;
-  QString problem;  // why it waits, or failed
+  // Why it waits or failed.
+  QString problem;
 };
 
-// Cross-validation over the folder.
+// Results of a cross-validation over the training folder.
 struct TrainingValidation {
   std::shared_ptr<const FeatureTable> table;
   SampleSet samples;
   std::optional<ValidationReport> report;
-  bool blocks = true;  // protocol B; else S
+  // Protocol B (blocks in time); otherwise S (random splits).
+  bool blocks = true;
 };
 
 class TrainingController : public QObject {
@@ -55,24 +63,28 @@ class TrainingController : public QObject {
   explicit TrainingController(QSettings& settings, QObject* parent = nullptr);
 
   const std::filesystem::path& folder() const noexcept { return folder_; }
-  // Empty: none. Looks into it.
+  // Sets and reads the training folder; empty: none.
   void setFolder(const std::filesystem::path& folder);
-  void look();  // again
-  // Null: not looked into yet, or it can't be.
+  // Reads the folder again.
+  void look();
+  // Features of the folder's grasps; null when it is not read yet or cannot be read.
   const std::shared_ptr<const FeatureTable>& table() const noexcept { return table_; }
-  QString problem() const { return problem_; }  // why not
-  // Objects and their grasps, those that were captured since included.
+  // Why the folder cannot be read.
+  QString problem() const { return problem_; }
+  // The objects with their number of grasps, including those captured since the folder was read.
   std::map<QString, int> counts() const;
 
-  // A grasp of an object. Good ones are taken at once, the others wait.
+  // Captures a grasp of an object. Good ones are stored at once; others wait for the user.
   void capture(const QString& object, const Profile& clip);
   const std::vector<TrainingClip>& clips() const noexcept { return clips_; }
-  void accept(std::size_t clip);   // one that waits, or was taken out
-  void takeOut(std::size_t clip);  // beside the folder: nothing is deleted
-  // The newest that is in the folder; nothing: there is none.
+  // Stores a clip that waits or was taken out.
+  void accept(std::size_t clip);
+  // Moves a clip out of the training folder; nothing is deleted.
+  void takeOut(std::size_t clip);
+  // The newest clip in the training folder; nothing when there is none.
   std::optional<std::size_t> newestAccepted() const;
 
-  // Learns from the folder as it is now; trained() follows.
+  // Trains with the present content of the folder; emits trained().
   void train(const std::filesystem::path& out, const std::optional<EmptyHandZero>& zero);
   void check(bool blocks);
   const std::shared_ptr<const TrainingValidation>& checked() const noexcept { return checked_; }
@@ -83,7 +95,8 @@ class TrainingController : public QObject {
   void settle();
 
  signals:
-  void folderChanged();  // or what it holds
+  // Another folder, or its content has changed.
+  void folderChanged();
   void clipsChanged();
   void trained(const palpate::TrainedModel& model, const QString& path);
   void checkedChanged();

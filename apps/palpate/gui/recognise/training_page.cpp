@@ -15,7 +15,8 @@ namespace palpate::gui {
 namespace {
 
 using TeachPageState = TrainingClip::State;
-constexpr int kFewGrasps = 5;  // of an object: blocks can't examine it
+// With fewer grasps of an object, cross-validation in blocks is not possible.
+constexpr int kFewGrasps = 5;
 
 std::vector<FigureColumn> teachPageObjectColumns() {
   return {
@@ -191,7 +192,7 @@ void TrainingPage::showClips() {
   showState();
 }
 
-// The newest stand on top. -1: none.
+// The clip of the chosen row; the newest clips are at the top. -1 when there are none.
 int TrainingPage::chosenClip() const {
   const auto count = static_cast<int>(controller_.clips().size());
   const int row = clips_->chosenRow();

@@ -1,5 +1,5 @@
-// The page Teach of the dock Recognise: the folder that teaches and what it holds, capture of a
-// labelled series, training.
+// The page Teach of the dock Recognise: shows the training folder and its content, captures a
+// series of labelled grasps, and trains a model.
 #pragma once
 
 #include <QWidget>
@@ -22,19 +22,20 @@ class TrainingPage : public QWidget {
  public:
   explicit TrainingPage(TrainingController& controller, QWidget* parent = nullptr);
   void setTheme(Theme theme);
-  // A hand is connected: there is something to capture.
+  // `live`: a hand is connected, so that grasps can be captured.
   void setLive(bool live);
   bool capturing() const;
-  QString object() const;  // that is captured now
-  // A grasp ended.
+  // The object that is being captured.
+  QString object() const;
+  // Call this when a grasp ended.
   void take(const Profile& clip);
-  // The newest grasp is taken out; whether there was one.
+  // Takes the newest grasp out; returns whether there was one.
   bool undo();
 
-  // How folders and files are asked for; an empty answer means cancelled.
+  // Ask the user for a folder or file; an empty answer means cancelled.
   std::function<std::filesystem::path()> askForFolder;
   std::function<std::filesystem::path(const QString& suggestion)> askForPlace;
-  // What the new model shall know of the empty hand.
+  // The zero of the empty hand that the new model will store.
   std::function<std::optional<EmptyHandZero>()> zeroNow;
 
  private:

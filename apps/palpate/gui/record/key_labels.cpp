@@ -11,7 +11,7 @@ namespace {
 
 constexpr int kMarksByKeyMostLetters = 60;  // of a label
 constexpr int kRows = 5;
-// As they lie on the keyboard.
+// In the order of the keyboard.
 constexpr std::array<std::size_t, 10> kKeyOrder = {1, 2, 3, 4, 5, 6, 7, 8, 9, 0};
 
 constexpr const char* kMarksByKeyStyle = R"(
@@ -48,7 +48,8 @@ KeyLabels::KeyLabels(QWidget* parent) : QWidget(parent) {
   column->addWidget(grid_);
   connect(header_, &QToolButton::toggled, this, [this](bool open) {
     fold(open);
-    layout()->activate();  // now, so that what is around can ask how high it wants to be
+    // Updates the layout at once, so that parent widgets get the new height.
+    layout()->activate();
     emit folded();
   });
   fold(false);
@@ -113,7 +114,8 @@ void KeyLabels::sumUp() {
   for (const std::size_t digit : kKeyOrder)
     if (!all[digit].isEmpty()) marks.append(QString::number(digit) + " " + all[digit]);
   const QString text = marks.isEmpty() ? "no labels" : marks.join(" · ");
-  const bool open = header_->isChecked();  // then they are all seen
+  // When open, all labels are visible.
+  const bool open = header_->isChecked();
   summary_->setText(
       open ? QString()
            : summary_->fontMetrics().elidedText(text, Qt::ElideRight, summary_->width()));

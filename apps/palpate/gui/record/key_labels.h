@@ -1,5 +1,5 @@
-// What each digit key notes in a recording while it runs: ten labels in two columns, folded away
-// under a line that sums them up.
+// The part of the recording dialog with the labels of the digit keys, which mark events during a
+// recording: ten fields in two columns that fold under a one-line summary.
 #pragma once
 
 #include <QString>
@@ -17,12 +17,14 @@ class KeyLabels : public QWidget {
  public:
   explicit KeyLabels(QWidget* parent = nullptr);
 
-  using Labels = std::array<QString, 10>;  // of the keys 0..9; may be empty
+  // Labels of the keys 0..9; each may be empty.
+  using Labels = std::array<QString, 10>;
   void setLabels(const Labels& labels);
-  Labels labels() const;  // without blanks around them
+  // Without leading and trailing blanks.
+  Labels labels() const;
 
  signals:
-  // Opened or folded: the widget wants another height now.
+  // Opened or folded: the preferred height has changed.
   void folded();
 
  protected:

@@ -1,4 +1,4 @@
-// What records and marks, as actions.
+// The actions that record and mark.
 #pragma once
 
 #include <QAction>
@@ -14,10 +14,10 @@ struct RecordActions {
 
   QAction* record = nullptr;
   QAction* recordingSettings = nullptr;
-  // what was recorded last
+  // Opens the last recording that was made.
   QAction* openRecorded = nullptr;
   QAction* mark = nullptr;
-  // of the digit keys 0..9
+  // For the digit keys 0..9.
   QList<QAction*> labels;
 };
 

@@ -10,10 +10,10 @@
 namespace palpate::gui {
 namespace {
 
-// Messages that the next recording answers.
+// Topic of messages that the next recording removes.
 constexpr const char* kRecordingTopic = "recording";
 
-// "01:16", "1:02:03"
+// Formats a duration: "01:16", "1:02:03".
 QString clockText(double seconds) {
   constexpr int kSixty = 60;
   const auto whole = static_cast<int>(seconds);
@@ -66,7 +66,8 @@ RecordFeature::RecordFeature(WindowState& windowState, QWidget* window)
   });
   followTheme(offer_);
   connect(&windowState.appearance, &ViewAppearance::themeChanged, this, [this] {
-    actions_.record->setIcon({});  // in the colours of before
+    // The old icon has the colours of the previous theme.
+    actions_.record->setIcon({});
     showState();
   });
 }
@@ -87,7 +88,8 @@ void RecordFeature::connectActions() {
       mark(label.isEmpty() ? "mark " + QString::number(key) : label, key);
     });
   state().actionEnabler.add({actions.record}, [this] { return state().live.source() != nullptr; });
-  // The space bar and the digits: marks while live is shown, playback else.
+  // Space bar and digits set marks while a live source is shown; otherwise they control the
+  // playback.
   state().actionEnabler.add(actions.labels + QList<QAction*>{actions.mark},
                             [this] { return state().displayed.isLive(); });
 }
@@ -111,7 +113,7 @@ void RecordFeature::connectRecorder() {
 
 void RecordFeature::connectUnfinished() {
   connect(&unfinished_, &RecoveryFinder::found, this, [this](const QStringList& paths) {
-    // What was just recorded is more urgent.
+    // An offer about a new recording is more urgent.
     if (paths.isEmpty() || !offer_->isHidden()) return;
     constexpr qsizetype kMostNames = 3;
     QStringList names;
@@ -158,7 +160,7 @@ void RecordFeature::connectUnfinished() {
 
 void RecordFeature::offerUnfinished() { unfinished_.look(settings_.folder); }
 
-// The window comes first.
+// Searches only after the window is shown.
 void RecordFeature::start() {
   if (state().environment.offerUnfinished)
     QTimer::singleShot(0, this, &RecordFeature::offerUnfinished);
@@ -198,7 +200,7 @@ void RecordFeature::mark(const QString& label, std::optional<int> digit) {
                          (live.recording() ? "" : " (nothing is being recorded)"));
 }
 
-// What the button says: how long, and how much is on disk.
+// Shows the duration of the recording and the amount on disk on the button.
 void RecordFeature::showState() {
   QAction* action = actions_.record;
   const bool on = state().live.source() && state().live.recording();

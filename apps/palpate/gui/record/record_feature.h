@@ -1,5 +1,5 @@
-// Recordings that are made of what is connected: start, stop, marks, what is offered afterwards,
-// and what an earlier day left unfinished.
+// The feature that records the connected source: starts and stops recordings, sets marks, offers to
+// open the result, and offers to recover recordings that were never finished.
 #pragma once
 
 #include <filesystem>
@@ -21,7 +21,7 @@ class RecordFeature : public Feature {
   RecordFeature(WindowState& windowState, QWidget* window);
 
   RecoveryFinder& unfinished() noexcept { return unfinished_; }
-  // Looks for recordings that were never finished, and offers to recover them.
+  // Searches for recordings that were never finished, and offers to recover them.
   void offerUnfinished();
   std::vector<BannerSpec> strips() override;
   void start() override;
@@ -38,11 +38,14 @@ class RecordFeature : public Feature {
 
   RecordActions actions_;
   OfferStrip* offer_;
-  bool offering_ = true;  // false: something that ends the window was announced
+  // False once something was announced that closes the window.
+  bool offering_ = true;
   RecordingSettings settings_;
-  std::vector<std::filesystem::path> lastRecorded_;  // parts
+  // The files of the last recording, one for each part.
+  std::vector<std::filesystem::path> lastRecorded_;
   RecoveryFinder unfinished_;
-  std::vector<std::filesystem::path> recovered_;  // files of the recovery that runs
+  // Files of the running recovery.
+  std::vector<std::filesystem::path> recovered_;
 };
 
 }  // namespace palpate::gui

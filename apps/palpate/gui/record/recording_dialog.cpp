@@ -24,12 +24,13 @@ namespace {
 
 constexpr int kRecordingDialogWidth = 580;  // [px]
 constexpr int kRecordingDialogMargin = 20;  // [px]
-// of a field: the name of the file is cut far before
+// Largest number of letters in a field; the file name is shortened to less.
 constexpr int kRecordingDialogMostLetters = 200;
 constexpr int kNoteLines = 3;
-constexpr int kRecordingDialogRefreshMs = 1000;  // {time} goes on, and others write into the folder
+// [ms]; {time} changes, and other programs may write into the folder
+constexpr int kRecordingDialogRefreshMs = 1000;
 
-// Of the dialog's own parts, by the roles of the theme's palette: it follows a change of the theme.
+// Style of the dialog's own parts, with palette colours so that it follows the theme.
 constexpr const char* kRecordingDialogStyle = R"(
 QLineEdit, QPlainTextEdit { background: palette(base); border: 1px solid palette(mid); border-radius: 4px; }
 QLineEdit { padding: 4px 6px; }
@@ -42,7 +43,7 @@ QLineEdit:focus, QPlainTextEdit:focus { border-color: palette(highlight); }
 #recordingInsert::menu-indicator { subcontrol-origin: border; subcontrol-position: right center; right: 9px; }
 )";
 
-// A few lines, and more when the dialog is made taller.
+// The notes: a few lines, more when the dialog is made taller.
 class NotesField : public QPlainTextEdit {
  public:
   using QPlainTextEdit::QPlainTextEdit;
@@ -69,7 +70,7 @@ QLabel* muted(const QString& text, QWidget* parent) {
   return label;
 }
 
-// Takes the width it gets: its text is cut to fit.
+// Lets the label become narrower than its text, which is elided.
 void letShrink(QLabel* label) {
   label->setTextFormat(Qt::PlainText);
   label->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
@@ -176,7 +177,7 @@ QMenu* RecordingDialog::makePlaceholders() {
     connect(
         action, &QAction::triggered, this, [this, action] { insert(action->data().toString()); });
   }
-  // Each can stand in a name once.
+  // Each placeholder may be used once.
   connect(menu, &QMenu::aboutToShow, this, [this, menu] {
     for (QAction* action : menu->actions())
       action->setEnabled(!template_->text().contains(action->data().toString()));
@@ -202,9 +203,10 @@ QWidget* RecordingDialog::makePreview() {
   problem_->setObjectName("recordingProblem");
   problem_->setTextFormat(Qt::PlainText);
   problem_->setWordWrap(true);
-  problem_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);  // a path has no end
+  // A path may be of any length.
+  problem_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
   problem_->setAlignment(Qt::AlignTop | Qt::AlignLeft);
-  // A problem takes the place of both lines, so that nothing jumps.
+  // A problem replaces both lines, so that nothing moves.
   problem_->setFixedHeight(2 * fontMetrics().lineSpacing() + 3);
   auto* column = new QVBoxLayout(frame);
   column->setContentsMargins(12, 9, 12, 10);
@@ -277,7 +279,7 @@ void RecordingDialog::insert(const QString& placeholder) {
 }
 
 void RecordingDialog::browse() {
-  // From where the folder is, or will be.
+  // Starts at the folder or, if it does not exist, at its nearest existing parent.
   QDir begin(folderFromText(folder_->text()));
   while (!begin.exists() && begin.isAbsolute() && !begin.isRoot())
     begin.setPath(QFileInfo(begin.path()).path());
@@ -285,7 +287,7 @@ void RecordingDialog::browse() {
   if (!chosen.isEmpty()) folder_->setText(chosen);
 }
 
-// Opened marks take room from below, never from the notes.
+// When the labels are opened, the dialog becomes taller instead of the notes smaller.
 void RecordingDialog::fitMarks() {
   const int growth = std::max(0, notes_->height() - notes_->sizeHint().height());
   layout()->activate();
@@ -306,7 +308,8 @@ void RecordingDialog::refresh() {
 }
 
 void RecordingDialog::showTexts() {
-  if (!ask_) return;  // while it is built
+  // The dialog is still being built.
+  if (!ask_) return;
   showElided(
       name_, QString::fromStdString(next_.path.filename().string()), name_->contentsRect().width());
   const QString folder = QString::fromStdString(next_.path.parent_path().string());
@@ -316,13 +319,15 @@ void RecordingDialog::showTexts() {
 }
 
 void RecordingDialog::accept() {
-  refresh();  // a folder may have gone since
+  // The folder may have been deleted meanwhile.
+  refresh();
   if (next_.problem.isEmpty()) QDialog::accept();
 }
 
 void RecordingDialog::showEvent(QShowEvent* event) {
   QDialog::showEvent(event);
-  QLineEdit* first = operator_->text().isEmpty() ? operator_ : object_;  // the object changes most
+  // The object changes most often.
+  QLineEdit* first = operator_->text().isEmpty() ? operator_ : object_;
   first->setFocus();
   first->selectAll();
   refresh();

@@ -1,5 +1,6 @@
-// Asks what the next recording is of: operator, object, notes, its name and folder, labels of the
-// digit keys. Says at once what the file will be called, and what stands in its way.
+// The dialog with the settings of the next recording: operator, object, notes, name, folder, and
+// labels of the digit keys. It shows the resulting file name, and any problem, while the user
+// types.
 #pragma once
 
 #include <QDialog>
@@ -24,21 +25,21 @@ class KeyLabels;
 class RecordingDialog : public QDialog {
   Q_OBJECT
  public:
-  // `okText` is what is done with the answer: "Start recording", "Keep". The clock tells date and
-  // time in the name of the file; it must outlive the dialog.
+  // `okText` is the label of the OK button: "Start recording", "Keep". `clock` gives the date and
+  // time in the file name; it must outlive the dialog.
   RecordingDialog(const RecordingSettings& settings,
                   const QString& okText,
                   QWidget* parent = nullptr,
                   const Clock& clock = systemClock());
 
-  // What the fields say, without blanks around it.
+  // The values of the fields without leading and trailing blanks.
   RecordingSettings settings() const;
 
-  // Asks for a folder, an empty answer changes nothing; tests answer for themselves.
+  // Asks the user for a folder; an empty answer changes nothing. Tests replace it.
   std::function<QString(const QString& begin)> askForFolder;
 
  public slots:
-  // Only when recordings can be made like this.
+  // Closes the dialog only when recordings can be made with these settings.
   void accept() override;
 
  protected:

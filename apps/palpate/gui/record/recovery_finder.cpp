@@ -14,12 +14,12 @@ namespace palpate::gui {
 namespace {
 
 constexpr const char* kIgnored = "recording/ignored";
-constexpr qsizetype kMostIgnored = 500;                 // the oldest are forgotten
-constexpr double kUnfinishedFinderSmallestNews = 0.01;  // progress is reported in steps of this
+constexpr qsizetype kMostIgnored = 500;                 // the oldest entries are removed
+constexpr double kUnfinishedFinderSmallestNews = 0.01;  // step of progress reports
 
 std::string narrow(const QString& path) { return path.toStdString(); }
 
-// A recording as it was then; when it changes it is another one.
+// A recording with its time of change; a changed recording counts as another one.
 QString entryOf(const QString& path, std::int64_t changedUs) {
   return QString::number(changedUs) + " " + path;
 }
@@ -59,7 +59,8 @@ void RecoveryFinder::recover(const QStringList& paths) {
 
 void RecoveryFinder::cancel() {
   if (inWork_) *inWork_ = true;
-  for (Task& task : waiting_) *task.cancelled = true;  // each still reports its end
+  // Each cancelled task still reports its end.
+  for (Task& task : waiting_) *task.cancelled = true;
 }
 
 void RecoveryFinder::begin(Work work) {
@@ -74,13 +75,15 @@ void RecoveryFinder::startNext() {
   waiting_.pop_front();
   busy_ = true;
   inWork_ = task.cancelled;
-  if (worker_.joinable()) worker_.join();  // it has reported already: this takes no time
+  // The thread has already reported, so that joining does not wait.
+  if (worker_.joinable()) worker_.join();
   worker_ = std::jthread([this, task] {
     Report report = task.work(*task.cancelled);
     postResult([this, report = std::move(report)] {
       busy_ = false;
       report();
-      if (!busy_) startNext();  // unless who heard the report asked for more
+      // Unless the receiver of the report started the next task.
+      if (!busy_) startNext();
     });
   });
 }

@@ -1,6 +1,6 @@
-// Looks for recordings that were never finished and recovers them, in a worker thread, one piece of
-// work after the other. What is found is only read: a recovered recording is a new file beside it.
-// Signals come in the thread of this object.
+// Finds recordings that were never finished and recovers them in a worker thread, one task after
+// the other. Found files are only read: a recovered recording is a new file next to the old one.
+// Signals are emitted in the thread of this object.
 #pragma once
 
 #include <QObject>
@@ -26,43 +26,44 @@ namespace palpate::gui {
 class RecoveryFinder : public QObject {
   Q_OBJECT
  public:
-  // How one is recovered; tests hand in their own.
+  // The function that recovers a recording; tests pass their own.
   using Recover = std::function<RecoverReport(
       const std::filesystem::path& in, const std::filesystem::path& out, const Progress&)>;
 
-  // The settings must outlive it: they remember which ones nobody wants to hear of again.
+  // `settings` stores the ignored recordings; it must outlive this.
   explicit RecoveryFinder(QSettings& settings, QObject* parent = nullptr);
   RecoveryFinder(QSettings& settings, Recover recoverFile, QObject* parent = nullptr);
   // Cancels and waits for the worker.
   ~RecoveryFinder() override;
 
-  // found() follows, unless it is cancelled: also with an empty list.
+  // Searches the folder; found() follows, also with an empty list, unless cancelled.
   void look(const QString& folder);
-  // recovered() or failed() of each follow in this order, then one finished().
+  // For each path recovered() or failed() follows in this order, then finished() once.
   void recover(const QStringList& paths);
-  // Gives up what is in work and all that waits; nothing half-done is left. Of a look that is given
-  // up nothing is heard, of a recovery finished().
+  // Cancels the running and all waiting tasks; no incomplete file remains. A cancelled search emits
+  // nothing, a cancelled recovery emits finished().
   void cancel();
   bool busy() const noexcept { return busy_; }
 
-  // Doesn't offer these again until they change. Only of what was found.
+  // Does not offer these recordings again until they change. Applies only to paths that were found.
   void ignore(const QStringList& paths);
 
  signals:
-  // Those that aren't ignored, the one changed last first.
+  // The recordings that are not ignored, the last changed first.
   void found(const QStringList& paths);
-  void progressed(double fraction);  // of what recover() was given, 0..1
-  // message: one line, what was saved and what is lost; `saved` is the new recording.
+  // Progress of recover(), 0..1.
+  void progressed(double fraction);
+  // `message`: one line that tells what was saved and what is lost; `saved` is the new recording.
   void recovered(const QString& path, const QString& message, const QString& saved);
-  // message: one line that says what is wrong and what to do; of a folder that can't be looked
-  // into, too.
+  // `message`: one line with the problem and what the user can do. `path` may also be a folder that
+  // cannot be read.
   void failed(const QString& path, const QString& message);
   void finished();
 
  private:
-  // Says in this object's thread what came of a piece of work.
+  // Reports the result of a task in this object's thread.
   using Report = std::function<void()>;
-  // Runs in the worker; stops soon when the flag is set.
+  // Runs in the worker; returns soon after the flag is set.
   using Work = std::function<Report(const std::atomic<bool>& cancelled)>;
   struct Task {
     Work work;
@@ -79,9 +80,11 @@ class RecoveryFinder : public QObject {
 
   QSettings& settings_;
   Recover recoverFile_;
-  std::map<QString, std::int64_t> changedUs_;  // of all that was found
+  // Time of the last change of each found recording [us].
+  std::map<QString, std::int64_t> changedUs_;
   std::deque<Task> waiting_;
-  std::shared_ptr<std::atomic<bool>> inWork_;  // its flag
+  // The cancel flag of the running task.
+  std::shared_ptr<std::atomic<bool>> inWork_;
   bool busy_ = false;
   std::jthread worker_;
 };

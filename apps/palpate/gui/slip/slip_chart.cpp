@@ -15,8 +15,9 @@ namespace palpate::gui {
 namespace {
 
 constexpr double kSlipChartHeadroom = 1.15;
-constexpr double kTurnShare = 0.75;                   // of the height of what is above
-constexpr std::size_t kSlipChartMostPoints = 20'000;  // drawn; more: the farthest of each bunch
+constexpr double kTurnShare = 0.75;  // height relative to the chart above
+// Most points that are drawn; with more, the largest of each group.
+constexpr std::size_t kSlipChartMostPoints = 20'000;
 constexpr double kSlipChartNothing = std::numeric_limits<double>::quiet_NaN();
 
 }  // namespace
@@ -86,7 +87,7 @@ void SlipChart::setSeries(const SlipSeries* series, std::size_t matrix, const QS
         if (samples[i].refValid && samples[i].shiftTaxels() > samples[at].shiftTaxels()) at = i;
       const SlipSample& sample = samples[at];
       const double t = series->timeS[sample.frame];
-      // A contact that was lost is a gap in the curve.
+      // A lost contact is a gap in the curve.
       if (first > 0 && sample.frame > samples[first - 1].frame + bunch) {
         shift.append({t, kSlipChartNothing});
         turn.append({t, kSlipChartNothing});
@@ -136,7 +137,8 @@ void SlipChart::style() {
   turns_->axis(QCPAxis::atBottom)->ticker()->setTickCount(9);
   styleExtraAxis(*degrees, *this, theme_);
   degrees->grid()->setVisible(true);
-  const bool low = height() < 2 * 190;  // each has half of it
+  // Each chart has half of the height.
+  const bool low = height() < 2 * 190;
   yAxis->setLabel(low ? "taxels" : "since reference in taxels");
   for (QCPAxis* axis : {yAxis, degrees}) axis->ticker()->setTickCount(low ? 2 : 4);
   degrees->setLabel(low ? "deg" : "rotation in deg");

@@ -1,5 +1,6 @@
-// One matrix over time: how far its contact is from the reference (above), and how far it turned
-// (below), with the thresholds as lines and slip shaded; a cursor like the timeline's.
+// The chart of the dock Slip for one matrix over time: the displacement of its contact since the
+// reference (top) and its rotation (bottom). Thresholds are lines, slip is shaded; a cursor like
+// that of the timeline.
 #pragma once
 
 #include <QString>
@@ -19,14 +20,14 @@ class SlipChart : public QCustomPlot {
  public:
   explicit SlipChart(QWidget* parent = nullptr);
 
-  // Null: nothing.
+  // Null: shows nothing.
   void setSeries(const SlipSeries* series, std::size_t matrix, const QString& name);
   void setVisibleRange(double fromS, double toS);
   void setPosition(double seconds);
   void setTheme(Theme theme);
   void paint(QPainter& painter, const PictureLook& look, const QString& title);
 
-  // For tests.
+  // The number of shaded time spans, for tests.
   std::size_t numShades() const noexcept { return shades_.size(); }
   QSize sizeHint() const override { return {440, 240}; }
   QSize minimumSizeHint() const override { return {220, 150}; }
@@ -47,7 +48,9 @@ class SlipChart : public QCustomPlot {
   QCPAxisRect* turns_;
   QCPGraph* shift_;
   QCPGraph* turn_;
-  std::vector<QCPItemLine*> limits_;  // of the shift; of the turn, above and below
+  // Lines of the thresholds: one for the displacement, two (positive and negative) for the
+  // rotation.
+  std::vector<QCPItemLine*> limits_;
   std::vector<QCPItemRect*> shades_;
   std::size_t matrix_ = 0;
   QString name_;

@@ -1,5 +1,5 @@
-// How slip is measured: method, where motion is measured from, thresholds. Remembered; a recording
-// and what is live have a method each.
+// The controls of the dock Slip for the measurement: method, reference and thresholds. They are
+// stored in the settings; recordings and live sources have separate methods.
 #pragma once
 
 #include <QSettings>
@@ -21,14 +21,15 @@ class SlipControls : public QWidget {
 
   SlipSeriesOptions options() const;
   void setLive(bool live);
-  // Motion is measured from this frame; nothing: as the box says.
+  // Motion is measured from this frame; nothing: from the reference chosen in the box.
   void setReferenceFrame(std::optional<std::size_t> frame);
-  // Whether there is something whose reference can be set.
+  // Whether a reference can be set now.
   void setReferenceEnabled(bool enabled);
 
  signals:
   void changed();
-  void referenceAsked();  // the frame that is shown
+  // The user wants the shown frame as reference.
+  void referenceAsked();
 
  private:
   QDoubleSpinBox* field(const char* name,

@@ -10,8 +10,8 @@
 namespace palpate::gui {
 namespace {
 
-constexpr double kArrowS = 0.3;       // the arrows' span of time
-constexpr int kSlipUsualWidth = 620;  // [px] list and drawing stand beside each other
+constexpr double kArrowS = 0.3;       // [s] time span of the arrows
+constexpr int kSlipUsualWidth = 620;  // [px] list and drawing fit side by side
 
 }  // namespace
 
@@ -91,7 +91,8 @@ void SlipFeature::showLive(const LiveResults& results) {
   panel_->showLive(*results.frame, results.slip);
 }
 
-// The alarm of what is live is the contest's, whatever gives the vector.
+// Sets the options of the live stage. Its alarm always uses the test of hypotheses,
+// whichever method measures the motion.
 void SlipFeature::setUpStage() {
   const LiveSource* source = state().displayed.source();
   if (!source) return;
@@ -100,7 +101,7 @@ void SlipFeature::setUpStage() {
   source->slip->setOptions(options);
 }
 
-// The contacts' last moments, as arrows on the hand.
+// Shows the latest motion of the contacts as arrows on the hand in space.
 void SlipFeature::showArrows() {
   std::vector<HandSlip> slips;
   const SlipSeries* series = panel_->found();

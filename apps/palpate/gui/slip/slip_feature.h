@@ -1,5 +1,5 @@
-// The dock Slip: whose slip it shows, what of it stands below the timeline and on the hand in
-// space.
+// The feature with the dock Slip: gives it its source, and shows its results in the timeline and on
+// the hand in space.
 #pragma once
 
 #include "gui/window_state/feature.h"
@@ -26,10 +26,12 @@ class SlipFeature : public Feature {
   void showArrows();
   void setUpStage();
 
-  QAction* reference_;  // slip is measured from the frame that is shown
+  // Makes the shown frame the reference of slip.
+  QAction* reference_;
   SlipPanel* panel_;
   Dock* dock_;
-  const void* liveOf_ = nullptr;  // the source whose hand the panel has
+  // The live source whose hand the panel shows.
+  const void* liveOf_ = nullptr;
 };
 
 }  // namespace palpate::gui

@@ -6,7 +6,7 @@
 namespace palpate::gui {
 namespace {
 
-// Drawn in a square of 16 x 16 units, at twice the size.
+// The symbols are drawn in a square of 16 x 16 units, enlarged by 2.
 constexpr int kSlipLampUnits = 16;
 constexpr int kScale = 2;
 constexpr QPointF kSlipLampMiddle(8.0, 8.0);

@@ -1,6 +1,6 @@
-// The lamp of a matrix: whether it slips. Told apart by shape as well as by colour: a ring (off), a
-// disc with a tick (ready), a triangle (nothing can be said, or it is ambiguous), a square with an
-// arrow (slips).
+// The status symbol of a matrix in the dock Slip: whether its contact slips. The states differ in
+// shape as well as in colour: a ring (off), a disc with a tick (ready), a triangle (unknown or
+// ambiguous), a square with an arrow (slips).
 #pragma once
 
 #include <QColor>
@@ -13,14 +13,16 @@
 
 namespace palpate::gui {
 
+// The four symbols, in the order above.
 enum class IndicatorLook { kOff, kReady, kUnsure, kSlipping };
-// Null: the matrix isn't touched.
+// Null: the matrix is not touched.
 IndicatorLook indicatorOf(const SlipSample* sample);
+// Colour and icon of a symbol.
 QColor colorOf(IndicatorLook look, Theme theme);
 QIcon indicatorIcon(IndicatorLook look, Theme theme);
-// "still", "load shift", ..; "no contact".
+// "still", "load shift", ..; "no contact"
 QString verdictOf(const SlipSample* sample);
-// What the verdict means, in a sentence.
+// Explains the verdict in one sentence.
 QString meaningOf(const SlipSample* sample);
 
 }  // namespace palpate::gui

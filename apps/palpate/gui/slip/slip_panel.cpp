@@ -23,10 +23,10 @@ namespace {
 
 constexpr std::size_t kSlipPanelMostKept = 8;
 constexpr std::size_t kMostLive = 20'000;             // frames of a live chart
-constexpr int kListWidth = 380, kDrawingWidth = 240;  // [px] of the usual dock
-constexpr int kShortNames = 440;  // [px] of the list's width: below, matrices are "0 distal"
+constexpr int kListWidth = 380, kDrawingWidth = 240;  // [px] widths in the default dock
+constexpr int kShortNames = 440;  // [px]; in a narrower list, matrices are "0 distal"
 constexpr double kLiveSeenS = 30.0;
-constexpr double kPictureDrawing = 0.36;  // of the width of a picture
+constexpr double kPictureDrawing = 0.36;  // of the width of an exported picture
 
 std::vector<FigureColumn> slipPanelColumns() {
   return {{"matrix", {}, 15, true},
@@ -43,7 +43,7 @@ bool knowsReference(const SlipSeries& series) {
   return false;
 }
 
-// Where nothing ever rests there is no reference: then motion is measured from the first contact.
+// Computes slip; when no contact ever rests, motion is measured from the first contact instead.
 SlipSeries seriesOf(const Profile& profile, SlipSeriesOptions options, const Progress& progress) {
   SlipSeries series = slipSeries(profile, options, progress);
   if (options.reference != SlipReference::kWhenAtRest || options.referenceFrame ||
@@ -74,7 +74,8 @@ SlipPanel::SlipPanel(QSettings& settings, QWidget* parent) : ComputedPage("slip"
   list_->setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Maximum);
   notes_ = notesLabel("slipNotes", left);
   notes_->setAlignment(Qt::AlignTop | Qt::AlignLeft);
-  notes_->setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Ignored);  // the list comes first
+  // The list gets its height first.
+  notes_->setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Ignored);
   auto* leftColumn = new QVBoxLayout(left);
   leftColumn->setContentsMargins(0, 0, 0, 0);
   leftColumn->setSpacing(0);
@@ -198,7 +199,7 @@ void SlipPanel::take(const Found& found) {
   showFrame();
 }
 
-// What slips most; else what is touched longest.
+// Chooses the matrix that slips most; else the one that is touched longest.
 void SlipPanel::chooseBest() {
   std::vector<double> paths(found_->matrices.size(), 0.0);
   for (const SlipSegment& slip : found_->slips) paths[slip.matrix] += slip.pathTaxels;
@@ -248,7 +249,8 @@ void SlipPanel::showFrame() {
     try {
       recording()->profile.readFrame(frame_, values_);
     } catch (const Error&) {
-      values_ = {};  // a damaged block: said where the frame would be
+      // A damaged block: the view of the frame reports it.
+      values_ = {};
     }
   }
   showRows();
@@ -295,7 +297,8 @@ void SlipPanel::showRows() {
   const QSignalBlocker blocker(list_);
   list_->setRows(rows);
   list_->selectRow(static_cast<int>(chosen_));
-  list_->setMinimumHeight(list_->sizeHint().height());  // all of them are seen
+  // All rows are visible.
+  list_->setMinimumHeight(list_->sizeHint().height());
 }
 
 void SlipPanel::showScene() {

@@ -1,5 +1,6 @@
-// The dock Slip: a lamp for every matrix, how the contact of the chosen one lies and moves, and its
-// motion over time; of a recording, computed beside the window, or live.
+// The content of the dock Slip: a status symbol for every matrix, shape and motion of the contact
+// of the chosen matrix, and its motion over time; of a recording (computed in a worker thread) or
+// live.
 #pragma once
 
 #include <QSettings>
@@ -32,27 +33,30 @@ class SlipPanel : public ComputedPage {
   void setVisibleRange(double fromS, double toS);
   void setMap(ColorMapName map);
 
-  // Of the recording, or all that came live; null: nothing was computed.
+  // The slip of the recording, or all live results so far; null when nothing was computed.
   const SlipSeries* found() const noexcept;
-  // Frame of found() that is shown.
+  // The shown frame of found().
   std::size_t frame() const noexcept { return frame_; }
   std::size_t chosen() const noexcept { return chosen_; }
   void choose(std::size_t matrix);
   SlipControls& controls() noexcept { return *controls_; }
   SlipView& drawing() noexcept { return *drawing_; }
   SlipChart& chart() noexcept { return *chart_; }
-  // The frame that is shown becomes the reference; of what is live, the newest one.
+  // Makes the shown frame the reference; for a live source the newest frame.
   void setReference();
 
-  // What is connected: its newest verdicts, with the frame they are of.
+  // Shows a connected hand; showLive() then adds its newest verdicts and the frame that they belong
+  // to.
   void setLiveHand(const HandDescription& hand);
-  // Of the same hand other taxels are scanned: what came stays.
+  // The scanned taxels of the same hand changed; the results so far are kept.
   void renewLiveHand(const HandDescription& hand);
   void showLive(const TactileFrame& frame, const std::vector<SlipDetection>& detections);
 
  signals:
-  void foundChanged();  // also when there is nothing any more
-  void frameChanged();  // another one is shown
+  // Also emitted when there is no result any more.
+  void foundChanged();
+  // Another frame is shown.
+  void frameChanged();
   void seekRequested(double seconds);
   void liveOptionsChanged();
   void liveReferenceAsked();
@@ -82,12 +86,14 @@ class SlipPanel : public ComputedPage {
   const SlipSample* sampleNow(std::size_t matrix) const;
 
   Theme theme_ = Theme::kDark;
-  std::list<Kept> kept_;  // newest first: of recordings and options that were looked at
+  // Results of recent recordings and options, newest first.
+  std::list<Kept> kept_;
   Found found_;
   std::optional<HandDescription> liveHand_;
   SlipSeries liveSeries_;
   std::optional<SlipSegmenter> liveSlips_;
-  TactileFrame values_;  // of the frame that is shown
+  // Of the shown frame.
+  TactileFrame values_;
   double positionS_ = 0.0;
   std::size_t frame_ = 0;
   std::size_t chosen_ = 0;

@@ -8,7 +8,7 @@
 namespace palpate::gui {
 namespace {
 
-// As precise as it is kept, and no more.
+// Writes the value with the precision of a float.
 std::string slipTablesText(float value) { return numberText(value); }
 std::string slipTablesFlag(bool value) { return value ? "1" : "0"; }
 
@@ -22,7 +22,7 @@ struct Place {
   std::uint32_t index;
 };
 
-// Frame after frame, matrix after matrix.
+// Ordered by frame, then by matrix.
 std::vector<Place> slipTablesPlacesOf(const SlipSeries& series) {
   std::vector<Place> places;
   std::vector<std::size_t> next(series.matrices.size(), 0);

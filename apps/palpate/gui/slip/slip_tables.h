@@ -1,4 +1,4 @@
-// Slip as tables to be taken away: as `palpate slip` prints it.
+// Tables of slip for export, in the form that `palpate slip` prints.
 #pragma once
 
 #include <memory>
@@ -8,9 +8,9 @@
 
 namespace palpate::gui {
 
-// A row for each matrix that is touched in a frame; what isn't known is empty.
+// One row for each touched matrix of each frame; unknown values are empty.
 TextTable slipTable(const std::shared_ptr<const SlipSeries>& series);
-// A row for each stretch in which a matrix slips.
+// One row for each time span in which a matrix slips.
 TextTable slipSegmentTable(const std::shared_ptr<const SlipSeries>& series);
 
 }  // namespace palpate::gui

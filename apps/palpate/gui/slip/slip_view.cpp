@@ -14,19 +14,19 @@ namespace {
 
 constexpr double kSlipDrawingMargin = 10.0;        // [px]
 constexpr double kSlipDrawingLargestTaxel = 40.0;  // [px]
-constexpr int kFootLines = 4;      // of figures, below the drawing; half of them where it is low
-constexpr double kLow = 320.0;     // [px]
-constexpr double kFaintest = 0.2;  // opacity of the taxels
+constexpr int kFootLines = 4;   // lines of numbers below the drawing; half of them when it is low
+constexpr double kLow = 320.0;  // [px] lower is low
+constexpr double kFaintest = 0.2;          // smallest opacity of the taxels
 constexpr double kSlipDrawingFaint = 0.6;  // opacity of the taxels
 constexpr double kEllipseSds = 2.0;
-constexpr double kSkewSeen = 0.05;   // smaller ones have no mark
-constexpr double kMostSkew = 1.5;    // for the size of a mark
-constexpr double kLeastArrow = 6.0;  // [px] shorter ones are a dot
-constexpr double kHead = 7.0;        // [px] of an arrow
+constexpr double kSkewSeen = 0.05;   // smaller skewness has no mark
+constexpr double kMostSkew = 1.5;    // limit for the size of a mark
+constexpr double kLeastArrow = 6.0;  // [px] shorter arrows become a dot
+constexpr double kHead = 7.0;        // [px] head of an arrow
 
 double radians(double degrees) { return degrees * std::numbers::pi / 180.0; }
 
-// A line with a rim in the colour of the ground: seen on every taxel.
+// Draws a line with a rim in the background colour, so that it is visible on every taxel.
 void strokeTwice(QPainter& painter,
                  const QPainterPath& path,
                  const QColor& color,
@@ -180,8 +180,7 @@ void SlipView::paint(QPainter& painter, const QRectF& area, Theme theme) const {
   QColor rim = colors.window;
   rim.setAlphaF(0.8F);
   const QPointF centre = place.at(static_cast<double>(sample.x), static_cast<double>(sample.y));
-  // The ellipse, and its axis: drawn through where the shape has a direction, dotted where it has
-  // none.
+  // The ellipse and its axis: solid where the shape has a direction, dotted where it has none.
   const double along = kEllipseSds * static_cast<double>(sample.majorSd) * place.side;
   const double across = kEllipseSds * static_cast<double>(sample.minorSd) * place.side;
   const double angle = radians(static_cast<double>(sample.orientationDeg));
@@ -195,7 +194,7 @@ void SlipView::paint(QPainter& painter, const QRectF& area, Theme theme) const {
   painter.setPen(QPen(colors.text, 1.2, sample.reliable ? Qt::SolidLine : Qt::DotLine));
   painter.drawLine(centre - u * along, centre + u * along);
   painter.drawLine(centre - v * (0.25 * across), centre + v * (0.25 * across));
-  // Skewness: a wedge at the side of the longer tail, as large as that is long.
+  // Skewness: a wedge at the side of the longer tail; its size grows with the skewness.
   const double sdX = std::hypot(static_cast<double>(sample.majorSd) * u.x(),
                                 static_cast<double>(sample.minorSd) * v.x());
   const double sdY = std::hypot(static_cast<double>(sample.majorSd) * u.y(),
@@ -213,7 +212,7 @@ void SlipView::paint(QPainter& painter, const QRectF& area, Theme theme) const {
   };
   wedge(sample.skewX, {1.0, 0.0}, sdX);
   wedge(sample.skewY, {0.0, 1.0}, sdY);
-  // The way since the reference.
+  // The path since the reference.
   if (!scene.path.empty()) {
     const QPointF from = place.at(scene.path.front().x(), scene.path.front().y());
     painter.setPen(QPen(colors.muted, 1.0, Qt::DashLine));
@@ -229,7 +228,7 @@ void SlipView::paint(QPainter& painter, const QRectF& area, Theme theme) const {
     painter.drawEllipse(to, 3.5, 3.5);
     painter.setBrush(Qt::NoBrush);
   }
-  // The last step, enlarged, with its threshold.
+  // The motion of the last frame, enlarged, with its threshold.
   const QColor lamp = colorOf(indicatorOf(&sample), theme);
   painter.setPen(QPen(lamp, 1.0, Qt::DotLine));
   const double ring = scene.stepTaxels * kEnlarged * place.side;

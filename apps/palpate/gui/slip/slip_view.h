@@ -1,6 +1,6 @@
-// How the contact of one matrix lies and moves: its taxels faintly, an ellipse of two standard
-// deviations with principal axis and marks of its skewness, the way since the reference, and the
-// motion of the last frame enlarged, with a ring that is its threshold.
+// The drawing of the dock Slip for the contact of one matrix: its taxels in faint colours, an
+// ellipse of two standard deviations with principal axis and marks of its skewness, the path since
+// the reference, and the enlarged motion of the last frame with a ring for its threshold.
 #pragma once
 
 #include <QPointF>
@@ -18,22 +18,27 @@
 
 namespace palpate::gui {
 
-// What is drawn, in taxels: x right, y down, (0, 0) the middle of the first taxel.
+// What is drawn. Coordinates in taxels: x right, y down, (0, 0) is the centre of the first taxel.
 struct SlipViewData {
   MatrixLayout layout;
-  MatrixValues values;  // counts; empty: none
+  // [counts]; empty when there are none.
+  MatrixValues values;
   double largestCounts = 0.0;
   QString name;
-  std::optional<SlipSample> sample;  // nothing: no contact
-  std::vector<QPointF> path;         // from the reference to where it is now; empty: no reference
-  double stepTaxels = 0.2;           // thresholds
+  // Nothing when there is no contact.
+  std::optional<SlipSample> sample;
+  // Path from the reference to the present position; empty without a reference.
+  std::vector<QPointF> path;
+  // Thresholds of the motion from frame to frame and since the reference.
+  double stepTaxels = 0.2;
   double referenceTaxels = 1.0;
 };
 
 class SlipView : public QWidget {
   Q_OBJECT
  public:
-  static constexpr double kEnlarged = 10.0;  // the motion of a frame
+  // Enlargement of the motion of one frame.
+  static constexpr double kEnlarged = 10.0;
 
   explicit SlipView(QWidget* parent = nullptr);
   void setScene(const SlipViewData& scene);
@@ -42,7 +47,7 @@ class SlipView : public QWidget {
   void setTheme(Theme theme);
   void setMap(ColorMapName map);
   void paint(QPainter& painter, const QRectF& area, Theme theme) const;
-  // Where a place of the matrix is drawn [px].
+  // The pixel position of a point of the matrix.
   QPointF pixelOf(double x, double y) const;
 
   QSize sizeHint() const override { return {240, 380}; }
@@ -52,7 +57,8 @@ class SlipView : public QWidget {
   void paintEvent(QPaintEvent* event) override;
 
  private:
-  struct Place;  // where the matrix lies in an area
+  // The place and scale of the matrix in an area.
+  struct Place;
   Place placeIn(const QRectF& area) const;
 
   std::optional<SlipViewData> scene_;

@@ -14,15 +14,16 @@
 namespace palpate::gui {
 namespace {
 
-constexpr double kRangeDb = 60.0;  // below the strongest, nothing is told apart
-constexpr double kStepDb = 5.0;    // its end is a round figure
+constexpr double kRangeDb = 60.0;  // range of the colours below the strongest value
+constexpr double kStepDb = 5.0;    // the upper end is a multiple of this
 constexpr double kSpectrumChartHeadroom = 1.06;
-constexpr double kSignalShare = 0.55;         // height of the signal, the spectra having 1
+constexpr double kSignalShare = 0.55;         // height of the signal relative to the spectrogram
 constexpr int kSpectrumChartCursorWidth = 4;  // [px] with its edges
 constexpr int kSpectrumChartBarWidth = 12;    // [px] of the colours
 constexpr double kSpectrumChartWheelPan = 0.1;
-constexpr double kSpectrumChartLongestInS = 1200.0;  // [s] as in the timeline
-constexpr int kLowBelow = 230;  // [px] the signal's axis has no room for a name
+// [s]; longer time spans are labelled in other units, as in the timeline.
+constexpr double kSpectrumChartLongestInS = 1200.0;
+constexpr int kLowBelow = 230;  // [px]; lower: no room for names of axes
 
 QCPColorGradient gradientOf(ColorMapName map) {
   QCPColorGradient gradient;
@@ -64,7 +65,7 @@ std::vector<QString> spectrumNotes(const SpectrumReport& report, const SpectrumO
   QString rest = "window " + figure(lengthS, 2) + " s, bins " +
                  figure(report.rateHz / options.window, 2) + " Hz apart";
   const auto asked = static_cast<std::size_t>(options.window - options.overlap);
-  // The hop that was asked for isn't worth a word.
+  // The requested hop needs no note.
   if (report.hop > asked) {
     rest += ", a segment every " + QString::number(report.hop) + " samples";
     return {what + " · " + rest,
@@ -150,7 +151,8 @@ void SpectrumChart::fillSignal() {
   yAxis->setRange(low < 0.0 ? low * kSpectrumChartHeadroom : 0.0, high * kSpectrumChartHeadroom);
 }
 
-// A map per stretch: each has its own rate, and nothing lies between them.
+// Makes one map for each part without a gap: each has its own frame rate, and between parts there
+// is nothing.
 void SpectrumChart::fillSpectra() {
   for (QCPColorMap* map : maps_) removePlottable(map);
   maps_.clear();
@@ -163,7 +165,7 @@ void SpectrumChart::fillSpectra() {
     map->setInterpolate(false);
     map->setTightBoundary(false);
     const auto last = static_cast<double>(part.segments - 1);
-    // A single one is as wide as its window.
+    // A single segment is as wide as its window.
     const double air = part.segments == 1 ? 0.5 / part.binHz : 0.0;
     const double rangeHz = part.binHz * static_cast<double>(all.numBins - 1);
     map->data()->setSize(static_cast<int>(part.segments), static_cast<int>(all.numBins));
@@ -213,7 +215,7 @@ void SpectrumChart::style() {
   styleChart(*this, theme_);
   for (QCPAxis* axis : spectra_->axes()) styleExtraAxis(*axis, *this, theme_);
   styleExtraAxis(*colors_->axis(), *this, theme_);
-  // Of one matrix: in its colour.
+  // A signal from one matrix has the colour of that matrix.
   std::size_t matrix = 0, touched = 0;
   for (std::size_t m = 0; m < answer_.taxels.numMatrices(); ++m) {
     const Mask& mask = answer_.taxels.mask(m);
@@ -224,14 +226,14 @@ void SpectrumChart::style() {
   graph(0)->setPen(curvePen(matrix, touched > 1, theme_));
   note_->setColor(colors.text);
   note_->setFont(font());
-  // On the dark end of the colours it is seen by its edges.
+  // Edges make the cursor visible on dark colours.
   cursor_->setStyleSheet("background: " + colors.accent.name() + "; border: 0 solid " +
                          colors.window.name() +
                          "; border-left-width: 1px; border-right-width: 1px");
   writeNotes();
 }
 
-// Low, the chart has no room for more than units.
+// A low chart has room only for units.
 void SpectrumChart::nameAxes() {
   const bool low = height() < kLowBelow;
   colors_->axis()->ticker()->setTickCount(low ? 2 : 4);
@@ -249,7 +251,7 @@ void SpectrumChart::nameAxes() {
   spectra_->setMinimumMargins(QMargins(52, fontMetrics().height() + 6, 8, 10));
 }
 
-// As long as there is room for it.
+// Shows the longest notes that fit.
 void SpectrumChart::writeNotes() {
   nameAxes();
   if (!answer_.spectrogram || answer_.spectrogram->report.rateHz <= 0.0) return;
@@ -314,7 +316,7 @@ QString SpectrumChart::valuesAt(const QPointF& at) const {
     return time + "\nno whole window around this moment";
   }
   if (!axisRect()->rect().contains(at.toPoint())) return {};
-  // The last sample at or before it.
+  // The last sample at or before that time.
   auto found = graph(0)->data()->findEnd(seconds, false);
   if (found == graph(0)->data()->constBegin() || std::isnan((--found)->value)) return time;
   return time + "\n" + figure(found->value, 0) + " counts";
@@ -324,7 +326,7 @@ void SpectrumChart::paint(QPainter& painter,
                           const PictureLook& look,
                           const QString& title,
                           const QString& name) {
-  // The colour bar is no axis rect: paintChart doesn't know it.
+  // The colour bar is not an axis rectangle, so that paintChart() does not adapt it.
   QCPAxis& axis = *colors_->axis();
   const QColor before = axis.labelColor();
   const QFont fontBefore = axis.labelFont();

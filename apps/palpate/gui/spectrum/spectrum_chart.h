@@ -1,6 +1,6 @@
-// A signal over time, and below it its spectra: time to the right, frequency upwards to Nyquist's,
-// which is named with all that can't be seen. Same cursor as the timeline; a click or drag seeks,
-// the wheel zooms, a double click shows everything.
+// The chart of the dock Spectrum: a signal over time, and below it its spectrogram with frequencies
+// up to the Nyquist frequency. Notes name that frequency and other limits. Same cursor as the
+// timeline; a click or drag seeks, the wheel zooms, a double click shows everything.
 #pragma once
 
 #include <QString>
@@ -14,13 +14,15 @@
 
 namespace palpate::gui {
 
+// The scale of the colours.
 enum class SpectrumScale { kDecibels, kMagnitude };
 inline constexpr std::array kAllSpectrumScales = {SpectrumScale::kDecibels,
                                                   SpectrumScale::kMagnitude};
-QString nameOf(SpectrumScale scale);  // "PSD in dB", "magnitude"
+// The name of a scale: "PSD in dB", "magnitude".
+QString nameOf(SpectrumScale scale);
 
-// What can't be seen, and what was done to the samples; the first of several lengths is the
-// longest.
+// Notes about the limits of the spectrum and the processing of the samples, in several lengths; the
+// longest first.
 std::vector<QString> spectrumNotes(const SpectrumReport& report, const SpectrumOptions& options);
 
 class SpectrumChart : public QCustomPlot {
@@ -28,17 +30,18 @@ class SpectrumChart : public QCustomPlot {
  public:
   explicit SpectrumChart(QWidget* parent = nullptr);
 
-  void setAnswer(const SpectrumAnswer& answer);  // with a spectrogram that has a part
+  // `answer` has a spectrogram with at least one part.
+  void setAnswer(const SpectrumAnswer& answer);
   const SpectrumAnswer& answer() const noexcept { return answer_; }
   void setScale(SpectrumScale scale);
   void setMap(ColorMapName map);
   void setTheme(Theme theme);
   void setVisibleRange(double fromS, double toS);
   void setPosition(double seconds);
-  // What the mouse is told at a place.
+  // The tool tip at a point.
   QString valuesAt(const QPointF& at) const;
   QString notes() const { return note_->text(); }
-  // As a picture of its own.
+  // Paints the chart as a picture for export.
   void paint(QPainter& painter, const PictureLook& look, const QString& title, const QString& name);
 
   QSize sizeHint() const override { return {900, 280}; }
@@ -73,11 +76,13 @@ class SpectrumChart : public QCustomPlot {
   ColorMapName map_ = ColorMapName::kInferno;
   Theme theme_ = Theme::kDark;
   QCPAxisRect* spectra_;
-  QCPAxis* time_;       // of the spectra
-  QCPAxis* frequency_;  // likewise
+  // Axes of the spectrogram.
+  QCPAxis* time_;
+  QCPAxis* frequency_;
   QCPColorScale* colors_;
   QCPItemText* note_;
-  std::vector<QCPColorMap*> maps_;  // one per part
+  // One map for each part.
+  std::vector<QCPColorMap*> maps_;
   QWidget* cursor_;
   double positionS_ = 0.0;
   bool seeking_ = false;

@@ -6,7 +6,7 @@
 namespace palpate::gui {
 namespace {
 
-constexpr double kShareOfHeight = 0.31;  // of the window's, when it is asked for
+constexpr double kShareOfHeight = 0.31;  // of the window's height, when the dock is opened
 
 }  // namespace
 

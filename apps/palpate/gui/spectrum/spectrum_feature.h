@@ -1,5 +1,5 @@
-// The dock Spectrum: of the chosen taxels of the recording that is looked at, on the timeline's
-// axis of time.
+// The feature with the dock Spectrum: shows the spectrogram of the chosen taxels of the shown
+// recording, with the visible time span of the timeline.
 #pragma once
 
 #include "gui/window_state/feature.h"

@@ -59,7 +59,7 @@ SpectrumHeader::SpectrumHeader(QWidget* parent) : QWidget(parent) {
   show(setting_);
   connect(window_, &QSpinBox::valueChanged, this, [this](int window) {
     SpectrumSetting setting = setting_;
-    // All but one stays all but one.
+    // An overlap of all samples but one stays so.
     const bool most = setting.overlap == setting.window - 1;
     setting.window = window;
     setting.overlap = most ? window - 1 : std::min(setting.overlap, window - 1);

@@ -1,4 +1,5 @@
-// The title row of the spectrum: whose signal it is, and how it is cut and shown.
+// The title row of the dock Spectrum: the name of the signal, and the controls for window length,
+// overlap and scale.
 #pragma once
 
 #include <QWidget>
@@ -11,6 +12,7 @@ class QSpinBox;
 
 namespace palpate::gui {
 
+// The choices of the title row.
 struct SpectrumSetting {
   int window = 32;   // [samples] 2..65,536
   int overlap = 31;  // [samples] 0..window-1

@@ -16,7 +16,7 @@ namespace {
 constexpr const char* kWindowKey = "spectrum/window";
 constexpr const char* kOverlapKey = "spectrum/overlap";
 constexpr const char* kScaleKey = "spectrum/scale";
-// so long nothing moves before a long recording is computed anew
+// [ms] time without changes before a long recording is computed again
 constexpr int kSpectrumPanelCalmMs = 120;
 
 SpectrumSetting loaded(const QSettings& settings) {
@@ -153,7 +153,7 @@ void SpectrumPanel::ask() {
   later_.stop();
   if (!recording_ || recording_->profile.numFrames() == 0 || !isVisible()) return;
   SpectrumQuestion question{.recording = recording_, .fromS = fromS_, .toS = toS_};
-  // Of another sensor: chosen before this recording came.
+  // Taxels of another sensor were chosen before this recording was opened, and are ignored.
   if (TaxelSelection(recording_->profile.layout()).sameSensor(taxels_)) question.taxels = taxels_;
   question.options.spectrum.window = header_->setting().window;
   question.options.spectrum.overlap = header_->setting().overlap;

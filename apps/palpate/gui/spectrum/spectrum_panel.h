@@ -1,5 +1,5 @@
-// The Spectrum dock: the signal of the chosen taxels (their mean; of the strongest taxel while none
-// is chosen) and its spectra over time. It computes only while it is seen.
+// The content of the dock Spectrum: the mean signal of the chosen taxels (of the strongest taxel
+// when none is chosen) and its spectrogram. It computes only while it is visible.
 #pragma once
 
 #include <QSettings>
@@ -24,28 +24,31 @@ class SpectrumPanel : public QWidget {
   Q_OBJECT
  public:
   explicit SpectrumPanel(QSettings& settings, QWidget* parent = nullptr);
-  // For the dock's title row.
+  // For the title row of the dock.
   SpectrumHeader& header() noexcept { return *header_; }
   SpectrumChart& chart() noexcept { return *chart_; }
 
-  // Null: none. `live`: what is connected is shown instead.
+  // `recording`: null when there is none. `live`: a live source is shown instead.
   void setSource(const OpenedRecordingPtr& recording, bool live);
-  void setTaxels(const TaxelSelection& taxels);  // empty: none is chosen
+  // Sets the chosen taxels; empty when none is chosen.
+  void setTaxels(const TaxelSelection& taxels);
   void setVisibleRange(double fromS, double toS);
   void setPosition(double seconds);
   void setTheme(Theme theme);
   void setMap(ColorMapName map) { chart_->setMap(map); }
-  // Gives up what is being computed; whether there was anything.
+  // Cancels the computation; returns whether one was running.
   bool cancel();
 
-  // There is a spectrum, and it is seen.
+  // Whether a spectrum exists and is visible.
   bool shown() const;
-  QString name() const { return name_; }  // "finger 2 distal · x 2, y 9"
-  QString emptyText() const;              // why there is none; empty: there is one
+  // The name of the signal: "finger 2 distal · x 2, y 9".
+  QString name() const { return name_; }
+  // Why there is no spectrum; empty when there is one.
+  QString emptyText() const;
   bool busy() const { return worker_.busy() || later_.isActive(); }
-  // For tests and pictures: until what was asked for is there.
+  // Waits until the requested spectrum is computed; for tests and pictures.
   void settle();
-  // What is shown, as tables: every segment, the mean of them.
+  // Tables of the shown spectrum: every segment, and the mean over segments.
   std::vector<ExportedTable> tables() const;
 
  signals:
@@ -67,7 +70,8 @@ class SpectrumPanel : public QWidget {
   double fromS_ = 0.0;
   double toS_ = 0.0;
   QString name_;
-  std::optional<SpectrumQuestion> asked_;  // that is being answered, or was
+  // The last question, answered or not.
+  std::optional<SpectrumQuestion> asked_;
   SpectrumWorker worker_;
   QTimer later_;
   SpectrumHeader* header_;

@@ -10,25 +10,27 @@
 namespace palpate::gui {
 namespace {
 
-constexpr std::size_t kFramesLookedAt = 4000;  // for the strongest taxel
-// How much of the work each part is.
+constexpr std::size_t kFramesLookedAt = 4000;  // to find the strongest taxel
+// Shares of the whole work.
 constexpr double kLookShare = 0.2;
 constexpr double kSpectrumWorkerReadShare = 0.5;
 constexpr double kToldStep = 0.02;
 
-// Part of a progress: from `base`, `share` of the whole.
+// Progress of one part of the work, which starts at `base` and makes up `share` of the whole.
 Progress part(const Progress& whole, double base, double share) {
   return [&whole, base, share](double done) { return whole(base + share * done); };
 }
 
 }  // namespace
 
-// Of the recording asked about last: weak, so that a closed one isn't held here.
+// Results for the last recording; the pointer is weak, so that a closed recording is freed.
 struct SpectrumWorker::Kept {
   std::weak_ptr<const OpenedRecording> of = {};
   bool looked = false;
-  TaxelSelection strongest = {};  // once it was looked for; empty: nothing is felt
-  TaxelSelection taxels = {};     // whose whole series this is
+  // Valid once `looked`; empty when no taxel has a signal.
+  TaxelSelection strongest = {};
+  // The taxels whose whole series is kept.
+  TaxelSelection taxels = {};
   std::shared_ptr<const Series> series = {};
 };
 

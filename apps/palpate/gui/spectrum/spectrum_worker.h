@@ -1,5 +1,5 @@
-// Spectra of a recording, computed beside the window, and given up as soon as something else is
-// asked for.
+// Computes spectra of a recording in its own thread for the dock Spectrum; a new question cancels
+// the running one.
 #pragma once
 
 #include <QObject>
@@ -15,37 +15,48 @@
 
 namespace palpate::gui {
 
+// Which spectrum is requested.
 struct SpectrumQuestion {
-  OpenedRecordingPtr recording = nullptr;  // never null
-  TaxelSelection taxels = {};              // empty: the strongest one
+  // Never null.
+  OpenedRecordingPtr recording = nullptr;
+  // The chosen taxels; empty: the strongest taxel.
+  TaxelSelection taxels = {};
   SpectrogramOptions options = {};
-  // What is seen [s from the first frame]. Where the whole recording fits the options, all of it is
-  // computed.
+  // The visible span [s since the first frame]. If the options allow it (fitsWhole()), the whole
+  // recording is computed instead.
   double fromS = 0.0;
   double toS = 0.0;
 };
 
+// The computed spectrum.
 struct SpectrumAnswer {
-  TaxelSelection taxels = {};  // whose mean it is; empty: none feels anything
-  bool strongest = false;      // nobody chose it
-  bool whole = true;           // of the whole recording, not only of what was seen
+  // The taxels whose mean is the signal; empty when no taxel has a signal.
+  TaxelSelection taxels = {};
+  // The taxel was chosen automatically.
+  bool strongest = false;
+  // The whole recording was computed, not only the visible span.
+  bool whole = true;
   SpectrumOptions options = {};
-  std::shared_ptr<const Series> series = nullptr;            // null: there is none
-  std::shared_ptr<const Spectrogram> spectrogram = nullptr;  // likewise; without a part: too short
-  QString failure = {};                                      // one line; a block that can't be read
+  // Null when there is none.
+  std::shared_ptr<const Series> series = nullptr;
+  // Null when there is none; without parts when the signal is too short.
+  std::shared_ptr<const Spectrogram> spectrogram = nullptr;
+  // Why the work failed, in one line; for example an unreadable block.
+  QString failure = {};
 };
 
-// Whether every segment of the whole recording is computed; else only those of what is seen.
+// Whether every segment of the whole recording is computed, rather than only those of the visible
+// span.
 bool fitsWhole(const SpectrumQuestion& question);
 
 class SpectrumWorker : public QObject {
   Q_OBJECT
  public:
   explicit SpectrumWorker(QObject* parent = nullptr);
-  // Gives up and waits.
+  // Cancels the work and waits until it ends.
   ~SpectrumWorker() override;
 
-  // Replaces what was asked before.
+  // Replaces the previous question.
   void ask(const SpectrumQuestion& question);
   void cancel();
   bool busy() const noexcept { return busy_; }
@@ -55,16 +66,19 @@ class SpectrumWorker : public QObject {
   void started();
   void progressed(double fraction);
   void answered(const palpate::gui::SpectrumAnswer& answer);
-  void ended();  // answered, or given up
+  // Answered or cancelled.
+  void ended();
 
  private:
   struct Kept;
   void work(const SpectrumQuestion& question, int generation);
   SpectrumAnswer answerTo(const SpectrumQuestion& question, const Progress& progress);
 
-  QThreadPool pool_;  // one thread: what is kept belongs to it
+  // Has one thread, which alone uses `kept_`.
+  QThreadPool pool_;
   std::shared_ptr<Kept> kept_;
-  std::atomic<int> generation_ = 0;  // of the newest question
+  // Number of the newest question.
+  std::atomic<int> generation_ = 0;
   bool busy_ = false;
 };
 
