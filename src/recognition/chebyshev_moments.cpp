@@ -11,7 +11,8 @@ namespace {
 
 constexpr int kLargestSize = 256;
 constexpr int kHighestOrder = 32;
-// Relative to the spread of the picture: below, it has no axis (rounding only).
+// Limit relative to the spread of the image, below which a difference is due to rounding and the
+// image has no axis.
 constexpr double kRound = 1e-9;
 
 void requirePicture(const Eigen::MatrixXd& picture, const ChebyshevPolynomials& of) {

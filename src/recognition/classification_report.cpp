@@ -27,7 +27,7 @@ BinomialInterval wilsonInterval(std::size_t successes, std::size_t trials, doubl
   const double p = static_cast<double>(successes) / n, zz = z * z;
   const double centre = (p + zz / (2.0 * n)) / (1.0 + zz / n);
   const double half = z / (1.0 + zz / n) * std::sqrt(p * (1.0 - p) / n + zz / (4.0 * n * n));
-  // At the ends rounding would leave 1e-17 where it is 0 or 1.
+  // At the ends, rounding would leave 1e-17 instead of 0 or 1.
   return {successes == 0 ? 0.0 : std::max(0.0, centre - half),
           successes == trials ? 1.0 : std::min(1.0, centre + half)};
 }

@@ -28,7 +28,7 @@ ClassGaussianOptions gaussianOf(const PipelineOptions& options) {
   return gaussian;
 }
 
-// Everything but calibration and novelty.
+// Fits all stages except calibration and novelty.
 ClassifierPipeline fitted(const Eigen::MatrixXd& x,
                           const std::vector<int>& y,
                           std::size_t numClasses,
@@ -56,14 +56,13 @@ Eigen::MatrixXd projected(const ClassifierPipeline& pipeline, const Eigen::Matri
   return pipeline.discriminant ? pipeline.discriminant->apply(z) : z;
 }
 
-// Some class has two samples.
+// Whether at least one class has two samples.
 bool hasScatter(const SampleSet& samples) {
   const std::vector<std::size_t> counts = samples.counts();
   return std::any_of(counts.begin(), counts.end(), [](std::size_t n) { return n > 1; });
 }
 
-// Scores of samples that did not teach, split by split: decisions of pairs (svm) or logarithms of
-// densities.
+// Scores of the test samples of all splits: decision values of the pairs (svm) or log densities.
 struct HeldOut {
   Eigen::MatrixXd scores;
   std::vector<int> y;
@@ -73,7 +72,8 @@ HeldOut heldOut(const SampleSet& samples, const PipelineOptions& options) {
   const bool svm = options.classifier == ClassifierKind::kSvm;
   HeldOut all;
   for (const SampleSplit& split : blockSplits(samples.y, options.calibrationBlocks)) {
-    // Every class that teaches the whole teaches the part, so that the pairs are the same.
+    // Each class with training samples in the whole set has some in every split, so that the pairs
+    // are the same.
     const SampleSet train = samples.rows(split.train), test = samples.rows(split.test);
     if (!hasScatter(train)) continue;
     const ClassifierPipeline part = fitted(train.x, train.y, train.numClasses(), options);
@@ -102,8 +102,8 @@ std::vector<Sigmoid> sigmoidsOf(const SupportVectorMachine& svm, const HeldOut& 
   return sigmoids;
 }
 
-// Logarithms of the coupled probabilities of one sample; classes without samples take part in no
-// pair: -infinity.
+// Logarithms of the coupled probabilities of one sample; -infinity for classes without samples,
+// which are in no pair.
 Eigen::VectorXd coupledLogs(const ClassifierPipeline& pipeline, const Eigen::VectorXd& decisions) {
   std::vector<int> place(pipeline.numClasses, -1);
   int present = 0;
@@ -139,8 +139,8 @@ void calibrate(const SampleSet& samples,
   const HeldOut held = heldOut(samples, options);
   if (options.classifier == ClassifierKind::kSvm) {
     pipeline.sigmoids = sigmoidsOf(pipeline.svm, held);
-    // Coupled probabilities of many classes with few samples are far too even: one exponent for all
-    // mends it.
+    // Coupled probabilities of many classes with few samples are far too uniform; one common
+    // exponent corrects this.
     pipeline.exponent = fitExponent(coupledRows(pipeline, held.scores), held.y);
   } else {
     pipeline.exponent = fitExponent(held.scores, held.y);
@@ -148,7 +148,7 @@ void calibrate(const SampleSet& samples,
   pipeline.calibrated = true;
 }
 
-// The votes decide (they are right more often); the probabilities are dealt out in their order.
+// Assigns the probabilities in the order of the votes, because the votes are more accurate.
 Eigen::RowVectorXd inOrder(const std::vector<int>& ranking, const Eigen::RowVectorXd& p) {
   std::vector<double> sorted(p.begin(), p.end());
   std::sort(sorted.begin(), sorted.end(), std::greater<>());
@@ -167,8 +167,7 @@ ClassifierPipeline ofDay(const SampleSet& samples) {
   return pipeline;
 }
 
-// Of each feature: how far the means of classes lie apart, against what grasps of one class
-// scatter.
+// Weight of each feature: distance of the class means relative to the scatter within the classes.
 Eigen::VectorXd separationWeights(const Eigen::MatrixXd& means, const Eigen::VectorXd& variance) {
   const Eigen::MatrixXd away = means.rowwise() - means.colwise().mean();
   const Eigen::VectorXd between =
@@ -294,7 +293,7 @@ Eigen::VectorXd ClassifierPipeline::featureWeights() const {
     return separationWeights(gaussian);
   }
   if (classifier != ClassifierKind::kSvm) return discriminant->featureWeights();
-  // The planes, carried back to the features.
+  // Transforms the hyperplanes back to the features.
   SupportVectorMachine back = svm;
   back.weights = svm.weights * discriminant->directions.transpose();
   return back.featureWeights();

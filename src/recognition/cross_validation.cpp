@@ -144,7 +144,7 @@ std::vector<LearningPoint> learningCurve(const SampleSet& samples,
     double taught = 0.0;
     for (SampleSplit& split : part) {
       std::vector<std::size_t> taken(samples.numClasses(), 0);
-      // Evenly over the recording, not its first minutes only.
+      // Evenly spaced over the recording, not only from its beginning.
       std::vector<std::size_t> there(samples.numClasses(), 0), seen(samples.numClasses(), 0);
       for (const std::size_t i : split.train) ++there[static_cast<std::size_t>(samples.y[i])];
       std::erase_if(split.train, [&](std::size_t i) {

@@ -114,7 +114,7 @@ DiscriminantAnalysis DiscriminantAnalysis::of(const Eigen::MatrixXd& x,
   const std::size_t there = std::min(static_cast<std::size_t>(x.cols()), classes - 1);
   const auto count = static_cast<Eigen::Index>(
       options.components == 0 ? there : std::min(options.components, there));
-  // Eigenvalues come ascending.
+  // The eigenvalues are in ascending order.
   fitted.directions = solver.eigenvectors().rightCols(count).rowwise().reverse();
   fitted.separation = solver.eigenvalues().tail(count).reverse().cwiseMax(0.0);
   for (Eigen::Index k = 0; k < count; ++k) fixSign(fitted.directions.col(k));

@@ -51,7 +51,8 @@ EmptyHandZero emptyHandZero(const Profile& profile,
   EmptyHandZero out;
   out.problem = hand.mismatch(profile);
   if (!out.problem.empty()) return out;
-  PinchHand pinch = hand;  // its own two pads only
+  // Only the two pads of the hand itself are used.
+  PinchHand pinch = hand;
   pinch.otherPads.clear();
   std::vector<double> zeros;
   for (const GraspSegment& touch : findPinches(profile, pinch, progress)) {
@@ -87,7 +88,7 @@ EmptyHandZero emptyHandZero(const Profile& profile,
   for (const double zero : zeros) out.mm += zero / count;
   double squares = 0.0;
   for (const double zero : zeros) squares += (zero - out.mm) * (zero - out.mm);
-  // A few touches say little about their own scatter: it is never taken for less than what is known
+  // The scatter of a few touches is uncertain, so that it is at least the known standard deviation
   // of touches.
   const double scatter = zeros.size() > 1 ? std::sqrt(squares / (count - 1.0)) : 0.0;
   out.sdMm = std::max(scatter, options.touchSdMm) / std::sqrt(count);
@@ -140,7 +141,7 @@ EmptyHandZero emptyHandZeroFrom(const Json& json) {
   if (!(out.sdMm > 0.0) || !(touches >= 1.0 && touches <= 1e6))
     throw Error("a damaged zero of the empty hand: its error or its touches");
   out.touches = static_cast<std::size_t>(touches);
-  // Those of models of format 1 don't say where they are from.
+  // Zeros in models of format 1 have no time and origin.
   if (json.contains("time_us"))
     out.timeUs = static_cast<std::int64_t>(emptyHandNumberIn(json, "time_us"));
   out.origin = textIn(json, "origin");

@@ -20,7 +20,7 @@ struct Source {
   std::string className;
 };
 
-// What came of one recording.
+// Result for one recording.
 struct Gathered {
   std::vector<FeatureRow> rows;
   std::vector<std::string> problems;
@@ -69,7 +69,8 @@ fs::path withoutSlash(const fs::path& folder) {
   return folder.has_filename() ? folder : folder.parent_path();
 }
 
-// Adds the recordings of a folder; what can't be looked into is said.
+// Adds the recordings of a folder to `sources`, and a line to `problems` for each folder that
+// cannot be read.
 void addFolder(const fs::path& folder,
                std::vector<Source>& sources,
                std::vector<std::string>& problems) {

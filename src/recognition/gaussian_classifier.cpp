@@ -18,7 +18,7 @@ void requireShare(double value, double most, const char* name) {
     throw std::invalid_argument(std::string("ClassGaussianOptions: ") + name + " is out of range");
 }
 
-// S_c of every class that has two samples; empty else.
+// S_c of every class with at least two samples; empty for the others.
 std::vector<Eigen::MatrixXd> classCovariances(const WithinScatter& within,
                                               const std::vector<int>& y,
                                               std::size_t numClasses) {

@@ -74,7 +74,7 @@ void GraspCollector::addFrame(std::shared_ptr<const TactileFrame> frame) {
     }
     return;
   }
-  // Another contact, so soon that the last one's end isn't over.
+  // A new contact begins before the frames after the previous one are complete.
   if (contact && without_ > options_.bridgedFrames) {
     finish();
     frames_.push_back(frame);
@@ -94,8 +94,7 @@ void GraspCollector::addAngles(JointAngles angles) {
   if (!angles_.empty() &&
       (angles.hostUs <= angles_.back().hostUs || angles.deg.size() != angles_.back().deg.size()))
     return;
-  // Behind the last frame that is kept only the newest sample is of use: to the frames that are
-  // kept next.
+  // After the last kept frame only the newest sample is needed, for the frames that are kept next.
   const bool beyond = contactFrames_ > options_.maxFrames && angles_.size() > 1 &&
                       angles_.back().hostUs > frames_.back()->hostUs;
   if (beyond) angles_.pop_back();
@@ -103,7 +102,7 @@ void GraspCollector::addAngles(JointAngles angles) {
   if (frames_.empty() && angles_.size() > kAnglesWithoutFrames) angles_.pop_front();
 }
 
-// The last ones at or before the first frame stay: they are its.
+// The last sample at or before the first frame is kept, because it belongs to this frame.
 void GraspCollector::trimAngles() {
   if (frames_.empty()) return;
   while (angles_.size() > 1 && angles_[1].hostUs <= frames_.front()->hostUs) angles_.pop_front();

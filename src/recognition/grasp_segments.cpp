@@ -13,20 +13,26 @@ namespace palpate {
 namespace {
 
 constexpr std::size_t kFramesPerReport = 512;
-constexpr double kFingerShare = 0.5;  // of the frames, to be one of a grasp's fingers
-constexpr double kEndOutside = 0.5;   // factor of the quality, per end
+// Fraction of the frames in which a finger must touch to be one of the fingers of the grasp.
+constexpr double kFingerShare = 0.5;
+// Factor on the quality for each end that is not inside the recording.
+constexpr double kEndOutside = 0.5;
 
-// What counts of one frame.
+// Contact in one frame.
 struct FrameContact {
-  bool contact = false;  // as the rule asks for
+  // Whether the frame is in contact by the rule.
+  bool contact = false;
   bool saturated = false;
-  double sum = 0.0;  // of all taxels [counts]
+  // Sum of all taxels [counts].
+  double sum = 0.0;
 };
 
-// The fingers of a hand, and on which of them each matrix sits.
+// The fingers of a hand, and the finger of each matrix.
 struct Fingers {
-  std::vector<int> numbers;           // ascending
-  std::vector<std::size_t> ofMatrix;  // places in `numbers`
+  // Finger numbers, ascending.
+  std::vector<int> numbers;
+  // Index into `numbers`, per matrix.
+  std::vector<std::size_t> ofMatrix;
 
   explicit Fingers(const HandDescription& hand) {
     const std::size_t matrices = hand.layout->numMatrices();
@@ -42,7 +48,7 @@ struct Fingers {
   }
 };
 
-// Of one matrix in one frame, what the rules ask for.
+// Contact of one matrix in one frame.
 struct MatrixContact {
   bool active = false;
   double maximum = 0.0;  // [counts]
@@ -70,10 +76,11 @@ class Finder {
     touches_.reserve(profile.numFrames() * fingers_.numbers.size());
   }
 
-  // The next frame; of each matrix.
+  // Adds the next frame, with the contact of each matrix.
   void add(const std::vector<MatrixContact>& matrices) {
     FrameContact frame;
-    const std::size_t first = touches_.size();  // of this frame's fingers
+    // First entry of this frame.
+    const std::size_t first = touches_.size();
     touches_.resize(first + fingers_.numbers.size());
     const auto saturation = static_cast<double>(profile_.hand().saturationCounts);
     std::size_t touching = 0;
@@ -97,7 +104,8 @@ class Finder {
 
   std::vector<GraspSegment> finish(const TimingReport& timing) const {
     std::vector<GraspSegment> segments;
-    std::size_t from = 0;  // of a part without gaps
+    // First frame of a part without gaps.
+    std::size_t from = 0;
     for (std::size_t g = 0; g <= timing.gaps.size(); ++g) {
       const std::size_t to = g < timing.gaps.size() ? timing.gaps[g].frame + 1 : frames_.size();
       findIn(from, std::min(to, frames_.size()), segments);
@@ -107,7 +115,7 @@ class Finder {
   }
 
  private:
-  // In frames from..to-1, between two gaps.
+  // Finds grasps in frames from..to-1, between two gaps.
   void findIn(std::size_t from, std::size_t to, std::vector<GraspSegment>& segments) const {
     const std::size_t bridged = options_.rule == GraspRule::kStudy ? 0 : options_.bridgedFrames;
     for (std::size_t i = from; i < to;) {
@@ -137,7 +145,8 @@ class Finder {
     const auto count = static_cast<double>(end - begin + 1);
     std::size_t touching = 0;
     std::size_t saturated = 0;
-    std::vector<std::pair<std::size_t, int>> times;  // of each finger
+    // Number of frames with contact, per finger.
+    std::vector<std::pair<std::size_t, int>> times;
     for (const int number : fingers_.numbers) times.emplace_back(0, number);
     for (std::size_t i = begin; i <= end; ++i) {
       touching += frames_[i].contact ? 1 : 0;
@@ -180,7 +189,8 @@ class Finder {
   GraspSegmentOptions options_;
   Fingers fingers_;
   std::vector<FrameContact> frames_;
-  std::vector<bool> touches_;  // finger after finger, frame after frame
+  // Whether a finger touches: for each frame all fingers.
+  std::vector<bool> touches_;
 };
 
 }  // namespace

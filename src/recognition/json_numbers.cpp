@@ -84,7 +84,8 @@ Eigen::MatrixXd matrix(const Json& object,
   const Json list = member(object, key);
   if (!list.isArray()) refuseJsonNumbers(key, "is no list");
   requireSize(list.size(), rows, key);
-  // Before anything is allocated by them: a small file may claim a large matrix.
+  // The sizes are checked before memory is allocated, because a small damaged file may declare a
+  // large matrix.
   for (std::size_t i = 0; i < list.size(); ++i) {
     const Json row = list.at(i);
     if (!row.isArray()) refuseJsonNumbers(key, "has a row that is no list");

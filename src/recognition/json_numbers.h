@@ -1,5 +1,7 @@
-// Vectors and matrices of a model file: arrays of numbers, checked on the way back. A model that is
-// damaged must not classify by nonsense: all of these throw Error naming the key.
+// Reads and writes the vectors and matrices of a model file as arrays of numbers. The conversions
+// of pipelines, classifiers and models to JSON use it. The reading functions throw Error naming the
+// key when a value is missing, is not finite or has a wrong size, so that a damaged model is never
+// used.
 #pragma once
 
 #include <cstddef>
@@ -14,15 +16,19 @@
 namespace palpate::json_numbers {
 
 Json of(const Eigen::VectorXd& vector);
-Json of(const Eigen::MatrixXd& matrix);  // array of rows
+// An array of rows.
+Json of(const Eigen::MatrixXd& matrix);
 Json of(const std::vector<std::string>& texts);
 
-double number(const Json& object, std::string_view key);  // finite
+// A finite number.
+double number(const Json& object, std::string_view key);
 bool flag(const Json& object, std::string_view key);
 std::string text(const Json& object, std::string_view key);
-std::size_t count(const Json& object, std::string_view key);  // 0 .. 1e9
-Json member(const Json& object, std::string_view key);        // must be there
-// `size` below 0: any.
+// An integer, 0..1e9.
+std::size_t count(const Json& object, std::string_view key);
+// A member that must exist.
+Json member(const Json& object, std::string_view key);
+// If `size` is below 0, any size is accepted.
 Eigen::VectorXd vector(const Json& object, std::string_view key, Eigen::Index size = -1);
 Eigen::MatrixXd matrix(const Json& object,
                        std::string_view key,

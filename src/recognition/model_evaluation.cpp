@@ -12,7 +12,8 @@
 namespace palpate {
 namespace {
 
-constexpr std::size_t kTop = 5;  // named with a verdict
+// Number of classes that are listed for a prediction.
+constexpr std::size_t kTop = 5;
 
 constexpr double kFarthestMm = 20.0;
 
@@ -25,7 +26,7 @@ Json share(std::size_t part, std::size_t whole) {
   return whole == 0 ? Json() : Json(static_cast<double>(part) / static_cast<double>(whole));
 }
 
-// The first so many in time of each class.
+// Returns the first `perClass` grasps of each class in time.
 std::vector<std::size_t> firstOfClasses(const std::vector<std::size_t>& session,
                                         const SampleSet& samples,
                                         std::size_t perClass) {
@@ -35,7 +36,7 @@ std::vector<std::size_t> firstOfClasses(const std::vector<std::size_t>& session,
   return first;
 }
 
-// What a session is judged with when some of its grasps are labelled.
+// Context of a session in which some grasps are labelled.
 SessionContext adaptedUse(const TrainedModel& adapted,
                           const Eigen::MatrixXd& x,
                           const OffsetChoice& choice) {

@@ -1,4 +1,4 @@
-// The trained model as a file.
+// Reads and writes a trained model as a JSON file (the functions of trained_model.h).
 #include <cstdint>
 #include <exception>
 #include <utility>
@@ -44,7 +44,8 @@ std::vector<ModelInput> inputsFrom(const Json& json, std::string_view key) {
   return inputs;
 }
 
-constexpr const char* kZeroInOptions = "empty_hand_zero";  // where format 1 had it
+// Key of the zero in format 1, which stored it among the options.
+constexpr const char* kZeroInOptions = "empty_hand_zero";
 
 Json jsonOf(const std::optional<EmptyHandZero>& zero) {
   return zero ? emptyHandZeroJson(*zero) : Json();

@@ -28,7 +28,8 @@ std::vector<std::optional<std::size_t>> componentsOf(const SampleSet& samples,
   return list;
 }
 
-// One split: accuracy with n, n - 1, .. 1 features; the order of dropping.
+// Result of one split: accuracy with n, n - 1, .. 1 features, and the order in which they were
+// removed.
 struct Elimination {
   std::vector<double> accuracy;
   std::vector<std::size_t> dropped;
@@ -45,7 +46,7 @@ double shareRight(const ClassifierPipeline& pipeline, const SampleSet& test) {
   return static_cast<double>(right) / static_cast<double>(test.numSamples());
 }
 
-// `test` empty: only the order.
+// If `test` is empty, only the order is determined.
 Elimination eliminate(const SampleSet& train,
                       const SampleSet& test,
                       const PipelineOptions& options) {

@@ -15,7 +15,8 @@ std::string inFrame(std::size_t frame) { return " in frame " + std::to_string(fr
 
 PadLoad padLoad(const ConstMatrixMap& values, double pitchMm) {
   PadLoad load;
-  if (!(values.maxCoeff() > 0.0F)) return load;  // most pads, most of the time
+  // The common case: most pads are not touched.
+  if (!(values.maxCoeff() > 0.0F)) return load;
   double x = 0.0, y = 0.0;
   const float* value = values.data();
   for (Eigen::Index row = 0; row < values.rows(); ++row) {

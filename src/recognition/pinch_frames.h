@@ -1,4 +1,5 @@
-// The frames of one grasp as the features need them: read once, checked once.
+// Reads and checks the frames of one grasp for the computation of features (plateau_features.cpp,
+// study_features.cpp).
 #pragma once
 
 #include <array>
@@ -15,15 +16,17 @@
 
 namespace palpate {
 
-// Of one matrix: of its values > 0.
+// Load of one matrix, from its values > 0.
 struct PadLoad {
-  double sum = 0.0;             // [counts]
-  double largest = 0.0;         // [counts]
-  double xMm = 0.0, yMm = 0.0;  // centroid on the unrolled surface, from the centre of taxel (0, 0)
+  double sum = 0.0;      // [counts]
+  double largest = 0.0;  // [counts]
+  // Centroid on the unrolled surface, measured from the centre of taxel (0, 0) [mm].
+  double xMm = 0.0, yMm = 0.0;
 };
 
-// Why a span is no grasp that features can be had of ("" when it is): too short, not finite values,
-// no joint angles, pads that don't touch, another hand.
+// Frames of a grasp. `problem` is the reason why no features can be computed (too short, values
+// that are not finite, no joint angles, pads that do not touch, another hand); otherwise it is
+// empty.
 struct PinchFrames {
   std::string problem;
   std::size_t begin = 0;
@@ -31,19 +34,20 @@ struct PinchFrames {
   std::vector<std::vector<PadLoad>> loads;     // per frame, per matrix
 };
 
-// Frames grasp.begin..grasp.end. Throws std::out_of_range. allMatrices: the others' loads, too.
+// Reads frames grasp.begin..grasp.end. If `allMatrices` is set, the loads of all matrices are
+// computed, otherwise those of the two pads. Throws std::out_of_range.
 PinchFrames readPinch(const Profile& profile,
                       const GraspSegment& grasp,
                       const PinchHand& hand,
                       bool allMatrices);
 
-// The longest run of frames within a grasp in which both pads touch; nothing when it is shorter
-// than kMinPinchFrames.
+// Returns the longest run of frames within a grasp in which both pads touch; nothing when it is
+// shorter than kMinPinchFrames.
 std::optional<GraspSegment> longestTouch(const Profile& profile,
                                          const GraspSegment& grasp,
                                          const std::array<std::size_t, 2>& pads);
 
-// Of one matrix of a frame.
+// Load of one matrix of a frame.
 PadLoad padLoad(const ConstMatrixMap& values, double pitchMm);
 
 constexpr std::size_t kMinPinchFrames = 21;

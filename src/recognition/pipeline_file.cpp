@@ -1,4 +1,4 @@
-// The fitted pipeline as JSON.
+// Converts a fitted ClassifierPipeline to JSON and back (the functions of classifier_pipeline.h).
 #include <cmath>
 #include <utility>
 

@@ -16,13 +16,16 @@ namespace palpate {
 namespace {
 
 constexpr const char* kNotFacing = "the two pads don't face each other";
-constexpr int kSmoothReach = 2;  // frames to each side
+// Frames on either side in the moving average.
+constexpr int kSmoothReach = 2;
 constexpr double kSizeScaleMm = 40.0;
 constexpr double kLeastDistanceMm = -39.9;
-constexpr double kMomentFloor = 0.15;  // [taxel^2]: a single taxel has no extent
+// Added to second moments [taxel^2], because a single taxel has no extent.
+constexpr double kMomentFloor = 0.15;
 constexpr std::array<std::size_t, 3> kStrongest = {1, 4, 9};
 
-// Five-frame mean of both pads' load, edges replicated [counts of the first pad].
+// Moving average over five frames of the load of both pads [counts of the first pad]; the first and
+// last frame are repeated at the ends.
 std::vector<double> smoothLoads(const PinchFrames& frames, const PinchHand& hand) {
   const auto last = static_cast<int>(frames.loads.size()) - 1;
   std::vector<double> smooth(frames.loads.size(), 0.0);
@@ -36,7 +39,7 @@ std::vector<double> smoothLoads(const PinchFrames& frames, const PinchHand& hand
   return smooth;
 }
 
-// Frames with enough load, as many as are wanted, evenly taken.
+// Returns the frames of the plateau, at most maxPlateauFrames, evenly selected.
 std::vector<std::size_t> plateauOf(const std::vector<double>& loads,
                                    const PlateauFeatureOptions& options) {
   const double enough = options.plateauFraction * *std::max_element(loads.begin(), loads.end());
@@ -97,7 +100,7 @@ PlateauPad describe(const Eigen::MatrixXd& mean, const PlateauFeatureOptions& op
   return out;
 }
 
-// Mean of a pad over frames.
+// Mean of the values of a pad over frames.
 Eigen::MatrixXd meanPicture(const Profile& profile,
                             std::size_t begin,
                             const std::vector<std::size_t>& frames,
@@ -125,7 +128,7 @@ std::optional<double> distanceOf(const PinchHand& hand,
   return chordDistanceMm(points[0], normals[0], points[1], normals[1]);
 }
 
-// With the hand's first two pads.
+// Computes the features with the first two pads of the hand.
 PlateauFeatures featuresOfPads(const Profile& profile,
                                const GraspSegment& grasp,
                                const PinchHand& hand,
@@ -160,7 +163,7 @@ PlateauFeatures featuresOfPads(const Profile& profile,
     const std::size_t pad = hand.pads[i];
     const Eigen::MatrixXd mean = meanPicture(profile, grasp.begin, plateau, pad);
     pads[i] = describe(mean, options);
-    // The centroid that D goes by counts every taxel.
+    // The centroid used for D includes every taxel.
     const Eigen::VectorXd columns =
         Eigen::VectorXd::LinSpaced(mean.cols(), 0.0, static_cast<double>(mean.cols()) - 1.0);
     const Eigen::VectorXd rows =

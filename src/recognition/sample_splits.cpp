@@ -21,7 +21,8 @@ Members membersOf(const std::vector<int>& y) {
   return members;
 }
 
-// std::shuffle and std::uniform_int_distribution differ between libraries; these don't.
+// Own shuffle and drawing, because std::shuffle and std::uniform_int_distribution give different
+// results in different standard libraries.
 std::size_t drawBelow(std::mt19937_64& generator, std::size_t bound) {
   const std::uint64_t whole = std::mt19937_64::max() - std::mt19937_64::max() % bound;
   std::uint64_t drawn = generator();
@@ -34,14 +35,15 @@ void shuffle(std::vector<std::size_t>& items, std::mt19937_64& generator) {
     std::swap(items[i - 1], items[drawBelow(generator, i)]);
 }
 
-// How many of each class examine.
+// Returns the number of test samples of each class.
 std::vector<std::size_t> shares(const Members& members,
                                 std::size_t wanted,
                                 std::mt19937_64& generator) {
   std::size_t all = 0, given = 0;
   for (const auto& one : members) all += one.size() > 1 ? one.size() : 0;
   std::vector<std::size_t> share(members.size(), 0);
-  std::vector<std::pair<double, std::size_t>> remainders;  // in an order drawn by lot
+  // Remainder and class; ties are in random order.
+  std::vector<std::pair<double, std::size_t>> remainders;
   std::vector<std::size_t> order(members.size());
   for (std::size_t c = 0; c < order.size(); ++c) order[c] = c;
   shuffle(order, generator);
@@ -58,7 +60,8 @@ std::vector<std::size_t> shares(const Members& members,
   });
   for (const auto& [remainder, c] : remainders) {
     if (given >= wanted) break;
-    if (share[c] + 1 >= members[c].size()) continue;  // one stays to teach
+    // At least one sample of the class is kept for training.
+    if (share[c] + 1 >= members[c].size()) continue;
     ++share[c];
     ++given;
   }

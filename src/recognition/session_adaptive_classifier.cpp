@@ -15,13 +15,13 @@
 namespace palpate {
 namespace {
 
-// Least variance of a feature, as a part of its variance over all samples: what never varies within
-// a class.
+// Smallest variance of a feature, as a fraction of its variance over all samples. It applies to
+// features that are constant within a class.
 constexpr double kLeastVariancePart = 1e-6;
 constexpr double kLeastVariance = 1e-12;
 
-// std::lgamma() writes the sign into a variable of the whole process, and models are made on
-// several threads.
+// std::lgamma() writes the sign to a global variable, which is a data race when models are fitted
+// on several threads.
 double logGamma(double x) {
   int sign = 0;
   return ::lgamma_r(x, &sign);
@@ -43,10 +43,11 @@ void requireSamples(const Eigen::MatrixXd& x,
                                   std::to_string(of));
 }
 
-// Means and scatters within classes.
+// Means and covariance matrices of the classes.
 struct Scatters {
   std::vector<Eigen::VectorXd> means;
-  std::vector<Eigen::MatrixXd> own;  // of classes with two samples or more, else empty
+  // Covariance matrix per class; empty for classes with fewer than two samples.
+  std::vector<Eigen::MatrixXd> own;
   std::vector<double> counts;
   Eigen::MatrixXd pooled;
 };
@@ -91,7 +92,7 @@ Eigen::VectorXd sessionVariance(const Eigen::MatrixXd& pooled,
   return variance;
 }
 
-// Scatter of the means around their mean.
+// Scatter of the class means about their mean.
 Eigen::MatrixXd between(const std::vector<Eigen::VectorXd>& means, const Eigen::VectorXd& middle) {
   Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(middle.size(), middle.size());
   for (const Eigen::VectorXd& mean : means) sum += (mean - middle) * (mean - middle).transpose();
@@ -141,7 +142,7 @@ SessionAdaptiveClassifier SessionAdaptiveClassifier::learn(const Eigen::MatrixXd
   const auto size = std::find(features.begin(), features.end(), options.sizeFeature);
   if (size != features.end()) data.sizeColumn = static_cast<std::size_t>(size - features.begin());
 
-  // What never varies must not make every other value impossible.
+  // Features that are constant in training get a small variance so that other values stay possible.
   data.pooled = scatters.pooled;
   std::vector<std::string> constant;
   for (Eigen::Index f = 0; f < x.cols(); ++f) {
@@ -210,7 +211,7 @@ SessionAdaptiveClassifier::Prepared SessionAdaptiveClassifier::prepare(
     throw Error("a model with a description of another size than its features: " + what);
   if (!distribution.mean.allFinite() || !distribution.scatter.allFinite())
     throw Error("a model with values that are no numbers: " + what);
-  // Features differ by orders of magnitude: scaled, the decomposition is well conditioned.
+  // The features differ by orders of magnitude; scaling makes the decomposition well conditioned.
   if (!(distribution.scatter.diagonal().minCoeff() > 0.0))
     throw Error("a model with a variance that isn't positive: " + what);
   const Eigen::VectorXd scale = distribution.scatter.diagonal().cwiseSqrt().cwiseInverse();

@@ -1,4 +1,4 @@
-// The file form of the model and the offset of a session.
+// Converts a SessionAdaptiveClassifier and a SessionOffset to JSON and back.
 #include <cmath>
 #include <utility>
 

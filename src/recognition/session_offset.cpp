@@ -23,7 +23,7 @@ double lnSumExp(const Eigen::VectorXd& values) {
   return largest + std::log((values.array() - largest).exp().sum());
 }
 
-// ln of the distribution.
+// Logarithm of the distribution.
 Eigen::VectorXd lnOf(const SessionOffset& offset) {
   Eigen::VectorXd out(static_cast<Eigen::Index>(offset.probability.size()));
   for (std::size_t i = 0; i < offset.probability.size(); ++i)
@@ -68,7 +68,7 @@ SessionOffset oneValue(double mm, OffsetSource origin) {
   return out;
 }
 
-// ln p(x | class, offset): one column per place of the grid, one row per class.
+// Returns ln p(x | class, offset) with one row per class and one column per offset of the grid.
 Eigen::MatrixXd overGrid(const SessionAdaptiveClassifier& model,
                          const Eigen::VectorXd& x,
                          const SessionOffset& offset) {
@@ -79,8 +79,8 @@ Eigen::MatrixXd overGrid(const SessionAdaptiveClassifier& model,
   return out;
 }
 
-// Distance of two classes in everything but size, as grasps of one class scatter, today and on
-// another day.
+// Mahalanobis distance of two classes in all features but size, with the mean scatter matrix of the
+// classes (including the variance between sessions).
 class ShapeDistance {
  public:
   explicit ShapeDistance(const SessionAdaptiveClassifier& model) : model_(model) {
@@ -106,15 +106,15 @@ class ShapeDistance {
   Eigen::LDLT<Eigen::MatrixXd> scatter_;
 };
 
-// Different objects: classes that were told with certainty in enough grasps, and can't be taken for
-// one another by a wrong offset.
+// Counts different objects: classes that were recognised with enough probability in enough grasps,
+// and that a wrong offset cannot confuse with one another.
 std::size_t objectsIn(const SessionAdaptiveClassifier& model,
                       const std::vector<std::pair<std::size_t, double>>& confident,
                       const SessionOffsetOptions& options) {
   std::vector<std::size_t> times(model.numClasses(), 0);
   for (const auto& [best, probability] : confident)
     if (probability >= options.objectProbability) ++times[best];
-  // One stray grasp among many is no object.
+  // A single grasp among many does not count as an object.
   constexpr double kStray = 0.15;
   const auto needed = static_cast<std::size_t>(
       std::clamp(std::ceil(kStray * static_cast<double>(confident.size())), 1.0, 2.0));
@@ -147,7 +147,7 @@ void requireColumns(const SessionAdaptiveClassifier& model, const Eigen::MatrixX
                                 std::to_string(model.numFeatures()) + " features");
 }
 
-// What is already known for certain stays so.
+// A fixed offset is not changed by observations.
 bool isFixed(const SessionOffset& before) { return before.gridMm.size() < 2; }
 
 }  // namespace
@@ -240,7 +240,7 @@ SessionOffset measuredOffset(double mm,
   if (!std::isfinite(mm) || !(sdMm > 0.0 && std::isfinite(sdMm)))
     throw std::invalid_argument(
         "measuredOffset: a value that is no number, or an error not above 0");
-  // Far away, or finer than the grid: one that fits.
+  // Widens or refines the grid where the value is far from 0 or its standard deviation is small.
   SessionOffsetOptions grid = options;
   grid.gridHalfWidthMm =
       std::max(options.gridHalfWidthMm, std::min(100.0, std::abs(mm) + 4.0 * sdMm));
@@ -277,7 +277,7 @@ SessionOffset offsetFromBatch(const SessionAdaptiveClassifier& model,
     if (out.origin != OffsetSource::kEmptyHand && out.origin != OffsetSource::kReferences)
       out.origin = OffsetSource::kBatch;
   }
-  // What was told with what is known now.
+  // Classifies the grasps with the offset as it is known now.
   const Eigen::VectorXd now = lnOf(out);
   std::vector<std::pair<std::size_t, double>> confident;
   for (const Eigen::MatrixXd& likelihoods : all) {
@@ -328,7 +328,7 @@ SessionOffset offsetFromReferences(const SessionAdaptiveClassifier& model,
     out.origin = OffsetSource::kReferences;
   }
   out.grasps = before.grasps + confident.size();
-  // Labels are certain: a single grasp of an object is one.
+  // Labels are certain, so that a single grasp counts as an object.
   std::sort(confident.begin(), confident.end());
   confident.erase(std::unique(confident.begin(), confident.end()), confident.end());
   SessionOffsetOptions each = options;

@@ -8,7 +8,8 @@
 namespace palpate {
 namespace {
 
-constexpr double kConstant = 1e-12;  // an sd below this share of the magnitude is rounding
+// A standard deviation below this fraction of the magnitude is due to rounding.
+constexpr double kConstant = 1e-12;
 
 void requireFeatures(Eigen::Index given, Eigen::Index fitted) {
   if (given != fitted)

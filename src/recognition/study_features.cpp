@@ -16,8 +16,10 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr std::size_t kTail = 10;  // frames at the end that the end frame is chosen from
-constexpr std::size_t kHead = 10;  // frames at the begin that the initial frame is chosen from
+// Number of frames at the end from which the end frame is chosen.
+constexpr std::size_t kTail = 10;
+// Number of frames at the beginning from which the initial frame is chosen.
+constexpr std::size_t kHead = 10;
 constexpr int kOrder = 4;
 
 double impressionMm(const std::vector<PadLoad>& loads, const PinchHand& hand) {
@@ -27,12 +29,12 @@ double impressionMm(const std::vector<PadLoad>& loads, const PinchHand& hand) {
 }
 
 // D_k of the frames of a grasp: the diameter of the smallest sphere around the centroids of all
-// matrices that touch.
+// touching matrices.
 class Diameters {
  public:
   Diameters(const PinchFrames& frames, const PinchHand& hand) : frames_(frames), hand_(hand) {}
 
-  // The exact value, or any value above `enough` where it is certain to be above.
+  // Returns the exact value, or some value above `enough` if the exact value is certainly above it.
   double at(std::size_t k, double enough = std::numeric_limits<double>::infinity()) {
     const auto& loads = frames_.loads[k];
     hand_.studyGeometry->pose(frames_.anglesDeg[k], pose_);
@@ -45,7 +47,7 @@ class Diameters {
     for (std::size_t m = 0; m < loads.size(); ++m)
       if (m != hand_.pads[0] && m != hand_.pads[1] && loads[m].sum > 0.0)
         points_.push_back(pointOf(m));
-    // Any sphere around two points is at least as large as they are apart.
+    // A sphere around two points is at least as large as their distance.
     if (points_.size() == 2 || apart + impression > enough) return apart + impression;
     return 2.0 * smallestEnclosingSphere(points_)->radiusMm + impression;
   }
@@ -57,8 +59,8 @@ class Diameters {
   std::vector<Vector3d> points_;
 };
 
-// The two of the last frames whose diameters are nearest to their median (which lies in the middle
-// between them), less one.
+// Returns the two of the last frames whose diameters are nearest to the median (which is the mean
+// of both), each minus one frame.
 std::array<std::size_t, 2> endFrames(const std::array<double, kTail>& diameters,
                                      std::size_t count) {
   std::array<std::pair<double, std::size_t>, kTail> tail;
@@ -68,7 +70,7 @@ std::array<std::size_t, 2> endFrames(const std::array<double, kTail>& diameters,
   return {count - 1 - kTail + first, count - 1 - kTail + last};
 }
 
-// D'_k: the distance of two points that stay where they are on the pads.
+// D'_k: the distance of two points that are fixed on the pads.
 double distanceAt(const PinchFrames& frames,
                   const PinchHand& hand,
                   std::size_t k,
@@ -131,7 +133,8 @@ StudyFeatures studyFeatures(const Profile& profile,
 
   const std::size_t count = frames.loads.size();
   Diameters diameters(frames, hand);
-  std::array<double, kTail> last{};  // diameters of the last frames
+  // Diameters of the last frames.
+  std::array<double, kTail> last{};
   for (std::size_t i = 0; i < kTail; ++i) last[i] = diameters.at(count - kTail + i);
   const auto ends = endFrames(last, count);
   const std::size_t end = endFrame ? *endFrame - grasp.begin : ends[0];

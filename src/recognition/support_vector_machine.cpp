@@ -73,13 +73,14 @@ SupportVectorMachine SupportVectorMachine::of(const Eigen::MatrixXd& x,
                                  std::to_string(numClasses) + " classes");
     present[static_cast<std::size_t>(label)] = true;
   }
-  // OpenCV refuses by an exception of its own, printed on stderr: so nothing reaches it that it
-  // would refuse.
+  // OpenCV reports invalid input by its own exception and prints it on stderr, so that invalid
+  // input is refused before.
   if (!x.allFinite()) refuseSupportVectorMachine("a feature is no number");
   if (x.cols() == 0) refuseSupportVectorMachine("no features");
   SupportVectorMachine machine;
   machine.numClasses = numClasses;
-  for (std::size_t a = 0; a < numClasses; ++a)  // OpenCV's order of pairs
+  // The pairs are in OpenCV's order.
+  for (std::size_t a = 0; a < numClasses; ++a)
     for (std::size_t b = a + 1; b < numClasses; ++b)
       if (present[a] && present[b])
         machine.pairs.emplace_back(static_cast<int>(a), static_cast<int>(b));

@@ -17,7 +17,8 @@ namespace {
 
 constexpr std::int64_t kHalfDayUs = 12LL * 3600 * 1'000'000;
 constexpr std::size_t kBlocks = 5;
-constexpr double kKnownShare = 0.99;  // of known grasps that aren't called unknown
+// Fraction of known grasps that are not classified as unknown.
+constexpr double kKnownShare = 0.99;
 
 bool within(const std::vector<ModelInput>& inputs, std::int64_t timeUs) {
   return std::any_of(inputs.begin(), inputs.end(), [&](const ModelInput& input) {
@@ -25,8 +26,8 @@ bool within(const std::vector<ModelInput>& inputs, std::int64_t timeUs) {
   });
 }
 
-// From grasps that did not teach: from which confidence on it is sure, from which novelty on
-// unknown.
+// Sets the confidence above which results are sure and the novelty above which they are unknown,
+// from grasps that were not used for training.
 void setThresholds(const SampleSet& samples, const ValidationReport& report, TrainedModel& model) {
   std::vector<ScoredPrediction> answers;
   std::vector<double> novelty;
@@ -107,7 +108,7 @@ TrainedModel trainModel(const SampleSet& samples,
   model.features = samples.features;
   model.classes = samples.classes;
   model.pipeline = ClassifierPipeline::of(samples, options);
-  // Too few grasps for blocks: a model all the same, but one that is never sure.
+  // With too few grasps for blocks the model is still made, but its results are never sure.
   const auto splits = blockSplits(samples.y, options.calibrationBlocks);
   const auto reports = splits.empty() ? std::vector<ValidationReport>()
                                       : crossValidateAll(samples, {options}, splits, 0, progress);

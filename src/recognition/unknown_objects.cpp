@@ -13,7 +13,7 @@
 namespace palpate {
 namespace {
 
-// The classes that have samples, without one of them.
+// Returns the samples without class `taken` and without classes that have no samples.
 SampleSet without(const SampleSet& samples, int taken) {
   const std::vector<std::size_t> counts = samples.counts();
   std::vector<int> number(samples.numClasses(), -1);
@@ -79,10 +79,12 @@ UnknownReport unknownWithin(const SampleSet& samples,
                             std::size_t blocks,
                             const Progress& progress) {
   PipelineOptions used = options;
-  if (used.calibrationBlocks == 0) used.calibrationBlocks = 2;  // the distance doesn't depend on it
+  // The distance does not depend on the number of blocks.
+  if (used.calibrationBlocks == 0) used.calibrationBlocks = 2;
   used.validate();
   requireThreeClasses(samples);
-  constexpr double kKnownPart = 0.15;  // of the work
+  // Fraction of the work, for the progress.
+  constexpr double kKnownPart = 0.15;
   const auto part = [&](double from, double to) {
     return progress ? Progress([&progress, from, to](double fraction) {
       return progress(from + (to - from) * fraction);

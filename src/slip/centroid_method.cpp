@@ -8,8 +8,9 @@ struct Point {
   double y = 0.0;
 };
 
-// Alcazar: the centre of mass of the convolution of frames n-1 and n is c_(n-1) + c_n; the
-// difference of two such spans two frames, and half of it is a step.
+// The slip methods `centroid` and `alcazar`. In the method of Alcazar the centre of mass of the
+// convolution of frames n-1 and n is c_(n-1) + c_n. The difference of two such centres spans two
+// frames, and half of it is a step.
 class CentroidMethod final : public TranslationMethod {
  public:
   explicit CentroidMethod(bool alcazar) : alcazar_(alcazar) {}
@@ -50,7 +51,8 @@ class CentroidMethod final : public TranslationMethod {
 
  private:
   const bool alcazar_;
-  int steps_ = 0;  // measurable frames in a row
+  // Number of measurable frames in a row.
+  int steps_ = 0;
   Point last_;
   Point before_;
   Point reference_;

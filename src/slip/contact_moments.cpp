@@ -10,8 +10,8 @@ constexpr Eigen::Index kMostColumns = 256;
 
 }  // namespace
 
-// The third moments along one axis need the sums over the other alone: one pass over the matrix
-// makes row and column sums, the rest works on those.
+// The third moments along one axis only need the sums over the other axis. One pass over the matrix
+// makes the row and column sums; all moments are computed from them.
 ContactMoments contactMoments(const ConstMatrixMap& matrix) noexcept {
   const Eigen::Index rows = matrix.rows();
   const Eigen::Index columns = std::min(matrix.cols(), kMostColumns);

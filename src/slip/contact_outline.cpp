@@ -27,7 +27,8 @@ std::uint16_t ContactOutline::root(std::uint16_t label) {
   return label;
 }
 
-// Two passes would make labels the same everywhere; here a label keeps its root, which is enough.
+// Labels the groups and returns the number of labels. A second pass would give all taxels of a
+// group the same label; here each label refers to the root of its group, which is sufficient.
 int ContactOutline::findGroups(const ConstMatrixMap& matrix, float above) {
   std::uint16_t next = 1;
   for (int y = 0; y < rows_; ++y) {
@@ -39,7 +40,8 @@ int ContactOutline::findGroups(const ConstMatrixMap& matrix, float above) {
         continue;
       }
       const std::uint16_t* over = labels + x - stride_;
-      // The taxel above touches all the others there; without it two groups may meet.
+      // The taxel above is a neighbour of the other three; if it is not active, two groups may meet
+      // here.
       std::uint16_t label = over[0];
       if (label == 0) {
         const std::uint16_t left = labels[x - 1] != 0 ? labels[x - 1] : over[-1];
@@ -62,10 +64,10 @@ int ContactOutline::findGroups(const ConstMatrixMap& matrix, float above) {
   return next - 1;
 }
 
-// Walks around the group, always turning as far to the right of where it came from as there are
-// taxels (Moore's neighbourhood), until it leaves the start as it did at first.
+// Follows the border of the group (Moore-neighbour tracing): at each taxel it searches the
+// neighbours in clockwise order, until it leaves the start in the same direction as at first.
 OutlineShape ContactOutline::borderOf(int start) const {
-  // Clockwise on the screen, from the right.
+  // Neighbours clockwise on the screen, starting on the right.
   const std::array<int, 8> offsets{
       1, stride_ + 1, stride_, stride_ - 1, -1, -stride_ - 1, -stride_, -stride_ + 1};
   constexpr std::array<int, 8> kX{1, 1, 0, -1, -1, -1, 0, 1};
@@ -77,8 +79,8 @@ OutlineShape ContactOutline::borderOf(int start) const {
   int place = start;
   int x = 0;
   int y = 0;
-  // The first in reading order has nothing to its left and above: the search begins behind its
-  // left.
+  // The first taxel in reading order has no neighbour to its left or above, so that the search
+  // starts after its left neighbour.
   int direction = 5;
   int first = -1;
   const int most = 8 * rows_ * columns_;
@@ -91,7 +93,8 @@ OutlineShape ContactOutline::borderOf(int start) const {
         break;
       }
     }
-    if (found < 0) break;  // alone
+    // A single taxel has no border.
+    if (found < 0) break;
     if (place == start && found == first) break;
     if (first < 0) first = found;
     const auto way = static_cast<std::size_t>(found);
@@ -100,7 +103,8 @@ OutlineShape ContactOutline::borderOf(int start) const {
     x += kX[way];
     y += kY[way];
     place += offsets[way];
-    // two before: the first that can't have been seen from the last place
+    // The search continues two directions back, at the first neighbour that was not visible from
+    // the previous taxel.
     direction = (found + 6) & 7;
     if (found % 2 == 1) direction = (found + 5) & 7;
   }
@@ -131,7 +135,7 @@ OutlineShape ContactOutline::describe(const ConstMatrixMap& matrix, float above)
 OutlineShape ContactOutline::describeLikeStudy(const ConstMatrixMap& matrix) {
   float most = 0.0F;
   for (Eigen::Index i = 0; i < matrix.size(); ++i) most = std::max(most, matrix.data()[i]);
-  // Scaled to 255 and rounded: 1 from half a step on.
+  // The study scaled to 255 and rounded: values from half a step up become 1.
   const int labels = findGroups(matrix, 0.5F / 255.0F * most);
   int groups = 0;
   int last = 0;

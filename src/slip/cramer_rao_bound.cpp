@@ -10,7 +10,8 @@
 namespace palpate {
 namespace {
 
-constexpr double kStep = 1e-3;  // of the differences [taxels]
+// Step of the central differences [taxels].
+constexpr double kStep = 1e-3;
 
 double normalDensity(double z) {
   return std::exp(-0.5 * z * z) / std::sqrt(2.0 * std::numbers::pi);
@@ -25,7 +26,9 @@ std::vector<double> counts(const SyntheticContact& contact, const SyntheticSenso
 
 using Field = double SyntheticContact::*;
 
-// Floats of 1500 counts end at 1e-4: a step of 1e-3 taxel moves them by counts, divided out again.
+// Derivative of the ideal counts by central differences. Floats near 1500 counts have a resolution
+// of 1e-4 counts, and a step of 1e-3 taxel changes them by about one count, so that the rounding
+// error is small.
 std::vector<double> slope(const SyntheticContact& contact,
                           const SyntheticSensor& sensor,
                           Field field,
@@ -46,7 +49,8 @@ std::vector<double> slope(const SyntheticContact& contact,
 double censoredInformation(double z) noexcept {
   if (z > 8.0) return 1.0;
   if (z < -8.0) return 0.0;
-  const double below = normalBelow(-z);  // that it is censored
+  // Probability that the value is censored.
+  const double below = normalBelow(-z);
   const double density = normalDensity(z);
   return normalBelow(z) - z * density + density * density / below;
 }

@@ -13,16 +13,20 @@
 namespace palpate {
 namespace {
 
-constexpr int kKeyFrameAround = 2;     // places of coefficients on every side
-constexpr float kPole = -0.26794919F;  // sqrt(3) - 2, of the cubic spline's inverse filter
+// Places of coefficients on every side of the matrix.
+constexpr int kKeyFrameAround = 2;
+// Pole of the inverse filter of the cubic spline: sqrt(3) - 2.
+constexpr float kPole = -0.26794919F;
 
 using spline::SplineWeights;
 
-// In place: values -> coefficients of the spline through them, along one line; mirrored at its
-// ends.
+// Replaces the values along one line by the coefficients of the spline through them. The line is
+// mirrored at its ends.
 void inverseFilter(float* line, int length, int step) noexcept {
-  if (length == 1) return;  // a spline of one place is constant
-  // Mirrored about the end places: the sum runs forth and back, its terms fall by 0.27 each.
+  // The spline through one place is constant.
+  if (length == 1) return;
+  // The line is mirrored about its end places: the sum runs over the line and its mirror image, and
+  // each term is smaller by a factor of 0.27.
   const int period = 2 * length - 2;
   float sum = 0.0F;
   float power = 1.0F;
@@ -39,8 +43,8 @@ void inverseFilter(float* line, int length, int step) noexcept {
   for (int i = 0; i < length; ++i) line[i * step] *= 6.0F;
 }
 
-// Two places more at either end of a line, by the parabola (or the line, or the value) through its
-// last ones.
+// Extrapolates a line by two places at either end, with the parabola (or the line, or the constant)
+// through its last places.
 void goOn(float* line, int length, int step) noexcept {
   for (int side = 0; side < 2; ++side) {
     float* end = side == 0 ? line : line + (length - 1) * step;
@@ -169,8 +173,9 @@ void KeyFrame::fill() {
     }
 }
 
-// Around the matrix the surface goes on as a parabola, so that a contact that is cut by an edge
-// keeps its slope there; nothing outside is ever compared with a taxel, it only bounds the spline.
+// Outside of the matrix the surface is continued as a parabola, so that a contact that is cut off
+// by an edge keeps its slope there. Values outside are never compared with a taxel; they only serve
+// as the boundary of the spline.
 void KeyFrame::interpolate() noexcept {
   const int rows = layout_.rows;
   const int columns = layout_.columns;

@@ -13,7 +13,8 @@ namespace {
 
 using spline::SplineWeights;
 
-// Half places before the first taxel: the margin, and one that a spline reaches out.
+// Number of half places before the first taxel: the margin, and one more for the reach of the
+// spline.
 constexpr int kBefore = 2 * LearnedSurface::kMargin + 1;
 
 void checkLearnedSurface(bool good, const char* field, double value) {
@@ -75,7 +76,8 @@ bool LearnedSurface::set(const ConstMatrixMap& frame, double noiseCounts) {
       ofTaxels_[static_cast<std::size_t>(i)] = variance;
     }
 
-  // The spline of half the distance that is the same surface: (1 4 6 4 1)/8 along either axis.
+  // Coefficients of the same surface with half the knot distance: filter (1 4 6 4 1)/8 along either
+  // axis.
   for (int row = 0; row < rows_; ++row)
     for (int column = 0; column < columns_; ++column) {
       const int halfY = row - kBefore;
@@ -208,8 +210,8 @@ void LearnedSurface::learn(const ConstMatrixMap& frame,
       } else if (measured >= saturated && model >= measured) {
         continue;
       }
-      // An error of the motion moves the whole surface, which no single taxel can know: it counts
-      // more than once.
+      // An error of the motion moves the whole surface, so that the errors of the taxels are
+      // correlated. Its variance is therefore multiplied by kMotionCounts.
       const SplineWeights along = values * spline::slopes(halfX - floorX);
       SplineWeights across = SplineWeights::Zero();
       const SplineWeights slopesY = spline::slopes(halfY - floorY);
@@ -228,7 +230,7 @@ void LearnedSurface::learn(const ConstMatrixMap& frame,
       for (int j = 0; j < 4; ++j) {
         Eigen::Map<SplineWeights> variancesOfRow(variances + j * columns_);
         Eigen::Map<SplineWeights> row(coefficients + j * columns_);
-        // Kalman gain
+        // Kalman gain.
         const SplineWeights toward = (scale * weightsY(j)) * weightsX * variancesOfRow;
         row += residual * toward;
         variancesOfRow += forgotten - toward * toward * all;

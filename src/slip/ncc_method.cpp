@@ -1,9 +1,10 @@
-// Normalised cross-correlation of two frames, over what overlaps of them at every shift:
+// The slip methods `ncc-paraboloid` and `ncc-gauss3`: normalised cross-correlation of two frames
+// over their overlap at every shift,
 //
 //   rho(s) = sum A(p) B(p + s) / sqrt(sum A(p)^2 sum B(p + s)^2),  p and p + s inside of the matrix
 //
-// Normalised over the whole frames the peak would be pulled towards 0. A shift at which less than
-// half of either frame's squares overlap counts as no match.
+// If it were normalised over the whole frames, the peak would be biased towards 0. A shift at which
+// less than half of the sum of squares of either frame overlaps counts as no match.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -16,9 +17,11 @@
 namespace palpate {
 namespace {
 
-constexpr int kNccMethodAround = 3;  // of the peak: 7 x 7
+// Taxels on either side of the peak: 7 x 7.
+constexpr int kNccMethodAround = 3;
 constexpr float kNccMethodLeastOverlap = 0.5F;
-constexpr double kNeighborhoodSd = 1.0;  // of the paraboloid's weights [taxels]
+// Standard deviation of the weights of the paraboloid [taxels].
+constexpr double kNeighborhoodSd = 1.0;
 
 struct Shift {
   double x = 0.0;
@@ -38,7 +41,7 @@ class NccMethod final : public TranslationMethod {
         now_(layout.numCells()) {
     reach_ = farthest_ + kNccMethodAround;
     known_.resize(static_cast<std::size_t>((2 * reach_ + 1) * (2 * reach_ + 1)));
-    // Squares summed over rectangles from the first taxel.
+    // Summed-area table of the squares.
     const auto sums = static_cast<std::size_t>((rows_ + 1) * (columns_ + 1));
     squaresA_.resize(sums);
     squaresB_.resize(sums);
@@ -85,8 +88,8 @@ class NccMethod final : public TranslationMethod {
   void dropReference() override { hasReference_ = false; }
 
  private:
-  // From `from` to the newest frame. The search begins where the centroid says: far from a
-  // reference nothing near 0 fits.
+  // Returns the shift from the frame `from` to the newest frame. The search starts at the shift of
+  // the centroid, because far from the reference there is no match near 0.
   std::optional<Shift> shiftOf(const std::vector<float>& from, double guessX, double guessY) {
     baseX_ = std::clamp(static_cast<int>(std::lround(guessX)), 1 - columns_, columns_ - 1);
     baseY_ = std::clamp(static_cast<int>(std::lround(guessY)), 1 - rows_, rows_ - 1);
@@ -96,7 +99,7 @@ class NccMethod final : public TranslationMethod {
     leastB_ = kNccMethodLeastOverlap * squaresB_.back();
     from_ = from.data();
     std::fill(known_.begin(), known_.end(), kUnknown);
-    // Up the hill from the guess: its eight neighbours first, then from the best of them.
+    // Hill climbing from the start: tests the eight neighbours and continues from the best of them.
     int x = 0;
     int y = 0;
     float best = at(0, 0);
@@ -143,7 +146,7 @@ class NccMethod final : public TranslationMethod {
     return sum(y1, x1) - sum(y0, x1) - sum(y1, x0) + sum(y0, x0);
   }
 
-  // rho at a shift from the base; below 0: no match.
+  // Returns rho at a shift relative to the start; below 0: no match.
   float at(int x, int y) {
     if (std::abs(x) > reach_ || std::abs(y) > reach_) return kNoMatch;
     float& known = known_[static_cast<std::size_t>((y + reach_) * (2 * reach_ + 1) + x + reach_)];
@@ -184,7 +187,8 @@ class NccMethod final : public TranslationMethod {
            along(at(x, y - 1), at(x, y), at(x, y + 1), offY);
   }
 
-  // a x^2 + b y^2 + c x y + d x + e y + f by weighted least squares over 7 x 7 around the peak.
+  // Fits a x^2 + b y^2 + c x y + d x + e y + f by weighted least squares to 7 x 7 places around the
+  // peak.
   bool paraboloidPeak(int x, int y, double& offX, double& offY) {
     using Six = Eigen::Matrix<double, 6, 1>;
     Eigen::Matrix<double, 6, 6> normal = Eigen::Matrix<double, 6, 6>::Zero();
@@ -212,7 +216,8 @@ class NccMethod final : public TranslationMethod {
     const double d = fit(3);
     const double e = fit(4);
     const double curvature = c * c - 4.0 * a * b;
-    if (!(curvature < -1e-12) || a >= 0.0) return false;  // no top
+    // The paraboloid has no maximum.
+    if (!(curvature < -1e-12) || a >= 0.0) return false;
     offX = std::clamp((2.0 * d * b - c * e) / curvature, -1.5, 1.5);
     offY = std::clamp((2.0 * a * e - d * c) / curvature, -1.5, 1.5);
     return true;

@@ -11,7 +11,8 @@ namespace palpate {
 namespace {
 
 constexpr double kObjectMotionRadians = std::numbers::pi / 180.0;
-constexpr double kLeastSingular = 1e-3;  // of the largest
+// Smallest singular value that is used, relative to the largest one.
+constexpr double kLeastSingular = 1e-3;
 
 }  // namespace
 
@@ -32,7 +33,7 @@ SlipArrow slipArrow(const HandPose& pose,
   arrow.matrix = matrix;
   arrow.originMm = surface.translation();
   arrow.alongX = surface.linear().col(0);
-  // its Y points to the fingertip, rows rise towards the palm
+  // The Y axis of the surface points to the fingertip, while rows rise towards the palm.
   arrow.alongY = -surface.linear().col(1);
   arrow.normal = surface.linear().col(2);
   arrow.vectorMm = pitchMm * (dx * arrow.alongX + dy * arrow.alongY);
@@ -78,7 +79,8 @@ ObjectMotion objectMotion(std::span<const SlipArrow> arrows) {
   double distance = 0.0;
   for (const SlipArrow& arrow : arrows)
     distance += (arrow.originMm - motion.centerMm).norm() / static_cast<double>(arrows.size());
-  const double scale = distance > 1e-6 ? distance : 1.0;  // makes turns comparable to ways [mm]
+  // Length [mm] that makes rotations comparable to translations.
+  const double scale = distance > 1e-6 ? distance : 1.0;
 
   std::vector<Eigen::Matrix<double, 1, 6>> rows;
   std::vector<double> right;
@@ -99,7 +101,7 @@ ObjectMotion objectMotion(std::span<const SlipArrow> arrows) {
   const std::size_t tangents = rows.size();
   for (const SlipArrow& arrow : arrows)
     if (arrow.turnRad) {
-      // As a way at the mean distance of the contacts.
+      // The rotation is scaled to a path at the mean distance of the contacts.
       const double root = std::sqrt(arrow.weight);
       Eigen::Matrix<double, 1, 6> row;
       row << 0.0, 0.0, 0.0, arrow.normal.transpose();

@@ -1,11 +1,12 @@
-// Phase correlation: the peak of the inverse transform of the cross-power spectrum, on a grid of
-// 1/32 taxel.
+// The slip methods `phase` and `phase-normalized`: the peak of the inverse transform of the
+// cross-power spectrum, on a grid of 1/32 taxel.
 //
-// Frames are padded with zeros to twice their size, so that nothing comes back on the other side.
-// The inverse is only evaluated where it is wanted, as products with small matrices
-// (matrix-multiply DFT, after Guizar-Sicairos et al. 2008): whole taxels around the centroids'
-// shift first, then 1/4, then 1/32 of a taxel. Not normalised it is the cross-correlation of both
-// frames; normalised, every frequency has the same say, the noise's too.
+// Frames are padded with zeros to twice their size, so that shifted contacts do not wrap around.
+// The inverse transform is evaluated only where it is needed, as products with small matrices
+// (matrix-multiply DFT, after Guizar-Sicairos et al. 2008): first at whole taxels around the shift
+// of the centroids, then at 1/4, then at 1/32 of a taxel. Without normalisation the result is the
+// cross-correlation of both frames; with normalisation all frequencies have equal weight, including
+// those that contain only noise.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -19,9 +20,11 @@ namespace {
 struct Spectrum {
   std::vector<float> real;  // frequenciesY x frequenciesX
   std::vector<float> imaginary;
-  double x = 0.0;  // centroid of the frame
+  // Centroid of the frame [taxels].
+  double x = 0.0;
   double y = 0.0;
-  double power = 0.0;  // sum of the frame's squares
+  // Sum of the squares of the frame.
+  double power = 0.0;
   bool known = false;
 };
 
@@ -93,7 +96,8 @@ class PhaseMethod final : public TranslationMethod {
   struct Peak {
     double x = 0.0;
     double y = 0.0;
-    double height = 0.0;  // of the whole, 0..1
+    // Relative to the largest possible value, 0..1.
+    double height = 0.0;
   };
   struct Waves {
     std::vector<float> real;  // places x frequencies
@@ -111,7 +115,8 @@ class PhaseMethod final : public TranslationMethod {
     return result;
   }
 
-  // Frequencies 0 .. columns along x (the others are their conjugates), all along y.
+  // Transforms a frame. Along x only the frequencies 0..columns are kept (the others are their
+  // conjugates), along y all.
   void transform(const ConstMatrixMap& frame, const ContactMoments& moments) {
     const auto half = static_cast<std::size_t>(halfX_);
     std::fill(now_.real.begin(), now_.real.end(), 0.0F);
@@ -167,7 +172,7 @@ class PhaseMethod final : public TranslationMethod {
       crossReal_[i] = real;
       crossImaginary_[i] = imaginary;
     }
-    // Frequencies between the ends stand for their conjugates, too.
+    // Frequencies between the ends also represent their conjugates.
     for (int l = 0; l < sizeY_; ++l)
       for (int k = 1; k + 1 < halfX_; ++k) {
         crossReal_[static_cast<std::size_t>(l * halfX_ + k)] *= 2.0F;
@@ -183,7 +188,7 @@ class PhaseMethod final : public TranslationMethod {
     return peak;
   }
 
-  // The largest value of the inverse transform at 2 n + 1 places along both axes.
+  // Returns the largest value of the inverse transform at 2 n + 1 places along both axes.
   Peak bestAround(const Peak& center, double step, int n) {
     const int places = 2 * n + 1;
     const auto half = static_cast<std::size_t>(halfX_);
@@ -207,7 +212,8 @@ class PhaseMethod final : public TranslationMethod {
     Peak best{center.x, center.y, -1e30};
     for (int j = 0; j < places; ++j) {
       const double x = center.x + (j - n) * step;
-      if (std::abs(x) > columns_ - 0.5) continue;  // the transform repeats itself behind
+      // Beyond this the transform repeats itself.
+      if (std::abs(x) > columns_ - 0.5) continue;
       fillWave(x, halfX_, sizeX_);
       for (int i = 0; i < places; ++i) {
         if (std::abs(center.y + (i - n) * step) > rows_ - 0.5) continue;
@@ -223,7 +229,7 @@ class PhaseMethod final : public TranslationMethod {
     return best;
   }
 
-  // e^(i 2 pi f place / size); frequencies above half of the size are the negative ones.
+  // Computes e^(i 2 pi f place / size); frequencies above half of the size are negative ones.
   void fillWave(double place, int frequencies, int size) {
     const double angle = 2.0 * std::numbers::pi * place / size;
     const auto c = static_cast<float>(std::cos(angle));

@@ -7,7 +7,7 @@
 namespace palpate {
 namespace {
 
-// Sums of counts leave about 1e-15 of the moments in what should be 0.
+// Rounding leaves about 1e-15 of the moments in values that should be 0.
 constexpr double kRounding = 1e-12;
 
 double skewness(double third, double second) {
@@ -29,7 +29,8 @@ PrincipalAxis principalAxis(const ContactMoments& moments) noexcept {
     axis.eccentricity = std::sqrt(1.0 - ratio);
     axis.studyEccentricity = std::sqrt(1.0 - ratio * ratio);
   }
-  // Parallel to an axis of the matrix rounding alone would decide between 0 and 180.
+  // For a contact parallel to an axis of the matrix, rounding alone would decide between 0 and 180
+  // deg.
   const double small = kRounding * std::max(sum, 1.0);
   if (std::abs(moments.mu11) <= small) {
     axis.orientationDeg = difference < -small ? 90.0 : 0.0;

@@ -1,5 +1,6 @@
-// Rigid registration over a stream: a key frame that learns, renewed where it no longer fits, and
-// the motion since a reference carried on from key to key.
+// The slip method `register`: rigid registration of a stream of frames to a key frame. The key
+// frame is refined by every frame (LearnedSurface) and replaced when it no longer fits; the motion
+// since the reference is accumulated over the key frames.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -11,20 +12,24 @@ namespace {
 
 constexpr double kRegisterMethodRadians = std::numbers::pi / 180.0;
 
-// When a key has served: what it can't see any more, or no longer resembles.
+// Limits beyond which the key frame is replaced: too little overlap, or too large a difference from
+// the key.
 constexpr double kRegisterMethodLeastOverlap = 0.6;
-constexpr double kWorstMisfit = 0.25;  // rms residual against the mean active taxel
+// Rms residual relative to the mean active taxel.
+constexpr double kWorstMisfit = 0.25;
 constexpr double kMostGain = 1.8;
 constexpr double kFarthest = 3.0;  // [taxels]
 constexpr double kMostTurnDeg = 40.0;
-// A misfit beyond which a registration says nothing.
+// Misfit above which a registration is rejected.
 constexpr double kNoFit = 0.6;
 
-constexpr double kNoiseMemory = 0.03;  // weight of a new frame in the noise
-constexpr double kMostNoise = 100.0;   // [counts]
-constexpr double kSureShift = 0.7;  // the centroid's shift is a better start from here on [taxels]
+// Weight of a new frame in the estimated noise.
+constexpr double kNoiseMemory = 0.03;
+constexpr double kMostNoise = 100.0;  // [counts]
+// Above this shift of the centroid [taxels], it is added to the start value.
+constexpr double kSureShift = 0.7;
 
-// p -> R p + t, with the angle kept as it added up.
+// Rigid transform p -> R p + t; the angle is accumulated and not wrapped.
 struct Transform {
   double angleDeg = 0.0;
   double tx = 0.0;
@@ -36,7 +41,7 @@ struct Transform {
     outX = c * x - s * y + tx;
     outY = s * x + c * y + ty;
   }
-  // First `first`, then this.
+  // Returns the transform that applies `first` and then this one.
   Transform after(const Transform& first) const {
     Transform both{angleDeg + first.angleDeg, 0.0, 0.0};
     apply(first.tx, first.ty, both.tx, both.ty);
@@ -104,7 +109,8 @@ class RegisterMethod final : public TranslationMethod {
   void dropReference() override { hasReference_ = false; }
 
  private:
-  Transform motion() const {  // key -> newest frame
+  // Transform from the key frame to the newest frame.
+  Transform motion() const {
     Transform transform{motion_.angleDeg, 0.0, 0.0};
     const double cx = surface_.start().centerX();
     const double cy = surface_.start().centerY();
@@ -116,7 +122,8 @@ class RegisterMethod final : public TranslationMethod {
     return transform;
   }
 
-  // What came so far is kept in keyFromReference_: `sofar` leads from the reference to this frame.
+  // Makes a frame the key frame. `sofar`, the transform from the reference to this frame, is kept
+  // in keyFromReference_.
   void beginKey(const ConstMatrixMap& frame, const Transform& sofar) {
     surface_.set(frame, noise_);
     motion_ = {};
@@ -146,7 +153,7 @@ class RegisterMethod final : public TranslationMethod {
                     static_cast<float>(options_.minRotationSensitivity);
 
     if (!result.converged || misfit > kNoFit) {
-      // Nothing of the key is left: the centroid leads on, and is believed little.
+      // The frame does not match the key: the motion of the centroid is used, with low confidence.
       motion_ = before;
       motion_.dx += shiftX;
       motion_.dy += shiftY;
@@ -185,15 +192,18 @@ class RegisterMethod final : public TranslationMethod {
 
   RegistrationOptions options_;
   LearnedSurface surface_;
-  double noise_ = 0.0;  // as the residuals have it [counts]
-  RigidMotion motion_;  // key -> newest frame
+  // Noise estimated from the residuals [counts].
+  double noise_ = 0.0;
+  // Motion from the key frame to the newest frame.
+  RigidMotion motion_;
   Transform keyFromReference_;
   double referenceX_ = 0.0;
   double referenceY_ = 0.0;
   bool hasReference_ = false;
   double lastX_ = 0.0;
   double lastY_ = 0.0;
-  bool seen_ = false;  // the frame before was measurable
+  // Whether the previous frame was measurable.
+  bool seen_ = false;
 };
 
 }  // namespace

@@ -1,4 +1,5 @@
-// The least squares of a registration, over any surface: a key frame, or one that learns.
+// Least squares of a rigid registration to any surface: a KeyFrame or a LearnedSurface. Used by
+// registerFrame() (rigid_registration.cpp, learned_surface.cpp).
 #pragma once
 
 #include <algorithm>
@@ -25,21 +26,27 @@ struct Place {
   float gain = 1.0F;
 };
 
-// What a surface is asked for beside its samples.
+// Properties of the contact on the surface.
 struct Contact {
   float centerX = 0.0F;
   float centerY = 0.0F;
-  float sum = 0.0F;     // [counts]
-  float extent = 1.0F;  // turns an angle into taxels at the contact's edge
-  bool turns = false;   // an angle can be told
-  float silent = 0.0F;  // a silent taxel felt less than this [counts]
-  float lowX = 0.0F;    // where the surface may be asked
+  // Load [counts].
+  float sum = 0.0F;
+  // Size of the contact: square root of the number of its active taxels [taxels]. It converts an
+  // angle into a path.
+  float extent = 1.0F;
+  // Whether the rotation can be estimated.
+  bool turns = false;
+  // A taxel that reads 0 measured less than this [counts].
+  float silent = 0.0F;
+  // Range in which the surface may be evaluated [taxels].
+  float lowX = 0.0F;
   float highX = 0.0F;
   float lowY = 0.0F;
   float highY = 0.0F;
 };
 
-// Rows and columns around what is active, one taxel more on every side.
+// Rows and columns of the active taxels, with one taxel more on every side.
 struct Window {
   int top = 0;
   int bottom = -1;
@@ -72,9 +79,11 @@ inline Window windowOf(const float* values, int rows, int columns, float& least)
 }
 
 struct NormalEquations {
-  std::array<float, 15> sums{};  // upper triangle of the normal equations, right side, squares
+  // Upper triangle of the normal equations, right side, sum of squares.
+  std::array<float, 15> sums{};
   int taxels = 0;
-  float inside = 0.0F;  // load of the surface that was seen
+  // Load of the surface that was inside the frame.
+  float inside = 0.0F;
 };
 
 template <typename Surface>
@@ -109,7 +118,8 @@ NormalEquations accumulateNormalEquations(const Surface& surface,
       pass.inside += std::max(sample.value, 0.0F);
       float measured = frame.values[place];
       if (!(measured > 0.0F)) {
-        if (model <= contact.silent) continue;  // as silent as expected
+        // The model agrees with a reading below the threshold.
+        if (model <= contact.silent) continue;
         measured = contact.silent;
       } else if (measured >= saturated && model >= measured) {
         continue;
@@ -144,7 +154,8 @@ inline NormalMatrix normalOf(const NormalEquations& pass) {
   return normal;
 }
 
-// Which directions the normal equations don't tell, and what holds the motion along them.
+// Determines the directions that the normal equations leave undetermined, and adds to `held` the
+// terms that hold the motion along them.
 inline DegenerateDirections degenerateDirectionsOf(const NormalMatrix& normal,
                                                    double sdTaxels,
                                                    Eigen::Matrix2f& held) {
@@ -159,7 +170,8 @@ inline DegenerateDirections degenerateDirectionsOf(const NormalMatrix& normal,
   const auto most = static_cast<float>(sdTaxels * sdTaxels);
   if (xx + yy <= most) return {};
   const float root = std::hypot(0.5F * (xx - yy), xy);
-  const float angle = 0.5F * std::atan2(2.0F * xy, xx - yy);  // of the larger variance
+  // Direction of the larger variance.
+  const float angle = 0.5F * std::atan2(2.0F * xy, xx - yy);
   const Eigen::Vector2f along(std::cos(angle), std::sin(angle));
   const Eigen::Vector2f across(-along.y(), along.x());
   DegenerateDirections degenerate;
@@ -176,7 +188,7 @@ inline DegenerateDirections degenerateDirectionsOf(const NormalMatrix& normal,
   return degenerate;
 }
 
-// Gauss-Newton from `start`; `least` is the frame's smallest active value (0: nothing is active).
+// Runs the Gauss-Newton iteration from `start`.
 template <typename Surface>
 RegistrationResult registerTo(const Surface& surface,
                               const Contact& contact,
@@ -224,7 +236,7 @@ RegistrationResult registerTo(const Surface& surface,
     if (solver.info() != Eigen::Success) break;
     MotionParameters step = solver.solve(right);
     if (!step.allFinite()) break;
-    // A Gauss-Newton step is trusted over a taxel, half a radian and a doubled load.
+    // A step is limited to one taxel, half a radian and a doubled load.
     const float longest = std::max({std::abs(step(0)),
                                     std::abs(step(1)),
                                     2.0F * std::abs(step(2)),
@@ -243,7 +255,7 @@ RegistrationResult registerTo(const Surface& surface,
       result.sdY = static_cast<double>(std::sqrt(covariance(1, 1)));
       if (contact.turns)
         result.sdAngleDeg = static_cast<double>(std::sqrt(covariance(2, 2)) / kRadians);
-      // Where a pass more would change nothing that counts, it has arrived.
+      // Also converged when one more pass would make no significant change.
       result.converged = moved < 50.0F * limit;
       break;
     }

@@ -10,13 +10,14 @@
 namespace palpate {
 namespace {
 
-// A key frame with what its silence hides as variance.
+// A key frame as a surface whose variance covers the values below the threshold.
 struct KeySurface {
   struct Sample {
     float value, alongX, alongY, variance;
   };
   const KeyFrame& key;
-  float blind;  // sd of what isn't known [counts]
+  // Standard deviation of an unknown value [counts].
+  float blind;
 
   Sample at(float x, float y) const noexcept {
     const KeyFrame::Sample sample = key.at(x, y);

@@ -15,8 +15,10 @@
 namespace palpate {
 namespace {
 
-constexpr std::int64_t kFrameUs = 31'500;  // of a frame, where a method looks at stamps
-constexpr int kFrames = 100;               // after the first
+// Time between frames [us], for methods that use time stamps.
+constexpr std::int64_t kFrameUs = 31'500;
+// Number of frames after the first.
+constexpr int kFrames = 100;
 constexpr int kEdgeFrames = 10;
 constexpr double kEdgeTaxels = 1.5;
 constexpr int kTiltFrames = 12;
@@ -77,7 +79,7 @@ struct Readings {
   std::vector<SyntheticContact> contacts;
 };
 
-// Where the point (x, y) of the first contact is at a later one.
+// Moves the point (x, y) of the first contact to its position on the second one.
 void carry(const SyntheticContact& from, const SyntheticContact& to, double& x, double& y) {
   const double turn = (to.angleDeg - from.angleDeg) * std::numbers::pi / 180.0;
   const double px = x - from.x;
@@ -135,7 +137,7 @@ class Trial {
 
  private:
   double uniform() { return static_cast<double>(random_() >> 11U) / 9007199254740992.0; }
-  // The places above are those of a 14 x 6 matrix.
+  // The positions above are for a 14 x 6 matrix; these offsets centre them on the matrix in use.
   double middleX() const { return 0.5 * (slip_.sensor().layout.columns - 6); }
   double middleY() const { return 0.5 * (slip_.sensor().layout.rows - 14); }
   void read(const SyntheticContact& contact, Readings& readings) {

@@ -7,22 +7,29 @@
 namespace palpate {
 namespace {
 
-// the reading trusts the contest this much more than the alarm does
+// Exponent of the odds of P(moved) when the reported motion is weighted.
 constexpr double kReading = 2.0;
-constexpr double kDoubtFrom = 3.0;  // MotionSdInflation
+// MotionSdInflation above which P(moved) must be larger to have the same weight.
+constexpr double kDoubtFrom = 3.0;
 constexpr double kDoubt = 4.0;
 constexpr double kSureP = 0.9;
 constexpr double kSureTaxels = 0.35;
 constexpr int kSureFrames = 2;
-constexpr double kModelInvalid = 60.0;  // residual above which neither explanation is believed
+// Residual above which neither hypothesis is accepted.
+constexpr double kModelInvalid = 60.0;
 constexpr int kCalmFrames = 3;
-constexpr double kCalmPart = 0.5;                  // of a window's threshold
-constexpr double kPlainCalmPart = 0.8;             // of a plain threshold
-constexpr double kSlipDetectorCentroidPart = 1.3;  // as in slip_rule.h
-constexpr std::size_t kTurnLook = 3;  // frames between looks at the angle where nothing shifts
+// Fraction of the threshold of a window below which the contact counts as at rest.
+constexpr double kCalmPart = 0.5;
+// The same for a plain threshold.
+constexpr double kPlainCalmPart = 0.8;
+// See slip_rule.h.
+constexpr double kSlipDetectorCentroidPart = 1.3;
+// Frames between checks for rotation when there is no translation.
+constexpr std::size_t kTurnLook = 3;
 constexpr std::size_t kRestAge = 15;
 constexpr double kRestTaxels = 0.1;
-constexpr double kRestLoad = 0.05;  // ln
+// Change of ln(load).
+constexpr double kRestLoad = 0.05;
 
 SlipTrackerOptions trackerOptions(const SlipDetectorOptions& options) {
   SlipTrackerOptions tracker = options.tracker;
@@ -56,7 +63,8 @@ SlipDetector::SlipDetector(const MatrixLayout& layout, const SlipDetectorOptions
 
 void SlipDetector::reset() {
   clearReference();
-  tracker_.reset();  // last: it may wait for its first contact
+  // Last, because it may then wait for its first contact.
+  tracker_.reset();
   windows_.reset();
   rule_.reset();
   verdict_ = {};
@@ -80,7 +88,7 @@ void SlipDetector::setReference() {
   wantsReference_ = !updateReference();
 }
 
-// The contest's own copy of the reference.
+// Makes the present frame the reference of the hypotheses. Returns false if it has no contact.
 bool SlipDetector::updateReference() {
   if (!reference_.set(windows_.frame())) return false;
   hasReference_ = true;
@@ -133,7 +141,7 @@ bool SlipDetector::isAtRest(const SlipEvidence& evidence) const {
          slipDetectorShift(middle) < kRestTaxels;
 }
 
-// The motion of `register`, as far as the contest of reference and frame believes in it.
+// Scales the motion of `register` by the score of the comparison of reference and present frame.
 void SlipDetector::applyMotionScore(const SlipMotion& moved) {
   referenceHypotheses_.reset();
   SlipMotion& motion = verdict_.motion;
@@ -152,7 +160,7 @@ void SlipDetector::applyMotionScore(const SlipMotion& moved) {
         reference_, windows_.frame(), std::span(&start, 1), options_.windows.hypotheses);
     if (referenceHypotheses_->computed) {
       p = referenceHypotheses_->pMoved;
-      // The less the shape can tell, the more it must say.
+      // The less the shape distinguishes the hypotheses, the larger P(moved) must be.
       const double doubt = std::max(1.0, std::max(condition_.x, condition_.y) / kDoubtFrom);
       const double odds = std::pow(p / std::max(1.0 - p, 1e-9), kReading) / std::pow(doubt, kDoubt);
       weight = odds / (1.0 + odds);
@@ -196,7 +204,7 @@ void SlipDetector::decideByHypotheses(const SlipEvidence& seen) {
   const SlipEvidence& evidence = windows_.evidence();
   const SlipRuleResult outcome = rule_.decide(evidence);
   if (!evidence.computable || !outcome.leading) {
-    // Too little, or too short a time.
+    // The contact is too small or has not lasted long enough.
     verdict_.slipping = verdict_.slipping && evidence.computable;
     verdict_.state = SlipState::kInvalid;
     verdict_.lamp = SlipIndicator::kNotComputable;

@@ -19,8 +19,8 @@ constexpr std::size_t kSettledFrames = 15;
 constexpr double kQuietLog = 0.05;
 constexpr std::size_t kOneAlarm = 10;  // [frames]
 constexpr double kFoldFound = 0.92;
-// Below, no window of any rule here can raise an alarm, and no contest is made [taxels of the
-// centroid].
+// Shifts of the centroid [taxels] below which no rule raises an alarm, so that the hypotheses are
+// not compared.
 constexpr std::array<double, kSlipWindows> kGates = {0.2, 0.3, 0.7};
 
 struct Place {
@@ -67,7 +67,8 @@ double medianIntervalUs(const Profile& profile) {
   return intervals.empty() ? 0.0 : static_cast<double>(upperMedian(intervals));
 }
 
-// A rule without a contest: above a threshold in two frames in a row.
+// Rule without hypotheses: raises an alarm when a value is above its threshold in two frames in a
+// row.
 class TwiceAbove {
  public:
   bool operator()(const SlipEvidence& evidence, bool above) {

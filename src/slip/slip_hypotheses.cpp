@@ -13,9 +13,11 @@
 namespace palpate {
 namespace {
 
-constexpr float kBlindPart = 0.3F;  // sd of what is anywhere between 0 and a threshold
+// Standard deviation of a value between 0 and the threshold, as a fraction of the threshold.
+constexpr float kBlindPart = 0.3F;
 constexpr int kFieldPasses = 2;
-constexpr double kNoiseOfSlope = 0.75;  // variance of a spline's slope, per variance of its values
+// Variance of the slope of a spline per variance of its values.
+constexpr double kNoiseOfSlope = 0.75;
 constexpr float kSlopeGuess = 1.0F;
 constexpr std::array<std::pair<int, int>, 4> kNeighbors = {{{-1, 0}, {1, 0}, {0, -1}, {0, 1}}};
 
@@ -39,7 +41,7 @@ float minActiveTaxels(const ConstMatrixMap& frame) {
   return least;
 }
 
-// What all passes have in common.
+// Weight of a taxel, as both hypotheses use it.
 struct Weighing {
   explicit Weighing(const RegistrationOptions& options, float blindCounts)
       : noise2(static_cast<float>(options.noiseCounts * options.noiseCounts)),
@@ -94,7 +96,8 @@ LoadFieldResult fitLoadField(const KeyFrame& key,
     for (int y = 0, i = 0; y < layout.rows; ++y)
       for (int x = 0; x < layout.columns; ++x, ++i) {
         float measured = frame.data()[i];
-        // Silent before and after: what the key is filled with there says nothing.
+        // Below the threshold in both frames: the value that the key is filled with carries no
+        // information.
         if (!(measured > 0.0F) && !(then[i] > 0.0F)) continue;
         if (masked && !layout.enabled(y, x)) continue;
         const KeyFrame::Sample sample = key.at(static_cast<float>(x), static_cast<float>(y));
@@ -114,7 +117,7 @@ LoadFieldResult fitLoadField(const KeyFrame& key,
         right += (weight * measured) * slope;
       }
     if (pass == kFieldPasses) break;
-    // A contact without extent along an axis has no gradient along it.
+    // The ridge sets the gradient to 0 along an axis in which the contact has no extent.
     const float ridge = 1e-3F + 1e-4F * normal(0, 0);
     normal(0, 0) += 1e-4F * normal(0, 0) + 1e-9F;
     normal(1, 1) += ridge;
@@ -173,14 +176,15 @@ MotionSdInflation motionSdInflation(const KeyFrame& key, const RegistrationOptio
   const Weighing weigh(options, kBlindPart * key.minCounts());
   const bool turns =
       key.rotationSensitivity() >= static_cast<float>(options.minRotationSensitivity);
-  // dx, dy, gain, angle | gradient of load along x, along y.
+  // Parameters: dx, dy, gain, angle, then the gradient of the load along x and along y.
   Eigen::Matrix<double, 6, 6> information = Eigen::Matrix<double, 6, 6>::Zero();
-  double noise = 0.0;  // what noise alone would be taken for
+  // Information that noise alone would contribute.
+  double noise = 0.0;
   for (int y = 0; y < layout.rows; ++y)
     for (int x = 0; x < layout.columns; ++x) {
       if (!layout.enabled(y, x)) continue;
       const KeyFrame::Sample sample = key.at(static_cast<float>(x), static_cast<float>(y));
-      // Beside a silent taxel the slope is half a guess.
+      // Next to a taxel below the threshold the slope is uncertain.
       float unknown = sample.unknown;
       for (const auto& [stepY, stepX] : kNeighbors)
         if (layout.exists(y + stepY, x + stepX))

@@ -8,9 +8,11 @@
 namespace palpate {
 namespace {
 
-// the centroid loses motion where a contact reaches over an edge
+// Factor on the shift of the centroid, which is smaller than the motion where a contact extends
+// over an edge.
 constexpr double kSlipRuleCentroidPart = 1.3;
-constexpr double kStillMoves = 0.5;  // of the middle window's threshold
+// Fraction of the threshold of the middle window.
+constexpr double kStillMoves = 0.5;
 constexpr double kUndecided = 0.5;
 constexpr double kFarSlack = 0.3;  // [taxels]
 constexpr double kSds = 2.0;
@@ -50,7 +52,7 @@ bool SlipRule::counts(const SlipEvidence& evidence, std::size_t window) const {
   if (!evidence.computable || !evidence.windows[window].filled ||
       evidence.contactAge <= kWindowFrames[window] + options_.settled[window])
     return false;
-  // The long window remembers a slip long after its end.
+  // The long window still contains the motion long after a slip has ended.
   const WindowEvidence& middle = evidence.windows[kMiddleWindow];
   return window != kLongWindow || !middle.filled ||
          kSlipRuleCentroidPart * shiftOf(middle) > kStillMoves * threshold(kMiddleWindow);
@@ -112,7 +114,7 @@ SlipRuleResult SlipRule::decide(const SlipEvidence& evidence) {
     const double allowed = allowance(window, *asked);
     outcome.allowedThresholdRatio =
         kSlipRuleCentroidPart * shiftOf(window) / (threshold(*asked) + allowed);
-    // Where nothing could be registered the centroid alone speaks, and P is undecided.
+    // If the registration failed, the motion is that of the centroid, and P is 0.5.
     const double shift = shiftOf(window);
     const double registered =
         hypotheses.computed ? std::hypot(hypotheses.motion.dx, hypotheses.motion.dy) : shift;

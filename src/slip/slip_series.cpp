@@ -85,7 +85,8 @@ std::vector<PathPoint> SlipSeries::pathUntil(std::size_t matrix,
                                              std::size_t most) const {
   const SlipSample* now = at(matrix, frame);
   if (now == nullptr || !now->refValid || most == 0) return {};
-  // Back to the reference: until one is taken, or none is known.
+  // Goes back to the frame in which the reference was taken, or to the first one with a known
+  // reference.
   const std::vector<SlipSample>& samples = matrices[matrix];
   const SlipSample* first = now;
   while (first != samples.data() && !first->newReference &&
@@ -99,7 +100,7 @@ std::vector<PathPoint> SlipSeries::pathUntil(std::size_t matrix,
   const auto add = [&](const SlipSample& sample) {
     path.push_back({x + static_cast<double>(sample.refDx), y + static_cast<double>(sample.refDy)});
   };
-  // The frame that became the reference may not tell of it itself.
+  // The frame that became the reference may have no sample with refValid.
   if (first->shiftTaxels() > 0.0) path.push_back({x, y});
   for (std::size_t i = 0; i < count; i += stride) add(first[i]);
   if ((count - 1) % stride != 0) add(*now);

@@ -154,8 +154,8 @@ const SlipMotion& SlipTracker::update(const ConstMatrixMap& frame, bool afterGap
   return motion_;
 }
 
-// The part of the load that is saturated, or at a side where the contact may go on outside of the
-// matrix.
+// Fraction of the load that is saturated or at a side of the matrix, where the contact may continue
+// outside.
 double SlipTracker::unseenFraction(const ConstMatrixMap& frame) {
   const auto saturation = static_cast<float>(options_.saturationCounts);
   const int right = layout_.columns - 1;

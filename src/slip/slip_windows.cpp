@@ -10,7 +10,8 @@ namespace palpate {
 namespace {
 
 constexpr std::size_t kRing = kWindowFrames.back() + 2;
-constexpr double kLongWay = 0.5;  // [taxels] beyond which a second start is worth its time
+// Shift of the centroid [taxels] above which a second start value is worth the computing time.
+constexpr double kLongWay = 0.5;
 
 void checkSlipWindows(bool good, const char* field, double value) {
   if (!good)

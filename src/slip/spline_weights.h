@@ -1,4 +1,5 @@
-// Weights of the cubic B-spline.
+// Weights of the cubic B-spline and their derivatives; KeyFrame and LearnedSurface evaluate their
+// surfaces with them.
 #pragma once
 
 #include <Eigen/Core>
@@ -7,8 +8,8 @@ namespace palpate::spline {
 
 using SplineWeights = Eigen::Array<float, 4, 1>;
 
-// At the four knots around a place: one before, the last at or before it, two behind; t = 0..1 from
-// the second.
+// Weights of the four knots around a place: one before, the last at or before it, and two after it.
+// t = 0..1 is the distance from the second knot.
 inline SplineWeights weights(float t) noexcept {
   const float s = 1.0F - t;
   const float t2 = t * t;
@@ -17,7 +18,7 @@ inline SplineWeights weights(float t) noexcept {
              s2 * s, 4.0F - 6.0F * t2 + 3.0F * t2 * t, 4.0F - 6.0F * s2 + 3.0F * s2 * s, t2 * t) *
          (1.0F / 6.0F);
 }
-// Their derivatives, per distance of knots.
+// Derivatives of the weights, per distance of knots.
 inline SplineWeights slopes(float t) noexcept {
   const float s = 1.0F - t;
   return SplineWeights(

@@ -23,7 +23,8 @@ constexpr double kBarHalfLength = 2.6;
 constexpr double kEllipseHalfWidth = 1.5;
 constexpr double kEllipseHalfLength = 2.9;
 constexpr double kBlobSd = 0.9;
-constexpr double kBlobDistance = 1.8;  // from the centre
+// Distance of a blob from the centre [taxels].
+constexpr double kBlobDistance = 1.8;
 constexpr double kSecondBlob = 0.8;
 constexpr double kGaussianSd = 1.5;
 constexpr double kNarrowSd = 1.1;
@@ -31,12 +32,12 @@ constexpr double kLongSd = 2.2;
 
 double syntheticSlipSquare(double value) { return value * value; }
 
-// A half plane that ends at distance 0, seen through the cover.
+// Height of a half plane that ends at distance 0, blurred by the cover.
 double softEdge(double outside, double cover) {
   return 0.5 * std::erfc(outside / (std::numbers::sqrt2 * cover));
 }
 
-// u, v: the place seen from the contact, u across, v along.
+// Height of a shape at (u, v), in the frame of the contact: u across, v along [taxels].
 double height(SlipShape shape, double u, double v, double cover) {
   switch (shape) {
     case SlipShape::kDisc:
@@ -48,7 +49,7 @@ double height(SlipShape shape, double u, double v, double cover) {
              (std::erf((kBarHalfLength - v) / (std::numbers::sqrt2 * cover)) +
               std::erf((kBarHalfLength + v) / (std::numbers::sqrt2 * cover)));
     case SlipShape::kFlatEllipse: {
-      // Distance from the edge to first order: the implicit function over its gradient.
+      // Distance from the edge to first order: the implicit function divided by its gradient.
       const double radius = std::hypot(u / kEllipseHalfWidth, v / kEllipseHalfLength);
       if (radius < 1e-6) return softEdge(-kEllipseHalfWidth, cover);
       const double slope = std::hypot(u / syntheticSlipSquare(kEllipseHalfWidth),
@@ -129,7 +130,8 @@ void idealCounts(const SyntheticContact& contact, const SyntheticSensor& sensor,
   const MatrixLayout& layout = sensor.layout;
   if (counts.rows() != layout.rows || counts.cols() != layout.columns)
     throw std::invalid_argument("idealCounts: the matrix hasn't the size of the layout");
-  const double offset = 0.5 * std::sqrt(0.6);  // Gauss-Legendre on a taxel of width 1
+  // Gauss-Legendre nodes on a taxel of width 1.
+  const double offset = 0.5 * std::sqrt(0.6);
   const std::array<double, 3> places{-offset, 0.0, offset};
   const std::array<double, 3> weights{5.0 / 18.0, 8.0 / 18.0, 5.0 / 18.0};
   const double angle = contact.angleDeg * std::numbers::pi / 180.0;
@@ -160,7 +162,8 @@ SyntheticSlip::SyntheticSlip(const SyntheticSensor& sensor, std::uint64_t seed)
   sensor_.validate();
 }
 
-// Box and Muller: the standard's distributions differ between libraries.
+// Normal random number by the Box-Muller method. The distributions of the standard library are not
+// used because they differ between implementations.
 double SyntheticSlip::normal() {
   if (hasKept_) {
     hasKept_ = false;

@@ -1,4 +1,4 @@
-// One way to measure translation, as a SlipTracker drives it.
+// Interface of a slip method that measures translation. SlipTracker calls it for every frame.
 #pragma once
 
 #include <memory>
@@ -21,7 +21,8 @@ struct TranslationReading {
   DegenerateDirections degenerate;
   bool newKey = false;
   bool isCentroid = false;
-  bool turns = false;  // the method has an angle of its own
+  // Whether the method estimates a rotation itself.
+  bool turns = false;
   bool angleValid = false;
   double angleDeg = 0.0;
   bool refAngleValid = false;
@@ -31,15 +32,15 @@ struct TranslationReading {
 class TranslationMethod {
  public:
   virtual ~TranslationMethod() = default;
-  // A frame with contact. measurable: it has enough taxels for a motion. stepPossible: so had the
-  // frame before, and none is missing between.
+  // Processes a frame with contact. measurable: it has enough active taxels for a motion.
+  // stepPossible: so has the previous frame, and no frames are missing in between.
   virtual TranslationReading update(const ConstMatrixMap& frame,
                                     const ContactMoments& moments,
                                     bool measurable,
                                     bool stepPossible) = 0;
-  // A frame without contact.
+  // Reports a frame without contact.
   virtual void lost() {}
-  // The frame of the last update() is the reference.
+  // Makes the frame of the last update() the reference.
   virtual void takeReference() = 0;
   virtual void dropReference() = 0;
 };

@@ -1,6 +1,6 @@
-// The claims of recognition on another day, on the real recordings: 571 grasps of 36 classes of
-// September 2014, and 42 of three of these objects 11 weeks later (protocol X). Neither is a clean
-// test: docs/recognition.md says what was chosen on what.
+// Tests recognition in another session on the real recordings: 571 grasps of 36 classes from
+// September 2014, and 42 grasps of three of these objects 11 weeks later (protocol X). Neither is
+// an independent test; docs/recognition.md lists which choices were made on which data.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -57,7 +57,7 @@ class AnotherDay : public ::testing::Test {
     september_ = samplesOf(september, "");
     std::map<int, int> count, seen;
     for (const int c : september_.y) ++count[c];
-    // Recordings are named by their frames, and come in this order.
+    // The names of the recordings contain their frames, so that sorting gives the order in time.
     std::vector<std::pair<std::string, std::size_t>> order;
     early_.assign(september_.y.size(), false);
     for (std::size_t i = 0; i < september.rows.size(); ++i)
@@ -104,7 +104,7 @@ class AnotherDay : public ::testing::Test {
   SessionAdaptiveClassifier learn(const Samples& samples) const {
     return SessionAdaptiveClassifier::learn(samples.x, samples.y, classes_, names_);
   }
-  // Without one class.
+  // Fits a classifier without one class.
   SessionAdaptiveClassifier learnWithout(const Samples& samples, int without) const {
     Samples rest = samples.where([&](std::size_t i) { return samples.y[i] != without; });
     for (int& c : rest.y) c -= c > without ? 1 : 0;
@@ -121,7 +121,8 @@ class AnotherDay : public ::testing::Test {
 
   std::vector<std::string> names_, classes_;
   Samples september_, november27_, november28_;
-  std::vector<bool> early_;  // of September: the first two thirds of each recording
+  // Whether a sample of September is in the first two thirds of its recording.
+  std::vector<bool> early_;
 };
 
 struct Score {
@@ -222,7 +223,7 @@ TEST_F(AnotherDay, ElevenWeeksLater) {
   EXPECT_GE(batch.top1(), 0.90);
   EXPECT_GE(batch.sureRight, 0.95 * batch.sure);
 
-  // One labelled grasp of each present class: each of the class's in turn.
+  // One labelled grasp of each present class, drawn at random.
   Score one;
   std::mt19937 random(1);
   for (int turn = 0; turn < 50; ++turn)
@@ -242,8 +243,8 @@ TEST_F(AnotherDay, ElevenWeeksLater) {
   EXPECT_GE(one.top1(), 0.95);
 }
 
-// Sessions made of the last thirds of September: an offset N(0, 3 mm) of the day, 1 mm per object,
-// half a standard deviation of each object's shape.
+// Simulated sessions made from the last thirds of the September recordings: a session offset N(0, 3
+// mm), an offset N(0, 1 mm) per object, and a shape error of half a standard deviation per object.
 class SimulatedDays {
  public:
   SimulatedDays(const Samples& late, const SessionAdaptiveClassifier& model, int seed)
@@ -276,7 +277,8 @@ class SimulatedDays {
     }
     return out;
   }
-  double offsetMm = 0.0;  // of the day made last
+  // Offset of the session that was made last [mm].
+  double offsetMm = 0.0;
 
  private:
   const Samples& late_;
@@ -347,10 +349,10 @@ TEST_F(AnotherDay, OnSimulatedDaysTheUnknownIsTold) {
   EXPECT_GE(found, 0.90);
 }
 
-// The three objects of 11 weeks later, each taken out of the model in turn. Where the day's offset
-// is known (here from the same grasps with the whole model: what a touch of the empty hand would
-// tell), strangers stand out; where it has to come from the strangers themselves, it makes a
-// neighbour of them: one object of the two, or the only one, of that day.
+// Each of the three objects of 11 weeks later is removed from the model in turn. If the offset of
+// the session is known (here estimated from the same grasps with the whole model, as a touch of the
+// empty hand would give it), unknown objects are detected. If the offset is estimated from the
+// unknown objects themselves, it makes them similar to a neighbouring class.
 TEST_F(AnotherDay, ElevenWeeksLaterTheUnknownIsToldWhereTheOffsetIsKnown) {
   const SessionAdaptiveClassifier model = learn(september_);
   std::vector<double> known, unknown, unknownInBatch;

@@ -14,7 +14,7 @@
 namespace palpate::chebyshev_moments_test {
 namespace {
 
-// t_p(x) as the study writes it (6.6.4): an alternating sum of falling factorials, in long double.
+// t_p(x) as the study defines it (6.6.4): an alternating sum of falling factorials, in long double.
 double studyPolynomial(int size, int p, double x) {
   const auto factorial = [](int n) {
     long double product = 1.0L;
@@ -41,7 +41,7 @@ Eigen::MatrixXd blob(int size, double cx, double cy, double along, double across
   for (int y = 0; y < size; ++y)
     for (int x = 0; x < size; ++x) {
       const double u = (x - cx) * c + (y - cy) * s, v = -(x - cx) * s + (y - cy) * c;
-      // Longer towards rising u: a tail.
+      // The image has a longer tail towards rising u.
       const double reach = u > 0.0 ? 1.6 * along : along;
       picture(y, x) = std::exp(-u * u / (2 * reach * reach) - v * v / (2 * across * across));
     }
@@ -103,7 +103,7 @@ TEST(ChebyshevMoments, AllOfThemGiveThePictureBack) {
         picture, reconstructImage(chebyshevMoments(picture, polynomials), polynomials));
     EXPECT_LT(error, last) << order;
     last = error;
-    // Parseval: what is missing is the energy of the moments that are missing.
+    // Parseval: the squared error is the energy of the missing moments.
     const double energy = chebyshevMoments(picture, polynomials).squaredNorm();
     EXPECT_NEAR(error * error, 1.0 - energy / picture.squaredNorm(), 1e-9);
   }
@@ -142,14 +142,14 @@ TEST(ChebyshevMoments, InvariantsDoNotSeeTurnsAndTheHalfTurnIsResolved) {
     EXPECT_LT((turned.moments - straight.moments).norm(), 2e-3 * straight.moments.norm())
         << angleRad;
   }
-  // atan knows neither which axis is the long one nor its direction.
+  // atan determines neither which axis is the long one nor its direction.
   EXPECT_NEAR(of(0.3, ImageOrientation::kStudy).angleRad, 0.3, 2e-3);
   EXPECT_NEAR(of(1.2, ImageOrientation::kStudy).angleRad, 1.2 - std::numbers::pi / 2, 2e-3);
   EXPECT_GT((of(3.0, ImageOrientation::kStudy).moments - straight.moments).norm(),
             0.05 * straight.moments.norm());
 }
 
-// With the linear and mixed second moments gone, three of them are multiples of the first
+// When the linear and mixed second moments are 0, three of them are multiples of the first one
 // (reference/grasp_features.md).
 TEST(ChebyshevMoments, SixOfTheStudysAreRedundant) {
   const auto found = chebyshevInvariants(
@@ -211,7 +211,8 @@ Eigen::MatrixXd matrixOf(const Json& json) {
   return matrix;
 }
 
-// floor: of the largest one (the golden numbers are sums of terms that nearly cancel).
+// floor: tolerance relative to the largest value (the golden numbers are sums of terms that nearly
+// cancel).
 void expectNear(const Eigen::MatrixXd& ours,
                 const Eigen::MatrixXd& golden,
                 double relative,
@@ -224,7 +225,7 @@ void expectNear(const Eigen::MatrixXd& ours,
           << "T" << p << q;
 }
 
-// Made by a program that shares nothing with this one.
+// Compares with the results of an independent program.
 TEST(ChebyshevMoments, AgreeWithIndependentNumbers) {
   const auto folder = testing::goldenFolder();
   PALPATE_NEED(folder);

@@ -41,7 +41,7 @@ TEST(ClassifierPipeline, EveryClassifierTellsCloudsApart) {
 }
 
 TEST(ClassifierPipeline, ProbabilitiesMeanWhatTheySay) {
-  // Clouds 2.5 apart overlap: some 75 of 100 are right.
+  // Clouds at a distance of 2.5 overlap: about 75 of 100 predictions are correct.
   const SampleSet train = clouds(4, 100, 4, 2.5, 3), test = clouds(4, 500, 4, 2.5, 4);
   for (const ClassifierKind kind : kAll) {
     PipelineOptions options;
@@ -56,7 +56,8 @@ TEST(ClassifierPipeline, ProbabilitiesMeanWhatTheySay) {
       said += p.row(i).maxCoeff(&called);
       right += called == test.y[static_cast<std::size_t>(i)] ? 1.0 : 0.0;
     }
-    // gauss reckons with other days: within one it is more often right than it says.
+    // gauss allows for differences between sessions: within one session it is more accurate than
+    // its probabilities state.
     EXPECT_LT(said / right, 1.05) << classifierName(kind);
     EXPECT_GT(said / right, kind == ClassifierKind::kGauss ? 0.8 : 0.95) << classifierName(kind);
     EXPECT_GT(right, 0.7 * 2000) << classifierName(kind);
@@ -91,7 +92,8 @@ TEST(ClassifierPipeline, ComesBackFromItsFileBitByBit) {
     }
 }
 
-// Every key taken away, every number made a text: never a model that classifies by nonsense.
+// Each key is removed and each number is replaced by a text; the result must never be accepted as a
+// model.
 TEST(ClassifierPipeline, RefusesDamagedFiles) {
   PipelineOptions options;
   options.calibrationBlocks = 3;
@@ -99,7 +101,8 @@ TEST(ClassifierPipeline, RefusesDamagedFiles) {
   const Json whole = jsonOf(ClassifierPipeline::of(clouds(3, 6, 3, 5.0, 6), options));
   for (const std::string& missing : whole.keys()) {
     if (missing == "discriminant")
-      continue;  // a pipeline without one is another, whose sizes differ
+      // A pipeline without this key is a different valid one with other sizes.
+      continue;
     Json damaged = Json::object();
     for (const std::string& key : whole.keys())
       if (key != missing) damaged.set(key, whole.at(key));

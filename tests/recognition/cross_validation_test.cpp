@@ -29,7 +29,7 @@ double meanOfSeeds(const SampleSet& samples, const PipelineOptions& options) {
   return sum / static_cast<double>(kSeeds);
 }
 
-// Figures of methods.md, section 8: scikit-learn on the same 571 grasps, mean of 50 splits.
+// Values from methods.md, section 8: scikit-learn on the same 571 grasps, mean of 50 splits.
 TEST(CrossValidation, ReproducesTheStudysTable) {
   const auto folder = goldenFolder();
   PALPATE_NEED(folder);
@@ -54,8 +54,8 @@ TEST(CrossValidation, ShrinkageAndTheQuadraticRuleHoldOnRealGrasps) {
   EXPECT_GT(meanOfSeeds(all, options), 0.97);
 }
 
-// Every object left out of the training in turn, against known ones that did not teach: strangers
-// are farther away.
+// Each object is left out of the training in turn and compared with test grasps of known objects:
+// unknown objects have a larger distance.
 TEST(CrossValidation, StrangersAreTold) {
   const auto folder = goldenFolder();
   PALPATE_NEED(folder);
@@ -87,8 +87,8 @@ TEST(CrossValidation, DoesNotDependOnTheNumberOfThreads) {
   }
 }
 
-// A feature that is the sample's number, and labels without any rule: whoever sees the samples that
-// examine could be right about each; who doesn't is right by chance.
+// One feature is the number of the sample, and the labels are random. A method that uses the test
+// samples for fitting could be right about each; a correct one is right by chance only.
 TEST(CrossValidation, NothingOfTheSamplesThatExamineIsKnown) {
   SampleSet samples = clouds(2, 60, 30, 0.0, 5);  // 30 features of pure noise
   PipelineOptions options = ldaAndSvm(1);

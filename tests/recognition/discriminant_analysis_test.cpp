@@ -82,7 +82,7 @@ TEST(DiscriminantAnalysis, BearsFeaturesThatAreMultiplesOfOthers) {
   EXPECT_GT(fitted.separation[0], 10.0);
 }
 
-// The formula by its definition: |x x' - S|^2 sample by sample.
+// The formula computed by its definition: |x x' - S|^2 for each sample.
 TEST(DiscriminantAnalysis, ShrinkageIsLedoitAndWolfs) {
   Eigen::MatrixXd x = clouds(1, 12, 4, 0.0, 5).x;
   x.rowwise() -= x.colwise().mean().eval();

@@ -1,6 +1,7 @@
-// Another day of the emulated hand, whose joints were referenced anew: seven cylinders that differ
-// by 4 mm and in nothing else. One touch of the empty hand makes it as good as on the day of
-// training; a hand that reads 4 mm wrong calls each by its neighbour's name.
+// Tests the zero adjustment of the empty hand in another session of the emulated hand, after a new
+// reference run of the joints. Seven cylinders differ by 4 mm in diameter and in nothing else. One
+// touch of the empty hand makes the accuracy as good as in the session of training; without it, a
+// hand that measures 4 mm wrong confuses each cylinder with its neighbour.
 #include <cmath>
 #include <cstdio>
 #include <string>
@@ -85,7 +86,7 @@ double shareRight(const TrainedModel& model, const Tried& of, const char* offset
       .confusion.accuracy();
 }
 
-// Things come one at a time: of each alone.
+// Accuracy when the session contains one object only, for each object by itself.
 double shareRightAlone(const TrainedModel& model, const Tried& of, const char* offset) {
   double right = 0.0;
   for (int thing = 0; thing < kThings; ++thing) {

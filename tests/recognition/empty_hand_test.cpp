@@ -19,8 +19,8 @@ namespace {
 using testing::pinchProfile;
 using testing::PinchStep;
 
-// The pads of an empty hand touch `touches` times for 30 frames, each with 1000 counts; the joints
-// say `gapMm`.
+// The pads of an empty hand touch `touches` times for 30 frames, each with 1000 counts; the
+// distance computed from the joints is `gapMm`.
 Profile touches(int count, double gapMm, double stepMm = 0.0) {
   std::vector<PinchStep> steps(10, {gapMm + 10.0});
   for (int i = 0; i < count; ++i) {
@@ -37,7 +37,7 @@ TEST(EmptyHand, WhatTheJointsSayWhileThePadsTouchIsTheZero) {
   EXPECT_NEAR(zero.mm, -3.0 + 1.6, 1e-6);
   EXPECT_EQ(zero.touches, 1u);
   EXPECT_NEAR(zero.sdMm, 0.25, 1e-12);
-  // Several: their mean; their own scatter where it is larger than what is known of touches.
+  // Several touches give their mean; their own scatter is used if it is larger than the known one.
   const EmptyHandZero three = emptyHandZero(touches(3, -3.0, 1.0));
   EXPECT_NEAR(three.mm, -2.0 + 1.6, 1e-6);
   EXPECT_NEAR(three.sdMm, 1.0 / std::sqrt(3.0), 1e-6);
@@ -51,7 +51,8 @@ TEST(EmptyHand, TheDifferenceOfTwoDaysIsTheOffset) {
       << "two times .25 / sqrt 2, and .15 of the 4 mm";
   EXPECT_EQ(offset.origin, OffsetSource::kEmptyHand);
   EXPECT_TRUE(offset.trusted);
-  // Pressed harder than in training, the foam's error comes in: half of .8 * 2 (sqrt 2 - 1).
+  // With more force than in training the error of the foam model has an effect: half of .8 * 2
+  // (sqrt 2 - 1).
   EmptyHandZero harder = emptyHandZero(touches(2, -5.0));
   harder.foamMm = 1.6 * std::sqrt(2.0);
   const double foam = 0.5 * 1.6 * (std::sqrt(2.0) - 1.0);
@@ -91,7 +92,7 @@ TEST(EmptyHand, TravelsThroughAFile) {
   EXPECT_EQ(back.origin, "zero.dsa");
   EXPECT_EQ(back.sha256, "00ff");
   EXPECT_EQ(back.text(), "-1.3 mm (+- 0.2 mm, 2 touches, zero.dsa)");
-  // A model of format 1 said less.
+  // A model of format 1 has fewer fields.
   const EmptyHandZero old =
       emptyHandZeroFrom(Json::parse(R"({"mm":1,"sd_mm":0.2,"foam_mm":1.6,"touches":1})"));
   EXPECT_EQ(old.timeUs, 0);
@@ -101,8 +102,8 @@ TEST(EmptyHand, TravelsThroughAFile) {
   EXPECT_THROW(emptyHandZeroFrom(emptyHandZeroJson(zero).set("sd_mm", 0.0)), Error);
 }
 
-// The emulated hand, whose joints are referenced wrongly today: one touch of the empty hand tells
-// by how much its sizes are off.
+// The joints of the emulated hand have a wrong zero in this session: one touch of the empty hand
+// gives the error of the sizes.
 TEST(EmptyHand, OneTouchOfTheEmulatedHandTellsTheOffsetOfTheDay) {
   Scene empty, pinch;
   empty.preshape = "pinch-empty";

@@ -50,7 +50,7 @@ TEST(FeatureTable, ClassesAreTheNamesOfFolders) {
   EXPECT_EQ(table.column("size_z"), 0u);
   EXPECT_FALSE(table.column("nothing").has_value());
   EXPECT_EQ(table.sensor, sensorText(*sdh2().layout));
-  // A file alone has no class; a folder of a class is its class.
+  // A file given by itself has no class; a folder of a class gives its class.
   EXPECT_EQ(extractFeatures({folder / "all/pen/a.dsa"}).rows[0].className, "");
   EXPECT_EQ(extractFeatures({folder / "all/golf_ball/"}).classes(),
             (std::vector<std::string>{"deeper", "golf ball"}));

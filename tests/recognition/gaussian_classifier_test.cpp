@@ -37,8 +37,8 @@ TEST(GaussianClassifier, AddsWhatOtherDaysAdd) {
   EXPECT_NEAR(fitted.nearestSquaredDistance(x)[0], 9.0 / (5.0 * 1.5), 1e-7);
 }
 
-// With one covariance the border of two classes is the plane that linear discriminant analysis
-// gives: halfway.
+// With a common covariance matrix the border of two classes is the plane of linear discriminant
+// analysis, halfway between the means.
 TEST(GaussianClassifier, OneCovarianceIsTheLinearRule) {
   const auto fitted = GaussianClassifier::of(kLine, kSides, 2, {.pooledFraction = 1.0});
   Eigen::MatrixXd x(2, 1);

@@ -1,5 +1,5 @@
-// The study's features of the shared grasps (golden/grasp_features.csv) as samples to learn from;
-// and small made ones.
+// Training samples for tests: the study's features of the shared grasps
+// (golden/grasp_features.csv), and small synthetic sets.
 #pragma once
 
 #include <cstdint>
@@ -51,7 +51,7 @@ inline SampleSet goldenSamples(const std::filesystem::path& goldenFolder) {
   return samples;
 }
 
-// Columns of the study's table: "diameter", "first4", "moments" or "study".
+// Returns a subset of the columns of the study's table: "diameter", "first4", "moments" or "study".
 inline SampleSet studySubset(const SampleSet& study, const std::string& name) {
   std::vector<std::size_t> columns(study.numFeatures());
   std::iota(columns.begin(), columns.end(), 0);
@@ -61,8 +61,8 @@ inline SampleSet studySubset(const SampleSet& study, const std::string& name) {
   return study.columns(columns);
 }
 
-// `perClass` samples of each of `classes` round clouds of sd 1 whose centres lie `apart` from each
-// other or more, in `features` dimensions.
+// Makes `perClass` samples of each of `classes` isotropic Gaussian clouds of sd 1, whose centres
+// have distances of at least `apart`, in `features` dimensions.
 inline SampleSet clouds(int classes, int perClass, int features, double apart, std::uint64_t seed) {
   std::mt19937_64 generator(seed);
   std::normal_distribution<double> normal;

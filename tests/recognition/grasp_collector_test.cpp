@@ -11,7 +11,7 @@ namespace {
 using testing::pinchProfile;
 using testing::PinchStep;
 
-// As a device would hand them over: the angles of a frame come before it.
+// Feeds a profile as a device does: the joint angles of a frame come before it.
 void feed(const Profile& profile, GraspCollector& collector) {
   for (std::size_t i = 0; i < profile.numFrames(); ++i) {
     collector.addAngles(profile.angles(i));
@@ -41,7 +41,7 @@ TEST(GraspCollector, KeepsAGraspWithALittleBeforeAndAfterIt) {
   EXPECT_FALSE(collector.touched());
   EXPECT_FALSE(collector.now());
   EXPECT_TRUE(collector.takeEnded().empty()) << "once";
-  // It reads as the grasp of the whole recording does.
+  // The features are those of the grasp in the whole recording.
   const ChosenGrasp clip = graspOf(ended[0], FeatureSet::kBest);
   const ChosenGrasp whole = graspWithin(all, 0, all.numFrames() - 1, FeatureSet::kBest);
   ASSERT_EQ(clip.features.problem, "");
@@ -54,7 +54,7 @@ TEST(GraspCollector, KeepsNoMoreOfAContactThatNeverEnds) {
   GraspCollectorOptions options;
   options.maxFrames = 100;
   GraspCollector collector(sdh2(), options);
-  // Angles come three times as often as frames, as from a hand.
+  // Joint angles come three times as often as frames, as with a real hand.
   const Profile held = pinchProfile(steps({{1, true}}));
   std::size_t keptAngles = 0;
   for (int i = 0; i < 20'000; ++i) {
@@ -138,7 +138,8 @@ TEST(GraspCollector, FramesThatDoNotFitAreLeftOut) {
   EXPECT_FALSE(collector.touched());
   const Profile held = pinchProfile(steps({{40, true}}));
   feed(held, collector);
-  feed(held, collector);  // the same again: not later
+  // The same frames again are ignored, because they are not later.
+  feed(held, collector);
   EXPECT_EQ(collector.now()->numFrames(), 40u);
   GraspCollectorOptions few;
   few.maxFrames = 30;

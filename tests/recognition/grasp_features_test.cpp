@@ -21,7 +21,7 @@ using testing::PinchStep;
 
 constexpr FeatureSet kSets[] = {FeatureSet::kStudy, FeatureSet::kBest, FeatureSet::kSession};
 
-// Two grasps of 30 frames with 10 empty frames before, between and behind.
+// Two grasps of 30 frames with 10 empty frames before, between and after them.
 Profile twoGrasps() {
   std::vector<PinchStep> steps(10, {60.0});
   for (int grasp = 0; grasp < 2; ++grasp) {

@@ -124,7 +124,8 @@ TEST(GraspSegments, QualityIsWhatItSays) {
   EXPECT_DOUBLE_EQ(quality("." + times("b", 40) + "."), 1.0);
   EXPECT_DOUBLE_EQ(quality(times("b", 40) + "."), 0.5);
   EXPECT_DOUBLE_EQ(quality(times("b", 40)), 0.25);
-  // Two frames bridged in the first quarter: the steady middle doesn't know of it.
+  // Two frames are bridged in the first quarter, which does not affect the steadiness of the middle
+  // half.
   EXPECT_DOUBLE_EQ(quality(".bb..." + times("b", 35) + "."), 37.0 / 40.0);
   // Saturated in the first ten of 40 frames.
   EXPECT_DOUBLE_EQ(quality("." + times("s", 10) + times("b", 30) + "."), 30.0 / 40.0);
@@ -169,14 +170,14 @@ TEST(GraspSegments, OfSyntheticRecordingsLieWhereTheirTruthIs) {
 TEST(GraspSegments, OddRecordings) {
   EXPECT_TRUE(findGrasps(profileOf("")).empty());
   EXPECT_TRUE(findGrasps(profileOf("b")).empty());
-  // Three seconds between frames are no gap where all are so far apart.
+  // Three seconds between frames are no gap if all frames are that far apart.
   ProfileBuilder slow(sdh2().layout);
   TactileFrame frame(sdh2().layout);
   frame.matrix(1)(5, 2) = 50.0F;
   frame.matrix(5)(5, 2) = 50.0F;
   for (int i = 0; i < 25; ++i) slow.addFrame(i * 3'000'000, frame.values);
   EXPECT_EQ(findGrasps(slow.finish({})).size(), 1u);
-  // Pads without fingers: each is one.
+  // Each pad without a finger counts as a finger.
   auto pads = std::make_shared<SensorLayout>(
       std::vector{MatrixLayout::full(4, 4, 3.4), MatrixLayout::full(4, 4, 3.4)});
   ProfileBuilder two(pads);
@@ -204,7 +205,8 @@ TEST(GraspSegments, OfASensorWithManyPadsCountEveryPad) {
 }
 
 TEST(GraspSegments, OfAMaskedMatrixAreThoseOfTheOthers) {
-  // Finger 0 distal isn't scanned: what it would feel never comes, fingers 1 and 2 hold on.
+  // The distal matrix of finger 0 is not scanned and gives no values; fingers 1 and 2 continue the
+  // contact.
   std::vector<MatrixLayout> matrices = sdh2().layout->matrices();
   std::fill(matrices[1].dynamicMask.begin(), matrices[1].dynamicMask.end(), std::uint8_t{0});
   const auto layout = std::make_shared<SensorLayout>(matrices);
@@ -239,7 +241,7 @@ TEST(GraspSegments, RefusesBadOptionsAndCanBeCancelled) {
   EXPECT_THROW(findGrasps(profile, {}, [](double) { return false; }), Cancelled);
 }
 
-// The study's segments of all shared grasps, by its own script: exactly one per file.
+// Segments of all shared grasps by the script of the study: exactly one per file.
 TEST(GraspSegments, OfTheStudyAgreeWithTheGoldenOnes) {
   const auto golden = testing::goldenFolder();
   const auto folder = testing::recordingsFolder();
@@ -266,9 +268,9 @@ TEST(GraspSegments, OfTheStudyAgreeWithTheGoldenOnes) {
   EXPECT_GE(compared, 571);
 }
 
-// Grasps of several recordings, counted by a program that shares nothing with this one (bz2,
-// ElementTree, the rules as they are written); over all 609 shared recordings it and this one agree
-// in every frame and finger.
+// Grasps of several recordings, counted by an independent program (bz2, ElementTree, the rules as
+// they are written). Over all 609 shared recordings it agrees with this program in every frame and
+// finger.
 TEST(GraspSegments, OfRealRecordingsAreThoseOfAnIndependentCount) {
   const auto folder = testing::recordingsFolder();
   PALPATE_NEED(folder);

@@ -134,8 +134,7 @@ TEST(ModelEvaluation, JsonHasWhatIsPromised) {
   EXPECT_EQ(json.at("confusion").size(), 6u);
 }
 
-// Protocol X: the shared recordings of 11 weeks later. Targets of the issue; of 42 grasps nothing
-// is tuned on.
+// Protocol X: the shared recordings of 11 weeks later. Nothing is tuned on these 42 grasps.
 class OtherDay : public ::testing::Test {
  protected:
   void SetUp() override {

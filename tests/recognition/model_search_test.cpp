@@ -30,7 +30,8 @@ TEST(ModelSearch, TheGridKeepsToWhatIsThereAndWasAsked) {
   EXPECT_THROW(modelGrid(samples, {.components = 0}), std::invalid_argument);
 }
 
-// Two classes with one mean, one narrow and one wide: no plane parts them, their covariances do.
+// Two classes with the same mean, one narrow and one wide: no plane separates them, their
+// covariances do.
 TEST(ModelSearch, FindsTheClassifierThatFits) {
   SampleSet samples = clouds(2, 80, 3, 0.0, 4);
   for (Eigen::Index i = 80; i < 160; ++i) samples.x.row(i) *= 6.0;
@@ -56,8 +57,8 @@ TEST(ModelSearch, SaysWhenThereIsTooLittle) {
   EXPECT_THROW(searchModel(clouds(3, 15, 3, 30.0, 4), {}, [](double) { return false; }), Cancelled);
 }
 
-// Of six features two tell the classes apart: they are the last to go, and the others aren't
-// missed.
+// Two of six features separate the classes: they are removed last, and removing the others does not
+// reduce the accuracy.
 TEST(ModelSearch, EliminationKeepsWhatTellsClassesApart) {
   SampleSet samples = clouds(4, 25, 6, 0.0, 6);
   for (std::size_t i = 0; i < samples.y.size(); ++i) {

@@ -1,4 +1,5 @@
-// Grasps between fingers 0 and 2, made of numbers that can be checked by hand.
+// Makes profiles of grasps between fingers 0 and 2 for tests, with numbers that can be checked by
+// hand.
 #pragma once
 
 #include <cmath>
@@ -13,9 +14,10 @@
 
 namespace palpate::testing {
 
-// Fingers 0 and 2 face each other at phi0 = 90 degrees. With the proximal joint at b and the distal
-// one at -b the fingertips stay upright, and by trigonometry their flat parts are
-//   66 - 2 * 86.5 sin b - 2 * 14.8 mm apart.
+// Joint angles for a gap between fingers 0 and 2, which face each other at phi0 = 90 deg. With the
+// proximal joint at b and the distal one at -b the fingertips stay upright, and by trigonometry the
+// distance of their flat parts is
+//   66 - 2 * 86.5 sin b - 2 * 14.8 mm.
 inline std::vector<double> anglesForGap(double gapMm) {
   const double b = std::asin((66.0 - 29.6 - gapMm) / 173.0) * 180.0 / std::numbers::pi;
   return {90, b, -b, -90, 0, b, -b};
@@ -23,17 +25,16 @@ inline std::vector<double> anglesForGap(double gapMm) {
 
 struct PinchStep {
   double gapMm = 50.0;
-  float first = 0.0F,
-        // counts of taxel (2, 10) of matrix 1, (3, 10) of matrix 5: opposite each other
-      second = 0.0F;
-  // More of the first pad: column, row, counts; the second one's are opposite.
+  // Counts of taxel (2, 10) of matrix 1 and (3, 10) of matrix 5, which are opposite each other.
+  float first = 0.0F, second = 0.0F;
+  // More taxels of the first pad: column, row, counts; those of the second pad are opposite.
   std::vector<std::tuple<int, int, float>> more = {};
 };
 
 constexpr std::int64_t kPinchStartUs = 1'400'000'000'000'000;
 constexpr std::int64_t kPinchPeriodUs = 32'000;
 
-// A frame and a sample of angles per step.
+// Makes a profile with one frame and one sample of joint angles per step.
 inline Profile pinchProfile(const std::vector<PinchStep>& steps, bool withAngles = true) {
   ProfileBuilder builder(sdh2().layout);
   std::int64_t nowUs = kPinchStartUs;
@@ -50,7 +51,7 @@ inline Profile pinchProfile(const std::vector<PinchStep>& steps, bool withAngles
   return builder.finish({});
 }
 
-// Every taxel of a single pad touches.
+// A profile of a sensor with a single pad whose taxels all touch.
 inline Profile otherSensorProfile(int frames) {
   const auto layout = std::make_shared<const SensorLayout>(
       std::vector<MatrixLayout>{MatrixLayout::full(8, 8, 2.0)});
@@ -60,7 +61,7 @@ inline Profile otherSensorProfile(int frames) {
   return builder.finish({});
 }
 
-// As another profile, with one value and one sample of angles that are no numbers.
+// A copy of a profile with one taxel value and one joint angle that are not numbers.
 class DamagedStorage : public ProfileStorage {
  public:
   DamagedStorage(Profile whole, int badFrame, int badAngles)
@@ -88,7 +89,7 @@ class DamagedStorage : public ProfileStorage {
   int badFrame_, badAngles_;
 };
 
-// -1: none.
+// A badFrame or badAngles of -1 means none.
 inline Profile damagedProfile(const Profile& whole, int badFrame, int badAngles) {
   return Profile(
       whole.info(), whole.hand(), std::make_shared<DamagedStorage>(whole, badFrame, badAngles));

@@ -28,8 +28,8 @@ std::map<std::string, double> named(const PlateauFeatures& features) {
   return values;
 }
 
-// 10 frames of growing load while the gap closes from 55 to 50 mm, 30 at rest; then, when
-// `released`, 10 frames of opening to 60 mm.
+// 10 frames of growing load while the gap closes from 55 to 50 mm, then 30 at rest; if `released`,
+// then 10 frames of opening to 60 mm.
 std::vector<PinchStep> steps(bool released) {
   std::vector<PinchStep> all;
   for (int i = 1; i <= 10; ++i)
@@ -91,14 +91,14 @@ TEST(PlateauFeatures, TheShapeOfAContact) {
   EXPECT_NEAR(values["entropy"], std::log(3.0), 1e-12);
   EXPECT_NEAR(values["ln_active"], std::log(4.0), 1e-12);
   EXPECT_NEAR(values["ln_sum"], std::log(3000.0), 1e-12);
-  // A slanted pair: (2, 10) and (3, 11): u = v = w = 1/4.
+  // A diagonal pair of taxels, (2, 10) and (3, 11): u = v = w = 1/4.
   std::vector<PinchStep> slanted(30, PinchStep{50.0, 1000.0F, 1000.0F, {{3, 11, 1000.0F}}});
   const Profile other = pinchProfile(slanted);
   const PlateauFeatures features = plateauFeatures(other, whole(other));
   EXPECT_NEAR(named(features)["skew"], 0.5 / 0.8, 1e-9);
   EXPECT_NEAR(features.pads[0].slant, 0.5 / 0.8, 1e-9);
   EXPECT_NEAR(features.pads[1].slant, -0.5 / 0.8, 1e-9) << "the second pad sees it mirrored";
-  // A taxel below 3 % of the largest is none.
+  // A taxel below 3 % of the largest value is not active.
   std::vector<PinchStep> faint(30, PinchStep{50.0, 1000.0F, 1000.0F, {{0, 2, 29.0F}}});
   const Profile with = pinchProfile(faint);
   EXPECT_NEAR(named(plateauFeatures(with, whole(with)))["ln_active"], std::log(2.0), 1e-12);
@@ -138,7 +138,7 @@ TEST(PlateauFeatures, WhatIsMissingIsSaid) {
             "values that are no numbers in frame 3");
   EXPECT_EQ(problem(testing::damagedProfile(pinchProfile(steps(false)), -1, 3)),
             "joint angles that are missing or no numbers in frame 3");
-  // At phi0 = 0 fingers 0 and 2 look the same way.
+  // At phi0 = 0 fingers 0 and 2 face in the same direction.
   ProfileBuilder builder(sdh2().layout);
   TactileFrame frame(sdh2().layout);
   frame.matrix(1)(10, 2) = frame.matrix(5)(10, 3) = 100.0F;
@@ -184,10 +184,10 @@ TEST(PlateauFeatures, AnotherPairOfPadsIsTakenWhereTheFirstDoesNotFaceEachOther)
               1e-3);
 }
 
-// reference/another_day.md, section 1: the thick pen of 28 November reads 4.34 mm less than in
-// September, the hockey ball of the day before 1.34 less (of the soft foam ball, whose pads tilt,
-// the two programs disagree); and section 2: a rigid object reads the same within .23 mm rms of its
-// class.
+// Values of reference/another_day.md. Section 1: the thick pen of 28 November measures 4.34 mm less
+// than in September, the hockey ball of the day before 1.34 mm less (the two programs disagree on
+// the soft foam ball, whose pads tilt). Section 2: the measured size of a rigid object is constant
+// within .23 mm rms of its class.
 TEST(PlateauFeatures, ReadWhatAnIndependentProgramFoundElevenWeeksLater) {
   const auto folder = testing::recordingsFolder();
   PALPATE_NEED(folder);

@@ -10,7 +10,7 @@
 namespace palpate::probability_calibration_test {
 namespace {
 
-// Labels drawn by a sigmoid that is known.
+// Labels drawn from a known sigmoid.
 TEST(ProbabilityCalibration, FindsTheSigmoidThatMadeTheLabels) {
   std::mt19937_64 generator(3);
   std::uniform_real_distribution<double> uniform;
@@ -26,7 +26,8 @@ TEST(ProbabilityCalibration, FindsTheSigmoidThatMadeTheLabels) {
   EXPECT_NEAR(fitted.at(0.0), 1.0 / (1.0 + std::exp(0.6)), 0.015);
 }
 
-// Platt's targets keep separable decisions from certainty: (n + 1) / (n + 2) of n.
+// Platt's targets keep the probabilities of separable decisions below 1: (n + 1) / (n + 2) for n
+// samples.
 TEST(ProbabilityCalibration, SeparableDecisionsStayShortOfCertainty) {
   const Sigmoid fitted = fitSigmoid({-2, -2, -2, 2, 2, 2}, {false, false, false, true, true, true});
   EXPECT_NEAR(fitted.at(2.0), 4.0 / 5.0, 1e-3);
@@ -36,7 +37,7 @@ TEST(ProbabilityCalibration, SeparableDecisionsStayShortOfCertainty) {
   EXPECT_GE(fitted.at(-1e6), 0.0);
 }
 
-// Where P(i | i or j) = p_i / (p_i + p_j) for some p, that p is the answer.
+// If P(i | i or j) = p_i / (p_i + p_j) for some p, the result is p.
 TEST(ProbabilityCalibration, CouplingGivesBackWhatThePairsCameFrom) {
   const Eigen::Vector4d truth(0.5, 0.3, 0.15, 0.05);
   Eigen::MatrixXd r(4, 4);
@@ -66,7 +67,7 @@ TEST(ProbabilityCalibration, SoftmaxSumsToOneWhateverTheSize) {
   EXPECT_NEAR(softmaxRows(scores, 2.0)(0, 1), 0.9, 1e-9);
 }
 
-// Labels drawn by softmax(t s): t is found.
+// Labels drawn from softmax(t s): t is estimated.
 TEST(ProbabilityCalibration, FindsTheExponentThatMadeTheLabels) {
   std::mt19937_64 generator(8);
   std::normal_distribution<double> normal;

@@ -15,8 +15,8 @@ namespace {
 constexpr std::int64_t kHourUs = 3600LL * 1'000'000;
 constexpr std::int64_t kTrainedUs = 100 * kHourUs, kTodayUs = 3000 * kHourUs;
 
-// Grasps of things of 20, 30, .. mm, told by size (sd .5 mm) and one more feature, read with an
-// offset.
+// Grasps of objects of 20, 30, .. mm that differ in size (sd .5 mm) and in one more feature,
+// measured with an offset.
 SampleSet things(int perClass, double offsetMm, std::uint64_t seed) {
   SampleSet samples = testing::clouds(5, perClass, 2, 0.0, seed);
   samples.features = {"size_z", "ln_sum"};

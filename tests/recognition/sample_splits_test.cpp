@@ -45,7 +45,8 @@ TEST(SampleSplits, ShufflesKeepTheProportionsOfClasses) {
 }
 
 TEST(SampleSplits, EqualRemaindersGoByLot) {
-  const auto y = labels({11, 11});  // 5 of 22 examine: 2.5 each
+  // 5 of 22 are test samples: 2.5 of each class.
+  const auto y = labels({11, 11});
   std::set<std::size_t> seen;
   for (const SampleSplit& split : stratifiedSplits(y, 40, 1)) {
     EXPECT_EQ(split.test.size(), 5u);
@@ -78,7 +79,7 @@ TEST(SampleSplits, BlocksAreContiguousAndExamineEverySampleOnce) {
   for (const SampleSplit& split : splits) {
     expectPartition(split, 21);
     testPredictions.insert(testPredictions.end(), split.test.begin(), split.test.end());
-    // Of each class one run without holes.
+    // Each class has one contiguous block.
     for (std::size_t i = 1; i < split.test.size(); ++i)
       EXPECT_TRUE(y[split.test[i]] != y[split.test[i - 1]] ||
                   split.test[i] == split.test[i - 1] + 1);

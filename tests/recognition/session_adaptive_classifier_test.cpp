@@ -16,8 +16,8 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-// Two classes of four samples each in a plane: means (0, 0) and (10, 0), own covariance diag(4/3,
-// 4/3) both.
+// Two classes of four samples each in a plane, with means (0, 0) and (10, 0) and covariance
+// diag(4/3, 4/3).
 struct Square {
   MatrixXd x{{1, 1}, {1, -1}, {-1, 1}, {-1, -1}, {11, 1}, {11, -1}, {9, 1}, {9, -1}};
   std::vector<int> y{0, 0, 0, 0, 1, 1, 1, 1};
@@ -29,7 +29,8 @@ SessionAdaptiveClassifier squareModel(SessionAdaptiveOptions options = {}) {
       square.x, square.y, {"left", "right"}, {"a", "b"}, options);
 }
 
-// The density of a t as a text book writes it, here for a round scatter s^2 I in two dimensions.
+// Density of a t distribution by the textbook formula, here for an isotropic scatter s^2 I in two
+// dimensions.
 double lnRoundT(double squaredDistance, double variance, double nu) {
   return std::lgamma((nu + 2) / 2) - std::lgamma(nu / 2) - std::log(nu * std::numbers::pi) -
          std::log(variance) - (nu + 2) / 2 * std::log(1 + squaredDistance / variance / nu);
@@ -37,7 +38,8 @@ double lnRoundT(double squaredDistance, double variance, double nu) {
 
 TEST(SessionAdaptiveClassifier, IsATPerClassWidenedByTheDay) {
   const SessionAdaptiveClassifier model = squareModel();
-  const double variance = 4.0 / 3.0 * 2.0;  // the class's, and as much for the day
+  // The variance of the class, and the same again for the session.
+  const double variance = 4.0 / 3.0 * 2.0;
   const VectorXd at = model.logLikelihoods(VectorXd{{2.0, 1.0}}, 0.0);
   EXPECT_NEAR(at[0], lnRoundT(5.0, variance, 8.0), 1e-12);
   EXPECT_NEAR(at[1], lnRoundT(65.0, variance, 8.0), 1e-12);
@@ -92,10 +94,10 @@ TEST(SessionAdaptiveClassifier, WhatWasSeenTodayCountsWhereItFitsBetter) {
   EXPECT_NEAR(model.logLikelihoods(at, 0.0)[1], lnRoundT(0.0, 4.0, 8.0), 1e-12);
   EXPECT_GT(model.logLikelihoods(at, 0.0)[1], before);
   EXPECT_EQ(model.logPrior(), (VectorXd{{0.0, 3.0}}));
-  // Where the old one fits better it stays.
+  // If the training component fits better, it is used.
   EXPECT_NEAR(
       model.logLikelihoods(VectorXd{{10.0, 0.0}}, 0.0)[1], lnRoundT(0.0, 8.0 / 3.0, 8.0), 1e-12);
-  // Again, with three: replaced.
+  // A second call with three grasps replaces the component.
   model.addSessionComponents(MatrixXd{{4.0, 0.0}, {5.0, 0.0}, {6.0, 0.0}}, {1, 1, 1}, 0.0);
   ASSERT_EQ(model.data().today.size(), 1u);
   EXPECT_EQ(model.data().today[0].count, 3u);
@@ -146,7 +148,7 @@ TEST(SessionAdaptiveClassifier, AConstantFeatureOrASingleSampleBreaksNothing) {
   EXPECT_EQ(model.constantFeatures(), std::vector<std::string>{"b"});
   EXPECT_TRUE(model.logLikelihoods(VectorXd{{0.0, 7.0}}, 0.0).allFinite());
   EXPECT_TRUE(model.logLikelihoods(VectorXd{{0.0, 8.0}}, 0.0).allFinite());
-  // One class with a single sample takes the scatter of the others.
+  // A class with a single sample uses the scatter of the others.
   const SessionAdaptiveClassifier single =
       SessionAdaptiveClassifier::learn(MatrixXd{{0, 0}, {1, 1}, {1, -1}, {-1, 1}, {-1, -1}},
                                        {0, 1, 1, 1, 1},

@@ -16,7 +16,7 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-// Objects that differ in size and, a little, in shape. Sizes [mm]; 20 grasps each; scatter .3 mm
+// Objects that differ in size [mm] and, a little, in shape; 20 grasps each, with a scatter of .3 mm
 // and .1.
 class SizesWorld {
  public:
@@ -88,7 +88,8 @@ TEST(SessionOffset, IsFoundFromUnlabelledGraspsOfSeveralObjects) {
   }
 }
 
-// Objects of the same shape, 3 mm apart: any of them can be any other on another day.
+// Objects of the same shape whose sizes differ by 3 mm: in another session any of them may be any
+// other.
 TEST(SessionOffset, OneObjectIsNeverEnoughToBeSure) {
   SizesWorld world({30, 90, 91, 33, 92, 93, 36, 94, 95, 39});
   const SessionAdaptiveClassifier model = world.model();
@@ -98,7 +99,7 @@ TEST(SessionOffset, OneObjectIsNeverEnoughToBeSure) {
   EXPECT_FALSE(found.trusted);
   for (const OpenSetPrediction& prediction : predictAll(model, x, found))
     EXPECT_FALSE(prediction.sure);
-  // Nor a labelled one.
+  // A labelled grasp does not make it trusted either.
   const SessionOffset labelled = offsetFromReferences(model, x, std::vector<int>(12, 3));
   EXPECT_NEAR(labelled.mm, -3.0, 0.5);
   EXPECT_EQ(labelled.objects, 1u);
@@ -114,7 +115,7 @@ TEST(SessionOffset, LabelledGraspsOfTwoObjectsAreTrusted) {
   EXPECT_EQ(found.objects, 2u);
   EXPECT_EQ(found.grasps, 2u);
   EXPECT_TRUE(found.trusted);
-  // More grasps of one object count as two: its own scatter of the day doesn't average out.
+  // More grasps of one object count as two, because the offset of this object does not average out.
   const double two = offsetFromReferences(model, world.grasps({1}, 2, 2.0), {1, 1}).sdMm;
   const double twenty =
       offsetFromReferences(model, world.grasps({1}, 20, 2.0), std::vector<int>(20, 1)).sdMm;
@@ -133,7 +134,7 @@ TEST(SessionOffset, WhatTheEmptyHandSaysIsKeptAndNarrowed) {
   EXPECT_LT(narrowed.sdMm, 0.6);
   EXPECT_TRUE(narrowed.trusted) << "one object, but the hand was measured";
   EXPECT_FALSE(measuredOffset(-4.0, 2.0, OffsetSource::kEmptyHand).trusted);
-  // Beyond the grid, and much finer than it.
+  // Values outside of the grid, and much finer than its step.
   const SessionOffset far = measuredOffset(20.0, 0.05, OffsetSource::kEmptyHand);
   double mean = 0.0;
   for (std::size_t i = 0; i < far.gridMm.size(); ++i) mean += far.gridMm[i] * far.probability[i];
@@ -153,8 +154,8 @@ TEST(SessionOffset, AGivenOneIsNotChanged) {
 }
 
 TEST(SessionOffset, AVerdictSumsOverWhatIsNotKnown) {
-  // One class at 30, one at 33 mm, read 30: with offset 0 the first, with -3 the second, with +-3
-  // mm both are likely.
+  // One class has 30 mm, the other 33 mm; the measured size is 30 mm. With offset 0 it is the
+  // first, with -3 the second; with an uncertainty of +-3 mm both are likely.
   SizesWorld world({30, 90, 91, 33});
   const SessionAdaptiveClassifier model = world.model();
   const VectorXd x{{sizeZ(30.0), 0.0}};

@@ -39,15 +39,15 @@ TEST(StudyFeatures, AreFiftyFour) {
   EXPECT_EQ(names[53], "m5_T44");
 }
 
-// 30 frames: the gap closes from 53 to 50 mm within 10 frames and stays; both pads touch at one
-// taxel of 1777 counts (half of 3554), and of the other 2493.
+// 30 frames: the gap closes from 53 to 50 mm within 10 frames and stays. One pad touches at one
+// taxel of 1777 counts (half of 3554), the other at one of 2493.
 TEST(StudyFeatures, OfAGraspComputedByHand) {
   std::vector<PinchStep> steps;
   for (int i = 0; i < 30; ++i) steps.push_back({std::max(50.0, 53.0 - 0.3 * i), 1777.0F, 2493.0F});
   const Profile profile = pinchProfile(steps);
   const StudyFeatures features = studyFeatures(profile, {.begin = 0, .end = 29, .fingers = {}});
   auto values = named(features);
-  // Impression: half a millimetre of the one pad, one of the other.
+  // Indentation: half a millimetre on the first pad, one on the second.
   EXPECT_NEAR(values["diameter"], 50.0 + 1.5, 1e-9);
   EXPECT_NEAR(values["compressibility"], 3.0, 1e-9);
   EXPECT_EQ(features.initialFrame, 0u);
@@ -95,7 +95,7 @@ TEST(StudyFeatures, WhatIsMissingIsSaid) {
   EXPECT_THROW(problem(pinchProfile(good), 30), std::out_of_range);
 }
 
-// 571 grasps, made by two programs that share nothing with this one.
+// Compares 571 grasps with the results of two independent programs.
 TEST(StudyFeatures, AgreeWithIndependentNumbers) {
   const auto golden = testing::goldenFolder();
   const auto recordings = testing::recordingsFolder();

@@ -35,8 +35,8 @@ TEST(SupportVectorMachine, HalvesTheWayBetweenTwoPoints) {
   EXPECT_NEAR(decisions(1, 0), -1.0, 1e-5);
 }
 
-// On a line with a sample on the wrong side: 0 and 2 are class 1, 1 and 3 class 0. By symmetry the
-// plane lies at 1.5; minimise w^2 / 2 + 2 C (max(0, 1 - 1.5 w) + 1 + w / 2): for small C (w below
+// Samples on a line, one on the wrong side: 0 and 2 are class 1, 1 and 3 class 0. By symmetry the
+// plane is at 1.5; it minimises w^2 / 2 + 2 C (max(0, 1 - 1.5 w) + 1 + w / 2): for small C (w below
 // 2/3) w = 2 C (1.5 - 0.5) = 2 C.
 TEST(SupportVectorMachine, CostsWhatIsOnTheWrongSide) {
   Eigen::MatrixXd x(4, 1);
@@ -137,8 +137,8 @@ TEST(SupportVectorMachine, CallsRealGraspsAsLibsvm) {
 }
 
 TEST(SupportVectorMachine, TiesGoByTheSumOfDistances) {
-  // Three classes beat each other in a ring, and all of them beat class 3: 0 over 1 by 1, 1 over 2
-  // by 2, 2 over 0 by 5.
+  // Three classes win against each other in a cycle, and all of them win against class 3: 0 over 1
+  // by 1, 1 over 2 by 2, 2 over 0 by 5.
   SupportVectorMachine machine;
   machine.numClasses = 4;
   machine.pairs = {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}};
@@ -152,7 +152,7 @@ TEST(SupportVectorMachine, TiesGoByTheSumOfDistances) {
   EXPECT_EQ(best, 2);
   EXPECT_EQ(std::floor(votes[3] + 0.5), 0.0);
   for (const int c : {0, 1, 2}) EXPECT_EQ(std::floor(votes[c] + 0.5), 2.0);
-  // the same decision, a hundredth of the distance: sums 6.95, 7, 4.05
+  // The same decision with a hundredth of the distance: sums 6.95, 7, 4.05.
   machine.weights(1, 0) = 100.0;
   machine.votes(decisions).maxCoeff(&best);
   EXPECT_EQ(best, 1);

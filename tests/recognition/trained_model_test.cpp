@@ -18,8 +18,8 @@ using testing::TemporaryFolder;
 
 constexpr std::int64_t kHourUs = 3600LL * 1'000'000;
 
-// Grasps of things of 20, 30, .. mm, told by size (sd .5 mm) and one more feature, read with an
-// offset.
+// Grasps of objects of 20, 30, .. mm that differ in size (sd .5 mm) and in one more feature,
+// measured with an offset.
 SampleSet things(int classes, int perClass, double offsetMm, std::uint64_t seed) {
   SampleSet samples = clouds(classes, perClass, 2, 0.0, seed);
   samples.features = {"size_z", "ln_sum"};
@@ -86,7 +86,7 @@ TEST(TrainedModel, KnowsItsSessionByTime) {
   EXPECT_FALSE(model.sameSession(87 * kHourUs));
 }
 
-// The hand reads 5 mm too wide today: half the way to the next object.
+// The hand measures 5 mm too much in this session, which is half the distance to the next object.
 TEST(TrainedModel, AdaptsByLabelledGrasps) {
   const TrainedModel fresh = modelOf(things(6, 20, 0.0, 1), ClassifierKind::kGauss);
   const SampleSet today = things(6, 10, 5.0, 3);
@@ -162,7 +162,8 @@ EmptyHandZero zeroOf(double mm, std::int64_t timeUs) {
   return zero;
 }
 
-// The hand reads 5 mm too wide today, half the way to the next object: no label is needed.
+// The hand measures 5 mm too much in this session, half the distance to the next object; no
+// labelled grasp is needed.
 TEST(TrainedModel, AdaptsByTheTouchOfTheEmptyHand) {
   TrainedModel model = modelOf(things(6, 20, 0.0, 1), ClassifierKind::kGauss);
   const SampleSet today = things(6, 10, 5.0, 3);
@@ -176,10 +177,10 @@ TEST(TrainedModel, AdaptsByTheTouchOfTheEmptyHand) {
   EXPECT_EQ(model.offset.origin, OffsetSource::kEmptyHand);
   EXPECT_TRUE(model.offset.trusted);
   EXPECT_GT(shareRight(classifyRows(model, today.x, model.offset, true), today.y), 0.95);
-  // It is of that day, and of no other, not even the day of training.
+  // The offset is valid in that session and in no other, not even in that of training.
   EXPECT_TRUE(model.sameSession(905 * kHourUs));
   EXPECT_FALSE(model.sameSession(100 * kHourUs));
-  // Labelled grasps narrow what it leaves open.
+  // Labelled grasps reduce the remaining uncertainty.
   TrainedModel both = model;
   adaptModel(both, today.rows(std::vector<std::size_t>{0}), both.offset);
   EXPECT_LT(both.offset.sdMm, model.offset.sdMm);
@@ -206,7 +207,7 @@ TEST(TrainedModel, ZerosTravelWithItAndModelsOfFormat1AreRead) {
   EXPECT_EQ(back.sessionZero->origin, "touch.dsa");
   EXPECT_EQ(back.offset.mm, model.offset.mm);
   EXPECT_EQ(back.offset.gridMm, model.offset.gridMm);
-  // Format 1 kept the zero of training among the options, if at all.
+  // Format 1 stored the zero of training among the options, if at all.
   const Json now = jsonOf(model);
   Json old = Json::object();
   for (const std::string& key : now.keys())
@@ -297,7 +298,7 @@ TEST(TrainedModel, HashesEveryInputOnce) {
   EXPECT_THROW(inputsOf(table, [](double) { return false; }), Cancelled);
 }
 
-// C-A7: what a file claims is looked at before memory is taken for it.
+// The declared sizes in a file are checked before memory is allocated for them.
 TEST(TrainedModel, ASmallFileThatClaimsALargeMatrixIsRefused) {
   const TemporaryFolder folder;
   std::string rows = "[";
@@ -329,7 +330,7 @@ TEST(TrainedModel, ASmallFileThatClaimsALargeMatrixIsRefused) {
     EXPECT_EQ(what.rfind((folder / "claims.json").string(), 0), 0u) << what;
     EXPECT_NE(what.find("'directions' has 0 entries instead of 60000"), std::string::npos) << what;
   }
-  // Nor is a file without end read.
+  // A file without end is not read either.
   EXPECT_THROW(loadModel("/dev/zero"), FormatError);
 }
 

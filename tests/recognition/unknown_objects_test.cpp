@@ -33,7 +33,7 @@ TEST(UnknownObjects, ClassesFarApartAreStrangersToEachOther) {
   }
 }
 
-// All classes are the same thing: nothing can be told.
+// All classes are the same object and cannot be distinguished.
 TEST(UnknownObjects, WhatIsTheSameIsNoStranger) {
   const UnknownReport report = unknownWithin(clouds(5, 30, 3, 0.0, 2), with(ClassifierKind::kQda));
   EXPECT_NEAR(report.auroc, 0.5, 0.1);
@@ -47,8 +47,8 @@ TEST(UnknownObjects, TwoClassesAreTooFew) {
       Cancelled);
 }
 
-// They differ by 5 to 8 mm and in nothing else, all read 4 mm too wide on the other day: a stranger
-// is as large as a known one that is read wrong.
+// The objects differ by 5 to 8 mm and in nothing else; in the other session all are measured 4 mm
+// too large. An unknown object then has the size of a known one that is measured wrong.
 SampleSet things(double offsetMm, std::uint64_t seed) {
   constexpr double kSizesMm[] = {20.0, 25.0, 32.0, 38.0, 46.0, 53.0};
   SampleSet samples = clouds(6, 10, 2, 0.0, seed);
@@ -76,7 +76,7 @@ TEST(UnknownObjects, AnOffsetThatIsKnownTellsMoreThanOneThatIsNot) {
   EXPECT_THROW(unknownOnAnotherDay(training, later, {}, UnknownClassOffset::kKnown), Error);
 }
 
-// The shared recordings, the features that were chosen to hold.
+// The shared recordings with the feature set `best`.
 TEST(UnknownObjects, OfTheSharedGraspsReachTheTargetOfTheDay) {
   const auto folder = recordingsFolder();
   PALPATE_NEED(folder);

@@ -76,7 +76,8 @@ TEST(ContactMoments, OfOneTaxelAreItsPlace) {
 TEST(ContactMoments, LeaveOutWhatIsNoLoad) {
   MatrixValues values = MatrixValues::Zero(4, 4);
   values(1, 2) = 10.0F;
-  values(3, 3) = -50.0F;  // a filter may make such
+  // A filter may produce negative values.
+  values(3, 3) = -50.0F;
   values(0, 0) = std::numeric_limits<float>::quiet_NaN();
   const ContactMoments moments = momentsOf(values);
   EXPECT_EQ(moments.active, 1);

@@ -42,10 +42,11 @@ TEST(ContactOutline, LinesAndPointsEncloseNothing) {
   values.col(5).setConstant(7.0F);
   shape = outline.describe(viewOf(values));
   EXPECT_EQ(shape.area, 0.0);
-  EXPECT_DOUBLE_EQ(shape.length, 26.0);  // there and back
+  // The border runs there and back.
+  EXPECT_DOUBLE_EQ(shape.length, 26.0);
 }
 
-// Random patterns, against OpenCV's border following.
+// Compares random patterns with the border following of OpenCV.
 TEST(ContactOutline, IsThatOfOpenCv) {
   std::mt19937 random(5);
   for (const auto& [rows, columns] : {std::pair{14, 6}, {13, 6}, {1, 9}, {9, 1}, {30, 40}}) {
@@ -74,7 +75,7 @@ TEST(ContactOutline, IsThatOfOpenCv) {
       }
       const OutlineShape shape = outline.describe(viewOf(values));
       ASSERT_NEAR(shape.area, area, 1e-9) << values;
-      // Of two with the same area the longer counts, which leaves one length.
+      // Of two groups with the same area the longer one counts, so that one length remains.
       ASSERT_NEAR(shape.length, length, 1e-4) << values;
     }
   }

@@ -1,9 +1,11 @@
-// Counts what a test takes from the heap while it asks for it.
+// Counts heap allocations. Tests use it to check that a function allocates nothing.
 #pragma once
 
 namespace palpate::testing {
 
-void countAllocations();   // from now on, from 0
-int allocationsCounted();  // since then; ends the counting
+// Starts counting at 0.
+void countAllocations();
+// Returns the number of allocations since the start and stops counting.
+int allocationsCounted();
 
 }  // namespace palpate::testing

@@ -23,7 +23,8 @@ TEST(CramerRaoBound, OfAGaussianIsTheClosedForm) {
   const double kept = s2 / (s2 + 1.0 / 12.0);
   const double noise = std::sqrt(25.0 + 1.0 / 12.0);
   const double expected = std::sqrt(2.0) * noise / (1500.0 * kept * std::sqrt(M_PI / 2.0));
-  // At a threshold of 0 half of the readings of silent taxels are cut off, but those have no slope.
+  // At a threshold of 0 half of the readings of taxels without load are cut off, but these have no
+  // slope.
   const CramerRaoBound bound = cramerRaoBound(contact, sensor);
   EXPECT_NEAR(bound.x, expected, 0.02 * expected);
   EXPECT_NEAR(bound.y, expected, 0.02 * expected);
@@ -54,7 +55,7 @@ TEST(CramerRaoBound, IsInfiniteWhereNothingIsFelt) {
   EXPECT_TRUE(std::isinf(cramerRaoBound(contact, {}).x));
 }
 
-// E of the squared score of a censored normal value, by integration.
+// Expectation of the squared score of a censored normal value, by integration.
 TEST(CramerRaoBound, CensoredInformationIsTheIntegral) {
   for (const double z : {-2.0, -0.5, 0.0, 0.7, 2.5}) {
     double information = 0.0;

@@ -25,8 +25,8 @@ TEST(KeyFrame, GoesThroughItsTaxels) {
     }
 }
 
-// A parabola is what a cubic spline holds exactly. Two places beyond the edges it is mirrored,
-// which leaves half a count.
+// A cubic spline represents a parabola exactly. Two places beyond the edges it is mirrored, which
+// leaves an error of half a count.
 TEST(KeyFrame, IsExactForAParabola) {
   const MatrixLayout layout = MatrixLayout::full(14, 6, 3.4);
   const auto surface = [](double x, double y) {
@@ -69,7 +69,8 @@ TEST(KeyFrame, KnowsWhatItDoesNotKnow) {
   EXPECT_EQ(key.at(2.0F, 6.0F).unknown, 0.0F);
   EXPECT_EQ(key.at(1.0F, 6.0F).unknown, 1.0F);
   EXPECT_NEAR(key.at(1.0F, 6.0F).value, 0.4F * 300.0F, 0.1F);
-  EXPECT_EQ(key.at(2.0F, 10.0F).unknown, 0.0F);  // far from contact silence is nothing
+  // Far from the contact a reading of 0 is a known value.
+  EXPECT_EQ(key.at(2.0F, 10.0F).unknown, 0.0F);
   EXPECT_NEAR(key.at(2.5F, 6.0F).unknown, 0.0F, 1e-6F);
   EXPECT_NEAR(key.at(1.5F, 6.0F).unknown, 0.5F, 1e-6F);
 }

@@ -23,8 +23,8 @@ TEST(LearnedSurface, BeginsAsTheKeyFrameItIsGiven) {
     for (float x = 0.0F; x <= 5.0F; x += 0.29F) {
       const KeyFrame::Sample expected = key.at(x, y);
       const LearnedSurface::Sample sample = surface.at(x, y);
-      // The finer spline is the same function, but close to the rim, where what is outside was
-      // bounded.
+      // The finer spline is the same function except near the rim, where values outside were
+      // limited.
       if (x < 1.0F || x > 4.0F || y < 1.0F || y > 12.0F) continue;
       EXPECT_NEAR(sample.value, expected.value, 0.1F) << x << " " << y;
       EXPECT_NEAR(sample.alongX, expected.alongX, 0.5F) << x << " " << y;
@@ -32,8 +32,8 @@ TEST(LearnedSurface, BeginsAsTheKeyFrameItIsGiven) {
     }
 }
 
-// What lies between the taxels comes to light when the contact moves: compared with frames that it
-// never saw.
+// The values between taxels are learnt when the contact moves. They are compared with frames that
+// were not used for learning.
 TEST(LearnedSurface, GetsBetterBetweenTheTaxels) {
   SyntheticSensor sensor;
   SyntheticSlip slip(sensor, 3);

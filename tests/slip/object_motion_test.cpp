@@ -14,8 +14,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-// What contacts at these places feel of an object that moves by t, and turns by w about the base
-// frame's origin.
+// Returns what a contact at `at` measures of an object that moves by t and rotates by w about the
+// origin of the base frame.
 SlipArrow felt(const Vector3d& at, const Vector3d& normal, const Vector3d& t, const Vector3d& w) {
   SlipArrow arrow;
   arrow.originMm = at;
@@ -41,8 +41,8 @@ TEST(ObjectMotion, ThreeContactsTellAll) {
   EXPECT_NEAR((motion.translationMm - (t + w.cross(motion.centerMm))).norm(), 0.0, 1e-7);
 }
 
-// Two fingers face each other along x, both surfaces upright. What they can't feel: the way along
-// x, and turning about it.
+// Two fingers face each other along x, with both surfaces upright. They cannot measure translation
+// along x and rotation about x.
 TEST(ObjectMotion, TwoContactsLeaveTheTurnBetweenThemFree) {
   const Vector3d t(0.0, 1.0, -2.0), w(0.0, 0.02, 0.05);
   const std::vector<SlipArrow> arrows = {felt({30, 0, 0}, {-1, 0, 0}, t, w),
@@ -60,7 +60,8 @@ TEST(ObjectMotion, KnownTurnsCloseTheGap) {
   const Vector3d w(0.1, 0.0, 0.0);
   std::vector<SlipArrow> arrows = {felt({30, 0, 0}, {-1, 0, 0}, Vector3d::Zero(), w),
                                    felt({-30, 0, 0}, {1, 0, 0}, Vector3d::Zero(), w)};
-  arrows[0].turnRad = -0.1;  // about its own normal
+  // About its own normal.
+  arrows[0].turnRad = -0.1;
   arrows[1].turnRad = 0.1;
   const ObjectMotion motion = objectMotion(arrows);
   EXPECT_EQ(motion.rank, 5);
@@ -81,15 +82,16 @@ TEST(ObjectMotion, ContradictionsRemainAsResidual) {
                                    felt({-30, 0, 0}, {1, 0, 0}, Vector3d::Zero(), Vector3d::Zero()),
                                    felt({0, 30, 0}, {1, 0, 0}, Vector3d::Zero(), Vector3d::Zero())};
   arrows[0].vectorMm = Vector3d(0, 1, 0);
-  arrows[1].vectorMm = Vector3d(0, -1, 0);  // turns about z by 1/30
-  arrows[2].vectorMm = Vector3d(0, 3, 0);   // and yet this one doesn't
+  // The first two arrows describe a rotation about z by 1/30; the third one contradicts it.
+  arrows[1].vectorMm = Vector3d(0, -1, 0);
+  arrows[2].vectorMm = Vector3d(0, 3, 0);
   EXPECT_GT(objectMotion(arrows).residualMm, 0.5);
   arrows[0].weight = 0.0;
   EXPECT_THROW(objectMotion(arrows), std::invalid_argument);
 }
 
-// A taxel's tangents from kinematics: the arrow of one column to the right leads to the neighbour's
-// place.
+// The tangents of a taxel come from kinematics: the arrow of one column to the right leads to the
+// position of the neighbour.
 TEST(SlipArrow, LiesOnTheSurface) {
   const HandGeometry geometry;
   const HandPose pose = geometry.pose({0, -30, 30, -20, 25, -30, 30});

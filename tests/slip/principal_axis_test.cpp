@@ -48,7 +48,8 @@ TEST(PrincipalAxis, SkewnessPointsToTheLongTail) {
   }
   EXPECT_NEAR(axisOf(values).skewX, third / std::pow(second, 1.5), 1e-9);
   EXPECT_GT(axisOf(values).skewX, 0.5);
-  EXPECT_EQ(axisOf(values).skewY, 0.0);  // a single row has no extent
+  // A single row has no extent.
+  EXPECT_EQ(axisOf(values).skewY, 0.0);
 }
 
 TEST(PrincipalAxis, OfNothingOrOneTaxelIsNothing) {

@@ -13,7 +13,7 @@ using testing::viewOf;
 
 constexpr double kDeg = M_PI / 180.0;
 
-// What the key's centroid does when the contact moves and turns about its own centre.
+// Motion of the key's centroid when the contact moves and rotates about its own centre.
 RigidMotion truthOf(const KeyFrame& key, const SyntheticContact& from, const SyntheticContact& to) {
   const double kx = key.centerX() - from.x;
   const double ky = key.centerY() - from.y;
@@ -58,7 +58,8 @@ TEST(RigidRegistration, FollowsAContactThatLeavesByTheSide) {
   for (const SlipShape shape : slipShapes()) {
     SyntheticContact contact;
     contact.shape = shape;
-    contact.x = 3.5;  // its centroid is 1.5 from the last column's centre
+    // Its centroid is 1.5 taxels from the centre of the last column.
+    contact.x = 3.5;
     RigidRegistration registration(sensor.layout);
     ASSERT_TRUE(registration.setKey(viewOf(reading(slip, contact))));
     RigidMotion motion;

@@ -8,7 +8,7 @@
 namespace palpate::rotation_tracker_test {
 namespace {
 
-// Moments of a long contact that lies at an angle, without a sensor in between.
+// Moments of an elongated contact at an angle, computed without a sensor model.
 ContactMoments lying(double angleDeg, double along = 4.0, double across = 1.0) {
   const double angle = angleDeg * M_PI / 180.0;
   ContactMoments moments;
@@ -41,7 +41,8 @@ TEST(RotationTracker, RoundContactsHaveNoDirection) {
   EXPECT_FALSE(round.reliable);
   EXPECT_FALSE(round.valid);
   EXPECT_FALSE(round.refValid);
-  // Round outline alone, or low eccentricity alone, is no reason (the study's rule).
+  // A round outline or a low eccentricity alone does not make the axis unreliable (rule of the
+  // study).
   EXPECT_TRUE(tracker.update(lying(20.0, 1.1, 1.0), 0.8).reliable);
   EXPECT_TRUE(tracker.update(lying(20.0, 4.0, 1.0), 0.95).reliable);
 }
@@ -69,7 +70,8 @@ TEST(RotationTracker, ReferenceIsTakenWhenItIsAskedFor) {
   EXPECT_TRUE(tracker.setReference());
   EXPECT_NEAR(tracker.update(lying(45.0), 0.5).refRotationDeg, 5.0, 1e-9);
   tracker.update(lying(0.0, 1.0, 1.0), 1.0);
-  EXPECT_FALSE(tracker.setReference());  // round now: the next direction it will be
+  // The contact is round now: the next frame with a direction becomes the reference.
+  EXPECT_FALSE(tracker.setReference());
   EXPECT_NEAR(tracker.update(lying(80.0), 0.5).refRotationDeg, 0.0, 1e-9);
   tracker.clearReference();
   EXPECT_FALSE(tracker.update(lying(81.0), 0.5).refValid);

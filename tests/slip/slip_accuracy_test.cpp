@@ -24,7 +24,7 @@ BenchmarkedMethod onlyRegister() {
   throw std::out_of_range("register");
 }
 
-// The targets, by what docs/slip.md says was reached.
+// Targets, from the values in docs/slip.md.
 TEST(SlipAccuracy, RegisterIsNearTheBound) {
   for (const auto& [noise, most] : {std::pair{5.0, 1.35}, {20.0, 1.2}}) {
     SlipAccuracyOptions options;
@@ -32,7 +32,8 @@ TEST(SlipAccuracy, RegisterIsNearTheBound) {
     const auto results = measureSlipAccuracy({onlyRegister()}, options);
     const SlipAccuracy& all = results.at(0).all;
     EXPECT_LT(all.rmse / all.crb, most) << noise;
-    EXPECT_GT(all.rmse / all.crb, 0.9) << noise;  // a bound that is beaten is wrong
+    // A method that is better than the bound shows that the bound is wrong.
+    EXPECT_GT(all.rmse / all.crb, 0.9) << noise;
     EXPECT_LT(all.drift100, 0.025) << noise;
     EXPECT_LT(all.driftDeg100, noise > 10.0 ? 0.95 : 0.6) << noise;
     EXPECT_LT(all.edge, 0.1) << noise;
@@ -45,7 +46,7 @@ TEST(SlipAccuracy, RegisterIsNearTheBound) {
 }
 
 TEST(SlipAccuracy, JudgesByTheTruth) {
-  // One that always says (0.05, 0): wrong by that where nothing moves along x on average.
+  // A method that always reports (0.05, 0) is wrong by that where the mean motion along x is 0.
   const BenchmarkedMethod fixed{"fixed", [](const MatrixLayout&) {
                                   return [](const ConstMatrixMap&) {
                                     SlipMotion motion;
@@ -57,7 +58,7 @@ TEST(SlipAccuracy, JudgesByTheTruth) {
                                     return motion;
                                   };
                                 }};
-  // And one that never knows.
+  // A method that never reports a motion.
   const BenchmarkedMethod silent{"silent", [](const MatrixLayout&) {
                                    return [](const ConstMatrixMap&) { return SlipMotion{}; };
                                  }};

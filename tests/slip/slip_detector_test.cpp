@@ -74,7 +74,8 @@ TEST(SlipDetector, FlagsSlipWithinThreeFramesAndHoldsIt) {
   EXPECT_GE(first, 1);
   EXPECT_LE(first, 3);
   EXPECT_NEAR(watch.detector.last().motion.refDy, 1.6, 0.1);
-  // It stops: calm again after the windows passed, and a reference is taken anew.
+  // The motion ends: the contact is at rest after the windows have passed, and a new reference is
+  // taken.
   bool again = false;
   for (int i = 0; i < 40; ++i) again |= watch.read({.y = 8.1}).newReference;
   EXPECT_TRUE(again);
@@ -147,7 +148,8 @@ TEST(SlipDetector, AGapIsNoSlip) {
   EXPECT_EQ(detection.lamp, SlipIndicator::kNotComputable);
 }
 
-// 6 taxels per second is slip at any rate: 0.02 per frame at 300 Hz; at 0.3 Hz, 0.2 per frame are.
+// 6 taxels per second are slip at any frame rate: 0.02 per frame at 300 Hz. At 0.3 Hz, 0.2 per
+// frame are slip.
 TEST(SlipDetector, WatchesAtAnyRate) {
   for (const auto& [rateHz, step] :
        {std::pair{0.3, 0.2}, {3.0, 0.2}, {31.7, 0.2}, {74.0, 0.081}, {300.0, 0.02}}) {

@@ -15,7 +15,7 @@
 namespace palpate::slip_evaluation_test {
 namespace {
 
-// Matrix 1: rests at 4.5 until frame 50, then moves by `step` per frame for 10 frames.
+// Matrix 1: the contact rests at 4.5 until frame 50, then moves by `step` per frame for 10 frames.
 Profile moving(double step) {
   ProfileBuilder builder(sdh2().layout);
   SyntheticSensor sensor;
@@ -30,8 +30,8 @@ Profile moving(double step) {
   return builder.finish({});
 }
 
-// 0.2 per frame: more than 1 taxel within 10 frames from frame 56 to 64; 0.2 away from the place of
-// frame 46 at 52.
+// At 0.2 taxel per frame the contact moves by more than 1 taxel within 10 frames from frame 56 to
+// 64. In frame 52 it is 0.2 taxel away from its position in frame 46.
 TEST(LabelSlips, GoesByTheRule) {
   const auto labels = labelSlips(moving(0.2));
   ASSERT_EQ(labels.size(), 1U);
@@ -45,7 +45,8 @@ TEST(SlipEvaluation, CountsHoursAlarmsAndDelays) {
   SlipEvaluation evaluation;
   evaluation.addSlipRecording(moving(0.2));
   evaluation.addNoSlipRecording(moving(0.0));
-  evaluation.addNoSlipRecording(moving(0.2));  // said to hold, and slips: a false alarm
+  // The recording is given as free of slip but contains slip: a false alarm.
+  evaluation.addNoSlipRecording(moving(0.2));
   const SlipScore score = evaluation.score({}, false);
   EXPECT_EQ(score.slips, 1U);
   EXPECT_EQ(score.found, 1U);

@@ -1,5 +1,5 @@
-// Against the numbers of an independent program on two real recordings (its conventions and flaws:
-// docs/slip.md).
+// Compares slip on two real recordings with the results of an independent program (its conventions
+// and flaws: docs/slip.md).
 #include <cmath>
 #include <fstream>
 #include <map>
@@ -28,7 +28,8 @@ struct Row {
 std::map<std::string, std::vector<Row>> goldenRows(const std::filesystem::path& path) {
   std::ifstream in(path);
   std::string line;
-  const auto nextLine = [&] {  // it ends in CR LF
+  // Lines end in CR LF.
+  const auto nextLine = [&] {
     const bool more = static_cast<bool>(std::getline(in, line));
     if (more && !line.empty() && line.back() == '\r') line.pop_back();
     return more;
@@ -45,7 +46,7 @@ std::map<std::string, std::vector<Row>> goldenRows(const std::filesystem::path& 
     Row row;
     std::size_t i = 1;
     for (std::string cell; std::getline(cells, cell, ','); ++i)
-      // "-nan": the roundness of a border without length; ours is 0.
+      // "-nan" is the roundness of a border without length, which is 0 here.
       row.values[names.at(i)] = cell == "-nan" ? 0.0 : parseDouble(cell).value();
     row.frame = static_cast<std::size_t>(row.at("frame"));
     row.matrix = static_cast<std::size_t>(row.at("matrix"));
@@ -70,7 +71,7 @@ TEST(SlipGolden, AgreesOnEveryRow) {
     SensorSlipTracker alcazar(profile.layout(), options);
     std::vector<ContactOutline> outlines;
     std::vector<RotationTracker> rotations(profile.layout().numMatrices());
-    // Its reference may have two taxels, what is measured needs more.
+    // The reference of that program needs two taxels, its measurements more.
     RotationOptions two;
     two.minTaxels = 2;
     std::vector<RotationTracker> sinceReference(profile.layout().numMatrices(),
@@ -98,7 +99,8 @@ TEST(SlipGolden, AgreesOnEveryRow) {
         SCOPED_TRACE(file + " frame " + std::to_string(n) + " matrix " + std::to_string(m));
         ++rowsSeen;
         EXPECT_EQ(motion.active, static_cast<int>(row->at("active")));
-        if (row->at("ok_rotation") > 0) {  // the columns are its rotation's: stale else
+        // The columns belong to the rotation of that program; without a rotation they are stale.
+        if (row->at("ok_rotation") > 0) {
           EXPECT_NEAR(motion.x, row->at("centroid_x"), 3e-6);
           EXPECT_NEAR(motion.y, row->at("centroid_y"), 3e-6);
         }
@@ -107,8 +109,9 @@ TEST(SlipGolden, AgreesOnEveryRow) {
           EXPECT_NEAR(motion.refDx, row->at("slip_ref_x"), 5e-6);
           EXPECT_NEAR(motion.refDy, row->at("slip_ref_y"), 5e-6);
         }
-        // Its consecutive vector spans two frames: twice ours. Where contact was interrupted it
-        // goes on from the old one, we don't.
+        // The step of that program spans two frames and is twice as large as the one here. After an
+        // interruption of contact it continues from the last frame before it; the tracker here does
+        // not.
         if (measurableInARow[m] > 2) {
           ++stepsSeen;
           EXPECT_TRUE(halves[m].valid);
@@ -125,7 +128,7 @@ TEST(SlipGolden, AgreesOnEveryRow) {
           EXPECT_NEAR(rotation.axis.skewX, row->at("skew_x"), 1e-6);
           EXPECT_NEAR(rotation.axis.skewY, row->at("skew_y"), 1e-6);
           EXPECT_NEAR(roundness, row->at("compactness"), 1e-6);
-          // 0 and 180 are one axis.
+          // 0 and 180 deg are the same axis.
           EXPECT_NEAR(std::remainder(rotation.axis.orientationDeg - row->at("orientation"), 180.0),
                       0.0,
                       1e-6);
@@ -133,8 +136,8 @@ TEST(SlipGolden, AgreesOnEveryRow) {
               std::abs(std::abs(row->at("slip_angle")) - 90.0) > 1e-6) {
             EXPECT_NEAR(rotation.rotationDeg, row->at("slip_angle"), 1e-5);
           }
-          // A change by 90 degrees exactly goes either way, and leaves half a turn between both for
-          // good.
+          // A change by exactly 90 deg may go either way, which leaves a permanent difference of
+          // half a turn.
           if (since.refValid) {
             EXPECT_NEAR(
                 std::remainder(since.refRotationDeg - row->at("slip_angle_ref"), 180.0), 0.0, 1e-5);

@@ -31,7 +31,7 @@ Pair pairOf(const SyntheticContact& before, const SyntheticContact& after, std::
   return pair;
 }
 
-// A contact that touches every taxel: nothing is silent.
+// A contact that touches every taxel: no taxel is below the threshold.
 Pair everywhere() {
   Pair pair;
   for (int y = 0; y < 14; ++y)
@@ -80,8 +80,8 @@ TEST(LoadField, OfNothingIsNothing) {
   EXPECT_FALSE(compareSlipHypotheses(pair.key, pair.then(), kFromRest, {}).computed);
 }
 
-// By hand: ((0 + 1) / (3 + 1))^3 = 1/64 where the better one fits perfectly; ((39 + 1) / (9 +
-// 1))^(3 / 1.9).
+// Computed by hand: ((0 + 1) / (3 + 1))^3 = 1/64 if the better hypothesis fits perfectly; ((39 + 1)
+// / (9 + 1))^(3 / 1.9) otherwise.
 TEST(Contest, WeighsResiduals) {
   const SlipHypothesisOptions options{.sharpness = 3.0, .misfit = 10.0};
   EXPECT_DOUBLE_EQ(motionScore(0.0, 0.0, options), 0.5);

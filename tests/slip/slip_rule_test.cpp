@@ -7,8 +7,8 @@
 namespace palpate::slip_rule_test {
 namespace {
 
-// A contact of age 100 in which one window sees the centroid and the registration shifted by the
-// same amount.
+// Evidence of a contact of age 100 in which one window measures the same shift of the centroid and
+// of the registration.
 SlipEvidence shifted(SlipWindow window, double taxels, double pMoved = 1.0, double logRise = 0.0) {
   SlipEvidence evidence{.computable = true, .contactAge = 100, .windows = {}};
   WindowEvidence& seen = evidence.windows[window];
@@ -59,7 +59,8 @@ TEST(SlipRule, TheContestWeighs) {
   EXPECT_TRUE(rule.decide(shifted(kShortWindow, 0.6, 0.6)).alarm);
 }
 
-// A tilt saturates, slip goes on: beyond 1 taxel in ten frames P doesn't matter.
+// The effect of a load tilt saturates while slip continues: beyond 1 taxel in ten frames P does not
+// matter.
 TEST(SlipRule, WhatGoesOnIsSlipWhateverTheContest) {
   SlipRule rule;
   rule.decide(shifted(kMiddleWindow, 1.01, 0.0));
@@ -90,7 +91,7 @@ TEST(SlipRule, AContactSettlesFirst) {
   EXPECT_TRUE(rule.decide(young).alarm);
 }
 
-// m = min(1.3 |centroid|, |registered|): one of them alone moves nothing.
+// m = min(1.3 |centroid|, |registered|): a shift of only one of them is no motion.
 TEST(SlipRule, CentroidAndRegistrationMustAgree) {
   SlipRule rule;
   SlipEvidence evidence = shifted(kShortWindow, 1.0);
@@ -99,7 +100,7 @@ TEST(SlipRule, CentroidAndRegistrationMustAgree) {
   evidence = shifted(kShortWindow, 0.26);  // 1.3 * 0.26 = 0.338
   evidence.windows[kShortWindow].hypotheses.motion.dx = 1.0;
   EXPECT_FALSE(rule.decide(evidence).alarm);
-  // a registration that far off isn't believed: P counts 0.5
+  // A registration that differs so much from the centroid is rejected: P counts as 0.5.
   evidence = shifted(kShortWindow, 0.4);
   evidence.windows[kShortWindow].hypotheses.motion.dx = 4.0;
   EXPECT_FALSE(rule.decide(evidence).alarm);

@@ -1,4 +1,4 @@
-// Frames for tests of slip: one matrix, made to order.
+// Makes synthetic frames of one matrix for the slip tests.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@ inline ConstMatrixMap viewOf(const MatrixValues& values) {
   return {values.data(), values.rows(), values.cols()};
 }
 
-// Readings without noise, threshold and rounding, or as a sensor gives them.
+// Readings of a contact: without noise, threshold and rounding, or as the sensor would give them.
 inline MatrixValues idealReading(const SyntheticContact& contact, const SyntheticSensor& sensor) {
   MatrixValues values(sensor.layout.rows, sensor.layout.columns);
   idealCounts(contact, sensor, MatrixMap(values.data(), values.rows(), values.cols()));

@@ -21,7 +21,7 @@ constexpr std::int64_t kIntervalUs = 32'000;
 constexpr std::int64_t kStartUs = 1'400'000'000'000'000;
 constexpr std::size_t kUntouched = 5;  // frames at the beginning
 
-// A disc on one matrix that rests, moves down by 3.75 taxels, and rests.
+// A disc on one matrix rests, moves down by 3.75 taxels, and rests again.
 Profile movingDisc() {
   const HandDescription& hand = sdh2();
   ProfileBuilder builder(hand.layout);

@@ -1,5 +1,5 @@
-// What slip detection is to reach (docs/slip.md): on synthetic truth, and on the real recordings
-// where they are.
+// Targets of slip detection (docs/slip.md), tested on synthetic contacts with known motion and on
+// the real recordings if they are present.
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -47,7 +47,7 @@ class Trial {
   std::int64_t timeUs_ = 0;
 };
 
-// The largest motion reported, and whether there was an alarm.
+// Largest reported motion, and whether there was an alarm.
 struct Tilted {
   double reading = 0.0;
   bool alarm = false;
@@ -121,8 +121,8 @@ TEST(SlipTargets, CreepIsFlaggedWithinFortyFrames) {
   EXPECT_GE(found, 0.98 * trials) << found << " of " << trials;
 }
 
-// At most 15 alarms per matrix-hour of settled contact, 90 % of slips found, and better than the
-// plain centroid.
+// At most 15 alarms per matrix and hour of settled contact, 90 % of the slips found, and better
+// than the plain centroid.
 TEST(SlipTargets, RealHoldsAreQuietAndRealSlipsFound) {
   const auto folder = testing::recordingsFolder();
   PALPATE_NEED(folder);

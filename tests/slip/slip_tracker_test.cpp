@@ -25,8 +25,8 @@ SlipTracker trackerOf(SlipMethod method,
   return SlipTracker(layout, options);
 }
 
-// How far a method may be off over a walk of about a taxel, and in a step: the correlations pull
-// [taxels].
+// Largest error of a method over a path of about one taxel, and in a step [taxels]; the
+// correlations are biased.
 double allowance(SlipMethod method) {
   switch (method) {
     case SlipMethod::kRegister:
@@ -161,7 +161,7 @@ TEST(SlipTracker, RegisterTurnsWithTheContactOverWholeTurns) {
     contact.angleDeg = 4.0 * i;  // to 400 degrees
     const SlipMotion& motion = tracker.update(viewOf(reading(slip, contact)));
     EXPECT_TRUE(motion.rotation.refValid);
-    // Every new key costs some tenths of a degree.
+    // Every new key frame adds an error of some tenths of a degree.
     EXPECT_NEAR(motion.rotation.refRotationDeg, 4.0 * i, 8.0) << i;
     EXPECT_NEAR(motion.rotation.rotationDeg, i > 0 ? 4.0 : 0.0, 2.0) << i;
   }
@@ -276,7 +276,7 @@ TEST(SensorSlipTracker, KnowsGapsByTheStamps) {
   EXPECT_THROW(tracker.update(other), std::invalid_argument);
 }
 
-// 0.3 frames per second are as good as 300: nothing here is per second.
+// Frame rates of 0.3 and 300 Hz give the same results, because no quantity is per second.
 TEST(SensorSlipTracker, AnyRateGivesTheSameMotion) {
   const auto layout =
       std::make_shared<const SensorLayout>(std::vector{MatrixLayout::full(14, 6, 3.4)});

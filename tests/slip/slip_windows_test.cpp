@@ -38,7 +38,7 @@ class Feed {
   MatrixValues values_ = MatrixValues::Zero(14, 6);
 };
 
-// 0.1 taxel per frame: a window of n frames sees n / 10 taxels.
+// The contact moves by 0.1 taxel per frame: a window of n frames measures n / 10 taxels.
 TEST(SlipWindows, ReachThreeTenAndThirtyFramesBack) {
   Feed feed(32'000);
   for (int i = 0; i < 40; ++i) {
@@ -128,7 +128,8 @@ TEST(SlipWindows, SeeJointsMove) {
 TEST(SlipWindows, LetTwoFramesCompete) {
   Feed feed(32'000);
   for (int i = 0; i < 20; ++i) feed.read({.y = 5.0 + 0.08 * i});
-  feed.windows.evaluateHypotheses(kLongWindow);  // not filled: nothing
+  // The window is not filled: nothing is computed.
+  feed.windows.evaluateHypotheses(kLongWindow);
   EXPECT_FALSE(feed.windows.evidence().windows[kLongWindow].hypotheses.computed);
   feed.windows.evaluateHypotheses(kMiddleWindow);
   const SlipHypothesisResult& result = feed.windows.evidence().windows[kMiddleWindow].hypotheses;

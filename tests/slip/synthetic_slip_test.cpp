@@ -43,7 +43,7 @@ TEST(SyntheticSlip, EveryShapeLiesAtItsCenterAndMovesWithIt) {
     contact.x += 0.37;
     contact.y -= 1.21;
     const ContactMoments after = contactMoments(viewOf(idealReading(contact, wide)));
-    // A sampled edge isn't the edge itself: its centroid is right to a few hundredths.
+    // The edge is sampled, so that the centroid is correct only to a few hundredths.
     EXPECT_NEAR(after.x - before.x, 0.37, 0.03) << nameOf(shape);
     EXPECT_NEAR(after.y - before.y, -1.21, 0.03) << nameOf(shape);
     EXPECT_NEAR(after.sum / before.sum, 1.0, 0.01) << nameOf(shape);
@@ -67,7 +67,7 @@ TEST(SyntheticSlip, TurnsFromXTowardsY) {
     if (!hasOrientation(shape)) continue;
     const double angle =
         0.5 * std::atan2(2.0 * moments.mu11, moments.mu20 - moments.mu02) * 180.0 / M_PI;
-    // Long along y at 0 degrees, so that its axis lies at 90 + 20 = -70.
+    // The shape is long along y at 0 deg, so that its axis is at 90 + 20 deg, which equals -70 deg.
     EXPECT_NEAR(angle, -70.0, 1.0) << nameOf(shape);
   }
 }
@@ -79,7 +79,7 @@ TEST(SyntheticSlip, TiltMovesLoadNotTheContact) {
   contact.tiltY = 0.0;
   const MatrixValues level = idealReading(contact, {});
   EXPECT_GT(contactMoments(viewOf(tilted)).y, contactMoments(viewOf(level)).y + 0.1);
-  // At the centre row the gain is 1 on average; far below it nears 1.4 (tanh).
+  // In the centre row the mean gain is 1; far below it approaches 1.4 (tanh).
   EXPECT_NEAR(static_cast<double>(tilted(8, 2) / level(8, 2)), 1.0 + 0.4 * std::tanh(0.75), 0.02);
   EXPECT_NEAR(static_cast<double>(tilted(5, 2) / level(5, 2)), 1.0 - 0.4 * std::tanh(0.75), 0.02);
 }

@@ -1,5 +1,6 @@
-// How well a classifier did: confusion, precision, recall and F per class, intervals, confidence
-// against truth.
+// Measures of classification performance: confusion matrix, precision, recall and F per class,
+// confidence intervals, coverage curves and calibration. Cross-validation and model evaluation use
+// them.
 #pragma once
 
 #include <cstddef>
@@ -11,8 +12,9 @@
 
 namespace palpate {
 
-// Wilson's score interval of a share, by default at 95 % (Wilson 1927, J. American Statistical
-// Association 22): it stays inside 0..1 and holds for small numbers. 0..1 where there is no trial.
+// Wilson's score interval of a proportion, by default at 95 % (Wilson 1927, J. American Statistical
+// Association 22). It stays inside 0..1 and holds for small numbers; it is 0..1 when there is no
+// trial.
 struct BinomialInterval {
   double low = 0.0;
   double high = 1.0;
@@ -24,29 +26,35 @@ BinomialInterval wilsonInterval(std::size_t successes,
 
 struct ClassMetrics {
   std::string name;
-  double precision = 0.0;  // of those called so: right; 0 where none was
-  double recall = 0.0;     // of those that are so: found; 0 where there is none
-  double f = 0.0;          // harmonic mean of both; 0 where both are 0
+  // Fraction of the samples predicted as this class that belong to it; 0 when there is none.
+  double precision = 0.0;
+  // Fraction of the samples of this class that are predicted as it; 0 when there is none.
+  double recall = 0.0;
+  // Harmonic mean of precision and recall; 0 when both are 0.
+  double f = 0.0;
+  // Number of samples of this class.
   std::size_t support = 0;
 };
 
-// Counts of (truth, called). A sample may be called nothing of the classes ("unknown"): the last
-// column.
+// Number of samples per true class and predicted class (`called`). The last column counts samples
+// that were predicted as unknown.
 class ConfusionMatrix {
  public:
   explicit ConfusionMatrix(std::vector<std::string> classes);
   static constexpr int kUnknown = -1;
   // Throws std::out_of_range.
   void add(int truth, int called);
-  void add(const ConfusionMatrix& other);  // of the same classes; throws std::invalid_argument
+  // Adds the counts of a matrix with the same classes; throws std::invalid_argument otherwise.
+  void add(const ConfusionMatrix& other);
   std::size_t at(int truth, int called) const;
   std::size_t total() const noexcept { return total_; }
   std::size_t right() const noexcept { return right_; }
-  double accuracy() const noexcept;  // 0 where nothing was counted
+  // Fraction of correct predictions; 0 when nothing was counted.
+  double accuracy() const noexcept;
   const std::vector<std::string>& classes() const noexcept { return classes_; }
   std::vector<ClassMetrics> classMetrics() const;
-  // `classes` of figures (those with support or called), and `confusion` {labels,
-  // counts[truth][called]} with the column "unknown" last where anything was called so.
+  // JSON of the class metrics (classes with samples or predictions), and of the confusion matrix
+  // {labels, counts[truth][called]}; its last column is "unknown" if anything was predicted so.
   Json classesJson() const;
   Json confusionJson() const;
 
@@ -57,30 +65,31 @@ class ConfusionMatrix {
   std::size_t total_ = 0, right_ = 0;
 };
 
-// One classified sample, for curves.
+// Confidence and correctness of one prediction, for coverage curves and calibration.
 struct ScoredPrediction {
   double confidence = 0.0;  // 0..1
   bool right = false;
 };
-// Coverage: of all answers the share with at least this confidence, and how many of those are
-// right.
+// Coverage: fraction of all predictions with at least this confidence. Accuracy: fraction of these
+// that are correct.
 struct CoveragePoint {
   double confidence = 0.0;
   double coverage = 0.0;
   double accuracy = 0.0;
   std::size_t answers = 0;
 };
-// At every distinct confidence, falling: the last point covers all.
+// Returns one point per distinct confidence, in descending order; the last point covers all
+// predictions.
 std::vector<CoveragePoint> coverageCurve(std::vector<ScoredPrediction> answers);
-// The lowest confidence from which on Wilson's lower bound at 90 % (one-sided 95 %) of the share
-// that is right reaches `target`, if any; more than 1 when none does: never sure.
+// Returns the lowest confidence for which Wilson's lower bound at 90 % (one-sided 95 %) of the
+// accuracy reaches `target`. A value above 1 means that no confidence reaches it.
 double confidenceThreshold(const std::vector<ScoredPrediction>& answers, double target = 0.95);
-// Expected calibration error: confidences in ten equal bins, |mean confidence - share right|
-// weighed by number.
+// Expected calibration error over ten equal bins of confidence: |mean confidence - accuracy|,
+// weighted by the number of predictions in the bin.
 double expectedCalibrationError(std::span<const ScoredPrediction> answers);
 
-// Area under the receiver operating characteristic: how often a value of `positive` exceeds one of
-// `negative` (ties half). NaN where either is empty.
+// Area under the receiver operating characteristic: probability that a value of `positive` exceeds
+// one of `negative` (ties count half). NaN when either is empty.
 double auroc(std::span<const double> positive, std::span<const double> negative);
 
 }  // namespace palpate

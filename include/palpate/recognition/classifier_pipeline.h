@@ -1,6 +1,6 @@
-// From features to classes: standardise -> discriminant analysis (where asked for) -> classifier.
-// Everything is fitted to the samples it is given, so fitting inside the training fold is fitting
-// to the fold.
+// Classifier pipeline, from features to classes: standardisation, discriminant analysis (optional),
+// classifier. All stages are fitted to the given samples only, so that in cross-validation no test
+// sample is used for fitting. A TrainedModel contains one.
 #pragma once
 
 #include <cstddef>
@@ -31,11 +31,15 @@ std::optional<ClassifierKind> classifierNamed(std::string_view name) noexcept;
 
 struct PipelineOptions {
   ClassifierKind classifier = ClassifierKind::kSvm;
-  std::optional<std::size_t> components;  // of the discriminant analysis; nothing: without it. >= 1
-  DiscriminantOptions discriminant;       // its `components` isn't read
+  // Number of components of the discriminant analysis, >= 1; empty: no discriminant analysis.
+  std::optional<std::size_t> components;
+  // Its field `components` is not used.
+  DiscriminantOptions discriminant;
   SvmOptions svm;
-  ClassGaussianOptions gaussian;  // of qda; lda takes its ridge
-  // Contiguous blocks per class that calibrate probabilities (sample_splits.h); 0: none are wanted.
+  // Of qda; lda uses its ridge only.
+  ClassGaussianOptions gaussian;
+  // Number of contiguous blocks per class (sample_splits.h) used to calibrate the probabilities; 0:
+  // no calibration.
   std::size_t calibrationBlocks = 0;
 
   // Throws std::invalid_argument with the field's name.
@@ -47,37 +51,45 @@ struct ClassifierPipeline {
   std::size_t numClasses = 0;
   Standardisation standardisation;
   std::optional<DiscriminantAnalysis> discriminant;
-  SupportVectorMachine svm;     // of svm
-  GaussianClassifier gaussian;  // of qda, lda
-  std::optional<SessionAdaptiveClassifier>
-      sessionAdaptive;  // of gauss; nothing else of the pipeline is used then
+  // Of svm.
+  SupportVectorMachine svm;
+  // Of qda and lda.
+  GaussianClassifier gaussian;
+  // Of gauss; the other stages are not used then.
+  std::optional<SessionAdaptiveClassifier> sessionAdaptive;
   bool calibrated = false;
-  std::vector<Sigmoid> sigmoids;  // per pair of svm
-  double exponent = 1.0;       // on the coupled probabilities of svm, the densities of the others
-  GaussianClassifier novelty;  // what the classifier sees, covariances half of all classes
+  // Calibration of svm, one per pair of classes.
+  std::vector<Sigmoid> sigmoids;
+  // Calibration exponent of the coupled probabilities of svm, or of the densities of the other
+  // classifiers.
+  double exponent = 1.0;
+  // Novelty model in the space that the classifier works in; half of each covariance is the pooled
+  // one.
+  GaussianClassifier novelty;
 
-  // Throws Error (requireLearnable; gauss: a class without samples), std::invalid_argument
-  // (options).
+  // Fits a pipeline to samples. Throws Error (requireLearnable; gauss: a class without samples),
+  // std::invalid_argument (options).
   static ClassifierPipeline of(const SampleSet& samples, const PipelineOptions& options = {});
 
-  // Samples x classes, the larger the better: votes of svm, logarithms of densities else. Throws
-  // std::invalid_argument (another number of features).
+  // Scores, samples x classes; larger is better. They are votes for svm, log densities otherwise.
+  // Throws std::invalid_argument (another number of features).
   Eigen::MatrixXd scores(const Eigen::MatrixXd& x) const;
-  // Samples x classes, rows of sum 1; needs calibration (std::invalid_argument). gauss: on the day
-  // of training, offset 0.
+  // Probabilities, samples x classes; each row sums to 1. Needs calibration (std::invalid_argument
+  // otherwise). For gauss they hold for the training session (offset 0).
   Eigen::MatrixXd probabilities(const Eigen::MatrixXd& x) const;
-  // How far from everything that was learnt, per sample: squared Mahalanobis distance to the
-  // nearest class; gauss: -knownness (session_offset.h).
+  // Novelty score per sample: squared Mahalanobis distance to the nearest class. For gauss it is
+  // the negative log likelihood ratio against the background (session_offset.h).
   Eigen::VectorXd noveltyScores(const Eigen::MatrixXd& x) const;
-  // Of each feature, summing to 1: how much the fitted planes or directions rest on it.
+  // Relative weight of each feature in the fitted hyperplanes or directions; the weights sum to 1.
   Eigen::VectorXd featureWeights() const;
 };
 
-// Best first; equal ones in the order of classes.
+// Class indices from best to worst score; equal scores in the order of the classes.
 std::vector<int> rankedClasses(const Eigen::VectorXd& scores);
 
 Json jsonOf(const ClassifierPipeline& pipeline);
-// Throws Error naming what is missing or of a wrong size; nothing that isn't a number gets through.
+// Reads a pipeline from JSON. Throws Error naming what is missing or has a wrong size; values that
+// are not numbers are refused.
 ClassifierPipeline pipelineFrom(const Json& json);
 
 }  // namespace palpate

@@ -1,5 +1,6 @@
 // Cross-validation: the pipeline is fitted anew for each split, so that the test samples are never
 // used for fitting. Splits run in parallel; the results do not depend on the number of threads.
+// Training, model search and `palpate evaluate` use it.
 #pragma once
 
 #include <cstddef>
@@ -14,36 +15,46 @@
 
 namespace palpate {
 
-// One sample that examined.
+// Prediction for one test sample.
 struct TestPrediction {
   std::size_t sample = 0;
   std::size_t split = 0;
-  int called = 0;           // class
-  bool inTop3 = false;      // the truth is among the three best
-  double confidence = 0.0;  // probability of `called`; 0 where the pipeline doesn't calibrate
-  double novelty = 0.0;     // 0 where it doesn't
+  // Predicted class.
+  int called = 0;
+  // Whether the true class is among the three best.
+  bool inTop3 = false;
+  // Probability of the predicted class; 0 if the pipeline is not calibrated.
+  double confidence = 0.0;
+  // Novelty score; 0 if the pipeline is not calibrated.
+  double novelty = 0.0;
 };
 
 struct ValidationReport {
   explicit ValidationReport(std::vector<std::string> classes) : confusion(std::move(classes)) {}
-  double accuracyMean = 0.0;                    // over splits
-  double accuracySd = 0.0;                      // of splits (n - 1); 0 with one
-  double top3 = 0.0;                            // share of all samples that examined
-  ConfusionMatrix confusion;                    // over all splits
-  std::vector<double> accuracies;               // per split
-  std::vector<TestPrediction> testPredictions;  // split after split
+  // Mean accuracy over the splits.
+  double accuracyMean = 0.0;
+  // Standard deviation of the accuracy between splits (divisor n - 1); 0 with one split.
+  double accuracySd = 0.0;
+  // Fraction of all test samples with inTop3.
+  double top3 = 0.0;
+  // Over all splits.
+  ConfusionMatrix confusion;
+  // Accuracy of each split.
+  std::vector<double> accuracies;
+  // Predictions for all test samples, split after split.
+  std::vector<TestPrediction> testPredictions;
 };
 
-// Throws Error (requireLearnable, also of a split), std::invalid_argument (options, a split without
-// samples), Cancelled.
+// Fits and tests a pipeline on each split. Throws Error (requireLearnable, also for a split),
+// std::invalid_argument (options, a split without samples), Cancelled.
 ValidationReport crossValidate(const SampleSet& samples,
                                const PipelineOptions& options,
                                const std::vector<SampleSplit>& splits,
                                std::size_t threads = 0,
                                const Progress& progress = {});
 
-// Several pipelines on the same splits. One that can't be fitted has no report: accuracyMean 0, no
-// accuracies.
+// Fits and tests several pipelines on the same splits. The report of a pipeline that can't be
+// fitted is empty: accuracyMean 0, no accuracies.
 std::vector<ValidationReport> crossValidateAll(const SampleSet& samples,
                                                const std::vector<PipelineOptions>& options,
                                                const std::vector<SampleSplit>& splits,
@@ -53,12 +64,14 @@ std::vector<ValidationReport> crossValidateAll(const SampleSet& samples,
 // Accuracy as a function of the number of training grasps per class (learning curve).
 struct LearningPoint {
   std::size_t perClass = 0;
-  double trainSamples = 0.0;  // mean over splits
+  // Mean number of training samples over the splits.
+  double trainSamples = 0.0;
   double accuracyMean = 0.0;
   double accuracySd = 0.0;
 };
-// For every number of `perClass` (>= 2) so many of each class's training samples, evenly over the
-// recording, of the seed's stratified splits; classes with fewer teach with all.
+// Computes the learning curve at each number in `perClass` (>= 2). Of the seed's stratified splits,
+// that many training samples of each class are used, evenly spaced over the recording; smaller
+// classes are used whole.
 std::vector<LearningPoint> learningCurve(const SampleSet& samples,
                                          const PipelineOptions& options,
                                          const std::vector<std::size_t>& perClass,

@@ -24,7 +24,8 @@
 namespace palpate {
 
 struct EmptyHandOptions {
-  double foamMm = 0.80;  // [mm] at a peak of 1000 counts, per pad, >= 0
+  // Indentation of the foam of one pad at a peak of 1000 counts [mm], >= 0.
+  double foamMm = 0.80;
   // Relative standard deviation of the foam indentation when two flat pads press on each other, >=
   // 0.
   double foamRelativeSd = 0.5;
@@ -43,24 +44,31 @@ struct EmptyHandOptions {
 };
 
 struct EmptyHandZero {
-  // why there is none: no touch, no joint angles, something between the pads; else empty
+  // Reason why there is no zero (no touch, no joint angles, an object between the pads); empty if
+  // there is one.
   std::string problem;
-  double mm = 0.0;  // zero, mean of the touches
+  // Zero: mean over the touches [mm].
+  double mm = 0.0;
   // Standard error of the mean zero [mm], without the error of the foam model.
   double sdMm = 0.0;
-  double foamMm = 0.0;  // mean of what was added for the foam
+  // Mean foam correction that was added [mm].
+  double foamMm = 0.0;
   // Number of contacts that `mm` is the mean of.
   std::size_t touches = 0;
-  std::size_t leftOut = 0;  // touches without usable data
-  std::int64_t timeUs = 0;  // host time of the first touch [us since 1970]; 0: not known
-  std::string origin;       // where the touches are from: a recording, a hand; may be empty
-  std::string sha256;       // of the recording; empty: there is none
+  // Number of touches without usable data.
+  std::size_t leftOut = 0;
+  // Host time of the first touch [us since 1970]; 0: not known.
+  std::int64_t timeUs = 0;
+  // Where the touches come from: the name of a recording or of a hand; may be empty.
+  std::string origin;
+  // Hash of the recording; empty if there is none.
+  std::string sha256;
 
   // "-1.4 mm (+- 0.2 mm, 2 touches, zero.dsa)"
   std::string text() const;
 };
 
-// From a recording of one or several touches of an empty hand. Throws Cancelled.
+// Computes the zero from a recording of one or several touches of an empty hand. Throws Cancelled.
 EmptyHandZero emptyHandZero(const Profile& profile,
                             const PinchHand& hand = sdh2PinchHand(),
                             const EmptyHandOptions& options = {},
@@ -74,7 +82,7 @@ SessionOffset emptyHandOffset(const EmptyHandZero& today,
                               const SessionOffsetOptions& grid = {});
 
 Json emptyHandZeroJson(const EmptyHandZero& zero);
-// Throws Error naming what is missing or wrong.
+// Reads a zero from JSON. Throws Error naming what is missing or wrong.
 EmptyHandZero emptyHandZeroFrom(const Json& json);
 
 }  // namespace palpate

@@ -1,10 +1,10 @@
-// The features of many recordings as one table: what training, evaluation and `palpate features`
-// begin with.
+// Feature table: the features of all grasps of many recordings. Training, evaluation and `palpate
+// features` start from it.
 //
-// A folder holds one folder per class; the class is that folder's name with '_' as blank
-// ("golf_ball": "golf ball"), and all recordings below it are the class's. A recording that lies in
-// the folder itself belongs to the class of the folder's own name; one that is named by itself has
-// no class.
+// A folder contains one folder per class. The name of the class is the name of that folder with '_'
+// replaced by a blank ("golf_ball": "golf ball"), and all recordings below it belong to the class.
+// A recording directly in the given folder belongs to the class named after that folder; a
+// recording that is given by itself has no class.
 #pragma once
 
 #include <cstddef>
@@ -22,59 +22,74 @@
 
 namespace palpate {
 
-// One grasp.
+// Features of one grasp.
 struct FeatureRow {
-  std::string className;       // empty: not known
-  std::filesystem::path file;  // as given, joined with the rest
+  // Empty: not known.
+  std::string className;
+  // Path of the recording, below the path as it was given.
+  std::filesystem::path file;
+  // First and last frame of the grasp, both inclusive.
   std::size_t begin = 0, end = 0;
+  // See GraspFeatures.
   std::size_t initialFrame = 0, endFrame = 0;
-  std::int64_t timeUs = 0;     // host time of frame `begin` [us since 1970]
-  std::vector<double> values;  // finite, one per name
+  // Host time of frame `begin` [us since 1970].
+  std::int64_t timeUs = 0;
+  // One finite value per feature.
+  std::vector<double> values;
 };
 
 struct FeatureTable {
   FeatureSet set = FeatureSet::kBest;
-  std::vector<std::string> names;  // of the features
-  std::vector<FeatureRow> rows;    // by path as the words name them, sorted; within a file by time
-  // The sensor of all rows, as a text to compare: matrices with sizes and pitch. Empty without
-  // rows.
+  // Names of the features.
+  std::vector<std::string> names;
+  // In the order of the given paths, within a folder sorted by path, within a file by time.
+  std::vector<FeatureRow> rows;
+  // The sensor of all rows as a text that can be compared (sensorText()). Empty without rows.
   std::string sensor;
-  // A line each: a file that can't be read, one without a grasp, a grasp without features, and why.
+  // One line for each file that can't be read or has no grasp, and for each grasp without features,
+  // with the reason.
   std::vector<std::string> problems;
-  std::size_t numFiles = 0;      // recordings that were found
-  std::size_t failedFiles = 0;   // of them, those that could not be read
-  std::size_t failedGrasps = 0;  // grasps without features
+  // Number of recordings that were found.
+  std::size_t numFiles = 0;
+  // Number of recordings that could not be read.
+  std::size_t failedFiles = 0;
+  // Number of grasps without features.
+  std::size_t failedGrasps = 0;
 
-  // Place of a feature by its name.
+  // Index of a feature by its name.
   std::optional<std::size_t> column(std::string_view name) const noexcept;
-  // The classes of the rows, sorted, each once; without class: none.
+  // The classes of the rows, sorted, each once. Rows without a class are ignored.
   std::vector<std::string> classes() const;
 };
 
-// Of each row: when it began [us since 1970]; its features, a row each.
+// Host time at which each grasp began [us since 1970], and the features as a matrix with one row
+// per grasp.
 std::vector<std::int64_t> timesOf(const FeatureTable& table);
 Eigen::MatrixXd valuesOf(const FeatureTable& table);
 
-// A session ends where no grasp comes for longer: the hand reads sizes differently in the next one.
+// A pause between grasps that is longer than this [us] begins a new session. Measured sizes have
+// another offset in the next session (session_offset.h).
 constexpr std::int64_t kSessionPauseUs = 8LL * 3600 * 1'000'000;
-// Keeps the rows of the newest session; returns how many rows of earlier ones were left out.
+// Keeps the rows of the newest session; returns the number of rows that were removed.
 std::size_t keepNewestSession(FeatureTable& table);
 
-// "6x14 3.4 mm, ..": what must agree between a model and a recording.
+// Columns, rows and pitch of every matrix, such as "6x14 3.40 mm, ..". A model and a recording must
+// have the same text.
 std::string sensorText(const SensorLayout& layout);
 
-// "golf_ball": "golf ball".
+// Returns the class of a folder: "golf ball" for "golf_ball".
 std::string classOfFolder(const std::filesystem::path& folder);
 
 struct FeatureExtractionOptions {
   FeatureSet set = FeatureSet::kBest;
   PinchHand hand = sdh2PinchHand();
-  // 0: as many as the machine runs at once; the table doesn't depend on it
+  // Number of threads; 0: as many as the machine runs at once. The table does not depend on it.
   std::size_t threads = 0;
 };
 
-// Paths: folders (as above) and recordings. One bad file doesn't stop the others. Throws Cancelled;
-// FileError when a path isn't there.
+// Extracts the features of all recordings in the given folders (as above) and files. A recording
+// that can't be read does not stop the others. Throws Cancelled; FileError when a path does not
+// exist.
 FeatureTable extractFeatures(const std::vector<std::filesystem::path>& paths,
                              const FeatureExtractionOptions& options = {},
                              const Progress& progress = {});

@@ -1,11 +1,13 @@
-// A Gaussian per class (regularised quadratic discriminant analysis; Friedman 1989, "Regularized
-// discriminant analysis", J. American Statistical Association 84). Classes are equally likely
-// beforehand.
-//   C_c = (1 - pooledFraction) S_c + pooledFraction S_w;  off-diagonal elements times
-//   correlationScale;
-//         + extraVariance diag(S_w);  + ridge
-// With pooledFraction 1 it is the linear discriminant rule: the nearest mean in Mahalanobis
-// distance.
+// Classifier with one Gaussian distribution per class (regularised quadratic discriminant analysis;
+// Friedman 1989, "Regularized discriminant analysis", J. American Statistical Association 84). All
+// classes have the same prior probability. ClassifierPipeline uses it for qda, lda and the novelty
+// scores.
+// The covariance matrix of a class is computed in three steps:
+//   C_c = (1 - pooledFraction) S_c + pooledFraction S_w
+//   C_c: off-diagonal elements times correlationScale
+//   C_c = C_c + extraVariance diag(S_w) + ridge
+// With pooledFraction 1 this is the linear discriminant rule: the class with the nearest mean in
+// Mahalanobis distance.
 #pragma once
 
 #include <cstddef>
@@ -16,10 +18,13 @@
 namespace palpate {
 
 struct ClassGaussianOptions {
-  double pooledFraction = 0.5;    // 0..1; a class with one sample takes S_w whole
+  // Fraction of S_w, 0..1; a class with one sample uses S_w only.
+  double pooledFraction = 0.5;
   double correlationScale = 1.0;  // 0..1
-  double extraVariance = 0.0;     // >= 0, of the pooled variance: what other days add
-  double ridge = 1e-3;            // times the mean of the pooled variances; 1e-9 .. 1
+  // Variance added for other sessions, as a fraction of the pooled variance, >= 0.
+  double extraVariance = 0.0;
+  // As a fraction of the mean of the pooled variances, 1e-9..1.
+  double ridge = 1e-3;
 
   // Throws std::invalid_argument with the field's name.
   void validate() const;
@@ -27,16 +32,18 @@ struct ClassGaussianOptions {
 
 struct GaussianClassifier {
   struct Class {
-    bool present = false;  // had samples
+    // Whether the class had samples.
+    bool present = false;
     Eigen::VectorXd mean;
-    // lower triangular W: |W (x - mean)|^2 is the squared Mahalanobis distance
+    // Lower triangular W: |W (x - mean)|^2 is the squared Mahalanobis distance.
     Eigen::MatrixXd whitening;
-    double logDeterminant = 0.0;  // of the covariance
+    // Of the covariance matrix.
+    double logDeterminant = 0.0;
   };
   std::vector<Class> classes;
 
-  // Samples x features, classes 0..numClasses-1. Throws std::invalid_argument (sizes, labels, no
-  // class with two samples).
+  // Fits to samples x features and their classes 0..numClasses-1. Throws std::invalid_argument
+  // (sizes, labels, no class with two samples).
   static GaussianClassifier of(const Eigen::MatrixXd& x,
                                const std::vector<int>& y,
                                std::size_t numClasses,

@@ -1,9 +1,11 @@
 // Detects grasps in the frames of a running hand and returns each one, with some frames before and
-// after it, as a separate profile, as if that grasp alone had been recorded.
+// after it, as a separate profile, as if that grasp alone had been recorded. The recognition of the
+// window uses it for a connected hand.
 //
-// A contact: at least `minFingers` different fingers with an active taxel (value > 0), up to
-// `bridgedFrames` frames without bridged, as the rule `general` of grasp_segments.h has it; a gap
-// of the stream ends it. Only what came counts, no clock.
+// A contact is a span of frames in which at least `minFingers` different fingers have an active
+// taxel (value > 0); up to `bridgedFrames` frames without are bridged, as in the rule `general` of
+// grasp_segments.h. A gap in the stream ends a contact. Time is taken from the time stamps only; no
+// clock is read.
 #pragma once
 
 #include <cstddef>
@@ -22,12 +24,16 @@
 namespace palpate {
 
 struct GraspCollectorOptions {
-  std::size_t minFingers = 2;       // 1..8
-  std::size_t moreThanFrames = 20;  // a contact that is shorter is no grasp
+  std::size_t minFingers = 2;  // 1..8
+  // A contact is a grasp if it lasts more frames than this.
+  std::size_t moreThanFrames = 20;
   std::size_t bridgedFrames = 3;
-  std::size_t framesBefore = 16;  // kept of what was before the contact
-  std::size_t framesAfter = 10;   // and after it, >= bridgedFrames
-  std::size_t maxFrames = 18000;  // of one contact; what comes later is not kept
+  // Number of frames kept before the contact,
+  std::size_t framesBefore = 16;
+  // and after it, >= bridgedFrames.
+  std::size_t framesAfter = 10;
+  // Largest number of frames kept of one contact; later frames are dropped.
+  std::size_t maxFrames = 18000;
 
   // Throws std::invalid_argument with the field's name.
   void validate() const;
@@ -38,20 +44,22 @@ class GraspCollector {
   // Throws std::invalid_argument: options.
   explicit GraspCollector(HandDescription hand, GraspCollectorOptions options = {});
 
-  // In order of time; what isn't later than the last one, or of another size, is left out.
+  // Adds a frame or joint angles, in order of time. A frame that is not later than the last one is
+  // ignored, and so is one of another size; the same holds for angles.
   void addFrame(std::shared_ptr<const TactileFrame> frame);
   void addAngles(JointAngles angles);
-  // Nothing of what came before belongs to what comes.
+  // Forgets the present contact: earlier frames are not combined with later ones.
   void reset();
 
-  // Something is touched now, since so long [s]; 0: nothing is.
+  // Whether a contact is present, and how long it has lasted [s]; 0 without contact.
   bool touched() const noexcept { return contactFrames_ > 0; }
   double touchedS() const noexcept;
-  // What came of the grasp that goes on, long enough to be one; nothing: there is none.
+  // Returns the present grasp so far as a profile; empty if there is no contact or it is still too
+  // short to be a grasp.
   std::optional<Profile> now() const;
-  // Grasps that ended since the last call.
+  // Returns the grasps that ended since the last call.
   std::vector<Profile> takeEnded();
-  // Samples kept now: bounded however long a contact lasts.
+  // Number of frames and angle samples kept; bounded however long a contact lasts.
   std::size_t keptFrames() const noexcept { return frames_.size(); }
   std::size_t keptAngles() const noexcept { return angles_.size(); }
 
@@ -64,32 +72,39 @@ class GraspCollector {
   const HandDescription hand_;
   const GraspCollectorOptions options_;
   GapDetector gaps_;
-  std::deque<std::shared_ptr<const TactileFrame>> frames_;  // from before the contact on
+  // From before the contact on.
+  std::deque<std::shared_ptr<const TactileFrame>> frames_;
   std::deque<JointAngles> angles_;
-  std::size_t contactFrames_ = 0;  // from its begin, bridged ones too; 0: no contact
-  std::size_t without_ = 0;        // frames without contact since the last one with
-  std::int64_t contactUs_ = 0;     // its begin, and its last frame
+  // Number of frames since the contact began, bridged ones included; 0: no contact.
+  std::size_t contactFrames_ = 0;
+  // Number of frames without contact since the last one with contact.
+  std::size_t without_ = 0;
+  // Time stamps of the begin of the contact and of its last frame with contact [us].
+  std::int64_t contactUs_ = 0;
   std::int64_t lastTouchUs_ = 0;
   std::vector<Profile> ended_;
 };
 
-// The one grasp that a clip, or a part of a recording, is about.
+// The longest grasp of a clip or of a part of a recording.
 struct ChosenGrasp {
-  GraspFeatures features;   // with trouble: why there are none
-  std::int64_t timeUs = 0;  // host time of its begin
-  double quality = 0.0;     // GraspSegment::quality
+  // If there are none, `problem` gives the reason.
+  GraspFeatures features;
+  // Host time of its begin [us since 1970].
+  std::int64_t timeUs = 0;
+  // GraspSegment::quality.
+  double quality = 0.0;
 };
 
-// Of frames first..last (both inclusive) of a profile the grasp (findPinches()) that lies in them
-// longest, cut to them where they begin later or end earlier. Throws std::out_of_range (frames),
-// Cancelled.
+// Returns the longest grasp (findPinches()) within frames first..last of a profile (both
+// inclusive). A grasp that reaches beyond these frames is cut to them. Throws std::out_of_range
+// (frames), Cancelled.
 ChosenGrasp graspWithin(const Profile& profile,
                         std::size_t first,
                         std::size_t last,
                         FeatureSet set,
                         const PinchHand& hand = sdh2PinchHand(),
                         const Progress& progress = {});
-// Of all of it; a profile without frames has trouble.
+// The same for a whole profile; `problem` is set for a profile without frames.
 ChosenGrasp graspOf(const Profile& profile,
                     FeatureSet set,
                     const PinchHand& hand = sdh2PinchHand(),

@@ -1,9 +1,9 @@
-// Features of grasps: what recognition knows of one grasp, as a row of numbers with names.
+// Features of a grasp: the named numbers from which recognition predicts its class. There are three
+// sets:
 //
 //   study    the 54 features of the study (study_features.h), for comparison with it
 //   best     the features that are stable between sessions (plateau_features.h): contact geometry
-//   and
-//            force on the load plateau
+//            and force on the load plateau
 //   session  the features of `best`, the joint angles at rest and simple statistics of both pads.
 //            The most accurate set within one session; not to be used in another one, because it
 //            contains the pose in which an object was presented (sessionSetWarning()).
@@ -24,42 +24,47 @@ namespace palpate {
 
 enum class FeatureSet { kStudy, kBest, kSession };
 
-// "study", "best", "session"; nothing for another word.
+// Names of the sets: "study", "best", "session"; featureSetNamed() returns nothing for another
+// name.
 std::string_view featureSetName(FeatureSet set) noexcept;
 std::optional<FeatureSet> featureSetNamed(std::string_view name) noexcept;
 std::vector<std::string> featureNames(FeatureSet set, const PinchHand& hand = sdh2PinchHand());
-// What has to be said wherever the set `session` is chosen: one line.
+// Warning, one line, to be shown wherever the set `session` is chosen.
 std::string_view sessionSetWarning() noexcept;
 
-// Of one grasp.
+// Features of one grasp.
 struct GraspFeatures {
-  std::size_t begin = 0, end = 0;  // frames, both inclusive
-  // Where it begins and ends for the features: `study` its own two; `best`, `session`: the first
-  // frame with a quarter of the load, and the last one of the plateau.
+  // First and last frame of the grasp, both inclusive.
+  std::size_t begin = 0, end = 0;
+  // Frames that the features are computed from. `study`: its initial and end frame. `best` and
+  // `session`: the first frame with a quarter of the largest load and the last frame of the
+  // plateau.
   std::size_t initialFrame = 0, endFrame = 0;
-  std::vector<double> values;  // finite, as featureNames(); empty with trouble
-  std::string problem;         // why there are none, one line; else empty
+  // Finite values in the order of featureNames(); empty if there is a problem.
+  std::vector<double> values;
+  // Reason why there are no values, one line; otherwise empty.
+  std::string problem;
   bool operator==(const GraspFeatures&) const = default;
 };
 
-// Throws std::out_of_range: frames that aren't there. What the recording lacks is said by
-// `trouble`.
+// Computes the features of one grasp. Throws std::out_of_range when the grasp has frames that the
+// profile doesn't have. What the recording lacks is reported in `problem`.
 GraspFeatures graspFeatures(const Profile& profile,
                             const GraspSegment& grasp,
                             FeatureSet set,
                             const PinchHand& hand = sdh2PinchHand());
 
-// Grasps of a recording as recognition counts them: both pads touch for more than 20 frames (rule
-// `study` with the hand's pads). Throws Cancelled.
+// Finds the grasps of a recording that recognition uses: both pads touch for more than 20 frames
+// (rule `study` with the pads of the hand). Throws Cancelled.
 std::vector<GraspSegment> findPinches(const Profile& profile,
                                       const PinchHand& hand = sdh2PinchHand(),
                                       const Progress& progress = {});
 
-// All of a recording, in order of time; a recording of another hand gives none and says so in
-// `trouble`.
+// Features of all grasps of a recording, in order of time. `problem` is set if the recording is of
+// another hand or has no grasp; otherwise it is empty.
 struct RecordingFeatures {
   std::vector<GraspFeatures> grasps;
-  std::string problem;  // another hand; no grasp; else empty
+  std::string problem;
 };
 RecordingFeatures recordingFeatures(const Profile& profile,
                                     FeatureSet set,

@@ -1,5 +1,6 @@
-// A trained model at work on other recordings: which session offset applies, and how well it does
-// (protocol X). Nothing is counted that adapted it.
+// Evaluates a trained model on other recordings (protocol X): chooses the session offset,
+// classifies, and measures the accuracy. Grasps that adapted the model are not counted. `palpate
+// evaluate --model` and `palpate classify` use it.
 #pragma once
 
 #include <cstddef>
@@ -18,48 +19,59 @@ namespace palpate {
 // Where the session offset comes from.
 struct OffsetChoice {
   enum class Kind {
-    kModel,  // what `adapt` stored; 0 in a fresh model
-    kNone,   // nothing is assumed: classes are judged by summing over all offsets
-    kBatch,  // from all grasps of the session, unlabelled
-    kGiven   // `mm`
+    // The offset that `adapt` stored; 0 in a model that was never adapted.
+    kModel,
+    // The offset is not known: classes are marginalised over all offsets.
+    kNone,
+    // Estimated from all grasps of the session, without labels.
+    kBatch,
+    // The value `mm`.
+    kGiven
   };
   Kind kind = Kind::kModel;
   double mm = 0.0;
-  // "model", "none", "batch", a number [mm, -20 .. 20]. Throws std::invalid_argument naming them.
+  // Reads "model", "none", "batch" or a number [mm, -20..20]. Throws std::invalid_argument naming
+  // the allowed values.
   static OffsetChoice from(const std::string& text);
 };
 
-// What a session is judged with.
+// What the predictions of a session depend on.
 struct SessionContext {
   SessionOffset offset;
-  bool sameSession = false;           // as the model's training, as far as times tell
-  std::vector<std::string> warnings;  // a line each: why nothing will be sure
+  // Whether it is the session in which the model was trained, judged by the times.
+  bool sameSession = false;
+  // One line for each reason why no prediction will be sure.
+  std::vector<std::string> warnings;
 };
 
-// x: the session's grasps, all of them; timesUs: host times of each. A classifier that doesn't
-// carry over has no offset: anything but model and none throws Error.
+// Determines the offset of a session. x: all grasps of the session, one per row; timesUs: host time
+// of each [us since 1970]. Throws Error if the classifier can't be adapted to a session and the
+// choice is neither kModel nor kNone.
 SessionContext sessionFor(const TrainedModel& model,
                           const Eigen::MatrixXd& x,
                           const std::vector<std::int64_t>& timesUs,
                           const OffsetChoice& choice);
 
-// What a model says of every row of a table, all of one session.
+// Predictions for every row of a table; all rows must be of one session.
 struct Classification {
   SessionContext use;
-  std::vector<Prediction> predictions;  // one per row
+  // One per row.
+  std::vector<Prediction> predictions;
 };
-// Throws Error: the table doesn't fit the model, or the model has no use for such an offset.
+// Classifies all rows of a table. Throws Error when the table doesn't fit the model, or the model
+// can't use such an offset.
 Classification classifyTable(const TrainedModel& model,
                              const FeatureTable& table,
                              const OffsetChoice& choice);
 
-// Grasps that belong to one session, in order of time: a pause of more than `pauseS` [s] begins
-// another.
+// Groups grasps into sessions, in order of time. A pause of more than `pauseS` [s] begins a new
+// session. Returns indices into `timesUs`.
 std::vector<std::vector<std::size_t>> sessionsOf(const std::vector<std::int64_t>& timesUs,
                                                  double pauseS = 8.0 * 3600.0);
 
 struct EvaluationOptions {
-  // the first so many in time of each class and session are labelled
+  // Number of grasps of each class and session, the first in time, that are labelled and adapt the
+  // model; 0: none.
   std::size_t adaptPerClass = 0;
   OffsetChoice offset;
 };
@@ -72,29 +84,33 @@ struct EvaluatedGrasp {
 
 struct ModelEvaluation {
   explicit ModelEvaluation(std::vector<std::string> classes) : confusion(std::move(classes)) {}
-  ConfusionMatrix confusion;           // of the model's classes; `unknown` counts as wrong
-  std::vector<EvaluatedGrasp> grasps;  // that count, session after session
-  std::vector<std::size_t> adapted;    // that taught
+  // Over the classes of the model; `unknown` counts as wrong.
+  ConfusionMatrix confusion;
+  // Grasps that were classified, session after session.
+  std::vector<EvaluatedGrasp> grasps;
+  // Samples that adapted the model.
+  std::vector<std::size_t> adapted;
   std::vector<SessionContext> sessions;
-  std::size_t top3 = 0;  // the truth is among the three best
+  // Number of grasps whose true class is among the three best.
+  std::size_t top3 = 0;
   std::size_t sure = 0, sureRight = 0;
 };
 
-// `samples` with the model's classes (samplesOf(table, model.classes)). Throws Error (a model that
-// can't adapt; nothing is left to examine).
+// Evaluates a model on samples with the classes of the model (samplesOf(table, model.classes)).
+// Throws Error (a model that can't adapt; no grasp is left to classify).
 ModelEvaluation evaluateModel(const TrainedModel& model,
                               const SampleSet& samples,
                               const std::vector<std::int64_t>& timesUs,
                               const EvaluationOptions& options = {});
 
-// accuracy, interval, top3, coverage, accuracy_when_sure, classes, confusion, .. (interfaces of
-// `palpate evaluate --model`).
+// JSON with accuracy, interval, top3, coverage, accuracy_when_sure, classes, confusion, ..
+// (docs/commands.md, `palpate evaluate --model`).
 Json jsonOf(const ModelEvaluation& evaluation);
 
-// The model's class, or "unknown".
+// Name of a class of the model, or "unknown".
 std::string labelOf(const TrainedModel& model, int label);
-// file, begin, end, label, confidence, sure, novelty, top: [{label, p}], the best five (interfaces
-// of `palpate classify`).
+// JSON with file, begin, end, label, confidence, sure, novelty, top: [{label, p}] with the best
+// five classes (docs/commands.md, `palpate classify`).
 Json predictionJson(const TrainedModel& model, const FeatureRow& row, const Prediction& prediction);
 
 }  // namespace palpate

@@ -1,6 +1,7 @@
-// Chooses what a person left open (classifier, components, C, mixing of covariances) by
-// cross-validation inside the training samples: a grid, every candidate on the same contiguous
-// blocks (protocol B: what lies close in time stays together).
+// Model search: chooses the settings that the user left open (classifier, components, C, mixing of
+// covariance matrices) by cross-validation inside the training samples. Every candidate of a grid
+// is tested on the same contiguous blocks (protocol B: grasps that are close in time stay
+// together). `palpate train` and the training in the window use it.
 #pragma once
 
 #include <cstddef>
@@ -16,12 +17,17 @@
 namespace palpate {
 
 struct ModelSearchOptions {
-  std::optional<ClassifierKind> classifier = std::nullopt;  // given: not searched
-  std::optional<std::size_t> components = std::nullopt;     // given: not searched; >= 1
-  std::vector<double> costs = {1.0, 10.0, 100.0};           // C of svm
+  // If given, only this classifier is tested.
+  std::optional<ClassifierKind> classifier = std::nullopt;
+  // If given, only this number of components is tested, >= 1.
+  std::optional<std::size_t> components = std::nullopt;
+  // Values of C for svm.
+  std::vector<double> costs = {1.0, 10.0, 100.0};
   std::vector<std::size_t> componentGrid = {8, 11, 14, 20};
-  std::vector<double> pooledShares = {0.3, 0.5, 0.7};  // of qda
-  std::size_t blocks = 5;                              // >= 2
+  // Values of the pooled fraction for qda.
+  std::vector<double> pooledShares = {0.3, 0.5, 0.7};
+  // Number of blocks, >= 2.
+  std::size_t blocks = 5;
   std::size_t threads = 0;
 };
 
@@ -33,17 +39,18 @@ struct ModelCandidate {
 };
 
 struct ModelSearchReport {
-  std::vector<ModelCandidate> candidates;  // in the order of the grid
+  // In the order of the grid.
+  std::vector<ModelCandidate> candidates;
   std::size_t chosen = 0;
 };
 
-// The candidates of a grid: each classifier with and without discriminant analysis (gauss without),
-// components no more than features and classes - 1 allow.
+// Returns the candidates of the grid: each classifier with and without discriminant analysis (gauss
+// without); the number of components is limited by the number of features and by classes - 1.
 std::vector<PipelineOptions> modelGrid(const SampleSet& samples, const ModelSearchOptions& options);
 
-// The most accurate one; of those no worse than it by half a standard error the first of the grid,
-// which goes from simple to elaborate. Throws Error (requireLearnable; none can be fitted),
-// std::invalid_argument (options), Cancelled.
+// Tests all candidates and chooses one: of those that are at most half a standard error below the
+// most accurate one, the first in the grid, which goes from simple to complex. Throws Error
+// (requireLearnable; no candidate can be fitted), std::invalid_argument (options), Cancelled.
 ModelSearchReport searchModel(const SampleSet& samples,
                               const ModelSearchOptions& options = {},
                               const Progress& progress = {});
@@ -51,17 +58,20 @@ ModelSearchReport searchModel(const SampleSet& samples,
 Json jsonOf(const PipelineOptions& options);
 Json jsonOf(const ModelSearchReport& report);
 
-// Recursive feature elimination (Guyon et al. 2002, Machine Learning 46): fit, drop the feature of
-// least weight, again.
+// One step of recursive feature elimination (Guyon et al. 2002, Machine Learning 46): the model is
+// fitted, and the feature with the smallest weight is removed.
 struct EliminationStep {
-  std::size_t features = 0;  // how many were left
-  std::size_t dropped = 0;   // then this one was dropped (column; by all samples)
-  // with those that were left; each split eliminates by its own training samples
+  // Number of features that were used in this step.
+  std::size_t features = 0;
+  // Column of the feature that was removed after it, determined from all samples.
+  std::size_t dropped = 0;
+  // Accuracy with the features of this step; each split eliminates features by its own training
+  // samples.
   double accuracyMean = 0.0;
   double accuracySd = 0.0;
 };
-// From all features down to one. A discriminant analysis keeps at most as many components as
-// features are left.
+// Eliminates from all features down to one. A discriminant analysis keeps at most as many
+// components as there are features left.
 std::vector<EliminationStep> eliminateFeatures(const SampleSet& samples,
                                                const PipelineOptions& options,
                                                const std::vector<SampleSplit>& splits,

@@ -1,5 +1,5 @@
-// A hand as recognition sees it: the two opposite pads that hold a thing, how they compare, and
-// where they are. Another hand is another description.
+// The part of a hand description that recognition needs: the two opposite pads that hold an object,
+// the ratio of their gains, and the geometry of the hand. Another hand is another description.
 #pragma once
 
 #include <array>
@@ -14,34 +14,37 @@
 namespace palpate {
 
 struct PinchHand {
-  std::array<std::size_t, 2> pads{0, 1};  // matrices
-  // Where the two don't face each other (three fingers around a thing), the first of these that do;
-  // all alike in gain.
+  // Matrices of the two pads.
+  std::array<std::size_t, 2> pads{0, 1};
+  // If the two pads don't face each other (an object held by three fingers), the first of these
+  // pairs that does is used. Their pads are assumed to have the same gain.
   std::vector<std::array<std::size_t, 2>> otherPads = {};
   // Gain ratio, > 0: counts of the second pad multiplied by this equal the counts of the first pad
   // for the same force.
   double secondPadGain = 1.0;
-  double fullScaleCounts = 4096.0;  // counts are divided by it in the study's features
+  // Full scale [counts] by which the study's features divide.
+  double fullScaleCounts = 4096.0;
   // Side length [pixels] of the square image that the study's features are computed from; the
   // pad's values are placed at the middle of its top edge.
   int imageSize = 1;
-  std::array<double, 2> largestCounts{
-      1.0, 1.0};  // seen on each pad: 1 mm of impression there (study), > 0
-  // Geometry of the study, and the one in which a rigid object measures the same everywhere on the
-  // pads; never null.
+  // Largest counts observed on each pad; they correspond to an indentation of 1 mm (study), > 0.
+  std::array<double, 2> largestCounts{1.0, 1.0};
+  // Geometry of the study, and the geometry with which a rigid object has the same measured size
+  // everywhere on the pads. Never null.
   std::shared_ptr<const HandGeometry> studyGeometry, effectiveGeometry;
-  // Axes whose angles at rest the features of a session hold (those that hold the thing).
+  // Axes that hold the object; the set `session` contains their angles at rest.
   std::vector<std::size_t> gripAxes;
 
-  // Why a recording is none of this hand's ("" when it is): other matrices, other axes.
+  // Returns why a recording does not belong to this hand (other matrices, other axes); empty if it
+  // does.
   std::string mismatch(const Profile& profile) const;
   // Throws std::invalid_argument with the field's name.
   void validate() const;
 };
 
-// The SDH-2 in a pinch grip: the distal pads of fingers 0 and 2 (matrices 1 and 5). Gain 2.7:
-// finger 0's pad reads 2.4 to 3.2 times finger 2's for the same force; 3554 and 2493 are the
-// largest counts of the study's 856 grasps.
+// The SDH-2 in a pinch grip, with the distal pads of fingers 0 and 2 (matrices 1 and 5). Gain 2.7:
+// the pad of finger 0 reads 2.4 to 3.2 times as much as that of finger 2 for the same force. 3554
+// and 2493 are the largest counts of the study's 856 grasps.
 const PinchHand& sdh2PinchHand();
 
 }  // namespace palpate

@@ -1,6 +1,6 @@
 // Eleven features of a grasp that are stable between sessions: contact geometry and force on the
 // load plateau of two opposite finger pads. The phases of contact and release are left out, because
-// they are not repeatable.
+// they are not repeatable. They are the set `best` (grasp_features.h).
 //
 //   size_z           40 ln(1 + D / 40): D is the distance of the pads with the chord corrected
 //                    (kinematics/object_size.h), at the effective fingertip radius, of the mean
@@ -34,48 +34,63 @@
 namespace palpate {
 
 struct PlateauFeatureOptions {
-  double plateauFraction = 0.9;       // of the largest load, 0..1
-  double startFraction = 0.25;        // of the largest load: where the compression begins, 0..1
+  // A plateau frame has at least this fraction of the largest load, 0..1.
+  double plateauFraction = 0.9;
+  // The compression begins at this fraction of the largest load, 0..1.
+  double startFraction = 0.25;
   std::size_t maxPlateauFrames = 25;  // >= 1
-  double activeFraction = 0.03;       // of a pad's largest value, 0..1
+  // An active taxel is above this fraction of the largest value of its pad, 0..1.
+  double activeFraction = 0.03;
 
   // Throws std::invalid_argument with the field's name.
   void validate() const;
 };
 
-// D [mm] and size_z [mm]: nearly linear for small things, logarithmic for large ones. sizeOf throws
-// nothing; a D of -40 or less (no hand has it) counts as -39.9.
+// Conversion between D [mm] and size_z [mm], which is nearly linear for small objects and
+// logarithmic for large ones. sizeZ() throws nothing; a D of -40 or less (no hand has it) is
+// treated as -39.9.
 double sizeZ(double distanceMm) noexcept;
 double distanceOfSizeZ(double sizeZ) noexcept;
 
 const std::vector<std::string>& plateauFeatureNames();
-// Place of size_z in plateauFeatureNames().
+// Index of size_z in plateauFeatureNames().
 constexpr std::size_t kSizeZColumn = 0;
 
-// Of one pad on the mean plateau frame.
+// Values of one pad on the mean plateau frame.
 struct PlateauPad {
   double lnMajor = 0.0, lnMinor = 0.0, entropy = 0.0, lnActive = 0.0, lnSum = 0.0;
-  double slant = 0.0;   // as skew, with its sign: > 0 where the contact leans to rising x and y
-  double lnPeak = 0.0;  // ln(largest counts)
-  std::array<double, 3> shares{};  // of the strongest 1, 4, 9 taxels
-  double column = 0.0, row = 0.0;  // centroid [taxels]
+  // As skew, but signed: > 0 where the contact extends towards rising x and y.
+  double slant = 0.0;
+  // ln(largest counts).
+  double lnPeak = 0.0;
+  // Fractions of the strongest 1, 4 and 9 taxels.
+  std::array<double, 3> shares{};
+  // Centroid [taxels].
+  double column = 0.0, row = 0.0;
 };
 
 struct PlateauFeatures {
-  // why there are none: no joint angles, no contact, too short, pads that don't face each other, ..
+  // Reason why there are no features: no joint angles, no contact, grasp too short, pads that do
+  // not face each other, and so on; otherwise empty.
   std::string problem;
-  std::size_t startFrame = 0;    // the first one with a quarter of the load
-  std::size_t plateauFrame = 0;  // first and last one of the plateau
+  // First frame with a quarter of the largest load.
+  std::size_t startFrame = 0;
+  // First and last frame of the plateau.
+  std::size_t plateauFrame = 0;
   std::size_t plateauEndFrame = 0;
-  double distanceMm = 0.0;                // D on the plateau
-  std::vector<double> plateauAnglesDeg;   // median over the plateau
-  std::array<std::size_t, 2> matrices{};  // the two pads that were used
+  // D on the plateau [mm].
+  double distanceMm = 0.0;
+  // Median joint angles over the plateau [deg].
+  std::vector<double> plateauAnglesDeg;
+  // The two pads that were used.
+  std::array<std::size_t, 2> matrices{};
   std::array<PlateauPad, 2> pads;
-  std::vector<double> values;  // as plateauFeatureNames(); empty with trouble
+  // In the order of plateauFeatureNames(); empty if there is a problem.
+  std::vector<double> values;
 };
 
-// Of one grasp. Throws std::out_of_range: frames that aren't there. What the recording lacks is
-// said by `trouble`.
+// Computes the features of one grasp. Throws std::out_of_range when the grasp has frames that the
+// profile doesn't have. What the recording lacks is reported in `problem`.
 PlateauFeatures plateauFeatures(const Profile& profile,
                                 const GraspSegment& grasp,
                                 const PinchHand& hand = sdh2PinchHand(),

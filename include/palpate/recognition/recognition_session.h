@@ -1,6 +1,6 @@
 // One recognition session: the grasps that were made, the class labels the user gave them, the zero
 // adjustment of the empty hand, and the session offset estimated from these. Predictions use this
-// offset.
+// offset. The recognition of the window keeps one.
 //
 // The offset comes from the best source that is available, in this order: a value entered by the
 // user; the zero adjustment combined with the labelled grasps; the unlabelled grasps of the
@@ -22,9 +22,12 @@ namespace palpate {
 class RecognitionSession {
  public:
   struct Grasp {
-    std::vector<double> values;        // features, as the model's
-    std::int64_t timeUs = 0;           // host time of its begin
-    std::optional<int> labelledClass;  // class a person named
+    // Features, in the order of the model's.
+    std::vector<double> values;
+    // Host time of its begin [us since 1970].
+    std::int64_t timeUs = 0;
+    // Class that the user assigned.
+    std::optional<int> labelledClass;
   };
 
   explicit RecognitionSession(TrainedModel model);
@@ -36,22 +39,26 @@ class RecognitionSession {
   // features).
   std::size_t add(std::vector<double> values, std::int64_t timeUs);
   const std::vector<Grasp>& grasps() const noexcept { return grasps_; }
-  // Throw std::out_of_range; Error: the model can't adapt.
+  // Sets or clears the label of a grasp. Throws std::out_of_range; Error when the model can't be
+  // adapted to a session.
   void setLabel(std::size_t grasp, std::optional<int> classIndex);
   std::size_t numLabelled() const noexcept;
-  // Throws Error: trouble in it, or the model keeps no zero of its own to compare with.
+  // Sets the zero of the empty hand. Throws Error when `today` has a problem, or when the model has
+  // no zero from its training to compare with.
   void setZero(const EmptyHandZero& today);
   bool hasZero() const noexcept { return zeroOffset_.has_value(); }
-  void choose(const OffsetChoice& choice);  // throws Error: the model knows no offset
+  // Selects the source of the offset. Throws Error when the model does not use an offset.
+  void choose(const OffsetChoice& choice);
   const OffsetChoice& choice() const noexcept { return choice_; }
-  void reset();  // grasps, names, zero
+  // Clears all grasps, labels and the zero.
+  void reset();
 
   const SessionOffset& offset() const noexcept { return offset_; }
   // Reason why no prediction can be sure, one line; empty if a prediction can be sure.
   const std::string& unsure() const noexcept { return unsure_; }
-  // Of a grasp that needn't be one of the day's. Throws std::invalid_argument.
+  // Classifies a grasp, which need not be one of the session. Throws std::invalid_argument.
   Prediction predict(const std::vector<double>& values, std::int64_t timeUs) const;
-  // The model with all that is known of today: to be saved.
+  // Returns the model adapted to this session, to be saved.
   TrainedModel adapted() const;
 
  private:
@@ -61,9 +68,11 @@ class RecognitionSession {
   TrainedModel model_;
   std::vector<Grasp> grasps_;
   std::optional<EmptyHandZero> zero_;
-  std::optional<SessionOffset> zeroOffset_;  // by it
+  // Offset that the zero gives.
+  std::optional<SessionOffset> zeroOffset_;
   OffsetChoice choice_;
-  TrainedModel adapted_;  // the model with today's components
+  // The model with the components of this session.
+  TrainedModel adapted_;
   SessionOffset offset_ = noOffset();
   bool sameSession_ = false;
   std::string unsure_;

@@ -1,5 +1,5 @@
-// Samples to learn from: one row of features per grasp, with its class. Rows of one class stand in
-// the order in which they were recorded (protocol B goes by it).
+// Training samples: one row of features per grasp, with its class. The rows of one class are in the
+// order in which they were recorded (protocol B depends on it).
 #pragma once
 
 #include <cstddef>
@@ -14,18 +14,22 @@
 namespace palpate {
 
 struct SampleSet {
-  Eigen::MatrixXd x;                  // samples x features
-  std::vector<int> y;                 // class of each sample, index into `classes`
-  std::vector<std::string> classes;   // distinct names; a class may have no sample
-  std::vector<std::string> features;  // names of the columns
+  // Samples x features.
+  Eigen::MatrixXd x;
+  // Class of each sample, an index into `classes`.
+  std::vector<int> y;
+  // Distinct names; a class may have no sample.
+  std::vector<std::string> classes;
+  // Names of the columns.
+  std::vector<std::string> features;
 
   std::size_t numSamples() const noexcept { return y.size(); }
   std::size_t numFeatures() const noexcept { return features.size(); }
   std::size_t numClasses() const noexcept { return classes.size(); }
-  // Samples of each class.
+  // Number of samples per class.
   std::vector<std::size_t> counts() const;
 
-  // The same classes and features with some samples; some features. Throw std::out_of_range.
+  // Return a set with some of the samples, or with some of the features. Throw std::out_of_range.
   SampleSet rows(std::span<const std::size_t> indices) const;
   SampleSet columns(std::span<const std::size_t> indices) const;
 
@@ -33,28 +37,31 @@ struct SampleSet {
   void validate() const;
 };
 
-// The rows of a table that have a class; classes sorted by name. With `classes` given: those, and a
-// row of none of them is refused. Throws Error (a row without class, or of an unknown one).
+// Makes a sample set from a table; the classes are sorted by name, or are `classes` if given.
+// Throws Error when a row has no class or is of a class that is not in `classes`.
 SampleSet samplesOf(const FeatureTable& table);
 SampleSet samplesOf(const FeatureTable& table, const std::vector<std::string>& classes);
 
-// The parts of the study's 54 features that its table 6.1 compares.
+// The subsets of the study's 54 features that its table 6.1 compares.
 enum class StudyPart {
-  kDiameter,  // the first
-  kFirst4,    // diameter, compressibility, both standard deviations
-  kMoments,   // the other 50
+  // The first feature.
+  kDiameter,
+  // Diameter, compressibility and both standard deviations.
+  kFirst4,
+  // The other 50 features.
+  kMoments,
   kAll
 };
-// Columns of a sample set of the study's features. Throws std::invalid_argument when it has other
-// features.
+// Returns a subset of the columns of a sample set with the study's features. Throws
+// std::invalid_argument when it has other features.
 SampleSet studyPart(const SampleSet& study, StudyPart part);
 
-// Throws Error (one line: what, which sample or class) when nothing can be learnt from it: no
-// sample, fewer than two classes with samples, no class with two samples, a value that is no
-// number, no feature that varies.
+// Throws Error (one line, with the sample or class) when no classifier can be fitted: no sample,
+// fewer than two classes with samples, no class with two samples, a value that is not a number, no
+// feature that varies.
 void requireLearnable(const SampleSet& samples);
-// What can be learnt from, but should be said, a line each: features that never vary, classes with
-// one sample.
+// Returns warnings about samples that can be used, one line each: features that are constant,
+// classes with one sample.
 std::vector<std::string> learningNotes(const SampleSet& samples);
 
 }  // namespace palpate

@@ -1,9 +1,10 @@
 // Session-adaptive classifier. Each class is a multivariate Student t distribution (heavy tails),
 // whose scatter matrix is enlarged by the variance between sessions. One feature, size_z, is
 // shifted by an unknown size offset of the hand (session_offset.h). A background distribution over
-// all class means (multivariate t, too) stands for objects in general: a sample that fits the
-// background better than every class is classified as unknown. Source: Kotz and Nadarajah 2004,
-// Multivariate t Distributions; background model: Reynolds, Quatieri, Dunn 2000.
+// all class means (multivariate t, too) represents objects in general: a sample that no class
+// explains sufficiently better than the background is classified as unknown (OpenSetOptions).
+// Source: Kotz and Nadarajah 2004, Multivariate t Distributions; background model: Reynolds,
+// Quatieri, Dunn 2000. It is the classifier `gauss` of ClassifierPipeline.
 //
 // Scatter of class c = classCovarianceFraction S_c + (1 - classCovarianceFraction) S_w, with
 // off-diagonal elements multiplied by correlationScale, plus the diagonal matrix of the session
@@ -32,10 +33,12 @@ namespace palpate {
 struct SessionAdaptiveOptions {
   double classCovarianceFraction = 0.5;  // 0..1
   double correlationScale = 1.0;         // 0..1
-  double degreesOfFreedom = 8.0;         // nu of the t, > 2; the smaller the heavier the tails
-  // Session variance of a feature as a fraction of its pooled variance, >= 0,
+  // Degrees of freedom nu of the t distribution, > 2; a smaller value gives heavier tails.
+  double degreesOfFreedom = 8.0;
+  // Session variance of a feature as a fraction of its pooled variance, >= 0. It is used for all
+  // features that `sessionSd` does not name.
   double sessionVarianceFraction = 1.0;
-  // or, for the features named here, this standard deviation, in the unit of the feature.
+  // Standard deviation between sessions of the features named here, in the unit of the feature.
   std::vector<std::pair<std::string, double>> sessionSd = {
       {"size_z", 0.225}, {"ln_sum", 0.175}, {"compression_mm", 0.6}};
   // Name of the feature that the size offset shifts. If no feature has this name, the offset
@@ -74,25 +77,28 @@ struct SessionAdaptiveParameters {
   double degreesOfFreedom = 8.0;
   double fewShotScatterScale = 1.5;
   double seenInSessionLogPrior = 3.0;
-  std::vector<StudentTComponent> classComponents;  // per class
-  Eigen::MatrixXd pooled;                          // S_w
+  // One per class.
+  std::vector<StudentTComponent> classComponents;
+  // Pooled within-class covariance matrix S_w.
+  Eigen::MatrixXd pooled;
   StudentTComponent background;
+  // Components of the present session.
   std::vector<SessionComponent> today;
   bool operator==(const SessionAdaptiveParameters&) const = default;
 };
 
 class SessionAdaptiveClassifier {
  public:
-  // From samples x (rows) of classes y (0..classes-1). Throws std::invalid_argument (sizes don't
-  // agree, options), Error in one line when nothing can be learnt: values that are no numbers,
-  // fewer than two classes, no class with two samples, a class without any.
+  // Fits a classifier to samples x (rows) of classes y (0..classes-1). Throws std::invalid_argument
+  // (sizes that do not agree, options); Error, one line, when it can't be fitted: values that are
+  // not numbers, fewer than two classes, no class with two samples, a class without samples.
   static SessionAdaptiveClassifier learn(const Eigen::MatrixXd& x,
                                          const std::vector<int>& y,
                                          std::vector<std::string> classes,
                                          std::vector<std::string> features,
                                          const SessionAdaptiveOptions& options = {});
-  // Throws Error naming what doesn't fit together (sizes, a scatter that isn't positive definite,
-  // not finite).
+  // Throws Error naming what is inconsistent (sizes, a scatter matrix that is not positive
+  // definite, values that are not finite).
   explicit SessionAdaptiveClassifier(SessionAdaptiveParameters data);
 
   const SessionAdaptiveParameters& data() const noexcept { return data_; }
@@ -123,9 +129,10 @@ class SessionAdaptiveClassifier {
  private:
   struct Prepared {
     Eigen::VectorXd mean;
-    // lower triangular W, |W (x - mean)|^2 = squared Mahalanobis distance
+    // Lower triangular W: |W (x - mean)|^2 is the squared Mahalanobis distance.
     Eigen::MatrixXd whitening;
-    double constant = 0.0;  // ln of the density at the mean
+    // ln of the density at the mean.
+    double constant = 0.0;
   };
   Prepared prepare(const StudentTComponent& distribution, const std::string& what) const;
   double logDensity(const Prepared& distribution, const Eigen::VectorXd& x) const;
@@ -138,7 +145,7 @@ class SessionAdaptiveClassifier {
 };
 
 Json sessionAdaptiveJson(const SessionAdaptiveClassifier& model);
-// Throws Error naming what is missing or wrong.
+// Reads a classifier from JSON. Throws Error naming what is missing or wrong.
 SessionAdaptiveClassifier sessionAdaptiveFrom(const Json& json);
 
 }  // namespace palpate

@@ -2,12 +2,13 @@
 // offset) [mm], with its standard deviation and its source, and the classification under that
 // uncertainty.
 //
-// After each reference run of the joints the fingers stand a few millimetres closer or wider than
-// before, and nothing in the recording shows it. The offset is therefore a probability distribution
-// on a grid (-8..8 mm in steps of 0.25 mm, prior N(0, 3 mm)). It is estimated from labelled or
-// unlabelled grasps of the session or from one contact of the empty hand; class probabilities are
-// marginalised over it. One object alone never makes the offset trusted: an object of unknown size
-// fits a class of another size equally well.
+// After each reference run of the joints the distance of the fingers differs by a few millimetres
+// from that before, and nothing in the recording shows it. The offset is therefore a probability
+// distribution on a grid (-8..8 mm in steps of 0.25 mm, prior N(0, 3 mm)). It is estimated from
+// labelled or unlabelled grasps of the session or from one contact of the empty hand; class
+// probabilities are marginalised over it. One object alone never makes the offset trusted: an
+// object of unknown size fits a class of another size equally well. RecognitionSession and
+// TrainedModel keep an offset.
 #pragma once
 
 #include <cstddef>
@@ -29,18 +30,22 @@ enum class OffsetSource {
   kUnknown,
   // The user entered the value.
   kGiven,
-  kBatch,       // from unlabelled grasps of today
-  kReferences,  // from labelled grasps of today
-  kEmptyHand,   // the pads of the empty hand touched (empty_hand.h)
+  // Estimated from unlabelled grasps of this session.
+  kBatch,
+  // Estimated from labelled grasps of this session.
+  kReferences,
+  // Measured by a touch of the pads of the empty hand (empty_hand.h).
+  kEmptyHand,
 };
-std::string_view offsetSourceName(
-    // "none", "unknown", "given", "batch", "references", "empty_hand"
-    OffsetSource origin) noexcept;
+// Returns "none", "unknown", "given", "batch", "references" or "empty_hand".
+std::string_view offsetSourceName(OffsetSource origin) noexcept;
 
 struct SessionOffsetOptions {
-  double priorSdMm = 3.0;        // of the offset before anything is known, > 0
-  double gridHalfWidthMm = 8.0;  // the grid goes from -reach to reach, > 0
-  double stepMm = 0.25;          // > 0
+  // Standard deviation of the prior distribution of the offset [mm], > 0.
+  double priorSdMm = 3.0;
+  // The grid reaches from minus this to plus this [mm], > 0.
+  double gridHalfWidthMm = 8.0;
+  double stepMm = 0.25;  // > 0
   // Weight of the log likelihood of an unlabelled grasp, 0..1: grasps of one object are not
   // independent observations.
   double unlabelledWeight = 0.3;
@@ -66,19 +71,23 @@ struct SessionOffsetOptions {
 };
 
 struct SessionOffset {
-  double mm = 0.0;  // mean: measured D - true D
+  // Mean of measured D - true D [mm].
+  double mm = 0.0;
   // Standard deviation [mm]; 0: the value is assumed, or was entered as exact.
   double sdMm = 0.0;
   OffsetSource origin = OffsetSource::kNone;
-  std::size_t grasps = 0;   // it rests on
-  std::size_t objects = 0;  // different ones among them
+  // Number of grasps that it was estimated from.
+  std::size_t grasps = 0;
+  // Number of different objects among them.
+  std::size_t objects = 0;
   // Whether a classification with this offset may be reported as sure. Never true for kNone and
   // kUnknown, nor if only one object was grasped.
   bool trusted = false;
-  // The distribution on a grid.
-  std::vector<double> gridMm, probability;  // same size, sum 1
+  // The distribution on a grid; both vectors have the same size, the probabilities sum to 1.
+  std::vector<double> gridMm, probability;
 
-  // "today the hand reads 3.4 mm small (+- 0.3 mm, from 4 objects)"; one line.
+  // Describes the offset in one line, for example "today the hand reads 3.4 mm small (+- 0.3 mm,
+  // from 4 objects)".
   std::string text() const;
 };
 
@@ -115,13 +124,16 @@ SessionOffset offsetFromReferences(const SessionAdaptiveClassifier& model,
 struct OpenSetPrediction {
   // Posterior probability of each known class; the values sum to 1.
   Eigen::VectorXd probability;
-  std::vector<std::size_t> ranking;  // classes, best first
+  // Class indices, best first.
+  std::vector<std::size_t> ranking;
   // Log likelihood ratio [ln] of the best class against the background, marginalised over the
   // offset. Small values mean an unknown object; known objects are nearly always above
   // OpenSetOptions::minLogLikelihoodRatio.
   double logLikelihoodRatio = 0.0;
-  bool unknown = false;  // knownness is below
-  // The best class is certain enough, it is known, and the offset can be trusted.
+  // Whether the log likelihood ratio is below OpenSetOptions::minLogLikelihoodRatio.
+  bool unknown = false;
+  // True if the best class is probable enough (sureProbability), the object is not unknown, and the
+  // offset is trusted.
   bool sure = false;
 };
 
@@ -129,24 +141,26 @@ struct OpenSetOptions {
   // Threshold [ln] of the ratio: 1 % of the known and 60 % of the unknown grasps are below it
   // (data: docs/recognition.md).
   double minLogLikelihoodRatio = 1.0;
-  double sureProbability = 0.97;  // of the best class, 0.5..1
+  // Probability of the best class that a sure result needs, 0.5..1.
+  double sureProbability = 0.97;
 
   void validate() const;
 };
 
+// Classifies one grasp, marginalised over the distribution of the offset.
 OpenSetPrediction predict(const SessionAdaptiveClassifier& model,
                           const Eigen::VectorXd& x,
                           const SessionOffset& offset,
                           const OpenSetOptions& options = {});
-// The same of each row.
+// Classifies each row of x.
 std::vector<OpenSetPrediction> predictAll(const SessionAdaptiveClassifier& model,
                                           const Eigen::MatrixXd& x,
                                           const SessionOffset& offset,
                                           const OpenSetOptions& options = {});
 
-// {mm, sd_mm, origin, grasps, objects, trusted, grid_mm, probability}
+// JSON with mm, sd_mm, origin, grasps, objects, trusted, grid_mm, probability.
 Json sessionOffsetJson(const SessionOffset& offset);
-// Throws Error naming what is missing or wrong.
+// Reads an offset from JSON. Throws Error naming what is missing or wrong.
 SessionOffset sessionOffsetFrom(const Json& json);
 
 }  // namespace palpate

@@ -1,6 +1,6 @@
 // Standardisation: subtracts the mean of each feature and divides by its standard deviation, both
 // estimated from the samples it was fitted to (divisor n; study, 6.8.1). A constant feature becomes
-// 0 for every sample.
+// 0 for every sample. It is the first stage of ClassifierPipeline.
 #pragma once
 
 #include <Eigen/Core>
@@ -8,13 +8,15 @@
 namespace palpate {
 
 struct Standardisation {
-  Eigen::VectorXd mean;   // per feature, in its unit
-  Eigen::VectorXd scale;  // 1 / sd; 0 where sd is below 1e-12 of the largest magnitude
+  // Mean per feature, in the unit of the feature.
+  Eigen::VectorXd mean;
+  // 1 / standard deviation; 0 where the standard deviation is below 1e-12 of the largest magnitude.
+  Eigen::VectorXd scale;
 
-  // Of samples x features. Throws std::invalid_argument when there is no sample.
+  // Fits to samples x features. Throws std::invalid_argument when there is no sample.
   static Standardisation of(const Eigen::MatrixXd& x);
-  // Samples x features in, the same shape out. Throws std::invalid_argument (another number of
-  // features).
+  // Standardises samples x features; the result has the same shape. Throws std::invalid_argument
+  // (another number of features).
   Eigen::MatrixXd apply(const Eigen::MatrixXd& x) const;
   Eigen::VectorXd applyRow(const Eigen::VectorXd& row) const;
 };

@@ -1,11 +1,12 @@
-// The 54 features by which the study tells objects apart, number for number as its training script
-// makes them (the study, sections 6.3 to 6.6): diameter, compressibility, standard deviation of
-// each of the two pads, 25 moment invariants of each.
+// The 54 features of the study, computed as its training script computes them (the study, sections
+// 6.3 to 6.6): diameter, compressibility, and for each of the two pads the standard deviation and
+// 25 moment invariants. They are the set `study` (grasp_features.h).
 //
-// What is odd about them stays, under the study's name (the set `best` is the better one):
+// Known deficiencies are kept, so that the results are comparable with the study (the set `best`
+// gives better results):
 //   the diameter is the smallest one over the grasp, not the most frequent one;
-//   the end frame lies one before the frame meant, and of its two candidates rounding chose (here:
-//   always the earlier one);
+//   the end frame is one before the intended frame, and rounding selected one of its two candidates
+//   (here it is always the earlier one);
 //   the angle of a contact comes from atan, so that 180 and 90 degrees are ambiguous;
 //   6 of the 54 are multiples of others (m_T01 = m_T10 = -1.61 m_T00, m_T11 = 2.6 m_T00).
 #pragma once
@@ -21,22 +22,26 @@
 
 namespace palpate {
 
-// "diameter" [mm], "compressibility" [mm], "std_1", "std_5" [full scale], "m1_T00", "m1_T01" ..
-// "m5_T44": the numbers are the hand's pads.
+// Returns "diameter" [mm], "compressibility" [mm], "std_1", "std_5" [full scale], "m1_T00",
+// "m1_T01" .. "m5_T44"; the numbers are those of the pads.
 std::vector<std::string> studyFeatureNames(const PinchHand& hand = sdh2PinchHand());
 
 struct StudyFeatures {
-  // why there are none: no joint angles, no contact, too short, .. ; else empty
+  // Reason why there are no features: no joint angles, no contact, grasp too short, and so on;
+  // otherwise empty.
   std::string problem;
   std::size_t initialFrame = 0;
   std::size_t endFrame = 0;
-  std::size_t otherEndFrame = 0;  // the tied candidate
-  std::vector<double> values;     // as studyFeatureNames(); empty with trouble
+  // The second candidate for the end frame.
+  std::size_t otherEndFrame = 0;
+  // In the order of studyFeatureNames(); empty if there is a problem.
+  std::vector<double> values;
 };
 
-// Of one grasp. endFrame: takes the picture, and the end of the compression, from this frame
-// instead. Throws std::out_of_range: frames that aren't there; std::invalid_argument: an end frame
-// outside of the grasp. What the recording lacks is said by `trouble`.
+// Computes the features of one grasp. If `endFrame` is given, the image and the end of the
+// compression are taken from this frame. Throws std::out_of_range when the grasp has frames that
+// the profile doesn't have; std::invalid_argument when `endFrame` is outside of the grasp. What the
+// recording lacks is reported in `problem`.
 StudyFeatures studyFeatures(const Profile& profile,
                             const GraspSegment& grasp,
                             const PinchHand& hand = sdh2PinchHand(),

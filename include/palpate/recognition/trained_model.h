@@ -1,5 +1,6 @@
-// A trained model: the classifier with all that it was made from, and what is known of today. A
-// JSON file with format version, program version, options, and the SHA-256 of every input.
+// A trained model: the fitted classifier, what it was made from, and what is known of the present
+// session. It is stored as a JSON file with format version, program version, options and the
+// SHA-256 of every input.
 #pragma once
 
 #include <cstddef>
@@ -20,59 +21,71 @@
 
 namespace palpate {
 
-// A recording a model learnt from.
+// A recording that a model was trained on.
 struct ModelInput {
   std::string file;
   std::string sha256;
   std::string className;
   std::size_t grasps = 0;
-  std::int64_t firstUs = 0, lastUs = 0;  // host times of its first and last grasp [us since 1970]
+  // Host times of its first and last grasp [us since 1970].
+  std::int64_t firstUs = 0, lastUs = 0;
 };
 
-// What a model says of one grasp.
+// Classification result for one grasp.
 struct Prediction {
   static constexpr int kUnknown = -1;
   // Class index, or kUnknown if the grasp belongs to no known class.
   int label = kUnknown;
-  double confidence = 0.0;  // probability of the best class, were it one of the known ones
+  // Probability of the best class, given that the object is one of the known classes.
+  double confidence = 0.0;
   // True if the result is expected to be correct in 95 % of the cases; never true without a trusted
   // session offset.
   bool sure = false;
-  std::vector<int> ranking;  // all classes, best first, whether known or not
-  std::vector<double> p;     // of each class of the ranking
+  // All classes, best first, whether or not the object is known.
+  std::vector<int> ranking;
+  // Probability of each class, in the order of the ranking.
+  std::vector<double> p;
   // Novelty score: distance from the training samples; larger for unknown objects.
   double novelty = 0.0;
 };
 
 struct TrainedModel {
-  static constexpr int kFormatVersion = 2;  // 1 is read, too: it had no field for zeros
+  // Version 1, which has no fields for zeros, can be read, too.
+  static constexpr int kFormatVersion = 2;
 
   std::string programVersion;
-  std::string madeAt;  // UTC, ISO 8601; may be empty
-  std::string sensor;  // FeatureTable::sensor
+  // Time of training in UTC, ISO 8601; may be empty.
+  std::string madeAt;
+  // See FeatureTable::sensor.
+  std::string sensor;
   FeatureSet set = FeatureSet::kBest;
   std::vector<std::string> features, classes;
-  ClassifierPipeline pipeline;  // calibrated
-  // For all classifiers except gauss: results with at least this confidence are sure (above 1:
-  // never); results with at least maxNovelty are unknown.
+  // The calibrated pipeline.
+  ClassifierPipeline pipeline;
+  // For all classifiers except gauss: results with at least minSureConfidence are sure (above 1:
+  // none is); results with a novelty above maxNovelty are unknown.
   double minSureConfidence = 2.0;
   double maxNovelty = 0.0;
   // Session offset that `palpate adapt` stored; noOffset() in a model that was never adapted.
   SessionOffset offset = noOffset();
-  // Of the empty hand: on the day of training, and on the day whose offset is stored.
+  // Zero of the empty hand in the session of training, and in the session of the stored offset.
   std::optional<EmptyHandZero> trainingZero, sessionZero;
   std::vector<ModelInput> inputs, adaptedFrom;
-  Json options = Json::object();     // of the command that made it
-  Json validation = Json::object();  // how well it did on blocks of its own recordings
+  // Options of the command that made the model.
+  Json options = Json::object();
+  // Accuracy on contiguous blocks of its own training recordings.
+  Json validation = Json::object();
 
   // Whether the classifier models a session offset and can be adapted; true for gauss only.
   bool adaptsToSession() const noexcept { return pipeline.sessionAdaptive.has_value(); }
-  // Whether a time lies within half a day of the day its offset is of: that of what it learnt from,
-  // or, once it is adapted, of what adapted it. The same session, as far as one can tell.
+  // Whether a time [us since 1970] is within half a day of the data that the offset belongs to: the
+  // training recordings, or, for an adapted model, the recordings that adapted it. This is the best
+  // available sign that it is the same session.
   bool sameSession(std::int64_t timeUs) const noexcept;
 };
 
-// Classes and their number of grasps, by file: hashes every file. Throws FileError, Cancelled.
+// Returns the recordings of a table with class, number of grasps and hash; hashes every file.
+// Throws FileError, Cancelled.
 std::vector<ModelInput> inputsOf(const FeatureTable& table, const Progress& progress = {});
 
 // Fits a classifier and its confidence thresholds; the probabilities are calibrated on contiguous
@@ -83,39 +96,42 @@ TrainedModel trainModel(const SampleSet& samples,
                         PipelineOptions options,
                         const Progress& progress = {});
 
-// Verdicts on rows of features. `offset` is of no use to a classifier that doesn't carry over. Sure
-// with: an offset that can be trusted, or `sameSession` and no offset. Throws std::invalid_argument
-// (another number of features).
+// Classifies rows of features. `offset` is ignored by classifiers that do not adapt to a session.
+// Results of gauss can be sure only if the offset is trusted, or if `sameSession` is true and there
+// is no offset; results of the other classifiers only if `sameSession` is true. Throws
+// std::invalid_argument (another number of features).
 std::vector<Prediction> classifyRows(const TrainedModel& model,
                                      const Eigen::MatrixXd& x,
                                      const SessionOffset& offset,
                                      bool sameSession);
 
-// Throws Error naming what doesn't agree between a model and the features it is to judge: another
-// sensor, another set of features (of another version).
+// Throws Error naming the difference when features do not fit a model: another sensor, or another
+// set or version of features.
 void requireFits(const TrainedModel& model, const FeatureTable& table);
 
-// Labelled grasps of today: the offset from them on top of what is known of it already, and their
-// components. Throws Error when the model doesn't carry over.
+// Adapts a model to a session with labelled grasps: narrows the offset `before`, and adds
+// components of this session. Throws Error when the model can't be adapted.
 void adaptModel(TrainedModel& model,
                 const SampleSet& today,
                 const SessionOffset& before = unknownOffset());
-// The offset by a touch of the empty hand today against that of training. Throws Error: trouble in
-// it, the model doesn't carry over or keeps no zero of its own to compare with.
+// Returns the offset given by a touch of the empty hand in this session, compared with the one in
+// the session of training. Throws Error when `today` has a problem, when the model can't be
+// adapted, or when it has no zero from its training.
 SessionOffset offsetOfEmptyHand(const TrainedModel& model, const EmptyHandZero& today);
-// Stores both, besides what else is known of today. Throws as offsetOfEmptyHand().
+// Stores that offset and the zero in the model; components of the session are kept. Throws as
+// offsetOfEmptyHand().
 void adaptToEmptyHand(TrainedModel& model, const EmptyHandZero& today);
 
-// What it knew of another day than that of its training: offset, zero, components, where they came
-// from.
+// Removes everything that belongs to a session after training: offset, zero, components, and the
+// list of recordings that adapted the model.
 void resetSession(TrainedModel& model);
 
 Json jsonOf(const TrainedModel& model);
-// Throws Error naming what is missing, damaged, or of a later format.
+// Reads a model from JSON. Throws Error naming what is missing, damaged, or of a later format.
 TrainedModel trainedModelFrom(const Json& json);
-// Throws FileError, FormatError (no model, damaged; names what).
+// Reads a model file. Throws FileError, FormatError (not a model, or damaged; names the cause).
 TrainedModel loadModel(const std::filesystem::path& path);
-// Throws FileError.
+// Writes a model file. Throws FileError.
 void saveModel(const TrainedModel& model,
                const std::filesystem::path& path,
                Overwrite overwrite = Overwrite::kRefuse);

@@ -1,7 +1,7 @@
 // Measures how well grasps of unknown objects are detected. Each class in turn is removed from the
 // training samples; its grasps are then unknown objects for a classifier of the remaining classes.
 // The result is the area under the receiver operating characteristic (classification_report.h) of
-// the novelty scores.
+// the novelty scores. `palpate evaluate --unknown` prints it.
 #pragma once
 
 #include <cstddef>
@@ -24,20 +24,22 @@ struct UnknownClass {
 };
 
 struct UnknownReport {
-  double auroc = 0.0;                  // 0.5: no better than chance
-  std::size_t known = 0, unknown = 0;  // grasps
+  // 0.5 is no better than chance.
+  double auroc = 0.0;
+  // Number of grasps.
+  std::size_t known = 0, unknown = 0;
   std::vector<UnknownClass> classes;
 };
 
-// Same session. Grasps of known classes come from test blocks (protocol B) and are scored by a
-// classifier that knows their class. Throws Error (fewer than
-// three classes with two samples each), std::invalid_argument (options), Cancelled.
+// Evaluates within the session of training. Grasps of known classes come from test blocks (protocol
+// B) and are scored by a classifier that knows their class. Throws Error (fewer than three classes
+// with two samples each), std::invalid_argument (options), Cancelled.
 UnknownReport unknownWithin(const SampleSet& samples,
                             const PipelineOptions& options,
                             std::size_t blocks = 5,
                             const Progress& progress = {});
 
-// Another session. How its offset is obtained:
+// How the offset of another session is obtained.
 enum class UnknownClassOffset {
   // Estimated from all grasps of the session with a classifier of all classes; this simulates a
   // zero adjustment of the empty hand.
@@ -48,16 +50,17 @@ enum class UnknownClassOffset {
   // Not estimated: the probabilities are marginalised over the prior distribution of the offset.
   kUnknown
 };
-// `later` with the classes of `training`; sessions: places in `later`, each with an offset of its
-// own. Known ones: the session's grasps with the whole model. Only gauss knows offsets. Throws
-// Error (other classes, nothing to examine), Cancelled.
+// Evaluates on other sessions. `later` has the classes of `training`; `sessions` are lists of
+// indices into `later`, each with its own offset. Grasps of known classes are scored with the
+// classifier of all classes. Only gauss uses offsets. Throws Error (other classes, no grasp to
+// score), Cancelled.
 UnknownReport unknownOnAnotherDay(const SampleSet& training,
                                   const SampleSet& later,
                                   const std::vector<std::vector<std::size_t>>& sessions,
                                   UnknownClassOffset offset,
                                   const Progress& progress = {});
 
-// {auroc, known_grasps, unknown_grasps, classes[{name, grasps, auroc}]}
+// JSON with auroc, known_grasps, unknown_grasps, classes[{name, grasps, auroc}].
 Json jsonOf(const UnknownReport& report);
 
 }  // namespace palpate

@@ -1,8 +1,9 @@
-// Moments of what one matrix feels: where the contact is, how it lies, how far it stretches.
+// Image moments of the values of one matrix: load, position and shape of the contact. The slip
+// methods and the principal axis are computed from them.
 //
-// x = column (right), y = row (down), in taxels; the taxel in column 0 and row 0 lies at (0, 0).
-// Only values > 0 count: an active taxel. m_pq = sum x^p y^q f, mu_pq the same around the centroid,
-// divided by m_00.
+// x = column (right), y = row (down), in taxels; the taxel in column 0 and row 0 is at (0, 0). Only
+// active taxels (value > 0) are summed. m_pq = sum x^p y^q f are the raw moments, mu_pq the central
+// moments about the centroid, divided by m_00.
 #pragma once
 
 #include <palpate/model/tactile_frame.h>
@@ -10,18 +11,24 @@
 namespace palpate {
 
 struct ContactMoments {
-  int active = 0;    // taxels > 0
-  double sum = 0.0;  // m_00 [counts]; 0: nothing is touched, and all that follows is 0
-  double x = 0.0;    // centroid m_10/m_00, m_01/m_00 [taxels]
+  // Number of active taxels (value > 0).
+  int active = 0;
+  // Load m_00 [counts]. If it is 0, nothing is touched and all other values are 0.
+  double sum = 0.0;
+  // Centroid (m_10/m_00, m_01/m_00) [taxels].
+  double x = 0.0;
   double y = 0.0;
-  double mu20 = 0.0;  // central, normalised to a sum of 1 [taxels^2, taxels^3]
+  // Central moments, normalised to a load of 1: second moments [taxels^2], third moments
+  // [taxels^3].
+  double mu20 = 0.0;
   double mu11 = 0.0;
   double mu02 = 0.0;
   double mu30 = 0.0;
   double mu03 = 0.0;
 };
 
-// Any size up to 256 x 256. What isn't a number counts as not active.
+// Computes the moments of a matrix of up to 256 x 256 taxels. A value that is not a number counts
+// as not active.
 ContactMoments contactMoments(const ConstMatrixMap& matrix) noexcept;
 
 }  // namespace palpate

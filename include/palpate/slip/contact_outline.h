@@ -1,9 +1,9 @@
-// The outline of a contact: the outer border of its largest group of active taxels, and how round
-// it is.
+// Outline of a contact: the outer border of the largest group of active taxels, and how round it
+// is. RotationTracker uses the roundness to decide whether a contact has a direction.
 //
-// Taxels that touch by an edge or a corner are one group. The border runs through the centres of
-// its outermost taxels, so that its area is smaller than theirs: a 2 x 2 block has area 1 and
-// length 4.
+// Active taxels that share an edge or a corner belong to one group. The border runs through the
+// centres of the outermost taxels of the group, so that its area is smaller than that of the
+// taxels: a 2 x 2 block has area 1 and length 4.
 #pragma once
 
 #include <cstdint>
@@ -14,24 +14,30 @@
 namespace palpate {
 
 struct OutlineShape {
+  // Number of groups of active taxels.
   int groups = 0;
-  // enclosed by the border of the largest group (by area, then by length) [taxels^2]
+  // Area [taxels^2] enclosed by the border of the largest group (the largest by area, then by
+  // length).
   double area = 0.0;
-  double length = 0.0;  // of that border [taxels]
+  // Length of that border [taxels].
+  double length = 0.0;
   // 4 pi area / length^2: 1 for a circle, 0 for a line or a single taxel.
   double roundness = 0.0;
 };
 
-// Keeps its scratch: describe() allocates nothing.
+// Describes the outline of the contact on one matrix. The buffers are allocated in the constructor;
+// describe() allocates nothing.
 class ContactOutline {
  public:
-  // Throws std::invalid_argument for a size outside of 1..256.
+  // Throws std::invalid_argument when rows or columns are outside of 1..256.
   ContactOutline(int rows, int columns);
 
-  // Of the size above; active is what is above `above`.
+  // Describes the outline of the taxels whose value is greater than `above`. The matrix must have
+  // the size given to the constructor.
   OutlineShape describe(const ConstMatrixMap& matrix, float above = 0.0F);
-  // As the study's program did: only taxels of 0.2 % of the maximum or more (its 8 bits), and of
-  // the group that begins last in reading order, whatever its size.
+  // Describes the outline as the study's program did: taxels below 0.2 % of the maximum are ignored
+  // (the program scaled to 8 bits), and the group that begins last in reading order is described,
+  // whatever its size.
   OutlineShape describeLikeStudy(const ConstMatrixMap& matrix);
 
  private:
@@ -42,9 +48,12 @@ class ContactOutline {
   int rows_ = 0;
   int columns_ = 0;
   int stride_ = 0;
-  std::vector<std::uint16_t> labels_;   // with one place around; 0: not active
-  std::vector<std::uint16_t> parents_;  // of labels
-  std::vector<int> starts_;             // of groups: their first place in reading order
+  // Group label per taxel, with a border of one taxel around the matrix; 0: not active.
+  std::vector<std::uint16_t> labels_;
+  // Parent of each label (union-find).
+  std::vector<std::uint16_t> parents_;
+  // First taxel of each group in reading order.
+  std::vector<int> starts_;
 };
 
 }  // namespace palpate

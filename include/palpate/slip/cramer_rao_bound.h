@@ -1,11 +1,14 @@
-// The Cramer-Rao bound of a slip step: no unbiased method measures it better from two frames.
+// Cramer-Rao bound of a slip step: the smallest standard deviation with which an unbiased method
+// can measure the motion between two frames. The slip benchmark (slip_accuracy.h) compares the
+// methods with it.
 //
-// Fisher information of the ideal counts of one frame towards (x, y, angle, gain), by central
-// differences. A taxel whose reading may fall below the threshold or above saturation carries that
-// of a censored normal value (Tobit, type I): with z = (mean - threshold)/sd it is Phi(z) - z
-// phi(z) + phi(z)^2 / (1 - Phi(z)) of the whole. Rounding to counts adds a variance of 1/12
-// counts^2. A step is the difference of two such frames: its standard deviation is sqrt(2) times
-// that of one. The shape is assumed to be known, so the bound is optimistic.
+// The Fisher information of the ideal counts of one frame with respect to (x, y, angle, gain) is
+// computed by central differences. A taxel whose reading may be below the threshold or above
+// saturation carries the information of a censored normal value (Tobit, type I): with z = (mean -
+// threshold)/sd it is the fraction Phi(z) - z phi(z) + phi(z)^2 / (1 - Phi(z)) of the information
+// of an uncensored value. Rounding to counts adds a variance of 1/12 counts^2. A step is the
+// difference of two such frames: its standard deviation is sqrt(2) times that of one frame. The
+// shape is assumed to be known, so the bound is optimistic.
 #pragma once
 
 #include <limits>
@@ -14,25 +17,30 @@
 
 namespace palpate {
 
+// Unknown quantities that are estimated together with the motion.
 struct SlipNuisances {
-  bool gain = true;   // the load as a whole may change
-  bool tilt = false;  // and with a gradient along x and y
+  // The load as a whole may change.
+  bool gain = true;
+  // The load may also change with a gradient along x and y.
+  bool tilt = false;
 };
 
 struct CramerRaoBound {
-  // sd of a step [taxels], [deg]; infinite where the frames can't tell (with tilt, a Gaussian
-  // nearly so).
+  // Standard deviations of a step [taxels], [deg]. A value is infinite where the frames don't
+  // determine the motion (with `tilt`, a Gaussian contact is close to this case).
   double x = std::numeric_limits<double>::infinity();
   double y = std::numeric_limits<double>::infinity();
-  double angleDeg = std::numeric_limits<double>::infinity();  // also: a shape without orientation
+  // Infinite for a shape without orientation.
+  double angleDeg = std::numeric_limits<double>::infinity();
 };
 
-// The angle is unknown, too, where the shape has one. Throws std::invalid_argument (sensor).
+// The angle is treated as unknown where the shape has an orientation. Throws std::invalid_argument
+// (sensor).
 CramerRaoBound cramerRaoBound(const SyntheticContact& contact,
                               const SyntheticSensor& sensor,
                               const SlipNuisances& nuisances = {});
 
-// How much of a censored normal value's information is left; z as above.
+// Fraction, 0..1, of a normal value's information that remains when it is censored; z as above.
 double censoredInformation(double z) noexcept;
 
 }  // namespace palpate

@@ -30,9 +30,11 @@ struct LearnedSurfaceOptions {
   double processNoiseRatio = 0.001;
   KeyFrameOptions key = {};
 
-  void validate() const;  // throws std::invalid_argument naming the field
+  // Throws std::invalid_argument naming the field.
+  void validate() const;
 };
 
+// The surface of the contact on one matrix, as the slip method `register` learns it.
 class LearnedSurface {
  public:
   static constexpr int kMargin = 2;  // [taxels]
@@ -41,17 +43,18 @@ class LearnedSurface {
     float value = 0.0F;
     float alongX = 0.0F;  // [counts per taxel]
     float alongY = 0.0F;
-    float variance = 0.0F;  // of the value [counts^2]
+    // Variance of the value [counts^2].
+    float variance = 0.0F;
   };
 
   // Throws std::invalid_argument.
   explicit LearnedSurface(const MatrixLayout& layout, const LearnedSurfaceOptions& options = {});
 
-  // Starts anew from a frame, as KeyFrame::set. Allocates nothing.
+  // Discards the surface and starts again from a frame, as KeyFrame::set. Allocates nothing.
   bool set(const ConstMatrixMap& frame, double noiseCounts);
   void clear() noexcept { key_.clear(); }
   bool empty() const noexcept { return key_.empty(); }
-  // x within -kMargin .. columns - 1 + kMargin, y alike.
+  // Value of the surface at x within -kMargin .. columns - 1 + kMargin; y alike [taxels].
   Sample at(float x, float y) const noexcept;
   // Updates the surface with a registered frame, weighted by the accuracy of its motion; `options`
   // must be those of the registration.
@@ -59,21 +62,25 @@ class LearnedSurface {
              const RegistrationResult& found,
              const RegistrationOptions& options) noexcept;
 
-  const KeyFrame& start() const noexcept { return key_; }  // the frame it began with
-  float minCounts() const noexcept { return least_; }  // smallest active value of all frames so far
+  // The frame that the surface was started from.
+  const KeyFrame& start() const noexcept { return key_; }
+  // The smallest active value of all frames so far [counts].
+  float minCounts() const noexcept { return least_; }
 
  private:
   KeyFrame key_;
   LearnedSurfaceOptions options_;
-  int columns_ = 0;  // of coefficients
+  // Size of the grid of coefficients.
+  int columns_ = 0;
   int rows_ = 0;
   std::vector<float> coefficients_;
   std::vector<float> variances_;
-  std::vector<float> ofTaxels_;  // variance at the start, per taxel with margin
+  // Variance at the start, per taxel, with the margin.
+  std::vector<float> ofTaxels_;
   float least_ = 0.0F;
 };
 
-// As registerFrame() to a key frame without blur.
+// Registers a frame to the surface, as registerFrame() does to a key frame without blur.
 RegistrationResult registerFrame(const LearnedSurface& surface,
                                  const ConstMatrixMap& frame,
                                  const RigidMotion& start,

@@ -1,12 +1,12 @@
-// Registers a frame to a key frame: how far the contact moved and turned, and how its load changed.
+// Rigid registration of a frame to a key frame: how far the contact moved and rotated, and how its
+// load changed. The slip method `register` and the slip hypotheses use it.
 //
 //   F(p) ~ gain K(R(-angle)(p - c - d) + c),   c the centroid of the key, d = (dx, dy)
 //
-// Gauss-Newton least squares from a start value, over the taxels whose source position lies inside
-// the matrix. A taxel that reads 0 is only known to be below the threshold, a saturated one to be
-// at least at saturation; masked taxels are ignored. Weights: 1 / (noise^2 + (relative error x
-// model)^2 + variance of the key frame).
-// x = column (right), y = row (down), in taxels; angles from +x towards +y [deg].
+// The motion is found by Gauss-Newton least squares from a start value, over the taxels whose
+// source position is inside the matrix. A taxel that reads 0 is only known to be below the
+// threshold, a saturated one to be at least at saturation; masked taxels are ignored. Weights: 1 /
+// (noise^2 + (relative error x model)^2 + variance of the key frame).
 #pragma once
 
 #include <palpate/model/hand_description.h>
@@ -15,31 +15,40 @@
 namespace palpate {
 
 struct RigidMotion {
-  double dx = 0.0;  // of the key's centroid [taxels]
+  // Translation of the key's centroid [taxels].
+  double dx = 0.0;
   double dy = 0.0;
   double angleDeg = 0.0;
   double gain = 1.0;
 };
 
 struct RegistrationOptions {
-  int maxIterations = 6;  // at most, 1..50
-  double convergedTaxels =
-      2e-4;                     // ends when a pass moves less, also the angle at the contact's edge
-  double noiseCounts = 4.0;     // > 0
-  double relativeError = 0.01;  // of the model, >= 0
-  double saturationCounts = static_cast<double>(kSdh2SaturationCounts);  // at or above: saturated
+  // Largest number of iterations, 1..50.
+  int maxIterations = 6;
+  // The iteration ends when a pass moves the contact by less than this [taxels]; the rotation
+  // counts as motion of the contact's edge.
+  double convergedTaxels = 2e-4;
+  double noiseCounts = 4.0;  // > 0
+  // Relative error of the model, >= 0.
+  double relativeError = 0.01;
+  // A taxel at or above this value is saturated [counts].
+  double saturationCounts = static_cast<double>(kSdh2SaturationCounts);
   // Prior standard deviation of the rotation from the start value [deg], > 0.
   double anglePriorDeg = 6.0;
-  // KeyFrame::turning() below which the angle is held, 0..0.5
+  // The rotation is held at its start value if KeyFrame::rotationSensitivity() is below this,
+  // 0..0.5.
   double minRotationSensitivity = 0.06;
   // Largest standard deviation [taxels], > 0, up to which a direction of motion counts as
   // observable. Along a less observable direction (a bar along its own axis) the motion is held at
   // its start value.
   double maxDirectionSdTaxels = 0.15;
-  double gainPrior = 0.7;    // sd of ln gain from the start, > 0
-  double minOverlap = 0.25;  // of the key's load that must lie inside, 0..1
+  // Prior standard deviation of ln gain from the start value, > 0.
+  double gainPrior = 0.7;
+  // Fraction of the key's load that must be inside the matrix after the motion, 0..1.
+  double minOverlap = 0.25;
 
-  void validate() const;  // throws std::invalid_argument naming the field
+  // Throws std::invalid_argument naming the field.
+  void validate() const;
 };
 
 // Directions along which the motion cannot be estimated from this contact (degenerate directions;
@@ -53,29 +62,35 @@ struct DegenerateDirections {
 
 struct RegistrationResult {
   RigidMotion motion;
-  double chi2 = 0.0;       // weighted squares per taxel counted; about 1 when the model holds
-  double overlap = 0.0;    // part of the key's load whose place lies inside of the matrix, 0..1
-  int taxels = 0;          // counted
-  bool converged = false;  // false also: no key, nothing active, too little overlap
+  // Weighted squared residual per taxel used; about 1 when the model holds.
+  double chi2 = 0.0;
+  // Fraction of the key's load that is inside the matrix after the motion, 0..1.
+  double overlap = 0.0;
+  // Number of taxels used.
+  int taxels = 0;
+  // Also false when there is no key, no active taxel, or too little overlap.
+  bool converged = false;
   // Standard deviations from the weights, valid if the model is correct [taxels, deg]; large for
   // shapes that do not determine the motion.
   double sdX = 0.0;
   double sdY = 0.0;
   double sdAngleDeg = 0.0;
-  DegenerateDirections degenerate;  // held at the start along these
+  // Directions along which the motion was held at its start value.
+  DegenerateDirections degenerate;
 };
 
-// `frame`: of the key's matrix, as it came: it is smoothed as the key was, into `scratch` (rows x
-// columns; allocated by the caller, may be null when the key's blur is 0). Allocates nothing. Where
-// it doesn't converge the motion is the last one tried, or the start when nothing could be tried.
-// Throws std::invalid_argument when the size is another one.
+// `frame` is an unsmoothed frame of the key's matrix. It is smoothed as the key was, into `scratch`
+// (rows x columns values; allocated by the caller, may be null when the key's blur is 0). Allocates
+// nothing. If the registration doesn't converge, the motion is the last one tried, or the start
+// value when none could be tried. Throws std::invalid_argument when the frame has another size.
 RegistrationResult registerFrame(const KeyFrame& key,
                                  const ConstMatrixMap& frame,
                                  const RigidMotion& start,
                                  const RegistrationOptions& options,
                                  float* scratch);
 
-// A key frame with its options and scratch: the same for whoever keeps a key per matrix.
+// A key frame together with its registration options and scratch buffer, for a caller that keeps
+// one key frame per matrix.
 class RigidRegistration {
  public:
   // Throws std::invalid_argument.
@@ -83,7 +98,8 @@ class RigidRegistration {
                              const RegistrationOptions& options = {},
                              const KeyFrameOptions& keyOptions = {});
 
-  bool setKey(const ConstMatrixMap& frame) { return key_.set(frame); }  // as KeyFrame::set
+  // As KeyFrame::set().
+  bool setKey(const ConstMatrixMap& frame) { return key_.set(frame); }
   void clear() noexcept { key_.clear(); }
   bool hasKey() const noexcept { return !key_.empty(); }
   const KeyFrame& key() const noexcept { return key_; }

@@ -1,10 +1,7 @@
-// Follows the principal axis of a contact over the frames: how far it turned since the last one,
-// and since a reference.
+// Follows the principal axis of a contact over the frames: its rotation since the previous frame
+// and since a reference. SlipTracker uses it for every method.
 //
-// A principal axis is ambiguous by 180 deg: the direction closer to the previous one is taken, and
-// whole turns are counted. The axis is not tracked if the contact is too round: eccentricity (the
-// study's definition) below 0.6 and roundness above 0.9.
-// Angles from +x towards +y (clockwise on the screen) [deg].
+// Angles are measured from +x towards +y (clockwise on the screen) [deg].
 #pragma once
 
 #include <palpate/slip/contact_outline.h>
@@ -13,19 +10,27 @@
 namespace palpate {
 
 struct RotationOptions {
-  double minEccentricity = 0.6;  // the study's; 0..1
-  double maxRoundness = 0.9;     // 0..1
-  int minTaxels = 3;             // a frame needs more than two, 1..
+  // Eccentricity by the study's definition, 0..1.
+  double minEccentricity = 0.6;
+  double maxRoundness = 0.9;  // 0..1
+  // Number of active taxels that a frame needs, >= 1.
+  int minTaxels = 3;
 
-  void validate() const;  // throws std::invalid_argument naming the field
+  // Throws std::invalid_argument naming the field.
+  void validate() const;
 };
 
 struct SlipRotation {
-  bool reliable = false;     // the shape has a direction
-  bool valid = false;        // so has that of the frame before: `rotationDeg` is known
-  double rotationDeg = 0.0;  // from the last frame to this one, -90 .. 90
-  bool refValid = false;     // and the reference has one
-  // since the reference, whole turns counted; keeps its last value while not valid
+  // Whether the shape has a direction in this frame.
+  bool reliable = false;
+  // Whether the frame before had a direction, too: `rotationDeg` is known.
+  bool valid = false;
+  // Rotation from the previous frame to this one, -90..90 deg.
+  double rotationDeg = 0.0;
+  // Whether this frame and the reference have a direction.
+  bool refValid = false;
+  // Rotation since the reference [deg], whole turns counted. It keeps its last value while it is
+  // not valid.
   double refRotationDeg = 0.0;
   PrincipalAxis axis;
   double roundness = 0.0;
@@ -36,28 +41,33 @@ class RotationTracker {
   // Throws std::invalid_argument.
   explicit RotationTracker(const RotationOptions& options = {});
 
-  // The next frame; of one without contact nothing is known, and the next one has no step.
+  // Processes the next frame. In a frame without contact nothing is known, and the frame after it
+  // has no step.
   const SlipRotation& update(const ContactMoments& moments, double roundness) noexcept;
-  // There is no step into the next frame: frames are missing before it.
+  // Call it when frames are missing before the next frame: the next frame then has no step.
   void skip() noexcept { hasLast_ = false; }
-  // The newest frame that has a direction becomes the reference; false: there was none yet, the
-  // next one will be.
+  // Makes the newest frame that has a direction the reference. Returns false if there was none yet;
+  // the next one then becomes the reference.
   bool setReference() noexcept;
   void clearReference() noexcept {
     hasReference_ = false;
     wantsReference_ = false;
   }
   bool hasReference() const noexcept { return hasReference_; }
-  // Everything is forgotten; the first direction becomes the reference again.
+  // Forgets all frames; the first direction becomes the reference again.
   void reset() noexcept;
 
  private:
   RotationOptions options_;
   SlipRotation state_;
-  bool hasLast_ = false;       // the last frame had a direction
-  bool followed_ = false;      // there ever was one
-  double angleDeg_ = 0.0;      // unwrapped, of the last frame that had one
-  double referenceDeg_ = 0.0;  // unwrapped
+  // Whether the last frame had a direction.
+  bool hasLast_ = false;
+  // Whether any frame had a direction since the start.
+  bool followed_ = false;
+  // Unwrapped angle of the last frame that had a direction [deg].
+  double angleDeg_ = 0.0;
+  // Unwrapped angle of the reference [deg].
+  double referenceDeg_ = 0.0;
   bool hasReference_ = false;
   bool wantsReference_ = true;
 };

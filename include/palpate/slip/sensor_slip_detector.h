@@ -1,4 +1,5 @@
-// A SlipDetector per matrix of a sensor, fed with whole frames.
+// Slip detector of a whole sensor: one SlipDetector per matrix, fed with whole frames.
+// runSlipDetector() uses it for recordings.
 #pragma once
 
 #include <cstddef>
@@ -15,18 +16,19 @@ class SensorSlipDetector {
   // Throws std::invalid_argument.
   explicit SensorSlipDetector(const SensorLayout& layout, const SlipDetectorOptions& options = {});
 
-  // The next frame, and the joint angles that belong to it (or none); one verdict per matrix, valid
-  // until the next call. Throws std::invalid_argument (another layout).
+  // Processes the next frame and the joint angles that belong to it (may be empty). Returns one
+  // result per matrix, valid until the next call. Throws std::invalid_argument (another layout).
   const std::vector<SlipDetection>& update(const TactileFrame& frame,
                                            std::span<const double> jointsDeg = {});
-  // Of all matrices, as SlipDetector.
+  // The following apply to all matrices; see SlipDetector.
   void setReference();
   void clearReference();
   void reset();
   void setOn(bool on) noexcept;
 
   const std::vector<SlipDetection>& last() const noexcept { return verdicts_; }
-  bool slipping() const noexcept;  // any matrix
+  // Whether any matrix slips.
+  bool slipping() const noexcept;
   SlipDetector& matrix(std::size_t index) { return detectors_.at(index); }
   const SlipDetector& matrix(std::size_t index) const { return detectors_.at(index); }
 

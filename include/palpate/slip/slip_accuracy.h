@@ -1,5 +1,6 @@
-// How well methods measure slip, against contacts whose motion is known, and beside the Cramer-Rao
-// bound.
+// Accuracy benchmark of the slip methods: each method measures synthetic contacts with known
+// motion, and its errors are compared with the Cramer-Rao bound. The slip benchmark command and the
+// Python module run it.
 //
 // For each shape and trial a contact moves on a random path of 100 frames within (+-0.6, +-1.2)
 // taxels and +-15 deg (shapes with a direction), by at most about 0.13 taxel and 1 deg per frame.
@@ -20,41 +21,55 @@
 
 namespace palpate {
 
-// One stream of frames of one matrix: gives the motion of each. The reference is the first.
+// Processes a stream of frames of one matrix and returns the motion of each frame. The first frame
+// is the reference.
 using SlipEstimator = std::function<SlipMotion(const ConstMatrixMap&)>;
 
 struct BenchmarkedMethod {
   std::string name;
-  std::function<SlipEstimator(const MatrixLayout&)> begin;  // a new stream
+  // Begins a new stream.
+  std::function<SlipEstimator(const MatrixLayout&)> begin;
 };
-// All methods of SlipTracker, and contest. Others may be added to such a list.
+// All methods of SlipTracker, and the method `contest`. Callers may add others to the list.
 std::vector<BenchmarkedMethod> benchmarkedMethods();
 
 struct SlipAccuracyOptions {
-  double noiseSd = 5.0;                // [counts]
-  std::vector<SlipShape> shapes = {};  // empty: all
+  double noiseSd = 5.0;  // [counts]
+  // Shapes to test; empty: all.
+  std::vector<SlipShape> shapes = {};
   std::uint64_t seed = 1;
-  int trials = 8;               // per shape, 1..1000
-  SyntheticSensor sensor = {};  // its noise is noiseSd
+  // Trials per shape, 1..1000.
+  int trials = 8;
+  // Its noise is replaced by `noiseSd`.
+  SyntheticSensor sensor = {};
 
-  void validate() const;  // throws std::invalid_argument naming the field
+  // Throws std::invalid_argument naming the field.
+  void validate() const;
 };
 
 struct SlipAccuracy {
-  double rmse = 0.0;   // of a step, per component [taxels]
-  double bias = 0.0;   // mean error of a step along its true direction [taxels]
-  double gainX = 0.0;  // regression of the measured on the true step: 1 is right
+  // Rms error of a step, per component [taxels].
+  double rmse = 0.0;
+  // Mean error of a step along its true direction [taxels].
+  double bias = 0.0;
+  // Regression coefficients of the measured on the true step; 1 is correct.
+  double gainX = 0.0;
   double gainY = 0.0;
-  // rms error of the motion since the reference, after 100 frames, per component [taxels]
+  // Rms error of the motion since the reference after 100 frames, per component [taxels], and of
+  // the rotation [deg].
   double drift100 = 0.0;
   double driftDeg100 = 0.0;
-  double rmseDeg = 0.0;  // of a turn per frame; over shapes with a direction
-  double crb = 0.0;      // rms of the bound over the same steps [taxels]
+  // Rms error of the rotation per frame [deg], over shapes with a direction.
+  double rmseDeg = 0.0;
+  // Rms of the Cramer-Rao bound over the same steps [taxels], [deg].
+  double crb = 0.0;
   double crbDeg = 0.0;
-  double edge = 0.0;  // rms error of the motion over the side edge, of 1.5 taxels
-  // rms reading of a load tilt of 40 % without motion, per trial at its end [taxels]
+  // Rms error of the motion of 1.5 taxels over the side edge [taxels].
+  double edge = 0.0;
+  // Rms motion reported at the end of a trial for a load gradient of 40 % without motion [taxels].
   double tilt = 0.0;
-  int invalid = 0;  // steps the method couldn't give
+  // Number of steps for which the method gave no motion.
+  int invalid = 0;
   int steps = 0;
   double nsPerStep = 0.0;
 };
@@ -65,11 +80,13 @@ struct ShapeAccuracy {
 };
 struct MethodAccuracy {
   std::string name;
-  SlipAccuracy all;                   // over all shapes
-  std::vector<ShapeAccuracy> shapes;  // one by one
+  // Over all shapes.
+  SlipAccuracy all;
+  // Each shape by itself.
+  std::vector<ShapeAccuracy> shapes;
 };
 
-// The same options give the same figures, time apart. Throws Cancelled.
+// The same options give the same values, except the computing times. Throws Cancelled.
 std::vector<MethodAccuracy> measureSlipAccuracy(const std::vector<BenchmarkedMethod>& methods,
                                                 const SlipAccuracyOptions& options = {},
                                                 const Progress& progress = {});

@@ -1,12 +1,13 @@
-// Watches one matrix: how its contact moves, and whether that is slip.
+// Slip detector of one matrix: it measures how the contact moves and decides whether that is slip.
+// The live slip stage and SensorSlipDetector use one per matrix.
 //
 // The motion is measured by one of the methods of SlipTracker, or by the method `contest`: the
 // motion of `register`, multiplied by the score P(moved) of the reference frame and the present
 // frame (slip_hypotheses.h), until slip is confirmed (P > 0.9 over 0.35 taxel in two frames, or an
-// alarm). From then on the unscaled motion is reported, until the next reference. The alarm comes
-// from the contest of three windows (slip_rule.h), whatever gives the vector; or, plain, from
-// thresholds on the vector: |step| > 0.20 or |since reference| > 1.0 taxel along an axis, as the
-// prior program had it.
+// alarm). From then on the unscaled motion is reported, until the next reference.
+// The alarm doesn't depend on the method of the motion. It comes from comparing the hypotheses over
+// three windows (slip_rule.h), or, with plain thresholds, from the motion: |step| > 0.20 or |motion
+// since the reference| > 1.0 taxel along an axis, as in the prior program.
 #pragma once
 
 #include <cstddef>
@@ -21,40 +22,52 @@
 
 namespace palpate {
 
+// Which frame is the reference of the motion.
 enum class SlipReference {
-  kFirst,  // the first frame with an active taxel, kept whatever comes
+  // The first frame with an active taxel; it stays the reference.
+  kFirst,
   // A new reference for each contact: the first frame in which it is at rest, and again when it is
   // at rest after a slip.
   kWhenAtRest,
-  kGiven,  // none until setReference()
+  // There is no reference until setReference() is called.
+  kGiven,
 };
 
 struct SlipDetectorOptions {
   SlipMethod method = SlipMethod::kHypotheses;
   SlipReference reference = SlipReference::kWhenAtRest;
-  bool hypothesisAlarm = true;  // false: plain thresholds
-  SlipRuleOptions rule = {};    // its thresholds are the plain ones, too
+  // Whether the alarm comes from the hypotheses (slip_rule.h); false: from plain thresholds.
+  bool hypothesisAlarm = true;
+  // Its stepTaxels, referenceTaxels and rotationDeg are the plain thresholds, too.
+  SlipRuleOptions rule = {};
   SlipWindowsOptions windows = {};
-  SlipTrackerOptions tracker = {};  // `method` and `firstContactIsReference` are set from above
+  // `method` and `firstContactIsReference` are overwritten by the options above.
+  SlipTrackerOptions tracker = {};
 
-  void validate() const;  // throws std::invalid_argument naming the field
+  // Throws std::invalid_argument naming the field.
+  void validate() const;
 };
 
+// Result of one frame of one matrix.
 struct SlipDetection {
-  SlipMotion motion;  // valid false: nothing is known of this frame's motion
+  // If `motion.valid` is false, the motion in this frame is not known.
+  SlipMotion motion;
   SlipIndicator lamp = SlipIndicator::kNotComputable;
   SlipState state = SlipState::kInvalid;
-  // True from the alarm until the contact is at rest again; translation or, with the contest,
-  // rotation.
+  // True from an alarm of translation until the contact is at rest again; with the hypotheses, an
+  // alarm of rotation counts as well.
   bool slipping = false;
-  bool alarm = false;  // of this frame alone
+  // Whether this frame raised the alarm.
+  bool alarm = false;
   bool rotating = false;
   // Motion score of the window that decides in this frame; empty if no comparison was needed or
   // possible. `residual` is the smaller residual of both hypotheses.
   std::optional<double> pMoved;
   double residual = 0.0;
-  double confidence = 0.0;    // in the state, 0..1: a score
-  bool newReference = false;  // this frame became the reference by itself
+  // Confidence in the state: a score, 0..1.
+  double confidence = 0.0;
+  // Whether the detector made this frame the reference by itself.
+  bool newReference = false;
 };
 
 class SlipDetector {
@@ -62,21 +75,21 @@ class SlipDetector {
   // Throws std::invalid_argument.
   explicit SlipDetector(const MatrixLayout& layout, const SlipDetectorOptions& options = {});
 
-  // The next frame; stamps ascending [us]. `jointsDeg`: the joint angles that belong to it, or
-  // none. Throws std::invalid_argument for another size.
+  // Processes the next frame; time stamps must ascend [us]. `jointsDeg` are the joint angles that
+  // belong to the frame, or empty. Throws std::invalid_argument when the frame has another size.
   const SlipDetection& update(const ConstMatrixMap& frame,
                               std::int64_t timeUs,
                               std::span<const double> jointsDeg = {});
-  // The newest frame becomes the reference (without contact in it: the next one with contact).
+  // Makes the newest frame the reference; if it has no contact, the next frame with contact.
   void setReference();
   void clearReference();
   void reset();
-  // While off, it reports nothing but keeps its state up to date.
+  // While it is off, the detector reports nothing but keeps its state up to date.
   void setOn(bool on) noexcept { on_ = on; }
 
   const SlipDetection& last() const noexcept { return verdict_; }
-  // Whether the shape of the contact at the reference tells motion from a tilt of the load, per
-  // axis.
+  // Whether the shape of the contact at the reference allows motion to be distinguished from a tilt
+  // of the load, per axis.
   const MotionSdInflation& condition() const noexcept { return condition_; }
   const SlipDetectorOptions& options() const noexcept { return options_; }
 
@@ -100,8 +113,10 @@ class SlipDetector {
   bool on_ = true;
   bool hasReference_ = false;
   bool wantsReference_ = false;
-  bool slipped_ = false;  // since the reference was taken
-  int certain_ = 0;       // frames in which P was sure
+  // Whether the contact slipped since the reference was taken.
+  bool slipped_ = false;
+  // Number of frames in which P was sure.
+  int certain_ = 0;
   bool latched_ = false;
   int calm_ = 0;
   std::size_t rotationChecks_ = 0;

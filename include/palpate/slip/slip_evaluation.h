@@ -1,15 +1,15 @@
-// How good alarms of slip are on real recordings: false alarms per hour of contact that doesn't
-// slip, slips found, delay.
+// Evaluates slip alarms on real recordings: false alarms per hour of contact without slip, fraction
+// of slips that are found, and delay.
 //
 // No slip: recordings of single grasps that are assumed to be free of slip (not verified; some
 // alarms may be real settling). Slip: recordings in which an object was pulled through the fingers,
 // labelled by a rule: the centroid of a matrix moved by more than 1 taxel in 10 frames of
 // uninterrupted contact (spans with at most 5 frames between them are joined). The onset is the
-// frame in which it was 0.2 taxel away from its position 10 frames before the first of these. The
-// rule favours the centroid method and misses slip below 0.1 taxel per frame.
-// Contact: at least 4 active taxels and a load over 400 counts. Settled: 15 frames of it. Quiet:
-// settled, and the load within 5 % over 10 frames. Alarms less than 10 frames apart are one. A slip
-// is found by an alarm from its onset to its end.
+// frame in which the centroid was 0.2 taxel away from its position 10 frames before the first of
+// these frames. The rule favours the centroid method and misses slip below 0.1 taxel per frame.
+// Contact: at least 4 active taxels and a load over 400 counts. Settled: at least 15 frames of
+// contact. Quiet: settled, and the load within 5 % over 10 frames. Alarms less than 10 frames apart
+// count as one. A slip is found if there is an alarm between its onset and its end.
 #pragma once
 
 #include <array>
@@ -27,27 +27,33 @@ namespace palpate {
 
 struct SlipLabel {
   std::size_t matrix = 0;
-  std::size_t onset = 0;  // frames, both inclusive
+  // First and last frame of the slip, both inclusive.
+  std::size_t onset = 0;
   std::size_t end = 0;
   bool operator==(const SlipLabel&) const = default;
 };
-// By matrix, then onset.
+// Finds the slips of a recording by the rule above, sorted by matrix, then onset.
 std::vector<SlipLabel> labelSlips(const Profile& profile);
 
+// Counts of one alarm over recordings.
 struct SlipScore {
-  // All contact, settled, quiet.
+  // Hours of contact, summed over the matrices, and false alarms in them; indices: SlipContact.
   std::array<double, 3> matrixHours{};
   std::array<std::size_t, 3> falseAlarms{};
   std::size_t slips = 0;
   std::size_t found = 0;
-  std::vector<int> delaysFrames;  // of those found, ascending
+  // Delays of the slips that were found, from the onset [frames], ascending.
+  std::vector<int> delaysFrames;
 
-  double perHour(std::size_t kind) const;  // 0 without hours
-  double detectionRate() const;            // 0 without slips
+  // False alarms per hour of contact of one kind; 0 when there is no such contact.
+  double perHour(std::size_t kind) const;
+  // Fraction of the slips that were found; 0 when there are no slips.
+  double detectionRate() const;
   void add(const SlipScore& other);
 };
 enum SlipContact : std::size_t { kAllContact, kSettledContact, kQuietContact };
 
+// A named alarm with its score.
 struct ScoredAlarm {
   std::string name;
   SlipScore score;
@@ -56,30 +62,35 @@ struct ScoredAlarm {
 struct SlipEvaluationReport {
   std::size_t noSlipRecordings = 0;
   std::size_t slipRecordings = 0;
-  // "centroid-step": the centroid moves over 0.20 per frame, over 3 frames. "centroid-windows":
-  // over 0.3 in 3 or 0.5 in 10 frames, twice. "register-windows": the registration instead.
-  // "contest": SlipRule as it stands; "contest-joints": told what joints do. "contest-held-out":
-  // the better of two folds' settings, scored on the other fold (see kSlipGrid).
+  // "centroid-step": the centroid moves by more than 0.20 taxel per frame, over 3 frames.
+  // "centroid-windows": it moves by more than 0.3 taxel in 3 frames or 0.5 in 10, in two frames in
+  // a row. "register-windows": the same with the motion of the registration. "contest": SlipRule
+  // with its default options; "contest-joints": the same, with joint angles. "contest-held-out":
+  // the better settings of each of two folds, scored on the other fold (see slipGrid()).
   std::vector<ScoredAlarm> alarms;
-  std::array<SlipRuleOptions, 2> chosen;  // on fold 0 and 1
+  // Settings chosen on fold 0 and on fold 1.
+  std::array<SlipRuleOptions, 2> chosen;
 };
 
-// Takes recordings in any number and keeps what windows saw, so that many rules can be scored.
+// Collects recordings and keeps the evidence of their windows, so that many rules can be scored
+// without reading the recordings again.
 class SlipEvaluation {
  public:
   explicit SlipEvaluation(const SlipWindowsOptions& options = {}) : options_(options) {}
   void addNoSlipRecording(const Profile& profile, const Progress& progress = {});
   void addSlipRecording(const Profile& profile, const Progress& progress = {});
 
-  // fold: -1 all, 0 or 1 a half: every second recording of holds; of slips the earlier or later
-  // half of each recording's.
+  // Scores a rule, with or without joint angles. fold: -1 for all, 0 or 1 for one half: every
+  // second recording without slip, and the earlier or later half of the slips of each other
+  // recording.
   SlipScore score(const SlipRuleOptions& rule, bool joints, int fold = -1) const;
   SlipEvaluationReport report() const;
 
  private:
   struct FrameEvidence {
     std::size_t frame = 0;
-    std::size_t age = 0;  // frames of contact
+    // Number of frames since the contact began.
+    std::size_t age = 0;
     bool quiet = false;
     SlipEvidence evidence;
   };
@@ -100,8 +111,9 @@ class SlipEvaluation {
   std::size_t holds_ = 0, slips_ = 0;
 };
 
-// The settings that the two folds choose from: 72. The best of a fold finds at least 92 % of its
-// slips, with the fewest false alarms (settled ones, and a seventh of all).
+// The 72 settings that the two folds choose from. The best setting of a fold is the one with the
+// fewest false alarms (those in settled contact plus a seventh of all) that finds at least 92 % of
+// its slips.
 std::vector<SlipRuleOptions> slipGrid();
 
 }  // namespace palpate

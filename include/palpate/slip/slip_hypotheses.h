@@ -1,9 +1,9 @@
 // Compares two hypotheses about two frames of one contact: the contact moved (rigid motion), or it
 // stayed and its load was redistributed. Comparison of non-nested hypotheses by their residuals
-// (Cox 1961).
+// (Cox 1961). SlipWindows and SlipDetector use it.
 //
-//   still:  F(p) ~ (gain + alongX (x - cx) + alongY (y - cy)) K(p)   a field of load over what
-//           doesn't move
+//   still:  F(p) ~ (gain + alongX (x - cx) + alongY (y - cy)) K(p)   a load field over a contact
+//           that doesn't move
 //   moved:  F(p) ~ gain K(R(-angle)(p - c - d) + c)                  rigid_registration.h
 //
 // Both hypotheses use the same weights and the same rule for a taxel that reads 0: its value is
@@ -31,10 +31,13 @@ struct SlipHypothesisOptions {
   // because real contacts follow neither hypothesis exactly.
   RegistrationOptions registration = {
       .maxIterations = 7, .noiseCounts = 8.0, .relativeError = 0.03};
-  double sharpness = 3.0;  // > 0
-  double misfit = 10.0;    // > 0
+  // Exponent of P(moved) when a hypothesis fits perfectly, > 0.
+  double sharpness = 3.0;
+  // Residual at which the exponent is halved, > 0.
+  double misfit = 10.0;
 
-  void validate() const;  // throws std::invalid_argument naming the field
+  // Throws std::invalid_argument naming the field.
+  void validate() const;
 };
 
 struct LoadField {
@@ -45,12 +48,14 @@ struct LoadField {
 
 struct LoadFieldResult {
   LoadField field;
-  double residual = 0.0;  // weighted squares per active taxel
-  int taxels = 0;         // active in the key or in the frame; 0: nothing was fitted
+  // Weighted squared residual per active taxel.
+  double residual = 0.0;
+  // Number of taxels that are active in the key or in the frame; 0: nothing was fitted.
+  int taxels = 0;
 };
 
-// Two passes of linear least squares. Throws std::invalid_argument when the frame hasn't the key's
-// size.
+// Fits the load field by two passes of linear least squares. Throws std::invalid_argument when the
+// frame has another size than the key.
 LoadFieldResult fitLoadField(const KeyFrame& key,
                              const ConstMatrixMap& frame,
                              const RegistrationOptions& options);
@@ -65,18 +70,20 @@ struct SlipHypothesisResult {
   double loadShiftResidual = 0.0;
   double motionResidual = 0.0;
   double pMoved = 0.5;
-  double overlap = 0.0;     // of the key's load, inside of the matrix
-  double sdAngleDeg = 0.0;  // of motion.angleDeg, widened by the residual
+  // Fraction of the load of the key that is inside the matrix after the motion.
+  double overlap = 0.0;
+  // Standard deviation of motion.angleDeg [deg], increased according to the residual.
+  double sdAngleDeg = 0.0;
 };
 
-// P(moved) of two residuals.
+// Returns P(moved) for the residuals of the two hypotheses.
 double motionScore(double loadShiftResidual,
                    double motionResidual,
                    const SlipHypothesisOptions& options);
 
-// Fits the motion from each start and keeps the one with the smallest residual. The key frame must
-// not be blurred (KeyFrameOptions);
-// throws std::invalid_argument (size, blur).
+// Fits both hypotheses to a frame; the motion is fitted from each start, and the fit with the
+// smallest residual is kept. The key frame must not be blurred (KeyFrameOptions). Throws
+// std::invalid_argument (size, blur).
 SlipHypothesisResult compareSlipHypotheses(const KeyFrame& key,
                                            const ConstMatrixMap& frame,
                                            std::span<const RigidMotion> starts,
@@ -93,7 +100,8 @@ struct MotionSdInflation {
   double y = 1.0;
 };
 inline constexpr double kMaxMotionSdInflation = 5.0;
-inline constexpr double kUnboundedMotionSdInflation = 1e6;  // also of an empty key
+// Largest value that is returned; also the value of an empty key.
+inline constexpr double kUnboundedMotionSdInflation = 1e6;
 MotionSdInflation motionSdInflation(const KeyFrame& key, const RegistrationOptions& options);
 
 }  // namespace palpate

@@ -1,4 +1,4 @@
-// The ways to measure how a contact moves over a matrix, under the names that commands and settings
+// Methods that measure how a contact moves over a matrix, with the names that commands and settings
 // use.
 #pragma once
 
@@ -9,22 +9,30 @@
 namespace palpate {
 
 enum class SlipMethod {
-  kCentroid,  // of all active taxels
-  kAlcazar,   // centre of mass of the full convolution of both frames: the sum of their centroids
-  kNccParaboloid,  // normalised cross-correlation, paraboloid around the peak
-  kNccGauss3,      // the same, three-point Gaussian formulas around the peak
-  kPhase,          // cross-power spectrum, not normalised, peak of the upsampled inverse transform
-  kPhaseNormalized,  // the same of the normalised spectrum (phase alone)
-  kRegister,         // rigid registration of a key frame
-  kHypotheses,       // registration weighed against a load field that doesn't move
+  // Centroid of all active taxels.
+  kCentroid,
+  // Centre of mass of the full convolution of both frames, which is the sum of their centroids.
+  kAlcazar,
+  // Normalised cross-correlation with a paraboloid around the peak.
+  kNccParaboloid,
+  // Normalised cross-correlation with three-point Gaussian formulas around the peak.
+  kNccGauss3,
+  // Cross-power spectrum, not normalised: peak of the upsampled inverse transform.
+  kPhase,
+  // The same with the normalised spectrum (phase only).
+  kPhaseNormalized,
+  // Rigid registration to a key frame.
+  kRegister,
+  // Registration, compared with the hypothesis that only the load changed (slip_hypotheses.h).
+  kHypotheses,
 };
 
-// All of them, in this order.
+// All methods, in this order.
 std::span<const SlipMethod> slipMethods() noexcept;
 // "centroid", "alcazar", "ncc-paraboloid", "ncc-gauss3", "phase", "phase-normalized", "register",
 // "contest"
 std::string_view nameOf(SlipMethod method) noexcept;
-// Nothing: no method is called so.
+// Empty if no method has this name.
 std::optional<SlipMethod> slipMethodNamed(std::string_view name) noexcept;
 
 }  // namespace palpate

@@ -1,5 +1,4 @@
-// Where in a recording it slips: spans of frames per matrix, for a row of the timeline, a table, an
-// export.
+// Finds the spans of frames in which a matrix slips. The timeline, tables and exports show them.
 #pragma once
 
 #include <cstddef>
@@ -30,41 +29,47 @@ void runSlipDetector(const Profile& profile,
                      const SlipSink& sink,
                      const Progress& progress = {});
 
+// One span of frames in which a matrix slips.
 struct SlipSegment {
-  std::size_t begin = 0;  // frames, both inclusive
+  // First and last frame, both inclusive.
+  std::size_t begin = 0;
   std::size_t end = 0;
   std::int64_t beginUs = 0;
   std::int64_t endUs = 0;
   std::size_t matrix = 0;
-  double pathTaxels = 0.0;   // length of the way: the sum of the steps' lengths
-  double rotationDeg = 0.0;  // the sum of the turns, signed
-  double confidence = 0.0;   // largest of its frames
+  // Length of the path: sum of the lengths of the steps [taxels].
+  double pathTaxels = 0.0;
+  // Sum of the rotations, signed [deg].
+  double rotationDeg = 0.0;
+  // Largest confidence of its frames, 0..1.
+  double confidence = 0.0;
   bool operator==(const SlipSegment&) const = default;
 };
 
 struct SlipSegmentOptions {
   SlipRunOptions pass;
-  // slipping spans of a matrix with at most so many frames between are one
+  // Slipping spans of a matrix with at most this many frames between them are joined.
   std::size_t bridgedFrames = 5;
 };
 
-// By begin, then matrix. Throws as runSlipDetector.
+// Finds the slip segments of a profile, sorted by begin, then matrix. Throws as runSlipDetector().
 std::vector<SlipSegment> findSlips(const Profile& profile,
                                    const SlipSegmentOptions& options = {},
                                    const Progress& progress = {});
 
-// The same of verdicts as they come.
+// Makes slip segments from results that arrive frame by frame.
 class SlipSegmenter {
  public:
   SlipSegmenter(std::size_t numMatrices, std::size_t bridgedFrames = 5);
   void add(std::size_t frame, std::int64_t timeUs, const std::vector<SlipDetection>& detections);
-  // All so far, those that still run among them.
+  // Returns all segments so far, including those that have not ended.
   std::vector<SlipSegment> segments() const;
 
  private:
   struct Open {
     std::optional<SlipSegment> segment;
-    double pendingPath = 0.0, pendingTurn = 0.0;  // since its end, in frames that may be bridged
+    // Path and rotation after the end of the segment, in frames that may still be bridged.
+    double pendingPath = 0.0, pendingTurn = 0.0;
   };
   std::vector<SlipSegment> closed_;
   std::vector<Open> open_;

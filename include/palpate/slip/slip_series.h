@@ -1,8 +1,8 @@
-// Slip of a whole recording: what a detector says of every matrix that is touched, frame by frame,
-// and the stretches in which it slips. Made once, then looked up.
+// Slip of a whole recording: the result of the slip detector for every touched matrix, frame by
+// frame, and the segments in which it slips. It is computed once and then looked up by the views.
 //
-// Taxels of the pitch, x right, y down; angles from x towards y [deg]. Frames in which a matrix
-// isn't touched have no sample.
+// Lengths are in taxels of the pitch (x right, y down), angles from x towards y [deg]. Frames in
+// which a matrix is not touched have no sample.
 #pragma once
 
 #include <cstddef>
@@ -20,62 +20,82 @@ namespace palpate {
 struct SlipSeriesOptions {
   SlipMethod method = SlipMethod::kHypotheses;
   SlipReference reference = SlipReference::kWhenAtRest;
-  // The frame that becomes the reference of every matrix, whatever else is asked for; before it
-  // nothing is known of where contacts are since the reference.
+  // If given, this frame becomes the reference of every matrix, whatever `reference` is; before it
+  // there is no motion since the reference.
   std::optional<std::size_t> referenceFrame = std::nullopt;
-  double stepTaxels = SlipRuleOptions{}.stepTaxels;            // thresholds, > 0
-  double referenceTaxels = SlipRuleOptions{}.referenceTaxels;  // > 0
-  double rotationDeg = SlipRuleOptions{}.rotationDeg;          // > 0
+  // Thresholds, see SlipRuleOptions; > 0.
+  double stepTaxels = SlipRuleOptions{}.stepTaxels;
+  double referenceTaxels = SlipRuleOptions{}.referenceTaxels;
+  double rotationDeg = SlipRuleOptions{}.rotationDeg;
   bool operator==(const SlipSeriesOptions&) const = default;
 };
-// What a detector is to be told. The alarm of `contest` is its own, that of all other methods the
-// plain thresholds.
+// Returns the options of a detector. For `contest` the alarm compares the hypotheses, for all other
+// methods it uses the plain thresholds.
 SlipDetectorOptions detectorOptions(const SlipSeriesOptions& options);
 
-// One matrix in one frame, in short.
+// Slip of one matrix in one frame: the values of a SlipDetection that the views show.
 struct SlipSample {
   std::uint32_t frame = 0;
+  // Number of active taxels.
   std::uint16_t active = 0;
-  bool valid = false;             // dx, dy
-  bool refValid = false;          // refDx, refDy
-  bool rotationValid = false;     // rotationDeg
-  bool refRotationValid = false;  // refRotationDeg
-  bool reliable = false;          // the shape has a direction
-  bool newReference = false;      // this frame became the reference
+  // Whether dx and dy are known.
+  bool valid = false;
+  // Whether refDx and refDy are known.
+  bool refValid = false;
+  // Whether rotationDeg is known.
+  bool rotationValid = false;
+  // Whether refRotationDeg is known.
+  bool refRotationValid = false;
+  // Whether the shape has a direction.
+  bool reliable = false;
+  // Whether this frame became the reference.
+  bool newReference = false;
   bool slipping = false;
   SlipState state = SlipState::kInvalid;
   SlipIndicator lamp = SlipIndicator::kOff;
-  float x = 0.0F;  // centroid [taxels]
+  // Centroid [taxels].
+  float x = 0.0F;
   float y = 0.0F;
+  // Motion since the previous frame and since the reference [taxels].
   float dx = 0.0F;
   float dy = 0.0F;
   float refDx = 0.0F;
   float refDy = 0.0F;
+  // Rotation since the previous frame and since the reference, and direction of the axis [deg].
   float rotationDeg = 0.0F;
   float refRotationDeg = 0.0F;
   float orientationDeg = 0.0F;
-  float majorSd = 0.0F;  // standard deviations along the axes [taxels]
+  // Standard deviations along the axes of the contact [taxels].
+  float majorSd = 0.0F;
   float minorSd = 0.0F;
+  // Shape of the contact, see PrincipalAxis and OutlineShape.
   float skewX = 0.0F;
   float skewY = 0.0F;
   float eccentricity = 0.0F;
   float roundness = 0.0F;
+  // See SlipDetection.
   float residual = 0.0F;
   float confidence = 0.0F;
-  float pMoved = -1.0F;                 // below 0: no contest was needed
-  double shiftTaxels() const noexcept;  // |refDx, refDy|
+  // Motion score P(moved); below 0 if the hypotheses were not compared.
+  float pMoved = -1.0F;
+  // Length of (refDx, refDy) [taxels].
+  double shiftTaxels() const noexcept;
 };
+// Makes the sample of one matrix from the result of its detector.
 SlipSample sampleOf(const SlipDetection& detection, std::size_t frame);
 
-// What a contact did within a span of time.
+// Motion of a contact within a span of time.
 struct RecentSlip {
-  std::size_t steps = 0;  // that are known; 0: nothing is
-  double dx = 0.0;        // their sum [taxels]
+  // Number of known steps; 0: the motion is not known.
+  std::size_t steps = 0;
+  // Sum of the steps [taxels].
+  double dx = 0.0;
   double dy = 0.0;
-  std::optional<double> turnDeg = std::nullopt;  // where the shape had a direction
+  // Sum of the rotations [deg]; empty if the shape never had a direction.
+  std::optional<double> turnDeg = std::nullopt;
 };
 
-// Where a contact is, on its matrix [taxels].
+// Position of a contact on its matrix [taxels].
 struct PathPoint {
   double x = 0.0;
   double y = 0.0;
@@ -83,33 +103,38 @@ struct PathPoint {
 
 struct SlipSeries {
   SlipSeriesOptions options;
-  std::int64_t firstUs = 0;                       // stamp of the first frame [us]
-  std::vector<double> timeS;                      // of every frame, from the first
-  std::vector<std::vector<SlipSample>> matrices;  // by frame
-  std::vector<SlipSegment> slips;                 // by begin, then matrix
+  // Time stamp of the first frame [us].
+  std::int64_t firstUs = 0;
+  // Time of every frame since the first [s].
+  std::vector<double> timeS;
+  // Samples of each matrix, by frame.
+  std::vector<std::vector<SlipSample>> matrices;
+  // Slip segments, sorted by begin, then matrix.
+  std::vector<SlipSegment> slips;
 
-  // Null: the matrix isn't touched in that frame. Throws std::out_of_range (matrix).
+  // Returns the sample of a matrix in a frame, or null if the matrix is not touched in it. Throws
+  // std::out_of_range (matrix).
   const SlipSample* at(std::size_t matrix, std::size_t frame) const;
-  // The samples of frames first..last. Throws std::out_of_range (matrix).
+  // Returns the samples of frames first..last. Throws std::out_of_range (matrix).
   std::span<const SlipSample> between(std::size_t matrix,
                                       std::size_t first,
                                       std::size_t last) const;
-  // The way of a contact: from where it was when the reference was taken that holds in `frame`, to
-  // where it is in that frame. Empty: no reference, or no contact. At most `most` points; of longer
-  // ways each second, third, .. and the last.
+  // Returns the path of a contact, from its position when the reference of `frame` was taken to its
+  // position in `frame`. Empty without a reference or contact. A path of more than `most` points is
+  // thinned to every second, third, .. point and the last one.
   std::vector<PathPoint> pathUntil(std::size_t matrix,
                                    std::size_t frame,
                                    std::size_t most = 2000) const;
-  // Of the last `spanS` seconds up to a frame. Throws std::out_of_range (matrix, frame).
+  // Returns the motion in the last `spanS` seconds up to a frame. Throws std::out_of_range (matrix,
+  // frame).
   RecentSlip recent(std::size_t matrix, std::size_t frame, double spanS) const;
-  // Forgets the first frames; those that stay are counted anew from 0. Their times stay as they
-  // are.
+  // Drops the first frames and renumbers the others from 0. Their times do not change.
   void dropFirst(std::size_t frames);
-  // The last frame at or before a time; 0 where there is none.
+  // Returns the last frame at or before a time, or 0 if there is none.
   std::size_t frameAt(double seconds) const noexcept;
 };
 
-// Throws as runSlipDetector.
+// Runs the slip detector over a profile and keeps its results. Throws as runSlipDetector().
 SlipSeries slipSeries(const Profile& profile,
                       const SlipSeriesOptions& options = {},
                       const Progress& progress = {});

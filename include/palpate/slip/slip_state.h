@@ -1,4 +1,5 @@
-// What is said about the contact of one matrix: a state, and a lamp.
+// Slip state of the contact on one matrix, and the state of its indicator lamp in the window.
+// SlipDetector determines both.
 #pragma once
 
 #include <optional>
@@ -14,24 +15,32 @@ enum class SlipState {
   // Motion no larger than that of a resting contact whose load changes as fast or whose joints move
   // as much.
   kLoading,
-  kLoadShift,  // the load went to another place, the contact stayed: p_moved < 0.25
-  kAmbiguous,  // 0.25 .. 0.75: the shape doesn't tell; or not confirmed yet
-  kSlip,       // p_moved > 0.75, or an alarm
+  // The load was redistributed and the contact did not move: p_moved < 0.25.
+  kLoadShift,
+  // p_moved is 0.25..0.75: the shape does not decide between motion and load shift; or slip is not
+  // confirmed yet.
+  kAmbiguous,
+  // p_moved > 0.75, or an alarm.
+  kSlip,
 };
-inline constexpr double kMaxStillScore = 0.25;  // p_moved
+// Limits of p_moved for the states kLoadShift and kSlip.
+inline constexpr double kMaxStillScore = 0.25;
 inline constexpr double kMinMotionScore = 0.75;
 
-// "invalid", "still", "loading", "load_shift", "ambiguous", "slip"
+// Returns "invalid", "still", "loading", "load_shift", "ambiguous" or "slip".
 std::string_view nameOf(SlipState state) noexcept;
 std::optional<SlipState> slipStateNamed(std::string_view name) noexcept;
 
 enum class SlipIndicator {
-  kOff,            // switched off
-  kNotComputable,  // no contact, too small a one, or it hasn't been touched long enough
-  kReady,          // watches, and nothing slips
+  // The detector is switched off.
+  kOff,
+  // There is no contact, it is too small, or it has not lasted long enough.
+  kNotComputable,
+  // The detector works and reports no slip.
+  kReady,
   kSlipping,
 };
-// "off", "not computable", "ready", "slipping"
+// Returns "off", "not computable", "ready" or "slipping".
 std::string_view nameOf(SlipIndicator lamp) noexcept;
 
 }  // namespace palpate

@@ -1,7 +1,9 @@
-// Follows the contact on one matrix over a stream of frames, by any method but `contest`.
+// Follows the contact on one matrix over a stream of frames with one of the slip methods (all but
+// `contest`, which SlipDetector adds).
 //
-// The reference is the first frame with an active taxel until another is set; it outlives loss of
-// contact (a flag says when contact is new). Memory is taken at construction, none per frame.
+// The reference is the first frame with an active taxel until another one is set. It is kept when
+// contact is lost; SlipMotion::touched marks a new contact. Memory is allocated in the constructor,
+// none per frame.
 #pragma once
 
 #include <cstdint>
@@ -17,19 +19,25 @@
 namespace palpate {
 
 struct SlipTrackerOptions {
-  SlipMethod method = SlipMethod::kCentroid;  // not kHypotheses
-  bool firstContactIsReference = true;        // else none until setReference()
-  // A taxel at or above is saturated, > 0.
+  // Any method but kHypotheses.
+  SlipMethod method = SlipMethod::kCentroid;
+  // Whether the first frame with contact becomes the reference; if false, there is none until
+  // setReference().
+  bool firstContactIsReference = true;
+  // A taxel at or above this value is saturated [counts], > 0.
   double saturationCounts = static_cast<double>(kSdh2SaturationCounts);
-  int maxStepTaxels = 4;  // ncc, phase: a step is looked for within, 1..8
+  // ncc, phase: largest step that is searched for [taxels], 1..8.
+  int maxStepTaxels = 4;
   RotationOptions rotation = {};
   RegistrationOptions registration = {.noiseCounts = 5.0, .relativeError = 0.001};
   LearnedSurfaceOptions surface = {};
 
-  void validate() const;  // throws std::invalid_argument naming the field
+  // Throws std::invalid_argument naming the field.
+  void validate() const;
 };
 
-class TranslationMethod;  // one of the ways to measure: src/slip/translation_method.h
+// One method to measure translation; defined in src/slip/translation_method.h.
+class TranslationMethod;
 
 class SlipTracker {
  public:
@@ -39,13 +47,13 @@ class SlipTracker {
   SlipTracker(SlipTracker&&) noexcept;
   SlipTracker& operator=(SlipTracker&&) noexcept;
 
-  // The next frame of the matrix. afterGap: frames are missing before it; then there is no step.
-  // Throws std::invalid_argument for another size.
+  // Processes the next frame of the matrix. afterGap: frames are missing before it; there is then
+  // no step. Throws std::invalid_argument when the frame has another size.
   const SlipMotion& update(const ConstMatrixMap& frame, bool afterGap = false);
-  // The newest frame becomes the reference; without contact in it, the next one that has contact.
+  // Makes the newest frame the reference; if it has no contact, the next frame with contact.
   void setReference();
   void clearReference();
-  // As new.
+  // Returns to the state after construction.
   void reset();
 
   const SlipMotion& last() const noexcept { return motion_; }
@@ -65,15 +73,15 @@ class SlipTracker {
   bool wantsReference_ = true;
 };
 
-// A tracker per matrix of a sensor; knows by the stamps when frames are missing (longer than max(1
-// s, 5 median intervals)).
+// Slip tracker of a whole sensor: one SlipTracker per matrix. It detects gaps from the time stamps
+// (intervals longer than max(1 s, 5 median intervals)).
 class SensorSlipTracker {
  public:
   // Throws std::invalid_argument.
   explicit SensorSlipTracker(const SensorLayout& layout, const SlipTrackerOptions& options = {});
 
-  // The next frame; one motion per matrix, valid until the next call. Throws std::invalid_argument
-  // (another layout).
+  // Processes the next frame and returns one motion per matrix, valid until the next call. Throws
+  // std::invalid_argument (another layout).
   const std::vector<SlipMotion>& update(const TactileFrame& frame);
   void setReference();
   void clearReference();

@@ -1,5 +1,5 @@
-// The last second of one matrix, for windows that compare a frame with earlier ones of the same
-// contact.
+// Keeps the last frames of one matrix (at 31 Hz about one second) for the windows of the slip rule,
+// which compare a frame with earlier ones of the same contact.
 //
 // A window of n frames compares with the n-th last stored frame; a frame is stored if the last
 // stored one is at least 20 ms old. Up to 50 frames/s a window is therefore a number of frames,
@@ -19,12 +19,17 @@
 namespace palpate {
 
 struct SlipWindowsOptions {
+  // Of the comparison of the hypotheses.
   SlipHypothesisOptions hypotheses;
-  int minActiveTaxels = 4;       // taxels, >= 2
-  double minCounts = 400.0;      // load: sum of all taxels [counts], >= 0
-  std::int64_t keepUs = 20'000;  // >= 0
+  // A contact needs at least this many active taxels, >= 2,
+  int minActiveTaxels = 4;
+  // and a load (sum of all taxels) above this [counts], >= 0.
+  double minCounts = 400.0;
+  // Smallest time between stored frames [us], >= 0.
+  std::int64_t keepUs = 20'000;
 
-  void validate() const;  // throws std::invalid_argument naming the field
+  // Throws std::invalid_argument naming the field.
+  void validate() const;
 };
 
 class SlipWindows {
@@ -32,21 +37,26 @@ class SlipWindows {
   // Throws std::invalid_argument.
   explicit SlipWindows(const MatrixLayout& layout, const SlipWindowsOptions& options = {});
 
-  // The next frame of this matrix; stamps ascending [us]. `jointsDeg` may be empty; else as many as
-  // before. No contest is made yet. Throws std::invalid_argument when the size is another one. What
-  // isn't a finite number counts as 0.
+  // Processes the next frame of this matrix; time stamps must ascend [us]. `jointsDeg` may be
+  // empty; otherwise it has as many values as before. The hypotheses are not compared yet. A value
+  // that is not a finite number counts as 0. Throws std::invalid_argument when the frame has
+  // another size.
   const SlipEvidence& add(const ConstMatrixMap& frame,
                           std::int64_t timeUs,
                           std::span<const double> jointsDeg = {});
-  // Lets the two frames of a filled window compete. A window that isn't filled: nothing happens.
+  // Compares the hypotheses for the two frames of a window. Does nothing if the window is not
+  // filled.
   void evaluateHypotheses(SlipWindow window);
   void reset();
 
   const SlipEvidence& evidence() const noexcept { return evidence_; }
-  // The last frame, what isn't a number or below 0 as 0; all 0 before the first.
+  // The last frame; values that are not numbers or are below 0 are replaced by 0. All 0 before the
+  // first frame.
   ConstMatrixMap frame() const { return {current_.data(), layout_.rows, layout_.columns}; }
-  const ContactMoments& moments() const noexcept { return moments_; }  // of the last frame
-  bool afterGap() const noexcept { return afterGap_; }  // the last frame came after one
+  // Moments of the last frame.
+  const ContactMoments& moments() const noexcept { return moments_; }
+  // Whether the last frame came after a gap.
+  bool afterGap() const noexcept { return afterGap_; }
 
  private:
   struct Kept {
@@ -54,12 +64,14 @@ class SlipWindows {
     std::vector<double> jointsDeg;
     ContactMoments moments;
   };
-  const Kept& back(std::size_t frames) const;  // 0: the last kept one
+  // Returns a stored frame counted from the newest one (0).
+  const Kept& back(std::size_t frames) const;
 
   MatrixLayout layout_;
   SlipWindowsOptions options_;
   GapDetector gaps_;
-  std::vector<Kept> kept_;  // a ring
+  // Ring buffer of stored frames.
+  std::vector<Kept> kept_;
   std::size_t newest_ = 0;
   std::size_t numKept_ = 0;
   std::int64_t keptUs_ = 0;
