@@ -34,7 +34,7 @@ std::vector<std::int64_t> timesUsOf(const py::object& given, const char* name) {
   for (py::ssize_t i = 0; i < array.size(); ++i) {
     const std::int64_t ms = array.at(i);
     if (ms > kFarthestMs || ms < -kFarthestMs)
-      throw py::value_error(std::string(name) + ": " + std::to_string(ms) + " ms is no time");
+      throw py::value_error(std::string(name) + ": " + std::to_string(ms) + " ms isn't a time");
     us.push_back(ms * kUsPerMs);
   }
   return us;
@@ -173,7 +173,7 @@ py::dict flat(const py::dict& table) {
     const std::string name = py::str(key);
     const py::array array = py::array::ensure(value);
     if (!array || array.ndim() == 0)
-      throw py::value_error("'" + name + "' is no array: a report is no table");
+      throw py::value_error("'" + name + "' isn't an array: a report isn't a table");
     if (rows && array.shape(0) != *rows)
       throw py::value_error("'" + name + "' has " + std::to_string(array.shape(0)) +
                             " rows, those before it " + std::to_string(*rows));

@@ -183,7 +183,7 @@ py::dict sizeOf(const Profile& profile,
   requireHand(profile, geometry.description());
   const std::size_t first = checkedIndex("frame", begin, profile.numFrames()),
                     last = checkedIndex("frame", end, profile.numFrames());
-  if (first > last) throw py::value_error("begin lies behind end");
+  if (first > last) throw py::value_error("begin is after end");
   const ObjectSizeReport report = unlocked([&](const Progress& progress) {
     return objectSize(profile, geometry, first, last, {}, progress);
   });

@@ -130,7 +130,7 @@ py::dict studyOf(const Profile& profile,
   GraspSegment grasp;
   grasp.begin = checkedIndex("frame", begin, profile.numFrames());
   grasp.end = checkedIndex("frame", end, profile.numFrames());
-  if (grasp.begin > grasp.end) throw py::value_error("begin lies behind end");
+  if (grasp.begin > grasp.end) throw py::value_error("begin is after end");
   std::optional<std::size_t> chosen;
   if (endFrame) chosen = checkedIndex("frame", *endFrame, profile.numFrames());
   const StudyFeatures found = unlocked(
@@ -247,7 +247,7 @@ void bindFeatures(py::module_& module) {
       "The features of every pinch grasp (both distal pads touch): source is a Profile, a "
       "recording, a folder with a folder of recordings per class ('_' in its name as blank), or a "
       "list of these paths. set 'best': holds on another day; 'study': the study's 54; "
-      "'session': best within one session only. What can't be used is said in `troubles`.");
+      "'session': best within one session only. What can't be used is listed in `troubles`.");
   module.def(
       "feature_names",
       [](const std::string& set) { return featureNames(featureSetOf(set)); },

@@ -115,7 +115,7 @@ DoubleArray filterSeries(const Numbers& timeS, const Numbers& values, const py::
   const TactileFrame empty = frame;
   for (std::size_t i = 0; i < times.size(); ++i) {
     if (!std::isfinite(times[i]) || !std::isfinite(series[i]))
-      throw py::value_error("sample " + std::to_string(i) + " is no finite number");
+      throw py::value_error("sample " + std::to_string(i) + " isn't a finite number");
     if (i > 0 && times[i] <= times[i - 1])
       throw py::value_error("time_s doesn't ascend at sample " + std::to_string(i));
     frame = empty;

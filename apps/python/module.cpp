@@ -34,7 +34,7 @@ void translate(std::exception_ptr pending) {
 
 PYBIND11_MODULE(palpate, module) {
   module.doc() =
-      "Palpate: recordings of robot hands that feel, as NumPy arrays.\n\n"
+      "Palpate: recordings of tactile robot hands, as NumPy arrays.\n\n"
       "    import palpate\n"
       "    profile = palpate.load('foam_ball.dsa')\n"
       "    profile.matrix(1).max(axis=(1, 2))   # largest value of finger 0 distal, per frame\n\n"

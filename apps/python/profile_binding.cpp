@@ -172,7 +172,7 @@ Profile crop(const Profile& profile, std::int64_t begin, std::int64_t end) {
   const std::size_t count = profile.numFrames();
   const std::size_t first = checkedIndex("frame", begin, count),
                     last = checkedIndex("frame", end, count);
-  if (first > last) throw py::value_error("begin lies behind end");
+  if (first > last) throw py::value_error("begin is after end");
   return unlocked(
       [&](const Progress& progress) { return cropped(profile, first, last, progress); });
 }
@@ -234,7 +234,7 @@ void bindValues(ProfileClass& profile) {
               return p.temperatures(i).degC;
             });
           },
-          "Temperatures [deg C]: float64 (n, sensors); 0: the sensor said nothing yet.")
+          "Temperatures [deg C]: float64 (n, sensors); 0: no reading yet.")
       .def("angles_at_frames",
            &anglesAtFrames,
            "Joint angles that belong to each frame (the last sample at or before it, clamped at "
@@ -294,7 +294,8 @@ void bindProfile(py::module_& module) {
       "Profile",
       "The data of one recording: three time series (frames of taxels, joint angles, "
       "temperatures), each with its own stamps. Read-only; several threads may read one. "
-      "Arrays have memory of their own: they stay when the profile is gone, and changing one "
+      "Arrays have memory of their own: they stay valid after the profile is deleted, and changing "
+      "one "
       "changes nothing else. From load(), from_arrays(), filter(), synthesize() ..");
   bindValues(profile);
   bindTimes(profile);
@@ -342,7 +343,7 @@ void bindProfile(py::module_& module) {
       .def_property_readonly(
           "warnings",
           [](const Profile& p) { return p.info().warnings; },
-          "Oddities found while reading that cost nothing: list of str.")
+          "Harmless oddities found while reading: list of str.")
       .def("crop",
            &crop,
            py::arg("begin"),

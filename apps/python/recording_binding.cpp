@@ -165,11 +165,12 @@ py::dict seconds(const fs::path& path) {
 }  // namespace
 
 void bindRecordings(py::module_& module) {
-  module.def("load",
-             &load,
-             py::arg("path"),
-             "Reads a recording (.dsa or .palpate; told by its content). OSError when it can't be "
-             "read, ValueError when it is damaged or no recording.");
+  module.def(
+      "load",
+      &load,
+      py::arg("path"),
+      "Reads a recording (.dsa or .palpate; detected from its content). OSError when it can't be "
+      "read, ValueError when it is damaged or no recording.");
   module.def("info",
              &info,
              py::arg("profile"),
@@ -199,7 +200,7 @@ void bindRecordings(py::module_& module) {
   module.def("details",
              &details,
              py::arg("path"),
-             "What a recording says without its frames being read: dict form, state ('finished', "
+             "Details of a recording, without reading its frames: dict form, state ('finished', "
              "'recording', 'unfinished', 'damaged', 'unreadable'), message, size_bytes, start_us, "
              "duration_us, frames (None: not known), operator, object, run, notes, labels. Raises "
              "nothing for a bad file.");
@@ -209,7 +210,7 @@ void bindRecordings(py::module_& module) {
         return unlocked([&](const Progress&) { return readRecordingMeta(path); });
       },
       py::arg("path"),
-      "What was said of a recording as a whole: dict of texts ('serial', 'operator', "
+      "Meta data of a recording: dict of texts ('serial', 'operator', "
       "'settings', ..); of a .dsa nothing. OSError, ValueError.");
   module.def(
       "seconds",

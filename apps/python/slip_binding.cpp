@@ -285,7 +285,7 @@ FloatArray syntheticContact(const Numbers& x,
   float* out = frames.mutable_data();
   for (std::size_t i = 0; i < xs.size(); ++i, out += rows * columns) {
     if (!std::isfinite(xs[i]) || !std::isfinite(ys[i]) || !std::isfinite(angles[i]))
-      throw py::value_error("place " + std::to_string(i) + " is no finite number");
+      throw py::value_error("place " + std::to_string(i) + " isn't a finite number");
     contact.x = xs[i];
     contact.y = ys[i];
     contact.angleDeg = angles[i];

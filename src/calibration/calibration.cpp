@@ -84,12 +84,12 @@ Json jsonOf(const Calibration& calibration) {
 
 Calibration calibrationFrom(const Json& json) {
   if (textIn(json, "kind") != kKind)
-    throw Error("is no calibration: 'kind' isn't \"palpate calibration\"");
+    throw Error("isn't a calibration: 'kind' isn't \"palpate calibration\"");
   const auto version = numberIn(json, "format_version");
   if (!version) throw Error("lacks 'format_version'");
   if (*version > Calibration::kFormatVersion)
-    throw Error("is of a later format (" + std::to_string(static_cast<int>(*version)) +
-                "): a newer palpate reads it");
+    throw Error("has a later format (" + std::to_string(static_cast<int>(*version)) +
+                "): use a newer palpate");
   Calibration calibration;
   calibration.programVersion = textIn(json, "program_version");
   calibration.madeAt = textIn(json, "made_at");

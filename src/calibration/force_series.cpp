@@ -52,8 +52,7 @@ ForceSeries forceSeries(const Profile& profile,
                         const std::optional<Tare>& tare,
                         const Progress& progress) {
   if (profile.info().valueType != ValueType::kCounts)
-    throw Error(
-        "the recording holds filtered values, not counts: a calibration doesn't apply to them");
+    throw Error("the recording holds filtered values: a calibration needs counts");
   PressureMap map(calibration, profile.hand(), options);
   ForceSeries series;
   series.numMatrices = profile.layout().numMatrices();

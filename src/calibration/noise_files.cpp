@@ -19,7 +19,7 @@ class NoiseXmlHandler final : public XmlHandler {
     ++depth_;
     text_.clear();
     if (depth_ == 1 && name != "calibration")
-      fail("is no calibration: its root is <" + std::string(name) + ">");
+      fail("isn't a calibration: its root is <" + std::string(name) + ">");
     if (depth_ != 2 || name != "matrix") return;
     NoiseLine line;
     for (; *attributes != nullptr; attributes += 2)
@@ -55,12 +55,12 @@ class NoiseXmlHandler final : public XmlHandler {
   [[noreturn]] void fail(const std::string& what) const { throw FormatError(name_, what); }
   std::size_t index(std::string_view text) const {
     const auto number = parseInteger(text);
-    if (!number || *number < 0) fail("<matrix id=\"" + std::string(text) + "\"> is no number");
+    if (!number || *number < 0) fail("<matrix id=\"" + std::string(text) + "\"> isn't a number");
     return static_cast<std::size_t>(*number);
   }
   void take(double& value) {
     const auto number = parseDouble(text_);
-    if (!number) fail("'" + text_ + "' is no number");
+    if (!number) fail("'" + text_ + "' isn't a number");
     value = *number;
     ++found_;
   }
@@ -157,7 +157,8 @@ NoiseFloor parseNoiseXml(std::string_view xml, const std::filesystem::path& name
   } catch (const XmlError& error) {
     throw FormatError(name, error.what(), error.offset());
   }
-  if (handler.lines.empty()) throw FormatError(name, "is no noise calibration: it has no <matrix>");
+  if (handler.lines.empty())
+    throw FormatError(name, "isn't a noise calibration: it has no <matrix>");
   return {std::move(handler.lines), {}};
 }
 

@@ -195,9 +195,9 @@ NoiseFloor fitNoiseFloor(const Profile& profile,
     floor.lines.push_back(fitNoiseLine(degC[m], maxima[m], options));
     floor.lines.back().matrix = m;
   }
-  if (profile.numFrames() == 0) floor.notes.push_back("the recording holds no frame");
+  if (profile.numFrames() == 0) floor.notes.push_back("the recording has no frames");
   if (profile.numTemperatures() == 0)
-    floor.notes.push_back("no temperatures were recorded: noise can't be told from its warmth");
+    floor.notes.push_back("no temperatures were recorded: can't relate noise to temperature");
   return floor;
 }
 

@@ -25,8 +25,7 @@ PressureReader::PressureReader(Profile profile,
       map_(calibration, profile_.hand(), std::move(options)),
       tare_(std::move(tare)) {
   if (profile_.info().valueType != ValueType::kCounts)
-    throw Error(
-        "the recording holds filtered values, not counts: a calibration doesn't apply to them");
+    throw Error("the recording holds filtered values: a calibration needs counts");
   if (tare_ && tare_->zero.size() != profile_.layout().numCells())
     throw std::invalid_argument("PressureReader: a tare of another hand");
 }

@@ -128,11 +128,10 @@ void sayWhatIsMissing(double leastT2S, double durationS, double frameS, StepFit&
           ? 0.0
           : (stepResponse(p, durationS) - p.driftCountsPerS * durationS) / p.staticResponseCounts;
   fit.steadyStateReached = phiAtEnd >= kGainReached;
-  if (!fit.converged)
-    fit.notes.push_back("the fit did not converge: no parameter is to be trusted");
+  if (!fit.converged) fit.notes.push_back("the fit did not converge: don't use its parameters");
   if (!fit.steadyStateReached)
     fit.notes.push_back("cut off before the gain is reached (" + fixedText(100.0 * phiAtEnd, 0) +
-                        " % of it): K and m can't be told apart");
+                        " % of it): K and m can't be separated");
   const double third = oscillating ? p.timeConstantS : p.t1S();
   const double fourth = oscillating ? p.damping : p.t2S();
   const bool k = fit.sd(0) < 0.5 * std::abs(p.staticResponseCounts);
@@ -141,7 +140,7 @@ void sayWhatIsMissing(double leastT2S, double durationS, double frameS, StepFit&
   fit.identifiable = fit.converged && k && slow && fast;
   if (fit.identifiable || !fit.converged) return;
   if (k && !oscillating && p.damping < kCritical)
-    fit.notes.push_back("critically damped: T1 and T2 can't be told apart, K, m and T can");
+    fit.notes.push_back("critically damped: T1 and T2 can't be separated, K, m and T can");
   else if (k && slow && !oscillating)
     fit.notes.push_back("T2 is not identifiable (far below the frame period of " +
                         fixedText(1e3 * frameS, 0) +

@@ -200,7 +200,7 @@ StepReport reportSteps(const Profile& profile,
     return v > options.steps.aboveCounts;
   });
   if (signal.values.empty())
-    report.notes.push_back("the recording holds no frame");
+    report.notes.push_back("the recording has no frames");
   else if (!touched)
     report.notes.push_back("no step: matrix " + std::to_string(matrix) + " is never loaded");
   else if (report.steps.empty())

@@ -31,7 +31,7 @@ std::string portFault(const PortStatus& port, const std::string& name) {
     case PortState::kSilent:
       return where + " is silent" + (why.empty() ? ": check the hand's power and cable" : why);
     case PortState::kLost:
-      return where + " is gone" + (why.empty() ? ": plug it in again" : why);
+      return where + " is disconnected" + (why.empty() ? ": plug it in again" : why);
     case PortState::kFault:
       return where + " failed" + why;
   }
@@ -73,13 +73,12 @@ void addRecorderAlarms(const RecorderStatus& recorder,
                       "the recording is empty: no frame for " + fixedText(recorder.elapsedS, 0) +
                           " s; is the hand switched on?"});
   if (!recorder.writeError.empty())
-    alarms.push_back(
-        {AlarmKind::kWriteError,
-         recorder.writeError + " (what comes waits in memory, writing is tried again)"});
+    alarms.push_back({AlarmKind::kWriteError,
+                      recorder.writeError + " (new data waits in memory, writing is tried again)"});
   if (recorder.blockedS > kBlockedAlarmS)
     alarms.push_back({AlarmKind::kSlowDisk,
                       "the disk has kept the recorder waiting for " +
-                          fixedText(recorder.blockedS, 0) + " s; what comes waits in memory"});
+                          fixedText(recorder.blockedS, 0) + " s; new data waits in memory"});
   if (recorder.lost > 0)
     alarms.push_back({AlarmKind::kOverflow,
                       std::to_string(recorder.lost) +
@@ -250,7 +249,7 @@ LinkHealth assessHealth(const LinkInputs& inputs, const HealthOptions& options) 
   if (health.diskHours && *health.diskHours < options.lowDiskHours)
     health.alarms.push_back({AlarmKind::kLowDisk,
                              "the disk is full in " + fixedText(*health.diskHours * 60.0, 0) +
-                                 " minutes: make room, or record elsewhere"});
+                                 " minutes: free some space, or record elsewhere"});
   if (const auto hottest = hottestOf(inputs); hottest && *hottest > options.maxTemperatureDegC)
     health.alarms.push_back({AlarmKind::kTooHot,
                              "the hand is " + fixedText(*hottest, 0) +
@@ -280,7 +279,7 @@ PreflightCheck checkPreflight(const LinkInputs& inputs,
   if (!folder.writable)
     return red(where + " can't be written: choose another folder, or change its permissions");
   if (hours && *hours < options.lowDiskHours)
-    return red("room for only " + fixedText(*hours * 60.0, 0) + " minutes in " + where);
+    return red("space for only " + fixedText(*hours * 60.0, 0) + " minutes in " + where);
   std::string text = "ready: " + fixedText(frames.rateHz, 1) + " frames/s";
   if (const auto hottest = hottestOf(inputs)) {
     if (*hottest > options.maxTemperatureDegC)

@@ -83,7 +83,8 @@ std::string markedStem(std::string_view nameTemplate, const RecordingNameFields&
     const std::string_view placeholder = nameTemplate.substr(1, close - 1);
     stem += valueOf(placeholder, fields);
     if (std::find(used.begin(), used.end(), placeholder) != used.end())
-      throw std::invalid_argument("RecordingName: {" + std::string(placeholder) + "} stands twice");
+      throw std::invalid_argument("RecordingName: {" + std::string(placeholder) +
+                                  "} is given twice");
     used.push_back(placeholder);
     nameTemplate.remove_prefix(close + 1);
   }

@@ -27,7 +27,8 @@ void requireNewFile(const fs::path& path) {
   if (fs::exists(fs::symlink_status(path, failure)))
     throw FileError(path, "exists already; a recording is never replaced: give another name");
   const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
-  if (!fs::is_directory(folder, failure)) throw FileError(folder, "is no folder: make it first");
+  if (!fs::is_directory(folder, failure))
+    throw FileError(folder, "isn't a folder: create it first");
   if (::access(folder.c_str(), W_OK | X_OK) != 0)
     throw FileError(folder, "can't be written: choose another folder, or change its permissions");
 }

@@ -285,7 +285,7 @@ DeviceStatus Replay::status() const {
 std::future<CommandAnswer> Replay::submit(DeviceCommand) {
   std::promise<CommandAnswer> refused;
   refused.set_exception(std::make_exception_ptr(DeviceError(
-      DeviceFault::kUnsupported, "replay", "a recording takes no command: connect a hand")));
+      DeviceFault::kUnsupported, "replay", "a recording accepts no commands: connect a hand")));
   return refused.get_future();
 }
 

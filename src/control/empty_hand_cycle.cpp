@@ -42,7 +42,7 @@ std::optional<std::string> EmptyHandCycle::step(std::int64_t hostUs) {
     return std::nullopt;
   }
   if (state_ == State::kOpening) {
-    if (seconds > options_.maxOpenS) return ended("the pads didn't touch, or don't let go");
+    if (seconds > options_.maxOpenS) return ended("the pads didn't touch, or don't separate");
     return std::nullopt;
   }
   if (status.phase != GraspPhase::kIdle) return ended("the hand does something else");

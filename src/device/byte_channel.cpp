@@ -30,8 +30,9 @@ std::unique_ptr<ByteChannel> openChannel(const std::string& port, const ChannelO
     throw std::invalid_argument("connectTimeout must not be negative");
   if (port.starts_with("tcp:")) return TcpChannel::open(port, options.connectTimeout);
   if (port.empty() || port.find('\0') != std::string::npos)
-    throw DeviceError(
-        DeviceFault::kNotFound, port, "this names no port; 'palpate ports' lists what is there");
+    throw DeviceError(DeviceFault::kNotFound,
+                      port,
+                      "this isn't the name of a port; 'palpate ports' lists what is there");
   struct stat info {};
   if (::stat(port.c_str(), &info) != 0) throwOpenError(errno, port);
   if (S_ISDIR(info.st_mode)) refuseKind(port, "a folder");

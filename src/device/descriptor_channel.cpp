@@ -43,8 +43,8 @@ DescriptorChannel::DescriptorChannel(std::string name, int fd, bool isSocket)
 }
 
 void DescriptorChannel::gone(int error) const {
-  const std::string reason =
-      error == 0 || error == EIO ? "the other end hung up" : std::generic_category().message(error);
+  const std::string reason = error == 0 || error == EIO ? "the other side closed the connection"
+                                                        : std::generic_category().message(error);
   throw DeviceError(DeviceFault::kDisconnected, name_, "connection lost (" + reason + ")");
 }
 
@@ -103,7 +103,8 @@ void DescriptorChannel::write(std::span<const std::byte> bytes) {
     if (::poll(&waits, 1, untilMs(deadline)) > 0 && (waits.revents & (POLLHUP | POLLERR)) != 0)
       gone(0);
     if (DescriptorChannelSteadyClock::now() >= deadline)
-      throw DeviceError(DeviceFault::kSilent, name_, "the line takes no bytes; is the device on?");
+      throw DeviceError(
+          DeviceFault::kSilent, name_, "the device accepts no data; is it switched on?");
   }
 }
 

@@ -106,7 +106,7 @@ void MotionLink::connect(ByteChannel& channel) {
   if (const auto known = this->facts(); wasConnected() && known && known->serial != facts.serial)
     throw DeviceError(DeviceFault::kWrongDevice,
                       port_,
-                      "another hand answers here than before; connect anew if that is meant");
+                      "another hand answers here than before; connect again if that is intended");
   if (!leftMoving && anyMoves(controller_->states())) {
     // A program that died has left it so, or one on another port.
     controller_->stop();

@@ -132,7 +132,7 @@ class Prober {
       probe.message = "something else: " + std::to_string(bytes_) +
                       " bytes that are no answer of a hand; check the speed of the line";
     } else {
-      probe.message = "nothing answers; is the hand on, the cable right?";
+      probe.message = "nothing answers; is the hand switched on and the cable right?";
     }
     return probe;
   }

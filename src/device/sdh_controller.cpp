@@ -68,7 +68,7 @@ void checkGain(const char* what, std::size_t axis, double value) {
   checkSdhAxis(axis);
   if (!(std::abs(value) <= kAnyGain))
     throw std::invalid_argument("axis " + std::to_string(axis) + ": " + what + " " +
-                                numberText(value) + " is no number; nothing was sent");
+                                numberText(value) + " isn't a number; nothing was sent");
 }
 
 SdhSettingsValues asNumbers(const std::vector<int>& values) {
@@ -116,7 +116,7 @@ const SdhControllerInfo& SdhController::open() {
     if (error.fault() != DeviceFault::kSilent) throw;
     const bool noise = link_->stats().bytesRead > readBefore;
     link_->fail(DeviceFault::kSilent,
-                std::string(noise ? "what comes from here is no motion controller's answer"
+                std::string(noise ? "this device doesn't answer like a motion controller"
                                   : "no motion controller answers here") +
                     "; check cable and power; 'palpate ports' tells which port is which");
   }

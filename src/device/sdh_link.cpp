@@ -200,7 +200,7 @@ void SdhLink::failExchange(const std::string& what) const {
       fail(DeviceFault::kProtocol,
            "the answers to '" + what + "' arrive damaged; check cable and adapter");
     case FailureCause::kImplausible:
-      fail(DeviceFault::kProtocol, "the answers to '" + what + "' are not what a hand can say");
+      fail(DeviceFault::kProtocol, "the answers to '" + what + "' are not valid");
     case FailureCause::kSilence:
       break;
   }

@@ -68,8 +68,7 @@ void TactileLink::connect(ByteChannel& channel) {
     throw DeviceError(
         DeviceFault::kWrongDevice,
         port_,
-        "another tactile controller answers here than before; connect anew if that is "
-        "meant");
+        "another tactile controller answers here than before; connect again if that is intended");
   learn();
   restoreSettings();
   session_.deviceClock.reset();

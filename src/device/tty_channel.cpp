@@ -78,7 +78,7 @@ std::unique_ptr<ByteChannel> TtyChannel::open(const std::string& path, const std
   if (::isatty(fd.get()) != 1)
     throw DeviceError(DeviceFault::kNotFound,
                       name,
-                      "this is no serial line; 'palpate ports' lists what is there");
+                      "this isn't a serial line; 'palpate ports' lists what is there");
   if (::tcgetsid(fd.get()) == ::getsid(0))
     throw DeviceError(
         DeviceFault::kBusy, name, "this is the terminal the program runs in; name another port");

@@ -64,7 +64,7 @@ EmulatedHand::Loop::Loop(std::unique_ptr<HandModel> model,
   if (wakeUp_.get() < 0)
     throw DeviceError(DeviceFault::kDisconnected,
                       dsaLane_.port().name(),
-                      std::string("no event descriptor to be had: ") + std::strerror(errno));
+                      std::string("no event descriptor is available: ") + std::strerror(errno));
   thread_ = std::jthread([this](const std::stop_token& stop) { run(stop); });
 }
 

@@ -35,12 +35,13 @@ bool mayBeReplaced(const fs::path& link) {
 
 void makeLink(const std::string& target, const fs::path& link) {
   if (::symlink(target.c_str(), link.c_str()) == 0) return;
-  if (errno != EEXIST) throw FileError(link, std::string("can't be made: ") + std::strerror(errno));
+  if (errno != EEXIST)
+    throw FileError(link, std::string("can't be created: ") + std::strerror(errno));
   if (!mayBeReplaced(link))
-    throw FileError(link, "exists and is no link to a port: choose another name, or remove it");
+    throw FileError(link, "exists and isn't a link to a port: choose another name, or remove it");
   const fs::path aside = link.string() + ".new" + std::to_string(::getpid());
   if (::symlink(target.c_str(), aside.c_str()) != 0)
-    throw FileError(link, std::string("can't be made: ") + std::strerror(errno));
+    throw FileError(link, std::string("can't be created: ") + std::strerror(errno));
   if (::rename(aside.c_str(), link.c_str()) != 0) {
     const int error = errno;
     ::unlink(aside.c_str());
@@ -118,7 +119,7 @@ class PtyPort final : public PortServer {
   void open() {
     master_ = FileDescriptor(::posix_openpt(O_RDWR | O_NOCTTY | O_CLOEXEC | O_NONBLOCK));
     if (master_.get() < 0 || ::grantpt(master_.get()) != 0 || ::unlockpt(master_.get()) != 0)
-      fail("no pseudo-terminal to be had");
+      fail("no pseudo-terminal is available");
     std::array<char, 128> path{};
     if (::ptsname_r(master_.get(), path.data(), path.size()) != 0)
       fail("a terminal without a name");

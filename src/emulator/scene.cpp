@@ -35,7 +35,7 @@ class Field {
     throw FormatError(file_, (place_.empty() ? "the scene" : place_) + " " + what);
   }
   void only(std::initializer_list<std::string_view> known) const {
-    if (!json_.isObject()) fail("is no JSON object");
+    if (!json_.isObject()) fail("isn't a JSON object");
     for (const std::string& key : json_.keys())
       if (std::find(known.begin(), known.end(), key) == known.end()) {
         std::string list;
@@ -49,7 +49,7 @@ class Field {
     return Field(json_.at(key), place_ + (place_.empty() ? "" : ".") + std::string(key), file_);
   }
   std::vector<Field> items(std::size_t most) const {
-    if (!json_.isArray()) fail("is no JSON array");
+    if (!json_.isArray()) fail("isn't a JSON array");
     if (json_.size() > most) fail("has more than " + std::to_string(most) + " items");
     std::vector<Field> all;
     for (std::size_t i = 0; i < json_.size(); ++i)
@@ -57,7 +57,7 @@ class Field {
     return all;
   }
   double number(double least, double most) const {
-    if (!json_.isNumber()) fail("is no number");
+    if (!json_.isNumber()) fail("isn't a number");
     const double value = json_.asDouble();
     if (!(value >= least && value <= most))
       fail("is " + numberText(value) + ", not in " + numberText(least) + ".." + numberText(most));
@@ -76,7 +76,7 @@ class Field {
     return has(key) ? at(key).vector(most) : Vector3d(Vector3d::Zero());
   }
   std::string text() const {
-    if (!json_.isString()) fail("is no text");
+    if (!json_.isString()) fail("isn't a text");
     return json_.asString();
   }
   bool flag() const {
@@ -86,7 +86,7 @@ class Field {
   std::size_t index(std::string_view key, std::size_t count) const {
     if (!has(key)) return 0;
     const double value = at(key).number(0.0, static_cast<double>(count) - 1.0);
-    if (value != std::floor(value)) at(key).fail("is no whole number");
+    if (value != std::floor(value)) at(key).fail("isn't a whole number");
     return static_cast<std::size_t>(value);
   }
   std::optional<std::size_t> matrix() const {
@@ -236,7 +236,8 @@ SceneAction actionOf(const Field& step, std::size_t objects) {
     return SetSceneSensitivity{at.matrix(), at.number("value", 0.5, 0.0, 1.0)};
   }
   step.fail(
-      "says not what happens: one of move, turn, grasp, release, load, temperature, threshold, "
+      "doesn't say what happens: give one of move, turn, grasp, release, load, temperature, "
+      "threshold, "
       "sensitivity");
 }
 

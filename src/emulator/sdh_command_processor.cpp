@@ -102,7 +102,8 @@ FirmwareVersion parseFirmware(std::string_view text) {
   for (std::size_t i = 0; i < version.size(); ++i) {
     const auto [next, error] = std::from_chars(at, end, version[i]);
     if (error != std::errc() || (i < 3 && (next == end || *next != '.')))
-      throw std::invalid_argument("firmware '" + std::string(text) + "' is no release as 0.0.3.3");
+      throw std::invalid_argument("firmware '" + std::string(text) +
+                                  "' isn't a release such as 0.0.3.3");
     at = i < 3 ? next + 1 : next;
   }
   return version;

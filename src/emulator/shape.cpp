@@ -58,7 +58,7 @@ ShapeKind shapeKind(std::string_view name) {
   for (const auto& [known, kind] : kNames)
     if (known == name) return kind;
   throw std::invalid_argument("'" + std::string(name) +
-                              "' is no shape; there are sphere, cylinder, box, ellipsoid, cone");
+                              "' isn't a shape; there are sphere, cylinder, box, ellipsoid, cone");
 }
 
 double Shape::distanceMm(const Vector3d& p) const {

@@ -109,8 +109,8 @@ std::unique_ptr<PortServer> openPortServer(const std::string& where) {
   const std::string host = colon > 4 ? where.substr(4, colon - 4) : std::string();
   const auto port = parseInteger(where.substr(colon + 1));
   if ((host != "127.0.0.1" && host != "localhost") || !port || *port < 0 || *port > 65'535)
-    throw std::invalid_argument("'" + where +
-                                "' is no port of this machine: tcp:127.0.0.1:PORT, PORT 0..65535");
+    throw std::invalid_argument(
+        "'" + where + "' isn't a port of this machine: tcp:127.0.0.1:PORT, PORT 0..65535");
   return openTcpPort(static_cast<std::uint16_t>(*port));
 }
 

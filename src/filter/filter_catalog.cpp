@@ -171,7 +171,7 @@ std::vector<FilterKind> temporalKinds() {
          {},
          "smoothed over the whole recording, as rts; else the frames up to now"}},
        "Expects a taxel to stay as it is: smooth, at the cost of some delay.",
-       "begins at the first frame, and anew after a gap",
+       "begins at the first frame, and again after a gap",
        "study 2.1.2; Q 0.05 and R 0.5 give the steady gain 0.270156"},
       {"kelvin-voigt",
        "Kalman, Kelvin-Voigt",
@@ -197,7 +197,7 @@ std::vector<FilterKind> temporalKinds() {
          "smoothed over the whole recording; else the frames up to now"}},
        "Mass, spring and damper driven by noise; what is left out comes from the recording by "
        "expectation-maximisation. The simple one does better.",
-       "begins at the first frame, and anew after a gap",
+       "begins at the first frame, and again after a gap",
        "study 2.1.2, eq. 2.1"},
       {"rts",
        "Kalman smoother (RTS)",

@@ -168,7 +168,7 @@ FilterStep parseFilterStep(std::string_view text) {
       const std::string_view key = trimmed(part.substr(0, equals));
       if (equals == std::string_view::npos || key.empty())
         throw std::invalid_argument(step.name + ": \"" + std::string(part) +
-                                    "\" is no KEY=VALUE; keys: " + kind.optionKeys() + ", " +
+                                    "\" isn't KEY=VALUE; keys: " + kind.optionKeys() + ", " +
                                     kMatrices);
       if (std::find(seen.begin(), seen.end(), key) != seen.end())
         throw std::invalid_argument(step.name + ": " + std::string(key) + " is given twice");

@@ -59,7 +59,7 @@ FilterStep stepFromJson(const Json& json) {
       continue;
     const std::string value = valueText(json.at(key));
     if (key.find_first_of(",=") != std::string::npos || value.find(',') != std::string::npos)
-      throw std::invalid_argument("\"" + key + "\": a comma or = has no place there");
+      throw std::invalid_argument("\"" + key + "\": a comma or = isn't allowed there");
     text += before + key + '=' + value;
     before = ',';
   }
@@ -149,9 +149,9 @@ Json recipeJson(const Recipe& recipe) {
 Recipe recipeFromJson(const Json& json) {
   if (!json.isObject() || json.at("format").isNull() || !json.at("format").isString() ||
       json.at("format").asString() != kFormat)
-    throw Error(std::string("is no recipe of filters: \"format\" is not \"") + kFormat + "\"");
+    throw Error(std::string("isn't a recipe of filters: \"format\" is not \"") + kFormat + "\"");
   if (!json.at("version").isNumber() || json.at("version").asInteger() != kVersion)
-    throw Error("is a recipe of another version than " + std::to_string(kVersion) +
+    throw Error("is a recipe with another version than " + std::to_string(kVersion) +
                 ": it needs another palpate");
   const Json steps = json.at("steps");
   if (!steps.isArray()) throw Error("has no list \"steps\"");

@@ -21,7 +21,7 @@ constexpr std::size_t kLongestAnswer = 1u << 20;  // [bytes]; those of a Palpate
 
 struct RemoteClient::Impl {
   [[noreturn]] void gone() const {
-    throw FileError(path, "the program that was remote-controlled there has gone");
+    throw FileError(path, "the remote-controlled program has ended");
   }
 
   void await(short events, SteadyTime::time_point end) const {
@@ -47,8 +47,7 @@ struct RemoteClient::Impl {
   }
 
   [[noreturn]] void noPalpate() const {
-    throw FileError(path,
-                    "what answers there is no Palpate: another program listens on this socket");
+    throw FileError(path, "this isn't Palpate: another program listens on this socket");
   }
 
   std::string receiveLine(SteadyTime::time_point end) {

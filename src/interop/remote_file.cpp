@@ -32,7 +32,7 @@ std::string problemOfRemoteName(std::string_view name) {
     return "only a name, not a path: recordings stay in their folder";
   if (name.front() == '.' || name.front() == '-') return "a name doesn't begin with '.' or '-'";
   if (hasOtherEnding(name))
-    return "a recording is written as .palpate; 'palpate convert' makes other forms of it";
+    return "a recording is written as .palpate; 'palpate convert' makes other formats of it";
   if (!isTemplate(name)) return {};
   try {
     recordingFileName(name, {}, 1);
@@ -51,7 +51,8 @@ fs::path remoteRecordingPath(const fs::path& folder,
   if (const std::string problem = problemOfRemoteName(name); !problem.empty())
     throw std::invalid_argument(problem);
   std::error_code ignored;
-  if (!fs::is_directory(folder, ignored)) throw FileError(folder, "is no folder: make it first");
+  if (!fs::is_directory(folder, ignored))
+    throw FileError(folder, "isn't a folder: create it first");
   if (isTemplate(name)) return nextRecordingPath(folder, name, fields);
   std::string whole(name);
   if (!whole.ends_with(kEnding)) whole += kEnding;

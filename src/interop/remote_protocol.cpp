@@ -90,13 +90,13 @@ ReadRequest readRequest(std::string_view line) {
   if (escapedLine(plain) != plain)
     return refuse("malformed", "a request is one line of UTF-8 without control characters");
   const std::string_view text = trimmed(plain);
-  if (text.empty()) return refuse("malformed", "an empty request; 'help' lists what can be asked");
+  if (text.empty()) return refuse("malformed", "an empty request; 'help' lists the requests");
   const std::string_view word = text.substr(0, text.find_first_of(kBlanks));
   const auto& verbs = allRemoteVerbs();
   const auto verb = std::find_if(
       verbs.begin(), verbs.end(), [&](RemoteProtocolVerb each) { return nameOf(each) == word; });
   if (verb == verbs.end())
-    return refuse("unknown", quoted(word) + " is no request; 'help' lists what can be asked");
+    return refuse("unknown", quoted(word) + " isn't a request; 'help' lists them");
   RemoteRequest request{*verb, std::string(trimmed(text.substr(word.size())))};
   if (!request.text.empty() && !hasText(*verb))
     return refuse("malformed", std::string(word) + " takes no text");

@@ -54,7 +54,7 @@ struct RemoteRecorder::Impl {
       throw std::invalid_argument("RemoteRecorderOptions: nameTemplate: " + problem);
     std::error_code ignored;
     if (!fs::is_directory(options.folder, ignored))
-      throw FileError(options.folder, "is no folder: make it first");
+      throw FileError(options.folder, "isn't a folder: create it first");
   }
 
   // On the server's thread.

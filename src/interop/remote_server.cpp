@@ -68,7 +68,7 @@ class Promise {
  public:
   Promise(std::weak_ptr<AnswerBox> box, std::uint64_t client)
       : box_(std::move(box)), client_(client) {}
-  ~Promise() { keep(RemoteAnswer::refused("failed", "nobody carried it out")); }
+  ~Promise() { keep(RemoteAnswer::refused("failed", "the request was not carried out")); }
   Promise(const Promise&) = delete;
   Promise& operator=(const Promise&) = delete;
   void keep(RemoteAnswer answer) {

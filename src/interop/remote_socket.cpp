@@ -40,7 +40,7 @@ sockaddr_un addressOf(const fs::path& path) {
 
 FileDescriptor newSocket(const fs::path& path) {
   FileDescriptor made(::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
-  if (made.get() < 0) fail(path, "no socket to be had");
+  if (made.get() < 0) fail(path, "no socket is available");
   return made;
 }
 
@@ -66,7 +66,7 @@ FileDescriptor lockFolderOf(const fs::path& path) {
 void clear(const fs::path& path, const sockaddr_un& address) {
   struct stat found {};
   if (::lstat(path.c_str(), &found) != 0) return;
-  if (!S_ISSOCK(found.st_mode)) throw FileError(path, "is no socket: name another one");
+  if (!S_ISSOCK(found.st_mode)) throw FileError(path, "isn't a socket: name another one");
   const FileDescriptor probe = newSocket(path);
   if (connects(probe.get(), address) || errno != ECONNREFUSED)
     throw FileError(path,
@@ -82,7 +82,7 @@ ListeningSocket::ListeningSocket(fs::path path) : path_(std::move(path)) {
   clear(path_, address);
   socket_ = newSocket(path_);
   if (::bind(socket_.get(), reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0)
-    fail(path_, "can't be made");
+    fail(path_, "can't be created");
   struct stat made {};
   // Nobody gets in before it listens: until then its mode may be what it likes.
   if (::chmod(path_.c_str(), S_IRUSR | S_IWUSR) != 0 || ::lstat(path_.c_str(), &made) != 0 ||

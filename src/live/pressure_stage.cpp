@@ -66,7 +66,7 @@ void PressureStage::onFrame(LiveResults& results, std::vector<RecordingEvent>&) 
   if (settingsChanged_) useSettings();
   const TactileFrame& frame = results.unfiltered ? *results.unfiltered : *results.frame;
   if (problem_.empty() && frame.values.size() != hand_.layout->numCells())
-    problem_ = "the sensor isn't the one that was connected: connect anew";
+    problem_ = "the sensor isn't the one that was connected: connect again";
   if (!problem_.empty()) return;
   static const std::vector<double> kUnknown;
   auto pressure = std::make_shared<PressureFrame>();

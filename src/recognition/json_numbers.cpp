@@ -12,9 +12,9 @@ namespace {
 }
 
 double finite(const Json& value, std::string_view key) {
-  if (!value.isNumber()) refuseJsonNumbers(key, "holds something that is no number");
+  if (!value.isNumber()) refuseJsonNumbers(key, "holds something that isn't a number");
   const double number = value.asDouble();
-  if (!std::isfinite(number)) refuseJsonNumbers(key, "holds something that is no number");
+  if (!std::isfinite(number)) refuseJsonNumbers(key, "holds something that isn't a number");
   return number;
 }
 
@@ -56,20 +56,20 @@ bool flag(const Json& object, std::string_view key) {
 
 std::string text(const Json& object, std::string_view key) {
   const Json value = member(object, key);
-  if (!value.isString()) refuseJsonNumbers(key, "is no text");
+  if (!value.isString()) refuseJsonNumbers(key, "isn't a text");
   return value.asString();
 }
 
 std::size_t count(const Json& object, std::string_view key) {
   const double value = number(object, key);
   if (value < 0.0 || value > 1e9 || value != std::floor(value))
-    refuseJsonNumbers(key, "is no number of things");
+    refuseJsonNumbers(key, "isn't a count");
   return static_cast<std::size_t>(value);
 }
 
 Eigen::VectorXd vector(const Json& object, std::string_view key, Eigen::Index size) {
   const Json list = member(object, key);
-  if (!list.isArray()) refuseJsonNumbers(key, "is no list");
+  if (!list.isArray()) refuseJsonNumbers(key, "isn't a list");
   requireSize(list.size(), size, key);
   Eigen::VectorXd result(static_cast<Eigen::Index>(list.size()));
   for (std::size_t i = 0; i < list.size(); ++i)
@@ -82,13 +82,13 @@ Eigen::MatrixXd matrix(const Json& object,
                        Eigen::Index rows,
                        Eigen::Index columns) {
   const Json list = member(object, key);
-  if (!list.isArray()) refuseJsonNumbers(key, "is no list");
+  if (!list.isArray()) refuseJsonNumbers(key, "isn't a list");
   requireSize(list.size(), rows, key);
   // The sizes are checked before memory is allocated, because a small damaged file may declare a
   // large matrix.
   for (std::size_t i = 0; i < list.size(); ++i) {
     const Json row = list.at(i);
-    if (!row.isArray()) refuseJsonNumbers(key, "has a row that is no list");
+    if (!row.isArray()) refuseJsonNumbers(key, "has a row that isn't a list");
     requireSize(row.size(), columns, key);
   }
   Eigen::MatrixXd result(rows, columns);
@@ -102,10 +102,10 @@ Eigen::MatrixXd matrix(const Json& object,
 
 std::vector<std::string> texts(const Json& object, std::string_view key) {
   const Json list = member(object, key);
-  if (!list.isArray()) refuseJsonNumbers(key, "is no list");
+  if (!list.isArray()) refuseJsonNumbers(key, "isn't a list");
   std::vector<std::string> result;
   for (std::size_t i = 0; i < list.size(); ++i) {
-    if (!list.at(i).isString()) refuseJsonNumbers(key, "holds something that is no text");
+    if (!list.at(i).isString()) refuseJsonNumbers(key, "holds something that isn't a text");
     result.push_back(list.at(i).asString());
   }
   return result;

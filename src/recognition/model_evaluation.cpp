@@ -45,7 +45,7 @@ SessionContext adaptedUse(const TrainedModel& adapted,
   if (choice.kind == OffsetChoice::Kind::kBatch)
     use.offset = offsetFromBatch(*adapted.pipeline.sessionAdaptive, x, adapted.offset);
   if (choice.kind == OffsetChoice::Kind::kGiven) use.offset = givenOffset(choice.mm);
-  if (!use.offset.trusted) use.warnings.push_back("nothing is sure: " + use.offset.text());
+  if (!use.offset.trusted) use.warnings.push_back("no answer is sure: " + use.offset.text());
   return use;
 }
 
@@ -85,10 +85,10 @@ SessionContext sessionFor(const TrainedModel& model,
     if (choice.kind == OffsetChoice::Kind::kBatch || choice.kind == OffsetChoice::Kind::kGiven)
       throw Error("a model of classifier " +
                   std::string(classifierName(model.pipeline.classifier)) +
-                  " knows no session offset: train one with --classifier gauss");
+                  " has no session offset: train one with --classifier gauss");
     if (!use.sameSession)
       use.warnings.emplace_back(
-          "nothing is sure: these grasps are not of the session the model was trained in");
+          "no answer is sure: these grasps are not of the session the model was trained in");
     return use;
   }
   switch (choice.kind) {
@@ -97,14 +97,14 @@ SessionContext sessionFor(const TrainedModel& model,
       if (use.offset.origin != OffsetSource::kNone && use.offset.trusted && !use.sameSession) {
         use.offset.trusted = false;
         use.warnings.emplace_back(
-            "nothing is sure: the model was adapted in another session; adapt it anew, or "
+            "no answer is sure: the model was adapted in another session; adapt it again, or use "
             "--session-offset batch");
       } else if (use.offset.origin == OffsetSource::kNone && !use.sameSession) {
         use.warnings.emplace_back(
-            "nothing is sure: another session than that of the training, and its offset isn't "
-            "known; adapt the model, or --session-offset batch");
+            "no answer is sure: not the session of the training, and its offset isn't known; adapt "
+            "the model, or use --session-offset batch");
       } else if (use.offset.origin != OffsetSource::kNone && !use.offset.trusted) {
-        use.warnings.push_back("nothing is sure: " + use.offset.text());
+        use.warnings.push_back("no answer is sure: " + use.offset.text());
       }
       break;
     case OffsetChoice::Kind::kNone:
@@ -114,7 +114,7 @@ SessionContext sessionFor(const TrainedModel& model,
       use.offset =
           x.rows() == 0 ? unknownOffset() : offsetFromBatch(*model.pipeline.sessionAdaptive, x);
       if (!use.offset.trusted)
-        use.warnings.push_back("nothing is sure: the offset rests on " +
+        use.warnings.push_back("no answer is sure: the offset is based on " +
                                std::to_string(use.offset.objects) +
                                (use.offset.objects == 1 ? " object" : " objects") +
                                " (two different ones and a small error are needed)");

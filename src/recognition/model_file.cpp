@@ -30,7 +30,7 @@ Json jsonOf(const std::vector<ModelInput>& inputs) {
 
 std::vector<ModelInput> inputsFrom(const Json& json, std::string_view key) {
   const Json list = js::member(json, key);
-  if (!list.isArray()) throw Error("model: '" + std::string(key) + "' is no list");
+  if (!list.isArray()) throw Error("model: '" + std::string(key) + "' isn't a list");
   std::vector<ModelInput> inputs;
   for (std::size_t i = 0; i < list.size(); ++i) {
     const Json one = list.at(i);
@@ -96,12 +96,12 @@ Json jsonOf(const TrainedModel& model) {
 
 TrainedModel trainedModelFrom(const Json& json) {
   if (!json.isObject() || !json.at("kind").isString() || json.at("kind").asString() != kKind)
-    throw Error("this is no recognition model of palpate");
+    throw Error("this isn't a recognition model of palpate");
   const std::size_t version = js::count(json, "format_version");
   if (version < 1 || version > TrainedModel::kFormatVersion)
     throw Error("model: its format version is " + std::to_string(version) +
                 ", this program reads up to " + std::to_string(TrainedModel::kFormatVersion) +
-                ": train it anew, or update palpate");
+                ": train it again, or update palpate");
   TrainedModel model;
   model.programVersion = js::text(json, "program_version");
   model.madeAt = js::text(json, "made_at");
@@ -114,7 +114,7 @@ TrainedModel trainedModelFrom(const Json& json) {
   model.classes = js::texts(json, "classes");
   model.options = js::member(json, "options");
   model.validation = js::member(json, "validation");
-  if (!model.options.isObject()) throw Error("model: 'options' is no object");
+  if (!model.options.isObject()) throw Error("model: 'options' isn't an object");
   model.minSureConfidence = js::number(json, "sure_confidence");
   model.maxNovelty = js::number(json, "most_novelty");
   model.offset = sessionOffsetFrom(js::member(json, "session_offset"));

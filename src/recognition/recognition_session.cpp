@@ -60,7 +60,7 @@ void RecognitionSession::setZero(const EmptyHandZero& today) {
 void RecognitionSession::choose(const OffsetChoice& choice) {
   if (!model_.adaptsToSession() &&
       (choice.kind == OffsetChoice::Kind::kBatch || choice.kind == OffsetChoice::Kind::kGiven))
-    throw Error("this model knows no session offset");
+    throw Error("this model has no session offset");
   choice_ = choice;
   renew();
 }
@@ -112,13 +112,14 @@ void RecognitionSession::renew() {
   const bool assumed = offset_.origin == OffsetSource::kNone;
   unsure_.clear();
   if (!model_.adaptsToSession() && !sameSession_ && !grasps_.empty())
-    unsure_ = "another session than that of the training: nothing is sure with this model";
+    unsure_ = "not the session of the training: no answer is sure with this model";
   else if (model_.adaptsToSession() && assumed && !sameSession_ && !grasps_.empty())
-    unsure_ = "another session than that of the training: nothing is sure before today is known";
+    unsure_ =
+        "not the session of the training: no answer is sure until the model is adapted to today";
   else if (model_.adaptsToSession() && !assumed && !offset_.trusted)
     unsure_ = offset_.objects < 2 && offset_.grasps > 0
-                  ? "nothing is sure: what is known of today rests on a single object"
-                  : "nothing is sure before more is known of today";
+                  ? "no answer is sure: today's grasps are of one object only"
+                  : "no answer is sure yet: confirm more grasps of today";
 }
 
 Prediction RecognitionSession::predict(const std::vector<double>& values,

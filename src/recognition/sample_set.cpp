@@ -119,7 +119,7 @@ void requireLearnable(const SampleSet& samples) {
   }
   if (withSamples < 2) throw Error("there is only one class (" + only + "): two are the least");
   if (most < 2)
-    throw Error("no class has more than one grasp: how grasps of one object differ can't be told");
+    throw Error("no class has more than one grasp: record at least two grasps of an object");
   for (Eigen::Index column = 0; column < samples.x.cols(); ++column)
     if (varies(samples.x, column)) return;
   throw Error("no feature varies: every grasp gives the same numbers");
@@ -133,7 +133,7 @@ std::vector<std::string> learningNotes(const SampleSet& samples) {
   const std::vector<std::size_t> counts = samples.counts();
   for (std::size_t c = 0; c < counts.size(); ++c)
     if (counts[c] == 1) single.push_back(samples.classes[c]);
-  if (!constant.empty()) notes.push_back("never vary and say nothing: " + listOf(constant));
+  if (!constant.empty()) notes.push_back("never vary, so they don't help: " + listOf(constant));
   if (!single.empty())
     notes.push_back("one grasp only, which is too few to tell how they differ: " + listOf(single));
   return notes;

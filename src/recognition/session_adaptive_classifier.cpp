@@ -133,7 +133,7 @@ SessionAdaptiveClassifier SessionAdaptiveClassifier::learn(const Eigen::MatrixXd
   for (std::size_t c = 0; c < classes.size(); ++c)
     if (scatters.counts[c] == 0.0) throw Error("class '" + classes[c] + "' has no sample");
   if (*std::max_element(scatters.counts.begin(), scatters.counts.end()) < 2.0)
-    throw Error("every class has one sample only: nothing says how much grasps of a thing differ");
+    throw Error("every class has one sample only: record at least two grasps of an object");
 
   SessionAdaptiveParameters data;
   data.degreesOfFreedom = options.degreesOfFreedom;

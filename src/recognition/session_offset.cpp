@@ -209,7 +209,7 @@ std::string SessionOffset::text() const {
   if (origin == OffsetSource::kGiven) return out + "given)";
   if (origin == OffsetSource::kEmptyHand && objects == 0) return out + "from the empty hand)";
   return out + "from " + std::to_string(objects) + (objects == 1 ? " object" : " objects") + ")" +
-         (trusted ? "" : "; too little is known by that to call a verdict sure");
+         (trusted ? "" : "; that is too little for a sure answer");
 }
 
 SessionOffset noOffset() { return oneValue(0.0, OffsetSource::kNone); }

@@ -156,7 +156,7 @@ void requireFits(const TrainedModel& model, const FeatureTable& table) {
                 table.sensor);
   if (table.names != model.features)
     throw Error("the model's features aren't those that this version computes for the set '" +
-                std::string(featureSetName(model.set)) + "': train it anew");
+                std::string(featureSetName(model.set)) + "': train it again");
 }
 
 void adaptModel(TrainedModel& model, const SampleSet& today, const SessionOffset& before) {
@@ -172,8 +172,8 @@ SessionOffset offsetOfEmptyHand(const TrainedModel& model, const EmptyHandZero& 
   if (!today.problem.empty()) throw Error(today.problem);
   if (!model.trainingZero)
     throw Error(
-        "the model keeps no zero of its own to compare with: it takes one touch of the empty hand "
-        "on the day of training (palpate train --empty-hand-zero, or Zero before Train)");
+        "the model has no zero of the empty hand to compare with: record the empty hand on the day "
+        "of training (palpate train --empty-hand-zero, or Zero before Train)");
   return emptyHandOffset(today, *model.trainingZero);
 }
 

@@ -36,7 +36,7 @@ double parsePitch(std::string_view text, const std::string& where) {
 
 template <typename Value>
 void setOnce(std::optional<Value>& place, Value value, const std::string& where) {
-  if (place) throw Error(where + " stands twice");
+  if (place) throw Error(where + " is given twice");
   place = std::move(value);
 }
 
@@ -66,7 +66,7 @@ void DsaSensor::set(SensorField field, std::string_view text) {
       if (const auto number = parseInteger(text))
         setOnce(numMatrices_, *number, "num_matrices");
       else
-        throw Error("num_matrices is no whole number: " + inQuotes(text));
+        throw Error("num_matrices isn't a whole number: " + inQuotes(text));
       break;
     case SensorField::kColumns:
       setOnce(open_.columns, parseSide(text, here() + ": cells_x"), here() + ": cells_x");

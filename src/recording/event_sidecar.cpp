@@ -42,7 +42,7 @@ void forEachNote(const fs::path& recording, const std::function<void(const Json&
   try {
     const Json json = Json::parse(text);
     if (!json.isObject() || json.at("format").asString() != kEventNotesFormat)
-      throw Error("is no file of notes");
+      throw Error("isn't a file of notes");
     if (json.at("version").asInteger() != kEventNotesVersion)
       throw Error("has version " + std::to_string(json.at("version").asInteger()) +
                   " of the format; this program reads version " +

@@ -89,7 +89,7 @@ void requireWritableBy(const fs::path& recording, const fs::path& file) {
   const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
   if (::access(folder.c_str(), W_OK | X_OK) != 0)
     throw FileError(recording,
-                    "lies in a folder that can't be written (" +
+                    "is in a folder that can't be written (" +
                         std::generic_category().message(errno) + ")" + kAdvice);
 }
 
@@ -119,7 +119,7 @@ void replaceRows(SqliteDatabase& database, std::span<const RecordingEvent> event
   });
   std::int64_t id = database.integerOf("SELECT max(id) FROM event");
   if (id > INT64_MAX - static_cast<std::int64_t>(events.size()))
-    throw FormatError(database.path(), "has an event of an absurd number");
+    throw FormatError(database.path(), "has an event with an invalid number");
   SqliteStatement remove = database.prepare("DELETE FROM event WHERE id=?");
   for (const std::int64_t row : obsolete) remove.bind(1, row).run();
   RowWriter rows(database);

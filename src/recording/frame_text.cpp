@@ -74,7 +74,7 @@ void FrameTextDecoder::add(std::string_view piece) {
     if (at == end) break;
     const std::uint8_t meaning = meaningOf(*at);
     if (meaning == kInvalid)
-      throw Error("frame_data holds " + shown(*at) + ", which is no hexadecimal digit " +
+      throw Error("frame_data holds " + shown(*at) + ", which isn't a hexadecimal digit " +
                   soFar(numValues_, values_.size()));
     if (meaning != kBlank) {
       bits_ = bits_ << 4 | meaning;
@@ -94,7 +94,7 @@ void FrameTextDecoder::addToken(std::uint32_t bits) {
     throw Error("a value is not a number " + soFar(numValues_, values_.size()));
   if (value >= 0.0F) {  // also -0.0, which is no run
     if (value > kLargestValue)
-      throw Error("a value of " + numberText(value) + " makes no sense " +
+      throw Error("a value of " + numberText(value) + " is invalid " +
                   soFar(numValues_, values_.size()));
     if (numValues_ == values_.size())
       throw Error("more than " + std::to_string(values_.size()) + " values");

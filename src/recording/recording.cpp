@@ -49,7 +49,7 @@ std::string damageText(const PalpateRecovery& salvage) {
   if (salvage.layoutLost) text += (text.empty() ? "" : ", ") + std::string("layout lost");
   if (salvage.layoutAssumed) text += (text.empty() ? "" : ", ") + std::string("layout assumed");
   if (!salvage.sqliteError.empty())
-    text += (text.empty() ? "" : ", ") + std::string("SQLite gave up");
+    text += (text.empty() ? "" : ", ") + std::string("SQLite stopped");
   return text;
 }
 

@@ -133,7 +133,7 @@ Entries readCache(const fs::path& path) {
 void writeCache(const fs::path& path, const Entries& entries) {
   std::error_code failure;
   fs::create_directories(path.parent_path(), failure);
-  if (failure) throw FileError(path.parent_path(), "can't be made: " + failure.message());
+  if (failure) throw FileError(path.parent_path(), "can't be created: " + failure.message());
   Json list = Json::array();
   for (const auto& [name, entry] : entries) list.push(toJson(name, entry));
   OutputFile file(path, Overwrite::kReplace);

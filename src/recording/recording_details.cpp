@@ -79,7 +79,7 @@ void readSpan(RecordingDetails& details, PalpateConnection& access) {
   const std::int64_t end = last.integer(2);
   if (!sensible(last.integer(0)) || !sensible(last.integer(1)) || *details.startUs < -kMost ||
       end > kMost || end < *details.startUs)
-    throw FormatError(details.path, "its blocks make no sense; try 'palpate recover'");
+    throw FormatError(details.path, "its blocks are invalid; try 'palpate recover'");
   details.numFrames = last.integer(0) + last.integer(1);
   details.durationUs = end - *details.startUs;
 }

@@ -89,7 +89,7 @@ class FolderWalk {
       take(*entry);
     }
     if (failure) {
-      const FileError error(folder, "can't be looked into: " + failure.message());
+      const FileError error(folder, "can't be read: " + failure.message());
       problems_.emplace_back(error.what());
     }
   }

@@ -20,7 +20,7 @@ constexpr double kMostBucketsOfAll = 8'388'608.0;
 SignalOverview::SignalOverview(const Profile& profile, double bucketS)
     : profile_(profile), numRows_(profile.layout().numMatrices() + 1) {
   if (profile.numFrames() == 0)
-    throw std::invalid_argument("SignalOverview: the profile holds no frame");
+    throw std::invalid_argument("SignalOverview: the profile has no frames");
   const double durationS = static_cast<double>(profile.durationUs()) / kUsPerS;
   const std::size_t count = numRows_ * kAllSignalKinds.size();
   if (!(bucketS > 0.0))

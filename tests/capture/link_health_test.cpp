@@ -210,7 +210,8 @@ TEST(LinkHealth, aDeviceThatNeverCameIsAnAlarmOnlyOnceItIsSilentOrLost) {
   inputs.device.tactile.port = "/dev/ttyUSB0";
   const LinkHealth health = assessHealth(inputs);
   ASSERT_EQ(kindsOf(health), std::vector{AlarmKind::kNoData});
-  EXPECT_EQ(health.alarms[0].text, "the tactile port /dev/ttyUSB0 is gone: plug it in again");
+  EXPECT_EQ(health.alarms[0].text,
+            "the tactile port /dev/ttyUSB0 is disconnected: plug it in again");
 }
 
 TEST(LinkHealth, saysTheNameOfAPortOnce) {

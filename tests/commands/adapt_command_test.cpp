@@ -68,7 +68,7 @@ TEST_F(AdaptCommand, OneObjectIsNotEnoughToBeSure) {
   saveGrasps(folder_ / "today/pen/a.dsa", 8.0 + 2.5, 3, 50, kLaterUs);
   const auto result = palpate({"adapt", model(), folder_ / "today", "-o", adapted()});
   ASSERT_EQ(result.exitCode, 0);
-  EXPECT_NE(result.err.find("nothing will be sure"), std::string::npos) << result.err;
+  EXPECT_NE(result.err.find("no answer will be sure"), std::string::npos) << result.err;
   EXPECT_FALSE(loadModel(adapted()).offset.trusted);
 }
 
@@ -121,7 +121,7 @@ TEST_F(AdaptCommand, TheTouchOfTheEmptyHandIsEnough) {
   saveGrasps(folder_ / "next.dsa", 16.0 + 4.0, 1, 91, kLaterUs + kOneDayUs);
   const auto next = palpate({"classify", adapted(), folder_ / "next.dsa", "--json"});
   EXPECT_FALSE(Json::parse(next.out).at("grasps").at(0).at("sure").asBool());
-  EXPECT_NE(next.err.find("nothing is sure"), std::string::npos) << next.err;
+  EXPECT_NE(next.err.find("no answer is sure"), std::string::npos) << next.err;
 }
 
 TEST_F(AdaptCommand, LabelledGraspsNarrowTheZeroOfTheDay) {
@@ -176,7 +176,7 @@ TEST_F(AdaptCommand, AZeroThatIsNoneIsRefused) {
                               "-o",
                               adapted()}),
                      1,
-                     {"no zero of its own", "--empty-hand-zero"});
+                     {"no zero of the empty hand", "--empty-hand-zero"});
   EXPECT_FALSE(std::filesystem::exists(adapted()));
   expectOneLineError(palpate({"train",
                               "-q",

@@ -181,7 +181,7 @@ TEST(CalibrateCommand, PressureIsMadeAndApplied) {
   expectOneLineError(
       palpate({"calibrate", "apply", folder / "kpa.palpate", "--calibration", folder / "c.json"}),
       1,
-      {"not counts"});
+      {"needs counts"});
 }
 
 TEST(CalibrateCommand, SettingsThatTheRecordingNotesAreTaken) {
@@ -318,7 +318,7 @@ TEST(CalibrateCommand, ACalibrationThatIsNoneIsRefused) {
   expectOneLineError(
       palpate({"calibrate", "apply", folder / "a.dsa", "--calibration", folder / "c.json"}),
       1,
-      {"no calibration"});
+      {"isn't a calibration"});
   expectOneLineError(palpate({"calibrate", "apply", folder / "a.dsa"}), 2, {"--calibration"});
   expectOneLineError(
       palpate({"contact", folder / "a.dsa", "--sensor-sensitivity", "0.5"}), 2, {"--calibration"});

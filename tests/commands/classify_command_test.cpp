@@ -46,7 +46,7 @@ TEST_F(ClassifyCommand, OnAnotherDayItIsNotSureWithoutAnOffset) {
   std::string said;
   const Json json = classify({folder_ / "t.dsa"}, &said);
   for (std::size_t i = 0; i < 3; ++i) EXPECT_FALSE(json.at("grasps").at(i).at("sure").asBool());
-  EXPECT_NE(said.find("nothing is sure"), std::string::npos);
+  EXPECT_NE(said.find("no answer is sure"), std::string::npos);
   const Json given = classify({folder_ / "t.dsa", "--session-offset", "0"});
   EXPECT_TRUE(given.at("grasps").at(0).at("sure").asBool()) << "the person's word";
   EXPECT_EQ(given.at("session_offset").at("origin").asString(), "given");
@@ -62,7 +62,7 @@ TEST_F(ClassifyCommand, ABatchTellsItsOffset) {
   std::string said;
   const Json one = classify({folder_ / "later/pen/a.dsa", "--session-offset", "batch"}, &said);
   EXPECT_NE(one.at("session_offset").at("mm").asDouble(), 0.0);
-  EXPECT_NE(said.find("nothing is sure"), std::string::npos) << said;
+  EXPECT_NE(said.find("no answer is sure"), std::string::npos) << said;
   for (std::size_t i = 0; i < one.at("grasps").size(); ++i)
     EXPECT_FALSE(one.at("grasps").at(i).at("sure").asBool());
 }

@@ -178,7 +178,7 @@ TEST(ContactCommand, OfAFolderIsOneTableThatNamesTheFiles) {
   EXPECT_EQ(result.out.substr(0, result.out.find('\n')), kHeader + ",file");
   EXPECT_EQ(csvRows(result.out).size(), 1u + 3u + 3u);
   EXPECT_NE(result.out.find(",\"" + (folder / "b,c.dsa").string() + "\"\n"), std::string::npos);
-  EXPECT_NE(result.err.find("c.dsa: holds no joint angles"), std::string::npos) << result.err;
+  EXPECT_NE(result.err.find("c.dsa: has no joint angles"), std::string::npos) << result.err;
   EXPECT_NE(result.err.find("d.dsa"), std::string::npos) << result.err;
 }
 

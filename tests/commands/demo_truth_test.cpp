@@ -119,7 +119,7 @@ TEST(DemoTruth, ASlipThatNothingSawIsSaid) {
   ASSERT_TRUE(motion);
   const DemoSlip slip = demoSlip(seriesWith({alarmOf(1, 200, 205)}), pulledTruth(), 2.0, *motion);
   EXPECT_FALSE(slip.alarm);
-  EXPECT_NE(demoSlipText(slip, kPitchMm).find("no lamp said so"), std::string::npos);
+  EXPECT_NE(demoSlipText(slip, kPitchMm).find("no alarm was raised"), std::string::npos);
   EXPECT_FALSE(demoSlipJson(slip, kPitchMm).at("seen").asBool());
   EXPECT_FALSE(demoSlipJson(slip, kPitchMm).contains("alarm"));
 }

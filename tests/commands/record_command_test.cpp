@@ -176,7 +176,7 @@ TEST(RecordCommand, NeverReplacesARecording) {
   EXPECT_EQ(readFile(folder / "a.palpate"), "precious");
   expectOneLineError(palpate({"record", "--dsa", "/dev/null", "-o", folder / "no/a.palpate"}),
                      1,
-                     {"is no folder"});
+                     {"isn't a folder"});
 }
 
 TEST(RecordCommand, RefusesWrongUsage) {

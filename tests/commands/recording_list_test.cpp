@@ -170,8 +170,7 @@ TEST(RecordingList, ASubfolderThatCannotBeReadIsATroubleAndTheOthersAreFound) {
     const bool right =
         list.files == std::vector<fs::path>{folder / "a.dsa", folder / "open/c.dsa"} &&
         list.problems.size() == 1 &&
-        list.problems[0].find("locked: can't be looked into: Permission denied") !=
-            std::string::npos;
+        list.problems[0].find("locked: can't be read: Permission denied") != std::string::npos;
     _exit(right ? 0 : 1);
   }
   int status = 0;
@@ -229,10 +228,10 @@ TEST(ForEachRecording, WhatIsDoneInPartOrNotFoundMakesItThree) {
   EXPECT_EQ(part.err, "palpate: c: half of it\n");
   const auto done = [](const fs::path&, const Progress&) { return FileOutcome{}; };
   RecordingList list = kThree;
-  list.problems = {"sub: can't be looked into"};
+  list.problems = {"sub: can't be read"};
   const ListResult beside = runOver(list, done);
   EXPECT_EQ(beside.exitCode, kPartlyDone);
-  EXPECT_EQ(beside.err, "palpate: sub: can't be looked into\n");
+  EXPECT_EQ(beside.err, "palpate: sub: can't be read\n");
   list.files.clear();
   EXPECT_EQ(runOver(list, done).exitCode, kFailed);
 }

@@ -88,7 +88,7 @@ TEST_F(RenderHandTest, WithoutAnglesItSaysSoOrAssumesThem) {
   ASSERT_EQ(render("rest.svg", {}), 0);
   EXPECT_NE(bytes("rest.svg").find("No usable joint angles"), std::string::npos);
   ASSERT_EQ(render("posed.svg", {"--angles", "0,-10,20,-10,20,-10,20"}), 0);
-  EXPECT_NE(bytes("posed.svg").find("as assumed"), std::string::npos);
+  EXPECT_NE(bytes("posed.svg").find("are assumed"), std::string::npos);
 }
 
 TEST_F(RenderHandTest, RefusesWhatMakesNoSense) {

@@ -104,7 +104,7 @@ TEST_F(EmptyHandCycleTest, PadsThatNeverLetGoAreWaitedForTenSeconds) {
   pass(9.9);
   EXPECT_EQ(run_.step(now()), std::nullopt);
   pass(0.3);
-  EXPECT_EQ(run_.step(now()), "the pads didn't touch, or don't let go");
+  EXPECT_EQ(run_.step(now()), "the pads didn't touch, or don't separate");
   EXPECT_FALSE(run_.active());
 }
 

@@ -72,9 +72,9 @@ TEST(Scene, SaysWhichFieldIsWrong) {
     EXPECT_NE(fault.find(place), std::string::npos) << fault << " should name " << place;
   };
   expectFault("{", "scene.json");
-  expectFault("[]", "no JSON object");
+  expectFault("[]", "isn't a JSON object");
   expectFault(R"({"object": []})", "unknown key 'object'");
-  expectFault(R"({"description": 3})", "description is no text");
+  expectFault(R"({"description": 3})", "description isn't a text");
   expectFault(R"({"objects": [{"shape": "banana", "size_mm": 3}]})", "objects[0].shape");
   expectFault(R"({"objects": [{"shape": "sphere"}]})", "size_mm");
   expectFault(R"({"objects": [{"shape": "box", "size_mm": [1, 2]}]})", "three lengths");

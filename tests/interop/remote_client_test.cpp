@@ -95,7 +95,7 @@ TEST(RemoteClient, SaysThatSomebodyElseAnswers) {
       client.ask("status", 5000ms);
       FAIL() << says.substr(0, 40);
     } catch (const FileError& error) {
-      EXPECT_NE(std::string(error.what()).find("no Palpate"), std::string::npos) << error.what();
+      EXPECT_NE(std::string(error.what()).find("isn't Palpate"), std::string::npos) << error.what();
     }
   }
 }

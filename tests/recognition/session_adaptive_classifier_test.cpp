@@ -120,7 +120,7 @@ TEST(SessionAdaptiveClassifier, WhatCannotBeLearntIsSaid) {
   EXPECT_EQ(said(square.x, std::vector<int>(8, 0), {"one"}), "a model needs two classes or more");
   EXPECT_EQ(said(square.x, square.y, {"l", "r", "nobody"}), "class 'nobody' has no sample");
   EXPECT_EQ(said(MatrixXd{{1, 2}, {3, 4}}, {0, 1}, {"l", "r"}),
-            "every class has one sample only: nothing says how much grasps of a thing differ");
+            "every class has one sample only: record at least two grasps of an object");
   MatrixXd bad = square.x;
   bad(3, 1) = std::nan("");
   EXPECT_EQ(said(bad, square.y, {"l", "r"}), "features that are no numbers");

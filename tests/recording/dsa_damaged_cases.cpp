@@ -129,7 +129,7 @@ std::vector<DamagedCase> damagedCases() {
   change("columns_twice",
          "<cells_x>3</cells_x>",
          "<cells_x>3</cells_x><cells_x>3</cells_x>",
-         {"cells_x stands twice"});
+         {"cells_x is given twice"});
   change("long_number",
          "<cells_x>3<",
          "<cells_x>" + std::string(100'000, '3') + "<",
@@ -190,7 +190,10 @@ std::vector<DamagedCase> damagedCases() {
          "<time_stamp>1400000000032</time_stamp><time_stamp>1400000000033</time_stamp>",
          {"frame 1", "a second time_stamp"});
   change("stamp_words", ">1400000000032<", ">yesterday<", {"frame 1", "time_stamp", "yesterday"});
-  change("stamp_fraction", ">1400000000032<", ">1400000000032.5<", {"frame 1", "no whole number"});
+  change("stamp_fraction",
+         ">1400000000032<",
+         ">1400000000032.5<",
+         {"frame 1", "isn't a whole number"});
   change("stamp_empty", ">1400000000032<", "><", {"frame 1", "time_stamp"});
   change("stamp_negative", ">1400000000032<", ">-5<", {"frame 1", "1970"});
   change("stamp_far", ">1400000000032<", ">7258118400000<", {"frame 1", "2199"});

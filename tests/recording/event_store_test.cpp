@@ -150,7 +150,7 @@ TEST_P(EventStore, readOnlyFilesAndFoldersAreSaid) {
   const EventsReport asRead = readEvents(path);
   fs::permissions(folder.path(), fs::perms::owner_read | fs::perms::owner_exec);
   expectContains(fileErrorOf([&] { saveEvents(path, asRead, std::vector{kGap}); }),
-                 "lies in a folder that can't be written");
+                 "is in a folder that can't be written");
   fs::permissions(folder.path(), fs::perms::owner_all);
   const fs::path file = path.string() + (GetParam() == std::string(".dsa") ? ".notes.json" : "");
   fs::permissions(file, fs::perms::owner_read);

@@ -32,7 +32,7 @@ int adaptByGrasps(const CommandLine& given,
   if (earlier > 0)
     sayLine(std::to_string(earlier) + (earlier == 1 ? " grasp is" : " grasps are") +
             " of an earlier session, more than 8 h before the others, and left out: the hand reads "
-            "sizes anew in each session");
+            "sizes differently in each session");
   if (zero) requireSameDay(*zero, table);
   const SampleSet today = samplesOf(table, model.classes);
   forgetAnotherDay(model, table.rows.front().timeUs);
@@ -62,18 +62,18 @@ int adaptCommand(const Arguments& words) {
            "--preshape pinch-empty\n        --mode reactive): no object, no label. Needs a model "
            "that was trained with such a touch of its own day.\n"
            "  PATH  a folder with a folder of recordings per class, some of the model's: labelled "
-           "grasps, which also tell\n        what the objects feel like today. One grasp of each "
-           "object at hand is nearly all the gain; two\n        different objects are the least "
-           "for verdicts that may be called sure.\n\n"
+           "grasps, which also show\n        how the objects measure today. One grasp of each "
+           "object is usually enough; at least two\n        different objects are needed for "
+           "verdicts that are called sure.\n\n"
            "Of grasps of several sessions (more than 8 h apart) the newest counts, and what is "
-           "left out is "
-           "said: exit code 3.\nWhat the model stored of the same day is kept, of another day "
+           "left out is reported: exit code 3.\nWhat the model stored of the same day is kept, of "
+           "another day "
            "forgotten. Prints the "
            "offset and the classes as\nJSON.",
        .options = {{"output,o", "MODEL2.json", "write the adapted model there"},
                    zeroOptionSpec(),
                    {"force", "", "replace MODEL2.json"},
-                   {"json", "", "JSON is what it prints anyway"}},
+                   {"json", "", "no effect: it always prints JSON"}},
        .example = "palpate adapt objects.json --empty-hand-zero touch.dsa -o objects_today.json",
        .minArguments = 1,
        .maxArguments = 2},
@@ -83,7 +83,8 @@ int adaptCommand(const Arguments& words) {
   if (!out) throw UsageError("-o MODEL2.json is missing: where the adapted model goes");
   const bool grasps = given.words().size() > 1;
   if (!grasps && !given.has("empty-hand-zero"))
-    throw UsageError("nothing to adapt by: a PATH with labelled grasps, or --empty-hand-zero FILE");
+    throw UsageError(
+        "nothing to adapt with: give a PATH with labelled grasps, or --empty-hand-zero FILE");
   const Overwrite overwrite = given.has("force") ? Overwrite::kReplace : Overwrite::kRefuse;
   TrainedModel model = loadModel(given.words().front());
   requireWritable(*out, overwrite);
@@ -97,7 +98,7 @@ int adaptCommand(const Arguments& words) {
   model.programVersion = PALPATE_VERSION;
   model.madeAt = utcStamp();
   saveModel(model, *out, overwrite);
-  if (!model.offset.trusted) sayLine("nothing will be sure with it: " + model.offset.text());
+  if (!model.offset.trusted) sayLine("no answer will be sure with it: " + model.offset.text());
   printObject(Json::object()
                   .set("model", *out)
                   .set("session_offset", offsetJson(model.offset, model.sessionZero))

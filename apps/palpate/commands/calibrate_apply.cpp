@@ -71,8 +71,9 @@ int calibrateApply(const Arguments& words) {
        .purpose = "Pressure and force by a calibration. Prints CSV, a row per frame and matrix "
                   "that is touched: K [counts], "
                   "pressure\n[kPa] and force [N] with their standard deviations; in_range 0: "
-                  "beyond what was measured, don't "
-                  "rely on it.",
+                  "outside the measured range, don't rely on it."
+
+       ,
        .options = options,
        .example = "palpate calibrate apply grasp.palpate --calibration hand.json > force.csv",
        .minArguments = 1,
@@ -116,10 +117,11 @@ int calibrateApply(const Arguments& words) {
   out.finish();
   progress.wipe();
   if (beyond > 0 && !given.quiet())
-    std::fprintf(stderr,
-                 "palpate: %zu of %zu contacts are beyond what was measured: not to be relied on\n",
-                 beyond,
-                 touched);
+    std::fprintf(
+        stderr,
+        "palpate: %zu of %zu contacts are outside the measured range: don't rely on them\n",
+        beyond,
+        touched);
   if (outPath) {
     copyState(profile, builder);
     ProfileInfo info = profile.info();

@@ -58,13 +58,13 @@ int calibrateCommand(const Arguments& words) {
     if (!words.empty() && words[0] == kind.name) return kind.run({words.begin() + 1, words.end()});
     known += (known.empty() ? "" : ", ") + std::string(kind.name);
   }
-  throw UsageError(words.empty() ? "calibrate what? one of " + known
-                                 : "calibrate knows no '" + words[0] + "', only " + known);
+  throw UsageError(words.empty() ? "calibrate needs a KIND: one of " + known
+                                 : "calibrate has no KIND '" + words[0] + "', only " + known);
 }
 
 std::size_t matrixGiven(const CommandLine& given) {
   const auto matrix = given.integer("matrix", 0, INT32_MAX);
-  if (!matrix) throw UsageError("--matrix M is missing: which matrix was loaded?");
+  if (!matrix) throw UsageError("--matrix M is missing: give the matrix that was loaded");
   return static_cast<std::size_t>(*matrix);
 }
 

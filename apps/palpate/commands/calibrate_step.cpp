@@ -27,7 +27,7 @@ int calibrateStep(const Arguments& words) {
                    {"damping", "NAME", "over (default: d >= 1) or any (oscillating ones as well)"},
                    {"above", "N", "loaded: the signal is above N, default 0"},
                    {"least", "S", "shorter contacts are no steps [s], default 1"},
-                   {"output,o", "OUT.json", "write it there"},
+                   {"output,o", "OUT.json", "write the result to this file"},
                    {"force", "", "replace OUT.json"}},
        .example = "palpate calibrate step A1.dsa --matrix 1",
        .minArguments = 1,

@@ -50,7 +50,7 @@ int calibrateTare(const Arguments& words) {
                     "a matrix that never reads less is never unloaded [counts], default 150"},
                    {"apply", "", "note it in the recording"},
                    {"remove", "", "take it away again"},
-                   {"output,o", "OUT.json", "write the JSON there"},
+                   {"output,o", "OUT.json", "write the JSON to this file"},
                    {"force", "", "replace OUT.json"}},
        .example = "palpate calibrate tare session.palpate --apply",
        .minArguments = 1,
@@ -63,7 +63,7 @@ int calibrateTare(const Arguments& words) {
   if (given.has("remove")) {
     const EventsReport events = readEvents(file);
     const std::vector<RecordingEvent> kept = withoutTare(events);
-    if (kept.size() == events.events.size()) throw FileError(file, "holds no tare");
+    if (kept.size() == events.events.size()) throw FileError(file, "has no tare");
     saveEvents(file, events, kept);
     if (!given.quiet()) std::printf("%s: tare removed\n", file.string().c_str());
     return kDone;

@@ -35,7 +35,7 @@ PressureMapOptions withNoted(PressureMapOptions options, const std::filesystem::
       } catch (const Error& error) {
         throw FileError(file,
                         std::string("its sensor_settings event can't be used (") + error.what() +
-                            "); --sensor-sensitivity and --sensor-threshold go before it");
+                            "); give --sensor-sensitivity and --sensor-threshold instead");
       }
   if (noted) {
     options.settings.push_back(*noted);
@@ -49,7 +49,7 @@ PressureMapOptions withNoted(PressureMapOptions options, const std::filesystem::
   } catch (const Error& error) {
     throw FileError(file,
                     std::string("the settings it reports can't be used (") + error.what() +
-                        "); --sensor-sensitivity and --sensor-threshold go before it");
+                        "); give --sensor-sensitivity and --sensor-threshold instead");
   }
   return options;
 }
@@ -57,16 +57,14 @@ PressureMapOptions withNoted(PressureMapOptions options, const std::filesystem::
 }  // namespace
 
 std::vector<OptionSpec> calibrationOptions() {
-  return {{"calibration", "C.json", "what `palpate calibrate pressure` wrote"},
-          {"sensor-sensitivity",
-           "S",
-           "the recording was made with, default as noted or reported in it, or that of the "
-           "calibration"},
-          {"sensor-threshold",
-           "N",
-           "the recording was made with [counts], default that of the calibration"},
-          {"no-tare", "", "don't take off the zeros that `calibrate tare --apply` noted"},
-          {"no-drift", "", "don't take the creep out of contacts that last"}};
+  return {
+      {"calibration", "C.json", "what `palpate calibrate pressure` wrote"},
+      {"sensor-sensitivity",
+       "S",
+       "used for the recording, default as noted or reported in it, or that of the calibration"},
+      {"sensor-threshold", "N", "used for the recording [counts], default that of the calibration"},
+      {"no-tare", "", "don't take off the zeros that `calibrate tare --apply` noted"},
+      {"no-drift", "", "don't take the creep out of contacts that last"}};
 }
 
 std::vector<OptionSpec> withCalibration(std::vector<OptionSpec> options) {
@@ -79,12 +77,12 @@ std::optional<CalibrationChoice> calibrationGiven(const CommandLine& given) {
   if (!path) {
     for (const char* option : {"sensor-sensitivity", "sensor-threshold", "no-tare", "no-drift"})
       if (given.has(option))
-        throw UsageError("--" + std::string(option) + " goes with --calibration C.json");
+        throw UsageError("--" + std::string(option) + " needs --calibration C.json");
     return std::nullopt;
   }
   CalibrationChoice choice{loadCalibration(*path), {}, !given.has("no-tare")};
   if (!choice.calibration.pressure.valid())
-    throw FileError(*path, "holds no P(K, T), so that no force follows from it; its notes say why");
+    throw FileError(*path, "has no P(K, T), so it can't give forces; its notes say why");
   choice.options.compensateDrift = !given.has("no-drift");
   const auto sensitivity = given.number("sensor-sensitivity", 0.01, 1.0),
              threshold = given.number("sensor-threshold", 0.0, 4095.0);
@@ -103,7 +101,7 @@ CalibratedFrames::CalibratedFrames(const CalibrationChoice& choice,
                                    const Profile& profile)
     : profile_(profile), map_(choice.calibration, profile.hand(), withNoted(choice.options, file)) {
   if (profile.info().valueType != ValueType::kCounts)
-    throw FileError(file, "holds filtered values, not counts: a calibration doesn't apply to them");
+    throw FileError(file, "holds filtered values: a calibration needs counts");
   if (choice.tare) tare_ = tareIn(file, profile.layout());
 }
 

@@ -32,7 +32,7 @@ po::options_description described(const CommandSpec& spec) {
                             option.help.c_str());
   };
   for (const OptionSpec& option : spec.options) add(option);
-  add({"quiet,q", "", "no progress and no remarks; errors are still said"});
+  add({"quiet,q", "", "no progress and no remarks; errors are still printed"});
   add({"help,h", "", "this text"});
   return options;
 }

@@ -22,7 +22,7 @@ namespace {
 void commandsShowHelp() {
   std::cout
       << "Palpate " PALPATE_VERSION
-         ": workbench for robot hands that feel\n\n"
+         ": workbench for tactile robot hands\n\n"
          "Usage:\n"
          "  palpate [FILE...]       open recordings in the window\n"
          "  palpate --demo          open the window on a demonstration\n"
@@ -120,32 +120,32 @@ int runCaught(const Arguments& words) {
 
 const std::vector<Command>& allCommands() {
   static const std::vector<Command> commands = {
-      {"adapt", "a recognition model to today, by labelled grasps", &adaptCommand},
+      {"adapt", "adapts a recognition model to today, with labelled grasps", &adaptCommand},
       {"calibrate",
-       "from counts to kPa and N: noise, steps, pressure, sensitivity, tare",
+       "calibrates counts to kPa and N: noise, steps, pressure, sensitivity, tare",
        &calibrateCommand},
-      {"classify", "what was grasped, by a model", &classifyCommand},
-      {"compare", "two recordings frame beside frame, as CSV", &compareCommand},
-      {"contact", "where a hand touches, and how large what it holds is", &contactCommand},
-      {"convert",
-       "from one form of a recording to another: .dsa, .palpate, .csv, .npz",
-       &convertCommand},
+      {"classify", "names what was grasped, with a trained model", &classifyCommand},
+      {"compare", "compares two recordings frame by frame, as CSV", &compareCommand},
+      {"contact", "where a hand touches, and how large the held object is", &contactCommand},
+      {"convert", "converts recordings: .dsa, .palpate, .csv, .npz", &convertCommand},
       {"demo",
-       "a headless tour: emulated hands grasp, one slips, what is held is named",
+       "a tour without a window: emulated hands grasp objects, which are named",
        &demoCommand},
-      {"emulate", "the emulated hand on two ports, until it is interrupted", &emulateCommand},
-      {"evaluate", "how well grasps are recognised", &evaluateCommand},
-      {"features", "what recognition knows of each grasp, as CSV", &featuresCommand},
-      {"filter", "a recording through a chain of filters, as a recording", &filterCommand},
-      {"ghosts", "false taxels, and what filters do to them and to contacts", &ghostsCommand},
+      {"emulate", "runs the emulated hand on two ports, until it is interrupted", &emulateCommand},
+      {"evaluate", "measures how well grasps are recognised", &evaluateCommand},
+      {"features", "features of each grasp for recognition, as CSV", &featuresCommand},
+      {"filter", "filters a recording with a chain of filters", &filterCommand},
+      {"ghosts",
+       "counts false taxels, and what filters do to them and to contacts",
+       &ghostsCommand},
       {"grasp", "moves a connected hand: plain and reactive grasps", &graspCommand},
       {"grasps", "where the grasps in recordings are, as CSV", &graspsCommand},
       {"info", "what is in a recording, or in each of a folder", &infoCommand},
       {"kinematics", "where the taxels are at a set of joint angles", &kinematicsCommand},
-      {"ports", "which ports there are, and what answers behind each", &portsCommand},
+      {"ports", "lists the ports and the device on each", &portsCommand},
       {"record", "records a connected hand", &recordCommand},
       {"recover", "saves what can be saved of a damaged or unfinished recording", &recoverCommand},
-      {"remote", "asks a palpate that runs: status, start, stop, label, ..", &remoteCommand},
+      {"remote", "controls a running palpate: status, start, stop, label, ..", &remoteCommand},
       {"render", "a picture of one frame: PNG, SVG or PDF", &renderCommand},
       {"signals", "characteristic signals of each matrix as CSV", &signalsCommand},
       {"slip", "how contacts move on every matrix, and whether that is slip, as CSV", &slipCommand},
@@ -153,9 +153,9 @@ const std::vector<Command>& allCommands() {
        "how well every method measures slip, against synthetic truth, as JSON",
        &slipBenchmarkCommand},
       {"spectrum", "spectra of a taxel or a signal over time, as CSV", &spectrumCommand},
-      {"stream", "live signals or taxels to other programs (PlotJuggler)", &streamCommand},
+      {"stream", "sends live signals or taxels to other programs (PlotJuggler)", &streamCommand},
       {"synthesize", "makes a synthetic recording with known content", &synthesizeCommand},
-      {"train", "a model that recognises what is grasped", &trainCommand},
+      {"train", "trains a model that recognises what is grasped", &trainCommand},
       {"verify", "checks every byte of recordings", &verifyCommand},
   };
   return commands;

@@ -32,10 +32,10 @@ double offsetFor(const CommandLine& given, const TimedProfile& a, const TimedPro
   if (const auto offsetS = offsetBetween(a, b, *alignmentFrom(word))) return *offsetS;
   for (std::size_t i = 0; i < 2; ++i) {
     const TimedProfile& side = i == 0 ? a : b;
-    if (side.profile.numFrames() == 0) throw Error(given.words()[i] + ": holds no frame");
+    if (side.profile.numFrames() == 0) throw Error(given.words()[i] + ": has no frames");
     if (!side.contact)
       throw Error(given.words()[i] +
-                  ": no lasting contact (3 taxels in 3 frames in a row); take --align start");
+                  ": no lasting contact (3 taxels in 3 frames in a row); use --align start");
   }
   throw Error("these two can't be aligned");
 }
@@ -64,7 +64,7 @@ int compareCommand(const Arguments& words) {
   const CommandLine given(
       {.synopsis = "palpate compare A B [--align contact|start|clock] [--offset S]",
        .purpose =
-           "Lays two recordings on one axis of time and prints, for every frame of A that has "
+           "Aligns two recordings in time and prints, for every frame of A that has "
            "a frame of B\nbeside it (the last one at or before), what each matrix has in both: "
            "the means of the active\ntaxels, and mean and root mean square of A - B over the "
            "taxels that are active in either. First\ncontact: at least 3 active taxels in "

@@ -219,7 +219,7 @@ bool sayTroubles(const std::filesystem::path& file, const AngleTroubles& problem
   if (problems.unusable > 0)
     say(problems.unusable,
         "have no usable joint angles, and no sphere: " + problems.firstUnusable +
-            "; --angles assumes some");
+            "; give some with --angles");
   return problems.unusable + problems.notFinite == 0;
 }
 
@@ -264,7 +264,7 @@ int contactCommand(const Arguments& words) {
   request.from = given.integer("from", 0, INT64_MAX);
   request.to = given.integer("to", 0, INT64_MAX);
   if (request.from && request.to && *request.from > *request.to)
-    throw UsageError("--from is behind --to");
+    throw UsageError("--from is after --to");
   const HandGeometry geometry(geometryOf(given));
   const RecordingList recordings = recordingsIn(given.words());
   StandardOutput out;
@@ -276,7 +276,7 @@ int contactCommand(const Arguments& words) {
         requireHand(file, profile, geometry.description());
         if (profile.numAngles() == 0 && !request.anglesDeg)
           throw Error(file.string() +
-                      ": holds no joint angles; assume some with --angles A0,..,A6 [deg]");
+                      ": has no joint angles; assume some with --angles A0,..,A6 [deg]");
         const auto range = contactRangeOf(file, profile, request);
         if (!headerWritten)
           out.write(std::string(request.matrices ? kMatrixColumns : kFrameColumns) +

@@ -72,7 +72,7 @@ void sayContactSize(const std::filesystem::path& file,
 
 int contactSizes(const CommandLine& given) {
   for (const char* option : {"angles", "matrices", "threshold", "from", "to"})
-    if (given.has(option)) throw UsageError(std::string("--size doesn't go with --") + option);
+    if (given.has(option)) throw UsageError(std::string("--size can't be used with --") + option);
   const HandGeometry geometry(geometryOf(given, "effective"));
   const RecordingList recordings = recordingsIn(given.words());
   StandardOutput out;
@@ -84,7 +84,7 @@ int contactSizes(const CommandLine& given) {
         requireHand(file, profile, geometry.description());
         if (profile.numAngles() == 0)
           throw Error(file.string() +
-                      ": holds no joint angles; a size can't be told from one assumed pose");
+                      ": has no joint angles; a size can't be measured with one assumed pose");
         if (profile.hand().axes.size() != geometry.description().numAxes)
           throw Error(file.string() + ": its joint angles are those of another hand");
         const std::vector<GraspSegment> grasps = findGrasps(profile, {}, progress);

@@ -80,7 +80,7 @@ void requireOutside(const fs::path& folder, const fs::path& out) {
 void convertMakeFolder(const fs::path& folder) {
   std::error_code failure;
   fs::create_directories(folder, failure);
-  if (failure) throw FileError(folder, "can't be made: " + failure.message());
+  if (failure) throw FileError(folder, "can't be created: " + failure.message());
 }
 
 int convertFolder(const CommandLine& given,
@@ -97,7 +97,9 @@ int convertFolder(const CommandLine& given,
         fs::path out = outFolder / file.lexically_relative(folder);
         out.replace_extension("." + form);
         if (made.contains(out))
-          throw FileError(file, "'" + out.string() + "' was made of another form of it already");
+          throw FileError(file,
+                          "'" + out.string() +
+                              "' was already made from a file of the same name and another format");
         requireWritable(out, overwrite);
         const Profile profile =
             openRecording(file, [&](double fraction) { return progress(0.5 * fraction); });
@@ -122,7 +124,7 @@ int convertCommand(const Arguments& words) {
   const CommandLine given(
       {.synopsis = "palpate convert IN OUT [--from N --to M] | FOLDER OUTFOLDER --to-form FORM",
        .purpose =
-           "Converts a recording; the ending of OUT chooses the form: .dsa, .palpate, .csv "
+           "Converts a recording; the ending of OUT chooses the format: .dsa, .palpate, .csv "
            "(with\nOUT.angles.csv and OUT.temperatures.csv beside it), .npz (for NumPy) or .jsonl "
            "(frames as\nschunk_sdh/TactileSensor). "
            "Of a FOLDER every recording\nbelow it, into OUTFOLDER under the same names with "
@@ -143,10 +145,10 @@ int convertCommand(const Arguments& words) {
   std::error_code ignored;
   const bool isFolder = fs::is_directory(in, ignored);
   if (isFolder && !form)
-    throw UsageError(in + " is a folder: say with --to-form what its recordings shall become");
-  if (!isFolder && form) throw UsageError("--to-form goes with a folder; " + in + " is none");
+    throw UsageError(in + " is a folder: choose the format of the results with --to-form");
+  if (!isFolder && form) throw UsageError("--to-form needs a folder; " + in + " isn't one");
   if (isFolder && (given.has("from") || given.has("to")))
-    throw UsageError("--from and --to go with one recording, not with a folder");
+    throw UsageError("--from and --to work with one recording, not with a folder");
   return isFolder ? convertFolder(given, in, out, *form) : convertOne(given, in, out);
 }
 

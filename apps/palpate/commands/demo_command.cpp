@@ -29,7 +29,7 @@ void runWholeDemo(DemoRun& run) {
 void sayWhatIsNext(const fs::path& folder, bool failed) {
   const std::string in = folder.string() + "/";
   if (failed) {
-    std::printf("A step failed; what there is lies in %s, %sreport.html tells it.\n",
+    std::printf("A step failed; the results so far are in %s, see %sreport.html.\n",
                 folder.c_str(),
                 in.c_str());
     return;
@@ -57,9 +57,9 @@ int demoCommand(const Arguments& words) {
            "each, "
            "between the fingers of\na seventh a pen slips. They are recorded over their ports, "
            "replayed and exported; the slip is found, what was\nheld is named and compared with "
-           "what was there, the window is drawn, and report.html tells it all. Written\ninto DIR "
+           "what was there, the window is drawn, and report.html shows it all. Written\ninto DIR "
            "(DIR-2, DIR-3, .. when it exists). A line per step: ok, skipped or failed, and a "
-           "figure. Ctrl-C\nends it, and leaves nothing.",
+           "figure. Ctrl-C\nends it and removes DIR.",
        .options = {{"output,o", "DIR", "folder to make, default palpate-demo"}},
        .example = "palpate demo -o tour",
        .maxArguments = 0},

@@ -119,10 +119,9 @@ std::string pageRecognition(const DemoFacts& facts) {
   for (const AskedGrasp& asked : facts.recognition->grasps) rows += pageRecognitionRow(asked);
   for (const std::string& warning : facts.recognition->warnings)
     warnings += pageTagged("p", warning);
-  return "<h2>What it was taken for</h2>\n<p>The model that comes with the program was taught on "
-         "other "
-         "grasps of these things, each placed a little differently, and simulated without ports. "
-         "It is told nothing but the recordings. The rank and the probability are those of the "
+  return "<h2>What was recognised</h2>\n<p>The model that comes with the program was trained on "
+         "other grasps of these things, each placed a little differently, and simulated without "
+         "ports. It knows only the recordings. The rank and the probability are those of the "
          "thing that was really there.</p>\n" +
          pageTable(
              "<th>held</th><th>called</th><th></th><th class=\"number\">rank</th>"
@@ -150,16 +149,16 @@ std::string pageSlip(const DemoFacts& facts) {
                 pageCell("frame " + std::to_string(alarm.frame) + ", " + fixedText(alarm.atS, 2) +
                          " s, matrix " + std::to_string(alarm.matrix)) +
                 pageCell("the recording"));
-    rows += pageRow(pageCell("so far the pen had gone then") + pageCell(taxels(alarm.movedTaxels)) +
-                    pageCell("the emulator"));
+    rows += pageRow(pageCell("distance the pen had moved by then") +
+                    pageCell(taxels(alarm.movedTaxels)) + pageCell("the emulator"));
     rows +=
-        pageRow(pageCell("time since it had gone " + fixedText(kDemoMovedTaxels, 1) + " taxel") +
+        pageRow(pageCell("time since it had moved " + fixedText(kDemoMovedTaxels, 1) + " taxel") +
                 pageCell(fixedText(alarm.afterS * kMsPerS, 0) + " ms") + pageCell("both"));
     rows += pageRow(
-        pageCell("lamp, state") +
+        pageCell("alarm, state") +
         pageCell(std::string(nameOf(alarm.lamp)) + ", " + std::string(nameOf(alarm.state))) +
         pageCell("the recording"));
-    rows += pageRow(pageCell("so far its imprint went") + pageCell(taxels(alarm.imprintTaxels)) +
+    rows += pageRow(pageCell("distance its imprint moved") + pageCell(taxels(alarm.imprintTaxels)) +
                     pageCell("the recording"));
     rows += pageRow(pageCell("matrices that raised an alarm") + pageCell(matrices) +
                     pageCell("the recording"));
@@ -187,7 +186,7 @@ std::string pageFiles(const DemoFacts& facts) {
                            ? std::string()
                            : fixedText(std::ceil(static_cast<double>(file.bytes) / 1000.0), 0) +
                                  " kB"));
-  return "<h2>What lies beside this page</h2>\n" +
+  return "<h2>Files in this folder</h2>\n" +
          pageTable("<th>file</th><th>what it is</th><th class=\"number\">size</th>", rows) +
          "<p><code>palpate FILE</code> opens a recording in the window, "
          "<code>palpate --demo</code> the window on an emulated hand.</p>\n";
@@ -201,10 +200,10 @@ std::string demoPage(const DemoFacts& facts) {
       "<h1>Palpate: a tour</h1>\n" +
       pageTagged("p class=\"quiet\"", "palpate " + facts.version + ", " + facts.madeAt + " UTC");
   page +=
-      "\n<p>No hand was connected and nothing moved. What is shown here was felt by hands that "
+      "\n<p>No hand was connected and nothing moved. What is shown here was measured by hands that "
       "the program emulates: joints, rubber, sensors and noise, behind the two serial ports "
-      "that a real hand has, at its own speed. Connecting, recording and judging know nothing "
-      "of that. The emulator knows what it holds and how far it slipped: so what was found "
+      "that a real hand has, at its own speed. Connecting, recording and recognition work as with "
+      "a real hand. The emulator knows what it holds and how far it slipped: so what was found "
       "can be compared with what is true.</p>\n";
   page += pageSteps(facts) + pageHands(facts) + pageRecognition(facts) + pageSlip(facts);
   if (!facts.windowPng.empty())

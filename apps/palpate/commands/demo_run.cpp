@@ -97,14 +97,14 @@ void DemoRun::graspAndRecord() {
       !failed(),
       why,
       "grasp",
-      "Six hands are told over their ports to close on a ball, a bottle, a box, a foam ball, a "
+      "Six hands get commands over their ports to close on a ball, a bottle, a box, a foam ball, a "
       "pen and a handle, hold them and open again; between the fingers of the seventh a smooth pen "
       "is pulled upwards.",
       [&] { return grasps->grasp(); });
   tour_.stepIf(!failed(),
                why,
                "record",
-               "What they felt is on disk: frames, joint angles, temperatures.",
+               "What they measured is on disk: frames, joint angles, temperatures.",
                [&] { return grasps->finishRecordings(); });
   if (failed()) return;
   recorded_ = true;
@@ -124,7 +124,7 @@ void DemoRun::lookAtTheBall() {
     profile = openRecording(file);
     return replayAndCompare(*profile);
   });
-  next("export", "The same recording as a .dsa, the form of the prior program.", [&] {
+  next("export", "The same recording as a .dsa, the format of the prior program.", [&] {
     if (!profile) profile = openRecording(file);
     const fs::path dsa = folder_ / "grasp.dsa";
     saveRecording(*profile, readEvents(file).events, dsa);
@@ -221,7 +221,7 @@ std::vector<DemoFile> DemoRun::files() const {
       {"window.png", "the window on the recording of the ball"},
       {"slip.png", "the window on the recording of the slip"},
       {"grasp.palpate", "the recording of the ball"},
-      {"grasp.dsa", "the same in the prior program's form"},
+      {"grasp.dsa", "the same in the prior program's format"},
       {"grasp.dsa.notes.json", "what was noted in it"}};
   for (const KnownGrasp& recording : held_)
     if (&recording != &held_.front())
@@ -231,7 +231,7 @@ std::vector<DemoFile> DemoRun::files() const {
                {{"slip.palpate", "the recording of the pen that slips"},
                 {"slip.csv", "how its contacts move, as palpate slip prints it"},
                 {"slip_truth.csv", "how the pen moved, as the emulator knows it"},
-                {"recognition.json", "what each thing was taken for"},
+                {"recognition.json", "what each thing was recognised as"},
                 {"report.json", "all figures of this page, for programs"}});
   std::vector<DemoFile> there;
   for (const auto& [name, what] : known) {

@@ -18,7 +18,7 @@ fs::path makeDemoFolder(fs::path wanted) {
     std::error_code failure;
     if (fs::create_directory(folder, failure)) return folder;
     if (failure && failure != std::errc::file_exists)
-      throw FileError(folder, "can't be made: " + failure.message());
+      throw FileError(folder, "can't be created: " + failure.message());
     folder = wanted.string() + "-" + std::to_string(number);
   }
 }

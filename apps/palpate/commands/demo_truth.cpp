@@ -105,10 +105,10 @@ DemoSlip demoSlip(const SlipSeries& series,
 std::string demoSlipText(const DemoSlip& slip, double pitchMm) {
   const std::string moved =
       "a pen was pulled " + taxelsAndMm(slip.motion.movedTaxels, pitchMm) + " through the fingers";
-  std::string text = moved + " and no lamp said so";
+  std::string text = moved + " and no alarm was raised";
   if (slip.alarm) {
     const DemoAlarm& alarm = *slip.alarm;
-    text = moved + "; the lamp of matrix " + std::to_string(alarm.matrix) + " said '" +
+    text = moved + "; the alarm of matrix " + std::to_string(alarm.matrix) + " said '" +
            std::string(nameOf(alarm.lamp)) + "' in frame " + std::to_string(alarm.frame) +
            ", when it had gone " + fixedText(alarm.movedTaxels, 1) + "; by its imprint it went " +
            fixedText(alarm.imprintTaxels, 1);

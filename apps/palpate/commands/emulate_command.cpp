@@ -64,31 +64,31 @@ std::unique_ptr<HandModel> modelOf(const CommandLine& given, std::uint64_t seed)
 }
 
 CommandSpec emulateSpec() {
-  return {
-      .synopsis = "palpate emulate [--dsa LINK] [--sdh LINK] [--scene NAME|FILE.json] ..",
-      .purpose =
-          "An emulated hand: both controllers speak their protocols on two pseudo-terminals "
-          "(or TCP ports of this\nmachine). Prints one line 'dsa=PATH sdh=PATH' when it is "
-          "ready, and runs until it is interrupted.",
-      .options = {{"dsa", "LINK", "name for the tactile port; tcp:127.0.0.1:PORT for TCP (0: any)"},
-                  {"sdh", "LINK", "name for the motion port"},
-                  {"scene", "NAME|FILE.json", "what the hand meets; default empty"},
-                  {"replay", "FILE", "plays a recording: each frame once, then silence"},
-                  {"faults",
-                   "SPEC",
-                   "bad days: crc=RATE,drop=RATE,insert=RATE,stall=S@AT,unplug=S@AT,"
-                   "junk_start=BYTES,boot=S"},
-                  {"truth", "OUT.csv", "what is true of each frame that is sent"},
-                  {"rate",
-                   "real|max|HZ",
-                   "real: a serial line at 115200 baud (default); HZ: frames per second, "
-                   "0.1..1000; max: as fast as the client reads"},
-                  {"seed", "N", "of noise and faults, default 1"},
-                  {"dsa-firmware", "N", "of the tactile controller, default 10496 (2.9.0.0)"},
-                  {"sdh-firmware", "TEXT", "of the motion controller, default 0.0.3.3"},
-                  {"force", "", "replace OUT.csv"}},
-      .example = "palpate emulate --dsa /tmp/dsa --sdh /tmp/sdh --scene ball",
-      .maxArguments = 0};
+  return {.synopsis = "palpate emulate [--dsa LINK] [--sdh LINK] [--scene NAME|FILE.json] ..",
+          .purpose =
+              "An emulated hand: both controllers speak their protocols on two pseudo-terminals "
+              "(or TCP ports of this\nmachine). Prints one line 'dsa=PATH sdh=PATH' when it is "
+              "ready, and runs until it is interrupted.",
+          .options =
+              {{"dsa", "LINK", "name for the tactile port; tcp:127.0.0.1:PORT for TCP (0: any)"},
+               {"sdh", "LINK", "name for the motion port"},
+               {"scene", "NAME|FILE.json", "objects and events around the hand; default empty"},
+               {"replay", "FILE", "plays a recording: each frame once, then nothing"},
+               {"faults",
+                "SPEC",
+                "faults to simulate: crc=RATE,drop=RATE,insert=RATE,stall=S@AT,unplug=S@AT,"
+                "junk_start=BYTES,boot=S"},
+               {"truth", "OUT.csv", "write true contacts, forces and slip of each frame"},
+               {"rate",
+                "real|max|HZ",
+                "real: a serial line at 115200 baud (default); HZ: frames per second, "
+                "0.1..1000; max: as fast as the client reads"},
+               {"seed", "N", "seed of noise and faults, default 1"},
+               {"dsa-firmware", "N", "firmware of the tactile controller, default 10496 (2.9.0.0)"},
+               {"sdh-firmware", "TEXT", "firmware of the motion controller, default 0.0.3.3"},
+               {"force", "", "replace OUT.csv"}},
+          .example = "palpate emulate --dsa /tmp/dsa --sdh /tmp/sdh --scene ball",
+          .maxArguments = 0};
 }
 
 // Waits for a signal. Throws when the emulated hand stops by itself.
@@ -105,9 +105,9 @@ int emulateCommand(const Arguments& words) {
   const CommandLine given(emulateSpec(), words);
   if (given.helpShown()) return kDone;
   if (given.has("replay") && given.has("scene"))
-    throw UsageError("--replay and --scene exclude each other");
+    throw UsageError("--replay and --scene can't be used together");
   if (given.has("replay") && given.has("truth"))
-    throw UsageError("nobody knows the truth of a recording: --truth needs a scene");
+    throw UsageError("--truth needs a scene: a recording has no known truth");
   const EmulatedHandOptions options = emulateOptionsOf(given);
   std::unique_ptr<HandModel> model = modelOf(given, options.seed);
   std::unique_ptr<TruthWriter> truth;

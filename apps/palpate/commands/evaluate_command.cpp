@@ -131,7 +131,7 @@ int crossValidation(const CommandLine& given) {
   const auto seed = static_cast<std::uint64_t>(given.integer("seed", 0, 1'000'000'000).value_or(0));
   if (given.has("confidence")) options.calibrationBlocks = kBlocks;
 
-  if (given.has("later") && !given.has("unknown")) throw UsageError("--later goes with --unknown");
+  if (given.has("later") && !given.has("unknown")) throw UsageError("--later needs --unknown");
   if (given.has("later") && options.classifier != ClassifierKind::kGauss)
     throw UsageError("--later needs --classifier gauss, the one that knows another day's offset");
 
@@ -212,7 +212,8 @@ int withModel(const CommandLine& given) {
                              "unknown",
                              "later"})
     if (given.has(option))
-      throw UsageError(std::string("--") + option + " doesn't go with --model, which has its own");
+      throw UsageError(std::string("--") + option +
+                       " can't be used with --model, which has its own");
   EvaluationOptions options;
   options.adaptPerClass = static_cast<std::size_t>(given.integer("adapt", 0, 10000).value_or(0));
   try {
@@ -244,20 +245,20 @@ int evaluateCommand(const Arguments& words) {
   std::vector<OptionSpec> options = {
       {"set", "SET", "diameter, first4, moments, study, best (default) or session"},
       {"protocol", "P", "S (default): stratified shuffles; B: five contiguous blocks per class"},
-      {"splits", "N", "of protocol S, default 10"},
-      {"seed", "N", "of protocol S, default 0"},
+      {"splits", "N", "splits of protocol S, default 10"},
+      {"seed", "N", "seed of protocol S, default 0"},
       {"confidence", "", "calibrate probabilities too: adds their error and the coverage curve"},
-      {"weights", "", "adds how much the classifier rests on each feature"},
-      {"learning-curve", "", "adds accuracy against grasps per class that teach"},
+      {"weights", "", "adds how much the classifier depends on each feature"},
+      {"learning-curve", "", "adds accuracy against training grasps per class"},
       {"eliminate", "", "adds recursive feature elimination"},
-      {"unknown", "", "adds how well unknown objects are told: each class left out in turn"},
+      {"unknown", "", "adds how well unknown objects are detected: each class left out in turn"},
       {"later", "PATH2", "with --unknown: the same on these grasps of another day (gauss)"},
-      {"model", "M.json", "examine this model instead (protocol X)"},
+      {"model", "M.json", "test this model instead (protocol X)"},
       {"adapt", "K", "the first K grasps of each class and session adapt it and don't count"},
       {"session-offset",
        "WHICH",
        "model (default: what adapt stored), none (summed over), batch, or mm"},
-      {"json", "", "JSON is what it prints anyway"}};
+      {"json", "", "no effect: it always prints JSON"}};
   for (OptionSpec& one : pipelineOptionSpecs()) options.insert(options.begin() + 1, std::move(one));
   const CommandLine given(
       {.synopsis =
@@ -270,8 +271,8 @@ int evaluateCommand(const Arguments& words) {
            "class.\n\nWithout --model by cross-validation: everything (scaling, discriminant "
            "analysis, classifier) is fitted to\nthe training part of each split alone. Default "
            "classifier: svm with C = 100, of the set best gauss, as train\ntakes; default no "
-           "discriminant analysis. Both protocols stay within the recordings: how it will be on\n"
-           "another day they don't tell.\n\nWith --model: the model on other recordings; "
+           "discriminant analysis. Both protocols stay within the recordings: they don't show\nhow "
+           "it will be on another day.\n\nWith --model: the model on other recordings; "
            "candidates "
            "are all its classes, unknown counts as wrong.\nGrasps more than 8 hours apart are "
            "different sessions, each with an offset of its own.",

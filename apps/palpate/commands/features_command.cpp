@@ -57,7 +57,8 @@ int featuresCommand(const Arguments& words) {
            "A grasp: both distal pads of the pinch (matrices 1 and 5) touch for more than 20 "
            "frames "
            "in a row. A grasp\nwithout features (no joint angles, pads that don't face each other) "
-           "and a recording without a grasp are\nsaid on standard error; then the exit code is 3.",
+           "and a recording without a grasp are\nreported on standard error; then the exit code is "
+           "3.",
        .options = {{"set", "SET", "study, best (default) or session"}},
        .example = "palpate features recordings --set best > features.csv",
        .minArguments = 1},

@@ -17,7 +17,7 @@ namespace {
 std::string latencyText(const Recipe& recipe) {
   if (!recipe.causal()) return "needs later frames: not for a live hand";
   const auto latency = latencyFrames(recipe);
-  if (!latency) return "a step of load doesn't come through";
+  if (!latency) return "a load step doesn't reach half its height";
   return "a contact is seen " + std::to_string(*latency) + (*latency == 1 ? " frame" : " frames") +
          " later";
 }
@@ -33,10 +33,11 @@ int filterCommand(const Arguments& words) {
   const CommandLine given(
       {.synopsis = "palpate filter IN OUT --filter SPEC.. | --recipe R.json | --list",
        .purpose =
-           "Writes the recording IN filtered; the ending of OUT chooses the form as in 'palpate "
+           "Writes the recording IN filtered; the ending of OUT chooses the format as in 'palpate "
            "convert'.\nSPEC is a filter with its options, as median:size=3,masked=1; several run "
            "one after the other.\nValues are floats, nothing is rounded to counts. Filters over "
-           "time start anew after a gap\n(longer than max(1 s, 5 median intervals) of the frames "
+           "time start again after a gap\n(longer than max(1 s, 5 median intervals) of the frames "
+
            "before it), after other settings and\nother masks. Borders are repeated; masked taxels "
            "are neither read nor written. The same chain\nruns in the window, on recordings and "
            "live.",

@@ -138,7 +138,8 @@ int recorded(const CommandLine& given,
              const GhostingOptions& options) {
   for (const char* option : {"deg", "seed", "frames"})
     if (given.has(option))
-      throw UsageError(std::string("--") + option + " is for the emulated hand: without PATH");
+      throw UsageError(std::string("--") + option +
+                       " works with the emulated hand only: leave out PATH");
   std::vector<std::optional<double>> belows;
   for (const double below : numbersOf(given, "below", -100.0, 100.0, {}))
     belows.emplace_back(below);
@@ -176,8 +177,9 @@ int ghostsCommand(const Arguments& words) {
            "Measures filters against ghosts: taxels that are active (value > 0) while nothing "
            "touches them. A CSV row\nfor each filter that might help and each preset; with "
            "--filter or --recipe for this chain alone.\n\n"
-           "Of recordings: nothing touches anything in them; that is for you to know (it holds for "
+           "Of recordings: nothing may touch the hand in them; make sure of that (it is so in "
            "recordings of\nthe noise floor). With --below, recordings at threshold 0: what "
+
            "thresholds at the noise floor (less\nCOUNTS) leave of them. Without PATH: an emulated "
            "hand with the noise of the "
            "real one at sensitivity 1, thresholds\nat the noise floor (docs/ghosting.md) and below "
@@ -196,7 +198,7 @@ int ghostsCommand(const Arguments& words) {
              "COUNTS",
              "thresholds so far below the noise floor, emulated 0, 2, 3 and 5; several times"},
             {"frames", "N", "emulated: frames, default 3000"},
-            {"seed", "N", "emulated: of noise and contacts, default 1"},
+            {"seed", "N", "emulated: seed of noise and contacts, default 1"},
             {"above", "COUNTS", "a filtered value above it is active, default 0"},
             {"json", "", "full reports, per matrix and per contact"}}),
        .example = "palpate ghosts --below 5 --filter min-median:window=3,masked=1"},

@@ -28,21 +28,22 @@ CommandSpec graspSpec() {
       .synopsis = "palpate grasp --sdh PORT [--dsa PORT] --preshape NAME [--close R] ..",
       .purpose =
           "Moves a hand. 'plain' goes to the preshape at close ratio R (0 open .. 1 closed, "
-          "default 0.5), whatever\nis felt. 'reactive' opens to the preshape, then closes to R "
+          "default 0.5), whatever\nthe fingers touch. 'reactive' opens to the preshape, then "
+          "closes to R "
           "(default 1) until the first taxel is over\nN counts. 'slip' does the same, then holds: "
           "it closes again, to a limit raised by "
           "300 counts, when what it\nholds slips, until Ctrl-C or for S seconds. Ctrl-C stops the "
-          "hand. A line "
-          "per state: seconds, state, text. The hand stays powered and holds.\nNAME: parallel, "
+          "hand. Prints a line per state: seconds, state, text. The hand stays powered and "
+          "holds.\nNAME: parallel, "
           "cylindrical, centrical, spherical, pinch-parallel, pinch-tilted, pinch-empty, "
           "calibration.",
       .options = {{"sdh", "PORT", "motion controller"},
                   {"dsa", "PORT", "tactile controller; 'reactive' and 'slip' need it"},
                   {"preshape", "NAME", "how the fingers stand"},
                   {"close", "R", "close ratio, 0..1"},
-                  {"velocity", "V", "of the joints, 1..100 deg/s, default 10"},
+                  {"velocity", "V", "velocity of the joints, 1..100 deg/s, default 10"},
                   {"mode", "plain|reactive|slip", "default plain"},
-                  {"limit", "N", "of 'reactive' and 'slip', 3..3300 counts, default 200"},
+                  {"limit", "N", "limit of 'reactive' and 'slip', 3..3300 counts, default 200"},
                   {"most", "N", "of 'slip': the limit rises up to N counts, default 2200"},
                   {"hold", "S", "of 'slip': ends after S seconds; the hand goes on holding"},
                   {"calm",
@@ -51,8 +52,10 @@ CommandSpec graspSpec() {
                   {"loosen", "", "of 'slip': the hand may open slowly to a limit that fell"},
                   {"object-mass",
                    "KG",
-                   "of 'slip': opens slowly once, until it slips, and tells the friction"},
-                  {"newtons-per-count", "F", "of a calibration, for the friction"},
+                   "of 'slip': opens slowly once, until it slips, and measures the friction"},
+                  {"newtons-per-count",
+                   "F",
+                   "newtons per count of a calibration, for the friction"},
                   {"wait", "S", "give up when the hand doesn't answer for S seconds, default 15"}},
       .example =
           "palpate grasp --sdh /dev/ttyUSB1 --dsa /dev/ttyUSB0 --preshape centrical "
@@ -63,7 +66,7 @@ CommandSpec graspSpec() {
 void holdingOf(const CommandLine& given, GraspRequest& request) {
   for (const char* option : {"most", "hold", "calm", "loosen", "object-mass", "newtons-per-count"})
     if (given.has(option) && request.mode != GraspMode::kSlip)
-      throw UsageError("--" + std::string(option) + " belongs to --mode slip");
+      throw UsageError("--" + std::string(option) + " needs --mode slip");
   constexpr double kGravity = 9.81;  // [m/s^2]
   HoldingOptions& holding = request.holding;
   const int most = std::max(holding.maxLimitCounts, request.limitCounts);
@@ -96,7 +99,7 @@ GraspRequest graspRequestOf(const CommandLine& given) {
   request.velocityDegPerS = given.number("velocity", kMinGraspDegPerS, kMaxGraspDegPerS)
                                 .value_or(request.velocityDegPerS);
   const auto limit = given.integer("limit", kMinGraspLimitCounts, kMaxGraspLimitCounts);
-  if (limit && !feels) throw UsageError("--limit belongs to --mode reactive and slip");
+  if (limit && !feels) throw UsageError("--limit needs --mode reactive or slip");
   request.limitCounts = static_cast<int>(limit.value_or(request.limitCounts));
   holdingOf(given, request);
   return request;

@@ -334,8 +334,8 @@ int infoCommand(const Arguments& words) {
            "than "
            "max(1 s, 5 median intervals).\nOf several PATHs or a folder (every recording below "
            "it): "
-           "a table as CSV, a row each; a file that\ncan't be read is said, and the others are "
-           "there: exit code 3. Of a damaged one it says\nwhat can be read, and what is missing: "
+           "a table as CSV, a row each; a file that\ncan't be read is reported, and the others are "
+           "printed: exit code 3. Of a damaged one it says\nwhat can be read, and what is missing: "
            "exit code 3, too.",
        .options = {{"json", "", "one JSON object; of several: with a list, recordings"}},
        .example = "palpate info foam_ball.dsa --json",

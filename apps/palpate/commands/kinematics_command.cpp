@@ -51,7 +51,7 @@ int kinematicsCommand(const Arguments& words) {
   const auto angles = anglesOf(given);
   if (!angles) throw UsageError("kinematics needs --angles A0,..,A6 [deg]");
   if (given.has("matrix") && given.has("point"))
-    throw UsageError("--matrix and --point exclude each other");
+    throw UsageError("--matrix and --point can't be used together");
   const HandGeometry geometry(geometryOf(given));
   const SensorLayout& layout = geometry.description().layout;
   const auto lastMatrix = static_cast<std::int64_t>(layout.numMatrices()) - 1;

@@ -50,7 +50,7 @@ std::vector<StreamTarget> streamTargetsOf(const CommandLine& given, const std::s
     if (std::any_of(targets.begin(), targets.end(), [&](const StreamTarget& other) {
           return other.kind == target.kind;
         }))
-      throw UsageError("--" + option + " " + nameOf(target.kind) + " stands twice");
+      throw UsageError("--" + option + " " + nameOf(target.kind) + " is given twice");
     targets.push_back(target);
   }
   return targets;

@@ -77,7 +77,7 @@ void probe(std::vector<Row>& rows) {
 }
 
 std::string answerText(const Row& row) {
-  const std::string text = row.probe ? row.probe->message : "not asked";
+  const std::string text = row.probe ? row.probe->message : "not checked";
   return row.info.description.empty() ? text : text + " [" + row.info.description + "]";
 }
 
@@ -99,7 +99,7 @@ std::string tableText(const std::vector<Row>& rows) {
     text.resize(nameWidth + byIdWidth + 4, ' ');
     return text + escapedLine(what) + "\n";
   };
-  std::string text = line("port", "by-id name", "what answers");
+  std::string text = line("port", "by-id name", "device");
   for (const Row& row : rows) text += line(row.info.name, byIdText(row), answerText(row));
   return text;
 }

@@ -72,8 +72,8 @@ void requireSameDay(const EmptyHandZero& zero, const FeatureTable& table) {
         return std::abs(row.timeUs - zero.timeUs) <= kHalfDayUs;
       }))
     throw Error(zero.origin +
-                ": the empty hand was closed on another day than the objects, and says nothing of "
-                "them");
+                ": the empty hand was closed on another day than the objects; give a recording "
+                "within 12 h of theirs");
 }
 
 Json offsetJson(const SessionOffset& offset, const std::optional<EmptyHandZero>& today) {
@@ -100,7 +100,7 @@ std::vector<OptionSpec> pipelineOptionSpecs() {
           {"c", "C", "cost of the svm, default 100"},
           {"shrinkage",
            "S",
-           "of the discriminant analysis: 0..1, default 0, or auto (Ledoit and Wolf)"}};
+           "shrinkage of the discriminant analysis: 0..1, default 0, or auto (Ledoit and Wolf)"}};
 }
 
 void takePipelineOptions(const CommandLine& given, PipelineOptions& options) {

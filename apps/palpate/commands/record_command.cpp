@@ -121,7 +121,7 @@ std::string nothingText(const DeviceStatus& device, const std::string& port) {
   if (!tactile.message.empty()) return port + ": no frame came: " + tactile.message;
   return port +
          ": no frame came; is the hand switched on, and this its tactile port? ('palpate ports' "
-         "tells)";
+         "shows it)";
 }
 
 std::uint64_t badChecksumsOf(const DeviceStatus& device) {
@@ -188,13 +188,13 @@ int recordCommand(const Arguments& words) {
                    {"operator", "NAME", "who records"},
                    {"object", "NAME", "what is grasped"},
                    {"run", "TEXT", "which run"},
-                   {"notes", "TEXT", "whatever else"},
+                   {"notes", "TEXT", "any other notes"},
                    {"split-minutes", "M", "a new file after M minutes: NAME_002.palpate, .."},
                    {"split-mb", "N", "a new file at about N MB"},
                    remoteOption(),
                    socketOption(),
                    {"to", "STREAM", "signals or tactile, live to other programs: 'stream --help'"},
-                   {"calibration", "C.json", "with --to signals: pressures and forces, too"},
+                   {"calibration", "C.json", "with --to signals: also pressures and forces"},
                    {"json", "", "report as JSON"}},
        .example = "palpate record --dsa /dev/ttyUSB0 --sdh /dev/ttyUSB1 -o grasp.palpate",
        .maxArguments = 0},
@@ -207,7 +207,7 @@ int recordCommand(const Arguments& words) {
   hand.dsaPort = *dsa;
   hand.sdhPort = given.text("sdh").value_or("");
   const double firstFrameS = given.number("wait", 0.1, 1e6).value_or(15.0);
-  if (given.has("socket") && !given.has("remote")) throw UsageError("--socket goes with --remote");
+  if (given.has("socket") && !given.has("remote")) throw UsageError("--socket needs --remote");
   RecordingOptions options = recordingOptions(given);
   const std::vector<StreamTarget> targets = streamTargetsOf(given, "to");
   const auto calibration = streamCalibrationOf(given);

@@ -163,7 +163,7 @@ RecordingList recordingsIn(const Arguments& words) {
     list.several = true;
     RecordingFolder folder = recordingsBelow(word);
     if (folder.files.empty() && folder.problems.empty()) {
-      const FileError error(word, "no recording (.palpate, .dsa) lies in this folder or below it");
+      const FileError error(word, "no recording (.palpate, .dsa) in this folder or its subfolders");
       folder.problems.emplace_back(error.what());
     }
     std::move(folder.files.begin(), folder.files.end(), std::back_inserter(list.files));

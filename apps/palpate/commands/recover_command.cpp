@@ -14,7 +14,7 @@ int recoverCommand(const Arguments& words) {
       {.synopsis = "palpate recover IN OUT",
        .purpose =
            "Saves what can be saved of a damaged or unfinished recording; IN is never "
-           "touched. The ending of\nOUT chooses the form (.dsa, .palpate, .csv, .npz). Exit "
+           "touched. The ending of\nOUT chooses the format (.dsa, .palpate, .csv, .npz). Exit "
            "code: 0 nothing was lost, 3 something was,\n1 nothing could be saved (then there "
            "is no OUT).",
        .options = {{"force", "", "replace OUT"}},

@@ -26,7 +26,7 @@ RemoteRecorderOptions remoteRecordingOptionsOf(const CommandLine& given, Recordi
   if (fs::is_directory(out, ignored)) {
     options.folder = out;
   } else if (!out.has_filename()) {
-    throw FileError(out, "is no folder: make it first");
+    throw FileError(out, "isn't a folder: create it first");
   } else {
     options.folder = out.has_parent_path() ? out.parent_path() : fs::path(".");
     options.nameTemplate = out.filename().string();
@@ -57,7 +57,7 @@ void sayRemoteRecording(const RecordingReport& report, bool json) {
 }  // namespace
 
 OptionSpec remoteOption() {
-  return {"remote", "", "others start and stop recordings: 'palpate remote --help'"};
+  return {"remote", "", "other programs start and stop recordings: 'palpate remote --help'"};
 }
 
 OptionSpec socketOption() {

@@ -229,7 +229,7 @@ void checkUsage(const CommandLine& given, bool isSeries) {
   checkMovieUsage(given);
   const bool isPicture = gui::imageFormatOf(*out).has_value();
   if (isSeries && given.has("frame"))
-    throw UsageError("--frame is one frame, --from and --to are many");
+    throw UsageError("give --frame, or --from and --to, not both");
   if (isSeries && isPicture)
     throw UsageError(
         "with --from or --to the pictures go into a folder, or OUT.mp4: -o FOLDER, not '" + *out +
@@ -242,7 +242,7 @@ void checkUsage(const CommandLine& given, bool isSeries) {
   for (const char* name : kPaperOptions)
     if (given.has(name))
       throw UsageError("--size is in pixels, --" + std::string(name) +
-                       " is of paper: give one of them");
+                       " is for paper: give one of them");
 }
 
 }  // namespace
@@ -253,7 +253,8 @@ int renderCommand(const Arguments& words) {
           "palpate render FILE [--frame N | --from N --to M] -o OUT.{png,svg,pdf}|FOLDER|OUT.mp4",
       .purpose =
           "Draws the heat maps of one frame, or the hand in space. The ending of OUT chooses the "
-          "form; SVG and PDF "
+          "format; SVG and PDF "
+
           "are vector\ngraphics with text as text. With --from or --to, a PNG of each frame from "
           "N "
           "to M, both inclusive:\nFOLDER/NAME_00042.png. To OUT.mp4, a movie of these frames as "
@@ -262,11 +263,11 @@ int renderCommand(const Arguments& words) {
                   {"from", "N", "first frame of a series; default 0"},
                   {"to", "M", "last frame, inclusive; default the recording's last"},
                   {"output,o", "OUT", "the picture or movie, or the folder of a series"},
-                  {"speed", "X", "of a movie, 0.1..16; default 1: as long as it took"},
+                  {"speed", "X", "speed of a movie, 0.1..16; default 1: the recorded speed"},
                   {"fps", "N", "pictures per second of a movie, 1..120; default 30"},
                   {"view", "matrices|hand", "what to draw; default matrices"},
                   {"size", "WxH", "px (96 per inch), default 900x720; PNG has twice as many"},
-                  {"print", "", "for paper: white ground, 174 mm wide, text of 8 pt, 300 dpi"},
+                  {"print", "", "for paper: white background, 174 mm wide, text of 8 pt, 300 dpi"},
                   {"width-mm", "W", "width on paper; journals take 85, 114, 174"},
                   {"height-mm", "H", "height on paper; default 0.8 of the width"},
                   {"text-pt", "P", "size of text on paper, default 8"},
@@ -300,7 +301,7 @@ int renderCommand(const Arguments& words) {
   options.values = given.has("values");
   const std::string theme = given.choice("theme", {"dark", "light"}).value_or("light");
   if (theme == "dark" && given.has("print"))
-    throw UsageError("--print has a white ground, not a dark one");
+    throw UsageError("--print has a white background, not a dark one");
   options.theme = theme == "dark" ? gui::Theme::kDark : gui::Theme::kLight;
   Sheet sheet = chosenSheet(given, options);
   const bool isMovie = isMovieName(*given.text("output"));

@@ -62,7 +62,7 @@ std::vector<OptionSpec> handViewOptions() {
           {"sphere", "NAME", "hand: glass (default), opaque, wire, no-sphere"},
           {"sphere-of", "NAME", "hand: taxels (default) or centroids"},
           {"matrix", "M", "hand: this one alone"},
-          {"camera", "AZ,EL", "hand: where the eye stands, about z and above the palm [deg]"},
+          {"camera", "AZ,EL", "hand: where the camera is, about z and above the palm [deg]"},
           {"normals", "", "hand: the taxels' normals"},
           {"no-contacts", "", "hand: without centroids and axes of the contacts"},
           {"wire", "", "hand: a wire frame"},
@@ -73,10 +73,10 @@ void checkHandUsage(const CommandLine& given) {
   const bool hand = given.choice("view", {"matrices", "hand"}) == "hand";
   for (const OptionSpec& option : handViewOptions())
     if (!hand && given.has(option.name))
-      throw UsageError("--" + std::string(option.name) + " goes with --view hand");
+      throw UsageError("--" + std::string(option.name) + " needs --view hand");
   for (const char* name : {"interpolated", "values"})
     if (hand && given.has(name))
-      throw UsageError("--" + std::string(name) + " is of the heat maps, not of --view hand");
+      throw UsageError("--" + std::string(name) + " is for the heat maps, not for --view hand");
   given.choice("taxels", wordsOf(gui::kAllTaxelShapes));
   given.choice("sphere", wordsOf(gui::kAllSphereLooks));
   given.choice("sphere-of", kSpheresOf);
@@ -84,7 +84,7 @@ void checkHandUsage(const CommandLine& given) {
   if (const auto camera = given.text("camera")) {
     const auto numbers = numbersOf(*camera, "camera", 2);
     if (numbers[1] < -89.0 || numbers[1] > 89.0)
-      throw UsageError("--camera: the eye stands -89 to 89 degrees above the palm");
+      throw UsageError("--camera: the camera must be -89 to 89 degrees above the palm");
   }
 }
 

@@ -47,10 +47,10 @@ bool isMovieName(const std::string& out) { return lowerEndingOf(out) == ".mp4"; 
 void checkMovieUsage(const CommandLine& given) {
   const bool isMovie = isMovieName(given.text("output").value_or(""));
   if (isMovie && given.has("frame"))
-    throw UsageError("a movie is of many frames: --from and --to, not --frame");
+    throw UsageError("a movie has many frames: give --from and --to, not --frame");
   for (const char* name : {"speed", "fps"})
     if (given.has(name) && !isMovie)
-      throw UsageError("--" + std::string(name) + " is of a movie: -o OUT.mp4");
+      throw UsageError("--" + std::string(name) + " needs a movie: -o OUT.mp4");
   chosenOptions(given);
 }
 

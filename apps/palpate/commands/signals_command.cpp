@@ -104,7 +104,7 @@ int signalsCommand(const Arguments& words) {
                   "and the mean of the 3x3 Gaussian-\nfiltered matrix over its active taxels. An "
                   "empty matrix has zeros. PATH is a recording, or a\nfolder: every recording "
                   "below it. With several a last column names the file; one that can't be\nread is "
-                  "said, and the rows of the others are there: exit code 3.",
+                  "reported, and the rows of the others are printed: exit code 3.",
        .options = withFilterOptions(
            {{"matrix", "M", "only this matrix (0, 1, ..)"},
             {"smooth", "SPEC", "then filter the signals themselves over time, as kalman:q=0.05"}}),

@@ -42,7 +42,7 @@ int slipBenchmarkCommand(const Arguments& words) {
                     "S",
                     "disc, bar, flat-ellipse, two-blobs, gaussian, elliptic-gaussian; "
                     "default all"},
-                   {"seed", "N", "of noise and places, default 1"},
+                   {"seed", "N", "seed of noise and places, default 1"},
                    {"trials", "N", "contacts per shape, default 8"},
                    {"recordings",
                     "FOLDER",

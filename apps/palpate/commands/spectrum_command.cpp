@@ -89,11 +89,11 @@ SeriesChoice choiceOf(const CommandLine& given, const SensorLayout& layout) {
 Series seriesOf(const CommandLine& given, const Profile& profile, const Progress& progress) {
   const std::string& file = given.words().front();
   const SeriesChoice choice = choiceOf(given, profile.layout());
-  if (profile.numFrames() == 0) throw Error(file + ": holds no frame");
+  if (profile.numFrames() == 0) throw Error(file + ": has no frames");
   const auto last = static_cast<std::int64_t>(profile.numFrames()) - 1;
   const std::int64_t from = given.integer("from", 0, last).value_or(0);
   const std::int64_t to = given.integer("to", 0, last).value_or(last);
-  if (from > to) throw UsageError("--from lies behind --to");
+  if (from > to) throw UsageError("--from is after --to");
   const auto secondsOf = [&](std::int64_t frame) {
     const auto us = profile.frameTimeUs(static_cast<std::size_t>(frame)) - profile.frameTimeUs(0);
     return static_cast<double>(us) / 1e6;
@@ -189,7 +189,8 @@ int spectrumCommand(const Arguments& words) {
        .purpose =
            "Short-time Fourier transform of one taxel (value in counts; 0 where it feels nothing) "
            "or of a\nmatrix signal, as CSV: segment,time_s,frequency_hz,psd,magnitude. Frames come "
-           "when they come:\nevery stretch without a gap is first interpolated onto an even grid "
+           "at uneven intervals:\nevery stretch without a gap is first interpolated onto an even "
+           "grid "
            "of its mean rate; nothing\nabove half that rate can be seen. Hann window (periodic), "
            "power spectral density one-sided in\ncounts^2/Hz, magnitude in counts: a tone of "
            "amplitude A at a bin reads A. time_s is the middle\nof the window, from the "

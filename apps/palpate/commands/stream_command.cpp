@@ -63,17 +63,18 @@ CommandSpec streamSpec() {
   return {
       .synopsis = "palpate stream (--dsa PORT [--sdh PORT] | FILE) [--to STREAM].. [--lines]",
       .purpose =
-          "What a hand feels, live to other programs on this machine: a JSON object per frame, as "
+          "Sends what a hand measures live to other programs on this machine: a JSON object per "
+          "frame, as "
           "UDP\ndatagrams to 127.0.0.1 or as lines on standard output. STREAM: signals (default; "
           "for PlotJuggler,\nport 9870) or tactile (all taxels as schunk_sdh/TactileSensor, port "
           "9871), with another port as\nsignals:9999. FILE: a recording, played in its own time "
           "(with --lines at once). Runs until Ctrl-C. Of a damaged recording "
-          "what can be read is sent, and\nthe rest told: exit code 3.",
+          "what can be read is sent, and\nthe rest is reported: exit code 3.",
       .options = {{"dsa", "PORT", "tactile controller"},
                   {"sdh", "PORT", "motion controller: angles and temperatures"},
                   {"to", "STREAM", "what to send, and where to; may be repeated"},
                   {"lines", "", "lines on standard output instead of datagrams"},
-                  {"calibration", "C.json", "pressures and forces, too"},
+                  {"calibration", "C.json", "also pressures and forces"},
                   {"duration", "S", "stop after so many seconds"}},
       .example = "palpate stream --dsa /dev/ttyUSB0 --sdh /dev/ttyUSB1",
       .maxArguments = 1};
@@ -199,7 +200,7 @@ int streamLinesOf(const CommandLine& given, StreamKind kind) {
 int streamLines(const CommandLine& given, const std::vector<StreamTarget>& targets) {
   if (targets.size() > 1) throw UsageError("--lines writes one stream: give one --to");
   if (!targets.empty() && given.text("to")->find(':') != std::string::npos)
-    throw UsageError("--lines goes to standard output: no port");
+    throw UsageError("--lines writes to standard output: give no port");
   const StreamKind kind = targets.empty() ? StreamKind::kSignals : targets.front().kind;
   if (!given.words().empty()) return streamLinesOf(given, kind);
   Interruption interruption;
@@ -226,7 +227,7 @@ int streamLines(const CommandLine& given, const std::vector<StreamTarget>& targe
   const ChainStats stats = chain.stats();
   if (stats.skipped == 0) return kDone;
   std::fprintf(stderr,
-               "palpate: %llu frames were skipped: whoever reads is too slow\n",
+               "palpate: %llu frames were skipped: the reader is too slow\n",
                static_cast<unsigned long long>(stats.skipped));
   return kPartlyDone;
 }
@@ -238,7 +239,7 @@ int streamCommand(const Arguments& words) {
   if (given.helpShown()) return kDone;
   if (given.words().empty() != given.has("dsa"))
     throw UsageError("stream needs --dsa PORT or a recording, not both");
-  if (given.has("sdh") && !given.has("dsa")) throw UsageError("--sdh goes with --dsa");
+  if (given.has("sdh") && !given.has("dsa")) throw UsageError("--sdh needs --dsa");
   const std::vector<StreamTarget> targets = streamTargetsOf(given, "to");
   return given.has("lines") ? streamLines(given, targets) : streamDatagrams(given, targets);
 }

@@ -59,8 +59,8 @@ int synthesizeCommand(const Arguments& words) {
                   "ports and without\nwaiting; with --grasps N it plays it N times, each time with "
                   "the objects a little differently placed.\n--zero-error lets its joints stand "
                   "elsewhere than they say, as "
-                  "those of a hand that was referenced anew:\nthe scene empty_touch with the same "
-                  "error is the touch of the empty hand that tells (palpate adapt).",
+                  "those of a hand that was referenced again:\nthe scene empty_touch with the same "
+                  "error is the recording of the empty hand for palpate adapt --empty-hand-zero.",
        .options = {{"output,o", "OUT.dsa", "where to write it"},
                    {"scene", "NAME", "of data/scenes, or a JSON file"},
                    {"duration", "S", "length [s] (of a scene: of each run), default 12"},
@@ -68,7 +68,7 @@ int synthesizeCommand(const Arguments& words) {
                    {"grasps", "N", "grasps, spread evenly; default 3"},
                    {"peak", "COUNTS", "value under the middle of the contact, default 1800"},
                    {"noise", "SD", "standard deviation of the noise [counts], default 0"},
-                   {"seed", "N", "of the noise, default 1"},
+                   {"seed", "N", "seed of the noise, default 1"},
                    {"zero-error",
                     "DEG",
                     "of a scene: error of the proximal joints' zero, default 0"},
@@ -85,7 +85,7 @@ int synthesizeCommand(const Arguments& words) {
   const auto scene = given.text("scene");
   for (const char* name : {"peak", "noise"})
     if (scene && given.has(name))
-      throw UsageError(std::string("--") + name + " does not go with --scene");
+      throw UsageError(std::string("--") + name + " can't be used with --scene");
   for (const char* name : {"zero-error", "days-later"})
     if (!scene && given.has(name)) throw UsageError(std::string("--") + name + " needs --scene");
   ProgressLine progress("making " + *out, given.quiet());

@@ -61,7 +61,7 @@ int trainCommand(const Arguments& words) {
                                      {"set", "SET", "best (default), study or session"},
                                      zeroOptionSpec(),
                                      {"force", "", "replace MODEL.json"},
-                                     {"json", "", "JSON is what it prints anyway"}};
+                                     {"json", "", "no effect: it always prints JSON"}};
   for (OptionSpec& one : pipelineOptionSpecs()) options.insert(options.end() - 3, std::move(one));
   const CommandLine given(
       {.synopsis =

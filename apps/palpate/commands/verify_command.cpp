@@ -51,8 +51,8 @@ int verifyCommand(const Arguments& words) {
        .purpose = "Checks every byte of recordings; one line per file says sound, damaged (and how "
                   "much can still\nbe read) or unreadable. Exit code: 0 all sound, 3 damaged but "
                   "partly readable, 1 nothing\nreadable; with several files the worst. PATH "
-                  "is a recording, or a folder: every recording\nbelow it. With --quiet the exit "
-                  "code is all.",
+                  "is a recording, or a folder: every recording\nbelow it. With --quiet only the "
+                  "exit code is given.",
        .options = {},
        .example = "palpate verify foam_ball.dsa hockey_ball.dsa",
        .minArguments = 1},

@@ -89,7 +89,7 @@ int windowCommand(const Arguments& words) {
        .purpose = "Opens the window: on recordings, on a demonstration, or on its start page.",
        .options =
            {{"demo", "", "open on the emulated hand, which grasps a ball"},
-            {"screenshot", "OUT.png", "save a picture of the window and leave"},
+            {"screenshot", "OUT.png", "save a picture of the window and exit"},
             {"size", "WxH", "with --screenshot: size in pixels, default 1600x1000"},
             {"frame", "N", "with --screenshot: default the frame of largest sum"},
             {"after", "S", "with --screenshot: let the source play for S seconds first"},
@@ -99,16 +99,18 @@ int windowCommand(const Arguments& words) {
              "repeated"},
             {"press",
              "KEY[@S]",
-             "with --screenshot: press a key of the list under F1, or a button by its words, S "
-             "seconds after the window shows what it was given; may be repeated. Where that opens "
-             "a dialogue the picture is the dialogue's"},
-            {"settings", "INI", "with --screenshot: what the window remembers; isn't changed"},
+             "with --screenshot: press a key listed under F1, or the button with this text, S "
+             "seconds after the window shows its content; may be repeated. If that opens a "
+             "dialogue, the picture shows the dialogue"
+
+            },
+            {"settings", "INI", "with --screenshot: settings file of the window; it isn't changed"},
             {"theme", "dark|light", "with --screenshot: default dark"},
             {"gl", "", "draw the hand in space with OpenGL, even by the processor"},
             {"no-gl", "", "draw the hand in space without OpenGL"},
             {"angles", "A0,..,A6", "joint angles [deg] assumed for recordings that have none"},
-            {"filter", "SPEC", "look through a filter, as median:size=3; may be repeated"},
-            {"recipe", "R.json", "look through a recipe of filters"},
+            {"filter", "SPEC", "show filtered, as median:size=3; may be repeated"},
+            {"recipe", "R.json", "show filtered with a recipe"},
             remoteOption(),
             socketOption(),
             {"force", "", "with --screenshot: replace OUT.png"}},
@@ -118,10 +120,10 @@ int windowCommand(const Arguments& words) {
   if (given.has("screenshot")) return screenshot(given);
   for (const char* option :
        {"size", "frame", "after", "dock", "press", "settings", "theme", "force"})
-    if (given.has(option)) throw UsageError("--" + std::string(option) + " goes with --screenshot");
+    if (given.has(option)) throw UsageError("--" + std::string(option) + " needs --screenshot");
   if (given.has("demo") && !given.words().empty())
     throw UsageError("give FILE or --demo, not both");
-  if (given.has("socket") && !given.has("remote")) throw UsageError("--socket goes with --remote");
+  if (given.has("socket") && !given.has("remote")) throw UsageError("--socket needs --remote");
   if (given.has("gl") && given.has("no-gl")) throw UsageError("give --gl or --no-gl, not both");
   const auto assumed = anglesOf(given);
   const auto filters = filtersOf(given);

@@ -119,7 +119,7 @@ def section(command):
 def man_page(program, date):
     out = ['.\\" Made of what palpate --help says: see cmake/package/pages.',
            f'.TH PALPATE 1 "{date}" "Palpate {program.version}" "User Commands"',
-           ".SH NAME", "palpate \\- workbench for robot hands that feel", ".SH SYNOPSIS"]
+           ".SH NAME", "palpate \\- workbench for tactile robot hands", ".SH SYNOPSIS"]
     usage = program.window.usage[0].split(" | ")
     out += synopsis(usage + ["palpate COMMAND .."])
     out += [BEFORE.strip(), ".SH OPTIONS OF THE WINDOW"] + option_lines(own_options(program.window))
@@ -129,7 +129,7 @@ def man_page(program, date):
         out += [".TP", f"\\fB{escaped(command.name)}\\fR", escaped(command.summary)]
     out += [".PP", "Every command also takes",
             ".BR \\-h ", "or", ".B \\-\\-help", "(its own help) and", ".B \\-q", "or", ".B \\-\\-quiet",
-            "(no progress and no remarks; errors are still said)."]
+            "(no progress and no remarks; errors are still printed)."]
     out += [".SH COMMANDS IN DETAIL"]
     for command in program.commands:
         for each in [command] + command.kinds:

@@ -265,7 +265,7 @@ void DsaDocument::endLeaf() {
       break;
     case Leaf::kTime:
       timeMs_ = parseInteger(text_);
-      if (!timeMs_) throw Error(here() + "time_stamp is no whole number: " + inQuotes(text_));
+      if (!timeMs_) throw Error(here() + "time_stamp isn't a whole number: " + inQuotes(text_));
       if (*timeMs_ < 0 || *timeMs_ >= kEndOfStampsMs)
         throw Error(here() + "time_stamp " + std::to_string(*timeMs_) +
                     " lies outside the years 1970 to 2199");
@@ -296,7 +296,7 @@ void DsaDocument::parseNumbers(std::string_view text) {
     const auto value = parseDouble(item);
     if (!value || std::abs(*value) > kLargestNumber)
       throw Error(here() + "value " + std::to_string(numbers_.size()) + " of " + leafName_ +
-                  " is no sensible number: " + inQuotes(item));
+                  " isn't a valid number: " + inQuotes(item));
     numbers_.push_back(*value);
     if (more) text.remove_prefix(comma + 1);
   }

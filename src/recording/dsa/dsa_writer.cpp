@@ -280,7 +280,7 @@ void dsaWriterRequireStorable(const Profile& profile, const std::filesystem::pat
       throw FileError(path,
                       "can't be written: a .dsa recording has no negative values, but frame " +
                           std::to_string(i) + " holds " + numberText(*wrong) +
-                          "; choose another form, such as .csv");
+                          "; choose another format, such as .csv");
   }
 }
 

@@ -26,7 +26,7 @@ bool BlockStore::add(const Block& block) {
     if (!file_) file_.reset(std::tmpfile());
     if (!file_ ||
         ::pwrite(fileno(file_.get()), block.data.data(), block.data.size(), fileBytes_) != size)
-      throw Error("no room for temporary files");
+      throw Error("no space for temporary files");
     begin = kMemoryBytes + fileBytes_;
     fileBytes_ += size;
   }

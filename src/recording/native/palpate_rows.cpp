@@ -199,8 +199,7 @@ SensorLayout readLayout(SqliteDatabase& database) {
   try {
     return SensorLayout(std::move(matrices));
   } catch (const std::invalid_argument& error) {
-    throw FormatError(path,
-                      std::string("the layout of its matrices makes no sense: ") + error.what());
+    throw FormatError(path, std::string("the layout of its matrices is invalid: ") + error.what());
   }
 }
 

@@ -91,9 +91,9 @@ BlockStorage::OpenItem BlockStorage::open(Stream stream, std::size_t item) const
   const Block& block = opened->block;
   if (block.stream != stream || block.n != place.n || block.t0Us != place.t0Us ||
       block.t1Us != place.t1Us || !indexBlock(block, of(stream).numValues, opened->index))
-    throw FormatError(path_,
-                      "block " + std::to_string(place.id) +
-                          " makes no sense; 'palpate recover' saves the others");
+    throw FormatError(
+        path_,
+        "block " + std::to_string(place.id) + " is invalid; 'palpate recover' saves the others");
   cachedBytes_ += block.data.size();
   while (cachedBytes_ > kCachedBytes && !order_.empty()) {
     const auto oldest = cache_.find(order_.front());

@@ -198,7 +198,7 @@ bool SqliteDatabase::inTransaction() const { return sqlite3_get_autocommit(conne
 std::string SqliteDatabase::bytes() const {
   sqlite3_int64 size = 0;
   unsigned char* const copy = sqlite3_serialize(connection_, "main", &size, 0);
-  if (!copy) throw FileError(path_, "can't be made: out of memory");
+  if (!copy) throw FileError(path_, "can't be created: out of memory");
   std::string bytes(reinterpret_cast<const char*>(copy), static_cast<std::size_t>(size));
   sqlite3_free(copy);
   return bytes;

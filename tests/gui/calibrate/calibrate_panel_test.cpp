@@ -105,7 +105,7 @@ TEST_F(CalibratePanelTest, SaysWhatIsMissing) {
   show("Steps", makeOpenedRecording("e.dsa", profileWithStamps({})));
   EXPECT_TRUE(why().contains("no frame"));
   show("Steps", opened(loads(3, {0.0})));
-  EXPECT_TRUE(why().contains("stays for a second")) << why().toStdString();
+  EXPECT_TRUE(why().contains("stays for at least one second")) << why().toStdString();
   EXPECT_TRUE(panel_->page().tables().empty());
   show("Noise", opened(loads(3, {0.0})));
   EXPECT_TRUE(why().contains("temperature")) << why().toStdString();
@@ -195,9 +195,9 @@ TEST_F(CalibratePanelTest, ComputesOnlyWhileItIsSeenAndCanBeGivenUp) {
   EXPECT_TRUE(panel_->steps().busy());
   EXPECT_FALSE(panel_->noise().busy()) << "another page";
   EXPECT_TRUE(panel_->cancel());
-  EXPECT_EQ(why(), "Given up.");
+  EXPECT_EQ(why(), "Cancelled.");
   settle();
-  EXPECT_EQ(why(), "Given up.") << "what was at work then changes nothing";
+  EXPECT_EQ(why(), "Cancelled.") << "what was at work then changes nothing";
   find<QPushButton>("stepsEmptyButton")->click();
   settle();
   EXPECT_TRUE(panel_->steps().shown());

@@ -34,8 +34,8 @@ TEST_F(ComparePanelTest, TheOtherAlignments) {
   choose("compareAlignment", "clock time");
   EXPECT_NEAR(*compare().offsetS(), 3600.0, 1e-6);
   EXPECT_EQ(valueIn(CompareGroup::kB), -1.0F) << "B begins an hour later";
-  EXPECT_TRUE(compare().notice().contains("Nothing in common: B begins"));
-  EXPECT_EQ(compare().figures(), "no common span");
+  EXPECT_TRUE(compare().notice().contains("No common time: B begins"));
+  EXPECT_EQ(compare().figures(), "no common time");
   choose("compareAlignment", "first contact");
   EXPECT_NEAR(*compare().offsetS(), -1.0, 1e-9);
 }

@@ -159,7 +159,7 @@ TEST_F(CompareWindowTest, OneFrameAndNoneAreRecordingsToo) {
   open({"early.dsa", "one.dsa", "empty.dsa"});
   compareNow();
   choose("compareB", "empty.dsa");
-  EXPECT_EQ(compare().view().frames()[1].notice, "B holds no frame");
+  EXPECT_EQ(compare().view().frames()[1].notice, "B has no frames");
   choose("compareB", "one.dsa");
   choose("compareAlignment", "start of both");
   playback().seekFrame(0);

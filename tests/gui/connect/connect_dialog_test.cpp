@@ -115,7 +115,7 @@ TEST_F(ConnectDialogTest, ABrokenSceneSaysWhatIsWrong) {
   scenesFolder_ = folder_.path();
   open({.scene = "broken"});
   EXPECT_FALSE(canConnect());
-  EXPECT_TRUE(text("connectProblem").contains("objects is no JSON array"))
+  EXPECT_TRUE(text("connectProblem").contains("objects isn't a JSON array"))
       << text("connectProblem").toStdString();
   find<QListWidget>("scenes")->setCurrentRow(1);
   EXPECT_EQ(dialog_->connection().scene, "good");

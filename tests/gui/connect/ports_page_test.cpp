@@ -46,7 +46,7 @@ TEST_F(PortsPageTest, ShowsThatPortsAreAsked) {
   fake_.hang(kTactile);
   openPorts(kTactileLink, kMotionLink);
   ASSERT_TRUE(await([&] { return text("motionAnswer").startsWith("Motion"); }));
-  EXPECT_EQ(text("tactileAnswer"), "Asking…");
+  EXPECT_EQ(text("tactileAnswer"), "Checking…");
   EXPECT_TRUE(find<QProgressBar>("portsProgress")->isVisible());
   EXPECT_EQ(find<QProgressBar>("portsProgress")->value(), 1);
   EXPECT_EQ(find<QProgressBar>("portsProgress")->maximum(), 2);
@@ -76,7 +76,7 @@ TEST_F(PortsPageTest, OnePortThatIsTheOthersIsSaid) {
   fake_.answer(kTactile, answering(PortAnswer::kNothing, "nothing answers"));
   openPorts(kMotionLink, kTactileLink);
   ASSERT_TRUE(awaitAnswers());
-  EXPECT_TRUE(text("swapText").startsWith("The motion controller answers"))
+  EXPECT_TRUE(text("swapText").startsWith("The motion controller is on the port"))
       << text("swapText").toStdString();
   press(Qt::Key_S, Qt::AltModifier);
   EXPECT_TRUE(await([&] { return port("motionPort") == kMotionLink; }));
@@ -97,7 +97,8 @@ TEST_F(PortsPageTest, WhatTheUserChoseStays) {
   click("lookAgain");
   ASSERT_TRUE(awaitAnswers());
   EXPECT_EQ(port("motionPort"), "");
-  EXPECT_EQ(text("motionAnswer"), "None: pressure is shown and recorded, the hand isn't moved.");
+  EXPECT_EQ(text("motionAnswer"),
+            "None: pressure is shown and recorded, but the hand can't be moved.");
   EXPECT_TRUE(canConnect()) << "one controller is enough";
 }
 
@@ -121,7 +122,7 @@ TEST_F(PortsPageTest, ATypedPortIsAskedWhenItIsWhole) {
   openPorts();
   ASSERT_TRUE(awaitAnswers());
   type("tactilePort", " tcp:localhost:4711 ");
-  EXPECT_EQ(text("tactileAnswer"), "Not asked yet.");
+  EXPECT_EQ(text("tactileAnswer"), "Not checked yet.");
   press(Qt::Key_Tab);
   ASSERT_TRUE(await([&] { return text("tactileAnswer").startsWith("Tactile"); }));
   EXPECT_EQ(fake_.asked().back(), "tcp:localhost:4711");

@@ -285,7 +285,7 @@ TEST_F(ExportDialogTest, WhatStandsInTheWayIsSaid) {
   auto* name = find<QLineEdit>("exportName");
   name->setText("");
   EXPECT_FALSE(canExport());
-  EXPECT_EQ(dialog_->problem(), "Give it a name.");
+  EXPECT_EQ(dialog_->problem(), "Enter a name.");
   name->setText("a/b");
   EXPECT_FALSE(canExport());
   name->setText("a");

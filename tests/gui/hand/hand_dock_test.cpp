@@ -149,7 +149,7 @@ TEST_F(HandDockTest, ASlipAwareGraspClosesUnderWatchAndIsStopped) {
   connectTo(stillHand());
   type("limit", "2500");
   ASSERT_TRUE(await([&] { return isEnabled("slipAwareGrasp"); }));
-  EXPECT_TRUE(find<QPushButton>("slipAwareGrasp")->toolTip().contains("when it slips"));
+  EXPECT_TRUE(find<QPushButton>("slipAwareGrasp")->toolTip().contains("when the object slips"));
   click("slipAwareGrasp");
   ASSERT_TRUE(bench_->awaitMotion());
   const auto request = bench_->control->status().request;
@@ -379,12 +379,12 @@ TEST_F(HandDockTest, DuringAnUnplugInAMotionItSaysThatTheHandGoesOnAndNothingOfI
   bench_->hand->unplug(false, true);
   ASSERT_TRUE(await([&] { return !isEnabled("relaxHand"); })) << "the port is known to be gone";
   ASSERT_TRUE(bench_->handMoves());
-  EXPECT_TRUE(state().contains("goes on to its target by itself")) << state().toStdString();
+  EXPECT_TRUE(state().contains("still moves to its target")) << state().toStdString();
   EXPECT_FALSE(state().contains("can't move")) << state().toStdString();
   bench_->hand->replug();
   ASSERT_TRUE(await([&] { return isEnabled("relaxHand") && !bench_->handMoves(); }));
   dock_->refresh();
-  EXPECT_FALSE(state().contains("by itself")) << state().toStdString();
+  EXPECT_FALSE(state().contains("still moves")) << state().toStdString();
   EXPECT_TRUE(state().startsWith("Ready")) << state().toStdString();
 }
 
@@ -404,7 +404,7 @@ TEST_F(HandDockTest, AfterAnUnplugAtRestNothingOldLooksLikeNow) {
   bench_->hand->replug();
   ASSERT_TRUE(await([&] { return isEnabled("relaxHand"); }));
   dock_->refresh();
-  EXPECT_EQ(state().toStdString(), "Ready. The motion port was gone, and is back.");
+  EXPECT_EQ(state().toStdString(), "Ready. The motion port was disconnected, and is back.");
   EXPECT_FALSE(angles->isOld());
 }
 
@@ -420,7 +420,7 @@ TEST_F(HandDockTest, WhatIsRefusedDuringAnUnplugHidesNotThatTheHandGoesOn) {
   ASSERT_TRUE(await([&] { return !isEnabled("relaxHand"); })) << "the port is known to be gone";
   EXPECT_THROW(bench_->control->grasp({}), DeviceError);
   dock_->refresh();
-  EXPECT_TRUE(state().contains("goes on to its target by itself")) << state().toStdString();
+  EXPECT_TRUE(state().contains("still moves to its target")) << state().toStdString();
 }
 
 // L-M8
@@ -587,7 +587,7 @@ TEST_F(HandDockTest, AdaptiveSensitivitySaysWhatItWaitsFor) {
   connectTo(testing::handWith("empty"));
   find<QToolButton>("sensitivityAdaptive")->click();
   EXPECT_TRUE(await([&] {
-    return dock_->sensitivity().statusText().contains("waits for something");
+    return dock_->sensitivity().statusText().contains("waits for a contact");
   })) << dock_->sensitivity().statusText().toStdString();
   dock_->setHand(nullptr, nullptr);
   EXPECT_EQ(dock_->sensitivity().mode(), SensitivityMode::kManual);

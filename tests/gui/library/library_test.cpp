@@ -302,7 +302,7 @@ TEST_F(LibraryTest, SaysWhyItIsEmpty) {
   QSignalSpy said(panel_.get(), &LibraryPanel::said);
   panel_->setFolder(QString::fromStdString((folder_ / "gone").string()));
   settle();
-  EXPECT_TRUE(empty().contains("can't be looked into")) << empty().toStdString();
+  EXPECT_TRUE(empty().contains("can't be read")) << empty().toStdString();
   EXPECT_EQ(said.size(), 1);
 }
 

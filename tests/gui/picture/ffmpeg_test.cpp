@@ -74,7 +74,7 @@ TEST(Ffmpeg, IsFoundWhereItIs) {
     const FakeFfmpeg fake;  // so that the variable is set back
     qputenv("PALPATE_FFMPEG", "/no/such/ffmpeg");
     EXPECT_FALSE(findFfmpeg());
-    EXPECT_EQ(ffmpegMissing(), "PALPATE_FFMPEG names no program: /no/such/ffmpeg");
+    EXPECT_EQ(ffmpegMissing(), "PALPATE_FFMPEG doesn't name a program: /no/such/ffmpeg");
     qputenv("PALPATE_FFMPEG", QByteArray::fromStdString(folder.path().string()));
     EXPECT_FALSE(findFfmpeg()) << "a folder";
     qunsetenv("PALPATE_FFMPEG");

@@ -101,7 +101,7 @@ TEST_F(PictureSeriesTest, AFolderThatCantBeMadeIsSaid) {
     writePictureSeries(series(0, 9), &paint, paper_);
     FAIL() << "nothing was thrown";
   } catch (const FileError& error) {
-    EXPECT_NE(std::string(error.what()).find("can't be made a folder"), std::string::npos)
+    EXPECT_NE(std::string(error.what()).find("can't be created as a folder"), std::string::npos)
         << error.what();
   }
 }

@@ -80,11 +80,11 @@ TEST_F(RecognisePanelTest, WhatCanNotBeJudgedIsSaid) {
 TEST_F(RecognisePanelTest, WhatWasHeldTooShortIsNotSaidOfAnEmptyHand) {
   panel_->controller().setEmulated(true);
   settle();
-  panel_->controller().sayTrouble("Held too short yet: ask again in a second.", kHeldNow);
+  panel_->controller().sayTrouble("Not held long enough: ask again in a second.", kHeldNow);
   panel_->controller().contactEnded();
   EXPECT_EQ(panel_->controller().answer().kind, Kind::kNothing);
   EXPECT_EQ(find<AnswerView>("answerView")->answer().kind, Kind::kNothing);
-  EXPECT_FALSE(panel_->controller().answer().text.contains("too short"));
+  EXPECT_FALSE(panel_->controller().answer().text.contains("Not held long enough"));
 }
 
 TEST_F(RecognisePanelTest, WhatIsToldAdaptsTheDay) {
@@ -98,7 +98,7 @@ TEST_F(RecognisePanelTest, WhatIsToldAdaptsTheDay) {
   EXPECT_EQ(panel_->controller().session()->offset().origin, OffsetSource::kReferences);
   EXPECT_EQ(panel_->controller().answer().confidenceWord(), "not sure")
       << "a single object makes nothing sure";
-  EXPECT_TRUE(panel_->controller().answer().unsure.contains("single object"));
+  EXPECT_TRUE(panel_->controller().answer().unsure.contains("one object only"));
   EXPECT_TRUE(find<QLabel>("todayOffset")->text().contains("1 named grasp, 1 object"));
   EXPECT_EQ(find<FiguresTable>("todayGrasps")->item(0, 3)->text(), "pen");
   find<QPushButton>("todayForget")->click();

@@ -119,7 +119,7 @@ TEST_F(RecordingDialogTest, WhatOthersRecordMeanwhileIsCounted) {
 
 TEST_F(RecordingDialogTest, AFolderThatIsntThereIsSaidToBeMade) {
   type("recordingFolder", given_.folder + "/new");
-  EXPECT_EQ(place(), "in " + given_.folder + "/new, which will be made");
+  EXPECT_EQ(place(), "in " + given_.folder + "/new, which will be created");
   EXPECT_TRUE(ok()->isEnabled());
   EXPECT_FALSE(fs::exists(folder_ / "new"));
 }

@@ -127,7 +127,7 @@ TEST_F(RecordingSettingsTest, AFolderThatCantBeUsedIsSaid) {
     EXPECT_EQ(previewNextPath(settings_, kNoonUs).problem.toStdString(), said);
   };
   refused("", "choose a folder");
-  refused("runs", "no whole path");
+  refused("runs", "isn't an absolute path");
   testing::writeFile(folder_ / "a file", "");
   refused((folder_ / "a file").string(), "is a file, not a folder");
   refused((folder_ / "a file/below").string(), "is a file, not a folder");
@@ -147,9 +147,9 @@ TEST_F(RecordingSettingsTest, AFolderThatCantBeMadeIsSaid) {
 TEST_F(RecordingSettingsTest, AFolderThatMayNotBeWrittenIsSaid) {
   if (::geteuid() == 0) GTEST_SKIP() << "root may write everywhere";
   ASSERT_EQ(::chmod(folder_.path().c_str(), 0555), 0);
-  EXPECT_NE(messageOf(settings_).find("nothing may be written there"), std::string::npos);
+  EXPECT_NE(messageOf(settings_).find("no permission to write there"), std::string::npos);
   settings_.folder += "/new";
-  EXPECT_NE(messageOf(settings_).find("nothing may be written there"), std::string::npos);
+  EXPECT_NE(messageOf(settings_).find("no permission to write there"), std::string::npos);
   ASSERT_EQ(::chmod(folder_.path().c_str(), 0755), 0);
 }
 

@@ -158,7 +158,7 @@ TEST_F(SpectrumPanelTest, SaysWhyThereIsNothing) {
   ProfileBuilder still(sdh2().layout);
   for (int i = 0; i < 60; ++i) still.addFrame(1'000'000 + i * 20'000, emptyFrame().values);
   show(makeOpenedRecording("still.dsa", still.finish({})));
-  EXPECT_TRUE(panel_->emptyText().contains("feels anything"));
+  EXPECT_TRUE(panel_->emptyText().contains("is active"));
   EXPECT_FALSE(panel_->shown());
   EXPECT_TRUE(panel_->tables().empty());
   show(tones(20));
@@ -237,7 +237,7 @@ TEST_F(SpectrumPanelTest, CanBeGivenUpAndBegunAgain) {
   EXPECT_FALSE(panel_->cancel()) << "nothing is left to give up";
   EXPECT_FALSE(panel_->busy());
   QCoreApplication::processEvents();
-  EXPECT_EQ(panel_->emptyText(), "Given up.");
+  EXPECT_EQ(panel_->emptyText(), "Cancelled.");
   auto* button = find<QPushButton>("spectrumEmptyButton");
   EXPECT_EQ(button->text(), "Compute the spectra");
   button->click();
@@ -259,7 +259,7 @@ TEST_F(SpectrumPanelTest, OfALongRecordingWhatIsSeenIsComputed) {
   EXPECT_LE(panel_->chart().answer().series->timeS.back(), 110.1);
   panel_->setVisibleRange(100.0, 100.2);
   panel_->settle();
-  EXPECT_TRUE(panel_->emptyText().contains("see more of the recording"));
+  EXPECT_TRUE(panel_->emptyText().contains("zoom out"));
 }
 
 TEST_F(SpectrumPanelTest, NothingIsDrawnOverAGap) {

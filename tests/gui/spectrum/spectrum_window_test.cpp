@@ -98,7 +98,7 @@ TEST_F(SpectrumWindowTest, EscapeGivesItUp) {
   ASSERT_TRUE(panel().busy());
   press(Qt::Key_Escape);
   EXPECT_FALSE(panel().busy());
-  EXPECT_EQ(panel().emptyText(), "Given up.");
+  EXPECT_EQ(panel().emptyText(), "Cancelled.");
 }
 
 TEST_F(SpectrumWindowTest, IsTakenAwayAsPictureAndTable) {

@@ -103,7 +103,7 @@ Calibration usableCalibration(const QString& path) {
   Calibration calibration = loadCalibration(path.toStdString());
   if (!calibration.pressure.valid())
     throw Error(path.toStdString() +
-                ": holds no P(K, T), so that no force follows from it; its notes say why");
+                ": has no P(K, T), so it can't give forces; its notes say why");
   return calibration;
 }
 

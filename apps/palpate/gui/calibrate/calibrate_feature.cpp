@@ -61,11 +61,11 @@ void CalibrateFeature::connectPages() {
     if (!recording) return;
     windowState.events.keep(
         kTareKind, tareEvent(*panel_->tare().found(), recording->profile), "the zero");
-    windowState.messages.flash("the zero is kept with the recording: save with Ctrl+S");
+    windowState.messages.flash("zero added to the recording: save with Ctrl+S");
   });
   connect(&panel_->tare(), &TarePage::removeRequested, this, [&windowState] {
     windowState.events.keep(kTareKind, std::nullopt, "the zero");
-    windowState.messages.flash("no zero is kept with the recording: save with Ctrl+S");
+    windowState.messages.flash("zero removed from the recording: save with Ctrl+S");
   });
   connect(&panel_->force(),
           &ForcePage::keepRequested,
@@ -80,8 +80,7 @@ void CalibrateFeature::connectPages() {
                 "sensitivity " + numberText(sensitivity) + ", threshold " + numberText(counts);
             event.json = jsonOf(SensorSettings{sensitivity, counts, true}).text(-1);
             windowState.events.keep(kSettingsKind, event, "the sensor's settings");
-            windowState.messages.flash(
-                "the sensor's settings are kept with the recording: save with Ctrl+S");
+            windowState.messages.flash("sensor settings added to the recording: save with Ctrl+S");
           });
   connect(&panel_->force(), &ForcePage::applied, pressures_.get(), &Pressures::reload);
   connect(&panel_->pressure(), &PressurePage::applyRequested, this, &CalibrateFeature::apply);
@@ -93,7 +92,8 @@ void CalibrateFeature::connectNoise() {
       &panel_->noise(), &NoisePage::applyRequested, this, [&windowState](const NoiseFloor& floor) {
         const HandDescription* hand = windowState.displayed.hand();
         applyNoise(windowState.settings, hand ? hand->name : sdh2().name, floor);
-        windowState.messages.flash("noise lines applied: the dock Hand has \"High sensitivity\"");
+        windowState.messages.flash(
+            "noise lines applied: \"High sensitivity\" in the dock Hand uses them");
       });
   windowState.handCommands.noiseLines = [&windowState](const std::string& hand) {
     return appliedNoise(windowState.settings, hand);

@@ -20,7 +20,7 @@ CalibratePanel::CalibratePanel(QSettings& settings, QWidget* parent)
   noise_ = new NoisePage(parentOfPages);
   tare_ = new TarePage(parentOfPages);
   force_ = new ForcePage(settings, parentOfPages);
-  add(steps_, "Steps", "Responses to loads that are put on: gain, drift, time constants");
+  add(steps_, "Steps", "Responses to applied loads: gain, drift, time constants");
   add(pressure_,
       "Pressure",
       "Pressure from gain and temperature, from recordings under known loads");

@@ -24,7 +24,7 @@ QString calibrationFactsRangeOf(const Surface& surface) {
   const auto [leastT, mostT] = std::minmax_element(
       surface.hull.begin(), surface.hull.end(), [](auto& a, auto& b) { return a.t < b.t; });
   return "K " + figure(leastX->x, 0) + " to " + figure(mostX->x, 0) + " counts, " +
-         figure(leastT->t, 1) + " to " + figure(mostT->t, 1) + " °C, within their hull";
+         figure(leastT->t, 1) + " to " + figure(mostT->t, 1) + " °C, inside the area of the points";
 }
 
 void addSurface(std::vector<Fact>& facts,
@@ -71,22 +71,22 @@ std::vector<Fact> calibrationFacts(const Calibration& calibration) {
   facts.push_back({"measured", calibrationFactsRangeOf(model.gain), model.gain.hull.empty()});
   addSurface(facts, model.drift, "P(m, T) [kPa]", "m");
   facts.push_back({"temperature",
-                   model.options.study ? QString("as the study took it")
+                   model.options.study ? QString("as in the study")
                                        : QString("of the motor nearest to the matrix")});
-  facts.push_back({"without one",
+  facts.push_back({"without temperature",
                    figure(model.options.assumedDegC, 0) + " ± " +
                        figure(model.options.assumedSdDegC, 0) + " °C assumed"});
   facts.push_back({"share of the active area",
                    model.options.indenterAreaMm2 > 0.0
                        ? figure(model.areaFraction, 2) + " ± " + figure(model.areaFractionSd, 2) +
                              " (stamp of " + figure(model.options.indenterAreaMm2, 2) + " mm²)"
-                       : QString("not known: each active taxel counts whole"),
+                       : QString("not known: every active taxel counts fully"),
                    model.options.indenterAreaMm2 <= 0.0});
   if (model.steadyS > 0.0) facts.push_back({"steady after", figure(model.steadyS, 2) + " s"});
   facts.push_back({"sensor's settings",
                    "sensitivity " + figure(calibration.settings.sensitivity, 2) + ", threshold " +
                        figure(calibration.settings.thresholdCounts, 0) + " counts" +
-                       (calibration.settings.assumed ? " (said, not read)" : "")});
+                       (calibration.settings.assumed ? " (entered by hand)" : "")});
   facts.push_back({"measured on",
                    QString::fromStdString(calibration.hand) + ", matrix " +
                        QString::number(calibration.matrix)});

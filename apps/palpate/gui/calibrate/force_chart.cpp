@@ -136,7 +136,7 @@ void ForceChart::paint(QPainter& painter, const PictureLook& look, const QString
              *this,
              {.title = title,
               .legend = {{name_ + ", ± 95 %", QPen(color, 1.4)},
-                         {"beyond what was measured", graph(kBeyond)->pen()}}});
+                         {"outside the measured range", graph(kBeyond)->pen()}}});
 }
 
 void ForceChart::mousePressEvent(QMouseEvent* event) {

@@ -31,7 +31,7 @@ std::vector<FigureColumn> forcePageColumns() {
           {"K", "Gain that was used: the filtered mean, creep taken out [counts]", 8},
           {"kPa", "Pressure of the contact; below: 95 % interval", 8},
           {"N", "Force; below: 95 % interval", 8},
-          {"", "What speaks against it", 18, true}};
+          {"", "Why the value may be wrong", 18, true}};
 }
 
 QString plusMinus(double sd) { return "± " + figure(kQuantile * sd, 2); }
@@ -41,7 +41,7 @@ std::vector<FigureCell> forcePageRowOf(const QString& name, const MatrixForce& f
     return {{.text = name}, {.text = "0"}, {.text = "–"}, {.text = "–"}, {.text = "0"}, {}};
   QStringList flags;
   if (!force.inRange) flags.append("outside range");
-  if (force.saturated) flags.append("saturated: more than this");
+  if (force.saturated) flags.append("saturated: the real value is higher");
   if (!force.temperatureKnown) flags.append("temperature assumed");
   if (force.compensated) flags.append("creep taken out");
   return {{.text = name},
@@ -125,8 +125,8 @@ void ForcePage::makeTop() {
   name_->setObjectName("forceCalibration");
   name_->setTextFormat(Qt::PlainText);
   name_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
-  drop_ = button("forceDrop", "Don't apply", "Counts stay counts");
-  choose_ = button("forceChoose", "Choose…", "A calibration of the page Pressure, as it was saved");
+  drop_ = button("forceDrop", "Don't apply", "Show counts only");
+  choose_ = button("forceChoose", "Choose…", "A calibration saved on the page Pressure");
   auto* files = new QHBoxLayout;
   files->setSpacing(8);
   files->addWidget(name_, 1);
@@ -136,7 +136,7 @@ void ForcePage::makeTop() {
     auto* made = new SecondsField(this);
     made->setObjectName(name);
     made->setAccessibleName(label);
-    made->setToolTip(label + " that this recording was made with; a .dsa doesn't tell");
+    made->setToolTip(label + " used for this recording; a .dsa doesn't store it");
     made->setRange(least, most);
     made->setFocusPolicy(Qt::StrongFocus);
     made->setFixedWidth(made->fontMetrics().horizontalAdvance("00000.00") + 18);
@@ -145,7 +145,7 @@ void ForcePage::makeTop() {
   sensitivity_ = field("forceSensitivity", "Sensitivity", kLeastSensitivity, 1.0);
   threshold_ = field("forceThreshold", "Threshold in counts", 0.0, kFullScaleCounts);
   threshold_->setDecimals(0);
-  keep_ = button("forceKeep", "Keep", "Note these settings in the recording (undo: Ctrl+Z)");
+  keep_ = button("forceKeep", "Keep", "Add these settings to the recording (undo: Ctrl+Z)");
   recordedWith_ = new QWidget(this);
   auto* made = new QHBoxLayout(recordedWith_);
   made->setContentsMargins(0, 0, 0, 0);
@@ -236,7 +236,7 @@ QString ForcePage::emptyReason() const {
   if (live() && !liveHand_) return "Waiting for the hand.";
   if (appliedCalibration(settings_, handName()).isEmpty())
     return "No calibration is applied to this hand: its values are counts.\n\nMake one on the page "
-           "Pressure, or choose one that was saved.";
+           "Pressure, or choose a saved one.";
   return live() ? QString() : kept_.problem;
 }
 
@@ -269,7 +269,7 @@ void ForcePage::take(const std::shared_ptr<const ForceSeries>& found, const Sens
   QString notes = linesOf(found->assumptions);
   if (found->beyond > 0)
     notes.prepend(QString::number(found->beyond) + " of " + QString::number(found->contacts) +
-                  " contacts are beyond what was measured (amber): don't rely on them\n");
+                  " contacts are outside the measured range (amber): don't rely on them\n");
   notes_->setText(notes);
   const QSignalBlocker blocker(table_);
   table_->selectRow(static_cast<int>(found->numMatrices));

@@ -31,9 +31,9 @@ std::vector<FigureColumn> noisePageColumns() {
   return {{"matrix", {}, 15, true},
           {"slope", "[counts/°C]", 6},
           {"at 0 °C", "Intercept of the line [counts]", 6},
-          {"RMSE", "The study's [counts]; below: that of this very line", 9},
+          {"RMSE", "As in the study [counts]; below: of this line", 9},
           {"°C", "Temperatures it was measured at", 9},
-          {"threshold", "Line + 3 RMSE at the warmest [counts]: above it no noise shows", 8},
+          {"threshold", "Line + 3 RMSE at the highest temperature [counts]: noise stays below", 8},
           {"frames", "With a temperature; below: those far above the line", 7},
           {"", {}, 6, true}};
 }
@@ -111,7 +111,7 @@ NoisePage::NoisePage(QWidget* parent) : ComputedPage("noise", parent) {
   bins_ = new FrameField(this);
   bins_->setObjectName("noiseBins");
   bins_->setAccessibleName("Bins");
-  bins_->setToolTip("Equal bins over the temperatures; the study takes 20");
+  bins_->setToolTip("Equal bins over the temperatures; the study uses 20");
   bins_->setRange(2, kMostBins);
   bins_->setValue(static_cast<int>(NoiseFloorOptions{}.bins));
   save_ = new QPushButton("Save…", this);
@@ -125,7 +125,7 @@ NoisePage::NoisePage(QWidget* parent) : ComputedPage("noise", parent) {
   apply_->setEnabled(false);
   auto* openLines = new QPushButton("Apply a file…", this);
   openLines->setObjectName("noiseOpen");
-  openLines->setToolTip("Lines that were saved (JSON), or the prior program's (XML)");
+  openLines->setToolTip("Saved lines (JSON), or those of the prior program (XML)");
   auto* row = new QHBoxLayout;
   row->setSpacing(8);
   row->addWidget(new QLabel("Bins", this));

@@ -34,12 +34,12 @@ constexpr double kFullScale = 4095.0;
 
 std::vector<FigureColumn> pressurePageColumns() {
   return {{"recording", {}, 15, true},
-          {"kPa", "Pressure that was put on", 7},
+          {"kPa", "Applied pressure", 7},
           {"K", "Gain of the step [counts]", 8},
           {"m", "Drift [counts/s]", 8},
-          {"°C", "Temperature that the model takes", 7},
-          {"off by", "What the surface says, less what was put on [kPa]", 8},
-          {"", "Why it is left out", 14, true}};
+          {"°C", "Temperature used by the model", 7},
+          {"off by", "Pressure of the surface minus applied pressure [kPa]", 8},
+          {"", "Why it isn't used", 14, true}};
 }
 
 std::vector<FigureCell> pressurePageRowOf(const PressureSample& sample,
@@ -147,10 +147,10 @@ void PressurePage::makeTop() {
   name_->setObjectName("pressureName");
   name_->setTextFormat(Qt::PlainText);
   name_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
-  save_ = button("pressureSave", "Save…", "As JSON, with all that it was made from");
+  save_ = button("pressureSave", "Save…", "As JSON, with the data it was made from");
   apply_ = button("pressureApply",
                   "Apply to this hand",
-                  "From now on this calibration tells pressures and forces of such hands");
+                  "Use this calibration for pressures and forces of this hand type");
   apply_->setProperty("primary", true);
   files->addWidget(openIt);
   files->addWidget(name_, 1);
@@ -160,7 +160,8 @@ void PressurePage::makeTop() {
   options->setSpacing(8);
   study_ = new QCheckBox("As the study", this);
   study_->setObjectName("pressureStudy");
-  study_->setToolTip("All terms, and the study's temperatures; else only terms that hold up");
+  study_->setToolTip(
+      "All terms, and the study's temperatures; off: only terms that cross-validation keeps");
   options->addWidget(study_);
   robust_ = new QCheckBox("Robust", this);
   robust_->setObjectName("pressureRobust");
@@ -178,7 +179,7 @@ void PressurePage::makeTop() {
   above_ = new QCheckBox("From above", this);
   above_->setObjectName("pressureAbove");
   above_->setToolTip(
-      "The surface over gain and temperature, pressure as colour; else slices of it");
+      "The surface over gain and temperature, pressure as colour; off: slices of it");
   options->addWidget(above_);
   auto* measured = new QHBoxLayout;
   measured->setSpacing(8);
@@ -198,17 +199,15 @@ void PressurePage::makeTop() {
   };
   area_ = field("pressureArea",
                 "Stamp in mm²",
-                "Area that was loaded; forces then count what a load covers. 0: not known",
+                "Loaded area; forces then count only the area under a load. 0: not known",
                 kLargestArea);
-  sensitivity_ = field("pressureSensitivity",
-                       "Sensitivity",
-                       "The recordings were made with; no recording tells",
-                       1.0);
+  sensitivity_ = field(
+      "pressureSensitivity", "Sensitivity", "Used for the recordings, which don't store it", 1.0);
   sensitivity_->setMinimum(0.01);
   sensitivity_->setValue(SensorSettings{}.sensitivity);
   threshold_ = field("pressureThreshold",
                      "Threshold",
-                     "The recordings were made with [counts]; no recording tells",
+                     "Used for the recordings, which don't store it [counts]",
                      kFullScale);
   threshold_->setDecimals(0);
   threshold_->setValue(SensorSettings{}.thresholdCounts);

@@ -37,7 +37,7 @@ std::vector<FigureColumn> stepPageColumns() {
       {"T2 [s]", "The faster time constant", 7},
       {"d", "Damping, from T1 and T2; below: T", 7},
       {"RMSE", "Root of the mean square of the residuals [counts]; below: the temperature", 8},
-      {"", "What speaks against it", 16, true}};
+      {"", "Why the fit may be wrong", 16, true}};
 }
 
 // Writes `value` with as many decimals as its interval justifies.
@@ -64,7 +64,7 @@ QStringList flagsOf(const FittedStep& step) {
   if (step.fit.converged && !step.fit.steadyStateReached) flags.append("cut off");
   if (step.saturatedFrames > 0) flags.append("saturated");
   if (!step.step.beginSeen) flags.append("begin not seen");
-  if (step.fit.converged && !step.fit.identifiable) flags.append("T2 not told");
+  if (step.fit.converged && !step.fit.identifiable) flags.append("T2 unknown");
   if (step.step.flickerFrames > 0) flags.append("flickers");
   return flags;
 }
@@ -165,7 +165,7 @@ StepPage::StepPage(QWidget* parent) : ComputedPage("steps", parent) {
   signal_ = new QComboBox(this);
   signal_->setObjectName("stepSignal");
   signal_->setAccessibleName("Signal");
-  signal_->setToolTip("What stands for the matrix; a calibration takes the filtered mean");
+  signal_->setToolTip("Signal of the matrix; a calibration uses the filtered mean");
   for (const PlottedSignal each : kAllPlottedSignals) signal_->addItem(nameOf(each));
   signal_->setCurrentText(nameOf(PlottedSignal::kFilteredMean));
   robust_ = new QCheckBox("Robust", this);
@@ -252,8 +252,8 @@ void StepPage::take(const std::shared_ptr<const FoundSteps>& found) {
   if (report.steps.empty()) {
     const QString notes = linesOf(report.notes);
     return say((notes.isEmpty() ? "No loading step was found." : notes) +
-               "\n\nA step is a load that is put onto a matrix and stays for a second at least. "
-               "Another matrix can be chosen above.");
+               "\n\nA step is a load that is put on a matrix and stays for at least one second. "
+               "You can choose another matrix above.");
   }
   std::vector<std::vector<FigureCell>> rows;
   for (const FittedStep& step : report.steps) rows.push_back(stepPageRowOf(step, found->signal));

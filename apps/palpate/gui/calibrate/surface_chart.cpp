@@ -159,7 +159,7 @@ QString SurfaceChart::valueAt(const QPointF& at) const {
       static_cast<double>(model_.gain.numPoints) - static_cast<double>(model_.gain.numTerms);
   return "K " + figure(k, 0) + " counts, " + figure(degC, 1) + " °C: " + figure(estimate.kpa, 1) +
          " ± " + figure(studentQuantile975(dof) * estimate.sdKpa, 1) + " kPa" +
-         (estimate.inRange ? "" : ", outside what was measured");
+         (estimate.inRange ? "" : ", outside the measured range");
 }
 
 void SurfaceChart::paint(QPainter& painter, const PictureLook& look, const QString& title) {

@@ -122,12 +122,12 @@ TarePage::TarePage(QWidget* parent) : ComputedPage("tare", parent) {
   state_ = new QLabel(this);
   state_->setObjectName("tareState");
   state_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
-  remove_ = new QPushButton("Take it away", this);
+  remove_ = new QPushButton("Remove", this);
   remove_->setObjectName("tareRemove");
-  remove_->setToolTip("Forces are those of the values as they are again");
+  remove_->setToolTip("Forces use the recorded values without a zero again");
   keep_ = new QPushButton("Keep with the recording", this);
   keep_->setObjectName("tareKeep");
-  keep_->setToolTip("As an event: forces are told with it, values never change (undo: Ctrl+Z)");
+  keep_->setToolTip("As an event: forces use it, values never change (undo: Ctrl+Z)");
   keep_->setProperty("primary", true);
   auto* row = new QHBoxLayout;
   row->setSpacing(8);
@@ -140,8 +140,8 @@ TarePage::TarePage(QWidget* parent) : ComputedPage("tare", parent) {
   table_->setObjectName("tareTable");
   notes_ = notesLabel("tareNotes", content);
   notes_->setText(
-      "The zero of a taxel is the median over these windows of what it reads on average. It is "
-      "proposed; without it a taxel that reads something at rest counts as touched.");
+      "The zero of a taxel is the median of its mean readings in these windows. Without a zero, a "
+      "taxel that reads something at rest counts as touched.");
   auto* column = new QVBoxLayout(content);
   column->setContentsMargins(0, 0, 0, 0);
   column->setSpacing(0);
@@ -199,8 +199,8 @@ void TarePage::showState() {
   const bool unloaded = found_ && std::any_of(found_->matrices.begin(),
                                               found_->matrices.end(),
                                               [](const MatrixTare& each) { return each.valid; });
-  state_->setText(kept_                        ? "A zero is kept with this recording."
-                  : unloaded && !found_->any() ? "At rest every taxel reads 0: nothing to take off."
+  state_->setText(kept_                        ? "This recording has a zero."
+                  : unloaded && !found_->any() ? "At rest every taxel reads 0: nothing to subtract."
                                                : "");
   keep_->setEnabled(found_ && found_->any());
   remove_->setVisible(kept_);

@@ -71,7 +71,7 @@ CompareHeader::CompareHeader(QAction* leave,
   alignment_ = new QComboBox(this);
   alignment_->setObjectName("compareAlignment");
   alignment_->setMinimumHeight(kCompareHeaderControlHeight);
-  alignment_->setToolTip("What comes on top of each other");
+  alignment_->setToolTip("How B is aligned with A");
   alignment_->setAccessibleName("Alignment");
   alignment_->setFocusPolicy(Qt::TabFocus);
   for (const Alignment each : kAllAlignments) alignment_->addItem(titleOf(each));

@@ -454,7 +454,7 @@ QString ComparePanel::captionOf(bool ofB, const std::optional<std::size_t>& fram
 QString ComparePanel::absenceOf(bool ofB) const {
   const TimedProfile& timed = sideOf(answer_, ofB);
   const QString name = ofB ? "B" : "A";
-  if (timed.profile.numFrames() == 0) return name + " holds no frame";
+  if (timed.profile.numFrames() == 0) return name + " has no frames";
   const double offsetS = ofB ? answer_.offsetS : 0.0;
   const double at = timeS_ - offsetS;
   if (at < 0.0) return name + " begins " + durationText(-at) + " later";
@@ -581,12 +581,12 @@ QString ComparePanel::notice() const {
   if (frames && !commonSpan(inA, inB, answer_.offsetS)) {
     const double laterS = answer_.offsetS - inA.timing.durationS;
     lines.append(laterS > 0.0
-                     ? "Nothing in common: B begins " + durationText(laterS) + " after A ended"
-                     : "Nothing in common: B ended " +
+                     ? "No common time: B begins " + durationText(laterS) + " after A ended"
+                     : "No common time: B ended " +
                            durationText(-(answer_.offsetS + inB.timing.durationS)) +
                            " before A begins");
   } else if (frames && a_ == b_ && answer_.offsetS == 0.0) {
-    lines.append("The same recording twice: drag B's bar to lay another of its grasps on A");
+    lines.append("The same recording twice: drag B's bar to compare another grasp with A");
   }
   return lines.join(". ");
 }
@@ -598,7 +598,7 @@ QString ComparePanel::figures() const {
     return "the other recording has no such matrix";
   }
   const CurveComparison& found = *answer_.figures;
-  if (found.samples == 0) return "no common span";
+  if (found.samples == 0) return "no common time";
   const QString unit = " " + unitOf(settings_.signal);
   return "correlation " +
          (found.correlation ? figure(*found.correlation, 3) : QString("not defined")) +

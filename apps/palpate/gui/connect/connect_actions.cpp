@@ -9,7 +9,7 @@ ConnectActions::ConnectActions(ActionRegistry& book) {
   tryEmulated = book.make("tryEmulated", "Hand", "Try the &emulated hand", {key("Ctrl+Shift+D")});
   disconnectHand = book.make("disconnectHand", "Hand", "&Disconnect", {key("Ctrl+Shift+K")});
   live = book.make("live", "Hand", "Show &live", {key("F6")}, true);
-  live->setToolTip("Back to what is connected (F6)");
+  live->setToolTip("Show the connected hand (F6)");
   hold = book.make("hold", "Hand", "&Hold the live picture", {key("P")}, true);
   live->setIconText(" Live");
   connectHand->setIconText(" " + plainText(*connectHand));

@@ -34,11 +34,11 @@ KindText connectDialogTextOf(Connection::Kind kind) {
     case Connection::Kind::kPorts:
       return {"kindPorts", "Hand on &ports", "A real hand: serial adapters or network"};
     case Connection::Kind::kReplay:
-      return {"kindReplay", "&Replay of a recording", "What a hand felt once, as if it came now"};
+      return {"kindReplay", "&Replay of a recording", "Plays a recording as if it were live"};
     case Connection::Kind::kEmulated:
       break;
   }
-  return {"kindEmulated", "&Emulated hand", "No hand needed: it grasps objects that aren't there"};
+  return {"kindEmulated", "&Emulated hand", "No hand needed: it grasps simulated objects"};
 }
 
 std::size_t connectDialogIndexOf(Connection::Kind kind) {

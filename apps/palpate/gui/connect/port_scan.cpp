@@ -26,7 +26,7 @@ PortScan::Functions realFunctions() {
 
 QString whyNotAsked(const PortInfo& port) {
   // Opening a Bluetooth port would connect to the remote device.
-  if (port.bluetooth) return "Bluetooth: not asked";
+  if (port.bluetooth) return "Bluetooth: not checked";
   if (!port.readable || !port.writable)
     return "no permission to open it: add yourself to the group dialout (sudo adduser $USER "
            "dialout), then log in again";

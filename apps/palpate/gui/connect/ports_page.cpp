@@ -28,10 +28,13 @@ QString sentence(const std::string& text) {
 
 PortsPage::PortsPage(PortScan& scan, Theme theme, QWidget* parent)
     : QWidget(parent), scan_(scan), theme_(theme) {
-  tactile_ = new PortField(
-      "&Tactile controller", "None: the hand moves, and nothing is felt.", "tactile", theme, this);
+  tactile_ = new PortField("&Tactile controller",
+                           "None: the hand can move, but no pressure is shown.",
+                           "tactile",
+                           theme,
+                           this);
   motion_ = new PortField("&Motion controller",
-                          "None: pressure is shown and recorded, the hand isn't moved.",
+                          "None: pressure is shown and recorded, but the hand can't be moved.",
                           "motion",
                           theme,
                           this);
@@ -94,10 +97,10 @@ QWidget* PortsPage::makeSwapRow() {
 
 QWidget* PortsPage::makeLookRow() {
   auto* line = new QWidget(this);
-  look_ = new QPushButton("&Look again", line);
+  look_ = new QPushButton("Search &again", line);
   look_->setObjectName("lookAgain");
   look_->setAutoDefault(false);
-  look_->setToolTip("List the ports again and ask each what is behind it");
+  look_->setToolTip("List the ports again and check the device on each");
   connect(look_, &QPushButton::clicked, this, &PortsPage::look);
   progress_ = new QProgressBar(line);
   progress_->setObjectName("portsProgress");
@@ -229,9 +232,9 @@ void PortsPage::refresh() {
   if (!running)
     progressText_->setText("");
   else if (all == 0)
-    progressText_->setText("Looking for ports…");
+    progressText_->setText("Searching for ports…");
   else
-    progressText_->setText(QString("Asking the ports: %1 of %2…").arg(answered).arg(all));
+    progressText_->setText(QString("Checking the ports: %1 of %2…").arg(answered).arg(all));
   emit changed();
 }
 
@@ -262,7 +265,7 @@ std::optional<PortProbe> PortsPage::probeOf(const PortField& field) const {
 PortFieldState PortsPage::stateOf(const PortField& field, PortAnswer wanted) const {
   if (field.port().isEmpty())
     return scan_.running() && !field.touched()
-               ? PortFieldState{PortsPageState::kAtWork, "Looking for it…"}
+               ? PortFieldState{PortsPageState::kAtWork, "Searching…"}
                : PortFieldState{};
   const QString key = keyOf(field.port());
   if (const auto probe = probeOf(field)) {
@@ -275,13 +278,13 @@ PortFieldState PortsPage::stateOf(const PortField& field, PortAnswer wanted) con
                                                         : PortsPageState::kWarning;
     return {mark, sentence(probe->message)};
   }
-  if (asking_.contains(key)) return {PortsPageState::kAtWork, "Asking…"};
+  if (asking_.contains(key)) return {PortsPageState::kAtWork, "Checking…"};
   const ScannedPort* port = listed(key);
   if (port && !port->notAsked.isEmpty())
     return {port->info.writable && port->info.readable ? PortsPageState::kNone
                                                        : PortsPageState::kWarning,
             sentence(port->notAsked.toStdString())};
-  return {PortsPageState::kNone, "Not asked yet."};
+  return {PortsPageState::kNone, "Not checked yet."};
 }
 
 QString PortsPage::swapText() const {
@@ -292,17 +295,17 @@ QString PortsPage::swapText() const {
   const bool motionAtTactile = tactile.answer == PortAnswer::kMotion;
   const bool tactileAtMotion = motion.answer == PortAnswer::kTactile;
   if (motionAtTactile && tactileAtMotion)
-    return "The ports are swapped: each is the other controller's.";
-  if (motionAtTactile)
-    return "The motion controller answers at the port that is chosen for the tactile one.";
-  return "The tactile controller answers at the port that is chosen for the motion one.";
+    return "The ports are swapped: each belongs to the other controller.";
+  if (motionAtTactile) return "The motion controller is on the port chosen for the tactile one.";
+  return "The tactile controller is on the port chosen for the motion one.";
 }
 
 QString PortsPage::helpText() const {
   if (!looked_ || scan_.running()) return {};
   if (ports_.isEmpty() && tactile_->port().isEmpty() && motion_->port().isEmpty())
-    return "No serial port was found. Plug in the adapters of the hand and look again; type a name "
-           "such as tcp:HOST:PORT for a hand on the network; or choose the emulated hand at the "
+    return "No serial port was found. Plug in the adapters of the hand and search again; type a "
+           "name "
+           "such as tcp:HOST:PORT for a hand on the network; or choose the emulated hand on the "
            "left.\n\nPorts belong to the group dialout: sudo adduser $USER dialout, then log in "
            "again.";
   for (const auto& [answer, what] :

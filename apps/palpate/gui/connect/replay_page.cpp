@@ -45,8 +45,8 @@ ReplayPage::ReplayPage(const QStringList& recent, Theme theme, QWidget* parent) 
   state_->setWordWrap(true);
   state_->setProperty("role", "muted");
   auto* what = new QLabel(
-      "Its frames come in their own time, through the same path as those of a hand: views, filters "
-      "and alarms see no difference. Nothing moves.",
+      "Its frames are played at their recorded times, as if they came from a hand: views, filters "
+      "and alarms work the same. Nothing moves.",
       this);
   what->setWordWrap(true);
   what->setProperty("role", "muted");
@@ -94,8 +94,8 @@ QString ReplayPage::problem() const {
   const QFileInfo file(recording());
   if (file.isDir()) return "This is a folder: choose a recording in it.";
   if (!file.exists()) return "There is no such file.";
-  if (!file.isFile()) return "This is no file.";
-  if (!file.isReadable()) return "This file may not be read by you.";
+  if (!file.isFile()) return "This isn't a file.";
+  if (!file.isReadable()) return "You have no permission to read this file.";
   if (file.size() == 0) return "This file is empty.";
   return {};
 }

@@ -58,7 +58,7 @@ ScenePage::ScenePage(const std::filesystem::path& folder, Theme theme, QWidget* 
     addScene(scene, QString(scene).replace('_', ' '));
   }
   none_->setText("No scenes were found in " + QString::fromStdString(folder_.string()) +
-                 ". Choose the file of a scene.");
+                 ". Choose a scene file.");
   none_->setVisible(list_->count() == 0);
   askForScene = [this] {
     return QFileDialog::getOpenFileName(
@@ -112,7 +112,7 @@ void ScenePage::showChosen() {
   problem_ = item ? item->data(kProblemRole).toString() : QString();
   const bool canAct = item && item->data(kScriptRole).toBool();
   acts_->setEnabled(canAct);
-  acts_->setToolTip(canAct ? "It grasps and lets go as its script says; you watch and record"
+  acts_->setToolTip(canAct ? "The hand grasps and opens as its script says; you watch and record"
                            : "This scene has no script");
   emit changed();
 }

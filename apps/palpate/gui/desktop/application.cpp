@@ -36,7 +36,7 @@ bool GuardedApplication::notify(QObject* receiver, QEvent* event) {
   } catch (const std::exception& failure) {
     note(failure.what());
   } catch (...) {
-    note("nobody knows what");
+    note("unknown error");
   }
   return false;
 }
@@ -49,16 +49,16 @@ void GuardedApplication::note(const char* what) noexcept {
         this, [this, text = QString::fromUtf8(what)] { showFailure(text); }, Qt::QueuedConnection);
   } catch (...) {
     // There is no memory for a longer message.
-    qCritical("The window failed at an event, and goes on");
+    qCritical("The window had an error, and goes on");
   }
 }
 
 void GuardedApplication::showFailure(const QString& what) {
   if (reportedFailures_.contains(what) || reportedFailures_.size() >= kMostTold) return;
   reportedFailures_.insert(what);
-  qCritical("The window failed at an event, and goes on: %s", qUtf8Printable(what));
-  emit failed("Something in the window failed, and it goes on without: " + what +
-              ". Save your work; if it happens again, start Palpate anew");
+  qCritical("The window had an error, and goes on: %s", qUtf8Printable(what));
+  emit failed("An error occurred in the window: " + what +
+              ". Save your work; if it happens again, restart Palpate");
 }
 
 void GuardedApplication::forgetFailures() {

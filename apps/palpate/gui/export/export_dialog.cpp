@@ -109,7 +109,7 @@ QWidget* ExportDialog::makeForm() {
   for (const ExportedView* each : views_) view_->addItem(each->name);
   fields_->addRow("&View", view_);
   form_ = new ExportForms(form);
-  fields_->addRow("Form", form_);
+  fields_->addRow("Format", form_);
   frames_ = exportDialogComboBox("exportFrames");
   fields_->addRow("F&rames", frames_);
   table_ = exportDialogComboBox("exportTable");
@@ -128,7 +128,7 @@ QWidget* ExportDialog::makeForm() {
   fields_->addRow("Reso&lution", dpi_);
   movie_ = new ExportMovieFields(*fields_);
   colors_ = exportDialogComboBox("exportColors");
-  colors_->addItems({"for print: white ground, dark ink", "as on screen"});
+  colors_->addItems({"for print: white background, dark lines", "as on screen"});
   fields_->addRow("&Colours", colors_);
   titled_ = new QCheckBox("T&itle line", form);
   titled_->setObjectName("exportTitled");

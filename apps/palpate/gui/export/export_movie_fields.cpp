@@ -27,7 +27,7 @@ void chooseValue(QComboBox* box, const QVariant& value) {
 ExportMovieFields::ExportMovieFields(QFormLayout& form)
     : QObject(form.parentWidget()), form_(form) {
   speed_ = exportMovieFieldsComboBox("exportSpeed");
-  speed_->setToolTip("1× takes as long as it took. Gaps are shown as one second.");
+  speed_->setToolTip("1× is the recorded speed. Gaps are shown as one second.");
   for (const double speed : kMovieSpeeds) speed_->addItem(QString("%1×").arg(speed), speed);
   rate_ = exportMovieFieldsComboBox("exportRate");
   rate_->setAccessibleName("Pictures per second");

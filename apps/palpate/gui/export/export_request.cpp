@@ -202,19 +202,19 @@ QString suggestedName(const ExportRequest& request, const ExportedView& view) {
 QString movieProblem(const ExportedView& view) {
   const auto pictures = view.framePicturesNow();
   if (!pictures || !pictures->timeUs || pictures->numFrames == 0)
-    return view.framePictures ? "A movie is of the frames of a recording"
-                              : "There is no movie of this view";
+    return view.framePictures ? "A movie needs the frames of a recording"
+                              : "This view can't be made into a movie";
   return findFfmpeg() ? QString() : QString::fromStdString(ffmpegMissing());
 }
 
 QString problemOf(const ExportRequest& request, const ExportedView& view) {
-  if (request.name.trimmed().isEmpty()) return "Give it a name.";
-  if (request.name.contains('/')) return "A name has no “/” in it; choose the folder below.";
+  if (request.name.trimmed().isEmpty()) return "Enter a name.";
+  if (request.name.contains('/')) return "A name can't contain “/”; choose the folder below.";
   if (!QDir::isAbsolutePath(request.folder)) return "Choose a folder.";
   const QFileInfo folder(request.folder);
   if (!folder.exists()) return "There is no folder " + request.folder + ".";
-  if (!folder.isDir()) return request.folder + " is no folder.";
-  if (!folder.isWritable()) return "Nothing may be written into " + request.folder + ".";
+  if (!folder.isDir()) return request.folder + " isn't a folder.";
+  if (!folder.isWritable()) return "No permission to write into " + request.folder + ".";
   if (request.isMovie())
     if (const QString reason = movieProblem(view); !reason.isEmpty()) return reason;
   if (request.form == ExportFormat::kPng || request.isMovie()) {
@@ -232,7 +232,7 @@ QString problemOf(const ExportRequest& request, const ExportedView& view) {
     if (request.isMovie()) return fileProblemOf(request);
     const std::size_t there = numExisting(seriesOf(request, *span));
     if (there > 0 && !request.replace)
-      return QString("%1 of these pictures are there already.").arg(there);
+      return QString("%1 of these pictures exist already.").arg(there);
     return {};
   }
   return fileProblemOf(request);

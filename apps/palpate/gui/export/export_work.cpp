@@ -147,7 +147,7 @@ ExportWork prepareExport(const ExportedView& view, const ExportRequest& request)
   }
   if (work) return work;
   return [name = view.name, form = nameOf(request.form)](const Progress&) {
-    return ExportReport{.path = {}, .failure = name + " can't be taken away as " + form};
+    return ExportReport{.path = {}, .failure = name + " can't be exported as " + form};
   };
 }
 

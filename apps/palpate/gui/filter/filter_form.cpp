@@ -105,7 +105,7 @@ void FilterForm::addField(QGridLayout& grid, int row, const FilterOption& option
   const QString rangeTip =
       option.kind == FilterFormKind::kFlag || option.kind == FilterFormKind::kChoice
           ? QString()
-          : filterFormRangeOf(option) + "; arrow keys and the wheel step through it";
+          : filterFormRangeOf(option) + "; change it with the arrow keys or the wheel";
   const std::string key = option.key;
   auto* name = new QLabel(wordOf(option), fields_);
   name->setToolTip(tip);

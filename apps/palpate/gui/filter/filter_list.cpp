@@ -26,7 +26,7 @@ FilterList::FilterList(QWidget* parent) : QTreeWidget(parent) {
   setAccessibleName("Chain of filters");
   setHeaderLabels({"Filter", "µs/frame", "delay"});
   headerItem()->setToolTip(kCost, "Time that a frame of all matrices takes");
-  headerItem()->setToolTip(kLatency, "Frames until half of a step of load has come through");
+  headerItem()->setToolTip(kLatency, "Frames until a load step has reached half its height");
   for (const FilterListColumn column : {kCost, kLatency})
     headerItem()->setTextAlignment(column, Qt::AlignRight | Qt::AlignVCenter);
   setRootIsDecorated(false);

@@ -142,7 +142,7 @@ QWidget* FilterPanel::makeButtons() {
   };
   up_ = button("Up", "Earlier in the chain (Alt+Up)");
   down_ = button("Down", "Later in the chain (Alt+Down)");
-  remove_ = button("Remove", "Take it out (Del)");
+  remove_ = button("Remove", "Remove it (Del)");
   const auto step = [this](int way) {
     const auto at = list_->chosen();
     if (!at) return;
@@ -197,8 +197,7 @@ void FilterPanel::fillMoreMenu(QMenu& menu) {
   connect(menu.addAction("Open a recipe…"), &QAction::triggered, this, &FilterPanel::openRecipe);
   connect(menu.addAction("Save the recipe…"), &QAction::triggered, this, &FilterPanel::saveRecipe);
   keep_ = menu.addAction("Keep it with the recording");
-  keep_->setToolTip(
-      "Whoever opens the recording finds the chain again; the frames stay as they are");
+  keep_->setToolTip("The chain is stored with the recording; the frames stay as they are");
   connect(keep_, &QAction::triggered, this, &FilterPanel::keepRequested);
   menu.addSeparator();
   connect(menu.addAction("Remove all filters"), &QAction::triggered, this, [this] {
@@ -311,13 +310,13 @@ void FilterPanel::showTotals() {
   if (!recipe.causal() && !live_) {
     text += "Needs later frames: for recordings, not for a live hand.";
   } else if (!figures_->latency) {
-    text += "A step of load never comes through to half.";
+    text += "A load step never reaches half its height.";
   } else {
     text += "A contact is seen " + quantity(*figures_->latency, "frame");
     if (rateHz_ > 0.0) text += " (" + figure(*figures_->latency * 1e3 / rateHz_, 0) + " ms)";
     text += " later.";
   }
-  totals_->setText(text + " What counts as touched stays as recorded.");
+  totals_->setText(text + " Contacts are still those of the recording.");
 }
 
 }  // namespace palpate::gui

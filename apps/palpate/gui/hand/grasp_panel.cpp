@@ -68,8 +68,8 @@ GraspPanel::GraspPanel(QSettings& settings, QWidget* parent)
       this);
   limit_->setObjectName("limit");
   limit_->setToolTip(
-      "A reactive grasp stops at the first taxel above, a slip-aware one begins there; an SDH-2 "
-      "is saturated from 3500 on");
+      "A reactive grasp stops at the first taxel above it, a slip-aware one starts with it; an "
+      "SDH-2 saturates at 3500");
   limit_->showValue(
       remembered(settings, kLimit, kMinGraspLimitCounts, kMaxGraspLimitCounts, usual.limitCounts));
 
@@ -182,16 +182,16 @@ void GraspPanel::showStatus(const GraspStatus& status) {
   set(open_,
       canMove && idle,
       !canMove ? why(status.cannotMove)
-      : idle   ? "To the open hand of this preshape"
+      : idle   ? "Opens to this preshape"
                : busy);
   set(relax_,
       canMove,
-      canMove ? "Motors off: fingers can be moved by hand, what is held may fall"
+      canMove ? "Motors off: fingers can be moved by hand, a held object may fall"
               : why(status.cannotMove));
   set(grasp_,
       canMove && idle,
       !idle     ? busy
-      : canMove ? "To the close ratio, whatever is felt"
+      : canMove ? "To the close ratio, whatever the fingers touch"
                 : why(status.cannotMove));
   set(reactive_,
       canReact && idle,
@@ -200,11 +200,10 @@ void GraspPanel::showStatus(const GraspStatus& status) {
                  : why(status.cannotReact));
   set(slipAware_,
       canReact && idle,
-      !idle ? busy
-      : canReact
-          ? "Closes to the limit and holds: when it slips, closes again to a higher one. Ends "
-            "by Stop; what is held stays held"
-          : why(status.cannotReact));
+      !idle      ? busy
+      : canReact ? "Closes to the limit and holds; when the object slips, closes to a higher "
+                   "limit. Stop ends it; the hand keeps holding"
+                 : why(status.cannotReact));
 }
 
 }  // namespace palpate::gui

@@ -28,7 +28,7 @@ constexpr int kHandDockRefreshMs = 50;
 constexpr int kHandDockMargin = 12;
 constexpr int kStateLines = 4;  // lines reserved for the status text
 constexpr const char* kStopTip =
-    "Stops the hand now; the motors stay on and hold (Esc, wherever the keyboard is)";
+    "Stops the hand now; the motors stay on and hold (Esc works everywhere)";
 constexpr const char* kHandDockNothing = "–";
 
 CaptureQueueOptions smallFeed() {
@@ -307,23 +307,24 @@ QString HandDock::phaseText(const GraspStatus& status) const {
 QString HandDock::motionBlockedReason(const GraspStatus& status) const {
   const QString why = QString::fromStdString(status.cannotMove);
   if (!status.portGone) return "The hand can't be moved: " + why;
-  const QString gone = "The motion port is gone (" + why + "). ";
+  const QString gone = "The motion port is disconnected (" + why + "). ";
   const double remainingMotionS = status.portGone->remainingMotionS.value_or(0.0);
   if (remainingMotionS == 0.0) return gone + "The hand stands still, and the motors hold.";
   const double leftS =
       remainingMotionS - static_cast<double>(session_->nowUs() - status.portGone->endUs) / kUsPerS;
   if (leftS > 0.0)
-    return gone + "The hand goes on to its target by itself, " + figure(std::ceil(leftS), 0) +
-           " s at most: no stop reaches it.";
-  return gone + "The motion that ran is over, and the motors hold.";
+    return gone + "The hand still moves to its target, for " + figure(std::ceil(leftS), 0) +
+           " s at most, and can't be stopped from here.";
+  return gone + "Its motion has ended, and the motors hold.";
 }
 
 // The text when the reason that ended the last grasp no longer exists.
 std::optional<QString> HandDock::lastGraspText(const GraspReport& report,
                                                const GraspStatus& status) const {
   if (report.outcome == GraspOutcome::kPortGone)
-    return "Ready. The motion port was gone during a motion, and is back.";
-  if (goneUs_ && *goneUs_ > report.endUs) return "Ready. The motion port was gone, and is back.";
+    return "Ready. The motion port was disconnected during a motion, and is back.";
+  if (goneUs_ && *goneUs_ > report.endUs)
+    return "Ready. The motion port was disconnected, and is back.";
   if (report.outcome == GraspOutcome::kStreamLost && status.cannotReact.empty())
     return "Ready. The last grasp was stopped: no tactile frames came. Now they come.";
   return std::nullopt;

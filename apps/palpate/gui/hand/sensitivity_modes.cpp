@@ -34,12 +34,11 @@ SensitivityModes::SensitivityModes(QWidget* parent) : QWidget(parent) {
       "sensitivityHigh",
       "High sensitivity",
       "Sensitivity 1, thresholds just above the noise: they follow the temperatures, and rise when "
-      "noise slows the "
-      "stream; a filter takes the ghosts away");
+      "noise slows the stream; a filter removes false touches");
   add(SensitivityMode::kAdaptive,
       "sensitivityAdaptive",
       "Adaptive",
-      "Seeks the highest sensitivity at which nothing saturates");
+      "Finds the highest sensitivity at which nothing saturates");
   row->addStretch(1);
   text_ = new QLabel(this);
   text_->setObjectName("sensitivityStatus");
@@ -124,9 +123,8 @@ QString SensitivityModes::describe(const SensitivityStatus& status) const {
   if (status.measuring) return "Measuring the usual rate …";
   if (status.mode == SensitivityMode::kAdaptive) {
     const QString now = "Sensitivity " + figure(status.sensitivity, 2);
-    if (status.saturated) return now + ": saturated, and there is nothing lower.";
-    return now + (status.settled ? ": nothing higher without saturation."
-                                 : ": waits for something to be touched.");
+    if (status.saturated) return now + ": saturated at the lowest value.";
+    return now + (status.settled ? ": a higher one would saturate." : ": waits for a contact.");
   }
   QString text = "Thresholds follow the temperatures.";
   if (status.noise.guarding)
@@ -138,7 +136,7 @@ QString SensitivityModes::describe(const SensitivityStatus& status) const {
             " matrices without a temperature or line keep the reset value.";
   else if (!status.noise.extrapolated.empty())
     text += " " + QString::number(status.noise.extrapolated.size()) +
-            " matrices are beyond the temperatures measured.";
+            " matrices are outside the measured temperatures.";
   return text;
 }
 

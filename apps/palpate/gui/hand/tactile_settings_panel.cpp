@@ -73,7 +73,7 @@ QWidget* TactileSettingsPanel::makeRow(int row, const QString& name) {
       "Threshold of " + name, {0.0, kMostThreshold, kMostUsefulThreshold, 1.0, 0, {}}, table_);
   made.sensitivity->setObjectName("sensitivity" + QString::number(row - 1));
   made.threshold->setObjectName("threshold" + QString::number(row - 1));
-  made.sensitivity->setToolTip("0 least .. 1 most; a factory-fresh hand has 0.5");
+  made.sensitivity->setToolTip("0 lowest .. 1 highest; factory setting 0.5");
   made.threshold->setToolTip("Counts below are not sent, 0..4095");
   const int digit = fontMetrics().horizontalAdvance('0');
   constexpr int kFrame = 14;
@@ -105,8 +105,8 @@ void TactileSettingsPanel::makeButtons() {
     return made;
   };
   reset_ = button("Reset", "resetSettings", "Sensitivity 0.5, threshold 150 proximal, 300 distal");
-  save_ = button("Save…", "saveSettings", "Keeps these values by name, for this hand");
-  remove_ = button("Delete", "removeSettings", "Forgets the saved settings that were chosen last");
+  save_ = button("Save…", "saveSettings", "Saves these values under a name, for this hand");
+  remove_ = button("Delete", "removeSettings", "Deletes the saved settings that were chosen last");
   names_ = new QComboBox(this);
   names_->setObjectName("savedSettings");
   auto* row = new QHBoxLayout;
@@ -251,8 +251,8 @@ void TactileSettingsPanel::showUnmeasurable(const std::vector<QString>& why, int
   }
   unmeasurableText_ = unmeasurable == 0
                           ? QString()
-                          : "Blind to a limit of " + QString::number(limitCounts) +
-                                " counts: " + QString::number(unmeasurable) +
+                          : "A limit of " + QString::number(limitCounts) +
+                                " counts is never reached by " + QString::number(unmeasurable) +
                                 (unmeasurable == 1 ? " matrix (red)." : " matrices (red).");
 }
 

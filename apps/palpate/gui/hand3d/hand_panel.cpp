@@ -72,7 +72,7 @@ HandPanel::HandPanel(const QList<QAction*>& shown, QWidget* parent) : QWidget(pa
   auto* more = new QToolButton(header);
   more->setObjectName("handShowButton");
   more->setText("Show");
-  more->setToolTip("What else is seen of the hand");
+  more->setToolTip("What else is shown");
   more->setPopupMode(QToolButton::InstantPopup);
   more->setFocusPolicy(Qt::TabFocus);
   auto* menu = new QMenu(more);

@@ -169,7 +169,7 @@ QString poseNotice(const HandSceneBuilder& drawing, bool assumed) {
     return "The geometry of this sensor isn't known: its matrices laid flat.";
   if (!drawing.handState().frame) return {};
   if (!drawing.posed()) return "No usable joint angles: the hand is shown at rest, without sizes.";
-  if (assumed) return "Joint angles as assumed, not recorded.";
+  if (assumed) return "Joint angles are assumed, not recorded.";
   const AnglesCheck check = checkAngles(drawing.handState().anglesDeg, drawing.hand().axes);
   return QString::fromStdString(check.problem);
 }

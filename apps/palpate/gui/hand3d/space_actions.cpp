@@ -7,8 +7,8 @@ SpaceActions::SpaceActions(ActionRegistry& book) {
   matricesShown = book.make("matricesShown", "View", "Show the &matrices", {key("Shift+H")}, true);
   handShown = book.make("handShown", "View", "Show the &hand in space", {key("H")}, true);
   nextTaxelShape = book.make(
-      "nextTaxelShape", space, "Taxels as the next: cells, bars, points, flat", {key("T")});
-  nextSphere = book.make("nextSphere", space, "Next look of the enclosing &sphere", {key("B")});
+      "nextTaxelShape", space, "Next style of the taxels: cells, bars, points, flat", {key("T")});
+  nextSphere = book.make("nextSphere", space, "Next style of the enclosing &sphere", {key("B")});
   sphereOfCentroids =
       book.make("sphereOfCentroids", space, "Sphere around the &centroids", {key("Shift+B")}, true);
   normals = book.make("normals", space, "&Normals of the taxels", {key("U")}, true);
@@ -18,8 +18,8 @@ SpaceActions::SpaceActions(ActionRegistry& book) {
   axes = book.make("axes", space, "&Axes of the hand's base", {key("X")}, true);
   slipArrows =
       book.make("slipArrows", space, "&Slip: how contacts and object move", {key("Shift+K")}, true);
-  fitHand = book.make("fitHand", space, "All of it in the &picture", {key("E")});
-  resetHand = book.make("resetHand", space, "&Back to the first view", {key("Shift+E")});
+  fitHand = book.make("fitHand", space, "Fit it into the &picture", {key("E")});
+  resetHand = book.make("resetHand", space, "&Back to the default view", {key("Shift+E")});
   nearer = book.make("nearer", space, "&Nearer", {key("PgUp")});
   further = book.make("further", space, "&Further", {key("PgDown")});
   for (const char* way : {"Left", "Right", "Up", "Down"})

@@ -17,8 +17,8 @@ QString AboutDialog::text() {
                             .arg(EIGEN_MINOR_VERSION);
   return QString(
              "<h2>Palpate %1</h2>"
-             "<p>A workbench for robot hands that feel: the pressure on the fingers of a SCHUNK "
-             "SDH-2, frame by frame.</p>"
+             "<p>A workbench for tactile robot hands: shows the pressure on the fingers of a "
+             "SCHUNK SDH-2, frame by frame.</p>"
              "<p>Free software under the GNU General Public License, version 3 or later, without "
              "any warranty; the file LICENSE has the text.</p>"
              "<p>Built with Qt %2, QCustomPlot %3, OpenCV (colour maps) and Eigen %4.</p>")

@@ -182,7 +182,7 @@ QString MatrixTableModel::forceText(std::size_t row) const {
   constexpr double kQuantile = 1.96;
   const Force& force = forces_[row];
   return figure(force.newtons, 3) + " ± " + figure(kQuantile * force.sd, 3) + " N (95 %)" +
-         (force.inRange ? "" : "\noutside what the calibration measured");
+         (force.inRange ? "" : "\noutside the calibrated range");
 }
 
 QVariant MatrixTableModel::data(const QModelIndex& index, int role) const {

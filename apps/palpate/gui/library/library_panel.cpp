@@ -80,7 +80,7 @@ void LibraryPanel::buildTop() {
   refreshButton_->setObjectName("libraryRefresh");
   refreshButton_->setText("Refresh");
   refreshButton_->setProperty("flat", true);
-  refreshButton_->setToolTip("Look into the folder again (F5)");
+  refreshButton_->setToolTip("Read the folder again (F5)");
   refreshButton_->setShortcut(QKeySequence("F5"));
   search_ = new QLineEdit(this);
   search_->setObjectName("librarySearch");
@@ -153,7 +153,7 @@ void LibraryPanel::buildBottom() {
   stop_->setObjectName("libraryStop");
   stop_->setText("End search");
   stop_->setProperty("flat", true);
-  stop_->setToolTip("Looks no further into the folder");
+  stop_->setToolTip("Stops reading the folder");
   auto* row = new QHBoxLayout;
   row->setContentsMargins(12, 4, 8, 4);
   row->addWidget(summary_, 1);
@@ -269,12 +269,12 @@ void LibraryPanel::showState() {
       button = "Clear the search";
     }
   } else if (busy) {
-    text = "Looking into the folder …";
+    text = "Reading the folder …";
     button.clear();
   } else if (!problems_.isEmpty()) {
     text = problems_.first();
   } else if (looked_) {
-    text = "No recordings (.palpate, .dsa) lie in this folder or below it.";
+    text = "No recordings (.palpate, .dsa) in this folder or its subfolders.";
   }
   const bool empty = !text.isEmpty() || (!folder_.isEmpty() && model_->numRecordings() == 0);
   empty_->say(text, text.isEmpty() ? QString() : button);

@@ -176,9 +176,9 @@ void LogPanel::buildTable() {
 void LogPanel::showState() {
   const bool none = filter_->rowCount() == 0;
   if (none && log_.rowCount() > 0)
-    empty_->say("No line of the log is like that.", "Show everything");
+    empty_->say("No line of the log matches.", "Show everything");
   else if (none)
-    empty_->say("Nothing was said yet.");
+    empty_->say("No messages yet.");
   pages_->setCurrentIndex(none ? 1 : 0);
 }
 

@@ -46,15 +46,15 @@ QString nameOf(PortState state) {
     case PortState::kClosed:
       return "closed";
     case PortState::kConnecting:
-      return "looking for it";
+      return "searching";
     case PortState::kStreaming:
       return "streaming";
     case PortState::kSilent:
       return "silent";
     case PortState::kLost:
-      return "gone, looking for it";
+      return "disconnected, searching";
     case PortState::kFault:
-      return "failed, trying it anew";
+      return "failed, trying again";
   }
   return {};
 }
@@ -114,7 +114,7 @@ LinkPanel::LinkPanel(QWidget* parent) : QWidget(parent) {
   alarms_->setObjectName("linkAlarms");
   alarms_->setWordWrap(true);
   alarms_->setTextFormat(Qt::PlainText);
-  sound_ = new QCheckBox("Alarms are heard", this);
+  sound_ = new QCheckBox("Sound for alarms", this);
   sound_->setObjectName("alarmSound");
   sound_->setFocusPolicy(Qt::TabFocus);
   sound_->setChecked(true);

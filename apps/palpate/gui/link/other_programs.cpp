@@ -117,7 +117,7 @@ std::vector<Fact> OtherPrograms::facts() const {
       value += " · nothing sent yet";
     else
       value += stats->delivered ? " · " + QString::number(stats->sent) + " sent"
-                                : QString(" · nobody listens");
+                                : QString(" · no receiver");
     facts.push_back({otherProgramsNameOf(kind), value});
   }
   if (server_) {

@@ -16,7 +16,7 @@ QString pressureText(const HandDescription& hand,
       hand.layout->offset(m) + static_cast<std::size_t>(y * hand.layout->matrix(m).columns + x);
   return " · " + figure(static_cast<double>(pressure->kpa[at]), 1) + " kPa · " +
          figure(taxelForceN(*pressure, *hand.layout, m, y, x), 3) + " N" +
-         (pressure->matrices[m].inRange ? "" : ", outside what was measured");
+         (pressure->matrices[m].inRange ? "" : ", outside the measured range");
 }
 
 }  // namespace

@@ -81,7 +81,7 @@ void OpenFeature::connectOpener() {
     const OpenedRecordingPtr recording = windowState.displayed.recorded();
     if (recording && recording->profile.numFrames() == 0)
       windowState.messages.fail(fileNameOf(*recording) +
-                                ": holds no frame; there is nothing to show");
+                                ": has no frames: there is nothing to show");
   });
   windowState.escapeHandler.add(EscapeHandler::Order::kOpening, [&opener] {
     if (!opener.busy()) return false;

@@ -41,7 +41,7 @@ void restoreSession(WindowState& windowState) {
   }
   windowState.open(files);
   if (!missing.isEmpty())
-    windowState.messages.fail("Open last time, and not there any more: " + missing.join(", "));
+    windowState.messages.fail("Open last time, but missing now: " + missing.join(", "));
 }
 
 }  // namespace palpate::gui

@@ -62,7 +62,7 @@ StartPage::StartPage(RecentFiles& recent, bool withDemo, QWidget* parent)
   setAttribute(Qt::WA_StyledBackground);
   auto* title = new QLabel("Palpate", this);
   title->setFont(scaled(font(), 2.4, true));
-  auto* subtitle = new QLabel("See what a robot hand feels.", this);
+  auto* subtitle = new QLabel("See the pressure on a robot hand.", this);
   subtitle->setProperty("role", "muted");
   subtitle->setFont(scaled(font(), 1.15, false));
   auto* buttons = new QGridLayout;
@@ -83,7 +83,7 @@ StartPage::StartPage(RecentFiles& recent, bool withDemo, QWidget* parent)
   connect(connectHand, &QPushButton::clicked, this, &StartPage::connectAsked);
   connect(button("Try the emulated hand",
                  "startEmulated",
-                 "A hand that isn't there, with a ball in it (Ctrl+Shift+D)"),
+                 "A simulated hand that grasps a ball (Ctrl+Shift+D)"),
           &QPushButton::clicked,
           this,
           &StartPage::emulatedAsked);
@@ -136,7 +136,7 @@ StartPage::StartPage(RecentFiles& recent, bool withDemo, QWidget* parent)
 
 void StartPage::setDragging(bool on) {
   dropHint_->setProperty("dragging", on);
-  dropHint_->setText(on ? "let go to open it"
+  dropHint_->setText(on ? "drop it to open it"
                         : "or drop a recording (.dsa, .palpate) anywhere in this window");
   style()->unpolish(dropHint_);
   style()->polish(dropHint_);
@@ -169,7 +169,7 @@ void StartPage::listRecent() {
     remove->setProperty("flat", true);
     remove->setIcon(makeIcon(IconShape::kClose, theme_));
     remove->setIconSize({10, 10});
-    remove->setToolTip("Forget this file (the file itself stays)");
+    remove->setToolTip("Remove from this list (the file is kept)");
     // The row deletes itself, which must not happen before the click is processed (queued
     // connection).
     connect(

@@ -147,7 +147,7 @@ bool ChildProgram::write(std::span<const std::byte> bytes, const KeepGoing& keep
       return false;
     }
     if (errno != EAGAIN && errno != EINTR)
-      throw Error("nothing can be given to a program: " + childProgramMessageOf(errno));
+      throw Error("no input for the program: " + childProgramMessageOf(errno));
     ask(keepGoing);
     wait(true);
   }
@@ -169,7 +169,7 @@ int ChildProgram::finish(const KeepGoing& keepGoing) {
       pid_ = -1;
     } else if (asked != 0 && errno != EINTR) {
       pid_ = -1;
-      throw Error("the end of a program can't be awaited: " + childProgramMessageOf(errno));
+      throw Error("can't wait for the program to end: " + childProgramMessageOf(errno));
     } else {
       ask(keepGoing);
       wait(false);

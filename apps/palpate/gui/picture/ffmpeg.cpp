@@ -38,8 +38,8 @@ std::optional<fs::path> findFfmpeg() {
 
 std::string ffmpegMissing() {
   if (const std::string chosen = chosenByHand(); !chosen.empty())
-    return std::string(kVariable) + " names no program: " + chosen;
-  return "A movie needs the program ffmpeg: sudo apt install ffmpeg. A PNG of each frame goes "
+    return std::string(kVariable) + " doesn't name a program: " + chosen;
+  return "A movie needs the program ffmpeg: sudo apt install ffmpeg. A PNG of each frame works "
          "without it.";
 }
 

@@ -14,7 +14,7 @@ SeriesReport writePictureSeries(const FileSeries& series,
                                 const Progress& progress) {
   std::error_code failure;
   fs::create_directories(series.folder, failure);
-  if (failure) throw FileError(series.folder, "can't be made a folder: " + failure.message());
+  if (failure) throw FileError(series.folder, "can't be created as a folder: " + failure.message());
   if (overwrite == Overwrite::kRefuse)
     if (const std::size_t there = numExisting(series); there > 0)
       throw FileError(series.folder,

@@ -12,7 +12,7 @@ class QPainter;
 namespace palpate::gui {
 
 // Text over a picture that the user holds.
-inline constexpr const char* kHeldText = "held – P goes on";
+inline constexpr const char* kHeldText = "on hold – P resumes";
 
 struct StaleNotice {
   // The reason, one line; empty: the picture is current.

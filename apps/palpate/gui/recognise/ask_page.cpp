@@ -43,9 +43,9 @@ AskPage::AskPage(RecognitionController& controller, QWidget* parent)
   QFont large = ask_->font();
   large.setPointSizeF(kButtonScale * large.pointSizeF());
   ask_->setFont(large);
-  byItself_ = new QCheckBox("By itself", this);
+  byItself_ = new QCheckBox("Automatic", this);
   byItself_->setObjectName("recogniseByItself");
-  byItself_->setToolTip("While something is held it is asked again and again");
+  byItself_->setToolTip("Repeats while something is held");
   auto* show = new QPushButton("Show", this);
   show->setObjectName("showMode");
   show->setToolTip("Full screen, for an audience (Shift+Q)");
@@ -55,10 +55,10 @@ AskPage::AskPage(RecognitionController& controller, QWidget* parent)
   classes_->setObjectName("tellClass");
   classes_->setAccessibleName("What it is");
   classes_->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Preferred);
-  tell_ = new QPushButton("Tell", this);
+  tell_ = new QPushButton("Confirm", this);
   tell_->setObjectName("tell");
   tell_->setToolTip(
-      "Says what this grasp is: the hand is adapted to today by it (undo: page Today)");
+      "Confirms what this grasp is: the model is adapted to today with it (undo: page Today)");
 
   auto* top = new QHBoxLayout;
   top->setSpacing(8);
@@ -101,7 +101,7 @@ AskPage::AskPage(RecognitionController& controller, QWidget* parent)
     const int chosen = classes_->currentIndex();
     controller_.changeSession(
         [&](RecognitionSession& session) { session.setLabel(*grasp, chosen); });
-    emit controller_.said("told: " + classes_->currentText());
+    emit controller_.said("confirmed: " + classes_->currentText());
   });
   askForModel = [this] {
     return std::filesystem::path(

@@ -21,17 +21,17 @@ namespace {
 
 std::vector<FigureColumn> checkPageObjectColumns() {
   return {{"object", {}, 14, true},
-          {"precision", "Of those called so: right", 9},
-          {"recall", "Of those that are so: found", 7},
+          {"precision", "Share of answers with this name that are right", 9},
+          {"recall", "Share of grasps of this object that are found", 7},
           {"F", "Harmonic mean of both", 6},
-          {"grasps", "That examined", 7}};
+          {"grasps", "Number of tested grasps", 7}};
 }
 
 std::vector<FigureColumn> graspColumns() {
   return {{"recording", {}, 16, true},
           {"frames", {}, 11},
           {"called", {}, 12, true},
-          {"p", "Said probability", 6, true}};
+          {"p", "Probability of the answer", 6, true}};
 }
 
 QString name(const std::vector<std::string>& classes, int index) {
@@ -76,7 +76,8 @@ CheckPage::CheckPage(TrainingController& controller, QWidget* parent)
   protocol_->setObjectName("checkProtocol");
   protocol_->setAccessibleName("Protocol");
   protocol_->addItems({"five blocks in time (B)", "ten shuffles (S)"});
-  protocol_->setToolTip("Which grasps examine and don't teach. Another day is told by neither.");
+  protocol_->setToolTip(
+      "Which grasps test and don't train. Neither shows how it will be on another day.");
   check_ = new QPushButton("Check", this);
   check_->setObjectName("checkNow");
   check_->setProperty("primary", true);
@@ -168,9 +169,9 @@ void CheckPage::showCheck() {
     result_->clear();
     result_->hide();
     empty_->say(controller_.folder().empty()
-                    ? "Choose a folder of grasps on the page Teach: they examine one another here."
-                    : "Check tells how well the objects of the folder are told apart, each grasp "
-                      "judged by a model that never saw it.");
+                    ? "Choose a folder of grasps on the page Teach: they are tested here."
+                    : "Check shows how well the objects of the folder are told apart. Each grasp "
+                      "is tested with a model trained without it.");
     pages_->setCurrentWidget(empty_);
     return;
   }

@@ -102,7 +102,7 @@ void RecogniseFeature::askOfRecording() {
   const OpenedRecordingPtr recording = state().displayed.recorded();
   if (!recording) return controller.sayTrouble("Open a recording, or connect a hand.");
   if (recording->profile.numFrames() == 0)
-    return controller.sayTrouble("This recording holds no frame.");
+    return controller.sayTrouble("This recording has no frames.");
   const QString name = QString::fromStdString(recording->path.filename().string());
   const auto question = [&](double fromS, double toS) {
     const auto frames = recording->framesWithin(fromS, toS);
@@ -135,9 +135,9 @@ void RecogniseFeature::askOfHand() {
   if (auto held = collector_->now())
     return controller.ask({std::move(*held), std::nullopt, kHeldNow});
   if (collector_->touched())
-    return controller.sayTrouble("Held too short yet: ask again in a second.", kHeldNow);
+    return controller.sayTrouble("Not held long enough: ask again in a second.", kHeldNow);
   if (lastGrasp_) return controller.ask({*lastGrasp_, std::nullopt, kLastGrasp});
-  controller.sayTrouble("Nothing is held, and nothing was.", kHeldNow);
+  controller.sayTrouble("Nothing is held, and there is no last grasp.", kHeldNow);
 }
 
 void RecogniseFeature::listen(bool on) {
@@ -236,7 +236,7 @@ void RecogniseFeature::beginZero() {
 void RecogniseFeature::cancelZero() {
   if (!zeroRun_ || !zeroRun_->active()) return;
   zeroRun_->cancel();
-  sayNoZero("given up");
+  sayNoZero("cancelled");
 }
 
 void RecogniseFeature::sayNoZero(const std::string& why) {

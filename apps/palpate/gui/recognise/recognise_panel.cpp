@@ -24,7 +24,7 @@ RecognisePanel::RecognisePanel(QSettings& settings,
   check_ = new CheckPage(*teaching_, &pages());
   strip_ = new OpeningStrip(this, "Working on", "recognise");
   addPage(ask_, "Ask", "What is in the hand");
-  addPage(today_, "Today", "Adapts to how the hand is today");
+  addPage(today_, "Today", "Adapts the model to the hand of today");
   addPage(teach_, "Teach", "Captures grasps of objects, and learns from them");
   addPage(check_, "Check", "How well they are told apart");
   auto* column = new QVBoxLayout(this);

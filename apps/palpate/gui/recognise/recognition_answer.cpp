@@ -111,7 +111,7 @@ QString offsetText(const SessionOffset& offset, bool emulated) {
     case OffsetSource::kNone:
       return "session offset 0 mm, assumed: as on the day of training";
     case OffsetSource::kUnknown:
-      return "session offset not known: all are weighed";
+      return "session offset not known: all are considered";
     case OffsetSource::kGiven:
       return "session offset " + value + ", typed";
     case OffsetSource::kBatch:
@@ -197,7 +197,7 @@ void paintAnswer(QPainter& painter,
   } else {
     y = paintWords(painter,
                    QRectF(room.left(), y, room.width(), 4 * unit),
-                   "Nothing that was taught feels like this. Nearest, were it one of them:",
+                   "Not one of the trained objects. The most similar ones:",
                    plain,
                    colors.muted) +
         0.4 * unit;

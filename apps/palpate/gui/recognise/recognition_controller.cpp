@@ -235,7 +235,7 @@ bool RecognitionController::cancel() {
   if (!asking_.busy()) return false;
   ++generation_;
   asking_.cancel();
-  sayTrouble("Given up.");
+  sayTrouble("Cancelled.");
   return true;
 }
 

@@ -27,7 +27,7 @@ std::vector<FigureColumn> todayPageColumns() {
   return {{"time", "UTC", 8, true},
           {"recognised as", {}, 14, true},
           {"p", {}, 5},
-          {"told", "What a person said it is", 14, true}};
+          {"confirmed", "What it is, as you confirmed", 14, true}};
 }
 
 }  // namespace
@@ -48,7 +48,7 @@ TodayPage::TodayPage(RecognitionController& controller, QWidget* parent)
   source_->addItems(
       {"as the model says", "nothing is assumed", "from today's grasps, unnamed", "typed"});
   source_->setToolTip(
-      "Grasps that were named, and the zero of the empty hand, count before all but what is typed");
+      "Confirmed grasps and the zero of the empty hand come first, except before a typed offset");
   typed_ = new SecondsField(this);
   typed_->setObjectName("todayTyped");
   typed_->setRange(-kFarthestMm, kFarthestMm);
@@ -141,7 +141,7 @@ void TodayPage::showDay() {
   }
   if (!can) {
     offset_->setText(
-        "This model knows no session offset: it is good for the session it learnt in.");
+        "This model has no session offset: it is valid only in the session it was trained in.");
     unsure_->clear();
   } else {
     QString text = offsetText(session->offset(), false);

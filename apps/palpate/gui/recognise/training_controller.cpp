@@ -80,7 +80,7 @@ void TrainingController::look() {
   problem_.clear();
   std::error_code none;
   if (!folder_.empty() && !fs::is_directory(folder_, none))
-    problem_ = "The folder isn't there (any more): choose one with Folder.";
+    problem_ = "The folder doesn't exist: choose one with Folder.";
   if (folder_.empty() || !problem_.isEmpty()) {
     table_.reset();
     emit folderChanged();
@@ -201,9 +201,9 @@ void TrainingController::takeOut(std::size_t index) {
     fs::rename(clip.path, to);
     clip.path = to;
     clip.state = TrainingClip::State::kTakenOut;
-    emit said("taken out of the folder: " + QString::fromStdString(to.string()));
+    emit said("removed from the folder: " + QString::fromStdString(to.string()));
   } catch (const fs::filesystem_error& error) {
-    emit failed("could not be taken out: " + QString::fromStdString(error.code().message()));
+    emit failed("could not be removed: " + QString::fromStdString(error.code().message()));
   }
   emit clipsChanged();
   emit folderChanged();
@@ -273,7 +273,7 @@ void TrainingController::check(bool blocks) {
 bool TrainingController::cancel() {
   if (!job_.busy()) return false;
   job_.cancel();
-  emit said("given up");
+  emit said("cancelled");
   return true;
 }
 

@@ -19,15 +19,16 @@ using TeachPageState = TrainingClip::State;
 constexpr int kFewGrasps = 5;
 
 std::vector<FigureColumn> teachPageObjectColumns() {
-  return {
-      {"object", {}, 18, true}, {"grasps", "In the folder", 7}, {"", "What is missing", 14, true}};
+  return {{"object", {}, 18, true},
+          {"grasps", "In the folder", 7},
+          {"", "What is still needed", 14, true}};
 }
 
 std::vector<FigureColumn> clipColumns() {
   return {{"captured as", {}, 13, true},
           {"s", "Length [s]", 5},
           {"quality", "0..1: held steadily, whole, not saturated", 7},
-          {"", "Where it is", 14, true}};
+          {"", "State", 14, true}};
 }
 
 QString stateText(const TrainingClip& clip) {
@@ -39,7 +40,7 @@ QString stateText(const TrainingClip& clip) {
     case TeachPageState::kAccepted:
       return "accepted";
     case TeachPageState::kTakenOut:
-      return "taken out";
+      return "removed";
     case TeachPageState::kFailed:
       break;
   }
@@ -68,9 +69,10 @@ TrainingPage::TrainingPage(TrainingController& controller, QWidget* parent)
   objects_->setSingleLine();
   object_ = new QLineEdit(this);
   object_->setObjectName("teachObject");
-  object_->setPlaceholderText("object, as it shall be called");
+  object_->setPlaceholderText("name of the object");
   object_->setMaxLength(60);
-  capture_ = button("teachCapture", "Capture", "Each grasp that ends from now on is a clip of it");
+  capture_ = button(
+      "teachCapture", "Capture", "From now on each finished grasp is saved as an example of it");
   capture_->setCheckable(true);
   state_ = new QLabel(this);
   state_->setObjectName("teachState");
@@ -79,7 +81,7 @@ TrainingPage::TrainingPage(TrainingController& controller, QWidget* parent)
   clips_ = new FiguresTable(clipColumns(), this);
   clips_->setObjectName("teachClips");
   clips_->setSingleLine();
-  act_ = button("teachAct", "Undo", "Takes the chosen or newest grasp out of the folder again");
+  act_ = button("teachAct", "Undo", "Removes the chosen or newest grasp from the folder");
   train_ = button("teachTrain", "Train", "A model of what the folder holds");
   train_->setProperty("primary", true);
 
@@ -165,7 +167,7 @@ void TrainingPage::showFolder() {
     rows.push_back({{.text = name},
                     {.text = QString::number(count)},
                     {.text = count < kFewGrasps ? QString("more would be better") : QString(),
-                     .tip = "Five grasps at least: blocks of them examine the others",
+                     .tip = "At least five grasps: some are used to test the model",
                      .warning = count < kFewGrasps}});
   }
   objects_->setRows(rows);

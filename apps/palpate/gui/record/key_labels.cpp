@@ -26,7 +26,7 @@ KeyLabels::KeyLabels(QWidget* parent) : QWidget(parent) {
   header_ = new QToolButton(this);
   header_->setObjectName("marksHeader");
   header_->setText("&Marks by key");
-  header_->setToolTip("What the digit keys note in the recording while it runs");
+  header_->setToolTip("What the digit keys add to a running recording");
   header_->setCheckable(true);
   header_->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
   header_->setProperty("flat", true);

@@ -12,7 +12,7 @@ RecordActions::RecordActions(ActionRegistry& book) {
   recordingSettings =
       book.make("recordingSettings", "Hand", "Recording &names and marks…", {key("Ctrl+N")});
   openRecorded =
-      book.make("openRecorded", "Hand", "&Open what was recorded last", {key("Ctrl+Shift+O")});
+      book.make("openRecorded", "Hand", "&Open the last recording", {key("Ctrl+Shift+O")});
   mark = book.make("mark", "Hand", "&Mark the moment", {key("Space")});
   for (int digit = 0; digit < kDigits; ++digit)
     labels.append(book.add("labels",

@@ -210,7 +210,7 @@ void RecordFeature::showState() {
         makeIcon(on ? IconShape::kStopRecording : IconShape::kRecord, state().appearance.theme()));
     action->setText(on ? "Stop &recording" : "&Record");
     action->setToolTip(on ? "Stop and finish the recording (Ctrl+R)"
-                          : "Record what comes, with the two seconds before (Ctrl+R)");
+                          : "Start recording, with the last two seconds (Ctrl+R)");
   }
   QString text = " Record";
   if (on) {

@@ -146,7 +146,7 @@ QWidget* RecordingDialog::makeFields() {
   notes_ = new NotesField(fields);
   notes_->setObjectName("recordingNotes");
   notes_->setTabChangesFocus(true);
-  notes_->setPlaceholderText("whatever else should be known of it");
+  notes_->setPlaceholderText("any other notes");
   notes_->setToolTip("Kept in the recording. Ctrl+Enter: done");
   notes_->installEventFilter(this);
   notes_->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Expanding);
@@ -156,7 +156,7 @@ QWidget* RecordingDialog::makeFields() {
   auto* placeholders = new QPushButton("&Insert", fields);
   placeholders->setObjectName("recordingInsert");
   placeholders->setAutoDefault(false);
-  placeholders->setToolTip("Puts what changes from one recording to the next into the name");
+  placeholders->setToolTip("Adds a part to the name that changes with each recording");
   placeholders_ = makePlaceholders();
   placeholders->setMenu(placeholders_);
   add("File &name", template_, placeholders);
@@ -297,7 +297,8 @@ void RecordingDialog::fitMarks() {
 void RecordingDialog::refresh() {
   next_ = previewNextPath(settings(), clock_.wallUs());
   const bool good = next_.problem.isEmpty();
-  caption_->setText(good ? "The next recording will be" : "Nothing can be recorded like this");
+  caption_->setText(good ? "The next recording will be"
+                         : "Recording isn't possible with these entries");
   name_->setVisible(good);
   place_->setVisible(good);
   problem_->setVisible(!good);
@@ -314,7 +315,7 @@ void RecordingDialog::showTexts() {
       name_, QString::fromStdString(next_.path.filename().string()), name_->contentsRect().width());
   const QString folder = QString::fromStdString(next_.path.parent_path().string());
   showElided(place_,
-             next_.folderWillBeMade ? "in " + folder + ", which will be made" : "in " + folder,
+             next_.folderWillBeMade ? "in " + folder + ", which will be created" : "in " + folder,
              place_->contentsRect().width());
 }
 

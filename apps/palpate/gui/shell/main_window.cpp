@@ -210,7 +210,7 @@ void MainWindow::closeEvent(QCloseEvent* event) {
   // When the connection ends, no other source is shown.
   disconnect(&live, &LiveController::ended, &windowState_->displayed, nullptr);
   closing_ = connect(&live, &LiveController::ended, this, &QWidget::close);
-  windowState_->messages.announce("Closing: the hand is let go, a recording is finished …");
+  windowState_->messages.announce("Closing: the hand is disconnected, a recording is finished …");
   live.end();
 }
 

@@ -125,7 +125,7 @@ QImage runAndPress(QWidget& window,
   loop.exec();
   if (failure)
     throw Error(
-        "nothing to press is called '" + *failure +
+        "there is nothing to press named '" + *failure +
         "': give the key of an action that can be used now (F1 lists them), or the words on a "
         "button that is seen");
   return dialogue;

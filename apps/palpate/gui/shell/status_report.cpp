@@ -106,7 +106,7 @@ void StatusReport::reportLive() {
             : "frames to write: " + QString::number(recorder.frames - recorder.framesOnDisk);
   else
     now.state = "live";
-  if (held) now.state = "held (P goes on) · " + now.state;
+  if (held) now.state = "on hold (P resumes) · " + now.state;
   now.figures = {
       "rate " + figure(health.frames.rateHz, 1) + " fps",
       "age " + (live.stale() ? QString("–") : figure(health.device.tactile.ageMs, 0)) + " ms",

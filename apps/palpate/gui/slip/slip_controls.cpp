@@ -65,7 +65,7 @@ SlipControls::SlipControls(QSettings& settings, QWidget* parent)
   reference_ = box("slipReference", "Motion is measured from");
   reference_->addItems({"rest", "first contact"});
   reference_->setItemData(
-      kRestRow, "Each contact anew, once it rests; again after a slip", Qt::ToolTipRole);
+      kRestRow, "Each contact, once it rests; again after a slip", Qt::ToolTipRole);
   reference_->setItemData(kFirstRow, "The first frame with an active taxel, kept", Qt::ToolTipRole);
   reference_->setToolTip("Where motion is measured from");
   reference_->setCurrentIndex(settings.value(kReference).toString() == "first" ? kFirstRow

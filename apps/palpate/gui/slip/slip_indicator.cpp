@@ -88,20 +88,19 @@ QString meaningOf(const SlipSample* sample) {
   if (sample == nullptr) return "No taxel of this matrix is active.";
   switch (sample->state) {
     case SlipState::kStill:
-      return "Nothing moves that would count.";
+      return "The contact doesn't move.";
     case SlipState::kLoading:
-      return "It shifts, but no more than contacts do while their load changes so fast.";
+      return "It moves, but no more than is normal while the load changes this fast.";
     case SlipState::kLoadShift:
-      return "The load went to another place, the contact stayed.";
+      return "The load moved to another place, the contact didn't.";
     case SlipState::kAmbiguous:
-      return "The shape doesn't tell motion from a shifting load; or it isn't confirmed yet.";
+      return "The shape can't separate motion from a shifting load; or it isn't confirmed yet.";
     case SlipState::kSlip:
       return "The contact moves over the matrix.";
     case SlipState::kInvalid:
       break;
   }
-  return "Too little is touched, too shortly yet, or neither motion nor load explains what "
-         "changed.";
+  return "The contact is too small or too short, or neither motion nor load explains the change.";
 }
 
 }  // namespace palpate::gui

@@ -30,7 +30,7 @@ constexpr double kPictureDrawing = 0.36;  // of the width of an exported picture
 
 std::vector<FigureColumn> slipPanelColumns() {
   return {{"matrix", {}, 15, true},
-          {"", "What is said of it", 10, true},
+          {"", "State of the contact", 10, true},
           {"step", "Motion of the last frame [taxels]", 4},
           {"in all", "Since the reference [taxels]", 5},
           {"turned", "Since the reference [deg], whole turns counted", 7}};
@@ -192,7 +192,7 @@ void SlipPanel::take(const Found& found) {
                                    [](const auto& samples) { return !samples.empty(); });
   frame_ = found_->frameAt(positionS_);
   emit foundChanged();
-  if (!touched) return say("Nothing is touched in this recording: no contact that could slip.");
+  if (!touched) return say("No contact in this recording: nothing can slip.");
   if (!chosenByUser_) chooseBest();
   showContent();
   showChosen();
@@ -334,7 +334,7 @@ void SlipPanel::showNotes(const SlipSample* sample) {
     if (!sample->refValid && !found()->options.referenceFrame)
       text += "\nNo reference yet: it is taken when the contact rests.";
     if (!live() && found()->options.reference != controls_->options().reference)
-      text += "\nNothing rests in this recording: motion is measured from the first contact.";
+      text += "\nNo contact rests in this recording: motion is measured from the first contact.";
   }
   if (notes_->text() == text) return;
   notes_->setText(text);

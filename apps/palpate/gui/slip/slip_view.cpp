@@ -91,7 +91,7 @@ struct SlipView::Place {
 
 SlipView::SlipView(QWidget* parent) : QWidget(parent) {
   setObjectName("slipDrawing");
-  setAccessibleName("How the contact lies and moves");
+  setAccessibleName("Shape and motion of the contact");
 }
 
 void SlipView::setScene(const SlipViewData& scene) {

@@ -42,19 +42,18 @@ RecordingNameFields fieldsOf(const RecordingSettings& recording, std::int64_t no
 bool checkFolder(const fs::path& folder) {
   if (folder.empty()) throw Error("choose a folder for recordings");
   if (!folder.is_absolute())
-    throw FileError(folder, "is no whole path; choose the folder with Browse");
+    throw FileError(folder, "isn't an absolute path; choose the folder with Browse");
   std::error_code failure;
   // The part of the path that exists.
   fs::path there = folder;
   while (!fs::exists(there, failure) && !failure && there.has_relative_path())
     there = there.parent_path();
   if (failure)
-    throw FileError(there,
-                    "can't be looked into (" + failure.message() + "); choose another folder");
+    throw FileError(there, "can't be read (" + failure.message() + "); choose another folder");
   if (!fs::is_directory(there, failure))
     throw FileError(there, "is a file, not a folder; choose another folder");
   if (::access(there.c_str(), W_OK | X_OK) != 0)
-    throw FileError(there, "nothing may be written there; choose another folder");
+    throw FileError(there, "you have no permission to write there; choose another folder");
   return there != folder;
 }
 
@@ -122,7 +121,8 @@ fs::path nextPath(const RecordingSettings& recording, std::int64_t nowUs) {
       std::error_code failure;
       fs::create_directories(folder, failure);
       if (failure)
-        throw FileError(folder, "can't be made (" + failure.message() + "); choose another folder");
+        throw FileError(folder,
+                        "can't be created (" + failure.message() + "); choose another folder");
     }
     return nextRecordingPath(
         folder, recording.nameTemplate.toStdString(), fieldsOf(recording, nowUs));

@@ -122,11 +122,11 @@ void SpectrumPanel::setSource(const OpenedRecordingPtr& recording, bool live) {
   name_.clear();
   header_->setName({});
   if (live)
-    say("Spectra are those of recordings. Record what is connected (Ctrl+R), and open it.");
+    say("Spectra need a recording. Record what is connected (Ctrl+R), and open the recording.");
   else if (!recording_)
     say("Open a recording to see the spectra of its taxels.");
   else if (recording_->profile.numFrames() == 0)
-    say("This recording holds no frame.");
+    say("This recording has no frames.");
   else
     say("");
   ask();
@@ -165,7 +165,7 @@ void SpectrumPanel::ask() {
 bool SpectrumPanel::cancel() {
   if (!worker_.busy()) return false;
   worker_.cancel();
-  say("Given up.", "Compute the spectra");
+  say("Cancelled.", "Compute the spectra");
   emit said("computing spectra was cancelled");
   return true;
 }
@@ -190,7 +190,7 @@ void SpectrumPanel::take(const SpectrumAnswer& answer) {
   if (answer.taxels.empty() || !answer.series) {
     header_->setName({});
     return say(
-        "No taxel of this recording feels anything. Choose one in the matrices: click or "
+        "No taxel of this recording is active. Choose one in the matrices: click or "
         "drag.");
   }
   name_ = nameOf(answer);
@@ -200,10 +200,10 @@ void SpectrumPanel::take(const SpectrumAnswer& answer) {
     std::size_t longest = 0;
     for (const GapFreeSpan& stretch : answer.spectrogram->report.stretches)
       longest = std::max(longest, stretch.gridSamples);
-    return say("Too short: " + QString(answer.whole ? "the longest stretch" : "what is seen") +
+    return say("Too short: " + QString(answer.whole ? "the longest stretch" : "the visible part") +
                " without a gap has " + QString::number(longest) + " samples, a window takes " +
                QString::number(answer.options.window) + ".\nMake the window smaller" +
-               (answer.whole ? "." : ", or see more of the recording."));
+               (answer.whole ? "." : ", or zoom out."));
   }
   chart_->setAnswer(answer);
   chart_->setVisibleRange(fromS_, toS_);

@@ -171,7 +171,7 @@ void EventEditing::add(const char* kind, const QString& title, const QString& na
   event.t1Us = span ? timeUsOf(*recording, span->toS) : event.tUs;
   const auto text = windowState_.prompts.text(title, {});
   if (!text) return;
-  if (text->isEmpty()) return windowState_.messages.flash("a " + name + " needs words");
+  if (text->isEmpty()) return windowState_.messages.flash("a " + name + " needs a text");
   event.text = text->toStdString();
   windowState_.events.add(event, "a " + name);
 }

@@ -45,7 +45,7 @@ LiveChart::LiveChart(QWidget* parent)
     : QCustomPlot(parent), secondsTicker_(new QCPAxisTickerFixed) {
   arrangeChart(*this);
   setAccessibleName("Live chart");
-  setToolTip("Wheel: how many seconds are seen");
+  setToolTip("Wheel: how many seconds are shown");
   xAxis->setLabel("time since the first frame in s");
   xAxis->setTicker(secondsTicker_);
   roll(0.0);

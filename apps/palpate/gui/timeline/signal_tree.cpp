@@ -142,7 +142,7 @@ void SignalTree::rebuild() {
       auto* item = line(taxels, group.name, kGroup, 0, extras_.groups.contains(group.name));
       item->setData(0, kName, group.name);
       item->setFlags(item->flags() | Qt::ItemIsEditable);
-      item->setToolTip(0, "F2 renames it, Del forgets it");
+      item->setToolTip(0, "F2 renames it, Del deletes it");
     }
   QTreeWidgetItem* angles = section("Joint angles (°)");
   if (!hasAngles_) nothing(angles, "none in this recording");

@@ -11,13 +11,13 @@ TimelineActions::TimelineActions(ActionRegistry& book) {
   addLabel = book.make("addLabel", "Edit", "&Label the selection or the moment…", {key("Ctrl+B")});
   addNote =
       book.make("addNote", "Edit", "&Note on the selection or the moment…", {key("Ctrl+Shift+B")});
-  addGrasp = book.make("addGrasp", "Edit", "The selection is a &grasp", {key("Ctrl+Shift+P")});
+  addGrasp = book.make("addGrasp", "Edit", "&Mark the selection as a grasp", {key("Ctrl+Shift+P")});
   renameEvent = book.make("renameEvent", "Edit", "Re&name the event", {key("F2")});
   removeEvent = book.make("removeEvent", "Edit", "&Delete the event", {key("Del")});
   nextEvent = book.make("nextEvent", "Edit", "Ne&xt event", {key("N")});
   nextEvent->setToolTip("Chooses and selects the next grasp, label, .. of the row (N)");
   previousEvent = book.make("previousEvent", "Edit", "&Previous event", {key("Shift+N")});
-  toEvents = book.make("toEvents", "Edit", "&Keyboard into the events", {key("F7")});
+  toEvents = book.make("toEvents", "Edit", "&Keyboard focus to the events", {key("F7")});
   selectFrom = book.make("selectFrom", "Edit", "Selection begins &here", {key("[")});
   selectTo = book.make("selectTo", "Edit", "Selection &ends here", {key("]")});
   selectAll = book.make("selectAll", "Edit", "Select &all of it", {key("Ctrl+A")});

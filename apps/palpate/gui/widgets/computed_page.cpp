@@ -51,9 +51,11 @@ void ComputedPage::setSource(const OpenedRecordingPtr& recording, bool live) {
 }
 
 QString ComputedPage::emptyReason() const {
-  if (live_) return "This is done with recordings. Record what is connected (Ctrl+R), and open it.";
+  if (live_)
+    return "This works with recordings only. Record what is connected (Ctrl+R), and open the "
+           "recording.";
   if (!recording_) return "Open a recording first.";
-  if (recording_->profile.numFrames() == 0) return "This recording holds no frame.";
+  if (recording_->profile.numFrames() == 0) return "This recording has no frames.";
   return {};
 }
 
@@ -90,7 +92,7 @@ bool ComputedPage::cancel() {
   if (!job_.busy()) return false;
   ++generation_;
   job_.cancel();
-  say("Given up.", "Compute");
+  say("Cancelled.", "Compute");
   emit said("computing was cancelled");
   return true;
 }

@@ -19,7 +19,7 @@ Dock::Dock(const QString& name, QWidget* content, QWidget* header, QWidget* pare
   close_ = new QToolButton(row);
   close_->setProperty("flat", true);
   close_->setIconSize({10, 10});
-  close_->setToolTip("Close (it comes back by the menu View)");
+  close_->setToolTip("Close (open it again with the menu View)");
   close_->setAccessibleName("Close " + name);
   close_->setFocusPolicy(Qt::NoFocus);
   connect(close_, &QToolButton::clicked, this, &QDockWidget::close);

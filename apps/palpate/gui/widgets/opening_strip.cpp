@@ -29,7 +29,7 @@ OpeningStrip::OpeningStrip(QWidget* parent, const QString& verb, const QString& 
   auto* cancel = new QPushButton("Cancel", this);
   cancel->setObjectName("cancel" + part.left(1).toUpper() + part.mid(1));
   cancel->setFocusPolicy(Qt::NoFocus);
-  cancel->setToolTip("Give up " + verb.toLower() + " (Esc)");
+  cancel->setToolTip("Cancel " + verb.toLower() + " (Esc)");
   connect(cancel, &QPushButton::clicked, this, &OpeningStrip::cancelRequested);
   auto* row = new QHBoxLayout(this);
   row->setContentsMargins(14, 5, 10, 5);

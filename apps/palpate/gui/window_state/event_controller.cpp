@@ -29,7 +29,7 @@ EventController::EventController(DisplayedSource& displayed,
   };
   recordings_.mayReplace = [this](const OpenedRecordingPtr& recording) {
     if (!hasUnsaved(recording) || discarded_.contains(recording.get())) return true;
-    messages_.flash(fileNameOf(*recording) + " stays as it is: not everything in it is saved");
+    messages_.flash(fileNameOf(*recording) + " wasn't replaced: it has unsaved changes");
     return false;
   };
 }
