@@ -30,7 +30,7 @@ CaptureStream streamOf(const CaptureItem& item) noexcept {
   return static_cast<CaptureStream>(item.index());
 }
 
-// The angles that belong to a frame are the last ones at or before it: they go first.
+// The angles that belong to a frame are the last ones at or before it, so they precede it.
 bool isEarlier(const CaptureItem& a, const CaptureItem& b) noexcept {
   const std::int64_t aUs = stampOf(a), bUs = stampOf(b);
   return aUs != bUs ? aUs < bUs : streamOf(a) > streamOf(b);
@@ -88,7 +88,7 @@ bool CaptureQueue::put(CaptureItem item) {
   if (options_.blockWhenFull) {
     taken = queue.push(std::move(item));
   } else {
-    // The lock orders the end of a gap with the item that ends it.
+    // The lock ensures that a gap ends before the item that ends it.
     const std::lock_guard lock(lossMutex_);
     taken = queue.tryPush(std::move(item));
     if (closed()) return taken;
@@ -111,7 +111,7 @@ bool CaptureQueue::put(CaptureItem item) {
 std::size_t CaptureQueue::take(std::vector<CaptureItem>& out,
                                std::vector<RecordingEvent>* ownGaps) {
   const auto before = static_cast<std::ptrdiff_t>(out.size());
-  // Frames first: whoever put angles before a frame finds them taken with it.
+  // Frames first: angles that were put before a frame are then taken together with it.
   moveAll(tactile_, out);
   moveAll(motion_, out);
   moveAll(events_, out);

@@ -18,7 +18,7 @@ std::unique_ptr<Device> required(std::unique_ptr<Device> device) {
   return device;
 }
 
-// What the device says about itself, as text for a recording's `meta`.
+// Properties of the device as text for a recording's `meta`.
 std::map<std::string, std::string> describe(const Device& device) {
   std::map<std::string, std::string> meta{{"hand", device.hand().name},
                                           {"program", "palpate " PALPATE_VERSION}};
@@ -77,7 +77,7 @@ CaptureSession::CaptureSession(std::unique_ptr<Device> device,
 
 CaptureSession::~CaptureSession() {
   stop();
-  recorder_.stop();  // one that was asked for, though the device was never started
+  recorder_.stop();  // a recording may have been requested although the device was never started
   const std::lock_guard lock(feedsMutex_);
   for (const auto& queue : feeds_) queue->close();
 }
@@ -109,7 +109,7 @@ void CaptureSession::stop() noexcept {
 }
 
 void CaptureSession::startRecording(RecordingOptions options) {
-  // What the link counted before isn't this recording's.
+  // Counts from before the recording are subtracted.
   const auto before = countersOf(device_->status());
   const auto given = options.counters;
   options.counters = [this, before, given] {
@@ -193,7 +193,7 @@ void CaptureSession::pass(const CaptureItem& item) {
       numFeeds_ = feeds_.size();
       feeds = feeds_;
     }
-    for (const auto& queue : feeds) queue->put(item);  // one for a replay may wait here
+    for (const auto& queue : feeds) queue->put(item);  // may wait here for a replay
   }
   recorder_.push(item);
 }
@@ -210,7 +210,7 @@ std::shared_ptr<CaptureQueue> CaptureSession::subscribe(std::string consumer,
   const std::lock_guard lock(feedsMutex_);
   feeds_.push_back(queue);
   numFeeds_ = feeds_.size();
-  // Let go, it is closed, so that nobody waits for room in it.
+  // When the pointer is released the queue is closed, so that no producer waits for room in it.
   CaptureQueue* const bare = queue.get();
   return {bare, [owner = std::move(queue)](CaptureQueue*) { owner->close(); }};
 }

@@ -8,8 +8,8 @@ namespace palpate {
 namespace {
 
 constexpr std::int64_t kWindowUs = 2'000'000;
-constexpr double kExpectationS = 5.0;  // so much must have come before its mean is expected
-constexpr double kMeasuredS = 5.0;     // so much must be recorded before its size is believed
+constexpr double kExpectationS = 5.0;  // minimum time before the mean rate is the expected one
+constexpr double kMeasuredS = 5.0;     // minimum recorded time before the size per second is used
 constexpr double kBlockedAlarmS = 1.0;
 
 double seconds(std::int64_t us) { return static_cast<double>(us) / 1e6; }
@@ -85,7 +85,7 @@ void addRecorderAlarms(const RecorderStatus& recorder,
                           " items are missing in the recording; its gap events tell which"});
 }
 
-// What is wrong with the rate, and what to do about it where the operator sits.
+// Text about a low rate for the operator: the problem, and what to do.
 std::string lowRateText(const LinkMonitor::Reading& frames, const HealthOptions& options) {
   const std::string text = "only " + fixedText(frames.rateHz, 1) + " frames/s instead of " +
                            fixedText(frames.expectedRateHz, 1);
@@ -108,7 +108,7 @@ double scanRateHz(std::size_t enabledTaxels) {
   struct Measured {
     double taxels, scanMs;
   };
-  // The places of a matrix of 78 that are taxels: 68. All taxels of an SDH-2: 456.
+  // Of the 78 places of a matrix, 68 are taxels. All taxels of an SDH-2: 456.
   constexpr Measured kMeasured[] = {{2.0, 13.2}, {68.0, 17.7}, {456.0, 31.55}};
   const double taxels =
       std::clamp(static_cast<double>(enabledTaxels), kMeasured[0].taxels, kMeasured[2].taxels);
@@ -160,7 +160,7 @@ void LinkMonitor::frame(std::int64_t monoUs, bool saturated, std::size_t runs) {
   ++frames_;
   saturated_ += saturated ? 1 : 0;
   ring_[(frames_ - 1) % kRing] = {monoUs, saturated, static_cast<std::uint32_t>(runs)};
-  // Looking once in a while is enough, and costs less.
+  // The rate is checked at every eighth frame, to save time.
   constexpr std::uint64_t kEvery = 8;
   if (frames_ % kEvery != 0) return;
   const Reading now = readLocked(monoUs);
@@ -186,7 +186,7 @@ LinkMonitor::Reading LinkMonitor::readLocked(std::int64_t monoUs) const {
   reading.ageMs = static_cast<double>(monoUs - newestUs) / 1000.0;
   if (newestUs > firstUs_)
     reading.meanRateHz = static_cast<double>(frames_ - 1) / seconds(newestUs - firstUs_);
-  // Arrivals not older than the window are the newest n; found by halving.
+  // Number n of arrivals within the window, found by bisection.
   std::size_t n = 0;
   for (std::size_t beyond = std::min<std::uint64_t>(frames_, kRing); n < beyond;) {
     const std::size_t middle = n + (beyond - n) / 2;
@@ -200,7 +200,7 @@ LinkMonitor::Reading LinkMonitor::readLocked(std::int64_t monoUs) const {
     const double spanS = seconds(newestUs - oldestUs);
     const double periodS = spanS / static_cast<double>(n - 1);
     const double silentS = seconds(monoUs - newestUs);
-    // Intervals between frames say it exactly, until the next one is overdue.
+    // The intervals between frames give the exact rate, until the next frame is overdue.
     const double overS = silentS > 2.0 * periodS ? spanS + silentS : spanS;
     if (overS > 0.0) reading.rateHz = static_cast<double>(n - 1) / overS;
   }

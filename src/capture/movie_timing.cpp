@@ -13,7 +13,7 @@ namespace palpate {
 namespace {
 
 void check(const MovieOptions& options) {
-  // Written so that NaN fails, too.
+  // Written in this form so that NaN fails, too.
   if (!(options.picturesPerS >= MovieOptions::kMinPicturesPerS &&
         options.picturesPerS <= MovieOptions::kMaxPicturesPerS))
     throw std::invalid_argument("pictures per second must be 1..120, not " +
@@ -32,15 +32,16 @@ MovieTiming movieTiming(std::span<const std::int64_t> stampsUs, const MovieOptio
   const double usualS = timing.rateHz > 0.0 ? 1.0 / timing.rateHz : 0.0;
   const double maxDurationS = gapThresholdS(usualS);
   const double picturesPerRecordedS = options.picturesPerS / options.speed;
-  // The first picture whose middle isn't before that moment.
+  // The first picture whose middle isn't before that time.
   const auto pictureAt = [&](double seconds) {
-    constexpr double kMiddle = 0.5 + 1e-9;  // less than a microsecond: rates that meet stay in step
+    // Adds less than a microsecond, so that pictures stay in step with frames of the same rate.
+    constexpr double kMiddle = 0.5 + 1e-9;
     return static_cast<std::size_t>(
         std::max(0.0, std::ceil(seconds * picturesPerRecordedS - kMiddle)));
   };
   const std::size_t last = stampsUs.size() - 1;
   auto gap = timing.gaps.begin();
-  std::size_t shown = 0;  // pictures so far
+  std::size_t shown = 0;  // number of pictures so far
   for (std::size_t i = 0; i <= last; ++i) {
     if (gap != timing.gaps.end() && gap->frame == i) {
       movie.shortenedS += gap->seconds - maxDurationS;

@@ -31,7 +31,7 @@ std::int64_t Playback::lastUs() const {
 std::size_t Playback::frame() const { return profile_.frameAt(positionUs_).value_or(0); }
 
 void Playback::play() {
-  if (lastUs() == firstUs()) return;  // nothing to play: no frame, or just one
+  if (lastUs() == firstUs()) return;  // nothing to play: at most one frame
   if (positionUs_ >= lastUs()) seekFrame(0);
   playing_ = true;
 }
@@ -57,14 +57,15 @@ void Playback::step(std::ptrdiff_t frames) {
   if (profile_.numFrames() == 0) return;
   const auto last = static_cast<std::ptrdiff_t>(profile_.numFrames()) - 1;
   const auto now = static_cast<std::ptrdiff_t>(frame());
-  // Clamped before the sum is taken: no overflow.
+  // Clamped before the addition, to avoid overflow.
   const std::ptrdiff_t to = now + std::clamp(frames, -now, last - now);
   seekFrame(static_cast<std::size_t>(to));
 }
 
 void Playback::advance(std::int64_t elapsedUs) {
   if (!playing_ || elapsedUs <= 0) return;
-  if (positionUs_ >= lastUs()) {  // the last frame has been shown: start over, or that was all
+  // The last frame has been shown: start over or stop.
+  if (positionUs_ >= lastUs()) {
     if (loop_)
       seekFrame(0);
     else

@@ -23,7 +23,8 @@ constexpr std::chrono::milliseconds kRound{15};
 constexpr std::chrono::milliseconds kFinishRetry{100};
 constexpr int kFinishAttempts = 20;  // 2 s
 constexpr std::int64_t kClockJumpUs = 50'000;
-constexpr std::int64_t kOtherTimeUs = 2'000'000;  // stamps so far from the clock are a replay's
+// Stamps that differ from the clock by more than this belong to a replay.
+constexpr std::int64_t kOtherTimeUs = 2'000'000;
 constexpr std::int64_t kFreeBytesUs = 1'000'000;
 constexpr std::int64_t kBlockedUs = 250'000;
 constexpr std::size_t kMostKept = 32'768;
@@ -62,7 +63,7 @@ struct Recorder::Impl {
     return static_cast<std::int64_t>(std::accumulate(lost.begin(), lost.end(), std::uint64_t{0}));
   }
 
-  // What was offered before, from the newest one's stamp.
+  // Keeps the items of the last seconds, measured from the newest stamp.
   void keep(const CaptureItem& item) {
     kept.push_back(item);
     keptNewestUs = std::max(keptNewestUs, stampOf(item));
@@ -76,7 +77,7 @@ struct Recorder::Impl {
     if (options.notice) options.notice(event);
   }
 
-  // What the recorder itself notes goes past its queue: it alone makes room there.
+  // Events of the recorder itself bypass its queue, because only the recorder makes room in it.
   void checkClock(std::vector<CaptureItem>& out) {
     const std::int64_t offsetUs = host->wallOffsetUs();
     if (std::abs(offsetUs - wallOffsetUs) <= kClockJumpUs) return;
@@ -131,7 +132,7 @@ struct Recorder::Impl {
       stopping = stopRequested;
     }
     beginWhenAsked();
-    // However long the disk kept us: what came meanwhile is as old as that.
+    // Items that arrived during a slow write are as old as that write; so the time is taken again.
     const std::int64_t takingMonoUs = clock.monotonicUs();
     std::vector<RecordingEvent> ownGaps;
     queue.take(items, &ownGaps);
@@ -154,7 +155,7 @@ struct Recorder::Impl {
     finishing = true;
     if (!parts->finish(time) && ++finishAttempts < kFinishAttempts) return;
     RecordingReport done = parts->report();
-    parts.reset();  // tries once more to commit what waits
+    parts.reset();  // tries again to commit
     end(std::move(done));
   }
 
@@ -194,16 +195,16 @@ struct Recorder::Impl {
 
   RecorderOptions options;
   const Clock& clock;
-  std::optional<HostTime> host{clock};  // as stamps of a live hand
+  std::optional<HostTime> host{clock};  // as used for the stamps of a live hand
   CaptureQueue queue;
-  std::atomic<bool> otherTime = false;          // stamps come from another time than the clock's
-  std::atomic<std::int64_t> newestUs = 0;       // stamp of the newest sample offered
+  std::atomic<bool> otherTime = false;          // stamps are not in the clock's time
+  std::atomic<std::int64_t> newestUs = 0;       // stamp of the newest sample pushed
   std::atomic<std::int64_t> roundBeganUs = -1;  // monotonic; -1 between rounds
   std::atomic<std::int64_t> lostAtStart = 0;
 
-  // The recorder's thread alone.
+  // Used by the recorder's thread only.
   std::vector<CaptureItem> items;
-  std::optional<std::int64_t> takenMonoUs;  // when the last round took its items
+  std::optional<std::int64_t> takenMonoUs;  // time at which the last round took its items
   std::deque<CaptureItem> kept;
   std::int64_t keptNewestUs = INT64_MIN;
   std::unique_ptr<RecordingParts> parts;
@@ -240,7 +241,7 @@ void Recorder::run() {
       impl.queue.wait(impl.finishing ? kFinishRetry : kRound, stop);
       try {
         impl.round();
-      } catch (const std::exception& error) {  // out of memory: what was committed is safe
+      } catch (const std::exception& error) {  // out of memory: committed data are safe
         impl.giveUp(error.what());
       } catch (...) {
         impl.giveUp("an exception of no known kind");
@@ -291,7 +292,8 @@ void Recorder::start(RecordingOptions options) {
   requireNewFile(options.path);
   Impl& impl = *impl_;
   RoundTime time{impl.clock.monotonicUs(), impl.nowUs(), 0};
-  // Nothing has come yet: whatever comes does so after the start, whichever time its stamps are in.
+  // Before the first item the time of the stamps is unknown; every item counts as after the start
+  // then.
   if (impl.newestUs.load() == 0) time.nowUs = INT64_MIN / 2;
   const std::int64_t lost = impl.lostInQueues();
   const std::lock_guard lock(impl.mutex);

@@ -20,18 +20,19 @@ namespace {
 
 constexpr std::size_t kMostPart = 60;
 // Leaves room for "_002.palpate-journal" within the 255 bytes of a name.
-constexpr std::size_t kMostStem = 170;  // before run and time are put in
-constexpr char kRunMark = '\x01';       // stand for what is put in last; no text can hold them
+constexpr std::size_t kMostStem = 170;  // before run and time are inserted
+constexpr char kRunMark = '\x01';  // placeholders for them; no text can contain these characters
 constexpr char kTimeMark = '\x02';
 
-// At most `most` bytes, without what a name may not begin or end with.
+// Shortens to at most `most` bytes and removes characters that a name may not begin or end with.
 std::string nameOfAtMost(std::string_view text, std::size_t most) {
   constexpr std::string_view kLoose = ".-_";
   return std::string(trimmed(beginningOf(trimmed(text, kLoose), most), kLoose));
 }
 
 std::string harmless(std::string_view text) {
-  // escapedLine makes it valid UTF-8 without controls; the backslashes of its escapes go below.
+  // escapedLine() makes it valid UTF-8 without control characters; the backslashes are replaced
+  // below.
   std::string name = escapedLine(text);
   for (char& c : name)
     if (std::string_view(" /\\:*?\"<>|{}$`'&;!~%#").find(c) != std::string_view::npos) c = '_';
@@ -66,7 +67,7 @@ std::string valueOf(std::string_view placeholder, const RecordingNameFields& fie
                               "} isn't known; use {date}, {time}, {operator}, {object}, {run}");
 }
 
-// The name without its ending; marks stand where time and run go.
+// The name without its ending, with marks in place of time and run.
 std::string markedStem(std::string_view nameTemplate, const RecordingNameFields& fields) {
   constexpr std::string_view kEnding = ".palpate";
   if (nameTemplate.ends_with(kEnding)) nameTemplate.remove_suffix(kEnding.size());
@@ -88,7 +89,7 @@ std::string markedStem(std::string_view nameTemplate, const RecordingNameFields&
     used.push_back(placeholder);
     nameTemplate.remove_prefix(close + 1);
   }
-  // What an empty field leaves behind.
+  // Removes the doubled "_" around an empty field.
   stem.erase(
       std::unique(stem.begin(), stem.end(), [](char a, char b) { return a == '_' && b == '_'; }),
       stem.end());
@@ -115,7 +116,7 @@ std::string filled(const std::string& marked, const RecordingNameFields& fields,
   return name + ".palpate";
 }
 
-// Recordings (parts and journals of them, too) that differ in run and time only.
+// Matches recordings (also their parts and journals) that differ in run and time only.
 std::regex patternOf(const std::string& marked) {
   std::string pattern;
   for (const char c : marked) {

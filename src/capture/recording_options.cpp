@@ -21,7 +21,7 @@ void requireRecordingOptions(bool right, const std::string& message) {
 
 }  // namespace
 
-// Says at once what would else fail at the first frame.
+// Reports problems at once that would otherwise appear at the first frame.
 void requireNewFile(const fs::path& path) {
   std::error_code failure;
   if (fs::exists(fs::symlink_status(path, failure)))
@@ -64,7 +64,7 @@ fs::path partPath(const fs::path& path, int part) {
 }
 
 std::optional<std::uint64_t> freeBytesOf(const fs::path& folder) {
-  // Of a folder that is yet to be made: of the one it will lie in.
+  // For a folder that does not exist yet, uses the nearest existing folder above it.
   std::error_code failure;
   fs::path there = fs::absolute(folder, failure);
   while (!fs::exists(there, failure) && there.has_relative_path()) there = there.parent_path();

@@ -17,7 +17,7 @@ constexpr std::size_t kMostHeld = 32'768;  // items that wait for a file: 64 MB 
 constexpr std::int64_t kHeldWithoutFrameUs = 60'000'000;
 constexpr std::size_t kMostDirty = 4096;  // items of one commit
 constexpr std::int64_t kCountersUs = 1'000'000;
-// no frame comes any more: the end is noticed so late
+// Without further frames, the end of the recording is detected after this time.
 constexpr std::int64_t kEndGraceUs = 1'000'000;
 
 std::int64_t microseconds(double seconds) {
@@ -50,7 +50,7 @@ RecordingParts::RecordingParts(RecordingOptions options,
       notice_(std::move(notice)),
       folder_(options_.path.has_parent_path() ? options_.path.parent_path() : fs::path(".")) {}
 
-// Whether an item falls between the pre-trigger's begin and the end; sees the end.
+// True if the item is between the begin of the pre-trigger time and the end; detects the end.
 bool RecordingParts::belongs(const CaptureItem& item) {
   const std::int64_t stampUs = stampOf(item);
   if (ended_ || stampUs < start_.nowUs - microseconds(options_.preTriggerS)) return false;
@@ -58,12 +58,12 @@ bool RecordingParts::belongs(const CaptureItem& item) {
   if (isFrame && stampUs >= start_.nowUs && framesSinceStart_ == 0 && options_.stopAfterS)
     endUs_ = stampUs + microseconds(*options_.stopAfterS);
   if (endUs_ && stampUs >= *endUs_) {
-    ended_ = isFrame;  // what comes on the other port may be ahead
+    ended_ = isFrame;  // items of the other port may be ahead
     return false;
   }
   if (isFrame && stampUs >= start_.nowUs) {
     ++framesSinceStart_;
-    // This one is the last.
+    // This frame is the last one.
     if (options_.stopAfterFrames && framesSinceStart_ == *options_.stopAfterFrames)
       endUs_ = stampUs + 1;
   }
@@ -81,12 +81,11 @@ void RecordingParts::add(const CaptureItem& item, RoundTime time) {
   take(item, time);
 }
 
-// Into the part it belongs to, which is a new one when the part that is open is full or of another
-// layout.
+// Adds the item to its part, which is a new one when the open part is full or has another layout.
 void RecordingParts::take(const CaptureItem& item, RoundTime time) {
   if (const auto* frame = std::get_if<SharedFrame>(&item)) {
     if (splitDue(**frame)) split(**frame, time);
-    // A part says which taxels were scanned: a frame of another layout would be read wrongly there.
+    // A part describes which taxels are scanned, so it can't contain a frame of another layout.
     if (isOfOtherLayout(**frame)) return recordLoss(item);
   }
   write(item, time);
@@ -95,7 +94,7 @@ void RecordingParts::take(const CaptureItem& item, RoundTime time) {
 void RecordingParts::hold(const CaptureItem& item) {
   frameHeld_ = frameHeld_ || streamOf(item) == CaptureStream::kTactile;
   held_.push_back(item);
-  // Before the first frame nothing is being recorded yet: old angles may go.
+  // Before the first frame nothing is recorded yet: old angles may be dropped.
   while (!frameHeld_ && stampOf(held_.front()) < stampOf(item) - kHeldWithoutFrameUs)
     held_.pop_front();
   if (held_.size() <= kMostHeld) return;
@@ -109,7 +108,7 @@ std::unique_ptr<PalpateWriter> RecordingParts::makeWriter(
   if (options_.describe)
     for (const auto& [key, value] : options_.describe())
       if (!isReservedMeta(key)) meta.insert_or_assign(key, value);
-  // A name that was taken meanwhile is passed over: nothing is ever replaced.
+  // An existing file is skipped: nothing is ever replaced.
   std::error_code ignored;
   while (fs::exists(fs::symlink_status(partPath(options_.path, nextPart_), ignored))) ++nextPart_;
   const fs::path path = partPath(options_.path, nextPart_);
@@ -118,7 +117,7 @@ std::unique_ptr<PalpateWriter> RecordingParts::makeWriter(
     meta["part_of"] = paths_.front().filename().string();
   }
   PalpateWriterOptions writerOptions;
-  writerOptions.commitIntervalUs = INT64_MAX;  // we commit ourselves, by the clock
+  writerOptions.commitIntervalUs = INT64_MAX;  // this class commits by itself, by the clock
   writerOptions.vfs = vfs_;
   auto writer = std::make_unique<PalpateWriter>(path, layout, meta, writerOptions);
   ++nextPart_;
@@ -126,7 +125,7 @@ std::unique_ptr<PalpateWriter> RecordingParts::makeWriter(
   return writer;
 }
 
-// With the layout of the first frame that is held.
+// Opens a part with the layout of the first waiting frame.
 void RecordingParts::open(RoundTime time) {
   const auto first = std::find_if(held_.begin(), held_.end(), [](const CaptureItem& item) {
     return streamOf(item) == CaptureStream::kTactile;
@@ -135,14 +134,14 @@ void RecordingParts::open(RoundTime time) {
   const std::shared_ptr<const SensorLayout> layout = std::get<SharedFrame>(*first)->layout;
   try {
     writer_ = makeWriter(layout);
-  } catch (const std::exception& error) {  // the disk, or a sensor that no recording can hold
+  } catch (const std::exception& error) {  // error of the disk, or a sensor that can't be recorded
     return onCommitFailed(error.what(), time);
   }
   layout_ = layout;
   lastCounters_.clear();
   for (const CaptureItem& item : std::exchange(held_, {})) take(item, time);
   onCommitSucceeded(time);
-  commit(time);  // from its first moment on the file holds what came
+  commit(time);  // the file contains the items from its first moment on
 }
 
 bool RecordingParts::isOfOtherLayout(const TactileFrame& frame) const {
@@ -159,7 +158,7 @@ bool RecordingParts::splitDue(const TactileFrame& frame) const {
 void RecordingParts::split(const TactileFrame& frame, RoundTime time) {
   if (time.monoUs < nextTryMonoUs_ || !closeOldPart(time)) return;
   try {
-    writePendingEvents();  // first: when that fails there must not be a part yet
+    writePendingEvents();  // first: after a failure no new part may exist yet
     std::unique_ptr<PalpateWriter> next = makeWriter(frame.layout);
     closing_ = std::exchange(writer_, std::move(next));
     layout_ = frame.layout;
@@ -168,7 +167,7 @@ void RecordingParts::split(const TactileFrame& frame, RoundTime time) {
     dirtyItems_ = 0;
     lastCounters_.clear();
   } catch (const std::exception& error) {
-    return onCommitFailed(error.what(), time);  // goes on in the old part
+    return onCommitFailed(error.what(), time);  // continues in the old part
   }
   closeOldPart(time);
 }
@@ -190,7 +189,7 @@ bool RecordingParts::closeOldPart(RoundTime time) {
 void RecordingParts::write(const CaptureItem& item, RoundTime time) {
   try {
     writeTo(item);
-  } catch (const FileError&) {  // commits have been failing for so long that the memory is full
+  } catch (const FileError&) {  // commits have failed until the memory limit was reached
     return recordLoss(item);
   } catch (const std::invalid_argument& error) {
     ++counts_.refused;
@@ -248,7 +247,7 @@ void RecordingParts::addOwn(RecordingEvent event) {
 
 void RecordingParts::writePendingEvents() {
   while (!unwrittenEvents_.empty()) {
-    // throws while there is no room; then it stays owed
+    // Throws while the disk is full; the event then stays pending.
     writer_->addEvent(unwrittenEvents_.front());
     ++counts_.events;
     ++dirtyItems_;
@@ -280,7 +279,7 @@ void RecordingParts::round(RoundTime time) {
   const bool due = (dirtySinceMonoUs_ && time.monoUs - *dirtySinceMonoUs_ >= commitIntervalUs_) ||
                    dirtyItems_ >= kMostDirty || !unwrittenEvents_.empty();
   const bool commits = due && time.monoUs >= nextTryMonoUs_;
-  // With every commit: what the link lost before a frame is on disk as soon as the frame is.
+  // Updated with every commit: losses before a frame are on disk as soon as the frame is.
   if (commits || !countersMonoUs_ || time.monoUs - *countersMonoUs_ >= kCountersUs)
     updateCounters(time);
   if (commits) commit(time);
@@ -289,7 +288,7 @@ void RecordingParts::round(RoundTime time) {
 void RecordingParts::commit(RoundTime time) {
   try {
     writer_->commit();
-    // Only now there is room again for what is owed.
+    // Only now the disk has room for pending events.
     if (!unwrittenEvents_.empty()) {
       writePendingEvents();
       writer_->commit();

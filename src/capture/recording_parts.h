@@ -1,5 +1,5 @@
-// One recording in the making: which items belong to it, its parts on disk, what to do when the
-// disk fails. Not thread-safe: the recorder's thread owns it.
+// One recording while it is written: decides which items belong to it, splits it into parts, and
+// handles failures of the disk. Not thread-safe: the recorder's thread owns it.
 #pragma once
 
 #include <array>
@@ -16,39 +16,41 @@
 
 namespace palpate {
 
-// Keys of `meta` that the writer sets itself.
+// True for keys of `meta` that the writer sets itself.
 bool isReservedMeta(std::string_view key) noexcept;
 
-// Says before the first frame what would fail there. Throws FileError: exists, no folder, not
-// writable.
+// Checks before the first frame whether the file can be created. Throws FileError: exists, no
+// folder, not writable.
 void requireNewFile(const std::filesystem::path& path);
 
-// The moment of a round on both clocks.
+// Times of a round on both clocks.
 struct RoundTime {
-  std::int64_t monoUs = 0;       // what waiting and retrying go by
-  std::int64_t nowUs = 0;        // host time as stamps have it
-  std::int64_t sinceMonoUs = 0;  // what this round takes came after this moment
+  std::int64_t monoUs = 0;  // used for waiting and retrying
+  std::int64_t nowUs = 0;   // host time in the time of the stamps
+  // The items taken in this round arrived after this monotonic time.
+  std::int64_t sinceMonoUs = 0;
 };
 
 class RecordingParts {
  public:
   using Notice = std::function<void(const RecordingEvent&)>;
-  // The recording was asked for at `start`.
+  // `start` is the time at which the recording was requested.
   RecordingParts(RecordingOptions options,
                  const RecorderOptions& recorder,
                  RoundTime start,
                  Notice notice);
 
-  // Takes what belongs to it. A failing disk throws nothing: it is noted, and tried again.
+  // Takes the item if it belongs to the recording. A failing disk causes no exception: it is noted,
+  // and writing is retried.
   void add(const CaptureItem& item, RoundTime time);
-  // Commits what is due, tries again what failed.
+  // Commits what is due and repeats what failed.
   void round(RoundTime time);
-  // A limit of the options has been reached.
+  // True when a limit of the options has been reached.
   bool ended(RoundTime time) const;
-  // One attempt to finish; false: failed, ask again.
+  // Tries to finish; returns false after a failure, to be called again.
   bool finish(RoundTime time);
 
-  // Items that the queues lost since the start; their gaps come as events.
+  // Number of items that the queues lost since the start; their gaps arrive as events.
   void noteQueueLosses(std::int64_t items) noexcept { lostInQueues_ = items; }
   void describe(RecorderStatus& status) const;
   RecordingReport report() const;
@@ -88,24 +90,24 @@ class RecordingParts {
   std::vector<std::filesystem::path> paths_;
   int nextPart_ = 1;
   std::unique_ptr<PalpateWriter> writer_;
-  std::unique_ptr<PalpateWriter> closing_;  // the part before, while it can't be finished
+  std::unique_ptr<PalpateWriter> closing_;  // previous part while it can't be finished
   std::shared_ptr<const SensorLayout> layout_;
   std::int64_t partFirstUs_ = 0;
   bool partHasFrames_ = false;
   std::int64_t framesInOldParts_ = 0;
   std::int64_t bytesInOldParts_ = 0;
-  std::deque<CaptureItem> held_;  // until there is a file
+  std::deque<CaptureItem> held_;  // items that wait for a file
   bool frameHeld_ = false;
 
-  // What waits for a commit.
+  // Items that wait for a commit.
   std::optional<std::int64_t> dirtySinceMonoUs_;
   std::size_t dirtyItems_ = 0;
-  std::vector<RecordingEvent> unwrittenEvents_;  // own events that aren't in a writer yet
+  std::vector<RecordingEvent> unwrittenEvents_;  // own events that are not written yet
   std::optional<std::int64_t> countersMonoUs_;
   std::map<std::string, std::int64_t> lastCounters_;
 
-  // Trouble.
-  std::string error_;  // of the disk; empty: writing works
+  // Failures.
+  std::string error_;  // last error of the disk; empty while writing works
   std::optional<RoundTime> failingSince_;
   std::int64_t nextTryMonoUs_ = 0;
   std::array<std::optional<CaptureLoss>, kCaptureStreams> losses_;

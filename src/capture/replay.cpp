@@ -50,8 +50,7 @@ struct Replay::Impl {
     ended = false;
   }
 
-  // Stamp of what comes next; kNever at the end. Samples whose stamps can't be read are passed
-  // over.
+  // Stamp of the next item; kNever at the end. Samples whose stamps can't be read are skipped.
   std::int64_t nextUs() { return std::min({eventUs(), temperatureUs(), angleUs(), frameUs()}); }
   std::int64_t frameUs() {
     return stampUs(
@@ -81,7 +80,7 @@ struct Replay::Impl {
     return kNever;
   }
 
-  // A sample that can't be read: counted, and told the first time.
+  // Counts a sample that can't be read; the first one is reported.
   void closeAfterError(std::int64_t atUs, bool tactile, const std::string& fault) {
     {
       const std::lock_guard lock(mutex);
@@ -94,7 +93,7 @@ struct Replay::Impl {
     sink->onEvent({atUs, atUs, "alarm", {}, fault, ""});
   }
 
-  // Delivers what comes next, stamped `atUs`.
+  // Delivers the next items, with the stamp `atUs`.
   void deliver(std::int64_t atUs) {
     if (eventUs() == atUs) {
       const RecordingEvent& noted = events[event++];
@@ -124,7 +123,7 @@ struct Replay::Impl {
     port.lastItemUs = atUs;
   }
 
-  // Nothing that goes wrong in the delivering thread may end the process: the replay ends instead.
+  // No exception in the delivering thread may end the process: it ends the replay instead.
   void runGuarded(const std::stop_token& stop) noexcept {
     std::string fault;
     try {
@@ -137,7 +136,7 @@ struct Replay::Impl {
     try {
       sink->onEvent({lastUs, lastUs, "alarm", {}, fault, ""});
     } catch (...) {
-      // The sink itself fails: the status says it.
+      // The sink itself failed: status() reports it.
     }
     const std::lock_guard lock(mutex);
     ended = true;
@@ -160,7 +159,7 @@ struct Replay::Impl {
     sink->onEvent({lastUs, lastUs, "link", {}, "the recording has ended", ""});
   }
 
-  // Delivers up to and with `untilUs`; false at the end.
+  // Delivers all items up to and including `untilUs`; returns false at the end.
   bool deliverUntil(std::int64_t untilUs, const std::stop_token& stop) {
     for (std::int64_t at = nextUs(); at <= untilUs && !stop.stop_requested(); at = nextUs()) {
       if (at == kNever) {
@@ -178,7 +177,7 @@ struct Replay::Impl {
       deliverUntil(kNever, stop);
       return;
     }
-    double positionUs = 0.0;  // in the recording
+    double positionUs = 0.0;  // in the recording's time
     std::int64_t monoUs = clock.monotonicUs();
     while (!stop.stop_requested()) {
       const double factor = speedNow();
@@ -188,7 +187,7 @@ struct Replay::Impl {
       const bool empty = nextUs() == kNever;
       if (!deliverUntil(empty ? kNever : firstUs + static_cast<std::int64_t>(positionUs), stop))
         return;
-      // The end is seen at once, not after kNever.
+      // The end is handled at once, not after kNever.
       if (nextUs() == kNever) {
         deliverUntil(kNever, stop);
         return;
@@ -213,14 +212,14 @@ struct Replay::Impl {
   const Clock& clock;
   DeviceSink* sink = nullptr;
 
-  // Of the delivering thread.
+  // Used by the delivering thread.
   std::size_t frame = 0;
   std::size_t angle = 0;
   std::size_t temperature = 0;
   std::size_t event = 0;
-  std::int64_t lastUs = 0;  // delivered
+  std::int64_t lastUs = 0;  // stamp of the last item delivered
   bool warned = false;
-  std::int64_t handUs = 0;  // kManual: position in the recording
+  std::int64_t handUs = 0;  // kManual: position in the recording's time
   std::int64_t firstUs = 0;
 
   mutable std::mutex mutex;
@@ -270,7 +269,7 @@ void Replay::start(DeviceSink& sink) {
 void Replay::stop() noexcept {
   Impl& impl = *impl_;
   if (!impl.sink) return;
-  impl.thread = {};  // asks it to stop, and waits
+  impl.thread = {};  // requests its end and waits for it
   impl.sink = nullptr;
   const std::lock_guard lock(impl.mutex);
   impl.status.tactile.state = PortState::kClosed;

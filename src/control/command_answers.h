@@ -1,4 +1,4 @@
-// Answers of a hand that are waited for without waiting. Private to this module.
+// Checks without waiting whether the hand has answered a command. Private to this module.
 #pragma once
 
 #include <chrono>
@@ -6,7 +6,7 @@
 
 namespace palpate {
 
-// Of a std::future or std::shared_future.
+// `answer` is a std::future or std::shared_future.
 template <typename Future>
 bool isReady(const Future& answer) {
   return answer.wait_for(std::chrono::seconds(0)) == std::future_status::ready;

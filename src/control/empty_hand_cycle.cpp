@@ -12,7 +12,7 @@ EmptyHandCycle::EmptyHandCycle(GraspControl& control, Options options)
 
 void EmptyHandCycle::begin(std::int64_t hostUs) {
   state_ = State::kIdle;
-  // From before the command on: the grasp it begins is told from an earlier one by its time.
+  // Time before the command: it distinguishes the new grasp from an earlier one.
   sinceUs_ = hostUs;
   GraspRequest request;
   request.mode = GraspMode::kReactive;

@@ -16,12 +16,16 @@ namespace {
 
 using std::chrono::microseconds;
 
-constexpr std::int64_t kRoundUs = 5000;  // while something moves: looks at answers, axes and ports
-constexpr std::int64_t kIdleUs = 100'000;           // else, when nothing comes
-constexpr std::int64_t kFaultAgainUs = 10'000'000;  // then the same failure is said again
+// Period of the control cycle while something moves: checks answers, axes and ports.
+constexpr std::int64_t kRoundUs = 5000;
+// Longest pause of the control cycle otherwise.
+constexpr std::int64_t kIdleUs = 100'000;
+// Time after which the same failure is reported again.
+constexpr std::int64_t kFaultAgainUs = 10'000'000;
 constexpr std::chrono::milliseconds kGoodbye{300};
 constexpr std::size_t kMostChanges = 1000;
-constexpr std::size_t kWaitingFrames = 64;  // two seconds: then this thread didn't run at all
+// Frames of two seconds; more can only wait if this thread did not run at all.
+constexpr std::size_t kWaitingFrames = 64;
 
 CaptureQueueOptions smallFeed() {
   CaptureQueueOptions options;
@@ -52,7 +56,7 @@ GraspControl::~GraspControl() {
     moving = machine_.active();
   }
   if (moving) stop();
-  thread_ = {};  // asks it to end, and waits
+  thread_ = {};  // requests its end and waits for it
   {
     const std::lock_guard lock(mutex_);
     if (sentCommand_) {
@@ -103,8 +107,8 @@ void GraspControl::runGuardedCycle() noexcept {
   }
 }
 
-// Each thing by itself: where memory is short one may fail, and the next must be tried all the
-// same. The stop first.
+// Each step is independent: when memory is short one may fail, but the next must be tried
+// nevertheless. The stop comes first.
 void GraspControl::fault(const char* what) noexcept {
   const auto whateverHappens = [](auto&& work) {
     try {
@@ -117,15 +121,15 @@ void GraspControl::fault(const char* what) noexcept {
     machine_.fault(what, nowUs);
     send();
   });
-  // What is thrown in every round must not keep a stop from being sent again, nor its answer from
-  // being heard.
+  // An exception in every cycle must not prevent that a stop is sent again or that its answer is
+  // read.
   whateverHappens([&] { pollReplies(); });
   whateverHappens([&] {
     machine_.onTime(nowUs);
     send();
   });
   whateverHappens([&] {
-    // One that comes and goes must not fill a recording.
+    // A failure that comes and goes must not fill a recording.
     if (lastFault_ == what && nowUs - lastFaultUs_ < kFaultAgainUs) return;
     lastFault_ = what;
     lastFaultUs_ = nowUs;
@@ -182,8 +186,8 @@ void GraspControl::checkLinks() {
   }
   const std::int64_t nowUs = clock_.monotonicUs();
   const DeviceStatus status = session_.device().status();
-  // Its thread has tried to stop the hand, and opens the port anew: the stop goes out again until
-  // it is answered.
+  // The port's thread has tried to stop the hand, and opens the port again: the stop is repeated
+  // until it is answered.
   if (status.motion && status.motion->state == PortState::kFault)
     return machine_.fault("the motion port failed", nowUs);
   if (const std::string why = motionProblem(status); !why.empty())
@@ -198,7 +202,7 @@ void GraspControl::checkLinks() {
 std::string GraspControl::motionProblem(const DeviceStatus& status) {
   const std::optional<PortStatus>& motion = status.motion;
   if (!motion) return "no motion port is connected";
-  // Whatever the motion port hears of a tactile controller, which sends no lines.
+  // Checked first, since the motion port can't detect a tactile controller that sends no lines.
   if (status.tactile.found == PortAnswer::kMotion) return "the two ports are swapped";
   switch (motion->state) {
     case PortState::kStreaming:
@@ -246,7 +250,7 @@ void GraspControl::refused(const GraspRequest& request, const std::string& why) 
   GraspReport report;
   report.request = request;
   report.outcome = GraspOutcome::kRefused;
-  // "reactive grasp refused: limit 1 is not in ..", whoever found it wrong.
+  // The text becomes "reactive grasp refused: limit 1 is not in ..", wherever the error was found.
   std::string_view reason = why;
   for (const std::string_view part : {"grasp: ", "refused: "})
     if (reason.substr(0, part.size()) == part) reason.remove_prefix(part.size());
@@ -257,14 +261,14 @@ void GraspControl::refused(const GraspRequest& request, const std::string& why) 
 }
 
 void GraspControl::grasp(const GraspRequest& request) {
-  // Told before the caller hears of it, also of a refusal.
+  // The events are delivered before the caller returns, also after a refusal.
   const struct Delivery {
     GraspControl& control;
     ~Delivery() { control.deliverHere(); }
   } delivery{*this};
   {
     const std::lock_guard lock(mutex_);
-    runGuardedCycle();  // what has come by now counts
+    runGuardedCycle();  // processes what has arrived until now
     try {
       request.validate();
       if (const std::string why = motionProblem(session_.device().status()); !why.empty())
@@ -305,7 +309,7 @@ void GraspControl::stop() noexcept {
       machine_.stop(clock_.monotonicUs());
       const bool sentBefore = sentCommand_ && sentCommand_->isStop;
       send();
-      // Nothing runs that we know of, or a stop is under way: it goes out all the same.
+      // No known motion runs, or a stop was sent already: it is sent in any case.
       if (sentBefore || !machine_.active())
         stopResults_.push_back(session_.device().submit(StopMotion{}));
       report();
@@ -359,7 +363,7 @@ GraspStatus GraspControl::status() const {
   const std::lock_guard lock(mutex_);
   GraspStatus status;
   status.phase = machine_.phase();
-  // Ended is a grasp when the session was told so, too.
+  // A grasp counts as ended only after its end was delivered to the session, too.
   if (!machine_.active() && pendingEndEvents_ > 0) status.phase = GraspPhase::kStopping;
   if (machine_.active()) status.request = machine_.running().request;
   status.last = last_;
@@ -402,7 +406,7 @@ void GraspControl::deliverEvents() {
     try {
       session_.note(pending.event);
     } catch (...) {
-      // No memory: what moves a hand goes on without this line.
+      // No memory: controlling the hand is more important than this event.
     }
     if (!pending.ends) continue;
     const std::lock_guard lock(mutex_);
@@ -421,7 +425,7 @@ void GraspControl::deliverLoop(const std::stop_token& stop) {
   }
 }
 
-// Without a thread for it, in the call itself.
+// Delivers in the caller's thread when there is no delivery thread.
 void GraspControl::deliverHere() {
   if (!delivery_.joinable()) deliverEvents();
 }

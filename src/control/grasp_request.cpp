@@ -10,7 +10,7 @@
 namespace palpate {
 namespace {
 
-// Also refuses what is no number.
+// Also refuses NaN.
 void requireRange(const char* field, double value, double least, double most, const char* unit) {
   if (value >= least && value <= most) return;
   throw std::invalid_argument(std::string("grasp: ") + field + " " + numberText(value) +

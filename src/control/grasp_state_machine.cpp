@@ -11,19 +11,19 @@
 namespace palpate {
 namespace {
 
-constexpr std::int64_t kAnswerUs = 5'000'000;   // a motion that is not answered
-constexpr std::int64_t kStopAgainUs = 250'000;  // a stop that is not answered is sent again ..
-constexpr int kStops = 20;                      // .. so often, then it is given up and said
-// A motion may take so much longer than announced: fingers slow down at what they press.
+constexpr std::int64_t kAnswerUs = 5'000'000;   // time limit for the answer to a motion
+constexpr std::int64_t kStopAgainUs = 250'000;  // an unanswered stop is sent again after this time
+constexpr int kStops = 20;                      // number of stops before the grasp fails
+// Limit of the motion time relative to the announced one: pressing fingers become slower.
 constexpr double kDurationFactor = 3.0;
 constexpr double kDurationMoreS = 5.0;
-// A motion without resistance may take so much longer than announced, or than by its velocity
-// alone.
+// Limit of the time by which a motion without resistance exceeds the announced duration, or the one
+// given by its velocity alone [s].
 constexpr double kStartAndStopS = 0.5;
-// The rubber answers with a lag of 0.16 s: after three of them little comes.
+// The rubber has a lag of 0.16 s: after three lags it has almost settled.
 constexpr std::int64_t kLookOnUs = 500'000;
-constexpr float kRiseCounts = 10.0F;   // less is noise
-constexpr double kFarOverLimit = 1.5;  // times the limit: said
+constexpr float kRiseCounts = 10.0F;   // a smaller rise is noise
+constexpr double kFarOverLimit = 1.5;  // the report mentions a rise to this multiple of the limit
 
 // Axis states of the SDH-2.
 constexpr int kPositioning = 1;
@@ -36,7 +36,8 @@ std::string millisecondsText(std::int64_t us) {
 }
 
 constexpr double kLooseningDegPerS = 1.0;
-// Opening for friction gives up when so little of the limit is left: better held than known.
+// Opening for the measurement of friction ends at this fraction of the limit: a safe hold is more
+// important than the result.
 constexpr double kLeastOfLimit = 0.25;
 constexpr double kLongestLooseningS = 20.0;
 
@@ -95,7 +96,7 @@ void GraspStateMachine::begin(const GraspRequest& request,
   GraspReport report;
   report.request = request;
   report.beginUs = hostUs;
-  // Both are checked before the first one is sent.
+  // Both motions are checked before the first one is sent.
   if (request.startRatio) motionTo(request, *request.startRatio, hand_);
   motionTo(request, request.closeRatio, hand_);
   report_ = report;
@@ -112,7 +113,7 @@ void GraspStateMachine::begin(const GraspRequest& request,
     move(request.closeRatio, GraspPhase::kClosing, monoUs);
 }
 
-// Throws when a matrix that may press can't tell that it does.
+// Throws when a matrix that may come into contact can't measure the limit.
 void GraspStateMachine::requireMeasurableLimit(const GraspRequest& request) const {
   std::string text;
   for (const UnmeasurableLimit& unfelt : unmeasurableLimits(hand_, settings_, request))
@@ -123,11 +124,11 @@ void GraspStateMachine::requireMeasurableLimit(const GraspRequest& request) cons
 }
 
 bool GraspStateMachine::isOverLimit() const noexcept {
-  // below saturation: see requireMeasurableLimit()
+  // The limit is below saturation: see requireMeasurableLimit().
   return peak_.counts > static_cast<float>(limit_);
 }
 
-// True when the matrices are others than before, or other taxels of them are scanned.
+// True when the matrices have changed, or the set of scanned taxels.
 bool GraspStateMachine::updateLayout(const TactileFrame& frame) {
   if (!frame.layout || frame.layout == hand_.layout) return false;
   const bool another = !(*frame.layout == *hand_.layout);
@@ -160,7 +161,7 @@ void GraspStateMachine::onFrame(const TactileFrame& frame, std::int64_t monoUs) 
   if (anotherLayout && underTactileControl())
     return fault("the layout of the tactile sensor is another one than at the begin", monoUs);
   if (active() && isSlipAware()) grip_.onFrame(frame);
-  // From the stop on, until it has come to rest.
+  // From the stop until the reading has settled.
   if (report_.peakAfterStop && (phase_ == GraspPhase::kStopping || phase_ == GraspPhase::kSettling))
     measurePeakAfterStop();
   if (observesOvershoot()) return;
@@ -184,7 +185,7 @@ void GraspStateMachine::onMoveAcknowledged(double durationS, std::int64_t monoUs
   if (!isMoving() || acknowledged_) return;
   acknowledged_ = true;
   acknowledgedUs_ = monoUs;
-  // What is no duration announces nothing.
+  // A duration that is not finite counts as none.
   const double seconds = std::isfinite(durationS) ? std::clamp(durationS, 0.0, 1e4) : 0.0;
   announcedUs_ = monoUs + std::llround(seconds * 1e6);
   motionTimeoutUs_ = monoUs + std::llround((seconds * kDurationFactor + kDurationMoreS) * 1e6);
@@ -197,7 +198,7 @@ void GraspStateMachine::onAxisStates(const std::vector<int>& states, std::int64_
     if (state == kPositioning || state == kSpeedMode) return;
     held = held || state == kBlockedClockwise || state == kBlockedCounterClockwise;
   }
-  // Old firmware says "idle" too early.
+  // Old firmware reports "idle" too early.
   if (!held && monoUs < announcedUs_) return;
   motionEnded(states, monoUs);
 }
@@ -214,12 +215,12 @@ void GraspStateMachine::motionEnded(const std::vector<int>& states, std::int64_t
   }
   if (phase_ == GraspPhase::kPreshaping && axes.empty())
     return move(report_.request.closeRatio, GraspPhase::kClosing, monoUs);
-  // A slip-aware grasp goes on with what it got hold of.
+  // A slip-aware grasp continues with the object that it touches.
   if (isSlipAware() && phase_ != GraspPhase::kPreshaping && grip_.touches())
     return pause(Next::kSettle, "closed as far as it goes", monoUs);
   const std::string text = axes.empty() ? "finished: at its target" : "finished: held: " + axes;
-  // Where it is held the motors go on pushing. Nobody watches the taxels after this, so they must
-  // not.
+  // Motors of blocked axes keep pushing. After the grasp the taxels are no longer monitored, so the
+  // motion must be stopped.
   if (!axes.empty() && underTactileControl())
     return stopWith(GraspOutcome::kFinished, text + "; the limit was not reached", monoUs);
   end(GraspOutcome::kFinished, text);
@@ -231,10 +232,10 @@ void GraspStateMachine::stopWith(GraspOutcome outcome,
   report_.outcome = outcome;
   phase_ = GraspPhase::kStopping;
   next_ = Next::kEnd;
-  command_ = StopMotion{};  // instead of a motion that wasn't taken yet
+  command_ = StopMotion{};  // replaces a motion that was not taken yet
   sentUs_ = monoUs;
   ++stops_;
-  report_.text = text;  // last: it may find no memory
+  report_.text = text;  // last, because it may find no memory
 }
 
 void GraspStateMachine::end(GraspOutcome outcome, const std::string& text) {
@@ -250,8 +251,7 @@ void GraspStateMachine::onStopAcknowledged(std::int64_t monoUs) {
   underWay_.reset();
   if (next_ == Next::kSettle) return settle(monoUs);
   if (next_ == Next::kClose) return move(report_.request.closeRatio, GraspPhase::kClosing, monoUs);
-  // One that is slip-aware was not closing yet, but on its way to the start: it has nothing to
-  // hold, and must not close.
+  // A slip-aware grasp that was still moving to its start holds nothing, and must not close.
   if (report_.outcome == GraspOutcome::kLimitReached && !isSlipAware())
     return observeOvershoot(monoUs);
   end(report_.outcome, report_.text);
@@ -263,12 +263,12 @@ void GraspStateMachine::observeOvershoot(std::int64_t monoUs) {
   settledUs_ = monoUs + kLookOnUs;
 }
 
-// Only where it was reached.
+// Only after the limit was reached.
 void GraspStateMachine::measurePeakAfterStop() {
   if (peak_.counts > report_.peakAfterStop->counts) report_.peakAfterStop = peak_;
 }
 
-// "; rose to 3222 after the stop, 16 times the limit: close more slowly", or nothing.
+// Text such as "; rose to 3222 after the stop, 16 times the limit: close more slowly", or empty.
 std::string GraspStateMachine::riseText() const {
   if (!report_.peakAfterStop || report_.peakAfterStop->counts < report_.peak.counts + kRiseCounts)
     return {};
@@ -283,12 +283,12 @@ void GraspStateMachine::endOvershoot() { end(report_.outcome, report_.text + ris
 
 void GraspStateMachine::onCommandFailed(const std::string& why, bool sent, std::int64_t monoUs) {
   if (active() && !sent) return end(GraspOutcome::kRefused, "refused: " + why);
-  // The hand may move all the same: an answer can get lost. A stop is sent again when its time
-  // comes.
+  // The hand may move nevertheless, because an answer can get lost. An unanswered stop is sent
+  // again later.
   if (isMoving()) stopWith(GraspOutcome::kFailed, "failed: " + why, monoUs);
 }
 
-// How long the motion that was sent last can go on without anybody [s]; 0: none is under way.
+// Longest time for which the motion sent last can continue without control [s]; 0 if none runs.
 double GraspStateMachine::remainingMotionS(std::int64_t monoUs) const {
   if (!underWay_) return 0.0;
   if (announcedUs_ > acknowledgedUs_)
@@ -296,7 +296,7 @@ double GraspStateMachine::remainingMotionS(std::int64_t monoUs) const {
   double seconds = 0.0;
   for (std::size_t axis = 0; axis < underWay_->targetDeg.size(); ++axis) {
     const double target = underWay_->targetDeg[axis];
-    // Where no angle has come it may stand anywhere.
+    // Without known angles the axes may be anywhere in their range.
     const double travel =
         anglesDeg_.size() == underWay_->targetDeg.size()
             ? std::abs(target - anglesDeg_[axis])
@@ -308,7 +308,7 @@ double GraspStateMachine::remainingMotionS(std::int64_t monoUs) const {
 
 void GraspStateMachine::onMotionPortGone(const std::string& why, std::int64_t monoUs) {
   if (!active()) return;
-  if (observesOvershoot()) return endOvershoot();  // it has stopped
+  if (observesOvershoot()) return endOvershoot();  // the motion has stopped already
   report_.remainingMotionS = remainingMotionS(monoUs);
   const std::string gone = "the motion port is gone: " + why;
   if (underWay_) {
@@ -330,11 +330,11 @@ void GraspStateMachine::onTactilePortGone(const std::string& why, std::int64_t m
         "the tactile port is gone: " + why + "; the hand holds, nobody watches");
 }
 
-// The text comes last: it may find no memory, and the stop must go out all the same.
+// The text is set last: it may find no memory, and the stop must be sent nevertheless.
 void GraspStateMachine::fault(std::string_view why, std::int64_t monoUs) {
-  if (observesOvershoot()) return endOvershoot();  // it has stopped
+  if (observesOvershoot()) return endOvershoot();  // the motion has stopped already
   if (phase_ == GraspPhase::kStopping) {
-    // The stop is on its way; nothing may follow it.
+    // The stop has been sent; no further motion may follow it.
     if (next_ == Next::kEnd && report_.outcome != GraspOutcome::kNone) return;
     next_ = Next::kEnd;
     report_.outcome = GraspOutcome::kFailed;
@@ -411,7 +411,7 @@ void GraspStateMachine::note(const char* action,
   notes_.push_back({action, text, matrix, limit_});
 }
 
-// Stops the motion, and goes on.
+// Stops the motion; the grasp continues afterwards.
 void GraspStateMachine::pause(Next next, const std::string& text, std::int64_t monoUs) {
   stops_ = 0;
   stopWith(GraspOutcome::kNone, text, monoUs);
@@ -426,8 +426,8 @@ void GraspStateMachine::settle(std::int64_t monoUs) {
   if (endUs_ == 0 && holding.holdS > 0.0) endUs_ = settledUs_ + microsecondsOf(holding.holdS);
 }
 
-// "holding: limit 200 counts; rose to 3331 after the stop, above its highest limit of 2200: close
-// more slowly"
+// Text such as "holding: limit 200 counts; rose to 3331 after the stop, above its highest limit of
+// 2200: close more slowly".
 std::string GraspStateMachine::holdingText() const {
   std::string text = "holding: limit " + std::to_string(limit_) + " counts";
   const int highest = report_.request.holding.maxLimitCounts;
@@ -456,7 +456,8 @@ void GraspStateMachine::respondToSlip(const GripSlip& slip, std::int64_t monoUs)
   const HoldingOptions& holding = report_.request.holding;
   ++report_.slips;
   lastSlipUs_ = monoUs;
-  // Over the limit by what it took to stop: a limit below what is felt would close nothing.
+  // The peak may be above the limit because of the overshoot: with a limit below the present
+  // reading the hand would not close.
   const int felt = std::max(limit_, static_cast<int>(peak_.counts));
   const int raised = std::min(felt + holding.raiseCounts, holding.maxLimitCounts);
   if (raised <= static_cast<int>(peak_.counts)) {
@@ -470,7 +471,7 @@ void GraspStateMachine::respondToSlip(const GripSlip& slip, std::int64_t monoUs)
   note("slip",
        "slips: " + slip.why + "; closing to " + std::to_string(limit_) + " counts",
        slip.matrix);
-  // What is loosening must stop first.
+  // The loosening motion must stop first.
   if (phase_ == GraspPhase::kLoosening) return pause(Next::kClose, "it slips", monoUs);
   move(report_.request.closeRatio, GraspPhase::kClosing, monoUs);
 }
@@ -523,7 +524,7 @@ void GraspStateMachine::onLooseningFrame(std::int64_t monoUs) {
   pause(Next::kClose, "loose enough", monoUs);
 }
 
-// What was felt when it began to slip carried the weight: weight = friction times normal force.
+// The force at the begin of slip carried the weight: weight = friction times normal force.
 void GraspStateMachine::reportFriction(const GripSlip& slip) {
   const HoldingOptions& holding = report_.request.holding;
   report_.countsAtSlip = grip_.sumCounts();

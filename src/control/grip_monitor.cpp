@@ -73,7 +73,7 @@ void GripMonitor::reset() {
 std::optional<GripSlip> GripMonitor::slip() const {
   if (!referenced_) return std::nullopt;
   std::optional<GripSlip> most;
-  double worst = 1.0;  // in thresholds
+  double worst = 1.0;  // relative to its limit
   const auto& motions = tracker_.last();
   for (std::size_t m = 0; m < motions.size(); ++m) {
     const SlipMotion& motion = motions[m];

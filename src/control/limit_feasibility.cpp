@@ -10,12 +10,12 @@
 namespace palpate {
 namespace {
 
-// The firmest a finger presses. At sensitivity 0.5 the largest readings of the recordings (3567
-// counts, thresholds 150 and 300) are about 160 kPa.
+// Largest pressure of a finger. At sensitivity 0.5 the largest readings of the recordings (3567
+// counts, thresholds 150 and 300) correspond to about 160 kPa.
 constexpr double kFirmestKpa = 200.0;
 constexpr double kUsualDegC = 35.0;
 
-// What the sensor's characteristic makes of the firmest grasp [counts]; of an SDH-2 only.
+// Reading for that pressure according to the sensor's characteristic [counts]; SDH-2 only.
 std::optional<double> readingOfTheFirmest(const HandDescription& hand,
                                           std::size_t matrix,
                                           const MatrixSettings& settings) {
@@ -27,7 +27,7 @@ std::optional<double> readingOfTheFirmest(const HandDescription& hand,
          settings.thresholdCounts;
 }
 
-// Why this matrix can't read `needed` counts; empty: it can.
+// Reason why this matrix can't read `needed` counts; empty if it can.
 std::string emptyReason(const HandDescription& hand,
                         std::size_t matrix,
                         const std::optional<MatrixSettings>& settings,
@@ -66,10 +66,10 @@ std::vector<UnmeasurableLimit> unmeasurableLimits(const HandDescription& hand,
   return unfelt;
 }
 
-// Axis 0 turns fingers 0 and 2, then two of each finger (sdh2()).
+// Axis 0 rotates fingers 0 and 2; each finger has two further axes (sdh2()).
 bool movesWith(const Preshape& preshape, const MatrixDescription& matrix) {
   const auto first = static_cast<std::size_t>(1 + 2 * std::max(matrix.finger, 0));
-  if (first + 1 >= preshape.joints.size()) return true;  // not known: it may
+  if (first + 1 >= preshape.joints.size()) return true;  // unknown finger: it may move
   return preshape.joints[first].slopeDeg != 0.0 || preshape.joints[first + 1].slopeDeg != 0.0;
 }
 

@@ -16,12 +16,13 @@
 namespace palpate {
 namespace {
 
-constexpr std::size_t kLeastStamps = 10;  // that tell a rate
+constexpr std::size_t kLeastStamps = 10;  // number of frames needed to measure the rate
 constexpr std::size_t kMostStamps = 64;
-constexpr double kTemperaturesWithinS = 3.0;  // else it goes without
-constexpr std::int64_t kStaleUs = 1'000'000;  // no frame for so long tells no rate
+// time limit for temperatures before the start without them
+constexpr double kTemperaturesWithinS = 3.0;
+constexpr std::int64_t kStaleUs = 1'000'000;  // without a frame for this time no rate is known
 
-// A second or two of frames: whoever calls step() so rarely misses some, and nothing else.
+// Frames of one or two seconds: if step() is called less often, frames are skipped without harm.
 constexpr CaptureQueueOptions kFeed{.tactileItems = 256, .motionItems = 256, .eventItems = 64};
 
 TactileThresholds resetOf(const HandDescription& hand) {
@@ -116,7 +117,7 @@ void SensitivityControl::pollReplies() {
   status_.setting = !pending_.empty();
 }
 
-// Settings differ from what is wanted: sent where the hand may be told.
+// Sends the commands for the wanted settings when the hand may be changed.
 void SensitivityControl::applyWantedSettings() {
   if (!wanted_ || !pending_.empty()) return;
   status_.waiting.clear();
@@ -131,7 +132,7 @@ void SensitivityControl::applyWantedSettings() {
     status_.failure.clear();
     wanted_.reset();
   } catch (const DeviceError& error) {
-    status_.waiting = error.what();  // tried again at the next step
+    status_.waiting = error.what();  // repeated at the next step
   } catch (const std::invalid_argument& error) {
     status_.failure = error.what();
     wanted_.reset();
@@ -171,13 +172,13 @@ void SensitivityControl::processFrames() {
   for (const CaptureItem& item : items_) {
     if (const auto* frame = std::get_if<SharedFrame>(&item)) onFrame(**frame);
     if (const auto* temperatures = std::get_if<Temperatures>(&item)) degC_ = temperatures->degC;
-    // A pause is no slow stream.
+    // A pause of the stream must not count as a low rate.
     if (const auto* event = std::get_if<RecordingEvent>(&item))
       if (event->kind == "settings" || event->kind == "gap") stampsUs_.clear();
   }
 }
 
-// The rate before anything is changed is the usual one.
+// The rate before the first change is the usual one.
 void SensitivityControl::startHighSensitivity() {
   const double usual = rateHz();
   if (!(usual > 0.0) || (degC_.empty() && nowS() - begunS_ < kTemperaturesWithinS)) return;

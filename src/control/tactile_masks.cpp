@@ -25,7 +25,7 @@ Mask wanted(const MatrixLayout& matrix, const Mask& chosen, MaskChoice choice) {
   return mask;
 }
 
-// Where no taxel is, the mask means nothing.
+// Compares masks only where a taxel exists.
 bool sameTaxels(const MatrixLayout& matrix, const Mask& mask) {
   for (std::size_t i = 0; i < mask.size(); ++i)
     if (matrix.staticMask[i] != 0 && (matrix.dynamicMask[i] != 0) != (mask[i] != 0)) return false;

@@ -15,7 +15,7 @@ constexpr int kDefaultThreshold = 150;        // [counts]
 constexpr int kDefaultDistalThreshold = 300;  // [counts]
 constexpr int kMostCounts = 4095;
 
-// Empty: all is well.
+// Returns what is wrong with the settings; empty if they are valid.
 std::string problemOf(const TactileSettings& settings) {
   for (const MatrixSettings& matrix : settings) {
     if (!(matrix.sensitivity >= 0.0 && matrix.sensitivity <= 1.0))
@@ -26,8 +26,8 @@ std::string problemOf(const TactileSettings& settings) {
   return {};
 }
 
-// Commands that make `get` of all matrices what it is in `to`; `command` makes one, for a matrix or
-// for all.
+// Adds the commands that change `get` of all matrices to its value in `to`; `command` creates one,
+// for a matrix or for all.
 template <typename Get, typename MakeCommand>
 void appendCommands(const TactileSettings& from,
                     const TactileSettings& to,
@@ -68,7 +68,8 @@ std::vector<DeviceCommand> commandsBetween(const TactileSettings& from, const Ta
       from,
       to,
       commands,
-      // As the controller keeps it: 0.3 read back is not quite 0.3.
+      // Compared in single precision, as the controller stores it: 0.3 is read back as not quite
+      // 0.3.
       [](const MatrixSettings& matrix) { return static_cast<float>(matrix.sensitivity); },
       [](std::optional<int> matrix, float value) -> DeviceCommand {
         return SetSensitivity{matrix, static_cast<double>(value)};

@@ -38,7 +38,7 @@ std::unique_ptr<ByteChannel> openChannel(const std::string& port, const ChannelO
   if (S_ISDIR(info.st_mode)) refuseKind(port, "a folder");
   if (S_ISREG(info.st_mode)) refuseKind(port, "a file");
   if (!S_ISCHR(info.st_mode)) refuseKind(port, "no serial line");
-  // libserialport 0.1.1 knows devices by their own names only, no links and no ptys.
+  // libserialport 0.1.1 only accepts the device's own name, neither links nor ptys.
   std::error_code failed;
   const std::string path = std::filesystem::canonical(port, failed).string();
   if (failed) throwOpenError(failed.value(), port);

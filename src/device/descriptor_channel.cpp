@@ -22,7 +22,7 @@ using std::chrono::milliseconds;
 
 constexpr milliseconds kWriteLimit{1000};
 
-// Milliseconds until then for poll(): rounded up, so that it doesn't spin through the last one.
+// Milliseconds until the deadline, for poll(); rounded up, so that the last one is not a busy loop.
 int untilMs(DescriptorChannelSteadyClock::time_point deadline) {
   const auto left =
       std::chrono::ceil<milliseconds>(deadline - DescriptorChannelSteadyClock::now()).count();
@@ -53,14 +53,14 @@ std::size_t DescriptorChannel::take(std::span<std::byte> into, short events) {
   if (got > 0) return static_cast<std::size_t>(got);
   if (got < 0) {
     if (wouldBlock(errno) || errno == EINTR) {
-      // Nothing to read, and still hung up or failed: nothing will ever come.
+      // Nothing to read after a hang-up or an error: no further bytes can arrive.
       if ((events & (POLLHUP | POLLERR | POLLNVAL)) != 0) gone(0);
       return 0;
     }
     gone(errno);
   }
   if (isSocket_) gone(0);
-  // A tty gives zero bytes when there is nothing (VMIN 0) as well as after a hang-up.
+  // A tty returns zero bytes when there is nothing to read (VMIN 0) as well as after a hang-up.
   int waiting = 0;
   if ((events & (POLLHUP | POLLERR)) != 0 || ::ioctl(fd_, FIONREAD, &waiting) != 0) gone(0);
   return 0;
@@ -110,7 +110,7 @@ void DescriptorChannel::write(std::span<const std::byte> bytes) {
 
 void DescriptorChannel::interrupt() noexcept {
   const std::uint64_t one = 1;
-  // Fails only when an interruption is pending already.
+  // The write fails only when an interruption is pending already.
   [[maybe_unused]] const ssize_t ignored = ::write(wake_.get(), &one, sizeof one);
 }
 

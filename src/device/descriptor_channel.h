@@ -1,4 +1,5 @@
-// What all channels share: waiting on a file descriptor and on an interruption at the same time.
+// Base class of the byte channels on a file descriptor: waits for the descriptor and for an
+// interruption at the same time.
 #pragma once
 
 #include <string>

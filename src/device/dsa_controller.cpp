@@ -24,7 +24,8 @@ using std::chrono::milliseconds;
 
 constexpr unsigned kAcquire = 0x80;
 constexpr unsigned kDsaControllerRunLength = 0x01;
-constexpr int kPending = 25;  // a second answer with the final code follows
+// Code of a first answer; a second answer with the final code follows.
+constexpr int kPending = 25;
 constexpr std::size_t kDsaControllerReadBytes = 4096;
 
 unsigned errorWord(const std::vector<std::byte>& payload) {
@@ -98,8 +99,7 @@ DsaController::DsaController(ByteChannel& channel,
       options_(std::move(options)),
       buffer_(kDsaControllerReadBytes) {}
 
-// --- reading
-// --------------------------------------------------------------------------------------
+// --- Reading
 
 bool DsaController::take(const DsaPacket& packet) {
   if (packet.id == DsaId::kFrame) {
@@ -134,7 +134,7 @@ std::optional<DsaController::Answer> DsaController::awaitAnswer(DsaId id, millis
       Answer answer = std::move(answers_.front());
       answers_.pop_front();
       if (answer.id == id && answer.payload.size() >= 2) return answer;
-      ++strayAnswers_;  // a late acknowledgement, or one of a request given up
+      ++strayAnswers_;  // late, or the answer to a request that was given up
     }
     if (options_.isCancelled && options_.isCancelled())
       throw DeviceError(DeviceFault::kSilent, channel_.name(), "given up");
@@ -160,15 +160,15 @@ void DsaController::awaitSilence(milliseconds silence, milliseconds limit) {
   flush();
 }
 
-// --- asking
-// ---------------------------------------------------------------------------------------
+// --- Asking
 
 void DsaController::send(DsaId id, const Bytes& payload) {
   channel_.write(dsaRequest(id, payload));
 }
 
 void DsaController::dropLateAnswers() {
-  constexpr int kMostReads = 4;  // a stream never ends
+  // Limit of the number of reads, because a stream never ends.
+  constexpr int kMostReads = 4;
   for (int i = 0; i < kMostReads && poll(milliseconds(0)) > 0; ++i) {
   }
   strayAnswers_ += answers_.size();
@@ -184,7 +184,7 @@ DsaController::Bytes DsaController::request(DsaId id,
                                             std::size_t answerBytes) {
   for (int attempt = 0; attempt < options_.tries; ++attempt) {
     if (attempt > 0) {
-      // A late answer to the try before must not pass for the answer to another question.
+      // A late answer to the previous try must not be taken for the answer to another request.
       awaitSilence(milliseconds(50), options_.answerTimeout);
       ++retries_;
     }
@@ -220,8 +220,7 @@ void DsaController::acquisition(bool on, int rate) {
   request(DsaId::kAcquisition, payload, 2);
 }
 
-// --- streaming
-// ------------------------------------------------------------------------------------
+// --- Streaming
 
 void DsaController::startStream() {
   acquisition(true, 1);
@@ -239,7 +238,7 @@ bool DsaController::stopStreamOnce(milliseconds limit) {
   Bytes payload = {static_cast<std::byte>(options_.runLength ? kDsaControllerRunLength : 0u)};
   appendLittleEndian(payload, 0, 2);
   send(DsaId::kAcquisition, payload);
-  // leaving: asked to give up already
+  // This stop is sent while leaving, when isCancelled() returns true already.
   const auto isCancelled = std::exchange(options_.isCancelled, nullptr);
   std::optional<Answer> answer;
   try {
@@ -271,10 +270,10 @@ DsaControllerStats DsaController::stats() const {
   return {parser_.stats(), retries_, strayAnswers_};
 }
 
-// --- opening
-// --------------------------------------------------------------------------------------
+// --- Opening
 
-// The blank line ends what a motion controller may have half received.
+// Sends `ver`, which only a motion controller answers. The blank line before it ends a command that
+// such a controller has received in part.
 bool DsaController::looksLikeMotionController() {
   static constexpr std::string_view kQuestion = " \r\nver\r\n";
   channel_.write(std::as_bytes(std::span(kQuestion)));
@@ -290,7 +289,8 @@ bool DsaController::looksLikeMotionController() {
 
 const DsaControllerInfo& DsaController::open() {
   streaming_ = false;
-  // Stop what an earlier client left running. A controller that boots is deaf: ask again.
+  // Stops a stream that an earlier client left running. A booting controller does not answer, so
+  // the stop is repeated.
   Bytes stop;
   stop.push_back(static_cast<std::byte>(options_.runLength ? kDsaSettingsRunLength : 0u));
   appendLittleEndian(stop, 0, 2);
@@ -382,7 +382,7 @@ Mask DsaController::readMask(int type, std::size_t matrix) {
   return unpackMask(std::span(answer).subspan(2), places);
 }
 
-// Older firmware doesn't know the question: then the masks stay unknown (all on).
+// Older firmware doesn't know this request; the masks stay unknown then (all on).
 void DsaController::readMasks() {
   const int tries = std::exchange(options_.tries, 1);
   try {
@@ -404,8 +404,7 @@ void DsaController::readMasks() {
   options_.tries = tries;
 }
 
-// --- settings
-// -------------------------------------------------------------------------------------
+// --- Settings
 
 void DsaController::checkMatrix(std::size_t matrix) const {
   if (matrix >= facts_.matrices.size())

@@ -15,7 +15,8 @@ constexpr std::size_t kFramingBytes = 8;  // preamble, id, size, checksum
 constexpr unsigned kRunLengthFlag = 1;
 constexpr unsigned kDsaFrameMaxCounts = 0x0FFF;
 
-// Not by core/byte_order.h: once per taxel, and a loop over two bytes is slower.
+// core/byte_order.h is not used here: this runs once per taxel, and a loop over two bytes is
+// slower.
 unsigned unitAt(const std::byte* at) {
   return std::to_integer<unsigned>(at[0]) | std::to_integer<unsigned>(at[1]) << 8;
 }
@@ -77,11 +78,11 @@ std::optional<DsaFrame> decodeDsaFrame(std::span<const std::byte> payload,
   return frame;
 }
 
-// --- clock ---------------------------------------------------------------------------------------
+// --- Clock
 
 namespace {
-// How far ahead of the host's clock the controller's may run between two frames [ms]: a controller
-// that was held up hands over late, never early; emulated ones may run faster than time.
+// Limit by which the controller's clock may be ahead of the host's between two frames [ms]. A
+// delayed controller sends late, never early; emulated controllers may run faster than real time.
 constexpr double kAheadMs = 10'000.0;
 }  // namespace
 
@@ -89,7 +90,8 @@ bool DsaClock::follows(std::uint32_t stampMs,
                        std::int64_t hostUs,
                        std::uint32_t last,
                        std::int64_t lastUs) const noexcept {
-  const auto ahead = static_cast<std::int32_t>(stampMs - last);  // also across the wrap at 2^32
+  // also correct across the wrap at 2^32
+  const auto ahead = static_cast<std::int32_t>(stampMs - last);
   const double hostMs = static_cast<double>(std::max<std::int64_t>(hostUs - lastUs, 0)) / 1000.0;
   return ahead > 0 && static_cast<double>(ahead) <= hostMs * 1.01 + kAheadMs;
 }
@@ -119,12 +121,16 @@ DsaClock::FrameAcceptance DsaClock::checkStamp(std::uint32_t stampMs, std::int64
   return wasHeld ? FrameAcceptance::kReplaceHeld : FrameAcceptance::kHold;
 }
 
-// --- loss ----------------------------------------------------------------------------------------
+// --- Loss
 
 namespace {
-constexpr std::size_t kRecent = 32;  // intervals that the estimate rests on
-constexpr std::size_t kEnough = 8;   // of them before anything is called lost
-constexpr double kMissing = 1.75;    // periods; stamps of real hands jitter by a quarter
+// Number of intervals used for the estimate.
+constexpr std::size_t kRecent = 32;
+// Number of intervals needed before a frame counts as lost.
+constexpr std::size_t kEnough = 8;
+// An interval over this many periods means lost frames; stamps of real hands vary by a quarter
+// period.
+constexpr double kMissing = 1.75;
 }  // namespace
 
 bool DsaLossEstimate::known() const noexcept { return recentMs_.size() >= kEnough; }
@@ -148,7 +154,7 @@ std::uint64_t DsaLossEstimate::next(std::int64_t deviceMs, std::size_t packetByt
   std::uint64_t missing = 0;
   if (known() && interval > kMissing * expected)
     missing = static_cast<std::uint64_t>(std::llround(interval / expected)) - 1;
-  // Frames that the line held up say nothing about the scan, except that it is no slower.
+  // Frames that were delayed by the line only give an upper limit of the scan period.
   const double scanned = interval / static_cast<double>(missing + 1);
   if (recentMs_.size() < kRecent) {
     recentMs_.push_back(scanned);
@@ -156,7 +162,7 @@ std::uint64_t DsaLossEstimate::next(std::int64_t deviceMs, std::size_t packetByt
     recentMs_[nextRecent_] = scanned;
     nextRecent_ = (nextRecent_ + 1) % kRecent;
   }
-  // The middle half's mean: stamps are whole milliseconds, so a median would be one, too.
+  // Mean of the middle half: stamps are whole milliseconds, and so would be a median.
   std::vector<double> sorted = recentMs_;
   std::sort(sorted.begin(), sorted.end());
   const std::size_t quarter = sorted.size() / 4;

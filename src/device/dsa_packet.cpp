@@ -17,7 +17,7 @@ constexpr std::size_t kPreambleBytes = 3;
 constexpr std::size_t kDsaPacketHeaderBytes = 6;
 constexpr std::size_t kDsaPacketChecksumBytes = 2;
 constexpr std::size_t kFrameHeaderBytes = 5;  // time stamp, flags
-// Largest answer that is no frame: a descriptor string, or the echo of a loop test.
+// Largest answer that is not a frame: a descriptor string, or the echo of a loop test [bytes].
 constexpr std::size_t kLargestAnswer = 258;
 
 std::size_t u16At(std::span<const std::byte> bytes, std::size_t at) {
@@ -55,7 +55,7 @@ bool DsaPacketParser::plausible(std::uint8_t id, std::size_t size) const noexcep
     case DsaId::kSetThreshold:
     case DsaId::kSetDynamicMask:
       return size == 2;
-    // Masks, strings, echoes, and what newer firmware may add (no id is AA: a run of AA is
+    // Masks, strings, echoes, and answers that newer firmware may add (no id is AA: a run of AA is
     // preamble).
     default:
       return id != 0xAA && size > 0 && size <= kLargestAnswer;
@@ -106,7 +106,8 @@ std::size_t DsaPacketParser::consume(std::span<const std::byte> in, const Sink& 
 
 void DsaPacketParser::push(std::span<const std::byte> bytes, const Sink& sink) {
   stats_.bytes += bytes.size();
-  if (pending_.empty()) {  // the usual case: whole packets, parsed where they lie
+  // The usual case: whole packets are parsed in place.
+  if (pending_.empty()) {
     const std::size_t done = consume(bytes, sink);
     pending_.assign(bytes.begin() + static_cast<std::ptrdiff_t>(done), bytes.end());
     return;

@@ -15,7 +15,8 @@ namespace palpate {
 namespace {
 
 constexpr double kLargestFullScale = 65'535.0;
-constexpr std::size_t kMostPlaces = (0xFFFF - 5) / 2;  // of a frame: stamp, flags, two bytes each
+// Places of a frame with the largest u16 size: 5 bytes for stamp and flags, two bytes per place.
+constexpr std::size_t kMostPlaces = (0xFFFF - 5) / 2;
 
 double finite(float value) { return std::isfinite(value) ? static_cast<double>(value) : 0.0; }
 
@@ -46,18 +47,18 @@ DsaMatrixInfo readMatrixRecord(std::span<const std::byte> record) {
   const double heightMm = finite(in.f32());
   const int columns = in.u16();
   const int rows = in.u16();
-  // Before anything is allocated by them.
+  // Checked before memory of this size is allocated.
   if (rows < 1 || rows > 256 || columns < 1 || columns > 256)
     throw std::invalid_argument("a matrix of " + std::to_string(columns) + " x " +
                                 std::to_string(rows) + " taxels");
   if (!(widthMm > 0.0 && widthMm < 1000.0) || std::abs(widthMm - heightMm) > 1e-3)
     throw std::invalid_argument("a taxel of " + std::to_string(widthMm) + " x " +
                                 std::to_string(heightMm) + " mm");
-  // 3.4, not the 3.4000000953 of a 32-bit float.
+  // Rounded, so that 3.4 is not read as 3.4000000953, the nearest 32-bit float.
   facts.layout = MatrixLayout::full(rows, columns, std::round(widthMm * 1e5) / 1e5);
   const auto id = in.take(6);
   for (const std::byte b : id) facts.uniqueId.push_back(std::to_integer<std::uint8_t>(b));
-  // A sensor without one reads all zeros or all ones.
+  // A sensor without an id reads all zeros or all ones.
   const auto isBlank = [&](std::byte blank) {
     return std::all_of(id.begin(), id.end(), [&](std::byte b) { return b == blank; });
   };
@@ -66,7 +67,7 @@ DsaMatrixInfo readMatrixRecord(std::span<const std::byte> record) {
   facts.hardwareRevision = in.u8();
   for (double& centre : facts.centreMm) centre = finite(in.f32());
   for (double& rotation : facts.rotationDeg) rotation = finite(in.f32());
-  // Sources disagree whether it is a whole number or a float: one of the readings makes sense.
+  // The sources disagree whether this is a whole number or a float; the plausible reading is taken.
   const std::uint32_t scale = in.u32();
   facts.fullScale = scale >= 1 && scale <= kLargestFullScale ? static_cast<double>(scale)
                                                              : finite(std::bit_cast<float>(scale));

@@ -36,7 +36,7 @@ void LiveHandOptions::validate() const {
 
 struct LiveHand::Impl {
   Impl(const LiveHandOptions& options, const Clock& clock) : time(clock) {
-    // A plug that comes back may get another number; its name under /dev/serial/by-id stays.
+    // A replugged port may get another number, but its name under /dev/serial/by-id stays the same.
     PortLink::Open open = options.open;
     if (!open)
       open = [stable = std::string()](const std::string& port) mutable {
@@ -104,7 +104,7 @@ void LiveHand::start(DeviceSink& sink) {
       });
     }
   } catch (...) {
-    stop();  // no second thread could be had: the first one must not be left alone
+    stop();  // the second thread could not be created: end the first one, too
     throw;
   }
 }

@@ -14,13 +14,14 @@
 namespace palpate {
 namespace {
 
-constexpr std::int64_t kStatesPeriodUs = 50'000;  // while a motion runs
-constexpr int kMotionLinkPositioning = 1;         // axis states of the SDH-2
+// period of requests for the axis states while a motion runs
+constexpr std::int64_t kStatesPeriodUs = 50'000;
+constexpr int kMotionLinkPositioning = 1;  // axis states of the SDH-2
 constexpr int kMotionLinkSpeedMode = 2;
 constexpr int kSinSquareProfile = 0;
 constexpr int kRampProfile = 1;
 
-// Before a byte is sent. NaN is in no range.
+// Checks values before a byte is sent. NaN is outside every range.
 void checkAxes(const char* what,
                const char* unit,
                const std::vector<double>& values,
@@ -72,7 +73,8 @@ bool MotionLink::stopWaits() const {
          std::holds_alternative<StopMotion>(commandQueue_.front().command);
 }
 
-// Under mutex_. Stop goes ahead of all; what would move the hand after it is dropped.
+// Requires mutex_. A stop goes before all other commands; waiting commands that would move the hand
+// after it are dropped.
 void MotionLink::enqueue(QueuedCommand order) {
   if (!std::holds_alternative<StopMotion>(order.command)) {
     commandQueue_.push_back(std::move(order));
@@ -96,8 +98,8 @@ void MotionLink::connect(ByteChannel& channel) {
   controller_ = std::make_unique<SdhController>(channel, clock_, options);
   const bool leftMoving = stopAfterReconnect_;
   if (leftMoving) {
-    // The port went away during a motion: nobody watched it. Stop, whatever it is doing, ahead of
-    // all questions.
+    // The port disappeared during a motion, which therefore ran without control. Send a stop before
+    // any other request.
     controller_->stop();
     stopAfterReconnect_ = false;
     eventNow("motion", "stopped: the motion port had been gone during a motion");
@@ -108,7 +110,7 @@ void MotionLink::connect(ByteChannel& channel) {
                       port_,
                       "another hand answers here than before; connect again if that is intended");
   if (!leftMoving && anyMoves(controller_->states())) {
-    // A program that died has left it so, or one on another port.
+    // The motion was left by a program that died, or by one on another port.
     controller_->stop();
     eventNow("motion", "stopped: the hand was moving when it was connected, watched by nobody");
   }
@@ -169,7 +171,7 @@ void MotionLink::work() {
   try {
     executeCommands();
   } catch (const SdhInterrupted&) {
-    // A motion given up for a stop, which waits: the line is in order.
+    // A motion was ended early for a waiting stop; the connection is in order.
     return;
   }
   if (stopping()) return;
@@ -182,7 +184,7 @@ void MotionLink::work() {
       session_.nextStatesUs = nowUs + kStatesPeriodUs;
       pollStates();
     } else if (nowUs >= session_.nextAnglesUs) {
-      // Without catching up: after a delay there is no burst.
+      // After a delay, missed requests are not made up for, so that there is no burst.
       session_.nextAnglesUs = std::max(session_.nextAnglesUs + anglePeriodUs_, nowUs);
       pollAngles();
     } else {
@@ -191,7 +193,7 @@ void MotionLink::work() {
     }
     session_.failures = 0;
   } catch (const DeviceError& error) {
-    // An urgent order cuts an exchange short: no failure of the line.
+    // An urgent command ends an exchange early; this is no failure of the connection.
     if (stopping() || stopWaits()) return;
     if (error.fault() == DeviceFault::kDisconnected || ++session_.failures >= 2) throw;
     setState(PortState::kSilent, error.what());
@@ -250,10 +252,12 @@ CommandAnswer MotionLink::move(const MoveJoints& move) {
   if (!move.velocityDegPerS.empty()) controller_->setVelocities(move.velocityDegPerS);
   controller_->setTargets(move.targetDeg);
   session_.motionFromUs = time_.nowUs();
-  session_.moving = true;  // also when the answer gets lost: then it may be moving
+  // Set even if the answer gets lost, because the hand may move then, too.
+  session_.moving = true;
   CommandAnswer answer;
   {
-    // Until they are asked: whoever waits for the end mustn't take the states of before for it.
+    // Until the states are read, so that a caller that waits for the end of the motion does not see
+    // the states from before it.
     std::lock_guard lock(mutex_);
     states_.assign(axes.size(), kMotionLinkPositioning);
   }

@@ -1,4 +1,4 @@
-// The thread of the motion port: joint angles and temperatures out, motion in.
+// Thread of the motion port in LiveHand: delivers joint angles and temperatures, executes motions.
 #pragma once
 
 #include <memory>
@@ -21,7 +21,7 @@ class MotionLink : public PortLink {
              const Clock& clock);
   ~MotionLink() override;
 
-  std::vector<int> axisStates() const;  // any thread
+  std::vector<int> axisStates() const;  // may be called from any thread
   std::optional<SdhControllerInfo> facts() const;
 
  protected:
@@ -47,20 +47,21 @@ class MotionLink : public PortLink {
   const std::int64_t temperaturePeriodUs_;
   std::unique_ptr<SdhController> controller_;
 
-  std::optional<SdhControllerInfo> known_;  // under mutex_
-  std::vector<int> states_;                 // under mutex_
+  std::optional<SdhControllerInfo> known_;  // requires mutex_
+  std::vector<int> states_;                 // requires mutex_
 
-  bool stopAfterReconnect_ = false;  // the port went away during a motion
-  // Of one session, from begin() to finish().
+  // True when the port disappeared during a motion.
+  bool stopAfterReconnect_ = false;
+  // State of one session, from begin() to finish().
   struct Session {
-    bool moving = false;            // a motion that we began hasn't ended
+    bool moving = false;            // a motion begun by us has not ended
     std::int64_t motionFromUs = 0;  // host time
-    std::int64_t nextAnglesUs = 0;  // monotonic
+    std::int64_t nextAnglesUs = 0;  // monotonic time
     std::int64_t nextTemperaturesUs = 0;
     std::int64_t nextStatesUs = 0;
     std::int64_t lastAngleStampUs = 0;
     std::int64_t lastTemperatureStampUs = 0;
-    int failures = 0;  // exchanges in a row that failed
+    int failures = 0;  // consecutive failed exchanges
     SdhStats before;
     std::uint64_t samples = 0;
   };

@@ -10,13 +10,14 @@
 namespace palpate {
 namespace {
 constexpr std::int64_t kRetryUs = 100'000;  // between two attempts to open a port that is gone
-constexpr std::int64_t kFaultRetryUs = 1'000'000;  // after a failure of the program
+constexpr std::int64_t kFaultRetryUs = 1'000'000;  // after an unexpected exception
 
-// A pseudo-terminal named by its number, not by a link. Once it is gone the number may belong to
-// anybody: to another program's terminal.
+// True for a pseudo-terminal named by its number, not by a link. Once it is gone, the number may
+// belong to a terminal of another program.
 bool namesAPtyByNumber(const std::string& port) { return port.starts_with("/dev/pts/"); }
 
-// Where memory is short one thing may fail, and the next must be done all the same.
+// Runs `work` and ignores exceptions: when memory is short one step may fail, but the next must run
+// nevertheless.
 template <typename Work>
 void whateverHappens(Work&& work) noexcept {
   try {
@@ -170,7 +171,7 @@ void PortLink::closeAfterError(const DeviceError& error) {
   setState(wasConnected_ ? PortState::kLost : PortState::kConnecting, error.what());
   if (const auto* other = dynamic_cast<const WrongControllerError*>(&error))
     updateStatus([&](PortStatus& status) { status.found = other->found(); });
-  // Said once, not ten times a second.
+  // Reported once, not ten times a second.
   if (std::exchange(lastFailure_, error.what()) != error.what())
     eventNow(wasConnected_ ? "alarm" : "link", error.what());
 }
@@ -179,7 +180,7 @@ void PortLink::finish() noexcept {
   try {
     if (channel_) closing();
   } catch (...) {
-    // The port went away while we said goodbye: it is closed all the same.
+    // The port disappeared during closing(); it is closed in any case.
   }
   whateverHappens([&] { ended(); });
   whateverHappens([&] { rejectCommands("the hand was stopped"); });
@@ -208,7 +209,7 @@ void PortLink::executeCommands() {
         throw;
     } catch (const std::invalid_argument&) {
       order->answer.set_exception(
-          std::current_exception());  // the caller's fault: nothing was sent
+          std::current_exception());  // an error of the caller: nothing was sent
     } catch (...) {
       order->answer.set_exception(std::current_exception());
       throw;
@@ -262,7 +263,7 @@ void PortLink::eventNow(const std::string& kind, const std::string& text) {
 }
 
 std::int64_t PortLink::stampAfter(std::int64_t& lastUs) const {
-  // 0: none yet. A wrong clock may stand before 1970.
+  // lastUs is 0 before the first stamp. A wrong clock may give times before 1970.
   const std::int64_t nowUs = time_.nowUs();
   lastUs = lastUs == 0 ? nowUs : std::max(lastUs + 1, nowUs);
   if (lastUs == 0) lastUs = 1;

@@ -1,5 +1,5 @@
-// What the threads of the two ports have in common: orders with answers, a status to read from
-// outside, connecting, losing and finding the port again.
+// Base class of the threads of both ports in LiveHand: commands with answers, a status for other
+// threads, connecting, and reconnecting after the port disappeared.
 #pragma once
 
 #include <atomic>
@@ -34,43 +34,45 @@ class PortLink {
   PortLink(const PortLink&) = delete;
   PortLink& operator=(const PortLink&) = delete;
 
-  // Any thread.
+  // May be called from any thread.
   std::future<CommandAnswer> submit(DeviceCommand command);
   PortStatus status() const;
   void requestStop() noexcept;
 
-  // The port's thread: step() until requestStop(), then finish().
+  // Called by the port's thread: begin(), step() until requestStop(), then finish().
   void begin(DeviceSink& sink);
-  // Whatever is thrown inside ends here: where it is no trouble of the port (a bug, no memory left)
-  // the hand is stopped, the port closed and tried anew a second later.
+  // Runs one round and catches every exception. If the cause is not the port (a bug, no memory
+  // left), the hand is stopped, and the port is closed and opened again a second later.
   void step() noexcept;
   void finish() noexcept;
   bool stopping() const noexcept { return stopping_; }
 
  protected:
-  // Talks to a device behind a port that was just opened, until data can come. Throws DeviceError.
+  // Communicates with the device behind a port that was just opened, until it delivers data. Throws
+  // DeviceError.
   virtual void connect(ByteChannel& channel) = 0;
-  // One round: orders, data. Must return within 100 ms when nothing is wrong.
+  // One round of commands and data. Must return within 100 ms when nothing is wrong.
   virtual void work() = 0;
-  // The port is gone or given up; the channel still exists.
+  // The port disappeared or is given up; the channel still exists.
   virtual void disconnected() = 0;
-  // The program failed, and the port will be closed: nothing may be left moving.
+  // An unexpected exception occurred and the port will be closed: stops every motion.
   virtual void emergencyStop() {}
-  // After the last round, whether the port is open or not.
+  // Called after the last round, whether the port is open or not.
   virtual void ended() {}
-  // Before the first round of a session: what was counted and seen in the one before is forgotten.
+  // Called before the first round of a session: resets the counts and state of the previous
+  // session.
   virtual void forget() {}
-  virtual void closing() = 0;  // last words on an open port, before stop() returns
+  virtual void closing() = 0;  // called on an open port before stop() returns
   virtual CommandAnswer execute(const DeviceCommand& command) = 0;
 
-  // Takes orders one by one; an order that fails carries its exception. DeviceErrors that mean the
-  // port is gone are thrown on.
+  // Executes the waiting commands one by one; the answer of a failed command contains its
+  // exception. A DeviceError that means the port is gone is thrown again.
   void executeCommands();
   void rejectCommands(const std::string& why);
   bool hasQueuedCommands() const;
-  // Waits for an order, at most until a monotonic time [us].
+  // Waits for a command, at most until a monotonic time [us].
   void waitForCommand(std::int64_t untilUs);
-  // Stops: StopMotion goes ahead, and moves that wait are dropped.
+  // Adds a command. StopMotion goes before all others, and waiting motions are dropped.
   virtual void enqueue(QueuedCommand order);
 
   void setState(PortState state, const std::string& message = {});
@@ -86,13 +88,14 @@ class PortLink {
              std::optional<int> matrix = {},
              const std::string& json = {});
   void eventNow(const std::string& kind, const std::string& text);
-  // Since start(); a device that answers now should be the same one.
+  // True if a device answered since start(); a device that answers now should be the same one.
   bool wasConnected() const noexcept { return wasConnected_; }
-  // A stamp later than the last one given for `lastUs` [us since 1970].
+  // Returns the present host time, or lastUs + 1 if that is later [us since 1970]; stores it in
+  // `lastUs`.
   std::int64_t stampAfter(std::int64_t& lastUs) const;
 
   const std::string port_;
-  const std::string what_;  // "tactile controller"
+  const std::string what_;  // such as "tactile controller"
   const HostTime& time_;
   const Clock& clock_;
   DeviceSink* sink_ = nullptr;
@@ -108,7 +111,8 @@ class PortLink {
   Open open_;
   std::condition_variable commandQueued_;
   PortStatus status_;
-  std::unique_ptr<ByteChannel> channel_;  // replaced by the port's thread only, under mutex_
+  // Replaced only by the port's thread, under mutex_.
+  std::unique_ptr<ByteChannel> channel_;
   bool wasConnected_ = false;
   bool permanentlyFailed_ = false;
   std::int64_t nextTryUs_ = 0;

@@ -44,8 +44,8 @@ std::vector<PortInfo> listPorts(const fs::path& byIdFolder) {
   if (sp_list_ports(&found) != SP_OK) return ports;
   const std::unique_ptr<sp_port*, void (*)(sp_port**)> owner(found, sp_free_port_list);
   for (sp_port** port = found; *port; ++port) ports.push_back(infoOf(*port, byIdFolder));
-  // The kernel knows ports whose device file isn't there, in a container for instance: nobody can
-  // open them.
+  // The kernel may list ports whose device file doesn't exist, for instance in a container; they
+  // can't be opened.
   std::erase_if(ports, [](const PortInfo& port) {
     std::error_code failed;
     return !fs::exists(port.name, failed);

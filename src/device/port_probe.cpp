@@ -21,11 +21,13 @@ namespace {
 using std::chrono::milliseconds;
 
 constexpr milliseconds kPortProbeSlice{20};
-constexpr milliseconds kVersionWait{500};  // twice: a first ver may end somebody's half command
+// Used twice, because the first `ver` may only end an incomplete command of another program.
+constexpr milliseconds kVersionWait{500};
 constexpr milliseconds kSerialWait{300};
 constexpr milliseconds kStopWait{300};
 constexpr milliseconds kQueryWait{500};
-constexpr std::string_view kBootSign = "\x1B[5n";  // a tactile controller that boots, for 8 s
+// Sent by a tactile controller while it boots, for 8 s.
+constexpr std::string_view kBootSign = "\x1B[5n";
 
 class Prober {
  public:
@@ -44,7 +46,7 @@ class Prober {
     channel_.write(std::as_bytes(std::span<const char>(text.data(), text.size())));
   }
 
-  // Reads until `done`, at most `limit`.
+  // Reads until `done` returns true, at most for `limit`.
   void listen(milliseconds limit, const std::function<bool()>& done) {
     const std::int64_t endUs = clock_.monotonicUs() + usOf(limit);
     std::vector<std::byte> buffer(1024);
@@ -89,7 +91,8 @@ class Prober {
   bool askMotion() {
     for (int tries = 0; tries < 2 && !version_ && tactilePackets_ == 0 && !stopped(); ++tries) {
       send(" \r\nver\r\n");
-      // Packets of a tactile controller that streams: no need to wait for the other one.
+      // When packets of a streaming tactile controller arrive, there is no need to wait for the
+      // other one.
       listen(kVersionWait, [this] { return version_.has_value() || tactilePackets_ > 0; });
     }
     if (!version_) return false;
@@ -137,7 +140,7 @@ class Prober {
     return probe;
   }
 
-  // Acquisition off; the bytes of the protocol document: AA AA AA 03 03 00 01 00 00 2F 6A.
+  // Acquisition off, as in the protocol document: AA AA AA 03 03 00 01 00 00 2F 6A.
   static constexpr std::byte kStop[] = {std::byte{1}, std::byte{0}, std::byte{0}};
 
   ByteChannel& channel_;
@@ -150,7 +153,7 @@ class Prober {
   std::optional<DsaControllerInfo> tactile_;
   std::size_t tactilePackets_ = 0;
   std::size_t bytes_ = 0;
-  std::string recent_;  // the last few bytes
+  std::string recent_;  // the last bytes received
   bool boots_ = false;
   bool acknowledged_ = false;
 };
@@ -202,7 +205,7 @@ PortProbe probePort(const std::string& port, const PortProbeOptions& options, co
   } catch (const DeviceError& error) {
     probe.answer = answerOf(error.fault());
     const std::string text = error.what();
-    const std::string prefix = port + ": ";  // stands in a column of its own
+    const std::string prefix = port + ": ";  // the port's name is shown in a column of its own
     probe.message = text.starts_with(prefix) ? text.substr(prefix.size()) : text;
   } catch (const Error& error) {
     probe.answer = PortAnswer::kNotFound;

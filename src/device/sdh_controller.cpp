@@ -19,8 +19,8 @@ namespace {
 using std::chrono::milliseconds;
 using SdhControllerValues = SdhController::Values;
 
-// An echoed target that differs by more was not understood: lines have few decimals, records 24
-// bits.
+// If an echoed target differs by more than this, the hand misunderstood the command. Lines have few
+// decimals, records 24 bits.
 constexpr double kEchoDeg = 0.5;
 constexpr int kSdhControllerPositioning = 1;
 constexpr int kSdhControllerSpeedMode = 2;
@@ -35,7 +35,7 @@ SdhControllerValues ofAxes(Get get) {
 using std::chrono::milliseconds;
 using SdhSettingsValues = SdhController::Values;
 
-constexpr double kAnyGain = 1e9;  // their sensible range isn't documented
+constexpr double kAnyGain = 1e9;  // the sensible range of the gains isn't documented
 
 int checkedChoice(const std::string& what, int value, int most) {
   if (value < 0 || value > most)
@@ -88,8 +88,7 @@ SdhController::~SdhController() = default;
 
 SdhStats SdhController::stats() const noexcept { return link_->stats(); }
 
-// --- opening
-// --------------------------------------------------------------------------------------
+// --- Opening
 
 const SdhControllerInfo& SdhController::open() {
   DsaPacketParser tactile;
@@ -99,10 +98,10 @@ const SdhControllerInfo& SdhController::open() {
   } const watch{*link_};
   link_->watch([&](SdhLink::Bytes bytes) { tactile.push(bytes, [](const DsaPacket&) {}); });
   const std::uint64_t readBefore = link_->stats().bytesRead;
-  link_->sendText(" \r\n");  // ends a command that somebody before us left unfinished
+  link_->sendText(" \r\n");  // ends an incomplete command of another program
   link_->drain(milliseconds(100), milliseconds(300));
   try {
-    // Where tactile frames come in, one try is enough.
+    // If tactile frames arrive, one try is enough.
     facts_.firmware = word("ver", {.tries = tactile.stats().packets > 0 ? 1 : 3});
   } catch (const SdhInterrupted&) {
     throw;
@@ -128,8 +127,8 @@ const SdhControllerInfo& SdhController::open() {
 
 void SdhController::readInfo() {
   const SdhRetryPolicy briefly{.timeout = milliseconds(500), .tries = 2};
-  // Older firmware knows not all of these: it refuses, or keeps silent (then the others aren't
-  // asked).
+  // Older firmware doesn't know all of these requests: it refuses them, or does not answer (then
+  // the others are skipped).
   bool answers = true;
   const auto ifTold = [&](const auto& ask) {
     if (!answers) return;
@@ -155,7 +154,7 @@ void SdhController::readInfo() {
   ifTold([&] { facts_.soc = word("soc", briefly); });
   ifTold([&] { facts_.serial = word("sn", briefly); });
   ifTold([&] { facts_.id = word("id", briefly); });
-  // These decide what may be sent: newer firmware has to tell them.
+  // These values decide which commands may be sent, so newer firmware must report them.
   const SdhFirmware firmware = SdhFirmware::parse(facts_.firmware);
   if (firmware.atLeast(0, 0, 2, 1)) facts_.maximumVelocity = velocityLimits();
   if (firmware.atLeast(0, 0, 2, 7)) facts_.maximumAcceleration = accelerationLimits();
@@ -171,8 +170,7 @@ void SdhController::needFirmware(const std::string& what, int a, int b, int c, i
                   (facts_.firmware.empty() ? "not been opened" : facts_.firmware));
 }
 
-// --- asking
-// ---------------------------------------------------------------------------------------
+// --- Asking
 
 std::string SdhController::word(const std::string& command, const SdhRetryPolicy& retryPolicy) {
   std::string name = command;
@@ -228,8 +226,7 @@ SdhControllerValues SdhController::withAxis(std::size_t axis,
   return values;
 }
 
-// --- state
-// ----------------------------------------------------------------------------------------
+// --- State
 
 SdhControllerValues SdhController::angles() { return exchange(sdh::kAngle, {}); }
 SdhControllerValues SdhController::velocities() { return exchange(sdh::kVelocity, {}); }
@@ -253,8 +250,7 @@ SdhControllerValues SdhController::temperatures() {
   return numbers("temp", "TEMP", std::nullopt, sdh::kTemperature, kSdhTemperatures, {});
 }
 
-// --- targets
-// --------------------------------------------------------------------------------------
+// --- Targets
 
 SdhControllerValues SdhController::setTargets(const SdhControllerValues& deg) {
   checkSdhValues(sdh::kTarget,
@@ -331,8 +327,7 @@ SdhControllerValues SdhController::setAxisPower(std::size_t axis, bool on) {
   return setPower(withAxis(axis, power(), on ? 1.0 : 0.0));
 }
 
-// --- motion
-// ---------------------------------------------------------------------------------------
+// --- Motion
 
 double SdhController::move() {
   constexpr SdhRetryPolicy kOnce{.tries = 1};
@@ -345,7 +340,8 @@ double SdhController::move() {
         dynamic_cast<const SdhInterrupted*>(&error) || !link_->mayBeLost())
       throw;
   }
-  // The question may be lost, or its answer only: a second `m` in mid-motion would be a jerk.
+  // Either the request or only its answer was lost; a second `m` during the motion would cause a
+  // jerk.
   const std::vector<int> now = states();
   const bool moves = std::any_of(now.begin(), now.end(), [](int state) {
     return state == kSdhControllerPositioning || state == kSdhControllerSpeedMode;
@@ -466,7 +462,7 @@ void SdhController::savePositions(const std::vector<int>& axes) {
   const SdhQuantity quantity{SdhCommand::kSavePosition, "choice", "", 0.0, 1.0, true};
   const SdhSettingsValues values = asNumbers(axes);
   checkSdhValues(quantity, values, 0.0, 1.0);
-  const SdhRetryPolicy once{.tries = 1};  // the flash wears
+  const SdhRetryPolicy once{.tries = 1};  // a single try, because the flash wears
   link_->ask(
       sdhLineRequest("pos_save", std::nullopt, values),
       "POS_SAVE",

@@ -11,19 +11,20 @@ namespace {
 using std::chrono::milliseconds;
 
 constexpr std::size_t kSdhLinkReadBytes = 1024;
-constexpr milliseconds kSilence{50};      // then nothing of an old answer comes any more
-constexpr milliseconds kDrainLimit{300};  // of a line that never falls silent
-constexpr milliseconds kGap{150};         // within an answer: the rest of it was lost
-// An answer in order takes 3.4 ms; a stop doesn't wait for one that takes longer than this.
+constexpr milliseconds kSilence{50};      // after this time no more bytes of an old answer arrive
+constexpr milliseconds kDrainLimit{300};  // limit for a line that never falls silent
+constexpr milliseconds kGap{150};  // a longer gap within an answer means that the rest was lost
+// A normal answer takes 3.4 ms; a stop does not wait for one that takes longer than this.
 constexpr milliseconds kUrgentAfter{10};
-constexpr milliseconds kSdhLinkSlice{4};  // how often `urgent` is asked while waiting
+constexpr milliseconds kSdhLinkSlice{4};  // period of calling `urgent` while waiting
 constexpr milliseconds kExchangeLimit{3500};
 
 std::span<const std::byte> bytesOf(std::string_view text) {
   return std::as_bytes(std::span<const char>(text.data(), text.size()));
 }
 
-// The hand understood something else than was sent: worth another try.
+// True for errors that mean the hand received something else than was sent; another try may
+// succeed.
 bool isTransmissionError(int code) {
   constexpr int kCodes[] = {7, 10, 11, 12, 13, 14, 32, 33, 34};
   return std::find(std::begin(kCodes), std::end(kCodes), code) != std::end(kCodes);
@@ -49,8 +50,7 @@ SdhStats SdhLink::stats() const noexcept {
   return stats;
 }
 
-// --- bytes
-// ----------------------------------------------------------------------------------------
+// --- Bytes
 
 std::size_t SdhLink::readOnce(milliseconds timeout) {
   const std::size_t count = channel_.read(buffer_, timeout);
@@ -90,17 +90,16 @@ void SdhLink::resync(bool thorough) {
   replies_.clear();
   needsResync_ = true;
   drain(kSilence, kDrainLimit);
-  // Blanks before a command mean nothing. As many as the longest record fill up one that the hand
-  // got in part; it fails by its checksum, which a network has not: there the hand would take it
-  // for values.
+  // Blanks before a command have no meaning. As many as the longest record complete a record that
+  // the hand received in part; it then fails by its checksum. Network records have no checksum:
+  // there the hand would take the blanks for values.
   if (thorough && !channel_.isNetwork()) sendText(std::string(40, ' '));
   sendText(" \r\n");
   drain(kSilence, kDrainLimit);
   needsResync_ = false;
 }
 
-// --- one question
-// ---------------------------------------------------------------------------------
+// --- One question
 
 void SdhLink::abortIfUrgent() {
   if (!urgent_ || !urgent_()) return;
@@ -110,7 +109,7 @@ void SdhLink::abortIfUrgent() {
   throw SdhInterrupted(channel_.name());
 }
 
-// Returns where asking again may help; else throws.
+// Returns if another try may help; otherwise throws.
 void SdhLink::takeError(int code, const std::string& what) {
   errorCode_ = code;
   problem_ = FailureCause::kRefused;
@@ -158,7 +157,7 @@ std::optional<SdhReply> SdhLink::attempt(Bytes request,
   replies_.clear();
   problem_ = FailureCause::kSilence;
   const SdhReplyStats before = parser_.stats();
-  // What takes long may be announced by noise; it is waited for to the end.
+  // The end of a long command is always awaited, even if noise looks like the begin of its answer.
   const bool quick = retryPolicy.timeout <= SdhRetryPolicy{}.timeout;
   needsResync_ = true;
   write(request);
@@ -257,8 +256,7 @@ std::vector<double> SdhLink::askRecord(SdhCommand command,
   return std::get<SdhRecord>(exchange(request, std::string(sdhName(command)), match, {})).values;
 }
 
-// --- stop
-// -----------------------------------------------------------------------------------------
+// --- Stop
 
 void SdhLink::stop() {
   ++stats_.stops;
@@ -267,7 +265,8 @@ void SdhLink::stop() {
   for (const milliseconds timeout : kWaits) {
     replies_.clear();
     parser_.reset();
-    // One piece, before anything else; later ones also end a record that the hand got in part.
+    // Sent in one piece before anything else; later ones also end a record that the hand received
+    // in part.
     sendText((first || channel_.isNetwork() ? "" : std::string(40, ' ')) + " \r\nstop\r\n");
     first = false;
     needsResync_ = true;
@@ -275,7 +274,7 @@ void SdhLink::stop() {
     for (std::int64_t leftUs = usOf(timeout); leftUs > 0; leftUs = endUs - clock_.monotonicUs()) {
       readOnce(milliseconds(leftUs / 1000 + 1));
       for (const SdhReply& reply : replies_) {
-        // An error may be the answer to a command that was cut off by this one.
+        // An error may be the answer to a command that this one interrupted.
         const auto* line = std::get_if<SdhLine>(&reply);
         if (!line || line->kind == SdhLine::Kind::kDebug || line->kind == SdhLine::Kind::kError)
           continue;
@@ -287,9 +286,9 @@ void SdhLink::stop() {
       }
       replies_.clear();
     }
-    // Another line may answer an earlier question, or be how this hand confirms: the line is alive,
-    // and the next question starts by a resync. But a stop that was lost must not pass for taken by
-    // such a line: not the first one.
+    // Another line may be the answer to an earlier request, or this hand's form of confirmation. It
+    // shows that the connection works, and the next exchange begins with a resync. But such a line
+    // must not confirm a stop that was lost, so the first stop is not confirmed by it.
     if (anyReply && timeout != kWaits[0]) return;
   }
   fail(DeviceFault::kSilent,

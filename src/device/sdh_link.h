@@ -1,6 +1,6 @@
-// One question, one answer with the SDH-2's motion controller, whatever the line does to them:
-// finds the answer that belongs to the question, brings a line that lost bytes back into step, asks
-// again.
+// Request and answer with the SDH-2's motion controller, in spite of errors on the line: finds the
+// answer that belongs to a request, resynchronises after lost bytes, and repeats the request. Used
+// by SdhController.
 #pragma once
 
 #include <cstdint>
@@ -19,21 +19,22 @@
 namespace palpate {
 
 struct SdhRetryPolicy {
-  std::chrono::milliseconds timeout{1000};  // of one try
+  std::chrono::milliseconds timeout{1000};  // time limit of one try
   int tries = 3;
-  bool abortsForStop = true;  // gives up for a stop
+  bool abortsForStop = true;  // ends the exchange early for a stop
 };
 
 class SdhLink {
  public:
   using Bytes = std::span<const std::byte>;
-  // Whether the content of an answer is plausible; one that isn't is dropped and counted.
+  // Checks whether the content of an answer is plausible; implausible answers are dropped and
+  // counted.
   using LineCheck = std::function<bool(const SdhLine&)>;
   using RecordCheck = std::function<bool(const std::vector<double>&)>;
 
   SdhLink(ByteChannel& channel, const Clock& clock, std::function<bool()> urgent);
 
-  // Sends a line and returns the answer to it: the line NAME=.. with `axis`, or the values of the
+  // Sends a request and returns its answer: the line NAME=.. with `axis`, or the values of the
   // record.
   SdhLine ask(const std::string& request,
               std::string_view name,
@@ -43,20 +44,21 @@ class SdhLink {
   std::vector<double> askRecord(SdhCommand command,
                                 std::span<const double> values,
                                 const RecordCheck& check);
-  // Puts `stop` on the wire before anything else, and waits for STOP; where that doesn't come in
-  // time, any other line will do.
+  // Sends `stop` before anything else and waits for STOP; if it doesn't arrive in time, any other
+  // line is accepted.
   void stop();
-  // Ends a command of the hand that was received in part, and waits until nothing comes any more.
-  // `thorough` also fills up a binary record that was received in part.
+  // Ends a command that the hand has received in part, and waits until no more bytes arrive.
+  // `thorough` also completes a binary record that was received in part.
   void resync(bool thorough);
-  // Sends nothing; what comes until `silence` long nothing came, or `limit` is over, is discarded.
+  // Sends nothing; discards all bytes until none arrived for `silence`, or until `limit` has
+  // passed.
   void drain(std::chrono::milliseconds silence, std::chrono::milliseconds limit);
   void sendText(std::string_view text);
 
-  // Sees every byte that is read, while set.
+  // While set, `watcher` is called with every byte that is read.
   void watch(std::function<void(Bytes)> watcher) { watcher_ = std::move(watcher); }
   SdhStats stats() const noexcept;
-  // After a failure: the question may have been lost or garbled on its way.
+  // True after a failure in which the request may have been lost or damaged.
   bool mayBeLost() const noexcept;
   [[noreturn]] void fail(DeviceFault fault, const std::string& message) const;
 
@@ -64,12 +66,12 @@ class SdhLink {
   enum class ReplyMatch { kStray, kAnswer, kImplausible };
   using ReplyMatcher = std::function<ReplyMatch(SdhReply&)>;
 
-  // The answer, after as many tries as `patience` has.
+  // Returns the answer, after at most as many tries as `retryPolicy` allows.
   SdhReply exchange(Bytes request,
                     const std::string& what,
                     const ReplyMatcher& match,
                     const SdhRetryPolicy& retryPolicy);
-  // One try; nothing: silence, or an answer that can't be used (problem_ says which).
+  // One try; returns nothing after silence or an unusable answer (problem_ contains the reason).
   std::optional<SdhReply> attempt(Bytes request,
                                   const std::string& what,
                                   const ReplyMatcher& match,
@@ -87,10 +89,11 @@ class SdhLink {
   std::function<void(Bytes)> watcher_;
   SdhReplyParser parser_;
   std::vector<std::byte> buffer_;
-  std::vector<SdhReply> replies_;  // of the last read
+  std::vector<SdhReply> replies_;  // from the last read
   SdhStats stats_;
-  bool needsResync_ = false;  // an answer may still be on its way: resync first
-  // Why the last try failed.
+  // True when an answer may still arrive; the next exchange begins with a resync then.
+  bool needsResync_ = false;
+  // Reason why the last try failed.
   enum class FailureCause {
     kSilence,
     kBroken,

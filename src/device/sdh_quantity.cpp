@@ -29,7 +29,7 @@ void checkSdhValues(const SdhQuantity& quantity,
                                 " values for seven axes");
   for (std::size_t axis = 0; axis < kSdhAxes; ++axis) {
     const double value = values[axis];
-    const bool allowed = value >= least[axis] && value <= most[axis] &&  // NaN is not
+    const bool allowed = value >= least[axis] && value <= most[axis] &&  // false for NaN
                          (!quantity.whole || std::floor(value) == value);
     if (!allowed)
       throw std::invalid_argument("axis " + std::to_string(axis) + " (" + sdh2().axes[axis].name +

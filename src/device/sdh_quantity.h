@@ -1,4 +1,4 @@
-// What the values of each vector command of the SDH-2 are called and may be.
+// Names, units and ranges of the values of each vector command of the SDH-2.
 #pragma once
 
 #include <span>
@@ -13,11 +13,12 @@ struct SdhQuantity {
   SdhCommand command;
   const char* noun;  // for messages
   const char* unit;  // " deg"
-  double least;      // an answer outside is no answer
+  // Least value; answers below it are implausible.
+  double least;
   double most;
   bool whole = false;  // whole numbers only
 
-  // Finite, in range, and as many as there should be.
+  // True if all values are finite and in range, and their number is `count`.
   bool plausible(std::span<const double> values, std::size_t count) const noexcept;
 };
 
@@ -54,13 +55,13 @@ inline constexpr SdhQuantity kAccelerationLimit{
 
 }  // namespace sdh
 
-// Throws std::invalid_argument that names axis, value and range unless there are seven finite
-// values, each within `least[axis]`..`most[axis]`.
+// Checks seven values: each must be finite and within `least[axis]`..`most[axis]`. Throws
+// std::invalid_argument that names axis, value and range.
 void checkSdhValues(const SdhQuantity& quantity,
                     std::span<const double> values,
                     std::span<const double> least,
                     std::span<const double> most);
-// The same range for all axes.
+// As above, with the same range for all axes.
 void checkSdhValues(const SdhQuantity& quantity,
                     std::span<const double> values,
                     double least,

@@ -16,7 +16,7 @@ bool isPrintable(char c) { return c >= ' ' && c <= '~'; }
 
 std::size_t SdhReplyParser::takeRecord(std::span<const std::byte> in, const Sink& sink) {
   const std::size_t size = sdhRecordBytes(checksum_);
-  tooLong_ = false;  // what follows is no part of a line before
+  tooLong_ = false;  // the following bytes do not belong to an earlier line
   if (sdhIsRecordStart(in, checksum_)) {
     if (in.size() < size) return 0;
     if (auto record = decodeSdhRecord(in.first(size), checksum_)) {
@@ -37,7 +37,7 @@ std::size_t SdhReplyParser::takeLine(std::span<const std::byte> in, const Sink& 
   const auto length = static_cast<std::size_t>(end - in.begin());
   const bool ends = end != in.end() && !beginsRecord(*end);
   if (end == in.end() && length <= kMostLineBytes && !tooLong_) return 0;
-  if (!ends) {  // text that a record cuts off, or that never ends
+  if (!ends) {  // text interrupted by a record, or without an end
     tooLong_ = end == in.end();
     stats_.skippedBytes += length;
     return length;

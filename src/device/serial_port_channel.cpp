@@ -14,7 +14,7 @@
 namespace palpate {
 namespace {
 
-// Ends the program's part in a port that was opened but can't be used.
+// Throws a DeviceError when a call of libserialport failed.
 void require(sp_return result, const std::string& name, const std::string& what) {
   if (result == SP_OK) return;
   if (result == SP_ERR_FAIL && what.empty()) throwOpenError(sp_last_error_code(), name);
@@ -29,8 +29,8 @@ void require(sp_return result, const std::string& name, const std::string& what)
 void SerialPortChannel::Closer::operator()(sp_port* port) const noexcept {
   int fd = -1;
   if (sp_get_port_handle(port, &fd) == SP_OK && fd >= 0) {
-    // Does not end by itself while something else has the port open. Never another program's: as
-    // root that is allowed.
+    // The exclusive mode does not end by itself while another program has the port open. Only a
+    // mode set by this program is ended; root could end that of another program, too.
     if (ours) ::ioctl(fd, TIOCNXCL);
     sp_close(port);
   }
@@ -59,13 +59,14 @@ std::unique_ptr<ByteChannel> SerialPortChannel::open(const std::string& path,
     throw DeviceError(
         DeviceFault::kNotFound, name, "no such port; 'palpate ports' lists what is there");
   Port port(found, Closer{});
-  // Before libserialport opens the port, and sets it: another program may be streaming there.
+  // Locked before libserialport opens and configures the port: another program may be streaming
+  // there.
   FileDescriptor lock(::open(path.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC));
   if (lock.get() < 0) throwOpenError(errno, name);
   lockLine(lock.get(), name);
   int exclusive = 0;
   if (::ioctl(lock.get(), TIOCGEXCL, &exclusive) == 0 && exclusive != 0)
-    throwOpenError(EBUSY, name);  // root gets in all the same
+    throwOpenError(EBUSY, name);  // root could open it nevertheless
   require(sp_open(port.get(), SP_MODE_READ_WRITE), name, "");
   int fd = -1;
   require(sp_get_port_handle(port.get(), &fd), name, "be waited for");
@@ -77,7 +78,8 @@ std::unique_ptr<ByteChannel> SerialPortChannel::open(const std::string& path,
   require(sp_set_parity(port.get(), SP_PARITY_NONE), name, "no parity");
   require(sp_set_stopbits(port.get(), 1), name, "1 stop bit");
   require(sp_set_flowcontrol(port.get(), SP_FLOWCONTROL_NONE), name, "no flow control");
-  if (!makeRaw(fd)) throwOpenError(errno, name);  // what libserialport leaves: HUPCL, VMIN
+  // Corrects settings that libserialport leaves unchanged: HUPCL, VMIN.
+  if (!makeRaw(fd)) throwOpenError(errno, name);
   sp_flush(port.get(), SP_BUF_INPUT);
   return std::unique_ptr<ByteChannel>(
       new SerialPortChannel(name, fd, std::move(port), std::move(lock)));

@@ -1,4 +1,4 @@
-// A serial port of the machine or on USB, opened and set by libserialport.
+// Byte channel over a serial port of the machine or on USB, opened and configured by libserialport.
 #pragma once
 
 #include <string>
@@ -13,7 +13,7 @@ class SerialPortChannel final : public DescriptorChannel {
  public:
   // True where libserialport knows `path` ("/dev/ttyUSB0", no link).
   static bool knows(const std::string& path);
-  // `path` is opened, `name` shown.
+  // Opens `path`; `name` is used in messages.
   static std::unique_ptr<ByteChannel> open(const std::string& path,
                                            const std::string& name,
                                            int baud);
@@ -21,12 +21,14 @@ class SerialPortChannel final : public DescriptorChannel {
 
  private:
   struct Closer {
-    bool ours = false;  // the line is for this program alone: that ends with the port
+    // True once the port is exclusive to this program; that ends when the port is closed.
+    bool ours = false;
     void operator()(sp_port* port) const noexcept;
   };
   using Port = std::unique_ptr<sp_port, Closer>;
   SerialPortChannel(std::string name, int fd, Port port, FileDescriptor lock);
-  FileDescriptor lock_;  // on the line, taken before anything was changed; let go after port_
+  // Lock on the port, taken before any setting is changed and released after port_.
+  FileDescriptor lock_;
   Port port_;
 };
 

@@ -18,10 +18,10 @@ namespace {
 
 using std::chrono::milliseconds;
 
-constexpr std::int64_t kSilentUs = 500'000;  // no frame for so long: silent
-constexpr double kSilentPeriods = 3.0;       // or for three periods, if that is longer
-constexpr std::int64_t kWakeUs = 1'000'000;  // then the stream is started anew
-constexpr int kWakeTries = 2;                // then the port is opened anew
+constexpr std::int64_t kSilentUs = 500'000;  // without a frame for this time, the stream is silent
+constexpr double kSilentPeriods = 3.0;       // or for three periods if that is longer
+constexpr std::int64_t kWakeUs = 1'000'000;  // then the stream is restarted
+constexpr int kWakeTries = 2;                // number of restarts before the port is opened again
 constexpr std::int64_t kChecksumWindowUs = 3'000'000;
 constexpr double kBadShare = 0.1;
 constexpr std::uint64_t kBadEnough = 10;
@@ -49,14 +49,13 @@ std::optional<DsaControllerInfo> TactileLink::facts() const {
   return known_;
 }
 
-// --- the connection
-// -------------------------------------------------------------------------------
+// --- The connection
 
 void TactileLink::connect(ByteChannel& channel) {
   DsaControllerOptions options;
   options.runLength = runLength_;
   options.isCancelled = [this] {
-    // Also asked while a setting is changed: the next ones wait for it.
+    // Also called while a setting is being changed; further commands must wait for it.
     if (!delivering_) rejectCommands("the tactile controller is not connected yet");
     return stopping();
   };
@@ -120,7 +119,7 @@ void TactileLink::ended() {
 void TactileLink::closing() {
   if (!controller_) return;
   delivering_ = false;
-  // Within half a second, however the controller is: one try.
+  // One try: must return within half a second, in whatever state the controller is.
   if (controller_->streaming()) controller_->stopStreamOnce(milliseconds(500));
 }
 
@@ -147,8 +146,7 @@ void TactileLink::countPackets() {
   });
 }
 
-// --- frames
-// ---------------------------------------------------------------------------------------
+// --- Frames
 
 void TactileLink::onPayload(std::span<const std::byte> payload) {
   if (!delivering_) return;
@@ -234,8 +232,7 @@ void TactileLink::measureAge(std::int64_t hostUs, std::int64_t deviceMs) {
       [&](PortStatus& status) { status.ageMs = static_cast<double>(offsetUs - least) / 1000.0; });
 }
 
-// --- silence and noise
-// ------------------------------------------------------------------------------
+// --- Silence and noise
 
 void TactileLink::watchSilence() {
   const std::int64_t nowUs = clock_.monotonicUs();
@@ -243,7 +240,7 @@ void TactileLink::watchSilence() {
       kSilentUs, static_cast<std::int64_t>(kSilentPeriods * 1000.0 * session_.loss.scanPeriodMs()));
   if (nowUs - session_.lastFrameUs < limitUs) return;
   if (!session_.gapFromUs) {
-    controller_->flush();  // a packet behind a corrupt size
+    controller_->flush();  // a packet may be behind a corrupt size
     if (clock_.monotonicUs() - session_.lastFrameUs < limitUs) return;
     session_.gapFromUs = session_.lastStampUs != 0 ? session_.lastStampUs : time_.nowUs();
     setState(
@@ -258,20 +255,20 @@ void TactileLink::watchSilence() {
     throw DeviceError(
         DeviceFault::kSilent, port_, "the tactile controller is silent; check its power and cable");
   ++session_.restarts;
-  // Perhaps it was switched off and on, and waits for a start.
+  // The controller may have been switched off and on, and waits for a start.
   if (controller_->stopStreamOnce(milliseconds(400))) {
     session_.deviceClock.reset();
-    // Then its clock began anew, and it may show any time: what is missing is estimated by ours.
+    // Its clock has then restarted and may show any time, so missing frames are estimated by our
+    // clock.
     resetRateEstimate();
     controller_->startStream();
   }
 }
 
-// The controller's rate, and what its clock says, are to be learned anew: what isn't sent meanwhile
-// is no loss.
+// Restarts the estimates of the controller's rate and clock; frames not sent meanwhile are no loss.
 void TactileLink::resetRateEstimate() { session_.loss.reset(); }
 
-// By the usual rate: nobody heard the controller's clock over all of the gap.
+// Estimated from the usual rate, because the controller's clock is not known over the whole gap.
 TactileLink::Missing TactileLink::missingSince(std::int64_t fromUs,
                                                std::int64_t nowUs,
                                                bool frameReceived) const {
@@ -299,8 +296,8 @@ void TactileLink::endGap(std::int64_t nowUs, const Missing& missing) {
   event("gap", text, fromUs, nowUs, {}, json.text(-1));
 }
 
-// Now and then a wrong checksum is normal. Every tenth means that both ends are out of step, or
-// that another program writes to the port.
+// A wrong checksum now and then is normal. One packet in ten means that sender and receiver are out
+// of step, or that another program writes to the port.
 void TactileLink::watchChecksums() {
   const std::int64_t nowUs = clock_.monotonicUs();
   if (nowUs - session_.windowFromUs < kChecksumWindowUs) return;
@@ -353,7 +350,7 @@ void TactileLink::restoreSettings() {
         settingsJson());
 }
 
-// What holds from now on: a recording can be read without knowing what went before.
+// All settings that hold from now on, so that a recording can be read without earlier events.
 std::string TactileLink::settingsJson() const {
   Json matrices = Json::array();
   for (const DsaMatrixInfo& matrix : controller_->facts().matrices)

@@ -1,4 +1,4 @@
-// The thread of the tactile port: frames out, settings in.
+// Thread of the tactile port in LiveHand: delivers frames and changes settings.
 #pragma once
 
 #include <array>
@@ -25,7 +25,7 @@ class TactileLink : public PortLink {
       const std::string& port, Open open, bool runLength, const HostTime& time, const Clock& clock);
   ~TactileLink() override;
 
-  HandDescription hand() const;  // any thread
+  HandDescription hand() const;  // may be called from any thread
   std::optional<DsaControllerInfo> facts() const;
 
  protected:
@@ -38,7 +38,7 @@ class TactileLink : public PortLink {
   CommandAnswer execute(const DeviceCommand& command) override;
 
  private:
-  // What was set in this session: a controller that was switched off has forgotten it.
+  // Settings made in this session; a controller that was switched off has lost them.
   struct Wanted {
     std::optional<double> sensitivity;
     std::optional<int> thresholdCounts;
@@ -50,7 +50,7 @@ class TactileLink : public PortLink {
   void deliver(TactileFrame&& frame, std::int64_t deviceMs, std::size_t packetBytes);
   void watchSilence();
   void watchChecksums();
-  // Frames that are missing; nothing: nobody can say.
+  // Number of missing frames; empty when it is unknown.
   struct Missing {
     std::optional<std::uint64_t> frames;
     bool estimated = true;
@@ -70,7 +70,7 @@ class TactileLink : public PortLink {
   std::unique_ptr<DsaController> controller_;
   bool delivering_ = false;
 
-  // Read from outside, under mutex_.
+  // Read by other threads, requires mutex_.
   HandDescription hand_;
   std::optional<DsaControllerInfo> known_;
 
@@ -81,32 +81,32 @@ class TactileLink : public PortLink {
     TactileFrame frame;
     DsaFrame packet;
   };
-  // Of one session, from begin() to finish().
+  // State of one session, from begin() to finish().
   struct Session {
     DsaClock deviceClock;
     DsaLossEstimate loss{kTactileByteUs};
     double periodMs = 0.0;  // usual time between two frames; 0: not known
     std::optional<Held> held;
 
-    std::int64_t lastStampUs = 0;           // host time of the newest frame
-    std::int64_t lastFrameUs = 0;           // monotonic time of it, or of the start of the stream
+    std::int64_t lastStampUs = 0;  // host time of the newest frame
+    std::int64_t lastFrameUs = 0;  // its monotonic time, or that of the start of the stream
     std::optional<std::int64_t> gapFromUs;  // host time of the last frame before the silence
-    int restarts = 0;                       // attempts to wake a silent controller
+    int restarts = 0;                       // attempts to restart a silent controller
 
-    DsaPacketStats before;  // of controllers of earlier connections
+    DsaPacketStats before;  // sum over the controllers of earlier connections
     std::uint64_t retriesBefore = 0;
     std::uint64_t frames = 0;
     std::uint64_t suspect = 0;
 
-    // Checksums of the last three seconds.
+    // Checksum counts of the last three seconds.
     std::int64_t windowFromUs = 0;
     std::uint64_t windowFrames = 0;
     std::uint64_t windowBad = 0;
     std::int64_t lastStreamRestartUs = 0;
     bool restartedForChecksums = false;
 
-    // Least (host - device) of this and the last half minute: what a frame takes when nothing
-    // delays it.
+    // Minimum of (host time - device time) in this half minute and in the last one, that is, the
+    // transmission time of a frame without delays.
     std::array<std::optional<std::int64_t>, 2> minOffsetUs;
     std::int64_t offsetWindowUs = 0;
   };

@@ -64,8 +64,8 @@ void look(const Place& place, int flags, Addresses& found) {
   found.error = ::getaddrinfo(place.host.c_str(), place.port.c_str(), &hints, &found.first);
 }
 
-// The addresses of a host. The resolver knows no time limit: a name is looked up in a thread of its
-// own, which is left behind when it takes too long, and ends when the resolver gives up.
+// The addresses of a host. The resolver has no time limit, so it runs in a thread of its own. If it
+// takes too long, that thread is detached and ends when the resolver gives up.
 std::shared_ptr<const Addresses> resolve(const std::string& name,
                                          const Place& place,
                                          TcpChannelSteadyClock::time_point deadline) {
@@ -92,8 +92,8 @@ void tune(int fd) noexcept {
   const auto set = [fd](int level, int option, int value) {
     ::setsockopt(fd, level, option, &value, sizeof value);
   };
-  set(IPPROTO_TCP, TCP_NODELAY, 1);  // a request leaves at once
-  // A host that fell silent is noticed within about 4 s.
+  set(IPPROTO_TCP, TCP_NODELAY, 1);  // sends each request immediately
+  // Detects a host that no longer answers within about 4 s.
   set(SOL_SOCKET, SO_KEEPALIVE, 1);
   set(IPPROTO_TCP, TCP_KEEPIDLE, 2);
   set(IPPROTO_TCP, TCP_KEEPINTVL, 1);
@@ -101,7 +101,7 @@ void tune(int fd) noexcept {
   set(IPPROTO_TCP, TCP_USER_TIMEOUT, 4000);
 }
 
-// 0, or the errno of the failure.
+// Connects before the deadline. Returns 0, or the errno of the failure.
 int connectWithin(int fd, const addrinfo& address, TcpChannelSteadyClock::time_point deadline) {
   if (::connect(fd, address.ai_addr, address.ai_addrlen) == 0) return 0;
   if (errno != EINPROGRESS && errno != EINTR) return errno;

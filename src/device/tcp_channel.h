@@ -1,4 +1,5 @@
-// A TCP connection to a hand with a network port, or to an emulated one. Never listens.
+// Byte channel over a TCP connection to a hand with a network port, or to an emulated hand. Never
+// listens.
 #pragma once
 
 #include <string>
@@ -9,7 +10,8 @@ namespace palpate {
 
 class TcpChannel final : public DescriptorChannel {
  public:
-  // `name` is "tcp:HOST:PORT"; HOST a name, an IPv4 address, or an IPv6 address (brackets allowed).
+  // `name` is "tcp:HOST:PORT"; HOST is a name, an IPv4 address, or an IPv6 address (brackets
+  // allowed).
   static std::unique_ptr<ByteChannel> open(const std::string& name,
                                            std::chrono::milliseconds connectTimeout);
   bool isNetwork() const noexcept override { return true; }

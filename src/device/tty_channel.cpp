@@ -82,8 +82,8 @@ std::unique_ptr<ByteChannel> TtyChannel::open(const std::string& path, const std
   if (::tcgetsid(fd.get()) == ::getsid(0))
     throw DeviceError(
         DeviceFault::kBusy, name, "this is the terminal the program runs in; name another port");
-  // flock only: TIOCEXCL stays with a pty as long as its other end keeps it open, so that a program
-  // that was killed would lock out its own successor.
+  // Uses flock only: TIOCEXCL persists on a pty as long as its other end is open, so that a killed
+  // program would lock out its own successor.
   lockLine(fd.get(), name);
   if (!makeRaw(fd.get())) throwOpenError(errno, name);
   ::tcflush(fd.get(), TCIFLUSH);

@@ -1,4 +1,5 @@
-// A terminal line without modem behind it: the pty of an emulated hand, set by termios.
+// Byte channel over a terminal device without modem lines, that is, the pty of an emulated hand;
+// configured by termios.
 #pragma once
 
 #include <string>
@@ -7,16 +8,17 @@
 
 namespace palpate {
 
-// Takes the line for this program alone (flock); throws DeviceError (kBusy). `name` is for the
+// Locks the device for this program (flock); throws DeviceError (kBusy). `name` is used in the
 // message.
 void lockLine(int fd, const std::string& name);
-// Raw and 8-bit clean whatever was set before: no translation, no flow control, no signals by
-// control characters or modem lines, no DTR drop on close. The speed stays. False: errno says why.
+// Sets raw 8-bit mode, whatever was set before: no translation, no flow control, no signals from
+// control characters or modem lines, no DTR drop on close. The speed is unchanged. Returns false on
+// failure, with errno set.
 bool makeRaw(int fd) noexcept;
 
 class TtyChannel final : public DescriptorChannel {
  public:
-  // `path` is opened, `name` shown.
+  // Opens `path`; `name` is used in messages.
   static std::unique_ptr<ByteChannel> open(const std::string& path, const std::string& name);
 
  private:
@@ -24,7 +26,7 @@ class TtyChannel final : public DescriptorChannel {
   FileDescriptor fd_;
 };
 
-// What a failed open() of a port means, and what to do. `error` is an errno.
+// Throws the DeviceError for a failed open() of a port, with advice. `error` is an errno.
 [[noreturn]] void throwOpenError(int error, const std::string& name);
 
 }  // namespace palpate

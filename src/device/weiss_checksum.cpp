@@ -18,8 +18,8 @@ constexpr Table makeTable() {
   return table;
 }
 
-// The update is linear over GF(2), so several bytes can be taken at once: table k holds what a byte
-// leaves behind after k more bytes of zero ("slicing").
+// The update is linear over GF(2), so several bytes can be processed at once: table k contains the
+// effect of a byte after k more zero bytes ("slicing").
 constexpr std::size_t kSlices = 8;
 constexpr std::array<Table, kSlices> makeSlices() {
   std::array<Table, kSlices> slices{};
@@ -37,7 +37,8 @@ constexpr std::array<Table, kSlices> kWeissChecksumSlice = makeSlices();
 }  // namespace
 
 std::uint16_t weissChecksum(std::span<const std::byte> bytes, std::uint16_t seed) noexcept {
-  std::uint16_t crc = seed;  // the device shifts right through a left-shifting table: keep it so
+  // The device shifts right with the table of a left-shifting polynomial; do not change this.
+  std::uint16_t crc = seed;
   const auto index = [&](std::size_t at, unsigned mixed) {
     return (std::to_integer<unsigned>(bytes[at]) ^ mixed) & 0xFFu;
   };

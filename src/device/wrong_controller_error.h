@@ -1,5 +1,5 @@
-// What is thrown where the hand's other controller answers at a port: the two are swapped. Private
-// to this module.
+// Exception for a port where the hand's other controller answers, because the two ports are
+// swapped. Used inside this module only.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-// Packets, streaming and booting; the single commands stand in dsa_commands.cpp.
+// Packets, streaming, booting and commands of the emulated tactile controller.
 #include "palpate/emulator/dsa_server.h"
 
 #include <algorithm>
@@ -18,7 +18,8 @@
 namespace palpate {
 namespace {
 
-// A stream that is later than this has been held up: it goes on from now, as a real scan would.
+// Delay after which a stream counts as interrupted and continues from the present time, as the scan
+// of a real controller does.
 constexpr double kLateUs = 250'000.0;
 constexpr unsigned kMaxSingles = 255;
 constexpr unsigned kBootQueries = 3;
@@ -34,7 +35,7 @@ unsigned u8At(std::span<const std::byte> bytes, std::size_t at) {
   return std::to_integer<unsigned>(bytes[at]);
 }
 
-// The largest request is the write of a mask.
+// Payload size of the largest request, which writes a mask [bytes].
 std::size_t largestRequest(const SensorLayout& layout) {
   std::size_t largest = 16;
   for (const MatrixLayout& matrix : layout.matrices())
@@ -123,7 +124,7 @@ void DsaServer::parse() {
       ++at;
       continue;
     }
-    // A longer run of AA: the packet begins with its last three, for no id is AA.
+    // In a longer run of AA the packet begins with the last three, because no id is AA.
     if (at + 3 < input.size() && isPreamble(at + 3)) {
       ++at;
       continue;
@@ -156,7 +157,7 @@ void DsaServer::answer(unsigned id, std::vector<std::byte> payload) {
 }
 
 void DsaServer::answerError(unsigned id, unsigned code) {
-  // Under id 0 it would look like a frame.
+  // An error with id 0 would look like a frame.
   if (id != kDsaFrame) answer(id, std::move(WireWriter().u16(code).data()));
 }
 
@@ -175,14 +176,14 @@ void DsaServer::acquire(Payload payload) {
     singles_ = std::min(push_ ? 1 : singles_ + 1, kMaxSingles);
     push_ = false;
   } else {
-    // Whatever the rate is, it streams as fast as it can.
+    // The requested rate is ignored: it streams at its own rate.
     push_ = (flags & kSingleShot) == 0;
     singles_ = push_ ? 0 : 1;
   }
   runLength_ = (flags & kRunLength) != 0;
   if (wasIdle) {
     const double now = static_cast<double>(nowUs_);
-    // At a given rate the scans go on by themselves; otherwise the command starts one.
+    // With a fixed rate the scans continue at their times; otherwise the command starts one.
     nextFrameUs_ = options_.frameHz ? std::max(now, nextFrameUs_) : now + periodUs();
   }
   answerError(kDsaAcquire, kDsaSuccess);
@@ -206,8 +207,8 @@ std::optional<std::int64_t> DsaServer::nextFrameUs(std::int64_t lineFreeUs) cons
 
 std::optional<std::int64_t> DsaServer::nextUs(std::int64_t lineFreeUs) const {
   if (bootQueries_ < kBootQueries) {
-    // About a second before it is ready, three times within 0.82 s; closer together when it boots
-    // faster.
+    // The query is sent three times within 0.82 s, about one second before the controller is ready;
+    // at shorter intervals if it boots faster.
     const double readyUs = static_cast<double>(bootEndUs_ - switchedOnUs_);
     const double leadUs = std::min(1e6, readyUs);
     return bootEndUs_ - static_cast<std::int64_t>(leadUs * (1.0 - 0.41 * bootQueries_));
@@ -235,7 +236,7 @@ void DsaServer::sendFrame(std::int64_t atUs) {
   model_.scan(counts_);
   for (std::uint16_t& count : counts_) count &= 0x0FFFu;
   auto ms = options_.startMs + static_cast<std::uint32_t>((atUs - switchedOnUs_) / 1000);
-  // Clients detect new data by a changed stamp.
+  // Clients detect new frames by a changed stamp.
   if (lastMs_ && static_cast<std::int32_t>(ms - *lastMs_) <= 0) ms = *lastMs_ + 1;
   lastMs_ = ms;
   WireWriter payload;
@@ -304,7 +305,7 @@ void DsaServer::describeController() {
   out.u16(0).u32(options_.serial).u8(kHardware).u16(options_.firmware);
   out.u8(kOperable | (wantsFrame() ? kRunning : 0)).u8(kInterfaces);
   out.u8(0).u8(0).u32(0);  // type, active interface, CAN bit rate
-  out.u8(0);               // CAN id: one byte, whatever the documentation says
+  out.u8(0);               // CAN id: one byte, unlike in the documentation
   answer(kDsaController, std::move(out.data()));
 }
 
@@ -329,7 +330,7 @@ void DsaServer::describeMatrix(Payload payload) {
   for (std::size_t i = 0; i < 6; ++i)
     out.u8(kUniqueId[i] + (i == 0 ? static_cast<unsigned>(index) : 0));
   out.u16(0).u8(1);
-  // A flat layout for display: fingers 50 mm apart, fingertips above.
+  // A flat layout for display: fingers 50 mm apart, distal matrices above.
   constexpr double kFingerMm = 50.0, kPartMm = 32.0;
   const MatrixDescription& where = hand.matrices.at(index);
   out.f32(kFingerMm * (where.finger - 1)).f32(where.segment == "distal" ? kPartMm : -kPartMm);
@@ -353,7 +354,7 @@ void DsaServer::readMask(Payload payload) {
 void DsaServer::writeMask(Payload payload) {
   if (payload.size() < 2) return answerError(kDsaWriteMask, kDsaTooFewParameters);
   const auto index = std::to_integer<std::size_t>(payload[1]);
-  // The static mask is what the hardware is.
+  // The static mask describes the hardware and can't be written.
   if (payload[0] == std::byte{0}) return answerError(kDsaWriteMask, kDsaAccessDenied);
   if (payload[0] != std::byte{1}) return answerError(kDsaWriteMask, kDsaInvalidParameter);
   if (index >= model_.settings().size()) return answerError(kDsaWriteMask, kDsaIndexOutOfBounds);
@@ -394,7 +395,7 @@ void DsaServer::setSensitivity(Payload payload) {
   const std::size_t index = in.u8();
   const double value = static_cast<double>(in.f32());
   auto& settings = model_.settings();
-  const bool silent = (flags & kPersistent) != 0;  // the firmware forgets to answer
+  const bool silent = (flags & kPersistent) != 0;  // as the firmware, which sends no answer here
   const auto fail = [&](unsigned code) {
     return silent ? void() : answerError(kDsaSetSensitivity, code);
   };

@@ -1,4 +1,4 @@
-// Numbers of the tactile controller's protocol.
+// Constants of the tactile controller's protocol, used by DsaServer.
 #pragma once
 
 #include <cstddef>

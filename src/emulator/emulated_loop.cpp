@@ -13,11 +13,11 @@
 namespace palpate {
 namespace {
 
-constexpr std::int64_t kQuietUs = 200'000;  // half a request is given up after this silence
+constexpr std::int64_t kQuietUs = 200'000;  // an incomplete request is discarded after this silence
 constexpr std::int64_t kTickUs = 50'000;    // the model's time goes on at least so often
-constexpr std::int64_t kCutUs = 5000;       // for the client to read what came ahead of a hang-up
+constexpr std::int64_t kCutUs = 5000;       // time for the client to read before a hang-up
 constexpr std::int64_t kTidyUs = 500'000;
-// of a line that takes nothing; doubled up to 16 times that
+// Pause before the next try on a line that accepts no bytes; doubled up to 16 times that.
 constexpr std::int64_t kRetryUs = 1000;
 constexpr int kMaxRetryDoublings = 4;
 constexpr int kFramesPerTurn = 16;
@@ -28,7 +28,7 @@ EmulatedHandOptions completed(EmulatedHandOptions options) {
   const bool real = options.rate == EmulationRate::kReal;
   options.dsa.frameHz.reset();
   if (options.rate == EmulationRate::kFixed) options.dsa.frameHz = options.hz;
-  // The hand's time runs as on a real line, though no byte waits.
+  // With kMax the hand's time advances as on a real line, although no byte waits.
   options.dsa.lineByteUs = options.rate == EmulationRate::kMax ? kSerialByteUs : 0.0;
   options.sdh.minResponseDelayUs = real ? kLeastThinkUs : 0.0;
   options.sdh.maxResponseDelayUs = real ? kMostThinkUs : 0.0;
@@ -133,7 +133,7 @@ void EmulatedHand::Loop::run(const std::stop_token& stop) {
   {
     const std::lock_guard lock(callsMutex_);
     ended_ = true;
-    calls_.clear();  // their callers get a broken promise
+    calls_.clear();  // their callers receive a broken promise
   }
   const std::lock_guard lock(countsMutex_);
   counts_.failure = failure;
@@ -163,7 +163,7 @@ void EmulatedHand::Loop::planIncidents(const Faults& faults, std::int64_t fromUs
   for (const Outage& unplug : faults.unplugs) add(unplug, true);
 }
 
-// Returns whether the controllers are stalled now.
+// Executes the outages that are due. Returns whether the controllers are stalled now.
 bool EmulatedHand::Loop::incidents(std::int64_t nowUs) {
   bool stalled = false;
   for (ScheduledOutage& incident : scheduledOutages_) {
@@ -202,7 +202,8 @@ void EmulatedHand::Loop::step() {
   collect();
 }
 
-// A hang-up takes from the client what it has not read yet: it comes a moment after the last byte.
+// A hang-up discards the bytes that the client has not read; it follows the last byte after a
+// delay.
 void EmulatedHand::Loop::endCut(EmulatedPortChannel& lane, std::int64_t& sinceUs) {
   const std::int64_t wallUs = systemClock().monotonicUs();
   if (!lane.cut()) {
@@ -280,7 +281,7 @@ void EmulatedHand::Loop::forwardMotion(std::int64_t nowUs) {
   for (LineMessage& message : sdh_.take()) sdhLane_.push(std::move(message), nowUs, faultCounts_);
 }
 
-// What has happened becomes visible to other threads.
+// Makes counts and sent frames visible to other threads.
 void EmulatedHand::Loop::collect() {
   const std::int64_t hostUs = hostTime_.nowUs();
   working_.handTimeS = static_cast<double>(nowUs()) * 1e-6;
@@ -328,7 +329,7 @@ std::int64_t EmulatedHand::Loop::waitUs(std::int64_t nowUs) {
 
 void EmulatedHand::Loop::wait() {
   const std::int64_t us = waitUs(nowUs());
-  // While stalled nobody listens: what comes would only end the wait.
+  // While stalled no port is polled: input would end the wait without being read.
   pollfd polled[3] = {{wakeUp_.get(), POLLIN, 0},
                       {stalled_ ? -1 : dsaLane_.port().descriptor(), POLLIN, 0},
                       {stalled_ ? -1 : sdhLane_.port().descriptor(), POLLIN, 0}};

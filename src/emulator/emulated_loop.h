@@ -1,5 +1,5 @@
-// The thread of an emulated hand: keeps its time, moves bytes between the ports and the two
-// servers, and does what other threads ask for.
+// Thread of an emulated hand: advances its time, moves bytes between the ports and the two servers,
+// and executes calls of other threads.
 #pragma once
 
 #include <atomic>
@@ -24,12 +24,12 @@ class EmulatedHand::Loop {
   Loop(const Loop&) = delete;
   Loop& operator=(const Loop&) = delete;
 
-  // Runs `work` in the hand's thread and waits for it; rethrows what it throws.
+  // Runs `work` in the hand's thread and waits for it; rethrows its exceptions.
   void call(std::function<void()> work);
   EmulatedHandCounts counts() const;
   std::vector<SentFrame> sentFrames() const;
 
-  // Only within call().
+  // To be used only within call().
   EmulatedPortChannel& dsaLane() noexcept { return dsaLane_; }
   EmulatedPortChannel& sdhLane() noexcept { return sdhLane_; }
   HandModel& model() noexcept { return *model_; }
@@ -37,7 +37,7 @@ class EmulatedHand::Loop {
   void setFaults(const Faults& faults);
 
  private:
-  // An end of an outage is remembered by what it was.
+  // The end of an outage must undo exactly what its begin did, so both times are stored.
   struct ScheduledOutage {
     std::int64_t beginUs = 0, endUs = 0;
     bool unplug = false;
@@ -64,8 +64,9 @@ class EmulatedHand::Loop {
   EmulatedHandOptions options_;
   FrameObserver observer_;
   std::unique_ptr<HandModel> model_;
-  std::int64_t startUs_;       // monotonic
-  std::int64_t jumpedUs_ = 0;  // by how much the hand's time is ahead of the clock
+  std::int64_t startUs_;  // monotonic time
+  // Amount by which the hand's time is ahead of the clock [us].
+  std::int64_t jumpedUs_ = 0;
   HostTime hostTime_;
   EmulatedPortChannel dsaLane_, sdhLane_;
   DsaServer dsa_;
@@ -73,9 +74,11 @@ class EmulatedHand::Loop {
   std::vector<ScheduledOutage> scheduledOutages_;
   FaultCounts faultCounts_;
   bool stalled_ = false;
-  std::int64_t dsaInputUs_ = 0, sdhInputUs_ = 0;  // monotonic: when the client spoke last
+  // Monotonic times of the last input from a client.
+  std::int64_t dsaInputUs_ = 0, sdhInputUs_ = 0;
   std::int64_t tidiedUs_ = 0;
-  std::int64_t dsaCutUs_ = 0, sdhCutUs_ = 0;  // monotonic: since when a cut line is silent
+  // Monotonic times since when a cut line has been silent.
+  std::int64_t dsaCutUs_ = 0, sdhCutUs_ = 0;
   int blockedTurns_ = 0;
   std::deque<ScannedFrame> onTheLine_;
   EmulatedHandCounts working_;
@@ -88,7 +91,7 @@ class EmulatedHand::Loop {
   EmulatedHandCounts counts_;
   std::deque<SentFrame> sent_;
   std::atomic<std::thread::id> threadId_;
-  std::jthread thread_;  // last: everything else is there when it starts
+  std::jthread thread_;  // declared last: all other members exist when it starts
 };
 
 }  // namespace palpate

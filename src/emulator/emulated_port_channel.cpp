@@ -5,7 +5,7 @@
 namespace palpate {
 namespace {
 
-// More than this doesn't wait for a slow client: whole messages are lost then.
+// Limit of the bytes that wait for a slow client; messages beyond it are lost as a whole.
 constexpr std::size_t kMaxPendingBytes = 1u << 16;
 constexpr std::size_t kMaxPacedPendingBytes = 1u << 13;  // 0.7 s of line time
 constexpr std::size_t kReadyBytes = 1u << 11;
@@ -39,7 +39,7 @@ std::span<const std::byte> EmulatedPortChannel::receive(std::int64_t nowUs, Faul
   const std::size_t n = port_->read(input_);
   counts_.bytesReceived += n;
   if (n > 0 && junkBytes_ > 0) {
-    // In pieces, as far as the line holds them.
+    // In chunks, as far as the line has room.
     while (junkBytes_ > 0) {
       const std::size_t piece = std::min(junkBytes_, kBabbleBytes);
       push({.bytes = faults_.junk(piece)}, nowUs, counts);
@@ -93,7 +93,7 @@ void EmulatedPortChannel::write(std::int64_t nowUs) {
       line_.clear(ended_);
       return;
     }
-    // A serial line waits for nobody.
+    // A serial line does not wait for a reader.
     if (paced_ && !port_->isNetwork()) {
       counts_.bytesLost += rest;
       line_.pass(rest, true, ended_);

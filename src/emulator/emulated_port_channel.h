@@ -1,5 +1,5 @@
-// One port of the emulated hand: what a server says goes through the faults and over the paced line
-// to whoever reads.
+// One port of the emulated hand: sends the messages of a server through the faults and the paced
+// line to the client, and receives the client's bytes.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,7 @@ namespace palpate {
 
 class EmulatedPortChannel {
  public:
-  // byteUs: line time of a byte [us], 0: no pacing.
+  // byteUs: time per byte on the line [us]; 0: no pacing.
   EmulatedPortChannel(std::unique_ptr<PortServer> port,
                       double byteUs,
                       const Faults& faults,
@@ -28,24 +28,25 @@ class EmulatedPortChannel {
   void setFaults(const Faults& faults);
   void setMuted(bool muted) noexcept { muted_ = muted; }
   void sendRandomBytes(std::uint64_t bytes) noexcept { babble_ += bytes; }
-  // Whether what is pushed will reach somebody, and soon.
+  // True if pushed messages will reach a client soon.
   bool ready() const noexcept;
-  // When the line will have sent all that was pushed [us].
+  // Time at which all pushed messages will have been sent [us].
   std::int64_t freeAtUs() const noexcept { return line_.freeAtUs(); }
 
-  // What has come from the client; the first time, junk goes out ahead of any answer.
+  // Returns the bytes that arrived from the client. At the first call it sends junk before any
+  // answer.
   std::span<const std::byte> receive(std::int64_t nowUs, FaultCounts& counts);
   void push(LineMessage message, std::int64_t atUs, FaultCounts& counts);
-  // Hands to the system what is due. Appends to ended() the messages that have left.
+  // Hands the bytes that are due to the system. Appends the messages that have left to ended().
   void flush(std::int64_t nowUs);
   void unplug();
-  // After so many bytes more nothing leaves any more; then cut() is true, until the plug is out.
+  // Sends this number of further bytes and nothing more; then cut() is true until unplug().
   void cutAfter(std::uint64_t bytes) noexcept { bytesUntilCut_ = bytes; }
   bool cut() const noexcept { return bytesUntilCut_ == 0; }
   std::vector<SentMessage>& ended() noexcept { return ended_; }
-  // When flush() has something to do; nothing: nothing pends.
+  // Next time at which flush() has something to do; empty when nothing is pending.
   std::optional<std::int64_t> nextDueUs() const;
-  // Bytes are due, but the system takes none: try again in a while.
+  // True when bytes are due but the system accepts none; flush() must be tried again later.
   bool blocked() const noexcept { return blocked_; }
   EmulatedPortCounts counts() const noexcept;
 

@@ -89,7 +89,7 @@ ByteFaults::ByteFaults(const Faults& faults, std::uint64_t seed)
   untilInsert_ = untilNext(insertRate_);
 }
 
-// Geometric: one random number per fault instead of one per byte.
+// Geometric distribution: one random number per fault instead of one per byte.
 std::uint64_t ByteFaults::untilNext(double rate) {
   if (rate <= 0.0) return std::numeric_limits<std::uint64_t>::max();
   if (rate >= 1.0) return 0;
@@ -101,7 +101,7 @@ void ByteFaults::apply(LineMessage& message, FaultCounts& counts) {
   bool damaged = false;
   if (message.checksummed && message.bytes.size() >= 2 && crcRate_ > 0.0 &&
       std::uniform_real_distribution<double>(0.0, 1.0)(random_) < crcRate_) {
-    // Any other checksum, never the right one.
+    // Changes the checksum by a value that is never zero, so that it is wrong.
     const auto change = std::uniform_int_distribution<unsigned>(1, 0xFFFF)(random_);
     message.bytes[message.bytes.size() - 2] ^= static_cast<std::byte>(change & 0xFFu);
     message.bytes.back() ^= static_cast<std::byte>(change >> 8);

@@ -16,7 +16,8 @@ using std::numbers::pi;
 constexpr double kPoseVelocity = 40.0;        // at power-up [deg/s]
 constexpr double kStartAcceleration = 100.0;  // [deg/s^2]
 constexpr double kAtTargetDeg = 1e-9;
-constexpr double kHeld = 0.02;  // an axis that is slower than this share of its speed is held
+// An axis below this fraction of its free speed counts as blocked.
+constexpr double kHeld = 0.02;
 
 // The cruising velocity of the trapezoid that covers d in T with acceleration a: d = v (T - v/a).
 double cruise(double distance, double durationS, double a) {
@@ -67,8 +68,7 @@ void JointMotion::require(const char* what,
   }
 }
 
-// --- settings
-// -------------------------------------------------------------------------------------
+// --- Settings
 
 void JointMotion::setTargets(const std::vector<double>& deg) {
   std::vector<double> least, most;
@@ -125,8 +125,7 @@ void JointMotion::setResistance(std::size_t axis, double clockwise, double count
   resistsCounterClockwise_.at(axis) = std::clamp(counterClockwise, 0.0, 1.0);
 }
 
-// --- motion
-// ---------------------------------------------------------------------------------------
+// --- Motion
 
 double JointMotion::axisDuration(std::size_t axis) const {
   const double distance = std::abs(targetDeg_[axis] - angleDeg_[axis]);
@@ -253,7 +252,7 @@ void JointMotion::advanceVelocity(double dtS) {
       reference = rampS < dtS ? wanted : before + sign * accelerationDegPerS2_[i] * dtS;
       moved = (before + reference) / 2.0 * rampS + reference * (dtS - rampS);
     }
-    // A braking axis still moves the old way.
+    // A braking axis still moves in its old direction.
     const double direction = moved != 0.0 ? moved : wanted;
     const double free = speedFactor(i, direction);
     if (direction != 0.0 && free == 0.0) {

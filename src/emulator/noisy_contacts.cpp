@@ -16,7 +16,7 @@ namespace {
 constexpr std::int64_t kStartUs = 1'700'000'000'000'000;
 constexpr double kFaintCounts = 0.5;
 constexpr double kNoisyContactsMaxCounts = 4095.0;
-// A contact: load comes, holds, goes; then nothing.
+// Phases of a contact: the load rises, holds, falls; then a rest follows.
 constexpr double kComesS = 0.4, kHoldsS = 1.2, kGoesS = 0.3, kRestsS = 1.1;
 constexpr double kContactS = kComesS + kHoldsS + kGoesS + kRestsS;
 
@@ -27,7 +27,7 @@ void noisyContactsCheckRange(const char* name, double value, double least, doubl
                                 std::to_string(most));
 }
 
-// Share of the full load at a time since the contact began.
+// Fraction of the full load at a time since the contact began.
 double loadAt(double timeS) {
   if (timeS < kComesS) return timeS / kComesS;
   timeS -= kComesS + kHoldsS;
@@ -35,13 +35,13 @@ double loadAt(double timeS) {
   return std::max(0.0, 1.0 - timeS / kGoesS);
 }
 
-// Height of a contact's pressure over its peak, at a distance from its middle [taxels], in its own
+// Pressure of a contact relative to its peak, at a distance from its centre [taxels] along its own
 // axes.
 double pressureShare(ContactSize size, double along, double across, double radius) {
   switch (size) {
     case ContactSize::kPoint:
     case ContactSize::kPair:
-      // A tip narrower than a taxel: what it gives each of the taxels it stands on.
+      // A tip narrower than a taxel: its share on each of the taxels below it.
       return std::max(0.0, 1.0 - std::abs(along)) * std::max(0.0, 1.0 - std::abs(across));
     case ContactSize::kPen:
       return std::clamp(radius + 0.5 - std::abs(along), 0.0, 1.0) *
@@ -118,10 +118,10 @@ class NoisyContactsGenerator {
     return std::uniform_real_distribution<double>(from, to)(random_);
   }
 
-  // What presses in a frame, before the rubber.
+  // Pressure of the contact in a frame, before the effect of the rubber.
   void load(std::size_t frame) {
     if (!options_.contacts) return;
-    // a rest comes first
+    // The sequence begins with a rest.
     const double timeS = static_cast<double>(frame) / options_.rateHz - kRestsS;
     if (timeS < 0.0) return;
     const auto index = static_cast<std::size_t>(timeS / kContactS);
@@ -134,7 +134,7 @@ class NoisyContactsGenerator {
   void begin(std::size_t index, std::size_t frame) {
     NoisyContact contact;
     contact.size = kAllContactSizes[index % kAllContactSizes.size()];
-    // Every size comes to every matrix.
+    // Every size occurs on every matrix.
     contact.matrix =
         (index / kAllContactSizes.size() + index % kAllContactSizes.size()) % layout_.numMatrices();
     contact.begin = frame;
@@ -144,12 +144,13 @@ class NoisyContactsGenerator {
     spreadPressure(layout_, sdh2Sensor().neighbourFraction, full_);
   }
 
-  // Somewhere on the matrix, turned as it comes.
+  // Places the contact at a random position and rotation on the matrix.
   void place(const NoisyContact& contact) {
     std::fill(full_.begin(), full_.end(), 0.0);
     const MatrixLayout& matrix = layout_.matrix(contact.matrix);
     double y = 0.0, x = 0.0;
-    do {  // of few places of a matrix there is no taxel
+    // Repeated, because a few places of a matrix have no taxel.
+    do {
       y = std::floor(draw(1.0, matrix.rows - 1.0));
       x = std::floor(draw(1.0, matrix.columns - 1.0));
     } while (!matrix.exists(static_cast<int>(y), static_cast<int>(x)) ||
@@ -206,7 +207,8 @@ class NoisyContactsGenerator {
   SensorModel noisy_;
   SensorModel quiet_;  // the same without noise
   std::mt19937_64 random_;
-  std::vector<double> full_, pressure_;  // per place: of the contact at full load, and now [kPa]
+  // Per place [kPa]: pressure of the contact at full load, and now.
+  std::vector<double> full_, pressure_;
   std::vector<double> degC_;
   std::vector<std::uint16_t> counts_, restCounts_;
   std::vector<int> thresholds_;

@@ -8,7 +8,7 @@ namespace {
 
 constexpr std::size_t kPieceBytes = 64;
 
-// Pieces of one message are of equal size, so that none is a tiny rest.
+// The chunks of one message have equal sizes, so that none is very short.
 std::size_t pieceEnd(std::size_t bytes, std::size_t passed) {
   const std::size_t pieces = (bytes + kPieceBytes - 1) / kPieceBytes;
   std::size_t piece = passed * pieces / bytes;

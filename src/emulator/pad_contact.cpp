@@ -6,9 +6,10 @@
 namespace palpate {
 namespace {
 
-constexpr double kDeepestMm = 8.0;          // no rubber is thicker
-constexpr double kPadContactReachMm = 8.0;  // surfaces are bent: slack of the quick check
-constexpr double kFacing = 0.0;             // normals of pads that meet look at each other
+constexpr double kDeepestMm = 8.0;  // no rubber is thicker
+// margin of the quick check, because surfaces are curved
+constexpr double kPadContactReachMm = 8.0;
+constexpr double kFacing = 0.0;  // normals of touching pads point towards each other
 
 double radiusMm(const MatrixLayout& matrix) {
   return std::hypot(matrix.rows * matrix.pitchMm, matrix.columns * matrix.pitchMm) / 2.0;

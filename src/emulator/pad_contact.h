@@ -1,5 +1,5 @@
-// Pads that touch each other: fingers of an empty hand that is closed until they meet. Two rubber
-// foundations in a row, so each gives way by half of how far the surfaces would overlap.
+// Contact between pads: fingers of an empty hand that close until they meet. Two rubber foundations
+// act in series, so each is indented by half of the overlap of the surfaces.
 #pragma once
 
 #include <cstddef>
@@ -9,15 +9,15 @@
 
 namespace palpate {
 
-// How deep a point lies behind the surface of a matrix, along the normal there [mm]; 0: in front of
-// it, beside the pad, or so deep that it can't be the pad that it met.
+// Depth of a point behind the surface of a matrix, along its normal [mm]; 0 when the point is in
+// front of it, beside the pad, or too deep to be in contact with this pad.
 double depthBehindPad(const GeometryDescription& hand,
                       const HandPose& pose,
                       std::size_t matrix,
                       const Eigen::Vector3d& pointMm);
 
 // Calls `touch` for every taxel (matrix, y, x) that overlaps with a pad of another finger, with the
-// depth [mm].
+// depth of the overlap [mm].
 void findPadContacts(
     const HandPose& pose,
     const std::function<void(std::size_t matrix, int y, int x, double depthMm)>& touch);

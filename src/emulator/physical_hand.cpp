@@ -19,15 +19,15 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double kQuietStepS = 0.05;   // while nothing moves
-constexpr double kContactN = 0.05;     // truth: less is no contact
+constexpr double kContactN = 0.05;     // for the truth: a smaller force is no contact
 constexpr double kAmbientDegC = 34.0;  // of the housing
 constexpr double kWarmUpS = 900.0;     // time constant of a motor
-constexpr double kMovingDegC = 14.0;   // what full speed adds in the end
-constexpr double kHoldingDegC = 10.0;  // what the full torque adds
+constexpr double kMovingDegC = 14.0;   // final rise at full speed
+constexpr double kHoldingDegC = 10.0;  // final rise at full torque
 constexpr double kPoweredDegC = 2.0;
 constexpr double kBoardSlowness = 2.0;
 
-// Above the ambient temperature when switched on for a while [deg C]: motors 0..6, FPGA, board.
+// Stationary rise above the ambient temperature [deg C]: motors 0..6, FPGA, board.
 constexpr double kOffsetDegC[] = {2.0, 3.25, 1.5, 2.75, 1.0, 3.0, 1.75, 10.5, 8.25};
 
 }  // namespace
@@ -78,7 +78,7 @@ struct PhysicalHand::Impl {
     warm(dtS);
   }
 
-  // Where the joints stand, whatever they report.
+  // The true joint angles, in contrast to the reported ones.
   std::vector<double> trueAngles() const {
     std::vector<double> angles = joints.angles();
     for (std::size_t axis = 0; axis < options.zeroErrorDeg.size(); ++axis)
@@ -86,7 +86,7 @@ struct PhysicalHand::Impl {
     return angles;
   }
 
-  // An axis that would push harder than its motor can is stopped.
+  // Slows or stops the axes whose torque is too large for their motors.
   void hold() {
     std::fill(torqueNmm.begin(), torqueNmm.end(), 0.0);
     for (const JointAxis& line : pose.jointAxes())
@@ -98,14 +98,14 @@ struct PhysicalHand::Impl {
         torqueNmm[line.axis] +=
             (contact.centreMm - line.originMm).cross(contact.forceOnPadN).dot(line.direction);
       }
-    // It gives its full speed up to half of what it can, and less and less from there.
+    // An axis keeps its full speed up to half of its torque; above that, the speed decreases.
     for (std::size_t axis = 0; axis < torqueNmm.size(); ++axis) {
       const double share = 2.0 * torqueNmm[axis] / options.motorNmm[axis];
       joints.setResistance(axis, -share - 1.0, share - 1.0);
     }
   }
 
-  // How objects move over the matrices.
+  // Updates how far the objects have moved over the matrices.
   void follow(double dtS, bool moved) {
     for (std::size_t m = 0; m < truth.size(); ++m) {
       const SimulatedMatrixContact& contact = objects.contacts()[m];
@@ -120,7 +120,7 @@ struct PhysicalHand::Impl {
       now.xMm = contact.centreMm.x();
       now.yMm = contact.centreMm.y();
       now.zMm = contact.centreMm.z();
-      if (!contact.object) continue;  // another pad: neither slips
+      if (!contact.object) continue;  // contact with another pad: there is no slip
       const PhysicalObjects::Motion& motion = objects.motion(*contact.object);
       const Vector3d arm = contact.centreMm - objects.positionMm(*contact.object);
       Vector3d slide = (motion.velocityMmPerS + motion.angularRadPerS.cross(arm)) * dtS;
@@ -132,7 +132,7 @@ struct PhysicalHand::Impl {
       const double pitchMm = geometry.description().layout.matrix(m).pitchMm;
       now.slipXTaxels += slide.dot(right) / pitchMm;
       now.slipYTaxels += slide.dot(down) / pitchMm;
-      // From x towards y: about right x down, which points into the sensor.
+      // Rotation from x towards y: about x right cross y down, which points into the sensor.
       now.turnDeg -= motion.angularRadPerS.dot(contact.normal) * dtS * 180.0 / std::numbers::pi;
     }
   }
@@ -159,7 +159,7 @@ struct PhysicalHand::Impl {
     if (const auto* move = std::get_if<MoveObject>(&action)) objects.move(*move);
     if (const auto* turn = std::get_if<TurnObject>(&action)) objects.turn(*turn);
     if (const auto* load = std::get_if<LoadObject>(&action)) objects.load(*load);
-    // Once a client moves the hand, the script leaves it to him.
+    // Once a client moves the hand, the script no longer does.
     const bool mayMove = joints.motionCount() == ordersOfScript;
     if (const auto* grasp = std::get_if<GraspAction>(&action); grasp && mayMove) {
       if (grasp->preshape) preshape = *grasp->preshape;
@@ -196,7 +196,7 @@ struct PhysicalHand::Impl {
   std::string preshape;
   std::vector<ScriptStep> script;
   std::size_t nextStep = 0;
-  std::uint64_t ordersOfScript = 0;  // JointMotion::orders() after its last motion
+  std::uint64_t ordersOfScript = 0;  // JointMotion::motionCount() after its last motion
   double nowS = 0.0;
   bool still = false;
   HandPose pose, before;
@@ -223,11 +223,11 @@ void PhysicalHand::advanceTo(double timeS) {
     double untilS = timeS;
     if (hand.nextStep < hand.script.size())
       untilS = std::min(untilS, std::max(hand.script[hand.nextStep].atS, hand.nowS + 1e-9));
-    // Nothing moves: large steps, unless the rubber still has to settle (exact at any step).
+    // While nothing moves the steps are large, unless the rubber still changes (exact at any step).
     const bool quiet = (hand.still || hand.objects.size() == 0) && !hand.joints.moving();
     const double most = quiet ? kQuietStepS : hand.options.stepS;
     const double leftS = untilS - hand.nowS;
-    // After a long silence of the clients there is nothing to simulate in detail.
+    // A long time without changes is simulated in one step.
     const double dtS = quiet && leftS > 10.0 ? leftS : std::min(most, leftS);
     hand.step(dtS);
     hand.nowS += dtS;

@@ -16,15 +16,15 @@ using Eigen::Vector3d;
 
 constexpr double kKpaPerNPerMm2 = 1000.0;
 constexpr double kGravity = 9.81;         // [m/s^2]
-constexpr double kMobilityMmPerNs = 2.0;  // how an object gives way [mm/s per N]
-constexpr double kArmMm = 30.0;           // turns the same into rotation
+constexpr double kMobilityMmPerNs = 2.0;  // velocity of an object per force [mm/s per N]
+constexpr double kArmMm = 30.0;           // lever that converts it into rotation
 constexpr double kMostMmPerS = 100.0;
 constexpr double kMostRadPerS = 4.0;
-constexpr double kLeastHoldN = 1e-6;  // of friction, along a normal
-constexpr double kTouchN = 0.05;      // less is no contact
-constexpr double kPutDownS = 0.5;     // untouched for so long it stands again
+constexpr double kLeastHoldN = 1e-6;  // minimum of the friction limit, along a normal
+constexpr double kTouchN = 0.05;      // a smaller force is no contact
+constexpr double kPutDownS = 0.5;     // an object untouched for this time returns to its pose
 constexpr double kQuietMmPerS = 0.05;
-// sensor surfaces are bent: slack of the quick check
+// Margin of the quick check, because sensor surfaces are curved.
 constexpr double kPhysicalObjectsReachMm = 8.0;
 
 Vector3d limited(const Vector3d& v, double most) {
@@ -68,7 +68,7 @@ void PhysicalObjects::press(const HandPose& pose, std::vector<double>& pressureK
 
 void PhysicalObjects::pressPads(const HandPose& pose, std::vector<double>& pressureKpa) {
   const SensorLayout& layout = geometry_.description().layout;
-  const double k = rubberNPerMm3_ / 2.0;  // two in a row
+  const double k = rubberNPerMm3_ / 2.0;  // two foundations in series
   findPadContacts(pose, [&](std::size_t m, int y, int x, double depthMm) {
     const MatrixLayout& matrix = layout.matrix(m);
     const std::size_t place = layout.offset(m) + static_cast<std::size_t>(y * matrix.columns + x);
@@ -93,7 +93,7 @@ void PhysicalObjects::pressBody(std::size_t index,
   body.touches.clear();
   body.normalForceN = body.normalTorqueNmm = Vector3d::Zero();
   body.grip = body.stiffnessNPerMm = body.turnStiffnessNmm = 0.0;
-  // Rubber and object's surface are two springs in a row.
+  // The rubber and the object's surface are two springs in series.
   const double k = rubberNPerMm3_ * body.object.stiffnessNPerMm3 /
                    (rubberNPerMm3_ + body.object.stiffnessNPerMm3);
   const Eigen::Matrix3d toBody = body.rotation.transpose();
@@ -163,7 +163,7 @@ Vector3d PhysicalObjects::netForceN(const Body& body, const Vector3d& forceN) {
     normals += touch.forceN * touch.normal * touch.normal.transpose();
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> principal;
   principal.computeDirect(normals);
-  double used = 0.0;  // share of the limit, squared
+  double used = 0.0;  // fraction of the limit, squared
   for (int i = 0; i < 3; ++i) {
     const Vector3d axis = principal.eigenvectors().col(i);
     const double share = forceN.dot(axis) / std::max(frictionLimitN(body, axis), kLeastHoldN);
@@ -198,8 +198,8 @@ void PhysicalObjects::advanceBody(Body& body, double dtS) {
   if (body.grip >= kTouchN && frictionLimitN(body, pull.normalized()) >= pull.norm())
     body.held = true;
 
-  // What friction doesn't hold moves it: as fast as thick oil lets it, and never past the place
-  // where the contacts' springs balance it (the denominator).
+  // The force beyond the friction moves the object, limited by viscosity, and never past the
+  // position where the springs of the contacts balance it (the denominator).
   Vector3d velocity = Vector3d::Zero(), angular = Vector3d::Zero();
   if (!body.object.fixed) {
     const auto speed = [dtS](double mobility, double spring) {

@@ -1,10 +1,10 @@
-// The objects of a scene between the fingers: elastic contact, giving way, friction, weight and
-// load. Quasi-static: an object moves as in thick oil, until forces balance or friction holds it.
-// Friction is Coulomb's, contact by contact: across a contact it holds up to friction times normal
-// force, and about its normal up to that times the print's radius; along the normal it holds
-// nothing. Forces in several directions at once share it: an ellipsoid over the principal axes of
-// the normals is the limit (the limit surface of Goyal, Ruina and Papadopoulos, 1991, in its usual
-// approximation).
+// The objects of a scene between the fingers of PhysicalHand: elastic contact, yielding, friction,
+// weight and load. The model is quasi-static: an object moves as in a viscous fluid until the
+// forces balance or friction holds it. Each contact has Coulomb friction: in its plane up to
+// friction times normal force, about its normal up to that times the radius of the contact area,
+// and none along the normal. Forces in several directions share this limit: it is an ellipsoid over
+// the principal axes of the normals (the limit surface of Goyal, Ruina and Papadopoulos, 1991, in
+// its usual approximation).
 #pragma once
 
 #include <array>
@@ -18,14 +18,15 @@
 
 namespace palpate {
 
-// What presses on one matrix.
+// Contact on one matrix.
 struct SimulatedMatrixContact {
   double forceN = 0.0;                                    // sum of the normal forces
   Eigen::Vector3d forceOnPadN = Eigen::Vector3d::Zero();  // base frame
-  Eigen::Vector3d centreMm = Eigen::Vector3d::Zero();     // of pressure, base frame
-  double surfaceXMm = 0.0, surfaceYMm = 0.0;              // the same place on the sensor surface
+  Eigen::Vector3d centreMm = Eigen::Vector3d::Zero();     // centre of pressure, base frame
+  double surfaceXMm = 0.0, surfaceYMm = 0.0;              // the same point on the sensor surface
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();       // mean outward normal there
-  std::optional<std::size_t> object;                      // that presses most; nothing: another pad
+  // Object with the largest force; empty for another pad.
+  std::optional<std::size_t> object;
 };
 
 class PhysicalObjects {
@@ -34,13 +35,13 @@ class PhysicalObjects {
                   const HandGeometry& geometry,
                   double rubberNPerMm3);
 
-  // Finds contact in a pose, with the objects and of pads with each other: pressure per place [kPa]
+  // Computes the contacts in a pose, with the objects and between pads: pressure per place [kPa]
   // and contact per matrix.
   void press(const HandPose& pose, std::vector<double>& pressureKpa);
   const std::vector<SimulatedMatrixContact>& contacts() const noexcept { return contacts_; }
-  // Moves the objects for a time under what press() found.
+  // Moves the objects for a time under the forces found by press().
   void advance(double dtS);
-  // Whether nothing moves: no object gives way or slides, nor is moved.
+  // True if no object moves, neither under forces nor by the script.
   bool quiet() const noexcept;
 
   void move(const MoveObject& move);
@@ -51,7 +52,7 @@ class PhysicalObjects {
     Eigen::Vector3d velocityMmPerS = Eigen::Vector3d::Zero();
     Eigen::Vector3d angularRadPerS = Eigen::Vector3d::Zero();
   };
-  // Of the last advance().
+  // Motion during the last advance().
   const Motion& motion(std::size_t object) const { return bodies_.at(object).motion; }
   const Eigen::Vector3d& positionMm(std::size_t object) const {
     return bodies_.at(object).positionMm;
@@ -59,23 +60,25 @@ class PhysicalObjects {
   std::size_t size() const noexcept { return bodies_.size(); }
 
  private:
-  struct ScriptedMotion {  // a hand that moves it
+  // A motion by the script.
+  struct ScriptedMotion {
     Eigen::Vector3d perS = Eigen::Vector3d::Zero();
     double leftS = 0.0;
   };
-  struct Touch {  // between the object and one matrix
+  // Contact between the object and one matrix.
+  struct Touch {
     double forceN = 0.0;
     Eigen::Vector3d normal = Eigen::Vector3d::Zero();  // mean, towards the object
-    Eigen::Vector3d armMm = Eigen::Vector3d::Zero();   // from the object's middle
+    Eigen::Vector3d armMm = Eigen::Vector3d::Zero();   // from the object's centre
     double contactRadiusMm = 0.0;                      // radius of gyration of its pressure
   };
   struct Body {
     SceneObject object;
     Eigen::Vector3d positionMm;
     Eigen::Matrix3d rotation;
-    bool held = false;  // friction carries it: weight and load act
+    bool held = false;  // friction holds it: weight and load are applied
     double untouchedS = 0.0;
-    std::vector<Touch> touches;                     // one per matrix that it meets
+    std::vector<Touch> touches;                     // one per matrix in contact
     Eigen::Vector3d normalForceN, normalTorqueNmm;  // sum over all contacts, on the object
     double grip = 0.0;                              // sum of the normal forces [N]
     double stiffnessNPerMm = 0.0;                   // of all contacts together
@@ -90,10 +93,10 @@ class PhysicalObjects {
   void pressPads(const HandPose& pose, std::vector<double>& pressureKpa);
   void pressBody(std::size_t index, const HandPose& pose, std::vector<double>& pressureKpa);
   static void advanceBody(Body& body, double dtS);
-  // What is left of a force [N] that friction opposes; zero where it holds.
+  // The part of a force [N] that exceeds the friction; zero where friction holds.
   static Eigen::Vector3d netForceN(const Body& body, const Eigen::Vector3d& forceN);
-  // What friction holds against a force in a direction [N], a torque about an axis [N mm] (unit
-  // vectors).
+  // Largest force in a direction [N], and largest torque about an axis [N mm], that friction holds
+  // (unit vectors).
   static double frictionLimitN(const Body& body, const Eigen::Vector3d& direction);
   static double frictionLimitNmm(const Body& body, const Eigen::Vector3d& axis);
 
@@ -101,7 +104,8 @@ class PhysicalObjects {
   double rubberNPerMm3_;
   std::vector<Body> bodies_;
   std::vector<SimulatedMatrixContact> contacts_;
-  std::vector<double> strongestN_;  // per matrix: of the object that presses it most
+  // Per matrix: force of the object with the largest force.
+  std::vector<double> strongestN_;
 };
 
 }  // namespace palpate

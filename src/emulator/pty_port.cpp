@@ -22,7 +22,7 @@ namespace palpate {
 namespace {
 namespace fs = std::filesystem;
 
-// Whether `link` is a symbolic link to a pty or to nothing: then it may be replaced.
+// True if `link` is a symbolic link to a pty or to nothing, so that it may be replaced.
 bool mayBeReplaced(const fs::path& link) {
   struct stat own {};
   if (::lstat(link.c_str(), &own) != 0 || !S_ISLNK(own.st_mode)) return false;
@@ -79,7 +79,7 @@ class PtyPort final : public PortServer {
     if (!link_.empty() && !target_.empty()) {
       std::array<char, 256> now{};
       const ssize_t n = ::readlink(link_.c_str(), now.data(), now.size());
-      // Another emulator may have taken the name over.
+      // Another emulator may have replaced the link.
       if (n > 0 && target_.compare(0, std::string::npos, now.data(), static_cast<size_t>(n)) == 0)
         ::unlink(link_.c_str());
     }
@@ -98,8 +98,8 @@ class PtyPort final : public PortServer {
     }
   }
 
-  // TIOCEXCL outlives the client that set it, because we hold the terminal open. A living client
-  // holds the lock as well (as ours does), or does without both.
+  // TIOCEXCL outlives the client that set it, because this process holds the terminal open. A
+  // running client also holds the lock (as our driver does), or uses neither.
   void releaseStaleLock() noexcept override {
     int exclusive = 0;
     if (slave_.get() < 0 || ::ioctl(slave_.get(), TIOCGEXCL, &exclusive) != 0 || exclusive == 0)
@@ -123,7 +123,7 @@ class PtyPort final : public PortServer {
     std::array<char, 128> path{};
     if (::ptsname_r(master_.get(), path.data(), path.size()) != 0)
       fail("a terminal without a name");
-    // Held open: a client that closes is no hang-up for us, and the settings stay.
+    // Held open, so that the port sees no hang-up when a client closes, and the settings are kept.
     slave_ = FileDescriptor(::open(path.data(), O_RDWR | O_NOCTTY | O_CLOEXEC));
     if (slave_.get() < 0) fail("the terminal can't be opened");
     termios raw{};
@@ -140,7 +140,7 @@ class PtyPort final : public PortServer {
 
   fs::path link_;
   std::string name_;
-  std::string target_;  // what our link points to; empty: there is none of ours
+  std::string target_;  // target of our link; empty without a link
   FileDescriptor master_;
   FileDescriptor slave_;
 };

@@ -9,7 +9,7 @@ namespace {
 constexpr int kProximalThreshold = 150;
 constexpr int kDistalThreshold = 300;
 
-// Angles of the recording, made fit for the axes.
+// Angles of the recording, clamped to the range of the axes.
 std::vector<double> withinRange(const std::vector<AxisDescription>& axes,
                                 const std::vector<double>& deg) {
   std::vector<double> angles(axes.size());
@@ -45,7 +45,7 @@ void ReplayedHand::advanceTo(double timeS) {
   placeJoints();
 }
 
-// The last frame's moment and what has passed since, but not beyond the next frame.
+// Time of the last frame plus the time since then, but not beyond the next frame.
 std::int64_t ReplayedHand::recordingTimeUs() const {
   if (profile_.numFrames() == 0) return 0;
   if (nextFrame_ == 0) return profile_.frameTimeUs(0);
@@ -58,7 +58,8 @@ void ReplayedHand::placeJoints() {
   const auto sample = profile_.angleSampleAt(recordingTimeUs());
   if (!sample || sample == angleSample_) return;
   angleSample_ = sample;
-  // A new machine in another place that keeps what the client has set.
+  // A JointMotion can't be moved directly: creates a new one at the recorded angles with the
+  // settings of the client.
   JointMotion moved(hand(), withinRange(hand().axes, profile_.angles(*sample).deg));
   moved.setController(joints_.controller());
   moved.setProfile(joints_.profile());

@@ -25,7 +25,7 @@ constexpr std::size_t kMostObjects = 100;
 constexpr std::size_t kMaxSteps = 10'000;
 constexpr std::uintmax_t kMaxBytes = 1u << 20;
 
-// One object of the file, with its place for messages.
+// One JSON object of the file, with its path for error messages.
 class Field {
  public:
   Field(Json json, std::string place, const fs::path& file)

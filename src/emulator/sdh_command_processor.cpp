@@ -1,4 +1,4 @@
-// Quantities with one value per axis.
+// Commands of the emulated motion controller: quantities with one value per axis, text, motions.
 #include "emulator/sdh_command_processor.h"
 
 #include <algorithm>
@@ -51,7 +51,7 @@ std::vector<double> fromFlags(const std::vector<bool>& flags) {
   return values;
 }
 
-// As a joint says it: outside of its range, or nonsense.
+// Converts the exceptions of JointMotion (out of range, invalid) to error codes.
 template <typename Setter>
 void setJoints(Setter&& setter) {
   try {
@@ -63,7 +63,8 @@ void setJoints(Setter&& setter) {
   }
 }
 
-constexpr FirmwareVersion kQuietFirmware{0, 0, 3, 1};  // before: lines with @ ahead of answers
+// earlier releases send lines with @ before answers
+constexpr FirmwareVersion kQuietFirmware{0, 0, 3, 1};
 constexpr FirmwareVersion kSdhTextCommandsControllers{0, 0, 2, 6};
 constexpr int kDecimals = 4;
 
@@ -80,8 +81,8 @@ std::string joined(const std::vector<double>& values, int decimals) {
   return text;
 }
 
-// The built-in grips, by id (the firmware's own angles are not known; those of the preshapes of the
-// same names).
+// The built-in grips, by id. The firmware's own angles are unknown; those of the preshapes of the
+// same names are used.
 constexpr const char* kGrips[] = {"centrical", "parallel", "cylindrical", "spherical"};
 
 std::vector<double> gripAngles(unsigned grip, double ratio) {
@@ -112,7 +113,7 @@ FirmwareVersion parseFirmware(std::string_view text) {
 SdhCommandProcessor::SdhCommandProcessor(HandModel& model, const SdhServerOptions& options)
     : model_(model), options_(options), firmware_(parseFirmware(options.firmware)) {
   const std::size_t n = numAxes();
-  // As logs of a real hand show them [A].
+  // Values seen in logs of a real hand [A].
   constexpr double kGripA = 0.5, kBaseGripA = 1.0, kHoldA = 0.2, kBaseHoldA = 0.1;
   gripCurrentA_.assign(n, kGripA);
   holdCurrentA_.assign(n, kHoldA);
@@ -204,7 +205,7 @@ std::vector<double> SdhCommandProcessor::set(const SdhAxisVariable& quantity,
     for (const double value : values) on.push_back(value >= 0.5);
     joints.setPower(on);
   } else if (name == "p_min" || name == "p_max") {
-    // Soft limits that the hand already violates are refused.
+    // A soft limit is refused when the present angle violates it.
     const bool least = name == "p_min";
     const auto& axes = model_.hand().axes;
     for (std::size_t i = 0; i < values.size(); ++i)
@@ -224,7 +225,7 @@ std::vector<double> SdhCommandProcessor::set(const SdhAxisVariable& quantity,
   return get(quantity);
 }
 
-// A line taken apart: name(index)=values.
+// The parts of a line: name(index)=values.
 struct SdhCommandProcessor::Words {
   std::string name;  // lower case
   std::optional<std::size_t> index;
@@ -239,7 +240,7 @@ struct SdhCommandProcessor::Words {
       if (head.back() != ')') throw SdhRefusal{kSdhFormatError};
       const auto number = parseInteger(head.substr(open + 1, head.size() - open - 2));
       if (!number) throw SdhRefusal{kSdhFormatError};
-      // Any number that is no axis is out of bounds, whatever its sign.
+      // A number that is no axis is out of bounds, whatever its sign.
       index = static_cast<std::size_t>(*number);
       head = trimmed(head.substr(0, open));
     }
@@ -267,7 +268,7 @@ struct SdhCommandProcessor::Words {
 };
 
 SdhAnswer SdhCommandProcessor::execute(const std::string& line) {
-  // The name first: an unknown command is unknown, whatever follows it.
+  // The name is checked first: an unknown command is reported as unknown, whatever follows it.
   const std::string name = Words(line.substr(0, line.find_first_of("(="))).name;
   static constexpr std::string_view kOthers[] = {"ver",
                                                  "ver_date",
@@ -297,7 +298,7 @@ SdhAnswer SdhCommandProcessor::execute(const std::string& line) {
   const SdhAxisVariable* known = quantity(name);
   if (!known && std::find(std::begin(kOthers), std::end(kOthers), name) == std::end(kOthers))
     throw SdhRefusal{kSdhUnknownCommand};
-  // What follows `stop` is ignored.
+  // Text after `stop` is ignored.
   const Words words(name == "stop" ? std::string_view("stop") : std::string_view(line));
   if (words.index && *words.index >= numAxes()) throw SdhRefusal{kSdhIndexOutOfBounds};
   if (known) return quantityCommand(*known, words);
@@ -318,7 +319,7 @@ SdhAnswer SdhCommandProcessor::quantityCommand(const SdhAxisVariable& quantity,
   } else if (words.index) {
     words.require(1);
     if (!quantity.settable) throw SdhRefusal{kSdhNoParameters};
-    // The other axes keep what is set for them.
+    // The other axes keep their values.
     std::vector<double> values = quantity.name == "tpap"   ? model_.joints().targets()
                                  : quantity.name == "tvav" ? model_.joints().targetVelocities()
                                                            : get(quantity);
@@ -347,7 +348,8 @@ SdhAnswer SdhCommandProcessor::gainCommand(const Words& words,
 }
 
 std::string SdhCommandProcessor::temperatures() const {
-  // Motors in steps of 0.25, the FPGA's of 0.125; two decimals, or three where they are needed.
+  // Temperatures of motors have steps of 0.25, that of the FPGA 0.125; two decimals, or three where
+  // needed.
   constexpr double kStep = 0.25, kFineStep = 0.125;
   std::string text;
   const auto& sensors = model_.hand().temperatureSensors;
@@ -428,7 +430,8 @@ std::optional<SdhAnswer> SdhCommandProcessor::motionCommand(const Words& words) 
   return std::nullopt;
 }
 
-// Moves all axes there; returns the duration [s]. The velocities that were set stay set.
+// Moves all axes to the targets; returns the duration [s]. The velocities set by the client are
+// kept.
 double SdhCommandProcessor::moveTo(const std::vector<double>& targetDeg, double velocityDegPerS) {
   JointMotion& joints = model_.joints();
   if (joints.controller() != ControllerType::kPose) throw SdhRefusal{kSdhInconsistent};
@@ -473,7 +476,7 @@ SdhAnswer SdhCommandProcessor::grip(const Words& words) {
           durationS};
 }
 
-// Each axis runs to its positive (1) or negative (2) stop.
+// Moves each axis to its positive (1) or negative (2) stop.
 SdhAnswer SdhCommandProcessor::reference(const std::vector<double>& kinds,
                                          std::optional<std::size_t> axis) {
   std::vector<double> target = model_.joints().angles();

@@ -1,5 +1,5 @@
-// The motion controller's commands, whatever form they came in: quantities with one value per axis,
-// motions and text answers.
+// Executes the motion controller's commands for SdhServer, in text or binary form: quantities with
+// one value per axis, motions and text answers.
 #pragma once
 
 #include <array>
@@ -30,16 +30,16 @@ constexpr unsigned kSdhChecksumError = 33;
 constexpr std::size_t kSdhRecordAxes = 7;
 constexpr std::size_t kSdhMaxLine = 254;
 
-// The controller refuses; thrown inside this module only.
+// The controller refuses a command with this error; thrown inside this module only.
 struct SdhRefusal {
   unsigned code = 0;
 };
 
 using FirmwareVersion = std::array<int, 4>;
-// "0.0.3.3", with anything behind the numbers. Throws std::invalid_argument.
+// Parses "0.0.3.3", with any text after the numbers. Throws std::invalid_argument.
 FirmwareVersion parseFirmware(std::string_view text);
 
-// One value per axis.
+// A quantity with one value per axis.
 struct SdhAxisVariable {
   std::string_view name;
   unsigned number = 0;  // of the binary record; 0: text only
@@ -48,24 +48,24 @@ struct SdhAxisVariable {
   FirmwareVersion since{};
 };
 
-// An answer: now, or when the motion has ended.
+// An answer, to be sent now or after the motion.
 struct SdhAnswer {
   std::string text;
   bool afterMotion = false;
-  double durationS = 0.0;  // expected [s], with afterMotion
+  double durationS = 0.0;  // expected duration [s], with afterMotion
 };
 
 class SdhCommandProcessor {
  public:
   SdhCommandProcessor(HandModel& model, const SdhServerOptions& options);
 
-  // Quantities by name or number; null: no such one (in this firmware).
+  // Finds quantities by name or number; null if this firmware doesn't have it.
   const SdhAxisVariable* quantity(std::string_view name) const;
   const SdhAxisVariable* quantity(unsigned number) const;
-  // Throw SdhRefusal. `set` returns the resulting values, and of tpap and tvav the actual ones.
+  // Throw SdhRefusal. `set` returns the resulting values; for tpap and tvav the actual ones.
   std::vector<double> get(const SdhAxisVariable& quantity) const;
   std::vector<double> set(const SdhAxisVariable& quantity, const std::vector<double>& values);
-  // Carries out a text command. Throws SdhRefusal.
+  // Executes a text command. Throws SdhRefusal.
   SdhAnswer execute(const std::string& line);
   bool moving() const { return model_.joints().moving(); }
   void powerCycle();
@@ -92,7 +92,7 @@ class SdhCommandProcessor {
   std::vector<double> minDeg_, maxDeg_, offsetDeg_;
   std::vector<double> referenceKind_, saved_;
   std::vector<std::vector<double>> gain_, pid_;  // per axis
-  unsigned grip_ = 1;                            // chosen by selgrip
+  unsigned grip_ = 1;                            // selected by selgrip
 };
 
 }  // namespace palpate

@@ -1,5 +1,5 @@
-// Input, timing and binary records; what the commands do stands in sdh_command_processor.cpp and
-// sdh_text_commands.cpp.
+// Input, timing and binary records of the emulated motion controller; sdh_command_processor.cpp
+// executes the commands.
 #include "palpate/emulator/sdh_server.h"
 
 #include <algorithm>
@@ -18,7 +18,8 @@ namespace {
 
 constexpr std::size_t kMaxInputBytes = 4096;
 constexpr std::int64_t kMotionCheckUs = 5000;
-// An end of motion that doesn't come (a finger held for ever) ends here, after the expected time.
+// A motion that doesn't end (a finger that stays blocked) counts as ended this time after its
+// expected end [s].
 constexpr double kMotionPatienceS = 2.0;
 
 bool isBinary(std::byte b) { return (b & std::byte{0x80}) != std::byte{0}; }
@@ -88,7 +89,8 @@ std::optional<SdhServer::Command> SdhServer::nextRecord() {
   const auto count = std::to_integer<std::size_t>(input_[2]);
   const std::size_t total = recordBytes(count == kSdhRecordAxes);
   if ((count != 0 && count != kSdhRecordAxes) || length != total - 2) {
-    // Nobody knows where the next command begins: all goes until a line ends, or until it is quiet.
+    // The begin of the next command is unknown: all input is skipped up to the end of a line, or
+    // until the client is silent.
     Command garbage;
     garbage.record = {input_[0]};
     garbage.refusal = kSdhFormatError;
@@ -110,14 +112,14 @@ std::optional<SdhServer::Command> SdhServer::nextLine() {
       input_.begin(), input_.end(), [](std::byte b) { return isLineEnd(b) || isBinary(b); });
   const auto length = static_cast<std::size_t>(end - input_.begin());
   if (end == input_.end()) {
-    // Answered once its end has come.
+    // A line that is too long is answered when its end has arrived.
     if (length > kSdhMaxLine) {
       tooLong_ = true;
       input_.clear();
     }
     return std::nullopt;
   }
-  const bool cut = isBinary(*end);  // its end was lost, a record follows
+  const bool cut = isBinary(*end);  // the line's end was lost, a record follows
   Command command;
   if (!cut) {
     for (auto b = input_.begin(); b != end; ++b) command.line.push_back(std::to_integer<char>(*b));
@@ -221,7 +223,7 @@ void SdhServer::executeRecord(std::span<const std::byte> record) {
       throw SdhRefusal{kSdhChecksumError};
     const SdhAxisVariable* quantity = motion_->quantity(number);
     if (!quantity) throw SdhRefusal{kSdhUnknownCommand};
-    // A hand with fewer axes has nothing behind the rest.
+    // For a hand with fewer axes the remaining values have no meaning.
     values.resize(std::min(values.size(), model_.hand().axes.size()));
     sendRecord(number, 0, count == 0 ? motion_->get(*quantity) : motion_->set(*quantity, values));
   } catch (const SdhRefusal& refusal) {

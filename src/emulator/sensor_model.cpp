@@ -10,13 +10,13 @@ namespace palpate {
 namespace {
 
 constexpr double kSensorModelMaxCounts = 4095.0;
-constexpr double kRestKpa = 1e-6;     // below: the rubber is at rest
-constexpr double kNoiseReach = 8.0;   // farther noise never comes [standard deviations]
+constexpr double kRestKpa = 1e-6;     // below this pressure the rubber is at rest
+constexpr double kNoiseReach = 8.0;   // larger noise is not generated [standard deviations]
 constexpr double kHeavyReach = 45.0;  // heavyTailed(kNoiseReach)
 
-// A draw of unit variance with the tails that the noise of ordinary taxels has: of their readings
-// (sd 0.9) 1.8 % lie 3 counts or more from the mean, 0.5 % 4 or more; of a normal distribution it
-// would be 0.7 and 0.01 %.
+// A random value of unit variance with the heavy tails of the noise of ordinary taxels: of their
+// readings (sd 0.9) 1.8 % are 3 counts or more from the mean, 0.5 % 4 or more; for a normal
+// distribution it would be 0.7 and 0.01 %.
 double heavyTailed(double z) { return z * (0.756 + 0.0756 * z * z); }
 
 }  // namespace
@@ -63,8 +63,9 @@ void SensorModel::advance(std::span<const double> pressureKpa, double dtS) {
   const bool loaded = std::any_of(
       pressureKpa.begin(), pressureKpa.end(), [](double kpa) { return kpa > kRestKpa; });
   if (!loaded && atRest_) return;
-  // Two lags in a row under a constant input u, exactly: with a = e^(-t/T1), b = e^(-t/T2),
-  // x1 = u + (x1 - u) a, x2 = u + (x2 - u) b + (x1 - u) T1 (a - b) / (T1 - T2).
+  // Exact solution of two lags in series for a constant input u: with a = e^(-t/T1), b = e^(-t/T2),
+  //   x1 = u + (x1 - u) a
+  //   x2 = u + (x2 - u) b + (x1 - u) T1 (a - b) / (T1 - T2)
   const double t1 = characteristics_.lag1S, t2 = characteristics_.lag2S;
   const double a = std::exp(-dtS / t1), b = std::exp(-dtS / t2);
   const double mixed = t1 * (a - b) / (t1 - t2);
@@ -117,7 +118,7 @@ void SensorModel::scan(std::span<const double> degC,
       const double kpa = responseKpa(place);
       if (kpa > 0.0) raw += setting.sensitivity * characteristics_.countsAbove(kpa, handDegC);
       if (raw + (raised ? kNoiseReach : kHeavyReach) * sd < threshold)
-        continue;  // noise doesn't lift it
+        continue;  // noise can't raise it above the threshold
       const double drawn = normal_(random_);
       raw += shared + sd * (raised ? drawn : heavyTailed(drawn));
       const double above = std::round(saturated(raw - threshold, characteristics_.largestCounts));

@@ -30,7 +30,8 @@ double ellipsoid(const Vector3d& p, const Vector3d& radii) {
   return k0 * (k0 - 1.0) / k1;
 }
 
-// In the half plane (distance from the axis, height): a triangle with its foot on the axis.
+// In the half plane (distance from the axis, height): distance from a triangle with its base on the
+// axis.
 double cone(const Vector3d& p, double radius, double half) {
   const Vector2d q(std::hypot(p.x(), p.y()), p.z());
   const Vector2d tip(0.0, half), rim(radius, -half);

@@ -22,7 +22,7 @@ namespace {
 constexpr double kTemperatureIntervalS = 1.0;
 constexpr std::int64_t kStepsPerReport = 256;
 
-// Appends a run to what is there, beginning at `startUs`. Returns when it ends [us].
+// Appends a run that begins at `startUs`. Returns the time of its end [us].
 std::int64_t append(ProfileBuilder& builder,
                     const Scene& scene,
                     const SimulatedRecordingOptions& options,

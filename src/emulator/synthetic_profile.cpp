@@ -14,20 +14,20 @@
 namespace palpate {
 namespace {
 
-// Counts no real taxel was seen to exceed: the sensor bends towards it and never reaches full
-// scale.
+// Largest counts seen on a real taxel: the sensor saturates gradually and never reaches full scale.
 constexpr double kHighestCounts = 3560.0;
-constexpr double kGraspFraction = 0.62;  // of a grasp's share of the time is spent in contact
-constexpr double kCloseFraction = 0.25;  // of the contact: force rises
-constexpr double kOpenFraction = 0.12;   // of the contact: force falls
+constexpr double kGraspFraction = 0.62;  // fraction of a grasp's time with contact
+constexpr double kCloseFraction = 0.25;  // fraction of the contact: force rises
+constexpr double kOpenFraction = 0.12;   // fraction of the contact: force falls
 
-// A pinch: one fingertip and its opponent carry the load, unequally and slightly off centre.
+// A pinch: a fingertip and the opposite one carry the load, unequally and slightly off centre.
 struct Contact {
   std::size_t matrix;
   double share;    // of peakCounts
   double centreX;  // [taxels]
   double centreY;
-  double driftY;  // how far the contact creeps while it is held [taxels]
+  // Distance that the contact creeps while it is held [taxels].
+  double driftY;
 };
 constexpr std::array<Contact, 2> kContacts{{{1, 1.0, 2.7, 8.1, 0.5}, {5, 0.62, 2.2, 7.4, -0.4}}};
 
@@ -35,7 +35,7 @@ constexpr std::array<Contact, 2> kContacts{{{1, 1.0, 2.7, 8.1, 0.5}, {5, 0.62, 2
 // way).
 constexpr std::array<double, 7> kOpenDeg{90.0, -35.0, 35.0, -90.0, 0.0, -35.0, 35.0};
 constexpr std::array<double, 7> kClosedDeg{90.0, -14.0, 14.0, -90.0, 0.0, -14.0, 14.0};
-// Motors, FPGA, circuit board, shortly after power-up [deg C], and what a minute of work adds.
+// Motors, FPGA, circuit board, shortly after power-up [deg C], and their rise per minute of work.
 constexpr std::array<double, 9> kStartDegC{35.5, 35.0, 31.25, 35.25, 31.5, 34.5, 32.0, 44.5, 44.25};
 constexpr double kWarmingDegCPerMinute = 0.5;
 
@@ -44,7 +44,7 @@ double smoothStep(double t) {
   return t * t * (3.0 - 2.0 * t);
 }
 
-// Position within the grasp cycles: how hard and how far closed, both 0..1.
+// State within a grasp cycle: force and closing, both 0..1.
 struct Phase {
   double force = 0.0;
   double closing = 0.0;
@@ -62,7 +62,7 @@ Phase phaseAt(double timeS, const SyntheticOptions& options) {
   const double contact = (inCycle - begin) / kGraspFraction;
   if (contact <= 0.0 || contact >= 1.0) return phase;
   phase.held = contact;
-  // Rises, creeps up a little (foam), falls.
+  // The force rises, creeps up a little (foam), and falls.
   phase.force = smoothStep(contact / kCloseFraction) * (0.93 + 0.07 * contact) *
                 (1.0 - smoothStep((contact - 1.0 + kOpenFraction) / kOpenFraction));
   return phase;
@@ -88,7 +88,7 @@ class SyntheticProfileGenerator {
   void press(const Contact& contact, const Phase& phase, TactileFrame& frame) {
     const MatrixLayout& layout = layout_->matrix(contact.matrix);
     auto values = frame.matrix(contact.matrix);
-    // A harder press also widens the patch.
+    // A larger force also widens the contact area.
     const double radius = options_.contactRadiusTaxels * (0.6 + 0.4 * phase.force);
     const double centreY = contact.centreY + contact.driftY * phase.held;
     for (int y = 0; y < layout.rows; ++y) {
@@ -150,7 +150,7 @@ void SyntheticOptions::validate() const {
   syntheticProfileCheckRange("contactRadiusTaxels", contactRadiusTaxels, 0.5, 5.0);
   syntheticProfileCheckRange("thresholdCounts", thresholdCounts, 0.0, 4095.0);
   syntheticProfileCheckRange("noiseCounts", noiseCounts, 0.0, 1000.0);
-  // Fewer frames than that in a grasp's share of the time, and grasps are lost between frames.
+  // With fewer frames per grasp, grasps could be lost between frames.
   constexpr double kFewestFrames = 12.0;
   if (grasps * kFewestFrames > durationS * rateHz)
     throw std::invalid_argument("synthetic recording: " + std::to_string(grasps) +
@@ -185,7 +185,7 @@ Profile synthesize(const SyntheticOptions& options, SyntheticTruth* truth) {
     std::array<double, kStartDegC.size()> degC{};
     for (std::size_t i = 0; i < degC.size(); ++i) {
       const double warm = kStartDegC[i] + kWarmingDegCPerMinute * timeS / 60.0;
-      degC[i] = std::round(warm * 8.0) / 8.0;  // the sensors' own resolution
+      degC[i] = std::round(warm * 8.0) / 8.0;  // resolution of the sensors
     }
     builder.addTemperatures(hostUs, degC);
   });

@@ -1,4 +1,4 @@
-// The TCP port behind openTcpPort(), and the choice between both kinds of ports.
+// The TCP port behind openTcpPort(), and openPortServer(), which chooses the kind of port.
 #include <cerrno>
 #include <cstring>
 #include <stdexcept>
@@ -63,7 +63,7 @@ class TcpPort final : public PortServer {
     sockaddr_in address{};
     address.sin_family = AF_INET;
     address.sin_port = htons(port_);
-    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);  // strangers stay outside
+    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);  // not reachable from other machines
     socklen_t size = sizeof address;
     auto* generic = reinterpret_cast<sockaddr*>(&address);
     if (::bind(listener_.get(), generic, size) != 0 || ::listen(listener_.get(), 1) != 0 ||

@@ -1,4 +1,4 @@
-// Little-endian bytes of an answer.
+// Writes the little-endian bytes of an answer of the emulated controllers.
 #pragma once
 
 #include <bit>

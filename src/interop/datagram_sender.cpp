@@ -20,7 +20,7 @@ DatagramSender::DatagramSender(std::uint16_t port) : port_(port) {
   address.sin_port = htons(port);
   address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
   socket_ = FileDescriptor(::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
-  // Connected, the system tells of datagrams that nobody took.
+  // On a connected socket the system reports datagrams without a receiver.
   if (socket_.get() >= 0 &&
       ::connect(socket_.get(), reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0)
     return;

@@ -1,8 +1,8 @@
-// Writes one JSON object on one line, piece by piece, without a tree in memory: for what is said
-// hundreds of times a second. Keys are ours and need no escaping. It isn't nlohmann-json's, which
-// would change what receivers get: the shortest text of 400 and 100000 is 400 and 1e+05, that
-// library writes 400.0 and 100000.0. It also takes five times as long (80 us beside 16 us for an
-// object of 65 numbers).
+// Writes one JSON object on one line, piece by piece, without a tree in memory: for messages sent
+// hundreds of times per second. Keys are ours and need no escaping. nlohmann-json isn't used here,
+// because it would change what receivers get (the shortest text of 400 and 100000 is 400 and 1e+05,
+// that library writes 400.0 and 100000.0), and it takes five times as long (80 us instead of 16 us
+// for an object of 65 numbers).
 #pragma once
 
 #include <cmath>
@@ -27,7 +27,7 @@ class JsonLine {
     out_ += '}';
     first_ = false;
   }
-  // NaN and infinities have no place in JSON: the key is left out.
+  // JSON has no NaN and no infinity: the key is left out then.
   void number(std::string_view key, double value) {
     if (!std::isfinite(value)) return;
     name(key);
@@ -38,14 +38,15 @@ class JsonLine {
     appendNumber(out_, value);
   }
   void flag(std::string_view key, bool value) { integer(key, value ? 1 : 0); }
-  // Without quotes or backslashes in it.
+  // `value` must not contain quotes or backslashes.
   void word(std::string_view key, std::string_view value) {
     name(key);
     out_ += '"';
     out_ += value;
     out_ += '"';
   }
-  // As many numbers; one that is none becomes null, so that the others keep their places.
+  // An array of numbers; a value that is not finite becomes null, so that the others keep their
+  // places.
   template <typename Values>
   void numbers(std::string_view key, const Values& values) {
     name(key);

@@ -45,7 +45,7 @@ std::optional<DatagramStats> LiveStream::stats(StreamKind kind) const {
   return stream.sender->stats();
 }
 
-// By the frames' own stamps, which may jump either way when a source starts anew.
+// Uses the stamps of the frames, which may jump in either direction when a new source starts.
 const LinkHealth* LiveStream::linkAt(std::int64_t hostUs) {
   if (!askLink_) return nullptr;
   if (!link_ || std::abs(hostUs - askedUs_) >= kLinkIntervalUs) {

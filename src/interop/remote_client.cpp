@@ -16,7 +16,7 @@
 namespace palpate {
 namespace {
 using SteadyTime = std::chrono::steady_clock;
-constexpr std::size_t kLongestAnswer = 1u << 20;  // [bytes]; those of a Palpate have some hundred
+constexpr std::size_t kLongestAnswer = 1u << 20;  // [bytes]; usual answers have some hundred
 }  // namespace
 
 struct RemoteClient::Impl {
@@ -42,7 +42,7 @@ struct RemoteClient::Impl {
       else if (errno == EAGAIN || errno == EINTR)
         await(POLLOUT, end);
       else
-        return;  // it may have said why before it went
+        return;  // the server may have sent the reason before it ended
     }
   }
 
@@ -65,7 +65,7 @@ struct RemoteClient::Impl {
     try {
       const Json answer = Json::parse(line);
       if (answer.isObject() && answer.at("ok").isBool()) return line;
-    } catch (const Error&) {  // no JSON
+    } catch (const Error&) {  // not JSON
     }
     noPalpate();
   }

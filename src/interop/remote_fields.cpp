@@ -8,7 +8,7 @@
 namespace palpate {
 namespace {
 
-constexpr std::uint64_t kLeastFreeBytes = 1U << 20;  // a minute of an SDH-2
+constexpr std::uint64_t kLeastFreeBytes = 1U << 20;  // one minute of an SDH-2
 
 Json known(double value) { return value > 0.0 ? Json(value) : Json(); }
 

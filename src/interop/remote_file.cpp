@@ -16,7 +16,7 @@ constexpr std::string_view kEnding = ".palpate";
 
 bool isTemplate(std::string_view name) { return name.find('{') != std::string_view::npos; }
 
-// Of another form of recording, which whoever asks for it would wait for in vain.
+// True for the ending of another form of recording, which would not be created.
 bool hasOtherEnding(const fs::path& name) {
   constexpr std::array<std::string_view, 4> kOthers = {".dsa", ".csv", ".npz", ".jsonl"};
   return std::find(kOthers.begin(), kOthers.end(), name.extension().string()) != kOthers.end();

@@ -12,7 +12,7 @@ namespace {
 using RemoteProtocolVerb = RemoteRequest::Verb;
 
 constexpr std::string_view kBlanks = " \t";
-constexpr std::size_t kMaxQuoted = 60;  // of what a stranger wrote, in an answer
+constexpr std::size_t kMaxQuoted = 60;  // part of an invalid request quoted in an answer
 
 bool hasText(RemoteProtocolVerb verb) {
   return verb == RemoteProtocolVerb::kStart || verb == RemoteProtocolVerb::kLabel ||
@@ -83,8 +83,8 @@ ReadRequest readRequest(std::string_view line) {
   if (line.size() > kMaxRequestBytes)
     return refuse("too_long",
                   "a request has at most " + std::to_string(kMaxRequestBytes) + " bytes");
-  // Whatever escapedLine() would change is no text: control characters, bytes that are no UTF-8.
-  // Tabs are blanks.
+  // A line that escapedLine() would change is no text: control characters, invalid UTF-8. Tabs
+  // count as blanks.
   std::string plain(line);
   std::replace(plain.begin(), plain.end(), '\t', ' ');
   if (escapedLine(plain) != plain)
@@ -111,7 +111,7 @@ ReadRequest readRequest(std::string_view line) {
 std::optional<RequestLines::Line> RequestLines::next() {
   const auto end = pending_.find('\n');
   if (end == std::string::npos) {
-    if (pending_.size() > kMaxRequestBytes + 1) {  // a CR may stand before the end
+    if (pending_.size() > kMaxRequestBytes + 1) {  // a CR may precede the end
       pending_.clear();
       skipping_ = true;
     }

@@ -18,7 +18,7 @@ namespace {
 using RemoteRecorderSteadyTime = std::chrono::steady_clock;
 using RemoteRecorderVerb = RemoteRequest::Verb;
 
-constexpr std::chrono::milliseconds kStartRound{5};    // while the first commit is waited for
+constexpr std::chrono::milliseconds kStartRound{5};    // while waiting for the first commit
 constexpr std::chrono::milliseconds kUsualRound{200};  // a recording may end by itself
 
 enum class State { kIdle, kStarting, kRecording, kStopping };
@@ -57,7 +57,7 @@ struct RemoteRecorder::Impl {
       throw FileError(options.folder, "isn't a folder: create it first");
   }
 
-  // On the server's thread.
+  // The following functions run on the server's thread.
 
   RemoteAnswer status() const {
     const LinkHealth health = session.health();
@@ -73,7 +73,7 @@ struct RemoteRecorder::Impl {
     return answer;
   }
 
-  // Of a start without a name; null when there is none to be had.
+  // Name for a start without a name; null when there is none.
   Json nextFile() const {
     try {
       return Json(pathOf(nameTemplate).filename().string());
@@ -129,7 +129,7 @@ struct RemoteRecorder::Impl {
     return answer;
   }
 
-  // The answer is given once, whatever goes wrong behind it.
+  // Executes a request; its answer is given exactly once, whatever fails afterwards.
   void hand(const RemoteRequest& request, Done done) {
     Done once = [given = std::make_shared<bool>(false),
                  done = std::move(done)](RemoteAnswer answer) {
@@ -140,9 +140,9 @@ struct RemoteRecorder::Impl {
     wake.notify_one();
   }
 
-  // On the own thread.
+  // The following functions run on the thread of this object.
 
-  // In a handler: what is being thrown is the answer.
+  // To be called in a handler: answers with the current exception.
   static void sayFailed(const Done& done) noexcept {
     try {
       try {
@@ -153,7 +153,7 @@ struct RemoteRecorder::Impl {
         done(RemoteAnswer::refused("failed", "an exception of no known kind"));
       }
     } catch (...) {
-      // No memory, most likely. Where nobody holds `done` any more, its server answers.
+      // Most likely out of memory. When no copy of `done` is left, the server answers.
     }
   }
 
@@ -175,13 +175,13 @@ struct RemoteRecorder::Impl {
         else if (job)
           stopRecording(job->done);
       } catch (...) {
-        // The process that moves a hand goes on; whoever waits is told.
+        // The process that moves a hand continues; the waiting client receives an error.
         if (job) sayFailed(job->done);
       }
       try {
         look();
       } catch (...) {
-        // Looked at again in the next round; the request of this round has nothing to do with it.
+        // Checked again in the next round; the request of this round is not affected.
       }
     }
     if (starting) starting->done(RemoteAnswer::refused("shutting_down", "remote control ends"));
@@ -244,7 +244,7 @@ struct RemoteRecorder::Impl {
     done(stopAnswer(finish()));
   }
 
-  // Closes the file, however long the disk takes.
+  // Closes the file; waits for the disk.
   RecordingReport finish() {
     become(State::kStopping);
     RecordingReport report;
@@ -258,7 +258,7 @@ struct RemoteRecorder::Impl {
     try {
       if (options.onFinished) options.onFinished(report);
     } catch (...) {
-      // Whoever is told may fail: the recording is finished all the same.
+      // The callback may fail: the recording is finished nevertheless.
     }
     return report;
   }
@@ -271,7 +271,7 @@ struct RemoteRecorder::Impl {
     const double waitedS =
         std::chrono::duration<double>(RemoteRecorderSteadyTime::now() - starting->sinceMono)
             .count();
-    // In this order: what is on disk stays true when it ends in between.
+    // Read in this order, so that the state on disk stays correct if the recording ends in between.
     const bool recording = session.recording();
     const auto detection =
         startResult(session.recorderStatus(), recording, waitedS, options.limits);
@@ -295,9 +295,9 @@ struct RemoteRecorder::Impl {
 
   CaptureSession& session;
   const RemoteRecorderOptions options;
-  std::optional<Starting> starting;              // the own thread alone, as the next
-  std::optional<RecordingReport> endedByItself;  // and no stop has asked for it yet
-  mutable std::mutex mutex;                      // of what follows
+  std::optional<Starting> starting;              // used by the own thread only, as the next member
+  std::optional<RecordingReport> endedByItself;  // not yet reported by a stop
+  mutable std::mutex mutex;                      // protects the following members
   std::condition_variable_any wake;
   std::deque<Job> jobs;
   State state = State::kIdle;
@@ -328,7 +328,7 @@ void RemoteRecorder::carryOut(const RemoteRequest& request, Done done) {
     case RemoteRecorderVerb::kSet:
       return done(impl_->set(request.text));
     case RemoteRecorderVerb::kStatus:
-    case RemoteRecorderVerb::kHelp:  // which the server answers itself
+    case RemoteRecorderVerb::kHelp:  // answered by the server itself
       return done(impl_->status());
   }
 }

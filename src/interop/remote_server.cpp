@@ -28,9 +28,9 @@ using RemoteServerSteadyTime = std::chrono::steady_clock;
 using RemoteServerVerb = RemoteRequest::Verb;
 
 constexpr std::size_t kReadBytes = 4096;
-constexpr int kRestMs = 100;  // when the system has no descriptor left
+constexpr int kRestMs = 100;  // pause when the system has no descriptor left
 
-// Where answers wait for the server's thread, whoever gives them and whenever.
+// Queue of answers for the server's thread; answers may come from any thread at any time.
 class AnswerBox {
  public:
   struct Item {
@@ -63,7 +63,8 @@ class AnswerBox {
   std::vector<Item> items_;
 };
 
-// An answer is given once; where all who could give it are gone, that is the answer.
+// Ensures that an answer is given exactly once: when the last copy is destroyed without one, it
+// sends an error.
 class Promise {
  public:
   Promise(std::weak_ptr<AnswerBox> box, std::uint64_t client)
@@ -86,9 +87,9 @@ struct Client {
   FileDescriptor socket;
   std::uint64_t id = 0;
   RequestLines lines;
-  std::string out;                       // of the last answer, what isn't sent yet
-  std::optional<RemoteRequest> pending;  // its answer is awaited
-  bool ended = false;                    // sends nothing more
+  std::string out;                       // unsent part of the last answer
+  std::optional<RemoteRequest> pending;  // request that waits for its answer
+  bool ended = false;                    // nothing more is sent
   RemoteServerSteadyTime::time_point active = RemoteServerSteadyTime::now();
 
   bool reads() const { return !ended && !pending && out.empty(); }
@@ -115,7 +116,7 @@ struct RemoteServer::Impl {
         const std::lock_guard lock(mutex);
         stats.clients = clients.size();
       } catch (...) {
-        resting = true;  // no memory, most likely: the process that moves a hand goes on
+        resting = true;  // most likely out of memory: the process that moves a hand continues
       }
     }
     for (Client& client : clients)
@@ -144,7 +145,7 @@ struct RemoteServer::Impl {
     if (waiting[1].revents != 0) accept();
   }
 
-  // What is thrown over one client costs no more than that client.
+  // An exception while serving a client closes only that client.
   bool isServed(Client& client, short events) {
     try {
       return serve(client, events);
@@ -153,7 +154,7 @@ struct RemoteServer::Impl {
     }
   }
 
-  // False: it is done with.
+  // Returns false when the client is to be closed.
   bool serve(Client& client, short events) {
     if ((events & POLLOUT) != 0 && !write(client)) return false;
     if ((events & POLLIN) != 0 && !read(client)) return false;
@@ -180,7 +181,7 @@ struct RemoteServer::Impl {
     return true;
   }
 
-  // Takes requests until one must be waited for; false: the client is done with.
+  // Processes requests until one has to wait; returns false when the client is to be closed.
   bool processRequests(Client& client) {
     while (!client.pending && client.out.empty()) {
       const auto line = client.lines.next();
@@ -235,18 +236,18 @@ struct RemoteServer::Impl {
   void deliver(const AnswerBox::Item& item) {
     const auto client = std::find_if(
         clients.begin(), clients.end(), [&](const Client& each) { return each.id == item.client; });
-    if (client == clients.end() || !client->pending) return;  // it has gone meanwhile
+    if (client == clients.end() || !client->pending) return;  // the client has left meanwhile
     const RemoteRequest request = *std::exchange(client->pending, std::nullopt);
     try {
       if (options.onAnswer && request.verb != RemoteServerVerb::kStatus)
         options.onAnswer(request, item.answer);
     } catch (...) {
-      // Whoever is told may fail: the client has its answer all the same.
+      // The callback may fail: the client has received its answer nevertheless.
     }
     try {
       if (answer(*client, item.answer, nameOf(request.verb)) && processRequests(*client)) return;
     } catch (...) {
-      // No memory, most likely: this client goes without.
+      // Most likely out of memory: this client gets no answer.
     }
     clients.erase(client);
   }
@@ -277,7 +278,7 @@ struct RemoteServer::Impl {
     ++stats.rejectedClients;
   }
 
-  // The one that has been silent for longest goes, if that is long enough.
+  // Closes the client that was silent for the longest time, if that is long enough.
   bool makeRoom() {
     const auto limit = RemoteServerSteadyTime::now() - std::chrono::duration<double>(options.idleS);
     auto longest = clients.end();
@@ -294,10 +295,10 @@ struct RemoteServer::Impl {
   const RemoteServerOptions options;
   const ListeningSocket listener;
   const std::shared_ptr<AnswerBox> box = std::make_shared<AnswerBox>();
-  std::list<Client> clients;  // the server's thread alone, as what follows
+  std::list<Client> clients;  // used by the server's thread only, as the following members
   std::uint64_t lastId = 0;
   bool resting = false;
-  mutable std::mutex mutex;  // of stats
+  mutable std::mutex mutex;  // protects stats
   RemoteServerStats stats;
   std::jthread thread;
 };

@@ -48,8 +48,8 @@ bool connects(int socket, const sockaddr_un& address) {
   return ::connect(socket, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0;
 }
 
-// Two programs that begin at the same time look one after the other at what is there. The lock is
-// on the folder: nothing of it stays.
+// Two programs that start at the same time check the existing path one after the other. The lock is
+// on the folder, so it leaves no file behind.
 FileDescriptor lockFolderOf(const fs::path& path) {
   const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
   FileDescriptor opened(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
@@ -62,7 +62,7 @@ FileDescriptor lockFolderOf(const fs::path& path) {
   return opened;
 }
 
-// Throws unless `path` is free now.
+// Throws unless `path` is free now; removes the socket of a program that has ended.
 void clear(const fs::path& path, const sockaddr_un& address) {
   struct stat found {};
   if (::lstat(path.c_str(), &found) != 0) return;
@@ -84,7 +84,7 @@ ListeningSocket::ListeningSocket(fs::path path) : path_(std::move(path)) {
   if (::bind(socket_.get(), reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0)
     fail(path_, "can't be created");
   struct stat made {};
-  // Nobody gets in before it listens: until then its mode may be what it likes.
+  // Before listen() no client can connect, so the initial mode does not matter.
   if (::chmod(path_.c_str(), S_IRUSR | S_IWUSR) != 0 || ::lstat(path_.c_str(), &made) != 0 ||
       ::listen(socket_.get(), kWaitingClients) != 0) {
     const int error = errno;

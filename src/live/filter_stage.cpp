@@ -4,7 +4,7 @@
 
 namespace palpate {
 
-// A causal chain gives one frame for each that it takes.
+// Receives the filtered frame: a causal chain returns one frame for each input frame.
 class FilterStage::Collector final : public FrameSink {
  public:
   void take(TactileFrame& frame) override {

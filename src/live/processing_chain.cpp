@@ -13,8 +13,8 @@
 namespace palpate {
 namespace {
 
-constexpr std::chrono::milliseconds kLook{100};  // a wait that nothing ends
-// Samples per frame that may wait besides: at 250 Hz and 15 frames/s there are 17.
+constexpr std::chrono::milliseconds kLook{100};  // longest wait without an item
+// Capacity for samples per waiting frame: at 250 Hz and 15 frames/s there are 17.
 constexpr std::size_t kMotionPerFrame = 32;
 constexpr std::size_t kProgressEvery = 256;
 constexpr std::int64_t kNever = std::numeric_limits<std::int64_t>::max();
@@ -73,7 +73,7 @@ void ProcessingChain::run(const std::stop_token& stop) {
     const std::lock_guard lock(mutex_);
     failure_ = "an exception of no known kind";
   }
-  queue->close();  // a lossless source would wait for ever
+  queue->close();  // otherwise a lossless source would wait forever
 }
 
 std::size_t ProcessingChain::step() {
@@ -86,9 +86,9 @@ std::size_t ProcessingChain::step() {
 
 // Returns how many items were taken or processed.
 //
-// The feed's queues are emptied one after the other, frames first. So what lies behind the newest
-// frame taken may have come after another frame that wasn't there yet when its queue was looked at:
-// it is held back until the next look, which finds that frame.
+// The queues are emptied one after the other, frames first. An item later than the newest frame
+// taken may therefore follow another frame that arrived after its queue was emptied. Such items are
+// held back until the next call, which finds that frame.
 std::size_t ProcessingChain::processWaiting() {
   std::int64_t safeUs = std::numeric_limits<std::int64_t>::min();
   for (const CaptureItem& item : items_) safeUs = std::max(safeUs, stampOf(item));  // held back

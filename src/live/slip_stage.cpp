@@ -58,7 +58,7 @@ void SlipStage::reset() {
   slipping_.assign(slipping_.size(), std::nullopt);
 }
 
-// Counts mean something else now: what was the reference isn't any more.
+// After changed settings the counts have another meaning, so the reference is no longer valid.
 void SlipStage::onEvent(const RecordingEvent& event) {
   if (event.kind == "settings") reset();
 }

@@ -42,7 +42,7 @@ TEST(CaptureQueue, handsOutInOrderOfTimeWhateverThePort) {
     streams.push_back(streamOf(item));
   }
   EXPECT_EQ(stamps, (std::vector<std::int64_t>{10, 20, 30, 40, 40, 40}));
-  // The angles that belong to a frame are the last ones at or before it: they come first.
+  // The angles that belong to a frame are the last ones at or before it, so they precede it.
   EXPECT_EQ(streams[3], CaptureStream::kTemperatures);
   EXPECT_EQ(streams[4], CaptureStream::kAngles);
   EXPECT_EQ(streams[5], CaptureStream::kTactile);
@@ -55,7 +55,7 @@ TEST(CaptureQueue, whatDoesNotFitIsOneGapOverExactlyTheLostSpan) {
   EXPECT_EQ(queue.stats().lost[0], 5u);
   EXPECT_EQ(queue.stats().tactile.depth, 3u);
   EXPECT_EQ(queue.stats().tactile.highWater, 3u);
-  EXPECT_EQ(taken(queue).size(), 3u);  // the gap goes on
+  EXPECT_EQ(taken(queue).size(), 3u);  // the gap is still open
   EXPECT_TRUE(queue.put(frameAt(9)));
   const auto items = taken(queue);
   ASSERT_EQ(items.size(), 2u);
@@ -82,7 +82,7 @@ TEST(CaptureQueue, onePortThatOverflowsCostsTheOtherNothing) {
   EXPECT_EQ(std::get<RecordingEvent>(open[0]).text,
             "3 angle samples lost: the test could not keep up");
   queue.takeOpenGaps(open);
-  EXPECT_EQ(open.size(), 1u);  // told once
+  EXPECT_EQ(open.size(), 1u);  // reported once
 }
 
 TEST(CaptureQueue, everyItemIsEitherHandedOutOrInAGap) {

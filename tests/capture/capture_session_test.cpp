@@ -128,7 +128,7 @@ TEST(CaptureSession, eventsOfTheDeviceAndMarksAreRecordedAndShown) {
       {markedUs + 500'000, markedUs + 500'000, "label", {}, "touch", "{\"digit\":3}"}};
   EXPECT_EQ(readEvents(folder / "a.palpate").events, expected);
   const auto shown = scripted.session->takeEvents();
-  ASSERT_EQ(shown.size(), 3u);  // in the order in which they came
+  ASSERT_EQ(shown.size(), 3u);  // in the order of arrival
   EXPECT_EQ(shown[1], expected[2]);
   EXPECT_TRUE(scripted.session->takeEvents().empty());
   scripted.session->mark("shown, though nothing is recorded");
@@ -160,7 +160,7 @@ TEST(CaptureSession, theScreenGetsTheNewestOnce) {
 TEST(CaptureSession, aSubscriberGetsEverythingInOrderWhateverTheRecorderDoes) {
   ScriptedSession scripted;
   const auto queue = scripted.session->subscribe("live processing");
-  scripted.run(1.0, false);  // the recorder does nothing at all
+  scripted.run(1.0, false);  // the recorder does nothing
   std::vector<CaptureItem> items;
   EXPECT_EQ(queue->take(items), 100u + 200u + 1u);
   for (std::size_t i = 1; i < items.size(); ++i)
@@ -190,7 +190,7 @@ TEST(CaptureSession, aSubscriptionLetGoIsForgotten) {
   scripted.run(0.1);
   EXPECT_EQ(other->stats().tactile.depth, 20u);
   scripted.session.reset();
-  EXPECT_TRUE(other->closed());  // whoever waits is told
+  EXPECT_TRUE(other->closed());  // a waiting consumer is woken
 }
 
 TEST(CaptureSession, linkHealthCountsWhatCame) {
@@ -220,7 +220,7 @@ TEST(CaptureSession, linkHealthCountsWhatCame) {
   EXPECT_NEAR(*health.diskHours, 7.2e6 / bytesPerS / 3600.0, 1e-9);
   ASSERT_EQ(health.alarms.size(), 1u);
   EXPECT_EQ(health.alarms[0].kind, AlarmKind::kLowDisk);
-  // Nothing comes any more.
+  // No more frames arrive.
   scripted.clock.pass(1'500'000);
   const LinkHealth silent = scripted.session->health();
   EXPECT_EQ(silent.alarms[0].kind, AlarmKind::kNoData);
@@ -249,13 +249,13 @@ TEST(CaptureSession, startedAgainItForgetsWhatWasBefore) {
   EXPECT_FALSE(scripted.session->started());
   scripted.clock.pass(500'000);
   scripted.session->start();
-  scripted.session->start();  // does nothing
+  scripted.session->start();  // has no effect
   EXPECT_EQ(scripted.session->health().frames.frames, 0u);
   EXPECT_TRUE(scripted.session->takeEvents().empty());
   scripted.run(0.5);
   scripted.session->startRecording(to(folder / "a.palpate"));
   scripted.run(0.5);
-  // Nothing of before the stop, though it lies within the two seconds.
+  // Contains nothing from before the stop, although it is within the two seconds.
   EXPECT_EQ(scripted.session->stopRecording().frames, 100);
 }
 
@@ -273,7 +273,7 @@ TEST(CaptureSession, aStopEndsTheRecordingWhole) {
 
 TEST(CaptureSession, needsADevice) { EXPECT_THROW(CaptureSession(nullptr), std::invalid_argument); }
 
-// A replay's marks carry the recording's time, not today's.
+// Marks during a replay have the recording's time, not the present one.
 TEST(CaptureSession, marksAreInTheTimeOfTheStamps) {
   ScriptedSession scripted;
   const std::int64_t longAgo = 1'400'000'000'000'000;
@@ -282,8 +282,7 @@ TEST(CaptureSession, marksAreInTheTimeOfTheStamps) {
   EXPECT_EQ(scripted.session->takeEvents().at(0).tUs, longAgo);
 }
 
-// a process that is killed now leaves a file that says what the link lost, and not only what
-// came.
+// the file of a process that is killed now also states the frames lost on the connection.
 TEST(CaptureSession, whatTheLinkLostIsOnDiskWithTheFrameBehindIt) {
   const TemporaryFolder folder;
   ScriptedSession scripted;
@@ -294,12 +293,12 @@ TEST(CaptureSession, whatTheLinkLostIsOnDiskWithTheFrameBehindIt) {
   EXPECT_EQ(readTable(folder / "a.palpate", "SELECT name, value FROM counter").at("lost"), "1");
 }
 
-// of a hand on its ports, by a clock that stands in 1969.
+// a live hand with a clock that is set to 1969.
 TEST(CaptureSession, aHandIsStampedBefore1970WhenTheClockStandsThere) {
   class WrongClock : public Clock {
    public:
     std::int64_t monotonicUs() const override { return systemClock().monotonicUs(); }
-    // However long the machine runs: some three centuries before 1970.
+    // About three centuries before 1970, for any running time of the machine.
     std::int64_t wallUs() const override { return monotonicUs() - 10'000'000'000'000'000; }
   };
   const TemporaryFolder folder;

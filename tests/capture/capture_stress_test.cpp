@@ -1,6 +1,6 @@
-// Long runs and many of them, in their short form: R11 (recorded = sent, nothing grows) and R14
-// (starts and stops with everything pulling at once; the race detector watches in the tsan build).
-// The long forms run the same tests with more frames and cycles: capture/stress_long.
+// Long runs and many repetitions, short form: R11 (recorded = sent, no growth) and R14 (starts and
+// stops while all consumers read; the tsan build detects data races). The long forms run the same
+// tests with more frames and cycles: capture/stress_long.
 #include <atomic>
 #include <cstdlib>
 #include <fstream>
@@ -25,7 +25,8 @@ std::size_t countFrom(const char* variable, std::size_t usual) {
   return given ? static_cast<std::size_t>(parseInteger(given).value_or(0)) : usual;
 }
 
-// A hand of two ports, each with a thread: frames and angles as fast as they are taken.
+// A hand with two ports and a thread for each: delivers frames and angles as fast as they are
+// accepted.
 class EagerDevice : public ScriptedDevice {
  public:
   explicit EagerDevice(std::size_t frames) : frames_(frames) {}
@@ -58,8 +59,8 @@ class EagerDevice : public ScriptedDevice {
     done = true;
   }
   void deliverAngles(const std::stop_token& stop) {
-    // A recording begins with its first frame: of angles before it, it keeps those of the last
-    // minute only.
+    // A recording begins with its first frame; of the angles before it, only the last minute is
+    // kept.
     while (sentFrames == 0 && !stop.stop_requested()) std::this_thread::yield();
     for (std::size_t n = 0; n < 3 * frames_ && !stop.stop_requested(); ++n) {
       const std::int64_t atUs = kWallStartUs + static_cast<std::int64_t>(n) * 9'000;
@@ -75,7 +76,7 @@ class EagerDevice : public ScriptedDevice {
   std::vector<std::jthread> threads_;
 };
 
-// Sanitizers keep a history of their own: memory says nothing then.
+// Sanitizers keep their own history, so the memory size has no meaning then.
 #if defined(__SANITIZE_THREAD__) || defined(__SANITIZE_ADDRESS__)
 constexpr std::size_t kMemoryScatterKb = 1u << 20;
 #else
@@ -130,7 +131,7 @@ TEST(CaptureStress, everyFrameOfALongRunIsRecordedAndNothingGrows) {
   EXPECT_EQ(report.angles, static_cast<std::int64_t>(3 * frames));
   ASSERT_TRUE(warm);
   EXPECT_LE(last.kilobytes, warm->kilobytes + kMemoryScatterKb) << "memory grows";
-  EXPECT_LE(last.descriptors, warm->descriptors + 2);  // SQLite's journal comes and goes
+  EXPECT_LE(last.descriptors, warm->descriptors + 2);  // SQLite opens and closes its journal
   EXPECT_LE(last.threads, warm->threads);
   const Profile profile = openRecording(folder / "a.palpate");
   ASSERT_EQ(profile.numFrames(), frames);
@@ -151,14 +152,14 @@ TEST(CaptureStress, everyFrameOfALongRunIsRecordedAndNothingGrows) {
               static_cast<double>(report.bytes) / 1e6);
 }
 
-// R14. Capture, recording, a live consumer and a screen, started and stopped again and again.
+// R14: capture, recording, a live consumer and a display, started and stopped repeatedly.
 TEST(CaptureStress, startsAndStopsWhileEverythingPulls) {
   const std::size_t cycles = countFrom("PALPATE_STRESS_CYCLES", 60);
   const TemporaryFolder folder;
   auto owned = std::make_unique<EagerDevice>(std::size_t{1} << 40);
   EagerDevice& device = *owned;
   CaptureOptions options;
-  options.recorder.queue.tactileItems = 256;  // overflows, too
+  options.recorder.queue.tactileItems = 256;  // small enough to overflow, too
   options.recorder.queue.motionItems = 256;
   CaptureSession session(std::move(owned), options);
   std::atomic<std::size_t> seen = 0;
@@ -198,7 +199,7 @@ TEST(CaptureStress, startsAndStopsWhileEverythingPulls) {
       const RecordingReport report = session.stopRecording();
       recorded += static_cast<std::size_t>(report.frames);
     }
-    session.stop();  // ends a recording that runs
+    session.stop();  // ends a running recording
     if (records) {
       const RecordingReport report = session.stopRecording();
       if (cycle % 4 != 0) recorded += static_cast<std::size_t>(report.frames);

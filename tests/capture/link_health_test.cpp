@@ -17,7 +17,7 @@ std::vector<AlarmKind> kindsOf(const LinkHealth& health) {
   return kinds;
 }
 
-// A hand that delivers 31.25 frames a second for ten seconds.
+// Simulates a hand that delivers 31.25 frames per second for ten seconds.
 LinkMonitor::Reading steady(LinkMonitor& meter, std::int64_t& monoUs) {
   for (int i = 0; i <= 312; ++i) {
     monoUs = i * 32'000;
@@ -52,7 +52,7 @@ TEST(LinkMonitor, theRateFallsWhenFramesCease) {
   LinkMonitor meter;
   std::int64_t monoUs = 0;
   steady(meter, monoUs);
-  // Of the last 2 s only 1 s brought frames: from the oldest one to now 31.25 Hz * 1 s / 2 s.
+  // Frames arrived in only 1 s of the last 2 s: 31.25 Hz * 1 s / 2 s.
   EXPECT_NEAR(meter.read(monoUs + kSecond).rateHz, 15.6, 0.3);
   EXPECT_EQ(meter.read(monoUs + 3 * kSecond).rateHz, 0.0);
   EXPECT_NEAR(meter.read(monoUs + 3 * kSecond).meanRateHz, 31.25, 1e-9);
@@ -63,7 +63,7 @@ TEST(LinkMonitor, countsSaturatedFramesAndTheirShareOfTheLastTwoSeconds) {
   for (int i = 0; i < 100; ++i) meter.frame(i * 100'000, i < 50 || i % 4 == 0);
   const auto reading = meter.read(99 * 100'000);
   EXPECT_EQ(reading.saturatedFrames, 50u + 12u);  // 52, 56, .., 96
-  // Frames 79..99 lie in the window, of these 80, 84, 88, 92, 96 are saturated.
+  // Frames 79..99 are in the window; 80, 84, 88, 92 and 96 of them are saturated.
   EXPECT_NEAR(reading.saturatedFraction, 5.0 / 21.0, 1e-12);
 }
 
@@ -83,7 +83,7 @@ TEST(LinkMonitor, lowIsMeasuredByTheExpectedRateAndLasts) {
 }
 
 TEST(LinkMonitor, lowStaysLowHoweverLongItLasts) {
-  // As with thresholds of 0: 17.3 frames/s for ten minutes, of a hand that gives 31.7.
+  // As with thresholds of 0: 17.3 frames/s for ten minutes, from a hand that could deliver 31.7.
   LinkMonitor meter;
   meter.expect(scanRateHz(456));
   std::int64_t monoUs = 0;
@@ -115,13 +115,13 @@ TEST(LinkMonitor, fewFramesOfALineThatHasRoomAreAnotherTrouble) {
   const LinkHealth health = assessHealth(inputs);
   ASSERT_EQ(kindsOf(health), std::vector{AlarmKind::kLowRate});
   EXPECT_NE(health.alarms[0].text.find("late or not at all"), std::string::npos);
-  // Masks change what the hand gives: what was low before is judged anew.
+  // Masks change the expected rate, so the duration of the low rate starts again.
   meter.expect(scanRateHz(2));
   EXPECT_EQ(meter.read(monoUs).lowRateS, 0.0);
 }
 
-// reference of the protocol, 1.6.1 (real hand): 31.7 frames/s with all, 55 to 58 with one matrix of
-// 78, 76 with two.
+// Protocol document, 1.6.1 (real hand): 31.7 frames/s with all taxels, 55 to 58 with one matrix of
+// 78, 76 with two taxels.
 TEST(LinkMonitor, knowsWhatAHandGivesBySettings) {
   EXPECT_NEAR(scanRateHz(456), 31.7, 0.05);
   EXPECT_GT(scanRateHz(68), 55.0);
@@ -130,7 +130,7 @@ TEST(LinkMonitor, knowsWhatAHandGivesBySettings) {
   EXPECT_EQ(scanRateHz(0), scanRateHz(2));
   EXPECT_EQ(scanRateHz(1000), scanRateHz(456));
   for (std::size_t n = 3; n <= 456; ++n) EXPECT_LT(scanRateHz(n), scanRateHz(n - 1)) << n;
-  // The same, 3.1: packets of 79 bytes (nothing touched) 146 frames/s, of 985 (486 runs) 11.7.
+  // Section 3.1: packets of 79 bytes (nothing touched) 146 frames/s, of 985 bytes (486 runs) 11.7.
   EXPECT_NEAR(lineRateHz(33), 146.0, 0.5);
   EXPECT_NEAR(lineRateHz(486), 11.7, 0.05);
   TactileFrame frame(sdh2().layout);

@@ -20,7 +20,7 @@ std::vector<std::int64_t> everyMs(std::int64_t intervalMs, std::size_t count) {
   return stampsUs;
 }
 
-// The frame of each picture, one after the other.
+// The index of the frame in each picture.
 std::vector<std::size_t> framesOf(const MovieTiming& movie) {
   std::vector<std::size_t> frames;
   for (const MovieFrame& shot : movie.shots)
@@ -35,8 +35,8 @@ TEST(MovieTiming, ASlowRecordingRepeatsItsFrames) {
   EXPECT_DOUBLE_EQ(movie.seconds, 0.4);
 }
 
-// A picture is 100 ms of the recording: its middles are at 50 (but the first frame is seen), 150,
-// 250, 350 ms; and the last frame, at 380 ms, is seen.
+// A picture covers 100 ms of the recording: the middles are at 50 (but the first frame is always
+// shown), 150, 250, 350 ms; and the last frame, at 380 ms, is shown.
 TEST(MovieTiming, AFastMovieLeavesFramesOut) {
   const MovieTiming movie = movieTiming(everyMs(20, 20), {.picturesPerS = 20.0, .speed = 2.0});
   EXPECT_EQ(framesOf(movie), (std::vector<std::size_t>{0, 7, 12, 17, 19}));
@@ -64,7 +64,7 @@ TEST(MovieTiming, SpeedsStretchAndShrink) {
   }
 }
 
-// Against the rule itself, picture by picture: the last frame at or before the middle of the
+// Compared with the definition, picture by picture: the last frame at or before the middle of the
 // picture.
 TEST(MovieTiming, IrregularFramesAreShownAtTheirTime) {
   std::mt19937 random(7);

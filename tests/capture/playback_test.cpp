@@ -22,7 +22,7 @@ Playback playbackOf(const std::vector<std::int64_t>& timesMs) {
 TEST(Playback, FollowsTheRealTimeStamps) {
   Playback playback = playbackOf({1000, 1010, 1100, 1110});  // far from evenly spaced
   playback.advance(50'000);
-  EXPECT_EQ(playback.frame(), 0u);  // paused: time does not pass
+  EXPECT_EQ(playback.frame(), 0u);  // paused: the position does not change
   playback.play();
   playback.advance(9'999);
   EXPECT_EQ(playback.frame(), 0u);
@@ -46,7 +46,7 @@ TEST(Playback, SpeedsFromATenthToSixteenTimes) {
   EXPECT_EQ(playback.frame(), 0u);
   playback.advance(1'000);
   EXPECT_EQ(playback.frame(), 1u);
-  EXPECT_EQ(playback.positionUs(), 100'000);  // no fraction was lost on the way
+  EXPECT_EQ(playback.positionUs(), 100'000);  // no fraction was lost
   playback.setSpeed(16.0);
   playback.advance(10'000);
   EXPECT_EQ(playback.positionUs(), 260'000);
@@ -103,7 +103,7 @@ TEST(Playback, StepsReachTheFirstAndTheLastFrameAndPause) {
   EXPECT_FALSE(playback.playing());
   EXPECT_EQ(playback.frame(), 1u);
   playback.step(-1);
-  EXPECT_EQ(playback.frame(), 0u);  // the prior program could never step back to frame 0
+  EXPECT_EQ(playback.frame(), 0u);  // the previous program could never step back to frame 0
   playback.step(-5);
   EXPECT_EQ(playback.frame(), 0u);
   playback.step(std::numeric_limits<std::ptrdiff_t>::max());
@@ -123,14 +123,14 @@ TEST(Playback, SeeksToFramesAndTimesClamped) {
   EXPECT_EQ(playback.frame(), 2u);
   playback.play();
   playback.seekFrame(1);
-  EXPECT_TRUE(playback.playing());  // seeking goes on playing
+  EXPECT_TRUE(playback.playing());  // seeking does not stop playback
 }
 
 TEST(Playback, CanJumpOverGaps) {
   Playback playback = playbackOf({0, 30, 60, 60'060, 60'090});
   playback.play();
   playback.advance(70'000);
-  EXPECT_EQ(playback.frame(), 2u);  // by default a gap takes its time
+  EXPECT_EQ(playback.frame(), 2u);  // by default a gap is played in real time
   playback.seekFrame(0);
   playback.setSkipGaps(true);
   playback.advance(60'000);

@@ -1,4 +1,4 @@
-// The recorder's bad days: a disk that is full, fails, or keeps it waiting (R3, R10); queues that
+// Tests of the recorder with a disk that is full, fails or blocks (R3, R10), and with queues that
 // overflow.
 #include <condition_variable>
 #include <thread>
@@ -36,7 +36,7 @@ bool hasAlarm(const CaptureSession& session, AlarmKind kind) {
   return false;
 }
 
-// The first frames, each once: at least so many, at most so many.
+// The recording contains the first frames, each once; between `least` and `most` of them.
 void expectFrames(const fs::path& path, std::size_t least, std::size_t most) {
   const Profile profile = openRecording(path);
   ASSERT_GE(profile.numFrames(), least);
@@ -45,7 +45,7 @@ void expectFrames(const fs::path& path, std::size_t least, std::size_t most) {
   EXPECT_EQ(verifyRecording(path).state, VerifyReport::State::kSound);
 }
 
-// So many operations has a recording of a second.
+// Number of file operations in a recording of one second.
 std::int64_t operationsOfASecond() {
   const TemporaryFolder folder;
   FaultyVfs vfs;
@@ -56,7 +56,7 @@ std::int64_t operationsOfASecond() {
   return vfs.operations();
 }
 
-// R3: the disk fails at the n-th operation and all that follow, for half a second.
+// R3: the disk fails at the n-th operation and all later ones, for half a second.
 TEST(RecorderFaults, aDiskThatFailsAtAnyOperationAndRecoversCostsNothing) {
   const std::int64_t operations = operationsOfASecond();
   ASSERT_GT(operations, 50);
@@ -105,10 +105,10 @@ TEST(RecorderFaults, aDiskThatStaysFullLeavesTheFileValidAndCaptureGoesOn) {
     const RecordingReport report = scripted.session->stopRecording();
     EXPECT_FALSE(report.complete);
     EXPECT_FALSE(report.message.empty());
-    // The session lives: frames come, and the next recording is none of this one's business.
+    // The session continues: frames arrive, and the next recording is independent of this one.
     scripted.run(0.2);
     EXPECT_TRUE(scripted.session->takeFrame());
-    // A commit whose very last step failed may be there all the same.
+    // The data of a commit whose last step failed may nevertheless be in the file.
     if (!report.paths.empty())
       expectFrames(report.paths[0], onDisk, static_cast<std::size_t>(report.frames));
     vfs.heal();
@@ -147,7 +147,8 @@ TEST(RecorderFaults, whatTheMemoryCanNotHoldIsAnExactGap) {
     lost += json.at("lost").asInteger();
     if (json.at("stream").asString() != "tactile") continue;
     lostFrames += json.at("lost").asInteger();
-    // Frames come every 10 ms: the span is exactly theirs, and no frame of it is in the recording.
+    // Frames arrive every 10 ms: the span covers exactly the lost ones, and none of them is in the
+    // recording.
     EXPECT_EQ(event.t1Us - event.tUs, (json.at("lost").asInteger() - 1) * 10'000);
     const std::size_t at = *profile.frameAt(event.tUs);
     EXPECT_EQ(profile.frameTimeUs(at), event.tUs - 10'000);
@@ -160,7 +161,8 @@ TEST(RecorderFaults, whatTheMemoryCanNotHoldIsAnExactGap) {
   EXPECT_GT(scripted.frames, before);
 }
 
-// R10, on the test's clock: the recorder gets no turn for so long, at 30 frames/s and 110 angles/s.
+// R10, on the test's clock: the recorder does not run for this time, at 30 frames/s and 110
+// angles/s.
 TEST(RecorderFaults, aRecorderThatIsBlockedUpTo30SecondsLosesNothing) {
   for (const double blockedS : {0.1, 1.0, 5.0, 30.0, 60.0}) {
     SCOPED_TRACE(blockedS);
@@ -187,7 +189,8 @@ TEST(RecorderFaults, aRecorderThatIsBlockedUpTo30SecondsLosesNothing) {
   }
 }
 
-// 300 frames/s: 27 s fit, then frames are lost, counted and named to the microsecond.
+// 300 frames/s: 27 s fit into the queue; later frames are lost, counted and reported to the
+// microsecond.
 TEST(RecorderFaults, blockedTooLongLeavesOneExactGapAndAnAlarm) {
   const TemporaryFolder folder;
   ScriptedSession scripted;
@@ -226,7 +229,7 @@ TEST(RecorderFaults, aGapThatIsStillOpenAtTheStopIsToldToo) {
   options.recorder.queue.tactileItems = 10;
   ScriptedSession scripted(options);
   scripted.session->startRecording(to(folder / "a.palpate"));
-  scripted.run(0.5, false);  // 50 frames, no round
+  scripted.run(0.5, false);  // 50 frames, the recorder does not run
   const RecordingReport report = scripted.session->stopRecording();
   EXPECT_EQ(report.lost, 40);
   const auto events = readEvents(folder / "a.palpate").events;
@@ -235,8 +238,8 @@ TEST(RecorderFaults, aGapThatIsStillOpenAtTheStopIsToldToo) {
   EXPECT_EQ(events[0].t1Us, kWallStartUs + 500'000);
 }
 
-// The real thread, blocked in a write of the real file: the device's thread never waits, the alarm
-// comes.
+// The recorder's own thread is blocked in a write of a real file: the device's thread never waits,
+// and an alarm is raised.
 TEST(RecorderFaults, aDiskThatBlocksAWriteIsAnAlarmAndCostsNothing) {
   const TemporaryFolder folder;
   FaultyVfs vfs;
@@ -262,7 +265,7 @@ TEST(RecorderFaults, aDiskThatBlocksAWriteIsAnAlarmAndCostsNothing) {
     device.frame(frames++, clock.hostUs());
   };
   const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(20);
-  // Lets time pass until something is so.
+  // Advances the time until the condition holds.
   const auto await = [&](const auto& isSo) {
     while (!isSo() && std::chrono::steady_clock::now() < deadline) {
       clock.pass(1'000);
@@ -294,13 +297,14 @@ TEST(RecorderFaults, aDiskThatBlocksAWriteIsAnAlarmAndCostsNothing) {
   expectFrames(folder / "a.palpate", frames, frames);
 }
 
-// What came while a commit took long is as old as that: it doesn't wait for another interval.
+// Items that arrived during a slow commit are as old as that commit: they don't wait for another
+// interval.
 TEST(RecorderFaults, afterASlowCommitTheNextOneFollowsAtOnce) {
   const TemporaryFolder folder;
   ScriptedSession scripted;
   scripted.session->startRecording(to(folder / "a.palpate"));
   scripted.run(0.2);
-  for (std::size_t i = 0; i < 10; ++i) {  // 0.1 s in which the recorder gets no turn
+  for (std::size_t i = 0; i < 10; ++i) {  // 0.1 s in which the recorder does not run
     scripted.clock.pass(10'000);
     scripted.device->frame(scripted.frames++, scripted.clock.hostUs());
   }
@@ -308,7 +312,7 @@ TEST(RecorderFaults, afterASlowCommitTheNextOneFollowsAtOnce) {
   EXPECT_EQ(scripted.session->recorderStatus().framesOnDisk, 30);
 }
 
-// C-A12: a part that can't be begun leaves neither a file nor a name in the list.
+// C-A12: a part that can't be opened leaves neither a file nor a name in the list.
 TEST(RecorderFaults, aPartThatCanNotBeBegunLeavesNothing) {
   const TemporaryFolder folder;
   FaultyVfs vfs;
@@ -332,8 +336,8 @@ TEST(RecorderFaults, aPartThatCanNotBeBegunLeavesNothing) {
   ASSERT_GT(scripted.session->recorderStatus().lost, 0);
   vfs.heal();
   scripted.run(0.15, true);
-  // In one round: room, so that the gap is owed to the file; then none any more; then time for a
-  // new part.
+  // In one round there is room, so that the gap must be written; then there is none; then a new
+  // part is due.
   vfs.failAt(Fault::kFull, vfs.operations() + 1);
   fill(400);
   scripted.session->step();

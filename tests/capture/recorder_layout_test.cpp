@@ -1,4 +1,4 @@
-// Layouts that change while a recording is being made: other sensors, other masks.
+// Tests of recordings during which the layout changes: other sensors, other masks.
 #include "palpate/capture/recorder.h"
 #include "palpate/recording/recording.h"
 
@@ -50,7 +50,7 @@ TEST(RecorderLayout, aSensorOfAnotherShapeBeginsAPartOfItsOwn) {
   EXPECT_EQ(openRecording(report.paths[1]).layout().numCells(), 20u);
 }
 
-// A frame of the SDH-2 with one taxel of the first matrix switched off, when asked.
+// A frame of the SDH-2, with one taxel of the first matrix switched off if `masked`.
 TactileFrame maskedFrame(std::size_t n, std::int64_t hostUs, bool masked) {
   static const auto maskedLayout = [] {
     std::vector<MatrixLayout> matrices = sdh2().layout->matrices();
@@ -62,7 +62,7 @@ TactileFrame maskedFrame(std::size_t n, std::int64_t hostUs, bool masked) {
   return frame;
 }
 
-// C-A4: a part says of every taxel whether it was scanned.
+// C-A4: a part states of every taxel whether it was scanned.
 TEST(RecorderLayout, aMaskThatChangesBeginsANewPart) {
   const TemporaryFolder folder;
   ScriptedSession scripted;
@@ -73,7 +73,7 @@ TEST(RecorderLayout, aMaskThatChangesBeginsANewPart) {
       scripted.device->sink->onFrame(maskedFrame(n++, scripted.clock.hostUs(), masked));
     }
   };
-  // What was kept from before the start has two layouts already.
+  // The items from before the start already have two layouts.
   send(5, false);
   send(5, true);
   scripted.session->step();

@@ -62,7 +62,7 @@ TEST(Recorder, thePreTriggerIsAnOption) {
   options.preTriggerS = 0.0;
   scripted.session->startRecording(options);
   scripted.run(1.0);
-  // The frame of the very moment of the start belongs to it.
+  // A frame exactly at the start belongs to the recording.
   EXPECT_EQ(scripted.session->stopRecording().frames, 101);
 }
 
@@ -74,7 +74,8 @@ TEST(Recorder, neverReplacesAnything) {
   EXPECT_THROW(scripted.session->startRecording(to(folder / "a.dsa")), std::invalid_argument);
   EXPECT_THROW(scripted.session->startRecording(to(folder / "no/a.palpate")), FileError);
   EXPECT_FALSE(scripted.session->recording());
-  // The name is taken between the start and the first frame: the next part's name is used.
+  // A file with the name is created between the start and the first frame: the next part's name is
+  // used.
   scripted.session->startRecording(to(folder / "b.palpate"));
   writeFile(folder / "b.palpate", "precious, too");
   scripted.run(0.5);
@@ -134,14 +135,13 @@ TEST(Recorder, stopsByItselfAfterTimeFramesOrBytes) {
   CaptureOptions capture;
   capture.recorder.commitIntervalMs = 400.0;
   ScriptedSession scripted(capture);
-  scripted.run(1.0);  // the pre-trigger comes on top
+  scripted.run(1.0);  // the pre-trigger data are added
   RecordingOptions options = to(folder / "s.palpate");
   options.stopAfterS = 1.5;
   scripted.session->startRecording(options);
   scripted.run(3.0);
   EXPECT_FALSE(scripted.session->recording());
-  // What came at the start's own moment counts as the first frame: 150 frames from there, 99
-  // before.
+  // The frame at the time of the start counts as the first one: 150 frames from there, 99 before.
   EXPECT_EQ(scripted.session->stopRecording().frames, 249);
   const Profile profile = openRecording(folder / "s.palpate");
   EXPECT_EQ(profile.numAngles(), 499u);  // none after the end
@@ -209,7 +209,8 @@ TEST(Recorder, commitsWhatCameWithin150MillisecondsThoughNothingFollows) {
     scripted.session->step();
   }
   EXPECT_EQ(scripted.session->recorderStatus().framesOnDisk, 101);
-  EXPECT_EQ(numbersIn(folder / "a.palpate").back(), 777u);  // as others see it, unfinished
+  // as another process sees it, unfinished
+  EXPECT_EQ(numbersIn(folder / "a.palpate").back(), 777u);
 }
 
 TEST(Recorder, aJumpOfTheWallClockIsAnEventAndStampsGoOn) {
@@ -219,7 +220,7 @@ TEST(Recorder, aJumpOfTheWallClockIsAnEventAndStampsGoOn) {
   scripted.run(1.0);
   scripted.clock.jumpWall(-3'600'000'000);
   scripted.run(1.0);
-  scripted.clock.jumpWall(40'000);  // a correction, no jump
+  scripted.clock.jumpWall(40'000);  // a small correction, no jump
   scripted.run(0.5);
   scripted.session->stopRecording();
   const Profile profile = openRecording(folder / "a.palpate");
@@ -293,7 +294,7 @@ TEST(Recorder, rateAndGapsOfTheReportAreThoseOfTheFile) {
   EXPECT_DOUBLE_EQ(report.meanRateHz, 199.0 / 4.49);
 }
 
-// C-A11.
+// C-A11: only the recorder's own gaps are reported as its own.
 TEST(Recorder, onlyItsOwnGapsAreToldAsItsOwn) {
   std::vector<RecordingEvent> told;
   CaptureOptions options;
@@ -306,7 +307,7 @@ TEST(Recorder, onlyItsOwnGapsAreToldAsItsOwn) {
   EXPECT_TRUE(told.empty());
 }
 
-// C-A11: the recorder alone empties its queues, so it must not wait for room in them.
+// C-A11: only the recorder empties its queues, so it must not wait for room in them.
 TEST(Recorder, aClockThatJumpsWhileTheEventsWaitIsTold) {
   std::vector<RecordingEvent> told;
   CaptureOptions options;
@@ -330,7 +331,7 @@ TEST(Recorder, aClockThatJumpsWhileTheEventsWaitIsTold) {
   EXPECT_EQ(recorded, 1u);
 }
 
-// a wrong clock may stand before 1970.
+// a wrong clock may be set to a time before 1970.
 TEST(Recorder, aRecordingBegunBefore1970HasItsDuration) {
   const TemporaryFolder folder;
   for (const std::int64_t beginUs : {std::int64_t{-3'000'000}, std::int64_t{-500'000}}) {
@@ -364,7 +365,7 @@ TEST(Recorder, freeSpaceIsThatOfTheFileSystem) {
   EXPECT_NEAR(static_cast<double>(*free),
               static_cast<double>(facts.f_bavail) * static_cast<double>(facts.f_frsize),
               1e9);
-  // A folder that is yet to be made lies there, too.
+  // For a folder that does not exist yet, the existing one above it counts.
   EXPECT_TRUE(freeBytesOf(folder / "not/made/yet"));
 }
 

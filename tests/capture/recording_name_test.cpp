@@ -59,7 +59,7 @@ TEST_F(RecordingName, aPlaceholderMustBeKnownAndStandOnce) {
   }
 }
 
-// R19.
+// R19: no text typed by the user leads out of the folder.
 TEST_F(RecordingName, whateverPeopleTypeTheNameStaysInItsFolder) {
   const std::string attacks[] = {"../../etc/passwd",
                                  "..",
@@ -102,8 +102,8 @@ TEST_F(RecordingName, whateverPeopleTypeTheNameStaysInItsFolder) {
       EXPECT_TRUE(name.ends_with(".palpate")) << name;
       EXPECT_EQ(name.find_first_of(std::string("/\\\0\n\x1b ", 6)), std::string::npos) << name;
       EXPECT_EQ(name.find_first_of("-.~"), name.find(".palpate"))
-          << name;  // none leads, none doubles
-      // The system takes it, and the folder has it.
+          << name;  // none at the begin, none doubled
+      // The system accepts the name, and the file is in the folder.
       writeFile(path, "x");
       EXPECT_TRUE(fs::exists(folder / name)) << name;
       fs::remove(path);
@@ -115,7 +115,7 @@ TEST_F(RecordingName, whateverPeopleTypeTheNameStaysInItsFolder) {
 TEST_F(RecordingName, lettersOfAnyLanguageStay) {
   EXPECT_EQ(fileNamePart("Jos\xc3\xa9 M\xc3\xbcller"), "Jos\xc3\xa9_M\xc3\xbcller");
   EXPECT_EQ(fileNamePart("\xe6\xb1\x9f"), "\xe6\xb1\x9f");
-  // No character is cut in two.
+  // No UTF-8 character is cut in two.
   std::string umlauts;
   for (int i = 0; i < 100; ++i) umlauts += "\xc3\xbc";
   EXPECT_EQ(fileNamePart("x" + umlauts), "x" + umlauts.substr(0, 58));

@@ -15,7 +15,7 @@ namespace palpate::replay_test {
 namespace {
 using namespace testing;
 
-// What came, in the order in which it came.
+// Stores the delivered items in their order.
 class Listener : public DeviceSink {
  public:
   struct Item {
@@ -88,7 +88,7 @@ TEST(Replay, deliversInOrderOfTimeAndWhatBelongsToAFrameBeforeIt) {
   EXPECT_EQ(listener.events[1].text, "the recording has ended");
   EXPECT_EQ(listener.frames[1].deviceMs, std::nullopt);
   EXPECT_EQ(listener.frames[2].deviceMs, 20);
-  replay.advance(1'000'000);  // nothing comes twice
+  replay.advance(1'000'000);  // nothing is delivered twice
   EXPECT_EQ(listener.items.size(), 10u);
 }
 
@@ -159,7 +159,7 @@ TEST(Replay, keepsTimeTimesItsSpeed) {
     const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
     replay.stop();
     EXPECT_EQ(listener.frames.size(), profile.numFrames());
-    // Never early; late only as a busy machine may be.
+    // Never early; late only by the delay of a busy machine.
     EXPECT_GE(took.count(), static_cast<double>(profile.durationUs()) / 1e6 / speed - 0.001);
     EXPECT_LT(took.count(), 10.0);
   }
@@ -220,7 +220,7 @@ void expectSame(const Profile& a, const Profile& b) {
   }
 }
 
-// Replays a profile through a session into a recording of its own.
+// Replays a profile through a session into a new recording.
 Profile recordedAgain(const Profile& profile, const std::filesystem::path& path) {
   CaptureOptions options;
   options.recorder.queue.blockWhenFull = true;
@@ -239,7 +239,7 @@ Profile recordedAgain(const Profile& profile, const std::filesystem::path& path)
   return openRecording(path);
 }
 
-// R17.
+// R17: a recording that is replayed and recorded again has the same content.
 TEST(Replay, aRealRecordingReplayedAndRecordedIsTheSameBitByBit) {
   const auto recordings = recordingsFolder();
   PALPATE_NEED(recordings);
@@ -259,8 +259,8 @@ TEST(Replay, aSyntheticRecordingReplayedAndRecordedIsTheSameBitByBit) {
   expectSame(original, recordedAgain(original, folder / "1.palpate"));
 }
 
-// A recording of `frames` frames with one byte flipped inside the data of its third tactile block.
-// Returns how many frames that block holds.
+// Writes a recording of `frames` frames with one byte flipped in its third tactile block. Returns
+// the number of frames in that block.
 std::size_t writeDamaged(const std::filesystem::path& path, std::size_t frames) {
   writeSamples(path, frames);
   const BlockBytes block = blockBytes(path).at(2);
@@ -270,7 +270,7 @@ std::size_t writeDamaged(const std::filesystem::path& path, std::size_t frames) 
   return block.n;
 }
 
-// C-A1.
+// C-A1: frames in a damaged block are counted, reported and skipped.
 TEST(Replay, whatADamagedBlockHeldIsCountedToldAndPassedOver) {
   constexpr std::size_t kFrames = 60;
   const TemporaryFolder folder;
@@ -297,7 +297,7 @@ TEST(Replay, whatADamagedBlockHeldIsCountedToldAndPassedOver) {
   }
 }
 
-// C-A2: nothing that goes wrong in the delivering thread ends the process.
+// C-A2: no exception in the delivering thread ends the process.
 TEST(Replay, aSinkThatFailsEndsTheReplayNotTheProcess) {
   class Failing : public Listener {
    public:

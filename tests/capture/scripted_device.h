@@ -1,4 +1,4 @@
-// A device and a clock that do what a test says, when it says it.
+// Fake device and clock that are controlled by the test.
 #pragma once
 
 #include <atomic>
@@ -16,14 +16,14 @@ namespace palpate::testing {
 
 constexpr std::int64_t kWallStartUs = 1'700'000'000'000'000;
 
-// Moves only when it is told to.
+// Clock that advances only when the test sets it.
 class HandClock : public Clock {
  public:
   std::int64_t monotonicUs() const override { return monoUs_; }
   std::int64_t wallUs() const override { return kWallStartUs + monoUs_ + jumpUs_; }
   void pass(std::int64_t us) { monoUs_ += us; }
   void jumpWall(std::int64_t us) { jumpUs_ += us; }
-  // Host time, of a session that began at 0.
+  // Host time, for a session that began at monotonic time 0.
   std::int64_t hostUs() const { return kWallStartUs + monoUs_; }
 
  private:
@@ -31,7 +31,7 @@ class HandClock : public Clock {
   std::atomic<std::int64_t> jumpUs_ = 0;
 };
 
-// The values of the n-th frame tell which one it is.
+// A frame whose values encode its number n.
 inline TactileFrame numberedFrame(std::size_t n, std::int64_t hostUs) {
   TactileFrame frame(sdh2().layout);
   frame.hostUs = hostUs;
@@ -44,13 +44,13 @@ inline TactileFrame numberedFrame(std::size_t n, std::int64_t hostUs) {
 }
 inline JointAngles numberedAngles(std::size_t n, std::int64_t hostUs) {
   std::vector<double> deg(7, 0.125 * static_cast<double>(n % 700));
-  deg[6] = 0.1;  // no float holds it
+  deg[6] = 0.1;  // not representable as float
   return {hostUs, deg};
 }
 
 class ScriptedDevice : public Device {
  public:
-  // What the test moves it by; lives as long as the device.
+  // The test delivers items through this sink; valid while the device is started.
   DeviceSink* sink = nullptr;
   DeviceStatus state;
   DeviceInfo says;
@@ -81,12 +81,12 @@ class ScriptedDevice : public Device {
   }
 };
 
-// A session on a scripted device, its recorder moved by the test, by a clock of the test.
+// A session on a scripted device; the test runs its recorder and its clock.
 struct ScriptedSession {
   HandClock clock;
   ScriptedDevice* device = nullptr;
   std::unique_ptr<CaptureSession> session;
-  std::size_t frames = 0;  // delivered by run()
+  std::size_t frames = 0;  // number of frames delivered by run()
   std::size_t samples = 0;
 
   explicit ScriptedSession(CaptureOptions options = {}) {
@@ -97,8 +97,8 @@ struct ScriptedSession {
     session->start();
   }
 
-  // Lets time pass: a frame every 10 ms, angles every 5 ms, temperatures every second, a round of
-  // the recorder every 20 ms.
+  // Advances the time: a frame every 10 ms, angles every 5 ms, temperatures every second, a round
+  // of the recorder every 20 ms.
   void run(double seconds, bool rounds = true) {
     const auto steps = static_cast<std::int64_t>(seconds * 200.0 + 0.5);
     for (std::int64_t i = 0; i < steps; ++i) {
@@ -113,7 +113,7 @@ struct ScriptedSession {
   }
 };
 
-// Which frame of a scripted device it is.
+// The number encoded in a frame of a scripted device.
 inline std::size_t numberOf(const TactileFrame& frame) {
   return static_cast<std::size_t>(frame.values[0]) +
          4096 * static_cast<std::size_t>(frame.values[1]);

@@ -1,5 +1,5 @@
-// A day of one hand in little time: emulated hand at full speed, both ports, driver, session,
-// recorder, disk; and replayed (reliability R11, R17).
+// Test of a day of one hand in a short time: an emulated hand at full speed, both ports, driver,
+// session, recorder and disk; then the recording is replayed (reliability R11, R17).
 #pragma once
 
 #include <chrono>
@@ -20,7 +20,7 @@
 
 namespace palpate::testing {
 
-// Counts what a replay delivers against the recording's own frames.
+// Compares what a replay delivers with the recording's frames.
 class ReplayCheck : public DeviceSink {
  public:
   explicit ReplayCheck(const Profile& profile) : profile_(profile) {}
@@ -52,7 +52,7 @@ inline void soak(std::size_t frames) {
   ports.dsaPort = hand.dsaPort();
   ports.sdhPort = hand.sdhPort();
   CaptureOptions capture;
-  // the hand waits for the disk: it runs faster than any real one
+  // The hand waits for the disk, because it runs faster than any real one.
   capture.recorder.queue.blockWhenFull = true;
   CaptureSession session(std::make_unique<LiveHand>(ports), capture);
   RecordingOptions recording;
@@ -84,11 +84,11 @@ inline void soak(std::size_t frames) {
   EXPECT_TRUE(report.complete) << report.message;
   ASSERT_EQ(report.frames, static_cast<std::int64_t>(frames));
   EXPECT_EQ(session.health().badChecksums, 0u);
-  // Fewer are possible: the recording may have ended while we looked.
+  // Fewer are possible: the recording may have ended while they were counted.
   EXPECT_LE(end.descriptors, warm.descriptors);
   EXPECT_LE(end.threads, warm.threads);
-  // The queues fill while the disk syncs; they hold 64 MB at most. Nothing grows with the
-  // recording.
+  // The queues fill while the disk syncs; they contain 64 MB at most. Memory does not grow with the
+  // length of the recording.
   if (kMemoryIsOurs) {
     EXPECT_LT(end.residentBytes, warm.residentBytes + (80u << 20));
   }

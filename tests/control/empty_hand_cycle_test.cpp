@@ -15,7 +15,7 @@ class EmptyHandCycleTest : public ::testing::Test {
  protected:
   std::int64_t now() const { return bench_.clock.hostUs(); }
   std::size_t numMotions() const { return bench_.hand->count<MoveJoints>(); }
-  // Begins, comes to the open preshape, and closes until the pads touch.
+  // Begins a cycle, moves to the open preshape, and closes until the pads touch.
   void closeUntilThePadsTouch() {
     run_.begin(now());
     pass(1.2, 0.0F);  // each motion takes a second
@@ -24,7 +24,7 @@ class EmptyHandCycleTest : public ::testing::Test {
     bench_.hand->states.assign(7, 6);
     pass(0.9, 650.0F);
   }
-  // Frames go on to come, every 30 ms.
+  // Advances the time with a frame every 30 ms.
   void pass(double seconds, float counts = 650.0F) {
     bench_.feel(static_cast<int>(std::lround(seconds / 0.03)), counts);
   }
@@ -63,7 +63,7 @@ TEST_F(EmptyHandCycleTest, AStopOfTheHandEndsItAndNothingMovesAfterwards) {
   EXPECT_EQ(numMotions(), motions);
 }
 
-// Nothing moves while it holds: the control has no grasp that could end.
+// Nothing moves while it holds: no grasp runs in GraspControl that could end.
 TEST_F(EmptyHandCycleTest, AStopWhileItHoldsEndsItToo) {
   for (const bool relaxed : {false, true}) {
     closeUntilThePadsTouch();

@@ -1,5 +1,6 @@
-// An emulated hand, the session on its two ports and the control of it, with a log of what arrives
-// on the motion port. Everything is as in the program: threads, ptys, the machine's clock.
+// Test bench: an emulated hand, the session on its two ports and its GraspControl, with a log of
+// the bytes that arrive at the motion port. It uses threads, ptys and the machine's clock, as the
+// program does.
 #pragma once
 
 #include <chrono>
@@ -26,11 +27,11 @@ inline bool eventuallyTrue(const std::function<bool()>& condition,
 
 inline std::unique_ptr<HandModel> handWith(const std::string& scene) {
   Scene loaded = loadScene(scene, dataFolder() / "scenes");
-  loaded.script.clear();  // who moves it is the test
+  loaded.script.clear();  // the test moves the hand
   return std::make_unique<PhysicalHand>(loaded);
 }
 
-// Centrical, open: where a grasp begins.
+// A hand without objects in the open centrical preshape, in which a grasp begins.
 inline std::unique_ptr<HandModel> stillHand() {
   return std::make_unique<StillHand>(std::vector<double>{60, -75, 75, -75, 75, -75, 75});
 }
@@ -76,7 +77,7 @@ struct EmulatedBench {
   bool awaitMotion() {
     return eventuallyTrue([this] { return handMoves(); });
   }
-  // Until the grasp has ended; its report.
+  // Waits until the grasp has ended; returns its report.
   std::optional<GraspReport> awaitEnd() {
     if (!eventuallyTrue([this] { return control->status().phase == GraspPhase::kIdle; }))
       return std::nullopt;

@@ -50,7 +50,7 @@ TEST(GraspControl, ReactiveGraspStopsWithTheFrameThatCrossesTheLimit) {
   bench.hand->states.assign(7, 1);
   bench.feel(5, 199.0F);
   EXPECT_EQ(bench.hand->count<StopMotion>(), 0u);
-  bench.feel(1, 250.0F);  // one round
+  bench.feel(1, 250.0F);  // one cycle
   EXPECT_EQ(bench.hand->count<StopMotion>(), 1u);
   EXPECT_EQ(bench.control->status().phase, GraspPhase::kSettling);
   bench.feel(17, 240.0F);
@@ -137,7 +137,7 @@ TEST(GraspControl, RefusesBadValuesBeforeAnythingIsSent) {
   EXPECT_EQ(bench.control->status().last->outcome, GraspOutcome::kRefused);
 }
 
-// L-M2: by what the controller says of its matrices.
+// L-M2: uses the settings of the matrices as reported by the controller.
 TEST(GraspControl, RefusesATactileGraspWhoseLimitCannotBeFelt) {
   GraspBench bench;
   bench.hand->says.matrices.assign(6, {0.5, 150});
@@ -150,7 +150,7 @@ TEST(GraspControl, RefusesATactileGraspWhoseLimitCannotBeFelt) {
   }
   EXPECT_TRUE(bench.hand->commands.empty());
   EXPECT_EQ(bench.control->status().last->outcome, GraspOutcome::kRefused);
-  EXPECT_NO_THROW(bench.control->grasp({}));  // a plain one feels nothing anyway
+  EXPECT_NO_THROW(bench.control->grasp({}));  // a plain grasp needs no limit
 }
 
 TEST(GraspControl, RefusesWithoutAMotionPort) {
@@ -199,7 +199,7 @@ TEST(GraspControl, SettingsAreRefusedWhileFingersMoveUnderTactileControl) {
   bench.wait(1);
   EXPECT_TRUE(bench.control->status().cannotChange.empty());
   EXPECT_NO_THROW(bench.control->change(SetThreshold{{}, 10}).get());
-  bench.control->grasp({});  // plain: they mean nothing to it
+  bench.control->grasp({});  // plain: the settings do not matter to it
   EXPECT_NO_THROW(bench.control->change(SetSensitivity{1, 0.9}));
   EXPECT_THROW(bench.control->change(StopMotion{}), std::invalid_argument);
 }
@@ -216,14 +216,14 @@ TEST(GraspControl, AReactiveGraspWaitsForSettingsThatAreBeingChanged) {
 TEST(GraspControl, AStopGoesOutInTheCallItselfAndAlways) {
   GraspBench bench;
   bench.hand->answers = false;
-  bench.control->stop();  // nothing moves that we know of
+  bench.control->stop();  // no known motion runs
   EXPECT_EQ(bench.hand->count<StopMotion>(), 1u);
   bench.control->grasp({});
   bench.control->stop();
   EXPECT_EQ(bench.hand->count<StopMotion>(), 2u);
-  bench.control->stop();  // the first one isn't answered yet
+  bench.control->stop();  // the first one is not answered yet
   EXPECT_EQ(bench.hand->count<StopMotion>(), 3u);
-  // No motion comes behind it.
+  // No motion follows it.
   bench.wait(100'000);
   EXPECT_EQ(bench.hand->count<MoveJoints>(), 1u);
   EXPECT_TRUE(std::holds_alternative<StopMotion>(bench.hand->commands.back()));
@@ -292,12 +292,12 @@ TEST(GraspControl, ARecordingThatIsReplayedCannotBeMoved) {
     control.step();
     EXPECT_EQ(control.status().last->outcome, GraspOutcome::kRefused);
   } catch (const DeviceError&) {
-    // said at once
+    // Each refusal must come at once.
   }
   EXPECT_EQ(control.status().phase, GraspPhase::kIdle);
 }
 
-// Time passes when the test says so; that the thread sees what came is waited for.
+// The test controls the time, but must wait until the thread has processed the frames.
 TEST(GraspControl, RunsOnAThreadOfItsOwn) {
   GraspBench bench;
   bench.control->run();
@@ -314,7 +314,7 @@ TEST(GraspControl, RunsOnAThreadOfItsOwn) {
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
   };
   await(GraspPhase::kSettling);
-  bench.clock.pass(600'000);  // it looks for half a second how far the reading rises
+  bench.clock.pass(600'000);  // it observes for half a second how far the reading rises
   await(GraspPhase::kIdle);
   ASSERT_TRUE(bench.control->status().last.has_value());
   EXPECT_EQ(bench.control->status().last->outcome, GraspOutcome::kLimitReached);

@@ -1,5 +1,5 @@
-// C-A2: what is thrown while fingers move. The process lives, a stop is on the wire, and it is
-// said.
+// C-A2: exceptions while fingers move. The process continues, a stop is sent, and the failure is
+// reported.
 #include <chrono>
 #include <condition_variable>
 #include <mutex>
@@ -30,7 +30,7 @@ bool alarmSays(CaptureSession& session, const std::string& word) {
   return false;
 }
 
-// A sensor with other matrices than the one before: another controller, or its settings.
+// A sensor with other matrices than before: another controller, or other settings.
 SensorLayout otherLayout() {
   return SensorLayout({MatrixLayout::full(10, 8, 3.4), MatrixLayout::full(5, 5, 3.4)});
 }
@@ -60,7 +60,7 @@ TEST(GraspFault, AStopIsOnTheWireAndTheControlGoesOn) {
       return status.phase == GraspPhase::kIdle && status.last;
     };
     while (!ended() && std::chrono::steady_clock::now() < deadline) std::this_thread::yield();
-    bench.control->stop();  // its thread makes no more rounds over what the test looks at
+    bench.control->stop();  // the control's own thread must not run during the checks
     ASSERT_TRUE(ended());
     EXPECT_EQ(bench.control->status().last->outcome, GraspOutcome::kFailed);
     EXPECT_GE(bench.hand->count<StopMotion>(), 1u);
@@ -89,7 +89,7 @@ TEST(GraspFault, EndsTheGraspAlsoWhereItIsThrownInEveryRound) {
   EXPECT_NO_THROW(bench.control->grasp({}));
 }
 
-// One that comes and goes with every other round must not fill the recording.
+// A failure that comes and goes with every other cycle must not fill the recording.
 TEST(GraspFault, TheSameIsSaidAgainAfterTenSecondsOrInANewGrasp) {
   GraspBench bench;
   std::size_t round = 0;
@@ -105,7 +105,7 @@ TEST(GraspFault, TheSameIsSaidAgainAfterTenSecondsOrInANewGrasp) {
   };
   bench.control->grasp({});
   bench.hand->state.motion->state = PortState::kLost;
-  EXPECT_EQ(alarmsOf(200'000), 0u);  // from now on it is looked whether the port is back
+  EXPECT_EQ(alarmsOf(200'000), 0u);  // from now on it checks whether the port is back
   works = false;
   EXPECT_EQ(alarmsOf(9'000'000), 1u);
   EXPECT_EQ(alarmsOf(5'000'000), 1u) << "ten seconds later";
@@ -131,7 +131,7 @@ TEST(GraspFault, AnotherLayoutInASlipAwareGraspStopsIt) {
       << bench.control->status().last->text;
 }
 
-// At once, not when the stream has been silent for long enough.
+// The grasp is stopped at once, not only when the stream has been silent for long enough.
 TEST(GraspFault, ATactilePortThatFailedStopsAGraspThatFeels) {
   GraspBench bench;
   bench.control->grasp(slipAware());
@@ -143,7 +143,7 @@ TEST(GraspFault, ATactilePortThatFailedStopsAGraspThatFeels) {
   EXPECT_EQ(bench.hand->count<StopMotion>(), 1u);
 }
 
-// The port comes back within a second: the hand is not left to itself.
+// The port is back within a second, and the hand is not left without control.
 TEST(GraspFault, AMotionPortThatFailedIsToldToStopUntilItAnswers) {
   GraspBench bench;
   bench.control->grasp({});
@@ -174,8 +174,7 @@ TEST(GraspFault, AnotherLayoutBetweenGraspsIsLearned) {
   EXPECT_EQ(bench.control->status().phase, GraspPhase::kClosing);
 }
 
-// C-A14: a consumer that hangs, while the control tells it something, keeps nobody from stopping
-// the hand.
+// C-A14: a blocked consumer that receives an event of the control must not prevent a stop.
 TEST(GraspFault, AConsumerThatHangsKeepsNobodyFromStopping) {
   GraspBench bench;
   CaptureQueueOptions patient;
@@ -184,7 +183,7 @@ TEST(GraspFault, AConsumerThatHangsKeepsNobodyFromStopping) {
   auto hanging = bench.session->subscribe("hangs", patient);
   bench.control->run();
   std::jthread other([&] {
-    // Its events fill the feed of the one that hangs, and wait for room there.
+    // The events fill the queue of the blocked consumer and wait for room there.
     for (int i = 0; i < 3; ++i) {
       try {
         bench.control->grasp({});

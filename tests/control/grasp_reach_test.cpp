@@ -1,5 +1,5 @@
-// L-M14: what a grasp reaches after its stop is measured and said. The emulated ball is hard, and
-// the rubber answers with a lag of 0.16 s: how far a reading rises is a matter of the velocity.
+// L-M14: the rise of the reading after the stop of a grasp is measured and reported. The emulated
+// ball is hard, and the rubber has a lag of 0.16 s, so the rise depends on the velocity.
 #include <algorithm>
 #include <cstdio>
 
@@ -16,11 +16,11 @@ using testing::HeldObject;
 
 struct Reach {
   GraspReport report;
-  // of any taxel, from the stop to a second later, as the test saw it [counts]
+  // Largest reading of a taxel from the stop to a second later, as the test received it [counts].
   double largest = 0.0;
 };
 
-// One grasp. A hair of velocity more puts the frames elsewhere against the touch.
+// Runs one grasp. A slightly larger velocity changes the time of the frames relative to the touch.
 Reach reachOf(const std::string& scene, double velocity, int limit, double hair = 0.0) {
   Scene loaded = loadScene(scene, testing::dataFolder() / "scenes");
   loaded.script.clear();
@@ -62,10 +62,11 @@ TEST(GraspReach, WhatDoesNotRiseIsNotTalkedAbout) {
   EXPECT_EQ(reach.report.text.find("close more slowly"), std::string::npos) << reach.report.text;
 }
 
-// docs/safety.md has these figures: `measured {..}` is what scripts/measure reads. The slower, the
-// less.
+// docs/safety.md contains these figures: scripts/measure reads `measured {..}`. The rise is smaller
+// at a lower velocity.
 TEST(GraspReach, TheSlowerTheLess) {
-  constexpr int kTouches = 7;  // frames elsewhere against the touch
+  // Different times of the frames relative to the touch.
+  constexpr int kTouches = 7;
   const auto reached = [](double velocity, int limit) {
     std::vector<double> largest;
     for (int i = 0; i < kTouches; ++i)

@@ -61,7 +61,7 @@ TEST(GraspRequest, SaysWhatIsWrong) {
   }
 }
 
-// The study's table of preshapes, phi0 | f0 | f1 | f2, c = 0.5.
+// The study's table of preshapes, columns phi0 | f0 | f1 | f2, c = 0.5.
 TEST(GraspRequest, NamesAllAxesOfTheHand) {
   struct Row {
     const char* preshape;
@@ -149,7 +149,7 @@ TEST(GraspReport, IsAnEventWithParametersAndOutcome) {
   EXPECT_FALSE(endEvent(plain).matrix.has_value());
 }
 
-// What the refusal says, and what marks matrices before it is asked for.
+// The same check gives the text of the refusal and marks matrices before the request.
 TEST(GraspRequest, ItsHighestLimitIsJudgedOnTheFingersThatItMoves) {
   std::vector<MatrixSettings> settings = {
       {0.5, 150}, {0.5, 300}, {0.5, 150}, {0.5, 300}, {0.5, 150}, {0.5, 300}};

@@ -1,5 +1,5 @@
-// The limit of a grasp under tactile control: whether it can be felt, what is reached after the
-// stop, and what becomes of a grasp in which the program fails.
+// Tests of the limit of a grasp under tactile control: whether it can be measured, the reading
+// after the stop, and grasps with an unexpected exception.
 #include <stdexcept>
 #include <string_view>
 
@@ -14,7 +14,7 @@ using testing::kPeriodUs;
 using testing::reactive;
 using Bench = testing::MachineBench;
 
-// L-M14
+// L-M14.
 TEST(GraspStateMachine, WhatIsReachedAfterTheStopIsSaidBesideWhatWasAsked) {
   Bench bench;
   bench.begin(reactive(200));
@@ -41,7 +41,7 @@ TEST(GraspStateMachine, WhatIsReachedAfterTheStopIsSaidBesideWhatWasAsked) {
             "6.0 times the limit: close more slowly");
 }
 
-// It was not closing yet: there is nothing to hold, and nothing may close any more.
+// The hand was not closing yet, so it holds nothing and must not close.
 TEST(GraspStateMachine, ASlipAwareGraspThatIsOverItsLimitOnTheWayToItsStartEndsThere) {
   Bench bench;
   GraspRequest request = reactive(200);
@@ -78,7 +78,7 @@ TEST(GraspStateMachine, LookingOnEndsAtOnceWhenTheUserOrAPortEndsIt) {
   }
 }
 
-// C-A5, L-M2
+// C-A5, L-M2.
 TEST(GraspStateMachine, RefusesALimitThatCannotBeFeltNamingTheMatrix) {
   const std::vector<MatrixSettings> usual = {
       {0.5, 150}, {0.5, 300}, {0.5, 150}, {0.5, 300}, {0.5, 150}, {0.5, 300}};
@@ -104,12 +104,12 @@ TEST(GraspStateMachine, RefusesALimitThatCannotBeFeltNamingTheMatrix) {
   EXPECT_NE(refusal(settings, reactive(200)).find("finger 1 distal can't tell"), std::string::npos)
       << refusal(settings, reactive(200));
   GraspRequest pinch = reactive(200);
-  pinch.preshape = "pinch-parallel";  // finger 1 stays folded away
+  pinch.preshape = "pinch-parallel";  // finger 1 stays folded
   EXPECT_EQ(refusal(settings, pinch), "");
   GraspRequest slip = reactive(200);
   slip.mode = GraspMode::kSlip;
   settings = usual;
-  settings[0].thresholdCounts = 2000;  // the first limit is felt, the highest (2200) isn't
+  settings[0].thresholdCounts = 2000;  // the first limit can be measured, the highest (2200) can't
   EXPECT_EQ(refusal(settings, reactive(200)), "");
   EXPECT_NE(refusal(settings, slip).find("2200 counts would not be felt"), std::string::npos);
 }
@@ -160,7 +160,7 @@ TEST(GraspStateMachine, AFaultStopsWhateverRuns) {
   EXPECT_FALSE(bench.machine.active());
 }
 
-// No memory for its text, as with one that is longer than any string.
+// There is no memory for its text, as for a text longer than any string.
 TEST(GraspStateMachine, AFaultThatFindsNoMemoryForItsTextStopsAllTheSame) {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
   GTEST_SKIP() << "such a text is no object that a program may have, and the sanitizer says so";

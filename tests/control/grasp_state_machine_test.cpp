@@ -53,7 +53,7 @@ TEST(GraspStateMachine, PlainGraspDoesNotMindTheTaxels) {
   bench.begin({});
   bench.take();
   bench.frames(5, 3560.0F);
-  bench.us += 500'000;  // nor silence
+  bench.us += 500'000;  // no silence either
   bench.machine.onTime(bench.us);
   bench.machine.onTactilePortGone("unplugged", bench.us);
   EXPECT_EQ(bench.machine.phase(), GraspPhase::kClosing);
@@ -100,7 +100,7 @@ TEST(GraspStateMachine, ReactiveGraspStopsAtTheFirstTaxelOverTheLimit) {
     bench.begin(reactive(200));
     bench.take();
     bench.us += kPeriodUs;
-    bench.frame(200.0F, matrix);  // at the limit is not over it
+    bench.frame(200.0F, matrix);  // a reading at the limit is not over it
     EXPECT_EQ(bench.machine.phase(), GraspPhase::kClosing);
     bench.us += kPeriodUs;
     bench.frame(201.0F, matrix, 7, 4);
@@ -159,7 +159,7 @@ TEST(GraspStateMachine, RefusesWhenOverTheLimitAlready) {
         << error.what();
   }
   EXPECT_FALSE(bench.machine.takeCommand().has_value());
-  EXPECT_NO_THROW(bench.begin({}));  // a plain one may
+  EXPECT_NO_THROW(bench.begin({}));  // a plain grasp is allowed
 }
 
 TEST(GraspStateMachine, RefusesAReactiveGraspWithoutALivingStream) {
@@ -230,7 +230,7 @@ TEST(GraspStateMachine, TheUserStopsAtAnyMoment) {
   EXPECT_TRUE(bench.takeStop());
   bench.machine.onStopAcknowledged(bench.us);
   EXPECT_EQ(bench.machine.takeReport()->outcome, GraspOutcome::kStopped);
-  bench.machine.stop(bench.us);  // nothing runs: nothing is said
+  bench.machine.stop(bench.us);  // nothing runs: nothing is reported
   EXPECT_FALSE(bench.machine.active());
 }
 
@@ -298,7 +298,7 @@ TEST(GraspStateMachine, HeldFingersEndAPlainGraspAndGoOnHolding) {
   EXPECT_FALSE(bench.machine.takeCommand().has_value());
 }
 
-// Nobody watches the taxels when a grasp has ended.
+// The taxels are not monitored after a grasp has ended.
 TEST(GraspStateMachine, HeldFingersOfAReactiveGraspDoNotGoOnPushing) {
   Bench bench;
   bench.begin(reactive());

@@ -37,7 +37,7 @@ TEST(GripMonitor, WhatRestsDoesNotSlip) {
   EXPECT_FALSE(bench.watch.slip().has_value());  // no reference yet
   bench.watch.setReference();
   for (int i = 0; i < 100; ++i) {
-    bench.contact.peakCounts *= 1.002;  // pressed harder
+    bench.contact.peakCounts *= 1.002;  // with more force
     bench.frame();
     EXPECT_FALSE(bench.watch.slip().has_value());
   }

@@ -1,4 +1,4 @@
-// An emulated hand in its body alone (no port, no thread), driven by a grasp machine: time passes
+// Test bench: a PhysicalHand without port and thread, driven by a GraspStateMachine. Time advances
 // as fast as it can be computed, and every run is the same.
 #pragma once
 
@@ -22,7 +22,7 @@ class HeldObject {
 
   explicit HeldObject(const Scene& scene) : hand_(scene), machine_(hand_.hand()) {
     counts_.resize(hand_.hand().layout->numCells());
-    run(1.0);  // the machine knows its stream then
+    run(1.0);  // the state machine knows its stream after that
   }
 
   GraspStateMachine& machine() { return machine_; }
@@ -35,7 +35,7 @@ class HeldObject {
     for (const GraspStep& note : notes_) found += note.action == action ? 1 : 0;
     return found;
   }
-  double farthestSlip() const {  // of any matrix, now [taxels]
+  double farthestSlip() const {  // largest slip of a matrix now [taxels]
     double farthest = 0.0;
     for (const MatrixTruth& truth : hand_.truth())
       if (truth.contact)
@@ -49,7 +49,7 @@ class HeldObject {
   }
 
   void begin(const GraspRequest& request) { machine_.begin(request, us(), us()); }
-  // Lets time pass; until `enough` is true after a frame, too.
+  // Advances the time by `seconds`, or until `enough` returns true after a frame.
   bool run(double seconds, const std::function<bool()>& enough = {}) {
     const double endS = timeS_ + seconds;
     while (timeS_ < endS) {

@@ -20,8 +20,8 @@ TEST(FeltLimit, AsItIsAtPowerUpEveryLimitOfAGraspIsFelt) {
   EXPECT_TRUE(unmeasurableLimits(sdh2(), {}, 3300).empty()) << "not known: not made up";
 }
 
-// Readings are sent less the threshold (wire protocol, 1.5.4): 200 counts over a threshold of 300
-// are felt.
+// Readings are sent minus the threshold (protocol, 1.5.4): 200 counts above a threshold of 300 can
+// be measured.
 TEST(FeltLimit, AThresholdAboveTheLimitHidesLightTouchesNotTheLimit) {
   TactileSettings settings = defaultTactileSettings(sdh2());
   settings[3].thresholdCounts = 1000;

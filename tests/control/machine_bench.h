@@ -1,4 +1,4 @@
-// A grasp machine, time, and frames that come as from a hand.
+// Test bench: a GraspStateMachine with simulated time and frames.
 #pragma once
 
 #include <cstdint>
@@ -32,14 +32,14 @@ struct MachineBench {
     }
   }
   void begin(const GraspRequest& request) { machine.begin(request, us, 42); }
-  // The motion goes out and the hand takes it.
+  // Takes the motion command and acknowledges it for the hand.
   MoveJoints take(double durationS = 2.0) {
     const auto command = machine.takeCommand();
     const MoveJoints move = std::get<MoveJoints>(command.value());
     machine.onMoveAcknowledged(durationS, us);
     return move;
   }
-  // The half second after the stop at a limit.
+  // Advances by the half second after the stop at a limit.
   void lookOn(float counts = 0.0F) {
     for (int i = 0; i < 17; ++i) {
       frames(1, counts);

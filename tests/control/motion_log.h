@@ -1,5 +1,6 @@
-// What arrived at the motion port of an emulated hand, byte by byte, understood by the protocol
-// document alone: text lines, and binary records cmd u8 | n u8 | k u8 | k floats | checksum.
+// Log of the bytes that arrived at the motion port of an emulated hand. It decodes them by the
+// protocol document alone: text lines, and binary records cmd u8 | n u8 | k u8 | k floats |
+// checksum.
 #pragma once
 
 #include <cstring>
@@ -15,9 +16,9 @@
 namespace palpate::testing {
 
 struct ArrivedCommand {
-  std::int64_t monoUs = 0;     // of its last byte [monotonic us]
+  std::int64_t monoUs = 0;     // arrival of its last byte [monotonic us]
   std::string name;            // "p", "v", "power", "stop", "m", ..
-  std::vector<double> values;  // what is set; empty: asked only
+  std::vector<double> values;  // values to set; empty for a read request
 };
 
 class MotionLog {
@@ -41,7 +42,7 @@ class MotionLog {
       if (command.name == name) found.push_back(std::move(command));
     return found;
   }
-  // Commands that set something or move: not questions, not stops.
+  // Commands that set a value or begin a motion, without read requests and stops.
   std::vector<ArrivedCommand> deeds() const {
     std::vector<ArrivedCommand> found;
     for (ArrivedCommand& command : all())
@@ -50,7 +51,7 @@ class MotionLog {
         found.push_back(std::move(command));
     return found;
   }
-  // The first one of this name that arrived at or after a time.
+  // The first command of this name that arrived at or after a time.
   std::optional<ArrivedCommand> firstSince(const std::string& name, std::int64_t monoUs) const {
     for (ArrivedCommand& command : named(name))
       if (command.monoUs >= monoUs) return std::move(command);
@@ -60,12 +61,12 @@ class MotionLog {
     const std::lock_guard lock(mutex_);
     commands_.clear();
   }
-  // What came of a command that isn't complete.
+  // The bytes of an incomplete command.
   std::string pending() const {
     const std::lock_guard lock(mutex_);
     return pending_;
   }
-  // After a plug was pulled: what had come of a command will never be completed.
+  // Drops the bytes of an incomplete command after the port was unplugged.
   void restart() {
     const std::lock_guard lock(mutex_);
     commands_.clear();

@@ -1,4 +1,4 @@
-// What the hand goes on to do when its motion port goes away, and for how long.
+// Tests how the hand continues to move when its motion port disappears, and for how long.
 #include <limits>
 
 #include "control/machine_bench.h"
@@ -14,7 +14,8 @@ using testing::kPeriodUs;
 using testing::reactive;
 using Bench = testing::MachineBench;
 
-constexpr double kStartAndStopS = 0.5;  // more than announced, or than by the velocity alone
+// Time by which a motion may exceed the announced one, or the one by velocity alone.
+constexpr double kStartAndStopS = 0.5;
 
 GraspRequest slipAware() {
   GraspRequest request = reactive(200);
@@ -28,7 +29,7 @@ GraspReport gone(Bench& bench) {
   return bench.machine.takeReport().value();
 }
 
-// Closes upon what touches finger 0 distal, and holds it.
+// Closes on an object that touches finger 0 distal, and holds it.
 void hold(Bench& bench, GraspRequest request) {
   bench.begin(request);
   bench.take();
@@ -62,7 +63,7 @@ TEST(PortGone, WhatWasAnnouncedIsOverAtItsEnd) {
   EXPECT_EQ(gone(bench).remainingMotionS, 0.0);
 }
 
-// 10 deg/s. On the way to the start it is the start that counts, not where it would have closed.
+// At 10 deg/s. While moving to the start, the start is the target, not the close ratio.
 TEST(PortGone, PreshapingGoesOnToItsStartByVelocityAndAnglesWhereNothingWasAnnounced) {
   for (const bool answered : {false, true}) {
     Bench bench;
@@ -78,7 +79,7 @@ TEST(PortGone, PreshapingGoesOnToItsStartByVelocityAndAnglesWhereNothingWasAnnou
   }
 }
 
-// Its farthest axis: from 90 to -75 deg, or from -90 to 75 deg.
+// Its farthest axis moves from 90 to -75 deg, or from -90 to 75 deg.
 TEST(PortGone, WithoutAnglesItMayComeFromAnywhere) {
   Bench bench;
   GraspRequest request = reactive();
@@ -99,7 +100,7 @@ TEST(PortGone, LooseningGoesOnAtItsOwnVelocity) {
     bench.machine.onTime(bench.us);
   }
   ASSERT_EQ(bench.machine.phase(), GraspPhase::kLoosening);
-  // To the open hand at 1 deg/s, though the grasp was asked for 10.
+  // To the open hand at 1 deg/s, although 10 deg/s were requested for the grasp.
   bench.machine.onAngles({60.0, -63.0, 75.0, -75.0, 65.0, -75.0, 75.0});
   const GraspReport report = gone(bench);
   EXPECT_NEAR(report.remainingMotionS.value(), 12.0 + kStartAndStopS, 1e-9);
@@ -146,7 +147,7 @@ TEST(PortGone, AnEndOfAnotherKindSaysNothingOfIt) {
   EXPECT_FALSE(bench.machine.takeReport()->remainingMotionS.has_value());
 }
 
-// A refusal meanwhile is the last report, but not what the hand does.
+// A later refusal is the last report, but does not describe what the hand does.
 TEST(PortGone, IsRememberedUntilThePortIsBackWhateverIsRefusedMeanwhile) {
   GraspBench bench;
   bench.hand->durationS = 4.0;

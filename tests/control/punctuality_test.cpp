@@ -1,4 +1,4 @@
-// What is late is late, unless the machine stood still: the judge of the stops.
+// Tests of Punctuality, which decides whether a stop was late or the machine was suspended.
 #include "testing/punctuality.h"
 
 #include <csignal>
@@ -86,7 +86,7 @@ TEST(Punctual, FiguresAreThoseOfAllAnswers) {
   EXPECT_EQ(report.worstMs, 10.0);
 }
 
-// Somebody stops the whole process, as a machine that stands still does.
+// The whole process is suspended, as on a machine that stops running.
 TEST(Heartbeat, NoticesThatTheProcessWasStopped) {
   constexpr std::int64_t kStoppedUs = 80'000;
   Heartbeat heartbeat;

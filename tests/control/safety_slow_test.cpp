@@ -1,4 +1,4 @@
-// The long form of R18: a thousand stops.
+// Long form of R18: a thousand stops.
 #include "control/stop_moments.h"
 #include "testing/testing.h"
 

@@ -1,5 +1,4 @@
-// The safety of the hand (R18, docs/safety.md), as the hand itself sees it: on the emulated hand's
-// motion port.
+// Safety of the hand (R18, docs/safety.md), checked at the motion port of the emulated hand.
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -46,7 +45,7 @@ TEST(Safety, BeyondARangeOrNoNumberIsRefusedAndNoByteIsSent) {
   wrong.velocityDegPerS = 101.0;
   EXPECT_THROW(bench.control->grasp(wrong), std::invalid_argument);
   EXPECT_THROW(bench.control->grasp(reactiveGrasp(3601)), std::invalid_argument);
-  // Whoever goes past the control meets the driver.
+  // Commands that bypass the control are checked by the driver.
   const auto refusedByDriver = [&](std::vector<double> deg, std::vector<double> velocity) {
     auto answer = bench.session->device().submit(MoveJoints{deg, velocity, false});
     EXPECT_THROW(answer.get(), std::invalid_argument);
@@ -81,7 +80,7 @@ TEST(Safety, NoAxisIsEverSetToZeroByOmission) {
   const auto targets = bench.log.named("p");
   std::size_t set = 0;
   for (const ArrivedCommand& target : targets) {
-    if (target.values.empty()) continue;  // asked
+    if (target.values.empty()) continue;  // a read request
     ASSERT_LT(set, expected.size());
     EXPECT_EQ(target.values, expected[set++]);
   }
@@ -90,7 +89,7 @@ TEST(Safety, NoAxisIsEverSetToZeroByOmission) {
     if (!velocity.values.empty()) {
       EXPECT_EQ(velocity.values, (std::vector<double>{83, 90, 90, 90, 90, 90, 90}));
     }
-  // Nothing else was ever set, and the hand was never asked for a grasp of its own.
+  // No other value was ever set, and no built-in grip was requested.
   for (const ArrivedCommand& deed : bench.log.deeds())
     EXPECT_TRUE(deed.name == "p" || deed.name == "v" || deed.name == "vp" || deed.name == "m")
         << deed.name;
@@ -109,8 +108,8 @@ TEST(Safety, RelaxIsTheOnlyThingThatTakesThePower) {
   EXPECT_FALSE(bench.handMoves());
 }
 
-// A grasp of the ball: from the frame over the limit, whose last byte has left the hand, to the
-// stop that arrives there.
+// Measures a grasp of the ball from the last byte of the frame over the limit, as it leaves the
+// hand, to the arrival of the stop.
 void graspUntilTheLimit(Punctuality& reactions, const std::filesystem::path& recorded) {
   constexpr int kLimit = 200;
   std::mutex mutex;
@@ -160,14 +159,14 @@ TEST(Safety, AReactiveGraspStopsWithinMillisecondsOfTheFrameThatCrosses) {
   EXPECT_EQ(count("motion"), 2);  // began, stopped
 }
 
-// How a dead stream is made; the hand goes on listening.
+// Ways to end the tactile stream; the hand still receives commands.
 struct Death {
   const char* name;
   std::function<void(EmulatedHand&)> happen;
 };
 class DeadStream : public ::testing::TestWithParam<Death> {};
 
-// From the accident, before which the last frame left, to the stop that arrives.
+// Measures the time from the last frame before the failure to the arrival of the stop.
 TEST_P(DeadStream, StopsAReactiveGrasp) {
   const Death& death = GetParam();
   Punctuality stops(death.name, {kSilenceUs + kReactionUs, 1.0, kSilenceUs + kNeverLongerUs});
@@ -221,7 +220,7 @@ TEST(Safety, AMotionPortThatReturnsBringsAStopBeforeAnythingElse) {
   bench.connect();
   GraspRequest request;
   request.closeRatio = 1.0;
-  request.velocityDegPerS = 5.0;  // 16 s: still going on at the return
+  request.velocityDegPerS = 5.0;  // 16 s: still moving when the port is back
   bench.control->grasp(request);
   ASSERT_TRUE(bench.awaitMotion());
   bench.hand->unplug(false, true);
@@ -238,7 +237,7 @@ TEST(Safety, AMotionPortThatReturnsBringsAStopBeforeAnythingElse) {
   EXPECT_TRUE(bench.log.deeds().empty());
 }
 
-// As a program leaves it that was killed.
+// As after a program that was killed.
 TEST(Safety, AHandFoundMovingIsStopped) {
   EmulatedBench bench(stillHand());
   bench.hand->withModel([](HandModel& model) {

@@ -1,5 +1,5 @@
-// A hand that does what a test says and notes what it was told, its session and its control, by a
-// clock of the test and without a thread.
+// Test bench: a fake hand that behaves as the test specifies and stores the received commands, with
+// its session and its GraspControl, on a clock of the test and without a thread.
 #pragma once
 
 #include <functional>
@@ -48,11 +48,11 @@ class ScriptedHand : public ScriptedDevice {
     return found;
   }
 
-  std::function<void()> fails;        // throws where the axes are asked ..
-  std::function<void()> statusFails;  // .. and where the ports are
-  bool answers = true;                // at once; else the test answers what is waiting
+  std::function<void()> fails;        // throws when the axis states are read
+  std::function<void()> statusFails;  // throws when the port status is read
+  bool answers = true;  // answers at once; otherwise the test answers pending commands
   double durationS = 1.0;
-  std::vector<DeviceCommand> commands;  // all that were handed in
+  std::vector<DeviceCommand> commands;  // all commands received
   std::vector<std::promise<CommandAnswer>> waiting;
   std::vector<int> states = std::vector<int>(7, 6);
 };
@@ -74,7 +74,7 @@ struct GraspBench {
     control = std::make_unique<GraspControl>(*session, clock);
     feel(20);
   }
-  // Frames every 30 ms whose largest taxel is at finger 2 distal, x 1, y 6.
+  // Sends frames every 30 ms whose largest taxel is at finger 2 distal, x 1, y 6.
   void feel(int count, float counts = 0.0F) {
     for (int i = 0; i < count; ++i) {
       clock.pass(30'000);

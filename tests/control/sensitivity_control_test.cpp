@@ -12,15 +12,15 @@ namespace palpate::sensitivity_control_test {
 namespace {
 using namespace testing;
 
-// A hand that does at once what it is told, and control of its sensitivity, by the clock of the
-// test.
+// Test bench: a hand that executes every command at once, and its SensitivityControl, on the test's
+// clock.
 struct SensitivityBench {
   GraspBench bench;
   SensitivityControl control{*bench.session, *bench.control, bench.clock};
   std::size_t heeded = 0;
 
   SensitivityBench() { bench.hand->says.matrices.assign(6, {0.5, 200}); }
-  // Commands that came become what the hand says of itself.
+  // Applies the received commands to the settings that the hand reports.
   void obey() {
     auto& matrices = bench.hand->says.matrices;
     for (; heeded < bench.hand->commands.size(); ++heeded) {
@@ -35,7 +35,8 @@ struct SensitivityBench {
       }
     }
   }
-  // Frames with a period, a look after each eighth; readings follow the sensitivity.
+  // Sends frames with a period and calls step() after every eighth; readings follow the
+  // sensitivity.
   void run(double seconds, std::int64_t periodUs, double gain, double degC) {
     const auto frames = static_cast<int>(seconds * 1e6 / static_cast<double>(periodUs));
     for (int i = 0; i < frames; ++i) {
@@ -87,7 +88,7 @@ TEST(SensitivityControl, TheGuardRaisesThresholdsWhenTheRateCollapses) {
   bench.run(6.0, 3 * kPeriodUs, 0.0, 30.0);
   EXPECT_TRUE(bench.control.status().noise.guarding);
   EXPECT_GE(bench.settings()[0].thresholdCounts, 61);
-  // A pause (of a setting, say) is no slow stream.
+  // A pause, for instance for a setting, must not count as a low rate.
   SensitivityBench paused;
   paused.control.beginHighSensitivity(evenNoise(0.5, 30.0, 2.0));
   paused.run(3.0, kPeriodUs, 0.0, 30.0);
@@ -122,7 +123,7 @@ TEST(SensitivityControl, WaitsWhileFingersMoveUnderTactileControl) {
 }
 
 TEST(SensitivityControl, AdaptiveFindsTheHighestThatDoesNotSaturate) {
-  // Readings s * gain - 200: at gain 5000 the aim of 3150 counts needs s = 0.67.
+  // Readings are s * gain - 200: at gain 5000 the target of 3150 counts needs s = 0.67.
   SensitivityBench bench;
   bench.control.beginAdaptiveSensitivity();
   bench.run(30.0, kPeriodUs, 5000.0, 30.0);
@@ -131,7 +132,7 @@ TEST(SensitivityControl, AdaptiveFindsTheHighestThatDoesNotSaturate) {
   const double reading = bench.settings()[1].sensitivity * 5000.0 - 200.0;
   EXPECT_LT(reading, 3500.0);
   EXPECT_GT(reading, 2800.0);
-  // More load saturates: lower at once.
+  // A larger load saturates, so the sensitivity is lowered at once.
   bench.run(30.0, kPeriodUs, 9000.0, 30.0);
   EXPECT_LT(bench.settings()[1].sensitivity * 9000.0 - 200.0, 3500.0);
   for (const MatrixSettings& matrix : bench.settings()) EXPECT_EQ(matrix.thresholdCounts, 200);
@@ -170,7 +171,7 @@ TEST(SensitivityControl, SaysWhatIsMissing) {
   EXPECT_EQ(bench.control.status().waiting, "no tactile controller is connected");
 }
 
-// Over its ports, with its own sensor model: what was set is read back from the controller.
+// Over its ports and with its own sensor model: settings are read back from the controller.
 TEST(SensitivityControl, OnTheEmulatedHand) {
   EmulatedBench bench(handWith("empty"));
   bench.connect();

@@ -1,4 +1,4 @@
-// Slip-aware grasps of the emulated hand: what it holds is pulled at, and stays.
+// Slip-aware grasps of the emulated hand: the held object is pulled, and must stay.
 #include <algorithm>
 
 #include "palpate/core/error.h"
@@ -18,7 +18,7 @@ Scene sceneOf(const std::string& name) {
   return scene;
 }
 
-// Pulls at the object from `atS` on, ever more.
+// Pulls the object from `atS` on with increasing force.
 void pull(Scene& scene, double atS, const Eigen::Vector3d& forceN, double growsS) {
   LoadObject load;
   load.forceN = forceN;
@@ -58,7 +58,7 @@ struct Pulled {
   std::string log;
 };
 
-// A smooth handle is pulled out of a pinch, harder and harder, until the pull ends.
+// Pulls a smooth handle out of a pinch with increasing force, until the pull ends.
 Pulled pullTheHandle(GraspMode mode, const HoldingOptions& holding = {}) {
   Scene scene = sceneOf("slipping_handle");
   pull(scene, 8.0, {0.0, 0.0, 12.5}, 6.0);
@@ -80,7 +80,7 @@ Pulled pullTheHandle(GraspMode mode, const HoldingOptions& holding = {}) {
 }
 
 TEST(SlipGrasp, ClosesAgainUponWhatSlipsAndItStays) {
-  EXPECT_EQ(pullTheHandle(GraspMode::kReactive).contacts, 0);  // it is lost
+  EXPECT_EQ(pullTheHandle(GraspMode::kReactive).contacts, 0);  // the handle is lost
   const Pulled aware = pullTheHandle(GraspMode::kSlip);
   EXPECT_EQ(aware.contacts, 2) << aware.log;
   EXPECT_EQ(aware.phase, GraspPhase::kHolding) << aware.log;
@@ -108,8 +108,8 @@ TEST(SlipGrasp, LooksForFrictionWhenTheWeightIsGiven) {
   held.begin(request);
   held.run(25.0);
   EXPECT_EQ(held.machine().phase(), GraspPhase::kHolding);
-  EXPECT_EQ(held.contacts(), 2);           // it was caught, or never let go
-  EXPECT_GE(held.actions("friction"), 2);  // began, and what came of it
+  EXPECT_EQ(held.contacts(), 2);           // it was caught, or never lost
+  EXPECT_GE(held.actions("friction"), 2);  // its begin and its result
   const GraspReport& report = held.machine().running();
   if (report.countsAtSlip) {
     ASSERT_TRUE(report.friction.has_value());
@@ -175,7 +175,7 @@ TEST(SlipGrasp, RefusesWhatItCantDo) {
   request = slipAware("centrical", 400);
   request.holding.noSlipS = 0.0;
   EXPECT_THROW(request.validate(), std::invalid_argument);
-  // Without a living stream nothing is begun.
+  // Without a live stream no grasp begins.
   GraspStateMachine machine(sdh2());
   EXPECT_THROW(machine.begin(slipAware("centrical", 400), 1'000'000, 0), DeviceError);
   EXPECT_FALSE(machine.takeCommand().has_value());

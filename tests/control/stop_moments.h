@@ -1,5 +1,5 @@
-// Stop pressed at random moments (R18): whatever the two ports are doing, it is on the wire within
-// 20 ms. Each stop is measured once.
+// Tests stops at random times (R18): whatever the two ports are doing, the stop is sent within 20
+// ms. Each stop is measured once.
 #pragma once
 
 #include <random>
@@ -9,13 +9,13 @@
 
 namespace palpate::testing {
 
-// The stream is dead after 100 ms of silence. One beat of the hand may have been on its way.
+// The stream is dead after 100 ms of silence; one period of the hand may have been on its way.
 constexpr std::int64_t kStandstillThatKillsAStreamUs = 50'000;
 
 class StopMoments {
  public:
   void connect() { bench_.connect(); }
-  // One grasp, stopped so long after its call.
+  // Runs one grasp and stops it `pressUs` after its call.
   void stopAfter(std::int64_t pressUs, const GraspRequest& request) {
     bench_.log.clear();
     const std::int64_t askedUs = systemClock().monotonicUs();
@@ -29,13 +29,13 @@ class StopMoments {
       return lost(refused.what());
     }
     const std::int64_t beganUs = systemClock().monotonicUs();
-    sleepUntilUs(beganUs + pressUs);  // what is tested is the moment
+    sleepUntilUs(beganUs + pressUs);  // the time itself is what is tested
     const std::int64_t pressedUs = systemClock().monotonicUs();
     bench_.control->stop();
     const auto report = bench_.awaitEnd();
     ASSERT_TRUE(report.has_value());
     if (report->outcome == GraspOutcome::kStreamLost) return lost(report->text);
-    // The way back may be so short that the hand is there already: a stop goes out all the same.
+    // The way to the target may be so short that the hand has arrived: a stop is sent nevertheless.
     EXPECT_TRUE(report->outcome == GraspOutcome::kStopped ||
                 report->outcome == GraspOutcome::kFinished)
         << report->text;
@@ -44,7 +44,7 @@ class StopMoments {
     })) << "no stop came";
     const std::int64_t arrivedUs = bench_.log.firstSince("stop", pressedUs)->monoUs;
     stops_.took(pressedUs, arrivedUs);
-    // Nothing moves after it, and nothing sets it moving again.
+    // After the stop nothing moves, and no command begins a motion.
     EXPECT_FALSE(bench_.handMoves());
     for (const ArrivedCommand& deed : bench_.log.deeds())
       EXPECT_LE(deed.monoUs, arrivedUs) << deed.name << " behind the stop";

@@ -5,7 +5,7 @@
 namespace palpate::stream_monitor_test {
 namespace {
 
-// `frames` frames, one every `periodUs`; returns the time of the last one.
+// Adds `frames` frames, one every `periodUs`; returns the time of the last one.
 std::int64_t queue(StreamMonitor& watch,
                    int frames,
                    std::int64_t periodUs,
@@ -56,8 +56,7 @@ TEST(StreamMonitor, OnePauseDoesNotMakeItPatient) {
   EXPECT_FALSE(watch.frame(1'000'000'000 + last + 31'000, last + 31'000).has_value());
 }
 
-// Frames that come in one heap, because this program stood still: what counts is when they were
-// read.
+// Frames read all at once after this program was suspended: the time of reading counts.
 TEST(StreamMonitor, FindsSilenceByTheStampsOfFrames) {
   StreamMonitor watch;
   const std::int64_t last = queue(watch, 20, 31'000);

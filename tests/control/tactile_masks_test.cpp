@@ -9,7 +9,7 @@
 namespace palpate::tactile_masks_test {
 namespace {
 
-// Two pads; of the first, row 0 column 0 has no taxel and row 0 column 1 isn't scanned.
+// Two pads; in the first one, row 0 column 0 has no taxel and row 0 column 1 isn't scanned.
 SensorLayout sensor() {
   MatrixLayout pad = MatrixLayout::full(2, 3, 3.4);
   pad.staticMask = {0, 1, 1, 1, 1, 1};

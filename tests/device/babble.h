@@ -1,4 +1,5 @@
-// A controller that falls silent, babbles or drips (reliability R9).
+// Tests of LiveHand with a tactile controller that falls silent, sends random bytes or sends single
+// bytes slowly (reliability R9). Used by babble_test and babble_slow_test.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -11,7 +12,8 @@
 
 namespace palpate::testing {
 
-// Streams honestly, misbehaves, and behaves again. Returns how long it took until "silent" [ms].
+// Streams correctly, misbehaves, and streams correctly again. Returns the time until the state
+// "silent" [ms].
 inline double misbehave(Behaviour behaviour, std::uint64_t bytes) {
   using Clock = std::chrono::steady_clock;
   BabblerControls controls;

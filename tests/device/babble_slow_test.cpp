@@ -1,4 +1,4 @@
-// A gigabyte of random bytes (reliability R9).
+// Misbehaving controllers, long form: a gigabyte of random bytes (reliability R9).
 #include "device/babble.h"
 
 namespace palpate::testing::babble_slow_test {

@@ -4,7 +4,7 @@
 namespace palpate::testing::babble_test {
 namespace {
 
-// "Silent" within 500 ms, and what a busy machine adds.
+// "Silent" within 500 ms, plus the delay of a busy machine.
 constexpr double kNoticedMs = 700.0;
 
 TEST(Babble, SilenceIsNoticedAndEnds) { EXPECT_LT(misbehave(Behaviour::kSilent, 0), kNoticedMs); }

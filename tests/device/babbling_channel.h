@@ -1,5 +1,5 @@
-// A port whose other end opens like a tactile controller (each time a new one, with factory
-// settings) and then misbehaves: babbles, falls silent, sends a byte now and then, is unplugged.
+// Fake port of a tactile controller (a new one at every opening, with factory settings) that then
+// misbehaves: sends random bytes, falls silent, sends a byte now and then, or is unplugged.
 #pragma once
 
 #include <atomic>
@@ -15,9 +15,10 @@ enum class Behaviour { kHonest, kSilent, kBabbling, kDripping, kDisconnected };
 
 struct BabblerControls {
   std::atomic<Behaviour> behaviour{Behaviour::kHonest};
-  std::atomic<std::uint64_t> bytes{0};  // of babble, handed out
-  std::atomic<std::uint64_t> most{0};   // babble ends there, then silence
-  std::atomic<unsigned> threshold2{0};  // of matrix 2, as the controller has it
+  std::atomic<std::uint64_t> bytes{0};  // random bytes delivered
+  // After this number of random bytes the controller is silent.
+  std::atomic<std::uint64_t> most{0};
+  std::atomic<unsigned> threshold2{0};  // threshold of matrix 2 in the controller
   std::atomic<bool> setWhileStreaming{false};
   std::atomic<unsigned> serialByte{0x57};  // lowest byte of the controller's serial number
 };
@@ -57,7 +58,7 @@ class BabblingChannel : public ByteChannel {
       rest(timeout);
       return 0;
     }
-    // xorshift64*; every few hundred bytes something that looks like a header.
+    // xorshift64*; every few hundred bytes a sequence that looks like a packet header.
     for (std::size_t i = 0; i + 8 <= into.size(); i += 8) {
       random_ ^= random_ >> 12;
       random_ ^= random_ << 25;

@@ -41,7 +41,7 @@ Bytes readExactly(ByteChannel& channel, std::size_t count) {
   return all;
 }
 
-// The error of an attempt; its message must name the port.
+// The fault of the DeviceError that `attempt` throws; its message must name the port.
 DeviceFault faultOf(const std::string& port,
                     const std::function<void()>& attempt,
                     const std::string& words = "") {
@@ -56,7 +56,7 @@ DeviceFault faultOf(const std::string& port,
   return DeviceFault::kUnsupported;
 }
 
-// A listener on a free port of the loopback, for one connection.
+// Listens on a free loopback port for one connection.
 class Listener {
  public:
   explicit Listener(int family = AF_INET) {
@@ -252,7 +252,8 @@ TEST(ByteChannel, RefusesOptionsThatMeanNothing) {
 TEST(ByteChannel, SaysWhatToDoWithoutPermission) {
   PtyPair pty;
   ::fchmod(pty.slave(), 0);
-  const bool root = ::geteuid() == 0;  // may open everything: as somebody else for a moment
+  // root may open everything: acts as another user for a moment
+  const bool root = ::geteuid() == 0;
   if (root) {
     ASSERT_EQ(::seteuid(65'534), 0);
   }
@@ -267,7 +268,7 @@ TEST(ByteChannel, SaysWhatToDoWithoutPermission) {
 TEST(ByteChannel, CarriesEveryByteBothWaysOverTheNetwork) {
   for (const int family : {AF_INET, AF_INET6}) {
     Listener listener(family);
-    if (!listener.usable() && family == AF_INET6) continue;  // no IPv6 here
+    if (!listener.usable() && family == AF_INET6) continue;  // no IPv6 on this machine
     const std::string name =
         (family == AF_INET ? "tcp:127.0.0.1:" : "tcp:[::1]:") + listener.number();
     const auto channel = openChannel(name);
@@ -284,7 +285,7 @@ TEST(ByteChannel, CarriesEveryByteBothWaysOverTheNetwork) {
     EXPECT_EQ(faultOf(name, [&] { channel->read(got, 5s); }), DeviceFault::kDisconnected);
     EXPECT_EQ(faultOf(name,
                       [&] {
-                        channel->write(allBytes());  // the first may still go out
+                        channel->write(allBytes());  // the first one may still be accepted
                         channel->write(allBytes());
                         channel->read(got, 5s);
                       }),

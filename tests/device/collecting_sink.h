@@ -1,4 +1,4 @@
-// Keeps what a device delivers; await() waits for a condition with a deadline.
+// Sink that stores the items of a device; await() waits for a condition with a deadline.
 #pragma once
 
 #include <chrono>
@@ -34,7 +34,7 @@ class CollectingSink : public DeviceSink {
     changed_.notify_all();
   }
 
-  // True once `condition` holds (called with the lock held), false when time is over.
+  // Returns true once `condition` holds (called with the lock held), false when the time is over.
   bool await(const std::function<bool()>& condition,
              std::chrono::milliseconds limit = std::chrono::seconds(10)) {
     std::unique_lock lock(mutex_);
@@ -55,7 +55,7 @@ class CollectingSink : public DeviceSink {
     std::lock_guard lock(mutex_);
     return frames.size();
   }
-  // Copies, for after the fact or while the device runs.
+  // These functions return copies and may be called while the device runs.
   std::vector<TactileFrame> takeFrames() {
     std::lock_guard lock(mutex_);
     return frames;

@@ -46,15 +46,16 @@ TEST_F(DsaControllerTest, OpensAndLearnsTheSensor) {
   EXPECT_EQ(facts.matrices[0].centreMm[0], -50.0);
   EXPECT_EQ(facts.matrices[0].centreMm[1], -32.0);
   EXPECT_TRUE(facts.masksKnown);
-  // The first thing on the line is the stop of the document.
+  // The first bytes sent are the stop of the protocol document.
   EXPECT_EQ(line.requests.front(), bytesOf("AA AA AA 03 03 00 01 00 00 2F 6A"));
-  // A hand that returns must stream within a second, so opening takes less than half of it here.
+  // A hand that was reconnected must stream within a second, so opening takes less than half of it
+  // here.
   EXPECT_LT(clock.nowUs, 450'000);
 }
 
 TEST_F(DsaControllerTest, AStreamLeftOverByAnotherProgramIsStoppedFirst) {
   for (int i = 0; i < 20; ++i) hand.sendFrame(line, i * 3000);
-  line.arrive(bytesOf("00 AA AA AA 00 D1 03 12 12"), 61'000);  // a frame cut by the stop
+  line.arrive(bytesOf("00 AA AA AA 00 D1 03 12 12"), 61'000);  // a frame interrupted by the stop
   controller.open();
   EXPECT_EQ(frames.size(), 20u);
   controller.startStream();
@@ -76,13 +77,13 @@ TEST_F(DsaControllerTest, SilenceEndsWithinTheLimitAndSaysWhatToDo) {
   EXPECT_LT(clock.nowUs, 16'500'000);
 }
 
-// C-A14: an acknowledgement that came late, of the same command, is no answer to this one.
+// C-A14: a late acknowledgement of the same command is not the answer to this request.
 TEST_F(DsaControllerTest, AStaleAnswerIsNotTakenForTheOneAskedFor) {
   controller.open();
   line.arrive(wirePacket(0x13, bytesOf("18 00")), 1000);  // an error: "index out of bounds"
   line.arrive(wirePacket(0x13, bytesOf("18 00")), 200'000);
-  controller.poll(std::chrono::milliseconds(10));  // one is taken already ..
-  clock.nowUs += 300'000;                          // .. one lies in the line
+  controller.poll(std::chrono::milliseconds(10));  // one answer is already read ..
+  clock.nowUs += 300'000;                          // .. another one waits in the channel
   EXPECT_NO_THROW(controller.setThreshold(2, 77));
   EXPECT_EQ(hand.thresholds[2], 77u);
   EXPECT_EQ(controller.stats().strayAnswers, 2u);
@@ -109,7 +110,7 @@ TEST_F(DsaControllerTest, AnswersArriveWhileFramesStream) {
   controller.open();
   controller.startStream();
   hand.streamFor(1'000'000, line);
-  controller.setThreshold(2, 77);  // pauses, sets, goes on
+  controller.setThreshold(2, 77);  // pauses, sets, continues
   EXPECT_EQ(hand.thresholds[2], 77u);
   EXPECT_FALSE(hand.setWhileStreaming);
   EXPECT_TRUE(hand.streaming);
@@ -157,7 +158,7 @@ TEST_F(DsaControllerTest, NothingIsSentForAWrongValue) {
 
 TEST_F(DsaControllerTest, MasksAreSetAndReadBack) {
   controller.open();
-  // The chequer of the document, matrix 0.
+  // The chequer pattern of the protocol document, matrix 0.
   Mask chequer(84);
   for (int y = 0; y < 14; ++y)
     for (int x = 0; x < 6; ++x)

@@ -1,4 +1,4 @@
-// A tactile controller for tests, written from the protocol document: answers on a ScriptedChannel.
+// Fake tactile controller, written from the protocol document; answers on a ScriptedChannel.
 #pragma once
 
 #include <map>
@@ -10,26 +10,27 @@ namespace palpate::testing {
 
 class FakeDsa {
  public:
-  // How it behaves.
+  // Configured behaviour.
   unsigned firmware = 0x2900;
   unsigned serialByte = 0x57;
   bool knowsMasks = true;
-  std::int64_t deafUntilUs = 0;  // boots
-  int swallow = 0;               // requests it doesn't answer
+  std::int64_t deafUntilUs = 0;  // it boots until then
+  int swallow = 0;               // number of requests without an answer
   std::int64_t framePeriodUs = 31'500;
   std::int64_t answerUs = 500;
-  std::int64_t clockAheadMs = 20'000;  // its clock before that of the test
-  int rowsTold = 0;                    // of each matrix, instead of its own; 0: its own
+  std::int64_t clockAheadMs = 20'000;  // its clock minus that of the test
+  // Reported number of rows of each matrix; 0: the actual number.
+  int rowsTold = 0;
   int columnsTold = 0;
-  // What it was told.
+  // Settings that it received.
   std::vector<unsigned> thresholds = {150, 300, 150, 300, 150, 300};
   std::vector<float> sensitivities = std::vector<float>(6, 0.5F);
   std::vector<Bytes> dynamicMasks;
   bool streaming = false;
   bool runLength = true;
-  bool setWhileStreaming = false;  // a setting came without a pause
+  bool setWhileStreaming = false;  // a setting arrived during the stream
   int stops = 0;
-  std::vector<unsigned> asked;  // ids, in order
+  std::vector<unsigned> asked;  // ids of the requests, in order
 
   explicit FakeDsa(ManualClock& clock) : clock_(clock) {
     for (int m = 0; m < 6; ++m)
@@ -117,7 +118,7 @@ class FakeDsa {
     }
   }
 
-  // Puts the frames of the next `us` on the line, as a streaming controller does.
+  // Sends the frames of the next `us`, as a streaming controller does.
   void streamFor(std::int64_t us, ScriptedChannel& line) {
     for (std::int64_t at = framePeriodUs; streaming && at <= us; at += framePeriodUs)
       sendFrame(line, at);

@@ -14,7 +14,8 @@ std::optional<DsaFrame> decode(const Bytes& payload, std::vector<float>& counts)
   return decodeDsaFrame(payload, *sdh2().layout, true, counts);
 }
 
-// "texels 121 and 122 = 1200, rest 0, t = 0x12345 ms": the document's example, without its framing.
+// Example of the protocol document, without its framing: "texels 121 and 122 = 1200, rest 0, t =
+// 0x12345 ms".
 TEST(DsaFrame, DecodesTheExampleOfTheDocument) {
   Bytes payload = bytesOf("45 23 01 00 01");
   for (int i = 0; i < 8; ++i) payload.insert(payload.end(), {std::byte{0x00}, std::byte{0xF0}});
@@ -56,10 +57,10 @@ TEST(DsaFrame, WhatIsNoFrameIsRefused) {
   bad[4] = std::byte{3};  // unknown flag
   EXPECT_FALSE(decode(bad, counts));
   bad = good;
-  bad.resize(bad.size() - 2);  // runs add up to too little
+  bad.resize(bad.size() - 2);  // the runs are too short in sum
   EXPECT_FALSE(decode(bad, counts));
   bad = good;
-  bad.insert(bad.end(), {std::byte{0}, std::byte{0x10}});  // to one too many
+  bad.insert(bad.end(), {std::byte{0}, std::byte{0x10}});  // the runs are one too long in sum
   EXPECT_FALSE(decode(bad, counts));
   bad.back() = std::byte{0};  // a run of length 0
   EXPECT_FALSE(decode(bad, counts));
@@ -97,7 +98,7 @@ TEST(DsaClock, OneWrongStampIsDroppedAndTheNextGoodOneAccepted) {
   clock.checkStamp(1000, 0);
   EXPECT_EQ(clock.checkStamp(900, 31'000), FrameAcceptance::kHold);  // backwards
   EXPECT_EQ(clock.checkStamp(1063, 63'000), FrameAcceptance::kDropHeld);
-  EXPECT_EQ(clock.checkStamp(1063, 94'000), FrameAcceptance::kHold);               // stands still
+  EXPECT_EQ(clock.checkStamp(1063, 94'000), FrameAcceptance::kHold);               // no advance
   EXPECT_EQ(clock.checkStamp(9'001'063, 126'000), FrameAcceptance::kReplaceHeld);  // hours ahead
   EXPECT_EQ(clock.checkStamp(1157, 157'000), FrameAcceptance::kDropHeld);
   EXPECT_EQ(clock.deviceMs(), 1157);
@@ -123,7 +124,7 @@ TEST(DsaClock, AnHourOfSilenceIsNoFault) {
 TEST(DsaLossEstimate, CountsWhatTheDeviceClockMisses) {
   DsaLossEstimate loss;
   std::int64_t ms = 0;
-  // 31.5 ms as whole stamps, with a jitter of a quarter.
+  // A period of 31.5 ms in whole-millisecond stamps that vary by a quarter.
   std::mt19937 random(5);
   std::uint64_t missing = 0;
   for (int frame = 0; frame < 1000; ++frame) {

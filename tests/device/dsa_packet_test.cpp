@@ -38,7 +38,7 @@ Bytes joined(std::initializer_list<Bytes> parts) {
   return all;
 }
 
-// Requests whose bytes the protocol document prints.
+// Requests whose bytes are printed in the protocol document.
 TEST(DsaPacket, MakesTheRequestsOfTheDocument) {
   EXPECT_EQ(dsaRequest(DsaId::kAcquisition, bytesOf("01 00 00")),
             bytesOf("AA AA AA 03 03 00 01 00 00 2F 6A"));
@@ -68,7 +68,7 @@ TEST(DsaPacket, ReadsTheAnswersOfTheDocument) {
 }
 
 TEST(DsaPacket, FindsTheNextPacketAfterAnySingleCorruptByte) {
-  // On purpose with a preamble inside.
+  // The payload contains a preamble on purpose.
   const Bytes first = wirePacket(0x00, bytesOf("01 00 00 00 01 AA AA AA 03 02 00 00 F0"));
   const Bytes second = wirePacket(0x03, bytesOf("00 00"));
   const Bytes silence(1200, std::byte{0});
@@ -93,7 +93,7 @@ TEST(DsaPacket, ACorruptSizeIsNotWaitedForBeyondTheSensorsFrame) {
   const Bytes good = wirePacket(0x03, bytesOf("00 00"));
   // 979 bytes are one taxel more than the sensor has.
   EXPECT_EQ(parse(joined({bytesOf("AA AA AA 00 D3 03"), good}), 64).payloads.size(), 1u);
-  // 977 are waited for; when the line goes silent, what lies behind is found.
+  // A packet of 977 bytes is awaited; when the line falls silent, the packet behind it is found.
   EXPECT_EQ(parse(joined({bytesOf("AA AA AA 00 D1 03"), good}), 64).payloads.size(), 0u);
   EXPECT_EQ(parse(joined({bytesOf("AA AA AA 00 D1 03"), good}), 64, true).payloads.size(), 1u);
   EXPECT_EQ(parse(joined({bytesOf("AA AA AA 00 D1 03"), good}), 64, true).pending, 0u);

@@ -1,5 +1,5 @@
-// DSACON32-M packets made in the tests from the protocol document, not by the driver: a checksum
-// bit by bit, frames run by run.
+// Encodes DSACON32-M packets for the tests from the protocol document, without the driver's code: a
+// bitwise checksum, frames run by run.
 #pragma once
 
 #include <cstdint>
@@ -53,7 +53,7 @@ inline Bytes framePayload(std::uint32_t stampMs, const std::vector<unsigned>& co
   return payload;
 }
 
-// What a grasp looks like: a few dozen taxels with values, the rest zero; never where no taxel is.
+// Counts similar to a grasp: a few dozen taxels with values, the rest zero; zero where no taxel is.
 inline std::vector<unsigned> graspCounts(std::mt19937& random) {
   std::vector<unsigned> counts(486, 0);
   for (const std::size_t first : {120u, 282u, 444u})

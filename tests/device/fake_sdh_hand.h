@@ -1,6 +1,6 @@
-// An SDH-2 motion controller written from the protocol document (sections 2 and 4.2), not from our
-// driver: its own checksum, its own decoder. Bytes in, bytes out; no thread, no line. Misbehaves on
-// demand.
+// Fake SDH-2 motion controller, written from the protocol document (sections 2 and 4.2), not from
+// our driver: its own checksum, its own decoder. It receives and returns bytes, without a thread or
+// a port, and can produce errors on request.
 #pragma once
 
 #include <cstdint>
@@ -19,7 +19,7 @@ class FakeSdhHand {
   using Bytes = std::vector<std::byte>;
   using Axes = std::vector<double>;
 
-  // --- what it is ---
+  // --- Properties ---
   bool checksum = true;  // false: as over TCP
   std::string firmware = "0.0.3.3";
   int axes = 7;
@@ -45,22 +45,22 @@ class FakeSdhHand {
   int con = 0;
   int vp = 0;
 
-  // --- what it does wrong; counters run down with each answer ---
-  int dropByteAt = -1;        // one byte of the next record, once
-  int flipByteAt = -1;        // likewise, one bit
-  int silentAnswers = 0;      // answers that aren't given
-  int wrongNames = 0;         // line answers under another name
-  int debugLines = 0;         // lines beginning with @ before the next answer
-  int errorCode = 0;          // of the next answer, once
+  // --- Errors to produce; the counters decrease with each answer ---
+  int dropByteAt = -1;        // drops this byte of the next record, once
+  int flipByteAt = -1;        // flips a bit of this byte of the next record, once
+  int silentAnswers = 0;      // answers that are not sent
+  int wrongNames = 0;         // line answers with another name
+  int debugLines = 0;         // lines that begin with @ before the next answer
+  int errorCode = 0;          // error code of the next answer, once
   int nanAnswers = 0;         // records with a NaN in them
   int wildAnswers = 0;        // records with an angle of 1e6
-  std::string garbage;        // before the next answer, once
-  std::string lateAnswer;     // a stale line before the next answer, once
-  bool dead = false;          // doesn't answer, doesn't act
-  bool swapsTargets = false;  // takes other targets than were sent
+  std::string garbage;        // bytes before the next answer, once
+  std::string lateAnswer;     // old line before the next answer, once
+  bool dead = false;          // neither answers nor acts
+  bool swapsTargets = false;  // stores other targets than it received
 
-  // --- what it has seen ---
-  std::vector<std::string> log;  // "pos?" "p!" for records, lines as they came
+  // --- Log ---
+  std::vector<std::string> log;  // "pos?" "p!" for records, lines as received
   std::size_t bytesSeen = 0;
   int moves = 0;
   int stops = 0;
@@ -72,7 +72,7 @@ class FakeSdhHand {
     return out_;
   }
 
-  // Bit by bit as section 1.2 says: the table entry is computed, nothing is shared with the driver.
+  // Bitwise as in section 1.2: the table entry is computed, nothing is shared with the driver.
   static unsigned crc(const std::vector<unsigned>& bytes) {
     unsigned crc = 0xFFFF;
     for (const unsigned b : bytes) {
@@ -125,7 +125,7 @@ class FakeSdhHand {
     for (const char c : text) out_.push_back(static_cast<std::byte>(c));
   }
 
-  // False: this answer is not given.
+  // Returns false when this answer is not to be sent.
   bool beginAnswer() {
     if (dead) return false;
     if (silentAnswers > 0) {

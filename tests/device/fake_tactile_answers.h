@@ -1,5 +1,5 @@
-// As much of a tactile controller as a probe sees: the literal bytes of the protocol document, 4.1
-// and 1.6.
+// Fake tactile controller for port probes: answers with the literal bytes of the protocol document,
+// sections 4.1 and 1.6.
 #pragma once
 
 #include <algorithm>
@@ -32,7 +32,7 @@ class FakeTactileAnswers {
       const Bytes query = of({0xAA, 0xAA, 0xAA, 0x01, 0x00, 0x00});
       if (take(stop)) {
         ++stops;
-        if (streaming) append(answer, frame());  // one that was under way
+        if (streaming) append(answer, frame());  // a frame that was already on the way
         streaming = false;
         append(answer, of({0xAA, 0xAA, 0xAA, 0x03, 0x02, 0x00, 0x00, 0x00, 0x4B, 0xB9}));
       } else if (take(query)) {

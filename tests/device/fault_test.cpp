@@ -1,5 +1,5 @@
-// What is thrown from inside a port's thread, and is no trouble of the port: the process lives, the
-// hand is stopped, the port is tried anew (docs/safety.md).
+// Tests of unexpected exceptions inside a port's thread: the process continues, the hand is
+// stopped, the port is opened again (docs/safety.md).
 #include <atomic>
 #include <mutex>
 #include <new>
@@ -19,7 +19,7 @@ namespace {
 
 using std::chrono::milliseconds;
 
-// What the channels of a test throw, at the next read that may.
+// Exceptions that a test makes its channels throw at the next read that may fail.
 struct Faults {
   std::atomic<int> left{0};
   std::atomic<bool> outOfMemory{false};
@@ -48,7 +48,7 @@ class FaultyTactilePort : public ByteChannel {
   Faults& faults_;
 };
 
-// A motion controller behind a lock: the hand outlives the ports that lead to it.
+// A motion controller behind a lock: it outlives the channels that lead to it.
 struct SharedSdh {
   std::mutex mutex;
   FakeSdhHand hand;
@@ -63,7 +63,7 @@ class FaultyMotionPort : public ByteChannel {
  public:
   FaultyMotionPort(SharedSdh& shared, Faults& faults) : shared_(shared), faults_(faults) {}
   std::size_t read(std::span<std::byte> into, milliseconds timeout) override {
-    // Only where a motion runs.
+    // Throws only while a motion runs.
     if (shared_.with([](FakeSdhHand& hand) { return hand.moves > hand.stops; }))
       faults_.throwIfAny();
     std::unique_lock lock(mutex_);
@@ -148,7 +148,7 @@ TEST_P(MotionFault, StopsTheHandOnTheWire) {
   ASSERT_TRUE(sink.await([&] { return !sink.angles.empty(); }));
   shared.with([](FakeSdhHand& sdh) { sdh.pollsUntilIdle = 0; });
   hand.submit(MoveJoints{std::vector<double>(7, 10.0), {}, false}).get();
-  shared.with([](FakeSdhHand& sdh) { sdh.pollsUntilIdle = 0; });  // a motion without end
+  shared.with([](FakeSdhHand& sdh) { sdh.pollsUntilIdle = 0; });  // a motion that never ends
   EXPECT_EQ(shared.with([](FakeSdhHand& sdh) { return sdh.stops; }), 0);
   faults.outOfMemory = GetParam();
   faults.left = 1;
@@ -167,7 +167,7 @@ INSTANTIATE_TEST_SUITE_P(Faults, MotionFault, ::testing::Bool(), [](const auto& 
   return instance.param ? std::string("OutOfMemory") : std::string("Bug");
 });
 
-// C-A10: what the status counts is of this session alone.
+// C-A10: the status counts this session only.
 TEST(MotionRestart, CountsFromItself) {
   SharedSdh shared;
   Faults faults;
@@ -199,7 +199,7 @@ TEST(MotionRestart, CountsFromItself) {
   EXPECT_LT(hand.status().motion->bytes, bytesBefore);
 }
 
-// A rogue controller tells of more taxels than a frame can carry: 6 x 256 x 256.
+// A faulty controller reports more taxels than a frame can carry: 6 x 256 x 256.
 TEST(TactileFault, AControllerWithTooManyTaxelsIsRefused) {
   CollectingSink sink;
   ManualClock time;

@@ -158,7 +158,7 @@ TEST_F(LiveHandTest, AHandThatReturnsStreamsAgainWithItsSettings) {
     }
 }
 
-// Its number may be another program's terminal by now: nothing may be written there.
+// The number may belong to another program's terminal by then: nothing may be written there.
 TEST_F(LiveHandTest, APtyNamedByItsNumberIsNotOpenedAgainOnceItIsGone) {
   std::atomic<int> opened = 0;
   LiveHandOptions given = options();

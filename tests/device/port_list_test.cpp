@@ -61,7 +61,7 @@ TEST(PortList, AStableNameLeadsToTheSamePort) {
   fs::create_symlink(pty.path(), folder / "usb-FTDI_D-port0");
   fs::create_symlink(pty.path(), folder / "usb-FTDI_C-port0");
   EXPECT_EQ(stableNameOf(pty.path(), folder.path()), folder / "usb-FTDI_C-port0");
-  // A link elsewhere is the same port.
+  // A link in another folder leads to the same port.
   const TemporaryFolder elsewhere;
   fs::create_symlink(pty.path(), elsewhere / "hand");
   EXPECT_EQ(stableNameOf(elsewhere / "hand", folder.path()), folder / "usb-FTDI_C-port0");

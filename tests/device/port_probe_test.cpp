@@ -28,7 +28,7 @@ class PortProbeTest : public ::testing::Test {
   ManualClock clock;
   Bytes sent;
   ScriptedChannel::Answer answer;
-  std::function<void(ScriptedChannel&)> before;  // what is on the line already
+  std::function<void(ScriptedChannel&)> before;  // puts bytes on the line before the probe
 
   PortProbe probe() {
     PortProbeOptions options;
@@ -46,7 +46,7 @@ class PortProbeTest : public ::testing::Test {
   double seconds() const { return static_cast<double>(clock.nowUs) * 1e-6; }
 };
 
-// C-A2: a probe runs on a thread of its own, beside a hand that moves.
+// C-A2: a probe runs on a thread of its own while a hand may be moving.
 TEST_F(PortProbeTest, WhatIsThrownIsAnAnswerToo) {
   answer = [](const Bytes&, ScriptedChannel&) { throw std::runtime_error("a bug in the driver"); };
   PortProbe found;
@@ -74,7 +74,7 @@ TEST_F(PortProbeTest, RecognisesAMotionControllerAndSendsItNoTactileByte) {
 
 TEST_F(PortProbeTest, EndsACommandThatSomebodyLeftHalfWay) {
   FakeSdhHand hand;
-  hand.receive(bytesOf("70 6F"));  // "po": the first line is then "po " + end, and refused
+  hand.receive(bytesOf("70 6F"));  // "po": the first line is then "po " + end, which is refused
   answer = [&](const Bytes& request, ScriptedChannel& line) {
     const Bytes reply = hand.receive(request);
     if (!reply.empty()) line.arrive(reply, 3000);
@@ -100,7 +100,8 @@ TEST_F(PortProbeTest, ATactileStreamLeftRunningIsEndedFirst) {
   FakeTactileAnswers controller;
   controller.streaming = true;
   before = [](ScriptedChannel& line) {
-    const Bytes frame = FakeTactileAnswers::frame();  // the first one is met in its middle
+    // the probe begins in the middle of the first frame
+    const Bytes frame = FakeTactileAnswers::frame();
     line.arrive(Bytes(frame.begin() + 40, frame.end()), 1000);
     for (int i = 1; i < 5; ++i) line.arrive(frame, i * 31'500);
   };
@@ -136,7 +137,7 @@ TEST_F(PortProbeTest, SilenceIsNothingWithinTheLimit) {
   const PortProbe found = probe();
   EXPECT_EQ(found.answer, PortAnswer::kNothing);
   EXPECT_LE(seconds(), 2.5);
-  // Exactly: twice ver, then the document's stop and query frames.
+  // The exact bytes: `ver` twice, then stop and query of the protocol document.
   const Bytes ver = bytesOf("20 0D 0A 76 65 72 0D 0A");
   const Bytes stop = bytesOf("AA AA AA 03 03 00 01 00 00 2F 6A");
   const Bytes query = bytesOf("AA AA AA 01 00 00");

@@ -1,4 +1,4 @@
-// A pseudo-terminal: the test holds one end, the program under test opens the other by its path.
+// Pseudo-terminal for tests: the test uses one end, the tested code opens the other by its path.
 #pragma once
 
 #include <cstring>
@@ -33,8 +33,7 @@ class PtyPair {
     for (const int fd : {master_, slave_}) ::fcntl(fd, F_SETFD, FD_CLOEXEC);
     termios settings{};
     ::tcgetattr(slave_, &settings);
-    ::cfmakeraw(
-        &settings);  // else our own output comes back as an echo until the other end is open
+    ::cfmakeraw(&settings);  // otherwise our own output is echoed until the other end is open
     ::tcsetattr(slave_, TCSANOW, &settings);
   }
   ~PtyPair() { unplug(); }
@@ -45,7 +44,7 @@ class PtyPair {
   int master() const noexcept { return master_; }
   int slave() const noexcept { return slave_; }
 
-  // The other end sees a hang-up.
+  // Closes the port: the other end sees a hang-up.
   void unplug() {
     for (int* fd : {&slave_, &master_}) {
       if (*fd >= 0) ::close(*fd);
@@ -58,7 +57,7 @@ class PtyPair {
       throw std::runtime_error("the pty took not all bytes");
   }
 
-  // Waits up to `timeoutMs` for something, and takes what is there.
+  // Waits up to `timeoutMs` for bytes, and returns those that arrived.
   Bytes receive(int timeoutMs) {
     pollfd wait{master_, POLLIN, 0};
     if (::poll(&wait, 1, timeoutMs) <= 0) return {};
@@ -67,7 +66,7 @@ class PtyPair {
     bytes.resize(got > 0 ? static_cast<std::size_t>(got) : 0);
     return bytes;
   }
-  // Takes exactly `count` bytes, or fewer after `timeoutMs` without any.
+  // Reads exactly `count` bytes, or fewer after `timeoutMs` without any.
   Bytes receive(std::size_t count, int timeoutMs) {
     Bytes all;
     while (all.size() < count) {

@@ -1,4 +1,4 @@
-// A device on a pty: a thread that answers what is written to it.
+// Fake device on a pty: a thread that answers the bytes written to it.
 #pragma once
 
 #include <functional>
@@ -22,9 +22,9 @@ class PtyServer {
     const std::scoped_lock lock(mutex_);
     access();
   }
-  // Writes without being asked.
+  // Writes bytes that are not an answer.
   void send(const Bytes& bytes) { pty_.send(bytes); }
-  // The end of the device: whoever has the other end open sees a hang-up.
+  // Ends the device: a program that has the other end open sees a hang-up.
   void unplug() {
     thread_.request_stop();
     thread_.join();

@@ -1,4 +1,5 @@
-// Ports pulled and plugged in again, at any byte (reliability R8).
+// Tests of LiveHand with ports that are unplugged at any byte and plugged in again (reliability
+// R8).
 #pragma once
 
 #include <algorithm>
@@ -22,8 +23,10 @@ namespace palpate::testing {
 
 struct ReplugFigures {
   int cycles = 0;
-  double mostNoticedMs = 0.0;  // plug pulled to state "lost"
-  double mostReturnMs = 0.0;   // plugged in to the first frame and the first angles
+  // Longest time from unplugging to the state "lost".
+  double mostNoticedMs = 0.0;
+  // Longest time from plugging in to the first frame and the first angles.
+  double mostReturnMs = 0.0;
   std::uint64_t frames = 0;
 };
 
@@ -61,7 +64,7 @@ class ReplugRun {
     ++figures_.cycles;
   }
 
-  // Everything that came is what was sent, once, in order.
+  // Every received frame equals a sent one, once, in order.
   void checkFrames() {
     std::int64_t last = -1;
     for (const TactileFrame& frame : sink_.takeFrames()) {
@@ -85,7 +88,7 @@ class ReplugRun {
     options.sdhPort = folder / "sdh";
     return options;
   }
-  // One more frame and one more sample of the joint angles.
+  // Waits for one more frame and one more sample of the joint angles.
   bool awaitMore() {
     std::size_t frames = 0, angles = 0;
     sink_.await([&] {

@@ -1,4 +1,5 @@
-// A line whose other end is a function, and whose time passes only when somebody waits for bytes.
+// Fake byte channel whose other end is a function. Its time advances only while the tested code
+// waits for bytes.
 #pragma once
 
 #include <algorithm>
@@ -17,7 +18,7 @@ namespace palpate::testing {
 
 using Bytes = std::vector<std::byte>;
 
-// "AA 03 ff" as bytes; what isn't a pair of hexadecimal digits is skipped.
+// Converts "AA 03 ff" to bytes; text that isn't a pair of hexadecimal digits is skipped.
 inline Bytes bytesOf(const std::string& hex) {
   Bytes bytes;
   std::string digits;
@@ -41,7 +42,7 @@ class ScriptedChannel : public ByteChannel {
   using Answer = std::function<void(const Bytes& request, ScriptedChannel& line)>;
   ScriptedChannel(ManualClock& clock, Answer answer) : clock_(clock), answer_(std::move(answer)) {}
 
-  // `bytes` arrive `delayUs` from now (at once: 0).
+  // `bytes` arrive `delayUs` from now (0: at once).
   void arrive(const Bytes& bytes, std::int64_t delayUs = 0) {
     coming_.emplace(clock_.nowUs + delayUs, bytes);
   }

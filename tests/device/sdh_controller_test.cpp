@@ -43,8 +43,7 @@ TEST_F(SdhControllerTest, ReadsAndMovesTheAxes) {
   EXPECT_EQ(hand.stops, 1);
 }
 
-// --- what is refused before a byte leaves (R18)
-// -----------------------------------------------------
+// --- What is refused before a byte leaves (R18)
 
 TEST_F(SdhControllerTest, RefusesValuesOutOfRangeAndSendsNoByte) {
   controller.open();
@@ -108,8 +107,7 @@ TEST_F(SdhControllerTest, NegativeVelocitiesNeedAVelocityController) {
   expectRefused([&] { controller.setVelocities(slow); }, {"axis 0", "0..83"});
 }
 
-// --- no axis becomes 0 by omission
-// -------------------------------------------------------------------
+// --- No axis becomes 0 by omission
 
 TEST_F(SdhControllerTest, SettingOneAxisWritesAllSevenAsTheyWere) {
   controller.open();
@@ -138,8 +136,7 @@ TEST_F(SdhControllerTest, NoticesTargetsThatTheHandUnderstoodOtherwise) {
   EXPECT_EQ(error.fault(), DeviceFault::kProtocol);
 }
 
-// --- all the rest of the language
-// --------------------------------------------------------------------
+// --- All the rest of the language
 
 TEST_F(SdhControllerTest, SettingsGoForthAndBack) {
   controller.open();
@@ -219,12 +216,11 @@ TEST_F(SdhControllerTest, ANetworkHasNoChecksums) {
   EXPECT_EQ(hand.values["p"], Values(7, 5.0));
 }
 
-// --- opening
-// -------------------------------------------------------------------------------------------
+// --- Opening
 
 TEST_F(SdhControllerTest, OpensThroughLeftOversOfAnotherProgram) {
   line.arrive(bytesOf("83 20 07 00 00 00"), 20'000);
-  hand.receive(bytesOf("85 1F 07 00 00"));  // a record that its sender never finished
+  hand.receive(bytesOf("85 1F 07 00 00"));  // a record that is incomplete
   hand.silentAnswers = 1;
   EXPECT_EQ(controller.open().firmware, "0.0.3.3");
   EXPECT_EQ(hand.values["p"], (Values{0, -10, 20, -30, 40, -50, 60}))
@@ -241,7 +237,7 @@ TEST_F(SdhControllerTest, AnEmptyLineIsSaidToBeSilent) {
 
 TEST_F(SdhControllerTest, ATactileControllerIsRecognised) {
   hand.dead = true;
-  // An acknowledge of the tactile controller, as one that streams would send frames (section 1.6).
+  // An acknowledgement of the tactile controller, repeated at the rate of a stream (section 1.6).
   for (int i = 0; i < 40; ++i)
     line.arrive(bytesOf("AA AA AA 03 02 00 00 00 4B B9"), 150'000 + i * 30'000);
   const DeviceError error = errorOf([&] { controller.open(); });

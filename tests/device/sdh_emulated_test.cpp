@@ -1,5 +1,5 @@
-// The driver of the SDH-2 and the probe against the emulated hand, which was written from the
-// protocol document without the driver's code: what one of them misreads, the other one shows.
+// Tests the driver of the SDH-2 and the probe with the emulated hand. The emulator was written from
+// the protocol document without the driver's code, so that each reveals errors of the other.
 #include <algorithm>
 #include <chrono>
 
@@ -21,7 +21,7 @@ using Values = SdhController::Values;
 
 EmulatedHandOptions quick() {
   EmulatedHandOptions options;
-  options.rate = EmulationRate::kFixed;  // lines and commands without delay, time as it is
+  options.rate = EmulationRate::kFixed;  // no delays, time runs normally
   options.hz = 30.0;
   return options;
 }
@@ -30,7 +30,7 @@ double secondsSince(SteadyClock::time_point start) {
   return std::chrono::duration<double>(SteadyClock::now() - start).count();
 }
 
-// Polls until no axis moves any more.
+// Polls until no axis moves.
 void awaitRest(SdhController& hand) {
   const auto start = SteadyClock::now();
   while (true) {
@@ -46,7 +46,7 @@ void expectNear(const Values& got, const Values& expected, double tolerance) {
     EXPECT_NEAR(got[axis], expected[axis], tolerance) << "axis " << axis;
 }
 
-// Firmware by firmware: with records, without, with @ lines.
+// Firmware releases: with records, without, with @ lines.
 class SdhEmulated : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(SdhEmulated, MovesTheJointsToWhereTheyWereSent) {
@@ -202,7 +202,7 @@ TEST(SdhEmulatedHand, BothPortsAreToldApart) {
 TEST(SdhEmulatedHand, SwappedPortsAreNoticedWhileTheTactileControllerStreams) {
   EmulatedHand emulated(std::make_unique<testing::StillHand>(), quick());
   {
-    const auto channel = openChannel(emulated.dsaPort());  // somebody left it streaming
+    const auto channel = openChannel(emulated.dsaPort());  // another program left it streaming
     const unsigned char start[] = {
         0xAA, 0xAA, 0xAA, 0x03, 0x03, 0x00, 0x81, 0x01, 0x00, 0x7C, 0x5C};
     channel->write(std::as_bytes(std::span(start)));
@@ -223,7 +223,7 @@ TEST(SdhEmulatedHand, WhatAnswersAtTheOtherOnesPortIsSaidInItsStatus) {
   EmulatedHand emulated(std::make_unique<testing::StillHand>(), quick());
   testing::CollectingSink sink;
   LiveHandOptions options;
-  options.dsaPort = emulated.sdhPort();  // the motion controller's
+  options.dsaPort = emulated.sdhPort();  // the port of the motion controller
   LiveHand hand(options);
   hand.start(sink);
   EXPECT_EQ(hand.status().tactile.found, std::nullopt);

@@ -1,5 +1,5 @@
-// The driver of the SDH-2 on a line that loses, garbles and delays, and under a stop that can't
-// wait.
+// Tests the driver of the SDH-2 on a line that loses, changes and delays bytes, and with urgent
+// stops.
 #include "device/sdh_on_a_wire.h"
 
 namespace palpate::sdh_link_test {
@@ -12,8 +12,7 @@ using SdhLinkTest = testing::SdhOnAWire;
 
 const testing::Bytes kStop = bytesOf("20 0D 0A 73 74 6F 70 0D 0A");  // " \r\nstop\r\n"
 
-// --- a line that misbehaves
-// ---------------------------------------------------------------------------
+// --- A line that misbehaves
 
 TEST_F(SdhLinkTest, OneMissingByteAnywhereCostsOneRetryAndNothingElse) {
   controller.open();
@@ -36,7 +35,8 @@ TEST_F(SdhLinkTest, OneWrongBitAnywhereCostsOneRetryAndIsNeverAValue) {
     EXPECT_EQ(controller.angles(), hand.pos) << "byte " << at;
   }
   EXPECT_EQ(controller.stats().retries, 34u);
-  EXPECT_GE(controller.stats().badChecksums, 31u);  // a wrong header is no record at all
+  // with a wrong header it is not taken for a record
+  EXPECT_GE(controller.stats().badChecksums, 31u);
 }
 
 TEST_F(SdhLinkTest, SkipsNoiseDebugLinesAndStaleAnswers) {
@@ -81,7 +81,7 @@ TEST_F(SdhLinkTest, ErrorCodesSayWhatTheyMeanAndWhatToDo) {
   EXPECT_NE(std::string(disabled.what()).find("axis disabled"), std::string::npos);
   EXPECT_NE(std::string(disabled.what()).find("power on again"), std::string::npos);
   EXPECT_EQ(hand.moves, 0);
-  hand.errorCode = 29;  // of a record
+  hand.errorCode = 29;  // error code in a record
   const DeviceError hot = errorOf([&] { controller.setPower(true); });
   EXPECT_NE(std::string(hot.what()).find("over-temperature"), std::string::npos);
   EXPECT_EQ(hand.values["power"], Values(7, 0.0));
@@ -109,10 +109,10 @@ TEST_F(SdhLinkTest, ASilentHandIsGivenUpInBoundedTimeAndFoundAgain) {
 
 TEST_F(SdhLinkTest, AnAnswerThatComesTooLateIsNotTakenForTheNextOne) {
   controller.open();
-  answerAfterUs = 1'030'000;  // behind the timeout, within the drain
+  answerAfterUs = 1'030'000;  // after the timeout, within the drain
   EXPECT_EQ(errorOf([&] { controller.angles(); }).fault(), DeviceFault::kSilent);
   answerAfterUs = 60'000;
-  hand.pos = Values(7, 12.0);  // the answer still under way tells the old ones
+  hand.pos = Values(7, 12.0);  // the late answer contains the old values
   EXPECT_EQ(controller.angles(), hand.pos);
   EXPECT_EQ(controller.targets(), hand.values["p"]);
 }
@@ -146,11 +146,10 @@ TEST_F(SdhLinkTest, APulledPlugIsSaidAtOnce) {
   EXPECT_EQ(errorOf([&] { controller.stop(); }).fault(), DeviceFault::kDisconnected);
 }
 
-// --- motion and stop
-// -----------------------------------------------------------------------------------
+// --- Motion and stop
 
-// The answer to a motion that is on its way says nothing of the stop behind it: the hand begins to
-// move, still.
+// The answer to a motion request must not confirm a stop sent after it: the hand would begin to
+// move nevertheless.
 TEST_F(SdhLinkTest, AStopIsNotTakenForDoneByTheAnswerToWhatWasAskedBefore) {
   controller.open();
   line.arrive(bytesOf("4D 3D 34 2E 35 31 0D 0A"), 500);  // "M=4.51"
@@ -171,7 +170,7 @@ TEST_F(SdhLinkTest, ALostAnswerToMoveDoesNotStartTheMotionTwice) {
 
 TEST_F(SdhLinkTest, ALostMoveIsSentAgain) {
   controller.open();
-  hand.errorCode = 13;  // misheard
+  hand.errorCode = 13;  // the hand misunderstood the command
   EXPECT_DOUBLE_EQ(controller.move(), 4.51);
   EXPECT_EQ(hand.moves, 1);
 }
@@ -196,12 +195,13 @@ TEST_F(SdhLinkTest, StopIsSentAgainUntilItIsConfirmed) {
   EXPECT_LT(clock.nowUs - before, 1'500'000);
 }
 
-// The line answers something else, while the stop got lost on its way to the hand.
+// The channel delivers another answer, while the stop got lost on its way to the hand.
 TEST_F(SdhLinkTest, AStopThatGotLostDoesNotPassForTakenByAnotherLine) {
   controller.open();
   hand.dead = true;
   line.requests.clear();
-  line.arrive(bytesOf("4D 3D 34 2E 35 31 0D 0A"), 500);  // "M=4.51", of the question before
+  // "M=4.51", the answer to the request before
+  line.arrive(bytesOf("4D 3D 34 2E 35 31 0D 0A"), 500);
   controller.stop();
   EXPECT_EQ(line.requests.size(), 2u) << "sent again";
   hand.dead = false;

@@ -1,5 +1,5 @@
-// Driver and independent fake hand of the SDH-2 on a line whose time passes only while somebody
-// waits.
+// Test bench of the SDH-2's driver and an independent fake hand, on a ScriptedChannel whose time
+// advances only while the driver waits.
 #pragma once
 
 #include <algorithm>
@@ -33,7 +33,7 @@ class SdhWire : public ScriptedChannel {
 
   bool network = false;
   bool babble = false;           // random bytes without end
-  std::function<void()> onRead;  // before each
+  std::function<void()> onRead;  // called before each read
 
  private:
   ManualClock& time_;
@@ -54,7 +54,7 @@ class SdhOnAWire : public ::testing::Test {
 
   double seconds() const { return static_cast<double>(clock.nowUs) * 1e-6; }
 
-  // Refused as a broken contract, with these words, and not a byte on the wire.
+  // Expects std::invalid_argument with these words, and that no byte was sent.
   template <typename Call>
   void expectRefused(Call call, const std::vector<std::string>& words) {
     const std::size_t before = hand.bytesSeen;

@@ -12,7 +12,7 @@ namespace {
 using testing::Bytes;
 using testing::bytesOf;
 
-// All bytes below are those of the protocol document (section 2.2), seen on the wire.
+// All bytes below are those of the protocol document (section 2.2), recorded on a real line.
 TEST(SdhProtocol, GetRequestsAreThePublishedBytes) {
   const std::pair<SdhCommand, const char*> expected[] = {
       {SdhCommand::kVelocityTarget, "80 03 00 3A A1"},
@@ -157,7 +157,8 @@ TEST(SdhProtocol, SaysWhatErrorsMean) {
   EXPECT_EQ(sdhErrorText(0), "ok");
   EXPECT_EQ(sdhErrorText(13), "unknown command");
   EXPECT_EQ(sdhErrorText(24), "range error");
-  EXPECT_EQ(sdhErrorText(26), "index out of bounds");  // the tactile controller's 24
+  // the same error has code 24 at the tactile controller
+  EXPECT_EQ(sdhErrorText(26), "index out of bounds");
   EXPECT_EQ(sdhErrorText(28), "axis disabled");
   EXPECT_EQ(sdhErrorText(29), "over-temperature");
   EXPECT_EQ(sdhErrorText(33), "checksum error in a binary record");
@@ -171,7 +172,8 @@ TEST(SdhProtocol, SaysWhatErrorsMean) {
 TEST(SdhProtocol, ComparesReleases) {
   EXPECT_TRUE(SdhFirmware::parse("0.0.3.3").atLeast(0, 0, 2, 15));
   EXPECT_TRUE(SdhFirmware::parse("0.0.2.15").atLeast(0, 0, 2, 15));
-  EXPECT_FALSE(SdhFirmware::parse("0.0.2.9").atLeast(0, 0, 2, 15));  // numbers, not text
+  // compared as numbers, not as text
+  EXPECT_FALSE(SdhFirmware::parse("0.0.2.9").atLeast(0, 0, 2, 15));
   EXPECT_TRUE(SdhFirmware::parse("0.0.2.15-rc1").atLeast(0, 0, 2, 15));
   EXPECT_TRUE(SdhFirmware::parse("1").atLeast(0, 9, 9, 9));
   EXPECT_FALSE(SdhFirmware::parse("").atLeast(0, 0, 0, 1));

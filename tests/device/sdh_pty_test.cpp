@@ -1,5 +1,5 @@
-// The driver of the SDH-2 end to end: a real line (pty or TCP), a hand in a thread of its own that
-// was written from the protocol document, real time.
+// End-to-end tests of the SDH-2's driver: a real connection (pty or TCP), a fake hand on its own
+// thread that was written from the protocol document, and real time.
 #include <algorithm>
 #include <atomic>
 #include <optional>
@@ -33,7 +33,7 @@ class SdhPtyTest : public ::testing::Test {
   SdhController controller{*channel, systemClock(), {.urgent = [this] { return urgent.load(); }}};
 
   void stopInTheMiddle(Punctuality& stops);
-  // The hand as it is, between two answers.
+  // A copy of the fake hand between two answers.
   FakeSdhHand seen() {
     std::optional<FakeSdhHand> copy;
     server.between([&] { copy.emplace(hand); });
@@ -79,7 +79,8 @@ TEST_F(SdhPtyTest, AMissingByteIsGotOverInUnderASecond) {
   EXPECT_EQ(controller.stats().retries, 5u);
 }
 
-// From pressing Stop in the middle of an exchange that gets no answer to `stop` at the hand.
+// Measures the time from pressing Stop, in the middle of an unanswered exchange, to `stop` at the
+// hand.
 void SdhPtyTest::stopInTheMiddle(Punctuality& stops) {
   const FakeSdhHand before = seen();
   std::thread operatorThread([&] {

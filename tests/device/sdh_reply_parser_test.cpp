@@ -25,11 +25,11 @@ Bytes joined(std::initializer_list<Bytes> parts) {
   return all;
 }
 
-// The published answer to pos: (90 -15 18 -90 0 -15 18).
+// The published answer to `pos`: (90 -15 18 -90 0 -15 18).
 const Bytes kAngles =
     bytesOf("83 20 07 00 0000B442 000070C1 00009041 0000B4C2 00000000 000070C1 00009041 8C 3E");
 
-// What was found, as text; fed in pieces of `chunk` bytes.
+// The replies found, as text; bytes are pushed in pieces of `chunk` bytes.
 std::vector<std::string> found(SdhReplyParser& parser, const Bytes& bytes, std::size_t chunk) {
   std::vector<std::string> all;
   for (std::size_t at = 0; at < bytes.size(); at += chunk) {

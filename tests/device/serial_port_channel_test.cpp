@@ -1,6 +1,6 @@
-// The real path of libserialport, without a serial port: a pty under a name that passes its check
-// of sysfs (a link reached by "/dev/../"), and an ioctl() of our own that gives it the modem lines
-// a pty lacks.
+// Tests the code path with libserialport without a serial port: a pty under a name that passes its
+// check of sysfs (a link reached by "/dev/../"), and an ioctl() of this test that provides the
+// modem lines a pty lacks.
 #include "device/serial_port_channel.h"
 
 #include <algorithm>
@@ -20,7 +20,7 @@
 namespace {
 std::atomic<int> exclusiveCalls = 0;
 std::atomic<int> endedExclusive = 0;  // TIOCNXCL
-std::atomic<int> changedLines = 0;    // settings of a line, modem lines
+std::atomic<int> changedLines = 0;    // changes of line settings and modem lines
 std::atomic<bool> modemLines = true;
 
 bool changesALine(unsigned long request) {
@@ -31,7 +31,7 @@ bool changesALine(unsigned long request) {
 }
 }  // namespace
 
-// Replaces the C library's in this program. Signature as in sys/ioctl.h.
+// Replaces the C library's function in this program. Signature as in sys/ioctl.h.
 extern "C" int ioctl(int fd, unsigned long request, ...) noexcept {
   va_list arguments;
   va_start(arguments, request);
@@ -64,14 +64,14 @@ class SerialPortChannelTest : public ::testing::Test {
   PtyPair pty;
   const TemporaryFolder folder;
   const std::string link = folder / "port";
-  std::string path;  // as libserialport takes it
+  std::string path;  // as libserialport accepts it
 
   void SetUp() override {
     std::filesystem::create_symlink(pty.path(), link);
     path = "/dev/../../.." + link;
   }
   void TearDown() override { modemLines = true; }
-  // The pty keeps its settings while we hold its other end.
+  // The pty keeps its settings while this test holds its other end.
   termios settings() const {
     termios now{};
     ::tcgetattr(pty.slave(), &now);
@@ -133,7 +133,7 @@ TEST_F(SerialPortChannelTest, IsForOneProgramOnly) {
   channel->write(textBytes("mine"));
   EXPECT_EQ(pty.receive(4, 1000), textBytes("mine"));
   channel.reset();
-  // Nothing stays behind: anybody may open it, also who knows no flock.
+  // No lock remains: any program may open the port, also one without flock.
   const int fd = ::open(pty.path().c_str(), O_RDWR | O_NOCTTY | O_CLOEXEC);
   EXPECT_GE(fd, 0);
   EXPECT_EQ(::flock(fd, LOCK_EX | LOCK_NB), 0);
@@ -141,7 +141,7 @@ TEST_F(SerialPortChannelTest, IsForOneProgramOnly) {
   EXPECT_NO_THROW(SerialPortChannel::open(path, "hand", 115'200));
 }
 
-// C-A9: what another program holds stays as it is, also its own lock.
+// C-A9: a port held by another program is left unchanged, including that program's lock.
 TEST_F(SerialPortChannelTest, APortThatAnotherHoldsIsNotTouched) {
   const int fd = ::open(pty.path().c_str(), O_RDWR | O_NOCTTY | O_CLOEXEC);
   ASSERT_GE(fd, 0);
@@ -166,7 +166,7 @@ TEST_F(SerialPortChannelTest, APortThatAnotherHoldsIsNotTouched) {
 TEST_F(SerialPortChannelTest, NoticesThatTheAdapterWasPulled) {
   const auto channel = SerialPortChannel::open(path, "hand", 115'200);
   Bytes got(10);
-  EXPECT_EQ(channel->read(got, 10ms), 0u);  // silence is no unplugging
+  EXPECT_EQ(channel->read(got, 10ms), 0u);  // silence does not mean unplugged
   pty.unplug();
   for (int i = 0; i < 2; ++i) {
     try {
@@ -188,7 +188,7 @@ TEST_F(SerialPortChannelTest, LeaksNothingWhenOpeningFails) {
   { SerialPortChannel::open(path, "hand", 115'200); }
   const std::size_t before = testing::openDescriptors();
   EXPECT_THROW(SerialPortChannel::open("/dev/ttyNONE7", "x", 115'200), DeviceError);
-  modemLines = false;  // as on a line that is no serial port: libserialport's open fails half-way
+  modemLines = false;  // as on a device that is no serial port: libserialport fails half-way
   EXPECT_THROW(SerialPortChannel::open(path, "x", 115'200), DeviceError);
   modemLines = true;
   const auto holder = SerialPortChannel::open(path, "x", 115'200);
@@ -196,7 +196,7 @@ TEST_F(SerialPortChannelTest, LeaksNothingWhenOpeningFails) {
   for (int i = 0; i < 20; ++i)
     EXPECT_THROW(SerialPortChannel::open(path, "x", 115'200), DeviceError);
   EXPECT_EQ(testing::openDescriptors(), held);
-  EXPECT_LE(held, before + 3);  // the line, the lock on it, its wake-up
+  EXPECT_LE(held, before + 3);  // the port, its lock, the wake-up descriptor
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
-// The tactile port's rounds, by a clock of the test and without a thread: gaps and their counts,
-// settings with their masks, a second start.
+// Tests the rounds of the tactile port on a clock of the test and without a thread: gaps and their
+// counts, settings with their masks, a second start.
 #include "device/tactile_link.h"
 
 #include <cmath>
@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::int64_t kPeriodUs = 31'500;
 
-// A controller that goes on while its plug is out.
+// Test bench with a controller that continues while it is unplugged.
 struct Bench {
   ManualClock clock;
   HostTime time{clock};
@@ -78,7 +78,7 @@ struct Bench {
   }
 };
 
-// What a hand would have sent in a gap, at one frame per period.
+// Number of frames that a hand would have sent in a gap, one per period.
 double expectedLost(const DeviceEvent& gap) {
   return static_cast<double>(gap.t1Us - gap.tUs) / static_cast<double>(kPeriodUs) - 1.0;
 }
@@ -120,8 +120,8 @@ TEST(TactileLink, AGapOnAnOpenPortIsCountedByTheControllersClock) {
   EXPECT_EQ(static_cast<std::int64_t>(bench.link.status().lost), json.at("lost").asInteger());
 }
 
-// Switched off and on, it may show a later time than before: its clock doesn't tell how long it was
-// away.
+// After being switched off and on, the clock may show a later time than before; it does not tell
+// how long the controller was off.
 TEST(TactileLink, AGapThatNeededAWakeIsEstimatedByOurClock) {
   Bench bench;
   bench.dsa.clockAheadMs = 0;

@@ -32,8 +32,8 @@ TEST(WeissChecksum, GoesOnFromASeed) {
   EXPECT_EQ(weissChecksum(bytes.subspan(2), weissChecksum(bytes.first(2))), weissChecksum(bytes));
 }
 
-// Several bytes at a time give what bit by bit gives (the textbook form, from the polynomial
-// alone).
+// Processing several bytes at a time gives the same result as bit by bit (the textbook form, from
+// the polynomial alone).
 TEST(WeissChecksum, EqualsTheBitwiseFormAtEveryLength) {
   std::vector<std::byte> bytes;
   std::uint16_t bitwise = 0xFFFF;

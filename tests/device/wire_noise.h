@@ -1,5 +1,5 @@
-// A stream of frames through a noisy line into parser, decoder and clock: what arrives is counted
-// against what was sent (reliability R6, R7).
+// Sends a stream of frames through a noisy line to parser, decoder and clock, and compares received
+// with sent frames (reliability R6, R7).
 #pragma once
 
 #include <cstdint>
@@ -19,7 +19,7 @@
 
 namespace palpate::testing {
 
-// Per byte.
+// Probabilities per byte.
 struct LineNoise {
   double flip = 0.0;
   double insert = 0.0;
@@ -28,18 +28,18 @@ struct LineNoise {
 
 struct NoiseCount {
   std::uint64_t sent = 0;
-  std::uint64_t intact = 0;  // frames whose bytes arrived unharmed and together
+  std::uint64_t intact = 0;  // frames whose bytes arrived unchanged and contiguous
   std::uint64_t corrupt = 0;
-  std::uint64_t arrived = 0;  // as they were sent
+  std::uint64_t arrived = 0;  // received as they were sent
   std::uint64_t intactLost = 0;
-  std::uint64_t wrong = 0;   // accepted, but never sent so
+  std::uint64_t wrong = 0;   // accepted, but never sent with this content
   std::uint64_t events = 0;  // insertions and deletions
   std::uint64_t bytes = 0;   // pushed
   DsaPacketStats stats;
   std::size_t pending = 0;
 };
 
-// Ends of chunks: how many bytes a read brings.
+// Returns the number of bytes of the next read.
 using ChunkSize = std::function<std::size_t()>;
 
 class NoisyLine {
@@ -90,7 +90,7 @@ class NoisyLine {
       if (happens(noise_.insert)) {
         waiting_.push_back(static_cast<std::byte>(random_() & 0xFFu));
         ++count_.events;
-        sent.intact = sent.intact && i == 0;  // before its first byte harms nothing
+        sent.intact = sent.intact && i == 0;  // a byte inserted before the first one is harmless
       }
       if (happens(noise_.remove)) {
         ++count_.events;
@@ -174,7 +174,7 @@ class NoisyLine {
   NoiseCount count_;
 };
 
-// Runs all three rates and kinds; checks the promises and prints the figures.
+// Runs all three rates and kinds; checks the guarantees and prints the figures.
 inline void expectNoiseIsSurvived(std::uint64_t frames) {
   for (const double rate : {1e-4, 1e-3, 1e-2}) {
     for (const bool slips : {false, true}) {

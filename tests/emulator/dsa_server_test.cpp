@@ -32,7 +32,7 @@ Octets octetsOf(const LineMessage& message) {
 
 class DsaServerTest : public ::testing::Test {
  protected:
-  // What the server says to these bytes, as hex text.
+  // The server's answer to these bytes, as hexadecimal text.
   std::string say(const Octets& request, std::int64_t nowUs = 0) {
     server.receive(bytesOf(request), nowUs);
     return taken();
@@ -46,14 +46,13 @@ class DsaServerTest : public ::testing::Test {
     }
     return hexText(all);
   }
-  // The same, spelled like a document: with "00x28" for repeats.
+  // The same text, written as in a document: with "00x28" for repeats.
   static std::string hex(const std::string& text) { return hexText(octets(text)); }
-  // An answer that is an error code, or an acknowledge.
+  // An answer that contains only an error code or an acknowledgement.
   static std::string bare(std::uint8_t id, std::uint8_t code) {
     return hexText(tactilePacket(id, {code, 0}));
   }
-  // Runs a stream of `count` frames; the line is free as soon as all bytes have left it at 115200
-  // baud.
+  // Runs a stream of `count` frames; the line is free when all bytes have left it at 115200 baud.
   std::vector<DecodedFrame> stream(std::size_t count, bool paced = true) {
     std::vector<DecodedFrame> frames;
     double freeUs = 0.0;
@@ -71,7 +70,7 @@ class DsaServerTest : public ::testing::Test {
     }
     return frames;
   }
-  // Frames per second by the controller's own clock.
+  // Frames per second by the controller's clock.
   static double rate(const std::vector<DecodedFrame>& frames) {
     return 1000.0 * double(frames.size() - 1) / (frames.back().deviceMs - frames.front().deviceMs);
   }
@@ -110,7 +109,7 @@ TEST_F(DsaServerTest, ReadsAndWritesMasksByteForByte) {
   EXPECT_EQ(say("AA AA AA 04 02 00 01 00 9D 24"), hex("AA AA AA 04 0D 00 00 00 FFx10 0F A9 A3"));
   EXPECT_EQ(say("AA AA AA AB 0D 00 01 00 6A A5 56 6A A5 56 6A A5 56 6A 05 F5 26"),
             "AA AA AA AB 02 00 00 00 9D 8F");
-  // 6A = 0110 1010: of the first eight taxels 1, 3, 5 and 6.
+  // 6A = 0110 1010: of the first eight taxels, 1, 3, 5 and 6 are on.
   const Mask& mask = hand.settings()[0].dynamicMask;
   EXPECT_EQ(Mask(mask.begin(), mask.begin() + 8), (Mask{0, 1, 0, 1, 0, 1, 1, 0}));
   EXPECT_EQ(say(tactilePacket(0x04, {1, 0})),
@@ -127,7 +126,7 @@ TEST_F(DsaServerTest, KnowsSensitivitiesAndThresholds) {
   EXPECT_EQ(say(tactilePacket(0x12, {1})),
             "AA AA AA 12 0B 00 00 00 02 00 00 40 3F 00 00 00 3F 61 ED");
   EXPECT_EQ(say(tactilePacket(0x14, {1})), "AA AA AA 14 04 00 00 00 21 00 55 E9");
-  // 0.25 for matrix 3; then reset all to the factory's value.
+  // Sets 0.25 for matrix 3, then resets all matrices to the factory value.
   EXPECT_EQ(say(tactilePacket(0x0F, {0, 3, 0, 0, 0x80, 0x3E})), bare(0x0F, 0));
   EXPECT_DOUBLE_EQ(hand.settings()[3].sensitivity, 0.25);
   EXPECT_DOUBLE_EQ(hand.settings()[2].sensitivity, 0.5);
@@ -171,7 +170,7 @@ TEST_F(DsaServerTest, RefusesWithTheDocumentsErrorCodes) {
   EXPECT_EQ(say(tactilePacket(0x12, {6})), bare(0x12, 24));
   for (const std::uint8_t id : {0x0C, 0x0D, 0x0E, 0x10})
     EXPECT_EQ(say(tactilePacket(id, {1, 0})), bare(id, 5)) << int{id};  // not supported
-  // Nothing that looks like a frame is sent as an error.
+  // An error must not look like a frame.
   EXPECT_EQ(say("AA AA AA 00 00 00"), "");
 }
 
@@ -187,7 +186,7 @@ TEST_F(DsaServerTest, AnswersWhatOtherClientsAsk) {
 }
 
 TEST_F(DsaServerTest, SendsTheDocumentsFrames) {
-  // An empty one at 1024 ms.
+  // An empty frame at 1024 ms.
   DsaServerOptions options;
   options.startMs = 1024;
   options.frameHz = 1000.0;
@@ -201,14 +200,14 @@ TEST_F(DsaServerTest, SendsTheDocumentsFrames) {
   EXPECT_EQ(hexText(octetsOf(messages[1])),
             hex("AA AA AA 00 47 00 00 04 00 00 01 00F0x32 00 60 40 FB"));
   EXPECT_EQ(messages[1].frame, 0u);
-  // Raw.
+  // The same frame, raw.
   DsaServer raw(hand, options);
   raw.receive(bytesOf(octets("AA AA AA 03 03 00 80 00 00 8D 02")), 0);
   raw.advance(999, 0);
   messages = raw.take();
   ASSERT_EQ(messages.size(), 2u);
   EXPECT_EQ(hexText(octetsOf(messages[1])), hex("AA AA AA 00 D1 03 00 04 00 00 00 00x972 96 62"));
-  // Two taxels of matrix 1.
+  // A frame with two taxels of matrix 1.
   hand.values[121] = hand.values[122] = 1200;
   options.startMs = 0x12345;
   DsaServer touched(hand, options);
@@ -242,7 +241,7 @@ TEST_F(DsaServerTest, SendsOneFramePerSingleCommand) {
 }
 
 TEST_F(DsaServerTest, TakesFlagsOfAnyClientForAStream) {
-  // RobWork: internal trigger, rate 5. The controller says that it runs.
+  // As RobWork: internal trigger, rate 5. The controller acknowledges that it runs.
   EXPECT_EQ(say(tactilePacket(0x03, {0xA1, 5, 0})), kAcknowledge);
   EXPECT_TRUE(stream(2).at(1).runLength);
   EXPECT_EQ(say("AA AA AA 01 00 00").substr(45, 2), "C0");
@@ -329,13 +328,13 @@ TEST_F(DsaServerTest, FindsRequestsAmongNoise) {
   EXPECT_EQ(say("00 AA 17 AA AA 55 " + query), answer);
   EXPECT_EQ(say("AA AA AA AA " + query), answer);  // the packet begins with the last three
   EXPECT_EQ(say("AA AA AA 03 FF FF " + query), bare(0x03, 14) + " " + answer);
-  // Half a request is given up when nothing follows it, and hides no whole one behind it.
+  // An incomplete request is discarded when nothing follows, and hides no complete one behind it.
   EXPECT_EQ(say("AA AA AA 03 10 00 81 " + query), "");
   EXPECT_TRUE(server.hasPartialRequest());
   server.onReceiveTimeout();
   EXPECT_EQ(taken(), answer);
   EXPECT_FALSE(server.hasPartialRequest());
-  // One byte at a time.
+  // The request arrives byte by byte.
   std::string said;
   for (const std::uint8_t byte : octets(query)) said += say(Octets{byte});
   EXPECT_EQ(said, answer);
@@ -360,7 +359,7 @@ TEST_F(DsaServerTest, BehavesAsOldFirmwareDid) {
   options.firmware = 288;
   DsaServer old(hand, options);
   old.receive(bytesOf(octets("AA AA AA 03 03 00 81 00 00 2F 68")), 0);
-  EXPECT_TRUE(old.streaming());  // one frame starts a stream
+  EXPECT_TRUE(old.streaming());  // a request for one frame starts a stream
   options.firmware = 218;
   DsaServer older(hand, options);
   hand.settings()[0].sensitivity = 0.75;

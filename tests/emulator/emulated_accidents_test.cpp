@@ -1,4 +1,5 @@
-// Bad days of an emulated hand: plugs, power, noise, strangers. Each as a client sees it.
+// Tests of an emulated hand with disconnections, power failures, noise and wrong clients, each as a
+// client experiences it.
 #include <algorithm>
 #include <filesystem>
 #include <random>
@@ -71,7 +72,7 @@ TEST(EmulatedAccidents, UnpluggedAndPluggedAgainAHundredTimes) {
   }
   EXPECT_EQ(numDescriptors(), descriptors);
   EXPECT_EQ(numThreads(), threads);
-  // The controller has noticed nothing: it streams on, into nowhere as long as the plug is out.
+  // The controller does not notice: it continues to stream while the port is unplugged.
   hand.unplug();
   EXPECT_TRUE(eventually(hand, [](const auto& counts) { return counts.framesLost > 0; }));
   hand.replug();
@@ -116,8 +117,8 @@ TEST(EmulatedAccidents, APowerCycleForgetsWhatWasNotStored) {
   client.send(kPush);
   ASSERT_EQ(readFrames(client, 2).size(), 2u);
   hand.powerCycle(0.5);
-  client.send(octets("AA AA AA 01 00 00"));  // nobody listens
-  // It asks for a terminal, three times, and then it is back.
+  client.send(octets("AA AA AA 01 00 00"));  // the controller ignores this
+  // While booting it sends a terminal query three times, then it is ready.
   const std::string said = testing::hexText(client.receiveUntilSilent(400ms));
   client.scanner() = {};
   std::size_t queries = 0;
@@ -133,7 +134,7 @@ TEST(EmulatedAccidents, APowerCycleForgetsWhatWasNotStored) {
   client.send(octets("AA AA AA 03 03 00 81 00 00 2F 68"));
   const auto frames = readFrames(client, 1);
   ASSERT_EQ(frames.size(), 1u);
-  EXPECT_LT(frames[0].deviceMs, 10'000u);  // since it was switched on again
+  EXPECT_LT(frames[0].deviceMs, 10'000u);  // counted from the second power-up
 }
 
 TEST(EmulatedAccidents, BootingTakesItsTimeAtTheStart) {
@@ -141,7 +142,7 @@ TEST(EmulatedAccidents, BootingTakesItsTimeAtTheStart) {
   LineClient client(hand.dsaPort());
   client.send(octets("AA AA AA 01 00 00"));
   EXPECT_EQ(client.receiveExactly(12).size(), 12u);
-  EXPECT_TRUE(client.receive(150ms).empty());  // the question was not heard
+  EXPECT_TRUE(client.receive(150ms).empty());  // the request was not received
   for (int i = 0; i < 4; ++i)
     if (client.ask(0x01)) return;
   FAIL() << "it never came up";
@@ -187,7 +188,7 @@ TEST(EmulatedAccidents, SpoiltChecksumsAreSeenByTheClientAndCounted) {
   const EmulatedHandCounts counts = hand.counts();
   EXPECT_EQ(counts.framesWhole, good);
   EXPECT_EQ(counts.framesSent - counts.framesWhole, counts.faults.damagedFrames);
-  // 200 good ones of a fifth bad: 50 bad, standard deviation 8.
+  // Expected until 200 good frames, with a fifth damaged: 50 damaged, standard deviation 8.
   EXPECT_NEAR(double(counts.faults.damagedFrames), 50.0, 32.0);
   std::size_t damaged = 0;
   for (const SentFrame& sent : hand.sentFrames()) damaged += sent.whole ? 0 : 1;
@@ -257,7 +258,7 @@ TEST(EmulatedAccidents, JunkPrecedesTheFirstAnswer) {
   EXPECT_EQ(hand.counts().faults.junkBytes, 1400u);
 }
 
-// Half a million random bytes to each port, at once; then a correct request.
+// Sends half a million random bytes to each port at once, then a correct request.
 TEST(EmulatedAccidents, SurvivesABabblingClient) {
   for (const EmulationRate rate : {EmulationRate::kMax, EmulationRate::kReal}) {
     EmulatedHand hand(std::make_unique<StillHand>(), {.rate = rate});
@@ -311,7 +312,7 @@ TEST(EmulatedAccidents, ReplaysEachFrameOnceAcrossPausesThenFallsSilent) {
                            [](std::uint16_t a, float b) { return float(a) == b; }))
         << "frame " << i;
   }
-  // Intervals of the recording, in whole milliseconds of the controller.
+  // The recorded intervals, in whole milliseconds of the controller.
   for (std::size_t i = 1; i < 30; ++i)
     EXPECT_NEAR(frames[i].deviceMs - frames[i - 1].deviceMs,
                 double(profile.frameTimeUs(i) - profile.frameTimeUs(i - 1)) * 1e-3,
@@ -324,7 +325,7 @@ TEST(EmulatedAccidents, RefusesWhatItCantBe) {
   EXPECT_THROW(EmulatedHand(nullptr), std::invalid_argument);
   EXPECT_THROW(EmulatedHand(std::make_unique<StillHand>(), {.dsaPort = folder / "file"}),
                FileError);
-  // The first port goes again when the second can't be had.
+  // The first port is closed again when the second one can't be opened.
   EXPECT_THROW(EmulatedHand(std::make_unique<StillHand>(),
                             {.dsaPort = folder / "link", .sdhPort = folder / "file"}),
                FileError);
@@ -354,7 +355,7 @@ TEST(EmulatedAccidents, AModelThatFailsStopsTheHandNotTheProgram) {
   EXPECT_THROW(hand.replug(), DeviceError);
 }
 
-// For the thread sanitizer: everything from everywhere, while frames run.
+// For the thread sanitizer: calls all functions from many threads while frames are sent.
 TEST(EmulatedAccidents, TakesControlsFromManyThreads) {
   EmulatedHand hand(std::make_unique<StillHand>(), {.rate = EmulationRate::kMax});
   LineClient client(hand.dsaPort());

@@ -36,7 +36,7 @@ std::string exchange(LineClient& client, const std::string& request, std::size_t
   return hexText(client.receiveExactly(answerBytes));
 }
 
-// The vendor's sequence of section 4.1, byte by byte, over a pty at the line's own speed.
+// The vendor's sequence of section 4.1, byte by byte, over a pty at the real speed of the line.
 TEST(EmulatedHand, OpensAsTheVendorsTactileLibraryDoes) {
   const TemporaryFolder folder;
   EmulatedHand hand(std::make_unique<StillHand>(), {.dsaPort = folder / "tactile"});
@@ -90,7 +90,8 @@ TEST(EmulatedHand, OpensAsTheVendorsMotionLibraryDoes) {
   EXPECT_TRUE(client.receive(100ms).empty());
 }
 
-// Frame rate by the controller's clock and by the bytes: section 3.1, at the line's own speed.
+// Frame rate by the controller's clock and by the bytes (section 3.1), at the real speed of the
+// line.
 TEST(EmulatedHand, StreamsAtTheRatesOfTheRealLine) {
   auto still = std::make_unique<StillHand>();
   StillHand& model = *still;
@@ -111,8 +112,8 @@ TEST(EmulatedHand, StreamsAtTheRatesOfTheRealLine) {
   EXPECT_NEAR(measure(kPush, 9), 11.7, 0.2);
 }
 
-// Seven raw frames of 985 bytes can't come sooner than 115200 baud carry them, and an idle machine
-// not much later.
+// Seven raw frames of 985 bytes can't arrive faster than 115200 baud allow, and on an idle machine
+// arrive not much later.
 TEST(EmulatedHand, PacesBytesInRealTime) {
   EmulatedHand hand(std::make_unique<StillHand>());
   LineClient client(hand.dsaPort());
@@ -152,7 +153,7 @@ TEST(EmulatedHand, PullsOneFrameAtATime) {
   EXPECT_TRUE(client.receive(100ms).empty());
 }
 
-// Section 3.4: the probe of DSA-Konqueror sends text and line end apart, and reads with 10 ms
+// Section 3.4: the probe of DSA-Konqueror sends text and line end separately, and reads with 10 ms
 // between two bytes.
 TEST(EmulatedHand, AnswersTheProbeOfOtherPrograms) {
   EmulatedHand hand(std::make_unique<StillHand>());
@@ -172,7 +173,7 @@ TEST(EmulatedHand, AnswersTheProbeOfOtherPrograms) {
   answers.judge();
 }
 
-// RobWork: stop with flags 00, 01, 02, then 0B, 05, 04 of each matrix, rate 5 with internal
+// RobWork sends stop with flags 00, 01, 02, then 0B, 05, 04 for each matrix, rate 5 with internal
 // trigger.
 TEST(EmulatedHand, ServesRobWork) {
   EmulatedHand hand(std::make_unique<StillHand>(), fastHand());
@@ -193,8 +194,8 @@ TEST(EmulatedHand, ServesRobWork) {
     EXPECT_NE(frames[i].deviceMs, frames[i - 1].deviceMs);
 }
 
-// DSA-Konqueror: both masks of all matrices, sensitivity and threshold of each; stops and waits 200
-// ms before masks are touched; starts with rate 1.
+// DSA-Konqueror reads both masks of all matrices, sensitivity and threshold of each; it stops and
+// waits 200 ms before it changes masks; it starts with rate 1.
 TEST(EmulatedHand, ServesKonqueror) {
   EmulatedHand hand(std::make_unique<StillHand>(), fastHand());
   LineClient client(hand.dsaPort());
@@ -215,7 +216,7 @@ TEST(EmulatedHand, ServesKonqueror) {
   EXPECT_EQ(readFrames(client, 1).size(), 1u);
 }
 
-// The ROS node: rate 30, and new data are those with another stamp.
+// The ROS node requests rate 30, and detects new data by a changed time stamp.
 TEST(EmulatedHand, ServesTheRosNode) {
   EmulatedHand hand(std::make_unique<StillHand>());
   LineClient client(hand.dsaPort());
@@ -264,7 +265,7 @@ TEST(EmulatedHand, CountsFramesAndRemembersWhenTheyLeft) {
   EXPECT_EQ(counts.framesScanned, counts.framesSent);
   EXPECT_EQ(counts.framesSent, counts.framesWhole);
   EXPECT_EQ(counts.framesLost, 0u);
-  EXPECT_EQ(counts.dsa.bytesSent, 20 + 79 * counts.framesSent);  // and two acknowledges
+  EXPECT_EQ(counts.dsa.bytesSent, 20 + 79 * counts.framesSent);  // plus two acknowledgements
   EXPECT_EQ(counts.dsa.bytesReceived, kPush.size() + kStop.size());
   EXPECT_EQ(counts.sdh.bytesSent, 0u);
   EXPECT_TRUE(counts.failure.empty());
@@ -278,7 +279,7 @@ TEST(EmulatedHand, CountsFramesAndRemembersWhenTheyLeft) {
   }
 }
 
-// 300 frames/s: the device's clock shows the period, the host's the rate.
+// At 300 frames/s the device's clock shows the period, the host's clock the rate.
 TEST(EmulatedHand, KeepsAGivenRate) {
   EmulatedHand hand(std::make_unique<StillHand>(), fastHand(300.0));
   LineClient client(hand.dsaPort());
@@ -286,13 +287,13 @@ TEST(EmulatedHand, KeepsAGivenRate) {
   const auto frames = readFrames(client, 301);
   ASSERT_EQ(frames.size(), 301u);
   EXPECT_EQ(frames.back().deviceMs - frames.front().deviceMs, 1000u);
-  // The client may be ahead of the counters for a moment.
+  // The counters may lag behind the client for a moment.
   ASSERT_TRUE(eventually(hand, [](const auto& counts) { return counts.framesSent >= 301; }));
   const auto sent = hand.sentFrames();
   EXPECT_NEAR(double(sent[300].hostUs - sent[0].hostUs) * 1e-6, 1.0, 0.05);
 }
 
-// An hour in moments: the hand's time runs with the frames.
+// Simulates an hour in a short time: the hand's time advances with the frames.
 TEST(EmulatedHand, RunsAsFastAsTheClientReads) {
   EmulatedHand hand(std::make_unique<StillHand>(), {.rate = EmulationRate::kMax});
   LineClient client(hand.dsaPort());
@@ -311,7 +312,7 @@ TEST(EmulatedHand, RunsAsFastAsTheClientReads) {
   }
   EXPECT_EQ(hand.counts().framesLost, 0u);
   EXPECT_GT(hand.counts().handTimeS, 600.0);
-  // Nobody reads: it waits, it neither loses nor piles up.
+  // When no client reads, the hand waits: it neither loses nor accumulates bytes.
   ASSERT_TRUE(eventually(hand, [](const auto& counts) { return counts.dsa.pending > 0; }));
   EXPECT_EQ(hand.counts().framesLost, 0u);
   EXPECT_LT(hand.counts().dsa.pending, 10'000u);
@@ -320,7 +321,7 @@ TEST(EmulatedHand, RunsAsFastAsTheClientReads) {
   EXPECT_EQ(hand.counts().framesScanned, hand.counts().framesWhole);
 }
 
-// A serial line waits for nobody.
+// A serial line does not wait for a reader.
 TEST(EmulatedHand, LosesBytesThatNobodyReadsAtTheRealRate) {
   auto still = std::make_unique<StillHand>();
   EmulatedHand hand(std::move(still));
@@ -330,7 +331,7 @@ TEST(EmulatedHand, LosesBytesThatNobodyReadsAtTheRealRate) {
   EXPECT_LT(hand.counts().dsa.pending, 10'000u);
   client.send(kStop);
   client.receiveUntilSilent(200ms);
-  // The connection is as good as new.
+  // The connection works as before.
   client.scanner() = {};
   EXPECT_EQ(client.ask(0x01)->size(), 18u);
 }

@@ -1,4 +1,4 @@
-// The physical hand behind the ports: what a client of the two lines can find out about it.
+// Tests of the physical hand through its emulated ports, as a client sees it.
 #include <algorithm>
 #include <numeric>
 
@@ -44,7 +44,7 @@ void setThreshold(LineClient& client, std::uint8_t counts) {
   EXPECT_EQ(client.ask(0x13, {0x02, 0, counts, 0}), (Octets{0, 0}));
 }
 
-// Only one matrix is scanned: all of it, or the taxels of one octet of its mask.
+// Enables one matrix only: all of it, or the taxels of one octet of its mask.
 void setMasks(LineClient& client, std::uint8_t matrix, std::optional<std::uint8_t> octet) {
   for (std::uint8_t m = 0; m < 6; ++m) {
     Octets mask(m % 2 == 0 ? 13 : 12, m == matrix && !octet ? 0xFF : 0);
@@ -93,7 +93,7 @@ TEST(EmulatedPhysicalHand, UntouchedItIsZeroAndWithoutThresholdItIsNoise) {
     EXPECT_GT(std::accumulate(frame.values.begin(), frame.values.end(), 0), 456 * 20);
 }
 
-// A grasp, commanded over one port, felt over the other, and known to the truth.
+// A grasp that is commanded at one port, measured at the other, and compared with the truth.
 TEST(EmulatedPhysicalHand, FeelsWhatItGrasps) {
   std::uint64_t contacts = 0;
   double mostN = 0.0;
@@ -114,7 +114,7 @@ TEST(EmulatedPhysicalHand, FeelsWhatItGrasps) {
   ASSERT_TRUE(motion.receiveLine());
   const auto answer = motion.receiveLine();
   ASSERT_TRUE(answer && answer->starts_with("M=")) << answer.value_or("nothing");
-  const auto frames = stream(tactile, kPush, 200);  // six seconds of the hand
+  const auto frames = stream(tactile, kPush, 200);  // six seconds of the hand's time
   ASSERT_EQ(frames.size(), 200u);
   const auto& last = frames.back().values;
   int fingers = 0;

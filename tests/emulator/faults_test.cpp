@@ -94,7 +94,7 @@ TEST(Faults, SpoilsTheShareOfChecksumsThatWasAsked) {
   EXPECT_EQ(counts.spoiltChecksums, std::uint64_t(bad));
   EXPECT_EQ(counts.damagedFrames, std::uint64_t(bad));
   EXPECT_NEAR(bad, 2000, 4 * 42);  // four standard deviations of the binomial
-  // Nothing to spoil in a line of text.
+  // A text line has no checksum to change.
   ByteFaults all(parseFaults("crc=1"), 1);
   LineMessage text{.bytes = std::vector<std::byte>(5)};
   all.apply(text, counts);
@@ -120,7 +120,7 @@ TEST(Faults, DropsAndInsertsTheShareOfBytesThatWasAsked) {
   EXPECT_NEAR(double(shorter), 2000.0, 4 * 45.0);
   EXPECT_NEAR(double(longer), 2000.0, 4 * 45.0);
   EXPECT_EQ(dropped.insertedBytes, 0u);
-  // A stranger behind the last byte leaves the message whole.
+  // A byte inserted behind the last one does not damage the message.
   ByteFaults always(parseFaults("insert=1"), 4);
   LineMessage single{.bytes = std::vector<std::byte>(1)};
   always.apply(single, inserted);

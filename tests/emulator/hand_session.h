@@ -1,4 +1,4 @@
-// What tests say to an emulated hand, and how they wait for it.
+// Helpers for tests of an emulated hand: requests, options, and waiting for its state.
 #pragma once
 
 #include <chrono>
@@ -18,12 +18,12 @@ inline const Octets kPushRaw = octets("AA AA AA 03 03 00 80 01 00 DE 36");
 inline const Octets kSingle = octets("AA AA AA 03 03 00 81 00 00 2F 68");
 inline const Octets kStop = octets("AA AA AA 03 03 00 01 00 00 2F 6A");
 
-// No pacing: tests that aren't about time take none.
+// Options without pacing, for tests that don't depend on timing.
 inline EmulatedHandOptions fastHand(double hz = 300.0) {
   return {.rate = EmulationRate::kFixed, .hz = hz};
 }
 
-// Reads so many frames; fewer when none comes for two seconds.
+// Reads `count` frames; fewer when none arrives for two seconds.
 inline std::vector<DecodedFrame> readFrames(LineClient& client, std::size_t count) {
   std::vector<DecodedFrame> frames;
   while (frames.size() < count) {
@@ -35,7 +35,7 @@ inline std::vector<DecodedFrame> readFrames(LineClient& client, std::size_t coun
   return frames;
 }
 
-// Waits until the hand's counters say so, at most five seconds.
+// Waits until the condition holds for the hand's counters, at most five seconds.
 template <typename Condition>
 bool eventually(const EmulatedHand& hand, Condition&& condition) {
   return awaited([&] { return condition(hand.counts()); }, std::chrono::seconds(5));

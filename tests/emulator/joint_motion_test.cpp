@@ -28,7 +28,7 @@ TEST(JointMotion, PowersUpDisabledAsTheControllerDoes) {
   EXPECT_EQ(joints.profile(), VelocityProfile::kSinSquare);
 }
 
-// v(t) = 2 d/T sin^2(pi t/T): covers d in T, and half of it in T/2, where it is fastest.
+// v(t) = 2 d/T sin^2(pi t/T) covers d in T, and half of it in T/2, where the velocity is largest.
 TEST(JointMotion, SinSquareFollowsItsClosedForm) {
   JointMotion joints = hand();
   joints.setAccelerations({5000, 400, 1500, 400, 1500, 400, 1500});
@@ -57,7 +57,7 @@ TEST(JointMotion, AccelerationLimitsAShortMotion) {
   joints.setTargets(target);
   const double duration = joints.startMotion();
   EXPECT_NEAR(duration, std::sqrt(2.0 * std::numbers::pi * 2.0 / 100.0), 1e-12);
-  // Never more than the limit, measured on the angles.
+  // The velocity, measured on the angles, never exceeds the limit.
   double before = 0.0, beforeThat = 0.0, most = 0.0;
   constexpr double kStepS = 1e-3;
   for (double t = 0.0; t < duration; t += kStepS) {
@@ -88,7 +88,7 @@ TEST(JointMotion, RampIsATrapezoid) {
   EXPECT_NEAR(joints.velocities()[3], 20.0, 1e-9);
   joints.advance(0.3);
   EXPECT_EQ(joints.angles()[3], 40.0);
-  // Too short to reach 40 deg/s.
+  // The distance is too short to reach 40 deg/s.
   target[3] = 49.0;
   joints.setTargets(target);
   EXPECT_DOUBLE_EQ(joints.startMotion(), 2.0 * std::sqrt(9.0 / 100.0));
@@ -220,7 +220,7 @@ TEST(JointMotion, AnAxisThatIsSlowedDownArrivesLaterAndOneThatIsLetGoGoesOn) {
   EXPECT_EQ(joints.angles(), all(60.0));
 }
 
-// An acceleration that is set on the way counts from the next motion on: nothing jumps.
+// An acceleration set during a motion takes effect with the next motion, so nothing jumps.
 TEST(JointMotion, NewAccelerationsWaitForTheNextStart) {
   JointMotion joints = hand();
   joints.setProfile(VelocityProfile::kRamp);
@@ -244,7 +244,7 @@ TEST(JointMotion, VelocityControllersAreBlockedAndSlowedDownLikeMotions) {
     joints.setController(type);
     joints.setPower(std::vector<bool>(7, true));
     joints.setVelocities({0, 20, -20, 20, 0, 0, 0});
-    run(joints, 1.0);  // both at full speed
+    run(joints, 1.0);  // both at full velocity
     joints.setBlocked(1, true, false);
     joints.setBlocked(2, false, true);
     joints.setResistance(3, 0.25, 0.0);
@@ -265,7 +265,7 @@ TEST(JointMotion, VelocityControllersAreBlockedAndSlowedDownLikeMotions) {
   }
 }
 
-// While it still brakes, an axis moves the old way, and is stopped there.
+// While an axis still brakes it moves in its old direction, and can be blocked there.
 TEST(JointMotion, ABrakingAxisDoesNotPassThroughWhatBlocksIt) {
   JointMotion joints = hand();
   joints.setController(ControllerType::kVelocityAcceleration);

@@ -30,7 +30,7 @@ int openTty(const std::string& path) {
   if (descriptor < 0) throw std::runtime_error(path + ": " + std::strerror(errno));
   termios settings{};
   if (::tcgetattr(descriptor, &settings) != 0) throw std::runtime_error(path + " is no terminal");
-  // As the vendor's library sets them.
+  // The same settings as in the vendor's library.
   settings.c_lflag &= ~static_cast<tcflag_t>(ICANON | ECHO | ISIG);
   settings.c_iflag &= ~static_cast<tcflag_t>(IXON | IXOFF | ICRNL | ISTRIP);
   settings.c_oflag &= ~static_cast<tcflag_t>(OPOST);
@@ -170,7 +170,7 @@ void LineClient::send(const Octets& bytes) {
     if (n > 0) continue;
     if (errno != EAGAIN) throw std::runtime_error(std::string("send: ") + std::strerror(errno));
     if (steady_clock::now() > end) throw std::runtime_error("the port takes nothing");
-    // What it answers must be read, or both sides wait.
+    // The answers must be read, or both sides would wait.
     pollfd polled{descriptor_, POLLIN | POLLOUT, 0};
     ::poll(&polled, 1, 100);
     if ((polled.revents & POLLIN) == 0) continue;

@@ -1,5 +1,6 @@
-// A client of the two ports, written from the protocol document alone: plain descriptors, its own
-// checksum (bit by bit), its own decoding. Shares no code with the driver or the emulator.
+// Client of the two ports for tests, written from the protocol document alone: plain file
+// descriptors, its own bitwise checksum and its own decoding. It shares no code with the driver or
+// the emulator.
 #pragma once
 
 #include <chrono>
@@ -12,7 +13,7 @@ namespace palpate::testing {
 
 using Octets = std::vector<std::uint8_t>;
 
-// "AA 03 7C" as bytes; "00x28" stands for 28 times 00.
+// Converts "AA 03 7C" to bytes; "00x28" means 28 times 00.
 Octets octets(const std::string& hex);
 std::string hexText(const Octets& bytes);
 std::uint16_t bitwiseChecksum(const Octets& bytes);
@@ -30,10 +31,10 @@ struct DecodedFrame {
   std::vector<std::uint16_t> values;
   std::size_t packetBytes = 0;
 };
-// Nothing when it isn't a full frame of 486 values.
+// Decodes a full frame of 486 values; returns nothing for any other payload.
 std::optional<DecodedFrame> decodeFramePayload(const Octets& payload);
 
-// Takes packets out of a stream; what is no packet is skipped and counted.
+// Extracts packets from a stream; other bytes are skipped and counted.
 class PacketScanner {
  public:
   void feed(const Octets& bytes) { pending_.insert(pending_.end(), bytes.begin(), bytes.end()); }
@@ -47,7 +48,7 @@ class PacketScanner {
 
 class LineClient {
  public:
-  // A pty path (or link), or tcp:127.0.0.1:PORT. Throws std::runtime_error.
+  // `port`: a pty path (or link), or tcp:127.0.0.1:PORT. Throws std::runtime_error.
   explicit LineClient(const std::string& port);
   ~LineClient();
   LineClient(const LineClient&) = delete;
@@ -55,22 +56,23 @@ class LineClient {
 
   void send(const Octets& bytes);
   void send(const std::string& text);
-  // What comes within the time, at once when there is something; empty: nothing came.
+  // Returns the bytes that arrive within the time, as soon as there are some; empty if none
+  // arrived.
   Octets receive(std::chrono::milliseconds timeout);
-  // Exactly so many bytes; fewer when they don't come in time.
+  // Reads exactly `count` bytes; fewer when they don't arrive in time.
   Octets receiveExactly(std::size_t count,
                         std::chrono::milliseconds timeout = std::chrono::milliseconds(2000));
-  // A line without its end; nothing when none comes.
+  // Reads a line without its end; returns nothing when none arrives.
   std::optional<std::string> receiveLine(
       std::chrono::milliseconds timeout = std::chrono::milliseconds(2000));
-  // Reads until nothing has come for that long; returns what came.
+  // Reads until no byte has arrived for `silence`; returns all bytes.
   Octets receiveUntilSilent(std::chrono::milliseconds silence);
   // The next packet of the stream.
   std::optional<TactilePacket> packet(
       std::chrono::milliseconds timeout = std::chrono::milliseconds(2000));
-  // The next packet with that id, frames in between are dropped.
+  // The next packet with that id; frames in between are dropped.
   std::optional<TactilePacket> answer(std::uint8_t id);
-  // Sends, and gives the payload of the answer with the same id.
+  // Sends a request and returns the payload of the answer with the same id.
   std::optional<Octets> ask(std::uint8_t id, const Octets& payload = {});
   bool hungUp() const noexcept { return hungUp_; }
   PacketScanner& scanner() noexcept { return scanner_; }

@@ -9,7 +9,7 @@
 namespace palpate::noisy_contacts_test {
 namespace {
 
-// Frames in which any taxel is active, as a share.
+// Fraction of the frames in which a taxel is active.
 double shareActive(const NoisyContacts& made) {
   std::size_t active = 0;
   for (std::size_t i = 0; i < made.profile.numFrames(); ++i) {
@@ -44,8 +44,8 @@ TEST(NoisyContacts, SameSeedSameFrames) {
   EXPECT_EQ(one.truth, same.truth);
 }
 
-// A threshold far above the noise: what is active is touched, and nearly all that is touched is
-// active.
+// With a threshold far above the noise, active taxels are touched, and nearly all touched taxels
+// are active.
 TEST(NoisyContacts, TruthIsWhatTheSensorReportsWithoutNoise) {
   const NoisyContacts made = makeNoisyContacts({.frames = 3000, .belowCounts = -40.0});
   std::size_t ghosts = 0, touched = 0, seen = 0;
@@ -80,10 +80,10 @@ TEST(NoisyContacts, LowerThresholdsShowMoreGhosts) {
     }
     before = share;
   }
-  EXPECT_EQ(before, 1.0);  // all taxels rest above such a threshold
+  EXPECT_EQ(before, 1.0);  // all taxels at rest are above such a threshold
 }
 
-// Peak pressure all the same: sizes by the most taxels that are touched at once.
+// With equal peak pressures, sizes differ in the largest number of taxels touched at once.
 TEST(NoisyContacts, SizesComeInTurnOnAllMatrices) {
   const NoisyContacts made = makeNoisyContacts({.frames = 3000, .minKpa = 40.0, .maxKpa = 40.0});
   ASSERT_GE(made.contacts.size(), 30u);
@@ -102,7 +102,7 @@ TEST(NoisyContacts, SizesComeInTurnOnAllMatrices) {
     taxels[contact.size] += static_cast<double>(most);
     ++number[contact.size];
     ++combinations[{contact.size, contact.matrix}];
-    // It has gone before the next one comes.
+    // The contact has ended before the next one begins.
     const auto& last = made.truth[contact.end - 1];
     EXPECT_EQ(std::count(last.begin(), last.end(), CellTruth::kTouched), 0);
   }

@@ -1,4 +1,4 @@
-// A hand whose every frame says which one it is, in counts that a wrong frame can't have by chance.
+// Fake hand whose frames encode their number, in counts that a damaged frame can't have by chance.
 #pragma once
 
 #include <optional>
@@ -11,7 +11,7 @@ namespace palpate::testing {
 
 class NumberedHand final : public HandModel {
  public:
-  // loaded: taxels with values beside the number (0..300), that make frames longer.
+  // loaded: number of taxels (0..300) with values besides the number, which make frames longer.
   explicit NumberedHand(std::size_t loaded = 20)
       : loaded_(loaded), joints_(sdh2(), std::vector<double>(7, 0.0)) {
     for (const MatrixLayout& matrix : sdh2().layout->matrices()) {
@@ -40,7 +40,7 @@ class NumberedHand final : public HandModel {
   std::vector<double> temperatures() override { return std::vector<double>(9, 37.25); }
   std::vector<MatrixTruth> truth() const override { return {}; }
 
-  // Which frame these values are; nothing when they are none that was ever sent.
+  // The number of the frame with these values; nothing for values that were never sent.
   static std::optional<std::uint64_t> numberOf(std::span<const float> values,
                                                std::size_t loaded = 20) {
     std::uint64_t number = 0;
@@ -57,7 +57,8 @@ class NumberedHand final : public HandModel {
   }
 
  private:
-  // Behind the number; in matrices 0 and 2, which have no masked corners.
+  // Place of the i-th loaded taxel, after the number; in matrices 0 and 2, which have no masked
+  // corners.
   static std::size_t placeOf(std::size_t i) { return i < 76 ? 6 + i : 162 + (i - 76) % 84; }
   static std::uint16_t valueOf(std::uint64_t number, std::size_t i) {
     const std::uint64_t mixed = (number * 2654435761ull + i * 40503ull) * 11400714819323198485ull;

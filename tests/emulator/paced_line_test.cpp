@@ -17,7 +17,7 @@ TEST(PacedLine, EachByteLeavesAtItsTime) {
   EXPECT_FALSE(line.nextDueUs());
   line.push(message(10), 5000);
   EXPECT_EQ(line.freeAtUs(), 6000);
-  EXPECT_EQ(line.nextDueUs(), 6000);  // a short message in one piece
+  EXPECT_EQ(line.nextDueUs(), 6000);  // a short message is one chunk
   EXPECT_TRUE(line.due(5999).empty());
   EXPECT_EQ(line.due(6000).size(), 10u);
 }
@@ -92,7 +92,7 @@ TEST(PacedLine, CarriesTheBaudRateWithoutDrift) {
   for (std::int64_t t = 0; line.pendingBytes() > 0; t += 1000) {
     const std::size_t due = line.due(t).size();
     passed += due;
-    // Never ahead of the line, never more than a piece (64 bytes) and a step behind it.
+    // Never ahead of the line, and at most one chunk (64 bytes) and one step behind it.
     ASSERT_LE(double(passed), double(t) / kSerialByteUs);
     ASSERT_GE(double(passed) + 76.0, std::min(985'000.0, double(t) / kSerialByteUs));
     line.pass(due, false, ended);

@@ -18,7 +18,7 @@ namespace {
 
 Scene sceneOf(const std::string& name) { return loadScene(name, dataFolder() / "scenes"); }
 
-// A scene's script without its actions: the test moves the hand itself.
+// A scene without its script: the test moves the hand itself.
 Scene quietScene(const std::string& name) {
   Scene scene = sceneOf(name);
   scene.script.clear();
@@ -70,13 +70,13 @@ TEST(PhysicalHand, ClosingOnEachObjectTouchesItWithAtLeastTwoFingers) {
     double force = 0.0;
     for (const MatrixTruth& truth : hand.truth()) force += truth.forceN;
     EXPECT_GT(force, 10.0) << name;
-    // 1400 N mm 15 mm from the distal joint, 2100 N mm 20 mm from the proximal one, of three
-    // fingers.
+    // Torque limits of three fingers: 1400 N mm at 15 mm from the distal joint, 2100 N mm at 20 mm
+    // from the proximal one.
     EXPECT_LT(force, 3.0 * (1400.0 / 15.0 + 2100.0 / 20.0)) << name << ": motors give up before";
   }
 }
 
-// The scripts of the scenes do the same by themselves, and let go again.
+// The scripts of the scenes grasp and release by themselves.
 TEST(PhysicalHand, ScriptsGraspAndRelease) {
   for (const char* name : {"ball", "foam_ball", "bottle", "pen", "box", "slipping_handle"}) {
     PhysicalHand hand(sceneOf(name));
@@ -99,8 +99,8 @@ TEST(PhysicalHand, FingersStopAtAHardObject) {
   EXPECT_FALSE(hand.joints().moving());
 }
 
-// A flat pad and a sphere pressed in by d over it: the elastic foundation's force is
-// k * integral over the cap of its depth = k pi d^2 (R - d/3).
+// A sphere pressed into a flat pad by d: the force of the elastic foundation is k * integral of the
+// depth over the contact area = k pi d^2 (R - d/3).
 TEST(PhysicalHand, ForceOfASphereOnAFlatPadIsTheFoundationsIntegral) {
   const HandGeometry geometry;
   const auto angles = sdh2Preshape("centrical").anglesDeg(0.0);
@@ -112,7 +112,7 @@ TEST(PhysicalHand, ForceOfASphereOnAFlatPadIsTheFoundationsIntegral) {
   ball.stiffnessNPerMm3 = 1e4;
   ball.massKg = 0.0;
   ball.fixed = true;
-  // Over the middle of a proximal pad, between taxels.
+  // Above the centre of a proximal pad, between taxels.
   ball.positionMm = pose.pointMm(2, 2.5 * 3.4, 6.5 * 3.4) +
                     pose.normalAt(2, 2.5 * 3.4, 6.5 * 3.4) * (kRadiusMm - kDepthMm);
   scene.objects.push_back(ball);
@@ -123,11 +123,11 @@ TEST(PhysicalHand, ForceOfASphereOnAFlatPadIsTheFoundationsIntegral) {
   const double expected = k * std::numbers::pi * kDepthMm * kDepthMm * (kRadiusMm - kDepthMm / 3.0);
   ASSERT_TRUE(hand.truth()[2].contact);
   EXPECT_NEAR(hand.truth()[2].forceN, expected, 0.05 * expected) << "taxels of 3.4 mm sample it";
-  // Blurring by the rubber keeps the force: pressure times area over all taxels.
+  // Spreading by the rubber preserves the force: pressure times area, summed over all taxels.
   double sum = 0.0;
   for (const double kpa : hand.pressureKpa()) sum += kpa * 1e-3 * 3.4 * 3.4;
   EXPECT_NEAR(sum, hand.truth()[2].forceN, 1e-9);
-  // And the centre of pressure is where it presses.
+  // The centre of pressure is where the sphere presses.
   const Eigen::Vector3d centre(hand.truth()[2].xMm, hand.truth()[2].yMm, hand.truth()[2].zMm);
   EXPECT_LT((centre - pose.pointMm(2, 2.5 * 3.4, 6.5 * 3.4)).norm(), 0.2);
 }
@@ -140,8 +140,8 @@ TEST(PhysicalHand, ThreeFingersBalanceOnABall) {
   EXPECT_NEAR(hand.truth()[1].forceN, hand.truth()[5].forceN, 0.05);
 }
 
-// Along the normals friction holds nothing: an object beside the middle is pushed there, however
-// rough, and the two fingers press it alike.
+// Along the normals there is no friction: an object beside the centre is pushed there, however
+// rough it is, and both fingers press it equally.
 TEST(PhysicalHand, AnObjectBesideTheMiddleIsPushedThere) {
   for (const double friction : {0.3, 0.9, 3.0}) {
     Scene scene = quietScene("pen");
@@ -158,8 +158,8 @@ TEST(PhysicalHand, AnObjectBesideTheMiddleIsPushedThere) {
 }
 
 // A pinched sphere under a torque about y, the direction of the grasp. Each contact of force F
-// holds it by its print, up to friction * F * radius of gyration, and by its distance from that
-// axis (the pads are tilted: they touch below the middle), up to friction * F * distance.
+// resists by its area, up to friction * F * radius of gyration, and by its distance from that axis
+// (the pads are tilted: they touch below the centre), up to friction * F * distance.
 TEST(PhysicalHand, ATorqueAboveWhatThePrintsHoldTurnsTheObject) {
   for (const double share : {0.85, 1.25}) {
     constexpr double kRadiusMm = 20.0, kFriction = 0.6;
@@ -176,8 +176,8 @@ TEST(PhysicalHand, ATorqueAboveWhatThePrintsHoldTurnsTheObject) {
     };
     const MatrixTruth contact = pinched()->truth()[1];
     ASSERT_GT(contact.forceN, 5.0);
-    // Elastic foundation: F = pi k R d^2, print of radius a with a^2 = 2 R d and paraboloid
-    // pressure, whose mean square distance from its middle is a^2 / 3.
+    // Elastic foundation: F = pi k R d^2, contact radius a with a^2 = 2 R d, and a paraboloid
+    // pressure, whose mean square distance from its centre is a^2 / 3.
     const double k = 0.15 * 20.0 / (0.15 + 20.0);
     const double depth = std::sqrt(contact.forceN / (std::numbers::pi * k * kRadiusMm));
     const double contactRadiusMm = std::sqrt(2.0 * kRadiusMm * depth / 3.0);
@@ -197,8 +197,8 @@ TEST(PhysicalHand, ATorqueAboveWhatThePrintsHoldTurnsTheObject) {
   }
 }
 
-// A box between two fingers and the thumb: the thumb takes what both fingers give, but for the
-// friction of pads that are tilted by some ten degrees (0.5 * 60 N * sin 10).
+// A box between two fingers and the thumb: the thumb takes the force of both fingers, except for
+// the friction of pads that are tilted by about ten degrees (0.5 * 60 N * sin 10).
 TEST(PhysicalHand, TheThumbHoldsAgainstBothFingers) {
   PhysicalHand hand(quietScene("box"));
   close(hand, "parallel", 30.0);
@@ -234,9 +234,9 @@ TEST(PhysicalHand, ASofterObjectTouchesMoreTaxelsWithLess) {
             *std::max_element(hardCounts.begin(), hardCounts.end()) / 2);
 }
 
-// The real hand on the objects after which the scenes are named (two recordings of the study,
-// loaded frames): hockey ball 18 active taxels on a fingertip, peak 2640..3258 counts; foam ball
-// 26, peak 1165..1860.
+// Values of the real hand for the objects after which the scenes are named (two recordings of the
+// study, loaded frames): hockey ball 18 active taxels on a fingertip, peak 2640..3258 counts; foam
+// ball 26, peak 1165..1860.
 TEST(PhysicalHand, GraspsReadLikeRecordedOnes) {
   const auto fingertip = [](const char* scene) {
     PhysicalHand hand(quietScene(scene));
@@ -278,7 +278,7 @@ TEST(PhysicalHand, AHandleThatIsPulledSlipsAndStopsWhenThePullEnds) {
   scanAt(hand, 7.5);
   EXPECT_NEAR(hand.truth()[1].slipYTaxels, before.slipYTaxels, 0.1) << "friction holds at first";
   scanAt(hand, 9.5);
-  // Pulled up, towards the fingertips: against y.
+  // Pulled up, towards the fingertips, that is, against y.
   EXPECT_LT(hand.truth()[1].slipYTaxels, before.slipYTaxels - 2.0);
   EXPECT_LT(hand.truth()[5].slipYTaxels, before.slipYTaxels - 2.0);
   scanAt(hand, 10.2);
@@ -291,7 +291,7 @@ TEST(PhysicalHand, AHandleThatIsPulledSlipsAndStopsWhenThePullEnds) {
   EXPECT_NEAR(hand.truth()[1].turnDeg, -hand.truth()[5].turnDeg, 1.5) << "seen from both sides";
 }
 
-// What the truth calls slip is what the pressure does on the matrix: its centroid moves with a
+// The slip in the truth is the motion of the pressure on the matrix: its centroid moves with a
 // small object.
 TEST(PhysicalHand, SlipInTaxelsIsTheMotionOfThePrint) {
   const HandGeometry geometry;

@@ -40,7 +40,7 @@ std::string text(const testing::Octets& bytes) { return {bytes.begin(), bytes.en
 
 TEST(PortServer, APtyIsRawBeforeAnybodyOpensIt) {
   const auto port = openPtyPort();
-  // Said ahead of the client: neither echoed back to us nor changed.
+  // Written before a client opens the port: neither echoed back nor changed.
   const std::string all = "\x1B[5n\r\n\x03\x04\x11\x13\xAA\xFF";
   EXPECT_EQ(port->write(bytesOf(all)), all.size());
   LineClient client(port->name());
@@ -95,7 +95,7 @@ TEST(PortServer, ReplacesOnlyLinksToPortsAndToNothing) {
   {
     const auto second = openPtyPort(folder / "link");
     EXPECT_NE(fs::read_symlink(folder / "link"), firstTarget);
-    // The first one doesn't take away what isn't its own any more.
+    // The first port does not remove the link of the second one.
     first->unplug();
     EXPECT_TRUE(fs::is_symlink(fs::symlink_status(folder / "link")));
   }
@@ -127,7 +127,7 @@ TEST(PortServer, UnpluggingIsAHangUpAndPluggingANewPortOfTheSameName) {
   EXPECT_EQ(text(again.receiveExactly(4)), "back");
 }
 
-// TIOCEXCL of a client that was killed would keep everybody but root out.
+// TIOCEXCL left by a killed client would lock out every program except root.
 TEST(PortServer, LiftsTheClaimOfAClientThatIsGone) {
   const auto port = openPtyPort();
   const int client = ::open(port->name().c_str(), O_RDWR | O_NOCTTY);

@@ -41,7 +41,7 @@ TEST(ReplayedHand, GivesEachFrameOnceAndInOrderAtItsIntervals) {
 TEST(ReplayedHand, JointsAndTemperaturesAreThoseOfTheMoment) {
   const Profile profile = sample();
   ReplayedHand hand(profile);
-  double timeS = 10.0;  // the client took its time
+  double timeS = 10.0;  // the client waits
   hand.advanceTo(timeS);
   for (std::size_t i = 0; i < profile.numFrames(); ++i) {
     hand.advanceTo(timeS += hand.nextIntervalS().value());
@@ -67,7 +67,7 @@ TEST(ReplayedHand, TimeStandsStillBetweenStreamsAndSettingsStay) {
   EXPECT_NEAR(hand.joints().angles()[1], profile.angles(*third).deg[1], 1e-9);
   EXPECT_EQ(hand.joints().power(), std::vector<bool>(7, true));
   EXPECT_EQ(hand.joints().controller(), ControllerType::kVelocity);
-  hand.advanceTo(5.0);  // never back
+  hand.advanceTo(5.0);  // an earlier time has no effect
   EXPECT_DOUBLE_EQ(hand.timeS(), 1000.0);
 }
 

@@ -45,7 +45,7 @@ TEST(Scene, ReadsAllThereIs) {
   EXPECT_EQ(scene.objects[0].friction, 0.4);
   EXPECT_EQ(scene.objects[0].massKg, 0.3);
   EXPECT_EQ(scene.objects[0].positionMm, Eigen::Vector3d(1, -2, 140.5));
-  // 90 degrees about x take its axis z to -y.
+  // 90 degrees about x rotate its axis z to -y.
   EXPECT_LT(
       (scene.objects[0].rotation * Eigen::Vector3d::UnitZ() + Eigen::Vector3d::UnitY()).norm(),
       1e-12);
@@ -107,7 +107,7 @@ TEST(Scene, AllThatComeWithTheProgramLoad) {
   for (const std::string& name : names) EXPECT_EQ(loadScene(name, folder).name, name);
 }
 
-// The page shows one as an example.
+// The example on the page docs/emulator.md is a valid scene.
 TEST(Scene, TheExampleOfTheDocumentIsOne) {
   const std::string page = readFile(dataFolder().parent_path() / "docs" / "emulator.md");
   const std::size_t from = page.find("    {\"objects\"");

@@ -56,7 +56,8 @@ class SdhServerTest : public ::testing::Test {
     send(octets(hex));
     return hexText(takeOctets());
   }
-  // Status of the answer to a record; -1 when it is no record of 34 bytes with a right checksum.
+  // Status of the answer to a record; -1 when it isn't a record of 34 bytes with a correct
+  // checksum.
   int status(const Octets& request) {
     send(request);
     const Octets answer = takeOctets();
@@ -97,7 +98,7 @@ TEST_F(SdhServerTest, AnswersBinaryRecordsByteForByte) {
   EXPECT_EQ(hand.joints().power(), std::vector<bool>(7, true));
   EXPECT_EQ(sayHex("A4 1F 07 | 00x28 | FA 6E").substr(0, 12), "A4 20 07 00 ");
   EXPECT_EQ(hand.joints().power(), std::vector<bool>(7, false));
-  // The computed get requests, all of them.
+  // All read requests, with computed checksums.
   const std::string requests =
       "80 03 00 3A A1 81 03 00 98 CB 82 03 00 7E 74 84 03 00 A3 28 85 03 00 01 42 86 03 00 E7 FD "
       "8B 03 00 FC 1E 8C 03 00 83 28 A3 03 00 DC C7 A4 03 00 A3 F1 ";
@@ -119,7 +120,7 @@ TEST_F(SdhServerTest, ErrorsOfRecordsHaveTheirFullLength) {
   EXPECT_EQ(status(record(0xA4, std::vector<float>(7, 2.0F))), 24);
   EXPECT_EQ(status(record(0xA3, std::vector<float>(7, 1.5F))), 24);
   EXPECT_EQ(hand.joints().targets(), (std::vector<double>{90, -15, 18, -90, 0, -15, 18}));
-  // A record of another shape: answered once, then all is garbage until a line ends.
+  // A record of another form is answered once; the following bytes are skipped up to a line end.
   send(octets("83 05 02 83 03 00 DC 1E"));
   EXPECT_EQ(hexText(takeOctets()).substr(0, 12), "83 20 07 0E ");
   EXPECT_EQ(say("abc"), "");
@@ -149,7 +150,7 @@ TEST_F(SdhServerTest, RecordsOverTcpHaveNoChecksum) {
 TEST_F(SdhServerTest, VectorCommandsHaveFourForms) {
   EXPECT_EQ(line("pos"), "POS=90.0000,-15.0000,18.0000,-90.0000,0.0000,-15.0000,18.0000\r\n");
   EXPECT_EQ(line("pos(3)"), "POS(3)=-90.0000\r\n");
-  // As the vendor's library writes them: %f, and %12.3f.
+  // In the formats of the vendor's library: %f and %12.3f.
   EXPECT_EQ(line("p=10.000000,20.000000,30.000000,-40.000000,50.000000,60.000000,-70.000000"),
             "P=10.0000,20.0000,30.0000,-40.0000,50.0000,60.0000,-70.0000\r\n");
   EXPECT_EQ(line("p(2)=      12.500"), "P(2)=12.5000\r\n");
@@ -163,7 +164,7 @@ TEST_F(SdhServerTest, VectorCommandsHaveFourForms) {
   EXPECT_EQ(line("power(1)=1"), "POWER(1)=1\r\n");
   EXPECT_EQ(hand.joints().power(), (std::vector<bool>{true, true, true, false, true, false, true}));
   EXPECT_EQ(line("state").substr(0, 6), "STATE=");
-  // One round trip: sets the target, answers the actual angle.
+  // One round trip that sets the target and returns the actual angle.
   EXPECT_EQ(line("tpap(0)=45"), "TPAP(0)=90.0000\r\n");
   EXPECT_DOUBLE_EQ(hand.joints().targets()[0], 45.0);
   EXPECT_DOUBLE_EQ(hand.joints().targets()[6], -70.0);
@@ -231,7 +232,7 @@ TEST_F(SdhServerTest, RefusesWithTheDocumentsErrorNumbers) {
   EXPECT_EQ(line("selgrip=4"), "E24\r\n");
   EXPECT_EQ(line(std::string(255, 'p')), "E32\r\n");
   EXPECT_EQ(line(std::string(10'000, 'p')), "E32\r\n");
-  // A soft limit that excludes where the axis stands.
+  // A soft limit that excludes the present angle.
   EXPECT_EQ(line("p_max(0)=80"), "E24\r\n");
   EXPECT_EQ(line("p_min(0)=30"), "P_MIN(0)=30.0000\r\n");
   EXPECT_EQ(line("p(0)=20"), "E24\r\n");
@@ -271,10 +272,10 @@ TEST_F(SdhServerTest, GripBlocksAndIsDeafToStop) {
   EXPECT_EQ(line("stop\r\npower=0,0,0,0,0,0,0"), "");
   EXPECT_TRUE(hand.joints().moving());
   const std::string all = passUntilSaid();
-  // Its answer (duration, ratio), then those to what has waited.
+  // Its answer (duration, ratio), then those to the commands that waited.
   EXPECT_EQ(all.substr(0, 5), "GRIP=");
   EXPECT_NE(all.find(",1\r\nSTOP\r\nPOWER=0,0,0,0,0,0,0\r\n"), std::string::npos) << all;
-  // Parallel, closed: 7 and -7 deg.
+  // The parallel preshape, closed: 7 and -7 deg.
   EXPECT_NEAR(hand.joints().angles()[1], 7.0, 1e-6);
   EXPECT_NEAR(hand.joints().angles()[2], -7.0, 1e-6);
 }
@@ -320,7 +321,7 @@ TEST_F(SdhServerTest, ThinksForAWhilePerCommand) {
 }
 
 TEST_F(SdhServerTest, LosesWhatItCantHold) {
-  say("grip=1.0,0.5\r");  // deaf for minutes
+  say("grip=1.0,0.5\r");  // ignores input for minutes
   EXPECT_EQ(server.lostBytes(), 0u);
   say(std::string(5000, ' '));
   EXPECT_EQ(server.lostBytes(), 904u);

@@ -59,7 +59,7 @@ TEST_F(SensorModelTest, AtThresholdZeroItReadsTheNoiseOfTheRealHand) {
   std::uint16_t least = 4095, most = 0;
   constexpr int kFrames = 1297;
   for (int i = 0; i < kFrames; ++i) {
-    scan(20.5 + 37.0 * (1.0 - std::exp(-4.0 * i / kFrames)));  // it warms up
+    scan(20.5 + 37.0 * (1.0 - std::exp(-4.0 * i / kFrames)));  // the hand warms up
     units += static_cast<double>(runLengthUnits()) / kFrames;
     std::size_t place = 0;
     for (const MatrixLayout& matrix : sdh2().layout->matrices())
@@ -78,8 +78,8 @@ TEST_F(SensorModelTest, AtThresholdZeroItReadsTheNoiseOfTheRealHand) {
   EXPECT_NEAR(most, 72, 5);
 }
 
-// Measured on that recording, taxel by taxel: edges of the proximal pads lie higher and flicker,
-// the rest lies within a tenth of a count.
+// Measured in that recording, taxel by taxel: the edges of the proximal pads read higher with more
+// noise, the others agree within a tenth of a count.
 TEST_F(SensorModelTest, TheEdgesOfTheProximalPadsRestHigherAndLessQuietly) {
   setThresholds(0);
   constexpr int kFrames = 2000;
@@ -95,8 +95,8 @@ TEST_F(SensorModelTest, TheEdgesOfTheProximalPadsRestHigherAndLessQuietly) {
   const auto sdOf = [&](std::size_t p) {
     return std::sqrt(squares[p] / kFrames - meanOf(p) * meanOf(p));
   };
-  // Column 0, row 7 (place 42), and its right neighbour; means of the recording at 45 deg C by its
-  // lines.
+  // Column 0, row 7 (place 42), and its right neighbour; means of the recording at 45 deg C, from
+  // its fitted lines.
   const double measured[3][4] = {
       {47.2, 3.1, 41.5, 0.77}, {54.1, 4.0, 36.9, 0.93}, {46.4, 3.27, 39.4, 0.92}};
   for (std::size_t pad = 0; pad < 3; ++pad) {
@@ -109,8 +109,8 @@ TEST_F(SensorModelTest, TheEdgesOfTheProximalPadsRestHigherAndLessQuietly) {
   }
 }
 
-// The noise lines of the study: the mean over many frames of the matrix' maximum, at temperatures
-// where the recording has many (a fifth of it lies below 32).
+// The noise lines of the study: mean of the matrix' maximum over many frames, at temperatures where
+// the recording has many (a fifth of it is below 32).
 TEST_F(SensorModelTest, TheMaximumOfAMatrixLiesOnItsNoiseLine) {
   setThresholds(0);
   for (const double degC : {30.0, 42.0, 55.0}) {
@@ -131,7 +131,7 @@ TEST_F(SensorModelTest, TheMaximumOfAMatrixLiesOnItsNoiseLine) {
   }
 }
 
-// Two lags in a row, by their closed form, and the creep on top.
+// Closed form of two lags in series, plus the creep.
 TEST_F(SensorModelTest, AStepIsAnsweredAsSecondOrderLagWithCreep) {
   pressure[20] = 100.0;
   const SensorCharacteristics& c = sdh2Sensor();
@@ -155,14 +155,14 @@ TEST_F(SensorModelTest, AStepIsAnsweredAsSecondOrderLagWithCreep) {
   EXPECT_EQ(sensor.responseKpa(20), 0.0);
 }
 
-// What the study measured: a stamp of 10.5 mm x 10.5 mm on the flat part of matrix 1 at threshold
+// Measurement of the study: a stamp of 10.5 mm x 10.5 mm on the flat part of matrix 1 at threshold
 // 100; its signal is the mean of the Gaussian-filtered active taxels (eq. 3.2), without the later
 // drift.
 class Stamp {
  public:
   Stamp() { without_.creepFraction = 0.0; }
 
-  // Mean over nine places of the stamp between the taxels.
+  // Mean over nine positions of the stamp between the taxels.
   double signal(double kpa, double sensitivity, double motorDegC, double handDegC) {
     double sum = 0.0;
     for (int i = 0; i < 9; ++i) {
@@ -183,7 +183,7 @@ class Stamp {
   }
 
  private:
-  // The share of each taxel that the stamp covers.
+  // Fraction of each taxel that the stamp covers.
   static void press(std::vector<double>& pressure, double kpa, double x, double y) {
     constexpr double kHalf = 10.5 / 3.4 / 2.0;
     const auto covered = [](double middle, int at) {
@@ -199,7 +199,7 @@ class Stamp {
   SensorCharacteristics without_ = sdh2Sensor();
 };
 
-// K of 24 measured loading steps at three temperatures; the study's own plane misses them by 28
+// K of 24 measured loading steps at three temperatures; the study's own plane has an error of 28
 // counts rms.
 TEST_F(SensorModelTest, LoadingStepsReadWhatWasMeasured) {
   const auto golden = testing::goldenFolder();
@@ -232,8 +232,8 @@ TEST_F(SensorModelTest, LoadingStepsReadWhatWasMeasured) {
   EXPECT_LT(std::sqrt(squares / steps), 45.0);
 }
 
-// 700 g on it (62.286 kPa), sensitivity 0.1 to 1.0: measured 589.3 s - 11.4 counts, at 37.1 deg C
-// (mean of its sensors).
+// With 700 g on it (62.286 kPa), sensitivity 0.1 to 1.0: measured 589.3 s - 11.4 counts, at 37.1
+// deg C (mean of its sensors).
 TEST_F(SensorModelTest, SignalsAreProportionalToSensitivityAsMeasured) {
   Stamp stamp;
   double n = 0, sx = 0, sy = 0, sxx = 0, sxy = 0;
@@ -250,7 +250,7 @@ TEST_F(SensorModelTest, SignalsAreProportionalToSensitivityAsMeasured) {
   EXPECT_NEAR((sy - slope * sx) / n, -11.4, 20.0);
 }
 
-// A grasped pen's contact falls from 80 to 10 % within 60..90 ms when it is let go.
+// The contact of a grasped pen falls from 80 to 10 % within 60..90 ms after its release.
 TEST_F(SensorModelTest, AReleasedContactIsGoneWithinThreeFrames) {
   pressure[20] = 80.0;
   settle();
@@ -262,7 +262,8 @@ TEST_F(SensorModelTest, AReleasedContactIsGoneWithinThreeFrames) {
   settle(0.09);
   scan();
   EXPECT_LT(counts[20], 0.1 * loaded);
-  // What is only relieved keeps its share of the creep, and creeps on when loaded again.
+  // A taxel that is only relieved keeps its fraction of the creep, which continues when loaded
+  // again.
   pressure[20] = 80.0;
   settle();
   pressure[20] = 40.0;

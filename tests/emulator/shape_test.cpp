@@ -35,7 +35,7 @@ TEST(Shape, DistancesAtPlacesOneCanTell) {
       << "half way up, the mantle is nearest";
 }
 
-// A distance: moving along the gradient by d changes it by d, outside and just inside.
+// A distance changes by d when the point moves by d along the gradient, outside and just inside.
 TEST(Shape, TheGradientIsTheShortestWay) {
   std::mt19937 random(1);
   std::uniform_real_distribution<double> place(-80.0, 80.0);

@@ -51,9 +51,9 @@ TEST(SimulatedRecording, IsTheSameForTheSameSeed) {
   EXPECT_NE(lastOf(3), lastOf(4));
 }
 
-// Flat fingertips of the empty hand meet at proximal joints of asin(36.4 / 173) = 12.15 degrees:
-// before, nothing is felt; then both pads feel the same, and the fingers are stopped before their
-// goal (15 degrees).
+// The flat fingertips of the empty hand meet at proximal joint angles of asin(36.4 / 173) = 12.15
+// degrees. Before that no taxel is active; then both pads measure the same, and the fingers are
+// stopped before their target (15 degrees).
 TEST(SimulatedRecording, PadsOfAnEmptyHandTouchEachOther) {
   SimulatedRecordingOptions options;
   options.durationS = 10.0;
@@ -90,7 +90,7 @@ TEST(SimulatedRecording, ThePadsTruthIsContactWithoutSlip) {
   EXPECT_FALSE(truth[3].contact);
 }
 
-// A joint that stands a degree further than it reports is stopped a degree earlier.
+// A joint whose true angle is one degree larger than reported is stopped one degree earlier.
 TEST(SimulatedRecording, AZeroErrorOfTheJointsShowsInWhatTheyReport) {
   SimulatedRecordingOptions options;
   options.durationS = 30.0;

@@ -1,5 +1,5 @@
-// A small hand for tests of the servers: every taxel holds what the test says, joints move, nothing
-// touches.
+// Fake hand for tests of the servers: every taxel has the value set by the test, joints move, and
+// there is no contact.
 #pragma once
 
 #include <algorithm>
@@ -45,8 +45,8 @@ class StillHand final : public HandModel {
     return all;
   }
 
-  std::vector<std::uint16_t> values;  // all taxels, in wire order
-  bool noisy = false;                 // no two neighbours alike
+  std::vector<std::uint16_t> values;  // all taxels, in protocol order
+  bool noisy = false;                 // neighbours have different values
   std::uint64_t scans = 0;
 
  private:

@@ -42,10 +42,11 @@ TEST(SyntheticProfile, ContactsPeakWhereAndHowHighTheyShould) {
   Eigen::Index x = 0;
   const float largest = frame.matrix(1).maxCoeff(&y, &x);
   EXPECT_EQ(x, 3);  // centre at 2.7
-  // Centre at 8.1, creeping by 0.5 over the contact; the largest sum comes before the release (at
-  // 0.88 of the contact): 8.54.
+  // Centre at 8.1, creeping by 0.5 during the contact; the largest sum occurs before the release
+  // (at 0.88 of the contact): 8.54.
   EXPECT_NEAR(static_cast<double>(y), 8.54, 0.51);
-  // The sensor bends (tanh towards 3560), so the peak stays a little below what was asked.
+  // The sensor saturates gradually (tanh towards 3560), so the peak is a little below the given
+  // value.
   EXPECT_GT(largest, 1200.0F);
   EXPECT_LT(largest, 1500.0F);
   for (std::size_t m : {0u, 2u, 3u, 4u}) EXPECT_EQ(frame.matrix(m).maxCoeff(), 0.0F) << m;

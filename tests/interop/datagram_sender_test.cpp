@@ -39,7 +39,8 @@ TEST(DatagramSender, WithoutAListenerItIsSaidAndNothingWaits) {
   }
   EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(1));
   EXPECT_EQ(sender.stats().sent + sender.stats().dropped, 1000u);
-  // The system answers behind a datagram: at the latest every second one knows.
+  // The system reports a missing receiver after a datagram: at least every second one is known as
+  // dropped.
   EXPECT_GE(sender.stats().dropped, 499u);
 }
 

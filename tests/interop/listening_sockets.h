@@ -1,4 +1,4 @@
-// What a process can be reached by: sockets that listen, as the system tells it (/proc).
+// Lists the sockets on which a process listens, as the system reports them (/proc).
 #pragma once
 
 #include <filesystem>
@@ -27,7 +27,7 @@ inline std::set<std::string> socketInodesOf(pid_t pid) {
   return inodes;
 }
 
-// "tcp", "udp" (where datagrams can be received from anybody) and "unix PATH".
+// Entries: "tcp", "udp" (datagrams from any sender are received) and "unix PATH".
 inline std::vector<std::string> listeningSocketsOf(pid_t pid) {
   const std::set<std::string> own = socketInodesOf(pid);
   std::vector<std::string> found;

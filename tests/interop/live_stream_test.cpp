@@ -21,7 +21,8 @@ TEST(LiveStream, IsOffUntilItIsSwitchedOn) {
   EXPECT_FALSE(stream.stats(StreamKind::kTactile));
   stream.switchOn(StreamKind::kSignals, receiver.port());
   stream.send(sampleResults(2'000'000));
-  EXPECT_EQ(Json::parse(receiver.receive().value()).at("t").asDouble(), 2.0);  // the only one
+  // only one datagram was sent
+  EXPECT_EQ(Json::parse(receiver.receive().value()).at("t").asDouble(), 2.0);
   stream.switchOff(StreamKind::kSignals);
   stream.send(sampleResults(3'000'000));
   EXPECT_FALSE(stream.on(StreamKind::kSignals));
@@ -54,12 +55,12 @@ TEST(LiveStream, AsksForTheLinkFourTimesASecondAtMost) {
     return health;
   });
   stream.send(sampleResults());
-  EXPECT_EQ(asked, 0);  // off
+  EXPECT_EQ(asked, 0);  // the stream is off
   stream.switchOn(StreamKind::kSignals, receiver.port());
   for (int i = 0; i < 100; ++i) stream.send(sampleResults(1'000'000 + i * 10'000));  // 1 s
   EXPECT_EQ(asked, 4);
   EXPECT_EQ(Json::parse(receiver.receive().value()).at("link").at("lost").asInteger(), 1);
-  stream.send(sampleResults(5));  // another source, another time
+  stream.send(sampleResults(5));  // a new source with another time
   EXPECT_EQ(asked, 5);
 }
 

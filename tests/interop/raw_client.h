@@ -1,4 +1,4 @@
-// A client of a local socket that behaves as badly as a test wants.
+// Client of a local socket that can break the protocol in every way that a test needs.
 #pragma once
 
 #include <chrono>
@@ -32,14 +32,14 @@ class RawClient {
   RawClient& operator=(const RawClient&) = delete;
 
   bool connected() const noexcept { return connected_; }
-  // Returns how many bytes were taken; waits for room so long at most.
+  // Returns how many bytes were accepted; waits at most limitMs for room.
   std::size_t send(std::string_view bytes, int limitMs = 0) const {
     pollfd waiting{socket_, POLLOUT, 0};
     ::poll(&waiting, 1, limitMs);
     const ssize_t n = ::send(socket_, bytes.data(), bytes.size(), MSG_DONTWAIT | MSG_NOSIGNAL);
     return n < 0 ? 0 : static_cast<std::size_t>(n);
   }
-  // The next line without its end; nothing: none within the limit, or the other end has gone.
+  // The next line without its end; nothing if none arrives within the limit or the server has gone.
   std::optional<std::string> line(int limitMs = 5000) {
     const auto end = std::chrono::steady_clock::now() + std::chrono::milliseconds(limitMs);
     while (received_.find('\n') == std::string::npos) {
@@ -58,7 +58,7 @@ class RawClient {
     received_.erase(0, at + 1);
     return line;
   }
-  // Waits for the other end to go.
+  // Waits until the server closes the connection.
   bool ended(int limitMs = 5000) {
     while (line(limitMs)) {
     }
@@ -77,7 +77,7 @@ class RawClient {
   std::string received_;
 };
 
-// Waits until the condition holds, ten seconds at most.
+// Waits until the condition holds, at most ten seconds.
 template <typename Condition>
 bool soon(Condition&& condition) {
   return awaited(condition, std::chrono::seconds(10));

@@ -17,7 +17,7 @@ namespace palpate::remote_client_test {
 namespace {
 using namespace std::chrono_literals;
 
-// Keeps what it is asked, and never answers.
+// Stores the requests and never answers.
 class SilentTarget : public RemoteTarget {
  public:
   void carryOut(const RemoteRequest&, Done done) override { kept_ = std::move(done); }
@@ -46,7 +46,7 @@ TEST(RemoteClient, GivesUpInTime) {
   EXPECT_GE(std::chrono::steady_clock::now() - begin, 95ms);
 }
 
-// A program of somebody else on the socket: says its line to whoever connects.
+// A foreign program on the socket: sends its line to every client.
 class OtherProgram {
  public:
   OtherProgram(const std::filesystem::path& path, std::string says)
@@ -65,7 +65,7 @@ class OtherProgram {
         left.remove_prefix(static_cast<std::size_t>(sent));
       }
       char byte = 0;
-      while (::recv(peer, &byte, 1, 0) > 0) {  // until the client goes
+      while (::recv(peer, &byte, 1, 0) > 0) {  // until the client has gone
       }
       ::close(peer);
     });

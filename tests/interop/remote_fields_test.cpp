@@ -7,7 +7,7 @@ namespace {
 
 TEST(NoHand, FramesMustBeComing) {
   LinkHealth health;
-  EXPECT_EQ(noHand(health)->error, "no_hand");  // none came yet
+  EXPECT_EQ(noHand(health)->error, "no_hand");  // no frame yet
   health.frames.ageMs = 999.0;
   EXPECT_FALSE(noHand(health));
   health.frames.ageMs = 2500.0;
@@ -44,7 +44,7 @@ TEST(StartVerdict, GivesUpAndSaysWhy) {
   RecorderStatus recorder;
   EXPECT_EQ(startResult(recorder, true, 10.0)->error, "no_frames");
   EXPECT_EQ(startResult(recorder, false, 0.1)->error, "disk");
-  recorder.frames = 40;  // they come, and the disk keeps us waiting
+  recorder.frames = 40;  // frames arrive, but the disk blocks
   EXPECT_FALSE(startResult(recorder, true, 9.9));
   EXPECT_EQ(startResult(recorder, true, 10.0)->error, "disk");
   recorder.writeError = "disk full";

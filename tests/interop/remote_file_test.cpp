@@ -23,7 +23,7 @@ TEST(RemoteRecordingPath, ATemplateCountsUp) {
   testing::writeFile(folder / "ball_004.palpate", "x");
   EXPECT_EQ(remoteRecordingPath(folder.path(), "{object}_{run}", {0, "", "ball"}),
             folder / "ball_005.palpate");
-  // What is put in can't lead out of the folder either.
+  // The text inserted for a placeholder can't lead out of the folder either.
   const fs::path path = remoteRecordingPath(folder.path(), "{object}_{run}", {0, "", "../../etc"});
   EXPECT_EQ(path.parent_path(), folder.path());
 }

@@ -42,7 +42,7 @@ TEST(ReadRequest, WhatIsNoRequestIsSaid) {
   EXPECT_EQ(refusal(std::string_view("label a\0b", 9)), "malformed");
   EXPECT_EQ(refusal("label \xff\xfe"), "malformed");
   EXPECT_EQ(refusal(std::string(kMaxRequestBytes + 1, 'a')), "too_long");
-  // What a stranger wrote comes back shortened.
+  // An invalid request is quoted in shortened form.
   EXPECT_LT(readRequest(std::string(4000, 'y')).refusal.message.size(), 200u);
 }
 
@@ -92,7 +92,7 @@ TEST(RequestLines, TheLongestLineThatIsAllowed) {
   EXPECT_TRUE(lines.next()->tooLong);
 }
 
-// Nothing that comes over the socket may do more than be refused.
+// No text received over the socket may cause more than a refusal.
 TEST(ReadRequest, NoiseNeverThrows) {
   std::mt19937 random(7);
   RequestLines lines;

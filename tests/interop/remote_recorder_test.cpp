@@ -1,4 +1,5 @@
-// Over a real socket, on an emulated hand: what is acknowledged must be so.
+// Tests of RemoteRecorder over a real socket on an emulated hand: acknowledged requests must have
+// been executed.
 #include "palpate/interop/remote_recorder.h"
 
 #include <atomic>
@@ -78,7 +79,7 @@ TEST_F(RemoteRecorderTest, ARunFromStartToStop) {
   ASSERT_TRUE(started.at("ok").asBool()) << started.text();
   const fs::path path = recordings() / "run 7.palpate";
   EXPECT_EQ(started.at("file").asString(), path.string());
-  // What is said to be on disk is there for whoever looks now.
+  // Frames reported as on disk can be read at once by another program.
   EXPECT_GE(openRecording(path).numFrames(),
             static_cast<std::size_t>(started.at("frames_on_disk").asInteger()));
   EXPECT_GE(started.at("frames_on_disk").asInteger(), 1);
@@ -125,7 +126,7 @@ TEST_F(RemoteRecorderTest, NamesCountUpAndNeverReplace) {
   }
   EXPECT_EQ(error("start take_001"), "file_exists");
   fs::create_symlink(folder_ / "elsewhere", recordings() / "link.palpate");
-  EXPECT_EQ(error("start link"), "file_exists");  // a link that leads out, to nothing
+  EXPECT_EQ(error("start link"), "file_exists");  // a link that leads out of the folder, to nothing
   EXPECT_EQ(ask("file shake_{run}").at("next_file").asString(), "shake_001.palpate");
   EXPECT_EQ(ask("file").at("template").asString(), "shake_{run}");
   EXPECT_EQ(error("file ../x"), "file_name");
@@ -183,14 +184,13 @@ TEST_F(RemoteRecorderTest, TheFolderMayGo) {
   EXPECT_TRUE(ask("status").at("next_file").isNull());
 }
 
-// A client that hangs, one that dies with its start asked for, noise: the recording has every
-// frame.
+// One client hangs, one dies during its start, one sends noise: the recording has every frame.
 TEST_F(RemoteRecorderTest, WhatClientsDoCostsNoFrame) {
   beginWithFrames();
   {
     RawClient starter(folder_ / "s");
     starter.send("start a\n");
-    starter.close();  // doesn't wait for the answer
+    starter.close();  // does not wait for the answer
   }
   ASSERT_TRUE(soon([&] { return ask("status").at("state").asString() == "recording"; }));
   std::vector<std::unique_ptr<RawClient>> hanging;
@@ -228,7 +228,7 @@ TEST_F(RemoteRecorderTest, WhenItEndsTheRecordingIsFinished) {
   EXPECT_EQ(verifyRecording(recordings() / "a.palpate").state, VerifyReport::State::kSound);
 }
 
-// C-A2: whoever is told of it may fail: recordings are made, and finished, all the same.
+// C-A2: the callback may fail: recordings are made and finished nevertheless.
 TEST_F(RemoteRecorderTest, LivesThroughWhatIsThrownOnItsThread) {
   session_->start();
   RemoteRecorderOptions options;
@@ -241,7 +241,7 @@ TEST_F(RemoteRecorderTest, LivesThroughWhatIsThrownOnItsThread) {
   ASSERT_TRUE(soon([&] { return session_->health().frames.ageMs.has_value(); }));
   for (const char* name : {"a", "b"}) {
     ASSERT_TRUE(ask(std::string("start ") + name).at("ok").asBool());
-    ask("stop");  // "failed: no ink", perhaps
+    ask("stop");  // may answer "failed: no ink"
     EXPECT_EQ(ask("status").at("state").asString(), "idle");
     EXPECT_EQ(verifyRecording(recordings() / (std::string(name) + ".palpate")).state,
               VerifyReport::State::kSound);

@@ -22,7 +22,7 @@ using namespace testing;
 using namespace std::chrono_literals;
 using Verb = RemoteRequest::Verb;
 
-// Answers at once; a start only when the test says so.
+// Answers at once; a start only when the test requests it.
 class FakeTarget : public RemoteTarget {
  public:
   void carryOut(const RemoteRequest& request, Done done) override {
@@ -35,7 +35,7 @@ class FakeTarget : public RemoteTarget {
     RemoteAnswer answer;
     answer.fields.set("text", request.text);
     done(answer);
-    done(RemoteAnswer::refused("failed", "a second answer"));  // which nobody gets
+    done(RemoteAnswer::refused("failed", "a second answer"));  // must not reach the client
   }
   std::size_t waiting() {
     const std::lock_guard lock(mutex_);
@@ -86,7 +86,7 @@ TEST_F(RemoteServerTest, AsksTheTargetAndAnswers) {
   EXPECT_THROW(client.ask("a\nb", 5000ms), std::invalid_argument);
 }
 
-// C-A2: what is thrown on the server's thread costs one client, not the process.
+// C-A2: an exception on the server's thread costs one client, not the process.
 TEST_F(RemoteServerTest, LivesThroughWhatIsThrownOnItsThread) {
   RemoteServerOptions options;
   options.onAnswer = [](const RemoteRequest& request, const RemoteAnswer&) {
@@ -98,7 +98,7 @@ TEST_F(RemoteServerTest, LivesThroughWhatIsThrownOnItsThread) {
     try {
       RemoteClient(socket()).ask("label throw", 5000ms);
     } catch (const Error&) {
-      // It may be left without an answer.
+      // It may have received no answer.
     }
     EXPECT_TRUE(Json::parse(other.ask("label still there", 5000ms)).at("ok").asBool());
   }
@@ -118,7 +118,7 @@ TEST_F(RemoteServerTest, TheSocketIsItsOwnersAloneAndGoesWithTheServer) {
 TEST_F(RemoteServerTest, TwoDoNotShareASocket) {
   serve();
   EXPECT_THROW(RemoteServer(socket(), target_), FileError);
-  EXPECT_TRUE(ask("status").at("ok").asBool());  // the first one goes on
+  EXPECT_TRUE(ask("status").at("ok").asBool());  // the first server is not affected
 }
 
 TEST_F(RemoteServerTest, WhatAKilledProgramLeftIsTakenAway) {
@@ -153,7 +153,7 @@ TEST_F(RemoteServerTest, OnlyTheOneWhoAskedWaitsForAnAnswer) {
   RawClient second(socket());
   second.send("start b\nlabel later\n");
   ASSERT_TRUE(soon([&] { return target_.waiting() == 2; }));
-  EXPECT_FALSE(second.line(50));  // answers come in the order of requests
+  EXPECT_FALSE(second.line(50));  // answers have the order of the requests
   target_.answerOne();
   target_.answerOne();
   EXPECT_EQ(Json::parse(second.line().value()).at("command").asString(), "start");
@@ -168,7 +168,7 @@ TEST_F(RemoteServerTest, AClientThatDiesIsForgottenWhateverItWaitedFor) {
     ASSERT_TRUE(soon([&] { return target_.waiting() == 1; }));
     client.close();
     ASSERT_TRUE(soon([&] { return server_->stats().clients == 0; }));
-    target_.answerOne();  // to nobody
+    target_.answerOne();  // the client has gone
   }
   EXPECT_TRUE(ask("status").at("ok").asBool());
 }
@@ -176,11 +176,11 @@ TEST_F(RemoteServerTest, AClientThatDiesIsForgottenWhateverItWaitedFor) {
 TEST_F(RemoteServerTest, AClientThatHangsHoldsNobodyUp) {
   serve();
   const RawClient half(socket());
-  half.send("stat");  // and never goes on
+  half.send("stat");  // an incomplete request
   const RawClient deaf(socket());
   std::string flood;
   for (int i = 0; i < 1000; ++i) flood += "status\n";
-  // It never reads an answer: soon nothing more is taken from it.
+  // The client never reads an answer: soon the server reads no more from it.
   const std::size_t enough = 64U << 20U;
   std::size_t taken = 0;
   for (std::size_t now = 1; now > 0 && taken < enough; taken += now) now = deaf.send(flood, 50);
@@ -239,7 +239,7 @@ TEST_F(RemoteServerTest, TheOneSilentForLongestMakesRoom) {
   old.send("status\n");
   ASSERT_TRUE(old.line());
   RawClient busy(socket());
-  busy.send("start a\n");  // is waiting: not silent
+  busy.send("start a\n");  // waits for its answer, so it does not count as silent
   ASSERT_TRUE(soon([&] { return target_.waiting() == 1; }));
   EXPECT_TRUE(ask("status").at("ok").asBool());
   EXPECT_TRUE(old.ended());
@@ -264,7 +264,7 @@ TEST_F(RemoteServerTest, WhoWaitsIsToldThatItEnds) {
   server_.reset();
   EXPECT_EQ(Json::parse(client.line().value()).at("error").asString(), "shutting_down");
   EXPECT_TRUE(client.ended());
-  target_.answerOne();  // to nobody
+  target_.answerOne();  // the client has gone
 }
 
 TEST_F(RemoteServerTest, TellsWhatWasAskedButNotEveryStatus) {
@@ -289,7 +289,7 @@ TEST_F(RemoteServerTest, NoiseIsSurvivedAndNothingLeaks) {
   const auto heard = [&] { return server_->stats().accepted + server_->stats().rejectedClients; };
   const std::uint64_t heardBefore = heard();
   for (std::uint64_t i = 0; i < 300; ++i) {
-    // No more than can wait at the door.
+    // No more than the system's queue of waiting connections can hold.
     if (i % 10 == 0) {
       ASSERT_TRUE(soon([&] { return heard() == heardBefore + i; }));
     }

@@ -1,4 +1,4 @@
-// Results of a frame with known content.
+// Live results of a frame with known content, for the tests of interop.
 #pragma once
 
 #include "palpate/calibration/pressure_map.h"

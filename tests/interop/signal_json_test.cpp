@@ -42,7 +42,7 @@ TEST(SignalJson, SaysTheSignalsOfEveryMatrix) {
   EXPECT_EQ(json.at("peak").at("counts").asDouble(), 300.0);
 }
 
-// No null and no zero for what nobody knows: a curve would show it.
+// An unknown value is neither null nor zero, because a curve would show it.
 TEST(SignalJson, WhatIsNotKnownHasNoKey) {
   const Json json = parsed(sampleResults());
   for (const char* key : {"device_ms", "angles_deg", "temperatures_degc", "link"})
@@ -52,7 +52,7 @@ TEST(SignalJson, WhatIsNotKnownHasNoKey) {
   EXPECT_FALSE(json.at("whole").contains("force_n"));
 
   LiveResults results = sampleResults();
-  results.slip.resize(6);  // nothing can be said of slip
+  results.slip.resize(6);  // slip is unknown
   const Json slip = parsed(results).at("m1").at("slip");
   EXPECT_EQ(slip.keys(), (std::vector<std::string>{"state", "slipping"}));
   EXPECT_EQ(slip.at("state").asString(), "invalid");

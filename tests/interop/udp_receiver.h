@@ -1,4 +1,4 @@
-// Receives datagrams on a free port of this machine.
+// Receives datagrams on a free UDP port of this machine, for the tests of interop.
 #pragma once
 
 #include <cstdint>
@@ -29,7 +29,7 @@ class UdpReceiver {
   UdpReceiver& operator=(const UdpReceiver&) = delete;
 
   std::uint16_t port() const noexcept { return port_; }
-  // The next datagram; nothing within the limit.
+  // The next datagram; nothing if none arrives within the limit.
   std::optional<std::string> receive(int limitMs = 5000) {
     pollfd waiting{socket_, POLLIN, 0};
     if (::poll(&waiting, 1, limitMs) != 1) return std::nullopt;

@@ -1,5 +1,5 @@
-// A known pressure on the emulated hand, over its ports and through live processing: what is shown
-// lies within the stated band.
+// Applies a known pressure to the emulated hand and compares it with the pressure after ports and
+// live processing: the result is within the stated uncertainty.
 #include <cmath>
 
 #include "palpate/live/pressure_stage.h"
@@ -14,7 +14,8 @@ namespace palpate::emulated_pressure_live_test {
 namespace {
 using namespace testing;
 
-// At rest for half a second after a client has set its sensor, then the stamp stands on it.
+// A hand at rest for half a second after a client has changed its settings; then a stamp presses on
+// it.
 class StampedHand final : public HandModel {
  public:
   explicit StampedHand(double kpa) : loaded_(underTheStamp(kpa)) {}
@@ -67,7 +68,7 @@ TEST(EmulatedPressureLive, AKnownPressureIsShownWithinItsBand) {
   for (const DeviceCommand& command : {DeviceCommand(SetThreshold{std::nullopt, 100}),
                                        DeviceCommand(SetSensitivity{std::nullopt, 1.0})})
     bench.control->change(command).get();
-  // Once the lag is over creep is taken out.
+  // When the lag is over, the creep is subtracted.
   std::shared_ptr<const PressureFrame> shown;
   int steady = 0;
   ASSERT_TRUE(eventuallyTrue([&] {

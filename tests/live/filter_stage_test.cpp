@@ -50,7 +50,7 @@ TEST(FilterStage, GivesWhatTheRecordingGivesBitByBit) {
       ASSERT_EQ(found[i].frame.values, expected.frame(i).values) << text << " " << i;
       ASSERT_EQ(found[i].frame.hostUs, profile.frameTimeUs(i));
       ASSERT_TRUE(found[i].hasUnfiltered);
-      // The stages behind it see what was filtered.
+      // Later stages receive the filtered frame.
       ASSERT_EQ(found[i].wholeSum, wholeFrameSignals(expected.frame(i)).sum);
     }
   }

@@ -78,7 +78,8 @@ TEST(PressureStage, GivesWhatTheRecordingGivesAndOfTheFrameAsItCame) {
   }
 }
 
-// Sensitivity halved, and all counts with it: the pressure is the same (K is proportional to it).
+// With half the sensitivity all counts are halved: the pressure is the same (K is proportional to
+// it).
 TEST(PressureStage, FollowsSettingsThatChange) {
   const Profile profile = grasps();
   const std::int64_t us = profile.frameTimeUs(60);
@@ -93,7 +94,7 @@ TEST(PressureStage, FollowsSettingsThatChange) {
   offline.changes = {{us, after}};
   const ForceSeries expected = forceSeries(profile, calibration(), offline);
   const ForceSeries unchanged = forceSeries(profile, calibration(), {.settings = before});
-  // Said by the event, or by the device that is asked.
+  // The settings come from the event, or from a request to the device.
   for (const bool said : {true, false}) {
     int asked = 0;
     const Seen live =

@@ -32,7 +32,7 @@ void append(std::string& bytes, double value) {
   bytes.append(raw, sizeof value);
 }
 
-// Every bit of what was found in a frame.
+// All results of a frame as bytes, for an exact comparison.
 std::string bitsOf(const LiveResults& results) {
   std::string bytes;
   append(bytes, static_cast<double>(results.frame->hostUs));
@@ -51,7 +51,7 @@ std::string bitsOf(const LiveResults& results) {
   return bytes;
 }
 
-// C-A14: said to the caller; on a thread of its own it would end the process.
+// C-A14: reported to the caller; on the chain's thread the exception would end the process.
 TEST(ProcessingChain, IsNotStartedWithoutASession) {
   ProcessingChain chain(signalsOnly());
   EXPECT_THROW(chain.start(), std::logic_error);
@@ -100,7 +100,7 @@ void expectSame(const std::vector<std::string>& a, const std::vector<std::string
   for (std::size_t i = 0; i < a.size(); ++i) ASSERT_EQ(a[i], b[i]) << "frame " << i;
 }
 
-// R17, and the values are those of the offline table.
+// R17; the values equal those of the offline table.
 void expectDeterministic(const Profile& profile) {
   const auto expected = offline(profile);
   ASSERT_EQ(expected.size(), profile.numFrames());
@@ -155,7 +155,8 @@ TEST(ProcessingChain, CountsWhatItSkipsAndTellsTheStages) {
   const auto stamp = [](std::size_t n) {
     return testing::kWallStartUs + static_cast<std::int64_t>(n) * 10'000;
   };
-  for (std::size_t n = 0; n < 20; ++n) scripted.device->frame(n, stamp(n));  // nobody looks
+  // frames arrive while nothing is processed
+  for (std::size_t n = 0; n < 20; ++n) scripted.device->frame(n, stamp(n));
   EXPECT_EQ(chain.step(), 8u);
   for (std::size_t n = 20; n < 25; ++n) scripted.device->frame(n, stamp(n));
   EXPECT_EQ(chain.step(), 5u);
@@ -187,7 +188,7 @@ TEST(ProcessingChain, OutlivesItsSessionAndTakesAnotherOne) {
     first.device->frame(1, testing::kWallStartUs);
     chain.step();
   }
-  chain.run({});  // ends: nothing will come any more
+  chain.run({});  // ends: the source is closed
   EXPECT_EQ(chain.stats().frames, 1u);
   ScriptedSession second;
   chain.connect(*second.session);

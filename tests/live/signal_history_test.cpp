@@ -57,7 +57,7 @@ TEST(SignalHistory, ASlowStreamHasNoGapsOfItsOwn) {
   SignalHistory history;
   for (int i = 0; i < 10; ++i) history.add(resultsAt(i * 3'000'000));  // one in 3 s
   const auto all = history.after(-1);
-  // The first interval is measured by nothing before it.
+  // The first interval has no earlier interval to be compared with.
   for (std::size_t i = 2; i < all.size(); ++i) EXPECT_FALSE(all[i].afterGap) << i;
 }
 

@@ -14,7 +14,7 @@
 namespace palpate::slip_stage_test {
 namespace {
 
-// 3 s of rest on matrix 3, then a slip by 0.25 taxel per frame over 12 frames, then rest again.
+// 3 s of rest on matrix 3, then a slip of 0.25 taxel per frame over 12 frames, then rest again.
 Profile slipOnce() {
   SyntheticSensor sensor;
   sensor.layout = sdh2().layout->matrix(3);

@@ -1,4 +1,5 @@
-// What a stage is promised: everything, in order of time, from one thread; and what it may do.
+// Tests of the guarantees to a stage: all items, in order of time, from one thread; and of what a
+// stage may do.
 #include "palpate/live/stage.h"
 
 #include <algorithm>
@@ -13,7 +14,7 @@ namespace palpate::stage_test {
 namespace {
 using testing::ScriptedSession;
 
-// Notes what it is told.
+// Stores the items that it receives.
 class NotingStage final : public Stage {
  public:
   explicit NotingStage(std::vector<std::string>& notes) : notes_(notes) {}
@@ -33,7 +34,7 @@ class NotingStage final : public Stage {
   std::vector<std::string>& notes_;
 };
 
-// Adds to what the stage before it found.
+// Doubles a result of the stage before it.
 class DoublingStage final : public Stage {
  public:
   void onFrame(LiveResults& results, std::vector<RecordingEvent>&) override {
@@ -70,7 +71,7 @@ TEST(Stage, IsToldEverythingInOrderOfTime) {
   ProcessingChain chain(stagesOf(std::make_unique<NotingStage>(notes)), options);
   chain.connect(*scripted.session);
   const std::int64_t t = testing::kWallStartUs;
-  // As two ports may deliver them: not in order.
+  // Not in order of time, as two ports may deliver them.
   scripted.device->frame(1, t + 2'000);
   scripted.device->angles(0, t + 1'000);
   scripted.device->temperatures(30.0, t + 2'000);
@@ -108,7 +109,7 @@ TEST(Stage, ThatThrowsEndsTheProcessingAndSaysWhy) {
   scripted.device->frame(1, testing::kWallStartUs);
   chain.run({});  // returns by itself
   EXPECT_EQ(chain.failure(), "the stage broke");
-  // The device is not disturbed by that.
+  // The device is not affected.
   scripted.device->frame(2, testing::kWallStartUs + 10'000);
   EXPECT_EQ(testing::numberOf(*scripted.session->takeFrame()), 2u);
 }

@@ -1,8 +1,9 @@
-// What a capture session hands to one consumer (the recorder, live processing): bounded queues, one
-// per port and one for events, that never make the device wait and never drop silently.
+// Bounded queues from a capture session to one consumer (the recorder, live processing): one for
+// tactile frames, one for motion data, one for events. They never make the device wait and never
+// drop an item silently.
 //
-// What doesn't fit is lost, and comes out later as an event of kind "gap" over exactly the lost
-// span: stamps of the first and the last lost item, and how many.
+// Items that don't fit are lost. An event of kind "gap" then covers exactly the lost time span:
+// stamps of the first and the last lost item, and their number.
 #pragma once
 
 #include <array>
@@ -27,45 +28,47 @@
 
 namespace palpate {
 
-// Frames are shared by all consumers: nobody changes one.
+// Frames are shared by all consumers and never changed.
 using SharedFrame = std::shared_ptr<const TactileFrame>;
 using CaptureItem = std::variant<SharedFrame, JointAngles, Temperatures, RecordingEvent>;
 
-// Which of them it is; the order of CaptureItem.
+// The kind of an item, in the order of CaptureItem.
 enum class CaptureStream : std::uint8_t { kTactile, kAngles, kTemperatures, kEvents };
 constexpr std::size_t kCaptureStreams = 4;
 
 CaptureStream streamOf(const CaptureItem& item) noexcept;
-std::int64_t stampOf(const CaptureItem& item) noexcept;  // [us since 1970]; of an event its begin
-// By their stamps; at one instant events, temperatures, angles, then the frame they belong to.
+// Time stamp [us since 1970]; of an event its begin.
+std::int64_t stampOf(const CaptureItem& item) noexcept;
+// Order by stamps; at equal times events, temperatures, angles, then the frame they belong to.
 bool isEarlier(const CaptureItem& a, const CaptureItem& b) noexcept;
 
-// Items of one stream that were lost one after the other.
+// Consecutive lost items of one stream.
 struct CaptureLoss {
   std::int64_t firstUs = 0;  // stamp of the first one lost [us since 1970]
   std::int64_t lastUs = 0;
   std::uint64_t count = 0;
 };
-// As an event of kind "gap": text for a person, json {"stream", "lost", "reason"}.
+// The loss as an event of kind "gap": text for the user, json {"stream", "lost", "reason"}.
 RecordingEvent gapEvent(CaptureStream stream, const CaptureLoss& loss, std::string_view reason);
 
 struct CaptureQueueOptions {
-  // Frames that may wait: 27 s at 300 frames/s, 258 s at 31.7. An SDH-2's frame takes 2.1 kB: 17 MB
-  // when full. The places themselves take 136 bytes each.
+  // Capacity for frames: 27 s at 300 frames/s, 258 s at 31.7. An SDH-2's frame takes 2.1 kB: 17 MB
+  // when full. An empty place takes 136 bytes.
   std::size_t tactileItems = 8192;
-  // Angles and temperatures: 73 s at 111/s; 0.2 kB each: 1.6 MB when full.
+  // Capacity for angles and temperatures: 73 s at 111/s; 0.2 kB each: 1.6 MB when full.
   std::size_t motionItems = 8192;
   std::size_t eventItems = 1024;
-  // Who puts waits for room instead of losing: only for a replay, which can wait.
+  // True: the producer waits for room instead of losing items; only for a replay, which can wait.
   bool blockWhenFull = false;
-  // Wakes a wait()ing consumer when a queue holds as many; the recorder looks every 15 ms anyway.
+  // A waiting consumer wakes when a queue contains this number of items; the recorder checks every
+  // 15 ms in any case.
   std::size_t wakeAtItems = 1;
 };
 
 struct CaptureQueueStats {
   struct Port {
     std::size_t depth = 0;      // items waiting now
-    std::size_t highWater = 0;  // most ever
+    std::size_t highWater = 0;  // maximum so far
     std::size_t capacity = 0;
   };
   Port tactile;
@@ -74,7 +77,7 @@ struct CaptureQueueStats {
   std::array<std::uint64_t, kCaptureStreams> lost{};  // by CaptureStream, since construction
 };
 
-// Any number of threads may put; one consumer takes.
+// Any number of threads may call put(); one consumer calls take().
 class CaptureQueue {
  public:
   // `consumer` is named in the text of gaps ("the recorder"). Throws std::invalid_argument for a
@@ -83,19 +86,19 @@ class CaptureQueue {
   CaptureQueue(const CaptureQueue&) = delete;
   CaptureQueue& operator=(const CaptureQueue&) = delete;
 
-  // False: lost (and counted), or the feed is closed.
+  // Returns false when the item was lost (and counted) or the queue is closed.
   bool put(CaptureItem item);
-  // Appends what waits to `out`, in order of time (at one instant: events, temperatures, angles,
-  // then the frame they belong to), ended gaps among them. Never waits. Returns how many.
-  // `ownGaps`: takes copies of the gaps that this queue itself made; those of a device stand in
-  // `out` alone.
+  // Appends all waiting items to `out` in order of time (at equal times: events, temperatures,
+  // angles, then the frame they belong to), including completed gaps. Never waits. Returns the
+  // number of items. `ownGaps` receives copies of the gaps that this queue itself caused; gaps of
+  // the device are only in `out`.
   std::size_t take(std::vector<CaptureItem>& out, std::vector<RecordingEvent>* ownGaps = nullptr);
-  // Ends gaps that no later item has ended yet, and appends them.
+  // Completes the gaps that no later item has completed yet, and appends them.
   void takeOpenGaps(std::vector<CaptureItem>& out, std::vector<RecordingEvent>* ownGaps = nullptr);
-  // Waits until `wakeAtItems` are there, wake(), close(), a stop request or the timeout.
+  // Waits for `wakeAtItems` items, wake(), close(), a stop request or the timeout.
   void wait(std::chrono::microseconds timeout, const std::stop_token& stop = {});
   void wake();
-  // Ends all waiting; what comes from now on is not taken.
+  // Ends all waiting; later items are rejected.
   void close();
   bool closed() const noexcept { return closed_.load(); }
   CaptureQueueStats stats() const;
@@ -112,7 +115,7 @@ class CaptureQueue {
 
   mutable std::mutex lossMutex_;
   std::array<std::optional<CaptureLoss>, kCaptureStreams> open_;
-  std::vector<RecordingEvent> ended_;  // gap events to hand out
+  std::vector<RecordingEvent> ended_;  // gap events to be returned by take()
   std::array<std::uint64_t, kCaptureStreams> lost_{};
 
   std::mutex wakeMutex_;

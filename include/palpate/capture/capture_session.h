@@ -1,12 +1,12 @@
-// A capture session (a "frame manager"): owns a device, live or replayed, and hands what it
-// delivers to the recorder, to live processing and to the screen, without ever making the device
-// wait.
+// A capture session owns a device, live or replayed, and passes its data to the recorder, to live
+// processing and to the display, without ever making the device wait.
 //
 //   device's threads --> CaptureQueue --> recorder's thread --> disk
 //                   `--> CaptureQueue of each subscriber (live processing)
-//                   `--> newest frame, angles, temperatures; events (the screen pulls them)
+//                   `--> newest frame, angles, temperatures; events (the display fetches them)
 //
-// Stamps are the device's; nothing is stamped anew. One controlling thread, any number of pullers.
+// All time stamps are those of the device. One thread controls the session; any number of threads
+// may fetch data.
 #pragma once
 
 #include <atomic>
@@ -31,7 +31,8 @@ namespace palpate {
 struct CaptureOptions {
   RecorderOptions recorder;
   HealthOptions health;
-  bool ownThread = true;  // false: the caller makes the recorder's rounds by step()
+  // False: the caller runs the recorder by step().
+  bool ownThread = true;
 };
 
 class CaptureSession : private DeviceSink {
@@ -47,47 +48,47 @@ class CaptureSession : private DeviceSink {
   Device& device() noexcept { return *device_; }
   const Device& device() const noexcept { return *device_; }
 
-  // Starts device and recorder; does nothing when started. What was kept, counted and shown before
-  // is forgotten.
+  // Starts device and recorder; no effect when started. Resets all stored data and counters of an
+  // earlier run.
   void start();
-  // Stops the device, finishes a running recording (its report: stopRecording()).
+  // Stops the device and finishes a running recording (its report: stopRecording()).
   void stop() noexcept;
   bool started() const noexcept { return started_.load(); }
 
-  // As Recorder::start; what the device says about itself (serial number, firmware, settings) and
-  // the program's version are noted in the recording, the link's counters too. The device need not
-  // be started: the recording begins with its first frame.
+  // As Recorder::start(). The recording also contains the device's properties (serial number,
+  // firmware, settings), the program's version and the counters of the connection. The device need
+  // not be started: the recording begins with its first frame.
   void startRecording(RecordingOptions options);
   RecordingReport stopRecording();
   bool recording() const { return recorder_.recording(); }
   RecorderStatus recorderStatus() const { return recorder_.status(); }
-  // Marks the moment: an event "label" with this text (not empty; of a digit key: its label), or,
-  // when empty, an event "mark". Recorded when something is, shown in any case.
+  // Marks the present moment: with an event "label" of this text (and of a digit key, if given), or
+  // with an event "mark" if the text is empty. It is always shown, and recorded during a recording.
   void mark(const std::string& text = {}, std::optional<int> digit = {});
 
-  // An event of whoever works on this session (a grasp that began, a person's note): shown,
-  // recorded when something is. Stamps as nowUs() has them. Safe from any thread.
+  // Adds an event from a user of this session (begin of a grasp, a note): it is shown, and recorded
+  // during a recording. Its stamps are as of nowUs(). Safe from any thread.
   void note(const RecordingEvent& event);
 
   LinkHealth health() const;
   PreflightCheck checkPreflight(const std::filesystem::path& folder) const;
 
-  // A consumer of its own from now on; ends when the pointer is let go. `consumer` is named in
-  // gaps.
+  // Adds a consumer with its own queue; it ends when the pointer is released. `consumer` is named
+  // in gaps.
   std::shared_ptr<CaptureQueue> subscribe(std::string consumer,
                                           const CaptureQueueOptions& options = {});
 
-  // For the screen: what is newer than at the last call, null or nothing when there is nothing new.
+  // For the display: the newest item since the last call; null or empty when there is none.
   SharedFrame takeFrame();
   std::optional<JointAngles> takeAngles();
   std::optional<Temperatures> takeTemperatures();
   LatestValueStats screenStats() const { return screenFrame_.stats(); }
-  // Events since the last call, the last 1000 at most.
+  // Events since the last call, at most the last 1000.
   std::vector<RecordingEvent> takeEvents();
 
-  // One round of the recorder, when it has no thread of its own.
+  // Runs one round of the recorder, when it has no thread of its own.
   void step() { recorder_.step(); }
-  // Host time as stamps have it [us since 1970].
+  // Present host time in the time of the stamps [us since 1970].
   std::int64_t nowUs() const { return recorder_.nowUs(); }
 
  private:
@@ -106,7 +107,8 @@ class CaptureSession : private DeviceSink {
   Recorder recorder_;
   LinkMonitor meter_;
   const bool scansItself_;
-  std::shared_ptr<const SensorLayout> expectedFor_;  // of the thread that delivers frames
+  // Layout for which the expected rate was set; used only by the thread that delivers frames.
+  std::shared_ptr<const SensorLayout> expectedFor_;
   std::atomic<float> saturationCounts_;
   std::atomic<bool> started_ = false;
 

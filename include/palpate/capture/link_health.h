@@ -1,5 +1,5 @@
-// Link health: what an operator must know about the way from the hand to the disk. True rate, age
-// of the newest frame, what was lost, saturation, queues, disk in hours; alarms; and one line
+// Health of the connection from the hand to the disk, as an operator needs it: actual rate, age of
+// the newest frame, losses, saturation, queues, remaining disk time; alarms; and a one-line check
 // before a run.
 #pragma once
 
@@ -20,49 +20,59 @@
 namespace palpate {
 
 struct HealthOptions {
-  // Frames per second that are expected; nothing: what LinkMonitor::expect() says, else the mean
-  // since the start.
+  // Expected frames per second; empty: the value of LinkMonitor::expect(), else the mean since the
+  // start.
   std::optional<double> expectedRateHz;
-  double lowRateFraction = 0.8;        // of the expected rate: below is low ..
-  double lowRateS = 2.0;               // .. when it lasts longer [s]
-  double noDataS = 1.0;                // no frame for longer (and for 3 periods) is an alarm [s]
-  double emptyRecordingS = 2.0;        // a recording without a frame after so long is empty [s]
-  double lowDiskHours = 1.0;           // [h]
-  double nominalBytesPerS = 18'000.0;  // until measured: an SDH-2 with angles writes 1.5 GB a day
-  double maxTemperatureDegC = 65.0;    // recorded hands reached 61 [deg C]
+  // Alarm when the rate is below this fraction of the expected rate for longer than lowRateS.
+  double lowRateFraction = 0.8;
+  double lowRateS = 2.0;  // [s]
+  // Alarm when no frame arrives for this time (and for 3 periods) [s].
+  double noDataS = 1.0;
+  // Alarm when a recording has no frame after this time [s].
+  double emptyRecordingS = 2.0;
+  double lowDiskHours = 1.0;  // [h]
+  // Used until the rate is measured: an SDH-2 with angles writes 1.5 GB a day.
+  double nominalBytesPerS = 18'000.0;
+  // Recorded hands reached 61 [deg C].
+  double maxTemperatureDegC = 65.0;
 };
 
-// Frames per second that a DSACON32-M scans, by the number of its taxels that are enabled. Measured
-// on a real hand (recordings of 2014): 2 taxels 13.2 ms, a matrix of 78 places 17.7 ms, all of an
-// SDH-2 31.55 ms; between them linear.
+// Frames per second that a DSACON32-M scans, as a function of the number of enabled taxels.
+// Measured on a real hand (recordings of 2014): 2 taxels 13.2 ms, a matrix of 78 places 17.7 ms,
+// all taxels of an SDH-2 31.55 ms; linear in between.
 double scanRateHz(std::size_t enabledTaxels);
-// Frames per second that 115200 baud carry, of frames with so many runs of equal counts (a run is
-// 15 long at most): 13 bytes of packet and 2 per run, 10 bits per byte.
+// Frames per second that 115200 baud can carry, for frames with this number of runs of equal counts
+// (a run has at most 15 taxels): 13 bytes per packet and 2 per run, 10 bits per byte.
 double lineRateHz(double runs);
-// Runs of the values of a frame, as the controller sends them.
+// Number of runs in a frame as the controller codes it.
 std::size_t runsOf(const TactileFrame& frame);
 
-// Rates and saturation of the frames that came, by the clock of their arrival. Thread-safe.
+// Measures rates and saturation of the received frames by their arrival times. Thread-safe.
 class LinkMonitor {
  public:
   explicit LinkMonitor(const HealthOptions& options = {}) : options_(options) {}
 
   struct Reading {
     std::uint64_t frames = 0;
-    double rateHz = 0.0;      // of the last 2 s (of the last 1024 frames, when these are younger)
+    // Over the last 2 s (or the last 1024 frames if these cover less time).
+    double rateHz = 0.0;
     double meanRateHz = 0.0;  // since the first frame
-    std::optional<double> ageMs;        // since the newest frame came [ms]; nothing: none came yet
+    // Time since the newest frame arrived [ms]; empty before the first one.
+    std::optional<double> ageMs;
     std::uint64_t saturatedFrames = 0;  // frames with a saturated taxel
     double saturatedFraction = 0.0;     // of the last 2 s, 0..1
-    double lowRateS = 0.0;              // for how long the rate has been low [s]
-    double expectedRateHz = 0.0;        // what low is measured by; 0: not known yet
-    // that the line carries of frames like those of the last 2 s; 0: not known
+    // Duration for which the rate has been low [s].
+    double lowRateS = 0.0;
+    // Reference for a low rate; 0: not known yet.
+    double expectedRateHz = 0.0;
+    // Largest rate that the line carries, for frames like those of the last 2 s; 0: not known.
     double lineRateHz = 0.0;
   };
 
-  // What the device gives as it is set now [Hz]; nothing: not known.
+  // Sets the rate of the device at its present settings [Hz]; empty: not known.
   void expect(std::optional<double> rateHz);
-  // monoUs: monotonic time of arrival [us], never decreasing; runs: of runsOf(), 0: not known.
+  // monoUs: monotonic time of arrival [us], never decreasing; runs: number from runsOf(), 0: not
+  // known.
   void frame(std::int64_t monoUs, bool saturated, std::size_t runs = 0);
   Reading read(std::int64_t monoUs) const;
   void reset();
@@ -74,7 +84,7 @@ class LinkMonitor {
     bool saturated = false;
     std::uint32_t runs = 0;
   };
-  const Arrival& arrival(std::size_t age) const;  // 0: the newest
+  const Arrival& arrival(std::size_t age) const;  // age 0: the newest
   Reading readLocked(std::int64_t monoUs) const;
 
   const HealthOptions options_;
@@ -92,9 +102,9 @@ enum class AlarmKind {
   kLowRate,
   kLowDisk,
   kOverflow,        // items were lost because the recorder could not keep up
-  kWriteError,      // the disk is full or fails; capture goes on
-  kSlowDisk,        // the disk keeps the recorder waiting
-  kEmptyRecording,  // a recording was started, and no frame comes
+  kWriteError,      // the disk is full or fails; capture continues
+  kSlowDisk,        // the disk makes the recorder wait
+  kEmptyRecording,  // a recording was started, but no frame arrives
   kTooHot,          // a motor or a board is hotter than HealthOptions::maxTemperatureDegC
 };
 struct Alarm {
@@ -102,23 +112,25 @@ struct Alarm {
   std::string text;  // one line: what, and what to do
 };
 
-// What is known at one moment.
+// State of the session at one moment; input of assessHealth().
 struct LinkInputs {
   bool started = false;
   DeviceStatus device;
   LinkMonitor::Reading frames;
   CaptureQueueStats queues;
   RecorderStatus recorder;
-  std::optional<Temperatures> temperatures;  // the newest; nothing: none came yet
+  // The newest temperatures; empty before the first ones.
+  std::optional<Temperatures> temperatures;
 };
 
 struct LinkHealth {
   LinkMonitor::Reading frames;
   DeviceStatus device;
-  std::uint64_t lost = 0;          // frames that were sent and never came whole
+  std::uint64_t lost = 0;          // frames that were sent but not received completely
   std::uint64_t badChecksums = 0;  // of both ports
-  CaptureQueueStats queues;        // towards the recorder
-  double bytesPerS = 0.0;          // to disk, measured (or HealthOptions::nominalBytesPerS)
+  CaptureQueueStats queues;        // queues of the recorder
+  // Bytes written to disk, measured (or HealthOptions::nominalBytesPerS).
+  double bytesPerS = 0.0;
   std::optional<std::uint64_t> freeBytes;
   std::optional<double> diskHours;  // at this rate
   RecorderStatus recorder;
@@ -126,18 +138,17 @@ struct LinkHealth {
 };
 LinkHealth assessHealth(const LinkInputs& inputs, const HealthOptions& options = {});
 
-// What a port says is wrong, without its name in front: where the name is said already.
+// The port's message without its name at the front, for places where the name is shown already.
 std::string withoutPort(const PortStatus& port);
 
 // Result of the check before a run: ready or not, in one line.
 struct PreflightCheck {
   bool ready = false;
   std::string text;
-  std::optional<std::uint64_t> freeBytes;  // in the folder that was asked about
+  std::optional<std::uint64_t> freeBytes;  // on the disk of the checked folder
   std::optional<double> diskHours;         // at this rate
 };
-// `freeBytes` on the disk of `folder`, nothing when unknown; `writable`: whether files can be made
-// there.
+// `writable`: whether files can be created there; `freeBytes` on its disk, empty when unknown.
 struct FolderState {
   std::filesystem::path path;
   bool writable = false;

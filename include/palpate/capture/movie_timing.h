@@ -17,10 +17,11 @@ struct MovieOptions {
   static constexpr double kMaxPicturesPerS = 120.0;
 
   double picturesPerS = 30.0;  // 1..120
-  double speed = 1.0;          // 1: as long as it took; Playback::kMinimumSpeed..kMaximumSpeed
+  // Speed factor; 1: the duration of the recording; Playback::kMinimumSpeed..kMaximumSpeed.
+  double speed = 1.0;
 };
 
-// One frame, and how many pictures in a row show it.
+// One frame and the number of consecutive pictures that show it.
 struct MovieFrame {
   std::size_t frame = 0;  // index into the stamps
   std::size_t numPictures = 1;
@@ -28,17 +29,19 @@ struct MovieFrame {
 };
 
 struct MovieTiming {
-  std::vector<MovieFrame> shots;  // ascending; frames that no picture shows are left out
+  // Ascending; frames without a picture are left out.
+  std::vector<MovieFrame> shots;
   std::size_t numPictures = 0;
-  double seconds = 0.0;     // how long the movie is [s]
-  std::size_t numGaps = 0;  // that were shortened
-  double shortenedS = 0.0;  // by how much, in the recording's time [s]
+  double seconds = 0.0;     // duration of the movie [s]
+  std::size_t numGaps = 0;  // number of shortened gaps
+  // Total time removed from gaps, in the recording's time [s].
+  double shortenedS = 0.0;
 };
 
-// The last frame is shown as long as the usual (median) interval. Gaps, longer than max(1 s, 5
-// median intervals) (model/timing.h), are shown as that long: nobody watches a still picture for
-// minutes. stampsUs: of the frames to be shown [us], ascending; none: no picture. Throws
-// std::invalid_argument for options out of range.
+// The last frame is shown for the usual (median) interval. Gaps, that is, intervals longer than
+// max(1 s, 5 median intervals) (model/timing.h), are shortened to that length, to avoid minutes
+// with a still picture. stampsUs: stamps of the frames [us], ascending; if there are none, there is
+// no picture. Throws std::invalid_argument for options out of range.
 MovieTiming movieTiming(std::span<const std::int64_t> stampsUs, const MovieOptions& options = {});
 
 }  // namespace palpate

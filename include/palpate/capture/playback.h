@@ -1,6 +1,6 @@
-// Playback of a recording by its real time stamps: which frame belongs to "now". A virtual clock
-// that runs at a speed over the recording's own time; it knows nothing of threads and screens, and
-// is moved by whoever pulls (a window's refresh, a replay thread, a test).
+// Playback of a recording by its time stamps: a virtual clock that runs at an adjustable speed over
+// the recording's own time and gives the frame to show. It uses neither threads nor a display; the
+// caller advances it (the window's refresh, a replay thread, a test).
 #pragma once
 
 #include <cstddef>
@@ -19,9 +19,10 @@ class Playback {
   static constexpr double kMinimumSpeed = 0.1;
   static constexpr double kMaximumSpeed = 16.0;
 
-  // Stands at frame 0, paused, speed 1, no loop. An empty profile can't be played; it stands still.
+  // Starts at frame 0, paused, speed 1, no loop. An empty profile can't be played; its position
+  // never changes.
   explicit Playback(Profile profile);
-  // Its gaps are known already (timingOf() reads every stamp).
+  // For callers that know the gaps already (timingOf() would read every stamp).
   Playback(Profile profile, std::span<const Gap> gaps);
 
   void setGaps(std::span<const Gap> gaps);
@@ -41,16 +42,16 @@ class Playback {
   void setLoop(bool on) noexcept { loop_ = on; }
   // Throws std::invalid_argument outside 0.1..16 or NaN.
   void setSpeed(double factor);
-  // Moves to a frame (clamped) or time (clamped); playing goes on from there.
+  // Moves to a frame (clamped) or time (clamped); playback continues from there.
   void seekFrame(std::size_t frame);
   void seekTime(std::int64_t timeUs);
   // One frame (or `frames`) forward or back, clamped at both ends; pauses.
   void step(std::ptrdiff_t frames);
-  // Lets `elapsedUs` of real time pass; stops at the last frame. There it pauses, or (loop) starts
-  // over at the next call, so that the last frame is seen.
-  // Gaps in the recording are played through in real time, too; see skipGaps.
+  // Advances by `elapsedUs` of real time; stops at the last frame. There it pauses or, with loop
+  // on, starts over at the next call, so that the last frame is shown. Gaps in the recording are
+  // played in real time, too; see setSkipGaps().
   void advance(std::int64_t elapsedUs);
-  // Whether gaps longer than max(1 s, 5 median intervals) are jumped over; off by default.
+  // Whether gaps longer than max(1 s, 5 median intervals) are skipped; off by default.
   void setSkipGaps(bool on) noexcept { skipGaps_ = on; }
   bool skipGaps() const noexcept { return skipGaps_; }
 

@@ -7,8 +7,9 @@
 //   {object}    as typed
 //   {run}       the next free number in the folder, at least three digits
 //
-// Whatever people type, the name is one valid file name: a name can't leave its folder, be hidden,
-// be an option, or bend a terminal's line. Blanks become "_", as in class folders.
+// Whatever the user types, the result is one valid file name: it can't leave its folder, be hidden,
+// be taken for an option, or change the output of a terminal. Blanks become "_", as in class
+// folders.
 #pragma once
 
 #include <cstdint>
@@ -24,21 +25,21 @@ struct RecordingNameFields {
   std::string object;
 };
 
-// `text` as a part of a file name: path separators, blanks, control characters, what isn't UTF-8
-// and what shells or other systems take amiss become "_"; at most 60 bytes, no leading or trailing
-// "." "-" "_".
+// `text` as a part of a file name: path separators, blanks, control characters, invalid UTF-8 and
+// characters with a meaning in shells or other systems become "_"; at most 60 bytes, no leading or
+// trailing "." "-" "_".
 std::string fileNamePart(std::string_view text);
 
 // The name, ending in .palpate, at most 200 bytes long. An empty field leaves no doubled "_".
-// Throws std::invalid_argument for a placeholder that isn't known, or stands twice.
+// Throws std::invalid_argument for a placeholder that is unknown or occurs twice.
 std::string recordingFileName(std::string_view nameTemplate,
                               const RecordingNameFields& fields,
                               int run);
 
-// The next path in `folder` that nothing has: {run} is one more than the largest number of
-// recordings that differ in it (and in {time}) only; without {run} a taken name gets "-2", "-3", ..
-// Makes nothing: also good for a preview. Throws std::invalid_argument as above, FileError (no such
-// folder).
+// The next unused path in `folder`. {run} is one more than the largest number among recordings
+// whose names differ only in it (and in {time}); without {run} a used name gets "-2", "-3", ..
+// Creates nothing, so it is suitable for a preview, too. Throws std::invalid_argument as above,
+// FileError (no such folder).
 std::filesystem::path nextRecordingPath(const std::filesystem::path& folder,
                                         std::string_view nameTemplate,
                                         const RecordingNameFields& fields);

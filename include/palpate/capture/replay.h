@@ -1,8 +1,8 @@
-// A recording as a device: its frames, angles, temperatures and events come again, in order of
+// A recording as a device: delivers its frames, angles, temperatures and events again, in order of
 // time, with their own stamps and values, bit by bit.
 //
-// At one instant events come first, then temperatures, angles and the frame: what belongs to a
-// frame (the last sample at or before it) is there before it. Gaps are replayed, too.
+// At equal times events come first, then temperatures, angles and the frame, so that the samples
+// that belong to a frame (the last ones at or before it) precede it. Gaps are replayed, too.
 #pragma once
 
 #include <cstdint>
@@ -18,13 +18,13 @@ namespace palpate {
 
 enum class ReplayPace {
   kRecorded,  // by its stamps, times speed, on a thread of its own
-  kUnpaced,   // one after the other, on a thread of its own: for a sink that can wait
-  kManual,    // by advance(), no thread
+  kUnpaced,   // without pauses, on a thread of its own: for a sink that can wait
+  kManual,    // by calls of advance(), without a thread
 };
 
 struct ReplayOptions {
   ReplayPace pace = ReplayPace::kRecorded;
-  double speed = 1.0;  // 0.1..16; of kRecorded
+  double speed = 1.0;  // 0.1..16; used by kRecorded
 };
 
 class Replay : public Device {
@@ -40,22 +40,22 @@ class Replay : public Device {
 
   HandDescription hand() const override;
   DeviceInfo facts() const override;
-  // From the beginning. A sample that can't be read (the file is damaged) is counted as lost and
-  // passed over; the first one is told by an event "alarm". At the end comes an event "link". What
-  // else goes wrong in the delivering thread, in the sink too, ends the replay with an event
-  // "alarm" and the state kFault: it never leaves the thread.
+  // Starts at the beginning. A sample that can't be read (the file is damaged) is counted as lost
+  // and skipped; the first such sample causes an event "alarm". At the end comes an event "link".
+  // Any other exception in the delivering thread, also one of the sink, ends the replay with an
+  // event "alarm" and the state kFault; it never leaves the thread.
   void start(DeviceSink& sink) override;
   void stop() noexcept override;
   DeviceStatus status() const override;
-  // A recording takes no command: a DeviceError, kUnsupported.
+  // A recording accepts no command: the future holds a DeviceError kUnsupported.
   std::future<CommandAnswer> submit(DeviceCommand command) override;
 
   // Throws std::invalid_argument outside 0.1..16. Safe at any time.
   void setSpeed(double factor);
-  // kManual: delivers what comes in the next `recordedUs` of the recording's time [us, >= 0]. The
-  // first item comes at 0. Throws std::logic_error: not started, another pace.
+  // For kManual: delivers the items of the next `recordedUs` of the recording's time [us, >= 0].
+  // The first item is at 0. Throws std::logic_error when not started or with another pace.
   void advance(std::int64_t recordedUs);
-  // Everything was delivered.
+  // True when everything was delivered.
   bool finished() const;
 
  private:

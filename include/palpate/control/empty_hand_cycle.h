@@ -1,6 +1,6 @@
-// Closes the empty hand until its own pads touch, holds, and opens again: what is felt meanwhile
-// tells how far apart the pads are where the joints say that they touch (docs/recognition.md, the
-// zero of the empty hand).
+// Closes the empty hand until its own pads touch, holds, and opens again. The recorded frames and
+// angles give the distance of the pads at the joint angles where they should touch
+// (docs/recognition.md, the zero of the empty hand).
 #pragma once
 
 #include <cstdint>
@@ -12,34 +12,37 @@
 namespace palpate {
 
 // One thread calls step() about ten times a second. All commands go through GraspControl, which
-// checks them; a stop from any source ends the run.
+// checks them; a stop from any source ends the cycle.
 class EmptyHandCycle {
  public:
   struct Options {
     std::string preshape = "pinch-empty";
     double closingDegPerS = 8.0;
     double openingDegPerS = 20.0;
-    int limitCounts = 600;  // of the largest taxel, which ends closing
-    double holdS = 1.5;     // so long the pads press on each other
-    // From the command to open until the pads must have let go of each other.
+    // Closing ends when the largest taxel exceeds this value.
+    int limitCounts = 600;
+    // Time for which the pads press on each other.
+    double holdS = 1.5;
+    // Time limit from the command to open until the pads are released.
     double maxOpenS = 10.0;
   };
   enum class State { kIdle, kClosing, kHolding, kOpening };
 
-  // The control must outlive the run.
+  // `control` must outlive the cycle.
   explicit EmptyHandCycle(GraspControl& control) : EmptyHandCycle(control, Options()) {}
   EmptyHandCycle(GraspControl& control, Options options);
 
-  // `hostUs` [us since 1970], here and below: now, by the clock of the session. Throws as
-  // GraspControl::grasp(), and nothing runs then. A run that goes on begins anew.
+  // Starts a cycle; one that is running starts again. `hostUs` [us since 1970], here and below: the
+  // present time by the session's clock. Throws as GraspControl::grasp(), and no cycle runs then.
   void begin(std::int64_t hostUs);
-  // Goes on as far as the hand is. Why the run has ended without a result, once; else nothing.
+  // Advances the cycle according to the hand's state. Returns, once, why the cycle ended without a
+  // result; otherwise empty.
   std::optional<std::string> step(std::int64_t hostUs);
-  // The pads no longer touch each other. Ends the run; why without a result, or nothing: everything
-  // was as it should be, and what was felt counts.
+  // Call this when the pads no longer touch each other. Ends the cycle. Returns why it has no
+  // result, or empty when it was completed and its measurement is valid.
   std::optional<std::string> onPadsReleased();
-  // Nothing of the run moves the hand any more; what moves already goes on, unless somebody stops
-  // it.
+  // Ends the cycle without a command: no further motion begins, but a motion that is running
+  // continues unless it is stopped.
   void cancel() noexcept { state_ = State::kIdle; }
 
   State state() const noexcept { return state_; }
@@ -51,7 +54,7 @@ class EmptyHandCycle {
   GraspControl& control_;
   Options options_;
   State state_ = State::kIdle;
-  std::int64_t sinceUs_ = 0;  // of the state
+  std::int64_t sinceUs_ = 0;  // begin of the state [us since 1970]
   std::uint64_t stopsBefore_ = 0;
 };
 

@@ -1,11 +1,11 @@
 // Moves the hand of a capture session: preshape, plain and reactive grasps, relax, and a stop at
 // any moment.
 //
-// Driven by the frames as they arrive, on a thread of its own: a frame over the limit puts the stop
-// on the wire within milliseconds. Values are checked before a byte is sent. Connecting moves
-// nothing. What happened is noted in the session as events "grasp" (and by the device as "motion"),
-// so that a recording holds it. docs/safety.md says what is promised, and what the hand does when
-// nobody is there any more.
+// A thread of its own processes the frames as they arrive: a frame over the limit causes a stop
+// command within milliseconds. Values are checked before a byte is sent. Connecting causes no
+// motion. The steps of a grasp are noted in the session as events "grasp" (and by the device as
+// "motion"), so that a recording contains them. docs/safety.md describes what is guaranteed, and
+// what the hand does when the program no longer controls it.
 #pragma once
 
 #include <condition_variable>
@@ -29,35 +29,40 @@ namespace palpate {
 
 struct GraspStatus {
   GraspPhase phase = GraspPhase::kIdle;
-  std::optional<GraspRequest> request;  // of the grasp that runs
-  std::optional<GraspReport> last;      // of the one that ended last, a refused one too
-  std::string cannotMove;               // why no motion can begin, one line; empty: it can
-  // The grasp whose motion port went away, as long as it has not come back, whatever was refused
-  // since.
+  std::optional<GraspRequest> request;  // the running grasp
+  std::optional<GraspReport> last;      // the grasp that ended last, including a refused one
+  // Reason why no motion can begin, one line; empty when one can begin.
+  std::string cannotMove;
+  // Report of the grasp during which the motion port disappeared. Kept until the port is back, even
+  // if other grasps are refused meanwhile.
   std::optional<GraspReport> portGone;
   // Number of calls of stop() and relax() so far, whether or not something was moving.
   std::uint64_t stopsAsked = 0;
-  std::string cannotReact;  // why no reactive grasp can begin; empty: it can
-  // why sensitivity, threshold and masks can't be changed; empty: they can
+  // Reason why no reactive grasp can begin; empty when one can begin.
+  std::string cannotReact;
+  // Reason why sensitivity, thresholds and masks can't be changed; empty when they can.
   std::string cannotChange;
-  double periodMs = 0.0;        // median period of the frames [ms]; 0: not known
-  double silenceLimitMs = 0.0;  // after so long without a frame the stream is dead [ms]
+  double periodMs = 0.0;  // median period of the frames [ms]; 0: not known
+  // Time without a frame after which the stream counts as dead [ms].
+  double silenceLimitMs = 0.0;
 };
 
-// A grasp went over into a phase, or ended (then it is idle and has a report).
+// A grasp entered a phase, or ended (then the phase is idle and there is a report).
 struct GraspChange {
   std::int64_t hostUs = 0;  // [us since 1970]
   GraspPhase phase = GraspPhase::kIdle;
-  std::string text;  // one line: "closing", "limit reached: finger 0 distal, x 2, y 3: 231 counts"
+  // One line: "closing", "limit reached: finger 0 distal, x 2, y 3: 231 counts".
+  std::string text;
   std::optional<GraspReport> report;
 };
 
-// Every member may be called from any thread, and none waits for the hand.
+// Every function may be called from any thread, and none waits for the hand.
 class GraspControl {
  public:
-  // Listens to the session, which must outlive this; moves nothing. The clock is the session's.
+  // Subscribes to the session, which must outlive this object; causes no motion. `clock` is that of
+  // the session.
   explicit GraspControl(CaptureSession& session, const Clock& clock = systemClock());
-  // A motion that runs is stopped (waits for that, 300 ms at most).
+  // Stops a running motion and waits for the answer, at most 300 ms.
   ~GraspControl();
   GraspControl(const GraspControl&) = delete;
   GraspControl& operator=(const GraspControl&) = delete;
@@ -68,24 +73,24 @@ class GraspControl {
   void step();
 
   // An exception in a cycle (a defect, no memory) does not end the process: a stop is sent, the
-  // grasp ends as failed, an
-  // event "alarm" says why, and the rounds go on.
+  // grasp ends as failed, an event "alarm" contains the reason, and the control cycle continues.
 
   // Begins a grasp. Throws std::invalid_argument (a value out of range or not a number) and
-  // DeviceError, kRefused (why, in a line); nothing was sent then, and the refusal is noted.
+  // DeviceError kRefused (with the reason in one line); nothing was sent then, and the refusal is
+  // noted.
   void grasp(const GraspRequest& request);
-  // To the open hand of a preshape: a plain grasp with close ratio 0.
+  // Moves to the open hand of a preshape: a plain grasp with close ratio 0.
   void preshape(const std::string& name, double velocityDegPerS);
-  // A stop goes to the wire now, whether something moves or not; no motion follows it.
+  // Sends a stop at once, whether or not the hand moves; no motion follows it.
   void stop() noexcept;
-  // Stops, then motors off: fingers can be moved by hand, and what is held may fall.
+  // Stops, then switches the motors off: fingers can be moved by hand, and a held object may fall.
   void relax() noexcept;
-  // Sensitivity, threshold, mask. Throws DeviceError, kRefused, while fingers move under tactile
-  // control; std::invalid_argument for a command that is no setting.
+  // Changes sensitivity, threshold or mask. Throws DeviceError kRefused while fingers move under
+  // tactile control; throws std::invalid_argument for a command that is no setting.
   std::shared_future<CommandAnswer> change(const DeviceCommand& setting);
 
   GraspStatus status() const;
-  // What changed since the last call, the last 1000 at most.
+  // Changes since the last call, at most the last 1000.
   std::vector<GraspChange> takeChanges();
 
  private:
@@ -94,13 +99,13 @@ class GraspControl {
     bool isStop = false;
   };
   void loop(const std::stop_token& stop);
-  // All of these under mutex_.
+  // The following functions require mutex_.
   void runCycle();
   void runGuardedCycle() noexcept;
   void fault(const char* what) noexcept;
   void note(RecordingEvent event, bool ends = false);
-  void processFrames();  // frames
-  void pollReplies();    // of the hand
+  void processFrames();  // of the tactile stream
+  void pollReplies();    // answers of the hand
   void checkLinks();
   void send();
   void report();
@@ -111,8 +116,8 @@ class GraspControl {
   static std::string motionProblem(const DeviceStatus& status);
   bool settingsPending() const;
 
-  // Hands over to the session what is owed to it; without mutex_: a consumer of the session may be
-  // in no hurry.
+  // Delivers the pending events to the session. Called without mutex_, because a consumer of the
+  // session may be slow.
   void deliverEvents();
   void deliverLoop(const std::stop_token& stop);
   void deliverHere();
@@ -132,14 +137,16 @@ class GraspControl {
   std::deque<GraspChange> changes_;
   std::optional<GraspReport> portGone_;  // see GraspStatus
   std::uint64_t stopsAsked_ = 0;
-  std::string lastFault_;         // said, and not again for a while in this grasp
+  // Last reported fault; the same fault is not reported again for a while in this grasp.
+  std::string lastFault_;
   std::int64_t lastFaultUs_ = 0;  // [monotonic us]
   struct PendingEvent {
     RecordingEvent event;
-    bool ends = false;  // of a grasp
+    bool ends = false;  // true for the end of a grasp
   };
   std::deque<PendingEvent> pendingEvents_;
-  std::size_t pendingEndEvents_ = 0;  // ends that the session wasn't told yet
+  // Number of grasp ends that are not yet delivered to the session.
+  std::size_t pendingEndEvents_ = 0;
   std::condition_variable_any pendingEventsChanged_;
   std::jthread delivery_;
   std::jthread thread_;

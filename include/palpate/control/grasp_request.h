@@ -1,4 +1,4 @@
-// A grasp as it is asked for, and what became of it.
+// Request of a grasp and report of its result. GraspControl takes requests and returns reports.
 #pragma once
 
 #include <cstdint>
@@ -15,11 +15,12 @@
 namespace palpate {
 
 enum class GraspMode {
-  // to the close ratio, whatever is felt
+  // Closes to the close ratio, whatever the taxels measure.
   kPlain,
-  // closes until the first taxel of any matrix is over the limit; needs a tactile stream
+  // Closes until the first taxel of any matrix is over the limit; needs a tactile stream.
   kReactive,
-  // closes as a reactive grasp, then holds: closes again to a higher limit when what is held slips
+  // Closes as a reactive grasp, then holds the object: when it slips, closes again to a higher
+  // limit.
   kSlip,
 };
 std::string_view nameOf(GraspMode mode);  // "plain", "reactive", "slip"
@@ -30,109 +31,121 @@ constexpr int kMinGraspLimitCounts = 3;
 constexpr int kMaxGraspLimitCounts = static_cast<int>(kSdh2SaturationCounts) - kLimitMarginCounts;
 constexpr int kMaxSlipLimitCounts = 2200;
 
-// How a slip-aware grasp holds on.
+// Options of holding in a slip-aware grasp.
 struct HoldingOptions {
-  double holdS = 0.0;  // ends by itself after so long, the hand goes on holding [s], 0: when told;
-                       // at most a day
-  double settleS = 0.5;                      // rest before the first references [s], 0..60
-  double restS = 0.05;                       // and after closing again [s], 0..60
-  int raiseCounts = 300;                     // the limit rises by so much at a slip, 1..3300 ..
-  int maxLimitCounts = kMaxSlipLimitCounts;  // .. up to this, limitCounts..3300
-  // After so long without slip the limit falls again by as much as it rose, down to where it began
-  // [s], > 0.
+  // The grasp ends by itself after this time, and the hand keeps holding [s]; 0: ends only on
+  // request; at most one day.
+  double holdS = 0.0;
+  // Rest before the first references are taken [s], 0..60.
+  double settleS = 0.5;
+  // Rest after closing again [s], 0..60.
+  double restS = 0.05;
+  // Amount by which the limit rises at a slip, 1..3300 [counts].
+  int raiseCounts = 300;
+  // Highest limit that slips can cause, limitCounts..3300 [counts].
+  int maxLimitCounts = kMaxSlipLimitCounts;
+  // After this time without slip the limit falls again by raiseCounts, down to its first
+  // value [s], > 0.
   double noSlipS = 5.0;
-  // The hand may then open, slowly and watched, until no taxel is over the lower limit. Not unless
-  // told: it is loaded.
+  // Allows the hand then to open slowly, under tactile control, until no taxel is over the lower
+  // limit. Off by default, because the hand holds a load.
   bool loosen = false;
-  // Of the object; with it the hand is told to open slowly once, until the object slips, and to
-  // catch it: what it felt then tells friction [N], 0: not known.
+  // Weight of the object [N]; 0: not known. If it is known, the hand opens slowly once until the
+  // object slips, and catches it again; the measured forces then give the friction.
   double weightN = 0.0;
-  // normal force per count of all taxels, of a calibration; 0: not known, no friction
+  // Normal force per count of all taxels, from a calibration [N/count]; 0: not known, no friction.
   double newtonsPerCount = 0.0;
 
-  void validate(
-      int limitCounts) const;  // throws std::invalid_argument naming field, value and range
+  // Throws std::invalid_argument naming field, value and range.
+  void validate(int limitCounts) const;
 };
 
 struct GraspRequest {
   GraspMode mode = GraspMode::kPlain;
-  std::string preshape = "centrical";  // of sdh2Preshapes()
-  // The hand goes there first, in a motion of its own, 0 (open) .. 1; nothing: from where it
-  // stands. In a reactive grasp this motion is watched, too.
+  std::string preshape = "centrical";  // one of sdh2Preshapes()
+  // The hand moves to this ratio first, in a separate motion, 0 (open) .. 1; empty: it starts from
+  // its present posture. In a reactive grasp this motion is under tactile control, too.
   std::optional<double> startRatio = {};
-  double closeRatio = 0.5;        // 0 (open) .. 1 (closed); a reactive grasp goes to 1 at most
-  double velocityDegPerS = 10.0;  // 1..100; axes that are slower go as fast as they can [deg/s]
-  // Of a reactive grasp: stop above, 3..3300 [counts]; of a slip-aware one the first limit.
+  // 0 (open) .. 1 (closed); for a reactive grasp the largest ratio.
+  double closeRatio = 0.5;
+  // 1..100 [deg/s]; slower axes move as fast as they can.
+  double velocityDegPerS = 10.0;
+  // Limit of a reactive grasp, which stops above it, 3..3300 [counts]; first limit of a slip-aware
+  // one.
   int limitCounts = 200;
-  HoldingOptions holding = {};  // of a slip-aware grasp
+  HoldingOptions holding = {};  // used by a slip-aware grasp
 
-  // Throws std::invalid_argument naming field, value and range: no byte may be sent.
+  // Throws std::invalid_argument naming field, value and range; nothing may be sent then.
   void validate() const;
 };
-// What goes to the hand for one motion of a grasp. Throws as validate(), and when a target is
-// beyond the range of an axis (a hand with less range than the SDH-2).
+// The command for one motion of a grasp. Throws as validate(), and when a target is beyond the
+// range of an axis (a hand with a smaller range than the SDH-2).
 MoveJoints motionTo(const GraspRequest& request, double closeRatio, const HandDescription& hand);
-// The highest limit that a grasp may go to; of a plain one its limit means nothing.
+// The highest limit that a grasp may use; meaningless for a plain grasp.
 int maxLimitOf(const GraspRequest& request);
-// Matrices on fingers that it moves, which can't tell that limit: with one of them it is refused.
-// None for a plain grasp. Settings as in limit_feasibility.h. Throws std::invalid_argument for a
-// preshape that there isn't.
+// Matrices on the moved fingers that can't measure the highest limit of the grasp; a grasp with
+// such a matrix is refused. Always empty for a plain grasp. Settings as in limit_feasibility.h.
+// Throws std::invalid_argument for an unknown preshape.
 std::vector<UnmeasurableLimit> unmeasurableLimits(const HandDescription& hand,
                                                   const std::vector<MatrixSettings>& settings,
                                                   const GraspRequest& request);
-// A plain motion to the open hand: it grasps nothing, and is called so nowhere.
+// True for a plain motion to the open hand, which users see as "opening" and not as a grasp.
 bool isOpening(const GraspRequest& request);
-// What is done, without how: "reactive grasp", "opening".
+// The kind of the request without its parameters: "reactive grasp", "opening".
 std::string kindOf(const GraspRequest& request);
-// "reactive grasp: centrical, from 0 to 1, 30 deg/s, limit 200 counts", "opening: centrical, 10
-// deg/s"
+// The request with its parameters: "reactive grasp: centrical, from 0 to 1, 30 deg/s, limit 200
+// counts", "opening: centrical, 10 deg/s".
 std::string describe(const GraspRequest& request);
 
 enum class GraspOutcome {
-  kNone,          // it hasn't ended
-  kFinished,      // the motion ended: at its target, or held by something
+  kNone,          // the grasp has not ended
+  kFinished,      // the motion ended: at its target, or blocked by an object
   kLimitReached,  // a taxel was over the limit: stopped
-  kStopped,       // by the user
-  kRelaxed,       // by the user: motors off
+  kStopped,       // stopped by the user
+  kRelaxed,       // relaxed by the user: motors off
   kStreamLost,    // no frames any more in a reactive grasp: stopped
   kPortGone,      // the motion port is gone: see docs/safety.md for what the hand does
   kFailed,        // the hand refused, didn't answer, or didn't end: stopped
-  kRefused,       // it never began: nothing was sent
+  kRefused,       // the grasp never began: nothing was sent
 };
-// "finished", "limit_reached", "stopped", "relaxed", "stream_dead", "port_gone", "failed",
-// "refused"
+// Names: "finished", "limit_reached", "stopped", "relaxed", "stream_dead", "port_gone", "failed",
+// "refused".
 std::string_view nameOf(GraspOutcome outcome);
 
 struct GraspReport {
   GraspRequest request;
   GraspOutcome outcome = GraspOutcome::kNone;
-  std::string text;           // one line for a person
-  std::int64_t beginUs = 0;   // host time [us since 1970]
-  std::int64_t endUs = 0;     //
-  TaxelPeak peak;             // of kLimitReached: the largest taxel of the frame that crossed it
-  std::vector<int> heldAxes;  // of kFinished: axes that something holds short of their target
+  std::string text;          // one line for the user
+  std::int64_t beginUs = 0;  // host time [us since 1970]
+  std::int64_t endUs = 0;    // host time [us since 1970]
+  // For kLimitReached: largest taxel of the frame in which the limit was exceeded.
+  TaxelPeak peak;
+  // For kFinished: axes that were blocked before their target.
+  std::vector<int> heldAxes;
   // Largest taxel in the 0.5 s after the stop of a grasp under tactile control: the rubber responds
   // with a delay, so the reading rises after the stop [counts]. Empty if it was not measured.
   std::optional<TaxelPeak> peakAfterStop = {};
   // kPortGone: longest time from endUs for which the running motion can continue without control
   // [s]; 0 if no motion was running and the hand holds its position.
   std::optional<double> remainingMotionS = {};
-  // Of a slip-aware grasp:
-  bool held = false;    // it came to hold
+  // The following fields belong to a slip-aware grasp.
+  bool held = false;    // true once the phase "holding" was reached
   int limitCounts = 0;  // the last limit
-  int slips = 0;        // that were answered, or couldn't be any more
-  // Of the opening until it slipped: all taxels together in that moment [counts], and friction =
+  // Number of slips, including those that could no longer be answered.
+  int slips = 0;
+  // Result of the opening until slip: sum of all taxels when slip began [counts], and friction =
   // weight / normal force.
   std::optional<double> countsAtSlip = {};
   std::optional<double> friction = {};
 };
-// As an event of kind "grasp" in a recording: parameters, and at the end the outcome, as JSON.
+// The report as events of kind "grasp" in a recording: parameters at the begin, and the outcome at
+// the end, as JSON.
 RecordingEvent beginEvent(const GraspReport& report);
 RecordingEvent endEvent(const GraspReport& report);
-// What a slip-aware grasp did meanwhile, also as events "grasp".
+// A step of a slip-aware grasp while it runs; also recorded as an event "grasp".
 struct GraspStep {
   std::string action;  // "holding", "slip", "regrasp", "lower", "loosen", "friction", "at_limit"
-  std::string text;    // one line for a person
+  std::string text;    // one line for the user
   std::optional<std::size_t> matrix = {};
   int limitCounts = 0;
 };

@@ -4,8 +4,8 @@
 //   idle --begin--> preshaping --> closing --> idle        (preshaping only with a start ratio)
 //                        `------------`--> stopping --> idle
 // At the limit it stays in the state settling for 0.5 s and measures how far the reading rises
-// after the stop.
-// A slip-aware grasp goes on from its first stop (and ends, from anywhere, as the others do):
+// after the stop. A slip-aware grasp continues after its first stop (and can end in every state, as
+// the others):
 //
 //   closing --limit--> stopping --> settling --> holding --slips--> closing (limit raised) ..
 //                                      ^            `--told to open--> loosening --> stopping --'
@@ -28,56 +28,60 @@
 namespace palpate {
 
 enum class GraspPhase { kIdle, kPreshaping, kClosing, kStopping, kSettling, kHolding, kLoosening };
-// "idle", "preshaping", "closing", "stopping", "settling", "holding", "loosening"
+// Names: "idle", "preshaping", "closing", "stopping", "settling", "holding", "loosening".
 std::string_view nameOf(GraspPhase phase);
 
 class GraspStateMachine {
  public:
   explicit GraspStateMachine(HandDescription hand) : hand_(std::move(hand)), grip_(hand_) {}
 
-  // What the controller says of its matrices, as last read back; empty: not known.
+  // Settings of the matrices as last read back from the controller; empty when unknown.
   void setSettings(std::vector<MatrixSettings> settings) { settings_ = std::move(settings); }
 
-  // Begins a grasp; then takeCommand() has the first motion. Throws std::invalid_argument (request)
-  // and DeviceError, kRefused (a grasp runs; one under tactile control without a living tactile
-  // stream, with a taxel over the limit already, or with a matrix on a moving finger that can't
-  // tell its limit): nothing is to be sent then. hostUs: for the report.
+  // Begins a grasp; takeCommand() then returns the first motion. Throws std::invalid_argument
+  // (request) and DeviceError kRefused; nothing must be sent then. Reasons to refuse: another grasp
+  // runs; and, under tactile control, the tactile stream is not alive, a taxel is already over the
+  // limit, or a matrix on a moving finger can't measure the limit. hostUs is used in the report.
   void begin(const GraspRequest& request, std::int64_t monoUs, std::int64_t hostUs);
 
-  // Frames are watched all the time, so that a grasp knows its stream when it begins.
+  // Processes every frame, also between grasps, so that the period of the stream is known when a
+  // grasp begins.
   void onFrame(const TactileFrame& frame, std::int64_t monoUs);
-  // The hand took the motion that was sent, and announced its duration [s] ..
+  // The hand accepted the motion that was sent, and announced its duration [s].
   void onMoveAcknowledged(double durationS, std::int64_t monoUs);
-  // .. or the stop; ..
+  // The hand accepted the stop.
   void onStopAcknowledged(std::int64_t monoUs);
-  // .. or the command failed: `why` is one line. Not sent: the hand knows nothing of it.
+  // The command failed; `why` is one line. `sent` is false when the hand did not receive it.
   void onCommandFailed(const std::string& why, bool sent, std::int64_t monoUs);
-  // Device::axisStates(): ends a motion when none moves.
+  // Axis states as in Device::axisStates(); a motion ends when no axis moves.
   void onAxisStates(const std::vector<int>& states, std::int64_t monoUs);
-  // Joint angles as last read: how far a motion still goes when its port goes away.
+  // Joint angles as last read; they give the rest of a motion when the motion port disappears.
   void onAngles(const std::vector<double>& deg) { anglesDeg_ = deg; }
   void onMotionPortGone(const std::string& why, std::int64_t monoUs);
   void onTactilePortGone(const std::string& why, std::int64_t monoUs);
-  // The user: stops what runs, does nothing when idle (but a stop is to be sent whatever this
-  // says).
+  // Stop by the user: stops what runs, no effect when idle (the caller sends a stop in either
+  // case).
   void stop(std::int64_t monoUs);
   void relax();
-  // The program failed in the middle of this: what moves is stopped, and the grasp ends as failed.
+  // Call this when a call above threw an unexpected exception: stops a running motion; the grasp
+  // ends as failed.
   void fault(std::string_view why, std::int64_t monoUs);
   void onTime(std::int64_t monoUs);
-  // When onTime() has something to do [monotonic us]; nothing: not before something happens.
+  // Next time at which onTime() has something to do [monotonic us]; empty when it waits for another
+  // input.
   std::optional<std::int64_t> nextUs() const;
 
-  // What is to be sent now, once: a MoveJoints or a StopMotion.
+  // Returns the command to be sent now, once: a MoveJoints or a StopMotion.
   std::optional<DeviceCommand> takeCommand();
-  // What a slip-aware grasp has to tell since the last call.
+  // Steps of a slip-aware grasp since the last call.
   std::vector<GraspStep> takeNotes() { return std::exchange(notes_, {}); }
-  // The report of a grasp that has ended, once; endUs is the caller's to fill in.
+  // The report of a grasp that has ended, once; the caller sets endUs.
   std::optional<GraspReport> takeReport();
 
   GraspPhase phase() const noexcept { return phase_; }
   bool active() const noexcept { return phase_ != GraspPhase::kIdle; }
-  // Fingers move under tactile control: nobody may change what a count means.
+  // True while fingers move under tactile control, when no setting that changes the counts is
+  // allowed.
   bool underTactileControl() const noexcept {
     return active() && report_.request.mode != GraspMode::kPlain;
   }
@@ -96,12 +100,12 @@ class GraspStateMachine {
     return phase_ == GraspPhase::kPreshaping || phase_ == GraspPhase::kClosing ||
            phase_ == GraspPhase::kLoosening;
   }
-  // Of a slip-aware grasp.
-  enum class Next { kEnd, kSettle, kClose };  // when a stop was taken
+  // The following functions belong to a slip-aware grasp.
+  enum class Next { kEnd, kSettle, kClose };  // after a confirmed stop
   bool isHolding() const noexcept {
     return isSlipAware() && (phase_ == GraspPhase::kSettling || phase_ == GraspPhase::kHolding);
   }
-  // A reactive grasp that has stopped at its limit, and looks what becomes of it.
+  // True for a reactive grasp that has stopped at its limit and measures how far the reading rises.
   bool observesOvershoot() const noexcept {
     return !isSlipAware() && phase_ == GraspPhase::kSettling;
   }
@@ -127,34 +131,40 @@ class GraspStateMachine {
   std::string placeOf(const TaxelPeak& peak) const;
   void refuse(const std::string& why) const;
 
-  HandDescription hand_;  // its layout: that of the newest frame
+  HandDescription hand_;  // with the layout of the newest frame
   std::vector<MatrixSettings> settings_;
   StreamMonitor stream_;
   TaxelPeak peak_;
 
   GraspPhase phase_ = GraspPhase::kIdle;
-  GraspReport report_;  // of the grasp that runs
+  GraspReport report_;  // the running grasp
   std::optional<DeviceCommand> command_;
-  std::optional<MoveJoints> underWay_;  // sent, and neither ended nor stopped as far as is known
-  std::vector<double> anglesDeg_;       // empty: not known
+  // Motion that was sent and, as far as known, has neither ended nor been stopped.
+  std::optional<MoveJoints> underWay_;
+  std::vector<double> anglesDeg_;  // empty: not known
   std::optional<GraspReport> ended_;
-  std::int64_t sentUs_ = 0;           // the motion, or the last stop
-  bool acknowledged_ = false;         // the hand has answered the motion ..
-  std::int64_t acknowledgedUs_ = 0;   // .. then
-  std::int64_t announcedUs_ = 0;      // end of the motion by the hand's announcement
-  std::int64_t motionTimeoutUs_ = 0;  // then it is given up
+  // Time of the motion command or of the last stop.
+  std::int64_t sentUs_ = 0;
+  // Whether, and when, the hand confirmed the motion.
+  bool acknowledged_ = false;
+  std::int64_t acknowledgedUs_ = 0;  // [monotonic us]
+  // End of the motion according to the hand's announcement.
+  std::int64_t announcedUs_ = 0;
+  // Time limit of the motion; after it the grasp fails.
+  std::int64_t motionTimeoutUs_ = 0;
   int stops_ = 0;
 
   GripMonitor grip_;
   std::vector<GraspStep> notes_;
   Next next_ = Next::kEnd;
-  int limit_ = 0;                     // now [counts]
-  bool held_ = false;                 // it has held before: the rest is shorter
-  bool frictionTestRunning_ = false;  // loosening looks for friction
-  bool frictionTested_ = false;       // it was looked for
-  std::int64_t settledUs_ = 0;        // end of the rest, or of loosening
+  int limit_ = 0;  // present limit [counts]
+  // True once the object was held; the following rests are shorter.
+  bool held_ = false;
+  bool frictionTestRunning_ = false;  // loosening measures friction
+  bool frictionTested_ = false;       // friction was measured, or tried
+  std::int64_t settledUs_ = 0;        // end of the rest or of loosening
   std::int64_t lastSlipUs_ = 0;       // the last slip, or change of the limit
-  std::int64_t endUs_ = 0;            // of holding; 0: open
+  std::int64_t endUs_ = 0;            // end of holding; 0: on request
 };
 
 }  // namespace palpate

@@ -23,15 +23,19 @@ struct GripMonitorOptions {
   double stepTaxels = 0.20;      // per frame, > 0
   double referenceTaxels = 0.3;  // since the reference, > 0
   double turnDeg = 5.0;          // since the reference [deg], > 0
-  int minTaxels = 3;             // a matrix with fewer says nothing, 2..
-  double minCounts = 400.0;      // nor one with less in sum, >= 0
-  double minConfidence = 0.3;    // nor a reading below, 0..1
+  // A matrix with fewer active taxels is not evaluated, 2.. .
+  int minTaxels = 3;
+  // A matrix with a smaller sum is not evaluated, >= 0.
+  double minCounts = 400.0;
+  // A motion with a lower confidence is not evaluated, 0..1.
+  double minConfidence = 0.3;
 
   void validate() const;  // throws std::invalid_argument naming the field
 };
 
 struct GripSlip {
-  std::size_t matrix = 0;  // that slips most, by its thresholds
+  // Matrix with the largest slip relative to its limits.
+  std::size_t matrix = 0;
   SlipMotion motion;
   std::string why;  // "finger 0 distal: 1.12 taxels since the reference"
 };
@@ -42,20 +46,22 @@ class GripMonitor {
   explicit GripMonitor(const HandDescription& hand, const GripMonitorOptions& options = {});
 
   void onFrame(const TactileFrame& frame);
-  // The newest frame is how things should stay.
+  // Makes the newest frame the reference.
   void setReference();
   void reset();
 
-  // By the newest frame, against the reference; nothing: no reference, or nothing slips.
+  // Result for the newest frame compared with the reference; empty when there is no reference or no
+  // slip.
   std::optional<GripSlip> slip() const;
-  double sumCounts() const noexcept { return sum_; }  // of all taxels of the newest frame
+  double sumCounts() const noexcept { return sum_; }  // of all taxels in the newest frame
   bool touches() const noexcept { return sum_ > 0.0; }
 
  private:
   HandDescription hand_;
   GripMonitorOptions options_;
   SensorSlipTracker tracker_;
-  std::vector<int> fast_;  // frames in a row with too large a step, per matrix
+  // Per matrix: number of consecutive frames with too large a step.
+  std::vector<int> fast_;
   bool referenced_ = false;
   double sum_ = 0.0;
 };

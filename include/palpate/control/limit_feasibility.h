@@ -22,17 +22,18 @@ constexpr int kLimitMarginCounts = 200;
 
 struct UnmeasurableLimit {
   std::size_t matrix = 0;
-  // "finger 0 distal can't tell: its threshold of 4095 leaves no more than 0 counts"
+  // Example: "finger 0 distal can't tell: its threshold of 4095 leaves no more than 0 counts".
   std::string why;
 };
 
-// Those that can't tell; in the order of the matrices. `settings`: as the controller told them, one
-// per matrix; of another number: not known, then only saturation and masks count.
+// Returns the matrices that can't measure the limit, in order. `settings` has one entry per matrix
+// as reported by the controller; with any other size the settings count as unknown, and only
+// saturation and masks are checked.
 std::vector<UnmeasurableLimit> unmeasurableLimits(const HandDescription& hand,
                                                   const std::vector<MatrixSettings>& settings,
                                                   int limitCounts);
 
-// Whether a matrix sits on a finger that this preshape moves when it closes.
+// True if the matrix is on a finger that this preshape moves when it closes.
 bool movesWith(const Preshape& preshape, const MatrixDescription& matrix);
 
 }  // namespace palpate

@@ -27,34 +27,34 @@ enum class SensitivityMode { kManual, kHigh, kAdaptive };
 
 struct SensitivityStatus {
   SensitivityMode mode = SensitivityMode::kManual;
-  // Measures the frame rate first, for about 1 s.
+  // True while the frame rate is measured at the begin, for about 1 s.
   bool measuring = false;
-  bool setting = false;  // commands are on their way
-  // Reason why the wanted settings can't be applied now, one line; empty: they can.
+  bool setting = false;  // commands are being executed
+  // Reason why the wanted settings can't be applied now, one line; empty when they can.
   std::string waiting;
-  std::string failure;         // what the hand said to the last command; empty: it did it
-  NoiseThresholdStatus noise;  // of high sensitivity
-  double sensitivity = 0.0;    // of adaptive sensitivity: present
-  bool settled = false;        // nothing higher is left to try
-  bool saturated = false;      // nothing lower is left to try
+  // Error message of the last command; empty after success.
+  std::string failure;
+  NoiseThresholdStatus noise;  // for high sensitivity
+  double sensitivity = 0.0;    // for adaptive sensitivity: present value
+  bool settled = false;        // no higher sensitivity is left to try
+  bool saturated = false;      // no lower sensitivity is left to try
 };
 
-// Of one controlling thread, which calls step() several times a second. Session and control must
-// outlive it.
+// Belongs to one controlling thread, which calls step() several times a second. Session and control
+// must outlive it.
 class SensitivityControl {
  public:
   SensitivityControl(CaptureSession& session,
                      GraspControl& control,
                      const Clock& clock = systemClock());
 
-  // Instead of what runs. Throw std::invalid_argument (options; noise lines of a hand with more
-  // matrices).
+  // Start a mode and replace the running one. Throw std::invalid_argument (options; noise lines of
+  // a hand with more matrices).
   void beginHighSensitivity(const NoiseFloor& floor, const NoiseThresholdOptions& options = {});
   void beginAdaptiveSensitivity(const SensitivitySearchOptions& options = {});
-  // Ends a mode; what is set stays.
+  // Ends the mode; the settings stay.
   void endMode();
-  // Ends a mode and brings the hand to what it has at power-up (0.5; SDH-2: 150 proximal, 300
-  // distal).
+  // Ends the mode and restores the settings at power-up (0.5; SDH-2: 150 proximal, 300 distal).
   void reset();
 
   void step();
@@ -74,19 +74,20 @@ class SensitivityControl {
   GraspControl& control_;
   const Clock& clock_;
   SensitivityStatus status_;
-  std::shared_ptr<CaptureQueue> queue_;  // null: no mode
+  std::shared_ptr<CaptureQueue> queue_;  // null without a mode
   std::vector<CaptureItem> items_;
   std::optional<NoiseFloor> floor_;
   NoiseThresholdOptions highOptions_;
-  std::optional<NoiseThresholds> high_;  // once the usual rate is known
+  std::optional<NoiseThresholds> high_;  // created once the usual frame rate is known
   std::optional<SensitivitySearch> search_;
   SensitivitySearchOptions searchOptions_;
-  std::optional<TactileSettings> wanted_;  // to be set
+  std::optional<TactileSettings> wanted_;  // settings to be applied
   std::vector<std::shared_future<CommandAnswer>> pending_;
-  // of the newest frames since the last setting [us since 1970]
+  // Stamps of the newest frames since the last setting [us since 1970].
   std::deque<std::int64_t> stampsUs_;
-  std::int64_t settledFromUs_ = 0;  // frames before were made at other settings
-  std::vector<double> degC_;        // empty: none came yet
+  // Frames before this time were scanned with other settings.
+  std::int64_t settledFromUs_ = 0;
+  std::vector<double> degC_;  // empty before the first temperatures
   double begunS_ = 0.0;
 };
 

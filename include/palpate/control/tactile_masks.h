@@ -1,5 +1,5 @@
-// Which taxels the tactile controller scans (its dynamic masks), as a choice of a person: only
-// some, all but some, all.
+// Changes of the dynamic masks, that is, which taxels the tactile controller scans, from a
+// selection made by the user.
 #pragma once
 
 #include <vector>
@@ -11,15 +11,17 @@
 namespace palpate {
 
 enum class MaskChoice {
-  kOnly,     // scan what is chosen, in the matrices that something is chosen of; the others stay
-  kWithout,  // as now, without what is chosen
-  kAlso,     // as now, and what is chosen, too
+  // Scan only the selected taxels in matrices with a selection; the other matrices stay as they
+  // are.
+  kOnly,
+  kWithout,  // scan as now, without the selected taxels
+  kAlso,     // scan as now, and the selected taxels, too
   kAll,      // scan every taxel
 };
 
-// What leads from the masks of `layout` to the choice: one command for each matrix whose mask
-// changes. Throws std::invalid_argument when the selection is one of another sensor, or when
-// nothing at all would be scanned any more.
+// The commands that change the masks of `layout` as chosen: one for each matrix whose mask changes.
+// Throws std::invalid_argument when the selection belongs to another sensor, or when no taxel would
+// be scanned any more.
 std::vector<DeviceCommand> maskCommands(const SensorLayout& layout,
                                         const TaxelSelection& selection,
                                         MaskChoice choice);

@@ -13,17 +13,17 @@ namespace palpate {
 
 using TactileSettings = std::vector<MatrixSettings>;  // one per matrix
 
-// What a reset gives: sensitivity 0.5, threshold 150 counts proximal, 300 distal.
+// Settings after a reset: sensitivity 0.5, threshold 150 counts proximal, 300 distal.
 TactileSettings defaultTactileSettings(const HandDescription& hand);
 
-// What leads from one to the other: nothing where they agree; one command for all matrices where
-// the new value is the same for all. Throws std::invalid_argument: different numbers of matrices,
-// sensitivity outside 0..1 or no number, threshold outside 0..4095.
+// The commands that change the settings `from` into `to`: none where they agree, and one command
+// for all matrices where the new value is the same for all. Throws std::invalid_argument: different
+// numbers of matrices, sensitivity outside 0..1 or not a number, threshold outside 0..4095.
 std::vector<DeviceCommand> commandsBetween(const TactileSettings& from, const TactileSettings& to);
 
 // {"matrices": [{"sensitivity": 0.5, "threshold_counts": 150}, ..]}
 std::string toJson(const TactileSettings& settings);
-// Throws Error naming what is missing or out of range.
+// Throws Error naming the missing or invalid field.
 TactileSettings parseTactileSettings(std::string_view json);
 
 }  // namespace palpate

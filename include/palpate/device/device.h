@@ -1,5 +1,5 @@
-// What delivers frames and takes commands: a live hand over its ports, or the replay of a
-// recording.
+// Interface of every source that delivers frames and takes commands: a live hand on its ports
+// (LiveHand) or the replay of a recording (Replay). Capture sessions work on this interface.
 #pragma once
 
 #include <cstdint>
@@ -16,26 +16,35 @@
 
 namespace palpate {
 
-// Something that happened on the line, at a host time or over a span. Kinds: "gap" (no frames came
-// in between), "link" (connected, lost, restored), "settings" (stream paused to change them),
-// "clock" (the wall clock jumped), "motion" (a command to the joints), "alarm". JSON of "gap":
-// {"seconds": 3.2, "lost": 101, "estimated": true}; lost is counted by the controller's clock where
-// that went on, else estimated (true) by the usual rate; absent where no rate was known. JSON of
-// "settings", all that holds from then on: {"matrices": [{"sensitivity": 0.5, "threshold_counts":
-// 150, "dynamic_mask": "FFFF..0F"}, ..]}; the mask in capital hexadecimal digits, two per byte, the
-// bit i % 8 of byte i / 8 (least first) is place i = y * columns + x: 1 where the taxel is scanned
-// (as on the wire).
+// Something that happened on the connection, at a host time or over a time span. Kinds: "gap" (no
+// frames arrived in between), "link" (connected, lost, restored), "settings" (the stream was paused
+// to change settings), "clock" (the wall clock jumped), "motion" (a command to the joints),
+// "alarm".
+//
+// The JSON of "gap" is {"seconds": 3.2, "lost": 101, "estimated": true}. The lost frames are
+// counted by the controller's clock if that clock continued; otherwise they are estimated from the
+// usual frame rate and "estimated" is true. "lost" is absent where no rate was known.
+//
+// The JSON of "settings" contains all settings that hold from then on: {"matrices":
+// [{"sensitivity": 0.5, "threshold_counts": 150, "dynamic_mask": "FFFF..0F"}, ..]}. The mask is
+// written in capital hexadecimal digits, two per byte. Bit i % 8 (least significant first) of byte
+// i / 8 belongs to the place i = y * columns + x; it is 1 where the taxel is scanned (as in the
+// protocol).
 struct DeviceEvent {
-  std::int64_t tUs = 0;   // [us since 1970]
-  std::int64_t t1Us = 0;  // end; equals tUs for a moment
+  std::int64_t tUs = 0;  // [us since 1970]
+  // End of the time span [us since 1970]; equals tUs for a moment.
+  std::int64_t t1Us = 0;
   std::string kind;
   std::optional<int> matrix;
-  std::string text;  // one line for a person
-  std::string json;  // more of it, one JSON object; may be empty
+  // One line of text for the user.
+  std::string text;
+  // Details as one JSON object; may be empty.
+  std::string json;
 };
 
-// Who takes what a device delivers. Called from the device's threads, one per port (so frames and
-// angles may come at the same time); must return soon: a slow sink makes the port's buffer grow.
+// Receiver of what a device delivers. It is called from the device's threads, one per port, so
+// frames and angles may arrive at the same time. Its functions must return soon: while they run,
+// unread bytes collect in the port's buffer.
 class DeviceSink {
  public:
   virtual ~DeviceSink() = default;
@@ -46,50 +55,58 @@ class DeviceSink {
 };
 
 enum class PortState {
-  // not started, or stopped
+  // Not started, or stopped.
   kClosed,
-  // looking for the device
+  // The device is being looked for.
   kConnecting,
-  // data come
+  // Data are arriving.
   kStreaming,
-  // open, but no data for 500 ms (or three periods, if longer)
+  // The port is open, but no data arrived for 500 ms (or three periods, if longer).
   kSilent,
-  // the port is gone; looking for its return
+  // The port is gone; the device waits for its return.
   kLost,
-  // the program failed at this port (out of memory, a bug); it was closed and is tried anew
+  // The program failed at this port (out of memory, a bug); the port was closed and is tried again.
   kFault,
 };
 
-// Counts since start(). A snapshot.
+// State and counts of one port since start(). A snapshot.
 struct PortStatus {
-  std::string port;  // as named by the caller
+  // Name of the port as the caller gave it.
+  std::string port;
   PortState state = PortState::kClosed;
-  std::string message;  // what is wrong and what to do, one line; empty: nothing
-  // What was found there instead, where it is known: the hand's other controller. Nothing: what
-  // belongs there, or nobody knows yet.
+  // One line that says what is wrong and what to do; empty when nothing is wrong.
+  std::string message;
+  // The device found at this port instead of the expected one, that is, the hand's other
+  // controller. Empty while the expected device answers or nothing is known yet.
   std::optional<PortAnswer> found = {};
-  std::uint64_t items = 0;         // frames or angle samples delivered
-  std::uint64_t bytes = 0;         // read from the port
+  // Number of frames or angle samples delivered.
+  std::uint64_t items = 0;
+  std::uint64_t bytes = 0;         // bytes read from the port
   std::uint64_t badChecksums = 0;  // packets or answers with a wrong checksum
-  std::uint64_t suspect = 0;       // right checksum, implausible content: dropped
-  std::uint64_t skippedBytes = 0;  // outside of any packet
+  // Packets with a correct checksum but implausible content; they are dropped.
+  std::uint64_t suspect = 0;
+  std::uint64_t skippedBytes = 0;  // bytes outside of any packet
   // Number of frames that were sent but never received completely, counted by the device clock.
-  // During a gap without device times it is estimated from the usual rate (estimatedLost of them).
+  // During a gap without device times the number is estimated from the usual rate; estimatedLost
+  // counts the frames estimated in this way.
   std::uint64_t lost = 0;
   std::uint64_t estimatedLost = 0;
   std::uint64_t reconnects = 0;
-  std::int64_t lastItemUs = 0;  // host time of the newest item [us since 1970]; 0: none yet
-  double ageMs = 0.0;           // how late the newest frame came, against the fastest one [ms]
-  std::uint64_t retries = 0;    // questions asked again
+  // Host time of the newest frame or angle sample [us since 1970]; 0 before the first one.
+  std::int64_t lastItemUs = 0;
+  // Delay of the newest frame, compared with the frame that arrived fastest [ms].
+  double ageMs = 0.0;
+  std::uint64_t retries = 0;  // requests sent again
 };
 
 struct DeviceStatus {
   PortStatus tactile;
-  std::optional<PortStatus> motion;  // absent: no motion port was named
+  // Absent when no motion port was named.
+  std::optional<PortStatus> motion;
 };
 
-// The commands. Tactile ones pause the stream by themselves and leave a "settings" event.
-// matrix: an index, or nothing for all.
+// Commands to a device. Tactile commands pause the stream themselves and cause a "settings" event.
+// `matrix` is the index of a matrix; empty for all matrices.
 struct SetThreshold {
   std::optional<int> matrix;
   int counts = 0;  // 0..4095
@@ -100,65 +117,74 @@ struct SetSensitivity {
 };
 struct SetDynamicMask {
   int matrix = 0;
-  Mask mask;  // rows * columns
+  Mask mask;  // rows * columns values
 };
-// All axes move so that they arrive together. Never partial: all axes are named.
+// Moves all axes so that they arrive together. Every axis must be named.
 struct MoveJoints {
-  std::vector<double> targetDeg;        // one per axis
-  std::vector<double> velocityDegPerS;  // one per axis; empty: as they are
-  bool ramp = false;                    // velocity profile: ramp instead of sin-square
+  std::vector<double> targetDeg;  // one per axis
+  // One velocity per axis; empty leaves the velocities as they are.
+  std::vector<double> velocityDegPerS;
+  // Velocity profile: true for a ramp, false for sin-square.
+  bool ramp = false;
 };
-// Stops a motion; the axes stay powered. Goes ahead of everything that waits.
+// Stops a motion; the axes stay powered. This command is executed before all waiting commands.
 struct StopMotion {};
 struct SetPower {
-  bool on = false;  // all axes
+  bool on = false;  // applies to all axes
 };
 using DeviceCommand =
     std::variant<SetThreshold, SetSensitivity, SetDynamicMask, MoveJoints, StopMotion, SetPower>;
 
 struct CommandAnswer {
-  double durationS = 0.0;  // MoveJoints: announced by the controller [s]
+  // For MoveJoints: duration announced by the controller [s].
+  double durationS = 0.0;
 };
 
-// What the controllers said about themselves; empty before the first connection.
+// Settings and properties that the controllers reported; empty before the first connection.
 struct MatrixSettings {
   double sensitivity = 0.5;
   int thresholdCounts = 0;
   bool operator==(const MatrixSettings&) const = default;
 };
 struct DeviceInfo {
-  std::string serial;                    // tactile controller, "1D9B0057"
-  std::string firmware;                  // tactile controller
-  std::string motionFirmware;            // "0.0.3.3"
-  std::vector<MatrixSettings> matrices;  // as last read back
-  // Of the sensor, beside its controller; empty, 0: not told.
-  std::string sensorSerial;  // "1D9B0057"
-  int sensorRevision = 0;    // of the tool that wrote its description ("generated_by" in a .dsa)
+  // Serial number of the tactile controller, such as "1D9B0057".
+  std::string serial;
+  // Firmware of the tactile controller.
+  std::string firmware;
+  // Firmware of the motion controller, such as "0.0.3.3".
+  std::string motionFirmware;
+  // Settings as last read back from the controller.
+  std::vector<MatrixSettings> matrices;
+  // Properties of the sensor, in contrast to its controller; empty or 0 when not reported.
+  std::string sensorSerial;  // such as "1D9B0057"
+  // Revision of the tool that wrote the sensor's description ("generated_by" in a .dsa file).
+  int sensorRevision = 0;
   int sensorHardwareRevision = 0;  //
 };
 
 class Device {
  public:
-  virtual ~Device() = default;  // stops
-  // The hand it delivers. Changes only by a mask command or a reconnection.
+  virtual ~Device() = default;  // stops the device
+  // The hand whose frames are delivered. Changes only by a mask command or a reconnection.
   virtual HandDescription hand() const = 0;
   virtual DeviceInfo facts() const = 0;
-  // Starts delivering to `sink`, which must outlive stop(). Throws std::logic_error when started. A
-  // port that can't be opened doesn't throw here: it is looked for until stop(), status() says so.
+  // Starts delivering to `sink`, which must stay valid until stop() returns. Throws
+  // std::logic_error when already started. A port that can't be opened causes no exception here:
+  // the device looks for it until stop(), and status() reports it.
   virtual void start(DeviceSink& sink) = 0;
-  // Ends delivery; when it returns no thread of the device is left. Bounded: under 2 s.
+  // Ends delivery within 2 s; when it returns, no thread of the device is running.
   virtual void stop() noexcept = 0;
   virtual DeviceStatus status() const = 0;
   // Hands a command to the thread that owns the port; safe from any thread, never waits. The future
-  // holds the answer or a DeviceError / std::invalid_argument (value out of range: nothing was
-  // sent).
+  // holds the answer, a DeviceError, or std::invalid_argument (a value was out of range and nothing
+  // was sent).
   virtual std::future<CommandAnswer> submit(DeviceCommand command) = 0;
-  // A controller scans by itself, at a rate that its layout tells; the replay of a recording comes
-  // as that came.
+  // True for a controller, which scans at its own rate, given by its layout. False for the replay
+  // of a recording, which delivers frames at their recorded times.
   virtual bool isFreeRunning() const { return false; }
-  // Latest axis states (SDH-2: 0 idle, 1 positioning, 2 speed mode, 3 not initialised, 4, 5
-  // blocked, 6 disabled, 7 limit reached); empty where unknown. Polled while a motion runs;
-  // "positioning" from its command on until the hand was asked.
+  // Latest axis states (SDH-2: 0 idle, 1 positioning, 2 speed mode, 3 not initialised, 4 and 5
+  // blocked, 6 disabled, 7 limit reached); empty where unknown. They are polled while a motion
+  // runs; from the motion command until the first poll the state is "positioning".
   virtual std::vector<int> axisStates() const { return {}; }
 };
 

@@ -1,6 +1,6 @@
-// Driver of the tactile controller DSACON32-M: asks, sets, streams. Synchronous; the one thread
-// that owns the port uses it. Frames that arrive while an answer is awaited are not lost: they go
-// to the sink.
+// Driver of the tactile controller DSACON32-M: reads its properties, changes its settings and
+// streams frames. All calls are synchronous and belong to the one thread that owns the port. Frames
+// that arrive while an answer is awaited are not lost: they go to the sink.
 #pragma once
 
 #include <chrono>
@@ -21,96 +21,115 @@
 namespace palpate {
 
 struct DsaMatrixInfo {
-  MatrixLayout layout;  // dynamic mask as read; all on where the controller doesn't tell
+  // The dynamic mask is the one read from the controller; all taxels are on if it reports none.
+  MatrixLayout layout;
   std::vector<std::uint8_t> uniqueId;
   int hardwareRevision = 0;
-  double centreMm[3] = {};  // of a flat display layout, not the pose on the hand
+  // Centre in a flat display layout [mm], not the pose on the hand.
+  double centreMm[3] = {};
   double rotationDeg[3] = {};
   double fullScale = 0.0;  // [counts]
   bool sensitivityAdjustable = false;
   double sensitivity = 0.5;  // 0..1
   double factorySensitivity = 0.5;
-  std::optional<int> thresholdCounts;  // nothing: firmware before 268 doesn't tell
+  // Empty for firmware before 268, which does not report thresholds.
+  std::optional<int> thresholdCounts;
 };
 
 struct DsaControllerInfo {
-  std::uint32_t serial = 0;  // of the controller
-  int hardwareVersion = 0;   // BCD
-  int firmwareVersion = 0;   // below 0x1000: release number; else one hex digit per part
-  int status = 0;            // bit 7 operable, bit 6 acquisition running
-  int features = 0;          // bit 6 USB, bit 5 CAN, bit 4 RS-232
-  int generatedBy = 0;       // revision of the tool that wrote the sensor's description
+  // Serial number of the controller.
+  std::uint32_t serial = 0;
+  int hardwareVersion = 0;  // as BCD
+  // Below 0x1000 a release number; otherwise one hexadecimal digit per part.
+  int firmwareVersion = 0;
+  int status = 0;    // bit 7 operable, bit 6 acquisition running
+  int features = 0;  // bit 6 USB, bit 5 CAN, bit 4 RS-232
+  // Revision of the tool that wrote the sensor's description.
+  int generatedBy = 0;
   int sensorHardwareRevision = 0;
   std::uint32_t sensorSerial = 0;
-  bool masksKnown = false;  // the controller told its masks
+  // True when the controller reported its masks.
+  bool masksKnown = false;
   std::vector<DsaMatrixInfo> matrices;
 
-  // "2.9.0.0", or "268".
+  // Firmware as text: "2.9.0.0", or "268".
   std::string firmwareText() const;
   bool hasThresholds() const noexcept { return firmwareVersion >= 268; }
-  // Firmware up to 288 but 269 takes "one frame" for "stream".
+  // Firmware up to 288, except 269, misinterprets the request for one frame as the start of a
+  // stream.
   bool hasSingleFrames() const noexcept { return firmwareVersion > 288 || firmwareVersion == 269; }
   SensorLayout layout() const;
 };
 
 struct DsaControllerOptions {
+  // Time limit for one answer.
   std::chrono::milliseconds answerTimeout{1000};
-  int tries = 3;                                  // of one request
-  std::chrono::milliseconds openTimeout{15'000};  // a controller that boots is deaf for 8 s
-  std::chrono::milliseconds stopAnswer{400};      // each try of the first stop waits so long
-  std::chrono::milliseconds settle{200};          // after a stop, before something is set
-  bool runLength = true;                          // frames run-length coded; else raw
-  bool readMasks = true;  // newer firmware only; asked once, not insisted on
-  // Asked between waits: true ends open() and request loops early with DeviceError (kSilent).
+  // Number of times that one request is sent before it fails.
+  int tries = 3;
+  // Time limit for open(): a booting controller does not answer for 8 s.
+  std::chrono::milliseconds openTimeout{15'000};
+  // Time limit for the answer to each try of the first stop.
+  std::chrono::milliseconds stopAnswer{400};
+  // Pause between a stop and the change of a setting.
+  std::chrono::milliseconds settle{200};
+  // True for run-length coded frames, false for raw frames.
+  bool runLength = true;
+  // Requests the masks once; only newer firmware answers, and a missing answer is no error.
+  bool readMasks = true;
+  // Called between waits; when it returns true, open() and pending requests end early with
+  // DeviceError (kSilent).
   std::function<bool()> isCancelled;
 };
 
 struct DsaControllerStats {
   DsaPacketStats packets;
   std::uint64_t retries = 0;       // requests sent again
-  std::uint64_t strayAnswers = 0;  // answers nobody waited for
+  std::uint64_t strayAnswers = 0;  // answers to no pending request
 };
 
 class DsaController {
  public:
-  // `payload` of a full-frame packet; valid inside the call only.
+  // `payload` belongs to a full-frame packet and is valid only inside the call.
   using FrameSink = std::function<void(std::span<const std::byte> payload)>;
 
-  // The channel must outlive the driver. `frames` gets every frame packet, whenever it comes.
+  // The channel must outlive the driver. `frames` gets every frame packet as soon as it arrives.
   DsaController(ByteChannel& channel,
                 FrameSink frames,
                 const Clock& clock = systemClock(),
                 DsaControllerOptions options = {});
 
-  // Stops a stream left over, waits for silence, asks for everything. All throw DeviceError:
-  // kSilent (no answer), kWrongDevice (a motion controller answers: ports swapped), kRefused (error
-  // code, with its meaning), kProtocol, kUnsupported (firmware too old), kDisconnected.
+  // Stops a stream that is still running, waits for silence and reads all properties. Throws
+  // DeviceError, as do all other functions: kSilent (no answer), kWrongDevice (a motion controller
+  // answers: ports swapped), kRefused (error code, with its meaning), kProtocol, kUnsupported
+  // (firmware too old), kDisconnected.
   const DsaControllerInfo& open();
   const DsaControllerInfo& facts() const noexcept { return facts_; }
 
-  // Push mode: frames come as fast as the controller scans; it doesn't honour a rate.
+  // Push mode: frames arrive as fast as the controller scans; it ignores a requested rate.
   void startStream();
-  // Returns when the controller has said so; frames under way still reach the sink.
+  // Returns when the controller has confirmed the stop; frames on the way still reach the sink.
   void stopStream();
-  // One stop, once, waiting so long at most; whether the controller answered. For leaving, and for
-  // trying whether it still is there.
+  // Sends one stop once and waits at most `limit`; returns whether the controller answered. Used
+  // before closing the port, and to test whether the controller is still there.
   bool stopStreamOnce(std::chrono::milliseconds limit);
   bool streaming() const noexcept { return streaming_; }
-  // Pull mode: asks for one frame and waits for it (it goes to the sink).
+  // Pull mode: requests one frame and waits for it (it goes to the sink).
   void pullFrame();
-  // Reads what has come, waiting at most `timeout` for a first byte. Returns the bytes read.
+  // Reads the bytes that arrived, waiting at most `timeout` for the first one. Returns their
+  // number.
   std::size_t poll(std::chrono::milliseconds timeout);
   // Tells the parser that the line has been silent (see DsaPacketParser::flush).
   void flush();
 
   // Setters pause the stream (stop, settle, set, start again) and read back what was set.
-  // `persistent` writes the controller's memory, which lasts about 100,000 writes.
-  // std::invalid_argument: value or matrix out of range, nothing was sent.
+  // `persistent` writes the controller's memory, which endures about 100,000 writes. Throw
+  // std::invalid_argument when a value or a matrix is out of range; nothing was sent then.
   void setSensitivity(std::size_t matrix, double sensitivity, bool persistent = false);
-  void resetSensitivity(std::size_t matrix);  // to the factory's
+  void resetSensitivity(std::size_t matrix);  // to the factory setting
   void setThreshold(std::size_t matrix, int counts, bool persistent = false);
   void setDynamicMask(std::size_t matrix, const Mask& mask);
-  // Several settings within one pause: the setters called inside don't pause by themselves.
+  // Changes several settings within one pause: setters called inside `set` do not pause the stream
+  // themselves.
   void whilePaused(const std::function<void()>& set);
   std::string descriptor(bool ofMatrix, std::size_t matrix);
 
@@ -125,9 +144,10 @@ class DsaController {
 
   bool take(const DsaPacket& packet);
   std::optional<Answer> awaitAnswer(DsaId id, std::chrono::milliseconds limit);
-  // Sends until answered; checks the error word and the size (0: any from 2 up).
+  // Repeats the request until it is answered; checks the error word and the size (0: any size from
+  // 2).
   Bytes request(DsaId id, const Bytes& payload, std::size_t answerBytes);
-  // What has come already can't be the answer to what is asked next.
+  // Discards answers that have arrived already: they can't belong to the next request.
   void dropLateAnswers();
   void send(DsaId id, const Bytes& payload);
   void acquisition(bool on, int rate);
@@ -155,7 +175,7 @@ class DsaController {
   std::uint64_t strayAnswers_ = 0;
 };
 
-// What an error code of the tactile controller means ("index out of bounds").
+// The meaning of an error code of the tactile controller ("index out of bounds").
 std::string dsaErrorText(int code);
 
 }  // namespace palpate

@@ -1,8 +1,8 @@
 // Payload of a full-frame packet of the DSACON32-M, and the plausibility check for frames whose
 // corruption the 16-bit checksum does not detect.
 //   time stamp u32 [ms since controller start] | flags u8 (bit 0: run-length) | taxels
-// Taxels raw: u16 each. Run-length: u16 units, run << 12 | value, runs across rows and matrices;
-// they add up to the number of places.
+// Raw taxels are one u16 each. Run-length coded taxels are u16 units, run << 12 | value; runs
+// continue across rows and matrices, and their lengths add up to the number of places.
 #pragma once
 
 #include <cstddef>
@@ -18,44 +18,46 @@ namespace palpate {
 struct DsaFrame {
   std::uint32_t stampMs = 0;
   bool runLength = false;
-  std::size_t packetBytes = 0;  // on the line, framing included [bytes]
+  // Size on the line, including the framing [bytes].
+  std::size_t packetBytes = 0;
 };
 
-// Decodes a payload into `counts` (layout.numCells() values, 0..4095). Nothing when the payload
-// isn't a plausible frame: unknown flags, wrong size, runs of length 0, runs that don't add up, a
-// value over 12 bits, or (with `checkMask`) a count where the static mask says that no taxel
-// exists. Then `counts` is unspecified. Never throws for bad bytes; std::invalid_argument when
-// counts has another size.
+// Decodes a payload into `counts` (layout.numCells() values, 0..4095). Returns nothing when the
+// payload isn't a plausible frame: unknown flags, wrong size, runs of length 0, runs that don't add
+// up to the number of places, a value over 12 bits, or (with `checkMask`) a count where no taxel
+// exists according to the static mask. `counts` is unspecified then. Never throws for bad bytes;
+// throws std::invalid_argument when `counts` has another size.
 std::optional<DsaFrame> decodeDsaFrame(std::span<const std::byte> payload,
                                        const SensorLayout& layout,
                                        bool checkMask,
                                        std::span<float> counts);
 
-// Unwraps the controller's 32-bit clock and holds back frames whose stamp isn't plausible (not
-// later than the last, or further ahead than the host's time allows): such a frame is accepted only
-// when the next one continues it, which is what a controller does that has started anew.
+// Unwraps the controller's 32-bit clock and holds back frames whose time stamp isn't plausible (not
+// later than the last one, or further ahead than the elapsed host time allows). Such a frame is
+// accepted only when the next frame continues it, as it does after a restart of the controller.
 class DsaClock {
  public:
   enum class FrameAcceptance {
-    // deviceMs is good
+    // The frame is plausible; deviceMs() is its time.
     kAccept,
-    // implausible so far: keep the frame
+    // The frame is implausible so far: the caller must hold it back.
     kHold,
-    // this frame continues the one held: both are good, the controller's clock was reset
+    // This frame continues the one held back: both are good, the controller's clock was reset.
     kRestarted,
-    // the frame held was wrong; this one is implausible as well: keep this one
+    // The frame held back was wrong; this one is implausible as well and must be held back instead.
     kReplaceHeld,
-    // the frame held was wrong; this one is good
+    // The frame held back was wrong; this one is good.
     kDropHeld,
   };
-  // hostUs: when the frame came [us, monotonic].
+  // hostUs: arrival time of the frame [us, monotonic].
   FrameAcceptance checkStamp(std::uint32_t stampMs, std::int64_t hostUs);
-  // Unwrapped time of the frame judged last with kAccept, kRestarted or kDropHeld [ms]. After a
-  // restart the count goes on behind the last frame, so that it never runs back.
+  // Unwrapped time of the last frame checked with kAccept, kRestarted or kDropHeld [ms]. After a
+  // restart of the controller the time continues after the last frame, so that it never decreases.
   std::int64_t deviceMs() const noexcept { return deviceMs_; }
-  // With kRestarted: the time of the frame that was held [ms].
+  // After kRestarted: the time of the frame that was held back [ms].
   std::int64_t heldMs() const noexcept { return heldMs_; }
-  // Frames may pause from here on (acquisition was stopped): the next stamp may be any later one.
+  // Call this when acquisition stops. Frames may pause from here on: any later stamp is accepted
+  // next.
   void reset() noexcept { held_.reset(); }
 
  private:
@@ -74,18 +76,18 @@ class DsaClock {
   std::int64_t heldMs_ = 0;
 };
 
-// How many frames are missing between two that came, judged by the device's clock. The period
-// follows what the line and the scan allow: max(scan period, bytes x time per byte).
+// Counts the frames missing between two received frames by the device's clock. The expected period
+// depends on the scan and on the line: max(scan period, bytes x time per byte).
 class DsaLossEstimate {
  public:
-  // byteUs: time on the line of one byte [us]; 0: the line is no limit (TCP, test rates).
+  // byteUs: time on the line of one byte [us]; 0 when the line is no limit (TCP, test rates).
   explicit DsaLossEstimate(double byteUs = 86.8) : byteUs_(byteUs) {}
   // Returns how many frames are missing before this one; 0 for the first ones and after reset().
   std::uint64_t next(std::int64_t deviceMs, std::size_t packetBytes);
-  // Enough frames have come since reset() that next() tells what is missing; else its 0 says
-  // nothing.
+  // True when enough frames have arrived since reset() for next() to be reliable; before that, its
+  // result 0 does not mean that no frame is missing.
   bool known() const noexcept;
-  // The rate may change from here on (masks, thresholds, acquisition stopped).
+  // Call this when the rate may change (masks, thresholds, acquisition stopped).
   void reset() noexcept;
   // Estimated scan period [ms]; 0: not known yet.
   double scanPeriodMs() const noexcept { return scanPeriodMs_; }
@@ -94,7 +96,7 @@ class DsaLossEstimate {
   double byteUs_;
   double scanPeriodMs_ = 0.0;
   std::optional<std::int64_t> lastMs_;
-  std::vector<double> recentMs_;  // ring of the last intervals
+  std::vector<double> recentMs_;  // ring buffer of the last intervals [ms]
   std::size_t nextRecent_ = 0;
 };
 

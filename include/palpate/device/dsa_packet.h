@@ -41,15 +41,16 @@ struct DsaPacket {
 struct DsaPacketStats {
   std::uint64_t bytes = 0;         // pushed
   std::uint64_t packets = 0;       // delivered to the sink
-  std::uint64_t packetBytes = 0;   // in those
+  std::uint64_t packetBytes = 0;   // bytes in those packets
   std::uint64_t skippedBytes = 0;  // outside any accepted packet
   std::uint64_t implausible = 0;   // candidates whose id or size no controller sends
   std::uint64_t badChecksums = 0;  // candidates with a wrong checksum
 };
 
 struct DsaPacketOptions {
-  // Places in a frame (SDH-2: 486): a frame's payload is 5 + 2 n bytes, n = 1..places. No candidate
-  // that claims more is waited for, so a corrupt size costs at most that much waiting.
+  // Places in a frame (SDH-2: 486): a frame's payload is 5 + 2 n bytes, n = 1..places. A candidate
+  // that claims a larger size is rejected at once, so a corrupt size delays the search by at most
+  // one frame.
   std::size_t numCells = 486;
 };
 
@@ -64,26 +65,27 @@ class DsaPacketParser {
   // Consumes all of `bytes`; calls `sink` once per valid packet, in order, before returning. The
   // sink must not call push().
   void push(std::span<const std::byte> bytes, const Sink& sink);
-  // The sensor turned out to have another number of places. Throws as the constructor does.
+  // Changes the number of places when the sensor turns out to have another one. Throws as the
+  // constructor does.
   void setNumPlaces(std::size_t numCells);
   const DsaPacketStats& stats() const noexcept { return stats_; }
   std::size_t pendingBytes() const noexcept { return pending_.size(); }
-  // The line has been silent: the rest of what waits will not come. The search restarts one byte
-  // behind the start of the candidate that waited, so that a packet behind a corrupt size is found;
-  // nothing is pending afterwards.
+  // Call this when the line has been silent, so that a pending packet will not be completed. The
+  // search restarts one byte after the start of the pending candidate, so that a packet behind a
+  // corrupt size is found; nothing is pending afterwards.
   void flush(const Sink& sink);
 
  private:
   bool plausible(std::uint8_t id, std::size_t size) const noexcept;
-  // Consumes from the front of `in`; returns how many bytes are done with.
+  // Consumes from the front of `in`; returns the number of bytes that are processed.
   std::size_t consume(std::span<const std::byte> in, const Sink& sink);
 
   std::size_t largestFrame_ = 0;  // payload [bytes]
   DsaPacketStats stats_;
-  std::vector<std::byte> pending_;  // the start of a packet whose rest has not come
+  std::vector<std::byte> pending_;  // start of a packet that is not complete yet
 };
 
-// A request: preamble, id, size, payload, checksum (none for an empty payload).
+// Encodes a request: preamble, id, size, payload, checksum (none for an empty payload).
 std::vector<std::byte> dsaRequest(DsaId id, std::span<const std::byte> payload = {});
 
 }  // namespace palpate

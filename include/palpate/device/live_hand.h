@@ -1,5 +1,6 @@
-// A hand on its ports: a thread per port looks for the controller, opens it, streams, executes
-// commands between two frames, notices silence and unplugging, and finds the hand again.
+// A real or emulated hand on its ports, as a Device. One thread per port looks for the controller,
+// opens it, streams, executes commands between two frames, detects silence and unplugging, and
+// reconnects when the hand is back.
 #pragma once
 
 #include <functional>
@@ -13,12 +14,18 @@
 namespace palpate {
 
 struct LiveHandOptions {
-  std::string dsaPort;     // tactile controller; as openChannel() takes it. Empty: no tactile port
-  std::string sdhPort;     // motion controller; empty: no motion port
-  double angleHz = 110.0;  // joint angles are asked for so often, 1..250 [Hz]
-  double temperatureHz = 1.0;  // 0.1..10 [Hz]
-  bool runLength = true;       // frames run-length coded (31.7 frames/s); raw is a third as fast
-  // How a port is opened; tests hand in their own line. Called from the port's thread.
+  // Port of the tactile controller, as openChannel() takes it; empty for none.
+  std::string dsaPort;
+  // Port of the motion controller; empty for none.
+  std::string sdhPort;
+  // Rate at which joint angles are requested, 1..250 [Hz].
+  double angleHz = 110.0;
+  // Rate at which temperatures are requested, 0.1..10 [Hz].
+  double temperatureHz = 1.0;
+  // Run-length coded frames arrive at 31.7 frames/s; raw frames at a third of that rate.
+  bool runLength = true;
+  // Opens a port; empty means openChannel(). Tests pass their own channel. Called from the port's
+  // thread.
   std::function<std::unique_ptr<ByteChannel>(const std::string& port)> open;
   // Throws std::invalid_argument naming the field.
   void validate() const;
@@ -26,7 +33,7 @@ struct LiveHandOptions {
 
 class LiveHand : public Device {
  public:
-  // Opens nothing yet. The clock must outlive the hand. Throws std::invalid_argument (options).
+  // Opens no port yet. The clock must outlive the hand. Throws std::invalid_argument (options).
   explicit LiveHand(LiveHandOptions options, const Clock& clock = systemClock());
   ~LiveHand() override;
   LiveHand(const LiveHand&) = delete;
@@ -35,7 +42,7 @@ class LiveHand : public Device {
   HandDescription hand() const override;
   DeviceInfo facts() const override;
   void start(DeviceSink& sink) override;
-  // A motion that this hand began is stopped first; axes keep their power.
+  // Also stops a motion that this object began; the axes keep their power.
   void stop() noexcept override;
   DeviceStatus status() const override;
   std::future<CommandAnswer> submit(DeviceCommand command) override;

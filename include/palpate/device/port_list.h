@@ -1,4 +1,5 @@
-// The serial ports of this machine, and their names that stay the same when plugs change places.
+// Lists the serial ports of this machine, with the stable names that do not depend on the order of
+// plugging in. Used wherever the user chooses a port.
 #pragma once
 
 #include <filesystem>
@@ -8,28 +9,33 @@
 namespace palpate {
 
 struct PortInfo {
-  std::string name;         // as openChannel() takes it: "/dev/ttyUSB0"
-  std::string stableName;   // under /dev/serial/by-id; equals `name` where it has none there
-  std::string description;  // as the driver or the plug says; may be empty
+  std::string name;  // as openChannel() takes it: "/dev/ttyUSB0"
+  // Name under /dev/serial/by-id; equals `name` where no such link exists.
+  std::string stableName;
+  // Description by the driver or the USB device; may be empty.
+  std::string description;
   bool usb = false;
-  bool bluetooth = false;  // opening it may call the other side
-  bool readable = false;   // by this user
+  // Opening a Bluetooth port may start a connection to the other side.
+  bool bluetooth = false;
+  bool readable = false;  // readable by this user
   bool writable = false;
 };
 
-// Where udev keeps links named after the plug, not after the order of plugging in.
+// Folder of udev's links, which are named after the USB device and not after the order of plugging
+// in.
 constexpr char kByIdFolder[] = "/dev/serial/by-id";
 
-// Ports whose hardware is there: USB first, the machine's own (ttyS) last, else by name with
-// numbers in their order. No port is opened for use. An unreadable list is an empty one.
+// Lists the ports whose hardware is present: USB ports first, the machine's own (ttyS) last,
+// otherwise by name with numbers in numerical order. Opens no port for use. Returns an empty list
+// when the ports can't be read.
 std::vector<PortInfo> listPorts(const std::filesystem::path& byIdFolder = kByIdFolder);
 
-// The link in `byIdFolder` that leads to the same device as `port`; `port` itself where there is
-// none (also for tcp: names and ports that don't exist).
+// Returns the link in `byIdFolder` that leads to the same device as `port`, or `port` itself if
+// there is none (also for tcp: names and ports that don't exist).
 std::string stableNameOf(const std::string& port,
                          const std::filesystem::path& byIdFolder = kByIdFolder);
 
-// The order of listPorts().
+// True when listPorts() lists `a` before `b`.
 bool portBefore(const PortInfo& a, const PortInfo& b);
 
 }  // namespace palpate

@@ -1,12 +1,13 @@
-// Driver of the SDH-2's motion controller: asks and sets its seven axes. Synchronous; the one
-// thread that owns the port uses it.
+// Driver of the SDH-2's motion controller: reads and sets its seven axes. All calls are synchronous
+// and belong to the one thread that owns the port.
 //
-// Every value that is sent is checked before the first byte leaves (std::invalid_argument names
-// axis, value and range; nothing was sent), and every set names all seven axes: none becomes 0 by
-// omission. `grip` and `selgrip` aren't here: the hand is deaf to a stop until they end. All calls
-// are bounded in time (5 s, a reference run 20 s) and throw DeviceError: kSilent (no answer),
-// kRefused (error code, with its meaning), kProtocol (answers arrive damaged), kUnsupported
-// (firmware too old), kDisconnected; SdhInterrupted (see SdhControllerOptions::urgent).
+// Every value is checked before the first byte is sent (std::invalid_argument names axis, value and
+// range; nothing was sent then). Every set command contains all seven axes, so that no axis becomes
+// 0 by omission. `grip` and `selgrip` are not implemented, because the hand ignores a stop until
+// they end. All calls are bounded in time (5 s, a reference run 20 s) and throw DeviceError:
+// kSilent (no answer), kRefused (error code, with its meaning), kProtocol (answers arrive damaged),
+// kUnsupported (firmware too old), kDisconnected; or SdhInterrupted (see
+// SdhControllerOptions::urgent).
 #pragma once
 
 #include <array>
@@ -25,7 +26,7 @@
 
 namespace palpate {
 
-// An exchange was given up because a stop was urgent. `stop` is on the wire; stop() confirms it.
+// An exchange was ended early for an urgent stop. `stop` has been sent; stop() confirms it.
 class SdhInterrupted : public DeviceError {
  public:
   explicit SdhInterrupted(const std::string& port)
@@ -33,42 +34,47 @@ class SdhInterrupted : public DeviceError {
 };
 
 struct SdhControllerOptions {
-  // True as long as a stop waits for this thread. Asked before an exchange, between its tries, and
-  // while it waits longer than 10 ms (every 4 ms; ByteChannel::interrupt() shortens that): then
-  // `stop` goes out and the call ends with SdhInterrupted. Every call but stop() does so until it
-  // is false again, so whoever answers it must call stop(). A reference run is not given up: the
-  // hand is deaf until it ends.
+  // Returns true as long as a stop waits for this thread. It is called before an exchange, between
+  // its tries, and every 4 ms while an exchange waits longer than 10 ms (ByteChannel::interrupt()
+  // shortens that). When it returns true, `stop` is sent and the call ends with SdhInterrupted.
+  // Every call except stop() does so until it returns false again, so its owner must call stop(). A
+  // reference run is not ended early: the hand ignores all input until it ends.
   std::function<bool()> urgent;
 };
 
 struct SdhControllerInfo {
   std::string firmware;  // "0.0.3.3"
-  std::string date;      // of the firmware
-  std::string soc;       // FPGA design
-  std::string serial;    // of the hand; the last three are empty where the hand doesn't tell
+  std::string date;      // release date of the firmware
+  std::string soc;       // version of the FPGA design
+  // Serial number of the hand. Date, soc and serial are empty where the hand does not report them.
+  std::string serial;
   std::string id;
-  std::vector<double> maximumVelocity;      // per axis, as the hand says; else the model's [deg/s]
-  std::vector<double> maximumAcceleration;  // per axis, likewise [deg/s^2]
-  int controller = 0;                       // 0 pose, 1 velocity, 2 velocity with ramp
+  // Maximum velocity per axis as the hand reports it, otherwise from its description [deg/s].
+  std::vector<double> maximumVelocity;
+  // Maximum acceleration per axis, from the same source [deg/s^2].
+  std::vector<double> maximumAcceleration;
+  int controller = 0;  // 0 pose, 1 velocity, 2 velocity with ramp
 };
 
 // Counts since construction.
 struct SdhStats {
-  std::uint64_t exchanges = 0;  // questions
-  std::uint64_t retries = 0;    // questions asked again
-  std::uint64_t resyncs = 0;    // the line was brought back into step
+  std::uint64_t exchanges = 0;  // requests with their answers
+  std::uint64_t retries = 0;    // requests sent again
+  // Number of resynchronisations of the line, after lost or damaged bytes.
+  std::uint64_t resyncs = 0;
   std::uint64_t badChecksums = 0;
-  std::uint64_t suspect = 0;       // right form, impossible content: dropped
-  std::uint64_t strayReplies = 0;  // answers nobody waited for
-  std::uint64_t debugLines = 0;    // beginning with @
-  std::uint64_t skippedBytes = 0;  // outside of any answer
+  // Replies with a correct form but impossible content; they are dropped.
+  std::uint64_t suspect = 0;
+  std::uint64_t strayReplies = 0;  // answers to no pending request
+  std::uint64_t debugLines = 0;    // lines that begin with @
+  std::uint64_t skippedBytes = 0;  // bytes outside of any answer
   std::uint64_t bytesRead = 0;
   std::uint64_t bytesWritten = 0;
   std::uint64_t stops = 0;  // times `stop` was sent
 };
 
-enum class SdhCurrent { kMotion, kGrip, kHold };          // ilim, igrip, ihold
-enum class SdhSoftLimit { kMinimum, kMaximum, kOffset };  // p_min, p_max, p_offset
+enum class SdhCurrent { kMotion, kGrip, kHold };          // commands ilim, igrip, ihold
+enum class SdhSoftLimit { kMinimum, kMaximum, kOffset };  // commands p_min, p_max, p_offset
 
 class SdhLink;
 struct SdhRetryPolicy;
@@ -86,32 +92,35 @@ class SdhController {
   SdhController(const SdhController&) = delete;
   SdhController& operator=(const SdhController&) = delete;
 
-  // Finds the controller and asks what it is. Besides the above: kWrongDevice (a tactile controller
-  // sends here: ports swapped; or the hand has not seven axes). An idle tactile controller is
-  // kSilent.
+  // Finds the controller and reads its properties. In addition to the faults above it throws
+  // kWrongDevice (a tactile controller sends at this port: ports swapped; or the hand does not have
+  // seven axes). An idle tactile controller causes kSilent.
   const SdhControllerInfo& open();
   const SdhControllerInfo& facts() const noexcept { return facts_; }
   SdhStats stats() const noexcept;
 
-  // What the axes do.
-  Values angles();               // [deg]
-  Values velocities();           // [deg/s]
-  Values referenceVelocities();  // of controller 2 [deg/s]; firmware 0.0.2.6
-  std::vector<int> states();     // Device::axisStates()
-  Values temperatures();         // nine: motors 0..6, FPGA, circuit board [deg C]
+  // Actual state of the axes.
+  Values angles();      // [deg]
+  Values velocities();  // [deg/s]
+  // Reference velocities of controller 2 [deg/s]; requires firmware 0.0.2.6.
+  Values referenceVelocities();
+  std::vector<int> states();  // values as in Device::axisStates()
+  Values temperatures();      // nine: motors 0..6, FPGA, circuit board [deg C]
 
-  // Targets. Angles move nothing until move(); velocities move at once unless the controller is 0.
+  // Targets. Target angles cause no motion until move(); target velocities act at once unless the
+  // controller is 0.
   Values targets();           // [deg]
   Values targetVelocities();  // [deg/s]
   Values accelerations();     // [deg/s^2]
   Values setTargets(const Values& deg);
   Values setVelocities(const Values& degPerS);
   Values setAccelerations(const Values& degPerS2);
-  // All seven are read, one is changed, all seven are written.
+  // These read all seven values, change one and write all seven.
   Values setTarget(std::size_t axis, double deg);
   Values setVelocity(std::size_t axis, double degPerS);
   Values setAcceleration(std::size_t axis, double degPerS2);
-  // Target and actual value in one round trip; returns what velocities() or angles() would.
+  // Sets the target and reads the actual value in one round trip; returns the same as angles() or
+  // velocities().
   Values setTargetsGetAngles(const Values& deg);
   Values setVelocitiesGetVelocities(const Values& degPerS);
 
@@ -125,17 +134,19 @@ class SdhController {
   double move();
   // Duration of the motion that move() would start [s].
   double pendingDuration();
-  // Stops a motion, power stays on. Goes out at once, whatever was going on before.
+  // Stops a motion; power stays on. The command is sent at once, even during another exchange.
   void stop();
 
-  int controller();  // firmware 0.0.2.6
+  int controller();  // requires firmware 0.0.2.6
   void setController(int controller);
-  int profile();  // of `m`: 0 sin-square, 1 ramp (can be retargeted in motion without a jerk)
+  // Velocity profile of `m`: 0 sin-square, 1 ramp (accepts a new target during motion without a
+  // jerk).
+  int profile();
   void setProfile(int profile);
 
-  Values velocityLimits();                                       // firmware 0.0.2.1 [deg/s]
-  Values accelerationLimits();                                   // firmware 0.0.2.7 [deg/s^2]
-  Values currentLimits(SdhCurrent of);                           // [A]
+  Values velocityLimits();              // requires firmware 0.0.2.1 [deg/s]
+  Values accelerationLimits();          // requires firmware 0.0.2.7 [deg/s^2]
+  Values currentLimits(SdhCurrent of);  // [A]
   Values setCurrentLimits(SdhCurrent of, const Values& ampere);  // 0..1
   Values softLimits(SdhSoftLimit which);                         // [deg]
   Values setSoftLimits(SdhSoftLimit which, const Values& deg);
@@ -143,18 +154,19 @@ class SdhController {
   void setVelocityGain(std::size_t axis, double gain);
   std::array<double, 3> pid(std::size_t axis);
   void setPid(std::size_t axis, const std::array<double, 3>& gains);
-  // Moves axes without absolute encoder to a stop: 0 not, 1 to the positive one, 2 to the negative
-  // one. Blocks up to 15 s, and the hand is deaf to stop() until it ends: warn the user before.
+  // Moves axes without an absolute encoder to a mechanical stop. Values per axis: 0 does not move
+  // it, 1 moves it to the positive stop, 2 to the negative one. Blocks up to 15 s, and the hand
+  // ignores stop() until it ends: warn the user before.
   void referenceRun(const std::vector<int>& direction);
-  // Stores the actual angle in the hand's flash where the value is 1.
+  // Stores the actual angle in the hand's flash for every axis whose value is 1.
   void savePositions(const std::vector<int>& axes);
 
  private:
-  // One vector command: all seven values in, all seven out. `values` empty: get.
+  // Executes one command with seven values in and seven out. Empty `values` mean a read request.
   Values exchange(const SdhQuantity& quantity, const Values& values);
   Values withAxis(std::size_t axis, Values values, double value) const;
   std::string word(const std::string& command, const SdhRetryPolicy& retryPolicy);
-  // The number(s) of the answer NAME=.. or NAME(axis)=.. to a request.
+  // The numbers of the answer NAME=.. or NAME(axis)=.. to a request.
   Values numbers(const std::string& request,
                  std::string_view name,
                  std::optional<int> axis,
@@ -167,7 +179,8 @@ class SdhController {
 
   std::unique_ptr<SdhLink> link_;
   SdhControllerInfo facts_;
-  bool binary_ = false;  // records, not lines, where both exist
+  // True when binary records are used for the commands that exist in both forms.
+  bool binary_ = false;
 };
 
 }  // namespace palpate

@@ -1,12 +1,12 @@
-// The language of the SDH-2's motion controller: ASCII lines and binary records on one line,
-// little-endian. Encoding of requests and the meaning of replies; finding replies in a stream is
-// sdh_reply_parser.h's work.
+// Protocol of the SDH-2's motion controller: encodes requests and decodes replies. ASCII lines and
+// little-endian binary records share one connection. SdhReplyParser (sdh_reply_parser.h) finds the
+// replies in the stream of bytes.
 //
 //   line:     text CR LF                            reply: NAME=values CR LF, or E<code> CR LF
 //   request:  command u8 | n u8 | 0 u8 | crc u16                       n = bytes after n
 //             command u8 | n u8 | 7 u8 | 7 x f32 | crc u16
 //   record:   command u8 | n u8 | 7 u8 | status u8 | 7 x f32 | crc u16
-// The checksum (weiss_checksum.h) stands on serial lines; on TCP there is none and n is 2 less.
+// The checksum (weiss_checksum.h) is present on serial lines; on TCP it is absent and n is 2 less.
 #pragma once
 
 #include <cstddef>
@@ -22,8 +22,8 @@ namespace palpate {
 constexpr std::size_t kSdhAxes = 7;
 constexpr std::size_t kSdhTemperatures = 9;  // motors 0..6, FPGA, circuit board
 
-// Command numbers of binary records. Only those in the first group are sent so: the layout of the
-// others isn't known, they go as lines.
+// Command numbers of binary records. Only the first group is sent in binary form; the layout of the
+// others is unknown, so they are sent as lines.
 enum class SdhCommand : std::uint8_t {
   kVelocityTarget = 0x80,     // v
   kVelocity = 0x81,           // vel
@@ -78,30 +78,30 @@ std::string_view sdhName(SdhCommand command) noexcept;
 // True for the first group above.
 bool sdhIsBinary(SdhCommand command) noexcept;
 
-// A record without values ("get"), 5 bytes (3 without checksum), or with seven ("set"), 33 (31).
-// Throws std::invalid_argument for another number of values.
+// Encodes a binary request without values (read: 5 bytes, 3 without checksum) or with seven values
+// (set: 33 bytes, 31 without checksum). Throws std::invalid_argument for another number of values.
 std::vector<std::byte> sdhRecordRequest(SdhCommand command,
                                         std::span<const double> values,
                                         bool checksum);
 
-// A line without its end: "pos", "kv(2)", "p=0.000000,..": six decimals, as the vendor's library
-// writes.
+// Encodes a line without its CR LF: "pos", "kv(2)", "p=0.000000,..". Values have six decimals, as
+// in the vendor's library.
 std::string sdhLineRequest(std::string_view name,
                            std::optional<int> axis = std::nullopt,
                            std::span<const double> values = {});
 
-// A binary reply. Replies always hold seven values.
+// A binary reply. Replies always contain seven values.
 struct SdhRecord {
   SdhCommand command{};
   int status = 0;              // 0, or an error code
-  std::vector<double> values;  // not checked: may be NaN
+  std::vector<double> values;  // not checked: may contain NaN
 };
 // Size of a binary reply on the line [bytes].
 constexpr std::size_t sdhRecordBytes(bool checksum) noexcept { return checksum ? 34 : 32; }
-// The first three bytes of a reply; more of them may follow later.
+// True when `bytes` are the first three bytes of a reply; more bytes may follow them.
 bool sdhIsRecordStart(std::span<const std::byte> bytes, bool checksum) noexcept;
-// A whole reply, bytes.size() == sdhRecordBytes(); nothing when it is none or its checksum is
-// wrong.
+// Decodes a whole reply with bytes.size() == sdhRecordBytes(); returns nothing when it isn't a
+// reply or its checksum is wrong.
 std::optional<SdhRecord> decodeSdhRecord(std::span<const std::byte> bytes, bool checksum);
 
 // A reply line.
@@ -109,30 +109,32 @@ struct SdhLine {
   enum class Kind {
     kValue,  // NAME=text or NAME(axis)=text
     kError,  // E<code>
-    kDebug,  // begins with @: progress before the real reply
-    kOther,  // a line of its own, such as the answer to stop
+    kDebug,  // begins with @: progress report before the reply itself
+    kOther,  // other text, such as the answer to stop
   };
   Kind kind = Kind::kOther;
-  std::string name;  // upper case
+  std::string name;  // in upper case
   std::optional<int> axis;
-  std::string text;  // behind the =; the whole line where there is none
+  std::string text;  // text after the =; the whole line where there is none
   int error = 0;
 };
-// `line` comes without its end. Never fails: what is unknown is kOther.
+// `line` is passed without CR LF. Never fails: an unknown line is kOther.
 SdhLine parseSdhLine(std::string_view line);
-// Numbers between commas, blanks allowed; nothing when one of them isn't a finite number.
+// Parses numbers separated by commas, blanks allowed; returns nothing when one of them isn't a
+// finite number.
 std::optional<std::vector<double>> parseSdhNumbers(std::string_view text);
 
-// What an error code of the motion controller means ("range error"), and what to do about it (may
-// be empty). They are not the tactile controller's codes.
+// The meaning of an error code of the motion controller ("range error"), and advice on what to do
+// (may be empty). The codes differ from those of the tactile controller.
 std::string sdhErrorText(int code);
 std::string sdhErrorAdvice(int code);
 
-// A firmware release for comparing: "0.0.3.3" -> {0, 0, 3, 3}; what is no number counts as 0.
+// A firmware release for comparisons: "0.0.3.3" -> {0, 0, 3, 3}; a part that is no number counts as
+// 0.
 struct SdhFirmware {
   int parts[4] = {};
   static SdhFirmware parse(std::string_view text) noexcept;
-  // At least `major.minor.release.build`.
+  // True for release major.minor.release.build = a.b.c.d and every later one.
   bool atLeast(int a, int b, int c, int d) const noexcept;
 };
 

@@ -1,5 +1,5 @@
-// Finds the replies of the SDH-2's motion controller in its stream of bytes: lines and binary
-// records, mixed. A byte with the top bit set begins a record, everything else is text.
+// Finds the replies of the SDH-2's motion controller in its stream of bytes, where lines and binary
+// records are mixed. A byte with the top bit set begins a record, everything else is text.
 #pragma once
 
 #include <cstddef>
@@ -20,33 +20,34 @@ using SdhReply = std::variant<SdhLine, SdhRecord>;
 struct SdhReplyStats {
   std::uint64_t lines = 0;
   std::uint64_t records = 0;
-  std::uint64_t lineBytes = 0;     // with their ends
+  std::uint64_t lineBytes = 0;     // with their CR LF
   std::uint64_t recordBytes = 0;   // of accepted records
   std::uint64_t skippedBytes = 0;  // noise, blank lines, lines beyond 254 characters
   std::uint64_t badChecksums = 0;  // records with a wrong checksum
 };
 
-// Push parser; one per port thread. Never throws on bad input: after a record that is none the
-// search goes on one byte later.
+// Push parser; one per port thread. Never throws on bad input: after an invalid record the search
+// restarts one byte later.
 class SdhReplyParser {
  public:
   using Sink = std::function<void(SdhReply&&)>;
   explicit SdhReplyParser(bool checksum) : checksum_(checksum) {}
   // Consumes all of `bytes`; calls `sink` once per reply, in order, before returning.
   void push(std::span<const std::byte> bytes, const Sink& sink);
-  // Gives up what is incomplete (counted as skipped).
+  // Discards an incomplete reply (counted as skipped).
   void reset();
-  // [bytes] of an incomplete reply; never more than 254.
+  // Size of an incomplete reply [bytes]; never more than 254.
   std::size_t pendingBytes() const noexcept { return pending_.size(); }
   const SdhReplyStats& stats() const noexcept { return stats_; }
 
  private:
-  // Bytes consumed at the start of `in`; 0: wait for more.
+  // Returns the number of bytes consumed at the start of `in`; 0 when more bytes are needed.
   std::size_t takeRecord(std::span<const std::byte> in, const Sink& sink);
   std::size_t takeLine(std::span<const std::byte> in, const Sink& sink);
 
   bool checksum_;
-  bool tooLong_ = false;  // in the rest of a line beyond the limit
+  // True while the rest of a line beyond the limit is skipped.
+  bool tooLong_ = false;
   SdhReplyStats stats_;
   std::vector<std::byte> pending_;
 };

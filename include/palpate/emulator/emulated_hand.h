@@ -1,6 +1,6 @@
 // Emulated hand: both controllers on two ports, with a thread of its own that simulates their
-// timing. A client sees the same bytes as on the lines of a real hand. Functions that only tests
-// need (ground truth, counters, fault injection) are here as well.
+// timing. A client receives the same bytes as from a real hand. The class also contains the
+// functions that only tests need (ground truth, counters, fault injection).
 #pragma once
 
 #include <cstdint>
@@ -19,39 +19,43 @@
 namespace palpate {
 
 enum class EmulationRate {
-  kReal,   // bytes at 115200 baud, frames by scan time, commands with 2..3 ms of thinking
-  kFixed,  // frames at a given rate, lines and commands without delay
-  // Frames as fast as the client takes them; the hand's time runs with the frames, each at its
-  // nominal interval, and with the wall clock while nothing streams.
+  // Bytes at 115200 baud, frames by scan time, commands answered after 2..3 ms.
+  kReal,
+  // Frames at a given rate, bytes and commands without delay.
+  kFixed,
+  // Frames as fast as the client reads them. The hand's time advances with the frames, each at its
+  // nominal interval, and with the wall clock while no stream runs.
   kMax,
 };
 
 enum class EmulatedPort { kTactile, kMotion };
-// monotonicUs: of the machine's clock [us]. `bytes` are valid inside of the call.
+// monotonicUs: monotonic time of the machine [us]. `bytes` are valid inside the call.
 using ReceiveObserver = std::function<void(
     EmulatedPort port, std::span<const std::byte> bytes, std::int64_t monotonicUs)>;
 
 struct EmulatedHandOptions {
-  // Where the ports are: path of a link to be made, "tcp:127.0.0.1:PORT" (0: any), or empty: a pty
-  // without a link.
+  // Where to open the ports: path of a symbolic link to create, "tcp:127.0.0.1:PORT" (0: any port),
+  // or empty for a pty without a link.
   std::string dsaPort = {};
   std::string sdhPort = {};
   EmulationRate rate = EmulationRate::kReal;
   double hz = 31.7;  // with kFixed: 0.01..1000
   Faults faults = {};
-  std::uint64_t seed = 1;     // of faults and think times
+  // Seed of the faults and of the response delays.
+  std::uint64_t seed = 1;
   DsaServerOptions dsa = {};  // frameHz and lineByteUs are set by `rate`
-  SdhServerOptions sdh = {};  // checksum by the kind of port, think times by `rate`
-  // Told of what a client sent, as it arrives and before it is understood; from the hand's thread.
+  // `checksum` is set by the kind of port, the response delays by `rate`.
+  SdhServerOptions sdh = {};
+  // Called from the hand's thread with the bytes that a client sent, before they are parsed.
   ReceiveObserver received = {};
 };
 
-// A tactile frame as it was scanned and put on the line. Valid inside of the call.
+// A tactile frame as it was scanned and sent. Valid inside the call.
 struct EmulatedFrame {
   ScannedFrame scanned;
   std::int64_t hostUs = 0;                // host time of the scan [us since 1970]
   std::span<const std::uint16_t> counts;  // all matrices
-  const HandModel& model;                 // its truth() is that of this scan
+  const HandModel& model;                 // its truth() belongs to this scan
 };
 using FrameObserver = std::function<void(const EmulatedFrame&)>;
 
@@ -61,35 +65,39 @@ struct SentFrame {
   std::uint32_t deviceMs = 0;
   // Host time at which its last byte was handed to the system [us since 1970].
   std::int64_t hostUs = 0;
-  bool whole = false;  // every byte, unchanged
+  bool whole = false;  // true when every byte was sent unchanged
 };
 
-// Of one port, since the start.
+// Counts of one port since the start.
 struct EmulatedPortCounts {
   std::uint64_t bytesSent = 0;  // handed to the system
-  std::uint64_t bytesLost = 0;  // nobody read, muted, or unplugged
+  // Bytes that were lost because no client read them, or while muted or unplugged.
+  std::uint64_t bytesLost = 0;
   std::uint64_t bytesReceived = 0;
-  std::uint64_t messages = 0;  // packets, records and lines made, frames included
-  std::uint64_t pending = 0;   // bytes that wait for their time, or for a client that reads
+  // Packets, records and lines created, frames included.
+  std::uint64_t messages = 0;
+  // Bytes that wait for their time or for a client that reads.
+  std::uint64_t pending = 0;
 };
 
 struct EmulatedHandCounts {
   std::uint64_t framesScanned = 0;
   std::uint64_t framesSent = 0;   // all bytes handed to the system
-  std::uint64_t framesWhole = 0;  // of those, without a fault in them
-  std::uint64_t framesLost = 0;   // some bytes found no reader
+  std::uint64_t framesWhole = 0;  // frames sent without a fault in them
+  std::uint64_t framesLost = 0;   // frames of which some bytes were lost
   double handTimeS = 0.0;         // the hand's time since the start [s]
   FaultCounts faults;
   EmulatedPortCounts dsa, sdh;
-  std::string failure;  // why the hand has stopped by itself; empty: it runs
+  // Reason why the hand stopped because of an error; empty while it runs.
+  std::string failure;
 };
 
-// Every member may be called from any thread; those that change something return when it has
-// happened.
+// Every function may be called from any thread; those that change something return after the
+// change.
 class EmulatedHand {
  public:
-  // Opens the ports and starts. `observer`: called from the hand's thread for each frame.
-  // Throws DeviceError, FileError (ports), std::invalid_argument (options).
+  // Opens the ports and starts. `observer` is called from the hand's thread for each frame. Throws
+  // DeviceError, FileError (ports), std::invalid_argument (options).
   explicit EmulatedHand(std::unique_ptr<HandModel> model,
                         EmulatedHandOptions options = {},
                         FrameObserver observer = {});
@@ -98,33 +106,34 @@ class EmulatedHand {
   EmulatedHand(const EmulatedHand&) = delete;
   EmulatedHand& operator=(const EmulatedHand&) = delete;
 
-  // Names for a client to open.
+  // Names of the ports, for a client to open.
   std::string dsaPort() const;
   std::string sdhPort() const;
 
-  // Counts follow what a client has read by a fraction of a millisecond.
+  // The counts lag by a fraction of a millisecond behind what a client has read.
   EmulatedHandCounts counts() const;
-  // The last few thousand frames that have left, oldest first.
+  // The last few thousand frames sent, oldest first.
   std::vector<SentFrame> sentFrames() const;
 
   // Fault injection. Disconnects the ports, also in the middle of a packet: the client sees a
   // hang-up and the link is removed. The emulated controllers continue as if connected.
   void unplug(bool dsa = true, bool sdh = true);
-  // Pulls the tactile plug at a certain byte: so many more leave, the client has 5 ms to read them,
-  // then it sees the hang-up. Returns at once.
+  // Disconnects the tactile port after the given number of further bytes: they are sent, the client
+  // has 5 ms to read them, then it sees the hang-up. Returns at once.
   void unplugAfter(std::uint64_t bytes);
-  // Plugs in again what is out: a new pty under the same link. Throws as the constructor.
+  // Reconnects all disconnected ports: a new pty under the same link. Throws as the constructor.
   void replug();
-  // Off and on: settings as stored, stream and power off, deaf for `bootS`.
+  // Switches the hand off and on: it has the stored settings, stream and power are off, and it
+  // ignores all input for `bootS`.
   void powerCycle(double bootS = 8.0);
-  // Silence: nothing leaves the hand, though it listens and acts.
+  // While on, the hand sends nothing, although it receives and executes commands.
   void mute(bool on);
-  // So many random bytes on the chosen ports, as fast as the lines take them.
+  // Sends this number of random bytes on the chosen ports, as fast as the lines allow.
   void sendRandomBytes(std::uint64_t bytes, bool dsa = true, bool sdh = true);
-  // From now on (times of stalls and unplugs count from here). A `bootS` switches the hand off and
-  // on.
+  // Replaces the faults; times of stalls and unplugs count from this call. A `bootS` switches the
+  // hand off and on.
   void setFaults(const Faults& faults);
-  // Calls `visit` with the model, at rest, in the hand's thread.
+  // Calls `visit` with the model in the hand's thread, while nothing else uses it.
   void withModel(const std::function<void(HandModel&)>& visit);
 
  private:

@@ -1,5 +1,5 @@
-// The SDH-2's motion controller as a machine of joints: seven axes with targets, velocities,
-// accelerations, power and states, that move in simulated time. Knows no byte of the protocol.
+// Joint motion of the SDH-2's emulated motion controller: seven axes with targets, velocities,
+// accelerations, power and states that move in simulated time. It is independent of the protocol.
 //
 // Velocity profiles of a motion over a distance d within a time T, velocity limit v, acceleration
 // limit a:
@@ -18,8 +18,8 @@ namespace palpate {
 
 enum class AxisState : std::uint8_t {
   kIdle = 0,
-  kPositioning = 1,  // goal of an `m` motion not yet reached
-  kSpeedMode = 2,    // moving in a velocity controller
+  kPositioning = 1,  // target of an `m` motion not yet reached
+  kSpeedMode = 2,    // moving under a velocity controller
   kNotInitialised = 3,
   kBlockedClockwise = 4,
   kBlockedCounterClockwise = 5,
@@ -31,10 +31,10 @@ enum class ControllerType : std::uint8_t { kPose = 0, kVelocity = 1, kVelocityAc
 enum class VelocityProfile : std::uint8_t { kSinSquare = 0, kRamp = 1 };
 
 // Vectors have one entry per axis. Setters throw std::out_of_range (value outside the axis' range)
-// or std::invalid_argument (wrong size, not finite) and change nothing then.
+// or std::invalid_argument (wrong size, not finite); they change nothing then.
 class JointMotion {
  public:
-  // Axes stand at `startDeg`, disabled; pose controller, 40 deg/s, 100 deg/s^2, sin-square.
+  // The axes start at `startDeg`, disabled; pose controller, 40 deg/s, 100 deg/s^2, sin-square.
   JointMotion(const HandDescription& hand, std::vector<double> startDeg);
 
   void setTargets(const std::vector<double>& deg);
@@ -42,17 +42,19 @@ class JointMotion {
   // moves at once (kVelocityAcceleration ramps with the accelerations).
   void setVelocities(const std::vector<double>& degPerS);
   void setAccelerations(const std::vector<double>& degPerS2);
-  void setPower(const std::vector<bool>& on);  // off: the axis stops where it is, state kDisabled
-  void setController(
-      ControllerType type);  // velocities become 40 (pose) or 0 (velocity controllers)
+  // Switched off, an axis stops where it is with the state kDisabled.
+  void setPower(const std::vector<bool>& on);
+  // Also sets the velocities: to 40 deg/s (pose) or 0 (velocity controllers).
+  void setController(ControllerType type);
   void setProfile(VelocityProfile profile);
 
-  // `m`: enables all axes; all start and arrive together. Returns the duration [s]; 0 when all
-  // stand at their targets.
+  // Command `m`: enables all axes; all start and arrive together. Returns the duration [s]; 0 when
+  // all axes are at their targets.
   double startMotion();
-  double durationOfPending()
-      const;    // `get_duration`: of the motion that startMotion() would begin [s]
-  void stop();  // `stop`: the motion ends where it is; power stays
+  // Command `get_duration`: duration of the motion that startMotion() would begin [s].
+  double durationOfPending() const;
+  // Command `stop`: the motion ends at the present angles; power stays on.
+  void stop();
 
   void advance(double dtS);
   // Resistance of an axis against clockwise and counter-clockwise motion as a fraction of its
@@ -74,17 +76,18 @@ class JointMotion {
   ControllerType controller() const noexcept { return controller_; }
   VelocityProfile profile() const noexcept { return profile_; }
   bool moving() const;
-  // Number of motions begun and of motions stopped early. A caller that counts its own detects
-  // motions by others.
+  // Number of motions begun plus motions stopped early. A caller that counts its own motions can
+  // detect those started by others.
   std::uint64_t motionCount() const noexcept { return motionCount_; }
 
  private:
-  // A motion to a target: distance is covered in the motion's duration, by the profile.
+  // Motion of one axis to a target; the velocity profile covers the distance within the duration.
   struct Path {
     double startDeg = 0.0;
     double distanceDeg = 0.0;           // signed
-    double accelerationDegPerS2 = 0.0;  // as set when it began
-    double timeS = 0.0;                 // how far it is; behind the others' where it was held up
+    double accelerationDegPerS2 = 0.0;  // value when the motion began
+    // Progress of this axis in time; less than that of the others when resistance slowed it.
+    double timeS = 0.0;
     bool active = false;
   };
   void require(const char* what,
@@ -92,7 +95,7 @@ class JointMotion {
                const std::vector<double>& least,
                const std::vector<double>& most) const;
   void requireSize(const char* what, std::size_t size) const;
-  // How long the axis would take alone [s]; 0 when it stands at its target or has no velocity.
+  // Duration of the motion of this axis alone [s]; 0 when it is at its target or has no velocity.
   double axisDuration(std::size_t axis) const;
   double covered(std::size_t axis, double timeS) const;  // [deg], unsigned
   double speedAt(std::size_t axis, double timeS) const;  // [deg/s], unsigned
@@ -108,7 +111,7 @@ class JointMotion {
   std::vector<AxisState> states_;
   std::vector<Path> paths_;
   std::uint64_t motionCount_ = 0;
-  double durationS_ = 0.0;  // of the motion; 0: none runs
+  double durationS_ = 0.0;  // duration of the running motion; 0 when none runs
   VelocityProfile motionProfile_ = VelocityProfile::kSinSquare;
   ControllerType controller_ = ControllerType::kPose;
   VelocityProfile profile_ = VelocityProfile::kSinSquare;

@@ -1,6 +1,6 @@
-// Frames of a hand at high sensitivity, with known truth: contacts of several sizes come, hold and
-// go, one after the other, on a sensor whose noise is that of the real one. To measure what filters
-// do to ghosts and to contacts.
+// Synthetic frames of a hand at high sensitivity, with known truth: contacts of several sizes
+// begin, hold and end, one after the other, on a sensor with the noise of the real one. Used to
+// measure how filters change ghosts and contacts.
 #pragma once
 
 #include <array>
@@ -17,8 +17,8 @@ namespace palpate {
 
 enum class ContactSize {
   kPoint,  // a tip above one taxel
-  kPair,   // between two taxels
-  kPen,    // a line, a taxel wide and four to six long
+  kPair,   // a tip between two taxels
+  kPen,    // a line, one taxel wide and four to six long
   kBall,   // round, radius 2 to 3 taxels
   kBroad   // flat, about 4 x 6 taxels
 };
@@ -27,7 +27,8 @@ inline constexpr std::array kAllContactSizes = {ContactSize::kPoint,
                                                 ContactSize::kPen,
                                                 ContactSize::kBall,
                                                 ContactSize::kBroad};
-std::string_view nameOf(ContactSize size);  // "point", "pair", "pen", "ball", "broad"
+// Names: "point", "pair", "pen", "ball", "broad".
+std::string_view nameOf(ContactSize size);
 
 struct NoisyContactsOptions {
   std::uint64_t seed = 1;
@@ -35,38 +36,42 @@ struct NoisyContactsOptions {
   double rateHz = 30.0;       // [Hz], 1..1000
   double degC = 30.0;         // of all sensors [deg C], 0..80
   double sensitivity = 1.0;   // 0..1
-  // threshold: the line of the maximum and so many of its RMSE (methods: 3), -20..20
+  // Threshold as a multiple of the RMSE above the noise line (methods: 3), -20..20.
   double noiseMultiple = 3.0;
-  double belowCounts = 0.0;  // and so many counts less, -100..100
-  bool contacts = true;      // false: nothing touches anything
-  // peak pressure of a contact, drawn from a logarithmic scale [kPa], > 0
+  // Amount subtracted from that threshold, -100..100.
+  double belowCounts = 0.0;
+  bool contacts = true;  // false: no contacts at all
+  // Range of the peak pressure of a contact, drawn on a logarithmic scale [kPa], > 0.
   double minKpa = 8.0;
   double maxKpa = 60.0;
 
-  // Throws std::invalid_argument with the field's name.
+  // Throws std::invalid_argument naming the field.
   void validate() const;
 };
 
 struct NoisyContact {
   ContactSize size = ContactSize::kPoint;
   std::size_t matrix = 0;
-  std::size_t begin = 0,
-              end = 0;  // frames from first load to the end of the rest behind it, `end` exclusive
+  // Frames from the first load to the end of the following rest; `end` is exclusive.
+  std::size_t begin = 0, end = 0;
   double peakKpa = 0.0;
 };
 
 struct NoisyContacts {
-  Profile profile;                     // counts, 12 bit, at 1/rateHz; temperatures once a second
-  std::vector<CellTruthMask> truth;    // what presses on each place, per frame
-  std::vector<NoisyContact> contacts;  // one after the other, sizes in turn, matrices in turn
-  std::vector<int> thresholdCounts;    // per matrix
+  // Counts, 12 bit, at 1/rateHz; temperatures once a second.
+  Profile profile;
+  // For every frame and place, whether a contact presses on it.
+  std::vector<CellTruthMask> truth;
+  // One after the other; sizes and matrices take turns.
+  std::vector<NoisyContact> contacts;
+  std::vector<int> thresholdCounts;  // per matrix
 };
 
 // The same options give the same frames. Throws std::invalid_argument.
 NoisyContacts makeNoisyContacts(const NoisyContactsOptions& options = {});
 
-// theta_m(T) of the methods (section 4): line of the maximum, a multiple of its RMSE, less
-// `belowCounts`; whole counts, not below 0.
+// Threshold theta_m(T) of the methods (section 4): noise line plus a multiple of its RMSE, minus
+// `belowCounts`; whole counts, at least 0.
 int noiseThresholdCounts(const MatrixCharacteristics& matrix,
                          double degC,
                          double noiseMultiple = 3.0,

@@ -12,16 +12,17 @@
 namespace palpate {
 
 struct PhysicalHandOptions {
-  std::uint64_t seed = 1;  // of the sensors' noise
-  // Elastic foundation of the sensor's rubber: 1 mm of indentation are 150 kPa, which read about
-  // the 3554 counts that the study takes for 1 mm.
+  std::uint64_t seed = 1;  // seed of the sensors' noise
+  // Elastic foundation of the sensor's rubber: 1 mm of indentation gives 150 kPa, which read about
+  // the 3554 counts that the study reports for 1 mm.
   double rubberNPerMm3 = 0.15;
   // Torque at which each motor stalls (current limit) [N mm].
   std::vector<double> motorNmm = {3000, 2100, 1400, 2100, 1400, 2100, 1400};
-  // Zero error of each joint [deg]: the true angle minus the reported one. Empty: none. On a real
-  // hand it differs between sessions (recognition/session_offset.h).
+  // Zero error of each joint [deg]: the true angle minus the reported one. Empty: no error. On a
+  // real hand it differs between sessions (recognition/session_offset.h).
   std::vector<double> zeroErrorDeg = {};
-  double stepS = 0.004;  // of the simulation while something moves [s]
+  // Time step of the simulation while something moves [s].
+  double stepS = 0.004;
 };
 
 class PhysicalHand final : public HandModel {
@@ -40,7 +41,7 @@ class PhysicalHand final : public HandModel {
   std::vector<double> temperatures() override;
   std::vector<MatrixTruth> truth() const override;
 
-  // Pressure on each place before rubber and sensor, of the last step [kPa].
+  // Pressure on each place in the last step, before the effects of rubber and sensor [kPa].
   const std::vector<double>& pressureKpa() const noexcept;
 
  private:

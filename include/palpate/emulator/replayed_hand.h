@@ -1,8 +1,8 @@
-// A recording as the hand behind the ports: each frame of it once, in order, at its own intervals;
-// joint angles and temperatures of the same moments. Masks that a client sets are applied,
-// thresholds and sensitivities only remembered: what was recorded has been through them. Time
-// stands still while nobody streams (between two frames of a stream it goes on), and after the last
-// frame.
+// Replays a recording through the emulated ports: each frame once, in order, at the recorded
+// intervals, with the joint angles and temperatures of the same time. Masks set by a client are
+// applied. Thresholds and sensitivities are only stored, because the recorded frames already
+// contain their effect. Time stops while no client streams (it continues between two frames of a
+// stream) and after the last frame.
 #pragma once
 
 #include <optional>
@@ -15,14 +15,14 @@ namespace palpate {
 
 class ReplayedHand final : public HandModel {
  public:
-  // Values that are no counts are rounded, and held within 0..4095.
+  // Values that are no counts are rounded and clamped to 0..4095.
   explicit ReplayedHand(Profile profile);
 
   const HandDescription& hand() const override { return profile_.hand(); }
   void advanceTo(double timeS) override;
   double timeS() const override { return timeS_; }
-  // Standing where the recording has them, within the range of the axes; motions have no effect on
-  // it.
+  // The joints have the recorded angles, within the range of the axes; commanded motions have no
+  // effect on them.
   JointMotion& joints() override { return joints_; }
   std::vector<MatrixSetting>& settings() override { return settings_; }
   void scan(std::span<std::uint16_t> counts) override;
@@ -42,7 +42,7 @@ class ReplayedHand final : public HandModel {
   std::vector<MatrixSetting> settings_;
   TactileFrame frame_;
   double timeS_ = 0.0;
-  double scannedS_ = 0.0;  // when the last frame was scanned
+  double scannedS_ = 0.0;  // time of the last scan
   std::size_t nextFrame_ = 0;
   std::optional<std::size_t> angleSample_;
 };

@@ -1,4 +1,5 @@
-// Solid shapes by their signed distance: negative inside, zero on the surface, positive outside.
+// Solid shapes of the objects in a scene, described by their signed distance: negative inside, zero
+// on the surface, positive outside.
 #pragma once
 
 #include <string_view>
@@ -9,13 +10,14 @@ namespace palpate {
 
 enum class ShapeKind {
   kSphere,     // sizeMm: diameter in x
-  kCylinder,   // diameter in x, length in z; about z
+  kCylinder,   // diameter in x, length in z; axis z
   kBox,        // edges in x, y, z
   kEllipsoid,  // diameters in x, y, z
-  kCone,       // diameter of its foot in x, height in z; about z, tip up, middle of the height at 0
+  // Diameter of the base in x, height in z; axis z, tip up, origin at half height.
+  kCone,
 };
 
-// "sphere", "cylinder", ..; throws std::invalid_argument naming them all.
+// Parses "sphere", "cylinder", ..; throws std::invalid_argument listing all names.
 ShapeKind shapeKind(std::string_view name);
 
 struct Shape {
@@ -25,7 +27,7 @@ struct Shape {
   // Distance of a point in the shape's own frame [mm]. Exact for sphere, cylinder, box and cone;
   // for the ellipsoid first order near its surface.
   double distanceMm(const Eigen::Vector3d& pointMm) const;
-  // Unit vector away from the shape: the gradient of the distance (central differences).
+  // Unit vector pointing away from the shape: the gradient of the distance (central differences).
   Eigen::Vector3d gradient(const Eigen::Vector3d& pointMm) const;
 };
 

@@ -1,5 +1,5 @@
-// A recording of the emulated hand without ports and without waiting: scene in, profile out, the
-// same for the same seed. For data to learn from, and tests.
+// Makes a recording of the emulated hand without ports and without waiting: scene in, profile out,
+// the same for the same seed. Used as training data and in tests.
 #pragma once
 
 #include <cstdint>
@@ -12,13 +12,15 @@
 namespace palpate {
 
 struct SimulatedRecordingOptions {
-  double durationS = 12.0;                       // > 0
-  double frameIntervalS = 0.0315;                // of a whole scan on a real line, > 0
-  double angleIntervalS = 0.0063;                // > 0
-  std::int64_t startUs = 1'400'000'000'000'000;  // host time of its begin [us since 1970]
+  double durationS = 12.0;  // > 0
+  // Interval of frames, as of a whole scan on a real line, > 0.
+  double frameIntervalS = 0.0315;
+  double angleIntervalS = 0.0063;  // > 0
+  // Host time of the first frame [us since 1970].
+  std::int64_t startUs = 1'400'000'000'000'000;
   PhysicalHandOptions hand = {};
 
-  // Throws std::invalid_argument with the field's name.
+  // Throws std::invalid_argument naming the field.
   void validate() const;
 };
 
@@ -27,7 +29,7 @@ Profile simulateRecording(const Scene& scene,
                           const SimulatedRecordingOptions& options = {},
                           const Progress& progress = {});
 
-// How differently the same thing is presented from grasp to grasp: standard deviations, all >= 0.
+// Variation between repeated grasps of the same object: standard deviations, all >= 0.
 struct GraspVariation {
   double positionMm = 2.0;           // of each object, along each axis of the base frame
   double turnDeg = 3.0;              // of each object, about each axis
@@ -36,10 +38,10 @@ struct GraspVariation {
 
   void validate() const;
 };
-// The scene as it might be the next time; the same for the same seed.
+// Returns a randomly varied copy of the scene; the same for the same seed.
 Scene variedScene(const Scene& scene, const GraspVariation& variation, std::uint64_t seed);
 
-// A recording of `count` runs of a scene, each varied anew, one after the other. Runs last
+// Makes a recording of `count` consecutive runs of a scene, each varied anew. Every run lasts
 // options.durationS.
 Profile simulateGrasps(const Scene& scene,
                        int count,

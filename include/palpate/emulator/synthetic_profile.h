@@ -1,5 +1,6 @@
-// Synthetic recordings with known truth: perfect first, noise as an option. A pinch grasp of a ball
-// by fingers 0 and 2, repeated: contact grows, holds, is released; angles and temperatures follow.
+// Synthetic recordings with known truth: noise-free by default, noise as an option. Fingers 0 and 2
+// repeatedly pinch a ball: contact grows, holds and is released; angles and temperatures follow.
+// Used by tests and examples.
 #pragma once
 
 #include <cstdint>
@@ -14,20 +15,24 @@ struct SyntheticOptions {
   double rateHz = 31.7;            // tactile frames [Hz], 0.1..1000
   double angleRateHz = 160.0;      // joint angles [Hz], 0..1000; 0: none
   double temperatureRateHz = 1.0;  // [Hz], 0..100; 0: none
-  int grasps = 3;                  // 0..10,000, spread evenly; each needs 12 frames
-  double peakCounts = 1800.0;      // value under the middle of the contact [counts], 50..3500
-  // standard deviation of the contact's pressure [taxels], 0.5..5
+  // Number of grasps, 0..10,000, spread evenly; each needs 12 frames.
+  int grasps = 3;
+  // Value under the centre of the contact [counts], 50..3500.
+  double peakCounts = 1800.0;
+  // Standard deviation of the contact's pressure distribution [taxels], 0.5..5.
   double contactRadiusTaxels = 2.4;
-  double thresholdCounts = 100.0;  // subtracted by the sensor; lower values read 0 [counts]
-  double noiseCounts = 0.0;        // standard deviation of the noise on loaded taxels [counts]
-  std::uint32_t seed = 1;          // of the noise
-  std::int64_t startUs = 1'700'000'000'000'000;  // first frame [us since 1970]
+  // Subtracted by the sensor; lower values read 0 [counts].
+  double thresholdCounts = 100.0;
+  double noiseCounts = 0.0;  // standard deviation of the noise on loaded taxels [counts]
+  std::uint32_t seed = 1;    // seed of the noise
+  // Time of the first frame [us since 1970].
+  std::int64_t startUs = 1'700'000'000'000'000;
 
-  // Throws std::invalid_argument with the field's name.
+  // Throws std::invalid_argument naming the field.
   void validate() const;
 };
 
-// What is true of a synthetic recording.
+// Ground truth of a synthetic recording.
 struct SyntheticGrasp {
   std::size_t begin = 0;  // first frame with contact
   std::size_t end = 0;    // last frame with contact (both inclusive)

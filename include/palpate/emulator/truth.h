@@ -1,6 +1,6 @@
-// The truth of an emulated hand as CSV, beside what its sensors tell:
+// Writes the ground truth of an emulated hand to CSV, to be compared with its sensor readings:
 //   time_ms,matrix,contact,force_n,x_mm,y_mm,z_mm,slip_x_taxels,slip_y_taxels,turn_deg
-// a row per matrix and frame; without contact the columns behind it are empty.
+// One row per matrix and frame; without contact the columns after `contact` are empty.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,7 @@ namespace palpate {
 
 class TruthWriter {
  public:
-  // Writes as it goes (a program that is killed leaves what it had). Throws FileError.
+  // Creates the file and writes its header line. Throws FileError.
   explicit TruthWriter(const std::filesystem::path& path, Overwrite overwrite = Overwrite::kRefuse);
   // hostUs: host time of the frame [us since 1970]. Throws FileError (disk full, ..).
   void add(std::int64_t hostUs, const std::vector<MatrixTruth>& truth);

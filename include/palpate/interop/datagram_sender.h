@@ -1,4 +1,4 @@
-// Sends datagrams to a UDP port of this machine: 127.0.0.1 and nowhere else. Never waits: what
+// Sends datagrams to a UDP port of this machine (127.0.0.1 only). Never waits: a datagram that
 // can't be sent at once is dropped and counted.
 #pragma once
 
@@ -13,7 +13,7 @@ struct DatagramStats {
   // Number of datagrams that the operating system accepted. Whether a program received them is
   // unknown, unless the system reports a closed port.
   std::uint64_t sent = 0;
-  std::uint64_t dropped = 0;  // nobody listens, no room, or too long
+  std::uint64_t dropped = 0;  // no receiver, no room, or too long
   // Whether the last two datagrams were accepted: the system reports a missing receiver only
   // with the next datagram.
   bool delivered = false;
@@ -22,13 +22,13 @@ struct DatagramStats {
 // Not thread-safe.
 class DatagramSender {
  public:
-  static constexpr std::size_t kMaxBytes = 65'507;  // that UDP carries
+  static constexpr std::size_t kMaxBytes = 65'507;  // largest UDP payload
 
   // Throws std::invalid_argument (port 0), DeviceError (the system has no socket left).
   explicit DatagramSender(std::uint16_t port);
 
-  // Whether the system took it. A datagram behind one that nobody heard is tried all the same: a
-  // listener may come at any time.
+  // Returns whether the system accepted the datagram. Sending continues even if no program received
+  // earlier ones, because a receiver may start at any time.
   bool send(std::string_view bytes) noexcept;
   std::uint16_t port() const noexcept { return port_; }
   const DatagramStats& stats() const noexcept { return stats_; }

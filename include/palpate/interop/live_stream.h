@@ -1,8 +1,8 @@
-// Streams of what live processing finds, for other programs on this machine: off until switched on,
-// to 127.0.0.1 alone, one datagram per frame and stream. Nothing ever waits for a receiver.
+// Streams the results of live processing to other programs on this machine: off by default, to
+// 127.0.0.1 only, one datagram per frame and stream. Sending never waits for a receiver.
 //
-//   ProcessingChain --results--> LiveStream --UDP--> PlotJuggler (signals), whoever reads
-//   TactileSensor (taxels)
+//   ProcessingChain --results--> LiveStream --UDP--> PlotJuggler (signals),
+//                                                    readers of TactileSensor (taxels)
 #pragma once
 
 #include <array>
@@ -28,33 +28,34 @@ constexpr std::uint16_t usualPort(StreamKind kind) {
   return kind == StreamKind::kSignals ? 9870 : 9871;
 }
 
-// Appends what a stream says of a frame, without a line end.
+// Appends the content of a stream for one frame, without a line end.
 void appendStreamed(std::string& out,
                     StreamKind kind,
                     const LiveResults& results,
                     std::uint64_t sequence,
                     const LinkHealth* link);
 
-// Every member may be called from any thread.
+// Every function may be called from any thread.
 class LiveStream {
  public:
-  // Asked on the processing thread, four times a second while signals are sent; may be empty.
+  // Called on the processing thread, four times a second while signals are sent; may be empty.
   using LinkHealthQuery = std::function<LinkHealth()>;
   explicit LiveStream(LinkHealthQuery askLink = {}) : askLink_(std::move(askLink)) {}
 
-  // From the next frame on; counts begin anew. Throws std::invalid_argument (port 0), DeviceError.
+  // Takes effect with the next frame; counters restart. Throws std::invalid_argument (port 0),
+  // DeviceError.
   void switchOn(StreamKind kind, std::uint16_t port);
   void switchOff(StreamKind kind);
   bool on(StreamKind kind) const;
-  // Nothing: it is off.
+  // Empty while the stream is off.
   std::optional<DatagramStats> stats(StreamKind kind) const;
 
-  // Sends what is switched on.
+  // Sends a frame's results on all streams that are on.
   void send(const LiveResults& results);
 
  private:
   struct Stream {
-    std::unique_ptr<DatagramSender> sender;  // null: off
+    std::unique_ptr<DatagramSender> sender;  // null when off
     std::uint64_t sequence = 0;
   };
   const LinkHealth* linkAt(std::int64_t hostUs);
@@ -63,7 +64,7 @@ class LiveStream {
   mutable std::mutex mutex_;
   std::array<Stream, kAllStreamKinds.size()> streams_;
   std::optional<LinkHealth> link_;
-  std::int64_t askedUs_ = 0;  // stamp of the frame at which link_ was asked for
+  std::int64_t askedUs_ = 0;  // stamp of the frame when link_ was updated
   std::string text_;
 };
 

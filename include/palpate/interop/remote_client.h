@@ -1,4 +1,4 @@
-// The other end of remote control: asks one line, waits for its answer.
+// Client of remote control: sends a request as one line and waits for its answer.
 #pragma once
 
 #include <chrono>
@@ -9,18 +9,18 @@
 
 namespace palpate {
 
-// One thread.
+// To be used from one thread.
 class RemoteClient {
  public:
-  // Throws FileError: nobody listens there, no permission.
+  // Throws FileError when no server listens there, or without permission.
   explicit RemoteClient(std::filesystem::path socket);
   ~RemoteClient();
   RemoteClient(const RemoteClient&) = delete;
   RemoteClient& operator=(const RemoteClient&) = delete;
 
-  // Sends a request (no line end in it: std::invalid_argument) and returns its answer, a line of
-  // JSON without its end. Throws FileError: no answer in time, or the other end has gone; the
-  // connection is of no use after that.
+  // Sends a request (std::invalid_argument if it contains a line end) and returns its answer, a
+  // line of JSON without line end. Throws FileError when no answer arrives in time or the server
+  // has gone; the connection can't be used after that.
   std::string ask(std::string_view request, std::chrono::milliseconds timeout);
 
  private:

@@ -1,5 +1,5 @@
-// What remote control says about a hand and its recordings: the fields of answers, the same for
-// every target; and when a start counts as done.
+// Fields of the answers of remote control about a hand and its recordings, the same for every
+// RemoteTarget; also decides when a start is complete.
 #pragma once
 
 #include <optional>
@@ -10,11 +10,11 @@
 
 namespace palpate {
 
-// Sets `frames_received`, `rate_hz`, `age_ms`, `lost`, `bad_checksums`, `alarms` (texts) of the
-// link.
+// Sets the fields of the connection: `frames_received`, `rate_hz`, `age_ms`, `lost`,
+// `bad_checksums`, `alarms` (texts).
 void setLinkFields(Json& fields, const LinkHealth& health);
-// Sets `file`, `frames`, `frames_on_disk`, `elapsed_s`, `bytes`, `recorder_lost`, `write_error` of
-// a recording that runs.
+// Sets the fields of a running recording: `file`, `frames`, `frames_on_disk`, `elapsed_s`, `bytes`,
+// `recorder_lost`, `write_error`.
 void setRecorderFields(Json& fields, const RecorderStatus& recorder);
 // The answer to `stop`: `files`, `frames`, `angles`, `temperatures`, `events`, `recorder_lost`,
 // `gaps`, `duration_s`, `rate_hz`, `mean_rate_hz`, `bytes`, `complete`; the message is the
@@ -22,19 +22,22 @@ void setRecorderFields(Json& fields, const RecorderStatus& recorder);
 RemoteAnswer stopAnswer(const RecordingReport& report);
 
 struct StartLimits {
-  double noHandS = 1.0;       // a newest frame older than this is no hand [s]
-  double firstFrameS = 10.0;  // a start is given up without a frame on disk after so long [s]
-  double diskS = 2.0;         // and after so long when the disk fails [s]
+  // Without a newer frame than this, no hand counts as connected [s].
+  double noHandS = 1.0;
+  // A start fails when no frame is on disk after this time [s].
+  double firstFrameS = 10.0;
+  // A start fails when the disk still fails after this time [s].
+  double diskS = 2.0;
 };
 
-// Why nothing can be recorded now ("no_hand"); nothing: frames come.
+// Reason why nothing can be recorded now ("no_hand"); empty when frames arrive.
 std::optional<RemoteAnswer> noHand(const LinkHealth& health, const StartLimits& limits = {});
-// Why there is no room for a recording ("no_space"); nothing: there is, or nobody knows.
+// Error "no_space" when the disk has no room for a recording; empty when it has, or when unknown.
 std::optional<RemoteAnswer> noSpace(std::optional<std::uint64_t> freeBytes);
 
-// Judges a start that was asked for `waitedS` ago: nothing as long as it must be waited for. Done
-// once a frame is committed: `file`, `frames_on_disk`. "disk", "no_frames": give it up.
-// `recording`: it runs still.
+// Result of a start that was requested `waitedS` ago; empty while it is pending. It succeeds once a
+// frame is committed (`file`, `frames_on_disk`) and fails with "disk" or "no_frames". `recording`:
+// whether the recording still runs.
 std::optional<RemoteAnswer> startResult(const RecorderStatus& recorder,
                                         bool recording,
                                         double waitedS,

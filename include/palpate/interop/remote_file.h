@@ -1,5 +1,5 @@
-// File names that come from outside: a recording asked for by remote control lies in the folder of
-// recordings, under a name that is a plain file name, or there is none.
+// Checks file names received by remote control: a recording is only made in the folder of
+// recordings, under a plain file name.
 #pragma once
 
 #include <filesystem>
@@ -10,15 +10,15 @@
 
 namespace palpate {
 
-// Why `name` can't be the name (or the template) of a recording, one line; empty: it can. Refused:
-// a path ("/", "..", a hidden name), a leading "-", what isn't UTF-8 or holds control characters,
-// over 200 bytes, another ending than .palpate that is a form of recording, a placeholder that
-// isn't known.
+// Reason why `name` can't be the name (or the template) of a recording, one line; empty when it
+// can. Refused are: a path ("/", "..", a hidden name), a leading "-", invalid UTF-8, control
+// characters, more than 200 bytes, the ending of another form of recording than .palpate, and
+// unknown placeholders.
 std::string problemOfRemoteName(std::string_view name);
 
-// The path in `folder`: of `name`, with .palpate behind it where that is missing, exactly as it was
-// given; where it holds placeholders ({date}, {run}, ..) the next that is free. The folder itself
-// is never left. Throws std::invalid_argument (problemOfRemoteName), FileError (no such folder).
+// The path in `folder` for exactly this name, with .palpate appended if missing; with placeholders
+// ({date}, {run}, ..) the next unused path. Never outside the folder. Throws std::invalid_argument
+// (problemOfRemoteName), FileError (no such folder).
 std::filesystem::path remoteRecordingPath(const std::filesystem::path& folder,
                                           std::string_view name,
                                           const RecordingNameFields& fields);

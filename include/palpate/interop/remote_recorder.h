@@ -1,6 +1,6 @@
-// Carries out remote control on a capture session without a window: recordings begin and end as
-// others ask. It waits idle until then, and answers when what was asked has happened: a start when
-// frames are on disk, a stop when the file is closed.
+// Executes remote-control requests on a capture session without a window, which records only on
+// request. It answers when the request is completed: a start when frames are on disk, a stop when
+// the file is closed.
 #pragma once
 
 #include <filesystem>
@@ -16,22 +16,22 @@
 namespace palpate {
 
 struct RemoteRecorderOptions {
-  std::filesystem::path folder;                      // where recordings go, and nowhere else
-  std::string nameTemplate = "{date}_{time}_{run}";  // of a start without a name
-  // What every recording begins with: `path` is not used; of `meta`, operator, object, run and
-  // notes can be set.
+  std::filesystem::path folder;                      // folder of all recordings
+  std::string nameTemplate = "{date}_{time}_{run}";  // used by a start without a name
+  // Options of every recording: `path` is not used; requests can set operator, object, run and
+  // notes in `meta`.
   RecordingOptions recording;
   StartLimits limits;
-  // Told of every recording that ended; on the recorder's own thread. May be empty.
+  // Called with the report of every recording that ended, on a thread of this object. May be empty.
   std::function<void(const RecordingReport&)> onFinished;
 };
 
 class RemoteRecorder final : public RemoteTarget {
  public:
-  // While it lives nobody else starts or stops recordings of the session, which must outlive it.
-  // Throws std::invalid_argument (a template that can't be one), FileError (no such folder).
+  // While this object exists, it alone may start and stop recordings of the session, which must
+  // outlive it. Throws std::invalid_argument (invalid template), FileError (no such folder).
   RemoteRecorder(CaptureSession& session, RemoteRecorderOptions options);
-  // A recording that runs is finished.
+  // Finishes a running recording.
   ~RemoteRecorder() override;
   RemoteRecorder(const RemoteRecorder&) = delete;
   RemoteRecorder& operator=(const RemoteRecorder&) = delete;

@@ -1,7 +1,7 @@
-// Server of the remote control: a Unix domain socket (AF_UNIX) that only its owner can open (mode
-// 600); it is not reachable from other machines. It has a thread of its own. One request at a time
-// is taken from each client and no more is read until it is answered, so that no client delays
-// another client or the program.
+// Server of remote control: a Unix domain socket (AF_UNIX) that only its owner can open (mode 600);
+// it is not reachable from other machines. It runs on a thread of its own. It reads the next
+// request of a client only when the previous one is answered, so that no client delays another
+// client or the program.
 #pragma once
 
 #include <cstddef>
@@ -15,35 +15,35 @@
 
 namespace palpate {
 
-// Where remote control stands unless another place is named: palpate-remote in $XDG_RUNTIME_DIR.
-// Throws Error where that isn't set.
+// Default path of the socket: palpate-remote in $XDG_RUNTIME_DIR. Throws Error if that isn't set.
 std::filesystem::path usualRemoteSocket();
 
 struct RemoteServerOptions {
   std::size_t maxClients = 16;  // 1..1000
-  // A client that has been silent for so long makes room for a new one when there are too many [s].
+  // When there are too many clients, one that was silent for this time is replaced by a new one
+  // [s].
   double idleS = 60.0;
-  // Told of every request but "status" and how it ended; on the server's thread. May be empty.
+  // Called with every request except "status" and its answer, on the server's thread. May be empty.
   std::function<void(const RemoteRequest&, const RemoteAnswer&)> onAnswer = {};
 };
 
 struct RemoteServerStats {
-  std::size_t clients = 0;            // now
-  std::uint64_t accepted = 0;         // clients, ever
-  std::uint64_t rejectedClients = 0;  // too many, or another user
-  std::uint64_t requests = 0;         // carried out, or being so
-  std::uint64_t refused = 0;          // lines that were no request
+  std::size_t clients = 0;            // connected now
+  std::uint64_t accepted = 0;         // clients since the start
+  std::uint64_t rejectedClients = 0;  // too many clients, or another user
+  std::uint64_t requests = 0;         // executed or being executed
+  std::uint64_t refused = 0;          // lines that were no valid request
 };
 
 class RemoteServer {
  public:
-  // Listens from now on. What a program that was killed left at `socket` is taken away. Throws
-  // FileError: another program listens there, something else has that name, no such folder, a name
-  // longer than 107 bytes; std::invalid_argument. The target must outlive the server.
+  // Starts listening. A socket left at `socket` by a killed program is removed. Throws FileError
+  // (another program listens there, another file has that name, no such folder, a name longer than
+  // 107 bytes), std::invalid_argument. The target must outlive the server.
   RemoteServer(std::filesystem::path socket,
                RemoteTarget& target,
                RemoteServerOptions options = {});
-  // Clients that wait are told "shutting_down"; the socket is gone.
+  // Answers waiting clients with "shutting_down" and removes the socket.
   ~RemoteServer();
   RemoteServer(const RemoteServer&) = delete;
   RemoteServer& operator=(const RemoteServer&) = delete;

@@ -1,9 +1,9 @@
-// What live processing found in a frame as one JSON object on one line, the way PlotJuggler's UDP
-// server reads it: nested keys become the tree of curves, "t" is the time to choose as time stamp.
-// docs/interop.md lists the fields.
+// Live results of one frame as one JSON object on one line, in the form that PlotJuggler's UDP
+// server reads: nested keys become the tree of curves, and "t" is the field to choose as time
+// stamp. docs/interop.md lists the fields.
 //
-// What isn't known has no key: there is no null among the values, and no number that stands for
-// "none". Flags are 0 and 1.
+// Unknown values have no key: there is neither null nor a number that means "none". Flags are 0 and
+// 1.
 #pragma once
 
 #include <cstdint>
@@ -14,9 +14,8 @@
 
 namespace palpate {
 
-// Appends the object without a line end; about 2 kB of an SDH-2. `sequence` counts the objects, so
-// that whoever receives them knows what was dropped. `link`: null leaves the figures of the link
-// out.
+// Appends the object without a line end; about 2 kB for an SDH-2. `sequence` counts the objects, so
+// that receivers can detect dropped ones. A null `link` leaves out the fields of the connection.
 void appendSignalJson(std::string& out,
                       const LiveResults& results,
                       std::uint64_t sequence,

@@ -1,4 +1,4 @@
-// The stage that stands first where filters are on: what comes behind it sees filtered frames.
+// Live stage that filters frames. It comes first, so that all later stages receive filtered frames.
 #pragma once
 
 #include <cstdint>
@@ -11,18 +11,19 @@
 
 namespace palpate {
 
-// Replaces LiveResults::frame by the filtered one and keeps the other as LiveResults::unfiltered.
-// The recording isn't touched: it always holds what came. Steps that need later frames are left
-// out: they can't run live. setRecipe() and costsUs() may be called from any thread.
+// Replaces LiveResults::frame by the filtered one and keeps the original as
+// LiveResults::unfiltered. A recording is not affected: it always contains the unfiltered frames.
+// Steps that need later frames can't run live and are skipped. setRecipe() and costsUs() may be
+// called from any thread.
 class FilterStage final : public Stage {
  public:
   FilterStage();
   ~FilterStage() override;
 
-  // From the next frame on; filters over time begin anew. Throws std::invalid_argument.
+  // Takes effect with the next frame; filters over time restart. Throws std::invalid_argument.
   void setRecipe(const Recipe& recipe);
-  // Time that each step of the recipe takes for a frame, on average [us]; 0: off, left out, or no
-  // frame yet.
+  // Mean computing time per frame of each step of the recipe [us]; 0 if the step is off or skipped,
+  // or before the first frame.
   std::vector<double> costsUs() const;
 
   void reset() override;
@@ -33,15 +34,15 @@ class FilterStage final : public Stage {
   class Collector;
 
   const std::unique_ptr<Collector> collector_;
-  std::unique_ptr<FilterChain> chain_;  // null: nothing to do
-  mutable std::mutex mutex_;            // of what follows
+  std::unique_ptr<FilterChain> chain_;  // null when no filter is on
+  mutable std::mutex mutex_;            // protects the following members
   Recipe wanted_;
   bool changed_ = false;
   std::vector<double> costsUs_;
 };
 
-// The steps that run live: those that need later frames, or a matrix that the layout hasn't, are
-// switched off.
+// Returns the recipe for live use: steps that need later frames, or a matrix that the layout
+// doesn't have, are switched off.
 Recipe livePart(const Recipe& recipe, const SensorLayout& layout);
 
 }  // namespace palpate

@@ -1,5 +1,5 @@
-// What the stages of live processing found in one frame. A stage adds its own part and may read
-// those of the stages before it; nothing is taken away.
+// Results of the live stages for one frame. Each stage adds its own part and may read the parts of
+// earlier stages.
 #pragma once
 
 #include <cstddef>
@@ -14,7 +14,7 @@
 
 namespace palpate {
 
-// The taxel of largest value in a frame; the first of equals in wire order.
+// The taxel with the largest value in a frame; among equal ones the first in protocol order.
 struct TaxelPeak {
   std::size_t matrix = 0;
   int row = 0;  // 0 is the fingertip
@@ -26,19 +26,20 @@ TaxelPeak taxelPeak(const TactileFrame& frame);
 struct PressureFrame;  // calibration/pressure_map.h
 
 struct LiveResults {
-  SharedFrame frame;  // never null; filtered where filters are on
-  // As it came, where filters are on; else null. Saturation is looked for here.
+  // Never null; the filtered frame where filters are on.
+  SharedFrame frame;
+  // The unfiltered frame where filters are on, else null. Saturation must be checked here.
   SharedFrame unfiltered;
-  // The last samples at or before the frame; nothing: none came yet.
+  // The last samples at or before the frame; empty before the first one.
   std::optional<JointAngles> angles;
   std::optional<Temperatures> temperatures;
-  // Of the signals stage: one per matrix, and of all matrices together.
+  // Signals of each matrix and of all matrices together, from SignalsStage.
   std::vector<CharacteristicSignals> matrixSignals;
   CharacteristicSignals wholeSignals;
   TaxelPeak peak;
-  // Of the pressure stage, where a calibration is chosen; else null.
+  // Pressures from PressureStage, if a calibration is chosen; else null.
   std::shared_ptr<const PressureFrame> pressure;
-  // Of the slip stage: one per matrix.
+  // Slip of each matrix, from SlipStage.
   std::vector<SlipDetection> slip;
 };
 

@@ -1,5 +1,5 @@
-// The stage that tells pressures and forces where a calibration is chosen: none is default, and
-// without one the results have none.
+// Live stage that computes pressures and forces if a calibration is chosen. By default none is
+// chosen, and the results contain no pressures.
 #pragma once
 
 #include <functional>
@@ -15,22 +15,24 @@
 
 namespace palpate {
 
-// Fills LiveResults::pressure, of the frame as it came and never of a filtered one: that is what
-// was calibrated. setCalibration(), assumptions() and trouble() may be called from any thread.
+// Fills LiveResults::pressure from the unfiltered frame, because the calibration was made with
+// unfiltered frames. setCalibration(), assumptions() and problem() may be called from any thread.
 class PressureStage final : public Stage {
  public:
-  // What the matrices are set to now, one each; empty: not known, so that the settings of the
-  // calibration are assumed. Asked on the processing thread, at the beginning and after an event
-  // "settings" that doesn't say it. May throw Error.
+  // Returns the present settings of the matrices, one each; empty when unknown, and the settings of
+  // the calibration are assumed then. Called on the processing thread at the begin and after an
+  // event "settings" without JSON. May throw Error.
   using AskSettings = std::function<std::vector<SensorSettings>()>;
 
   PressureStage(HandDescription hand, AskSettings askSettings);
 
-  // From the next frame on; nothing: no pressures. Throws std::invalid_argument: no P(K, T) in it.
+  // Takes effect with the next frame; empty switches pressures off. Throws std::invalid_argument
+  // when the calibration contains no P(K, T).
   void setCalibration(const std::optional<Calibration>& calibration);
-  // What a reader must know of, a sentence each; empty without a calibration.
+  // The assumptions behind the pressures, one sentence each, to be shown to the user; empty without
+  // a calibration.
   std::vector<std::string> assumptions() const;
-  // Why there are no pressures though a calibration is chosen; empty: nothing is wrong.
+  // Reason why there are no pressures although a calibration is chosen; empty when there are.
   std::string problem() const;
 
   void reset() override;
@@ -38,7 +40,7 @@ class PressureStage final : public Stage {
   void onEvent(const RecordingEvent& event) override;
 
  private:
-  void useSettings();  // under mutex_
+  void useSettings();  // requires mutex_
   std::vector<SensorSettings> settingsNow() const;
 
   const HandDescription hand_;
@@ -46,7 +48,7 @@ class PressureStage final : public Stage {
   mutable std::mutex mutex_;
   std::unique_ptr<PressureMap> map_;  // null: no calibration
   bool settingsChanged_ = true;
-  // JSON of the event that told the settings; empty: to be asked for
+  // JSON of the event that reported the settings; empty when they must be requested.
   std::string lastSettingsJson_;
   std::string problem_;
 };

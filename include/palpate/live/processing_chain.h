@@ -1,11 +1,10 @@
-// Live processing: what a capture session delivers goes through the stages, in order of time, on a
-// thread of its own. The newest results wait in a mailbox for the screen; what happened goes to a
-// sink of events.
+// Live processing: sends the items of a capture session through the stages in order of time, on a
+// thread of its own. The newest results wait in a mailbox for the display; events go to a callback.
 //
 //   CaptureSession --> CaptureQueue (bounded, counts) --> stages --> newest results, events
 //
-// Results depend on what came alone, not on when: the same items give the same results bit by bit,
-// live, replayed or offline (runOver()).
+// Results depend only on the items, not on their arrival times: the same items give the same
+// results bit by bit, live, replayed or offline (runOver()).
 #pragma once
 
 #include <atomic>
@@ -28,53 +27,56 @@
 namespace palpate {
 
 struct ChainOptions {
-  // Frames that may wait: half a second at 31.7/s. More is late rather than right; what doesn't fit
-  // is skipped, counted, and told to the stages by an event "gap".
+  // Number of frames that may wait: half a second at 31.7 frames/s. A longer queue would only delay
+  // the results. Frames that don't fit are skipped and counted, and the stages receive an event
+  // "gap".
   std::size_t waitingFrames = 16;
-  // Nothing is skipped, the source waits instead: for a replay that can.
+  // True: no frame is skipped, the source waits instead (for a replay, which can wait).
   bool lossless = false;
-  // Told of every frame's results, in order; on the processing thread. May be empty.
+  // Called with the results of every frame, in order, on the processing thread. May be empty.
   std::function<void(const LiveResults&)> onResults;
-  // Told of what stages found; on the processing thread. May be empty.
+  // Called with every event found by a stage, on the processing thread. May be empty.
   std::function<void(const RecordingEvent&)> onEvent;
 };
 
 struct ChainStats {
   std::uint64_t frames = 0;   // processed
-  std::uint64_t skipped = 0;  // frames that came and weren't
-  double lastUs = 0.0;        // what the stages took for the newest frame [us]
-  double longestUs = 0.0;     // for any [us]
+  std::uint64_t skipped = 0;  // frames that arrived but were not processed
+  // Computing time of all stages for the newest frame [us].
+  double lastUs = 0.0;
+  double longestUs = 0.0;  // longest such time [us]
 };
 
 class ProcessingChain {
  public:
-  // Throws std::invalid_argument: no stage, no waiting frame.
+  // Throws std::invalid_argument if there is no stage or no waiting frame is allowed.
   explicit ProcessingChain(std::vector<std::unique_ptr<Stage>> stages, ChainOptions options = {});
   ~ProcessingChain();  // stops
   ProcessingChain(const ProcessingChain&) = delete;
   ProcessingChain& operator=(const ProcessingChain&) = delete;
 
-  // Listens to a session from now on, instead of another one; stages are reset. Not while start()ed
-  // (std::logic_error). The session may end before the chain.
+  // Subscribes to a session and leaves the previous one; stages are reset. Throws std::logic_error
+  // while started. The session may end before the chain.
   void connect(CaptureSession& session);
-  // run() on a thread of its own, until stop(); both do nothing when that is so already.
+  // start() runs run() on a thread of its own until stop(). Both have no effect if already done.
   void start();
   void stop() noexcept;
-  // Processes what comes until a stop is asked for, or a stage throws.
+  // Processes items until a stop is requested or a stage throws.
   void run(const std::stop_token& stop);
-  // Processes what waits now; returns how many frames. For those who have their own thread.
+  // Processes all waiting items; returns the number of frames. For callers with a thread of their
+  // own.
   std::size_t step();
-  // All of a profile and its events through the stages, from a fresh start, in the caller's thread:
-  // as a replay of it would be. Throws Cancelled, Error (a frame that can't be read),
+  // Sends a whole profile and its events through the reset stages, in the caller's thread, with the
+  // same results as its replay. Throws Cancelled, Error (a frame that can't be read),
   // std::logic_error (started).
   void runOver(const Profile& profile,
                std::vector<RecordingEvent> events = {},
                const Progress& progress = {});
 
-  // What is newer than at the last call; nothing when there is nothing new.
+  // The newest results; empty when there are none since the last call.
   std::optional<LiveResults> take() { return newest_.take(); }
   ChainStats stats() const;
-  // Why processing ended by itself; empty: it didn't.
+  // Reason why processing ended because of an error; empty otherwise.
   std::string failure() const;
 
  private:

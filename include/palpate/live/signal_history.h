@@ -1,5 +1,5 @@
-// The last minutes of the characteristic signals, for a chart that rolls: filled by live
-// processing, read by the screen.
+// The last minutes of the characteristic signals, for a rolling chart: filled by live processing,
+// read by the display.
 #pragma once
 
 #include <cstddef>
@@ -15,26 +15,28 @@ namespace palpate {
 
 struct SignalSample {
   std::int64_t hostUs = 0;  // stamp of the frame [us since 1970]
-  // Nothing came for longer than max(1 s, 5 median intervals) before it: no line leads here.
+  // True when the sample follows a gap of more than max(1 s, 5 median intervals); the chart then
+  // draws no line to it.
   bool afterGap = false;
   std::vector<CharacteristicSignals> rows;  // one per matrix, then all matrices together
 };
 
 struct SignalHistoryOptions {
-  double keepS = 300.0;             // [s], > 0
-  std::size_t keepSamples = 30000;  // at most, whatever the rate; about 0.4 kB each
+  double keepS = 300.0;  // [s], > 0
+  // Maximum number of samples at any rate; about 0.4 kB each.
+  std::size_t keepSamples = 30000;
 };
 
-// Every member may be called from any thread.
+// Every function may be called from any thread.
 class SignalHistory {
  public:
   // Throws std::invalid_argument naming the field.
   explicit SignalHistory(const SignalHistoryOptions& options = {});
 
-  // The results of the signals stage. A frame that isn't later than the last one is left out.
+  // Adds the results of SignalsStage. A frame that isn't later than the last one is ignored.
   void add(const LiveResults& results);
   void clear();
-  // What is later than a stamp, oldest first.
+  // Samples later than a stamp, oldest first.
   std::vector<SignalSample> after(std::int64_t hostUs) const;
   std::size_t size() const;
 
@@ -45,7 +47,7 @@ class SignalHistory {
   const SignalHistoryOptions options_;
   mutable std::mutex mutex_;
   std::deque<SignalSample> samples_;
-  std::deque<std::int64_t> intervalsUs_;  // the last ones
+  std::deque<std::int64_t> intervalsUs_;  // newest intervals [us]
 };
 
 }  // namespace palpate

@@ -1,4 +1,4 @@
-// The first stage: characteristic signals of every matrix, and the largest taxel of all.
+// Live stage that computes the characteristic signals of every matrix and the largest taxel of all.
 #pragma once
 
 #include <palpate/live/stage.h>

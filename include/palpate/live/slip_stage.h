@@ -1,4 +1,4 @@
-// The stage that tells slip: how the contact of every matrix moves, and whether that is slip.
+// Live stage that measures how the contact of every matrix moves, and detects slip.
 #pragma once
 
 #include <cstdint>
@@ -12,20 +12,20 @@
 
 namespace palpate {
 
-// Live the vector is that of `centroid`, the alarm that of the contest, the reference taken when a
-// contact rests.
+// Options for live use: displacement vector of `centroid`, alarm of the method `contest`
+// (docs/slip.md), reference taken when a contact rests.
 SlipDetectorOptions liveSlipOptions();
 
-// Fills LiveResults::slip. When the alarm of a matrix is raised, and when it ends, an event "slip"
-// goes out: a mark when it begins, a span (with path and turn as JSON) when it ends. Other settings
-// of the sensor, and missing frames, begin anew. Everything but the calls of a Stage may be called
-// from any thread; it holds from the next frame on.
+// Fills LiveResults::slip. When the alarm of a matrix begins, an event "slip" marks the moment;
+// when it ends, a second event covers the time span (path and rotation as JSON). Changed sensor
+// settings and missing frames reset the detection. All functions except those of Stage may be
+// called from any thread; they take effect with the next frame.
 class SlipStage final : public Stage {
  public:
   // Throws std::invalid_argument.
   explicit SlipStage(const SlipDetectorOptions& options = liveSlipOptions());
 
-  // All begins anew. Throws std::invalid_argument.
+  // Resets the detection. Throws std::invalid_argument.
   void setOptions(const SlipDetectorOptions& options);
   SlipDetectorOptions options() const;
   // The next frame becomes the reference of one matrix or of all matrices; motion is measured
@@ -58,10 +58,10 @@ class SlipStage final : public Stage {
 
   std::vector<SlipDetector> detectors_;
   std::vector<std::optional<Slipping>> slipping_;
-  std::vector<ReferenceRequest> dueRequests_;  // references for this frame
+  std::vector<ReferenceRequest> dueRequests_;  // requests for this frame
   std::vector<double> jointsDeg_;
 
-  mutable std::mutex mutex_;  // of what follows
+  mutable std::mutex mutex_;  // protects the following members
   SlipDetectorOptions options_;
   bool changed_ = true;
   std::vector<ReferenceRequest> referenceRequests_;

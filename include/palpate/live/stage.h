@@ -1,4 +1,5 @@
-// One step of live processing: what comes in order of time goes through it, frame by frame.
+// Interface of one step of live processing, which handles the frames and other items in order of
+// time.
 #pragma once
 
 #include <vector>
@@ -9,22 +10,21 @@
 
 namespace palpate {
 
-// Called from one thread, in order of time; at one instant events come first, then temperatures,
-// angles and the frame. A stage has state of its own, and no clock but the stamps: that is what
-// makes a replay give the same results. What it throws ends the processing
-// (ProcessingChain::failure()).
+// Called from one thread, in order of time; at equal times events come first, then temperatures,
+// angles and the frame. A stage may have state, but uses no clock except the stamps, so that a
+// replay gives the same results. An exception ends the processing (ProcessingChain::failure()).
 class Stage {
  public:
   virtual ~Stage() = default;
-  // A new source: forgets what came before.
+  // Forgets all earlier items, because a new source begins.
   virtual void reset() {}
-  // `results` holds the frame and what earlier stages found; `out` takes what happened (a slip, a
-  // grasp).
+  // `results` contains the frame and the results of earlier stages; events found by this stage (a
+  // slip, a grasp) are appended to `out`.
   virtual void onFrame(LiveResults& results, std::vector<RecordingEvent>& out) = 0;
   virtual void onAngles(const JointAngles&) {}
   virtual void onTemperatures(const Temperatures&) {}
-  // Of the source: among them "gap" (frames are missing) and "settings" (counts mean something else
-  // now).
+  // An event of the source, such as "gap" (frames are missing) or "settings" (the meaning of the
+  // counts has changed).
   virtual void onEvent(const RecordingEvent&) {}
 };
 
