@@ -17,7 +17,7 @@ double DriftCompensation::gainOf(const Surface& driftOfGain,
     if (!loaded) return 0.0;
     beganS_ = timeS;
   }
-  // Within the lag the reading rises by itself.
+  // During the lag the reading rises although the load is constant.
   const bool settled = timeS - *beganS_ >= options_.steadyS;
   const bool other =
       !loaded || (settled && std::abs(reading - last_) > options_.sameLoadFraction * last_);

@@ -1,4 +1,4 @@
-// A number that may be missing, in JSON. Private to this module.
+// Converts a number that may be missing to JSON.
 #pragma once
 
 #include <optional>

@@ -16,15 +16,17 @@
 namespace palpate {
 namespace {
 
-// Least singular value beside the greatest, of derivatives whose columns have length 1.
+// Derivatives, scaled to columns of length 1, are dependent when the smallest singular value is
+// below this share of the largest.
 constexpr double kLeastSquaresDependent = 1e-14;
-// Of a difference, beside the parameter; and the least size of a parameter that it is taken of.
+// Width of a difference relative to the parameter, and the smallest size of a parameter that is
+// used for it.
 constexpr double kRelativeWidth = 5e-4;
 constexpr double kLeastSize = 1e-12;
 
 std::size_t sizeOf(const Eigen::VectorXd& x) { return static_cast<std::size_t>(x.size()); }
 
-// What Ceres says belongs into the report, not onto a stream of the program.
+// Messages of Ceres belong in the report, not in a stream of the program.
 void silenceCeres() {
   static const bool once = [] {
     FLAGS_minloglevel = google::GLOG_FATAL;
@@ -41,8 +43,8 @@ bool evaluated(const LeastSquaresProblem& problem,
 }
 
 // Central differences of two widths, extrapolated: the error falls with the fourth power of the
-// width, which lets it be wide (rounding: 1e-13 relative). Where the model isn't defined on both
-// sides, nothing.
+// width, so that large widths are possible (rounding: 1e-13 relative). Returns false where the
+// model is not defined on both sides.
 bool differences(const LeastSquaresProblem& problem,
                  std::span<const double> x,
                  std::span<double> jacobian) {
@@ -67,8 +69,8 @@ bool differences(const LeastSquaresProblem& problem,
   return true;
 }
 
-// The model at the parameters that Ceres is about to look at: evaluated once, however many
-// residuals are blocks of their own.
+// The model at the parameters that Ceres will use next, evaluated once even when each residual is a
+// block of its own.
 class Evaluation final : public ceres::EvaluationCallback {
  public:
   Evaluation(const LeastSquaresProblem& problem, const Eigen::VectorXd& start)
@@ -83,7 +85,7 @@ class Evaluation final : public ceres::EvaluationCallback {
     hasJacobian_ =
         problem_.jacobian ? problem_.jacobian(at, jacobian_) : differences(problem_, at, jacobian_);
   }
-  // Residuals [first, first + count) and their rows of the Jacobian.
+  // Copies residuals [first, first + count) and their rows of the Jacobian.
   bool copy(std::size_t first, std::size_t count, double* residuals, double** jacobians) const {
     if (!defined_) return false;
     std::copy_n(&residuals_[first], count, residuals);
@@ -140,8 +142,8 @@ std::vector<double> weightsOf(const LeastSquaresProblem& problem,
   return weights;
 }
 
-// Ceres takes the loss of a whole block: one block of all residuals without it, and one of each
-// with it.
+// The problem in the form of Ceres, which applies a loss to a whole block: one block of all
+// residuals without a loss, one block per residual with a loss.
 class CeresProblem {
  public:
   CeresProblem(const LeastSquaresProblem& problem, const Eigen::VectorXd& start)
@@ -210,7 +212,7 @@ ceres::Solver::Options solverOptions(const LeastSquaresOptions& options, double 
   solver.logging_type = ceres::SILENT;
   solver.initial_trust_region_radius = radius;
   solver.num_threads = 1;  // the same result on every machine
-  // A step into a place where the model isn't defined is taken back and shortened.
+  // A step to a place where the model is not defined is undone and shortened.
   solver.max_num_consecutive_invalid_steps = 50;
   return solver;
 }
@@ -224,7 +226,7 @@ std::vector<int> parametersAtBounds(const LeastSquaresProblem& problem, const Ei
   return at;
 }
 
-// One descent; how far its first step may go is the radius.
+// One descent; the radius limits the first step.
 LeastSquaresReport descend(const LeastSquaresProblem& problem,
                            const Eigen::VectorXd& start,
                            const LeastSquaresOptions& options,
@@ -232,8 +234,8 @@ LeastSquaresReport descend(const LeastSquaresProblem& problem,
   CeresProblem ceresProblem(problem, start);
   ceres::Solver::Summary summary;
   ceres::Solve(solverOptions(options, radius), &ceresProblem.ceres(), &summary);
-  // Along a bound Ceres shortens every step and may end early: what came to its bound is held there
-  // for the others.
+  // Along a bound Ceres shortens every step and may end early. Parameters that have reached their
+  // bound are therefore held there while the others are searched.
   const std::vector<int> held = parametersAtBounds(problem, ceresProblem.x());
   if (!held.empty() && held.size() < sizeOf(start)) {
     ceresProblem.ceres().SetManifold(
@@ -279,8 +281,8 @@ LeastSquaresReport solveLeastSquares(const LeastSquaresProblem& problem,
     report.sumOfSquares = report.residualSd = std::numeric_limits<double>::quiet_NaN();
     return report;
   }
-  // A long first step may end where the model is flat: no minimum, though nothing descends. Then
-  // shorter ones.
+  // A long first step may end where the model is flat: no minimum, although no step descends. Then
+  // try shorter first steps.
   LeastSquaresReport best;
   for (const double radius : options.firstRadii) {
     const LeastSquaresReport report = descend(problem, start, options, radius);
@@ -290,8 +292,8 @@ LeastSquaresReport solveLeastSquares(const LeastSquaresProblem& problem,
   return best;
 }
 
-// ceres::Covariance compares the singular values of the Jacobian as it is: its columns are brought
-// to length 1, so that units don't count, and the covariance back.
+// ceres::Covariance compares the singular values of the Jacobian. Its columns are therefore scaled
+// to length 1 first, so that units have no influence, and the covariance is scaled back.
 Eigen::MatrixXd unitCovariance(const LeastSquaresProblem& problem, const Eigen::VectorXd& x) {
   silenceCeres();
   const Eigen::Index p = x.size();

@@ -15,7 +15,7 @@
 namespace palpate {
 namespace {
 
-// A release is seen first where it crosses releaseFraction; it began a little earlier.
+// A release is noticed where the signal crosses releaseFraction; it began a little earlier.
 constexpr std::size_t kFramesOfRelease = 2;
 
 std::vector<bool> gapsBehind(const StepSignal& signal) {
@@ -26,7 +26,7 @@ std::vector<bool> gapsBehind(const StepSignal& signal) {
   return behind;
 }
 
-// Last frame before the load is being taken away.
+// Returns the last frame before the load is removed.
 std::size_t beforeRelease(std::span<const double> values,
                           const LoadingStep& step,
                           double releaseFraction) {

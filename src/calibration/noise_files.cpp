@@ -1,4 +1,4 @@
-// The noise floor as JSON and as the prior program's XML.
+// Writes and reads the noise floor as JSON and as the prior program's XML (noise_floor.h).
 #include <algorithm>
 #include <string>
 #include <utility>

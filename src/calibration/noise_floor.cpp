@@ -46,7 +46,7 @@ std::vector<NoiseBin> binsOf(const std::vector<Point>& points,
   return bins;
 }
 
-// Weighted line through the bins; false where fewer than two differ.
+// Fits a weighted line through the bins; returns false when fewer than two of them differ.
 bool lineThrough(const std::vector<NoiseBin>& bins, NoiseLine& line) {
   double w = 0.0, x = 0.0, y = 0.0;
   for (const NoiseBin& bin : bins) {
@@ -93,7 +93,7 @@ Sums sumsOf(const std::vector<Point>& points, NoiseLine& line) {
   return s;
 }
 
-// Without a line: the mean, which holds at this temperature alone.
+// Without a line: sets the mean, which holds at this temperature only.
 void settleForMean(const Sums& sums, std::size_t n, NoiseLine& line) {
   line.slope = 0.0;
   line.intercept = sums.y;

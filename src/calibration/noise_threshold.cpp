@@ -75,7 +75,7 @@ NoiseThresholds::NoiseThresholds(NoiseFloor floor,
                         "usualRateHz must be above 0");
 }
 
-// True when the guard moved.
+// Returns true when the guard changed.
 bool NoiseThresholds::watchRate(double timeS, double rateHz) {
   if (!std::isfinite(rateHz)) return false;
   const bool slow = rateHz < options_.rateCollapseFraction * usualRateHz_;
@@ -83,7 +83,7 @@ bool NoiseThresholds::watchRate(double timeS, double rateHz) {
   (slow ? calmSinceS_ : slowSinceS_).reset();
   if (!since) since = timeS;
   if (slow && timeS - *since >= options_.guardWindowS) {
-    since = timeS;  // the next step only after the rate had time to answer
+    since = timeS;  // wait for the next step until the rate had time to change
     if (status_.guardAtLimit) return false;
     status_.guardCounts += options_.guardStepCounts;
     return true;

@@ -1,4 +1,5 @@
-// The shape of d >= 1, made ready for many times: the inner loop of the fit.
+// The shape phi(t) of a step response with d >= 1, prepared for many times: the inner loop of the
+// fit.
 #pragma once
 
 #include <cmath>
@@ -7,14 +8,15 @@
 
 namespace palpate {
 
-// (1 - e^-x) / x, 1 at x = 0; x >= 0.
+// Returns (1 - e^-x) / x for x >= 0; 1 at x = 0.
 inline double decayQuotient(double x) {
   if (x < 0.01) return 1.0 - x / 2.0 * (1.0 - x / 3.0 * (1.0 - x / 4.0 * (1.0 - x / 5.0)));
   return (1.0 - std::exp(-x)) / x;
 }
 
 // With w = 1/T2 - 1/T1, g = (1 - e^(-wt)) / (wt):
-//   phi = 1 - e^(-t/T1) (1 + t/T1 g): no difference of nearly equal numbers where T1 is near T2.
+//   phi = 1 - e^(-t/T1) (1 + t/T1 g)
+// It has no difference of nearly equal numbers where T1 is close to T2.
 class OverdampedShape {
  public:
   OverdampedShape(double t1S, double t2S)

@@ -1,4 +1,4 @@
-// The pressure model as JSON.
+// Writes and reads the pressure model as JSON (pressure_model.h).
 #include <algorithm>
 #include <cmath>
 #include <limits>

@@ -18,7 +18,7 @@ namespace {
 constexpr int kMostColumns = 64;
 constexpr double kNPerKpaMm2 = 1e-3;  // 1 kPa on 1 mm^2
 
-// The filter is linear: the sum of the filtered matrix is a weighted sum of the counts.
+// Returns the weight of each count in the sum of the filtered matrix; the filter is linear.
 std::vector<float> filteredSumWeights(const MatrixLayout& layout) {
   std::vector<float> weights;
   for (int y = 0; y < layout.rows; ++y)
@@ -150,7 +150,7 @@ PressureMap::Contact PressureMap::contactIn(std::span<const float> values,
     rows_[static_cast<std::size_t>(y) + 1] = bits | bits << 1 | bits >> 1;
   }
   if (contact.active == 0) return contact;
-  // The filtered matrix is active wherever a taxel or a neighbour is.
+  // A taxel of the filtered matrix is active when the taxel or a neighbour is active.
   int filteredActive = 0;
   for (std::size_t y = 0; y < matrix.enabled.size(); ++y)
     filteredActive += std::popcount((rows_[y] | rows_[y + 1] | rows_[y + 2]) & matrix.enabled[y]);
@@ -192,7 +192,7 @@ void PressureMap::apply(const TactileFrame& frame,
     if (matrix.sensor < degC.size() && std::isfinite(degC[matrix.sensor]) &&
         degC[matrix.sensor] != 0.0)
       t = degC[matrix.sensor];
-    // K is proportional to sensitivity but for an offset, which the threshold leaves.
+    // K is proportional to sensitivity, except for an offset from the threshold.
     const double offset =
         matrix.sensitivityRatio == 1.0 ? 0.0 : calibration_.sensitivityOffset.value_or(0.0);
     const double reading = (contact.filteredMean - offset) * matrix.sensitivityRatio + offset;

@@ -11,7 +11,8 @@
 namespace palpate {
 namespace {
 
-constexpr double kOneTemperatureC = 2.0;  // a spread below this tells nothing about temperature
+constexpr double kOneTemperatureC =
+    2.0;  // a smaller spread says nothing about the influence of temperature
 
 std::optional<double> temperatureOf(const PressureSample& sample,
                                     const PressureModelOptions& options) {

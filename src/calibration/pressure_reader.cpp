@@ -11,7 +11,7 @@
 namespace palpate {
 namespace {
 
-// Creep is followed so long, and then some.
+// Creep is compensated for maxDurationS; this time is a little longer.
 constexpr std::int64_t kBeforeUs = 40'000'000;
 static_assert(DriftCompensationOptions{}.maxDurationS * 1e6 < static_cast<double>(kBeforeUs));
 

@@ -14,7 +14,8 @@
 namespace palpate {
 namespace {
 
-// Cells of one line; quoted ones (RFC 4180) may hold commas. Blanks around a cell don't count.
+// Splits a line into cells. Quoted cells (RFC 4180) may contain commas; blanks around a cell are
+// removed.
 std::vector<std::string> cellsOf(std::string_view line) {
   std::vector<std::string> cells(1);
   bool quoted = false;
@@ -68,7 +69,8 @@ std::vector<PressureTableRow> parsePressureTable(std::string_view csv,
   Columns columns;
   bool header = false;
   std::size_t number = 0;
-  if (csv.starts_with("\xEF\xBB\xBF")) csv.remove_prefix(3);  // as spreadsheets begin a file
+  if (csv.starts_with("\xEF\xBB\xBF"))
+    csv.remove_prefix(3);  // byte order mark, which spreadsheets write
   while (!csv.empty()) {
     const std::string_view line = csv.substr(0, csv.find('\n'));
     csv.remove_prefix(std::min(line.size() + 1, csv.size()));
@@ -129,8 +131,8 @@ std::vector<PressureSample> samplesOf(const PressureTableRow& row,
     sample.activeAreaMm2 = step.activeAreaMm2;
     sample.notes = step.notes;
     sample.notes.insert(sample.notes.end(), step.fit.notes.begin(), step.fit.notes.end());
-    // A few saturated taxels make K a little too small, and are told; a fit without gain says
-    // nothing.
+    // A few saturated taxels make K a little too small; a note says so and the sample is used. A
+    // fit without K cannot be used.
     sample.used = step.fit.usable();
     samples.push_back(std::move(sample));
   }

@@ -65,9 +65,10 @@ std::optional<double> SensitivitySearch::propose(double sensitivity) {
 std::optional<double> SensitivitySearch::observe(double timeS, double maximumCounts) {
   if (!std::isfinite(maximumCounts) || !(maximumCounts > 0.0)) return std::nullopt;
   if (maximumCounts >= options_.saturationCounts) {
-    // At once: what is saturated is lost.
+    // React at once, since saturated readings are lost.
     lowestSaturated_ = std::min(lowestSaturated_, sensitivity_);
-    if (highestUnsaturated_ >= lowestSaturated_) highestUnsaturated_ = 0.0;  // the load grew since
+    if (highestUnsaturated_ >= lowestSaturated_)
+      highestUnsaturated_ = 0.0;  // the load has grown since
     saturated_ = sensitivity_ <= options_.least;
     settled_ = saturated_;
     return propose(highestUnsaturated_ > 0.0
@@ -78,7 +79,7 @@ std::optional<double> SensitivitySearch::observe(double timeS, double maximumCou
   largest_ = std::max(largest_, maximumCounts);
   const double aim = (1.0 - options_.headroom) * options_.saturationCounts;
   if (settled_) {
-    // Much lower than it was for a while: another load, another limit.
+    // The maximum is much lower for a while: the load has changed, and so has the limit.
     const double wanted =
         sensitivity_ * (aim + thresholdCounts_) / (maximumCounts + thresholdCounts_);
     const bool low = sensitivity_ < options_.most &&

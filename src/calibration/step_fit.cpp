@@ -17,12 +17,12 @@ namespace palpate {
 namespace {
 
 constexpr double kStepFitNaN = std::numeric_limits<double>::quiet_NaN();
-constexpr std::size_t kFewestSamples = 6;  // four parameters, and something left to judge them by
+constexpr std::size_t kFewestSamples = 6;  // four parameters, and residuals to judge them
 constexpr double kGainReached = 0.95;
 constexpr double kCritical = 1.001;
 constexpr double kHuberScale = 1.345, kCauchyScale = 2.385;
-// An oscillating fit must be so much better to be believed: its two parameters have no reason in
-// the rubber.
+// An oscillating fit must reduce the sum of squares to this share of the overdamped one, since the
+// physics of the rubber does not explain an oscillation.
 constexpr double kOscillatingGain = 0.98;
 
 double shortestInterval(std::span<const double> timeS) {
@@ -36,7 +36,7 @@ StepSearchOptions searchOptionsOf(const StepSamples& samples,
                                   const StepFitOptions& options,
                                   StepDomain domain) {
   const double duration = samples.timeS.back();
-  // Below a hundredth of a frame T2 changes nothing; a time constant of many durations is a ramp.
+  // A T2 below a hundredth of a frame changes nothing; a time constant of many durations is a ramp.
   return {.domain = domain,
           .leastT2S = 1e-2 * shortestInterval(samples.timeS),
           .mostS = 10.0 * duration,
@@ -70,15 +70,16 @@ StepMinimum minimumOf(const StepSamples& samples, const StepFitOptions& options)
   return searchRobustStep(samples, search, best, leastSquaresLossOf(options), deviations);
 }
 
-// d phi / d T1 at fixed T2. derivativeBySecond is (T1 - T2) times it; where they are equal, the
-// limit.
+// Returns d phi / d T1 at fixed T2. derivativeBySecond is (T1 - T2) times this value; for equal
+// time constants the limit is used.
 double byT1(const StepShape& shape, double t, double t1, double t2) {
   if (t1 - t2 > 1e-6 * t1) return shape.derivativeBySecond / (t1 - t2);
   const double s = t / t1;
   return -0.5 * s * s * std::exp(-s) / t1;
 }
 
-// Of K, m, T1, T2 or K, m, T, d, for unit variance of the residuals; NaN where it is singular.
+// Covariance of K, m, T1, T2, or of K, m, T, d, for unit variance of the residuals; NaN when it is
+// singular.
 Eigen::Matrix4d covarianceOf(const StepSamples& samples,
                              const StepMinimum& minimum,
                              LeastSquaresLoss loss) {
@@ -97,7 +98,8 @@ Eigen::Matrix4d covarianceOf(const StepSamples& samples,
       const double t = samples.timeS[i];
       const StepShape shape = oscillating ? oscillatingShape(t, p.timeConstantS, p.damping)
                                           : overdampedShape(t, t1, t2);
-      // By T and d; or by T1 and T2: v = log(T1/T2 - 1), u = log T2 keep the other time constant.
+      // The derivatives by T and d; or by T1 and T2: log T2 and log(T1/T2 - 1) each keep the other
+      // time constant.
       const double third =
           oscillating ? shape.derivativeByFirst / p.timeConstantS : byT1(shape, t, t1, t2);
       const double fourth = oscillating

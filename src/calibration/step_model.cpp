@@ -10,10 +10,10 @@ namespace palpate {
 namespace {
 
 constexpr double kStepModelNaN = std::numeric_limits<double>::quiet_NaN();
-constexpr double kStepModelSettled = 0.01;  // 1 - phi where the lag is over
+constexpr double kStepModelSettled = 0.01;  // 1 - phi at the end of the lag
 
-// Of z^2, which may be negative (then cosh and sinh): cos z, sin z / z and (sin z / z - cos z) /
-// z^2.
+// Functions of z^2, which may be negative (then with cosh and sinh): cos z, sin z / z and (sin z /
+// z - cos z) / z^2.
 struct Oscillation {
   double cosine, sine, difference;
 };
@@ -40,7 +40,8 @@ double inflectionOf(const StepParameters& p) {
   return q < 1e-8 ? t1 * (1.0 - 0.5 * q) : t1 * std::log1p(q) / q;
 }
 
-// First t with `reached`, by doubling and halving from about the element's own time.
+// Returns the first t at which `reached` is true, by doubling and halving from about the time
+// constant of the response.
 template <typename Reached>
 double firstTime(const StepParameters& p, Reached reached) {
   double low = 0.0, high = 2.0 * p.timeConstantS * std::max(p.damping, 1.0 / p.damping);

@@ -13,13 +13,13 @@
 namespace palpate {
 namespace {
 
-// Of the active taxels of a plain contact some at its edge come and go; beyond this share of a
-// taxel per frame the mean over active taxels jumps with them.
+// Even in a steady contact, some taxels at its edge become active and inactive. Above this number
+// of taxels per frame, the mean over active taxels jumps with them.
 constexpr double kFlicker = 1.0;
-// A step response meets a load that stays within a few per cent.
+// A step response fits a constant load within a few per cent; above this share the load changed.
 constexpr double kBadRmseShare = 0.1;
 
-// 0 = the sensor has not reported yet.
+// Returns whether the temperature is known; 0 means that the sensor has not reported yet.
 bool measured(double degC) { return std::isfinite(degC) && degC != 0.0; }
 
 std::optional<double> meanOf(const std::vector<double>& degC) {
@@ -33,7 +33,7 @@ std::optional<double> meanOf(const std::vector<double>& degC) {
   return count > 0 ? std::optional(sum / count) : std::nullopt;
 }
 
-// Means over the step's frames, each with the sample that belongs to it.
+// Sets the means over the step's frames, each with the sample of temperatures that belongs to it.
 void addTemperatures(const Profile& profile, std::size_t matrix, FittedStep& fitted) {
   if (profile.numTemperatures() == 0) return;
   const auto& matrices = profile.hand().matrices;

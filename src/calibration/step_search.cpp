@@ -12,36 +12,39 @@
 namespace palpate {
 namespace {
 
-// phi and t are told apart where phi differs from a straight line by more than this share of its
-// squares.
+// phi and t can be separated when phi differs from a straight line by more than this share of its
+// sum of squares.
 constexpr double kLeastStepBend = 1e-13;
-// Of a search of the oscillating ones, which ends at 1; the shape by T and d holds below 2.
+// Limits of d in the search for oscillating shapes, which ends at 1; the shape from T and d is
+// valid below 2.
 constexpr double kLeastDamping = 0.02, kMostDamping = 1.9;
-// Below it the shape by T and d, which is smooth at d = 1; above it that by T1 and T2.
+// Below this d the shape is computed from T and d, which is smooth at d = 1; above it, from T1 and
+// T2.
 constexpr double kStepNearlyCritical = 1.2;
 constexpr double kStepTolerance = 1e-14;
-// A minimum of the grid that is further above the best one than this is none of all shapes.
+// A minimum of the grid that is larger than the best one by this factor is not searched further.
 constexpr double kWorthSearching = 1.5;
 constexpr int kMostStepStarts = 3;
-// A longer first step leads from a good start onto the plateau where no sample sees the lag.
+// Radius of the first step. A longer one leads from a good start to the plateau where no sample is
+// within the lag.
 constexpr double kFirstRadius = 10.0;
-// Of leastT2S: half a frame.
+// Shortest time of the grid, as a multiple of leastT2S: half a frame.
 constexpr double kShortestStart = 50.0;
-// Of the duration: a lag that is over within it. Minima beyond are drift that is bent.
+// Longest time of the grid, as a share of the duration, so that the lag ends within it. Minima
+// beyond describe a curved drift.
 constexpr double kLongestStartShare = 0.15;
 constexpr int kGridTimes = 9;
 constexpr std::array kGridSecond{0.03, 0.2, 0.6, 1.0};  // q or d
 constexpr int kMostRescalings = 25;
 constexpr double kSdPerMad = 1.4826;
 
-// A place of a domain: its shape, and how what the shape is differentiated by changes with the
-// coordinates.
+// A point of a domain: its shape, and the derivatives of the shape's parameters by the coordinates.
 struct StepPlace {
   enum class By {
     kDamping,  // T and d, smooth at d = 1: log T, d
     kTimes,    // T1 and T2: log T2, log(T1/T2 - 1)
-    kFast,  // the continuation of a T2 far below every sample's time to values that no lag has, q <
-            // 0: T1, T2
+    // The continuation to q < 0, where T2 would be far below every sample's time: T1, T2.
+    kFast,
   };
   StepParameters parameters;
   By by = By::kDamping;
@@ -81,7 +84,7 @@ StepPlace placeAt(double first, double second, const StepSearchOptions& options)
   return place;
 }
 
-// The shape at all times; derivatives by the place's own parameters, then by the coordinates.
+// The shape at all times, with derivatives by the parameters of the point, then by the coordinates.
 class ShapeOfStepPlace {
  public:
   explicit ShapeOfStepPlace(const StepPlace& place)
@@ -104,8 +107,8 @@ class ShapeOfStepPlace {
   OverdampedShape overdamped_;
 };
 
-// Residuals as a function of the shape alone: of all a = K phi + m t those with the least sum of
-// squares. What is along t is taken off once, from the values and from phi, so that one quotient
+// Residuals as a function of the shape alone: those of the a = K phi + m t with the smallest sum of
+// squares. The component along t is removed once from the values and from phi, so that one quotient
 // gives K.
 class ProjectedStep {
  public:
@@ -138,7 +141,7 @@ class ProjectedStep {
     }
     return all.allFinite();
   }
-  // Infinite where K and m can't be told apart.
+  // Returns infinity where K and m cannot be separated.
   double sumOfSquares(const Eigen::Vector2d& x) {
     return project({x.data(), 2}) ? (y_ - gain_ * phi_).squaredNorm()
                                   : std::numeric_limits<double>::infinity();
@@ -179,7 +182,7 @@ class ProjectedStep {
   int evaluations_ = 0;
 };
 
-// The problem with its last parameter at a value.
+// Returns the problem with its last parameter fixed at a value.
 LeastSquaresProblem withLastAt(const LeastSquaresProblem& problem, std::size_t size, double value) {
   LeastSquaresProblem fewer = problem;
   const auto whole = [size, value](std::span<const double> x) {
@@ -203,9 +206,9 @@ LeastSquaresProblem withLastAt(const LeastSquaresProblem& problem, std::size_t s
   return fewer;
 }
 
-// The last two parameters are the coordinates of the domain. The second one may leave the domain,
-// where the shape goes on smoothly: along a bound Ceres would only creep. What ends outside is
-// searched again on the domain's edge.
+// Solves a problem whose last two parameters are the coordinates of the domain. The second one may
+// leave the domain, where the shape continues smoothly, because Ceres is very slow along a bound. A
+// solution outside is searched again on the edge of the domain.
 LeastSquaresReport solveInDomain(LeastSquaresProblem& problem,
                                  const Eigen::VectorXd& start,
                                  const StepSearchOptions& options) {
@@ -234,7 +237,7 @@ LeastSquaresReport solveInDomain(LeastSquaresProblem& problem,
   return report;
 }
 
-// Places of a grid none of whose neighbours is better, best first.
+// Returns the points of the grid that have no better neighbour, best first.
 std::vector<Eigen::Vector2d> startsOf(ProjectedStep& projected,
                                       const StepSamples& samples,
                                       const StepSearchOptions& options) {
@@ -295,7 +298,7 @@ StepMinimum searchRobustStep(const StepSamples& samples,
                              LeastSquaresLoss loss,
                              double deviations) {
   StepMinimum found = start;
-  // K, m and the two coordinates.
+  // The parameters are K, m and the two coordinates.
   LeastSquaresProblem problem;
   problem.numResiduals = samples.timeS.size();
   problem.residuals = [&](std::span<const double> x, std::span<double> out) {
@@ -330,7 +333,7 @@ StepMinimum searchRobustStep(const StepSamples& samples,
     for (double& size : sizes) size = std::abs(size);
     const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
     std::nth_element(sizes.begin(), middle, sizes.end());
-    if (!(*middle > 0.0)) break;  // half of the samples are met exactly
+    if (!(*middle > 0.0)) break;  // half of the samples fit exactly
     problem.lossScale = deviations * kSdPerMad * *middle;
     const LeastSquaresReport report = solveInDomain(problem, x, options);
     found.weights = report.weights;

@@ -19,8 +19,8 @@ using LongVector = Eigen::Matrix<long double, Eigen::Dynamic, 1>;
 
 constexpr double kSurfaceNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t kMostTerms = 12;
-// Columns that differ by less than this share of their length say the same. Nine honest terms come
-// to 1e-6.
+// Columns are dependent when they differ by less than this share of their length. Nine independent
+// terms reach 1e-6.
 constexpr long double kSurfaceDependent = 1e-8L;
 constexpr double kWorthATerm = 1.01;
 constexpr double kHullGrowth = 1.05;
@@ -37,8 +37,8 @@ struct Fit {
   double squares = 0.0, looSquares = 0.0;
 };
 
-// Of the chosen columns; nothing where the points don't determine them. Long double: nine terms of
-// the drift are nearly dependent.
+// Fits the chosen columns; empty when the points do not determine them. Uses long double, because
+// the nine terms of the drift are nearly dependent.
 std::optional<Fit> fitTerms(std::span<const SurfacePoint> points,
                             const std::vector<SurfaceTerm>& terms,
                             std::uint32_t chosen) {
@@ -83,7 +83,8 @@ std::optional<Fit> fitTerms(std::span<const SurfacePoint> points,
   return fit;
 }
 
-// The smallest subset with the constant whose leave-one-out error is within 1 % of the least.
+// Returns the smallest subset with the constant whose leave-one-out error is within 1 % of the
+// smallest error.
 std::uint32_t bestSubset(std::span<const SurfacePoint> points,
                          const std::vector<SurfaceTerm>& terms) {
   const std::uint32_t all = (1U << terms.size()) - 1U;
@@ -134,7 +135,7 @@ std::vector<SurfacePoint> hullOf(std::vector<SurfacePoint> points) {
 
 bool inHull(const std::vector<SurfacePoint>& hull, double x, double t) {
   if (hull.size() < 3) {
-    // One temperature (or one gain): a line; near it counts.
+    // With one temperature (or one gain) the hull is a line; points close to it are in range.
     if (hull.empty()) return false;
     const auto [leastX, mostX] =
         std::minmax_element(hull.begin(), hull.end(), [](auto& a, auto& b) { return a.x < b.x; });

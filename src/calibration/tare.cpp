@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::size_t kFewestFrames = 3;
 
-// One window of the whole recording: mean and sd per place.
+// One window of the recording: mean and standard deviation per place.
 struct Window {
   UnloadedWindow frames;
   std::vector<float> mean, sd;

@@ -11,10 +11,10 @@ bool isContinuation(char c) { return (static_cast<unsigned char>(c) & 0xC0) == 0
 
 struct Character {
   std::uint32_t code = 0;
-  std::size_t bytes = 0;  // 0: not UTF-8
+  std::size_t bytes = 0;  // 0 when not UTF-8
 };
 
-// The character at the start of a text that isn't empty (Unicode 15, table 3-7).
+// Returns the character at the start of a text, which must not be empty (Unicode 15, table 3-7).
 Character firstCharacter(std::string_view text) {
   const auto lead = static_cast<unsigned char>(text[0]);
   if (lead < 0x80) return {lead, 1};
@@ -31,7 +31,8 @@ Character firstCharacter(std::string_view text) {
   return {code, bytes};
 }
 
-// Controls, line and paragraph separators, and what changes the direction of writing.
+// Returns whether a character is a control, a line or paragraph separator, or changes the direction
+// of writing.
 bool bendsTheLine(std::uint32_t code) {
   return code < 0x20 || (code >= 0x7F && code <= 0x9F) || code == 0x061C || code == 0x200E ||
          code == 0x200F || (code >= 0x2028 && code <= 0x202E) ||

@@ -13,7 +13,7 @@ constexpr std::size_t kFewestDigits = 5;
 
 bool isTaken(const fs::path& path) {
   std::error_code ignored;
-  // A link that leads nowhere has the name, too.
+  // A symbolic link without a target also occupies the name.
   return fs::exists(fs::symlink_status(path, ignored));
 }
 
@@ -30,7 +30,7 @@ std::size_t numExisting(const FileSeries& series) {
   std::error_code failure;
   std::size_t found = 0;
   const std::string before = series.stem.empty() ? std::string() : series.stem + "_";
-  // One look at the folder, not one at each of a hundred thousand names.
+  // Read the folder once instead of testing each of up to a hundred thousand names.
   for (fs::directory_iterator at(series.folder, failure), end; !failure && at != end;
        at.increment(failure)) {
     const std::string name = at->path().filename().string();

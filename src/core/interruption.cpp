@@ -9,7 +9,7 @@
 namespace palpate {
 namespace {
 
-int wakeup = -1;  // of the one that waits; a handler knows nothing else
+int wakeup = -1;  // descriptor of the Interruption object; a signal handler can only use globals
 
 void onSignal(int) {
   const std::uint64_t one = 1;

@@ -11,14 +11,14 @@ namespace palpate {
 
 using Value = nlohmann::ordered_json;
 
-// A value inside of a tree that several may read; who changes it, changes it alone.
+// A value in a tree that several Json objects may share; the tree is copied before a change.
 struct Json::Impl {
   explicit Impl(Value given) : root(std::make_shared<Value>(std::move(given))), value(root.get()) {}
-  // A part of `of`: nothing is copied.
+  // Refers to a part of `of` without a copy.
   Impl(const Impl& of, Value& part, std::string name)
       : root(of.root), value(&part), where(std::move(name)) {}
 
-  // To be written to: a tree that somebody else reads is copied first.
+  // Returns the value for a change; a shared tree is copied first.
   Value& own() {
     if (root.use_count() != 1) {
       root = std::make_shared<Value>(*value);
@@ -27,7 +27,7 @@ struct Json::Impl {
     return *value;
   }
 
-  // What was moved from is null.
+  // A Json that was moved from is null.
   static const Value& of(const Json& json) {
     static const Value null;
     return json.impl_ ? *json.impl_->value : null;
@@ -35,12 +35,12 @@ struct Json::Impl {
 
   std::shared_ptr<Value> root;
   Value* value;
-  std::string where;  // the key it stands under, for messages; may be empty
+  std::string where;  // the key of the value, for messages; may be empty
 };
 
 namespace {
 
-// The parser below is recursive-free, but destruction and dump() are not: bound the nesting.
+// The parser does not use recursion, but destruction and dump() do, so the nesting is limited.
 constexpr int kMaxDepth = 512;
 
 [[noreturn]] void throwWrongKind(const std::string& where, const char* wanted, const Value& value) {
@@ -57,7 +57,7 @@ Json::Json(double value)
     : impl_(std::make_unique<Impl>(std::isfinite(value) ? Value(value) : Value())) {}
 Json::Json(std::int64_t value) : impl_(std::make_unique<Impl>(Value(value))) {}
 Json::Json(std::string_view value) : impl_(std::make_unique<Impl>(Value(value))) {}
-// A copy shares nothing: it may go to another thread.
+// A copy shares no data, so that it may be used in another thread.
 Json::Json(const Json& other) {
   if (!other.impl_) return;
   impl_ = std::make_unique<Impl>(*other.impl_->value);
@@ -81,7 +81,8 @@ Json Json::parse(std::string_view text) {
   try {
     return Json(std::make_unique<Impl>(Value::parse(text, bounded)));
   } catch (const Value::parse_error& error) {
-    // "[json.exception.parse_error.101] parse error at line 1, column 2: ..." without its number
+    // Shortens "[json.exception.parse_error.101] parse error at line 1, column 2: ..." by the part
+    // in brackets.
     const std::string what = error.what();
     const auto blank = what.find("] ");
     throw Error("JSON: " + (blank == std::string::npos ? what : what.substr(blank + 2)));

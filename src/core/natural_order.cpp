@@ -7,7 +7,7 @@ namespace {
 
 bool isDigit(char letter) { return letter >= '0' && letter <= '9'; }
 
-// Takes the number that `text` begins with; without its leading zeros.
+// Removes the number at the start of `text` and returns it without leading zeros.
 std::string_view takeNumber(std::string_view& text) {
   std::size_t zeros = 0;
   while (zeros < text.size() && text[zeros] == '0') ++zeros;

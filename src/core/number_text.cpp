@@ -50,7 +50,7 @@ std::string fixedText(double value, int decimals) {
           text, text + sizeof text, value, std::chars_format::fixed, std::clamp(decimals, 0, 17))
           .ptr;
   std::string out(text, end);
-  // A value that rounds to zero has no sign worth showing.
+  // A value that is rounded to zero has no sign.
   if (out.starts_with('-') && out.find_first_of("123456789") == std::string::npos &&
       std::isfinite(value))
     out.erase(0, 1);

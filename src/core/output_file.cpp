@@ -24,7 +24,7 @@ fs::path folderOf(const fs::path& path) {
   return path.has_parent_path() ? path.parent_path() : fs::path(".");
 }
 
-// A name beside PATH that nobody else has; short, whatever PATH is called.
+// Returns an unused name in the folder of `path`; it is short, however long that name is.
 fs::path temporaryName(const fs::path& path) {
   std::random_device random;
   char name[32];
@@ -32,15 +32,16 @@ fs::path temporaryName(const fs::path& path) {
   return folderOf(path) / name;
 }
 
-// A rename is only on disk when its folder is.
+// A rename is permanent only when the folder is synced.
 void syncFolder(const fs::path& folder) {
   const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (descriptor < 0) return;  // the file itself is safe; not every file system lets a folder sync
+  if (descriptor < 0)
+    return;  // the file itself is safe, and some file systems cannot sync a folder
   ::fsync(descriptor);
   ::close(descriptor);
 }
 
-// What a link points to is written, not the link.
+// Returns the target of a symbolic link, so that the target is written and not the link.
 fs::path followed(const fs::path& path) {
   std::error_code failure;
   if (!fs::is_symlink(fs::symlink_status(path, failure))) return path;
@@ -62,7 +63,7 @@ void requireWritable(const fs::path& path, Overwrite overwrite) {
 
 void publishFile(const fs::path& written, const fs::path& path, Overwrite overwrite) {
   if (overwrite == Overwrite::kRefuse) {
-    // link() fails where the name was taken meanwhile; rename() would replace it.
+    // link() fails when the name was taken in the meantime; rename() would replace that file.
     if (::link(written.c_str(), path.c_str()) == 0) {
       ::unlink(written.c_str());
     } else if (errno == EEXIST) {
@@ -82,10 +83,10 @@ OutputFile::OutputFile(fs::path path, Overwrite overwrite)
     : path_(std::move(path)), overwrite_(overwrite) {
   requireWritable(path_, overwrite_);
   if (overwrite_ == Overwrite::kReplace) path_ = followed(path_);
-  constexpr mode_t kMode = 0666;  // less the user's mask: as readable as any file
+  constexpr mode_t kMode = 0666;  // reduced by the umask, as for other files
   descriptor_ = ::open(folderOf(path_).c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, kMode);
   if (descriptor_ >= 0) return;
-  // Not every file system has files without a name.
+  // Not every file system supports files without a name.
   temporary_ = temporaryName(path_);
   descriptor_ = ::open(temporary_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, kMode);
   if (descriptor_ >= 0) return;

@@ -17,7 +17,7 @@ class Pieces {
   Pieces(std::size_t count, const std::function<void(std::size_t)>& work)
       : count_(count), work_(work) {}
 
-  // Until there are no more.
+  // Works until no piece is left; called in each thread.
   void run() {
     std::unique_lock lock(mutex_);
     while (!stopped_ && next_ < count_) {
@@ -42,7 +42,7 @@ class Pieces {
     changed_.notify_one();
   }
 
-  // In the caller's thread, until `threads` of them have ended.
+  // Waits in the caller's thread until `threads` threads have ended, and reports progress.
   void await(std::size_t threads, const Progress& progress) {
     std::unique_lock lock(mutex_);
     std::size_t reported = 0;
@@ -97,7 +97,7 @@ void forEachInParallel(std::size_t count,
     try {
       while (workers.size() < threads) workers.emplace_back([&pieces] { pieces.run(); });
       pieces.await(threads, progress);
-    } catch (...) {  // of a progress that throws, or of a thread that can't be had
+    } catch (...) {  // a progress callback threw, or a thread could not be started
       pieces.stop();
       throw;
     }

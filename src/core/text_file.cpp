@@ -30,7 +30,7 @@ std::string readTextFile(const std::filesystem::path& path, std::uint64_t byteLi
         path,
         "can't be opened" + (reason != 0 ? ": " + std::generic_category().message(reason) : ""));
   }
-  // Piece by piece: what is no regular file doesn't tell its size.
+  // Read piece by piece, since the size of a file that is not regular is not known.
   std::string text;
   while (in && text.size() <= byteLimit) {
     const std::size_t before = text.size();

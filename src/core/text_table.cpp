@@ -8,7 +8,7 @@
 namespace palpate {
 namespace {
 
-constexpr std::size_t kRowsPerPiece = 4096;  // between two looks at the progress
+constexpr std::size_t kRowsPerPiece = 4096;  // rows between two reports of progress
 
 void appendCsv(const std::vector<std::string>& cells, std::string& out) {
   for (std::size_t i = 0; i < cells.size(); ++i) {

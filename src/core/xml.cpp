@@ -10,8 +10,8 @@
 namespace palpate {
 namespace {
 
-// expat looks at an unfinished tag again with each piece, and keeps all of it. Small pieces let the
-// limit be checked between them.
+// expat scans an unfinished tag again with each piece, and keeps all of it. With small pieces the
+// limit is checked often enough.
 constexpr std::size_t kPieceBytes = 64u << 10;
 
 bool endsEarly(XML_Error code) {
@@ -30,7 +30,8 @@ struct XmlParser::Impl {
   Impl(const Impl&) = delete;
   Impl& operator=(const Impl&) = delete;
 
-  // From here on expat reads. First it learns, silently, what the scanner has told already.
+  // From here on expat parses. It first reads the prefix without handlers, to get into the
+  // scanner's state.
   void leaveScanner() {
     const std::string prefix = scanner.prefix();
     parser = XML_ParserCreate(nullptr);
@@ -45,8 +46,9 @@ struct XmlParser::Impl {
     depth = scanner.depth();
   }
 
-  // No exception may pass through expat's C code: it is kept, the parser stopped, and thrown again
-  // when expat has returned. expat may call a handler once more after the stop.
+  // No exception may pass through expat's C code. It is stored, the parser is stopped, and the
+  // exception is thrown again after expat has returned. expat may call a handler once more after
+  // the stop.
   template <typename Call>
   void guarded(Call&& call) noexcept {
     if (failure) return;
@@ -111,8 +113,8 @@ struct XmlParser::Impl {
   XmlHandler& handler;
   XmlLimits limits;
   XmlScanner scanner;
-  XML_Parser parser = nullptr;  // once the scanner has met what it leaves to expat
-  std::uint64_t origin = 0;     // of expat's positions in the document [bytes]
+  XML_Parser parser = nullptr;  // set when the scanner has met something that it leaves to expat
+  std::uint64_t origin = 0;     // start of expat's positions in the document [bytes]
   std::exception_ptr failure;
   std::uint64_t failureOffset = 0;
   std::uint64_t taken = 0;
@@ -134,7 +136,7 @@ void XmlParser::push(std::string_view bytes) {
     const std::string_view piece = bytes.substr(0, kPieceBytes);
     bytes.remove_prefix(piece.size());
     impl_->parse(piece, false);
-    // What expat holds back is markup whose end has not come yet: text passes through at once.
+    // expat holds back only unfinished markup; it passes text on at once.
     const std::uint64_t begin = impl_->eventOffset();
     if (impl_->taken - std::min(begin, impl_->taken) > impl_->limits.maxMarkupBytes)
       throw XmlError("one tag or comment is longer than " +

@@ -9,14 +9,14 @@ namespace {
 
 constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 constexpr std::string_view kDeclaration = R"(<?xml version="1.0" encoding="utf-8"?>)";
-constexpr std::size_t kMaxTagBytes = 1024;  // a longer one is left to expat
+constexpr std::size_t kMaxTagBytes = 1024;  // longer tags are left to expat
 
-// Classes of characters.
-constexpr std::uint8_t kText = 1;       // stands for itself in text
-constexpr std::uint8_t kNameStart = 2;  // of an ASCII name
+// Classes of characters (bits).
+constexpr std::uint8_t kText = 1;       // is a literal character in text
+constexpr std::uint8_t kNameStart = 2;  // starts an ASCII name
 constexpr std::uint8_t kName = 4;
 constexpr std::uint8_t kBlank = 8;
-constexpr std::uint8_t kValue = 16;  // stands for itself in an attribute's value
+constexpr std::uint8_t kValue = 16;  // is a literal character in the value of an attribute
 
 constexpr std::array<std::uint8_t, 256> makeClasses() {
   std::array<std::uint8_t, 256> classes{};
@@ -41,7 +41,7 @@ bool is(char c, std::uint8_t wanted) {
   return (kClasses[static_cast<unsigned char>(c)] & wanted) != 0;
 }
 
-// Length of the name at the start of `text`; 0: there is none.
+// Returns the length of the name at the start of `text`; 0 when there is none.
 std::size_t nameLength(std::string_view text) {
   if (text.empty() || !is(text[0], kNameStart)) return 0;
   std::size_t length = 1;
@@ -73,7 +73,7 @@ bool XmlScanner::push(std::string_view bytes) {
   return step != Step::kLeave;
 }
 
-// The document's first bytes: byte order mark and declaration, where they are the usual ones.
+// Skips the usual byte order mark and declaration at the start of the document.
 XmlScanner::Step XmlScanner::begin(std::string_view& bytes) {
   std::size_t size = 0;
   for (const std::string_view optional : {kByteOrderMark, kDeclaration}) {
@@ -82,7 +82,7 @@ XmlScanner::Step XmlScanner::begin(std::string_view& bytes) {
     if (here == optional) size += optional.size();
   }
   begun_ = true;
-  if (bytes.substr(size, 2) == "<?") return Step::kLeave;  // another declaration
+  if (bytes.substr(size, 2) == "<?") return Step::kLeave;  // a different declaration
   take(bytes, size);
   return Step::kDone;
 }
@@ -94,7 +94,8 @@ void XmlScanner::tellText(std::string_view piece) {
   inEvent_ = false;
 }
 
-// Text up to the next tag or to the end of the bytes. Outside of the root only blanks may stand.
+// Scans text up to the next tag or to the end of the bytes. Only blanks are allowed outside of the
+// root.
 XmlScanner::Step XmlScanner::scanText(std::string_view& bytes) {
   const std::uint8_t wanted = openBegins_.empty() ? kBlank : kText;
   if (std::exchange(afterReturn_, false) && bytes.front() == '\n') take(bytes, 1);
@@ -106,7 +107,7 @@ XmlScanner::Step XmlScanner::scanText(std::string_view& bytes) {
   }
   if (bytes.empty() || bytes.front() == '<') return Step::kDone;
   if (bytes.front() != '\r') return Step::kLeave;
-  // XML knows one line end only: "\r\n" and "\r" count as "\n".
+  // XML has a single line end: "\r\n" and "\r" become "\n".
   tellText("\n");
   take(bytes, 1);
   afterReturn_ = true;
@@ -134,7 +135,7 @@ void XmlScanner::closeElement(std::string_view name) {
   rootEnded_ = openBegins_.empty();
 }
 
-// `tag` is "</name>".
+// Scans `tag`, which is "</name>".
 XmlScanner::Step XmlScanner::scanEndTag(std::string_view tag) {
   if (openBegins_.empty()) return Step::kLeave;
   const std::string_view name = std::string_view(openNames_).substr(openBegins_.back());
@@ -144,7 +145,8 @@ XmlScanner::Step XmlScanner::scanEndTag(std::string_view tag) {
   return Step::kDone;
 }
 
-// `tag` is "<name>", "<name/>", or with attributes; a '>' within a value leads to expat.
+// Scans `tag`, which is "<name>", "<name/>", or either with attributes. A '>' within a value is
+// left to expat.
 XmlScanner::Step XmlScanner::scanStartTag(std::string_view tag) {
   if (rootEnded_) return Step::kLeave;
   const std::size_t length = nameLength(tag.substr(1));
@@ -165,7 +167,8 @@ XmlScanner::Step XmlScanner::scanStartTag(std::string_view tag) {
   return Step::kDone;
 }
 
-// `text` is what stands between an element's name and the end of its tag. False: left to expat.
+// Parses `text`, the part of a tag after the element's name. Returns false when it is left to
+// expat.
 bool XmlScanner::parseAttributes(std::string_view text) {
   attributeText_.clear();
   attributeBegins_.clear();
@@ -185,7 +188,8 @@ bool XmlScanner::parseAttributes(std::string_view text) {
     if (!std::all_of(value.begin(), value.end(), [](char c) { return is(c, kValue); }))
       return false;
     for (std::size_t i = 0; i < attributeBegins_.size(); i += 2)
-      if (attributeText_.c_str() + attributeBegins_[i] == name) return false;  // stands twice
+      if (attributeText_.c_str() + attributeBegins_[i] == name)
+        return false;  // the attribute appears twice
     for (const std::string_view part : {name, value}) {
       attributeBegins_.push_back(attributeText_.size());
       attributeText_.append(part).push_back('\0');
@@ -201,7 +205,8 @@ bool XmlScanner::parseAttributes(std::string_view text) {
 
 std::string XmlScanner::prefix() const {
   if (rootEnded_) return "<r/>";
-  // A declaration may stand at the very beginning only: a blank tells that something was there.
+  // A declaration is only allowed at the very beginning; a blank tells expat that the document
+  // has begun.
   if (openBegins_.empty() && position_ > 0) return " ";
   std::string tags;
   for (std::size_t i = 0; i < openBegins_.size(); ++i) {

@@ -1,5 +1,5 @@
-// Bilateral filter (Tomasi and Manduchi 1998): neighbours within a round window, weighed by
-// distance and by difference of value.
+// Kernel of the filter "bilateral" (Tomasi and Manduchi 1998): the neighbours within a round
+// window, weighted by distance and by difference of value.
 #include <cmath>
 
 #include "filter/lanes.h"
@@ -54,7 +54,7 @@ class BilateralKernel final : public MatrixKernel {
  private:
   struct Neighbor {
     int step;        // in the padded matrix
-    float exponent;  // of its distance
+    float exponent;  // of the distance's weight
   };
   PaddedMatrix padded_;
   std::vector<float> on_;

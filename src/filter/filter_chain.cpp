@@ -16,7 +16,8 @@ double nsBetween(FilterChainSteadyClock::time_point from, FilterChainSteadyClock
 
 }  // namespace
 
-// One step, and what it hands on to. A link takes frames for its filter.
+// One step of the chain. A link takes frames for its filter and passes the filtered ones on to the
+// next link.
 class FilterChain::Link final : public FrameSink {
  public:
   Link(FilterChain& chain, std::size_t step, std::unique_ptr<FrameFilter> filter)
@@ -34,7 +35,7 @@ class FilterChain::Link final : public FrameSink {
   template <typename Work>
   void timed(const Work& work) {
     if (!chain_.measuring_) return work();
-    // Steps behind this one are called within: their time is theirs.
+    // The filter calls the steps behind this one; their time is subtracted.
     const double spentBehind = behindNs();
     const auto from = FilterChainSteadyClock::now();
     work();
@@ -53,8 +54,8 @@ class FilterChain::Link final : public FrameSink {
   FrameSink* next_ = nullptr;
 };
 
-// Remembers which taxels were active in the frames that went in, and says so in those that come
-// out: they come in the same order, every one of them.
+// Remembers which taxels were active in the frames that went in, and applies this to the frames
+// that come out. Both have the same order, and no frame is missing.
 class FilterChain::Contact final : public FrameSink {
  public:
   explicit Contact(FrameSink& out) : out_(out) {}
@@ -78,7 +79,7 @@ class FilterChain::Contact final : public FrameSink {
 
  private:
   FrameSink& out_;
-  std::deque<std::vector<bool>> active_;  // of the frames that are inside
+  std::deque<std::vector<bool>> active_;  // of the frames that the filters still hold
   std::vector<bool> spare_;
 };
 
@@ -102,8 +103,8 @@ void FilterChain::build(const std::shared_ptr<const SensorLayout>& layout) {
   layout_ = layout;
 }
 
-// Which frames are still inside nobody knows when a filter has failed: none, and the next one
-// begins anew.
+// Runs `work`. When a filter throws, nobody knows which frames the filters still hold: the chain
+// then drops them all, and the next frame starts with new filters.
 template <typename Work>
 void FilterChain::guarded(const Work& work) {
   try {

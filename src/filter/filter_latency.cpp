@@ -1,4 +1,5 @@
-// What a chain does to time: found by sending a step of load through it.
+// Delay and length of a chain of filters (filter_chain.h), found by sending a step of load through
+// the chain.
 #include <algorithm>
 #include <cmath>
 
@@ -7,14 +8,14 @@
 namespace palpate {
 namespace {
 
-constexpr int kPlaces = 1;        // rows and columns of the matrix that is tried
+constexpr int kPlaces = 1;        // rows and columns of the matrix of the trial
 constexpr float kLoad = 1000.0F;  // counts
 constexpr int kMostFrames = 4096;
 constexpr double kForgotten = 1e-9;
 constexpr std::int64_t kIntervalUs = 30'000;
 constexpr std::size_t kMostMemory = 5000;
 
-// Counts the frames that come until the middle of the matrix has half the load.
+// Counts the frames until the middle of the matrix has half the load.
 class StepWatcher final : public FrameSink {
  public:
   void take(TactileFrame& frame) override {
@@ -29,8 +30,8 @@ class StepWatcher final : public FrameSink {
   std::optional<int> arrived_;
 };
 
-// Everywhere, and without what looks into the future. The load is the same on all taxels, so what
-// happens among neighbours changes nothing: only time is tried.
+// Returns the recipe for the trial: for all matrices, and without steps that use future frames. The
+// load is the same on all taxels, so that filters over space change nothing.
 Recipe tried(const Recipe& recipe) {
   Recipe causal;
   for (FilterStep step : recipe.steps) {
@@ -45,7 +46,7 @@ Recipe tried(const Recipe& recipe) {
 std::optional<std::size_t> memoryOf(const FilterStep& step) {
   if (step.kind().option("window") != nullptr) {
     const auto window = static_cast<std::size_t>(step.integer("window"));
-    // Polynomials at the beginning of a stretch use the frames behind, too.
+    // At the beginning of a stretch, the polynomial also uses later frames.
     return step.name == "savitzky-golay" ? 2 * window : window - 1;
   }
   if (step.kind().domain == FilterDomain::kSpatial) return 0;

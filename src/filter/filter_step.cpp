@@ -14,7 +14,7 @@ namespace {
 using FilterStepKind = FilterOption::Kind;
 
 constexpr std::size_t kMostMatrices = 1024;
-constexpr int kMostMedianValues = 2001;  // that one value is the middle of: some ms per frame
+constexpr int kMostMedianValues = 2001;  // number of values of a median; takes some ms per frame
 constexpr const char* kMatrices = "matrices";
 
 std::vector<std::string_view> split(std::string_view text, char at) {
@@ -147,7 +147,7 @@ double FilterStep::valueOrZero(std::string_view key) const {
 bool FilterStep::causal() const {
   if (name == "rts" || valueOrZero("centred") != 0.0) return false;
   if (name != "kelvin-voigt") return true;
-  // What isn't given is found in the recording.
+  // A missing parameter is estimated from the whole stretch, so that the filter is not causal.
   for (const char* key : {"e", "eta", "q", "r"})
     if (std::isnan(value(key))) return false;
   return true;

@@ -15,10 +15,10 @@ namespace palpate {
 namespace {
 
 constexpr std::size_t kFilteredProfileFramesPerReport = 64;
-constexpr std::size_t kFramesForRate = 16;  // what the gap rule looks back at
-constexpr std::size_t kCursors = 4;         // readers at different places: screen, charts, exports
+constexpr std::size_t kFramesForRate = 16;  // number of past frames that the gap rule uses
+constexpr std::size_t kCursors = 4;  // for readers at different positions: screen, charts, exports
 
-// Reads the source in order through a chain.
+// Reads the source in order through a chain of filters.
 class FilteredProfileCursor final : public FrameSink {
  public:
   FilteredProfileCursor(const Profile& source,
@@ -32,14 +32,14 @@ class FilteredProfileCursor final : public FrameSink {
     pushed_.pop_front();
   }
 
-  // Index of the frame that advance() gives next, at least.
+  // Returns a lower bound of the index of the frame that advance() returns next.
   std::size_t position() const noexcept {
     if (!out_.empty()) return out_.front().index;
     return pushed_.empty() ? next_ : pushed_.front();
   }
 
-  // The next filtered frame up to `last`; nothing where there is none. What can't be read is passed
-  // by, but for `wanted`: that throws.
+  // Returns the next filtered frame up to `last`; nothing when there is none. Frames that cannot be
+  // read are skipped, except `wanted`, for which the error is thrown.
   std::optional<std::pair<std::size_t, TactileFrame>> advance(std::size_t last,
                                                               std::size_t wanted) {
     while (out_.empty() && next_ <= last) push(wanted);
@@ -76,14 +76,14 @@ class FilteredProfileCursor final : public FrameSink {
 
   const Profile source_;
   const std::vector<std::int64_t>& restartsUs_;
-  std::size_t next_;  // of the source
+  std::size_t next_;  // next frame of the source
   std::optional<std::int64_t> lastUs_;
-  std::deque<std::size_t> pushed_;  // went in, and didn't come out yet
+  std::deque<std::size_t> pushed_;  // frames that the chain holds
   std::deque<Filtered> out_;
   FilterChain chain_;
 };
 
-// Everything but the values of the taxels is the source's.
+// A profile storage that passes on everything but the frames' values from the source.
 class BesideFrames : public ProfileStorage {
  public:
   explicit BesideFrames(Profile source) : source_(std::move(source)) {}
@@ -135,7 +135,7 @@ class FilteredFrames final : public BesideFrames {
       if (!next) throw Error("frame " + std::to_string(frame) + " came out of no filter");
       reader.last = std::move(next);
     }
-    // Passed by: it couldn't be read, and says so itself.
+    // The cursor skipped this frame because it could not be read: let the source throw its error.
     if (reader.last->first != frame) return source_.readFrame(frame, out);
     out = reader.last->second;
   }
@@ -143,11 +143,12 @@ class FilteredFrames final : public BesideFrames {
  private:
   struct Reader {
     std::unique_ptr<FilteredProfileCursor> cursor;
-    std::optional<std::pair<std::size_t, TactileFrame>> last;  // that it gave
+    std::optional<std::pair<std::size_t, TactileFrame>> last;  // the last frame that it returned
     std::uint64_t usedAt = 0;
   };
 
-  // One that has the frame, or comes to it soon; else a new one in place of the longest unused.
+  // Returns a reader that has the frame or will reach it soon; otherwise a new one, which replaces
+  // the reader that was unused for the longest time.
   Reader& readerFor(std::size_t frame) const {
     for (Reader& reader : readers_)
       if (reader.last && reader.last->first == frame) return reader;
@@ -181,7 +182,8 @@ Profile computedWhole(const Profile& source,
   ProfileBuilder builder(source.hand().layout);
   FilteredProfileCursor cursor(source, recipe, restartsUs, 0);
   const std::size_t numFrames = source.numFrames();
-  // Nothing comes before the stretch is whole: reading is the first half of the work.
+  // No frame comes out before the stretch is complete, so reading is counted as the first half of
+  // the work.
   for (std::size_t i = 0; i < numFrames; ++i) {
     reportProgress(progress, i, numFrames, kFilteredProfileFramesPerReport);
     while (const auto next = cursor.advance(i, i)) builder.addFrame(next->second);
@@ -198,7 +200,7 @@ Profile filteredProfile(const Profile& source,
   recipe.validate();
   for (const FilterStep& step : recipe.steps)
     if (step.enabled)
-      makeFrameFilter(step, source.hand().layout);  // throws for a matrix that isn't there
+      makeFrameFilter(step, source.hand().layout);  // throws for a matrix that does not exist
   if (recipe.empty()) return source;
   ProfileInfo info = source.info();
   info.valueType = ValueType::kFloat;

@@ -12,7 +12,7 @@ namespace {
 constexpr int kGaussianLargestSize = 31;
 constexpr double kFwhmPerSigma = 2.3548;  // full width at half maximum of a Gaussian, in sigmas
 
-// Weighted sum along one direction of a rows x columns array, border replicated.
+// Weighted sum along one direction of a rows x columns array; the border is replicated.
 void convolve(const float* in,
               float* out,
               int rows,
@@ -81,7 +81,7 @@ MatrixValues gaussianFiltered(const Eigen::Ref<const MatrixValues>& values,
   const std::vector<float> kernel = gaussianWeights(options);
   if (layout.numEnabled() == layout.numCells()) return convolvedBothWays(values, kernel);
 
-  // Normalised convolution: what masked taxels would have weighed goes to the others.
+  // Normalised convolution: the weights of masked taxels are distributed to the others.
   MatrixValues read(layout.rows, layout.columns);
   MatrixValues weight(layout.rows, layout.columns);
   for (int y = 0; y < layout.rows; ++y) {

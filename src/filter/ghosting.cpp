@@ -18,11 +18,12 @@ using GhostingSteadyClock = std::chrono::steady_clock;
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t kGhostingFramesPerReport = 256;
 
-// Keeps what comes out until it is counted: so the counting isn't in the time of the chain.
+// Keeps the filtered frames until they are counted, so that counting is not included in the time of
+// the chain.
 class Outcome final : public FrameSink {
  public:
-  // All that the filters gave: how they deal with ghosts is asked here, not what counts as contact
-  // afterwards.
+  // Keeps all values that the filters gave: the report is about the filters themselves, not about
+  // what counts as a contact afterwards.
   void take(TactileFrame& frame) override {
     frames_.push_back(std::move(frame.filtered.empty() ? frame.values : frame.filtered));
   }
@@ -65,7 +66,7 @@ class Counter {
     open_.resize(report_.matrices.size());
   }
 
-  // The next filtered frame, beside what it was made from.
+  // Counts the next filtered frame together with the frame that it was made from.
   void count(const std::vector<float>& filtered) {
     const std::size_t frame = report_.frames++;
     profile_.readFrame(frame, raw_);
@@ -229,7 +230,7 @@ double GhostingReport::largestDelayFrames() const {
   double largest = kNone;
   for (const ContactGhosting& contact : contacts)
     if (const auto delay = contact.delayFrames())
-      // of a NaN and a number the number
+      // fmax() of a NaN and a number is the number.
       largest = std::fmax(largest, static_cast<double>(*delay));
   return largest;
 }

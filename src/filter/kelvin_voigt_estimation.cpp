@@ -21,11 +21,11 @@ constexpr double kNoiseFloor = 1e-9;  // of the mean square
 constexpr double kStepLog = 1e-3;     // for differences in the logarithm of a parameter
 constexpr double kLargestStep = 1.0;  // of a Newton step in a logarithm
 constexpr int kHalvings = 12;
-constexpr double kWidestPace = 1e8;  // of a parameter against its start, either way
+constexpr double kWidestPace = 1e8;  // largest ratio of a parameter to its start, or the inverse
 
-// Sums over all transitions with one interval: E(x x^T) of the state before, E(w x^T), E(w w^T),
-// with w = x' - F x by the transition F of the E step. (About x' itself they would be differences
-// of large numbers.)
+// Sums over all transitions with one interval: E(x x^T) of the previous state, E(w x^T) and E(w
+// w^T), with w = x' - F x for the transition F of the E step. (The same sums of x' itself would be
+// differences of large numbers.)
 struct Transitions {
   KelvinVoigtStep step = {};  // F
   double intervalS = 0.0;
@@ -72,7 +72,7 @@ struct Expectation {
   double logLikelihood = 0.0;
 };
 
-// A model by logarithms of m, E and eta; what is zero stays out of the search.
+// The model is searched in the logarithms of m, E and eta; parameters that are zero stay zero.
 enum Parameter { kMass, kStiffness, kViscosity };
 double& parameterOf(KelvinVoigtModel& model, Parameter which) {
   return which == kMass ? model.mass : which == kStiffness ? model.stiffness : model.viscosity;
@@ -87,13 +87,13 @@ class Estimation {
  public:
   Estimation(const Series& series, const KelvinVoigtEstimationOptions& options)
       : series_(series), options_(options) {
-    // Transitions of one interval are one in the M step: sorted once.
+    // The M step treats transitions of one interval together, so the intervals are sorted once.
     for (const SampleRange& stretch : series.stretches)
       for (std::size_t i = stretch.begin + 1; i < stretch.end; ++i)
         intervals_.push_back(series.timeS[i] - series.timeS[i - 1]);
     std::sort(intervals_.begin(), intervals_.end());
     intervals_.erase(std::unique(intervals_.begin(), intervals_.end()), intervals_.end());
-    // Nothing given says how large a force is: then m = 1 does.
+    // When no given parameter fixes the unit of force, m = 1 does.
     const bool forceless = options.stiffness.value_or(0.0) == 0.0 &&
                            options.viscosity.value_or(0.0) == 0.0 && !options.forceNoise;
     if (!options.mass && !forceless) free_.push_back(kMass);
@@ -123,14 +123,14 @@ double mean(double sum, std::size_t count) {
   return count > 0 ? sum / static_cast<double>(count) : 0.0;
 }
 
-// Returns false where there is nothing to fit; the model is then as given, with defaults for the
-// rest.
+// Returns false when there is nothing to fit; the model then has the given parameters, and defaults
+// for the others.
 bool Estimation::start(KelvinVoigtModel& model) {
   double squares = 0.0, slopes = 0.0, bends = 0.0, least = std::numeric_limits<double>::max(),
          most = std::numeric_limits<double>::lowest();
   std::size_t numValues = 0, numBends = 0;
   for (const SampleRange& stretch : series_.stretches) {
-    // Of finite values only.
+    // Uses finite values only.
     std::array<double, 3> z{}, t{};
     std::size_t n = 0;
     for (std::size_t i = stretch.begin; i < stretch.end; ++i) {
@@ -144,8 +144,8 @@ bool Estimation::start(KelvinVoigtModel& model) {
       least = std::min(least, value);
       most = std::max(most, value);
       if (n < 3) continue;
-      // The middle one against the line between its neighbours: variance r (1 + u^2 + (1-u)^2) for
-      // a straight signal.
+      // Difference of the middle value from the line between its neighbours; for a straight signal
+      // its variance is r (1 + u^2 + (1-u)^2).
       const double u = (t[1] - t[0]) / (t[2] - t[0]);
       const double bend = z[1] - (1.0 - u) * z[0] - u * z[2];
       bends += bend * bend / (1.0 + u * u + (1.0 - u) * (1.0 - u));
@@ -158,7 +158,7 @@ bool Estimation::start(KelvinVoigtModel& model) {
   leastR_ = kNoiseFloor * square;
   const double r = usable ? std::max(0.5 * mean(bends, numBends), leastR_) : 1.0;
   model.measurementNoise = options_.measurementNoise.value_or(r);
-  // At rest: E(v^2) / E(y^2) = E/m, and E(y^2) = S / (2 E eta).
+  // In the stationary state E(v^2) / E(y^2) = E/m, and E(y^2) = S / (2 E eta).
   const double pace2 = usable ? std::max(mean(slopes, numBends) / square, 1e-6) : 400.0;
   const double pace = std::sqrt(pace2);
   const double e = options_.stiffness.value_or(0.0), eta = options_.viscosity.value_or(0.0);
@@ -201,8 +201,8 @@ void Estimation::expect(const KelvinVoigtModel& model, Expectation& out) {
   }
 }
 
-// The part of the expected log-density that the dynamics have a say in, with the best S where that
-// is free (it is set in `model`).
+// The part of the expected log-density that depends on the dynamics, with the best S when S is free
+// (S is then set in `model`).
 double Estimation::dynamicPart(const Expectation& expectation, KelvinVoigtModel& model) const {
   const double a = model.stiffness / model.mass, b = model.viscosity / model.mass;
   double logs = 0.0, trace = 0.0;
@@ -210,7 +210,7 @@ double Estimation::dynamicPart(const Expectation& expectation, KelvinVoigtModel&
     if (t.count == 0) continue;
     const KelvinVoigtStep s = unitNoiseStep(a, b, t.intervalS);
     const double det = s.qYy * s.qVv - s.qYv * s.qYv;
-    // S = E(w - D x)(w - D x)^T with D = what F has changed by.
+    // S = E(w - D x)(w - D x)^T with D = the change of F.
     const double dYy = s.fYy - t.step.fYy, dYv = s.fYv - t.step.fYv;
     const double dVy = s.fVy - t.step.fVy, dVv = s.fVv - t.step.fVv;
     const double bYy = dYy * t.beforeYy + dYv * t.beforeYv;
@@ -234,8 +234,8 @@ double Estimation::dynamicPart(const Expectation& expectation, KelvinVoigtModel&
   return -0.5 * (logs + 2.0 * n * std::log(q) + trace / q);
 }
 
-// One Newton step in the logarithms of the free parameters, by differences; along the gradient
-// where the expression isn't curved like a hill. Returns whether it brought anything.
+// One Newton step in the logarithms of the free parameters, with derivatives by differences; a
+// gradient step where the expression is not concave. Returns whether the expression was raised.
 bool Estimation::raise(const Expectation& expectation,
                        KelvinVoigtModel& model,
                        double& best) const {

@@ -9,12 +9,12 @@
 namespace palpate {
 namespace {
 
-// Sampled this much finer than the model's own pace (per T), the noise's power series is exact to
-// rounding.
+// Largest product of interval and rate (max(sqrt(a), b)) for which the power series of the noise is
+// exact to rounding; longer intervals are halved first.
 constexpr double kSmall = 0.25;
 constexpr int kTerms = 14;
-// |D| T^2 below which sinh(sqrt(D) T) / sqrt(D) goes by its power series (the limit d = 1 lies in
-// it).
+// Below this value of |D| T^2, sinh(sqrt(D) T) / sqrt(D) is computed by its power series, which
+// includes the limit d = 1.
 constexpr double kNearCritical = 0.01;
 
 void setTransition(KelvinVoigtStep& step, double a, double b, double t) noexcept {
@@ -38,7 +38,7 @@ void setTransition(KelvinVoigtStep& step, double a, double b, double t) noexcept
     step.fYy = c + half * s;
     step.fVv = c - half * s;
   } else {
-    // By its two real poles; the slow one without cancellation.
+    // Computed from the two real poles; the slow pole without cancellation.
     const double root = std::sqrt(d);
     const double fast = -(half + root), slow = -a / (half + root);
     const double eFast = std::exp(fast * t), eSlow = std::exp(slow * t);
@@ -50,7 +50,7 @@ void setTransition(KelvinVoigtStep& step, double a, double b, double t) noexcept
   step.fVy = -a * step.fYv;
 }
 
-// dQ/dt = A Q + Q A^T + e e^T, e = (0, 1), as a power series in t.
+// Solves dQ/dt = A Q + Q A^T + e e^T, e = (0, 1), as a power series in t.
 void setSmallNoise(KelvinVoigtStep& step, double a, double b, double t) noexcept {
   double yy = 0.0, yv = 0.0, vv = t;
   step.qYy = 0.0;
@@ -69,10 +69,10 @@ void setSmallNoise(KelvinVoigtStep& step, double a, double b, double t) noexcept
   }
 }
 
-// Q(2 T) = Q(T) + F Q(T) F^T, F(2 T) = F^2: nothing cancels.
+// Q(2 T) = Q(T) + F Q(T) F^T, F(2 T) = F^2: no term cancels another.
 void doubleInterval(KelvinVoigtStep& s) noexcept {
   const KelvinVoigtState noise{.pYy = s.qYy, .pYv = s.qYv, .pVv = s.qVv};
-  const KelvinVoigtState both = predicted(noise, s);  // adds the second half's
+  const KelvinVoigtState both = predicted(noise, s);  // adds the noise of the second half
   s.qYy = both.pYy;
   s.qYv = both.pYv;
   s.qVv = both.pVv;
@@ -99,7 +99,7 @@ KelvinVoigtStep unitNoiseStep(double a, double b, double intervalS) noexcept {
   setSmallNoise(step, a, b, part);
   if (doublings == 0) return step;
   for (int i = 0; i < doublings; ++i) doubleInterval(step);
-  setTransition(step, a, b, intervalS);  // squaring lost some digits
+  setTransition(step, a, b, intervalS);  // again, since squaring lost some digits
   return step;
 }
 
@@ -156,8 +156,9 @@ void forwardPass(std::span<const double> timeS,
   }
 }
 
-// G = P F^T P(predicted)^-1;  x += G (x' - x'(predicted)),  P += G (P' - P'(predicted)) G^T,
-// Cov(x', x) = P' G^T.
+// The smoother's step is
+//   G = P F^T P(predicted)^-1,  x += G (x' - x'(predicted)),
+//   P += G (P' - P'(predicted)) G^T,  Cov(x', x) = P' G^T
 void backwardPass(KelvinVoigtPass& pass) {
   for (std::size_t i = pass.moments.size(); i-- > 1;) {
     KelvinVoigtMoment& next = pass.moments[i];

@@ -1,5 +1,5 @@
-// Forward and backward pass of the Kelvin-Voigt Kalman filter over one stretch, with all that
-// expectation-maximisation needs of it.
+// Computes the forward and backward pass of the Kelvin-Voigt Kalman filter over one stretch, with
+// all moments that expectation-maximisation needs.
 #pragma once
 
 #include <span>
@@ -9,30 +9,31 @@
 
 namespace palpate {
 
-// Transition and noise for a = E/m, b = eta/m and S/m^2 = 1. T > 0; no check.
+// Transition and noise for a = E/m, b = eta/m and S/m^2 = 1; intervalS > 0 is not checked.
 KelvinVoigtStep unitNoiseStep(double a, double b, double intervalS) noexcept;
 
-// State at the next sample before its value is known.
+// Returns the state at the next sample before its value is known.
 KelvinVoigtState predicted(const KelvinVoigtState& state, const KelvinVoigtStep& step) noexcept;
-// With a value of variance r taken in.
+// Returns the state after a value with variance r.
 KelvinVoigtState updated(const KelvinVoigtState& state, double value, double r) noexcept;
 
 struct KelvinVoigtMoment {
-  KelvinVoigtStep step = {};        // from the sample before to this one
-  KelvinVoigtState predicted = {};  // given what came before this sample
-  KelvinVoigtState state = {};      // given also this sample; after smoothing given all
-  // Cov(x_k, x_(k-1)) given all: row = this sample's y and v, column = the one before's.
+  KelvinVoigtStep step = {};        // from the previous sample to this one
+  KelvinVoigtState predicted = {};  // given the samples before this one
+  KelvinVoigtState state = {};      // given also this sample; after smoothing, given all samples
+  // Cov(x_k, x_(k-1)) given all samples: row = y and v of this sample, column = those of the
+  // previous one.
   double cYy = 0.0, cYv = 0.0, cVy = 0.0, cVv = 0.0;
 };
 
 struct KelvinVoigtPass {
   std::vector<KelvinVoigtMoment> moments;  // from the stretch's first finite value on
-  std::size_t first = 0;                   // index of that in the stretch
+  std::size_t first = 0;                   // index in the stretch of the first finite value
   double logLikelihood = 0.0;
   std::size_t innovations = 0;
 };
 
-// Fills `pass` (its memory is used again). No finite value: no moments.
+// Fills `pass` and reuses its memory. Without a finite value there are no moments.
 void forwardPass(std::span<const double> timeS,
                  std::span<const double> values,
                  const KelvinVoigtModel& model,

@@ -1,8 +1,9 @@
-// Eight neighbouring taxels at once, of which Eigen makes vector instructions: what the kernels of
-// the spatial filters are written in. The medians are written in vectors of four, with the
-// compiler's own minimum and maximum, since their networks need every register: the median of 3x3x3
-// takes 6.6 us per frame with them, 12.8 us with Eigen's arrays (its target is 10 us); that of 3x3
-// takes 2.9 us, 3.1 us with Eigen's arrays, 3.5 us with std::experimental::simd.
+// Values of eight neighbouring taxels that are processed at once; Eigen translates the operations
+// to vector instructions. The kernels of the spatial filters are written with them. The medians use
+// vectors of four and the compiler's own minimum and maximum, since their networks need every
+// register: the median of 3x3x3 takes 6.6 us per frame with them and 12.8 us with Eigen's arrays
+// (its target is 10 us); the median of 3x3 takes 2.9 us, with Eigen's arrays 3.1 us, with
+// std::experimental::simd 3.5 us.
 #pragma once
 
 #include <cstring>
@@ -20,8 +21,8 @@ using Lanes = Eigen::Array<float, kLanes, 1>;
 
 inline Lanes load(const float* from) { return Eigen::Map<const Lanes>(from); }
 inline void store(float* to, const Lanes& lanes) { Eigen::Map<Lanes>{to} = lanes; }
-// exp() of values at or below 0. Below -87 it stays what it is there: less would be a denormal
-// number, with which the bilateral filter takes nine times as long.
+// exp() of values at or below 0. Below -87 the result is that of -87: a smaller one would be a
+// denormal number, which makes the bilateral filter nine times slower.
 inline Lanes expOf(const Lanes& x) { return x.max(-87.0F).exp(); }
 
 inline constexpr int kFour = 4;
@@ -42,7 +43,7 @@ inline FourLanes most(FourLanes a, FourLanes b) {
 #endif
 }
 
-// x <= y afterwards.
+// Sorts two values: x <= y afterwards.
 inline void order(FourLanes& x, FourLanes& y) {
   const FourLanes small = least(x, y);
   y = most(x, y);

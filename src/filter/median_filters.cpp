@@ -1,4 +1,4 @@
-// Median of a window of one frame, and of several.
+// Medians of a window in one frame and in several frames.
 #include "filter/median_filters.h"
 
 #include <algorithm>
@@ -15,7 +15,7 @@ namespace {
 constexpr int kFastSize = 3;
 constexpr int kFastDepth = 3;
 
-// Blocks that cover the columns and one more on either side.
+// Number of blocks that cover the columns and one more column on either side.
 int widerBlocks(int columns) { return (columns + 2 + kFour - 1) / kFour; }
 
 class Median3x3 final : public MatrixKernel {
@@ -74,13 +74,13 @@ class Median3x3 final : public MatrixKernel {
 
   PaddedMatrix padded_;
   MedianNeighbors neighbors_;
-  std::vector<float> low_;  // of three taxels one above the other, in order
+  std::vector<float> low_;  // of three vertical neighbours each, sorted
   std::vector<float> mid_;
   std::vector<float> high_;
   std::vector<float> out_;
 };
 
-// Any size, any number of frames.
+// Median of any window size and any number of frames.
 class AnyMedian final : public MatrixKernel, public FramesMedian {
  public:
   AnyMedian(const MatrixLayout& layout, int size) : layout_(layout) {
@@ -113,7 +113,8 @@ class AnyMedian final : public MatrixKernel, public FramesMedian {
       window_.clear();
       for (const float* frame : frames)
         for (const std::size_t neighbor : taxel.neighbors) window_.push_back(frame[neighbor]);
-      // Of an even number the smaller of the two in the middle, unlike core/statistics.h.
+      // For an even number of values, take the smaller of the two in the middle, unlike
+      // core/statistics.h.
       const auto middle = window_.begin() + static_cast<std::ptrdiff_t>((window_.size() - 1) / 2);
       std::nth_element(window_.begin(), middle, window_.end());
       values[taxel.place] = *middle;
@@ -123,7 +124,7 @@ class AnyMedian final : public MatrixKernel, public FramesMedian {
  private:
   struct Taxel {
     std::size_t place;
-    std::vector<std::size_t> neighbors;  // those at the border more than once
+    std::vector<std::size_t> neighbors;  // neighbours at the border appear more than once
   };
   const MatrixLayout layout_;
   std::vector<Taxel> taxels_;
@@ -196,7 +197,8 @@ class Median3x3x3 final : public FramesMedian {
 
   std::array<PaddedMatrix, kFastDepth> frames_;
   MedianNeighbors neighbors_;
-  std::array<std::vector<float>, 9> ranks_;  // of nine taxels: three frames, one above the other
+  std::array<std::vector<float>, 9>
+      ranks_;  // of nine taxels each: three vertical neighbours in three frames
   std::vector<float> out_;
 };
 

@@ -1,4 +1,4 @@
-// Median of the neighbours in space and time.
+// Computes medians over neighbours in space and time, for the filter "median3d".
 #pragma once
 
 #include <memory>
@@ -11,11 +11,12 @@ namespace palpate::detail {
 class FramesMedian {
  public:
   virtual ~FramesMedian() = default;
-  // Of the values of one matrix in several frames; writes the enabled taxels.
+  // Computes the median from the values of one matrix in several frames, and writes the enabled
+  // taxels to `values`.
   virtual void apply(std::span<const float* const> frames, float* values) = 0;
 };
 
-// For exactly `depth` frames.
+// Makes a median for exactly `depth` frames.
 std::unique_ptr<FramesMedian> framesMedian(const MatrixLayout& layout, int size, int depth);
 
 }  // namespace palpate::detail

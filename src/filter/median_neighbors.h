@@ -1,6 +1,6 @@
-// The neighbours of taxels that have masked ones around them, gathered so that the median networks
-// can be used: each masked neighbour is replaced by an infinity, in turn a low and a high one, so
-// that the middle stays the middle (of an even number the lower middle value).
+// The neighbours of taxels next to masked ones, gathered so that the median networks can be used.
+// Each masked neighbour is replaced by an infinity, alternately negative and positive, so that the
+// median stays the same (of an even number of values, the lower of the two in the middle).
 #pragma once
 
 #include <span>
@@ -13,11 +13,11 @@ namespace palpate::detail {
 
 class MedianNeighbors {
  public:
-  // Of all enabled taxels with a masked one within a 3x3 window, in `depth` frames.
+  // Finds all enabled taxels with a masked taxel in their 3x3 window, for `depth` frames.
   MedianNeighbors(const PaddedMatrix& padded, int depth);
 
   bool empty() const noexcept { return taxels_.empty(); }
-  // Gathers from `depth` padded matrices.
+  // Gathers the neighbours from `depth` padded matrices.
   void gather(std::span<const float* const> planes);
   std::size_t numBlocks() const noexcept { return numPadded_ / kFour; }
   // The values of neighbour `index` (plane by plane, row by row) of the four taxels of a block.
@@ -33,7 +33,8 @@ class MedianNeighbors {
   };
   std::vector<std::size_t> taxels_;  // padded index
   std::size_t numPadded_ = 0;        // taxels, rounded up to blocks
-  std::vector<float> gathered_;      // neighbour after neighbour; infinities stay in their places
+  std::vector<float>
+      gathered_;  // all values of a neighbour, then of the next; infinities stay in place
   std::vector<Copy> copies_;
 };
 

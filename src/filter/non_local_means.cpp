@@ -1,5 +1,6 @@
-// Non-local means (Buades, Coll and Morel 2005): taxels of the neighbourhood weighed by exp(-d^2 /
-// h^2), d^2 the mean squared difference of the patches around both.
+// Kernel of the filter "nlm" (non-local means; Buades, Coll and Morel 2005): the taxels of the
+// neighbourhood, weighted by exp(-d^2 / h^2), where d^2 is the mean squared difference of the
+// patches around both taxels.
 #include <cmath>
 
 #include "filter/lanes.h"
@@ -47,7 +48,7 @@ class NonLocalMeansKernel final : public MatrixKernel {
  private:
   struct Offset {
     int step;                    // in the padded matrix
-    std::vector<float> perPair;  // 1 / number of taxels that both patches have
+    std::vector<float> perPair;  // 1 / number of taxels that exist in both patches
   };
 
   template <typename Work>
@@ -55,7 +56,8 @@ class NonLocalMeansKernel final : public MatrixKernel {
     for (int y = 0; y < padded_.rows(); ++y)
       for (int x = 0; x < padded_.columns(); x += kLanes) work(padded_.at(y, x));
   }
-  // Of all pairs `step` apart that exist, wide enough for the patches.
+  // Squared differences of all pairs of taxels `step` apart, over an area that is large enough for
+  // the patches.
   void squareDifferences(int step) {
     const float* at = padded_.data();
     for (int y = -patchRadius_; y < padded_.rows() + patchRadius_; ++y) {

@@ -1,5 +1,5 @@
-// Morphological opening: erosion, then dilation. Masked taxels, and what lies outside, take no
-// part.
+// Kernel of the filter "opening" (morphological opening): erosion, then dilation. Masked taxels and
+// places outside of the matrix are ignored.
 #include <cmath>
 #include <limits>
 
@@ -12,9 +12,9 @@ namespace {
 
 constexpr float kOpeningFilterInfinity = std::numeric_limits<float>::infinity();
 
-enum Shape { kCross, kRectangle, kEllipse };  // as in the catalogue
+enum Shape { kCross, kRectangle, kEllipse };  // in the order of the catalogue
 
-// Half the width of row dy of the element; below 0: the row has none.
+// Half the width of row dy of the structuring element; negative when the row is empty.
 int halfWidth(int shape, int radius, int dy) {
   if (shape == kRectangle) return radius;
   if (shape == kCross) return dy == 0 ? radius : 0;

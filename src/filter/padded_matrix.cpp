@@ -7,8 +7,9 @@
 namespace palpate::detail {
 namespace {
 
-// Rows have few taxels: cheaper than a call for each. Up to three values more than a row has are
-// copied, which belong to the next row and are overwritten with it; the last row is copied exactly.
+// Copies rows in steps of four values, which is faster for short rows than a call per row. Up to
+// three values beyond the end of a row are copied and then overwritten by the next row; the last
+// row is copied exactly.
 inline void copyRows(
     const float* from, int fromStride, float* to, int toStride, int rows, int columns) {
   if (columns >= kFour) {
@@ -25,7 +26,7 @@ PaddedMatrix::PaddedMatrix(const MatrixLayout& layout, int radius)
     : layout_(layout), radius_(radius) {
   const int blocks = (layout.columns + kLanes - 1) / kLanes;
   stride_ = blocks * kLanes + 2 * radius;
-  // A block may begin at the last column and row, and be shifted by the radius.
+  // A block may begin at the last column and row, shifted by the radius.
   values_.assign(static_cast<std::size_t>((layout.rows + 2 * radius) * stride_ + kLanes), 0.0F);
   for (int y = 0; y < layout.rows; ++y)
     for (int x = 0; x < layout.columns; ++x)

@@ -1,5 +1,5 @@
-// A matrix with its border repeated, for kernels that look around a taxel: rows and columns are
-// widened by a radius, and each row by what a block of lanes may read beyond it.
+// A matrix with a repeated border, for kernels that use the neighbours of a taxel. Rows and columns
+// are extended by a radius, and each row also by what a block of lanes may read beyond its end.
 #pragma once
 
 #include <span>
@@ -13,12 +13,13 @@ class PaddedMatrix {
  public:
   PaddedMatrix(const MatrixLayout& layout, int radius);
 
-  // Copies the matrix in; masked places get `maskedValue`.
+  // Copies the values of a matrix; masked places get `maskedValue`.
   void fill(const float* values, float maskedValue);
-  // Writes the enabled taxels of a plane laid out like values() into a matrix; changes the others
-  // of the plane.
+  // Writes the enabled taxels of `plane`, which has the memory order of data(), to a matrix. The
+  // other places of the plane are changed.
   void writeBack(std::vector<float>& plane, float* values) const;
-  // 1 at places that stand for an enabled taxel, else 0, widened like the values.
+  // Returns a plane that is 1 at enabled taxels, otherwise 0, with a border like that of the
+  // values.
   std::vector<float> onPlane() const;
 
   int rows() const noexcept { return layout_.rows; }
@@ -26,7 +27,7 @@ class PaddedMatrix {
   int radius() const noexcept { return radius_; }
   int stride() const noexcept { return stride_; }
   std::size_t size() const noexcept { return values_.size(); }
-  // Index of row y, column x; both from -radius to below rows (columns) + radius.
+  // Index of row y, column x in the plane; both may be -radius .. rows (columns) + radius - 1.
   int at(int y, int x) const noexcept { return (y + radius_) * stride_ + x + radius_; }
   bool hasMasked() const noexcept { return !masked_.empty(); }
   const float* data() const noexcept { return values_.data(); }

@@ -38,7 +38,7 @@ Json stepJson(const FilterStep& step) {
   return json;
 }
 
-// A value as the text that parseFilterStep() reads.
+// Returns a JSON value as the text that parseFilterStep() reads.
 std::string valueText(const Json& value) {
   if (value.isBool()) return value.asBool() ? "1" : "0";
   if (value.isString()) return value.asString();

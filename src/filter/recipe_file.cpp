@@ -1,4 +1,4 @@
-// Recipes as files.
+// Reads and writes recipe files (recipe.h).
 #include "palpate/core/error.h"
 #include "palpate/core/output_file.h"
 #include "palpate/core/text_file.h"

@@ -1,4 +1,4 @@
-// A series of samples cut at its gaps.
+// Cuts a series of samples into stretches at its gaps, for filters of whole series.
 #pragma once
 
 #include <cstddef>
@@ -9,11 +9,11 @@ namespace palpate {
 
 struct SampleRange {
   std::size_t begin = 0;
-  std::size_t end = 0;  // one behind the last
+  std::size_t end = 0;  // index after the last
 };
 
-// `gapSamples`: last sample before each gap. Throws std::invalid_argument unless they ascend and
-// each has a sample behind it.
+// `gapSamples` are the last samples before each gap. Throws std::invalid_argument unless they
+// ascend and each has a sample after it.
 std::vector<SampleRange> sampleStretches(std::size_t numSamples,
                                          std::span<const std::size_t> gapSamples);
 

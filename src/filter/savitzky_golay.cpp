@@ -7,7 +7,7 @@
 namespace palpate {
 namespace {
 
-using Real = long double;  // costs nothing here, and keeps high orders exact
+using Real = long double;  // keeps high orders exact; speed does not matter here
 
 void validate(int window, int order, int derivative, double position) {
   const auto fail = [](const std::string& field, const std::string& range, const std::string& is) {
@@ -24,8 +24,7 @@ void validate(int window, int order, int derivative, double position) {
     fail("position", "0.." + std::to_string(window - 1), std::to_string(position));
 }
 
-// A polynomial by what is needed of it: its values on the grid, and its derivatives at the
-// position.
+// A polynomial, represented by its values on the grid and its derivatives at the position.
 struct Polynomial {
   std::vector<Real> onGrid;
   std::vector<Real> derivatives;  // 0th, 1st, ..
@@ -47,8 +46,8 @@ Real product(const Polynomial& a, const Polynomial& b) {
   return sum;
 }
 
-// The next orthonormal polynomial: x times the last one, without its parts along all before (twice:
-// rounding).
+// Returns the next orthonormal polynomial: x times the last one, minus its components along all
+// earlier ones. They are subtracted twice because of rounding errors.
 Polynomial next(const std::vector<Polynomial>& basis, const std::vector<Real>& grid, Real at) {
   Polynomial p = basis.back();
   for (std::size_t i = 0; i < grid.size(); ++i) p.onGrid[i] *= grid[i];

@@ -1,4 +1,4 @@
-// Box and Gaussian: the same weights along both directions.
+// Kernels of the filters "box" and "gaussian": the same weights along both directions.
 #include <algorithm>
 #include <cmath>
 
@@ -22,7 +22,7 @@ class SeparableKernel final : public MatrixKernel {
     total_.assign(padded_.size(), 1.0F);
     const std::vector<float> on = padded_.onPlane();
     convolve(on.data(), total_.data());
-    // Far from every enabled taxel nothing is weighed, and nothing is written.
+    // Far from all enabled taxels the total weight is 0; avoid a division by it.
     for (float& total : total_) total = total > 0.0F ? total : 1.0F;
   }
 
@@ -30,7 +30,7 @@ class SeparableKernel final : public MatrixKernel {
     padded_.fill(values, 0.0F);
     convolve(padded_.data(), out_.data());
     if (padded_.hasMasked()) {
-      // What masked taxels would have weighed goes to the others.
+      // The weights of masked taxels are distributed to the others.
       for (int y = 0; y < padded_.rows(); ++y) {
         for (int x = 0; x < padded_.columns(); x += kLanes) {
           const int i = padded_.at(y, x);
@@ -69,7 +69,7 @@ class SeparableKernel final : public MatrixKernel {
   const std::vector<float> weights_;
   std::vector<float> alongX_;
   std::vector<float> out_;
-  std::vector<float> total_;  // weight of the taxels that are there; empty: nothing is masked
+  std::vector<float> total_;  // weight of the existing taxels; empty when none is masked
 };
 
 }  // namespace

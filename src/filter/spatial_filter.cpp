@@ -23,7 +23,7 @@ std::vector<std::size_t> placesOf(const FilterStep& step, const SensorLayout& la
 }
 
 bool allZero(const float* values, std::size_t count) {
-  // No early end: a loop of fixed length is made of vector instructions.
+  // No early exit, so that the compiler vectorises the loop.
   unsigned any = 0;
   for (std::size_t i = 0; i < count; ++i) any |= values[i] != 0.0F ? 1U : 0U;
   return any == 0;

@@ -1,5 +1,5 @@
-// What the spatial filters share: a kernel per matrix, empty matrices passed by, the original where
-// `masked` asks for it.
+// Common part of the spatial filters: one kernel per matrix, empty matrices are skipped, and the
+// original values are restored where the option `masked` asks for it.
 #pragma once
 
 #include <functional>
@@ -11,15 +11,14 @@
 namespace palpate::detail {
 
 // Filters one matrix in place; masked taxels are neither read nor written. A matrix of zeros must
-// stay one.
+// stay zero.
 class MatrixKernel {
  public:
   virtual ~MatrixKernel() = default;
   virtual void apply(float* values) = 0;
 };
 
-// Replaces what lies in `values` by the original where it is above 0, else by 0; enabled taxels
-// only.
+// Replaces each of the `values` by the original where it is above 0, otherwise by 0.
 void keepOriginal(const float* original, float* values, const MatrixLayout& layout);
 bool allZero(const float* values, std::size_t count);
 
@@ -35,11 +34,12 @@ class SpatialFilter final : public FrameFilter {
  private:
   const std::shared_ptr<const SensorLayout> layout_;
   const bool masked_;
-  std::vector<std::unique_ptr<MatrixKernel>> kernels_;  // null: this matrix is left as it is
+  std::vector<std::unique_ptr<MatrixKernel>>
+      kernels_;  // null: the step leaves this matrix unchanged
   std::vector<float> original_;
 };
 
-// The kernels.
+// Make the kernels of the spatial filters.
 std::unique_ptr<MatrixKernel> boxKernel(const MatrixLayout& layout, const FilterStep& step);
 std::unique_ptr<MatrixKernel> gaussianKernel(const MatrixLayout& layout, const FilterStep& step);
 std::unique_ptr<MatrixKernel> medianKernel(const MatrixLayout& layout, int size);
@@ -48,9 +48,9 @@ std::unique_ptr<MatrixKernel> nonLocalMeansKernel(const MatrixLayout& layout,
                                                   const FilterStep& step);
 std::unique_ptr<MatrixKernel> openingKernel(const MatrixLayout& layout, const FilterStep& step);
 
-// Whether a step works on a matrix.
+// Returns whether a step applies to a matrix.
 bool worksOn(const FilterStep& step, std::size_t matrix);
-// Where the enabled taxels of those matrices are among the values of a frame.
+// Indices of the enabled taxels of the step's matrices among the values of a frame.
 std::vector<std::size_t> placesOf(const FilterStep& step, const SensorLayout& layout);
 
 }  // namespace palpate::detail

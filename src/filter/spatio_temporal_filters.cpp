@@ -1,4 +1,4 @@
-// Filters over space and time.
+// Filters over space and time: "median3d" and "min-median".
 #include <algorithm>
 
 #include "filter/median_filters.h"
@@ -9,8 +9,8 @@
 namespace palpate::detail {
 namespace {
 
-// Median of the neighbours in space and time; the first frame (the last one) stands for those
-// beyond it.
+// Median of the neighbours in space and time. Before the first and after the last frame, that frame
+// is repeated.
 class Median3d final : public WindowedFilter {
  public:
   Median3d(const FilterStep& step, std::shared_ptr<const SensorLayout> layout)

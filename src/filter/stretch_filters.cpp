@@ -1,4 +1,4 @@
-// Filters that need a whole stretch of frames before the first can come out.
+// Filters that need a whole stretch of frames before they return the first one.
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::size_t kMostValues = std::size_t{1} << 28;  // a gigabyte
 
-// Collects the frames, then filters the series of each taxel that felt something.
+// Collects the frames of a stretch, then filters the series of each taxel that was not always 0.
 class StretchFilter : public FrameFilter {
  public:
   void push(TactileFrame& frame, FrameSink&) final {
@@ -45,7 +45,8 @@ class StretchFilter : public FrameFilter {
  protected:
   StretchFilter(const FilterStep& step, std::shared_ptr<const SensorLayout> layout)
       : step_(step), layout_(std::move(layout)) {}
-  // Before the taxels of a matrix: `strongest` is the series of the one with the largest sum.
+  // Called before the taxels of each matrix; `strongest` is the series of the taxel with the
+  // largest sum.
   virtual void prepare(std::span<const double> timeS, std::span<const double> strongest) = 0;
   virtual std::vector<double> filtered(std::span<const double> timeS,
                                        std::span<const double> series) = 0;
@@ -87,7 +88,7 @@ class StretchFilter : public FrameFilter {
   std::vector<TactileFrame> frames_;
 };
 
-// Rauch-Tung-Striebel over the zero-order Kalman filter.
+// Rauch-Tung-Striebel smoother over the zero-order Kalman filter.
 class Smoother final : public StretchFilter {
  public:
   Smoother(const FilterStep& step, std::shared_ptr<const SensorLayout> layout)
@@ -108,7 +109,8 @@ std::optional<double> givenOf(const FilterStep& step, const char* key) {
   return std::isnan(value) ? std::nullopt : std::optional(value);
 }
 
-// What isn't known of the model is found once per matrix, from its most loaded taxel.
+// Parameters of the model that are not given are estimated once per matrix, from its most loaded
+// taxel.
 class KelvinVoigt final : public StretchFilter {
  public:
   KelvinVoigt(const FilterStep& step, std::shared_ptr<const SensorLayout> layout)

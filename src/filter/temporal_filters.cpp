@@ -1,4 +1,4 @@
-// Filters that look at the last frames of a taxel.
+// Filters over the frames of each taxel that need no whole stretch.
 #include "filter/temporal_filters.h"
 
 #include <algorithm>
@@ -13,7 +13,7 @@
 namespace palpate::detail {
 namespace {
 
-// Weighted sums of the frames of the window.
+// Filters that compute a weighted sum of the frames of a window.
 class WeightedFilter : public WindowedFilter {
  protected:
   WeightedFilter(const FilterStep& step, const SensorLayout& layout, Edge edge)
@@ -21,7 +21,7 @@ class WeightedFilter : public WindowedFilter {
         places_(placesOf(step, layout)),
         result_(layout.numCells(), 0.0) {}
 
-  // One per frame of the window, oldest first.
+  // Returns one weight per frame of the window, oldest first.
   virtual const std::vector<double>& weights(std::size_t frames, std::size_t current) = 0;
 
   void compute(std::span<const float* const> window, std::size_t current, float* values) final {
@@ -82,8 +82,8 @@ class TemporalGaussian final : public WeightedFilter {
   std::vector<double> weights_;
 };
 
-// At the ends the polynomial of the first (last) window; of fewer frames than its order needs, the
-// one that goes through them all.
+// At the ends of a stretch, uses the polynomial of the first or last window. With fewer frames than
+// the order needs, the polynomial passes through all of them.
 class SavitzkyGolay final : public WeightedFilter {
  public:
   SavitzkyGolay(const FilterStep& step, const SensorLayout& layout)
@@ -132,7 +132,7 @@ class TemporalMinimum final : public WindowedFilter {
   std::vector<float> result_;
 };
 
-// All taxels have the same noises, so one variance and one gain serve them all.
+// All taxels have the same noise variances, so that one variance and one gain apply to all.
 class KalmanFilter final : public FrameFilter {
  public:
   KalmanFilter(const FilterStep& step, const SensorLayout& layout)
@@ -154,7 +154,7 @@ class KalmanFilter final : public FrameFilter {
       float& value = frame.values[places_[i]];
       double& state = states_[i];
       state += gain * (static_cast<double>(value) - state);
-      // What is left of a contact long ago isn't active for ever.
+      // Set small remainders of a past contact to 0, so that they do not stay active for ever.
       if (value == 0.0F && std::abs(state) < kNothing) state = 0.0;
       value = static_cast<float>(state);
     }
@@ -168,11 +168,11 @@ class KalmanFilter final : public FrameFilter {
   const std::vector<std::size_t> places_;
   const double q_;
   const double r_;
-  std::vector<double> states_;  // one per place; empty: a stretch begins
+  std::vector<double> states_;  // one per place; empty at the beginning of a stretch
   double variance_ = 0.0;
 };
 
-// One filter per taxel, all of one model: an interval is discretised once for all of them.
+// One filter per taxel, all with the same model, so that an interval is discretised once for all.
 class KelvinVoigtFrames final : public FrameFilter {
  public:
   KelvinVoigtFrames(const FilterStep& step, const SensorLayout& layout)

@@ -1,4 +1,4 @@
-// Filters that look at the frames of one taxel.
+// Makes the filters that work over the frames of each taxel.
 #pragma once
 
 #include <memory>
@@ -7,14 +7,15 @@
 
 namespace palpate::detail {
 
-// running-mean, temporal-gaussian, temporal-min, savitzky-golay, and kalman without smoothing.
+// Makes running-mean, temporal-gaussian, temporal-min, savitzky-golay, and kalman without
+// smoothing.
 std::unique_ptr<FrameFilter> temporalFilter(const FilterStep& step,
                                             std::shared_ptr<const SensorLayout> layout);
-// median3d and min-median.
+// Makes median3d and min-median.
 std::unique_ptr<FrameFilter> spatioTemporalFilter(const FilterStep& step,
                                                   std::shared_ptr<const SensorLayout> layout);
-// What needs a whole stretch: rts, kalman and kelvin-voigt with smoothing, kelvin-voigt with
-// unknown parameters.
+// Makes the filters that need a whole stretch: rts, kalman and kelvin-voigt with smoothing, and
+// kelvin-voigt with unknown parameters.
 std::unique_ptr<FrameFilter> stretchFilter(const FilterStep& step,
                                            std::shared_ptr<const SensorLayout> layout);
 

@@ -7,7 +7,7 @@ namespace palpate::detail {
 WindowedFilter::WindowedFilter(int window, bool centred, Edge edge)
     : window_(static_cast<std::size_t>(window)), centred_(centred), edge_(edge) {}
 
-// `from`..`to` and `current` are indices in the stretch, both ends inclusive.
+// Filters one frame. `from`..`to` and `current` are indices in the stretch, both ends inclusive.
 void WindowedFilter::filter(std::size_t from,
                             std::size_t to,
                             std::size_t current,
@@ -25,7 +25,7 @@ void WindowedFilter::emitNext(std::size_t from, std::size_t to, FrameSink& out) 
 }
 
 void WindowedFilter::push(TactileFrame& frame, FrameSink& out) {
-  // The memory of the frame that leaves the window serves the one that comes.
+  // Reuse the memory of the frame that leaves the window for the new one.
   const std::size_t keep = centred_ && edge_ == Edge::kShift ? 2 * window_ : window_;
   TactileFrame stored;
   if (frames_.size() >= keep) {

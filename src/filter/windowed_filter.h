@@ -1,5 +1,5 @@
-// What filters share that look at several frames: the last ones (causal), or those around a frame
-// (centred).
+// Common part of the filters over a window of frames: the last frames (causal), or the frames
+// around the filtered one (centred).
 #pragma once
 
 #include <deque>
@@ -12,8 +12,8 @@ namespace palpate::detail {
 
 class WindowedFilter : public FrameFilter {
  public:
-  // At the ends of a stretch the window holds fewer frames, or (centred) as many, but not around
-  // the frame.
+  // At the ends of a stretch, the window of kShrink has fewer frames; that of kShift (centred) has
+  // as many frames, but is not centred on the filtered frame.
   enum class Edge { kShrink, kShift };
 
   void push(TactileFrame& frame, FrameSink& out) final;
@@ -21,12 +21,13 @@ class WindowedFilter : public FrameFilter {
 
  protected:
   WindowedFilter(int window, bool centred, Edge edge);
-  // `window`: the values of the frames, oldest first; `current`: which of them is filtered.
-  // `values` has that frame's own and takes the filtered ones.
+  // Computes one filtered frame. `window` has the values of the frames, oldest first; `current` is
+  // the index of the frame to filter. `values` holds the values of that frame and receives the
+  // filtered ones.
   virtual void compute(std::span<const float* const> window,
                        std::size_t current,
                        float* values) = 0;
-  virtual void forget() {}  // a new stretch begins
+  virtual void forget() {}  // called when a new stretch begins
 
  private:
   void filter(std::size_t from, std::size_t to, std::size_t current, TactileFrame& frame);
@@ -35,9 +36,9 @@ class WindowedFilter : public FrameFilter {
   const std::size_t window_;
   const bool centred_;
   const Edge edge_;
-  std::deque<TactileFrame> frames_;  // the last ones, as they came
-  std::size_t first_ = 0;            // index in the stretch of the first of them
-  std::size_t next_ = 0;             // index of the frame that comes out next
+  std::deque<TactileFrame> frames_;  // the last frames, unfiltered
+  std::size_t first_ = 0;            // index of the first of them in the stretch
+  std::size_t next_ = 0;             // index of the frame that is passed on next
   std::vector<const float*> pointers_;
   TactileFrame out_;
 };

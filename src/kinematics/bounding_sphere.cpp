@@ -1,11 +1,11 @@
-// The one source that knows CGAL: header-only use of its bounding volumes, with own traits, so that
-// neither its kernels nor its flags come along.
+// The only source that includes CGAL. It uses CGAL's header-only bounding volumes with its own
+// traits, so that CGAL's kernels and compiler flags are not needed.
 //
-// It computes in doubles and proves what it found, since exact numbers take too long. The sphere of
-// 30 points may take 5 us: it takes 1.2 us in doubles (0.8 us on a grid of 5 x 6), with the same
-// algorithm in CGAL::Lazy_exact_nt<Gmpq> 104 us (99 us), in CGAL::Gmpq 502 us (127 us), and in
-// CGAL::Quotient<MP_Float>, which needs no GMP, 13 s. CGAL's other algorithm, LP_algorithm, takes
-// 623 us (401 us) and 3977 us (534 us) with the first two.
+// It computes in doubles and proves the result, since exact numbers take too long. The target for
+// the sphere of 30 points is 5 us. It takes 1.2 us in doubles (0.8 us on a grid of 5 x 6); the same
+// algorithm takes 104 us (99 us) in CGAL::Lazy_exact_nt<Gmpq>, 502 us (127 us) in CGAL::Gmpq, and
+// 13 s in CGAL::Quotient<MP_Float>, which needs no GMP. CGAL's other algorithm, LP_algorithm, takes
+// 623 us (401 us) and 3977 us (534 us) in the first two.
 #include "palpate/kinematics/bounding_sphere.h"
 
 #include <algorithm>
@@ -40,13 +40,13 @@ constexpr int kMostOrders = 24;
 struct Candidate {
   Vector3d centre = Vector3d::Zero();
   double radius = 0.0;  // encloses all points
-  double excess = 0.0;  // of the radius over a lower bound, as a part of the radius
+  double excess = 0.0;  // difference of the radius and a lower bound, as a part of the radius
 };
 
-// For weights w >= 0 that sum up to 1, every enclosing sphere has
+// A lower bound for the radius. For weights w >= 0 with sum 1, every enclosing sphere has
 //   radius^2 >= sum w |p|^2 - |sum w p|^2
-// (the weighted variance). Equal for the smallest one, with its centre as the weighted mean of
-// points on it.
+// (the weighted variance). Both sides are equal for the smallest sphere, with the weights for which
+// its centre is the weighted mean of the points on it.
 double lowerBound(CgalSphere& found, const Vector3d& centre, double radius) {
   Eigen::Matrix<double, 4, Eigen::Dynamic, 0, 4, 4> system(4, 0);
   for (auto point = found.support_begin(); point != found.support_end(); ++point) {
@@ -94,9 +94,9 @@ std::optional<Sphere> smallestEnclosingSphere(const std::vector<Vector3d>& point
   std::vector<Vector3d> points(pointsMm);
   for (Vector3d& point : points) point -= middle;
 
-  // Many points on one sphere (taxels of a flat matrix) make CGAL's pivoting end early once in a
-  // hundred times, far from the smallest. It depends on the order of the points: with another one
-  // it arrives.
+  // With many points on one sphere (taxels of a flat matrix), CGAL's pivoting stops too early in
+  // about one of a hundred cases, far from the smallest sphere. This depends on the order of the
+  // points, so other orders are tried.
   Candidate best = tryOrder(points);
   std::minstd_rand order;
   for (int i = 1; i < kMostOrders && !(best.excess <= kLargestExcess); ++i) {

@@ -10,7 +10,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-// Sums over the active taxels of a matrix, in taxels from (0, 0).
+// Sums over the active taxels of a matrix; coordinates in taxels from (0, 0).
 struct Moments {
   std::size_t count = 0;
   double sum = 0.0, x = 0.0, y = 0.0, xx = 0.0, xy = 0.0, yy = 0.0;
@@ -26,7 +26,7 @@ void requireSameSizes(const TactileFrame& frame, const SensorLayout& layout) {
   if (!same) throw std::invalid_argument("contactOf: frame and pose are of different sensors");
 }
 
-// The frame's own masks count: a recording knows its sensor.
+// Uses the masks of the frame, since a recording knows its sensor best.
 Moments gather(const TactileFrame& frame,
                const HandPose& pose,
                std::size_t matrix,
@@ -58,7 +58,7 @@ Moments gather(const TactileFrame& frame,
   return moments;
 }
 
-// Eigenvectors of the covariance [[xx, xy], [xy, yy]] in closed form.
+// Computes the eigenvectors of the covariance [[xx, xy], [xy, yy]] in closed form.
 void setAxes(MatrixContact& contact,
              const Eigen::Isometry3d& baseFromSurface,
              double xx,
@@ -69,7 +69,7 @@ void setAxes(MatrixContact& contact,
   contact.majorSdMm = std::sqrt(std::max(0.0, middle + spread));
   contact.minorSdMm = std::sqrt(std::max(0.0, middle - spread));
   const double angle = spread > 1e-12 * middle ? 0.5 * std::atan2(2.0 * xy, xx - yy) : 0.0;
-  // The surface's Y axis points to the tip, y to the palm.
+  // The surface's Y axis points to the tip, the coordinate y to the palm.
   const Vector3d across = baseFromSurface.linear().col(0);
   const Vector3d towardsTip = baseFromSurface.linear().col(1);
   contact.majorAxis = std::cos(angle) * across - std::sin(angle) * towardsTip;

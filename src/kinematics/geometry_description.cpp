@@ -14,12 +14,12 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kFingerSideMm = 66.0;  // of the triangle of the fingers' bases
+constexpr double kFingerSideMm = 66.0;  // side of the triangle of the fingers' bases
 constexpr double kBaseLinkMm = 16.7;
 constexpr double kProximalLinkMm = 86.5;
 constexpr double kDistalLinkMm = 68.5;
 constexpr double kSensorStartMm = 17.5;  // from the joint to the sensor's housing
-constexpr double kProximalEdgeMm = 4.1;  // from there to the last row
+constexpr double kProximalEdgeMm = 4.1;  // from the housing to the last row
 constexpr double kDistalEdgeMm = 4.95;
 constexpr double kProximalHeightMm = 15.4;
 constexpr double kDistalHeightMm = 14.8;
@@ -84,7 +84,7 @@ GeometryDescription sdh2Geometry(double fingertipRadiusMm) {
   const double outer = kFingerSideMm / std::sqrt(3.0);
   const Vector3d bases[] = {
       {inner, -kFingerSideMm / 2.0, 0.0}, {-outer, 0.0, 0.0}, {inner, kFingerSideMm / 2.0, 0.0}};
-  // The base of fingers 0 and 2 turns against each other by axis 0; finger 1 doesn't turn.
+  // Axis 0 turns the bases of fingers 0 and 2 in opposite directions; finger 1 has a fixed base.
   const DhLink turns[] = {{0, -1.0, 0.0, kBaseLinkMm, 0.0, -90.0},
                           {std::nullopt, 1.0, 180.0, kBaseLinkMm, 0.0, -90.0},
                           {0, 1.0, 0.0, kBaseLinkMm, 0.0, -90.0}};

@@ -17,7 +17,8 @@ struct Turn {
   double sine, cosine;
 };
 
-// Exact at multiples of a right angle, so that a straight finger is straight.
+// Returns sine and cosine; exact at multiples of a right angle, so that a straight finger is
+// straight.
 Turn turnBy(double deg) {
   const double quarters = std::nearbyint(deg / 90.0);
   const double rest = (deg - 90.0 * quarters) * (std::numbers::pi / 180.0);

@@ -14,10 +14,10 @@ namespace palpate {
 namespace {
 
 constexpr double kCountsOfFoamMm = 1000.0;
-constexpr double kLargestCosine = -0.1;  // of the angle between two normals that face each other
-constexpr int kSmoothReach = 2;          // frames to each side
+constexpr double kLargestCosine = -0.1;  // N1 . N2 of two pads that face each other is at most this
+constexpr int kSmoothReach = 2;          // frames on either side
 
-// What a frame knows of one matrix.
+// The values of one matrix in one frame.
 struct PadFrame {
   double sum = 0.0, peak = 0.0;
   double xMm = 0.0, yMm = 0.0;
@@ -73,7 +73,7 @@ std::vector<GraspFrame> readFrames(const Profile& profile,
   return frames;
 }
 
-// The strongest matrix of each finger that touches; of these the two strongest.
+// Returns the strongest matrices of two different fingers that touch; of three, the two strongest.
 std::optional<std::pair<std::size_t, std::size_t>> strongestPads(
     const std::vector<GraspFrame>& frames, const GeometryDescription& hand) {
   std::vector<std::pair<double, std::size_t>> strongest(hand.fingers.size(), {0.0, 0});
@@ -88,8 +88,8 @@ std::optional<std::pair<std::size_t, std::size_t>> strongestPads(
   return std::minmax({strongest[0].second, strongest[1].second});
 }
 
-// The load of both pads, each as part of its own largest sum (they may differ in sensitivity),
-// smoothed, as part of its largest value.
+// Sets the load of both pads: each is divided by its own largest sum, since sensitivities may
+// differ; the mean is smoothed and divided by its largest value.
 void setLoads(std::vector<GraspFrame>& frames, std::pair<std::size_t, std::size_t> pads) {
   double largest1 = 0.0, largest2 = 0.0;
   for (const GraspFrame& frame : frames) {
@@ -115,7 +115,7 @@ struct SurfacePoint {
   double xMm = 0.0, yMm = 0.0;
 };
 
-// The value-weighted mean over the plateau.
+// Returns the value-weighted mean over the plateau.
 SurfacePoint plateauCentroid(const std::vector<GraspFrame>& frames,
                              std::size_t matrix,
                              double plateauFraction) {
@@ -137,7 +137,7 @@ double foamOf(const GraspFrame& frame,
                            std::sqrt(frame.pads[pads.second].peak / kCountsOfFoamMm));
 }
 
-// False: the pads don't face each other somewhere on the way.
+// Returns false when the pads do not face each other in a frame.
 bool addSamples(const std::vector<GraspFrame>& frames,
                 const HandGeometry& geometry,
                 const ObjectSizeOptions& options,

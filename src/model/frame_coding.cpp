@@ -13,9 +13,9 @@ constexpr std::size_t kLongestCountsRun = 15;
 constexpr std::size_t kLongestFloatsRun = 255;
 constexpr float kMaxCounts = 4095.0F;
 
-// Not zero when `value` is no number of counts. In integers throughout, so that a loop over it is
-// vectorised: the bits of floats from 0 to 4095 are ordered like the numbers, and those of negative
-// ones (-0 too) are negative.
+// Returns a value other than zero when `value` is no number of counts. Uses integers only, so that
+// the compiler can vectorise a loop over it: the bits of floats from 0 to 4095 are ordered like the
+// numbers, and the bits of negative floats (also -0) are a negative integer.
 std::int32_t differsFromCounts(float value) noexcept {
   constexpr auto kMaxBits = std::bit_cast<std::int32_t>(kMaxCounts);
   const auto bits = std::bit_cast<std::int32_t>(value);
@@ -24,13 +24,13 @@ std::int32_t differsFromCounts(float value) noexcept {
   return bits ^ std::bit_cast<std::int32_t>(static_cast<float>(whole));
 }
 
-// Writes to `at` and returns the place behind.
+// Writes `bytes` bytes of `value` to `at`, little-endian, and returns the position behind them.
 std::byte* putLittle(std::byte* at, std::uint32_t value, int bytes) {
   for (int i = 0; i < bytes; ++i) *at++ = static_cast<std::byte>(value >> 8 * i & 0xFF);
   return at;
 }
 
-// Same bits: a NaN equals itself, and -0 is not 0.
+// Compares bits, so that a NaN equals itself and -0 differs from 0.
 bool same(float a, float b) noexcept {
   return std::bit_cast<std::uint32_t>(a) == std::bit_cast<std::uint32_t>(b);
 }
@@ -39,7 +39,8 @@ bool same(float a, float b) noexcept {
 
 FrameCoding codingFor(std::span<const float> values) noexcept {
   std::int32_t differs = 0;
-  for (float value : values) differs |= differsFromCounts(value);  // no early end: see above
+  for (float value : values)
+    differs |= differsFromCounts(value);  // no early exit, so that the loop is vectorised
   return differs == 0 ? FrameCoding::kCounts : FrameCoding::kFloats;
 }
 
@@ -50,7 +51,7 @@ void encodeFrame(std::span<const float> values, FrameCoding coding, std::vector<
   const std::size_t longest = counts ? kLongestCountsRun : kLongestFloatsRun;
   if (counts && codingFor(values) != FrameCoding::kCounts)
     throw std::invalid_argument("encodeFrame: a value is no number of counts 0..4095");
-  // Room for the worst case first: no growing inside the loop.
+  // Make room for the worst case first, so that the loop never reallocates.
   const std::size_t start = out.size();
   out.resize(start + values.size() * (counts ? 2 : 5));
   std::byte* at = out.data() + start;
@@ -86,8 +87,8 @@ void encodeFrame(const TactileFrame& frame, FrameCoding coding, std::vector<std:
 
 namespace {
 
-// Calls fill(filled, run, value) for every run until `numValues` values are there. Returns the
-// bytes used; 0 for bytes that are no such frame.
+// Calls fill(filled, run, value) for every run until there are `numValues` values. Returns the
+// number of bytes used; 0 when the bytes are no such frame.
 template <typename Fill>
 std::size_t eachRun(std::span<const std::byte> bytes,
                     FrameCoding coding,

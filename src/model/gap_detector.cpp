@@ -25,7 +25,7 @@ bool GapDetector::afterGap(std::int64_t stampUs) {
   lastUs_ = stampUs;
   any_ = true;
   if (!second) return false;
-  // The median is only asked for where it matters.
+  // The median is computed only when the interval is long enough to be a gap.
   const bool gap = intervalUs > kShortestGapUs && !intervalsUs_.empty() &&
                    intervalUs > kGapIntervals * medianIntervalUs();
   intervalsUs_.push_back(intervalUs);

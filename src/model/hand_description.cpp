@@ -42,10 +42,10 @@ HandDescription handDescriptionMakeSdh2() {
     hand.matrices.push_back(fingerMatrix(finger, "proximal"));
     hand.matrices.push_back(fingerMatrix(finger, "distal"));
   }
-  // The motor in the joint below a matrix drives axis m + 1 (study, 3.4).
+  // The motor in the joint below matrix m drives axis m + 1 (study, 3.4).
   for (std::size_t m = 0; m < hand.matrices.size(); ++m) hand.matrices[m].temperatureSensor = m + 1;
-  // Ranges, velocities and accelerations: what the controller answers to vlim and alim (SDH-2
-  // firmware 0.0.3.3).
+  // Velocities and accelerations are the controller's answers to vlim and alim (SDH-2 firmware
+  // 0.0.3.3).
   hand.axes = {{"fingers 0 and 2 base", 0.0, 90.0, 83.0, 5000.0},
                {"finger 0 proximal", -90.0, 90.0, 140.0, 400.0},
                {"finger 0 distal", -90.0, 90.0, 200.0, 1500.0},
@@ -89,7 +89,7 @@ HandDescription describeHand(const SensorLayout& layout,
     hand = sdh2();
   } else {
     hand.name = "unknown sensor";
-    // As square a grid as possible, filled row by row.
+    // Use a grid that is as square as possible, filled row by row.
     const auto count = static_cast<int>(layout.numMatrices());
     const int columns = static_cast<int>(std::ceil(std::sqrt(static_cast<double>(count))));
     for (int i = 0; i < count; ++i) {

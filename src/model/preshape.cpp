@@ -10,7 +10,7 @@ namespace {
 
 using Joint = PreshapeJoint;
 
-// Fingers 0 and 2 alike; finger 1 may stand apart.
+// Makes a preshape in which fingers 0 and 2 have the same angles; finger 1 (the thumb) may differ.
 Preshape make(const char* name,
               const char* title,
               double baseDeg,

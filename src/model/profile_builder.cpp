@@ -13,14 +13,15 @@
 namespace palpate {
 namespace {
 
-// Samples are kept in chunks: appending never copies what is there, so memory has no peak.
+// Samples are kept in chunks, so that appending never copies older samples and memory use has no
+// peak.
 constexpr std::size_t kFramesPerChunk = 1024;
 
 struct FrameChunk {
   std::vector<std::int64_t> hostUs;
   std::vector<std::uint32_t> begin;  // of each frame in `bytes`
   std::vector<FrameCoding> coding;
-  std::vector<std::optional<std::int64_t>> deviceMs;  // empty: none has one
+  std::vector<std::optional<std::int64_t>> deviceMs;  // empty when no frame of the chunk has one
   std::vector<std::byte> bytes;
 };
 
@@ -84,7 +85,7 @@ class ProfileBuilder::Storage final : public ProfileStorage {
     return {temperatureSeries.timeUs(sample), temperatureSeries.values(sample)};
   }
 
-  // `Values`: a span of values, or a frame with what filters gave beside them.
+  // `Values` is a span of values, or a frame that may also have filtered values.
   template <typename Values>
   void addFrame(std::int64_t hostUs, const Values& values, std::optional<std::int64_t> deviceMs) {
     if (numFrames_ % kFramesPerChunk == 0) chunks_.emplace_back();
@@ -94,7 +95,7 @@ class ProfileBuilder::Storage final : public ProfileStorage {
     chunk.begin.push_back(static_cast<std::uint32_t>(chunk.bytes.size()));
     encodeFrame(values, coding, chunk.bytes);
     chunk.hostUs.push_back(hostUs);
-    // Many recordings have no device times: they take no memory then.
+    // Many recordings have no device times; then no memory is used for them.
     if (deviceMs && chunk.deviceMs.empty()) chunk.deviceMs.resize(chunk.hostUs.size() - 1);
     if (deviceMs || !chunk.deviceMs.empty()) chunk.deviceMs.push_back(deviceMs);
     chunk.coding.push_back(coding);

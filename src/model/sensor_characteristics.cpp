@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kLeastDeadZoneKpa = 0.05;
 
-// Column 0, rows 7 to 13 of a proximal pad.
+// Makes the taxels of column 0, rows 7 to 13 of a proximal pad.
 std::vector<OffsetTaxel> raisedEdge(const double (&lines)[7][3]) {
   std::vector<OffsetTaxel> edge;
   for (const auto& [intercept, slope, sd] : lines)
@@ -20,8 +20,8 @@ std::vector<OffsetTaxel> raisedEdge(const double (&lines)[7][3]) {
 
 SensorCharacteristics sensorCharacteristicsMakeSdh2() {
   SensorCharacteristics sensor;
-  // Slope, intercept, rmse of the maximum; slope, intercept, noise of an ordinary taxel (without
-  // the part that rounding makes), shared noise.
+  // Per matrix: slope, intercept and rmse of the maximum; slope, intercept and noise of an ordinary
+  // taxel (without the part from rounding); shared noise.
   const double lines[6][7] = {{0.3317, 33.628, 2.425417, 0.152, 34.625, 0.71, 0.12},
                               {0.1999, 42.565, 0.708428, 0.198, 40.542, 0.75, 0.33},
                               {0.3604, 41.551, 2.894096, 0.123, 31.364, 0.86, 0.21},
@@ -71,7 +71,7 @@ SensorCharacteristics sensorCharacteristicsMakeSdh2() {
   sensor.largestCounts = static_cast<double>(kSdh2LargestCounts);
   sensor.lag1S = 0.12;
   sensor.lag2S = 0.04;
-  sensor.creepFraction = 0.15;  // in 5 s: 3 % of the step per second at first
+  sensor.creepFraction = 0.15;  // of 5 s: at first 3 % of the step per second
   sensor.creepS = 5.0;
   sensor.releaseS = 0.03;
   return sensor;

@@ -9,7 +9,7 @@
 namespace palpate {
 namespace {
 
-// beyond it nothing is: keeps microseconds within 64 bit
+// There is no frame beyond this time [s]; the limit keeps microseconds within 64 bits.
 constexpr double kAlignmentFurthestS = 1e9;
 
 bool empty(const TimedProfile& side) { return side.profile.numFrames() == 0; }

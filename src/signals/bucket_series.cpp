@@ -73,7 +73,7 @@ std::vector<SeriesPoint> BucketSeries::points(const DecimationOptions& options) 
   const double seen = (options.to - options.from) / bucketS_;
   const auto together = static_cast<std::size_t>(
       std::max(1.0, std::floor(seen / static_cast<double>(options.columns))));
-  // Groups stand fast: they don't flicker while the picture is dragged along.
+  // Groups of buckets have fixed limits, so that the picture does not flicker while it is dragged.
   for (std::size_t begin = first - first % together; begin <= last; begin += together) {
     const std::size_t end = std::min(begin + together, ready);
     float low = kNothing;
@@ -88,7 +88,7 @@ std::vector<SeriesPoint> BucketSeries::points(const DecimationOptions& options) 
         out.push_back({middle, std::numeric_limits<double>::quiet_NaN()});
       continue;
     }
-    // The end that is nearer to where the line comes from goes first.
+    // The extreme that is nearer to the previous point comes first.
     const bool up = out.empty() || std::isnan(out.back().y) ||
                     std::abs(out.back().y - static_cast<double>(low)) <=
                         std::abs(out.back().y - static_cast<double>(high));

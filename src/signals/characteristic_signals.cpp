@@ -11,7 +11,7 @@
 namespace palpate {
 namespace {
 
-// Sums over the active taxels; several matrices can be added up before the means are taken.
+// Sums over the active taxels; several matrices can be added before the means are computed.
 struct ActiveTaxels {
   double sum = 0.0;
   double minimum = 0.0;
@@ -46,8 +46,8 @@ CharacteristicSignals signalsFrom(const ActiveTaxels& raw,
   return {raw.mean(), filtered.mean(), raw.minimum, raw.maximum, raw.sum, raw.count, areaMm2};
 }
 
-// Adds the Gaussian-filtered matrix; an unloaded one stays unloaded, which saves nearly all the
-// work.
+// Adds the Gaussian-filtered matrix. An unloaded matrix stays unloaded and is skipped, which saves
+// most of the work.
 void addFiltered(ActiveTaxels& filtered,
                  const Eigen::Ref<const MatrixValues>& values,
                  const MatrixLayout& layout,

@@ -29,13 +29,13 @@ double medianInterval(const Series& series) {
   return upperMedian(intervals);
 }
 
-// Reads a curve at ascending moments.
+// Reads a curve at ascending times.
 class CurveComparisonCursor {
  public:
   CurveComparisonCursor(const Series& series, double shiftS, double gapS)
       : series_(series), shiftS_(shiftS), gapS_(gapS) {}
 
-  // NaN in a gap and outside.
+  // Returns NaN inside a gap and outside of the curve.
   double at(double momentS) {
     const double seconds = momentS - shiftS_;
     const auto& times = series_.timeS;
@@ -54,10 +54,11 @@ class CurveComparisonCursor {
   const Series& series_;
   double shiftS_;
   double gapS_;
-  std::size_t next_ = 0;  // first sample after the moment
+  std::size_t next_ = 0;  // first sample after the requested time
 };
 
-// Moments that go up sample by sample (Welford): no loss of digits however long the curves are.
+// Means and squared deviations, updated sample by sample (Welford), so that long curves lose no
+// digits.
 struct Moments {
   double n = 0.0;
   double meanA = 0.0, meanB = 0.0;
@@ -75,7 +76,7 @@ struct Moments {
   }
   std::optional<double> correlation() const {
     constexpr double kMinIntervals = 3.0;
-    // What rounding leaves of a constant curve is no variation.
+    // Rounding errors of a constant curve do not count as variation.
     constexpr double kRelative = 1e-12;
     const auto constant = [&](double squares, double mean) {
       return !(squares > kRelative * n * std::max(1e-12, mean * mean));

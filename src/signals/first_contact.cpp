@@ -18,13 +18,13 @@ void requireIn(int value, const char* field) {
                                 std::to_string(value) + ": must be 1..1000000");
 }
 
-// Counts frames in a row.
+// Counts consecutive frames with enough active taxels.
 class Row {
  public:
   Row(std::span<const std::size_t> gapFrames, const FirstContactOptions& options)
       : gapFrames_(gapFrames), options_(options) {}
 
-  // Frame after frame, from 0; true when this one completes the row.
+  // Takes the frames one after the other, from 0. Returns true when this frame completes the row.
   bool add(std::size_t frame, int active) {
     for (; nextGap_ < gapFrames_.size() && gapFrames_[nextGap_] < frame; ++nextGap_) length_ = 0;
     length_ = active >= options_.taxels ? length_ + 1 : 0;

@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::size_t kPairsPerReport = 256;
 
-// Sums while going over taxels.
+// Sums of the differences over taxels.
 struct Sums {
   double sum = 0.0;
   double squares = 0.0;

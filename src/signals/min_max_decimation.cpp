@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t kMostColumns = 1'000'000;
 
-// The samples of one column that matter.
+// The samples of one column that are kept.
 class Column {
  public:
   explicit Column(std::span<const double> y) : y_(y) {}
@@ -22,13 +22,13 @@ class Column {
       first_ = smallest_ = largest_ = i;
       empty_ = false;
     }
-    // A NaN is never the smallest or largest, wherever it stands.
+    // A NaN is never the smallest or the largest value.
     if (!(y_[i] >= y_[smallest_])) smallest_ = std::isnan(y_[i]) ? smallest_ : i;
     if (!(y_[i] <= y_[largest_])) largest_ = std::isnan(y_[i]) ? largest_ : i;
     last_ = i;
   }
 
-  // Appends the kept samples in their order and starts anew.
+  // Appends the kept samples in their order and begins a new column.
   void flush(std::span<const double> x, std::vector<SeriesPoint>& out) {
     if (empty_) return;
     std::array<std::size_t, 4> kept = {first_, smallest_, largest_, last_};
@@ -47,7 +47,7 @@ class Column {
   std::size_t last_ = 0;
 };
 
-// -1 before the seen part, `columns` behind it.
+// Column of a position: -1 before the visible range, `columns` after it.
 std::ptrdiff_t columnOf(double x, const DecimationOptions& options) {
   if (x < options.from) return -1;
   const auto columns = static_cast<std::ptrdiff_t>(options.columns);

@@ -23,7 +23,7 @@ std::size_t countOf(const Profile& profile, ProfileSeriesKind kind) {
   return profile.numFrames();
 }
 
-// Seconds from the first frame; where there is none, from the first angles or temperatures.
+// Time 0 of all series: the first frame; without frames, the first angles or temperatures.
 std::int64_t originUs(const Profile& profile) {
   if (profile.numFrames() > 0) return profile.frameTimeUs(0);
   if (profile.numAngles() > 0) return profile.angleTimeUs(0);
@@ -48,7 +48,7 @@ double valueAt(const std::vector<double>& values, std::size_t index) {
   return index < values.size() ? values[index] : std::numeric_limits<double>::quiet_NaN();
 }
 
-// Reads samples one after the other.
+// Reads the samples of a series one after the other.
 class Reader {
  public:
   Reader(const Profile& profile, const SeriesChoice& choice)

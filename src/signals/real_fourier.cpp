@@ -13,8 +13,8 @@ namespace {
 
 using Complex = std::complex<double>;
 
-// The library (kissfft) takes n^2 steps for a large prime factor; from here on the detour by
-// convolution is faster.
+// The library (kissfft) takes n^2 steps for a large prime factor; above this factor the convolution
+// is faster.
 constexpr std::size_t kLargestPrimeFactor = 64;
 
 std::size_t largestPrimeFactor(std::size_t n) {
@@ -26,9 +26,9 @@ std::size_t largestPrimeFactor(std::size_t n) {
 
 }  // namespace
 
-// Sizes with a large prime factor go by Bluestein's identity k n = (k^2 + n^2 - (k - n)^2) / 2:
-// with the chirp c_n = e^(-pi i n^2 / N), X_k = c_k sum (x_n c_n) conj(c_(k-n)), a convolution,
-// done with transforms of a power of two.
+// Sizes with a large prime factor use Bluestein's identity k n = (k^2 + n^2 - (k - n)^2) / 2. With
+// the chirp c_n = e^(-pi i n^2 / N) it gives X_k = c_k sum (x_n c_n) conj(c_(k-n)): a convolution,
+// which is computed by transforms whose size is a power of two.
 struct RealFourier::Impl {
   explicit Impl(std::size_t n) : size(n), spectrum(n / 2 + 1) {
     fft.SetFlag(Eigen::FFT<double>::HalfSpectrum);
@@ -37,7 +37,7 @@ struct RealFourier::Impl {
     chirp.resize(n);
     std::vector<Complex> back(length);
     for (std::size_t i = 0; i < n; ++i) {
-      // i^2 modulo 2 N first: the angle keeps all its digits.
+      // i^2 modulo 2 N is computed first, so that the angle keeps all its digits.
       const auto square = static_cast<double>(i * i % (2 * n));
       chirp[i] = std::polar(1.0, -std::numbers::pi * square / static_cast<double>(n));
       back[i] = std::conj(chirp[i]);
@@ -52,7 +52,8 @@ struct RealFourier::Impl {
   std::size_t size;
   Eigen::FFT<double> fft;
   std::vector<Complex> spectrum;
-  std::vector<Complex> chirp, kernel, padded, product;  // empty: the library's own way
+  std::vector<Complex> chirp, kernel, padded,
+      product;  // empty when the library computes the transform
 };
 
 RealFourier::RealFourier(std::size_t size) {

@@ -7,7 +7,7 @@
 
 namespace palpate {
 
-// Each matrix is a row of as many "taxels" as there are signals.
+// Filters a frame that holds one matrix per matrix of the sensor, with one "taxel" per signal.
 class SignalFilter::Impl final : public FrameSink {
  public:
   Impl(const Recipe& recipe, std::size_t numMatrices, Emit emit)

@@ -10,9 +10,10 @@
 namespace palpate {
 namespace {
 
-constexpr std::size_t kSignalOverviewPlacesPerReport = 250'000;  // some milliseconds
-// Of all series together: 49 of an SDH-2 with a bucket per second for 47 hours take 64 MB. What
-// claims to be longer, or to have more matrices, has longer buckets.
+constexpr std::size_t kSignalOverviewPlacesPerReport = 250'000;  // takes some milliseconds
+// Limit for the buckets of all series together: the 49 series of an SDH-2 with one bucket per
+// second take 64 MB for 47 hours. Longer recordings, and sensors with more matrices, have longer
+// buckets.
 constexpr double kMostBucketsOfAll = 8'388'608.0;
 
 }  // namespace
@@ -53,7 +54,7 @@ void SignalOverview::compute(const Progress& progress) {
     if (rows.back().maximum >= saturation) ++saturatedFrames_;
   }
   timing_ = timingOf(stampsUs);
-  // The first one last: it tells that all are complete.
+  // The first series is finished last, since complete() looks at it.
   for (auto series = series_.rbegin(); series != series_.rend(); ++series) (*series)->finish();
 }
 

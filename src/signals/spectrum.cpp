@@ -17,13 +17,13 @@ namespace {
 
 constexpr int kLongestWindow = 65'536;
 constexpr std::size_t kSegmentsPerReport = 64;
-// Of an interval: what rounding may take from the grid's last sample.
+// Share of an interval that rounding may take from the grid's last sample.
 constexpr double kRounding = 1e-6;
 
-// The finite samples, and where they lie.
+// The finite samples and their indices.
 struct Samples {
   std::vector<double> timeS, values;
-  std::vector<std::size_t> index;  // in the series as given
+  std::vector<std::size_t> index;  // in the given series
 };
 
 Samples finiteSamples(std::span<const double> timeS, std::span<const double> values) {
@@ -45,7 +45,7 @@ Samples finiteSamples(std::span<const double> timeS, std::span<const double> val
 
 struct Plan {
   Samples samples;
-  std::vector<std::size_t> begins;  // of each stretch, in samples
+  std::vector<std::size_t> begins;  // start of each stretch, index in samples
   SpectrumReport report;
 };
 
@@ -77,7 +77,7 @@ std::size_t segmentsOf(const GapFreeSpan& stretch, std::size_t window, std::size
   return stretch.gridSamples < window ? 0 : (stretch.gridSamples - window) / hop + 1;
 }
 
-// Segments of every stretch; the hop grows until all together are few enough.
+// Determines the segments of every stretch; the hop grows until there are few enough.
 void planSegments(SpectrumReport& report, const SpectrumOptions& options) {
   const auto window = static_cast<std::size_t>(options.window);
   const auto total = [&](std::size_t hop) {
@@ -87,8 +87,8 @@ void planSegments(SpectrumReport& report, const SpectrumOptions& options) {
   };
   std::size_t hop = window - static_cast<std::size_t>(options.overlap);
   if (options.maxSegments > 0 && total(hop) > options.maxSegments) {
-    // Every stretch keeps its first segment, however large the hop: more stretches than segments
-    // stay so.
+    // Every stretch keeps its first segment, however large the hop is. With more stretches than
+    // allowed segments, the limit is therefore exceeded.
     std::size_t below = hop, enough = hop;
     while (total(enough) > options.maxSegments && enough < report.samples) enough *= 2;
     while (enough - below > 1) {
@@ -146,7 +146,7 @@ Plan planOf(std::span<const double> timeS,
   return plan;
 }
 
-// The samples of a stretch on its grid, linearly between the two neighbours of each point.
+// Interpolates the samples of a stretch linearly on its grid.
 std::vector<double> onGrid(const Plan& plan, std::size_t which) {
   const GapFreeSpan& stretch = plan.report.stretches[which];
   const double* timeS = plan.samples.timeS.data() + plan.begins[which];
@@ -162,7 +162,7 @@ std::vector<double> onGrid(const Plan& plan, std::size_t which) {
   return grid;
 }
 
-// Takes the trend from `segment`. A constant leaves exact zeros.
+// Subtracts the trend from `segment`. A constant segment becomes exactly zero.
 void detrended(std::vector<double>& segment, Detrend detrend) {
   if (detrend == Detrend::kNone) return;
   const double first = segment.front();
@@ -204,7 +204,7 @@ class Transformer {
     for (std::size_t i = 0; i < segment_.size(); ++i) segment_[i] *= window_[i];
     const auto spectrum = fourier_.transform(segment_);
     for (std::size_t k = 0; k < spectrum.size(); ++k) {
-      const bool alone = k == 0 || 2 * k == segment_.size();  // has no mirror image
+      const bool alone = k == 0 || 2 * k == segment_.size();  // this bin has no mirror image
       const double sides = alone ? 1.0 : 2.0;
       const double power = std::norm(spectrum[k]);
       psd[k] = sides * power / (rateHz * squares_);

@@ -1,4 +1,4 @@
-// Calibrations with known content, for tests of what applies them.
+// Calibrations with known content, for tests of code that applies calibrations.
 #pragma once
 
 #include "palpate/calibration/calibration.h"
@@ -7,7 +7,8 @@
 
 namespace palpate::testing {
 
-// P = 2 + 0.1 K, whatever the temperature; measured on matrix 1 between 50 and 1200 counts.
+// Pressure P = 2 + 0.1 K [kPa], independent of temperature; measured on matrix 1 between 50 and
+// 1200 counts.
 inline Calibration linearCalibration(const SensorSettings& settings) {
   Calibration made;
   made.hand = sdh2().name;
@@ -24,7 +25,7 @@ inline Calibration linearCalibration(const SensorSettings& settings) {
   return made;
 }
 
-// Of all six matrices: intercept + m + slope T, measured from 20 to 60 deg C.
+// Noise floor of all six matrices: intercept + m + slope T, measured from 20 to 60 deg C.
 inline NoiseFloor evenNoise(double slope, double intercept, double rmse) {
   NoiseFloor floor;
   for (std::size_t m = 0; m < 6; ++m) {

@@ -1,5 +1,5 @@
-// A stamp of known pressure on the emulated sensor: whole recordings of it, a hand that is pressed
-// so, and the calibration that such recordings give.
+// A stamp of known pressure on the emulated sensor: recordings, a device that is pressed in the
+// same way, and the calibration from such recordings, for tests of calibration.
 #pragma once
 
 #include <algorithm>
@@ -14,11 +14,11 @@
 namespace palpate::testing {
 
 inline constexpr std::size_t kMatrix = 1;
-inline constexpr double kStampMm = 10.5, kStampMm2 = kStampMm * kStampMm;  // the study's
-inline constexpr double kTopMm = 18.2, kLeftMm = 6.1;  // it stands between taxels
+inline constexpr double kStampMm = 10.5, kStampMm2 = kStampMm * kStampMm;  // the study's stamp
+inline constexpr double kTopMm = 18.2, kLeftMm = 6.1;  // position of the stamp, between taxels
 inline constexpr double kRateHz = 31.7;
 
-// Pressure on every place when the stamp stands on the matrix, as the rubber spreads it [kPa].
+// Pressure on every place under the stamp, as the rubber distributes it [kPa].
 inline std::vector<double> underTheStamp(double kpa) {
   const HandDescription& hand = sdh2();
   std::vector<double> loaded(hand.layout->numCells(), 0.0);
@@ -35,7 +35,8 @@ inline std::vector<double> underTheStamp(double kpa) {
   return loaded;
 }
 
-// Rest for a second, then so much pressure on the stamp, at sensitivity 1 and threshold 100.
+// A recording with a second of rest, then the pressure on the stamp, at sensitivity 1 and threshold
+// 100.
 inline Profile stamped(double kpa, double degC, std::uint64_t seed, double holdS = 12.0) {
   const HandDescription& hand = sdh2();
   SensorModel model(hand, sdh2Sensor(), seed);

@@ -1,4 +1,4 @@
-// Signals with known content, and the spectra of them, for the tests of filter/spectrum.h.
+// Signals with known content and their spectra, for the tests of filters and of signals/spectrum.h.
 #pragma once
 
 #include <algorithm>
@@ -52,7 +52,7 @@ inline std::vector<double> evenTimes(std::size_t n, double rateHz, double beginS
   return timeS;
 }
 
-// Intervals that vary by a quarter, as those of the real recordings do.
+// Times whose intervals vary by a quarter, as in the real recordings.
 inline std::vector<double> jitteredTimes(std::size_t n, double rateHz) {
   std::mt19937 random(7);
   std::normal_distribution<double> interval(1.0, 0.25);

@@ -1,4 +1,5 @@
-// A table of independent numbers: comma-separated, with a header.
+// Reads tables of independently computed numbers (comma-separated, with a header) for the tests of
+// kinematics.
 #pragma once
 
 #include <filesystem>

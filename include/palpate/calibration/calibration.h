@@ -1,6 +1,6 @@
-// A calibration of a hand: what turns its counts into kilopascals and newtons, with all that it was
-// made from. A JSON file with format version, program version, options and the SHA-256 of every
-// input.
+// A calibration of a hand: converts its counts into kilopascals and newtons, and lists all input
+// that it was made from. It is stored as a JSON file with format version, program version, options
+// and the SHA-256 of every input. The command `calibrate` and the Calibrate dock make it.
 #pragma once
 
 #include <filesystem>
@@ -15,37 +15,41 @@
 
 namespace palpate {
 
-// Settings of the tactile controller. A .dsa tells neither: they are what somebody said, and the
-// file says so.
+// Settings of the tactile controller. A .dsa recording does not contain them: then a user entered
+// them, and the calibration file says so.
 struct SensorSettings {
   double sensitivity = 1.0;      // 0..1
   double thresholdCounts = 100;  // 0..4095
-  bool assumed = true;           // said by a person, not read from the device or the recording
+  bool assumed = true;           // entered by a user, not read from the device or the recording
   bool operator==(const SensorSettings&) const = default;
 };
 
+// A calibration with its input.
 struct Calibration {
   static constexpr int kFormatVersion = 1;
 
   std::string programVersion;
-  std::string madeAt;      // UTC, ISO 8601; may be empty
-  std::string hand;        // HandDescription::name
-  std::size_t matrix = 0;  // measured on this one; applied to the others it is an assumption
+  std::string madeAt;  // UTC, ISO 8601; may be empty
+  std::string hand;    // HandDescription::name
+  // The matrix that was measured; for the other matrices the calibration is an assumption.
+  std::size_t matrix = 0;
   std::string signal = "filtered_mean";
-  SensorSettings settings;  // it was measured with
+  // Settings during the measurement.
+  SensorSettings settings;
   PressureModel pressure;
   std::vector<PressureSample> samples;  // every row of the table
-  // of K = slope s + offset [counts] (sensitivity_curve.h), where it was measured
+  // Offset of K = slope s + offset [counts] (sensitivity_curve.h), if it was measured.
   std::optional<double> sensitivityOffset;
   std::optional<NoiseFloor> noise;
-  Json options;  // of the command that made it
+  // Options of the command that made the calibration.
+  Json options;
 };
 
 Json jsonOf(const Calibration& calibration);
-// Throws Error naming what is missing or of a later format.
+// Throws Error that names what is missing, or that the format is newer.
 Calibration calibrationFrom(const Json& json);
 
-// Throws FileError, FormatError (no calibration, damaged; names what).
+// Throws FileError, and FormatError (no calibration, or a damaged one) that names the problem.
 Calibration loadCalibration(const std::filesystem::path& path);
 // Throws FileError.
 void saveCalibration(const Calibration& calibration,

@@ -1,6 +1,6 @@
-// Gathers what a pressure calibration is made from: the loading steps of every recording of a
-// table, measured on one matrix. What is wrong with one recording leaves its row out, and says why;
-// the others stay.
+// Collects the input of a pressure calibration: the loading steps of every recording of a table,
+// measured on one matrix. When a recording cannot be used, its row is left out with the reason, and
+// the other rows are still used.
 #pragma once
 
 #include <cstddef>
@@ -18,41 +18,45 @@
 
 namespace palpate {
 
-// The matrix with the largest sum over the recording: the one that was loaded; the first of equals.
-// Throws Cancelled.
+// Returns the matrix with the largest sum over the recording, which was the loaded one; the first
+// of equal ones. Throws Cancelled.
 std::size_t loadedMatrix(const Profile& profile, const Progress& progress = {});
 
+// An opened recording.
 struct CalibrationSource {
   Profile profile;
-  std::string sha256;  // of its file
+  std::string sha256;  // of the recording's file
 };
-// Opens one recording; throws Error where it can't (its row is left out), Cancelled.
+// Opens one recording. Throws Error when it cannot (the row is then left out), and Cancelled.
 using OpenSource =
     std::function<CalibrationSource(const std::filesystem::path& file, const Progress& progress)>;
 
 struct CalibrationSampleOptions {
   StepReportOptions steps = {};
-  // nothing: the loaded one of the first recording that can be read
+  // The matrix to measure; empty: the loaded matrix of the first readable recording.
   std::optional<std::size_t> matrix = std::nullopt;
 };
 
+// The loading steps of all recordings of a table.
 struct CalibrationSteps {
-  std::vector<PressureSample> samples;  // one per row at least, in their order
-  std::vector<StepReport> reports;      // of the recordings that could be read
+  // At least one sample per row, in the order of the rows.
+  std::vector<PressureSample> samples;
+  std::vector<StepReport> reports;  // of the readable recordings
   std::optional<std::size_t> matrix;
-  std::string hand;  // HandDescription::name of the first
+  std::string hand;  // HandDescription::name in the first of them
   std::size_t numUnused() const;
 };
 
-// Files of the rows are relative to `folder`. Throws Cancelled; std::invalid_argument (options).
+// Files of the rows are relative to `folder`. Throws Cancelled, and std::invalid_argument
+// (options).
 CalibrationSteps collectCalibrationSteps(std::span<const PressureTableRow> rows,
                                          const std::filesystem::path& folder,
                                          const OpenSource& open,
                                          const CalibrationSampleOptions& options = {},
                                          const Progress& progress = {});
 
-// A calibration of them: model, hand, matrix, samples. Who made it when, options and settings are
-// the caller's. Throws std::invalid_argument (options).
+// Makes a calibration with model, hand, matrix and samples. The caller adds program version, time,
+// options and settings. Throws std::invalid_argument (options).
 Calibration calibrationOf(const CalibrationSteps& gathered,
                           const PressureModelOptions& options = {});
 

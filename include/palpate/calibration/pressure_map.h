@@ -1,8 +1,9 @@
 // Applies a calibration to frames, live and offline: kilopascals per taxel, newtons per matrix and
-// of the whole hand, each with its uncertainty. What touches one matrix is one contact: P(K, T) of
-// its filtered mean, spread over its taxels in proportion to counts, 0 where the count is 0. Force
-// = sum over taxels of pressure times taxel area, times the share of the active area that a load
-// covers where the calibration knows it. About a microsecond per frame.
+// for the whole hand, each with its uncertainty. All active taxels of a matrix are treated as one
+// contact: its pressure is P(K, T) of the filtered mean, distributed over its taxels in proportion
+// to their counts, 0 where the count is 0. Force = sum over taxels of pressure times taxel area,
+// times the share of the active area that a load covers if the calibration knows it. About a
+// microsecond per frame.
 #pragma once
 
 #include <cstddef>
@@ -20,37 +21,43 @@
 
 namespace palpate {
 
+// Pressure and force of one matrix in one frame.
 struct MatrixPressure {
   int active = 0;  // taxels above 0
-  // K that was used: the filtered mean, at the settings of the calibration, creep taken out
+  // K that was used [counts]: the filtered mean, converted to the settings of the calibration,
+  // without creep.
   double staticResponseCounts = 0.0;
-  double kpa = 0.0;    // of the contact; 0 without one
-  double sdKpa = 0.0;  // of one estimate
+  double kpa = 0.0;    // of the contact; 0 without contact
+  double sdKpa = 0.0;  // of a single estimate
   double forceN = 0.0;
   double sdForceN = 0.0;
-  bool inRange = true;  // within what was measured; without a contact true
+  // Whether the pressure is within the measured range; true without contact.
+  bool inRange = true;
   bool temperatureKnown = true;
-  bool saturated = false;    // a taxel is at the sensor's limit: the pressure is higher
-  bool compensated = false;  // creep was taken out
+  bool saturated = false;    // a taxel is saturated, so the true pressure is higher
+  bool compensated = false;  // creep was removed
 };
 
+// Pressures and forces of all matrices in one frame.
 struct PressureFrame {
   std::int64_t hostUs = 0;
   std::vector<float> kpa;  // as TactileFrame::values [kPa]
   std::vector<MatrixPressure> matrices;
-  double forceN = 0.0;    // sum over the matrices
-  double sdForceN = 0.0;  // one calibration: their errors go together, so they add up
-  bool inRange = true;    // every contact
+  double forceN = 0.0;  // sum over the matrices
+  // Sum of the standard deviations: the errors of all matrices come from one calibration.
+  double sdForceN = 0.0;
+  bool inRange = true;  // for every contact
   bool temperatureKnown = true;
 };
 
-// Settings that hold for frames from a moment on.
+// Settings that hold for frames from a certain time on.
 struct SettingsChange {
-  std::int64_t fromUs = 0;               // [us since 1970]
-  std::vector<SensorSettings> settings;  // one per matrix, or one for all
+  std::int64_t fromUs = 0;  // [us since 1970]
+  // Settings, one per matrix or one for all.
+  std::vector<SensorSettings> settings;
 };
 
-// Force on one taxel [N]: its share of the matrix's force. 0 where nothing is told.
+// Force on one taxel [N]: its share of the force of the matrix; 0 where there is no force.
 double taxelForceN(const PressureFrame& frame,
                    const SensorLayout& layout,
                    std::size_t matrix,
@@ -58,44 +65,49 @@ double taxelForceN(const PressureFrame& frame,
                    int column);
 
 struct PressureMapOptions {
-  // What the frames were recorded with; nothing: as the calibration. One per matrix, or one for
-  // all.
+  // Settings that the frames were recorded with, one per matrix, or one for all; empty: those of
+  // the calibration.
   std::vector<SensorSettings> settings = {};
-  std::vector<SettingsChange> changes = {};  // after these, ascending
+  std::vector<SettingsChange> changes = {};  // later changes of the settings, ascending
   bool compensateDrift = true;
 };
 
-// Keeps the state of the contacts (for the creep): give it frames in order; reset() in front of
-// another recording. Not thread-safe.
+// Converts frames and keeps the state of the contacts for the removal of creep: pass frames in
+// order, and call reset() before another recording. Not thread-safe.
 class PressureMap {
  public:
-  // Throws std::invalid_argument: a calibration without P(K, T), settings of another number.
+  // Throws std::invalid_argument for a calibration without P(K, T), and for a wrong number of
+  // settings.
   PressureMap(Calibration calibration,
               const HandDescription& hand,
               PressureMapOptions options = {});
 
-  // degC: one per temperature sensor of the hand; empty: not known. The frame must be of the hand's
-  // layout (throws std::invalid_argument). Values that are no numbers count as 0.
+  // `degC` has one value per temperature sensor of the hand; empty: not known. Throws
+  // std::invalid_argument unless the frame has the hand's layout. Values that are not finite count
+  // as 0.
   void apply(const TactileFrame& frame, std::span<const double> degC, PressureFrame& out);
   void reset();
-  // Others than before from the next frame on: contacts begin anew. Throws std::invalid_argument.
+  // Sets the settings from the next frame on; contacts begin anew. Throws std::invalid_argument.
   void setSettings(const std::vector<SensorSettings>& settings);
 
-  // Assumptions that a reader must know of, a sentence each: what was measured on another matrix,
-  // settings nobody recorded, sensitivity converted.
+  // The assumptions of the result that a reader must know, one sentence each: a calibration that
+  // was measured on another matrix, settings that are not recorded, a converted sensitivity.
   std::vector<std::string> assumptions() const;
   const Calibration& calibration() const noexcept { return calibration_; }
 
  private:
-  // Of one matrix: what makes its filtered mean fast.
+  // Data of one matrix, prepared for a fast filtered mean.
   struct Prepared {
     std::size_t offset = 0;
     int rows = 0, columns = 0;
-    std::vector<float> weights;          // what a count adds to the sum of the filtered matrix
-    std::vector<std::uint64_t> enabled;  // bits per row; empty: more than 64 columns
+    // Contribution of a count to the sum of the filtered matrix.
+    std::vector<float> weights;
+    // Rows as bits, 1 for each enabled taxel; empty with more than 64 columns.
+    std::vector<std::uint64_t> enabled;
     double taxelAreaMm2 = 0.0;
-    double sensitivityRatio = 1.0;  // of the calibration to the frames
-    double extraSdCounts = 0.0;     // thresholds that differ
+    // Sensitivity of the calibration / that of the frames.
+    double sensitivityRatio = 1.0;
+    double extraSdCounts = 0.0;  // from thresholds that differ
     std::size_t sensor = SIZE_MAX;
   };
   struct Contact {
@@ -114,7 +126,7 @@ class PressureMap {
   std::vector<Prepared> matrices_;
   std::vector<DriftCompensation> drift_;
   double saturationCounts_ = 0.0;
-  std::size_t nextChange_ = 0;  // of options_.changes
+  std::size_t nextChange_ = 0;  // index into options_.changes
   mutable std::vector<std::uint64_t> rows_;
 };
 

@@ -1,7 +1,7 @@
-// Pressures and forces of any frame of a recording, without a pass over all of it: what a force
-// series (force_series.h) has for this frame. Frame after frame takes microseconds; elsewhere the
-// half minute in front of the frame is gone through first, because creep depends on how long a
-// contact has lasted.
+// Computes pressures and forces of any single frame of a recording, with the same result as a force
+// series (force_series.h) but without a pass over the whole recording. Consecutive frames take
+// microseconds. After a jump, the half minute before the frame is processed first, because creep
+// depends on how long a contact has lasted. The window uses it.
 #pragma once
 
 #include <cstddef>
@@ -15,16 +15,18 @@
 
 namespace palpate {
 
+// Reads frames of one recording and computes their pressures.
 class PressureReader {
  public:
-  // Throws Error (filtered values, not counts), std::invalid_argument (calibration without P(K, T);
-  // settings or tare of another hand).
+  // Throws Error (the recording has filtered values, not counts), std::invalid_argument (a
+  // calibration without P(K, T); settings or tare of another hand).
   PressureReader(Profile profile,
                  const Calibration& calibration,
                  PressureMapOptions options = {},
                  std::optional<Tare> tare = std::nullopt);
 
-  // Throws std::out_of_range; Error where the frame can't be read. Holds until the next call.
+  // Throws std::out_of_range, and Error when the frame cannot be read. The result is valid until
+  // the next call.
   const PressureFrame& at(std::size_t frame);
   std::vector<std::string> assumptions() const { return map_.assumptions(); }
 
@@ -34,10 +36,10 @@ class PressureReader {
   Profile profile_;
   PressureMap map_;
   std::optional<Tare> tare_;
-  std::optional<std::size_t> now_;  // the frame that `pressures_` is of
+  std::optional<std::size_t> now_;  // the frame that `pressures_` belongs to
   TactileFrame frame_;
   PressureFrame pressures_;
-  std::optional<std::size_t> sample_;  // of temperatures
+  std::optional<std::size_t> sample_;  // the current sample of temperatures
   std::vector<double> degC_;
 };
 

@@ -1,7 +1,7 @@
-// The table of a pressure calibration: which recording was made under which pressure. CSV with a
-// header:
+// Reads the table of a pressure calibration, which lists the pressure of each recording. It is CSV
+// with a header:
 //   file,pressure_kpa[,temperature_c]
-// in any order of columns; others are ignored. Files are relative to the table's folder.
+// The columns may have any order, and others are ignored. Files are relative to the table's folder.
 #pragma once
 
 #include <cstddef>
@@ -16,30 +16,33 @@
 
 namespace palpate {
 
+// One row of the table: a recording and its pressure.
 struct PressureTableRow {
-  std::size_t line = 0;  // in the table, from 1
+  // Line number in the table, from 1.
+  std::size_t line = 0;
   std::filesystem::path file;
   double pressureKpa = 0.0;
-  std::optional<double> temperatureC = std::nullopt;  // instead of what the recording says
-  std::string problem = {};                           // why the row can't be used; empty: it can
+  std::optional<double> temperatureC = std::nullopt;  // replaces the temperature of the recording
+  // Why the row cannot be used; empty when it can be used.
+  std::string problem = {};
 };
 
-// Throws FormatError (no such columns, no row); what is wrong with one row stands in its `trouble`.
+// Throws FormatError (columns missing, or no row). A problem of a single row is in its `problem`.
 std::vector<PressureTableRow> parsePressureTable(std::string_view csv,
                                                  const std::filesystem::path& name);
 
-// Of a file. Throws FileError, FormatError.
+// Does the same with a file. Throws FileError, FormatError.
 std::vector<PressureTableRow> readPressureTable(const std::filesystem::path& path);
 
-// A sample per step of the row's recording (one at least: without a step it isn't used, and says
-// why).
+// Returns one sample per step of the row's recording. A recording without a step gives one sample
+// that is not used, with the reason in its notes.
 std::vector<PressureSample> samplesOf(const PressureTableRow& row,
                                       const StepReport& report,
                                       const std::string& sha256);
-// One that can't be used, with the reason.
+// Returns a sample that cannot be used, with the reason.
 PressureSample unusedSample(const PressureTableRow& row, const std::string& why);
 
-// After so long the lag is over: median over the steps [s]; 0 where none converged.
+// Time after which the lag has ended [s]: median over the steps; 0 when no fit converged.
 double medianSteadyS(const std::vector<StepReport>& reports);
 
 }  // namespace palpate

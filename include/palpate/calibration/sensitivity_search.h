@@ -1,8 +1,8 @@
-// Adaptive sensitivity (study, 3.4): finds the highest sensitivity without saturation from the
-// largest readings. A reading is sensitivity x gain - threshold, so one unsaturated measurement
-// predicts where saturation begins; a saturated one only gives an upper bound, and the interval is
-// bisected. This class only proposes settings: the owner of the device applies them (each pauses
-// the stream for some hundred ms) and passes the following frames to observe().
+// Adapts the sensitivity to the load (study, 3.4): finds the highest sensitivity without saturation
+// from the largest readings. A reading is sensitivity x gain - threshold, so one unsaturated
+// measurement predicts where saturation begins; a saturated one only gives an upper bound, and the
+// interval is bisected. This class only proposes settings: the owner of the device applies them
+// (each pauses the stream for some hundred ms) and passes the following frames to observe().
 #pragma once
 
 #include <cstddef>
@@ -13,34 +13,39 @@
 namespace palpate {
 
 struct SensitivitySearchOptions {
-  double least = 0.1;  // sensitivities tried, 0..1
+  // Lowest and highest sensitivity that is tried, 0..1.
+  double least = 0.1;
   double most = 1.0;
-  double resolution = 0.03;  // ends where less is to be won; > 0
-  // a taxel at or above is saturated [counts]
+  // The search ends when the sensitivity can rise by less than this; > 0.
+  double resolution = 0.03;
+  // A taxel at or above this value is saturated [counts].
   double saturationCounts = static_cast<double>(kSdh2SaturationCounts);
-  double headroom = 0.1;            // aim so far below saturation; 0..0.9
-  std::size_t framesPerTrial = 10;  // with contact, at one sensitivity; >= 1
+  double headroom = 0.1;  // target below saturation, as a share of it; 0..0.9
+  // Number of frames with contact at one sensitivity; >= 1.
+  std::size_t framesPerTrial = 10;
   // After this time with a low maximum [s], >= 0, the upper bound is dropped and tested again.
   double resetUpperBoundAfterS = 5.0;
 
-  // Throws std::invalid_argument with the field's name.
+  // Throws std::invalid_argument that names the field.
   void validate() const;
 };
 
+// Searches the sensitivity, frame by frame.
 class SensitivitySearch {
  public:
-  // Begins at a sensitivity that is set already, between least and most.
+  // Starts at the current sensitivity, which must be between least and most.
   SensitivitySearch(double sensitivity,
                     double thresholdCounts,
                     const SensitivitySearchOptions& options = {});
 
-  // One frame, taken at the sensitivity that was proposed last: its largest reading (0: no
-  // contact). The next sensitivity to set; nothing: stay. Frames that aren't numbers are ignored.
+  // Takes one frame that was recorded at the last proposed sensitivity: its largest reading (0: no
+  // contact). Returns the next sensitivity to set; empty: keep the current one. Ignores readings
+  // that are not finite.
   std::optional<double> observe(double timeS, double maximumCounts);
 
-  double sensitivity() const noexcept { return sensitivity_; }  // present
-  bool settled() const noexcept { return settled_; }            // nothing higher is left to try
-  bool saturated() const noexcept { return saturated_; }        // also at `least`: nothing helps
+  double sensitivity() const noexcept { return sensitivity_; }  // the current one
+  bool settled() const noexcept { return settled_; }      // no higher sensitivity is left to try
+  bool saturated() const noexcept { return saturated_; }  // saturated even at `least`
 
  private:
   std::optional<double> propose(double sensitivity);
@@ -48,10 +53,10 @@ class SensitivitySearch {
   SensitivitySearchOptions options_;
   double thresholdCounts_;
   double sensitivity_;
-  double highestUnsaturated_ = 0.0;  // highest that didn't saturate; 0: none yet
-  double lowestSaturated_ = 2.0;     // lowest that did; 2: none yet
-  double largest_ = 0.0;             // in this look [counts]
-  std::size_t frames_ = 0;           // of this look
+  double highestUnsaturated_ = 0.0;  // highest without saturation; 0: none yet
+  double lowestSaturated_ = 2.0;     // lowest with saturation; 2: none yet
+  double largest_ = 0.0;             // in this trial [counts]
+  std::size_t frames_ = 0;           // number of frames in this trial
   bool settled_ = false;
   bool saturated_ = false;
   std::optional<double> lowSinceS_;

@@ -1,7 +1,7 @@
-// Fits the step response of step_model.h by least_squares.h: K and m are linear and follow from the
-// shape, so only its two parameters are searched (variable projection), from the best places of a
-// grid: at or below the residual of a four-parameter search in all measured steps, where that
-// search fails from poor starts.
+// Fits the step response of step_model.h with least_squares.h. K and m are linear and follow from
+// the shape, so only the two parameters of the shape are searched (variable projection), from the
+// best points of a grid. In all measured steps the residual is at or below that of a four-parameter
+// search, which fails from poor starts.
 #pragma once
 
 #include <cstddef>
@@ -16,60 +16,67 @@
 
 namespace palpate {
 
+// The loss of the fit (least_squares.h).
 enum class StepLoss { kSquares, kHuber, kCauchy };
+// Which dampings d the fit may use.
 enum class StepDamping {
-  kOverdamped,  // d >= 1, as the study fits
-  kAny,         // also oscillating ones (d < 1), where they explain the data better
+  // d >= 1, as the study fits.
+  kOverdamped,
+  kAny,  // d < 1 (oscillating) is allowed where it fits the data better
 };
 
 struct StepFitOptions {
   StepLoss loss = StepLoss::kSquares;
-  // Robust losses: residuals beyond this many standard deviations (robust, by the median) count
-  // less; > 0. The customary 1.345 (Huber) and 2.385 (Cauchy) cost 5 % of the precision where all
-  // is normal; 0 takes these.
+  // For robust losses: residuals beyond this many standard deviations (robust, from the median)
+  // have less weight; >= 0. The usual values 1.345 (Huber) and 2.385 (Cauchy) cost 5 % of the
+  // precision for normally distributed noise; 0 selects them.
   double lossScale = 0.0;
   StepDamping damping = StepDamping::kOverdamped;
   int maxIterations = 60;  // of one search, >= 1
 
-  // Throws std::invalid_argument with the field's name.
+  // Throws std::invalid_argument that names the field.
   void validate() const;
 };
 
+// Result of the fit of one step.
 struct StepFit {
   static constexpr double kNotFitted = std::numeric_limits<double>::quiet_NaN();
-  // All NaN where nothing was fitted, as rmse and residualSd.
+  // All are NaN when nothing was fitted, also rmse and residualSd.
   StepParameters parameters = {.staticResponseCounts = kNotFitted,
                                .driftCountsPerS = kNotFitted,
                                .timeConstantS = kNotFitted,
                                .damping = kNotFitted};
   std::size_t numSamples = 0;  // used
-  std::size_t numDropped = 0;  // not finite, or before t = 0
-  double rmse = kNotFitted;    // sqrt(mean square of all residuals) [counts]
-  // sqrt(sum of (weighted) squares / (n - 4)): what the covariance rests on
+  // Samples that were not used because they are not finite or before t = 0.
+  std::size_t numDropped = 0;
+  double rmse = kNotFitted;  // sqrt(mean square of all residuals) [counts]
+  // sqrt(sum of (weighted) squares / (n - 4)), which scales the covariance [counts].
   double residualSd = kNotFitted;
-  // Of K, m, T1, T2 (of an oscillating one: K, m, T, d), linearised at the solution; NaN where it
-  // can't be had.
+  // Covariance of K, m, T1, T2 (with d < 1: of K, m, T, d), linearised at the solution; NaN when it
+  // cannot be computed.
   Eigen::Matrix4d covariance = Eigen::Matrix4d::Constant(kNotFitted);
-  bool converged = false;     // a minimum was found
-  bool identifiable = false;  // all four parameters are determined by the data
+  bool converged = false;  // a minimum was found
+  // Whether the data determine all four parameters.
+  bool identifiable = false;
   // The lag has ended (phi >= 95 %) before the data end, so that K and m can be estimated
   // separately.
   bool steadyStateReached = false;
-  std::size_t numDownweighted = 0;  // robust losses: samples that count less than half
-  int evaluations = 0;              // of the model, over all starts
-  std::vector<std::string> notes;   // what is missing or doubtful, a sentence each
+  // Number of samples with less than half weight (robust losses).
+  std::size_t numDownweighted = 0;
+  int evaluations = 0;             // number of evaluations of the model, over all starts
+  std::vector<std::string> notes;  // what is missing or doubtful, one sentence each
 
-  bool usable() const noexcept {
-    return converged && steadyStateReached;
-  }  // K and m may be calibrated with
+  // K and m can be used for a calibration.
+  bool usable() const noexcept { return converged && steadyStateReached; }
   // Standard deviation of K, m, T1 or T2 (0..3).
   double sd(int parameter) const;
   // Half width of the 95 % interval (Student's t with n - 4 degrees of freedom).
   double interval95(int parameter) const;
 };
 
-// timeS [s] from the step's begin, in any order; values [counts]. Never throws for data: what can't
-// be fitted says so in notes. Throws std::invalid_argument (options; spans of different sizes).
+// Fits a step. timeS [s] is counted from the step's start, in any order; values in [counts]. Never
+// throws because of the data: `notes` says what cannot be fitted. Throws std::invalid_argument
+// (options; spans of different sizes).
 StepFit fitStep(std::span<const double> timeS,
                 std::span<const double> values,
                 const StepFitOptions& options = {});

@@ -1,10 +1,10 @@
-// Quantiles of Student's t distribution, for intervals of fitted parameters.
+// Computes quantiles of Student's t distribution, for intervals of fitted parameters.
 #pragma once
 
 namespace palpate {
 
-// 97.5 % quantile: mean +- this many standard deviations hold 95 %. `dof` degrees of freedom, whole
-// or not; below 1: NaN.
+// Returns the 97.5 % quantile: mean +- this many standard deviations contain 95 %. `dof` are the
+// degrees of freedom, also fractions; NaN below 1.
 double studentQuantile975(double dof);
 
 }  // namespace palpate

@@ -1,6 +1,6 @@
-// Polynomial z(x, T) fitted by least squares, with its leave-one-out error, its covariance matrix,
-// and the range of its data; outside of that range the value is an extrapolation (the study's drift
-// surface has a condition number of 1.3e8).
+// A polynomial z(x, T) fitted by least squares, for the pressure model. It keeps its leave-one-out
+// error, its covariance matrix, and the range of its data; outside of that range the value is an
+// extrapolation (the study's drift surface has a condition number of 1.3e8).
 #pragma once
 
 #include <cstddef>
@@ -12,13 +12,14 @@
 
 namespace palpate {
 
+// One data point.
 struct SurfacePoint {
   double x = 0.0;  // gain or drift
   double t = 0.0;  // temperature [deg C]
-  double z = 0.0;  // what is to be told from them
+  double z = 0.0;  // the value to be predicted
 };
 
-// x^byX t^byT.
+// The term x^byX t^byT.
 struct SurfaceTerm {
   int byX = 0;
   int byT = 0;
@@ -28,40 +29,47 @@ struct SurfaceTerm {
 // c_((degree + 1) i + j) x^i T^j.
 std::vector<SurfaceTerm> surfaceTerms(int degree);
 
+// The value of a surface at one point.
 struct SurfaceEstimate {
   double value = 0.0;
-  double sd = 0.0;   // of a single new measurement: of the surface and of what scatters about it
+  // Standard deviation of a single new measurement: error of the surface and scatter about it.
+  double sd = 0.0;
   double byX = 0.0;  // derivatives
   double byT = 0.0;
-  bool inRange = false;  // within the convex hull of the data (grown by 5 % about its middle)
+  // Whether the point is in the convex hull of the data (enlarged by 5 % about its middle).
+  bool inRange = false;
 };
 
+// A fitted surface.
 struct Surface {
-  std::vector<SurfaceTerm> terms;  // offered, in order
-  Eigen::VectorXd c;               // one per term; 0 where it was left out
+  std::vector<SurfaceTerm> terms;  // allowed terms, in order
+  Eigen::VectorXd c;               // one per term; 0 for terms that were left out
   Eigen::MatrixXd covariance;      // of c
   std::size_t numPoints = 0;
-  std::size_t numTerms = 0;  // kept
+  std::size_t numTerms = 0;  // number of terms that were kept
   double rmse = 0.0;         // sqrt(mean square of the residuals)
-  double looRmse = 0.0;      // the same, each point told by a fit without it
-  double residualSd = 0.0;   // sqrt(sum of squares / (n - terms)); NaN without a degree of freedom
-  std::vector<SurfacePoint> hull;  // corners of the data's convex hull, counter-clockwise; z unused
+  double looRmse = 0.0;      // the same, with each point predicted by a fit without it
+  double residualSd = 0.0;   // sqrt(sum of squares / (n - terms)); NaN when n = terms
+  // Corners of the convex hull of the data, counter-clockwise; z is unused.
+  std::vector<SurfacePoint> hull;
   bool valid = false;
   std::vector<std::string> notes;
 
   SurfaceEstimate at(double x, double t) const;
 };
 
+// How the terms of the polynomial are selected.
 enum class SurfaceSelection {
-  // as given
+  // Uses all given terms.
   kAllTerms,
-  // those subsets with the constant are tried; the smallest within 1 % of the least error is taken
+  // Tries all subsets that contain the constant, and uses the smallest one whose error is within 1
+  // % of the smallest error.
   kLeaveOneOut
 };
 
-// Points with something that is no number are left out (and noted). Collinear data: subsets that it
-// doesn't determine are skipped; with kAllTerms the surface is not valid then. Throws
-// std::invalid_argument for no terms or more than 12.
+// Fits the surface. Points with a value that is not finite are left out, with a note. With
+// collinear data, subsets that the data do not determine are skipped; with kAllTerms the surface is
+// then not valid. Throws std::invalid_argument for no terms or more than 12.
 Surface fitSurface(std::span<const SurfacePoint> points,
                    const std::vector<SurfaceTerm>& terms,
                    SurfaceSelection selection);

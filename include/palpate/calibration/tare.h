@@ -1,5 +1,5 @@
-// Tare: the readings of unloaded taxels (false activations, noise above the threshold), found in
-// the recording itself and subtracted. It is stored as an event; the recorded values are not
+// Tare: finds the readings of unloaded taxels (false activations, noise above the threshold) in the
+// recording itself and subtracts them. The tare is stored as an event; the recorded values are not
 // changed, and removing the event restores them.
 #pragma once
 
@@ -15,14 +15,18 @@
 
 namespace palpate {
 
+// What counts as unloaded.
 struct TareOptions {
-  double windowS = 1.0;        // a window is judged as a whole [s]; > 0
-  double maxRestCounts = 150;  // a matrix whose calmest window reads more is never unloaded; >= 0
-  // windows within so much of the calmest one are unloaded as well; >= 0
+  // Length of a window, which is unloaded or not as a whole [s]; > 0.
+  double windowS = 1.0;
+  // A matrix whose calmest window has a larger reading [counts] is never unloaded; >= 0.
+  double maxRestCounts = 150;
+  // Windows within this distance of the calmest one are also unloaded [counts]; >= 0.
   double sameRestCounts = 10;
-  double maxSdCounts = 6;  // of each taxel within a window; more: something moves; >= 0
+  // Largest standard deviation of each taxel in an unloaded window [counts]; >= 0.
+  double maxSdCounts = 6;
 
-  // Throws std::invalid_argument with the field's name.
+  // Throws std::invalid_argument that names the field.
   void validate() const;
 };
 
@@ -32,31 +36,36 @@ struct UnloadedWindow {
   std::size_t end = 0;
 };
 
+// The tare of one matrix.
 struct MatrixTare {
   bool valid = false;  // unloaded windows were found
   std::vector<UnloadedWindow> windows;
-  double largestZero = 0.0;      // of its taxels [counts]
-  std::size_t raisedTaxels = 0;  // with a zero above 0
-  std::string note;              // what is missing
+  double largestZero = 0.0;  // of the matrix's taxels [counts]
+  // Number of taxels with a zero above 0.
+  std::size_t raisedTaxels = 0;
+  std::string note;  // what is missing
 };
 
+// The tare of a whole sensor.
 struct Tare {
-  // per place [counts]: median over the unloaded windows of the taxel's mean; 0 where not valid
+  // The zero of every place [counts]: median over the unloaded windows of the taxel's mean; 0 where
+  // the matrix is not valid.
   std::vector<float> zero;
   std::vector<MatrixTare> matrices;
-  bool any() const;  // a taxel has a zero above 0
+  // Returns whether a taxel has a zero above 0.
+  bool any() const;
 };
 
-// Throws std::invalid_argument (options), Cancelled.
+// Finds the tare of a recording. Throws std::invalid_argument (options), Cancelled.
 Tare findTare(const Profile& profile,
               const TareOptions& options = {},
               const Progress& progress = {});
 
-// values - zero, not below 0; a value of 0 stays. Throws std::invalid_argument (sizes).
+// Subtracts the zero, but not below 0; a value of 0 stays 0. Throws std::invalid_argument (sizes).
 void applyTare(const Tare& tare, std::span<float> values);
 
-// The event's JSON (kind "tare"): matrices[{index,zero[..],windows[[begin,end]..],valid}], and
-// back. Throws Error: not such JSON, or of another layout.
+// JSON of the event (kind "tare"): matrices[{index,zero[..],windows[[begin,end]..],valid}], and
+// back. Throws Error when it is no such JSON or has another layout.
 Json jsonOf(const Tare& tare, const SensorLayout& layout);
 Tare tareFrom(const Json& json, const SensorLayout& layout);
 

@@ -1,6 +1,6 @@
-// A bounded, blocking, counting queue: one of the only two ways to hand things from thread to
-// thread (the other is the latest-value mailbox). It never grows and never drops silently: what
-// didn't fit is counted.
+// A bounded, blocking queue that counts its items. Threads exchange data only through it and
+// through the latest-value mailbox (latest_value.h). It never grows, and it counts every item that
+// it refuses.
 #pragma once
 
 #include <condition_variable>
@@ -14,12 +14,13 @@
 
 namespace palpate {
 
-// Counts since construction; pushes = pops + the items still inside.
+// Counts since construction; pushes = pops + items in the queue.
 struct QueueStats {
-  std::uint64_t pushes = 0;     // items accepted
-  std::uint64_t pops = 0;       // items handed out
-  std::uint64_t overflows = 0;  // items refused by tryPush because the queue was full
-  std::size_t highWater = 0;    // most items ever inside
+  std::uint64_t pushes = 0;  // items accepted
+  std::uint64_t pops = 0;    // items handed out
+  // Items that tryPush refused because the queue was full.
+  std::uint64_t overflows = 0;
+  std::size_t highWater = 0;  // largest number of items in the queue
 };
 
 // Any number of threads may push and pop.
@@ -32,7 +33,7 @@ class BoundedQueue {
     ring_.resize(capacity);
   }
 
-  // Waits for room. False: the queue was closed and `item` not taken.
+  // Waits until there is room. Returns false when the queue was closed; `item` is then not added.
   bool push(T item) {
     std::unique_lock lock(mutex_);
     notFull_.wait(lock, [&] { return closed_ || size_ < capacity_; });
@@ -41,7 +42,8 @@ class BoundedQueue {
     return true;
   }
 
-  // Never waits. False: full (counted as an overflow) or closed; `item` not taken.
+  // Never waits. Returns false when the queue is full (counted as an overflow) or closed; `item` is
+  // then not added.
   bool tryPush(T item) {
     std::lock_guard lock(mutex_);
     if (closed_) return false;
@@ -53,20 +55,20 @@ class BoundedQueue {
     return true;
   }
 
-  // Waits for an item. Empty: the queue was closed and all its items were handed out.
+  // Waits for an item. Returns nothing when the queue was closed and is empty.
   std::optional<T> pop() {
     std::unique_lock lock(mutex_);
     notEmpty_.wait(lock, [&] { return closed_ || size_ > 0; });
     return take();
   }
 
-  // Never waits. Empty: nothing inside.
+  // Never waits. Returns nothing when the queue is empty.
   std::optional<T> tryPop() {
     std::lock_guard lock(mutex_);
     return take();
   }
 
-  // Ends all waiting: pushes fail from now on; pops still hand out what is inside.
+  // Ends all waiting: from now on pushes fail; pops still return the items in the queue.
   void close() {
     std::lock_guard lock(mutex_);
     closed_ = true;

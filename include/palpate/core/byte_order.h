@@ -1,4 +1,4 @@
-// Numbers out of bytes in either order; core/byte_writer.h makes bytes of them.
+// Converts bytes in either order to numbers; core/byte_writer.h converts numbers to bytes.
 #pragma once
 
 #include <cstddef>
@@ -7,7 +7,7 @@
 
 namespace palpate {
 
-// Of at most 8 bytes, the lowest first.
+// Converts at most 8 bytes, the lowest first.
 constexpr std::uint64_t littleEndian(std::span<const std::byte> bytes) {
   std::uint64_t value = 0;
   for (std::size_t i = bytes.size(); i > 0; --i)
@@ -15,7 +15,7 @@ constexpr std::uint64_t littleEndian(std::span<const std::byte> bytes) {
   return value;
 }
 
-// Of at most 8 bytes, the highest first.
+// Converts at most 8 bytes, the highest first.
 constexpr std::uint64_t bigEndian(std::span<const std::byte> bytes) {
   std::uint64_t value = 0;
   for (const std::byte byte : bytes) value = value << 8 | std::to_integer<std::uint64_t>(byte);

@@ -1,5 +1,6 @@
-// A bounds-checked cursor over bytes, little-endian. Reading past the end never touches memory
-// outside: it sets a sticky failure and returns zero, so a parser checks once at its end.
+// A bounds-checked cursor over little-endian bytes, for readers of packets and files. Reading past
+// the end accesses no memory: it sets a failure that remains and returns zero, so that a parser
+// needs only one check, at its end.
 #pragma once
 
 #include <cstddef>
@@ -10,6 +11,7 @@
 
 namespace palpate {
 
+// Reads numbers one after the other from bytes.
 class ByteReader {
  public:
   explicit ByteReader(std::span<const std::byte> bytes) noexcept : bytes_(bytes) {}
@@ -21,16 +23,16 @@ class ByteReader {
   std::int64_t i64() noexcept { return static_cast<std::int64_t>(little(8)); }
   float f32() noexcept;   // IEEE 754 binary32
   double f64() noexcept;  // IEEE 754 binary64
-  // The next `count` bytes; empty and failed when fewer are left.
+  // Returns the next `count` bytes. When fewer are left, it returns none and sets the failure.
   std::span<const std::byte> take(std::size_t count) noexcept;
 
   std::size_t position() const noexcept { return position_; }
   std::size_t remaining() const noexcept { return bytes_.size() - position_; }
-  // False once anything was read past the end.
+  // Returns false after an attempt to read past the end.
   bool ok() const noexcept { return !failed_; }
 
  private:
-  // Inline: frames are decoded unit by unit.
+  // Inline for speed, because frames are decoded unit by unit.
   std::uint64_t little(std::size_t count) noexcept {
     if (failed_ || count > remaining()) {
       failed_ = true;

@@ -1,4 +1,4 @@
-// Numbers as little-endian bytes behind what is there; ByteReader reads them.
+// Appends numbers as little-endian bytes; ByteReader reads them.
 #pragma once
 
 #include <cstddef>
@@ -8,7 +8,7 @@
 
 namespace palpate {
 
-// The `bytes` lowest bytes of `value`, 1..8.
+// Appends the `bytes` lowest bytes of `value`; `bytes` is 1..8.
 inline void appendLittleEndian(std::vector<std::byte>& out, std::uint64_t value, int bytes) {
   for (int i = 0; i < bytes; ++i) out.push_back(static_cast<std::byte>(value >> 8 * i & 0xFF));
 }

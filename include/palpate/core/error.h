@@ -15,11 +15,11 @@ namespace palpate {
 // Base class of all failures of the environment. what() is one line for the user.
 class Error : public std::runtime_error {
  public:
-  // What would break or bend the line is escaped (core/escaped_line.h).
+  // Escapes characters that would break the line or change its direction (core/escaped_line.h).
   explicit Error(const std::string& message);
 };
 
-// A file can't be opened, read or written. what(): "PATH: message".
+// A file cannot be opened, read or written. what(): "PATH: message".
 class FileError : public Error {
  public:
   FileError(const std::filesystem::path& path, const std::string& message);
@@ -29,11 +29,11 @@ class FileError : public Error {
   std::filesystem::path path_;
 };
 
-// A file was read, but its content is not what it should be. what(): "PATH: message (at byte N)".
+// A file was read, but its content is not as expected. what(): "PATH: message (at byte N)".
 class FormatError : public Error {
  public:
-  // offset [bytes] counts from the start of the content (of the decompressed text, where the file
-  // is compressed); absent where no place can be named.
+  // offset [bytes] counts from the start of the content (of the decompressed text if the file is
+  // compressed); empty when the place is not known.
   FormatError(const std::filesystem::path& path,
               const std::string& message,
               std::optional<std::uint64_t> offset = std::nullopt);
@@ -45,21 +45,21 @@ class FormatError : public Error {
   std::optional<std::uint64_t> offset_;
 };
 
-// What is wrong with a device or its port.
+// The kind of problem with a device or its port.
 enum class DeviceFault {
   kNotFound,      // no such port
-  kNoPermission,  // the port may not be opened
-  kBusy,          // another program holds the port
-  kDisconnected,  // unplugged, hung up
+  kNoPermission,  // the user may not open the port
+  kBusy,          // another program uses the port
+  kDisconnected,  // unplugged or hung up
   kSilent,        // no answer in time
   kRefused,       // the device answered with an error code
-  kProtocol,      // the answer is not what the protocol says
-  kWrongDevice,   // something else answers there (ports swapped)
-  kUnsupported,   // this device takes no such command
+  kProtocol,      // the answer violates the protocol
+  kWrongDevice,   // another device answers (for example, ports swapped)
+  kUnsupported,   // the device does not know the command
 };
 
-// A device can't be opened, doesn't answer, or is gone. what(): "PORT: message", which says what to
-// do.
+// A device cannot be opened, does not answer, or was disconnected. what(): "PORT: message"; the
+// message says what to do.
 class DeviceError : public Error {
  public:
   DeviceError(DeviceFault fault, const std::string& port, const std::string& message);
@@ -71,7 +71,7 @@ class DeviceError : public Error {
   std::string port_;
 };
 
-// A long piece of work was cancelled by its caller: nothing was left half-done.
+// Long work was cancelled by its caller. No incomplete results remain.
 class Cancelled : public Error {
  public:
   Cancelled() : Error("cancelled") {}

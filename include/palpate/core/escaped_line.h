@@ -7,12 +7,12 @@
 
 namespace palpate {
 
-// `text` without anything that could break or bend the line: control characters (line ends,
-// escapes, C1, those that turn the direction of writing) become \n, \t, \xNN or \u{NNNN}; bytes
-// that are no UTF-8 become \xNN.
+// Returns `text` without characters that could break the line or change its direction: control
+// characters (line ends, escapes, C1, bidirectional controls) become \n, \t, \xNN or \u{NNNN};
+// bytes that are not UTF-8 become \xNN.
 std::string escapedLine(std::string_view text);
 
-// The first `most` bytes of `text`, fewer where that would cut a UTF-8 character in two.
+// Returns the first `most` bytes of `text`, or fewer so that no UTF-8 character is cut in two.
 std::string_view beginningOf(std::string_view text, std::size_t most);
 
 }  // namespace palpate

@@ -1,22 +1,23 @@
-// A file descriptor that closes itself.
+// Owns a file descriptor of the operating system and closes it in its destructor.
 #pragma once
 
 #include <utility>
 
 namespace palpate {
 
+// Movable owner of one descriptor.
 class FileDescriptor {
  public:
   explicit FileDescriptor(int fd = -1) noexcept : fd_(fd) {}  // -1: none
   ~FileDescriptor();
   FileDescriptor(FileDescriptor&& other) noexcept : fd_(other.release()) {}
-  // What was held before goes with `other`.
+  // Swaps the descriptors: `other` closes the one that this object owned.
   FileDescriptor& operator=(FileDescriptor&& other) noexcept {
     std::swap(fd_, other.fd_);
     return *this;
   }
   int get() const noexcept { return fd_; }
-  // The caller closes it.
+  // Returns the descriptor and gives up its ownership: the caller closes it.
   int release() noexcept { return std::exchange(fd_, -1); }
 
  private:

@@ -1,4 +1,4 @@
-// What kind of file a name says it is.
+// The ending of a file name, from which the kind of a file follows.
 #pragma once
 
 #include <algorithm>
@@ -8,7 +8,7 @@
 
 namespace palpate {
 
-// The ending of a name in small letters, with its dot; empty: none.
+// Returns the ending of a name in lower-case letters, with its dot; empty when there is none.
 inline std::string lowerEndingOf(const std::filesystem::path& path) {
   std::string ending = path.extension().string();
   std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char letter) {

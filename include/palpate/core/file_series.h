@@ -1,4 +1,4 @@
-// Files that belong together by number, "grasp_00042.png", and names that nothing has yet.
+// Numbered series of files, such as "grasp_00042.png", and unused file names.
 #pragma once
 
 #include <cstddef>
@@ -10,22 +10,24 @@ namespace palpate {
 // One file for each number from first to last, both inclusive.
 struct FileSeries {
   std::filesystem::path folder;
-  std::string stem;    // "grasp"; empty: the number alone
+  // "grasp"; when empty, the name is the number alone.
+  std::string stem;
   std::string ending;  // ".png", with its dot
   std::size_t first = 0;
   std::size_t last = 0;
 
   std::size_t count() const noexcept { return last < first ? 0 : last - first + 1; }
-  // At least five digits, and as many as the last one has: the names sort like the numbers.
+  // Name of one file. The number has at least five digits, and as many as the last one, so that
+  // names sort like numbers.
   std::string name(std::size_t number) const;
   std::filesystem::path path(std::size_t number) const { return folder / name(number); }
 };
 
-// How many files of the series are there already; none where there is no folder.
+// Returns how many files of the series exist; 0 when the folder does not exist.
 std::size_t numExisting(const FileSeries& series);
 
-// `wanted` itself where nothing has that name, else with the first number from 2 on that is free:
-// "a.png", "a_2.png", "a_3.png", ..
+// Returns `wanted` if no file has that name, otherwise the name with the first unused number from 2
+// on: "a.png", "a_2.png", "a_3.png", ..
 std::filesystem::path freePath(const std::filesystem::path& wanted);
 
 }  // namespace palpate

@@ -1,4 +1,5 @@
-// File hashes: what a model, a calibration or an export says about the files it was made from.
+// Hashes of files. Models, calibrations and exports store them to identify the files that they were
+// made from.
 #pragma once
 
 #include <cstddef>
@@ -10,7 +11,7 @@ namespace palpate {
 
 // SHA-256 as 64 lower-case hexadecimal digits.
 std::string sha256(std::span<const std::byte> bytes);
-// Of a whole file, read in pieces. Throws FileError.
+// SHA-256 of a whole file, which is read in pieces. Throws FileError.
 std::string sha256OfFile(const std::filesystem::path& path);
 
 }  // namespace palpate

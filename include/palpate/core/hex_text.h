@@ -1,4 +1,4 @@
-// Numbers and bytes as hexadecimal digits.
+// Writes numbers and bytes as hexadecimal digits.
 #pragma once
 
 #include <cstddef>
@@ -10,7 +10,7 @@ namespace palpate {
 
 enum class HexLetters { kCapital, kSmall };
 
-// Appends the `count` lowest hexadecimal digits of `value` (1..16), the highest of them first.
+// Appends the `count` lowest hexadecimal digits of `value` (1..16), the highest digit first.
 inline void appendHexDigits(std::string& out,
                             std::uint64_t value,
                             int count,
@@ -25,7 +25,7 @@ inline std::string hexDigits(std::uint64_t value, int count) {
   return text;
 }
 
-// Two digits per byte.
+// Returns two digits per byte.
 inline std::string hexDigits(std::span<const std::byte> bytes,
                              HexLetters letters = HexLetters::kCapital) {
   std::string text;

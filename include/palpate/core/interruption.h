@@ -1,5 +1,5 @@
-// Ctrl-C and its kin (SIGINT, SIGTERM, SIGHUP) as something to wait for, instead of the end of the
-// program.
+// Lets a command wait for Ctrl-C and similar signals (SIGINT, SIGTERM, SIGHUP), which would
+// otherwise end the program.
 #pragma once
 
 #include <array>
@@ -14,13 +14,15 @@ namespace palpate {
 class Interruption {
  public:
   Interruption();
-  ~Interruption();  // the signals do again what they did before
+  // Restores the previous handling of the signals.
+  ~Interruption();
   Interruption(const Interruption&) = delete;
   Interruption& operator=(const Interruption&) = delete;
 
   // Waits at most `withinMs` [ms] for a signal; returns true once for each signal that arrived.
   bool waitForSignal(int withinMs);
-  // Can be read when one came: for a loop that waits for more than this.
+  // A file descriptor that is readable when a signal has arrived, for loops that wait for several
+  // events.
   int descriptor() const noexcept;
 
  private:

@@ -1,5 +1,6 @@
-// The latest-value mailbox: a writer leaves its newest value, a reader takes it when it has time.
-// The reader sees each value at most once; values overwritten unseen are counted as skipped.
+// A mailbox between threads for the latest value: a writer puts its newest value, and a reader
+// takes it when it has time. The reader gets each value at most once; values that were overwritten
+// before that are counted as skipped.
 #pragma once
 
 #include <cstdint>
@@ -9,10 +10,11 @@
 
 namespace palpate {
 
+// Counts since construction.
 struct LatestValueStats {
   std::uint64_t puts = 0;
   std::uint64_t takes = 0;
-  std::uint64_t skipped = 0;  // overwritten before anybody took them
+  std::uint64_t skipped = 0;  // overwritten before they were taken
 };
 
 template <typename T>
@@ -25,7 +27,7 @@ class LatestValue {
     if (value_) ++stats_.skipped;
     value_ = std::move(value);
   }
-  // The newest value since the last take(), or nothing.
+  // Returns the newest value since the last take(); empty when there is none.
   std::optional<T> take() {
     std::lock_guard lock(mutex_);
     if (value_) ++stats_.takes;

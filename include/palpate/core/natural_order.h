@@ -1,4 +1,5 @@
-// Order of names as people count: "run_2" before "run_10".
+// Orders names with numbers by the value of the numbers: "run_2" before "run_10". Lists of ports
+// and recordings use it.
 #pragma once
 
 #include <compare>
@@ -6,8 +7,9 @@
 
 namespace palpate {
 
-// Byte by byte, but digits in a row count as one number, of any length; leading zeros matter only
-// where nothing else differs. Case counts: give small letters.
+// Compares byte by byte, but consecutive digits as one number of any length. Leading zeros matter
+// only when everything else is equal. The comparison is case-sensitive; pass lower-case names to
+// ignore case.
 std::strong_ordering naturalOrder(std::string_view left, std::string_view right) noexcept;
 
 }  // namespace palpate

@@ -1,5 +1,5 @@
-// Numbers as text and back, the same in every locale: '.' decimals, shortest form that reads back
-// to the same number.
+// Converts numbers to text and back, the same in every locale: '.' as decimal point, and the
+// shortest text that reads back as the same number.
 #pragma once
 
 #include <cstdint>
@@ -9,18 +9,21 @@
 
 namespace palpate {
 
-// Shortest text that reads back as the same value; "nan", "inf", "-inf" for what is no number.
+// Returns the shortest text that reads back as the same value; "nan", "inf" or "-inf" for values
+// that are not finite.
 std::string numberText(double value);
 std::string numberText(float value);
-// Fixed number of decimals (0..17), e.g. fixedText(3.14159, 2) = "3.14"; never "-0.00".
+// Returns a text with a fixed number of decimals (0..17), for example fixedText(3.14159, 2) =
+// "3.14"; never "-0.00".
 std::string fixedText(double value, int decimals);
-// Appends the shortest text of `value` to `out`: for long tables.
+// Appends the shortest text of `value` to `out`; used for long tables.
 void appendNumber(std::string& out, double value);
 void appendNumber(std::string& out, float value);
 void appendNumber(std::string& out, std::int64_t value);
 
-// The whole of `text` as a number (blanks around it allowed, a leading + not); nothing when it
-// isn't one, has trailing characters, or doesn't fit. Accepts no NaN and no infinity.
+// Reads the whole `text` as a number; blanks around it are allowed, a leading + is not. Returns
+// nothing when `text` is not a number, has other characters after it, is NaN or infinite, or when
+// the number does not fit.
 std::optional<double> parseDouble(std::string_view text) noexcept;
 std::optional<std::int64_t> parseInteger(std::string_view text) noexcept;
 

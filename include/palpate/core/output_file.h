@@ -1,5 +1,6 @@
-// A file that appears whole or not at all: written without a name (or under a temporary one) in the
-// same folder, synced, then named. An existing file is replaced only when asked.
+// Writes a file so that it never exists incompletely: the file is written without a name (or under
+// a temporary one) in the same folder, synced to disk, and then named. An existing file is replaced
+// only when requested.
 #pragma once
 
 #include <filesystem>
@@ -8,49 +9,53 @@
 
 namespace palpate {
 
+// What happens when the file exists already.
 enum class Overwrite { kRefuse, kReplace };
 
-// Throws FileError when PATH is a folder or no regular file, or exists and may not be replaced.
+// Throws FileError when `path` is a folder or no regular file, or exists and may not be replaced.
 void requireWritable(const std::filesystem::path& path, Overwrite overwrite);
-// Gives a file that was written and synced (in the same file system) its final name and syncs the
-// folder. Throws FileError; then `written` is still there under its old name.
+// Gives a written and synced file (in the same file system) its final name and syncs the folder.
+// Throws FileError; `written` then keeps its old name.
 void publishFile(const std::filesystem::path& written,
                  const std::filesystem::path& path,
                  Overwrite overwrite);
 
+// A file that is being written.
 class OutputFile {
  public:
-  // Opens the file to be. A symbolic link that may be replaced is followed. Throws FileError:
-  // exists already (kRefuse), no such folder, no permission, is a folder, a device, ..
+  // Opens the new file. A symbolic link that may be replaced is followed. Throws FileError when the
+  // file exists (kRefuse), the folder does not exist, a permission is missing, or the path is a
+  // folder, a device and so on.
   explicit OutputFile(std::filesystem::path path, Overwrite overwrite = Overwrite::kRefuse);
-  // Nothing is left unless commit() succeeded; nor when the process is killed, where the file
-  // system has files without a name.
+  // Removes the file unless commit() succeeded. Where the file system supports files without a
+  // name, nothing remains even when the process is killed.
   ~OutputFile();
   OutputFile(const OutputFile&) = delete;
   OutputFile& operator=(const OutputFile&) = delete;
 
   void write(std::string_view bytes);  // throws FileError (disk full, ..)
-  // What was written is on disk, still without its name. Throws FileError (disk full, ..).
+  // Writes the data to disk; the file still has no name. Throws FileError (disk full, ..).
   void sync();
-  // Syncs file and folder and gives the file its name. Throws FileError; then nothing was left.
+  // Syncs file and folder and gives the file its name. Throws FileError; then no file remains.
   void commit();
   const std::filesystem::path& path() const noexcept { return path_; }
   Overwrite overwrite() const noexcept { return overwrite_; }
-  // For another program that writes it: /proc/self/fd/N there, opened anew; see write() for our own
-  // bytes.
+  // For another program that writes the file: it opens /proc/self/fd/N. Use write() within this
+  // program.
   int descriptor() const noexcept { return descriptor_; }
 
  private:
   void nameTemporarily();
 
   std::filesystem::path path_;
-  std::filesystem::path temporary_;  // empty while the file has no name
+  // Temporary name; empty when the file has no name.
+  std::filesystem::path temporary_;
   Overwrite overwrite_;
   int descriptor_ = -1;
 };
 
-// Files that belong together: every one is on disk before the first has its name. Throws FileError;
-// then none of them was left, but for those that had replaced another by then.
+// Commits files that belong together: all are on disk before the first one gets its name. Throws
+// FileError; then none of them remains, except those that have already replaced an existing file.
 void commitTogether(std::span<OutputFile* const> files);
 
 }  // namespace palpate

@@ -1,5 +1,5 @@
-// Independent pieces of work on several threads. What comes out doesn't depend on how many there
-// are, as long as each piece writes only its own place.
+// Runs independent pieces of work on several threads. The result does not depend on the number of
+// threads if each piece writes only its own data.
 #pragma once
 
 #include <cstddef>
@@ -10,9 +10,9 @@
 namespace palpate {
 
 // Calls work(i) once for each i in 0..count-1, from up to `threads` threads (0: as many as the
-// machine runs at once). `progress` is called in the caller's thread with the part that is done.
-// When a piece throws, or the progress returns false, no further piece begins; after those that run
-// have ended the exception of the lowest such piece is thrown, else Cancelled.
+// machine runs at once). `progress` is called in the caller's thread with the fraction done. When a
+// piece throws, or `progress` returns false, no further piece begins. After the running pieces have
+// ended, the exception of the piece with the lowest index is thrown, or Cancelled when none threw.
 void forEachInParallel(std::size_t count,
                        const std::function<void(std::size_t index)>& work,
                        const Progress& progress = {},

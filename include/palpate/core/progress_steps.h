@@ -1,4 +1,4 @@
-// Progress of work that is a number of steps.
+// Reports the progress of work that consists of steps.
 #pragma once
 
 #include <cstddef>
@@ -8,8 +8,8 @@
 
 namespace palpate {
 
-// Before step `step` (from 0) of `count`: reports every `every`th of them. Throws Cancelled when
-// the work is asked to stop.
+// Call before step `step` (from 0) of `count`; reports every `every`th step. Throws Cancelled when
+// the callback cancels the work.
 inline void reportProgress(const Progress& progress,
                            std::size_t step,
                            std::size_t count,

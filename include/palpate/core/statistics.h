@@ -1,4 +1,4 @@
-// Medians.
+// Computes the median of a range of values.
 #pragma once
 
 #include <algorithm>
@@ -7,8 +7,8 @@
 
 namespace palpate {
 
-// The value in the middle; of an even number of values the larger of the two there. Reorders
-// `values`; there must be at least one, and none may be NaN.
+// Returns the middle value; of an even number of values, the larger of the two in the middle.
+// Reorders `values`, which must have at least one value and no NaN.
 template <std::ranges::random_access_range Values>
 std::ranges::range_value_t<Values> upperMedian(Values&& values) {
   const auto middle = std::ranges::begin(values) + std::ranges::ssize(values) / 2;
@@ -16,8 +16,8 @@ std::ranges::range_value_t<Values> upperMedian(Values&& values) {
   return *middle;
 }
 
-// The value in the middle; of an even number of values the mean of the two there. Otherwise as
-// upperMedian().
+// Returns the middle value; of an even number of values, the mean of the two in the middle. The
+// other rules are those of upperMedian().
 template <std::ranges::random_access_range Values>
 double median(Values&& values) {
   const auto upper = static_cast<double>(upperMedian(values));

@@ -1,5 +1,5 @@
-// Small files that a person names and the program reads whole: models, calibrations, recipes,
-// tables.
+// Reads small files that a user selects and the program reads as a whole: models, calibrations,
+// recipes, tables.
 #pragma once
 
 #include <cstddef>
@@ -9,12 +9,12 @@
 
 namespace palpate {
 
-// All bytes of a file. Never holds more than `byteLimit` + 1 of them in memory: a file that is
-// larger is not what it should be. Throws FileError (can't be opened, says why; is a folder; can't
-// be read), FormatError (larger than `byteLimit`).
+// Returns all bytes of a file. Never keeps more than `byteLimit` + 1 bytes in memory, since a
+// larger file cannot be the right one. Throws FileError (cannot be opened, with the reason; is a
+// folder; cannot be read), FormatError (larger than `byteLimit`).
 std::string readTextFile(const std::filesystem::path& path, std::uint64_t byteLimit);
 
-// What a file begins with, `byteLimit` of it at most; empty where it can't be read.
+// Returns the first bytes of a file, at most `byteLimit`; empty when the file cannot be read.
 std::string beginningOfFile(const std::filesystem::path& path, std::size_t byteLimit);
 
 }  // namespace palpate

@@ -1,6 +1,7 @@
-// Streaming XML: a push parser with hard limits, over expat (plain documents are scanned directly,
-// which is faster; anything else in them is expat's). Text of any size passes through in
-// constant memory; document types and entities are refused (they can only harm a recording).
+// Streaming XML: a push parser with hard limits, for .dsa recordings and the noise files of the
+// prior program. It uses expat; plain documents are scanned directly (xml_scanner.h), which is
+// faster. Text of any size passes through in constant memory. Document types and entities are
+// refused, since they can only harm a recording.
 #pragma once
 
 #include <cstddef>
@@ -12,23 +13,26 @@
 
 namespace palpate {
 
-// Called in document order. Views are valid only inside the call.
+// Receives the content in document order. Views are valid only inside the call.
 class XmlHandler {
  public:
   virtual ~XmlHandler() = default;
   // `attributes`: name, value, name, value, .., ended by a null pointer.
   virtual void startElement(std::string_view name, const char* const* attributes) = 0;
   virtual void endElement(std::string_view name) = 0;
-  // A piece of text; one element's text may come in any number of pieces.
+  // Takes a piece of text; the text of one element may come in any number of pieces.
   virtual void text(std::string_view piece) = 0;
 };
 
+// Limits of a document.
 struct XmlLimits {
-  int maxDepth = 64;                      // nested elements
-  std::size_t maxMarkupBytes = 1u << 20;  // one tag, comment or instruction [bytes]
+  int maxDepth = 64;  // nested elements
+  // Largest size of one tag, comment or instruction [bytes].
+  std::size_t maxMarkupBytes = 1u << 20;
 };
 
-// The document is not well-formed or breaks a limit. offset [bytes] from the document's start.
+// The document is not well-formed or exceeds a limit. offset [bytes] is counted from the document's
+// start.
 class XmlError : public std::runtime_error {
  public:
   XmlError(const std::string& message, std::uint64_t offset)
@@ -39,7 +43,7 @@ class XmlError : public std::runtime_error {
   std::uint64_t offset_;
 };
 
-// Push parser; not thread-safe. An exception thrown by the handler passes through push() unharmed.
+// Push parser; not thread-safe. push() passes on exceptions that the handler throws.
 class XmlParser {
  public:
   explicit XmlParser(XmlHandler& handler, XmlLimits limits = {});
@@ -51,7 +55,8 @@ class XmlParser {
   void push(std::string_view bytes);
   // Call once after the last byte. Throws XmlError when the document is incomplete.
   void finish();
-  // Position of the event being handled [bytes], inside a handler call; else of the bytes taken.
+  // Inside a handler call, the position of the handled event [bytes]; otherwise the number of bytes
+  // that were parsed.
   std::uint64_t offset() const noexcept;
 
  private:
@@ -59,7 +64,7 @@ class XmlParser {
   std::unique_ptr<Impl> impl_;
 };
 
-// `text` with the five special characters written as entities, fit for text and attributes.
+// Returns `text` with the five special characters as entities, for text and attributes.
 std::string xmlEscaped(std::string_view text);
 
 }  // namespace palpate

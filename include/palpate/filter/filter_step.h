@@ -1,6 +1,6 @@
-// One filter with its options, as text: "median:size=3,masked=1" (names and keys:
-// filter_catalog.h). Order of the keys is free; what isn't given has its default. `matrices=1+3`
-// restricts a filter to some matrices.
+// One filter with its options: one step of a recipe. As text it is written "median:size=3,masked=1"
+// (names and keys: filter_catalog.h). The keys may have any order; a missing key has its default.
+// `matrices=1+3` restricts a filter to some matrices.
 #pragma once
 
 #include <cstddef>
@@ -13,31 +13,36 @@
 
 namespace palpate {
 
+// One filter with its options.
 struct FilterStep {
-  std::string name;  // of a FilterKind
-  std::map<std::string, double, std::less<>>
-      explicitOptions{};                // what differs from the default, by key
-  std::vector<std::size_t> matrices{};  // wire order, ascending; empty: all
-  bool enabled = true;                  // off: it stands in the chain and does nothing
+  std::string name;  // name of a FilterKind
+  // Options that differ from the default, by key.
+  std::map<std::string, double, std::less<>> explicitOptions{};
+  // Matrices to filter, in wire order, ascending; empty means all.
+  std::vector<std::size_t> matrices{};
+  bool enabled = true;  // a disabled step stays in the recipe and does nothing
 
-  // Throws std::invalid_argument: unknown name or key (listing the known ones), a value out of
-  // range, an even window, and what only fits together (order below window, search and patch).
+  // Throws std::invalid_argument for an unknown name or key (listing the known ones), a value out
+  // of range, an even window, and options that contradict each other (the order must be below the
+  // window; search and patch must fit together).
   void validate() const;
   const FilterKind& kind() const { return filterKind(name); }
-  // Given or default; NaN: automatic. Throws std::invalid_argument for a key it hasn't.
+  // Returns the given value or the default; NaN means automatic. Throws std::invalid_argument for a
+  // key that the filter does not have.
   double value(std::string_view key) const;
   int integer(std::string_view key) const { return static_cast<int>(value(key)); }
   bool flag(std::string_view key) const { return value(key) != 0.0; }
-  // As value(); 0 where this kind of filter has no such key.
+  // Returns value(), or 0 when this filter has no such key.
   double valueOrZero(std::string_view key) const;
-  // Needs no later frame: can run live.
+  // Returns whether the filter needs no later frame and can therefore run live.
   bool causal() const;
   bool operator==(const FilterStep&) const = default;
 };
 
-// Reads and validates. Throws std::invalid_argument saying what is wrong and what would be right.
+// Parses and validates a text. Throws std::invalid_argument that says what is wrong and what is
+// allowed.
 FilterStep parseFilterStep(std::string_view text);
-// Shortest text that reads back as the same step (but for `enabled`): "median:size=5".
+// Returns the shortest text that parses to the same step, except for `enabled`: "median:size=5".
 std::string filterText(const FilterStep& step);
 
 }  // namespace palpate

@@ -1,6 +1,6 @@
-// A profile seen through a recipe: the same frames at the same times, filtered when they are asked
-// for. Angles, temperatures and stamps are those of the source; values are floats. Active is what
-// was active in the source (filter_chain.h).
+// A profile filtered by a recipe: it has the same frames at the same times, and filters each frame
+// when it is read. Angles, temperatures and stamps are those of the source; values are floats.
+// Active taxels are those of the source (filter_chain.h). Commands and the window use it.
 #pragma once
 
 #include <cstdint>
@@ -13,19 +13,19 @@
 namespace palpate {
 
 struct FilteredProfileOptions {
-  // Moments at which counts begin to mean something else (events "settings") [us since 1970],
-  // ascending: filters over time restart with the first frame at or after one.
+  // Times at which the meaning of counts changes (events "settings") [us since 1970], ascending.
+  // Filters over time restart with the first frame at or after each.
   std::vector<std::int64_t> restartsUs = {};
 };
 
-// Frames read in order go through the chain once. A frame out of order is computed from as many
-// frames before it as have a say in it (filter_chain.h, filterLengthFrames()); of recursive filters
-// from so many that what is left out is below 1e-9 of the value. A recipe that needs all frames of
-// a stretch at once is computed here, as a whole.
+// Frames that are read in order pass the chain once. A frame that is read out of order is computed
+// from all earlier frames that influence it (filter_chain.h, filterLengthFrames()); with recursive
+// filters, from so many that the rest contributes less than 1e-9 of the value. A recipe that needs
+// all frames of a stretch at once is applied to the whole profile inside this function.
 //
-// A frame of the source that can't be read throws when it is asked for, as it does there; filters
-// over time restart after it. Throws std::invalid_argument (recipe), Cancelled, Error (such a
-// recipe and a frame that can't be read).
+// When a frame of the source cannot be read, reading it here throws the same error, and filters
+// over time restart after it. Throws std::invalid_argument (recipe), Cancelled, and Error (a recipe
+// that needs whole stretches meets a frame that cannot be read).
 Profile filteredProfile(const Profile& source,
                         const Recipe& recipe,
                         FilteredProfileOptions options = {},

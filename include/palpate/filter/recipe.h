@@ -1,5 +1,5 @@
-// A recipe: a chain of filters that runs the same live, on recordings and on the command line. As
-// text its steps are joined by " | "; as a file it is JSON:
+// A recipe is a chain of filters that gives the same results live, on recordings and on the command
+// line. As text its steps are joined by " | "; as a file it is JSON:
 //   {"format": "palpate-recipe", "version": 1, "name": "..", "made_by": "palpate 0.1",
 //    "steps": [{"filter": "median", "size": 3, "masked": true, "matrices": [1, 3],
 //               "enabled": true}, ..]}
@@ -16,41 +16,45 @@
 
 namespace palpate {
 
+// A named chain of filters.
 struct Recipe {
   static constexpr std::size_t kMaxSteps = 64;
-  std::string name{};  // for people; may be empty
+  // Title in the window; may be empty.
+  std::string name{};
   std::vector<FilterStep> steps{};
 
-  // Throws std::invalid_argument naming the step (from 1) that is wrong, or too many steps.
+  // Throws std::invalid_argument that names the wrong step (counted from 1), or too many steps.
   void validate() const;
-  // No step that does something.
+  // Returns whether no step is enabled.
   bool empty() const noexcept;
-  // Runs live.
+  // Returns whether all enabled steps are causal, so that the recipe can run live.
   bool causal() const;
-  // The steps, whatever it is called.
+  // Compares the steps but not the names.
   bool sameSteps(const Recipe& other) const { return steps == other.steps; }
   bool operator==(const Recipe&) const = default;
 };
 
-// "median:size=3 | kalman"; steps that are off in round brackets: "median | (kalman)".
+// Returns the text of a recipe, "median:size=3 | kalman"; disabled steps are in round brackets:
+// "median | (kalman)".
 std::string recipeText(const Recipe& recipe);
-// Of "median:size=3|kalman" or of several such texts one after the other. Throws
-// std::invalid_argument.
+// Parses one text, such as "median:size=3|kalman", or several, whose steps follow one another.
+// Throws std::invalid_argument.
 Recipe parseRecipe(std::span<const std::string> texts);
 
 Json recipeJson(const Recipe& recipe);
-// Throws Error saying which step and key is wrong: unknown keys and names list the known ones.
+// Throws Error that names the wrong step and key, and lists the known keys and names.
 Recipe recipeFromJson(const Json& json);
 
-// Throws FileError (gone, unreadable), FormatError (larger than a megabyte, no recipe) or Error,
-// with the path.
+// Throws FileError (missing or unreadable), FormatError (larger than a megabyte, or no recipe) or
+// Error, each with the path.
 Recipe readRecipe(const std::filesystem::path& path);
-// The file appears whole or not at all. Throws FileError.
+// Writes a recipe; a failure leaves no partial file. Throws FileError.
 void writeRecipe(const std::filesystem::path& path, const Recipe& recipe, bool overwrite);
 
-// What is offered ready-made; first what is for high sensitivity.
+// Ready-made recipes that the window offers; those for high sensitivity come first.
 std::span<const Recipe> recipePresets();
-// What cleans the frames of a hand at high sensitivity: chosen from the table in docs/ghosting.md.
+// The recipe that cleans the frames of a hand at high sensitivity; chosen from the table in
+// docs/ghosting.md.
 const Recipe& highSensitivityRecipe();
 
 }  // namespace palpate

@@ -1,12 +1,13 @@
-// Savitzky-Golay filters (Savitzky and Golay 1964; study 2.2): the polynomial of a given order that
-// fits a window of evenly spaced samples best (least squares), or a derivative of it, at any
-// position in the window. It is a weighted sum of the samples; here are the weights.
+// Weights of Savitzky-Golay filters (Savitzky and Golay 1964; study 2.2), for the filters of that
+// name. Such a filter fits a polynomial of a given order to a window of evenly spaced samples
+// (least squares) and evaluates the polynomial, or a derivative of it, at any position in the
+// window. The result is a weighted sum of the samples.
 //
-// Position 0 is the window's oldest sample, window - 1 the newest. In the middle, (window - 1) / 2,
-// it is the centred filter (window 5: smoothing [-3 12 17 12 -3]/35, cubic first derivative [1 -8 0
-// 8 -1]/12, quadratic one [-2 -1 0 1 2]/10, second derivative [2 -1 -2 -1 2]/7); at the newest
-// sample it is causal; the edges of a recording take the fitted polynomial of the first or last
-// whole window at their own position.
+// Position 0 is the window's oldest sample, window - 1 the newest. At the middle, (window - 1) / 2,
+// the filter is centred (window 5: smoothing [-3 12 17 12 -3]/35, cubic first derivative [1 -8 0 8
+// -1]/12, quadratic one [-2 -1 0 1 2]/10, second derivative [2 -1 -2 -1 2]/7). At the newest sample
+// it is causal. At the edges of a recording, the polynomial of the first or last whole window is
+// evaluated at the position of the sample.
 #pragma once
 
 #include <vector>

@@ -1,5 +1,5 @@
-// Forward kinematics: the pose that joint angles give a hand. Three small chains and one affine map
-// per taxel; the position and normal of all 486 taxels of an SDH-2 take about a microsecond.
+// Forward kinematics: computes the pose of a hand from its joint angles. The position and normal of
+// all 486 taxels of an SDH-2 take about a microsecond.
 #pragma once
 
 #include <cstddef>
@@ -10,30 +10,33 @@
 
 namespace palpate {
 
-// Poses of one hand. The poses it gives refer to it: it must outlive them, and stays where it is.
+// Computes poses of one hand. The poses refer to this object, which must outlive them; it cannot be
+// copied or moved.
 class HandGeometry {
  public:
-  // Throws std::invalid_argument naming what doesn't fit (axis or link that isn't there, ..).
+  // Throws std::invalid_argument that names the inconsistency (an axis or link that does not exist,
+  // and so on).
   explicit HandGeometry(GeometryDescription description = sdh2Geometry());
   HandGeometry(const HandGeometry&) = delete;
   HandGeometry& operator=(const HandGeometry&) = delete;
 
-  // Angles in degrees, one per axis; the joints' range of motion isn't checked. Throws
-  // std::invalid_argument (wrong number, not finite).
+  // Returns the pose for angles in degrees, one per axis. The range of motion is not checked.
+  // Throws std::invalid_argument for a wrong number of angles, and for angles that are not finite.
   HandPose pose(const std::vector<double>& anglesDeg) const;
-  // As pose(), reusing the memory of `out`.
+  // Does the same as pose() and reuses the memory of `out`.
   void pose(const std::vector<double>& anglesDeg, HandPose& out) const;
   const GeometryDescription& description() const noexcept { return description_; }
 
  private:
-  // What of a link doesn't depend on the angles.
+  // The part of a link's transform that does not depend on the angles.
   struct Twist {
     double sine = 0.0, cosine = 1.0;  // of alpha
   };
-  // What of a matrix doesn't.
+  // The part of a matrix that does not depend on the angles.
   struct Pad {
     std::vector<SurfaceRow> rows;
-    std::vector<double> columnsMm;  // Z of each column in the link's frame
+    // Z of each column in the link's frame.
+    std::vector<double> columnsMm;
   };
 
   void computeLinks(const std::vector<double>& anglesDeg, HandPose& out) const;

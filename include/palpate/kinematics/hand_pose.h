@@ -1,11 +1,11 @@
-// A hand at one set of joint angles: where its taxels, their corners, its links and joints are. A
-// value, made by HandGeometry::pose(); it refers to the geometry that made it, which must outlive
+// The pose of a hand at one set of joint angles: positions of its taxels, their corners, links and
+// joints. A value that HandGeometry::pose() makes; it refers to that geometry, which must outlive
 // it.
 //
 // Everything is in the hand's base frame (the palm's: z up from the palm), in mm. A transform
-// `bFromA` takes coordinates in frame A to coordinates in frame B. Points of a sensor surface are
-// given in mm from the centre of taxel (0, 0): x across (rising column), y towards the palm (rising
-// row), along the surface; beyond its edge the surface goes on.
+// `bFromA` converts coordinates in frame A to coordinates in frame B. Points of a sensor surface
+// are given in mm from the centre of taxel (0, 0), along the surface: x across (rising column), y
+// towards the palm (rising row). The surface continues beyond its edge.
 #pragma once
 
 #include <cstddef>
@@ -27,44 +27,50 @@ struct JointAxis {
   Eigen::Vector3d direction = Eigen::Vector3d::UnitZ();  // unit vector
 };
 
-// A default-made pose has no taxels; what asks for one of them throws std::out_of_range.
+// A default-constructed pose has no taxels; accessors of a taxel throw std::out_of_range.
 class HandPose {
  public:
   bool empty() const noexcept { return description_ == nullptr; }
-  // Of the hand. Throws std::out_of_range when empty.
+  // The geometry of the hand. Throws std::out_of_range when the pose is empty.
   const GeometryDescription& description() const;
 
-  // One per place, matrix after matrix, row by row (places without a taxel, too) [mm].
+  // Positions of all places, matrix after matrix, row by row, including places without a taxel
+  // [mm].
   const std::vector<Eigen::Vector3d>& positionsMm() const noexcept { return positionsMm_; }
   // Unit vectors out of the sensor surface, in the same order.
   const std::vector<Eigen::Vector3d>& normals() const noexcept { return normals_; }
-  // Of one taxel. Throw std::out_of_range.
+  // Position and normal of one taxel. Both throw std::out_of_range.
   const Eigen::Vector3d& positionMm(std::size_t matrix, int y, int x) const;
   const Eigen::Vector3d& normal(std::size_t matrix, int y, int x) const;
 
-  // Of any point of a sensor surface. std::out_of_range: matrix; std::invalid_argument: not finite.
+  // Position and normal of any point of a sensor surface. They throw std::out_of_range for a matrix
+  // that does not exist, and std::invalid_argument for coordinates that are not finite.
   Eigen::Vector3d pointMm(std::size_t matrix, double xMm, double yMm) const;
   Eigen::Vector3d normalAt(std::size_t matrix, double xMm, double yMm) const;
-  // The frame that touches the surface there: X across (rising column), Y towards the fingertip
-  // (falling row), Z = normal.
+  // The frame that is tangential to the surface at a point: X across (rising column), Y towards the
+  // fingertip (falling row), Z = normal.
   Eigen::Isometry3d baseFromSurface(std::size_t matrix, double xMm, double yMm) const;
 
   // Corner (y, x) of a matrix, y 0..rows, x 0..columns: where taxels (y-1, x-1), (y-1, x), (y, x-1)
-  // and (y, x) meet; the corners of taxel (y, x) are (y, x), (y, x+1), (y+1, x+1), (y+1, x). On the
-  // curved surface, as the taxels. std::out_of_range.
+  // and (y, x) meet. The corners of taxel (y, x) are (y, x), (y, x+1), (y+1, x+1), (y+1, x). Like
+  // the taxels, corners are on the curved surface. Throws std::out_of_range.
   Eigen::Vector3d cornerMm(std::size_t matrix, int y, int x) const;
-  // All of a matrix, (rows + 1) x (columns + 1) row by row, into `out` (memory is reused).
+  // Writes all corners of a matrix, (rows + 1) x (columns + 1), row by row, to `out` and reuses its
+  // memory.
   void cornersMm(std::size_t matrix, std::vector<Eigen::Vector3d>& out) const;
 
-  // The link's own frame: X along it towards the tip, Y out of its sensor surface, Z across; its
-  // origin is its far end (the next joint, or the tip of the finger). std::out_of_range.
+  // The frame of a link: X along it towards the tip, Y out of its sensor surface, Z across. Its
+  // origin is the far end of the link (the next joint, or the tip of the finger). Throws
+  // std::out_of_range.
   const Eigen::Isometry3d& baseFromLink(std::size_t finger, std::size_t link) const;
-  // Where a finger stands on the palm, whatever the angles. std::out_of_range.
+  // The frame of a finger's base on the palm, which does not depend on the angles. Throws
+  // std::out_of_range.
   Eigen::Isometry3d baseFromFinger(std::size_t finger) const;
-  // Of the link that carries a matrix: columns X, Y, Z in the base frame, and its origin [mm].
+  // Rotation and origin of the link that carries a matrix: columns X, Y, Z in the base frame, and
+  // the origin in it [mm].
   Eigen::Matrix3d rotation(std::size_t matrix) const { return linkOf(matrix).linear(); }
   Eigen::Vector3d originMm(std::size_t matrix) const { return linkOf(matrix).translation(); }
-  // All joints of all fingers (an axis that turns two fingers stands here twice).
+  // All joints of all fingers. An axis that turns two fingers is listed twice.
   const std::vector<JointAxis>& jointAxes() const noexcept { return jointLines_; }
 
  private:

@@ -1,4 +1,4 @@
-// Whether joint angles can be those of a hand: as many as it has axes, finite, within its range of
+// Checks whether a hand can have given joint angles: one per axis, finite, and within the range of
 // motion.
 #pragma once
 
@@ -9,22 +9,27 @@
 
 namespace palpate {
 
-// A real joint stands up to a few hundredths of a degree beyond its range, and was calibrated by
-// hand.
+// A real joint can be up to a few hundredths of a degree beyond its range, and joints are
+// calibrated by hand.
 constexpr double kJointRangeToleranceDeg = 1.0;
 
+// Result of the check of joint angles.
 enum class AngleValidity {
   kValid,
-  kOutOfRange,  // a pose can be computed, but no hand of this kind has it
-  kUnusable     // wrong number of angles, or not finite
+  // A pose can be computed, but a real hand cannot have it.
+  kOutOfRange,
+  // The number of angles is wrong, or an angle is not finite.
+  kUnusable
 };
 
+// The result with its explanation.
 struct AnglesCheck {
   AngleValidity state = AngleValidity::kValid;
-  std::string problem;  // what is wrong with which axis; empty when fine
+  // Describes the problem and names the axis; empty when the angles are valid.
+  std::string problem;
 };
 
-// Never throws for what the angles are.
+// Checks the angles; never throws because of their values.
 AnglesCheck checkAngles(const std::vector<double>& anglesDeg,
                         const std::vector<AxisDescription>& axes,
                         double toleranceDeg = kJointRangeToleranceDeg);

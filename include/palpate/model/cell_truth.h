@@ -1,5 +1,5 @@
-// What is true of a taxel in a frame, where that is known: of the emulated hand, and of an empty
-// hand's recording.
+// True state of each taxel in a frame, where it is known: in simulated recordings and in the
+// recording of an empty hand. It is compared with the detected state to rate the removal of ghosts.
 #pragma once
 
 #include <cstdint>
@@ -7,11 +7,15 @@
 
 namespace palpate {
 
+// Whether something presses on a taxel.
 enum class CellTruth : std::uint8_t {
-  // nothing presses on it (less than half a count of it): when it is active, it is a ghost
+  // Nothing presses on the taxel (less than half a count): when it is active, it is a ghost.
   kNothing,
-  kFaint,   // pressed, but too little to be reported without noise: neither true nor false
-  kTouched  // pressed, and reported without noise: more than the same sensor says at rest
+  // Something presses on the taxel, but too weakly to be reported without noise: neither touched
+  // nor untouched.
+  kFaint,
+  // The taxel is pressed: without noise its reading would exceed the reading at rest.
+  kTouched
 };
 using CellTruthMask = std::vector<CellTruth>;  // one per place of the layout
 

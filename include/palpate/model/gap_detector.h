@@ -1,5 +1,6 @@
-// Tells gaps between frames as they come, from the stamps of the past alone: live and in a
-// recording the same frames give the same answers. (timing.h looks at a whole recording at once.)
+// Finds gaps between frames while the frames arrive, from past time stamps alone, so that a live
+// source and a recording give the same answers for the same frames. Filters, playback and the live
+// stages use it. (timing.h looks at a whole recording at once.)
 #pragma once
 
 #include <algorithm>
@@ -9,13 +10,13 @@
 
 namespace palpate {
 
-// Two neighbours in time are a gap apart when they are further than max(kShortestGapS,
-// kGapIntervals medians of their intervals).
+// Two neighbouring frames have a gap between them when their interval is longer than
+// max(kShortestGapS, kGapIntervals * median interval).
 inline constexpr std::int64_t kShortestGapUs = 1'000'000;  // [us]
 inline constexpr double kShortestGapS = 1.0;               // [s]
 inline constexpr int kGapIntervals = 5;
 
-// The longest interval that is no gap, of the median interval.
+// The longest interval that is no gap, for a given median interval.
 constexpr double gapThresholdS(double medianS) {
   return std::max(kShortestGapS, kGapIntervals * medianS);
 }
@@ -24,11 +25,14 @@ constexpr Us gapThresholdUs(Us medianUs) {
   return std::max<Us>(kShortestGapUs, kGapIntervals * medianUs);
 }
 
+// Finds gaps in a series of time stamps that are passed one by one.
 class GapDetector {
  public:
-  // The next stamp [us], ascending. True: the interval before it is longer than max(1 s, 5 medians
-  // of the last 15 intervals). Never before the first and the second frame: no rate is known yet.
+  // Takes the next stamp [us]; stamps must ascend. Returns true when the interval before it is
+  // longer than max(1 s, 5 medians of the last 15 intervals). The first and the second frame never
+  // follow a gap, since the frame rate is not known yet.
   bool afterGap(std::int64_t stampUs);
+  // Forgets all stamps, for a new source.
   void reset();
 
  private:
@@ -36,7 +40,7 @@ class GapDetector {
 
   std::int64_t lastUs_ = 0;
   bool any_ = false;
-  std::deque<std::int64_t> intervalsUs_;  // the last ones
+  std::deque<std::int64_t> intervalsUs_;  // the last 15 intervals
 };
 
 }  // namespace palpate

@@ -1,4 +1,5 @@
-// The hand beside its taxels: joint angles and temperatures, each a time series of its own.
+// The state of the hand apart from its taxels: joint angles and temperatures. Each is a time series
+// of its own in recordings and live sources.
 #pragma once
 
 #include <cstdint>
@@ -14,8 +15,9 @@ struct JointAngles {
 
 // One sample of all temperature sensors, in the order of HandDescription::temperatureSensors.
 struct Temperatures {
-  std::int64_t hostUs = 0;   // host time [us since 1970]
-  std::vector<double> degC;  // [deg C]; 0 = the sensor has not reported yet (power-up)
+  std::int64_t hostUs = 0;  // host time [us since 1970]
+  // Temperatures [deg C]; 0 when the sensor has not reported yet (power-up).
+  std::vector<double> degC;
 };
 
 }  // namespace palpate

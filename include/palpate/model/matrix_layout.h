@@ -1,8 +1,9 @@
-// Where taxels are: the layout of one sensor matrix, and of all matrices of a sensor.
+// The layout of taxels: of one sensor matrix, and of all matrices of a sensor. Frames, profiles and
+// devices refer to it.
 //
-// A matrix is rows x columns places, row 0 at the fingertip, stored row by row. Not every place
-// holds a taxel: the static mask (hardware) says which exist, the dynamic mask (a setting) which
-// are scanned. A frame stores a value for every place; places without a taxel hold 0.
+// A matrix has rows x columns places, stored row by row; row 0 is at the fingertip. Not every place
+// holds a taxel: the static mask (hardware) says which taxels exist, the dynamic mask (a setting)
+// which are scanned. A frame stores a value for every place; places without a taxel hold 0.
 #pragma once
 
 #include <cstddef>
@@ -15,36 +16,43 @@ namespace palpate {
 // One flag per place, row by row: 1 = on, 0 = off.
 using Mask = std::vector<std::uint8_t>;
 
+// The layout of one sensor matrix.
 struct MatrixLayout {
-  int rows = 0;          // y, 1..256
-  int columns = 0;       // x, 1..256
-  double pitchMm = 0.0;  // distance between neighbouring taxels [mm], along rows and columns
-  Mask staticMask;       // size rows*columns: 1 where the sensor has a taxel
-  Mask dynamicMask;      // size rows*columns: 1 where the taxel is scanned
-  // Which sensor it is: the unique id that is burnt into it, as the controller tells it, in capital
-  // hexadecimal digits ("28FF00AB0C11"); empty: not known.
+  int rows = 0;     // y, 1..256
+  int columns = 0;  // x, 1..256
+  // Distance between neighbouring taxels [mm], along rows and columns.
+  double pitchMm = 0.0;
+  Mask staticMask;   // size rows*columns: 1 where the sensor has a taxel
+  Mask dynamicMask;  // size rows*columns: 1 where the taxel is scanned
+  // The unique id that is burnt into the sensor, as the controller reports it, in capital
+  // hexadecimal digits ("28FF00AB0C11"); empty when it is not known.
   std::string uniqueId = {};
 
-  // A full matrix without masked places.
+  // Returns a matrix without masked places. Throws as validate() does.
   static MatrixLayout full(int rows, int columns, double pitchMm);
 
-  std::size_t numCells() const noexcept;      // rows * columns
-  std::size_t numTaxels() const noexcept;     // existing ones (static mask)
-  std::size_t numEnabled() const noexcept;    // existing and scanned ones
-  bool exists(int y, int x) const noexcept;   // in range and on in the static mask
-  bool enabled(int y, int x) const noexcept;  // exists and on in the dynamic mask
+  // Number of all places: rows * columns.
+  std::size_t numCells() const noexcept;
+  // Number of taxels that exist (static mask).
+  std::size_t numTaxels() const noexcept;
+  // Number of taxels that exist and are scanned.
+  std::size_t numEnabled() const noexcept;
+  // Returns whether the place is in the matrix and on in the static mask.
+  bool exists(int y, int x) const noexcept;
+  // Returns whether the taxel exists and is on in the dynamic mask.
+  bool enabled(int y, int x) const noexcept;
   double taxelAreaMm2() const noexcept { return pitchMm * pitchMm; }
-  // Throws std::invalid_argument naming the field that is out of range.
+  // Throws std::invalid_argument that names the field that is out of range.
   void validate() const;
-  // Where taxels are, and which are scanned: the same for two sensors of a kind, whatever their
-  // ids.
+  // Compares where taxels are and which are scanned, but not the unique id: two sensors of the same
+  // kind are equal.
   bool operator==(const MatrixLayout& other) const {
     return rows == other.rows && columns == other.columns && pitchMm == other.pitchMm &&
            staticMask == other.staticMask && dynamicMask == other.dynamicMask;
   }
 };
 
-// The matrices in wire order; places of all matrices form one sequence.
+// The matrices of a sensor in wire order. The places of all matrices form one sequence.
 class SensorLayout {
  public:
   SensorLayout() = default;
@@ -54,9 +62,11 @@ class SensorLayout {
   std::size_t numMatrices() const noexcept { return matrices_.size(); }
   const MatrixLayout& matrix(std::size_t index) const { return matrices_.at(index); }
   const std::vector<MatrixLayout>& matrices() const noexcept { return matrices_; }
-  std::size_t numCells() const noexcept { return numPlaces_; }  // of all matrices (SDH-2: 486)
-  std::size_t numTaxels() const noexcept;                       // that exist (SDH-2: 456)
-  // First place of a matrix in the sequence.
+  // Number of places of all matrices (SDH-2: 486).
+  std::size_t numCells() const noexcept { return numPlaces_; }
+  // Number of taxels of all matrices that exist (SDH-2: 456).
+  std::size_t numTaxels() const noexcept;
+  // Index of the first place of a matrix in the sequence.
   std::size_t offset(std::size_t matrix) const { return offsets_.at(matrix); }
   bool operator==(const SensorLayout& other) const { return matrices_ == other.matrices_; }
 

@@ -1,4 +1,5 @@
-// Grasp preshapes: joint angles as a function of how far the hand is closed.
+// Grasp preshapes: joint angles as a function of how far the hand is closed. The grasp commands and
+// the emulated hand use them.
 #pragma once
 
 #include <string>
@@ -7,25 +8,27 @@
 
 namespace palpate {
 
-// angle(c) = open + slope c [deg], close ratio c = 0 (open) .. 1 (closed).
+// Angle of one joint: angle(c) = open + slope * c [deg], with the close ratio c = 0 (open) .. 1
+// (closed).
 struct PreshapeJoint {
   double openDeg = 0.0;
   double slopeDeg = 0.0;
 };
 
+// One preshape of a hand.
 struct Preshape {
-  std::string name;                   // as on the command line: "pinch-parallel"
-  std::string title;                  // for people: "Pinch, parallel fingertips"
+  std::string name;                   // name on the command line: "pinch-parallel"
+  std::string title;                  // title in the window: "Pinch, parallel fingertips"
   std::vector<PreshapeJoint> joints;  // one per axis
 
-  // Joint angles [deg]. Throws std::invalid_argument when the ratio is not in 0..1.
+  // Returns the joint angles [deg]. Throws std::invalid_argument when the ratio is not in 0..1.
   std::vector<double> anglesDeg(double closeRatio) const;
 };
 
-// The SDH-2's: parallel, cylindrical, centrical, spherical, pinch-parallel, pinch-tilted,
-// pinch-empty, calibration.
+// The preshapes of the SDH-2: parallel, cylindrical, centrical, spherical, pinch-parallel,
+// pinch-tilted, pinch-empty, calibration.
 const std::vector<Preshape>& sdh2Preshapes();
-// By name; throws std::invalid_argument naming them all.
+// Finds a preshape by its name. Throws std::invalid_argument that lists all names.
 const Preshape& sdh2Preshape(std::string_view name);
 
 }  // namespace palpate

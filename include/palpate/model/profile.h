@@ -1,6 +1,7 @@
-// A profile: the pressure, angles and temperatures of one recording as data, read-only, with random
-// access. Three independent time series with their own stamps; rates are never assumed (gaps of
-// minutes occur). Data is never changed after recording: a crop is a new profile.
+// A profile is the data of one recording: tactile frames, joint angles and temperatures, read-only
+// and with random access. The three time series are independent and have their own time stamps. No
+// sampling rate is assumed, since gaps of minutes occur. Data never changes after recording: a crop
+// is a new profile. Readers make profiles; filters, signals, playback and the window read them.
 #pragma once
 
 #include <cstddef>
@@ -16,27 +17,31 @@
 
 namespace palpate {
 
+// Whether all values of the frames are whole counts, or floats (filtered, for example).
 enum class ValueType { kCounts, kFloat };
 
-// What a recording says about itself.
+// What a recording says about its origin and its quality.
 struct ProfileInfo {
   std::string format;  // "dsa", "palpate", "synthetic"
-  std::string serial;  // tactile controller, as written ("1D9B0057"); may be empty
-  // of the tactile controller ("2.9.0.0"); of a .dsa its generated_by; may be empty
+  // Serial number of the tactile controller as written in the recording ("1D9B0057"); may be empty.
+  std::string serial;
+  // Firmware of the tactile controller ("2.9.0.0"); in a .dsa its generated_by; may be empty.
   std::string firmware;
-  std::string sensorRevision;  // generated_by of the sensor's description ("105"); may be empty
+  // Revision of the sensor: generated_by of the sensor's description ("105"); may be empty.
+  std::string sensorRevision;
   ValueType valueType = ValueType::kCounts;
-  std::vector<std::string> warnings;  // oddities that cost nothing ("declared 12 frames, found 10")
+  // Oddities of the file that lost no data ("declared 12 frames, found 10").
+  std::vector<std::string> warnings;
 };
 
-// Where the data lies: memory, or a file. Indices are checked by Profile. Const calls may come from
-// several threads at once.
+// Access to the data of a profile in memory or in a file. Profile checks the indices before it
+// calls. Const member functions must be safe to call from several threads at once.
 class ProfileStorage {
  public:
   virtual ~ProfileStorage() = default;
   virtual std::size_t numFrames() const = 0;
   virtual std::int64_t frameTimeUs(std::size_t frame) const = 0;
-  // Writes layout.numCells() values and the device time.
+  // Writes layout.numCells() values and the device time into `out`.
   virtual void readFrame(std::size_t frame, TactileFrame& out) const = 0;
   virtual std::size_t numAngles() const = 0;
   virtual std::int64_t angleTimeUs(std::size_t sample) const = 0;
@@ -46,8 +51,8 @@ class ProfileStorage {
   virtual Temperatures temperatures(std::size_t sample) const = 0;
 };
 
-// Cheap to copy (shared storage). Const member functions may be called from several threads at
-// once. All accessors throw std::out_of_range for an index that isn't there.
+// A handle to shared, read-only data; cheap to copy. Const member functions may be called from
+// several threads at once. All accessors throw std::out_of_range for an index that does not exist.
 class Profile {
  public:
   Profile(ProfileInfo info, HandDescription hand, std::shared_ptr<const ProfileStorage> storage);
@@ -59,7 +64,7 @@ class Profile {
   std::size_t numFrames() const { return data_->storage->numFrames(); }
   std::int64_t frameTimeUs(std::size_t frame) const;  // [us since 1970], strictly increasing
   TactileFrame frame(std::size_t frame) const;
-  // As frame(), reusing the memory of `out`.
+  // Does the same as frame() and reuses the memory of `out`.
   void readFrame(std::size_t frame, TactileFrame& out) const;
 
   std::size_t numAngles() const { return data_->storage->numAngles(); }
@@ -70,10 +75,12 @@ class Profile {
   std::int64_t temperatureTimeUs(std::size_t sample) const;
   Temperatures temperatures(std::size_t sample) const;
 
-  // The last frame at or before a time, clamped at both ends; nothing in an empty profile.
+  // Index of the last frame at or before a time, clamped to the first and the last frame; empty
+  // when the profile has no frames.
   std::optional<std::size_t> frameAt(std::int64_t timeUs) const;
-  // Angles and temperatures that belong to a time or a frame: the last sample at or before it,
-  // before the first one the first, after the last one the last; nothing where there are none.
+  // Sample of the angles or temperatures that belongs to a time or a frame: the last sample at or
+  // before it; the first sample when the time is earlier than all samples; empty when there are no
+  // samples.
   std::optional<std::size_t> angleSampleAt(std::int64_t timeUs) const;
   std::optional<std::size_t> temperatureSampleAt(std::int64_t timeUs) const;
   std::optional<JointAngles> anglesAtFrame(std::size_t frame) const;

@@ -1,5 +1,5 @@
-// Builds a profile in memory, sample by sample: readers, generators and filters use it. Frames are
-// kept run-length coded, so an hour of an SDH-2 takes a few MB.
+// Builds a profile in memory, sample by sample; readers, generators and filters use it. Frames are
+// kept run-length coded, so that an hour of an SDH-2 takes a few MB.
 #pragma once
 
 #include <cstdint>
@@ -11,20 +11,22 @@
 
 namespace palpate {
 
+// Collects samples and makes a Profile of them.
 class ProfileBuilder {
  public:
-  // The layout says how many values a frame has.
+  // The layout determines how many values a frame has.
   explicit ProfileBuilder(std::shared_ptr<const SensorLayout> layout);
   ~ProfileBuilder();
   ProfileBuilder(ProfileBuilder&&) noexcept;
 
-  // Appends. Time [us since 1970] must be later than the previous sample's; the number of values
-  // must be the layout's (frames), or that of the first sample (angles, temperatures). Values must
-  // be finite. Throws std::invalid_argument saying which.
+  // The functions below append one sample. Its time [us since 1970] must be later than that of the
+  // previous sample of the series. The number of values must be that of the layout (frames) or of
+  // the first sample (angles, temperatures), and values must be finite. They throw
+  // std::invalid_argument that names the violated rule.
   void addFrame(std::int64_t hostUs,
                 std::span<const float> values,
                 std::optional<std::int64_t> deviceMs = {});
-  // A frame of another profile, with what filters gave beside its values.
+  // Appends a frame of another profile with its filtered values, if any.
   void addFrame(const TactileFrame& frame);
   void addAngles(std::int64_t hostUs, std::span<const double> deg);
   void addTemperatures(std::int64_t hostUs, std::span<const double> degC);
@@ -32,12 +34,12 @@ class ProfileBuilder {
   std::size_t numFrames() const noexcept;
   std::size_t numAngles() const noexcept;
   std::size_t numTemperatures() const noexcept;
-  // Stamp of the last sample added [us]; nothing before the first.
+  // Time stamp of the last sample of each series [us since 1970]; empty before the first sample.
   std::optional<std::int64_t> lastFrameUs() const noexcept;
   std::optional<std::int64_t> lastAngleUs() const noexcept;
   std::optional<std::int64_t> lastTemperatureUs() const noexcept;
 
-  // Hands the data over; the builder is empty afterwards. Sets info.valueType from the data.
+  // Returns the profile and leaves the builder empty. Sets info.valueType from the data.
   Profile finish(ProfileInfo info);
 
  private:

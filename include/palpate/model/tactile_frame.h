@@ -1,4 +1,5 @@
-// A tactile frame: the values of all taxels at one instant.
+// A tactile frame: the values of all taxels at one instant. It is the unit of data that all modules
+// exchange.
 #pragma once
 
 #include <cstdint>
@@ -13,41 +14,46 @@
 
 namespace palpate {
 
-// rows x columns, stored row by row as the sensor sends them. Row 0 is the fingertip.
+// Values of one matrix: rows x columns, stored row by row as the sensor sends them. Row 0 is the
+// fingertip.
 using MatrixValues = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 using MatrixMap = Eigen::Map<MatrixValues>;
 using ConstMatrixMap = Eigen::Map<const MatrixValues>;
 
+// The values of all taxels at one instant, with the time stamps of host and controller.
 struct TactileFrame {
   std::shared_ptr<const SensorLayout> layout;
-  std::optional<std::int64_t> deviceMs;  // controller's clock, unwrapped [ms]; absent in .dsa
-  std::int64_t hostUs = 0;               // host time [us since 1970]
-  // layout->numCells() values. A taxel is active (touched) where its value is above 0; nothing
-  // else says so. Counts as they came, or what filters made of them: then a taxel that was not
-  // active as recorded has 0, because the tail that a filter over time leaves behind, and what a
+  // Time of the controller's clock, unwrapped [ms]; empty in recordings from a .dsa.
+  std::optional<std::int64_t> deviceMs;
+  std::int64_t hostUs = 0;  // host time [us since 1970]
+  // layout->numCells() values: counts as recorded, or values that filters computed from them. A
+  // taxel is active (touched) exactly when its value is above 0. Filtered values are 0 where the
+  // taxel was not active in the recording, because the tail of a filter over time, and what a
   // filter over space gives to neighbours, is no contact.
   std::vector<float> values;
-  // What the filters gave to every taxel, the ones that were not active as recorded included: to
-  // draw, to keep in a file, to go on filtering. Empty: `values` is all there is.
+  // The output of the filters for every taxel, also for those that were not active in the
+  // recording; for drawing, storing and further filtering. Empty when `values` holds everything.
   std::vector<float> filtered;
 
   TactileFrame() = default;
-  // All zero.
+  // Makes a frame of zeros.
   explicit TactileFrame(std::shared_ptr<const SensorLayout> sensorLayout);
 
-  // Views of one matrix; valid as long as `values`. Throws std::out_of_range.
+  // Views of one matrix; valid as long as `values`. They throw std::out_of_range for a matrix that
+  // does not exist.
   ConstMatrixMap matrix(std::size_t index) const;
   MatrixMap matrix(std::size_t index);
-  // `filtered`, or `values` where that is empty; of all matrices, or a view of one. Throws
-  // std::out_of_range.
+  // Returns `filtered`, or `values` when `filtered` is empty: of all matrices, or a view of one.
+  // The view throws std::out_of_range for a matrix that does not exist.
   const std::vector<float>& allValues() const noexcept {
     return filtered.empty() ? values : filtered;
   }
   ConstMatrixMap allValues(std::size_t index) const;
-  // `all` becomes what the filters gave: kept whole in `filtered`, and in `values` where `active`
-  // is set. Throws std::invalid_argument for other lengths than the layout's.
+  // Takes the output of filters: `all` goes to `filtered`, and where `active` is set also to
+  // `values`; the other `values` become 0. `filtered` stays empty when both would be equal. Throws
+  // std::invalid_argument when a length differs from the layout's.
   void setFiltered(std::vector<float> all, const std::vector<bool>& active);
-  // Whether every value is a whole number of counts, 0..maxCounts.
+  // Returns whether all `values` are whole numbers of counts, 0..maxCounts.
   bool isCounts(float maxCounts = 4095.0F) const noexcept;
 };
 

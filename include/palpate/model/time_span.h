@@ -1,9 +1,10 @@
-// A part of a recording, as charts, sessions and selections name it.
+// A span of time in a recording; charts, sessions and selections use it.
 #pragma once
 
 namespace palpate {
 
-// In seconds from the first frame (of two recordings, that of the first); fromS <= toS.
+// Seconds from the first frame; when two recordings are compared, from the first frame of the first
+// recording. fromS <= toS.
 struct TimeSpan {
   double fromS = 0.0;
   double toS = 0.0;

@@ -1,4 +1,5 @@
-// How the frames of a profile lie in time: rates and gaps, from the stamps alone.
+// Computes the rates and gaps of the frames of a profile from the time stamps alone. Commands and
+// the window report them.
 #pragma once
 
 #include <cstddef>
@@ -10,21 +11,25 @@
 
 namespace palpate {
 
-// Two neighbouring frames that are too far apart: recording was suspended, or data was lost.
+// A gap: two neighbouring frames are too far apart because recording was suspended or data was
+// lost.
 struct Gap {
   std::size_t frame = 0;  // last frame before the gap
   double seconds = 0.0;   // interval to the next frame [s]
 };
 
+// Duration, rates and gaps of a series of frames.
 struct TimingReport {
-  double durationS = 0.0;   // first to last frame [s]
-  double rateHz = 0.0;      // 1 / median interval; 0 with fewer than two frames
-  double meanRateHz = 0.0;  // (frames - 1) / duration; 0 with fewer than two frames
-  std::vector<Gap> gaps;    // intervals longer than max(1 s, 5 median intervals)
+  double durationS = 0.0;  // first to last frame [s]
+  double rateHz = 0.0;     // 1 / median interval; 0 with fewer than two frames
+  // (frames - 1) / duration; 0 with fewer than two frames.
+  double meanRateHz = 0.0;
+  std::vector<Gap> gaps;  // longer than max(1 s, 5 median intervals)
 };
 
+// Computes the report from the frames of a profile.
 TimingReport timingOf(const Profile& profile);
-// From stamps [us], ascending.
+// Computes the report from time stamps [us], which must ascend.
 TimingReport timingOf(std::span<const std::int64_t> stampsUs);
 
 }  // namespace palpate

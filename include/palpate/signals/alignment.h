@@ -1,5 +1,5 @@
-// Two recordings, A and B, on one axis of time: seconds from A's first frame. B's first frame lies
-// `offsetS` after A's, so what is at t in A is at t - offsetS in B.
+// Puts two recordings, A and B, on one time axis for their comparison: seconds from A's first
+// frame. B's first frame is `offsetS` after A's, so that time t in A is t - offsetS in B.
 #pragma once
 
 #include <array>
@@ -16,41 +16,47 @@
 
 namespace palpate {
 
+// How the two recordings are aligned.
 enum class Alignment {
-  kContact,  // first lasting contacts on top of each other
-  kStart,    // first frames on top of each other
-  kClock,    // as they were, by host time
-  kManual    // whatever offset somebody chose
+  kContact,  // the first lasting contacts coincide
+  kStart,    // the first frames coincide
+  kClock,    // the recordings keep their host times
+  kManual    // the user chose the offset
 };
 inline constexpr std::array kAllAlignments = {
     Alignment::kContact, Alignment::kStart, Alignment::kClock, Alignment::kManual};
-// "contact", "start", "clock", "hand": the word in settings and on the command line.
+// Name in settings and on the command line: "contact", "start", "clock", "hand".
 std::string_view nameOf(Alignment alignment);
 std::optional<Alignment> alignmentFrom(std::string_view name);
 
-// What has to be known of a recording to lay it beside another.
+// A recording with what its alignment needs.
 struct TimedProfile {
   Profile profile;
   TimingReport timing = {};
-  std::optional<std::size_t> contact = {};  // first frame of the first lasting contact
+  // First frame of the first lasting contact.
+  std::optional<std::size_t> contact = {};
 
-  double timeS(std::size_t frame) const;  // from the first frame [s]; throws std::out_of_range
-  // The last frame at or before; nothing before the first, after the last, inside a gap.
+  // Time of a frame from the first one [s]. Throws std::out_of_range.
+  double timeS(std::size_t frame) const;
+  // Index of the last frame at or before a time; empty before the first frame, after the last one,
+  // and inside a gap.
   std::optional<std::size_t> frameAt(double seconds) const;
 };
-// Reads stamps, and frames until the first contact. Throws Cancelled.
+// Reads all time stamps, and frames until the first contact. Throws Cancelled.
 TimedProfile timedProfile(const Profile& profile,
                           const FirstContactOptions& options = {},
                           const Progress& progress = {});
 
-// Where B's first frame lies [s]. Nothing: an empty profile, no contact in one of the two, kManual.
+// Offset of B's first frame [s]. Empty for an empty profile, without a contact in one of the two,
+// and for kManual.
 std::optional<double> offsetBetween(const TimedProfile& a,
                                     const TimedProfile& b,
                                     Alignment alignment);
 
-// From the later begin to the earlier end; nothing when they don't meet, or one has no frame.
+// The span from the later start to the earlier end; empty when the recordings do not overlap or one
+// has no frame.
 std::optional<TimeSpan> commonSpan(const TimedProfile& a, const TimedProfile& b, double offsetS);
-// From the earlier begin to the later end; {0, 0} when neither has a frame.
+// The span from the earlier start to the later end; {0, 0} when neither has a frame.
 TimeSpan wholeSpan(const TimedProfile& a, const TimedProfile& b, double offsetS);
 
 }  // namespace palpate

@@ -1,5 +1,6 @@
-// Characteristic signals of a matrix: one number per frame that stands for the whole matrix
-// (study, chapter 3; the filtered mean is its eq. 3.2). Active taxel: value > 0.
+// Characteristic signals of a matrix: numbers that each describe the whole matrix in one frame
+// (study, chapter 3; the filtered mean is its eq. 3.2). Charts, tables and the calibration use
+// them. A taxel is active when its value is above 0.
 #pragma once
 
 #include <array>
@@ -15,17 +16,19 @@
 
 namespace palpate {
 
-// Of one matrix in one frame; a matrix without an active taxel is all zero.
+// The signals of one matrix in one frame; all are zero when no taxel is active.
 struct CharacteristicSignals {
-  double mean = 0.0;          // of the active taxels [counts]
-  double filteredMean = 0.0;  // mean of the Gaussian-filtered (3x3) matrix over ITS active taxels
-  double minimum = 0.0;       // of the active taxels [counts]
-  double maximum = 0.0;       // [counts]
-  double sum = 0.0;           // [counts]
-  int active = 0;             // number of active taxels
-  double areaMm2 = 0.0;       // active * taxel area [mm^2]
+  double mean = 0.0;  // of the active taxels [counts]
+  double filteredMean =
+      0.0;               // mean of the active taxels of the Gaussian-filtered (3x3) matrix [counts]
+  double minimum = 0.0;  // of the active taxels [counts]
+  double maximum = 0.0;  // [counts]
+  double sum = 0.0;      // [counts]
+  int active = 0;        // number of active taxels
+  double areaMm2 = 0.0;  // active * taxel area [mm^2]
 };
 
+// Names one of the characteristic signals.
 enum class SignalKind { kMean, kFilteredMean, kMaximum, kMinimum, kSum, kActive, kArea };
 inline constexpr std::array kAllSignalKinds = {SignalKind::kMean,
                                                SignalKind::kFilteredMean,
@@ -35,33 +38,35 @@ inline constexpr std::array kAllSignalKinds = {SignalKind::kMean,
                                                SignalKind::kActive,
                                                SignalKind::kArea};
 double valueOf(const CharacteristicSignals& values, SignalKind which);
-// The name in tables, files and options: "mean", "filtered_mean", "max", "min", "sum", "active",
+// Name in tables, files and options: "mean", "filtered_mean", "max", "min", "sum", "active",
 // "area_mm2".
 std::string_view signalName(SignalKind kind);
 std::optional<SignalKind> signalKindNamed(std::string_view name);
 
 CharacteristicSignals characteristicSignals(const Eigen::Ref<const MatrixValues>& values,
                                             const MatrixLayout& layout);
-// Of every matrix of a frame, in wire order.
+// The signals of every matrix of a frame, in wire order.
 std::vector<CharacteristicSignals> characteristicSignals(const TactileFrame& frame);
-// Of the whole frame: mean, minimum, maximum over the active taxels of all matrices (the mean of
-// taxels, not of matrices); filteredMean likewise over all filtered matrices.
+// The signals of the whole frame: mean, minimum and maximum over the active taxels of all matrices
+// (each taxel has the same weight); filteredMean likewise over all filtered matrices.
 CharacteristicSignals wholeFrameSignals(const TactileFrame& frame);
-// Both in one: a row per matrix, the whole last. `rows` is filled anew.
+// Computes both: one row per matrix, and the whole frame last. `rows` is overwritten.
 void allSignals(const TactileFrame& frame, std::vector<CharacteristicSignals>& rows);
 
-// One row per frame of a profile, matrix after matrix: signals(frame, matrix). Throws Cancelled.
+// The signals of all frames of a profile, one row per frame and matrix.
 class SignalTable {
  public:
   SignalTable() = default;
-  // From rows computed before, frame after frame, matrix after matrix. Throws std::invalid_argument
-  // where they are no whole frames.
+  // Takes rows that were computed before, frame after frame, matrix after matrix. Throws
+  // std::invalid_argument when the last frame is incomplete.
   SignalTable(std::size_t numMatrices, std::vector<CharacteristicSignals> rows);
+  // Computes the signals of all frames. Throws Cancelled.
   static SignalTable of(const Profile& profile, const Progress& progress = {});
   std::size_t numFrames() const noexcept { return numFrames_; }
   std::size_t numMatrices() const noexcept { return numMatrices_; }
   const CharacteristicSignals& at(std::size_t frame, std::size_t matrix) const;
-  // The frame with the largest sum over all matrices (the first of equals); 0 when empty.
+  // Index of the frame with the largest sum over all matrices (the first of equal ones); 0 when the
+  // table is empty.
   std::size_t frameOfLargestSum() const;
 
  private:

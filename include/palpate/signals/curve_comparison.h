@@ -1,10 +1,10 @@
-// How alike two curves are over the span of time that they share.
+// Compares two curves over the span of time that both cover, for the comparison of two recordings.
 //
-// Both are resampled on one time base: from the begin of the common span in steps of the longer of
-// the two median intervals (the slower recording sets the pace; nothing is invented between its
-// samples), each curve by the straight line between its neighbouring samples. Moments that lie in a
-// gap of either curve are left out. Correlation is Pearson's, over that base; like the other
-// figures it is symmetric but for the sign of A - B.
+// Both are resampled on one time base: from the start of the common span in steps of the longer of
+// the two median intervals, so that no values are invented between the samples of the slower
+// recording. Each curve is interpolated linearly between its neighbouring samples. Times in a gap
+// of either curve are left out. The correlation is Pearson's over that time base; like the other
+// figures it is symmetric in A and B, except for the sign of A - B.
 #pragma once
 
 #include <cstddef>
@@ -15,22 +15,26 @@
 
 namespace palpate {
 
+// Result of the comparison of two curves A and B.
 struct CurveComparison {
-  std::size_t samples = 0;  // of the common time base
-  double fromS = 0.0;       // common span, on A's axis
+  std::size_t samples = 0;  // on the common time base
+  double fromS = 0.0;       // common span on A's time axis [s]
   double toS = 0.0;
-  double stepS = 0.0;           // 0: fewer than two samples in both curves
-  double meanDifference = 0.0;  // of A - B, in the unit of the curves
+  // Step of the time base [s]; 0 when both curves have fewer than two samples.
+  double stepS = 0.0;
+  // Mean of A - B, in the unit of the curves.
+  double meanDifference = 0.0;
   double rmsDifference = 0.0;
-  double largestDifference = 0.0;  // of largest magnitude, with its sign
+  // The difference with the largest magnitude, with its sign; and its time [s].
+  double largestDifference = 0.0;
   double largestAtS = 0.0;
-  // -1..1; nothing: fewer than three samples, or a curve that is constant
+  // -1..1; empty with fewer than three samples, or when a curve is constant.
   std::optional<double> correlation = {};
 };
 
-// Times ascend [s]; b's are shifted by `offsetS` onto a's axis. Intervals longer than `gapS` (a's,
-// b's) are gaps; 0: there are none. NaN counts as a gap. Throws std::invalid_argument where times
-// and values differ in number.
+// Compares two curves. Times ascend [s]; `offsetS` is added to those of B to get A's axis.
+// Intervals longer than those in CurveGaps [s] are gaps; with 0 there are none. NaN counts as a
+// gap. Throws std::invalid_argument when the numbers of times and values differ.
 struct CurveGaps {
   double aS = 0.0;
   double bS = 0.0;
@@ -39,7 +43,7 @@ CurveComparison compareCurves(const Series& a,
                               const Series& b,
                               double offsetS,
                               const CurveGaps& gaps = {});
-// The interval from which on it is a gap (model/timing.h): max(1 s, 5 median intervals).
+// Longest interval that is no gap (model/timing.h): max(1 s, 5 median intervals).
 double gapFromS(const TimingReport& timing);
 
 }  // namespace palpate

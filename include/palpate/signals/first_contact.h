@@ -1,6 +1,6 @@
-// The first lasting contact of a recording: the moment by which two recordings of a grasp are laid
-// on top of each other. One active taxel in one frame is noise; several of them in several frames
-// in a row are a touch. Active taxel: enabled, value > 0.
+// Finds the first lasting contact of a recording, by which two recordings of a grasp are aligned.
+// One active taxel in one frame may be noise; several of them in several consecutive frames are a
+// contact. A taxel is active when it is enabled and its value is above 0.
 #pragma once
 
 #include <cstddef>
@@ -12,22 +12,24 @@
 
 namespace palpate {
 
+// How many taxels and frames make a contact.
 struct FirstContactOptions {
-  int frames = 3;  // in a row, 1..1,000,000
-  int taxels = 3;  // active in each of them, over all matrices, 1..1,000,000
+  int frames = 3;  // consecutive frames, 1..1,000,000
+  // Taxels that are active in each of these frames, over all matrices, 1..1,000,000.
+  int taxels = 3;
 
-  // Throws std::invalid_argument with the field's name.
+  // Throws std::invalid_argument that names the field.
   void validate() const;
 };
 
-// The first of the first `frames` frames in a row with at least `taxels` active taxels each;
-// nothing when there are none. Frames on both sides of a gap are not in a row. Throws
-// std::invalid_argument for bad options. `active`: active taxels per frame; `gapFrames`: last frame
-// before each gap, ascending.
+// Returns the first of the first `frames` consecutive frames with at least `taxels` active taxels
+// each; empty when there are none. Frames on both sides of a gap are not consecutive. `active` is
+// the number of active taxels per frame; `gapFrames` are the last frames before each gap,
+// ascending. Throws std::invalid_argument for bad options.
 std::optional<std::size_t> firstContact(std::span<const int> active,
                                         std::span<const std::size_t> gapFrames = {},
                                         const FirstContactOptions& options = {});
-// Reads frames until it is found. Throws Cancelled as well.
+// Does the same for a profile and reads frames until the contact is found. Also throws Cancelled.
 std::optional<std::size_t> firstContact(const Profile& profile,
                                         std::span<const std::size_t> gapFrames = {},
                                         const FirstContactOptions& options = {},

@@ -1,8 +1,8 @@
-// The difference of two frames, taxel by taxel: A minus B.
+// The difference of two frames, taxel by taxel: A minus B, for the comparison of two recordings.
 //
-// Matrices of the same number have to have the same rows and columns to be compared, whatever their
-// pitch; of those, taxels that are scanned in both. The others are left out: nothing is made up for
-// them.
+// Matrices with the same index are compared when they have the same rows and columns, whatever
+// their pitch; within them, the taxels that are scanned in both. Other matrices and taxels are left
+// out.
 #pragma once
 
 #include <cstddef>
@@ -17,38 +17,41 @@
 
 namespace palpate {
 
-// Of one matrix, or of the whole frame. Taxels at rest in both frames don't count: they would water
-// it down.
+// Statistics of one matrix, or of the whole frame. Taxels that are at rest in both frames are left
+// out, since they would lower the mean values.
 struct DifferenceStatistics {
-  int touched = 0;    // compared taxels that are active in A or in B
-  double mean = 0.0;  // of A - B over them [counts]; 0 without any
-  double rms = 0.0;   // root of the mean square [counts]
-  // The difference of largest magnitude, with its sign [counts]; the first of equals. Where: wire
-  // order.
+  int touched = 0;  // compared taxels that are active in A or in B
+  // Mean of A - B over these taxels [counts]; 0 without any.
+  double mean = 0.0;
+  double rms = 0.0;  // root of the mean square [counts]
+  // The difference with the largest magnitude, with its sign [counts], and its taxel; of equal ones
+  // the first in wire order.
   double largest = 0.0;
   std::size_t matrix = 0;
   int y = 0;
   int x = 0;
 };
 
+// Compares frames of two recordings, A and B, with given layouts.
 class FrameComparison {
  public:
-  // The layouts of A's and B's frames; never null.
+  // Takes the layouts of A's and B's frames; both must not be null.
   FrameComparison(std::shared_ptr<const SensorLayout> a, std::shared_ptr<const SensorLayout> b);
 
-  // A's layout, with a dynamic mask that is on where taxels are compared.
+  // A's layout, with a dynamic mask that marks the compared taxels.
   const std::shared_ptr<const SensorLayout>& layout() const noexcept { return layout_; }
-  // False for a matrix of A that B hasn't, or has with other rows or columns.
+  // Returns false for a matrix of A that B does not have, or has with other rows or columns.
   bool compared(std::size_t matrix) const { return compared_.at(matrix); }
-  bool allCompared() const;  // and B has no matrix more
+  // Returns whether all matrices of A and of B are compared.
+  bool allCompared() const;
 
-  // A - B in that layout; 0 where nothing is compared. Throws std::invalid_argument for frames of
-  // other layouts.
+  // Returns A - B in layout(); 0 where nothing is compared. Throws std::invalid_argument for frames
+  // of other layouts.
   TactileFrame difference(const TactileFrame& a, const TactileFrame& b) const;
   void difference(const TactileFrame& a, const TactileFrame& b, TactileFrame& out) const;
-  // One per matrix of A, the whole last.
+  // Returns one entry per matrix of A, and the whole frame last.
   std::vector<DifferenceStatistics> statistics(const TactileFrame& a, const TactileFrame& b) const;
-  // |A - B| where it is largest [counts].
+  // Returns the largest |A - B| [counts].
   double largest(const TactileFrame& a, const TactileFrame& b) const;
 
  private:
@@ -60,14 +63,14 @@ class FrameComparison {
   std::vector<bool> compared_;
 };
 
-// Two frames that belong to the same moment.
+// Two frames that belong to the same time.
 struct FramePair {
-  double timeS = 0.0;  // on the common axis
+  double timeS = 0.0;  // on the common time axis [s]
   std::size_t frameA = 0;
   std::size_t frameB = 0;
 };
-// For every `stride`-th frame of A that has a frame of B beside it (TimedProfile::frameAt), in
-// order. Throws Cancelled.
+// Calls `sink` for every `stride`-th frame of A that has a frame of B at its time
+// (TimedProfile::frameAt), in order. Throws Cancelled.
 void visitFramePairs(
     const TimedProfile& a,
     const TimedProfile& b,

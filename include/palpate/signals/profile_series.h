@@ -1,5 +1,5 @@
-// What can be plotted of a profile over time: a characteristic signal of a matrix, chosen taxels, a
-// joint angle, a temperature. Times are seconds from the first frame.
+// Reads the time series of a profile that charts can plot: a characteristic signal of a matrix,
+// selected taxels, a joint angle, or a temperature. Times are seconds from the first frame.
 #pragma once
 
 #include <cstddef>
@@ -14,12 +14,17 @@
 
 namespace palpate {
 
+// Selects one time series of a profile.
 struct SeriesChoice {
   enum class Kind {
-    kMatrix,      // `signal` of matrix `index`; index = number of matrices: of the whole hand
-    kTaxels,      // mean value of `taxels` [counts]; those that feel nothing count as 0
-    kAngle,       // joint angle `index` [deg]
-    kTemperature  // sensor `index` [deg C]; an exact 0 is a sensor that said nothing: NaN
+    // `signal` of matrix `index`; with index = number of matrices, of the whole hand.
+    kMatrix,
+    // Mean value of `taxels` [counts]; unloaded taxels count as 0.
+    kTaxels,
+    kAngle,  // joint angle `index` [deg]
+    // Temperature sensor `index` [deg C]; NaN where the value is exactly 0, since the sensor has
+    // not reported then.
+    kTemperature
   };
   Kind kind = Kind::kMatrix;
   std::size_t index = 0;
@@ -28,42 +33,43 @@ struct SeriesChoice {
   bool operator==(const SeriesChoice&) const = default;
 };
 
+// Times [s] and values of a time series.
 struct Series {
   std::vector<double> timeS;  // ascending
   std::vector<double> values;
 };
 
-// Whether the profile has it. (Angles and temperatures may be missing; another hand has other
-// matrices.)
+// Returns whether the profile has the series. (Angles and temperatures may be missing, and another
+// hand has other matrices.)
 bool hasSeries(const Profile& profile, const SeriesChoice& choice);
 
-// How many samples lie within fromS..toS.
+// Returns the number of samples within fromS..toS.
 std::size_t numSamples(const Profile& profile,
                        const SeriesChoice& choice,
                        double fromS,
                        double toS);
 
-// All samples within fromS..toS, and the nearest on either side of it. Throws std::invalid_argument
-// where the profile hasn't it, Cancelled.
+// Returns all samples within fromS..toS, and the nearest sample on either side of that span. Throws
+// std::invalid_argument when the profile does not have the series, and Cancelled.
 Series readSeries(const Profile& profile,
                   const SeriesChoice& choice,
                   double fromS,
                   double toS,
                   const Progress& progress = {});
-// The same without keeping anything: calls sink(timeS, value) for all samples in order.
+// Calls sink(timeS, value) for all samples in order and keeps none of them.
 void visitSeries(const Profile& profile,
                  const SeriesChoice& choice,
                  const std::function<void(double timeS, double value)>& sink,
                  const Progress& progress = {});
 
-// About numSteps + 1 samples spread evenly over the time of the frames, none twice: a first look at
-// a long recording. Throws as above.
+// Returns about numSteps + 1 different samples, spread evenly over the time of the frames, for a
+// quick overview of a long recording. Throws as above.
 Series readSpread(const Profile& profile,
                   const SeriesChoice& choice,
                   std::size_t numSteps,
                   const Progress& progress = {});
 
-// Mean of the chosen taxels [counts]; 0 where none is chosen.
+// Mean of the selected taxels [counts]; 0 when none is selected.
 double meanOf(const TactileFrame& frame, const TaxelSelection& taxels);
 
 }  // namespace palpate

@@ -1,6 +1,7 @@
-// Filters over time on the characteristic signals of matrices, instead of on taxels: one series per
-// signal and matrix (study, figure 2.1, smooths the mean of a matrix). The same recipes, the same
-// chain, the same gaps; filters that look at neighbours have no place here.
+// Applies filters over time to the characteristic signals of matrices instead of to taxels: one
+// series per signal and matrix (study, figure 2.1, smooths the mean of a matrix). It uses the same
+// recipes, filter chain and gap rule as for frames; filters over space are not allowed. The command
+// `signals` uses it.
 #pragma once
 
 #include <array>
@@ -15,25 +16,26 @@
 
 namespace palpate {
 
-// In the order of kAllSignalKinds. Filtered numbers of taxels are fractions.
+// Values in the order of kAllSignalKinds. A filtered number of active taxels can be a fraction.
 using SignalValues = std::array<double, kAllSignalKinds.size()>;
 
+// Filters the characteristic signals of frames.
 class SignalFilter {
  public:
-  // Told of each frame, in order; one row per matrix.
+  // Called for each filtered frame in order, with one row per matrix.
   using Emit = std::function<void(std::int64_t hostUs, std::span<const SignalValues> rows)>;
 
-  // Throws std::invalid_argument: a filter over space is in the recipe; no matrix.
+  // Throws std::invalid_argument when the recipe has a filter over space, or without a matrix.
   SignalFilter(const Recipe& recipe, std::size_t numMatrices, Emit emit);
   ~SignalFilter();
   SignalFilter(const SignalFilter&) = delete;
   SignalFilter& operator=(const SignalFilter&) = delete;
 
-  // One row per matrix. Values go through as floats (7 digits). Throws std::invalid_argument for
-  // another number.
+  // Takes the signals of the next frame, one row per matrix. Values are filtered as floats (7
+  // digits). Throws std::invalid_argument for another number of rows.
   void push(std::int64_t hostUs, std::span<const CharacteristicSignals> rows);
   void restart();
-  // No more frames: what was held back comes out.
+  // Passes on the frames that the filters held back; call it after the last frame.
   void finish();
 
  private:

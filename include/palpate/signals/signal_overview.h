@@ -1,6 +1,7 @@
-// All characteristic signals of a long recording in one pass over its frames: smallest and largest
-// value per second (longer than two days, or of many matrices: per as many seconds as 64 MB allow),
-// and what only such a pass can tell. One thread computes, others look at what is ready.
+// Computes all characteristic signals of a long recording in one pass over its frames: the smallest
+// and largest value per second, the timing, the largest value and the number of saturated frames.
+// For recordings that are longer than two days, or have many matrices, the spans are longer, so
+// that all take at most 64 MB. One thread computes; other threads may read what is ready.
 #pragma once
 
 #include <cstddef>
@@ -15,22 +16,24 @@
 
 namespace palpate {
 
+// The overview of one recording.
 class SignalOverview {
  public:
   // Throws std::invalid_argument for an empty profile or a bucket that is not above 0.
   explicit SignalOverview(const Profile& profile, double bucketS = 1.0);
 
-  // Reads every frame, once. Throws Cancelled: what is ready stays; FormatError where a block is
-  // damaged.
+  // Reads every frame once. Throws Cancelled (finished buckets stay), and FormatError when a block
+  // of the recording is damaged.
   void compute(const Progress& progress = {});
 
-  // Of a matrix, or (row = number of matrices) the whole hand. Throws std::out_of_range.
+  // The series of a matrix or, with row = number of matrices, of the whole hand. Throws
+  // std::out_of_range.
   const BucketSeries& of(std::size_t row, SignalKind kind) const;
   bool complete() const { return series_.front()->complete(); }
-  // Seconds from the first frame that are ready.
+  // Time from the first frame that is ready [s].
   double readyS() const { return series_.front()->readyS(); }
 
-  // Only once it is complete.
+  // The next three are valid only when complete() is true.
   const TimingReport& timing() const noexcept { return timing_; }
   double maximum() const noexcept { return maximum_; }  // largest value of all frames [counts]
   std::size_t saturatedFrames() const noexcept { return saturatedFrames_; }

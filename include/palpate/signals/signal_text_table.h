@@ -1,4 +1,4 @@
-// The characteristic signals of one frame as a table, for pasting and for CSV.
+// The characteristic signals of one frame as a table, to paste into other programs and for CSV.
 #pragma once
 
 #include <palpate/core/text_table.h>
@@ -7,8 +7,8 @@
 
 namespace palpate {
 
-// A row per matrix, named as the hand names it, and one of all together, last; counts but where the
-// header says a unit.
+// Makes one row per matrix, with its name in the hand's description, and a last row for the whole
+// frame. Values are in counts unless the header names a unit.
 TextTable signalTextTable(const TactileFrame& frame, const HandDescription& hand);
 
 }  // namespace palpate

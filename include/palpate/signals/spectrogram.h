@@ -1,5 +1,5 @@
-// The spectra of a series over time as one picture: what filter/spectrum.h visits, kept, in as many
-// segments as a picture takes.
+// The spectra of a series over time as one picture: keeps the segments that visitSpectra()
+// (signals/spectrum.h) computes, but no more than a picture can show.
 #pragma once
 
 #include <cstddef>
@@ -11,41 +11,47 @@
 
 namespace palpate {
 
+// Options of the spectra, and limits for the size of the picture.
 struct SpectrogramOptions {
-  SpectrumOptions spectrum = {};     // its maxSegments counts, too, where it is above 0
-  std::size_t maxSegments = 20'000;  // wider than any screen; above 0
-  std::size_t maxCells = 4'000'000;  // segments times bins; above 0
+  SpectrumOptions spectrum = {};  // a maxSegments above 0 in it also applies
+  // Largest number of segments, more than the columns of any screen; must be above 0.
+  std::size_t maxSegments = 20'000;
+  // Largest number of cells (segments times bins); must be above 0.
+  std::size_t maxCells = 4'000'000;
 
-  // The spectra's options with the number of segments that fits; at least one.
+  // Returns the options of the spectra with a number of segments that meets both limits; at least
+  // one.
   SpectrumOptions limitedToCells() const;
 };
 
 // The segments of one stretch without a gap: evenly spaced in time and in frequency.
 struct SpectrogramPart {
-  double firstS = 0.0;  // middle of its first segment [s]
+  double firstS = 0.0;  // middle of the first segment [s]
   double stepS = 0.0;   // from one segment to the next [s]
   double binHz = 0.0;
   std::size_t segments = 0;      // at least 1
   std::vector<float> psd;        // segment after segment, numBins() values each [units^2/Hz]
-  std::vector<float> magnitude;  // likewise [units]
+  std::vector<float> magnitude;  // in the same order [units]
 };
 
+// The spectra of a series.
 struct Spectrogram {
   SpectrumReport report;
   std::size_t numBins = 0;
-  std::vector<SpectrogramPart> parts;  // stretches that have a segment
+  // Stretches that have at least one segment.
+  std::vector<SpectrogramPart> parts;
   MeanSpectrum mean;
   double largestPsd = 0.0;  // of all cells
   double largestMagnitude = 0.0;
 };
 
-// As visitSpectra: throws std::invalid_argument, Cancelled.
+// Computes a spectrogram. Throws as visitSpectra(): std::invalid_argument, Cancelled.
 Spectrogram spectrogramOf(std::span<const double> timeS,
                           std::span<const double> values,
                           const SpectrogramOptions& options = {},
                           const Progress& progress = {});
 
-// 10 lg(psd / 1 units^2 per Hz) [dB]; `floorDb` for less than that, 0 included.
+// Returns 10 lg(psd / 1 units^2 per Hz) [dB], but at least `floorDb`, also for 0.
 double decibels(double psd, double floorDb);
 
 }  // namespace palpate

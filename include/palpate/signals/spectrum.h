@@ -1,5 +1,6 @@
-// Spectra of one signal over time: the short-time Fourier transform of a series whose samples come
-// when they come (study 5.1; Welch 1967 for the scaling; the window's values as in Harris 1978).
+// Spectra of one signal over time: the short-time Fourier transform of a series with irregular time
+// stamps (study 5.1; Welch 1967 for the scaling; the window as in Harris 1978). The command
+// `spectrum` and the Spectrum dock use it.
 //
 // Time stamps are irregular (25 % jitter at 74 Hz), but a Fourier transform needs a regular grid.
 // Each gap-free span is therefore interpolated linearly onto a regular grid at its own rate.
@@ -7,14 +8,14 @@
 // aliased. Interpolation attenuates high frequencies if the stamps are irregular:
 // interpolationGain(). Regular stamps lose nothing.
 //
-// Segment of N samples x_n, every `hop` = N - overlap samples; its trend is taken away (detrend),
-// then the periodic Hann window w_n = (1 - cos(2 pi n / N)) / 2 is laid on (periodic: zero at n =
-// 0, not at n = N - 1; its bins are free of leakage from tones at other bins two or more away).
-// With X_k = sum x_n w_n e^(-2 pi i k n / N), k = 0..N/2:
+// A segment has N samples x_n, and one begins every `hop` = N - overlap samples. Its trend is
+// subtracted (Detrend), then it is multiplied by the periodic Hann window w_n = (1 - cos(2 pi n /
+// N)) / 2 (periodic: zero at n = 0, not at n = N - 1; a tone at a bin does not leak into bins two
+// or more away). With X_k = sum x_n w_n e^(-2 pi i k n / N), k = 0..N/2:
 //   psd_k       = c |X_k|^2 / (rate sum w_n^2)   [units^2/Hz], one-sided
 //   magnitude_k = c' |X_k| / sum w_n             [units]: a tone of amplitude A at a bin reads A
-// with c = c' = 2, but 1 at k = 0 and (N even) k = N/2. Parseval: sum psd_k rate/N = sum (x_n
-// w_n)^2 / sum w_n^2. A tone half way between two bins reads down to 0.849 A (scalloping).
+// Here c = c' = 2, but 1 at k = 0 and (N even) at k = N/2. Parseval: sum psd_k rate/N = sum (x_n
+// w_n)^2 / sum w_n^2. A tone half way between two bins reads as little as 0.849 A (scalloping).
 #pragma once
 
 #include <cstddef>
@@ -27,29 +28,34 @@
 
 namespace palpate {
 
-// What is taken from a segment before the window is laid on it.
+// What is subtracted from a segment before the window is applied.
 enum class Detrend {
-  kNone,  // nothing: a resting load stands at 0 Hz and leaks into the bin beside it
-  kMean,  // the segment's mean
-  kLine   // its line of least squares: loads that rise or fall don't fill the lowest bins
+  // Nothing: a resting load appears at 0 Hz and leaks into the next bin.
+  kNone,
+  kMean,  // the mean of the segment
+  // The line fitted by least squares: loads that rise or fall then do not fill the lowest bins.
+  kLine
 };
 
-// The even grid's rate in a stretch.
+// How the rate of the regular grid of a stretch is chosen.
 enum class GridRate {
-  kMean,   // (samples - 1) / duration: as many samples as there are
-  kMedian  // 1 / median interval: what the stretch would have had without its delays
+  kMean,  // (samples - 1) / duration: the grid has as many points as the stretch has samples
+  // 1 / median interval: the rate that the stretch would have without delays.
+  kMedian
 };
 
+// How a series is divided into segments.
 struct SpectrumOptions {
-  int window = 32;   // N [samples], 2..65,536; any number, not only powers of two
-  int overlap = 31;  // [samples] that a segment shares with the next, 0..window-1
+  int window = 32;  // N [samples], 2..65,536, not only powers of two
+  // Samples that a segment shares with the next, 0..window-1.
+  int overlap = 31;
   Detrend detrend = Detrend::kMean;
   GridRate gridRate = GridRate::kMean;
-  // At most so many segments: the hop grows until they fit (beyond `window` samples between two are
-  // in none). 0: no limit.
+  // Largest number of segments: the hop grows until they fit (with a hop above `window`, some
+  // samples are in no segment). 0 means no limit.
   std::size_t maxSegments = 0;
 
-  // Throws std::invalid_argument with the field's name.
+  // Throws std::invalid_argument that names the field.
   void validate() const;
   std::size_t numBins() const noexcept { return static_cast<std::size_t>(window) / 2 + 1; }
 };
@@ -58,68 +64,73 @@ struct SpectrumOptions {
 struct GapFreeSpan {
   std::size_t first = 0;    // index of its first finite sample in the series
   std::size_t samples = 0;  // finite samples
-  double beginS = 0.0;      // time of its first and last sample [s], as given
+  double beginS = 0.0;      // time of its first and last sample [s]
   double endS = 0.0;
-  double rateHz = 0.0;          // of its grid; 0 with one sample
+  double rateHz = 0.0;          // rate of its grid; 0 with one sample
   std::size_t gridSamples = 0;  // on the grid
-  std::size_t segments = 0;     // 0: shorter than a window
+  std::size_t segments = 0;     // 0 when the span is shorter than a window
 };
 
+// The division of a series into stretches and segments.
 struct SpectrumReport {
   std::size_t samples = 0;  // given
-  // of them NaN or infinite: left out, interpolated over unless that makes a gap
+  // Samples that are NaN or infinite. They are left out, and interpolated unless that makes a gap.
   std::size_t notFinite = 0;
-  std::size_t inNoSegment = 0;  // finite samples of stretches shorter than a window
+  // Finite samples in stretches shorter than a window.
+  std::size_t inNoSegment = 0;
   std::vector<GapFreeSpan> stretches;
   std::size_t segments = 0;
-  // [samples of the grid] between segments; above window - overlap where maxSegments asked
+  // Distance of segments [samples of the grid]; above window - overlap when maxSegments requires
+  // it.
   std::size_t hop = 1;
-  double rateHz = 0.0;     // of the longest stretch; 0: fewer than two samples
-  double nyquistHz = 0.0;  // half of it: nothing above can be seen
-  double jitter = 0.0;  // sd of the intervals within stretches / their mean; 0 with fewer than two
+  double rateHz = 0.0;  // of the longest stretch; 0 with fewer than two samples
+  // Half of that rate, the highest frequency of the spectra.
+  double nyquistHz = 0.0;
+  // Standard deviation of the intervals within stretches / their mean; 0 with fewer than two.
+  double jitter = 0.0;
 };
 
-// One segment; its spans live only during the call.
+// One segment; its spans are valid only during the call of the sink.
 struct SpectrumSegment {
-  std::size_t segment = 0;            // 0, 1, .. through all stretches
-  std::size_t stretch = 0;            // index in the report
-  double timeS = 0.0;                 // of its middle, where the window is 1: sample N/2 [s]
+  std::size_t segment = 0;            // counted through all stretches, from 0
+  std::size_t stretch = 0;            // index in SpectrumReport::stretches
+  double timeS = 0.0;                 // time of the middle, sample N/2, where the window is 1 [s]
   double binHz = 0.0;                 // bin k is at k * binHz
   std::span<const double> psd;        // numBins() values [units^2/Hz]
   std::span<const double> magnitude;  // numBins() values [units]
 };
 using SpectrumSink = std::function<void(const SpectrumSegment&)>;
 
-// What there is to see, without a transform: rates, stretches, number of segments. Times [s] must
-// ascend strictly and be finite, one per value: std::invalid_argument otherwise, and for bad
-// options. A gap: an interval longer than max(1 s, 5 median intervals); no segment spans one.
+// Determines rates, stretches and the number of segments without a transform. A gap is an interval
+// longer than max(1 s, 5 median intervals); no segment spans one. Throws std::invalid_argument for
+// bad options, and unless times [s] ascend strictly and are finite, one per value.
 SpectrumReport planSpectra(std::span<const double> timeS,
                            std::span<const double> values,
                            const SpectrumOptions& options = {});
-// The same, and every segment in order. A series shorter than a window has none; a constant one is
-// zero in every bin (unless nothing is taken away: then at 0 Hz and the bin beside it). Throws
-// Cancelled as well.
+// Does the same and passes every segment to `sink`, in order. A series shorter than a window has no
+// segment. A constant series is zero in every bin (with Detrend::kNone, it has values at 0 Hz and
+// in the next bin). Also throws Cancelled.
 SpectrumReport visitSpectra(std::span<const double> timeS,
                             std::span<const double> values,
                             const SpectrumOptions& options,
                             const SpectrumSink& sink,
                             const Progress& progress = {});
 
-// The mean over all segments of one rate and their strongest line.
+// The mean over all segments with the same rate, and its strongest line.
 struct MeanSpectrum {
   double binHz = 0.0;
   std::size_t segments = 0;
-  std::vector<double> psd;        // [units^2/Hz], mean (Welch's estimate)
-  std::vector<double> magnitude;  // [units], root of the mean square
-  // The bin above 0 Hz with the largest magnitude; 0 where all are 0.
+  std::vector<double> psd;        // mean (Welch's estimate) [units^2/Hz]
+  std::vector<double> magnitude;  // root of the mean square [units]
+  // The bin above 0 Hz with the largest magnitude; 0 when all magnitudes are 0.
   std::size_t strongestBin() const noexcept;
   double strongestHz() const noexcept { return binHz * static_cast<double>(strongestBin()); }
 };
-// Collects segments of the stretch with the most of them; others have bins elsewhere. Use as a
-// sink.
+// Computes the mean over the stretch with the most segments; other stretches have bins at other
+// frequencies. Call add() from the sink.
 class MeanSpectrumCollector {
  public:
-  // Of the report's stretch with the most segments.
+  // Selects the stretch with the most segments in the report.
   explicit MeanSpectrumCollector(const SpectrumReport& plan);
   void add(const SpectrumSegment& segment);
   MeanSpectrum result() const;
@@ -129,9 +140,9 @@ class MeanSpectrumCollector {
   MeanSpectrum sum_;
 };
 
-// What linear interpolation onto the grid leaves of a tone on average when stamps are spread evenly
-// between the grid's points, 0..1: sinc^2(f / rate). 0.97 at a fifth of Nyquist, 0.81 at a half,
-// 0.41 at Nyquist.
+// Returns the part of a tone's amplitude, 0..1, that remains on average after linear interpolation
+// when the stamps are spread evenly between the grid's points: sinc^2(f / rate). It is 0.97 at a
+// fifth of the Nyquist frequency, 0.81 at a half and 0.41 at the Nyquist frequency.
 double interpolationGain(double frequencyHz, double rateHz);
 
 }  // namespace palpate

@@ -1,5 +1,5 @@
-// Finds the taxel with the largest total value of a recording, which is displayed until the user
-// selects another one.
+// Finds the taxel with the largest total value of a recording; the window shows its signal until
+// the user selects another taxel.
 #pragma once
 
 #include <cstddef>
@@ -11,9 +11,10 @@
 
 namespace palpate {
 
-// The enabled taxel with the largest sum of values over at most `maxFrames` frames, spread evenly
-// (the first of equals); nothing where none feels anything. Throws std::invalid_argument for no
-// frames to look at, Cancelled, FormatError where a block is damaged.
+// Returns the enabled taxel with the largest sum of values over at most `maxFrames` frames, spread
+// evenly over the recording (the first of equal ones); empty when no taxel is loaded. Throws
+// std::invalid_argument when maxFrames is 0, Cancelled, and FormatError when a block of the
+// recording is damaged.
 std::optional<TaxelPlace> strongestTaxel(const Profile& profile,
                                          std::size_t maxFrames = 4000,
                                          const Progress& progress = {});
