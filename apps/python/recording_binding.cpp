@@ -9,7 +9,6 @@
 #include "palpate/model/timing.h"
 #include "palpate/recording/recording.h"
 #include "palpate/recording/recording_details.h"
-#include "palpate/recording/recording_meta.h"
 #include "palpate/recording/second_summary.h"
 
 #include "python/arrays.h"

@@ -1,10 +1,9 @@
 #include "recording/dsa_sensor.h"
 
 #include "palpate/core/error.h"
+#include "palpate/core/escaped_line.h"
 #include "palpate/core/number_text.h"
 #include "palpate/model/hand_description.h"
-
-#include "recording/message_text.h"
 
 namespace palpate {
 namespace {

@@ -14,12 +14,11 @@
 #include <unistd.h>
 
 #include "palpate/core/error.h"
+#include "palpate/recording/recording.h"
 
 #include "recording/event_sidecar.h"
 #include "recording/native/palpate_connection.h"
-#include "recording/native/palpate_lock.h"
 #include "recording/native/palpate_rows.h"
-#include "recording/recording_format.h"
 
 namespace palpate {
 namespace fs = std::filesystem;

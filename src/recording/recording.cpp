@@ -1,6 +1,8 @@
 #include "palpate/recording/recording.h"
 
 #include <algorithm>
+#include <array>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -8,6 +10,7 @@
 
 #include "palpate/core/error.h"
 #include "palpate/core/file_ending.h"
+#include "palpate/core/number_text.h"
 #include "palpate/recording/dsa_reader.h"
 #include "palpate/recording/dsa_recovery.h"
 #include "palpate/recording/dsa_writer.h"
@@ -17,15 +20,15 @@
 #include "palpate/recording/table_export.h"
 #include "palpate/recording/tactile_sensor_json.h"
 
+#include "recording/dsa/dsa_xml_stream.h"
 #include "recording/event_sidecar.h"
-#include "recording/message_text.h"
 #include "recording/native/palpate_connection.h"
-#include "recording/native/palpate_content.h"
 #include "recording/native/palpate_rows.h"
-#include "recording/recording_format.h"
 
 namespace palpate {
 namespace {
+
+constexpr std::string_view kSqliteStart{"SQLite format 3\0", 16};
 
 std::string countsText(std::size_t frames, std::size_t angles, std::size_t temperatures) {
   return counted(frames, "frame") + ", " + counted(angles, "angle sample") + ", " +
@@ -130,6 +133,16 @@ RecoverReport recoverDsa(const std::filesystem::path& in,
 }
 
 }  // namespace
+
+bool isNativeRecording(const std::filesystem::path& path) {
+  // Closing a file that this very process writes would drop SQLite's locks on it.
+  if (RecordingLock::isHeld(path)) return true;
+  FileSource source(path);
+  std::array<char, kSqliteStart.size()> first{};
+  const std::string_view start(first.data(), source.read(first));
+  if (start == kSqliteStart) return true;
+  return lowerEndingOf(path) == ".palpate" && !start.starts_with("BZh") && !start.starts_with('<');
+}
 
 Profile openRecording(const std::filesystem::path& path, const Progress& progress) {
   return isNativeRecording(path) ? readPalpate(path, progress) : readDsa(path, progress);
@@ -278,6 +291,12 @@ RecordingFormat formatOf(const std::filesystem::path& path) {
 
 EventsReport readEvents(const std::filesystem::path& path) {
   return isNativeRecording(path) ? readPalpateEvents(path) : readEventSidecar(path);
+}
+
+std::map<std::string, std::string> readRecordingMeta(const std::filesystem::path& path) {
+  if (!isNativeRecording(path)) return {};
+  const PalpateConnection access(path);
+  return access.meta().values;
 }
 
 void requireOther(const std::filesystem::path& in, const std::filesystem::path& out) {

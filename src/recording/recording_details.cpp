@@ -11,10 +11,10 @@
 #include "palpate/core/error.h"
 #include "palpate/core/escaped_line.h"
 #include "palpate/recording/dsa_reader.h"
+#include "palpate/recording/recording.h"
 
 #include "recording/event_sidecar.h"
 #include "recording/native/palpate_connection.h"
-#include "recording/recording_format.h"
 
 namespace palpate {
 namespace fs = std::filesystem;

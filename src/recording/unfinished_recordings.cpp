@@ -19,7 +19,6 @@
 #include "palpate/recording/palpate_schema.h"
 
 #include "recording/native/palpate_connection.h"
-#include "recording/native/palpate_lock.h"
 
 namespace palpate {
 namespace fs = std::filesystem;

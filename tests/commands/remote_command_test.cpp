@@ -7,7 +7,6 @@
 #include "palpate/core/json.h"
 #include "palpate/emulator/emulated_hand.h"
 #include "palpate/recording/recording.h"
-#include "palpate/recording/recording_meta.h"
 
 #include "commands/palpate_program.h"
 #include "emulator/numbered_hand.h"

@@ -13,7 +13,6 @@
 #include "palpate/interop/remote_client.h"
 #include "palpate/interop/remote_server.h"
 #include "palpate/recording/recording.h"
-#include "palpate/recording/recording_meta.h"
 
 #include "emulator/numbered_hand.h"
 #include "interop/raw_client.h"

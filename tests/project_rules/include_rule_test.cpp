@@ -92,8 +92,8 @@ TEST(IncludeRule, FindsAPlantedWrongInclude) {
   EXPECT_EQ(numFaults("src/model/x.cpp", "#include <nlohmann/json.hpp>"), 1u);
   EXPECT_EQ(numFaults("src/core/x.cpp", "#include <fftw3.h>"), 1u);
   // Private headers.
-  EXPECT_EQ(numFaults("src/capture/x.cpp", "#include \"recording/byte_source.h\""), 1u);
-  EXPECT_EQ(numFaults("include/palpate/recording/x.h", "#include \"recording/byte_source.h\""), 1u);
+  EXPECT_EQ(numFaults("src/capture/x.cpp", "#include \"recording/dsa_sensor.h\""), 1u);
+  EXPECT_EQ(numFaults("include/palpate/recording/x.h", "#include \"recording/dsa_sensor.h\""), 1u);
   EXPECT_EQ(numFaults("src/recording/native/x.cpp", "#include \"recording/dsa/dsa_xml_stream.h\""),
             1u);
   // Quotes make no neighbour of it.
@@ -134,7 +134,7 @@ TEST(IncludeRule, AllowsWhatTheTablesAllow) {
   EXPECT_EQ(numFaults("include/palpate/model/x.h", "#include <palpate/core/error.h>"), 0u);
   EXPECT_EQ(numFaults("src/core/x.cpp", "#include <expat.h>"), 0u);
   EXPECT_EQ(numFaults("src/core/x.cpp", "#include <sys/stat.h>"), 0u);
-  EXPECT_EQ(numFaults("src/recording/x.cpp", "#include \"recording/byte_source.h\""), 0u);
+  EXPECT_EQ(numFaults("src/recording/x.cpp", "#include \"recording/dsa_sensor.h\""), 0u);
   EXPECT_EQ(numFaults("src/recording/x.cpp", "#include \"recording/dsa/dsa_xml_stream.h\""), 0u);
   EXPECT_EQ(numFaults("src/recording/dsa/x.cpp", "#include \"recording/dsa/dsa_xml_stream.h\""),
             0u);

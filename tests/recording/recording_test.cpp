@@ -1,10 +1,11 @@
-// The one door to recordings: opening and checking whatever the form.
+// Opening and checking recordings whatever their form, and what they say of themselves.
 #include "palpate/recording/recording.h"
 
 #include "palpate/core/error.h"
 #include "palpate/recording/dsa_reader.h"
 
 #include "recording/dsa_corpus.h"
+#include "recording/palpate_samples.h"
 #include "testing/testing.h"
 
 namespace palpate::recording_test {
@@ -42,6 +43,36 @@ TEST(Recording, isToldByItsFirstBytesNotByItsName) {
     EXPECT_NE(std::string(error.what()).find("native.dsa"), std::string::npos);
   }
   EXPECT_EQ(verifyRecording(folder / "native.dsa").state, VerifyReport::State::kUnreadable);
+}
+
+TEST(RecordingMeta, IsWhatTheWriterWasGiven) {
+  const testing::TemporaryFolder folder;
+  PalpateWriterOptions options;
+  options.synced = false;
+  const std::string settings = R"([{"sensitivity":0.5,"threshold_counts":150}])";
+  PalpateWriter writer(
+      folder / "a.palpate", sdh2().layout, {{"settings", settings}, {"operator", "Ada"}}, options);
+  testing::addSamples(writer, 0, 5);
+  writer.commit();
+  EXPECT_EQ(readRecordingMeta(folder / "a.palpate").at("settings"), settings) << "being written";
+  writer.finish();
+  const auto meta = readRecordingMeta(folder / "a.palpate");
+  EXPECT_EQ(meta.at("settings"), settings);
+  EXPECT_EQ(meta.at("operator"), "Ada");
+}
+
+TEST(RecordingMeta, OfADsaThereIsNone) {
+  const testing::TemporaryFolder folder;
+  testing::writeFile(folder / "a.dsa", "<?xml version=\"1.0\"?><measurement/>");
+  EXPECT_TRUE(readRecordingMeta(folder / "a.dsa").empty());
+}
+
+TEST(RecordingMeta, NoFileOrADamagedOneIsSaid) {
+  const testing::TemporaryFolder folder;
+  EXPECT_THROW(readRecordingMeta(folder / "none.palpate"), FileError);
+  testing::writeFile(folder / "broken.palpate",
+                     std::string("SQLite format 3\0", 16) + std::string(200, 'x'));
+  EXPECT_THROW(readRecordingMeta(folder / "broken.palpate"), Error);
 }
 
 }  // namespace

@@ -3,7 +3,6 @@
 #include "palpate/calibration/force_series.h"
 #include "palpate/core/error.h"
 #include "palpate/recording/recording.h"
-#include "palpate/recording/recording_meta.h"
 
 namespace palpate::commands {
 namespace {

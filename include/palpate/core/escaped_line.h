@@ -15,4 +15,10 @@ std::string escapedLine(std::string_view text);
 // Returns the first `most` bytes of `text`, or fewer so that no UTF-8 character is cut in two.
 std::string_view beginningOf(std::string_view text, std::size_t most);
 
+// Text of a file as shown in a message: in quotes, cut to a bearable length.
+inline std::string inQuotes(std::string_view text) {
+  constexpr std::size_t kShown = 40;
+  return "\"" + escapedLine(beginningOf(text, kShown)) + (text.size() > kShown ? "..\"" : "\"");
+}
+
 }  // namespace palpate

@@ -27,4 +27,9 @@ void appendNumber(std::string& out, std::int64_t value);
 std::optional<double> parseDouble(std::string_view text) noexcept;
 std::optional<std::int64_t> parseInteger(std::string_view text) noexcept;
 
+// A count with its noun: "1 frame", "2 frames".
+inline std::string counted(std::uint64_t count, std::string_view what) {
+  return std::to_string(count) + " " + std::string(what) + (count == 1 ? "" : "s");
+}
+
 }  // namespace palpate

@@ -7,6 +7,8 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
+#include <string>
 
 #include <palpate/core/progress.h>
 #include <palpate/model/profile.h>
@@ -21,5 +23,15 @@ Profile readPalpate(const std::filesystem::path& path, const Progress& progress 
 
 // The event table of a recording. Throws FileError, FormatError.
 EventsReport readPalpateEvents(const std::filesystem::path& path);
+
+struct PalpateContent {
+  Profile profile;
+  EventsReport events;
+  std::string eventsFault;                  // why the events can't be read; empty: they could
+  std::map<std::string, std::string> meta;  // as readRecordingMeta()
+};
+
+// Throws as readPalpate(), but not for its events.
+PalpateContent readPalpateContent(const std::filesystem::path& path, const Progress& progress);
 
 }  // namespace palpate

@@ -18,6 +18,11 @@ namespace palpate {
 // XML). Throws FileError, FormatError, Cancelled; what() is one line that says what to do.
 Profile openRecording(const std::filesystem::path& path, const Progress& progress = {});
 
+// Whether a file is a native recording; if not, it is taken for a .dsa. The first bytes tell; where
+// they are neither SQLite's nor those of a .dsa (damaged), the ending of the name does. Throws
+// FileError.
+bool isNativeRecording(const std::filesystem::path& path);
+
 // A recording as far as it can be read.
 struct ReadableRecording {
   Profile profile;                               // what damage has taken is not in it
@@ -48,6 +53,12 @@ RecordingFormat formatOf(const std::filesystem::path& path);
 // What was noted or happened in a recording: the events of a .palpate, the sidecar
 // NAME.dsa.notes.json of a .dsa (none: no events). Throws FileError, FormatError.
 EventsReport readEvents(const std::filesystem::path& path);
+
+// What was said of a recording as a whole when it was made: by the device about itself, by the
+// operator about the run. These are the keys and values of the table `meta` of a native recording
+// (docs/palpate_format.md): "serial", "firmware", "settings" (JSON), "operator", ..; a .dsa has
+// none. Throws FileError, FormatError.
+std::map<std::string, std::string> readRecordingMeta(const std::filesystem::path& path);
 
 // Throws FileError when both name the same file (by a link, too): nothing is written onto its
 // source.

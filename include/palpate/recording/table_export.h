@@ -1,12 +1,15 @@
-// Exports a profile to forms that other programs read: CSV and NPZ.
+// Tables that other programs read: a profile as CSV and NPZ, one frame for pasting.
 #pragma once
 
 #include <filesystem>
 #include <span>
+#include <string>
 
 #include <palpate/core/output_file.h>
 #include <palpate/core/progress.h>
+#include <palpate/core/text_table.h>
 #include <palpate/model/profile.h>
+#include <palpate/model/tactile_frame.h>
 #include <palpate/recording/recording_event.h>
 
 namespace palpate {
@@ -30,5 +33,10 @@ void writeNpz(const Profile& profile,
               const std::filesystem::path& path,
               Overwrite overwrite = Overwrite::kRefuse,
               const Progress& progress = {});
+
+// The taxels of one frame as a table, for pasting and for CSV. Its columns are
+// `frame,time_ms,matrix,y,x,value`, with a row per taxel that is scanned, at rest or not, matrix
+// after matrix, row by row. `index` stands in the column frame; it is empty for a live frame.
+TextTable taxelTable(const TactileFrame& frame, const std::string& index);
 
 }  // namespace palpate

@@ -7,9 +7,8 @@
 #include <utility>
 
 #include "palpate/core/error.h"
+#include "palpate/core/escaped_line.h"
 #include "palpate/core/number_text.h"
-
-#include "recording/message_text.h"
 
 namespace palpate {
 namespace {

@@ -11,7 +11,6 @@
 #include "palpate/core/xml.h"
 #include "palpate/recording/bzip2_blocks.h"
 
-#include "recording/dsa/byte_source.h"
 #include "recording/dsa/dsa_document.h"
 #include "recording/dsa/dsa_xml_stream.h"
 

@@ -1,5 +1,5 @@
-// The XML text of a .dsa recording, chunk by chunk, whether the file is bzip2 or plain XML. bzip2
-// data is decoded in a second thread.
+// From the bytes of a .dsa recording to its XML text, chunk by chunk, whether the file is bzip2 or
+// plain XML. bzip2 data is decoded in a second thread. Private to this module.
 #pragma once
 
 #include <cstddef>
@@ -7,22 +7,58 @@
 #include <exception>
 #include <filesystem>
 #include <memory>
+#include <span>
 #include <string_view>
 #include <thread>
 #include <vector>
 
 #include "palpate/core/bounded_queue.h"
-
-#include "recording/dsa/byte_source.h"
-#include "recording/dsa/bzip2_decoder.h"
+#include "palpate/core/file_descriptor.h"
 
 namespace palpate {
+
+// Where the bytes of a recording come from: a file, or memory.
+class ByteSource {
+ public:
+  virtual ~ByteSource() = default;
+  // Fills `out` from the current position; fewer bytes only at the end, 0 = nothing left.
+  // Throws FileError.
+  virtual std::size_t read(std::span<char> out) = 0;
+  virtual std::uint64_t numBytes() const noexcept = 0;
+};
+
+// A regular file. Throws FileError: missing, no permission, a folder, not a file.
+class FileSource final : public ByteSource {
+ public:
+  explicit FileSource(const std::filesystem::path& path);
+  std::size_t read(std::span<char> out) override;
+  std::uint64_t numBytes() const noexcept override { return numBytes_; }
+
+ private:
+  std::filesystem::path path_;
+  FileDescriptor descriptor_;
+  std::uint64_t numBytes_ = 0;
+};
+
+// Bytes that outlive the source.
+class MemorySource final : public ByteSource {
+ public:
+  explicit MemorySource(std::span<const std::byte> bytes) noexcept : bytes_(bytes) {}
+  std::size_t read(std::span<char> out) override;
+  std::uint64_t numBytes() const noexcept override { return bytes_.size(); }
+
+ private:
+  std::span<const std::byte> bytes_;
+  std::size_t position_ = 0;
+};
 
 // What a file is, by its first bytes.
 enum class DsaEncoding { kBzip2, kXml, kOther };
 DsaEncoding dsaEncodingOf(std::string_view first) noexcept;
 // Throws FormatError saying what the file starts with, unless it may be a .dsa.
 DsaEncoding requireDsaEncoding(std::string_view first, const std::filesystem::path& path);
+
+class Bzip2Decoder;
 
 class DsaXmlStream {
  public:

@@ -13,7 +13,6 @@ namespace {
 constexpr std::int64_t kSecondUs = 1'000'000;
 constexpr std::int64_t kNsPerUs = 1000;
 constexpr std::size_t kTactileSensorJsonPieceBytes = 1U << 16;
-constexpr std::size_t kFramesPerReport = 256;
 
 // As int16[] has it.
 std::int64_t wholeCounts(float value) {
@@ -58,6 +57,7 @@ void writeTactileSensorLines(const Profile& profile,
   OutputFile file(path, overwrite);
   std::string text;
   TactileFrame frame;
+  constexpr std::size_t kFramesPerReport = 256;
   for (std::size_t i = 0; i < profile.numFrames(); ++i) {
     reportProgress(progress, i, profile.numFrames(), kFramesPerReport);
     profile.readFrame(i, frame);

@@ -3,11 +3,14 @@
 #include <array>
 #include <cerrno>
 #include <cstdlib>
+#include <ctime>
 #include <string>
 #include <system_error>
+#include <utility>
 #include <vector>
 
 #include <fcntl.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -16,11 +19,15 @@
 #include "palpate/core/text_file.h"
 #include "palpate/recording/palpate_schema.h"
 
-#include "recording/native/palpate_lock.h"
-
 namespace palpate {
 namespace fs = std::filesystem;
 namespace {
+
+fs::path palpateLockWithEnding(const fs::path& path, const char* ending) {
+  fs::path other = path;
+  other += ending;
+  return other;
+}
 
 // Which journal lies there, to see whether it still does; nothing is different from any.
 std::array<std::int64_t, 5> palpateAccessStampOf(const fs::path& path) {
@@ -110,6 +117,67 @@ fs::path copyWithJournal(const fs::path& recording) {
 }
 
 }  // namespace
+
+fs::path lockPathOf(const fs::path& recording) { return palpateLockWithEnding(recording, ".lock"); }
+fs::path journalPathOf(const fs::path& recording) {
+  return palpateLockWithEnding(recording, "-journal");
+}
+
+void refuseForeignJournal(const fs::path& recording) {
+  std::error_code failure;
+  const fs::path journal = journalPathOf(recording);
+  const std::uintmax_t size = fs::file_size(journal, failure);
+  if (!failure && size > 0)
+    throw FileError(journal,
+                    "belongs to an unfinished recording of that name; move both together, or give "
+                    "another name");
+}
+
+RecordingLock::RecordingLock(const fs::path& recording) : path_(lockPathOf(recording)) {
+  for (;;) {
+    FileDescriptor opened(
+        ::open(path_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NONBLOCK | O_NOCTTY, 0666));
+    if (opened.get() < 0)
+      throw FileError(recording,
+                      "can't be written: " + std::generic_category().message(errno) +
+                          " (its lock file " + path_.filename().string() + ")");
+    int attempt = 0;
+    while (::flock(opened.get(), LOCK_EX | LOCK_NB) != 0) {
+      const int reason = errno;
+      // isHeld() holds it for an instant; a writer holds it for long.
+      constexpr int kAttempts = 20;
+      if (reason == EWOULDBLOCK && ++attempt < kAttempts) {
+        const timespec pause{0, 1'000'000};
+        ::nanosleep(&pause, nullptr);
+        continue;
+      }
+      throw FileError(recording,
+                      reason == EWOULDBLOCK
+                          ? "is being written by another program"
+                          : "can't be locked: " + std::generic_category().message(reason));
+    }
+    // The former holder may have removed the file between our open and our flock: then we hold the
+    // lock of a file that nobody else sees.
+    struct stat mine {};
+    struct stat named {};
+    if (::fstat(opened.get(), &mine) == 0 && ::stat(path_.c_str(), &named) == 0 &&
+        mine.st_ino == named.st_ino && mine.st_dev == named.st_dev) {
+      descriptor_ = std::move(opened);
+      return;
+    }
+  }
+}
+
+RecordingLock::~RecordingLock() { ::unlink(path_.c_str()); }
+
+bool RecordingLock::isHeld(const fs::path& recording) {
+  // Never waits, whatever has that name; a writer's lock is a file.
+  const FileDescriptor lock(
+      ::open(lockPathOf(recording).c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY));
+  struct stat facts {};
+  return lock.get() >= 0 && ::fstat(lock.get(), &facts) == 0 && S_ISREG(facts.st_mode) &&
+         ::flock(lock.get(), LOCK_SH | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+}
 
 std::pair<std::uint64_t, std::uint64_t> identityOf(const fs::path& path) {
   struct stat facts {};

@@ -1,4 +1,6 @@
-// Opens a native recording for reading, whatever state it is in. Private to this module.
+// Access to the file of a native recording: the lock that its writer holds, the rollback journal
+// that may lie beside it, and the opening for reading, whatever state the file is in. Private to
+// this module.
 #pragma once
 
 #include <cstdint>
@@ -6,18 +8,48 @@
 #include <memory>
 #include <utility>
 
+#include "palpate/core/file_descriptor.h"
+
 #include "recording/native/palpate_rows.h"
 #include "recording/native/sqlite_database.h"
 
 namespace palpate {
 
+// The files that lie beside a recording while it is being written: NAME.palpate.lock
+// (RecordingLock) and NAME.palpate-journal, SQLite's rollback journal.
+std::filesystem::path lockPathOf(const std::filesystem::path& recording);
+std::filesystem::path journalPathOf(const std::filesystem::path& recording);
+
+// Throws FileError when a rollback journal lies beside PATH, which isn't there itself (or is about
+// to be replaced): SQLite would play it back into whatever gets that name.
+void refuseForeignJournal(const std::filesystem::path& recording);
+
+// The lock of a native recording: flock on NAME.palpate.lock, held by whoever writes the recording.
+class RecordingLock {
+ public:
+  // Takes the lock; makes the lock file. Throws FileError: another program holds it, no permission.
+  explicit RecordingLock(const std::filesystem::path& recording);
+  ~RecordingLock();  // gives it back and removes the lock file
+  RecordingLock(const RecordingLock&) = delete;
+  RecordingLock& operator=(const RecordingLock&) = delete;
+
+  // Whether another program (or another RecordingLock) holds it. Makes nothing.
+  static bool isHeld(const std::filesystem::path& recording);
+
+ private:
+  std::filesystem::path path_;
+  FileDescriptor descriptor_;
+};
+
 // Device and inode of a file, 0 and 0: there is none. Another file under the same name has another.
 std::pair<std::uint64_t, std::uint64_t> identityOf(const std::filesystem::path& path);
 
+// A native recording opened for reading. One whose writer died within a commit is opened as a
+// temporary copy, into which SQLite plays the journal back: the file itself is never changed.
 class PalpateConnection {
  public:
-  // Throws FileError, FormatError. Until unlimited(), statements that take longer than any honest
-  // file of this size fail.
+  // Throws FileError, FormatError. Statements that take longer than any honest file of this size
+  // needs fail, until the caller ends that by database().unlimitWork().
   explicit PalpateConnection(const std::filesystem::path& path);
   ~PalpateConnection();  // removes the temporary copy, if there is one
   PalpateConnection(const PalpateConnection&) = delete;

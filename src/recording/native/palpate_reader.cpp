@@ -8,7 +8,6 @@
 #include "palpate/recording/palpate_schema.h"
 
 #include "recording/native/palpate_connection.h"
-#include "recording/native/palpate_content.h"
 #include "recording/native/palpate_rows.h"
 #include "recording/native/palpate_storage.h"
 

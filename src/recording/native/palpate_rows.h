@@ -1,6 +1,8 @@
-// Rows of a native recording's tables, with their checksums. Private to this module.
+// The tables of a native recording and their rows with their checksums: made, written, checked and
+// read back. Private to this module.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <map>
 #include <optional>
@@ -63,6 +65,20 @@ std::size_t forEachEventRow(
 EventsReport readEventRows(SqliteDatabase& database);
 // In order of time, then matrix; `damaged` counts rows with a wrong checksum, which are left out.
 std::vector<SecondSummary> readSecondRows(SqliteDatabase& database, std::size_t& damaged);
+
+// The table `overview`: many seconds of the per-second summary packed in one row, for charts. The
+// rows of a day's `second` table take half a second to read, these 20 ms. It is derived data, made
+// when a recording is finished; without it `second` is read.
+//
+// writeOverview() makes the table from the rows of `second` and returns the number of seconds in
+// it.
+std::int64_t writeOverview(SqliteDatabase& database, std::size_t numMatrices);
+
+// readOverview() gives nothing where there is no such table, where it hasn't `numSeconds` seconds,
+// or where it is damaged anywhere.
+std::optional<std::vector<SecondSummary>> readOverview(SqliteDatabase& database,
+                                                       std::size_t numMatrices,
+                                                       std::int64_t numSeconds);
 
 // Statements that are run again and again while recording.
 class RowWriter {

@@ -9,7 +9,6 @@
 #include <palpate/core/json.h>
 #include <palpate/interop/remote_client.h>
 #include <palpate/recording/recording.h>
-#include <palpate/recording/recording_meta.h>
 
 #include "gui/testing/window_fixture.h"
 #include "gui/widgets/facts_view.h"

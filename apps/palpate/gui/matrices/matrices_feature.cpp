@@ -3,7 +3,7 @@
 #include <QMenu>
 #include <utility>
 
-#include <palpate/recording/frame_table.h>
+#include <palpate/recording/table_export.h>
 
 #include "gui/appearance/next_choice.h"
 #include "gui/matrices/matrices_frame_painter.h"

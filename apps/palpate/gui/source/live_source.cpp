@@ -8,7 +8,6 @@
 #include <palpate/emulator/scene.h>
 #include <palpate/live/signals_stage.h>
 #include <palpate/recording/recording.h>
-#include <palpate/recording/recording_meta.h>
 
 namespace palpate::gui {
 namespace {

@@ -9,7 +9,6 @@
 #include <palpate/core/time.h>
 #include <palpate/model/gap_detector.h>
 #include <palpate/recording/recording.h>
-#include <palpate/recording/recording_meta.h>
 #include <palpate/recording/second_summary.h>
 
 namespace palpate::gui {

@@ -52,7 +52,7 @@ struct OpenedRecording {
   std::vector<bool> touched;
   // The events as stored in the file.
   EventsReport events;
-  // See recording_meta.h; empty for a .dsa.
+  // The meta data, see recording.h; empty for a .dsa.
   std::map<std::string, std::string> meta = {};
   // Why the events couldn't be read; empty: they were read.
   std::string eventsFailure;

@@ -3,6 +3,11 @@
 #include <algorithm>
 
 #include "palpate/core/progress_steps.h"
+#include "palpate/recording/dsa_reader.h"
+#include "palpate/recording/recording.h"
+
+#include "recording/native/palpate_connection.h"
+#include "recording/native/palpate_rows.h"
 
 namespace palpate {
 
@@ -55,6 +60,17 @@ std::vector<SecondSummary> secondsOf(const Profile& profile, const Progress& pro
   }
   summarizer.flush();
   return seconds;
+}
+
+std::vector<SecondSummary> readSeconds(const std::filesystem::path& path) {
+  if (!isNativeRecording(path)) return secondsOf(readDsa(path));
+  PalpateConnection access(path);
+  const std::size_t numMatrices = readLayout(access.database()).numMatrices();
+  auto seconds =
+      readOverview(access.database(), numMatrices, access.meta().integer("seconds").value_or(0));
+  if (seconds) return std::move(*seconds);
+  std::size_t damaged = 0;
+  return readSecondRows(access.database(), damaged);
 }
 
 }  // namespace palpate
