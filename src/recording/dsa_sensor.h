@@ -1,4 +1,5 @@
-// The <sensor> part of a .dsa recording: from its elements to a sensor layout.
+// The <sensor> part of a .dsa recording: from its elements (docs/dsa_format.md) to a sensor layout.
+// Private to this module.
 #pragma once
 
 #include <cstddef>
@@ -28,7 +29,8 @@ enum class SensorField {
 // Whether this can be a sensor's unique id: 1 to 32 capital hexadecimal digits.
 bool isSensorId(std::string_view text) noexcept;
 
-// Filled in document order; every function throws Error naming what is wrong.
+// Collects the fields in the order of the document; every function throws an Error that names what
+// is wrong.
 class DsaSensor {
  public:
   DsaSensor(std::size_t maxMatrices, std::size_t maxPlaces)
@@ -37,7 +39,7 @@ class DsaSensor {
   void beginMatrix();
   void set(SensorField field, std::string_view text);
   void endMatrix();
-  // Checks the number of matrices.
+  // The layout, after a check of the number of matrices.
   SensorLayout finish();
 
   const std::string& serial() const noexcept { return serial_; }

@@ -12,7 +12,7 @@
 
 namespace palpate {
 
-// NAME.dsa.notes.json
+// The path of the sidecar: NAME.dsa.notes.json beside NAME.dsa.
 std::filesystem::path sidecarPathOf(const std::filesystem::path& recording);
 
 Json eventsToJson(std::span<const RecordingEvent> events);
@@ -21,19 +21,20 @@ Json eventsToJson(std::span<const RecordingEvent> events);
 // FormatError.
 EventsReport readEventSidecar(const std::filesystem::path& recording);
 
-// Replaces the events in the sidecar, whole or not at all; what was damaged in it stays. None left:
-// the sidecar goes. Throws FileError, FormatError.
+// Replaces the events in the sidecar, whole or not at all; what was damaged in it stays. The
+// sidecar is removed when nothing is left to stand in it. Throws FileError, FormatError.
 void replaceEventSidecar(const std::filesystem::path& recording,
                          std::span<const RecordingEvent> events);
 
-// The sidecar of a recording that is about to be written: prepared before it, published behind it.
+// The sidecar of a recording that is about to be written: it is prepared before the recording and
+// published after it.
 class EventSidecar {
  public:
   // Throws FileError where a sidecar exists and may not be replaced, or can't be written.
   EventSidecar(const std::filesystem::path& recording,
                std::span<const RecordingEvent> events,
                Overwrite overwrite);
-  // Without events: removes a sidecar that belonged to what was replaced.
+  // Publishes the sidecar; without events, removes one that belonged to what was replaced.
   void commit() const;
 
  private:

@@ -1,4 +1,5 @@
-// A part of a profile as a profile of its own: data is never changed, a crop is new.
+// A part of a profile as a profile of its own, and the events that belong to it. Data is never
+// changed: a crop is a new profile.
 #pragma once
 
 #include <cstddef>
@@ -11,9 +12,10 @@
 
 namespace palpate {
 
-// Frames begin..end, both inclusive, and the angles and temperatures within their time; of each of
-// these also the last sample before it, so that every frame keeps the angles and temperatures that
-// belong to it. Throws std::out_of_range (with the range there is), Cancelled.
+// The frames from `begin` to `end`, both inclusive, and the angles and temperatures within their
+// time. Of angles and temperatures the last sample before the first frame is taken, too, so that
+// every frame keeps those that belong to it. Throws std::out_of_range (which names the frames that
+// there are), Cancelled.
 Profile cropped(const Profile& profile,
                 std::size_t begin,
                 std::size_t end,

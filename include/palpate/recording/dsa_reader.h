@@ -33,8 +33,8 @@ struct DsaReadOptions {
   std::size_t maxPlaces = 65536;  // of all matrices together
 };
 
-// Throws FileError (can't be opened or read), FormatError (not a .dsa, damaged; with the place in
-// the decompressed text), Cancelled.
+// Reads a recording. Throws FileError (can't be opened or read), FormatError (not a .dsa, damaged;
+// with the place in the decompressed text), Cancelled.
 Profile readDsa(const std::filesystem::path& path,
                 const Progress& progress = {},
                 const DsaReadOptions& options = {});
@@ -44,7 +44,7 @@ Profile readDsaBytes(std::span<const std::byte> bytes,
                      const std::filesystem::path& name,
                      const DsaReadOptions& options = {});
 
-// How much of a .dsa can be read: every byte checked.
+// How much of a .dsa can be read.
 struct DsaVerifyReport {
   enum class State { kSound, kDamaged, kUnreadable };
   State state = State::kUnreadable;
@@ -54,7 +54,7 @@ struct DsaVerifyReport {
   std::string message;  // empty when sound; else what is wrong, and where
 };
 
-// Never throws for a bad file; throws Cancelled.
+// Checks every byte of a recording. Never throws for a bad file; throws Cancelled.
 DsaVerifyReport verifyDsa(const std::filesystem::path& path,
                           const Progress& progress = {},
                           const DsaReadOptions& options = {});

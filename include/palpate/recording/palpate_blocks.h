@@ -1,4 +1,6 @@
-// Gathers items of one stream into blocks of a native recording, and takes blocks apart again.
+// Gathers the items of one stream into blocks of a native recording (palpate_schema.h), and takes
+// blocks apart again. Taking apart never trusts the data: a checksum protects against accidents,
+// not against a hostile file.
 #pragma once
 
 #include <cstdint>
@@ -11,22 +13,23 @@
 
 namespace palpate {
 
-// Packs items until a block is full (kMaxBlockBytes; an item that is longer alone gets a longer
-// one), its coding changes, or flush() is called. Not thread-safe.
+// Packs items into a block until it is full (kMaxBlockBytes; an item that alone is longer gets a
+// longer block), until the coding changes, or until flush() is called. Not thread-safe.
 class BlockPacker {
  public:
+  // Takes a block that is complete; the block is valid only inside the call.
   using Sink = std::function<void(const Block&)>;
   BlockPacker(Stream stream, Sink sink);
 
-  // Values of a frame. Time [us since 1970] must not go back.
+  // Adds the values of a frame. The host time [us since 1970] must not go back.
   void addFrame(std::int64_t hostUs,
                 std::optional<std::int64_t> deviceMs,
                 std::span<const float> values);
-  // Values of angles or temperatures.
+  // Adds a sample of joint angles [deg] or temperatures [deg C].
   void addSample(std::int64_t hostUs, std::span<const double> values);
-  // A frame with what filters gave beside its values.
+  // Adds a frame together with what filters gave beside its values (TactileFrame::filtered).
   void addFrame(const TactileFrame& frame);
-  // Hands over what is gathered.
+  // Hands over what is gathered; does nothing when there is nothing.
   void flush();
   std::int64_t numItems() const noexcept { return numItems_; }
   bool empty() const noexcept { return block_.n == 0; }
@@ -41,15 +44,17 @@ class BlockPacker {
   std::int64_t numItems_ = 0;
 };
 
-// Whether a block's fields make sense (before its data is looked at).
+// Whether the fields of a block make sense. It is asked before the data is looked at.
 bool plausible(const Block& block) noexcept;
 
-// Values per sample of a block of angles or temperatures; 0 where its size makes no sense.
+// The number of values per sample of a block of angles or temperatures; 0 where the size of the
+// block makes no sense.
 std::size_t sampleWidth(const Block& block) noexcept;
 
-// The stamps of a block's items [us since 1970], and where each item begins in its data.
-// `numValues`: values per item (places of the layout, axes, temperature sensors). False: the data
-// is not what the fields say. Never throws on damaged data.
+// The stamps of the items of a block [us since 1970], and where the values of each begin in its
+// data. `numValues` is the number of values per item: places of the layout, axes, or temperature
+// sensors. indexBlock() returns false when the data is not what the fields say; it never throws on
+// damaged data.
 struct BlockIndex {
   std::vector<std::int64_t> hostUs;
   std::vector<std::optional<std::int64_t>> deviceMs;
@@ -57,7 +62,8 @@ struct BlockIndex {
 };
 bool indexBlock(const Block& block, std::size_t numValues, BlockIndex& index);
 
-// Values of the item that begins at `begin`; of a frame whose `values` has the right size already.
+// Read the values of the item that begins at `begin` (BlockIndex::begin), into a frame or span that
+// has the right size already. The block must have passed indexBlock().
 void readFrameValues(const Block& block, std::uint32_t begin, TactileFrame& out);
 void readSampleValues(const Block& block, std::uint32_t begin, std::span<double> values);
 

@@ -24,14 +24,15 @@ Profile readPalpate(const std::filesystem::path& path, const Progress& progress 
 // The event table of a recording. Throws FileError, FormatError.
 EventsReport readPalpateEvents(const std::filesystem::path& path);
 
+// A native recording as a whole, read by one opening: an unfinished one is copied at each opening.
 struct PalpateContent {
   Profile profile;
   EventsReport events;
-  std::string eventsFault;                  // why the events can't be read; empty: they could
+  std::string eventsFault;                  // why the events can't be read; empty if they could
   std::map<std::string, std::string> meta;  // as readRecordingMeta()
 };
 
-// Throws as readPalpate(), but not for its events.
+// Throws as readPalpate(); events that can't be read are told by eventsFault instead.
 PalpateContent readPalpateContent(const std::filesystem::path& path, const Progress& progress);
 
 }  // namespace palpate

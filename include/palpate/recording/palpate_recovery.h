@@ -15,7 +15,7 @@
 namespace palpate {
 
 struct PalpateRecovery {
-  std::optional<Profile> profile;  // of the intact blocks; nothing when no block is
+  std::optional<Profile> profile;  // made of the intact blocks; none when no block is intact
   std::vector<RecordingEvent> events;
   std::size_t frames = 0;  // saved
   std::size_t angles = 0;
@@ -30,10 +30,10 @@ struct PalpateRecovery {
   std::size_t damagedRows = 0;  // of meta, matrix, second, event; summaries that don't fit the data
   bool unfinished = false;      // its writer stopped before the end
   bool beingWritten = false;    // by another program: everything committed so far
-  bool layoutAssumed = false;   // the layout was lost: that of the SDH-2 fits every saved frame
-  bool layoutLost = false;      // and no layout fits: no frame can be read
+  bool layoutAssumed = false;   // the layout was lost, but that of the SDH-2 fits every saved frame
+  bool layoutLost = false;      // no layout fits: no frame can be read
   std::string sqliteError;      // what SQLite said, when it gave up
-  // Whole: nothing is missing or wrong.
+  // Whether nothing is missing and nothing is wrong.
   bool whole() const noexcept {
     return lostFrames + lostAngles + lostTemperatures + damagedBlocks + blocksFromPages +
                    damagedRows ==
@@ -42,9 +42,9 @@ struct PalpateRecovery {
   }
 };
 
-// Works on a copy in a temporary folder where a rollback journal has to be played back; the file
-// itself is never touched. Throws FileError (can't be read), FormatError (not a native recording at
-// all), Cancelled.
+// Saves what can be saved. Where a rollback journal has to be played back, a copy in a temporary
+// folder is worked on: the file itself is never touched. Throws FileError (can't be read),
+// FormatError (not a native recording at all), Cancelled.
 PalpateRecovery recoverPalpateProfile(const std::filesystem::path& path,
                                       const Progress& progress = {});
 

@@ -1,11 +1,12 @@
 // The native recording `*.palpate`: one SQLite 3 file (docs/palpate_format.md). What writer, reader
 // and recovery agree on: names, codings, checksums, the bytes of a block.
 //
-// A block holds consecutive items of one stream. Its data, per item, little-endian:
+// A block holds consecutive items of one stream: frames, samples of joint angles, or samples of
+// temperatures. Its data is, per item and little-endian:
 //   u32 host time offset from the block's t0_us [us] | i64 device time [ms] | values
-// Device time INT64_MIN: none.
-// Values of a frame: run-length coded (model/frame_coding.h); of angles and temperatures: one
-// number each, f32 where that is exact, else f64.
+// A device time of INT64_MIN stands for none. The values of a frame are run-length coded
+// (model/frame_coding.h). An angle or a temperature is one number: f32 where all numbers of the
+// sample are exact in it, f64 otherwise.
 #pragma once
 
 #include <cstddef>
@@ -20,39 +21,46 @@ namespace palpate {
 
 constexpr std::int32_t kPalpateApplicationId = 0x50414C50;  // "PALP"
 constexpr std::int32_t kPalpateVersion = 1;                 // user_version
-// of data: a block then never overflows its 4096-byte page
+// The most bytes of data in a block of several items. Its row then never overflows its 4096-byte
+// page of SQLite, so that recovery finds it in the raw bytes of the page.
 constexpr std::size_t kMaxBlockBytes = 4000;
 
-// Bounds of what is read, so that a hostile file costs little.
+// Bounds of what is read, so that a hostile file costs little time and memory.
 constexpr std::size_t kMaxMatrices = 64;
-constexpr std::size_t kMaxPlaces = 65'536;    // of all matrices
+constexpr std::size_t kMaxPlaces = 65'536;    // of all matrices together
 constexpr std::size_t kMaxSampleValues = 64;  // axes or temperature sensors
 
+// What a block holds items of; the number stands in the file.
 enum class Stream : std::uint8_t { kTactile = 0, kAngles = 1, kTemperatures = 2 };
 
+// How the values of a block are coded; the number stands in the file.
 enum class BlockCoding : std::uint8_t {
   kCountsRuns = 0,  // u16 units run << 12 | value
   kFloatRuns = 1,   // pairs (u8 run, f32 value)
   kPlainF32 = 2,
   kPlainF64 = 3,
-  // a bit per value (it counts as active), then as kFloatRuns (frame_coding.h, kFiltered)
+  // A bit per value that says whether the taxel counts as active, then as kFloatRuns
+  // (frame_coding.h, kFiltered).
   kFilteredRuns = 4,
 };
 
+// One row of the table `block`.
 struct Block {
   Stream stream = Stream::kTactile;
   std::int64_t first = 0;  // index of the first item in its stream
-  std::int64_t n = 0;      // items
+  std::int64_t n = 0;      // number of items
   std::int64_t t0Us = 0;   // host time of the first item [us since 1970]
-  std::int64_t t1Us = 0;   // of the last item
+  std::int64_t t1Us = 0;   // host time of the last item [us since 1970]
   BlockCoding coding = BlockCoding::kCountsRuns;
   std::vector<std::byte> data;
 };
 
-// zlib's CRC-32 over stream, first, n, t0_us, t1_us, coding as little-endian i64, then data.
+// The checksum of a block: zlib's CRC-32 over stream, first, n, t0_us, t1_us and coding, each as a
+// little-endian i64, then over the data.
 std::uint32_t blockCrc(const Block& block);
-// Of other rows: their columns in order; integers as little-endian i64, reals as f64, texts and
-// blobs as their bytes behind their length as i64, NULL as nothing.
+// The checksum of any other row: zlib's CRC-32 over its columns in their order. Integers count as
+// little-endian i64, reals as f64, texts and blobs as their length (i64) and then their bytes; a
+// NULL counts as no bytes.
 class RowCrc {
  public:
   RowCrc& integer(std::int64_t value);

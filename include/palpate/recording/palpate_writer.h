@@ -20,14 +20,16 @@
 
 namespace palpate {
 
-// Most that waits in memory while commits fail: 30 s of two hands at 300 frames/s are 10 MB.
+// The most bytes that wait in memory while commits fail: 30 s of two hands at 300 frames/s are 10
+// MB.
 constexpr std::size_t kMaxPendingBytes = 64u << 20;
 
 struct PalpateWriterOptions {
   std::int64_t commitIntervalUs = 100'000;  // host time between commits at most [us]
   std::string vfs;                          // SQLite file system to use; empty: the default one
-  // synchronous=FULL; off only for conversions, which sync at the end. Then samples are only
-  // gathered into blocks at each interval, and committed in large pieces.
+  // Whether every commit waits for the disk (synchronous=FULL). It is off only for conversions,
+  // which sync at the end; then the interval only gathers samples into blocks, which are committed
+  // in large pieces.
   bool synced = true;
 };
 
@@ -40,7 +42,7 @@ class PalpateWriter {
                 std::shared_ptr<const SensorLayout> layout,
                 const std::map<std::string, std::string>& meta = {},
                 const PalpateWriterOptions& options = {});
-  // Commits what is there when it can; the file stays an unfinished recording.
+  // Commits what is there if it can. Without finish() the file stays an unfinished recording.
   ~PalpateWriter();
   PalpateWriter(const PalpateWriter&) = delete;
   PalpateWriter& operator=(const PalpateWriter&) = delete;

@@ -23,11 +23,11 @@ Profile openRecording(const std::filesystem::path& path, const Progress& progres
 // FileError.
 bool isNativeRecording(const std::filesystem::path& path);
 
-// A recording as far as it can be read.
+// A recording as far as it can be read, whole or damaged.
 struct ReadableRecording {
-  Profile profile;                               // what damage has taken is not in it
+  Profile profile;                               // without what was lost to damage
   std::vector<RecordingEvent> events = {};       // in order of time
-  std::string damage = {};                       // one line: what is missing; empty: nothing
+  std::string damage = {};                       // one line: what is missing; empty if nothing is
   std::size_t damagedEvents = 0;                 // that can't be read
   std::map<std::string, std::string> meta = {};  // as readRecordingMeta(), as far as it can be read
 };
@@ -41,13 +41,13 @@ struct VerifyReport {
   State state = State::kUnreadable;
   std::string message;  // one line: counts when sound, else what is wrong and how much can be read
 };
-// Every byte checked. Never throws for a bad file; throws Cancelled.
+// Checks every byte of a recording. Never throws for a bad file; throws Cancelled.
 VerifyReport verifyRecording(const std::filesystem::path& path, const Progress& progress = {});
 
 // The forms a recording can be saved in.
 enum class RecordingFormat { kDsa, kPalpate, kCsv, kNpz, kJsonLines };
-// By the ending of a name: .dsa, .palpate, .csv, .npz, .jsonl, in small or capital letters. Throws
-// FileError naming them all.
+// The form that the ending of a name stands for: .dsa, .palpate, .csv, .npz, .jsonl, in small or
+// capital letters. Throws FileError naming them all.
 RecordingFormat formatOf(const std::filesystem::path& path);
 
 // What was noted or happened in a recording: the events of a .palpate, the sidecar
@@ -64,7 +64,7 @@ std::map<std::string, std::string> readRecordingMeta(const std::filesystem::path
 // source.
 void requireOther(const std::filesystem::path& in, const std::filesystem::path& out);
 
-// What the form could not hold as it was.
+// What the form of a saved recording could not hold as it was.
 struct SaveReport {
   std::size_t movedStamps = 0;  // of a .dsa: see DsaWriteReport
 };

@@ -37,17 +37,18 @@ struct RecordingDetails {
   std::string object;
   std::string run;
   std::string notes;  // those, and every event "note", a line each
-  // of events "label" and "segment": each text once, in order of time
+  // The texts of the events "label" and "segment", each once, in order of time.
   std::vector<std::string> labels;
   bool operator==(const RecordingDetails&) const = default;
 };
 
 // "finished", "recording", "unfinished", "damaged", "unreadable".
 const char* nameOf(RecordingDetails::State state);
-// The same back; anything else is nothing.
+// The state of such a name; none for any other text.
 std::optional<RecordingDetails::State> detailsStateFrom(const std::string& name);
 
-// Never throws for a bad file; throws Cancelled.
+// What a list says of one recording. Never throws for a bad file, which is told by `state` and
+// `message`; throws Cancelled.
 RecordingDetails readDetails(const std::filesystem::path& path, const Progress& progress = {});
 
 }  // namespace palpate

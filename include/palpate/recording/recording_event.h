@@ -10,12 +10,12 @@
 
 namespace palpate {
 
-// At a time or over a span.
+// An event at a time or over a span of time.
 struct RecordingEvent {
-  std::int64_t tUs = 0;   // [us since 1970]
-  std::int64_t t1Us = 0;  // end; equals tUs for a moment
-  std::string kind;       // "gap", "label", "note", "settings", ..
-  std::optional<int> matrix;
+  std::int64_t tUs = 0;       // [us since 1970]
+  std::int64_t t1Us = 0;      // end [us since 1970]; equals tUs for a moment
+  std::string kind;           // "gap", "label", "note", "settings", ..
+  std::optional<int> matrix;  // in wire order; none where it belongs to no single one
   std::string text;
   std::string json;  // more of it, one JSON object; may be empty
   bool operator==(const RecordingEvent&) const = default;
@@ -29,7 +29,8 @@ struct EventsReport {
   std::size_t damaged = 0;
 };
 
-// When the meaning of counts changed: events "settings", ascending [us since 1970].
+// The times at which the meaning of counts changed, that is of the events "settings", ascending [us
+// since 1970].
 inline std::vector<std::int64_t> settingsTimesUs(const std::vector<RecordingEvent>& events) {
   std::vector<std::int64_t> timesUs;
   for (const RecordingEvent& event : events)

@@ -1,4 +1,5 @@
-// The per-second summary of a recording: what overview charts are drawn from.
+// The per-second summary of a recording: what overview charts are drawn from, so that they need not
+// read the frames of a long recording.
 #pragma once
 
 #include <cstdint>
@@ -24,12 +25,14 @@ struct SecondSummary {
   bool operator==(const SecondSummary&) const = default;
 };
 
-// Adds frames up; hands over a second (one row per matrix) when the next one begins.
+// Adds frames up and hands over the rows of a second, one per matrix, when a frame of another
+// second comes.
 class SecondSummarizer {
  public:
   using Sink = std::function<void(const SecondSummary&)>;
   explicit SecondSummarizer(Sink sink) : sink_(std::move(sink)) {}
   void add(const TactileFrame& frame);
+  // Hands over the second that has begun.
   void flush();
 
  private:

@@ -21,7 +21,8 @@
 
 namespace palpate {
 
-// Bound against bombs: `freeBytes`, or `ratio` times the file where that is more.
+// A bound in bytes against files that expand to far more than a recording: `freeBytes`, or `ratio`
+// times the file where that is more.
 std::uint64_t boundFor(std::uint64_t freeBytes, double ratio, std::uint64_t fileBytes) noexcept;
 
 // The same for the profile in memory.

@@ -23,10 +23,10 @@ namespace palpate {
 // aside) and nothing else could run code: what is no plain table is never queried.
 void checkTables(SqliteDatabase& database);
 
-// Makes the empty tables.
+// Makes the empty tables of a recording.
 void createTables(SqliteDatabase& database);
-// The index over the blocks, and the table for charts; made when a recording is finished. Older
-// ones, of an attempt that failed, are dropped.
+// Make the index over the blocks and the table for charts, when a recording is finished. Older
+// ones, which an attempt that failed has left, are dropped.
 void createBlockIndex(SqliteDatabase& database);
 void createOverview(SqliteDatabase& database);
 
@@ -35,24 +35,24 @@ std::uint32_t matrixCrc(int index, const MatrixLayout& matrix, std::string_view 
 std::uint32_t secondCrc(const SecondSummary& row);
 std::uint32_t eventCrc(std::int64_t id, const RecordingEvent& event);
 
-// Masks as text: rows x columns characters 0 and 1.
+// A mask as text: a character 0 or 1 per place, row by row.
 std::string maskText(const Mask& mask);
 
 void insertMeta(SqliteDatabase& database, std::string_view key, std::string_view value);
 void insertMatrices(SqliteDatabase& database, const SensorLayout& layout);
 
-// Reading back. Throws FormatError where the layout is damaged or makes no sense.
+// Reads the layout back. Throws FormatError where it is damaged or makes no sense.
 SensorLayout readLayout(SqliteDatabase& database);
 
-// A block from a row whose stream, first, n, t0_us, t1_us, coding stand from `column` on;
-// unchecked.
+// The block of a row in which stream, first, n, t0_us, t1_us and coding stand from `column` on and
+// the data in `dataColumn`. Nothing is checked.
 Block blockFrom(const SqliteStatement& row, int column, int dataColumn);
 
-// The key-value pairs; rows with a wrong checksum are left out and counted.
+// The key-value pairs of the table `meta`; rows with a wrong checksum are left out and counted.
 struct MetaRows {
   std::map<std::string, std::string> values;
   std::size_t damaged = 0;
-  // Empty when absent.
+  // The value of a key; empty when there is none.
   std::string operator[](const std::string& key) const;
   std::optional<std::int64_t> integer(const std::string& key) const;
 };

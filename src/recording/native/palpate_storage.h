@@ -1,5 +1,5 @@
-// The samples of a profile that lie in blocks somewhere: an index in memory, blocks read on demand.
-// Private to this module.
+// The samples of a profile that lie in blocks of a native recording, wherever the blocks are: their
+// index lies in memory, the blocks themselves are read on demand. Private to this module.
 #pragma once
 
 #include <array>
@@ -19,26 +19,28 @@
 
 namespace palpate {
 
-// Where a block lies; all of a recording's are kept in memory.
+// One block in the index; the entries of all blocks of a recording are kept in memory.
 struct BlockEntry {
-  std::int64_t first = 0;  // in the profile
-  std::int64_t n = 0;
-  std::int64_t t0Us = 0;
-  std::int64_t t1Us = 0;
-  std::int64_t id = 0;  // whatever the loader needs
+  std::int64_t first = 0;  // index of its first item in the profile
+  std::int64_t n = 0;      // number of items
+  std::int64_t t0Us = 0;   // host time of the first item [us since 1970]
+  std::int64_t t1Us = 0;   // host time of the last item [us since 1970]
+  std::int64_t id = 0;     // what the loader knows the block by
 };
 
+// Reading is safe from several threads once the index is complete.
 class BlockStorage : public ProfileStorage {
  public:
-  // Gives the block of an id, its checksum checked; throws FormatError. Only one call at a time.
+  // Gives the block of an id after checking its checksum; throws FormatError. It is called by one
+  // thread at a time.
   using Loader = std::function<Block(std::int64_t id)>;
 
   BlockStorage(std::filesystem::path path, Loader loader);
 
-  // Appends a place to a stream. False, and nothing is appended: it doesn't follow the ones before
-  // it (in its index and its time), or makes no sense.
+  // Appends an entry to a stream. Returns false and appends nothing when the entry doesn't follow
+  // the ones before it in index and time, or makes no sense.
   bool add(Stream stream, const BlockEntry& place);
-  // Values per item; must be set before items are read.
+  // The number of values per item; it must be set before items are read.
   void setWidth(Stream stream, std::size_t numValues);
   std::size_t width(Stream stream) const { return of(stream).numValues; }
   const std::vector<BlockEntry>& places(Stream stream) const { return of(stream).places; }

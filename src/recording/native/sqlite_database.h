@@ -1,4 +1,5 @@
-// A thin, throwing hold on SQLite: connection, statement. Private to this module.
+// A thin layer over SQLite's C interface that closes what it opens and throws what fails: a
+// connection and its statements. Private to this module.
 #pragma once
 
 #include <cstddef>
@@ -14,6 +15,7 @@ struct sqlite3_stmt;
 
 namespace palpate {
 
+// A prepared statement of a connection, which must outlive it.
 class SqliteStatement {
  public:
   SqliteStatement(sqlite3* connection, std::filesystem::path path, std::string_view sql);
@@ -29,7 +31,7 @@ class SqliteStatement {
 
   // Next row of a query; false at the end (then it is reset and can run again).
   bool next();
-  // A statement without rows, to its end.
+  // Runs a statement without rows to its end.
   void run();
   void reset();
 
@@ -46,6 +48,8 @@ class SqliteStatement {
   sqlite3_stmt* statement_ = nullptr;
 };
 
+// A connection to one file, for one thread. A file is not trusted: it can run no code and is
+// bounded in what it costs.
 class SqliteDatabase {
  public:
   // kUnlocked reads without locks and without looking for changes: only for pages that nobody
@@ -57,9 +61,10 @@ class SqliteDatabase {
   SqliteDatabase(const SqliteDatabase&) = delete;
   SqliteDatabase& operator=(const SqliteDatabase&) = delete;
 
-  // Runs statements that give no rows.
+  // Runs statements that give no rows. Throws FileError, FormatError, as all statements do.
   void execute(const std::string& sql);
   SqliteStatement prepare(std::string_view sql);
+  // The first column of a query's first row; 0 where it gives no row.
   std::int64_t integerOf(std::string_view query);
   bool inTransaction() const;
   // Ends a transaction without result; never throws (after a failed commit there may be none left).
