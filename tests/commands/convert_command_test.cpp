@@ -123,7 +123,7 @@ TEST_F(ConvertCommand, aFolderAndAFileAreNotMistakenForEachOther) {
   expectOneLineError(palpate({"convert", folder, made / "out"}), 2, {"is a folder", "--to-form"});
   expectOneLineError(palpate({"convert", in("a.dsa"), made / "out.npz", "--to-form", "npz"}),
                      2,
-                     {"a.dsa is none"});
+                     {"a.dsa isn't one"});
   expectOneLineError(
       palpate({"convert", folder, made / "out", "--to-form", "npz", "--from", "3"}), 2, {"--from"});
   expectOneLineError(palpate({"convert", folder, made / "out", "--to-form", "mp3"}),

@@ -123,7 +123,7 @@ TEST_F(CalibrateForceTest, ASavedCalibrationIsReadAsItIs) {
   std::ofstream(folder_ / "bad.json") << "{}";
   panel_->pressure().open(folder_ / "bad.json");
   settle();
-  EXPECT_TRUE(why().contains("no calibration")) << why().toStdString();
+  EXPECT_TRUE(why().contains("isn't a calibration")) << why().toStdString();
   EXPECT_FALSE(find<QPushButton>("pressureSave")->isEnabled());
 }
 

@@ -184,7 +184,7 @@ TEST_F(CalibratePanelTest, TheTareIsProposed) {
   EXPECT_FALSE(find<QPushButton>("tareRemove")->isVisible());
   panel_->tare().setKept(true);
   EXPECT_TRUE(find<QPushButton>("tareRemove")->isVisible());
-  EXPECT_TRUE(find<QLabel>("tareState")->text().contains("kept"));
+  EXPECT_TRUE(find<QLabel>("tareState")->text().contains("has a zero"));
 }
 
 TEST_F(CalibratePanelTest, ComputesOnlyWhileItIsSeenAndCanBeGivenUp) {

@@ -160,7 +160,7 @@ TEST_F(PortsPageTest, LooksAgain) {
   EXPECT_FALSE(canConnect());
   EXPECT_TRUE(text("connectProblem").contains("Choose the port"));
   plugIn();
-  press(Qt::Key_L, Qt::AltModifier);
+  press(Qt::Key_A, Qt::AltModifier);
   ASSERT_TRUE(awaitAnswers());
   EXPECT_EQ(port("tactilePort"), kTactileLink);
   EXPECT_FALSE(find<QLabel>("portsHelp")->isVisible());

@@ -375,7 +375,7 @@ TEST_F(LiveWindowTest, OfARecordingNothingIsHeld) {
   connectEmulated("empty");
   ASSERT_TRUE(await([&] { return view().paintedUs() > 0; }));
   press(Qt::Key_P);
-  ASSERT_TRUE(view().notice().contains("held"));
+  ASSERT_TRUE(view().notice().contains("on hold"));
   open({"empty.dsa"});
   EXPECT_FALSE(window().state().displayed.isLive());
   EXPECT_EQ(view().notice(), "");
@@ -392,7 +392,7 @@ TEST_F(LiveWindowTest, APictureThatIsHeldSaysSoInEveryView) {
   };
   const QImage matricesBefore = corner(view()), handBefore = corner(hand);
   press(Qt::Key_P);
-  EXPECT_TRUE(view().notice().contains("held")) << view().notice().toStdString();
+  EXPECT_TRUE(view().notice().contains("on hold")) << view().notice().toStdString();
   EXPECT_NE(corner(view()), matricesBefore);
   EXPECT_NE(corner(hand), handBefore);
   const QImage chartHeld = pictureOf(chart());

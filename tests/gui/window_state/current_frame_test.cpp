@@ -49,7 +49,7 @@ TEST_F(CurrentFrameTest, AHeldLivePictureStandsStillAndSaysSo) {
   QSignalSpy first(&currentFrame_, &CurrentFrame::firstFrameReceived);
   currentFrame_.hold(true);
   EXPECT_TRUE(currentFrame_.old().held);
-  EXPECT_TRUE(currentFrame_.old().notice.contains("held"));
+  EXPECT_TRUE(currentFrame_.old().notice.contains("on hold"));
   QSignalSpy frames(&currentFrame_, &CurrentFrame::frameChanged);
   QTest::qWait(300);
   EXPECT_EQ(frames.count(), 0);
