@@ -43,7 +43,7 @@ void SlipRuleOptions::validate() const {
   checkSlipRule(rotationAllowancePerLogChange >= 0.0,
                 "rotationAllowancePerLogChange",
                 rotationAllowancePerLogChange);
-  checkSlipRule(maxShiftRatio >= 1.0, "furthest", maxShiftRatio);
+  checkSlipRule(maxShiftRatio >= 1.0, "maxShiftRatio", maxShiftRatio);
 }
 
 SlipRule::SlipRule(const SlipRuleOptions& options) : options_(options) { options_.validate(); }

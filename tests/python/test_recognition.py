@@ -128,7 +128,7 @@ def test_nothing_to_learn_is_said(tmp_path):
 def test_grasps_are_found():
     profile, truth = palpate.synthesize(grasps=3)
     found = palpate.grasps(profile)
-    # both fingers cell_truth but for a frame at either end
+    # both fingers touch but for a frame at either end
     assert all(0 <= begin - true <= 1 for begin, true in zip(found["begin"], [b for b, _ in truth]))
     assert all(0 <= true - end <= 1 for end, true in zip(found["end"], [e for _, e in truth]))
     assert found["fingers"] == [(0, 2)] * 3 and (found["quality"] > 0.3).all()

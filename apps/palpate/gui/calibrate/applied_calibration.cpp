@@ -74,8 +74,8 @@ bool KeptWithRecording::operator==(const KeptWithRecording& other) const {
 KeptWithRecording keptWith(const OpenedRecording& recording,
                            const std::vector<RecordingEvent>& events) {
   KeptWithRecording kept;
-  const auto told = recording.meta.find("settings");
-  if (told != recording.meta.end()) kept.reportedSettings = told->second;
+  const auto reportedSettings = recording.meta.find("settings");
+  if (reportedSettings != recording.meta.end()) kept.reportedSettings = reportedSettings->second;
   for (const RecordingEvent& event : events) try {
       if (event.kind == "tare")
         kept.tare = tareFrom(Json::parse(event.json), recording.profile.layout());

@@ -126,9 +126,9 @@ TextTable sampleTable(const ShownCalibrationPtr& now) {
             const PressureSample& sample = now->calibration.samples[row];
             const PressureModel& model = now->calibration.pressure;
             const auto& degC = model.options.study ? sample.studyDegC : sample.nearestDegC;
-            const bool told = model.valid() && sample.staticResponseCounts > 0.0;
+            const bool known = model.valid() && sample.staticResponseCounts > 0.0;
             const PressureEstimate estimate =
-                told ? model.pressureAt(sample.staticResponseCounts, degC) : PressureEstimate{};
+                known ? model.pressureAt(sample.staticResponseCounts, degC) : PressureEstimate{};
             const auto given = [](bool there, double value) {
               return there ? numberText(value) : std::string();
             };
@@ -139,9 +139,9 @@ TextTable sampleTable(const ShownCalibrationPtr& now) {
                 numberText(sample.staticResponseCounts),
                 numberText(sample.driftCountsPerS),
                 given(degC.has_value(), degC.value_or(0.0)),
-                given(told, estimate.kpa),
-                given(told, estimate.sdKpa),
-                told && estimate.inRange ? "1" : "0",
+                given(known, estimate.kpa),
+                given(known, estimate.sdKpa),
+                known && estimate.inRange ? "1" : "0",
                 sample.used ? "1" : "0",
                 linesOf(sample.notes).replace('\n', "; ").toStdString()};
           }};

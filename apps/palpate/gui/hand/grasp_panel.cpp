@@ -154,8 +154,8 @@ void GraspPanel::begin(const GraspRequest& request) {
     control_->grasp(request);
   } catch (const std::exception& error) {
     const auto last = control_->status().last;
-    const bool told = last && last->outcome == GraspOutcome::kRefused;
-    emit refused(told ? QString::fromStdString(last->text) : QString(error.what()));
+    const bool refusedByHand = last && last->outcome == GraspOutcome::kRefused;
+    emit refused(refusedByHand ? QString::fromStdString(last->text) : QString(error.what()));
   }
   emit asked();
 }

@@ -105,10 +105,10 @@ void LibraryScanner::work(const std::shared_ptr<Run>& run,
     entry.text = searchableText(entry.details, folder, caseFolded);
     run->post([&] { run->entries.push_back(std::move(entry)); });
   };
-  double told = -1.0;
+  double reported = -1.0;
   const Progress progress = [&](double fraction) {
-    if (fraction - told >= kLibraryScannerSmallestNews) {
-      told = fraction;
+    if (fraction - reported >= kLibraryScannerSmallestNews) {
+      reported = fraction;
       run->post([&] { run->fraction = fraction; });
     }
     return !run->cancelled;

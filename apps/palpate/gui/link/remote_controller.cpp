@@ -195,14 +195,14 @@ void RemoteController::look() {
   const double waitedS =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - *starting_->begun).count();
   const bool recording = source->session->recording();
-  const auto verdict = startResult(source->session->recorderStatus(), recording, waitedS, limits_);
-  if (!verdict) return;
-  if (!verdict->ok()) {
-    failStart(verdict->error, verdict->message);
+  const auto result = startResult(source->session->recorderStatus(), recording, waitedS, limits_);
+  if (!result) return;
+  if (!result->ok()) {
+    failStart(result->error, result->message);
     return live_.stopRecording();
   }
   timer_.stop();
-  std::exchange(starting_, std::nullopt)->done(*verdict);
+  std::exchange(starting_, std::nullopt)->done(*result);
 }
 
 void RemoteController::failStart(const std::string& code, const std::string& message) {

@@ -140,13 +140,13 @@ void paintAnswer(QPainter& painter,
   painter.save();
   painter.setRenderHint(QPainter::Antialiasing);
   QRectF room = area;
-  const bool told = answer.kind == Kind::kNamed || answer.kind == Kind::kUnknown;
-  if (told && !photo.isNull() && answer.kind == Kind::kNamed) {
+  const bool answered = answer.kind == Kind::kNamed || answer.kind == Kind::kUnknown;
+  if (answered && !photo.isNull() && answer.kind == Kind::kNamed) {
     const double side = std::min(kPhotoShare * room.width(), 12.0 * unit);
     paintPhoto(painter, QRectF(room.right() - side, room.top(), side, side), photo, colors.border);
     room.setRight(room.right() - side - unit);
   }
-  if (!told) {
+  if (!answered) {
     const QFont font = fontOf(painter, answer.kind == Kind::kProblem ? 1.15 * unit : unit);
     const double y = paintWords(painter,
                                 room,

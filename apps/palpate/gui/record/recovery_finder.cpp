@@ -110,12 +110,12 @@ RecoveryFinder::Report RecoveryFinder::lookInto(const QString& folder,
 
 RecoveryFinder::Report RecoveryFinder::recoverAll(const QStringList& paths,
                                                   const std::atomic<bool>& cancelled) {
-  double told = -1.0;
+  double reported = -1.0;
   for (qsizetype i = 0; i < paths.size() && !cancelled; ++i) {
     const auto progress = [&](double fraction) {
       const double now = (static_cast<double>(i) + fraction) / static_cast<double>(paths.size());
-      if (now - told >= kUnfinishedFinderSmallestNews) {
-        told = now;
+      if (now - reported >= kUnfinishedFinderSmallestNews) {
+        reported = now;
         postResult([this, now] { emit progressed(now); });
       }
       return !cancelled;

@@ -73,16 +73,17 @@ void runDemo(MainWindow& window) {
   constexpr double kPatienceS = 30.0;
   constexpr double kLookS = 0.02;
   QString failure;
-  const auto told = QObject::connect(&window.state().live,
-                                     &LiveController::failed,
-                                     [&](const QString& message) { failure = message; });
+  const auto failedConnection =
+      QObject::connect(&window.state().live, &LiveController::failed, [&](const QString& message) {
+        failure = message;
+      });
   window.state().connectTo(emulatedBallConnection(true));
   for (double waitedS = 0.0; !window.state().live.hasReceivedFrames(); waitedS += kLookS) {
     if (failure.isEmpty() && waitedS > kPatienceS) failure = "no frame of the emulated hand came";
     if (!failure.isEmpty()) throw Error(failure.toStdString());
     runFor(kLookS);
   }
-  QObject::disconnect(told);
+  QObject::disconnect(failedConnection);
 }
 
 void goToFrame(MainWindow& window, const ScreenshotOptions& options) {

@@ -49,8 +49,9 @@ std::unique_ptr<Device> deviceOf(LiveSource& source,
 PressureStage::AskSettings settingsOf(const CaptureSession& session, const Connection& connection) {
   if (connection.kind == Connection::Kind::kReplay) {
     auto meta = readRecordingMeta(connection.recording.toStdString());
-    return [told = meta["settings"]] {
-      return told.empty() ? std::vector<SensorSettings>() : reportedSettingsFrom(Json::parse(told));
+    return [reportedSettings = meta["settings"]] {
+      return reportedSettings.empty() ? std::vector<SensorSettings>()
+                                      : reportedSettingsFrom(Json::parse(reportedSettings));
     };
   }
   return [&session] {

@@ -69,10 +69,10 @@ void SpectrumWorker::ask(const SpectrumQuestion& question) {
 }
 
 void SpectrumWorker::work(const SpectrumQuestion& question, int generation) {
-  double told = 0.0;
+  double reported = 0.0;
   const Progress progress = [&](double done) {
-    if (done - told >= kToldStep) {
-      told = done;
+    if (done - reported >= kToldStep) {
+      reported = done;
       QMetaObject::invokeMethod(
           this,
           [this, generation, done] {
