@@ -23,7 +23,7 @@ void addSlip(JsonLine& json, const SlipDetection& slip) {
   json.begin("slip");
   json.word("state", nameOf(slip.state));
   json.flag("slipping", slip.slipping);
-  if (slip.lamp == SlipIndicator::kReady || slip.lamp == SlipIndicator::kSlipping)
+  if (slip.indicator == SlipIndicator::kReady || slip.indicator == SlipIndicator::kSlipping)
     json.number("confidence", slip.confidence);
   if (slip.motion.valid) {
     json.number("dx", slip.motion.dx);

@@ -67,7 +67,7 @@ void SlipDetector::reset() {
   tracker_.reset();
   windows_.reset();
   rule_.reset();
-  verdict_ = {};
+  detection_ = {};
   wantsReference_ = options_.reference == SlipReference::kFirst;
   calm_ = 0;
   rotationChecks_ = 0;
@@ -101,11 +101,11 @@ const SlipDetection& SlipDetector::update(const ConstMatrixMap& frame,
                                           std::int64_t timeUs,
                                           std::span<const double> jointsDeg) {
   const SlipEvidence& evidence = windows_.add(frame, timeUs, jointsDeg);
-  const bool wasSlipping = verdict_.slipping;
+  const bool wasSlipping = detection_.slipping;
   const SlipMotion motion = tracker_.update(windows_.frame(), windows_.afterGap());
-  verdict_ = {};
-  verdict_.motion = motion;
-  verdict_.slipping = wasSlipping;
+  detection_ = {};
+  detection_.motion = motion;
+  detection_.slipping = wasSlipping;
   const bool lost = motion.active == 0 || motion.afterGap;
   if (lost && options_.reference == SlipReference::kWhenAtRest) clearReference();
   if (wantsReference_) updateReference();
@@ -114,37 +114,37 @@ const SlipDetection& SlipDetector::update(const ConstMatrixMap& frame,
     decideByHypotheses(evidence);
   else
     decideByThresholds();
-  if (lost) verdict_.slipping = false;
-  if (verdict_.slipping) slipped_ = true;
+  if (lost) detection_.slipping = false;
+  if (detection_.slipping) slipped_ = true;
   if (options_.reference == SlipReference::kWhenAtRest && isAtRest(evidence)) {
     const bool again = slipped_;
     if (!hasReference_ || again) {
       setReference();
-      verdict_.newReference = true;
-      verdict_.motion.refValid = true;
-      verdict_.motion.refDx = verdict_.motion.refDy = 0.0;
+      detection_.newReference = true;
+      detection_.motion.refValid = true;
+      detection_.motion.refDx = detection_.motion.refDy = 0.0;
       hasLastScored_ = options_.method == SlipMethod::kHypotheses;
       lastScoredX_ = lastScoredY_ = 0.0;
     }
   }
   if (!on_) {
-    verdict_.lamp = SlipIndicator::kOff;
-    verdict_.slipping = verdict_.alarm = verdict_.rotating = false;
+    detection_.indicator = SlipIndicator::kOff;
+    detection_.slipping = detection_.alarm = detection_.rotating = false;
   }
-  return verdict_;
+  return detection_;
 }
 
 bool SlipDetector::isAtRest(const SlipEvidence& evidence) const {
   const WindowEvidence& middle = evidence.windows[kMiddleWindow];
   return evidence.computable && evidence.contactAge >= kRestAge && middle.filled &&
-         !verdict_.slipping && std::abs(middle.logLoadRatio) < kRestLoad &&
+         !detection_.slipping && std::abs(middle.logLoadRatio) < kRestLoad &&
          slipDetectorShift(middle) < kRestTaxels;
 }
 
 // Scales the motion of `register` by the score of the comparison of reference and present frame.
 void SlipDetector::applyMotionScore(const SlipMotion& moved) {
   referenceHypotheses_.reset();
-  SlipMotion& motion = verdict_.motion;
+  SlipMotion& motion = detection_.motion;
   if (!hasReference_ || !moved.refValid) {
     hasLastScored_ = false;
     return;
@@ -184,15 +184,15 @@ void SlipDetector::applyMotionScore(const SlipMotion& moved) {
 }
 
 void SlipDetector::latchAlarm(bool raised, bool calm) {
-  verdict_.alarm = raised;
+  detection_.alarm = raised;
   if (raised) {
-    verdict_.slipping = true;
+    detection_.slipping = true;
     calm_ = 0;
-  } else if (verdict_.slipping) {
+  } else if (detection_.slipping) {
     calm_ = calm ? calm_ + 1 : 0;
-    if (calm_ >= kCalmFrames) verdict_.slipping = false;
+    if (calm_ >= kCalmFrames) detection_.slipping = false;
   }
-  verdict_.lamp = verdict_.slipping ? SlipIndicator::kSlipping : SlipIndicator::kReady;
+  detection_.indicator = detection_.slipping ? SlipIndicator::kSlipping : SlipIndicator::kReady;
 }
 
 void SlipDetector::decideByHypotheses(const SlipEvidence& seen) {
@@ -205,12 +205,12 @@ void SlipDetector::decideByHypotheses(const SlipEvidence& seen) {
   const SlipRuleResult outcome = rule_.decide(evidence);
   if (!evidence.computable || !outcome.leading) {
     // The contact is too small or has not lasted long enough.
-    verdict_.slipping = verdict_.slipping && evidence.computable;
-    verdict_.state = SlipState::kInvalid;
-    verdict_.lamp = SlipIndicator::kNotComputable;
+    detection_.slipping = detection_.slipping && evidence.computable;
+    detection_.state = SlipState::kInvalid;
+    detection_.indicator = SlipIndicator::kNotComputable;
     return;
   }
-  verdict_.rotating = outcome.rotating;
+  detection_.rotating = outcome.rotating;
   const bool calm = kSlipDetectorCentroidPart * slipDetectorShift(evidence.windows[kShortWindow]) <
                         kCalmPart * options_.rule.shortSteps * options_.rule.stepTaxels &&
                     kSlipDetectorCentroidPart * slipDetectorShift(evidence.windows[kMiddleWindow]) <
@@ -221,36 +221,36 @@ void SlipDetector::decideByHypotheses(const SlipEvidence& seen) {
   const SlipHypothesisResult* deciding = asked ? &evidence.windows[*asked].hypotheses : nullptr;
   if (!deciding && referenceHypotheses_) deciding = &*referenceHypotheses_;
   if (deciding && deciding->computed) {
-    verdict_.pMoved = deciding->pMoved;
-    verdict_.residual = std::min(deciding->loadShiftResidual, deciding->motionResidual);
+    detection_.pMoved = deciding->pMoved;
+    detection_.residual = std::min(deciding->loadShiftResidual, deciding->motionResidual);
   }
-  if (verdict_.slipping) {
-    verdict_.state = SlipState::kSlip;
-    verdict_.confidence = std::max(0.5, verdict_.pMoved.value_or(0.5));
+  if (detection_.slipping) {
+    detection_.state = SlipState::kSlip;
+    detection_.confidence = std::max(0.5, detection_.pMoved.value_or(0.5));
   } else if (outcome.thresholdRatio < 1.0) {
-    verdict_.state = SlipState::kStill;
-    verdict_.confidence = 1.0 - 0.5 * outcome.thresholdRatio;
+    detection_.state = SlipState::kStill;
+    detection_.confidence = 1.0 - 0.5 * outcome.thresholdRatio;
   } else if (outcome.allowedThresholdRatio < 1.0) {
-    verdict_.state = SlipState::kLoading;
-    verdict_.confidence = 1.0 - 0.5 * outcome.allowedThresholdRatio;
-  } else if (!verdict_.pMoved || verdict_.residual > kModelInvalid) {
-    verdict_.state = SlipState::kInvalid;
-  } else if (*verdict_.pMoved < kMaxStillScore) {
-    verdict_.state = SlipState::kLoadShift;
-    verdict_.confidence = 1.0 - *verdict_.pMoved;
-  } else if (*verdict_.pMoved > kMinMotionScore) {
-    verdict_.state = SlipState::kSlip;
-    verdict_.confidence = *verdict_.pMoved;
+    detection_.state = SlipState::kLoading;
+    detection_.confidence = 1.0 - 0.5 * outcome.allowedThresholdRatio;
+  } else if (!detection_.pMoved || detection_.residual > kModelInvalid) {
+    detection_.state = SlipState::kInvalid;
+  } else if (*detection_.pMoved < kMaxStillScore) {
+    detection_.state = SlipState::kLoadShift;
+    detection_.confidence = 1.0 - *detection_.pMoved;
+  } else if (*detection_.pMoved > kMinMotionScore) {
+    detection_.state = SlipState::kSlip;
+    detection_.confidence = *detection_.pMoved;
   } else {
-    verdict_.state = SlipState::kAmbiguous;
-    verdict_.confidence = 0.5;
+    detection_.state = SlipState::kAmbiguous;
+    detection_.confidence = 0.5;
   }
 }
 
 void SlipDetector::decideByThresholds() {
-  const SlipMotion& motion = verdict_.motion;
+  const SlipMotion& motion = detection_.motion;
   if (!motion.valid && !motion.refValid) {
-    verdict_.slipping = false;
+    detection_.slipping = false;
     return;
   }
   const double step = std::max(std::abs(motion.dx), std::abs(motion.dy));
@@ -258,9 +258,9 @@ void SlipDetector::decideByThresholds() {
   const double thresholdRatio =
       std::max(step / options_.rule.stepTaxels, whole / options_.rule.referenceTaxels);
   latchAlarm(thresholdRatio > 1.0, thresholdRatio < kPlainCalmPart);
-  verdict_.state = verdict_.slipping ? SlipState::kSlip : SlipState::kStill;
-  verdict_.residual = motion.residual;
-  verdict_.confidence = motion.confidence;
+  detection_.state = detection_.slipping ? SlipState::kSlip : SlipState::kStill;
+  detection_.residual = motion.residual;
+  detection_.confidence = motion.confidence;
 }
 
 }  // namespace palpate

@@ -43,7 +43,7 @@ SlipSample sampleOf(const SlipDetection& detection, std::size_t frame) {
           .newReference = detection.newReference,
           .slipping = detection.slipping,
           .state = detection.state,
-          .lamp = detection.lamp,
+          .indicator = detection.indicator,
           .x = f(motion.x),
           .y = f(motion.y),
           .dx = f(motion.dx),

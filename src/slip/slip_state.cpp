@@ -29,8 +29,8 @@ std::optional<SlipState> slipStateNamed(std::string_view name) noexcept {
   return std::nullopt;
 }
 
-std::string_view nameOf(SlipIndicator lamp) noexcept {
-  switch (lamp) {
+std::string_view nameOf(SlipIndicator indicator) noexcept {
+  switch (indicator) {
     case SlipIndicator::kOff:
       return "off";
     case SlipIndicator::kNotComputable:

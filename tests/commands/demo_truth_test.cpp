@@ -51,7 +51,7 @@ SlipSeries seriesWith(std::vector<SlipSegment> slips) {
     sample.frame = static_cast<std::uint32_t>(i);
     sample.refValid = true;
     sample.refDy = static_cast<float>(0.02 * std::max(0.0, static_cast<double>(i) - 100.0));
-    sample.lamp = SlipIndicator::kSlipping;
+    sample.indicator = SlipIndicator::kSlipping;
     sample.state = SlipState::kSlip;
     if (i >= 20) series.matrices[1].push_back(sample);
   }

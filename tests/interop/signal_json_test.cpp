@@ -63,7 +63,7 @@ TEST(SignalJson, SaysSlipForceAndTheHand) {
   results.slip.resize(6);
   SlipDetection& slip = results.slip[1];
   slip.state = SlipState::kSlip;
-  slip.lamp = SlipIndicator::kSlipping;
+  slip.indicator = SlipIndicator::kSlipping;
   slip.slipping = true;
   slip.confidence = 0.75;
   slip.pMoved = 0.9375;

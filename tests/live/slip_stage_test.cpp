@@ -83,7 +83,7 @@ TEST(SlipStage, ShowsTheVectorOfEveryMatrixAndTellsOfSlip) {
 TEST(SlipStage, MatricesCanBeSwitchedOff) {
   const Found found = processed(slipOnce(), [](SlipStage& stage) { stage.setOn(3, false); });
   EXPECT_TRUE(found.events.empty());
-  EXPECT_EQ(found.detections[104][3].lamp, SlipIndicator::kOff);
+  EXPECT_EQ(found.detections[104][3].indicator, SlipIndicator::kOff);
 }
 
 TEST(SlipStage, ReferenceIsTakenFromTheNextFrame) {

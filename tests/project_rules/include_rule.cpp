@@ -53,7 +53,7 @@ std::string privateFolderOf(std::string path) {
 class Judge {
  public:
   Judge(const SourceFile& file, const IncludeRules& rules)
-      : rules_(rules), path_(file.path), module_(roomOf(file.path)) {}
+      : rules_(rules), path_(file.path), module_(moduleOf(file.path)) {}
 
   // Empty when the include is right.
   std::string faultOf(const std::string& name, bool quoted) const {
@@ -156,7 +156,7 @@ IncludeRules IncludeRules::fromPage(std::string_view page) {
   return rules;
 }
 
-std::string roomOf(std::string_view path) {
+std::string moduleOf(std::string_view path) {
   static const std::regex pattern(
       "(?:include/palpate|src)/([^/]+)/.*|(apps/palpate/gui/[^/]+)/.*|(apps/palpate(?:/[^/]+)?)/[^/"
       "]+|"

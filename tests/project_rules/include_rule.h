@@ -23,7 +23,7 @@ struct IncludeRules {
 
 // "core" for include/palpate/core/x.h and src/core/x.cpp, "apps/palpate/gui/slip" for a file in
 // there.
-std::string roomOf(std::string_view path);
+std::string moduleOf(std::string_view path);
 
 // One line for each #include that breaks a rule: "PATH:LINE: what is wrong".
 std::vector<std::string> includeFaults(const SourceFile& file, const IncludeRules& rules);

@@ -8,26 +8,26 @@
 namespace palpate::testing::include_rule_test {
 namespace {
 
-IncludeRules rulesOfTheHouse() {
+IncludeRules projectRules() {
   return IncludeRules::fromPage(readFile(projectFolder() / "docs" / "architecture.md"));
 }
 
 const std::string kWindow = "apps/palpate/gui";
 
 std::size_t numFaults(const std::string& path, const std::string& line) {
-  return includeFaults({path, "#pragma once\n" + line + "\n"}, rulesOfTheHouse()).size();
+  return includeFaults({path, "#pragma once\n" + line + "\n"}, projectRules()).size();
 }
 
-TEST(IncludeRule, HoldsInTheWholeHouse) {
-  const IncludeRules rules = rulesOfTheHouse();
+TEST(IncludeRule, HoldsInTheWholeProject) {
+  const IncludeRules rules = projectRules();
   const auto files = cppFiles({"include", "src", "apps"});
   EXPECT_GT(files.size(), 50u) << "the project was not found";
   for (const SourceFile& file : files)
     for (const std::string& fault : includeFaults(file, rules)) ADD_FAILURE() << fault;
 }
 
-TEST(IncludeRule, KnowsEveryRoomThatIsBuilt) {
-  const IncludeRules rules = rulesOfTheHouse();
+TEST(IncludeRule, KnowsEveryModuleThatIsBuilt) {
+  const IncludeRules rules = projectRules();
   const auto known = [&](const std::filesystem::path& folder, const std::string& before) {
     for (const auto& entry : std::filesystem::directory_iterator(folder))
       if (entry.is_directory()) {
@@ -45,7 +45,7 @@ TEST(IncludeRule, KnowsEveryRoomThatIsBuilt) {
 }
 
 TEST(IncludeRule, ArrowsOfTheTableMakeNoCircle) {
-  const IncludeRules rules = rulesOfTheHouse();
+  const IncludeRules rules = projectRules();
   std::set<std::string> placed = {"core"};
   for (bool progress = true; progress;) {
     progress = false;

@@ -47,11 +47,11 @@ struct Watch {
 
 TEST(SlipDetector, IsReadyOnceAContactSettledAndStill) {
   Watch watch;
-  EXPECT_EQ(watch.nothing().lamp, SlipIndicator::kNotComputable);
+  EXPECT_EQ(watch.nothing().indicator, SlipIndicator::kNotComputable);
   EXPECT_EQ(watch.read({}).state, SlipState::kInvalid);
   watch.rest(40);
   const SlipDetection& detection = watch.detector.last();
-  EXPECT_EQ(detection.lamp, SlipIndicator::kReady);
+  EXPECT_EQ(detection.indicator, SlipIndicator::kReady);
   EXPECT_EQ(detection.state, SlipState::kStill);
   EXPECT_GT(detection.confidence, 0.8);
   EXPECT_TRUE(detection.motion.refValid);
@@ -67,7 +67,7 @@ TEST(SlipDetector, FlagsSlipWithinThreeFramesAndHoldsIt) {
     if (detection.slipping && first < 0) first = i;
     if (first > 0) {
       EXPECT_TRUE(detection.slipping) << i;
-      EXPECT_EQ(detection.lamp, SlipIndicator::kSlipping);
+      EXPECT_EQ(detection.indicator, SlipIndicator::kSlipping);
       EXPECT_EQ(detection.state, SlipState::kSlip);
     }
   }
@@ -127,7 +127,7 @@ TEST(SlipDetector, CallsAShiftOfARisingLoadLoading) {
 TEST(SlipDetector, ForgetsWhenContactIsLostAndRegained) {
   Watch watch;
   watch.rest(40);
-  EXPECT_EQ(watch.nothing().lamp, SlipIndicator::kNotComputable);
+  EXPECT_EQ(watch.nothing().indicator, SlipIndicator::kNotComputable);
   const SlipDetection& back = watch.read({.y = 9.0});
   EXPECT_FALSE(back.motion.valid);
   EXPECT_FALSE(back.motion.refValid);
@@ -145,7 +145,7 @@ TEST(SlipDetector, AGapIsNoSlip) {
   EXPECT_TRUE(detection.motion.afterGap);
   EXPECT_FALSE(detection.motion.valid);
   EXPECT_FALSE(detection.slipping);
-  EXPECT_EQ(detection.lamp, SlipIndicator::kNotComputable);
+  EXPECT_EQ(detection.indicator, SlipIndicator::kNotComputable);
 }
 
 // 6 taxels per second are slip at any frame rate: 0.02 per frame at 300 Hz. At 0.3 Hz, 0.2 per
@@ -155,7 +155,7 @@ TEST(SlipDetector, WatchesAtAnyRate) {
        {std::pair{0.3, 0.2}, {3.0, 0.2}, {31.7, 0.2}, {74.0, 0.081}, {300.0, 0.02}}) {
     Watch watch({}, static_cast<std::int64_t>(1e6 / rateHz));
     watch.rest(rateHz > 50.0 ? static_cast<int>(1.5 * rateHz) : 40);
-    EXPECT_EQ(watch.detector.last().lamp, SlipIndicator::kReady) << rateHz;
+    EXPECT_EQ(watch.detector.last().indicator, SlipIndicator::kReady) << rateHz;
     int first = -1;
     for (int i = 1; i * step <= 2.0; ++i)
       if (watch.read({.y = 6.5 + step * i}).slipping && first < 0) first = i;
@@ -244,7 +244,7 @@ TEST(SlipDetector, SwitchedOffSaysNothing) {
   watch.detector.setOn(false);
   watch.rest(40);
   for (int i = 1; i <= 5; ++i) EXPECT_FALSE(watch.read({.y = 6.5 + 0.3 * i}).slipping);
-  EXPECT_EQ(watch.detector.last().lamp, SlipIndicator::kOff);
+  EXPECT_EQ(watch.detector.last().indicator, SlipIndicator::kOff);
 }
 
 TEST(SlipDetector, RefusesOtherSizes) {

@@ -156,7 +156,7 @@ std::string pageSlip(const DemoFacts& facts) {
                 pageCell(fixedText(alarm.afterS * kMsPerS, 0) + " ms") + pageCell("both"));
     rows += pageRow(
         pageCell("alarm, state") +
-        pageCell(std::string(nameOf(alarm.lamp)) + ", " + std::string(nameOf(alarm.state))) +
+        pageCell(std::string(nameOf(alarm.indicator)) + ", " + std::string(nameOf(alarm.state))) +
         pageCell("the recording"));
     rows += pageRow(pageCell("distance its imprint moved") + pageCell(taxels(alarm.imprintTaxels)) +
                     pageCell("the recording"));

@@ -86,7 +86,7 @@ DemoSlip demoSlip(const SlipSeries& series,
       alarm.movedTaxels =
           wayTaxels(held->matrices[motion.matrix], std::prev(behind)->matrices[motion.matrix]);
     if (const SlipSample* raised = series.at(slip.matrix, slip.begin)) {
-      alarm.lamp = raised->lamp;
+      alarm.indicator = raised->indicator;
       alarm.state = raised->state;
     }
     alarm.furthestFrame = slip.begin;
@@ -109,7 +109,7 @@ std::string demoSlipText(const DemoSlip& slip, double pitchMm) {
   if (slip.alarm) {
     const DemoAlarm& alarm = *slip.alarm;
     text = moved + "; the alarm of matrix " + std::to_string(alarm.matrix) + " said '" +
-           std::string(nameOf(alarm.lamp)) + "' in frame " + std::to_string(alarm.frame) +
+           std::string(nameOf(alarm.indicator)) + "' in frame " + std::to_string(alarm.frame) +
            ", when it had gone " + fixedText(alarm.movedTaxels, 1) + "; by its imprint it went " +
            fixedText(alarm.imprintTaxels, 1);
   }
@@ -145,7 +145,7 @@ Json demoSlipJson(const DemoSlip& slip, double pitchMm) {
                       .set("moved_taxels", alarm.movedTaxels)
                       .set("imprint_taxels", alarm.imprintTaxels)
                       .set("furthest_frame", alarm.furthestFrame)
-                      .set("lamp", std::string(nameOf(alarm.lamp)))
+                      .set("lamp", std::string(nameOf(alarm.indicator)))
                       .set("state", std::string(nameOf(alarm.state))));
 }
 

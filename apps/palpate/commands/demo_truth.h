@@ -57,7 +57,7 @@ struct DemoAlarm {
   // The frame with that distance.
   std::size_t furthestFrame = 0;
   // The status symbol in `frame`.
-  SlipIndicator lamp = SlipIndicator::kOff;
+  SlipIndicator indicator = SlipIndicator::kOff;
   SlipState state = SlipState::kInvalid;
 };
 

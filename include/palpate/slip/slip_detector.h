@@ -52,7 +52,7 @@ struct SlipDetectorOptions {
 struct SlipDetection {
   // If `motion.valid` is false, the motion in this frame is not known.
   SlipMotion motion;
-  SlipIndicator lamp = SlipIndicator::kNotComputable;
+  SlipIndicator indicator = SlipIndicator::kNotComputable;
   SlipState state = SlipState::kInvalid;
   // True from an alarm of translation until the contact is at rest again; with the hypotheses, an
   // alarm of rotation counts as well.
@@ -87,7 +87,7 @@ class SlipDetector {
   // While it is off, the detector reports nothing but keeps its state up to date.
   void setOn(bool on) noexcept { on_ = on; }
 
-  const SlipDetection& last() const noexcept { return verdict_; }
+  const SlipDetection& last() const noexcept { return detection_; }
   // Whether the shape of the contact at the reference allows motion to be distinguished from a tilt
   // of the load, per axis.
   const MotionSdInflation& condition() const noexcept { return condition_; }
@@ -108,7 +108,7 @@ class SlipDetector {
   SlipRule rule_;
   KeyFrame reference_;
   MotionSdInflation condition_;
-  SlipDetection verdict_;
+  SlipDetection detection_;
   std::optional<SlipHypothesisResult> referenceHypotheses_;
   bool on_ = true;
   bool hasReference_ = false;

@@ -52,7 +52,7 @@ struct SlipSample {
   bool newReference = false;
   bool slipping = false;
   SlipState state = SlipState::kInvalid;
-  SlipIndicator lamp = SlipIndicator::kOff;
+  SlipIndicator indicator = SlipIndicator::kOff;
   // Centroid [taxels].
   float x = 0.0F;
   float y = 0.0F;

@@ -41,6 +41,6 @@ enum class SlipIndicator {
   kSlipping,
 };
 // Returns "off", "not computable", "ready" or "slipping".
-std::string_view nameOf(SlipIndicator lamp) noexcept;
+std::string_view nameOf(SlipIndicator indicator) noexcept;
 
 }  // namespace palpate

@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::size_t kMaxElementBytes = 4u << 20;  // longer than any frame of a real sensor
 // A bzip2 block holds at most 900 kB, which its first run-length code can stretch 51 times.
-constexpr std::size_t kDsaSalvageMaxBlockBytes = 46u << 20;
+constexpr std::size_t kDsaRecoveryMaxBlockBytes = 46u << 20;
 // Bits from a stream's end mark to the first block of a next stream: mark, checksum, padding,
 // header.
 constexpr std::uint64_t kMaxSeamBits = 48 + 32 + 7 + 32;
@@ -184,7 +184,7 @@ void scanBlocks(std::span<const std::byte> bytes,
   std::optional<std::uint64_t> joinsAtBit;  // where the stretch goes on
   for (std::size_t i = 0; i < blocks.size(); ++i) {
     report(i, blocks.size());
-    const auto room = std::min<std::uint64_t>(kDsaSalvageMaxBlockBytes, maxBytes - expanded);
+    const auto room = std::min<std::uint64_t>(kDsaRecoveryMaxBlockBytes, maxBytes - expanded);
     const Bzip2BlockContent content =
         decodeBzip2Block(bytes, blocks[i], static_cast<std::size_t>(room));
     if (!joinsAtBit || blocks[i].beginBit - *joinsAtBit > kMaxSeamBits) scanner.breakHere();

@@ -102,17 +102,18 @@ TEST_F(SlipPanelTest, ShowsWhatSlipsAndWhatRests) {
   EXPECT_NEAR(cell(kMoving, kWhole).toDouble(), 11 * kStepTaxels, 0.15);
   EXPECT_NEAR(cell(kStill, kWhole).toDouble(), 0.0, 0.1);
   // Lamps: told apart by their pictures, not by their colour alone.
-  const auto lamp = [&](std::size_t row) {
+  const auto indicator = [&](std::size_t row) {
     return find<FiguresTable>("slipList")
         ->item(static_cast<int>(row), kName)
         ->icon()
         .pixmap(16)
         .toImage();
   };
-  EXPECT_EQ(lamp(kMoving),
+  EXPECT_EQ(indicator(kMoving),
             indicatorIcon(IndicatorLook::kSlipping, Theme::kDark).pixmap(16).toImage());
-  EXPECT_EQ(lamp(kStill), indicatorIcon(IndicatorLook::kReady, Theme::kDark).pixmap(16).toImage());
-  EXPECT_EQ(lamp(0), indicatorIcon(IndicatorLook::kOff, Theme::kDark).pixmap(16).toImage());
+  EXPECT_EQ(indicator(kStill),
+            indicatorIcon(IndicatorLook::kReady, Theme::kDark).pixmap(16).toImage());
+  EXPECT_EQ(indicator(0), indicatorIcon(IndicatorLook::kOff, Theme::kDark).pixmap(16).toImage());
   goTo(2 * kRests + kMoves - 1);
   EXPECT_EQ(cell(kMoving, kVerdict), "still");
 }

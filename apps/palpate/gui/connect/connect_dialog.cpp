@@ -61,7 +61,7 @@ ConnectDialog::ConnectDialog(const ConnectChoices& choices, PortScan& scan, QWid
   replay_ = new ReplayPage(choices.recentRecordings, theme_, this);
   ports_->setPorts(last_.dsaPort, last_.sdhPort);
   scenes_->setScene(last_.scene);
-  scenes_->setActs(last_.sceneScriptRuns);
+  scenes_->setRunsScript(last_.sceneScriptRuns);
   replay_->setRecording(last_.recording);
   pages_ = new QStackedWidget(this);
   for (const Connection::Kind kind : kAllConnectionKinds)

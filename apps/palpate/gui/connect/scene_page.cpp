@@ -104,7 +104,7 @@ QString ScenePage::scene() const {
   return item ? item->data(kSceneRole).toString() : QString();
 }
 
-void ScenePage::setActs(bool runsScript) { acts_->setChecked(runsScript); }
+void ScenePage::setRunsScript(bool runsScript) { acts_->setChecked(runsScript); }
 bool ScenePage::runsScript() const { return acts_->isChecked(); }
 
 void ScenePage::showChosen() {

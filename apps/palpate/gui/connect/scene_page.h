@@ -25,7 +25,7 @@ class ScenePage : public QWidget {
   // `scene`: a name in the folder, or the path of a scene.
   void setScene(const QString& scene);
   QString scene() const;
-  void setActs(bool runsScript);
+  void setRunsScript(bool runsScript);
   bool runsScript() const;
   // Why the scene cannot be used, in one line; empty when it can.
   QString problem() const { return problem_; }

@@ -99,7 +99,7 @@ using Eigen::Vector3d;
 using Eigen::Vector3f;
 
 // Segments of a circle.
-constexpr int kHandDrawingContactAround = 48;
+constexpr int kHandSceneBuilderContactAround = 48;
 // Rings of a sphere from pole to pole.
 constexpr int kRings = 24;
 constexpr float kNormalMm = 5.0F;
@@ -118,7 +118,7 @@ QRgb withAlpha(const QColor& color, float alpha) {
 
 Vector3f onSphere(int ring, int step) {
   const double down = std::numbers::pi * ring / kRings;
-  const double around = 2.0 * std::numbers::pi * step / kHandDrawingContactAround;
+  const double around = 2.0 * std::numbers::pi * step / kHandSceneBuilderContactAround;
   return Vector3d(
              std::sin(down) * std::cos(around), std::sin(down) * std::sin(around), std::cos(down))
       .cast<float>();
@@ -131,12 +131,12 @@ void addCircle(HandScene& scene,
                float widthPx,
                QRgb color) {
   const auto at = [&](int step) {
-    const double angle = 2.0 * std::numbers::pi * step / kHandDrawingContactAround;
+    const double angle = 2.0 * std::numbers::pi * step / kHandSceneBuilderContactAround;
     return Vector3f(
         (sphere.centreMm + sphere.radiusMm * (std::cos(angle) * u + std::sin(angle) * v))
             .cast<float>());
   };
-  for (int step = 0; step < kHandDrawingContactAround; ++step)
+  for (int step = 0; step < kHandSceneBuilderContactAround; ++step)
     scene.lines.push_back({at(step), at(step + 1), widthPx, color});
 }
 
@@ -144,7 +144,7 @@ using Eigen::Vector3d;
 using Eigen::Vector3f;
 
 // Least motion that is drawn.
-constexpr double kHandDrawingSlipLeastMm = 0.2;
+constexpr double kHandSceneBuilderSlipLeastMm = 0.2;
 constexpr double kLeastTurnDeg = 1.0;
 // Largest motion of the object that is drawn. A larger estimate is noise, amplified because the
 // contacts are nearly in one line.
@@ -514,7 +514,7 @@ void HandSceneBuilder::addSphere(HandScene& scene,
   };
   std::vector<SceneVertex>& to = glass ? scene.clear : scene.solid;
   for (int ring = 0; ring < kRings; ++ring)
-    for (int step = 0; step < kHandDrawingContactAround; ++step) {
+    for (int step = 0; step < kHandSceneBuilderContactAround; ++step) {
       const SceneVertex a = corner(ring, step), b = corner(ring + 1, step),
                         c = corner(ring + 1, step + 1), d = corner(ring, step + 1);
       if (ring + 1 < kRings) to.insert(to.end(), {a, b, c});
@@ -596,7 +596,7 @@ void HandSceneBuilder::addSlip(HandScene& scene, const HandLook& look) const {
     const SlipArrow& arrow = arrows.back();
     const double mm = arrow.vectorMm.norm();
     moves = moves || slip.slipping;
-    if (mm < kHandDrawingSlipLeastMm || (look.only && *look.only != slip.matrix)) continue;
+    if (mm < kHandSceneBuilderSlipLeastMm || (look.only && *look.only != slip.matrix)) continue;
     const QColor color = slip.slipping ? colors.danger : colors.text;
     const Vector3d from = arrow.originMm + kLiftMm * arrow.normal;
     const Vector3d way = static_cast<double>(kSlipEnlarged) * arrow.vectorMm;
@@ -612,7 +612,7 @@ void HandSceneBuilder::addSlip(HandScene& scene, const HandLook& look) const {
   if (mm > kMostMm || deg > kMaxDeg) return;
   const QColor color = colors.accent;
   const double enlarged = static_cast<double>(kSlipEnlarged);
-  if (mm >= kHandDrawingSlipLeastMm)
+  if (mm >= kHandSceneBuilderSlipLeastMm)
     addArrow(scene, object.centerMm, enlarged * object.translationMm, kObjectPx, color.rgb());
   if (deg >= kLeastTurnDeg)
     addTurn(scene, object.centerMm, enlarged * object.rotationRad, color.rgb());

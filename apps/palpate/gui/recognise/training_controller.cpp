@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kTeachingDeskFolderKey = "recognise/folder";
+constexpr const char* kTrainingControllerFolderKey = "recognise/folder";
 constexpr double kGoodQuality = 0.5;  // a clip of this quality or better is stored at once
 constexpr std::size_t kBlocks = 5, kSplits = 10;
 
@@ -51,7 +51,7 @@ fs::path teachingDeskFreePlace(const fs::path& wanted) {
 
 TrainingController::TrainingController(QSettings& settings, QObject* parent)
     : QObject(parent), settings_(settings) {
-  folder_ = settings.value(kTeachingDeskFolderKey).toString().toStdString();
+  folder_ = settings.value(kTrainingControllerFolderKey).toString().toStdString();
   connect(&job_, &BackgroundJob::failed, this, &TrainingController::failed);
   connect(&saving_, &BackgroundJob::failed, this, &TrainingController::failed);
 }
@@ -60,7 +60,7 @@ void TrainingController::setFolder(const fs::path& folder) {
   fs::path plain = folder.lexically_normal();
   if (!plain.has_filename()) plain = plain.parent_path();
   folder_ = plain;
-  settings_.setValue(kTeachingDeskFolderKey, QString::fromStdString(plain.string()));
+  settings_.setValue(kTrainingControllerFolderKey, QString::fromStdString(plain.string()));
   table_.reset();
   clips_.clear();
   checked_.reset();

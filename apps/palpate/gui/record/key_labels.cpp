@@ -9,12 +9,12 @@
 namespace palpate::gui {
 namespace {
 
-constexpr int kMarksByKeyMostLetters = 60;  // of a label
+constexpr int kKeyLabelsMostLetters = 60;  // of a label
 constexpr int kRows = 5;
 // In the order of the keyboard.
 constexpr std::array<std::size_t, 10> kKeyOrder = {1, 2, 3, 4, 5, 6, 7, 8, 9, 0};
 
-constexpr const char* kMarksByKeyStyle = R"(
+constexpr const char* kKeyLabelsStyle = R"(
 #keyCap { background: palette(button); border: 1px solid palette(mid); border-radius: 4px; padding: 3px 0; }
 #marksHeader { padding: 4px 6px 4px 2px; }
 )";
@@ -22,7 +22,7 @@ constexpr const char* kMarksByKeyStyle = R"(
 }  // namespace
 
 KeyLabels::KeyLabels(QWidget* parent) : QWidget(parent) {
-  setStyleSheet(kMarksByKeyStyle);
+  setStyleSheet(kKeyLabelsStyle);
   header_ = new QToolButton(this);
   header_->setObjectName("marksHeader");
   header_->setText("&Marks by key");
@@ -78,7 +78,7 @@ QWidget* KeyLabels::makeGrid() {
     field->setObjectName("markLabel" + name);
     field->setAccessibleName("Label of key " + name);
     field->setPlaceholderText("mark " + name);
-    field->setMaxLength(kMarksByKeyMostLetters);
+    field->setMaxLength(kKeyLabelsMostLetters);
     connect(field, &QLineEdit::textChanged, this, &KeyLabels::sumUp);
     const int column = place / kRows * 3;
     grid->addWidget(key, place % kRows, column);

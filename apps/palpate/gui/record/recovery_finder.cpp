@@ -14,8 +14,8 @@ namespace palpate::gui {
 namespace {
 
 constexpr const char* kIgnored = "recording/ignored";
-constexpr qsizetype kMostIgnored = 500;                 // the oldest entries are removed
-constexpr double kUnfinishedFinderSmallestNews = 0.01;  // step of progress reports
+constexpr qsizetype kMostIgnored = 500;               // the oldest entries are removed
+constexpr double kRecoveryFinderSmallestNews = 0.01;  // step of progress reports
 
 std::string narrow(const QString& path) { return path.toStdString(); }
 
@@ -114,7 +114,7 @@ RecoveryFinder::Report RecoveryFinder::recoverAll(const QStringList& paths,
   for (qsizetype i = 0; i < paths.size() && !cancelled; ++i) {
     const auto progress = [&](double fraction) {
       const double now = (static_cast<double>(i) + fraction) / static_cast<double>(paths.size());
-      if (now - reported >= kUnfinishedFinderSmallestNews) {
+      if (now - reported >= kRecoveryFinderSmallestNews) {
         reported = now;
         postResult([this, now] { emit progressed(now); });
       }

@@ -7,10 +7,10 @@ namespace palpate::gui {
 namespace {
 
 // The symbols are drawn in a square of 16 x 16 units, enlarged by 2.
-constexpr int kSlipLampUnits = 16;
+constexpr int kSlipIndicatorUnits = 16;
 constexpr int kScale = 2;
-constexpr QPointF kSlipLampMiddle(8.0, 8.0);
-constexpr double kSlipLampRadius = 6.0;
+constexpr QPointF kSlipIndicatorMiddle(8.0, 8.0);
+constexpr double kSlipIndicatorRadius = 6.0;
 
 QPolygonF slipLampPolygon(const QList<QPointF>& points) { return QPolygonF(points); }
 
@@ -18,9 +18,10 @@ QPolygonF slipLampPolygon(const QList<QPointF>& points) { return QPolygonF(point
 
 IndicatorLook indicatorOf(const SlipSample* sample) {
   if (sample == nullptr) return IndicatorLook::kOff;
-  if (sample->slipping || sample->lamp == SlipIndicator::kSlipping) return IndicatorLook::kSlipping;
-  if (sample->lamp == SlipIndicator::kOff) return IndicatorLook::kOff;
-  const bool unsure = sample->lamp == SlipIndicator::kNotComputable ||
+  if (sample->slipping || sample->indicator == SlipIndicator::kSlipping)
+    return IndicatorLook::kSlipping;
+  if (sample->indicator == SlipIndicator::kOff) return IndicatorLook::kOff;
+  const bool unsure = sample->indicator == SlipIndicator::kNotComputable ||
                       sample->state == SlipState::kAmbiguous ||
                       sample->state == SlipState::kInvalid;
   return unsure ? IndicatorLook::kUnsure : IndicatorLook::kReady;
@@ -42,7 +43,7 @@ QColor colorOf(IndicatorLook look, Theme theme) {
 }
 
 QIcon indicatorIcon(IndicatorLook look, Theme theme) {
-  QPixmap pixmap(kSlipLampUnits * kScale, kSlipLampUnits * kScale);
+  QPixmap pixmap(kSlipIndicatorUnits * kScale, kSlipIndicatorUnits * kScale);
   pixmap.setDevicePixelRatio(kScale);
   pixmap.fill(Qt::transparent);
   QPainter painter(&pixmap);
@@ -55,10 +56,11 @@ QIcon indicatorIcon(IndicatorLook look, Theme theme) {
     case IndicatorLook::kOff:
       painter.setBrush(Qt::NoBrush);
       painter.setPen(QPen(color, 1.6));
-      painter.drawEllipse(kSlipLampMiddle, kSlipLampRadius - 1.0, kSlipLampRadius - 1.0);
+      painter.drawEllipse(
+          kSlipIndicatorMiddle, kSlipIndicatorRadius - 1.0, kSlipIndicatorRadius - 1.0);
       break;
     case IndicatorLook::kReady:
-      painter.drawEllipse(kSlipLampMiddle, kSlipLampRadius, kSlipLampRadius);
+      painter.drawEllipse(kSlipIndicatorMiddle, kSlipIndicatorRadius, kSlipIndicatorRadius);
       painter.setPen(inside);
       painter.drawPolyline(slipLampPolygon({{5.2, 8.3}, {7.2, 10.3}, {10.9, 5.9}}));
       break;

@@ -262,13 +262,13 @@ void SlipPanel::showRows() {
   std::vector<std::vector<FigureCell>> rows;
   for (std::size_t m = 0; m < hand()->layout->numMatrices(); ++m) {
     const SlipSample* sample = sampleNow(m);
-    const IndicatorLook lamp = indicatorOf(sample);
+    const IndicatorLook indicator = indicatorOf(sample);
     const double pitchMm = hand()->layout->matrix(m).pitchMm;
     const QString name = list_->width() < kShortNames
                              ? QString::fromStdString(hand()->matrices.at(m).shortName)
                              : nameOfMatrix(m);
     std::vector<FigureCell> row = {
-        {.text = name, .tip = nameOfMatrix(m), .icon = indicatorIcon(lamp, theme_)},
+        {.text = name, .tip = nameOfMatrix(m), .icon = indicatorIcon(indicator, theme_)},
         {.text = verdictOf(sample), .tip = meaningOf(sample)}};
     const auto add = [&](bool known, const QString& text, const QString& tip, bool warning) {
       row.push_back({.text = known ? text : QString("–"),

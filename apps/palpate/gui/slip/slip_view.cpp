@@ -12,12 +12,12 @@
 namespace palpate::gui {
 namespace {
 
-constexpr double kSlipDrawingMargin = 10.0;        // [px]
-constexpr double kSlipDrawingLargestTaxel = 40.0;  // [px]
+constexpr double kSlipViewMargin = 10.0;        // [px]
+constexpr double kSlipViewLargestTaxel = 40.0;  // [px]
 constexpr int kFootLines = 4;   // lines of numbers below the drawing; half of them when it is low
 constexpr double kLow = 320.0;  // [px] lower is low
-constexpr double kFaintest = 0.2;          // smallest opacity of the taxels
-constexpr double kSlipDrawingFaint = 0.6;  // opacity of the taxels
+constexpr double kFaintest = 0.2;       // smallest opacity of the taxels
+constexpr double kSlipViewFaint = 0.6;  // opacity of the taxels
 constexpr double kEllipseSds = 2.0;
 constexpr double kSkewSeen = 0.05;   // smaller skewness has no mark
 constexpr double kMostSkew = 1.5;    // limit for the size of a mark
@@ -117,14 +117,14 @@ void SlipView::setMap(ColorMapName map) {
 
 SlipView::Place SlipView::placeIn(const QRectF& area) const {
   const double line = fontMetrics().height();
-  const QRectF room = area.adjusted(
-      kSlipDrawingMargin, line + 10.0, -kSlipDrawingMargin, -footLines(area) * line - 12.0);
+  const QRectF room =
+      area.adjusted(kSlipViewMargin, line + 10.0, -kSlipViewMargin, -footLines(area) * line - 12.0);
   const MatrixLayout& layout = scene_->layout;
   Place place;
   place.side =
       std::floor(std::clamp(std::min(room.width() / layout.columns, room.height() / layout.rows),
                             2.0,
-                            kSlipDrawingLargestTaxel));
+                            kSlipViewLargestTaxel));
   const QSizeF size(layout.columns * place.side, layout.rows * place.side);
   place.matrix =
       QRectF(QPointF(std::floor(room.center().x() - 0.5 * size.width()),
@@ -144,14 +144,13 @@ void SlipView::paint(QPainter& painter, const QRectF& area, Theme theme) const {
   const Place place = placeIn(area);
   const double line = QFontMetricsF(painter.font()).height();
   painter.setPen(colors.text);
-  painter.drawText(
-      QRectF(area.left() + kSlipDrawingMargin,
-             area.top() + 6.0,
-             area.width() - 2 * kSlipDrawingMargin,
-             line),
-      Qt::AlignHCenter | Qt::AlignVCenter,
-      QFontMetricsF(painter.font())
-          .elidedText(scene.name, Qt::ElideRight, area.width() - 2 * kSlipDrawingMargin));
+  painter.drawText(QRectF(area.left() + kSlipViewMargin,
+                          area.top() + 6.0,
+                          area.width() - 2 * kSlipViewMargin,
+                          line),
+                   Qt::AlignHCenter | Qt::AlignVCenter,
+                   QFontMetricsF(painter.font())
+                       .elidedText(scene.name, Qt::ElideRight, area.width() - 2 * kSlipViewMargin));
   const ColorTable& table = colorTable(map_);
   for (int y = 0; y < scene.layout.rows; ++y)
     for (int x = 0; x < scene.layout.columns; ++x) {
@@ -162,14 +161,14 @@ void SlipView::paint(QPainter& painter, const QRectF& area, Theme theme) const {
       if (!(value > 0.0) || !scene.layout.enabled(y, x)) continue;
       QColor color = QColor::fromRgb(table[static_cast<std::size_t>(
           colorIndex(value, 0.0, std::max(1.0, scene.largestCounts)))]);
-      color.setAlphaF(static_cast<float>(kFaintest + (kSlipDrawingFaint - kFaintest) * value /
+      color.setAlphaF(static_cast<float>(kFaintest + (kSlipViewFaint - kFaintest) * value /
                                                          std::max(1.0, scene.largestCounts)));
       painter.fillRect(square, color);
     }
   painter.setRenderHint(QPainter::Antialiasing);
-  const QRectF foot(area.left() + kSlipDrawingMargin,
+  const QRectF foot(area.left() + kSlipViewMargin,
                     area.bottom() - footLines(area) * line - 6.0,
-                    area.width() - 2 * kSlipDrawingMargin,
+                    area.width() - 2 * kSlipViewMargin,
                     line);
   painter.setPen(colors.muted);
   if (!scene.sample) {
@@ -229,8 +228,8 @@ void SlipView::paint(QPainter& painter, const QRectF& area, Theme theme) const {
     painter.setBrush(Qt::NoBrush);
   }
   // The motion of the last frame, enlarged, with its threshold.
-  const QColor lamp = colorOf(indicatorOf(&sample), theme);
-  painter.setPen(QPen(lamp, 1.0, Qt::DotLine));
+  const QColor indicator = colorOf(indicatorOf(&sample), theme);
+  painter.setPen(QPen(indicator, 1.0, Qt::DotLine));
   const double ring = scene.stepTaxels * kEnlarged * place.side;
   painter.drawEllipse(centre, ring, ring);
   if (sample.valid)
@@ -238,7 +237,7 @@ void SlipView::paint(QPainter& painter, const QRectF& area, Theme theme) const {
                centre,
                centre + QPointF(static_cast<double>(sample.dx), static_cast<double>(sample.dy)) *
                             kEnlarged * place.side,
-               lamp,
+               indicator,
                rim);
   const auto pair = [](bool known, float x, float y) {
     return known ? signedFigure(x) + ", " + signedFigure(y) : QString("–");
