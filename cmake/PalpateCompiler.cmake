@@ -61,18 +61,18 @@ function(palpate_precompiled target kind)
   endif()
 endfunction()
 
-# palpate_build_precompiled(KIND [THOROUGH | LIGHT] LIBS lib...) makes that form, as optimised as those who read it; LIBs are
+# palpate_build_precompiled(KIND [SPEED | BUILD_TIME] LIBS lib...) makes that form, as optimised as those who read it; LIBs are
 # those whose headers are in it.
 function(palpate_build_precompiled kind)
-  cmake_parse_arguments(form "THOROUGH;LIGHT" "" "LIBS" ${ARGN})
+  cmake_parse_arguments(form "SPEED;BUILD_TIME" "" "LIBS" ${ARGN})
   if(PALPATE_PRECOMPILED)
     set(target palpate_precompiled_${kind})
     add_library(${target} OBJECT ${PROJECT_SOURCE_DIR}/cmake/precompiled/nothing.cpp)
     target_link_libraries(${target} PRIVATE palpate_warnings ${form_LIBS})
     palpate_match_precompiled_flags(${target})
-    if(form_THOROUGH)
+    if(form_SPEED)
       palpate_optimise_speed(${target})
-    elseif(form_LIGHT)
+    elseif(form_BUILD_TIME)
       palpate_optimise_build_time(${target})
     endif()
     target_precompile_headers(${target} PRIVATE ${PROJECT_SOURCE_DIR}/cmake/precompiled/${kind}.h)

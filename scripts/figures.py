@@ -164,8 +164,8 @@ def bench(name, seconds, pattern, figures, display=False, **more):
                 figures, **more)
 
 
-def slow_test(name, seconds, room, file, figures, **more):
-    return Part(name, seconds, f'"$TESTS"/{room}/{room}_tests --file={file}', figures, **more)
+def slow_test(name, seconds, module, file, figures, **more):
+    return Part(name, seconds, f'"$TESTS"/{module}/{module}_tests --file={file}', figures, **more)
 
 
 METHODS = ["centroid", "alcazar", "ncc-paraboloid", "ncc-gauss3", "phase", "phase-normalized",
@@ -392,10 +392,10 @@ echo "$(nproc) cores, $(sed -n 's/^model name\\s*: //p' /proc/cpuinfo | head -n 
             "register")},
         "contest": (cpu("contestOfAPair"), US),
         "study": (cpu("studyConvolutionsOfSixMatrices"), US)}),
-    bench("features_time", 10, "featuresOfGrasp|momentInvariants|verdictOfADay", {
+    bench("features_time", 10, "featuresOfGrasp|momentInvariants|answerInAnotherSession", {
         "study": (cpu("featuresOfGrasp/study"), US), "best": (cpu("featuresOfGrasp/best"), US),
         "session": (cpu("featuresOfGrasp/session"), US),
-        "verdict": (cpu("verdictOfADay"), MS)}, recordings=True),
+        "verdict": (cpu("answerInAnotherSession"), MS)}, recordings=True),
     bench("learning_time", 20, "protocolS|sameByLibsvm|oneVerdict", {
         "ours": (wall("protocolS"), MS), "libsvm": (wall("sameByLibsvm"), MS),
         "verdict_svm": (cpu("oneVerdict/svm"), US), "verdict_gauss": (cpu("oneVerdict/gauss"), MS)},
@@ -538,7 +538,7 @@ SECTIONS = {
             "{wire.median}, p99 {wire.p99}, worst {wire.worst}; p99 {wire.mailbox_p99}", "wire", True),
         Row("the whole program meanwhile, with the emulated hand in it (target 20 % of a core); the "
             "window away for at most", "{wire.core}; {wire.away}", "wire"),
-        Row("hand in space, without OpenGL: a whole new frame; the view painted again; OpenGL by Mesa "
+        Row("hand in 3-D, without OpenGL: a whole new frame; the view painted again; OpenGL by Mesa "
             "on the processor, far, near", "{hand_view.raster}; {hand_view.repaint}; {hand_view.gl}, "
             "{hand_view.gl_near}", "hand_view"),
         Row("the window with two hands at 300 frames/s and a fit beside it: away for at most (target "
@@ -582,10 +582,10 @@ SECTIONS = {
             "matrix); the study's way, two full convolutions", "{slip_time.centroid}, "
             "{slip_time.ncc-gauss3}, {slip_time.phase}, {slip_time.register}; {slip_time.contest}; "
             "{slip_time.study}", "slip_time", True),
-        Row("features of a grasp of 46 frames: study, best, session; a verdict on another day",
+        Row("features of a grasp of 46 frames: study, best, session; an answer in another session",
             "{features_time.study}, {features_time.best}, {features_time.session}; "
             "{features_time.verdict}", "features_time"),
-        Row("cross-validation of 571 grasps, 10 splits, wall time; LIBSVM's training alone; a verdict, "
+        Row("cross-validation of 571 grasps, 10 splits, wall time; LIBSVM's training alone; an answer, "
             "svm, gauss", "{learning_time.ours}; {learning_time.libsvm}; {learning_time.verdict_svm}, "
             "{learning_time.verdict_gauss}", "learning_time"),
         Row("3205 spectra of 32 samples, beside OpenCV; the sum as it is written",

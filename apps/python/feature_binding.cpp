@@ -246,7 +246,7 @@ void bindFeatures(py::module_& module) {
       py::arg("set") = "best",
       "The features of every pinch grasp (both distal pads touch): source is a Profile, a "
       "recording, a folder with a folder of recordings per class ('_' in its name as blank), or a "
-      "list of these paths. set 'best': holds on another day; 'study': the study's 54; "
+      "list of these paths. set 'best': holds in another session; 'study': the study's 54; "
       "'session': best within one session only. What can't be used is listed in `troubles`.");
   module.def(
       "feature_names",

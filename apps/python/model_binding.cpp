@@ -7,7 +7,7 @@
 
 #include "palpate/core/error.h"
 #include "palpate/core/number_text.h"
-#include "palpate/core/utc_stamp.h"
+#include "palpate/core/time.h"
 #include "palpate/recognition/model_evaluation.h"
 
 #include "python/arrays.h"
@@ -173,7 +173,7 @@ void bindModel(py::module_& module) {
       .def_property_readonly(
           "carries_over",
           [](const TrainedModel& m) { return m.adaptsToSession(); },
-          "Whether it knows a session offset and can adapt: to be used on another day.")
+          "Whether it knows a session offset and can adapt: to be used in another session.")
       .def_property_readonly(
           "session_offset",
           [](const TrainedModel& m) { return toPython(offsetJson(m.offset)); },

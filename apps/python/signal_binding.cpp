@@ -134,7 +134,7 @@ py::dict spectrum(const Numbers& timeS,
     std::size_t longest = 0;
     for (const GapFreeSpan& stretch : found.report.stretches)
       longest = std::max(longest, stretch.gridSamples);
-    throw py::value_error("the longest stretch without a gap has " + std::to_string(longest) +
+    throw py::value_error("the longest span without a gap has " + std::to_string(longest) +
                           " samples, a window takes " + std::to_string(window) +
                           ": take a smaller window");
   }
@@ -203,7 +203,8 @@ void bindSignals(py::module_& module) {
              "mean_magnitude (B,), strongest_hz, rate_hz, nyquist_hz [Hz] (nothing above can be "
              "seen), jitter (sd of the intervals / mean), not_finite, in_no_segment (samples). "
              "overlap: default window - 1; detrend: 'mean', 'line', 'none'; rate of the grid: "
-             "'mean', 'median'. ValueError for a series without a stretch as long as the window.");
+             "'mean', 'median'. ValueError for a series without a span free of gaps as long as the "
+             "window.");
   module.def("strongest_taxel",
              &strongest,
              py::arg("profile"),

@@ -8,7 +8,6 @@
 
 #include "palpate/slip/contact_moments.h"
 #include "palpate/slip/contact_outline.h"
-#include "palpate/slip/principal_axis.h"
 #include "palpate/slip/slip_accuracy.h"
 #include "palpate/slip/slip_segments.h"
 #include "palpate/slip/synthetic_slip.h"

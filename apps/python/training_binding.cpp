@@ -55,7 +55,7 @@ Wishes wishesOf(const std::optional<std::string>& classifier,
 }
 
 // The classifier that the caller requested; else, for the feature set best, gauss, because only
-// that works on another day.
+// that works in another session.
 ClassifierKind classifierFor(const Wishes& wishes, FeatureSet set) {
   if (wishes.classifier) return *wishes.classifier;
   return set == FeatureSet::kBest && !wishes.components ? ClassifierKind::kGauss
@@ -174,7 +174,7 @@ void bindTraining(py::module_& module) {
              py::arg("shrinkage") = py::none(),
              "Trains a model of the objects in a folder (a folder of recordings per class), or of "
              "Features. What isn't given is chosen by cross-validation; of the set 'best' it is "
-             "gauss, the one classifier that carries over to another day. classifier: 'svm', "
+             "gauss, the one classifier that carries over to another session. classifier: 'svm', "
              "'qda', 'lda', 'gauss'; lda: components of a discriminant analysis before it; c: cost "
              "of svm; shrinkage: of the discriminant analysis, 0..1 or 'auto'. Error when nothing "
              "can be learnt.");

@@ -5,9 +5,8 @@
 #include <utility>
 
 #include "palpate/core/error.h"
+#include "palpate/core/json.h"
 #include "palpate/core/text_file.h"
-
-#include "calibration/json_or_null.h"
 
 namespace palpate {
 namespace {

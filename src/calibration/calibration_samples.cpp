@@ -4,12 +4,12 @@
 #include <utility>
 
 #include "palpate/core/error.h"
-#include "palpate/core/progress_steps.h"
+#include "palpate/core/progress.h"
 
 namespace palpate {
 namespace {
 
-constexpr std::size_t kPressureGatheringToldEvery = 1024;  // frames
+constexpr std::size_t kCalibrationSamplesProgressEvery = 1024;  // frames
 
 void gatherRow(const PressureTableRow& row,
                const std::filesystem::path& folder,
@@ -47,7 +47,7 @@ std::size_t loadedMatrix(const Profile& profile, const Progress& progress) {
   std::vector<double> sums(profile.layout().numMatrices());
   TactileFrame frame;
   for (std::size_t i = 0; i < profile.numFrames(); ++i) {
-    reportProgress(progress, i, profile.numFrames(), kPressureGatheringToldEvery);
+    reportProgress(progress, i, profile.numFrames(), kCalibrationSamplesProgressEvery);
     profile.readFrame(i, frame);
     for (std::size_t m = 0; m < sums.size(); ++m)
       sums[m] += static_cast<double>(std::as_const(frame).matrix(m).sum());

@@ -4,13 +4,13 @@
 #include <limits>
 
 #include "palpate/core/error.h"
-#include "palpate/core/progress_steps.h"
+#include "palpate/core/progress.h"
 #include "palpate/core/time.h"
 
 namespace palpate {
 namespace {
 
-constexpr std::size_t kForceSeriesToldEvery = 1024;  // frames
+constexpr std::size_t kForceSeriesProgressEvery = 1024;  // frames
 constexpr double kFullScaleCounts = 4095.0;
 
 }  // namespace
@@ -72,7 +72,7 @@ ForceSeries forceSeries(const Profile& profile,
   std::optional<std::size_t> sample;
   std::vector<double> degC;
   for (std::size_t i = 0; i < numFrames; ++i) {
-    reportProgress(progress, i, numFrames, kForceSeriesToldEvery);
+    reportProgress(progress, i, numFrames, kForceSeriesProgressEvery);
     profile.readFrame(i, frame);
     const auto belongs = profile.temperatureSampleAt(frame.hostUs);
     if (belongs && belongs != sample) degC = profile.temperatures(*belongs).degC;

@@ -7,7 +7,7 @@
 
 #include "palpate/core/error.h"
 #include "palpate/core/number_text.h"
-#include "palpate/core/progress_steps.h"
+#include "palpate/core/progress.h"
 #include "palpate/core/statistics.h"
 #include "palpate/core/time.h"
 #include "palpate/model/timing.h"

@@ -10,7 +10,7 @@
 #include "palpate/calibration/student_t.h"
 #include "palpate/core/error.h"
 #include "palpate/core/number_text.h"
-#include "palpate/core/progress_steps.h"
+#include "palpate/core/progress.h"
 
 namespace palpate {
 namespace {

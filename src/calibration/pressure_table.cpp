@@ -6,10 +6,10 @@
 #include <utility>
 
 #include "palpate/core/error.h"
+#include "palpate/core/escaped_line.h"
 #include "palpate/core/number_text.h"
 #include "palpate/core/statistics.h"
 #include "palpate/core/text_file.h"
-#include "palpate/core/trimmed.h"
 
 namespace palpate {
 namespace {

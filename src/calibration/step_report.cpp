@@ -6,9 +6,8 @@
 #include <numeric>
 #include <string>
 
+#include "palpate/core/json.h"
 #include "palpate/core/number_text.h"
-
-#include "calibration/json_or_null.h"
 
 namespace palpate {
 namespace {

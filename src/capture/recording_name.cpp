@@ -12,7 +12,6 @@
 #include "palpate/core/error.h"
 #include "palpate/core/escaped_line.h"
 #include "palpate/core/number_text.h"
-#include "palpate/core/trimmed.h"
 
 namespace palpate {
 namespace fs = std::filesystem;

@@ -9,7 +9,7 @@
 #include <openssl/evp.h>
 
 #include "palpate/core/error.h"
-#include "palpate/core/hex_text.h"
+#include "palpate/core/number_text.h"
 
 namespace palpate {
 namespace {

@@ -4,7 +4,7 @@
 #include <charconv>
 #include <cmath>
 
-#include "palpate/core/trimmed.h"
+#include "palpate/core/escaped_line.h"
 
 namespace palpate {
 namespace {

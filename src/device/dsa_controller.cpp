@@ -10,7 +10,6 @@
 #include <utility>
 
 #include "palpate/core/byte_order.h"
-#include "palpate/core/byte_writer.h"
 #include "palpate/core/error.h"
 #include "palpate/core/time.h"
 

@@ -6,7 +6,6 @@
 #include <string>
 
 #include "palpate/core/byte_order.h"
-#include "palpate/core/byte_writer.h"
 #include "palpate/device/weiss_checksum.h"
 
 namespace palpate {

@@ -7,9 +7,9 @@
 #include <stdexcept>
 #include <string>
 
+#include "palpate/core/byte_order.h"
 #include "palpate/core/byte_reader.h"
-#include "palpate/core/byte_writer.h"
-#include "palpate/core/hex_text.h"
+#include "palpate/core/number_text.h"
 
 namespace palpate {
 namespace {

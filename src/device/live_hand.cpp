@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "palpate/core/error.h"
-#include "palpate/core/hex_text.h"
 #include "palpate/core/number_text.h"
 #include "palpate/device/port_list.h"
 

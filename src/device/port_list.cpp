@@ -7,7 +7,7 @@
 #include <libserialport.h>
 #include <unistd.h>
 
-#include "palpate/core/natural_order.h"
+#include "palpate/core/file_name.h"
 
 namespace palpate {
 namespace fs = std::filesystem;

@@ -9,7 +9,7 @@
 
 #include "palpate/core/byte_reader.h"
 #include "palpate/core/error.h"
-#include "palpate/core/hex_text.h"
+#include "palpate/core/number_text.h"
 #include "palpate/core/time.h"
 #include "palpate/device/dsa_controller.h"
 #include "palpate/device/dsa_packet.h"

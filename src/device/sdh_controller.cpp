@@ -130,7 +130,7 @@ void SdhController::readInfo() {
   // Older firmware doesn't know all of these requests: it refuses them, or does not answer (then
   // the others are skipped).
   bool answers = true;
-  const auto ifTold = [&](const auto& ask) {
+  const auto ifAnswered = [&](const auto& ask) {
     if (!answers) return;
     try {
       ask();
@@ -142,7 +142,7 @@ void SdhController::readInfo() {
       answers = error.fault() != DeviceFault::kSilent;
     }
   };
-  ifTold([&] {
+  ifAnswered([&] {
     const SdhQuantity axes{SdhCommand::kNumAxes, "number of axes", "", 0.0, 100.0, true};
     const double count = numbers("numaxis", "NUMAXIS", std::nullopt, axes, 1, briefly)[0];
     if (count != static_cast<double>(kSdhAxes))
@@ -150,10 +150,10 @@ void SdhController::readInfo() {
                   "this hand has " + std::to_string(static_cast<int>(count)) +
                       " axes; Palpate drives the SDH-2 with seven");
   });
-  ifTold([&] { facts_.date = word("ver_date", briefly); });
-  ifTold([&] { facts_.soc = word("soc", briefly); });
-  ifTold([&] { facts_.serial = word("sn", briefly); });
-  ifTold([&] { facts_.id = word("id", briefly); });
+  ifAnswered([&] { facts_.date = word("ver_date", briefly); });
+  ifAnswered([&] { facts_.soc = word("soc", briefly); });
+  ifAnswered([&] { facts_.serial = word("sn", briefly); });
+  ifAnswered([&] { facts_.id = word("id", briefly); });
   // These values decide which commands may be sent, so newer firmware must report them.
   const SdhFirmware firmware = SdhFirmware::parse(facts_.firmware);
   if (firmware.atLeast(0, 0, 2, 1)) facts_.maximumVelocity = velocityLimits();

@@ -7,8 +7,8 @@
 #include <charconv>
 #include <stdexcept>
 
+#include "palpate/core/byte_order.h"
 #include "palpate/core/byte_reader.h"
-#include "palpate/core/byte_writer.h"
 #include "palpate/core/number_text.h"
 #include "palpate/device/weiss_checksum.h"
 

@@ -7,7 +7,6 @@
 #include <utility>
 #include <variant>
 
-#include "palpate/core/hex_text.h"
 #include "palpate/core/json.h"
 #include "palpate/core/number_text.h"
 

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "palpate/core/escaped_line.h"
 #include "palpate/core/number_text.h"
-#include "palpate/core/trimmed.h"
 #include "palpate/model/preshape.h"
 
 namespace palpate {

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "palpate/core/byte_writer.h"
+#include "palpate/core/byte_order.h"
 
 namespace palpate {
 

@@ -5,8 +5,8 @@
 #include <limits>
 #include <stdexcept>
 
+#include "palpate/core/escaped_line.h"
 #include "palpate/core/number_text.h"
-#include "palpate/core/trimmed.h"
 
 namespace palpate {
 namespace {

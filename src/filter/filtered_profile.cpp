@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "palpate/core/error.h"
-#include "palpate/core/progress_steps.h"
+#include "palpate/core/progress.h"
 #include "palpate/filter/filter_chain.h"
 #include "palpate/model/profile_builder.h"
 

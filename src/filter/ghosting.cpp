@@ -7,7 +7,7 @@
 #include <string>
 
 #include "palpate/core/error.h"
-#include "palpate/core/progress_steps.h"
+#include "palpate/core/progress.h"
 #include "palpate/filter/filter_chain.h"
 
 namespace palpate {

@@ -6,8 +6,8 @@
 #include <stdexcept>
 
 #include "palpate/core/error.h"
+#include "palpate/core/escaped_line.h"
 #include "palpate/core/number_text.h"
-#include "palpate/core/trimmed.h"
 
 namespace palpate {
 namespace {

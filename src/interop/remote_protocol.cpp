@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "palpate/core/escaped_line.h"
-#include "palpate/core/trimmed.h"
 
 namespace palpate {
 namespace {

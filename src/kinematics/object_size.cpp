@@ -5,7 +5,7 @@
 #include <stdexcept>
 
 #include "palpate/core/error.h"
-#include "palpate/core/progress_steps.h"
+#include "palpate/core/progress.h"
 #include "palpate/core/statistics.h"
 #include "palpate/kinematics/contact_geometry.h"
 #include "palpate/kinematics/joint_range.h"

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "palpate/core/error.h"
-#include "palpate/core/progress_steps.h"
+#include "palpate/core/progress.h"
 #include "palpate/core/time.h"
 
 namespace palpate {

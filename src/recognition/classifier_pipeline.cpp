@@ -157,7 +157,7 @@ Eigen::RowVectorXd inOrder(const std::vector<int>& ranking, const Eigen::RowVect
   return dealt;
 }
 
-ClassifierPipeline ofDay(const SampleSet& samples) {
+ClassifierPipeline ofSession(const SampleSet& samples) {
   ClassifierPipeline pipeline;
   pipeline.classifier = ClassifierKind::kGauss;
   pipeline.numClasses = samples.numClasses();
@@ -230,7 +230,7 @@ ClassifierPipeline ClassifierPipeline::of(const SampleSet& samples,
                                           const PipelineOptions& options) {
   options.validate();
   requireLearnable(samples);
-  if (options.classifier == ClassifierKind::kGauss) return ofDay(samples);
+  if (options.classifier == ClassifierKind::kGauss) return ofSession(samples);
   ClassifierPipeline pipeline = fitted(samples.x, samples.y, samples.numClasses(), options);
   if (options.calibrationBlocks == 0) return pipeline;
   calibrate(samples, options, pipeline);

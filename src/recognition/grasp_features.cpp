@@ -54,8 +54,8 @@ std::vector<std::string> featureNames(FeatureSet set, const PinchHand& hand) {
 }
 
 std::string_view sessionSetWarning() noexcept {
-  return "the set 'session' holds joint angles at rest: it remembers the pose in which each thing "
-         "was presented, is best within one session, and fails on another day (use 'best')";
+  return "the set 'session' holds joint angles at rest: it remembers the pose in which each object "
+         "was presented, is best within one session, and fails in another session (use 'best')";
 }
 
 GraspFeatures graspFeatures(const Profile& profile,

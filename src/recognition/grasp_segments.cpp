@@ -6,7 +6,7 @@
 #include <string>
 
 #include "palpate/core/error.h"
-#include "palpate/core/progress_steps.h"
+#include "palpate/core/progress.h"
 #include "palpate/core/time.h"
 
 namespace palpate {

@@ -96,8 +96,9 @@ std::vector<SampleSplit> stratifiedSplits(const std::vector<int>& y,
       split.train.insert(split.train.end(), middle, items.end());
     }
     if (split.test.empty() || split.train.empty())
-      throw std::invalid_argument(std::to_string(y.size()) +
-                                  " samples leave nothing to examine when each class must teach");
+      throw std::invalid_argument(
+          std::to_string(y.size()) +
+          " samples leave no test samples when each class needs training samples");
     order(split);
   }
   return all;

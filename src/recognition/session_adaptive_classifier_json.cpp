@@ -15,7 +15,7 @@ namespace js = json_numbers;
 
 constexpr std::int64_t kFormat = 1;
 
-Json dayJsonOf(const StudentTComponent& distribution) {
+Json componentJson(const StudentTComponent& distribution) {
   return Json::object()
       .set("mean", js::of(distribution.mean))
       .set("scatter", js::of(distribution.scatter));
@@ -29,7 +29,7 @@ Eigen::MatrixXd squareIn(const Json& json, std::string_view key) {
   return js::matrix(json, key, size, size);
 }
 
-StudentTComponent bellIn(const Json& json) {
+StudentTComponent componentFrom(const Json& json) {
   return {js::vector(json, "mean"), squareIn(json, "scatter")};
 }
 
@@ -39,9 +39,9 @@ Json sessionAdaptiveJson(const SessionAdaptiveClassifier& model) {
   const SessionAdaptiveParameters& data = model.data();
   Json classComponents = Json::array(), today = Json::array();
   for (const StudentTComponent& distribution : data.classComponents)
-    classComponents.push(dayJsonOf(distribution));
+    classComponents.push(componentJson(distribution));
   for (const SessionComponent& component : data.today)
-    today.push(dayJsonOf(component.distribution)
+    today.push(componentJson(component.distribution)
                    .set("class", component.classIndex)
                    .set("count", component.count));
   Json out = Json::object();
@@ -51,7 +51,7 @@ Json sessionAdaptiveJson(const SessionAdaptiveClassifier& model) {
   out.set("degrees_of_freedom", data.degreesOfFreedom);
   out.set("new_scatter", data.fewShotScatterScale).set("seen_today", data.seenInSessionLogPrior);
   out.set("bells", classComponents).set("pooled", js::of(data.pooled));
-  out.set("background", dayJsonOf(data.background)).set("today", today);
+  out.set("background", componentJson(data.background)).set("today", today);
   return out;
 }
 
@@ -66,17 +66,17 @@ SessionAdaptiveClassifier sessionAdaptiveFrom(const Json& json) {
   data.fewShotScatterScale = js::number(json, "new_scatter");
   data.seenInSessionLogPrior = js::number(json, "seen_today");
   data.pooled = squareIn(json, "pooled");
-  data.background = bellIn(js::member(json, "background"));
+  data.background = componentFrom(js::member(json, "background"));
   const Json classComponents = js::member(json, "bells"), today = js::member(json, "today");
   if (!classComponents.isArray() || !today.isArray())
     throw Error("a damaged model: 'bells' or 'today' is no list");
   for (std::size_t i = 0; i < classComponents.size(); ++i)
-    data.classComponents.push_back(bellIn(classComponents.at(i)));
+    data.classComponents.push_back(componentFrom(classComponents.at(i)));
   for (std::size_t i = 0; i < today.size(); ++i) {
     SessionComponent component;
     component.classIndex = js::count(today.at(i), "class");
     component.count = js::count(today.at(i), "count");
-    component.distribution = bellIn(today.at(i));
+    component.distribution = componentFrom(today.at(i));
     data.today.push_back(std::move(component));
   }
   return SessionAdaptiveClassifier(std::move(data));

@@ -46,7 +46,7 @@ void setDistribution(SessionOffset& offset, const Eigen::VectorXd& ln) {
   offset.sdMm = std::sqrt(variance);
 }
 
-SessionOffset bellOffset(double mm, double sdMm, const SessionOffsetOptions& options) {
+SessionOffset priorOffset(double mm, double sdMm, const SessionOffsetOptions& options) {
   SessionOffset out;
   const auto steps = static_cast<int>(std::lround(options.gridHalfWidthMm / options.stepMm));
   Eigen::VectorXd ln(2 * steps + 1);
@@ -209,14 +209,14 @@ std::string SessionOffset::text() const {
   if (origin == OffsetSource::kGiven) return out + "given)";
   if (origin == OffsetSource::kEmptyHand && objects == 0) return out + "from the empty hand)";
   return out + "from " + std::to_string(objects) + (objects == 1 ? " object" : " objects") + ")" +
-         (trusted ? "" : "; that is too little for a sure answer");
+         (trusted ? "" : ", so no answer is called sure");
 }
 
 SessionOffset noOffset() { return oneValue(0.0, OffsetSource::kNone); }
 
 SessionOffset unknownOffset(const SessionOffsetOptions& options) {
   options.validate();
-  SessionOffset out = bellOffset(0.0, options.priorSdMm, options);
+  SessionOffset out = priorOffset(0.0, options.priorSdMm, options);
   out.origin = OffsetSource::kUnknown;
   return out;
 }
@@ -245,7 +245,7 @@ SessionOffset measuredOffset(double mm,
   grid.gridHalfWidthMm =
       std::max(options.gridHalfWidthMm, std::min(100.0, std::abs(mm) + 4.0 * sdMm));
   grid.stepMm = std::max(grid.gridHalfWidthMm / 10000.0, std::min(options.stepMm, sdMm / 2.0));
-  SessionOffset out = bellOffset(mm, sdMm, grid);
+  SessionOffset out = priorOffset(mm, sdMm, grid);
   out.mm = mm;
   out.sdMm = sdMm;
   out.origin = origin;

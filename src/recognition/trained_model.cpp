@@ -9,7 +9,7 @@
 
 #include "palpate/core/error.h"
 #include "palpate/core/hash.h"
-#include "palpate/core/progress_steps.h"
+#include "palpate/core/progress.h"
 #include "palpate/recognition/cross_validation.h"
 
 namespace palpate {

@@ -5,7 +5,7 @@
 
 #include "palpate/core/error.h"
 #include "palpate/core/parallel.h"
-#include "palpate/core/progress_steps.h"
+#include "palpate/core/progress.h"
 #include "palpate/recognition/classification_report.h"
 #include "palpate/recognition/cross_validation.h"
 #include "palpate/recognition/session_offset.h"
@@ -110,13 +110,14 @@ UnknownReport unknownWithin(const SampleSet& samples,
   return unknownObjectsReportOf(present, known, ofClass);
 }
 
-UnknownReport unknownOnAnotherDay(const SampleSet& training,
-                                  const SampleSet& later,
-                                  const std::vector<std::vector<std::size_t>>& sessions,
-                                  UnknownClassOffset offset,
-                                  const Progress& progress) {
+UnknownReport unknownInLaterSession(const SampleSet& training,
+                                    const SampleSet& later,
+                                    const std::vector<std::vector<std::size_t>>& sessions,
+                                    UnknownClassOffset offset,
+                                    const Progress& progress) {
   if (later.classes != training.classes || later.features != training.features)
-    throw Error("unknown objects: the other day has other classes or features than the training");
+    throw Error(
+        "unknown objects: the other session has other classes or features than the training");
   requireThreeClasses(training);
   PipelineOptions options;
   options.classifier = ClassifierKind::kGauss;
@@ -133,18 +134,18 @@ UnknownReport unknownOnAnotherDay(const SampleSet& training,
     for (const OpenSetPrediction& prediction : predictAll(model, x, with))
       out.push_back(-prediction.logLikelihoodRatio);
   };
-  std::vector<std::pair<std::size_t, int>> strangers;
+  std::vector<std::pair<std::size_t, int>> unknownClasses;
   for (std::size_t s = 0; s < sessions.size(); ++s)
     for (std::size_t c = 0; c < later.numClasses(); ++c)
       if (!rowsOf(later.rows(sessions[s]), static_cast<int>(c)).empty())
-        strangers.emplace_back(s, static_cast<int>(c));
+        unknownClasses.emplace_back(s, static_cast<int>(c));
   for (const auto& session : sessions) {
     const Eigen::MatrixXd x = later.rows(session).x;
     strangeness(whole, x, offsetOf(whole, x, offset), known);
   }
-  for (std::size_t k = 0; k < strangers.size(); ++k) {
-    reportProgress(progress, k, strangers.size());
-    const auto [session, c] = strangers[k];
+  for (std::size_t k = 0; k < unknownClasses.size(); ++k) {
+    reportProgress(progress, k, unknownClasses.size());
+    const auto [session, c] = unknownClasses[k];
     const SampleSet sessionSamples = later.rows(sessions[session]);
     const SessionAdaptiveClassifier rest = modelOf(c);
     strangeness(

@@ -7,7 +7,6 @@
 #include <stdexcept>
 
 #include "palpate/core/error.h"
-#include "palpate/core/hex_text.h"
 #include "palpate/core/number_text.h"
 
 namespace palpate {

@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "palpate/core/error.h"
-#include "palpate/core/file_ending.h"
+#include "palpate/core/file_name.h"
 #include "palpate/core/number_text.h"
 #include "palpate/recording/dsa_reader.h"
 #include "palpate/recording/dsa_recovery.h"
@@ -36,38 +36,38 @@ std::string countsText(std::size_t frames, std::size_t angles, std::size_t tempe
 }
 
 // What is wrong with a native recording; empty when nothing is.
-std::string damageText(const PalpateRecovery& salvage) {
+std::string damageText(const PalpateRecovery& recovery) {
   std::string text;
   const auto add = [&](std::size_t count, const char* what) {
     if (count > 0) text += (text.empty() ? "" : ", ") + counted(count, what);
   };
-  add(salvage.lostFrames, "lost frame");
-  add(salvage.lostAngles, "lost angle sample");
-  add(salvage.lostTemperatures, "lost temperature sample");
-  add(salvage.damagedBlocks, "damaged block");
-  if (salvage.blocksFromPages > 0)
-    text += (text.empty() ? "" : ", ") + counted(salvage.blocksFromPages, "block") +
+  add(recovery.lostFrames, "lost frame");
+  add(recovery.lostAngles, "lost angle sample");
+  add(recovery.lostTemperatures, "lost temperature sample");
+  add(recovery.damagedBlocks, "damaged block");
+  if (recovery.blocksFromPages > 0)
+    text += (text.empty() ? "" : ", ") + counted(recovery.blocksFromPages, "block") +
             " found in the raw pages";
-  add(salvage.damagedRows, "damaged row");
-  if (salvage.layoutLost) text += (text.empty() ? "" : ", ") + std::string("layout lost");
-  if (salvage.layoutAssumed) text += (text.empty() ? "" : ", ") + std::string("layout assumed");
-  if (!salvage.sqliteError.empty())
+  add(recovery.damagedRows, "damaged row");
+  if (recovery.layoutLost) text += (text.empty() ? "" : ", ") + std::string("layout lost");
+  if (recovery.layoutAssumed) text += (text.empty() ? "" : ", ") + std::string("layout assumed");
+  if (!recovery.sqliteError.empty())
     text += (text.empty() ? "" : ", ") + std::string("SQLite stopped");
   return text;
 }
 
 VerifyReport verifyNative(const std::filesystem::path& path, const Progress& progress) {
-  const PalpateRecovery salvage = recoverPalpateProfile(path, progress);
+  const PalpateRecovery recovery = recoverPalpateProfile(path, progress);
   VerifyReport report;
-  report.message = countsText(salvage.frames, salvage.angles, salvage.temperatures);
-  if (salvage.unfinished) report.message += "; unfinished: its writer stopped before the end";
-  if (salvage.beingWritten) report.message += "; still being written";
-  if (salvage.whole()) {
+  report.message = countsText(recovery.frames, recovery.angles, recovery.temperatures);
+  if (recovery.unfinished) report.message += "; unfinished: its writer stopped before the end";
+  if (recovery.beingWritten) report.message += "; still being written";
+  if (recovery.whole()) {
     report.state = VerifyReport::State::kSound;
   } else {
     report.state =
-        salvage.profile ? VerifyReport::State::kDamaged : VerifyReport::State::kUnreadable;
-    report.message = damageText(salvage) + "; readable: " + report.message;
+        recovery.profile ? VerifyReport::State::kDamaged : VerifyReport::State::kUnreadable;
+    report.message = damageText(recovery) + "; readable: " + report.message;
   }
   return report;
 }
@@ -76,16 +76,16 @@ RecoverReport recoverNative(const std::filesystem::path& in,
                             const std::filesystem::path& out,
                             Overwrite overwrite,
                             const Progress& progress) {
-  const PalpateRecovery salvage = recoverPalpateProfile(in, progress);
+  const PalpateRecovery recovery = recoverPalpateProfile(in, progress);
   RecoverReport report;
-  if (!salvage.profile) {
+  if (!recovery.profile) {
     report.message = "nothing can be saved: no intact block was found";
     return report;
   }
-  saveRecording(*salvage.profile, salvage.events, out, overwrite, progress);
-  report.state = salvage.whole() ? RecoverReport::State::kWhole : RecoverReport::State::kPart;
-  report.message = "saved " + countsText(salvage.frames, salvage.angles, salvage.temperatures);
-  if (!salvage.whole()) report.message += "; " + damageText(salvage);
+  saveRecording(*recovery.profile, recovery.events, out, overwrite, progress);
+  report.state = recovery.whole() ? RecoverReport::State::kWhole : RecoverReport::State::kPart;
+  report.message = "saved " + countsText(recovery.frames, recovery.angles, recovery.temperatures);
+  if (!recovery.whole()) report.message += "; " + damageText(recovery);
   return report;
 }
 
@@ -113,17 +113,18 @@ RecoverReport recoverDsa(const std::filesystem::path& in,
     report.message = "nothing was damaged; saved " +
                      countsText(checked.frames, checked.angles, checked.temperatures);
   } else {
-    const DsaRecovery salvage = recoverDsaProfile(in, progress);
-    if (!salvage.profile) {
+    const DsaRecovery recovery = recoverDsaProfile(in, progress);
+    if (!recovery.profile) {
       report.message = "nothing can be saved: " + checked.message;
       return report;
     }
-    saveRecording(*salvage.profile, events, out, overwrite, progress);
+    saveRecording(*recovery.profile, events, out, overwrite, progress);
     report.state = RecoverReport::State::kPart;
-    report.message = "saved " + countsText(salvage.frames, salvage.angles, salvage.temperatures) +
-                     "; lost: the rest (" + std::to_string(salvage.intactBlocks) + " of " +
-                     counted(salvage.blocks, "bzip2 block") + " intact, " +
-                     counted(salvage.cutSamples, "sample") + " cut)";
+    report.message = "saved " +
+                     countsText(recovery.frames, recovery.angles, recovery.temperatures) +
+                     "; lost: the rest (" + std::to_string(recovery.intactBlocks) + " of " +
+                     counted(recovery.blocks, "bzip2 block") + " intact, " +
+                     counted(recovery.cutSamples, "sample") + " cut)";
   }
   if (!lostNotes.empty()) {
     report.state = RecoverReport::State::kPart;
@@ -197,26 +198,26 @@ ReadableRecording openReadable(const std::filesystem::path& path, const Progress
 }
 
 // Nothing where nothing can be read.
-std::optional<ReadableRecording> salvagedDsa(const std::filesystem::path& path,
-                                             const Progress& progress) {
-  DsaRecovery salvage = recoverDsaProfile(path, progress);
-  if (!salvage.profile) return std::nullopt;
-  ReadableRecording recording{.profile = std::move(*salvage.profile)};
+std::optional<ReadableRecording> recoveredDsa(const std::filesystem::path& path,
+                                              const Progress& progress) {
+  DsaRecovery recovery = recoverDsaProfile(path, progress);
+  if (!recovery.profile) return std::nullopt;
+  ReadableRecording recording{.profile = std::move(*recovery.profile)};
   addNotes(path, recording);
   recording.damage =
-      "damaged; readable: " + countsText(salvage.frames, salvage.angles, salvage.temperatures);
+      "damaged; readable: " + countsText(recovery.frames, recovery.angles, recovery.temperatures);
   return recording;
 }
 
-std::optional<ReadableRecording> salvagedPalpate(const std::filesystem::path& path,
-                                                 const Progress& progress) {
-  PalpateRecovery salvage = recoverPalpateProfile(path, progress);
-  if (!salvage.profile) return std::nullopt;
+std::optional<ReadableRecording> recoveredPalpate(const std::filesystem::path& path,
+                                                  const Progress& progress) {
+  PalpateRecovery recovery = recoverPalpateProfile(path, progress);
+  if (!recovery.profile) return std::nullopt;
   ReadableRecording recording{
-      .profile = std::move(*salvage.profile),
-      .events = std::move(salvage.events),
-      .damage = damageText(salvage) +
-                "; readable: " + countsText(salvage.frames, salvage.angles, salvage.temperatures)};
+      .profile = std::move(*recovery.profile),
+      .events = std::move(recovery.events),
+      .damage = damageText(recovery) + "; readable: " +
+                countsText(recovery.frames, recovery.angles, recovery.temperatures)};
   try {
     PalpateConnection access(path);
     recording.meta = access.meta().values;
@@ -246,7 +247,7 @@ ReadableRecording readableRecording(const std::filesystem::path& path, const Pro
     return recording;
   } catch (const FormatError&) {
     auto recording =
-        (isNativeRecording(path) ? salvagedPalpate : salvagedDsa)(path, partOf(0.0, 1.0));
+        (isNativeRecording(path) ? recoveredPalpate : recoveredDsa)(path, partOf(0.0, 1.0));
     if (!recording) throw;
     return std::move(*recording);
   }

@@ -10,7 +10,7 @@
 #include <sys/stat.h>
 
 #include "palpate/core/error.h"
-#include "palpate/core/file_ending.h"
+#include "palpate/core/file_name.h"
 #include "palpate/core/text_file.h"
 
 namespace palpate {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "palpate/core/progress_steps.h"
+#include "palpate/core/progress.h"
 #include "palpate/recording/dsa_reader.h"
 #include "palpate/recording/recording.h"
 

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "palpate/core/error.h"
-#include "palpate/core/progress_steps.h"
+#include "palpate/core/progress.h"
 
 namespace palpate {
 namespace {

@@ -4,7 +4,7 @@
 #include <stdexcept>
 
 #include "palpate/core/error.h"
-#include "palpate/core/progress_steps.h"
+#include "palpate/core/progress.h"
 #include "palpate/core/time.h"
 
 namespace palpate {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "palpate/core/error.h"
-#include "palpate/core/progress_steps.h"
+#include "palpate/core/progress.h"
 
 namespace palpate {
 

@@ -33,7 +33,7 @@ void LearnedSurfaceOptions::validate() const {
   checkLearnedSurface(curvatureSd >= 0.0, "curvatureSd", curvatureSd);
   checkLearnedSurface(belowThresholdSd >= 0.0, "belowThresholdSd", belowThresholdSd);
   checkLearnedSurface(outsideSd > 0.0, "outsideSd", outsideSd);
-  checkLearnedSurface(processNoiseRatio >= 0.0, "forgetting", processNoiseRatio);
+  checkLearnedSurface(processNoiseRatio >= 0.0, "processNoiseRatio", processNoiseRatio);
   key.validate();
 }
 

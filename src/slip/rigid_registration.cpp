@@ -35,7 +35,7 @@ void checkRigidRegistration(bool good, const char* field, double value) {
 }  // namespace
 
 void RegistrationOptions::validate() const {
-  checkRigidRegistration(maxIterations >= 1 && maxIterations <= 50, "passes", maxIterations);
+  checkRigidRegistration(maxIterations >= 1 && maxIterations <= 50, "maxIterations", maxIterations);
   checkRigidRegistration(convergedTaxels > 0.0, "convergedTaxels", convergedTaxels);
   checkRigidRegistration(noiseCounts > 0.0, "noiseCounts", noiseCounts);
   checkRigidRegistration(relativeError >= 0.0, "relativeError", relativeError);

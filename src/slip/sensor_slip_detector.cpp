@@ -7,7 +7,7 @@ namespace palpate {
 
 SensorSlipDetector::SensorSlipDetector(const SensorLayout& layout,
                                        const SlipDetectorOptions& options)
-    : verdicts_(layout.numMatrices()) {
+    : detections_(layout.numMatrices()) {
   detectors_.reserve(layout.numMatrices());
   for (const MatrixLayout& matrix : layout.matrices()) detectors_.emplace_back(matrix, options);
 }
@@ -17,12 +17,12 @@ const std::vector<SlipDetection>& SensorSlipDetector::update(const TactileFrame&
   if (!frame.layout || frame.layout->numMatrices() != detectors_.size())
     throw std::invalid_argument("SensorSlipDetector: the frame has another layout");
   for (std::size_t m = 0; m < detectors_.size(); ++m)
-    verdicts_[m] = detectors_[m].update(frame.matrix(m), frame.hostUs, jointsDeg);
-  return verdicts_;
+    detections_[m] = detectors_[m].update(frame.matrix(m), frame.hostUs, jointsDeg);
+  return detections_;
 }
 
 void SensorSlipDetector::collect() {
-  for (std::size_t m = 0; m < detectors_.size(); ++m) verdicts_[m] = detectors_[m].last();
+  for (std::size_t m = 0; m < detectors_.size(); ++m) detections_[m] = detectors_[m].last();
 }
 
 void SensorSlipDetector::setReference() {
@@ -45,8 +45,9 @@ void SensorSlipDetector::setOn(bool on) noexcept {
 }
 
 bool SensorSlipDetector::slipping() const noexcept {
-  return std::any_of(
-      verdicts_.begin(), verdicts_.end(), [](const SlipDetection& one) { return one.slipping; });
+  return std::any_of(detections_.begin(), detections_.end(), [](const SlipDetection& one) {
+    return one.slipping;
+  });
 }
 
 }  // namespace palpate

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "palpate/core/progress_steps.h"
+#include "palpate/core/progress.h"
 #include "palpate/core/statistics.h"
 
 namespace palpate {

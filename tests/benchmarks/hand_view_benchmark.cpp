@@ -1,4 +1,4 @@
-// Drawing a hand in space at 800 x 600, about 5,000 triangles and 1,000 lines: target 16.7 ms (60
+// Drawing a hand in 3-D at 800 x 600, about 5,000 triangles and 1,000 lines: target 16.7 ms (60
 // Hz) on one core. OpenGL where a display is (`xvfb-run -a`); what Mesa draws on the processor it
 // draws on all cores.
 #include <QOffscreenSurface>

@@ -1,6 +1,6 @@
 // Protocol S over the 571 shared grasps (features given): 10 splits, each fitting scaling,
 // discriminant analysis and support vector machine anew. Reference: LIBSVM training and calling the
-// same splits, already projected. And a verdict on one grasp.
+// same splits, already projected. And the answer for one grasp.
 #include <vector>
 
 #include <benchmark/benchmark.h>

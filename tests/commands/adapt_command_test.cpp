@@ -165,7 +165,7 @@ TEST_F(AdaptCommand, AZeroThatIsNoneIsRefused) {
                                  folder_ / "other_day.dsa",
                                  "-o",
                                  adapted()});
-  expectOneLineError(otherDay, 1, {"other_day.dsa", "another day"});
+  expectOneLineError(otherDay, 1, {"other_day.dsa", "another session"});
   // A model that was trained without such a touch, and a classifier that knows no offset.
   ASSERT_EQ(palpate({"train", folder_ / "all", "-o", folder_ / "bare.json"}).exitCode, 0);
   expectOneLineError(palpate({"adapt",
@@ -186,7 +186,7 @@ TEST_F(AdaptCommand, AZeroThatIsNoneIsRefused) {
                               "--empty-hand-zero",
                               folder_ / "other_day.dsa"}),
                      1,
-                     {"another day"});
+                     {"another session"});
 }
 
 }  // namespace

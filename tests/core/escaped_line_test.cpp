@@ -44,5 +44,17 @@ TEST(OneLine, ErrorsAreOneLineWhateverTheyName) {
   EXPECT_STREQ(FormatError("x\ty", "bad", 7).what(), "x\\ty: bad (at byte 7)");
 }
 
+TEST(Trimmed, TakesTheBlanksAroundATextAndNoneWithin) {
+  EXPECT_EQ(trimmed(" \t a b\t "), "a b");
+  EXPECT_EQ(trimmed("a"), "a");
+  EXPECT_EQ(trimmed(" \t"), "");
+  EXPECT_EQ(trimmed(""), "");
+}
+
+TEST(Trimmed, KnowsNoOtherBlanksThanItWasTold) {
+  EXPECT_EQ(trimmed("a\n"), "a\n");
+  EXPECT_EQ(trimmed("\r a\n", " \r\n"), "a");
+}
+
 }  // namespace
 }  // namespace palpate::escaped_line_test

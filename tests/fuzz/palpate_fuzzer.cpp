@@ -65,9 +65,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   } catch (const palpate::FormatError&) {
   } catch (const palpate::FileError&) {
   }
-  const palpate::PalpateRecovery salvage = palpate::recoverPalpateProfile(path);
-  if (salvage.profile) requireSane(*salvage.profile);
-  require(salvage.frames >= frames);
+  const palpate::PalpateRecovery recovery = palpate::recoverPalpateProfile(path);
+  if (recovery.profile) requireSane(*recovery.profile);
+  require(recovery.frames >= frames);
   std::filesystem::remove(path);
   return 0;
 }

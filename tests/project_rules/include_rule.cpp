@@ -23,7 +23,7 @@ std::set<std::string> wordsOf(std::string list) {
 // "gui/FOLDER/x.h" and "commands/x.h" stand for folders of apps/palpate, "python/x.h" for
 // apps/python, any other for private headers. "gui/x.h", a header of no folder, stands for
 // apps/palpate/gui.
-std::string roomOfInclude(const std::string& name) {
+std::string moduleOfInclude(const std::string& name) {
   const std::string first = name.substr(0, name.find('/'));
   if (first == "palpate") {
     const std::string rest = name.substr(8);
@@ -63,7 +63,7 @@ class Judge {
       return "the module " + module_ + " isn't in the table of docs/architecture.md";
     if (name.find('/') == std::string::npos && isStandardHeader(name)) return {};
     if (quoted && isNeighbour(name)) return {};
-    const std::string target = roomOfInclude(name);
+    const std::string target = moduleOfInclude(name);
     const bool ours = name.starts_with("palpate/") || quoted;
     return ours && name.find('/') != std::string::npos ? faultOfOurs(name, target)
                                                        : faultOfForeign(name);
@@ -79,7 +79,7 @@ class Judge {
   std::string faultOfOurs(const std::string& name, const std::string& target) const {
     const bool targetIsPublic = name.starts_with("palpate/");
     if (target == kWindow) return name + " lies in no folder of the window";
-    if (target == module_) return faultWithinRoom(name, targetIsPublic);
+    if (target == module_) return faultWithinModule(name, targetIsPublic);
     if (!targetIsPublic && !target.starts_with("apps/"))
       return name + " is private to the module " + target;
     if (module_ == "apps/palpate") return {};  // main.cpp
@@ -93,7 +93,7 @@ class Judge {
 
   // Private headers of a folder of a module serve this folder, and what lies directly in the module
   // and joins them.
-  std::string faultWithinRoom(const std::string& name, bool targetIsPublic) const {
+  std::string faultWithinModule(const std::string& name, bool targetIsPublic) const {
     if (targetIsPublic) return {};
     if (isPublic(path_)) return "a public header includes the private " + name;
     if (!path_.starts_with("src/")) return {};

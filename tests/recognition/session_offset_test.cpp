@@ -191,13 +191,13 @@ TEST(SessionOffset, IsSaidInOneLine) {
   offset.objects = 1;
   offset.trusted = false;
   EXPECT_EQ(offset.text(),
-            "today the hand reads 3.4 mm small (+- 0.3 mm, from 1 object); that is too little for "
-            "a sure answer");
+            "today the hand reads 3.4 mm small (+- 0.3 mm, from 1 object), so no answer is "
+            "called sure");
   offset = measuredOffset(0.04, 0.2, OffsetSource::kBatch);
   offset.objects = 5;
   EXPECT_EQ(offset.text(),
-            "today the hand reads sizes as it did in training (+- 0.2 mm, from 5 objects); that is "
-            "too little for a sure answer");
+            "today the hand reads sizes as it did in training (+- 0.2 mm, from 5 objects), so no "
+            "answer is called sure");
   EXPECT_EQ(givenOffset(2.0).text(), "today the hand reads 2.0 mm large (given)");
   EXPECT_EQ(measuredOffset(1.0, 0.5, OffsetSource::kEmptyHand).text(),
             "today the hand reads 1.0 mm large (+- 0.5 mm, from the empty hand)");

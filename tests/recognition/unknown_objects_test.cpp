@@ -66,14 +66,14 @@ TEST(UnknownObjects, AnOffsetThatIsKnownTellsMoreThanOneThatIsNot) {
   std::vector<std::size_t> all;
   for (std::size_t i = 0; i < later.numSamples(); ++i) all.push_back(i);
   const auto found = [&](UnknownClassOffset offset) {
-    return unknownOnAnotherDay(training, later, {all}, offset).auroc;
+    return unknownInLaterSession(training, later, {all}, offset).auroc;
   };
   EXPECT_GT(found(UnknownClassOffset::kKnown), 0.9);
   EXPECT_GT(found(UnknownClassOffset::kKnown), found(UnknownClassOffset::kUnknown) + 0.05);
   SampleSet others = later;
   others.classes[0] = "another";
-  EXPECT_THROW(unknownOnAnotherDay(training, others, {all}, UnknownClassOffset::kKnown), Error);
-  EXPECT_THROW(unknownOnAnotherDay(training, later, {}, UnknownClassOffset::kKnown), Error);
+  EXPECT_THROW(unknownInLaterSession(training, others, {all}, UnknownClassOffset::kKnown), Error);
+  EXPECT_THROW(unknownInLaterSession(training, later, {}, UnknownClassOffset::kKnown), Error);
 }
 
 // The shared recordings with the feature set `best`.

@@ -129,11 +129,11 @@ class DamageRun {
  private:
   void check(const std::filesystem::path& path, const std::set<std::size_t>& expected) {
     std::set<std::size_t> found;
-    const PalpateRecovery salvage = recoverPalpateProfile(path);
-    if (salvage.profile) found = framesOf(*salvage.profile);
+    const PalpateRecovery recovery = recoverPalpateProfile(path);
+    if (recovery.profile) found = framesOf(*recovery.profile);
     EXPECT_TRUE(std::includes(found.begin(), found.end(), expected.begin(), expected.end()))
         << "saved " << found.size() << " of " << expected.size() << " intact frames";
-    EXPECT_TRUE(found.size() == numFrames_ || !salvage.whole());
+    EXPECT_TRUE(found.size() == numFrames_ || !recovery.whole());
     const VerifyReport report = verifyRecording(path);
     EXPECT_TRUE(found.size() == numFrames_ || report.state != VerifyReport::State::kSound);
     EXPECT_EQ(report.message.find('\n'), std::string::npos) << report.message;

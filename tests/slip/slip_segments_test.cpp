@@ -16,7 +16,7 @@
 namespace palpate::slip_segments_test {
 namespace {
 
-SlipDetection verdictOf(bool slipping, double dx = 0.0) {
+SlipDetection stateTextOf(bool slipping, double dx = 0.0) {
   SlipDetection detection;
   detection.slipping = slipping;
   detection.motion.active = 9;
@@ -30,7 +30,7 @@ TEST(SlipSegmenter, BridgesShortPausesAndAddsTheWay) {
   SlipSegmenter segmenter(1, 2);
   const std::string pattern = "..##..###...#..";  // 2 between: one; 3 between: two
   for (std::size_t i = 0; i < pattern.size(); ++i)
-    segmenter.add(i, static_cast<std::int64_t>(i) * 1000, {verdictOf(pattern[i] == '#', 0.5)});
+    segmenter.add(i, static_cast<std::int64_t>(i) * 1000, {stateTextOf(pattern[i] == '#', 0.5)});
   const auto segments = segmenter.segments();
   ASSERT_EQ(segments.size(), 2U);
   EXPECT_EQ(segments[0].begin, 2U);
@@ -44,10 +44,10 @@ TEST(SlipSegmenter, BridgesShortPausesAndAddsTheWay) {
 
 TEST(SlipSegmenter, LostContactEndsASegment) {
   SlipSegmenter segmenter(2, 5);
-  segmenter.add(0, 0, {verdictOf(true), verdictOf(false)});
+  segmenter.add(0, 0, {stateTextOf(true), stateTextOf(false)});
   SlipDetection lost;
-  segmenter.add(1, 1, {lost, verdictOf(true)});
-  segmenter.add(2, 2, {verdictOf(true), verdictOf(true)});
+  segmenter.add(1, 1, {lost, stateTextOf(true)});
+  segmenter.add(2, 2, {stateTextOf(true), stateTextOf(true)});
   const auto segments = segmenter.segments();
   ASSERT_EQ(segments.size(), 3U);
   EXPECT_EQ(segments[0].matrix, 0U);

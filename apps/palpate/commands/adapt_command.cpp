@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "palpate/core/error.h"
-#include "palpate/core/utc_stamp.h"
+#include "palpate/core/time.h"
 #include "palpate/recognition/trained_model.h"
 
 #include "commands/recognition_work.h"
@@ -14,7 +14,7 @@
 namespace palpate::commands {
 namespace {
 
-// Removes the session offset of another day from the model.
+// Removes the session offset of an earlier session from the model.
 void forgetAnotherDay(TrainedModel& model, std::int64_t todayUs) {
   if (model.offset.origin != OffsetSource::kNone && !model.sameSession(todayUs))
     resetSession(model);
@@ -33,7 +33,7 @@ int adaptByGrasps(const CommandLine& given,
     sayLine(std::to_string(earlier) + (earlier == 1 ? " grasp is" : " grasps are") +
             " of an earlier session, more than 8 h before the others, and left out: the hand reads "
             "sizes differently in each session");
-  if (zero) requireSameDay(*zero, table);
+  if (zero) requireSameSession(*zero, table);
   const SampleSet today = samplesOf(table, model.classes);
   forgetAnotherDay(model, table.rows.front().timeUs);
   adaptModel(
@@ -60,14 +60,15 @@ int adaptCommand(const Arguments& words) {
            "of:\n\n"
            "  FILE  a recording in which the empty hand closes until its pads touch (palpate grasp "
            "--preshape pinch-empty\n        --mode reactive): no object, no label. Needs a model "
-           "that was trained with such a touch of its own day.\n"
+           "that was trained with such a touch of its own session.\n"
            "  PATH  a folder with a folder of recordings per class, some of the model's: labelled "
            "grasps, which also show\n        how the objects measure today. One grasp of each "
            "object is usually enough; at least two\n        different objects are needed for "
-           "verdicts that are called sure.\n\n"
+           "answers that are called sure.\n\n"
            "Of grasps of several sessions (more than 8 h apart) the newest counts, and what is "
-           "left out is reported: exit code 3.\nWhat the model stored of the same day is kept, of "
-           "another day "
+           "left out is reported: exit code 3.\nWhat the model stored of the same session is kept, "
+           "of "
+           "another session "
            "forgotten. Prints the "
            "offset and the classes as\nJSON.",
        .options = {{"output,o", "MODEL2.json", "write the adapted model there"},

@@ -5,7 +5,7 @@
 #include "palpate/core/error.h"
 #include "palpate/core/escaped_line.h"
 #include "palpate/core/number_text.h"
-#include "palpate/core/progress_steps.h"
+#include "palpate/core/progress.h"
 #include "palpate/core/time.h"
 #include "palpate/model/profile_builder.h"
 #include "palpate/recording/recording.h"

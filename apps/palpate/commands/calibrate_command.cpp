@@ -9,7 +9,7 @@
 #include "palpate/calibration/calibration.h"
 #include "palpate/core/error.h"
 #include "palpate/core/output_file.h"
-#include "palpate/core/utc_stamp.h"
+#include "palpate/core/time.h"
 
 #include "commands/calibrate_commands.h"
 #include "commands/filter_options.h"

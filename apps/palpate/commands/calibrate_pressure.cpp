@@ -10,7 +10,7 @@
 #include "palpate/core/escaped_line.h"
 #include "palpate/core/hash.h"
 #include "palpate/core/text_file.h"
-#include "palpate/core/utc_stamp.h"
+#include "palpate/core/time.h"
 #include "palpate/recording/recording.h"
 
 #include "commands/calibrate_commands.h"

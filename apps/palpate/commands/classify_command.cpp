@@ -47,7 +47,7 @@ int classifyCommand(const Arguments& words) {
        .purpose =
            "Says what was grasped: a line per grasp, or with --json an object. FILEs (recordings, "
            "or "
-           "folders of them) of\none call are of one day. A verdict is called sure when it is "
+           "folders of them) of\none call are of one session. An answer is called sure when it is "
            "right "
            "95 times in 100: in the session of the\ntraining, or with an offset of the session "
            "that "

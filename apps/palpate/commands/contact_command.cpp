@@ -9,7 +9,7 @@
 #include "palpate/core/error.h"
 #include "palpate/core/escaped_line.h"
 #include "palpate/core/number_text.h"
-#include "palpate/core/progress_steps.h"
+#include "palpate/core/progress.h"
 #include "palpate/core/text_table.h"
 #include "palpate/core/time.h"
 #include "palpate/kinematics/contact_geometry.h"
@@ -42,7 +42,7 @@ struct ContactRequest {
 };
 
 // Problems with the joint angles or values of a recording.
-struct AngleTroubles {
+struct AngleProblems {
   std::size_t frames = 0;
   std::size_t outOfRange = 0;
   std::size_t unusable = 0;
@@ -133,7 +133,7 @@ class PoseOfFrames {
 
   // Updates the pose; returns false when the recorded angles are not a valid pose, and pose() is
   // then that of an earlier moment, or of angles 0.
-  bool posed(std::int64_t hostUs, AngleTroubles& problems) {
+  bool posed(std::int64_t hostUs, AngleProblems& problems) {
     if (request_.anglesDeg) return true;
     const std::size_t sample = profile_.angleSampleAt(hostUs).value();
     if (sample_ != sample) {
@@ -162,7 +162,7 @@ class PoseOfFrames {
   AnglesCheck check_;
 };
 
-AngleTroubles writeContact(StandardOutput& out,
+AngleProblems writeContact(StandardOutput& out,
                            const std::filesystem::path& file,
                            const Profile& profile,
                            const HandGeometry& geometry,
@@ -174,7 +174,7 @@ AngleTroubles writeContact(StandardOutput& out,
   PoseOfFrames poses(profile, geometry, request);
   std::optional<CalibratedFrames> calibrated;
   if (request.calibration) calibrated.emplace(*request.calibration, file, profile);
-  AngleTroubles problems;
+  AngleProblems problems;
   TactileFrame frame;
   HandContact contact;
   std::string line;
@@ -202,7 +202,7 @@ AngleTroubles writeContact(StandardOutput& out,
 }
 
 // Prints the problems; returns false when rows lack values because of them.
-bool sayTroubles(const std::filesystem::path& file, const AngleTroubles& problems, bool quiet) {
+bool reportProblems(const std::filesystem::path& file, const AngleProblems& problems, bool quiet) {
   const auto say = [&](std::size_t frames, const std::string& what) {
     std::fprintf(stderr,
                  "palpate: %s: %zu of %zu frames %s\n",
@@ -285,7 +285,7 @@ int contactCommand(const Arguments& words) {
         const std::string lineEnd = recordings.several ? "," + csvLine({file.string()}) : "\n";
         // When a recording fails in the middle, the rows written so far are kept, and the failure
         // is reported.
-        AngleTroubles problems;
+        AngleProblems problems;
         try {
           problems = writeContact(out, file, profile, geometry, request, range, lineEnd, progress);
         } catch (const Error&) {
@@ -293,7 +293,7 @@ int contactCommand(const Arguments& words) {
           throw;
         }
         out.finish();
-        whole = sayTroubles(file, problems, given.quiet()) && whole;
+        whole = reportProblems(file, problems, given.quiet()) && whole;
       });
   return code == kDone && !whole ? kPartlyDone : code;
 }

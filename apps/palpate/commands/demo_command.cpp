@@ -53,13 +53,13 @@ int demoCommand(const Arguments& words) {
   const CommandLine given(
       {.synopsis = "palpate demo -o DIR",
        .purpose =
-           "A headless tour on emulated hands, in about 15 seconds: six of them grasp a thing "
-           "each, "
+           "A headless tour on emulated hands, in about 15 seconds: six of them grasp an "
+           "object each, "
            "between the fingers of\na seventh a pen slips. They are recorded over their ports, "
            "replayed and exported; the slip is found, what was\nheld is named and compared with "
            "what was there, the window is drawn, and report.html shows it all. Written\ninto DIR "
            "(DIR-2, DIR-3, .. when it exists). A line per step: ok, skipped or failed, and a "
-           "figure. Ctrl-C\nends it and removes DIR.",
+           "figure. Ctrl-C\nends it and removes the folder it made.",
        .options = {{"output,o", "DIR", "folder to make, default palpate-demo"}},
        .example = "palpate demo -o tour",
        .maxArguments = 0},

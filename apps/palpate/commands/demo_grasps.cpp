@@ -99,7 +99,7 @@ std::string DemoGrasps::grasp() {
     else
       hands_[i]->playScript(pullTimes_.endS);
   });
-  std::string text = std::to_string(grips_.size()) + " things held:";
+  std::string text = std::to_string(grips_.size()) + " objects held:";
   for (std::size_t i = 0; i < grips_.size(); ++i)
     text += (i == 0 ? " " : ", ") + held_[i].object + " " + fixedText(grips_[i].forceN, 0) + " N";
   return text + "; another pen was pulled at";

@@ -100,7 +100,7 @@ std::string pageHands(const DemoFacts& facts) {
 }
 
 std::string pageRecognitionRow(const AskedGrasp& asked) {
-  const std::string rank = asked.rank ? std::to_string(*asked.rank) : "not taught";
+  const std::string rank = asked.rank ? std::to_string(*asked.rank) : "not trained";
   std::string said = asked.problem, sure, probability;
   if (asked.prediction) {
     said = asked.called;
@@ -120,9 +120,9 @@ std::string pageRecognition(const DemoFacts& facts) {
   for (const std::string& warning : facts.recognition->warnings)
     warnings += pageTagged("p", warning);
   return "<h2>What was recognised</h2>\n<p>The model that comes with the program was trained on "
-         "other grasps of these things, each placed a little differently, and simulated without "
+         "other grasps of these objects, each placed a little differently, and simulated without "
          "ports. It knows only the recordings. The rank and the probability are those of the "
-         "thing that was really there.</p>\n" +
+         "object that was really there.</p>\n" +
          pageTable(
              "<th>held</th><th>called</th><th></th><th class=\"number\">rank</th>"
              "<th class=\"number\">probability</th><th></th>",

@@ -1,4 +1,4 @@
-// Draws the pictures of `palpate demo`, the window and the hand in space, without a display.
+// Draws the pictures of `palpate demo`, the window and the hand in 3-D, without a display.
 #pragma once
 
 #include <QApplication>
@@ -26,7 +26,7 @@ class DemoPictures {
                   std::optional<std::size_t> frame,
                   const std::vector<std::string>& docks,
                   const std::filesystem::path& out) const;
-  // Draws the hand in space at one frame; returns the content of a PNG file. Throws Error, and
+  // Draws the hand in 3-D at one frame; returns the content of a PNG file. Throws Error, and
   // std::out_of_range for `frame`.
   std::string handPng(const Profile& profile, std::size_t frame) const;
 

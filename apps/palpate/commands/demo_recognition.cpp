@@ -111,11 +111,11 @@ std::string demoRecognitionText(const DemoRecognition& recognition) {
                fixedText(asked.probability, kProbabilityDecimals);
       allSure = allSure && asked.prediction->sure;
     } else {
-      other += "; the " + asked.known.object + ", which was never taught, is called unknown";
+      other += "; the " + asked.known.object + ", which was not trained, is called unknown";
     }
   }
   std::string text = std::to_string(recognition.numRight(true)) + " of " +
-                     std::to_string(inTraining) + " things named rightly";
+                     std::to_string(inTraining) + " objects named rightly";
   if (!named.empty()) text += named + ")";
   if (recognition.numRight(true) > 0) text += allSure ? ", all surely" : ", not all surely";
   return text + other;

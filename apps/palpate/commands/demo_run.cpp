@@ -206,13 +206,13 @@ std::string DemoRun::drawAll() {
   }
   return "window.png and slip.png, " + std::to_string(gui::ScreenshotOptions().size.width()) +
          " x " + std::to_string(gui::ScreenshotOptions().size.height()) +
-         " pixels each; the hand in space " + std::to_string(held_.size()) + " times for the page";
+         " pixels each; the hand in 3-D " + std::to_string(held_.size()) + " times for the page";
 }
 
 void DemoRun::draw() {
   next("window",
        "The real window is drawn without a display, on the ball and on the slip; and the hand in "
-       "space for each thing that was held.",
+       "space for each object that was held.",
        [&] { return drawAll(); });
 }
 
@@ -231,7 +231,7 @@ std::vector<DemoFile> DemoRun::files() const {
                {{"slip.palpate", "the recording of the pen that slips"},
                 {"slip.csv", "how its contacts move, as palpate slip prints it"},
                 {"slip_truth.csv", "how the pen moved, as the emulator knows it"},
-                {"recognition.json", "what each thing was recognised as"},
+                {"recognition.json", "what each object was recognised as"},
                 {"report.json", "all figures of this page, for programs"}});
   std::vector<DemoFile> there;
   for (const auto& [name, what] : known) {

@@ -92,8 +92,8 @@ std::vector<std::size_t> curveSizes(const SampleSet& samples) {
   return sizes;
 }
 
-// The recognition of unknown objects from the same day; with --later also from another day, with
-// what is known about its offset.
+// The recognition of unknown objects from the same session; with --later also from another session,
+// with what is known about its offset.
 Json unknownJson(const CommandLine& given,
                  const SampleSet& samples,
                  const PipelineOptions& options,
@@ -108,7 +108,7 @@ Json unknownJson(const CommandLine& given,
     const SampleSet day = samplesOf(other, samples.classes);
     const auto sessions = sessionsOf(timesOf(other));
     const auto with = [&](UnknownClassOffset offset) {
-      return jsonOf(unknownOnAnotherDay(samples, day, sessions, offset, progress));
+      return jsonOf(unknownInLaterSession(samples, day, sessions, offset, progress));
     };
     json.set("another_day",
              Json::object()
@@ -133,7 +133,8 @@ int crossValidation(const CommandLine& given) {
 
   if (given.has("later") && !given.has("unknown")) throw UsageError("--later needs --unknown");
   if (given.has("later") && options.classifier != ClassifierKind::kGauss)
-    throw UsageError("--later needs --classifier gauss, the one that knows another day's offset");
+    throw UsageError(
+        "--later needs --classifier gauss, the one that knows the offset of another session");
 
   const FeatureTable table = extractFeatureTable(given, {given.words().front()}, choice.set);
   SampleSet samples = samplesOf(table);
@@ -176,9 +177,9 @@ int crossValidation(const CommandLine& given) {
   return codeFor(table);
 }
 
-Json verdictsJson(const ModelEvaluation& evaluation,
-                  const FeatureTable& table,
-                  const SampleSet& samples) {
+Json answersJson(const ModelEvaluation& evaluation,
+                 const FeatureTable& table,
+                 const SampleSet& samples) {
   Json list = Json::array();
   for (const EvaluatedGrasp& one : evaluation.grasps) {
     const FeatureRow& row = table.rows[one.sample];
@@ -234,7 +235,7 @@ int withModel(const CommandLine& given) {
     answers.push_back({one.prediction.confidence, one.prediction.label == samples.y[one.sample]});
   json.set("calibration_error", expectedCalibrationError(answers))
       .set("coverage_curve", coverageJson(coverageCurve(answers)))
-      .set("verdicts", verdictsJson(evaluation, table, samples));
+      .set("verdicts", answersJson(evaluation, table, samples));
   printObject(json);
   return codeFor(table);
 }
@@ -252,7 +253,7 @@ int evaluateCommand(const Arguments& words) {
       {"learning-curve", "", "adds accuracy against training grasps per class"},
       {"eliminate", "", "adds recursive feature elimination"},
       {"unknown", "", "adds how well unknown objects are detected: each class left out in turn"},
-      {"later", "PATH2", "with --unknown: the same on these grasps of another day (gauss)"},
+      {"later", "PATH2", "with --unknown: the same on these grasps of another session (gauss)"},
       {"model", "M.json", "test this model instead (protocol X)"},
       {"adapt", "K", "the first K grasps of each class and session adapt it and don't count"},
       {"session-offset",
@@ -272,7 +273,7 @@ int evaluateCommand(const Arguments& words) {
            "analysis, classifier) is fitted to\nthe training part of each split alone. Default "
            "classifier: svm with C = 100, of the set best gauss, as train\ntakes; default no "
            "discriminant analysis. Both protocols stay within the recordings: they don't show\nhow "
-           "it will be on another day.\n\nWith --model: the model on other recordings; "
+           "it will be in another session.\n\nWith --model: the model on other recordings; "
            "candidates "
            "are all its classes, unknown counts as wrong.\nGrasps more than 8 hours apart are "
            "different sessions, each with an offset of its own.",

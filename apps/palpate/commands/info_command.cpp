@@ -9,7 +9,7 @@
 #include "palpate/core/escaped_line.h"
 #include "palpate/core/json.h"
 #include "palpate/core/number_text.h"
-#include "palpate/core/progress_steps.h"
+#include "palpate/core/progress.h"
 #include "palpate/core/text_table.h"
 #include "palpate/core/time.h"
 #include "palpate/model/timing.h"

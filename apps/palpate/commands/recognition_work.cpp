@@ -66,13 +66,13 @@ std::optional<EmptyHandZero> zeroGiven(const CommandLine& given) {
   return zero;
 }
 
-void requireSameDay(const EmptyHandZero& zero, const FeatureTable& table) {
+void requireSameSession(const EmptyHandZero& zero, const FeatureTable& table) {
   constexpr std::int64_t kHalfDayUs = 12LL * 3600 * 1'000'000;
   if (std::none_of(table.rows.begin(), table.rows.end(), [&](const FeatureRow& row) {
         return std::abs(row.timeUs - zero.timeUs) <= kHalfDayUs;
       }))
     throw Error(zero.origin +
-                ": the empty hand was closed on another day than the objects; give a recording "
+                ": the empty hand was closed in another session than the objects; give a recording "
                 "within 12 h of theirs");
 }
 

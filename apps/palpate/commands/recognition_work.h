@@ -42,7 +42,7 @@ std::optional<EmptyHandZero> zeroGiven(const CommandLine& given);
 OptionSpec zeroOptionSpec();
 // Throws Error when the zero was measured more than half a day from all of these grasps, so that it
 // does not apply to them.
-void requireSameDay(const EmptyHandZero& zero, const FeatureTable& table);
+void requireSameSession(const EmptyHandZero& zero, const FeatureTable& table);
 // The offset as {mm, sd_mm, origin, grasps, objects, trusted}; with `today` also the zero that it
 // is based on.
 Json offsetJson(const SessionOffset& offset, const std::optional<EmptyHandZero>& today = {});

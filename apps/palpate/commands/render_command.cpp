@@ -252,7 +252,7 @@ int renderCommand(const Arguments& words) {
       .synopsis =
           "palpate render FILE [--frame N | --from N --to M] -o OUT.{png,svg,pdf}|FOLDER|OUT.mp4",
       .purpose =
-          "Draws the heat maps of one frame, or the hand in space. The ending of OUT chooses the "
+          "Draws the heat maps of one frame, or the hand in 3-D. The ending of OUT chooses the "
           "format; SVG and PDF "
 
           "are vector\ngraphics with text as text. With --from or --to, a PNG of each frame from "

@@ -1,4 +1,4 @@
-// `palpate render --view hand`: draws the hand in space instead of the heat maps.
+// `palpate render --view hand`: draws the hand in 3-D instead of the heat maps.
 #pragma once
 
 #include <optional>

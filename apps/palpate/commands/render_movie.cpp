@@ -5,7 +5,7 @@
 #include <filesystem>
 
 #include "palpate/core/error.h"
-#include "palpate/core/file_ending.h"
+#include "palpate/core/file_name.h"
 #include "palpate/core/interruption.h"
 #include "palpate/core/number_text.h"
 

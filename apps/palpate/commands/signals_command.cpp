@@ -5,7 +5,7 @@
 
 #include "palpate/core/error.h"
 #include "palpate/core/number_text.h"
-#include "palpate/core/progress_steps.h"
+#include "palpate/core/progress.h"
 #include "palpate/core/text_table.h"
 #include "palpate/core/time.h"
 #include "palpate/signals/characteristic_signals.h"

@@ -8,7 +8,7 @@
 namespace palpate::commands {
 namespace {
 
-void appendVerdict(std::string& row, const SlipDetection& detection) {
+void appendDetection(std::string& row, const SlipDetection& detection) {
   const SlipMotion& motion = detection.motion;
   const SlipRotation& rotation = motion.rotation;
   appendNumber(row, static_cast<std::int64_t>(motion.active));
@@ -63,7 +63,7 @@ void forEachSlipRow(const Profile& profile,
           row += ',';
           appendNumber(row, static_cast<std::int64_t>(m));
           row += ',';
-          appendVerdict(row, detections[m]);
+          appendDetection(row, detections[m]);
           sink(row);
         }
       },

@@ -177,7 +177,7 @@ std::string tooShort(const SpectrumReport& report, const SpectrumOptions& option
   std::size_t longest = 0;
   for (const GapFreeSpan& stretch : report.stretches)
     longest = std::max(longest, stretch.gridSamples);
-  return "the longest stretch without a gap has " + std::to_string(longest) +
+  return "the longest span without a gap has " + std::to_string(longest) +
          " samples, a window takes " + std::to_string(options.window) + ": take a smaller --window";
 }
 
@@ -189,7 +189,7 @@ int spectrumCommand(const Arguments& words) {
        .purpose =
            "Short-time Fourier transform of one taxel (value in counts; 0 where it feels nothing) "
            "or of a\nmatrix signal, as CSV: segment,time_s,frequency_hz,psd,magnitude. Frames come "
-           "at uneven intervals:\nevery stretch without a gap is first interpolated onto an even "
+           "at uneven intervals:\nevery span without a gap is first interpolated onto an even "
            "grid "
            "of its mean rate; nothing\nabove half that rate can be seen. Hann window (periodic), "
            "power spectral density one-sided in\ncounts^2/Hz, magnitude in counts: a tone of "

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "palpate/core/error.h"
-#include "palpate/core/utc_stamp.h"
+#include "palpate/core/time.h"
 #include "palpate/recognition/model_search.h"
 #include "palpate/recognition/trained_model.h"
 
@@ -15,9 +15,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The choices for the model search. The feature set `best` is meant for other days, and only the
-// classifier gauss works there, so that it is used even if another one is more accurate within the
-// recordings. Everything else is chosen by cross-validation.
+// The choices for the model search. The feature set `best` is meant for other sessions, and only
+// the classifier gauss works there, so that it is used even if another one is more accurate within
+// the recordings. Everything else is chosen by cross-validation.
 ModelSearchOptions searchGiven(const CommandLine& given, FeatureSet set) {
   ModelSearchOptions search;
   PipelineOptions requested;
@@ -72,9 +72,10 @@ int trainCommand(const Arguments& words) {
            "prints a "
            "report as JSON.\nWhat isn't given is chosen by cross-validation over contiguous "
            "blocks; "
-           "of the set best it is gauss, the one\nclassifier that carries over to another day "
-           "(--session-offset, adapt). With the empty hand's zero of the day of training, `adapt` "
-           "takes that of another\nday instead of labelled grasps.",
+           "of the set best it is gauss, the one\nclassifier that carries over to another session "
+           "(--session-offset, adapt). With the empty hand's zero of the session of training, "
+           "`adapt` "
+           "takes that of another\nsession instead of labelled grasps.",
        .options = options,
        .example = "palpate train recordings -o objects.json",
        .minArguments = 1,
@@ -91,7 +92,7 @@ int trainCommand(const Arguments& words) {
 
   const FeatureTable table = extractFeatureTable(given, {given.words().front()}, set);
   const auto zero = zeroGiven(given);
-  if (zero) requireSameDay(*zero, table);
+  if (zero) requireSameSession(*zero, table);
   const SampleSet samples = samplesOf(table);
   requireLearnable(samples);
   sayNotes(given, set, samples);

@@ -1,4 +1,5 @@
-// Escapes text of unknown origin (file contents, names) for one line of a terminal.
+// Prepares text of unknown origin (file contents, names) for one line of a terminal: escapes,
+// cuts and trims it.
 #pragma once
 
 #include <cstddef>
@@ -19,6 +20,13 @@ std::string_view beginningOf(std::string_view text, std::size_t most);
 inline std::string inQuotes(std::string_view text) {
   constexpr std::size_t kShown = 40;
   return "\"" + escapedLine(beginningOf(text, kShown)) + (text.size() > kShown ? "..\"" : "\"");
+}
+
+// Removes the blanks around a text.
+inline std::string_view trimmed(std::string_view text, std::string_view blanks = " \t") {
+  const auto first = text.find_first_not_of(blanks);
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(blanks) - first + 1);
 }
 
 }  // namespace palpate

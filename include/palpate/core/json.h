@@ -89,4 +89,7 @@ Json jsonList(const Items& items) {
   return jsonList(items, [](const auto& item) { return Json(item); });
 }
 
+// Converts a number that may be missing to JSON.
+inline Json orNull(const std::optional<double>& value) { return value ? Json(*value) : Json(); }
+
 }  // namespace palpate

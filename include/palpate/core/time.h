@@ -49,4 +49,11 @@ class HostTime {
 // Returns a host time [us since 1970] as "2014-11-27 10:31:05.123" in UTC.
 std::string utcText(std::int64_t hostUs);
 
+// Returns the wall clock in whole seconds, as models and calibrations store the time at which they
+// were made: "2014-11-28T10:36:11Z".
+inline std::string utcStamp(const Clock& clock = systemClock()) {
+  const std::string text = utcText(clock.wallUs());
+  return text.substr(0, 10) + "T" + text.substr(11, 8) + "Z";
+}
+
 }  // namespace palpate

@@ -9,9 +9,9 @@
 #include <string_view>
 #include <vector>
 
-#include <palpate/model/cell_truth.h>
 #include <palpate/model/profile.h>
 #include <palpate/model/sensor_characteristics.h>
+#include <palpate/model/tactile_frame.h>
 
 namespace palpate {
 

@@ -12,8 +12,8 @@
 
 #include <palpate/core/progress.h>
 #include <palpate/filter/recipe.h>
-#include <palpate/model/cell_truth.h>
 #include <palpate/model/profile.h>
+#include <palpate/model/tactile_frame.h>
 
 namespace palpate {
 

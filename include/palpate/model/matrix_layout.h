@@ -76,4 +76,12 @@ class SensorLayout {
   std::size_t numPlaces_ = 0;
 };
 
+// Place of a taxel in a sensor: matrix, row (y) and column (x), each counted from 0.
+struct TaxelPlace {
+  std::size_t matrix = 0;
+  int y = 0;
+  int x = 0;
+  bool operator==(const TaxelPlace&) const = default;
+};
+
 }  // namespace palpate

@@ -1,5 +1,5 @@
-// Computes the rates and gaps of the frames of a profile from the time stamps alone. Commands and
-// the window report them.
+// Rates and gaps of the frames of a profile, computed from the time stamps alone, and a span of
+// time in a recording.
 #pragma once
 
 #include <cstddef>
@@ -31,5 +31,14 @@ struct TimingReport {
 TimingReport timingOf(const Profile& profile);
 // Computes the report from time stamps [us], which must ascend.
 TimingReport timingOf(std::span<const std::int64_t> stampsUs);
+
+// A span of time, for charts, sessions and selections. Seconds from the first frame; when two
+// recordings are compared, from the first frame of the first recording. fromS <= toS.
+struct TimeSpan {
+  double fromS = 0.0;
+  double toS = 0.0;
+  double lengthS() const noexcept { return toS - fromS; }
+  bool operator==(const TimeSpan&) const = default;
+};
 
 }  // namespace palpate

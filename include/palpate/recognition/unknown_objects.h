@@ -54,11 +54,11 @@ enum class UnknownClassOffset {
 // indices into `later`, each with its own offset. Grasps of known classes are scored with the
 // classifier of all classes. Only gauss uses offsets. Throws Error (other classes, no grasp to
 // score), Cancelled.
-UnknownReport unknownOnAnotherDay(const SampleSet& training,
-                                  const SampleSet& later,
-                                  const std::vector<std::vector<std::size_t>>& sessions,
-                                  UnknownClassOffset offset,
-                                  const Progress& progress = {});
+UnknownReport unknownInLaterSession(const SampleSet& training,
+                                    const SampleSet& later,
+                                    const std::vector<std::vector<std::size_t>>& sessions,
+                                    UnknownClassOffset offset,
+                                    const Progress& progress = {});
 
 // JSON with auroc, known_grasps, unknown_grasps, classes[{name, grasps, auroc}].
 Json jsonOf(const UnknownReport& report);

@@ -10,7 +10,6 @@
 
 #include <palpate/core/progress.h>
 #include <palpate/model/profile.h>
-#include <palpate/model/time_span.h>
 #include <palpate/model/timing.h>
 #include <palpate/signals/first_contact.h>
 

@@ -11,6 +11,8 @@
 #include <vector>
 
 #include <palpate/core/progress.h>
+#include <palpate/core/text_table.h>
+#include <palpate/model/hand_description.h>
 #include <palpate/model/profile.h>
 #include <palpate/model/tactile_frame.h>
 
@@ -74,5 +76,9 @@ class SignalTable {
   std::size_t numMatrices_ = 0;
   std::vector<CharacteristicSignals> rows_;
 };
+
+// Makes one row per matrix, with its name in the hand's description, and a last row for the whole
+// frame. Values are in counts unless the header names a unit.
+TextTable signalTextTable(const TactileFrame& frame, const HandDescription& hand);
 
 }  // namespace palpate

@@ -24,7 +24,7 @@ struct SpectrogramOptions {
   SpectrumOptions limitedToCells() const;
 };
 
-// The segments of one stretch without a gap: evenly spaced in time and in frequency.
+// The segments of one gap-free span: evenly spaced in time and in frequency.
 struct SpectrogramPart {
   double firstS = 0.0;  // middle of the first segment [s]
   double stepS = 0.0;   // from one segment to the next [s]

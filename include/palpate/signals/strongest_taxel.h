@@ -6,8 +6,8 @@
 #include <optional>
 
 #include <palpate/core/progress.h>
+#include <palpate/model/matrix_layout.h>
 #include <palpate/model/profile.h>
-#include <palpate/model/taxel_place.h>
 
 namespace palpate {
 

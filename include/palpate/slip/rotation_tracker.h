@@ -4,8 +4,8 @@
 // Angles are measured from +x towards +y (clockwise on the screen) [deg].
 #pragma once
 
+#include <palpate/slip/contact_moments.h>
 #include <palpate/slip/contact_outline.h>
-#include <palpate/slip/principal_axis.h>
 
 namespace palpate {
 

@@ -26,7 +26,7 @@ class SensorSlipDetector {
   void reset();
   void setOn(bool on) noexcept;
 
-  const std::vector<SlipDetection>& last() const noexcept { return verdicts_; }
+  const std::vector<SlipDetection>& last() const noexcept { return detections_; }
   // Whether any matrix slips.
   bool slipping() const noexcept;
   SlipDetector& matrix(std::size_t index) { return detectors_.at(index); }
@@ -36,7 +36,7 @@ class SensorSlipDetector {
   void collect();
 
   std::vector<SlipDetector> detectors_;
-  std::vector<SlipDetection> verdicts_;
+  std::vector<SlipDetection> detections_;
 };
 
 }  // namespace palpate

@@ -186,7 +186,7 @@ Bzip2BlockContent decodeBzip2Block(std::span<const std::byte> bytes,
   }
   content.bytes.resize(size);
   // Where the mark behind the block is damaged the decoder stumbles after the block's last byte, so
-  // the block's own checksum decides, not the decoder's verdict.
+  // the block's own checksum decides, not the decoder's answer.
   content.intact = size > 0 && size <= maxBytes && checksumOf(content.bytes) == stored;
   content.endsAtMark = content.intact && result == BZ_STREAM_END;
   if (!content.intact) content.bytes.clear();

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "palpate/core/error.h"
-#include "palpate/core/progress_steps.h"
+#include "palpate/core/progress.h"
 #include "palpate/core/xml.h"
 #include "palpate/recording/bzip2_blocks.h"
 

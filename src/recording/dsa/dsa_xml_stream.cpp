@@ -13,7 +13,7 @@
 #include <unistd.h>
 
 #include "palpate/core/error.h"
-#include "palpate/core/hex_text.h"
+#include "palpate/core/number_text.h"
 
 namespace palpate {
 namespace {

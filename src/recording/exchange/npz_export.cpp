@@ -3,7 +3,7 @@
 
 #include <zlib.h>
 
-#include "palpate/core/byte_writer.h"
+#include "palpate/core/byte_order.h"
 #include "palpate/core/error.h"
 #include "palpate/core/json.h"
 #include "palpate/core/output_file.h"

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "palpate/core/number_text.h"
-#include "palpate/core/progress_steps.h"
+#include "palpate/core/progress.h"
 #include "palpate/core/time.h"
 
 namespace palpate {

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "palpate/core/json.h"
-#include "palpate/core/progress_steps.h"
+#include "palpate/core/progress.h"
 
 namespace palpate {
 namespace {

@@ -9,8 +9,8 @@
 
 #include <zlib.h>
 
+#include "palpate/core/byte_order.h"
 #include "palpate/core/byte_reader.h"
-#include "palpate/core/byte_writer.h"
 #include "palpate/model/frame_coding.h"
 #include "palpate/recording/palpate_schema.h"
 

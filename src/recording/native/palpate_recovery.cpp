@@ -214,19 +214,19 @@ struct Findings {
 
 // Runs a piece of reading; what SQLite refuses is remembered, not thrown.
 template <typename Work>
-void attemptPalpateSalvage(PalpateRecovery& salvage, Work work) {
+void attemptRecovery(PalpateRecovery& recovery, Work work) {
   try {
     work();
   } catch (const Cancelled&) {
     throw;
   } catch (const Error& error) {
-    if (salvage.sqliteError.empty()) salvage.sqliteError = error.what();
+    if (recovery.sqliteError.empty()) recovery.sqliteError = error.what();
   }
 }
 
 void readBlocks(SqliteDatabase& database,
                 Findings& found,
-                PalpateRecovery& salvage,
+                PalpateRecovery& recovery,
                 const Progress& progress) {
   constexpr std::size_t kRowsPerReport = 4096;
   std::size_t numRows = 0;
@@ -237,7 +237,7 @@ void readBlocks(SqliteDatabase& database,
     const Block block = blockFrom(rows, 1, 8);
     if (!plausible(block) || rows.integer(7) != static_cast<std::int64_t>(blockCrc(block)) ||
         !found.blocks->add(block))
-      ++salvage.damagedBlocks;
+      ++recovery.damagedBlocks;
   }
 }
 
@@ -256,36 +256,36 @@ void checkIntegrity(SqliteDatabase& database) {
 
 void readBySql(const fs::path& path,
                Findings& found,
-               PalpateRecovery& salvage,
+               PalpateRecovery& recovery,
                const Progress& progress) {
   PalpateConnection access(path);
   SqliteDatabase& database = access.database();
-  salvage.unfinished = access.unfinished();
-  salvage.beingWritten = access.beingWritten();
+  recovery.unfinished = access.unfinished();
+  recovery.beingWritten = access.beingWritten();
   found.meta = access.meta();
-  salvage.damagedRows += found.meta.damaged;
-  attemptPalpateSalvage(salvage, [&] { readBlocks(database, found, salvage, progress); });
-  attemptPalpateSalvage(
-      salvage, [&] { found.layout = std::make_shared<SensorLayout>(readLayout(database)); });
-  attemptPalpateSalvage(salvage, [&] {
+  recovery.damagedRows += found.meta.damaged;
+  attemptRecovery(recovery, [&] { readBlocks(database, found, recovery, progress); });
+  attemptRecovery(recovery,
+                  [&] { found.layout = std::make_shared<SensorLayout>(readLayout(database)); });
+  attemptRecovery(recovery, [&] {
     EventsReport events = readEventRows(database);
-    salvage.events = std::move(events.events);
-    salvage.damagedRows += events.damaged;
+    recovery.events = std::move(events.events);
+    recovery.damagedRows += events.damaged;
   });
-  attemptPalpateSalvage(salvage,
-                        [&] { found.seconds = readSecondRows(database, found.damagedSeconds); });
-  attemptPalpateSalvage(salvage, [&] {
+  attemptRecovery(recovery,
+                  [&] { found.seconds = readSecondRows(database, found.damagedSeconds); });
+  attemptRecovery(recovery, [&] {
     const auto numSeconds = found.meta.integer("seconds");
     found.hasOverview = numSeconds && *numSeconds > 0;
     if (found.hasOverview && found.layout)
       found.overview = readOverview(database, found.layout->numMatrices(), *numSeconds);
   });
-  attemptPalpateSalvage(salvage, [&] { checkIntegrity(database); });
+  attemptRecovery(recovery, [&] { checkIntegrity(database); });
 }
 
 void scanFile(const fs::path& path,
               Findings& found,
-              PalpateRecovery& salvage,
+              PalpateRecovery& recovery,
               const Progress& progress) {
   // Windows overlap by more than the longest row, so that rows are found wherever they lie.
   constexpr std::size_t kOverlap = 8192;
@@ -305,7 +305,7 @@ void scanFile(const fs::path& path,
     if (progress && !progress(std::min(1.0, read / std::max(size, 1.0)))) throw Cancelled();
     const std::size_t filled = kept + got;
     scanPage(std::span(window).first(filled), [&](const Block& block) {
-      if (found.blocks->add(block)) ++salvage.blocksFromPages;
+      if (found.blocks->add(block)) ++recovery.blocksFromPages;
     });
     kept = std::min(kOverlap, filled);
     std::copy(window.begin() + static_cast<std::ptrdiff_t>(filled - kept),
@@ -362,7 +362,7 @@ std::int64_t expectedItems(const Findings& found, Stream stream) {
 std::size_t assemble(const Findings& found,
                      Stream stream,
                      BlockStorage& storage,
-                     PalpateRecovery& salvage) {
+                     PalpateRecovery& recovery) {
   BlockIndex index;
   std::int64_t items = 0;
   std::int64_t next = 0;
@@ -371,7 +371,7 @@ std::size_t assemble(const Findings& found,
                       indexBlock(found.blocks->load(place.id), storage.width(stream), index) &&
                       storage.add(stream, {items, place.n, place.t0Us, place.t1Us, place.id});
     if (!fits) {
-      ++salvage.damagedBlocks;
+      ++recovery.damagedBlocks;
       continue;
     }
     items += place.n;
@@ -414,17 +414,17 @@ std::size_t damagedSeconds(const Findings& found,
   return std::max(different, found.damagedSeconds) + (overviewWrong ? 1 : 0);
 }
 
-void findLayout(Findings& found, PalpateRecovery& salvage) {
+void findLayout(Findings& found, PalpateRecovery& recovery) {
   if (found.layout || found.blocks->stream(Stream::kTactile).empty()) return;
   if (everyFrameHas(*found.blocks, sdh2().layout->numCells()))
-    salvage.layoutAssumed = true;
+    recovery.layoutAssumed = true;
   else
-    salvage.layoutLost = true;
+    recovery.layoutLost = true;
 }
 
 void buildProfile(const fs::path& path,
                   const Findings& found,
-                  PalpateRecovery& salvage,
+                  PalpateRecovery& recovery,
                   const Progress& progress) {
   auto storage = std::make_shared<BlockStorage>(
       path, [blocks = found.blocks](std::int64_t id) { return blocks->load(id); });
@@ -435,20 +435,20 @@ void buildProfile(const fs::path& path,
   std::array<std::size_t, 3> lost{};
   for (Stream stream : kStreams) {
     std::size_t& missing = lost[static_cast<std::size_t>(stream)];
-    if (stream == Stream::kTactile && salvage.layoutLost)
+    if (stream == Stream::kTactile && recovery.layoutLost)
       missing = static_cast<std::size_t>(expectedItems(found, stream));
     else
-      missing = assemble(found, stream, *storage, salvage);
+      missing = assemble(found, stream, *storage, recovery);
   }
-  salvage.lostFrames = lost[0];
-  salvage.lostAngles = lost[1];
-  salvage.lostTemperatures = lost[2];
-  salvage.frames = storage->numFrames();
-  salvage.angles = storage->numAngles();
-  salvage.temperatures = storage->numTemperatures();
-  const bool empty = salvage.frames + salvage.angles + salvage.temperatures == 0;
+  recovery.lostFrames = lost[0];
+  recovery.lostAngles = lost[1];
+  recovery.lostTemperatures = lost[2];
+  recovery.frames = storage->numFrames();
+  recovery.angles = storage->numAngles();
+  recovery.temperatures = storage->numTemperatures();
+  const bool empty = recovery.frames + recovery.angles + recovery.temperatures == 0;
   // A recording may have no sample yet, whatever is damaged beside.
-  const bool lostAny = lost[0] + lost[1] + lost[2] + salvage.damagedBlocks > 0;
+  const bool lostAny = lost[0] + lost[1] + lost[2] + recovery.damagedBlocks > 0;
   if (empty && (!found.layout || lostAny)) return;
   ProfileInfo info;
   info.format = "palpate";
@@ -460,21 +460,21 @@ void buildProfile(const fs::path& path,
       info.valueType = ValueType::kFloat;
   HandDescription hand =
       describeHand(*layout, storage->width(Stream::kAngles), storage->width(Stream::kTemperatures));
-  salvage.profile.emplace(std::move(info), std::move(hand), std::move(storage));
-  if (salvage.whole() && !salvage.beingWritten)
-    salvage.damagedRows += damagedSeconds(found, *salvage.profile, salvage.unfinished, progress);
+  recovery.profile.emplace(std::move(info), std::move(hand), std::move(storage));
+  if (recovery.whole() && !recovery.beingWritten)
+    recovery.damagedRows += damagedSeconds(found, *recovery.profile, recovery.unfinished, progress);
   else
-    salvage.damagedRows += found.damagedSeconds;
+    recovery.damagedRows += found.damagedSeconds;
 }
 
 }  // namespace
 
 PalpateRecovery recoverPalpateProfile(const fs::path& path, const Progress& progress) {
-  PalpateRecovery salvage;
+  PalpateRecovery recovery;
   Findings found;
-  attemptPalpateSalvage(salvage, [&] { readBySql(path, found, salvage, progress); });
+  attemptRecovery(recovery, [&] { readBySql(path, found, recovery, progress); });
   bool doubtful =
-      !salvage.sqliteError.empty() || salvage.damagedBlocks > 0 || found.meta.damaged > 0;
+      !recovery.sqliteError.empty() || recovery.damagedBlocks > 0 || found.meta.damaged > 0;
   for (Stream stream : kStreams) {
     const auto& blocks = found.blocks->stream(stream);
     const std::int64_t end =
@@ -483,10 +483,10 @@ PalpateRecovery recoverPalpateProfile(const fs::path& path, const Progress& prog
   }
   // Never while it is being written: a rollback journal is at work, and closing a file that this
   // process also writes would drop SQLite's locks on it.
-  if (doubtful && !salvage.beingWritten) scanFile(path, found, salvage, progress);
-  findLayout(found, salvage);
-  buildProfile(path, found, salvage, progress);
-  return salvage;
+  if (doubtful && !recovery.beingWritten) scanFile(path, found, recovery, progress);
+  findLayout(found, recovery);
+  buildProfile(path, found, recovery, progress);
+  return recovery;
 }
 
 }  // namespace palpate

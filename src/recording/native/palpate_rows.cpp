@@ -5,8 +5,8 @@
 #include <bit>
 #include <stdexcept>
 
+#include "palpate/core/byte_order.h"
 #include "palpate/core/byte_reader.h"
-#include "palpate/core/byte_writer.h"
 #include "palpate/core/error.h"
 #include "palpate/core/number_text.h"
 #include "palpate/recording/palpate_schema.h"

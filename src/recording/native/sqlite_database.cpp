@@ -5,7 +5,7 @@
 #include <sqlite3.h>
 
 #include "palpate/core/error.h"
-#include "palpate/core/hex_text.h"
+#include "palpate/core/number_text.h"
 
 namespace palpate {
 namespace {

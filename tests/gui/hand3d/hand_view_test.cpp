@@ -9,8 +9,8 @@
 
 #include "gui/export/export_controller.h"
 #include "gui/export/export_feature.h"
+#include "gui/hand3d/hand3d_feature.h"
 #include "gui/hand3d/hand_panel.h"
-#include "gui/hand3d/space_feature.h"
 #include "gui/matrices/matrices_feature.h"
 #include "gui/matrices/matrices_panel.h"
 #include "gui/testing/sample_profiles.h"
@@ -189,7 +189,7 @@ TEST_F(HandViewTest, WithoutAHandItIsEmptyAndHarmless) {
 
 class HandWindowTest : public WindowTest {
  protected:
-  HandPanel& panel() { return window().feature<SpaceFeature>().panel(); }
+  HandPanel& panel() { return window().feature<Hand3dFeature>().panel(); }
   HandLook look() { return panel().look(); }
 };
 

@@ -216,7 +216,7 @@ TEST_F(LibraryTest, HomeAndEndGoToTheFirstAndTheLastRow) {
 
 TEST_F(LibraryTest, ComparesOneWithWhatIsShown) {
   look();
-  QSignalSpy asked(panel_.get(), &LibraryPanel::compareAsked);
+  QSignalSpy asked(panel_.get(), &LibraryPanel::compareRequested);
   table()->setFocus();
   table()->selectRow(1);
   QTest::keyClick(table(), Qt::Key_Return, Qt::ControlModifier);

@@ -300,7 +300,7 @@ TEST_F(OpeningTest, WhatIsAskedForWhileOthersOpenIsShownWhenItComes) {
 TEST_F(OpeningTest, WhatIsAskedForIsShownWhateverIsComparedMeanwhile) {
   open({"good1.dsa"});
   window().state().open({file("good2.dsa")});
-  emit window().feature<LibraryFeature>().panel().compareAsked(
+  emit window().feature<LibraryFeature>().panel().compareRequested(
       QString::fromStdString(file("good3.dsa")));
   waitUntilOpened();
   EXPECT_EQ(currentName(), "good2.dsa");

@@ -7,8 +7,8 @@
 #include <palpate/emulator/synthetic_profile.h>
 #include <palpate/recording/recording.h>
 
+#include "gui/hand3d/hand3d_feature.h"
 #include "gui/hand3d/hand_panel.h"
-#include "gui/hand3d/space_feature.h"
 #include "gui/matrices/matrices_feature.h"
 #include "gui/matrices/matrices_panel.h"
 #include "gui/matrices/matrices_view.h"
@@ -81,7 +81,7 @@ class GoldenPicturesTest : public WindowTest {
 
 TEST_F(GoldenPicturesTest, HeatMapsDark) {
   show({1440, 900}, ThemeChoice::kDark);
-  press(Qt::Key_H);  // the hand in space stands beside them
+  press(Qt::Key_H);  // the hand in 3-D stands beside them
   QCoreApplication::processEvents();
   compare(window().feature<MatricesFeature>().panel().view().grab().toImage(), "matrices_dark.png");
 }
@@ -93,16 +93,16 @@ TEST_F(GoldenPicturesTest, TimelineLight) {
 
 TEST_F(GoldenPicturesTest, HandDark) {
   show({1440, 900}, ThemeChoice::kDark);
-  window().feature<SpaceFeature>().panel().view().setFixedSize(600, 600);
-  compare(window().feature<SpaceFeature>().panel().view().grab().toImage(), "hand_dark.png");
+  window().feature<Hand3dFeature>().panel().view().setFixedSize(600, 600);
+  compare(window().feature<Hand3dFeature>().panel().view().grab().toImage(), "hand_dark.png");
 }
 
 TEST_F(GoldenPicturesTest, HandAsBarsLight) {
   show({1440, 900}, ThemeChoice::kLight);
   press(Qt::Key_T);
   press(Qt::Key_X);
-  window().feature<SpaceFeature>().panel().view().setFixedSize(600, 600);
-  compare(window().feature<SpaceFeature>().panel().view().grab().toImage(), "hand_bars_light.png");
+  window().feature<Hand3dFeature>().panel().view().setFixedSize(600, 600);
+  compare(window().feature<Hand3dFeature>().panel().view().grab().toImage(), "hand_bars_light.png");
 }
 
 TEST_F(GoldenPicturesTest, AnotherPictureIsTold) {

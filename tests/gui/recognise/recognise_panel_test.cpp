@@ -80,7 +80,7 @@ TEST_F(RecognisePanelTest, WhatCanNotBeJudgedIsSaid) {
 TEST_F(RecognisePanelTest, WhatWasHeldTooShortIsNotSaidOfAnEmptyHand) {
   panel_->controller().setEmulated(true);
   settle();
-  panel_->controller().sayTrouble("Not held long enough: ask again in a second.", kHeldNow);
+  panel_->controller().showProblem("Not held long enough: ask again in a second.", kHeldNow);
   panel_->controller().contactEnded();
   EXPECT_EQ(panel_->controller().answer().kind, Kind::kNothing);
   EXPECT_EQ(find<AnswerView>("answerView")->answer().kind, Kind::kNothing);

@@ -43,7 +43,7 @@ TEST_F(RecogniseSlowTest, NothingMovesAfterAStopWhileTheZeroIsTaken) {
   const auto status = [&] { return window().state().live.source()->control->status(); };
   ASSERT_TRUE(
       await([&] { return window().state().displayed.isLive() && status().cannotReact.empty(); }));
-  const auto ask = [&] { emit window().findChild<TodayPage*>()->zeroAsked(); };
+  const auto ask = [&] { emit window().findChild<TodayPage*>()->zeroRequested(); };
   const auto closed = [&] {
     return status().phase == GraspPhase::kIdle && status().last &&
            status().last->outcome == GraspOutcome::kLimitReached;
@@ -91,7 +91,7 @@ TEST_F(RecogniseSlowTest, TheZeroOfTheEmptyHandIsTakenAndUsed) {
         said = label->text().toStdString();
     return panel().controller().session()->hasZero() || said.find("no zero") != std::string::npos;
   };
-  emit window().findChild<TodayPage*>()->zeroAsked();
+  emit window().findChild<TodayPage*>()->zeroRequested();
   EXPECT_TRUE(await(hear)) << (status().last ? status().last->text : "");
   ASSERT_TRUE(panel().controller().session()->hasZero()) << said;
   const SessionOffset& offset = panel().controller().session()->offset();

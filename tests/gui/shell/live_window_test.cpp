@@ -15,8 +15,8 @@
 #include "control/emulated_bench.h"
 #include "gui/connect/connect_feature.h"
 #include "gui/hand/hand_dock.h"
+#include "gui/hand3d/hand3d_feature.h"
 #include "gui/hand3d/hand_panel.h"
-#include "gui/hand3d/space_feature.h"
 #include "gui/inspect/inspect_panel.h"
 #include "gui/inspect/matrix_table.h"
 #include "gui/matrices/matrices_feature.h"
@@ -360,7 +360,7 @@ QImage pictureOf(QWidget& widget) { return widget.grab().toImage(); }
 // L-M4
 TEST_F(LiveWindowTest, TheHandInSpaceIsMarkedWhenItsPictureIsOld) {
   connectEmulatedHand();
-  HandView& hand = window().feature<SpaceFeature>().panel().view();
+  HandView& hand = window().feature<Hand3dFeature>().panel().view();
   ASSERT_TRUE(await([&] { return hand.isVisible() && hand.drawing().handState().frame; }));
   const QImage live = pictureOf(hand);
   bench_->hand->unplug();
@@ -384,7 +384,7 @@ TEST_F(LiveWindowTest, OfARecordingNothingIsHeld) {
 // L-M4
 TEST_F(LiveWindowTest, APictureThatIsHeldSaysSoInEveryView) {
   connectEmulated("empty");
-  HandView& hand = window().feature<SpaceFeature>().panel().view();
+  HandView& hand = window().feature<Hand3dFeature>().panel().view();
   ASSERT_TRUE(await([&] { return hand.drawing().handState().frame && view().paintedUs() > 0; }));
   const auto corner = [](QWidget& widget) {
     const QImage whole = pictureOf(widget);

@@ -2,12 +2,14 @@
 #include <QClipboard>
 #include <QComboBox>
 #include <QDockWidget>
+#include <QMenu>
+#include <QMenuBar>
 #include <QSpinBox>
 #include <set>
 
 #include "gui/export/export_controller.h"
 #include "gui/export/export_feature.h"
-#include "gui/help/about_dialog.h"
+#include "gui/help/help_feature.h"
 #include "gui/help/keys_dialog.h"
 #include "gui/matrices/matrices_view.h"
 #include "gui/testing/window_fixture.h"
@@ -349,6 +351,27 @@ TEST_F(MainWindowTest, EveryActionOfTheToolbarHasIconAndToolTip) {
     EXPECT_FALSE(action->icon().isNull()) << action->text().toStdString();
     EXPECT_TRUE(action->toolTip().contains('(')) << action->text().toStdString();
   }
+}
+
+// Titles of the entries of `menu` and of its submenus whose access key another entry has as well.
+QStringList sharedAccessKeys(const QList<QAction*>& entries, const QString& menu) {
+  QStringList shared;
+  QHash<QKeySequence, QString> taken;
+  for (const QAction* entry : entries) {
+    if (entry->menu())
+      shared += sharedAccessKeys(entry->menu()->actions(), menu + " > " + entry->text());
+    const QKeySequence accessKey = QKeySequence::mnemonic(entry->text());
+    if (accessKey.isEmpty()) continue;
+    if (taken.contains(accessKey))
+      shared.append(menu + ": " + taken[accessKey] + ", " + entry->text());
+    taken[accessKey] = entry->text();
+  }
+  return shared;
+}
+
+TEST_F(MainWindowTest, NoTwoEntriesOfAMenuShareAnAccessKey) {
+  const QStringList shared = sharedAccessKeys(window().menuBar()->actions(), "menu bar");
+  EXPECT_TRUE(shared.isEmpty()) << shared.join("\n").toStdString();
 }
 
 }  // namespace

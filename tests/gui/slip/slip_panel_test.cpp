@@ -271,7 +271,7 @@ TEST_F(SlipPanelTest, OfWhatIsLiveTheNewestIsShown) {
   panel_->choose(kMoving);
   EXPECT_EQ(cell(kMoving, kVerdict), "slip");
   EXPECT_NEAR(panel_->drawing().scene()->path.back().y(), kBeginsAt + 10 * kStepTaxels, 0.15);
-  QSignalSpy asked(panel_.get(), &SlipPanel::liveReferenceAsked);
+  QSignalSpy asked(panel_.get(), &SlipPanel::liveReferenceRequested);
   find<QPushButton>("slipSetReference")->click();
   EXPECT_EQ(asked.size(), 1);
   EXPECT_EQ(find<QComboBox>("slipMethod")->currentText(), "centroid") << "live has its own";

@@ -7,8 +7,8 @@
 
 #include "gui/export/export_controller.h"
 #include "gui/export/export_feature.h"
+#include "gui/hand3d/hand3d_feature.h"
 #include "gui/hand3d/hand_panel.h"
-#include "gui/hand3d/space_feature.h"
 #include "gui/slip/slip_fixture.h"
 #include "gui/slip/slip_panel.h"
 #include "gui/source/connection.h"
@@ -89,7 +89,7 @@ TEST_F(SlipWindowTest, TheKeyOfTheReferenceBringsTheDock) {
 
 TEST_F(SlipWindowTest, ArrowsAreOnTheHandWhileItSlips) {
   showIt();
-  HandView& hand = window().feature<SpaceFeature>().panel().view();
+  HandView& hand = window().feature<Hand3dFeature>().panel().view();
   const auto of = [&](std::size_t matrix) -> const HandSlip* {
     for (const HandSlip& slip : hand.drawing().slip())
       if (slip.matrix == matrix) return &slip;
@@ -155,7 +155,7 @@ TEST_F(SlipWindowTest, OfAConnectedHandItTellsWhenItSlips) {
   };
   ASSERT_TRUE(await(slipping)) << "it is pulled";
   bool arrow = false;
-  for (const HandSlip& slip : window().feature<SpaceFeature>().panel().view().drawing().slip())
+  for (const HandSlip& slip : window().feature<Hand3dFeature>().panel().view().drawing().slip())
     arrow = arrow || slip.slipping;
   EXPECT_TRUE(arrow);
   // The frame that is shown becomes the reference: what was moved is zero again.

@@ -55,7 +55,7 @@ TEST_F(SpectrumWindowTest, SharesTimeAndCursorWithTheTimeline) {
   emit panel().chart().zoomRequested(1.5, 2.0);
   EXPECT_NEAR(timeline().seen().size(), 0.75, 1e-9);
   EXPECT_TRUE(same());
-  emit panel().chart().fitAsked();
+  emit panel().chart().fitRequested();
   EXPECT_TRUE(same());
   SpectrumChart& chart = panel().chart();
   const QPoint at(static_cast<int>(chart.xAxis->coordToPixel(2.0)), chart.height() / 2);

@@ -34,7 +34,7 @@ class WindowTest : public ::testing::Test {
   PlaybackController& playback() { return window_->state().playback; }
   // Makes an empty file, so that it exists; returns its path.
   std::string file(const std::string& name);
-  // Opens by openFiles() and waits for the end of it.
+  // Opens by WindowState::open() and waits for the end of it.
   void open(const std::vector<std::string>& names);
   void waitUntilOpened();
   void press(Qt::Key key, Qt::KeyboardModifiers modifiers = Qt::NoModifier);

@@ -1,7 +1,8 @@
-// Headings and numbers in the form that all docks use.
+// Headings, numbers and paths in the form that all docks use.
 #pragma once
 
 #include <QString>
+#include <filesystem>
 
 class QLabel;
 class QWidget;
@@ -12,5 +13,10 @@ namespace palpate::gui {
 QLabel* sectionHeading(const QString& text, QWidget* parent);
 // The value with so many decimals, independent of the locale: "31.7".
 QString figure(double value, int decimals);
+
+// Converts a std::filesystem::path into a QString.
+inline QString pathText(const std::filesystem::path& path) {
+  return QString::fromStdString(path.string());
+}
 
 }  // namespace palpate::gui

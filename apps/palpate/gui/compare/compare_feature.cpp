@@ -15,7 +15,7 @@ constexpr const char* kAlignmentKey = "compare/alignment";
 CompareFeature::CompareFeature(WindowState& windowState, QWidget* window)
     : Feature(windowState, window),
       action_(windowState.actions.make(
-          "compare", "View", "Com&pare two recordings…", {key("Ctrl+Shift+C")}, true)),
+          "compare", "View", "Compare two recordin&gs…", {key("Ctrl+Shift+C")}, true)),
       panel_(new ComparePanel(action_,
                               windowState.actions.at("interpolated"),
                               windowState.actions.at("values"),

@@ -2,10 +2,26 @@
 // actions that show the live hand or hold its picture.
 #pragma once
 
-#include "gui/connect/connect_actions.h"
+#include <QAction>
+#include <QActionGroup>
+#include <QList>
+
+#include "gui/window_state/action_registry.h"
 #include "gui/window_state/feature.h"
 
 namespace palpate::gui {
+
+// The actions that connect to a hand and show the connected hand.
+struct ConnectActions {
+  explicit ConnectActions(ActionRegistry& book);
+
+  QAction* connectHand = nullptr;
+  QAction* tryEmulated = nullptr;
+  QAction* disconnectHand = nullptr;
+  // Checked while the connection is shown instead of a recording.
+  QAction* live = nullptr;
+  QAction* hold = nullptr;
+};
 
 class ConnectFeature : public Feature {
   Q_OBJECT

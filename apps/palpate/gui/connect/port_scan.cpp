@@ -24,7 +24,7 @@ PortScan::Functions realFunctions() {
           }};
 }
 
-QString whyNotAsked(const PortInfo& port) {
+QString whyNotRequested(const PortInfo& port) {
   // Opening a Bluetooth port would connect to the remote device.
   if (port.bluetooth) return "Bluetooth: not checked";
   if (!port.readable || !port.writable)
@@ -164,7 +164,7 @@ void PortScan::takeList(std::vector<PortInfo> found) {
   for (PortInfo& info : found) {
     const bool busy = isBusy(QString::fromStdString(info.name)) ||
                       isBusy(QString::fromStdString(info.stableName));
-    QString why = busy ? QString(kOurPort) : whyNotAsked(info);
+    QString why = busy ? QString(kOurPort) : whyNotRequested(info);
     ports.append({std::move(info), std::move(why)});
   }
   for (const ScannedPort& port : ports)

@@ -1,8 +1,19 @@
 #include "gui/export/export_feature.h"
 
+#include "gui/appearance/icons.h"
 #include "gui/widgets/opening_strip.h"
 
 namespace palpate::gui {
+
+ExportActions::ExportActions(ActionRegistry& book) {
+  exportPicture = book.make("exportPicture", "File", "&Export…", {key("Ctrl+E")});
+  exportAgain = book.make("exportAgain", "File", "Export as &last time", {key("Ctrl+Shift+E")});
+  copyPicture = book.make("copyPicture", "File", "Cop&y", {key("Ctrl+C")});
+  copyPicture->setToolTip("Copy the view that was clicked last (Ctrl+C)");
+  copyTable = book.make("copyTable", "File", "Copy &table", {key("Ctrl+Alt+C")});
+  exportPicture->setIconText(" Export");
+  book.setIcon(exportPicture, IconShape::kExport);
+}
 
 ExportFeature::ExportFeature(WindowState& windowState, QWidget* window)
     : Feature(windowState, window),

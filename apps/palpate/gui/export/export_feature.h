@@ -1,11 +1,25 @@
 // The feature that exports pictures, tables and movies of the views that the other features offer.
 #pragma once
 
-#include "gui/export/export_actions.h"
+#include <QAction>
+#include <QActionGroup>
+#include <QList>
+
 #include "gui/export/export_controller.h"
+#include "gui/window_state/action_registry.h"
 #include "gui/window_state/feature.h"
 
 namespace palpate::gui {
+
+// The actions that export or copy views.
+struct ExportActions {
+  explicit ExportActions(ActionRegistry& book);
+
+  QAction* exportPicture = nullptr;
+  QAction* exportAgain = nullptr;
+  QAction* copyPicture = nullptr;
+  QAction* copyTable = nullptr;
+};
 
 class OpeningStrip;
 

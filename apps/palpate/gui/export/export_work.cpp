@@ -6,7 +6,7 @@
 
 #include <palpate/core/error.h>
 
-#include "gui/appearance/path_text.h"
+#include "gui/appearance/captions.h"
 #include "gui/picture/movie_writer.h"
 #include "gui/picture/picture_series.h"
 

@@ -15,7 +15,7 @@
 
 #include "gui/appearance/captions.h"
 #include "gui/hand/grasp_panel.h"
-#include "gui/hand/hand_actions.h"
+#include "gui/hand/hand_feature.h"
 #include "gui/hand/sensitivity_modes.h"
 #include "gui/hand/stop_key.h"
 #include "gui/hand/tactile_settings_panel.h"

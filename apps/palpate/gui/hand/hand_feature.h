@@ -2,10 +2,27 @@
 // detect the limit of its grasps.
 #pragma once
 
-#include "gui/hand/hand_actions.h"
+#include <QAction>
+#include <QActionGroup>
+#include <QList>
+
+#include "gui/window_state/action_registry.h"
 #include "gui/window_state/feature.h"
 
 namespace palpate::gui {
+
+// The actions that move the connected hand; they do the same as the buttons of the dock Hand.
+struct HandActions {
+  explicit HandActions(ActionRegistry& book);
+
+  QAction* graspHand = nullptr;
+  QAction* reactiveGrasp = nullptr;
+  QAction* slipAwareGrasp = nullptr;
+  QAction* openHand = nullptr;
+  QAction* relaxHand = nullptr;
+  // Esc does the same, whichever window has the keyboard focus.
+  QAction* stopHand = nullptr;
+};
 
 class HandDock;
 

@@ -1,4 +1,4 @@
-// Finds out whether the hand in space can be drawn with OpenGL on this machine.
+// Finds out whether the hand in 3-D can be drawn with OpenGL on this machine.
 #pragma once
 
 #include <QString>

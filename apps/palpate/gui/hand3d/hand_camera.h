@@ -1,4 +1,4 @@
-// The camera of the hand in space: an eye that circles around a target (orbit), moves sideways
+// The camera of the hand in 3-D: an eye that circles around a target (orbit), moves sideways
 // (pan) and comes nearer (zoom). Lengths in mm in the hand's base frame (z up from the palm),
 // angles in degrees.
 #pragma once

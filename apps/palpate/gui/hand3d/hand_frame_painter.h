@@ -1,4 +1,4 @@
-// Paints the hand in space at single frames of a recording, for exported files.
+// Paints the hand in 3-D at single frames of a recording, for exported files.
 #pragma once
 
 #include <vector>

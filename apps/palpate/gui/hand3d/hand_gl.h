@@ -1,4 +1,4 @@
-// Draws a hand in space with OpenGL 3.3 (core profile) into the bound framebuffer. The picture is
+// Draws a hand in 3-D with OpenGL 3.3 (core profile) into the bound framebuffer. The picture is
 // that of hand_raster.h, except for how drivers draw edges.
 #pragma once
 

@@ -1,4 +1,4 @@
-// The settings of how the hand in space is drawn.
+// The settings of how the hand in 3-D is drawn.
 #pragma once
 
 #include <QSettings>

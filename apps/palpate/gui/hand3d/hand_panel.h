@@ -1,4 +1,4 @@
-// The hand in space with its controls: how taxels are drawn, which sphere, which single matrix,
+// The hand in 3-D with its controls: how taxels are drawn, which sphere, which single matrix,
 // what else is visible.
 #pragma once
 

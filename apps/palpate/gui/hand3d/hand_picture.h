@@ -1,4 +1,4 @@
-// Paints the hand in space as a picture: the scene and, over it, title, colour bar, scale and
+// Paints the hand in 3-D as a picture: the scene and, over it, title, colour bar, scale and
 // notices. Used by the window, by exported files and by `palpate render --view hand`.
 #pragma once
 

@@ -1,4 +1,4 @@
-// Draws a hand in space without OpenGL: where OpenGL isn't available (--no-gl, no driver), for
+// Draws a hand in 3-D without OpenGL: where OpenGL isn't available (--no-gl, no driver), for
 // exported pictures of any size, and for pictures that tests compare. The same scene gives the same
 // pixels on every machine.
 #pragma once

@@ -1,4 +1,4 @@
-// The scene of a hand in space, ready to draw: triangles, lines and points in the hand's base frame
+// The scene of a hand in 3-D, ready to draw: triangles, lines and points in the hand's base frame
 // [mm], and how they are lit. hand_raster.h (without OpenGL) and hand_gl.h (with OpenGL) draw the
 // same picture from it.
 #pragma once

@@ -1,4 +1,4 @@
-// Builds the scene of a hand in space: bodies in their pose, taxels with their values, and the
+// Builds the scene of a hand in 3-D: bodies in their pose, taxels with their values, and the
 // computed contact. Caches what doesn't change between frames.
 #pragma once
 

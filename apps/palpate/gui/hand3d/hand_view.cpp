@@ -28,7 +28,7 @@ constexpr double kDragZoom = 1.006;
 HandView::HandView(QWidget* parent) : QWidget(parent) {
   setMouseTracking(true);
   setFocusPolicy(Qt::ClickFocus);
-  setAccessibleName("Hand in space");
+  setAccessibleName("Hand in 3-D");
   setAttribute(Qt::WA_OpaquePaintEvent);
 }
 

@@ -1,4 +1,4 @@
-// The widget that shows the hand in space: with OpenGL where available, else drawn by HandRaster.
+// The widget that shows the hand in 3-D: with OpenGL where available, else drawn by HandRaster.
 // Dragging turns it; Ctrl selects taxels. It draws only when something has changed.
 #pragma once
 

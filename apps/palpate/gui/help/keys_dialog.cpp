@@ -24,9 +24,9 @@ const std::vector<KeyEntry>& mouseEntries() {
       {"Mouse", "Double click", "In the timeline: show all of it; on an event: name it"},
       {"Mouse", "Drag", "In the timeline: select; along its axis: scrub; ends can be moved"},
       {"Mouse", "Click or drag", "Over taxels: choose them; with Ctrl: choose more"},
-      {"Mouse", "Drag", "Hand in space: turn; with Shift or the middle button: move"},
-      {"Mouse", "Wheel or right drag", "Hand in space: nearer and further"},
-      {"Mouse", "Click, Ctrl+drag", "Hand in space: choose taxels; double click: all of it"},
+      {"Mouse", "Drag", "Hand in 3-D: turn; with Shift or the middle button: move"},
+      {"Mouse", "Wheel or right drag", "Hand in 3-D: nearer and further"},
+      {"Mouse", "Click, Ctrl+drag", "Hand in 3-D: choose taxels; double click: all of it"},
       {"Mouse", "Right button", "Over the matrices: which taxels are scanned"},
       {"Mouse", "Hover", "Over a taxel or the timeline: the values there"},
       {"Mouse", "Drop a file", "Anywhere: open it"}};
@@ -69,8 +69,7 @@ QWidget* columnOf(const std::vector<KeyEntry>& entries, QWidget* parent) {
 
 std::vector<KeyEntry> keysOf(const QList<QAction*>& actions) {
   std::vector<KeyEntry> entries;
-  for (const char* section :
-       {"File", "Edit", "Hand", "Playback", "View", "Hand in space", "Help"}) {
+  for (const char* section : {"File", "Edit", "Hand", "Playback", "View", "Hand in 3-D", "Help"}) {
     for (const QAction* action : actions) {
       if (sectionOf(*action) != section || !action->isVisible()) continue;
       if (const auto kind = kindOf(*action)) {
@@ -93,7 +92,7 @@ KeysDialog::KeysDialog(const QList<QAction*>& actions, QWidget* parent) : QDialo
   for (const KeyEntry& entry : keysOf(actions))
     (entry.section == "File" || entry.section == "Hand"   ? left
      : entry.section == "View" || entry.section == "Help" ? middle
-     : entry.section == "Hand in space"                   ? space
+     : entry.section == "Hand in 3-D"                     ? space
                                                           : right)
         .push_back(entry);
   space.insert(space.end(), mouseEntries().begin(), mouseEntries().end());

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include <palpate/signals/signal_text_table.h>
+#include <palpate/signals/characteristic_signals.h>
 
 #include "gui/inspect/inspect_panel.h"
 #include "gui/picture/table_picture.h"

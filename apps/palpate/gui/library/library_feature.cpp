@@ -29,7 +29,7 @@ LibraryFeature::LibraryFeature(WindowState& windowState, QWidget* window)
     for (const QString& path : paths) files.emplace_back(path.toStdString());
     windowState.open(files);
   });
-  connect(panel_, &LibraryPanel::compareAsked, this, [this](const QString& path) {
+  connect(panel_, &LibraryPanel::compareRequested, this, [this](const QString& path) {
     compareWith(path.toStdString());
   });
   panel_->comparable = [&windowState] { return windowState.displayed.isRecording(); };

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include <palpate/core/natural_order.h>
+#include <palpate/core/file_name.h>
 #include <palpate/core/time.h>
 
 namespace palpate::gui {

@@ -116,10 +116,10 @@ void LibraryPanel::buildTable() {
   pages_->addWidget(table_);
   connect(table_, &LibraryTable::openRequested, this, &LibraryPanel::openChosen);
   connect(table_, &QTableView::doubleClicked, this, &LibraryPanel::openChosen);
-  connect(table_, &LibraryTable::searchAsked, this, &LibraryPanel::startSearch);
-  connect(table_, &LibraryTable::compareAsked, this, [this] {
+  connect(table_, &LibraryTable::searchRequested, this, &LibraryPanel::startSearch);
+  connect(table_, &LibraryTable::compareRequested, this, [this] {
     const QStringList paths = chosen();
-    if (paths.size() == 1 && comparable()) emit compareAsked(paths.first());
+    if (paths.size() == 1 && comparable()) emit compareRequested(paths.first());
   });
   connect(table_, &QWidget::customContextMenuRequested, this, &LibraryPanel::showMenu);
   connect(table_->selectionModel(), &QItemSelectionModel::selectionChanged, this, [this] {
@@ -340,7 +340,7 @@ void LibraryPanel::showMenu(const QPoint& at) {
   const bool one = paths.size() == 1;
   add("&Open", "Return", !paths.isEmpty(), [this] { openChosen(); });
   add("&Compare with the one shown", "Ctrl+Return", one && comparable(), [&] {
-    emit compareAsked(paths.first());
+    emit compareRequested(paths.first());
   });
   menu.addSeparator();
   add("&Show in the file manager", {}, one, [&] { reveal(paths.first()); });

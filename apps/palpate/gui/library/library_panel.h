@@ -52,7 +52,7 @@ class LibraryPanel : public QWidget {
 
  signals:
   void openRequested(const QStringList& paths);
-  void compareAsked(const QString& path);
+  void compareRequested(const QString& path);
   // A warning for the log: what could not be read.
   void said(const QString& message);
   // A scan has ended.

@@ -82,16 +82,16 @@ void LibraryTable::keyPressEvent(QKeyEvent* event) {
     case Qt::Key_Return:
     case Qt::Key_Enter:
       if (control)
-        emit compareAsked();
+        emit compareRequested();
       else
         emit openRequested();
       return;
     case Qt::Key_Slash:
-      emit searchAsked();
+      emit searchRequested();
       return;
     case Qt::Key_F:
       if (control) {
-        emit searchAsked();
+        emit searchRequested();
         return;
       }
       break;

@@ -16,8 +16,8 @@ class LibraryTable : public QTableView {
 
  signals:
   void openRequested();
-  void compareAsked();
-  void searchAsked();
+  void compareRequested();
+  void searchRequested();
 
  protected:
   bool event(QEvent* event) override;

@@ -60,7 +60,7 @@ bool LogTable::event(QEvent* event) {
 
 void LogTable::keyPressEvent(QKeyEvent* event) {
   if (event->matches(QKeySequence::Copy)) {
-    emit copyAsked();
+    emit copyRequested();
   } else if (event->key() == Qt::Key_Home || event->key() == Qt::Key_End) {
     const int row = event->key() == Qt::Key_Home ? 0 : model()->rowCount() - 1;
     if (row < 0) return;
@@ -157,8 +157,9 @@ void LogPanel::buildTable() {
   pages_->addWidget(table_);
   pages_->addWidget(empty_);
   static_cast<QVBoxLayout*>(layout())->addWidget(pages_, 1);
-  connect(
-      table_, &LogTable::copyAsked, this, [this] { QApplication::clipboard()->setText(text()); });
+  connect(table_, &LogTable::copyRequested, this, [this] {
+    QApplication::clipboard()->setText(text());
+  });
   connect(empty_, &EmptyPage::buttonClicked, this, [this] {
     words_->clear();
     severity_->setCurrentIndex(0);

@@ -43,7 +43,7 @@ class LogTable : public QTableView {
   using QTableView::QTableView;
 
  signals:
-  void copyAsked();
+  void copyRequested();
 
  protected:
   bool event(QEvent* event) override;

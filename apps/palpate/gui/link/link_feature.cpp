@@ -7,6 +7,18 @@
 #include "gui/widgets/message_banner.h"
 
 namespace palpate::gui {
+
+LinkActions::LinkActions(ActionRegistry& book) {
+  muteAlarms = book.make("muteAlarms", "Hand", "S&ilent alarms", {key("Ctrl+Shift+M")}, true);
+  streamSignals = book.make("streamSignals", "Hand", "Stream signals to &PlotJuggler", {}, true);
+  streamSignals->setToolTip("A datagram of JSON per frame, to this machine only");
+  streamTactile =
+      book.make("streamTactile", "Hand", "Stream all &taxels (ROS TactileSensor)", {}, true);
+  streamTactile->setToolTip("A datagram of JSON per frame, to this machine only");
+  remoteControl = book.make("remoteControl", "Hand", "&Remote control", {}, true);
+  remoteControl->setToolTip("Your programs can start, stop and label recordings");
+}
+
 namespace {
 
 constexpr const char* kMutedKey = "alarms/muted";

@@ -2,14 +2,29 @@
 // programs.
 #pragma once
 
+#include <QAction>
+#include <QActionGroup>
+#include <QList>
 #include <memory>
 
 #include "gui/link/alarm_notifier.h"
-#include "gui/link/link_actions.h"
 #include "gui/link/other_programs.h"
+#include "gui/window_state/action_registry.h"
 #include "gui/window_state/feature.h"
 
 namespace palpate::gui {
+
+// The actions that mute alarms and switch the interfaces for other programs.
+struct LinkActions {
+  explicit LinkActions(ActionRegistry& book);
+
+  QAction* muteAlarms = nullptr;
+  // Streams of live data to other programs; the settings store whether they are on.
+  QAction* streamSignals = nullptr;
+  QAction* streamTactile = nullptr;
+  // Off in every new window. data() is the path of the socket; empty: the default path.
+  QAction* remoteControl = nullptr;
+};
 
 class LinkPanel;
 class MessageBanner;

@@ -2,6 +2,8 @@
 
 #include <palpate/core/error.h>
 
+#include "gui/link/link_feature.h"
+
 namespace palpate::gui {
 namespace {
 

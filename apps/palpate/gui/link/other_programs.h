@@ -12,12 +12,13 @@
 #include <palpate/interop/live_stream.h>
 #include <palpate/interop/remote_server.h>
 
-#include "gui/link/link_actions.h"
 #include "gui/link/remote_controller.h"
 #include "gui/source/live_controller.h"
 #include "gui/widgets/facts_view.h"
 
 namespace palpate::gui {
+
+struct LinkActions;
 
 // What OtherPrograms needs; the references must outlive it.
 struct OtherProgramsOptions {

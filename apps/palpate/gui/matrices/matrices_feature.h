@@ -2,12 +2,34 @@
 // taxels, and which taxels the hand scans.
 #pragma once
 
-#include "gui/matrices/matrices_actions.h"
+#include <QAction>
+#include <QActionGroup>
+#include <QList>
+
 #include "gui/matrices/matrices_painter.h"
 #include "gui/matrices/scan_choice.h"
+#include "gui/window_state/action_registry.h"
 #include "gui/window_state/feature.h"
 
 namespace palpate::gui {
+
+// The actions of the heat maps, including those that choose which taxels the hand scans.
+struct MatricesActions {
+  explicit MatricesActions(ActionRegistry& book);
+
+  QAction* interpolated = nullptr;
+  QAction* values = nullptr;
+  QAction* nextMap = nullptr;
+  QAction* nextRange = nullptr;
+  // Set the mask of scanned taxels from the selected taxels.
+  QAction* scanOnly = nullptr;
+  QAction* scanWithout = nullptr;
+  QAction* scanAlso = nullptr;
+  QAction* scanAll = nullptr;
+  QAction* chooseNone = nullptr;
+  QActionGroup* maps = nullptr;
+  QActionGroup* ranges = nullptr;
+};
 
 class MatricesPanel;
 

@@ -12,8 +12,8 @@
 #include <vector>
 
 #include <palpate/model/hand_description.h>
+#include <palpate/model/matrix_layout.h>
 #include <palpate/model/tactile_frame.h>
-#include <palpate/model/taxel_place.h>
 
 #include "gui/appearance/color_map.h"
 #include "gui/appearance/theme.h"

@@ -3,6 +3,8 @@
 #include <QMenu>
 #include <chrono>
 
+#include "gui/matrices/matrices_feature.h"
+
 namespace palpate::gui {
 
 ScanChoice::ScanChoice(WindowState& windowState, const MatricesActions& actions)

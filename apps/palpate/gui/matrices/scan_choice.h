@@ -8,10 +8,11 @@
 #include <palpate/control/tactile_masks.h>
 #include <palpate/device/device.h>
 
-#include "gui/matrices/matrices_actions.h"
 #include "gui/window_state/window_state.h"
 
 namespace palpate::gui {
+
+struct MatricesActions;
 
 class ScanChoice : public QObject {
   Q_OBJECT

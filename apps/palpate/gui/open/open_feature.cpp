@@ -8,12 +8,25 @@
 #include <QMimeData>
 #include <algorithm>
 
-#include "gui/appearance/path_text.h"
+#include "gui/appearance/captions.h"
+#include "gui/appearance/icons.h"
 #include "gui/open/session_storage.h"
 #include "gui/open/start_page.h"
 #include "gui/widgets/opening_strip.h"
 
 namespace palpate::gui {
+
+OpenActions::OpenActions(ActionRegistry& book) {
+  open = book.make("open", "File", "&Open…", {key("Ctrl+O")});
+  openDemo = book.make("openDemo", "File", "Open the &demo recording", {key("Ctrl+D")});
+  nextRecording = book.make("nextRecording", "File", "&Next open recording", {key("Ctrl+Tab")});
+  previousRecording =
+      book.make("previousRecording", "File", "&Previous open recording", {key("Ctrl+Shift+Tab")});
+  closeRecording = book.make("closeRecording", "File", "&Close recording", {key("Ctrl+W")});
+  open->setIconText(" " + plainText(*open));
+  book.setIcon(open, IconShape::kOpen);
+}
+
 namespace {
 
 std::vector<std::filesystem::path> localFiles(const QMimeData& data) {
@@ -111,13 +124,13 @@ void OpenFeature::connectActions() {
 void OpenFeature::connectStartPage() {
   WindowState& windowState = state();
   connect(startPage_, &StartPage::openRequested, actions_.open, &QAction::trigger);
-  connect(startPage_, &StartPage::demoAsked, actions_.openDemo, &QAction::trigger);
+  connect(startPage_, &StartPage::demoRequested, actions_.openDemo, &QAction::trigger);
   connect(startPage_,
-          &StartPage::connectAsked,
+          &StartPage::connectRequested,
           windowState.actions.at("connectHand"),
           &QAction::trigger);
   connect(startPage_,
-          &StartPage::emulatedAsked,
+          &StartPage::emulatedRequested,
           windowState.actions.at("tryEmulated"),
           &QAction::trigger);
   connect(startPage_, &StartPage::fileChosen, this, [&windowState](const QString& path) {

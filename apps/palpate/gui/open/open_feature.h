@@ -2,10 +2,25 @@
 // recording that was opened.
 #pragma once
 
-#include "gui/open/open_actions.h"
+#include <QAction>
+#include <QActionGroup>
+#include <QList>
+
+#include "gui/window_state/action_registry.h"
 #include "gui/window_state/feature.h"
 
 namespace palpate::gui {
+
+// The actions that open, close and switch between recordings.
+struct OpenActions {
+  explicit OpenActions(ActionRegistry& book);
+
+  QAction* open = nullptr;
+  QAction* openDemo = nullptr;
+  QAction* nextRecording = nullptr;
+  QAction* previousRecording = nullptr;
+  QAction* closeRecording = nullptr;
+};
 
 class OpeningStrip;
 class StartPage;

@@ -3,7 +3,7 @@
 #include <QFileInfo>
 #include <algorithm>
 
-#include "gui/appearance/path_text.h"
+#include "gui/appearance/captions.h"
 #include "gui/source/session.h"
 
 namespace palpate::gui {

@@ -80,13 +80,13 @@ StartPage::StartPage(RecentFiles& recent, bool withDemo, QWidget* parent)
   auto* connectHand =
       button("Connect a hand…", "startConnect", "Ports, emulated hand, replay (Ctrl+K)");
   connectHand->setProperty("primary", true);
-  connect(connectHand, &QPushButton::clicked, this, &StartPage::connectAsked);
+  connect(connectHand, &QPushButton::clicked, this, &StartPage::connectRequested);
   connect(button("Try the emulated hand",
                  "startEmulated",
                  "A simulated hand that grasps a ball (Ctrl+Shift+D)"),
           &QPushButton::clicked,
           this,
-          &StartPage::emulatedAsked);
+          &StartPage::emulatedRequested);
   connect(button("Open a recording…", "startOpen", "(Ctrl+O)"),
           &QPushButton::clicked,
           this,
@@ -95,7 +95,7 @@ StartPage::StartPage(RecentFiles& recent, bool withDemo, QWidget* parent)
     connect(button("Try the demo recording", "startDemo", "(Ctrl+D)"),
             &QPushButton::clicked,
             this,
-            &StartPage::demoAsked);
+            &StartPage::demoRequested);
   dropHint_ = new QLabel("or drop a recording (.dsa, .palpate) anywhere in this window", this);
   dropHint_->setObjectName("DropHint");
   dropHint_->setAlignment(Qt::AlignCenter);

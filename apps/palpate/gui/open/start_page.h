@@ -24,9 +24,9 @@ class StartPage : public QWidget {
  signals:
   void openRequested();
   // The user wants the demo recording.
-  void demoAsked();
-  void connectAsked();
-  void emulatedAsked();
+  void demoRequested();
+  void connectRequested();
+  void emulatedRequested();
   void fileChosen(const QString& path);
 
  protected:

@@ -147,7 +147,7 @@ bool ChildProgram::write(std::span<const std::byte> bytes, const KeepGoing& keep
       return false;
     }
     if (errno != EAGAIN && errno != EINTR)
-      throw Error("no input for the program: " + childProgramMessageOf(errno));
+      throw Error("can't write to the program: " + childProgramMessageOf(errno));
     ask(keepGoing);
     wait(true);
   }

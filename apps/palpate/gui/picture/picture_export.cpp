@@ -9,7 +9,7 @@
 #include <cmath>
 
 #include <palpate/core/error.h>
-#include <palpate/core/file_ending.h>
+#include <palpate/core/file_name.h>
 
 #include "gui/picture/svg_device.h"
 

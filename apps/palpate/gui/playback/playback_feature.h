@@ -1,10 +1,33 @@
 // The feature that plays the shown recording: the bar below the views, speeds and keys.
 #pragma once
 
-#include "gui/playback/playback_actions.h"
+#include <QAction>
+#include <QActionGroup>
+#include <QList>
+
+#include "gui/window_state/action_registry.h"
 #include "gui/window_state/feature.h"
 
 namespace palpate::gui {
+
+// The actions that play a recording.
+struct PlaybackActions {
+  explicit PlaybackActions(ActionRegistry& book);
+
+  QAction* play = nullptr;
+  QAction* stepBack = nullptr;
+  QAction* stepForward = nullptr;
+  QAction* tenBack = nullptr;
+  QAction* tenForward = nullptr;
+  QAction* toStart = nullptr;
+  QAction* toEnd = nullptr;
+  QAction* goToFrame = nullptr;
+  QAction* faster = nullptr;
+  QAction* slower = nullptr;
+  QAction* loop = nullptr;
+  QAction* skipGaps = nullptr;
+  QActionGroup* speeds = nullptr;
+};
 
 class PlaybackBar;
 

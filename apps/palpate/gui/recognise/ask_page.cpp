@@ -55,10 +55,12 @@ AskPage::AskPage(RecognitionController& controller, QWidget* parent)
   classes_->setObjectName("tellClass");
   classes_->setAccessibleName("What it is");
   classes_->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Preferred);
-  tell_ = new QPushButton("Confirm", this);
+  tell_ = new QPushButton("Label", this);
   tell_->setObjectName("tell");
   tell_->setToolTip(
-      "Confirms what this grasp is: the model is adapted to today with it (undo: page Today)");
+      "Labels the last grasp with this class, also when the answer was wrong: the model is "
+      "adapted\n"
+      "to today with it (undo: page Today)");
 
   auto* top = new QHBoxLayout;
   top->setSpacing(8);
@@ -86,7 +88,7 @@ AskPage::AskPage(RecognitionController& controller, QWidget* parent)
   column->addLayout(bottom);
 
   connect(ask_, &QPushButton::clicked, this, &AskPage::asked);
-  connect(show, &QPushButton::clicked, this, &AskPage::showAsked);
+  connect(show, &QPushButton::clicked, this, &AskPage::showRequested);
   connect(&controller_, &RecognitionController::modelChanged, this, &AskPage::showModel);
   connect(&controller_,
           &RecognitionController::answered,
@@ -101,7 +103,7 @@ AskPage::AskPage(RecognitionController& controller, QWidget* parent)
     const int chosen = classes_->currentIndex();
     controller_.changeSession(
         [&](RecognitionSession& session) { session.setLabel(*grasp, chosen); });
-    emit controller_.said("confirmed: " + classes_->currentText());
+    emit controller_.said("labelled: " + classes_->currentText());
   });
   askForModel = [this] {
     return std::filesystem::path(

@@ -36,7 +36,7 @@ class AskPage : public QWidget {
  signals:
   void asked();
   // The user wants the full-screen view.
-  void showAsked();
+  void showRequested();
 
  private:
   void showModel();

@@ -77,7 +77,7 @@ CheckPage::CheckPage(TrainingController& controller, QWidget* parent)
   protocol_->setAccessibleName("Protocol");
   protocol_->addItems({"five blocks in time (B)", "ten shuffles (S)"});
   protocol_->setToolTip(
-      "Which grasps test and don't train. Neither shows how it will be on another day.");
+      "Which grasps test and don't train. Neither shows how it will be in another session.");
   check_ = new QPushButton("Check", this);
   check_->setObjectName("checkNow");
   check_->setProperty("primary", true);

@@ -15,6 +15,14 @@
 #include "gui/widgets/dock.h"
 
 namespace palpate::gui {
+
+RecogniseActions::RecogniseActions(ActionRegistry& book) {
+  whatIsIt = book.make("whatIsIt", "Hand", "&What is it?", {key("Q")});
+  whatIsIt->setToolTip("Recognises the selected grasp, or what is held (Q)");
+  presentationMode =
+      book.make("showMode", "Hand", "The &answer on the whole screen", {key("Shift+Q")});
+}
+
 namespace {
 
 constexpr int kRecogniseUsualWidth = 430;  // [px]
@@ -45,13 +53,13 @@ void RecogniseFeature::connectAll() {
   WindowState& windowState = state();
   connect(panel_, &RecognisePanel::said, &windowState.messages, &Messages::flash);
   connect(panel_, &RecognisePanel::failed, &windowState.messages, &Messages::fail);
-  connect(&panel_->today(), &TodayPage::zeroAsked, this, &RecogniseFeature::beginZero);
+  connect(&panel_->today(), &TodayPage::zeroRequested, this, &RecogniseFeature::beginZero);
   // After a stop or any other command to the hand, the zero measurement no longer moves it.
   connect(&windowState.handCommands, &HandCommands::asked, this, &RecogniseFeature::cancelZero);
   connect(&panel_->check(), &CheckPage::graspAsked, this, &RecogniseFeature::showGrasp);
   panel_->teach().zeroNow = [this] { return zero_; };
   connect(&panel_->ask(), &AskPage::asked, this, &RecogniseFeature::ask);
-  connect(&panel_->ask(), &AskPage::showAsked, this, &RecogniseFeature::showFull);
+  connect(&panel_->ask(), &AskPage::showRequested, this, &RecogniseFeature::showFull);
   on(actions_.whatIsIt, [this] {
     if (!dock_->isVisible() && !full_) emit dockRequested(dock_);
     panel_->showPage("Ask");
@@ -100,13 +108,13 @@ void RecogniseFeature::ask() {
 void RecogniseFeature::askOfRecording() {
   RecognitionController& controller = panel_->controller();
   const OpenedRecordingPtr recording = state().displayed.recorded();
-  if (!recording) return controller.sayTrouble("Open a recording, or connect a hand.");
+  if (!recording) return controller.showProblem("Open a recording, or connect a hand.");
   if (recording->profile.numFrames() == 0)
-    return controller.sayTrouble("This recording has no frames.");
+    return controller.showProblem("This recording has no frames.");
   const QString name = QString::fromStdString(recording->path.filename().string());
   const auto question = [&](double fromS, double toS) {
     const auto frames = recording->framesWithin(fromS, toS);
-    if (!frames) return controller.sayTrouble("No frame is selected.");
+    if (!frames) return controller.showProblem("No frame is selected.");
     controller.ask({recording->profile,
                     frames,
                     name + ", " + figure(fromS, 2) + " – " + figure(toS, 2) + " s"});
@@ -119,7 +127,7 @@ void RecogniseFeature::askOfRecording() {
   });
   const auto* chosen = at != grasps.end() ? &*at : grasps.size() == 1 ? &grasps.front() : nullptr;
   if (!chosen)
-    return controller.sayTrouble(
+    return controller.showProblem(
         grasps.empty() ? "There is no grasp in this recording."
                        : "No grasp is chosen: select one in the timeline (N), or put the "
                          "cursor into one.");
@@ -130,14 +138,14 @@ void RecogniseFeature::askOfRecording() {
 void RecogniseFeature::askOfHand() {
   takeItems();
   RecognitionController& controller = panel_->controller();
-  if (!collector_) return controller.sayTrouble("No hand is connected.");
+  if (!collector_) return controller.showProblem("No hand is connected.");
   sinceAsked_ = 0;
   if (auto held = collector_->now())
     return controller.ask({std::move(*held), std::nullopt, kHeldNow});
   if (collector_->touched())
-    return controller.sayTrouble("Not held long enough: ask again in a second.", kHeldNow);
+    return controller.showProblem("Not held long enough: ask again in a second.", kHeldNow);
   if (lastGrasp_) return controller.ask({*lastGrasp_, std::nullopt, kLastGrasp});
-  controller.sayTrouble("Nothing is held, and there is no last grasp.", kHeldNow);
+  controller.showProblem("Nothing is held, and there is no last grasp.", kHeldNow);
 }
 
 void RecogniseFeature::listen(bool on) {

@@ -2,6 +2,9 @@
 // on the full screen, and measures the zero of the empty hand.
 #pragma once
 
+#include <QAction>
+#include <QActionGroup>
+#include <QList>
 #include <QPointer>
 #include <QTimer>
 #include <filesystem>
@@ -13,10 +16,20 @@
 #include <palpate/recognition/empty_hand.h>
 #include <palpate/recognition/grasp_collector.h>
 
-#include "gui/recognise/recognise_actions.h"
+#include "gui/window_state/action_registry.h"
 #include "gui/window_state/feature.h"
 
 namespace palpate::gui {
+
+// The actions of recognition.
+struct RecogniseActions {
+  explicit RecogniseActions(ActionRegistry& book);
+
+  // Recognises the selection, or what is held.
+  QAction* whatIsIt = nullptr;
+  // Shows the answer on the full screen.
+  QAction* presentationMode = nullptr;
+};
 
 class RecognisePanel;
 class PresentationWindow;

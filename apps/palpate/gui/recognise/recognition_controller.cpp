@@ -27,10 +27,10 @@ RecognitionController::RecognitionController(QSettings& settings,
     setModel(std::nullopt, path_);
     modelProblem_ = message;
     emit modelChanged();
-    sayTrouble(message);
+    showProblem(message);
   });
   connect(&asking_, &BackgroundJob::failed, this, [this](const QString& message) {
-    sayTrouble(message);
+    showProblem(message);
   });
 }
 
@@ -114,7 +114,7 @@ void RecognitionController::setPhotoFolder(const std::filesystem::path& folder) 
 }
 
 void RecognitionController::changeSession(const std::function<void(RecognitionSession&)>& change) {
-  if (!session_) return sayTrouble(kNoModel);
+  if (!session_) return showProblem(kNoModel);
   try {
     change(*session_);
   } catch (const std::exception& error) {
@@ -127,7 +127,7 @@ void RecognitionController::changeSession(const std::function<void(RecognitionSe
 
 void RecognitionController::ask(const RecogniseQuestion& question) {
   if (!session_) {
-    if (!opening_.busy()) return sayTrouble(modelProblem_.isEmpty() ? kNoModel : modelProblem_);
+    if (!opening_.busy()) return showProblem(modelProblem_.isEmpty() ? kNoModel : modelProblem_);
     waiting_ = question;
     return;
   }
@@ -139,7 +139,7 @@ void RecognitionController::ask(const RecogniseQuestion& question) {
   try {
     requireFits(session_->model(), table);
   } catch (const Error& error) {
-    return sayTrouble(error.what());
+    return showProblem(error.what());
   }
   auto chosen = std::make_shared<ChosenGrasp>();
   asking_.cancel();
@@ -216,7 +216,7 @@ void RecognitionController::sayHowToAsk() {
   showAnswer(answer);
 }
 
-void RecognitionController::sayTrouble(const QString& text, const QString& of) {
+void RecognitionController::showProblem(const QString& text, const QString& of) {
   ++generation_;
   RecognitionAnswer answer;
   answer.kind = RecognitionAnswer::Kind::kProblem;
@@ -235,7 +235,7 @@ bool RecognitionController::cancel() {
   if (!asking_.busy()) return false;
   ++generation_;
   asking_.cancel();
-  sayTrouble("Cancelled.");
+  showProblem("Cancelled.");
   return true;
 }
 

@@ -59,7 +59,7 @@ class RecognitionController : public QObject {
   void ask(const RecogniseQuestion& question);
   // Answers that there is nothing to ask about, and why. `of` is as in RecognitionAnswer::of and
   // may be empty.
-  void sayTrouble(const QString& text, const QString& of = {});
+  void showProblem(const QString& text, const QString& of = {});
   // A contact has begun: removes a message that nothing is held.
   void touchBegins();
   // The contact has ended: an answer about "held now" becomes one about "the last grasp".

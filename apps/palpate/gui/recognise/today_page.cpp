@@ -27,7 +27,7 @@ std::vector<FigureColumn> todayPageColumns() {
   return {{"time", "UTC", 8, true},
           {"recognised as", {}, 14, true},
           {"p", {}, 5},
-          {"confirmed", "What it is, as you confirmed", 14, true}};
+          {"label", "What it is, as you labelled it", 14, true}};
 }
 
 }  // namespace
@@ -48,7 +48,7 @@ TodayPage::TodayPage(RecognitionController& controller, QWidget* parent)
   source_->addItems(
       {"as the model says", "nothing is assumed", "from today's grasps, unnamed", "typed"});
   source_->setToolTip(
-      "Confirmed grasps and the zero of the empty hand come first, except before a typed offset");
+      "Labelled grasps and the zero of the empty hand come first, except before a typed offset");
   typed_ = new SecondsField(this);
   typed_->setObjectName("todayTyped");
   typed_->setRange(-kFarthestMm, kFarthestMm);
@@ -83,7 +83,7 @@ TodayPage::TodayPage(RecognitionController& controller, QWidget* parent)
   column->addLayout(bottom);
   connect(source_, &QComboBox::activated, this, &TodayPage::choose);
   connect(typed_, &QDoubleSpinBox::valueChanged, this, &TodayPage::choose);
-  connect(zero_, &QPushButton::clicked, this, &TodayPage::zeroAsked);
+  connect(zero_, &QPushButton::clicked, this, &TodayPage::zeroRequested);
   connect(forget_, &QPushButton::clicked, this, [this] {
     controller_.changeSession([](RecognitionSession& session) { session.reset(); });
   });

@@ -30,7 +30,7 @@ class TodayPage : public QWidget {
   std::function<std::filesystem::path(const QString& suggestion)> askForPlace;
 
  signals:
-  void zeroAsked();
+  void zeroRequested();
 
  private:
   void showDay();

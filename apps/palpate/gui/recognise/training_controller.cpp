@@ -22,7 +22,7 @@ constexpr const char* kTrainingControllerFolderKey = "recognise/folder";
 constexpr double kGoodQuality = 0.5;  // a clip of this quality or better is stored at once
 constexpr std::size_t kBlocks = 5, kSplits = 10;
 
-// Options with the classifier that also works on recordings of another day.
+// Options with the classifier that also works on recordings of another session.
 PipelineOptions gauss() {
   PipelineOptions options;
   options.classifier = ClassifierKind::kGauss;
@@ -201,9 +201,9 @@ void TrainingController::takeOut(std::size_t index) {
     fs::rename(clip.path, to);
     clip.path = to;
     clip.state = TrainingClip::State::kTakenOut;
-    emit said("removed from the folder: " + QString::fromStdString(to.string()));
+    emit said("moved to " + QString::fromStdString(to.string()));
   } catch (const fs::filesystem_error& error) {
-    emit failed("could not be removed: " + QString::fromStdString(error.code().message()));
+    emit failed("could not be moved: " + QString::fromStdString(error.code().message()));
   }
   emit clipsChanged();
   emit folderChanged();

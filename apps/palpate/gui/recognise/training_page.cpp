@@ -81,7 +81,9 @@ TrainingPage::TrainingPage(TrainingController& controller, QWidget* parent)
   clips_ = new FiguresTable(clipColumns(), this);
   clips_->setObjectName("teachClips");
   clips_->setSingleLine();
-  act_ = button("teachAct", "Undo", "Removes the chosen or newest grasp from the folder");
+  act_ = button("teachAct",
+                "Undo",
+                "Moves the chosen or newest grasp out of the folder; Put back restores it");
   train_ = button("teachTrain", "Train", "A model of what the folder holds");
   train_->setProperty("primary", true);
 

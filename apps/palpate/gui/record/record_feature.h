@@ -2,16 +2,32 @@
 // open the result, and offers to recover recordings that were never finished.
 #pragma once
 
+#include <QAction>
+#include <QActionGroup>
+#include <QList>
 #include <filesystem>
 #include <optional>
 #include <vector>
 
-#include "gui/record/record_actions.h"
 #include "gui/record/recovery_finder.h"
 #include "gui/source/recording_settings.h"
+#include "gui/window_state/action_registry.h"
 #include "gui/window_state/feature.h"
 
 namespace palpate::gui {
+
+// The actions that record and mark.
+struct RecordActions {
+  explicit RecordActions(ActionRegistry& book);
+
+  QAction* record = nullptr;
+  QAction* recordingSettings = nullptr;
+  // Opens the last recording that was made.
+  QAction* openRecorded = nullptr;
+  QAction* mark = nullptr;
+  // For the digit keys 0..9.
+  QList<QAction*> labels;
+};
 
 class OfferStrip;
 

@@ -8,7 +8,7 @@
 
 #include <palpate/core/error.h>
 
-#include "gui/appearance/path_text.h"
+#include "gui/appearance/captions.h"
 
 namespace palpate::gui {
 namespace {

@@ -6,7 +6,7 @@
 #include "gui/export/export_feature.h"
 #include "gui/filter/filter_feature.h"
 #include "gui/hand/hand_feature.h"
-#include "gui/hand3d/space_feature.h"
+#include "gui/hand3d/hand3d_feature.h"
 #include "gui/help/help_feature.h"
 #include "gui/inspect/inspect_feature.h"
 #include "gui/library/library_feature.h"
@@ -33,7 +33,7 @@ std::vector<std::unique_ptr<Feature>> allFeatures(WindowState& windowState, QWid
   // The central views come first: the key Tab moves the focus in this order.
   add(std::make_unique<OpenFeature>(windowState, window));
   auto& matrices = add(std::make_unique<MatricesFeature>(windowState, window));
-  add(std::make_unique<SpaceFeature>(windowState, window, matrices.panel()));
+  add(std::make_unique<Hand3dFeature>(windowState, window, matrices.panel()));
   add(std::make_unique<PlaybackFeature>(windowState, window));
   add(std::make_unique<CompareFeature>(windowState, window));
   add(std::make_unique<InspectFeature>(windowState, window));

@@ -15,6 +15,20 @@
 #include "gui/widgets/status_strip.h"
 
 namespace palpate::gui {
+
+ShellActions::ShellActions(ActionRegistry& book) {
+  quit = book.make("quit", "File", "&Quit", {key("Ctrl+Q")});
+  nextTheme = book.make("nextTheme", "View", "Dark or light", {key("Ctrl+T")});
+  fullScreen = book.make("fullScreen", "View", "F&ull screen", {key("F11")}, true);
+  resetLayout = book.make("resetLayout", "View", "Reset la&yout", {key("Ctrl+Shift+R")});
+  dismiss = book.make("dismiss",
+                      "Help",
+                      "Stop the hand; close the message, stop opening, leave full screen",
+                      {key("Esc")});
+  hideInMenus(*dismiss);
+  themes = book.choices("themes", {"as the desktop", "dark", "light"});
+}
+
 namespace {
 
 constexpr QSize kSmallestWindow(900, 600);

@@ -2,18 +2,33 @@
 // their docks, views and banners, and asks before it closes.
 #pragma once
 
+#include <QAction>
+#include <QActionGroup>
+#include <QList>
 #include <QMainWindow>
 #include <memory>
 #include <stdexcept>
 #include <vector>
 
 #include "gui/shell/dock_arrangement.h"
-#include "gui/shell/shell_actions.h"
 #include "gui/shell/window_menus.h"
+#include "gui/window_state/action_registry.h"
 #include "gui/window_state/feature.h"
 #include "gui/window_state/window_state.h"
 
 namespace palpate::gui {
+
+// The actions of the main window itself.
+struct ShellActions {
+  explicit ShellActions(ActionRegistry& book);
+
+  QAction* quit = nullptr;
+  QAction* nextTheme = nullptr;
+  QAction* fullScreen = nullptr;
+  QAction* resetLayout = nullptr;
+  QAction* dismiss = nullptr;
+  QActionGroup* themes = nullptr;
+};
 
 class CentralWidget;
 class MessageBanner;

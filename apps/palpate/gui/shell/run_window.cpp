@@ -7,8 +7,8 @@
 #include "gui/desktop/first_paint.h"
 #include "gui/desktop/termination.h"
 #include "gui/hand3d/gl_probe.h"
+#include "gui/hand3d/hand3d_feature.h"
 #include "gui/hand3d/hand_panel.h"
-#include "gui/hand3d/space_feature.h"
 #include "gui/open/session_storage.h"
 #include "gui/shell/main_window.h"
 
@@ -27,7 +27,7 @@ int runWindow(int& argc, char** argv, const WindowOptions& options) {
   const Termination termination;
   QObject::connect(&termination, &Termination::asked, &window, &MainWindow::endNow);
   window.show();
-  HandView& hand = window.feature<SpaceFeature>().panel().view();
+  HandView& hand = window.feature<Hand3dFeature>().panel().view();
   // OpenGL is probed in another process, since a driver may crash; until the answer arrives the
   // hand is drawn without it.
   if (options.openGl == OpenGlChoice::kAlways && openGlProblem().isEmpty())

@@ -25,7 +25,7 @@ struct WindowOptions {
   bool demo = false;
   // Folder of the program's data.
   std::filesystem::path dataFolder;
-  // OpenGL for the hand in space.
+  // OpenGL for the hand in 3-D.
   OpenGlChoice openGl = OpenGlChoice::kFast;
   // Joint angles assumed for recordings that have none [deg]; empty: none.
   std::vector<double> assumedAnglesDeg = {};

@@ -17,8 +17,8 @@
 #include "gui/desktop/application.h"
 #include "gui/filter/filter_feature.h"
 #include "gui/hand3d/gl_probe.h"
+#include "gui/hand3d/hand3d_feature.h"
 #include "gui/hand3d/hand_panel.h"
-#include "gui/hand3d/space_feature.h"
 #include "gui/picture/picture_export.h"
 #include "gui/recognise/recognise_feature.h"
 #include "gui/recognise/recognise_panel.h"
@@ -185,7 +185,7 @@ int takeScreenshot(int& argc, char** argv, const ScreenshotOptions& options) {
                      .assumedAnglesDeg = options.assumedAnglesDeg,
                      .recipe = options.recipe});
   if (options.openGl && openGlProblem().isEmpty())
-    window.feature<SpaceFeature>().panel().view().useOpenGl();
+    window.feature<Hand3dFeature>().panel().view().useOpenGl();
   window.state().appearance.setTheme(theme);
   window.setFixedSize(options.size);
   window.show();

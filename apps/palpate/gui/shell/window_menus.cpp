@@ -96,7 +96,7 @@ void WindowMenus::buildMenuBar(const ActionRegistry& book, const QList<QAction*>
   view->addAction(at("nextRange"));
   view->addSeparator();
   view->addActions({at("matricesShown"), at("handShown")});
-  QMenu* space = view->addMenu("Hand in s&pace");
+  QMenu* space = view->addMenu("Hand in 3-&D");
   space->addActions({at("nextTaxelShape"), at("nextSphere"), at("sphereOfCentroids")});
   space->addSeparator();
   space->addActions({at("normals"), at("contacts"), at("slipArrows"), at("wire"), at("axes")});
@@ -119,7 +119,7 @@ void WindowMenus::buildMenuBar(const ActionRegistry& book, const QList<QAction*>
   view->addActions(dockToggles);
   view->addAction(at("resetLayout"));
   view->addSeparator();
-  addChoices(view, "T&heme", book.group("themes"));
+  addChoices(view, "Th&eme", book.group("themes"));
   view->addAction(at("nextTheme"));
   view->addAction(at("fullScreen"));
 

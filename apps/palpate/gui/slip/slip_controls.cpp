@@ -128,7 +128,7 @@ SlipControls::SlipControls(QSettings& settings, QWidget* parent)
     remember();
     emit changed();
   });
-  connect(set_, &QPushButton::clicked, this, &SlipControls::referenceAsked);
+  connect(set_, &QPushButton::clicked, this, &SlipControls::referenceRequested);
   for (QDoubleSpinBox* each : {step_, whole_, rotation_})
     connect(each, &QDoubleSpinBox::valueChanged, this, [this] {
       remember();

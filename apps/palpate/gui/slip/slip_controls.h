@@ -29,7 +29,7 @@ class SlipControls : public QWidget {
  signals:
   void changed();
   // The user wants the shown frame as reference.
-  void referenceAsked();
+  void referenceRequested();
 
  private:
   QDoubleSpinBox* field(const char* name,

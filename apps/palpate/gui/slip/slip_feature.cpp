@@ -18,7 +18,7 @@ constexpr int kSlipUsualWidth = 620;  // [px] list and drawing fit side by side
 SlipFeature::SlipFeature(WindowState& windowState, QWidget* window)
     : Feature(windowState, window),
       reference_(windowState.actions.make(
-          "slipReference", "View", "Slip is measured &from here", {key("O")})),
+          "slipReference", "View", "S&lip is measured from here", {key("O")})),
       panel_(new SlipPanel(windowState.settings, window)) {
   dock_ = new Dock("Slip", panel_, nullptr, window);
   reference_->setToolTip("The frame that is shown becomes the reference of slip (O)");
@@ -30,7 +30,7 @@ SlipFeature::SlipFeature(WindowState& windowState, QWidget* window)
   connect(
       panel_, &SlipPanel::seekRequested, &windowState.playback, &PlaybackController::seekSeconds);
   connect(panel_, &SlipPanel::liveOptionsChanged, this, &SlipFeature::setUpStage);
-  connect(panel_, &SlipPanel::liveReferenceAsked, this, [&windowState] {
+  connect(panel_, &SlipPanel::liveReferenceRequested, this, [&windowState] {
     if (const LiveSource* source = windowState.live.source()) source->slip->setReference();
     windowState.messages.flash("slip is measured from this frame on");
   });
@@ -101,7 +101,7 @@ void SlipFeature::setUpStage() {
   source->slip->setOptions(options);
 }
 
-// Shows the latest motion of the contacts as arrows on the hand in space.
+// Shows the latest motion of the contacts as arrows on the hand in 3-D.
 void SlipFeature::showArrows() {
   std::vector<HandSlip> slips;
   const SlipSeries* series = panel_->found();

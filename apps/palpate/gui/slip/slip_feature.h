@@ -1,5 +1,5 @@
 // The feature with the dock Slip: gives it its source, and shows its results in the timeline and on
-// the hand in space.
+// the hand in 3-D.
 #pragma once
 
 #include "gui/window_state/feature.h"

@@ -81,7 +81,7 @@ QIcon indicatorIcon(IndicatorLook look, Theme theme) {
   return QIcon(pixmap);
 }
 
-QString verdictOf(const SlipSample* sample) {
+QString stateTextOf(const SlipSample* sample) {
   if (sample == nullptr) return "no contact";
   return QString::fromUtf8(nameOf(sample->state)).replace('_', ' ');
 }
@@ -90,7 +90,7 @@ QString meaningOf(const SlipSample* sample) {
   if (sample == nullptr) return "No taxel of this matrix is active.";
   switch (sample->state) {
     case SlipState::kStill:
-      return "The contact doesn't move.";
+      return "No significant motion of the contact.";
     case SlipState::kLoading:
       return "It moves, but no more than is normal while the load changes this fast.";
     case SlipState::kLoadShift:

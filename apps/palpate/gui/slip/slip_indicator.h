@@ -21,8 +21,8 @@ IndicatorLook indicatorOf(const SlipSample* sample);
 QColor colorOf(IndicatorLook look, Theme theme);
 QIcon indicatorIcon(IndicatorLook look, Theme theme);
 // "still", "load shift", ..; "no contact"
-QString verdictOf(const SlipSample* sample);
-// Explains the verdict in one sentence.
+QString stateTextOf(const SlipSample* sample);
+// Explains the state in one sentence.
 QString meaningOf(const SlipSample* sample);
 
 }  // namespace palpate::gui

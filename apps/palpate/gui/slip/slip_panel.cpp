@@ -102,7 +102,7 @@ SlipPanel::SlipPanel(QSettings& settings, QWidget* parent) : ComputedPage("slip"
   });
   connect(chart_, &SlipChart::seekRequested, this, &SlipPanel::seekRequested);
   connect(controls_, &SlipControls::changed, this, &SlipPanel::changed);
-  connect(controls_, &SlipControls::referenceAsked, this, &SlipPanel::setReference);
+  connect(controls_, &SlipControls::referenceRequested, this, &SlipPanel::setReference);
 }
 
 const HandDescription* SlipPanel::hand() const {
@@ -137,7 +137,7 @@ void SlipPanel::changed() {
 
 void SlipPanel::setReference() {
   if (live()) {
-    emit liveReferenceAsked();
+    emit liveReferenceRequested();
     return;
   }
   if (!recording() || recording()->profile.numFrames() == 0) return;
@@ -269,7 +269,7 @@ void SlipPanel::showRows() {
                              : nameOfMatrix(m);
     std::vector<FigureCell> row = {
         {.text = name, .tip = nameOfMatrix(m), .icon = indicatorIcon(indicator, theme_)},
-        {.text = verdictOf(sample), .tip = meaningOf(sample)}};
+        {.text = stateTextOf(sample), .tip = meaningOf(sample)}};
     const auto add = [&](bool known, const QString& text, const QString& tip, bool warning) {
       row.push_back({.text = known ? text : QString("–"),
                      .tip = known ? tip : QString(),

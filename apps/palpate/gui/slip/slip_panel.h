@@ -45,7 +45,7 @@ class SlipPanel : public ComputedPage {
   // Makes the shown frame the reference; for a live source the newest frame.
   void setReference();
 
-  // Shows a connected hand; showLive() then adds its newest verdicts and the frame that they belong
+  // Shows a connected hand; showLive() then adds its newest results and the frame that they belong
   // to.
   void setLiveHand(const HandDescription& hand);
   // The scanned taxels of the same hand changed; the results so far are kept.
@@ -59,7 +59,7 @@ class SlipPanel : public ComputedPage {
   void frameChanged();
   void seekRequested(double seconds);
   void liveOptionsChanged();
-  void liveReferenceAsked();
+  void liveReferenceRequested();
 
  protected:
   QString emptyReason() const override;

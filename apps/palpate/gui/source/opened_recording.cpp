@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include <palpate/core/error.h>
-#include <palpate/core/progress_steps.h>
+#include <palpate/core/progress.h>
 #include <palpate/core/statistics.h>
 #include <palpate/core/time.h>
 #include <palpate/model/gap_detector.h>

@@ -8,7 +8,7 @@
 #include <optional>
 #include <vector>
 
-#include <palpate/model/time_span.h>
+#include <palpate/model/timing.h>
 
 namespace palpate::gui {
 

@@ -360,15 +360,15 @@ void SpectrumChart::mouseMoveEvent(QMouseEvent* event) {
 void SpectrumChart::mouseReleaseEvent(QMouseEvent*) { seeking_ = false; }
 
 void SpectrumChart::mouseDoubleClickEvent(QMouseEvent* event) {
-  if (event->button() == Qt::LeftButton) emit fitAsked();
+  if (event->button() == Qt::LeftButton) emit fitRequested();
 }
 
 void SpectrumChart::wheelEvent(QWheelEvent* event) {
   const double notches = event->angleDelta().y() / kWheelNotch;
   const double sideways = event->angleDelta().x() / kWheelNotch;
   if (sideways != 0.0 || event->modifiers() & Qt::ShiftModifier)
-    emit panAsked(-(sideways != 0.0 ? sideways : notches) * kSpectrumChartWheelPan *
-                  xAxis->range().size());
+    emit panRequested(-(sideways != 0.0 ? sideways : notches) * kSpectrumChartWheelPan *
+                      xAxis->range().size());
   else
     emit zoomRequested(secondsAt(event->position().x()), std::pow(kWheelZoom, notches));
   event->accept();

@@ -50,8 +50,8 @@ class SpectrumChart : public QCustomPlot {
  signals:
   void seekRequested(double seconds);
   void zoomRequested(double seconds, double factor);
-  void panAsked(double seconds);
-  void fitAsked();
+  void panRequested(double seconds);
+  void fitRequested();
 
  protected:
   void mousePressEvent(QMouseEvent* event) override;

@@ -33,9 +33,9 @@ void SpectrumFeature::connectChart() {
   SpectrumChart& chart = panel_->chart();
   connect(
       &chart, &SpectrumChart::seekRequested, &state().playback, &PlaybackController::seekSeconds);
-  connect(&chart, &SpectrumChart::fitAsked, &selection, &Selection::showAll);
+  connect(&chart, &SpectrumChart::fitRequested, &selection, &Selection::showAll);
   connect(&chart, &SpectrumChart::zoomRequested, &selection, &Selection::zoomAbout);
-  connect(&chart, &SpectrumChart::panAsked, this, [&selection](double seconds) {
+  connect(&chart, &SpectrumChart::panRequested, this, [&selection](double seconds) {
     const TimeSpan seen = selection.visibleSpan();
     selection.show({seen.fromS + seconds, seen.toS + seconds});
   });

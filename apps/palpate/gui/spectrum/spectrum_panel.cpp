@@ -200,7 +200,8 @@ void SpectrumPanel::take(const SpectrumAnswer& answer) {
     std::size_t longest = 0;
     for (const GapFreeSpan& stretch : answer.spectrogram->report.stretches)
       longest = std::max(longest, stretch.gridSamples);
-    return say("Too short: " + QString(answer.whole ? "the longest stretch" : "the visible part") +
+    return say("Too short: " +
+               QString(answer.whole ? "the longest span without a gap" : "the visible part") +
                " without a gap has " + QString::number(longest) + " samples, a window takes " +
                QString::number(answer.options.window) + ".\nMake the window smaller" +
                (answer.whole ? "." : ", or zoom out."));

@@ -7,7 +7,7 @@
 #include <palpate/recording/crop.h>
 #include <palpate/recording/recording.h>
 
-#include "gui/appearance/path_text.h"
+#include "gui/appearance/captions.h"
 #include "gui/widgets/opening_strip.h"
 
 namespace palpate::gui {

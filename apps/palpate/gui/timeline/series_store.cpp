@@ -247,7 +247,7 @@ void SeriesStore::setVisibleRange(double fromS, double toS) {
 void SeriesStore::askForExact() {
   if (!recording_ || !recording_->isLong()) return;
   for (Entry& entry : entries_) {
-    if (entry.exactAsked || (entry.exactFromS <= fromS_ && toS_ <= entry.exactToS)) continue;
+    if (entry.exactRequested || (entry.exactFromS <= fromS_ && toS_ <= entry.exactToS)) continue;
     double fromS = fromS_ - (toS_ - fromS_);
     double toS = toS_ + (toS_ - fromS_);
     const auto many = [&] {
@@ -258,7 +258,7 @@ void SeriesStore::askForExact() {
       toS = toS_;
       if (many()) continue;
     }
-    entry.exactAsked = true;
+    entry.exactRequested = true;
     ++numJobs_;
     reads_.start(
         [this, stop = stop_, choice = entry.choice, fromS, toS, profile = recording_->profile] {
@@ -269,7 +269,7 @@ void SeriesStore::askForExact() {
           } catch (const std::exception&) {
           }
           deliver(choice, stop, [this, series, fromS, toS](Entry& to) {
-            to.exactAsked = false;
+            to.exactRequested = false;
             to.exactFromS = fromS;
             to.exactToS = toS;
             if (series) to.exact = series;

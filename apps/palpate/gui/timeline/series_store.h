@@ -70,7 +70,7 @@ class SeriesStore : public QObject {
     std::shared_ptr<const Series> exact;
     double exactFromS = 0.0;
     double exactToS = -1.0;
-    bool exactAsked = false;
+    bool exactRequested = false;
     std::optional<std::pair<double, double>> extremes;
   };
   using Stop = std::shared_ptr<std::atomic<bool>>;

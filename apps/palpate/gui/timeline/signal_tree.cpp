@@ -80,7 +80,7 @@ SignalTree::SignalTree(TaxelGroups& groups, QWidget* parent)
   // A click anywhere on a line ticks it; a click on the box has ticked it already.
   connect(group_, &QPushButton::clicked, this, [this] {
     hide();
-    emit groupAsked();
+    emit groupRequested();
   });
   connect(&groups_, &TaxelGroups::changed, this, &SignalTree::rebuild);
 }

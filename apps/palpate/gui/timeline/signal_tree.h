@@ -50,7 +50,7 @@ class SignalTree : public QFrame {
  signals:
   void extrasChanged();
   // The user asks to make a group of the selected taxels.
-  void groupAsked();
+  void groupRequested();
 
  protected:
   void keyPressEvent(QKeyEvent* event) override;

@@ -12,7 +12,7 @@ TimelineActions::TimelineActions(ActionRegistry& book) {
   addNote =
       book.make("addNote", "Edit", "&Note on the selection or the moment…", {key("Ctrl+Shift+B")});
   addGrasp = book.make("addGrasp", "Edit", "&Mark the selection as a grasp", {key("Ctrl+Shift+P")});
-  renameEvent = book.make("renameEvent", "Edit", "Re&name the event", {key("F2")});
+  renameEvent = book.make("renameEvent", "Edit", "Rename the e&vent", {key("F2")});
   removeEvent = book.make("removeEvent", "Edit", "&Delete the event", {key("Del")});
   nextEvent = book.make("nextEvent", "Edit", "Ne&xt event", {key("N")});
   nextEvent->setToolTip("Chooses and selects the next grasp, label, .. of the row (N)");
@@ -25,8 +25,8 @@ TimelineActions::TimelineActions(ActionRegistry& book) {
   zoomSelection = book.make("zoomSelection", "Edit", "&Zoom to the selection", {key("Z")});
   dropSelection = book.make("dropSelection", "Edit", "Select n&othing", {key("Ctrl+Shift+Space")});
   nameTaxels = book.make("nameTaxels", "Edit", "Name the chosen &taxels…", {key("Ctrl+Shift+G")});
-  nextSignal = book.make("nextSignal", "View", "Next &signal in the timeline", {key("S")});
-  chooseCurves = book.make("chooseCurves", "View", "C&urves in the timeline…", {key("C")});
+  nextSignal = book.make("nextSignal", "View", "Ne&xt signal in the timeline", {key("S")});
+  chooseCurves = book.make("chooseCurves", "View", "Cu&rves in the timeline…", {key("C")});
   zoomIn = book.make("zoomIn", "View", "Zoom the timeline &in", {key("Ctrl++"), key("Ctrl+=")});
   zoomOut = book.make("zoomOut", "View", "Zoom the timeline &out", {key("Ctrl+-")});
   fit = book.make("fit", "View", "Show the &whole timeline", {key("F")});

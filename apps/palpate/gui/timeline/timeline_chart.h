@@ -8,7 +8,7 @@
 #include <optional>
 #include <vector>
 
-#include <palpate/model/time_span.h>
+#include <palpate/model/timing.h>
 
 #include "gui/appearance/theme.h"
 #include "gui/chart/plot.h"

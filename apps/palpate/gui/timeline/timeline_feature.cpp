@@ -225,12 +225,12 @@ void TimelineFeature::connectActions() {
 void TimelineFeature::connectCurves() {
   const auto choose = [this] { signalTree_->openBelow(*header_->curvesButton()); };
   on(actions_.chooseCurves, choose);
-  connect(header_, &TimelineHeader::curvesAsked, this, choose);
+  connect(header_, &TimelineHeader::curvesRequested, this, choose);
   connect(signalTree_, &SignalTree::extrasChanged, this, [this] {
     extras_ = signalTree_->extras();
     showCurves();
   });
-  connect(signalTree_, &SignalTree::groupAsked, this, &TimelineFeature::nameChosenTaxels);
+  connect(signalTree_, &SignalTree::groupRequested, this, &TimelineFeature::nameChosenTaxels);
   on(actions_.nameTaxels, [this] { nameChosenTaxels(); });
   connect(&groups_, &TaxelGroups::changed, this, &TimelineFeature::showCurves);
 }

@@ -106,7 +106,7 @@ TimelineHeader::TimelineHeader(const QList<QAction*>& ofSelection, QWidget* pare
   connect(signal_, &QComboBox::activated, this, [this](int index) {
     emit signalChosen(kAllPlottedSignals[static_cast<std::size_t>(index)]);
   });
-  connect(curves_, &QToolButton::clicked, this, &TimelineHeader::curvesAsked);
+  connect(curves_, &QToolButton::clicked, this, &TimelineHeader::curvesRequested);
 }
 
 void TimelineHeader::setSignal(PlottedSignal signal) { signal_->setCurrentText(nameOf(signal)); }

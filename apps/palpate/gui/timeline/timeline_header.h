@@ -56,7 +56,7 @@ class TimelineHeader : public QWidget {
 
  signals:
   void signalChosen(palpate::gui::PlottedSignal signal);
-  void curvesAsked();
+  void curvesRequested();
 
  private:
   QComboBox* signal_;

@@ -13,7 +13,7 @@ constexpr const char* kKindKeysProperty = "kindKeys";
 template <class Value>
 const Value& known(const std::map<QString, Value>& all, const QString& id) {
   const auto at = all.find(id);
-  if (at == all.end()) throw std::out_of_range("ActionBook: no '" + id.toStdString() + "'");
+  if (at == all.end()) throw std::out_of_range("ActionRegistry: no '" + id.toStdString() + "'");
   return at->second;
 }
 
@@ -70,7 +70,7 @@ QAction* ActionRegistry::make(const QString& id,
                               const QList<QKeySequence>& keys,
                               bool checkable) {
   if (actions_.contains(id))
-    throw std::logic_error("ActionBook: two actions are called '" + id.toStdString() + "'");
+    throw std::logic_error("ActionRegistry: two actions are called '" + id.toStdString() + "'");
   made_.append(made(section, text, keys, checkable));
   return actions_[id] = made_.last();
 }

@@ -1,4 +1,4 @@
-// How the contact on a matrix moved recently, drawn as arrows on the hand in space.
+// How the contact on a matrix moved recently, drawn as arrows on the hand in 3-D.
 #pragma once
 
 #include <cstddef>

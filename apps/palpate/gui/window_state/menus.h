@@ -12,7 +12,7 @@ struct Menus {
   QMenu* edit = nullptr;
   // Menu of the button Connect.
   QMenu* connections = nullptr;
-  // Shows only one matrix in the hand in space.
+  // Shows only one matrix in the hand in 3-D.
   QMenu* only = nullptr;
   // Which taxels are scanned; also the context menu of the matrices.
   QMenu* scanned = nullptr;

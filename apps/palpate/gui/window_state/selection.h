@@ -8,7 +8,7 @@
 #include <vector>
 
 #include <palpate/model/taxel_selection.h>
-#include <palpate/model/time_span.h>
+#include <palpate/model/timing.h>
 
 namespace palpate::gui {
 

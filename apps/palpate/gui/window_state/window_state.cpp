@@ -7,7 +7,7 @@
 #include <palpate/core/number_text.h>
 #include <palpate/recording/recording.h>
 
-#include "gui/appearance/path_text.h"
+#include "gui/appearance/captions.h"
 
 namespace palpate::gui {
 namespace {

@@ -50,7 +50,7 @@ struct WindowEnvironment {
   std::vector<double> assumedAnglesDeg = {};
   // Recipe to switch on; nothing: that of the last session.
   std::optional<Recipe> recipe = {};
-  // Whether the window, when it opens, offers to salvage recordings that an earlier session left
+  // Whether the window, when it opens, offers to recover recordings that an earlier session left
   // unfinished.
   bool offerUnfinished = false;
 };

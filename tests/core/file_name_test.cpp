@@ -1,4 +1,4 @@
-#include "palpate/core/natural_order.h"
+#include "palpate/core/file_name.h"
 
 #include <algorithm>
 #include <random>
@@ -7,7 +7,7 @@
 
 #include "testing/testing.h"
 
-namespace palpate::natural_order_test {
+namespace palpate::file_name_test {
 namespace {
 
 TEST(NaturalOrder, numbersCountAsNumbers) {
@@ -58,5 +58,12 @@ TEST(NaturalOrder, isAnOrder) {
   }
 }
 
+TEST(FileEnding, IsTheLastOneInSmallLettersWithItsDot) {
+  EXPECT_EQ(lowerEndingOf("folder.x/Run_1.PALPATE"), ".palpate");
+  EXPECT_EQ(lowerEndingOf("a.tar.Gz"), ".gz");
+  EXPECT_EQ(lowerEndingOf("folder.x/name"), "");
+  EXPECT_EQ(lowerEndingOf(".hidden"), "");
+}
+
 }  // namespace
-}  // namespace palpate::natural_order_test
+}  // namespace palpate::file_name_test

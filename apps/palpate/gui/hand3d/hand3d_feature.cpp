@@ -1,4 +1,4 @@
-#include "gui/hand3d/space_feature.h"
+#include "gui/hand3d/hand3d_feature.h"
 
 #include <QMenu>
 #include <utility>
@@ -11,6 +11,47 @@
 #include "gui/matrices/matrices_panel.h"
 
 namespace palpate::gui {
+
+Hand3dActions::Hand3dActions(ActionRegistry& book) {
+  const char* space = "Hand in 3-D";
+  matricesShown = book.make("matricesShown", "View", "Show the &matrices", {key("Shift+H")}, true);
+  handShown = book.make("handShown", "View", "Show the &hand in 3-D", {key("H")}, true);
+  nextTaxelShape = book.make(
+      "nextTaxelShape", space, "Next style of the taxels: cells, bars, points, flat", {key("T")});
+  nextSphere = book.make("nextSphere", space, "Next style of the enclosing &sphere", {key("B")});
+  sphereOfCentroids =
+      book.make("sphereOfCentroids", space, "Sphere around the c&entroids", {key("Shift+B")}, true);
+  normals = book.make("normals", space, "&Normals of the taxels", {key("U")}, true);
+  contacts =
+      book.make("contacts", space, "&Contacts: centroids, axes, directions", {key("K")}, true);
+  wire = book.make("wire", space, "&Wire frame", {key("W")}, true);
+  axes = book.make("axes", space, "&Axes of the hand's base", {key("X")}, true);
+  slipArrows =
+      book.make("slipArrows", space, "S&lip: how contacts and object move", {key("Shift+K")}, true);
+  fitHand = book.make("fitHand", space, "Fit it into the &picture", {key("E")});
+  resetHand = book.make("resetHand", space, "&Back to the default view", {key("Shift+E")});
+  nearer = book.make("nearer", space, "Nea&rer", {key("PgUp")});
+  further = book.make("further", space, "&Further", {key("PgDown")});
+  for (const char* way : {"Left", "Right", "Up", "Down"})
+    orbits.append(book.add(
+        "orbits", space, "Turn " + QString(way).toLower(), {QKeySequence("Ctrl+" + QString(way))}));
+  for (const char* way : {"Left", "Right", "Up", "Down"})
+    pans.append(book.add("pans",
+                         space,
+                         "Move " + QString(way).toLower(),
+                         {QKeySequence("Ctrl+Shift+" + QString(way))}));
+  onlys.append(book.add("onlys", space, "The whole hand", {key("Alt+0")}, true));
+  for (int i = 0; i < ActionRegistry::kMatricesWithKeys; ++i)
+    onlys.append(book.add("onlys",
+                          space,
+                          "Matrix " + QString::number(i) + " alone",
+                          {QKeySequence("Alt+" + QString::number(i + 1))},
+                          true));
+  setKind(orbits, "Ctrl+arrows", "Turn it");
+  setKind(pans, "Ctrl+Shift+arrows", "Move it");
+  setKind(onlys.mid(1), "Alt+1 .. Alt+9", "One matrix alone");
+}
+
 namespace {
 
 // Turn by one key press.
@@ -19,7 +60,7 @@ constexpr double kTurnDeg = 10.0;
 constexpr double kMoveShare = 0.06;
 constexpr double kNearer = 1.2;
 
-HandPanel* makePanel(const SpaceActions& actions, QWidget* window) {
+HandPanel* makePanel(const Hand3dActions& actions, QWidget* window) {
   return new HandPanel({actions.normals,
                         actions.contacts,
                         actions.slipArrows,
@@ -31,7 +72,7 @@ HandPanel* makePanel(const SpaceActions& actions, QWidget* window) {
 
 }  // namespace
 
-SpaceFeature::SpaceFeature(WindowState& windowState, QWidget* window, MatricesPanel& matrices)
+Hand3dFeature::Hand3dFeature(WindowState& windowState, QWidget* window, MatricesPanel& matrices)
     : Feature(windowState, window),
       actions_(windowState.actions),
       matrices_(matrices),
@@ -42,13 +83,13 @@ SpaceFeature::SpaceFeature(WindowState& windowState, QWidget* window, MatricesPa
   connectCamera();
 }
 
-void SpaceFeature::connectMoment() {
+void Hand3dFeature::connectMoment() {
   WindowState& windowState = state();
   HandView& view = panel_->view();
   connect(&windowState.displayed,
           &DisplayedSource::filteredRecordingChanged,
           this,
-          &SpaceFeature::takeSource);
+          &Hand3dFeature::takeSource);
   connect(&windowState.displayed, &DisplayedSource::handChanged, this, [this] {
     panel_->setHand(*this->state().displayed.hand());
   });
@@ -89,7 +130,7 @@ void SpaceFeature::connectMoment() {
   });
 }
 
-void SpaceFeature::takeSource() {
+void Hand3dFeature::takeSource() {
   const DisplayedSource& displayed = state().displayed;
   if (displayed.isLive())
     panel_->setHand(*displayed.hand());
@@ -97,7 +138,7 @@ void SpaceFeature::takeSource() {
     panel_->setRecording(displayed.filteredRecording());
 }
 
-void SpaceFeature::showMoment() {
+void Hand3dFeature::showMoment() {
   const DisplayedSource& displayed = state().displayed;
   if (panel_->isHidden() || !displayed.isRecording() || !state().currentFrame.hasFrame()) return;
   // The view stays as it was and shows the notice.
@@ -106,8 +147,8 @@ void SpaceFeature::showMoment() {
   panel_->show(state().currentFrame.frame(), angles ? angles->deg : std::vector<double>());
 }
 
-void SpaceFeature::connectLook() {
-  SpaceActions& actions = actions_;
+void Hand3dFeature::connectLook() {
+  Hand3dActions& actions = actions_;
   const auto tick = [this](QAction* action, bool HandLook::*part) {
     on(action, [this, part](bool yes) { changeLook([=](HandLook& look) { look.*part = yes; }); });
   };
@@ -135,7 +176,7 @@ void SpaceFeature::connectLook() {
         if (i > 0 && hand && matrix < hand->layout->numMatrices()) look.only = matrix;
       });
     });
-  connect(state().menus.only, &QMenu::aboutToShow, this, &SpaceFeature::showLook);
+  connect(state().menus.only, &QMenu::aboutToShow, this, &Hand3dFeature::showLook);
   connect(panel_, &HandPanel::lookChosen, this, [this](const HandLook& look) {
     changeLook([&](HandLook& now) { now = look; });
   });
@@ -144,8 +185,8 @@ void SpaceFeature::connectLook() {
   on(actions.handShown, [this](bool shown) { showViews(!shown || !matrices_.isHidden(), shown); });
 }
 
-void SpaceFeature::connectCamera() {
-  SpaceActions& actions = actions_;
+void Hand3dFeature::connectCamera() {
+  Hand3dActions& actions = actions_;
   HandView& view = panel_->view();
   on(actions.fitHand, [&view] { view.fit(); });
   on(actions.resetHand, [&view] { view.resetCamera(); });
@@ -161,7 +202,7 @@ void SpaceFeature::connectCamera() {
   }
 }
 
-void SpaceFeature::start() {
+void Hand3dFeature::start() {
   QSettings& settings = state().settings;
   panel_->setLook(loadHandLook(settings));
   panel_->setColors(matrices_.view().look());
@@ -170,17 +211,17 @@ void SpaceFeature::start() {
   showLook();
 }
 
-void SpaceFeature::remember() { saveHandLook(panel_->look(), state().settings); }
+void Hand3dFeature::remember() { saveHandLook(panel_->look(), state().settings); }
 
-void SpaceFeature::changeLook(const std::function<void(HandLook&)>& change) {
+void Hand3dFeature::changeLook(const std::function<void(HandLook&)>& change) {
   HandLook look = panel_->look();
   change(look);
   panel_->setLook(look);
   showLook();
 }
 
-void SpaceFeature::showLook() {
-  SpaceActions& actions = actions_;
+void Hand3dFeature::showLook() {
+  Hand3dActions& actions = actions_;
   const HandLook& look = panel_->look();
   actions.sphereOfCentroids->setChecked(look.sphereOf == SphereOf::kCentroids);
   actions.normals->setChecked(look.normals);
@@ -201,7 +242,7 @@ void SpaceFeature::showLook() {
 }
 
 // One of the two views is always visible.
-void SpaceFeature::showViews(bool matrices, bool hand) {
+void Hand3dFeature::showViews(bool matrices, bool hand) {
   if (!matrices && !hand) matrices = true;
   matrices_.setVisible(matrices);
   const bool late = hand && panel_->isHidden();
@@ -214,11 +255,11 @@ void SpaceFeature::showViews(bool matrices, bool hand) {
   if (late) showMoment();
 }
 
-std::vector<CentralViewSpec> SpaceFeature::centre() {
+std::vector<CentralViewSpec> Hand3dFeature::centre() {
   return {{CentralViewSpec::Where::kBeside, panel_}};
 }
 
-std::vector<ExportedView> SpaceFeature::views() {
+std::vector<ExportedView> Hand3dFeature::views() {
   WindowState& windowState = state();
   ExportedView view;
   view.name = "Hand";

@@ -1,4 +1,4 @@
-#include "palpate/core/natural_order.h"
+#include "palpate/core/file_name.h"
 
 #include <cstddef>
 

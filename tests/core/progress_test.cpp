@@ -1,10 +1,10 @@
-#include "palpate/core/progress_steps.h"
+#include "palpate/core/progress.h"
 
 #include <vector>
 
 #include "testing/testing.h"
 
-namespace palpate::progress_steps_test {
+namespace palpate::progress_test {
 namespace {
 
 TEST(ProgressSteps, ReportsEverySoManySteps) {
@@ -29,4 +29,4 @@ TEST(ProgressSteps, StopsWhereItIsAsked) {
 TEST(ProgressSteps, NobodyNeedsToListen) { EXPECT_NO_THROW(reportProgress({}, 0, 8)); }
 
 }  // namespace
-}  // namespace palpate::progress_steps_test
+}  // namespace palpate::progress_test

@@ -4,7 +4,7 @@
 #include "testing/awaited.h"
 #include "testing/background_program.h"
 
-namespace palpate::workbench_command_test {
+namespace palpate::window_command_test {
 namespace {
 
 using testing::expectOneLineError;
@@ -145,4 +145,4 @@ TEST(WorkbenchCommand, AskedToEndItEndsInOrder) {
 }
 
 }  // namespace
-}  // namespace palpate::workbench_command_test
+}  // namespace palpate::window_command_test
