@@ -11,8 +11,6 @@
 #include <ceres/ceres.h>
 #include <glog/logging.h>
 
-#include "palpate/core/number_text.h"
-
 namespace palpate {
 namespace {
 
@@ -69,8 +67,7 @@ bool differences(const LeastSquaresProblem& problem,
   return true;
 }
 
-// The model at the parameters that Ceres will use next, evaluated once even when each residual is a
-// block of its own.
+// The model at the parameters that Ceres will use next.
 class Evaluation final : public ceres::EvaluationCallback {
  public:
   Evaluation(const LeastSquaresProblem& problem, const Eigen::VectorXd& start)
@@ -85,15 +82,11 @@ class Evaluation final : public ceres::EvaluationCallback {
     hasJacobian_ =
         problem_.jacobian ? problem_.jacobian(at, jacobian_) : differences(problem_, at, jacobian_);
   }
-  // Copies residuals [first, first + count) and their rows of the Jacobian.
-  bool copy(std::size_t first, std::size_t count, double* residuals, double** jacobians) const {
-    if (!defined_) return false;
-    std::copy_n(&residuals_[first], count, residuals);
-    if (jacobians == nullptr || jacobians[0] == nullptr) return true;
-    const std::size_t p = sizeOf(x_);
-    if (hasJacobian_) std::copy_n(&jacobian_[first * p], count * p, jacobians[0]);
-    return hasJacobian_;
-  }
+  // Whether the model is defined there, and whether its derivatives are.
+  bool defined() const noexcept { return defined_; }
+  bool hasJacobian() const noexcept { return hasJacobian_; }
+  std::span<const double> residuals() const noexcept { return residuals_; }
+  std::span<const double> jacobian() const noexcept { return jacobian_; }
   Eigen::VectorXd& x() noexcept { return x_; }
 
  private:
@@ -103,25 +96,6 @@ class Evaluation final : public ceres::EvaluationCallback {
   bool defined_ = false, hasJacobian_ = false;
 };
 
-class ResidualRows final : public ceres::CostFunction {
- public:
-  ResidualRows(const Evaluation& evaluation,
-               std::size_t first,
-               std::size_t count,
-               Eigen::Index numParameters)
-      : evaluation_(evaluation), first_(first), count_(count) {
-    mutable_parameter_block_sizes()->push_back(static_cast<int>(numParameters));
-    set_num_residuals(static_cast<int>(count));
-  }
-  bool Evaluate(double const* const*, double* residuals, double** jacobians) const override {
-    return evaluation_.copy(first_, count_, residuals, jacobians);
-  }
-
- private:
-  const Evaluation& evaluation_;
-  std::size_t first_, count_;
-};
-
 std::unique_ptr<ceres::LossFunction> lossOf(const LeastSquaresProblem& problem) {
   if (problem.loss == LeastSquaresLoss::kHuber)
     return std::make_unique<ceres::HuberLoss>(problem.lossScale);
@@ -129,6 +103,44 @@ std::unique_ptr<ceres::LossFunction> lossOf(const LeastSquaresProblem& problem) 
     return std::make_unique<ceres::CauchyLoss>(problem.lossScale);
   return nullptr;
 }
+
+// All residuals in one block. Ceres applies a loss to a whole block, hence the loss of each
+// residual is applied here: the row is sign(r) sqrt(rho(r^2)), whose square is the loss, with its
+// derivative.
+class ResidualRows final : public ceres::CostFunction {
+ public:
+  ResidualRows(const Evaluation& evaluation,
+               const ceres::LossFunction* loss,
+               Eigen::Index numParameters)
+      : evaluation_(evaluation), loss_(loss) {
+    mutable_parameter_block_sizes()->push_back(static_cast<int>(numParameters));
+    set_num_residuals(static_cast<int>(evaluation.residuals().size()));
+  }
+  bool Evaluate(double const* const*, double* out, double** jacobians) const override {
+    const bool derivatives = jacobians != nullptr && jacobians[0] != nullptr;
+    if (!evaluation_.defined() || (derivatives && !evaluation_.hasJacobian())) return false;
+    const std::span<const double> residuals = evaluation_.residuals();
+    const std::span<const double> jacobian = evaluation_.jacobian();
+    std::copy(residuals.begin(), residuals.end(), out);
+    if (derivatives) std::copy(jacobian.begin(), jacobian.end(), jacobians[0]);
+    if (loss_ == nullptr) return true;
+    const std::size_t p = jacobian.size() / residuals.size();
+    for (std::size_t i = 0; i < residuals.size(); ++i) {
+      double rho[3];
+      loss_->Evaluate(residuals[i] * residuals[i], rho);
+      const double size = std::sqrt(rho[0]);
+      out[i] = std::copysign(size, residuals[i]);
+      if (!derivatives) continue;
+      const double slope = size > 0.0 ? rho[1] * std::abs(residuals[i]) / size : std::sqrt(rho[1]);
+      for (std::size_t j = i * p; j < (i + 1) * p; ++j) jacobians[0][j] *= slope;
+    }
+    return true;
+  }
+
+ private:
+  const Evaluation& evaluation_;
+  const ceres::LossFunction* loss_;
+};
 
 std::vector<double> weightsOf(const LeastSquaresProblem& problem,
                               std::span<const double> residuals) {
@@ -142,17 +154,13 @@ std::vector<double> weightsOf(const LeastSquaresProblem& problem,
   return weights;
 }
 
-// The problem in the form of Ceres, which applies a loss to a whole block: one block of all
-// residuals without a loss, one block per residual with a loss.
+// The problem in the form of Ceres.
 class CeresProblem {
  public:
   CeresProblem(const LeastSquaresProblem& problem, const Eigen::VectorXd& start)
       : evaluation_(problem, start), loss_(lossOf(problem)), ceres_(ceresOptions()) {
-    const std::size_t rows = loss_ ? 1 : problem.numResiduals;
     double* const x = evaluation_.x().data();
-    for (std::size_t first = 0; first < problem.numResiduals; first += rows)
-      ceres_.AddResidualBlock(
-          new ResidualRows(evaluation_, first, rows, start.size()), loss_.get(), x);
+    ceres_.AddResidualBlock(new ResidualRows(evaluation_, loss_.get(), start.size()), nullptr, x);
     for (Eigen::Index j = 0; j < problem.lowerBounds.size(); ++j)
       ceres_.SetParameterLowerBound(x, static_cast<int>(j), problem.lowerBounds[j]);
     for (Eigen::Index j = 0; j < problem.upperBounds.size(); ++j)
@@ -165,7 +173,6 @@ class CeresProblem {
   ceres::Problem::Options ceresOptions() {
     ceres::Problem::Options options;
     options.evaluation_callback = &evaluation_;
-    options.loss_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
     return options;
   }
 
@@ -310,6 +317,9 @@ Eigen::MatrixXd unitCovariance(const LeastSquaresProblem& problem, const Eigen::
   const Eigen::RowVectorXd size = jacobian.colwise().norm();
   if (!size.allFinite() || !(size.minCoeff() > 0.0)) return unknown;
   jacobian.array().rowwise() /= size.array();
+  const std::vector<double> weights = weightsOf(problem, residuals);
+  jacobian.array().colwise() *=
+      Eigen::Map<const Eigen::ArrayXd>(weights.data(), jacobian.rows()).sqrt();
 
   LeastSquaresProblem scaled;
   scaled.numResiduals = problem.numResiduals;
@@ -321,8 +331,6 @@ Eigen::MatrixXd unitCovariance(const LeastSquaresProblem& problem, const Eigen::
     std::copy(cells.begin(), cells.end(), out.begin());
     return true;
   };
-  scaled.loss = problem.loss;
-  scaled.lossScale = problem.lossScale;
   CeresProblem ceresProblem(scaled, x);
   const double* const block = ceresProblem.x().data();
   ceres::Covariance::Options options;

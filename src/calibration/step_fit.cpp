@@ -24,6 +24,8 @@ constexpr double kHuberScale = 1.345, kCauchyScale = 2.385;
 // An oscillating fit must reduce the sum of squares to this share of the overdamped one, since the
 // physics of the rubber does not explain an oscillation.
 constexpr double kOscillatingGain = 0.98;
+// Time constants that differ by less than this share are equal.
+constexpr double kEqualTimes = 1e-6;
 
 double shortestInterval(std::span<const double> timeS) {
   double shortest = timeS.back() - timeS.front();
@@ -32,13 +34,17 @@ double shortestInterval(std::span<const double> timeS) {
   return shortest;
 }
 
+// A T2 below a hundredth of a frame changes nothing.
+double leastT2Of(std::span<const double> timeS) { return 1e-2 * shortestInterval(timeS); }
+
 StepSearchOptions searchOptionsOf(const StepSamples& samples,
+                                  double leastT2S,
                                   const StepFitOptions& options,
                                   StepDomain domain) {
   const double duration = samples.timeS.back();
-  // A T2 below a hundredth of a frame changes nothing; a time constant of many durations is a ramp.
+  // A time constant of many durations is a ramp.
   return {.domain = domain,
-          .leastT2S = 1e-2 * shortestInterval(samples.timeS),
+          .leastT2S = leastT2S,
           .mostS = 10.0 * duration,
           .maxIterations = options.maxIterations};
 }
@@ -49,11 +55,11 @@ LeastSquaresLoss leastSquaresLossOf(const StepFitOptions& options) {
                                              : LeastSquaresLoss::kSquares;
 }
 
-StepMinimum minimumOf(const StepSamples& samples, const StepFitOptions& options) {
-  StepSearchOptions search = searchOptionsOf(samples, options, StepDomain::kAperiodic);
+StepMinimum minimumOf(const StepSamples& samples, double leastT2S, const StepFitOptions& options) {
+  StepSearchOptions search = searchOptionsOf(samples, leastT2S, options, StepDomain::kAperiodic);
   StepMinimum best = searchStep(samples, search);
   if (options.damping == StepDamping::kAny) {
-    const auto swinging = searchOptionsOf(samples, options, StepDomain::kOscillating);
+    const auto swinging = searchOptionsOf(samples, leastT2S, options, StepDomain::kOscillating);
     StepMinimum other = searchStep(samples, swinging);
     const int evaluations = best.evaluations + other.evaluations;
     if (other.parameters.damping < 1.0 &&
@@ -73,19 +79,27 @@ StepMinimum minimumOf(const StepSamples& samples, const StepFitOptions& options)
 // Returns d phi / d T1 at fixed T2. derivativeBySecond is (T1 - T2) times this value; for equal
 // time constants the limit is used.
 double byT1(const StepShape& shape, double t, double t1, double t2) {
-  if (t1 - t2 > 1e-6 * t1) return shape.derivativeBySecond / (t1 - t2);
+  if (t1 - t2 > kEqualTimes * t1) return shape.derivativeBySecond / (t1 - t2);
   const double s = t / t1;
   return -0.5 * s * s * std::exp(-s) / t1;
 }
 
+struct StepCovariance {
+  Eigen::Matrix4d parameters = Eigen::Matrix4d::Constant(kStepFitNaN);
+  double commonTime = kStepFitNaN;  // variance of T when T1 = T2
+};
+
 // Covariance of K, m, T1, T2, or of K, m, T, d, for unit variance of the residuals; NaN when it is
-// singular.
-Eigen::Matrix4d covarianceOf(const StepSamples& samples,
-                             const StepMinimum& minimum,
-                             LeastSquaresLoss loss) {
+// singular. Equal time constants have equal derivatives and can't be separated: those of T1 and T2
+// are NaN, and those of K and m follow from a model with one time constant.
+StepCovariance covarianceOf(const StepSamples& samples,
+                            const StepMinimum& minimum,
+                            LeastSquaresLoss loss) {
   const StepParameters& p = minimum.parameters;
   const bool oscillating = p.damping < 1.0;
   const double t1 = p.t1S(), t2 = p.t2S();
+  const bool equal = !oscillating && t1 - t2 <= kEqualTimes * t1;
+  const int numParameters = equal ? 3 : 4, numKnown = equal ? 2 : 4;
   LeastSquaresProblem problem;
   problem.numResiduals = samples.timeS.size();
   problem.residuals = [&](std::span<const double>, std::span<double> out) {
@@ -105,9 +119,11 @@ Eigen::Matrix4d covarianceOf(const StepSamples& samples,
       const double fourth = oscillating
                                 ? shape.derivativeBySecond
                                 : (shape.derivativeByFirst - t1 * byT1(shape, t, t1, t2)) / t2;
+      const double gain = p.staticResponseCounts;
       const std::array row{
-          -shape.phi, -t, -p.staticResponseCounts * third, -p.staticResponseCounts * fourth};
-      std::copy(row.begin(), row.end(), &out[4 * i]);
+          -shape.phi, -t, -gain * (equal ? third + fourth : third), -gain * fourth};
+      const auto size = static_cast<std::size_t>(numParameters);
+      std::copy_n(row.begin(), size, &out[size * i]);
     }
     return true;
   };
@@ -115,14 +131,20 @@ Eigen::Matrix4d covarianceOf(const StepSamples& samples,
     problem.loss = loss;
     problem.lossScale = minimum.lossScale;
   }
-  return unitCovariance(problem,
-                        Eigen::Vector4d(p.staticResponseCounts,
-                                        p.driftCountsPerS,
-                                        oscillating ? p.timeConstantS : t1,
-                                        oscillating ? p.damping : t2));
+  const Eigen::Vector4d x(p.staticResponseCounts,
+                          p.driftCountsPerS,
+                          oscillating ? p.timeConstantS : t1,
+                          oscillating ? p.damping : t2);
+  const Eigen::MatrixXd found = unitCovariance(problem, x.head(numParameters));
+  StepCovariance covariance;
+  covariance.parameters.topLeftCorner(numKnown, numKnown) = found.topLeftCorner(numKnown, numKnown);
+  if (equal) covariance.commonTime = found(2, 2);
+  return covariance;
 }
 
-void sayWhatIsMissing(double leastT2S, double durationS, double frameS, StepFit& fit) {
+// commonTimeSd is the standard deviation of T when T1 = T2, and NaN otherwise.
+void sayWhatIsMissing(
+    double leastT2S, double durationS, double frameS, double commonTimeSd, StepFit& fit) {
   const StepParameters& p = fit.parameters;
   const bool oscillating = p.damping < 1.0;
   const double phiAtEnd =
@@ -141,7 +163,7 @@ void sayWhatIsMissing(double leastT2S, double durationS, double frameS, StepFit&
   const bool fast = fit.sd(3) < 0.5 * fourth && (oscillating || fourth > 2.0 * leastT2S);
   fit.identifiable = fit.converged && k && slow && fast;
   if (fit.identifiable || !fit.converged) return;
-  if (k && !oscillating && p.damping < kCritical)
+  if (k && !oscillating && p.damping < kCritical && !(commonTimeSd >= 0.5 * p.timeConstantS))
     fit.notes.push_back("critically damped: T1 and T2 can't be separated, K, m and T can");
   else if (k && slow && !oscillating)
     fit.notes.push_back("T2 is not identifiable (far below the frame period of " +
@@ -208,7 +230,8 @@ StepFit fitStep(std::span<const double> timeS,
   const double durationS = t.back();
   const double frameS = (t.back() - t.front()) / static_cast<double>(t.size() - 1);
   const StepSamples samples{std::move(t), std::move(y)};
-  const StepMinimum found = minimumOf(samples, options);
+  const double leastT2S = leastT2Of(samples.timeS);
+  const StepMinimum found = minimumOf(samples, leastT2S, options);
   fit.evaluations = found.evaluations;
   fit.converged = found.converged && std::isfinite(found.sumOfSquares);
   if (!std::isfinite(found.sumOfSquares)) {
@@ -227,9 +250,10 @@ StepFit fitStep(std::span<const double> timeS,
   const auto n = static_cast<double>(samples.timeS.size());
   fit.rmse = std::sqrt(squares / n);
   fit.residualSd = std::sqrt(weighted / (n - 4.0));
-  fit.covariance =
-      fit.residualSd * fit.residualSd * covarianceOf(samples, found, leastSquaresLossOf(options));
-  sayWhatIsMissing(1e-2 * shortestInterval(samples.timeS), durationS, frameS, fit);
+  const StepCovariance covariance = covarianceOf(samples, found, leastSquaresLossOf(options));
+  fit.covariance = fit.residualSd * fit.residualSd * covariance.parameters;
+  const double commonTimeSd = fit.residualSd * std::sqrt(covariance.commonTime);
+  sayWhatIsMissing(leastT2S, durationS, frameS, commonTimeSd, fit);
   return fit;
 }
 

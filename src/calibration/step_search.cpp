@@ -7,6 +7,8 @@
 #include <span>
 #include <utility>
 
+#include "palpate/core/statistics.h"
+
 #include "calibration/overdamped_shape.h"
 
 namespace palpate {
@@ -35,7 +37,14 @@ constexpr double kShortestStart = 50.0;
 constexpr double kLongestStartShare = 0.15;
 constexpr int kGridTimes = 9;
 constexpr std::array kGridSecond{0.03, 0.2, 0.6, 1.0};  // q or d
-constexpr int kMostRescalings = 25;
+// The scale of a robust loss is updated from roughly solved minima until it changes by less than
+// kNearlySettled, then from exact ones until it changes by less than kScaleSettled. It settles
+// within 12 updates, and within 40 where a quarter of the samples are outliers.
+constexpr int kMostRescalings = 100;
+constexpr double kRoughTolerance = 1e-6;
+constexpr double kNearlySettled = 1e-4, kScaleSettled = 1e-7;
+// Radius of the first step from the minimum of another scale.
+constexpr double kWarmRadius = 1e6;
 constexpr double kSdPerMad = 1.4826;
 
 // A point of a domain: its shape, and the derivatives of the shape's parameters by the coordinates.
@@ -84,13 +93,34 @@ StepPlace placeAt(double first, double second, const StepSearchOptions& options)
   return place;
 }
 
-// The shape at all times, with derivatives by the parameters of the point, then by the coordinates.
-class ShapeOfStepPlace {
+// The shapes of a point at all times. They are computed once for the residuals and the derivatives,
+// which are asked for at the same point.
+class ShapesOfStepPlace {
  public:
-  explicit ShapeOfStepPlace(const StepPlace& place)
-      : place_(place), overdamped_(place.t1S, place.t2S) {}
-  StepShape at(double tS) const {
-    if (place_.by == StepPlace::By::kTimes) return overdamped_.at(tS);
+  ShapesOfStepPlace(std::span<const double> timeS, const StepSearchOptions& options)
+      : timeS_(timeS), options_(options), shapes_(timeS.size()) {}
+
+  // Returns whether the point is another one than before.
+  bool moveTo(double first, double second) {
+    if (first == first_ && second == second_) return false;
+    first_ = first;
+    second_ = second;
+    place_ = placeAt(first, second, options_);
+    const OverdampedShape overdamped(place_.t1S, place_.t2S);
+    for (std::size_t i = 0; i < shapes_.size(); ++i)
+      shapes_[i] =
+          place_.by == StepPlace::By::kTimes ? overdamped.at(timeS_[i]) : shapeAt(timeS_[i]);
+    ++evaluations_;
+    return true;
+  }
+  const StepPlace& place() const noexcept { return place_; }
+  // Their derivatives are those by the parameters of the point; place().chain leads to those by the
+  // coordinates.
+  const std::vector<StepShape>& shapes() const noexcept { return shapes_; }
+  int evaluations() const noexcept { return evaluations_; }
+
+ private:
+  StepShape shapeAt(double tS) const {
     if (place_.by == StepPlace::By::kDamping)
       return oscillatingShape(tS, place_.parameters.timeConstantS, place_.parameters.damping);
     if (!(tS > 0.0)) return {};
@@ -98,13 +128,13 @@ class ShapeOfStepPlace {
     const double decay = share * std::exp(-tS / t1);
     return {1.0 - t1 * decay, decay, t2 * share * decay - decay * tS / t1, -t1 * share * decay};
   }
-  Eigen::RowVector2d derivatives(const StepShape& shape) const {
-    return Eigen::RowVector2d(shape.derivativeByFirst, shape.derivativeBySecond) * place_.chain;
-  }
 
- private:
-  const StepPlace& place_;
-  OverdampedShape overdamped_;
+  std::span<const double> timeS_;
+  const StepSearchOptions& options_;
+  double first_ = std::numeric_limits<double>::quiet_NaN(), second_ = first_;
+  StepPlace place_;
+  std::vector<StepShape> shapes_;
+  int evaluations_ = 0;
 };
 
 // Residuals as a function of the shape alone: those of the a = K phi + m t with the smallest sum of
@@ -114,7 +144,7 @@ class ProjectedStep {
  public:
   ProjectedStep(const StepSamples& samples, const StepSearchOptions& options)
       : samples_(samples),
-        options_(options),
+        shapes_(samples.timeS, options),
         unitT_(Eigen::Map<const Eigen::VectorXd>(samples.timeS.data(), size()).normalized()),
         y_(withoutT(Eigen::Map<const Eigen::VectorXd>(samples.values.data(), size()))),
         phi_(size()) {}
@@ -126,11 +156,12 @@ class ProjectedStep {
   }
   bool jacobian(std::span<const double> x, std::span<double> out) {
     if (!project(x)) return false;
-    const StepPlace place = placeAt(x[0], x[1], options_);
-    const ShapeOfStepPlace shape(place);
     Eigen::MatrixX2d derivatives(size(), 2);
-    for (Eigen::Index i = 0; i < size(); ++i)
-      derivatives.row(i) = shape.derivatives(shape.at(samples_.timeS[static_cast<std::size_t>(i)]));
+    for (Eigen::Index i = 0; i < size(); ++i) {
+      const StepShape& shape = shapes_.shapes()[static_cast<std::size_t>(i)];
+      derivatives.row(i) << shape.derivativeByFirst, shape.derivativeBySecond;
+    }
+    derivatives *= shapes_.place().chain;
     const Eigen::VectorXd residual = y_ - gain_ * phi_;
     Eigen::Map<Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor>> all(
         out.data(), size(), 2);
@@ -147,27 +178,27 @@ class ProjectedStep {
                                   : std::numeric_limits<double>::infinity();
   }
   StepParameters parametersAt(const Eigen::Vector2d& x) {
-    StepParameters p = placeAt(x[0], x[1], options_).parameters;
-    if (!project({x.data(), 2})) return p;
+    const bool defined = project({x.data(), 2});
+    StepParameters p = shapes_.place().parameters;
+    if (!defined) return p;
     p.staticResponseCounts = gain_;
     p.driftCountsPerS = drift_;
     return p;
   }
-  int evaluations() const noexcept { return evaluations_; }
+  int evaluations() const noexcept { return shapes_.evaluations(); }
 
  private:
   Eigen::Index size() const { return static_cast<Eigen::Index>(samples_.timeS.size()); }
   Eigen::VectorXd withoutT(const Eigen::VectorXd& v) const { return v - unitT_.dot(v) * unitT_; }
   bool project(std::span<const double> x) {
-    ++evaluations_;
-    const StepPlace place = placeAt(x[0], x[1], options_);
-    const ShapeOfStepPlace shape(place);
+    if (!shapes_.moveTo(x[0], x[1])) return defined_;
     for (Eigen::Index i = 0; i < size(); ++i)
-      phi_[i] = shape.at(samples_.timeS[static_cast<std::size_t>(i)]).phi;
+      phi_[i] = shapes_.shapes()[static_cast<std::size_t>(i)].phi;
     const double whole = phi_.squaredNorm(), along = unitT_.dot(phi_);
     phi_ -= along * unitT_;
     const double bend = phi_.squaredNorm();
-    if (!(bend > kLeastStepBend * whole)) return false;
+    defined_ = bend > kLeastStepBend * whole;
+    if (!defined_) return false;
     gain_ = phi_.dot(y_) / bend;
     const Eigen::Map<const Eigen::VectorXd> t(samples_.timeS.data(), size());
     const Eigen::Map<const Eigen::VectorXd> y(samples_.values.data(), size());
@@ -176,10 +207,10 @@ class ProjectedStep {
   }
 
   const StepSamples& samples_;
-  const StepSearchOptions& options_;
+  ShapesOfStepPlace shapes_;
   Eigen::VectorXd unitT_, y_, phi_;
   double gain_ = 0.0, drift_ = 0.0;
-  int evaluations_ = 0;
+  bool defined_ = false;
 };
 
 // Returns the problem with its last parameter fixed at a value.
@@ -206,14 +237,31 @@ LeastSquaresProblem withLastAt(const LeastSquaresProblem& problem, std::size_t s
   return fewer;
 }
 
+// Whether the sum of the loss falls when the last parameter of a report grows (1), when it becomes
+// smaller (-1), or neither (0).
+int fallsAlongLast(const LeastSquaresProblem& problem, const LeastSquaresReport& report) {
+  const std::size_t n = problem.numResiduals, p = static_cast<std::size_t>(report.x.size());
+  std::vector<double> residuals(n), jacobian(n * p);
+  const std::span<const double> at(report.x.data(), p);
+  if (!problem.residuals(at, residuals) || !problem.jacobian(at, jacobian)) return 0;
+  double slope = 0.0;
+  for (std::size_t i = 0; i < n; ++i)
+    slope += report.weights[i] * residuals[i] * jacobian[i * p + p - 1];
+  return slope < 0.0 ? 1 : slope > 0.0 ? -1 : 0;
+}
+
 // Solves a problem whose last two parameters are the coordinates of the domain. The second one may
 // leave the domain, where the shape continues smoothly, because Ceres is very slow along a bound. A
-// solution outside is searched again on the edge of the domain.
+// solution outside is searched again on the edge of the domain. A start on an edge is first
+// searched along it, and the result is kept unless the sum falls towards the inside.
 LeastSquaresReport solveInDomain(LeastSquaresProblem& problem,
                                  const Eigen::VectorXd& start,
-                                 const StepSearchOptions& options) {
+                                 const StepSearchOptions& options,
+                                 double tolerance,
+                                 double radius) {
   constexpr double kUnbounded = std::numeric_limits<double>::max();
   const bool oscillating = options.domain == StepDomain::kOscillating;
+  const double low = oscillating ? kLeastDamping : 0.0, high = 1.0;
   const Eigen::Index last = start.size() - 1;
   problem.lowerBounds.setConstant(start.size(), -kUnbounded);
   problem.upperBounds.setConstant(start.size(), kUnbounded);
@@ -222,19 +270,26 @@ LeastSquaresReport solveInDomain(LeastSquaresProblem& problem,
   if (oscillating) problem.lowerBounds[last] = kLeastDamping;
   if (oscillating) problem.upperBounds[last] = kMostDamping;
   const LeastSquaresOptions solver{.maxIterations = options.maxIterations,
-                                   .tolerance = kStepTolerance,
-                                   .firstRadii = {kFirstRadius},
+                                   .tolerance = tolerance,
+                                   .firstRadii = {radius},
                                    .covariance = false};
-  LeastSquaresReport report = solveLeastSquares(problem, start, solver);
-  const double edge = std::clamp(report.x[last], oscillating ? kLeastDamping : 0.0, 1.0);
-  if (edge == report.x[last]) return report;
-  const Eigen::VectorXd inside = report.x.head(last);
-  report = solveLeastSquares(
-      withLastAt(problem, static_cast<std::size_t>(start.size()), edge), inside, solver);
-  const Eigen::VectorXd found = report.x;
-  report.x.resize(start.size());
-  report.x << found, edge;
-  return report;
+  const auto onEdge = [&](const Eigen::VectorXd& from, double edge) {
+    const Eigen::VectorXd along = from.head(last);
+    LeastSquaresReport report = solveLeastSquares(
+        withLastAt(problem, static_cast<std::size_t>(start.size()), edge), along, solver);
+    const Eigen::VectorXd found = report.x;
+    report.x.resize(start.size());
+    report.x << found, edge;
+    return report;
+  };
+  if (start[last] == low || start[last] == high) {
+    const LeastSquaresReport held = onEdge(start, start[last]);
+    const int inwards = start[last] == low ? 1 : -1;
+    if (!held.weights.empty() && fallsAlongLast(problem, held) != inwards) return held;
+  }
+  const LeastSquaresReport report = solveLeastSquares(problem, start, solver);
+  const double edge = std::clamp(report.x[last], low, high);
+  return edge == report.x[last] ? report : onEdge(report.x, edge);
 }
 
 // Returns the points of the grid that have no better neighbour, best first.
@@ -281,7 +336,8 @@ StepMinimum searchStep(const StepSamples& samples, const StepSearchOptions& opti
   StepMinimum best;
   best.sumOfSquares = std::numeric_limits<double>::infinity();
   for (const Eigen::Vector2d& start : startsOf(projected, samples, options)) {
-    const LeastSquaresReport report = solveInDomain(problem, start, options);
+    const LeastSquaresReport report =
+        solveInDomain(problem, start, options, kStepTolerance, kFirstRadius);
     if (!(report.sumOfSquares < best.sumOfSquares)) continue;
     best.at = report.x;
     best.parameters = projected.parametersAt(report.x);
@@ -301,57 +357,61 @@ StepMinimum searchRobustStep(const StepSamples& samples,
   // The parameters are K, m and the two coordinates.
   LeastSquaresProblem problem;
   problem.numResiduals = samples.timeS.size();
+  ShapesOfStepPlace shapes(samples.timeS, options);
   problem.residuals = [&](std::span<const double> x, std::span<double> out) {
-    ++found.evaluations;
-    const StepPlace place = placeAt(x[2], x[3], options);
-    const ShapeOfStepPlace shape(place);
-    for (std::size_t i = 0; i < out.size(); ++i) {
-      const double t = samples.timeS[i];
-      out[i] = samples.values[i] - x[0] * shape.at(t).phi - x[1] * t;
-    }
+    shapes.moveTo(x[2], x[3]);
+    for (std::size_t i = 0; i < out.size(); ++i)
+      out[i] = samples.values[i] - x[0] * shapes.shapes()[i].phi - x[1] * samples.timeS[i];
     return true;
   };
   problem.jacobian = [&](std::span<const double> x, std::span<double> out) {
-    ++found.evaluations;
-    const StepPlace place = placeAt(x[2], x[3], options);
-    const ShapeOfStepPlace shape(place);
+    shapes.moveTo(x[2], x[3]);
+    const Eigen::Matrix2d chain = -x[0] * shapes.place().chain;
     for (std::size_t i = 0; i < samples.timeS.size(); ++i) {
-      const double t = samples.timeS[i];
-      const StepShape at = shape.at(t);
-      const Eigen::RowVector2d by = -x[0] * shape.derivatives(at);
-      const std::array row{-at.phi, -t, by[0], by[1]};
+      const StepShape& shape = shapes.shapes()[i];
+      const Eigen::RowVector2d by =
+          Eigen::RowVector2d(shape.derivativeByFirst, shape.derivativeBySecond) * chain;
+      const std::array row{-shape.phi, -samples.timeS[i], by[0], by[1]};
       std::copy(row.begin(), row.end(), &out[4 * i]);
     }
     return true;
   };
   problem.loss = loss;
-  Eigen::VectorXd x(4);
-  x << found.parameters.staticResponseCounts, found.parameters.driftCountsPerS, found.at;
   std::vector<double> sizes(samples.timeS.size());
-  for (int i = 0; i < kMostRescalings; ++i) {
+  const auto scaleAt = [&](const Eigen::VectorXd& x) {
     problem.residuals({x.data(), 4}, sizes);
     for (double& size : sizes) size = std::abs(size);
-    const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
-    std::nth_element(sizes.begin(), middle, sizes.end());
-    if (!(*middle > 0.0)) break;  // half of the samples fit exactly
-    problem.lossScale = deviations * kSdPerMad * *middle;
-    const LeastSquaresReport report = solveInDomain(problem, x, options);
-    found.weights = report.weights;
-    found.lossScale = problem.lossScale;
-    found.converged = report.converged;
-    const StepParameters was = found.parameters;
-    found.at = report.x.tail<2>();
-    found.parameters = placeAt(report.x[2], report.x[3], options).parameters;
-    found.parameters.staticResponseCounts = report.x[0];
-    found.parameters.driftCountsPerS = report.x[1];
+    return deviations * kSdPerMad * upperMedian(sizes);
+  };
+  Eigen::VectorXd x(4);
+  x << found.parameters.staticResponseCounts, found.parameters.driftCountsPerS, found.at;
+  double scale = scaleAt(x);
+  bool fine = false, settled = false;
+  // The scale is 0 when half of the samples fit exactly.
+  for (int i = 0; i < kMostRescalings && !settled && scale > 0.0; ++i) {
+    problem.lossScale = scale;
+    const LeastSquaresReport report = solveInDomain(problem,
+                                                    x,
+                                                    options,
+                                                    fine ? kStepTolerance : kRoughTolerance,
+                                                    i == 0 ? kFirstRadius : kWarmRadius);
     x = report.x;
-    const StepParameters& is = found.parameters;
-    if (std::abs(std::log(is.timeConstantS / was.timeConstantS)) +
-            std::abs(std::log(is.damping / was.damping)) +
-            std::abs(is.staticResponseCounts / was.staticResponseCounts - 1.0) <
-        1e-7)
-      break;
+    found.weights = report.weights;
+    found.lossScale = scale;
+    found.sumOfSquares = report.sumOfSquares;
+    found.converged = report.converged;
+    if (!report.converged) break;
+    scale = scaleAt(x);
+    const double moved = std::abs(scale / found.lossScale - 1.0);
+    settled = fine && moved < kScaleSettled;
+    fine = fine || moved < kNearlySettled;
   }
+  found.converged = found.converged && (settled || !(scale > 0.0));
+  found.at = x.tail<2>();
+  found.parameters = placeAt(x[2], x[3], options).parameters;
+  found.parameters.staticResponseCounts = x[0];
+  found.parameters.driftCountsPerS = x[1];
+  found.evaluations += shapes.evaluations();
   return found;
 }
 

@@ -34,9 +34,10 @@ struct StepSearchOptions {
 struct StepMinimum {
   Eigen::Vector2d at = Eigen::Vector2d::Zero();  // coordinates in the domain
   StepParameters parameters;
-  double sumOfSquares = 0.0;  // infinite when no shape of the domain fits
+  // With a robust loss, the sum of the losses; infinite when no shape of the domain fits.
+  double sumOfSquares = 0.0;
   bool converged = false;
-  int evaluations = 0;  // number of evaluations of the model
+  int evaluations = 0;  // number of points at which the model was evaluated
   // With a robust loss: the weights of the samples, and the scale [counts] beyond which a residual
   // has less weight.
   std::vector<double> weights;
@@ -48,7 +49,7 @@ StepMinimum searchStep(const StepSamples& samples, const StepSearchOptions& opti
 
 // Goes from a minimum of squares to that of a robust loss, with all four parameters. A residual has
 // less weight beyond `deviations` standard deviations; these follow from the median of the absolute
-// residuals and are updated until they no longer change.
+// residuals and are updated until they no longer change. Not converged when they don't settle.
 StepMinimum searchRobustStep(const StepSamples& samples,
                              const StepSearchOptions& options,
                              const StepMinimum& start,

@@ -1,7 +1,7 @@
-// Calibration beside references in the same run: the step fit (variable projection, several starts)
-// beside one search of the same model's four parameters by the same solver; a recording of ten
-// minutes with thirty steps; a live frame through a calibration beside the characteristic signals
-// of that frame.
+// Calibration beside references in the same run: the step fit (variable projection, several
+// starts), plain and with a robust loss, beside one search of the same model's four parameters by
+// the same solver; a recording of ten minutes with thirty steps; a live frame through a calibration
+// beside the characteristic signals of that frame.
 #include <cmath>
 #include <random>
 
@@ -40,6 +40,17 @@ void BM_StepFitOf500Samples(benchmark::State& state) {
   for (auto _ : state) benchmark::DoNotOptimize(fitStep(samples.t, samples.y));
 }
 BENCHMARK(BM_StepFitOf500Samples)->Unit(benchmark::kMicrosecond);
+
+// The same step with every twelfth sample 150 counts too high: the plain fit, its repetitions with
+// less weight for outliers.
+void BM_StepFitOf500SamplesHuber(benchmark::State& state) {
+  Samples samples = stepOf500();
+  for (std::size_t i = 36; i < samples.y.size(); i += 12) samples.y[i] += 150.0;
+  StepFitOptions options;
+  options.loss = StepLoss::kHuber;
+  for (auto _ : state) benchmark::DoNotOptimize(fitStep(samples.t, samples.y, options));
+}
+BENCHMARK(BM_StepFitOf500SamplesHuber)->Unit(benchmark::kMicrosecond);
 
 // K, m, log T1, log T2 from one good start, derivatives by differences.
 void BM_StepFitOf500SamplesByCeres(benchmark::State& state) {

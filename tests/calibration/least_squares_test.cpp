@@ -7,6 +7,8 @@
 #include <sstream>
 #include <stdexcept>
 
+#include <Eigen/LU>
+
 #include "palpate/core/number_text.h"
 
 #include "testing/testing.h"
@@ -278,6 +280,59 @@ TEST(LeastSquares, MinimisesRobustLosses) {
   for (int i = 0; i < 100; ++i) (slope(0.5 * (low + high)) > 0.0 ? low : high) = 0.5 * (low + high);
   EXPECT_NEAR(cauchy.x[0], low, 1e-6);
   EXPECT_NEAR(cauchy.weights[4], 1.0 / (1.0 + std::pow((20.0 - low) / 2.0, 2)), 1e-6);
+}
+
+// A line through points of which one is far away, against weighted squares that are solved again
+// until the weights no longer change.
+TEST(LeastSquares, FindsTheLineOfReweightedSquares) {
+  const Eigen::VectorXd y =
+      (Eigen::VectorXd(8) << 1.0, 3.2, 5.0, 7.1, 8.7, 40.0, 13.1, 14.8).finished();
+  Eigen::MatrixX2d columns(8, 2);
+  for (int i = 0; i < 8; ++i) columns.row(i) << 1.0, i;
+  for (const LeastSquaresLoss loss : {LeastSquaresLoss::kHuber, LeastSquaresLoss::kCauchy}) {
+    const double scale = 0.5;
+    const bool huber = loss == LeastSquaresLoss::kHuber;
+    Eigen::Vector2d expected(1.0, 2.0);
+    Eigen::ArrayXd weights;
+    Eigen::Matrix2d inverse;
+    for (int i = 0; i < 500; ++i) {
+      const Eigen::ArrayXd ratio = (y - columns * expected).array().abs() / scale;
+      weights = huber ? Eigen::ArrayXd(1.0 / ratio.max(1.0))
+                      : Eigen::ArrayXd(1.0 / (1.0 + ratio.square()));
+      const Eigen::Matrix2Xd weighted = columns.transpose() * weights.matrix().asDiagonal();
+      inverse = (weighted * columns).inverse();
+      expected = inverse * (weighted * y);
+    }
+    const Eigen::ArrayXd residuals = y - columns * expected;
+    double sum = 0.0;
+    for (const double r : residuals)
+      sum += !huber                 ? scale * scale * std::log1p(r * r / (scale * scale))
+             : std::abs(r) <= scale ? r * r
+                                    : 2.0 * scale * std::abs(r) - scale * scale;
+    LeastSquaresProblem problem;
+    problem.numResiduals = 8;
+    problem.residuals = [&](std::span<const double> b, std::span<double> r) {
+      Eigen::Map<Eigen::VectorXd>(r.data(), 8) = y - columns * Eigen::Vector2d(b[0], b[1]);
+      return true;
+    };
+    problem.jacobian = [&](std::span<const double>, std::span<double> jacobian) {
+      Eigen::Map<Eigen::Matrix<double, 8, 2, Eigen::RowMajor>>(jacobian.data()) = -columns;
+      return true;
+    };
+    problem.loss = loss;
+    problem.lossScale = scale;
+    // The line through the first two points: two residuals are 0 at the start.
+    const LeastSquaresReport report = solveLeastSquares(problem, Eigen::Vector2d(1.0, 2.2));
+    EXPECT_TRUE(report.converged);
+    const double variance = (weights * residuals.square()).sum() / 6.0;
+    EXPECT_NEAR(report.sumOfSquares, sum, 1e-9 * sum);
+    EXPECT_NEAR(report.residualSd, std::sqrt(variance), 1e-6);
+    for (int r = 0; r < 2; ++r) {
+      EXPECT_NEAR(report.x[r], expected[r], 1e-6);
+      for (int c = 0; c < 2; ++c)
+        EXPECT_NEAR(report.covariance(r, c), variance * inverse(r, c), 1e-6);
+    }
+  }
 }
 
 TEST(LeastSquares, StaysWithinBounds) {

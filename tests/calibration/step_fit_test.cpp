@@ -1,9 +1,12 @@
 #include "palpate/calibration/step_fit.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <random>
 #include <stdexcept>
+
+#include <Eigen/LU>
 
 #include "testing/testing.h"
 
@@ -150,6 +153,159 @@ TEST(StepFit, FitsTheCriticalAndTheOscillatingCase) {
   // An overdamped step stays one.
   const Samples plain = samplesOf(StepParameters::ofTimes(300.0, 8.0, 0.6, 0.12), 8.0, 3.0, random);
   EXPECT_GE(fitStep(plain.t, plain.y, any).parameters.damping, 1.0);
+}
+
+// phi and d phi / dT of d = 1, and t: written down anew from step_model.h. The columns are -d r / d
+// (K, m, T).
+Eigen::MatrixX3d criticalColumns(const Samples& samples, double gain, double timeConstantS) {
+  Eigen::MatrixX3d columns(samples.t.size(), 3);
+  for (std::size_t i = 0; i < samples.t.size(); ++i) {
+    const double s = samples.t[i] / timeConstantS;
+    columns.row(static_cast<Eigen::Index>(i)) << 1.0 - (1.0 + s) * std::exp(-s), samples.t[i],
+        -gain * s * s * std::exp(-s) / timeConstantS;
+  }
+  return columns;
+}
+
+TEST(StepFit, KeepsTheIntervalsOfKAndMOfACriticallyDampedStep) {
+  const StepParameters truth{300.0, 8.0, 0.3, 1.0};
+  int critical = 0;
+  for (std::uint64_t seed = 0; seed < 60; ++seed) {
+    SCOPED_TRACE(seed);
+    std::mt19937_64 random(seed);
+    const Samples samples = samplesOf(truth, 12.0, 2.0, random);
+    for (const StepLoss loss : {StepLoss::kSquares, StepLoss::kHuber}) {
+      StepFitOptions options;
+      options.loss = loss;
+      const StepFit fit = fitStep(samples.t, samples.y, options);
+      const StepParameters& p = fit.parameters;
+      EXPECT_TRUE(fit.converged);
+      EXPECT_NEAR(p.staticResponseCounts, 300.0, 4.5 * fit.sd(0));
+      EXPECT_NEAR(p.driftCountsPerS, 8.0, 4.5 * fit.sd(1));
+      for (const std::string& note : fit.notes)
+        EXPECT_EQ(note.find("don't determine K"), std::string::npos) << note;
+      if (p.damping != 1.0) continue;
+      ++critical;
+      EXPECT_FALSE(fit.identifiable);
+      ASSERT_EQ(fit.notes.size(), 1u);
+      EXPECT_NE(fit.notes[0].find("critically damped"), std::string::npos) << fit.notes[0];
+      EXPECT_TRUE(std::isnan(fit.sd(2)) && std::isnan(fit.sd(3)));
+      if (loss != StepLoss::kSquares) continue;
+      const Eigen::MatrixX3d columns =
+          criticalColumns(samples, p.staticResponseCounts, p.timeConstantS);
+      const double variance = std::pow(rmseOf(samples, p), 2) *
+                              static_cast<double>(samples.t.size()) /
+                              static_cast<double>(samples.t.size() - 4);
+      const Eigen::Matrix3d expected = variance * (columns.transpose() * columns).inverse();
+      for (int r = 0; r < 2; ++r)
+        for (int c = 0; c < 2; ++c)
+          EXPECT_NEAR(fit.covariance(r, c),
+                      expected(r, c),
+                      1e-6 * std::sqrt(expected(r, r) * expected(c, c)));
+    }
+  }
+  EXPECT_GE(critical, 30) << "noise leads to d = 1 in about half of the fits";
+}
+
+// A load that is there from the second sample on: K is known, T only as far below a frame.
+TEST(StepFit, DoesNotClaimATimeConstantThatNoSampleShows) {
+  int equal = 0;
+  for (std::uint64_t seed = 0; seed < 40; ++seed) {
+    SCOPED_TRACE(seed);
+    std::mt19937_64 random(seed);
+    std::normal_distribution<double> normal;
+    Samples samples;
+    for (int i = 0; i < 200; ++i) {
+      samples.t.push_back(i / 31.7);
+      samples.y.push_back(i == 0 ? 0.0 : 100.0 + 2.0 * normal(random));
+    }
+    const StepFit fit = fitStep(samples.t, samples.y);
+    EXPECT_FALSE(fit.identifiable);
+    if (fit.parameters.damping != 1.0 || fit.parameters.timeConstantS > 0.003) continue;
+    ++equal;
+    EXPECT_NEAR(fit.parameters.staticResponseCounts, 100.0, 4.5 * fit.sd(0));
+    for (const std::string& note : fit.notes)
+      EXPECT_EQ(note.find("K, m and T can"), std::string::npos) << note;
+  }
+  EXPECT_GE(equal, 1);
+}
+
+Samples withOutliers(std::uint64_t seed, std::size_t every, double counts) {
+  std::mt19937_64 random(seed);
+  Samples samples = samplesOf(StepParameters::ofTimes(300.0, 8.0, 0.6, 0.12), 12.0, 4.0, random);
+  for (std::size_t i = 30; i < samples.y.size(); i += every) samples.y[i] += counts;
+  return samples;
+}
+
+// The scale of a robust fit is a fixed point: with the scale of the residuals that are left, the
+// weighted residuals are orthogonal to the derivatives by K and m, which are phi and t. Returns the
+// larger cosine of the two angles.
+double distanceFromSettled(const Samples& samples, const StepParameters& p, StepLoss loss) {
+  const auto n = static_cast<Eigen::Index>(samples.t.size());
+  Eigen::VectorXd residuals(n), phi(n), t(n);
+  const double t1 = p.t1S(), t2 = p.t2S();
+  for (Eigen::Index i = 0; i < n; ++i) {
+    t[i] = samples.t[static_cast<std::size_t>(i)];
+    phi[i] = 1.0 - (t1 * std::exp(-t[i] / t1) - t2 * std::exp(-t[i] / t2)) / (t1 - t2);
+    residuals[i] = samples.y[static_cast<std::size_t>(i)] - p.staticResponseCounts * phi[i] -
+                   p.driftCountsPerS * t[i];
+  }
+  Eigen::VectorXd sizes = residuals.cwiseAbs();
+  std::sort(sizes.begin(), sizes.end());
+  const bool huber = loss == StepLoss::kHuber;
+  const double scale = (huber ? 1.345 : 2.385) * 1.4826 * sizes[n / 2];
+  for (double& r : residuals) {
+    const double ratio = std::abs(r) / scale;
+    r *= huber ? 1.0 / std::max(ratio, 1.0) : 1.0 / (1.0 + ratio * ratio);
+  }
+  return std::max(std::abs(residuals.normalized().dot(phi.normalized())),
+                  std::abs(residuals.normalized().dot(t.normalized())));
+}
+
+TEST(StepFit, RobustScalesSettle) {
+  for (const std::size_t every : {12u, 6u, 4u, 3u})
+    for (std::uint64_t seed = 0; seed < 10; ++seed)
+      for (const StepLoss loss : {StepLoss::kHuber, StepLoss::kCauchy}) {
+        SCOPED_TRACE(::testing::Message() << "every " << every << ", seed " << seed << ", loss "
+                                          << static_cast<int>(loss));
+        const Samples samples = withOutliers(seed, every, 60.0);
+        StepFitOptions options;
+        options.loss = loss;
+        const StepFit fit = fitStep(samples.t, samples.y, options);
+        EXPECT_TRUE(fit.converged);
+        EXPECT_LT(distanceFromSettled(samples, fit.parameters, loss), 1e-6);
+      }
+}
+
+// A third of the samples are far away: the scale shrinks slowly, in some fits too slowly.
+TEST(StepFit, RobustFitsWhoseScaleDoesNotSettleHaveNotConverged) {
+  int settled = 0;
+  for (std::uint64_t seed = 0; seed < 40; ++seed) {
+    SCOPED_TRACE(seed);
+    const Samples samples = withOutliers(seed, 3, 150.0);
+    StepFitOptions options;
+    options.loss = StepLoss::kCauchy;
+    const StepFit fit = fitStep(samples.t, samples.y, options);
+    if (!fit.converged) continue;
+    ++settled;
+    EXPECT_LT(distanceFromSettled(samples, fit.parameters, StepLoss::kCauchy), 1e-6);
+  }
+  EXPECT_GE(settled, 20);
+}
+
+TEST(StepFit, EndsARobustFitWhoseSearchDidNotConverge) {
+  const Samples samples = withOutliers(11, 12, 150.0);
+  StepFitOptions options;
+  options.maxIterations = 2;
+  const StepFit plain = fitStep(samples.t, samples.y, options);
+  for (const StepLoss loss : {StepLoss::kHuber, StepLoss::kCauchy}) {
+    options.loss = loss;
+    const StepFit robust = fitStep(samples.t, samples.y, options);
+    EXPECT_FALSE(robust.converged);
+    EXPECT_LE(robust.evaluations, plain.evaluations + 8) << "one search of two iterations";
+    ASSERT_FALSE(robust.notes.empty());
+    EXPECT_NE(robust.notes[0].find("did not converge"), std::string::npos);
+  }
 }
 
 TEST(StepFit, RobustLossesShrugOffOutliers) {

@@ -53,7 +53,7 @@ struct StepFit {
   // sqrt(sum of (weighted) squares / (n - 4)), which scales the covariance [counts].
   double residualSd = kNotFitted;
   // Covariance of K, m, T1, T2 (with d < 1: of K, m, T, d), linearised at the solution; NaN when it
-  // cannot be computed.
+  // cannot be computed. With T1 = T2 only those of K and m are numbers.
   Eigen::Matrix4d covariance = Eigen::Matrix4d::Constant(kNotFitted);
   bool converged = false;  // a minimum was found
   // Whether the data determine all four parameters.
@@ -63,7 +63,7 @@ struct StepFit {
   bool steadyStateReached = false;
   // Number of samples with less than half weight (robust losses).
   std::size_t numDownweighted = 0;
-  int evaluations = 0;             // number of evaluations of the model, over all starts
+  int evaluations = 0;  // number of points at which the model was evaluated, over all starts
   std::vector<std::string> notes;  // what is missing or doubtful, one sentence each
 
   // K and m can be used for a calibration.
