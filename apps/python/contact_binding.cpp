@@ -4,6 +4,7 @@
 
 #include <pybind11/stl.h>
 
+#include "palpate/core/progress.h"
 #include "palpate/kinematics/contact_geometry.h"
 #include "palpate/kinematics/joint_range.h"
 #include "palpate/kinematics/object_size.h"
@@ -49,8 +50,7 @@ std::vector<ContactRow> contactRowsOf(const Profile& profile,
   std::optional<std::size_t> posedBy;
   bool usable = assumed.has_value();
   for (std::size_t i = first; i < last; ++i) {
-    if (!progress(static_cast<double>(i - first) / static_cast<double>(rows.size())))
-      throw Cancelled();
+    reportProgress(progress, i - first, rows.size());
     profile.readFrame(i, frame);
     const auto sample = profile.angleSampleAt(frame.hostUs);
     if (!assumed && sample != posedBy) {

@@ -6,6 +6,7 @@
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
+#include "palpate/core/progress.h"
 #include "palpate/model/timing.h"
 #include "palpate/recording/recording.h"
 #include "palpate/recording/recording_details.h"
@@ -121,7 +122,7 @@ py::dict info(const Profile& profile) {
     TactileFrame frame;
     const std::size_t count = profile.numFrames();
     for (std::size_t i = 0; i < count; ++i) {
-      if (!progress(static_cast<double>(i) / static_cast<double>(count))) throw Cancelled();
+      reportProgress(progress, i, count);
       profile.readFrame(i, frame);
       const float peak = *std::max_element(frame.values.begin(), frame.values.end());
       largest = i == 0 ? static_cast<double>(peak) : std::max(largest, static_cast<double>(peak));

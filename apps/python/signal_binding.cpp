@@ -4,6 +4,7 @@
 
 #include <pybind11/stl.h>
 
+#include "palpate/core/progress.h"
 #include "palpate/model/timing.h"
 #include "palpate/signals/characteristic_signals.h"
 #include "palpate/signals/first_contact.h"
@@ -33,7 +34,7 @@ std::vector<std::vector<CharacteristicSignals>> signalRowsOf(const Profile& prof
   std::vector<std::vector<CharacteristicSignals>> rows(profile.numFrames());
   TactileFrame frame;
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    if (!progress(static_cast<double>(i) / static_cast<double>(rows.size()))) throw Cancelled();
+    reportProgress(progress, i, rows.size());
     profile.readFrame(i, frame);
     allSignals(frame, rows[i]);
   }

@@ -78,7 +78,8 @@ Json jsonOf(const Calibration& calibration) {
   json.set("options", calibration.options);
   Json samples =
       jsonList(calibration.samples, [](const PressureSample& sample) { return jsonOf(sample); });
-  return json.set("samples", std::move(samples));
+  json.set("samples", std::move(samples));
+  return json;
 }
 
 Calibration calibrationFrom(const Json& json) {

@@ -147,7 +147,7 @@ double medianSteadyS(const std::vector<StepReport>& reports) {
     for (const FittedStep& step : report.steps)
       if (step.fit.usable() && std::isfinite(step.characteristics.steadyS))
         times.push_back(step.characteristics.steadyS);
-  return times.empty() ? 0.0 : upperMedian(times);
+  return times.empty() ? 0.0 : upperMedian(std::move(times));
 }
 
 }  // namespace palpate

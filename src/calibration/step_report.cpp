@@ -151,7 +151,8 @@ Json jsonOf(const FittedStep& fitted) {
   json.set("released", fitted.step.released);
   std::vector<std::string> notes = fitted.notes;
   notes.insert(notes.end(), fit.notes.begin(), fit.notes.end());
-  return json.set("notes", jsonList(notes));
+  json.set("notes", jsonList(notes));
+  return json;
 }
 
 }  // namespace
@@ -216,7 +217,8 @@ Json jsonOf(const StepReport& report) {
   json.set("matrix", report.matrix).set("signal", signalName(report.signal));
   json.set("steps",
            jsonList(report.steps, [](const FittedStep& fitted) { return jsonOf(fitted); }));
-  return json.set("notes", jsonList(report.notes));
+  json.set("notes", jsonList(report.notes));
+  return json;
 }
 
 }  // namespace palpate

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <stdexcept>
 #include <utility>
 
@@ -115,7 +116,7 @@ MatrixTare tareOf(const std::vector<Window>& windows,
   std::vector<float> means(calm.size());
   for (std::size_t p = 0; p < count; ++p) {
     for (std::size_t w = 0; w < calm.size(); ++w) means[w] = calm[w]->mean[offset + p];
-    const float atRest = upperMedian(means);
+    const float atRest = upperMedian(std::span(means));
     zero[offset + p] = atRest;
     tare.raisedTaxels += atRest > 0.0F ? 1 : 0;
     tare.largestZero = std::max(tare.largestZero, static_cast<double>(atRest));

@@ -171,11 +171,7 @@ RecordingEvent endEvent(const GraspReport& report) {
     if (report.countsAtSlip) json.set("counts_at_slip", *report.countsAtSlip);
     if (report.friction) json.set("friction", *report.friction);
   }
-  if (!report.heldAxes.empty()) {
-    Json held = Json::array();
-    for (const int axis : report.heldAxes) held.push(axis);
-    json.set("held_axes", held);
-  }
+  if (!report.heldAxes.empty()) json.set("held_axes", jsonList(report.heldAxes));
   event.json = json.text(-1);
   return event;
 }

@@ -146,7 +146,7 @@ double SensitivityControl::rateHz() const {
   std::vector<std::int64_t> intervals;
   for (std::size_t i = 1; i < stampsUs_.size(); ++i)
     intervals.push_back(stampsUs_[i] - stampsUs_[i - 1]);
-  const std::int64_t medianUs = upperMedian(intervals);
+  const std::int64_t medianUs = upperMedian(std::move(intervals));
   return medianUs > 0 ? kUsPerS / static_cast<double>(medianUs)
                       : std::numeric_limits<double>::quiet_NaN();
 }

@@ -91,7 +91,7 @@ std::string toJson(const TactileSettings& settings) {
     matrices.push(Json::object()
                       .set("sensitivity", matrix.sensitivity)
                       .set("threshold_counts", matrix.thresholdCounts));
-  return Json::object().set("matrices", matrices).text(-1);
+  return Json::object().set("matrices", std::move(matrices)).text(-1);
 }
 
 TactileSettings parseTactileSettings(std::string_view json) {

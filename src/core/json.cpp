@@ -48,14 +48,25 @@ constexpr int kMaxDepth = 512;
               ", found " + value.type_name());
 }
 
+// JSON has no NaN and no infinity.
+Value jsonNumber(double number) { return std::isfinite(number) ? Value(number) : Value(); }
+Value jsonNumber(std::int64_t number) { return Value(number); }
+
+template <typename Number>
+Value jsonNumbers(std::span<const Number> numbers) {
+  Value::array_t list;
+  list.reserve(numbers.size());
+  for (const Number number : numbers) list.push_back(jsonNumber(number));
+  return Value(std::move(list));
+}
+
 }  // namespace
 
 Json::Json() = default;
 Json::Json(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 Json::Json(bool value) : impl_(std::make_unique<Impl>(Value(value))) {}
-Json::Json(double value)
-    : impl_(std::make_unique<Impl>(std::isfinite(value) ? Value(value) : Value())) {}
-Json::Json(std::int64_t value) : impl_(std::make_unique<Impl>(Value(value))) {}
+Json::Json(double value) : impl_(std::make_unique<Impl>(jsonNumber(value))) {}
+Json::Json(std::int64_t value) : impl_(std::make_unique<Impl>(jsonNumber(value))) {}
 Json::Json(std::string_view value) : impl_(std::make_unique<Impl>(Value(value))) {}
 // A copy shares no data, so that it may be used in another thread.
 Json::Json(const Json& other) {
@@ -72,6 +83,12 @@ Json::~Json() = default;
 
 Json Json::object() { return Json(std::make_unique<Impl>(Value::object())); }
 Json Json::array() { return Json(std::make_unique<Impl>(Value::array())); }
+Json Json::array(std::span<const std::int64_t> values) {
+  return Json(std::make_unique<Impl>(jsonNumbers(values)));
+}
+Json Json::array(std::span<const double> values) {
+  return Json(std::make_unique<Impl>(jsonNumbers(values)));
+}
 
 Json Json::parse(std::string_view text) {
   const auto bounded = [](int depth, Value::parse_event_t, Value&) {
@@ -148,14 +165,14 @@ Json Json::at(std::size_t index) const {
   return Json(std::make_unique<Impl>(*impl_, impl_->value->at(index), impl_->where));
 }
 
-Json& Json::set(std::string_view key, Json value) {
+Json& Json::set(std::string_view key, Json value) & {
   if (!isNull() && !isObject()) wrongKind("an object");
   Value part = value.impl_ ? std::move(value.impl_->own()) : Value();
   if (!impl_) impl_ = std::make_unique<Impl>(Value());
   impl_->own()[std::string(key)] = std::move(part);
   return *this;
 }
-Json& Json::push(Json value) {
+Json& Json::push(Json value) & {
   if (!isNull() && !isArray()) wrongKind("an array");
   Value part = value.impl_ ? std::move(value.impl_->own()) : Value();
   if (!impl_) impl_ = std::make_unique<Impl>(Value());

@@ -357,7 +357,7 @@ std::string TactileLink::settingsJson() const {
                       .set("sensitivity", matrix.sensitivity)
                       .set("threshold_counts", matrix.thresholdCounts.value_or(0))
                       .set("dynamic_mask", hexDigits(packMask(matrix.layout.dynamicMask))));
-  return Json::object().set("matrices", matrices).text(-1);
+  return Json::object().set("matrices", std::move(matrices)).text(-1);
 }
 
 void TactileLink::change(const Wanted& wanted, std::optional<int> matrix, const std::string& text) {

@@ -10,6 +10,7 @@
 #include <Eigen/Dense>
 
 #include "palpate/core/error.h"
+#include "palpate/core/progress.h"
 
 #include "filter/kelvin_voigt_pass.h"
 #include "filter/sample_stretches.h"
@@ -332,7 +333,8 @@ KelvinVoigtEstimate estimateKelvinVoigt(std::span<const double> timeS,
   estimate.end = KelvinVoigtEnd::kMaxRounds;
   const auto enough = options.tolerance * static_cast<double>(expectation.numValues);
   for (int round = 0; round < options.maxRounds; ++round) {
-    if (progress && !progress(static_cast<double>(round) / options.maxRounds)) throw Cancelled();
+    reportProgress(
+        progress, static_cast<std::size_t>(round), static_cast<std::size_t>(options.maxRounds));
     estimation.maximise(expectation, estimate.model);
     estimation.expect(estimate.model, expectation);
     const double gained = expectation.logLikelihood - estimate.logLikelihood.back();

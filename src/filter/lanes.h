@@ -21,9 +21,6 @@ using Lanes = Eigen::Array<float, kLanes, 1>;
 
 inline Lanes load(const float* from) { return Eigen::Map<const Lanes>(from); }
 inline void store(float* to, const Lanes& lanes) { Eigen::Map<Lanes>{to} = lanes; }
-// exp() of values at or below 0. Below -87 the result is that of -87: a smaller one would be a
-// denormal number, which makes the bilateral filter nine times slower.
-inline Lanes expOf(const Lanes& x) { return x.max(-87.0F).exp(); }
 
 inline constexpr int kFour = 4;
 typedef float FourLanes __attribute__((vector_size(16)));  // NOLINT: an attribute of GCC and clang

@@ -1,10 +1,11 @@
 // Kernel of the filter "nlm" (non-local means; Buades, Coll and Morel 2005): the taxels of the
 // neighbourhood, weighted by exp(-d^2 / h^2), where d^2 is the mean squared difference of the
 // patches around both taxels.
-#include <cmath>
+#include <algorithm>
 
 #include "filter/lanes.h"
 #include "filter/padded_matrix.h"
+#include "filter/pair_weights.h"
 #include "filter/spatial_filter.h"
 
 namespace palpate::detail {
@@ -14,93 +15,93 @@ class NonLocalMeansKernel final : public MatrixKernel {
  public:
   NonLocalMeansKernel(const MatrixLayout& layout, int patch, int search, double h)
       : padded_(layout, patch / 2 + search / 2),
+        weights_(padded_, search / 2, [](int, int) { return true; }),
         patchRadius_(patch / 2),
-        factor_(static_cast<float>(-1.0 / (h * h))),
         on_(padded_.onPlane()),
         squared_(padded_.size(), 0.0F),
-        sum_(padded_.size(), 0.0F),
-        total_(padded_.size(), 0.0F) {
-    const int radius = search / 2;
-    for (int dy = -radius; dy <= radius; ++dy)
-      for (int dx = -radius; dx <= radius; ++dx)
-        offsets_.push_back({dy * padded_.stride() + dx, perPair(dy * padded_.stride() + dx)});
+        rowSums_(padded_.size(), 0.0F),
+        out_(padded_.size(), 0.0F) {
+    for (const PairWeights::Step& step : weights_.steps()) setFactors(step, -1.0 / (h * h));
   }
 
   void apply(float* values) override {
     padded_.fill(values, 0.0F);
-    sum_.assign(sum_.size(), 0.0F);
-    total_.assign(total_.size(), 0.0F);
-    for (const Offset& offset : offsets_) {
-      squareDifferences(offset.step);
-      eachBlock([&](int i) {
-        const float* other = padded_.data() + i + offset.step;
-        const Lanes meanSquare = patchSum(i) * load(offset.perPair.data() + i);
-        const Lanes weight = load(on_.data() + i + offset.step) * expOf(meanSquare * factor_);
-        store(sum_.data() + i, load(sum_.data() + i) + weight * load(other));
-        store(total_.data() + i, load(total_.data() + i) + weight);
-      });
+    for (const PairWeights::Step& step : weights_.steps()) {
+      sumSquares(step);
+      weights_.setExponents(
+          step,
+          [&](int i, int k) -> Lanes { return patchSum(i) * load(factors_.data() + k); },
+          padded_);
     }
-    eachBlock(
-        [&](int i) { store(sum_.data() + i, load(sum_.data() + i) / load(total_.data() + i)); });
-    padded_.writeBack(sum_, values);
+    weights_.average(padded_, out_);
+    padded_.writeBack(out_, values);
   }
 
  private:
-  struct Offset {
-    int step;                    // in the padded matrix
-    std::vector<float> perPair;  // 1 / number of taxels that exist in both patches
-  };
+  using Stretch = Eigen::Map<const Eigen::ArrayXf>;
 
-  template <typename Work>
-  void eachBlock(const Work& work) {
-    for (int y = 0; y < padded_.rows(); ++y)
-      for (int x = 0; x < padded_.columns(); x += kLanes) work(padded_.at(y, x));
-  }
-  // Squared differences of all pairs of taxels `step` apart, over an area that is large enough for
-  // the patches.
-  void squareDifferences(int step) {
-    const float* at = padded_.data();
-    for (int y = -patchRadius_; y < padded_.rows() + patchRadius_; ++y) {
-      for (int x = -patchRadius_; x < padded_.columns() + patchRadius_; x += kLanes) {
-        const int i = padded_.at(y, x);
-        const Lanes difference = load(at + i) - load(at + i + step);
-        store(squared_.data() + i,
-              difference * difference * load(on_.data() + i) * load(on_.data() + i + step));
-      }
+  // Squared differences of all pairs of taxels, over an area that is large enough for the patches,
+  // and their sums over the columns of a patch. They are computed in one stretch, with the places
+  // between the rows, since that is faster than row by row.
+  void sumSquares(const PairWeights::Step& step) {
+    const int right = padded_.columns() - 1 + std::max(0, -step.dx);
+    const int begin = padded_.at(-step.dy - patchRadius_, step.firstColumn - patchRadius_);
+    const int end = padded_.at(padded_.rows() - 1 + patchRadius_, right + patchRadius_) + 1;
+    const auto part = [&](const std::vector<float>& plane, int from, int to) {
+      return Stretch(plane.data() + from, to - from);
+    };
+    const int other = step.inPadded;
+    Eigen::Map<Eigen::ArrayXf>(squared_.data() + begin, end - begin) =
+        (part(padded_.values(), begin, end) - part(padded_.values(), begin + other, end + other))
+            .square() *
+        part(on_, begin, end) * part(on_, begin + other, end + other);
+    const int first = begin + patchRadius_, last = end - patchRadius_;
+    Eigen::Map<Eigen::ArrayXf> sums(rowSums_.data() + first, last - first);
+    if (patchRadius_ == 1) {
+      sums = part(squared_, first - 1, last - 1) + part(squared_, first, last) +
+             part(squared_, first + 1, last + 1);
+      return;
     }
+    sums = part(squared_, first, last);
+    for (int dx = 1; dx <= patchRadius_; ++dx)
+      sums += part(squared_, first - dx, last - dx) + part(squared_, first + dx, last + dx);
   }
   Lanes patchSum(int i) const {
-    Lanes sum = Lanes::Zero();
-    for (int dy = -patchRadius_; dy <= patchRadius_; ++dy)
-      for (int dx = -patchRadius_; dx <= patchRadius_; ++dx)
-        sum += load(squared_.data() + i + dy * padded_.stride() + dx);
+    Lanes sum = load(rowSums_.data() + i);
+    for (int rows = padded_.stride(); rows <= patchRadius_ * padded_.stride();
+         rows += padded_.stride())
+      sum += load(rowSums_.data() + i - rows) + load(rowSums_.data() + i + rows);
     return sum;
   }
-  std::vector<float> perPair(int step) const {
-    std::vector<float> result(padded_.size(), 0.0F);
-    for (int y = 0; y < padded_.rows(); ++y) {
-      for (int x = 0; x < padded_.columns(); ++x) {
-        float count = 0.0F;
+  // `factor` / number of taxels that exist in both patches.
+  void setFactors(const PairWeights::Step& step, double factor) {
+    factors_.resize(static_cast<std::size_t>(step.at(padded_.rows(), step.firstColumn)), 0.0F);
+    for (int y = -step.dy; y < padded_.rows(); ++y) {
+      for (int x = step.firstColumn; x < padded_.columns() + std::max(0, -step.dx); ++x) {
+        int count = 0;
         for (int dy = -patchRadius_; dy <= patchRadius_; ++dy) {
           for (int dx = -patchRadius_; dx <= patchRadius_; ++dx) {
             const int i = padded_.at(y + dy, x + dx);
-            count += on_[static_cast<std::size_t>(i)] * on_[static_cast<std::size_t>(i + step)];
+            if (on_[static_cast<std::size_t>(i)] *
+                    on_[static_cast<std::size_t>(i + step.inPadded)] >
+                0.0F)
+              ++count;
           }
         }
-        result[static_cast<std::size_t>(padded_.at(y, x))] = count > 0.0F ? 1.0F / count : 0.0F;
+        if (count > 0)
+          factors_[static_cast<std::size_t>(step.at(y, x))] = static_cast<float>(factor / count);
       }
     }
-    return result;
   }
 
   PaddedMatrix padded_;
+  PairWeights weights_;
   int patchRadius_ = 0;
-  float factor_ = 0.0F;
   std::vector<float> on_;
   std::vector<float> squared_;
-  std::vector<float> sum_;
-  std::vector<float> total_;
-  std::vector<Offset> offsets_;
+  std::vector<float> rowSums_;  // of the squares, over the columns of a patch
+  std::vector<float> factors_;  // of the exponents, in the memory order of the weights
+  std::vector<float> out_;
 };
 
 }  // namespace

@@ -143,7 +143,7 @@ Json recipeJson(const Recipe& recipe) {
       .set("version", kVersion)
       .set("made_by", "palpate " PALPATE_VERSION)
       .set("name", recipe.name)
-      .set("steps", steps);
+      .set("steps", std::move(steps));
 }
 
 Recipe recipeFromJson(const Json& json) {

@@ -22,7 +22,7 @@ void setLinkFields(Json& fields, const LinkHealth& health) {
   fields.set("bad_checksums", static_cast<std::int64_t>(health.badChecksums));
   Json alarms = Json::array();
   for (const Alarm& alarm : health.alarms) alarms.push(alarm.text);
-  fields.set("alarms", alarms);
+  fields.set("alarms", std::move(alarms));
 }
 
 void setRecorderFields(Json& fields, const RecorderStatus& recorder) {
@@ -43,7 +43,7 @@ RemoteAnswer stopAnswer(const RecordingReport& report) {
   answer.message = report.message;
   Json files = Json::array();
   for (const auto& path : report.paths) files.push(path.string());
-  answer.fields.set("files", files)
+  answer.fields.set("files", std::move(files))
       .set("frames", report.frames)
       .set("angles", report.angles)
       .set("temperatures", report.temperatures)

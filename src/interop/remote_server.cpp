@@ -224,7 +224,7 @@ struct RemoteServer::Impl {
     Json verbs = Json::array();
     for (const RemoteServerVerb verb : allRemoteVerbs()) verbs.push(nameOf(verb));
     RemoteAnswer answer;
-    answer.fields.set("requests", verbs).set("protocol", 1);
+    answer.fields.set("requests", std::move(verbs)).set("protocol", 1);
     return answer;
   }
 

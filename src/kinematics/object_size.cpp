@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 #include "palpate/core/error.h"
 #include "palpate/core/progress.h"
@@ -181,10 +182,10 @@ void conclude(const ObjectSizeOptions& options, ObjectSizeReport& report) {
   report.startFrame = start->frame;
   report.startMm = start->distanceMm;
   report.plateauFrames = distances.size();
-  report.plateauMm = median(distances);
-  report.spherePlateauMm = median(spheres);
+  report.plateauMm = median(std::move(distances));
+  report.spherePlateauMm = median(std::move(spheres));
   report.shrinkMm = report.startMm - report.plateauMm;
-  const double plateauFoamMm = median(foams);
+  const double plateauFoamMm = median(std::move(foams));
   report.foamMm = plateauFoamMm - start->foamMm;
   report.compressionMm = report.shrinkMm - report.foamMm;
   report.compressionSdMm = std::hypot(options.foamRelativeSd * report.foamMm,

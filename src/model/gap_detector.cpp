@@ -27,7 +27,7 @@ bool GapDetector::afterGap(std::int64_t stampUs) {
   if (!second) return false;
   // The median is computed only when the interval is long enough to be a gap.
   const bool gap = intervalUs > kShortestGapUs && !intervalsUs_.empty() &&
-                   intervalUs > kGapIntervals * medianIntervalUs();
+                   intervalUs > gapThresholdUs(medianIntervalUs());
   intervalsUs_.push_back(intervalUs);
   if (intervalsUs_.size() > kIntervals) intervalsUs_.pop_front();
   return gap;

@@ -29,8 +29,7 @@ Json jsonOf(const std::vector<ModelInput>& inputs) {
 }
 
 std::vector<ModelInput> inputsFrom(const Json& json, std::string_view key) {
-  const Json list = js::member(json, key);
-  if (!list.isArray()) throw Error("model: '" + std::string(key) + "' isn't a list");
+  const Json list = js::list(json, key);
   std::vector<ModelInput> inputs;
   for (std::size_t i = 0; i < list.size(); ++i) {
     const Json one = list.at(i);

@@ -21,16 +21,8 @@ Json componentJson(const StudentTComponent& distribution) {
       .set("scatter", js::of(distribution.scatter));
 }
 
-Eigen::MatrixXd squareIn(const Json& json, std::string_view key) {
-  const Json rows = js::member(json, key);
-  if (!rows.isArray() || rows.size() == 0)
-    throw Error("model: '" + std::string(key) + "' is no matrix");
-  const auto size = static_cast<Eigen::Index>(rows.size());
-  return js::matrix(json, key, size, size);
-}
-
 StudentTComponent componentFrom(const Json& json) {
-  return {js::vector(json, "mean"), squareIn(json, "scatter")};
+  return {js::vector(json, "mean"), js::squareMatrix(json, "scatter")};
 }
 
 }  // namespace
@@ -50,8 +42,8 @@ Json sessionAdaptiveJson(const SessionAdaptiveClassifier& model) {
   if (data.sizeColumn) out.set("size_column", *data.sizeColumn);
   out.set("degrees_of_freedom", data.degreesOfFreedom);
   out.set("new_scatter", data.fewShotScatterScale).set("seen_today", data.seenInSessionLogPrior);
-  out.set("bells", classComponents).set("pooled", js::of(data.pooled));
-  out.set("background", componentJson(data.background)).set("today", today);
+  out.set("bells", std::move(classComponents)).set("pooled", js::of(data.pooled));
+  out.set("background", componentJson(data.background)).set("today", std::move(today));
   return out;
 }
 
@@ -65,11 +57,9 @@ SessionAdaptiveClassifier sessionAdaptiveFrom(const Json& json) {
   data.degreesOfFreedom = js::number(json, "degrees_of_freedom");
   data.fewShotScatterScale = js::number(json, "new_scatter");
   data.seenInSessionLogPrior = js::number(json, "seen_today");
-  data.pooled = squareIn(json, "pooled");
+  data.pooled = js::squareMatrix(json, "pooled");
   data.background = componentFrom(js::member(json, "background"));
-  const Json classComponents = js::member(json, "bells"), today = js::member(json, "today");
-  if (!classComponents.isArray() || !today.isArray())
-    throw Error("a damaged model: 'bells' or 'today' is no list");
+  const Json classComponents = js::list(json, "bells"), today = js::list(json, "today");
   for (std::size_t i = 0; i < classComponents.size(); ++i)
     data.classComponents.push_back(componentFrom(classComponents.at(i)));
   for (std::size_t i = 0; i < today.size(); ++i) {
@@ -87,10 +77,8 @@ Json sessionOffsetJson(const SessionOffset& offset) {
   out.set("mm", offset.mm).set("sd_mm", offset.sdMm);
   out.set("origin", offsetSourceName(offset.origin));
   out.set("grasps", offset.grasps).set("objects", offset.objects).set("trusted", offset.trusted);
-  Json grid = Json::array(), probability = Json::array();
-  for (const double mm : offset.gridMm) grid.push(mm);
-  for (const double p : offset.probability) probability.push(p);
-  return out.set("grid_mm", grid).set("probability", probability);
+  out.set("grid_mm", jsonList(offset.gridMm)).set("probability", jsonList(offset.probability));
+  return out;
 }
 
 SessionOffset sessionOffsetFrom(const Json& json) {
@@ -109,7 +97,7 @@ SessionOffset sessionOffsetFrom(const Json& json) {
       out.origin = one;
       known = true;
     }
-  if (!known) throw Error("a damaged model: an offset of origin '" + origin + "'");
+  if (!known) js::refuse("origin", "isn't known to this version: '" + origin + "'");
   out.grasps = js::count(json, "grasps");
   out.objects = js::count(json, "objects");
   out.trusted = js::flag(json, "trusted");
@@ -117,7 +105,7 @@ SessionOffset sessionOffsetFrom(const Json& json) {
   const Eigen::VectorXd probability = js::vector(json, "probability");
   if (grid.size() == 0 || grid.size() != probability.size() || !(probability.minCoeff() >= 0.0) ||
       !(std::abs(probability.sum() - 1.0) < 1e-6))
-    throw Error("a damaged model: the distribution of the offset");
+    js::refuse("probability", "isn't a distribution over 'grid_mm'");
   out.gridMm.assign(grid.begin(), grid.end());
   out.probability.assign(probability.begin(), probability.end());
   return out;

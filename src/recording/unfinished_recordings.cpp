@@ -1,7 +1,6 @@
 #include "palpate/recording/unfinished_recordings.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cstdint>
 #include <optional>
 #include <set>
@@ -15,6 +14,8 @@
 #include "palpate/core/byte_order.h"
 #include "palpate/core/error.h"
 #include "palpate/core/escaped_line.h"
+#include "palpate/core/file_name.h"
+#include "palpate/core/progress.h"
 #include "palpate/core/text_file.h"
 #include "palpate/recording/palpate_schema.h"
 
@@ -30,11 +31,7 @@ constexpr std::string_view kRecovered = "_recovered";
 constexpr std::size_t kMostStem = 220;
 
 bool isRecordingName(std::string_view name) {
-  if (name.size() <= kEnding.size() || name.front() == '.') return false;
-  const std::string_view ending = name.substr(name.size() - kEnding.size());
-  return std::equal(ending.begin(), ending.end(), kEnding.begin(), [](unsigned char a, char b) {
-    return std::tolower(a) == b;
-  });
+  return !name.starts_with('.') && lowerEndingOf(name) == kEnding;
 }
 
 // "NAME_recovered" of NAME.palpate.
@@ -128,9 +125,9 @@ std::set<std::string> listed(const fs::path& folder) {
 std::vector<UnfinishedRecording> findUnfinished(const fs::path& folder, const Progress& progress) {
   const std::set<std::string> names = listed(folder);
   std::vector<UnfinishedRecording> found;
-  double seen = 0.0;
+  std::size_t seen = 0;
   for (const std::string& name : names) {
-    if (progress && !progress(seen++ / static_cast<double>(names.size()))) throw Cancelled();
+    reportProgress(progress, seen++, names.size());
     if (!isRecordingName(name) || wasRecovered(name, names)) continue;
     const fs::path path = folder / name;
     const auto facts = regularFile(path);

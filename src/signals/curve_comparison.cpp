@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
 #include "palpate/core/statistics.h"
@@ -26,7 +27,7 @@ double medianInterval(const Series& series) {
   std::vector<double> intervals(series.timeS.size() - 1);
   for (std::size_t i = 0; i < intervals.size(); ++i)
     intervals[i] = series.timeS[i + 1] - series.timeS[i];
-  return upperMedian(intervals);
+  return upperMedian(std::move(intervals));
 }
 
 // Reads a curve at ascending times.
@@ -90,8 +91,7 @@ struct Moments {
 }  // namespace
 
 double gapFromS(const TimingReport& timing) {
-  return timing.rateHz > 0.0 ? std::max(kShortestGapS, kGapIntervals / timing.rateHz)
-                             : kShortestGapS;
+  return gapThresholdS(timing.rateHz > 0.0 ? 1.0 / timing.rateHz : 0.0);
 }
 
 CurveComparison compareCurves(const Series& a,

@@ -5,6 +5,7 @@
 #include <numbers>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "palpate/core/error.h"
 #include "palpate/core/statistics.h"
@@ -64,7 +65,7 @@ void addStretch(Plan& plan, std::size_t begin, std::size_t end, GridRate gridRat
     } else {
       std::vector<double> intervals;
       for (std::size_t i = begin + 1; i < end; ++i) intervals.push_back(timeS[i] - timeS[i - 1]);
-      stretch.rateHz = 1.0 / median(intervals);
+      stretch.rateHz = 1.0 / median(std::move(intervals));
       stretch.gridSamples =
           static_cast<std::size_t>(std::floor(durationS * stretch.rateHz + kRounding)) + 1;
     }

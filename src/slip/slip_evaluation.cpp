@@ -64,7 +64,7 @@ double medianIntervalUs(const Profile& profile) {
   std::vector<std::int64_t> intervals;
   for (std::size_t i = 1; i < profile.numFrames(); ++i)
     intervals.push_back(profile.frameTimeUs(i) - profile.frameTimeUs(i - 1));
-  return intervals.empty() ? 0.0 : static_cast<double>(upperMedian(intervals));
+  return intervals.empty() ? 0.0 : static_cast<double>(upperMedian(std::move(intervals)));
 }
 
 // Rule without hypotheses: raises an alarm when a value is above its threshold in two frames in a

@@ -1,12 +1,18 @@
 #include "palpate/core/json.h"
 
 #include <cmath>
+#include <cstdint>
+#include <limits>
 #include <set>
+#include <span>
 #include <string>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "palpate/core/error.h"
 
+#include "testing/counted_allocations.h"
 #include "testing/testing.h"
 
 namespace palpate::json_test {
@@ -111,6 +117,48 @@ TEST(Json, AListIsMadeOfWhateverHoldsItems) {
   EXPECT_EQ(jsonList(std::vector<int>{}).text(-1), "[]");
   const auto doubled = [](int number) { return 2 * number; };
   EXPECT_EQ(jsonList(std::set<int>{3, 1}, doubled).text(-1), "[2,6]");
+}
+
+// 2^53 + 1 is no double; JSON has no NaN and no infinity.
+TEST(Json, AListOfNumbersIsWrittenAsTheNumbersOneByOne) {
+  const std::vector<std::int64_t> whole = {1, -2, 9007199254740993};
+  EXPECT_EQ(Json::array(whole).text(-1), "[1,-2,9007199254740993]");
+  EXPECT_EQ(jsonList(whole).text(-1), "[1,-2,9007199254740993]");
+  const std::vector<double> real = {0.1, 4.0, -std::numeric_limits<double>::infinity(), 1e300};
+  EXPECT_EQ(Json::array(real).text(-1), "[0.1,4.0,null,1e+300]");
+  EXPECT_EQ(jsonList(real, [](double value) { return -value; }).text(-1),
+            "[-0.1,-4.0,null,-1e+300]");
+  EXPECT_EQ(jsonList(std::vector<float>{0.5F, std::nanf("")}).text(-1), "[0.5,null]");
+  EXPECT_EQ(jsonList(std::vector<bool>{true, false}).text(-1), "[true,false]");
+  EXPECT_EQ(Json::array(std::span<const double>()).text(-1), "[]");
+  EXPECT_EQ(Json::array(real).push("x").text(-1), R"([0.1,4.0,null,1e+300,"x"])");
+}
+
+TEST(Json, AListOfNumbersTakesNoAllocationPerNumber) {
+  const std::vector<double> real(1000, 0.5);
+  const std::vector<int> whole(1000, 7);
+  testing::countAllocations();
+  const Json one = jsonList(real), other = jsonList(whole);
+  EXPECT_LE(testing::allocationsCounted(), 20);
+  EXPECT_EQ(one.size() + other.size(), 2000u);
+}
+
+// A copy of the texts would take an allocation for each.
+TEST(Json, AChainThatBeginsWithATemporaryIsNotCopied) {
+  static_assert(std::is_same_v<decltype(Json().set("key", 1)), Json&&>);
+  static_assert(std::is_same_v<decltype(Json().push(1)), Json&&>);
+  Json texts = jsonList(std::vector<std::string>(1000, "longer than a short string is"));
+  testing::countAllocations();
+  const auto made = [&] { return Json::object().set("n", 1).set("texts", std::move(texts)); };
+  const Json object = made();
+  const Json list = Json::array().push(Json::object().set("object", made())).push(2);
+  EXPECT_LE(testing::allocationsCounted(), 60);
+  EXPECT_EQ(object.at("texts").size(), 1000u);
+  EXPECT_EQ(list.text(-1), R"([{"object":{"n":1,"texts":null}},2])");
+  Json named = Json::array().push(1);
+  const Json taken = std::move(named).push(2);
+  EXPECT_TRUE(named.isNull());  // NOLINT(bugprone-use-after-move)
+  EXPECT_EQ(taken.text(-1), "[1,2]");
 }
 
 // Escapes as RFC 8259, section 7, has them: U+1D11E as a surrogate pair.

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <deque>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "testing/testing.h"
@@ -46,7 +47,27 @@ TEST(Statistics, TakesAPartOfAnArrayAndLeavesTheRest) {
   EXPECT_EQ(values[4], -7);
   EXPECT_EQ(values[5], 99);
   std::deque<float> queue = {0.5F, 0.25F, 8.0F};
-  EXPECT_EQ(upperMedian(queue), 0.5F);
+  EXPECT_EQ(upperMedian(std::move(queue)), 0.5F);
+}
+
+template <typename Values>
+constexpr bool kTakes = requires(Values&& values) {
+  upperMedian(std::forward<Values>(values));
+};
+template <typename Values>
+constexpr bool kTakesForMedian = requires(Values&& values) {
+  median(std::forward<Values>(values));
+};
+
+// They reorder what they are given: a container must be handed over or copied, a view may be named.
+TEST(Statistics, TheMedianReordersNoNamedContainer) {
+  static_assert(kTakes<std::vector<double>> && kTakesForMedian<std::vector<double>>);
+  static_assert(!kTakes<std::vector<double>&> && !kTakesForMedian<std::vector<double>&>);
+  static_assert(!kTakes<std::deque<float>&> && !kTakes<std::array<int, 3>&>);
+  static_assert(kTakes<std::span<double>&> && kTakesForMedian<std::span<double>&>);
+  std::vector<double> values = {3.0, 1.0, 2.0, 0.0};
+  std::span<double> view(values);
+  EXPECT_EQ(median(view), 1.5);
 }
 
 }  // namespace

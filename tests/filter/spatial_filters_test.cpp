@@ -232,11 +232,27 @@ double nonLocal(const Around& around, int patch, int search, double h) {
   });
 }
 
+double bilateral(const Around& around, int radius, double sigmaValue, double sigmaSpace) {
+  bool on = false;
+  const double own = static_cast<double>(around(0, 0, on));
+  return weightedMean(around, radius, [&](int dy, int dx, float value) {
+    const int squared = dy * dy + dx * dx;
+    if (squared > radius * radius) return 0.0;
+    const double difference = static_cast<double>(value) - own;
+    return std::exp(-squared / (2 * sigmaSpace * sigmaSpace) -
+                    difference * difference / (2 * sigmaValue * sigmaValue));
+  });
+}
+
 TEST(SpatialFilters, MaskedTaxelsAreNeitherReadNorWritten) {
   // The fingertips have two corners cut off; besides, a third of the taxels is switched off.
   std::vector<MatrixLayout> matrices = sdh2().layout->matrices();
   std::mt19937 random(7);
   for (std::uint8_t& scanned : matrices[3].dynamicMask) scanned = random() % 3 != 0;
+  // Smaller than a window, and as wide as one block of eight taxels, or a little wider.
+  for (const auto& [rows, columns] : {std::pair(1, 1), {1, 9}, {9, 1}, {3, 8}, {5, 17}, {4, 15}})
+    matrices.push_back(MatrixLayout::full(rows, columns, 3.4));
+  for (std::uint8_t& scanned : matrices.back().dynamicMask) scanned = random() % 3 != 0;
   const auto layout = std::make_shared<const SensorLayout>(matrices);
   const std::vector<std::pair<const char*, Textbook>> cases = {
       {"box", [](auto& a) { return weightedMean(a, 1, [](int, int, float) { return 1.0; }); }},
@@ -250,18 +266,14 @@ TEST(SpatialFilters, MaskedTaxelsAreNeitherReadNorWritten) {
        }},
       {"median", [](auto& a) { return lowerMiddle(a, 1); }},
       {"median:size=5", [](auto& a) { return lowerMiddle(a, 2); }},
+      {"bilateral:diameter=3,sigma_value=900,sigma_space=2",
+       [](auto& a) { return bilateral(a, 1, 900, 2); }},
       {"bilateral:diameter=5,sigma_value=700,sigma_space=1.5",
-       [](auto& a) {
-         bool on = false;
-         const double own = static_cast<double>(a(0, 0, on));
-         return weightedMean(a, 2, [own](int dy, int dx, float value) {
-           if (dy * dy + dx * dx > 4) return 0.0;
-           const double difference = static_cast<double>(value) - own;
-           return std::exp(-(dy * dy + dx * dx) / (2 * 1.5 * 1.5) -
-                           difference * difference / (2 * 700.0 * 700.0));
-         });
-       }},
+       [](auto& a) { return bilateral(a, 2, 700, 1.5); }},
+      {"bilateral:diameter=9,sigma_value=2000,sigma_space=4",
+       [](auto& a) { return bilateral(a, 4, 2000, 4); }},
       {"nlm:patch=3,search=5,h=900", [](auto& a) { return nonLocal(a, 1, 2, 900); }},
+      {"nlm:patch=3,search=9,h=1500", [](auto& a) { return nonLocal(a, 1, 4, 1500); }},
       {"nlm:patch=5,search=3,h=2000", [](auto& a) { return nonLocal(a, 2, 1, 2000); }},
   };
   for (const auto& [text, textbook] : cases) {

@@ -168,6 +168,28 @@ TEST(SessionAdaptiveClassifier, TravelsThroughAFile) {
             model.logLikelihoods(VectorXd{{3.0, 1.0}}, 0.0));
 }
 
+// Whatever is wrong with it: the message begins alike and names the member.
+TEST(SessionAdaptiveClassifier, TheMessageNamesTheDamagedMember) {
+  const auto saidOf = [](const std::string& key, Json value) {
+    try {
+      sessionAdaptiveFrom(Json(sessionAdaptiveJson(squareModel())).set(key, std::move(value)));
+    } catch (const Error& error) {
+      return std::string(error.what());
+    }
+    return std::string("nothing");
+  };
+  EXPECT_EQ(saidOf("bells", "x"), "model: 'bells' isn't a list");
+  EXPECT_EQ(saidOf("today", 1), "model: 'today' isn't a list");
+  EXPECT_EQ(saidOf("pooled", Json()), "model: 'pooled' isn't a list");
+  EXPECT_EQ(saidOf("pooled", Json::array()), "model: 'pooled' has no rows");
+  EXPECT_EQ(saidOf("pooled", Json::parse("[[1, 0], 1]")),
+            "model: 'pooled' has a row that isn't a list");
+  EXPECT_EQ(saidOf("pooled", Json::parse("[[1, 0], [0]]")),
+            "model: 'pooled' has 1 entries instead of 2");
+  EXPECT_EQ(saidOf("background", Json::object().set("mean", Json::array().push(1.0))),
+            "model: 'scatter' is missing");
+}
+
 TEST(SessionAdaptiveClassifier, ADamagedFileIsSaid) {
   const Json good = sessionAdaptiveJson(squareModel());
   for (const std::string& key : good.keys()) {

@@ -218,6 +218,12 @@ TEST(SessionOffset, TravelsThroughAFile) {
   const Json good = sessionOffsetJson(offset);
   for (const std::string& key : good.keys())
     EXPECT_THROW(sessionOffsetFrom(Json(good).set(key, Json("x"))), Error) << key;
+  try {
+    sessionOffsetFrom(Json(good).set("origin", "x"));
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_STREQ(error.what(), "model: 'origin' isn't known to this version: 'x'");
+  }
 }
 
 TEST(SessionOffset, WrongQuestionsAreRefused) {

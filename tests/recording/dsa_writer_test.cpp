@@ -100,7 +100,12 @@ TEST(DsaWriter, replacesAFileOnlyWhenAskedAndLeavesItWholeWhenCancelled) {
       Cancelled);
   EXPECT_EQ(testing::readFile(folder / "a.dsa"), "mine");
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 1);
-  writeDsa(profile, folder / "a.dsa", Overwrite::kReplace);
+  std::vector<double> told;
+  writeDsa(profile, folder / "a.dsa", Overwrite::kReplace, [&](double fraction) {
+    told.push_back(fraction);
+    return true;
+  });
+  EXPECT_EQ(told, (std::vector{0.0, 256.0 / 601.0, 512.0 / 601.0}));  // of 300 + 300 + 1 samples
   expectSameData(readDsa(folder / "a.dsa"), profile);
 }
 

@@ -4,6 +4,7 @@
 
 #include <sys/resource.h>
 
+#include "palpate/recording/palpate_recovery.h"
 #include "palpate/recording/palpate_schema.h"
 
 namespace palpate::palpate_damage_test {
@@ -50,6 +51,50 @@ TEST(PalpateDamage, flippedValuesOfTheSummaryAreNoticedAndRebuilt) {
   EXPECT_NE(report.message.find("1 damaged row"), std::string::npos) << report.message;
   recoverRecording(folder / "a.palpate", folder / "b.palpate");
   EXPECT_EQ(verifyRecording(folder / "b.palpate").state, VerifyReport::State::kSound);
+}
+
+// SQLite stores an integer in 1, 2, 3, 4, 6 or 8 bytes, the smallest that hold it (its file format,
+// section 2.1). The deleted row is still on its page.
+TEST(PalpateDamage, aBlockThatSqliteNoLongerReachesKeepsItsTimesOfAnySize) {
+  for (const std::int64_t stampUs : {0LL,
+                                     1LL,
+                                     5LL,
+                                     300LL,
+                                     100'000LL,
+                                     100'000'000LL,
+                                     1'000'000'000'000LL,
+                                     1LL << 59,
+                                     -1LL,
+                                     -5LL,
+                                     -128LL,
+                                     -129LL,
+                                     -300LL,
+                                     -100'000LL,
+                                     -100'000'000LL,
+                                     -1'000'000'000'000LL,
+                                     -(1LL << 59)}) {
+    const TemporaryFolder folder;
+    const fs::path path = folder / "a.palpate";
+    {
+      PalpateWriterOptions options;
+      options.synced = false;
+      PalpateWriter writer(path, sdh2().layout, {}, options);
+      TactileFrame frame(sdh2().layout);
+      frame.hostUs = stampUs;
+      writer.addFrame(frame);
+      writer.finish();
+    }
+    sqlite3* db = nullptr;
+    ASSERT_EQ(sqlite3_open(path.c_str(), &db), SQLITE_OK);
+    EXPECT_EQ(
+        sqlite3_exec(db, "PRAGMA secure_delete=OFF;DELETE FROM block", nullptr, nullptr, nullptr),
+        SQLITE_OK);
+    sqlite3_close(db);
+    const PalpateRecovery recovery = recoverPalpateProfile(path);
+    EXPECT_EQ(recovery.blocksFromPages, 1u) << stampUs;
+    ASSERT_TRUE(recovery.profile && recovery.frames == 1) << stampUs;
+    EXPECT_EQ(recovery.profile->frameTimeUs(0), stampUs);
+  }
 }
 
 // What an attacker writes with SQL into a sound recording. %: a block whose checksum is made right.

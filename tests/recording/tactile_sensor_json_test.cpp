@@ -8,6 +8,7 @@
 #include "palpate/model/profile_builder.h"
 #include "palpate/recording/recording.h"
 
+#include "testing/counted_allocations.h"
 #include "testing/testing.h"
 
 namespace palpate::tactile_sensor_json_test {
@@ -69,6 +70,15 @@ TEST(TactileSensorJson, NanosecondsCountUpwardsBefore1970) {
   const Json stamp = parsed(frame).at("header").at("stamp");
   EXPECT_EQ(stamp.at("secs").asInteger(), -1);
   EXPECT_EQ(stamp.at("nsecs").asInteger(), 999'999'000);
+}
+
+// A live stream writes a line per frame, of 486 taxels.
+TEST(TactileSensorJson, TakesNoAllocationPerTaxel) {
+  const TactileFrame frame(sdh2().layout);
+  std::string text;
+  testing::countAllocations();
+  appendTactileSensorJson(text, frame, 0);
+  EXPECT_LE(testing::allocationsCounted(), 300);
 }
 
 TEST(TactileSensorLines, HoldEveryFrameOfARecording) {

@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "counted_allocations.h"
 #include "slip_scene.h"
+#include "testing/counted_allocations.h"
 #include "testing/testing.h"
 
 namespace palpate::slip_tracker_test {

@@ -1,8 +1,7 @@
 #include "commands/demo_run.h"
 
 #include <algorithm>
-#include <fstream>
-#include <iterator>
+#include <cstdint>
 #include <optional>
 #include <system_error>
 #include <utility>
@@ -10,6 +9,7 @@
 #include "palpate/core/error.h"
 #include "palpate/core/number_text.h"
 #include "palpate/core/output_file.h"
+#include "palpate/core/text_file.h"
 #include "palpate/core/time.h"
 #include "palpate/emulator/truth.h"
 #include "palpate/model/timing.h"
@@ -67,8 +67,9 @@ void writeDemoFile(const fs::path& path, const std::string& text) {
 
 // The content of a file; empty when it does not exist.
 std::string bytesOfDemoFile(const fs::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
+  constexpr std::uint64_t kMostBytes = 64U << 20;
+  std::error_code failure;
+  return fs::exists(path, failure) ? readTextFile(path, kMostBytes) : std::string();
 }
 
 }  // namespace

@@ -132,7 +132,7 @@ Json demoSlipJson(const DemoSlip& slip, double pitchMm) {
                            .set("ended_ms", slip.motion.endedUs / kUsPerMs))
                   .set("seen", slip.alarm.has_value())
                   .set("false_alarms_before", slip.early)
-                  .set("matrices", matrices);
+                  .set("matrices", std::move(matrices));
   if (!slip.alarm) return json;
   const DemoAlarm& alarm = *slip.alarm;
   return json.set("alarm",

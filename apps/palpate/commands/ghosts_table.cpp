@@ -186,12 +186,13 @@ Json ghostJson(const Recipe& recipe,
       .set("frames_with_false", bothJson(report.framesWithFalse));
   Json matrices = Json::array();
   for (const MatrixGhosting& matrix : report.matrices) matrices.push(matrixJson(matrix));
-  json.set("matrices", matrices);
+  json.set("matrices", std::move(matrices));
   if (!emulated) return json;
   Json contacts = Json::array();
   for (const ContactGhosting& contact : report.contacts)
     contacts.push(contactJson(source, contact));
-  return json.set("contact_list", contacts);
+  json.set("contact_list", std::move(contacts));
+  return json;
 }
 
 }  // namespace palpate::commands

@@ -3,12 +3,17 @@
 // deterministic.
 #pragma once
 
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
+#include <iterator>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace palpate {
@@ -33,6 +38,9 @@ class Json {
 
   static Json object();
   static Json array();
+  // Arrays of numbers. They take one allocation, where push() of each number takes two per number.
+  static Json array(std::span<const std::int64_t> values);
+  static Json array(std::span<const double> values);  // NaN and infinities become null
   // Throws palpate::Error with line and column when `text` is not one JSON value, or is nested more
   // than 512 levels deep.
   static Json parse(std::string_view text);
@@ -59,9 +67,12 @@ class Json {
   Json at(std::string_view key) const;
   Json at(std::size_t index) const;  // throws std::out_of_range
 
-  // Building: a null value becomes an object or an array. Returns *this for chaining.
-  Json& set(std::string_view key, Json value);
-  Json& push(Json value);
+  // Building: a null value becomes an object or an array. Returns *this for chaining. A chain that
+  // begins with a temporary value stays temporary, so that what is made of it is moved, not copied.
+  Json& set(std::string_view key, Json value) &;
+  Json& push(Json value) &;
+  Json&& set(std::string_view key, Json value) && { return std::move(set(key, std::move(value))); }
+  Json&& push(Json value) && { return std::move(push(std::move(value))); }
 
   // Returns the text with `indent` blanks per level; with -1 on one line. UTF-8; invalid bytes
   // become U+FFFD.
@@ -79,14 +90,24 @@ class Json {
 // Returns an array with the result of `of` for each item.
 template <typename Items, typename Of>
 Json jsonList(const Items& items, Of of) {
-  Json list = Json::array();
-  for (const auto& item : items) list.push(of(item));
-  return list;
+  using Result = std::decay_t<decltype(of(*std::begin(items)))>;
+  if constexpr (std::is_arithmetic_v<Result> && !std::same_as<Result, bool>) {
+    using Number = std::conditional_t<std::is_integral_v<Result>, std::int64_t, double>;
+    std::vector<Number> numbers;
+    numbers.reserve(static_cast<std::size_t>(std::distance(std::begin(items), std::end(items))));
+    for (const auto& item : items) numbers.push_back(static_cast<Number>(of(item)));
+    return Json::array(numbers);
+  } else {
+    Json list = Json::array();
+    for (const auto& item : items) list.push(of(item));
+    return list;
+  }
 }
 // Returns an array of the items.
 template <typename Items>
 Json jsonList(const Items& items) {
-  return jsonList(items, [](const auto& item) { return Json(item); });
+  return jsonList(
+      items, [](const auto& item) -> const auto& { return item; });
 }
 
 // Converts a number that may be missing to JSON.

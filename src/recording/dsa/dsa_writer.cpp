@@ -14,6 +14,7 @@
 
 #include "palpate/core/error.h"
 #include "palpate/core/number_text.h"
+#include "palpate/core/progress.h"
 #include "palpate/core/time.h"
 #include "palpate/recording/frame_text.h"
 
@@ -240,6 +241,7 @@ class Writer {
   }
 
   void beginSample(std::string_view name, std::size_t index, std::int64_t hostUs) {
+    reportProgress(progress_, done_++, all_, kSamplesPerReport);
     text_.append("    <").append(name).append(" index=\"");
     text_.append(std::to_string(index)).append("\">\n");
     std::int64_t ms = floorMs(hostUs);
@@ -253,9 +255,6 @@ class Writer {
   void endSample(std::string_view name) {
     text_.append("    </").append(name).append(">\n");
     if (text_.size() >= kTextBytes) output_.write(text_);
-    if (++done_ % kSamplesPerReport == 0 && progress_ &&
-        !progress_(static_cast<double>(done_) / static_cast<double>(all_)))
-      throw Cancelled();
   }
 
   const Profile& profile_;

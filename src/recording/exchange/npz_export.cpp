@@ -294,7 +294,7 @@ std::string metaText(const Profile& profile, std::span<const RecordingEvent> eve
       .set("serial", profile.info().serial)
       .set("firmware", profile.info().firmware)
       .set("value_type", profile.info().valueType == ValueType::kCounts ? "counts" : "float")
-      .set("pitch_mm", pitches)
+      .set("pitch_mm", std::move(pitches))
       .set("events", eventsToJson(events));
   return meta.asciiText();
 }

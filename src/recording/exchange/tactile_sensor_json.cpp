@@ -26,9 +26,9 @@ Json matrixJson(const TactileFrame& frame, std::size_t m) {
       .set("matrix_id", m)
       .set("cells_x", frame.layout->matrix(m).columns)
       .set("cells_y", frame.layout->matrix(m).rows)
-      .set("tactile_array",
-           jsonList(std::span(values.data(), static_cast<std::size_t>(values.size())),
-                    [](float value) { return Json(wholeCounts(value)); }));
+      .set(
+          "tactile_array",
+          jsonList(std::span(values.data(), static_cast<std::size_t>(values.size())), wholeCounts));
 }
 
 }  // namespace
@@ -42,12 +42,15 @@ void appendTactileSensorJson(std::string& out, const TactileFrame& frame, std::u
   }
   Json matrices = Json::array();
   for (std::size_t m = 0; m < frame.layout->numMatrices(); ++m) matrices.push(matrixJson(frame, m));
-  const Json stamp = Json::object().set("secs", seconds).set("nsecs", restUs * kNsPerUs);
-  const Json header = Json::object()
-                          .set("seq", static_cast<std::int64_t>(sequence))
-                          .set("stamp", stamp)
-                          .set("frame_id", "sdh");
-  out += Json::object().set("header", header).set("tactile_matrix", std::move(matrices)).text(-1);
+  Json stamp = Json::object().set("secs", seconds).set("nsecs", restUs * kNsPerUs);
+  Json header = Json::object()
+                    .set("seq", static_cast<std::int64_t>(sequence))
+                    .set("stamp", std::move(stamp))
+                    .set("frame_id", "sdh");
+  out += Json::object()
+             .set("header", std::move(header))
+             .set("tactile_matrix", std::move(matrices))
+             .text(-1);
 }
 
 void writeTactileSensorLines(const Profile& profile,

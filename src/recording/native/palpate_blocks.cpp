@@ -1,11 +1,10 @@
 // Blocks and checksums of a native recording: palpate_blocks.h and palpate_schema.h.
 #include "palpate/recording/palpate_blocks.h"
 
-#include <array>
 #include <bit>
 #include <cmath>
-#include <cstring>
 #include <limits>
+#include <string>
 
 #include <zlib.h>
 
@@ -17,16 +16,15 @@
 namespace palpate {
 namespace {
 
-std::array<unsigned char, 8> palpateSchemaLittle(std::uint64_t value) {
-  std::array<unsigned char, 8> bytes{};
-  for (std::size_t i = 0; i < bytes.size(); ++i)
-    bytes[i] = static_cast<unsigned char>(value >> 8 * i);
-  return bytes;
-}
-
 std::uint32_t crcOf(std::uint32_t crc, const void* bytes, std::size_t size) {
   if (size == 0) return crc;  // zlib would start over for a null pointer
   return static_cast<std::uint32_t>(crc32_z(crc, static_cast<const unsigned char*>(bytes), size));
+}
+
+std::uint32_t crcOfNumber(std::uint32_t crc, std::uint64_t value) {
+  std::string bytes;  // short enough for no allocation
+  appendLittleEndian(bytes, value, 8);
+  return crcOf(crc, bytes.data(), bytes.size());
 }
 
 constexpr std::int64_t kNoDeviceTime = std::numeric_limits<std::int64_t>::min();
@@ -59,14 +57,12 @@ FrameCoding frameCoding(BlockCoding coding) {
 }  // namespace
 
 RowCrc& RowCrc::integer(std::int64_t value) {
-  const auto bytes = palpateSchemaLittle(static_cast<std::uint64_t>(value));
-  crc_ = crcOf(crc_, bytes.data(), bytes.size());
+  crc_ = crcOfNumber(crc_, static_cast<std::uint64_t>(value));
   return *this;
 }
 
 RowCrc& RowCrc::real(double value) {
-  const auto bytes = palpateSchemaLittle(std::bit_cast<std::uint64_t>(value));
-  crc_ = crcOf(crc_, bytes.data(), bytes.size());
+  crc_ = crcOfNumber(crc_, std::bit_cast<std::uint64_t>(value));
   return *this;
 }
 

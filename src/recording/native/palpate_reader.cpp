@@ -1,10 +1,10 @@
 #include "palpate/recording/palpate_reader.h"
 
-#include <algorithm>
 #include <functional>
 #include <optional>
 
 #include "palpate/core/error.h"
+#include "palpate/core/progress.h"
 #include "palpate/recording/palpate_schema.h"
 
 #include "recording/native/palpate_connection.h"
@@ -79,8 +79,7 @@ class PalpateStorage final : public BlockStorage {
         "SELECT stream, first, n, t0_us, t1_us, id FROM block NOT INDEXED WHERE id>? AND id<=?"
         " ORDER BY id LIMIT 4096");
     for (std::int64_t id = 0; id < lastId;) {
-      if (progress && !progress(static_cast<double>(id) / static_cast<double>(lastId)))
-        throw Cancelled();
+      reportProgress(progress, static_cast<std::size_t>(id), static_cast<std::size_t>(lastId));
       const std::int64_t before = id;
       rows.bind(1, id).bind(2, lastId);
       while (rows.next()) {

@@ -15,6 +15,7 @@
 
 #include <unistd.h>
 
+#include "palpate/core/byte_order.h"
 #include "palpate/core/error.h"
 #include "palpate/recording/palpate_blocks.h"
 #include "palpate/recording/palpate_schema.h"
@@ -57,11 +58,11 @@ class Cursor {
     if (type < 1 || type > 6) return std::nullopt;
     const std::size_t size = kSizes[type];
     if (size > bytes_.size() - at_) return std::nullopt;
-    std::uint64_t value = (std::to_integer<unsigned>(bytes_[at_]) & 0x80) != 0 ? ~0ULL : 0;
-    for (std::size_t i = 0; i < size; ++i)
-      value = value << 8 | std::to_integer<std::uint64_t>(bytes_[at_ + i]);
+    const std::size_t unusedBits =
+        64 - 8 * size;  // the shift to the right repeats the sign in them
+    const std::uint64_t shifted = bigEndian(bytes_.subspan(at_, size)) << unusedBits;
     at_ += size;
-    return static_cast<std::int64_t>(value);
+    return static_cast<std::int64_t>(shifted) >> unusedBits;
   }
   std::span<const std::byte> take(std::size_t count) {
     if (count > bytes_.size() - at_) return {};
@@ -112,9 +113,10 @@ std::optional<Block> blockAt(std::span<const std::byte> page, std::size_t at) {
   return block;
 }
 
-// Calls `found` for every record in `page` that looks like a block row and whose checksum is right
-// (a wrong find is a matter of 2^-32). Records on overflow pages are not found: blocks are made to
-// fit.
+// Finds rows of the block table in the raw bytes of an SQLite file, without SQLite: on pages that
+// its b-trees no longer reach, too. Calls `found` for every record in `page` that looks like a
+// block row and whose checksum is right (a wrong find is a matter of 2^-32). Records on overflow
+// pages are not found: blocks are made to fit.
 void scanPage(std::span<const std::byte> page, const std::function<void(Block)>& found) {
   for (std::size_t at = 0; at + kSmallestHeader < page.size(); ++at)
     if (auto block = blockAt(page, at)) found(std::move(*block));

@@ -6,9 +6,6 @@
 #include <stdexcept>
 #include <vector>
 
-#include <fcntl.h>
-#include <unistd.h>
-
 #include "palpate/core/error.h"
 #include "palpate/core/progress.h"
 #include "palpate/recording/palpate_blocks.h"

@@ -64,6 +64,7 @@ TEST(Ffmpeg, ItsLastLineThatSaysSomething) {
             "av_interleaved_write_frame(): No space left on device");
   EXPECT_EQ(lastError("Error writing trailer of /proc/self/fd/3: Disk quota exceeded \r\n"),
             "Error writing trailer of the movie: Disk quota exceeded");
+  EXPECT_EQ(lastError("a\n \t no such encoder\t\r\n"), "no such encoder");
   EXPECT_EQ(lastError(" \n\n"), "");
 }
 

@@ -83,5 +83,43 @@ TEST(OpenedRecording, WithoutASummaryTheLargestValueIsBeingCounted) {
   EXPECT_EQ(matrices.view().look().range.maximum, 200.0);
 }
 
+// `number` frames, `intervalMs` apart, with one pause in the middle.
+Profile withAPause(int number, std::int64_t intervalMs, std::int64_t pauseMs) {
+  std::vector<std::int64_t> stampsMs;
+  std::int64_t ms = 1'400'000'000'000;
+  for (int i = 0; i < number; ++i) {
+    stampsMs.push_back(ms);
+    ms += i == number / 2 ? pauseMs : intervalMs;
+  }
+  return profileWithStamps(stampsMs);
+}
+
+// What the summary tells beforehand agrees with what all time stamps tell.
+TEST(OpenedRecording, GapsOfALongOneAreThoseOfItsTimeStamps) {
+  struct Case {
+    std::int64_t intervalMs, pauseMs;
+    std::size_t gaps;
+  };
+  // A gap is longer than 1 s and than five intervals.
+  for (const auto& [intervalMs, pauseMs, gaps] : {Case{2'000, 2'000, 0},
+                                                  Case{2'000, 9'000, 0},
+                                                  Case{2'000, 30'000, 1},
+                                                  Case{500, 2'200, 0},
+                                                  Case{500, 3'000, 1},
+                                                  Case{50, 2'200, 1}}) {
+    const Profile profile = withAPause(200, intervalMs, pauseMs);
+    const auto recording = makeOpenedRecording("/no/such/file", profile, {}, kAlwaysLong);
+    ASSERT_TRUE(recording->isLong());
+    const TimingReport expected = timingOf(profile);
+    ASSERT_EQ(expected.gaps.size(), gaps);
+    ASSERT_EQ(recording->timing.gaps.size(), gaps) << intervalMs << " ms, pause " << pauseMs;
+    if (gaps > 0) {
+      EXPECT_EQ(recording->timing.gaps[0].frame, 100u);
+      EXPECT_EQ(recording->timing.gaps[0].seconds, static_cast<double>(pauseMs) / 1e3);
+    }
+    EXPECT_NEAR(recording->timing.rateHz, expected.rateHz, 0.1 * expected.rateHz);
+  }
+}
+
 }  // namespace
 }  // namespace palpate::gui::opened_recording_test

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include <palpate/core/error.h>
+#include <palpate/core/escaped_line.h>
 #include <palpate/core/number_text.h>
 
 namespace palpate::gui {
@@ -121,11 +122,9 @@ std::string lastError(const std::string& said) {
   std::string last;
   std::istringstream lines(said);
   for (std::string line; std::getline(lines, line);) {
-    const auto end = line.find_last_not_of(" \t\r");
-    if (end == std::string::npos) continue;
-    line.resize(end + 1);
+    const std::string_view words = trimmed(line, " \t\r");
     // "Conversion failed!" doesn't tell the cause.
-    if (line != "Conversion failed!") last = line;
+    if (!words.empty() && words != "Conversion failed!") last = words;
   }
   // ffmpeg knows the movie only by its descriptor.
   const std::string name = outputName();

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <utility>
 
 #include <palpate/core/error.h>
 #include <palpate/core/progress.h>
@@ -27,6 +29,7 @@ void takeSummary(OpenedRecording& opened, const std::vector<SecondSummary>& seco
   opened.timing.meanRateHz =
       static_cast<double>(profile.numFrames() - 1) / std::max(opened.timing.durationS, 1e-6);
   std::vector<std::int64_t> counts;
+  std::vector<Gap> emptySeconds;
   const SecondSummary* before = nullptr;
   for (const SecondSummary& row : seconds) {
     if (row.matrix < 0 || static_cast<std::size_t>(row.matrix) >= opened.numMatrices()) continue;
@@ -36,16 +39,24 @@ void takeSummary(OpenedRecording& opened, const std::vector<SecondSummary>& seco
     counts.push_back(row.frames);
     if (before && row.tS > before->tS + 1) {
       const std::size_t last = profile.frameAt(row.tS * kWholeS - 1).value_or(0);
-      if (last + 1 < profile.numFrames()) {
-        const double gapS =
-            static_cast<double>(profile.frameTimeUs(last + 1) - profile.frameTimeUs(last)) /
-            kUsPerS;
-        if (gapS > kShortestGapS) opened.timing.gaps.push_back({last, gapS});
-      }
+      if (last + 1 < profile.numFrames())
+        emptySeconds.push_back(
+            {last,
+             static_cast<double>(profile.frameTimeUs(last + 1) - profile.frameTimeUs(last)) /
+                 kUsPerS});
     }
     before = &row;
   }
-  if (!counts.empty()) opened.timing.rateHz = static_cast<double>(upperMedian(counts));
+  if (counts.empty()) return;
+  opened.timing.rateHz = static_cast<double>(upperMedian(std::move(counts)));
+  // Seconds without a frame are not in the summary, so that a rate below 1 Hz would look like 1 Hz.
+  if (opened.timing.rateHz <= 1.0)
+    opened.timing.rateHz = std::min(opened.timing.rateHz, opened.timing.meanRateHz);
+  const double thresholdS = gapThresholdS(1.0 / opened.timing.rateHz);
+  std::copy_if(emptySeconds.begin(),
+               emptySeconds.end(),
+               std::back_inserter(opened.timing.gaps),
+               [&](const Gap& gap) { return gap.seconds > thresholdS; });
 }
 
 // Opens a long recording. A native recording contains a summary; for all other forms, which are
