@@ -381,7 +381,7 @@ StepMinimum searchRobustStep(const StepSamples& samples,
   const auto scaleAt = [&](const Eigen::VectorXd& x) {
     problem.residuals({x.data(), 4}, sizes);
     for (double& size : sizes) size = std::abs(size);
-    return deviations * kSdPerMad * upperMedian(sizes);
+    return deviations * kSdPerMad * upperMedian(std::span(sizes));
   };
   Eigen::VectorXd x(4);
   x << found.parameters.staticResponseCounts, found.parameters.driftCountsPerS, found.at;

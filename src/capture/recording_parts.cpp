@@ -267,6 +267,7 @@ void RecordingParts::updateCounters(RoundTime time) {
     writer_->setCounter(name, value);
     lastCounters_[name] = value;
   }
+  counts_.counters = std::move(counters);
 }
 
 void RecordingParts::round(RoundTime time) {

@@ -381,9 +381,9 @@ Mask DsaController::readMask(int type, std::size_t matrix) {
   return unpackMask(std::span(answer).subspan(2), places);
 }
 
-// Older firmware doesn't know this request; the masks stay unknown then (all on).
+// Older firmware doesn't know this request; the masks stay unknown then (all on). A damaged answer
+// on a working connection is asked for again like any other, because a recording keeps the layout.
 void DsaController::readMasks() {
-  const int tries = std::exchange(options_.tries, 1);
   try {
     for (std::size_t m = 0; m < facts_.matrices.size(); ++m) {
       facts_.matrices[m].layout.staticMask = readMask(0, m);
@@ -391,16 +391,12 @@ void DsaController::readMasks() {
     }
     facts_.masksKnown = true;
   } catch (const DeviceError& error) {
-    if (error.fault() != DeviceFault::kRefused && error.fault() != DeviceFault::kSilent) {
-      options_.tries = tries;
-      throw;
-    }
+    if (error.fault() != DeviceFault::kRefused && error.fault() != DeviceFault::kSilent) throw;
     for (DsaMatrixInfo& matrix : facts_.matrices) {
       matrix.layout.staticMask.assign(matrix.layout.numCells(), 1);
       matrix.layout.dynamicMask.assign(matrix.layout.numCells(), 1);
     }
   }
-  options_.tries = tries;
 }
 
 // --- Settings

@@ -134,8 +134,14 @@ TrainedModel loadModel(const fs::path& path) {
   // The largest one of the study's 36 objects has 0.3 MB.
   constexpr std::uint64_t kMaxBytes = 64u << 20;
   const std::string text = readTextFile(path, kMaxBytes);
+  Json json;
   try {
-    return trainedModelFrom(Json::parse(text));
+    json = Json::parse(text);
+  } catch (const std::exception& error) {
+    throw FormatError(path, std::string("is not a model file: ") + error.what());
+  }
+  try {
+    return trainedModelFrom(json);
   } catch (const std::exception& error) {
     throw FormatError(path, error.what());
   }

@@ -89,7 +89,9 @@ TEST(CaptureSession, notesWhatTheDeviceSaysAboutItselfAndWhatTheLinkCounted) {
   scripted.run(0.5);
   scripted.device->state.tactile.badChecksums = 14;
   scripted.device->state.tactile.lost = 2;
-  scripted.session->stopRecording();
+  const RecordingReport report = scripted.session->stopRecording();
+  EXPECT_EQ(report.counters.at("bad_checksums"), 4);
+  EXPECT_EQ(report.counters.at("lost"), 2);
   const auto meta = readTable(folder / "a.palpate", "SELECT key, value FROM meta");
   EXPECT_EQ(meta.at("operator"), "Ada");
   EXPECT_EQ(meta.at("object"), "cup");

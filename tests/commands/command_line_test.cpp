@@ -61,6 +61,19 @@ TEST(Program, EveryCommandExplainsItselfWithAnExample) {
   }
 }
 
+TEST(Program, HelpOfACommandIsTheCommandsHelp) {
+  const auto result = palpate({"help", "info"});
+  EXPECT_EQ(result.exitCode, 0);
+  EXPECT_EQ(result.out, palpate({"info", "--help"}).out);
+}
+
+TEST(Program, AUsageOfSeveralLinesIsAnErrorOfOneLine) {
+  const auto result = palpate({"evaluate"});
+  EXPECT_EQ(result.exitCode, 2);
+  EXPECT_EQ(result.err.find("\\n"), std::string::npos) << result.err;
+  EXPECT_NE(result.err.find(" | palpate evaluate --model"), std::string::npos) << result.err;
+}
+
 TEST(Program, ListsItsCommandsAndItsVersion) {
   const auto help = palpate({"--help"});
   EXPECT_EQ(help.exitCode, 0);

@@ -168,6 +168,14 @@ TEST_F(DsaControllerTest, MasksAreSetAndReadBack) {
   EXPECT_EQ(controller.facts().matrices[0].layout.dynamicMask, chequer);
 }
 
+// The layout of a recording must not depend on one damaged answer while connecting.
+TEST_F(DsaControllerTest, AMaskWhoseAnswerIsLostIsAskedForAgain) {
+  hand.swallowMasks = 2;
+  const DsaControllerInfo& facts = controller.open();
+  EXPECT_TRUE(facts.masksKnown);
+  EXPECT_EQ(facts.layout(), *sdh2().layout);
+}
+
 TEST_F(DsaControllerTest, OlderFirmwareWithoutMasksOrThresholds) {
   hand.firmware = 218;
   hand.knowsMasks = false;

@@ -16,6 +16,7 @@ class FakeDsa {
   bool knowsMasks = true;
   std::int64_t deafUntilUs = 0;  // it boots until then
   int swallow = 0;               // number of requests without an answer
+  int swallowMasks = 0;          // number of requests for a mask without an answer
   std::int64_t framePeriodUs = 31'500;
   std::int64_t answerUs = 500;
   std::int64_t clockAheadMs = 20'000;  // its clock minus that of the test
@@ -65,6 +66,7 @@ class FakeDsa {
         return acquire(at(6), at(7) | at(8) << 8, line);
       case 0x04: {
         if (!knowsMasks) return answer(bytesOf("0D 00"));
+        if (swallowMasks > 0) return void(--swallowMasks);
         Bytes payload = bytesOf("00 00");
         const Bytes mask = m == 0 ? (at(7) % 2 == 0 ? bytesOf("FFFFFFFFFFFFFFFFFFFF0F")
                                                     : bytesOf("9EE779DEFFFFFFFFFF3F"))

@@ -105,7 +105,7 @@ TEST(DsaWriter, replacesAFileOnlyWhenAskedAndLeavesItWholeWhenCancelled) {
     told.push_back(fraction);
     return true;
   });
-  EXPECT_EQ(told, (std::vector{0.0, 256.0 / 601.0, 512.0 / 601.0}));  // of 300 + 300 + 1 samples
+  EXPECT_EQ(told, (std::vector{0.0, 256.0 / 600.0, 512.0 / 600.0}));  // 300 frames, 300 angles
   expectSameData(readDsa(folder / "a.dsa"), profile);
 }
 

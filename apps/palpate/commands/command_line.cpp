@@ -1,5 +1,6 @@
 #include "commands/command_line.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <cmath>
 #include <cstdio>
@@ -20,6 +21,17 @@ namespace po = boost::program_options;
 namespace {
 
 std::string longName(const std::string& name) { return name.substr(0, name.find(',')); }
+
+// A synopsis of several lines as one line.
+std::string inOneLine(const std::string& synopsis) {
+  std::string line;
+  for (std::size_t at = 0; at < synopsis.size();) {
+    const std::size_t end = std::min(synopsis.find('\n', at), synopsis.size());
+    line += (line.empty() ? "" : " | ") + std::string(trimmed(synopsis.substr(at, end - at)));
+    at = end + 1;
+  }
+  return line;
+}
 
 po::options_description described(const CommandSpec& spec) {
   po::options_description options("Options");
@@ -89,7 +101,7 @@ CommandLine::CommandLine(const CommandSpec& spec, const std::vector<std::string>
     if (word == "-") throw UsageError("'-': a recording is read from a file, not from a stream");
   }
   if (words_.size() < spec.minArguments || words_.size() > spec.maxArguments)
-    throw UsageError("usage: " + spec.synopsis);
+    throw UsageError("usage: " + inOneLine(spec.synopsis));
 }
 
 std::optional<std::string> CommandLine::text(const std::string& option) const {

@@ -75,6 +75,9 @@ void refuseMistypedCommand(const std::string& word) {
 
 int dispatch(const Arguments& words) {
   if (!words.empty()) {
+    if (words[0] == "help" && words.size() == 2)
+      for (const Command& command : allCommands())
+        if (words[1] == command.name) return command.run({"--help"});
     if (words[0] == "--help" || words[0] == "-h" || words[0] == "help") {
       commandsShowHelp();
       return kDone;

@@ -160,8 +160,8 @@ std::string lineText(const RecordingReport& report, const DeviceStatus& device) 
          std::to_string(report.angles) + " angles, " + std::to_string(report.temperatures) +
          " temperatures; " +
          std::to_string(static_cast<std::int64_t>(device.tactile.lost) + report.lost) + " lost, " +
-         std::to_string(badChecksumsOf(device)) + " bad checksums, " + std::to_string(report.gaps) +
-         " gaps";
+         counted(badChecksumsOf(device), "bad checksum") + ", " +
+         counted(static_cast<std::uint64_t>(report.gaps), "gap");
 }
 
 }  // namespace

@@ -238,7 +238,8 @@ int streamCommand(const Arguments& words) {
   const CommandLine given(streamSpec(), words);
   if (given.helpShown()) return kDone;
   if (given.words().empty() != given.has("dsa"))
-    throw UsageError("stream needs --dsa PORT or a recording, not both");
+    throw UsageError(given.has("dsa") ? "give --dsa PORT or a recording, not both"
+                                      : "stream needs --dsa PORT or a recording");
   if (given.has("sdh") && !given.has("dsa")) throw UsageError("--sdh needs --dsa");
   const std::vector<StreamTarget> targets = streamTargetsOf(given, "to");
   return given.has("lines") ? streamLines(given, targets) : streamDatagrams(given, targets);

@@ -74,6 +74,9 @@ struct RecordingReport {
   // Number of items that could not be recorded, because their time is not later than the
   // previous one or a value is not a number.
   std::int64_t refused = 0;
+  // The newest RecordingOptions::counters, as stored in the file: what the connection counted
+  // during the recording (bad_checksums, lost: frames that were sent but not received, ..).
+  std::map<std::string, std::int64_t> counters;
   std::int64_t gaps = 0;           // intervals longer than max(1 s, 5 median intervals)
   std::int64_t writeFailures = 0;  // commits that failed, and were tried again
   double durationS = 0.0;          // first to last frame [s]

@@ -35,6 +35,16 @@ TEST_F(RecordFeatureTest, ThatNothingIsLostIsNotSaidBesideAGap) {
   EXPECT_TRUE(offered().endsWith("1 gap in which no frame came")) << offered().toStdString();
 }
 
+TEST_F(RecordFeatureTest, WhatTheConnectionLostIsSaid) {
+  RecordingReport report;
+  report.paths = {folder_ / "run_001.palpate"};
+  report.frames = 316;
+  report.counters = {{"lost", 6}, {"bad_checksums", 20}, {"motion_bad_checksums", 4}};
+  emit windowState_->live.recordingEnded(report);
+  EXPECT_TRUE(offered().endsWith("6 frames lost on the way from the hand, 24 bad checksums"))
+      << offered().toStdString();
+}
+
 TEST_F(RecordFeatureTest, AWindowThatClosesOffersNothingAnyMore) {
   windowState_->messages.announce("Closing");
   endRecording();

@@ -81,11 +81,12 @@ void ConnectFeature::addQuestions() {
     return dialog.connection();
   };
   windowState.prompts.endRecording = [this] {
-    return QMessageBox::question(window(),
-                                 "Palpate",
-                                 "A recording is running. Finish it and go on?",
-                                 QMessageBox::Yes | QMessageBox::Cancel,
-                                 QMessageBox::Yes) == QMessageBox::Yes;
+    return QMessageBox::question(
+               window(),
+               "Palpate",
+               "A recording is running. It must be finished first. Finish the recording?",
+               QMessageBox::Yes | QMessageBox::Cancel,
+               QMessageBox::Yes) == QMessageBox::Yes;
   };
 }
 

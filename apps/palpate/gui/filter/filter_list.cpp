@@ -158,7 +158,7 @@ void FilterList::paintEvent(QPaintEvent* event) {
   painter.setPen(palette().color(QPalette::PlaceholderText));
   painter.drawText(viewport()->rect().adjusted(16, 8, -16, -8),
                    Qt::AlignCenter | Qt::TextWordWrap,
-                   "No filter yet. Add one, or choose a preset.");
+                   "No filter yet. Add one, or choose a recipe.");
 }
 
 }  // namespace palpate::gui

@@ -4,6 +4,7 @@
 #include <QDialogButtonBox>
 #include <QGridLayout>
 #include <QLabel>
+#include <QScreen>
 #include <QScrollArea>
 #include <QVBoxLayout>
 #include <algorithm>
@@ -13,7 +14,8 @@
 namespace palpate::gui {
 namespace {
 
-constexpr int kWidestWords = 190;  // [px]
+constexpr int kWidestWords = 190;     // [px]
+constexpr double kScreenPart = 0.95;  // largest part of the screen that the dialog covers
 
 // Mouse gestures have no actions, so they are listed here.
 const std::vector<KeyEntry>& mouseEntries() {
@@ -112,7 +114,8 @@ KeysDialog::KeysDialog(const QList<QAction*>& actions, QWidget* parent) : QDialo
   page->addWidget(scroll, 1);
   page->addWidget(buttons);
   const QSize wanted = content->sizeHint() + QSize(40, 80);
-  resize(wanted.boundedTo(QSize(1440, 860)));
+  const QScreen* shownOn = parent ? parent->screen() : screen();
+  resize(wanted.boundedTo(QSize(1440, 860)).boundedTo(shownOn->availableSize() * kScreenPart));
 }
 
 }  // namespace palpate::gui

@@ -9,7 +9,7 @@
 namespace palpate::gui {
 
 LinkActions::LinkActions(ActionRegistry& book) {
-  muteAlarms = book.make("muteAlarms", "Hand", "S&ilent alarms", {key("Ctrl+Shift+M")}, true);
+  muteAlarms = book.make("muteAlarms", "Hand", "Mute alar&ms", {key("Ctrl+Shift+M")}, true);
   streamSignals = book.make("streamSignals", "Hand", "Stream signals to &PlotJuggler", {}, true);
   streamSignals->setToolTip("A datagram of JSON per frame, to this machine only");
   streamTactile =

@@ -1,6 +1,9 @@
 #include "gui/record/record_feature.h"
 
 #include <QTimer>
+#include <string_view>
+
+#include <palpate/core/number_text.h>
 
 #include "gui/appearance/captions.h"
 #include "gui/appearance/icons.h"
@@ -49,17 +52,30 @@ QString megabytes(std::int64_t bytes) {
   return figure(static_cast<double>(bytes) / kMega, 1) + " MB";
 }
 
+QString countedText(std::int64_t count, std::string_view noun) {
+  return QString::fromStdString(counted(static_cast<std::uint64_t>(count), noun));
+}
+
 QString summaryOf(const RecordingReport& report) {
   QString text = QString::fromStdString(report.paths.front().filename().string());
   if (report.paths.size() > 1) text += " and " + QString::number(report.paths.size() - 1) + " more";
   text += ": " + QString::number(report.frames) + " frames in " + figure(report.durationS, 1) +
           " s, " + megabytes(report.bytes);
-  if (report.lost > 0) text += ", " + QString::number(report.lost) + " lost";
+  const auto counter = [&report](const char* name) {
+    const auto at = report.counters.find(name);
+    return at == report.counters.end() ? std::int64_t{0} : at->second;
+  };
+  const std::int64_t notReceived = counter("lost");
+  const std::int64_t badChecksums = counter("bad_checksums") + counter("motion_bad_checksums");
+  if (notReceived > 0)
+    text += ", " + countedText(notReceived, "frame") + " lost on the way from the hand";
+  if (badChecksums > 0) text += ", " + countedText(badChecksums, "bad checksum");
+  if (report.lost > 0) text += ", " + QString::number(report.lost) + " lost by the recorder";
   if (report.gaps > 0)
     text +=
         (report.gaps == 1 ? QString(", 1 gap") : ", " + QString::number(report.gaps) + " gaps") +
         " in which no frame came";
-  if (report.lost == 0 && report.gaps == 0) text += ", nothing lost";
+  if (report.lost == 0 && report.gaps == 0 && notReceived == 0) text += ", nothing lost";
   return text;
 }
 

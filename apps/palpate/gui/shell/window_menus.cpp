@@ -140,7 +140,7 @@ void WindowMenus::buildMenuBar(const ActionRegistry& book, const QList<QAction*>
   hand->addActions({at("live"), at("hold")});
   hand->addSeparator();
   hand->addActions({at("record"), at("recordingSettings"), at("openRecorded")});
-  QMenu* marks = hand->addMenu("&Marks");
+  QMenu* marks = hand->addMenu("Mar&ks");
   marks->addAction(at("mark"));
   marks->addActions(book.all("labels"));
   hand->addSeparator();
