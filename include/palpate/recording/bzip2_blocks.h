@@ -7,10 +7,26 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
 namespace palpate {
+
+inline constexpr int kBzip2MarkBits = 48;
+inline constexpr int kBzip2ChecksumBits = 32;
+
+// A mark, or bits that look like one.
+struct Bzip2Mark {
+  std::uint64_t bit = 0;  // of its begin, from the first byte's highest bit
+  bool block = false;     // begins a block; otherwise ends a stream
+};
+
+// The first mark that begins at `fromBit` or behind it.
+std::optional<Bzip2Mark> nextBzip2Mark(std::span<const std::byte> bytes, std::uint64_t fromBit);
+
+// `count` bits from any place, at most 64. They must lie within the bytes.
+std::uint64_t bzip2Bits(std::span<const std::byte> bytes, std::uint64_t bit, int count);
 
 struct Bzip2Block {
   std::uint64_t beginBit = 0;  // of the mark, from the first byte's highest bit
@@ -19,6 +35,24 @@ struct Bzip2Block {
 
 // All places that look like a block, in order.
 std::vector<Bzip2Block> findBzip2Blocks(std::span<const std::byte> bytes);
+
+// A stream of its own with the one block: header of block size `level` ('1' to '9'), the block's
+// bits, and the mark that `endsStream` tells: of the end, with the checksum over this block only,
+// or of a further block, which is missing.
+std::vector<char> bzip2StreamOf(std::span<const std::byte> bytes,
+                                const Bzip2Block& block,
+                                char level,
+                                bool endsStream);
+
+// CRC-32 of bzip2: polynomial 0x04C11DB7, highest bit first.
+class Bzip2Checksum {
+ public:
+  void add(std::span<const char> bytes) noexcept;
+  std::uint32_t value() const noexcept { return ~sum_; }
+
+ private:
+  std::uint32_t sum_ = 0xFFFFFFFFu;
+};
 
 struct Bzip2BlockContent {
   std::vector<char> bytes;  // decoded; empty when not intact

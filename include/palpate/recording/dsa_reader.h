@@ -1,5 +1,5 @@
-// Reads a .dsa recording: bzip2-compressed (or plain) XML of the prior program, streaming; the file
-// is decompressed in a second thread. Format: docs/dsa_format.md.
+// Reads a .dsa recording: bzip2-compressed (or plain) XML of the prior program, streaming; the
+// blocks of the file are decompressed on several threads. Format: docs/dsa_format.md.
 //
 // Strict: a file that is damaged anywhere gives one exception and no profile. What costs nothing is
 // a warning in the profile's info: declared counts that are wrong, unknown elements, odd masks,
@@ -31,6 +31,10 @@ struct DsaReadOptions {
   double maxMemoryRatioPlain = 4.0;  // of plain XML
   std::size_t maxMatrices = 64;
   std::size_t maxPlaces = 65536;  // of all matrices together
+  // Threads that decompress, besides the caller's, which parses (at most 8 are used). 0: as many as
+  // the machine runs at once. 1: the caller's thread does everything; for callers that read several
+  // files at once.
+  std::size_t threads = 0;
 };
 
 // Reads a recording. Throws FileError (can't be opened or read), FormatError (not a .dsa, damaged;

@@ -11,16 +11,9 @@ namespace {
 constexpr std::uint64_t kBlockMark = 0x314159265359;
 constexpr std::uint64_t kEndMark = 0x177245385090;
 constexpr std::uint64_t kMarkMask = 0xFFFFFFFFFFFF;
-constexpr int kMarkBits = 48;
-constexpr int kChecksumBits = 32;
 // A block holds at most 900 kB before coding, which coding makes hardly longer. What lies farther
 // from its mark belongs to something else.
 constexpr std::uint64_t kMaxBlockBits = 8u * (2u << 20);
-
-struct Mark {
-  std::uint64_t bit = 0;
-  bool block = false;
-};
 
 // Which 16 bits can stand in the middle of a mark, whatever its place in a byte: 16 of 65536, so
 // one look-up a byte rejects nearly all places.
@@ -32,21 +25,10 @@ std::vector<bool> middlesOfMarks() {
 }
 
 // Every block and end mark, at any bit.
-std::vector<Mark> findMarks(std::span<const std::byte> bytes) {
-  const std::vector<bool> middles = middlesOfMarks();
-  std::vector<Mark> marks;
-  std::uint64_t window = 0;  // the last 64 bits
-  for (std::size_t i = 0; i < bytes.size(); ++i) {
-    window = window << 8 | std::to_integer<std::uint64_t>(bytes[i]);
-    if (!middles[window >> 16 & 0xFFFFu]) continue;
-    const std::uint64_t bitsSoFar = 8 * (static_cast<std::uint64_t>(i) + 1);
-    for (int shift = 7; shift >= 0; --shift) {  // earlier bits first
-      const std::uint64_t candidate = window >> shift & kMarkMask;
-      if (candidate != kBlockMark && candidate != kEndMark) continue;
-      const std::uint64_t end = bitsSoFar - static_cast<std::uint64_t>(shift);
-      if (end >= kMarkBits) marks.push_back({end - kMarkBits, candidate == kBlockMark});
-    }
-  }
+std::vector<Bzip2Mark> findMarks(std::span<const std::byte> bytes) {
+  std::vector<Bzip2Mark> marks;
+  for (auto mark = nextBzip2Mark(bytes, 0); mark; mark = nextBzip2Mark(bytes, mark->bit + 1))
+    marks.push_back(*mark);
   return marks;
 }
 
@@ -98,7 +80,6 @@ class BitWriter {
   int numBits_ = 0;
 };
 
-// CRC-32 of bzip2: polynomial 0x04C11DB7, highest bit first.
 constexpr std::array<std::uint32_t, 256> makeChecksumTable() {
   std::array<std::uint32_t, 256> table{};
   for (std::uint32_t i = 0; i < 256; ++i) {
@@ -110,31 +91,7 @@ constexpr std::array<std::uint32_t, 256> makeChecksumTable() {
   return table;
 }
 
-std::uint32_t checksumOf(std::span<const char> bytes) {
-  static constexpr std::array<std::uint32_t, 256> kTable = makeChecksumTable();
-  std::uint32_t sum = 0xFFFFFFFFu;
-  for (const char byte : bytes)
-    sum = sum << 8 ^ kTable[(sum >> 24 ^ static_cast<unsigned char>(byte)) & 0xFFu];
-  return ~sum;
-}
-
-// A stream of its own around the block: header, the block's bits, end mark, checksum (that of the
-// only block).
-std::vector<char> streamAround(std::span<const std::byte> bytes,
-                               const Bzip2Block& block,
-                               std::uint32_t checksum) {
-  std::vector<char> stream = {'B', 'Z', 'h', '9'};
-  const std::uint64_t numBits = std::min(block.endBit - block.beginBit, kMaxBlockBits);
-  stream.reserve(static_cast<std::size_t>(numBits / 8) + 16);
-  BitReader reader(bytes, block.beginBit);
-  for (std::uint64_t i = 0; i < numBits / 8; ++i) stream.push_back(reader.nextByte());
-  BitWriter writer(stream);
-  for (std::uint64_t i = 0; i < numBits % 8; ++i) writer.putBit(reader.next());
-  writer.put(kEndMark, kMarkBits);
-  writer.put(checksum, kChecksumBits);
-  writer.pad();
-  return stream;
-}
+constexpr std::array<std::uint32_t, 256> kChecksumTable = makeChecksumTable();
 
 struct Decoder {
   Decoder() = default;
@@ -146,8 +103,57 @@ struct Decoder {
 
 }  // namespace
 
+std::optional<Bzip2Mark> nextBzip2Mark(std::span<const std::byte> bytes, std::uint64_t fromBit) {
+  static const std::vector<bool> kMiddles = middlesOfMarks();
+  std::uint64_t window = 0;  // the last 64 bits
+  for (auto i = static_cast<std::size_t>(fromBit / 8); i < bytes.size(); ++i) {
+    window = window << 8 | std::to_integer<std::uint64_t>(bytes[i]);
+    if (!kMiddles[window >> 16 & 0xFFFFu]) continue;
+    const std::uint64_t bitsSoFar = 8 * (static_cast<std::uint64_t>(i) + 1);
+    for (int shift = 7; shift >= 0; --shift) {  // earlier bits first
+      const std::uint64_t candidate = window >> shift & kMarkMask;
+      if (candidate != kBlockMark && candidate != kEndMark) continue;
+      const std::uint64_t end = bitsSoFar - static_cast<std::uint64_t>(shift);
+      if (end >= fromBit + kBzip2MarkBits)
+        return Bzip2Mark{end - kBzip2MarkBits, candidate == kBlockMark};
+    }
+  }
+  return std::nullopt;
+}
+
+std::uint64_t bzip2Bits(std::span<const std::byte> bytes, std::uint64_t bit, int count) {
+  BitReader reader(bytes, bit);
+  std::uint64_t value = 0;
+  for (int i = 0; i < count; ++i) value = value << 1 | reader.next();
+  return value;
+}
+
+std::vector<char> bzip2StreamOf(std::span<const std::byte> bytes,
+                                const Bzip2Block& block,
+                                char level,
+                                bool endsStream) {
+  std::vector<char> stream = {'B', 'Z', 'h', level};
+  const std::uint64_t numBits = std::min(block.endBit - block.beginBit, kMaxBlockBits);
+  stream.reserve(static_cast<std::size_t>(numBits / 8) + 16);
+  BitReader reader(bytes, block.beginBit);
+  for (std::uint64_t i = 0; i < numBits / 8; ++i) stream.push_back(reader.nextByte());
+  BitWriter writer(stream);
+  for (std::uint64_t i = 0; i < numBits % 8; ++i) writer.putBit(reader.next());
+  writer.put(endsStream ? kEndMark : kBlockMark, kBzip2MarkBits);
+  if (endsStream)
+    writer.put(bzip2Bits(bytes, block.beginBit + kBzip2MarkBits, kBzip2ChecksumBits),
+               kBzip2ChecksumBits);
+  writer.pad();
+  return stream;
+}
+
+void Bzip2Checksum::add(std::span<const char> bytes) noexcept {
+  for (const char byte : bytes)
+    sum_ = sum_ << 8 ^ kChecksumTable[(sum_ >> 24 ^ static_cast<unsigned char>(byte)) & 0xFFu];
+}
+
 std::vector<Bzip2Block> findBzip2Blocks(std::span<const std::byte> bytes) {
-  const std::vector<Mark> marks = findMarks(bytes);
+  const std::vector<Bzip2Mark> marks = findMarks(bytes);
   std::vector<Bzip2Block> blocks;
   for (std::size_t i = 0; i < marks.size(); ++i) {
     if (!marks[i].block) continue;
@@ -162,12 +168,11 @@ Bzip2BlockContent decodeBzip2Block(std::span<const std::byte> bytes,
                                    const Bzip2Block& block,
                                    std::size_t maxBytes) {
   Bzip2BlockContent content;
-  if (block.endBit - block.beginBit < kMarkBits + kChecksumBits) return content;
-  BitReader reader(bytes, block.beginBit + kMarkBits);
-  std::uint32_t stored = 0;
-  for (int i = 0; i < kChecksumBits; ++i) stored = stored << 1 | reader.next();
+  if (block.endBit - block.beginBit < kBzip2MarkBits + kBzip2ChecksumBits) return content;
+  const auto stored = static_cast<std::uint32_t>(
+      bzip2Bits(bytes, block.beginBit + kBzip2MarkBits, kBzip2ChecksumBits));
 
-  std::vector<char> stream = streamAround(bytes, block, stored);
+  std::vector<char> stream = bzip2StreamOf(bytes, block, '9', true);
   Decoder decoder;
   if (BZ2_bzDecompressInit(&decoder.z, 0, 0) != BZ_OK) throw std::bad_alloc();
   decoder.z.next_in = stream.data();
@@ -187,7 +192,9 @@ Bzip2BlockContent decodeBzip2Block(std::span<const std::byte> bytes,
   content.bytes.resize(size);
   // Where the mark behind the block is damaged the decoder stumbles after the block's last byte, so
   // the block's own checksum decides, not the decoder's answer.
-  content.intact = size > 0 && size <= maxBytes && checksumOf(content.bytes) == stored;
+  Bzip2Checksum checksum;
+  checksum.add(content.bytes);
+  content.intact = size > 0 && size <= maxBytes && checksum.value() == stored;
   content.endsAtMark = content.intact && result == BZ_STREAM_END;
   if (!content.intact) content.bytes.clear();
   return content;

@@ -1,5 +1,6 @@
 #include "palpate/recording/dsa_reader.h"
 
+#include <functional>
 #include <new>
 #include <string>
 #include <string_view>
@@ -34,15 +35,16 @@ Profile readDocument(ByteSource& source,
                      const std::filesystem::path& path,
                      const Progress& progress,
                      const DsaReadOptions& options) {
-  DsaXmlStream text(source, path);
+  std::function<void()> report;
+  DsaXmlStream text(source, path, options.threads, [&] { report(); });
+  report = [&] {
+    if (progress && !progress(text.fraction())) throw Cancelled();
+  };
   const std::uint64_t maxBytes = boundFor(options.freeBytes, options.maxRatio, source.numBytes());
   DsaDocument document(options, memoryBound(options, text.compressed(), source.numBytes()));
   XmlParser parser(document);
   std::uint64_t bytes = 0;
   std::uint64_t reported = 0;
-  const auto report = [&] {
-    if (progress && !progress(text.fraction())) throw Cancelled();
-  };
   report();
   try {
     for (std::string_view chunk = text.next(); !chunk.empty(); chunk = text.next()) {

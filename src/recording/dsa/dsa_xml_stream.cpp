@@ -1,31 +1,42 @@
 #include "recording/dsa/dsa_xml_stream.h"
 
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
+#include <optional>
+#include <span>
 #include <string>
 #include <system_error>
 #include <utility>
 
-#include <bzlib.h>
-#include <fcntl.h>
-#include <sys/stat.h>
-#include <unistd.h>
-
 #include "palpate/core/error.h"
 #include "palpate/core/number_text.h"
+#include "palpate/recording/bzip2_blocks.h"
 
 namespace palpate {
 namespace {
-
-std::string reason(int error) { return std::generic_category().message(error); }
-
-constexpr std::size_t kInputBytes = 64u << 10;
 
 constexpr std::size_t kFirstBytes = 64u << 10;  // read to tell the form
 // Small chunks keep both threads busy within the one block of a small file.
 constexpr std::size_t kChunkBytes = 8u << 10;
 constexpr std::size_t kQueueChunks = 64;
+// More threads would wait for the one that parses; each takes about 6 MB of memory.
+constexpr std::size_t kMaxThreads = 8;
+constexpr std::uint64_t kChunksPerCall = 32;  // of `meanwhile`
+
+std::size_t threadsFor(std::size_t wanted) {
+  const std::size_t threads =
+      wanted > 0 ? wanted : std::max(1u, std::thread::hardware_concurrency());
+  return std::min(threads, kMaxThreads);
+}
+
+// Whether bzip2 data that begins with `first` has several blocks, as far as can be told.
+bool hasSeveralBlocks(std::span<const char> first, std::uint64_t numBytes) {
+  if (numBytes > first.size()) return true;
+  const std::span<const std::byte> bytes = std::as_bytes(first);
+  std::size_t blocks = 0;
+  for (auto mark = nextBzip2Mark(bytes, 0); mark; mark = nextBzip2Mark(bytes, mark->bit + 1))
+    if (mark->block && ++blocks > 1) return true;
+  return false;
+}
 
 // The first bytes as a person can read them: "\x89PNG".
 std::string shownStart(std::string_view first) {
@@ -44,140 +55,6 @@ std::string shownStart(std::string_view first) {
 }
 
 }  // namespace
-
-// Without O_NONBLOCK a named pipe would wait for a writer for ever.
-FileSource::FileSource(const std::filesystem::path& path)
-    : path_(path), descriptor_(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)) {
-  if (descriptor_.get() < 0) throw FileError(path_, "can't be opened: " + reason(errno));
-  struct stat status {};
-  const int failed = ::fstat(descriptor_.get(), &status);
-  const int error = errno;
-  if (failed == 0 && S_ISREG(status.st_mode)) {
-    numBytes_ = static_cast<std::uint64_t>(status.st_size);
-    return;
-  }
-  if (failed != 0) throw FileError(path_, "can't be read: " + reason(error));
-  throw FileError(
-      path_, S_ISDIR(status.st_mode) ? "is a folder, not a recording" : "is not a regular file");
-}
-
-std::size_t FileSource::read(std::span<char> out) {
-  std::size_t size = 0;
-  while (size < out.size()) {
-    const ssize_t got = ::read(descriptor_.get(), out.data() + size, out.size() - size);
-    if (got < 0 && errno == EINTR) continue;
-    if (got < 0) throw FileError(path_, "can't be read: " + reason(errno));
-    if (got == 0) break;
-    size += static_cast<std::size_t>(got);
-  }
-  return size;
-}
-
-std::size_t MemorySource::read(std::span<char> out) {
-  const std::size_t size = std::min(out.size(), bytes_.size() - position_);
-  if (size > 0) std::memcpy(out.data(), bytes_.data() + position_, size);
-  position_ += size;
-  return size;
-}
-
-// bzip2 data, one stream or several in a row, decoded piece by piece.
-class Bzip2Decoder {
- public:
-  // `first` are bytes already taken from `source`, which must outlive the decoder.
-  Bzip2Decoder(ByteSource& source, std::vector<char> first);
-  ~Bzip2Decoder();
-  Bzip2Decoder(const Bzip2Decoder&) = delete;
-  Bzip2Decoder& operator=(const Bzip2Decoder&) = delete;
-
-  // Fills `out`; fewer bytes only at the end. Throws Error naming the byte of the file: data that
-  // ends early, wrong data or checksum, bytes behind the last stream. FileError from the source.
-  // What was decoded of a wrong block before its checksum was reached has been handed out by then.
-  std::size_t read(std::span<char> out);
-  std::uint64_t bytesTaken() const noexcept;  // of the source
-
- private:
-  struct Stream;
-  bool refill();
-  void open();
-
-  ByteSource& source_;
-  std::vector<char> input_;
-  std::unique_ptr<Stream> stream_;
-  std::uint64_t streamBegin_ = 0;  // [bytes] of the source
-  std::uint64_t inputEnd_ = 0;     // [bytes] of the source behind input_
-  int numStreams_ = 0;             // that ended well
-  bool sourceEnded_ = false;
-};
-
-struct Bzip2Decoder::Stream {
-  ~Stream() {
-    if (open) BZ2_bzDecompressEnd(&z);
-  }
-  bz_stream z{};
-  bool open = false;
-};
-
-Bzip2Decoder::Bzip2Decoder(ByteSource& source, std::vector<char> first)
-    : source_(source),
-      input_(std::move(first)),
-      stream_(std::make_unique<Stream>()),
-      inputEnd_(input_.size()) {
-  stream_->z.next_in = input_.data();
-  stream_->z.avail_in = static_cast<unsigned>(input_.size());
-}
-
-Bzip2Decoder::~Bzip2Decoder() = default;
-
-std::uint64_t Bzip2Decoder::bytesTaken() const noexcept { return inputEnd_ - stream_->z.avail_in; }
-
-// False: the source has no more bytes.
-bool Bzip2Decoder::refill() {
-  if (sourceEnded_) return false;
-  input_.resize(kInputBytes);
-  const std::size_t size = source_.read(input_);
-  sourceEnded_ = size == 0;
-  inputEnd_ += size;
-  stream_->z.next_in = input_.data();
-  stream_->z.avail_in = static_cast<unsigned>(size);
-  return size > 0;
-}
-
-void Bzip2Decoder::open() {
-  if (BZ2_bzDecompressInit(&stream_->z, 0, 0) != BZ_OK) throw std::bad_alloc();
-  stream_->open = true;
-  streamBegin_ = bytesTaken();
-}
-
-std::size_t Bzip2Decoder::read(std::span<char> out) {
-  bz_stream& z = stream_->z;
-  z.next_out = out.data();
-  z.avail_out = static_cast<unsigned>(out.size());
-  while (z.avail_out > 0) {
-    if (!stream_->open) {
-      if (z.avail_in == 0 && !refill()) break;
-      open();
-    }
-    const int result = BZ2_bzDecompress(&z);
-    const auto place = [&] { return " byte " + std::to_string(bytesTaken()) + " of the file"; };
-    if (result == BZ_STREAM_END) {
-      BZ2_bzDecompressEnd(&z);
-      stream_->open = false;
-      ++numStreams_;
-    } else if (result == BZ_MEM_ERROR) {
-      throw std::bad_alloc();
-    } else if (result == BZ_DATA_ERROR_MAGIC && numStreams_ > 0) {
-      throw Error("bytes that are no bzip2 data follow the recording, from byte " +
-                  std::to_string(streamBegin_) + " of the file");
-    } else if (result != BZ_OK) {
-      throw Error("its bzip2 data is damaged near" + place() +
-                  "; palpate recover may save the frames of its other blocks");
-    } else if (z.avail_out > 0 && z.avail_in == 0 && !refill()) {
-      throw Error("its bzip2 data ends early, at" + place() +
-                  ": the file is cut; palpate recover may save the frames of its whole blocks");
-    }
-  }
-  return out.size() - z.avail_out;
-}
 
 DsaEncoding dsaEncodingOf(std::string_view first) noexcept {
   constexpr std::string_view kBzip2 = "BZh";
@@ -201,11 +78,26 @@ DsaEncoding requireDsaEncoding(std::string_view first, const std::filesystem::pa
   return form;
 }
 
-DsaXmlStream::DsaXmlStream(ByteSource& source, std::filesystem::path path)
-    : source_(source), path_(std::move(path)), queue_(kQueueChunks) {
+DsaXmlStream::DsaXmlStream(ByteSource& source,
+                           std::filesystem::path path,
+                           std::size_t threads,
+                           std::function<void()> meanwhile)
+    : source_(source),
+      path_(std::move(path)),
+      threads_(threadsFor(threads)),
+      meanwhile_(std::move(meanwhile)),
+      queue_(kQueueChunks) {
   first_.resize(kFirstBytes);
   first_.resize(source_.read(first_));
   if (requireDsaEncoding({first_.data(), first_.size()}, path_) == DsaEncoding::kXml) return;
+  if (threads_ > 1 && hasSeveralBlocks(first_, source_.numBytes())) {
+    try {
+      parallel_ = std::make_unique<ParallelBzip2Decoder>(source_, first_, threads_);
+      return;
+    } catch (const std::system_error&) {
+      // No thread to be had: the caller decodes by itself.
+    }
+  }
   decoder_ = std::make_unique<Bzip2Decoder>(source_, std::move(first_));
 }
 
@@ -247,27 +139,66 @@ void DsaXmlStream::decodeAll() {
 }
 
 std::string_view DsaXmlStream::next() {
-  if (!compressed()) {
-    if (std::exchange(firstTaken_, true)) {
-      first_.resize(kFirstBytes);
-      first_.resize(source_.read(first_));
-    }
-    bytesTaken_ += first_.size();
-    return {first_.data(), first_.size()};
+  if (!compressed()) return nextOfText();
+  try {
+    return parallel_ ? nextOfBlocks() : nextInOrder();
+  } catch (const FileError&) {
+    throw;
+  } catch (const FormatError&) {
+    throw;
+  } catch (const Cancelled&) {
+    throw;
+  } catch (const Error& error) {
+    throw FormatError(path_, error.what());
   }
-  chunk_ = thread_.joinable() ? queue_.pop().value_or(Chunk{}) : decodeChunk();
-  if (!std::exchange(firstTaken_, true) && chunk_.size == kChunkBytes) startThread();
-  bytesTaken_ = chunk_.bytesTaken;
-  if (chunk_.failure) {
-    try {
-      std::rethrow_exception(chunk_.failure);
-    } catch (const FileError&) {
-      throw;
-    } catch (const Error& error) {
-      throw FormatError(path_, error.what());
-    }
+}
+
+std::string_view DsaXmlStream::nextOfText() {
+  if (std::exchange(firstTaken_, true)) {
+    first_.resize(kFirstBytes);
+    first_.resize(source_.read(first_));
   }
+  bytesTaken_ += first_.size();
+  return {first_.data(), first_.size()};
+}
+
+std::string_view DsaXmlStream::nextInOrder() {
+  return taken(thread_.joinable() ? queue_.pop().value_or(Chunk{}) : decodeChunk());
+}
+
+std::string_view DsaXmlStream::taken(Chunk chunk) {
+  chunk_ = std::move(chunk);
+  if (!std::exchange(firstTaken_, true) && chunk_.size == kChunkBytes && threads_ > 1)
+    startThread();
+  bytesTaken_ = std::max(bytesTaken_, chunk_.bytesTaken);
+  if (chunk_.failure) std::rethrow_exception(chunk_.failure);
   return {chunk_.bytes.get(), chunk_.size};
+}
+
+std::string_view DsaXmlStream::nextOfBlocks() {
+  const std::optional<std::string_view> chunk = parallel_->next(kChunkBytes);
+  bytesTaken_ = parallel_->bytesTaken();
+  return chunk ? *chunk : taken(startAgain());
+}
+
+// The blocks are irregular: what is wrong, and where, is found by decoding in order. Skips the
+// chunks that were handed out already, and returns the next one.
+DsaXmlStream::Chunk DsaXmlStream::startAgain() {
+  const std::unique_ptr<ParallelBzip2Decoder> parallel = std::move(parallel_);
+  parallel->stop();
+  source_.rewind();
+  decoder_ = std::make_unique<Bzip2Decoder>(source_, std::vector<char>());
+  for (std::uint64_t chunks = 0;; ++chunks) {
+    if (meanwhile_ && chunks % kChunksPerCall == 0) meanwhile_();
+    Chunk chunk = decodeChunk();
+    const bool isNext = chunks * kChunkBytes >= parallel->bytesHandedOut();
+    const bool ended = chunk.failure || chunk.size == 0;
+    if (isNext && ended) return chunk;
+    if (chunk.failure) std::rethrow_exception(chunk.failure);
+    if (ended || !parallel->sameAsHandedOut({chunk.bytes.get(), chunk.size}))
+      throw Error("it was changed while it was read");
+    if (isNext) return chunk;
+  }
 }
 
 double DsaXmlStream::fraction() const noexcept {
