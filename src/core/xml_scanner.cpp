@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstring>
 #include <utility>
 
 namespace palpate {
@@ -39,6 +40,39 @@ constexpr std::array<std::uint8_t, 256> kClasses = makeClasses();
 
 bool is(char c, std::uint8_t wanted) {
   return (kClasses[static_cast<unsigned char>(c)] & wanted) != 0;
+}
+
+// Eight characters at once, each in one byte of a word.
+constexpr std::size_t kWordBytes = sizeof(std::uint64_t);
+constexpr std::uint64_t inEachByte(char c) {
+  return 0x0101010101010101u * static_cast<unsigned char>(c);
+}
+constexpr std::uint64_t kHighBits = inEachByte('\x80');
+
+// Nonzero when a byte of `word` is smaller than `bound` (at most 0x80; another bit than that of the
+// byte may be set, too).
+constexpr std::uint64_t anyBelow(std::uint64_t word, char bound) {
+  return (word - inEachByte(bound)) & ~word & kHighBits;
+}
+constexpr std::uint64_t anyIs(std::uint64_t word, char c) {
+  return anyBelow(word ^ inEachByte(c), 1);
+}
+
+// Tells whether the characters at `text` are kWordBytes literal characters of text without a line
+// end or a tabulator.
+bool isPlainWord(const char* text) {
+  std::uint64_t word = 0;
+  std::memcpy(&word, text, kWordBytes);
+  return ((word & kHighBits) | anyBelow(word, ' ') | anyIs(word, '<') | anyIs(word, '&') |
+          anyIs(word, ']') | anyIs(word, '\x7F')) == 0;
+}
+
+// Returns the length of the text at the start of `bytes`.
+std::size_t textLength(std::string_view bytes) {
+  std::size_t size = 0;
+  while (bytes.size() - size >= kWordBytes && isPlainWord(bytes.data() + size)) size += kWordBytes;
+  while (size < bytes.size() && is(bytes[size], kText)) ++size;
+  return size;
 }
 
 // Returns the length of the name at the start of `text`; 0 when there is none.
@@ -97,10 +131,8 @@ void XmlScanner::tellText(std::string_view piece) {
 // Scans text up to the next tag or to the end of the bytes. Only blanks are allowed outside of the
 // root.
 XmlScanner::Step XmlScanner::scanText(std::string_view& bytes) {
-  const std::uint8_t wanted = openBegins_.empty() ? kBlank : kText;
   if (std::exchange(afterReturn_, false) && bytes.front() == '\n') take(bytes, 1);
-  std::size_t size = 0;
-  while (size < bytes.size() && is(bytes[size], wanted)) ++size;
+  const std::size_t size = openBegins_.empty() ? blanksAt(bytes) : textLength(bytes);
   if (size > 0) {
     if (!openBegins_.empty()) tellText(bytes.substr(0, size));
     take(bytes, size);

@@ -35,6 +35,23 @@ bool same(float a, float b) noexcept {
   return std::bit_cast<std::uint32_t>(a) == std::bit_cast<std::uint32_t>(b);
 }
 
+// Returns how many values at the start are the same, at least 1. Runs of zeros are long: so four
+// values are compared between two decisions.
+std::size_t runLength(std::span<const float> values) noexcept {
+  constexpr std::size_t kStep = 4;
+  const auto first = std::bit_cast<std::uint32_t>(values[0]);
+  std::size_t run = 1;
+  while (run + kStep <= values.size()) {
+    std::uint32_t differs = 0;
+    for (std::size_t i = 0; i < kStep; ++i)
+      differs |= std::bit_cast<std::uint32_t>(values[run + i]) ^ first;
+    if (differs != 0) break;
+    run += kStep;
+  }
+  while (run < values.size() && same(values[run], values[0])) ++run;
+  return run;
+}
+
 }  // namespace
 
 FrameCoding codingFor(std::span<const float> values) noexcept {
@@ -49,24 +66,29 @@ void encodeFrame(std::span<const float> values, FrameCoding coding, std::vector<
     throw std::invalid_argument("encodeFrame: values alone don't say which of them count");
   const bool counts = coding == FrameCoding::kCounts;
   const std::size_t longest = counts ? kLongestCountsRun : kLongestFloatsRun;
-  if (counts && codingFor(values) != FrameCoding::kCounts)
-    throw std::invalid_argument("encodeFrame: a value is no number of counts 0..4095");
   // Make room for the worst case first, so that the loop never reallocates.
   const std::size_t start = out.size();
   out.resize(start + values.size() * (counts ? 2 : 5));
   std::byte* at = out.data() + start;
   for (std::size_t i = 0; i < values.size();) {
-    std::size_t run = 1;
-    while (run < longest && i + run < values.size() && same(values[i + run], values[i])) ++run;
-    if (counts) {
-      const auto unit =
-          static_cast<std::uint32_t>(run << 12) | static_cast<std::uint32_t>(values[i]);
-      at = putLittle(at, unit, 2);
-    } else {
-      at = putLittle(at, static_cast<std::uint32_t>(run), 1);
-      at = putLittle(at, std::bit_cast<std::uint32_t>(values[i]), 4);
+    const float value = values[i];
+    if (counts && differsFromCounts(value) != 0) {
+      out.resize(start);
+      throw std::invalid_argument("encodeFrame: a value is no number of counts 0..4095");
     }
-    i += run;
+    std::size_t left = runLength(values.subspan(i));
+    i += left;
+    while (left > 0) {
+      const std::size_t run = std::min(left, longest);
+      left -= run;
+      if (counts) {
+        const auto unit = static_cast<std::uint32_t>(run << 12) | static_cast<std::uint32_t>(value);
+        at = putLittle(at, unit, 2);
+      } else {
+        at = putLittle(at, static_cast<std::uint32_t>(run), 1);
+        at = putLittle(at, std::bit_cast<std::uint32_t>(value), 4);
+      }
+    }
   }
   out.resize(static_cast<std::size_t>(at - out.data()));
 }

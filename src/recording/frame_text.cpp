@@ -57,6 +57,10 @@ void FrameTextDecoder::add(std::string_view piece) {
   const char* at = piece.data();
   const char* const end = at + piece.size();
   while (at != end) {
+    if (numDigits_ == 0 && meaningOf(*at) == kBlank) {  // indentation
+      ++at;
+      continue;
+    }
     // Whole tokens, the usual case: eight digits at once.
     while (numDigits_ == 0 && end - at >= kDigitsPerToken) {
       std::uint32_t bits = 0;

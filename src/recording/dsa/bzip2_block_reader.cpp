@@ -11,7 +11,7 @@ namespace {
 constexpr std::size_t kReadBytes = 128u << 10;
 // A block holds at most 900 kB before coding, which coding makes hardly longer. If no mark follows
 // within this distance, something is wrong.
-constexpr std::uint64_t kMaxBlockBytes = 2u << 20;
+constexpr std::uint64_t kLargestBlockBytes = 2u << 20;
 constexpr std::uint64_t kHeaderBits = 32;
 constexpr std::uint64_t kMarkAndChecksumBits = kBzip2MarkBits + kBzip2ChecksumBits;
 
@@ -76,7 +76,7 @@ bool Bzip2BlockReader::findEnd(Bzip2Mark& end) {
     }
     // The next mark may begin within the last bits already.
     const std::uint64_t bits = 8 * static_cast<std::uint64_t>(window_.size());
-    if (bits - bit_ > 8 * kMaxBlockBytes) return false;
+    if (bits - bit_ > 8 * kLargestBlockBytes) return false;
     if (bits >= from + kBzip2MarkBits) from = bits - kBzip2MarkBits + 1;
     if (!extend()) return false;
   }

@@ -284,6 +284,11 @@ void DsaDocument::endLeaf() {
 }
 
 void DsaDocument::parseNumbers(std::string_view text) {
+  // A hand at rest sends the same angles again and again: four of five samples of the shared
+  // recordings.
+  if (!text.empty() && text == numbersText_) return;
+  const std::string_view all = text;
+  numbersText_.clear();
   numbers_.clear();
   for (bool more = true; more;) {
     if (numbers_.size() == kMaxNumbers)
@@ -299,6 +304,7 @@ void DsaDocument::parseNumbers(std::string_view text) {
     numbers_.push_back(*value);
     if (more) text.remove_prefix(comma + 1);
   }
+  numbersText_ = all;
 }
 
 // "frame 17: " within a sample, else nothing.

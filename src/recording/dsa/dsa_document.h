@@ -147,6 +147,7 @@ class DsaDocument final : public XmlHandler {
   FrameTextDecoder decoder_;
   std::vector<float> values_;
   std::vector<double> numbers_;
+  std::string numbersText_;  // that numbers_ were parsed from; empty when they weren't all right
 
   std::uint64_t unknownElements_ = 0;
   std::uint64_t unknownAttributes_ = 0;
