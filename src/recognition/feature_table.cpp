@@ -8,6 +8,7 @@
 #include "palpate/core/error.h"
 #include "palpate/core/number_text.h"
 #include "palpate/core/parallel.h"
+#include "palpate/recording/read_ahead.h"
 #include "palpate/recording/recording.h"
 #include "palpate/recording/recording_folder.h"
 
@@ -33,13 +34,15 @@ std::string spanText(const GraspFeatures& grasp) {
   return "grasp " + std::to_string(grasp.begin) + ".." + std::to_string(grasp.end);
 }
 
-Gathered gather(const Source& source, const FeatureExtractionOptions& options) {
+// `alone`: no other recording is read at the same time.
+Gathered gather(const Source& source, const FeatureExtractionOptions& options, bool alone) {
   Gathered out;
   const auto say = [&](const std::string& what) {
     out.problems.push_back(source.file.string() + ": " + what);
   };
   try {
-    const Profile profile = openRecording(source.file);
+    const Profile profile =
+        openRecording(source.file, {}, alone ? 0 : threadsBesideOthers(source.file));
     RecordingFeatures found = recordingFeatures(profile, options.set, options.hand);
     if (!found.problem.empty()) say(found.problem);
     out.sensor = sensorText(profile.layout());
@@ -167,7 +170,7 @@ FeatureTable extractFeatures(const std::vector<fs::path>& paths,
   std::vector<Gathered> gathered(sources.size());
   forEachInParallel(
       sources.size(),
-      [&](std::size_t i) { gathered[i] = gather(sources[i], options); },
+      [&](std::size_t i) { gathered[i] = gather(sources[i], options, sources.size() == 1); },
       progress,
       options.threads);
 

@@ -135,6 +135,16 @@ RecoverReport recoverDsa(const std::filesystem::path& in,
 
 }  // namespace
 
+namespace {
+
+DsaReadOptions dsaOptions(std::size_t threads) {
+  DsaReadOptions options;
+  options.threads = threads;
+  return options;
+}
+
+}  // namespace
+
 bool isNativeRecording(const std::filesystem::path& path) {
   // Closing a file that this very process writes would drop SQLite's locks on it.
   if (RecordingLock::isHeld(path)) return true;
@@ -145,8 +155,11 @@ bool isNativeRecording(const std::filesystem::path& path) {
   return lowerEndingOf(path) == ".palpate" && !start.starts_with("BZh") && !start.starts_with('<');
 }
 
-Profile openRecording(const std::filesystem::path& path, const Progress& progress) {
-  return isNativeRecording(path) ? readPalpate(path, progress) : readDsa(path, progress);
+Profile openRecording(const std::filesystem::path& path,
+                      const Progress& progress,
+                      std::size_t threads) {
+  return isNativeRecording(path) ? readPalpate(path, progress)
+                                 : readDsa(path, progress, dsaOptions(threads));
 }
 
 namespace {
@@ -181,9 +194,11 @@ void addNotes(const std::filesystem::path& path, ReadableRecording& recording) {
   }
 }
 
-ReadableRecording openReadable(const std::filesystem::path& path, const Progress& progress) {
+ReadableRecording openReadable(const std::filesystem::path& path,
+                               const Progress& progress,
+                               std::size_t threads) {
   if (!isNativeRecording(path)) {
-    ReadableRecording recording{.profile = readDsa(path, progress)};
+    ReadableRecording recording{.profile = readDsa(path, progress, dsaOptions(threads))};
     addNotes(path, recording);
     return recording;
   }
@@ -230,7 +245,9 @@ std::optional<ReadableRecording> recoveredPalpate(const std::filesystem::path& p
 
 }  // namespace
 
-ReadableRecording readableRecording(const std::filesystem::path& path, const Progress& progress) {
+ReadableRecording readableRecording(const std::filesystem::path& path,
+                                    const Progress& progress,
+                                    std::size_t threads) {
   // From 0 to 1 once, also where a second way has to be taken.
   double reached = 0.0;
   const auto partOf = [&](double begin, double share) -> Progress {
@@ -241,8 +258,8 @@ ReadableRecording readableRecording(const std::filesystem::path& path, const Pro
     };
   };
   try {
-    if (!isNativeRecording(path)) return openReadable(path, partOf(0.0, 1.0));
-    ReadableRecording recording = openReadable(path, partOf(0.0, 0.5));
+    if (!isNativeRecording(path)) return openReadable(path, partOf(0.0, 1.0), threads);
+    ReadableRecording recording = openReadable(path, partOf(0.0, 0.5), threads);
     readThrough(recording.profile, partOf(0.5, 0.5));
     return recording;
   } catch (const FormatError&) {
@@ -253,7 +270,9 @@ ReadableRecording readableRecording(const std::filesystem::path& path, const Pro
   }
 }
 
-VerifyReport verifyRecording(const std::filesystem::path& path, const Progress& progress) {
+VerifyReport verifyRecording(const std::filesystem::path& path,
+                             const Progress& progress,
+                             std::size_t threads) {
   VerifyReport report;
   try {
     if (isNativeRecording(path)) return verifyNative(path, progress);
@@ -263,7 +282,7 @@ VerifyReport verifyRecording(const std::filesystem::path& path, const Progress& 
     report.message = error.what();
     return report;
   }
-  const DsaVerifyReport dsa = verifyDsa(path, progress);
+  const DsaVerifyReport dsa = verifyDsa(path, progress, dsaOptions(threads));
   report.message = dsa.message;
   switch (dsa.state) {
     case DsaVerifyReport::State::kSound:

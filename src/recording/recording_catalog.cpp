@@ -17,6 +17,7 @@
 #include "palpate/core/json.h"
 #include "palpate/core/output_file.h"
 #include "palpate/core/text_file.h"
+#include "palpate/recording/read_ahead.h"
 #include "palpate/recording/recording_folder.h"
 
 #include "recording/event_sidecar.h"
@@ -213,6 +214,12 @@ class CatalogRun {
                double bytes,
                const Progress& progress) {
     double done = 0.0;
+    std::vector<fs::path> paths;
+    for (const auto& [file, stamp] : files) paths.push_back(file);
+    ReadAhead<RecordingDetails> details(
+        paths, [](const fs::path& file, const Progress& part, std::size_t threads) {
+          return readDetails(file, part, threads);
+        });
     try {
       for (const auto& [file, stamp] : files) {
         const double share = static_cast<double>(stamp[0]);
@@ -220,7 +227,7 @@ class CatalogRun {
           return !progress || progress((done + fraction * share) / bytes);
         };
         if (!part(0.0)) throw Cancelled();
-        Entry entry{stamp, readDetails(file, part)};
+        Entry entry{stamp, details.take(part)};
         done += share;
         ++report_.numRead;
         take(entry);

@@ -101,9 +101,11 @@ void readNative(RecordingDetails& details) {
   readSpan(details, access);
 }
 
-void readDsaThrough(RecordingDetails& details, const Progress& progress) {
+void readDsaThrough(RecordingDetails& details, const Progress& progress, std::size_t threads) {
   details.form = "dsa";
-  const Profile profile = readDsa(details.path, progress);
+  DsaReadOptions options;
+  options.threads = threads;
+  const Profile profile = readDsa(details.path, progress, options);
   details.numFrames = static_cast<std::int64_t>(profile.numFrames());
   if (profile.numFrames() == 0) return;
   details.startUs = profile.frameTimeUs(0);
@@ -147,7 +149,7 @@ std::optional<State> detailsStateFrom(const std::string& name) {
   return std::nullopt;
 }
 
-RecordingDetails readDetails(const fs::path& path, const Progress& progress) {
+RecordingDetails readDetails(const fs::path& path, const Progress& progress, std::size_t threads) {
   RecordingDetails details;
   details.path = path;
   struct stat facts {};
@@ -158,7 +160,7 @@ RecordingDetails readDetails(const fs::path& path, const Progress& progress) {
   }
   attemptRecordingDetails(details, [&] {
     if (isNativeRecording(path)) return readNative(details);
-    readDsaThrough(details, progress);
+    readDsaThrough(details, progress, threads);
   });
   if (details.form == "dsa") {
     const State state = details.state;

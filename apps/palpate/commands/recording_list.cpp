@@ -12,6 +12,7 @@
 #include "palpate/core/error.h"
 #include "palpate/core/escaped_line.h"
 #include "palpate/core/interruption.h"
+#include "palpate/recording/read_ahead.h"
 #include "palpate/recording/recording.h"
 #include "palpate/recording/recording_folder.h"
 
@@ -176,10 +177,18 @@ int forEachRecording(const RecordingList& list, bool quiet, const FileWork& work
   return ListRun(list, quiet).through(work);
 }
 
+int forEachVerified(const RecordingList& list, bool quiet, const VerifyWork& work) {
+  ReadAhead<VerifyReport> reports(list.files, &verifyRecording);
+  return ListRun(list, quiet).through([&](const fs::path& file, const Progress& progress) {
+    return work(file, reports.take(progress));
+  });
+}
+
 int forEachProfile(const RecordingList& list, bool quiet, const ProfileWork& work) {
   ListRun run(list, quiet);
+  ReadAhead<Profile> profiles(list.files, &openRecording);
   return run.through([&](const fs::path& file, const Progress& progress) {
-    const Profile profile = openRecording(file, halfOf(progress, 0.0));
+    const Profile profile = profiles.take(halfOf(progress, 0.0));
     run.noteWarnings(file, profile);
     run.leaveTheTerminal();
     work(file, profile, halfOf(progress, 0.5));
@@ -189,8 +198,9 @@ int forEachProfile(const RecordingList& list, bool quiet, const ProfileWork& wor
 
 int forEachReadable(const RecordingList& list, bool quiet, const ReadableWork& work) {
   ListRun run(list, quiet);
+  ReadAhead<ReadableRecording> recordings(list.files, &readableRecording);
   return run.through([&](const fs::path& file, const Progress& progress) {
-    const ReadableRecording recording = readableRecording(file, halfOf(progress, 0.0));
+    const ReadableRecording recording = recordings.take(halfOf(progress, 0.0));
     run.noteWarnings(file, recording.profile);
     run.leaveTheTerminal();
     work(file, recording, halfOf(progress, 0.5));

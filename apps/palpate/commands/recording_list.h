@@ -39,6 +39,8 @@ struct FileOutcome {
 using FileWork = std::function<FileOutcome(const std::filesystem::path& file, const Progress&)>;
 using ProfileWork =
     std::function<void(const std::filesystem::path& file, const Profile&, const Progress&)>;
+using VerifyWork =
+    std::function<FileOutcome(const std::filesystem::path& file, const VerifyReport&)>;
 using ReadableWork = std::function<void(
     const std::filesystem::path& file, const ReadableRecording&, const Progress&)>;
 
@@ -47,6 +49,9 @@ using ReadableWork = std::function<void(
 // an interruption (then the number of done files is printed). Passes on exceptions that no file
 // caused: UsageError, OutputError.
 int forEachRecording(const RecordingList& list, bool quiet, const FileWork& work);
+// As forEachRecording(), with every recording checked. Here and below small recordings are read
+// several at a time ahead of the work, which is still done one at a time and in order.
+int forEachVerified(const RecordingList& list, bool quiet, const VerifyWork& work);
 // As forEachRecording(), with every recording opened; a damaged one fails. With several files,
 // prints which recordings are unfinished or still being written.
 int forEachProfile(const RecordingList& list, bool quiet, const ProfileWork& work);

@@ -60,17 +60,16 @@ int verifyCommand(const Arguments& words) {
   if (given.helpShown()) return kDone;
   int worst = kDone;
   const int code =
-      forEachRecording(recordingsIn(given.words()),
-                       given.quiet(),
-                       [&](const std::filesystem::path& file, const Progress& progress) {
-                         const VerifyReport report = verifyRecording(file, progress);
-                         worst = worse(worst, exitCode(report.state));
-                         FileOutcome outcome;
-                         if (!given.quiet())
-                           outcome.said = escapedLine(file.string()) + ": " + word(report.state) +
-                                          ": " + escapedLine(report.message);
-                         return outcome;
-                       });
+      forEachVerified(recordingsIn(given.words()),
+                      given.quiet(),
+                      [&](const std::filesystem::path& file, const VerifyReport& report) {
+                        worst = worse(worst, exitCode(report.state));
+                        FileOutcome outcome;
+                        if (!given.quiet())
+                          outcome.said = escapedLine(file.string()) + ": " + word(report.state) +
+                                         ": " + escapedLine(report.message);
+                        return outcome;
+                      });
   return worse(worst, code);
 }
 

@@ -1,6 +1,7 @@
 // Opens and checks recordings of all formats; commands and windows use these functions only.
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <map>
 #include <span>
@@ -15,8 +16,11 @@
 namespace palpate {
 
 // Reads a recording; its form is told by its first bytes, never by its name (a .dsa is bzip2 or
-// XML). Throws FileError, FormatError, Cancelled; what() is one line that says what to do.
-Profile openRecording(const std::filesystem::path& path, const Progress& progress = {});
+// XML). `threads`: of a .dsa, as DsaReadOptions::threads. Throws FileError, FormatError, Cancelled;
+// what() is one line that says what to do.
+Profile openRecording(const std::filesystem::path& path,
+                      const Progress& progress = {},
+                      std::size_t threads = 0);
 
 // Whether a file is a native recording; if not, it is taken for a .dsa. The first bytes tell; where
 // they are neither SQLite's nor those of a .dsa (damaged), the ending of the name does. Throws
@@ -32,17 +36,22 @@ struct ReadableRecording {
   std::map<std::string, std::string> meta = {};  // as readRecordingMeta(), as far as it can be read
 };
 // Opens a recording and reads it through: what verifyRecording() counts as readable, damaged or
-// not. Throws FileError, FormatError (nothing can be read), Cancelled.
+// not. `threads` as for openRecording(). Throws FileError, FormatError (nothing can be read),
+// Cancelled.
 ReadableRecording readableRecording(const std::filesystem::path& path,
-                                    const Progress& progress = {});
+                                    const Progress& progress = {},
+                                    std::size_t threads = 0);
 
 struct VerifyReport {
   enum class State { kSound, kDamaged, kUnreadable };
   State state = State::kUnreadable;
   std::string message;  // one line: counts when sound, else what is wrong and how much can be read
 };
-// Checks every byte of a recording. Never throws for a bad file; throws Cancelled.
-VerifyReport verifyRecording(const std::filesystem::path& path, const Progress& progress = {});
+// Checks every byte of a recording; `threads` as for openRecording(). Never throws for a bad file;
+// throws Cancelled.
+VerifyReport verifyRecording(const std::filesystem::path& path,
+                             const Progress& progress = {},
+                             std::size_t threads = 0);
 
 // The forms a recording can be saved in.
 enum class RecordingFormat { kDsa, kPalpate, kCsv, kNpz, kJsonLines };

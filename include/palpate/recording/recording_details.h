@@ -48,7 +48,9 @@ const char* nameOf(RecordingDetails::State state);
 std::optional<RecordingDetails::State> detailsStateFrom(const std::string& name);
 
 // What a list says of one recording. Never throws for a bad file, which is told by `state` and
-// `message`; throws Cancelled.
-RecordingDetails readDetails(const std::filesystem::path& path, const Progress& progress = {});
+// `message`; `threads` as for openRecording(). Throws Cancelled.
+RecordingDetails readDetails(const std::filesystem::path& path,
+                             const Progress& progress = {},
+                             std::size_t threads = 0);
 
 }  // namespace palpate

@@ -17,7 +17,10 @@ constexpr double kRecordingOpenerSmallestNews = 0.01;
 
 }  // namespace
 
-RecordingOpener::RecordingOpener(QObject* parent) : RecordingOpener(&openRecording, parent) {}
+RecordingOpener::RecordingOpener(QObject* parent)
+    : RecordingOpener([](const std::filesystem::path& path,
+                         const Progress& progress) { return openRecording(path, progress); },
+                      parent) {}
 
 RecordingOpener::RecordingOpener(Read read, QObject* parent)
     : QObject(parent), read_(std::move(read)) {}
