@@ -8,6 +8,8 @@
 
 #include "palpate/core/error.h"
 
+#include "recording/dsa/bzip2_memory.h"
+
 namespace palpate {
 namespace {
 
@@ -16,6 +18,7 @@ constexpr std::size_t kInputBytes = 64u << 10;
 }  // namespace
 
 struct Bzip2Decoder::Stream {
+  Stream() { useKeptMemory(z); }
   ~Stream() {
     if (open) BZ2_bzDecompressEnd(&z);
   }

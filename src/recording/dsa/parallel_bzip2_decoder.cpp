@@ -8,6 +8,8 @@
 
 #include <bzlib.h>
 
+#include "recording/dsa/bzip2_memory.h"
+
 namespace palpate {
 namespace {
 
@@ -21,6 +23,7 @@ constexpr std::size_t kBlocksAhead = 2;
 
 struct LibraryStream {
   LibraryStream() {
+    useKeptMemory(z);
     if (BZ2_bzDecompressInit(&z, 0, 0) != BZ_OK) throw std::bad_alloc();
   }
   ~LibraryStream() { BZ2_bzDecompressEnd(&z); }
