@@ -114,8 +114,10 @@ KeysDialog::KeysDialog(const QList<QAction*>& actions, QWidget* parent) : QDialo
   page->addWidget(scroll, 1);
   page->addWidget(buttons);
   const QSize wanted = content->sizeHint() + QSize(40, 80);
-  const QScreen* shownOn = parent ? parent->screen() : screen();
-  resize(wanted.boundedTo(QSize(1440, 860)).boundedTo(shownOn->availableSize() * kScreenPart));
+  // Without a desktop, pictures are taken of windows that are larger than the screen.
+  const QWidget& shownOn = parent ? *parent->window() : *this;
+  const QSize available = shownOn.screen()->availableSize().expandedTo(shownOn.size());
+  resize(wanted.boundedTo(QSize(1440, 860)).boundedTo(available * kScreenPart));
 }
 
 }  // namespace palpate::gui
