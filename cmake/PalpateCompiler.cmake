@@ -35,6 +35,9 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_L
 endif()
 
 if(PALPATE_SANITIZE)
+  # libceres.a has functions of Eigen that were compiled without AddressSanitizer, and the linker
+  # keeps one of each: all must take memory in the same way.
+  add_compile_definitions(EIGEN_MALLOC_ALREADY_ALIGNED=1)
   add_compile_options(-fsanitize=${PALPATE_SANITIZE} -fno-omit-frame-pointer
                       -fno-sanitize-recover=all)
   add_link_options(-fsanitize=${PALPATE_SANITIZE})

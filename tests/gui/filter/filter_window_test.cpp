@@ -17,6 +17,7 @@
 #include "gui/timeline/timeline_chart.h"
 #include "gui/timeline/timeline_feature.h"
 #include "gui/timeline/timeline_panel.h"
+#include "gui/widgets/facts_view.h"
 #include "gui/widgets/status_strip.h"
 
 namespace palpate::gui::filter_window_test {
@@ -113,6 +114,19 @@ TEST_F(FilterWindowTest, ChangesAreSeenAtOnce) {
   setRecipe("(box)");
   EXPECT_EQ(seen(), window().state().displayed.unfilteredRecording()->profile.frame(frame).values);
   EXPECT_FALSE(window().state().activeFilters.applied());
+}
+
+TEST_F(FilterWindowTest, TheFactsOfTheRecordingStayThoseOfTheFile) {
+  const auto& facts = find<FactsView>("recordingFacts")->facts();
+  const std::vector<Fact> before = facts;
+  ASSERT_FALSE(before.empty());
+  press(Qt::Key_A);
+  setRecipe("gaussian:size=5");
+  ASSERT_TRUE(window().state().activeFilters.applied());
+  const std::vector<Fact> after = facts;
+  ASSERT_EQ(after.size(), before.size());
+  for (std::size_t i = 0; i < before.size(); ++i)
+    EXPECT_EQ(after[i].value, before[i].value) << before[i].name.toStdString();
 }
 
 TEST_F(FilterWindowTest, SaturationIsLookedForInWhatWasRecorded) {

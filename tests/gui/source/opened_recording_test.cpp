@@ -65,7 +65,7 @@ TEST(OpenedRecording, WithoutASummaryTheLargestValueIsBeingCounted) {
   EXPECT_EQ(recording->maximumNow(), std::nullopt);
   EXPECT_EQ(recording->touched, std::vector<bool>(6, true));
   InspectPanel inspect;
-  inspect.setRecording(recording);
+  inspect.setRecording(recording, recording);
   EXPECT_EQ(largestValue(inspect), "being counted");
   QAction interpolated("interpolated"), values("values");
   MatricesPanel matrices(&interpolated, &values);

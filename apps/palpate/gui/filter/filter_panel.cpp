@@ -316,7 +316,7 @@ void FilterPanel::showTotals() {
     if (rateHz_ > 0.0) text += " (" + figure(*figures_->latency * 1e3 / rateHz_, 0) + " ms)";
     text += " later.";
   }
-  totals_->setText(text + " Contacts are still those of the recording.");
+  totals_->setText(text + " Taxels that were not active as recorded stay inactive.");
 }
 
 }  // namespace palpate::gui

@@ -114,7 +114,7 @@ void InspectFeature::takeSource() {
     for (std::size_t row = 0; row < ticks.size(); ++row)
       panel_->table().setPlotted(row, ticks[row]);
   } else {
-    panel_->setRecording(displayed.filteredRecording());
+    panel_->setRecording(displayed.filteredRecording(), displayed.unfilteredRecording());
   }
   panel_->table().setStale(displayed.isLive() && !state().currentFrame.old().notice.isEmpty());
   showPlotted();

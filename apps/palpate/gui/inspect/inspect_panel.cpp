@@ -153,8 +153,10 @@ InspectPanel::InspectPanel(QWidget* parent) : QScrollArea(parent) {
   setWidget(content);
 }
 
-void InspectPanel::setRecording(const OpenedRecordingPtr& recording) {
+void InspectPanel::setRecording(const OpenedRecordingPtr& recording,
+                                const OpenedRecordingPtr& asRecorded) {
   recording_ = recording;
+  asRecorded_ = asRecorded;
   model_->setRecording(recording);
   // Events follow by showEvents(), as edited.
   showEvents({});
@@ -165,7 +167,7 @@ void InspectPanel::setRecording(const OpenedRecordingPtr& recording) {
     return;
   }
   heading_->setText("RECORDING");
-  facts_->setFacts(inspectPanelFactsOf(*recording, calibration_));
+  facts_->setFacts(inspectPanelFactsOf(*asRecorded, calibration_));
   listSensors(recording->profile.hand(),
               recording->profile.numAngles() > 0,
               recording->profile.numTemperatures() > 0);
@@ -186,11 +188,12 @@ void InspectPanel::setCalibration(const QString& text) {
 }
 
 void InspectPanel::renewFacts() {
-  if (recording_) facts_->setFacts(inspectPanelFactsOf(*recording_, calibration_));
+  if (asRecorded_) facts_->setFacts(inspectPanelFactsOf(*asRecorded_, calibration_));
 }
 
 void InspectPanel::setHand(const HandDescription& hand) {
   recording_.reset();
+  asRecorded_.reset();
   showEvents({});
   model_->setHand(hand);
   heading_->setText("LINK");

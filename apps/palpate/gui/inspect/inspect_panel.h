@@ -19,7 +19,8 @@ class InspectPanel : public QScrollArea {
   Q_OBJECT
  public:
   explicit InspectPanel(QWidget* parent = nullptr);
-  void setRecording(const OpenedRecordingPtr& recording);
+  // `recording`: as it is shown, filtered or not; `asRecorded`: the content of the file.
+  void setRecording(const OpenedRecordingPtr& recording, const OpenedRecordingPtr& asRecorded);
   // Shows a frame of the recording; angles and temperatures that aren't known keep their values.
   void showFrame(std::size_t frame,
                  const std::optional<JointAngles>& angles,
@@ -50,6 +51,7 @@ class InspectPanel : public QScrollArea {
   void showTemperatures(const Temperatures& temperatures);
 
   OpenedRecordingPtr recording_;
+  OpenedRecordingPtr asRecorded_;
   QString calibration_;
   MatrixTableModel* model_;
   MatrixTable* matrices_;
