@@ -1,6 +1,7 @@
 #include "gui/shell/run_window.h"
 
 #include <QGuiApplication>
+#include <QScreen>
 
 #include "gui/connect/connect_feature.h"
 #include "gui/desktop/application.h"
@@ -13,6 +14,20 @@
 #include "gui/shell/main_window.h"
 
 namespace palpate::gui {
+namespace {
+
+// The usual size is larger than a small screen, and part of the window would be out of reach.
+void fitOnScreen(MainWindow& window) {
+  constexpr int kTitleBarHeight = 36;  // [px] of most desktops
+  if (window.isMaximized() || window.isFullScreen()) return;
+  const QRect screen = window.screen()->availableGeometry();
+  const QSize fitting = window.size().boundedTo(screen.size() - QSize(0, kTitleBarHeight));
+  if (fitting == window.size()) return;
+  window.resize(fitting);
+  window.move(screen.topLeft());
+}
+
+}  // namespace
 
 int runWindow(int& argc, char** argv, const WindowOptions& options) {
   const auto application = makeApplication(argc, argv);
@@ -26,6 +41,7 @@ int runWindow(int& argc, char** argv, const WindowOptions& options) {
   const FirstPaint firstPaint(window);
   const Termination termination;
   QObject::connect(&termination, &Termination::asked, &window, &MainWindow::endNow);
+  fitOnScreen(window);
   window.show();
   HandView& hand = window.feature<Hand3dFeature>().panel().view();
   // OpenGL is probed in another process, since a driver may crash; until the answer arrives the
