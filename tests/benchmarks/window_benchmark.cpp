@@ -51,6 +51,16 @@ void processToVersion(benchmark::State& state) {
       return state.SkipWithError("failed");
 }
 
+// A command that reads a recording of next to nothing.
+void processToInfo(benchmark::State& state) {
+  const palpate::testing::TemporaryFolder folder;
+  const fs::path path = folder / "two.dsa";
+  palpate::writeDsa(palpate::synthesize({.durationS = 0.1, .rateHz = 10.0}), path);
+  for (auto _ : state)
+    if (palpate::testing::runProgram(PALPATE_PROGRAM, {"info", path.string()}).exitCode != 0)
+      return state.SkipWithError("failed");
+}
+
 // Counts the paint events of a widget.
 class PaintCounter : public QObject {
  public:
@@ -130,6 +140,7 @@ void window(benchmark::State& state, Work work) {
 
 BENCHMARK(processToPicture)->Unit(benchmark::kMillisecond)->UseRealTime();
 BENCHMARK(processToVersion)->Unit(benchmark::kMillisecond)->UseRealTime();
+BENCHMARK(processToInfo)->Unit(benchmark::kMillisecond)->UseRealTime();
 BENCHMARK_CAPTURE(window, playback, Work::kPlay)->UseManualTime()->Iterations(1);
 BENCHMARK_CAPTURE(window, repainting_everything, Work::kRepaintAll)->UseManualTime()->Iterations(1);
 BENCHMARK_CAPTURE(window, paused, Work::kNothing)->UseManualTime()->Iterations(1);

@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <exception>
 #include <iostream>
+#include <iterator>
 #include <new>
 #include <string_view>
 
@@ -73,11 +74,14 @@ void refuseMistypedCommand(const std::string& word) {
   throw UsageError(message);
 }
 
-int dispatch(const Arguments& words) {
+int dispatch(const Arguments& words, OtherCommands others) {
+  const auto runCommand = [&](const Command& command, const Arguments& rest) {
+    return command.run ? command.run(rest) : others(command.name, rest);
+  };
   if (!words.empty()) {
     if (words[0] == "help" && words.size() == 2)
       for (const Command& command : allCommands())
-        if (words[1] == command.name) return command.run({"--help"});
+        if (words[1] == command.name) return runCommand(command, {"--help"});
     if (words[0] == "--help" || words[0] == "-h" || words[0] == "help") {
       commandsShowHelp();
       return kDone;
@@ -87,10 +91,11 @@ int dispatch(const Arguments& words) {
       return kDone;
     }
     for (const Command& command : allCommands())
-      if (words[0] == command.name) return command.run({words.begin() + 1, words.end()});
+      if (words[0] == command.name)
+        return runCommand(command, {words.begin() + 1, words.end()});
     refuseMistypedCommand(words[0]);
   }
-  return windowCommand(words);
+  return others({}, words);
 }
 
 int fail(int code, std::string_view message) {
@@ -107,9 +112,9 @@ void fillClosedStreams() {
       ::open("/dev/null", stream == STDIN_FILENO ? O_WRONLY : O_RDONLY);
 }
 
-int runCaught(const Arguments& words) {
+int runCaught(const Arguments& words, OtherCommands others) {
   try {
-    return dispatch(words);
+    return dispatch(words, others);
   } catch (const UsageError& error) {
     return fail(kWrongUsage, error.what());
   } catch (const std::bad_alloc&) {
@@ -123,42 +128,42 @@ int runCaught(const Arguments& words) {
 
 const std::vector<Command>& allCommands() {
   static const std::vector<Command> commands = {
-      {"adapt", "adapts a recognition model to today, with labelled grasps", &adaptCommand},
+      {"adapt", "adapts a recognition model to today, with labelled grasps", nullptr},
       {"calibrate",
        "calibrates counts to kPa and N: noise, steps, pressure, sensitivity, tare",
-       &calibrateCommand},
-      {"classify", "names what was grasped, with a trained model", &classifyCommand},
+       nullptr},
+      {"classify", "names what was grasped, with a trained model", nullptr},
       {"compare", "compares two recordings frame by frame, as CSV", &compareCommand},
       {"contact", "where a hand touches, and how large the held object is", &contactCommand},
       {"convert", "converts recordings: .dsa, .palpate, .csv, .npz", &convertCommand},
       {"demo",
        "a tour without a window: emulated hands grasp objects, which are named",
-       &demoCommand},
-      {"emulate", "runs the emulated hand on two ports, until it is interrupted", &emulateCommand},
-      {"evaluate", "measures how well grasps are recognised", &evaluateCommand},
+       nullptr},
+      {"emulate", "runs the emulated hand on two ports, until it is interrupted", nullptr},
+      {"evaluate", "measures how well grasps are recognised", nullptr},
       {"features", "features of each grasp for recognition, as CSV", &featuresCommand},
       {"filter", "filters a recording with a chain of filters", &filterCommand},
       {"ghosts",
        "counts false taxels, and what filters do to them and to contacts",
        &ghostsCommand},
-      {"grasp", "moves a connected hand: plain and reactive grasps", &graspCommand},
+      {"grasp", "moves a connected hand: plain and reactive grasps", nullptr},
       {"grasps", "where the grasps in recordings are, as CSV", &graspsCommand},
       {"info", "what is in a recording, or in each of a folder", &infoCommand},
       {"kinematics", "where the taxels are at a set of joint angles", &kinematicsCommand},
       {"ports", "lists the ports and the device on each", &portsCommand},
-      {"record", "records a connected hand", &recordCommand},
+      {"record", "records a connected hand", nullptr},
       {"recover", "saves what can be saved of a damaged or unfinished recording", &recoverCommand},
       {"remote", "controls a running palpate: status, start, stop, label, ..", &remoteCommand},
-      {"render", "a picture of one frame: PNG, SVG or PDF", &renderCommand},
+      {"render", "a picture of one frame: PNG, SVG or PDF", nullptr},
       {"signals", "characteristic signals of each matrix as CSV", &signalsCommand},
       {"slip", "how contacts move on every matrix, and whether that is slip, as CSV", &slipCommand},
       {"slip-benchmark",
        "how well every method measures slip, against synthetic truth, as JSON",
        &slipBenchmarkCommand},
       {"spectrum", "spectra of a taxel or a signal over time, as CSV", &spectrumCommand},
-      {"stream", "sends live signals or taxels to other programs (PlotJuggler)", &streamCommand},
+      {"stream", "sends live signals or taxels to other programs (PlotJuggler)", nullptr},
       {"synthesize", "makes a synthetic recording with known content", &synthesizeCommand},
-      {"train", "trains a model that recognises what is grasped", &trainCommand},
+      {"train", "trains a model that recognises what is grasped", nullptr},
       {"verify", "checks every byte of recordings", &verifyCommand},
   };
   return commands;
@@ -167,16 +172,21 @@ const std::vector<Command>& allCommands() {
 fs::path dataFolder() {
   std::error_code ignored;
   if (const char* given = std::getenv("PALPATE_DATA"); given && *given) return given;
-  const fs::path folder = fs::read_symlink("/proc/self/exe", ignored).parent_path();
-  const fs::path installed = folder.parent_path() / PALPATE_INSTALLED_DATA;
-  const fs::path built = folder / "share/palpate";  // a link that the build makes
-  return !fs::is_directory(installed, ignored) && fs::is_directory(built, ignored) ? built
-                                                                                   : installed;
+  const fs::path program = fs::read_symlink("/proc/self/exe", ignored);
+  const fs::path built = program.parent_path() / "share/palpate";  // a link that the build makes
+  if (fs::is_directory(built, ignored)) return built;
+  // The prefix of the installation: above bin/palpate, and above the folder of palpate_window.
+  const fs::path window(PALPATE_INSTALLED_WINDOW);
+  fs::path prefix = program.parent_path().parent_path();
+  if (program.filename() == window.filename())
+    for (auto left = std::distance(window.begin(), window.end()); left > 2; --left)
+      prefix = prefix.parent_path();
+  return prefix / PALPATE_INSTALLED_DATA;
 }
 
-int run(int argc, char** argv) {
+int run(int argc, char** argv, OtherCommands others) {
   fillClosedStreams();
-  const int code = runCaught({argv + std::min(argc, 1), argv + argc});
+  const int code = runCaught({argv + std::min(argc, 1), argv + argc}, others);
   // Output that was printed but not written (a full disk, a closed pipe) is a failure.
   std::cout.flush();
   const bool written = std::fflush(stdout) == 0 && std::ferror(stdout) == 0 && std::cout.good();

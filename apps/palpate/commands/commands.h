@@ -24,9 +24,14 @@ struct Command {
   const char* name;
   // One line of `palpate --help`.
   const char* summary;
-  // The function of the command; it gets the words after the command's name.
+  // The function of the command; it gets the words after the command's name. Null: the command
+  // needs Qt, OpenCV or Ceres, and only the program `palpate_window` has it (window_commands.h).
   int (*run)(const Arguments& words);
 };
+
+// Runs a command of which Command::run is null; with an empty name the window. Returns the exit
+// code, and throws as the commands do.
+using OtherCommands = int (*)(const std::string& name, const Arguments& words);
 
 // One function and one file for each command. They report errors as exceptions, which run()
 // converts to exit codes.
@@ -65,9 +70,10 @@ int windowCommand(const Arguments& words);
 // All commands, in the order of `palpate --help`.
 const std::vector<Command>& allCommands();
 // Runs the whole program; returns its exit code.
-int run(int argc, char** argv);
+int run(int argc, char** argv, OtherCommands others);
 // The folder of the program's own data (example recordings): $PALPATE_DATA, else the folder
-// relative to this executable: ../share/palpate when installed, share/palpate in a build folder.
+// relative to this executable: share/palpate in a build folder, otherwise that of the installation
+// to which it belongs.
 std::filesystem::path dataFolder();
 
 }  // namespace palpate::commands

@@ -76,28 +76,23 @@ int graspsCommand(const Arguments& words) {
   GraspSegmentOptions options;
   if (given.choice("rule", {"general", "study"}) == "study") options.rule = GraspRule::kStudy;
   const RecordingList list = recordingsIn(given.words());
-  StandardOutput out;
-  bool headerWritten = false;
-  const auto work = [&](const std::filesystem::path& file,
-                        const Profile& profile,
-                        const Progress& progress) {
-    requireMatrices(file, profile, options);
-    const std::vector<GraspSegment> grasps = findGrasps(profile, options, progress);
-    std::vector<std::string> header = {"begin", "end", "begin_ms", "end_ms", "fingers", "quality"};
-    if (list.several) header.emplace_back("file");
-    if (!headerWritten) out.write(csvLine(header));
-    headerWritten = true;
-    for (const GraspSegment& grasp : grasps) {
-      std::vector<std::string> cells = graspsCellsOf(profile, grasp);
-      if (list.several) cells.push_back(file.string());
-      out.write(csvLine(cells));
-    }
-    // Writes the rows of each recording at once.
-    out.finish();
-  };
-  const int code = forEachProfile(list, given.quiet(), work);
-  out.finish();
-  return code;
+  std::vector<std::string> header = {"begin", "end", "begin_ms", "end_ms", "fingers", "quality"};
+  if (list.several) header.emplace_back("file");
+  return writeProfileTexts(list,
+                           given.quiet(),
+                           {.begin = csvLine(header)},
+                           [&](const std::filesystem::path& file,
+                               const Profile& profile,
+                               const TextSink& write,
+                               const Progress& progress) {
+                             requireMatrices(file, profile, options);
+                             for (const GraspSegment& grasp :
+                                  findGrasps(profile, options, progress)) {
+                               std::vector<std::string> cells = graspsCellsOf(profile, grasp);
+                               if (list.several) cells.push_back(file.string());
+                               write(csvLine(cells));
+                             }
+                           });
 }
 
 }  // namespace palpate::commands

@@ -278,18 +278,18 @@ std::string tableRow(const std::filesystem::path& file,
 }
 
 int infoOfOne(const RecordingList& recordings, bool quiet, bool json) {
-  StandardOutput out;
-  return forEachReadable(
+  return writeReadableTexts(
       recordings,
       quiet,
+      {},
       [&](const std::filesystem::path& file,
           const ReadableRecording& recording,
+          const TextSink& write,
           const Progress& progress) {
         const TimingReport timing = timingOf(recording.profile);
         const ValueReport values = valuesOf(recording.profile, progress);
-        out.write(json ? infoJsonOf(Json::object(), recording, timing, values).text() + "\n"
-                       : plainText(file.string(), recording, timing, values));
-        out.finish();
+        write(json ? infoJsonOf(Json::object(), recording, timing, values).text() + "\n"
+                   : plainText(file.string(), recording, timing, values));
       });
 }
 
@@ -297,25 +297,22 @@ int infoOfOne(const RecordingList& recordings, bool quiet, bool json) {
 int infoOfSeveral(const RecordingList& recordings, bool quiet, bool json) {
   StandardOutput out;
   if (!recordings.files.empty()) out.write(json ? "{\"recordings\": [" : kTableHeader);
-  const char* between = "\n";
-  const int code =
-      forEachReadable(recordings,
-                      quiet,
-                      [&](const std::filesystem::path& file,
-                          const ReadableRecording& recording,
-                          const Progress& progress) {
-                        const TimingReport timing = timingOf(recording.profile);
-                        const ValueReport values = valuesOf(recording.profile, progress);
-                        if (json) {
-                          const Json report = infoJsonOf(
-                              Json::object().set("file", file.string()), recording, timing, values);
-                          out.write(between + report.text(-1));
-                          between = ",\n";
-                        } else {
-                          out.write(tableRow(file, recording, timing, values));
-                        }
-                        out.finish();
-                      });
+  out.finish();
+  const int code = writeReadableTexts(
+      recordings,
+      quiet,
+      json ? TextFrame{.begin = "\n", .between = ",\n"} : TextFrame{},
+      [&](const std::filesystem::path& file,
+          const ReadableRecording& recording,
+          const TextSink& write,
+          const Progress& progress) {
+        const TimingReport timing = timingOf(recording.profile);
+        const ValueReport values = valuesOf(recording.profile, progress);
+        write(json ? infoJsonOf(
+                         Json::object().set("file", file.string()), recording, timing, values)
+                         .text(-1)
+                   : tableRow(file, recording, timing, values));
+      });
   if (json && !recordings.files.empty()) out.write("\n]}\n");
   out.finish();
   return code;

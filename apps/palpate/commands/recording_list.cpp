@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <exception>
 #include <new>
 #include <optional>
 #include <system_error>
@@ -28,6 +29,16 @@ void sayRecordingList(const std::string& message) {
 
 std::string countText(std::size_t part, std::size_t whole) {
   return std::to_string(part) + " of " + std::to_string(whole);
+}
+
+// The warnings of native recordings, which tell that the end is missing; those of a .dsa file don't
+// matter here.
+std::vector<std::string> notedWarnings(const fs::path& file, const Profile& profile) {
+  std::vector<std::string> lines;
+  if (profile.info().format == "palpate")
+    for (const std::string& warning : profile.info().warnings)
+      lines.push_back(file.string() + ": " + warning);
+  return lines;
 }
 
 // One loop over a list of recordings.
@@ -66,11 +77,8 @@ class ListRun {
     line_.wipe();
     sayRecordingList(message);
   }
-  // Prints the warnings of native recordings, which tell that the end is missing; those of a .dsa
-  // file don't matter here.
   void noteWarnings(const fs::path& file, const Profile& profile) {
-    if (profile.info().format != "palpate") return;
-    for (const std::string& warning : profile.info().warnings) note(file.string() + ": " + warning);
+    for (const std::string& warning : notedWarnings(file, profile)) note(warning);
   }
   // Stops showing progress when rows go to a terminal: they would appear behind the percentage, and
   // they show the progress themselves.
@@ -145,9 +153,108 @@ class ListRun {
   bool shows_ = true;
 };
 
+// Of a small recording more text than this isn't kept until its turn comes.
+constexpr std::size_t kMostTextAhead = 4u << 20;
+class TooMuchText {};
+
+// What became of one recording before its turn.
+struct TextAhead {
+  bool done = false;  // otherwise the work is done when its turn comes
+  std::vector<std::string> notes = {};
+  std::string text = {};
+  std::string damage = {};
+  std::exception_ptr failure = {};
+};
+
+std::string damageOf(const Profile&) { return {}; }
+std::string damageOf(const ReadableRecording& recording) { return recording.damage; }
+const Profile& profileOf(const Profile& profile) { return profile; }
+const Profile& profileOf(const ReadableRecording& recording) { return recording.profile; }
+
 // Progress of half of the work, starting at `begin`.
 Progress halfOf(const Progress& progress, double begin) {
   return [&progress, begin](double fraction) { return progress(begin + 0.5 * fraction); };
+}
+
+// Runs `work` for what `read` gives of each file: ahead of its turn for small recordings, whose text
+// is kept until then; otherwise at its turn, straight to standard output.
+template <typename Content, typename Read, typename Work>
+int writeTexts(const RecordingList& list,
+               bool quiet,
+               const TextFrame& frame,
+               const Read& read,
+               const Work& work) {
+  ListRun run(list, quiet);
+  StandardOutput out;
+  bool begun = false;
+
+  const auto atItsTurn = [&](const fs::path& file, const Progress& progress, std::size_t threads) {
+    const Content content = read(file, halfOf(progress, 0.0), threads);
+    run.noteWarnings(file, profileOf(content));
+    run.leaveTheTerminal();
+    bool first = true;
+    const auto write = [&](const std::string& text) {
+      if (std::exchange(first, false)) {
+        out.write(begun ? frame.between : frame.begin);
+        begun = true;
+      }
+      out.write(text);
+    };
+    work(file, content, write, halfOf(progress, 0.5));
+    write({});
+    return damageOf(content);
+  };
+
+  const auto ahead = [&](const fs::path& file, const Progress& progress, std::size_t threads) {
+    TextAhead result;
+    if (!isReadAhead(file)) return result;
+    try {
+      const Content content = read(file, halfOf(progress, 0.0), threads);
+      result.notes = notedWarnings(file, profileOf(content));
+      const auto write = [&](const std::string& text) {
+        if (result.text.size() + text.size() > kMostTextAhead) throw TooMuchText();
+        result.text += text;
+      };
+      work(file, content, write, halfOf(progress, 0.5));
+      result.damage = damageOf(content);
+    } catch (const TooMuchText&) {
+      return TextAhead();
+    } catch (...) {
+      result.failure = std::current_exception();
+    }
+    result.done = true;
+    return result;
+  };
+
+  ReadAhead<TextAhead> texts(list.files, ahead);
+  const int code = run.through([&](const fs::path& file, const Progress& progress) {
+    TextAhead result = texts.take(progress);
+    if (!result.done) {
+      // What was written before a failure is kept.
+      try {
+        result.damage = atItsTurn(file, progress, 0);
+      } catch (const OutputError&) {
+        throw;
+      } catch (...) {
+        out.finish();
+        throw;
+      }
+    } else {
+      for (const std::string& note : result.notes) run.note(note);
+      run.leaveTheTerminal();
+      if (!result.failure || !result.text.empty()) {
+        out.write((begun ? frame.between : frame.begin) + result.text);
+        begun = true;
+      }
+    }
+    // The rows of each recording at once.
+    out.finish();
+    if (result.failure) std::rethrow_exception(result.failure);
+    return FileOutcome{.problem =
+                           result.damage.empty() ? "" : file.string() + ": " + result.damage};
+  });
+  out.finish();
+  return code;
 }
 
 }  // namespace
@@ -196,17 +303,18 @@ int forEachProfile(const RecordingList& list, bool quiet, const ProfileWork& wor
   });
 }
 
-int forEachReadable(const RecordingList& list, bool quiet, const ReadableWork& work) {
-  ListRun run(list, quiet);
-  ReadAhead<ReadableRecording> recordings(list.files, &readableRecording);
-  return run.through([&](const fs::path& file, const Progress& progress) {
-    const ReadableRecording recording = recordings.take(halfOf(progress, 0.0));
-    run.noteWarnings(file, recording.profile);
-    run.leaveTheTerminal();
-    work(file, recording, halfOf(progress, 0.5));
-    return FileOutcome{.problem =
-                           recording.damage.empty() ? "" : file.string() + ": " + recording.damage};
-  });
+int writeProfileTexts(const RecordingList& list,
+                      bool quiet,
+                      const TextFrame& frame,
+                      const ProfileText& work) {
+  return writeTexts<Profile>(list, quiet, frame, &openRecording, work);
+}
+
+int writeReadableTexts(const RecordingList& list,
+                       bool quiet,
+                       const TextFrame& frame,
+                       const ReadableText& work) {
+  return writeTexts<ReadableRecording>(list, quiet, frame, &readableRecording, work);
 }
 
 }  // namespace palpate::commands

@@ -1,5 +1,5 @@
 // The recordings that the words of a command name (files, and folders with everything below them),
-// and a loop over them: a bad file does not stop the others, Ctrl-C ends the loop between two rows.
+// and loops over them: a bad file does not stop the others, Ctrl-C ends a loop between two rows.
 #pragma once
 
 #include <filesystem>
@@ -41,8 +41,23 @@ using ProfileWork =
     std::function<void(const std::filesystem::path& file, const Profile&, const Progress&)>;
 using VerifyWork =
     std::function<FileOutcome(const std::filesystem::path& file, const VerifyReport&)>;
-using ReadableWork = std::function<void(
-    const std::filesystem::path& file, const ReadableRecording&, const Progress&)>;
+
+// Writes text to standard output, in the order of the recordings. Throws OutputError.
+using TextSink = std::function<void(const std::string& text)>;
+// These are called from several threads at once, each with another file.
+using ProfileText = std::function<void(const std::filesystem::path& file,
+                                       const Profile&,
+                                       const TextSink& write,
+                                       const Progress&)>;
+using ReadableText = std::function<void(const std::filesystem::path& file,
+                                        const ReadableRecording&,
+                                        const TextSink& write,
+                                        const Progress&)>;
+// What stands between the texts of the recordings.
+struct TextFrame {
+  std::string begin = {};    // once, in front of the first recording that is done or wrote text
+  std::string between = {};  // in front of every further one
+};
 
 // Runs `work` for every file, one at a time, and prints on standard error one line for each file
 // that failed. Returns the exit code: 0 all done; 1 none done (or no file); 3 some done, also after
@@ -55,8 +70,19 @@ int forEachVerified(const RecordingList& list, bool quiet, const VerifyWork& wor
 // As forEachRecording(), with every recording opened; a damaged one fails. With several files,
 // prints which recordings are unfinished or still being written.
 int forEachProfile(const RecordingList& list, bool quiet, const ProfileWork& work);
-// As forEachRecording(), with every recording read completely; of a damaged one the readable part
-// is used, and the rest is reported.
-int forEachReadable(const RecordingList& list, bool quiet, const ReadableWork& work);
+
+// As forEachProfile(), for work that writes text. Of small recordings the work is done several at a
+// time, too; the output and the messages are the same as if it were done one after the other. What
+// a recording wrote before it failed is kept.
+int writeProfileTexts(const RecordingList& list,
+                      bool quiet,
+                      const TextFrame& frame,
+                      const ProfileText& work);
+// The same with every recording read completely; of a damaged one the readable part is used, and the
+// rest is reported.
+int writeReadableTexts(const RecordingList& list,
+                       bool quiet,
+                       const TextFrame& frame,
+                       const ReadableText& work);
 
 }  // namespace palpate::commands

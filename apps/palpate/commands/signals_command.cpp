@@ -34,23 +34,23 @@ SignalValues columnsOf(const SignalValues& row) {
   return {row[0], row[1], row[3], row[2], row[4], row[5], row[6]};
 }
 
-void signalsAppendRow(std::string& line,
+void signalsAppendRow(std::string& lines,
                       std::size_t frame,
                       std::int64_t hostUs,
                       std::size_t matrix,
                       const SignalValues& columns) {
-  appendNumber(line, static_cast<std::int64_t>(frame));
-  line += ',';
-  appendNumber(line, hostUs / kUsPerMs);
-  line += ',';
-  appendNumber(line, static_cast<std::int64_t>(matrix));
+  appendNumber(lines, static_cast<std::int64_t>(frame));
+  lines += ',';
+  appendNumber(lines, hostUs / kUsPerMs);
+  lines += ',';
+  appendNumber(lines, static_cast<std::int64_t>(matrix));
   for (const double value : columns) {
-    line += ',';
-    appendNumber(line, value);
+    lines += ',';
+    appendNumber(lines, value);
   }
 }
 
-void writeSignals(StandardOutput& out,
+void writeSignals(const TextSink& out,
                   const Profile& profile,
                   std::optional<std::size_t> onlyMatrix,
                   const Recipe& smooth,
@@ -60,14 +60,15 @@ void writeSignals(StandardOutput& out,
   const std::size_t first = onlyMatrix.value_or(0);
   const std::size_t last = onlyMatrix ? *onlyMatrix + 1 : layout.numMatrices();
   TactileFrame frame;
-  std::string line;
+  std::string lines;
   std::size_t written = 0;
   const auto write = [&](std::int64_t hostUs, const auto& rows) {
+    lines.clear();
     for (std::size_t m = first; m < last; ++m) {
-      line.clear();
-      signalsAppendRow(line, written, hostUs, m, columnsOf(rows[m]));
-      out.write(line += lineEnd);
+      signalsAppendRow(lines, written, hostUs, m, columnsOf(rows[m]));
+      lines += lineEnd;
     }
+    out(lines);
     ++written;
   };
   SignalFilter filter(smooth, layout.numMatrices(), write);
@@ -116,12 +117,15 @@ int signalsCommand(const Arguments& words) {
   const Recipe recipe = recipeOf(given);
   const Recipe smooth = smoothOf(given);
   const RecordingList recordings = recordingsIn(given.words());
-  StandardOutput out;
-  bool headerWritten = false;
-  return forEachProfile(
+  return writeProfileTexts(
       recordings,
       given.quiet(),
-      [&](const std::filesystem::path& file, const Profile& unfiltered, const Progress& progress) {
+      {.begin = "frame,time_ms,matrix,mean,filtered_mean,min,max,sum,active,area_mm2" +
+                std::string(recordings.several ? ",file\n" : "\n")},
+      [&](const std::filesystem::path& file,
+          const Profile& unfiltered,
+          const TextSink& write,
+          const Progress& progress) {
         const Profile profile = filteredBy(recipe, unfiltered, file);
         std::optional<std::size_t> only;
         if (matrix) {
@@ -130,20 +134,8 @@ int signalsCommand(const Arguments& words) {
             throw Error(file.string() + ": has no matrix " + std::to_string(*matrix) +
                         ", only 0.." + std::to_string(profile.layout().numMatrices() - 1));
         }
-        if (!headerWritten)
-          out.write("frame,time_ms,matrix,mean,filtered_mean,min,max,sum,active,area_mm2" +
-                    std::string(recordings.several ? ",file\n" : "\n"));
-        headerWritten = true;
         const std::string lineEnd = recordings.several ? "," + csvLine({file.string()}) : "\n";
-        // When a recording fails in the middle, the rows written so far are kept, and the failure
-        // is reported.
-        try {
-          writeSignals(out, profile, only, smooth, lineEnd, progress);
-        } catch (const Error&) {
-          out.finish();
-          throw;
-        }
-        out.finish();
+        writeSignals(write, profile, only, smooth, lineEnd, progress);
       });
 }
 
