@@ -1,8 +1,8 @@
-// Reading .dsa recordings beside decompressing the same files with `bzip2 -dc`, by wall time, on two
-// idle cores. The targets: large files at most 0.7 times `bzip2 -dc` and 1.2 times `lbzip2 -dc`; all
-// files, by the commands that read folders and by the library's first look, at most 0.65 times
-// `bzip2 -dc`. Each round runs the reference and the reader one after the other, so a
-// busy machine slows both; the counter "ratio" is the median over the rounds of reader / bzip2.
+// Reading .dsa recordings beside decompressing the same files with `bzip2 -dc`, by wall time, on
+// two idle cores. The targets: large files at most 0.7 times `bzip2 -dc` and 1.2 times `lbzip2
+// -dc`; all files, by the commands that read folders and by the library's first look, at most 0.65
+// times `bzip2 -dc`. Each round runs the reference and the reader one after the other, so a busy
+// machine slows both; the counter "ratio" is the median over the rounds of reader / bzip2.
 #include <algorithm>
 #include <array>
 #include <chrono>
@@ -185,10 +185,10 @@ void folderBesideBzip2(benchmark::State& state, const std::string& command) {
   timeBesideReference(state, kAll, &runBzip2, run);
 }
 
-#define PALPATE_FOLDER_BENCHMARK(command)                         \
-  BENCHMARK_CAPTURE(folderBesideBzip2, command, #command)         \
-      ->UseManualTime()                                           \
-      ->Unit(benchmark::kMillisecond)                             \
+#define PALPATE_FOLDER_BENCHMARK(command)                 \
+  BENCHMARK_CAPTURE(folderBesideBzip2, command, #command) \
+      ->UseManualTime()                                   \
+      ->Unit(benchmark::kMillisecond)                     \
       ->Iterations(15)
 PALPATE_FOLDER_BENCHMARK(info);
 PALPATE_FOLDER_BENCHMARK(verify);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <csignal>
+#include <latch>
 #include <map>
 #include <set>
 
@@ -12,9 +13,11 @@
 #include <unistd.h>
 
 #include "palpate/core/error.h"
+#include "palpate/recording/read_ahead.h"
 
 #include "commands/command_line.h"
 #include "commands/palpate_program.h"
+#include "recording/dsa_corpus.h"
 #include "recording/palpate_samples.h"
 #include "testing/background_program.h"
 #include "testing/process_facts.h"
@@ -265,6 +268,109 @@ TEST(ForEachRecording, ASignalEndsItAndIsHeededByTheProgress) {
   EXPECT_EQ(run.exitCode, kPartlyDone);
   EXPECT_EQ(run.out, "did a\n");
   EXPECT_EQ(run.err, "palpate: interrupted: 1 of 3 recordings are done\n");
+}
+
+// Small recordings, so that they are read ahead of their turn.
+RecordingList smallOnes(const TemporaryFolder& folder, std::size_t count) {
+  const std::string bytes = compressed(exampleXml());
+  RecordingList list{.files = {}, .problems = {}, .several = true};
+  for (std::size_t i = 0; i < count; ++i) {
+    list.files.push_back(folder / (std::to_string(i) + ".dsa"));
+    writeFile(list.files.back(), bytes);
+  }
+  return list;
+}
+
+ListResult textsOf(const RecordingList& list, const TextFrame& frame, const ProfileText& work) {
+  ::testing::internal::CaptureStdout();
+  ::testing::internal::CaptureStderr();
+  ListResult run;
+  run.exitCode = writeProfileTexts(list, true, frame, work);
+  run.out = ::testing::internal::GetCapturedStdout();
+  run.err = ::testing::internal::GetCapturedStderr();
+  return run;
+}
+
+TEST(WriteProfileTexts, TheTextsStandInTheOrderOfTheRecordings) {
+  const TemporaryFolder folder;
+  const RecordingList list = smallOnes(folder, 40);
+  const auto name =
+      [](const fs::path& file, const Profile& profile, const TextSink& write, const Progress&) {
+        write(file.stem().string());
+        write(" has " + std::to_string(profile.numFrames()));
+      };
+  std::string expected = "begin: ";
+  for (std::size_t i = 0; i < list.files.size(); ++i)
+    expected += (i > 0 ? ", " : "") + std::to_string(i) + " has 2";
+  const ListResult run = textsOf(list, {.begin = "begin: ", .between = ", "}, name);
+  EXPECT_EQ(run.exitCode, kDone);
+  EXPECT_EQ(run.out, expected);
+  EXPECT_EQ(run.err, "");
+}
+
+// The work of each of two recordings waits for that of the other: one thread would never end.
+TEST(WriteProfileTexts, TheWorkOfSmallRecordingsIsDoneSeveralAtATime) {
+  const TemporaryFolder folder;
+  const RecordingList list = smallOnes(folder, 2);
+  if (readAheadThreads(2) == 0) GTEST_SKIP() << "this machine runs one thread at a time";
+  std::latch both(2);
+  const auto meet = [&](const fs::path&, const Profile&, const TextSink& write, const Progress&) {
+    both.arrive_and_wait();
+    write("met\n");
+  };
+  EXPECT_EQ(textsOf(list, {}, meet).out, "met\nmet\n");
+}
+
+TEST(WriteProfileTexts, WhatWasWrittenBeforeAFailureIsKept) {
+  const TemporaryFolder folder;
+  const RecordingList list = smallOnes(folder, 4);
+  writeFile(list.files[0], "no recording");
+  const auto failing =
+      [&](const fs::path& file, const Profile&, const TextSink& write, const Progress&) {
+        write(file.stem().string() + "a ");
+        if (file == list.files[2]) throw FileError(file, "is broken in the middle");
+        write("b\n");
+      };
+  const ListResult run = textsOf(list, {.begin = "header\n", .between = ""}, failing);
+  EXPECT_EQ(run.exitCode, kPartlyDone);
+  EXPECT_EQ(run.out, "header\n1a b\n2a 3a b\n");
+  EXPECT_NE(run.err.find("0.dsa: "), std::string::npos) << run.err;
+  EXPECT_NE(run.err.find("2.dsa: is broken in the middle"), std::string::npos) << run.err;
+  EXPECT_NE(run.err.find("2 of 4 recordings failed"), std::string::npos) << run.err;
+}
+
+TEST(WriteProfileTexts, TheFrameIsWrittenAlsoWhereNoRecordingHasText) {
+  const TemporaryFolder folder;
+  const auto nothing = [](const fs::path&, const Profile&, const TextSink&, const Progress&) {};
+  const RecordingList list = smallOnes(folder, 3);
+  EXPECT_EQ(textsOf(list, {.begin = "header\n", .between = ""}, nothing).out, "header\n");
+  for (const fs::path& file : list.files) writeFile(file, "no recording");
+  EXPECT_EQ(textsOf(list, {.begin = "header\n", .between = ""}, nothing).out, "");
+}
+
+// What is too long to be kept is made again when its turn comes.
+TEST(WriteProfileTexts, LongTextsAreWrittenAtTheirTurn) {
+  const TemporaryFolder folder;
+  const RecordingList list = smallOnes(folder, 3);
+  const std::string piece(1u << 20, 'x');
+  const auto longText =
+      [&](const fs::path&, const Profile&, const TextSink& write, const Progress&) {
+        for (int i = 0; i < 6; ++i) write(piece);
+        write("\n");
+      };
+  const ListResult run = textsOf(list, {}, longText);
+  std::string one;
+  for (int i = 0; i < 6; ++i) one += piece;
+  EXPECT_EQ(run.exitCode, kDone);
+  EXPECT_TRUE(run.out == one + "\n" + one + "\n" + one + "\n");
+}
+
+TEST(WriteProfileTexts, WhatIsNoFilesFaultEndsIt) {
+  const TemporaryFolder folder;
+  const auto wrong = [](const fs::path&, const Profile&, const TextSink&, const Progress&) {
+    throw UsageError("wrong");
+  };
+  EXPECT_THROW(writeProfileTexts(smallOnes(folder, 3), true, {}, wrong), UsageError);
 }
 
 class FolderOfRecordings : public ::testing::Test {

@@ -60,6 +60,7 @@ class Installed : public ::testing::Test {
 
 TEST_F(Installed, HasEverythingThatAPackageTakes) {
   for (const char* name : {"bin/palpate",
+                           "libexec/palpate/palpate_window",
                            "share/applications/palpate.desktop",
                            "share/metainfo/palpate.metainfo.xml",
                            "share/mime/packages/palpate.xml",
@@ -88,7 +89,9 @@ TEST_F(Installed, HasNothingOfTheBuild) {
         << entry.path();
     if (!entry.is_regular_file()) continue;
     const bool runs = (entry.status().permissions() & fs::perms::owner_exec) != fs::perms::none;
-    EXPECT_EQ(runs, name == "palpate" && entry.path().parent_path().filename() == "bin")
+    EXPECT_EQ(runs,
+              entry.path() == path("bin/palpate") ||
+                  entry.path() == path("libexec/palpate/palpate_window"))
         << entry.path();
   }
 }
@@ -137,6 +140,37 @@ TEST_F(Installed, WindowOpensOnItsDemonstration) {
       palpate({"--screenshot", picture, path("share/palpate/demo_grasps.dsa").string()});
   ASSERT_EQ(result.exitCode, 0) << result.err;
   EXPECT_TRUE(readFile(picture).starts_with("\x89PNG"));
+}
+
+TEST_F(Installed, ProgramOfTheWindowFindsItsDataToo) {
+  const TemporaryFolder folder;
+  const ProgramResult result = palpate({"render",
+                                        path("share/palpate/demo_grasps.dsa").string(),
+                                        "-o",
+                                        folder / "frame.png",
+                                        "--frame",
+                                        "1"});
+  EXPECT_EQ(result.exitCode, 0) << result.err;
+  const ProgramResult unknown = palpate({"emulate", "--scene", "no_such_scene"});
+  EXPECT_NE(unknown.err.find((path("share/palpate") / "").string()), std::string::npos)
+      << unknown.err;
+}
+
+TEST_F(Installed, WithoutTheProgramOfTheWindowTheOtherCommandsWork) {
+  const fs::path window = path("libexec/palpate/palpate_window");
+  fs::rename(window, window.string() + "_away");
+  const ProgramResult info = palpate({"info", path("share/palpate/demo_grasps.dsa").string()});
+  const ProgramResult train = palpate({"train", "--help"});
+  const ProgramResult open = palpate({"--demo"});
+  fs::rename(window.string() + "_away", window);
+  EXPECT_EQ(info.exitCode, 0) << info.err;
+  for (const ProgramResult& result : {train, open}) {
+    EXPECT_EQ(result.exitCode, 1);
+    EXPECT_EQ(result.err,
+              "palpate: " + window.string() +
+                  ": the part of palpate with the window and this command can't be started: No "
+                  "such file or directory; install palpate again\n");
+  }
 }
 
 TEST_F(Installed, PythonModuleIsFound) {

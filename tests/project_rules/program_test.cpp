@@ -19,11 +19,22 @@ std::string librariesOf(const std::string& program) {
 TEST(Program, LoadsNoQt5) {
   const std::string program = PALPATE_PROGRAM;
   if (program.empty()) GTEST_SKIP() << "built without the program (PALPATE_APPS=OFF)";
-  const std::string libraries = librariesOf(program);
+  const std::string libraries = librariesOf(program + "_window");
   EXPECT_NE(libraries.find("libQt6Widgets"), std::string::npos) << libraries;
   EXPECT_EQ(libraries.find("Qt5"), std::string::npos) << libraries;
   EXPECT_EQ(libraries.find("opencv_highgui"), std::string::npos) << libraries;
   EXPECT_EQ(libraries.find("not found"), std::string::npos) << libraries;
+}
+
+// So that a command without a window starts in a few milliseconds. These libraries bring more than
+// sixty others.
+TEST(Program, WithoutAWindowLoadsNeitherQtNorOpenCvNorCeres) {
+  const std::string program = PALPATE_PROGRAM;
+  if (program.empty()) GTEST_SKIP() << "built without the program (PALPATE_APPS=OFF)";
+  const std::string libraries = librariesOf(program);
+  EXPECT_NE(libraries.find("libbz2"), std::string::npos) << libraries;
+  for (const char* name : {"libQt", "opencv", "ceres", "glog", "lapack", "libGL", "not found"})
+    EXPECT_EQ(libraries.find(name), std::string::npos) << name << "\n" << libraries;
 }
 
 // This test links the whole core library.

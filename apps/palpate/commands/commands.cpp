@@ -91,8 +91,7 @@ int dispatch(const Arguments& words, OtherCommands others) {
       return kDone;
     }
     for (const Command& command : allCommands())
-      if (words[0] == command.name)
-        return runCommand(command, {words.begin() + 1, words.end()});
+      if (words[0] == command.name) return runCommand(command, {words.begin() + 1, words.end()});
     refuseMistypedCommand(words[0]);
   }
   return others({}, words);
@@ -134,11 +133,9 @@ const std::vector<Command>& allCommands() {
        nullptr},
       {"classify", "names what was grasped, with a trained model", nullptr},
       {"compare", "compares two recordings frame by frame, as CSV", &compareCommand},
-      {"contact", "where a hand touches, and how large the held object is", &contactCommand},
+      {"contact", "where a hand touches, and how large the held object is", nullptr},
       {"convert", "converts recordings: .dsa, .palpate, .csv, .npz", &convertCommand},
-      {"demo",
-       "a tour without a window: emulated hands grasp objects, which are named",
-       nullptr},
+      {"demo", "a tour without a window: emulated hands grasp objects, which are named", nullptr},
       {"emulate", "runs the emulated hand on two ports, until it is interrupted", nullptr},
       {"evaluate", "measures how well grasps are recognised", nullptr},
       {"features", "features of each grasp for recognition, as CSV", &featuresCommand},

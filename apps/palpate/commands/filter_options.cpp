@@ -6,6 +6,8 @@
 #include "palpate/filter/filtered_profile.h"
 #include "palpate/recording/recording.h"
 
+#include "commands/commands.h"
+
 namespace palpate::commands {
 namespace {
 

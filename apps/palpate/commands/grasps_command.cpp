@@ -78,21 +78,21 @@ int graspsCommand(const Arguments& words) {
   const RecordingList list = recordingsIn(given.words());
   std::vector<std::string> header = {"begin", "end", "begin_ms", "end_ms", "fingers", "quality"};
   if (list.several) header.emplace_back("file");
-  return writeProfileTexts(list,
-                           given.quiet(),
-                           {.begin = csvLine(header)},
-                           [&](const std::filesystem::path& file,
-                               const Profile& profile,
-                               const TextSink& write,
-                               const Progress& progress) {
-                             requireMatrices(file, profile, options);
-                             for (const GraspSegment& grasp :
-                                  findGrasps(profile, options, progress)) {
-                               std::vector<std::string> cells = graspsCellsOf(profile, grasp);
-                               if (list.several) cells.push_back(file.string());
-                               write(csvLine(cells));
-                             }
-                           });
+  return writeProfileTexts(
+      list,
+      given.quiet(),
+      {.begin = csvLine(header)},
+      [&](const std::filesystem::path& file,
+          const Profile& profile,
+          const TextSink& write,
+          const Progress& progress) {
+        requireMatrices(file, profile, options);
+        for (const GraspSegment& grasp : findGrasps(profile, options, progress)) {
+          std::vector<std::string> cells = graspsCellsOf(profile, grasp);
+          if (list.several) cells.push_back(file.string());
+          write(csvLine(cells));
+        }
+      });
 }
 
 }  // namespace palpate::commands

@@ -308,10 +308,10 @@ int infoOfSeveral(const RecordingList& recordings, bool quiet, bool json) {
           const Progress& progress) {
         const TimingReport timing = timingOf(recording.profile);
         const ValueReport values = valuesOf(recording.profile, progress);
-        write(json ? infoJsonOf(
-                         Json::object().set("file", file.string()), recording, timing, values)
-                         .text(-1)
-                   : tableRow(file, recording, timing, values));
+        write(json
+                  ? infoJsonOf(Json::object().set("file", file.string()), recording, timing, values)
+                        .text(-1)
+                  : tableRow(file, recording, timing, values));
       });
   if (json && !recordings.files.empty()) out.write("\n]}\n");
   out.finish();

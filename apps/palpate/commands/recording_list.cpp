@@ -176,8 +176,8 @@ Progress halfOf(const Progress& progress, double begin) {
   return [&progress, begin](double fraction) { return progress(begin + 0.5 * fraction); };
 }
 
-// Runs `work` for what `read` gives of each file: ahead of its turn for small recordings, whose text
-// is kept until then; otherwise at its turn, straight to standard output.
+// Runs `work` for what `read` gives of each file: ahead of its turn for small recordings, whose
+// text is kept until then; otherwise at its turn, straight to standard output.
 template <typename Content, typename Read, typename Work>
 int writeTexts(const RecordingList& list,
                bool quiet,

@@ -45,10 +45,8 @@ using VerifyWork =
 // Writes text to standard output, in the order of the recordings. Throws OutputError.
 using TextSink = std::function<void(const std::string& text)>;
 // These are called from several threads at once, each with another file.
-using ProfileText = std::function<void(const std::filesystem::path& file,
-                                       const Profile&,
-                                       const TextSink& write,
-                                       const Progress&)>;
+using ProfileText = std::function<void(
+    const std::filesystem::path& file, const Profile&, const TextSink& write, const Progress&)>;
 using ReadableText = std::function<void(const std::filesystem::path& file,
                                         const ReadableRecording&,
                                         const TextSink& write,
@@ -78,8 +76,8 @@ int writeProfileTexts(const RecordingList& list,
                       bool quiet,
                       const TextFrame& frame,
                       const ProfileText& work);
-// The same with every recording read completely; of a damaged one the readable part is used, and the
-// rest is reported.
+// The same with every recording read completely; of a damaged one the readable part is used, and
+// the rest is reported.
 int writeReadableTexts(const RecordingList& list,
                        bool quiet,
                        const TextFrame& frame,

@@ -13,6 +13,7 @@ int runWindowCommand(const std::string& name, const Arguments& words) {
       {"adapt", &adaptCommand},
       {"calibrate", &calibrateCommand},
       {"classify", &classifyCommand},
+      {"contact", &contactCommand},
       {"demo", &demoCommand},
       {"emulate", &emulateCommand},
       {"evaluate", &evaluateCommand},
