@@ -328,6 +328,7 @@ echo "$(nproc) cores, $(sed -n 's/^model name\\s*: //p' /proc/cpuinfo | head -n 
 ] + [
     bench("start", 20, "processTo", {
         "picture": (wall("processToPicture"), S),
+        "first_paint": (counter("processToFirstPaint", "first_paint_ms", 1e-3), MS),
         "version": (wall("processToVersion"), MS),
         "info": (wall("processToInfo"), MS)}, display=True),
     bench("playback", 60, "^window/", {
@@ -541,9 +542,9 @@ SECTIONS = {
         for command in ("info", "signals", "verify", "grasps")
     ],
     "window": [
-        Row("from process start to a picture of the window with a recording open (bounds the first "
-            "paint); `--version` alone (target 10 ms); `info` of a recording of two frames (15 ms)",
-            "{start.picture}; {start.version}; {start.info}", "start", True),
+        Row("from process start to the first paint of the window (target 200 ms); to a picture of the window "
+            "with a recording open; `--version` alone (10 ms); `info` of a recording of two frames (15 ms)",
+            "{start.first_paint}; {start.picture}; {start.version}; {start.info}", "start", True),
         Row("playback, every one of {playback.repaints} repaints/s another frame: part of one core "
             "(target 15 %); repainting everything instead; paused",
             "{playback.playback}; {playback.everything}; {playback.paused}", "playback"),

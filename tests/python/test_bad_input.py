@@ -3,6 +3,7 @@ import gc
 import os
 import random
 import signal
+import sys
 import threading
 import time
 
@@ -230,6 +231,29 @@ def test_long_work_lets_other_threads_go_on():
         time.sleep(0.001)
     thread.join()
     assert turns > 10
+
+
+def test_loading_lets_other_threads_go_on(tmp_path):
+    """With this interval Python takes its lock from no thread: only a thread that gives it back lets others go on."""
+    path = tmp_path / "a.dsa"
+    PROFILE.save(path)
+    usual, seen, loads = sys.getswitchinterval(), threading.Event(), 0
+
+    def work():
+        nonlocal loads
+        while not seen.is_set() and loads < 1000:
+            palpate.load(path)
+            loads += 1
+
+    sys.setswitchinterval(1000.0)
+    try:
+        thread = threading.Thread(target=work)
+        thread.start()
+        seen.set()
+        thread.join()
+    finally:
+        sys.setswitchinterval(usual)
+    assert loads < 1000
 
 
 def test_ctrl_c_ends_long_work():
