@@ -13,11 +13,12 @@
 #include <unistd.h>
 
 #include "palpate/core/error.h"
+#include "palpate/emulator/synthetic_profile.h"
+#include "palpate/recording/dsa_writer.h"
 #include "palpate/recording/read_ahead.h"
 
 #include "commands/command_line.h"
 #include "commands/palpate_program.h"
-#include "recording/dsa_corpus.h"
 #include "recording/palpate_samples.h"
 #include "testing/background_program.h"
 #include "testing/process_facts.h"
@@ -270,13 +271,15 @@ TEST(ForEachRecording, ASignalEndsItAndIsHeededByTheProgress) {
   EXPECT_EQ(run.err, "palpate: interrupted: 1 of 3 recordings are done\n");
 }
 
+Profile smallProfile() { return ::palpate::synthesize({.durationS = 0.2, .rateHz = 10.0}); }
+
 // Small recordings, so that they are read ahead of their turn.
 RecordingList smallOnes(const TemporaryFolder& folder, std::size_t count) {
-  const std::string bytes = compressed(exampleXml());
   RecordingList list{.files = {}, .problems = {}, .several = true};
   for (std::size_t i = 0; i < count; ++i) {
     list.files.push_back(folder / (std::to_string(i) + ".dsa"));
-    writeFile(list.files.back(), bytes);
+    writeDsa(smallProfile(), list.files.back());
+    EXPECT_TRUE(isReadAhead(list.files.back()));
   }
   return list;
 }
@@ -299,9 +302,10 @@ TEST(WriteProfileTexts, TheTextsStandInTheOrderOfTheRecordings) {
         write(file.stem().string());
         write(" has " + std::to_string(profile.numFrames()));
       };
+  const std::string frames = std::to_string(smallProfile().numFrames());
   std::string expected = "begin: ";
   for (std::size_t i = 0; i < list.files.size(); ++i)
-    expected += (i > 0 ? ", " : "") + std::to_string(i) + " has 2";
+    expected += (i > 0 ? ", " : "") + std::to_string(i) + " has " + frames;
   const ListResult run = textsOf(list, {.begin = "begin: ", .between = ", "}, name);
   EXPECT_EQ(run.exitCode, kDone);
   EXPECT_EQ(run.out, expected);
