@@ -90,7 +90,7 @@ void processToFirstPaint(benchmark::State& state) {
 void processToInfo(benchmark::State& state) {
   const palpate::testing::TemporaryFolder folder;
   const fs::path path = folder / "two.dsa";
-  palpate::writeDsa(palpate::synthesize({.durationS = 0.1, .rateHz = 10.0}), path);
+  palpate::writeDsa(palpate::synthesize({.durationS = 0.1, .rateHz = 10.0, .grasps = 0}), path);
   for (auto _ : state)
     if (palpate::testing::runProgram(PALPATE_PROGRAM, {"info", path.string()}).exitCode != 0)
       return state.SkipWithError("failed");

@@ -271,7 +271,9 @@ TEST(ForEachRecording, ASignalEndsItAndIsHeededByTheProgress) {
   EXPECT_EQ(run.err, "palpate: interrupted: 1 of 3 recordings are done\n");
 }
 
-Profile smallProfile() { return ::palpate::synthesize({.durationS = 0.2, .rateHz = 10.0}); }
+Profile smallProfile() {
+  return ::palpate::synthesize({.durationS = 0.2, .rateHz = 10.0, .grasps = 0});
+}
 
 // Small recordings, so that they are read ahead of their turn.
 RecordingList smallOnes(const TemporaryFolder& folder, std::size_t count) {
