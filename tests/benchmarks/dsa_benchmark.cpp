@@ -175,7 +175,7 @@ void libraryBesideBzip2(benchmark::State& state) {
 void folderBesideBzip2(benchmark::State& state, const std::string& command) {
   const palpate::testing::TemporaryFolder folder;
   std::string line = std::string(PALPATE_PROGRAM) + " " + command + " -q \"$PALPATE_RECORDINGS\"";
-  if (command == "train") line += " --force -o " + (folder / "model.json");
+  if (command == "train") line += " --force -o " + (folder / "model.json").string();
   line += " > /dev/null 2>&1";
   const auto run = [&](const std::vector<std::string>&) {
     const int status = std::system(line.c_str());
