@@ -12,24 +12,44 @@ using testing::idealReading;
 using testing::reading;
 using testing::viewOf;
 
-TEST(LearnedSurface, BeginsAsTheKeyFrameItIsGiven) {
-  SyntheticSlip slip({}, 3);
-  const MatrixValues values = reading(slip, {});
-  LearnedSurface surface(slip.sensor().layout);
-  KeyFrame key(slip.sensor().layout);
-  ASSERT_TRUE(surface.set(viewOf(values), 5.0));
-  ASSERT_TRUE(key.set(viewOf(values)));
-  for (float y = 0.0F; y <= 13.0F; y += 0.37F)
-    for (float x = 0.0F; x <= 5.0F; x += 0.29F) {
-      const KeyFrame::Sample expected = key.at(x, y);
-      const LearnedSurface::Sample sample = surface.at(x, y);
-      // The finer spline is the same function except near the rim, where values outside were
-      // limited.
-      if (x < 1.0F || x > 4.0F || y < 1.0F || y > 12.0F) continue;
-      EXPECT_NEAR(sample.value, expected.value, 0.1F) << x << " " << y;
-      EXPECT_NEAR(sample.alongX, expected.alongX, 0.5F) << x << " " << y;
-      EXPECT_NEAR(sample.alongY, expected.alongY, 0.5F) << x << " " << y;
-    }
+// At the taxels the first surface is what was read, within the noise; between them it is nearer to
+// the contact than the interpolation of the frame.
+TEST(LearnedSurface, BeginsAsTheMostProbableSurfaceOfItsFrame) {
+  SyntheticSensor sensor;
+  SyntheticSlip slip(sensor, 3);
+  double ofSurface = 0.0;
+  double ofKey = 0.0;
+  for (const SlipShape shape : {SlipShape::kDisc, SlipShape::kBar, SlipShape::kFlatEllipse}) {
+    SyntheticContact contact;
+    contact.shape = shape;
+    const MatrixValues values = reading(slip, contact);
+    LearnedSurface surface(sensor.layout);
+    KeyFrame key(sensor.layout);
+    ASSERT_TRUE(surface.set(viewOf(values), 5.0));
+    ASSERT_TRUE(key.set(viewOf(values)));
+    EXPECT_EQ(surface.frames(), 1);
+    for (int y = 0; y < 14; ++y)
+      for (int x = 0; x < 6; ++x) {
+        if (values(y, x) > 0.0F) {
+          EXPECT_NEAR(
+              surface.at(static_cast<float>(x), static_cast<float>(y)).value, values(y, x), 15.0F)
+              << nameOf(shape) << " " << x << " " << y;
+        }
+      }
+    SyntheticContact between = contact;
+    between.x -= 0.5;
+    between.y -= 0.5;
+    const MatrixValues ideal = idealReading(between, sensor);
+    for (int y = 1; y < 12; ++y)
+      for (int x = 1; x < 4; ++x) {
+        if (ideal(y, x) < 200.0F) continue;
+        const float atX = static_cast<float>(x) + 0.5F;
+        const float atY = static_cast<float>(y) + 0.5F;
+        ofSurface += std::pow(static_cast<double>(surface.at(atX, atY).value - ideal(y, x)), 2);
+        ofKey += std::pow(static_cast<double>(key.at(atX, atY).value - ideal(y, x)), 2);
+      }
+  }
+  EXPECT_LT(ofSurface, 0.8 * ofKey);
 }
 
 // The values between taxels are learnt when the contact moves. They are compared with frames that
@@ -121,6 +141,13 @@ TEST(LearnedSurface, NothingIsNoKey) {
   LearnedSurfaceOptions options;
   options.processNoiseRatio = -1.0;
   EXPECT_THROW(LearnedSurface(MatrixLayout::full(2, 2, 3.4), options), std::invalid_argument);
+  for (const LearnedSurfaceOptions& bad : {LearnedSurfaceOptions{.priorSd = 0.0},
+                                           LearnedSurfaceOptions{.interpolationSd = -1.0},
+                                           LearnedSurfaceOptions{.forgottenPerFrame = 0.6},
+                                           LearnedSurfaceOptions{.startIterations = 0},
+                                           LearnedSurfaceOptions{.iterations = 0}})
+    EXPECT_THROW(LearnedSurface(MatrixLayout::full(2, 2, 3.4), bad), std::invalid_argument);
+  EXPECT_NO_THROW(LearnedSurface(MatrixLayout::full(1, 1, 3.4)));
 }
 
 }  // namespace
