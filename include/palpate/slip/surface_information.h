@@ -13,7 +13,7 @@
 // Switzer 1965), thus the spectrum 2 pi 9 / (1 + 9 k^2)^1.5, k in radians per taxel. A soft cover
 // that blurs an edge by 0.4 taxel (sd) and the mean over a taxel's square (variance 1/12) multiply
 // it by exp(-k^2 (0.4^2 + 1/12)). Its inverse is approximated by the polynomial
-// 0.01 + 0.4 k^2 + 0.24 k^6 (within a factor of 1.5 for wavelengths over 1.2 taxels), k^2 the
+// 0.01 + 0.4 k^2 + 0.24 k^6 (rms factor 1.5 for wavelengths over 1.2 taxels), k^2 the
 // negative Laplacian on the grid. So A is sparse before any reading, too.
 #pragma once
 
