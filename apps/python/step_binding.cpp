@@ -40,6 +40,7 @@ py::dict stepToPython(const StepFit& fit) {
   result["residual_sd"] = fit.residualSd;
   result["converged"] = fit.converged;
   result["identifiable"] = fit.identifiable;
+  result["time_constants_identifiable"] = fit.timesIdentifiable;
   result["gain_reached"] = fit.steadyStateReached;
   result["usable"] = fit.usable();
   result["covariance"] = arrayOf(Eigen::MatrixXd(fit.covariance));
@@ -157,7 +158,8 @@ void bindSteps(py::module_& module) {
       py::arg("loss_scale") = 0.0,
       "Fits the step response of a second order lag with drift (study, 3.1), by least squares: t "
       "(n,) [s] from the step's begin, y (n,) [counts]. dict K [counts], m [counts/s], T1, T2, T "
-      "[s], d, rmse, residual_sd [counts], converged, identifiable, gain_reached, usable, "
+      "[s], d, rmse, residual_sd [counts], converged, identifiable, "
+      "time_constants_identifiable, gain_reached, usable, "
       "covariance (4, 4) of K, m, T1, T2 (d < 1: K, m, T, d; NaN: not to be had), interval95 (4,): "
       "half widths, samples, dropped, downweighted, notes; inflection_s, inflection_counts, "
       "tangent_per_s, dead_time_s, t_k_s, equivalent_tangent_per_s, steady_s: what is read off "

@@ -123,6 +123,7 @@ Json jsonOf(const FittedStep& fitted) {
     for (const char* key : {"K", "m", "T1", "T2", "T", "d", "rmse"}) json.set(key, Json());
   }
   json.set("converged", fit.converged).set("identifiable", fit.identifiable);
+  json.set("time_constants_identifiable", fit.timesIdentifiable);
   json.set("covariance", numbers(fit));
   Json order = Json::array();
   const bool oscillating = fit.converged && p.damping < 1.0;

@@ -36,6 +36,8 @@ constexpr double kShortestStart = 50.0;
 // beyond describe a curved drift.
 constexpr double kLongestStartShare = 0.15;
 constexpr int kGridTimes = 9;
+// Longer times, as shares of the duration: no starts, but alternatives.
+constexpr std::array kLongTimeShares{0.3, 0.5};
 constexpr std::array kGridSecond{0.03, 0.2, 0.6, 1.0};  // q or d
 // The scale of a robust loss is updated from roughly solved minima until it changes by less than
 // kNearlySettled, then from exact ones until it changes by less than kScaleSettled. It settles
@@ -177,6 +179,10 @@ class ProjectedStep {
     return project({x.data(), 2}) ? (y_ - gain_ * phi_).squaredNorm()
                                   : std::numeric_limits<double>::infinity();
   }
+  // The point at which the last sum was computed.
+  StepAlternative alternative(double sumOfSquares) const {
+    return {sumOfSquares, gain_, drift_, shapes_.shapes().back().phi};
+  }
   StepParameters parametersAt(const Eigen::Vector2d& x) {
     const bool defined = project({x.data(), 2});
     StepParameters p = shapes_.place().parameters;
@@ -292,10 +298,12 @@ LeastSquaresReport solveInDomain(LeastSquaresProblem& problem,
   return edge == report.x[last] ? report : onEdge(report.x, edge);
 }
 
-// Returns the points of the grid that have no better neighbour, best first.
+// Returns the points of the grid that have no better neighbour, best first; writes all points to
+// `alternatives`.
 std::vector<Eigen::Vector2d> startsOf(ProjectedStep& projected,
                                       const StepSamples& samples,
-                                      const StepSearchOptions& options) {
+                                      const StepSearchOptions& options,
+                                      std::vector<StepAlternative>& alternatives) {
   const double shortest = std::log(kShortestStart * options.leastT2S);
   const double longest = std::log(kLongestStartShare * samples.timeS.back());
   const auto placeOf = [&](int i, int j) {
@@ -304,8 +312,15 @@ std::vector<Eigen::Vector2d> startsOf(ProjectedStep& projected,
   };
   constexpr int kRows = static_cast<int>(kGridSecond.size());
   Eigen::ArrayXXd sums(kGridTimes, kRows);
+  const auto sumAt = [&](const Eigen::Vector2d& x) {
+    const double sum = projected.sumOfSquares(x);
+    if (std::isfinite(sum)) alternatives.push_back(projected.alternative(sum));
+    return sum;
+  };
   for (int i = 0; i < kGridTimes; ++i)
-    for (int j = 0; j < kRows; ++j) sums(i, j) = projected.sumOfSquares(placeOf(i, j));
+    for (int j = 0; j < kRows; ++j) sums(i, j) = sumAt(placeOf(i, j));
+  for (const double share : kLongTimeShares)
+    for (const double second : kGridSecond) sumAt({std::log(share * samples.timeS.back()), second});
   const double best = sums.minCoeff();
   std::vector<std::pair<double, Eigen::Vector2d>> found;
   for (int i = 0; i < kGridTimes; ++i)
@@ -335,7 +350,7 @@ StepMinimum searchStep(const StepSamples& samples, const StepSearchOptions& opti
   problem.jacobian = [&](auto x, auto out) { return projected.jacobian(x, out); };
   StepMinimum best;
   best.sumOfSquares = std::numeric_limits<double>::infinity();
-  for (const Eigen::Vector2d& start : startsOf(projected, samples, options)) {
+  for (const Eigen::Vector2d& start : startsOf(projected, samples, options, best.alternatives)) {
     const LeastSquaresReport report =
         solveInDomain(problem, start, options, kStepTolerance, kFirstRadius);
     if (!(report.sumOfSquares < best.sumOfSquares)) continue;

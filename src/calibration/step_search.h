@@ -31,6 +31,14 @@ struct StepSearchOptions {
   int maxIterations = 60;
 };
 
+// A shape of a coarse grid over the whole domain, with the K and m that fit best.
+struct StepAlternative {
+  double sumOfSquares = 0.0;
+  double staticResponseCounts = 0.0;  // K
+  double driftCountsPerS = 0.0;       // m
+  double reachedGain = 0.0;           // phi at the last sample
+};
+
 struct StepMinimum {
   Eigen::Vector2d at = Eigen::Vector2d::Zero();  // coordinates in the domain
   StepParameters parameters;
@@ -42,6 +50,8 @@ struct StepMinimum {
   // has less weight.
   std::vector<double> weights;
   double lossScale = 0.0;
+  // The grid, with squares as the loss.
+  std::vector<StepAlternative> alternatives;
 };
 
 // Returns the smallest of the minima that are found from the best points of a coarse grid.

@@ -58,6 +58,7 @@ int remoteCommand(const Arguments& words);
 int renderCommand(const Arguments& words);
 int signalsCommand(const Arguments& words);
 int slipBenchmarkCommand(const Arguments& words);
+int stepBenchmarkCommand(const Arguments& words);
 int slipCommand(const Arguments& words);
 int spectrumCommand(const Arguments& words);
 int streamCommand(const Arguments& words);

@@ -50,27 +50,38 @@ struct StepFit {
   // Samples that were not used because they are not finite or before t = 0.
   std::size_t numDropped = 0;
   double rmse = kNotFitted;  // sqrt(mean square of all residuals) [counts]
-  // sqrt(sum of (weighted) squares / (n - 4)), which scales the covariance [counts].
+  // sqrt(sum of (weighted) squares / (n - 4)) [counts].
   double residualSd = kNotFitted;
-  // Covariance of K, m, T1, T2 (with d < 1: of K, m, T, d), linearised at the solution; NaN when it
-  // cannot be computed. With T1 = T2 only those of K and m are numbers.
+  // Covariance of K, m, T1, T2 (with d < 1: of K, m, T, d), linearised at the solution, for noise
+  // that is as correlated from sample to sample as the residuals show; NaN when it cannot be
+  // computed. With T1 = T2 only those of K and m are numbers.
   Eigen::Matrix4d covariance = Eigen::Matrix4d::Constant(kNotFitted);
+  // Degrees of freedom of Student's t for the intervals.
+  double degreesOfFreedom = kNotFitted;
+  // Half widths of the 95 % intervals in the order of the covariance; NaN where none can be stated:
+  // of all when K isn't determined, of T1 and T2 when they are equal.
+  Eigen::Vector4d halfIntervals = Eigen::Vector4d::Constant(kNotFitted);
   bool converged = false;  // a minimum was found
-  // Whether the data determine all four parameters.
+  // The data determine K (its 95 % interval is within +-50 %), and the fit converged.
   bool identifiable = false;
-  // The lag has ended (phi >= 95 %) before the data end, so that K and m can be estimated
-  // separately.
+  // The data don't determine K: its interval is wider than that, or other shapes with another K
+  // explain them as well. Also known where the search ended without a minimum.
+  bool gainUndetermined = false;
+  // Whether the data determine T1 and T2 (d < 1: T and d), too.
+  bool timesIdentifiable = false;
+  // The lag has ended (phi >= 95 %) before the data end, also with T1 (d < 1: T) at the upper end
+  // of its interval, so that K and m can be estimated separately.
   bool steadyStateReached = false;
   // Number of samples with less than half weight (robust losses).
   std::size_t numDownweighted = 0;
   int evaluations = 0;  // number of points at which the model was evaluated, over all starts
   std::vector<std::string> notes;  // what is missing or doubtful, one sentence each
 
-  // K and m can be used for a calibration.
-  bool usable() const noexcept { return converged && steadyStateReached; }
+  // K and m can be used for a calibration; only what is identifiable is usable.
+  bool usable() const noexcept { return identifiable && steadyStateReached; }
   // Standard deviation of K, m, T1 or T2 (0..3).
   double sd(int parameter) const;
-  // Half width of the 95 % interval (Student's t with n - 4 degrees of freedom).
+  // Half width of the 95 % interval of K, m, T1 or T2 (0..3).
   double interval95(int parameter) const;
 };
 

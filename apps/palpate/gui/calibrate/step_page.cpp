@@ -60,11 +60,12 @@ FigureCell withInterval(double value, double interval) {
 // The warnings of a step, a few words each.
 QStringList flagsOf(const FittedStep& step) {
   QStringList flags;
-  if (!step.fit.converged) flags.append("no fit");
+  if (!step.fit.converged && !step.fit.gainUndetermined) flags.append("no fit");
   if (step.fit.converged && !step.fit.steadyStateReached) flags.append("cut off");
   if (step.saturatedFrames > 0) flags.append("saturated");
   if (!step.step.beginSeen) flags.append("begin not seen");
-  if (step.fit.converged && !step.fit.identifiable) flags.append("T2 unknown");
+  if (step.fit.gainUndetermined) flags.append("K unknown");
+  if (step.fit.identifiable && !step.fit.timesIdentifiable) flags.append("T2 unknown");
   if (step.step.flickerFrames > 0) flags.append("flickers");
   return flags;
 }
