@@ -3,6 +3,7 @@
 A part is one command, run once; its figures are taken from what it prints. A row of a table names figures in braces.
 """
 import json
+import math
 import re
 from dataclasses import dataclass, field
 
@@ -280,6 +281,91 @@ wait $hands || true
 cat r*.json""".strip()
 
 
+# Curves of cost against size (docs/growth.md): name -> (what, unit of the size, benchmark, sizes).
+FRAMES = [10 ** i for i in range(2, 7)]
+CLASSES = [10, 30, 100, 300]
+GROWTH = {
+    "open": ("opening a `.palpate`", "frames", "growthOpen", FRAMES),
+    "open_dsa": ("opening a `.dsa`", "frames", "growthOpenDsa", FRAMES[:4]),
+    "timeline": ("the timeline, until all is read", "frames", "growthTimeline", FRAMES),
+    "library_first": ("the library, first look", "recordings", "growthLibrary/first", FRAMES[:3]),
+    "library_again": ("the library, any later start", "recordings", "growthLibrary/again", FRAMES[:3]),
+    "train_grasps": ("`train`, gauss, 20 classes", "grasps", "growthTrainGrasps/gauss", FRAMES[:3]),
+    "train_grasps_svm": ("`train`, svm, 20 classes", "grasps", "growthTrainGrasps/svm", FRAMES[:3]),
+    "train_classes": ("`train`, gauss, 3000 grasps", "classes", "growthTrainClasses/gauss", CLASSES),
+    "train_classes_svm": ("`train`, svm, 3000 grasps", "classes", "growthTrainClasses/svm", CLASSES),
+    "classify": ("an answer, gauss", "classes", "growthClassify/gauss", CLASSES),
+    "signals": ("all signals of a frame", "taxels", "growthSignals", FRAMES),
+}
+
+
+def growth_figures():
+    figures = {}
+    for name, (_, _, benchmark, sizes) in GROWTH.items():
+        for size in sizes:
+            figures[f"{name}.s{size}"] = (wall(f"{benchmark}/{size}"), duration)
+            figures[f"{name}.mb{size}"] = (counter(f"{benchmark}/{size}", "peak_MB"), fixed(0))
+    return figures
+
+
+def duration(seconds):
+    return next(in_unit(unit)(seconds) for unit in ("s", "ms", "us", "ns") if seconds >= SECONDS[unit]
+                or unit == "ns")
+
+
+def slope(points):
+    """Exponent of a curve: slope of a line in logarithms through its larger half, where fixed costs matter least."""
+    half = points[-max(2, (len(points) + 1) // 2):]
+    x = [math.log(size) for size, _ in half]
+    y = [math.log(cost) for _, cost in half]
+    middle = sum(x) / len(x)
+    return sum((a - middle) * b for a, b in zip(x, y)) / sum((a - middle) ** 2 for a in x)
+
+
+# Kinds of simulated steps (palpate step-benchmark): one line of the table each, with both drifts.
+COVERAGE_SHAPES = [("T1 0.5 s, T2 0.12 s", "K m T1 T2"), ("T1 0.5 s, T2 0.005 s", "K m T1 T2"),
+                   ("T1 = T2 = 0.3 s", "K m T1 T2"), ("T 0.2 s, d 0.5", "K m T d")]
+COVERAGE_KINDS = [(shape, letters.split(), correlation, noise, length, "squares")
+                  for shape, letters in COVERAGE_SHAPES for correlation in (0.0, 0.1)
+                  for noise in (0.005, 0.03, 0.1) for length in (1.0, 3.0, 12.0)]
+COVERAGE_KINDS += [(COVERAGE_SHAPES[0][0], "K m T1 T2".split(), correlation, 0.03, length, loss)
+                   for loss in ("huber", "cauchy") for correlation in (0.0, 0.1) for length in (3.0, 12.0)]
+
+
+def coverage_cells(kind):
+    """The cells of a table's line; both drifts one behind the other."""
+    shape, letters, correlation, noise, length, loss = kind
+
+    def take(out):
+        steps = [step for step in out.json()["steps"]
+                 if (step["shape"], step["correlation_s"], step["noise"], step["length_s"], step["loss"]) ==
+                 (shape, correlation, noise, length, loss)]
+        if not steps:
+            raise ValueError(f"no steps {kind}")
+        several = lambda write: ", ".join(write(step) for step in steps)
+        part = lambda key: several(lambda step: f"{100 * step[key] / step['trials']:.0f}")
+
+        def covered(letter):
+            def write(step):
+                one = step["stated"][letter]
+                if one["stated"] == 0:
+                    return "none"
+                low = one["high"] < 0.95
+                text = f"{100 * one['coverage']:.1f} of {one['stated']}"
+                return f"**{text}**" if low else text
+            return several(write)
+        return " | ".join([part("usable"), part("not_identifiable"), part("not_converged")] +
+                          [covered(letter) for letter in letters])
+    return take
+
+
+def coverage_pooled(letter, kinds=lambda step: True):
+    def take(out):
+        counts = [step["of_usable"][letter] for step in out.json()["steps"] if letter in step["of_usable"] and kinds(step)]
+        return 100.0 * sum(one["inside"] for one in counts) / sum(one["stated"] for one in counts)
+    return take
+
+
 PARTS = [
     Part("machine", 1, """
 . /etc/os-release
@@ -404,6 +490,7 @@ echo "$(nproc) cores, $(sed -n 's/^model name\\s*: //p' /proc/cpuinfo | head -n 
         "study": (cpu("featuresOfGrasp/study"), US), "best": (cpu("featuresOfGrasp/best"), US),
         "session": (cpu("featuresOfGrasp/session"), US),
         "verdict": (cpu("answerInAnotherSession"), MS)}, recordings=True),
+    bench("growth", 300, "^growth", growth_figures(), display=True),
     bench("learning_time", 20, "protocolS|sameByLibsvm|oneVerdict", {
         "ours": (wall("protocolS"), MS), "libsvm": (wall("sameByLibsvm"), MS),
         "verdict_svm": (cpu("oneVerdict/svm"), US), "verdict_gauss": (cpu("oneVerdict/gauss"), MS)},
@@ -424,6 +511,14 @@ echo "$(nproc) cores, $(sed -n 's/^model name\\s*: //p' /proc/cpuinfo | head -n 
             ("found_part", lambda part: f"{100 * part:.1f} %"), ("slips", COUNT),
             ("delay_median_frames", COUNT), ("delay_p90_frames", COUNT))},
         idle=False, recordings=True),
+    Part("coverage", 60, '"$PALPATE" step-benchmark -q --trials 400', {
+        **{f"line{i}": (coverage_cells(kind), str) for i, kind in enumerate(COVERAGE_KINDS)},
+        "both": (at("usable_and_not_identifiable"), COUNT),
+        "usable": (lambda out: sum(step["usable"] for step in out.json()["steps"]), COUNT),
+        "trials": (lambda out: sum(step["trials"] for step in out.json()["steps"]), COUNT),
+        **{key: (coverage_pooled(key), fixed(1, "%")) for key in ("K", "m", "T1", "T2")},
+        **{f"{key}.long": (coverage_pooled(key, lambda step: step["length_s"] == 12.0), fixed(1, "%"))
+           for key in ("K", "m", "T1", "T2")}}, idle=False),
     Part("nist", 2, '"$TESTS"/calibration/calibration_tests --file=least_squares_test', {
         "digits": (number(r"mean ([\d.]+) digits"), fixed(1)),
         "runs": (number(r"digits over (\d+) runs"), COUNT)}, idle=False),
@@ -727,6 +822,63 @@ def filters_table(book):
     return lines
 
 
+def coverage_table(book):
+    lines = ["| shape | noise | loss | standard deviation / K | length | usable, % | not identifiable, % | not "
+             "converged, % | K, % | m, % | T1 (T), % | T2 (d), % |", "|---|---|---|---|---|---|---|---|---|---|---|---|"]
+    for i, (shape, _, correlation, noise, length, loss) in enumerate(COVERAGE_KINDS):
+        lines.append(f"| {shape} | {'correlated' if correlation else 'white'}{', 5 % outliers' if loss != 'squares' else ''} "
+                     f"| {loss} | {100 * noise:g} % | {length:g} s | {book.text(f'coverage.line{i}')} |")
+    return lines
+
+
+def growth_points(book, name):
+    """(size, seconds, MB) of each size of a curve that was measured."""
+    values = book.parts.get("growth", {}).get("figures", {})
+    return [(size, values[f"{name}.s{size}"], values[f"{name}.mb{size}"])
+            for size in GROWTH[name][3] if f"{name}.s{size}" in values]
+
+
+def growth_table(book):
+    lines = ["| cost | size | time | exponent | memory, MB |", "|---|---|---|---|---|"]
+    for name, (what, unit, _, sizes) in GROWTH.items():
+        points = growth_points(book, name)
+        exponent = f"{slope([point[:2] for point in points]):.2f}" if len(points) > 1 else "(to be measured)"
+        lines.append(f"| {what} | {', '.join(f'{size:,}' for size in sizes)} {unit} | "
+                     f"{', '.join(book.text(f'growth.{name}.s{size}') for size in sizes)} | {exponent} | "
+                     f"{', '.join(book.text(f'growth.{name}.mb{size}') for size in sizes)} |")
+    return lines
+
+
+def growth_picture(book):
+    """The curves in logarithms, as SVG."""
+    width, height, left, top, plot_width, plot_height = 900, 520, 70, 20, 520, 440
+    colours = ["#1b6ca8", "#d1495b", "#2e933c", "#8d5a97", "#c97b12", "#13797b", "#7a4b2a", "#5b5f97", "#a23b72",
+               "#557a0f", "#444444"]
+    curves = {name: growth_points(book, name) for name in GROWTH}
+    x = lambda size: left + plot_width * (math.log10(size) - 1) / 5
+    y = lambda seconds: top + plot_height * (1 - (math.log10(seconds) + 7) / 9)
+    lines = [f'<svg xmlns="http://www.w3.org/2000/svg" width="{width}" height="{height}" font-family="sans-serif" '
+             'font-size="13">', f'<rect width="{width}" height="{height}" fill="white"/>']
+    for power in range(1, 7):
+        lines.append(f'<path d="M{x(10 ** power):.1f} {top}v{plot_height}" stroke="#ddd"/><text x="{x(10 ** power):.1f}" '
+                     f'y="{top + plot_height + 18}" text-anchor="middle">{10 ** power:,}</text>')
+    for power in range(-7, 3):
+        lines.append(f'<path d="M{left} {y(10.0 ** power):.1f}h{plot_width}" stroke="#ddd"/><text x="{left - 6}" '
+                     f'y="{y(10.0 ** power) + 4:.1f}" text-anchor="end">{duration(1.0001 * 10.0 ** power)}</text>')
+    lines.append(f'<text x="{left + plot_width / 2}" y="{height - 16}" text-anchor="middle">frames, recordings, grasps, '
+                 'classes, taxels</text>')
+    for (name, points), colour, row in zip(curves.items(), colours, range(len(curves))):
+        at = " ".join(f"{x(size):.1f},{y(seconds):.1f}" for size, seconds, _ in points)
+        label = f"{GROWTH[name][0]} ({GROWTH[name][1]})".replace("`", "")
+        lines.append(f'<polyline points="{at}" fill="none" stroke="{colour}" stroke-width="2"/>')
+        lines += [f'<circle cx="{x(size):.1f}" cy="{y(seconds):.1f}" r="3" fill="{colour}"/>'
+                  for size, seconds, _ in points]
+        lines.append(f'<text x="{left + plot_width + 16}" y="{top + 16 + 22 * row}" fill="{colour}">{label}</text>')
+    return "\n".join(lines + ["</svg>"]) + "\n"
+
+
+# Files that are written anew with the pages.
+PICTURES = {"docs/pictures/growth.svg": growth_picture}
 TABLES = {name: rows_table(rows) for name, rows in SECTIONS.items()}
 TABLES["readme"] = rows_table([row for rows in SECTIONS.values() for row in rows if row.readme])
 TABLES["slip_methods"] = slip_table
@@ -735,3 +887,5 @@ TABLES["recognition_pipelines"] = recognition_table
 TABLES["another_day"] = another_day_table
 TABLES["alarms"] = alarms_table
 TABLES["filter_times"] = filters_table
+TABLES["coverage"] = coverage_table
+TABLES["growth"] = growth_table

@@ -334,9 +334,7 @@ void sayWhatIsMissing(const StepKnowledge& known, StepFit& fit) {
   const bool oscillating = p.damping < 1.0;
   const double third = oscillating ? p.timeConstantS : p.t1S();
   const double fourth = oscillating ? p.damping : p.t2S();
-  if (fit.gainUndetermined)
-    fit.notes.push_back(kGainUnknown);
-  else if (!fit.converged)
+  if (!fit.converged && !fit.gainUndetermined)
     fit.notes.push_back("the fit did not converge: don't use its parameters");
   if (!fit.steadyStateReached) {
     const double reached = reachedGain(p, known.durationS, third);
@@ -346,6 +344,7 @@ void sayWhatIsMissing(const StepKnowledge& known, StepFit& fit) {
             : "cut off before the gain is reached (" + fixedText(100.0 * reached, 0) +
                   " % of it): K and m can't be separated");
   }
+  if (fit.gainUndetermined) fit.notes.push_back(kGainUnknown);
   const bool slow = fit.sd(2) < 0.5 * third;
   const bool fast = fit.sd(3) < 0.5 * fourth && (oscillating || fourth > 2.0 * known.leastT2S);
   fit.timesIdentifiable = fit.identifiable && slow && fast;

@@ -2,11 +2,8 @@
 // references. Recordings contain nothing else. As soon as anything else appears (comment, CDATA,
 // '&', other characters, an error), XmlParser continues with expat.
 //
-// expat does not read everything because it is slower: all 609 shared recordings would take 1.26
-// times the processor time (median of seven pairs of runs), since the parsing thread takes 1.00 s
-// instead of 0.72 s. `bzip2 -dc` takes 0.9 to 1.25 s for the same files. The parsing thread alone
-// would therefore exceed 0.7 times that time, the limit for reading when decompression runs on all
-// cores.
+// expat does not read everything because it is slower. The blocks of a recording are decompressed
+// on all cores, but parsed one after the other: what the parser takes can't be shared among cores.
 #pragma once
 
 #include <cstddef>

@@ -15,7 +15,9 @@
 
 #include <palpate/recording/recording.h>
 
+#include "growth_bench.h"
 #include "gui/timeline/timeline_chart.h"
+#include "testing/testing.h"
 #include "window_bench.h"
 
 namespace {
@@ -89,6 +91,33 @@ void timelineOfADay(benchmark::State& state) {
     state.SetIterationTime(state.counters["drawn_s"]);
   }
 }
+// From the file to its curves, and until every frame is read; by the number of frames
+// (docs/growth.md).
+void growthTimeline(benchmark::State& state) {
+  const palpate::testing::TemporaryFolder folder;
+  const fs::path file = folder / "long.palpate";
+  palpate::testing::writeRecordingOf(static_cast<int>(state.range(0)), file);
+  palpate::testing::windowApplication();
+  const palpate::testing::PeakRise rise;
+  for (auto _ : state) {
+    const auto recording = makeOpenedRecording(file, openRecording(file));
+    TimelineChart chart;
+    chart.resize(1600, 260);
+    chart.setTheme(Theme::kDark);
+    chart.setRecording(recording);
+    chart.setCurves(allMatrices(*recording));
+    chart.show();
+    chart.store().waitUntilRead();
+    chart.replot(QCustomPlot::rpImmediateRefresh);
+  }
+  state.counters["peak_MB"] = rise.take();
+}
+BENCHMARK(growthTimeline)
+    ->RangeMultiplier(10)
+    ->Range(100, 1'000'000)
+    ->Unit(benchmark::kMillisecond)
+    ->UseRealTime();
+
 BENCHMARK(timelineOfADay)->UseManualTime()->Iterations(1)->Unit(benchmark::kMillisecond);
 
 // What it would cost to hand a chart every frame of a day.

@@ -62,7 +62,7 @@ TEST(PressureTable, ARowWithoutAStepIsASampleThatIsNotUsed) {
 TEST(PressureTable, TheTablesTemperatureGoesFirst) {
   StepReport report;
   FittedStep step;
-  step.fit.converged = step.fit.steadyStateReached = true;
+  step.fit.converged = step.fit.identifiable = step.fit.steadyStateReached = true;
   step.fit.parameters = StepParameters::ofTimes(300.0, 8.0, 0.5, 0.1);
   step.characteristics.steadyS = 1.5;
   step.nearestDegC = 31.0;

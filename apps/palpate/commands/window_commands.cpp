@@ -20,6 +20,7 @@ int runWindowCommand(const std::string& name, const Arguments& words) {
       {"grasp", &graspCommand},
       {"record", &recordCommand},
       {"render", &renderCommand},
+      {"step-benchmark", &stepBenchmarkCommand},
       {"stream", &streamCommand},
       {"train", &trainCommand},
   };
