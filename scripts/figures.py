@@ -294,7 +294,7 @@ GROWTH = {
     "train_grasps_svm": ("`train`, svm, 20 classes", "grasps", "growthTrainGrasps/svm", FRAMES[:3]),
     "train_classes": ("`train`, gauss, 3000 grasps", "classes", "growthTrainClasses/gauss", CLASSES),
     "train_classes_svm": ("`train`, svm, 3000 grasps", "classes", "growthTrainClasses/svm", CLASSES),
-    "classify": ("an answer, gauss", "classes", "growthClassify/gauss", CLASSES),
+    "classify": ("an answer, gauss", "classes", "growthClassify/gauss", CLASSES + [1000]),
     "signals": ("all signals of a frame", "taxels", "growthSignals", FRAMES),
 }
 

@@ -186,7 +186,8 @@ BENCHMARK_CAPTURE(growthClassify, gauss, ClassifierKind::kGauss)
     ->Arg(10)
     ->Arg(30)
     ->Arg(100)
-    ->Arg(300);
+    ->Arg(300)
+    ->Arg(1000);
 BENCHMARK(growthSignals)->Apply(inMs)->Range(100, 1'000'000);
 
 }  // namespace
