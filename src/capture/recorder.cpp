@@ -19,7 +19,8 @@ namespace palpate {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr std::chrono::milliseconds kRound{15};
+constexpr std::chrono::milliseconds kIdleRound{100};  // without a recording
+constexpr std::int64_t kShortestWaitUs = 5'000;
 constexpr std::chrono::milliseconds kFinishRetry{100};
 constexpr int kFinishAttempts = 20;  // 2 s
 constexpr std::int64_t kClockJumpUs = 50'000;
@@ -151,6 +152,18 @@ struct Recorder::Impl {
     roundBeganUs.store(-1);
   }
 
+  // Time until the next round: while recording, until the oldest item that may have come since the
+  // last one is due on the disk.
+  std::chrono::microseconds untilNextRound() const {
+    if (finishing) return kFinishRetry;
+    if (!parts || !takenMonoUs) return kIdleRound;
+    const auto intervalUs = static_cast<std::int64_t>(options.commitIntervalMs * 1000.0);
+    const std::int64_t oldestUs = parts->oldestUncommittedMonoUs().value_or(*takenMonoUs);
+    return std::chrono::microseconds(std::clamp(oldestUs + intervalUs - clock.monotonicUs(),
+                                                kShortestWaitUs,
+                                                std::max(kShortestWaitUs, intervalUs)));
+  }
+
   void finish(RoundTime time) {
     finishing = true;
     if (!parts->finish(time) && ++finishAttempts < kFinishAttempts) return;
@@ -238,7 +251,7 @@ void Recorder::run() {
   if (impl.thread.joinable()) return;
   impl.thread = std::jthread([&impl](const std::stop_token& stop) {
     while (!stop.stop_requested()) {
-      impl.queue.wait(impl.finishing ? kFinishRetry : kRound, stop);
+      impl.queue.wait(impl.untilNextRound(), stop);
       try {
         impl.round();
       } catch (const std::exception& error) {  // out of memory: committed data are safe
@@ -305,6 +318,7 @@ void Recorder::start(RecordingOptions options) {
   impl.report = {};
   impl.status = {};
   impl.status.state = RecorderStatus::State::kWaiting;
+  impl.queue.wake();
 }
 
 RecordingReport Recorder::stop() {

@@ -50,6 +50,8 @@ class RecordingParts {
   // Tries to finish; returns false after a failure, to be called again.
   bool finish(RoundTime time);
 
+  // The oldest item that no commit has taken came after this monotonic time; empty: there is none.
+  std::optional<std::int64_t> oldestUncommittedMonoUs() const noexcept { return dirtySinceMonoUs_; }
   // Number of items that the queues lost since the start; their gaps arrive as events.
   void noteQueueLosses(std::int64_t items) noexcept { lostInQueues_ = items; }
   void describe(RecorderStatus& status) const;

@@ -176,7 +176,10 @@ std::optional<SdhReply> SdhLink::attempt(Bytes request,
       return std::nullopt;
     }
     const milliseconds wait(leftUs / 1000 + 1);
-    if (readOnce(urgent_ ? std::min(wait, kSdhLinkSlice) : wait) == 0) continue;
+    // Before kUrgentAfter no look is due: a usual answer then costs one wait.
+    const milliseconds slice(std::max<std::int64_t>(
+        kSdhLinkSlice.count(), kUrgentAfter.count() - (nowUs - sentUs) / 1000));
+    if (readOnce(urgent_ ? std::min(wait, slice) : wait) == 0) continue;
     heardUs = clock_.monotonicUs();
     if (parser_.stats().badChecksums != before.badChecksums) problem_ = FailureCause::kBroken;
     if (auto answer = matchReply(what, match)) {

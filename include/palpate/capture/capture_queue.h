@@ -61,7 +61,7 @@ struct CaptureQueueOptions {
   // True: the producer waits for room instead of losing items; only for a replay, which can wait.
   bool blockWhenFull = false;
   // A waiting consumer wakes when a queue contains this number of items; the recorder checks every
-  // 15 ms in any case.
+  // 80 ms in any case, every 100 ms without a recording.
   std::size_t wakeAtItems = 1;
 };
 

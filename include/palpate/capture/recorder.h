@@ -2,10 +2,10 @@
 // It keeps the last two seconds in memory, so that a recording also contains what happened just
 // before its start.
 //
-// Items are committed within 100 ms (a round every 15 ms, a commit every 45). When the disk is full
-// or fails, capture continues: up to 64 MB wait in memory, and writing is retried every 100 ms. If
-// that does not suffice, an event "gap" states exactly what is missing, and status() reports it at
-// once.
+// Items are committed within 100 ms (while recording, a round with a commit every 80 ms). When the
+// disk is full or fails, capture continues: up to 64 MB wait in memory, and writing is retried
+// every 100 ms. If that does not suffice, an event "gap" states exactly what is missing, and
+// status() reports it at once.
 #pragma once
 
 #include <cstdint>
@@ -28,7 +28,7 @@ struct RecorderOptions {
   // Time kept in memory for the start of a recording [s], 0..60.
   double preTriggerS = 2.0;
   // Maximum age of an item that is not committed [ms], 1..10000.
-  double commitIntervalMs = 50.0;
+  double commitIntervalMs = 80.0;
   std::string vfs;            // SQLite file system (VFS); empty: the default one
   CaptureQueueOptions queue;  // queues; wakeAtItems 1 means half of the tactile queue
   // Returns the free bytes on the disk of a folder, empty when unknown; if not set, statvfs is

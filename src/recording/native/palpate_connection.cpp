@@ -40,19 +40,6 @@ std::array<std::int64_t, 5> palpateAccessStampOf(const fs::path& path) {
           facts.st_mtim.tv_nsec};
 }
 
-// What a rollback journal that is more than an empty shell looks like: its header's magic. Throws
-// FileError when something else than a file has its name: whoever opens that may wait for ever.
-bool hasHotJournal(const fs::path& recording) {
-  const fs::path path = journalPathOf(recording);
-  std::error_code failure;
-  const auto status = fs::status(path, failure);
-  if (!fs::exists(status)) return false;
-  if (!fs::is_regular_file(status))
-    throw FileError(path, "is not a regular file, and has the name of the recording's journal");
-  const std::string first = beginningOfFile(path, 1);
-  return !first.empty() && first[0] != '\0';
-}
-
 // Whether SQLite would read it through a write-ahead log, and make files of its own for that: a
 // recording never has one (the database file format of SQLite, section 1.3.3).
 bool asksForWriteAheadLog(const fs::path& recording) {
@@ -123,11 +110,21 @@ fs::path journalPathOf(const fs::path& recording) {
   return palpateLockWithEnding(recording, "-journal");
 }
 
-void refuseForeignJournal(const fs::path& recording) {
+bool hasHotJournal(const fs::path& recording) {
+  const fs::path path = journalPathOf(recording);
   std::error_code failure;
+  const auto status = fs::status(path, failure);
+  if (!fs::exists(status)) return false;
+  if (!fs::is_regular_file(status))
+    throw FileError(path, "is not a regular file, and has the name of the recording's journal");
+  const std::string first = beginningOfFile(path, 1);
+  return !first.empty() && first[0] != '\0';
+}
+
+void refuseForeignJournal(const fs::path& recording) {
+  std::error_code ignored;
   const fs::path journal = journalPathOf(recording);
-  const std::uintmax_t size = fs::file_size(journal, failure);
-  if (!failure && size > 0)
+  if (fs::is_regular_file(journal, ignored) && hasHotJournal(recording))
     throw FileError(journal,
                     "belongs to an unfinished recording of that name; move both together, or give "
                     "another name");

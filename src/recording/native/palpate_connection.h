@@ -20,7 +20,11 @@ namespace palpate {
 std::filesystem::path lockPathOf(const std::filesystem::path& recording);
 std::filesystem::path journalPathOf(const std::filesystem::path& recording);
 
-// Throws FileError when a rollback journal lies beside PATH, which isn't there itself (or is about
+// Whether a rollback journal has to be played back: its header's magic is there. The journal of a
+// finished commit has zeros instead, or is empty. Throws FileError when something else than a file
+// has its name: whoever opens that may wait for ever.
+bool hasHotJournal(const std::filesystem::path& recording);
+// Throws FileError when such a journal lies beside PATH, which isn't there itself (or is about
 // to be replaced): SQLite would play it back into whatever gets that name.
 void refuseForeignJournal(const std::filesystem::path& recording);
 

@@ -152,12 +152,11 @@ void settleJournal(const fs::path& path) {
   if (!fs::is_regular_file(journal, ignored))
     throw FileError(journal, "is not a regular file: move it away first");
   if (!fs::exists(fs::symlink_status(path, ignored))) return refuseForeignJournal(path);
-  const auto isLeft = [&] { return fs::file_size(journal, ignored) > 0 && !ignored; };
   try {
     SqliteDatabase old(path, SqliteDatabase::Mode::kReadWrite);
     old.integerOf("SELECT count(*) FROM sqlite_schema");
   } catch (const Error&) {
-    if (isLeft())
+    if (hasHotJournal(path))
       throw FileError(
           path,
           "was left in the middle of a commit and can't be replaced as it is; save it with "
@@ -188,9 +187,12 @@ struct PalpateWriter::Impl {
                  SqliteDatabase::Mode::kReadWrite,
                  options.vfs) {
     try {
-      database.execute("PRAGMA journal_mode=TRUNCATE");
+      database.execute("PRAGMA journal_mode=PERSIST");
+      database.keepJournalOpen();
       database.execute(options.synced ? "PRAGMA synchronous=FULL" : "PRAGMA synchronous=OFF");
       rows.emplace(database);
+      beginCommit.emplace(database.prepare("BEGIN IMMEDIATE"));
+      endCommit.emplace(database.prepare("COMMIT"));
     } catch (...) {
       // Nobody has seen the file yet: none is better than one that nobody writes.
       std::error_code ignored;
@@ -223,12 +225,21 @@ struct PalpateWriter::Impl {
     for (BlockPacker* packer : {&tactile, &angles, &temperatures}) packer->flush();
   }
 
+  // Somebody may have removed the open journal. SQLite would go on with a file that has no name,
+  // and after a crash nobody would find it; so it makes a new one.
+  void renewJournal() {
+    std::error_code ignored;
+    if (fs::exists(fs::symlink_status(journalPathOf(database.path()), ignored))) return;
+    database.execute("PRAGMA journal_mode=DELETE; PRAGMA journal_mode=PERSIST");
+  }
+
   // Writes what waits; `last` is the end of the same transaction.
   template <typename Last>
   void commit(Last last) {
     flushPackers();
     try {
-      database.execute("BEGIN IMMEDIATE");
+      renewJournal();
+      beginCommit->run();
       std::int64_t id = numBlocks;
       for (const Block& block : pending.blocks) rows->block(++id, block);
       id = numSeconds;
@@ -237,7 +248,7 @@ struct PalpateWriter::Impl {
       for (const RecordingEvent& event : pending.events) rows->event(++id, event);
       for (const auto& [name, value] : pending.counters) rows->counter(name, value);
       last();
-      database.execute("COMMIT");
+      endCommit->run();
     } catch (...) {
       database.rollBack();
       throw;
@@ -271,6 +282,8 @@ struct PalpateWriter::Impl {
   std::unique_ptr<RecordingLock> lock;
   SqliteDatabase database;
   std::optional<RowWriter> rows;
+  std::optional<SqliteStatement> beginCommit;
+  std::optional<SqliteStatement> endCommit;
   Pending pending;
   BlockPacker::Sink sink = [this](const Block& block) {
     pending.blocks.push_back(block);

@@ -30,6 +30,18 @@ std::string unlockedUri(const std::filesystem::path& path) {
   return uri + "?immutable=1";
 }
 
+// The methods of an open file, which in addition claims that open files can't be deleted: the one
+// property that makes SQLite keep a journal open (its pager.c, pager_unlock).
+struct UndeletableFileMethods {
+  sqlite3_io_methods methods;  // first: SQLite's pointer to it leads back to this object
+  int (*characteristics)(sqlite3_file*);
+};
+
+int undeletableCharacteristics(sqlite3_file* file) {
+  const auto* own = reinterpret_cast<const UndeletableFileMethods*>(file->pMethods);
+  return own->characteristics(file) | SQLITE_IOCAP_UNDELETABLE_WHEN_OPEN;
+}
+
 }  // namespace
 
 void throwSqliteError(sqlite3* connection, int code, const std::filesystem::path& path) {
@@ -192,6 +204,18 @@ void SqliteDatabase::limitWork(std::uint64_t fileBytes) {
 }
 
 void SqliteDatabase::unlimitWork() { sqlite3_progress_handler(connection_, 0, nullptr, nullptr); }
+
+void SqliteDatabase::keepJournalOpen() {
+  sqlite3_file* file = nullptr;
+  const int code = sqlite3_file_control(connection_, "main", SQLITE_FCNTL_FILE_POINTER, &file);
+  if (code != SQLITE_OK || !file || !file->pMethods) throwSqliteError(connection_, code, path_);
+  const auto own = std::make_shared<UndeletableFileMethods>();
+  own->methods = *file->pMethods;
+  own->characteristics = own->methods.xDeviceCharacteristics;
+  own->methods.xDeviceCharacteristics = undeletableCharacteristics;
+  file->pMethods = &own->methods;
+  fileMethods_ = own;
+}
 
 bool SqliteDatabase::inTransaction() const { return sqlite3_get_autocommit(connection_) == 0; }
 

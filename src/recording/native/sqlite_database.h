@@ -67,6 +67,9 @@ class SqliteDatabase {
   // The first column of a query's first row; 0 where it gives no row.
   std::int64_t integerOf(std::string_view query);
   bool inTransaction() const;
+  // Between two transactions the rollback journal stays open (with journal_mode PERSIST or
+  // TRUNCATE). Otherwise SQLite opens it anew for each, and syncs its folder each time.
+  void keepJournalOpen();
   // Ends a transaction without result; never throws (after a failed commit there may be none left).
   void rollBack() noexcept;
   // Ends statements that run for longer than any honest file of this size needs (pages that point
@@ -79,6 +82,7 @@ class SqliteDatabase {
 
  private:
   std::filesystem::path path_;
+  std::shared_ptr<const void> fileMethods_;  // of keepJournalOpen(); outlives the connection
   sqlite3* connection_ = nullptr;
   std::int64_t workLeft_ = 0;
 };

@@ -388,5 +388,49 @@ TEST(HandRaster, CanBeCancelled) {
             drawn(scene, samples::sampleCamera()));
 }
 
+// A picture that follows another one is the same as one that was drawn alone; only tiles whose
+// triangles differ are drawn.
+TEST(HandRaster, APictureAfterAnotherDrawsOnlyTheTilesThatChanged) {
+  HandScene scene = samples::sampleScene();
+  HandCamera camera = samples::sampleCamera();
+  HandRaster raster;
+  const auto expectSame = [&] {
+    EXPECT_EQ(raster.draw(scene, camera, kSize),
+              rasterize(scene, camera, kSize, 1.0, RasterQuality::kScreen));
+  };
+  expectSame();
+  const std::size_t all = raster.numTilesDrawn();
+  EXPECT_EQ(all, 7u * 5u);  // 200 x 150 pixels in tiles of 32 x 32
+  expectSame();
+  EXPECT_EQ(raster.numTilesDrawn(), 0u);
+  // Another colour of one triangle: the tiles that it touches.
+  for (std::size_t i = 0; i < 3; ++i) scene.solid[i].color ^= 0x404040U;
+  expectSame();
+  EXPECT_GT(raster.numTilesDrawn(), 0u);
+  EXPECT_LT(raster.numTilesDrawn(), all);
+  // One triangle fewer at the front: the others have other numbers, and look the same elsewhere.
+  scene.solid.erase(scene.solid.begin(), scene.solid.begin() + 3);
+  expectSame();
+  EXPECT_LT(raster.numTilesDrawn(), all);
+  // The background is in every tile, and a picture for a file uses none of this.
+  scene.background ^= 0x101010U;
+  expectSame();
+  EXPECT_EQ(raster.numTilesDrawn(), all);
+  EXPECT_EQ(raster.draw(scene, camera, kSize, 1.0, RasterQuality::kPicture),
+            rasterize(scene, camera, kSize, 1.0, RasterQuality::kPicture));
+  expectSame();
+  EXPECT_EQ(raster.numTilesDrawn(), all);
+  camera.orbit({5.0, 0.0}, kSize.height());
+  expectSame();
+  // A picture of another size, and one that was cancelled, leave nothing behind.
+  EXPECT_EQ(raster.draw(scene, camera, kSize * 2.0),
+            rasterize(scene, camera, kSize * 2.0, 1.0, RasterQuality::kScreen));
+  EXPECT_THROW(
+      raster.draw(
+          scene, camera, kSize * 2.0, 1.0, RasterQuality::kScreen, [](double) { return false; }),
+      Cancelled);
+  expectSame();
+}
+
 }  // namespace
 }  // namespace palpate::gui::hand_raster_test

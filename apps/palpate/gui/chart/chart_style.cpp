@@ -29,6 +29,9 @@ void anchor(QCPItemPosition& position) {
 void arrangeChart(QCustomPlot& plot) {
   plot.setLocale(QLocale::c());
   plot.setPlottingHint(QCP::phFastPolylines, true);
+  // A queued replot then only marks the chart, and is painted together with all else that changed.
+  // Otherwise it paints at once, and the window is brought to the screen for each chart.
+  plot.setPlottingHint(QCP::phImmediateRefresh, false);
   plot.xAxis->ticker()->setTickCount(9);
   plot.yAxis->ticker()->setTickCount(4);
   plot.xAxis->grid()->setVisible(false);

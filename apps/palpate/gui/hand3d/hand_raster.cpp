@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include <palpate/core/error.h>
@@ -56,6 +57,45 @@ struct HandRaster::Work {
   HandTile tile;
   // For each tile of a row of tiles: the triangles that may touch it.
   std::vector<std::vector<std::uint32_t>> ofTile;
+  // What a tile of the image shows: its triangles in order, their shades counted from 0.
+  struct Shown {
+    bool known = false;
+    std::vector<RasterTriangle> triangles;
+    std::vector<RasterShade> shades;
+  };
+  std::vector<Shown> shown;  // of the tiles of the image, row by row; empty: nothing is known
+  QRgb shownBackground = 0;
+  std::size_t numDrawn = 0;
+
+  // Whether the tile shows these triangles already; otherwise it is noted that it shows them now.
+  bool isShown(Shown& tileShown, const std::vector<std::uint32_t>& triangles) const {
+    std::size_t at = 0, shadeAt = 0;
+    bool same = tileShown.known && tileShown.triangles.size() == triangles.size();
+    for (; same && at < triangles.size(); ++at) {
+      const auto [triangle, shade] = numbered(triangles[at], shadeAt);
+      same = triangle == tileShown.triangles[at] && (!shade || *shade == tileShown.shades[shadeAt]);
+      if (shade) ++shadeAt;
+    }
+    if (same) return true;
+    tileShown.known = true;
+    tileShown.triangles.clear();
+    tileShown.shades.clear();
+    for (const std::uint32_t i : triangles) {
+      const auto [triangle, shade] = numbered(i, tileShown.shades.size());
+      tileShown.triangles.push_back(triangle);
+      if (shade) tileShown.shades.push_back(*shade);
+    }
+    return false;
+  }
+  // A triangle of the list with the number `shadeAt` for its shade, and the shade.
+  std::pair<RasterTriangle, const RasterShade*> numbered(std::uint32_t i,
+                                                         std::size_t shadeAt) const {
+    RasterTriangle triangle = list.triangles[i];
+    if (triangle.shade < 0) return {triangle, nullptr};
+    const RasterShade* shade = &list.shades[static_cast<std::size_t>(triangle.shade)];
+    triangle.shade = static_cast<std::int32_t>(shadeAt);
+    return {triangle, shade};
+  }
 
   void sortIntoTiles(int top, int numTiles) {
     ofTile.resize(std::max(ofTile.size(), static_cast<std::size_t>(numTiles)));
@@ -113,6 +153,7 @@ const QImage& HandRaster::draw(const HandScene& scene,
     // Frees the memory before new memory is allocated.
     image = QImage();
     image = QImage(pixels, QImage::Format_RGB32);
+    work_->shown.clear();
   }
   if (image.isNull()) return image;
   image.setDevicePixelRatio(pixelRatio);
@@ -122,6 +163,14 @@ const QImage& HandRaster::draw(const HandScene& scene,
   const std::ptrdiff_t stride = image.bytesPerLine() / static_cast<std::ptrdiff_t>(sizeof(QRgb));
   constexpr int kSide = HandTile::kSide;
   const int numTiles = (pixels.width() + kSide - 1) / kSide;
+  // A large picture for a file is drawn once: nothing is remembered of it.
+  if (quality != RasterQuality::kScreen || scene.background != work_->shownBackground)
+    work_->shown.clear();
+  work_->shownBackground = scene.background;
+  if (quality == RasterQuality::kScreen && work_->shown.empty())
+    work_->shown.resize(static_cast<std::size_t>(numTiles) *
+                        static_cast<std::size_t>((pixels.height() + kSide - 1) / kSide));
+  work_->numDrawn = 0;
   for (int top = 0; top < pixels.height(); top += kSide) {
     if (progress && !progress(static_cast<double>(top) / pixels.height())) {
       image = QImage();
@@ -130,6 +179,11 @@ const QImage& HandRaster::draw(const HandScene& scene,
     work_->sortIntoTiles(top, numTiles);
     for (int t = 0; t < numTiles; ++t) {
       const int left = t * kSide;
+      if (!work_->shown.empty() &&
+          work_->isShown(work_->shown[static_cast<std::size_t>(top / kSide * numTiles + t)],
+                         work_->ofTile[static_cast<std::size_t>(t)]))
+        continue;
+      ++work_->numDrawn;
       work_->tile.moveTo(left, top);
       work_->drawTile(work_->ofTile[static_cast<std::size_t>(t)],
                       passes,
@@ -142,6 +196,8 @@ const QImage& HandRaster::draw(const HandScene& scene,
   }
   return image;
 }
+
+std::size_t HandRaster::numTilesDrawn() const noexcept { return work_->numDrawn; }
 
 QImage rasterize(const HandScene& scene,
                  const HandCamera& camera,

@@ -33,13 +33,17 @@ class HandRaster {
   // Draws the scene without its labels: opaque, Format_RGB32, size * pixelRatio pixels (rounded, at
   // least 1), with that device pixel ratio. Triangles with a vertex that isn't a number are left
   // out. Returns a null image for an empty size or when there is not enough memory. Throws
-  // Cancelled when `progress` asks for it. The image is valid until the next call.
+  // Cancelled when `progress` asks for it. The image is valid until the next call. In pictures for
+  // the screen only the tiles whose triangles differ from the last picture's are drawn anew; the
+  // pixels are the same as without that.
   const QImage& draw(const HandScene& scene,
                      const HandCamera& camera,
                      const QSizeF& size,
                      double pixelRatio = 1.0,
                      RasterQuality quality = RasterQuality::kScreen,
                      const Progress& progress = {});
+  // Number of tiles that the last draw() drew.
+  std::size_t numTilesDrawn() const noexcept;
 
  private:
   struct Work;

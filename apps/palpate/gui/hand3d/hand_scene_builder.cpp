@@ -124,6 +124,18 @@ Vector3f onSphere(int ring, int step) {
       .cast<float>();
 }
 
+// Ring by ring, each with its first direction again at its end.
+const std::vector<Vector3f>& directionsOfSphere() {
+  static const std::vector<Vector3f> directions = [] {
+    std::vector<Vector3f> made;
+    for (int ring = 0; ring <= kRings; ++ring)
+      for (int step = 0; step <= kHandSceneBuilderContactAround; ++step)
+        made.push_back(onSphere(ring, step));
+    return made;
+  }();
+  return directions;
+}
+
 void addCircle(HandScene& scene,
                const Sphere& sphere,
                const Vector3d& u,
@@ -500,8 +512,7 @@ void HandSceneBuilder::addSphere(HandScene& scene,
   }
   const bool glass = look.sphere == SphereLook::kGlass;
   const Vector3f eye = camera.eyeMm().cast<float>();
-  const auto corner = [&](int ring, int step) {
-    const Vector3f normal = onSphere(ring, step);
+  const auto made = [&](const Vector3f& normal) {
     const Vector3f at = centre + radius * normal;
     float alpha = 1.0F;
     if (glass) {
@@ -512,11 +523,18 @@ void HandSceneBuilder::addSphere(HandScene& scene,
     return SceneVertex{
         {at.x(), at.y(), at.z()}, {normal.x(), normal.y(), normal.z()}, withAlpha(accent, alpha)};
   };
+  // Each corner is made once: it belongs to up to six triangles.
+  std::vector<SceneVertex> corners;
+  corners.reserve(directionsOfSphere().size());
+  for (const Vector3f& normal : directionsOfSphere()) corners.push_back(made(normal));
+  const auto corner = [&](int ring, int step) -> const SceneVertex& {
+    return corners[static_cast<std::size_t>(ring * (kHandSceneBuilderContactAround + 1) + step)];
+  };
   std::vector<SceneVertex>& to = glass ? scene.clear : scene.solid;
   for (int ring = 0; ring < kRings; ++ring)
     for (int step = 0; step < kHandSceneBuilderContactAround; ++step) {
-      const SceneVertex a = corner(ring, step), b = corner(ring + 1, step),
-                        c = corner(ring + 1, step + 1), d = corner(ring, step + 1);
+      const SceneVertex &a = corner(ring, step), &b = corner(ring + 1, step),
+                        &c = corner(ring + 1, step + 1), &d = corner(ring, step + 1);
       if (ring + 1 < kRings) to.insert(to.end(), {a, b, c});
       if (ring > 0) to.insert(to.end(), {a, c, d});
     }

@@ -58,6 +58,13 @@ void HandTile::moveTo(int left, int top) {
   top_ = top;
 }
 
+bool operator==(const RasterShade& a, const RasterShade& b) noexcept {
+  const Int4 same = (a.atMiddle == b.atMiddle) & (a.byX == b.byX) & (a.byY == b.byY) &
+                    (a.least == b.least) & (a.most == b.most);
+  return !any(~same) && a.middleX == b.middleX && a.middleY == b.middleY &&
+         a.overDepth == b.overDepth;
+}
+
 void HandTile::clear(QRgb background) {
   color_.fill(splat(background | 0xFF000000U));
   nearness_.fill(splat(0.0F));

@@ -42,6 +42,7 @@ struct RasterTriangle {
     float a = 0.0F, b = 0.0F;
     float least = 0.0F;
     double c = 0.0;
+    bool operator==(const Edge&) const = default;
   };
   std::array<Edge, 3> edges{};
   // Change of 1 / w per pixel.
@@ -54,6 +55,7 @@ struct RasterTriangle {
   std::int32_t shade = -1;
   QRgb color = 0;
   Paint paint = Paint::kOpaque;
+  bool operator==(const RasterTriangle&) const = default;
 };
 
 // A colour that varies over a triangle: blue, green, red, alpha, 0..255.
@@ -69,6 +71,7 @@ struct RasterShade {
   // changes.
   bool overDepth = false;
 };
+bool operator==(const RasterShade& a, const RasterShade& b) noexcept;
 
 // The places of the four samples in a pixel, from its middle, -0.5..0.5.
 struct SamplePlaces {
