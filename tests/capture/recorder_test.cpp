@@ -213,6 +213,28 @@ TEST(Recorder, commitsWhatCameWithin150MillisecondsThoughNothingFollows) {
   EXPECT_EQ(numbersIn(folder / "a.palpate").back(), 777u);
 }
 
+// A commit costs processor time and wears the disk: none comes before the promise needs it.
+TEST(Recorder, commits80MillisecondsAfterTheOldestItemMayHaveCome) {
+  const TemporaryFolder folder;
+  ScriptedSession scripted;
+  RecordingOptions options = to(folder / "a.palpate");
+  options.preTriggerS = 0.0;
+  scripted.session->startRecording(options);
+  scripted.device->frame(0, scripted.clock.hostUs());
+  scripted.session->step();  // the file is made with its first frame
+  EXPECT_EQ(scripted.session->recorderStatus().framesOnDisk, 1);
+  scripted.clock.pass(1'000);
+  scripted.device->frame(1, scripted.clock.hostUs());
+  scripted.clock.pass(19'000);
+  for (int ms = 20; ms < 80; ms += 20) {
+    scripted.session->step();
+    EXPECT_EQ(scripted.session->recorderStatus().framesOnDisk, 1) << ms;
+    scripted.clock.pass(20'000);
+  }
+  scripted.session->step();
+  EXPECT_EQ(scripted.session->recorderStatus().framesOnDisk, 2);
+}
+
 TEST(Recorder, aJumpOfTheWallClockIsAnEventAndStampsGoOn) {
   const TemporaryFolder folder;
   ScriptedSession scripted;

@@ -107,6 +107,56 @@ TEST(PalpateFiles, aLinkLeadsToTheJournalBesideTheFileItself) {
   EXPECT_TRUE(readFile(folder / "r.palpate-journal") == journal);
 }
 
+// Whether this process has the file open.
+bool isOpen(const fs::path& path) {
+  std::error_code ignored;
+  const fs::path wanted = fs::canonical(path, ignored);
+  for (const auto& entry : fs::directory_iterator("/proc/self/fd"))
+    if (fs::read_symlink(entry.path(), ignored) == wanted) return true;
+  return false;
+}
+
+// SQLite would open and close it at each commit, and sync its folder each time.
+TEST(PalpateFiles, theJournalStaysOpenBetweenTwoCommits) {
+  const TemporaryFolder folder;
+  const fs::path journal = folder / "r.palpate-journal";
+  PalpateWriter writer(folder / "r.palpate", sdh2().layout);
+  addSamples(writer, 0, 10);
+  writer.commit();
+  EXPECT_TRUE(isOpen(journal));
+  EXPECT_EQ(readFile(journal).at(0), '\0');
+  // Removed, it is made anew: a journal without a name would be lost with the process.
+  fs::remove(journal);
+  addSamples(writer, 10, 20);
+  writer.commit();
+  EXPECT_TRUE(fs::exists(journal));
+  EXPECT_TRUE(isOpen(journal));
+  writer.finish();
+  EXPECT_FALSE(fs::exists(journal));
+  expectFrames(folder / "r.palpate", 20, 20);
+}
+
+// What the journal of a finished commit leaves when its process is killed keeps no name back.
+TEST(PalpateFiles, theJournalOfAFinishedCommitBelongsToNoRecording) {
+  const TemporaryFolder folder;
+  const fs::path path = folder / "r.palpate";
+  std::string shell;
+  {
+    PalpateWriter writer(path, sdh2().layout);
+    addSamples(writer, 0, 10);
+    writer.commit();
+    shell = readFile(folder / "r.palpate-journal");
+    writer.finish();
+  }
+  ASSERT_FALSE(shell.empty());
+  fs::remove(path);
+  writeFile(folder / "r.palpate-journal", shell);
+  PalpateWriter writer(path, sdh2().layout);
+  addSamples(writer, 0, 5);
+  writer.finish();
+  expectFrames(path, 5, 5);
+}
+
 TEST(PalpateFiles, aJournalIsNeverPlayedBackIntoAnotherRecording) {
   const TemporaryFolder folder;
   makeHot(folder.path());

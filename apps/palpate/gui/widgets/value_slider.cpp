@@ -6,6 +6,7 @@
 #include <QLineEdit>
 #include <QSignalBlocker>
 #include <QSlider>
+#include <algorithm>
 #include <cmath>
 
 #include "gui/widgets/number_field.h"
@@ -63,6 +64,12 @@ double ValueSlider::value() const { return field_->value(); }
 
 void ValueSlider::showValue(double value) {
   if (slider_->isSliderDown() || field_->hasFocus()) return;
+  // Nothing new is shown: the field would paint itself nevertheless.
+  const double rounded = QString::number(value, 'f', field_->decimals()).toDouble();
+  if (rounded == field_->value() && field_->value() == shown_ &&
+      slider_->value() == std::clamp(ticksOf(value), slider_->minimum(), slider_->maximum()) &&
+      field_->specialValueText().isEmpty())
+    return;
   const QSignalBlocker quietField(field_);
   const QSignalBlocker quietSlider(slider_);
   if (!field_->specialValueText().isEmpty()) field_->setSpecialValueText({});
