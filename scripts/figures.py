@@ -785,7 +785,7 @@ def recognition_table(book):
 
 def another_day_table(book):
     lines = ["| | right (figures) | 95 % | top-3 | sure |", "|---|---|---|---|---|"]
-    for label, name in (("fresh model (offset 0)", "fresh"),
+    for label, name in (("fresh model (nothing known)", "fresh"),
                         ("`--session-offset none`", "none"),
                         ("`--session-offset batch`", "batch"), ("`--adapt 1`", "adapt")):
         text = lambda key: book.text(f"another_day_{name}.{key}")

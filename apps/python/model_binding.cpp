@@ -131,9 +131,11 @@ void bindModel(py::module_& module) {
            py::kw_only(),
            py::arg("session_offset") = "model",
            "What was grasped: source as of features(), all of one day. dict grasps [{file, begin, "
-           "end, label ('unknown' is one), confidence (0..1), sure, novelty, top [{label, p}], "
+           "end, label ('unknown' is one), confidence (0..1), sure, membership ('known', 'unknown' "
+           "or 'not_known_yet'), novelty, top [{label, p}], "
            "best first}], session_offset {mm, sd_mm [mm], origin, grasps, objects, trusted, text}, "
-           "warnings. session_offset: 'model' (what adapt() stored; 0 in a fresh model), 'none' "
+           "warnings. session_offset: 'model' (what adapt() stored; 0 in a fresh model "
+           "in the session of its training, else not known), 'none' "
            "(summed over all), 'batch' (from these grasps), or mm. Error for another sensor.")
       .def("evaluate",
            &evaluateWith,

@@ -49,6 +49,19 @@ SessionContext adaptedUse(const TrainedModel& adapted,
   return use;
 }
 
+// Adds a warning where it can't be known yet whether the objects are classes of the model.
+void warnNotKnownYet(const TrainedModel& model,
+                     const std::vector<Prediction>& predictions,
+                     SessionContext& use) {
+  const auto count = std::count_if(predictions.begin(), predictions.end(), [](const auto& one) {
+    return one.membership == Membership::kNotKnownYet;
+  });
+  if (count > 0)
+    use.warnings.push_back(std::to_string(count) + " of " + std::to_string(predictions.size()) +
+                           (predictions.size() == 1 ? " grasp: " : " grasps: ") +
+                           notKnownYetText(model, use.offset));
+}
+
 Json offsetJson(const SessionOffset& offset) {
   return Json::object()
       .set("mm", offset.mm)
@@ -100,6 +113,8 @@ SessionContext sessionFor(const TrainedModel& model,
             "no answer is sure: the model was adapted in another session; adapt it again, or use "
             "--session-offset batch");
       } else if (use.offset.origin == OffsetSource::kNone && !use.sameSession) {
+        // Without recordings and their times the session of the training isn't known.
+        if (!timesUs.empty() && !model.inputs.empty()) use.offset = unknownOffset();
         use.warnings.emplace_back(
             "no answer is sure: not the session of the training, and its offset isn't known; adapt "
             "the model, or use --session-offset batch");
@@ -134,6 +149,7 @@ Classification classifyTable(const TrainedModel& model,
   Classification result;
   result.use = sessionFor(model, x, timesOf(table), choice);
   result.predictions = classifyRows(model, x, result.use.offset, result.use.sameSession);
+  warnNotKnownYet(model, result.predictions, result.use);
   return result;
 }
 
@@ -183,6 +199,7 @@ ModelEvaluation evaluateModel(const TrainedModel& model,
       evaluation.sessions.push_back(adaptedUse(adapted, x, options.offset));
       predictions = classifyRows(adapted, x, evaluation.sessions.back().offset, false);
     }
+    warnNotKnownYet(model, predictions, evaluation.sessions.back());
     for (std::size_t k = 0; k < rest.size(); ++k) {
       const int truth = samples.y[rest[k]];
       Prediction& prediction = predictions[k];
@@ -191,6 +208,7 @@ ModelEvaluation evaluateModel(const TrainedModel& model,
           prediction.ranking.begin() +
           static_cast<std::ptrdiff_t>(std::min<std::size_t>(3, prediction.ranking.size()));
       evaluation.top3 += std::find(prediction.ranking.begin(), top, truth) != top ? 1 : 0;
+      evaluation.notKnownYet += prediction.membership == Membership::kNotKnownYet ? 1 : 0;
       evaluation.sure += prediction.sure ? 1 : 0;
       evaluation.sureRight += prediction.sure && prediction.label == truth ? 1 : 0;
       evaluation.grasps.push_back({rest[k], evaluation.sessions.size() - 1, std::move(prediction)});
@@ -219,6 +237,7 @@ Json jsonOf(const ModelEvaluation& evaluation) {
       .set("coverage", share(evaluation.sure, all))
       .set("accuracy_when_sure", share(evaluation.sureRight, evaluation.sure))
       .set("interval_when_sure", intervalJson(evaluation.sureRight, evaluation.sure))
+      .set("not_known_yet", evaluation.notKnownYet)
       .set("adapted_by", evaluation.adapted.size())
       .set("sessions", std::move(sessions))
       .set("warnings", std::move(warnings))
@@ -246,6 +265,7 @@ Json predictionJson(const TrainedModel& model,
       .set("label", labelOf(model, prediction.label))
       .set("confidence", prediction.confidence)
       .set("sure", prediction.sure)
+      .set("membership", membershipName(prediction.membership))
       .set("novelty", prediction.novelty)
       .set("top", std::move(top));
 }

@@ -108,8 +108,11 @@ void RecognitionSession::renew() {
       offset_ = offsetFromBatch(*adapted_.pipeline.sessionAdaptive, rows(false), offset_);
   }
   if (zero_ && !given) adapted_.sessionZero = zero_;
-  adapted_.offset = offset_;
-  const bool assumed = offset_.origin == OffsetSource::kNone;
+  // A model that nothing was learnt of in this session is saved as it was.
+  const bool notAdapted =
+      offset_.origin == OffsetSource::kUnknown && choice_.kind == OffsetChoice::Kind::kModel;
+  adapted_.offset = notAdapted ? model_.offset : offset_;
+  const bool assumed = offset_.origin == OffsetSource::kNone || notAdapted;
   unsure_.clear();
   if (!model_.adaptsToSession() && !sameSession_ && !grasps_.empty())
     unsure_ = "not the session of the training: no answer is sure with this model";
@@ -129,8 +132,11 @@ Prediction RecognitionSession::predict(const std::vector<double>& values,
                                 " features, the model " + std::to_string(model_.features.size()));
   const Eigen::MatrixXd x =
       Eigen::Map<const Eigen::RowVectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
-  const bool same = grasps_.empty() ? model_.sameSession(timeUs) : sameSession_;
-  return classifyRows(adapted_, x, offset_, same).front();
+  if (!grasps_.empty()) return classifyRows(adapted_, x, offset_, sameSession_).front();
+  // No grasp of the session has told yet which session it is.
+  const bool same = model_.sameSession(timeUs);
+  const bool assumed = offset_.origin == OffsetSource::kNone && !same && !model_.inputs.empty();
+  return classifyRows(adapted_, x, assumed ? unknownOffset() : offset_, same).front();
 }
 
 TrainedModel RecognitionSession::adapted() const {

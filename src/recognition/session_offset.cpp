@@ -147,6 +147,34 @@ void requireColumns(const SessionAdaptiveClassifier& model, const Eigen::MatrixX
                                 std::to_string(model.numFeatures()) + " features");
 }
 
+// Compares the best class with the background. `likelihoods` as overGrid() returns them.
+void setMembership(const SessionAdaptiveClassifier& model,
+                   const Eigen::VectorXd& x,
+                   const SessionOffset& offset,
+                   const Eigen::MatrixXd& likelihoods,
+                   const OpenSetOptions& options,
+                   OpenSetPrediction& out) {
+  const Eigen::VectorXd ln = lnOf(offset);
+  Eigen::VectorXd background(ln.size());
+  out.knownFraction = 0.0;
+  for (Eigen::Index i = 0; i < ln.size(); ++i) {
+    const auto at = static_cast<std::size_t>(i);
+    background[i] = model.logBackground(x, offset.gridMm[at]);
+    if (likelihoods.col(i).maxCoeff() - background[i] >= options.minLogLikelihoodRatio)
+      out.knownFraction += offset.probability[at];
+  }
+  double best = kNever;
+  for (Eigen::Index c = 0; c < likelihoods.rows(); ++c)
+    best = std::max(best, lnSumExp(likelihoods.row(c).transpose() + ln));
+  out.logLikelihoodRatio = best - lnSumExp(background + ln);
+  out.unknown = !(out.logLikelihoodRatio >= options.minLogLikelihoodRatio);
+  out.membership = Membership::kKnown;
+  if (out.unknown)
+    out.membership = Membership::kUnknown;
+  else if (!offset.trusted && out.knownFraction < options.minKnownFraction)
+    out.membership = Membership::kNotKnownYet;
+}
+
 // A fixed offset is not changed by observations.
 bool isFixed(const SessionOffset& before) { return before.gridMm.size() < 2; }
 
@@ -188,9 +216,22 @@ void SessionOffsetOptions::validate() const {
   require(positive(maxSdMm), "maxSdMm must be > 0");
 }
 
+std::string_view membershipName(Membership membership) noexcept {
+  switch (membership) {
+    case Membership::kKnown:
+      return "known";
+    case Membership::kUnknown:
+      return "unknown";
+    default:
+      return "not_known_yet";
+  }
+}
+
 void OpenSetOptions::validate() const {
   if (!std::isfinite(minLogLikelihoodRatio))
     throw std::invalid_argument("OpenSetOptions: minLogLikelihoodRatio must be a number");
+  if (!(minKnownFraction >= 0.0 && minKnownFraction <= 1.0))
+    throw std::invalid_argument("OpenSetOptions: minKnownFraction must be 0..1");
   if (!(sureProbability >= 0.5 && sureProbability <= 1.0))
     throw std::invalid_argument("OpenSetOptions: sureProbability must be 0.5..1");
 }
@@ -340,6 +381,26 @@ SessionOffset offsetFromReferences(const SessionAdaptiveClassifier& model,
   return out;
 }
 
+std::optional<OffsetReference> bestReference(const SessionAdaptiveClassifier& model) {
+  if (!model.data().sizeColumn) return std::nullopt;
+  const auto size = static_cast<Eigen::Index>(*model.data().sizeColumn);
+  const double freedom = model.data().degreesOfFreedom + static_cast<double>(model.numFeatures());
+  std::optional<OffsetReference> best;
+  for (std::size_t c = 0; c < model.numClasses(); ++c) {
+    const StudentTComponent& component = model.data().classComponents[c];
+    // Variance of the size feature when the other features are known.
+    const Eigen::VectorXd unit = Eigen::VectorXd::Unit(component.mean.size(), size);
+    const double variance = 1.0 / component.scatter.ldlt().solve(unit)[size];
+    constexpr double kStepMm = 0.01;
+    const double distanceMm = distanceOfSizeZ(component.mean[size]);
+    const double slope =
+        (sizeZ(distanceMm + kStepMm) - sizeZ(distanceMm - kStepMm)) / (2.0 * kStepMm);
+    const double sdMm = std::sqrt(variance * (freedom + 2.0) / freedom) / slope;
+    if (std::isfinite(sdMm) && (!best || sdMm < best->sdMm)) best = {c, sdMm};
+  }
+  return best;
+}
+
 OpenSetPrediction predict(const SessionAdaptiveClassifier& model,
                           const Eigen::VectorXd& x,
                           const SessionOffset& offset,
@@ -352,14 +413,14 @@ OpenSetPrediction predict(const SessionAdaptiveClassifier& model,
   Eigen::VectorXd scores(likelihoods.rows());
   for (Eigen::Index c = 0; c < scores.size(); ++c)
     scores[c] = lnSumExp(likelihoods.row(c).transpose() + ln);
-  Eigen::VectorXd background(ln.size());
-  for (std::size_t i = 0; i < offset.gridMm.size(); ++i)
-    background[static_cast<Eigen::Index>(i)] =
-        model.logBackground(x, offset.gridMm[i]) + ln[static_cast<Eigen::Index>(i)];
-
   OpenSetPrediction out;
-  out.logLikelihoodRatio = scores.maxCoeff() - lnSumExp(background);
-  out.unknown = !(out.logLikelihoodRatio >= options.minLogLikelihoodRatio);
+  const bool fromUnknownObjects = offset.origin == OffsetSource::kBatch && !offset.trusted;
+  if (fromUnknownObjects) {
+    const SessionOffset prior = unknownOffset();
+    setMembership(model, x, prior, overGrid(model, x, prior), options, out);
+  } else {
+    setMembership(model, x, offset, likelihoods, options, out);
+  }
   const Eigen::VectorXd weighed = scores + model.logPrior();
   out.probability = (weighed.array() - lnSumExp(weighed)).exp();
   out.ranking.resize(static_cast<std::size_t>(scores.size()));

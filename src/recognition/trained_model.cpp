@@ -9,6 +9,7 @@
 
 #include "palpate/core/error.h"
 #include "palpate/core/hash.h"
+#include "palpate/core/number_text.h"
 #include "palpate/core/progress.h"
 #include "palpate/recognition/cross_validation.h"
 
@@ -65,6 +66,7 @@ Prediction predictionOf(const OpenSetPrediction& day) {
   prediction.label = day.unknown ? Prediction::kUnknown : prediction.ranking.front();
   prediction.confidence = prediction.p.front();
   prediction.sure = day.sure;
+  prediction.membership = day.membership;
   prediction.novelty = -day.logLikelihoodRatio;
   return prediction;
 }
@@ -145,9 +147,25 @@ std::vector<Prediction> classifyRows(const TrainedModel& model,
     const bool known = novelty[i] <= model.maxNovelty;
     prediction.label = known ? prediction.ranking.front() : Prediction::kUnknown;
     prediction.sure = known && sameSession && prediction.confidence >= model.minSureConfidence;
+    prediction.membership = known ? Membership::kKnown : Membership::kUnknown;
     predictions.push_back(std::move(prediction));
   }
   return predictions;
+}
+
+std::string notKnownYetText(const TrainedModel& model, const SessionOffset& offset) {
+  std::string touch = model.trainingZero ? "measure the zero of the empty hand, or " : "";
+  const auto reference = model.pipeline.sessionAdaptive
+                             ? bestReference(*model.pipeline.sessionAdaptive)
+                             : std::optional<OffsetReference>();
+  touch += "label grasps of two objects that differ in size";
+  if (reference)
+    touch += "; one of '" + model.classes[reference->classIndex] +
+             "' tells most, the offset to +- " + fixedText(reference->sdMm, 1) + " mm";
+  const double sdMm = offset.origin == OffsetSource::kBatch ? unknownOffset().sdMm : offset.sdMm;
+  return "it can't be known yet whether the object is one of the trained ones, because the session "
+         "offset is not known (+- " +
+         fixedText(sdMm, 1) + " mm): " + touch;
 }
 
 void requireFits(const TrainedModel& model, const FeatureTable& table) {

@@ -69,6 +69,38 @@ TEST(ModelEvaluation, AFreshModelIsSureOnlyInItsSession) {
   EXPECT_EQ(evaluateModel(model, test, times(24, 2000)).sure, 0u);
 }
 
+// Sizes read 5 mm too small are not those of any class, unless the offset is left open.
+TEST(ModelEvaluation, InAnotherSessionAFreshModelAssumesNoOffset) {
+  TrainedModel model = modelOf(ClassifierKind::kGauss);
+  const SampleSet test = things(6, 4, -5.0, 2);
+  const auto fresh = evaluateModel(model, test, times(24, 2000));
+  const auto none =
+      evaluateModel(model, test, times(24, 2000), {0, {OffsetChoice::Kind::kNone, 0.0}});
+  EXPECT_EQ(fresh.sessions.at(0).offset.origin, OffsetSource::kUnknown);
+  EXPECT_EQ(fresh.confusion.right(), none.confusion.right());
+  const auto called = [](const ModelEvaluation& evaluation) {
+    return std::count_if(
+        evaluation.grasps.begin(), evaluation.grasps.end(), [](const EvaluatedGrasp& one) {
+          return one.prediction.label == Prediction::kUnknown;
+        });
+  };
+  EXPECT_EQ(called(fresh), 0) << "known objects";
+  EXPECT_GT(fresh.notKnownYet, 0u);
+  EXPECT_EQ(jsonOf(fresh).at("not_known_yet").asInteger(),
+            static_cast<std::int64_t>(fresh.notKnownYet));
+  const std::string warning = fresh.sessions.at(0).warnings.back();
+  EXPECT_NE(warning.find("can't be known yet"), std::string::npos) << warning;
+  EXPECT_NE(warning.find("label grasps of two objects"), std::string::npos) << warning;
+  EXPECT_EQ(warning.find("empty hand"), std::string::npos) << "the model has no zero to compare";
+  model.trainingZero = EmptyHandZero{};
+  EXPECT_NE(notKnownYetText(model, unknownOffset()).find("the zero of the empty hand"),
+            std::string::npos);
+  // In the session of the training the offset is 0, and everything is decided.
+  const auto here = evaluateModel(model, test, times(24, 101));
+  EXPECT_EQ(here.notKnownYet, 0u);
+  EXPECT_GT(called(here), 0);
+}
+
 TEST(ModelEvaluation, AnAdaptationOfYesterdayIsNotTrustedToday) {
   TrainedModel model = modelOf(ClassifierKind::kGauss);
   adaptModel(model, things(6, 1, 3.0, 4));

@@ -65,6 +65,19 @@ TEST(RecognitionSession, OnAnotherDayNothingIsSureBeforeItIsKnown) {
   EXPECT_FALSE(day.predict(row(test, 0), kTodayUs).sure);
 }
 
+TEST(RecognitionSession, InAnotherSessionTheOffsetIsLeftOpen) {
+  RecognitionSession day(model());
+  const SampleSet today = things(4, -5.0, 2);
+  const Prediction first = day.predict(row(today, 0), kTodayUs);
+  EXPECT_EQ(first.membership, Membership::kNotKnownYet);
+  EXPECT_EQ(day.predict(row(today, 0), kTrainedUs).membership, Membership::kUnknown)
+      << "in the session of the training nothing else explains the size";
+  day.add(row(today, 0), kTodayUs);
+  EXPECT_EQ(day.offset().origin, OffsetSource::kUnknown);
+  EXPECT_EQ(day.predict(row(today, 0), kTodayUs).p, first.p);
+  EXPECT_EQ(day.adapted().offset.origin, OffsetSource::kNone) << "nothing was learnt to be saved";
+}
+
 TEST(RecognitionSession, WhatIsToldGivesTheOffset) {
   RecognitionSession day(model());
   const SampleSet today = things(6, -4.0, 3);

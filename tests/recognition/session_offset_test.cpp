@@ -1,5 +1,6 @@
 #include "palpate/recognition/session_offset.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <random>
@@ -105,6 +106,83 @@ TEST(SessionOffset, OneObjectIsNeverEnoughToBeSure) {
   EXPECT_EQ(labelled.objects, 1u);
   EXPECT_FALSE(labelled.trusted);
   EXPECT_FALSE(predict(model, x.row(0).transpose(), labelled).sure);
+}
+
+// Objects of the same shape, 15 mm apart. With an offset of +- 3 mm an object in the middle between
+// two of them may be known or not; when the offset is known, it is not.
+TEST(SessionOffset, WithoutAnOffsetItCannotBeKnownYetWhetherAnObjectIsKnown) {
+  SizesWorld world({20, 1, 2, 35, 3, 4, 50, 5, 6, 65, 7, 8, 27.5});
+  const MatrixXd unknown = world.grasps({12}, 10, 0.0), known = world.grasps({3}, 10, 0.0);
+  SizesWorld training({20, 1, 2, 35, 3, 4, 50, 5, 6, 65});
+  const SessionAdaptiveClassifier model = training.model();
+  for (Eigen::Index i = 0; i < 10; ++i) {
+    const auto of = [&](const MatrixXd& x, const SessionOffset& offset) {
+      return predict(model, x.row(i).transpose(), offset);
+    };
+    for (const MatrixXd* x : {&unknown, &known}) {
+      const OpenSetPrediction open = of(*x, unknownOffset());
+      EXPECT_EQ(open.membership, Membership::kNotKnownYet);
+      EXPECT_FALSE(open.sure);
+      EXPECT_GT(open.knownFraction, 0.05);
+      EXPECT_LT(open.knownFraction, 0.95);
+    }
+    EXPECT_EQ(of(unknown, givenOffset(0.0)).membership, Membership::kUnknown);
+    EXPECT_EQ(of(unknown, givenOffset(0.0)).knownFraction, 0.0);
+    EXPECT_EQ(of(known, givenOffset(0.0)).membership, Membership::kKnown);
+    EXPECT_EQ(of(known, givenOffset(0.0)).knownFraction, 1.0);
+  }
+}
+
+// An unknown object moves the offset that is estimated from its own grasps until it resembles a
+// class. The log likelihood ratio must not profit from this.
+TEST(SessionOffset, AnUnknownObjectDoesNotMakeItselfKnown) {
+  SizesWorld world({20, 1, 2, 35, 3, 4, 50, 5, 6, 65, 7, 8, 38.0});
+  const MatrixXd x = world.grasps({12}, 12, 0.0);
+  SizesWorld training({20, 1, 2, 35, 3, 4, 50, 5, 6, 65});
+  const SessionAdaptiveClassifier model = training.model();
+  const SessionOffset own = offsetFromBatch(model, x);
+  ASSERT_FALSE(own.trusted);
+  ASSERT_NEAR(own.mm, 3.0, 0.7) << "the wrong offset with which it is the object of 35 mm";
+  for (Eigen::Index i = 0; i < x.rows(); ++i) {
+    const OpenSetPrediction with = predict(model, x.row(i).transpose(), own),
+                            without = predict(model, x.row(i).transpose(), unknownOffset());
+    EXPECT_EQ(with.logLikelihoodRatio, without.logLikelihoodRatio);
+    EXPECT_EQ(with.membership, Membership::kNotKnownYet);
+    EXPECT_GT(with.probability.maxCoeff(), without.probability.maxCoeff() - 1e-12)
+        << "the class probabilities use the batch";
+  }
+}
+
+// The Fisher information must agree with the width of the offset's distribution after a grasp at
+// the mean of the class.
+TEST(SessionOffset, TheBestReferenceTellsTheOffsetMostExactly) {
+  SizesWorld world({15, 52, 90, 120});
+  const SessionAdaptiveClassifier model = world.model();
+  const auto best = bestReference(model);
+  ASSERT_TRUE(best);
+  SessionOffsetOptions wide;
+  wide.priorSdMm = 50.0;
+  wide.stepMm = 0.02;
+  std::vector<double> sdMm;
+  for (std::size_t c = 0; c < 4; ++c) {
+    const MatrixXd x = model.data().classComponents[c].mean.transpose();
+    sdMm.push_back(
+        offsetFromReferences(model, x, {static_cast<int>(c)}, unknownOffset(wide), wide).sdMm);
+  }
+  EXPECT_EQ(best->classIndex,
+            static_cast<std::size_t>(std::min_element(sdMm.begin(), sdMm.end()) - sdMm.begin()));
+  EXPECT_NEAR(best->sdMm, sdMm[best->classIndex], 0.15 * sdMm[best->classIndex]);
+  const SessionAdaptiveClassifier withoutSize = SessionAdaptiveClassifier::learn(
+      MatrixXd::Random(8, 2), {0, 0, 0, 0, 1, 1, 1, 1}, {"a", "b"}, {"shape", "force"});
+  EXPECT_FALSE(bestReference(withoutSize));
+}
+
+TEST(SessionOffset, RefusesAFractionThatIsNone) {
+  OpenSetOptions options;
+  options.minKnownFraction = 1.5;
+  EXPECT_THROW(options.validate(), std::invalid_argument);
+  options.minKnownFraction = std::nan("");
+  EXPECT_THROW(options.validate(), std::invalid_argument);
 }
 
 TEST(SessionOffset, LabelledGraspsOfTwoObjectsAreTrusted) {

@@ -51,9 +51,9 @@ int classifyCommand(const Arguments& words) {
            "right "
            "95 times in 100: in the session of the\ntraining, or with an offset of the session "
            "that "
-           "can be trusted.\n\n  model  what `adapt` stored; 0 in a fresh model (default)\n  none  "
-           " "
-           "nothing is assumed: all offsets are weighed\n  batch  estimated from all grasps of the "
+           "can be trusted.\n\n  model  what `adapt` stored (default); of a fresh model 0 in the "
+           "session of the training, else as none\n  none   nothing is assumed: all offsets are "
+           "weighed\n  batch  estimated from all grasps of the "
            "call, unlabelled, and applied; resting on fewer than two different\n         objects "
            "it "
            "warns and nothing is sure\n  MM     so many mm the hand reads too wide",

@@ -19,7 +19,8 @@ namespace palpate {
 // Where the session offset comes from.
 struct OffsetChoice {
   enum class Kind {
-    // The offset that `adapt` stored; 0 in a model that was never adapted.
+    // The offset that `adapt` stored. A model that was never adapted has the offset 0 in the
+    // session of its training; in another session its offset is not known, as with kNone.
     kModel,
     // The offset is not known: classes are marginalised over all offsets.
     kNone,
@@ -40,7 +41,8 @@ struct SessionContext {
   SessionOffset offset;
   // Whether it is the session in which the model was trained, judged by the times.
   bool sameSession = false;
-  // One line for each reason why no prediction will be sure.
+  // One line for each reason why no prediction will be sure, or why it can't be known yet whether
+  // an object is a class of the model.
   std::vector<std::string> warnings;
 };
 
@@ -94,6 +96,8 @@ struct ModelEvaluation {
   // Number of grasps whose true class is among the three best.
   std::size_t top3 = 0;
   std::size_t sure = 0, sureRight = 0;
+  // Number of grasps of which it can't be known yet whether their object is a class of the model.
+  std::size_t notKnownYet = 0;
 };
 
 // Evaluates a model on samples with the classes of the model (samplesOf(table, model.classes)).
@@ -109,8 +113,8 @@ Json jsonOf(const ModelEvaluation& evaluation);
 
 // Name of a class of the model, or "unknown".
 std::string labelOf(const TrainedModel& model, int label);
-// JSON with file, begin, end, label, confidence, sure, novelty, top: [{label, p}] with the best
-// five classes (docs/commands.md, `palpate classify`).
+// JSON with file, begin, end, label, confidence, sure, membership, novelty, top: [{label, p}] with
+// the best five classes (docs/commands.md, `palpate classify`).
 Json predictionJson(const TrainedModel& model, const FeatureRow& row, const Prediction& prediction);
 
 }  // namespace palpate

@@ -12,6 +12,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -120,6 +121,28 @@ SessionOffset offsetFromReferences(const SessionAdaptiveClassifier& model,
                                    const SessionOffset& before = unknownOffset(),
                                    const SessionOffsetOptions& options = {});
 
+// A class of the model that a labelled grasp of this session can be of.
+struct OffsetReference {
+  std::size_t classIndex = 0;
+  // Standard deviation of the offset after one labelled grasp of this class, by the Fisher
+  // information of the t distribution (Lange, Little, Taylor 1989) [mm], > 0.
+  double sdMm = 0.0;
+};
+// Returns the class whose labelled grasp would determine the offset best; nothing if no feature of
+// the model depends on the offset.
+std::optional<OffsetReference> bestReference(const SessionAdaptiveClassifier& model);
+
+// Whether the object of a grasp is one of the known classes.
+enum class Membership {
+  kKnown,
+  kUnknown,
+  // The distribution of the offset is too wide: with a part of it the grasp would be unknown, with
+  // the rest known.
+  kNotKnownYet
+};
+// Returns "known", "unknown" or "not_known_yet".
+std::string_view membershipName(Membership membership) noexcept;
+
 // Classification of one grasp.
 struct OpenSetPrediction {
   // Posterior probability of each known class; the values sum to 1.
@@ -132,6 +155,12 @@ struct OpenSetPrediction {
   double logLikelihoodRatio = 0.0;
   // Whether the log likelihood ratio is below OpenSetOptions::minLogLikelihoodRatio.
   bool unknown = false;
+  // Probability, over the offset's distribution, that the ratio at the true offset is at least
+  // OpenSetOptions::minLogLikelihoodRatio.
+  double knownFraction = 0.0;
+  // kUnknown exactly when `unknown` is true. Of the others kNotKnownYet where the offset isn't
+  // trusted and knownFraction is below OpenSetOptions::minKnownFraction.
+  Membership membership = Membership::kKnown;
   // True if the best class is probable enough (sureProbability), the object is not unknown, and the
   // offset is trusted.
   bool sure = false;
@@ -141,13 +170,19 @@ struct OpenSetOptions {
   // Threshold [ln] of the ratio: 1 % of the known and 60 % of the unknown grasps are below it
   // (data: docs/recognition.md).
   double minLogLikelihoodRatio = 1.0;
+  // Part of the offset's distribution for which an object must be known to be called known while
+  // the offset isn't trusted, 0..1.
+  double minKnownFraction = 0.95;
   // Probability of the best class that a sure result needs, 0.5..1.
   double sureProbability = 0.97;
 
   void validate() const;
 };
 
-// Classifies one grasp, marginalised over the distribution of the offset.
+// Classifies one grasp, marginalised over the distribution of the offset. An offset that unlabelled
+// grasps gave (kBatch) and that is not trusted may have made an unknown object similar to a class.
+// Therefore the log likelihood ratio is then marginalised over unknownOffset(), the class
+// probabilities over the offset as given.
 OpenSetPrediction predict(const SessionAdaptiveClassifier& model,
                           const Eigen::VectorXd& x,
                           const SessionOffset& offset,

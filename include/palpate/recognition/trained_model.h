@@ -45,6 +45,8 @@ struct Prediction {
   std::vector<int> ranking;
   // Probability of each class, in the order of the ranking.
   std::vector<double> p;
+  // Whether the object is one of the known classes. kNotKnownYet: `label` is only the best of them.
+  Membership membership = Membership::kKnown;
   // Novelty score: distance from the training samples; larger for unknown objects.
   double novelty = 0.0;
 };
@@ -104,6 +106,10 @@ std::vector<Prediction> classifyRows(const TrainedModel& model,
                                      const Eigen::MatrixXd& x,
                                      const SessionOffset& offset,
                                      bool sameSession);
+
+// Returns one sentence, without a full stop: why it can't be known yet whether an object is one of
+// the known classes, and which touch would tell it (Membership::kNotKnownYet).
+std::string notKnownYetText(const TrainedModel& model, const SessionOffset& offset);
 
 // Throws Error naming the difference when features do not fit a model: another sensor, or another
 // set or version of features.

@@ -181,14 +181,17 @@ void RecognitionController::classify(const ChosenGrasp& chosen, const QString& o
     answer.of = of;
     return showAnswer(answer);
   }
-  RecognitionAnswer answer =
-      answerOf(session_->model(), session_->predict(chosen.features.values, chosen.timeUs));
+  const Prediction prediction = session_->predict(chosen.features.values, chosen.timeUs);
+  RecognitionAnswer answer = answerOf(session_->model(), prediction);
   answer.of = of;
   const bool none = emulated_ && isEmulatedModel() &&
                     session_->offset().origin == OffsetSource::kGiven &&
                     session_->offset().mm == 0.0;
   if (session_->model().adaptsToSession()) answer.offset = offsetText(session_->offset(), none);
   answer.unsure = QString::fromStdString(session_->unsure());
+  if (prediction.membership == Membership::kNotKnownYet)
+    answer.unsure += (answer.unsure.isEmpty() ? QString() : QString("; ")) +
+                     QString::fromStdString(notKnownYetText(session_->model(), session_->offset()));
   const auto& grasps = session_->grasps();
   for (std::size_t i = 0; i < grasps.size(); ++i)
     if (grasps[i].timeUs == chosen.timeUs) answer.grasp = i;
