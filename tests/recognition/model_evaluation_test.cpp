@@ -69,10 +69,10 @@ TEST(ModelEvaluation, AFreshModelIsSureOnlyInItsSession) {
   EXPECT_EQ(evaluateModel(model, test, times(24, 2000)).sure, 0u);
 }
 
-// Sizes read 5 mm too small are not those of any class, unless the offset is left open.
+// Sizes read 3.5 mm too small are not those of any class, unless the offset is left open.
 TEST(ModelEvaluation, InAnotherSessionAFreshModelAssumesNoOffset) {
   TrainedModel model = modelOf(ClassifierKind::kGauss);
-  const SampleSet test = things(6, 4, -5.0, 2);
+  const SampleSet test = things(6, 4, -3.5, 2);
   const auto fresh = evaluateModel(model, test, times(24, 2000));
   const auto none =
       evaluateModel(model, test, times(24, 2000), {0, {OffsetChoice::Kind::kNone, 0.0}});

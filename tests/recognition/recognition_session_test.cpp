@@ -81,7 +81,9 @@ TEST(RecognitionSession, InAnotherSessionTheOffsetIsLeftOpen) {
 TEST(RecognitionSession, WhatIsToldGivesTheOffset) {
   RecognitionSession day(model());
   const SampleSet today = things(6, -4.0, 3);
+  day.choose({OffsetChoice::Kind::kGiven, 0.0});
   EXPECT_LT(shareRight(day, today), 0.9) << "sizes are read wrong";
+  day.choose({});
   day.setLabel(day.add(row(today, 0), kTodayUs), today.y[0]);
   EXPECT_EQ(day.offset().objects, 1u);
   EXPECT_FALSE(day.offset().trusted);

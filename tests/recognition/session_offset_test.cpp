@@ -108,10 +108,10 @@ TEST(SessionOffset, OneObjectIsNeverEnoughToBeSure) {
   EXPECT_FALSE(predict(model, x.row(0).transpose(), labelled).sure);
 }
 
-// Objects of the same shape, 15 mm apart. With an offset of +- 3 mm an object in the middle between
-// two of them may be known or not; when the offset is known, it is not.
+// Objects of the same shape, 15 mm apart. With an offset of +- 3 mm an object that is 4 mm larger
+// than one of them may be known or not; when the offset is known, it is not.
 TEST(SessionOffset, WithoutAnOffsetItCannotBeKnownYetWhetherAnObjectIsKnown) {
-  SizesWorld world({20, 1, 2, 35, 3, 4, 50, 5, 6, 65, 7, 8, 27.5});
+  SizesWorld world({20, 1, 2, 35, 3, 4, 50, 5, 6, 65, 7, 8, 24});
   const MatrixXd unknown = world.grasps({12}, 10, 0.0), known = world.grasps({3}, 10, 0.0);
   SizesWorld training({20, 1, 2, 35, 3, 4, 50, 5, 6, 65});
   const SessionAdaptiveClassifier model = training.model();
