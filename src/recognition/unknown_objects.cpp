@@ -68,8 +68,11 @@ void requireThreeClasses(const SampleSet& samples) {
 SessionOffset offsetOf(const SessionAdaptiveClassifier& model,
                        const Eigen::MatrixXd& sessionSamples,
                        UnknownClassOffset kind) {
-  return kind == UnknownClassOffset::kUnknown ? unknownOffset()
-                                              : offsetFromBatch(model, sessionSamples);
+  if (kind == UnknownClassOffset::kUnknown) return unknownOffset();
+  const SessionOffset batch = offsetFromBatch(model, sessionSamples);
+  if (kind == UnknownClassOffset::kBatch) return batch;
+  constexpr double kLeastSdMm = 0.05;
+  return measuredOffset(batch.mm, std::max(batch.sdMm, kLeastSdMm), OffsetSource::kEmptyHand);
 }
 
 }  // namespace

@@ -41,8 +41,8 @@ UnknownReport unknownWithin(const SampleSet& samples,
 
 // How the offset of another session is obtained.
 enum class UnknownClassOffset {
-  // Estimated from all grasps of the session with a classifier of all classes; this simulates a
-  // zero adjustment of the empty hand.
+  // Estimated from all grasps of the session with a classifier of all classes, and used as an
+  // offset that the empty hand gave; this simulates a zero adjustment of the empty hand.
   kKnown,
   // Estimated from all grasps of the session, those of the unknown object included, with the
   // classifier that lacks its class.
