@@ -1,10 +1,19 @@
 #include "palpate/slip/rotation_tracker.h"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <string>
 
 namespace palpate {
+namespace {
+
+// A side cuts a contact if it reads at least this fraction of the largest value.
+constexpr float kCutPart = 0.25F;
+// Eccentricity (study's definition) below which the whole contact would have no direction.
+constexpr double kMinWholeEccentricity = 0.6;
+
+}  // namespace
 
 void RotationOptions::validate() const {
   if (!(minEccentricity >= 0.0 && minEccentricity <= 1.0))
@@ -17,12 +26,51 @@ void RotationOptions::validate() const {
     throw std::invalid_argument("RotationOptions: minTaxels is " + std::to_string(minTaxels));
 }
 
+bool axisIsDetermined(const ConstMatrixMap& frame, const ContactMoments& moments) noexcept {
+  if (frame.size() == 0 || !(moments.sum > 0.0)) return true;
+  const Eigen::Index right = frame.cols() - 1;
+  const Eigen::Index bottom = frame.rows() - 1;
+  const float least = kCutPart * frame.maxCoeff();
+  const double seenDeg = principalAxis(moments).orientationDeg;
+  for (const bool alongX : {true, false})
+    for (const bool far : {false, true}) {
+      const Eigen::Index line = far ? (alongX ? bottom : right) : 0;
+      double load = 0.0;
+      double first = 0.0;
+      float largest = 0.0F;
+      for (Eigen::Index i = 0; i <= (alongX ? right : bottom); ++i) {
+        const float value = alongX ? frame(line, i) : frame(i, line);
+        if (!(value > 0.0F)) continue;
+        largest = std::max(largest, value);
+        load += static_cast<double>(value);
+        first += static_cast<double>(value) * static_cast<double>(i);
+      }
+      if (!(load > 0.0) || largest < least) continue;
+      const double place = first / load;
+      const auto side = static_cast<double>(line);
+      const double x = moments.x - (alongX ? place : side);
+      const double y = moments.y - (alongX ? side : place);
+      // Second moments about the point of symmetry.
+      ContactMoments whole = moments;
+      whole.mu20 += x * x;
+      whole.mu11 += x * y;
+      whole.mu02 += y * y;
+      const PrincipalAxis axis = principalAxis(whole);
+      const double off = axis.orientationDeg - seenDeg;
+      if (axis.studyEccentricity < kMinWholeEccentricity ||
+          std::abs(off - 180.0 * std::round(off / 180.0)) > kMaxCutAxisDeg)
+        return false;
+    }
+  return true;
+}
+
 RotationTracker::RotationTracker(const RotationOptions& options) : options_(options) {
   options_.validate();
 }
 
 const SlipRotation& RotationTracker::update(const ContactMoments& moments,
-                                            double roundness) noexcept {
+                                            double roundness,
+                                            bool determined) noexcept {
   state_.axis = principalAxis(moments);
   state_.roundness = roundness;
   state_.valid = false;
@@ -30,7 +78,8 @@ const SlipRotation& RotationTracker::update(const ContactMoments& moments,
   state_.rotationDeg = 0.0;
   const bool round =
       state_.axis.studyEccentricity < options_.minEccentricity && roundness > options_.maxRoundness;
-  state_.reliable = moments.active >= options_.minTaxels && state_.axis.lambda1 > 0.0 && !round;
+  state_.reliable =
+      moments.active >= options_.minTaxels && state_.axis.lambda1 > 0.0 && !round && determined;
   if (!state_.reliable) {
     hasLast_ = false;
     return state_;

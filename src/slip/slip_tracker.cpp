@@ -139,7 +139,8 @@ const SlipMotion& SlipTracker::update(const ConstMatrixMap& frame, bool afterGap
   const double unseen = unseenFraction(frame);
   if (measurable)
     motion_.confidence = reading.confidence * (reading.isCentroid ? 1.0 - unseen : 1.0);
-  motion_.rotation = rotation_.update(moments, outline_.describe(frame).roundness);
+  motion_.rotation = rotation_.update(
+      moments, outline_.describe(frame).roundness, axisIsDetermined(frame, moments));
   if (reading.turns) {
     motion_.rotation.reliable = true;
     motion_.rotation.valid = reading.angleValid;

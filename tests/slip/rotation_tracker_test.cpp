@@ -1,5 +1,6 @@
 #include "palpate/slip/rotation_tracker.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "slip_scene.h"
@@ -87,6 +88,44 @@ TEST(RotationTracker, TooFewTaxelsTellNothing) {
   RotationOptions options;
   options.minEccentricity = 1.5;
   EXPECT_THROW(RotationTracker{options}, std::invalid_argument);
+}
+
+// A disc that slides along the lower side of the matrix, half of it outside, into the corner: the
+// axis of the visible part turns from 0 to about 90 degrees, the disc doesn't turn.
+TEST(RotationTracker, AContactCutByASideDoesNotTurnWithItsVisiblePart) {
+  SyntheticSensor sensor;
+  sensor.thresholdCounts = 0.0;
+  RotationTracker tracker;
+  double visibleDeg = 0.0;
+  int unknown = 0;
+  for (int i = 0; i <= 30; ++i) {
+    const MatrixValues values = testing::idealReading({.x = 2.5 + 0.1 * i, .y = 13.0}, sensor);
+    const ContactMoments moments = contactMoments(testing::viewOf(values));
+    const double axisDeg = principalAxis(moments).orientationDeg;
+    visibleDeg = std::max(visibleDeg, std::min(axisDeg, 180.0 - axisDeg));
+    const bool determined = axisIsDetermined(testing::viewOf(values), moments);
+    const SlipRotation& rotation = tracker.update(moments, 0.7, determined);
+    unknown += rotation.reliable ? 0 : 1;
+    const double readDeg = rotation.refValid ? rotation.refRotationDeg : 0.0;
+    EXPECT_NEAR(readDeg, 0.0, kMaxCutAxisDeg) << i;
+    EXPECT_TRUE(determined || !(rotation.valid || rotation.refValid)) << i;
+  }
+  EXPECT_GT(visibleDeg, 80.0);
+  EXPECT_GT(unknown, 15);
+}
+
+// A bar at 30 degrees to the columns that leaves the matrix lengthwise shows its direction: 120
+// degrees from +x. Inside the matrix nothing is cut.
+TEST(RotationTracker, ABarThatLeavesTheMatrixLengthwiseKeepsItsDirection) {
+  SyntheticSensor sensor;
+  for (const double y : {6.5, 11.5, 12.0}) {
+    const MatrixValues values =
+        testing::idealReading({.shape = SlipShape::kBar, .y = y, .angleDeg = 30.0}, sensor);
+    const ContactMoments moments = contactMoments(testing::viewOf(values));
+    EXPECT_TRUE(axisIsDetermined(testing::viewOf(values), moments)) << y;
+    EXPECT_NEAR(principalAxis(moments).orientationDeg, 120.0, 12.0) << y;
+  }
+  EXPECT_TRUE(axisIsDetermined(testing::viewOf(MatrixValues::Zero(14, 6)), {}));
 }
 
 }  // namespace

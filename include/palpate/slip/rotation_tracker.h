@@ -21,7 +21,7 @@ struct RotationOptions {
 };
 
 struct SlipRotation {
-  // Whether the shape has a direction in this frame.
+  // Whether the shape has a direction in this frame, and a side of the matrix does not hide it.
   bool reliable = false;
   // Whether the frame before had a direction, too: `rotationDeg` is known.
   bool valid = false;
@@ -36,14 +36,27 @@ struct SlipRotation {
   double roundness = 0.0;
 };
 
+// Whether the part of a contact that is inside the matrix determines the principal axis of the
+// whole contact. A side of the matrix cuts the contact if one of its taxels reads at least a
+// quarter of the largest value. The part outside is then unknown: it may be missing, or the contact
+// may continue point-symmetrically about the centroid of the load on that side. The axis is
+// determined if, for every side that cuts the contact, the axes of both cases differ by at most
+// kMaxCutAxisDeg and the continued contact isn't round (eccentricity of the study at least 0.6). So
+// it is determined for a bar that leaves the matrix lengthwise, and not for half a disc. `moments`
+// are those of `frame`. Values that are not above 0 don't count.
+inline constexpr double kMaxCutAxisDeg = 10.0;
+bool axisIsDetermined(const ConstMatrixMap& frame, const ContactMoments& moments) noexcept;
+
 class RotationTracker {
  public:
   // Throws std::invalid_argument.
   explicit RotationTracker(const RotationOptions& options = {});
 
   // Processes the next frame. In a frame without contact nothing is known, and the frame after it
-  // has no step.
-  const SlipRotation& update(const ContactMoments& moments, double roundness) noexcept;
+  // has no step; the same holds where the axis is not `determined` (axisIsDetermined()).
+  const SlipRotation& update(const ContactMoments& moments,
+                             double roundness,
+                             bool determined = true) noexcept;
   // Call it when frames are missing before the next frame: the next frame then has no step.
   void skip() noexcept { hasLast_ = false; }
   // Makes the newest frame that has a direction the reference. Returns false if there was none yet;
