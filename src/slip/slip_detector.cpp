@@ -207,8 +207,8 @@ void SlipDetector::decideByHypotheses(const SlipEvidence& seen) {
     windows_.evaluateHypotheses(kMiddleWindow);
   const SlipEvidence& evidence = windows_.evidence();
   const SlipRuleResult outcome = rule_.decide(evidence);
-  if (!evidence.computable || !outcome.leading) {
-    // The contact is too small or has not lasted long enough.
+  if (!evidence.computable || (!outcome.leading && !outcome.alarm && !detection_.slipping)) {
+    // The contact is too small, or too new for the windows and without an alarm.
     detection_.slipping = detection_.slipping && evidence.computable;
     detection_.state = SlipState::kInvalid;
     detection_.indicator = SlipIndicator::kNotComputable;
