@@ -57,7 +57,10 @@ bool axisIsDetermined(const ConstMatrixMap& frame, const ContactMoments& moments
       whole.mu02 += y * y;
       const PrincipalAxis axis = principalAxis(whole);
       const double off = axis.orientationDeg - seenDeg;
-      if (axis.studyEccentricity < kMinWholeEccentricity ||
+      // 0 along the side, 90 along its normal [deg].
+      const double fromX = std::abs(seenDeg - 180.0 * std::round(seenDeg / 180.0));
+      const double fromSideDeg = alongX ? fromX : 90.0 - fromX;
+      if (fromSideDeg < 45.0 || axis.studyEccentricity < kMinWholeEccentricity ||
           std::abs(off - 180.0 * std::round(off / 180.0)) > kMaxCutAxisDeg)
         return false;
     }

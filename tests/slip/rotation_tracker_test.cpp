@@ -128,5 +128,17 @@ TEST(RotationTracker, ABarThatLeavesTheMatrixLengthwiseKeepsItsDirection) {
   EXPECT_TRUE(axisIsDetermined(testing::viewOf(MatrixValues::Zero(14, 6)), {}));
 }
 
+// The last two rows of a contact that moves out over the side look like a bar along the side,
+// whatever the contact was. The same bar inside of the matrix has an axis.
+TEST(RotationTracker, AStripAlongASideMayBeTheEndOfAnything) {
+  for (const Eigen::Index top : {6, 12}) {
+    MatrixValues values = MatrixValues::Zero(14, 8);
+    values.block(top, 1, 2, 6).setConstant(500.0F);
+    const ContactMoments moments = contactMoments(testing::viewOf(values));
+    EXPECT_NEAR(std::remainder(principalAxis(moments).orientationDeg, 180.0), 0.0, 1e-6);
+    EXPECT_EQ(axisIsDetermined(testing::viewOf(values), moments), top == 6);
+  }
+}
+
 }  // namespace
 }  // namespace palpate::rotation_tracker_test
