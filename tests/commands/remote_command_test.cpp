@@ -163,7 +163,7 @@ TEST_F(RemoteCommandTest, TheWindowHasNoDoorByDefault) {
     std::error_code gone;
     const fs::path process = "/proc/" + std::to_string(program_->pid());
     // Until then it has the files of this test.
-    if (fs::read_symlink(process / "exe", gone).filename() != "palpate") return false;
+    if (fs::read_symlink(process / "exe", gone).filename() != "palpate_window") return false;
     for (fs::directory_iterator entry(process / "fd", gone), end; !gone && entry != end;
          entry.increment(gone)) {
       std::error_code failure;
