@@ -46,7 +46,7 @@ struct SlipRotation {
 // along the side may be the end of anything. So it is determined for a bar that leaves the matrix
 // lengthwise, and not for half a disc or the last rows of a contact that moves out. `moments`
 // are those of `frame`. Values that are not above 0 don't count.
-inline constexpr double kMaxCutAxisDeg = 10.0;
+inline constexpr double kMaxCutAxisDeg = 20.0;
 bool axisIsDetermined(const ConstMatrixMap& frame, const ContactMoments& moments) noexcept;
 
 class RotationTracker {
