@@ -13,17 +13,9 @@ namespace {
 
 using spline::SplineWeights;
 
-// Number of half places before the first taxel: the margin, one more for the reach of the spline,
-// and the boundary of the coefficients that are solved for.
-constexpr int kBefore = 2 * LearnedSurface::kMargin + 1 + SurfaceInformation::kReach;
-// The information fades in steps of this many frames.
-constexpr int kFadeEvery = 16;
-// After this many frames the coefficients change little, and fewer iterations follow them.
-constexpr int kYoungFrames = 25;
-constexpr int kLaterIterations = 2;
-// Standard deviation of the value of a taxel that has no active neighbour, as a fraction of the
-// threshold; it is 0 or nearly so.
-constexpr float kFarSilence = 0.2F;
+// Number of half places before the first taxel: the margin, and one more for the reach of the
+// spline.
+constexpr int kBefore = 2 * LearnedSurface::kMargin + 1;
 
 void checkLearnedSurface(bool good, const char* field, double value) {
   if (!good)
@@ -31,33 +23,25 @@ void checkLearnedSurface(bool good, const char* field, double value) {
                                 std::to_string(value));
 }
 
-constexpr float kMotionCounts = 4.0F;
+constexpr float kMotionCounts = 8.0F;
 
 float learnedSurfaceSquare(float value) { return value * value; }
 
 }  // namespace
 
 void LearnedSurfaceOptions::validate() const {
-  checkLearnedSurface(priorSd > 0.0, "priorSd", priorSd);
-  checkLearnedSurface(interpolationSd >= 0.0, "interpolationSd", interpolationSd);
+  checkLearnedSurface(curvatureSd >= 0.0, "curvatureSd", curvatureSd);
   checkLearnedSurface(belowThresholdSd >= 0.0, "belowThresholdSd", belowThresholdSd);
   checkLearnedSurface(outsideSd > 0.0, "outsideSd", outsideSd);
   checkLearnedSurface(processNoiseRatio >= 0.0, "processNoiseRatio", processNoiseRatio);
-  checkLearnedSurface(
-      forgottenPerFrame >= 0.0 && forgottenPerFrame <= 0.5, "forgottenPerFrame", forgottenPerFrame);
-  checkLearnedSurface(
-      startIterations >= 1 && startIterations <= 100, "startIterations", startIterations);
-  checkLearnedSurface(iterations >= 1 && iterations <= 100, "iterations", iterations);
   key.validate();
 }
 
 LearnedSurface::LearnedSurface(const MatrixLayout& layout, const LearnedSurfaceOptions& options)
-    : key_(layout, options.key),
-      options_(options),
-      columns_(2 * layout.columns + 2 * kBefore),
-      rows_(2 * layout.rows + 2 * kBefore),
-      information_(rows_, columns_) {
+    : key_(layout, options.key), options_(options) {
   options_.validate();
+  columns_ = 2 * layout.columns + 2 * kBefore;
+  rows_ = 2 * layout.rows + 2 * kBefore;
   const auto size = static_cast<std::size_t>(columns_ * rows_);
   coefficients_.resize(size);
   variances_.resize(size);
@@ -76,13 +60,17 @@ bool LearnedSurface::set(const ConstMatrixMap& frame, double noiseCounts) {
   const float outside = learnedSurfaceSquare(static_cast<float>(options_.outsideSd) * largest);
   const float silence =
       learnedSurfaceSquare(static_cast<float>(options_.belowThresholdSd) * least_);
-  const float between =
-      learnedSurfaceSquare(static_cast<float>(options_.interpolationSd) * largest);
+  const auto bendSd = static_cast<float>(options_.curvatureSd);
 
   for (int y = 0; y < rows; ++y)
     for (int x = 0; x < columns; ++x) {
       const int i = y * columns + x;
-      float variance = noise2 + between;
+      float bend = 0.0F;
+      if (x > 0 && x + 1 < columns)
+        bend += std::abs(filled[i - 1] - 2.0F * filled[i] + filled[i + 1]);
+      if (y > 0 && y + 1 < rows)
+        bend += std::abs(filled[i - columns] - 2.0F * filled[i] + filled[i + columns]);
+      float variance = noise2 + learnedSurfaceSquare(bendSd * bend);
       if (key_.at(static_cast<float>(x), static_cast<float>(y)).unknown > 0.5F)
         variance += key_.enabled()[i] != 0 ? silence : outside;
       ofTaxels_[static_cast<std::size_t>(i)] = variance;
@@ -125,43 +113,7 @@ bool LearnedSurface::set(const ConstMatrixMap& frame, double noiseCounts) {
       }
       coefficients_[place] = value;
     }
-  beginInformation(frame, noise2, largest);
-  frames_ = 1;
   return true;
-}
-
-// The values of taxels below the threshold are those of KeyFrame: near the contact a fraction of
-// the threshold, in the second place from it 0.
-void LearnedSurface::beginInformation(const ConstMatrixMap& frame, float noise2, float largest) {
-  information_.begin(options_.priorSd * static_cast<double>(largest));
-  const MatrixLayout& layout = key_.layout();
-  const SplineWeights weights = spline::weights(0.0F);
-  const auto nearSilence =
-      learnedSurfaceSquare(0.5F * static_cast<float>(options_.belowThresholdSd) * least_);
-  const auto farSilence = learnedSurfaceSquare(kFarSilence * least_);
-  const auto isActiveAround = [&](int y, int x, int reach) {
-    for (int ny = std::max(y - reach, 0); ny <= std::min(y + reach, layout.rows - 1); ++ny)
-      for (int nx = std::max(x - reach, 0); nx <= std::min(x + reach, layout.columns - 1); ++nx)
-        if (frame(ny, nx) > 0.0F) return true;
-    return false;
-  };
-  for (int y = 0; y < layout.rows; ++y)
-    for (int x = 0; x < layout.columns; ++x) {
-      const int taxel = y * layout.columns + x;
-      if (key_.enabled()[taxel] == 0 || !isActiveAround(y, x, 2)) continue;
-      const float variance = frame(y, x) > 0.0F        ? noise2
-                             : isActiveAround(y, x, 1) ? nearSilence
-                                                       : farSilence;
-      const int corner = (2 * y + kBefore - 1) * columns_ + 2 * x + kBefore - 1;
-      information_.add(coefficients_.data(),
-                       corner,
-                       weights.data(),
-                       weights.data(),
-                       1.0F,
-                       key_.filled()[static_cast<std::size_t>(taxel)],
-                       variance);
-    }
-  information_.solve(coefficients_.data(), options_.startIterations);
 }
 
 LearnedSurface::Sample LearnedSurface::at(float x, float y) const noexcept {
@@ -240,7 +192,7 @@ void LearnedSurface::learn(const ConstMatrixMap& frame,
       const SplineWeights weightsY = spline::weights(halfY - floorY);
       const int corner = (static_cast<int>(floorY) + kBefore - 1) * columns_ +
                          static_cast<int>(floorX) + kBefore - 1;
-      const float* coefficients = coefficients_.data() + corner;
+      float* coefficients = coefficients_.data() + corner;
       float* variances = variances_.data() + corner;
       SplineWeights values = SplineWeights::Zero();
       SplineWeights unsure = SplineWeights::Zero();
@@ -273,26 +225,17 @@ void LearnedSurface::learn(const ConstMatrixMap& frame,
                                  4.0F * learnedSurfaceSquare(turn * sdAngle);
       const float all = variance + noise2 + relative2 * learnedSurfaceSquare(measured) +
                         kMotionCounts * unsureMotion;
-      information_.add(coefficients_.data(),
-                       corner,
-                       weightsX.data(),
-                       weightsY.data(),
-                       gain,
-                       measured,
-                       all - variance);
+      const float residual = measured - model;
       const float scale = gain / all;
       for (int j = 0; j < 4; ++j) {
         Eigen::Map<SplineWeights> variancesOfRow(variances + j * columns_);
+        Eigen::Map<SplineWeights> row(coefficients + j * columns_);
         // Kalman gain.
         const SplineWeights toward = (scale * weightsY(j)) * weightsX * variancesOfRow;
+        row += residual * toward;
         variancesOfRow += forgotten - toward * toward * all;
       }
     }
-  if (++frames_ % kFadeEvery == 0)
-    information_.fade(coefficients_.data(),
-                      std::pow(1.0F - static_cast<float>(options_.forgottenPerFrame), kFadeEvery));
-  information_.solve(coefficients_.data(),
-                     frames_ <= kYoungFrames ? options_.iterations : kLaterIterations);
 }
 
 RegistrationResult registerFrame(const LearnedSurface& surface,

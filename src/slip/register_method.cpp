@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <vector>
 
 #include "slip/translation_method.h"
 
@@ -27,8 +26,6 @@ constexpr double kNoFit = 0.6;
 // Weight of a new frame in the estimated noise.
 constexpr double kNoiseMemory = 0.03;
 constexpr double kMostNoise = 100.0;  // [counts]
-// Up to this number of frames of a surface its steps are measured again after it learned from them.
-constexpr int kYoungSurface = 25;
 // Above this shift of the centroid [taxels], it is added to the start value.
 constexpr double kSureShift = 0.7;
 
@@ -64,9 +61,7 @@ struct Transform {
 class RegisterMethod final : public TranslationMethod {
  public:
   RegisterMethod(const MatrixLayout& layout, const SlipTrackerOptions& options)
-      : options_(options.registration),
-        surface_(layout, options.surface),
-        previous_(layout.numCells()) {
+      : options_(options.registration), surface_(layout, options.surface) {
     options_.saturationCounts = options.saturationCounts;
     noise_ = options_.noiseCounts;
   }
@@ -101,7 +96,6 @@ class RegisterMethod final : public TranslationMethod {
     reading.gain = motion_.gain;
     lastX_ = moments.x;
     lastY_ = moments.y;
-    std::copy_n(frame.data(), frame.size(), previous_.begin());
     seen_ = true;
     return reading;
   }
@@ -131,7 +125,6 @@ class RegisterMethod final : public TranslationMethod {
   // Makes a frame the key frame. `sofar`, the transform from the reference to this frame, is kept
   // in keyFromReference_.
   void beginKey(const ConstMatrixMap& frame, const Transform& sofar) {
-    sdX_ = sdY_ = 0.0;
     surface_.set(frame, noise_);
     motion_ = {};
     keyFromReference_ = sofar;
@@ -173,14 +166,9 @@ class RegisterMethod final : public TranslationMethod {
       return;
     }
     motion_ = result.motion;
-    // The variance of the surface is that of the roughest contact; the residuals tell how much of
-    // it this contact has.
-    const double trust = std::sqrt(std::clamp(result.chi2, 0.05, 4.0));
     reading.degenerate = result.degenerate;
     reading.valid = stepPossible;
     if (stepPossible) {
-      reading.sdX = std::hypot(trust * result.sdX, sdX_ > 0.0 ? sdX_ : trust * result.sdX);
-      reading.sdY = std::hypot(trust * result.sdY, sdY_ > 0.0 ? sdY_ : trust * result.sdY);
       reading.dx = motion_.dx - before.dx;
       reading.dy = motion_.dy - before.dy;
       reading.angleDeg = motion_.angleDeg - before.angleDeg;
@@ -199,42 +187,16 @@ class RegisterMethod final : public TranslationMethod {
       reading.newKey = true;
     } else {
       surface_.learn(frame, result, options);
-      if (stepPossible && surface_.frames() <= kYoungSurface)
-        measureStepAgain(frame, before, options, reading);
     }
-    sdX_ = trust * result.sdX;
-    sdY_ = trust * result.sdY;
-  }
-
-  // The first frames teach the surface most: registered again to the surface after this frame, the
-  // frame before and this one have smaller errors, and errors of the surface cancel in their
-  // difference. The motion from the key stays as it was.
-  void measureStepAgain(const ConstMatrixMap& frame,
-                        const RigidMotion& before,
-                        RegistrationOptions options,
-                        TranslationReading& reading) const {
-    options.maxIterations = 2;
-    const ConstMatrixMap previous(previous_.data(), frame.rows(), frame.cols());
-    const RegistrationResult first = registerFrame(surface_, previous, before, options);
-    const RegistrationResult second = registerFrame(surface_, frame, motion_, options);
-    if (!first.converged || !second.converged) return;
-    reading.dx = second.motion.dx - first.motion.dx;
-    reading.dy = second.motion.dy - first.motion.dy;
-    reading.angleDeg = second.motion.angleDeg - first.motion.angleDeg;
   }
 
   RegistrationOptions options_;
   LearnedSurface surface_;
-  // The values of the previous measurable frame, row by row.
-  std::vector<float> previous_;
   // Noise estimated from the residuals [counts].
   double noise_ = 0.0;
   // Motion from the key frame to the newest frame.
   RigidMotion motion_;
   Transform keyFromReference_;
-  // Standard deviation of this motion; 0 in the first frame of a key.
-  double sdX_ = 0.0;
-  double sdY_ = 0.0;
   double referenceX_ = 0.0;
   double referenceY_ = 0.0;
   bool hasReference_ = false;

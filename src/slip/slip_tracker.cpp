@@ -125,8 +125,6 @@ const SlipMotion& SlipTracker::update(const ConstMatrixMap& frame, bool afterGap
   motion_.valid = reading.valid;
   motion_.dx = reading.dx;
   motion_.dy = reading.dy;
-  motion_.sdX = reading.valid ? reading.sdX : 0.0;
-  motion_.sdY = reading.valid ? reading.sdY : 0.0;
   motion_.refValid = reading.refValid;
   motion_.refDx = reading.refDx;
   motion_.refDy = reading.refDy;

@@ -1,12 +1,12 @@
 // Surface of a contact with a resolution finer than the taxels, refined by every registered frame.
 //
-// One frame samples a contact with edges too coarsely: an interpolation between taxels is wrong by
+// One frame samples a contact with edges too coarsely: the interpolation between taxels is wrong by
 // some counts, which shifts a registration by some hundredths of a taxel. Frames at other positions
-// add the missing samples. The surface is a cubic B-spline with a knot every half taxel. Its
-// coefficients are the most probable ones given all readings so far and a prior for contacts with
-// edges (SurfaceInformation). How uncertain a value is, for the weights of a registration, is
-// followed per coefficient, as by a Kalman filter with a diagonal covariance matrix: it begins
-// larger between taxels, where taxels are below the threshold, and outside of the matrix.
+// add the missing samples. The surface is a cubic B-spline with a knot every half taxel. Each
+// coefficient has a variance, and each reading F = gain T(source) + noise updates the sixteen
+// coefficients around its source as a Kalman filter with a diagonal covariance matrix does. The
+// initial surface is the interpolation of one frame (KeyFrame), with a larger variance where its
+// curvature is high, where taxels are below the threshold, and outside of the matrix.
 // x = column, y = row, in taxels; the surface reaches kMargin taxels beyond the outer taxels.
 #pragma once
 
@@ -14,15 +14,12 @@
 
 #include <palpate/slip/key_frame.h>
 #include <palpate/slip/rigid_registration.h>
-#include <palpate/slip/surface_information.h>
 
 namespace palpate {
 
 struct LearnedSurfaceOptions {
-  // Standard deviation of the surface before any reading, as a fraction of the largest count, > 0.
-  double priorSd = 0.35;
-  // Initial standard deviation of a value between taxels, as a fraction of the largest count, >= 0.
-  double interpolationSd = 0.025;
+  // Initial standard deviation [counts] per count of the second difference of the frame, >= 0.
+  double curvatureSd = 0.03;
   // Initial standard deviation of a taxel below the threshold that is next to an active one, as
   // a fraction of the threshold, >= 0.
   double belowThresholdSd = 0.5;
@@ -31,12 +28,6 @@ struct LearnedSurfaceOptions {
   // Process noise: variance added per frame as a fraction of the measurement noise variance, >=
   // 0. It lets the surface follow a contact whose shape changes.
   double processNoiseRatio = 0.001;
-  // Fraction of the information of earlier readings that is dropped per frame, 0..0.5, for the same
-  // reason.
-  double forgottenPerFrame = 0.005;
-  // Iterations that improve the coefficients when the surface begins, and after each frame, 1..100.
-  int startIterations = 20;
-  int iterations = 3;
   KeyFrameOptions key = {};
 
   // Throws std::invalid_argument naming the field.
@@ -75,12 +66,8 @@ class LearnedSurface {
   const KeyFrame& start() const noexcept { return key_; }
   // The smallest active value of all frames so far [counts].
   float minCounts() const noexcept { return least_; }
-  // Number of frames that the surface was learned from, with the first one; 0 without a surface.
-  int frames() const noexcept { return empty() ? 0 : frames_; }
 
  private:
-  void beginInformation(const ConstMatrixMap& frame, float noise2, float largest);
-
   KeyFrame key_;
   LearnedSurfaceOptions options_;
   // Size of the grid of coefficients.
@@ -91,8 +78,6 @@ class LearnedSurface {
   // Variance at the start, per taxel, with the margin.
   std::vector<float> ofTaxels_;
   float least_ = 0.0F;
-  int frames_ = 0;
-  SurfaceInformation information_;
 };
 
 // Registers a frame to the surface, as registerFrame() does to a key frame without blur.
