@@ -47,7 +47,12 @@ TEST_F(ClassifyCommand, OnAnotherDayItIsNotSureWithoutAnOffset) {
   const Json json = classify({folder_ / "t.dsa"}, &said);
   for (std::size_t i = 0; i < 3; ++i) EXPECT_FALSE(json.at("grasps").at(i).at("sure").asBool());
   EXPECT_NE(said.find("no answer is sure"), std::string::npos);
+  EXPECT_EQ(json.at("session_offset").at("origin").asString(), "unknown");
+  EXPECT_EQ(json.at("grasps").at(0).at("membership").asString(), "not_known_yet");
+  EXPECT_NE(said.find("can't be known yet"), std::string::npos) << said;
+  EXPECT_NE(said.find("label grasps of two objects"), std::string::npos) << said;
   const Json given = classify({folder_ / "t.dsa", "--session-offset", "0"});
+  EXPECT_EQ(given.at("grasps").at(0).at("membership").asString(), "known");
   EXPECT_TRUE(given.at("grasps").at(0).at("sure").asBool()) << "the person's word";
   EXPECT_EQ(given.at("session_offset").at("origin").asString(), "given");
 }

@@ -87,6 +87,20 @@ TEST_F(RecognisePanelTest, WhatWasHeldTooShortIsNotSaidOfAnEmptyHand) {
   EXPECT_FALSE(panel_->controller().answer().text.contains("Not held long enough"));
 }
 
+TEST_F(RecognisePanelTest, WithoutAnOffsetTheReasonNamesTheTouchThatWouldTell) {
+  panel_->controller().setEmulated(true);
+  settle();
+  panel_->controller().changeSession([](RecognitionSession& session) {
+    session.choose({OffsetChoice::Kind::kNone, 0.0});
+  });
+  panel_->controller().ask({graspsOf("pen", 1), std::nullopt, ""});
+  settle();
+  EXPECT_EQ(panel_->controller().session()->offset().origin, OffsetSource::kUnknown);
+  const QString reason = panel_->controller().answer().unsure;
+  EXPECT_TRUE(reason.contains("can't be known yet")) << reason.toStdString();
+  EXPECT_TRUE(reason.contains("label grasps of two objects")) << reason.toStdString();
+}
+
 TEST_F(RecognisePanelTest, WhatIsToldAdaptsTheDay) {
   panel_->controller().setEmulated(true);
   settle();
