@@ -8,10 +8,19 @@
 namespace palpate {
 namespace {
 
-// A side cuts a contact if it reads at least this fraction of the largest value.
-constexpr float kCutPart = 0.25F;
+// A side cuts a contact if its line of taxels carries at least this fraction of the load of the
+// parallel line with the largest load. Below it, the contact ends there.
+constexpr double kCutPart = 0.5;
 // Eccentricity (study's definition) below which the whole contact would have no direction.
 constexpr double kMinWholeEccentricity = 0.6;
+
+// Load of one line of taxels: row `line` (along x), or column `line`.
+double lineLoad(const ConstMatrixMap& frame, Eigen::Index line, bool alongX) noexcept {
+  double load = 0.0;
+  for (Eigen::Index i = 0; i < (alongX ? frame.cols() : frame.rows()); ++i)
+    load += static_cast<double>(std::max(alongX ? frame(line, i) : frame(i, line), 0.0F));
+  return load;
+}
 
 }  // namespace
 
@@ -30,22 +39,22 @@ bool axisIsDetermined(const ConstMatrixMap& frame, const ContactMoments& moments
   if (frame.size() == 0 || !(moments.sum > 0.0)) return true;
   const Eigen::Index right = frame.cols() - 1;
   const Eigen::Index bottom = frame.rows() - 1;
-  const float least = kCutPart * frame.maxCoeff();
   const double seenDeg = principalAxis(moments).orientationDeg;
-  for (const bool alongX : {true, false})
+  for (const bool alongX : {true, false}) {
+    double most = 0.0;
+    for (Eigen::Index i = 0; i <= (alongX ? bottom : right); ++i)
+      most = std::max(most, lineLoad(frame, i, alongX));
     for (const bool far : {false, true}) {
       const Eigen::Index line = far ? (alongX ? bottom : right) : 0;
       double load = 0.0;
       double first = 0.0;
-      float largest = 0.0F;
       for (Eigen::Index i = 0; i <= (alongX ? right : bottom); ++i) {
         const float value = alongX ? frame(line, i) : frame(i, line);
         if (!(value > 0.0F)) continue;
-        largest = std::max(largest, value);
         load += static_cast<double>(value);
         first += static_cast<double>(value) * static_cast<double>(i);
       }
-      if (!(load > 0.0) || largest < least) continue;
+      if (!(load > 0.0) || load < kCutPart * most) continue;
       const double place = first / load;
       const auto side = static_cast<double>(line);
       const double x = moments.x - (alongX ? place : side);
@@ -64,6 +73,7 @@ bool axisIsDetermined(const ConstMatrixMap& frame, const ContactMoments& moments
           std::abs(off - 180.0 * std::round(off / 180.0)) > kMaxCutAxisDeg)
         return false;
     }
+  }
   return true;
 }
 

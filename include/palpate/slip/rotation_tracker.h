@@ -37,16 +37,16 @@ struct SlipRotation {
 };
 
 // Whether the part of a contact that is inside the matrix determines the principal axis of the
-// whole contact. A side of the matrix cuts the contact if one of its taxels reads at least a
-// quarter of the largest value. The part outside is then unknown: it may be missing, or the contact
-// may continue point-symmetrically about the centroid of the load on that side, or much farther.
-// The axis is determined if, for every side that cuts the contact, the axes of the first two cases
-// differ by at most kMaxCutAxisDeg, the continued contact isn't round (eccentricity of the study at
-// least 0.6), and the axis is nearer to the normal of the side than to the side itself: a strip
-// along the side may be the end of anything. So it is determined for a bar that leaves the matrix
-// lengthwise, and not for half a disc or the last rows of a contact that moves out. `moments`
-// are those of `frame`. Values that are not above 0 don't count.
-inline constexpr double kMaxCutAxisDeg = 20.0;
+// whole contact. A side of the matrix cuts the contact if its line of taxels carries at least half
+// of the load of the parallel line with the largest load. The part outside is then unknown: it may
+// be missing, or the contact may continue point-symmetrically about the centroid of the load on
+// that side, or much farther. The axis is determined if, for every side that cuts the contact, the
+// axes of the first two cases differ by at most kMaxCutAxisDeg, the continued contact isn't round
+// (eccentricity of the study at least 0.6), and the axis is nearer to the normal of the side than
+// to the side itself: a strip along the side may be the end of anything. So it is determined for a
+// bar that leaves the matrix lengthwise, and not for half a disc or the last rows of a contact that
+// moves out. `moments` are those of `frame`. Values that are not above 0 don't count.
+inline constexpr double kMaxCutAxisDeg = 10.0;
 bool axisIsDetermined(const ConstMatrixMap& frame, const ContactMoments& moments) noexcept;
 
 class RotationTracker {
