@@ -36,13 +36,17 @@ struct MatrixDescription {
   std::optional<std::size_t> temperatureSensor = std::nullopt;
 };
 
-// Name and limits of one axis.
+// Name and limits of one axis. Lengths take the place of angles where the axis slides: `Deg` in a
+// name then means millimetres, here and in JointAngles (isSliding).
 struct AxisDescription {
   std::string name;         // "finger 1 proximal"
   double minimumDeg = 0.0;  // range of motion [deg]
   double maximumDeg = 0.0;
   double maximumVelocityDegPerS = 0.0;       // limit of the controller's firmware [deg/s]
   double maximumAccelerationDegPerS2 = 0.0;  // [deg/s^2]
+  bool isSliding = false;                    // moves along a line: all values are in mm
+
+  const char* unit() const { return isSliding ? "mm" : "deg"; }
 };
 
 // Name of one temperature sensor.
@@ -50,9 +54,12 @@ struct TemperatureSensorDescription {
   std::string name;  // "motor 0", "FPGA", "circuit board"
 };
 
+struct HandFile;  // palpate/model/hand_file.h
+
 // All properties of a hand that algorithms and displays need.
 struct HandDescription {
   std::string name;                            // "SCHUNK SDH-2 with Weiss DSA"
+  std::string maker = {};                      // "SCHUNK, Weiss Robotics"; may be empty
   std::shared_ptr<const SensorLayout> layout;  // never null
   std::vector<MatrixDescription> matrices;     // one per matrix of the layout
   std::vector<AxisDescription> axes;
@@ -60,6 +67,11 @@ struct HandDescription {
   float maximumCounts = 4095.0F;  // full scale of the converter
   // A taxel at or above this value [counts] is saturated. All code takes the limit from here.
   float saturationCounts = 4095.0F;
+  // Unit of the taxels' values: "counts", or a physical unit ("kPa", "N").
+  std::string unit = "counts";
+  // Preshapes, surfaces, sensor characteristics and the texts of the files that the description
+  // was read from; null when it was not read from a file.
+  std::shared_ptr<const HandFile> file = nullptr;
 
   // Returns for example "finger 0 distal", or "matrix 7" when the description has no such matrix.
   std::string matrixName(std::size_t matrix) const;

@@ -1,0 +1,99 @@
+// Reads the description of a hand from its folder: hand.json, and hand.urdf where the hand has
+// joints. docs/another_hand.md describes both files; data/hands/hand.schema.json is the JSON schema
+// of hand.json.
+//
+// The hands that Palpate knows without a folder (data/hands of the project) are compiled into the
+// program, from the same files.
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <palpate/model/hand_description.h>
+#include <palpate/model/preshape.h>
+#include <palpate/model/sensor_characteristics.h>
+
+namespace palpate {
+
+// Position and outward normal of one taxel in the frame of its link.
+struct TaxelPose {
+  std::array<double, 3> positionMm{};
+  std::array<double, 3> normal{0.0, 0.0, 1.0};  // unit vector
+};
+
+// Where a matrix is mounted: on a link of the URDF. The surface's own frame has x along rising
+// columns, y along rising rows (towards the palm) and z into the link, so that -z is the outward
+// normal; its origin is the centre of taxel (0, 0). See SensorSurface for the bend.
+struct MatrixSurface {
+  std::string link;                      // name in the URDF
+  std::array<double, 3> originMm{};      // of the surface's frame, in the frame of the link
+  std::array<double, 3> rollPitchYawRad{};  // as in a URDF: rotations about fixed x, then y, then z
+  // From this row on, towards row 0, the surface is a cylinder about x; empty: flat.
+  std::optional<double> bendRow;
+  double bendRadiusMm = 0.0;
+  // Radius with which a rigid object has the same measured size everywhere on the pad; equals
+  // bendRadiusMm where it is not known.
+  double effectiveBendRadiusMm = 0.0;
+  // One per place (rows x columns, row by row) when the surface is neither flat nor a cylinder;
+  // otherwise empty.
+  std::vector<TaxelPose> taxels;
+};
+
+// The part of a hand that recognition of held objects uses; see PinchHand, which is made of it.
+struct PinchDescription {
+  std::array<std::size_t, 2> pads{0, 1};
+  std::vector<std::array<std::size_t, 2>> otherPads;
+  double secondPadGain = 1.0;
+  double fullScaleCounts = 4096.0;
+  int imageSize = 1;
+  std::array<double, 2> largestCounts{1.0, 1.0};
+  std::vector<std::size_t> gripAxes;
+};
+
+// What the folder of a hand says beyond its HandDescription.
+struct HandFile {
+  std::string json;  // text of hand.json
+  std::string urdf;  // text of the URDF; empty without joints and surfaces
+  // The folder that the files were read from, in which meshes lie; empty when it is not known.
+  std::filesystem::path folder;
+  std::vector<Preshape> preshapes;
+  std::optional<SensorCharacteristics> characteristics;
+  // One per matrix; empty when the hand has no geometry.
+  std::vector<MatrixSurface> surfaces;
+  // For each axis the joints of the URDF that it moves (names).
+  std::vector<std::vector<std::string>> axisJoints;
+  std::optional<PinchDescription> pinch;
+};
+
+// Largest size of hand.json and of the URDF [bytes].
+constexpr std::uint64_t kHandFileByteLimit = 4u << 20;
+
+// Returns the hand that `json` describes; `urdf` is the text of the URDF that it names. `source`
+// names the file in errors. Throws FormatError that names the place in the file
+// ("matrices[2].rows is 0, not in 1..256").
+HandDescription parseHand(const std::string& json,
+                          const std::string& urdf,
+                          const std::filesystem::path& source);
+
+// Reads the hand in a folder (or the hand.json in it). Throws FileError and FormatError.
+HandDescription readHandFolder(const std::filesystem::path& folder);
+
+// A hand that is compiled into the program.
+struct BuiltInHand {
+  std::string key;  // name of its folder: "sdh2"
+  std::shared_ptr<const HandDescription> hand;
+};
+const std::vector<BuiltInHand>& builtInHands();
+// Throws std::invalid_argument that lists all keys.
+const HandDescription& builtInHand(std::string_view key);
+
+// Returns the hand that `name` stands for: the folder of that path, a folder of that name in one of
+// `folders`, or a built-in hand. Throws Error that lists what is known.
+HandDescription findHand(const std::string& name, const std::vector<std::filesystem::path>& folders);
+
+}  // namespace palpate
