@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace palpate {
 namespace {
@@ -23,6 +24,32 @@ bool mayMeet(const GeometryDescription& hand, const HandPose& pose, std::size_t 
   return apart.squaredNorm() < reach * reach;
 }
 
+// Matrices of one finger, and those on the palm, don't press on each other.
+bool sameBody(const LinkPlace& a, const LinkPlace& b) {
+  return a.link && b.link ? a.finger == b.finger : !a.link && !b.link;
+}
+
+// A surface that is described by its taxels: the depth behind the plane of the nearest one.
+double depthBehindTaxels(const GeometryDescription& hand,
+                         const HandPose& pose,
+                         std::size_t matrix,
+                         const Eigen::Vector3d& pointMm) {
+  const MatrixLayout& layout = hand.layout.matrix(matrix);
+  const std::size_t first = hand.layout.offset(matrix);
+  std::size_t nearest = first;
+  double leastMm2 = std::numeric_limits<double>::infinity();
+  for (std::size_t place = first; place < first + layout.numCells(); ++place) {
+    const double apartMm2 = (pose.positionsMm()[place] - pointMm).squaredNorm();
+    if (apartMm2 >= leastMm2) continue;
+    leastMm2 = apartMm2;
+    nearest = place;
+  }
+  const Eigen::Vector3d apart = pose.positionsMm()[nearest] - pointMm;
+  const double depth = apart.dot(pose.normals()[nearest]);
+  const double besideMm = (apart - depth * pose.normals()[nearest]).norm();
+  return depth > 0.0 && depth < kDeepestMm && besideMm <= layout.pitchMm ? depth : 0.0;
+}
+
 }  // namespace
 
 double depthBehindPad(const GeometryDescription& hand,
@@ -31,10 +58,10 @@ double depthBehindPad(const GeometryDescription& hand,
                       const Eigen::Vector3d& pointMm) {
   const SensorSurface& surface = hand.surfaces.at(matrix);
   const MatrixLayout& layout = hand.layout.matrix(matrix);
-  const Eigen::Vector3d at =
-      pose.baseFromLink(surface.finger, surface.link).inverse(Eigen::Isometry) * pointMm;
-  const double column = (at.z() - surface.column0Mm) / layout.pitchMm;
-  double row = (surface.row0Mm - at.x()) / layout.pitchMm;
+  if (!surface.positionsMm.empty()) return depthBehindTaxels(hand, pose, matrix, pointMm);
+  const Eigen::Vector3d at = pose.baseFromMatrix(matrix).inverse(Eigen::Isometry) * pointMm;
+  const double column = at.x() / layout.pitchMm;
+  double row = at.y() / layout.pitchMm;
   if (surface.bendRow && row < *surface.bendRow) {
     const double sine = (*surface.bendRow - row) * layout.pitchMm / surface.radiusMm;
     if (sine >= 1.0) return 0.0;
@@ -43,7 +70,7 @@ double depthBehindPad(const GeometryDescription& hand,
   if (column < -0.5 || column > layout.columns - 0.5 || row < -0.5 || row > layout.rows - 0.5)
     return 0.0;
   const SurfaceRow there = surfaceRow(surface, layout.pitchMm, row);
-  const double depth = (there.yMm - at.y()) * there.normalY;
+  const double depth = (there.zMm - at.z()) * there.normalZ;
   return depth > 0.0 && depth < kDeepestMm ? depth : 0.0;
 }
 
@@ -54,10 +81,10 @@ void findPadContacts(
   const std::size_t count = hand.surfaces.size();
   for (std::size_t a = 0; a < count; ++a)
     for (std::size_t b = 0; b < count; ++b) {
-      if (hand.surfaces[a].finger == hand.surfaces[b].finger || !mayMeet(hand, pose, a, b))
+      if (sameBody(hand.surfaces[a].place, hand.surfaces[b].place) || !mayMeet(hand, pose, a, b))
         continue;
       const MatrixLayout& layout = hand.layout.matrix(a);
-      const Eigen::Vector3d facing = pose.rotation(b).col(1);
+      const Eigen::Vector3d facing = -pose.baseFromMatrix(b).linear().col(2);
       std::size_t place = hand.layout.offset(a);
       for (int y = 0; y < layout.rows; ++y)
         for (int x = 0; x < layout.columns; ++x, ++place) {

@@ -93,10 +93,13 @@ struct PhysicalHand::Impl {
       for (std::size_t m = 0; m < objects.contacts().size(); ++m) {
         const SensorSurface& surface = geometry.description().surfaces[m];
         const SimulatedMatrixContact& contact = objects.contacts()[m];
-        if (surface.finger != line.finger || surface.link < line.link || contact.forceN <= 0.0)
+        if (!surface.place.link || surface.place.finger != line.finger ||
+            *surface.place.link < line.link || contact.forceN <= 0.0)
           continue;
         torqueNmm[line.axis] +=
-            (contact.centreMm - line.originMm).cross(contact.forceOnPadN).dot(line.direction);
+            line.type == JointType::kPrismatic
+                ? contact.forceOnPadN.dot(line.direction)
+                : (contact.centreMm - line.originMm).cross(contact.forceOnPadN).dot(line.direction);
       }
     // An axis keeps its full speed up to half of its torque; above that, the speed decreases.
     for (std::size_t axis = 0; axis < torqueNmm.size(); ++axis) {
@@ -127,7 +130,7 @@ struct PhysicalHand::Impl {
       if (moved)
         slide -= pose.pointMm(m, contact.surfaceXMm, contact.surfaceYMm) -
                  before.pointMm(m, contact.surfaceXMm, contact.surfaceYMm);
-      const Vector3d right = pose.rotation(m).col(2);
+      const Vector3d right = pose.baseFromMatrix(m).linear().col(0);
       const Vector3d down = right.cross(contact.normal);
       const double pitchMm = geometry.description().layout.matrix(m).pitchMm;
       now.slipXTaxels += slide.dot(right) / pitchMm;

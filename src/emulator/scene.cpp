@@ -9,8 +9,7 @@
 #include <Eigen/Geometry>
 
 #include "palpate/core/error.h"
-#include "palpate/core/json.h"
-#include "palpate/core/number_text.h"
+#include "palpate/core/json_field.h"
 #include "palpate/core/text_file.h"
 #include "palpate/model/hand_description.h"
 #include "palpate/model/preshape.h"
@@ -25,81 +24,16 @@ constexpr std::size_t kMostObjects = 100;
 constexpr std::size_t kMaxSteps = 10'000;
 constexpr std::uintmax_t kMaxBytes = 1u << 20;
 
-// One JSON object of the file, with its path for error messages.
-class Field {
- public:
-  Field(Json json, std::string place, const fs::path& file)
-      : json_(std::move(json)), place_(std::move(place)), file_(file) {}
+Vector3d vectorAt(const JsonField& field, std::string_view key, double most) {
+  if (!field.has(key)) return Vector3d::Zero();
+  const std::vector<double> parts = field.at(key).numbers(3, -most, most);
+  return {parts[0], parts[1], parts[2]};
+}
 
-  [[noreturn]] void fail(const std::string& what) const {
-    throw FormatError(file_, (place_.empty() ? "the scene" : place_) + " " + what);
-  }
-  void only(std::initializer_list<std::string_view> known) const {
-    if (!json_.isObject()) fail("isn't a JSON object");
-    for (const std::string& key : json_.keys())
-      if (std::find(known.begin(), known.end(), key) == known.end()) {
-        std::string list;
-        for (const std::string_view name : known)
-          list += (list.empty() ? "" : ", ") + std::string(name);
-        fail("has an unknown key '" + key + "' (known: " + list + ")");
-      }
-  }
-  bool has(std::string_view key) const { return json_.contains(key); }
-  Field at(std::string_view key) const {
-    return Field(json_.at(key), place_ + (place_.empty() ? "" : ".") + std::string(key), file_);
-  }
-  std::vector<Field> items(std::size_t most) const {
-    if (!json_.isArray()) fail("isn't a JSON array");
-    if (json_.size() > most) fail("has more than " + std::to_string(most) + " items");
-    std::vector<Field> all;
-    for (std::size_t i = 0; i < json_.size(); ++i)
-      all.emplace_back(json_.at(i), place_ + "[" + std::to_string(i) + "]", file_);
-    return all;
-  }
-  double number(double least, double most) const {
-    if (!json_.isNumber()) fail("isn't a number");
-    const double value = json_.asDouble();
-    if (!(value >= least && value <= most))
-      fail("is " + numberText(value) + ", not in " + numberText(least) + ".." + numberText(most));
-    return value;
-  }
-  double number(std::string_view key, double otherwise, double least, double most) const {
-    return has(key) ? at(key).number(least, most) : otherwise;
-  }
-  Vector3d vector(double most) const {
-    const auto parts = items(3);
-    if (parts.size() != 3) fail("is not three numbers");
-    return {
-        parts[0].number(-most, most), parts[1].number(-most, most), parts[2].number(-most, most)};
-  }
-  Vector3d vector(std::string_view key, double most) const {
-    return has(key) ? at(key).vector(most) : Vector3d(Vector3d::Zero());
-  }
-  std::string text() const {
-    if (!json_.isString()) fail("isn't a text");
-    return json_.asString();
-  }
-  bool flag() const {
-    if (!json_.isBool()) fail("is neither true nor false");
-    return json_.asBool();
-  }
-  std::size_t index(std::string_view key, std::size_t count) const {
-    if (!has(key)) return 0;
-    const double value = at(key).number(0.0, static_cast<double>(count) - 1.0);
-    if (value != std::floor(value)) at(key).fail("isn't a whole number");
-    return static_cast<std::size_t>(value);
-  }
-  std::optional<std::size_t> matrix() const {
-    if (!has("matrix")) return std::nullopt;
-    return index("matrix", sdh2().layout->numMatrices());
-  }
-  bool isNumber() const { return json_.isNumber(); }
-
- private:
-  Json json_;
-  std::string place_;
-  const fs::path& file_;
-};
+std::optional<std::size_t> matrixOf(const JsonField& field) {
+  if (!field.has("matrix")) return std::nullopt;
+  return field.at("matrix").index(sdh2().layout->numMatrices());
+}
 
 Eigen::Matrix3d rotationOf(const Vector3d& deg) {
   const Vector3d rad = deg * std::numbers::pi / 180.0;
@@ -111,21 +45,19 @@ Eigen::Matrix3d rotationOf(const Vector3d& deg) {
 
 constexpr double kMostMm = 10'000.0;
 
-Shape shapeOf(const Field& field) {
-  if (!field.has("shape")) field.fail("has no \"shape\"");
+Shape shapeOf(const JsonField& field) {
   Shape shape;
   try {
-    shape.kind = shapeKind(field.at("shape").text());
+    shape.kind = shapeKind(field.required("shape").text());
   } catch (const std::invalid_argument& wrong) {
     field.at("shape").fail(wrong.what());
   }
-  if (!field.has("size_mm")) field.fail("has no \"size_mm\"");
-  const Field size = field.at("size_mm");
+  const JsonField size = field.required("size_mm");
   std::vector<double> sizes;
   if (size.isNumber())
     sizes = {size.number(1.0, kMostMm)};
   else
-    for (const Field& item : size.items(3)) sizes.push_back(item.number(1.0, kMostMm));
+    for (const JsonField& item : size.items(3)) sizes.push_back(item.number(1.0, kMostMm));
   const auto want = [&](std::size_t count, const char* what) {
     if (sizes.size() != count) size.fail(std::string("takes ") + what);
   };
@@ -148,7 +80,7 @@ Shape shapeOf(const Field& field) {
   return shape;
 }
 
-SceneObject objectOf(const Field& field) {
+SceneObject objectOf(const JsonField& field) {
   field.only({"shape", "size_mm", "stiffness_n_per_mm3", "friction", "mass_kg", "fixed", "pose"});
   SceneObject object;
   object.shape = shapeOf(field);
@@ -157,14 +89,14 @@ SceneObject objectOf(const Field& field) {
   object.massKg = field.number("mass_kg", object.massKg, 0.0, 100.0);
   if (field.has("fixed")) object.fixed = field.at("fixed").flag();
   if (!field.has("pose")) return object;
-  const Field pose = field.at("pose");
+  const JsonField pose = field.at("pose");
   pose.only({"position_mm", "rotation_deg"});
-  object.positionMm = pose.vector("position_mm", kMostMm);
-  object.rotation = rotationOf(pose.vector("rotation_deg", 360.0));
+  object.positionMm = vectorAt(pose, "position_mm", kMostMm);
+  object.rotation = rotationOf(vectorAt(pose, "rotation_deg", 360.0));
   return object;
 }
 
-void requirePreshape(const Field& field) {
+void requirePreshape(const JsonField& field) {
   try {
     sdh2Preshape(field.text());
   } catch (const std::invalid_argument& wrong) {
@@ -174,29 +106,30 @@ void requirePreshape(const Field& field) {
 
 constexpr double kMostSeconds = 1e6;
 
-SceneAction actionOf(const Field& step, std::size_t objects) {
-  const auto speed = [](const Field& field) {
+SceneAction actionOf(const JsonField& step, std::size_t objects) {
+  const auto speed = [](const JsonField& field) {
     return field.number("velocity_deg_per_s", 30.0, 0.1, 83.0);
   };
-  const auto object = [&](const Field& field) {
+  const auto object = [&](const JsonField& field) {
     if (objects == 0) field.fail("needs an object");
-    return field.index("object", objects);
+    return field.has("object") ? field.at("object").index(objects) : 0;
   };
   if (step.has("move")) {
-    const Field at = step.at("move");
+    const JsonField at = step.at("move");
     at.only({"object", "by_mm", "duration_s"});
-    return MoveObject{
-        object(at), at.vector("by_mm", kMostMm), at.number("duration_s", 1.0, 0.001, kMostSeconds)};
+    return MoveObject{object(at),
+                      vectorAt(at, "by_mm", kMostMm),
+                      at.number("duration_s", 1.0, 0.001, kMostSeconds)};
   }
   if (step.has("turn")) {
-    const Field at = step.at("turn");
+    const JsonField at = step.at("turn");
     at.only({"object", "by_deg", "duration_s"});
     return TurnObject{object(at),
-                      at.vector("by_deg", 36'000.0),
+                      vectorAt(at, "by_deg", 36'000.0),
                       at.number("duration_s", 1.0, 0.001, kMostSeconds)};
   }
   if (step.has("grasp")) {
-    const Field at = step.at("grasp");
+    const JsonField at = step.at("grasp");
     at.only({"preshape", "close", "velocity_deg_per_s"});
     GraspAction grasp;
     if (at.has("preshape")) {
@@ -208,32 +141,32 @@ SceneAction actionOf(const Field& step, std::size_t objects) {
     return grasp;
   }
   if (step.has("release")) {
-    const Field at = step.at("release");
+    const JsonField at = step.at("release");
     at.only({"velocity_deg_per_s"});
     return ReleaseAction{speed(at)};
   }
   if (step.has("load")) {
-    const Field at = step.at("load");
+    const JsonField at = step.at("load");
     at.only({"object", "force_n", "torque_nmm", "duration_s"});
     return LoadObject{object(at),
-                      at.vector("force_n", 1000.0),
-                      at.vector("torque_nmm", 1e5),
+                      vectorAt(at, "force_n", 1000.0),
+                      vectorAt(at, "torque_nmm", 1e5),
                       at.number("duration_s", 0.0, 0.0, kMostSeconds)};
   }
   if (step.has("temperature")) {
-    const Field at = step.at("temperature");
+    const JsonField at = step.at("temperature");
     at.only({"ambient_c"});
     return SetTemperature{at.number("ambient_c", 34.0, -20.0, 90.0)};
   }
   if (step.has("threshold")) {
-    const Field at = step.at("threshold");
+    const JsonField at = step.at("threshold");
     at.only({"matrix", "counts"});
-    return SetSceneThreshold{at.matrix(), static_cast<int>(at.number("counts", 0.0, 0.0, 4095.0))};
+    return SetSceneThreshold{matrixOf(at), static_cast<int>(at.number("counts", 0.0, 0.0, 4095.0))};
   }
   if (step.has("sensitivity")) {
-    const Field at = step.at("sensitivity");
+    const JsonField at = step.at("sensitivity");
     at.only({"matrix", "value"});
-    return SetSceneSensitivity{at.matrix(), at.number("value", 0.5, 0.0, 1.0)};
+    return SetSceneSensitivity{matrixOf(at), at.number("value", 0.5, 0.0, 1.0)};
   }
   step.fail(
       "doesn't say what happens: give one of move, turn, grasp, release, load, temperature, "
@@ -244,22 +177,16 @@ SceneAction actionOf(const Field& step, std::size_t objects) {
 }  // namespace
 
 Scene parseScene(std::string_view text, const fs::path& name) {
-  Json json;
-  try {
-    json = Json::parse(text);
-  } catch (const Error& error) {
-    throw FormatError(name, error.what());
-  }
-  const Field root(json, "", name);
+  const JsonField root = JsonField::parse(text, name, "the scene");
   root.only({"objects", "hand", "script", "description"});
   Scene scene;
   scene.name = name.stem().string();
   if (root.has("description")) scene.description = root.at("description").text();
   if (root.has("objects"))
-    for (const Field& object : root.at("objects").items(kMostObjects))
+    for (const JsonField& object : root.at("objects").items(kMostObjects))
       scene.objects.push_back(objectOf(object));
   if (root.has("hand")) {
-    const Field hand = root.at("hand");
+    const JsonField hand = root.at("hand");
     hand.only({"preshape", "close"});
     if (hand.has("preshape")) {
       requirePreshape(hand.at("preshape"));
@@ -268,7 +195,7 @@ Scene parseScene(std::string_view text, const fs::path& name) {
     scene.close = hand.number("close", 0.0, 0.0, 1.0);
   }
   if (root.has("script"))
-    for (const Field& step : root.at("script").items(kMaxSteps)) {
+    for (const JsonField& step : root.at("script").items(kMaxSteps)) {
       step.only({"at_s",
                  "move",
                  "turn",
@@ -278,9 +205,8 @@ Scene parseScene(std::string_view text, const fs::path& name) {
                  "temperature",
                  "threshold",
                  "sensitivity"});
-      if (!step.has("at_s")) step.fail("has no \"at_s\"");
       scene.script.push_back(
-          {step.at("at_s").number(0.0, kMostSeconds), actionOf(step, scene.objects.size())});
+          {step.required("at_s").number(0.0, kMostSeconds), actionOf(step, scene.objects.size())});
     }
   std::stable_sort(scene.script.begin(),
                    scene.script.end(),

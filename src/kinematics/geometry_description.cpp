@@ -1,48 +1,263 @@
 #include "palpate/kinematics/geometry_description.h"
 
 #include <cmath>
+#include <map>
+#include <numbers>
 #include <stdexcept>
 #include <string>
 #include <utility>
 
 #include <Eigen/LU>
 
-#include "palpate/model/hand_description.h"
+#include "palpate/core/error.h"
+#include "palpate/model/hand_file.h"
+
+#include "kinematics/urdf_tree.h"
 
 namespace palpate {
 namespace {
 
+using Eigen::Isometry3d;
 using Eigen::Vector3d;
-
-constexpr double kFingerSideMm = 66.0;  // side of the triangle of the fingers' bases
-constexpr double kBaseLinkMm = 16.7;
-constexpr double kProximalLinkMm = 86.5;
-constexpr double kDistalLinkMm = 68.5;
-constexpr double kSensorStartMm = 17.5;  // from the joint to the sensor's housing
-constexpr double kProximalEdgeMm = 4.1;  // from the housing to the last row
-constexpr double kDistalEdgeMm = 4.95;
-constexpr double kProximalHeightMm = 15.4;
-constexpr double kDistalHeightMm = 14.8;
-constexpr double kDistalBendRow = 8.5;
 
 [[noreturn]] void misfit(const std::string& what) {
   throw std::invalid_argument("GeometryDescription: " + what);
 }
 
+void validateFrame(const Isometry3d& frame, const std::string& name) {
+  if (!frame.matrix().allFinite()) misfit(name + " is at a place that is not a number");
+  if (!frame.linear().isUnitary(1e-6) || frame.linear().determinant() < 0.0)
+    misfit(name + " is turned by what is no rotation");
+}
+
 void validateFinger(const Finger& finger, const std::string& name, std::size_t numAxes) {
-  if (!finger.baseMm.allFinite() || !finger.baseRotation.allFinite())
-    misfit(name + " stands at a place that is not a number");
-  if (!finger.baseRotation.isUnitary(1e-6) || finger.baseRotation.determinant() < 0.0)
-    misfit(name + " stands turned by what is no rotation");
-  for (const DhLink& link : finger.links) {
+  Isometry3d base = Isometry3d::Identity();
+  base.linear() = finger.baseRotation;
+  base.translation() = finger.baseMm;
+  validateFrame(base, name);
+  for (const ChainLink& link : finger.links) {
     if (link.axis && *link.axis >= numAxes)
       misfit("there is no axis " + std::to_string(*link.axis));
-    for (const double value : {link.sign, link.offsetDeg, link.dMm, link.rMm, link.alphaDeg})
+    for (const double value : {link.factor, link.offset})
       if (!std::isfinite(value)) misfit("a link of " + name + " is not a number");
+    validateFrame(link.jointFromEnd, "a link of " + name);
   }
 }
 
+// Makes the geometry of a hand from its file and the tree of its URDF.
+class GeometryBuilder {
+ public:
+  GeometryBuilder(const HandDescription& hand, BendRadius radius)
+      : hand_(hand), file_(*hand.file), radius_(radius) {}
+
+  GeometryDescription build() {
+    out_.numAxes = hand_.axes.size();
+    out_.layout = *hand_.layout;
+    if (!file_.urdf.empty()) {
+      tree_ = readUrdf(file_.urdf, file_.folder / "hand.urdf", file_.folder);
+      findAxes();
+      places_.resize(tree_.size());
+      linkFromUrdf_.resize(tree_.size(), Isometry3d::Identity());
+      addFingers(0, {});
+      for (std::size_t i = 0; i < tree_.size(); ++i)
+        for (LinkShape shape : tree_[i].shapes) {
+          shape.place = places_[i];
+          shape.linkFromShape = linkFromUrdf_[i] * shape.linkFromShape;
+          out_.shapes.push_back(std::move(shape));
+        }
+    }
+    for (std::size_t m = 0; m < file_.surfaces.size(); ++m)
+      out_.surfaces.push_back(surfaceOf(file_.surfaces[m], m));
+    return std::move(out_);
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& what) const {
+    throw FormatError(file_.folder / "hand.json", what);
+  }
+
+  // A joint's value by the axes of the hand.
+  struct Drive {
+    std::optional<std::size_t> axis;
+    double factor = 1.0, offset = 0.0;
+  };
+
+  void findAxes() {
+    std::map<std::string, const UrdfJoint*> joints;
+    for (const UrdfLink& link : tree_)
+      if (link.parent) joints.emplace(link.joint.name, &link.joint);
+    for (std::size_t axis = 0; axis < file_.axisJoints.size(); ++axis)
+      for (const std::string& name : file_.axisJoints[axis]) {
+        const auto joint = joints.find(name);
+        const std::string place = "axes[" + std::to_string(axis) + "].joints";
+        if (joint == joints.end())
+          fail(place + " names '" + name + "', which the URDF does not have");
+        if (joint->second->kind == UrdfJoint::Kind::kFixed)
+          fail(place + " names '" + name + "', which is a fixed joint");
+        const bool slides = joint->second->kind == UrdfJoint::Kind::kPrismatic;
+        if (slides != hand_.axes[axis].isSliding)
+          fail(place + " names '" + name + "', whose values are in " + (slides ? "mm" : "deg") +
+               "; the axis is in " + hand_.axes[axis].unit());
+        drives_[name] = {axis, 1.0, 0.0};
+      }
+    // Joints that follow others, which may follow others again.
+    for (const auto& [name, joint] : joints) {
+      if (joint->mimics.empty() || drives_.contains(name)) continue;
+      Drive drive;
+      const UrdfJoint* follows = joint;
+      for (std::size_t steps = 0;; ++steps) {
+        drive.offset += drive.factor * follows->offset;
+        drive.factor *= follows->multiplier;
+        const auto next = joints.find(follows->mimics);
+        if (next == joints.end() || steps > joints.size())
+          fail("the URDF's joint '" + name + "' mimics '" + follows->mimics +
+               "', which does not exist or mimics it in turn");
+        if (next->second->kind != joint->kind)
+          fail("the URDF's joint '" + name + "' mimics a joint of another type, '" +
+               follows->mimics + "'");
+        follows = next->second;
+        if (const auto known = drives_.find(follows->name); known != drives_.end()) {
+          drive.axis = known->second.axis;
+          break;
+        }
+        if (follows->mimics.empty()) break;
+      }
+      drives_[name] = drive;
+    }
+  }
+
+  // Whether this link only marks the end of the link before it.
+  bool isEnd(std::size_t link) const {
+    return tree_[link].children.empty() && tree_[link].joint.kind == UrdfJoint::Kind::kFixed;
+  }
+
+  // Follows the tree from `link`, to which `chain` leads, and adds a finger per tip.
+  void addFingers(std::size_t link, const std::vector<std::size_t>& chain) {
+    const std::vector<std::size_t>& children = tree_[link].children;
+    bool goesOn = false;
+    for (const std::size_t child : children) {
+      if (!chain.empty() && isEnd(child)) continue;
+      goesOn = true;
+      std::vector<std::size_t> longer = chain;
+      longer.push_back(child);
+      addFingers(child, longer);
+    }
+    if (!goesOn && !chain.empty()) addFinger(chain);
+  }
+
+  void addFinger(const std::vector<std::size_t>& chain) {
+    Finger finger;
+    const std::size_t index = out_.fingers.size();
+    finger.name = tree_[chain.back()].name;
+    const Isometry3d base = tree_[chain.front()].joint.parentFromJoint;
+    finger.baseMm = base.translation();
+    finger.baseRotation = base.linear();
+    for (std::size_t i = 0; i < chain.size(); ++i) {
+      const UrdfLink& link = tree_[chain[i]];
+      ChainLink out;
+      out.type = link.joint.kind == UrdfJoint::Kind::kPrismatic ? JointType::kPrismatic
+                                                                : JointType::kRevolute;
+      if (const auto drive = drives_.find(link.joint.name); drive != drives_.end()) {
+        out.axis = drive->second.axis;
+        out.factor = drive->second.factor;
+        out.offset = drive->second.offset;
+      }
+      // The link ends at the next joint, at the link that marks its end, or where it begins.
+      Isometry3d linkFromEnd = Isometry3d::Identity();
+      if (i + 1 < chain.size()) {
+        linkFromEnd = tree_[chain[i + 1]].joint.parentFromJoint;
+      } else {
+        for (const std::size_t child : link.children)
+          if (isEnd(child)) {
+            linkFromEnd = tree_[child].joint.parentFromJoint;
+            break;
+          }
+      }
+      out.jointFromEnd = link.joint.jointFromChild * linkFromEnd;
+      finger.links.push_back(out);
+      const Isometry3d endFromLink = linkFromEnd.inverse(Eigen::Isometry);
+      place(chain[i], {index, i}, endFromLink);
+      for (const std::size_t child : link.children)
+        if (isEnd(child))
+          place(child, {index, i}, endFromLink * tree_[child].joint.parentFromJoint);
+    }
+    out_.fingers.push_back(std::move(finger));
+  }
+
+  void place(std::size_t link, LinkPlace at, const Isometry3d& endFromLink) {
+    if (places_[link].link) return;  // a link that fingers have in common: the first one counts
+    places_[link] = at;
+    linkFromUrdf_[link] = endFromLink;
+  }
+
+  SensorSurface surfaceOf(const MatrixSurface& from, std::size_t matrix) const {
+    SensorSurface surface;
+    Isometry3d placeFromLink = Isometry3d::Identity();
+    if (!from.link.empty()) {
+      std::size_t i = 0;
+      while (i < tree_.size() && tree_[i].name != from.link) ++i;
+      if (i == tree_.size())
+        fail("matrices[" + std::to_string(matrix) + "].surface.link names '" + from.link +
+             "', which the URDF does not have");
+      surface.place = places_[i];
+      placeFromLink = linkFromUrdf_[i];
+    }
+    for (const TaxelPose& taxel : from.taxels) {
+      surface.positionsMm.push_back(placeFromLink *
+                                    Vector3d(Eigen::Map<const Vector3d>(taxel.positionMm.data())));
+      surface.normals.push_back(placeFromLink.linear() *
+                                Eigen::Map<const Vector3d>(taxel.normal.data()).normalized());
+    }
+    if (!from.taxels.empty()) return surface;
+    const Vector3d x = Eigen::Map<const Vector3d>(from.xAxis.data()).normalized();
+    Vector3d y = Eigen::Map<const Vector3d>(from.yAxis.data());
+    y = (y - x * x.dot(y)).normalized();
+    Isometry3d linkFromSurface = Isometry3d::Identity();
+    linkFromSurface.linear().col(0) = x;
+    linkFromSurface.linear().col(1) = y;
+    linkFromSurface.linear().col(2) = x.cross(y);
+    linkFromSurface.translation() = Eigen::Map<const Vector3d>(from.originMm.data());
+    surface.linkFromSurface = placeFromLink * linkFromSurface;
+    surface.bendRow = from.bendRow;
+    if (from.bendRow)
+      surface.radiusMm =
+          radius_ == BendRadius::kEffective ? from.effectiveBendRadiusMm : from.bendRadiusMm;
+    return surface;
+  }
+
+  const HandDescription& hand_;
+  const HandFile& file_;
+  const BendRadius radius_;
+  UrdfTree tree_;
+  std::map<std::string, Drive> drives_;   // by the joint's name
+  std::vector<LinkPlace> places_;         // per link of the URDF
+  std::vector<Isometry3d> linkFromUrdf_;  // frame of the URDF's link in the frame of its place
+  GeometryDescription out_;
+};
+
 }  // namespace
+
+ChainLink denavitHartenbergLink(std::optional<std::size_t> axis,
+                                double sign,
+                                double offsetDeg,
+                                double dMm,
+                                double rMm,
+                                double alphaDeg) {
+  ChainLink link;
+  link.axis = axis;
+  link.factor = sign;
+  link.offset = offsetDeg;
+  link.jointFromEnd.translation() = Vector3d(rMm, 0.0, dMm);
+  // Exact at multiples of a right angle, so that a straight finger is straight.
+  const double quarters = std::nearbyint(alphaDeg / 90.0);
+  const double rest = (alphaDeg - 90.0 * quarters) * (std::numbers::pi / 180.0);
+  Eigen::Matrix3d quarterTurn = Eigen::Matrix3d::Identity(), turn = Eigen::Matrix3d::Identity();
+  quarterTurn.block<2, 2>(1, 1) << 0.0, -1.0, 1.0, 0.0;
+  const int count = static_cast<int>(quarters - 4.0 * std::floor(quarters / 4.0));
+  for (int i = 0; i < count; ++i) turn = quarterTurn * turn;
+  link.jointFromEnd.linear() = turn * Eigen::AngleAxisd(rest, Vector3d::UnitX()).toRotationMatrix();
+  return link;
+}
 
 void GeometryDescription::validate() const {
   if (surfaces.size() != layout.numMatrices())
@@ -50,74 +265,63 @@ void GeometryDescription::validate() const {
            std::to_string(layout.numMatrices()) + " matrices");
   for (std::size_t f = 0; f < fingers.size(); ++f)
     validateFinger(fingers[f], "finger " + std::to_string(f), numAxes);
+  const auto requirePlace = [this](const LinkPlace& place, const std::string& name) {
+    if (place.link &&
+        (place.finger >= fingers.size() || *place.link >= fingers[place.finger].links.size()))
+      misfit(name + " is on a link that does not exist");
+  };
   for (std::size_t m = 0; m < surfaces.size(); ++m) {
     const SensorSurface& surface = surfaces[m];
     const std::string name = "matrix " + std::to_string(m);
-    if (surface.finger >= fingers.size() || surface.link >= fingers[surface.finger].links.size())
-      misfit(name + " sits on a link that isn't there");
-    for (const double value :
-         {surface.row0Mm, surface.heightMm, surface.column0Mm, surface.bendRow.value_or(0.0)})
-      if (!std::isfinite(value)) misfit(name + " lies at a place that is not a number");
+    requirePlace(surface.place, name);
+    validateFrame(surface.linkFromSurface, name);
+    if (surface.bendRow && !std::isfinite(*surface.bendRow))
+      misfit(name + " is bent from a row that is not a number");
     if (surface.bendRow && !(surface.radiusMm > 0.0 && std::isfinite(surface.radiusMm)))
       misfit(name + " is bent with a radius that isn't positive");
+    if (surface.positionsMm.empty() && surface.normals.empty()) continue;
+    const std::size_t places = layout.matrix(m).numCells();
+    if (surface.positionsMm.size() != places || surface.normals.size() != places)
+      misfit(name + " has not one position and one normal per place");
+    for (std::size_t i = 0; i < places; ++i)
+      if (!surface.positionsMm[i].allFinite() ||
+          !(std::abs(surface.normals[i].norm() - 1.0) < 1e-6))
+        misfit(name + " has a taxel without a place or a normal");
+  }
+  for (const LinkShape& shape : shapes) {
+    requirePlace(shape.place, "a shape");
+    validateFrame(shape.linkFromShape, "a shape");
+    if (!shape.sizeMm.allFinite()) misfit("a shape has a size that is not a number");
   }
 }
 
 SurfaceRow surfaceRow(const SensorSurface& surface, double pitchMm, double row) {
-  if (!surface.bendRow || row > *surface.bendRow)
-    return {surface.row0Mm - pitchMm * row, surface.heightMm, 0.0, 1.0};
+  if (!surface.bendRow || row > *surface.bendRow) return {pitchMm * row, 0.0, 0.0, -1.0};
   const double angle = (*surface.bendRow - row) * pitchMm / surface.radiusMm;
   const double sine = std::sin(angle), cosine = std::cos(angle);
-  return {surface.row0Mm - pitchMm * *surface.bendRow + surface.radiusMm * sine,
-          surface.heightMm - surface.radiusMm * (1.0 - cosine),
-          sine,
-          cosine};
+  return {pitchMm * *surface.bendRow - surface.radiusMm * sine,
+          surface.radiusMm * (1.0 - cosine),
+          -sine,
+          -cosine};
+}
+
+bool hasGeometry(const HandDescription& hand) {
+  return hand.file && !hand.file->surfaces.empty() &&
+         hand.file->surfaces.size() == hand.layout->numMatrices() &&
+         (hand.file->axisJoints.size() == hand.axes.size() || hand.file->urdf.empty());
+}
+
+GeometryDescription describeGeometry(const HandDescription& hand, BendRadius radius) {
+  if (!hasGeometry(hand)) throw Error(hand.name + ": its description contains no geometry");
+  return GeometryBuilder(hand, radius).build();
 }
 
 GeometryDescription sdh2Geometry(double fingertipRadiusMm) {
   if (!(fingertipRadiusMm > 0.0 && std::isfinite(fingertipRadiusMm)))
     throw std::invalid_argument("sdh2Geometry: fingertip radius must be positive");
-  GeometryDescription hand;
-  hand.layout = *sdh2().layout;
-  hand.numAxes = sdh2().axes.size();
-  const double inner = kFingerSideMm / 2.0 / std::sqrt(3.0);
-  const double outer = kFingerSideMm / std::sqrt(3.0);
-  const Vector3d bases[] = {
-      {inner, -kFingerSideMm / 2.0, 0.0}, {-outer, 0.0, 0.0}, {inner, kFingerSideMm / 2.0, 0.0}};
-  // Axis 0 turns the bases of fingers 0 and 2 in opposite directions; finger 1 has a fixed base.
-  const DhLink turns[] = {{0, -1.0, 0.0, kBaseLinkMm, 0.0, -90.0},
-                          {std::nullopt, 1.0, 180.0, kBaseLinkMm, 0.0, -90.0},
-                          {0, 1.0, 0.0, kBaseLinkMm, 0.0, -90.0}};
-  for (std::size_t f = 0; f < 3; ++f) {
-    Finger finger;
-    finger.baseMm = bases[f];
-    finger.baseRotation = Vector3d(-1.0, -1.0, 1.0).asDiagonal();
-    finger.links = {turns[f],
-                    {2 * f + 1, 1.0, -90.0, 0.0, kProximalLinkMm, 0.0},
-                    {2 * f + 2, 1.0, 0.0, 0.0, kDistalLinkMm, 0.0}};
-    hand.fingers.push_back(std::move(finger));
-    const MatrixLayout& proximal = hand.layout.matrix(2 * f);
-    const MatrixLayout& distal = hand.layout.matrix(2 * f + 1);
-    const auto column0 = [](const MatrixLayout& matrix) {
-      return -matrix.pitchMm * (matrix.columns - 1) / 2.0;
-    };
-    hand.surfaces.push_back({f,
-                             1,
-                             (proximal.rows - 1) * proximal.pitchMm - kProximalLinkMm +
-                                 kSensorStartMm + kProximalEdgeMm,
-                             kProximalHeightMm,
-                             column0(proximal),
-                             std::nullopt,
-                             0.0});
-    hand.surfaces.push_back(
-        {f,
-         2,
-         (distal.rows - 1) * distal.pitchMm - kDistalLinkMm + kSensorStartMm + kDistalEdgeMm,
-         kDistalHeightMm,
-         column0(distal),
-         kDistalBendRow,
-         fingertipRadiusMm});
-  }
+  GeometryDescription hand = describeGeometry(sdh2());
+  for (SensorSurface& surface : hand.surfaces)
+    if (surface.bendRow) surface.radiusMm = fingertipRadiusMm;
   return hand;
 }
 

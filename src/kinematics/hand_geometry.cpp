@@ -39,21 +39,18 @@ Turn turnBy(double deg) {
 
 HandGeometry::HandGeometry(GeometryDescription description) : description_(std::move(description)) {
   description_.validate();
-  for (const Finger& finger : description_.fingers) {
-    twists_.emplace_back();
-    for (const DhLink& link : finger.links) {
-      const Turn turn = turnBy(link.alphaDeg);
-      twists_.back().push_back({turn.sine, turn.cosine});
-    }
-  }
   for (std::size_t m = 0; m < description_.surfaces.size(); ++m) {
     const SensorSurface& surface = description_.surfaces[m];
     const MatrixLayout& layout = description_.layout.matrix(m);
     Pad pad;
-    for (int y = 0; y < layout.rows; ++y)
-      pad.rows.push_back(surfaceRow(surface, layout.pitchMm, y));
-    for (int x = 0; x < layout.columns; ++x)
-      pad.columnsMm.push_back(surface.column0Mm + layout.pitchMm * x);
+    if (surface.positionsMm.empty()) {
+      const Isometry3d& frame = surface.linkFromSurface;
+      for (int y = 0; y < layout.rows; ++y) {
+        const SurfaceRow row = surfaceRow(surface, layout.pitchMm, y);
+        pad.rowsMm.push_back(frame * Vector3d(0.0, row.yMm, row.zMm));
+        pad.rowNormals.push_back(frame.linear() * Vector3d(0.0, row.normalY, row.normalZ));
+      }
+    }
     pads_.push_back(std::move(pad));
   }
 }
@@ -91,20 +88,21 @@ void HandGeometry::computeLinks(const std::vector<double>& anglesDeg, HandPose& 
     Matrix3d rotation = finger.baseRotation;
     Vector3d originMm = finger.baseMm;
     for (std::size_t l = 0; l < finger.links.size(); ++l) {
-      const DhLink& link = finger.links[l];
+      const ChainLink& link = finger.links[l];
       if (link.axis)
-        out.jointLines_.push_back({*link.axis, f, l, originMm, link.sign * rotation.col(2)});
-      const Turn theta =
-          turnBy((link.axis ? link.sign * anglesDeg[*link.axis] : 0.0) + link.offsetDeg);
-      // Rz(theta) Tz(d) Tx(r) Rx(alpha), column by column.
-      const Vector3d x = rotation.col(0) * theta.cosine + rotation.col(1) * theta.sine;
-      const Vector3d y = rotation.col(1) * theta.cosine - rotation.col(0) * theta.sine;
-      const Vector3d z = rotation.col(2);
-      const Twist& alpha = twists_[f][l];
-      originMm += z * link.dMm + x * link.rMm;
-      rotation.col(0) = x;
-      rotation.col(1) = y * alpha.cosine + z * alpha.sine;
-      rotation.col(2) = z * alpha.cosine - y * alpha.sine;
+        out.jointLines_.push_back(
+            {link.type, *link.axis, f, l, originMm, link.factor * rotation.col(2)});
+      const double value = (link.axis ? link.factor * anglesDeg[*link.axis] : 0.0) + link.offset;
+      if (link.type == JointType::kPrismatic) {
+        originMm += value * rotation.col(2);
+      } else {
+        const Turn turn = turnBy(value);
+        const Vector3d x = rotation.col(0) * turn.cosine + rotation.col(1) * turn.sine;
+        rotation.col(1) = rotation.col(1) * turn.cosine - rotation.col(0) * turn.sine;
+        rotation.col(0) = x;
+      }
+      originMm += rotation * link.jointFromEnd.translation();
+      rotation = (rotation * link.jointFromEnd.linear()).eval();
       Isometry3d& baseFromLink = out.links_[f][l];
       baseFromLink.linear() = rotation;
       baseFromLink.translation() = originMm;
@@ -117,14 +115,23 @@ void HandGeometry::placeTaxels(std::size_t matrix,
                                const Isometry3d& baseFromLink,
                                Vector3d* positions,
                                Vector3d* normals) const {
+  const SensorSurface& surface = description_.surfaces[matrix];
+  const Matrix3d rotation = baseFromLink.linear();
+  if (!surface.positionsMm.empty()) {
+    for (std::size_t i = 0; i < surface.positionsMm.size(); ++i) {
+      *positions++ = baseFromLink * surface.positionsMm[i];
+      *normals++ = rotation * surface.normals[i];
+    }
+    return;
+  }
   const Pad& pad = pads_[matrix];
-  const Vector3d along = baseFromLink.linear().col(0), out = baseFromLink.linear().col(1);
-  const Vector3d across = baseFromLink.linear().col(2), originMm = baseFromLink.translation();
-  for (const SurfaceRow& row : pad.rows) {
-    const Vector3d normal = along * row.normalX + out * row.normalY;
-    const Vector3d middle = originMm + along * row.xMm + out * row.yMm;
-    for (const double columnMm : pad.columnsMm) {
-      *positions++ = middle + across * columnMm;
+  const Vector3d across = rotation * surface.linkFromSurface.linear().col(0);
+  const double pitchMm = description_.layout.matrix(matrix).pitchMm;
+  for (std::size_t y = 0; y < pad.rowsMm.size(); ++y) {
+    const Vector3d normal = rotation * pad.rowNormals[y];
+    const Vector3d middle = baseFromLink * pad.rowsMm[y];
+    for (int x = 0; x < description_.layout.matrix(matrix).columns; ++x) {
+      *positions++ = middle + across * (pitchMm * x);
       *normals++ = normal;
     }
   }

@@ -81,7 +81,8 @@ std::optional<std::pair<std::size_t, std::size_t>> strongestPads(
   for (std::size_t m = 0; m < hand.surfaces.size(); ++m) {
     double sum = 0.0;
     for (const GraspFrame& frame : frames) sum += frame.pads[m].sum;
-    auto& best = strongest[hand.surfaces[m].finger];
+    if (!hand.surfaces[m].place.link) continue;  // on the palm: no finger holds with it
+    auto& best = strongest[hand.surfaces[m].place.finger];
     if (sum > best.first) best = {sum, m};
   }
   std::sort(strongest.begin(), strongest.end(), std::greater<>());

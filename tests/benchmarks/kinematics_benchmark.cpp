@@ -28,13 +28,10 @@ void pose(benchmark::State& state) {
   }
 }
 
-Eigen::Matrix4d dh(double theta, double d, double r, double alpha) {
-  Eigen::Matrix4d t;
-  t << std::cos(theta), -std::sin(theta) * std::cos(alpha), std::sin(theta) * std::sin(alpha),
-      r * std::cos(theta), std::sin(theta), std::cos(theta) * std::cos(alpha),
-      -std::cos(theta) * std::sin(alpha), r * std::sin(theta), 0, std::sin(alpha), std::cos(alpha),
-      d, 0, 0, 0, 1;
-  return t;
+Eigen::Matrix4d turnAboutZ(double theta) {
+  Eigen::Matrix4d turn = Eigen::Matrix4d::Identity();
+  turn.topLeftCorner<2, 2>() << std::cos(theta), -std::sin(theta), std::sin(theta), std::cos(theta);
+  return turn;
 }
 
 void textbook4x4(benchmark::State& state) {
@@ -47,26 +44,23 @@ void textbook4x4(benchmark::State& state) {
     std::size_t place = 0;
     for (std::size_t m = 0; m < hand.surfaces.size(); ++m) {
       const SensorSurface& surface = hand.surfaces[m];
-      const Finger& finger = hand.fingers[surface.finger];
+      const Finger& finger = hand.fingers[surface.place.finger];
       Eigen::Matrix4d chain = Eigen::Matrix4d::Identity();
       chain.topLeftCorner<3, 3>() = finger.baseRotation;
       chain.topRightCorner<3, 1>() = finger.baseMm;
-      for (std::size_t l = 0; l <= surface.link; ++l) {
-        const DhLink& link = finger.links[l];
-        const double deg = (link.axis ? link.sign * angles[*link.axis] : 0.0) + link.offsetDeg;
-        chain *= dh(deg * std::numbers::pi / 180,
-                    link.dMm,
-                    link.rMm,
-                    link.alphaDeg * std::numbers::pi / 180);
+      for (std::size_t l = 0; l <= *surface.place.link; ++l) {
+        const ChainLink& link = finger.links[l];
+        const double deg = (link.axis ? link.factor * angles[*link.axis] : 0.0) + link.offset;
+        chain *= turnAboutZ(deg * std::numbers::pi / 180);
+        chain *= link.jointFromEnd.matrix();
       }
       const MatrixLayout& layout = hand.layout.matrix(m);
       for (int y = 0; y < layout.rows; ++y)
         for (int x = 0; x < layout.columns; ++x) {
           Eigen::Matrix4d cell = Eigen::Matrix4d::Identity();
-          cell(0, 3) = surface.row0Mm - layout.pitchMm * y;
-          cell(1, 3) = surface.heightMm;
-          cell(2, 3) = surface.column0Mm + layout.pitchMm * x;
-          const Eigen::Matrix4d all = chain * cell;
+          cell(0, 3) = layout.pitchMm * x;
+          cell(1, 3) = layout.pitchMm * y;
+          const Eigen::Matrix4d all = chain * surface.linkFromSurface.matrix() * cell;
           positions[place++] = all.topRightCorner<3, 1>();
         }
     }

@@ -20,8 +20,10 @@ TEST(GeometryDescription, TheSdh2HasTheLengthsOfTheStudy) {
   for (std::size_t f = 0; f < 3; ++f) {
     EXPECT_NEAR((hand.fingers[f].baseMm - hand.fingers[(f + 1) % 3].baseMm).norm(), 66.0, 1e-12);
     ASSERT_EQ(hand.fingers[f].links.size(), 3u);
-    EXPECT_EQ(hand.fingers[f].links[1].rMm, 86.5);
-    EXPECT_EQ(hand.fingers[f].links[2].rMm, 68.5);
+    const auto& links = hand.fingers[f].links;
+    EXPECT_NEAR(std::abs(links[0].jointFromEnd.translation().z()), 16.7, 1e-9);
+    EXPECT_LT((links[1].jointFromEnd.translation() - Eigen::Vector3d(86.5, 0, 0)).norm(), 1e-9);
+    EXPECT_LT((links[2].jointFromEnd.translation() - Eigen::Vector3d(68.5, 0, 0)).norm(), 1e-9);
   }
   EXPECT_EQ(hand.surfaces.size(), 6u);
   EXPECT_NO_THROW(hand.validate());
@@ -32,25 +34,25 @@ TEST(GeometryDescription, TheSdh2HasTheLengthsOfTheStudy) {
 TEST(GeometryDescription, ASurfaceRowLiesOnThePlaneOrTheCircle) {
   for (const double radiusMm : {kStudyFingertipRadiusMm, kEffectiveFingertipRadiusMm}) {
     const SensorSurface surface = sdh2Geometry(radiusMm).surfaces[1];
-    const double bendX = surface.row0Mm - 3.4 * 8.5;
+    const double bendY = 3.4 * 8.5;
     for (double row = -2.0; row < 14.0; row += 0.25) {
       const SurfaceRow at = surfaceRow(surface, 3.4, row);
-      EXPECT_NEAR(std::hypot(at.normalX, at.normalY), 1.0, 1e-15);
+      EXPECT_NEAR(std::hypot(at.normalY, at.normalZ), 1.0, 1e-15);
       if (row > 8.5) {
-        EXPECT_EQ(at.yMm, 14.8);
-        EXPECT_NEAR(at.xMm - bendX, (8.5 - row) * 3.4, 1e-12);
-        EXPECT_EQ(at.normalY, 1.0);
+        EXPECT_EQ(at.zMm, 0.0);
+        EXPECT_NEAR(bendY - at.yMm, (8.5 - row) * 3.4, 1e-12);
+        EXPECT_EQ(at.normalZ, -1.0);
       } else {
-        const double fromAxisX = at.xMm - bendX, fromAxisY = at.yMm - (14.8 - radiusMm);
-        EXPECT_NEAR(std::hypot(fromAxisX, fromAxisY), radiusMm, 1e-12) << row;
-        EXPECT_NEAR(std::atan2(fromAxisX, fromAxisY) * radiusMm, (8.5 - row) * 3.4, 1e-12) << row;
-        EXPECT_NEAR(at.normalX, fromAxisX / radiusMm, 1e-12);
+        const double fromAxisY = at.yMm - bendY, fromAxisZ = at.zMm - radiusMm;
+        EXPECT_NEAR(std::hypot(fromAxisY, fromAxisZ), radiusMm, 1e-12) << row;
+        EXPECT_NEAR(std::atan2(-fromAxisY, -fromAxisZ) * radiusMm, (8.5 - row) * 3.4, 1e-12) << row;
+        EXPECT_NEAR(at.normalY, fromAxisY / radiusMm, 1e-12);
       }
     }
     const SurfaceRow below = surfaceRow(surface, 3.4, 8.5),
                      above = surfaceRow(surface, 3.4, 8.5001);
-    EXPECT_NEAR(below.xMm, above.xMm, 1e-3);
-    EXPECT_NEAR(below.yMm, above.yMm, 1e-9);
+    EXPECT_NEAR(below.yMm, above.yMm, 1e-3);
+    EXPECT_NEAR(below.zMm, above.zMm, 1e-9);
   }
 }
 
@@ -60,14 +62,14 @@ TEST(GeometryDescription, WhatDoesNotFitIsRefused) {
   EXPECT_THROW(sdh2Geometry(kNoNumber), std::invalid_argument);
   const std::function<void(GeometryDescription&)> breakages[] = {
       [](auto& hand) { hand.surfaces.pop_back(); },
-      [](auto& hand) { hand.surfaces[0].finger = 3; },
-      [](auto& hand) { hand.surfaces[5].link = 3; },
+      [](auto& hand) { hand.surfaces[0].place.finger = 3; },
+      [](auto& hand) { hand.surfaces[5].place.link = 3; },
       [](auto& hand) { hand.surfaces[1].radiusMm = 0.0; },
       [](auto& hand) { hand.surfaces[1].radiusMm = kNoNumber; },
       [](auto& hand) { hand.surfaces[1].bendRow = kNoNumber; },
-      [](auto& hand) { hand.surfaces[2].heightMm = kNoNumber; },
+      [](auto& hand) { hand.surfaces[2].linkFromSurface.translation().y() = kNoNumber; },
       [](auto& hand) { hand.fingers[0].links[1].axis = 7; },
-      [](auto& hand) { hand.fingers[0].links[1].rMm = kNoNumber; },
+      [](auto& hand) { hand.fingers[0].links[1].jointFromEnd.translation().x() = kNoNumber; },
       [](auto& hand) { hand.fingers[1].baseMm.x() = kNoNumber; },
       [](auto& hand) { hand.fingers[1].baseRotation *= 2.0; },
       [](auto& hand) { hand.fingers[1].baseRotation.col(0) *= -1.0; },

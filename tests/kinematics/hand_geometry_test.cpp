@@ -136,7 +136,8 @@ TEST(HandGeometry, JointLinesAreWhatTheAnglesTurnAbout) {
         const Vector3d at = pose.positionMm(m, 3, 1);
         Vector3d expected = Vector3d::Zero();
         for (const JointAxis& line : pose.jointAxes())
-          if (line.axis == axis && line.finger == surface.finger && line.link <= surface.link)
+          if (line.axis == axis && line.finger == surface.place.finger &&
+              line.link <= *surface.place.link)
             expected += line.direction.cross(at - line.originMm);
         const Vector3d moved =
             (after.positionMm(m, 3, 1) - at) / (stepDeg * std::acos(-1.0) / 180.0);

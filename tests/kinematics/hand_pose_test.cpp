@@ -140,9 +140,14 @@ TEST(HandPose, AnotherHandIsAnotherTable) {
   hand.layout = SensorLayout({MatrixLayout::full(3, 2, 5.0)});
   Finger finger;
   finger.baseMm = {10.0, 20.0, 30.0};
-  finger.links = {{0, 1.0, 0.0, 0.0, 100.0, 0.0}};
+  finger.links = {denavitHartenbergLink(0, 1.0, 0.0, 0.0, 100.0, 0.0)};
   hand.fingers = {finger};
-  hand.surfaces = {{0, 0, -20.0, 8.0, -2.5, std::nullopt, 0.0}};
+  // Rows run against x of the link, columns along its z.
+  SensorSurface surface;
+  surface.place = {0, 0};
+  surface.linkFromSurface.linear() << 0, -1, 0, 0, 0, -1, 1, 0, 0;
+  surface.linkFromSurface.translation() = Vector3d(-20.0, 8.0, -2.5);
+  hand.surfaces = {surface};
   const HandGeometry geometry(hand);
   // The joint turns about z: at 90 degrees the link lies along y and its sensor (Y of the link)
   // looks along -x.

@@ -1,55 +1,92 @@
-// The geometry of a hand as data: chains of joints (standard, distal Denavit-Hartenberg) and sensor
-// surfaces on their links. HandGeometry computes poses from it; another hand is another
-// description.
+// The geometry of a hand as data: chains of joints, sensor surfaces and visible shapes on their
+// links. HandGeometry computes poses from it. It is made from a hand's description (hand.json and
+// URDF): describeGeometry().
 //
-// Frames: the hand's base frame (the palm's) has z up from the palm. A link's frame has X along the
-// link towards the tip, Y out of the sensor surface, Z across. All interfaces use lengths in mm and
-// angles in degrees. Source for the SDH-2: the study, chapter 4 (tables 4.1 to 4.3), with the
-// constants of the study's program where the printed ones are wrong (d2 = 14.8, t_y = 12 w).
+// Frames: the hand's base frame is that of the URDF's root link (SDH-2: the palm's, z up from the
+// palm). All interfaces use lengths in mm and angles in degrees.
 #pragma once
 
+#include <array>
 #include <cstddef>
+#include <filesystem>
 #include <optional>
+#include <string>
 #include <vector>
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 
+#include <palpate/model/hand_description.h>
 #include <palpate/model/matrix_layout.h>
 
 namespace palpate {
 
-// One link: T = Rz(theta) Tz(d) Tx(r) Rx(alpha), theta = sign * angle of the axis + offset.
-struct DhLink {
-  // The axis of the hand that turns the link; empty when theta is the fixed offset.
+enum class JointType { kRevolute, kPrismatic };
+
+// A joint and the link that it moves. The joint's frame coincides with the frame before it while
+// the joint is at 0; the joint moves about or along its z axis.
+struct ChainLink {
+  // The axis of the hand that moves the link; empty: the joint rests at `offset`.
   std::optional<std::size_t> axis;
-  double sign = 1.0;
-  double offsetDeg = 0.0;
-  double dMm = 0.0;
-  double rMm = 0.0;
-  double alphaDeg = 0.0;
+  JointType type = JointType::kRevolute;
+  // Value of the joint = factor * value of the axis + offset [deg or mm].
+  double factor = 1.0;
+  double offset = 0.0;
+  // Where the link ends (the next joint, or the tip of the finger), in the frame of its joint.
+  Eigen::Isometry3d jointFromEnd = Eigen::Isometry3d::Identity();
 };
 
-// A finger: its base on the palm and its chain of links.
+// Returns a link of a standard (distal) Denavit-Hartenberg table: its joint turns by
+// theta = sign * angle of the axis + offset, and the link ends at Tz(d) Tx(r) Rx(alpha).
+ChainLink denavitHartenbergLink(std::optional<std::size_t> axis,
+                                double sign,
+                                double offsetDeg,
+                                double dMm,
+                                double rMm,
+                                double alphaDeg);
+
+// A chain of links from the base frame to a tip. Links that several fingers have in common (a
+// wrist, for example) are listed in each of them.
 struct Finger {
-  Eigen::Vector3d baseMm = Eigen::Vector3d::Zero();  // origin in the base frame [mm]
+  std::string name;                                  // name of its last link
+  Eigen::Vector3d baseMm = Eigen::Vector3d::Zero();  // first joint in the base frame [mm]
   Eigen::Matrix3d baseRotation = Eigen::Matrix3d::Identity();
-  std::vector<DhLink> links;
+  std::vector<ChainLink> links;
 };
 
-// The surface of one matrix in the frame at the end of link `link` of a finger. Column x, row y
-// (cell centres at whole numbers) are at
-//   X = row0Mm - pitch y, Y = heightMm, Z = column0Mm + pitch x,
-// and, towards the tip from row `bendRow` on, on a cylinder about Z that continues it:
-//   a = (bendRow - y) pitch / radius,  X = row0Mm - pitch bendRow + radius sin a,
-//   Y = heightMm - radius (1 - cos a).
-struct SensorSurface {
+// A place in the hand: the end of link `link` of a finger, or the base frame.
+struct LinkPlace {
   std::size_t finger = 0;
-  std::size_t link = 0;
-  double row0Mm = 0.0;
-  double heightMm = 0.0;
-  double column0Mm = 0.0;
+  std::optional<std::size_t> link;  // empty: the base frame
+  bool operator==(const LinkPlace&) const = default;
+};
+
+// The surface of one matrix. Its frame has its origin at the centre of taxel (0, 0), x along rising
+// columns, y along rising rows, and z into the body, so that -z is the outward normal. Column x,
+// row y are at (pitch x, pitch y, 0), and, from row `bendRow` on towards row 0, on a cylinder that
+// continues this plane:
+//   a = (bendRow - y) pitch / radius,
+//   (pitch x, pitch bendRow - radius sin a, radius (1 - cos a)).
+struct SensorSurface {
+  LinkPlace place;
+  Eigen::Isometry3d linkFromSurface = Eigen::Isometry3d::Identity();
   std::optional<double> bendRow;  // empty: flat
   double radiusMm = 0.0;          // radius of the bend [mm]
+  // When the surface is neither flat nor a cylinder: positions [mm] and outward normals of all
+  // places in the frame of the link, row by row; otherwise empty.
+  std::vector<Eigen::Vector3d> positionsMm = {};
+  std::vector<Eigen::Vector3d> normals = {};
+};
+
+// A visible shape of a link (URDF: visual).
+struct LinkShape {
+  enum class Kind { kBox, kCylinder, kSphere, kMesh };
+  LinkPlace place;
+  Eigen::Isometry3d linkFromShape = Eigen::Isometry3d::Identity();
+  Kind kind = Kind::kBox;
+  // Box: its three lengths; cylinder (about z): diameter, diameter, length; sphere: its diameter
+  // three times [mm]. Mesh: factors by which the file's coordinates become mm.
+  Eigen::Vector3d sizeMm = Eigen::Vector3d::Ones();
+  std::filesystem::path mesh;  // file of a mesh (STL)
 };
 
 // The geometry of a whole hand.
@@ -58,29 +95,42 @@ struct GeometryDescription {
   std::vector<Finger> fingers;
   std::vector<SensorSurface> surfaces;  // one per matrix
   SensorLayout layout;
+  std::vector<LinkShape> shapes = {};  // may be empty
 
   // Throws std::invalid_argument that names the inconsistency (an axis or link that does not exist,
   // a value that is not finite, and so on).
   void validate() const;
 };
 
-// A row of a sensor surface in the frame of its link: the point where its line of taxels crosses Z
-// = 0, and the normal there.
+// A row of a sensor surface that is flat or bent, in the surface's frame: where its line of taxels
+// crosses x = 0, and the outward normal there.
 struct SurfaceRow {
-  double xMm = 0.0, yMm = 0.0;
-  double normalX = 0.0, normalY = 1.0;
+  double yMm = 0.0, zMm = 0.0;
+  double normalY = 0.0, normalZ = -1.0;
 };
 // Returns the surface at any row, also between taxels and beyond the edge.
 SurfaceRow surfaceRow(const SensorSurface& surface, double pitchMm, double row);
 
+// The two radii of bent surfaces in a hand's description.
+enum class BendRadius {
+  kNominal,    // as constructed
+  kEffective,  // with which the same rigid object always measures the same
+};
+
+// Returns whether the description of a hand contains what describeGeometry() needs.
+bool hasGeometry(const HandDescription& hand);
+// Returns the geometry that a hand's file describes, for the layout and the axes of `hand`. Throws
+// palpate::Error that names what does not fit in hand.json or the URDF.
+GeometryDescription describeGeometry(const HandDescription& hand,
+                                     BendRadius radius = BendRadius::kNominal);
+
 // Radius of the SDH-2's bent fingertips in the study's program [mm].
 constexpr double kStudyFingertipRadiusMm = 58.0;
-// The geometry of the SDH-2.
 // Effective radius of these fingertips [mm]: with it the same rigid object always measures the
 // same.
 constexpr double kEffectiveFingertipRadiusMm = 48.4;
 
-// Returns the geometry of the SDH-2.
+// Returns the geometry of the SDH-2 with this radius of its bent fingertips.
 GeometryDescription sdh2Geometry(double fingertipRadiusMm = kStudyFingertipRadiusMm);
 
 }  // namespace palpate

@@ -28,15 +28,10 @@ class HandGeometry {
   const GeometryDescription& description() const noexcept { return description_; }
 
  private:
-  // The part of a link's transform that does not depend on the angles.
-  struct Twist {
-    double sine = 0.0, cosine = 1.0;  // of alpha
-  };
-  // The part of a matrix that does not depend on the angles.
+  // The rows of a matrix that is flat or bent, in the frame of its link: where each begins
+  // (column 0), and the normal there.
   struct Pad {
-    std::vector<SurfaceRow> rows;
-    // Z of each column in the link's frame.
-    std::vector<double> columnsMm;
+    std::vector<Eigen::Vector3d> rowsMm, rowNormals;
   };
 
   void computeLinks(const std::vector<double>& anglesDeg, HandPose& out) const;
@@ -46,8 +41,7 @@ class HandGeometry {
                    Eigen::Vector3d* normals) const;
 
   GeometryDescription description_;
-  std::vector<std::vector<Twist>> twists_;  // per finger and link
-  std::vector<Pad> pads_;                   // per matrix
+  std::vector<Pad> pads_;  // per matrix
 };
 
 }  // namespace palpate

@@ -17,14 +17,15 @@
 
 namespace palpate {
 
-// A joint as a line in space: turning the axis by +1 degree turns all links of the finger from
-// `link` on by +1 degree about `direction`.
+// A joint as a line in space. When the axis moves by 1 (degree, or mm), all links of the finger
+// from `link` on turn by |direction| degrees about `direction`, or move by `direction` [mm].
 struct JointAxis {
+  JointType type = JointType::kRevolute;
   std::size_t axis = 0;
   std::size_t finger = 0;
   std::size_t link = 0;
   Eigen::Vector3d originMm = Eigen::Vector3d::Zero();
-  Eigen::Vector3d direction = Eigen::Vector3d::UnitZ();  // unit vector
+  Eigen::Vector3d direction = Eigen::Vector3d::UnitZ();
 };
 
 // A default-constructed pose has no taxels; accessors of a taxel throw std::out_of_range.
@@ -59,17 +60,18 @@ class HandPose {
   // memory.
   void cornersMm(std::size_t matrix, std::vector<Eigen::Vector3d>& out) const;
 
-  // The frame of a link: X along it towards the tip, Y out of its sensor surface, Z across. Its
-  // origin is the far end of the link (the next joint, or the tip of the finger). Throws
+  // The frame at the end of a link (the next joint, or the tip of the finger). Throws
   // std::out_of_range.
   const Eigen::Isometry3d& baseFromLink(std::size_t finger, std::size_t link) const;
+  // The same of any place, also of the base frame itself.
+  const Eigen::Isometry3d& baseFrom(const LinkPlace& place) const;
   // The frame of a finger's base on the palm, which does not depend on the angles. Throws
   // std::out_of_range.
   Eigen::Isometry3d baseFromFinger(std::size_t finger) const;
-  // Rotation and origin of the link that carries a matrix: columns X, Y, Z in the base frame, and
-  // the origin in it [mm].
-  Eigen::Matrix3d rotation(std::size_t matrix) const { return linkOf(matrix).linear(); }
-  Eigen::Vector3d originMm(std::size_t matrix) const { return linkOf(matrix).translation(); }
+  // The frame of a matrix' surface (SensorSurface): origin at the centre of taxel (0, 0) unless it
+  // is bent there, x along rising columns, y along rising rows, z into the body. For a surface
+  // that is described by its taxels: origin and axes at its middle. Throws std::out_of_range.
+  Eigen::Isometry3d baseFromMatrix(std::size_t matrix) const;
   // All joints of all fingers. An axis that turns two fingers is listed twice.
   const std::vector<JointAxis>& jointAxes() const noexcept { return jointLines_; }
 

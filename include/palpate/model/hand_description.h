@@ -45,6 +45,8 @@ struct AxisDescription {
   double maximumVelocityDegPerS = 0.0;       // limit of the controller's firmware [deg/s]
   double maximumAccelerationDegPerS2 = 0.0;  // [deg/s^2]
   bool isSliding = false;                    // moves along a line: all values are in mm
+  // Largest torque [N mm] (sliding: force [N]); 0 when it is not known.
+  double maximumTorqueNmm = 0.0;
 
   const char* unit() const { return isSliding ? "mm" : "deg"; }
 };

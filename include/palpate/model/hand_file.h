@@ -7,6 +7,8 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -26,18 +28,21 @@ struct TaxelPose {
   std::array<double, 3> normal{0.0, 0.0, 1.0};  // unit vector
 };
 
-// Where a matrix is mounted: on a link of the URDF. The surface's own frame has x along rising
-// columns, y along rising rows (towards the palm) and z into the link, so that -z is the outward
-// normal; its origin is the centre of taxel (0, 0). See SensorSurface for the bend.
+// Where a matrix is mounted. The frame of its surface has its origin at the centre of taxel (0, 0),
+// x along rising columns, y along rising rows (towards the palm) and z = x cross y into the body,
+// so that -z is the outward normal.
 struct MatrixSurface {
-  std::string link;                      // name in the URDF
-  std::array<double, 3> originMm{};      // of the surface's frame, in the frame of the link
-  std::array<double, 3> rollPitchYawRad{};  // as in a URDF: rotations about fixed x, then y, then z
-  // From this row on, towards row 0, the surface is a cylinder about x; empty: flat.
+  // Name of the link in the URDF that carries the matrix; empty: the base frame of the hand.
+  std::string link;
+  // Origin and axes of the surface's frame, in the frame of the link.
+  std::array<double, 3> originMm{};
+  std::array<double, 3> xAxis{1.0, 0.0, 0.0};  // unit vectors, perpendicular to each other
+  std::array<double, 3> yAxis{0.0, 1.0, 0.0};
+  // From this row on, towards row 0, the surface is a cylinder about an axis along x; empty: flat.
   std::optional<double> bendRow;
-  double bendRadiusMm = 0.0;
+  double bendRadiusMm = 0.0;  // > 0 where bendRow is given; the body is inside of the cylinder
   // Radius with which a rigid object has the same measured size everywhere on the pad; equals
-  // bendRadiusMm where it is not known.
+  // bendRadiusMm where no other is known.
   double effectiveBendRadiusMm = 0.0;
   // One per place (rows x columns, row by row) when the surface is neither flat nor a cylinder;
   // otherwise empty.
@@ -94,6 +99,7 @@ const HandDescription& builtInHand(std::string_view key);
 
 // Returns the hand that `name` stands for: the folder of that path, a folder of that name in one of
 // `folders`, or a built-in hand. Throws Error that lists what is known.
-HandDescription findHand(const std::string& name, const std::vector<std::filesystem::path>& folders);
+HandDescription findHand(const std::string& name,
+                         const std::vector<std::filesystem::path>& folders);
 
 }  // namespace palpate

@@ -83,7 +83,7 @@ TEST(HandMesh, BodiesOfTheSdh2AreClosedAndCarryTheirSensors) {
         EXPECT_GT(facing.dot(a.normal), 0.0F);
       }
     }
-    if (body.role == HandBodyRole::kLink && body.link != 0u) ++links;
+    if (body.role == HandBodyRole::kLink && body.place.link != 0u) ++links;
   }
   EXPECT_EQ(links, 6u);
   // No taxel lies inside the link that carries it, nor far above it: in front of its surface within
@@ -91,12 +91,10 @@ TEST(HandMesh, BodiesOfTheSdh2AreClosedAndCarryTheirSensors) {
   const GeometryDescription& hand = geometry.description();
   for (std::size_t m = 0; m < hand.surfaces.size(); ++m) {
     const auto carrier = std::find_if(bodies.begin(), bodies.end(), [&](const HandBody& body) {
-      return body.role == HandBodyRole::kLink && body.finger == hand.surfaces[m].finger &&
-             body.link == hand.surfaces[m].link;
+      return body.role == HandBodyRole::kLink && body.place == hand.surfaces[m].place;
     });
     ASSERT_TRUE(carrier != bodies.end());
-    const Eigen::Isometry3d linkFromBase =
-        pose.baseFromLink(carrier->finger, *carrier->link).inverse();
+    const Eigen::Isometry3d linkFromBase = pose.baseFrom(carrier->place).inverse();
     const MatrixLayout& layout = hand.layout.matrix(m);
     for (int y = 0; y < layout.rows; ++y) {
       const Vector3d at = linkFromBase * pose.positionMm(m, y, 2);
@@ -124,9 +122,14 @@ TEST(HandMesh, AnotherHandGetsBodiesToo) {
   pad.numAxes = 1;
   pad.layout = SensorLayout({MatrixLayout::full(4, 4, 5.0)});
   Finger finger;
-  finger.links = {{0, 1.0, 0.0, 20.0, 0.0, -90.0}, {std::nullopt, 1.0, 0.0, 0.0, 60.0, 0.0}};
+  finger.links = {denavitHartenbergLink(0, 1.0, 0.0, 20.0, 0.0, -90.0),
+                  denavitHartenbergLink(std::nullopt, 1.0, 0.0, 0.0, 60.0, 0.0)};
   pad.fingers = {finger};
-  pad.surfaces = {{0, 1, -10.0, 12.0, -7.5, std::nullopt, 0.0}};
+  SensorSurface surface;
+  surface.place = {0, 1};
+  surface.linkFromSurface.linear() << 0, -1, 0, 0, 0, -1, 1, 0, 0;
+  surface.linkFromSurface.translation() = Eigen::Vector3d(-10.0, 12.0, -7.5);
+  pad.surfaces = {surface};
   const auto bodies = handBodies(HandGeometry(pad));
   EXPECT_EQ(bodies.size(), 4u);  // palm, column, knuckle, link
   for (const HandBody& body : bodies) expectClosed(body);

@@ -1,10 +1,15 @@
 #include "gui/hand3d/hand_mesh.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include <Eigen/Geometry>
+
+#include "palpate/core/error.h"
+#include "palpate/kinematics/stl_mesh.h"
 
 namespace palpate::gui {
 namespace {
@@ -32,6 +37,8 @@ constexpr double kPlainHalfWidthMm = 12.8;
 // Radius of the palm around the base of a finger.
 constexpr double kPalmAroundMm = 25.0;
 constexpr double kPalmDepthMm = 44.0;
+// Thickness of the slab under a matrix whose link has no length.
+constexpr double kSlabMm = 8.0;
 
 std::vector<Vector2d> circle(const Vector2d& centre, double radius) {
   std::vector<Vector2d> outline;
@@ -88,27 +95,76 @@ void turn(HandBody& body,
     body.edges[i] = {move * body.edges[i].first, move * body.edges[i].second};
 }
 
-// The course of a matrix' surface in the frame of its link, from the palm to the tip.
+// The frame in which a link's body is built, in the frame of the link's end: x along the link
+// towards its end, y out of its sensor surface, z across. Nothing for a link without length.
+std::optional<Eigen::Isometry3d> bodyFrame(const ChainLink& link,
+                                           const std::optional<Vector3d>& outwards) {
+  const Eigen::Isometry3d endFromJoint = link.jointFromEnd.inverse(Eigen::Isometry);
+  const Vector3d along = -endFromJoint.translation();
+  if (along.norm() < 1.0) return std::nullopt;
+  const Vector3d x = along.normalized();
+  Vector3d z;
+  if (outwards) {
+    z = x.cross(*outwards);
+  } else {
+    z = endFromJoint.linear().col(2);
+    z -= x * x.dot(z);
+  }
+  if (z.norm() < 0.1) return std::nullopt;
+  z.normalize();
+  Eigen::Isometry3d frame = Eigen::Isometry3d::Identity();
+  frame.linear() << x, z.cross(x), z;
+  return frame;
+}
+
+// The course of a matrix' surface in the frame of a body, from the palm to the tip.
 struct SurfaceLine {
   // x along the link, y out of the surface.
   std::vector<Vector2d> pointsMm;
-  double halfWidthMm = 0.0;
+  double zMinMm = 0.0, zMaxMm = 0.0;  // across
   double heightMm = 0.0;
 };
 
-SurfaceLine lineOf(const GeometryDescription& hand, const HandPose& pose, std::size_t matrix) {
+// `bodyFromBase` leads from the base frame of `pose` to the frame of the body.
+SurfaceLine lineOf(const HandPose& pose,
+                   std::size_t matrix,
+                   const Eigen::Isometry3d& bodyFromBase) {
+  const GeometryDescription& hand = pose.description();
   const MatrixLayout& layout = hand.layout.matrix(matrix);
   SurfaceLine line;
-  line.halfWidthMm = layout.pitchMm * layout.columns / 2.0 + kBesideMm;
-  line.heightMm = hand.surfaces[matrix].heightMm;
   const double middleMm = layout.pitchMm * (layout.columns - 1) / 2.0;
+  const double halfWidthMm = layout.pitchMm * layout.columns / 2.0 + kBesideMm;
+  line.heightMm = (bodyFromBase * pose.baseFromMatrix(matrix)).translation().y();
+  double zMm = 0.0;
   for (double row = layout.rows - 0.2; row >= -0.5; row -= 0.5) {
-    const Vector3d at =
-        pose.rotation(matrix).transpose() *
-        (pose.pointMm(matrix, middleMm, row * layout.pitchMm) - pose.originMm(matrix));
+    const Vector3d at = bodyFromBase * pose.pointMm(matrix, middleMm, row * layout.pitchMm);
     line.pointsMm.emplace_back(at.x(), at.y() - kUnderMm);
+    zMm = at.z();
   }
+  line.zMinMm = zMm - halfWidthMm;
+  line.zMaxMm = zMm + halfWidthMm;
   return line;
+}
+
+// A slab under a matrix whose link has no length, such as a pad on the palm.
+HandBody slabUnder(const HandPose& pose, std::size_t matrix) {
+  const SensorSurface& surface = pose.description().surfaces[matrix];
+  // x towards row 0, y out of the surface, z across.
+  Eigen::Isometry3d bodyFrame = pose.baseFromMatrix(matrix);
+  bodyFrame.linear() = (Eigen::Matrix3d() << -bodyFrame.linear().col(1),
+                        -bodyFrame.linear().col(2),
+                        bodyFrame.linear().col(0))
+                           .finished();
+  const SurfaceLine line = lineOf(pose, matrix, bodyFrame.inverse(Eigen::Isometry));
+  std::vector<Vector2d> outline = line.pointsMm;
+  double lowMm = 0.0;
+  for (const Vector2d& point : line.pointsMm) lowMm = std::min(lowMm, point.y());
+  outline.emplace_back(line.pointsMm.front().x(), lowMm - kSlabMm);
+  outline.emplace_back(line.pointsMm.back().x(), lowMm - kSlabMm);
+  HandBody body{.role = HandBodyRole::kLink, .place = surface.place, .triangles = {}, .edges = {}};
+  appendExtrusion(body, convexOutline(std::move(outline)), line.zMinMm, line.zMaxMm, kSlabMm / 8.0);
+  turn(body, 0, 0, pose.baseFrom(surface.place).inverse(Eigen::Isometry) * bodyFrame);
+  return body;
 }
 
 // Outline of a link seen from the side: its joint at -lengthMm, the next joint or the tip at 0, the
@@ -142,7 +198,7 @@ std::vector<Vector2d> linkOutline(const std::optional<SurfaceLine>& surface,
 }
 
 HandBody palm(const GeometryDescription& hand) {
-  HandBody body{.role = HandBodyRole::kPalm, .link = {}, .triangles = {}, .edges = {}};
+  HandBody body{.role = HandBodyRole::kPalm, .place = {}, .triangles = {}, .edges = {}};
   std::vector<Vector2d> points;
   double topMm = 0.0;
   for (const Finger& finger : hand.fingers) {
@@ -152,6 +208,75 @@ HandBody palm(const GeometryDescription& hand) {
   }
   appendExtrusion(
       body, convexOutline(std::move(points)), topMm - kPalmDepthMm, topMm, 3.0 * kChamferMm);
+  return body;
+}
+
+// Triangles whose normals are those of their faces; edges where faces meet at an angle are left to
+// the shape's maker.
+void appendMesh(HandBody& body, const std::vector<StlTriangle>& triangles, const Vector3f& scale) {
+  const bool mirrored = scale.prod() < 0.0F;
+  for (const StlTriangle& triangle : triangles) {
+    std::array<Vector3f, 3> at;
+    for (std::size_t i = 0; i < 3; ++i) at[i] = triangle[i].cwiseProduct(scale);
+    if (mirrored) std::swap(at[1], at[2]);
+    const Vector3f normal = (at[1] - at[0]).cross(at[2] - at[0]);
+    if (!(normal.norm() > 0.0F)) continue;
+    const Vector3f unit = normal.normalized();
+    appendTriangle(body, {at[0], unit}, {at[1], unit}, {at[2], unit});
+    for (std::size_t i = 0; i < 3; ++i) body.edges.emplace_back(at[i], at[(i + 1) % 3]);
+  }
+}
+
+void appendSphere(HandBody& body, float radiusMm) {
+  const auto corner = [radiusMm](int ring, int step) {
+    const float polar = std::numbers::pi_v<float> * static_cast<float>(ring) / (kRound / 2);
+    const float around = 2.0F * std::numbers::pi_v<float> * static_cast<float>(step) / kRound;
+    const Vector3f normal(
+        std::sin(polar) * std::cos(around), std::sin(polar) * std::sin(around), std::cos(polar));
+    return HandBody::Corner{radiusMm * normal, normal};
+  };
+  for (int ring = 0; ring < kRound / 2; ++ring)
+    for (int step = 0; step < kRound; ++step) {
+      if (ring > 0)
+        appendTriangle(body, corner(ring, step), corner(ring + 1, step), corner(ring, step + 1));
+      if (ring + 1 < kRound / 2)
+        appendTriangle(
+            body, corner(ring, step + 1), corner(ring + 1, step), corner(ring + 1, step + 1));
+    }
+}
+
+HandBody bodyOf(const LinkShape& shape) {
+  HandBody body{.role = shape.place.link ? HandBodyRole::kLink : HandBodyRole::kPalm,
+                .place = shape.place,
+                .triangles = {},
+                .edges = {}};
+  const Vector3d half = shape.sizeMm / 2.0;
+  switch (shape.kind) {
+    case LinkShape::Kind::kBox:
+      appendExtrusion(body,
+                      {{-half.x(), -half.y()},
+                       {half.x(), -half.y()},
+                       {half.x(), half.y()},
+                       {-half.x(), half.y()}},
+                      -half.z(),
+                      half.z(),
+                      0.02 * shape.sizeMm.minCoeff());
+      break;
+    case LinkShape::Kind::kCylinder:
+      appendExtrusion(body,
+                      circle(Vector2d::Zero(), half.x()),
+                      -half.z(),
+                      half.z(),
+                      0.02 * shape.sizeMm.minCoeff());
+      break;
+    case LinkShape::Kind::kSphere:
+      appendSphere(body, static_cast<float>(half.x()));
+      break;
+    case LinkShape::Kind::kMesh:
+      appendMesh(body, readStl(shape.mesh), shape.sizeMm.cast<float>());
+      break;
+  }
+  turn(body, 0, 0, shape.linkFromShape);
   return body;
 }
 
@@ -237,30 +362,48 @@ void appendExtrusion(HandBody& body,
 
 std::vector<HandBody> handBodies(const HandGeometry& geometry) {
   const GeometryDescription& hand = geometry.description();
-  const HandPose pose = geometry.pose(std::vector<double>(hand.numAxes, 0.0));
   std::vector<HandBody> bodies;
+  for (const LinkShape& shape : hand.shapes) {
+    try {
+      bodies.push_back(bodyOf(shape));
+    } catch (const Error&) {
+    }
+  }
+  if (!bodies.empty()) return bodies;
+  const HandPose pose = geometry.pose(std::vector<double>(hand.numAxes, 0.0));
+  std::vector<bool> carried(hand.surfaces.size(), false);
   if (!hand.fingers.empty()) bodies.push_back(palm(hand));
   for (std::size_t f = 0; f < hand.fingers.size(); ++f) {
-    const std::vector<DhLink>& links = hand.fingers[f].links;
+    const std::vector<ChainLink>& links = hand.fingers[f].links;
     for (std::size_t l = 0; l < links.size(); ++l) {
+      const LinkPlace place{f, l};
+      std::optional<std::size_t> matrix;
+      for (std::size_t m = 0; m < hand.surfaces.size() && !matrix; ++m)
+        if (hand.surfaces[m].place == place) matrix = m;
+      const Eigen::Isometry3d linkFromBase = pose.baseFrom(place).inverse(Eigen::Isometry);
+      std::optional<Vector3d> outwards;
+      if (matrix) outwards = -(linkFromBase * pose.baseFromMatrix(*matrix)).linear().col(2);
+      const std::optional<Eigen::Isometry3d> frame = bodyFrame(links[l], outwards);
+      const double lengthMm = links[l].jointFromEnd.translation().norm();
       std::optional<SurfaceLine> surface;
-      for (std::size_t m = 0; m < hand.surfaces.size() && !surface; ++m)
-        if (hand.surfaces[m].finger == f && hand.surfaces[m].link == l)
-          surface = lineOf(hand, pose, m);
-      const double halfWidthMm = surface ? surface->halfWidthMm : kPlainHalfWidthMm;
+      if (matrix && frame) {
+        surface = lineOf(pose, *matrix, frame->inverse(Eigen::Isometry) * linkFromBase);
+        carried[*matrix] = true;
+      }
       const double heightMm = surface ? surface->heightMm : kPlainHeightMm;
-      HandBody body{
-          .role = HandBodyRole::kLink, .finger = f, .link = l, .triangles = {}, .edges = {}};
-      if (links[l].rMm > 0.0) {
+      HandBody body{.role = HandBodyRole::kLink, .place = place, .triangles = {}, .edges = {}};
+      if (frame) {
         const bool tip = l + 1 == links.size();
-        appendExtrusion(
-            body, linkOutline(surface, links[l].rMm, tip), -halfWidthMm, halfWidthMm, kChamferMm);
-      } else if (links[l].dMm != 0.0) {
-        // A column from the previous joint's origin to the origin of this frame.
-        const double alpha = links[l].alphaDeg * std::numbers::pi / 180.0;
-        const Vector3d before(
-            0.0, -links[l].dMm * std::sin(alpha), -links[l].dMm * std::cos(alpha));
-        appendExtrusion(body, circle(Vector2d::Zero(), heightMm * 1.05), 0.0, before.norm(), 1.0);
+        appendExtrusion(body,
+                        linkOutline(surface, lengthMm, tip),
+                        surface ? surface->zMinMm : -kPlainHalfWidthMm,
+                        surface ? surface->zMaxMm : kPlainHalfWidthMm,
+                        kChamferMm);
+        turn(body, 0, 0, *frame);
+      } else if (lengthMm >= 1.0) {
+        // A column from the joint to the end of the link.
+        const Vector3d before = links[l].jointFromEnd.inverse(Eigen::Isometry).translation();
+        appendExtrusion(body, circle(Vector2d::Zero(), heightMm * 1.05), 0.0, lengthMm, 1.0);
         Eigen::Isometry3d to = Eigen::Isometry3d::Identity();
         to.linear() =
             Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitZ(), before).toRotationMatrix();
@@ -268,15 +411,18 @@ std::vector<HandBody> handBodies(const HandGeometry& geometry) {
       }
       if (!body.triangles.empty()) bodies.push_back(std::move(body));
       if (l + 1 == links.size()) continue;
-      // The knuckle of the next link is given in the frame of this one.
+      // The knuckle of the next link, about the axis of its joint, is given in the frame of this
+      // one.
       HandBody knuckle{
-          .role = HandBodyRole::kKnuckle, .finger = f, .link = l, .triangles = {}, .edges = {}};
+          .role = HandBodyRole::kKnuckle, .place = place, .triangles = {}, .edges = {}};
       const double wideMm = kPlainHalfWidthMm + 1.2;
       appendExtrusion(
           knuckle, circle(Vector2d::Zero(), heightMm * kKnuckleShare), -wideMm, wideMm, 1.2);
       bodies.push_back(std::move(knuckle));
     }
   }
+  for (std::size_t m = 0; m < hand.surfaces.size(); ++m)
+    if (!carried[m]) bodies.push_back(slabUnder(pose, m));
   return bodies;
 }
 

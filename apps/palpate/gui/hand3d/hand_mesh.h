@@ -1,9 +1,7 @@
-// Builds the bodies of a hand (palm, knuckles, links with their sensor surface) as simple shapes
-// from its geometry. No third-party mesh is needed: another hand is another GeometryDescription.
+// Builds the bodies of a hand: the shapes that its URDF gives to links, and simple shapes (palm,
+// knuckles, links with their sensor surface) for a hand without any.
 #pragma once
 
-#include <cstddef>
-#include <optional>
 #include <utility>
 #include <vector>
 
@@ -23,15 +21,15 @@ struct HandBody {
     Eigen::Vector3f normal;
   };
   HandBodyRole role = HandBodyRole::kLink;
-  std::size_t finger = 0;
-  // Nothing: the body is fixed to the palm.
-  std::optional<std::size_t> link;
+  // What the body is fixed to.
+  LinkPlace place;
   // Three corners per triangle, counter-clockwise seen from outside.
   std::vector<Corner> triangles;
   // Edges for the wire frame.
   std::vector<std::pair<Eigen::Vector3f, Eigen::Vector3f>> edges;
 };
 
+// A mesh that can't be read is left out; `palpate hands check` says why.
 std::vector<HandBody> handBodies(const HandGeometry& geometry);
 
 // Appends a convex outline (counter-clockwise, x right, y up), extruded from zMin to zMax, its rims

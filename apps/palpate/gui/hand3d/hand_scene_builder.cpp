@@ -7,6 +7,7 @@
 
 #include <Eigen/Geometry>
 
+#include <palpate/core/error.h>
 #include <palpate/slip/object_motion.h>
 
 #include "gui/appearance/captions.h"
@@ -211,18 +212,12 @@ void addTurn(HandScene& scene, const Vector3d& centre, const Vector3d& turn, QRg
 }  // namespace
 
 std::shared_ptr<const HandGeometry> geometryOf(const HandDescription& hand) {
-  const SensorLayout& known = *sdh2().layout;
-  const bool same =
-      hand.axes.size() == sdh2().axes.size() && hand.layout->numMatrices() == known.numMatrices() &&
-      std::equal(known.matrices().begin(),
-                 known.matrices().end(),
-                 hand.layout->matrices().begin(),
-                 [](const MatrixLayout& a, const MatrixLayout& b) {
-                   return a.rows == b.rows && a.columns == b.columns && a.pitchMm == b.pitchMm;
-                 });
-  if (!same) return nullptr;
-  static const auto geometry = std::make_shared<const HandGeometry>();
-  return geometry;
+  if (!hasGeometry(hand)) return nullptr;
+  try {
+    return std::make_shared<const HandGeometry>(describeGeometry(hand));
+  } catch (const Error&) {  // an URDF that does not fit; `palpate hands check` says why
+    return nullptr;
+  }
 }
 
 void HandSceneBuilder::setHand(const HandDescription& hand) {
@@ -278,8 +273,7 @@ const TaxelPatches& HandSceneBuilder::patches(const HandLook& look) const {
 bool HandSceneBuilder::isShown(const HandBody& body, const HandLook& look) const {
   if (!look.only) return true;
   const SensorSurface& surface = geometry_->description().surfaces.at(*look.only);
-  return body.link == surface.link && body.finger == surface.finger &&
-         body.role == HandBodyRole::kLink;
+  return body.place == surface.place && body.role != HandBodyRole::kKnuckle;
 }
 
 void HandSceneBuilder::addBodies(HandScene& scene, const HandLook& look) const {
@@ -289,9 +283,7 @@ void HandSceneBuilder::addBodies(HandScene& scene, const HandLook& look) const {
     QColor color = bodyColor(body.role, look.theme);
     if (!posed()) color = mixed(color, background, kBodyVeil);
     const QRgb rgb = color.rgb();
-    const Eigen::Isometry3f to =
-        (body.link ? pose_.baseFromLink(body.finger, *body.link) : Eigen::Isometry3d::Identity())
-            .cast<float>();
+    const Eigen::Isometry3f to = pose_.baseFrom(body.place).cast<float>();
     if (look.wire) {
       for (const auto& [from, until] : body.edges)
         scene.lines.push_back({to * from, to * until, 1.0F, rgb});
@@ -395,8 +387,7 @@ std::vector<Vector3d> HandSceneBuilder::extent(const HandLook& wanted) const {
         points.push_back(sphere->centreMm + side * sphere->radiusMm * Vector3d::Unit(i));
   for (const HandBody& body : bodies_) {
     if (!isShown(body, look)) continue;
-    const Eigen::Isometry3d to =
-        body.link ? pose_.baseFromLink(body.finger, *body.link) : Eigen::Isometry3d::Identity();
+    const Eigen::Isometry3d to = pose_.baseFrom(body.place);
     for (const HandBody::Corner& corner : body.triangles)
       points.push_back(to * corner.atMm.cast<double>());
   }
@@ -438,9 +429,7 @@ std::optional<TaxelPlace> HandSceneBuilder::taxelUnder(const Vector3d& eyeMm,
   constexpr float kSkinMm = 1.0F;
   for (const HandBody& body : bodies_) {
     if (!isShown(body, look)) continue;
-    const Eigen::Isometry3f to =
-        (body.link ? pose_.baseFromLink(body.finger, *body.link) : Eigen::Isometry3d::Identity())
-            .cast<float>();
+    const Eigen::Isometry3f to = pose_.baseFrom(body.place).cast<float>();
     for (std::size_t i = 0; i + 2 < body.triangles.size(); i += 3)
       if (met(to * body.triangles[i].atMm,
               to * body.triangles[i + 1].atMm,
