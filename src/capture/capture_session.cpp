@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include "palpate/core/json.h"
+#include "palpate/model/hand_file.h"
 
 namespace palpate {
 namespace fs = std::filesystem;
@@ -20,8 +21,8 @@ std::unique_ptr<Device> required(std::unique_ptr<Device> device) {
 
 // Properties of the device as text for a recording's `meta`.
 std::map<std::string, std::string> describe(const Device& device) {
-  std::map<std::string, std::string> meta{{"hand", device.hand().name},
-                                          {"program", "palpate " PALPATE_VERSION}};
+  std::map<std::string, std::string> meta = handMeta(device.hand());
+  meta["program"] = "palpate " PALPATE_VERSION;
   const DeviceInfo facts = device.facts();
   meta["serial"] = facts.serial;
   meta["firmware"] = facts.firmware;

@@ -6,7 +6,6 @@
 #include "palpate/model/hand_file.h"
 
 namespace palpate {
-namespace {
 
 bool sameSizes(const SensorLayout& a, const SensorLayout& b) {
   if (a.numMatrices() != b.numMatrices()) return false;
@@ -15,8 +14,6 @@ bool sameSizes(const SensorLayout& a, const SensorLayout& b) {
       return false;
   return true;
 }
-
-}  // namespace
 
 std::string HandDescription::matrixName(std::size_t matrix) const {
   return matrix < matrices.size() ? matrices[matrix].name : "matrix " + std::to_string(matrix);
@@ -33,7 +30,7 @@ HandDescription describeHand(const SensorLayout& layout,
   HandDescription hand;
   const std::vector<BuiltInHand>& known = builtInHands();
   const auto same = std::find_if(known.begin(), known.end(), [&](const BuiltInHand& each) {
-    return sameSizes(layout, *each.hand->layout);
+    return !each.hand->file->controller.empty() && sameSizes(layout, *each.hand->layout);
   });
   if (same != known.end()) {
     hand = *same->hand;

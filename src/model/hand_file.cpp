@@ -366,7 +366,8 @@ HandDescription parseHand(const std::string& json,
              "preshapes",
              "characteristics",
              "pinch",
-             "urdf"});
+             "urdf",
+             "controller"});
   if (root.required("format").text() != "palpate-hand")
     root.at("format").fail("is not \"palpate-hand\"");
   if (const std::int64_t version = root.required("version").integer(1, 1'000'000); version != 1)
@@ -379,6 +380,7 @@ HandDescription parseHand(const std::string& json,
   hand.maker = textAt(root, "maker");
   if (root.has("sources"))
     for (const JsonField& line : root.at("sources").items(1000)) line.text();
+  file->controller = textAt(root, "controller");
   if (root.has("unit")) hand.unit = nameAt(root, "unit");
   hand.maximumCounts = static_cast<float>(root.required("full_scale").number(1e-6, kMostCounts));
   hand.saturationCounts = static_cast<float>(root.number("saturation",
@@ -430,6 +432,38 @@ HandDescription readHandFolder(const fs::path& folder) {
   file->folder = path.parent_path();
   hand.file = std::move(file);
   return hand;
+}
+
+std::map<std::string, std::string> handMeta(const HandDescription& hand) {
+  std::map<std::string, std::string> meta{{"hand", hand.name}};
+  if (!hand.file) return meta;
+  meta["hand_json"] = hand.file->json;
+  if (!hand.file->urdf.empty()) meta["hand_urdf"] = hand.file->urdf;
+  return meta;
+}
+
+HandDescription recordedHand(const std::map<std::string, std::string>& meta,
+                             const SensorLayout& layout,
+                             std::size_t numAxes,
+                             std::size_t numTemperatureSensors) {
+  const auto json = meta.find("hand_json");
+  if (json != meta.end()) {
+    try {
+      const auto urdf = meta.find("hand_urdf");
+      HandDescription hand = parseHand(
+          json->second, urdf != meta.end() ? urdf->second : std::string(), "the recording's hand");
+      const auto fits = [](std::size_t recorded, std::size_t described) {
+        return recorded == 0 || recorded == described;
+      };
+      if (sameSizes(layout, *hand.layout) && fits(numAxes, hand.axes.size()) &&
+          fits(numTemperatureSensors, hand.temperatureSensors.size())) {
+        hand.layout = std::make_shared<SensorLayout>(layout);
+        return hand;
+      }
+    } catch (const Error&) {  // of a newer version, or damaged: the data are readable without it
+    }
+  }
+  return describeHand(layout, numAxes, numTemperatureSensors);
 }
 
 const std::vector<BuiltInHand>& builtInHands() {

@@ -49,6 +49,7 @@ int filterCommand(const Arguments& words);
 int ghostsCommand(const Arguments& words);
 int graspCommand(const Arguments& words);
 int graspsCommand(const Arguments& words);
+int handsCommand(const Arguments& words);
 int infoCommand(const Arguments& words);
 int kinematicsCommand(const Arguments& words);
 int portsCommand(const Arguments& words);

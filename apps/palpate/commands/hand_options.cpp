@@ -1,9 +1,13 @@
 #include "commands/hand_options.h"
 
+#include <cstdlib>
+
 #include "palpate/core/error.h"
 #include "palpate/core/number_text.h"
 #include "palpate/kinematics/joint_range.h"
-#include "palpate/model/hand_description.h"
+#include "palpate/model/hand_file.h"
+
+#include "commands/commands.h"
 
 namespace palpate::commands {
 
@@ -25,6 +29,28 @@ std::vector<double> numbersOf(const std::string& text,
     throw UsageError("--" + option + " takes " + std::to_string(count) + " numbers, not " +
                      std::to_string(numbers.size()));
   return numbers;
+}
+
+std::vector<std::filesystem::path> handFolders() {
+  std::vector<std::filesystem::path> folders;
+  const char* data = std::getenv("XDG_DATA_HOME");
+  const char* home = std::getenv("HOME");
+  if (data && *data)
+    folders.push_back(std::filesystem::path(data) / "palpate/hands");
+  else if (home && *home)
+    folders.push_back(std::filesystem::path(home) / ".local/share/palpate/hands");
+  folders.push_back(dataFolder() / "hands");
+  return folders;
+}
+
+OptionSpec handOption() {
+  return {"hand", "NAME|FOLDER", "the hand: a name that `palpate hands` lists, or its folder"};
+}
+
+std::optional<HandDescription> handOf(const CommandLine& given) {
+  const auto name = given.text("hand");
+  if (!name) return std::nullopt;
+  return findHand(*name, handFolders());
 }
 
 OptionSpec anglesOption() { return {"angles", "A0,..,A6", "joint angles [deg]"}; }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <palpate/kinematics/geometry_description.h>
+#include <palpate/model/hand_description.h>
 #include <palpate/model/profile.h>
 
 #include "commands/command_line.h"
@@ -19,6 +20,15 @@ namespace palpate::commands {
 std::vector<double> numbersOf(const std::string& text,
                               const std::string& option,
                               std::size_t count);
+
+// The folders in which hands are looked for by name: the user's
+// ($XDG_DATA_HOME/palpate/hands or ~/.local/share/palpate/hands), then the program's.
+std::vector<std::filesystem::path> handFolders();
+
+// The option --hand NAME|FOLDER, and the hand that it names (nothing without the option). Throws
+// Error that lists the known hands, or says what is wrong in the hand's files.
+OptionSpec handOption();
+std::optional<HandDescription> handOf(const CommandLine& given);
 
 // The option --angles A0,..,A6 of an SDH-2 [deg]: seven numbers within the ranges of the axes;
 // throws UsageError.

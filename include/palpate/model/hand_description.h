@@ -84,9 +84,12 @@ struct HandDescription {
 // axes.
 const HandDescription& sdh2();
 
-// Returns a description for a layout that was read from a file: the SDH-2's description (with the
-// masks and the pitch of the file) when the sizes agree; otherwise matrices are named by number and
-// drawn in a grid.
+// Whether two layouts have as many matrices, of the same rows and columns.
+bool sameSizes(const SensorLayout& a, const SensorLayout& b);
+
+// Returns a description for a layout whose hand is not named: that of the built-in hand with a
+// tactile controller (HandFile::controller) and the same sizes, with the masks and the pitch of the
+// layout; otherwise matrices are named by number and drawn in a grid.
 HandDescription describeHand(const SensorLayout& layout,
                              std::size_t numAxes,
                              std::size_t numTemperatureSensors);

@@ -10,6 +10,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -66,6 +67,9 @@ struct HandFile {
   std::string urdf;  // text of the URDF; empty without joints and surfaces
   // The folder that the files were read from, in which meshes lie; empty when it is not known.
   std::filesystem::path folder;
+  // The tactile controller whose recordings and frames don't name their hand: a layout of the same
+  // sizes from it is taken for this hand ("DSACON32-M"). Empty: none.
+  std::string controller;
   std::vector<Preshape> preshapes;
   std::optional<SensorCharacteristics> characteristics;
   // One per matrix; empty when the hand has no geometry.
@@ -87,6 +91,17 @@ HandDescription parseHand(const std::string& json,
 
 // Reads the hand in a folder (or the hand.json in it). Throws FileError and FormatError.
 HandDescription readHandFolder(const std::filesystem::path& folder);
+
+// What a recording keeps of its hand: "hand" (the name) and, where the hand was read from a file,
+// "hand_json" and "hand_urdf".
+std::map<std::string, std::string> handMeta(const HandDescription& hand);
+// Returns the hand of a recording from what handMeta() kept in `meta`, with the masks, the pitch
+// and the unique ids of `layout`. Where nothing was kept, or what was kept does not fit `layout`,
+// it is describeHand() of the layout.
+HandDescription recordedHand(const std::map<std::string, std::string>& meta,
+                             const SensorLayout& layout,
+                             std::size_t numAxes,
+                             std::size_t numTemperatureSensors);
 
 // A hand that is compiled into the program.
 struct BuiltInHand {

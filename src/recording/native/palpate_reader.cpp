@@ -5,6 +5,7 @@
 
 #include "palpate/core/error.h"
 #include "palpate/core/progress.h"
+#include "palpate/model/hand_file.h"
 #include "palpate/recording/palpate_schema.h"
 
 #include "recording/native/palpate_connection.h"
@@ -135,8 +136,10 @@ Profile profileOf(std::shared_ptr<PalpateStorage> storage) {
     info.warnings.emplace_back("unfinished: its writer stopped before the end");
   if (access.beingWritten())
     info.warnings.emplace_back("still being written: shown as far as it was when opened");
-  HandDescription hand = describeHand(
-      storage->layout(), storage->width(Stream::kAngles), storage->width(Stream::kTemperatures));
+  HandDescription hand = recordedHand(access.meta().values,
+                                      storage->layout(),
+                                      storage->width(Stream::kAngles),
+                                      storage->width(Stream::kTemperatures));
   return {std::move(info), std::move(hand), std::move(storage)};
 }
 

@@ -17,6 +17,7 @@
 
 #include "palpate/core/byte_order.h"
 #include "palpate/core/error.h"
+#include "palpate/model/hand_file.h"
 #include "palpate/recording/palpate_blocks.h"
 #include "palpate/recording/palpate_schema.h"
 #include "palpate/recording/second_summary.h"
@@ -460,8 +461,10 @@ void buildProfile(const fs::path& path,
   for (const BlockEntry& place : storage->places(Stream::kTactile))
     if (found.blocks->load(place.id).coding != BlockCoding::kCountsRuns)
       info.valueType = ValueType::kFloat;
-  HandDescription hand =
-      describeHand(*layout, storage->width(Stream::kAngles), storage->width(Stream::kTemperatures));
+  HandDescription hand = recordedHand(found.meta.values,
+                                      *layout,
+                                      storage->width(Stream::kAngles),
+                                      storage->width(Stream::kTemperatures));
   recovery.profile.emplace(std::move(info), std::move(hand), std::move(storage));
   if (recovery.whole() && !recovery.beingWritten)
     recovery.damagedRows += damagedSeconds(found, *recovery.profile, recovery.unfinished, progress);

@@ -8,6 +8,7 @@
 
 #include "palpate/core/error.h"
 #include "palpate/core/progress.h"
+#include "palpate/model/hand_file.h"
 #include "palpate/recording/palpate_blocks.h"
 #include "palpate/recording/palpate_schema.h"
 
@@ -108,7 +109,7 @@ void writeAll(const Profile& profile,
   if (!profile.info().firmware.empty()) meta["firmware"] = profile.info().firmware;
   if (!profile.info().sensorRevision.empty())
     meta["sensor_revision"] = profile.info().sensorRevision;
-  meta["hand"] = profile.hand().name;
+  meta.merge(handMeta(profile.hand()));
   PalpateWriterOptions options;
   options.synced = false;                // nobody sees the file before it is whole and synced
   options.commitIntervalUs = INT64_MAX;  // full blocks
