@@ -118,6 +118,8 @@ class GeometryBuilder {
         follows = next->second;
         if (const auto known = drives_.find(follows->name); known != drives_.end()) {
           drive.axis = known->second.axis;
+          drive.offset += drive.factor * known->second.offset;
+          drive.factor *= known->second.factor;
           break;
         }
         if (follows->mimics.empty()) break;
