@@ -125,6 +125,12 @@ int connectWithin(int fd, const addrinfo& address, TcpChannelSteadyClock::time_p
 TcpChannel::TcpChannel(std::string name, FileDescriptor fd)
     : DescriptorChannel(std::move(name), fd.get(), true), fd_(std::move(fd)) {}
 
+std::unique_ptr<ByteChannel> TcpChannel::accepted(const std::string& name,
+                                                  FileDescriptor connection) {
+  tune(connection.get());
+  return std::unique_ptr<ByteChannel>(new TcpChannel(name, std::move(connection)));
+}
+
 std::unique_ptr<ByteChannel> TcpChannel::open(const std::string& name,
                                               milliseconds connectTimeout) {
   const auto deadline = TcpChannelSteadyClock::now() + connectTimeout;

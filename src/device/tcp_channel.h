@@ -14,6 +14,8 @@ class TcpChannel final : public DescriptorChannel {
   // allowed).
   static std::unique_ptr<ByteChannel> open(const std::string& name,
                                            std::chrono::milliseconds connectTimeout);
+  // Makes a channel of a connection that the other side opened.
+  static std::unique_ptr<ByteChannel> accepted(const std::string& name, FileDescriptor connection);
   bool isNetwork() const noexcept override { return true; }
 
  private:

@@ -29,6 +29,9 @@ class ByteChannel {
   // True for a network connection: the SDH-2 then sends and expects binary records without a
   // checksum.
   virtual bool isNetwork() const noexcept { return false; }
+  // True when each read() returns one datagram at most, from its beginning; a buffer of 64 KiB
+  // takes any.
+  virtual bool isDatagrams() const noexcept { return false; }
 };
 
 struct ChannelOptions {

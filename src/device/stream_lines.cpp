@@ -1,0 +1,382 @@
+#include "palpate/device/stream_lines.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <utility>
+
+#include "palpate/core/error.h"
+#include "palpate/core/escaped_line.h"
+#include "palpate/core/json.h"
+#include "palpate/core/number_text.h"
+
+namespace palpate {
+namespace {
+
+constexpr std::size_t kShortestLimit = 4096;
+constexpr std::size_t kBytesPerNumber = 25;
+// Times are exact in a double up to here: 285 years.
+constexpr double kMostDeviceUs = 9.0e15;
+
+bool isBlank(char c) { return c == ' ' || c == '\t'; }
+bool isSeparator(char c) { return c == ',' || c == ';' || isBlank(c); }
+bool isLetter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; }
+
+const char* skipBlanks(const char* at, const char* end) {
+  while (at != end && isBlank(*at)) ++at;
+  return at;
+}
+
+std::string_view tokenAt(const char* at, const char* end) {
+  const char* stop = at;
+  while (stop != end && !isSeparator(*stop)) ++stop;
+  return {at, static_cast<std::size_t>(stop - at)};
+}
+
+// True for the words that stand for values that are no finite number: they are not names.
+bool isNonFinite(std::string_view word) {
+  double value = 0.0;
+  const auto [end, failure] = std::from_chars(word.data(), word.data() + word.size(), value);
+  return failure == std::errc() && end == word.data() + word.size();
+}
+
+// Reads a number at `at`; returns its end, or null when there is none.
+const char* readNumber(const char* at, const char* end, double& value) {
+  // Most values are whole numbers of few digits.
+  const char* digit = at;
+  std::uint32_t whole = 0;
+  while (digit != end && digit - at < 9 && *digit >= '0' && *digit <= '9')
+    whole = whole * 10 + static_cast<std::uint32_t>(*digit++ - '0');
+  if (digit != at && (digit == end || isSeparator(*digit))) {
+    value = whole;
+    return digit;
+  }
+  if (at != end && *at == '+' && end - at > 1 && at[1] != '-') ++at;
+  const auto [stop, failure] = std::from_chars(at, end, value);
+  if (failure == std::errc::result_out_of_range) {
+    // Too small is 0, too large is infinite, which is refused by the range of values.
+    const std::string_view text(at, static_cast<std::size_t>(stop - at));
+    const std::size_t exponent = text.find_first_of("eE");
+    const bool tiny = exponent != std::string_view::npos && exponent + 1 < text.size() &&
+                      text[exponent + 1] == '-';
+    value = tiny ? 0.0 : std::numeric_limits<double>::infinity();
+  } else if (failure != std::errc()) {
+    return nullptr;
+  }
+  return stop == end || isSeparator(*stop) ? stop : nullptr;
+}
+
+std::string separatorName(char separator) {
+  if (separator == ',') return "commas";
+  return separator == ';' ? "semicolons" : "blanks";
+}
+
+double unitUs(StreamTime unit, std::string_view written) {
+  switch (unit) {
+    case StreamTime::kSeconds:
+      return 1e6;
+    case StreamTime::kMilliseconds:
+      return 1e3;
+    case StreamTime::kMicroseconds:
+      return 1.0;
+    case StreamTime::kAuto:
+    case StreamTime::kNone:
+      break;
+  }
+  return written.find_first_of(".eE") == std::string_view::npos ? 1e3 : 1e6;
+}
+
+std::optional<std::uint32_t> jsonSequence(const Json& number) {
+  if (!number.isNumber()) return std::nullopt;
+  return static_cast<std::uint32_t>(static_cast<std::uint64_t>(number.asInteger()));
+}
+
+std::optional<std::int64_t> jsonTimeUs(double us) {
+  if (!(std::abs(us) <= kMostDeviceUs)) throw Error("its time is out of range");
+  return std::llround(us);
+}
+
+// Reads the frame of a schunk_sdh/TactileSensor into `values`, one per place.
+void readTactileMatrices(const Json& matrices,
+                         const SensorLayout& layout,
+                         std::vector<float>& values) {
+  if (!matrices.isArray()) throw Error("tactile_matrix is no list");
+  if (matrices.size() != layout.numMatrices())
+    throw Error(std::to_string(matrices.size()) + " matrices instead of " +
+                std::to_string(layout.numMatrices()));
+  std::vector<bool> seen(layout.numMatrices());
+  for (std::size_t i = 0; i < matrices.size(); ++i) {
+    const Json matrix = matrices.at(i);
+    const std::int64_t id = matrix.at("matrix_id").asInteger();
+    if (id < 0 || static_cast<std::size_t>(id) >= layout.numMatrices())
+      throw Error("there is no matrix " + std::to_string(id));
+    const auto index = static_cast<std::size_t>(id);
+    if (seen[index]) throw Error("matrix " + std::to_string(id) + " is there twice");
+    seen[index] = true;
+    const MatrixLayout& known = layout.matrix(index);
+    const std::int64_t rows = matrix.at("cells_y").asInteger();
+    const std::int64_t columns = matrix.at("cells_x").asInteger();
+    const Json array = matrix.at("tactile_array");
+    if (rows != known.rows || columns != known.columns || array.size() != known.numCells())
+      throw Error("matrix " + std::to_string(id) + " has " + std::to_string(rows) + " x " +
+                  std::to_string(columns) + " places and " + counted(array.size(), "value") +
+                  " instead of " + std::to_string(known.rows) + " x " +
+                  std::to_string(known.columns));
+    for (std::size_t k = 0; k < known.numCells(); ++k)
+      values[layout.offset(index) + k] = static_cast<float>(array.at(k).asDouble());
+  }
+}
+
+}  // namespace
+
+struct StreamLineParser::Head {
+  StreamItemKind kind = StreamItemKind::kFrame;
+  std::optional<std::uint32_t> sequence;
+  const char* values = nullptr;  // where the numbers begin
+};
+
+StreamLineParser::StreamLineParser(StreamShape shape, const StreamLineOptions& options)
+    : shape_(std::move(shape)),
+      options_(options),
+      longestLine_(kShortestLimit + kBytesPerNumber * (shape_.numPlaces() + shape_.numAxes() +
+                                                       shape_.numTemperatures())),
+      skipping_(options.startsInside),
+      numbers_(std::max({shape_.numPlaces(), shape_.numAxes(), shape_.numTemperatures()}) + 1),
+      values_(shape_.numPlaces()) {}
+
+void StreamLineParser::push(std::span<const std::byte> bytes, const Sink& sink) {
+  const char* at = reinterpret_cast<const char*>(bytes.data());
+  const char* const end = at + bytes.size();
+  while (at != end) {
+    const auto* stop =
+        static_cast<const char*>(std::memchr(at, '\n', static_cast<std::size_t>(end - at)));
+    const char* const pieceEnd = stop != nullptr ? stop : end;
+    const auto piece = static_cast<std::size_t>(pieceEnd - at);
+    const std::size_t withEnd = piece + (stop != nullptr ? 1 : 0);
+    if (!skipping_ && pending_.size() + piece > longestLine_) {
+      refuse(stats_.lines + 1,
+             "longer than " + std::to_string(longestLine_) + " bytes: no line of this hand is");
+      stats_.skippedBytes += pending_.size();
+      pending_.clear();
+      skipping_ = true;
+    }
+    if (skipping_) {
+      stats_.skippedBytes += withEnd;
+      if (stop != nullptr) {
+        ++stats_.lines;
+        skipping_ = false;
+      }
+    } else if (stop == nullptr) {
+      pending_.append(at, piece);
+    } else if (pending_.empty()) {
+      stats_.lineBytes += withEnd;
+      takeLine({at, piece}, sink);
+    } else {
+      pending_.append(at, piece);
+      stats_.lineBytes += pending_.size() + 1;
+      takeLine(pending_, sink);
+      pending_.clear();
+    }
+    at += withEnd;
+  }
+}
+
+void StreamLineParser::endLine(const Sink& sink) {
+  if (skipping_) {
+    ++stats_.lines;
+    skipping_ = false;
+  } else if (!pending_.empty()) {
+    stats_.lineBytes += pending_.size();
+    takeLine(pending_, sink);
+    pending_.clear();
+  }
+}
+
+void StreamLineParser::takeLine(std::string_view line, const Sink& sink) {
+  ++stats_.lines;
+  line = trimmed(line, " \t\r");
+  if (line.empty() || line.front() == '#') return;
+  if (line.front() == '{') {
+    if (options_.acceptJson)
+      readJson(line, sink);
+    else
+      refuse("this is JSON, and lines of numbers are expected");
+  } else if (options_.acceptNumbers) {
+    readNumbers(line, sink);
+  } else {
+    refuse(inQuotes(line) + " is no JSON object");
+  }
+}
+
+void StreamLineParser::refuse(std::uint64_t line, const std::string& why) {
+  ++stats_.refused;
+  lastFault_ = "line " + std::to_string(line) + ": " + why;
+}
+
+bool StreamLineParser::readHead(std::string_view line, Head& head) {
+  const char* at = line.data();
+  const char* const end = line.data() + line.size();
+  std::string_view name = tokenAt(at, end);
+  head.values = at;
+  if (!isLetter(*at) || isNonFinite(name)) return true;
+  at = skipBlanks(at + name.size(), end);
+  if (at != end && (*at == ',' || *at == ';')) at = skipBlanks(at + 1, end);
+  head.values = at;
+  if (name.ends_with(':')) name.remove_suffix(1);
+  if (const std::size_t mark = name.find('#'); mark != std::string_view::npos) {
+    const auto number = parseInteger(name.substr(mark + 1));
+    if (!number || *number < 0) {
+      refuse(inQuotes(name) + " has no number after '#'");
+      return false;
+    }
+    head.sequence = static_cast<std::uint32_t>(static_cast<std::uint64_t>(*number));
+    name = name.substr(0, mark);
+  }
+  if (name == "angles") head.kind = StreamItemKind::kAngles;
+  if (name == "temperatures") head.kind = StreamItemKind::kTemperatures;
+  return true;
+}
+
+// Reads all numbers and keeps as many as an item can have. Returns how many there are.
+std::size_t StreamLineParser::readValues(const char* at, const char* end, bool& failed) {
+  const auto refuseValue = [&](const std::string& why) {
+    refuse(why);
+    failed = true;
+  };
+  std::size_t count = 0;
+  char lineSeparator = '\0';
+  while (at != end) {
+    double value = 0.0;
+    const char* stop = readNumber(at, end, value);
+    if (stop == nullptr) {
+      const std::string_view token = tokenAt(at, end);
+      refuseValue("value " + std::to_string(count + 1) +
+                  (token.empty() ? " is empty" : " is " + inQuotes(token) + ", not a number"));
+      return count;
+    }
+    if (count == 0) firstNumber_ = {at, static_cast<std::size_t>(stop - at)};
+    if (count < numbers_.size()) numbers_[count] = value;
+    ++count;
+    char separator = ' ';
+    at = skipBlanks(stop, end);
+    if (at == end) break;
+    if (*at == ',' || *at == ';') separator = *at++;
+    at = skipBlanks(at, end);
+    if (lineSeparator == '\0') lineSeparator = separator;
+    if (separator != lineSeparator) {
+      refuseValue("numbers are separated by " + separatorName(lineSeparator) + " and by " +
+                  separatorName(separator) +
+                  "; send one kind of separator, and decimal points instead of decimal commas");
+      return count;
+    }
+  }
+  return count;
+}
+
+void StreamLineParser::readNumbers(std::string_view line, const Sink& sink) {
+  Head head;
+  if (!readHead(line, head)) return;
+  bool failed = false;
+  const std::size_t count = readValues(head.values, line.data() + line.size(), failed);
+  if (!failed) deliver(head, count, sink);
+}
+
+void StreamLineParser::deliver(const Head& head, std::size_t count, const Sink& sink) {
+  const bool mustHaveTime =
+      options_.time != StreamTime::kAuto && options_.time != StreamTime::kNone;
+  bool hasTime = mustHaveTime;
+  if (options_.time == StreamTime::kAuto)
+    hasTime = !shape_.fits(head.kind, count) && count > 0 && shape_.fits(head.kind, count - 1);
+  const std::size_t given = count - (hasTime && count > 0 ? 1 : 0);
+  if (!shape_.fits(head.kind, given) || (mustHaveTime && count == 0)) {
+    std::string why = counted(count, "number") + " instead of " + shape_.expected(head.kind);
+    if (mustHaveTime) why += " and a time";
+    if (shape_.fits(head.kind, count / 2) && count % 2 == 0)
+      why += "; if the values have decimal commas, send decimal points";
+    return refuse(why);
+  }
+  StreamItem item;
+  item.kind = head.kind;
+  item.sequence = head.sequence;
+  if (hasTime) {
+    const double us = numbers_[0] * unitUs(options_.time, firstNumber_);
+    if (!(std::abs(us) <= kMostDeviceUs))
+      return refuse("the time " + inQuotes(firstNumber_) + " is out of range");
+    item.deviceUs = std::llround(us);
+  }
+  const std::span<const double> numbers = std::span(numbers_).subspan(hasTime ? 1 : 0, given);
+  std::string fault;
+  if (head.kind == StreamItemKind::kFrame) {
+    std::transform(numbers.begin(), numbers.end(), values_.begin(), [](double value) {
+      return static_cast<float>(value);
+    });
+    fault = shape_.arrange(values_, given);
+    item.values = values_;
+  } else {
+    fault = shape_.check(numbers);
+    item.numbers = numbers;
+  }
+  if (!fault.empty()) return refuse(fault);
+  ++stats_.items;
+  sink(item);
+}
+
+void StreamLineParser::readJson(std::string_view line, const Sink& sink) {
+  std::vector<StreamItem> items;
+  std::vector<double> angles;
+  std::vector<double> temperatures;
+  std::string description;
+  try {
+    const Json object = Json::parse(line);
+    const auto addNumbers = [&](const char* key, StreamItemKind kind, std::vector<double>& kept) {
+      if (!object.contains(key)) return;
+      const Json list = object.at(key);
+      for (std::size_t i = 0; i < list.size(); ++i) kept.push_back(list.at(i).asDouble());
+      if (!shape_.fits(kind, kept.size()))
+        throw Error(std::string(key) + ": " + counted(kept.size(), "number") + " instead of " +
+                    shape_.expected(kind));
+      StreamItem item;
+      item.kind = kind;
+      item.numbers = kept;
+      items.push_back(item);
+    };
+    addNumbers("angles_deg", StreamItemKind::kAngles, angles);
+    addNumbers("temperatures_degc", StreamItemKind::kTemperatures, temperatures);
+    if (object.contains("description")) {
+      description = object.at("description").text(-1);
+      StreamItem item;
+      item.kind = StreamItemKind::kDescription;
+      item.text = description;
+      items.push_back(item);
+    }
+    if (object.contains("tactile_matrix")) {
+      readTactileMatrices(object.at("tactile_matrix"), shape_.layout(), values_);
+      if (const std::string fault = shape_.arrange(values_, values_.size()); !fault.empty())
+        throw Error(fault);
+      StreamItem item;
+      item.values = values_;
+      const Json header = object.at("header");
+      item.sequence = jsonSequence(header.at("seq"));
+      const Json stamp = header.at("stamp");
+      if (stamp.contains("secs"))
+        item.deviceUs =
+            jsonTimeUs(1e6 * stamp.at("secs").asDouble() +
+                       1e-3 * (stamp.contains("nsecs") ? stamp.at("nsecs").asDouble() : 0.0));
+      items.push_back(item);
+    }
+    if (items.empty())
+      throw Error(
+          "it has none of tactile_matrix, angles_deg, temperatures_degc and description: nothing "
+          "of it can be shown");
+  } catch (const Error& error) {
+    return refuse(error.what());
+  }
+  for (const StreamItem& item : items) {
+    ++stats_.items;
+    sink(item);
+  }
+}
+
+}  // namespace palpate

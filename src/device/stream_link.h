@@ -1,0 +1,128 @@
+// Thread of a StreamDevice: reads lines or packets, delivers frames, counts losses, notices
+// silence.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <palpate/device/stream_device.h>
+#include <palpate/device/stream_lines.h>
+#include <palpate/device/stream_packets.h>
+#include <palpate/model/hand_description.h>
+
+#include "device/port_link.h"
+#include "device/stream_clock.h"
+
+namespace palpate {
+
+struct StreamLinkOptions {
+  bool startsInside = false;  // see StreamLineOptions
+  // True for standard input: its last line may lack its end, and its frames may arrive faster than
+  // they were measured.
+  bool isInput = false;
+};
+
+class StreamLink : public PortLink {
+ public:
+  StreamLink(const StreamDeviceOptions& device,
+             Open open,
+             const StreamLinkOptions& options,
+             const HostTime& time,
+             const Clock& clock);
+
+  // May be called from any thread.
+  StreamDescription description() const;
+  std::string lastFault() const;
+
+ protected:
+  void connect(ByteChannel& channel) override;
+  void work() override;
+  void disconnected() override;
+  void ended() override;
+  void forget() override;
+  void closing() override {}
+  CommandAnswer execute(const DeviceCommand&) override { return {}; }
+
+ private:
+  // Counts over all connections of a session.
+  struct Counts {
+    std::uint64_t badChecksums = 0;
+    std::uint64_t refused = 0;
+    std::uint64_t skippedBytes = 0;
+  };
+
+  void parse(std::span<const std::byte> bytes, bool isDatagram);
+  void endOfBytes();
+  void take(const StreamItem& item);
+  void takeFrame(const StreamItem& item);
+  void takeDescription(std::string_view text);
+  // Number of frames missing before this one; empty when it isn't known. Sets `late` when the frame
+  // was overtaken by later ones.
+  std::optional<std::uint64_t> missingBefore(const StreamItem& item,
+                                             std::int64_t monotonicUs,
+                                             bool& late);
+  std::optional<std::int64_t> deviceTime(const StreamItem& item, std::int64_t monotonicUs);
+  void measureRate(std::int64_t monotonicUs);
+  void measureAge(std::int64_t hostUs, std::int64_t deviceUs);
+  void endGap(std::int64_t nowUs, std::optional<std::uint64_t> missing, bool frameReceived);
+  Counts countsOfConnection() const;
+  std::string faultOfConnection() const;
+  void updateCounts();
+  void watchFaults();
+  void watchSilence();
+
+  const HandDescription hand_;
+  const StreamFormat format_;
+  const StreamLineOptions lineOptions_;
+  const StreamLinkOptions options_;
+  const StreamShape shape_;
+  std::vector<std::byte> buffer_;
+  ByteChannel* channel_ = nullptr;
+
+  // Of this connection; null when the form is not read, or another one was found.
+  std::unique_ptr<StreamLineParser> lines_;
+  std::unique_ptr<StreamPacketParser> packets_;
+  bool formatFound_ = false;
+
+  // Read by other threads, requires mutex_.
+  StreamDescription description_;
+  std::string lastFault_;
+
+  // State of one session, from begin() to finish().
+  struct Session {
+    StreamClock clock;
+    bool speedReported = false;
+    std::optional<std::uint32_t> lastSequence;
+    std::optional<std::uint32_t> lateSequence;
+    double periodUs = 0.0;  // usual time between two frames; 0: not known
+    std::uint64_t bytes = 0;
+    std::uint64_t frames = 0;
+    // Items that the parsers accepted and this link refused.
+    std::uint64_t refused = 0;
+    std::string refusedWhy;
+    Counts before;  // of earlier connections
+
+    std::int64_t lastStampUs = 0;  // host times of the newest items
+    std::int64_t lastAnglesUs = 0;
+    std::int64_t lastTemperaturesUs = 0;
+    std::int64_t lastFrameUs = 0;  // monotonic time of the newest frame, or of the connection
+    bool frameSinceConnect = false;
+    bool silent = false;
+    std::optional<std::int64_t> gapFromUs;  // host time of the last frame before the silence
+
+    std::uint64_t reportedRefused = 0;
+    std::int64_t faultUs = 0;             // monotonic time of the last fault
+    std::optional<std::int64_t> alarmUs;  // monotonic time of the last alarm about faults
+
+    // As in TactileLink: minimum of (host time - device time) in this half minute and the last one.
+    std::array<std::optional<std::int64_t>, 2> minOffsetUs;
+    std::int64_t offsetWindowUs = 0;
+  };
+  Session session_;
+};
+
+}  // namespace palpate

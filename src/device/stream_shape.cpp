@@ -1,0 +1,134 @@
+#include "palpate/device/stream_shape.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "palpate/core/error.h"
+#include "palpate/core/escaped_line.h"
+#include "palpate/core/json.h"
+#include "palpate/core/number_text.h"
+
+namespace palpate {
+namespace {
+
+constexpr std::size_t kLongestDescribedText = 200;
+
+std::string describedText(const Json& object, const char* key) {
+  if (!object.contains(key)) return {};
+  return std::string(beginningOf(object.at(key).asString(), kLongestDescribedText));
+}
+
+std::string sizeText(std::int64_t rows, std::int64_t columns) {
+  return std::to_string(rows) + " x " + std::to_string(columns);
+}
+
+std::string mismatchOf(const Json& matrices, const SensorLayout& layout) {
+  if (!matrices.isArray()) throw Error("matrices is no list");
+  if (matrices.size() != layout.numMatrices())
+    return "the sender has " + std::to_string(matrices.size()) + " matrices, the chosen hand " +
+           std::to_string(layout.numMatrices());
+  for (std::size_t m = 0; m < layout.numMatrices(); ++m) {
+    const MatrixLayout& matrix = layout.matrix(m);
+    const std::int64_t rows = matrices.at(m).at("rows").asInteger();
+    const std::int64_t columns = matrices.at(m).at("columns").asInteger();
+    if (rows != matrix.rows || columns != matrix.columns)
+      return "matrix " + std::to_string(m) + " of the sender has " + sizeText(rows, columns) +
+             " places, that of the chosen hand " + sizeText(matrix.rows, matrix.columns);
+  }
+  return {};
+}
+
+}  // namespace
+
+StreamShape::StreamShape(const HandDescription& hand)
+    : layout_(hand.layout),
+      numAxes_(hand.axes.size()),
+      numTemperatures_(hand.temperatureSensors.size()),
+      fullScale_(hand.maximumCounts),
+      unit_(hand.unit) {
+  if (!layout_ || layout_->numCells() == 0)
+    throw std::invalid_argument("StreamShape: the hand has no matrices");
+  if (!(fullScale_ > 0.0F) || !std::isfinite(fullScale_))
+    throw std::invalid_argument("StreamShape: the full scale of the hand is " +
+                                numberText(fullScale_) + ", not above 0");
+  numPlaces_ = layout_->numCells();
+  numTaxels_ = layout_->numTaxels();
+  if (numTaxels_ == numPlaces_) return;
+  for (const MatrixLayout& matrix : layout_->matrices())
+    exists_.insert(exists_.end(), matrix.staticMask.begin(), matrix.staticMask.end());
+}
+
+bool StreamShape::fits(StreamItemKind kind, std::size_t count) const noexcept {
+  switch (kind) {
+    case StreamItemKind::kFrame:
+      return count > 0 && (count == numPlaces_ || count == numTaxels_);
+    case StreamItemKind::kAngles:
+      return count > 0 && count == numAxes_;
+    case StreamItemKind::kTemperatures:
+      return count > 0 && count == numTemperatures_;
+    case StreamItemKind::kDescription:
+      break;
+  }
+  return false;
+}
+
+std::string StreamShape::expected(StreamItemKind kind) const {
+  if (kind == StreamItemKind::kAngles)
+    return numAxes_ == 0 ? "none: the hand has no axes" : std::to_string(numAxes_);
+  if (kind == StreamItemKind::kTemperatures)
+    return numTemperatures_ == 0 ? "none: the hand has no temperature sensors"
+                                 : std::to_string(numTemperatures_);
+  if (numTaxels_ == numPlaces_) return std::to_string(numPlaces_);
+  return std::to_string(numPlaces_) + " (places) or " + std::to_string(numTaxels_) + " (taxels)";
+}
+
+std::string StreamShape::arrange(std::span<float> values, std::size_t count) const {
+  if (values.size() != numPlaces_ || !fits(StreamItemKind::kFrame, count))
+    throw std::invalid_argument("StreamShape::arrange: wrong number of values");
+  const auto isGood = [this](float value) { return value >= 0.0F && value <= fullScale_; };
+  // Without an early exit, so that the compiler makes vector instructions of it.
+  bool allGood = true;
+  for (std::size_t i = 0; i < count; ++i) allGood &= isGood(values[i]);
+  if (!allGood) {
+    for (std::size_t i = 0; i < count; ++i) {
+      // Whatever is sent for a place without a taxel is not used.
+      if (isGood(values[i]) || (count == numPlaces_ && !exists_.empty() && exists_[i] == 0))
+        continue;
+      const std::string value = "value " + std::to_string(i + 1) + " is " + numberText(values[i]);
+      return std::isnan(values[i]) ? value
+                                   : value + ", not in 0.." + numberText(fullScale_) + " " + unit_;
+    }
+  }
+  if (exists_.empty()) return {};
+  // From the end, since a value moves only towards the end.
+  std::size_t next = count;
+  for (std::size_t i = numPlaces_; i-- > 0;) {
+    if (exists_[i] == 0)
+      values[i] = 0.0F;
+    else if (count != numPlaces_)
+      values[i] = values[--next];
+  }
+  return {};
+}
+
+std::string StreamShape::check(std::span<const double> numbers) const {
+  for (std::size_t i = 0; i < numbers.size(); ++i)
+    if (!std::isfinite(numbers[i]))
+      return "value " + std::to_string(i + 1) + " is " + numberText(numbers[i]);
+  return {};
+}
+
+StreamDescription readStreamDescription(std::string_view text, const StreamShape& shape) {
+  const Json object = Json::parse(text);
+  if (!object.isObject()) throw Error("the description is no JSON object");
+  StreamDescription described{describedText(object, "name"),
+                              describedText(object, "serial"),
+                              describedText(object, "firmware"),
+                              {}};
+  if (object.contains("matrices"))
+    described.mismatch = mismatchOf(object.at("matrices"), shape.layout());
+  return described;
+}
+
+}  // namespace palpate

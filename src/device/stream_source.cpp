@@ -1,0 +1,214 @@
+#include "device/stream_source.h"
+
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <stdexcept>
+#include <system_error>
+#include <utility>
+
+#include <arpa/inet.h>
+#include <fcntl.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include "palpate/core/error.h"
+#include "palpate/core/number_text.h"
+#include "palpate/device/port_list.h"
+
+#include "device/descriptor_channel.h"
+#include "device/tcp_channel.h"
+
+namespace palpate {
+namespace {
+
+constexpr std::string_view kListenPrefix = "listen:";
+constexpr std::string_view kUdpPrefix = "udp:";
+constexpr int kUdpBufferBytes = 1 << 22;
+
+// A socket address of either family, of numbers.
+struct SocketAddress {
+  sockaddr_storage storage{};
+  socklen_t size = 0;
+
+  const sockaddr* get() const { return reinterpret_cast<const sockaddr*>(&storage); }
+  sockaddr* get() { return reinterpret_cast<sockaddr*>(&storage); }
+};
+
+std::optional<SocketAddress> socketAddress(const std::string& address, std::uint16_t port) {
+  SocketAddress place;
+  auto* v4 = reinterpret_cast<sockaddr_in*>(&place.storage);
+  if (::inet_pton(AF_INET, address.c_str(), &v4->sin_addr) == 1) {
+    v4->sin_family = AF_INET;
+    v4->sin_port = htons(port);
+    place.size = sizeof *v4;
+    return place;
+  }
+  auto* v6 = reinterpret_cast<sockaddr_in6*>(&place.storage);
+  if (::inet_pton(AF_INET6, address.c_str(), &v6->sin6_addr) != 1) return std::nullopt;
+  v6->sin6_family = AF_INET6;
+  v6->sin6_port = htons(port);
+  place.size = sizeof *v6;
+  return place;
+}
+
+class UdpChannel final : public DescriptorChannel {
+ public:
+  // No socket for the base class, to which an empty datagram would be the end.
+  UdpChannel(std::string name, FileDescriptor fd)
+      : DescriptorChannel(std::move(name), fd.get(), false), fd_(std::move(fd)) {}
+  bool isNetwork() const noexcept override { return true; }
+  bool isDatagrams() const noexcept override { return true; }
+
+ private:
+  FileDescriptor fd_;
+};
+
+class InputChannel final : public DescriptorChannel {
+ public:
+  // A socket for the base class, because a read of no bytes is the end.
+  InputChannel(std::string name, FileDescriptor fd)
+      : DescriptorChannel(std::move(name), fd.get(), true), fd_(std::move(fd)) {}
+  std::size_t read(std::span<std::byte> into, std::chrono::milliseconds timeout) override {
+    try {
+      return DescriptorChannel::read(into, timeout);
+    } catch (const DeviceError&) {
+      throw DeviceError(DeviceFault::kDisconnected, name(), "standard input has ended");
+    }
+  }
+
+ private:
+  FileDescriptor fd_;
+};
+
+}  // namespace
+
+StreamSource::StreamSource(std::string name, int baud) : name_(std::move(name)), baud_(baud) {
+  if (name_ == "-") {
+    kind_ = Kind::kInput;
+    return;
+  }
+  for (const auto& [prefix, kind] :
+       {std::pair{kListenPrefix, Kind::kListen}, std::pair{kUdpPrefix, Kind::kUdp}})
+    if (name_.starts_with(prefix)) kind_ = kind;
+  if (kind_ == Kind::kPort) return;
+  const std::string prefix(kind_ == Kind::kListen ? kListenPrefix : kUdpPrefix);
+  const std::string rest = name_.substr(prefix.size());
+  const std::size_t colon = rest.rfind(':');
+  const auto port = parseInteger(colon == std::string::npos ? rest : rest.substr(colon + 1));
+  address_ = colon == std::string::npos ? "127.0.0.1" : rest.substr(0, colon);
+  if (address_.size() > 2 && address_.front() == '[' && address_.back() == ']')
+    address_ = address_.substr(1, address_.size() - 2);
+  if (!port || *port < 0 || *port > 65'535 || !socketAddress(address_, 0))
+    throw std::invalid_argument("'" + name_ + "' is not " + prefix +
+                                "[ADDRESS:]PORT, for example " + prefix + "9871 or " + prefix +
+                                "0.0.0.0:9871; ADDRESS is numeric, PORT 0..65535 (0: a free one)");
+  port_ = static_cast<std::uint16_t>(*port);
+}
+
+bool StreamSource::isOpenToOthers() const noexcept {
+  if (kind_ != Kind::kListen && kind_ != Kind::kUdp) return false;
+  return !address_.starts_with("127.") && address_ != "::1";
+}
+
+std::optional<std::uint16_t> StreamSource::localPort() const {
+  const int port = localPort_;
+  return port == 0 ? std::nullopt : std::optional(static_cast<std::uint16_t>(port));
+}
+
+void StreamSource::close() {
+  listening_ = FileDescriptor();
+  localPort_ = 0;
+}
+
+std::string StreamSource::placeText() const {
+  const int port = localPort_;
+  if (port == 0) return {};
+  const std::string host =
+      address_.find(':') == std::string::npos ? address_ : "[" + address_ + "]";
+  return host + ":" + std::to_string(port);
+}
+
+std::unique_ptr<ByteChannel> StreamSource::open() {
+  switch (kind_) {
+    case Kind::kListen:
+      return acceptSender();
+    case Kind::kUdp:
+      return openUdp();
+    case Kind::kInput:
+      return openInput();
+    case Kind::kPort:
+      break;
+  }
+  return openPort();
+}
+
+std::unique_ptr<ByteChannel> StreamSource::openPort() {
+  // A replugged port may get another number, but its name under /dev/serial/by-id stays the same.
+  ChannelOptions options;
+  options.baud = baud_;
+  auto channel = openChannel(stableName_.empty() ? name_ : stableName_, options);
+  if (stableName_.empty()) stableName_ = stableNameOf(name_);
+  return channel;
+}
+
+std::unique_ptr<ByteChannel> StreamSource::openInput() {
+  if (std::exchange(inputOpened_, true)) {
+    ended_ = true;
+    throw DeviceError(DeviceFault::kDisconnected, name_, "standard input has ended");
+  }
+  FileDescriptor input(::fcntl(STDIN_FILENO, F_DUPFD_CLOEXEC, 0));
+  if (input.get() < 0) throw DeviceError(DeviceFault::kNotFound, name_, "standard input is closed");
+  return std::make_unique<InputChannel>(name_, std::move(input));
+}
+
+FileDescriptor StreamSource::boundSocket(int type) {
+  const SocketAddress place = socketAddress(address_, port_).value();
+  FileDescriptor fd(::socket(place.storage.ss_family, type | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
+  const int on = 1;
+  if (type == SOCK_STREAM)
+    ::setsockopt(fd.get(), SOL_SOCKET, SO_REUSEADDR, &on, sizeof on);
+  else
+    ::setsockopt(fd.get(), SOL_SOCKET, SO_RCVBUF, &kUdpBufferBytes, sizeof kUdpBufferBytes);
+  bool good = fd.get() >= 0 && ::bind(fd.get(), place.get(), place.size) == 0;
+  if (good && type == SOCK_STREAM) good = ::listen(fd.get(), 1) == 0;
+  if (!good) {
+    const int error = errno;
+    if (error == EADDRINUSE)
+      throw DeviceError(
+          DeviceFault::kBusy, name_, "another program uses this port; name another one");
+    if (error == EACCES)
+      throw DeviceError(
+          DeviceFault::kNoPermission, name_, "no permission for this port; name one above 1023");
+    if (error == EADDRNOTAVAIL)
+      throw DeviceError(
+          DeviceFault::kNotFound, name_, "this machine does not have the address " + address_);
+    throw DeviceError(DeviceFault::kNotFound,
+                      name_,
+                      "can't be opened (" + std::generic_category().message(error) + ")");
+  }
+  SocketAddress bound;
+  bound.size = sizeof bound.storage;
+  if (::getsockname(fd.get(), bound.get(), &bound.size) == 0)
+    localPort_ = ntohs(bound.storage.ss_family == AF_INET
+                           ? reinterpret_cast<const sockaddr_in*>(&bound.storage)->sin_port
+                           : reinterpret_cast<const sockaddr_in6*>(&bound.storage)->sin6_port);
+  return fd;
+}
+
+std::unique_ptr<ByteChannel> StreamSource::openUdp() {
+  return std::make_unique<UdpChannel>(name_, boundSocket(SOCK_DGRAM));
+}
+
+std::unique_ptr<ByteChannel> StreamSource::acceptSender() {
+  if (listening_.get() < 0) listening_ = boundSocket(SOCK_STREAM);
+  FileDescriptor sender(
+      ::accept4(listening_.get(), nullptr, nullptr, SOCK_NONBLOCK | SOCK_CLOEXEC));
+  if (sender.get() < 0)
+    throw DeviceError(
+        DeviceFault::kNotFound, name_, "no sender is connected; waiting at " + placeText());
+  return TcpChannel::accepted(name_, std::move(sender));
+}
+
+}  // namespace palpate
