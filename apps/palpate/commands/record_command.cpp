@@ -1,5 +1,5 @@
-// The command `palpate record --dsa PORT [--sdh PORT] -o OUT.palpate` records a hand without a
-// window.
+// The command `palpate record (--dsa PORT [--sdh PORT] | --stream SOURCE --hand NAME) -o
+// OUT.palpate` records a hand without a window.
 #include <algorithm>
 #include <csignal>
 #include <cstdio>
@@ -23,6 +23,7 @@
 #include "commands/commands.h"
 #include "commands/live_streams.h"
 #include "commands/remote_recording.h"
+#include "commands/stream_options.h"
 
 namespace palpate::commands {
 namespace {
@@ -105,8 +106,12 @@ void recordUntilDone(CaptureSession& session,
   constexpr int kShowEvery = 10;
   session.start();
   StatusLine status(quiet);
+  const StreamDevice* const stream = streamOf(session);
+  StreamNotice notice(stream, quiet);
   for (int look = 0; session.recording(); ++look) {
     if (interruption.waitForSignal(kLookMs)) return;
+    notice.show();
+    if (stream != nullptr && stream->finished()) return;
     const RecorderStatus recorder = session.recorderStatus();
     if (recorder.state == RecorderStatus::State::kWaiting && recorder.elapsedS >= firstFrameS &&
         !session.health().frames.ageMs)
@@ -116,9 +121,11 @@ void recordUntilDone(CaptureSession& session,
 }
 
 // Why no frame arrived, and what the user can do.
-std::string nothingText(const DeviceStatus& device, const std::string& port) {
+std::string nothingText(const DeviceStatus& device, const std::string& port, bool isStream) {
   const PortStatus& tactile = device.tactile;
-  if (!tactile.message.empty()) return port + ": no frame came: " + tactile.message;
+  if (!tactile.message.empty())
+    return port + ": no frame came: " + (isStream ? withoutPort(tactile) : tactile.message);
+  if (isStream) return port + ": no frame came; is the sender running?";
   return port +
          ": no frame came; is the hand switched on, and this its tactile port? ('palpate ports' "
          "shows it)";
@@ -164,55 +171,78 @@ std::string lineText(const RecordingReport& report, const DeviceStatus& device) 
          counted(static_cast<std::uint64_t>(report.gaps), "gap");
 }
 
+// What a stream sent that is not in the recording: ", 3 refused (the last: line 812: ..)".
+std::string refusedText(const CaptureSession& session, const DeviceStatus& device) {
+  const StreamDevice* const stream = streamOf(session);
+  if (stream == nullptr || device.tactile.suspect == 0) return {};
+  return ", " + std::to_string(device.tactile.suspect) +
+         " refused (the last: " + escapedLine(stream->lastFault()) + ")";
+}
+
+std::unique_ptr<Device> recordedDevice(const CommandLine& given) {
+  if (given.has("stream")) return streamSourceOf(given);
+  LiveHandOptions hand;
+  hand.dsaPort = given.text("dsa").value();
+  hand.sdhPort = given.text("sdh").value_or("");
+  return std::make_unique<LiveHand>(std::move(hand));
+}
+
+CommandSpec recordSpec() {
+  CommandSpec spec{
+      .synopsis =
+          "palpate record (--dsa PORT [--sdh PORT] | --stream SOURCE --hand NAME|FOLDER) -o "
+          "OUT.palpate [--duration S] [--remote] ..",
+      .purpose =
+          "Records a hand until Ctrl-C, or for S seconds from the first frame. What came is on "
+          "disk within\n150 ms; OUT is written from the first frame on and never replaced. PORT: "
+          "a "
+          "serial device, a\n/dev/serial/by-id name, a pty, or tcp:HOST:PORT. OUT may hold "
+          "{date}, "
+          "{time}, {operator},\n{object}, {run} (next free number). With --remote nothing is "
+          "recorded "
+          "until it is asked for; OUT is\nthen a folder, or the template of names in one. Exit "
+          "code 3: something is missing in a recording.",
+      .options = {{"dsa", "PORT", "tactile controller"},
+                  {"sdh", "PORT", "motion controller: angles and temperatures"},
+                  {"output,o", "OUT.palpate", "where to record"},
+                  {"duration", "S", "stop after so many seconds from the first frame"},
+                  {"wait", "S", "give up when no frame comes within so many seconds, default 15"},
+                  {"operator", "NAME", "who records"},
+                  {"object", "NAME", "what is grasped"},
+                  {"run", "TEXT", "which run"},
+                  {"notes", "TEXT", "any other notes"},
+                  {"split-minutes", "M", "a new file after M minutes: NAME_002.palpate, .."},
+                  {"split-mb", "N", "a new file at about N MB"},
+                  remoteOption(),
+                  socketOption(),
+                  {"to", "STREAM", "signals or tactile, live to other programs: 'stream --help'"},
+                  {"calibration", "C.json", "with --to signals: also pressures and forces"},
+                  {"json", "", "report as JSON"}},
+      .example = "palpate record --dsa /dev/ttyUSB0 --sdh /dev/ttyUSB1 -o grasp.palpate",
+      .maxArguments = 0};
+  const std::vector<OptionSpec> stream = streamSourceOptions();
+  spec.options.insert(spec.options.begin() + 2, stream.begin(), stream.end());
+  return spec;
+}
+
 }  // namespace
 
 int recordCommand(const Arguments& words) {
-  const CommandLine given(
-      {.synopsis =
-           "palpate record --dsa PORT [--sdh PORT] -o OUT.palpate [--duration S] [--remote] ..",
-       .purpose =
-           "Records a hand until Ctrl-C, or for S seconds from the first frame. What came is on "
-           "disk within\n150 ms; OUT is written from the first frame on and never replaced. PORT: "
-           "a "
-           "serial device, a\n/dev/serial/by-id name, a pty, or tcp:HOST:PORT. OUT may hold "
-           "{date}, "
-           "{time}, {operator},\n{object}, {run} (next free number). With --remote nothing is "
-           "recorded "
-           "until it is asked for; OUT is\nthen a folder, or the template of names in one. Exit "
-           "code 3: something is missing in a recording.",
-       .options = {{"dsa", "PORT", "tactile controller"},
-                   {"sdh", "PORT", "motion controller: angles and temperatures"},
-                   {"output,o", "OUT.palpate", "where to record"},
-                   {"duration", "S", "stop after so many seconds from the first frame"},
-                   {"wait", "S", "give up when no frame comes within so many seconds, default 15"},
-                   {"operator", "NAME", "who records"},
-                   {"object", "NAME", "what is grasped"},
-                   {"run", "TEXT", "which run"},
-                   {"notes", "TEXT", "any other notes"},
-                   {"split-minutes", "M", "a new file after M minutes: NAME_002.palpate, .."},
-                   {"split-mb", "N", "a new file at about N MB"},
-                   remoteOption(),
-                   socketOption(),
-                   {"to", "STREAM", "signals or tactile, live to other programs: 'stream --help'"},
-                   {"calibration", "C.json", "with --to signals: also pressures and forces"},
-                   {"json", "", "report as JSON"}},
-       .example = "palpate record --dsa /dev/ttyUSB0 --sdh /dev/ttyUSB1 -o grasp.palpate",
-       .maxArguments = 0},
-      words);
+  const CommandLine given(recordSpec(), words);
   if (given.helpShown()) return kDone;
-  const auto dsa = given.text("dsa");
-  if (!dsa || dsa->empty()) throw UsageError("record needs --dsa PORT");
+  checkStreamSource(given);
+  const bool isStream = given.has("stream");
+  const auto port = given.text(isStream ? "stream" : "dsa");
+  if (!port || port->empty())
+    throw UsageError("record needs --dsa PORT, or --stream SOURCE and --hand NAME|FOLDER");
   if (!given.has("output")) throw UsageError("record needs -o OUT.palpate");
-  LiveHandOptions hand;
-  hand.dsaPort = *dsa;
-  hand.sdhPort = given.text("sdh").value_or("");
   const double firstFrameS = given.number("wait", 0.1, 1e6).value_or(15.0);
   if (given.has("socket") && !given.has("remote")) throw UsageError("--socket needs --remote");
   RecordingOptions options = recordingOptions(given);
   const std::vector<StreamTarget> targets = streamTargetsOf(given, "to");
   const auto calibration = streamCalibrationOf(given);
   Interruption interruption;  // must exist until the file is finished
-  CaptureSession session(std::make_unique<LiveHand>(std::move(hand)));
+  CaptureSession session(recordedDevice(given), streamCaptureOptions(given));
   std::unique_ptr<LiveStreams> streams;
   if (!targets.empty()) streams = std::make_unique<LiveStreams>(session, targets, calibration);
   if (given.has("remote")) return recordRemotely(given, session, interruption, std::move(options));
@@ -223,9 +253,10 @@ int recordCommand(const Arguments& words) {
   session.stop();
   const RecordingReport report = session.stopRecording();
   if (report.paths.empty())
-    throw Error(health.frames.ageMs ? report.message : nothingText(device, *dsa));
-  const std::string text =
-      given.has("json") ? recordJsonText(report, device) : lineText(report, device);
+    throw Error(health.frames.ageMs ? report.message : nothingText(device, *port, isStream));
+  const std::string text = given.has("json")
+                               ? recordJsonText(report, device)
+                               : lineText(report, device) + refusedText(session, device);
   if (given.has("json") || !given.quiet()) std::printf("%s\n", text.c_str());
   if (report.complete) return kDone;
   std::fprintf(stderr, "palpate: %s\n", escapedLine(report.message).c_str());

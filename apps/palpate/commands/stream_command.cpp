@@ -19,6 +19,7 @@
 #include "commands/command_line.h"
 #include "commands/commands.h"
 #include "commands/live_streams.h"
+#include "commands/stream_options.h"
 
 namespace palpate::commands {
 namespace {
@@ -60,8 +61,11 @@ class Lines {
 };
 
 CommandSpec streamSpec() {
-  return {
-      .synopsis = "palpate stream (--dsa PORT [--sdh PORT] | FILE) [--to STREAM].. [--lines]",
+  CommandSpec spec{
+      .synopsis =
+          "palpate stream (--dsa PORT [--sdh PORT] | --stream SOURCE --hand NAME|FOLDER | FILE) "
+          "[--to "
+          "STREAM].. [--lines]",
       .purpose =
           "Sends what a hand measures live to other programs on this machine: a JSON object per "
           "frame, as "
@@ -78,6 +82,9 @@ CommandSpec streamSpec() {
                   {"duration", "S", "stop after so many seconds"}},
       .example = "palpate stream --dsa /dev/ttyUSB0 --sdh /dev/ttyUSB1",
       .maxArguments = 1};
+  const std::vector<OptionSpec> stream = streamSourceOptions();
+  spec.options.insert(spec.options.begin() + 2, stream.begin(), stream.end());
+  return spec;
 }
 
 // The readable part of a recording; `damage` describes the rest.
@@ -123,6 +130,7 @@ std::string playedDamage(const CaptureSession& session, const CommandLine& given
 std::unique_ptr<Device> streamDeviceOf(const CommandLine& given, std::string& damage) {
   if (!given.words().empty())
     return std::make_unique<Replay>(playedRecording(given, damage), ReplayOptions{});
+  if (given.has("stream")) return streamSourceOf(given);
   LiveHandOptions hand;
   hand.dsaPort = given.text("dsa").value();
   hand.sdhPort = given.text("sdh").value_or("");
@@ -138,8 +146,12 @@ void runSession(const CommandLine& given,
   const std::int64_t beginUs = systemClock().monotonicUs();
   session.start();
   const auto* replay = dynamic_cast<const Replay*>(&session.device());
+  const StreamDevice* const stream = streamOf(session);
+  StreamNotice notice(stream, given.quiet());
   while (!interruption.waitForSignal(kStreamLookMs)) {
+    notice.show();
     if (replay && replay->finished()) return;
+    if (stream && stream->finished()) return;
     if (over()) return;
     if (static_cast<double>(systemClock().monotonicUs() - beginUs) >= durationS * 1e6) return;
   }
@@ -149,6 +161,10 @@ void requireFrames(const CaptureSession& session, const CommandLine& given) {
   const LinkHealth health = session.health();
   if (health.frames.frames > 0) return;
   const std::string& why = health.device.tactile.message;
+  if (const auto source = given.text("stream"))
+    throw Error(*source + ": no frame came" +
+                (why.empty() ? std::string("; is the sender running?")
+                             : ": " + withoutPort(health.device.tactile)));
   throw Error(given.text("dsa").value_or("") + ": no frame came" +
               (why.empty() ? std::string("; is the hand switched on, and this its tactile port?")
                            : ": " + why));
@@ -237,9 +253,12 @@ int streamLines(const CommandLine& given, const std::vector<StreamTarget>& targe
 int streamCommand(const Arguments& words) {
   const CommandLine given(streamSpec(), words);
   if (given.helpShown()) return kDone;
-  if (given.words().empty() != given.has("dsa"))
-    throw UsageError(given.has("dsa") ? "give --dsa PORT or a recording, not both"
-                                      : "stream needs --dsa PORT or a recording");
+  checkStreamSource(given);
+  const bool isLive = given.has("dsa") || given.has("stream");
+  if (given.words().empty() != isLive)
+    throw UsageError(
+        isLive ? "give --dsa PORT, --stream SOURCE or a recording, not two of them"
+               : "stream needs --dsa PORT, --stream SOURCE and --hand NAME|FOLDER, or a recording");
   if (given.has("sdh") && !given.has("dsa")) throw UsageError("--sdh needs --dsa");
   const std::vector<StreamTarget> targets = streamTargetsOf(given, "to");
   return given.has("lines") ? streamLines(given, targets) : streamDatagrams(given, targets);

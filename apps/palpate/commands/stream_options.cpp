@@ -1,0 +1,94 @@
+#include "commands/stream_options.h"
+
+#include <cstdio>
+#include <stdexcept>
+#include <string>
+
+#include "palpate/core/escaped_line.h"
+
+#include "commands/hand_options.h"
+
+namespace palpate::commands {
+namespace {
+
+StreamFormat streamFormatOf(const CommandLine& given) {
+  const std::string name =
+      given.choice("format", {"auto", "lines", "json", "binary"}).value_or("auto");
+  if (name == "lines") return StreamFormat::kLines;
+  if (name == "json") return StreamFormat::kJson;
+  return name == "binary" ? StreamFormat::kBinary : StreamFormat::kAuto;
+}
+
+StreamTime streamTimeOf(const CommandLine& given) {
+  const std::string name = given.choice("time", {"auto", "none", "s", "ms", "us"}).value_or("auto");
+  if (name == "none") return StreamTime::kNone;
+  if (name == "s") return StreamTime::kSeconds;
+  if (name == "ms") return StreamTime::kMilliseconds;
+  return name == "us" ? StreamTime::kMicroseconds : StreamTime::kAuto;
+}
+
+}  // namespace
+
+std::vector<OptionSpec> streamSourceOptions() {
+  return {{"stream",
+           "SOURCE",
+           "frames of any hand: a port, tcp:HOST:PORT, listen:[ADDRESS:]PORT, udp:[ADDRESS:]PORT "
+           "or - (standard input)"},
+          handOption(),
+          {"format", "FORM", "of the stream: auto (default), lines, json or binary"},
+          {"time", "UNIT", "of the time in lines: auto (default), none, s, ms or us"},
+          {"baud", "N", "speed of a serial port of the stream, default 115200"}};
+}
+
+void checkStreamSource(const CommandLine& given) {
+  if (given.has("stream")) {
+    for (const char* port : {"dsa", "sdh"})
+      if (given.has(port)) throw UsageError("give --stream SOURCE or --dsa PORT, not both");
+    if (!given.has("hand")) throw UsageError("--stream needs --hand NAME|FOLDER");
+    return;
+  }
+  for (const char* option : {"hand", "format", "time", "baud"})
+    if (given.has(option)) throw UsageError("--" + std::string(option) + " needs --stream");
+}
+
+std::unique_ptr<StreamDevice> streamSourceOf(const CommandLine& given) {
+  StreamDeviceOptions options;
+  options.source = given.text("stream").value();
+  options.format = streamFormatOf(given);
+  options.time = streamTimeOf(given);
+  if (options.time != StreamTime::kAuto &&
+      (options.format == StreamFormat::kJson || options.format == StreamFormat::kBinary))
+    throw UsageError("--time is for lines: the other forms say their time themselves");
+  options.baud = static_cast<int>(given.integer("baud", 50, 10'000'000).value_or(options.baud));
+  options.hand = handOf(given).value();
+  try {
+    auto stream = std::make_unique<StreamDevice>(std::move(options));
+    if (stream->isOpenToOthers())
+      std::fprintf(stderr,
+                   "palpate: %s: any machine that reaches this address can send frames\n",
+                   escapedLine(given.text("stream").value()).c_str());
+    return stream;
+  } catch (const std::invalid_argument& wrong) {
+    throw UsageError("--stream: " + escapedLine(wrong.what()));
+  }
+}
+
+CaptureOptions streamCaptureOptions(const CommandLine& given) {
+  CaptureOptions options;
+  options.recorder.queue.blockWhenFull = given.text("stream") == "-";
+  return options;
+}
+
+const StreamDevice* streamOf(const CaptureSession& session) {
+  return dynamic_cast<const StreamDevice*>(&session.device());
+}
+
+void StreamNotice::show() {
+  if (stream_ == nullptr || quiet_) return;
+  const std::string text = stream_->notice();
+  if (text.empty()) return;
+  std::fprintf(stderr, "palpate: %s\n", escapedLine(text).c_str());
+  stream_ = nullptr;
+}
+
+}  // namespace palpate::commands

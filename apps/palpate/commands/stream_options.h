@@ -1,0 +1,38 @@
+// The options of commands that receive the frames of a stream: --stream SOURCE with --hand,
+// --format, --time and --baud.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include <palpate/capture/capture_session.h>
+#include <palpate/device/stream_device.h>
+
+#include "commands/command_line.h"
+
+namespace palpate::commands {
+
+// The options, for a command's list.
+std::vector<OptionSpec> streamSourceOptions();
+// Throws UsageError when one of them is given without --stream, or together with --dsa or --sdh.
+void checkStreamSource(const CommandLine& given);
+// The stream that --stream names. When other machines can send to it, a line on standard error
+// says so. Throws UsageError, and Error of the hand's files.
+std::unique_ptr<StreamDevice> streamSourceOf(const CommandLine& given);
+// The capture of a stream: standard input waits for the recorder instead of losing frames.
+CaptureOptions streamCaptureOptions(const CommandLine& given);
+// The stream of a session; null when its device is another one.
+const StreamDevice* streamOf(const CaptureSession& session);
+// Prints once on standard error where senders are awaited, as soon as it is known; nothing with
+// --quiet.
+class StreamNotice {
+ public:
+  StreamNotice(const StreamDevice* stream, bool quiet) : stream_(stream), quiet_(quiet) {}
+  void show();
+
+ private:
+  const StreamDevice* stream_;
+  const bool quiet_;
+};
+
+}  // namespace palpate::commands

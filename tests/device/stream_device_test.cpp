@@ -1,0 +1,498 @@
+// Streams as a device: over a pty, TCP, UDP and a channel of the test; what is lost, refused and
+// silent.
+#include "palpate/device/stream_device.h"
+
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+#include <stdexcept>
+
+#include <arpa/inet.h>
+#include <gtest/gtest.h>
+#include <sys/socket.h>
+
+#include "palpate/core/error.h"
+#include "palpate/core/json.h"
+#include "palpate/device/stream_packets.h"
+#include "palpate/interop/datagram_sender.h"
+#include "palpate/recording/tactile_sensor_json.h"
+
+#include "device/collecting_sink.h"
+#include "device/pty_pair.h"
+#include "device/scripted_channel.h"
+#include "device/stream_hands.h"
+#include "device/stream_link.h"
+#include "testing/awaited.h"
+#include "testing/testing.h"
+
+namespace palpate::testing::stream_device_test {
+namespace {
+
+// --- The rounds of the port's thread, on a clock of the test.
+
+struct Bench {
+  explicit Bench(StreamDeviceOptions given = {}) : device(std::move(given)) {
+    device.source = "port";
+    if (!device.hand.layout) device.hand = padHand({{1, 3}});
+    link = std::make_unique<StreamLink>(
+        device,
+        [this](const std::string& port) { return open(port); },
+        StreamLinkOptions{.startsInside = startsInside},
+        time,
+        clock);
+    link->begin(sink);
+    link->step();
+  }
+  std::unique_ptr<ByteChannel> open(const std::string& port) {
+    if (!plugged) throw DeviceError(DeviceFault::kNotFound, port, "no such port");
+    auto channel = std::make_unique<ScriptedChannel>(clock, nullptr);
+    line = channel.get();
+    return channel;
+  }
+  void send(const Bytes& bytes, std::int64_t afterUs = 10'000) {
+    clock.nowUs += afterUs;
+    line->arrive(bytes);
+    link->step();
+  }
+  void send(std::string_view text, std::int64_t afterUs = 10'000) {
+    send(textBytes(text), afterUs);
+  }
+  void frame(std::uint32_t sequence, std::int64_t afterUs = 10'000) {
+    Bytes bytes;
+    appendStreamFrame(bytes,
+                      sequence,
+                      static_cast<std::uint64_t>(clock.nowUs + afterUs),
+                      std::vector<float>{1, 2, static_cast<float>(sequence % 4096)});
+    send(bytes, afterUs);
+  }
+  void silence(std::int64_t us) {
+    for (const std::int64_t endUs = clock.nowUs + us; clock.nowUs < endUs;) link->step();
+  }
+  void replug() {
+    line->pullThePlug();
+    link->step();
+    clock.nowUs += 200'000;
+    link->step();
+  }
+  PortStatus status() const { return link->status(); }
+  std::size_t numEvents(const std::string& kind) const {
+    return static_cast<std::size_t>(std::count_if(
+        sink.events.begin(), sink.events.end(), [&](const auto& e) { return e.kind == kind; }));
+  }
+  const DeviceEvent& lastEvent(const std::string& kind) const {
+    for (auto event = sink.events.rbegin(); event != sink.events.rend(); ++event)
+      if (event->kind == kind) return *event;
+    throw std::logic_error("no event " + kind);
+  }
+
+  bool startsInside = false;
+  bool plugged = true;
+  ManualClock clock;
+  HostTime time{clock};
+  CollectingSink sink;
+  StreamDeviceOptions device;
+  ScriptedChannel* line = nullptr;
+  std::unique_ptr<StreamLink> link;
+};
+
+TEST(StreamDevice, DeliversLinesAndPacketsWithBothTimes) {
+  Bench lines;
+  lines.send("frame#1,250,1,2,3\n");
+  ASSERT_EQ(lines.sink.frames.size(), 1u);
+  EXPECT_EQ(lines.sink.frames[0].values, (std::vector<float>{1, 2, 3}));
+  EXPECT_EQ(lines.sink.frames[0].deviceMs, 250);
+  EXPECT_EQ(lines.sink.frames[0].hostUs, lines.time.nowUs());
+  Bench packets;
+  packets.frame(7);
+  ASSERT_EQ(packets.sink.frames.size(), 1u);
+  EXPECT_EQ(packets.sink.frames[0].values, (std::vector<float>{1, 2, 7}));
+  EXPECT_EQ(packets.sink.frames[0].deviceMs, packets.clock.nowUs / 1000);
+  EXPECT_EQ(packets.status().items, 1u);
+  EXPECT_EQ(packets.status().bytes, 24u + 6u);
+  EXPECT_EQ(packets.status().skippedBytes, 0u);
+  EXPECT_EQ(packets.status().suspect, 0u);
+}
+
+TEST(StreamDevice, AnglesAndTemperaturesAreSeriesOfTheirOwn) {
+  Bench bench({.hand = smallHand()});
+  bench.send("angles,1.5,-2\ntemperatures,36.5\nf,1,2,3\nangles,2,3\n");
+  ASSERT_EQ(bench.sink.angles.size(), 2u);
+  EXPECT_EQ(bench.sink.angles[0].deg, (std::vector<double>{1.5, -2}));
+  EXPECT_GT(bench.sink.angles[1].hostUs, bench.sink.angles[0].hostUs);
+  ASSERT_EQ(bench.sink.temperatures.size(), 1u);
+  EXPECT_EQ(bench.sink.temperatures[0].degC, (std::vector<double>{36.5}));
+  EXPECT_EQ(bench.status().items, 1u);
+}
+
+TEST(StreamDevice, FramesThatArriveTogetherHaveAscendingStamps) {
+  Bench bench;
+  bench.send("1,2,3\n4,5,6\n7,8,9\n");
+  ASSERT_EQ(bench.sink.frames.size(), 3u);
+  EXPECT_LT(bench.sink.frames[0].hostUs, bench.sink.frames[1].hostUs);
+  EXPECT_LT(bench.sink.frames[1].hostUs, bench.sink.frames[2].hostUs);
+}
+
+TEST(StreamDevice, LossIsCountedBySequenceNumbers) {
+  Bench bench;
+  for (const std::uint32_t n : {4'294'967'294U, 4'294'967'295U, 0U, 1U, 5U, 6U}) bench.frame(n);
+  EXPECT_EQ(bench.status().lost, 3u);
+  EXPECT_EQ(bench.status().estimatedLost, 0u);
+  EXPECT_EQ(bench.status().items, 6u);
+}
+
+TEST(StreamDevice, ASenderWithoutNumbersLosesNothing) {
+  Bench bench;
+  for (int i = 0; i < 5; ++i) bench.frame(0);
+  bench.send("", 0);
+  EXPECT_EQ(bench.status().lost, 0u);
+  EXPECT_EQ(bench.status().items, 5u);
+}
+
+TEST(StreamDevice, ARestartedSenderLosesNothing) {
+  Bench bench;
+  for (std::uint32_t n = 500; n < 520; ++n) bench.frame(n);
+  bench.frame(0);
+  bench.frame(1);
+  bench.frame(3'000'000'000U);  // forward by more than was possible
+  EXPECT_EQ(bench.status().lost, 0u);
+  EXPECT_EQ(bench.status().items, 23u);
+  EXPECT_NE(bench.lastEvent("link").text.find("restarted"), std::string::npos);
+}
+
+TEST(StreamDevice, LossOverABrokenConnectionIsCountedByTheNumbers) {
+  Bench bench;
+  for (std::uint32_t n = 0; n < 10; ++n) bench.frame(n);
+  bench.replug();
+  bench.frame(30);
+  EXPECT_EQ(bench.status().lost, 20u);
+  EXPECT_EQ(bench.status().estimatedLost, 0u);
+  EXPECT_EQ(bench.status().reconnects, 1u);
+  const Json gap = Json::parse(bench.lastEvent("gap").json);
+  EXPECT_EQ(gap.at("lost").asInteger(), 20);
+  EXPECT_FALSE(gap.at("estimated").asBool());
+}
+
+TEST(StreamDevice, WithoutNumbersLossInAGapIsEstimated) {
+  Bench bench;
+  for (int i = 0; i < 50; ++i) bench.send("1,2,3\n", 10'000);
+  bench.silence(1'990'000);
+  EXPECT_EQ(bench.status().state, PortState::kSilent);
+  bench.send("1,2,3\n", 10'000);
+  const Json gap = Json::parse(bench.lastEvent("gap").json);
+  EXPECT_TRUE(gap.at("estimated").asBool());
+  EXPECT_NEAR(static_cast<double>(gap.at("lost").asInteger()), 199.0, 5.0);
+  EXPECT_EQ(bench.status().estimatedLost, bench.status().lost);
+  EXPECT_EQ(bench.status().state, PortState::kStreaming);
+}
+
+TEST(StreamDevice, SilenceIsNoticedAfterHalfASecond) {
+  Bench bench;
+  for (std::uint32_t n = 0; n < 10; ++n) bench.frame(n);
+  bench.silence(450'000);
+  EXPECT_EQ(bench.status().state, PortState::kStreaming);
+  bench.silence(100'000);
+  EXPECT_EQ(bench.status().state, PortState::kSilent);
+  EXPECT_NE(bench.status().message.find("is the sender running?"), std::string::npos);
+  EXPECT_EQ(bench.numEvents("alarm"), 1u);
+  bench.silence(5'000'000);
+  EXPECT_EQ(bench.numEvents("alarm"), 1u);
+}
+
+TEST(StreamDevice, ARefusedLineIsNamedAndCounted) {
+  Bench bench;
+  bench.send("1,2,3\n");
+  bench.send("1,2\n1,2,3\n");
+  EXPECT_EQ(bench.status().suspect, 1u);
+  EXPECT_EQ(bench.status().items, 2u);
+  EXPECT_EQ(bench.status().message, "port: line 2: 2 numbers instead of 3");
+  EXPECT_EQ(bench.link->lastFault(), "line 2: 2 numbers instead of 3");
+  EXPECT_EQ(bench.lastEvent("alarm").text, "line 2: 2 numbers instead of 3");
+  for (int i = 0; i < 100; ++i) bench.send("1,2\n");
+  EXPECT_EQ(bench.numEvents("alarm"), 1u);  // one in ten seconds
+  EXPECT_EQ(bench.status().suspect, 101u);
+  for (int i = 0; i < 300; ++i) bench.send("1,2,3\n");
+  EXPECT_EQ(bench.status().message, "");
+}
+
+TEST(StreamDevice, AStreamOfTheWrongSizeSaysSoWhileNoFrameComes) {
+  Bench bench;
+  for (int i = 0; i < 100; ++i) bench.send("1,2,3,4,5\n");
+  EXPECT_EQ(bench.status().items, 0u);
+  EXPECT_NE(bench.status().message.find("5 numbers instead of 3"), std::string::npos);
+  Bench packets;
+  for (int i = 0; i < 100; ++i) {
+    Bytes bytes;
+    appendStreamFrame(bytes, 1, 0, std::vector<float>(5));
+    packets.send(bytes);
+  }
+  EXPECT_EQ(packets.status().items, 0u);
+  EXPECT_NE(packets.link->lastFault().find("10 bytes of u16 values (5) instead of 3"),
+            std::string::npos)
+      << packets.link->lastFault();
+}
+
+TEST(StreamDevice, TheFirstItemDecidesTheFormAnewForEachConnection) {
+  Bench bench;
+  bench.send("\x01\xA5\x5A noise\n");
+  bench.frame(0);
+  bench.frame(1);
+  EXPECT_EQ(bench.status().items, 2u);
+  EXPECT_EQ(bench.status().suspect, 0u);
+  bench.send("1,2,3\n");  // packets by now
+  EXPECT_EQ(bench.status().items, 2u);
+  EXPECT_EQ(bench.status().skippedBytes, 18u);
+  bench.replug();
+  bench.send("1,2,3\n");
+  EXPECT_EQ(bench.status().items, 3u);
+}
+
+TEST(StreamDevice, ANamedFormTakesNoOther) {
+  Bench lines({.format = StreamFormat::kLines});
+  lines.frame(1);
+  lines.send("\n{\"tactile_matrix\":[]}\n1,2,3\n");
+  EXPECT_EQ(lines.status().items, 1u);
+  Bench binary({.format = StreamFormat::kBinary});
+  binary.send("1,2,3\n");
+  EXPECT_EQ(binary.status().items, 0u);
+  EXPECT_EQ(binary.status().skippedBytes, 6u);
+  Bench json({.format = StreamFormat::kJson});
+  json.send("1,2,3\n");
+  EXPECT_EQ(json.status().items, 0u);
+  EXPECT_NE(json.link->lastFault().find("no JSON object"), std::string::npos);
+}
+
+TEST(StreamDevice, ADescriptionThatDisagreesKeepsFramesOut) {
+  Bench bench({.hand = padHand({{2, 2}})});
+  bench.send("{\"description\":{\"matrices\":[{\"rows\":1,\"columns\":4}]}}\n1,2,3,4\n");
+  EXPECT_EQ(bench.status().items, 0u);
+  EXPECT_EQ(bench.status().suspect, 2u);
+  EXPECT_NE(bench.status().message.find("1 x 4 places"), std::string::npos);
+  bench.send(
+      "{\"description\":{\"serial\":\"P7\",\"matrices\":[{\"rows\":2,\"columns\":2}]}}\n"
+      "1,2,3,4\n");
+  EXPECT_EQ(bench.status().items, 1u);
+  EXPECT_EQ(bench.link->description().serial, "P7");
+}
+
+TEST(StreamDevice, AWrongUnitOfTimeIsReportedOnce) {
+  Bench bench;
+  // Microseconds, taken as milliseconds.
+  for (int i = 0; i < 1000; ++i)
+    bench.send(std::to_string(3'000'000 + 5'000 * i) + ",1,2,3\n", 5'000);
+  std::size_t told = 0;
+  for (const DeviceEvent& event : bench.sink.events)
+    told += event.text.find("is the unit of its times right?") != std::string::npos;
+  EXPECT_EQ(told, 1u);
+  EXPECT_EQ(bench.status().items, 1000u);
+}
+
+TEST(StreamDevice, TheAgeIsThatOfTheFastestFrame) {
+  Bench bench;
+  for (int i = 1; i <= 20; ++i) bench.send(std::to_string(10 * i) + ",1,2,3\n", 10'000);
+  EXPECT_NEAR(bench.status().ageMs, 0.0, 1e-9);
+  bench.send("210,1,2,3\n", 35'000);
+  EXPECT_NEAR(bench.status().ageMs, 25.0, 1e-9);
+}
+
+TEST(StreamDevice, RandomBytesAreNoFrames) {
+  Bench bench;
+  std::uint32_t state = 1;
+  for (int i = 0; i < 200; ++i) {
+    Bytes bytes(1000);
+    for (std::byte& byte : bytes)
+      byte = static_cast<std::byte>((state = state * 1'664'525 + 1'013'904'223) >> 24);
+    bench.send(bytes);
+  }
+  EXPECT_EQ(bench.sink.frames.size(), 0u);
+  EXPECT_GT(bench.status().suspect, 100u);
+  bench.frame(1);
+  EXPECT_EQ(bench.sink.frames.size(), 1u);
+}
+
+// --- The device with its thread, on real channels.
+
+StreamDeviceOptions optionsOf(const std::string& source) {
+  StreamDeviceOptions options;
+  options.source = source;
+  options.hand = padHand({{1, 3}});
+  return options;
+}
+
+int connectedSocket(std::uint16_t port) {
+  const int fd = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
+  sockaddr_in place{};
+  place.sin_family = AF_INET;
+  place.sin_port = htons(port);
+  place.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  EXPECT_EQ(::connect(fd, reinterpret_cast<const sockaddr*>(&place), sizeof place), 0);
+  return fd;
+}
+
+void sendTo(int fd, std::string_view text) {
+  ASSERT_EQ(::send(fd, text.data(), text.size(), MSG_NOSIGNAL), static_cast<ssize_t>(text.size()));
+}
+
+TEST(StreamDevice, ReadsAPtyAndFollowsItsLink) {
+  const TemporaryFolder folder;
+  const std::filesystem::path link = folder / "port";
+  auto pty = std::make_unique<PtyPair>();
+  std::filesystem::create_symlink(pty->path(), link);
+  CollectingSink sink;
+  StreamDevice device(optionsOf(link.string()));
+  device.start(sink);
+  ASSERT_TRUE(awaited([&] { return device.status().tactile.state == PortState::kStreaming; }));
+  // The first line may lack its beginning.
+  pty->send(textBytes("9,9,9\n1,2,3\n4,5,6\n"));
+  ASSERT_TRUE(sink.awaitFrames(2));
+  EXPECT_EQ(sink.takeFrames()[0].values, (std::vector<float>{1, 2, 3}));
+  pty->unplug();
+  ASSERT_TRUE(awaited([&] { return device.status().tactile.state == PortState::kLost; }));
+  std::filesystem::remove(link);
+  pty = std::make_unique<PtyPair>();
+  std::filesystem::create_symlink(pty->path(), link);
+  ASSERT_TRUE(awaited([&] { return device.status().tactile.reconnects == 1; }));
+  pty->send(textBytes("8,9\n7,8,9\n"));
+  ASSERT_TRUE(sink.awaitFrames(3));
+  device.stop();
+  EXPECT_EQ(device.status().tactile.state, PortState::kClosed);
+}
+
+TEST(StreamDevice, SendersConnectOneAfterTheOther) {
+  CollectingSink sink;
+  StreamDevice device(optionsOf("listen:0"));
+  EXPECT_EQ(device.notice(), "");
+  device.start(sink);
+  ASSERT_TRUE(awaited([&] { return device.localPort().has_value(); }));
+  const std::uint16_t port = *device.localPort();
+  EXPECT_EQ(
+      device.notice(),
+      "listening at 127.0.0.1:" + std::to_string(port) + ", for programs of this machine only");
+  EXPECT_FALSE(device.isOpenToOthers());
+  EXPECT_TRUE(awaited([&] {
+    return device.status().tactile.message ==
+           "listen:0: no sender is connected; waiting at 127.0.0.1:" + std::to_string(port);
+  })) << device.status().tactile.message;
+  for (std::size_t sender = 1; sender <= 3; ++sender) {
+    const int fd = connectedSocket(port);
+    sendTo(fd, "1,2,3\n4,5");  // the half line goes with its connection
+    ASSERT_TRUE(sink.awaitFrames(sender));
+    ::close(fd);
+  }
+  EXPECT_TRUE(awaited([&] { return device.status().tactile.state == PortState::kLost; }));
+  EXPECT_EQ(device.status().tactile.suspect, 0u);
+  device.stop();
+  EXPECT_FALSE(device.localPort());
+}
+
+TEST(StreamDevice, ConnectsToASenderThatListens) {
+  CollectingSink sink;
+  const int listening = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
+  sockaddr_in place{};
+  place.sin_family = AF_INET;
+  place.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  socklen_t size = sizeof place;
+  ASSERT_EQ(::bind(listening, reinterpret_cast<const sockaddr*>(&place), size), 0);
+  ASSERT_EQ(::listen(listening, 1), 0);
+  ASSERT_EQ(::getsockname(listening, reinterpret_cast<sockaddr*>(&place), &size), 0);
+  StreamDevice device(optionsOf("tcp:127.0.0.1:" + std::to_string(ntohs(place.sin_port))));
+  device.start(sink);
+  const int fd = ::accept(listening, nullptr, nullptr);
+  sendTo(fd, "half\n1,2,3\n");
+  EXPECT_TRUE(sink.awaitFrames(1));
+  device.stop();
+  ::close(fd);
+  ::close(listening);
+}
+
+TEST(StreamDevice, ADatagramIsALineOrPackets) {
+  const HandDescription hand = padHand({{1, 3}});
+  CollectingSink sink;
+  StreamDevice device(optionsOf("udp:0"));
+  device.start(sink);
+  ASSERT_TRUE(awaited([&] { return device.localPort().has_value(); }));
+  DatagramSender sender(*device.localPort());
+  // As palpate stream --to tactile sends a frame: without a line end.
+  TactileFrame frame(hand.layout);
+  frame.values = {5, 6, 7};
+  for (std::uint64_t n = 0; n < 3; ++n) {
+    std::string message;
+    appendTactileSensorJson(message, frame, 10 * n);
+    ASSERT_TRUE(sender.send(message));
+  }
+  ASSERT_TRUE(sink.awaitFrames(3));
+  EXPECT_EQ(sink.takeFrames()[2].values, frame.values);
+  EXPECT_EQ(device.status().tactile.lost, 18u);
+  device.stop();
+}
+
+TEST(StreamDevice, ADatagramThatWasOvertakenIsLeftOut) {
+  CollectingSink sink;
+  StreamDevice device(optionsOf("udp:0"));
+  device.start(sink);
+  ASSERT_TRUE(awaited([&] { return device.localPort().has_value(); }));
+  DatagramSender sender(*device.localPort());
+  for (const int n : {100, 101, 103, 102, 104})
+    ASSERT_TRUE(sender.send("f#" + std::to_string(n) + ",1,2," + std::to_string(n)));
+  ASSERT_TRUE(sink.awaitFrames(4));
+  EXPECT_EQ(sink.takeFrames()[3].values[2], 104.0F);
+  EXPECT_EQ(device.status().tactile.lost, 1u);
+  ASSERT_TRUE(awaited([&] { return device.status().tactile.suspect == 1; }));
+  // Two of them that follow each other are a sender that was restarted.
+  for (const int n : {90, 91, 92})
+    ASSERT_TRUE(sender.send("f#" + std::to_string(n) + ",1,2," + std::to_string(n)));
+  ASSERT_TRUE(sink.awaitFrames(6));
+  EXPECT_EQ(device.status().tactile.lost, 1u);
+  device.stop();
+}
+
+TEST(StreamDevice, APortThatIsInUseIsNamed) {
+  CollectingSink sink;
+  StreamDevice first(optionsOf("udp:0"));
+  first.start(sink);
+  ASSERT_TRUE(awaited([&] { return first.localPort().has_value(); }));
+  StreamDevice second(optionsOf("udp:" + std::to_string(*first.localPort())));
+  second.start(sink);
+  EXPECT_TRUE(awaited([&] {
+    return second.status().tactile.message.find("another program uses this port") !=
+           std::string::npos;
+  })) << second.status().tactile.message;
+}
+
+TEST(StreamDevice, SaysWhenOtherMachinesCanSend) {
+  CollectingSink sink;
+  StreamDevice device(optionsOf("udp:0.0.0.0:0"));
+  EXPECT_TRUE(device.isOpenToOthers());
+  device.start(sink);
+  ASSERT_TRUE(awaited([&] { return device.localPort().has_value(); }));
+  EXPECT_NE(device.notice().find("any machine that reaches this address"), std::string::npos);
+  EXPECT_FALSE(StreamDevice(optionsOf("udp:[::1]:0")).isOpenToOthers());
+}
+
+TEST(StreamDevice, TakesNoCommand) {
+  StreamDevice device(optionsOf("udp:0"));
+  for (const DeviceCommand& command :
+       {DeviceCommand{SetThreshold{}}, DeviceCommand{MoveJoints{}}, DeviceCommand{StopMotion{}}}) {
+    try {
+      device.submit(command).get();
+      ADD_FAILURE() << "it was executed";
+    } catch (const DeviceError& error) {
+      EXPECT_EQ(error.fault(), DeviceFault::kUnsupported);
+      EXPECT_STREQ(error.what(), "udp:0: a stream only sends: it can't be moved or set from here");
+    }
+  }
+}
+
+TEST(StreamDevice, RefusesOptionsThatMakeNoSense) {
+  for (const char* source :
+       {"", "udp:", "udp:x", "udp:70000", "listen:nohost:1", "listen:1:", "udp:-1"})
+    EXPECT_THROW(StreamDevice{optionsOf(source)}, std::invalid_argument) << source;
+  StreamDeviceOptions options = optionsOf("udp:0");
+  options.baud = 10;
+  EXPECT_THROW(StreamDevice{options}, std::invalid_argument);
+  options.baud = 9600;
+  options.hand = {};
+  EXPECT_THROW(StreamDevice{options}, std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace palpate::testing::stream_device_test

@@ -1,0 +1,9 @@
+#include "fuzz/corpus_replay.h"
+
+namespace palpate::testing::stream_lines_fuzz_corpus_test {
+namespace {
+
+TEST(StreamLinesFuzzCorpus, ReplaysWithoutHarm) { expectCorpusReplays(PALPATE_FUZZ_CORPUS, 6); }
+
+}  // namespace
+}  // namespace palpate::testing::stream_lines_fuzz_corpus_test
