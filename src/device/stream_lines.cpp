@@ -221,6 +221,8 @@ bool StreamLineParser::readHead(std::string_view line, Head& head) {
   std::string_view name = tokenAt(at, end);
   head.values = at;
   if (!isLetter(*at) || isNonFinite(name)) return true;
+  // "name:value" is no name: it is refused as a value.
+  if (name.find(':') < name.size() - 1) return true;
   at = skipBlanks(at + name.size(), end);
   if (at != end && (*at == ',' || *at == ';')) at = skipBlanks(at + 1, end);
   head.values = at;

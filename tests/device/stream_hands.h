@@ -15,8 +15,10 @@ inline HandDescription padHand(const std::vector<std::pair<int, int>>& sizes) {
   HandDescription hand;
   for (const auto& [rows, columns] : sizes) {
     matrices.push_back(MatrixLayout::full(rows, columns, 2.0));
-    hand.matrices.push_back({.name = "pad " + std::to_string(hand.matrices.size()),
-                             .shortName = std::to_string(hand.matrices.size())});
+    MatrixDescription described;
+    described.shortName = std::to_string(hand.matrices.size());
+    described.name = "pad " + described.shortName;
+    hand.matrices.push_back(std::move(described));
   }
   hand.name = "test pad";
   hand.layout = std::make_shared<const SensorLayout>(std::move(matrices));

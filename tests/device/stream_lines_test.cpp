@@ -158,7 +158,7 @@ TEST(StreamLines, NamesTheFaultAndItsPlace) {
   EXPECT_EQ(faultOf("1,1e999,3\n"), "line 1: value 2 is inf, not in 0..4095 counts");
   EXPECT_EQ(faultOf("1,two,3\n"), "line 1: value 2 is \"two\", not a number");
   EXPECT_EQ(faultOf("1,2x,3\n"), "line 1: value 2 is \"2x\", not a number");
-  EXPECT_EQ(faultOf("a:1,b:2,c:3\n"), "line 1: value 2 is \"b:2\", not a number");
+  EXPECT_EQ(faultOf("a:1,b:2,c:3\n"), "line 1: value 1 is \"a:1\", not a number");
   EXPECT_EQ(faultOf("1,,3\n"), "line 1: value 2 is empty");
   EXPECT_EQ(faultOf(",1,2,3\n"), "line 1: value 1 is empty");
   EXPECT_EQ(faultOf("pad#x,1,2,3\n"), "line 1: \"pad#x\" has no number after '#'");

@@ -32,15 +32,15 @@ struct StreamDeviceOptions {
   //   -                      standard input.
   // ADDRESS is numeric ("0.0.0.0", "[::1]"); without it only programs of this machine can send.
   // PORT 0 takes a free one, see StreamDevice::localPort().
-  std::string source;
+  std::string source = {};
   // What is sent: layout, number of axes and temperature sensors, unit and full scale.
-  HandDescription hand;
+  HandDescription hand = {};
   StreamFormat format = StreamFormat::kAuto;
   StreamTime time = StreamTime::kAuto;  // of lines of numbers
   int baud = 115'200;                   // of a serial port, 50..10,000,000 [baud]
   // Opens the source; empty means that `source` is opened. Tests pass their own channel. Called
   // from the port's thread.
-  std::function<std::unique_ptr<ByteChannel>(const std::string& source)> open;
+  std::function<std::unique_ptr<ByteChannel>(const std::string& source)> open = {};
   // Throws std::invalid_argument naming the field.
   void validate() const;
 };
