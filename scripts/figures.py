@@ -586,6 +586,17 @@ echo "bytes $(stat -c %s "$file") installed $(dpkg-deb -f "$file" Installed-Size
         "wrong_less": (number(r"noise 0.001 per byte: .* lost, (\d+) wrong"), COUNT)}, idle=False),
     slow_test("babble", 60, "device", "babble_slow_test", {
         "silent": (number(r"silent after (\d+) ms"), fixed(0, "ms"))}),
+    bench("stream", 150, "^stream", {
+        "packets_core": (counter("streamPacketsRecorded", "percent_of_a_core"), fixed(1)),
+        "packets_lost": (counter("streamPacketsRecorded", "lost"), COUNT),
+        "packets_frames": (counter("streamPacketsRecorded", "frames"), COUNT),
+        "lines_core": (counter("streamLinesRecorded", "percent_of_a_core"), fixed(1)),
+        "lines_lost": (counter("streamLinesRecorded", "lost"), COUNT),
+        "lines_frames": (counter("streamLinesRecorded", "frames"), COUNT),
+        "packet": (cpu("streamPacketParsed"), US),
+        "packet_checksum": (cpu("streamPacketChecksum"), US),
+        "line": (cpu("streamLineParsed"), US),
+        "line_strtof": (cpu("streamLineStrtof"), US)}),
     slow_test("soak", 200, "capture", "soak_slow_test", {
         "frames": (number(r"(\d+) frames \("), COUNT), "seconds": (number(r"in (\d+) s"), COUNT),
         "warm": (number(r"memory (\d+) ->"), COUNT), "end": (number(r"-> (\d+) MB"), COUNT),

@@ -121,7 +121,12 @@ void recordUntilDone(CaptureSession& session,
 }
 
 // Why no frame arrived, and what the user can do.
-std::string nothingText(const DeviceStatus& device, const std::string& port, bool isStream) {
+std::string nothingText(const DeviceStatus& device,
+                        const std::string& port,
+                        const StreamDevice* stream) {
+  const bool isStream = stream != nullptr;
+  if (isStream && !stream->lastFault().empty())
+    return port + ": no frame came: " + stream->lastFault();
   const PortStatus& tactile = device.tactile;
   if (!tactile.message.empty())
     return port + ": no frame came: " + (isStream ? withoutPort(tactile) : tactile.message);
@@ -253,7 +258,8 @@ int recordCommand(const Arguments& words) {
   session.stop();
   const RecordingReport report = session.stopRecording();
   if (report.paths.empty())
-    throw Error(health.frames.ageMs ? report.message : nothingText(device, *port, isStream));
+    throw Error(health.frames.ageMs ? report.message
+                                    : nothingText(device, *port, streamOf(session)));
   const std::string text = given.has("json")
                                ? recordJsonText(report, device)
                                : lineText(report, device) + refusedText(session, device);
