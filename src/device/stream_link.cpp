@@ -15,8 +15,9 @@ namespace {
 
 constexpr std::chrono::milliseconds kReadWait{50};
 constexpr std::size_t kReadBytes = 1U << 16;  // the largest datagram fits
-constexpr std::int64_t kSilentUs = 500'000;   // without a frame for this time, the stream is silent
-constexpr double kSilentPeriods = 3.0;        // or for three periods if that is longer
+constexpr std::int64_t kStreamSilentUs =
+    500'000;                                  // without a frame for this time, the stream is silent
+constexpr double kStreamSilentPeriods = 3.0;  // or for three periods if that is longer
 constexpr std::int64_t kFaultShownUs = 2'000'000;
 constexpr std::int64_t kFaultAlarmEveryUs = 10'000'000;
 constexpr std::int64_t kStreamOffsetWindowUs = 30'000'000;
@@ -354,8 +355,8 @@ void StreamLink::watchFaults() {
 
 void StreamLink::watchSilence() {
   const std::int64_t nowUs = clock_.monotonicUs();
-  const auto limitUs =
-      std::max(kSilentUs, static_cast<std::int64_t>(kSilentPeriods * session_.periodUs));
+  const auto limitUs = std::max(
+      kStreamSilentUs, static_cast<std::int64_t>(kStreamSilentPeriods * session_.periodUs));
   if (session_.silent || nowUs - session_.lastFrameUs < limitUs) return;
   if (packets_) packets_->flush([this](const StreamItem& item) { take(item); });
   if (nowUs - session_.lastFrameUs < limitUs) return;
