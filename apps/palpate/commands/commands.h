@@ -50,6 +50,7 @@ int ghostsCommand(const Arguments& words);
 int graspCommand(const Arguments& words);
 int graspsCommand(const Arguments& words);
 int handsCommand(const Arguments& words);
+int importCommand(const Arguments& words);
 int infoCommand(const Arguments& words);
 int kinematicsCommand(const Arguments& words);
 int portsCommand(const Arguments& words);

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <memory>
 #include <span>
@@ -74,9 +75,16 @@ class PalpateWriter {
   std::unique_ptr<Impl> impl_;
 };
 
-// Writes a whole profile as a finished recording: temporary file, synced, renamed. Throws FileError
-// (also when PATH is being written, or a rollback journal of another recording lies beside it),
-// Cancelled.
+// Writes a finished recording whose samples `fill` adds: temporary file, synced, renamed. Nothing
+// remains when `fill` throws. Samples wait in memory only until they fill blocks. Throws FileError
+// (also when PATH is being written, or a rollback journal of another recording lies beside it).
+void writePalpate(const std::filesystem::path& path,
+                  std::shared_ptr<const SensorLayout> layout,
+                  const std::map<std::string, std::string>& meta,
+                  const std::function<void(PalpateWriter&)>& fill,
+                  Overwrite overwrite = Overwrite::kRefuse);
+
+// Writes a whole profile in the same way. Throws FileError, Cancelled.
 void writePalpate(const Profile& profile,
                   std::span<const RecordingEvent> events,
                   const std::filesystem::path& path,

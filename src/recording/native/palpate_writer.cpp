@@ -99,21 +99,21 @@ void addUntil(std::size_t& next, std::size_t count, std::int64_t untilUs, TimeOf
   while (next < count && timeOf(next) <= untilUs) add(next++);
 }
 
-void writeAll(const Profile& profile,
-              std::span<const RecordingEvent> events,
-              const fs::path& file,
-              const Progress& progress) {
-  constexpr std::size_t kFramesPerReport = 256;
+std::map<std::string, std::string> metaOf(const Profile& profile) {
   std::map<std::string, std::string> meta;
   if (!profile.info().serial.empty()) meta["serial"] = profile.info().serial;
   if (!profile.info().firmware.empty()) meta["firmware"] = profile.info().firmware;
   if (!profile.info().sensorRevision.empty())
     meta["sensor_revision"] = profile.info().sensorRevision;
   meta.merge(handMeta(profile.hand()));
-  PalpateWriterOptions options;
-  options.synced = false;                // nobody sees the file before it is whole and synced
-  options.commitIntervalUs = INT64_MAX;  // full blocks
-  PalpateWriter writer(file, profile.hand().layout, meta, options);
+  return meta;
+}
+
+void writeAll(const Profile& profile,
+              std::span<const RecordingEvent> events,
+              PalpateWriter& writer,
+              const Progress& progress) {
+  constexpr std::size_t kFramesPerReport = 256;
   std::size_t angle = 0;
   std::size_t temperature = 0;
   const auto addBefore = [&](std::int64_t untilUs) {
@@ -139,7 +139,6 @@ void writeAll(const Profile& profile,
   }
   addBefore(INT64_MAX);
   for (const RecordingEvent& event : events) writer.addEvent(event);
-  writer.finish();
 }
 
 // A journal that is still needed by the recording that is about to be replaced would be played back
@@ -415,23 +414,41 @@ std::int64_t PalpateWriter::bytesOnDisk() const {
   return failure ? 0 : static_cast<std::int64_t>(size);
 }
 
-void writePalpate(const Profile& profile,
-                  std::span<const RecordingEvent> events,
-                  const fs::path& path,
-                  Overwrite overwrite,
-                  const Progress& progress) {
+void writePalpate(const fs::path& path,
+                  std::shared_ptr<const SensorLayout> layout,
+                  const std::map<std::string, std::string>& meta,
+                  const std::function<void(PalpateWriter&)>& fill,
+                  Overwrite overwrite) {
   requireWritable(path, overwrite);
   if (RecordingLock::isHeld(path)) throw FileError(path, "is being written by another program");
   if (overwrite == Overwrite::kRefuse) refuseForeignJournal(path);
   const TemporaryNeighbour temporary(path);
   try {
-    writeAll(profile, events, temporary.file(), progress);
+    PalpateWriterOptions options;
+    options.synced = false;                // nobody sees the file before it is whole and synced
+    options.commitIntervalUs = INT64_MAX;  // full blocks
+    PalpateWriter writer(temporary.file(), std::move(layout), meta, options);
+    fill(writer);
+    writer.finish();
   } catch (const FileError& error) {
     if (error.path() != temporary.file()) throw;
     rethrowAs(path, error);
   }
   if (overwrite == Overwrite::kReplace) settleJournal(path);
   publishFile(temporary.file(), path, overwrite);
+}
+
+void writePalpate(const Profile& profile,
+                  std::span<const RecordingEvent> events,
+                  const fs::path& path,
+                  Overwrite overwrite,
+                  const Progress& progress) {
+  writePalpate(
+      path,
+      profile.hand().layout,
+      metaOf(profile),
+      [&](PalpateWriter& writer) { writeAll(profile, events, writer, progress); },
+      overwrite);
 }
 
 }  // namespace palpate

@@ -1,0 +1,255 @@
+// The command `palpate import DATA --hand HAND` imports a table of another program as a recording.
+#include <cstdio>
+
+#include "palpate/core/error.h"
+#include "palpate/core/escaped_line.h"
+#include "palpate/core/number_text.h"
+#include "palpate/recording/import_time.h"
+#include "palpate/recording/recording_import.h"
+
+#include "commands/command_line.h"
+#include "commands/commands.h"
+#include "commands/hand_options.h"
+
+namespace palpate::commands {
+namespace fs = std::filesystem;
+namespace {
+
+// "2=left*" of --matrix; without a number all matrices.
+MatrixMapping matrixOption(const std::string& text) {
+  MatrixMapping made;
+  const auto equals = text.find('=');
+  made.columns = text;
+  if (equals != std::string::npos)
+    if (const auto matrix = parseInteger(text.substr(0, equals))) {
+      if (*matrix < 0 || *matrix > 255)
+        throw UsageError("--matrix: the number of the matrix is 0 to 255, not " +
+                         std::to_string(*matrix));
+      made.matrix = static_cast<std::size_t>(*matrix);
+      made.columns = text.substr(equals + 1);
+    }
+  if (made.columns.empty()) throw UsageError("--matrix names no columns");
+  return made;
+}
+
+// The mapping of --map with what the other options say instead.
+ImportMapping importMappingOf(const CommandLine& given) {
+  ImportMapping mapping;
+  if (const auto file = given.text("map")) mapping = readMapping(*file);
+  if (const auto name = given.choice("delimiter", {"comma", "semicolon", "tab", "blank", "detect"}))
+    mapping.text.delimiter = *delimiterNamed(*name);
+  if (const auto decimal = given.choice("decimal", {"point", "comma"}))
+    mapping.text.decimal = *decimal == "comma" ? ',' : '.';
+  if (mapping.text.decimal == ',' && mapping.text.delimiter == ',')
+    throw UsageError("decimal commas need another delimiter than a comma");
+  if (const auto header = given.choice("header", {"present", "absent", "detect"}))
+    mapping.text.header = *header == "present"  ? HeaderChoice::kPresent
+                          : *header == "absent" ? HeaderChoice::kAbsent
+                                                : HeaderChoice::kDetect;
+  if (const auto column = given.text("time")) {
+    mapping.time.column = *column;
+    mapping.time.rateHz.reset();
+  }
+  if (const auto unit = given.choice("time-unit", {"s", "ms", "us", "ns", "iso"}))
+    mapping.time.unit = *unit;
+  constexpr double kLowestRateHz = 1e-6;
+  constexpr double kHighestRateHz = 1e6;
+  if (const auto rate = given.number("rate", kLowestRateHz, kHighestRateHz))
+    mapping.time.rateHz = *rate;
+  if (given.has("rate") && given.has("time"))
+    throw UsageError("--rate makes the times: --time can't be given as well");
+  if (const auto start = given.text("start")) {
+    mapping.time.startUs = parseDate(*start);
+    if (!mapping.time.startUs)
+      throw UsageError("--start " + inQuotes(*start) + " is no date such as 2026-11-22T10:31:05Z");
+  }
+  if (given.has("matrix")) {
+    mapping.matrices.clear();
+    for (const std::string& text : given.texts("matrix"))
+      mapping.matrices.push_back(matrixOption(text));
+  }
+  const bool scaled = given.has("scale") || given.has("offset") || given.has("unit");
+  if (scaled && mapping.matrices.empty())
+    throw UsageError("--scale, --offset and --unit need --matrix, or matrices in the mapping");
+  constexpr double kLargest = 1e12;
+  for (MatrixMapping& matrix : mapping.matrices) {
+    matrix.values.scale = given.number("scale", -kLargest, kLargest).value_or(matrix.values.scale);
+    matrix.values.offset =
+        given.number("offset", -kLargest, kLargest).value_or(matrix.values.offset);
+    matrix.values.unit = given.text("unit").value_or(matrix.values.unit);
+    if (matrix.values.scale == 0.0) throw UsageError("--scale 0 would make every value the same");
+  }
+  if (const auto angles = given.text("angles")) mapping.angles.columns = *angles;
+  if (const auto unit = given.text("angle-unit")) mapping.angles.values.unit = *unit;
+  if (const auto temperatures = given.text("temperatures"))
+    mapping.temperatures.columns = *temperatures;
+  return mapping;
+}
+
+std::string secondsText(double seconds) { return fixedText(seconds, 3) + " s"; }
+
+void printImportPreview(const ImportPreview& preview) {
+  std::string text = preview.form + "\n";
+  constexpr std::size_t kMostColumns = 12;
+  const std::size_t shown = std::min(kMostColumns, preview.columns.size());
+  text += counted(preview.columns.size(), "column") + ":\n";
+  for (std::size_t c = 0; c < shown; ++c) {
+    const TableColumn& column = preview.columns[c];
+    text += "  #" + std::to_string(c + 1) + " " + column.name;
+    if (!column.unit.empty()) text += " [" + column.unit + "]";
+    if (column.numRows) text += ", " + std::to_string(*column.numRows) + " rows";
+    for (const std::size_t size : column.shape) text += " x " + std::to_string(size);
+    text += ", " + column.type + ":";
+    for (std::size_t r = 0; r < std::min<std::size_t>(4, preview.rows.size()); ++r)
+      text += (r > 0 ? ", " : " ") + preview.rows[r][c];
+    text += "\n";
+  }
+  if (shown < preview.columns.size())
+    text += "  and " + std::to_string(preview.columns.size() - shown) + " more\n";
+  for (const std::string& choice : preview.choices) text += choice + "\n";
+  if (!preview.time.empty()) text += "time: " + preview.time + "\n";
+  for (const std::string& note : preview.notes) text += "note: " + note + "\n";
+  const ImportReport& sample = preview.sample;
+  if (preview.problem.empty()) {
+    text += (preview.isWhole ? "all " : "the first ") + counted(sample.rows, "row") + ": " +
+            counted(sample.frames, "frame") + " in " + secondsText(sample.durationS) + ", " +
+            fixedText(sample.meanRateHz, 1) + " Hz, " + counted(sample.gaps, "gap") + "\n";
+    if (sample.refused.total() > 0)
+      text += sample.refused.summary() + "; the first: " + sample.refused.first + "\n";
+  }
+  std::string safe;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t end = text.find('\n', at);
+    safe += escapedLine(text.substr(at, end - at)) + "\n";
+    at = end + 1;
+  }
+  std::fputs(safe.c_str(), stdout);
+}
+
+Json importJson(const fs::path& out, const ImportReport& report) {
+  Json refused = Json::object();
+  refused.set("wrong_count", static_cast<std::int64_t>(report.refused.wrongCount))
+      .set("text", static_cast<std::int64_t>(report.refused.text))
+      .set("not_finite", static_cast<std::int64_t>(report.refused.notFinite))
+      .set("missing", static_cast<std::int64_t>(report.refused.missing))
+      .set("not_later", static_cast<std::int64_t>(report.refused.notLater))
+      .set("first", report.refused.first);
+  return Json::object()
+      .set("file", out.string())
+      .set("rows", static_cast<std::int64_t>(report.rows))
+      .set("frames", static_cast<std::int64_t>(report.frames))
+      .set("joint_angles", static_cast<std::int64_t>(report.angles))
+      .set("temperatures", static_cast<std::int64_t>(report.temperatures))
+      .set("duration_s", report.durationS)
+      .set("mean_rate_hz", report.meanRateHz)
+      .set("gaps", static_cast<std::int64_t>(report.gaps))
+      .set("longest_gap_s", report.longestGapS)
+      .set("absent_frames", static_cast<std::int64_t>(report.absentFrames))
+      .set("counter_restarts", static_cast<std::int64_t>(report.counterRestarts))
+      .set("refused", std::move(refused))
+      .set("notes", jsonList(report.notes));
+}
+
+std::string importText(const fs::path& out, const ImportReport& report) {
+  std::string text = out.string() + ": " + counted(report.frames, "frame");
+  if (report.angles > 0) text += ", " + counted(report.angles, "sample") + " of joint angles";
+  if (report.temperatures > 0)
+    text += ", " + counted(report.temperatures, "sample") + " of temperatures";
+  text += " in " + secondsText(report.durationS);
+  if (report.frames > 1) text += ", " + fixedText(report.meanRateHz, 1) + " Hz";
+  if (report.gaps > 0)
+    text +=
+        ", " + counted(report.gaps, "gap") + " (longest " + secondsText(report.longestGapS) + ")";
+  if (report.absentFrames > 0)
+    text += "; " + counted(report.absentFrames, "frame") +
+            " without an active taxel are not in the list";
+  return text;
+}
+
+}  // namespace
+
+int importCommand(const Arguments& words) {
+  const CommandLine given(
+      {.synopsis =
+           "palpate import DATA --hand NAME|FOLDER [-o OUT.palpate] [--map M.json] [--preview]",
+       .purpose =
+           "Imports a table of another program as a recording: text (CSV, what microcontrollers "
+           "print),\nNumPy's .npy and .npz, HDF5. A row is a frame. Columns are found by names and "
+           "shapes, or chosen:\nNAME, A..B, #3..#86 (by position, from 1), left*, "
+           "m{m}[{y}][{x}] (matrix, row, column).\nRows that can't be used are counted: exit "
+           "code 3.",
+       .options =
+           {handOption(),
+            {"output,o", "OUT.palpate", "default: DATA with the ending .palpate"},
+            {"map", "M.json", "the mapping of an earlier import; other options go before it"},
+            {"save-map", "M.json", "saves the mapping"},
+            {"preview", "", "shows columns, first rows and what becomes what; writes nothing"},
+            {"json", "", "the report as JSON"},
+            {"matrix",
+             "[M=]COLUMNS",
+             "the columns of matrix M, or of all matrices; may be repeated"},
+            {"scale", "X", "of the matrices: value = number * X + offset"},
+            {"offset", "X", "see --scale"},
+            {"unit", "UNIT", "of the matrices, after scale and offset (kPa, Pa, N, ..)"},
+            {"angles", "COLUMNS", "the joint angles, in the order of the axes, or none"},
+            {"angle-unit", "UNIT", "deg or rad, mm or m"},
+            {"temperatures", "COLUMNS", "the temperatures, in the order of the sensors, or none"},
+            {"time", "COLUMN", "the times of the rows"},
+            {"time-unit", "UNIT", "s, ms, us, ns or iso"},
+            {"rate", "HZ", "rows at equal intervals, where there are no times"},
+            {"start", "DATE", "date of the first row (2026-11-22T10:31:05Z)"},
+            {"delimiter", "NAME", "comma, semicolon, tab, blank or detect (default)"},
+            {"decimal", "NAME", "point (default) or comma"},
+            {"header", "WORD", "a line of names is present, absent or detect (default)"},
+            {"strict", "", "the first row that can't be used is an error"},
+            {"force", "", "replace OUT, and the file of --save-map"}},
+       .example = "palpate import pad.csv --hand flat_pad -o pad.palpate",
+       .minArguments = 1,
+       .maxArguments = 1},
+      words);
+  if (given.helpShown()) return kDone;
+  const fs::path data = given.words()[0];
+  if (!given.has("hand")) throw UsageError("import needs --hand; 'palpate hands' lists them");
+  const bool preview = given.has("preview");
+  for (const char* option : {"output", "save-map", "strict", "force", "json"})
+    if (preview && given.has(option))
+      throw UsageError("--preview writes nothing: leave out --" + std::string(option));
+  const ImportMapping mapping = importMappingOf(given);
+  const HandDescription hand = *handOf(given);
+  if (preview) {
+    const ImportPreview shown = previewImport(data, hand, mapping);
+    printImportPreview(shown);
+    if (shown.problem.empty()) return shown.sample.refused.total() > 0 ? kPartlyDone : kDone;
+    throw Error(shown.problem);
+  }
+  fs::path out = given.text("output").value_or("");
+  if (out.empty()) out = fs::path(data).replace_extension(".palpate");
+  const Overwrite overwrite = given.has("force") ? Overwrite::kReplace : Overwrite::kRefuse;
+  if (const auto file = given.text("save-map")) requireWritable(*file, overwrite);
+  const ImportReport report = [&] {
+    ProgressLine progress("importing " + data.string(), given.quiet());
+    return importRecording(data,
+                           hand,
+                           mapping,
+                           out,
+                           {.strict = given.has("strict"), .overwrite = overwrite},
+                           progress.callback());
+  }();
+  if (const auto file = given.text("save-map")) writeMapping(mapping, *file, overwrite);
+  if (given.has("json")) {
+    std::printf("%s\n", importJson(out, report).text().c_str());
+  } else if (!given.quiet()) {
+    std::printf("%s\n", escapedLine(importText(out, report)).c_str());
+    for (const std::string& note : report.notes)
+      std::printf("note: %s\n", escapedLine(note).c_str());
+  }
+  if (report.refused.total() == 0) return kDone;
+  std::fprintf(stderr,
+               "palpate: %s\n",
+               escapedLine(data.string() + ": " + report.refused.summary() +
+                           "; the first: " + report.refused.first)
+                   .c_str());
+  return kPartlyDone;
+}
+
+}  // namespace palpate::commands

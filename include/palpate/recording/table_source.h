@@ -1,0 +1,106 @@
+// Tables of numbers in files of other programs, read row by row for an import: text (CSV and what
+// microcontrollers print), NumPy's .npy and .npz, HDF5. A row belongs to one instant. A column is a
+// number per row (text) or an array per row: of a data set of T x 14 x 6 numbers, a row has 14 x 6.
+//
+// A table of any length takes bounded memory: openTable() reads the beginning of a text, or the
+// headers of arrays; rows are read one after the other.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace palpate {
+
+struct TableColumn {
+  std::string name;       // as in the file; "column 3" (from 1) where a text has no header
+  std::string unit = {};  // as in the file: "kPa"; empty when it is not known
+  std::vector<std::size_t> shape = {};        // of the numbers of one row; empty: one number
+  std::optional<std::uint64_t> numRows = {};  // known of arrays, not of texts
+  std::string type = {};                      // "int16", "float64", "text", "bool", ..
+  bool isNumeric = true;                      // false: texts and other things that can't be values
+  bool hasDates = false;                      // ISO 8601 or datetime64: can only be the time
+
+  // Numbers of one row: the product of the shape.
+  std::size_t width() const noexcept;
+};
+
+// What stands where a number should be.
+enum class CellState : std::uint8_t {
+  kNumber,
+  kEmpty,      // nothing: the series has no value in this row
+  kNotFinite,  // NaN, infinite, or too large for a float
+  kText
+};
+
+// The time of a row as the file holds it: a text, a whole number, or a number.
+struct TimeCell {
+  CellState state = CellState::kEmpty;
+  std::string_view text = {};  // of a text; valid until the next row
+  std::optional<std::int64_t> whole = {};
+  double number = 0.0;
+};
+
+struct TableRow {
+  std::uint64_t line = 0;  // line of a text, row of arrays; both from 1
+  // Whether the row has as many cells as the table has columns. If not, the rest is not valid.
+  bool complete = true;
+  std::size_t numCells = 0;       // in the row, when it is not complete
+  std::vector<double> values;     // of the selected columns, one after the other
+  std::vector<CellState> states;  // one per value
+  TimeCell time;
+};
+
+enum class HeaderChoice { kDetect, kPresent, kAbsent };
+
+// How a text is read; other files need no choices.
+struct TableOptions {
+  // ',', ';', '\t', or ' ' for blanks and tabs; 0: detected.
+  char delimiter = 0;
+  char decimal = '.';  // or ','
+  HeaderChoice header = HeaderChoice::kDetect;
+  bool operator==(const TableOptions&) const = default;
+};
+
+class TableSource {
+ public:
+  virtual ~TableSource() = default;
+
+  virtual const std::filesystem::path& path() const noexcept = 0;
+  virtual const std::vector<TableColumn>& columns() const noexcept = 0;
+  // What the file is, in words: "CSV, separated by commas, names in line 1".
+  virtual std::string form() const = 0;
+  // "line" of texts, "row" of arrays.
+  virtual const char* rowWord() const noexcept = 0;
+  // Starts at the first row with these columns, whose arrays must have the same number of rows.
+  // Throws FormatError that names the columns that have not.
+  virtual void start(std::span<const std::size_t> columns, std::optional<std::size_t> time) = 0;
+  // Reads the next row; false at the end. Throws FileError, FormatError (cut off, damaged).
+  virtual bool next(TableRow& row) = 0;
+  // How much of the rows has been read, 0..1.
+  virtual double fraction() const noexcept = 0;
+  // The text that stands at value `index` of the last row.
+  virtual std::string textOf(std::size_t index) const = 0;
+  // The place of value `index` of the last row, and what stands there: "column 3: \"abc\"" (from
+  // 1), "m0[3][2] is nan".
+  virtual std::string placeOf(std::size_t index) const = 0;
+};
+
+// The longest line of a text [bytes].
+constexpr std::size_t kMaxLineBytes = 4u << 20;
+
+// Opens a table; the first bytes of the file tell its kind. Throws FileError, FormatError.
+std::unique_ptr<TableSource> openTable(const std::filesystem::path& path,
+                                       const TableOptions& options = {});
+
+// Name of a delimiter for users: "comma", "semicolon", "tab", "blank"; "detect" of 0.
+std::string_view delimiterName(char delimiter);
+std::optional<char> delimiterNamed(std::string_view name);
+
+}  // namespace palpate

@@ -1,0 +1,74 @@
+// One cell of a text: what it holds.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "palpate/core/escaped_line.h"
+#include "palpate/core/number_text.h"
+#include "palpate/recording/table_source.h"
+
+namespace palpate {
+
+inline std::string smallLetters(std::string_view text) {
+  std::string small(text);
+  std::transform(small.begin(), small.end(), small.begin(), [](char letter) {
+    return letter >= 'A' && letter <= 'Z' ? static_cast<char>(letter - 'A' + 'a') : letter;
+  });
+  return small;
+}
+
+// A cell without blanks and quotes around it.
+inline std::string_view trimmedCell(std::string_view cell) {
+  cell = trimmed(cell);
+  if (cell.size() >= 2 && cell.front() == '"' && cell.back() == '"')
+    cell = trimmed(cell.substr(1, cell.size() - 2));
+  return cell;
+}
+
+// The number in a cell, finite or not; nothing when it is a text.
+inline std::optional<double> cellNumber(std::string_view cell, char decimal) {
+  cell = trimmedCell(cell);
+  if (cell.size() > 1 && cell.front() == '+' && cell[1] != '-') cell.remove_prefix(1);
+  if (decimal != '.') {
+    constexpr std::size_t kLongestNumber = 64;
+    const auto comma = cell.find(decimal);
+    if (cell.find('.') != std::string_view::npos) return std::nullopt;
+    if (comma != std::string_view::npos && cell.size() <= kLongestNumber) {
+      std::string pointed(cell);
+      pointed[comma] = '.';
+      return parseDouble(pointed);
+    }
+  }
+  return parseDouble(cell);
+}
+
+// Whether a text stands for "not a number" or infinity.
+inline bool isNotFiniteWord(std::string_view cell) {
+  std::string word = smallLetters(trimmedCell(cell));
+  if (word.starts_with('-') || word.starts_with('+')) word.erase(0, 1);
+  return word == "nan" || word == "inf" || word == "infinity";
+}
+
+// Whether a float can hold a value.
+inline bool fitsFloat(double value) {
+  return std::isfinite(value) &&
+         std::abs(value) <= static_cast<double>(std::numeric_limits<float>::max());
+}
+
+inline CellState cellStateOf(std::string_view cell, char decimal, double& value) {
+  cell = trimmedCell(cell);
+  value = 0.0;
+  if (cell.empty()) return CellState::kEmpty;
+  if (const auto number = cellNumber(cell, decimal)) {
+    value = *number;
+    return fitsFloat(value) ? CellState::kNumber : CellState::kNotFinite;
+  }
+  return isNotFiniteWord(cell) ? CellState::kNotFinite : CellState::kText;
+}
+
+}  // namespace palpate

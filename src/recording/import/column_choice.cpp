@@ -1,0 +1,427 @@
+#include "recording/import/column_choice.h"
+
+#include <algorithm>
+#include <cctype>
+#include <map>
+
+#include "palpate/core/error.h"
+#include "palpate/core/escaped_line.h"
+#include "palpate/core/number_text.h"
+
+namespace palpate {
+namespace {
+
+bool isDigit(char letter) { return letter >= '0' && letter <= '9'; }
+
+// The whole numbers in a name, and the name with # in their places.
+std::string stemOf(std::string_view name, std::vector<std::int64_t>& numbers) {
+  constexpr std::size_t kMostDigits = 15;
+  std::string stem;
+  for (std::size_t at = 0; at < name.size();) {
+    std::size_t end = at;
+    while (end < name.size() && isDigit(name[end])) ++end;
+    if (end == at) {
+      stem += name[at++];
+      continue;
+    }
+    numbers.push_back(end - at > kMostDigits ? -1 : *parseInteger(name.substr(at, end - at)));
+    stem += '#';
+    at = end;
+  }
+  return stem;
+}
+
+// Appends the elements of a column, with these first indices.
+void appendElements(const std::vector<TableColumn>& columns,
+                    std::size_t column,
+                    const std::vector<std::int64_t>& first,
+                    std::vector<TableElement>& elements) {
+  const std::vector<std::size_t>& shape = columns[column].shape;
+  const std::size_t width = columns[column].width();
+  for (std::size_t within = 0; within < width; ++within) {
+    TableElement element{column, within, first};
+    element.indices.resize(first.size() + shape.size());
+    std::size_t rest = within;
+    for (std::size_t d = shape.size(); d > 0; --d) {
+      element.indices[first.size() + d - 1] = static_cast<std::int64_t>(rest % shape[d - 1]);
+      rest /= shape[d - 1];
+    }
+    elements.push_back(std::move(element));
+  }
+}
+
+// The indices of the elements by position, without those that are the same in all elements.
+std::vector<std::size_t> varyingPositions(const ColumnGroup& group) {
+  std::vector<std::size_t> positions;
+  const auto& first = group.elements.front().indices;
+  for (std::size_t p = 0; p < first.size(); ++p)
+    if (std::any_of(group.elements.begin(), group.elements.end(), [&](const TableElement& each) {
+          return each.indices[p] != first[p];
+        }))
+      positions.push_back(p);
+  return positions;
+}
+
+// Whether every taxel has exactly one number, and no number is outside.
+bool isComplete(const std::vector<std::size_t>& places,
+                const SensorLayout& layout,
+                std::optional<std::size_t> matrix) {
+  std::vector<std::uint8_t> taken(layout.numCells(), 0);
+  for (const std::size_t place : places) {
+    if (taken[place] != 0) return false;
+    taken[place] = 1;
+  }
+  for (std::size_t m = 0; m < layout.numMatrices(); ++m) {
+    if (matrix && m != *matrix) continue;
+    const Mask& mask = layout.matrix(m).staticMask;
+    for (std::size_t k = 0; k < mask.size(); ++k)
+      if (mask[k] != 0 && taken[layout.offset(m) + k] == 0) return false;
+  }
+  return true;
+}
+
+// The places of the taxels of a matrix among its cells, or of all of its cells, for `count`
+// numbers.
+std::optional<std::vector<std::size_t>> cellsFor(std::size_t count, const MatrixLayout& matrix) {
+  std::vector<std::size_t> cells;
+  if (count != matrix.numCells() && count != matrix.numTaxels()) return std::nullopt;
+  for (std::size_t k = 0; k < matrix.numCells(); ++k)
+    if (count == matrix.numCells() || matrix.staticMask[k] != 0) cells.push_back(k);
+  return cells;
+}
+
+std::int64_t smallestAt(const ColumnGroup& group, std::size_t position) {
+  std::int64_t smallest = INT64_MAX;
+  for (const TableElement& each : group.elements)
+    smallest = std::min(smallest, each.indices[position]);
+  return smallest;
+}
+
+// Indices are counted from 0 or from 1.
+std::int64_t baseAt(const ColumnGroup& group, std::size_t position) {
+  return smallestAt(group, position) == 1 ? 1 : 0;
+}
+
+// One matrix by row and column, or by number.
+std::optional<std::vector<std::size_t>> placesInMatrix(const ColumnGroup& group,
+                                                       const std::vector<std::size_t>& positions,
+                                                       const SensorLayout& layout,
+                                                       std::size_t matrix) {
+  const MatrixLayout& target = layout.matrix(matrix);
+  std::vector<std::size_t> places;
+  if (positions.size() == 2) {
+    const std::int64_t firstRow = baseAt(group, positions[0]);
+    const std::int64_t firstColumn = baseAt(group, positions[1]);
+    for (const TableElement& each : group.elements) {
+      const std::int64_t y = each.indices[positions[0]] - firstRow;
+      const std::int64_t x = each.indices[positions[1]] - firstColumn;
+      if (y < 0 || y >= target.rows || x < 0 || x >= target.columns) return std::nullopt;
+      places.push_back(layout.offset(matrix) + static_cast<std::size_t>(y * target.columns + x));
+    }
+  } else if (positions.size() <= 1) {
+    const auto cells = cellsFor(group.elements.size(), target);
+    if (!cells) return std::nullopt;
+    const std::int64_t base = positions.empty() ? 0 : smallestAt(group, positions[0]);
+    for (const TableElement& each : group.elements) {
+      const std::int64_t i = positions.empty() ? 0 : each.indices[positions[0]] - base;
+      if (i < 0 || i >= static_cast<std::int64_t>(cells->size())) return std::nullopt;
+      places.push_back(layout.offset(matrix) + (*cells)[static_cast<std::size_t>(i)]);
+    }
+  } else {
+    return std::nullopt;
+  }
+  if (!isComplete(places, layout, matrix)) return std::nullopt;
+  return places;
+}
+
+// All matrices: by matrix, row and column; by matrix and number; by number.
+std::optional<std::vector<std::size_t>> placesInLayout(const ColumnGroup& group,
+                                                       const std::vector<std::size_t>& positions,
+                                                       const SensorLayout& layout) {
+  if (positions.size() == 1)
+    return [&]() -> std::optional<std::vector<std::size_t>> {
+      const auto order = placesInOrder(group.elements.size(), layout, std::nullopt, false);
+      if (!order) return std::nullopt;
+      const std::int64_t base = smallestAt(group, positions[0]);
+      std::vector<std::size_t> places;
+      for (const TableElement& each : group.elements) {
+        const std::int64_t i = each.indices[positions[0]] - base;
+        if (i < 0 || i >= static_cast<std::int64_t>(order->size())) return std::nullopt;
+        places.push_back((*order)[static_cast<std::size_t>(i)]);
+      }
+      if (!isComplete(places, layout, std::nullopt)) return std::nullopt;
+      return places;
+    }();
+  if (positions.size() != 2 && positions.size() != 3) return std::nullopt;
+  const std::int64_t base = baseAt(group, positions[0]);
+  std::vector<std::size_t> places(group.elements.size());
+  for (std::size_t m = 0; m < layout.numMatrices(); ++m) {
+    ColumnGroup part;
+    std::vector<std::size_t> origin;
+    for (std::size_t e = 0; e < group.elements.size(); ++e) {
+      const std::int64_t index = group.elements[e].indices[positions[0]] - base;
+      if (index < 0 || index >= static_cast<std::int64_t>(layout.numMatrices()))
+        return std::nullopt;
+      if (index != static_cast<std::int64_t>(m)) continue;
+      part.elements.push_back(group.elements[e]);
+      origin.push_back(e);
+    }
+    if (part.elements.empty()) return std::nullopt;
+    const auto found = placesInMatrix(part, {positions.begin() + 1, positions.end()}, layout, m);
+    if (!found) return std::nullopt;
+    for (std::size_t e = 0; e < origin.size(); ++e) places[origin[e]] = (*found)[e];
+  }
+  return places;
+}
+
+// Matches a name against a pattern of * and {m}, {y}, {x}, {i}; the numbers at the letters.
+bool matchesPattern(std::string_view name,
+                    std::string_view pattern,
+                    std::vector<std::int64_t>& numbers) {
+  if (pattern.empty()) return name.empty();
+  if (pattern[0] == '*') {
+    for (std::size_t skipped = 0; skipped <= name.size(); ++skipped) {
+      const std::size_t before = numbers.size();
+      if (matchesPattern(name.substr(skipped), pattern.substr(1), numbers)) return true;
+      numbers.resize(before);
+    }
+    return false;
+  }
+  if (pattern.size() >= 3 && pattern[0] == '{' && pattern[2] == '}') {
+    std::size_t end = 0;
+    while (end < name.size() && isDigit(name[end]) && end < 9) ++end;
+    if (end == 0) return false;
+    numbers.push_back(*parseInteger(name.substr(0, end)));
+    return matchesPattern(name.substr(end), pattern.substr(3), numbers);
+  }
+  return !name.empty() && name[0] == pattern[0] &&
+         matchesPattern(name.substr(1), pattern.substr(1), numbers);
+}
+
+// The letters of the places in a pattern. Throws Error for an unknown one or one that comes twice.
+std::string lettersOf(const std::string& pattern) {
+  constexpr std::size_t kMostStars = 3;
+  std::string letters;
+  if (std::count(pattern.begin(), pattern.end(), '*') > static_cast<std::ptrdiff_t>(kMostStars))
+    throw Error("the pattern " + inQuotes(pattern) + " has more than three *");
+  for (std::size_t at = pattern.find('{'); at != std::string::npos;
+       at = pattern.find('{', at + 1)) {
+    const char letter = at + 2 < pattern.size() && pattern[at + 2] == '}' ? pattern[at + 1] : ' ';
+    if (std::string_view("myxi").find(letter) == std::string_view::npos)
+      throw Error("the pattern " + inQuotes(pattern) +
+                  " holds something else than {m}, {y}, {x}, {i}");
+    if (letters.find(letter) != std::string::npos)
+      throw Error("the pattern " + inQuotes(pattern) + " holds {" + letter + "} twice");
+    letters += letter;
+  }
+  return letters;
+}
+
+std::optional<std::size_t> columnNamed(const std::vector<TableColumn>& columns,
+                                       std::string_view name) {
+  for (std::size_t c = 0; c < columns.size(); ++c)
+    if (columns[c].name == name ||
+        (name.size() > 1 && name[0] == '/' && columns[c].name == name.substr(1)))
+      return c;
+  if (!name.starts_with('#')) return std::nullopt;
+  const auto position = parseInteger(name.substr(1));
+  if (!position || *position < 1 || *position > static_cast<std::int64_t>(columns.size()))
+    return std::nullopt;
+  return static_cast<std::size_t>(*position - 1);
+}
+
+void requireNumbers(const TableColumn& column) {
+  if (!column.isNumeric)
+    throw Error(inQuotes(column.name) + " holds no numbers (" +
+                (column.type.empty() ? "text" : column.type) + ")");
+}
+
+std::size_t requireColumn(const std::vector<TableColumn>& columns, std::string_view name) {
+  const auto column = columnNamed(columns, name);
+  if (column) return *column;
+  if (name.starts_with('#') && parseInteger(name.substr(1)))
+    throw Error("there is no column " + std::string(name) + ": the file has " +
+                counted(columns.size(), "column"));
+  throw Error("there is no column " + inQuotes(name) + "; there are " + namesText(columns));
+}
+
+// The columns of one part of a choice.
+std::vector<std::size_t> columnsOf(const std::vector<TableColumn>& columns, std::string_view part) {
+  std::vector<std::size_t> chosen;
+  const auto dots = part.find("..");
+  if (columnNamed(columns, part)) return {*columnNamed(columns, part)};
+  if (part.find('*') != std::string_view::npos) {
+    std::vector<std::int64_t> unused;
+    for (std::size_t c = 0; c < columns.size(); ++c)
+      if (columns[c].isNumeric && matchesPattern(columns[c].name, part, unused))
+        chosen.push_back(c);
+    if (chosen.empty())
+      throw Error("no column of numbers matches " + inQuotes(part) + "; there are " +
+                  namesText(columns));
+    return chosen;
+  }
+  if (dots == std::string_view::npos) return {requireColumn(columns, part)};
+  const std::size_t first = requireColumn(columns, trimmed(part.substr(0, dots)));
+  const std::size_t last = requireColumn(columns, trimmed(part.substr(dots + 2)));
+  if (last < first) throw Error("the columns " + inQuotes(part) + " end before they begin");
+  for (std::size_t c = first; c <= last; ++c) chosen.push_back(c);
+  return chosen;
+}
+
+}  // namespace
+
+std::vector<ColumnGroup> groupColumns(const std::vector<TableColumn>& columns,
+                                      const std::vector<std::size_t>& chosen) {
+  std::vector<ColumnGroup> groups;
+  std::map<std::string, std::size_t> byStem;
+  for (const std::size_t c : chosen) {
+    std::vector<std::int64_t> numbers;
+    std::string stem = stemOf(columns[c].name, numbers);
+    for (std::size_t d = 0; d < columns[c].shape.size(); ++d) stem += "[#]";
+    const auto [at, isNew] = byStem.try_emplace(stem, groups.size());
+    if (isNew) groups.push_back({stem, {}, {}});
+    groups[at->second].columns.push_back(c);
+    appendElements(columns, c, numbers, groups[at->second].elements);
+  }
+  return groups;
+}
+
+std::optional<std::vector<std::size_t>> placesInOrder(std::size_t count,
+                                                      const SensorLayout& layout,
+                                                      std::optional<std::size_t> matrix,
+                                                      bool columnByColumn) {
+  const bool all = matrix ? count == layout.matrix(*matrix).numCells() : count == layout.numCells();
+  const bool taxels =
+      matrix ? count == layout.matrix(*matrix).numTaxels() : count == layout.numTaxels();
+  if (!all && !taxels) return std::nullopt;
+  std::vector<std::size_t> places;
+  for (std::size_t m = 0; m < layout.numMatrices(); ++m) {
+    if (matrix && m != *matrix) continue;
+    const MatrixLayout& each = layout.matrix(m);
+    const auto rows = static_cast<std::size_t>(each.rows);
+    const auto width = static_cast<std::size_t>(each.columns);
+    for (std::size_t k = 0; k < each.numCells(); ++k) {
+      const std::size_t cell = columnByColumn ? k % rows * width + k / rows : k;
+      if (all || each.staticMask[cell] != 0) places.push_back(layout.offset(m) + cell);
+    }
+  }
+  return places;
+}
+
+std::optional<std::vector<std::size_t>> placesOf(const ColumnGroup& group,
+                                                 const SensorLayout& layout,
+                                                 std::optional<std::size_t> matrix) {
+  if (group.elements.empty() || group.elements.size() > layout.numCells()) return std::nullopt;
+  if (!matrix && layout.numMatrices() == 1) matrix = 0;
+  std::vector<std::size_t> all(group.elements.front().indices.size());
+  for (std::size_t p = 0; p < all.size(); ++p) all[p] = p;
+  const std::vector<std::size_t> varying = varyingPositions(group);
+  for (const auto& positions : {all, varying})
+    if (auto places = matrix ? placesInMatrix(group, positions, layout, *matrix)
+                             : placesInLayout(group, positions, layout))
+      return places;
+  return std::nullopt;
+}
+
+ChosenElements chooseElements(const std::vector<TableColumn>& columns, const std::string& text) {
+  ChosenElements chosen;
+  const std::string whole(trimmed(text));
+  if (const auto column = columnNamed(columns, whole)) {
+    requireNumbers(columns[*column]);
+    appendElements(columns, *column, {}, chosen.elements);
+    return chosen;
+  }
+  if (whole.find('{') != std::string::npos) {
+    chosen.letters = lettersOf(whole);
+    for (std::size_t c = 0; c < columns.size(); ++c) {
+      std::vector<std::int64_t> numbers;
+      if (!columns[c].isNumeric || !matchesPattern(columns[c].name, whole, numbers)) continue;
+      appendElements(columns, c, numbers, chosen.elements);
+    }
+    if (chosen.elements.empty())
+      throw Error("no column of numbers matches " + inQuotes(whole) + "; there are " +
+                  namesText(columns));
+    return chosen;
+  }
+  std::size_t at = 0;
+  while (at <= whole.size()) {
+    const auto comma = std::min(whole.find(',', at), whole.size());
+    const std::string_view part = trimmed(std::string_view(whole).substr(at, comma - at));
+    if (part.empty())
+      throw Error("the choice of columns " + inQuotes(whole) + " has an empty part");
+    for (const std::size_t column : columnsOf(columns, part)) {
+      requireNumbers(columns[column]);
+      appendElements(columns, column, {}, chosen.elements);
+    }
+    at = comma + 1;
+  }
+  return chosen;
+}
+
+std::vector<std::size_t> placesByLetters(const ChosenElements& chosen,
+                                         const SensorLayout& layout,
+                                         std::optional<std::size_t> matrix) {
+  // Indices behind the letters are those of arrays: matched columns are plain numbers, or arrays
+  // whose rows hold what no letter stands for.
+  const std::string& letters = chosen.letters;
+  ColumnGroup group;
+  group.elements = chosen.elements;
+  const auto baseOf = [&](char letter) -> std::int64_t {
+    const auto p = letters.find(letter);
+    return p == std::string::npos ? 0 : baseAt(group, p);
+  };
+  const std::int64_t bases[] = {baseOf('m'), baseOf('y'), baseOf('x'), baseOf('i')};
+  std::vector<std::size_t> places;
+  for (const TableElement& each : chosen.elements) {
+    const auto at = [&](char letter, std::size_t base) -> std::optional<std::int64_t> {
+      const auto p = letters.find(letter);
+      if (p == std::string::npos) return std::nullopt;
+      return each.indices[p] - bases[base];
+    };
+    const std::int64_t m = at('m', 0).value_or(static_cast<std::int64_t>(matrix.value_or(0)));
+    const auto refuse = [&](const std::string& what) {
+      throw Error("a column of the pattern is outside of the hand: " + what + "; expected " +
+                  std::to_string(layout.numMatrices()) + " matrices");
+    };
+    if (m < 0 || m >= static_cast<std::int64_t>(layout.numMatrices()))
+      refuse("matrix " + std::to_string(m));
+    const auto index = static_cast<std::size_t>(m);
+    const MatrixLayout& target = layout.matrix(index);
+    std::int64_t cell = 0;
+    if (const auto i = at('i', 3)) {
+      cell = *i;
+    } else if (letters.find('y') != std::string::npos || letters.find('x') != std::string::npos) {
+      const std::int64_t y = at('y', 1).value_or(0);
+      // A pattern of rows leaves the columns of an array.
+      const std::int64_t x = at('x', 2).value_or(static_cast<std::int64_t>(each.within));
+      if (y < 0 || y >= target.rows || x < 0 || x >= target.columns)
+        refuse("row " + std::to_string(y) + ", column " + std::to_string(x) + " of a matrix of " +
+               std::to_string(target.rows) + " x " + std::to_string(target.columns));
+      cell = y * target.columns + x;
+    } else {
+      cell = static_cast<std::int64_t>(each.within);
+    }
+    if (cell < 0 || cell >= static_cast<std::int64_t>(target.numCells()))
+      refuse("taxel " + std::to_string(cell) + " of a matrix of " + std::to_string(target.rows) +
+             " x " + std::to_string(target.columns));
+    places.push_back(layout.offset(index) + static_cast<std::size_t>(cell));
+  }
+  std::vector<std::size_t> sorted = places;
+  std::sort(sorted.begin(), sorted.end());
+  if (std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end())
+    throw Error("two columns of the pattern are the same taxel");
+  return places;
+}
+
+std::string namesText(const std::vector<TableColumn>& columns) {
+  constexpr std::size_t kShown = 12;
+  std::string text;
+  for (std::size_t c = 0; c < std::min(kShown, columns.size()); ++c) {
+    text += (c > 0 ? ", " : "") + columns[c].name;
+    for (const std::size_t size : columns[c].shape) text += "[" + std::to_string(size) + "]";
+  }
+  if (columns.size() > kShown) text += " and " + std::to_string(columns.size() - kShown) + " more";
+  return text;
+}
+
+}  // namespace palpate

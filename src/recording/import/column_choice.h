@@ -1,0 +1,63 @@
+// The columns that a text of a mapping chooses (see ImportMapping), and groups of columns by name.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "palpate/model/matrix_layout.h"
+#include "palpate/recording/table_source.h"
+
+namespace palpate {
+
+// One number of a row.
+struct TableElement {
+  std::size_t column = 0;
+  std::size_t within = 0;             // of the numbers of the column's array
+  std::vector<std::int64_t> indices;  // in the name, then in the array
+};
+
+// Columns of the same name but for digits, and of the same number of dimensions.
+struct ColumnGroup {
+  std::string stem;  // "m#[#][#]"
+  std::vector<std::size_t> columns;
+  std::vector<TableElement> elements;
+};
+
+// The groups of the given columns, in the order of their first columns.
+std::vector<ColumnGroup> groupColumns(const std::vector<TableColumn>& columns,
+                                      const std::vector<std::size_t>& chosen);
+
+// For each element the place in the layout, when the indices of the group are those of the whole
+// layout, or of one matrix of it; else nothing.
+std::optional<std::vector<std::size_t>> placesOf(const ColumnGroup& group,
+                                                 const SensorLayout& layout,
+                                                 std::optional<std::size_t> matrix);
+
+// The places of a matrix (or of all) in the order of `count` numbers without indices: all places or
+// those that have a taxel; nothing when the number fits neither.
+std::optional<std::vector<std::size_t>> placesInOrder(std::size_t count,
+                                                      const SensorLayout& layout,
+                                                      std::optional<std::size_t> matrix,
+                                                      bool columnByColumn);
+
+// What a text chooses.
+struct ChosenElements {
+  std::vector<TableElement> elements;
+  // Of a pattern with {m}, {y}, {x}, {i}: the letters, in the order of the indices of each element.
+  std::string letters;
+};
+// Throws Error: nothing has such a name; lists what there is.
+ChosenElements chooseElements(const std::vector<TableColumn>& columns, const std::string& text);
+
+// The place of each element chosen by a pattern with letters. Throws Error.
+std::vector<std::size_t> placesByLetters(const ChosenElements& chosen,
+                                         const SensorLayout& layout,
+                                         std::optional<std::size_t> matrix);
+
+// The names of the columns for a message: "t, m0, m1 and 12 more".
+std::string namesText(const std::vector<TableColumn>& columns);
+
+}  // namespace palpate

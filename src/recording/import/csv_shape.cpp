@@ -1,0 +1,381 @@
+#include "recording/import/csv_shape.h"
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <optional>
+
+#include "palpate/core/error.h"
+#include "palpate/core/escaped_line.h"
+#include "palpate/recording/import_time.h"
+
+#include "recording/import/cell_text.h"
+#include "recording/import/column_unit.h"
+
+namespace palpate {
+namespace {
+
+using Cells = std::vector<std::string_view>;
+
+// What a cell is, as far as the shape of the table depends on it.
+enum class CellKind { kEmpty, kNumber, kDecimalComma, kDate, kText };
+
+CellKind kindOf(std::string_view cell, char decimal) {
+  double value = 0.0;
+  switch (cellStateOf(cell, decimal, value)) {
+    case CellState::kEmpty:
+      return CellKind::kEmpty;
+    case CellState::kNumber:
+    case CellState::kNotFinite:
+      return CellKind::kNumber;
+    case CellState::kText:
+      break;
+  }
+  if (parseDate(trimmedCell(cell))) return CellKind::kDate;
+  return decimal == '.' && cellNumber(cell, ',') ? CellKind::kDecimalComma : CellKind::kText;
+}
+
+// The lines of the sample as cells, by one delimiter.
+struct Candidate {
+  char delimiter = ',';
+  std::vector<Cells> rows;
+  std::size_t numCells = 0;  // of most rows
+  std::size_t numSuch = 0;   // rows with so many cells
+  double numericFraction = 0.0;
+
+  double score() const {
+    return static_cast<double>(numSuch) / static_cast<double>(rows.size()) * numericFraction;
+  }
+};
+
+Candidate candidateOf(const std::vector<std::string_view>& lines, char delimiter, char decimal) {
+  Candidate made;
+  made.delimiter = delimiter;
+  std::map<std::size_t, std::size_t> counts;
+  for (const std::string_view line : lines) {
+    splitCells(line, delimiter, made.rows.emplace_back());
+    ++counts[made.rows.back().size()];
+  }
+  for (const auto& [numCells, rows] : counts)
+    if (rows > made.numSuch || (rows == made.numSuch && numCells > made.numCells)) {
+      made.numCells = numCells;
+      made.numSuch = rows;
+    }
+  std::size_t numeric = 0;
+  std::size_t all = 0;
+  for (const Cells& row : made.rows) {
+    if (row.size() != made.numCells) continue;
+    for (const std::string_view cell : row) {
+      numeric += kindOf(cell, decimal) == CellKind::kText ? 0 : 1;
+      ++all;
+    }
+  }
+  made.numericFraction = all == 0 ? 0.0 : static_cast<double>(numeric) / static_cast<double>(all);
+  return made;
+}
+
+Candidate bestCandidate(const std::vector<std::string_view>& lines, const TableOptions& options) {
+  constexpr std::array kDelimiters = {',', ';', '\t', ' '};
+  std::optional<Candidate> best;
+  for (const char delimiter : kDelimiters) {
+    if (options.delimiter != 0 && delimiter != options.delimiter) continue;
+    if (options.delimiter == 0 && delimiter == options.decimal) continue;
+    Candidate next = candidateOf(lines, delimiter, options.decimal);
+    // A table of one column has no delimiter: any other candidate is better.
+    const auto rank = [](const Candidate& each) {
+      return std::pair(each.numCells > 1 ? each.score() : each.score() * 0.5, each.numCells);
+    };
+    if (!best || rank(next) > rank(*best)) best = std::move(next);
+  }
+  return std::move(*best);
+}
+
+bool isText(CellKind kind) { return kind == CellKind::kText; }
+bool isValue(CellKind kind) {
+  return kind == CellKind::kNumber || kind == CellKind::kDecimalComma || kind == CellKind::kDate;
+}
+
+// Which rows of the sample have the number of cells of the table, and what their cells are.
+struct SampleRow {
+  std::size_t index = 0;  // in the sample
+  std::vector<CellKind> kinds;
+};
+
+std::vector<SampleRow> fullRows(const Candidate& table, char decimal) {
+  std::vector<SampleRow> rows;
+  for (std::size_t i = 0; i < table.rows.size(); ++i) {
+    const Cells& cells = table.rows[i];
+    // Names may lack a last empty cell that each row has, and the other way round.
+    const bool fits = cells.size() == table.numCells || cells.size() + 1 == table.numCells;
+    if (!fits) continue;
+    SampleRow row{i, {}};
+    for (const std::string_view cell : cells) row.kinds.push_back(kindOf(cell, decimal));
+    rows.push_back(std::move(row));
+  }
+  return rows;
+}
+
+// Whether most of the rows after the first one have a value where the first one has a text.
+bool namesColumns(const std::vector<SampleRow>& rows) {
+  if (rows.empty() || std::none_of(rows[0].kinds.begin(), rows[0].kinds.end(), isText))
+    return false;
+  if (rows.size() == 1) return std::none_of(rows[0].kinds.begin(), rows[0].kinds.end(), isValue);
+  for (std::size_t c = 0; c < rows[0].kinds.size(); ++c) {
+    if (!isText(rows[0].kinds[c])) continue;
+    std::size_t values = 0;
+    for (std::size_t i = 1; i < rows.size(); ++i)
+      values += c < rows[i].kinds.size() && isValue(rows[i].kinds[c]) ? 1 : 0;
+    if (2 * values >= rows.size() - 1 && values > 0) return true;
+  }
+  return false;
+}
+
+// Whether the cells are 0, 1, 2, .. or 1, 2, 3, .., as programs name columns that have no names
+// (the first one may be empty), and the next row is not.
+bool countsColumns(const Cells& cells) {
+  constexpr std::size_t kFewest = 4;
+  if (cells.size() < kFewest) return false;
+  const std::size_t first = trimmedCell(cells[0]).empty() ? 1 : 0;
+  const auto start = parseInteger(trimmedCell(cells[first]));
+  if (!start || *start < 0 || *start > 1) return false;
+  for (std::size_t i = first; i < cells.size(); ++i)
+    if (parseInteger(trimmedCell(cells[i])) != *start + static_cast<std::int64_t>(i - first))
+      return false;
+  return true;
+}
+
+// Whether a row after the names holds units.
+bool holdsUnits(const SampleRow& row, const Cells& cells) {
+  if (std::any_of(row.kinds.begin(), row.kinds.end(), isValue)) return false;
+  std::size_t units = 0;
+  std::size_t texts = 0;
+  for (const std::string_view cell : cells) {
+    std::string_view text = trimmedCell(cell);
+    if (text.empty()) continue;
+    ++texts;
+    const bool bracketed = text.size() > 2 && (text.front() == '[' || text.front() == '(');
+    units += bracketed || isKnownUnit(text) ? 1 : 0;
+  }
+  return texts > 0 && 2 * units >= texts;
+}
+
+std::string withoutBrackets(std::string_view text) {
+  text = trimmedCell(text);
+  const bool bracketed = text.size() > 2 && ((text.front() == '[' && text.back() == ']') ||
+                                             (text.front() == '(' && text.back() == ')'));
+  return std::string(bracketed ? trimmed(text.substr(1, text.size() - 2)) : text);
+}
+
+// `,` after the last value of each row makes an empty column.
+void dropEmptyEnd(CsvShape& shape, const Candidate& table, std::size_t firstRow) {
+  if (shape.columns.size() < 2) return;
+  if (shape.nameLine != 0 && !shape.columns.back().name.empty()) return;
+  for (std::size_t i = firstRow; i < table.rows.size(); ++i) {
+    const Cells& row = table.rows[i];
+    if (row.size() == table.numCells && !trimmedCell(row.back()).empty()) return;
+  }
+  shape.columns.pop_back();
+}
+
+// Marks the columns that hold dates or texts.
+void describeCells(CsvShape& shape, const std::vector<SampleRow>& rows, std::size_t firstRow) {
+  for (std::size_t c = 0; c < shape.columns.size(); ++c) {
+    std::size_t dates = 0;
+    std::size_t texts = 0;
+    std::size_t numbers = 0;
+    for (const SampleRow& row : rows) {
+      if (row.index < firstRow || c >= row.kinds.size()) continue;
+      dates += row.kinds[c] == CellKind::kDate ? 1 : 0;
+      texts += row.kinds[c] == CellKind::kText ? 1 : 0;
+      numbers += row.kinds[c] == CellKind::kNumber ? 1 : 0;
+    }
+    TableColumn& column = shape.columns[c];
+    column.hasDates = dates > 0 && dates >= texts + numbers;
+    column.isNumeric = !column.hasDates && (numbers > 0 || texts == 0);
+    column.type = column.hasDates ? "date" : column.isNumeric ? "number" : "text";
+    if (column.unit.empty()) column.unit = unitInName(column.name);
+  }
+}
+
+[[noreturn]] void refuseDecimalComma(const std::filesystem::path& path,
+                                     std::uint64_t line,
+                                     std::size_t column,
+                                     std::string_view cell) {
+  throw FormatError(path,
+                    "line " + std::to_string(line) + ", column " + std::to_string(column) + ": " +
+                        inQuotes(trimmedCell(cell)) +
+                        " has a decimal comma; read the file with --decimal comma");
+}
+
+void requireDecimalPoints(const std::filesystem::path& path,
+                          const Candidate& table,
+                          const std::vector<SampleRow>& rows,
+                          const std::vector<std::uint64_t>& lineNumbers) {
+  std::size_t commas = 0;
+  std::size_t numbers = 0;
+  const SampleRow* first = nullptr;
+  for (const SampleRow& row : rows)
+    for (const CellKind kind : row.kinds) {
+      commas += kind == CellKind::kDecimalComma ? 1 : 0;
+      numbers += kind == CellKind::kNumber ? 1 : 0;
+      if (kind == CellKind::kDecimalComma && !first) first = &row;
+    }
+  if (!first || 10 * commas < numbers) return;
+  const auto at = std::find(first->kinds.begin(), first->kinds.end(), CellKind::kDecimalComma);
+  const auto column = static_cast<std::size_t>(at - first->kinds.begin());
+  refuseDecimalComma(path, lineNumbers[first->index], column + 1, table.rows[first->index][column]);
+}
+
+// The shape of name:value lines; nothing when most lines are of another form.
+std::optional<CsvShape> labelledShape(const std::vector<std::string_view>& lines, char decimal) {
+  std::size_t such = 0;
+  Cells names;
+  Cells values;
+  Cells longest;
+  for (const std::string_view line : lines) {
+    if (!splitLabelled(line, names, values)) continue;
+    ++such;
+    if (names.size() > longest.size()) longest = names;
+  }
+  if (such == 0 || 2 * such <= lines.size()) return std::nullopt;
+  CsvShape shape;
+  shape.labelled = true;
+  shape.delimiter = ' ';
+  shape.decimal = decimal;
+  for (const std::string_view name : longest) {
+    TableColumn column{.name = std::string(name), .unit = unitInName(name)};
+    column.type = "number";
+    shape.columns.push_back(std::move(column));
+  }
+  return shape;
+}
+
+}  // namespace
+
+void splitCells(std::string_view line, char delimiter, std::vector<std::string_view>& cells) {
+  cells.clear();
+  const bool blanks = delimiter == ' ';
+  if (blanks) line = trimmed(line);
+  std::size_t at = 0;
+  while (true) {
+    std::size_t end = at;
+    // A quoted cell ends at its quote; two quotes stand for one.
+    std::size_t start = at;
+    while (!blanks && start < line.size() && line[start] == ' ' && delimiter != ' ') ++start;
+    if (start < line.size() && line[start] == '"') {
+      end = start + 1;
+      while (end < line.size() &&
+             (line[end] != '"' || (end + 1 < line.size() && line[end + 1] == '"')))
+        end += line[end] == '"' ? 2 : 1;
+    }
+    const auto found = blanks ? line.find_first_of(" \t", end) : line.find(delimiter, end);
+    if (found == std::string_view::npos) {
+      cells.push_back(line.substr(at));
+      return;
+    }
+    cells.push_back(line.substr(at, found - at));
+    at = blanks ? line.find_first_not_of(" \t", found) : found + 1;
+  }
+}
+
+bool splitLabelled(std::string_view line,
+                   std::vector<std::string_view>& names,
+                   std::vector<std::string_view>& values) {
+  constexpr std::string_view kBetween = " \t,;";
+  names.clear();
+  values.clear();
+  std::size_t at = line.find_first_not_of(kBetween);
+  while (at != std::string_view::npos) {
+    const auto colon = line.find(':', at);
+    if (colon == std::string_view::npos) return false;
+    const std::string_view name = trimmed(line.substr(at, colon - at));
+    // A name has a letter first, so that 10:31:05 is none.
+    const bool isName =
+        !name.empty() && name.find_first_of(",;\t") == std::string_view::npos &&
+        (name[0] == '_' || name[0] == '/' ||
+         (smallLetters(name.substr(0, 1))[0] >= 'a' && smallLetters(name.substr(0, 1))[0] <= 'z'));
+    if (!isName) return false;
+    const auto value = line.find_first_not_of(" \t", colon + 1);
+    const auto end = std::min(line.find_first_of(kBetween, value), line.size());
+    names.push_back(name);
+    values.push_back(value == std::string_view::npos ? std::string_view()
+                                                     : line.substr(value, end - value));
+    at = line.find_first_not_of(kBetween, end);
+  }
+  return !names.empty();
+}
+
+bool isCommentLine(std::string_view line) {
+  line = trimmed(line);
+  return line.empty() || line[0] == '#' || line[0] == '%' || line.starts_with("//");
+}
+
+CsvShape detectCsvShape(const std::filesystem::path& path,
+                        const std::vector<std::string>& lines,
+                        const TableOptions& options) {
+  std::vector<std::string_view> kept;
+  std::vector<std::uint64_t> numbers;  // of the kept lines
+  std::optional<std::size_t> lastComment;
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    if (!isCommentLine(lines[i])) {
+      kept.emplace_back(lines[i]);
+      numbers.push_back(i + 1);
+    } else if (kept.empty() && !trimmed(lines[i]).empty()) {
+      lastComment = i;
+    }
+  }
+  if (kept.empty()) throw FormatError(path, "holds no row");
+  if (options.delimiter == 0)
+    if (auto labelled = labelledShape(kept, options.decimal)) return std::move(*labelled);
+
+  const Candidate table = bestCandidate(kept, options);
+  const std::vector<SampleRow> rows = fullRows(table, options.decimal);
+  CsvShape shape;
+  shape.delimiter = table.delimiter;
+  shape.decimal = options.decimal;
+  shape.columns.resize(table.numCells);
+  std::size_t firstRow = 0;  // in the sample
+  const bool named =
+      options.header == HeaderChoice::kPresent ||
+      (options.header == HeaderChoice::kDetect &&
+       (namesColumns(rows) || (rows.size() > 1 && countsColumns(table.rows[rows[0].index]) &&
+                               !countsColumns(table.rows[rows[1].index]))));
+  const auto nameFrom = [&](const Cells& cells) {
+    for (std::size_t c = 0; c < std::min(cells.size(), shape.columns.size()); ++c)
+      shape.columns[c].name = std::string(trimmedCell(cells[c]));
+  };
+  if (named && !rows.empty()) {
+    const std::size_t at = rows[0].index;
+    nameFrom(table.rows[at]);
+    shape.nameLine = numbers[at];
+    firstRow = at + 1;
+    if (rows.size() > 1 && holdsUnits(rows[1], table.rows[rows[1].index])) {
+      const Cells& units = table.rows[rows[1].index];
+      for (std::size_t c = 0; c < std::min(units.size(), shape.columns.size()); ++c)
+        shape.columns[c].unit = withoutBrackets(units[c]);
+      shape.unitLine = numbers[rows[1].index];
+      firstRow = rows[1].index + 1;
+    }
+    shape.linesBefore = numbers[firstRow - 1];
+  } else if (lastComment && options.header != HeaderChoice::kAbsent) {
+    // Names in a comment, as numpy.savetxt writes them.
+    Cells cells;
+    splitCells(trimmed(lines[*lastComment], " \t#%/"), table.delimiter, cells);
+    if (cells.size() == table.numCells && cells.size() > 1) {
+      nameFrom(cells);
+      shape.nameLine = *lastComment + 1;
+    }
+  }
+  requireDecimalPoints(path, table, rows, numbers);
+  dropEmptyEnd(shape, table, firstRow);
+  describeCells(shape, rows, firstRow);
+  if (std::none_of(shape.columns.begin(), shape.columns.end(), [](const TableColumn& column) {
+        return column.type == "number";
+      }))
+    throw FormatError(path, "line " + std::to_string(numbers[0]) + ": holds no numbers: no table");
+  for (std::size_t c = 0; c < shape.columns.size(); ++c)
+    if (shape.columns[c].name.empty()) shape.columns[c].name = "column " + std::to_string(c + 1);
+  return shape;
+}
+
+}  // namespace palpate

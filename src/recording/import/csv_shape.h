@@ -1,0 +1,47 @@
+// The shape of a table in a text, detected from its first lines: delimiter, header, units.
+//
+//   time;m0[0][0];m0[0][1]      separated by comma, semicolon, tab, or blanks and tabs; with or
+//   ms;counts;counts            without a line of names and a line of units
+//   left:12 right:17            Arduino's serial plotter: names and values in each line
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "palpate/recording/table_source.h"
+
+namespace palpate {
+
+struct CsvShape {
+  char delimiter = ',';
+  char decimal = '.';
+  bool labelled = false;  // name:value in each cell
+  std::vector<TableColumn> columns;
+  std::uint64_t nameLine = 0;  // 0: none
+  std::uint64_t unitLine = 0;
+  std::uint64_t linesBefore = 0;  // that come before the rows, with names and units
+};
+
+// Detects the shape. `lines` are the first ones of the file. Throws FormatError: no row of numbers,
+// decimal commas that were not asked for.
+CsvShape detectCsvShape(const std::filesystem::path& path,
+                        const std::vector<std::string>& lines,
+                        const TableOptions& options);
+
+// Splits a line. Quoted cells may hold delimiters; blanks and tabs of any number are one delimiter.
+// The cells are views into `line`.
+void splitCells(std::string_view line, char delimiter, std::vector<std::string_view>& cells);
+
+// Splits "name:value" cells of a line: names and values are views into `line`. False when a cell is
+// of another form. The cells are separated by blanks, tabs, commas or semicolons.
+bool splitLabelled(std::string_view line,
+                   std::vector<std::string_view>& names,
+                   std::vector<std::string_view>& values);
+
+// Whether a line holds no row: it is empty or a comment (#, %, //).
+bool isCommentLine(std::string_view line);
+
+}  // namespace palpate

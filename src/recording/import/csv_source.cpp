@@ -1,0 +1,118 @@
+#include "recording/import/csv_source.h"
+
+#include <algorithm>
+
+#include "palpate/core/error.h"
+#include "palpate/core/escaped_line.h"
+
+#include "recording/import/cell_text.h"
+
+namespace palpate {
+namespace {
+
+// The lines that tell the shape of a table.
+constexpr std::size_t kCsvSampleLines = 200;
+constexpr std::size_t kCsvSampleBytes = 1u << 20;
+constexpr std::size_t kCsvSampleFewestLines = 8;  // also when they are very long
+
+std::vector<std::string> firstLines(LineReader& reader) {
+  std::vector<std::string> lines;
+  std::size_t bytes = 0;
+  std::string_view line;
+  while (lines.size() < kCsvSampleLines &&
+         (bytes < kCsvSampleBytes || lines.size() < kCsvSampleFewestLines) && reader.next(line)) {
+    lines.emplace_back(line);
+    bytes += line.size();
+  }
+  reader.restart();
+  return lines;
+}
+
+}  // namespace
+
+CsvSource::CsvSource(const std::filesystem::path& path, const TableOptions& options)
+    : path_(path), reader_(path), shape_(detectCsvShape(path, firstLines(reader_), options)) {}
+
+std::string CsvSource::form() const {
+  if (shape_.labelled) return "text, name:value in each line";
+  std::string text = "text, separated by " + std::string(delimiterName(shape_.delimiter)) + "s";
+  if (shape_.columns.size() == 1) text = "text, one number in each line";
+  if (shape_.decimal == ',') text += ", with decimal commas";
+  text += shape_.nameLine == 0 ? ", without names"
+                               : ", names in line " + std::to_string(shape_.nameLine);
+  if (shape_.unitLine != 0) text += ", units in line " + std::to_string(shape_.unitLine);
+  return text;
+}
+
+void CsvSource::start(std::span<const std::size_t> columns, std::optional<std::size_t> time) {
+  selected_.assign(columns.begin(), columns.end());
+  time_ = time;
+  reader_.restart();
+}
+
+// Puts the cells of a line into cells_, by column; false when their number is wrong.
+bool CsvSource::readCells(std::string_view line, TableRow& row) {
+  const std::size_t numColumns = shape_.columns.size();
+  if (!shape_.labelled) {
+    splitCells(line, shape_.delimiter, cells_);
+    const bool emptyEnd = cells_.size() == numColumns + 1 && trimmedCell(cells_.back()).empty();
+    row.numCells = cells_.size();
+    return cells_.size() == numColumns || emptyEnd;
+  }
+  cells_.assign(numColumns, {});
+  if (!splitLabelled(line, names_, values_)) {
+    row.numCells = 0;
+    return false;
+  }
+  row.numCells = names_.size();
+  for (std::size_t i = 0; i < names_.size(); ++i) {
+    // The names come in the same order in most lines.
+    const auto named = [&](const TableColumn& column) { return column.name == names_[i]; };
+    if (i < numColumns && named(shape_.columns[i])) {
+      cells_[i] = values_[i];
+      continue;
+    }
+    const auto at = std::find_if(shape_.columns.begin(), shape_.columns.end(), named);
+    if (at != shape_.columns.end())
+      cells_[static_cast<std::size_t>(at - shape_.columns.begin())] = values_[i];
+  }
+  return true;
+}
+
+bool CsvSource::next(TableRow& row) {
+  std::string_view line;
+  do {
+    if (!reader_.next(line)) return false;
+  } while (reader_.number() <= shape_.linesBefore || isCommentLine(line));
+  row.line = reader_.number();
+  row.complete = readCells(line, row);
+  if (!row.complete) return true;
+  row.values.resize(selected_.size());
+  row.states.resize(selected_.size());
+  for (std::size_t i = 0; i < selected_.size(); ++i)
+    row.states[i] = cellStateOf(cells_[selected_[i]], shape_.decimal, row.values[i]);
+  row.time = {};
+  if (time_) {
+    row.time.text = trimmedCell(cells_[*time_]);
+    row.time.state = row.time.text.empty() ? CellState::kEmpty : CellState::kText;
+  }
+  return true;
+}
+
+std::string CsvSource::textOf(std::size_t index) const {
+  const std::size_t column = selected_.at(index);
+  return column < cells_.size() ? std::string(trimmedCell(cells_[column])) : std::string();
+}
+
+std::string CsvSource::placeOf(std::size_t index) const {
+  const std::size_t column = selected_.at(index);
+  std::string place = "column " + std::to_string(column + 1);
+  if (column >= cells_.size()) return place;
+  const std::string_view cell = trimmedCell(cells_[column]);
+  if (cell.empty()) return place + " is empty";
+  place += ": " + inQuotes(cell);
+  if (shape_.decimal == '.' && cellNumber(cell, ',')) place += " (a decimal comma?)";
+  return place;
+}
+
+}  // namespace palpate

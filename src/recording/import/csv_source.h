@@ -1,0 +1,41 @@
+// A table in a text: see CsvShape for the forms.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "recording/import/csv_shape.h"
+#include "recording/import/line_reader.h"
+
+namespace palpate {
+
+class CsvSource final : public TableSource {
+ public:
+  CsvSource(const std::filesystem::path& path, const TableOptions& options);
+
+  const std::filesystem::path& path() const noexcept override { return path_; }
+  const std::vector<TableColumn>& columns() const noexcept override { return shape_.columns; }
+  std::string form() const override;
+  const char* rowWord() const noexcept override { return "line"; }
+  void start(std::span<const std::size_t> columns, std::optional<std::size_t> time) override;
+  bool next(TableRow& row) override;
+  double fraction() const noexcept override { return reader_.fraction(); }
+  std::string textOf(std::size_t index) const override;
+  std::string placeOf(std::size_t index) const override;
+
+  char decimal() const noexcept { return shape_.decimal; }
+
+ private:
+  bool readCells(std::string_view line, TableRow& row);
+
+  std::filesystem::path path_;
+  LineReader reader_;
+  CsvShape shape_;
+  std::vector<std::size_t> selected_;
+  std::optional<std::size_t> time_;
+  std::vector<std::string_view> cells_;  // of the last line, by column
+  std::vector<std::string_view> names_;  // of a line of names and values
+  std::vector<std::string_view> values_;
+};
+
+}  // namespace palpate

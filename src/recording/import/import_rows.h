@@ -1,0 +1,92 @@
+// Turns the rows of tables into the samples of a recording.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "palpate/model/gap_detector.h"
+#include "palpate/model/hand_state.h"
+#include "palpate/model/tactile_frame.h"
+#include "palpate/recording/recording_import.h"
+
+namespace palpate {
+
+// Receives the samples in order; functions may be empty.
+struct ImportSink {
+  std::function<void(const TactileFrame&)> frame;
+  std::function<void(const JointAngles&)> angles;
+  std::function<void(const Temperatures&)> temperatures;
+};
+
+class ImportRows {
+ public:
+  ImportRows(const HandDescription& hand,
+             const ImportMapping& mapping,
+             const ImportPlan& plan,
+             bool strict,
+             ImportSink sink);
+  // Reads the table that was planned and those beside it; at most `mostRows` of each. Throws as
+  // importRecording().
+  void run(TableSource& source, std::uint64_t mostRows, const Progress& progress);
+  const ImportReport& report() const noexcept { return report_; }
+  // Whether all rows were read.
+  bool atEnd() const noexcept { return atEnd_; }
+
+ private:
+  // Series that are read together: of one table, at the same times.
+  struct Pass {
+    std::vector<const PlannedSeries*> series;
+    std::optional<std::size_t> time;
+    TimeUnit timeUnit = TimeUnit::kSeconds;
+  };
+  std::vector<Pass> passes() const;
+  void runPass(TableSource& source,
+               const Pass& pass,
+               std::uint64_t mostRows,
+               const Progress& progress);
+  void runTaxelList(TableSource& source,
+                    const Pass& pass,
+                    std::uint64_t mostRows,
+                    const Progress& progress);
+  bool takeRow(TableSource& source, const Pass& pass, const TableRow& row);
+  std::optional<std::int64_t> timeOf(const TableSource& source, const TableRow& row);
+  bool examine(const TableSource& source,
+               const PlannedSeries& series,
+               const TableRow& row,
+               std::size_t begin,
+               bool& isThere);
+  void add(const PlannedSeries& series, std::int64_t us, const TableRow& row, std::size_t begin);
+  void addFrame(std::int64_t us);
+  void takeTaxel(const TableSource& source, const TableRow& row, std::int64_t us);
+  void finishListedFrame();
+  void refuse(const TableSource& source,
+              const TableRow& row,
+              std::uint64_t& counter,
+              const std::string& what);
+
+  const HandDescription& hand_;
+  const ImportMapping& mapping_;
+  const ImportPlan& plan_;
+  bool strict_;
+  ImportSink sink_;
+  ImportReport report_;
+  bool atEnd_ = true;
+  TactileFrame frame_;
+  std::vector<double> sample_;
+  GapDetector gaps_;
+  std::optional<std::int64_t> firstUs_;  // of the frames
+  std::int64_t lastFrameUs_ = 0;
+  // Of the pass that runs.
+  std::optional<TimeReader> timeReader_;
+  std::optional<std::int64_t> lastUs_;
+  std::uint64_t rowIndex_ = 0;
+  // Of the frame of a list of taxels that is being read.
+  std::optional<std::int64_t> listedFrame_;
+  std::int64_t listedUs_ = 0;
+};
+
+}  // namespace palpate

@@ -1,0 +1,91 @@
+#include "recording/import/line_reader.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <system_error>
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "palpate/core/error.h"
+#include "palpate/recording/table_source.h"
+
+namespace palpate {
+namespace {
+
+constexpr std::size_t kLineReaderPieceBytes = 1u << 18;
+
+}  // namespace
+
+LineReader::LineReader(const std::filesystem::path& path) : path_(path) { restart(); }
+
+void LineReader::restart() {
+  file_ = FileDescriptor(::open(path_.c_str(), O_RDONLY | O_CLOEXEC));
+  if (file_.get() < 0)
+    throw FileError(path_, "can't be opened: " + std::generic_category().message(errno));
+  struct stat facts {};
+  if (::fstat(file_.get(), &facts) != 0 || S_ISDIR(facts.st_mode))
+    throw FileError(path_, "is a folder");
+  size_ = static_cast<std::uint64_t>(std::max<off_t>(facts.st_size, 0));
+  read_ = 0;
+  buffer_.clear();
+  begin_ = 0;
+  ended_ = false;
+  number_ = 0;
+}
+
+double LineReader::fraction() const noexcept {
+  if (size_ == 0) return 0.0;
+  const double done = static_cast<double>(read_ - (buffer_.size() - begin_));
+  return std::min(1.0, done / static_cast<double>(size_));
+}
+
+// Appends the next piece of the file; false at its end.
+bool LineReader::fill() {
+  if (ended_) return false;
+  buffer_.erase(0, begin_);
+  begin_ = 0;
+  const std::size_t before = buffer_.size();
+  buffer_.resize(before + kLineReaderPieceBytes);
+  ssize_t count = 0;
+  do {
+    count = ::read(file_.get(), buffer_.data() + before, kLineReaderPieceBytes);
+  } while (count < 0 && errno == EINTR);
+  if (count < 0) throw FileError(path_, "can't be read: " + std::generic_category().message(errno));
+  buffer_.resize(before + static_cast<std::size_t>(count));
+  read_ += static_cast<std::uint64_t>(count);
+  ended_ = count == 0;
+  return count > 0;
+}
+
+bool LineReader::next(std::string_view& line) {
+  std::size_t searched = begin_;
+  std::size_t end = std::string::npos;
+  while ((end = buffer_.find('\n', searched)) == std::string::npos) {
+    const std::size_t waiting = buffer_.size() - begin_;
+    if (waiting > kMaxLineBytes)
+      throw FormatError(path_,
+                        "line " + std::to_string(number_ + 1) + " is longer than 4 MB: no table");
+    if (!fill()) {
+      if (waiting == 0) return false;
+      end = buffer_.size();
+      break;
+    }
+    searched = waiting;
+  }
+  line = std::string_view(buffer_).substr(begin_, end - begin_);
+  begin_ = std::min(end + 1, buffer_.size());
+  ++number_;
+  if (line.ends_with('\r')) line.remove_suffix(1);
+  constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+  if (number_ == 1 && line.starts_with(kByteOrderMark)) line.remove_prefix(kByteOrderMark.size());
+  if (std::memchr(line.data(), 0, line.size()))
+    throw FormatError(path_,
+                      "line " + std::to_string(number_) +
+                          " holds a byte 0: no text, or UTF-16 (save it as UTF-8)");
+  return true;
+}
+
+}  // namespace palpate

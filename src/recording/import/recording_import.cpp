@@ -1,0 +1,138 @@
+#include "palpate/recording/recording_import.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "palpate/core/error.h"
+#include "palpate/core/number_text.h"
+#include "palpate/core/time.h"
+#include "palpate/model/hand_file.h"
+#include "palpate/recording/palpate_writer.h"
+#include "palpate/recording/recording.h"
+
+#include "recording/import/import_rows.h"
+
+namespace palpate {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr std::size_t kMostPreviewColumns = 64;
+
+// The first rows of every column as texts, one column after the other: arrays may differ in length.
+void readPreviewRows(TableSource& source, ImportPreview& preview) {
+  const std::size_t numColumns = std::min(kMostPreviewColumns, preview.columns.size());
+  preview.rows.assign(kShownPreviewRows, std::vector<std::string>(numColumns));
+  std::size_t numRows = 0;
+  for (std::size_t c = 0; c < numColumns; ++c) {
+    const TableColumn& column = preview.columns[c];
+    const bool isDateArray = column.hasDates && column.numRows.has_value();
+    if (column.numRows && !column.isNumeric && !isDateArray) continue;
+    const std::vector<std::size_t> chosen = {c};
+    TableRow row;
+    if (isDateArray)
+      source.start({}, c);
+    else
+      source.start(chosen, std::nullopt);
+    for (std::size_t r = 0; r < kShownPreviewRows && source.next(row); ++r) {
+      if (row.complete && isDateArray)
+        preview.rows[r][c] = utcText(row.time.whole.value_or(0));
+      else if (row.complete)
+        preview.rows[r][c] = source.textOf(0) + (column.width() > 1 ? " .." : "");
+      numRows = std::max(numRows, r + 1);
+    }
+  }
+  preview.rows.resize(numRows);
+}
+
+void requireImportable(const fs::path& data, const HandDescription& hand, const fs::path& out) {
+  if (!hand.layout) throw std::invalid_argument("importRecording: the hand has no layout");
+  if (formatOf(out) != RecordingFormat::kPalpate)
+    throw FileError(out, "an import is written as .palpate; convert it afterwards");
+  std::error_code ignored;
+  if (fs::exists(out, ignored)) requireOther(data, out);
+}
+
+}  // namespace
+
+std::string RefusedRows::summary() const {
+  if (total() == 0) return {};
+  std::string parts;
+  const auto add = [&](std::uint64_t count, const char* what) {
+    if (count > 0) parts += (parts.empty() ? "" : ", ") + std::to_string(count) + " " + what;
+  };
+  add(wrongCount, "with a wrong number of cells");
+  add(text, "with text");
+  add(notFinite, "with NaN or too large values");
+  add(missing, "with missing values");
+  add(notLater, "with a time that is not later");
+  return counted(total(), "row") + " refused: " + parts;
+}
+
+ImportReport importRecording(const fs::path& data,
+                             const HandDescription& hand,
+                             const ImportMapping& mapping,
+                             const fs::path& out,
+                             const ImportOptions& options,
+                             const Progress& progress) {
+  requireImportable(data, hand, out);
+  requireWritable(out, options.overwrite);
+  const auto source = openTable(data, mapping.text);
+  const ImportPlan plan = planImport(*source, hand, mapping, mapping.text);
+  ImportReport report;
+  const std::map<std::string, std::string> meta = {{"hand", hand.name},
+                                                   {"imported_from", data.filename().string()}};
+  writePalpate(
+      out,
+      hand.layout,
+      meta,
+      [&](PalpateWriter& writer) {
+        ImportSink sink;
+        sink.frame = [&](const TactileFrame& frame) { writer.addFrame(frame); };
+        sink.angles = [&](const JointAngles& angles) { writer.addAngles(angles); };
+        sink.temperatures = [&](const Temperatures& each) { writer.addTemperatures(each); };
+        ImportRows rows(hand, mapping, plan, options.strict, std::move(sink));
+        rows.run(*source, UINT64_MAX, progress);
+        report = rows.report();
+        if (report.frames == 0)
+          throw FormatError(data,
+                            "no row can be used" + (report.refused.first.empty()
+                                                        ? ": there is none"
+                                                        : "; the first: " + report.refused.first));
+      },
+      options.overwrite);
+  return report;
+}
+
+ImportPreview previewImport(const fs::path& data,
+                            const HandDescription& hand,
+                            const ImportMapping& mapping) {
+  const auto source = openTable(data, mapping.text);
+  ImportPreview preview;
+  preview.form = source->form();
+  preview.columns = source->columns();
+  readPreviewRows(*source, preview);
+  try {
+    const ImportPlan plan = planImport(*source, hand, mapping, mapping.text);
+    ImportRows rows(hand, mapping, plan, false, {});
+    rows.run(*source, kPreviewRows, {});
+    for (const PlannedSeries& series : plan.series)
+      preview.choices.insert(
+          preview.choices.end(), series.description.begin(), series.description.end());
+    preview.time = plan.timeDescription;
+    preview.notes = plan.notes;
+    preview.sample = rows.report();
+    preview.isWhole = rows.atEnd();
+    if (preview.sample.frames == 0)
+      preview.problem =
+          "no row can be used" + (preview.sample.refused.first.empty()
+                                      ? std::string()
+                                      : "; the first: " + preview.sample.refused.first);
+  } catch (const FileError& error) {
+    preview.problem = error.what();
+  } catch (const FormatError& error) {
+    preview.problem = error.what();
+  }
+  return preview;
+}
+
+}  // namespace palpate

@@ -1,0 +1,58 @@
+#include "palpate/recording/table_source.h"
+
+#include <algorithm>
+#include <array>
+#include <system_error>
+#include <utility>
+
+#include "palpate/core/error.h"
+#include "palpate/core/text_file.h"
+
+#include "recording/import/csv_source.h"
+#include "recording/import/hdf5_source.h"
+#include "recording/import/npz_source.h"
+
+namespace palpate {
+namespace {
+
+constexpr std::array<std::pair<char, std::string_view>, 5> kDelimiterNames = {
+    {{'\0', "detect"}, {',', "comma"}, {';', "semicolon"}, {'\t', "tab"}, {' ', "blank"}}};
+
+}  // namespace
+
+std::size_t TableColumn::width() const noexcept {
+  std::size_t numbers = 1;
+  for (const std::size_t size : shape) numbers *= size;
+  return numbers;
+}
+
+std::string_view delimiterName(char delimiter) {
+  for (const auto& [letter, name] : kDelimiterNames)
+    if (letter == delimiter) return name;
+  return "comma";
+}
+
+std::optional<char> delimiterNamed(std::string_view name) {
+  for (const auto& [letter, known] : kDelimiterNames)
+    if (known == name) return letter;
+  return std::nullopt;
+}
+
+std::unique_ptr<TableSource> openTable(const std::filesystem::path& path,
+                                       const TableOptions& options) {
+  constexpr std::size_t kFirstBytes = 8;
+  std::error_code failure;
+  if (std::filesystem::is_directory(path, failure)) throw FileError(path, "is a folder");
+  const std::string first = beginningOfFile(path, kFirstBytes);
+  if (first.starts_with("PK\x03\x04") || first.starts_with("PK\x05\x06") ||
+      first.starts_with("\x93NUMPY"))
+    return std::make_unique<NpzSource>(path);
+  if (first.starts_with("\x89HDF\r\n\x1A\n")) return std::make_unique<Hdf5Source>(path);
+  if (first.starts_with("BZh") || first.starts_with("SQLite f"))
+    throw FormatError(path, "is a recording already: open or convert it");
+  if (first.starts_with("\x1F\x8B"))
+    throw FormatError(path, "is compressed; unpack it with gunzip");
+  return std::make_unique<CsvSource>(path, options);
+}
+
+}  // namespace palpate
