@@ -8,6 +8,7 @@
 #include "gui/hand/hand_feature.h"
 #include "gui/hand3d/hand3d_feature.h"
 #include "gui/help/help_feature.h"
+#include "gui/import/import_feature.h"
 #include "gui/inspect/inspect_feature.h"
 #include "gui/library/library_feature.h"
 #include "gui/library/log_feature.h"
@@ -50,6 +51,7 @@ std::vector<std::unique_ptr<Feature>> allFeatures(WindowState& windowState, QWid
   add(std::make_unique<ConnectFeature>(windowState, window));
   add(std::make_unique<RecordFeature>(windowState, window));
   add(std::make_unique<ExportFeature>(windowState, window));
+  add(std::make_unique<ImportFeature>(windowState, window));
   add(std::make_unique<HelpFeature>(windowState, window));
   return all;
 }

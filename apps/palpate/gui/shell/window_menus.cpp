@@ -64,7 +64,7 @@ void WindowMenus::buildMenuBar(const ActionRegistry& book, const QList<QAction*>
   file->addAction(at("open"));
   file->addMenu(menus_.recent);
   menus_.recent->setToolTipsVisible(true);
-  file->addAction(at("openDemo"));
+  file->addActions({at("importTable"), at("openDemo")});
   file->addSeparator();
   file->addActions({at("nextRecording"), at("previousRecording"), at("closeRecording")});
   file->addSeparator();

@@ -1,0 +1,410 @@
+#include "gui/import/import_dialog.h"
+
+#include <QCheckBox>
+#include <QComboBox>
+#include <QDoubleSpinBox>
+#include <QFileDialog>
+#include <QFileInfo>
+#include <QFormLayout>
+#include <QHeaderView>
+#include <QInputDialog>
+#include <QLabel>
+#include <QLineEdit>
+#include <QPushButton>
+#include <QTableWidget>
+#include <QVBoxLayout>
+#include <algorithm>
+#include <memory>
+#include <utility>
+
+#include <palpate/core/number_text.h>
+
+#include "gui/import/import_fields.h"
+
+namespace palpate::gui {
+namespace {
+
+constexpr QSize kImportDialogSize(940, 640);
+constexpr const char* kDetected = "found by names";
+constexpr double kHighestImportRateHz = 1e6;
+
+QComboBox* importComboBox(const char* name, const std::vector<std::pair<QString, QString>>& items) {
+  auto* box = new QComboBox;
+  box->setObjectName(name);
+  for (const auto& [text, value] : items) box->addItem(text, value);
+  return box;
+}
+
+void chooseValue(QComboBox& box, const QString& value) {
+  box.setCurrentIndex(std::max(0, box.findData(value)));
+}
+
+QLabel* wrappedLabel(const char* name) {
+  auto* label = new QLabel;
+  label->setObjectName(name);
+  label->setTextFormat(Qt::PlainText);
+  label->setWordWrap(true);
+  return label;
+}
+
+QString sampleText(const ImportPreview& preview) {
+  const ImportReport& sample = preview.sample;
+  QString text = QString("%1 %2: %3, %4 Hz, %5")
+                     .arg(preview.isWhole ? "All" : "The first",
+                          QString::fromStdString(counted(sample.rows, "row")),
+                          QString::fromStdString(counted(sample.frames, "frame")),
+                          QString::number(sample.meanRateHz, 'f', 1),
+                          QString::fromStdString(counted(sample.gaps, "gap")));
+  if (sample.refused.total() > 0)
+    text += "\n" + QString::fromStdString(sample.refused.summary()) +
+            "; the first: " + QString::fromStdString(sample.refused.first);
+  return text;
+}
+
+}  // namespace
+
+ImportDialog::ImportDialog(QSettings& settings,
+                           std::vector<std::filesystem::path> folders,
+                           QWidget* parent)
+    : QDialog(parent), settings_(settings), folders_(std::move(folders)) {
+  setWindowTitle("Import");
+  const ImportRequest last = loadImportRequest(settings);
+  auto* upper = new QHBoxLayout;
+  upper->addWidget(makeFile(), 3);
+  upper->addWidget(makeMapping(), 4);
+  auto* whole = new QVBoxLayout(this);
+  whole->addLayout(upper);
+  whole->addWidget(makePreview(), 1);
+  whole->addWidget(makeFoot());
+  askForData = [this, folder = last.data] {
+    return QFileDialog::getOpenFileName(
+        this,
+        "Choose a file to import",
+        folder,
+        "Tables (*.csv *.tsv *.txt *.log *.dat *.npy *.npz *.h5 *.hdf5);;All files (*)");
+  };
+  askForHand = [this] { return QFileDialog::getExistingDirectory(this, "Folder of a hand"); };
+  askForName = [this](const QString& suggestion) {
+    return QInputDialog::getText(this, "Save the mapping", "Name", QLineEdit::Normal, suggestion);
+  };
+  hand_->addItems(knownHandNames(folders_));
+  strict_->setChecked(last.strict);
+  listPresets("");
+  showMapping(last.mapping);
+  if (!last.hand.isEmpty()) setHand(last.hand);
+  connectFields();
+  resize(kImportDialogSize);
+  look();
+}
+
+QWidget* ImportDialog::makeFile() {
+  auto* side = new QWidget(this);
+  auto* form = new QFormLayout(side);
+  form->setContentsMargins(0, 0, 8, 0);
+  form->setFieldGrowthPolicy(QFormLayout::AllNonFixedFieldsGrow);
+  const auto withButton = [&](QWidget* field, const QString& text, const char* name, auto pressed) {
+    auto* row = new QHBoxLayout;
+    auto* button = new QPushButton(text);
+    button->setObjectName(name);
+    button->setAutoDefault(false);
+    row->addWidget(field, 1);
+    row->addWidget(button);
+    connect(button, &QPushButton::clicked, this, pressed);
+    return row;
+  };
+  data_ = new QLineEdit;
+  data_->setObjectName("importData");
+  data_->setPlaceholderText("CSV, text, .npy, .npz, HDF5");
+  form->addRow("&File", withButton(data_, "Bro&wse…", "importBrowse", [this] {
+                 const QString chosen = askForData();
+                 if (!chosen.isEmpty()) setData(chosen);
+               }));
+  hand_ = new QComboBox;
+  hand_->setObjectName("importHand");
+  form->addRow("&Hand", withButton(hand_, "Fol&der…", "importHandFolder", [this] {
+                 const QString chosen = askForHand();
+                 if (!chosen.isEmpty()) setHand(chosen);
+               }));
+  preset_ = new QComboBox;
+  preset_->setObjectName("importPreset");
+  auto* presets = withButton(preset_, "&Save…", "importSavePreset", [this] {
+    const QString now = preset_->currentData().toString();
+    const QString name = askForName(now).trimmed();
+    if (name.isEmpty()) return;
+    saveImportPreset(settings_, name, request().mapping);
+    listPresets(name);
+  });
+  removePreset_ = new QPushButton("Forget");
+  removePreset_->setObjectName("importRemovePreset");
+  removePreset_->setAutoDefault(false);
+  connect(removePreset_, &QPushButton::clicked, this, [this] {
+    removeImportPreset(settings_, preset_->currentData().toString());
+    listPresets("");
+  });
+  presets->addWidget(removePreset_);
+  form->addRow("&Mapping", presets);
+  delimiter_ = importComboBox("importDelimiter",
+                              {{"detected", "detect"},
+                               {"comma", "comma"},
+                               {"semicolon", "semicolon"},
+                               {"tab", "tab"},
+                               {"blanks", "blank"}});
+  decimal_ = importComboBox("importDecimal", {{"decimal point", "."}, {"decimal comma", ","}});
+  header_ = importComboBox(
+      "importHeader",
+      {{"names: detected", "detect"}, {"first line: names", "present"}, {"no names", "absent"}});
+  auto* text = new QHBoxLayout;
+  for (QComboBox* box : {delimiter_, decimal_, header_}) text->addWidget(box, 1);
+  form->addRow("Te&xt", text);
+  time_ = new QLineEdit;
+  time_->setObjectName("importTime");
+  time_->setPlaceholderText(kDetected);
+  timeUnit_ = importComboBox("importTimeUnit",
+                             {{"unit: detected", ""},
+                              {"s", "s"},
+                              {"ms", "ms"},
+                              {"µs", "us"},
+                              {"ns", "ns"},
+                              {"date (ISO 8601)", "iso"}});
+  rate_ = new QDoubleSpinBox;
+  rate_->setObjectName("importRate");
+  rate_->setRange(0.0, kHighestImportRateHz);
+  rate_->setDecimals(3);
+  rate_->setSuffix(" Hz");
+  rate_->setSpecialValueText("times of the file");
+  rate_->setKeyboardTracking(false);
+  rate_->setToolTip("The rate of the rows, when the file has no times");
+  auto* time = new QHBoxLayout;
+  time->addWidget(time_, 2);
+  time->addWidget(timeUnit_, 1);
+  time->addWidget(rate_, 1);
+  form->addRow("&Time", time);
+  return side;
+}
+
+QWidget* ImportDialog::makeMapping() {
+  fields_ = new ImportFields(this);
+  return fields_;
+}
+
+QWidget* ImportDialog::makePreview() {
+  auto* side = new QWidget(this);
+  auto* column = new QVBoxLayout(side);
+  column->setContentsMargins(0, 0, 0, 0);
+  form_ = wrappedLabel("importForm");
+  columns_ = new QTableWidget;
+  columns_->setObjectName("importColumns");
+  columns_->setEditTriggers(QAbstractItemView::NoEditTriggers);
+  columns_->setTabKeyNavigation(false);
+  choices_ = wrappedLabel("importChoices");
+  column->addWidget(form_);
+  column->addWidget(columns_, 1);
+  column->addWidget(choices_);
+  return side;
+}
+
+QWidget* ImportDialog::makeFoot() {
+  auto* foot = new QWidget(this);
+  auto* rows = new QVBoxLayout(foot);
+  rows->setContentsMargins(0, 0, 0, 0);
+  auto* target = new QHBoxLayout;
+  auto* label = new QLabel("Sa&ve as");
+  out_ = new QLineEdit;
+  out_->setObjectName("importOut");
+  label->setBuddy(out_);
+  replace_ = new QCheckBox("R&eplace");
+  replace_->setObjectName("importReplace");
+  strict_ = new QCheckBox("Stop at the first row that &can't be used");
+  strict_->setObjectName("importStrict");
+  for (QWidget* each : std::initializer_list<QWidget*>{label, out_, replace_, strict_})
+    target->addWidget(each);
+  rows->addLayout(target);
+  auto* buttons = new QHBoxLayout;
+  problem_ = wrappedLabel("importProblem");
+  auto* cancel = new QPushButton("Cancel");
+  cancel->setAutoDefault(false);
+  connect(cancel, &QPushButton::clicked, this, &QDialog::reject);
+  ok_ = new QPushButton("Import");
+  ok_->setObjectName("importOk");
+  ok_->setProperty("primary", true);
+  ok_->setDefault(true);
+  connect(ok_, &QPushButton::clicked, this, &ImportDialog::accept);
+  buttons->addWidget(problem_, 1);
+  buttons->addWidget(cancel);
+  buttons->addWidget(ok_);
+  rows->addLayout(buttons);
+  return foot;
+}
+
+void ImportDialog::connectFields() {
+  const auto changed = [this] { look(); };
+  connect(data_, &QLineEdit::editingFinished, this, changed);
+  connect(time_, &QLineEdit::editingFinished, this, changed);
+  for (QComboBox* box : {hand_, delimiter_, decimal_, header_, timeUnit_})
+    connect(box, &QComboBox::currentIndexChanged, this, changed);
+  connect(rate_, &QDoubleSpinBox::valueChanged, this, changed);
+  connect(fields_, &ImportFields::edited, this, changed);
+  connect(preset_, &QComboBox::activated, this, &ImportDialog::usePreset);
+  connect(out_, &QLineEdit::textChanged, this, &ImportDialog::showProblem);
+  connect(replace_, &QCheckBox::toggled, this, &ImportDialog::showProblem);
+  connect(&job_, &BackgroundJob::finished, this, &ImportDialog::showProblem);
+}
+
+void ImportDialog::setData(const QString& path) {
+  data_->setText(path);
+  const QFileInfo file(path);
+  out_->setText(file.path() + "/" + file.completeBaseName() + ".palpate");
+  look();
+}
+
+void ImportDialog::setHand(const QString& nameOrFolder) {
+  if (hand_->findText(nameOrFolder) < 0) hand_->addItem(nameOrFolder);
+  hand_->setCurrentText(nameOrFolder);
+}
+
+void ImportDialog::listPresets(const QString& chosen) {
+  preset_->clear();
+  preset_->addItem("as below", "");
+  for (const QString& name : importPresets(settings_)) preset_->addItem(name, name);
+  chooseValue(*preset_, chosen);
+  removePreset_->setEnabled(preset_->currentIndex() > 0);
+}
+
+void ImportDialog::usePreset() {
+  const QString name = preset_->currentData().toString();
+  removePreset_->setEnabled(!name.isEmpty());
+  if (const auto mapping = importPreset(settings_, name)) {
+    showMapping(*mapping);
+    look();
+  }
+}
+
+void ImportDialog::showMapping(const ImportMapping& mapping) {
+  filling_ = true;
+  first_ = mapping;
+  chooseValue(
+      *delimiter_,
+      QString::fromLatin1(delimiterName(mapping.text.delimiter).data(),
+                          static_cast<qsizetype>(delimiterName(mapping.text.delimiter).size())));
+  chooseValue(*decimal_, QString(QChar(mapping.text.decimal)));
+  header_->setCurrentIndex(static_cast<int>(mapping.text.header));
+  time_->setText(QString::fromStdString(mapping.time.column));
+  chooseValue(*timeUnit_, QString::fromStdString(mapping.time.unit));
+  rate_->setValue(mapping.time.rateHz.value_or(0.0));
+  fields_->setMapping(mapping);
+  filling_ = false;
+}
+
+ImportRequest ImportDialog::request() const {
+  ImportRequest request;
+  request.data = data_->text();
+  request.hand = hand_->currentText();
+  request.mapping = first_;
+  request.mapping.text.delimiter =
+      delimiterNamed(delimiter_->currentData().toString().toStdString()).value_or('\0');
+  request.mapping.text.decimal = decimal_->currentData().toString() == "," ? ',' : '.';
+  request.mapping.text.header = static_cast<HeaderChoice>(header_->currentIndex());
+  request.mapping.time.column = time_->text().trimmed().toStdString();
+  request.mapping.time.unit = timeUnit_->currentData().toString().toStdString();
+  request.mapping.time.rateHz.reset();
+  if (rate_->value() > 0.0) request.mapping.time.rateHz = rate_->value();
+  fields_->readInto(request.mapping);
+  request.out = out_->text().trimmed();
+  request.strict = strict_->isChecked();
+  request.replace = replace_->isChecked();
+  return request;
+}
+
+// Starts a new preview.
+void ImportDialog::look() {
+  if (filling_) return;
+  const std::size_t change = ++change_;
+  job_.cancel();
+  auto look = std::make_shared<ImportLook>();
+  job_.start(
+      data_->text(),
+      [request = request(), folders = folders_, look](const Progress&) {
+        *look = lookAtImport(request, folders);
+      },
+      [this, look, change] {
+        if (change != change_) return;
+        shown_ = change;
+        take(*look);
+      });
+  showProblem();
+}
+
+void ImportDialog::take(const ImportLook& look) {
+  const bool otherHand = look.hand && (!looked_.hand || looked_.hand->name != look.hand->name);
+  looked_ = look;
+  if (otherHand) fields_->setHand(*look.hand);
+  QString form;
+  QString choices;
+  if (look.preview) {
+    const ImportPreview& preview = *look.preview;
+    form = QString::fromStdString(preview.form);
+    QStringList lines;
+    for (const std::string& line : preview.choices) lines << QString::fromStdString(line);
+    if (!preview.time.empty()) lines << "time: " + QString::fromStdString(preview.time);
+    for (const std::string& note : preview.notes) lines << QString::fromStdString(note);
+    if (preview.problem.empty()) lines << sampleText(preview);
+    choices = lines.join("\n");
+    showColumns(preview);
+  } else {
+    columns_->setRowCount(0);
+    columns_->setColumnCount(0);
+  }
+  form_->setText(form);
+  choices_->setText(choices);
+  showProblem();
+}
+
+void ImportDialog::showColumns(const ImportPreview& preview) {
+  const std::size_t shown = preview.rows.empty() ? 0 : preview.rows.front().size();
+  columns_->setColumnCount(static_cast<int>(shown));
+  columns_->setRowCount(static_cast<int>(preview.rows.size()));
+  QStringList names;
+  for (std::size_t c = 0; c < shown; ++c) {
+    const TableColumn& column = preview.columns[c];
+    QString name = QString::fromStdString(column.name);
+    if (!column.unit.empty()) name += "\n" + QString::fromStdString(column.unit);
+    if (column.numRows) {
+      name += "\n" + QString::number(*column.numRows);
+      for (const std::size_t size : column.shape) name += " × " + QString::number(size);
+    }
+    names << name;
+  }
+  columns_->setHorizontalHeaderLabels(names);
+  for (std::size_t r = 0; r < preview.rows.size(); ++r)
+    for (std::size_t c = 0; c < shown; ++c)
+      columns_->setItem(static_cast<int>(r),
+                        static_cast<int>(c),
+                        new QTableWidgetItem(QString::fromStdString(preview.rows[r][c])));
+}
+
+QString ImportDialog::problem() const {
+  if (const QString wrong = fields_->problem(); !wrong.isEmpty()) return wrong;
+  if (shown_ != change_) return "reading the file";
+  if (!looked_.problem.isEmpty()) return looked_.problem;
+  const QString out = out_->text().trimmed();
+  if (out.isEmpty()) return "choose where to save the recording";
+  if (!out.endsWith(".palpate", Qt::CaseInsensitive)) return "an import is saved as .palpate";
+  const QFileInfo file(out);
+  if (!file.absoluteDir().exists()) return file.absolutePath() + " does not exist";
+  if (file.exists() && !replace_->isChecked()) return file.fileName() + " exists already";
+  return {};
+}
+
+void ImportDialog::showProblem() {
+  const QString text = problem();
+  problem_->setText(text);
+  ok_->setEnabled(text.isEmpty());
+  replace_->setVisible(QFileInfo::exists(out_->text().trimmed()));
+}
+
+void ImportDialog::accept() {
+  showProblem();
+  if (problem().isEmpty()) QDialog::accept();
+}
+
+}  // namespace palpate::gui

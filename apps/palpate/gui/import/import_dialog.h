@@ -1,0 +1,99 @@
+// The Import dialog: the user chooses a file of another program and a hand; the dialog shows what
+// the file holds and what becomes what, and the user corrects it.
+#pragma once
+
+#include <QDialog>
+#include <QSettings>
+#include <filesystem>
+#include <functional>
+#include <vector>
+
+#include "gui/import/import_request.h"
+#include "gui/source/background_job.h"
+
+class QCheckBox;
+class QComboBox;
+class QDoubleSpinBox;
+class QFormLayout;
+class QLabel;
+class QLineEdit;
+class QPushButton;
+class QTableWidget;
+
+namespace palpate::gui {
+
+class ImportFields;
+
+class ImportDialog : public QDialog {
+  Q_OBJECT
+ public:
+  // `settings` must outlive the dialog. `folders`: where hands are looked for by name.
+  ImportDialog(QSettings& settings,
+               std::vector<std::filesystem::path> folders,
+               QWidget* parent = nullptr);
+
+  ImportRequest request() const;
+  // Why the request can't be carried out; empty when it can.
+  QString problem() const;
+  // Whether the preview is being computed.
+  bool busy() const { return job_.busy(); }
+
+  void setData(const QString& path);
+  void setHand(const QString& nameOrFolder);
+
+  // Asks for the file to import, the folder of a hand, and the name of a preset; empty: cancelled.
+  // Tests replace them.
+  std::function<QString()> askForData;
+  std::function<QString()> askForHand;
+  std::function<QString(const QString& suggestion)> askForName;
+
+ public slots:
+  // Closes the dialog only when the request can be carried out.
+  void accept() override;
+
+ private:
+  QWidget* makeFile();
+  QWidget* makeMapping();
+  QWidget* makePreview();
+  QWidget* makeFoot();
+  void connectFields();
+  void showMapping(const ImportMapping& mapping);
+  void usePreset();
+  void listPresets(const QString& chosen);
+  void look();
+  void take(const ImportLook& look);
+  void showColumns(const ImportPreview& preview);
+  void showProblem();
+
+  QSettings& settings_;
+  std::vector<std::filesystem::path> folders_;
+  // The mapping that the fields began with; they show a part of it.
+  ImportMapping first_;
+  ImportLook looked_;
+  // Counts the changes of the fields: a preview of an earlier request is not shown.
+  std::size_t change_ = 0;
+  std::size_t shown_ = 0;
+  bool filling_ = false;
+  QLineEdit* data_ = nullptr;
+  QComboBox* hand_ = nullptr;
+  QComboBox* preset_ = nullptr;
+  QPushButton* removePreset_ = nullptr;
+  QComboBox* delimiter_ = nullptr;
+  QComboBox* decimal_ = nullptr;
+  QComboBox* header_ = nullptr;
+  QLineEdit* time_ = nullptr;
+  QComboBox* timeUnit_ = nullptr;
+  QDoubleSpinBox* rate_ = nullptr;
+  ImportFields* fields_ = nullptr;
+  QLabel* form_ = nullptr;
+  QTableWidget* columns_ = nullptr;
+  QLabel* choices_ = nullptr;
+  QLineEdit* out_ = nullptr;
+  QCheckBox* strict_ = nullptr;
+  QCheckBox* replace_ = nullptr;
+  QLabel* problem_ = nullptr;
+  QPushButton* ok_ = nullptr;
+  BackgroundJob job_;
+};
+
+}  // namespace palpate::gui

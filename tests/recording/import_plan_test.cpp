@@ -1,0 +1,176 @@
+#include "palpate/recording/import_plan.h"
+
+#include <map>
+
+#include "recording/import_samples.h"
+
+namespace palpate::import_plan_test {
+namespace {
+
+using testing::handOf;
+using testing::pad;
+using testing::twoPads;
+
+// For each place of the hand the position of the column in the file, from 0.
+std::map<std::size_t, std::size_t> columnsByPlace(const std::string& header,
+                                                  const HandDescription& hand,
+                                                  const ImportMapping& mapping = {}) {
+  const testing::TemporaryFolder folder;
+  std::string row = header;
+  const auto columns = static_cast<std::size_t>(std::count(header.begin(), header.end(), ',')) + 1;
+  std::string text = header + "\n";
+  for (int line = 0; line < 3; ++line) {
+    for (std::size_t c = 0; c < columns; ++c) text += (c > 0 ? "," : "") + std::to_string(line);
+    text += "\n";
+  }
+  testing::writeFile(folder / "t.csv", text);
+  const auto source = openTable(folder / "t.csv", mapping.text);
+  const ImportPlan plan = planImport(*source, hand, mapping, mapping.text);
+  std::map<std::size_t, std::size_t> found;
+  const PlannedSeries& frames = plan.series.front();
+  for (std::size_t i = 0; i < frames.values.size(); ++i)
+    if (frames.values[i].target) found[*frames.values[i].target] = frames.columns[i];
+  return found;
+}
+
+ImportMapping withRate() {
+  ImportMapping mapping;
+  mapping.time.rateHz = 100.0;
+  return mapping;
+}
+
+using Places = std::map<std::size_t, std::size_t>;
+const Places kInOrder = {{0, 1}, {1, 2}, {2, 3}, {3, 4}};
+
+TEST(ImportPlan, FindsTaxelsByTheNumbersInTheirNames) {
+  for (const char* header : {"time,taxel0,taxel1,taxel2,taxel3",
+                             "time,taxel1,taxel2,taxel3,taxel4",
+                             "time,A3,A4,A5,A6",
+                             "time,p[0][0],p[0][1],p[1][0],p[1][1]",
+                             "time,p_1_1,p_1_2,p_2_1,p_2_2",
+                             "time,t0_0,t0_1,t1_0,t1_1",
+                             "time,matrix0_0,matrix0_1,matrix0_2,matrix0_3",
+                             "time,/pad/data[0],/pad/data[1],/pad/data[2],/pad/data[3]",
+                             "time,2,0,1,3"})
+    if (std::string(header) != "time,2,0,1,3") {
+      EXPECT_EQ(columnsByPlace(header, pad(2, 2)), kInOrder) << header;
+    } else {
+      EXPECT_EQ(columnsByPlace(header, pad(2, 2)), (Places{{2, 1}, {0, 2}, {1, 3}, {3, 4}}));
+    }
+  // Sorted as PlotJuggler does: [10] before [2].
+  std::string header = "__time,p[0],p[1],p[10],p[11]";
+  for (int i = 2; i < 10; ++i) header += ",p[" + std::to_string(i) + "]";
+  const Places sorted = columnsByPlace(header, pad(3, 4));
+  EXPECT_EQ(sorted.at(10), 3u);
+  EXPECT_EQ(sorted.at(2), 5u);
+  EXPECT_EQ(sorted.size(), 12u);
+}
+
+TEST(ImportPlan, FindsSeveralMatrices) {
+  const Places both = {{0, 1}, {1, 2}, {2, 3}, {3, 4}, {4, 5}, {5, 6}, {6, 7}, {7, 8}};
+  for (const char* header :
+       {"t,m0_0,m0_1,m0_2,m0_3,m1_0,m1_1,m1_2,m1_3",
+        "t,m1[0][0],m1[0][1],m1[1][0],m1[1][1],m2[0][0],m2[0][1],m2[1][0],m2[1][1]",
+        "t,x0,x1,x2,x3,x4,x5,x6,x7",
+        "t,left0,left1,left2,left3,right0,right1,right2,right3",
+        "t,a0,a1,a2,a3,b0,b1,b2,b3"})
+    EXPECT_EQ(columnsByPlace(header, twoPads()), both) << header;
+  // By the names of the matrices, whatever their order.
+  const Places swapped = {{4, 1}, {5, 2}, {6, 3}, {7, 4}, {0, 5}, {1, 6}, {2, 7}, {3, 8}};
+  EXPECT_EQ(columnsByPlace("t,right0,right1,right2,right3,left0,left1,left2,left3", twoPads()),
+            swapped);
+}
+
+TEST(ImportPlan, MaskedPlacesMayBeLeftOut) {
+  MatrixLayout matrix = MatrixLayout::full(2, 2, 1.0);
+  matrix.staticMask[1] = 0;
+  matrix.dynamicMask[1] = 0;
+  EXPECT_EQ(columnsByPlace("t,p0,p1,p2", handOf({matrix})), (Places{{0, 1}, {2, 2}, {3, 3}}));
+  EXPECT_EQ(columnsByPlace("t,p0_0,p1_0,p1_1", handOf({matrix})), (Places{{0, 1}, {2, 2}, {3, 3}}));
+  EXPECT_EQ(columnsByPlace("t,p0,p1,p2,p3", handOf({matrix})), kInOrder);
+}
+
+TEST(ImportPlan, WithoutNamesTheOrderCounts) {
+  EXPECT_EQ(columnsByPlace("a,b,c,d", pad(2, 2), withRate()),
+            (Places{{0, 0}, {1, 1}, {2, 2}, {3, 3}}));
+  // A column more that ascends is the time.
+  ImportMapping mapping;
+  mapping.text.header = HeaderChoice::kAbsent;
+  const testing::TemporaryFolder folder;
+  testing::writeFile(folder / "t.csv", "10,1,2,3,4\n20,1,2,3,4\n30,1,2,3,4\n");
+  const auto source = openTable(folder / "t.csv", mapping.text);
+  const ImportPlan plan = planImport(*source, pad(2, 2), mapping, mapping.text);
+  EXPECT_EQ(plan.series[0].time, 0u);
+  EXPECT_EQ(plan.series[0].timeUnit, TimeUnit::kMilliseconds);
+  EXPECT_EQ(plan.series[0].columns, (std::vector<std::size_t>{1, 2, 3, 4}));
+}
+
+TEST(ImportPlan, AMappingChoosesColumns) {
+  const std::string header = "t,a,b,c,d,e";
+  const auto choose = [&](const std::string& columns, bool columnByColumn = false) {
+    ImportMapping mapping;
+    mapping.matrices = {{0, columns, {}, columnByColumn}};
+    return columnsByPlace(header, pad(2, 2), mapping);
+  };
+  const Places second = {{0, 2}, {1, 3}, {2, 4}, {3, 5}};
+  EXPECT_EQ(choose("b..e"), second);
+  EXPECT_EQ(choose("#3..#6"), second);
+  EXPECT_EQ(choose("b, c, #5, e"), second);
+  EXPECT_EQ(choose("b..e", true), (Places{{0, 2}, {2, 3}, {1, 4}, {3, 5}}));
+  ImportMapping pattern;
+  pattern.matrices = {{std::nullopt, "raw {m}/{x}/{y}", {}, false}};
+  EXPECT_EQ(
+      columnsByPlace("t,raw 0/0/0,raw 0/1/0,raw 0/0/1,raw 0/1/1,other 0/0/0", pad(2, 2), pattern),
+      (Places{{0, 1}, {1, 2}, {2, 3}, {3, 4}}));
+  pattern.matrices = {{1, "f*_{i}", {}, false}};
+  EXPECT_EQ(columnsByPlace("t,f1,foo_1,foo_2,foo_3,foo_4", twoPads(), pattern),
+            (Places{{4, 2}, {5, 3}, {6, 4}, {7, 5}}));
+}
+
+TEST(ImportPlan, SaysWhatDoesNotFit) {
+  const auto refused =
+      [](const std::string& header, ImportMapping mapping, const HandDescription& hand) {
+        return testing::errorOf([&] { columnsByPlace(header, hand, mapping); });
+      };
+  const auto matrix = [](const std::string& columns, std::optional<std::size_t> m = 0) {
+    ImportMapping mapping;
+    mapping.matrices = {{m, columns, {}, false}};
+    return mapping;
+  };
+  const std::string header = "t,a0,a1,a2,a3,note";
+  const std::vector<std::pair<std::string, std::string>> cases = {
+      {refused("t,a0,a1,a2", {}, pad(2, 2)), "1 matrix of 2 x 2, 4 places"},
+      {refused("t,a0,a1,a2", {}, pad(2, 2)), "the file has t, a0, a1, a2"},
+      {refused("a0,a1,a2,a3", {}, pad(2, 2)), "--rate"},
+      {refused("t,a0,a1,a2,a3,b0,b1,b2,b3", {}, pad(2, 2)), "choose with --matrix"},
+      {refused(header, matrix("b*"), pad(2, 2)), "no column of numbers matches"},
+      {refused(header, matrix("a9"), pad(2, 2)), "there is no column \"a9\"; there are t, a0"},
+      {refused(header, matrix("#9"), pad(2, 2)), "has 6 columns"},
+      {refused(header, matrix("a3..a0"), pad(2, 2)), "end before they begin"},
+      {refused(header, matrix("a0..a2"), pad(2, 2)), "3 numbers per row, but expected is 2 x 2"},
+      {refused(header, matrix("a0,,a1"), pad(2, 2)), "empty part"},
+      {refused(header, matrix("a{z}"), pad(2, 2)), "something else than {m}"},
+      {refused(header, matrix("a{i}"), pad(1, 3)), "taxel 3 of a matrix of 1 x 3"},
+      {refused(header, matrix("a0..a3", 4), pad(2, 2)), "no matrix 4"},
+      {refused(header, matrix("a0,a0,a1,a2"), pad(2, 2)), "used twice"}};
+  for (const auto& [what, words] : cases)
+    EXPECT_NE(what.find(words), std::string::npos) << what << "\n" << words;
+  ImportMapping time;
+  time.time.column = "clock";
+  EXPECT_NE(refused(header, time, pad(2, 2)).find("no column \"clock\""), std::string::npos);
+  ImportMapping unit = matrix("a0..a3");
+  unit.matrices[0].values.unit = "kPa";
+  EXPECT_NE(refused(header, unit, pad(2, 2)).find("can't be converted"), std::string::npos);
+  ImportMapping angles;
+  angles.angles.columns = "a0";
+  EXPECT_NE(refused(header, angles, pad(2, 2)).find("the hand has none"), std::string::npos);
+}
+
+TEST(ImportPlan, ShapesAreNamed) {
+  EXPECT_EQ(shapeText(*twoPads().layout), "2 matrices of 2 x 2, 8 places");
+  EXPECT_EQ(shapeText(*sdh2().layout),
+            "6 matrices of 14 x 6 and 13 x 6, 486 places with 456 taxels");
+}
+
+}  // namespace
+}  // namespace palpate::import_plan_test

@@ -1,0 +1,100 @@
+#include "palpate/recording/import_time.h"
+
+#include <gtest/gtest.h>
+
+namespace palpate::import_time_test {
+namespace {
+
+TimeCell text(std::string_view value) { return {.state = CellState::kText, .text = value}; }
+TimeCell whole(std::int64_t value) {
+  return {.state = CellState::kNumber, .whole = value, .number = static_cast<double>(value)};
+}
+
+// 2014-11-27 10:31:05 UTC is 1417084265 s after 1970 (date -u -d "2014-11-27 10:31:05" +%s).
+TEST(ImportTime, DatesAreReadToTheMicrosecond) {
+  constexpr std::int64_t kUs = 1'417'084'265'000'000;
+  for (const char* date : {"2014-11-27T10:31:05Z",
+                           "2014-11-27 10:31:05",
+                           "2014-11-27T10:31:05.000",
+                           "2014-11-27T11:31:05+01:00",
+                           "2014-11-27T05:01:05-0530",
+                           "2014/11/27 10:31:05 UTC"})
+    EXPECT_EQ(parseDate(date), kUs) << date;
+  EXPECT_EQ(parseDate("2014-11-27T10:31:05.123456Z"), kUs + 123'456);
+  EXPECT_EQ(parseDate("2014-11-27T10:31:05.1234567Z"), kUs + 123'457);
+  EXPECT_EQ(parseDate("2014-11-27T10:31"), kUs - 5'000'000);
+  EXPECT_EQ(parseDate("1970-01-01"), 0);
+  EXPECT_EQ(parseDate("1969-12-31T23:59:59Z"), -1'000'000);
+}
+
+TEST(ImportTime, WhatIsNoDateIsNone) {
+  for (const char* date : {"",
+                           "12.5",
+                           "2014",
+                           "2014-13-01",
+                           "2014-02-30",
+                           "2014-11-27T25:00:00",
+                           "2014-11-27T10:31:05.",
+                           "2014-11-27T10:31:05X",
+                           "2014-11-27T10:31:05+1",
+                           "0001-01-01",
+                           "2014-11-27T10:31:05+01:00x"})
+    EXPECT_EQ(parseDate(date), std::nullopt) << date;
+}
+
+TEST(ImportTime, UnitsAreTheWordsOfHeaders) {
+  EXPECT_EQ(timeUnitNamed("Seconds"), TimeUnit::kSeconds);
+  EXPECT_EQ(timeUnitNamed("ms"), TimeUnit::kMilliseconds);
+  EXPECT_EQ(timeUnitNamed("micros"), TimeUnit::kMicroseconds);
+  EXPECT_EQ(timeUnitNamed("\xC2\xB5s"), TimeUnit::kMicroseconds);
+  EXPECT_EQ(timeUnitNamed("ns"), TimeUnit::kNanoseconds);
+  EXPECT_EQ(timeUnitNamed("hours"), std::nullopt);
+  for (const TimeUnit unit : {TimeUnit::kSeconds, TimeUnit::kNanoseconds, TimeUnit::kDate})
+    EXPECT_EQ(timeUnitNamed(nameOf(unit)), unit);
+}
+
+TEST(ImportTime, TheUnitIsGuessedFromTheSize) {
+  EXPECT_EQ(guessTimeUnit(1.7e9, false), TimeUnit::kSeconds);
+  EXPECT_EQ(guessTimeUnit(1.7e12, true), TimeUnit::kMilliseconds);
+  EXPECT_EQ(guessTimeUnit(1.7e15, true), TimeUnit::kMicroseconds);
+  EXPECT_EQ(guessTimeUnit(1.7e18, true), TimeUnit::kNanoseconds);
+  EXPECT_EQ(guessTimeUnit(0.25, false), TimeUnit::kSeconds);
+  EXPECT_EQ(guessTimeUnit(250.0, true), TimeUnit::kMilliseconds);
+}
+
+TEST(ImportTime, WholeNumbersAreConvertedExactly) {
+  TimeReader nanoseconds(TimeUnit::kNanoseconds, std::nullopt);
+  EXPECT_EQ(nanoseconds.us(whole(1'700'000'000'123'456'789)), 1'700'000'000'123'457);
+  EXPECT_EQ(nanoseconds.us(text("1700000000123457501")), 1'700'000'000'123'458);
+  EXPECT_EQ(nanoseconds.us(whole(-1'500)), -2);
+  TimeReader seconds(TimeUnit::kSeconds, std::nullopt);
+  EXPECT_EQ(seconds.us(text("1700000000.123456")), 1'700'000'000'123'456);
+  EXPECT_EQ(seconds.us(text("12")), 12'000'000);
+  EXPECT_EQ(seconds.us(whole(INT64_MAX)), std::nullopt);
+  EXPECT_EQ(seconds.us(text("abc")), std::nullopt);
+  TimeReader comma(TimeUnit::kSeconds, std::nullopt, ',');
+  EXPECT_EQ(comma.us(text("0,25")), 250'000);
+}
+
+TEST(ImportTime, AStartShiftsAllTimes) {
+  TimeReader reader(TimeUnit::kMilliseconds, 1'000'000'000);
+  EXPECT_EQ(reader.us(whole(500)), 1'000'000'000);
+  EXPECT_EQ(reader.us(whole(510)), 1'000'010'000);
+}
+
+TEST(ImportTime, ACounterOf32BitsGoesOn) {
+  constexpr std::int64_t kLast = (std::int64_t{1} << 32) - 1;
+  TimeReader reader(TimeUnit::kMicroseconds, std::nullopt);
+  EXPECT_EQ(reader.us(whole(kLast)), kLast);
+  EXPECT_EQ(reader.us(whole(9)), kLast + 10);
+  EXPECT_EQ(reader.us(whole(1009)), kLast + 1010);
+  EXPECT_EQ(reader.numRestarts(), 1u);
+  // A board that was reset does not continue.
+  TimeReader reset(TimeUnit::kMicroseconds, std::nullopt);
+  EXPECT_EQ(reset.us(whole(5'000'000)), 5'000'000);
+  EXPECT_EQ(reset.us(whole(10)), 10);
+  EXPECT_EQ(reset.numRestarts(), 0u);
+}
+
+}  // namespace
+}  // namespace palpate::import_time_test
