@@ -21,12 +21,12 @@ inline HandDescription handOf(std::vector<MatrixLayout> matrices,
   HandDescription hand;
   hand.name = "test pad";
   for (std::size_t m = 0; m < matrices.size(); ++m)
-    hand.matrices.push_back({.name = m == 0 ? "left" : m == 1 ? "right" : "m" + std::to_string(m)});
+    hand.matrices.emplace_back().name = m == 0 ? "left" : m == 1 ? "right" : "other";
   hand.layout = std::make_shared<const SensorLayout>(std::move(matrices));
   for (std::size_t i = 0; i < numAxes; ++i)
-    hand.axes.push_back({.name = "joint " + std::to_string(i)});
+    hand.axes.emplace_back().name = "joint " + std::to_string(i);
   for (std::size_t i = 0; i < numTemperatures; ++i)
-    hand.temperatureSensors.push_back({.name = "sensor " + std::to_string(i)});
+    hand.temperatureSensors.emplace_back().name = "sensor " + std::to_string(i);
   return hand;
 }
 

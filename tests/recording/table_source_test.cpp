@@ -306,7 +306,7 @@ with h5py.File(folder + 'a.h5', 'w') as f, open(folder + 'truth.csv', 'w') as ou
   EXPECT_EQ(read.rows, truth.rows);
   EXPECT_EQ(read.columns.size(), 23u);
   for (const TableColumn& column : read.columns)
-    if (column.name == "tactile/f4l") EXPECT_EQ(column.unit, "kPa");
+    EXPECT_EQ(column.unit, column.name == "tactile/f4l" ? "kPa" : "") << column.name;
   const std::string whole = testing::readFile(folder / "a.h5");
   EXPECT_NE(refusalOf(whole.substr(0, whole.size() / 2)).find("can't be opened as HDF5"),
             std::string::npos);

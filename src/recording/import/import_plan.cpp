@@ -403,6 +403,10 @@ std::vector<std::size_t> Planner::unnamedTimeColumn() {
   std::vector<std::size_t> all = candidates();
   if (time_ || mapping_.time.rateHz || mapping_.time.column == kNoColumns || all.size() < 2)
     return all;
+  if (std::any_of(columns_.begin(), columns_.end(), [](const TableColumn& column) {
+        return timeScore(column, Kind::kFrames) > 0;
+      }))
+    return all;
   const SensorLayout& layout = *hand_.layout;
   const std::size_t rest = all.size() - 1;
   if (rest != layout.numCells() && rest != layout.numTaxels()) return all;

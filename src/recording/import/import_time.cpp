@@ -161,7 +161,7 @@ std::optional<std::int64_t> TimeReader::usOfWhole(std::int64_t value) {
   const std::int64_t total = value + base_;
   constexpr std::array<std::int64_t, 3> kUsPerUnit = {1'000'000, 1000, 1};
   if (unit_ == TimeUnit::kNanoseconds)  // rounded to the nearest, also before 1970
-    return total / 1000 + (total % 1000 >= 500 ? 1 : 0) - (total % 1000 < -500 ? 1 : 0);
+    return total / 1000 + (total % 1000 >= 500 ? 1 : 0) - (total % 1000 <= -500 ? 1 : 0);
   const std::int64_t factor = kUsPerUnit[static_cast<std::size_t>(unit_)];
   if (std::abs(static_cast<double>(total)) * static_cast<double>(factor) > kLargestUs)
     return std::nullopt;

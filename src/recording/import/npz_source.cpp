@@ -75,7 +75,7 @@ TimeCell timeOf(const NpyHeader& header, std::span<const std::byte> number) {
     else if (header.dateUnitNs >= 1000)
       cell.whole = value * (header.dateUnitNs / 1000);
     else
-      cell.whole = value / 1000 + (value % 1000 >= 500 ? 1 : 0) - (value % 1000 < -500 ? 1 : 0);
+      cell.whole = value / 1000 + (value % 1000 >= 500 ? 1 : 0) - (value % 1000 <= -500 ? 1 : 0);
   } else if (header.kind == NumberKind::kSigned) {
     cell.whole = signExtended(bits, header.itemBytes);
   } else if (header.kind == NumberKind::kUnsigned && bits <= INT64_MAX) {

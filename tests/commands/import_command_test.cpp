@@ -1,0 +1,148 @@
+#include "palpate/model/hand_file.h"
+#include "palpate/recording/import_mapping.h"
+#include "palpate/recording/recording.h"
+
+#include "commands/palpate_program.h"
+
+namespace palpate::import_command_test {
+namespace {
+
+using testing::expectOneLineError;
+using testing::palpate;
+
+// A table for the built-in flat pad of 16 x 16.
+std::string padTable(int rows, const std::string& bad = "") {
+  std::string text = "time_ms";
+  for (int i = 0; i < 256; ++i) text += ",taxel" + std::to_string(i);
+  text += "\n";
+  for (int row = 0; row < rows; ++row) {
+    text += std::to_string(10 * row);
+    for (int i = 0; i < 256; ++i) text += "," + std::to_string((row + i) % 1000);
+    text += "\n" + (row == 1 ? bad : "");
+  }
+  return text;
+}
+
+class ImportCommand : public ::testing::Test {
+ protected:
+  void SetUp() override { testing::writeFile(in("pad.csv"), padTable(20)); }
+  std::string in(const char* name) const { return folder_ / name; }
+
+  testing::TemporaryFolder folder_;
+};
+
+TEST_F(ImportCommand, MakesARecordingOfATable) {
+  const auto result = palpate({"import", in("pad.csv"), "--hand", "flat_pad_16x16"});
+  EXPECT_EQ(result.exitCode, 0) << result.err;
+  EXPECT_EQ(result.out, in("pad.palpate") + ": 20 frames in 0.190 s, 100.0 Hz\n");
+  const Profile profile = openRecording(in("pad.palpate"));
+  ASSERT_EQ(profile.numFrames(), 20u);
+  EXPECT_EQ(profile.frameTimeUs(3), 30'000);
+  EXPECT_EQ(profile.frame(3).values[255], 258.0F);
+  EXPECT_EQ(profile.hand().name, builtInHand("flat_pad_16x16").name);
+  expectOneLineError(
+      palpate({"import", in("pad.csv"), "--hand", "flat_pad_16x16"}), 1, {"exists already"});
+  EXPECT_EQ(
+      palpate({"import", in("pad.csv"), "--hand", "flat_pad_16x16", "--force", "-q"}).exitCode, 0);
+}
+
+TEST_F(ImportCommand, RefusedRowsAreCountedAndTheCodeSaysSo) {
+  testing::writeFile(in("pad.csv"), padTable(20, "15,oops\n"));
+  const auto result = palpate(
+      {"import", in("pad.csv"), "--hand", "flat_pad_16x16", "-o", in("o.palpate"), "--json"});
+  EXPECT_EQ(result.exitCode, 3);
+  EXPECT_NE(result.out.find("\"wrong_count\": 1"), std::string::npos) << result.out;
+  EXPECT_NE(result.err.find("1 row refused"), std::string::npos) << result.err;
+  EXPECT_EQ(openRecording(in("o.palpate")).numFrames(), 20u);
+  expectOneLineError(
+      palpate(
+          {"import", in("pad.csv"), "--hand", "flat_pad_16x16", "-o", in("p.palpate"), "--strict"}),
+      1,
+      {"pad.csv: line 4 has 2 cells instead of 257"});
+  EXPECT_FALSE(std::filesystem::exists(in("p.palpate")));
+}
+
+TEST_F(ImportCommand, APreviewWritesNothing) {
+  const auto result = palpate({"import", in("pad.csv"), "--hand", "flat_pad_16x16", "--preview"});
+  EXPECT_EQ(result.exitCode, 0) << result.err;
+  for (const char* words : {"text, separated by commas, names in line 1",
+                            "257 columns",
+                            "#1 time_ms [ms]",
+                            "taxel0 to taxel255 (256 columns)",
+                            "time: time_ms [ms, by the file]",
+                            "all 20 rows: 20 frames in 0.190 s, 100.0 Hz, 0 gaps"})
+    EXPECT_NE(result.out.find(words), std::string::npos) << words << "\n" << result.out;
+  EXPECT_FALSE(std::filesystem::exists(in("pad.palpate")));
+  expectOneLineError(
+      palpate({"import", in("pad.csv"), "--hand", "flat_pad_16x16", "--preview", "--force"}),
+      2,
+      {"--preview writes nothing"});
+}
+
+TEST_F(ImportCommand, AMappingIsKeptAndUsedAgain) {
+  testing::writeFile(in("raw.txt"), [] {
+    std::string text;
+    for (int row = 0; row < 3; ++row) {
+      for (int i = 0; i < 256; ++i) text += "0," + std::to_string(i % 10) + ";";
+      text += "\n";
+    }
+    return text;
+  }());
+  const std::vector<std::string> given = {"import",     in("raw.txt"),
+                                          "--hand",     "flat_pad_16x16",
+                                          "-o",         in("a.palpate"),
+                                          "--decimal",  "comma",
+                                          "--matrix",   "0=#1..#256",
+                                          "--scale",    "10",
+                                          "--offset",   "5",
+                                          "--rate",     "50",
+                                          "--start",    "2026-11-22T10:31:05Z",
+                                          "--save-map", in("m.json")};
+  const auto first = palpate(given);
+  EXPECT_EQ(first.exitCode, 0) << first.err;
+  EXPECT_EQ(readMapping(in("m.json")).time.rateHz, 50.0);
+  const auto again = palpate({"import",
+                              in("raw.txt"),
+                              "--hand",
+                              "flat_pad_16x16",
+                              "-o",
+                              in("b.palpate"),
+                              "--map",
+                              in("m.json")});
+  EXPECT_EQ(again.exitCode, 0) << again.err;
+  const Profile a = openRecording(in("a.palpate"));
+  const Profile b = openRecording(in("b.palpate"));
+  ASSERT_EQ(a.numFrames(), 3u);
+  ASSERT_EQ(b.numFrames(), 3u);
+  EXPECT_EQ(a.frame(2).values, b.frame(2).values);
+  EXPECT_EQ(a.frameTimeUs(2), b.frameTimeUs(2));
+  EXPECT_EQ(a.frame(0).values[3], 8.0F);  // 0,3 * 10 + 5
+  expectOneLineError(
+      palpate({"import", in("raw.txt"), "--hand", "flat_pad_16x16"}), 1, {"--decimal comma"});
+}
+
+TEST_F(ImportCommand, RefusesOptionsThatMakeNoSense) {
+  const auto refused = [&](std::vector<std::string> options, int code, const std::string& words) {
+    options.insert(options.begin(), {"import", in("pad.csv")});
+    expectOneLineError(palpate(options), code, {words});
+  };
+  refused({}, 2, "needs --hand");
+  refused({"--hand", "nonesuch"}, 1, "nonesuch");
+  const std::string pad = "flat_pad_16x16";
+  refused({"--hand", pad, "--scale", "2"}, 2, "need --matrix");
+  refused({"--hand", pad, "--rate", "10", "--time", "time_ms"}, 2, "--time");
+  refused({"--hand", pad, "--rate", "0"}, 2, "--rate");
+  refused({"--hand", pad, "--start", "soon"}, 2, "no date");
+  refused({"--hand", pad, "--delimiter", "pipe"}, 2, "semicolon");
+  refused({"--hand", pad, "--decimal", "comma", "--delimiter", "comma"}, 2, "another delimiter");
+  refused({"--hand", pad, "--matrix", "300=a"}, 2, "0 to 255");
+  refused({"--hand", pad, "--matrix", "0=absent*"}, 1, "absent*");
+  refused({"--hand", pad, "--matrix", "0=taxel*", "--scale", "0"}, 2, "--scale 0");
+  refused({"--hand", pad, "--map", in("absent.json")}, 1, "absent.json");
+  refused({"--hand", pad, "-o", in("o.csv")}, 1, "written as .palpate");
+  refused({"--hand", "sdh2"}, 1, "6 matrices of 14 x 6 and 13 x 6");
+  expectOneLineError(palpate({"import", in("absent.csv"), "--hand", pad}), 1, {"absent.csv"});
+}
+
+}  // namespace
+}  // namespace palpate::import_command_test

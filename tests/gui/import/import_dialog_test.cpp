@@ -1,0 +1,187 @@
+// The Import dialog: preview by the worker, choices, presets, refusals.
+#include "gui/import/import_dialog.h"
+
+#include <QCheckBox>
+#include <QComboBox>
+#include <QDoubleSpinBox>
+#include <QLabel>
+#include <QLineEdit>
+#include <QPushButton>
+#include <QTableWidget>
+#include <QTest>
+
+#include <gtest/gtest.h>
+
+#include "gui/import/import_fields.h"
+#include "testing/testing.h"
+
+namespace palpate::gui::import_dialog_test {
+namespace {
+
+std::string tableText(const char* header) {
+  std::string text = header;
+  text += "\n";
+  for (int row = 0; row < 20; ++row) {
+    text += std::to_string(row * 10);
+    for (int i = 0; i < 256; ++i) text += ";" + std::to_string(i);
+    text += "\n";
+  }
+  return text;
+}
+
+class ImportDialogTest : public ::testing::Test {
+ protected:
+  ImportDialogTest()
+      : settings_(QString::fromStdString((folder_ / "settings.ini").string()),
+                  QSettings::IniFormat) {
+    std::string header = "time_ms";
+    for (int i = 0; i < 256; ++i) header += ";p" + std::to_string(i);
+    testing::writeFile(folder_ / "pad.csv", tableText(header.c_str()));
+    open();
+  }
+  void open() {
+    dialog_ = std::make_unique<ImportDialog>(settings_, std::vector<std::filesystem::path>{});
+    dialog_->QWidget::show();
+  }
+  QString path(const char* name) const { return QString::fromStdString((folder_ / name).string()); }
+  void awaitPreview() {
+    ASSERT_TRUE(QTest::qWaitFor([this] { return !dialog_->busy(); }, 30'000));
+  }
+  void showPad() {
+    dialog_->setHand("flat_pad_16x16");
+    dialog_->setData(path("pad.csv"));
+    awaitPreview();
+  }
+  template <class Widget>
+  Widget* find(const char* name) {
+    return dialog_->findChild<Widget*>(name);
+  }
+
+  testing::TemporaryFolder folder_;
+  QSettings settings_;
+  std::unique_ptr<ImportDialog> dialog_;
+};
+
+TEST_F(ImportDialogTest, ShowsWhatTheFileHoldsAndWhatBecomesWhat) {
+  awaitPreview();
+  EXPECT_EQ(dialog_->problem(), "choose a file");
+  EXPECT_FALSE(find<QPushButton>("importOk")->isEnabled());
+  showPad();
+  EXPECT_EQ(dialog_->problem(), "");
+  EXPECT_TRUE(find<QPushButton>("importOk")->isEnabled());
+  EXPECT_EQ(find<QLabel>("importForm")->text(), "text, separated by semicolons, names in line 1");
+  const auto* columns = find<QTableWidget>("importColumns");
+  EXPECT_EQ(columns->horizontalHeaderItem(0)->text(), "time_ms\nms");
+  EXPECT_EQ(columns->item(2, 0)->text(), "20");
+  EXPECT_EQ(columns->item(2, 3)->text(), "2");
+  const QString choices = find<QLabel>("importChoices")->text();
+  EXPECT_TRUE(choices.contains("p0 to p255")) << choices.toStdString();
+  EXPECT_TRUE(choices.contains("All 20 rows: 20 frames, 100.0 Hz, 0 gaps"))
+      << choices.toStdString();
+  EXPECT_EQ(dialog_->request().out, path("pad.palpate"));
+}
+
+TEST_F(ImportDialogTest, OnlyTheRowsOfTheHandAreOffered) {
+  showPad();
+  auto* fields = find<ImportFields>("importFields");
+  const auto shown = [&] {
+    QStringList names;
+    for (int row = 0; row < fields->rowCount(); ++row)
+      if (!fields->isRowHidden(row)) names << fields->verticalHeaderItem(row)->text();
+    return names;
+  };
+  EXPECT_EQ(shown(), QStringList{"All matrices"});
+  dialog_->setHand("sdh2");
+  awaitPreview();
+  EXPECT_EQ(shown().size(), 9);  // all, six matrices, joint angles, temperatures
+  EXPECT_TRUE(dialog_->problem().contains("6 matrices of 14 x 6"))
+      << dialog_->problem().toStdString();
+}
+
+TEST_F(ImportDialogTest, ChangedFieldsAreTriedAtOnce) {
+  showPad();
+  auto* fields = find<ImportFields>("importFields");
+  fields->item(0, 0)->setText("#1..#256");
+  fields->item(0, 1)->setText("0.5");
+  awaitPreview();
+  ASSERT_EQ(dialog_->request().mapping.matrices.size(), 1u);
+  EXPECT_EQ(dialog_->request().mapping.matrices[0].columns, "#1..#256");
+  EXPECT_EQ(dialog_->request().mapping.matrices[0].values.scale, 0.5);
+  EXPECT_EQ(dialog_->problem(), "");
+  fields->item(0, 0)->setText("q*");
+  awaitPreview();
+  EXPECT_TRUE(dialog_->problem().contains("no column of numbers matches"));
+  fields->item(0, 1)->setText("half");
+  EXPECT_TRUE(dialog_->problem().contains("\"half\" is not a number"));
+  fields->item(0, 0)->setText("");
+  fields->item(0, 1)->setText("");
+  find<QDoubleSpinBox>("importRate")->setValue(250.0);
+  awaitPreview();
+  EXPECT_EQ(dialog_->request().mapping.time.rateHz, 250.0);
+  EXPECT_TRUE(find<QLabel>("importChoices")->text().contains("250 Hz"));
+}
+
+TEST_F(ImportDialogTest, DecimalCommasAreNamedAndRead) {
+  std::string text;
+  for (int row = 0; row < 4; ++row) {
+    text += "0," + std::to_string(row);
+    for (int i = 0; i < 256; ++i) text += "\t1,5";
+    text += "\n";
+  }
+  testing::writeFile(folder_ / "comma.txt", text);
+  dialog_->setHand("flat_pad_16x16");
+  dialog_->setData(path("comma.txt"));
+  awaitPreview();
+  EXPECT_TRUE(dialog_->problem().contains("decimal comma")) << dialog_->problem().toStdString();
+  find<QComboBox>("importDecimal")->setCurrentIndex(1);
+  awaitPreview();
+  EXPECT_EQ(dialog_->problem(), "");
+}
+
+TEST_F(ImportDialogTest, MappingsAreRememberedByName) {
+  showPad();
+  find<ImportFields>("importFields")->item(0, 0)->setText("p*");
+  find<ImportFields>("importFields")->item(0, 2)->setText("-3");
+  awaitPreview();
+  dialog_->askForName = [](const QString&) { return QString("my/pad 1"); };
+  find<QPushButton>("importSavePreset")->click();
+  EXPECT_EQ(find<QComboBox>("importPreset")->currentText(), "my/pad 1");
+  open();
+  awaitPreview();
+  EXPECT_TRUE(dialog_->request().mapping.matrices.empty());
+  showPad();
+  auto* presets = find<QComboBox>("importPreset");
+  presets->setCurrentText("my/pad 1");
+  emit presets->activated(presets->currentIndex());
+  awaitPreview();
+  ASSERT_EQ(dialog_->request().mapping.matrices.size(), 1u);
+  EXPECT_EQ(dialog_->request().mapping.matrices[0].columns, "p*");
+  EXPECT_EQ(dialog_->request().mapping.matrices[0].values.offset, -3.0);
+  find<QPushButton>("importRemovePreset")->click();
+  EXPECT_EQ(importPresets(settings_), QStringList());
+}
+
+TEST_F(ImportDialogTest, NothingIsReplacedUnasked) {
+  testing::writeFile(folder_ / "pad.palpate", "mine");
+  showPad();
+  EXPECT_EQ(dialog_->problem(), "pad.palpate exists already");
+  find<QCheckBox>("importReplace")->setChecked(true);
+  EXPECT_EQ(dialog_->problem(), "");
+  find<QLineEdit>("importOut")->setText(path("pad.csv"));
+  EXPECT_TRUE(dialog_->problem().contains(".palpate"));
+  dialog_->accept();
+  EXPECT_TRUE(dialog_->isVisible());
+  find<QLineEdit>("importOut")->setText(path("other.palpate"));
+  dialog_->accept();
+  EXPECT_EQ(dialog_->result(), QDialog::Accepted);
+}
+
+TEST_F(ImportDialogTest, EscapeClosesIt) {
+  showPad();
+  QTest::keyClick(dialog_.get(), Qt::Key_Escape);
+  EXPECT_FALSE(dialog_->isVisible());
+  EXPECT_EQ(dialog_->result(), QDialog::Rejected);
+}
+
+}  // namespace
+}  // namespace palpate::gui::import_dialog_test

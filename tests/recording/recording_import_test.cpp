@@ -1,0 +1,365 @@
+#include "palpate/recording/recording_import.h"
+
+#include "palpate/model/profile_builder.h"
+
+#include "recording/import_samples.h"
+
+namespace palpate::recording_import_test {
+namespace {
+namespace fs = std::filesystem;
+
+using testing::handOf;
+using testing::importText;
+using testing::pad;
+using testing::TemporaryFolder;
+
+// A recording of an SDH-2 with fractions, angles, temperatures, a gap, and a frame without contact.
+Profile original(bool withEmptyFrame) {
+  ProfileBuilder builder(sdh2().layout);
+  for (int i = 0; i < 40; ++i) {
+    std::vector<float> values(sdh2().layout->numCells(), 0.0F);
+    for (std::size_t m = 0; m < 6; ++m) {
+      const MatrixLayout& matrix = sdh2().layout->matrix(m);
+      for (std::size_t k = 0; k < matrix.numCells(); k += 3)
+        if (matrix.staticMask[k] != 0)
+          values[sdh2().layout->offset(m) + k] =
+              static_cast<float>((i * 97 + static_cast<int>(k) * 31) % 4000) + 0.25F;
+    }
+    if (withEmptyFrame && i == 20) std::fill(values.begin(), values.end(), 0.0F);
+    const std::int64_t us = 1'417'084'265'000'000 + i * 31'000 + (i >= 30 ? 5'000'000 : 0);
+    builder.addFrame(us, values);
+    const double angle = 0.1 * i;
+    builder.addAngles(us + 3000, std::vector<double>{angle, 1, 2, 3, 4, 5, -angle});
+    if (i % 4 == 0)
+      builder.addTemperatures(us + 1000,
+                              std::vector<double>(sdh2().temperatureSensors.size(), 20.5 + i));
+  }
+  return builder.finish({});
+}
+
+// Equal values and times, these in whole milliseconds, as exports hold them.
+void expectSame(const Profile& expected, const Profile& found) {
+  ASSERT_EQ(found.numFrames(), expected.numFrames());
+  for (std::size_t i = 0; i < expected.numFrames(); ++i) {
+    EXPECT_EQ(found.frameTimeUs(i), expected.frameTimeUs(i));
+    EXPECT_EQ(found.frame(i).values, expected.frame(i).values) << i;
+  }
+  ASSERT_EQ(found.numAngles(), expected.numAngles());
+  for (std::size_t i = 0; i < expected.numAngles(); ++i) {
+    EXPECT_EQ(found.angleTimeUs(i), expected.angleTimeUs(i));
+    EXPECT_EQ(found.angles(i).deg, expected.angles(i).deg);
+  }
+  ASSERT_EQ(found.numTemperatures(), expected.numTemperatures());
+  for (std::size_t i = 0; i < expected.numTemperatures(); ++i) {
+    EXPECT_EQ(found.temperatureTimeUs(i), expected.temperatureTimeUs(i));
+    EXPECT_EQ(found.temperatures(i).degC, expected.temperatures(i).degC);
+  }
+}
+
+TEST(RecordingImport, OurOwnExportsComeBack) {
+  for (const char* name : {"a.npz", "a.csv"}) {
+    const TemporaryFolder folder;
+    const Profile before = original(false);
+    saveRecording(before, {}, folder / name);
+    const ImportReport report = importRecording(folder / name, sdh2(), {}, folder / "b.palpate");
+    expectSame(before, openRecording(folder / "b.palpate"));
+    EXPECT_EQ(report.frames, 40u);
+    EXPECT_EQ(report.gaps, 1u);
+    EXPECT_NEAR(report.longestGapS, 5.031, 1e-9);
+    EXPECT_EQ(report.refused.total(), 0u);
+    EXPECT_EQ(report.notes, std::vector<std::string>());
+    EXPECT_EQ(verifyRecording(folder / "b.palpate").state, VerifyReport::State::kSound);
+    EXPECT_EQ(readRecordingMeta(folder / "b.palpate").at("imported_from"), name);
+  }
+}
+
+TEST(RecordingImport, AFrameThatAListOfTaxelsDoesNotHoldIsCounted) {
+  const TemporaryFolder folder;
+  saveRecording(original(true), {}, folder / "a.csv");
+  const ImportReport report = importRecording(folder / "a.csv", sdh2(), {}, folder / "b.palpate");
+  EXPECT_EQ(report.frames, 39u);
+  EXPECT_EQ(report.absentFrames, 1u);
+}
+
+TEST(RecordingImport, PlotJugglersExport) {
+  const TemporaryFolder folder;
+  // Series of two rates, joined by time; sorted by name; numbers with nine decimals.
+  const auto made = importText(folder,
+                               "__time,/hand/joint0,/hand/joint1,/pad/p[0],/pad/p[1],/pad/p[10],"
+                               "/pad/p[11],/pad/p[2],/pad/p[3],/pad/p[4],/pad/p[5],/pad/p[6],"
+                               "/pad/p[7],/pad/p[8],/pad/p[9]\n"
+                               "1700000000.010000,,,0.000000000,1.000000000,10.000000000,"
+                               "11.000000000,2.000000000,3.000000000,4.000000000,5.000000000,"
+                               "6.000000000,7.000000000,8.000000000,9.500000000\n"
+                               "1700000000.015000,12.500000000,-3.000000000,,,,,,,,,,,,\n"
+                               "1700000000.020000,13.500000000,-4.000000000,0.000000000,"
+                               "1.000000000,10.000000000,11.000000000,2.000000000,3.000000000,"
+                               "4.000000000,5.000000000,6.000000000,7.000000000,8.000000000,"
+                               "9.000000000\n",
+                               handOf({MatrixLayout::full(3, 4, 1.0)}, 2));
+  ASSERT_EQ(made.profile.numFrames(), 2u);
+  EXPECT_EQ(made.profile.frameTimeUs(0), 1'700'000'000'010'000);
+  EXPECT_EQ(made.profile.frame(0).values,
+            (std::vector<float>{0, 1, 2, 3, 4, 5, 6, 7, 8, 9.5F, 10, 11}));
+  ASSERT_EQ(made.profile.numAngles(), 2u);
+  EXPECT_EQ(made.profile.angleTimeUs(0), 1'700'000'000'015'000);
+  EXPECT_EQ(made.profile.angles(0).deg, (std::vector<double>{12.5, -3.0}));
+  EXPECT_EQ(made.report.refused.total(), 0u);
+}
+
+TEST(RecordingImport, ArduinosShapes) {
+  const std::vector<float> second{5, 6, 7, 8};
+  for (const char* text :
+       {"millis:10 t0:1 t1:2 t2:3 t3:4\nmillis:20 t0:5 t1:6 t2:7 t3:8\n",
+        "millis:10,t0:1,t1:2,t2:3,t3:4\nmillis:20,t0:5,t1:6,t2:7,t3:8\n",
+        "10,1,2,3,4\n20,5,6,7,8\n",
+        "10\t1\t2\t3\t4\t\n20\t5\t6\t7\t8\t\n",
+        "10 1 2 3 4\n20 5 6 7 8\n",
+        "time;p1;p2;p3;p4\nms;counts;counts;counts;counts\n10;1;2;3;4\n20;5;6;7;8\n",
+        "t [s],a,b,c,d\n0.01,1,2,3,4\n0.02,5,6,7,8\n",
+        "time_us,a,b,c,d\n10000,1,2,3,4\n20000,5,6,7,8\n",
+        "stamp,a,b,c,d\n1970-01-01T00:00:00.010Z,1,2,3,4\n"
+        "1970-01-01 00:00:00.020,5,6,7,8\n"}) {
+    const TemporaryFolder folder;
+    const auto made = importText(folder, text, pad(2, 2));
+    ASSERT_EQ(made.profile.numFrames(), 2u) << text;
+    EXPECT_EQ(made.profile.frameTimeUs(0), 10'000) << text;
+    EXPECT_EQ(made.profile.frameTimeUs(1), 20'000) << text;
+    EXPECT_EQ(made.profile.frame(1).values, second) << text;
+    EXPECT_EQ(made.report.refused.total(), 0u) << text << made.report.refused.first;
+    EXPECT_EQ(made.profile.info().valueType, ValueType::kCounts);
+  }
+}
+
+TEST(RecordingImport, ARateMakesTheTimes) {
+  const TemporaryFolder folder;
+  ImportMapping mapping;
+  mapping.time.rateHz = 200.0;
+  mapping.time.startUs = 1'417'084'265'000'000;
+  const auto made = importText(folder, "1,2,3,4\n1,2,x,4\n5,6,7,8\n", pad(2, 2), mapping);
+  ASSERT_EQ(made.profile.numFrames(), 2u);
+  EXPECT_EQ(made.profile.frameTimeUs(0), 1'417'084'265'000'000);
+  EXPECT_EQ(made.profile.frameTimeUs(1), 1'417'084'265'010'000);  // the refused row took its time
+}
+
+TEST(RecordingImport, UnitsAndScalesAreConverted) {
+  HandDescription hand = handOf({MatrixLayout::full(1, 2, 1.0)}, 2, 1);
+  hand.unit = "kPa";
+  hand.axes[1].isSliding = true;
+  const TemporaryFolder folder;
+  ImportMapping mapping;
+  mapping.angles.values.unit = "";
+  const auto made = importText(folder,
+                               "t [ms],p0 [Pa],p1 [Pa],joint0 [rad],joint1 [m],temperature [K]\n"
+                               "1,2500,500,3.14159265358979323846,0.012,300\n",
+                               hand);
+  EXPECT_EQ(made.profile.frame(0).values, (std::vector<float>{2.5F, 0.5F}));
+  EXPECT_NEAR(made.profile.angles(0).deg[0], 180.0, 1e-12);
+  EXPECT_NEAR(made.profile.angles(0).deg[1], 12.0, 1e-12);
+  EXPECT_NEAR(made.profile.temperatures(0).degC[0], 26.85, 1e-12);
+  mapping.matrices = {{0, "p*", {0.5, -1.0, "N/cm2"}, false}};
+  const auto scaled = importText(folder, "t,p0,p1\n1,4,2\n", hand, mapping);
+  EXPECT_EQ(scaled.profile.frame(0).values, (std::vector<float>{10.0F, 0.0F}));
+  const auto strange = importText(folder, "t,p0 [furlong],p1 [furlong]\n1,4,2\n", hand);
+  ASSERT_EQ(strange.report.notes.size(), 1u);
+  EXPECT_NE(strange.report.notes[0].find("furlong"), std::string::npos);
+}
+
+TEST(RecordingImport, RowsThatCanNotBeUsedAreCountedByKind) {
+  const std::string text =
+      "t,a,b,c,d\n"
+      "1,1,2,3,4\n"
+      "2,1,2,3\n"
+      "3,1,2,oops,4\n"
+      "4,1,nan,3,4\n"
+      "5,1,,3,4\n"
+      ",1,2,3,4\n"
+      "soon,1,2,3,4\n"
+      "1,1,2,3,4\n"
+      "0.5,1,2,3,4\n"
+      "6,,,,\n"
+      "7,5,6,7,8\n";
+  const TemporaryFolder folder;
+  const auto made = importText(folder, text, pad(2, 2));
+  EXPECT_EQ(made.report.rows, 11u);
+  EXPECT_EQ(made.report.frames, 2u);
+  const RefusedRows& refused = made.report.refused;
+  EXPECT_EQ(refused.wrongCount, 1u);
+  EXPECT_EQ(refused.text, 2u);
+  EXPECT_EQ(refused.notFinite, 1u);
+  EXPECT_EQ(refused.missing, 2u);
+  EXPECT_EQ(refused.notLater, 2u);
+  EXPECT_EQ(refused.total(), 8u);
+  EXPECT_EQ(refused.first, "line 3 has 4 cells instead of 5");
+  EXPECT_EQ(refused.summary(),
+            "8 rows refused: 1 with a wrong number of cells, 2 with text, 1 with NaN or too large "
+            "values, 2 with missing values, 2 with a time that is not later");
+  EXPECT_EQ(RefusedRows().summary(), "");
+}
+
+TEST(RecordingImport, StrictStopsAtTheFirstRefusedRowAndWritesNothing) {
+  const std::vector<std::pair<std::string, std::string>> cases = {
+      {"2,1,2,3\n", "line 3 has 4 cells instead of 5"},
+      {"2,1,2,oops,4\n", "line 3, column 4: \"oops\" is not a number"},
+      {"2,1,nan,3,4\n", "line 3, column 3: \"nan\", not finite"},
+      {"2,1,,3,4\n", "line 3, column 3 is empty"},
+      {"2,1,2,3,1e50\n", "line 3, column 5: \"1e50\""},
+      {"1,1,2,3,4\n", "line 3: the time 1 is not later"},
+      {"soon,1,2,3,4\n", "line 3: \"soon\" is no time"}};
+  for (const auto& [row, words] : cases) {
+    const TemporaryFolder folder;
+    const std::string what = testing::errorOf([&, &row = row] {
+      importText(folder, "t,a,b,c,d\n1,1,2,3,4\n" + row, pad(2, 2), {}, {.strict = true});
+    });
+    EXPECT_NE(what.find(words), std::string::npos) << what;
+    EXPECT_NE(what.find("table.csv: "), std::string::npos) << what;
+    EXPECT_FALSE(fs::exists(folder / "out.palpate"));
+    // Nothing but the table is left in the folder.
+    EXPECT_EQ(std::distance(fs::directory_iterator(folder.path()), fs::directory_iterator()), 1);
+  }
+}
+
+TEST(RecordingImport, NothingIsLeftWhenItFailsOrIsCancelled) {
+  const TemporaryFolder folder;
+  const auto numFiles = [&] {
+    return std::distance(fs::directory_iterator(folder.path()), fs::directory_iterator());
+  };
+  std::string text = "t,a,b,c,d\n";
+  for (int i = 0; i < 2000; ++i) text += std::to_string(i) + ",1,2,3,4\n";
+  testing::writeFile(folder / "t.csv", text);
+  int asked = 0;
+  EXPECT_THROW(importRecording(folder / "t.csv",
+                               pad(2, 2),
+                               {},
+                               folder / "o.palpate",
+                               {},
+                               [&](double fraction) {
+                                 EXPECT_GE(fraction, 0.0);
+                                 EXPECT_LE(fraction, 1.0);
+                                 return ++asked < 4;
+                               }),
+               Cancelled);
+  EXPECT_EQ(numFiles(), 1);
+  const std::string none = testing::errorOf([&] {
+    testing::writeFile(folder / "u.csv", "t,a,b,c,d\n1,x,2,3,4\n2,1,2,3,y\n");
+    importRecording(folder / "u.csv", pad(2, 2), {}, folder / "o.palpate");
+  });
+  EXPECT_NE(none.find("no row can be used; the first: line 2"), std::string::npos) << none;
+  EXPECT_EQ(numFiles(), 2);
+  EXPECT_NE(testing::errorOf([&] {
+              importRecording(folder / "t.csv", pad(2, 2), {}, folder / "o.csv");
+            }).find("written as .palpate"),
+            std::string::npos);
+  testing::writeFile(folder / "mine.palpate", "mine");
+  EXPECT_THROW(importRecording(folder / "t.csv", pad(2, 2), {}, folder / "mine.palpate"),
+               FileError);
+  EXPECT_EQ(testing::readFile(folder / "mine.palpate"), "mine");
+  importRecording(
+      folder / "t.csv", pad(2, 2), {}, folder / "mine.palpate", {.overwrite = Overwrite::kReplace});
+  EXPECT_EQ(openRecording(folder / "mine.palpate").numFrames(), 2000u);
+}
+
+TEST(RecordingImport, ArraysOfNumpyAndHdf5AreTheSameRecording) {
+  const TemporaryFolder folder;
+  testing::runPython(folder, R"(
+import sys, numpy as np, h5py
+folder = sys.argv[1] + '/'
+left = (np.arange(50 * 4 * 3) % 997).reshape(50, 4, 3).astype('<u2')
+right = (np.arange(50 * 2 * 5) % 89).reshape(50, 2, 5).astype('>i4')
+time = 1700000000000000000 + np.arange(50) * 10_000_000
+joints = np.linspace(0, 1, 120).reshape(60, 2)
+joint_time = 1700000000.0 + np.arange(60) * 0.0085
+np.savez_compressed(folder + 'a.npz', left=left, right=np.asfortranarray(right), time_ns=time,
+                    joint_rad=joints, joint_time=joint_time)
+np.savez(folder + 'rows.npz', left=left.reshape(50, 12), right=right.reshape(50, 10),
+         time=time.astype('datetime64[ns]'), joint_rad=joints, joint_time=joint_time)
+with h5py.File(folder + 'a.h5', 'w') as f:
+  f['hand/left'] = left; f['hand/right'] = right; f['hand/time_ns'] = time
+  f['arm/joint_rad'] = joints; f['arm/joint_time'] = joint_time
+)");
+  const HandDescription hand =
+      handOf({MatrixLayout::full(4, 3, 1.0), MatrixLayout::full(2, 5, 1.0)}, 2);
+  for (const char* name : {"a.npz", "rows.npz", "a.h5"}) {
+    const ImportReport report = importRecording(
+        folder / name, hand, {}, folder / "o.palpate", {.overwrite = Overwrite::kReplace});
+    const Profile profile = openRecording(folder / "o.palpate");
+    ASSERT_EQ(profile.numFrames(), 50u) << name;
+    EXPECT_EQ(report.notes, std::vector<std::string>()) << name;
+    for (std::size_t i = 0; i < 50; ++i) {
+      EXPECT_EQ(profile.frameTimeUs(i),
+                1'700'000'000'000'000 + static_cast<std::int64_t>(i) * 10'000);
+      const auto values = profile.frame(i).values;
+      for (std::size_t k = 0; k < 12; ++k)
+        EXPECT_EQ(values[k], static_cast<float>((i * 12 + k) % 997)) << name;
+      for (std::size_t k = 0; k < 10; ++k)
+        EXPECT_EQ(values[12 + k], static_cast<float>((i * 10 + k) % 89)) << name;
+    }
+    ASSERT_EQ(profile.numAngles(), 60u) << name;
+    EXPECT_NEAR(profile.angles(59).deg[1], 57.29577951308232, 1e-12);
+    EXPECT_EQ(profile.angleTimeUs(2), 1'700'000'000'017'000);
+  }
+}
+
+TEST(RecordingImport, WhatIsMissingIsNamedWithWhatIsThere) {
+  const TemporaryFolder folder;
+  testing::runPython(folder, R"(
+import sys, numpy as np, h5py
+folder = sys.argv[1] + '/'
+np.savez(folder + 'a.npz', left=np.zeros((50, 3, 4)), time=np.arange(50))
+np.savez(folder + 'b.npz', pad=np.zeros((50, 4, 3)), time=np.arange(49))
+with h5py.File(folder + 'a.h5', 'w') as f: f['raw/pad'] = np.zeros((50, 4, 3)); f['raw/time'] = np.arange(50)
+)");
+  const HandDescription hand = pad(4, 3);
+  const auto refusal = [&](const char* name, const ImportMapping& mapping) {
+    return testing::errorOf(
+        [&] { importRecording(folder / name, hand, mapping, folder / "o.palpate"); });
+  };
+  ImportMapping mapping;
+  mapping.matrices = {{0, "/tactile/pad", {}, false}};
+  const std::string absent = refusal("a.h5", mapping);
+  EXPECT_NE(absent.find("there is no column \"/tactile/pad\"; there are raw/pad[4][3], raw/time"),
+            std::string::npos)
+      << absent;
+  mapping.matrices = {{0, "/raw/pad", {}, false}};
+  EXPECT_EQ(refusal("a.h5", mapping), "");
+  // 3 x 4 numbers fit a pad of 4 x 3 by their number only: in their order.
+  ImportMapping shape;
+  shape.matrices = {{0, "left", {}, true}};
+  EXPECT_EQ(testing::errorOf(
+                [&] { importRecording(folder / "a.npz", hand, shape, folder / "p.palpate"); }),
+            "");
+  const std::string rows = refusal("b.npz", {});
+  EXPECT_NE(rows.find("no column of times was found"), std::string::npos) << rows;
+  ImportMapping time;
+  time.time.column = "time";
+  EXPECT_NE(refusal("b.npz", time).find("time has 49 rows, but pad has 50"), std::string::npos);
+}
+
+TEST(RecordingImport, APreviewShowsWhatAnImportWouldDo) {
+  const TemporaryFolder folder;
+  std::string text = "time_ms,p0,p1,note\n";
+  for (int i = 0; i < 3000; ++i)
+    text += std::to_string(i * 10 + (i > 100 ? 3000 : 0)) + "," + std::to_string(i % 7) + "," +
+            (i == 50 ? "x" : "1.5") + ",hm\n";
+  testing::writeFile(folder / "t.csv", text);
+  const ImportPreview preview = previewImport(folder / "t.csv", pad(1, 2), {});
+  EXPECT_EQ(preview.problem, "");
+  EXPECT_EQ(preview.form, "text, separated by commas, names in line 1");
+  ASSERT_EQ(preview.columns.size(), 4u);
+  ASSERT_EQ(preview.rows.size(), kShownPreviewRows);
+  EXPECT_EQ(preview.rows[1], (std::vector<std::string>{"10", "1", "1.5", "hm"}));
+  EXPECT_EQ(preview.time, "time_ms [ms, by the file]");
+  ASSERT_EQ(preview.choices.size(), 1u);
+  EXPECT_NE(preview.choices[0].find("p0 to p1"), std::string::npos) << preview.choices[0];
+  EXPECT_EQ(preview.sample.rows, kPreviewRows);
+  EXPECT_EQ(preview.sample.frames, kPreviewRows - 1);
+  EXPECT_EQ(preview.sample.gaps, 1u);
+  EXPECT_EQ(preview.sample.refused.text, 1u);
+  EXPECT_FALSE(preview.isWhole);
+  const ImportPreview wrong = previewImport(folder / "t.csv", pad(3, 3), {});
+  EXPECT_NE(wrong.problem.find("1 matrix of 3 x 3"), std::string::npos) << wrong.problem;
+  EXPECT_EQ(wrong.rows.size(), kShownPreviewRows);
+}
+
+}  // namespace
+}  // namespace palpate::recording_import_test
