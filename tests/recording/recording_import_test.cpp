@@ -311,8 +311,10 @@ with h5py.File(folder + 'a.h5', 'w') as f: f['raw/pad'] = np.zeros((50, 4, 3)); 
 )");
   const HandDescription hand = pad(4, 3);
   const auto refusal = [&](const char* name, const ImportMapping& mapping) {
-    return testing::errorOf(
-        [&] { importRecording(folder / name, hand, mapping, folder / "o.palpate"); });
+    return testing::errorOf([&] {
+      importRecording(
+          folder / name, hand, mapping, folder / "o.palpate", {.overwrite = Overwrite::kReplace});
+    });
   };
   ImportMapping mapping;
   mapping.matrices = {{0, "/tactile/pad", {}, false}};

@@ -8,6 +8,8 @@
 #include "palpate/core/escaped_line.h"
 #include "palpate/core/number_text.h"
 
+#include "recording/import/column_unit.h"
+
 namespace palpate {
 namespace {
 
@@ -276,7 +278,7 @@ std::vector<ColumnGroup> groupColumns(const std::vector<TableColumn>& columns,
   std::map<std::string, std::size_t> byStem;
   for (const std::size_t c : chosen) {
     std::vector<std::int64_t> numbers;
-    std::string stem = stemOf(columns[c].name, numbers);
+    std::string stem = stemOf(nameWithoutUnit(columns[c].name), numbers);
     for (std::size_t d = 0; d < columns[c].shape.size(); ++d) stem += "[#]";
     const auto [at, isNew] = byStem.try_emplace(stem, groups.size());
     if (isNew) groups.push_back({stem, {}, {}});

@@ -96,6 +96,12 @@ const KnownUnit* knownUnit(std::string_view name) {
   return nullptr;
 }
 
+// Where the name ends and the unit that follows.
+struct SplitName {
+  std::size_t nameEnd = 0;
+  std::string unit;
+};
+
 // Whether an ending such as "_deg" is taken for a unit: single letters and symbols are parts of
 // names ("joint_m", "taxel_1").
 bool isUnitEnding(std::string_view text) {
@@ -105,24 +111,31 @@ bool isUnitEnding(std::string_view text) {
   return !unit && timeUnitNamed(text) && timeUnitNamed(text) != TimeUnit::kDate;
 }
 
-}  // namespace
-
-std::string unitInName(std::string_view name) {
-  name = trimmed(name);
+SplitName splitName(std::string_view name) {
   if (name.size() > 2) {
     const char last = name.back();
     const char first = last == ']' ? '[' : last == ')' ? '(' : '\0';
     const auto begin = first != '\0' ? name.rfind(first) : std::string_view::npos;
     if (begin != std::string_view::npos && begin > 0) {
       const std::string_view inside = trimmed(name.substr(begin + 1, name.size() - begin - 2));
-      if (!inside.empty() && inside.find_first_of("0123456789") != 0) return std::string(inside);
+      if (!inside.empty() && inside.find_first_of("0123456789") != 0)
+        return {begin, std::string(inside)};
     }
   }
   const auto underscore = name.rfind('_');
-  if (underscore == std::string_view::npos) return {};
+  if (underscore == std::string_view::npos || underscore == 0) return {name.size(), {}};
   const std::string_view ending = name.substr(underscore + 1);
-  return isUnitEnding(smallLetters(ending)) ? std::string(ending) : std::string();
+  if (!isUnitEnding(smallLetters(ending))) return {name.size(), {}};
+  return {underscore, std::string(ending)};
 }
+
+}  // namespace
+
+std::string_view nameWithoutUnit(std::string_view name) {
+  return trimmed(name.substr(0, splitName(name).nameEnd));
+}
+
+std::string unitInName(std::string_view name) { return splitName(name).unit; }
 
 bool isKnownUnit(std::string_view text) {
   return knownUnit(text) != nullptr || timeUnitNamed(trimmed(text)).has_value();

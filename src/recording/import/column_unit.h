@@ -11,6 +11,9 @@ namespace palpate {
 // "ms" of "time_ms"; empty where there is none.
 std::string unitInName(std::string_view name);
 
+// The name without what unitInName() found: "left", "axis0", "time".
+std::string_view nameWithoutUnit(std::string_view name);
+
 // Whether a text is a unit that is known here, or the name of raw values ("raw", "adc", "lsb").
 bool isKnownUnit(std::string_view text);
 

@@ -133,7 +133,7 @@ bool namesColumns(const std::vector<SampleRow>& rows) {
 // Whether the cells are 0, 1, 2, .. or 1, 2, 3, .., as programs name columns that have no names
 // (the first one may be empty), and the next row is not.
 bool countsColumns(const Cells& cells) {
-  constexpr std::size_t kFewest = 4;
+  constexpr std::size_t kFewest = 8;  // fewer may be values
   if (cells.size() < kFewest) return false;
   const std::size_t first = trimmedCell(cells[0]).empty() ? 1 : 0;
   const auto start = parseInteger(trimmedCell(cells[first]));

@@ -11,6 +11,8 @@
 #include "palpate/core/error.h"
 #include "palpate/core/escaped_line.h"
 
+#include "recording/import/column_unit.h"
+
 namespace palpate {
 namespace {
 
@@ -168,6 +170,7 @@ Hdf5Source::Hdf5Source(const std::filesystem::path& path) : ArraySource(path) {
     }
     column.unit = attributeText(set.id.get(), "units");
     if (column.unit.empty()) column.unit = attributeText(set.id.get(), "unit");
+    if (column.unit.empty()) column.unit = unitInName(name);
     impl->sets.push_back(std::move(set));
     columns_.push_back(std::move(column));
   }

@@ -17,6 +17,8 @@
 #include "palpate/core/error.h"
 #include "palpate/core/escaped_line.h"
 
+#include "recording/import/column_unit.h"
+
 namespace palpate {
 namespace {
 
@@ -141,7 +143,10 @@ NpzSource::NpzSource(const std::filesystem::path& path) : ArraySource(path), fil
 
 void NpzSource::addColumn(const std::string& name, Array array, std::uint64_t available) {
   const NpyHeader& header = array.header;
-  TableColumn column{.name = name, .type = header.typeName()};
+  TableColumn column;
+  column.name = name;
+  column.unit = unitInName(name);
+  column.type = header.typeName();
   column.isNumeric = header.kind != NumberKind::kOther && header.kind != NumberKind::kDate &&
                      !header.shape.empty();
   column.hasDates = header.kind == NumberKind::kDate;
