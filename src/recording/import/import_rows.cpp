@@ -13,8 +13,6 @@
 namespace palpate {
 namespace {
 
-using Kind = PlannedSeries::Kind;
-
 constexpr std::uint64_t kRowsPerReport = 256;
 
 }  // namespace
@@ -174,7 +172,7 @@ void ImportRows::add(const PlannedSeries& series,
   const auto valueAt = [&](std::size_t i) {
     return row.values[begin + i] * series.values[i].scale + series.values[i].offset;
   };
-  if (series.kind == Kind::kFrames) {
+  if (series.kind == PlannedSeries::Kind::kFrames) {
     const SensorLayout& layout = *hand_.layout;
     std::fill(frame_.values.begin(), frame_.values.end(), 0.0F);
     for (std::size_t i = 0; i < series.values.size(); ++i)
@@ -188,7 +186,7 @@ void ImportRows::add(const PlannedSeries& series,
     }
     return addFrame(us);
   }
-  const bool isAngles = series.kind == Kind::kAngles;
+  const bool isAngles = series.kind == PlannedSeries::Kind::kAngles;
   sample_.assign(isAngles ? hand_.axes.size() : hand_.temperatureSensors.size(), 0.0);
   for (std::size_t i = 0; i < series.values.size(); ++i)
     if (series.values[i].target) sample_[*series.values[i].target] = valueAt(i);
@@ -234,7 +232,7 @@ void ImportRows::runPass(TableSource& source,
   timeReader_.reset();
   if (pass.time) timeReader_.emplace(pass.timeUnit, mapping_.time.startUs, mapping_.text.decimal);
   source.start(columns, pass.time);
-  const bool hasFrames = pass.series.front()->kind == Kind::kFrames;
+  const bool hasFrames = pass.series.front()->kind == PlannedSeries::Kind::kFrames;
   TableRow row;
   for (; rowIndex_ < mostRows && source.next(row); ++rowIndex_) {
     if (progress && rowIndex_ % kRowsPerReport == 0 && !progress(source.fraction()))
