@@ -35,7 +35,7 @@ QComboBox* importComboBox(const char* name, const std::vector<std::pair<QString,
   return box;
 }
 
-void chooseValue(QComboBox& box, const QString& value) {
+void chooseImportValue(QComboBox& box, const QString& value) {
   box.setCurrentIndex(std::max(0, box.findData(value)));
 }
 
@@ -266,7 +266,7 @@ void ImportDialog::listPresets(const QString& chosen) {
   preset_->clear();
   preset_->addItem("as below", "");
   for (const QString& name : importPresets(settings_)) preset_->addItem(name, name);
-  chooseValue(*preset_, chosen);
+  chooseImportValue(*preset_, chosen);
   removePreset_->setEnabled(preset_->currentIndex() > 0);
 }
 
@@ -282,14 +282,14 @@ void ImportDialog::usePreset() {
 void ImportDialog::showMapping(const ImportMapping& mapping) {
   filling_ = true;
   first_ = mapping;
-  chooseValue(
+  chooseImportValue(
       *delimiter_,
       QString::fromLatin1(delimiterName(mapping.text.delimiter).data(),
                           static_cast<qsizetype>(delimiterName(mapping.text.delimiter).size())));
-  chooseValue(*decimal_, QString(QChar(mapping.text.decimal)));
+  chooseImportValue(*decimal_, QString(QChar(mapping.text.decimal)));
   header_->setCurrentIndex(static_cast<int>(mapping.text.header));
   time_->setText(QString::fromStdString(mapping.time.column));
-  chooseValue(*timeUnit_, QString::fromStdString(mapping.time.unit));
+  chooseImportValue(*timeUnit_, QString::fromStdString(mapping.time.unit));
   rate_->setValue(mapping.time.rateHz.value_or(0.0));
   fields_->setMapping(mapping);
   filling_ = false;
