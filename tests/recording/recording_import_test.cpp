@@ -334,7 +334,7 @@ with h5py.File(folder + 'a.h5', 'w') as f: f['raw/pad'] = np.zeros((50, 4, 3)); 
   EXPECT_NE(rows.find("no column of times was found"), std::string::npos) << rows;
   ImportMapping time;
   time.time.column = "time";
-  EXPECT_NE(refusal("b.npz", time).find("time has 49 rows, but pad has 50"), std::string::npos);
+  EXPECT_NE(refusal("b.npz", time).find("\"time\" has 49 rows, but pad has 50"), std::string::npos);
 }
 
 TEST(RecordingImport, APreviewShowsWhatAnImportWouldDo) {
