@@ -79,8 +79,8 @@ ImportReport importRecording(const fs::path& data,
   const auto source = openTable(data, mapping.text);
   const ImportPlan plan = planImport(*source, hand, mapping, mapping.text);
   ImportReport report;
-  const std::map<std::string, std::string> meta = {{"hand", hand.name},
-                                                   {"imported_from", data.filename().string()}};
+  std::map<std::string, std::string> meta = handMeta(hand);
+  meta["imported_from"] = data.filename().string();
   writePalpate(
       out,
       hand.layout,
