@@ -97,6 +97,11 @@ ImportDialog::ImportDialog(QSettings& settings,
   look();
 }
 
+// A field that loses the focus while the dialog is destroyed says once more that it was edited.
+ImportDialog::~ImportDialog() {
+  for (QObject* each : findChildren<QObject*>()) each->disconnect(this);
+}
+
 QWidget* ImportDialog::makeFile() {
   auto* side = new QWidget(this);
   auto* form = new QFormLayout(side);

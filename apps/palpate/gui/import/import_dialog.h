@@ -31,6 +31,7 @@ class ImportDialog : public QDialog {
   ImportDialog(QSettings& settings,
                std::vector<std::filesystem::path> folders,
                QWidget* parent = nullptr);
+  ~ImportDialog() override;
 
   ImportRequest request() const;
   // Why the request can't be carried out; empty when it can.

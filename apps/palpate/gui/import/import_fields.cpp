@@ -69,6 +69,7 @@ void ImportFields::fill() {
        QString::fromStdString(mapping_.temperatures.columns),
        mapping_.temperatures.values);
   // What the hand lacks is absent; with one matrix a row for all would say the same.
+  for (int row = 0; row < rowCount(); ++row) setRowHidden(row, false);
   setRowHidden(1, numMatrices == 1);
   setRowHidden(angles, hand_.axes.empty());
   setRowHidden(angles + 1, hand_.temperatureSensors.empty());
