@@ -146,7 +146,7 @@ const std::vector<Command>& allCommands() {
       {"grasp", "moves a connected hand: plain and reactive grasps", nullptr},
       {"grasps", "where the grasps in recordings are, as CSV", &graspsCommand},
       {"hands", "lists the hands that are known, and checks the folder of one", &handsCommand},
-      {"import", "imports tables of other programs: CSV, NumPy, HDF5", &importCommand},
+      {"import", "imports tables of other programs: CSV, NumPy, HDF5", nullptr},
       {"info", "what is in a recording, or in each of a folder", &infoCommand},
       {"kinematics", "where the taxels are at a set of joint angles", &kinematicsCommand},
       {"ports", "lists the ports and the device on each", &portsCommand},

@@ -59,7 +59,7 @@ std::vector<ListedHand> listHands() {
   return list;
 }
 
-std::string matricesText(const HandDescription& hand) {
+std::string sizesOfMatrices(const HandDescription& hand) {
   // Equal sizes are counted: "3 x 14x6, 3 x 13x6".
   std::vector<std::pair<std::string, int>> sizes;
   for (const MatrixLayout& matrix : hand.layout->matrices()) {
@@ -123,7 +123,7 @@ int checkFolders(const std::vector<std::string>& folders) {
       std::printf("%s: %s: %s, %zu taxels, %zu axes, %s\n",
                   folder.c_str(),
                   hand.name.c_str(),
-                  matricesText(hand).c_str(),
+                  sizesOfMatrices(hand).c_str(),
                   hand.layout->numTaxels(),
                   hand.axes.size(),
                   hasGeometry(hand) ? "with geometry" : "without geometry");
@@ -163,7 +163,7 @@ int handsCommand(const Arguments& words) {
       std::printf("%-18s %-46s %s (%s)\n",
                   listed.key.c_str(),
                   listed.hand.name.c_str(),
-                  matricesText(listed.hand).c_str(),
+                  sizesOfMatrices(listed.hand).c_str(),
                   listed.source.c_str());
     }
     if (listed.fault.empty()) continue;

@@ -18,6 +18,7 @@ int runWindowCommand(const std::string& name, const Arguments& words) {
       {"emulate", &emulateCommand},
       {"evaluate", &evaluateCommand},
       {"grasp", &graspCommand},
+      {"import", &importCommand},
       {"record", &recordCommand},
       {"render", &renderCommand},
       {"step-benchmark", &stepBenchmarkCommand},
