@@ -197,14 +197,16 @@ void SlipDetector::latchAlarm(bool raised, bool calm) {
 
 void SlipDetector::decideByHypotheses(const SlipEvidence& seen) {
   const auto asked = rule_.windowToEvaluate(seen);
-  if (asked)
+  const bool recent = rule_.needsRecent(seen);
+  if (recent) windows_.evaluateRecent();
+  if (asked && !(recent && *asked == kShortWindow))
     windows_.evaluateHypotheses(*asked);
-  else if (rule_.mayDetectRotation(seen) && ++rotationChecks_ % kTurnLook == 0)
+  else if (!asked && rule_.mayDetectRotation(seen) && ++rotationChecks_ % kTurnLook == 0)
     windows_.evaluateHypotheses(kMiddleWindow);
   const SlipEvidence& evidence = windows_.evidence();
   const SlipRuleResult outcome = rule_.decide(evidence);
-  if (!evidence.computable || !outcome.leading) {
-    // The contact is too small or has not lasted long enough.
+  if (!evidence.computable || (!outcome.leading && !outcome.alarm && !detection_.slipping)) {
+    // The contact is too small, or too new for the windows and without an alarm.
     detection_.slipping = detection_.slipping && evidence.computable;
     detection_.state = SlipState::kInvalid;
     detection_.indicator = SlipIndicator::kNotComputable;

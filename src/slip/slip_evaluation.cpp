@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include <Eigen/Dense>
+
 #include "palpate/core/progress.h"
 #include "palpate/core/statistics.h"
 
@@ -18,7 +20,15 @@ constexpr std::size_t kBridged = 5;
 constexpr std::size_t kSettledFrames = 15;
 constexpr double kQuietLog = 0.05;
 constexpr std::size_t kOneAlarm = 10;  // [frames]
-constexpr double kFoldFound = 0.92;
+// Of the fit of the sequential test.
+constexpr double kRidge = 100.0;
+constexpr int kNewtonSteps = 15;
+constexpr double kSlipPart = 0.2;
+constexpr std::size_t kFittedFrames = 12;
+constexpr double kBiasRaise = 1.0;
+constexpr double kThresholdMargin = 1.05;
+constexpr double kMostThreshold = 80.0;
+constexpr int kBisections = 22;
 // Shifts of the centroid [taxels] below which no rule raises an alarm, so that the hypotheses are
 // not compared.
 constexpr std::array<double, kSlipWindows> kGates = {0.2, 0.3, 0.7};
@@ -55,9 +65,10 @@ double slipEvaluationShift(const WindowEvidence& window) {
 }
 
 double registered(const WindowEvidence& window) {
-  return window.hypotheses.computed
-             ? std::hypot(window.hypotheses.motion.dx, window.hypotheses.motion.dy)
-             : slipEvaluationShift(window);
+  const bool compared =
+      window.hypotheses.computed && slipEvaluationShift(window) > kGates[kShortWindow];
+  return compared ? std::hypot(window.hypotheses.motion.dx, window.hypotheses.motion.dy)
+                  : slipEvaluationShift(window);
 }
 
 double medianIntervalUs(const Profile& profile) {
@@ -150,6 +161,7 @@ void SlipEvaluation::add(const Profile& profile, bool slip, const Progress& prog
     windows.emplace_back(profile.layout().matrix(m), options_);
     series[m].slip = slip;
     series[m].fold = static_cast<int>(holds_ % 2);
+    series[m].recordingFold = static_cast<int>((slip ? slips_ : holds_) % 2);
     series[m].hoursPerFrame = medianIntervalUs(profile) / kUsPerHour;
     for (const SlipLabel& label : labels)
       if (label.matrix == m) {
@@ -168,8 +180,10 @@ void SlipEvaluation::add(const Profile& profile, bool slip, const Progress& prog
       const SlipEvidence& evidence =
           windows[m].add(std::as_const(frame).matrix(m), frame.hostUs, jointsDeg);
       if (!evidence.computable) continue;
+      if (slipEvaluationShift(evidence.recent) > kMinComparedShift) windows[m].evaluateRecent();
       for (std::size_t w = 0; w < kSlipWindows; ++w)
-        if (evidence.windows[w].filled && slipEvaluationShift(evidence.windows[w]) > kGates[w])
+        if (evidence.windows[w].filled && !evidence.windows[w].hypotheses.computed &&
+            slipEvaluationShift(evidence.windows[w]) > kGates[w])
           windows[m].evaluateHypotheses(static_cast<SlipWindow>(w));
       const WindowEvidence& middle = evidence.windows[kMiddleWindow];
       series[m].seen.push_back({.frame = i,
@@ -182,8 +196,12 @@ void SlipEvaluation::add(const Profile& profile, bool slip, const Progress& prog
     if (!one.seen.empty() || !one.labels.empty()) series_.push_back(std::move(one));
 }
 
+int SlipEvaluation::foldOf(const Series& series, std::size_t label, SlipFolds folds) {
+  return folds == SlipFolds::kRecordings ? series.recordingFold : series.labelFolds[label];
+}
+
 template <typename Alarm>
-SlipScore SlipEvaluation::scoreOf(const Alarm& begin, int fold) const {
+SlipScore SlipEvaluation::scoreOf(const Alarm& begin, int fold, SlipFolds folds) const {
   SlipScore score;
   for (const Series& series : series_) {
     if (!series.slip && fold >= 0 && series.fold != fold) continue;
@@ -209,7 +227,7 @@ SlipScore SlipEvaluation::scoreOf(const Alarm& begin, int fold) const {
       }
     }
     for (std::size_t k = 0; k < series.labels.size(); ++k) {
-      if (fold >= 0 && series.labelFolds[k] != fold) continue;
+      if (fold >= 0 && foldOf(series, k, folds) != fold) continue;
       const SlipLabel& label = series.labels[k];
       ++score.slips;
       const auto first = std::lower_bound(alarms.begin(), alarms.end(), label.onset);
@@ -222,7 +240,10 @@ SlipScore SlipEvaluation::scoreOf(const Alarm& begin, int fold) const {
   return score;
 }
 
-SlipScore SlipEvaluation::score(const SlipRuleOptions& options, bool joints, int fold) const {
+SlipScore SlipEvaluation::score(const SlipRuleOptions& options,
+                                bool joints,
+                                int fold,
+                                SlipFolds folds) const {
   SlipRuleOptions used = options;
   if (!joints) used.allowancePerJointDeg = 0.0;
   return scoreOf(
@@ -232,7 +253,83 @@ SlipScore SlipEvaluation::score(const SlipRuleOptions& options, bool joints, int
           return rule.decide(evidence).alarm;
         };
       },
-      fold);
+      fold,
+      folds);
+}
+
+SlipRuleOptions SlipEvaluation::fitSlipSequence(int fold, SlipFolds folds) const {
+  using Row = Eigen::Matrix<double, kSlipFeatures + 1, 1>;
+  SlipRuleOptions rule;
+  std::vector<Row> rows;
+  std::vector<double> slips;
+  const auto addRow = [&](const FrameEvidence& seen, double slip) {
+    const SlipFeatures features = slipFeatures(seen.evidence, 1.0, 0.0);
+    Row row;
+    row(0) = 1.0;
+    for (std::size_t i = 0; i < kSlipFeatures; ++i)
+      row(static_cast<Eigen::Index>(i) + 1) = features[i];
+    rows.push_back(row);
+    slips.push_back(slip);
+  };
+  double slipFrames = 0.0;
+  for (const Series& series : series_) {
+    if (!series.slip && (fold < 0 || series.fold == fold))
+      for (const FrameEvidence& seen : series.seen) addRow(seen, 0.0);
+    for (std::size_t k = 0; k < series.labels.size(); ++k) {
+      if (fold >= 0 && foldOf(series, k, folds) != fold) continue;
+      const SlipLabel& label = series.labels[k];
+      for (const FrameEvidence& seen : series.seen) {
+        if (seen.frame <= label.onset ||
+            seen.frame > std::min(label.end, label.onset + kFittedFrames))
+          continue;
+        addRow(seen, 1.0);
+        slipFrames += 1.0;
+      }
+    }
+  }
+  const auto numRows = static_cast<double>(rows.size());
+  if (slipFrames == 0.0 || slipFrames == numRows) return rule;
+  Row mean = Row::Zero();
+  Row square = Row::Zero();
+  for (const Row& row : rows) {
+    mean += row / numRows;
+    square += row.cwiseAbs2() / numRows;
+  }
+  mean(0) = 0.0;
+  Row sd = (square - mean.cwiseAbs2()).cwiseMax(1e-9).cwiseSqrt();
+  sd(0) = 1.0;
+  for (Row& row : rows) row = (row - mean).cwiseQuotient(sd);
+  const double weightOfSlip = std::max(1.0, kSlipPart * (numRows - slipFrames) / slipFrames);
+  Row weights = Row::Zero();
+  for (int step = 0; step < kNewtonSteps; ++step) {
+    Eigen::Matrix<double, kSlipFeatures + 1, kSlipFeatures + 1> hessian;
+    hessian.setIdentity();
+    hessian *= kRidge;
+    hessian(0, 0) = 1e-6;
+    Row gradient = kRidge * weights;
+    gradient(0) = 0.0;
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      const double p = 1.0 / (1.0 + std::exp(-weights.dot(rows[i])));
+      const double weight = slips[i] > 0.0 ? weightOfSlip : 1.0;
+      gradient += weight * (p - slips[i]) * rows[i];
+      hessian.noalias() += weight * p * (1.0 - p) * rows[i] * rows[i].transpose();
+    }
+    weights -= hessian.ldlt().solve(gradient);
+  }
+  const Row raw = weights.cwiseQuotient(sd);
+  rule.sequence.bias = raw(0) - raw.dot(mean) + kBiasRaise;
+  for (std::size_t i = 0; i < kSlipFeatures; ++i)
+    rule.sequence.weights[i] = raw(static_cast<Eigen::Index>(i) + 1);
+  double low = 0.0;
+  double high = kMostThreshold;
+  for (int i = 0; i < kBisections; ++i) {
+    rule.sequence.threshold = 0.5 * (low + high);
+    const bool quiet =
+        score(rule, false, fold, folds).falseAlarms[kAllContact] <= (fold < 0 ? 2U : 1U);
+    (quiet ? high : low) = rule.sequence.threshold;
+  }
+  rule.sequence.threshold = kThresholdMargin * high;
+  return rule;
 }
 
 SlipEvaluationReport SlipEvaluation::report() const {
@@ -256,42 +353,25 @@ SlipEvaluationReport SlipEvaluation::report() const {
       };
     };
   };
-  report.alarms.push_back({"centroid-step", scoreOf(step, -1)});
-  report.alarms.push_back({"centroid-windows", scoreOf(twice(&slipEvaluationShift), -1)});
-  report.alarms.push_back({"register-windows", scoreOf(twice(&registered), -1)});
+  report.alarms.push_back({"centroid-step", scoreOf(step, -1, SlipFolds::kSlipHalves)});
+  report.alarms.push_back(
+      {"centroid-windows", scoreOf(twice(&slipEvaluationShift), -1, SlipFolds::kSlipHalves)});
+  report.alarms.push_back(
+      {"register-windows", scoreOf(twice(&registered), -1, SlipFolds::kSlipHalves)});
   report.alarms.push_back({"contest", score({}, false)});
   report.alarms.push_back({"contest-joints", score({}, true)});
-  SlipScore heldOut;
-  for (int fold = 0; fold < 2; ++fold) {
-    double least = 0.0;
-    bool any = false;
-    for (const SlipRuleOptions& options : slipGrid()) {
-      const SlipScore own = score(options, false, fold);
-      const double missed = std::max(0.0, kFoldFound - own.detectionRate());
-      const double cost = static_cast<double>(own.falseAlarms[kSettledContact]) +
-                          static_cast<double>(own.falseAlarms[kAllContact]) / 7.0 + 1000.0 * missed;
-      if (any && cost >= least) continue;
-      any = true;
-      least = cost;
-      report.chosen[static_cast<std::size_t>(fold)] = options;
+  for (const SlipFolds folds : {SlipFolds::kSlipHalves, SlipFolds::kRecordings}) {
+    SlipScore heldOut;
+    for (int fold = 0; fold < 2; ++fold) {
+      SlipRuleOptions& chosen = report.chosen[static_cast<std::size_t>(fold)];
+      chosen = fitSlipSequence(fold, folds);
+      heldOut.add(score(chosen, false, 1 - fold, folds));
     }
-    heldOut.add(score(report.chosen[static_cast<std::size_t>(fold)], false, 1 - fold));
+    report.alarms.push_back(
+        {folds == SlipFolds::kSlipHalves ? "contest-held-out" : "contest-held-out-recordings",
+         heldOut});
   }
-  report.alarms.push_back({"contest-held-out", heldOut});
   return report;
-}
-
-std::vector<SlipRuleOptions> slipGrid() {
-  std::vector<SlipRuleOptions> grid;
-  for (const double shortSteps : {1.5, 1.75, 2.0})
-    for (const double middleSteps : {2.5, 3.0, 3.5})
-      for (const double rise : {1.0, 1.5, 2.5, 3.5})
-        for (const double accumulated : {1.0, 1.4})
-          grid.push_back({.shortSteps = shortSteps,
-                          .middleSteps = middleSteps,
-                          .accumulatedThreshold = accumulated,
-                          .allowancePerLogRise = {rise, rise, rise}});
-  return grid;
 }
 
 }  // namespace palpate

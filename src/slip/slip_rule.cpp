@@ -36,7 +36,8 @@ void SlipRuleOptions::validate() const {
   checkSlipRule(shortSteps > 0.0, "shortSteps", shortSteps);
   checkSlipRule(middleSteps > 0.0, "middleSteps", middleSteps);
   checkSlipRule(longReferences > 0.0, "longReferences", longReferences);
-  checkSlipRule(accumulatedThreshold > 0.0, "accumulatedThreshold", accumulatedThreshold);
+  checkSlipRule(certainScore >= 0.0 && certainScore <= 1.0, "certainScore", certainScore);
+  sequence.validate();
   for (const double value : allowancePerLogRise)
     checkSlipRule(value >= 0.0, "allowancePerLogRise", value);
   checkSlipRule(allowancePerJointDeg >= 0.0, "allowancePerJointDeg", allowancePerJointDeg);
@@ -46,7 +47,20 @@ void SlipRuleOptions::validate() const {
   checkSlipRule(maxShiftRatio >= 1.0, "maxShiftRatio", maxShiftRatio);
 }
 
-SlipRule::SlipRule(const SlipRuleOptions& options) : options_(options) { options_.validate(); }
+SlipRule::SlipRule(const SlipRuleOptions& options)
+    : options_(options), sequence_(options.sequence) {
+  options_.validate();
+}
+
+// The weights of the sequential test belong to the default step.
+double SlipRule::scale() const noexcept {
+  return SlipRuleOptions{}.stepTaxels / options_.stepTaxels;
+}
+
+bool SlipRule::needsRecent(const SlipEvidence& evidence) const {
+  return evidence.computable && evidence.stored && evidence.recent.filled &&
+         shiftOf(evidence.recent) > kMinComparedShift;
+}
 
 bool SlipRule::counts(const SlipEvidence& evidence, std::size_t window) const {
   if (!evidence.computable || !evidence.windows[window].filled ||
@@ -121,11 +135,15 @@ SlipRuleResult SlipRule::decide(const SlipEvidence& evidence) {
     const double motion = std::min(kSlipRuleCentroidPart * shift, registered);
     const bool believed =
         hypotheses.computed && registered <= options_.maxShiftRatio * shift + kFarSlack;
-    above = motion * (believed ? hypotheses.pMoved : 0.5) > threshold(*asked) + allowed;
+    const double p = believed ? hypotheses.pMoved : 0.5;
+    above = motion * p > threshold(*asked) + allowed &&
+            (*asked == kLongWindow || p > options_.certainScore);
     if (*asked == kShortWindow && above) outcome.alarm = true;
-    if (*asked == kMiddleWindow &&
-        motion > options_.accumulatedThreshold * options_.referenceTaxels + allowed)
-      above = true;
+  }
+  if (!evidence.computable || (evidence.stored && evidence.contactAge <= 1)) sequence_.reset();
+  if (evidence.computable && evidence.stored && evidence.recent.filled) {
+    sequence_.add(slipFeatures(evidence, scale(), options_.allowancePerJointDeg));
+    outcome.alarm = outcome.alarm || sequence_.exceeds();
   }
   outcome.alarm = outcome.alarm || (above && pending_);
   pending_ = above;

@@ -19,6 +19,10 @@ void checkSlipWindows(bool good, const char* field, double value) {
                                 std::to_string(value));
 }
 
+std::size_t recentFrames(std::size_t numKept) {
+  return std::min(kWindowFrames[kShortWindow], numKept - 1);
+}
+
 }  // namespace
 
 void SlipWindowsOptions::validate() const {
@@ -78,35 +82,53 @@ const SlipEvidence& SlipWindows::add(const ConstMatrixMap& frame,
     keptUs_ = timeUs;
     numKept_ = std::min(numKept_ + 1, kRing);
     ++evidence_.contactAge;
+    evidence_.stored = true;
   }
-  for (std::size_t i = 0; i < kSlipWindows; ++i) {
-    WindowEvidence& window = evidence_.windows[i];
-    const std::size_t frames = kWindowFrames[i];
-    window.filled = numKept_ > frames;
-    if (!window.filled) continue;
-    const Kept& then = back(frames);
-    window.centroidX = moments_.x - then.moments.x;
-    window.centroidY = moments_.y - then.moments.y;
-    window.logLoadRatio = std::log(moments_.sum / then.moments.sum);
-    const std::size_t joints = std::min(then.jointsDeg.size(), jointsDeg.size());
-    for (std::size_t j = 0; j < joints; ++j)
-      window.jointsDeg = std::max(window.jointsDeg, std::abs(jointsDeg[j] - then.jointsDeg[j]));
-    if (!std::isfinite(window.jointsDeg)) window.jointsDeg = 0.0;
+  for (std::size_t i = 0; i < kSlipWindows; ++i)
+    if (numKept_ > kWindowFrames[i]) evidence_.windows[i] = compare(kWindowFrames[i], jointsDeg);
+  if (numKept_ > 1) {
+    evidence_.last = compare(1, jointsDeg);
+    evidence_.recent = compare(recentFrames(numKept_), jointsDeg);
   }
   return evidence_;
 }
 
-void SlipWindows::evaluateHypotheses(SlipWindow which) {
-  WindowEvidence& window = evidence_.windows.at(which);
-  if (!window.filled) return;
-  const Kept& then = back(kWindowFrames[which]);
+WindowEvidence SlipWindows::compare(std::size_t frames, std::span<const double> jointsDeg) const {
+  WindowEvidence window;
+  const Kept& then = back(frames);
+  window.filled = true;
+  window.centroidX = moments_.x - then.moments.x;
+  window.centroidY = moments_.y - then.moments.y;
+  window.logLoadRatio = std::log(moments_.sum / then.moments.sum);
+  const std::size_t joints = std::min(then.jointsDeg.size(), jointsDeg.size());
+  for (std::size_t j = 0; j < joints; ++j)
+    window.jointsDeg = std::max(window.jointsDeg, std::abs(jointsDeg[j] - then.jointsDeg[j]));
+  if (!std::isfinite(window.jointsDeg)) window.jointsDeg = 0.0;
+  return window;
+}
+
+SlipHypothesisResult SlipWindows::hypothesesAgainst(const Kept& then,
+                                                    const WindowEvidence& window) {
   key_.set(ConstMatrixMap(then.values.data(), layout_.rows, layout_.columns));
   const double gain = moments_.sum / then.moments.sum;
   const std::array<RigidMotion, 2> starts = {
       RigidMotion{.dx = window.centroidX, .dy = window.centroidY, .gain = gain}, RigidMotion{}};
   const bool far = std::abs(window.centroidX) + std::abs(window.centroidY) > kLongWay;
-  window.hypotheses = compareSlipHypotheses(
+  return compareSlipHypotheses(
       key_, frame(), std::span(starts).first(far ? 2 : 1), options_.hypotheses);
+}
+
+void SlipWindows::evaluateHypotheses(SlipWindow which) {
+  WindowEvidence& window = evidence_.windows.at(which);
+  if (!window.filled) return;
+  window.hypotheses = hypothesesAgainst(back(kWindowFrames[which]), window);
+}
+
+void SlipWindows::evaluateRecent() {
+  if (!evidence_.recent.filled) return;
+  evidence_.recent.hypotheses = hypothesesAgainst(back(recentFrames(numKept_)), evidence_.recent);
+  WindowEvidence& shortWindow = evidence_.windows[kShortWindow];
+  if (shortWindow.filled) shortWindow.hypotheses = evidence_.recent.hypotheses;
 }
 
 }  // namespace palpate

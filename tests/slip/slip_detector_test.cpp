@@ -58,6 +58,32 @@ TEST(SlipDetector, IsReadyOnceAContactSettledAndStill) {
   EXPECT_NEAR(detection.motion.refDx, 0.0, 0.02);
 }
 
+// The windows use a contact from its 9th frame on; the sequential test needs no settled contact.
+TEST(SlipDetector, FindsASlipThatBeginsWithTheContact) {
+  SlipDetector detector(MatrixLayout::full(14, 6, 3.4));
+  SlipDetector resting(MatrixLayout::full(14, 6, 3.4));
+  SlipRuleOptions windowsOnly;
+  windowsOnly.sequence.threshold = 1e9;
+  SlipDetector without(MatrixLayout::full(14, 6, 3.4), {.rule = windowsOnly});
+  SyntheticSlip slip(SyntheticSensor{}, 5);
+  SyntheticSlip rest(SyntheticSensor{}, 6);
+  MatrixValues moving(14, 6);
+  MatrixValues still(14, 6);
+  bool found = false;
+  for (int i = 0; i < 8; ++i) {
+    slip.read({.y = 3.0 + 0.7 * i}, MatrixMap(moving.data(), 14, 6));
+    rest.read({.y = 3.0}, MatrixMap(still.data(), 14, 6));
+    const ConstMatrixMap view(moving.data(), 14, 6);
+    const SlipDetection& detection = detector.update(view, (i + 1) * 31'500);
+    EXPECT_EQ(detection.slipping, detection.state == SlipState::kSlip) << i;
+    found = found || detection.slipping;
+    EXPECT_FALSE(without.update(view, (i + 1) * 31'500).slipping) << i;
+    EXPECT_FALSE(resting.update(ConstMatrixMap(still.data(), 14, 6), (i + 1) * 31'500).slipping)
+        << i;
+  }
+  EXPECT_TRUE(found);
+}
+
 TEST(SlipDetector, FlagsSlipWithinThreeFramesAndHoldsIt) {
   Watch watch;
   watch.rest(40);

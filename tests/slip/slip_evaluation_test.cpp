@@ -58,7 +58,7 @@ TEST(SlipEvaluation, CountsHoursAlarmsAndDelays) {
   EXPECT_NEAR(score.perHour(kSettledContact), 3600.0 / (2 * 76 * 0.04), 1e-6);
   EXPECT_EQ(evaluation.score({}, false, 0).falseAlarms[kAllContact], 0U);
   EXPECT_EQ(evaluation.score({}, false, 1).falseAlarms[kAllContact], 1U);
-  EXPECT_EQ(evaluation.report().alarms.size(), 6U);
+  EXPECT_EQ(evaluation.report().alarms.size(), 7U);
 }
 
 TEST(SlipEvaluation, OfNothingIsEmpty) {
@@ -67,7 +67,8 @@ TEST(SlipEvaluation, OfNothingIsEmpty) {
     EXPECT_EQ(alarm.score.perHour(kAllContact), 0.0);
     EXPECT_EQ(alarm.score.detectionRate(), 0.0);
   }
-  EXPECT_EQ(slipGrid().size(), 72U);
+  EXPECT_EQ(SlipEvaluation().fitSlipSequence(0, SlipFolds::kRecordings).sequence.threshold,
+            SlipSequenceOptions{}.threshold);
 }
 
 }  // namespace

@@ -10,7 +10,8 @@ namespace {
 // Evidence of a contact of age 100 in which one window measures the same shift of the centroid and
 // of the registration.
 SlipEvidence shifted(SlipWindow window, double taxels, double pMoved = 1.0, double logRise = 0.0) {
-  SlipEvidence evidence{.computable = true, .contactAge = 100, .windows = {}};
+  SlipEvidence evidence{
+      .computable = true, .contactAge = 100, .windows = {}, .last = {}, .recent = {}};
   WindowEvidence& seen = evidence.windows[window];
   seen.filled = true;
   seen.centroidX = taxels;
@@ -53,21 +54,66 @@ TEST(SlipRule, TheLongWindowForgetsWhatIsOver) {
   EXPECT_TRUE(rule.decide(evidence).alarm);
 }
 
-TEST(SlipRule, TheContestWeighs) {
+TEST(SlipRule, TheContestMustBeCertain) {
   SlipRule rule;
-  EXPECT_FALSE(rule.decide(shifted(kShortWindow, 0.6, 0.5)).alarm);
-  EXPECT_TRUE(rule.decide(shifted(kShortWindow, 0.6, 0.6)).alarm);
+  EXPECT_FALSE(rule.decide(shifted(kShortWindow, 0.6, 0.74)).alarm);
+  EXPECT_TRUE(rule.decide(shifted(kShortWindow, 0.6, 0.76)).alarm);
 }
 
-// The effect of a load tilt saturates while slip continues: beyond 1 taxel in ten frames P does not
-// matter.
-TEST(SlipRule, WhatGoesOnIsSlipWhateverTheContest) {
+// Stored frames with residuals of 40 without motion and 1 with it, and 0.3 taxel in three frames.
+SlipEvidence sliding(double motionResidual = 1.0) {
+  SlipEvidence evidence{
+      .computable = true, .contactAge = 100, .windows = {}, .last = {}, .recent = {}};
+  evidence.stored = true;
+  evidence.recent.filled = evidence.last.filled = true;
+  evidence.recent.centroidY = 0.3;
+  evidence.last.centroidY = 0.1;
+  evidence.recent.hypotheses.computed = true;
+  evidence.recent.hypotheses.loadShiftResidual = 40.0;
+  evidence.recent.hypotheses.motionResidual = motionResidual;
+  return evidence;
+}
+
+int framesToSequence(SlipRule& rule, const SlipEvidence& evidence) {
+  for (int i = 1; i <= 30; ++i)
+    if (rule.decide(evidence).alarm) return i;
+  return 0;
+}
+
+// Evidence of a frame by the formula of slip_sequence.h: 2.230 + 2.394 ln 0.35 + 1.068 (ln 41 -
+// ln 2) + 0.822 ln 2 + 3.319 0.1 = 3.843; its sum with memory 0.9 exceeds 22 in the 9th frame.
+TEST(SlipRule, EvidenceAddsUpOverFrames) {
   SlipRule rule;
-  rule.decide(shifted(kMiddleWindow, 1.01, 0.0));
-  EXPECT_TRUE(rule.decide(shifted(kMiddleWindow, 1.01, 0.0)).alarm);
+  EXPECT_EQ(framesToSequence(rule, sliding()), 9);
   rule.reset();
-  rule.decide(shifted(kMiddleWindow, 0.99, 0.0));
-  EXPECT_FALSE(rule.decide(shifted(kMiddleWindow, 0.99, 0.0)).alarm);
+  EXPECT_EQ(rule.sum(), 0.0);
+  // Where the load field explains the frames as well as the motion: 2.230 - 2.513 + 0.822 ln 41 +
+  // 0.332 = 3.100.
+  EXPECT_EQ(framesToSequence(rule, sliding(40.0)), 12);
+}
+
+TEST(SlipRule, TheSequenceBeginsAnewWithAContactAndStepsOnlyWithStoredFrames) {
+  SlipRule rule;
+  SlipEvidence evidence = sliding();
+  rule.decide(evidence);
+  const double once = rule.sum();
+  EXPECT_NEAR(once, 3.843, 0.001);
+  evidence.stored = false;
+  rule.decide(evidence);
+  EXPECT_EQ(rule.sum(), once);
+  evidence = {.computable = true, .contactAge = 1, .windows = {}, .last = {}, .recent = {}};
+  evidence.stored = true;
+  rule.decide(evidence);
+  EXPECT_EQ(rule.sum(), 0.0);
+}
+
+TEST(SlipRule, TheSequenceAllowsJointsToMoveAndScalesWithTheStep) {
+  SlipRule rule;
+  SlipEvidence evidence = sliding();
+  evidence.recent.jointsDeg = 3.0;
+  EXPECT_EQ(framesToSequence(rule, evidence), 0);
+  SlipRule coarse({.stepTaxels = 0.8});
+  EXPECT_EQ(framesToSequence(coarse, sliding()), 0);
 }
 
 TEST(SlipRule, AllowsMoreWhileTheLoadRisesOrJointsMove) {

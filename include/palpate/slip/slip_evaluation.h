@@ -66,10 +66,19 @@ struct SlipEvaluationReport {
   // "centroid-windows": it moves by more than 0.3 taxel in 3 frames or 0.5 in 10, in two frames in
   // a row. "register-windows": the same with the motion of the registration. "contest": SlipRule
   // with its default options; "contest-joints": the same, with joint angles. "contest-held-out":
-  // the better settings of each of two folds, scored on the other fold (see slipGrid()).
+  // the sequential test fitted to each of two folds and scored on the other fold, folds as
+  // SlipFolds::kSlipHalves; "contest-held-out-recordings": the same, folds as kRecordings.
   std::vector<ScoredAlarm> alarms;
-  // Settings chosen on fold 0 and on fold 1.
+  // Settings fitted to fold 0 and to fold 1 of kRecordings.
   std::array<SlipRuleOptions, 2> chosen;
+};
+
+// How the data are divided into two folds. Every second recording without slip belongs to fold 1.
+enum class SlipFolds {
+  // The later half of the slips of each recording belongs to fold 1.
+  kSlipHalves,
+  // All slips of every second recording belong to fold 1.
+  kRecordings,
 };
 
 // Collects recordings and keeps the evidence of their windows, so that many rules can be scored
@@ -80,10 +89,18 @@ class SlipEvaluation {
   void addNoSlipRecording(const Profile& profile, const Progress& progress = {});
   void addSlipRecording(const Profile& profile, const Progress& progress = {});
 
-  // Scores a rule, with or without joint angles. fold: -1 for all, 0 or 1 for one half: every
-  // second recording without slip, and the earlier or later half of the slips of each other
-  // recording.
-  SlipScore score(const SlipRuleOptions& rule, bool joints, int fold = -1) const;
+  // Scores a rule, with or without joint angles. fold: -1 for all, 0 or 1 for one of the folds.
+  SlipScore score(const SlipRuleOptions& rule,
+                  bool joints,
+                  int fold = -1,
+                  SlipFolds folds = SlipFolds::kSlipHalves) const;
+  // Fits the weights of the sequential test to one fold (-1: to all): a logistic regression of the
+  // frames of its slips, from the frame after the onset to the 12th or the end, against all frames
+  // without slip; ridge of 100 on standardised features, joint angles not used. The slips weigh a
+  // fifth of the other frames, or one each if that is more, and the bias is raised by 1. The
+  // threshold is the smallest with at most one false alarm in the fold (in all data two),
+  // times 1.05. Returns the default rule if the fold has no slips or no contact without slip.
+  SlipRuleOptions fitSlipSequence(int fold, SlipFolds folds) const;
   SlipEvaluationReport report() const;
 
  private:
@@ -101,19 +118,17 @@ class SlipEvaluation {
     std::vector<FrameEvidence> seen;
     std::vector<SlipLabel> labels;
     std::vector<int> labelFolds;
+    // Fold by SlipFolds::kRecordings.
+    int recordingFold = 0;
   };
   template <typename Alarm>
-  SlipScore scoreOf(const Alarm& begin, int fold) const;
+  SlipScore scoreOf(const Alarm& begin, int fold, SlipFolds folds) const;
+  static int foldOf(const Series& series, std::size_t label, SlipFolds folds);
   void add(const Profile& profile, bool slip, const Progress& progress);
 
   SlipWindowsOptions options_;
   std::vector<Series> series_;
   std::size_t holds_ = 0, slips_ = 0;
 };
-
-// The 72 settings that the two folds choose from. The best setting of a fold is the one with the
-// fewest false alarms (those in settled contact plus a seventh of all) that finds at least 92 % of
-// its slips.
-std::vector<SlipRuleOptions> slipGrid();
 
 }  // namespace palpate

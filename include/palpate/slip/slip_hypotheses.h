@@ -61,7 +61,8 @@ LoadFieldResult fitLoadField(const KeyFrame& key,
                              const RegistrationOptions& options);
 
 struct SlipHypothesisResult {
-  // False if one of the hypotheses could not be fitted; the other fields are then undefined.
+  // False if one of the hypotheses could not be fitted. Only loadShiftResidual is then defined: 0
+  // if the load field could not be fitted either.
   bool computed = false;
   // Estimated motion under the hypothesis that the contact moved.
   RigidMotion motion;

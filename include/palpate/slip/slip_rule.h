@@ -1,18 +1,19 @@
-// Slip alarm of one matrix: thresholds on the motion over three windows of past frames, raised by
-// allowances for changing load and moving joints. SlipDetector uses it.
+// Slip alarm of one matrix: a sequential test over the frames (slip_sequence.h), and thresholds on
+// the motion over three windows of past frames, raised by allowances for changing load and moving
+// joints. SlipDetector uses it.
 //
 // Each window compares the frame with an earlier one of the same contact: 3, 10 and 30 frames
 // before (at rates above 50 Hz: 60, 200 and 600 ms before, slip_windows.h). In each window, m =
 // min(1.3 |centroid shift|, |d of the registration|). The conditions for an alarm are:
-//   P m > threshold + allowance         short window: one frame; others: two in a row
-//   m > accumulated + allowance         middle window, two frames in a row
+//   S > threshold                       the sequential test; its shifts are multiples of stepTaxels
+//   P m > threshold + allowance, and    short window: one frame; others: two in a row
+//     P > certain                         (long window: any P)
 //   |angle| - 2 sd > rotation + allowance   middle window, P > 0.5: an alarm of rotation
 //   allowance = rise max(0, ln(load / earlier load)) + 0.1 taxel per degree of joint motion
-// The second condition doesn't use P, because the effect of a load tilt saturates while slip
-// continues. A window that reaches into the first frames of a contact is ignored, and so is the
+// A window that reaches into the first frames of a contact is ignored, and so is the
 // long window while the middle one is below half of its threshold, because the contact then no
-// longer moves. The hypotheses are compared only for the window closest to its threshold, once per
-// frame.
+// longer moves. The hypotheses are compared over the recent frames where the contact moved at all,
+// and for the window closest to its threshold.
 #pragma once
 
 #include <array>
@@ -20,6 +21,8 @@
 #include <optional>
 
 #include <palpate/slip/slip_hypotheses.h>
+#include <palpate/slip/slip_sequence.h>
+#include <palpate/slip/slip_state.h>
 
 namespace palpate {
 
@@ -49,6 +52,12 @@ struct SlipEvidence {
   // Number of frames (above 50 Hz: steps of 20 ms) since the contact became computable.
   std::size_t contactAge = 0;
   std::array<WindowEvidence, kSlipWindows> windows;
+  // Whether this frame was stored, so that the sequential test makes a step.
+  bool stored = false;
+  // The frame compared with the stored frame before, and with the one three stored frames before
+  // or, in a younger contact, its first one.
+  WindowEvidence last;
+  WindowEvidence recent;
 };
 
 struct SlipRuleOptions {
@@ -62,7 +71,10 @@ struct SlipRuleOptions {
   double shortSteps = 1.75;
   double middleSteps = 3.0;
   double longReferences = 1.2;
-  double accumulatedThreshold = 1.0;
+  // P(moved) that the short and the middle window need for an alarm, 0..1.
+  double certainScore = kMinMotionScore;
+  // Its evidence is that of motions in units of stepTaxels / 0.20.
+  SlipSequenceOptions sequence = {};
   // Allowances: [taxels] per ln of the rise in load, [taxels] per degree of joint motion, and [deg]
   // per ln of the change in load, up or down.
   std::array<double, kSlipWindows> allowancePerLogRise = {1.5, 1.5, 1.0};
@@ -96,8 +108,10 @@ class SlipRule {
   // Throws std::invalid_argument.
   explicit SlipRule(const SlipRuleOptions& options = {});
 
+  // Whether the sequential test needs a comparison over the recent frames.
+  bool needsRecent(const SlipEvidence& evidence) const;
   // Returns the window for which a comparison of the hypotheses would affect the decision in this
-  // frame; empty if no window can raise an alarm.
+  // frame; empty if no window exceeds its threshold.
   std::optional<SlipWindow> windowToEvaluate(const SlipEvidence& evidence) const;
   // Whether a comparison over the middle window could detect a rotation; it is then evaluated every
   // few frames even if no window requires it.
@@ -106,7 +120,12 @@ class SlipRule {
   // For rotation it uses that of the middle window, where it was made; two such comparisons in a
   // row must agree.
   SlipRuleResult decide(const SlipEvidence& evidence);
-  void reset() noexcept { pending_ = turnPending_ = false; }
+  void reset() noexcept {
+    pending_ = turnPending_ = false;
+    sequence_.reset();
+  }
+  // Sum of the sequential test.
+  double sum() const noexcept { return sequence_.sum(); }
 
   const SlipRuleOptions& options() const noexcept { return options_; }
 
@@ -115,7 +134,10 @@ class SlipRule {
   double threshold(std::size_t window) const;
   double allowance(const WindowEvidence& evidence, std::size_t window) const;
 
+  double scale() const noexcept;
+
   SlipRuleOptions options_;
+  SlipSequence sequence_;
   // Whether the frame before was above a threshold that two frames in a row must exceed.
   bool pending_ = false;
   bool turnPending_ = false;

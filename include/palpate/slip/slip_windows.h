@@ -47,6 +47,9 @@ class SlipWindows {
   // Compares the hypotheses for the two frames of a window. Does nothing if the window is not
   // filled.
   void evaluateHypotheses(SlipWindow window);
+  // Compares the hypotheses over the recent frames (SlipEvidence::recent). If these are the frames
+  // of the short window, its comparison is made as well.
+  void evaluateRecent();
   void reset();
 
   const SlipEvidence& evidence() const noexcept { return evidence_; }
@@ -66,6 +69,9 @@ class SlipWindows {
   };
   // Returns a stored frame counted from the newest one (0).
   const Kept& back(std::size_t frames) const;
+  // Returns the evidence of the last frame against the stored one so many frames back.
+  WindowEvidence compare(std::size_t frames, std::span<const double> jointsDeg) const;
+  SlipHypothesisResult hypothesesAgainst(const Kept& then, const WindowEvidence& window);
 
   MatrixLayout layout_;
   SlipWindowsOptions options_;

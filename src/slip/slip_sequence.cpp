@@ -1,0 +1,78 @@
+#include "palpate/slip/slip_sequence.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+#include "palpate/slip/slip_rule.h"
+
+namespace palpate {
+namespace {
+
+constexpr double kMostLogLoad = 1.5;
+constexpr double kMostShift = 2.0;  // [taxels]
+constexpr double kShiftFloor = 0.05;
+constexpr double kMostResidual = 200.0;
+constexpr double kYoungFrames = 4.0;
+constexpr double kSettlingFrames = 12.0;
+
+void checkSlipSequence(bool good, const char* field, double value) {
+  if (!good)
+    throw std::invalid_argument(std::string("SlipSequenceOptions: ") + field + " is " +
+                                std::to_string(value));
+}
+
+double slipSequenceShift(const WindowEvidence& window) {
+  return std::hypot(window.centroidX, window.centroidY);
+}
+
+double rise(double logRatio) { return std::clamp(logRatio, 0.0, kMostLogLoad); }
+
+double logResidual(double residual) { return std::log1p(std::min(residual, kMostResidual)); }
+
+}  // namespace
+
+void SlipSequenceOptions::validate() const {
+  checkSlipSequence(std::isfinite(bias), "bias", bias);
+  for (const double weight : weights) checkSlipSequence(std::isfinite(weight), "weights", weight);
+  checkSlipSequence(memory >= 0.0 && memory <= 1.0, "memory", memory);
+  checkSlipSequence(mostPerFrame > 0.0, "mostPerFrame", mostPerFrame);
+  checkSlipSequence(threshold > 0.0, "threshold", threshold);
+}
+
+SlipFeatures slipFeatures(const SlipEvidence& evidence, double scale, double allowancePerJointDeg) {
+  const WindowEvidence& recent = evidence.recent;
+  const WindowEvidence& last = evidence.last;
+  const double shift = slipSequenceShift(recent);
+  const double allowed =
+      std::max(0.0, std::min(kMostShift, scale * shift) - allowancePerJointDeg * recent.jointsDeg);
+  const bool compared = shift > kMinComparedShift;
+  const double still = compared ? logResidual(recent.hypotheses.loadShiftResidual) : 0.0;
+  const double moved = compared ? logResidual(recent.hypotheses.motionResidual) : 0.0;
+  const auto age = static_cast<double>(evidence.contactAge);
+  return {rise(recent.logLoadRatio),
+          rise(-recent.logLoadRatio),
+          std::log(kShiftFloor + allowed),
+          still - moved,
+          moved,
+          rise(last.logLoadRatio),
+          rise(-last.logLoadRatio),
+          std::min(kMostShift, scale * slipSequenceShift(last)),
+          std::exp(-age / kYoungFrames),
+          std::exp(-age / kSettlingFrames)};
+}
+
+SlipSequence::SlipSequence(const SlipSequenceOptions& options) : options_(options) {
+  options_.validate();
+}
+
+double SlipSequence::add(const SlipFeatures& features) noexcept {
+  double evidence = options_.bias;
+  for (std::size_t i = 0; i < kSlipFeatures; ++i) evidence += options_.weights[i] * features[i];
+  evidence = std::clamp(evidence, -options_.mostPerFrame, options_.mostPerFrame);
+  sum_ = std::max(0.0, options_.memory * sum_ + evidence);
+  return sum_;
+}
+
+}  // namespace palpate
