@@ -36,6 +36,7 @@ void SlipRuleOptions::validate() const {
   checkSlipRule(shortSteps > 0.0, "shortSteps", shortSteps);
   checkSlipRule(middleSteps > 0.0, "middleSteps", middleSteps);
   checkSlipRule(longReferences > 0.0, "longReferences", longReferences);
+  checkSlipRule(accumulatedThreshold > 0.0, "accumulatedThreshold", accumulatedThreshold);
   checkSlipRule(certainScore >= 0.0 && certainScore <= 1.0, "certainScore", certainScore);
   sequence.validate();
   for (const double value : allowancePerLogRise)
@@ -136,9 +137,13 @@ SlipRuleResult SlipRule::decide(const SlipEvidence& evidence) {
     const bool believed =
         hypotheses.computed && registered <= options_.maxShiftRatio * shift + kFarSlack;
     const double p = believed ? hypotheses.pMoved : 0.5;
+    const bool settled = evidence.contactAge >= options_.certainFrames;
     above = motion * p > threshold(*asked) + allowed &&
-            (*asked == kLongWindow || p > options_.certainScore);
+            (*asked != kShortWindow || settled || p > options_.certainScore);
     if (*asked == kShortWindow && above) outcome.alarm = true;
+    if (*asked == kMiddleWindow &&
+        motion > options_.accumulatedThreshold * options_.referenceTaxels + allowed)
+      above = true;
   }
   if (!evidence.computable || (evidence.stored && evidence.contactAge <= 1)) sequence_.reset();
   if (evidence.computable && evidence.stored && evidence.recent.filled) {

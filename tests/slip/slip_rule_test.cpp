@@ -1,6 +1,7 @@
 #include "palpate/slip/slip_rule.h"
 
 #include <stdexcept>
+#include <tuple>
 
 #include <gtest/gtest.h>
 
@@ -54,10 +55,30 @@ TEST(SlipRule, TheLongWindowForgetsWhatIsOver) {
   EXPECT_TRUE(rule.decide(evidence).alarm);
 }
 
-TEST(SlipRule, TheContestMustBeCertain) {
+// In a settled contact, 0.6 of 0.6 taxel exceeds 0.35.
+TEST(SlipRule, TheScoreMustBeCertainInAYoungContact) {
   SlipRule rule;
-  EXPECT_FALSE(rule.decide(shifted(kShortWindow, 0.6, 0.74)).alarm);
-  EXPECT_TRUE(rule.decide(shifted(kShortWindow, 0.6, 0.76)).alarm);
+  EXPECT_TRUE(rule.decide(shifted(kShortWindow, 0.6, 0.6)).alarm);
+  EXPECT_FALSE(rule.decide(shifted(kShortWindow, 0.6, 0.58)).alarm);  // 0.348 < 0.35
+  SlipEvidence young = shifted(kShortWindow, 0.6, 0.74);
+  young.contactAge = 14;
+  EXPECT_FALSE(rule.decide(young).alarm);
+  young.contactAge = 15;
+  EXPECT_TRUE(rule.decide(young).alarm);
+  young = shifted(kShortWindow, 0.6, 0.76);
+  young.contactAge = 14;
+  EXPECT_TRUE(rule.decide(young).alarm);
+}
+
+// More than 1 reference in the middle window is slip at any score. With a score of 0.5, 0.99 taxel
+// counts as 0.495, less than 0.6.
+TEST(SlipRule, AMotionThatAccumulatesNeedsNoScore) {
+  for (const auto& [taxels, pMoved, alarm] :
+       {std::tuple{1.01, 0.0, true}, {0.99, 0.5, false}, {0.99, 0.61, true}}) {
+    SlipRule rule;
+    EXPECT_FALSE(rule.decide(shifted(kMiddleWindow, taxels, pMoved)).alarm);
+    EXPECT_EQ(rule.decide(shifted(kMiddleWindow, taxels, pMoved)).alarm, alarm) << taxels;
+  }
 }
 
 // Stored frames with residuals of 40 without motion and 1 with it, and 0.3 taxel in three frames.

@@ -98,8 +98,9 @@ class SlipEvaluation {
   // frames of its slips, from the frame after the onset to the 12th or the end, against all frames
   // without slip; ridge of 100 on standardised features, joint angles not used. The slips weigh a
   // fifth of the other frames, or one each if that is more, and the bias is raised by 1. The
-  // threshold is the smallest with at most one false alarm in the fold (in all data two),
-  // times 1.05. Returns the default rule if the fold has no slips or no contact without slip.
+  // threshold is the smallest with which the fold has no more false alarms than the windows have
+  // without the test, times 1.05. Returns the default rule if the fold has no slips or no contact
+  // without slip.
   SlipRuleOptions fitSlipSequence(int fold, SlipFolds folds) const;
   SlipEvaluationReport report() const;
 

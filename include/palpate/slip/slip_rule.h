@@ -6,10 +6,13 @@
 // before (at rates above 50 Hz: 60, 200 and 600 ms before, slip_windows.h). In each window, m =
 // min(1.3 |centroid shift|, |d of the registration|). The conditions for an alarm are:
 //   S > threshold                       the sequential test; its shifts are multiples of stepTaxels
-//   P m > threshold + allowance, and    short window: one frame; others: two in a row
-//     P > certain                         (long window: any P)
+//   P m > threshold + allowance         short window: one frame, with P > certain in a young
+//                                         contact; others: two in a row
+//   m > accumulated + allowance         middle window, two frames in a row
 //   |angle| - 2 sd > rotation + allowance   middle window, P > 0.5: an alarm of rotation
 //   allowance = rise max(0, ln(load / earlier load)) + 0.1 taxel per degree of joint motion
+// The third condition doesn't use P, because the effect of a load tilt saturates while slip
+// accumulates. In a settled contact the sequential test only adds alarms to those of the windows.
 // A window that reaches into the first frames of a contact is ignored, and so is the
 // long window while the middle one is below half of its threshold, because the contact then no
 // longer moves. The hypotheses are compared over the recent frames where the contact moved at all,
@@ -71,8 +74,14 @@ struct SlipRuleOptions {
   double shortSteps = 1.75;
   double middleSteps = 3.0;
   double longReferences = 1.2;
-  // P(moved) that the short and the middle window need for an alarm, 0..1.
+  // Motion in the middle window that is an alarm at any P(moved), as a multiple of
+  // referenceTaxels, > 0.
+  double accumulatedThreshold = 1.0;
+  // P(moved), 0..1, that the short window needs for an alarm in a contact younger than
+  // certainFrames stored frames. A contact that begins often changes its load and its shape at
+  // once, so that neither hypothesis fits.
   double certainScore = kMinMotionScore;
+  std::size_t certainFrames = 15;
   // Its evidence is that of motions in units of stepTaxels / 0.20.
   SlipSequenceOptions sequence = {};
   // Allowances: [taxels] per ln of the rise in load, [taxels] per degree of joint motion, and [deg]
