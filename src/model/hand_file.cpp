@@ -69,7 +69,6 @@ MatrixLayout layoutOf(const JsonField& field) {
                          static_cast<int>(field.required("columns").integer(1, kMostSide)),
                          field.required("pitch_mm").number(0.01, 1000.0));
   if (field.has("mask")) layout.staticMask = maskOf(field.at("mask"), layout.rows, layout.columns);
-  layout.dynamicMask = layout.staticMask;
   return layout;
 }
 
