@@ -152,7 +152,7 @@ TEST(StreamCommand, WithoutAFrameItFails) {
 
 TEST(StreamCommand, RefusesWrongUsage) {
   expectOneLineError(palpate({"stream"}), 2, {"--dsa"});
-  expectOneLineError(palpate({"stream", demoFile(), "--dsa", "x"}), 2, {"not both"});
+  expectOneLineError(palpate({"stream", demoFile(), "--dsa", "x"}), 2, {"not two of them"});
   expectOneLineError(palpate({"stream", demoFile(), "--to", "pictures"}), 2, {"--to", "pictures"});
   expectOneLineError(palpate({"stream", demoFile(), "--to", "signals:0"}), 2, {"signals:0"});
   expectOneLineError(palpate({"stream", demoFile(), "--to", "signals:x"}), 2, {"signals:x"});
