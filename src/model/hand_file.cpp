@@ -64,10 +64,10 @@ Mask maskOf(const JsonField& field, int rows, int columns) {
 }
 
 MatrixLayout layoutOf(const JsonField& field) {
+  const auto rows = static_cast<int>(field.required("rows").integer(1, kMostSide));
+  const auto columns = static_cast<int>(field.required("columns").integer(1, kMostSide));
   MatrixLayout layout =
-      MatrixLayout::full(static_cast<int>(field.required("rows").integer(1, kMostSide)),
-                         static_cast<int>(field.required("columns").integer(1, kMostSide)),
-                         field.required("pitch_mm").number(0.01, 1000.0));
+      MatrixLayout::full(rows, columns, field.required("pitch_mm").number(0.01, 1000.0));
   if (field.has("mask")) layout.staticMask = maskOf(field.at("mask"), layout.rows, layout.columns);
   return layout;
 }

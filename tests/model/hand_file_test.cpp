@@ -118,7 +118,7 @@ TEST(HandFile, NamesThePlaceOfAFault) {
 TEST(HandFile, RefusesHugeLayouts) {
   std::string text = R"({"format": "palpate-hand", "version": 1, "name": "x", "full_scale": 1,
                          "matrices": [{"name": "a", "rows": 1000, "columns": 1000, "pitch_mm": 1}]})";
-  EXPECT_NE(faultOf(text).find("matrices[0].rows is"), std::string::npos);
+  EXPECT_NE(faultOf(text).find("matrices[0].rows is 1000, not in 1..256"), std::string::npos);
 }
 
 // What is kept in a recording gives the same hand again, with the recording's masks.
