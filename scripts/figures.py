@@ -387,7 +387,7 @@ echo "$(nproc) cores, $(sed -n 's/^model name\\s*: //p' /proc/cpuinfo | head -n 
     bench("lbzip2", 10, "readBesideLbzip2", {
         "large": (counter("readBesideLbzip2", "ratio"), TIMES)}, recordings=True),
     bench("folders", 150, "(folder|library)BesideBzip2", {
-        **{command: (counter(f"folderBesideBzip2/{command}", "ratio"), TIMES)
+        **{command: (counter(f"folderBesideBzip2/{'signals_command' if command == 'signals' else command}", "ratio"), TIMES)
            for command in ("info", "verify", "signals", "grasps", "features", "train")},
         "library": (counter("libraryBesideBzip2", "ratio"), TIMES)}, recordings=True),
     bench("load_all", 20, "loadAll", {
