@@ -4,6 +4,7 @@
 
 #include <pybind11/stl.h>
 
+#include "palpate/model/hand_file.h"
 #include "palpate/model/profile_builder.h"
 
 #include "python/arrays.h"
@@ -74,7 +75,7 @@ Taxels taxelsOf(const py::object& frames, double pitchMm, std::size_t numFrames)
     }
     taxels.layout = std::make_shared<const SensorLayout>(std::move(matrices));
   } else {
-    taxels.layout = sdh2().layout;
+    taxels.layout = defaultHand().layout;
     taxels.parts.push_back(taxelValuesOf(frames, "frames"));
     const Values& part = taxels.parts.back();
     if (part.ndim() != 2 || static_cast<std::size_t>(part.shape(1)) != taxels.layout->numCells())

@@ -27,15 +27,6 @@ struct ContactRow {
   bool posed = false;  // the joint angles are usable
 };
 
-void requireHand(const Profile& profile, const GeometryDescription& geometry) {
-  const SensorLayout& layout = profile.layout();
-  bool same = layout.numMatrices() == geometry.layout.numMatrices();
-  for (std::size_t m = 0; same && m < layout.numMatrices(); ++m)
-    same = layout.matrix(m).rows == geometry.layout.matrix(m).rows &&
-           layout.matrix(m).columns == geometry.layout.matrix(m).columns;
-  if (!same) throw py::value_error("the matrices of this recording are not those of an SDH-2");
-}
-
 std::vector<ContactRow> contactRowsOf(const Profile& profile,
                                       const HandGeometry& geometry,
                                       const std::optional<std::vector<double>>& assumed,
@@ -56,7 +47,7 @@ std::vector<ContactRow> contactRowsOf(const Profile& profile,
     if (!assumed && sample != posedBy) {
       posedBy = sample;
       const std::vector<double> anglesDeg = profile.angles(*sample).deg;
-      usable = checkAngles(anglesDeg, sdh2().axes).state != AngleValidity::kUnusable;
+      usable = checkAngles(anglesDeg, profile.hand().axes).state != AngleValidity::kUnusable;
       if (usable) geometry.pose(anglesDeg, pose);
     }
     ContactRow& row = rows[i - first];
@@ -141,8 +132,7 @@ py::dict contact(const Profile& profile,
                  const std::string& fingertip,
                  std::int64_t start,
                  std::optional<std::int64_t> stop) {
-  const HandGeometry geometry(geometryNamed(fingertip));
-  requireHand(profile, geometry.description());
+  const HandGeometry geometry(geometryNamed(profile.hand(), fingertip));
   std::optional<std::vector<double>> assumed;
   if (anglesDeg) assumed = vectorOf(*anglesDeg, "angles_deg");
   if (!assumed && profile.numAngles() == 0)
@@ -179,8 +169,7 @@ py::dict sizeOf(const Profile& profile,
                 std::int64_t begin,
                 std::int64_t end,
                 const std::string& fingertip) {
-  const HandGeometry geometry(geometryNamed(fingertip));
-  requireHand(profile, geometry.description());
+  const HandGeometry geometry(geometryNamed(profile.hand(), fingertip));
   const std::size_t first = checkedIndex("frame", begin, profile.numFrames()),
                     last = checkedIndex("frame", end, profile.numFrames());
   if (first > last) throw py::value_error("begin is after end");
@@ -226,14 +215,14 @@ void bindContact(py::module_& module) {
       py::arg("fingertip") = "study",
       py::arg("start") = 0,
       py::arg("stop") = py::none(),
-      "Where an SDH-2 touches, for the frames start..stop (exclusive), in its base frame [mm]: "
+      "Where a hand touches, for the frames start..stop (exclusive), in its base frame [mm]: "
       "dict of columns frame, time_ms, active (T,); sphere_mm (T, 3), sphere_radius_mm (T,): the "
       "smallest sphere around all active taxels, centroid_sphere_mm, centroid_sphere_radius_mm: "
       "around the matrices' centroids; per matrix (T, M): matrix_active, sum [counts], area_mm2, "
       "surface_x_mm, surface_y_mm (centroid on the surface), major_sd_mm, minor_sd_mm; (T, M, 3): "
       "centroid_mm, normal, major, minor (unit vectors). NaN where nothing touches or the joint "
-      "angles are unusable. angles_deg (7,): assumed for all frames; threshold: active is above "
-      "it [counts]. ValueError without joint angles, or for another hand.");
+      "angles are unusable. angles_deg (axes,): assumed for all frames; threshold: active is above "
+      "it [counts]. ValueError without joint angles, Error for a hand without geometry.");
   module.def("object_size",
              &sizeOf,
              py::arg("profile"),

@@ -6,11 +6,13 @@
 #include <pybind11/stl/filesystem.h>
 
 #include "palpate/core/error.h"
+#include "palpate/model/hand_file.h"
 #include "palpate/recognition/study_features.h"
 
 #include "python/arrays.h"
 #include "python/bindings.h"
 #include "python/features.h"
+#include "python/geometry.h"
 #include "python/interruption.h"
 
 namespace palpate::python {
@@ -21,7 +23,8 @@ FeatureSet featureSetOf(const std::string& name) {
                             name,
                             {{"study", FeatureSet::kStudy},
                              {"best", FeatureSet::kBest},
-                             {"session", FeatureSet::kSession}});
+                             {"session", FeatureSet::kSession},
+                             {"statistics", FeatureSet::kStatistics}});
 }
 
 namespace {
@@ -31,10 +34,11 @@ namespace fs = std::filesystem;
 FeatureTable featureTableOf(const Profile& profile, FeatureSet set, const Progress& progress) {
   FeatureTable table;
   table.set = set;
-  table.names = featureNames(set);
+  if (set == FeatureSet::kStatistics || pinchHandOf(profile.hand()))
+    table.names = featureNames(set, profile.hand());
   table.numFiles = 1;
   table.sensor = sensorText(profile.layout());
-  const RecordingFeatures found = recordingFeatures(profile, set, sdh2PinchHand(), progress);
+  const RecordingFeatures found = recordingFeatures(profile, set, progress);
   if (!found.problem.empty()) table.problems.push_back(found.problem);
   for (const GraspFeatures& grasp : found.grasps) {
     if (!grasp.problem.empty()) {
@@ -101,11 +105,8 @@ py::dict grasps(const Profile& profile, const std::string& rule) {
   GraspSegmentOptions options;
   options.rule = choice<GraspRule>(
       "rule", rule, {{"general", GraspRule::kGeneral}, {"study", GraspRule::kStudy}});
-  if (options.rule == GraspRule::kStudy)
-    for (const std::size_t needed : options.studyMatrices)
-      if (needed >= profile.layout().numMatrices())
-        throw py::value_error("rule 'study' looks at matrix " + std::to_string(needed) +
-                              ", which this sensor hasn't: use 'general'");
+  if (options.rule == GraspRule::kStudy && !(profile.hand().file && profile.hand().file->pinch))
+    throw py::value_error("rule 'study' needs a hand with two pads that pinch: use 'general'");
   const std::vector<GraspSegment> found =
       unlocked([&](const Progress& progress) { return findGrasps(profile, options, progress); });
   const std::size_t n = found.size();
@@ -133,14 +134,16 @@ py::dict studyOf(const Profile& profile,
   if (grasp.begin > grasp.end) throw py::value_error("begin is after end");
   std::optional<std::size_t> chosen;
   if (endFrame) chosen = checkedIndex("frame", *endFrame, profile.numFrames());
-  const StudyFeatures found = unlocked(
-      [&](const Progress&) { return studyFeatures(profile, grasp, sdh2PinchHand(), chosen); });
+  const auto hand = pinchHandOf(profile.hand());
+  if (!hand) throw Error(withoutPinchText(profile.hand()));
+  const StudyFeatures found =
+      unlocked([&](const Progress&) { return studyFeatures(profile, grasp, *hand, chosen); });
   py::dict result;
   result["trouble"] = found.problem;
   result["initial_frame"] = found.initialFrame;
   result["end_frame"] = found.endFrame;
   result["other_end_frame"] = found.otherEndFrame;
-  result["names"] = studyFeatureNames();
+  result["names"] = studyFeatureNames(*hand);
   result["values"] = arrayOf(found.values);
   return result;
 }
@@ -228,15 +231,16 @@ void bindTable(py::module_& module) {
 
 void bindFeatures(py::module_& module) {
   bindTable(module);
-  module.def("grasps",
-             &grasps,
-             py::arg("profile"),
-             py::kw_only(),
-             py::arg("rule") = "general",
-             "Where the grasps are: dict of columns begin, end (frames, both inclusive), begin_ms, "
-             "end_ms [ms since 1970], fingers (list of tuples), quality (0..1). rule 'general': at "
-             "least two fingers touch for more than 20 frames and 0.6 s; 'study': matrices 1 and 5 "
-             "for more than 20 frames.");
+  module.def(
+      "grasps",
+      &grasps,
+      py::arg("profile"),
+      py::kw_only(),
+      py::arg("rule") = "general",
+      "Where the grasps are: dict of columns begin, end (frames, both inclusive), begin_ms, "
+      "end_ms [ms since 1970], fingers (list of tuples), quality (0..1). rule 'general': at "
+      "least two fingers touch (or the only one) for more than 20 frames and 0.6 s; 'study': the "
+      "two pads that pinch for more than 20 frames.");
   module.def(
       "features",
       [](const py::object& source, const std::string& set) {
@@ -247,12 +251,16 @@ void bindFeatures(py::module_& module) {
       "The features of every pinch grasp (both distal pads touch): source is a Profile, a "
       "recording, a folder with a folder of recordings per class ('_' in its name as blank), or a "
       "list of these paths. set 'best': holds in another session; 'study': the study's 54; "
-      "'session': best within one session only. What can't be used is listed in `troubles`.");
+      "'session': best within one session only; 'statistics': load, extent and position on every "
+      "matrix, for hands of any kind. What can't be used is listed in `troubles`.");
   module.def(
       "feature_names",
-      [](const std::string& set) { return featureNames(featureSetOf(set)); },
+      [](const std::string& set, const py::object& hand) {
+        return featureNames(featureSetOf(set), handGiven(hand));
+      },
       py::arg("set") = "best",
-      "Names of the features of a set: list of str.");
+      py::arg("hand") = py::none(),
+      "Names of the features of a set of a hand (None: the SDH-2): list of str.");
   module.def("study_features",
              &studyOf,
              py::arg("profile"),

@@ -6,7 +6,7 @@
 
 #include "palpate/kinematics/bounding_sphere.h"
 #include "palpate/kinematics/joint_range.h"
-#include "palpate/model/hand_description.h"
+#include "palpate/model/hand_file.h"
 #include "palpate/model/preshape.h"
 
 #include "python/arrays.h"
@@ -16,11 +16,12 @@
 namespace palpate::python {
 namespace py = pybind11;
 
-GeometryDescription geometryNamed(const std::string& fingertip) {
-  return sdh2Geometry(choice<double>(
-      "fingertip",
-      fingertip,
-      {{"study", kStudyFingertipRadiusMm}, {"effective", kEffectiveFingertipRadiusMm}}));
+GeometryDescription geometryNamed(const HandDescription& hand, const std::string& fingertip) {
+  return describeGeometry(
+      hand,
+      choice<BendRadius>("fingertip",
+                         fingertip,
+                         {{"study", BendRadius::kNominal}, {"effective", BendRadius::kEffective}}));
 }
 
 namespace {
@@ -31,7 +32,8 @@ struct Poses {
   std::vector<std::vector<double>> anglesDeg;
 };
 
-Poses posesOf(const Numbers& angles, std::size_t numAxes) {
+Poses posesOf(const Numbers& angles, const HandDescription& hand) {
+  const std::size_t numAxes = hand.axes.size();
   Poses poses;
   poses.several = angles.ndim() == 2;
   const auto width = static_cast<py::ssize_t>(numAxes);
@@ -43,7 +45,7 @@ Poses posesOf(const Numbers& angles, std::size_t numAxes) {
     poses.anglesDeg.emplace_back(angles.data() + i * width, angles.data() + (i + 1) * width);
   // Invalid angles are refused as on the command line, because the hand cannot have such a pose.
   for (std::size_t i = 0; i < poses.anglesDeg.size(); ++i) {
-    const AnglesCheck check = checkAngles(poses.anglesDeg[i], sdh2().axes);
+    const AnglesCheck check = checkAngles(poses.anglesDeg[i], hand.axes);
     if (check.state == AngleValidity::kValid) continue;
     throw py::value_error("angles_deg" + (poses.several ? "[" + std::to_string(i) + "]" : "") +
                           ": " + check.problem);
@@ -63,10 +65,13 @@ double* put(double* out, const Eigen::Vector3d& vector) {
   return out;
 }
 
-py::dict kinematics(const Numbers& anglesDeg, const std::string& fingertip) {
-  const HandGeometry geometry(geometryNamed(fingertip));
+py::dict kinematics(const Numbers& anglesDeg,
+                    const std::string& fingertip,
+                    const py::object& handOrName) {
+  const HandDescription described = handGiven(handOrName);
+  const HandGeometry geometry(geometryNamed(described, fingertip));
   const GeometryDescription& hand = geometry.description();
-  const Poses poses = posesOf(anglesDeg, hand.numAxes);
+  const Poses poses = posesOf(anglesDeg, described);
   const std::size_t places = hand.layout.numCells();
   DoubleArray positions = vectors(poses, places), normals = vectors(poses, places);
   double *position = positions.mutable_data(), *normal = normals.mutable_data();
@@ -101,9 +106,11 @@ py::dict kinematics(const Numbers& anglesDeg, const std::string& fingertip) {
 
 py::dict surfacePoints(const Numbers& anglesDeg,
                        const Numbers& points,
-                       const std::string& fingertip) {
-  const HandGeometry geometry(geometryNamed(fingertip));
-  const Poses poses = posesOf(anglesDeg, geometry.description().numAxes);
+                       const std::string& fingertip,
+                       const py::object& handOrName) {
+  const HandDescription hand = handGiven(handOrName);
+  const HandGeometry geometry(geometryNamed(hand, fingertip));
+  const Poses poses = posesOf(anglesDeg, hand);
   const std::vector<Eigen::Vector3d> wanted = pointsOf(points, "points");
   std::vector<std::size_t> matrices;
   for (const Eigen::Vector3d& point : wanted) {
@@ -134,32 +141,42 @@ py::object sphereAround(const Numbers& points) {
   return py::make_tuple(arrayOf(Eigen::VectorXd(sphere->centreMm)), sphere->radiusMm);
 }
 
-py::dict preshapes() {
+std::vector<Preshape> preshapesOf(const HandDescription& hand) {
+  return hand.file ? hand.file->preshapes : std::vector<Preshape>();
+}
+
+py::dict preshapes(const py::object& hand) {
   py::dict result;
-  for (const Preshape& preshape : sdh2Preshapes()) result[py::str(preshape.name)] = preshape.title;
+  for (const Preshape& preshape : preshapesOf(handGiven(hand)))
+    result[py::str(preshape.name)] = preshape.title;
   return result;
 }
 
 }  // namespace
 
 void bindKinematics(py::module_& module) {
-  module.def("kinematics",
-             &kinematics,
-             py::arg("angles_deg"),
-             py::kw_only(),
-             py::arg("fingertip") = "study",
-             "Where the taxels of an SDH-2 are: angles_deg (7,) or (n, 7) [deg], within the range "
-             "of its axes and a degree beyond, else ValueError. dict matrix, x, "
-             "y, exists (486,): which taxel; position_mm (486, 3) or (n, 486, 3) [mm] in the "
-             "hand's base frame (z up from the palm), normal: unit vectors out of the sensor, of "
-             "the same shape. fingertip: radius of the bent fingertips, 'study' (58 mm) or "
-             "'effective' (48.4 mm, which makes a rigid object measure the same).");
+  module.def(
+      "kinematics",
+      &kinematics,
+      py::arg("angles_deg"),
+      py::kw_only(),
+      py::arg("fingertip") = "study",
+      py::arg("hand") = py::none(),
+      "Where the taxels of a hand are: angles_deg (axes,) or (n, axes) [deg; mm for an axis "
+      "that slides], within the range "
+      "of its axes and a degree beyond, else ValueError. dict matrix, x, "
+      "y, exists (places,): which taxel; position_mm (places, 3) or (n, places, 3) [mm] in "
+      "the hand's base frame, normal: unit vectors out of the sensor, of "
+      "the same shape. fingertip: radius of bent fingertips, 'study' (nominal; SDH-2: 58 mm) "
+      "or 'effective' (48.4 mm, which makes a rigid object measure the same). hand: a Hand, "
+      "its name or folder; None: the SDH-2.");
   module.def("surface_points",
              &surfacePoints,
              py::arg("angles_deg"),
              py::arg("points"),
              py::kw_only(),
              py::arg("fingertip") = "study",
+             py::arg("hand") = py::none(),
              "Points of the sensors' surfaces, also between taxels: points (k, 3), rows of matrix, "
              "x_mm, y_mm from the centre of taxel (0, 0). dict position_mm, normal (k, 3) or (n, "
              "k, 3), as kinematics().");
@@ -168,16 +185,20 @@ void bindKinematics(py::module_& module) {
              py::arg("points_mm"),
              "The smallest sphere around points (n, 3) [mm]: (centre (3,), radius); None around "
              "none.");
-  module.def(
-      "preshapes", &preshapes, "Grasp preshapes of the SDH-2: dict name -> title for people.");
+  module.def("preshapes",
+             &preshapes,
+             py::arg("hand") = py::none(),
+             "Grasp preshapes of a hand (None: the SDH-2): dict name -> title for people.");
   module.def(
       "preshape",
-      [](const std::string& name, double close) {
-        return arrayOf(sdh2Preshape(name).anglesDeg(close));
+      [](const std::string& name, double close, const py::object& hand) {
+        return arrayOf(findPreshape(preshapesOf(handGiven(hand)), name).anglesDeg(close));
       },
       py::arg("name"),
       py::arg("close") = 0.0,
-      "Joint angles of a preshape, close 0 (open) .. 1 (closed): (7,) [deg].");
+      py::arg("hand") = py::none(),
+      "Joint values of a preshape of a hand (None: the SDH-2), close 0 (open) .. 1 (closed): "
+      "(axes,) [deg; mm].");
 }
 
 }  // namespace palpate::python

@@ -114,7 +114,8 @@ SetChoice setNamed(const std::string& name) {
                             {"moments", {FeatureSet::kStudy, StudyPart::kMoments}},
                             {"study", {FeatureSet::kStudy, StudyPart::kAll}},
                             {"best", {FeatureSet::kBest, StudyPart::kAll}},
-                            {"session", {FeatureSet::kSession, StudyPart::kAll}}});
+                            {"session", {FeatureSet::kSession, StudyPart::kAll}},
+                            {"statistics", {FeatureSet::kStatistics, StudyPart::kAll}}});
 }
 
 py::object evaluate(const py::object& source,

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "palpate/core/number_text.h"
+#include "palpate/device/sdh2.h"
 #include "palpate/model/sensor_characteristics.h"
 
 namespace palpate {

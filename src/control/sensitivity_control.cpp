@@ -88,6 +88,7 @@ void SensitivityControl::beginHighSensitivity(const NoiseFloor& floor,
 void SensitivityControl::beginAdaptiveSensitivity(const SensitivitySearchOptions& options) {
   options.validate();
   searchOptions_ = options;
+  searchOptions_.saturationCounts = static_cast<double>(session_.device().hand().saturationCounts);
   begin(SensitivityMode::kAdaptive, "adaptive sensitivity: the highest without saturation");
 }
 

@@ -9,6 +9,7 @@
 #include "palpate/core/error.h"
 #include "palpate/core/number_text.h"
 #include "palpate/device/port_list.h"
+#include "palpate/device/sdh2.h"
 
 #include "device/motion_link.h"
 #include "device/tactile_link.h"

@@ -7,6 +7,7 @@
 
 #include "palpate/core/number_text.h"
 #include "palpate/device/dsa_packet.h"
+#include "palpate/device/sdh2.h"
 #include "palpate/model/hand_description.h"
 
 #include "device/sdh_link.h"

@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "palpate/core/number_text.h"
+#include "palpate/device/sdh2.h"
 #include "palpate/model/hand_description.h"
 
 namespace palpate {

@@ -8,6 +8,7 @@
 
 #include <Eigen/Geometry>
 
+#include "palpate/device/sdh2.h"
 #include "palpate/emulator/sensor_model.h"
 #include "palpate/model/preshape.h"
 
@@ -192,7 +193,7 @@ struct PhysicalHand::Impl {
   }
 
   PhysicalHandOptions options;
-  HandGeometry geometry;
+  HandGeometry geometry{describeGeometry(sdh2())};
   PhysicalObjects objects;
   JointMotion joints;
   SensorModel sensor;

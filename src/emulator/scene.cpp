@@ -11,6 +11,7 @@
 #include "palpate/core/error.h"
 #include "palpate/core/json_field.h"
 #include "palpate/core/text_file.h"
+#include "palpate/device/sdh2.h"
 #include "palpate/model/hand_description.h"
 #include "palpate/model/preshape.h"
 

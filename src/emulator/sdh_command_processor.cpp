@@ -8,6 +8,7 @@
 
 #include "palpate/core/escaped_line.h"
 #include "palpate/core/number_text.h"
+#include "palpate/device/sdh2.h"
 #include "palpate/model/preshape.h"
 
 namespace palpate {

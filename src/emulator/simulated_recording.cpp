@@ -14,6 +14,7 @@
 
 #include "palpate/core/error.h"
 #include "palpate/core/time.h"
+#include "palpate/device/sdh2.h"
 #include "palpate/model/profile_builder.h"
 
 namespace palpate {

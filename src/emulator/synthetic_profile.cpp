@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "palpate/device/sdh2.h"
 #include "palpate/model/hand_description.h"
 #include "palpate/model/profile_builder.h"
 

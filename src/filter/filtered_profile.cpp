@@ -179,7 +179,7 @@ Profile computedWhole(const Profile& source,
                       const Recipe& recipe,
                       const std::vector<std::int64_t>& restartsUs,
                       const Progress& progress) {
-  ProfileBuilder builder(source.hand().layout);
+  ProfileBuilder builder(source.hand());
   FilteredProfileCursor cursor(source, recipe, restartsUs, 0);
   const std::size_t numFrames = source.numFrames();
   // No frame comes out before the stretch is complete, so reading is counted as the first half of

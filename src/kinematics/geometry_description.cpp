@@ -318,13 +318,4 @@ GeometryDescription describeGeometry(const HandDescription& hand, BendRadius rad
   return GeometryBuilder(hand, radius).build();
 }
 
-GeometryDescription sdh2Geometry(double fingertipRadiusMm) {
-  if (!(fingertipRadiusMm > 0.0 && std::isfinite(fingertipRadiusMm)))
-    throw std::invalid_argument("sdh2Geometry: fingertip radius must be positive");
-  GeometryDescription hand = describeGeometry(sdh2());
-  for (SensorSurface& surface : hand.surfaces)
-    if (surface.bendRow) surface.radiusMm = fingertipRadiusMm;
-  return hand;
-}
-
 }  // namespace palpate

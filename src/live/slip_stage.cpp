@@ -1,6 +1,7 @@
 #include "palpate/live/slip_stage.h"
 
 #include <cmath>
+#include <utility>
 
 #include "palpate/core/json.h"
 #include "palpate/core/number_text.h"
@@ -21,7 +22,8 @@ SlipDetectorOptions liveSlipOptions() {
   return options;
 }
 
-SlipStage::SlipStage(const SlipDetectorOptions& options) : options_(options) {
+SlipStage::SlipStage(HandDescription hand, const SlipDetectorOptions& options)
+    : hand_(std::move(hand)), options_(options) {
   options_.validate();
 }
 
@@ -67,7 +69,8 @@ void SlipStage::applyReferenceRequests(const SensorLayout& layout) {
   const std::lock_guard lock(mutex_);
   if (changed_ || detectors_.size() != layout.numMatrices()) {
     detectors_.clear();
-    for (const MatrixLayout& matrix : layout.matrices()) detectors_.emplace_back(matrix, options_);
+    const SlipDetectorOptions options = withScaleOf(hand_, options_);
+    for (const MatrixLayout& matrix : layout.matrices()) detectors_.emplace_back(matrix, options);
     slipping_.assign(detectors_.size(), std::nullopt);
     changed_ = false;
   }

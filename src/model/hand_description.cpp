@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "palpate/model/hand_file.h"
 
@@ -19,8 +20,20 @@ std::string HandDescription::matrixName(std::size_t matrix) const {
   return matrix < matrices.size() ? matrices[matrix].name : "matrix " + std::to_string(matrix);
 }
 
-const HandDescription& sdh2() {
-  static const HandDescription& hand = builtInHand("sdh2");
+HandDescription withSeriesOf(HandDescription hand,
+                             std::size_t numAxes,
+                             std::size_t numTemperatureSensors) {
+  if (numAxes != 0 && numAxes != hand.axes.size()) {
+    hand.axes.clear();
+    for (std::size_t i = 0; i < numAxes; ++i)
+      hand.axes.push_back({"axis " + std::to_string(i), -180.0, 180.0});
+  }
+  if (numTemperatureSensors != 0 && numTemperatureSensors != hand.temperatureSensors.size()) {
+    hand.temperatureSensors.clear();
+    for (MatrixDescription& matrix : hand.matrices) matrix.temperatureSensor.reset();
+    for (std::size_t i = 0; i < numTemperatureSensors; ++i)
+      hand.temperatureSensors.push_back({"sensor " + std::to_string(i)});
+  }
   return hand;
 }
 
@@ -45,18 +58,7 @@ HandDescription describeHand(const SensorLayout& layout,
     }
   }
   hand.layout = std::make_shared<SensorLayout>(layout);
-  if (numAxes != 0 && numAxes != hand.axes.size()) {
-    hand.axes.clear();
-    for (std::size_t i = 0; i < numAxes; ++i)
-      hand.axes.push_back({"axis " + std::to_string(i), -180.0, 180.0});
-  }
-  if (numTemperatureSensors != 0 && numTemperatureSensors != hand.temperatureSensors.size()) {
-    hand.temperatureSensors.clear();
-    for (MatrixDescription& matrix : hand.matrices) matrix.temperatureSensor.reset();
-    for (std::size_t i = 0; i < numTemperatureSensors; ++i)
-      hand.temperatureSensors.push_back({"sensor " + std::to_string(i)});
-  }
-  return hand;
+  return withSeriesOf(std::move(hand), numAxes, numTemperatureSensors);
 }
 
 }  // namespace palpate

@@ -486,6 +486,12 @@ const HandDescription& builtInHand(std::string_view key) {
   throw std::invalid_argument("no hand '" + std::string(key) + "'; there are: " + known);
 }
 
+const HandDescription& defaultHand() {
+  for (const BuiltInHand& each : builtInHands())
+    if (!each.hand->file->controller.empty()) return *each.hand;
+  throw std::logic_error("no built-in hand has a tactile controller");
+}
+
 HandDescription findHand(const std::string& name, const std::vector<fs::path>& folders) {
   std::error_code failure;
   const bool isPath = name.find('/') != std::string::npos || name.ends_with(".json");

@@ -130,6 +130,9 @@ ProfileBuilder::ProfileBuilder(std::shared_ptr<const SensorLayout> layout)
     : layout_(std::move(layout)), storage_(std::make_shared<Storage>()) {
   if (!layout_) throw std::invalid_argument("ProfileBuilder: no sensor layout");
 }
+ProfileBuilder::ProfileBuilder(HandDescription hand) : ProfileBuilder(hand.layout) {
+  hand_ = std::move(hand);
+}
 ProfileBuilder::~ProfileBuilder() = default;
 ProfileBuilder::ProfileBuilder(ProfileBuilder&&) noexcept = default;
 
@@ -180,8 +183,10 @@ std::optional<std::int64_t> ProfileBuilder::lastTemperatureUs() const noexcept {
 Profile ProfileBuilder::finish(ProfileInfo info) {
   const std::shared_ptr<Storage> storage = std::exchange(storage_, std::make_shared<Storage>());
   info.valueType = storage->allCounts ? ValueType::kCounts : ValueType::kFloat;
+  const std::size_t axes = storage->angleSeries.width();
+  const std::size_t sensors = storage->temperatureSeries.width();
   HandDescription hand =
-      describeHand(*layout_, storage->angleSeries.width(), storage->temperatureSeries.width());
+      hand_ ? withSeriesOf(*hand_, axes, sensors) : describeHand(*layout_, axes, sensors);
   return {std::move(info), std::move(hand), storage};
 }
 

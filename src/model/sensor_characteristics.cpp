@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "palpate/model/hand_file.h"
-
 namespace palpate {
 namespace {
 
@@ -25,7 +23,5 @@ double SensorCharacteristics::countsAbove(double kpa, double degC) const {
   const double dead = deadZoneKpa(degC);
   return gainCountsPerKpa(degC) * (kpa + dead * std::expm1(-kpa / dead));
 }
-
-const SensorCharacteristics& sdh2Sensor() { return *sdh2().file->characteristics; }
 
 }  // namespace palpate

@@ -44,18 +44,18 @@ void EmptyHandOptions::validate() const {
 }
 
 EmptyHandZero emptyHandZero(const Profile& profile,
-                            const PinchHand& hand,
                             const EmptyHandOptions& options,
                             const Progress& progress) {
   options.validate();
   EmptyHandZero out;
-  out.problem = hand.mismatch(profile);
+  const auto hand = pinchHandOf(profile.hand());
+  out.problem = hand ? hand->mismatch(profile) : withoutPinchText(profile.hand());
   if (!out.problem.empty()) return out;
   // Only the two pads of the hand itself are used.
-  PinchHand pinch = hand;
+  PinchHand pinch = *hand;
   pinch.otherPads.clear();
   std::vector<double> zeros;
-  for (const GraspSegment& touch : findPinches(profile, pinch, progress)) {
+  for (const GraspSegment& touch : findPinches(profile, FeatureSet::kBest, progress)) {
     const PlateauFeatures found = plateauFeatures(profile, touch, pinch);
     if (!found.problem.empty()) {
       ++out.leftOut;

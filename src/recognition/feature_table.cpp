@@ -8,6 +8,7 @@
 #include "palpate/core/error.h"
 #include "palpate/core/number_text.h"
 #include "palpate/core/parallel.h"
+#include "palpate/model/hand_file.h"
 #include "palpate/recording/read_ahead.h"
 #include "palpate/recording/recording.h"
 #include "palpate/recording/recording_folder.h"
@@ -25,7 +26,10 @@ struct Source {
 struct Gathered {
   std::vector<FeatureRow> rows;
   std::vector<std::string> problems;
+  // What the features depend on; `names` are empty where the hand has none of the set.
   std::string sensor;
+  std::vector<std::string> names;
+  FeatureSet set = FeatureSet::kBest;
   bool failed = false;
   std::size_t failedGrasps = 0;
 };
@@ -43,9 +47,12 @@ Gathered gather(const Source& source, const FeatureExtractionOptions& options, b
   try {
     const Profile profile =
         openRecording(source.file, {}, alone ? 0 : threadsBesideOthers(source.file));
-    RecordingFeatures found = recordingFeatures(profile, options.set, options.hand);
-    if (!found.problem.empty()) say(found.problem);
+    out.set = options.set.value_or(defaultFeatureSet(profile.hand()));
     out.sensor = sensorText(profile.layout());
+    if (out.set == FeatureSet::kStatistics || pinchHandOf(profile.hand()))
+      out.names = featureNames(out.set, profile.hand());
+    RecordingFeatures found = recordingFeatures(profile, out.set);
+    if (!found.problem.empty()) say(found.problem);
     for (GraspFeatures& grasp : found.grasps) {
       if (!grasp.problem.empty()) {
         say(spanText(grasp) + ": " + grasp.problem);
@@ -151,10 +158,7 @@ std::string classOfFolder(const fs::path& folder) {
 FeatureTable extractFeatures(const std::vector<fs::path>& paths,
                              const FeatureExtractionOptions& options,
                              const Progress& progress) {
-  options.hand.validate();
   FeatureTable table;
-  table.set = options.set;
-  table.names = featureNames(options.set, options.hand);
   std::vector<Source> sources;
   for (const fs::path& path : paths) {
     std::error_code ignored;
@@ -174,14 +178,29 @@ FeatureTable extractFeatures(const std::vector<fs::path>& paths,
       progress,
       options.threads);
 
+  const auto first = std::find_if(
+      gathered.begin(), gathered.end(), [](const Gathered& of) { return !of.names.empty(); });
+  if (first != gathered.end()) {
+    table.set = first->set;
+    table.names = first->names;
+    table.sensor = first->sensor;
+  } else {
+    table.set = options.set.value_or(FeatureSet::kBest);
+    table.names = featureNames(table.set, defaultHand());
+  }
   for (std::size_t i = 0; i < gathered.size(); ++i) {
     Gathered& of = gathered[i];
+    if (!of.names.empty() && (of.sensor != table.sensor || of.names != table.names)) {
+      of.problems = {sources[i].file.string() +
+                     ": a recording of another sensor: its matrices are not those of the hand"};
+      of.rows.clear();
+    }
     table.failedFiles += of.failed ? 1 : 0;
     table.failedGrasps += of.failedGrasps;
     std::move(of.problems.begin(), of.problems.end(), std::back_inserter(table.problems));
-    if (!of.rows.empty() && table.sensor.empty()) table.sensor = of.sensor;
     std::move(of.rows.begin(), of.rows.end(), std::back_inserter(table.rows));
   }
+  if (table.rows.empty()) table.sensor.clear();
   return table;
 }
 

@@ -109,7 +109,7 @@ void GraspCollector::trimAngles() {
 }
 
 Profile GraspCollector::clip() const {
-  ProfileBuilder builder(hand_.layout);
+  ProfileBuilder builder(hand_);
   for (const auto& frame : frames_) builder.addFrame(frame->hostUs, frame->values, frame->deviceMs);
   for (const JointAngles& sample : angles_)
     if (sample.hostUs <= frames_.back()->hostUs) builder.addAngles(sample.hostUs, sample.deg);
@@ -138,28 +138,27 @@ ChosenGrasp graspWithin(const Profile& profile,
                         std::size_t first,
                         std::size_t last,
                         FeatureSet set,
-                        const PinchHand& hand,
                         const Progress& progress) {
   if (first > last || last >= profile.numFrames())
     throw std::out_of_range("frames " + std::to_string(first) + " to " + std::to_string(last) +
                             " of " + std::to_string(profile.numFrames()));
   ChosenGrasp out;
   out.timeUs = profile.frameTimeUs(first);
-  out.features.problem = hand.mismatch(profile);
+  if (set != FeatureSet::kStatistics)
+    if (const auto hand = pinchHandOf(profile.hand()))
+      out.features.problem = hand->mismatch(profile);
   if (!out.features.problem.empty()) return out;
   const bool part = first > 0 || last + 1 < profile.numFrames();
   const Profile seen = part ? cropped(profile, first, last, progress) : profile;
   const auto length = [](const GraspSegment& grasp) { return grasp.end - grasp.begin; };
-  const std::vector<GraspSegment> found = findPinches(seen, hand, progress);
+  const std::vector<GraspSegment> found = findPinches(seen, set, progress);
   const auto longest = std::max_element(
       found.begin(), found.end(), [&](auto& a, auto& b) { return length(a) < length(b); });
   if (longest == found.end()) {
-    out.features.problem = "no grasp: matrices " + std::to_string(hand.pads[0]) + " and " +
-                           std::to_string(hand.pads[1]) +
-                           " never touch together for more than 20 frames in a row";
+    out.features.problem = noPinchText(profile.hand(), set);
     return out;
   }
-  out.features = graspFeatures(seen, *longest, set, hand);
+  out.features = graspFeatures(seen, *longest, set);
   out.quality = longest->quality;
   out.timeUs = seen.frameTimeUs(longest->begin);
   for (std::size_t* frame :
@@ -168,12 +167,9 @@ ChosenGrasp graspWithin(const Profile& profile,
   return out;
 }
 
-ChosenGrasp graspOf(const Profile& profile,
-                    FeatureSet set,
-                    const PinchHand& hand,
-                    const Progress& progress) {
+ChosenGrasp graspOf(const Profile& profile, FeatureSet set, const Progress& progress) {
   if (profile.numFrames() > 0)
-    return graspWithin(profile, 0, profile.numFrames() - 1, set, hand, progress);
+    return graspWithin(profile, 0, profile.numFrames() - 1, set, progress);
   ChosenGrasp out;
   out.features.problem = "no frame";
   return out;

@@ -2,6 +2,8 @@
 
 #include <array>
 
+#include "palpate/core/error.h"
+#include "palpate/recognition/contact_statistics.h"
 #include "palpate/recognition/plateau_features.h"
 #include "palpate/recognition/study_features.h"
 
@@ -31,18 +33,29 @@ std::string_view featureSetName(FeatureSet set) noexcept {
       return "study";
     case FeatureSet::kBest:
       return "best";
-    default:
+    case FeatureSet::kSession:
       return "session";
+    default:
+      return "statistics";
   }
 }
 
 std::optional<FeatureSet> featureSetNamed(std::string_view name) noexcept {
-  for (const FeatureSet set : {FeatureSet::kStudy, FeatureSet::kBest, FeatureSet::kSession})
+  for (const FeatureSet set :
+       {FeatureSet::kStudy, FeatureSet::kBest, FeatureSet::kSession, FeatureSet::kStatistics})
     if (featureSetName(set) == name) return set;
   return std::nullopt;
 }
 
-std::vector<std::string> featureNames(FeatureSet set, const PinchHand& hand) {
+FeatureSet defaultFeatureSet(const HandDescription& hand) {
+  return pinchHandOf(hand) ? FeatureSet::kBest : FeatureSet::kStatistics;
+}
+
+std::vector<std::string> featureNames(FeatureSet set, const HandDescription& description) {
+  if (set == FeatureSet::kStatistics) return contactStatisticsNames(description);
+  const auto pinch = pinchHandOf(description);
+  if (!pinch) throw Error(withoutPinchText(description));
+  const PinchHand& hand = *pinch;
   if (set == FeatureSet::kStudy) return studyFeatureNames(hand);
   std::vector<std::string> names = plateauFeatureNames();
   if (set == FeatureSet::kBest) return names;
@@ -58,53 +71,70 @@ std::string_view sessionSetWarning() noexcept {
          "was presented, is best within one session, and fails in another session (use 'best')";
 }
 
-GraspFeatures graspFeatures(const Profile& profile,
-                            const GraspSegment& grasp,
-                            FeatureSet set,
-                            const PinchHand& hand) {
+GraspFeatures graspFeatures(const Profile& profile, const GraspSegment& grasp, FeatureSet set) {
   GraspFeatures out;
   out.begin = grasp.begin;
   out.end = grasp.end;
+  if (set == FeatureSet::kStatistics) {
+    ContactStatistics found = contactStatistics(profile, grasp);
+    out.problem = std::move(found.problem);
+    out.initialFrame = found.startFrame;
+    out.endFrame = found.plateauEndFrame;
+    out.values = std::move(found.values);
+    return out;
+  }
+  const auto hand = pinchHandOf(profile.hand());
+  if (!hand) {
+    out.problem = withoutPinchText(profile.hand());
+    return out;
+  }
   if (set == FeatureSet::kStudy) {
-    StudyFeatures study = studyFeatures(profile, grasp, hand);
+    StudyFeatures study = studyFeatures(profile, grasp, *hand);
     out.problem = std::move(study.problem);
     out.initialFrame = study.initialFrame;
     out.endFrame = study.endFrame;
     out.values = std::move(study.values);
     return out;
   }
-  PlateauFeatures plateau = plateauFeatures(profile, grasp, hand);
+  PlateauFeatures plateau = plateauFeatures(profile, grasp, *hand);
   out.problem = std::move(plateau.problem);
   out.initialFrame = plateau.startFrame;
   out.endFrame = plateau.plateauEndFrame;
   if (!out.problem.empty()) return out;
   out.values = std::move(plateau.values);
-  if (set == FeatureSet::kSession) appendSession(plateau, hand, out.values);
+  if (set == FeatureSet::kSession) appendSession(plateau, *hand, out.values);
   return out;
 }
 
 std::vector<GraspSegment> findPinches(const Profile& profile,
-                                      const PinchHand& hand,
+                                      FeatureSet set,
                                       const Progress& progress) {
+  if (set == FeatureSet::kStatistics) return findGrasps(profile, {}, progress);
+  if (!pinchHandOf(profile.hand())) return {};
   GraspSegmentOptions options;
   options.rule = GraspRule::kStudy;
-  options.studyMatrices = {hand.pads[0], hand.pads[1]};
   return findGrasps(profile, options, progress);
+}
+
+std::string noPinchText(const HandDescription& hand, FeatureSet set) {
+  if (set == FeatureSet::kStatistics)
+    return "no grasp: nothing touches for more than 20 frames and 0.6 s";
+  const auto pinch = pinchHandOf(hand);
+  if (!pinch) return withoutPinchText(hand);
+  return "no grasp: matrices " + std::to_string(pinch->pads[0]) + " and " +
+         std::to_string(pinch->pads[1]) + " never touch together for more than 20 frames in a row";
 }
 
 RecordingFeatures recordingFeatures(const Profile& profile,
                                     FeatureSet set,
-                                    const PinchHand& hand,
                                     const Progress& progress) {
   RecordingFeatures out;
-  out.problem = hand.mismatch(profile);
+  if (set != FeatureSet::kStatistics)
+    if (const auto hand = pinchHandOf(profile.hand())) out.problem = hand->mismatch(profile);
   if (!out.problem.empty()) return out;
-  for (const GraspSegment& grasp : findPinches(profile, hand, progress))
-    out.grasps.push_back(graspFeatures(profile, grasp, set, hand));
-  if (out.grasps.empty())
-    out.problem = "no grasp: matrices " + std::to_string(hand.pads[0]) + " and " +
-                  std::to_string(hand.pads[1]) +
-                  " never touch together for more than 20 frames in a row";
+  for (const GraspSegment& grasp : findPinches(profile, set, progress))
+    out.grasps.push_back(graspFeatures(profile, grasp, set));
+  if (out.grasps.empty()) out.problem = noPinchText(profile.hand(), set);
   return out;
 }
 

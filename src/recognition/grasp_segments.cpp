@@ -8,6 +8,7 @@
 #include "palpate/core/error.h"
 #include "palpate/core/progress.h"
 #include "palpate/core/time.h"
+#include "palpate/model/hand_file.h"
 
 namespace palpate {
 namespace {
@@ -55,6 +56,12 @@ struct MatrixContact {
   double sum = 0.0;      // [counts]
 };
 
+std::vector<std::size_t> pinchingPads(const HandDescription& hand) {
+  if (!hand.file || !hand.file->pinch)
+    throw Error("the description of '" + hand.name + "' names no two pads that pinch");
+  return {hand.file->pinch->pads[0], hand.file->pinch->pads[1]};
+}
+
 MatrixContact contactOf(const ConstMatrixMap& values) {
   MatrixContact contact;
   const float* const end = values.data() + values.size();
@@ -72,6 +79,9 @@ class Finder {
   Finder(const Profile& profile, const GraspSegmentOptions& options)
       : profile_(profile), options_(options), fingers_(profile.hand()) {
     options_.validate();
+    options_.minFingers = std::min(options_.minFingers, fingers_.numbers.size());
+    if (options_.rule == GraspRule::kStudy && options_.studyMatrices.empty())
+      options_.studyMatrices = pinchingPads(profile.hand());
     frames_.reserve(profile.numFrames());
     touches_.reserve(profile.numFrames() * fingers_.numbers.size());
   }
@@ -202,8 +212,6 @@ void GraspSegmentOptions::validate() const {
   if (!(moreThanS >= 0.0))
     throw std::invalid_argument("GraspSegmentOptions: moreThanS must be 0 or more, is " +
                                 std::to_string(moreThanS));
-  if (rule == GraspRule::kStudy && studyMatrices.empty())
-    throw std::invalid_argument("GraspSegmentOptions: studyMatrices names no matrix");
 }
 
 std::vector<GraspSegment> findGrasps(const Profile& profile,

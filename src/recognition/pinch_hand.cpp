@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <mutex>
 #include <stdexcept>
+
+#include "palpate/model/hand_file.h"
 
 namespace palpate {
 namespace {
@@ -16,20 +19,60 @@ bool sameSensor(const SensorLayout& a, const SensorLayout& b) {
   return true;
 }
 
-PinchHand makeSdh2() {
-  PinchHand hand;
-  hand.pads = {1, 5};
-  hand.otherPads = {{1, 3}, {5, 3}};
-  hand.secondPadGain = 2.7;
-  hand.fullScaleCounts = 4096.0;
-  hand.imageSize = 14;
-  hand.largestCounts = {3554.0, 2493.0};
-  hand.studyGeometry = std::make_shared<const HandGeometry>(sdh2Geometry());
-  hand.effectiveGeometry =
-      std::make_shared<const HandGeometry>(sdh2Geometry(kEffectiveFingertipRadiusMm));
-  hand.gripAxes = {1, 2, 5, 6};
-  return hand;
+std::shared_ptr<const PinchHand> madePinchHand(const HandDescription& hand) {
+  const PinchDescription& pinch = *hand.file->pinch;
+  auto made = std::make_shared<PinchHand>();
+  made->pads = pinch.pads;
+  made->otherPads = pinch.otherPads;
+  made->secondPadGain = pinch.secondPadGain;
+  made->fullScaleCounts = pinch.fullScaleCounts;
+  made->imageSize = pinch.imageSize;
+  made->largestCounts = pinch.largestCounts;
+  made->gripAxes = pinch.gripAxes;
+  made->studyGeometry =
+      std::make_shared<const HandGeometry>(describeGeometry(hand, BendRadius::kNominal));
+  made->effectiveGeometry =
+      std::make_shared<const HandGeometry>(describeGeometry(hand, BendRadius::kEffective));
+  made->validate();
+  return made;
 }
+
+bool samePitches(const SensorLayout& a, const SensorLayout& b) {
+  for (std::size_t m = 0; m < a.numMatrices(); ++m)
+    if (a.matrix(m).pitchMm != b.matrix(m).pitchMm) return false;
+  return true;
+}
+
+// Hands that were made lately.
+class PinchHands {
+ public:
+  std::shared_ptr<const PinchHand> of(const HandDescription& hand) {
+    const std::lock_guard lock(mutex_);
+    for (const Kept& each : kept_)
+      if (isSame(each.of, hand)) return each.made;
+    std::shared_ptr<const PinchHand> made = madePinchHand(hand);
+    if (kept_.size() >= kMostKept) kept_.erase(kept_.begin());
+    kept_.push_back({hand, made});
+    return made;
+  }
+
+ private:
+  struct Kept {
+    HandDescription of;
+    std::shared_ptr<const PinchHand> made;
+  };
+  static constexpr std::size_t kMostKept = 8;
+
+  static bool isSame(const HandDescription& a, const HandDescription& b) {
+    return (a.file == b.file || (a.file->json == b.file->json && a.file->urdf == b.file->urdf)) &&
+           a.axes.size() == b.axes.size() &&
+           (a.layout == b.layout ||
+            (sameSizes(*a.layout, *b.layout) && samePitches(*a.layout, *b.layout)));
+  }
+
+  std::mutex mutex_;
+  std::vector<Kept> kept_;
+};
 
 }  // namespace
 
@@ -69,9 +112,16 @@ void PinchHand::validate() const {
   for (const std::size_t axis : gripAxes) require(axis < mine.numAxes, "there is no such axis");
 }
 
-const PinchHand& sdh2PinchHand() {
-  static const PinchHand hand = makeSdh2();
-  return hand;
+std::shared_ptr<const PinchHand> pinchHandOf(const HandDescription& hand) {
+  static PinchHands hands;
+  if (!hand.file || !hand.file->pinch || !hasGeometry(hand)) return nullptr;
+  return hands.of(hand);
+}
+
+std::string withoutPinchText(const HandDescription& hand) {
+  return "the description of '" + hand.name +
+         "' names no two pads that pinch, which these features need (the set 'statistics' needs "
+         "none)";
 }
 
 }  // namespace palpate

@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "palpate/core/error.h"
+#include "palpate/recognition/study_features.h"
 
 namespace palpate {
 namespace {
@@ -87,7 +88,7 @@ SampleSet samplesOf(const FeatureTable& table, const std::vector<std::string>& c
 
 SampleSet studyPart(const SampleSet& study, StudyPart part) {
   constexpr std::size_t kFirst = 4;
-  if (study.features != featureNames(FeatureSet::kStudy))
+  if (!isStudySet(study.features))
     throw std::invalid_argument("studyPart: these are not the study's features");
   std::vector<std::size_t> columns(study.numFeatures());
   std::iota(columns.begin(), columns.end(), std::size_t{0});

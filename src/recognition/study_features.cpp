@@ -6,6 +6,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "palpate/core/number_text.h"
 #include "palpate/kinematics/bounding_sphere.h"
 #include "palpate/recognition/chebyshev_moments.h"
 
@@ -117,6 +118,21 @@ std::vector<std::string> studyFeatureNames(const PinchHand& hand) {
       for (int q = 0; q <= kOrder; ++q)
         names.push_back("m" + std::to_string(pad) + "_T" + std::to_string(p) + std::to_string(q));
   return names;
+}
+
+bool isStudySet(const std::vector<std::string>& names) {
+  // diameter, compressibility, two standard deviations, then the moments of the two pads.
+  constexpr std::size_t kSingle = 4;
+  constexpr std::size_t kMoments = (kOrder + 1) * (kOrder + 1);
+  if (names.size() != kSingle + 2 * kMoments) return false;
+  const auto padOf = [&](std::size_t i) { return names[i].substr(1, names[i].find('_') - 1); };
+  PinchHand hand;
+  for (std::size_t k = 0; k < 2; ++k) {
+    const auto pad = parseInteger(padOf(kSingle + k * kMoments));
+    if (!pad || *pad < 0) return false;
+    hand.pads[k] = static_cast<std::size_t>(*pad);
+  }
+  return names == studyFeatureNames(hand);
 }
 
 StudyFeatures studyFeatures(const Profile& profile,

@@ -16,7 +16,7 @@ Profile cropped(const Profile& profile,
   if (begin > end || end >= profile.numFrames())
     throw std::out_of_range("no frames " + std::to_string(begin) + ".." + std::to_string(end) +
                             ", there are " + std::to_string(profile.numFrames()));
-  ProfileBuilder builder(profile.hand().layout);
+  ProfileBuilder builder(profile.hand());
   TactileFrame frame;
   for (std::size_t i = begin; i <= end; ++i) {
     const double done = static_cast<double>(i - begin) / static_cast<double>(end - begin + 1);

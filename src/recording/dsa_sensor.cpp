@@ -3,7 +3,7 @@
 #include "palpate/core/error.h"
 #include "palpate/core/escaped_line.h"
 #include "palpate/core/number_text.h"
-#include "palpate/model/hand_description.h"
+#include "palpate/model/hand_file.h"
 
 namespace palpate {
 namespace {
@@ -117,7 +117,7 @@ double DsaSensor::pitchMm(const OpenMatrix& matrix) {
                         " mm, which is used for both");
   if (matrix.pitchX) return *matrix.pitchX;
   if (matrix.pitchY) return *matrix.pitchY;
-  const double assumed = sdh2().layout->matrix(0).pitchMm;
+  const double assumed = defaultHand().layout->matrix(0).pitchMm;
   warnings_.push_back(here() + ": no texel_width, " + numberText(assumed) + " mm assumed");
   return assumed;
 }

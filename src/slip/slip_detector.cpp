@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <stdexcept>
+#include <string>
 
 namespace palpate {
 namespace {
@@ -30,6 +32,8 @@ constexpr std::size_t kRestAge = 15;
 constexpr double kRestTaxels = 0.1;
 // Change of ln(load).
 constexpr double kRestLoad = 0.05;
+// Full scale of readings whose limits these are.
+constexpr double kSlipFullScaleCounts = 4095.0;
 
 SlipTrackerOptions trackerOptions(const SlipDetectorOptions& options) {
   SlipTrackerOptions tracker = options.tracker;
@@ -49,6 +53,17 @@ void SlipDetectorOptions::validate() const {
   rule.validate();
   windows.validate();
   trackerOptions(*this).validate();
+  if (!(countsScale > 0.0 && std::isfinite(countsScale)))
+    throw std::invalid_argument("SlipDetectorOptions: countsScale is " +
+                                std::to_string(countsScale));
+}
+
+SlipDetectorOptions withScaleOf(const HandDescription& hand, SlipDetectorOptions options) {
+  options.countsScale = kSlipFullScaleCounts / static_cast<double>(hand.maximumCounts);
+  const double saturation = static_cast<double>(hand.saturationCounts) * options.countsScale;
+  options.tracker.saturationCounts = saturation;
+  options.windows.hypotheses.registration.saturationCounts = saturation;
+  return options;
 }
 
 SlipDetector::SlipDetector(const MatrixLayout& layout, const SlipDetectorOptions& options)
@@ -97,9 +112,13 @@ bool SlipDetector::updateReference() {
   return true;
 }
 
-const SlipDetection& SlipDetector::update(const ConstMatrixMap& frame,
+const SlipDetection& SlipDetector::update(const ConstMatrixMap& given,
                                           std::int64_t timeUs,
                                           std::span<const double> jointsDeg) {
+  const bool isScaled = options_.countsScale != 1.0;
+  if (isScaled) scaled_ = static_cast<float>(options_.countsScale) * given;
+  const ConstMatrixMap frame =
+      isScaled ? ConstMatrixMap(scaled_.data(), scaled_.rows(), scaled_.cols()) : given;
   const SlipEvidence& evidence = windows_.add(frame, timeUs, jointsDeg);
   const bool wasSlipping = detection_.slipping;
   const SlipMotion motion = tracker_.update(windows_.frame(), windows_.afterGap());
@@ -127,6 +146,7 @@ const SlipDetection& SlipDetector::update(const ConstMatrixMap& frame,
       lastScoredX_ = lastScoredY_ = 0.0;
     }
   }
+  detection_.motion.sum /= options_.countsScale;
   if (!on_) {
     detection_.indicator = SlipIndicator::kOff;
     detection_.slipping = detection_.alarm = detection_.rotating = false;

@@ -10,6 +10,7 @@
 #include "palpate/calibration/least_squares.h"
 #include "palpate/calibration/pressure_map.h"
 #include "palpate/calibration/step_report.h"
+#include "palpate/device/sdh2.h"
 #include "palpate/model/profile_builder.h"
 #include "palpate/signals/characteristic_signals.h"
 

@@ -11,6 +11,8 @@
 #include <time.h>
 #include <unistd.h>
 
+#include "palpate/device/sdh2.h"
+
 #include "capture/scripted_device.h"
 #include "testing/testing.h"
 

@@ -5,9 +5,12 @@
 #include <Eigen/Dense>
 #include <benchmark/benchmark.h>
 
+#include "palpate/device/sdh2.h"
 #include "palpate/kinematics/contact_geometry.h"
 #include "palpate/kinematics/hand_geometry.h"
 #include "palpate/model/hand_description.h"
+
+#include "testing/sdh2.h"
 
 namespace {
 
@@ -18,7 +21,7 @@ using Points = std::vector<Vector3d>;
 // As many taxels of both fingertips as asked for, in the pose of a pinch grip: what a grasp
 // touches.
 std::vector<Points> taxelSets(std::size_t number) {
-  const HandGeometry geometry;
+  const HandGeometry geometry(sdh2Geometry());
   const HandPose pose = geometry.pose({90, -6, 5, -90, 0, -5, 5});
   std::mt19937 random(1);
   std::vector<Points> sets(100);
@@ -86,7 +89,7 @@ TactileFrame pinchFrame() {
 }
 
 void contact(benchmark::State& state) {
-  const HandGeometry geometry;
+  const HandGeometry geometry(sdh2Geometry());
   const HandPose pose = geometry.pose({90, -6, 5, -90, 0, -5, 5});
   const TactileFrame frame = pinchFrame();
   ContactOptions options;
@@ -99,7 +102,7 @@ void contact(benchmark::State& state) {
 }
 
 void contactOfAnEmptyFrame(benchmark::State& state) {
-  const HandGeometry geometry;
+  const HandGeometry geometry(sdh2Geometry());
   const HandPose pose = geometry.pose({90, -6, 5, -90, 0, -5, 5});
   const TactileFrame frame(sdh2().layout);
   HandContact out;

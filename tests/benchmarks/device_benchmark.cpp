@@ -9,6 +9,7 @@
 
 #include "palpate/device/dsa_frame.h"
 #include "palpate/device/dsa_packet.h"
+#include "palpate/device/sdh2.h"
 #include "palpate/device/weiss_checksum.h"
 #include "palpate/model/hand_description.h"
 #include "palpate/model/tactile_frame.h"

@@ -6,6 +6,7 @@
 #include <opencv2/core/utility.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "palpate/device/sdh2.h"
 #include "palpate/filter/filter_chain.h"
 #include "palpate/filter/filtered_profile.h"
 #include "palpate/model/hand_description.h"

@@ -11,6 +11,7 @@
 #include <malloc.h>
 #include <sys/resource.h>
 
+#include "palpate/device/sdh2.h"
 #include <palpate/model/hand_description.h>
 #include <palpate/recording/palpate_writer.h>
 

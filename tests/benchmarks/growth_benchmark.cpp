@@ -9,6 +9,7 @@
 
 #include <benchmark/benchmark.h>
 
+#include "palpate/device/sdh2.h"
 #include "palpate/emulator/synthetic_profile.h"
 #include "palpate/recognition/grasp_features.h"
 #include "palpate/recognition/sample_set.h"
@@ -90,7 +91,7 @@ void growthLibrary(benchmark::State& state, bool knownBefore) {
 // Grasps whose features scatter about a place of their class.
 SampleSet graspsOf(int numClasses, std::int64_t numGrasps) {
   SampleSet samples;
-  samples.features = featureNames(FeatureSet::kStudy);
+  samples.features = featureNames(FeatureSet::kStudy, sdh2());
   const auto columns = static_cast<Eigen::Index>(samples.features.size());
   std::mt19937_64 random(1);
   std::normal_distribution<double> normal;

@@ -8,6 +8,8 @@
 
 #include <benchmark/benchmark.h>
 
+#include "palpate/device/sdh2.h"
+
 #include "gui/hand3d/gl_probe.h"
 #include "gui/hand3d/hand_gl.h"
 #include "gui/hand3d/hand_raster.h"

@@ -9,6 +9,8 @@
 
 #include "palpate/kinematics/hand_geometry.h"
 
+#include "testing/sdh2.h"
+
 namespace {
 
 using namespace palpate;
@@ -19,7 +21,7 @@ std::vector<double> anglesOf(std::size_t i) {
 }
 
 void pose(benchmark::State& state) {
-  const HandGeometry geometry;
+  const HandGeometry geometry(sdh2Geometry());
   HandPose out;
   std::size_t i = 0;
   for (auto _ : state) {
@@ -35,7 +37,7 @@ Eigen::Matrix4d turnAboutZ(double theta) {
 }
 
 void textbook4x4(benchmark::State& state) {
-  const HandGeometry geometry;
+  const HandGeometry geometry(sdh2Geometry());
   const GeometryDescription& hand = geometry.description();
   std::vector<Eigen::Vector3d> positions(hand.layout.numCells());
   std::size_t i = 0;

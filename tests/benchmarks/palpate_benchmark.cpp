@@ -18,6 +18,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "palpate/device/sdh2.h"
 #include "palpate/model/hand_description.h"
 #include "palpate/recording/palpate_writer.h"
 #include "palpate/recording/recording.h"

@@ -8,6 +8,7 @@
 
 #include <benchmark/benchmark.h>
 
+#include "palpate/device/sdh2.h"
 #include "palpate/emulator/physical_hand.h"
 
 #include "testing/testing.h"

@@ -7,6 +7,7 @@
 
 #include <benchmark/benchmark.h>
 
+#include "palpate/device/sdh2.h"
 #include "palpate/emulator/synthetic_profile.h"
 #include "palpate/recognition/chebyshev_moments.h"
 #include "palpate/recognition/grasp_features.h"
@@ -72,7 +73,7 @@ const Profile& realGrasp() {
 }
 
 void readGraspOnly(benchmark::State& state) {
-  const GraspSegment grasp = findPinches(realGrasp()).at(0);
+  const GraspSegment grasp = findPinches(realGrasp(), FeatureSet::kBest).at(0);
   TactileFrame frame;
   for (auto _ : state)
     for (std::size_t i = grasp.begin; i <= grasp.end; ++i) {
@@ -82,7 +83,7 @@ void readGraspOnly(benchmark::State& state) {
 }
 
 void featuresOfGrasp(benchmark::State& state, FeatureSet set) {
-  const GraspSegment grasp = findPinches(realGrasp()).at(0);
+  const GraspSegment grasp = findPinches(realGrasp(), FeatureSet::kBest).at(0);
   for (auto _ : state) {
     const GraspFeatures features = graspFeatures(realGrasp(), grasp, set);
     if (!features.problem.empty()) return state.SkipWithError(features.problem.c_str());
@@ -105,7 +106,7 @@ void momentInvariants(benchmark::State& state) {
 void answerInAnotherSession(benchmark::State& state) {
   const Eigen::MatrixXd x = Eigen::MatrixXd::Random(36 * 10, 11) * 5.0;
   std::vector<int> y;
-  std::vector<std::string> classes, features = featureNames(FeatureSet::kBest);
+  std::vector<std::string> classes, features = featureNames(FeatureSet::kBest, sdh2());
   for (int c = 0; c < 36; ++c) classes.push_back("class " + std::to_string(c));
   for (int i = 0; i < 360; ++i) y.push_back(i % 36);
   const SessionAdaptiveClassifier model = SessionAdaptiveClassifier::learn(x, y, classes, features);

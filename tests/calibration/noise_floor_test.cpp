@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "palpate/core/error.h"
+#include "palpate/device/sdh2.h"
 #include "palpate/model/profile_builder.h"
 #include "palpate/recording/recording.h"
 

@@ -4,6 +4,8 @@
 #include <limits>
 #include <stdexcept>
 
+#include "palpate/device/sdh2.h"
+
 #include "testing/testing.h"
 
 namespace palpate::noise_threshold_test {

@@ -5,6 +5,7 @@
 #include <random>
 #include <stdexcept>
 
+#include "palpate/device/sdh2.h"
 #include "palpate/signals/characteristic_signals.h"
 
 #include "testing/testing.h"

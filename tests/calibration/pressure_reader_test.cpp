@@ -5,6 +5,7 @@
 
 #include "palpate/calibration/force_series.h"
 #include "palpate/core/error.h"
+#include "palpate/device/sdh2.h"
 #include "palpate/emulator/synthetic_profile.h"
 #include "palpate/filter/filtered_profile.h"
 #include "palpate/model/profile_builder.h"

@@ -3,6 +3,7 @@
 
 #include "palpate/calibration/calibration.h"
 #include "palpate/calibration/noise_floor.h"
+#include "palpate/device/sdh2.h"
 #include "palpate/model/hand_description.h"
 
 namespace palpate::testing {

@@ -22,11 +22,13 @@ int settle(
   return settings;
 }
 
+const SensitivitySearchOptions kOptions{.saturationCounts = 3500.0};
+
 TEST(SensitivitySearch, FindsTheHighestWithoutSaturation) {
   for (const double gain : {2000.0, 4000.0, 6000.0, 12'000.0, 30'000.0}) {
     for (const double start : {0.1, 0.5, 1.0}) {
       double timeS = 0.0;
-      SensitivitySearch search(start, 100.0);
+      SensitivitySearch search(start, 100.0, kOptions);
       const int settings = settle(search, gain, 100.0, timeS);
       const double counts = gain * search.sensitivity() - 100.0;
       const double limit = 3600.0 / gain;
@@ -41,7 +43,7 @@ TEST(SensitivitySearch, FindsTheHighestWithoutSaturation) {
 
 TEST(SensitivitySearch, SaysWhereNothingHelps) {
   double timeS = 0.0;
-  SensitivitySearch search(0.5, 100.0);
+  SensitivitySearch search(0.5, 100.0, kOptions);
   settle(search, 80'000.0, 100.0, timeS);
   EXPECT_TRUE(search.saturated());
   EXPECT_EQ(search.sensitivity(), 0.1);
@@ -49,7 +51,7 @@ TEST(SensitivitySearch, SaysWhereNothingHelps) {
 
 TEST(SensitivitySearch, GoesDownAtOnceWhenTheLoadGrowsAndUpAfterAWhileWhenItFalls) {
   double timeS = 0.0;
-  SensitivitySearch search(0.5, 100.0);
+  SensitivitySearch search(0.5, 100.0, kOptions);
   settle(search, 4000.0, 100.0, timeS);
   const double before = search.sensitivity();
   EXPECT_TRUE(search.observe(timeS += 0.03, 3560.0)) << "the first saturated frame";
@@ -61,7 +63,7 @@ TEST(SensitivitySearch, GoesDownAtOnceWhenTheLoadGrowsAndUpAfterAWhileWhenItFall
 }
 
 TEST(SensitivitySearch, IgnoresFramesWithoutContactOrNumbers) {
-  SensitivitySearch search(0.5, 100.0);
+  SensitivitySearch search(0.5, 100.0, kOptions);
   for (int i = 0; i < 100; ++i) {
     EXPECT_FALSE(search.observe(i, 0.0));
     EXPECT_FALSE(search.observe(i, std::nan("")));

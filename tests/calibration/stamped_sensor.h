@@ -8,6 +8,7 @@
 #include "palpate/calibration/calibration.h"
 #include "palpate/calibration/pressure_table.h"
 #include "palpate/calibration/step_report.h"
+#include "palpate/device/sdh2.h"
 #include "palpate/emulator/sensor_model.h"
 #include "palpate/model/profile_builder.h"
 

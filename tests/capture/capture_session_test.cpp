@@ -7,6 +7,7 @@
 
 #include "palpate/core/json.h"
 #include "palpate/device/live_hand.h"
+#include "palpate/device/sdh2.h"
 #include "palpate/emulator/emulated_hand.h"
 #include "palpate/recording/recording.h"
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "palpate/device/sdh2.h"
 #include "palpate/model/hand_description.h"
 
 #include "testing/testing.h"

@@ -1,5 +1,6 @@
 // Tests of recordings during which the layout changes: other sensors, other masks.
 #include "palpate/capture/recorder.h"
+#include "palpate/device/sdh2.h"
 #include "palpate/recording/recording.h"
 
 #include "capture/scripted_device.h"

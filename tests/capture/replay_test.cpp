@@ -3,6 +3,7 @@
 #include <thread>
 
 #include "palpate/core/error.h"
+#include "palpate/device/sdh2.h"
 #include "palpate/emulator/synthetic_profile.h"
 #include "palpate/model/profile_builder.h"
 #include "palpate/recording/recording.h"

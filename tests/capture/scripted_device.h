@@ -11,6 +11,7 @@
 #include "palpate/core/error.h"
 #include "palpate/core/time.h"
 #include "palpate/device/device.h"
+#include "palpate/device/sdh2.h"
 
 namespace palpate::testing {
 

@@ -5,6 +5,7 @@
 
 #include "palpate/core/number_text.h"
 #include "palpate/core/output_file.h"
+#include "palpate/device/sdh2.h"
 #include "palpate/model/hand_description.h"
 #include "palpate/model/profile_builder.h"
 #include "palpate/recording/recording.h"
@@ -218,8 +219,9 @@ TEST(ContactCommand, ASensorOfAnotherHandIsRefused) {
   builder.addFrame(1'400'000'000'000'000, std::vector<float>(16, 1.0F));
   saveRecording(builder.finish({}), {}, folder / "pad.palpate");
   for (const std::string option : {"--matrices", "--size"})
-    expectOneLineError(
-        palpate({"contact", folder / "pad.palpate", option}), 1, {"pad.palpate", "SDH-2"});
+    expectOneLineError(palpate({"contact", folder / "pad.palpate", option}),
+                       1,
+                       {"pad.palpate", "contains no geometry"});
 }
 
 // A hockey ball on another day: every grasp that `grasps` finds has a size.

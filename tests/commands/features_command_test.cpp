@@ -3,6 +3,7 @@
 #include <sstream>
 
 #include "palpate/core/number_text.h"
+#include "palpate/device/sdh2.h"
 #include "palpate/emulator/synthetic_profile.h"
 #include "palpate/recognition/grasp_features.h"
 #include "palpate/recording/recording.h"
@@ -50,7 +51,7 @@ TEST(FeaturesCommand, PrintsARowPerGraspWithItsClass) {
   const auto rows = csvRows(result.out);
   ASSERT_EQ(rows.size(), 3u);
   std::vector<std::string> header = {"class", "file", "begin", "end", "initial_frame", "end_frame"};
-  for (const std::string& name : featureNames(FeatureSet::kBest)) header.push_back(name);
+  for (const std::string& name : featureNames(FeatureSet::kBest, sdh2())) header.push_back(name);
   EXPECT_EQ(rows[0], header);
   EXPECT_EQ(rows[1][0], "golf ball");
   EXPECT_EQ(rows[1][1], (folder / "all/golf_ball/a.dsa").string());
@@ -69,7 +70,8 @@ TEST(FeaturesCommand, KnowsTheSets) {
   for (const char* set : {"study", "best", "session"}) {
     const auto result = palpate({"features", folder.path(), "--set", set});
     ASSERT_EQ(result.exitCode, 0) << result.err;
-    EXPECT_EQ(csvRows(result.out)[0].size(), 6 + featureNames(*featureSetNamed(set)).size());
+    EXPECT_EQ(csvRows(result.out)[0].size(),
+              6 + featureNames(*featureSetNamed(set), sdh2()).size());
     EXPECT_EQ(result.err.find("remembers the pose") != std::string::npos,
               set == std::string("session"));
   }

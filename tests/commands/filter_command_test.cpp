@@ -3,6 +3,7 @@
 #include <sstream>
 
 #include "palpate/core/number_text.h"
+#include "palpate/device/sdh2.h"
 #include "palpate/emulator/synthetic_profile.h"
 #include "palpate/filter/filtered_profile.h"
 #include "palpate/model/hand_description.h"

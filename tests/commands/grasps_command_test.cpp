@@ -3,6 +3,7 @@
 #include <sstream>
 
 #include "palpate/core/number_text.h"
+#include "palpate/device/sdh2.h"
 #include "palpate/emulator/synthetic_profile.h"
 #include "palpate/model/profile_builder.h"
 #include "palpate/recording/recording.h"
@@ -137,7 +138,7 @@ TEST(GraspsCommand, OneBadFileStopsNoOther) {
   EXPECT_EQ(bad.out, "") << "no header of nothing";
 }
 
-TEST(GraspsCommand, ASensorWithoutTheStudysMatricesIsSaid) {
+TEST(GraspsCommand, ASensorWithoutTwoPadsThatPinchIsSaid) {
   const TemporaryFolder folder;
   const auto pads =
       std::make_shared<SensorLayout>(std::vector<MatrixLayout>(2, MatrixLayout::full(4, 4, 3.4)));
@@ -149,7 +150,7 @@ TEST(GraspsCommand, ASensorWithoutTheStudysMatricesIsSaid) {
   }
   saveRecording(builder.finish({}), {}, folder / "pads.palpate");
   const auto study = palpate({"grasps", folder / "pads.palpate", "--rule", "study"});
-  expectOneLineError(study, 1, {"matrix 5", "0..1", "--rule general"});
+  expectOneLineError(study, 1, {"pads.palpate", "two pads that pinch", "--rule general"});
   EXPECT_EQ(study.out, "");
   const auto general = csvRows(palpate({"grasps", folder / "pads.palpate"}).out);
   ASSERT_EQ(general.size(), 2u);

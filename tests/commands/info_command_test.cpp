@@ -7,6 +7,7 @@
 
 #include "palpate/core/json.h"
 #include "palpate/core/number_text.h"
+#include "palpate/device/sdh2.h"
 #include "palpate/model/hand_description.h"
 #include "palpate/recording/event_store.h"
 #include "palpate/recording/palpate_writer.h"

@@ -5,6 +5,7 @@
 #include "palpate/kinematics/hand_geometry.h"
 
 #include "testing/program.h"
+#include "testing/sdh2.h"
 #include "testing/testing.h"
 
 namespace palpate::testing::kinematics_command_test {
@@ -46,7 +47,7 @@ TEST(KinematicsCommand, OneMatrixOrOnePoint) {
   const auto lines = linesOf(point.out);
   ASSERT_EQ(lines.size(), 2u);
   const Eigen::Vector3d expected =
-      HandGeometry().pose({0, -10.5, 20, -30, 40, 5, -6}).positionMm(3, 4, 2);
+      HandGeometry(sdh2Geometry()).pose({0, -10.5, 20, -30, 40, 5, -6}).positionMm(3, 4, 2);
   EXPECT_EQ(lines[1].substr(0, 6), "3,2,4,") << lines[1];
   std::istringstream fields(lines[1].substr(6));
   for (int i = 0; i < 3; ++i) {

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "palpate/device/sdh2.h"
 #include "palpate/model/profile_builder.h"
 #include "palpate/recording/recording.h"
 

@@ -3,6 +3,7 @@
 #include <map>
 #include <vector>
 
+#include "palpate/device/sdh2.h"
 #include "palpate/model/hand_description.h"
 #include "palpate/model/profile_builder.h"
 #include "palpate/recording/dsa_writer.h"

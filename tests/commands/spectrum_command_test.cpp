@@ -4,6 +4,7 @@
 
 #include "palpate/core/json.h"
 #include "palpate/core/number_text.h"
+#include "palpate/device/sdh2.h"
 #include "palpate/model/hand_description.h"
 #include "palpate/model/profile_builder.h"
 #include "palpate/recording/dsa_writer.h"

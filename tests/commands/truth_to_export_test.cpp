@@ -11,6 +11,7 @@
 
 #include "commands/palpate_program.h"
 #include "testing/background_program.h"
+#include "testing/sdh2.h"
 
 namespace palpate::truth_to_export_test {
 namespace {
@@ -88,7 +89,7 @@ TEST(TruthToExport, WhatTheHandFeltIsWhatIsExported) {
   ASSERT_EQ(exported.numFrames(), profile.numFrames());
   EXPECT_EQ(timingOf(profile).gaps.size(), 0u);
 
-  const HandGeometry geometry;
+  const HandGeometry geometry(sdh2Geometry());
   std::size_t held = 0, untouched = 0;
   for (std::size_t i = 0; i < profile.numFrames(); ++i) {
     const TactileFrame frame = profile.frame(i);

@@ -8,6 +8,7 @@
 #include "palpate/capture/replay.h"
 #include "palpate/core/error.h"
 #include "palpate/core/json.h"
+#include "palpate/device/sdh2.h"
 #include "palpate/emulator/synthetic_profile.h"
 #include "palpate/recording/recording.h"
 

@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "palpate/core/json.h"
+#include "palpate/device/sdh2.h"
 #include "palpate/model/preshape.h"
 
 #include "testing/testing.h"

@@ -4,6 +4,7 @@
 #include <string_view>
 
 #include "palpate/core/error.h"
+#include "palpate/device/sdh2.h"
 
 #include "control/machine_bench.h"
 #include "testing/testing.h"

@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "palpate/core/error.h"
+#include "palpate/device/sdh2.h"
 #include "palpate/model/preshape.h"
 
 #include "control/machine_bench.h"

@@ -1,5 +1,6 @@
 #include "palpate/control/grip_monitor.h"
 
+#include "palpate/device/sdh2.h"
 #include "palpate/slip/synthetic_slip.h"
 
 #include "testing/testing.h"

@@ -1,6 +1,7 @@
 #include "palpate/control/limit_feasibility.h"
 
 #include "palpate/control/tactile_settings.h"
+#include "palpate/device/sdh2.h"
 
 #include "testing/testing.h"
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "palpate/control/grasp_state_machine.h"
+#include "palpate/device/sdh2.h"
 
 namespace palpate::testing {
 

@@ -7,6 +7,7 @@
 
 #include "palpate/core/error.h"
 #include "palpate/core/json.h"
+#include "palpate/device/sdh2.h"
 #include "palpate/model/preshape.h"
 #include "palpate/recording/recording.h"
 

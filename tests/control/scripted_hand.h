@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "palpate/control/grasp_control.h"
+#include "palpate/device/sdh2.h"
 
 #include "capture/scripted_device.h"
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "palpate/device/sdh2.h"
+
 #include "calibration/sample_calibrations.h"
 #include "control/emulated_bench.h"
 #include "control/scripted_hand.h"

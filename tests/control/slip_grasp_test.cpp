@@ -3,6 +3,7 @@
 
 #include "palpate/core/error.h"
 #include "palpate/core/json.h"
+#include "palpate/device/sdh2.h"
 
 #include "control/held_object.h"
 #include "testing/testing.h"

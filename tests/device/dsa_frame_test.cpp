@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "palpate/device/sdh2.h"
 #include "palpate/model/hand_description.h"
 
 #include "device/dsa_wire.h"

@@ -13,6 +13,7 @@
 
 #include "palpate/device/dsa_frame.h"
 #include "palpate/device/dsa_packet.h"
+#include "palpate/device/sdh2.h"
 #include "palpate/model/hand_description.h"
 
 #include "device/dsa_wire.h"

@@ -4,6 +4,8 @@
 #include <random>
 #include <stdexcept>
 
+#include "palpate/device/sdh2.h"
+
 #include "emulator/line_client.h"
 #include "emulator/still_hand.h"
 #include "testing/testing.h"

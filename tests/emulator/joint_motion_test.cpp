@@ -6,6 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include "palpate/device/sdh2.h"
+
 namespace palpate::joint_motion_test {
 namespace {
 

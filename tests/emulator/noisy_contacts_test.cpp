@@ -4,6 +4,8 @@
 #include <map>
 #include <stdexcept>
 
+#include "palpate/device/sdh2.h"
+
 #include "testing/testing.h"
 
 namespace palpate::noisy_contacts_test {

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "palpate/device/sdh2.h"
 #include "palpate/emulator/hand_model.h"
 
 namespace palpate::testing {

@@ -8,9 +8,11 @@
 
 #include <gtest/gtest.h>
 
+#include "palpate/device/sdh2.h"
 #include "palpate/kinematics/hand_geometry.h"
 #include "palpate/model/preshape.h"
 
+#include "testing/sdh2.h"
 #include "testing/testing.h"
 
 namespace palpate::testing::physical_hand_test {
@@ -102,7 +104,7 @@ TEST(PhysicalHand, FingersStopAtAHardObject) {
 // A sphere pressed into a flat pad by d: the force of the elastic foundation is k * integral of the
 // depth over the contact area = k pi d^2 (R - d/3).
 TEST(PhysicalHand, ForceOfASphereOnAFlatPadIsTheFoundationsIntegral) {
-  const HandGeometry geometry;
+  const HandGeometry geometry(sdh2Geometry());
   const auto angles = sdh2Preshape("centrical").anglesDeg(0.0);
   const HandPose pose = geometry.pose(angles);
   constexpr double kRadiusMm = 25.0, kDepthMm = 1.2;
@@ -294,7 +296,7 @@ TEST(PhysicalHand, AHandleThatIsPulledSlipsAndStopsWhenThePullEnds) {
 // The slip in the truth is the motion of the pressure on the matrix: its centroid moves with a
 // small object.
 TEST(PhysicalHand, SlipInTaxelsIsTheMotionOfThePrint) {
-  const HandGeometry geometry;
+  const HandGeometry geometry(sdh2Geometry());
   const HandPose pose = geometry.pose(sdh2Preshape("centrical").anglesDeg(0.0));
   Scene scene;
   SceneObject ball;

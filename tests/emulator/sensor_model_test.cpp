@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "palpate/core/number_text.h"
+#include "palpate/device/sdh2.h"
 #include "palpate/signals/characteristic_signals.h"
 
 #include "testing/testing.h"

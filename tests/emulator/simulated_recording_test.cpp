@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "palpate/core/error.h"
+#include "palpate/device/sdh2.h"
 
 #include "testing/testing.h"
 

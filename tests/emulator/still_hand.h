@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "palpate/device/sdh2.h"
 #include "palpate/emulator/hand_model.h"
 
 namespace palpate::testing {

@@ -3,6 +3,7 @@
 #include <random>
 #include <stdexcept>
 
+#include "palpate/device/sdh2.h"
 #include "palpate/model/hand_description.h"
 
 #include "testing/testing.h"

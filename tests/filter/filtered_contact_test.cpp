@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "palpate/device/sdh2.h"
 #include "palpate/emulator/synthetic_profile.h"
 #include "palpate/filter/filter_chain.h"
 #include "palpate/filter/filtered_profile.h"

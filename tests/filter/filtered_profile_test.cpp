@@ -6,6 +6,7 @@
 #include <thread>
 
 #include "palpate/core/error.h"
+#include "palpate/device/sdh2.h"
 #include "palpate/emulator/synthetic_profile.h"
 #include "palpate/filter/filter_chain.h"
 #include "palpate/model/hand_description.h"

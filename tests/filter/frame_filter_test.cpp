@@ -5,6 +5,7 @@
 #include <cmath>
 #include <random>
 
+#include "palpate/device/sdh2.h"
 #include "palpate/filter/filter_catalog.h"
 #include "palpate/model/hand_description.h"
 

@@ -7,6 +7,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "palpate/core/json.h"
+#include "palpate/device/sdh2.h"
 #include "palpate/model/hand_description.h"
 
 #include "testing/testing.h"

@@ -8,6 +8,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "palpate/core/json.h"
+#include "palpate/device/sdh2.h"
 #include "palpate/filter/frame_filter.h"
 #include "palpate/model/hand_description.h"
 

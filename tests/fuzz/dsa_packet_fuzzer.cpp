@@ -14,6 +14,7 @@
 #include "palpate/device/dsa_controller.h"
 #include "palpate/device/dsa_frame.h"
 #include "palpate/device/dsa_packet.h"
+#include "palpate/device/sdh2.h"
 #include "palpate/model/hand_description.h"
 
 namespace {

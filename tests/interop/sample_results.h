@@ -2,6 +2,7 @@
 #pragma once
 
 #include "palpate/calibration/pressure_map.h"
+#include "palpate/device/sdh2.h"
 #include "palpate/live/live_results.h"
 #include "palpate/live/signals_stage.h"
 #include "palpate/model/hand_description.h"

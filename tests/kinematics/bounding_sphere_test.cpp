@@ -11,6 +11,8 @@
 
 #include "palpate/kinematics/hand_geometry.h"
 
+#include "testing/sdh2.h"
+
 namespace palpate::bounding_sphere_test {
 namespace {
 
@@ -142,7 +144,7 @@ TEST_F(BoundingSphereOfRandomPoints, IsTheSmallestOfAllSubsets) {
 // in, is far off for some of these sets. A sphere can't be smaller than half the largest distance,
 // nor larger than that times sqrt(3/2) (Jung).
 TEST_F(BoundingSphereOfRandomPoints, HoldsForEveryPartOfAMatrix) {
-  const HandGeometry geometry;
+  const HandGeometry geometry(sdh2Geometry());
   const HandPose pose = geometry.pose({60, -20, 40, -20, 40, -20, 40});
   for (int round = 0; round < 4000; ++round) {
     const auto matrix = static_cast<std::size_t>(upTo(5));

@@ -8,11 +8,13 @@
 #include <gtest/gtest.h>
 
 #include "palpate/core/number_text.h"
+#include "palpate/device/sdh2.h"
 #include "palpate/kinematics/hand_geometry.h"
 #include "palpate/model/hand_description.h"
 #include "palpate/recording/recording.h"
 
 #include "kinematics/golden_table.h"
+#include "testing/sdh2.h"
 #include "testing/testing.h"
 
 namespace palpate::contact_geometry_test {
@@ -29,7 +31,7 @@ TEST(ContactGeometry, SpheresAgreeWithTheGoldenNumbers) {
   PALPATE_NEED(recordings);
   const testing::GoldenTable table(*golden / "bounding_sphere.csv");
   ASSERT_EQ(table.numRows(), 571u);
-  const HandGeometry geometry;
+  const HandGeometry geometry(sdh2Geometry());
   HandContact contact;
   HandPose pose;
   double worst = 0.0;
@@ -64,7 +66,7 @@ TEST(ContactGeometry, OfAHandThatHoldsABall) {
   const auto folder = testing::recordingsFolder();
   PALPATE_NEED(folder);
   const Profile profile = openRecording(*folder / "grasps" / "foam_ball.dsa");
-  const HandGeometry geometry;
+  const HandGeometry geometry(sdh2Geometry());
   const HandPose pose = geometry.pose(profile.anglesAtFrame(2411)->deg);
   const HandContact contact = contactOf(profile.frame(2411), pose);
   EXPECT_EQ(contact.numActive, 60u);
@@ -81,7 +83,7 @@ TEST(ContactGeometry, OfAHandThatHoldsABall) {
 
 class ContactOfAFrame : public ::testing::Test {
  protected:
-  HandGeometry geometry_;
+  HandGeometry geometry_{sdh2Geometry()};
   HandPose pose_ = geometry_.pose({60, -20, 40, -20, 40, -20, 40});
   TactileFrame frame_{sdh2().layout};
 };

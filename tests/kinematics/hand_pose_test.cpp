@@ -10,6 +10,8 @@
 
 #include "palpate/kinematics/hand_geometry.h"
 
+#include "testing/sdh2.h"
+
 namespace palpate::hand_pose_test {
 namespace {
 
@@ -32,7 +34,7 @@ void expectRigid(const Isometry3d& transform) {
 // joint, 86.5 mm along the proximal link (tilted by its angle from upright), 68.5 mm along the
 // distal one.
 TEST(HandPose, LinksEndWhereTrigonometrySays) {
-  const HandGeometry geometry;
+  const HandGeometry geometry(sdh2Geometry());
   const double rad = std::numbers::pi / 180.0;
   for (const auto& angles : kPoses) {
     const HandPose pose = geometry.pose(angles);
@@ -62,7 +64,7 @@ TEST(HandPose, LinksEndWhereTrigonometrySays) {
 // inwards by the same angle b at their roots, their tips are 66 - 2 (86.5 + 68.5) sin b apart;
 // straight, 66 mm.
 TEST(HandPose, FingertipsMeetAtTheAngleThatTrigonometrySays) {
-  const HandGeometry geometry;
+  const HandGeometry geometry(sdh2Geometry());
   const auto tips = [&](double bendDeg, double phi0 = 90.0) {
     const HandPose pose = geometry.pose({phi0, bendDeg, 0, 0, 0, bendDeg, 0});
     return (pose.baseFromLink(0, 2).translation() - pose.baseFromLink(2, 2).translation()).eval();
@@ -77,7 +79,7 @@ TEST(HandPose, FingertipsMeetAtTheAngleThatTrigonometrySays) {
 }
 
 TEST(HandPose, TheFrameOfASurfacePointTouchesIt) {
-  const HandGeometry geometry;
+  const HandGeometry geometry(sdh2Geometry());
   const double h = 1e-5;
   for (const auto& angles : kPoses) {
     const HandPose pose = geometry.pose(angles);
@@ -101,8 +103,9 @@ TEST(HandPose, TheFrameOfASurfacePointTouchesIt) {
 // the taxel is along the curve: the quadrilateral of its chords is smaller by the ratio of chord to
 // arc.
 TEST(HandPose, CornersBelongToTheCurvedSurface) {
-  for (const double radiusMm : {kStudyFingertipRadiusMm, kEffectiveFingertipRadiusMm}) {
-    const HandGeometry geometry(sdh2Geometry(radiusMm));
+  for (const auto& [radius, radiusMm] :
+       {std::pair(BendRadius::kNominal, 58.0), std::pair(BendRadius::kEffective, 48.4)}) {
+    const HandGeometry geometry(sdh2Geometry(radius));
     const HandPose pose = geometry.pose(kPoses[1]);
     const double arc = 3.4 / radiusMm, chordMm = 2.0 * radiusMm * std::sin(arc / 2.0);
     std::vector<Vector3d> corners;
@@ -163,7 +166,7 @@ TEST(HandPose, AnotherHandIsAnotherTable) {
 }
 
 TEST(HandPose, WrongQuestionsAreRefused) {
-  const HandGeometry geometry;
+  const HandGeometry geometry(sdh2Geometry());
   const HandPose pose = geometry.pose(std::vector<double>(7, 0.0));
   EXPECT_THROW(pose.cornerMm(0, 15, 0), std::out_of_range);
   EXPECT_THROW(pose.cornerMm(0, 0, 7), std::out_of_range);
@@ -187,7 +190,7 @@ TEST(HandPose, AnEmptyPoseSaysSo) {
   EXPECT_THROW(none.pointMm(0, 0, 0), std::out_of_range);
   EXPECT_THROW(none.baseFromLink(0, 0), std::out_of_range);
   EXPECT_THROW(none.baseFromFinger(0), std::out_of_range);
-  EXPECT_FALSE(HandGeometry().pose(std::vector<double>(7, 0.0)).empty());
+  EXPECT_FALSE(HandGeometry(sdh2Geometry()).pose(std::vector<double>(7, 0.0)).empty());
 }
 
 }  // namespace

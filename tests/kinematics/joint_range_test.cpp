@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include "palpate/device/sdh2.h"
+
 namespace palpate::joint_range_test {
 namespace {
 

@@ -11,10 +11,12 @@
 #include <gtest/gtest.h>
 
 #include "palpate/core/error.h"
+#include "palpate/device/sdh2.h"
 #include "palpate/model/profile_builder.h"
 #include "palpate/recognition/grasp_segments.h"
 #include "palpate/recording/recording.h"
 
+#include "testing/sdh2.h"
 #include "testing/testing.h"
 
 namespace palpate::object_size_test {
@@ -66,7 +68,7 @@ std::vector<Step> grasp(double sizeMm, double giveMm, double foamMm) {
 }
 
 TEST(ObjectSize, OfARigidObjectAllShrinkingIsTheFoams) {
-  const HandGeometry geometry;
+  const HandGeometry geometry(sdh2Geometry());
   const Profile profile = profileOf(grasp(50.0, 0.0, 0.8));
   const ObjectSizeReport report = objectSize(profile, geometry, 0, profile.numFrames() - 1);
   ASSERT_TRUE(report.valid) << report.problem;
@@ -91,7 +93,7 @@ TEST(ObjectSize, OfARigidObjectAllShrinkingIsTheFoams) {
 }
 
 TEST(ObjectSize, WhatASoftObjectGivesWayIsLeft) {
-  const HandGeometry geometry;
+  const HandGeometry geometry(sdh2Geometry());
   const Profile profile = profileOf(grasp(60.0, 7.0, 0.8));
   const ObjectSizeReport report = objectSize(profile, geometry, 0, profile.numFrames() - 1);
   ASSERT_TRUE(report.valid);
@@ -103,7 +105,7 @@ TEST(ObjectSize, WhatASoftObjectGivesWayIsLeft) {
 }
 
 TEST(ObjectSize, TheFoamIsAnOption) {
-  const HandGeometry geometry;
+  const HandGeometry geometry(sdh2Geometry());
   const Profile profile = profileOf(grasp(50.0, 0.0, 1.1));
   ObjectSizeOptions options;
   options.foamMm = 1.1;
@@ -132,7 +134,7 @@ TEST(ObjectSize, TheChordIsCorrected) {
 }
 
 TEST(ObjectSize, WhatIsMissingIsSaid) {
-  const HandGeometry geometry;
+  const HandGeometry geometry(sdh2Geometry());
   const auto troubleOf = [&](const Profile& profile, ObjectSizeOptions options = {}) {
     const ObjectSizeReport report =
         objectSize(profile, geometry, 0, profile.numFrames() - 1, options);
@@ -184,7 +186,7 @@ class DamagedAngles : public ProfileStorage {
 TEST(ObjectSize, FramesWithoutUsableAnglesAreCounted) {
   const Profile whole = profileOf(grasp(50.0, 0.0, 0.8));
   const Profile damaged(whole.info(), whole.hand(), std::make_shared<DamagedAngles>(whole));
-  const HandGeometry geometry;
+  const HandGeometry geometry(sdh2Geometry());
   const ObjectSizeReport report = objectSize(damaged, geometry, 0, 49);
   ASSERT_TRUE(report.valid) << report.problem;
   EXPECT_EQ(report.unusableFrames, 14u);
@@ -193,7 +195,7 @@ TEST(ObjectSize, FramesWithoutUsableAnglesAreCounted) {
 }
 
 TEST(ObjectSize, WrongQuestionsAreRefused) {
-  const HandGeometry geometry;
+  const HandGeometry geometry(sdh2Geometry());
   const Profile profile = profileOf(grasp(50.0, 0.0, 0.8));
   EXPECT_THROW(objectSize(profile, geometry, 0, 50), std::out_of_range);
   EXPECT_THROW(objectSize(profile, geometry, 3, 2), std::out_of_range);
@@ -215,7 +217,7 @@ TEST(ObjectSize, WrongQuestionsAreRefused) {
 }
 
 std::vector<ObjectSizeReport> sizesIn(const std::filesystem::path& folder) {
-  const HandGeometry geometry(sdh2Geometry(kEffectiveFingertipRadiusMm));
+  const HandGeometry geometry(sdh2Geometry(BendRadius::kEffective));
   std::vector<ObjectSizeReport> reports;
   for (const auto& entry : std::filesystem::directory_iterator(folder)) {
     const Profile profile = openRecording(entry.path());

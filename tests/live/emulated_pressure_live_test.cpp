@@ -2,6 +2,7 @@
 // live processing: the result is within the stated uncertainty.
 #include <cmath>
 
+#include "palpate/device/sdh2.h"
 #include "palpate/live/pressure_stage.h"
 #include "palpate/live/processing_chain.h"
 #include "palpate/live/signals_stage.h"

@@ -4,6 +4,7 @@
 
 #include "palpate/calibration/force_series.h"
 #include "palpate/core/error.h"
+#include "palpate/device/sdh2.h"
 #include "palpate/emulator/synthetic_profile.h"
 #include "palpate/live/filter_stage.h"
 #include "palpate/live/processing_chain.h"

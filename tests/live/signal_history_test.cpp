@@ -1,5 +1,6 @@
 #include "palpate/live/signal_history.h"
 
+#include "palpate/device/sdh2.h"
 #include "palpate/model/hand_description.h"
 
 #include "testing/testing.h"

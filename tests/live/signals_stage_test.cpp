@@ -1,5 +1,6 @@
 #include "palpate/live/signals_stage.h"
 
+#include "palpate/device/sdh2.h"
 #include "palpate/model/hand_description.h"
 
 #include "testing/testing.h"

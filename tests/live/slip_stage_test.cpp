@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "palpate/core/json.h"
+#include "palpate/device/sdh2.h"
 #include "palpate/live/processing_chain.h"
 #include "palpate/model/hand_description.h"
 #include "palpate/model/profile_builder.h"
@@ -40,7 +41,7 @@ struct Found {
 Found processed(const Profile& profile,
                 const std::function<void(SlipStage&)>& prepare = {},
                 const std::function<void(SlipStage&, std::size_t)>& before = {}) {
-  auto stage = std::make_unique<SlipStage>();
+  auto stage = std::make_unique<SlipStage>(sdh2());
   SlipStage& slip = *stage;
   if (prepare) prepare(slip);
   std::vector<std::unique_ptr<Stage>> stages;
@@ -104,7 +105,7 @@ TEST(SlipStage, OtherOptionsBeginAnew) {
   EXPECT_TRUE(found.detections[49][3].motion.valid);
   EXPECT_FALSE(found.detections[50][3].motion.valid);
   EXPECT_TRUE(found.detections[51][3].motion.valid);
-  SlipStage stage;
+  SlipStage stage(sdh2());
   EXPECT_EQ(stage.options().method, SlipMethod::kCentroid);
   SlipDetectorOptions wrong;
   wrong.tracker.saturationCounts = -1.0;

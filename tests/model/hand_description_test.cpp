@@ -1,5 +1,7 @@
 #include "palpate/model/hand_description.h"
 
+#include "palpate/device/sdh2.h"
+
 #include "testing/testing.h"
 
 namespace palpate::hand_description_test {

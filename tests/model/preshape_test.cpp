@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "palpate/device/sdh2.h"
 #include "palpate/model/hand_description.h"
 
 namespace palpate::preshape_test {
@@ -53,6 +54,18 @@ TEST(Preshape, WhatIsNoneIsRefused) {
   EXPECT_THROW(sdh2Preshape("parallel").anglesDeg(-0.01), std::invalid_argument);
   EXPECT_THROW(sdh2Preshape("parallel").anglesDeg(std::numeric_limits<double>::quiet_NaN()),
                std::invalid_argument);
+}
+
+TEST(Preshape, IsFoundByItsName) {
+  const std::vector<Preshape> preshapes = {{"open", "Open", {}}, {"closed", "Closed", {}}};
+  EXPECT_EQ(findPreshape(preshapes, "closed").title, "Closed");
+  try {
+    findPreshape(preshapes, "fist");
+    FAIL();
+  } catch (const std::invalid_argument& error) {
+    EXPECT_STREQ(error.what(), "no preshape 'fist'; there are: open, closed");
+  }
+  EXPECT_THROW(findPreshape({}, "open"), std::invalid_argument);
 }
 
 }  // namespace

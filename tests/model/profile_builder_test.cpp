@@ -3,6 +3,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "palpate/model/hand_file.h"
+
 #include "testing/testing.h"
 
 namespace palpate::profile_builder_test {
@@ -44,6 +46,19 @@ TEST(ProfileBuilder, HandsOverWhatItHasAndStartsAnew) {
   builder.addFrame(5, frameOf(0.5F));  // earlier than before: it is another profile
   EXPECT_EQ(builder.finish({}).info().valueType, ValueType::kFloat);
   EXPECT_EQ(first.info().valueType, ValueType::kCounts);
+}
+
+// Otherwise a cropped or filtered recording would be that of an unknown sensor.
+TEST(ProfileBuilder, KeepsTheHandItWasGiven) {
+  const HandDescription& hand = builtInHand("parallel_gripper");
+  ProfileBuilder builder(hand);
+  builder.addFrame(10, std::vector<float>(hand.layout->numCells(), 1.0F));
+  const Profile profile = builder.finish({});
+  EXPECT_EQ(profile.hand().name, hand.name);
+  EXPECT_EQ(profile.hand().file, hand.file);
+  EXPECT_EQ(profile.hand().axes.size(), hand.axes.size());
+  builder.addAngles(10, std::vector<double>{1.0, 2.0, 3.0});
+  EXPECT_EQ(builder.finish({}).hand().axes.size(), 3u) << "as many as there are";
 }
 
 }  // namespace

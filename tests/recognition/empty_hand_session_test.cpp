@@ -16,6 +16,8 @@
 #include "palpate/recognition/plateau_features.h"
 #include "palpate/recognition/trained_model.h"
 
+#include "testing/sdh2.h"
+
 namespace palpate::empty_hand_session_test {
 namespace {
 
@@ -44,10 +46,10 @@ SimulatedRecordingOptions day(double zeroErrorDeg, std::uint64_t seed) {
 
 FeatureTable grasps(int perThing, const SimulatedRecordingOptions& options) {
   FeatureTable table;
-  table.names = featureNames(FeatureSet::kBest, sdh2PinchHand());
+  table.names = featureNames(FeatureSet::kBest, sdh2());
   for (int thing = 0; thing < kThings; ++thing) {
     const Profile profile = simulateGrasps(pinch(12.0 + 4.0 * thing), perThing, {}, options);
-    RecordingFeatures found = recordingFeatures(profile, FeatureSet::kBest, sdh2PinchHand());
+    RecordingFeatures found = recordingFeatures(profile, FeatureSet::kBest);
     for (GraspFeatures& grasp : found.grasps)
       if (grasp.problem.empty()) {
         FeatureRow row;

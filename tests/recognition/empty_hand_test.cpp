@@ -11,6 +11,7 @@
 #include "palpate/recognition/plateau_features.h"
 
 #include "recognition/pinch_profile.h"
+#include "testing/sdh2.h"
 #include "testing/testing.h"
 
 namespace palpate::empty_hand_test {
@@ -72,8 +73,7 @@ TEST(EmptyHand, WhatIsNoTouchIsSaid) {
   EXPECT_NE(emptyHandZero(testing::otherSensorProfile(30)).problem, "");
   EXPECT_THROW(emptyHandOffset(EmptyHandZero{}, emptyHandZero(touches(1, 0.0))),
                std::invalid_argument);
-  EXPECT_THROW(emptyHandZero(touches(1, 0.0), sdh2PinchHand(), {}, [](double) { return false; }),
-               Cancelled);
+  EXPECT_THROW(emptyHandZero(touches(1, 0.0), {}, [](double) { return false; }), Cancelled);
   EmptyHandOptions options;
   options.touchSdMm = 0.0;
   EXPECT_THROW(options.validate(), std::invalid_argument);
@@ -116,9 +116,9 @@ TEST(EmptyHand, OneTouchOfTheEmulatedHandTellsTheOffsetOfTheDay) {
   pinch.script = {{0.5, GraspAction{std::nullopt, 1.0, 20.0}}};
   const auto sizeOf = [&](const SimulatedRecordingOptions& day) {
     const Profile profile = simulateRecording(pinch, day);
-    const auto grasps = findPinches(profile);
+    const auto grasps = findPinches(profile, FeatureSet::kBest);
     EXPECT_EQ(grasps.size(), 1u);
-    return grasps.empty() ? 0.0 : plateauFeatures(profile, grasps[0]).distanceMm;
+    return grasps.empty() ? 0.0 : plateauFeatures(profile, grasps[0], sdh2PinchHand()).distanceMm;
   };
   SimulatedRecordingOptions training;
   training.durationS = 9.0;

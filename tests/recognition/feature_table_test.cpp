@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "palpate/core/error.h"
+#include "palpate/device/sdh2.h"
 #include "palpate/recording/recording.h"
 
 #include "recognition/pinch_profile.h"

@@ -2,6 +2,8 @@
 
 #include <stdexcept>
 
+#include "palpate/device/sdh2.h"
+
 #include "recognition/pinch_profile.h"
 #include "testing/testing.h"
 

@@ -2,16 +2,22 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <memory>
 #include <set>
 #include <stdexcept>
+#include <vector>
 
 #include <gtest/gtest.h>
 
 #include "palpate/core/error.h"
+#include "palpate/model/hand_file.h"
+#include "palpate/model/profile_builder.h"
 #include "palpate/recognition/plateau_features.h"
 #include "palpate/recognition/study_features.h"
 
 #include "recognition/pinch_profile.h"
+#include "testing/sdh2.h"
 
 namespace palpate::grasp_features_test {
 namespace {
@@ -34,14 +40,14 @@ Profile twoGrasps() {
 TEST(GraspFeatures, SetsHaveNames) {
   for (const FeatureSet set : kSets) {
     EXPECT_EQ(featureSetNamed(featureSetName(set)), set);
-    const auto names = featureNames(set);
+    const auto names = featureNames(set, sdh2());
     EXPECT_EQ(std::set<std::string>(names.begin(), names.end()).size(), names.size())
         << "each once";
   }
   EXPECT_FALSE(featureSetNamed("everything").has_value());
-  EXPECT_EQ(featureNames(FeatureSet::kStudy), studyFeatureNames());
-  EXPECT_EQ(featureNames(FeatureSet::kBest), plateauFeatureNames());
-  const auto session = featureNames(FeatureSet::kSession);
+  EXPECT_EQ(featureNames(FeatureSet::kStudy, sdh2()), studyFeatureNames(sdh2PinchHand()));
+  EXPECT_EQ(featureNames(FeatureSet::kBest, sdh2()), plateauFeatureNames());
+  const auto session = featureNames(FeatureSet::kSession, sdh2());
   EXPECT_TRUE(
       std::equal(plateauFeatureNames().begin(), plateauFeatureNames().end(), session.begin()));
   for (const char* angle : {"angle_1", "angle_2", "angle_5", "angle_6"})
@@ -60,7 +66,7 @@ TEST(GraspFeatures, EveryGraspOfARecordingHasARow) {
     EXPECT_EQ(found.grasps[1].begin, 50u);
     for (const GraspFeatures& grasp : found.grasps) {
       EXPECT_EQ(grasp.problem, "");
-      EXPECT_EQ(grasp.values.size(), featureNames(set).size());
+      EXPECT_EQ(grasp.values.size(), featureNames(set, sdh2()).size());
       EXPECT_TRUE(std::all_of(
           grasp.values.begin(), grasp.values.end(), [](double v) { return std::isfinite(v); }));
       EXPECT_GE(grasp.initialFrame, grasp.begin);
@@ -73,7 +79,7 @@ TEST(GraspFeatures, EveryGraspOfARecordingHasARow) {
 
 TEST(GraspFeatures, OfASessionHoldTheAnglesAtRest) {
   const Profile profile = twoGrasps();
-  const auto names = featureNames(FeatureSet::kSession);
+  const auto names = featureNames(FeatureSet::kSession, sdh2());
   const auto at =
       static_cast<std::size_t>(std::find(names.begin(), names.end(), "angle_1") - names.begin());
   const auto found = recordingFeatures(profile, FeatureSet::kSession);
@@ -87,7 +93,8 @@ TEST(GraspFeatures, WhatIsNoGraspIsSaid) {
     EXPECT_EQ(recordingFeatures(pinchProfile(apart), set).problem,
               "no grasp: matrices 1 and 5 never touch together for more than 20 frames in a row");
     EXPECT_EQ(recordingFeatures(testing::otherSensorProfile(40), set).problem,
-              "a recording of another sensor: its matrices are not those of the hand");
+              "the description of 'unknown sensor' names no two pads that pinch, which these "
+              "features need (the set 'statistics' needs none)");
     const auto without = recordingFeatures(pinchProfile({40, {50.0, 100.0F, 100.0F}}, false), set);
     EXPECT_EQ(without.problem, "");
     ASSERT_EQ(without.grasps.size(), 1u);
@@ -96,17 +103,51 @@ TEST(GraspFeatures, WhatIsNoGraspIsSaid) {
   }
 }
 
+// A hand whose description names other pads: they are used, and it has a table of its own.
 TEST(GraspFeatures, PadsAreTheHands) {
-  PinchHand swapped = sdh2PinchHand();
-  swapped.pads = {1, 3};
-  EXPECT_NE(
-      recordingFeatures(twoGrasps(), FeatureSet::kBest, swapped).problem.find("matrices 1 and 3"),
-      std::string::npos);
+  auto file = std::make_shared<HandFile>(*sdh2().file);
+  file->pinch->pads = {1, 3};
+  file->json += " ";
+  HandDescription swapped = sdh2();
+  swapped.file = file;
+  const Profile of = twoGrasps();
+  ProfileBuilder builder(swapped);
+  for (std::size_t i = 0; i < of.numFrames(); ++i) builder.addFrame(of.frame(i));
+  for (std::size_t i = 0; i < of.numAngles(); ++i)
+    builder.addAngles(of.angles(i).hostUs, of.angles(i).deg);
+  const Profile profile = builder.finish({});
+  EXPECT_NE(recordingFeatures(profile, FeatureSet::kBest).problem.find("matrices 1 and 3"),
+            std::string::npos);
   EXPECT_EQ(featureNames(FeatureSet::kStudy, swapped)[3], "std_3");
+  EXPECT_EQ(featureNames(FeatureSet::kStudy, sdh2())[3], "std_5");
+}
+
+// Without two pads that pinch there are the statistics of the contact, and the others are refused.
+TEST(GraspFeatures, AHandWithoutPinchHasStatistics) {
+  const HandDescription& pad = builtInHand("flat_pad_16x16");
+  EXPECT_EQ(defaultFeatureSet(pad), FeatureSet::kStatistics);
+  EXPECT_EQ(defaultFeatureSet(sdh2()), FeatureSet::kBest);
+  EXPECT_THROW(featureNames(FeatureSet::kBest, pad), Error);
+  ProfileBuilder builder(pad);
+  for (std::int64_t i = 0; i < 60; ++i) {
+    std::vector<float> values(256, 0.0F);
+    if (i >= 10 && i < 50) values[16 * 4 + 8] = 500.0F;
+    builder.addFrame(i * 33'000, values);
+  }
+  const Profile profile = builder.finish({});
+  const auto refused = recordingFeatures(profile, FeatureSet::kBest);
+  EXPECT_TRUE(refused.grasps.empty());
+  EXPECT_NE(refused.problem.find("names no two pads that pinch"), std::string::npos);
+  const auto found = recordingFeatures(profile, FeatureSet::kStatistics);
+  ASSERT_EQ(found.grasps.size(), 1u) << found.problem;
+  EXPECT_EQ(found.grasps[0].begin, 10u);
+  EXPECT_EQ(found.grasps[0].end, 49u);
+  EXPECT_EQ(found.grasps[0].values.size(), featureNames(FeatureSet::kStatistics, pad).size());
 }
 
 TEST(GraspFeatures, CanBeCancelled) {
-  EXPECT_THROW(findPinches(twoGrasps(), sdh2PinchHand(), [](double) { return false; }), Cancelled);
+  EXPECT_THROW(findPinches(twoGrasps(), FeatureSet::kBest, [](double) { return false; }),
+               Cancelled);
 }
 
 }  // namespace

@@ -5,7 +5,10 @@
 
 #include <gtest/gtest.h>
 
+#include "palpate/device/sdh2.h"
+
 #include "recognition/pinch_profile.h"
+#include "testing/sdh2.h"
 
 namespace palpate::pinch_hand_test {
 namespace {

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "palpate/device/sdh2.h"
 #include "palpate/model/profile_builder.h"
 
 namespace palpate::testing {

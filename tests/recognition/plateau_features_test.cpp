@@ -8,10 +8,12 @@
 
 #include <gtest/gtest.h>
 
+#include "palpate/device/sdh2.h"
 #include "palpate/recognition/grasp_features.h"
 #include "palpate/recording/recording.h"
 
 #include "recognition/pinch_profile.h"
+#include "testing/sdh2.h"
 #include "testing/testing.h"
 
 namespace palpate::plateau_features_test {
@@ -58,7 +60,7 @@ TEST(PlateauFeatures, AreElevenAndTheFirstIsTheSize) {
 
 TEST(PlateauFeatures, OfAGraspComputedByHand) {
   const Profile profile = pinchProfile(steps(false));
-  const PlateauFeatures features = plateauFeatures(profile, whole(profile));
+  const PlateauFeatures features = plateauFeatures(profile, whole(profile), sdh2PinchHand());
   auto values = named(features);
   // Both pads touch at one taxel of their flat part, opposite each other.
   EXPECT_NEAR(features.distanceMm, 50.0, 1e-9);
@@ -84,7 +86,7 @@ TEST(PlateauFeatures, TheShapeOfAContact) {
   std::vector<PinchStep> bar(
       30, PinchStep{50.0, 1000.0F, 1000.0F, {{2, 9, 1000.0F}, {2, 11, 1000.0F}}});
   const Profile profile = pinchProfile(bar);
-  auto values = named(plateauFeatures(profile, whole(profile)));
+  auto values = named(plateauFeatures(profile, whole(profile), sdh2PinchHand()));
   EXPECT_NEAR(values["ln_major"], std::log(2.0 / 3.0 + 0.15), 1e-9);
   EXPECT_NEAR(values["ln_minor"], std::log(0.15), 1e-9);
   EXPECT_NEAR(values["share_1"], 1.0 / 3.0, 1e-12);
@@ -94,20 +96,22 @@ TEST(PlateauFeatures, TheShapeOfAContact) {
   // A diagonal pair of taxels, (2, 10) and (3, 11): u = v = w = 1/4.
   std::vector<PinchStep> slanted(30, PinchStep{50.0, 1000.0F, 1000.0F, {{3, 11, 1000.0F}}});
   const Profile other = pinchProfile(slanted);
-  const PlateauFeatures features = plateauFeatures(other, whole(other));
+  const PlateauFeatures features = plateauFeatures(other, whole(other), sdh2PinchHand());
   EXPECT_NEAR(named(features)["skew"], 0.5 / 0.8, 1e-9);
   EXPECT_NEAR(features.pads[0].slant, 0.5 / 0.8, 1e-9);
   EXPECT_NEAR(features.pads[1].slant, -0.5 / 0.8, 1e-9) << "the second pad sees it mirrored";
   // A taxel below 3 % of the largest value is not active.
   std::vector<PinchStep> faint(30, PinchStep{50.0, 1000.0F, 1000.0F, {{0, 2, 29.0F}}});
   const Profile with = pinchProfile(faint);
-  EXPECT_NEAR(named(plateauFeatures(with, whole(with)))["ln_active"], std::log(2.0), 1e-12);
+  EXPECT_NEAR(named(plateauFeatures(with, whole(with), sdh2PinchHand()))["ln_active"],
+              std::log(2.0),
+              1e-12);
 }
 
 TEST(PlateauFeatures, LettingGoInsideTheGraspChangesNothing) {
   const Profile cut = pinchProfile(steps(false)), released = pinchProfile(steps(true));
-  const PlateauFeatures a = plateauFeatures(cut, whole(cut)),
-                        b = plateauFeatures(released, whole(released));
+  const PlateauFeatures a = plateauFeatures(cut, whole(cut), sdh2PinchHand()),
+                        b = plateauFeatures(released, whole(released), sdh2PinchHand());
   EXPECT_EQ(b.startFrame, a.startFrame);
   for (std::size_t i = 0; i < a.values.size(); ++i)
     EXPECT_NEAR(a.values[i], b.values[i], 0.04) << plateauFeatureNames()[i];
@@ -120,14 +124,15 @@ TEST(PlateauFeatures, TheMirroredContactReadsTheSame) {
   auto mirrored = slanted;
   for (PinchStep& step : mirrored) step.more = {{1, 11, step.first}};
   const Profile a = pinchProfile(slanted), b = pinchProfile(mirrored);
-  const auto x = plateauFeatures(a, whole(a)).values, y = plateauFeatures(b, whole(b)).values;
+  const auto x = plateauFeatures(a, whole(a), sdh2PinchHand()).values,
+             y = plateauFeatures(b, whole(b), sdh2PinchHand()).values;
   for (std::size_t i = 1; i + 1 < x.size(); ++i)
     EXPECT_NEAR(x[i], y[i], 1e-9) << plateauFeatureNames()[i];
 }
 
 TEST(PlateauFeatures, WhatIsMissingIsSaid) {
   const auto problem = [](const Profile& profile) {
-    const PlateauFeatures features = plateauFeatures(profile, whole(profile));
+    const PlateauFeatures features = plateauFeatures(profile, whole(profile), sdh2PinchHand());
     EXPECT_TRUE(features.values.empty());
     return features.problem;
   };
@@ -149,7 +154,8 @@ TEST(PlateauFeatures, WhatIsMissingIsSaid) {
   }
   EXPECT_EQ(problem(builder.finish({})), "the two pads don't face each other");
   const Profile good = pinchProfile(steps(false));
-  EXPECT_THROW(plateauFeatures(good, {.begin = 0, .end = 40, .fingers = {}}), std::out_of_range);
+  EXPECT_THROW(plateauFeatures(good, {.begin = 0, .end = 40, .fingers = {}}, sdh2PinchHand()),
+               std::out_of_range);
   PlateauFeatureOptions options;
   options.plateauFraction = 0.0;
   EXPECT_THROW(plateauFeatures(good, whole(good), sdh2PinchHand(), options), std::invalid_argument);
@@ -174,7 +180,7 @@ TEST(PlateauFeatures, AnotherPairOfPadsIsTakenWhereTheFirstDoesNotFaceEachOther)
                       std::vector<double>{0, -10, 10, -10, 10, -10, 10});
   }
   const Profile profile = builder.finish({});
-  const PlateauFeatures features = plateauFeatures(profile, whole(profile));
+  const PlateauFeatures features = plateauFeatures(profile, whole(profile), sdh2PinchHand());
   EXPECT_EQ(features.problem, "");
   EXPECT_EQ(features.matrices, (std::array<std::size_t, 2>{1, 3}));
   EXPECT_GE(features.startFrame, 5u);
@@ -194,8 +200,8 @@ TEST(PlateauFeatures, ReadWhatAnIndependentProgramFoundElevenWeeksLater) {
   const auto distances = [](const std::filesystem::path& file) {
     const Profile profile = openRecording(file);
     std::vector<double> all;
-    for (const GraspSegment& grasp : findPinches(profile)) {
-      const PlateauFeatures features = plateauFeatures(profile, grasp);
+    for (const GraspSegment& grasp : findPinches(profile, FeatureSet::kBest)) {
+      const PlateauFeatures features = plateauFeatures(profile, grasp, sdh2PinchHand());
       EXPECT_EQ(features.problem, "");
       all.push_back(features.distanceMm);
     }

@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "palpate/core/error.h"
+#include "palpate/device/sdh2.h"
 
 #include "recognition/golden_samples.h"
 #include "testing/testing.h"
@@ -84,7 +85,7 @@ TEST(SampleSet, ComesFromATableAndRefusesRowsWithoutClass) {
 }
 
 TEST(SampleSet, PartsOfTheStudyAreThoseOfItsTable) {
-  const auto names = featureNames(FeatureSet::kStudy);
+  const auto names = featureNames(FeatureSet::kStudy, sdh2());
   const SampleSet study{Eigen::MatrixXd::Zero(1, 54), {0}, {"a"}, names};
   EXPECT_EQ(studyPart(study, StudyPart::kDiameter).features,
             (std::vector<std::string>{"diameter"}));

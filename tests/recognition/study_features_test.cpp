@@ -13,6 +13,7 @@
 #include "palpate/recording/recording.h"
 
 #include "recognition/pinch_profile.h"
+#include "testing/sdh2.h"
 #include "testing/testing.h"
 
 namespace palpate::study_features_test {
@@ -23,14 +24,14 @@ using testing::PinchStep;
 
 std::map<std::string, double> named(const StudyFeatures& features) {
   std::map<std::string, double> values;
-  const auto names = studyFeatureNames();
+  const auto names = studyFeatureNames(sdh2PinchHand());
   EXPECT_EQ(names.size(), features.values.size()) << features.problem;
   for (std::size_t i = 0; i < features.values.size(); ++i) values[names[i]] = features.values[i];
   return values;
 }
 
 TEST(StudyFeatures, AreFiftyFour) {
-  const auto names = studyFeatureNames();
+  const auto names = studyFeatureNames(sdh2PinchHand());
   ASSERT_EQ(names.size(), 54u);
   EXPECT_EQ(names[0], "diameter");
   EXPECT_EQ(names[3], "std_5");
@@ -45,7 +46,8 @@ TEST(StudyFeatures, OfAGraspComputedByHand) {
   std::vector<PinchStep> steps;
   for (int i = 0; i < 30; ++i) steps.push_back({std::max(50.0, 53.0 - 0.3 * i), 1777.0F, 2493.0F});
   const Profile profile = pinchProfile(steps);
-  const StudyFeatures features = studyFeatures(profile, {.begin = 0, .end = 29, .fingers = {}});
+  const StudyFeatures features =
+      studyFeatures(profile, {.begin = 0, .end = 29, .fingers = {}}, sdh2PinchHand());
   auto values = named(features);
   // Indentation: half a millimetre on the first pad, one on the second.
   EXPECT_NEAR(values["diameter"], 50.0 + 1.5, 1e-9);
@@ -65,7 +67,7 @@ TEST(StudyFeatures, TheEndFrameIsOneOfTwo) {
   for (int i = 0; i < 30; ++i) steps.push_back({79.0 - i, 1000.0F, 1000.0F});
   const Profile profile = pinchProfile(steps);
   const GraspSegment grasp{.begin = 0, .end = 29, .fingers = {}};
-  const StudyFeatures features = studyFeatures(profile, grasp);
+  const StudyFeatures features = studyFeatures(profile, grasp, sdh2PinchHand());
   EXPECT_EQ(features.endFrame, 23u);
   EXPECT_EQ(features.otherEndFrame, 24u);
   EXPECT_NEAR(named(features)["compressibility"], 23.0, 1e-9);
@@ -77,7 +79,8 @@ TEST(StudyFeatures, TheEndFrameIsOneOfTwo) {
 TEST(StudyFeatures, WhatIsMissingIsSaid) {
   const std::vector<PinchStep> good(30, {50.0, 1000.0F, 1000.0F});
   const auto problem = [](const Profile& profile, std::size_t end = 29) {
-    const StudyFeatures features = studyFeatures(profile, {.begin = 0, .end = end, .fingers = {}});
+    const StudyFeatures features =
+        studyFeatures(profile, {.begin = 0, .end = end, .fingers = {}}, sdh2PinchHand());
     EXPECT_TRUE(features.values.empty());
     return features.problem;
   };
@@ -112,7 +115,7 @@ TEST(StudyFeatures, AgreeWithIndependentNumbers) {
     return cells;
   };
   std::getline(lines, line);
-  const std::vector<std::string> header = cellsOf(line), names = studyFeatureNames();
+  const std::vector<std::string> header = cellsOf(line), names = studyFeatureNames(sdh2PinchHand());
   ASSERT_EQ(header.size(), 62u);
   for (std::size_t i = 0; i < 54; ++i) ASSERT_EQ(header[i + 8], names[i]);
   std::size_t compared = 0;
@@ -120,9 +123,9 @@ TEST(StudyFeatures, AgreeWithIndependentNumbers) {
     const auto cells = cellsOf(line);
     SCOPED_TRACE(cells[1]);
     const Profile profile = openRecording(*recordings / cells[1]);
-    const auto grasps = findPinches(profile);
+    const auto grasps = findPinches(profile, FeatureSet::kStudy);
     ASSERT_EQ(grasps.size(), 1u);
-    const StudyFeatures free = studyFeatures(profile, grasps[0]);
+    const StudyFeatures free = studyFeatures(profile, grasps[0], sdh2PinchHand());
     const auto end = static_cast<std::size_t>(*parseInteger(cells[5]));
     const std::string tie =
         std::to_string(free.endFrame) + ";" + std::to_string(free.otherEndFrame);

@@ -2,6 +2,8 @@
 #include "palpate/recording/dsa_writer.h"
 
 #include "palpate/core/error.h"
+#include "palpate/device/sdh2.h"
+#include "palpate/model/hand_file.h"
 #include "palpate/model/profile_builder.h"
 #include "palpate/recording/dsa_reader.h"
 
@@ -86,6 +88,34 @@ TEST(DsaWriter, refusesNegativeValuesAndLeavesNothing) {
   builder.addFrame(1'400'000'000'000'000, values);
   EXPECT_THROW(writeDsa(builder.finish({}), folder / "a.dsa"), FileError);
   EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
+}
+
+TEST(DsaWriter, refusesHandsOfOtherControllers) {
+  const testing::TemporaryFolder folder;
+  const auto refusalOf = [&](const HandDescription& hand) -> std::string {
+    ProfileBuilder builder(hand);
+    builder.addFrame(1'000'000, std::vector<float>(hand.layout->numCells(), 0.0F));
+    try {
+      writeDsa(builder.finish({}), folder / "pad.dsa");
+    } catch (const FileError& error) {
+      return error.what();
+    }
+    return {};
+  };
+  EXPECT_EQ(refusalOf(builtInHand("flat_pad_16x16")),
+            (folder / "pad.dsa").string() +
+                ": can't be written: .dsa is the format of the DSACON32-M; '" +
+                builtInHand("flat_pad_16x16").name +
+                "' has no such controller: use .palpate, CSV or NPZ");
+  HandDescription unnamed = describeHand(SensorLayout({MatrixLayout::full(2, 2, 3.4)}), 0, 0);
+  unnamed.unit = "kPa";
+  EXPECT_NE(refusalOf(unnamed).find("another unit than counts"), std::string::npos);
+  unnamed.unit = "counts";
+  unnamed.maximumCounts = 65'535.0F;
+  EXPECT_NE(refusalOf(unnamed).find("more than 12 bits"), std::string::npos);
+  EXPECT_FALSE(std::filesystem::exists(folder / "pad.dsa"));
+  unnamed.maximumCounts = 4095.0F;
+  EXPECT_EQ(refusalOf(unnamed), "") << "another sensor on the same controller";
 }
 
 TEST(DsaWriter, replacesAFileOnlyWhenAskedAndLeavesItWholeWhenCancelled) {

@@ -11,6 +11,7 @@
 #include <unistd.h>
 
 #include "palpate/core/error.h"
+#include "palpate/device/sdh2.h"
 #include "palpate/recording/recording.h"
 
 #include "recording/palpate_samples.h"

@@ -2,6 +2,8 @@
 
 #include <map>
 
+#include "palpate/device/sdh2.h"
+
 #include "recording/import_samples.h"
 
 namespace palpate::import_plan_test {

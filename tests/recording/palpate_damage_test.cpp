@@ -4,6 +4,7 @@
 
 #include <sys/resource.h>
 
+#include "palpate/device/sdh2.h"
 #include "palpate/recording/palpate_recovery.h"
 #include "palpate/recording/palpate_schema.h"
 

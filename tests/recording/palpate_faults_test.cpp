@@ -4,6 +4,8 @@
 
 #include <sys/stat.h>
 
+#include "palpate/device/sdh2.h"
+
 #include "testing/testing.h"
 
 namespace palpate::palpate_faults_test {

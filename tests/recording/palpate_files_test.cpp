@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include "palpate/core/error.h"
+#include "palpate/device/sdh2.h"
 #include "palpate/recording/recording.h"
 
 #include "recording/palpate_damage.h"

@@ -6,6 +6,9 @@
 #include <unistd.h>
 
 #include "palpate/core/error.h"
+#include "palpate/device/sdh2.h"
+#include "palpate/model/hand_file.h"
+#include "palpate/model/profile_builder.h"
 #include "palpate/recording/crop.h"
 #include "palpate/recording/dsa_reader.h"
 #include "palpate/recording/palpate_reader.h"
@@ -162,6 +165,17 @@ TEST(PalpateRecording, eventsSurviveEveryFormThatHasAPlaceForThem) {
   EXPECT_FALSE(fs::exists(folder / "e.dsa"));
   saveRecording(profile, {}, folder / "e.dsa", Overwrite::kReplace);
   EXPECT_TRUE(readEvents(folder / "e.dsa").events.empty());
+}
+
+TEST(PalpateRecording, aCropKeepsItsHand) {
+  const HandDescription& hand = builtInHand("sole");
+  ProfileBuilder builder(hand);
+  for (std::int64_t i = 0; i < 10; ++i)
+    builder.addFrame(i * 10'000, std::vector<float>(hand.layout->numCells(), 1.5F));
+  const Profile crop = cropped(builder.finish({}), 2, 5);
+  EXPECT_EQ(crop.hand().name, hand.name);
+  EXPECT_EQ(crop.hand().unit, hand.unit);
+  EXPECT_EQ(crop.hand().file, hand.file);
 }
 
 TEST(PalpateRecording, aCropKeepsTheEventsInsideAndTheDeviceTimes) {

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "palpate/device/sdh2.h"
 #include "palpate/model/hand_description.h"
 #include "palpate/model/profile.h"
 #include "palpate/recording/palpate_writer.h"

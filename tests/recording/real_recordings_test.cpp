@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "palpate/core/error.h"
+#include "palpate/device/sdh2.h"
 #include "palpate/model/timing.h"
 #include "palpate/recording/recording.h"
 

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "palpate/core/error.h"
+#include "palpate/device/sdh2.h"
 #include "palpate/recording/event_store.h"
 #include "palpate/recording/recording.h"
 

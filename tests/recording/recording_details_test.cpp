@@ -2,6 +2,7 @@
 #include "palpate/recording/recording_details.h"
 
 #include "palpate/core/error.h"
+#include "palpate/device/sdh2.h"
 #include "palpate/recording/event_store.h"
 #include "palpate/recording/recording.h"
 

@@ -1,5 +1,6 @@
 #include "palpate/recording/recording_import.h"
 
+#include "palpate/device/sdh2.h"
 #include "palpate/model/profile_builder.h"
 
 #include "recording/import_samples.h"

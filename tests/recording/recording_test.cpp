@@ -2,6 +2,7 @@
 #include "palpate/recording/recording.h"
 
 #include "palpate/core/error.h"
+#include "palpate/device/sdh2.h"
 #include "palpate/recording/dsa_reader.h"
 
 #include "recording/dsa_corpus.h"

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "palpate/core/error.h"
+#include "palpate/device/sdh2.h"
 #include "palpate/model/hand_description.h"
 #include "palpate/model/matrix_layout.h"
 #include "palpate/model/profile_builder.h"

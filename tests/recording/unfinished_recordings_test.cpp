@@ -11,6 +11,7 @@
 #include <sys/stat.h>
 
 #include "palpate/core/error.h"
+#include "palpate/device/sdh2.h"
 #include "palpate/recording/recording.h"
 
 #include "recording/palpate_faults.h"

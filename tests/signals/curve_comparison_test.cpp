@@ -6,6 +6,7 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "palpate/device/sdh2.h"
 #include "palpate/recording/recording.h"
 
 #include "testing/testing.h"

@@ -6,8 +6,11 @@
 
 #include <gtest/gtest.h>
 
+#include "palpate/device/sdh2.h"
 #include "palpate/kinematics/hand_geometry.h"
 #include "palpate/model/hand_description.h"
+
+#include "testing/sdh2.h"
 
 namespace palpate::object_motion_test {
 namespace {
@@ -93,7 +96,7 @@ TEST(ObjectMotion, ContradictionsRemainAsResidual) {
 // The tangents of a taxel come from kinematics: the arrow of one column to the right leads to the
 // position of the neighbour.
 TEST(SlipArrow, LiesOnTheSurface) {
-  const HandGeometry geometry;
+  const HandGeometry geometry(sdh2Geometry());
   const HandPose pose = geometry.pose({0, -30, 30, -20, 25, -30, 30});
   const double pitch = sdh2().layout->matrix(1).pitchMm;
   for (std::size_t matrix = 0; matrix < 6; ++matrix) {
@@ -110,7 +113,7 @@ TEST(SlipArrow, LiesOnTheSurface) {
 }
 
 TEST(SlipArrows, TakeWhatIsValid) {
-  const HandGeometry geometry;
+  const HandGeometry geometry(sdh2Geometry());
   const HandPose pose = geometry.pose({0, 0, 0, 0, 0, 0, 0});
   std::vector<SlipMotion> motions(6);
   motions[1].valid = true;

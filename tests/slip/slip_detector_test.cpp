@@ -206,7 +206,10 @@ TEST(SlipDetector, StandsSaturatedMaskedAndBrokenTaxels) {
   SyntheticSensor sensor;
   sensor.layout.staticMask[static_cast<std::size_t>(6 * 6 + 2)] = 0;
   sensor.layout.dynamicMask[static_cast<std::size_t>(8 * 6 + 3)] = 0;
-  Watch watch({}, kFrameUs, sensor);
+  SlipDetectorOptions options;
+  options.tracker.saturationCounts = 3500.0;
+  options.windows.hypotheses.registration.saturationCounts = 3500.0;
+  Watch watch(options, kFrameUs, sensor);
   for (int i = 0; i < 60; ++i) {
     const SlipDetection& detection = watch.read({.peakCounts = 9000.0});
     EXPECT_FALSE(detection.slipping) << i;
@@ -278,6 +281,38 @@ TEST(SlipDetector, RefusesOtherSizes) {
   const MatrixValues other = MatrixValues::Zero(13, 6);
   EXPECT_THROW(watch.detector.update(ConstMatrixMap(other.data(), 13, 6), 0),
                std::invalid_argument);
+}
+
+// The same contact on a hand with another full scale gives the same motion and the same alarm.
+TEST(SlipDetector, ReadingsAreRelativeToTheFullScaleOfTheHand) {
+  for (const float fullScale : {1023.0F, 40.0F, 65'535.0F}) {
+    HandDescription hand = describeHand(SensorLayout({SyntheticSensor{}.layout}), 0, 0);
+    hand.maximumCounts = hand.saturationCounts = fullScale;
+    const SlipDetectorOptions options = withScaleOf(hand, {});
+    EXPECT_NEAR(options.tracker.saturationCounts, 4095.0, 1e-3);
+    Watch usual;
+    SlipDetector other(usual.slip.sensor().layout, options);
+    bool alarmed = false;
+    for (int i = 0; i < 60; ++i) {
+      SyntheticContact contact;
+      if (i > 40) contact.y -= 0.2 * (i - 40);
+      const SlipDetection& expected = usual.read(contact);
+      const MatrixValues scaled = usual.values * (fullScale / 4095.0F);
+      const SlipDetection& found =
+          other.update(ConstMatrixMap(scaled.data(), scaled.rows(), scaled.cols()), usual.timeUs);
+      ASSERT_EQ(found.state, expected.state) << fullScale << " frame " << i;
+      EXPECT_EQ(found.alarm, expected.alarm) << fullScale << " frame " << i;
+      EXPECT_NEAR(found.motion.refDy, expected.motion.refDy, 1e-3) << i;
+      EXPECT_NEAR(found.motion.sum / static_cast<double>(fullScale),
+                  expected.motion.sum / 4095.0,
+                  1e-4 * expected.motion.sum / 4095.0);
+      alarmed = alarmed || found.alarm;
+    }
+    EXPECT_TRUE(alarmed);
+  }
+  SlipDetectorOptions options;
+  options.countsScale = 0.0;
+  EXPECT_THROW(options.validate(), std::invalid_argument);
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "palpate/core/error.h"
+#include "palpate/device/sdh2.h"
 #include "palpate/model/hand_description.h"
 #include "palpate/model/profile_builder.h"
 #include "palpate/slip/synthetic_slip.h"

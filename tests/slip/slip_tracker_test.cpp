@@ -186,7 +186,8 @@ TEST(SlipTracker, RegisterRenewsItsKeyOverALongWay) {
 }
 
 TEST(SlipTracker, SaturationIsCountedAndLowersConfidence) {
-  SlipTracker tracker = trackerOf(SlipMethod::kCentroid);
+  SlipTracker tracker(SyntheticSensor{}.layout,
+                      {.method = SlipMethod::kCentroid, .saturationCounts = 3500.0});
   MatrixValues values = MatrixValues::Zero(14, 6);
   values.block(5, 2, 3, 2).setConstant(1000.0F);
   EXPECT_EQ(tracker.update(viewOf(values)).saturated, 0);

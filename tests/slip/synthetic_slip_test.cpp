@@ -87,6 +87,7 @@ TEST(SyntheticSlip, TiltMovesLoadNotTheContact) {
 TEST(SyntheticSlip, ReadsAsASensorDoes) {
   SyntheticSensor sensor;
   sensor.noiseSd = 20.0;
+  sensor.saturationCounts = 3560.0;
   sensor.layout.dynamicMask[6 * 6 + 2] = 0;
   SyntheticContact contact;
   contact.peakCounts = 3555.0;

@@ -95,7 +95,7 @@ int calibrateApply(const Arguments& words) {
       std::fprintf(stderr, "palpate: %s\n", escapedLine(sentence).c_str());
   StandardOutput out;
   if (!outPath) out.write(kCalibrateApplyColumns);
-  ProfileBuilder builder(profile.hand().layout);
+  ProfileBuilder builder(profile.hand());
   std::size_t beyond = 0, touched = 0;
   std::string line;
   TactileFrame frame;

@@ -139,7 +139,7 @@ class PoseOfFrames {
     if (sample_ != sample) {
       sample_ = sample;
       const std::vector<double> anglesDeg = profile_.angles(sample).deg;
-      check_ = checkAngles(anglesDeg, sdh2().axes);
+      check_ = checkAngles(anglesDeg, profile_.hand().axes);
       if (check_.state != AngleValidity::kUnusable)
         geometry_.pose(anglesDeg, pose_);
       else if (pose_.empty())
@@ -227,7 +227,7 @@ bool reportProblems(const std::filesystem::path& file, const AngleProblems& prob
 
 int contactCommand(const Arguments& words) {
   const CommandLine given(
-      {.synopsis = "palpate contact PATH... [--angles A0,..,A6] [--matrices | --size]",
+      {.synopsis = "palpate contact PATH... [--angles A0,A1,..] [--matrices | --size]",
        .purpose =
            "Prints, for every frame, how many taxels are active (value > 0) and the smallest "
            "sphere around them in the\nhand's base frame [mm], as CSV; empty where nothing "
@@ -239,13 +239,14 @@ int contactCommand(const Arguments& words) {
            "held. PATH is a\nrecording, or a folder: every recording below it. With several a last "
            "column names the file. A recording\nwithout joint angles needs --angles.",
        .options = withCalibration(
-           {{"angles", "A0,..,A6", "assume these joint angles [deg] for all frames"},
+           {{"angles", "A0,A1,..", "assume these joint angles [deg] for all frames"},
             {"matrices", "", "a row per matrix"},
             {"size", "", "a row per grasp: how large the object is, how much it gave way"},
             {"threshold", "N", "active is above N [counts], default 0"},
             {"fingertip",
              "study|effective",
-             "radius of the bent fingertips: 58 mm (default) or 48.4 mm (default of --size)"},
+             "radius of bent fingertips: nominal (default; SDH-2: 58 mm) or effective "
+             "(default of --size; 48.4 mm)"},
             {"from", "N", "first frame, default 0"},
             {"to", "M", "last frame (inclusive), default the last one"}}),
        .example = "palpate contact foam_ball.dsa > contact.csv",
@@ -265,7 +266,6 @@ int contactCommand(const Arguments& words) {
   request.to = given.integer("to", 0, INT64_MAX);
   if (request.from && request.to && *request.from > *request.to)
     throw UsageError("--from is after --to");
-  const HandGeometry geometry(geometryOf(given));
   const RecordingList recordings = recordingsIn(given.words());
   StandardOutput out;
   bool headerWritten = false, whole = true;
@@ -273,10 +273,12 @@ int contactCommand(const Arguments& words) {
       recordings,
       given.quiet(),
       [&](const std::filesystem::path& file, const Profile& profile, const Progress& progress) {
-        requireHand(file, profile, geometry.description());
+        const HandGeometry geometry(geometryOf(given, file, profile));
+        const bool isRigid = profile.hand().axes.empty();
+        request.anglesDeg = isRigid ? std::vector<double>() : anglesOf(given, profile.hand());
         if (profile.numAngles() == 0 && !request.anglesDeg)
           throw Error(file.string() +
-                      ": has no joint angles; assume some with --angles A0,..,A6 [deg]");
+                      ": has no joint angles; assume some with --angles A0,A1,.. [deg]");
         const auto range = contactRangeOf(file, profile, request);
         if (!headerWritten)
           out.write(std::string(request.matrices ? kMatrixColumns : kFrameColumns) +

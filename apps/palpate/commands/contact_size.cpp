@@ -73,7 +73,6 @@ void sayContactSize(const std::filesystem::path& file,
 int contactSizes(const CommandLine& given) {
   for (const char* option : {"angles", "matrices", "threshold", "from", "to"})
     if (given.has(option)) throw UsageError(std::string("--size can't be used with --") + option);
-  const HandGeometry geometry(geometryOf(given, "effective"));
   const RecordingList recordings = recordingsIn(given.words());
   StandardOutput out;
   bool headerWritten = false, whole = true;
@@ -81,7 +80,7 @@ int contactSizes(const CommandLine& given) {
       recordings,
       given.quiet(),
       [&](const std::filesystem::path& file, const Profile& profile, const Progress& progress) {
-        requireHand(file, profile, geometry.description());
+        const HandGeometry geometry(geometryOf(given, file, profile, "effective"));
         if (profile.numAngles() == 0)
           throw Error(file.string() +
                       ": has no joint angles; a size can't be measured with one assumed pose");

@@ -12,6 +12,7 @@
 #include "palpate/device/live_hand.h"
 #include "palpate/emulator/joint_motion.h"
 #include "palpate/emulator/physical_hand.h"
+#include "palpate/model/hand_file.h"
 #include "palpate/model/preshape.h"
 
 namespace palpate::commands {
@@ -130,7 +131,8 @@ void DemoHand::moveTo(double closeRatio, double velocityDegPerS) {
   constexpr double kBeginS = 0.2;  // until the axes report that they move
   constexpr double kPatienceS = 5.0;
   MoveJoints move;
-  move.targetDeg = sdh2Preshape(preshape_).anglesDeg(closeRatio);
+  move.targetDeg =
+      findPreshape(session_->device().hand().file->preshapes, preshape_).anglesDeg(closeRatio);
   move.velocityDegPerS.assign(move.targetDeg.size(), velocityDegPerS);
   Device& device = session_->device();
   const double durationS = device.submit(std::move(move)).get().durationS;

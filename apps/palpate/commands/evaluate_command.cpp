@@ -17,23 +17,22 @@ namespace {
 constexpr std::size_t kBlocks = 5;
 
 struct SetChoice {
-  std::string name = "best";
-  FeatureSet set = FeatureSet::kBest;
+  // Empty: that of the hand of the recordings.
+  std::optional<FeatureSet> set;
   StudyPart part = StudyPart::kAll;
 };
 
 SetChoice setGiven(const CommandLine& given) {
   SetChoice choice;
-  choice.name = given.choice("set", {"diameter", "first4", "moments", "study", "best", "session"})
-                    .value_or("best");
-  if (const auto set = featureSetNamed(choice.name)) {
-    choice.set = *set;
-    return choice;
-  }
+  const auto name = given.choice(
+      "set", {"diameter", "first4", "moments", "study", "best", "session", "statistics"});
+  if (!name) return choice;
+  choice.set = featureSetNamed(*name);
+  if (choice.set) return choice;
   choice.set = FeatureSet::kStudy;
-  choice.part = choice.name == "diameter" ? StudyPart::kDiameter
-                : choice.name == "first4" ? StudyPart::kFirst4
-                                          : StudyPart::kMoments;
+  choice.part = *name == "diameter" ? StudyPart::kDiameter
+                : *name == "first4" ? StudyPart::kFirst4
+                                    : StudyPart::kMoments;
   return choice;
 }
 
@@ -120,17 +119,21 @@ Json unknownJson(const CommandLine& given,
   return json;
 }
 
-int crossValidation(const CommandLine& given) {
-  const SetChoice choice = setGiven(given);
+PipelineOptions pipelineGiven(const CommandLine& given, FeatureSet set) {
   PipelineOptions options;
-  if (choice.set == FeatureSet::kBest && !given.has("lda"))
+  if (set == FeatureSet::kBest && !given.has("lda"))
     options.classifier = ClassifierKind::kGauss;  // as in train
   takePipelineOptions(given, options);
+  if (given.has("confidence")) options.calibrationBlocks = kBlocks;
+  return options;
+}
+
+int crossValidation(const CommandLine& given) {
+  const SetChoice choice = setGiven(given);
+  PipelineOptions options = pipelineGiven(given, choice.set.value_or(FeatureSet::kBest));
   const bool blocks = given.choice("protocol", {"S", "B"}) == "B";
   const auto numSplits = static_cast<std::size_t>(given.integer("splits", 1, 100000).value_or(10));
   const auto seed = static_cast<std::uint64_t>(given.integer("seed", 0, 1'000'000'000).value_or(0));
-  if (given.has("confidence")) options.calibrationBlocks = kBlocks;
-
   if (given.has("later") && !given.has("unknown")) throw UsageError("--later needs --unknown");
   if (given.has("later") && options.classifier != ClassifierKind::kGauss)
     throw UsageError(
@@ -139,7 +142,8 @@ int crossValidation(const CommandLine& given) {
   const FeatureTable table = extractFeatureTable(given, {given.words().front()}, choice.set);
   SampleSet samples = samplesOf(table);
   if (choice.part != StudyPart::kAll) samples = studyPart(samples, choice.part);
-  sayNotes(given, choice.set, samples);
+  options = pipelineGiven(given, table.set);
+  sayNotes(given, table.set, samples);
   requireLearnable(samples);
   const auto splits =
       blocks ? blockSplits(samples.y, kBlocks) : stratifiedSplits(samples.y, numSplits, seed);
@@ -159,7 +163,7 @@ int crossValidation(const CommandLine& given) {
                   .set("accuracy_sd", report.accuracySd)
                   .set("top3", report.top3)
                   .set("protocol", blocks ? "B" : "S")
-                  .set("set", choice.name)
+                  .set("set", given.text("set").value_or(std::string(featureSetName(table.set))))
                   .set("pipeline", jsonOf(options))
                   .set("seed", blocks ? Json() : Json(static_cast<std::int64_t>(seed)))
                   .set("splits", splits.size())
@@ -172,7 +176,7 @@ int crossValidation(const CommandLine& given) {
   if (given.has("weights")) json.set("weights", weightsJson(samples, options));
   if (given.has("learning-curve")) json.set("learning_curve", curveJson(curve));
   if (given.has("eliminate")) json.set("elimination", eliminationJson(samples, steps));
-  if (given.has("unknown")) json.set("unknown", unknownJson(given, samples, options, choice.set));
+  if (given.has("unknown")) json.set("unknown", unknownJson(given, samples, options, table.set));
   printObject(json);
   return codeFor(table);
 }
@@ -244,7 +248,10 @@ int withModel(const CommandLine& given) {
 
 int evaluateCommand(const Arguments& words) {
   std::vector<OptionSpec> options = {
-      {"set", "SET", "diameter, first4, moments, study, best (default) or session"},
+      {"set",
+       "SET",
+       "diameter, first4, moments, study, best (default where two pads pinch), session or "
+       "statistics (default of other hands)"},
       {"protocol", "P", "S (default): stratified shuffles; B: five contiguous blocks per class"},
       {"splits", "N", "splits of protocol S, default 10"},
       {"seed", "N", "seed of protocol S, default 0"},

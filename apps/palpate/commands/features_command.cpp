@@ -44,7 +44,7 @@ std::vector<std::string> featuresCellsOf(const FeatureRow& row) {
 
 int featuresCommand(const Arguments& words) {
   const CommandLine given(
-      {.synopsis = "palpate features PATH... [--set study|best|session]",
+      {.synopsis = "palpate features PATH... [--set study|best|session|statistics]",
        .purpose =
            "Prints the features of every grasp as a row of CSV: class, file, first and last frame "
            "(both inclusive),\nthe frames at which it begins and ends for the features, then the "
@@ -54,23 +54,28 @@ int featuresCommand(const Arguments& words) {
            "plateau\n"
            "  study    the 54 numbers of the study, to compare with it\n"
            "  session  best, with joint angles at rest: remembers the pose in which an object was "
-           "presented; of no\n           use in another session\n\n"
-           "A grasp: both distal pads of the pinch (matrices 1 and 5) touch for more than 20 "
-           "frames "
-           "in a row. A grasp\nwithout features (no joint angles, pads that don't face each other) "
+           "presented; of no\n           use in another session\n"
+           "  statistics  load, extent and position of the contact on every matrix, of any hand\n\n"
+           "A grasp: the two pads of the hand that pinch (matrices 1 and 5 of an SDH-2) touch for "
+           "more than 20 frames "
+           "in a row;\nwith statistics two fingers touch, or the only one. A grasp without "
+           "features (no joint angles, pads that don't face each other) "
            "and a recording without a grasp are\nreported on standard error; then the exit code is "
            "3.",
-       .options = {{"set", "SET", "study, best (default) or session"}},
+       .options = {{"set",
+                    "SET",
+                    "study, best (default where two pads pinch), session or statistics (default of "
+                    "other hands)"}},
        .example = "palpate features recordings --set best > features.csv",
        .minArguments = 1},
       words);
   if (given.helpShown()) return kDone;
   FeatureExtractionOptions options;
-  const auto set = given.choice("set", {"study", "best", "session"});
+  const auto set = given.choice("set", {"study", "best", "session", "statistics"});
   if (set) options.set = *featureSetNamed(*set);
   const FeatureTable table = gather(given, options);
 
-  if (options.set == FeatureSet::kSession && !given.quiet())
+  if (table.set == FeatureSet::kSession && !given.quiet())
     sayFeatures(std::string(sessionSetWarning()));
   for (const std::string& problem : table.problems) sayFeatures(problem);
   if (table.rows.empty()) {

@@ -8,6 +8,7 @@
 
 #include "palpate/core/number_text.h"
 #include "palpate/core/text_table.h"
+#include "palpate/model/hand_file.h"
 #include "palpate/model/profile_builder.h"
 #include "palpate/recording/recording.h"
 
@@ -108,22 +109,27 @@ int emulated(const CommandLine& given,
 Profile lookedAtOver(double belowCounts,
                      const Profile& profile,
                      const std::filesystem::path& file) {
-  const std::vector<MatrixCharacteristics>& matrices = sdh2Sensor().matrices;
+  const HandDescription& hand = profile.hand();
   const SensorLayout& layout = profile.layout();
-  if (layout.numMatrices() != matrices.size() || profile.numTemperatures() == 0 ||
-      profile.temperatures(0).degC.size() <= matrices.size())
-    throw FileError(file, "--below needs the six matrices and the temperatures of an SDH-2");
-  ProfileBuilder builder(profile.hand().layout);
+  if (!hand.file || !hand.file->characteristics || profile.numTemperatures() == 0 ||
+      std::any_of(hand.matrices.begin(), hand.matrices.end(), [&](const MatrixDescription& matrix) {
+        return matrix.temperatureSensor.value_or(SIZE_MAX) >= profile.temperatures(0).degC.size();
+      }))
+    throw FileError(file,
+                    "--below needs the characteristics of the hand's taxels and the temperatures "
+                    "beside its matrices");
+  const std::vector<MatrixCharacteristics>& matrices = hand.file->characteristics->matrices;
+  ProfileBuilder builder(profile.hand());
   TactileFrame frame;
   for (std::size_t i = 0; i < profile.numFrames(); ++i) {
     profile.readFrame(i, frame);
     const Temperatures temperatures = *profile.temperaturesAtFrame(i);
     for (std::size_t m = 0; m < matrices.size(); ++m) {
-      const auto threshold =
-          static_cast<float>(noiseThresholdCounts(matrices[m],
-                                                  temperatures.degC[m + 1],
-                                                  NoisyContactsOptions{}.noiseMultiple,
-                                                  belowCounts));
+      const auto threshold = static_cast<float>(
+          noiseThresholdCounts(matrices[m],
+                               temperatures.degC[*hand.matrices[m].temperatureSensor],
+                               NoisyContactsOptions{}.noiseMultiple,
+                               belowCounts));
       const std::size_t from = layout.offset(m);
       for (std::size_t place = from; place < from + layout.matrix(m).numCells(); ++place)
         frame.values[place] = std::max(0.0F, frame.values[place] - threshold);

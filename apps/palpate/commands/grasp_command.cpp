@@ -13,6 +13,7 @@
 #include "palpate/core/number_text.h"
 #include "palpate/core/time.h"
 #include "palpate/device/live_hand.h"
+#include "palpate/model/hand_file.h"
 #include "palpate/model/preshape.h"
 
 #include "commands/command_line.h"
@@ -91,7 +92,7 @@ GraspRequest graspRequestOf(const CommandLine& given) {
   const auto preshape = given.text("preshape");
   if (!preshape) throw UsageError("grasp needs --preshape NAME");
   try {
-    request.preshape = sdh2Preshape(*preshape).name;
+    request.preshape = findPreshape(defaultHand().file->preshapes, *preshape).name;
   } catch (const std::invalid_argument& error) {
     throw UsageError(error.what());
   }

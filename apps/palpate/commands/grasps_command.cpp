@@ -7,6 +7,7 @@
 #include "palpate/core/number_text.h"
 #include "palpate/core/text_table.h"
 #include "palpate/core/time.h"
+#include "palpate/model/hand_file.h"
 #include "palpate/recognition/grasp_segments.h"
 
 #include "commands/command_line.h"
@@ -16,19 +17,15 @@
 namespace palpate::commands {
 namespace {
 
-// Throws when the sensor lacks the matrices that the rule of the study uses: the result "no grasp"
-// would be wrong.
-void requireMatrices(const std::filesystem::path& file,
-                     const Profile& profile,
-                     const GraspSegmentOptions& options) {
-  if (options.rule != GraspRule::kStudy) return;
-  const std::size_t matrices = profile.layout().numMatrices();
-  for (const std::size_t needed : options.studyMatrices)
-    if (needed >= matrices)
-      throw FileError(file,
-                      "rule study looks at matrix " + std::to_string(needed) +
-                          "; this sensor has only 0.." + std::to_string(matrices - 1) +
-                          ": use --rule general");
+// Throws when the rule of the study has no matrices: the result "no grasp" would be wrong.
+void requirePads(const std::filesystem::path& file,
+                 const Profile& profile,
+                 const GraspSegmentOptions& options) {
+  const HandDescription& hand = profile.hand();
+  if (options.rule == GraspRule::kStudy && !(hand.file && hand.file->pinch))
+    throw FileError(file,
+                    "rule study needs two pads that pinch, which the description of '" + hand.name +
+                        "' doesn't name: use --rule general");
 }
 
 std::vector<std::string> graspsCellsOf(const Profile& profile, const GraspSegment& grasp) {
@@ -53,9 +50,11 @@ int graspsCommand(const Arguments& words) {
            "(both\ninclusive), their host times [ms since 1970], the fingers, and a quality. PATH "
            "is a recording, or a\nfolder: every recording below it. With several, a last column "
            "names the file.\n\n"
-           "Rule general: at least two different fingers with an active taxel (value > 0) for more "
-           "than 20 frames\nand more than 0.6 s; up to 3 frames without are bridged. Rule study: "
-           "matrices 1 and 5 both active for\nmore than 20 frames, nothing bridged. A gap of the "
+           "Rule general: at least two different fingers (or the only one) with an active taxel "
+           "(value > 0) for more than 20 frames\nand more than 0.6 s; up to 3 frames without are "
+           "bridged. Rule study: "
+           "the two pads that pinch (matrices 1 and 5 of an SDH-2) both active for\nmore than 20 "
+           "frames, nothing bridged. A gap of the "
            "recording (longer than max(1 s, 5 median intervals))\nends a grasp. fingers: those "
            "that "
            "touch in at least half of its frames, with blanks between.\n\n"
@@ -86,7 +85,7 @@ int graspsCommand(const Arguments& words) {
           const Profile& profile,
           const TextSink& write,
           const Progress& progress) {
-        requireMatrices(file, profile, options);
+        requirePads(file, profile, options);
         for (const GraspSegment& grasp : findGrasps(profile, options, progress)) {
           std::vector<std::string> cells = graspsCellsOf(profile, grasp);
           if (list.several) cells.push_back(file.string());

@@ -25,7 +25,7 @@ std::vector<double> numbersOf(const std::string& text,
     if (comma == std::string::npos) break;
     at = comma + 1;
   }
-  if (numbers.size() != count)
+  if (count > 0 && numbers.size() != count)
     throw UsageError("--" + option + " takes " + std::to_string(count) + " numbers, not " +
                      std::to_string(numbers.size()));
   return numbers;
@@ -53,14 +53,22 @@ std::optional<HandDescription> handOf(const CommandLine& given) {
   return findHand(*name, handFolders());
 }
 
-OptionSpec anglesOption() { return {"angles", "A0,..,A6", "joint angles [deg]"}; }
+OptionSpec anglesOption() {
+  return {"angles", "A0,A1,..", "joint angles [deg; mm for an axis that slides], one per axis"};
+}
 
 std::optional<std::vector<double>> anglesOf(const CommandLine& given) {
   const auto text = given.text("angles");
   if (!text) return std::nullopt;
-  const auto& axes = sdh2().axes;
-  std::vector<double> angles = numbersOf(*text, "angles", axes.size());
-  const AnglesCheck check = checkAngles(angles, axes);
+  return numbersOf(*text, "angles", 0);
+}
+
+std::optional<std::vector<double>> anglesOf(const CommandLine& given, const HandDescription& hand) {
+  const auto text = given.text("angles");
+  if (!text) return std::nullopt;
+  if (hand.axes.empty()) throw UsageError("--angles: '" + hand.name + "' has no joints");
+  std::vector<double> angles = numbersOf(*text, "angles", hand.axes.size());
+  const AnglesCheck check = checkAngles(angles, hand.axes);
   if (check.state != AngleValidity::kValid) throw UsageError("--angles: " + check.problem);
   return angles;
 }
@@ -68,25 +76,28 @@ std::optional<std::vector<double>> anglesOf(const CommandLine& given) {
 OptionSpec fingertipOption(const std::string& defaultName) {
   return {"fingertip",
           "study|effective",
-          "radius of the bent fingertips: 58 mm or 48.4 mm; default " + defaultName};
+          "radius of bent fingertips: nominal, or the one that measures every object "
+          "alike (SDH-2: 58 mm, 48.4 mm); default " +
+              defaultName};
 }
 
-GeometryDescription geometryOf(const CommandLine& given, const std::string& defaultName) {
+GeometryDescription geometryOf(const CommandLine& given,
+                               const HandDescription& hand,
+                               const std::string& defaultName) {
   const std::string name = given.choice("fingertip", {"study", "effective"}).value_or(defaultName);
-  return sdh2Geometry(name == "effective" ? kEffectiveFingertipRadiusMm : kStudyFingertipRadiusMm);
+  return describeGeometry(hand,
+                          name == "effective" ? BendRadius::kEffective : BendRadius::kNominal);
 }
 
-void requireHand(const std::filesystem::path& file,
-                 const Profile& profile,
-                 const GeometryDescription& hand) {
-  const SensorLayout& known = hand.layout;
-  bool same = profile.layout().numMatrices() == known.numMatrices();
-  for (std::size_t m = 0; same && m < known.numMatrices(); ++m)
-    same = profile.layout().matrix(m).rows == known.matrix(m).rows &&
-           profile.layout().matrix(m).columns == known.matrix(m).columns;
-  if (!same)
-    throw Error(file.string() +
-                ": its sensor is not the SDH-2's, the only hand whose geometry is known");
+GeometryDescription geometryOf(const CommandLine& given,
+                               const std::filesystem::path& file,
+                               const Profile& profile,
+                               const std::string& defaultName) {
+  try {
+    return geometryOf(given, profile.hand(), defaultName);
+  } catch (const Error& error) {
+    throw FileError(file, error.what());
+  }
 }
 
 }  // namespace palpate::commands

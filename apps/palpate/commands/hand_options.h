@@ -15,8 +15,8 @@
 
 namespace palpate::commands {
 
-// Parses "10,-20,.." as `count` numbers; throws UsageError that names the option and the invalid
-// part.
+// Parses "10,-20,.." as `count` numbers (0: any number of them); throws UsageError that names the
+// option and the invalid part.
 std::vector<double> numbersOf(const std::string& text,
                               const std::string& option,
                               std::size_t count);
@@ -30,18 +30,22 @@ std::vector<std::filesystem::path> handFolders();
 OptionSpec handOption();
 std::optional<HandDescription> handOf(const CommandLine& given);
 
-// The option --angles A0,..,A6 of an SDH-2 [deg]: seven numbers within the ranges of the axes;
-// throws UsageError.
+// The option --angles A0,A1,..: numbers [deg; mm for an axis that slides]; throws UsageError.
 OptionSpec anglesOption();
 std::optional<std::vector<double>> anglesOf(const CommandLine& given);
+// The same for a hand: one number per axis, within its range.
+std::optional<std::vector<double>> anglesOf(const CommandLine& given, const HandDescription& hand);
 
 // The option --fingertip study|effective.
 OptionSpec fingertipOption(const std::string& defaultName = "study");
-GeometryDescription geometryOf(const CommandLine& given, const std::string& defaultName = "study");
-
-// Throws Error that names the file when its sensor has other matrices than the hand.
-void requireHand(const std::filesystem::path& file,
-                 const Profile& profile,
-                 const GeometryDescription& hand);
+// Geometry of a hand. Throws Error that names the hand when its description contains none.
+GeometryDescription geometryOf(const CommandLine& given,
+                               const HandDescription& hand,
+                               const std::string& defaultName = "study");
+// The same for the hand of a recording; Error names the file.
+GeometryDescription geometryOf(const CommandLine& given,
+                               const std::filesystem::path& file,
+                               const Profile& profile,
+                               const std::string& defaultName = "study");
 
 }  // namespace palpate::commands

@@ -4,6 +4,7 @@
 
 #include "palpate/core/number_text.h"
 #include "palpate/kinematics/hand_geometry.h"
+#include "palpate/model/hand_file.h"
 
 #include "commands/command_line.h"
 #include "commands/commands.h"
@@ -34,25 +35,30 @@ void kinematicsAppendRow(std::string& out,
 
 int kinematicsCommand(const Arguments& words) {
   const CommandLine given(
-      {.synopsis = "palpate kinematics --angles A0,..,A6 [--matrix M | --point M,X_MM,Y_MM]",
+      {.synopsis =
+           "palpate kinematics --angles A0,A1,.. [--hand NAME|FOLDER] [--matrix M | --point "
+           "M,X_MM,Y_MM]",
        .purpose =
            "Positions [mm] and outward normals of the taxels in the hand's base frame, as "
            "CSV:\nmatrix,x,y,x_mm,y_mm,z_mm,nx,ny,nz,exists. With --point, of one point of a "
            "sensor surface,\nin mm from the centre of taxel (0, 0); its x and y are then "
            "fractions of taxels.",
        .options = {anglesOption(),
-                   {"matrix", "M", "this matrix only, 0..5"},
+                   handOption(),
+                   {"matrix", "M", "this matrix only"},
                    {"point", "M,X_MM,Y_MM", "one point"},
                    fingertipOption()},
        .example = "palpate kinematics --angles 60,-20,40,-20,40,-20,40 --matrix 1",
        .maxArguments = 0},
       words);
   if (given.helpShown()) return kDone;
-  const auto angles = anglesOf(given);
-  if (!angles) throw UsageError("kinematics needs --angles A0,..,A6 [deg]");
+  const HandDescription hand = handOf(given).value_or(defaultHand());
+  auto angles = anglesOf(given, hand);
+  if (!angles && hand.axes.empty()) angles.emplace();
+  if (!angles) throw UsageError("kinematics needs --angles A0,A1,.. [deg]");
   if (given.has("matrix") && given.has("point"))
     throw UsageError("--matrix and --point can't be used together");
-  const HandGeometry geometry(geometryOf(given));
+  const HandGeometry geometry(geometryOf(given, hand));
   const SensorLayout& layout = geometry.description().layout;
   const auto lastMatrix = static_cast<std::int64_t>(layout.numMatrices()) - 1;
   const std::optional<std::int64_t> only = given.integer("matrix", 0, lastMatrix);

@@ -72,7 +72,7 @@ std::vector<std::unique_ptr<Stage>> streamedStages(CaptureSession* session,
   auto pressure = std::make_unique<PressureStage>(hand, ask);
   pressure->setCalibration(calibration);
   stages.push_back(std::move(pressure));
-  stages.push_back(std::make_unique<SlipStage>());
+  stages.push_back(std::make_unique<SlipStage>(hand));
   return stages;
 }
 

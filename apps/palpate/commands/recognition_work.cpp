@@ -32,7 +32,7 @@ void runInterruptibly(const CommandLine& given,
 
 FeatureTable extractFeatureTable(const CommandLine& given,
                                  const std::vector<std::filesystem::path>& paths,
-                                 FeatureSet set) {
+                                 std::optional<FeatureSet> set) {
   FeatureTable table;
   FeatureExtractionOptions options;
   options.set = set;
@@ -57,7 +57,7 @@ std::optional<EmptyHandZero> zeroGiven(const CommandLine& given) {
   if (!path) return std::nullopt;
   EmptyHandZero zero;
   runInterruptibly(given, "empty hand", [&](const Progress& progress) {
-    zero = emptyHandZero(openRecording(*path), sdh2PinchHand(), {}, progress);
+    zero = emptyHandZero(openRecording(*path), {}, progress);
     zero.sha256 = sha256OfFile(*path);
   });
   if (!zero.problem.empty()) throw FileError(*path, "no zero of the empty hand: " + zero.problem);

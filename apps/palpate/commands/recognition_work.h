@@ -31,10 +31,11 @@ void runInterruptibly(const CommandLine& given,
                       const std::string& label,
                       const std::function<void(const Progress&)>& work);
 
-// Computes the features of recordings and prints problems. Throws Error when no grasp is found.
+// Computes the features of recordings and prints problems; `set` empty: that of their hand. Throws
+// Error when no grasp is found.
 FeatureTable extractFeatureTable(const CommandLine& given,
                                  const std::vector<std::filesystem::path>& paths,
-                                 FeatureSet set);
+                                 std::optional<FeatureSet> set);
 // The option --empty-hand-zero: the zero from a recording in which the empty hand closes until its
 // pads touch; nothing when the option is missing. Throws Error when the recording contains no
 // touch.

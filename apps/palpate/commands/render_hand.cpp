@@ -118,8 +118,9 @@ gui::FramePictures::Paint handPainter(const CommandLine& given,
                                       const Profile& profile,
                                       const gui::FrameSpan& span,
                                       const gui::MatricesPictureOptions& page) {
-  HandRendering view{.look = lookOf(given, profile),
-                     .assumedAnglesDeg = anglesOf(given).value_or(std::vector<double>())};
+  HandRendering view{
+      .look = lookOf(given, profile),
+      .assumedAnglesDeg = anglesOf(given, profile.hand()).value_or(std::vector<double>())};
   if (const auto camera = given.text("camera")) {
     const auto numbers = numbersOf(*camera, "camera", 2);
     view.eye = {numbers[0], numbers[1]};

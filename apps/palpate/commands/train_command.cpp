@@ -58,7 +58,10 @@ Json reportOf(const TrainedModel& model,
 
 int trainCommand(const Arguments& words) {
   std::vector<OptionSpec> options = {{"output,o", "MODEL.json", "write the model there"},
-                                     {"set", "SET", "best (default), study or session"},
+                                     {"set",
+                                      "SET",
+                                      "best (default where two pads pinch), study, session, or "
+                                      "statistics (default of other hands)"},
                                      zeroOptionSpec(),
                                      {"force", "", "replace MODEL.json"},
                                      {"json", "", "no effect: it always prints JSON"}};
@@ -85,12 +88,15 @@ int trainCommand(const Arguments& words) {
   const auto out = given.text("output");
   if (!out) throw UsageError("-o MODEL.json is missing: where the model goes");
   const Overwrite overwrite = given.has("force") ? Overwrite::kReplace : Overwrite::kRefuse;
-  const FeatureSet set =
-      *featureSetNamed(given.choice("set", {"best", "study", "session"}).value_or("best"));
-  const ModelSearchOptions search = searchGiven(given, set);
+  std::optional<FeatureSet> asked;
+  if (const auto name = given.choice("set", {"best", "study", "session", "statistics"}))
+    asked = featureSetNamed(*name);
+  searchGiven(given, asked.value_or(FeatureSet::kBest));  // refuses wrong options first
   requireWritable(*out, overwrite);
 
-  const FeatureTable table = extractFeatureTable(given, {given.words().front()}, set);
+  const FeatureTable table = extractFeatureTable(given, {given.words().front()}, asked);
+  const FeatureSet set = table.set;
+  const ModelSearchOptions search = searchGiven(given, set);
   const auto zero = zeroGiven(given);
   if (zero) requireSameSession(*zero, table);
   const SampleSet samples = samplesOf(table);

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "palpate/core/error.h"
+#include "palpate/model/hand_file.h"
 
 #include "commands/command_line.h"
 #include "commands/commands.h"
@@ -28,6 +29,11 @@ std::optional<Recipe> filtersOf(const CommandLine& given) {
 
 constexpr QSize kSmallestWindow{800, 500};
 
+// The angles of --angles, of the hand of --hand.
+std::vector<double> assumedAnglesOf(const CommandLine& given) {
+  return anglesOf(given, handOf(given).value_or(defaultHand())).value_or(std::vector<double>());
+}
+
 int screenshot(const CommandLine& given) {
   gui::ScreenshotOptions options;
   options.out = *given.text("screenshot");
@@ -44,7 +50,7 @@ int screenshot(const CommandLine& given) {
   options.dataFolder = dataFolder();
   options.force = given.has("force");
   options.openGl = !given.has("no-gl");
-  options.assumedAnglesDeg = anglesOf(given).value_or(std::vector<double>());
+  options.assumedAnglesDeg = assumedAnglesOf(given);
   options.recipe = filtersOf(given);
   if (options.out.extension() != ".png")
     throw UsageError("--screenshot: the picture's name must end in .png, not '" +
@@ -125,7 +131,7 @@ int windowCommand(const Arguments& words) {
     throw UsageError("give FILE or --demo, not both");
   if (given.has("socket") && !given.has("remote")) throw UsageError("--socket needs --remote");
   if (given.has("gl") && given.has("no-gl")) throw UsageError("give --gl or --no-gl, not both");
-  const auto assumed = anglesOf(given);
+  const std::vector<double> assumed = assumedAnglesOf(given);
   const auto filters = filtersOf(given);
   if (!hasDisplay())
     throw Error("no display: run it on a desktop, or use a command ('palpate --help' lists them)");
@@ -140,7 +146,7 @@ int windowCommand(const Arguments& words) {
   options.openGl = given.has("no-gl") ? gui::OpenGlChoice::kNever
                    : given.has("gl")  ? gui::OpenGlChoice::kAlways
                                       : gui::OpenGlChoice::kFast;
-  options.assumedAnglesDeg = assumed.value_or(std::vector<double>());
+  options.assumedAnglesDeg = assumed;
   options.recipe = filters;
   options.remote = remote;
   std::string name = "palpate";

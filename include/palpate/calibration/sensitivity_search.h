@@ -19,7 +19,7 @@ struct SensitivitySearchOptions {
   // The search ends when the sensitivity can rise by less than this; > 0.
   double resolution = 0.03;
   // A taxel at or above this value is saturated [counts].
-  double saturationCounts = static_cast<double>(kSdh2SaturationCounts);
+  double saturationCounts = 4095.0;
   double headroom = 0.1;  // target below saturation, as a share of it; 0..0.9
   // Number of frames with contact at one sensitivity; >= 1.
   std::size_t framesPerTrial = 10;

@@ -9,6 +9,7 @@
 
 #include <palpate/control/limit_feasibility.h>
 #include <palpate/device/device.h>
+#include <palpate/device/sdh2.h>
 #include <palpate/live/live_results.h>
 #include <palpate/model/hand_description.h>
 

@@ -124,13 +124,4 @@ bool hasGeometry(const HandDescription& hand);
 GeometryDescription describeGeometry(const HandDescription& hand,
                                      BendRadius radius = BendRadius::kNominal);
 
-// Radius of the SDH-2's bent fingertips in the study's program [mm].
-constexpr double kStudyFingertipRadiusMm = 58.0;
-// Effective radius of these fingertips [mm]: with it the same rigid object always measures the
-// same.
-constexpr double kEffectiveFingertipRadiusMm = 48.4;
-
-// Returns the geometry of the SDH-2 with this radius of its bent fingertips.
-GeometryDescription sdh2Geometry(double fingertipRadiusMm = kStudyFingertipRadiusMm);
-
 }  // namespace palpate

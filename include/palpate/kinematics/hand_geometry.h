@@ -16,7 +16,7 @@ class HandGeometry {
  public:
   // Throws std::invalid_argument that names the inconsistency (an axis or link that does not exist,
   // and so on).
-  explicit HandGeometry(GeometryDescription description = sdh2Geometry());
+  explicit HandGeometry(GeometryDescription description);
   HandGeometry(const HandGeometry&) = delete;
   HandGeometry& operator=(const HandGeometry&) = delete;
 

@@ -5,7 +5,7 @@
 //   D = (P2 - P1) . n / cos a,   n = unit(N1 - N2),   cos a = sqrt((1 - N1 . N2) / 2)
 // P are the contact centroids, N the normals of the surface there. With the effective fingertip
 // radius of 48.4 mm, sizes of the same rigid object agree within 0.23 mm rms (0.51 mm with the
-// plain distance and 58 mm): use sdh2Geometry(kEffectiveFingertipRadiusMm) for sizes.
+// plain distance and 58 mm): use BendRadius::kEffective for sizes.
 //
 // The pads are of rubber foam and yield, too: a rigid ball seems to shrink by 2 mm during the
 // grasp. The model of the foam is

@@ -8,6 +8,7 @@
 
 #include <palpate/live/stage.h>
 #include <palpate/model/gap_detector.h>
+#include <palpate/model/hand_description.h>
 #include <palpate/slip/slip_detector.h>
 
 namespace palpate {
@@ -22,8 +23,8 @@ SlipDetectorOptions liveSlipOptions();
 // called from any thread; they take effect with the next frame.
 class SlipStage final : public Stage {
  public:
-  // Throws std::invalid_argument.
-  explicit SlipStage(const SlipDetectorOptions& options = liveSlipOptions());
+  // `hand`: the source's, for its full scale and saturation. Throws std::invalid_argument.
+  explicit SlipStage(HandDescription hand, const SlipDetectorOptions& options = liveSlipOptions());
 
   // Resets the detection. Throws std::invalid_argument.
   void setOptions(const SlipDetectorOptions& options);
@@ -62,6 +63,7 @@ class SlipStage final : public Stage {
   std::vector<double> jointsDeg_;
 
   mutable std::mutex mutex_;  // protects the following members
+  const HandDescription hand_;
   SlipDetectorOptions options_;
   bool changed_ = true;
   std::vector<ReferenceRequest> referenceRequests_;

@@ -13,15 +13,6 @@
 
 namespace palpate {
 
-// Full scale of an SDH-2's tactile sensor [counts]. The converter has 12 bits, but the amplifier
-// saturates earlier: the largest reading in 1052 recordings is 3567.
-constexpr float kSdh2FullScaleCounts = 4095.0F;
-// Value that readings approach at high pressure [counts].
-constexpr float kSdh2LargestCounts = 3560.0F;
-// A taxel at or above this value [counts] is saturated: its reading is only a lower bound of the
-// load.
-constexpr float kSdh2SaturationCounts = 3500.0F;
-
 // Name and position of one sensor matrix.
 struct MatrixDescription {
   std::string name;       // "finger 0 distal"
@@ -79,13 +70,14 @@ struct HandDescription {
   std::string matrixName(std::size_t matrix) const;
 };
 
-// The SDH-2 with its six DSA matrices: 14x6 proximal (0, 2, 4) and 13x6 distal (1, 3, 5), pitch 3.4
-// mm, 12 bits. Sources: a survey of 1052 .dsa recordings; the SDH-2 manual for the ranges of the
-// axes.
-const HandDescription& sdh2();
-
 // Whether two layouts have as many matrices, of the same rows and columns.
 bool sameSizes(const SensorLayout& a, const SensorLayout& b);
+
+// Returns the hand with axes and temperature sensors that are named by number where there are
+// others than those of its description (0: not known, those of the description).
+HandDescription withSeriesOf(HandDescription hand,
+                             std::size_t numAxes,
+                             std::size_t numTemperatureSensors);
 
 // Returns a description for a layout whose hand is not named: that of the built-in hand with a
 // tactile controller (HandFile::controller) and the same sizes, with the masks and the pitch of the

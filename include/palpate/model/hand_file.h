@@ -105,12 +105,15 @@ HandDescription recordedHand(const std::map<std::string, std::string>& meta,
 
 // A hand that is compiled into the program.
 struct BuiltInHand {
-  std::string key;  // name of its folder: "sdh2"
+  std::string key;  // name of its folder: "flat_pad_16x16"
   std::shared_ptr<const HandDescription> hand;
 };
 const std::vector<BuiltInHand>& builtInHands();
 // Throws std::invalid_argument that lists all keys.
 const HandDescription& builtInHand(std::string_view key);
+// The hand that is meant where none is named: the built-in hand with a tactile controller
+// (HandFile::controller), whose recordings don't name their hand.
+const HandDescription& defaultHand();
 
 // Returns the hand that `name` stands for: the folder of that path, a folder of that name in one of
 // `folders`, or a built-in hand. Throws Error that lists what is known.

@@ -25,10 +25,7 @@ struct Preshape {
   std::vector<double> anglesDeg(double closeRatio) const;
 };
 
-// The preshapes of the SDH-2: parallel, cylindrical, centrical, spherical, pinch-parallel,
-// pinch-tilted, pinch-empty, calibration.
-const std::vector<Preshape>& sdh2Preshapes();
-// Finds a preshape by its name. Throws std::invalid_argument that lists all names.
-const Preshape& sdh2Preshape(std::string_view name);
+// Finds one of a hand's preshapes by its name. Throws std::invalid_argument that lists all names.
+const Preshape& findPreshape(const std::vector<Preshape>& preshapes, std::string_view name);
 
 }  // namespace palpate

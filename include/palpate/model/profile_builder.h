@@ -14,8 +14,10 @@ namespace palpate {
 // Collects samples and makes a Profile of them.
 class ProfileBuilder {
  public:
-  // The layout determines how many values a frame has.
+  // The layout determines how many values a frame has. The profile's hand is describeHand().
   explicit ProfileBuilder(std::shared_ptr<const SensorLayout> layout);
+  // The profile's hand is this one.
+  explicit ProfileBuilder(HandDescription hand);
   ~ProfileBuilder();
   ProfileBuilder(ProfileBuilder&&) noexcept;
 
@@ -46,6 +48,7 @@ class ProfileBuilder {
   class Storage;
   void require(std::int64_t hostUs, std::span<const float> values) const;
   std::shared_ptr<const SensorLayout> layout_;
+  std::optional<HandDescription> hand_;
   std::shared_ptr<Storage> storage_;
 };
 

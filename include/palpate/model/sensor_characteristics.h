@@ -84,17 +84,4 @@ struct SensorCharacteristics {
   double countsAbove(double kpa, double degC) const;
 };
 
-// Characteristics of the SDH-2. Sources:
-//   noise: each taxel in the 65-minute recording at threshold 0, and the lines of the maximum
-//     (study, 3.4)
-//   plane: 54 loading steps (study, 3.3)
-//   countsPerMean, thresholdKpa, neighbourFraction: fit of the 24 shared steps (K is met to 28..52
-//     counts rms, depending on where the stamp is between taxels, without bias; a single taxel
-//     under it reads up to 2700 counts)
-//   lag: 63 % of a robot's grasp is reached within 0.19 s
-//   creep: median drift of the steps, 2.9 % of K per second
-//   release: the contact of a pen falls from 80 to 10 % in 60..90 ms
-//   largest reading: 3567 counts were seen
-const SensorCharacteristics& sdh2Sensor();
-
 }  // namespace palpate

@@ -70,7 +70,6 @@ struct EmptyHandZero {
 
 // Computes the zero from a recording of one or several touches of an empty hand. Throws Cancelled.
 EmptyHandZero emptyHandZero(const Profile& profile,
-                            const PinchHand& hand = sdh2PinchHand(),
                             const EmptyHandOptions& options = {},
                             const Progress& progress = {});
 

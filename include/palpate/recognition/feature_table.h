@@ -81,15 +81,16 @@ std::string sensorText(const SensorLayout& layout);
 std::string classOfFolder(const std::filesystem::path& folder);
 
 struct FeatureExtractionOptions {
-  FeatureSet set = FeatureSet::kBest;
-  PinchHand hand = sdh2PinchHand();
+  // Empty: that of the first recording's hand (defaultFeatureSet()).
+  std::optional<FeatureSet> set = std::nullopt;
   // Number of threads; 0: as many as the machine runs at once. The table does not depend on it.
   std::size_t threads = 0;
 };
 
-// Extracts the features of all recordings in the given folders (as above) and files. A recording
-// that can't be read does not stop the others. Throws Cancelled; FileError when a path does not
-// exist.
+// Extracts the features of all recordings in the given folders (as above) and files. The first
+// recording that can be read decides of which hand the table is; one of another sensor is left out
+// and reported, as is one that can't be read: neither stops the others. Throws Cancelled; FileError
+// when a path does not exist.
 FeatureTable extractFeatures(const std::vector<std::filesystem::path>& paths,
                              const FeatureExtractionOptions& options = {},
                              const Progress& progress = {});

@@ -102,12 +102,8 @@ ChosenGrasp graspWithin(const Profile& profile,
                         std::size_t first,
                         std::size_t last,
                         FeatureSet set,
-                        const PinchHand& hand = sdh2PinchHand(),
                         const Progress& progress = {});
 // The same for a whole profile; `problem` is set for a profile without frames.
-ChosenGrasp graspOf(const Profile& profile,
-                    FeatureSet set,
-                    const PinchHand& hand = sdh2PinchHand(),
-                    const Progress& progress = {});
+ChosenGrasp graspOf(const Profile& profile, FeatureSet set, const Progress& progress = {});
 
 }  // namespace palpate

@@ -1,12 +1,18 @@
-// Features of a grasp: the named numbers from which recognition predicts its class. There are three
+// Features of a grasp: the named numbers from which recognition predicts its class. There are four
 // sets:
 //
-//   study    the 54 features of the study (study_features.h), for comparison with it
-//   best     the features that are stable between sessions (plateau_features.h): contact geometry
-//            and force on the load plateau
-//   session  the features of `best`, the joint angles at rest and simple statistics of both pads.
-//            The most accurate set within one session; not to be used in another one, because it
-//            contains the pose in which an object was presented (sessionSetWarning()).
+//   study       the 54 features of the study (study_features.h), for comparison with it
+//   best        the features that are stable between sessions (plateau_features.h): contact
+//   geometry
+//               and force on the load plateau
+//   session     the features of `best`, the joint angles at rest and simple statistics of both
+//   pads.
+//               The most accurate set within one session; not to be used in another one, because it
+//               contains the pose in which an object was presented (sessionSetWarning())
+//   statistics  load, extent and position of the contact of every matrix (contact_statistics.h)
+//
+// The first three need a hand with two pads that pinch (pinchHandOf()); `statistics` are computed
+// for every hand.
 #pragma once
 
 #include <cstddef>
@@ -22,13 +28,16 @@
 
 namespace palpate {
 
-enum class FeatureSet { kStudy, kBest, kSession };
+enum class FeatureSet { kStudy, kBest, kSession, kStatistics };
 
-// Names of the sets: "study", "best", "session"; featureSetNamed() returns nothing for another
-// name.
+// Names of the sets: "study", "best", "session", "statistics"; featureSetNamed() returns nothing
+// for another name.
 std::string_view featureSetName(FeatureSet set) noexcept;
 std::optional<FeatureSet> featureSetNamed(std::string_view name) noexcept;
-std::vector<std::string> featureNames(FeatureSet set, const PinchHand& hand = sdh2PinchHand());
+// The set for a hand: `best` where two pads pinch, otherwise `statistics`.
+FeatureSet defaultFeatureSet(const HandDescription& hand);
+// Throws Error when the hand has no pads that pinch and the set needs them.
+std::vector<std::string> featureNames(FeatureSet set, const HandDescription& hand);
 // Warning, one line, to be shown wherever the set `session` is chosen.
 std::string_view sessionSetWarning() noexcept;
 
@@ -47,28 +56,29 @@ struct GraspFeatures {
   bool operator==(const GraspFeatures&) const = default;
 };
 
-// Computes the features of one grasp. Throws std::out_of_range when the grasp has frames that the
-// profile doesn't have. What the recording lacks is reported in `problem`.
-GraspFeatures graspFeatures(const Profile& profile,
-                            const GraspSegment& grasp,
-                            FeatureSet set,
-                            const PinchHand& hand = sdh2PinchHand());
+// Computes the features of one grasp of the profile's hand. Throws std::out_of_range when the grasp
+// has frames that the profile doesn't have. What the recording or the hand lacks is reported in
+// `problem`.
+GraspFeatures graspFeatures(const Profile& profile, const GraspSegment& grasp, FeatureSet set);
 
-// Finds the grasps of a recording that recognition uses: both pads touch for more than 20 frames
-// (rule `study` with the pads of the hand). Throws Cancelled.
+// Finds the grasps of a recording that recognition uses with a set. With two pads that pinch: both
+// touch for more than 20 frames (rule `study`). With the set `statistics`: by the rule `general`.
+// Empty when the hand has no pads that pinch and the set needs them. Throws Cancelled.
 std::vector<GraspSegment> findPinches(const Profile& profile,
-                                      const PinchHand& hand = sdh2PinchHand(),
+                                      FeatureSet set,
                                       const Progress& progress = {});
+// Why findPinches() finds nothing, one line.
+std::string noPinchText(const HandDescription& hand, FeatureSet set);
 
-// Features of all grasps of a recording, in order of time. `problem` is set if the recording is of
-// another hand or has no grasp; otherwise it is empty.
+// Features of all grasps of a recording, in order of time. `problem` is set if its hand has no pads
+// that pinch and the set needs them, if its joint angles are those of another hand, or if it has no
+// grasp; otherwise it is empty.
 struct RecordingFeatures {
   std::vector<GraspFeatures> grasps;
   std::string problem;
 };
 RecordingFeatures recordingFeatures(const Profile& profile,
                                     FeatureSet set,
-                                    const PinchHand& hand = sdh2PinchHand(),
                                     const Progress& progress = {});
 
 }  // namespace palpate

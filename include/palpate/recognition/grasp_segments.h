@@ -2,8 +2,9 @@
 // one side. The features of grasps, `palpate grasps` and the marks of the window use it.
 //
 // Rule `general`: at least two different fingers have an active taxel (value > 0, on any of their
-// matrices) for more than 20 frames and more than 0.6 s; up to 3 frames without are bridged. Rule
-// `study` (of the study's training script): matrices 1 and 5 are both active for more than 20
+// matrices) for more than 20 frames and more than 0.6 s; up to 3 frames without are bridged. On a
+// hand with only one finger or pad this one suffices. Rule `study` (of the study's training
+// script): the two pads that pinch (matrices 1 and 5 of an SDH-2) are both active for more than 20
 // frames; nothing is bridged. With both rules a gap in the recording (longer than max(1 s, 5 median
 // intervals)) ends a grasp, because the contact during the gap is not known.
 #pragma once
@@ -23,7 +24,7 @@ enum class GraspRule { kGeneral, kStudy };
 
 struct GraspSegmentOptions {
   GraspRule rule = GraspRule::kGeneral;
-  // `general`: number of fingers, 1..8.
+  // `general`: number of fingers, 1..8; at most as many as the hand has are required.
   std::size_t minFingers = 2;
   // A grasp has more frames than this, from begin to end,
   std::size_t moreThanFrames = 20;
@@ -31,8 +32,8 @@ struct GraspSegmentOptions {
   double moreThanS = 0.6;
   // `general`: largest number of successive frames without contact inside a grasp.
   std::size_t bridgedFrames = 3;
-  // `study`: matrices that must all touch.
-  std::vector<std::size_t> studyMatrices = {1, 5};
+  // `study`: matrices that must all touch; empty: the pads that pinch (PinchDescription::pads).
+  std::vector<std::size_t> studyMatrices = {};
 
   // Throws std::invalid_argument with the field's name.
   void validate() const;
@@ -57,7 +58,8 @@ struct GraspSegment {
   bool operator==(const GraspSegment&) const = default;
 };
 
-// Throws Cancelled.
+// Throws Cancelled; Error when the rule `study` names no matrices and the hand has no pads that
+// pinch.
 std::vector<GraspSegment> findGrasps(const Profile& profile,
                                      const GraspSegmentOptions& options = {},
                                      const Progress& progress = {});

@@ -1,5 +1,5 @@
 // The part of a hand description that recognition needs: the two opposite pads that hold an object,
-// the ratio of their gains, and the geometry of the hand. Another hand is another description.
+// the ratio of their gains, and the geometry of the hand.
 #pragma once
 
 #include <array>
@@ -9,6 +9,7 @@
 #include <vector>
 
 #include <palpate/kinematics/hand_geometry.h>
+#include <palpate/model/hand_description.h>
 #include <palpate/model/profile.h>
 
 namespace palpate {
@@ -42,9 +43,12 @@ struct PinchHand {
   void validate() const;
 };
 
-// The SDH-2 in a pinch grip, with the distal pads of fingers 0 and 2 (matrices 1 and 5). Gain 2.7:
-// the pad of finger 0 reads 2.4 to 3.2 times as much as that of finger 2 for the same force. 3554
-// and 2493 are the largest counts of the study's 856 grasps.
-const PinchHand& sdh2PinchHand();
+// Returns what recognition needs of a hand: its `pinch` (PinchDescription) and its geometry. Null
+// when its description has no pads that pinch, or no geometry. The result is kept for the next
+// recording of the same hand; may be called from several threads.
+std::shared_ptr<const PinchHand> pinchHandOf(const HandDescription& hand);
+
+// Why the features of two pads that pinch cannot be computed for a hand without them, one line.
+std::string withoutPinchText(const HandDescription& hand);
 
 }  // namespace palpate

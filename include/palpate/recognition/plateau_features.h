@@ -93,7 +93,7 @@ struct PlateauFeatures {
 // profile doesn't have. What the recording lacks is reported in `problem`.
 PlateauFeatures plateauFeatures(const Profile& profile,
                                 const GraspSegment& grasp,
-                                const PinchHand& hand = sdh2PinchHand(),
+                                const PinchHand& hand,
                                 const PlateauFeatureOptions& options = {});
 
 }  // namespace palpate

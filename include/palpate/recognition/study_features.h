@@ -24,7 +24,10 @@ namespace palpate {
 
 // Returns "diameter" [mm], "compressibility" [mm], "std_1", "std_5" [full scale], "m1_T00",
 // "m1_T01" .. "m5_T44"; the numbers are those of the pads.
-std::vector<std::string> studyFeatureNames(const PinchHand& hand = sdh2PinchHand());
+std::vector<std::string> studyFeatureNames(const PinchHand& hand);
+
+// Whether these are the names of the study's features, of whichever pads.
+bool isStudySet(const std::vector<std::string>& names);
 
 struct StudyFeatures {
   // Reason why there are no features: no joint angles, no contact, grasp too short, and so on;
@@ -44,7 +47,7 @@ struct StudyFeatures {
 // recording lacks is reported in `problem`.
 StudyFeatures studyFeatures(const Profile& profile,
                             const GraspSegment& grasp,
-                            const PinchHand& hand = sdh2PinchHand(),
+                            const PinchHand& hand,
                             std::optional<std::size_t> endFrame = std::nullopt);
 
 }  // namespace palpate

@@ -15,6 +15,9 @@ struct DsaWriteReport {
   std::size_t movedStamps = 0;  // samples stamped later than they came, so that stamps grow
 };
 
+// The format belongs to the DSACON32-M: a hand with another controller, unit or full scale is
+// refused.
+//
 // Writes a temporary file, syncs it, renames it: PATH is whole or untouched. Stamps are stored in
 // whole milliseconds, rounded down; of samples of one stream within a millisecond each gets the
 // next one, since the stamps of the form strictly grow. `generated_by` and `hw_revision` are whole

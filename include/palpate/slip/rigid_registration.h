@@ -9,7 +9,9 @@
 // (noise^2 + (relative error x model)^2 + variance of the key frame).
 #pragma once
 
-#include <palpate/model/hand_description.h>
+#include <limits>
+
+#include <palpate/model/matrix_layout.h>
 #include <palpate/slip/key_frame.h>
 
 namespace palpate {
@@ -32,7 +34,7 @@ struct RegistrationOptions {
   // Relative error of the model, >= 0.
   double relativeError = 0.01;
   // A taxel at or above this value is saturated [counts].
-  double saturationCounts = static_cast<double>(kSdh2SaturationCounts);
+  double saturationCounts = std::numeric_limits<double>::infinity();
   // Prior standard deviation of the rotation from the start value [deg], > 0.
   double anglePriorDeg = 6.0;
   // The rotation is held at its start value if KeyFrame::rotationSensitivity() is below this,

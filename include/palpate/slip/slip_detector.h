@@ -15,6 +15,7 @@
 #include <optional>
 #include <span>
 
+#include <palpate/model/hand_description.h>
 #include <palpate/slip/slip_motion.h>
 #include <palpate/slip/slip_state.h>
 #include <palpate/slip/slip_tracker.h>
@@ -43,10 +44,17 @@ struct SlipDetectorOptions {
   SlipWindowsOptions windows = {};
   // `method` and `firstContactIsReference` are overwritten by the options above.
   SlipTrackerOptions tracker = {};
+  // Readings are multiplied by this before anything is computed of them, > 0: limits and standard
+  // deviations of slip detection are in counts of 12 bits. See withScaleOf().
+  double countsScale = 1.0;
 
   // Throws std::invalid_argument naming the field.
   void validate() const;
 };
+
+// Returns the options for readings of a hand: countsScale brings its full scale to 4095, and its
+// saturation is that of all registrations.
+SlipDetectorOptions withScaleOf(const HandDescription& hand, SlipDetectorOptions options);
 
 // Result of one frame of one matrix.
 struct SlipDetection {
@@ -103,6 +111,8 @@ class SlipDetector {
 
   MatrixLayout layout_;
   SlipDetectorOptions options_;
+  // The newest frame, multiplied by countsScale.
+  MatrixValues scaled_;
   SlipTracker tracker_;
   SlipWindows windows_;
   SlipRule rule_;

@@ -7,6 +7,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <vector>
 
@@ -24,8 +25,8 @@ struct SlipTrackerOptions {
   // Whether the first frame with contact becomes the reference; if false, there is none until
   // setReference().
   bool firstContactIsReference = true;
-  // A taxel at or above this value is saturated [counts], > 0.
-  double saturationCounts = static_cast<double>(kSdh2SaturationCounts);
+  // A taxel at or above this value is saturated [counts], > 0; infinity: none is.
+  double saturationCounts = std::numeric_limits<double>::infinity();
   // ncc, phase: largest step that is searched for [taxels], 1..8.
   int maxStepTaxels = 4;
   RotationOptions rotation = {};

@@ -65,7 +65,7 @@ struct SyntheticSensor {
   // Smaller readings become 0 [counts].
   double thresholdCounts = 150.0;
   // Largest reading [counts].
-  double saturationCounts = static_cast<double>(kSdh2LargestCounts);
+  double saturationCounts = 4095.0;
   // Standard deviation of an edge [taxels], > 0.
   double coverTaxels = 0.4;
 

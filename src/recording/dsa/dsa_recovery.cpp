@@ -9,6 +9,7 @@
 #include "palpate/core/error.h"
 #include "palpate/core/progress.h"
 #include "palpate/core/xml.h"
+#include "palpate/model/hand_file.h"
 #include "palpate/recording/bzip2_blocks.h"
 
 #include "recording/dsa/dsa_document.h"
@@ -129,7 +130,7 @@ class ElementScanner {
       return;
     }
     if (!isSensor && !document_.hasLayout()) {
-      document_.useLayout(sdh2().layout);
+      document_.useLayout(defaultHand().layout);
       result_.layoutAssumed = true;
     }
     try {

@@ -16,12 +16,14 @@
 #include "palpate/core/number_text.h"
 #include "palpate/core/progress.h"
 #include "palpate/core/time.h"
+#include "palpate/model/hand_file.h"
 #include "palpate/recording/frame_text.h"
 
 namespace palpate {
 namespace {
 
 constexpr std::size_t kTokensPerLine = 7;
+constexpr float kDsaFullScaleCounts = 4095.0F;        // 12 bits
 constexpr std::string_view kDataIndent = "        ";  // of lines within masks and frame_data
 constexpr std::string_view kDataLineEnd = "\r\n";
 constexpr std::size_t kTextBytes = 256u << 10;  // gathered before they are compressed
@@ -30,12 +32,12 @@ constexpr std::size_t kSamplesPerReport = 256;
 constexpr std::string_view kDefaultRevision = "105";
 constexpr std::string_view kDefaultSerial = "00000000";
 
-// Where the prior program draws the matrices of an SDH-2 [mm]; no real geometry.
+// Where the prior program draws the matrices of this controller's hand [mm]; no real geometry.
 struct Centre {
   int x;
   int y;
 };
-constexpr std::array<Centre, 6> kSdh2Centres = {
+constexpr std::array<Centre, 6> kKnownCentres = {
     {{-50, -32}, {-50, 32}, {0, -32}, {0, 32}, {50, -32}, {50, 32}}};
 
 // Compresses text into a file that appears when everything is written.
@@ -91,15 +93,18 @@ void addMask(std::string& out, std::string_view name, const Mask& mask, int colu
   out.append("      </").append(name).append(">\n");
 }
 
-bool looksLikeSdh2(const SensorLayout& layout) {
-  const SensorLayout& known = *sdh2().layout;
-  return layout.numMatrices() == known.numMatrices() &&
-         std::equal(layout.matrices().begin(),
-                    layout.matrices().end(),
-                    known.matrices().begin(),
-                    [](const MatrixLayout& a, const MatrixLayout& b) {
-                      return a.rows == b.rows && a.columns == b.columns;
-                    });
+// Why the recording cannot be a .dsa, which holds 12 bits of a DSACON32-M; empty when it can.
+std::string dsaRefusal(const HandDescription& hand) {
+  const char* what = nullptr;
+  if (hand.file && hand.file->controller != defaultHand().file->controller)
+    what = "has no such controller";
+  else if (hand.unit != "counts")
+    what = "measures in another unit than counts";
+  else if (hand.maximumCounts > kDsaFullScaleCounts)
+    what = "has more than 12 bits";
+  if (!what) return {};
+  return ".dsa is the format of the " + defaultHand().file->controller + "; '" + hand.name + "' " +
+         what + ": use .palpate, CSV or NPZ";
 }
 
 void addMatrix(std::string& out, const MatrixLayout& matrix, std::size_t index, Centre centre) {
@@ -158,9 +163,9 @@ std::string headerText(const Profile& profile) {
   addLine(out, kIndent, "serial_nr", serialText(info));
   addLine(out, kIndent, "num_matrices", std::to_string(layout.numMatrices()));
   addLine(out, kIndent, "converter_resolution", "12");
-  const bool known = looksLikeSdh2(layout);
+  const bool known = sameSizes(layout, *defaultHand().layout);
   for (std::size_t i = 0; i < layout.numMatrices(); ++i)
-    addMatrix(out, layout.matrix(i), i, known ? kSdh2Centres[i] : Centre{0, 0});
+    addMatrix(out, layout.matrix(i), i, known ? kKnownCentres[i] : Centre{0, 0});
   out += "  </sensor>\n";
   return out;
 }
@@ -269,6 +274,8 @@ class Writer {
 
 // A negative value would be read as a run of zeros: better no file than a wrong one.
 void dsaWriterRequireStorable(const Profile& profile, const std::filesystem::path& path) {
+  if (const std::string why = dsaRefusal(profile.hand()); !why.empty())
+    throw FileError(path, "can't be written: " + why);
   if (profile.info().valueType == ValueType::kCounts) return;
   TactileFrame frame;
   for (std::size_t i = 0; i < profile.numFrames(); ++i) {

@@ -419,7 +419,7 @@ std::size_t damagedSeconds(const Findings& found,
 
 void findLayout(Findings& found, PalpateRecovery& recovery) {
   if (found.layout || found.blocks->stream(Stream::kTactile).empty()) return;
-  if (everyFrameHas(*found.blocks, sdh2().layout->numCells()))
+  if (everyFrameHas(*found.blocks, defaultHand().layout->numCells()))
     recovery.layoutAssumed = true;
   else
     recovery.layoutLost = true;
@@ -431,7 +431,8 @@ void buildProfile(const fs::path& path,
                   const Progress& progress) {
   auto storage = std::make_shared<BlockStorage>(
       path, [blocks = found.blocks](std::int64_t id) { return blocks->load(id); });
-  const std::shared_ptr<const SensorLayout> layout = found.layout ? found.layout : sdh2().layout;
+  const std::shared_ptr<const SensorLayout> layout =
+      found.layout ? found.layout : defaultHand().layout;
   storage->setWidth(Stream::kTactile, layout->numCells());
   for (Stream stream : {Stream::kAngles, Stream::kTemperatures})
     storage->setWidth(stream, widthOf(*found.blocks, stream));

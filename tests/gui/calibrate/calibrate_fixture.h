@@ -10,6 +10,7 @@
 
 #include <gtest/gtest.h>
 
+#include "palpate/device/sdh2.h"
 #include <palpate/model/profile_builder.h>
 
 #include "gui/calibrate/calibrate_panel.h"

@@ -6,6 +6,7 @@
 #include <QSignalSpy>
 #include <fstream>
 
+#include "palpate/device/sdh2.h"
 #include <palpate/calibration/force_series.h>
 #include <palpate/recording/recording.h>
 

@@ -7,6 +7,8 @@
 #include <QTest>
 #include <fstream>
 
+#include "palpate/device/sdh2.h"
+
 #include "gui/calibrate/calibrate_fixture.h"
 #include "gui/calibrate/noise_page.h"
 #include "gui/calibrate/pressure_page.h"

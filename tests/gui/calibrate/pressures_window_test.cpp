@@ -5,6 +5,7 @@
 #include <QTest>
 #include <QToolButton>
 
+#include "palpate/device/sdh2.h"
 #include <palpate/calibration/force_series.h>
 
 #include "calibration/sample_calibrations.h"

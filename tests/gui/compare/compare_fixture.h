@@ -13,6 +13,7 @@
 #include <QToolButton>
 #include <algorithm>
 
+#include "palpate/device/sdh2.h"
 #include <palpate/model/profile_builder.h>
 
 #include "gui/compare/compare_chart.h"

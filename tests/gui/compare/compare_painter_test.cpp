@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "palpate/device/sdh2.h"
 #include <palpate/signals/frame_difference.h>
 
 #include "gui/appearance/difference_map.h"

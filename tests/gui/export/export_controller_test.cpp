@@ -11,6 +11,7 @@
 #include <set>
 #include <sstream>
 
+#include "palpate/device/sdh2.h"
 #include <palpate/core/number_text.h>
 
 #include "gui/chart/chart_style.h"

@@ -4,6 +4,7 @@
 #include <QMenu>
 #include <algorithm>
 
+#include "palpate/device/sdh2.h"
 #include <palpate/emulator/synthetic_profile.h>
 #include <palpate/filter/filtered_profile.h>
 #include <palpate/model/profile_builder.h>

@@ -11,6 +11,7 @@
 #include <QTest>
 #include <QToolButton>
 
+#include "palpate/device/sdh2.h"
 #include <palpate/model/preshape.h>
 
 #include "calibration/sample_calibrations.h"

@@ -10,6 +10,7 @@
 
 #include <palpate/model/hand_description.h>
 
+#include "testing/sdh2.h"
 #include "testing/testing.h"
 
 namespace palpate::gui::hand_mesh_test {
@@ -67,7 +68,7 @@ TEST(HandMesh, AnExtrusionIsABoxWithCutRims) {
 }
 
 TEST(HandMesh, BodiesOfTheSdh2AreClosedAndCarryTheirSensors) {
-  const HandGeometry geometry;
+  const HandGeometry geometry(sdh2Geometry());
   const auto bodies = handBodies(geometry);
   const HandPose pose = geometry.pose(std::vector<double>(7, 0.0));
   std::size_t links = 0;

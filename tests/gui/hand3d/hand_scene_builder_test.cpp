@@ -5,7 +5,10 @@
 
 #include <gtest/gtest.h>
 
+#include "palpate/device/sdh2.h"
+
 #include "gui/testing/sample_profiles.h"
+#include "testing/sdh2.h"
 
 namespace palpate::gui::hand_scene_builder_test {
 namespace {
@@ -33,7 +36,7 @@ class HandSceneBuilderTest : public ::testing::Test {
         }));
   }
 
-  HandGeometry geometry_;
+  HandGeometry geometry_{sdh2Geometry()};
   HandSceneBuilder drawing_;
   TactileFrame frame_ = emptyFrame();
   HandLook look_;

@@ -4,6 +4,7 @@
 #include <QSignalSpy>
 #include <algorithm>
 
+#include "palpate/device/sdh2.h"
 #include <palpate/emulator/synthetic_profile.h>
 #include <palpate/recording/palpate_writer.h>
 

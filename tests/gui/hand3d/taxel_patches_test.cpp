@@ -2,6 +2,9 @@
 
 #include <Eigen/Geometry>
 
+#include "palpate/device/sdh2.h"
+
+#include "testing/sdh2.h"
 #include "testing/testing.h"
 
 namespace palpate::gui::taxel_patches_test {
@@ -18,7 +21,7 @@ float areaMm2(const TaxelPatch& patch) {
 }
 
 TEST(TaxelPatches, OnTheHandTheyFaceOutwardsAroundTheirCentre) {
-  const HandGeometry geometry;
+  const HandGeometry geometry(sdh2Geometry());
   const HandPose pose = geometry.pose({30.0, -10.0, 20.0, -25.0, 40.0, -5.0, 15.0});
   TaxelPatches patches;
   patchesOnHand(pose, *sdh2().layout, patches);

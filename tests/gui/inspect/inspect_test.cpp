@@ -1,6 +1,7 @@
 #include <QApplication>
 #include <set>
 
+#include "palpate/device/sdh2.h"
 #include <palpate/emulator/synthetic_profile.h>
 #include <palpate/model/hand_description.h>
 #include <palpate/recording/palpate_writer.h>

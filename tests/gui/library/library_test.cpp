@@ -11,6 +11,7 @@
 #include <QToolButton>
 #include <QUrl>
 
+#include "palpate/device/sdh2.h"
 #include <palpate/core/error.h>
 #include <palpate/recording/event_store.h>
 #include <palpate/recording/palpate_writer.h>

@@ -7,6 +7,8 @@
 
 #include <gtest/gtest.h>
 
+#include "palpate/device/sdh2.h"
+
 #include "gui/testing/sample_profiles.h"
 #include "testing/testing.h"
 

@@ -7,6 +7,8 @@
 
 #include <gtest/gtest.h>
 
+#include "palpate/device/sdh2.h"
+
 #include "gui/testing/sample_profiles.h"
 
 namespace palpate::gui::matrices_view_test {

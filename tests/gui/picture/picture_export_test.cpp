@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "palpate/device/sdh2.h"
 #include <palpate/core/error.h>
 
 #include "gui/matrices/matrices_painter.h"

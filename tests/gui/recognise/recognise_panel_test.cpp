@@ -5,6 +5,8 @@
 #include <QLineEdit>
 #include <QPushButton>
 
+#include "palpate/device/sdh2.h"
+
 #include "gui/recognise/answer_view.h"
 #include "gui/recognise/ask_page.h"
 #include "gui/recognise/check_page.h"

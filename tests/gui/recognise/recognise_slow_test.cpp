@@ -150,7 +150,7 @@ TEST_F(RecogniseSlowTest, ASeriesIsCapturedWhileTheHandGrasps) {
     EXPECT_EQ(clip.path.parent_path(), folder / "thick_pen");
     files.insert(clip.path);
     // What lies there is one whole grasp.
-    EXPECT_EQ(findPinches(openRecording(clip.path)).size(), 1u);
+    EXPECT_EQ(findPinches(openRecording(clip.path), FeatureSet::kBest).size(), 1u);
   }
   EXPECT_EQ(files.size(), 2u) << "one does not replace the other";
   EXPECT_EQ(find<FiguresTable>("teachClips")->rowCount(), 2);

@@ -10,6 +10,7 @@
 #include <QToolButton>
 #include <set>
 
+#include "palpate/device/sdh2.h"
 #include <palpate/recording/recording.h>
 
 #include "control/emulated_bench.h"

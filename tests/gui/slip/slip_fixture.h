@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "palpate/device/sdh2.h"
 #include <palpate/model/hand_description.h>
 #include <palpate/model/profile_builder.h>
 #include <palpate/slip/synthetic_slip.h>

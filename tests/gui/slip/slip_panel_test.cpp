@@ -14,6 +14,7 @@
 
 #include <gtest/gtest.h>
 
+#include "palpate/device/sdh2.h"
 #include <palpate/core/number_text.h>
 
 #include "gui/slip/slip_chart.h"

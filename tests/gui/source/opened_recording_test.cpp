@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "palpate/device/sdh2.h"
 #include <palpate/core/error.h>
 #include <palpate/model/profile_builder.h>
 

@@ -2,6 +2,8 @@
 #include <QDockWidget>
 #include <QLabel>
 
+#include "palpate/device/sdh2.h"
+
 #include "gui/export/export_controller.h"
 #include "gui/export/export_feature.h"
 #include "gui/matrices/matrices_view.h"

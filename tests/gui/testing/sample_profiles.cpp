@@ -1,5 +1,6 @@
 #include "gui/testing/sample_profiles.h"
 
+#include "palpate/device/sdh2.h"
 #include <palpate/model/hand_description.h>
 #include <palpate/model/profile_builder.h>
 

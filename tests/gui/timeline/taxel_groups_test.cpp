@@ -2,6 +2,7 @@
 
 #include <QSignalSpy>
 
+#include "palpate/device/sdh2.h"
 #include <palpate/model/hand_description.h>
 
 #include "gui/timeline/signal_tree.h"

@@ -3,6 +3,7 @@
 
 #include <QSignalSpy>
 
+#include "palpate/device/sdh2.h"
 #include <palpate/model/profile_builder.h>
 
 #include "gui/window_state/window_state_fixture.h"

@@ -3,6 +3,7 @@
 #include <QFileInfo>
 #include <utility>
 
+#include "palpate/device/sdh2.h"
 #include <palpate/core/number_text.h>
 
 #include "gui/calibrate/calibrate_panel.h"

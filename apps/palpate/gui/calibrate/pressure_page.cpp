@@ -13,6 +13,7 @@
 #include <QVBoxLayout>
 #include <algorithm>
 
+#include "palpate/device/sdh2.h"
 #include <palpate/core/error.h>
 #include <palpate/core/number_text.h>
 

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "palpate/device/sdh2.h"
 #include <palpate/core/error.h>
 #include <palpate/model/preshape.h>
 

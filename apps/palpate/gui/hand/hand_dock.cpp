@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "palpate/device/sdh2.h"
 #include <palpate/capture/link_health.h>
 #include <palpate/core/time.h>
 

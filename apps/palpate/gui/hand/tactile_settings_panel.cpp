@@ -11,6 +11,7 @@
 #include <chrono>
 #include <stdexcept>
 
+#include "palpate/device/sdh2.h"
 #include <palpate/model/hand_description.h>
 
 #include "gui/widgets/value_slider.h"

@@ -134,9 +134,9 @@ void RecognitionController::ask(const RecogniseQuestion& question) {
   const std::string sensor = sensorText(question.profile.layout());
   FeatureTable table;
   table.set = session_->model().set;
-  table.names = featureNames(table.set);
   table.sensor = sensor;
   try {
+    table.names = featureNames(table.set, question.profile.hand());
     requireFits(session_->model(), table);
   } catch (const Error& error) {
     return showProblem(error.what());
@@ -147,14 +147,12 @@ void RecognitionController::ask(const RecogniseQuestion& question) {
       "the grasp",
       [chosen, question, set = table.set](const Progress& progress) {
         const std::size_t count = question.profile.numFrames();
-        *chosen = question.frames && count > 0
-                      ? graspWithin(question.profile,
-                                    question.frames->first,
-                                    question.frames->second,
-                                    set,
-                                    sdh2PinchHand(),
-                                    progress)
-                      : graspOf(question.profile, set, sdh2PinchHand(), progress);
+        *chosen = question.frames && count > 0 ? graspWithin(question.profile,
+                                                             question.frames->first,
+                                                             question.frames->second,
+                                                             set,
+                                                             progress)
+                                               : graspOf(question.profile, set, progress);
       },
       [this, chosen, of = question.of, generation = ++generation_, contact = contact_] {
         if (generation != generation_ || !session_) return;

@@ -22,10 +22,11 @@ constexpr const char* kTrainingControllerFolderKey = "recognise/folder";
 constexpr double kGoodQuality = 0.5;  // a clip of this quality or better is stored at once
 constexpr std::size_t kBlocks = 5, kSplits = 10;
 
-// Options with the classifier that also works on recordings of another session.
-PipelineOptions gauss() {
+// Options with the classifier that also works on recordings of another session, where the features
+// do.
+PipelineOptions trainingOptions(FeatureSet set) {
   PipelineOptions options;
-  options.classifier = ClassifierKind::kGauss;
+  options.classifier = set == FeatureSet::kBest ? ClassifierKind::kGauss : ClassifierKind::kSvm;
   options.calibrationBlocks = kBlocks;
   return options;
 }
@@ -71,9 +72,7 @@ void TrainingController::setFolder(const fs::path& folder) {
 
 std::shared_ptr<const FeatureTable> TrainingController::gather(const fs::path& folder,
                                                                const Progress& progress) const {
-  FeatureExtractionOptions options;
-  options.set = FeatureSet::kBest;
-  return std::make_shared<const FeatureTable>(extractFeatures({folder}, options, progress));
+  return std::make_shared<const FeatureTable>(extractFeatures({folder}, {}, progress));
 }
 
 void TrainingController::look() {
@@ -124,7 +123,7 @@ std::map<QString, int> TrainingController::counts() const {
 }
 
 void TrainingController::capture(const QString& object, const Profile& clip) {
-  const ChosenGrasp grasp = graspOf(clip, FeatureSet::kBest);
+  const ChosenGrasp grasp = graspOf(clip, defaultFeatureSet(clip.hand()));
   TrainingClip taught{.object = object, .path = {}, .profile = clip, .problem = {}};
   taught.quality = grasp.quality;
   taught.seconds = static_cast<double>(clip.durationUs()) / kUsPerS;
@@ -232,12 +231,13 @@ void TrainingController::train(const fs::path& out, const std::optional<EmptyHan
         made->table = gather(folder, part(0.0, 0.5));
         const SampleSet samples = samplesOf(*made->table);
         requireLearnable(samples);
+        const PipelineOptions options = trainingOptions(made->table->set);
         made->model =
-            trainModel(samples, FeatureSet::kBest, made->table->sensor, gauss(), part(0.5, 0.9));
+            trainModel(samples, made->table->set, made->table->sensor, options, part(0.5, 0.9));
         made->model.inputs = inputsOf(*made->table, part(0.9, 1.0));
         made->model.programVersion = PALPATE_VERSION;
         made->model.madeAt = utcText(systemClock().wallUs());
-        made->model.options = jsonOf(gauss()).set("path", folder.string());
+        made->model.options = jsonOf(options).set("path", folder.string());
         made->model.trainingZero = zero;
         saveModel(made->model, out, Overwrite::kReplace);
       },
@@ -259,9 +259,10 @@ void TrainingController::check(bool blocks) {
         requireLearnable(made->samples);
         const auto splits = made->blocks ? blockSplits(made->samples.y, kBlocks)
                                          : stratifiedSplits(made->samples.y, kSplits, 0);
-        made->report = crossValidate(made->samples, gauss(), splits, 0, [&](double fraction) {
-          return !progress || progress(0.6 + 0.4 * fraction);
-        });
+        made->report = crossValidate(
+            made->samples, trainingOptions(made->table->set), splits, 0, [&](double fraction) {
+              return !progress || progress(0.6 + 0.4 * fraction);
+            });
       },
       [this, made] {
         take(made->table);

@@ -95,7 +95,7 @@ std::unique_ptr<LiveSource> openSource(const Connection& connection,
                                                   settingsOf(*source->session, connection));
   source->pressure = pressure.get();
   stages.push_back(std::move(pressure));
-  auto slip = std::make_unique<SlipStage>();
+  auto slip = std::make_unique<SlipStage>(source->session->device().hand());
   source->slip = slip.get();
   stages.push_back(std::move(slip));
   ChainOptions options;
