@@ -4,7 +4,6 @@
 #include <filesystem>
 #include <string>
 
-#include <dlfcn.h>
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
@@ -14,6 +13,7 @@
 
 #include "python/arrays.h"
 #include "python/bindings.h"
+#include "python/data_folder.h"
 #include "python/interruption.h"
 
 namespace palpate::python {
@@ -21,22 +21,6 @@ namespace py = pybind11;
 namespace {
 
 namespace fs = std::filesystem;
-
-// The folder with the scenes: that of $PALPATE_DATA, else next to the installed module
-// (PREFIX/lib/python3/dist-packages), else that of the source tree.
-fs::path scenesFolder() {
-  if (const char* given = std::getenv("PALPATE_DATA"); given && *given)
-    return fs::path(given) / "scenes";
-  Dl_info self{};
-  if (dladdr(reinterpret_cast<const void*>(&scenesFolder), &self) != 0 && self.dli_fname) {
-    std::error_code ignored;
-    const fs::path module = fs::canonical(self.dli_fname, ignored);
-    const fs::path prefix = module.parent_path().parent_path().parent_path().parent_path();
-    const fs::path installed = prefix / PALPATE_INSTALLED_DATA / "scenes";
-    if (fs::is_directory(installed, ignored)) return installed;
-  }
-  return fs::path(PALPATE_BUILD_DATA) / "scenes";
-}
 
 py::tuple synthesized(double duration,
                       double rate,
@@ -71,7 +55,7 @@ Scene sceneOf(const py::object& scene) {
   if (py::isinstance<py::dict>(scene)) return parseScene(toJson(scene).text(), "scene");
   if (!py::isinstance<py::str>(scene) && !py::hasattr(scene, "__fspath__"))
     throw py::type_error("a scene is a name, a JSON file, or a dict");
-  return loadScene(scene.cast<fs::path>().string(), scenesFolder());
+  return loadScene(scene.cast<fs::path>().string(), (dataFolder() / "scenes"));
 }
 
 Profile emulate(const py::object& scene,
@@ -174,7 +158,7 @@ void bindEmulator(py::module_& module) {
       "than it reports [deg]. OSError or ValueError for a bad scene.");
   module.def(
       "scenes",
-      [] { return sceneNames(scenesFolder()); },
+      [] { return sceneNames((dataFolder() / "scenes")); },
       "Names of the scenes that come with the program: list of str.");
   const NoisyContactsOptions noisy;
   module.def("noisy_contacts",

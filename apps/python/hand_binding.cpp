@@ -14,6 +14,7 @@
 
 #include "python/arrays.h"
 #include "python/bindings.h"
+#include "python/data_folder.h"
 #include "python/geometry.h"
 #include "python/interruption.h"
 
@@ -25,7 +26,7 @@ HandDescription handGiven(const py::object& given) {
   if (py::isinstance<HandDescription>(given)) return given.cast<HandDescription>();
   if (!py::isinstance<py::str>(given) && !py::hasattr(given, "__fspath__"))
     throw py::type_error("hand takes a Hand, its name or folder, or None");
-  return findHand(given.cast<std::filesystem::path>().string(), {});
+  return findHand(given.cast<std::filesystem::path>().string(), handFolders(dataFolder()));
 }
 
 namespace {

@@ -37,6 +37,25 @@ HandDescription withSeriesOf(HandDescription hand,
   return hand;
 }
 
+std::string sizesText(const SensorLayout& layout) {
+  // Equal sizes are counted: "3 x 14x6, 3 x 13x6".
+  std::vector<std::pair<std::string, int>> sizes;
+  for (const MatrixLayout& matrix : layout.matrices()) {
+    const std::string size = std::to_string(matrix.rows) + "x" + std::to_string(matrix.columns);
+    const auto known = std::find_if(
+        sizes.begin(), sizes.end(), [&](const auto& each) { return each.first == size; });
+    if (known == sizes.end())
+      sizes.emplace_back(size, 1);
+    else
+      ++known->second;
+  }
+  std::string text;
+  for (const auto& [size, count] : sizes)
+    text += (text.empty() ? "" : ", ") +
+            (count == 1 ? std::string() : std::to_string(count) + " x ") + size;
+  return text;
+}
+
 HandDescription describeHand(const SensorLayout& layout,
                              std::size_t numAxes,
                              std::size_t numTemperatureSensors) {

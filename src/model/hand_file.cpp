@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
+#include <map>
 #include <set>
 #include <stdexcept>
 #include <utility>
@@ -492,25 +494,46 @@ const HandDescription& defaultHand() {
   throw std::logic_error("no built-in hand has a tactile controller");
 }
 
+std::vector<fs::path> handFolders(const fs::path& dataFolder) {
+  std::vector<fs::path> folders;
+  const char* data = std::getenv("XDG_DATA_HOME");
+  const char* home = std::getenv("HOME");
+  if (data && *data)
+    folders.push_back(fs::path(data) / "palpate/hands");
+  else if (home && *home)
+    folders.push_back(fs::path(home) / ".local/share/palpate/hands");
+  folders.push_back(dataFolder / "hands");
+  return folders;
+}
+
+std::vector<KnownHand> knownHands(const std::vector<fs::path>& folders) {
+  std::map<std::string, fs::path> known;
+  for (const fs::path& folder : folders) {
+    std::error_code failure;
+    fs::directory_iterator entry(folder, failure);
+    for (; !failure && entry != fs::directory_iterator(); entry.increment(failure)) {
+      std::error_code ignored;
+      if (fs::is_regular_file(entry->path() / "hand.json", ignored))
+        known.emplace(entry->path().filename().string(), entry->path());
+    }
+  }
+  for (const BuiltInHand& each : builtInHands()) known.emplace(each.key, fs::path());
+  std::vector<KnownHand> list;
+  for (const auto& [key, folder] : known) list.push_back({key, folder});
+  return list;
+}
+
 HandDescription findHand(const std::string& name, const std::vector<fs::path>& folders) {
   std::error_code failure;
   const bool isPath = name.find('/') != std::string::npos || name.ends_with(".json");
   if (isPath || fs::is_regular_file(fs::path(name) / "hand.json", failure))
     return readHandFolder(name);
-  std::set<std::string> known;
-  for (const fs::path& folder : folders) {
-    if (fs::is_regular_file(folder / name / "hand.json", failure))
-      return readHandFolder(folder / name);
-    for (const auto& entry : fs::directory_iterator(folder, failure))
-      if (fs::is_regular_file(entry.path() / "hand.json", failure))
-        known.insert(entry.path().filename().string());
-  }
-  for (const BuiltInHand& each : builtInHands()) {
-    if (each.key == name) return *each.hand;
-    known.insert(each.key);
-  }
   std::string list;
-  for (const std::string& each : known) list += (list.empty() ? "" : ", ") + each;
+  for (const KnownHand& each : knownHands(folders)) {
+    if (each.key == name)
+      return each.folder.empty() ? builtInHand(name) : readHandFolder(each.folder);
+    list += (list.empty() ? "" : ", ") + each.key;
+  }
   throw Error("no hand '" + name + "'; there are: " + list +
               ". A folder with a hand.json is named by its path.");
 }

@@ -1,6 +1,9 @@
 #include "palpate/model/hand_file.h"
 
+#include <cstdlib>
 #include <fstream>
+#include <map>
+#include <optional>
 #include <set>
 
 #include <gtest/gtest.h>
@@ -156,6 +159,57 @@ TEST(HandFile, FindsHandsByNameAndByFolder) {
     EXPECT_NE(what.find("mine"), std::string::npos) << what;
     EXPECT_NE(what.find("sdh2"), std::string::npos) << what;
   }
+}
+
+// Sets a variable of the environment, and restores it.
+class Variable {
+ public:
+  Variable(const char* name, const char* value) : name_(name) {
+    if (const char* before = std::getenv(name)) before_ = before;
+    value ? setenv(name, value, 1) : unsetenv(name);
+  }
+  ~Variable() { before_ ? setenv(name_, before_->c_str(), 1) : unsetenv(name_); }
+
+ private:
+  const char* name_;
+  std::optional<std::string> before_;
+};
+
+TEST(HandFile, HandsAreLookedForInTheUsersFolderFirst) {
+  using Paths = std::vector<std::filesystem::path>;
+  const Variable home("HOME", "/home/me");
+  {
+    const Variable data("XDG_DATA_HOME", "/my/data");
+    EXPECT_EQ(handFolders("/program"), (Paths{"/my/data/palpate/hands", "/program/hands"}));
+  }
+  const Variable data("XDG_DATA_HOME", nullptr);
+  EXPECT_EQ(handFolders("/program"),
+            (Paths{"/home/me/.local/share/palpate/hands", "/program/hands"}));
+  const Variable nobody("HOME", nullptr);
+  EXPECT_EQ(handFolders("/program"), (Paths{"/program/hands"}));
+}
+
+TEST(HandFile, OfEqualNamesTheFirstFolderIsTaken) {
+  const TemporaryFolder first, second;
+  const auto add = [](const std::filesystem::path& folder, const std::string& name) {
+    std::filesystem::create_directories(folder);
+    std::string text = handText();
+    text.replace(text.find("pad"), 3, name);
+    std::ofstream(folder / "hand.json") << text;
+  };
+  add(first / "mine", "first");
+  add(second / "mine", "second");
+  add(second / "sole", "my sole");
+  std::filesystem::create_directories(first / "empty");
+  const std::vector<std::filesystem::path> folders = {first.path(), "/not/there", second.path()};
+  std::map<std::string, std::filesystem::path> known;
+  for (const KnownHand& each : knownHands(folders)) known.emplace(each.key, each.folder);
+  EXPECT_EQ(known.size(), builtInHands().size() + 1);
+  EXPECT_EQ(known.at("mine"), first / "mine");
+  EXPECT_EQ(known.at("sole"), second / "sole");
+  EXPECT_EQ(known.at("sdh2"), "");
+  EXPECT_EQ(findHand("mine", folders).name, "first");
+  EXPECT_EQ(findHand("sole", folders).name, "my sole");
 }
 
 TEST(HandFile, TheBuiltInHandsAreThoseOfTheDataFolder) {

@@ -1,7 +1,5 @@
 #include "commands/hand_options.h"
 
-#include <cstdlib>
-
 #include "palpate/core/error.h"
 #include "palpate/core/number_text.h"
 #include "palpate/kinematics/joint_range.h"
@@ -31,18 +29,6 @@ std::vector<double> numbersOf(const std::string& text,
   return numbers;
 }
 
-std::vector<std::filesystem::path> handFolders() {
-  std::vector<std::filesystem::path> folders;
-  const char* data = std::getenv("XDG_DATA_HOME");
-  const char* home = std::getenv("HOME");
-  if (data && *data)
-    folders.push_back(std::filesystem::path(data) / "palpate/hands");
-  else if (home && *home)
-    folders.push_back(std::filesystem::path(home) / ".local/share/palpate/hands");
-  folders.push_back(dataFolder() / "hands");
-  return folders;
-}
-
 OptionSpec handOption() {
   return {"hand", "NAME|FOLDER", "the hand: a name that `palpate hands` lists, or its folder"};
 }
@@ -50,7 +36,7 @@ OptionSpec handOption() {
 std::optional<HandDescription> handOf(const CommandLine& given) {
   const auto name = given.text("hand");
   if (!name) return std::nullopt;
-  return findHand(*name, handFolders());
+  return findHand(*name, handFolders(dataFolder()));
 }
 
 OptionSpec anglesOption() {

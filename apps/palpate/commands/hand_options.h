@@ -21,10 +21,6 @@ std::vector<double> numbersOf(const std::string& text,
                               const std::string& option,
                               std::size_t count);
 
-// The folders in which hands are looked for by name: the user's
-// ($XDG_DATA_HOME/palpate/hands or ~/.local/share/palpate/hands), then the program's.
-std::vector<std::filesystem::path> handFolders();
-
 // The option --hand NAME|FOLDER, and the hand that it names (nothing without the option). Throws
 // Error that lists the known hands, or says what is wrong in the hand's files.
 OptionSpec handOption();

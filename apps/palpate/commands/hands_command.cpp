@@ -2,8 +2,6 @@
 // hand.
 #include <algorithm>
 #include <cstdio>
-#include <filesystem>
-#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -21,8 +19,6 @@
 namespace palpate::commands {
 namespace {
 
-namespace fs = std::filesystem;
-
 struct ListedHand {
   std::string key;
   std::string source;  // "built in", or the folder
@@ -32,50 +28,21 @@ struct ListedHand {
 
 std::vector<ListedHand> listHands() {
   std::vector<ListedHand> list;
-  std::set<std::string> keys;
-  for (const fs::path& folder : handFolders()) {
-    std::error_code failure;
-    std::vector<fs::path> found;
-    for (const auto& entry : fs::directory_iterator(folder, failure))
-      if (fs::is_regular_file(entry.path() / "hand.json", failure)) found.push_back(entry.path());
-    std::sort(found.begin(), found.end());
-    for (const fs::path& path : found) {
-      const std::string key = path.filename().string();
-      if (!keys.insert(key).second) continue;
-      ListedHand listed{key, path.string(), {}, {}};
+  for (const KnownHand& known : knownHands(handFolders(dataFolder()))) {
+    ListedHand listed{known.key, known.folder.string(), {}, {}};
+    if (known.folder.empty()) {
+      listed.source = "built in";
+      listed.hand = builtInHand(known.key);
+    } else {
       try {
-        listed.hand = readHandFolder(path);
+        listed.hand = readHandFolder(known.folder);
       } catch (const Error& error) {
         listed.fault = error.what();
       }
-      list.push_back(std::move(listed));
     }
+    list.push_back(std::move(listed));
   }
-  for (const BuiltInHand& each : builtInHands())
-    if (keys.insert(each.key).second) list.push_back({each.key, "built in", *each.hand, {}});
-  std::sort(list.begin(), list.end(), [](const ListedHand& a, const ListedHand& b) {
-    return a.key < b.key;
-  });
   return list;
-}
-
-std::string sizesOfMatrices(const HandDescription& hand) {
-  // Equal sizes are counted: "3 x 14x6, 3 x 13x6".
-  std::vector<std::pair<std::string, int>> sizes;
-  for (const MatrixLayout& matrix : hand.layout->matrices()) {
-    const std::string size = std::to_string(matrix.rows) + "x" + std::to_string(matrix.columns);
-    const auto known = std::find_if(
-        sizes.begin(), sizes.end(), [&](const auto& each) { return each.first == size; });
-    if (known == sizes.end())
-      sizes.emplace_back(size, 1);
-    else
-      ++known->second;
-  }
-  std::string text;
-  for (const auto& [size, count] : sizes)
-    text += (text.empty() ? "" : ", ") +
-            (count == 1 ? std::string() : std::to_string(count) + " x ") + size;
-  return text;
 }
 
 Json handJson(const ListedHand& listed) {
@@ -123,7 +90,7 @@ int checkFolders(const std::vector<std::string>& folders) {
       std::printf("%s: %s: %s, %zu taxels, %zu axes, %s\n",
                   folder.c_str(),
                   hand.name.c_str(),
-                  sizesOfMatrices(hand).c_str(),
+                  sizesText(*hand.layout).c_str(),
                   hand.layout->numTaxels(),
                   hand.axes.size(),
                   hasGeometry(hand) ? "with geometry" : "without geometry");
@@ -163,7 +130,7 @@ int handsCommand(const Arguments& words) {
       std::printf("%-18s %-46s %s (%s)\n",
                   listed.key.c_str(),
                   listed.hand.name.c_str(),
-                  sizesOfMatrices(listed.hand).c_str(),
+                  sizesText(*listed.hand.layout).c_str(),
                   listed.source.c_str());
     }
     if (listed.fault.empty()) continue;

@@ -79,6 +79,9 @@ HandDescription withSeriesOf(HandDescription hand,
                              std::size_t numAxes,
                              std::size_t numTemperatureSensors);
 
+// The sizes of the matrices, equal ones counted: "3 x 14x6, 3 x 13x6" (rows x columns).
+std::string sizesText(const SensorLayout& layout);
+
 // Returns a description for a layout whose hand is not named: that of the built-in hand with a
 // tactile controller (HandFile::controller) and the same sizes, with the masks and the pitch of the
 // layout; otherwise matrices are named by number and drawn in a grid.

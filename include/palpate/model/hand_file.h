@@ -115,8 +115,21 @@ const HandDescription& builtInHand(std::string_view key);
 // (HandFile::controller), whose recordings don't name their hand.
 const HandDescription& defaultHand();
 
-// Returns the hand that `name` stands for: the folder of that path, a folder of that name in one of
-// `folders`, or a built-in hand. Throws Error that lists what is known.
+// A hand that is known by name.
+struct KnownHand {
+  std::string key;               // name of its folder: "my_pad"
+  std::filesystem::path folder;  // empty: built in
+};
+// The folders in which hands are looked for by name: the user's ($XDG_DATA_HOME/palpate/hands, or
+// $HOME/.local/share/palpate/hands without the former), then `dataFolder`/hands.
+std::vector<std::filesystem::path> handFolders(const std::filesystem::path& dataFolder);
+// The hands in `folders` and the built-in ones, by name in alphabetical order. Of hands with the
+// same name the first folder's is taken, a built-in one last. Folders that can't be read are left
+// out; the files of the hands are not read.
+std::vector<KnownHand> knownHands(const std::vector<std::filesystem::path>& folders);
+
+// Returns the hand that `name` stands for: the folder of that path, or a hand of that name among
+// knownHands(). Throws Error that lists what is known, or says what is wrong in the hand's files.
 HandDescription findHand(const std::string& name,
                          const std::vector<std::filesystem::path>& folders);
 

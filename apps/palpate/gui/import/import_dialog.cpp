@@ -18,6 +18,7 @@
 #include <utility>
 
 #include <palpate/core/number_text.h>
+#include <palpate/model/hand_file.h>
 
 #include "gui/import/import_fields.h"
 
@@ -87,7 +88,8 @@ ImportDialog::ImportDialog(QSettings& settings,
   askForName = [this](const QString& suggestion) {
     return QInputDialog::getText(this, "Save the mapping", "Name", QLineEdit::Normal, suggestion);
   };
-  hand_->addItems(knownHandNames(folders_));
+  for (const KnownHand& each : knownHands(folders_))
+    hand_->addItem(QString::fromStdString(each.key));
   strict_->setChecked(last.strict);
   listPresets("");
   showMapping(last.mapping);

@@ -3,6 +3,8 @@
 #include <QFileInfo>
 #include <memory>
 
+#include <palpate/model/hand_file.h>
+
 #include "gui/import/import_dialog.h"
 #include "gui/widgets/opening_strip.h"
 
@@ -30,8 +32,7 @@ ImportFeature::ImportFeature(WindowState& windowState, QWidget* window)
 }
 
 void ImportFeature::askAndImport() {
-  ImportDialog dialog(
-      state().settings, importHandFolders(state().environment.dataFolder), window());
+  ImportDialog dialog(state().settings, handFolders(state().environment.dataFolder), window());
   if (dialog.exec() != QDialog::Accepted) return;
   saveImportRequest(dialog.request(), state().settings);
   importNow(dialog.request());
@@ -41,7 +42,7 @@ void ImportFeature::importNow(const ImportRequest& request) {
   auto report = std::make_shared<ImportReport>();
   job_.start(
       request.data,
-      [request, report, folders = importHandFolders(state().environment.dataFolder)](
+      [request, report, folders = handFolders(state().environment.dataFolder)](
           const Progress& progress) { *report = runImport(request, folders, progress); },
       [this, report, request] {
         const QString text = textOf(*report, request.out);

@@ -1,7 +1,6 @@
 #include "gui/import/import_request.h"
 
 #include <QFileInfo>
-#include <QStandardPaths>
 #include <QUrl>
 
 #include <palpate/core/error.h>
@@ -75,27 +74,6 @@ QString textOf(const ImportReport& report, const QString& out) {
     text += ", " + QString::fromStdString(report.refused.summary()) +
             "; the first: " + QString::fromStdString(report.refused.first);
   return text;
-}
-
-std::vector<fs::path> importHandFolders(const fs::path& dataFolder) {
-  const QString user = QStandardPaths::writableLocation(QStandardPaths::GenericDataLocation);
-  return {fs::path(user.toStdString()) / "palpate/hands", dataFolder / "hands"};
-}
-
-QStringList knownHandNames(const std::vector<fs::path>& folders) {
-  QStringList names;
-  for (const BuiltInHand& each : builtInHands()) names << QString::fromStdString(each.key);
-  for (const fs::path& folder : folders) {
-    std::error_code failure;
-    for (const auto& entry : fs::directory_iterator(folder, failure)) {
-      std::error_code ignored;
-      const QString name = QString::fromStdString(entry.path().filename().string());
-      if (fs::is_regular_file(entry.path() / "hand.json", ignored) && !names.contains(name))
-        names << name;
-    }
-  }
-  names.sort();
-  return names;
 }
 
 void saveImportRequest(const ImportRequest& request, QSettings& settings) {

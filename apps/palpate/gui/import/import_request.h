@@ -42,11 +42,6 @@ ImportReport runImport(const ImportRequest& request,
 // What the status line says of a finished import.
 QString textOf(const ImportReport& report, const QString& out);
 
-// Folders in which hands are looked for: the user's, then that of the program's data.
-std::vector<std::filesystem::path> importHandFolders(const std::filesystem::path& dataFolder);
-// The names of the hands in these folders and of the built-in ones.
-QStringList knownHandNames(const std::vector<std::filesystem::path>& folders);
-
 // The last request: hand, mapping, folder of the data.
 void saveImportRequest(const ImportRequest& request, QSettings& settings);
 ImportRequest loadImportRequest(const QSettings& settings);
