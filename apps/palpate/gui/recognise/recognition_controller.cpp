@@ -136,7 +136,8 @@ void RecognitionController::ask(const RecogniseQuestion& question) {
   table.set = session_->model().set;
   table.sensor = sensor;
   try {
-    table.names = featureNames(table.set, question.profile.hand());
+    if (table.set == FeatureSet::kStatistics || pinchHandOf(question.profile.hand()))
+      table.names = featureNames(table.set, question.profile.hand());
     requireFits(session_->model(), table);
   } catch (const Error& error) {
     return showProblem(error.what());
