@@ -66,6 +66,7 @@ Json jsonOf(const Calibration& calibration) {
   json.set("hand", calibration.hand)
       .set("matrix", calibration.matrix)
       .set("signal", calibration.signal);
+  if (!calibration.serial.empty()) json.set("serial", calibration.serial);
   json.set("settings",
            Json::object()
                .set("sensitivity", calibration.settings.sensitivity)
@@ -94,6 +95,7 @@ Calibration calibrationFrom(const Json& json) {
   calibration.programVersion = textIn(json, "program_version");
   calibration.madeAt = textIn(json, "made_at");
   calibration.hand = textIn(json, "hand");
+  calibration.serial = textIn(json, "serial");
   const auto matrix = numberIn(json, "matrix");
   if (!matrix || *matrix < 0 || *matrix > 1e6)
     throw Error("lacks 'matrix', the one it was measured on");

@@ -30,7 +30,10 @@ void gatherRow(const PressureTableRow& row,
     if (*all.matrix >= numMatrices)
       throw Error(file.string() + ": has no matrix " + std::to_string(*all.matrix) + ", only 0.." +
                   std::to_string(numMatrices - 1));
-    if (all.hand.empty()) all.hand = source.profile.hand().name;
+    if (all.hand.empty()) {
+      all.hand = source.profile.hand().name;
+      all.serial = source.profile.info().serial;
+    }
     all.reports.push_back(reportSteps(source.profile, *all.matrix, options.steps));
     for (PressureSample& sample : samplesOf(row, all.reports.back(), source.sha256))
       all.samples.push_back(std::move(sample));
@@ -83,6 +86,7 @@ CalibrationSteps collectCalibrationSteps(std::span<const PressureTableRow> rows,
 Calibration calibrationOf(const CalibrationSteps& gathered, const PressureModelOptions& options) {
   Calibration calibration;
   calibration.hand = gathered.hand;
+  calibration.serial = gathered.serial;
   calibration.matrix = gathered.matrix.value_or(0);
   calibration.pressure = fitPressureModel(gathered.samples, options);
   calibration.pressure.steadyS = medianSteadyS(gathered.reports);

@@ -53,7 +53,9 @@ ForceSeries forceSeries(const Profile& profile,
                         const Progress& progress) {
   if (profile.info().valueType != ValueType::kCounts)
     throw Error("the recording holds filtered values: a calibration needs counts");
-  PressureMap map(calibration, profile.hand(), options);
+  PressureMapOptions used = options;
+  used.serial = profile.info().serial;
+  PressureMap map(calibration, profile.hand(), used);
   ForceSeries series;
   series.numMatrices = profile.layout().numMatrices();
   series.assumptions = map.assumptions();

@@ -49,6 +49,7 @@ PressureMap::PressureMap(Calibration calibration,
                          const HandDescription& hand,
                          PressureMapOptions options)
     : calibration_(std::move(calibration)),
+      handName_(hand.name),
       layout_(hand.layout),
       options_(std::move(options)),
       saturationCounts_(static_cast<double>(hand.saturationCounts)) {
@@ -227,6 +228,13 @@ void PressureMap::apply(const TactileFrame& frame,
 
 std::vector<std::string> PressureMap::assumptions() const {
   std::vector<std::string> said;
+  if (!calibration_.hand.empty() && calibration_.hand != handName_)
+    said.push_back("measured on '" + calibration_.hand + "'; this is '" + handName_ +
+                   "', whose readings may stand for other pressures");
+  else if (!calibration_.serial.empty() && !options_.serial.empty() &&
+           calibration_.serial != options_.serial)
+    said.push_back("measured on the sensor with serial number " + calibration_.serial +
+                   "; that this one (" + options_.serial + ") answers alike is assumed");
   said.push_back("measured on matrix " + std::to_string(calibration_.matrix) +
                  "; that the others answer alike is assumed");
   const auto settingsText = [](const SensorSettings& s) {

@@ -170,6 +170,28 @@ TEST(PressureMap, ConvertsTheSensitivityAndWidensForAnotherThreshold) {
       4u);
 }
 
+// A calibration belongs to a hand and to one sensor of this kind.
+TEST(PressureMap, SaysThatItWasMeasuredOnAnotherHandOrSensor) {
+  const auto saidFirst = [](const Calibration& calibration, const std::string& serial) {
+    return PressureMap(calibration, sdh2(), {.serial = serial}).assumptions().front();
+  };
+  Calibration calibration = example();
+  calibration.hand = sdh2().name;
+  const std::string usual = saidFirst(calibration, "A1");
+  EXPECT_NE(usual.find("measured on matrix"), std::string::npos);
+  calibration.serial = "A1";
+  EXPECT_EQ(saidFirst(calibration, "A1"), usual);
+  EXPECT_EQ(saidFirst(calibration, ""), usual) << "not known";
+  EXPECT_EQ(saidFirst(calibration, "B2"),
+            "measured on the sensor with serial number A1; that this one (B2) answers alike is "
+            "assumed");
+  EXPECT_EQ(calibrationFrom(Json::parse(jsonOf(calibration).text())).serial, "A1");
+  calibration.hand = "My pad";
+  EXPECT_EQ(saidFirst(calibration, "A1"),
+            "measured on 'My pad'; this is '" + sdh2().name +
+                "', whose readings may stand for other pressures");
+}
+
 TEST(PressureMap, ServesSensorsOfAnyWidth) {
   HandDescription wide;
   wide.layout = std::make_shared<SensorLayout>(std::vector{MatrixLayout::full(3, 100, 2.0)});

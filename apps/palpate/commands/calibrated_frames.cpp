@@ -23,6 +23,11 @@ std::optional<Tare> tareIn(const std::filesystem::path& file, const SensorLayout
 
 // Adds the sensor settings of the recording when the command line has none: those that the window
 // stored as an event, else those that the controller reported.
+PressureMapOptions withSerial(PressureMapOptions options, const Profile& profile) {
+  options.serial = profile.info().serial;
+  return options;
+}
+
 PressureMapOptions withNoted(PressureMapOptions options, const std::filesystem::path& file) {
   if (!options.settings.empty()) return options;
   // From the last event.
@@ -98,7 +103,10 @@ std::optional<CalibrationChoice> calibrationGiven(const CommandLine& given) {
 CalibratedFrames::CalibratedFrames(const CalibrationChoice& choice,
                                    const std::filesystem::path& file,
                                    const Profile& profile)
-    : profile_(profile), map_(choice.calibration, profile.hand(), withNoted(choice.options, file)) {
+    : profile_(profile),
+      map_(choice.calibration,
+           profile.hand(),
+           withSerial(withNoted(choice.options, file), profile)) {
   if (profile.info().valueType != ValueType::kCounts)
     throw FileError(file, "holds filtered values: a calibration needs counts");
   if (choice.tare) tare_ = tareIn(file, profile.layout());

@@ -57,7 +57,7 @@ gui::HandLook lookOf(const CommandLine& given, const Profile& profile) {
 }  // namespace
 
 std::vector<OptionSpec> handViewOptions() {
-  return {{"angles", "A0,..,A6", "hand: joint angles [deg] assumed where none are recorded"},
+  return {{"angles", "A0,A1,..", "hand: joint angles [deg] assumed where none are recorded"},
           {"taxels", "NAME", "hand: cells (default), bars, points, flat-cells, flat-bars"},
           {"sphere", "NAME", "hand: glass (default), opaque, wire, no-sphere"},
           {"sphere-of", "NAME", "hand: taxels (default) or centroids"},

@@ -31,6 +31,7 @@ struct Calibration {
   std::string programVersion;
   std::string madeAt;  // UTC, ISO 8601; may be empty
   std::string hand;    // HandDescription::name
+  std::string serial;  // ProfileInfo::serial of the sensor that was measured; may be empty
   // The matrix that was measured; for the other matrices the calibration is an assumption.
   std::size_t matrix = 0;
   std::string signal = "filtered_mean";

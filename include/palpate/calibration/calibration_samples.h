@@ -43,7 +43,8 @@ struct CalibrationSteps {
   std::vector<PressureSample> samples;
   std::vector<StepReport> reports;  // of the readable recordings
   std::optional<std::size_t> matrix;
-  std::string hand;  // HandDescription::name in the first of them
+  std::string hand;    // HandDescription::name in the first of them
+  std::string serial;  // ProfileInfo::serial in the first of them; may be empty
   std::size_t numUnused() const;
 };
 

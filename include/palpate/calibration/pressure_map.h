@@ -70,6 +70,8 @@ struct PressureMapOptions {
   std::vector<SensorSettings> settings = {};
   std::vector<SettingsChange> changes = {};  // later changes of the settings, ascending
   bool compensateDrift = true;
+  // ProfileInfo::serial of the sensor that the frames are of; empty: not known.
+  std::string serial = {};
 };
 
 // Converts frames and keeps the state of the contacts for the removal of creep: pass frames in
@@ -91,7 +93,8 @@ class PressureMap {
   void setSettings(const std::vector<SensorSettings>& settings);
 
   // The assumptions of the result that a reader must know, one sentence each: a calibration that
-  // was measured on another matrix, settings that are not recorded, a converted sensitivity.
+  // was measured on another hand, sensor or matrix, settings that are not recorded, a converted
+  // sensitivity.
   std::vector<std::string> assumptions() const;
   const Calibration& calibration() const noexcept { return calibration_; }
 
@@ -121,6 +124,7 @@ class PressureMap {
   void useSettings(const std::vector<SensorSettings>& settings);
 
   Calibration calibration_;
+  std::string handName_;
   std::shared_ptr<const SensorLayout> layout_;
   PressureMapOptions options_;
   std::vector<Prepared> matrices_;
