@@ -1,9 +1,14 @@
 // The slip method `register`: rigid registration of a stream of frames to a key frame. The key
-// frame is refined by every frame (LearnedSurface) and replaced when it no longer fits; the motion
-// since the reference is accumulated over the key frames.
+// frame is refined by every frame and replaced when it no longer fits; the motion since the
+// reference is accumulated over the key frames. A strong contact that ends inside the matrix is
+// refined as a MostProbableSurface, every other one as a LearnedSurface.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <vector>
+
+#include "palpate/slip/contact_ends.h"
+#include "palpate/slip/most_probable_surface.h"
 
 #include "slip/translation_method.h"
 
@@ -26,6 +31,8 @@ constexpr double kNoFit = 0.6;
 // Weight of a new frame in the estimated noise.
 constexpr double kNoiseMemory = 0.03;
 constexpr double kMostNoise = 100.0;  // [counts]
+// Up to this number of frames of a surface its steps are measured again after it learned from them.
+constexpr int kYoungSurface = 25;
 // Above this shift of the centroid [taxels], it is added to the start value.
 constexpr double kSureShift = 0.7;
 
@@ -61,7 +68,11 @@ struct Transform {
 class RegisterMethod final : public TranslationMethod {
  public:
   RegisterMethod(const MatrixLayout& layout, const SlipTrackerOptions& options)
-      : options_(options.registration), surface_(layout, options.surface) {
+      : layout_(layout),
+        options_(options.registration),
+        learned_(layout, options.surface),
+        probable_(layout, options.probableSurface),
+        previous_(layout.numCells()) {
     options_.saturationCounts = options.saturationCounts;
     noise_ = options_.noiseCounts;
   }
@@ -75,7 +86,7 @@ class RegisterMethod final : public TranslationMethod {
       seen_ = false;
       return reading;
     }
-    const bool first = surface_.empty();
+    const bool first = key().empty();
     if (first) {
       beginKey(frame, {});
       reading.newKey = true;
@@ -96,6 +107,7 @@ class RegisterMethod final : public TranslationMethod {
     reading.gain = motion_.gain;
     lastX_ = moments.x;
     lastY_ = moments.y;
+    std::copy_n(frame.data(), frame.size(), previous_.begin());
     seen_ = true;
     return reading;
   }
@@ -109,11 +121,19 @@ class RegisterMethod final : public TranslationMethod {
   void dropReference() override { hasReference_ = false; }
 
  private:
+  const KeyFrame& key() const { return isProbable_ ? probable_.start() : learned_.start(); }
+  RegistrationResult registered(const ConstMatrixMap& frame,
+                                const RigidMotion& from,
+                                const RegistrationOptions& options) const {
+    return isProbable_ ? registerFrame(probable_, frame, from, options)
+                       : registerFrame(learned_, frame, from, options);
+  }
+
   // Transform from the key frame to the newest frame.
   Transform motion() const {
     Transform transform{motion_.angleDeg, 0.0, 0.0};
-    const double cx = surface_.start().centerX();
-    const double cy = surface_.start().centerY();
+    const double cx = key().centerX();
+    const double cy = key().centerY();
     double x = 0.0;
     double y = 0.0;
     transform.apply(cx, cy, x, y);
@@ -125,7 +145,12 @@ class RegisterMethod final : public TranslationMethod {
   // Makes a frame the key frame. `sofar`, the transform from the reference to this frame, is kept
   // in keyFromReference_.
   void beginKey(const ConstMatrixMap& frame, const Transform& sofar) {
-    surface_.set(frame, noise_);
+    sdX_ = sdY_ = 0.0;
+    isProbable_ = hasEndsInside(layout_, frame) && isStrongContact(frame, noise_);
+    if (isProbable_)
+      probable_.set(frame, noise_);
+    else
+      learned_.set(frame, noise_);
     motion_ = {};
     keyFromReference_ = sofar;
   }
@@ -144,12 +169,12 @@ class RegisterMethod final : public TranslationMethod {
     }
     RegistrationOptions options = options_;
     options.noiseCounts = noise_;
-    const RegistrationResult result = registerFrame(surface_, frame, start, options);
+    const RegistrationResult result = registered(frame, start, options);
     const double mean = moments.sum / moments.active;
     const double misfit = std::sqrt(result.chi2) * noise_ / mean;
     const double scale = noise_ / options_.noiseCounts;
     reading.residual = result.chi2 * scale * scale;
-    reading.turns = surface_.start().rotationSensitivity() >=
+    reading.turns = key().rotationSensitivity() >=
                     static_cast<float>(options_.minRotationSensitivity);
 
     if (!result.converged || misfit > kNoFit) {
@@ -166,9 +191,14 @@ class RegisterMethod final : public TranslationMethod {
       return;
     }
     motion_ = result.motion;
+    // The variance of the surface is that of the roughest contact; the residuals tell how much of
+    // it this contact has.
+    const double trust = std::sqrt(std::clamp(result.chi2, 0.05, 4.0));
     reading.degenerate = result.degenerate;
     reading.valid = stepPossible;
     if (stepPossible) {
+      reading.sdX = std::hypot(trust * result.sdX, sdX_ > 0.0 ? sdX_ : trust * result.sdX);
+      reading.sdY = std::hypot(trust * result.sdY, sdY_ > 0.0 ? sdY_ : trust * result.sdY);
       reading.dx = motion_.dx - before.dx;
       reading.dy = motion_.dy - before.dy;
       reading.angleDeg = motion_.angleDeg - before.angleDeg;
@@ -179,24 +209,58 @@ class RegisterMethod final : public TranslationMethod {
     noise_ = std::clamp(
         noise_ + kNoiseMemory * (noise - noise_), 0.5 * options_.noiseCounts, kMostNoise);
 
-    if (result.overlap < kRegisterMethodLeastOverlap || misfit > kWorstMisfit ||
+    // A contact that grew over the sides seems to end there, where its key frame ended.
+    const bool goesOn = isProbable_ && !hasEndsInside(layout_, frame);
+    if (goesOn || result.overlap < kRegisterMethodLeastOverlap || misfit > kWorstMisfit ||
         motion_.gain > kMostGain || motion_.gain < 1.0 / kMostGain ||
         std::hypot(motion_.dx, motion_.dy) > kFarthest ||
         std::abs(motion_.angleDeg) > kMostTurnDeg) {
       beginKey(frame, motion().after(keyFromReference_));
       reading.newKey = true;
+    } else if (isProbable_) {
+      probable_.learn(frame, result, options);
+      if (stepPossible && probable_.frames() <= kYoungSurface)
+        measureStepAgain(frame, before, options, reading);
     } else {
-      surface_.learn(frame, result, options);
+      learned_.learn(frame, result, options);
     }
+    sdX_ = trust * result.sdX;
+    sdY_ = trust * result.sdY;
   }
 
+  // The first frames teach the surface most: registered again to the surface after this frame, the
+  // frame before and this one have smaller errors, and errors of the surface cancel in their
+  // difference. The motion from the key stays as it was.
+  void measureStepAgain(const ConstMatrixMap& frame,
+                        const RigidMotion& before,
+                        RegistrationOptions options,
+                        TranslationReading& reading) const {
+    options.maxIterations = 2;
+    const ConstMatrixMap previous(previous_.data(), frame.rows(), frame.cols());
+    const RegistrationResult first = registered(previous, before, options);
+    const RegistrationResult second = registered(frame, motion_, options);
+    if (!first.converged || !second.converged) return;
+    reading.dx = second.motion.dx - first.motion.dx;
+    reading.dy = second.motion.dy - first.motion.dy;
+    reading.angleDeg = second.motion.angleDeg - first.motion.angleDeg;
+  }
+
+  MatrixLayout layout_;
   RegistrationOptions options_;
-  LearnedSurface surface_;
+  // The surface of the contact: probable_ if isProbable_, else learned_.
+  LearnedSurface learned_;
+  MostProbableSurface probable_;
+  bool isProbable_ = false;
+  // The values of the previous measurable frame, row by row.
+  std::vector<float> previous_;
   // Noise estimated from the residuals [counts].
   double noise_ = 0.0;
   // Motion from the key frame to the newest frame.
   RigidMotion motion_;
   Transform keyFromReference_;
+  // Standard deviation of this motion; 0 in the first frame of a key.
+  double sdX_ = 0.0;
+  double sdY_ = 0.0;
   double referenceX_ = 0.0;
   double referenceY_ = 0.0;
   bool hasReference_ = false;

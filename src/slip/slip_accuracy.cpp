@@ -1,6 +1,7 @@
 #include "palpate/slip/slip_accuracy.h"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <memory>
@@ -23,6 +24,8 @@ constexpr int kEdgeFrames = 10;
 constexpr double kEdgeTaxels = 1.5;
 constexpr int kTiltFrames = 12;
 constexpr double kTilt = 0.4;
+constexpr int kTiltStays = 12;
+constexpr std::size_t kFirstFrames = 10;
 constexpr int kBoundEvery = 10;
 
 struct Sums {
@@ -38,6 +41,10 @@ struct Sums {
   double boundDeg = 0.0, boundDegN = 0.0;
   double edge = 0.0, edgeN = 0.0;
   double tilt = 0.0, tiltN = 0.0;
+  // First frames, later frames.
+  std::array<double, 2> squaresOf{}, componentsOf{}, normalised{}, normalisedN{};
+  std::array<double, 10> driftAt{}, driftAtN{};
+  double worstTiltX = 0.0, worstTiltY = 0.0;
   double ns = 0.0;
   double frames = 0.0;
   int invalid = 0;
@@ -49,6 +56,14 @@ struct Sums {
     deg += o.deg, degN += o.degN, bound += o.bound, boundN += o.boundN;
     boundDeg += o.boundDeg, boundDegN += o.boundDegN, edge += o.edge, edgeN += o.edgeN;
     tilt += o.tilt, tiltN += o.tiltN, ns += o.ns, frames += o.frames, invalid += o.invalid;
+    for (std::size_t i = 0; i < squaresOf.size(); ++i) {
+      squaresOf[i] += o.squaresOf[i], componentsOf[i] += o.componentsOf[i];
+      normalised[i] += o.normalised[i], normalisedN[i] += o.normalisedN[i];
+    }
+    for (std::size_t i = 0; i < driftAt.size(); ++i)
+      driftAt[i] += o.driftAt[i], driftAtN[i] += o.driftAtN[i];
+    worstTiltX = std::max(worstTiltX, o.worstTiltX);
+    worstTiltY = std::max(worstTiltY, o.worstTiltY);
   }
 };
 
@@ -68,6 +83,13 @@ SlipAccuracy accuracyOf(const Sums& s) {
   a.crbDeg = root(s.boundDeg, s.boundDegN);
   a.edge = root(s.edge, s.edgeN);
   a.tilt = root(s.tilt, s.tiltN);
+  for (std::size_t i = 0; i < a.drift.size(); ++i) a.drift[i] = root(s.driftAt[i], s.driftAtN[i]);
+  a.rmseFirst = root(s.squaresOf[0], s.componentsOf[0]);
+  a.rmseLater = root(s.squaresOf[1], s.componentsOf[1]);
+  a.normalisedFirst = root(s.normalised[0], s.normalisedN[0]);
+  a.normalisedLater = root(s.normalised[1], s.normalisedN[1]);
+  a.worstTiltX = s.worstTiltX;
+  a.worstTiltY = s.worstTiltY;
   a.invalid = s.invalid;
   a.steps = static_cast<int>(s.steps) + s.invalid;
   a.nsPerStep = ratio(s.ns, s.frames);
@@ -134,6 +156,18 @@ class Trial {
     }
     return readings;
   }
+  Readings tiltAlong(double SyntheticContact::*axis, double tilt) {
+    Readings readings;
+    SyntheticContact contact;
+    contact.shape = shape_;
+    contact.x = 2.3 + 0.4 * uniform() + middleX();
+    contact.y = 6.3 + 0.4 * uniform() + middleY();
+    for (int i = 0; i <= kTiltFrames + kTiltStays; ++i) {
+      contact.*axis = tilt * std::min(i, kTiltFrames) / kTiltFrames;
+      read(contact, readings);
+    }
+    return readings;
+  }
 
  private:
   double uniform() { return static_cast<double>(random_() >> 11U) / 9007199254740992.0; }
@@ -169,6 +203,17 @@ std::vector<SlipMotion> follow(const BenchmarkedMethod& method,
   return motions;
 }
 
+// Largest motion since the reference that is read in any frame. The computing time isn't counted.
+double largestReading(const BenchmarkedMethod& method,
+                      const Readings& readings,
+                      const SyntheticSensor& sensor) {
+  Sums uncounted;
+  double largest = 0.0;
+  for (const SlipMotion& motion : follow(method, sensor.layout, readings, uncounted))
+    if (motion.refValid) largest = std::max(largest, std::hypot(motion.refDx, motion.refDy));
+  return largest;
+}
+
 void judgeWandering(const Readings& readings, const std::vector<SlipMotion>& motions, Sums& sums) {
   const SyntheticContact& first = readings.contacts.front();
   const bool turns = hasOrientation(first.shape);
@@ -185,6 +230,11 @@ void judgeWandering(const Readings& readings, const std::vector<SlipMotion>& mot
     lastX = x;
     lastY = y;
     const SlipMotion& motion = motions[i];
+    if (i % 10 == 0 && i / 10 <= sums.driftAt.size() && motion.refValid) {
+      sums.driftAt[i / 10 - 1] +=
+          std::pow(motion.refDx - (x - startX), 2) + std::pow(motion.refDy - (y - startY), 2);
+      sums.driftAtN[i / 10 - 1] += 2.0;
+    }
     if (!motion.valid) {
       ++sums.invalid;
       continue;
@@ -193,6 +243,13 @@ void judgeWandering(const Readings& readings, const std::vector<SlipMotion>& mot
     const double offY = motion.dy - trueY;
     sums.squares += offX * offX + offY * offY;
     sums.components += 2.0;
+    const std::size_t part = i <= kFirstFrames ? 0 : 1;
+    sums.squaresOf[part] += offX * offX + offY * offY;
+    sums.componentsOf[part] += 2.0;
+    if (motion.sdX > 0.0 && motion.sdY > 0.0) {
+      sums.normalised[part] += std::pow(offX / motion.sdX, 2) + std::pow(offY / motion.sdY, 2);
+      sums.normalisedN[part] += 2.0;
+    }
     const double length = std::hypot(trueX, trueY);
     if (length > 0.0) sums.along += (offX * trueX + offY * trueY) / length;
     sums.steps += 1.0;
@@ -299,6 +356,12 @@ std::vector<MethodAccuracy> measureSlipAccuracy(const std::vector<BenchmarkedMet
       const Readings wandering = truth.wander();
       const Readings leaving = truth.leave();
       const Readings tilting = truth.tilt();
+      std::vector<Readings> tiltsX;
+      std::vector<Readings> tiltsY;
+      for (const double tilt : {kTilt, -kTilt}) {
+        tiltsX.push_back(truth.tiltAlong(&SyntheticContact::tiltX, tilt));
+        tiltsY.push_back(truth.tiltAlong(&SyntheticContact::tiltY, tilt));
+      }
       Sums bounds;
       addBounds(wandering, sensor, bounds);
       for (std::size_t m = 0; m < methods.size(); ++m) {
@@ -311,6 +374,10 @@ std::vector<MethodAccuracy> measureSlipAccuracy(const std::vector<BenchmarkedMet
         const SlipMotion tilted = follow(methods[m], sensor.layout, tilting, sums).back();
         sums.tilt += std::pow(tilted.refDx, 2) + std::pow(tilted.refDy, 2);
         sums.tiltN += 1.0;
+        for (const Readings& one : tiltsX)
+          sums.worstTiltX = std::max(sums.worstTiltX, largestReading(methods[m], one, sensor));
+        for (const Readings& one : tiltsY)
+          sums.worstTiltY = std::max(sums.worstTiltY, largestReading(methods[m], one, sensor));
       }
     }
     for (std::size_t m = 0; m < methods.size(); ++m) {

@@ -192,6 +192,8 @@ void SlipDetector::applyMotionScore(const SlipMotion& moved) {
     latched_ = certain_ >= kSureFrames;
     if (latched_) weight = 1.0;
   }
+  // The standard deviations are those of the registration by itself.
+  if (weight < 1.0) motion.sdX = motion.sdY = 0.0;
   motion.refDx = weight * moved.refDx;
   motion.refDy = weight * moved.refDy;
   if (motion.valid && hasLastScored_) {

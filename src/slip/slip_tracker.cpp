@@ -49,6 +49,7 @@ void SlipTrackerOptions::validate() const {
   rotation.validate();
   registration.validate();
   surface.validate();
+  probableSurface.validate();
 }
 
 SlipTracker::SlipTracker(const MatrixLayout& layout, const SlipTrackerOptions& options)
@@ -125,6 +126,8 @@ const SlipMotion& SlipTracker::update(const ConstMatrixMap& frame, bool afterGap
   motion_.valid = reading.valid;
   motion_.dx = reading.dx;
   motion_.dy = reading.dy;
+  motion_.sdX = reading.valid ? reading.sdX : 0.0;
+  motion_.sdY = reading.valid ? reading.sdY : 0.0;
   motion_.refValid = reading.refValid;
   motion_.refDx = reading.refDx;
   motion_.refDy = reading.refDy;

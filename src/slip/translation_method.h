@@ -12,6 +12,9 @@ struct TranslationReading {
   bool valid = false;
   double dx = 0.0;
   double dy = 0.0;
+  // Standard deviations of dx and dy [taxels]; 0: not estimated.
+  double sdX = 0.0;
+  double sdY = 0.0;
   bool refValid = false;
   double refDx = 0.0;
   double refDy = 0.0;

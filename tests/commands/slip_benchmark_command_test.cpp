@@ -56,11 +56,28 @@ TEST(SlipBenchmarkCommand, TakesShapesAndASeed) {
             Json::parse(one.out).at("methods").at("centroid").at("rmse").asDouble());
 }
 
+TEST(SlipBenchmarkCommand, TakesTheWidthOfTheEdges) {
+  const auto result =
+      palpate({"slip-benchmark", "--shape", "disc", "--trials", "1", "--edge", "0.6", "--quiet"});
+  ASSERT_EQ(result.exitCode, 0) << result.err;
+  const Json json = Json::parse(result.out);
+  EXPECT_EQ(json.at("edge_taxels").asDouble(), 0.6);
+  const Json method = json.at("methods").at("register");
+  EXPECT_EQ(method.at("drift_10_to_100").size(), 10U);
+  EXPECT_GT(method.at("tilt_worst_x").asDouble(), 0.0);
+  EXPECT_GT(method.at("normalised_later").asDouble(), 0.5);
+  // A soft edge determines the motion less than a sharp one.
+  const auto sharp = palpate({"slip-benchmark", "--shape", "disc", "--trials", "1", "--quiet"});
+  EXPECT_GT(method.at("crb").asDouble(),
+            Json::parse(sharp.out).at("methods").at("register").at("crb").asDouble());
+}
+
 TEST(SlipBenchmarkCommand, RefusesWhatItDoesNotKnow) {
   const auto shape = palpate({"slip-benchmark", "--shape", "square"});
   EXPECT_EQ(shape.exitCode, 2);
   EXPECT_NE(shape.err.find("two-blobs"), std::string::npos);
   EXPECT_EQ(palpate({"slip-benchmark", "--noise", "-1"}).exitCode, 2);
+  EXPECT_EQ(palpate({"slip-benchmark", "--edge", "0"}).exitCode, 2);
   EXPECT_EQ(palpate({"slip-benchmark", "file.dsa"}).exitCode, 2);
 }
 

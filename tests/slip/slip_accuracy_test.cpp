@@ -26,7 +26,7 @@ BenchmarkedMethod onlyRegister() {
 
 // Targets, from the values in docs/slip.md.
 TEST(SlipAccuracy, RegisterIsNearTheBound) {
-  for (const auto& [noise, most] : {std::pair{5.0, 1.35}, {20.0, 1.2}}) {
+  for (const auto& [noise, most] : {std::pair{5.0, 1.2}, {20.0, 1.2}}) {
     SlipAccuracyOptions options;
     options.noiseSd = noise;
     const auto results = measureSlipAccuracy({onlyRegister()}, options);
@@ -34,7 +34,7 @@ TEST(SlipAccuracy, RegisterIsNearTheBound) {
     EXPECT_LT(all.rmse / all.crb, most) << noise;
     // A method that is better than the bound shows that the bound is wrong.
     EXPECT_GT(all.rmse / all.crb, 0.9) << noise;
-    EXPECT_LT(all.drift100, 0.025) << noise;
+    EXPECT_LT(all.drift100, noise > 10.0 ? 0.025 : 0.015) << noise;
     EXPECT_LT(all.driftDeg100, noise > 10.0 ? 0.95 : 0.6) << noise;
     EXPECT_LT(all.edge, 0.1) << noise;
     EXPECT_LT(std::abs(all.bias), 0.001) << noise;
@@ -42,6 +42,35 @@ TEST(SlipAccuracy, RegisterIsNearTheBound) {
     EXPECT_NEAR(all.gainY, 1.0, 0.01) << noise;
     EXPECT_EQ(all.invalid, 0);
     EXPECT_EQ(results.at(0).shapes.size(), 6U);
+  }
+}
+
+// The shape between the taxels is learned within ten frames, at edges of 0.35 taxel, too. From then
+// on the motion since the reference stays within 0.02 taxel.
+TEST(SlipAccuracy, RegisterLearnsSharpEdgesInTenFrames) {
+  SlipAccuracyOptions options;
+  options.sensor.coverTaxels = 0.35;
+  const auto results = measureSlipAccuracy({onlyRegister()}, options);
+  for (const ShapeAccuracy& one : results.at(0).shapes) {
+    const SlipAccuracy& accuracy = one.accuracy;
+    EXPECT_LT(accuracy.rmseLater, 1.3 * accuracy.crb) << nameOf(one.shape);
+    for (const double drift : accuracy.drift) EXPECT_LT(drift, 0.02) << nameOf(one.shape);
+  }
+}
+
+// The standard deviation that is given with a step is that of its errors. In the first ten frames
+// it may be up to 2.5 times too large, never too small.
+TEST(SlipAccuracy, RegisterKnowsItsAccuracy) {
+  for (const double edge : {0.35, 0.6}) {
+    SlipAccuracyOptions options;
+    options.sensor.coverTaxels = edge;
+    const auto results = measureSlipAccuracy({onlyRegister()}, options);
+    for (const ShapeAccuracy& one : results.at(0).shapes) {
+      EXPECT_GT(one.accuracy.normalisedFirst, 0.4) << nameOf(one.shape);
+      EXPECT_LT(one.accuracy.normalisedFirst, 1.25) << nameOf(one.shape);
+      EXPECT_GT(one.accuracy.normalisedLater, 0.8) << nameOf(one.shape);
+      EXPECT_LT(one.accuracy.normalisedLater, 1.25) << nameOf(one.shape);
+    }
   }
 }
 
@@ -75,6 +104,14 @@ TEST(SlipAccuracy, JudgesByTheTruth) {
   EXPECT_NEAR(wrong.gainY, 0.0, 1e-12);
   EXPECT_NEAR(wrong.edge, 1.5, 1e-12);
   EXPECT_NEAR(wrong.tilt, 0.0, 1e-12);
+  EXPECT_EQ(wrong.worstTiltX, 0.0);
+  EXPECT_EQ(wrong.worstTiltY, 0.0);
+  EXPECT_EQ(wrong.normalisedLater, 0.0);
+  // All steps are those of the first ten frames and of the others.
+  EXPECT_NEAR(10.0 * std::pow(wrong.rmseFirst, 2) + 90.0 * std::pow(wrong.rmseLater, 2),
+              100.0 * std::pow(wrong.rmse, 2),
+              1e-9);
+  EXPECT_EQ(wrong.drift.back(), wrong.drift100);
   EXPECT_EQ(wrong.invalid, 0);
   EXPECT_EQ(wrong.steps, 400);
   EXPECT_EQ(results.at(1).all.invalid, 400);

@@ -24,8 +24,17 @@ Json slipBenchmarkToJson(const SlipAccuracy& accuracy) {
       .set("drift_100_deg", accuracy.driftDeg100)
       .set("edge_1_5", accuracy.edge)
       .set("tilt_40", accuracy.tilt)
+      .set("tilt_worst_x", accuracy.worstTiltX)
+      .set("tilt_worst_y", accuracy.worstTiltY)
+      .set("rmse_first_10", accuracy.rmseFirst)
+      .set("rmse_later", accuracy.rmseLater)
+      .set("normalised_first_10", accuracy.normalisedFirst)
+      .set("normalised_later", accuracy.normalisedLater)
       .set("steps", accuracy.steps)
       .set("invalid_steps", accuracy.invalid);
+  Json drift = Json::array();
+  for (const double one : accuracy.drift) drift.push(one);
+  json.set("drift_10_to_100", drift);
   return json;
 }
 
@@ -33,11 +42,15 @@ Json slipBenchmarkToJson(const SlipAccuracy& accuracy) {
 
 int slipBenchmarkCommand(const Arguments& words) {
   const CommandLine given(
-      {.synopsis = "palpate slip-benchmark [--noise SD] [--shape S].. [--seed N]",
+      {.synopsis = "palpate slip-benchmark [--noise SD] [--edge SD] [--shape S].. [--seed N]",
        .purpose =
            "Measures how well every method reads slip, on synthetic contacts whose motion is "
            "known, beside the\nCramer-Rao bound. Prints JSON; docs/slip.md explains it.",
        .options = {{"noise", "SD", "standard deviation of the noise [counts], default 5"},
+                   {"edge",
+                    "SD",
+                    "standard deviation of the edges of disc, bar and flat-ellipse [taxels], "
+                    "default 0.4"},
                    {"shape",
                     "S",
                     "disc, bar, flat-ellipse, two-blobs, gaussian, elliptic-gaussian; "
@@ -54,6 +67,8 @@ int slipBenchmarkCommand(const Arguments& words) {
   if (given.helpShown()) return kDone;
   SlipAccuracyOptions options;
   options.noiseSd = given.number("noise", 0.0, 1000.0).value_or(options.noiseSd);
+  options.sensor.coverTaxels =
+      given.number("edge", 0.05, 10.0).value_or(options.sensor.coverTaxels);
   options.seed = static_cast<std::uint64_t>(given.integer("seed", 0, UINT32_MAX).value_or(1));
   options.trials = static_cast<int>(given.integer("trials", 1, 1000).value_or(options.trials));
   for (const std::string& name : given.texts("shape")) {
@@ -83,6 +98,7 @@ int slipBenchmarkCommand(const Arguments& words) {
   }
   Json json = Json::object();
   json.set("noise_sd", options.noiseSd)
+      .set("edge_taxels", options.sensor.coverTaxels)
       .set("seed", static_cast<std::int64_t>(options.seed))
       .set("methods", methods);
   if (const auto folder = given.text("recordings"))

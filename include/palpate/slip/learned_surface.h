@@ -14,6 +14,7 @@
 
 #include <palpate/slip/key_frame.h>
 #include <palpate/slip/rigid_registration.h>
+#include <palpate/slip/surface_grid.h>
 
 namespace palpate {
 
@@ -37,15 +38,8 @@ struct LearnedSurfaceOptions {
 // The surface of the contact on one matrix, as the slip method `register` learns it.
 class LearnedSurface {
  public:
-  static constexpr int kMargin = 2;  // [taxels]
-
-  struct Sample {
-    float value = 0.0F;
-    float alongX = 0.0F;  // [counts per taxel]
-    float alongY = 0.0F;
-    // Variance of the value [counts^2].
-    float variance = 0.0F;
-  };
+  static constexpr int kMargin = SurfaceGrid::kMargin;  // [taxels]
+  using Sample = SurfaceGrid::Sample;
 
   // Throws std::invalid_argument.
   explicit LearnedSurface(const MatrixLayout& layout, const LearnedSurfaceOptions& options = {});
@@ -55,7 +49,7 @@ class LearnedSurface {
   void clear() noexcept { key_.clear(); }
   bool empty() const noexcept { return key_.empty(); }
   // Value of the surface at x within -kMargin .. columns - 1 + kMargin; y alike [taxels].
-  Sample at(float x, float y) const noexcept;
+  Sample at(float x, float y) const noexcept { return grid_.at(x, y); }
   // Updates the surface with a registered frame, weighted by the accuracy of its motion; `options`
   // must be those of the registration.
   void learn(const ConstMatrixMap& frame,
@@ -66,15 +60,12 @@ class LearnedSurface {
   const KeyFrame& start() const noexcept { return key_; }
   // The smallest active value of all frames so far [counts].
   float minCounts() const noexcept { return least_; }
+  const SurfaceGrid& grid() const noexcept { return grid_; }
 
  private:
   KeyFrame key_;
   LearnedSurfaceOptions options_;
-  // Size of the grid of coefficients.
-  int columns_ = 0;
-  int rows_ = 0;
-  std::vector<float> coefficients_;
-  std::vector<float> variances_;
+  SurfaceGrid grid_;
   // Variance at the start, per taxel, with the margin.
   std::vector<float> ofTaxels_;
   float least_ = 0.0F;

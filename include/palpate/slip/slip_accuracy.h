@@ -6,9 +6,12 @@
 // taxels and +-15 deg (shapes with a direction), by at most about 0.13 taxel and 1 deg per frame.
 // Then it leaves the matrix over the right edge by 1.5 taxels in 10 frames. Finally it rests while
 // a load gradient of 40 % develops along the rows in 12 frames. Step errors and bounds are those of
-// the first part.
+// the first part. In further parts of 24 frames a load gradient of +40 or -40 % along the columns
+// or along the rows develops in 12 frames and stays; the largest motion read in them is the worst
+// tilt.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <limits>
@@ -59,6 +62,17 @@ struct SlipAccuracy {
   // the rotation [deg].
   double drift100 = 0.0;
   double driftDeg100 = 0.0;
+  // The same after 10, 20, .. 100 frames [taxels].
+  std::array<double, 10> drift = {};
+  // Rms error of a step, per component, in the first ten frames and after them [taxels]. Only in
+  // the first ones the shape of the contact between the taxels is unknown.
+  double rmseFirst = 0.0;
+  double rmseLater = 0.0;
+  // Rms of the error of a step divided by the standard deviation that the method gives for it, over
+  // the first ten frames and over those after them: 1 where the method knows its accuracy, 0 where
+  // it gives none.
+  double normalisedFirst = 0.0;
+  double normalisedLater = 0.0;
   // Rms error of the rotation per frame [deg], over shapes with a direction.
   double rmseDeg = 0.0;
   // Rms of the Cramer-Rao bound over the same steps [taxels], [deg].
@@ -68,6 +82,10 @@ struct SlipAccuracy {
   double edge = 0.0;
   // Rms motion reported at the end of a trial for a load gradient of 40 % without motion [taxels].
   double tilt = 0.0;
+  // Largest motion read at any time under a load gradient of 40 % along the columns (x) and along
+  // the rows (y), either sign, without motion [taxels].
+  double worstTiltX = 0.0;
+  double worstTiltY = 0.0;
   // Number of steps for which the method gave no motion.
   int invalid = 0;
   int steps = 0;

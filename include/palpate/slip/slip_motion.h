@@ -24,6 +24,10 @@ struct SlipMotion {
   bool valid = false;
   double dx = 0.0;
   double dy = 0.0;
+  // register: standard deviations of dx and dy [taxels], from the estimated noise of the readings
+  // and the uncertainty of the surface; 0 where they are not estimated.
+  double sdX = 0.0;
+  double sdY = 0.0;
   // Motion since the reference [taxels]. Not valid, and 0, without a reference, without contact or
   // without a match.
   bool refValid = false;

@@ -14,6 +14,7 @@
 #include <palpate/model/gap_detector.h>
 #include <palpate/model/hand_description.h>
 #include <palpate/slip/learned_surface.h>
+#include <palpate/slip/most_probable_surface.h>
 #include <palpate/slip/slip_method.h>
 #include <palpate/slip/slip_motion.h>
 
@@ -31,6 +32,8 @@ struct SlipTrackerOptions {
   int maxStepTaxels = 4;
   RotationOptions rotation = {};
   RegistrationOptions registration = {.noiseCounts = 5.0, .relativeError = 0.001};
+  // register: of strong contacts that end inside the matrix (contact_ends.h), and of all others.
+  MostProbableSurfaceOptions probableSurface = {};
   LearnedSurfaceOptions surface = {};
 
   // Throws std::invalid_argument naming the field.
