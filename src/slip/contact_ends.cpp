@@ -14,9 +14,9 @@ constexpr float kAboveNoise = 3.0F;
 
 }  // namespace
 
-bool hasEndsInside(const MatrixLayout& layout, const ConstMatrixMap& frame) {
+double loadAtTwoSides(const MatrixLayout& layout, const ConstMatrixMap& frame) {
   if (frame.rows() != layout.rows || frame.cols() != layout.columns)
-    throw std::invalid_argument("hasEndsInside: the frame hasn't the size of the layout");
+    throw std::invalid_argument("loadAtTwoSides: the frame hasn't the size of the layout");
   const auto isMissing = [&](int y, int x) {
     return y < 0 || x < 0 || y >= layout.rows || x >= layout.columns || !layout.enabled(y, x);
   };
@@ -34,7 +34,8 @@ bool hasEndsInside(const MatrixLayout& layout, const ConstMatrixMap& frame) {
       if (isMissing(y + 1, x)) sides[3] = std::max(sides[3], value);
     }
   std::sort(sides.begin(), sides.end(), std::greater<>());
-  return sides[0] + sides[1] < largest;
+  if (!(largest > 0.0F)) return 2.0;
+  return static_cast<double>(sides[0] + sides[1]) / static_cast<double>(largest);
 }
 
 bool isStrongContact(const ConstMatrixMap& frame, double noiseCounts) noexcept {

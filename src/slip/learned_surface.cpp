@@ -47,8 +47,7 @@ bool LearnedSurface::set(const ConstMatrixMap& frame, double noiseCounts) {
   const float noise2 = squareOf(static_cast<float>(noiseCounts));
   const float largest = *std::max_element(filled, filled + layout.numCells());
   const float outside = squareOf(static_cast<float>(options_.outsideSd) * largest);
-  const float silence =
-      squareOf(static_cast<float>(options_.belowThresholdSd) * least_);
+  const float silence = squareOf(static_cast<float>(options_.belowThresholdSd) * least_);
   const auto bendSd = static_cast<float>(options_.curvatureSd);
 
   for (int y = 0; y < rows; ++y)
@@ -97,7 +96,7 @@ RegistrationResult registerFrame(const LearnedSurface& surface,
                                  const ConstMatrixMap& frame,
                                  const RigidMotion& start,
                                  const RegistrationOptions& options) {
-  return registration::registerToSurface(surface, frame, start, options, 0.0F);
+  return registration::registerToSurface(surface, frame, start, options);
 }
 
 }  // namespace palpate

@@ -21,9 +21,6 @@ constexpr int kLaterIterations = 2;
 // Standard deviation of the value of a taxel that has no active neighbour, as a fraction of the
 // threshold; it is 0 or nearly so.
 constexpr float kFarSilence = 0.2F;
-// Variance of the slope, at a knot, of a cubic spline through values with independent errors of
-// variance 1: the mean of (3 sin w / (2 + cos w))^2 over all frequencies w, 9 (2 / sqrt(3) - 1).
-constexpr float kSlopeNoise = 1.3923F;
 constexpr float kMostProbableMotionCounts = 4.0F;
 
 void checkMostProbableSurface(bool good, const char* field, double value) {
@@ -122,25 +119,24 @@ void MostProbableSurface::learn(const ConstMatrixMap& frame,
   if (empty() || found.motion.gain <= 0.0) return;
   const float forgotten = static_cast<float>(options_.processNoiseRatio) *
                           squareOf(static_cast<float>(options.noiseCounts));
-  registration::forEachReading(
-      grid_,
-      key_,
-      frame,
-      found,
-      options,
-      kMostProbableMotionCounts,
-      least_,
-      [&](const registration::SurfaceReading& reading) {
-        information_.add(grid_.coefficients(),
-                         reading.corner,
-                         reading.weightsX.data(),
-                         reading.weightsY.data(),
-                         reading.gain,
-                         reading.measured,
-                         reading.all - reading.variance);
-        registration::updateVariances(
-            grid_, reading, forgotten, [](int, const SplineWeights&) {});
-      });
+  registration::forEachReading(grid_,
+                               key_,
+                               frame,
+                               found,
+                               options,
+                               kMostProbableMotionCounts,
+                               least_,
+                               [&](const registration::SurfaceReading& reading) {
+                                 information_.add(grid_.coefficients(),
+                                                  reading.corner,
+                                                  reading.weightsX.data(),
+                                                  reading.weightsY.data(),
+                                                  reading.gain,
+                                                  reading.measured,
+                                                  reading.all - reading.variance);
+                                 registration::updateVariances(
+                                     grid_, reading, forgotten, [](int, const SplineWeights&) {});
+                               });
   if (++frames_ % kFadeEvery == 0)
     information_.fade(grid_.coefficients(),
                       std::pow(1.0F - static_cast<float>(options_.forgottenPerFrame), kFadeEvery));
@@ -152,7 +148,7 @@ RegistrationResult registerFrame(const MostProbableSurface& surface,
                                  const ConstMatrixMap& frame,
                                  const RigidMotion& start,
                                  const RegistrationOptions& options) {
-  return registration::registerToSurface(surface, frame, start, options, kSlopeNoise);
+  return registration::registerToSurface(surface, frame, start, options);
 }
 
 }  // namespace palpate

@@ -146,7 +146,7 @@ class RegisterMethod final : public TranslationMethod {
   // in keyFromReference_.
   void beginKey(const ConstMatrixMap& frame, const Transform& sofar) {
     sdX_ = sdY_ = 0.0;
-    isProbable_ = hasEndsInside(layout_, frame) && isStrongContact(frame, noise_);
+    isProbable_ = loadAtTwoSides(layout_, frame) < 1.0 && isStrongContact(frame, noise_);
     if (isProbable_)
       probable_.set(frame, noise_);
     else
@@ -174,8 +174,8 @@ class RegisterMethod final : public TranslationMethod {
     const double misfit = std::sqrt(result.chi2) * noise_ / mean;
     const double scale = noise_ / options_.noiseCounts;
     reading.residual = result.chi2 * scale * scale;
-    reading.turns = key().rotationSensitivity() >=
-                    static_cast<float>(options_.minRotationSensitivity);
+    reading.turns =
+        key().rotationSensitivity() >= static_cast<float>(options_.minRotationSensitivity);
 
     if (!result.converged || misfit > kNoFit) {
       // The frame does not match the key: the motion of the centroid is used, with low confidence.
@@ -209,8 +209,9 @@ class RegisterMethod final : public TranslationMethod {
     noise_ = std::clamp(
         noise_ + kNoiseMemory * (noise - noise_), 0.5 * options_.noiseCounts, kMostNoise);
 
-    // A contact that grew over the sides seems to end there, where its key frame ended.
-    const bool goesOn = isProbable_ && !hasEndsInside(layout_, frame);
+    // A contact that grew over two sides would seem to end where its key frame ended. One that
+    // moves over one side does end there, and keeps its surface.
+    const bool goesOn = isProbable_ && loadAtTwoSides(layout_, frame) > 1.0;
     if (goesOn || result.overlap < kRegisterMethodLeastOverlap || misfit > kWorstMisfit ||
         motion_.gain > kMostGain || motion_.gain < 1.0 / kMostGain ||
         std::hypot(motion_.dx, motion_.dy) > kFarthest ||

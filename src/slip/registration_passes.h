@@ -44,9 +44,6 @@ struct Contact {
   float highX = 0.0F;
   float lowY = 0.0F;
   float highY = 0.0F;
-  // Variance of the slope of the surface that comes from noise, in units of the variance of a taxel
-  // [1 / taxels^2]; 0: not considered.
-  float slopeNoise = 0.0F;
 };
 
 // Rows and columns of the active taxels, with one taxel more on every side.
@@ -158,11 +155,9 @@ inline NormalMatrix normalOf(const NormalEquations& pass) {
 }
 
 // Determines the directions that the normal equations leave undetermined, and adds to `held` the
-// terms that hold the motion along them. noiseInformation: what slopes that are only noise add to
-// the information along a direction [1 / taxels^2].
+// terms that hold the motion along them.
 inline DegenerateDirections degenerateDirectionsOf(const NormalMatrix& normal,
                                                    double sdTaxels,
-                                                   float noiseInformation,
                                                    Eigen::Matrix2f& held) {
   constexpr float kFirm = 1e6F;
   const Eigen::LLT<NormalMatrix> solver(normal);
@@ -172,7 +167,7 @@ inline DegenerateDirections degenerateDirectionsOf(const NormalMatrix& normal,
   const float xx = unit(0, 0);
   const float yy = unit(1, 1);
   const float xy = unit(0, 1);
-  const float most = 1.0F / (1.0F / static_cast<float>(sdTaxels * sdTaxels) + noiseInformation);
+  const auto most = static_cast<float>(sdTaxels * sdTaxels);
   if (xx + yy <= most) return {};
   const float root = std::hypot(0.5F * (xx - yy), xy);
   // Direction of the larger variance.
@@ -234,10 +229,7 @@ RegistrationResult registerTo(const Surface& surface,
       right(2) = 0.0F;
     }
     if (i == 0)
-      result.degenerate = degenerateDirectionsOf(normal,
-                                 options.maxDirectionSdTaxels,
-                                 contact.slopeNoise * static_cast<float>(pass.taxels),
-                                 held);
+      result.degenerate = degenerateDirectionsOf(normal, options.maxDirectionSdTaxels, held);
     normal.topLeftCorner<2, 2>() += held;
     right.head<2>() += held * Eigen::Vector2f(from.dx - at.dx, from.dy - at.dy);
     const Eigen::LLT<NormalMatrix> solver(normal);

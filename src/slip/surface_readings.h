@@ -131,8 +131,7 @@ void forEachReading(const SurfaceGrid& grid,
                   Eigen::Map<const SplineWeights>(variances + j * columns);
       }
       reading.model = gain * (values * reading.weightsX).sum();
-      reading.variance =
-          squareOf(gain) * (unsure * reading.weightsX * reading.weightsX).sum();
+      reading.variance = squareOf(gain) * (unsure * reading.weightsX * reading.weightsX).sum();
       reading.measured = frame.data()[taxel];
       if (!(reading.measured > 0.0F)) {
         if (reading.model <= least) continue;
@@ -175,13 +174,11 @@ void updateVariances(SurfaceGrid& grid,
   }
 }
 
-// slopeNoise: as Contact::slopeNoise.
 template <typename Surface>
 RegistrationResult registerToSurface(const Surface& surface,
                                      const ConstMatrixMap& frame,
                                      const RigidMotion& start,
-                                     const RegistrationOptions& options,
-                                     float slopeNoise) {
+                                     const RegistrationOptions& options) {
   RegistrationResult result;
   result.motion = start;
   const KeyFrame& key = surface.start();
@@ -206,8 +203,7 @@ RegistrationResult registerToSurface(const Surface& surface,
       -kMargin,
       static_cast<float>(layout.columns - 1) + kMargin,
       -kMargin,
-      static_cast<float>(layout.rows - 1) + kMargin,
-      slopeNoise};
+      static_cast<float>(layout.rows - 1) + kMargin};
   return registerTo(SurfaceView{surface.grid()}, contact, view, start, options);
 }
 

@@ -6,7 +6,7 @@
 // a contact with edges goes on. It is about twice as accurate in the first frames of a contact with
 // sharp edges, and costs more. Beyond the readings the prior draws the surface to 0. So it must
 // not be used for a contact that goes on outside of the matrix, whose motion would seem to be
-// determined: hasEndsInside() (contact_ends.h) tells where it may.
+// determined: loadAtTwoSides() (contact_ends.h) tells where it may.
 //
 // How uncertain a value is, for the weights of a registration, is followed per coefficient, as by a
 // Kalman filter with a diagonal covariance matrix: it begins larger between taxels, where taxels
@@ -90,8 +90,7 @@ class MostProbableSurface {
   int frames_ = 0;
 };
 
-// Registers a frame to the surface, as registerFrame() does to a key frame without blur. Slopes
-// that are no larger than those of noise don't make a direction observable.
+// Registers a frame to the surface, as registerFrame() does to a key frame without blur.
 RegistrationResult registerFrame(const MostProbableSurface& surface,
                                  const ConstMatrixMap& frame,
                                  const RigidMotion& start,
