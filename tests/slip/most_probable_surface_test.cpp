@@ -81,7 +81,7 @@ TEST(MostProbableSurface, LearnsShapesWithEdgesFasterThanTheLearnedSurface) {
     SyntheticContact start;
     start.shape = shape;
     EXPECT_LT(errorAfter<MostProbableSurface>(12, start),
-              0.7 * errorAfter<LearnedSurface>(12, start))
+              0.8 * errorAfter<LearnedSurface>(12, start))
         << nameOf(shape);
     EXPECT_LT(errorAfter<MostProbableSurface>(60, start),
               0.3 * errorAfter<MostProbableSurface>(0, start))
