@@ -16,7 +16,7 @@ using spline::SplineWeights;
 // The information fades in steps of this many frames.
 constexpr int kFadeEvery = 16;
 // After this many frames the coefficients change little, and fewer iterations follow them.
-constexpr int kYoungFrames = 25;
+constexpr int kYoungSurfaceFrames = 25;
 constexpr int kLaterIterations = 2;
 // Standard deviation of the value of a taxel that has no active neighbour, as a fraction of the
 // threshold; it is 0 or nearly so.
@@ -141,7 +141,7 @@ void MostProbableSurface::learn(const ConstMatrixMap& frame,
     information_.fade(grid_.coefficients(),
                       std::pow(1.0F - static_cast<float>(options_.forgottenPerFrame), kFadeEvery));
   information_.solve(grid_.coefficients(),
-                     frames_ <= kYoungFrames ? options_.iterations : kLaterIterations);
+                     frames_ <= kYoungSurfaceFrames ? options_.iterations : kLaterIterations);
 }
 
 RegistrationResult registerFrame(const MostProbableSurface& surface,

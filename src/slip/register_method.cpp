@@ -225,6 +225,7 @@ class RegisterMethod final : public TranslationMethod {
     } else {
       learned_.learn(frame, result, options);
     }
+    if (reading.newKey) return;
     sdX_ = trust * result.sdX;
     sdY_ = trust * result.sdY;
   }
