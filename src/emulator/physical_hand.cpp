@@ -8,9 +8,10 @@
 
 #include <Eigen/Geometry>
 
-#include "palpate/device/sdh2.h"
+#include "palpate/emulator/assumed_characteristics.h"
+#include "palpate/emulator/emulated_geometry.h"
 #include "palpate/emulator/sensor_model.h"
-#include "palpate/model/preshape.h"
+#include "palpate/model/hand_file.h"
 
 #include "emulator/physical_objects.h"
 
@@ -28,35 +29,91 @@ constexpr double kHoldingDegC = 10.0;  // final rise at full torque
 constexpr double kPoweredDegC = 2.0;
 constexpr double kBoardSlowness = 2.0;
 
-// Stationary rise above the ambient temperature [deg C]: motors 0..6, FPGA, board.
-constexpr double kOffsetDegC[] = {2.0, 3.25, 1.5, 2.75, 1.0, 3.0, 1.75, 10.5, 8.25};
+// Assumed rises above the ambient temperature at rest [deg C]: of motors, which differ, and of
+// electronics.
+constexpr double kMotorRiseDegC[] = {2.0, 3.25, 1.5, 2.75, 1.0, 3.0, 1.75};
+constexpr double kElectronicsRiseDegC[] = {10.5, 8.25};
+constexpr double kAssumedVelocity = 100.0;  // of an axis without a limit [deg/s, mm/s]
+
+std::vector<double> risesAtRest(const HandDescription& hand) {
+  std::vector<double> rises;
+  for (std::size_t i = 0; i < hand.temperatureSensors.size(); ++i) {
+    const std::size_t numAxes = hand.axes.size();
+    rises.push_back(i < numAxes
+                        ? kMotorRiseDegC[i % std::size(kMotorRiseDegC)]
+                        : kElectronicsRiseDegC[(i - numAxes) % std::size(kElectronicsRiseDegC)]);
+  }
+  return rises;
+}
+
+HandDescription withVelocities(HandDescription hand) {
+  for (AxisDescription& axis : hand.axes)
+    if (axis.maximumVelocityDegPerS <= 0.0) axis.maximumVelocityDegPerS = kAssumedVelocity;
+  return hand;
+}
+
+std::vector<double> motorsOf(const PhysicalHandOptions& options) {
+  if (!options.motorNmm.empty()) return options.motorNmm;
+  std::vector<double> motors;
+  for (const AxisDescription& axis : options.hand.axes) motors.push_back(axis.maximumTorqueNmm);
+  return motors;
+}
+
+SensorCharacteristics characteristicsOf(const HandDescription& hand) {
+  return hand.file && hand.file->characteristics ? *hand.file->characteristics
+                                                 : assumedCharacteristics(hand);
+}
+
+// The axes' values at the beginning: those of the preshape; without one at rest.
+std::vector<double> startAngles(const HandDescription& hand,
+                                const std::string& preshape,
+                                double close) {
+  if (!preshape.empty()) return scenePreshape(hand, preshape).anglesDeg(close);
+  std::vector<double> angles;
+  for (const AxisDescription& axis : hand.axes)
+    angles.push_back(std::clamp(0.0, axis.minimumDeg, axis.maximumDeg));
+  return angles;
+}
 
 }  // namespace
 
 struct PhysicalHand::Impl {
   Impl(const Scene& scene, const PhysicalHandOptions& given)
       : options(given),
+        hand(withVelocities(given.hand)),
+        characteristics(characteristicsOf(hand)),
+        geometry(emulatedGeometry(hand)),
         objects(scene.objects, geometry, given.rubberNPerMm3),
-        joints(sdh2(), sdh2Preshape(scene.preshape).anglesDeg(scene.close)),
-        sensor(sdh2(), sdh2Sensor(), given.seed),
-        preshape(scene.preshape),
+        preshape(scene.preshape.empty() ? startPreshape(hand) : scene.preshape),
+        joints(hand, startAngles(hand, preshape, scene.close)),
+        sensor(hand, characteristics, given.seed),
         script(scene.script),
-        truth(sdh2().layout->numMatrices()),
-        torqueNmm(sdh2().axes.size()) {
+        motorNmm(motorsOf(given)),
+        riseDegC(risesAtRest(hand)),
+        truth(hand.layout->numMatrices()),
+        torqueNmm(hand.axes.size()) {
     if (!(options.rubberNPerMm3 > 0.0)) throw std::invalid_argument("PhysicalHandOptions: rubber");
     if (!(options.stepS > 0.0 && options.stepS <= 0.01))
       throw std::invalid_argument("PhysicalHandOptions: stepS is not in 0..0.01");
-    if (options.motorNmm.size() != sdh2().axes.size())
+    if (motorNmm.size() != hand.axes.size())
       throw std::invalid_argument("PhysicalHandOptions: one motorNmm per axis");
-    if (!options.zeroErrorDeg.empty() && options.zeroErrorDeg.size() != sdh2().axes.size())
+    if (!options.zeroErrorDeg.empty() && options.zeroErrorDeg.size() != hand.axes.size())
       throw std::invalid_argument("PhysicalHandOptions: one zeroErrorDeg per axis, or none");
     for (const double error : options.zeroErrorDeg)
       if (!std::isfinite(error)) throw std::invalid_argument("PhysicalHandOptions: zeroErrorDeg");
-    for (const double offset : kOffsetDegC) degC.push_back(kAmbientDegC + offset);
+    if (const double gain = characteristics.gainCountsPerKpa(kAmbientDegC);
+        !(gain > 0.0 && std::isfinite(gain)))
+      throw std::invalid_argument(hand.name +
+                                  ": characteristics.pressure_plane: the value does not rise with "
+                                  "the pressure");
+    for (const ScriptStep& step : script)
+      if (const auto* grasp = std::get_if<GraspAction>(&step.action))
+        scenePreshape(hand, grasp->preshape.value_or(preshape));
+    for (const double rise : riseDegC) degC.push_back(kAmbientDegC + rise);
     geometry.pose(trueAngles(), pose);
     before = pose;
     objects.press(pose, pressure);
-    spreadPressure(*sdh2().layout, sdh2Sensor().neighbourFraction, pressure);
+    spreadPressure(*hand.layout, characteristics.neighbourFraction, pressure);
   }
 
   void step(double dtS) {
@@ -72,7 +129,7 @@ struct PhysicalHand::Impl {
       objects.advance(dtS);
       hold();
       follow(dtS, moved);
-      spreadPressure(*sdh2().layout, sdh2Sensor().neighbourFraction, pressure);
+      spreadPressure(*hand.layout, characteristics.neighbourFraction, pressure);
     }
     still = !moved && objects.quiet();
     sensor.advance(pressure, dtS);
@@ -104,7 +161,8 @@ struct PhysicalHand::Impl {
       }
     // An axis keeps its full speed up to half of its torque; above that, the speed decreases.
     for (std::size_t axis = 0; axis < torqueNmm.size(); ++axis) {
-      const double share = 2.0 * torqueNmm[axis] / options.motorNmm[axis];
+      if (motorNmm[axis] <= 0.0) continue;
+      const double share = 2.0 * torqueNmm[axis] / motorNmm[axis];
       joints.setResistance(axis, -share - 1.0, share - 1.0);
     }
   }
@@ -143,12 +201,13 @@ struct PhysicalHand::Impl {
 
   void warm(double dtS) {
     for (std::size_t i = 0; i < degC.size(); ++i) {
-      double towards = ambientDegC + kOffsetDegC[i];
+      double towards = ambientDegC + riseDegC[i];
       double slowS = kWarmUpS;
       if (i < joints.angles().size()) {
-        const AxisDescription& axis = sdh2().axes[i];
+        const AxisDescription& axis = hand.axes[i];
         const double speed = std::abs(joints.velocities()[i]) / axis.maximumVelocityDegPerS;
-        const double torque = std::min(std::abs(torqueNmm[i]) / options.motorNmm[i], 1.0);
+        const double torque =
+            motorNmm[i] > 0.0 ? std::min(std::abs(torqueNmm[i]) / motorNmm[i], 1.0) : 0.0;
         if (joints.power()[i])
           towards += kPoweredDegC + kMovingDegC * speed + kHoldingDegC * torque * torque;
       } else {
@@ -186,19 +245,41 @@ struct PhysicalHand::Impl {
 
   void go(double close, double velocityDegPerS) {
     joints.setController(ControllerType::kPose);
-    joints.setVelocities(std::vector<double>(sdh2().axes.size(), velocityDegPerS));
-    joints.setTargets(sdh2Preshape(preshape).anglesDeg(close));
+    if (preshape.empty()) return;  // nothing to open
+    std::vector<double> velocities;
+    for (const AxisDescription& axis : hand.axes)
+      velocities.push_back(std::min(velocityDegPerS, axis.maximumVelocityDegPerS));
+    joints.setVelocities(velocities);
+    joints.setTargets(scenePreshape(hand, preshape).anglesDeg(close));
     joints.startMotion();
     ordersOfScript = joints.motionCount();
   }
 
-  PhysicalHandOptions options;
-  HandGeometry geometry{describeGeometry(sdh2())};
+  // Temperature for the noise of each matrix: that of its sensor, otherwise of the whole hand.
+  std::vector<double> matrixDegC() const {
+    std::vector<double> temperatures;
+    for (const MatrixDescription& matrix : hand.matrices)
+      temperatures.push_back(matrix.temperatureSensor ? degC.at(*matrix.temperatureSensor)
+                                                      : handDegC());
+    return temperatures;
+  }
+  // Temperature of the whole hand: the mean of its sensors, or the ambient one.
+  double handDegC() const {
+    if (degC.empty()) return ambientDegC;
+    return std::accumulate(degC.begin(), degC.end(), 0.0) / static_cast<double>(degC.size());
+  }
+
+  const PhysicalHandOptions options;
+  const HandDescription hand;  // with a velocity for every axis
+  const SensorCharacteristics characteristics;
+  const HandGeometry geometry;
   PhysicalObjects objects;
+  std::string preshape;  // empty: the hand has none
   JointMotion joints;
   SensorModel sensor;
-  std::string preshape;
   std::vector<ScriptStep> script;
+  const std::vector<double> motorNmm;
+  const std::vector<double> riseDegC;
   std::size_t nextStep = 0;
   std::uint64_t ordersOfScript = 0;  // JointMotion::motionCount() after its last motion
   double nowS = 0.0;
@@ -216,7 +297,7 @@ PhysicalHand::PhysicalHand(const Scene& scene, const PhysicalHandOptions& option
 
 PhysicalHand::~PhysicalHand() = default;
 
-const HandDescription& PhysicalHand::hand() const { return sdh2(); }
+const HandDescription& PhysicalHand::hand() const { return impl_->options.hand; }
 
 void PhysicalHand::advanceTo(double timeS) {
   Impl& hand = *impl_;
@@ -243,12 +324,12 @@ JointMotion& PhysicalHand::joints() { return impl_->joints; }
 std::vector<MatrixSetting>& PhysicalHand::settings() { return impl_->sensor.settings(); }
 
 void PhysicalHand::scan(std::span<std::uint16_t> counts) {
-  std::vector<double> degC;
-  // The motor nearest to matrix m drives axis m + 1.
-  for (std::size_t m = 0; m < sdh2().layout->numMatrices(); ++m)
-    degC.push_back(impl_->degC.at(m + 1));
-  const double sum = std::accumulate(impl_->degC.begin(), impl_->degC.end(), 0.0);
-  impl_->sensor.scan(degC, sum / static_cast<double>(impl_->degC.size()), counts);
+  impl_->sensor.scan(impl_->matrixDegC(), impl_->handDegC(), counts);
+  impl_->scanned = impl_->truth;
+}
+
+void PhysicalHand::measure(std::span<float> values) {
+  impl_->sensor.measure(impl_->matrixDegC(), impl_->handDegC(), values);
   impl_->scanned = impl_->truth;
 }
 

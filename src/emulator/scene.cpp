@@ -11,8 +11,8 @@
 #include "palpate/core/error.h"
 #include "palpate/core/json_field.h"
 #include "palpate/core/text_file.h"
-#include "palpate/device/sdh2.h"
 #include "palpate/model/hand_description.h"
+#include "palpate/model/hand_file.h"
 #include "palpate/model/preshape.h"
 
 namespace palpate {
@@ -24,6 +24,7 @@ using Eigen::Vector3d;
 constexpr std::size_t kMostObjects = 100;
 constexpr std::size_t kMaxSteps = 10'000;
 constexpr std::uintmax_t kMaxBytes = 1u << 20;
+constexpr std::string_view kUsualPreshape = "centrical";
 
 Vector3d vectorAt(const JsonField& field, std::string_view key, double most) {
   if (!field.has(key)) return Vector3d::Zero();
@@ -31,9 +32,9 @@ Vector3d vectorAt(const JsonField& field, std::string_view key, double most) {
   return {parts[0], parts[1], parts[2]};
 }
 
-std::optional<std::size_t> matrixOf(const JsonField& field) {
+std::optional<std::size_t> matrixOf(const JsonField& field, const HandDescription& hand) {
   if (!field.has("matrix")) return std::nullopt;
-  return field.at("matrix").index(sdh2().layout->numMatrices());
+  return field.at("matrix").index(hand.layout->numMatrices());
 }
 
 Eigen::Matrix3d rotationOf(const Vector3d& deg) {
@@ -97,9 +98,9 @@ SceneObject objectOf(const JsonField& field) {
   return object;
 }
 
-void requirePreshape(const JsonField& field) {
+void requirePreshape(const JsonField& field, const HandDescription& hand) {
   try {
-    sdh2Preshape(field.text());
+    scenePreshape(hand, field.text());
   } catch (const std::invalid_argument& wrong) {
     field.fail(std::string("is wrong: ") + wrong.what());
   }
@@ -107,9 +108,22 @@ void requirePreshape(const JsonField& field) {
 
 constexpr double kMostSeconds = 1e6;
 
-SceneAction actionOf(const JsonField& step, std::size_t objects) {
-  const auto speed = [](const JsonField& field) {
-    return field.number("velocity_deg_per_s", 30.0, 0.1, 83.0);
+constexpr double kMostVelocity = 1000.0;  // [deg/s, mm/s]
+constexpr double kUsualVelocity = 30.0;
+
+// Velocity that every axis reaches.
+double largestVelocity(const HandDescription& hand) {
+  double most = kMostVelocity;
+  for (const AxisDescription& axis : hand.axes)
+    if (axis.maximumVelocityDegPerS > 0.0) most = std::min(most, axis.maximumVelocityDegPerS);
+  return most;
+}
+
+SceneAction actionOf(const JsonField& step, std::size_t objects, const HandDescription& hand) {
+  const auto speed = [&](const JsonField& field) {
+    const double most = largestVelocity(hand);
+    return field.number(
+        "velocity_deg_per_s", std::min(kUsualVelocity, most), std::min(0.1, most), most);
   };
   const auto object = [&](const JsonField& field) {
     if (objects == 0) field.fail("needs an object");
@@ -132,9 +146,11 @@ SceneAction actionOf(const JsonField& step, std::size_t objects) {
   if (step.has("grasp")) {
     const JsonField at = step.at("grasp");
     at.only({"preshape", "close", "velocity_deg_per_s"});
+    if (startPreshape(hand).empty())
+      at.fail("needs preshapes, and the hand '" + hand.name + "' has none");
     GraspAction grasp;
     if (at.has("preshape")) {
-      requirePreshape(at.at("preshape"));
+      requirePreshape(at.at("preshape"), hand);
       grasp.preshape = at.at("preshape").text();
     }
     grasp.close = at.number("close", 1.0, 0.0, 1.0);
@@ -162,12 +178,14 @@ SceneAction actionOf(const JsonField& step, std::size_t objects) {
   if (step.has("threshold")) {
     const JsonField at = step.at("threshold");
     at.only({"matrix", "counts"});
-    return SetSceneThreshold{matrixOf(at), static_cast<int>(at.number("counts", 0.0, 0.0, 4095.0))};
+    return SetSceneThreshold{
+        matrixOf(at, hand),
+        static_cast<int>(at.number("counts", 0.0, 0.0, static_cast<double>(hand.maximumCounts)))};
   }
   if (step.has("sensitivity")) {
     const JsonField at = step.at("sensitivity");
     at.only({"matrix", "value"});
-    return SetSceneSensitivity{matrixOf(at), at.number("value", 0.5, 0.0, 1.0)};
+    return SetSceneSensitivity{matrixOf(at, hand), at.number("value", 0.5, 0.0, 1.0)};
   }
   step.fail(
       "doesn't say what happens: give one of move, turn, grasp, release, load, temperature, "
@@ -177,7 +195,26 @@ SceneAction actionOf(const JsonField& step, std::size_t objects) {
 
 }  // namespace
 
-Scene parseScene(std::string_view text, const fs::path& name) {
+std::string startPreshape(const HandDescription& hand) {
+  if (!hand.file || hand.file->preshapes.empty()) return {};
+  for (const Preshape& preshape : hand.file->preshapes)
+    if (preshape.name == kUsualPreshape) return preshape.name;
+  return hand.file->preshapes.front().name;
+}
+
+const Preshape& scenePreshape(const HandDescription& hand, std::string_view name) {
+  std::string known;
+  if (hand.file)
+    for (const Preshape& preshape : hand.file->preshapes) {
+      if (preshape.name == name) return preshape;
+      known += (known.empty() ? "" : ", ") + preshape.name;
+    }
+  throw std::invalid_argument(known.empty()
+                                  ? "the hand '" + hand.name + "' has no preshapes"
+                                  : "no preshape '" + std::string(name) + "'; there are: " + known);
+}
+
+Scene parseScene(std::string_view text, const fs::path& name, const HandDescription& hand) {
   const JsonField root = JsonField::parse(text, name, "the scene");
   root.only({"objects", "hand", "script", "description"});
   Scene scene;
@@ -186,14 +223,15 @@ Scene parseScene(std::string_view text, const fs::path& name) {
   if (root.has("objects"))
     for (const JsonField& object : root.at("objects").items(kMostObjects))
       scene.objects.push_back(objectOf(object));
+  scene.preshape = startPreshape(hand);
   if (root.has("hand")) {
-    const JsonField hand = root.at("hand");
-    hand.only({"preshape", "close"});
-    if (hand.has("preshape")) {
-      requirePreshape(hand.at("preshape"));
-      scene.preshape = hand.at("preshape").text();
+    const JsonField posture = root.at("hand");
+    posture.only({"preshape", "close"});
+    if (posture.has("preshape")) {
+      requirePreshape(posture.at("preshape"), hand);
+      scene.preshape = posture.at("preshape").text();
     }
-    scene.close = hand.number("close", 0.0, 0.0, 1.0);
+    scene.close = posture.number("close", 0.0, 0.0, 1.0);
   }
   if (root.has("script"))
     for (const JsonField& step : root.at("script").items(kMaxSteps)) {
@@ -206,8 +244,8 @@ Scene parseScene(std::string_view text, const fs::path& name) {
                  "temperature",
                  "threshold",
                  "sensitivity"});
-      scene.script.push_back(
-          {step.required("at_s").number(0.0, kMostSeconds), actionOf(step, scene.objects.size())});
+      scene.script.push_back({step.required("at_s").number(0.0, kMostSeconds),
+                              actionOf(step, scene.objects.size(), hand)});
     }
   std::stable_sort(scene.script.begin(),
                    scene.script.end(),
@@ -224,7 +262,9 @@ std::vector<std::string> sceneNames(const fs::path& folder) {
   return names;
 }
 
-Scene loadScene(const std::string& nameOrFile, const fs::path& folder) {
+Scene loadScene(const std::string& nameOrFile,
+                const fs::path& folder,
+                const HandDescription& hand) {
   const bool isFile = nameOrFile.find('/') != std::string::npos || nameOrFile.ends_with(".json");
   const fs::path path = isFile ? fs::path(nameOrFile) : folder / (nameOrFile + ".json");
   std::error_code failure;
@@ -234,7 +274,7 @@ Scene loadScene(const std::string& nameOrFile, const fs::path& folder) {
     throw FileError(path, "no scene '" + nameOrFile + "'; there are: " + known);
   }
   if (!fs::is_regular_file(path, failure)) throw FileError(path, "no such file");
-  return parseScene(readTextFile(path, kMaxBytes), path);
+  return parseScene(readTextFile(path, kMaxBytes), path, hand);
 }
 
 }  // namespace palpate

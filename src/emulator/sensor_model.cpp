@@ -9,7 +9,10 @@
 namespace palpate {
 namespace {
 
-constexpr double kSensorModelMaxCounts = 4095.0;
+constexpr double kLargestWireCounts = 65'535.0;  // of 16 bits
+constexpr double kStreamSteps = 4096.0;          // of a converter of 12 bits
+// Multiple of the RMSE above the noise line that an unloaded matrix does not reach.
+constexpr double kNoiseMultiple = 3.0;
 constexpr double kRestKpa = 1e-6;     // below this pressure the rubber is at rest
 constexpr double kNoiseReach = 8.0;   // larger noise is not generated [standard deviations]
 constexpr double kHeavyReach = 45.0;  // heavyTailed(kNoiseReach)
@@ -33,6 +36,8 @@ SensorModel::SensorModel(const HandDescription& hand,
                          std::uint64_t seed)
     : layout_(*hand.layout),
       characteristics_(characteristics),
+      fullScale_(static_cast<double>(hand.maximumCounts)),
+      resolution_(hand.unit == "counts" ? 1.0 : fullScale_ / kStreamSteps),
       first_(layout_.numCells()),
       lagged_(layout_.numCells()),
       creep_(layout_.numCells()),
@@ -68,7 +73,11 @@ void SensorModel::advance(std::span<const double> pressureKpa, double dtS) {
   //   x2 = u + (x2 - u) b + (x1 - u) T1 (a - b) / (T1 - T2)
   const double t1 = characteristics_.lag1S, t2 = characteristics_.lag2S;
   const double a = std::exp(-dtS / t1), b = std::exp(-dtS / t2);
-  const double mixed = t1 * (a - b) / (t1 - t2);
+  double mixed = 0.0;
+  if (t1 != t2)
+    mixed = t1 * (a - b) / (t1 - t2);
+  else if (t1 > 0.0)
+    mixed = dtS / t1 * a;  // the limit of equal time constants
   const double c = std::exp(-dtS / characteristics_.creepS);
   const double letsGo = std::exp(-dtS / characteristics_.releaseS);
   double most = 0.0;
@@ -94,10 +103,13 @@ void SensorModel::advance(std::span<const double> pressureKpa, double dtS) {
   std::fill(creep_.begin(), creep_.end(), 0.0);
 }
 
-void SensorModel::scan(std::span<const double> degC,
-                       double handDegC,
-                       std::span<std::uint16_t> counts) {
-  if (counts.size() != layout_.numCells() || degC.size() != layout_.numMatrices())
+template <typename Threshold, typename Store>
+void SensorModel::scanPlaces(std::span<const double> degC,
+                             double handDegC,
+                             std::size_t numPlaces,
+                             const Threshold& thresholdOf,
+                             const Store& store) {
+  if (numPlaces != layout_.numCells() || degC.size() != layout_.numMatrices())
     throw std::invalid_argument("SensorModel: wrong number of places or temperatures");
   std::size_t place = 0;
   for (std::size_t m = 0; m < layout_.numMatrices(); ++m) {
@@ -108,9 +120,9 @@ void SensorModel::scan(std::span<const double> degC,
       throw std::invalid_argument("SensorModel: mask of matrix " + std::to_string(m));
     const double shared = matrix.sharedSd * normal_(random_);
     const double rest = matrix.restCounts(degC[m]);
-    const double threshold = setting.thresholdCounts;
+    const double threshold = thresholdOf(m);
     for (std::size_t i = 0; i < layout.numCells(); ++i, ++place) {
-      counts[place] = 0;
+      store(place, 0.0);
       if (layout.staticMask[i] == 0 || setting.dynamicMask[i] == 0) continue;
       const OffsetTaxel* const raised = raised_[place];
       const double sd = raised ? raised->sd : matrix.taxelSd;
@@ -121,10 +133,36 @@ void SensorModel::scan(std::span<const double> degC,
         continue;  // noise can't raise it above the threshold
       const double drawn = normal_(random_);
       raw += shared + sd * (raised ? drawn : heavyTailed(drawn));
-      const double above = std::round(saturated(raw - threshold, characteristics_.largestCounts));
-      counts[place] = static_cast<std::uint16_t>(std::clamp(above, 0.0, kSensorModelMaxCounts));
+      store(place, saturated(raw - threshold, characteristics_.largestCounts));
     }
   }
+}
+
+void SensorModel::scan(std::span<const double> degC,
+                       double handDegC,
+                       std::span<std::uint16_t> counts) {
+  const double most = std::min(std::floor(fullScale_), kLargestWireCounts);
+  scanPlaces(
+      degC,
+      handDegC,
+      counts.size(),
+      [this](std::size_t m) { return static_cast<double>(settings_[m].thresholdCounts); },
+      [&](std::size_t place, double above) {
+        counts[place] = static_cast<std::uint16_t>(std::clamp(std::round(above), 0.0, most));
+      });
+}
+
+void SensorModel::measure(std::span<const double> degC, double handDegC, std::span<float> values) {
+  const double mostSteps = std::floor(fullScale_ / resolution_);
+  const auto thresholdOf = [&](std::size_t m) {
+    if (settings_[m].thresholdCounts > 0) return static_cast<double>(settings_[m].thresholdCounts);
+    const MatrixCharacteristics& matrix = characteristics_.matrices[m];
+    return matrix.noiseIntercept + matrix.noiseSlope * degC[m] + kNoiseMultiple * matrix.noiseRmse;
+  };
+  scanPlaces(degC, handDegC, values.size(), thresholdOf, [&](std::size_t place, double above) {
+    const double steps = std::clamp(std::round(above / resolution_), 0.0, mostSteps);
+    values[place] = static_cast<float>(steps * resolution_);
+  });
 }
 
 void spreadPressure(const SensorLayout& layout, double share, std::span<double> pressureKpa) {

@@ -380,7 +380,7 @@ TEST(PhysicalHand, WrongOptionsAreRefused) {
   options.rubberNPerMm3 = 0.0;
   EXPECT_THROW(PhysicalHand({}, options), std::invalid_argument);
   options = {};
-  options.motorNmm.pop_back();
+  options.motorNmm.assign(6, 1000.0);
   EXPECT_THROW(PhysicalHand({}, options), std::invalid_argument);
   options = {};
   options.stepS = 1.0;

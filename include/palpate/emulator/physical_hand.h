@@ -1,5 +1,5 @@
-// Physical model of the emulated hand: joints that are stopped by contact, objects pressed by the
-// fingers, rubber, sensors, motor temperatures, and a script of events.
+// Physical model of an emulated hand, of any description: joints that are stopped by contact,
+// objects pressed by the fingers, rubber, sensors, motor temperatures, and a script of events.
 #pragma once
 
 #include <cstdint>
@@ -8,6 +8,7 @@
 
 #include <palpate/emulator/hand_model.h>
 #include <palpate/emulator/scene.h>
+#include <palpate/model/hand_file.h>
 
 namespace palpate {
 
@@ -16,18 +17,24 @@ struct PhysicalHandOptions {
   // Elastic foundation of the sensor's rubber: 1 mm of indentation gives 150 kPa, which read about
   // the 3554 counts that the study reports for 1 mm.
   double rubberNPerMm3 = 0.15;
-  // Torque at which each motor stalls (current limit) [N mm].
-  std::vector<double> motorNmm = {3000, 2100, 1400, 2100, 1400, 2100, 1400};
+  // Torque at which each motor stalls (current limit) [N mm; N for a sliding axis]; 0: never.
+  // Empty: the largest torques of the hand's description.
+  std::vector<double> motorNmm = {};
   // Zero error of each joint [deg]: the true angle minus the reported one. Empty: no error. On a
   // real hand it differs between sessions (recognition/session_offset.h).
   std::vector<double> zeroErrorDeg = {};
   // Time step of the simulation while something moves [s].
   double stepS = 0.004;
+  // The hand. Its sensor characteristics are those of its file, otherwise assumedCharacteristics();
+  // its geometry is emulatedGeometry(). An axis without a velocity moves with up to 100 per s. The
+  // first temperature sensors are those of the axes' motors, the others those of electronics.
+  HandDescription hand = defaultHand();
 };
 
 class PhysicalHand final : public HandModel {
  public:
-  // Throws std::invalid_argument (options, preshape of the scene).
+  // Throws std::invalid_argument (options, preshapes of the scene), and Error when the hand's
+  // geometry is inconsistent.
   explicit PhysicalHand(const Scene& scene, const PhysicalHandOptions& options = {});
   ~PhysicalHand() override;
 
@@ -38,6 +45,9 @@ class PhysicalHand final : public HandModel {
   JointMotion& joints() override;
   std::vector<MatrixSetting>& settings() override;
   void scan(std::span<std::uint16_t> counts) override;
+  // Fills `values` with what the hand's sender streams now, see SensorModel::measure(). The truth
+  // is that of this moment then. Size: numCells(). Draws other noise than scan().
+  void measure(std::span<float> values);
   std::vector<double> temperatures() override;
   std::vector<MatrixTruth> truth() const override;
 

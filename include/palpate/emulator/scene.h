@@ -4,7 +4,8 @@
 //    "hand": {"preshape": "centrical", "close": 0.0},
 //    "script": [{"at_s": 1, "grasp": {"close": 1, "velocity_deg_per_s": 30}}, ..],
 //    "description": "A soft ball in the middle"}
-// Every key except "shape", "size_mm" and "at_s" is optional. Positions are in the hand's base
+// Every key except "shape", "size_mm" and "at_s" is optional. A scene is one of a certain hand: its
+// preshapes, its matrices and its base frame. Positions are in the hand's base
 // frame; rotations are about its fixed axes x, y, z, in that order. An object keeps its pose until
 // fingers touch it; then it moves under the contact forces, its weight and the applied load.
 #pragma once
@@ -19,6 +20,8 @@
 #include <Eigen/Core>
 
 #include <palpate/emulator/shape.h>
+#include <palpate/model/hand_file.h>
+#include <palpate/model/preshape.h>
 
 namespace palpate {
 
@@ -94,17 +97,28 @@ struct Scene {
   // One line for the user; may be empty.
   std::string description;
   std::vector<SceneObject> objects;
-  std::string preshape = "centrical";
+  std::string preshape;  // empty: startPreshape() of the hand
   double close = 0.0;
   std::vector<ScriptStep> script;  // in order of time
 };
 
-// Throws FormatError naming the file and the wrong, missing or unknown field.
-Scene parseScene(std::string_view json, const std::filesystem::path& name);
+// The preshape in which an emulated hand begins where a scene names none: the one with the name
+// "centrical", otherwise the first one; empty for a hand without preshapes.
+std::string startPreshape(const HandDescription& hand);
+// Finds a preshape of a hand. Throws std::invalid_argument that lists all names.
+const Preshape& scenePreshape(const HandDescription& hand, std::string_view name);
+
+// Parses a scene for a hand. Throws FormatError naming the file and the wrong, missing or unknown
+// field.
+Scene parseScene(std::string_view json,
+                 const std::filesystem::path& name,
+                 const HandDescription& hand = defaultHand());
 // Loads a scene. A name ("ball") is looked up in `folder`; a text that ends in .json or contains a
 // slash is a file. Throws FileError (no such scene; the message lists the existing ones),
 // FormatError.
-Scene loadScene(const std::string& nameOrFile, const std::filesystem::path& folder);
+Scene loadScene(const std::string& nameOrFile,
+                const std::filesystem::path& folder,
+                const HandDescription& hand = defaultHand());
 std::vector<std::string> sceneNames(const std::filesystem::path& folder);
 
 }  // namespace palpate

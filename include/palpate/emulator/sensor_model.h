@@ -37,10 +37,26 @@ class SensorModel {
   // temperature of the whole hand, for the gain. Throws std::invalid_argument (sizes, also that of
   // a mask in the settings).
   void scan(std::span<const double> degC, double handDegC, std::span<std::uint16_t> counts);
+  // Makes one scan for a stream: values in the hand's unit, 0..full scale, in steps of one count,
+  // or of 1/4096 of the full scale in another unit. Where a matrix has no threshold, the largest
+  // value of the unloaded matrix (noise line plus three times its RMSE) is subtracted, as a sender
+  // of a stream does. Throws as scan().
+  void measure(std::span<const double> degC, double handDegC, std::span<float> values);
 
  private:
+  // Calls `store` with each place and its value above the threshold, before it is rounded; 0 where
+  // nothing is above it.
+  template <typename Threshold, typename Store>
+  void scanPlaces(std::span<const double> degC,
+                  double handDegC,
+                  std::size_t numPlaces,
+                  const Threshold& thresholdOf,
+                  const Store& store);
+
   const SensorLayout layout_;
   const SensorCharacteristics characteristics_;
+  const double fullScale_;   // [unit of the hand]
+  const double resolution_;  // of measure() [unit of the hand]
   std::vector<MatrixSetting> settings_;
   std::vector<double> first_, lagged_, creep_;  // per place [kPa]
   bool atRest_ = true;
