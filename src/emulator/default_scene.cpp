@@ -27,9 +27,11 @@ constexpr double kSceneDegC = 34.0;   // of the emulated housing
 constexpr double kPartOfScale = 0.5;  // of the full scale, under the deepest taxel
 constexpr double kClearanceMm = 2.0;  // of an object that does not touch
 constexpr double kCloseStep = 0.01;   // of the search for a sphere
-constexpr double kGripStep = 0.002;   // of the search for the grip
+constexpr double kGripClose = 0.6;    // where no common sphere fits
 constexpr double kClosingS = 1.0;     // from open to closed at full velocity
 constexpr double kObjectNPerMm3 = 10.0;
+// Radius of a contact [pitches].
+constexpr double kPadContactPitches = 2.5, kGraspContactPitches = 1.5;
 
 // The middle of a matrix: the taxel that is nearest to the mean of all its taxels.
 struct PadMiddle {
@@ -69,7 +71,7 @@ class DefaultSceneMaker {
   }
 
   Scene make() {
-    if (!scene_.preshape.empty() && findSphere())
+    if (!scene_.preshape.empty() && findSpheres())
       addGrasps();
     else
       addPads();
@@ -97,105 +99,104 @@ class DefaultSceneMaker {
     return geometry_.pose(scenePreshape(hand_, scene_.preshape).anglesDeg(close));
   }
 
-  // Finds the sphere that the hand can grasp, and how far it closes on it.
-  bool findSphere() {
-    std::vector<std::size_t> moved;
+  // Finds the matrices that the preshape moves, and where spheres touch them all at one posture.
+  // Returns false when there are none.
+  bool findSpheres() {
+    const HandPose open = poseAt(0.0);
+    const HandPose grip = poseAt(kGripClose);
     for (std::size_t m = 0; m < hand_.layout->numMatrices(); ++m)
-      if (geometry_.description().surfaces[m].place.link) moved.push_back(m);
-    if (moved.size() < 2) return false;
+      if ((middleOf(open, m).atMm - middleOf(grip, m).atMm).norm() > kClearanceMm)
+        moved_.push_back(m);
+    if (moved_.empty()) return false;
+    gripClose_ = kGripClose;
     double best = std::numeric_limits<double>::infinity();
-    for (double close = 0.0; close <= 1.0; close += kCloseStep) tryAt(close, moved, best);
-    if (!std::isfinite(best)) return false;
-    const Shape sphere{ShapeKind::kSphere, Vector3d::Constant(2.0 * radiusMm_)};
-    if (deepestMm(poseAt(0.0), moved, sphere) > 0.0) return false;  // it would touch the open hand
-    for (gripClose_ = 0.0; gripClose_ < 1.0; gripClose_ = std::min(gripClose_ + kGripStep, 1.0))
-      if (deepestMm(poseAt(gripClose_), moved, sphere) >= depthMm_) break;
-    along_ = directionAlong(poseAt(gripClose_), moved);
+    if (moved_.size() > 1)
+      for (double close = kCloseStep; close <= 1.0; close += kCloseStep) tryAt(close, best);
+    if (!std::isfinite(best))
+      for (const std::size_t m : moved_) {
+        const PadMiddle middle = middleOf(grip, m);
+        const double radiusMm = sphereRadiusMm(hand_.layout->matrix(m), kGraspContactPitches);
+        addSphere(middle.atMm + middle.normal * (radiusMm - depthMm_), radiusMm);
+        downs_.push_back(middle.down);
+      }
+    else
+      useCommonSphere();
     return true;
   }
 
-  // Fits a sphere to the matrices at one posture; keeps it if it is the best one.
-  void tryAt(double close, const std::vector<std::size_t>& moved, double& best) {
-    const HandPose pose = poseAt(close);
-    constexpr double kTies = 1e-3;  // between parallel normals the mean of the middles decides
-    Matrix3d normal = Matrix3d::Zero();
-    Vector3d right = Vector3d::Zero(), mean = Vector3d::Zero();
-    std::vector<PadMiddle> middles;
-    double padMm = 0.0;
-    for (const std::size_t m : moved) {
-      middles.push_back(middleOf(pose, m));
-      const MatrixLayout& layout = hand_.layout->matrix(m);
-      padMm += std::hypot(layout.rows, layout.columns) * layout.pitchMm / 2.0;
-      mean += middles.back().atMm;
-    }
-    const auto count = static_cast<double>(moved.size());
-    mean /= count;
-    padMm /= count;
-    for (const PadMiddle& middle : middles) {
-      const Matrix3d across = Matrix3d::Identity() - middle.normal * middle.normal.transpose();
-      normal += across;
-      right += across * middle.atMm;
-    }
-    normal += kTies * Matrix3d::Identity();
-    right += kTies * mean;
-    const Vector3d centre = normal.ldlt().solve(right);
-    double radius = 0.0, leastMm = std::numeric_limits<double>::infinity();
-    for (const PadMiddle& middle : middles) {
-      const double apartMm = (centre - middle.atMm).dot(middle.normal);
-      radius += apartMm / count;
-      leastMm = std::min(leastMm, apartMm);
-    }
-    // No object behind a pad, and none that a pad of this size could not hold.
-    if (leastMm < 0.25 * padMm || radius > 6.0 * padMm) return;
-    double squares = 0.0;
-    for (const PadMiddle& middle : middles)
-      squares += (centre - middle.atMm - radius * middle.normal).squaredNorm() / count;
-    // Among spheres that fit equally well, one of one and a half times the size of the pads.
-    constexpr double kSizeWeight = 0.05;
-    const double cost =
-        std::sqrt(squares) / radius + kSizeWeight * std::abs(std::log(radius / (1.5 * padMm)));
-    if (cost >= best) return;
-    best = cost;
-    centreMm_ = centre;
-    radiusMm_ = radius;
-  }
-
-  double deepestMm(const HandPose& pose,
-                   const std::vector<std::size_t>& moved,
-                   const Shape& shape) const {
-    double deepest = -std::numeric_limits<double>::infinity();
-    for (const std::size_t m : moved) {
-      const MatrixLayout& layout = hand_.layout->matrix(m);
-      for (int y = 0; y < layout.rows; ++y)
-        for (int x = 0; x < layout.columns; ++x)
-          if (layout.exists(y, x))
-            deepest = std::max(deepest, -shape.distanceMm(pose.positionMm(m, y, x) - centreMm_));
-    }
-    return deepest;
-  }
-
-  // Along all matrices as far as possible, towards rising rows of the first one.
-  static Vector3d directionAlong(const HandPose& pose, const std::vector<std::size_t>& moved) {
+  void useCommonSphere() {
+    addSphere(centreMm_, radiusMm_);
+    // Along all matrices as far as possible.
+    const HandPose pose = poseAt(gripClose_);
     Matrix3d normals = Matrix3d::Zero();
-    for (const std::size_t m : moved) {
+    for (const std::size_t m : moved_) {
       const Vector3d normal = middleOf(pose, m).normal;
       normals += normal * normal.transpose();
     }
     const Eigen::SelfAdjointEigenSolver<Matrix3d> principal(normals);
     const Vector3d main = principal.eigenvectors().col(2);
-    const Vector3d down = middleOf(pose, moved.front()).down;
+    const Vector3d down = middleOf(pose, moved_.front()).down;
     const Vector3d along = down - main * down.dot(main);
-    return along.norm() > 1e-6 ? Vector3d(along.normalized()) : down;
+    downs_.push_back(along.norm() > 1e-6 ? Vector3d(along.normalized()) : down);
+  }
+
+  void addSphere(const Vector3d& centreMm, double radiusMm) {
+    SceneObject sphere;
+    sphere.shape = {ShapeKind::kSphere, Vector3d::Constant(2.0 * radiusMm)};
+    sphere.stiffnessNPerMm3 = kObjectNPerMm3;
+    sphere.fixed = true;
+    sphere.positionMm = centreMm;
+    scene_.objects.push_back(sphere);
+  }
+
+  // Radius of the sphere whose contact at the usual depth has a radius of so many pitches, or
+  // reaches over half of the matrix.
+  double sphereRadiusMm(const MatrixLayout& layout, double pitches) const {
+    const double contactMm =
+        std::min(pitches, std::min(layout.rows, layout.columns) / 2.0) * layout.pitchMm;
+    return std::clamp(contactMm * contactMm / (2.0 * depthMm_), 2.0 * layout.pitchMm, 150.0);
+  }
+
+  // Fits one sphere to the middles of all moved matrices at a posture; keeps it if it touches them
+  // there, within half a pitch, and is the best one so far.
+  void tryAt(double close, double& best) {
+    const HandPose pose = poseAt(close);
+    constexpr double kTies = 1e-3;  // between parallel normals the mean of the middles decides
+    Matrix3d normal = kTies * Matrix3d::Identity();
+    Vector3d right = Vector3d::Zero();
+    std::vector<PadMiddle> middles;
+    double padMm = 0.0, pitchMm = std::numeric_limits<double>::infinity();
+    const auto count = static_cast<double>(moved_.size());
+    for (const std::size_t m : moved_) {
+      middles.push_back(middleOf(pose, m));
+      const PadMiddle& middle = middles.back();
+      const MatrixLayout& layout = hand_.layout->matrix(m);
+      padMm += std::hypot(layout.rows, layout.columns) * layout.pitchMm / 2.0 / count;
+      pitchMm = std::min(pitchMm, layout.pitchMm);
+      const Matrix3d across = Matrix3d::Identity() - middle.normal * middle.normal.transpose();
+      normal += across;
+      right += across * middle.atMm + kTies / count * middle.atMm;
+    }
+    const Vector3d centre = normal.ldlt().solve(right);
+    double radius = 0.0;
+    for (const PadMiddle& middle : middles)
+      radius += (centre - middle.atMm).dot(middle.normal) / count;
+    radius += depthMm_;
+    double worstMm = 0.0;
+    for (const PadMiddle& middle : middles)
+      worstMm =
+          std::max(worstMm, (centre - middle.atMm - (radius - depthMm_) * middle.normal).norm());
+    // Among the spheres one of about one and a half times the size of the pads.
+    const double cost = std::abs(std::log(radius / (1.5 * padMm)));
+    if (radius < 0.25 * padMm || worstMm > 0.5 * pitchMm || cost >= best) return;
+    best = cost;
+    centreMm_ = centre;
+    radiusMm_ = radius;
+    gripClose_ = close;
   }
 
   void addGrasps() {
-    scene_.description = "The hand closes on a sphere, which is pulled over the matrices and back";
-    SceneObject sphere;
-    sphere.shape = {ShapeKind::kSphere, Vector3d::Constant(2.0 * radiusMm_)};
-    sphere.stiffnessNPerMm3 = kObjectNPerMm3;
-    sphere.fixed = true;
-    sphere.positionMm = centreMm_;
-    scene_.objects.push_back(sphere);
+    scene_.description = "The hand closes on spheres, which are pulled over the matrices and back";
     double travel = 0.0, velocity = std::numeric_limits<double>::infinity(), pitchMm = 0.0;
     for (const PreshapeJoint& joint : scenePreshape(hand_, scene_.preshape).joints)
       travel = std::max(travel, std::abs(joint.slopeDeg));
@@ -205,12 +206,14 @@ class DefaultSceneMaker {
     velocity = std::min(velocity, travel / kClosingS);
     for (std::size_t m = 0; m < hand_.layout->numMatrices(); ++m)
       pitchMm = std::max(pitchMm, hand_.layout->matrix(m).pitchMm);
-    const Vector3d pull = 2.0 * pitchMm * along_;
     for (double s = 0.0; s + kGraspCycleS <= kSceneS; s += kGraspCycleS) {
-      scene_.script.push_back({s + 1.0, GraspAction{std::nullopt, gripClose_, velocity}});
-      scene_.script.push_back({s + 5.0, MoveObject{0, pull, 2.0}});
-      scene_.script.push_back({s + 7.5, MoveObject{0, -pull, 2.0}});
-      scene_.script.push_back({s + 10.0, ReleaseAction{velocity}});
+      add(s + 1.0, GraspAction{std::nullopt, gripClose_, velocity});
+      for (std::size_t object = 0; object < downs_.size(); ++object) {
+        const Vector3d pull = 2.0 * pitchMm * downs_[object];
+        add(s + 5.0, MoveObject{object, pull, 2.0});
+        add(s + 7.5, MoveObject{object, -pull, 2.0});
+      }
+      add(s + 10.0, ReleaseAction{velocity});
     }
   }
 
@@ -221,16 +224,8 @@ class DefaultSceneMaker {
     for (std::size_t m = 0; m < count; ++m) {
       const MatrixLayout& layout = hand_.layout->matrix(m);
       const PadMiddle middle = middleOf(pose, m);
-      // The contact is five pitches wide.
-      const double contactMm = 2.5 * layout.pitchMm;
-      const double radius =
-          std::clamp(contactMm * contactMm / (2.0 * depthMm_), 2.0 * layout.pitchMm, 150.0);
-      SceneObject sphere;
-      sphere.shape = {ShapeKind::kSphere, Vector3d::Constant(2.0 * radius)};
-      sphere.stiffnessNPerMm3 = kObjectNPerMm3;
-      sphere.fixed = true;
-      sphere.positionMm = middle.atMm + middle.normal * (radius + kClearanceMm);
-      scene_.objects.push_back(sphere);
+      const double radius = sphereRadiusMm(layout, kPadContactPitches);
+      addSphere(middle.atMm + middle.normal * (radius + kClearanceMm), radius);
       const Vector3d press = -middle.normal * (kClearanceMm + depthMm_);
       const double slideMm = 0.2 * layout.columns * layout.pitchMm;
       const Vector3d slide = middle.right * slideMm;
@@ -238,13 +233,19 @@ class DefaultSceneMaker {
       const Vector3d roll = middle.normal.cross(-slide) / radius * (180.0 / std::numbers::pi);
       const double cycleS = kPadCycleS * static_cast<double>(count);
       for (double s = kPadCycleS * static_cast<double>(m); s + cycleS <= kSceneS; s += cycleS) {
-        scene_.script.push_back({s + 0.5, MoveObject{m, press, 0.5}});
-        scene_.script.push_back({s + 2.0, MoveObject{m, slide, 2.0}});
-        scene_.script.push_back({s + 4.5, MoveObject{m, -slide, 2.0}});
-        scene_.script.push_back({s + 4.5, TurnObject{m, roll, 2.0}});
-        scene_.script.push_back({s + 7.0, MoveObject{m, -press, 0.5}});
+        add(s + 0.5, MoveObject{m, press, 0.5});
+        add(s + 2.0, MoveObject{m, slide, 2.0});
+        add(s + 4.5, MoveObject{m, -slide, 2.0});
+        add(s + 4.5, TurnObject{m, roll, 2.0});
+        add(s + 7.0, MoveObject{m, -press, 0.5});
       }
     }
+  }
+
+  void add(double atS, const SceneAction& action) {
+    ScriptStep& step = scene_.script.emplace_back();
+    step.atS = atS;
+    step.action = action;
   }
 
   std::vector<double> restAngles() const {
@@ -262,7 +263,8 @@ class DefaultSceneMaker {
   Vector3d centreMm_ = Vector3d::Zero();
   double radiusMm_ = 0.0;
   double gripClose_ = 1.0;
-  Vector3d along_ = Vector3d::UnitZ();
+  std::vector<std::size_t> moved_;  // matrices that the preshape moves
+  std::vector<Vector3d> downs_;     // per object: the direction in which it is pulled
   Scene scene_;
 };
 

@@ -125,7 +125,8 @@ TEST(DefaultScene, TheContactOfAPadIsWhereTheSphereIs) {
     expectAt(1.8, 0.0);
     expectAt(4.3, slideMm);
     expectAt(6.9, 0.0);
-    EXPECT_NEAR(model->truth()[0].slipXTaxels * plane.pitchMm, 0.0, 0.1) << "there and back";
+    // Sliding is slip, rolling back is none (but for the indentation, which shortens the lever).
+    EXPECT_NEAR(model->truth()[0].slipXTaxels * plane.pitchMm, slideMm, 0.03 * slideMm);
     // Rolled back by the slide: the angle is the way over the radius.
     const double radiusMm = scene.objects[0].shape.sizeMm.x() / 2.0;
     const auto& roll = [&]() -> const TurnObject& {
@@ -159,21 +160,19 @@ TEST(DefaultScene, TheGripperTouchesTheSphereOnBothSides) {
   EXPECT_NEAR(centroid(hand, 0, valuesAt(*model, 7.4)).y() - row, 2.0, 0.3);
 }
 
-TEST(DefaultScene, FourFingersCloseOnTheSphere) {
+TEST(DefaultScene, FourFingersCloseOnASphereEach) {
   const HandDescription& hand = builtInHand("four_fingers");
   const Scene scene = defaultScene(hand);
-  ASSERT_EQ(scene.objects.size(), 1u);
+  ASSERT_EQ(scene.objects.size(), 4u);
   const auto model = emulated(hand);
   const std::vector<float> values = valuesAt(*model, 4.9);
   const HandGeometry geometry(describeGeometry(hand));
   const HandPose pose = geometry.pose(model->joints().angles());
   for (std::size_t m = 0; m < 4; ++m) {
-    ASSERT_GT(largest(hand, m, values), 0.0F) << m;
-    // The foot of the sphere's centre on the plane of the fingertip is the centre of the contact,
-    // as far as the contact lies on the pad.
-    const Vector3d foot = pose.baseFromMatrix(m).inverse() * scene.objects[0].positionMm / 4.0;
-    const Vector2d expected(std::clamp(foot.x(), 0.0, 3.0), std::clamp(foot.y(), 0.0, 3.0));
-    EXPECT_LT((centroid(hand, m, values) - expected).norm(), 0.75) << m;
+    ASSERT_GT(largest(hand, m, values), 0.1F * hand.maximumCounts) << m;
+    // The contact is around the foot of the sphere's centre on the plane of the fingertip.
+    const Vector3d foot = pose.baseFromMatrix(m).inverse() * scene.objects[m].positionMm / 4.0;
+    EXPECT_LT((centroid(hand, m, values) - foot.head<2>()).norm(), 0.3) << m;
   }
 }
 

@@ -199,6 +199,16 @@ TEST(EmulatedStream, FiltersAndSlipRunLiveOnAnotherHand) {
     std::lock_guard lock(mutex);
     wasFiltered = wasFiltered && results.unfiltered != nullptr;
     slipping.push_back(results.slip.at(0).slipping);
+    if (frames % 10 == 0)
+      printf("DBG %zu %d %d %.3f %.3f ind %d act %d max %.0f\n",
+             frames.load(),
+             (int)results.slip.at(0).state,
+             (int)results.slip.at(0).motion.valid,
+             results.slip.at(0).motion.dx,
+             results.slip.at(0).confidence,
+             (int)results.slip.at(0).indicator,
+             results.matrixSignals.at(0).active,
+             results.matrixSignals.at(0).maximum);
     centroidX.push_back(centroidXOf(*results.frame));
     ++frames;
   };

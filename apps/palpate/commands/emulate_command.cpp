@@ -1,4 +1,5 @@
-// The command `palpate emulate` runs the emulated hand on two ports until it is interrupted.
+// The command `palpate emulate` runs an emulated hand until it is interrupted: the SDH-2 on two
+// ports, or any hand as a stream.
 #include <cstdint>
 #include <cstdio>
 #include <memory>
@@ -7,7 +8,9 @@
 #include "palpate/core/error.h"
 #include "palpate/core/interruption.h"
 #include "palpate/core/number_text.h"
+#include "palpate/emulator/default_scene.h"
 #include "palpate/emulator/emulated_hand.h"
+#include "palpate/emulator/emulated_stream.h"
 #include "palpate/emulator/physical_hand.h"
 #include "palpate/emulator/replayed_hand.h"
 #include "palpate/emulator/scene.h"
@@ -16,6 +19,7 @@
 
 #include "commands/command_line.h"
 #include "commands/commands.h"
+#include "commands/hand_options.h"
 
 namespace palpate::commands {
 namespace {
@@ -34,6 +38,18 @@ void setRate(const std::string& text, EmulatedHandOptions& options) {
   }
 }
 
+std::uint64_t seedOf(const CommandLine& given) {
+  return static_cast<std::uint64_t>(given.integer("seed", 0, UINT32_MAX).value_or(1));
+}
+
+Faults faultsOf(const CommandLine& given) {
+  try {
+    return parseFaults(given.text("faults").value_or(""));
+  } catch (const std::invalid_argument& error) {
+    throw UsageError(std::string("--faults: ") + error.what());
+  }
+}
+
 EmulatedHandOptions emulateOptionsOf(const CommandLine& given) {
   EmulatedHandOptions options;
   options.dsaPort = given.text("dsa").value_or("");
@@ -42,16 +58,46 @@ EmulatedHandOptions emulateOptionsOf(const CommandLine& given) {
       !options.dsaPort.starts_with("tcp:"))
     throw UsageError("--dsa and --sdh need different names");
   if (const auto rate = given.text("rate")) setRate(*rate, options);
-  options.seed = static_cast<std::uint64_t>(given.integer("seed", 0, UINT32_MAX).value_or(1));
+  options.seed = seedOf(given);
   options.dsa.firmware =
       static_cast<std::uint16_t>(given.integer("dsa-firmware", 1, 0xFFFF).value_or(0x2900));
   if (const auto firmware = given.text("sdh-firmware")) options.sdh.firmware = *firmware;
-  try {
-    options.faults = parseFaults(given.text("faults").value_or(""));
-  } catch (const std::invalid_argument& error) {
-    throw UsageError(std::string("--faults: ") + error.what());
-  }
+  options.faults = faultsOf(given);
   return options;
+}
+
+EmulatedStreamOptions streamedOptionsOf(const CommandLine& given) {
+  EmulatedStreamOptions options;
+  options.where = *given.text("stream");
+  const std::string format = given.text("format").value_or("binary");
+  if (format == "lines")
+    options.format = EmulatedStreamFormat::kLines;
+  else if (format == "json")
+    options.format = EmulatedStreamFormat::kJson;
+  else if (format != "binary")
+    throw UsageError("--format must be binary, lines or json, not '" + format + "'");
+  if (const auto rate = given.text("rate")) {
+    const auto hz = parseDouble(*rate);
+    if (*rate == "max")
+      options.asFastAsRead = true;
+    else if (!hz || *hz < 0.1 || *hz > 5000.0)
+      throw UsageError("--rate of a stream must be max or a number 0.1..5000, not '" + *rate + "'");
+    else
+      options.rateHz = *hz;
+  }
+  options.seed = seedOf(given);
+  options.faults = faultsOf(given);
+  return options;
+}
+
+std::unique_ptr<PhysicalHand> streamedHandOf(const CommandLine& given, std::uint64_t seed) {
+  PhysicalHandOptions options;
+  options.seed = seed;
+  options.hand = *handOf(given);
+  const auto scene = given.text("scene");
+  return std::make_unique<PhysicalHand>(
+      scene ? loadScene(*scene, dataFolder() / "scenes", options.hand) : defaultScene(options.hand),
+      options);
 }
 
 std::unique_ptr<HandModel> modelOf(const CommandLine& given, std::uint64_t seed) {
@@ -68,11 +114,22 @@ CommandSpec emulateSpec() {
           .purpose =
               "An emulated hand: both controllers speak their protocols on two pseudo-terminals "
               "(or TCP ports of this\nmachine). Prints one line 'dsa=PATH sdh=PATH' when it is "
-              "ready, and runs until it is interrupted.",
+              "ready, and runs until it is interrupted.\nWith --hand and --stream it is any hand, "
+              "with contact physics on its surfaces, that sends packets or lines to\nwhoever "
+              "connects to a TCP port; the line is 'stream=tcp:ADDRESS:PORT' then.",
           .options =
               {{"dsa", "LINK", "name for the tactile port; tcp:127.0.0.1:PORT for TCP (0: any)"},
                {"sdh", "LINK", "name for the motion port"},
-               {"scene", "NAME|FILE.json", "objects and events around the hand; default empty"},
+               handOption(),
+               {"stream",
+                "PORT",
+                "send the frames of --hand at this TCP port of this machine (0: any); ADDRESS:PORT "
+                "opens it to other machines"},
+               {"format", "FORMAT", "form of the stream: binary (default), lines or json"},
+               {"scene",
+                "NAME|FILE.json",
+                "objects and events around the hand; default empty, for a stream a scene that "
+                "touches every matrix"},
                {"replay", "FILE", "plays a recording: each frame once, then nothing"},
                {"faults",
                 "SPEC",
@@ -82,7 +139,8 @@ CommandSpec emulateSpec() {
                {"rate",
                 "real|max|HZ",
                 "real: a serial line at 115200 baud (default); HZ: frames per second, "
-                "0.1..1000; max: as fast as the client reads"},
+                "0.1..1000; max: as fast as the client reads. For a stream HZ, 0.1..5000 (default "
+                "100), or max"},
                {"seed", "N", "seed of noise and faults, default 1"},
                {"dsa-firmware", "N", "firmware of the tactile controller, default 10496 (2.9.0.0)"},
                {"sdh-firmware", "TEXT", "firmware of the motion controller, default 0.0.3.3"},
@@ -92,11 +150,67 @@ CommandSpec emulateSpec() {
 }
 
 // Waits for a signal. Throws when the emulated hand stops by itself.
-void waitForEnd(const EmulatedHand& hand, Interruption& interruption) {
+template <typename Hand>
+void waitForEnd(const Hand& hand, Interruption& interruption) {
   constexpr int kLookMs = 200;
   while (!interruption.waitForSignal(kLookMs))
     if (const std::string failure = hand.counts().failure; !failure.empty())
       throw std::runtime_error("the emulated hand has stopped: " + failure);
+}
+
+void printReady(const std::string& line) {
+  std::printf("%s\n", line.c_str());
+  if (std::fflush(stdout) != 0) throw std::runtime_error("standard output can't be written");
+}
+
+// The file of --truth; null without the option.
+std::unique_ptr<TruthWriter> truthOf(const CommandLine& given) {
+  const auto path = given.text("truth");
+  if (!path) return nullptr;
+  return std::make_unique<TruthWriter>(
+      *path, given.has("force") ? Overwrite::kReplace : Overwrite::kRefuse);
+}
+
+void emulatePorts(const CommandLine& given, Interruption& interruption) {
+  const EmulatedHandOptions options = emulateOptionsOf(given);
+  std::unique_ptr<HandModel> model = modelOf(given, options.seed);
+  const std::unique_ptr<TruthWriter> truth = truthOf(given);
+  FrameObserver observer;
+  if (truth)
+    observer = [&truth](const EmulatedFrame& frame) {
+      truth->add(frame.hostUs, frame.model.truth());
+    };
+  {
+    EmulatedHand hand(std::move(model), options, observer);
+    printReady("dsa=" + hand.dsaPort() + " sdh=" + hand.sdhPort());
+    waitForEnd(hand, interruption);
+  }
+  if (truth) truth->finish();
+}
+
+void emulateStream(const CommandLine& given, Interruption& interruption) {
+  if (!given.has("hand")) throw UsageError("--stream needs --hand NAME|FOLDER");
+  for (const char* other : {"dsa", "sdh", "replay", "dsa-firmware", "sdh-firmware"})
+    if (given.has(other))
+      throw UsageError("--stream and --" + std::string(other) + " can't be used together");
+  const EmulatedStreamOptions options = streamedOptionsOf(given);
+  std::unique_ptr<PhysicalHand> model = streamedHandOf(given, options.seed);
+  const std::unique_ptr<TruthWriter> truth = truthOf(given);
+  EmulatedStreamObserver observer;
+  if (truth)
+    observer = [&truth](const EmulatedStreamFrame& frame) {
+      truth->add(frame.hostUs, frame.model.truth());
+    };
+  {
+    EmulatedStream stream(std::move(model), options, observer);
+    if (stream.isOpenToOthers())
+      std::fprintf(stderr,
+                   "palpate: any machine that reaches this address can connect to %s\n",
+                   stream.name().c_str());
+    printReady("stream=" + stream.name());
+    waitForEnd(stream, interruption);
+  }
+  if (truth) truth->finish();
 }
 
 }  // namespace
@@ -108,28 +222,20 @@ int emulateCommand(const Arguments& words) {
     throw UsageError("--replay and --scene can't be used together");
   if (given.has("replay") && given.has("truth"))
     throw UsageError("--truth needs a scene: a recording has no known truth");
-  const EmulatedHandOptions options = emulateOptionsOf(given);
-  std::unique_ptr<HandModel> model = modelOf(given, options.seed);
-  std::unique_ptr<TruthWriter> truth;
-  if (const auto path = given.text("truth"))
-    truth = std::make_unique<TruthWriter>(
-        *path, given.has("force") ? Overwrite::kReplace : Overwrite::kRefuse);
-  FrameObserver observer;
-  if (truth)
-    observer = [&truth](const EmulatedFrame& frame) {
-      truth->add(frame.hostUs, frame.model.truth());
-    };
   Interruption interruption;
   try {
-    EmulatedHand hand(std::move(model), options, observer);
-    std::printf("dsa=%s sdh=%s\n", hand.dsaPort().c_str(), hand.sdhPort().c_str());
-    if (std::fflush(stdout) != 0) throw std::runtime_error("standard output can't be written");
-    waitForEnd(hand, interruption);
+    if (given.has("stream")) {
+      emulateStream(given, interruption);
+    } else {
+      if (given.has("hand"))
+        throw UsageError("--hand needs --stream PORT: only the SDH-2 has the two ports");
+      if (given.has("format")) throw UsageError("--format needs --stream PORT");
+      emulatePorts(given, interruption);
+    }
   } catch (const std::invalid_argument& error) {
     // A port of another machine, or an invalid firmware.
     throw UsageError(error.what());
   }
-  if (truth) truth->finish();
   return kDone;
 }
 
