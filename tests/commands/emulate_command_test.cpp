@@ -96,6 +96,98 @@ TEST(EmulateCommand, ListensOnThisMachineOnlyWhenAsked) {
   EXPECT_EQ(client.receiveUntilSilent(std::chrono::milliseconds(200)).size(), 110u);
 }
 
+// Reads what a program of this machine receives at tcp:127.0.0.1:PORT until it ends with `end`.
+std::string receivedUntil(const std::string& name, const std::string& end) {
+  LineClient client(name);
+  std::string text;
+  while (text.find(end) == std::string::npos) {
+    const auto bytes = client.receive(std::chrono::milliseconds(5000));
+    if (bytes.empty()) break;
+    text.append(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  }
+  return text;
+}
+
+TEST(EmulateCommand, StreamsAnyHandToWhoeverConnects) {
+  const TemporaryFolder folder;
+  const std::string table = folder / "truth.csv";
+  BackgroundProgram program(PALPATE_PROGRAM,
+                            {"emulate",
+                             "--hand",
+                             "flat_pad_16x16",
+                             "--stream",
+                             "0",
+                             "--format",
+                             "lines",
+                             "--rate",
+                             "max",
+                             "--truth",
+                             table});
+  const auto line = program.awaitLine("stream=");
+  ASSERT_TRUE(line) << program.err();
+  ASSERT_TRUE(line->starts_with("stream=tcp:127.0.0.1:")) << *line;
+  const std::string text = receivedUntil(line->substr(7), "\nframe#150,1.500000,");
+  EXPECT_TRUE(text.starts_with("# emulated hand\nframe#0,0.000000,0,0,")) << text.substr(0, 80);
+  // The sphere presses from 1 s on: frame 150 of 100 per second is not empty.
+  EXPECT_NE(text.find("\nframe#150,1.500000,"), std::string::npos);
+  EXPECT_EQ(palpate({"record",
+                     "--stream",
+                     line->substr(7),
+                     "--hand",
+                     "flat_pad_16x16",
+                     "--frames",
+                     "100",
+                     "-o",
+                     folder / "a.palpate"})
+                .exitCode,
+            0);
+  program.signal(SIGTERM);
+  EXPECT_EQ(program.wait(), 0);
+  EXPECT_EQ(program.err(), "");
+  const std::string truth = testing::readFile(table);
+  EXPECT_NE(truth.find(",0,1,"), std::string::npos) << "the pad is touched";
+}
+
+TEST(EmulateCommand, SaysWhenOtherMachinesCanConnect) {
+  BackgroundProgram program(PALPATE_PROGRAM,
+                            {"emulate", "--hand", "sole", "--stream", "0.0.0.0:0"});
+  ASSERT_TRUE(program.awaitLine("stream=tcp:0.0.0.0:")) << program.err();
+  program.signal(SIGTERM);
+  EXPECT_EQ(program.wait(), 0);
+  EXPECT_NE(program.err().find("any machine that reaches this address can connect"),
+            std::string::npos);
+}
+
+TEST(EmulateCommand, RefusesStreamsThatMakeNoSense) {
+  const TemporaryFolder folder;
+  expectOneLineError(palpate({"emulate", "--stream", "0"}), 2, {"--stream needs --hand"});
+  expectOneLineError(palpate({"emulate", "--hand", "sole"}), 2, {"--hand needs --stream"});
+  expectOneLineError(palpate({"emulate", "--format", "lines"}), 2, {"--format needs --stream"});
+  const auto refused = [](std::vector<std::string> options, int code, const std::string& word) {
+    std::vector<std::string> all = {"emulate", "--hand", "parallel_gripper"};
+    if (std::find(options.begin(), options.end(), "--stream") == options.end())
+      all.insert(all.end(), {"--stream", "0"});
+    all.insert(all.end(), options.begin(), options.end());
+    expectOneLineError(palpate(all), code, {word});
+  };
+  refused({"--stream", "x"}, 2, "'x' is not [ADDRESS:]PORT");
+  refused({"--stream", "host:1"}, 2, "ADDRESS is numeric");
+  refused({"--format", "xml"}, 2, "binary, lines or json");
+  refused({"--rate", "real"}, 2, "max or a number");
+  refused({"--rate", "9999"}, 2, "0.1..5000");
+  refused({"--dsa", "x"}, 2, "--stream and --dsa");
+  refused({"--replay", "x"}, 2, "--stream and --replay");
+  refused({"--sdh-firmware", "1"}, 2, "--stream and --sdh-firmware");
+  refused({"--scene", "ball"}, 1, "no preshape 'centrical'; there are: parallel");
+  testing::writeFile(folder / "a.json",
+                     R"({"script": [{"at_s": 1, "threshold": {"matrix": 2, "counts": 9}}]})");
+  refused({"--scene", folder / "a.json"}, 1, "script[0].threshold.matrix");
+  BackgroundProgram program(PALPATE_PROGRAM, {"emulate", "--hand", "sole", "--stream", "0"});
+  const auto line = program.awaitLine("stream=");
+  ASSERT_TRUE(line) << program.err();
+  refused({"--stream", line->substr(7 + 4)}, 1, "another program uses this port");
+}
+
 TEST(EmulateCommand, RefusesBadOptions) {
   const TemporaryFolder folder;
   testing::writeFile(folder / "file", "precious");

@@ -384,6 +384,50 @@ TEST(StreamDevice, SendersConnectOneAfterTheOther) {
   EXPECT_FALSE(device.localPort());
 }
 
+// A stranger at the port: a megabyte of random bytes, a part of them like the beginnings of packets
+// and lines. Nothing becomes a frame, memory is bounded, and the next sender is understood.
+TEST(StreamDevice, RandomBytesOnThePortAreNoFrames) {
+  for (const StreamFormat format :
+       {StreamFormat::kAuto, StreamFormat::kLines, StreamFormat::kBinary}) {
+    CollectingSink sink;
+    StreamDeviceOptions options = optionsOf("listen:0");
+    options.format = format;
+    StreamDevice device(options);
+    device.start(sink);
+    ASSERT_TRUE(awaited([&] { return device.localPort().has_value(); }));
+    std::uint32_t state = 7;
+    const auto next = [&] { return (state = state * 1'664'525 + 1'013'904'223) >> 24; };
+    std::string junk;
+    while (junk.size() < 1'000'000) {
+      junk += static_cast<char>(next());
+      if (next() == 0) junk += "\xA5\x5A\x01\x01";
+      if (next() == 1) junk += "\n{\"tactile_matrix\":";
+    }
+    {
+      const int fd = connectedSocket(*device.localPort());
+      for (std::size_t at = 0; at < junk.size(); at += 10'000)
+        sendTo(fd, std::string_view(junk).substr(at, 10'000));
+      ::close(fd);
+    }
+    ASSERT_TRUE(awaited([&] { return device.status().tactile.bytes >= junk.size(); }));
+    EXPECT_EQ(sink.numFrames(), 0u);
+    EXPECT_EQ(device.status().tactile.items, 0u);
+    EXPECT_GT(device.status().tactile.suspect + device.status().tactile.skippedBytes, 100u);
+    EXPECT_NE(device.lastFault(), "");
+    const int fd = connectedSocket(*device.localPort());
+    if (format == StreamFormat::kBinary) {
+      Bytes bytes;
+      appendStreamFrame(bytes, 1, 0, std::vector<float>{1, 2, 3});
+      sendTo(fd, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+    } else {
+      sendTo(fd, "1,2,3\n");
+    }
+    EXPECT_TRUE(sink.awaitFrames(1));
+    device.stop();
+    ::close(fd);
+  }
+}
+
 TEST(StreamDevice, ConnectsToASenderThatListens) {
   CollectingSink sink;
   const int listening = ::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);

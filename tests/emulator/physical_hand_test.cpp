@@ -10,6 +10,7 @@
 
 #include "palpate/device/sdh2.h"
 #include "palpate/kinematics/hand_geometry.h"
+#include "palpate/model/hand_file.h"
 #include "palpate/model/preshape.h"
 
 #include "testing/sdh2.h"
@@ -373,6 +374,63 @@ TEST(PhysicalHand, OnceAClientMovesTheHandTheScriptLeavesItToHim) {
 TEST(PhysicalHand, TheSameSceneGivesTheSameFrames) {
   PhysicalHand a(sceneOf("ball")), b(sceneOf("ball"));
   for (int i = 1; i < 200; ++i) EXPECT_EQ(scanAt(a, i * 0.0315), scanAt(b, i * 0.0315));
+}
+
+// A sphere on a flat pad of another hand: force and place of the elastic foundation, as for the
+// SDH-2 above; the values are those of the pad's characteristics (hand.json).
+TEST(PhysicalHand, AnotherHandIsPressedInItsOwnUnit) {
+  const HandDescription& sole = builtInHand("sole");
+  PhysicalHandOptions options;
+  options.hand = sole;
+  Scene scene;
+  SceneObject ball;
+  ball.shape = {ShapeKind::kSphere, Eigen::Vector3d::Constant(200.0)};
+  ball.stiffnessNPerMm3 = 1e4;
+  ball.fixed = true;
+  ball.positionMm = {-4.0, 20.0, 98.0};  // 2 mm deep
+  scene.objects.push_back(ball);
+  PhysicalHand hand(scene, options);
+  EXPECT_EQ(hand.hand().name, sole.name);
+  hand.advanceTo(0.5);
+  std::vector<float> values(sole.layout->numCells());
+  hand.measure(values);
+  ASSERT_TRUE(hand.truth()[0].contact);
+  const double k = options.rubberNPerMm3 * 1e4 / (options.rubberNPerMm3 + 1e4);
+  const double forceN = k * std::numbers::pi * 2.0 * 2.0 * (100.0 - 2.0 / 3.0);
+  EXPECT_NEAR(hand.truth()[0].forceN, forceN, 0.05 * forceN);
+  EXPECT_NEAR(hand.truth()[0].xMm, -4.0, 0.3);
+  EXPECT_NEAR(hand.truth()[0].yMm, 20.0, 0.3);
+  // The taxels read kilopascals: their sum times the area of a taxel is the force, less what is
+  // subtracted from each and lies below the threshold of the dead zone.
+  double sumKpa = 0.0, active = 0.0;
+  for (const float value : values) {
+    sumKpa += static_cast<double>(value);
+    active += value > 0.0F ? 1.0 : 0.0;
+  }
+  // Creep adds up to 5 %; the subtracted offset is 4 kPa minus the rest value of 1.
+  EXPECT_NEAR((sumKpa + 3.0 * active) * 64.0 * 1e-3, forceN, 0.08 * forceN);
+}
+
+TEST(PhysicalHand, TheAxesOfAnotherHandStopAtTheirForce) {
+  // A gripper of 80 N closes on a stiff box of 60 mm: each finger stands at 30 mm, less the
+  // indentation of 80 N on 14 x 6 taxels of 3.4 mm.
+  const HandDescription& gripper = builtInHand("parallel_gripper");
+  PhysicalHandOptions options;
+  options.hand = gripper;
+  Scene scene =
+      parseScene(R"({"objects": [{"shape": "box", "size_mm": [60, 100, 200], "fixed": true,
+        "stiffness_n_per_mm3": 10000}],
+      "script": [{"at_s": 0.1, "grasp": {"close": 1}}]})",
+                 "box.json",
+                 gripper);
+  PhysicalHand hand(scene, options);
+  hand.advanceTo(15.0);
+  const double forceN = hand.truth()[0].forceN;
+  EXPECT_NEAR(forceN, hand.truth()[1].forceN, 1e-6);
+  // The one axis carries both fingers.
+  EXPECT_NEAR(forceN + hand.truth()[1].forceN, 80.0, 2.0);
+  const double k = options.rubberNPerMm3 * 1e4 / (options.rubberNPerMm3 + 1e4);
+  EXPECT_NEAR(hand.joints().angles()[0], 30.0 - forceN / (k * 84 * 3.4 * 3.4), 1e-3);
 }
 
 TEST(PhysicalHand, WrongOptionsAreRefused) {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "palpate/core/error.h"
+#include "palpate/model/hand_file.h"
 
 #include "testing/testing.h"
 
@@ -105,6 +106,41 @@ TEST(Scene, AllThatComeWithTheProgramLoad) {
        {"empty", "ball", "foam_ball", "bottle", "pen", "box", "slipping_handle"})
     EXPECT_NE(std::find(names.begin(), names.end(), promised), names.end()) << promised;
   for (const std::string& name : names) EXPECT_EQ(loadScene(name, folder).name, name);
+}
+
+// A scene is one of a certain hand: its preshapes, matrices and velocities.
+TEST(Scene, AnotherHandHasOtherPreshapesAndMatrices) {
+  const auto fault = [](const std::string& key, const std::string& json) -> std::string {
+    try {
+      parseScene(json, "scene.json", builtInHand(key));
+    } catch (const FormatError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  const std::string grasp = R"({"script": [{"at_s": 1, "grasp": {}}]})";
+  EXPECT_EQ(fault("parallel_gripper", grasp), "");
+  EXPECT_EQ(parseScene("{}", "a.json", builtInHand("parallel_gripper")).preshape, "parallel");
+  EXPECT_EQ(parseScene("{}", "a.json", builtInHand("sole")).preshape, "");
+  EXPECT_EQ(parseScene("{}", "a.json").preshape, "centrical");
+  EXPECT_EQ(fault("parallel_gripper", R"({"hand": {"preshape": "centrical"}})"),
+            "scene.json: hand.preshape is wrong: no preshape 'centrical'; there are: parallel");
+  EXPECT_EQ(fault("sole", R"({"hand": {"preshape": "parallel"}})"),
+            "scene.json: hand.preshape is wrong: the hand 'Sole of a shoe' has no preshapes");
+  EXPECT_EQ(fault("sole", grasp),
+            "scene.json: script[0].grasp needs preshapes, and the hand 'Sole of a shoe' has none");
+  EXPECT_NE(fault("parallel_gripper",
+                  R"({"script": [{"at_s": 1, "threshold": {"matrix": 2, "counts": 1}}]})")
+                .find("script[0].threshold.matrix"),
+            std::string::npos);
+  // 4095 counts are the full scale of the gripper, 1023 of the pad.
+  const std::string threshold = R"({"script": [{"at_s": 1, "threshold": {"counts": 2000}}]})";
+  EXPECT_EQ(fault("parallel_gripper", threshold), "");
+  EXPECT_NE(fault("flat_pad_16x16", threshold).find("counts"), std::string::npos);
+  // The gripper is faster than any axis of the SDH-2.
+  const std::string fast = R"({"script": [{"at_s": 1, "grasp": {"velocity_deg_per_s": 300}}]})";
+  EXPECT_EQ(fault("parallel_gripper", fast), "");
+  EXPECT_NE(fault("sdh2", fast).find("velocity_deg_per_s"), std::string::npos);
 }
 
 // The example on the page docs/emulator.md is a valid scene.

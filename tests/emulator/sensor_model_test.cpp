@@ -341,6 +341,72 @@ TEST_F(SensorModelTest, TheSameSeedMakesTheSameNoise) {
   EXPECT_NE(counts, c);
 }
 
+HandDescription padOf(float fullScale, const std::string& unit) {
+  HandDescription hand;
+  MatrixLayout matrix = MatrixLayout::full(1, 4, 2.0);
+  matrix.staticMask[3] = 0;
+  hand.layout = std::make_shared<const SensorLayout>(std::vector{matrix});
+  hand.matrices.resize(1);
+  hand.maximumCounts = fullScale;
+  hand.saturationCounts = fullScale;
+  hand.unit = unit;
+  return hand;
+}
+
+// Proportional to the pressure, 2 per kPa; without noise, but with an offset of 5.
+SensorCharacteristics linearSensor(double fullScale) {
+  SensorCharacteristics sensor;
+  sensor.matrices.resize(1);
+  sensor.matrices[0].sensitivity = 1.0;
+  sensor.matrices[0].restIntercept = 5.0;
+  sensor.matrices[0].noiseIntercept = 5.0;
+  sensor.pressure[2] = 0.5;
+  sensor.largestCounts = fullScale;
+  return sensor;
+}
+
+TEST(SensorModelMeasure, ValuesAreInTheUnitAndScaleOfTheHand) {
+  const std::vector<double> kpa = {0.0, 50.0, 1e6, 50.0};
+  const std::vector<double> degC = {30.0};
+  std::vector<float> values(4);
+  SensorModel counts(padOf(1000.5F, "counts"), linearSensor(1000.5), 1);
+  counts.advance(kpa, 10.0);
+  counts.measure(degC, 30.0, values);
+  // 2 per kPa less the dead zone of 0.05 kPa: 99.9, so 100 whole counts above the offset.
+  EXPECT_EQ(values, (std::vector<float>{0.0F, 100.0F, 1000.0F, 0.0F}));
+  // In another unit the steps are 1/4096 of the full scale.
+  SensorModel newtons(padOf(409.6F, "N"), linearSensor(409.6), 1);
+  newtons.advance(kpa, 10.0);
+  newtons.measure(degC, 30.0, values);
+  EXPECT_EQ(values[0], 0.0F);
+  EXPECT_FLOAT_EQ(values[1], 99.9F);
+  EXPECT_FLOAT_EQ(values[2], 409.6F);
+  EXPECT_EQ(values[3], 0.0F) << "there is no taxel";
+  // A threshold takes the place of the offset.
+  newtons.settings()[0].thresholdCounts = 25;
+  newtons.measure(degC, 30.0, values);
+  EXPECT_NEAR(values[1], 79.9F, 0.06F);
+  EXPECT_THROW(newtons.measure(degC, 30.0, std::span(values).subspan(1)), std::invalid_argument);
+}
+
+TEST(SensorModelMeasure, EqualOrNoTimeConstantsAreTheLimitOfUnequalOnes) {
+  const std::vector<double> kpa = {100.0, 0.0, 0.0, 0.0};
+  const auto after = [&](double lag1S, double lag2S, double timeS) {
+    SensorCharacteristics sensor = linearSensor(1000.0);
+    sensor.lag1S = lag1S;
+    sensor.lag2S = lag2S;
+    SensorModel model(padOf(1000.0F, "counts"), sensor, 1);
+    model.advance(kpa, timeS);
+    return model.responseKpa(0);
+  };
+  EXPECT_EQ(after(0.0, 0.0, 0.01), 100.0);
+  EXPECT_NEAR(after(0.1, 0.0, 0.1), 100.0 * (1.0 - std::exp(-1.0)), 1e-9);
+  EXPECT_NEAR(after(0.0, 0.1, 0.1), 100.0 * (1.0 - std::exp(-1.0)), 1e-9);
+  // Two equal lags in series: 1 - (1 + t/T) exp(-t/T).
+  EXPECT_NEAR(after(0.1, 0.1, 0.1), 100.0 * (1.0 - 2.0 * std::exp(-1.0)), 1e-9);
+  EXPECT_NEAR(after(0.1, 0.1 * (1.0 + 1e-6), 0.1), after(0.1, 0.1, 0.1), 1e-3);
+}
+
 TEST_F(SensorModelTest, WrongSizesAreRefused) {
   EXPECT_THROW(sensor.scan(std::vector<double>(5), 36.0, counts), std::invalid_argument);
   sensor.settings()[2].dynamicMask.pop_back();

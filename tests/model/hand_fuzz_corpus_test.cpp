@@ -1,0 +1,9 @@
+#include "fuzz/corpus_replay.h"
+
+namespace palpate::testing::hand_fuzz_corpus_test {
+namespace {
+
+TEST(HandFuzzCorpus, ReplaysWithoutHarm) { expectCorpusReplays(PALPATE_FUZZ_CORPUS, 8); }
+
+}  // namespace
+}  // namespace palpate::testing::hand_fuzz_corpus_test
