@@ -586,7 +586,11 @@ echo "bytes $(stat -c %s "$file") installed $(dpkg-deb -f "$file" Installed-Size
         "wrong_less": (number(r"noise 0.001 per byte: .* lost, (\d+) wrong"), COUNT)}, idle=False),
     slow_test("babble", 60, "device", "babble_slow_test", {
         "silent": (number(r"silent after (\d+) ms"), fixed(0, "ms"))}),
-    bench("stream", 150, "^stream", {
+    bench("stream", 180, "^stream", {
+        "packets_reading_core": (counter("streamPacketsRead", "percent_of_a_core"), fixed(1)),
+        "packets_latest": (counter("streamPacketsRecorded", "latest_ms"), fixed(1, "ms")),
+        "lines_reading_core": (counter("streamLinesRead", "percent_of_a_core"), fixed(1)),
+        "lines_latest": (counter("streamLinesRecorded", "latest_ms"), fixed(1, "ms")),
         "packets_core": (counter("streamPacketsRecorded", "percent_of_a_core"), fixed(1)),
         "packets_lost": (counter("streamPacketsRecorded", "lost"), COUNT),
         "packets_frames": (counter("streamPacketsRecorded", "frames"), COUNT),

@@ -1,7 +1,9 @@
 // What a stream costs: 512 taxels at 1 kHz as packets over TCP on loopback, and 256 taxels at 100
 // Hz as lines over a pty, received and recorded for a minute, as share of one core (target: under
-// 15 %, nothing lost). The sender is a process of its own. Beside it the parsers alone, next to the
-// checksum alone and to strtof on the same bytes.
+// 15 %, nothing lost), and beside it a program that only reads the same bytes at the same pace. The
+// sender is a process of its own. Then the parsers alone, next to the checksum alone and to strtof
+// on the same bytes.
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -11,6 +13,7 @@
 
 #include <arpa/inet.h>
 #include <benchmark/benchmark.h>
+#include <poll.h>
 #include <pty.h>
 #include <signal.h>
 #include <sys/socket.h>
@@ -21,8 +24,10 @@
 #include <zlib.h>
 
 #include "palpate/capture/capture_session.h"
+#include "palpate/core/file_descriptor.h"
 #include "palpate/device/stream_device.h"
 #include "palpate/device/stream_packets.h"
+#include "palpate/recording/recording.h"
 
 #include "device/stream_hands.h"
 #include "testing/awaited.h"
@@ -86,6 +91,54 @@ void sendPaced(int fd, const std::vector<std::string>& texts, std::int64_t perio
   ::pause();  // the connection stays open
 }
 
+// Waits at the sender's pace for `bytes` bytes and throws them away: what reading alone costs, as
+// share of a core. -1 when the bytes do not come.
+double percentOfReading(int fd, std::size_t bytes, pid_t sender) {
+  const double before = usedCpuS();
+  timespec begin{}, done{};
+  ::clock_gettime(CLOCK_MONOTONIC, &begin);
+  std::vector<char> buffer(1 << 16);
+  constexpr int kPatienceMs = 20'000;
+  pollfd readable{fd, POLLIN, 0};
+  std::size_t got = 0;
+  while (got < bytes && ::poll(&readable, 1, kPatienceMs) == 1) {
+    const ssize_t n = ::read(fd, buffer.data(), buffer.size());
+    if (n <= 0) break;
+    got += static_cast<std::size_t>(n);
+  }
+  ::clock_gettime(CLOCK_MONOTONIC, &done);
+  const double used = usedCpuS() - before;
+  ::kill(sender, SIGKILL);
+  ::waitpid(sender, nullptr, 0);
+  if (got < bytes) return -1.0;
+  return 100.0 * used /
+         (static_cast<double>(done.tv_sec - begin.tv_sec) +
+          static_cast<double>(done.tv_nsec - begin.tv_nsec) / 1e9);
+}
+
+// The reference lasts shorter: its pace is the same.
+constexpr std::size_t kReferenceParts = 4;
+
+std::vector<std::string> firstPart(const std::vector<std::string>& texts) {
+  return {texts.begin(),
+          texts.begin() + static_cast<std::ptrdiff_t>(texts.size() / kReferenceParts)};
+}
+
+std::size_t bytesOf(const std::vector<std::string>& texts) {
+  std::size_t bytes = 0;
+  for (const std::string& text : texts) bytes += text.size();
+  return bytes;
+}
+
+// Largest time from one frame of a recording to the next, less the period [ms].
+double latestMs(const std::filesystem::path& path, std::int64_t periodNs) {
+  const Profile profile = openRecording(path);
+  std::int64_t longestUs = 0;
+  for (std::size_t n = 1; n < profile.numFrames(); ++n)
+    longestUs = std::max(longestUs, profile.frameTimeUs(n) - profile.frameTimeUs(n - 1));
+  return static_cast<double>(longestUs - periodNs / 1000) / 1000.0;
+}
+
 // `connect` opens the sender's end in the child. Texts are as many as frames.
 template <typename Connect>
 void receiveAndRecord(benchmark::State& state,
@@ -133,6 +186,7 @@ void receiveAndRecord(benchmark::State& state,
     state.SetIterationTime(seconds);
     state.counters["percent_of_a_core"] = 100.0 * used / seconds;
     state.counters["frames"] = static_cast<double>(report.frames);
+    state.counters["latest_ms"] = latestMs(folder / "a.palpate", periodNs);
     state.counters["lost"] =
         static_cast<double>(status.lost + status.suspect + status.badChecksums +
                             static_cast<std::uint64_t>(report.lost + report.refused) +
@@ -141,27 +195,75 @@ void receiveAndRecord(benchmark::State& state,
   }
 }
 
+// A sender's connection to a port of this machine.
+int connectedTo(std::uint16_t port) {
+  const int fd = ::socket(AF_INET, SOCK_STREAM, 0);
+  sockaddr_in place{};
+  place.sin_family = AF_INET;
+  place.sin_port = htons(port);
+  place.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  if (::connect(fd, reinterpret_cast<const sockaddr*>(&place), sizeof place) != 0) ::_exit(1);
+  return fd;
+}
+
 void streamPacketsRecorded(benchmark::State& state) {
   StreamDeviceOptions options;
   options.source = "listen:0";
   options.hand = padHand({{16, 16}, {16, 16}});
-  receiveAndRecord(
-      state,
-      options,
-      packetTexts(512, static_cast<std::size_t>(kSeconds * 1000.0)),
-      1'000'000,
-      0,
-      [](std::uint16_t port) {
-        const int fd = ::socket(AF_INET, SOCK_STREAM, 0);
-        sockaddr_in place{};
-        place.sin_family = AF_INET;
-        place.sin_port = htons(port);
-        place.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-        if (::connect(fd, reinterpret_cast<const sockaddr*>(&place), sizeof place) != 0) ::_exit(1);
-        return fd;
-      });
+  receiveAndRecord(state,
+                   options,
+                   packetTexts(512, static_cast<std::size_t>(kSeconds * 1000.0)),
+                   1'000'000,
+                   0,
+                   connectedTo);
 }
 BENCHMARK(streamPacketsRecorded)->UseManualTime()->Iterations(1)->Unit(benchmark::kSecond);
+
+void streamPacketsRead(benchmark::State& state) {
+  const std::vector<std::string> texts =
+      firstPart(packetTexts(512, static_cast<std::size_t>(kSeconds * 1000.0)));
+  for (auto _ : state) {
+    const FileDescriptor listener(::socket(AF_INET, SOCK_STREAM, 0));
+    sockaddr_in place{};
+    place.sin_family = AF_INET;
+    place.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    socklen_t size = sizeof place;
+    auto* generic = reinterpret_cast<sockaddr*>(&place);
+    if (::bind(listener.get(), generic, size) != 0 || ::listen(listener.get(), 1) != 0 ||
+        ::getsockname(listener.get(), generic, &size) != 0)
+      return state.SkipWithError("no port");
+    const pid_t sender = ::fork();
+    if (sender == 0) sendPaced(connectedTo(ntohs(place.sin_port)), texts, 1'000'000);
+    const FileDescriptor client(::accept(listener.get(), nullptr, nullptr));
+    const double percent = percentOfReading(client.get(), bytesOf(texts), sender);
+    if (percent < 0.0) return state.SkipWithError("bytes are missing");
+    state.SetIterationTime(kSeconds / static_cast<double>(kReferenceParts));
+    state.counters["percent_of_a_core"] = percent;
+  }
+}
+BENCHMARK(streamPacketsRead)->UseManualTime()->Iterations(1)->Unit(benchmark::kSecond);
+
+void streamLinesRead(benchmark::State& state) {
+  const std::vector<std::string> texts =
+      firstPart(lineTexts(256, static_cast<std::size_t>(kSeconds * 100.0)));
+  for (auto _ : state) {
+    int master = -1, slave = -1;
+    if (::openpty(&master, &slave, nullptr, nullptr, nullptr) != 0)
+      return state.SkipWithError("no pty");
+    const FileDescriptor sending(master), receiving(slave);
+    termios settings{};
+    ::tcgetattr(slave, &settings);
+    ::cfmakeraw(&settings);
+    ::tcsetattr(slave, TCSANOW, &settings);
+    const pid_t sender = ::fork();
+    if (sender == 0) sendPaced(master, texts, 10'000'000);
+    const double percent = percentOfReading(slave, bytesOf(texts), sender);
+    if (percent < 0.0) return state.SkipWithError("bytes are missing");
+    state.SetIterationTime(kSeconds / static_cast<double>(kReferenceParts));
+    state.counters["percent_of_a_core"] = percent;
+  }
+}
+BENCHMARK(streamLinesRead)->UseManualTime()->Iterations(1)->Unit(benchmark::kSecond);
 
 void streamLinesRecorded(benchmark::State& state) {
   int master = -1;

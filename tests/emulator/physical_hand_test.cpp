@@ -425,6 +425,8 @@ TEST(PhysicalHand, TheAxesOfAnotherHandStopAtTheirForce) {
                  gripper);
   PhysicalHand hand(scene, options);
   hand.advanceTo(15.0);
+  std::vector<float> values(gripper.layout->numCells());
+  hand.measure(values);
   const double forceN = hand.truth()[0].forceN;
   EXPECT_NEAR(forceN, hand.truth()[1].forceN, 1e-6);
   // The one axis carries both fingers.

@@ -29,7 +29,9 @@ template <ReorderableValues Values>
 double median(Values&& values) {
   const auto begin = std::ranges::begin(values);
   const auto size = std::ranges::ssize(values);
-  const auto upper = static_cast<double>(upperMedian(std::ranges::subrange(begin, begin + size)));
+  const auto middle = begin + size / 2;
+  std::ranges::nth_element(begin, middle, begin + size);
+  const auto upper = static_cast<double>(*middle);
   if (size % 2 == 1) return upper;
   return 0.5 * (static_cast<double>(*std::max_element(begin, begin + size / 2)) + upper);
 }
