@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "palpate/device/sdh2.h"
+#include "palpate/emulator/assumed_characteristics.h"
 #include "palpate/emulator/sensor_model.h"
 #include "palpate/model/hand_description.h"
 #include "palpate/model/profile_builder.h"
@@ -58,13 +58,22 @@ double pressureShare(ContactSize size, double along, double across, double radiu
          std::clamp(2.0 / 3.0 * radius + 0.5 - std::abs(across), 0.0, 1.0);
 }
 
+// Whether a contact can be placed on a matrix: off its sides, on two taxels of one column.
+bool hasPlaceForContact(const MatrixLayout& matrix) {
+  for (int y = 1; y < matrix.rows - 1; ++y)
+    for (int x = 1; x < matrix.columns - 1; ++x)
+      if (matrix.exists(y, x) && matrix.exists(y + 1, x)) return true;
+  return false;
+}
+
 class NoisyContactsGenerator {
  public:
   explicit NoisyContactsGenerator(const NoisyContactsOptions& options)
       : options_(options),
-        layout_(*sdh2().layout),
-        noisy_(sdh2(), sdh2Sensor(), options.seed),
-        quiet_(sdh2(), withoutNoise()),
+        layout_(*options_.hand.layout),
+        characteristics_(characteristicsIn(options_.hand)),
+        noisy_(options_.hand, characteristics_, options.seed),
+        quiet_(options_.hand, withoutNoise(characteristics_)),
         random_(options.seed),
         full_(layout_.numCells()),
         pressure_(layout_.numCells()),
@@ -72,7 +81,7 @@ class NoisyContactsGenerator {
         counts_(layout_.numCells()) {
     for (std::size_t m = 0; m < layout_.numMatrices(); ++m) {
       const int threshold = noiseThresholdCounts(
-          sdh2Sensor().matrices[m], options.degC, options.noiseMultiple, options.belowCounts);
+          characteristics_.matrices[m], options.degC, options.noiseMultiple, options.belowCounts);
       thresholds_.push_back(threshold);
       for (SensorModel* sensor : {&noisy_, &quiet_}) {
         sensor->settings()[m].sensitivity = options.sensitivity;
@@ -84,7 +93,7 @@ class NoisyContactsGenerator {
   }
 
   NoisyContacts run() {
-    ProfileBuilder builder(sdh2().layout);
+    ProfileBuilder builder(options_.hand);
     std::vector<CellTruthMask> truth;
     std::vector<float> values(layout_.numCells());
     for (std::size_t i = 0; i < options_.frames; ++i) {
@@ -96,7 +105,7 @@ class NoisyContactsGenerator {
       builder.addFrame(timeUs(static_cast<double>(i) / options_.rateHz), values);
       truth.push_back(truthNow());
     }
-    const std::vector<double> temperatures(sdh2().temperatureSensors.size(), options_.degC);
+    const std::vector<double> temperatures(options_.hand.temperatureSensors.size(), options_.degC);
     for (double s = 0.0; s * options_.rateHz < static_cast<double>(options_.frames); s += 1.0)
       builder.addTemperatures(timeUs(s), temperatures);
     ProfileInfo info;
@@ -105,8 +114,11 @@ class NoisyContactsGenerator {
   }
 
  private:
-  static SensorCharacteristics withoutNoise() {
-    SensorCharacteristics sensor = sdh2Sensor();
+  static SensorCharacteristics characteristicsIn(const HandDescription& hand) {
+    return hand.file && hand.file->characteristics ? *hand.file->characteristics
+                                                   : assumedCharacteristics(hand);
+  }
+  static SensorCharacteristics withoutNoise(SensorCharacteristics sensor) {
     for (MatrixCharacteristics& matrix : sensor.matrices) {
       matrix.taxelSd = matrix.sharedSd = 0.0;
       for (OffsetTaxel& taxel : matrix.raised) taxel.sd = 0.0;
@@ -142,7 +154,7 @@ class NoisyContactsGenerator {
     contact.peakKpa = std::exp(draw(std::log(options_.minKpa), std::log(options_.maxKpa)));
     contacts_.push_back(contact);
     place(contact);
-    spreadPressure(layout_, sdh2Sensor().neighbourFraction, full_);
+    spreadPressure(layout_, characteristics_.neighbourFraction, full_);
   }
 
   // Places the contact at a random position and rotation on the matrix.
@@ -197,7 +209,8 @@ class NoisyContactsGenerator {
       if (counts_[i] > restCounts_[i])
         truth[i] = CellTruth::kTouched;
       else if (kpa > 0.0 &&
-               options_.sensitivity * sdh2Sensor().countsAbove(kpa, options_.degC) >= kFaintCounts)
+               options_.sensitivity * characteristics_.countsAbove(kpa, options_.degC) >=
+                   kFaintCounts)
         truth[i] = CellTruth::kFaint;
     }
     return truth;
@@ -205,6 +218,7 @@ class NoisyContactsGenerator {
 
   const NoisyContactsOptions options_;
   const SensorLayout& layout_;
+  const SensorCharacteristics characteristics_;
   SensorModel noisy_;
   SensorModel quiet_;  // the same without noise
   std::mt19937_64 random_;
@@ -243,6 +257,10 @@ void NoisyContactsOptions::validate() const {
   noisyContactsCheckRange("belowCounts", belowCounts, -100.0, 100.0);
   noisyContactsCheckRange("minKpa", minKpa, 1e-3, 1e3);
   noisyContactsCheckRange("maxKpa", maxKpa, minKpa, 1e3);
+  for (std::size_t m = 0; m < hand.layout->numMatrices(); ++m)
+    if (!hasPlaceForContact(hand.layout->matrix(m)))
+      throw std::invalid_argument("noisy contacts: " + hand.matrixName(m) +
+                                  " is too small for the contacts");
 }
 
 NoisyContacts makeNoisyContacts(const NoisyContactsOptions& options) {

@@ -14,7 +14,6 @@
 
 #include "palpate/core/error.h"
 #include "palpate/core/time.h"
-#include "palpate/device/sdh2.h"
 #include "palpate/model/profile_builder.h"
 
 namespace palpate {
@@ -32,6 +31,8 @@ std::int64_t append(ProfileBuilder& builder,
   PhysicalHand hand(scene, options.hand);
   std::vector<std::uint16_t> counts(hand.hand().layout->numCells());
   std::vector<float> values(counts.size());
+  // A hand without a tactile controller sends a stream.
+  const bool isStreamed = !hand.hand().file || hand.hand().file->controller.empty();
   double nextFrameS = 0.0, nextAngleS = 0.0, nextTemperatureS = 0.0;
   for (std::int64_t step = 0;; ++step) {
     const double nowS = std::min({nextFrameS, nextAngleS, nextTemperatureS});
@@ -49,8 +50,12 @@ std::int64_t append(ProfileBuilder& builder,
       nextTemperatureS += kTemperatureIntervalS;
     }
     if (nextFrameS <= nowS) {
-      hand.scan(counts);
-      std::copy(counts.begin(), counts.end(), values.begin());
+      if (isStreamed) {
+        hand.measure(values);
+      } else {
+        hand.scan(counts);
+        std::copy(counts.begin(), counts.end(), values.begin());
+      }
       builder.addFrame(nowUs, values);
       nextFrameS += options.frameIntervalS;
     }
@@ -79,7 +84,7 @@ Profile simulateRecording(const Scene& scene,
                           const SimulatedRecordingOptions& options,
                           const Progress& progress) {
   options.validate();
-  ProfileBuilder builder(sdh2().layout);
+  ProfileBuilder builder(options.hand.hand);
   append(builder, scene, options, options.startUs, progress);
   return finished(builder);
 }
@@ -120,7 +125,7 @@ Profile simulateGrasps(const Scene& scene,
                        const Progress& progress) {
   options.validate();
   if (count < 1) throw std::invalid_argument("simulateGrasps: count must be 1 or more");
-  ProfileBuilder builder(sdh2().layout);
+  ProfileBuilder builder(options.hand.hand);
   std::int64_t startUs = options.startUs;
   for (int i = 0; i < count; ++i) {
     SimulatedRecordingOptions run = options;

@@ -201,7 +201,7 @@ TEST(EmulatedStream, FiltersAndSlipRunLiveOnAnotherHand) {
   filters->setRecipe(parseRecipe(std::span(&median, 1)));
   stages.push_back(std::move(filters));
   stages.push_back(std::make_unique<SignalsStage>());
-  stages.push_back(std::make_unique<SlipStage>());
+  stages.push_back(std::make_unique<SlipStage>(hand));
   std::mutex mutex;
   std::vector<bool> slipping;
   std::vector<double> centroidX;

@@ -5,7 +5,9 @@
 #include <stdexcept>
 
 #include "palpate/device/sdh2.h"
+#include "palpate/model/hand_file.h"
 
+#include "device/stream_hands.h"
 #include "testing/testing.h"
 
 namespace palpate::noisy_contacts_test {
@@ -115,6 +117,21 @@ TEST(NoisyContacts, SizesComeInTurnOnAllMatrices) {
     EXPECT_GT(mean, before) << nameOf(size);
     before = mean;
   }
+}
+
+TEST(NoisyContacts, AreThoseOfAnyHand) {
+  NoisyContactsOptions options;
+  options.frames = 300;
+  options.hand = builtInHand("parallel_gripper");
+  const NoisyContacts made = makeNoisyContacts(options);
+  EXPECT_EQ(made.profile.hand().name, options.hand.name);
+  EXPECT_EQ(made.profile.layout().numCells(), 168u);
+  // Noise line 5 and three times its RMSE of 1.
+  EXPECT_EQ(made.thresholdCounts, (std::vector<int>{8, 8}));
+  ASSERT_GE(made.contacts.size(), 2u);
+  EXPECT_LT(made.contacts[0].matrix, 2u);
+  options.hand = testing::padHand({{14, 6}, {1, 5}});
+  EXPECT_THROW(makeNoisyContacts(options), std::invalid_argument);
 }
 
 TEST(NoisyContacts, RefusesWhatMakesNoSense) {

@@ -10,6 +10,8 @@
 
 #include "palpate/core/error.h"
 #include "palpate/device/sdh2.h"
+#include "palpate/emulator/default_scene.h"
+#include "palpate/model/hand_file.h"
 
 #include "testing/testing.h"
 
@@ -128,6 +130,20 @@ TEST(SimulatedRecording, GraspsFollowEachOtherAndDiffer) {
   EXPECT_EQ(begun, 3u);
   EXPECT_THROW(simulateGrasps(pen, 0), std::invalid_argument);
   EXPECT_THROW(variedScene(pen, {-1.0, 0.0, 0.0, 0.0}, 1), std::invalid_argument);
+}
+
+TEST(SimulatedRecording, IsOneOfAnyHand) {
+  const HandDescription& sole = builtInHand("sole");
+  SimulatedRecordingOptions options;
+  options.durationS = 3.0;
+  options.hand.hand = sole;
+  const Profile profile = simulateRecording(defaultScene(sole), options);
+  EXPECT_EQ(profile.hand().name, sole.name);
+  EXPECT_EQ(profile.layout().numCells(), 384u);
+  EXPECT_EQ(profile.numFrames(), 96u);
+  const TactileFrame frame = profile.frame(60);  // at 1.89 s the sphere presses
+  EXPECT_GT(*std::max_element(frame.values.begin(), frame.values.end()), 200.0F);
+  EXPECT_LE(*std::max_element(frame.values.begin(), frame.values.end()), 600.0F);
 }
 
 TEST(SimulatedRecording, WrongQuestionsAreRefused) {

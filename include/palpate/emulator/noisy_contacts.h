@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include <palpate/model/hand_file.h>
 #include <palpate/model/profile.h>
 #include <palpate/model/sensor_characteristics.h>
 #include <palpate/model/tactile_frame.h>
@@ -44,6 +45,8 @@ struct NoisyContactsOptions {
   // Range of the peak pressure of a contact, drawn on a logarithmic scale [kPa], > 0.
   double minKpa = 8.0;
   double maxKpa = 60.0;
+  // The hand whose sensor it is, with the characteristics of its file or assumedCharacteristics().
+  HandDescription hand = defaultHand();
 
   // Throws std::invalid_argument naming the field.
   void validate() const;
@@ -58,7 +61,7 @@ struct NoisyContact {
 };
 
 struct NoisyContacts {
-  // Counts, 12 bit, at 1/rateHz; temperatures once a second.
+  // Whole counts up to the hand's full scale, at 1/rateHz; temperatures once a second.
   Profile profile;
   // For every frame and place, whether a contact presses on it.
   std::vector<CellTruthMask> truth;
