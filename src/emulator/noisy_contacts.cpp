@@ -107,7 +107,7 @@ class NoisyContactsGenerator {
     }
     const std::vector<double> temperatures(options_.hand.temperatureSensors.size(), options_.degC);
     for (double s = 0.0; s * options_.rateHz < static_cast<double>(options_.frames); s += 1.0)
-      builder.addTemperatures(timeUs(s), temperatures);
+      if (!temperatures.empty()) builder.addTemperatures(timeUs(s), temperatures);
     ProfileInfo info;
     info.format = "synthetic";
     return {builder.finish(std::move(info)), std::move(truth), std::move(contacts_), thresholds_};

@@ -42,11 +42,12 @@ std::int64_t append(ProfileBuilder& builder,
     hand.advanceTo(nowS);
     const std::int64_t nowUs = startUs + std::llround(nowS * kUsPerS);
     if (nextAngleS <= nowS) {
-      builder.addAngles(nowUs, hand.joints().angles());
+      if (!hand.hand().axes.empty()) builder.addAngles(nowUs, hand.joints().angles());
       nextAngleS += options.angleIntervalS;
     }
     if (nextTemperatureS <= nowS) {
-      builder.addTemperatures(nowUs, hand.temperatures());
+      if (!hand.hand().temperatureSensors.empty())
+        builder.addTemperatures(nowUs, hand.temperatures());
       nextTemperatureS += kTemperatureIntervalS;
     }
     if (nextFrameS <= nowS) {

@@ -25,7 +25,7 @@ std::string secondsText(std::int64_t us) {
 }
 
 template <typename Values>
-std::string joined(const Values& values, std::string begin) {
+std::string withNumbers(const Values& values, std::string begin) {
   for (const auto value : values) {
     if (!begin.empty() && begin.back() != '[') begin += ',';
     appendNumber(begin, value);
@@ -86,7 +86,7 @@ std::string StreamEncoder::frameJson(std::uint64_t number,
     line += "{\"matrix_id\":" + std::to_string(m) +
             ",\"cells_x\":" + std::to_string(matrix.columns) +
             ",\"cells_y\":" + std::to_string(matrix.rows) + ",\"tactile_array\":[";
-    line = joined(values.subspan(hand_.layout->offset(m), matrix.numCells()), std::move(line));
+    line = withNumbers(values.subspan(hand_.layout->offset(m), matrix.numCells()), std::move(line));
     line += "]}";
   }
   return line + "]}\n";
@@ -103,7 +103,8 @@ void StreamEncoder::appendFrame(std::vector<std::byte>& out,
     case EmulatedStreamFormat::kLines:
       return appendText(
           out,
-          joined(values, "frame#" + std::to_string(sequence) + "," + secondsText(deviceUs)) + "\n");
+          withNumbers(values, "frame#" + std::to_string(sequence) + "," + secondsText(deviceUs)) +
+              "\n");
     case EmulatedStreamFormat::kJson:
       return appendText(out, frameJson(number, deviceUs, values));
   }
@@ -120,9 +121,9 @@ void StreamEncoder::appendAngles(std::vector<std::byte>& out,
                                 static_cast<std::uint64_t>(deviceUs),
                                 floatsOf(values));
     case EmulatedStreamFormat::kLines:
-      return appendText(out, joined(values, "angles," + secondsText(deviceUs)) + "\n");
+      return appendText(out, withNumbers(values, "angles," + secondsText(deviceUs)) + "\n");
     case EmulatedStreamFormat::kJson:
-      return appendText(out, joined(values, "{\"angles_deg\":[") + "]}\n");
+      return appendText(out, withNumbers(values, "{\"angles_deg\":[") + "]}\n");
   }
 }
 
@@ -137,9 +138,9 @@ void StreamEncoder::appendTemperatures(std::vector<std::byte>& out,
                                 static_cast<std::uint64_t>(deviceUs),
                                 floatsOf(degC));
     case EmulatedStreamFormat::kLines:
-      return appendText(out, joined(degC, "temperatures," + secondsText(deviceUs)) + "\n");
+      return appendText(out, withNumbers(degC, "temperatures," + secondsText(deviceUs)) + "\n");
     case EmulatedStreamFormat::kJson:
-      return appendText(out, joined(degC, "{\"temperatures_degc\":[") + "]}\n");
+      return appendText(out, withNumbers(degC, "{\"temperatures_degc\":[") + "]}\n");
   }
 }
 
