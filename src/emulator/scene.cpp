@@ -108,12 +108,12 @@ void requirePreshape(const JsonField& field, const HandDescription& hand) {
 
 constexpr double kMostSeconds = 1e6;
 
-constexpr double kMostVelocity = 1000.0;  // [deg/s, mm/s]
-constexpr double kUsualVelocity = 30.0;
+constexpr double kSceneMostVelocity = 1000.0;  // [deg/s, mm/s]
+constexpr double kSceneUsualVelocity = 30.0;
 
 // Velocity that every axis reaches.
 double largestVelocity(const HandDescription& hand) {
-  double most = kMostVelocity;
+  double most = kSceneMostVelocity;
   for (const AxisDescription& axis : hand.axes)
     if (axis.maximumVelocityDegPerS > 0.0) most = std::min(most, axis.maximumVelocityDegPerS);
   return most;
@@ -123,7 +123,7 @@ SceneAction actionOf(const JsonField& step, std::size_t objects, const HandDescr
   const auto speed = [&](const JsonField& field) {
     const double most = largestVelocity(hand);
     return field.number(
-        "velocity_deg_per_s", std::min(kUsualVelocity, most), std::min(0.1, most), most);
+        "velocity_deg_per_s", std::min(kSceneUsualVelocity, most), std::min(0.1, most), most);
   };
   const auto object = [&](const JsonField& field) {
     if (objects == 0) field.fail("needs an object");
