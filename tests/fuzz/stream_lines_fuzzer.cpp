@@ -44,7 +44,7 @@ std::vector<double> itemsIn(std::span<const std::byte> bytes,
     if (item.kind == StreamItemKind::kFrame) require(item.values.size() == 6);
     for (const float value : item.values) {
       require(value >= 0.0F && value <= 4095.0F);
-      all.push_back(value);
+      all.push_back(static_cast<double>(value));
     }
     if (!item.values.empty()) require(item.values[1] == 0.0F);
     for (const double value : item.numbers) {

@@ -39,7 +39,7 @@ std::vector<double> itemsIn(const StreamShape& shape,
     all.push_back(static_cast<double>(item.deviceUs.value()));
     for (const float value : item.values) {
       require(value >= 0.0F && value <= 4095.0F);
-      all.push_back(value);
+      all.push_back(static_cast<double>(value));
     }
     for (const double value : item.numbers) require(std::isfinite(value));
     if (item.kind != StreamItemKind::kDescription) return;
