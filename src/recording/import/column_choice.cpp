@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 #include <map>
+#include <utility>
 
 #include "palpate/core/error.h"
 #include "palpate/core/escaped_line.h"
@@ -275,12 +276,13 @@ std::vector<std::size_t> columnsOf(const std::vector<TableColumn>& columns, std:
 std::vector<ColumnGroup> groupColumns(const std::vector<TableColumn>& columns,
                                       const std::vector<std::size_t>& chosen) {
   std::vector<ColumnGroup> groups;
-  std::map<std::string, std::size_t> byStem;
+  // By stem and number of indices: a '#' in a name is like the stem of a digit.
+  std::map<std::pair<std::string, std::size_t>, std::size_t> byStem;
   for (const std::size_t c : chosen) {
     std::vector<std::int64_t> numbers;
     std::string stem = stemOf(nameWithoutUnit(columns[c].name), numbers);
     for (std::size_t d = 0; d < columns[c].shape.size(); ++d) stem += "[#]";
-    const auto [at, isNew] = byStem.try_emplace(stem, groups.size());
+    const auto [at, isNew] = byStem.try_emplace({stem, numbers.size()}, groups.size());
     if (isNew) groups.push_back({stem, {}, {}});
     groups[at->second].columns.push_back(c);
     appendElements(columns, c, numbers, groups[at->second].elements);
