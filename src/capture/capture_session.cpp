@@ -158,7 +158,8 @@ void CaptureSession::onFrame(TactileFrame&& frame) {
     for (const MatrixLayout& matrix : frame.layout->matrices()) enabled += matrix.numEnabled();
     meter_.expect(scanRateHz(enabled));
   }
-  meter_.frame(clock_.monotonicUs(), saturated, runsOf(frame));
+  // Only the line of a controller that scans by itself has a known rate.
+  meter_.frame(clock_.monotonicUs(), saturated, scansItself_ ? runsOf(frame) : 0);
   auto shared = std::make_shared<const TactileFrame>(std::move(frame));
   screenFrame_.put(shared);
   pass(CaptureItem(std::move(shared)));

@@ -39,6 +39,8 @@ Json parameters(const GraspRequest& request) {
 
 }  // namespace
 
+const HandDescription& movableHand() { return sdh2(); }
+
 std::string_view nameOf(GraspMode mode) {
   if (mode == GraspMode::kSlip) return "slip";
   return mode == GraspMode::kReactive ? "reactive" : "plain";

@@ -61,9 +61,12 @@ struct HoldingOptions {
   void validate(int limitCounts) const;
 };
 
+// The hand whose motion is known: other hands are read, not moved.
+const HandDescription& movableHand();
+
 struct GraspRequest {
   GraspMode mode = GraspMode::kPlain;
-  std::string preshape = "centrical";  // one of sdh2Preshapes()
+  std::string preshape = "centrical";  // one of movableHand()
   // The hand moves to this ratio first, in a separate motion, 0 (open) .. 1; empty: it starts from
   // its present posture. In a reactive grasp this motion is under tactile control, too.
   std::optional<double> startRatio = {};

@@ -43,12 +43,17 @@ TEST_F(ConnectDialogTest, EnterConnectsFromWhereverTheKeyboardIs) {
   const std::vector<std::pair<Connection::Kind, const char*>> places = {
       {Connection::Kind::kPorts, "kindPorts"},
       {Connection::Kind::kPorts, "tactilePort"},
+      {Connection::Kind::kStream, "streamHand"},
       {Connection::Kind::kEmulated, "scenes"},
       {Connection::Kind::kEmulated, "sceneScriptRuns"},
       {Connection::Kind::kReplay, "recording"}};
   const QString recording = file("a.dsa", "x");
   for (const auto& [kind, name] : places) {
-    open({.kind = kind, .dsaPort = "a", .sdhPort = "b", .recording = recording});
+    open({.kind = kind,
+          .dsaPort = "a",
+          .sdhPort = "b",
+          .recording = recording,
+          .stream = {.source = "udp:9871", .hand = "sole"}});
     find<QWidget>(name)->setFocus();
     press(Qt::Key_Return);
     EXPECT_EQ(dialog_->result(), QDialog::Accepted) << name;
@@ -77,6 +82,9 @@ TEST_F(ConnectDialogTest, TheArrowKeysChooseTheKind) {
   EXPECT_EQ(dialog_->connection().kind, Connection::Kind::kReplay);
   EXPECT_TRUE(find<QWidget>("recording")->isVisible());
   press(Qt::Key_Up);
+  press(Qt::Key_Up);
+  EXPECT_EQ(dialog_->connection().kind, Connection::Kind::kStream);
+  EXPECT_TRUE(find<QWidget>("streamPlace")->isVisible());
   press(Qt::Key_Up);
   EXPECT_EQ(dialog_->connection().kind, Connection::Kind::kPorts);
   EXPECT_TRUE(find<QWidget>("tactilePort")->isVisible());
@@ -186,7 +194,12 @@ TEST_F(ConnectDialogTest, BeginsWithTheLastAndKeepsTheOtherKinds) {
                              .sdhPort = "tcp:b:2",
                              .scene = "pen",
                              .sceneScriptRuns = true,
-                             .recording = "/somewhere/a.dsa"};
+                             .recording = "/somewhere/a.dsa",
+                             .stream = {.source = "udp:0.0.0.0:9000",
+                                        .hand = "sole",
+                                        .format = StreamFormat::kLines,
+                                        .time = StreamTime::kMicroseconds,
+                                        .baud = 921'600}};
     EXPECT_EQ(open(last).connection(), last);
   }
 }

@@ -42,6 +42,7 @@ class ConnectDialogTest : public ::testing::Test {
     dialog_.reset();
     dialog_ = std::make_unique<ConnectDialog>(ConnectChoices{.last = last,
                                                              .scenesFolder = scenesFolder_,
+                                                             .handFolders = handFolders_,
                                                              .recentRecordings = recent,
                                                              .theme = Theme::kDark},
                                               *scan_,
@@ -88,6 +89,7 @@ class ConnectDialogTest : public ::testing::Test {
   }
 
   const testing::TemporaryFolder folder_;
+  std::vector<std::filesystem::path> handFolders_ = {};
   std::filesystem::path scenesFolder_ = testing::dataFolder() / "scenes";
   FakePorts fake_;
   std::unique_ptr<PortScan> scan_;

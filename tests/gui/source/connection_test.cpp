@@ -41,6 +41,11 @@ TEST_F(ConnectionTest, ComesBackFromTheSettingsAsItWas) {
         .scene = "/home/müller/my scene.json",
         .sceneScriptRuns = true,
         .recording = "/data/a;b %1.palpate",
+        .stream = {.source = "listen:[::1]:9871",
+                   .hand = "/home/müller/my hand",
+                   .format = StreamFormat::kBinary,
+                   .time = StreamTime::kMilliseconds,
+                   .baud = 1'000'000},
     };
     store(connection);
     EXPECT_EQ(reloaded(), connection);
@@ -62,6 +67,10 @@ TEST_F(ConnectionTest, WhatCannotBeReadIsTheDefault) {
   store("connection/kind", "ports");
   EXPECT_EQ(reloaded().kind, Connection::Kind::kPorts);
   EXPECT_EQ(reloaded().scene, "ball");
+  store("connection/stream_format", "morse");
+  store("connection/stream_time", 3);
+  store("connection/stream_baud", "fast");
+  EXPECT_EQ(reloaded().stream, StreamConnection{});
 }
 
 TEST_F(ConnectionTest, ADamagedFileGivesTheDefault) {
@@ -79,6 +88,11 @@ TEST(Connection, IsDescribedInAFewWords) {
   EXPECT_EQ(describe(connection), "hand on ttyUSB0");
   connection.sdhPort = "tcp:localhost:13000";
   EXPECT_EQ(describe(connection), "hand on ttyUSB0 and tcp:localhost:13000");
+  connection.kind = Connection::Kind::kStream;
+  connection.stream = {.source = "/dev/ttyACM0", .hand = "/home/me/hands/my_pad"};
+  EXPECT_EQ(describe(connection), "stream from ttyACM0 · my_pad");
+  connection.stream = {.source = "udp:9871", .hand = "sole"};
+  EXPECT_EQ(describe(connection), "stream from udp:9871 · sole");
   connection.kind = Connection::Kind::kReplay;
   connection.recording = "/data/foam_ball.dsa";
   EXPECT_EQ(describe(connection), "replay of foam_ball.dsa");
@@ -93,6 +107,14 @@ TEST(Connection, SaysWhatIsMissing) {
   EXPECT_TRUE(problemOf(connection).contains("different ports"));
   connection.dsaPort = "/dev/ttyUSB1";
   EXPECT_TRUE(problemOf(connection).isEmpty());
+  connection.kind = Connection::Kind::kStream;
+  EXPECT_EQ(problemOf(connection), "Choose where the stream comes from.");
+  connection.stream.source = "listen:9871";
+  EXPECT_EQ(problemOf(connection), "Choose the hand whose frames are sent.");
+  connection.stream.hand = "sole";
+  EXPECT_EQ(problemOf(connection), "");
+  connection.stream.source = "-";
+  EXPECT_EQ(problemOf(connection), "The window can't read standard input.");
   connection.kind = Connection::Kind::kReplay;
   EXPECT_EQ(problemOf(connection), "Choose a recording.");
   connection.recording = "a.dsa";

@@ -3,7 +3,7 @@
 #include <QFileInfo>
 #include <utility>
 
-#include "palpate/device/sdh2.h"
+#include <palpate/control/grasp_request.h>
 #include <palpate/core/number_text.h>
 
 #include "gui/calibrate/calibrate_panel.h"
@@ -92,7 +92,7 @@ void CalibrateFeature::connectNoise() {
   connect(
       &panel_->noise(), &NoisePage::applyRequested, this, [&windowState](const NoiseFloor& floor) {
         const HandDescription* hand = windowState.displayed.hand();
-        applyNoise(windowState.settings, hand ? hand->name : sdh2().name, floor);
+        applyNoise(windowState.settings, hand ? hand->name : movableHand().name, floor);
         windowState.messages.flash(
             "noise lines applied: \"High sensitivity\" in the dock Hand uses them");
       });
@@ -108,6 +108,7 @@ void CalibrateFeature::connectNoise() {
 void CalibrateFeature::takeSource() {
   const DisplayedSource& displayed = state().displayed;
   panel_->setSource(displayed.unfilteredRecording(), displayed.isLive());
+  if (const HandDescription* hand = displayed.hand()) panel_->pressure().setHand(*hand);
   panel_->setPosition(state().playback.positionS());
   takeKept();
   pressures_->renew();

@@ -13,7 +13,7 @@
 #include <QVBoxLayout>
 #include <algorithm>
 
-#include "palpate/device/sdh2.h"
+#include <palpate/control/grasp_request.h>
 #include <palpate/core/error.h>
 #include <palpate/core/number_text.h>
 
@@ -31,7 +31,6 @@ namespace {
 
 constexpr int kPressurePageWideFrom = 980;  // [px]; wider: chart and figures side by side
 constexpr double kLargestArea = 1e6;
-constexpr double kFullScale = 4095.0;
 
 std::vector<FigureColumn> pressurePageColumns() {
   return {{"recording", {}, 15, true},
@@ -173,8 +172,6 @@ void PressurePage::makeTop() {
   matrix_->setAccessibleName("Matrix");
   matrix_->setToolTip("The matrix that was loaded");
   matrix_->addItem("loaded matrix");
-  for (const MatrixDescription& matrix : sdh2().matrices)
-    matrix_->addItem(QString::fromStdString(matrix.shortName));
   options->addWidget(matrix_);
   options->addStretch(1);
   above_ = new QCheckBox("From above", this);
@@ -209,9 +206,10 @@ void PressurePage::makeTop() {
   threshold_ = field("pressureThreshold",
                      "Threshold",
                      "Used for the recordings, which don't store it [counts]",
-                     kFullScale);
+                     static_cast<double>(movableHand().maximumCounts));
   threshold_->setDecimals(0);
   threshold_->setValue(SensorSettings{}.thresholdCounts);
+  setHand(movableHand());
   top().addLayout(files);
   measured->addStretch(1);
   top().addLayout(options);
@@ -226,6 +224,16 @@ void PressurePage::makeTop() {
   connect(matrix_, &QComboBox::activated, this, &PressurePage::renew);
   for (QDoubleSpinBox* each : {area_, sensitivity_, threshold_})
     connect(each, &QDoubleSpinBox::valueChanged, this, &PressurePage::renew);
+}
+
+void PressurePage::setHand(const HandDescription& hand) {
+  const int chosen = matrix_->currentIndex();
+  while (matrix_->count() > 1) matrix_->removeItem(1);
+  for (const MatrixDescription& matrix : hand.matrices)
+    matrix_->addItem(QString::fromStdString(matrix.shortName));
+  matrix_->setCurrentIndex(chosen < matrix_->count() ? chosen : 0);
+  const QSignalBlocker quiet(threshold_);
+  threshold_->setMaximum(static_cast<double>(hand.maximumCounts));
 }
 
 CalibrationChoices PressurePage::choices() const {

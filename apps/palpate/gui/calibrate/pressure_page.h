@@ -33,6 +33,8 @@ class PressurePage : public ComputedPage {
   std::vector<ExportedTable> tables() const override;
   void paint(QPainter& painter, const PictureLook& look, const QString& title) override;
 
+  // The hand whose matrices can be chosen.
+  void setHand(const HandDescription& hand);
   // Opens a table of recordings (CSV) or a calibration (.json).
   void open(const std::filesystem::path& path);
   // Null when no calibration is shown.

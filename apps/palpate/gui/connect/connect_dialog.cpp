@@ -14,6 +14,7 @@
 #include "gui/connect/ports_page.h"
 #include "gui/connect/replay_page.h"
 #include "gui/connect/scene_page.h"
+#include "gui/connect/stream_page.h"
 #include "gui/widgets/state_mark.h"
 
 namespace palpate::gui {
@@ -33,6 +34,8 @@ KindText connectDialogTextOf(Connection::Kind kind) {
   switch (kind) {
     case Connection::Kind::kPorts:
       return {"kindPorts", "Hand on &ports", "A real hand: serial adapters or network"};
+    case Connection::Kind::kStream:
+      return {"kindStream", "Stream of &frames", "Any hand whose values a program sends"};
     case Connection::Kind::kReplay:
       return {"kindReplay", "&Replay of a recording", "Plays a recording as if it were live"};
     case Connection::Kind::kEmulated:
@@ -57,15 +60,18 @@ ConnectDialog::ConnectDialog(const ConnectChoices& choices, PortScan& scan, QWid
       kind_(choices.last.kind) {
   setWindowTitle("Connect");
   ports_ = new PortsPage(scan, theme_, this);
+  stream_ = new StreamPage(choices.handFolders, scan, theme_, this);
   scenes_ = new ScenePage(choices.scenesFolder, theme_, this);
   replay_ = new ReplayPage(choices.recentRecordings, theme_, this);
   ports_->setPorts(last_.dsaPort, last_.sdhPort);
+  stream_->setStream(last_.stream);
   scenes_->setScene(last_.scene);
   scenes_->setRunsScript(last_.sceneScriptRuns);
   replay_->setRecording(last_.recording);
   pages_ = new QStackedWidget(this);
   for (const Connection::Kind kind : kAllConnectionKinds)
     pages_->addWidget(kind == Connection::Kind::kPorts      ? static_cast<QWidget*>(ports_)
+                      : kind == Connection::Kind::kStream   ? static_cast<QWidget*>(stream_)
                       : kind == Connection::Kind::kEmulated ? static_cast<QWidget*>(scenes_)
                                                             : static_cast<QWidget*>(replay_));
   auto* page = new QHBoxLayout;
@@ -81,6 +87,7 @@ ConnectDialog::ConnectDialog(const ConnectChoices& choices, PortScan& scan, QWid
   whole->addLayout(middle, 1);
   whole->addWidget(makeFoot());
   connect(ports_, &PortsPage::changed, this, &ConnectDialog::refresh);
+  connect(stream_, &StreamPage::changed, this, &ConnectDialog::refresh);
   connect(scenes_, &ScenePage::changed, this, &ConnectDialog::refresh);
   connect(replay_, &ReplayPage::changed, this, &ConnectDialog::refresh);
   kinds_[connectDialogIndexOf(kind_)]->setChecked(true);
@@ -91,6 +98,7 @@ ConnectDialog::ConnectDialog(const ConnectChoices& choices, PortScan& scan, QWid
 
 ConnectDialog::~ConnectDialog() {
   ports_->disconnect(this);
+  stream_->disconnect(this);
   scenes_->disconnect(this);
   replay_->disconnect(this);
 }
@@ -169,6 +177,10 @@ void ConnectDialog::choose(Connection::Kind kind) {
     looked_ = true;
     ports_->look();
   }
+  if (isVisible() && kind == Connection::Kind::kStream && !listed_) {
+    listed_ = true;
+    stream_->look();
+  }
   refresh();
 }
 
@@ -183,6 +195,7 @@ Connection ConnectDialog::connection() const {
   connection.kind = kind_;
   connection.dsaPort = ports_->tactilePort();
   connection.sdhPort = ports_->motionPort();
+  connection.stream = stream_->stream();
   connection.scene = scenes_->scene();
   connection.sceneScriptRuns = scenes_->runsScript();
   connection.recording = replay_->recording();
@@ -197,6 +210,8 @@ QString ConnectDialog::problem() const {
       return scenes_->problem();
     case Connection::Kind::kReplay:
       return replay_->problem();
+    case Connection::Kind::kStream:
+      return stream_->problem();
     case Connection::Kind::kPorts:
       return ports_->problem();
   }

@@ -1,11 +1,12 @@
-// The Connect dialog: the user chooses what to connect to, which is a hand on its ports, the
-// emulated hand, or a recording that is replayed.
+// The Connect dialog: the user chooses what to connect to, which is a hand on its ports, a stream
+// of frames, the emulated hand, or a recording that is replayed.
 #pragma once
 
 #include <QDialog>
 #include <QStringList>
 #include <array>
 #include <filesystem>
+#include <vector>
 
 #include "gui/appearance/theme.h"
 #include "gui/connect/port_scan.h"
@@ -21,6 +22,7 @@ namespace palpate::gui {
 class PortsPage;
 class ReplayPage;
 class ScenePage;
+class StreamPage;
 class StateMark;
 
 // The values that the dialog starts with.
@@ -29,6 +31,8 @@ struct ConnectChoices {
   Connection last;
   // Folder with the scenes of the emulated hand.
   std::filesystem::path scenesFolder;
+  // Where hands are looked for by name.
+  std::vector<std::filesystem::path> handFolders = {};
   // Paths, newest first.
   QStringList recentRecordings = {};
   Theme theme = Theme::kDark;
@@ -63,9 +67,11 @@ class ConnectDialog : public QDialog {
   Theme theme_;
   Connection::Kind kind_;
   bool looked_ = false;
+  bool listed_ = false;
   std::array<QRadioButton*, kAllConnectionKinds.size()> kinds_ = {};
   QStackedWidget* pages_ = nullptr;
   PortsPage* ports_ = nullptr;
+  StreamPage* stream_ = nullptr;
   ScenePage* scenes_ = nullptr;
   ReplayPage* replay_ = nullptr;
   StateMark* mark_ = nullptr;

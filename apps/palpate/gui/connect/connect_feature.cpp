@@ -4,6 +4,7 @@
 #include <QMessageBox>
 
 #include <palpate/emulator/scene.h>
+#include <palpate/model/hand_file.h>
 
 #include "gui/appearance/captions.h"
 #include "gui/appearance/icons.h"
@@ -73,6 +74,7 @@ void ConnectFeature::addQuestions() {
                    knownProbes(now, windowState.live.source()->session->device().status()));
     ConnectDialog dialog({.last = last,
                           .scenesFolder = scenesFolder(),
+                          .handFolders = handFolders(windowState.environment.dataFolder),
                           .recentRecordings = windowState.recent.paths(),
                           .theme = windowState.appearance.theme()},
                          scan,

@@ -139,6 +139,16 @@ void PortScan::scan() {
   });
 }
 
+void PortScan::listOnly() {
+  currentRound();
+  Round::start(round_, [this, round = round_, list = functions_.list]() -> std::function<void()> {
+    std::vector<PortInfo> found = list();
+    return [this, round, found = std::move(found)]() mutable {
+      if (round == round_) emit portsListed(scanned(std::move(found)));
+    };
+  });
+}
+
 void PortScan::ask(const QString& port) {
   if (port.isEmpty()) return;
   if (isBusy(port)) {
@@ -159,7 +169,7 @@ bool PortScan::cancel(std::chrono::milliseconds patience) {
   return !round || round->end(patience);
 }
 
-void PortScan::takeList(std::vector<PortInfo> found) {
+QList<ScannedPort> PortScan::scanned(std::vector<PortInfo> found) const {
   QList<ScannedPort> ports;
   for (PortInfo& info : found) {
     const bool busy = isBusy(QString::fromStdString(info.name)) ||
@@ -167,6 +177,11 @@ void PortScan::takeList(std::vector<PortInfo> found) {
     QString why = busy ? QString(kOurPort) : whyNotRequested(info);
     ports.append({std::move(info), std::move(why)});
   }
+  return ports;
+}
+
+void PortScan::takeList(std::vector<PortInfo> found) {
+  const QList<ScannedPort> ports = scanned(std::move(found));
   for (const ScannedPort& port : ports)
     if (port.notAsked.isEmpty()) {
       waiting_.append(QString::fromStdString(port.info.name));

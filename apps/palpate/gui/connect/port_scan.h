@@ -61,6 +61,8 @@ class PortScan : public QObject {
   bool isBusy(const QString& port) const;
   // Lists the ports, then probes them, several at a time. Does nothing while a scan is running.
   void scan();
+  // Lists the ports without probing them; only portsListed() follows.
+  void listOnly();
   // Probes one more port that is not listed: a pty or "tcp:HOST:PORT". For a port of setBusy() the
   // known answer is reported at once.
   void ask(const QString& port);
@@ -74,6 +76,8 @@ class PortScan : public QObject {
   // The ports in the order of listPorts(). One probed() follows for each port that is probed or
   // that setBusy() knows.
   void listed(const QList<palpate::gui::ScannedPort>& ports);
+  // The same ports, after listOnly().
+  void portsListed(const QList<palpate::gui::ScannedPort>& ports);
   // `port` is the name as listed (PortInfo::name) or as passed to ask().
   void probed(const QString& port, const palpate::PortProbe& probe);
   // The scan is complete.
@@ -83,6 +87,7 @@ class PortScan : public QObject {
   struct Round;
   Round& currentRound();
   void askNext();
+  QList<ScannedPort> scanned(std::vector<PortInfo> found) const;
   void takeList(std::vector<PortInfo> found);
   void takeProbe(const QString& port, const PortProbe& probe);
   void conclude();

@@ -11,7 +11,7 @@
 
 #include "palpate/device/sdh2.h"
 #include <palpate/core/error.h>
-#include <palpate/model/preshape.h>
+#include <palpate/model/hand_file.h>
 
 #include "gui/desktop/button_keys.h"
 #include "gui/widgets/value_slider.h"
@@ -47,7 +47,7 @@ GraspPanel::GraspPanel(QSettings& settings, QWidget* parent)
   const GraspRequest usual;
   preshape_ = new QComboBox(this);
   preshape_->setObjectName("preshape");
-  for (const Preshape& each : sdh2Preshapes())
+  for (const Preshape& each : movableHand().file->preshapes)
     preshape_->addItem(QString::fromStdString(each.title), QString::fromStdString(each.name));
   const int index = preshape_->findData(
       settings.value(kPreshape, QString::fromStdString(usual.preshape)).toString());
@@ -161,8 +161,9 @@ void GraspPanel::begin(const GraspRequest& request) {
   emit asked();
 }
 
-void GraspPanel::setControl(GraspControl* control) {
+void GraspPanel::setControl(GraspControl* control, const QString& whyNot) {
   control_ = control;
+  whyNot_ = whyNot;
   showStatus(control ? control->status() : GraspStatus{});
 }
 
@@ -178,7 +179,7 @@ void GraspPanel::showStatus(const GraspStatus& status) {
   const QString busy = holds ? "The hand holds what it has grasped: stop it first (Esc)"
                              : "The hand moves: stop it first (Esc)";
   const auto why = [&](const std::string& problem) {
-    return !control_ ? QString("No hand is connected") : QString::fromStdString(problem);
+    return !control_ ? whyNot_ : QString::fromStdString(problem);
   };
   set(open_,
       canMove && idle,

@@ -20,8 +20,9 @@ class GraspPanel : public QWidget {
  public:
   // Stores the chosen values in `settings`, which must outlive this.
   GraspPanel(QSettings& settings, QWidget* parent);
-  // Null: no hand. `control` must outlive this, or be replaced by null before it is destroyed.
-  void setControl(GraspControl* control);
+  // Null: no hand, or one that is read only; the tool tips then tell `whyNot`. `control` must
+  // outlive this, or be replaced by null before it is destroyed.
+  void setControl(GraspControl* control, const QString& whyNot = "No hand is connected");
   // Enables the motions that are possible now; the tool tips tell why others are not.
   void showStatus(const GraspStatus& status);
   GraspRequest request(GraspMode mode) const;
@@ -41,6 +42,7 @@ class GraspPanel : public QWidget {
 
   QSettings& settings_;
   GraspControl* control_ = nullptr;
+  QString whyNot_ = "No hand is connected";
   QComboBox* preshape_;
   ValueSlider* close_;
   ValueSlider* velocity_;

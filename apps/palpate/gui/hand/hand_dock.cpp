@@ -13,6 +13,7 @@
 #include "palpate/device/sdh2.h"
 #include <palpate/capture/link_health.h>
 #include <palpate/core/time.h>
+#include <palpate/device/stream_device.h>
 
 #include "gui/appearance/captions.h"
 #include "gui/hand/grasp_panel.h"
@@ -30,6 +31,7 @@ constexpr int kHandDockMargin = 12;
 constexpr int kStateLines = 4;  // lines reserved for the status text
 constexpr const char* kStopTip =
     "Stops the hand now; the motors stay on and hold (Esc works everywhere)";
+constexpr const char* kReadOnlyTip = "This hand is read, not moved";
 constexpr const char* kHandDockNothing = "–";
 
 CaptureQueueOptions smallFeed() {
@@ -124,30 +126,40 @@ QWidget* HandDock::makeBody(QSettings& settings) {
   angles_->setObjectName("liveAngles");
   temperatures_ = new FactsView(content);
   temperatures_->setObjectName("liveTemperatures");
-  auto* left = new QVBoxLayout;
-  left->setSpacing(4);
-  left->addWidget(sectionHeading("Joint angles", content));
-  left->addWidget(angles_);
-  left->addStretch(1);
-  auto* right = new QVBoxLayout;
-  right->setSpacing(4);
-  right->addWidget(sectionHeading("Temperatures", content));
-  right->addWidget(temperatures_);
-  right->addStretch(1);
+  const auto section = [content](const char* name, const QString& title, QWidget* view) {
+    auto* made = new QWidget(content);
+    made->setObjectName(name);
+    auto* rows = new QVBoxLayout(made);
+    rows->setContentsMargins(0, 0, 0, 0);
+    rows->setSpacing(4);
+    rows->addWidget(sectionHeading(title, made));
+    rows->addWidget(view);
+    rows->addStretch(1);
+    return made;
+  };
+  joints_ = section("handJoints", "Joint angles", angles_);
+  heats_ = section("handTemperatures", "Temperatures", temperatures_);
   auto* measured = new QHBoxLayout;
   measured->setSpacing(20);
-  measured->addLayout(left, 1);
-  measured->addLayout(right, 1);
+  measured->addWidget(joints_, 1);
+  measured->addWidget(heats_, 1);
   auto* column = new QVBoxLayout(content);
   column->setContentsMargins(kHandDockMargin, 4, kHandDockMargin, 10);
   column->setSpacing(8);
-  column->addWidget(sectionHeading("Grasp", content));
-  column->addWidget(grasp_);
-  column->addSpacing(8);
-  column->addWidget(sectionHeading("Matrices", content));
-  column->addWidget(sensitivity_);
-  column->addWidget(tactile_);
-  column->addSpacing(8);
+  auto* settable = new QWidget(content);
+  settable->setObjectName("handControls");
+  auto* controls = new QVBoxLayout(settable);
+  controls->setContentsMargins(0, 0, 0, 0);
+  controls->setSpacing(8);
+  controls->addWidget(sectionHeading("Grasp", settable));
+  controls->addWidget(grasp_);
+  controls->addSpacing(8);
+  controls->addWidget(sectionHeading("Matrices", settable));
+  controls->addWidget(sensitivity_);
+  controls->addWidget(tactile_);
+  controls->addSpacing(8);
+  column->addWidget(settable);
+  controls_ = {settable, stop_};
   column->addLayout(measured);
   column->addStretch(1);
   area->setWidget(content);
@@ -171,27 +183,41 @@ void HandDock::setHand(CaptureSession* session, GraspControl* control) {
   layout_.reset();
   goneUs_.reset();
   queue_ = session ? session->subscribe("the dock Hand", smallFeed()) : nullptr;
-  grasp_->setControl(control);
+  if (isReadOnly())
+    grasp_->setControl(nullptr, kReadOnlyTip);
+  else
+    grasp_->setControl(control);
   sensitivity_->setHand(session, control);
   tactile_->setHand(session, control);
   stopKey_->setControl(control);
   stop_->setEnabled(control != nullptr);
-  stop_->setToolTip(control ? kStopTip : "No hand is connected");
-  const HandDescription hand = session ? session->device().hand() : sdh2();
-  std::vector<Fact> facts;
-  for (const AxisDescription& axis : hand.axes)
-    facts.push_back({QString::fromStdString(axis.name), kHandDockNothing});
-  angles_->setFacts(std::move(facts));
-  facts.clear();
-  for (const TemperatureSensorDescription& sensor : hand.temperatureSensors)
-    facts.push_back({QString::fromStdString(sensor.name), kHandDockNothing});
-  temperatures_->setFacts(std::move(facts));
+  stop_->setToolTip(control ? kStopTip : session ? kReadOnlyTip : "No hand is connected");
+  for (QWidget* each : controls_) each->setVisible(!isReadOnly());
+  updateHand();
   heat_->hide();
   if (session)
     timer_.start();
   else
     timer_.stop();
   refresh();
+}
+
+void HandDock::updateHand() {
+  const HandDescription hand = session_ ? session_->device().hand() : movableHand();
+  tactile_->setMatrices(hand);
+  std::vector<Fact> facts;
+  angleUnits_.clear();
+  for (const AxisDescription& axis : hand.axes) {
+    facts.push_back({QString::fromStdString(axis.name), kHandDockNothing});
+    angleUnits_.emplace_back(axis.isSliding ? " mm" : "°");
+  }
+  joints_->setVisible(!facts.empty());
+  angles_->setFacts(std::move(facts));
+  facts.clear();
+  for (const TemperatureSensorDescription& sensor : hand.temperatureSensors)
+    facts.push_back({QString::fromStdString(sensor.name), kHandDockNothing});
+  heats_->setVisible(!facts.empty());
+  temperatures_->setFacts(std::move(facts));
 }
 
 void HandDock::refresh() {
@@ -272,7 +298,12 @@ void HandDock::say(const QString& text, bool bad) {
 
 void HandDock::showState(const GraspStatus& status) {
   if (!session_) return say("No hand is connected.", false);
-  if (!control_) return say("A recording is replayed: there is nothing to move.", false);
+  if (!control_) {
+    const bool streamed = dynamic_cast<const StreamDevice*>(&session_->device()) != nullptr;
+    return say(streamed ? "This hand is read, not moved: its stream takes no commands."
+                        : "A recording is replayed: there is nothing to move.",
+               false);
+  }
   if (status.phase != GraspPhase::kIdle) {
     // Without a request, the phase is only the end of a motion.
     if (status.request) said_.clear();
@@ -344,7 +375,7 @@ void HandDock::showSamples() {
   }
   if (angles)
     for (std::size_t i = 0; i < std::min(angles->deg.size(), angles_->facts().size()); ++i)
-      angles_->setValue(i, figure(angles->deg[i], 1) + "°");
+      angles_->setValue(i, figure(angles->deg[i], 1) + angleUnits_[i]);
   if (temperatures) showTemperatures(*temperatures);
   items_.clear();
 }

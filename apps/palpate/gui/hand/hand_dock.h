@@ -40,6 +40,8 @@ class HandDock : public QWidget {
   // Sets the connected hand; null when there is none. Both must outlive this, or be replaced by
   // null before they are destroyed.
   void setHand(CaptureSession* session, GraspControl* control);
+  // The connected hand was found to be another one, or scans other taxels.
+  void updateHand();
   // Connects menu entries and keys with the buttons: they do the same and are enabled together.
   // Call it once.
   void bind(const HandActions& actions);
@@ -66,6 +68,7 @@ class HandDock : public QWidget {
  private:
   QWidget* makeHead();
   QWidget* makeBody(QSettings& settings);
+  bool isReadOnly() const { return session_ && !control_; }
   void say(const QString& text, bool bad);
   void showState(const GraspStatus& status);
   void showBound();
@@ -84,10 +87,17 @@ class HandDock : public QWidget {
   QLabel* state_;
   QLabel* heat_;
   QPushButton* stop_;
+  // What is absent for a hand that is read only.
+  std::vector<QWidget*> controls_;
   GraspPanel* grasp_;
   SensitivityModes* sensitivity_;
   TactileSettingsPanel* tactile_;
+  // Joint angles with their heading; absent for a hand without axes.
+  QWidget* joints_;
   FactsView* angles_;
+  std::vector<QString> angleUnits_;
+  // Temperatures with their heading; absent for a hand without temperature sensors.
+  QWidget* heats_;
   FactsView* temperatures_;
   StopKey* stopKey_;
   QTimer timer_;

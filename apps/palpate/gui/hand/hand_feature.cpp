@@ -26,6 +26,7 @@ HandFeature::HandFeature(WindowState& windowState, QWidget* window)
     panel_->setHand(live.source()->session.get(), live.source()->control.get());
   });
   connect(&live, &LiveController::leaving, this, [this] { panel_->setHand(nullptr, nullptr); });
+  connect(&windowState.displayed, &DisplayedSource::handChanged, panel_, &HandDock::updateHand);
   connect(panel_,
           &HandDock::unmeasurableChanged,
           &windowState.derivedResults,

@@ -9,6 +9,8 @@
 #include <QSlider>
 #include <algorithm>
 #include <chrono>
+#include <cmath>
+#include <initializer_list>
 #include <stdexcept>
 
 #include "palpate/device/sdh2.h"
@@ -19,8 +21,8 @@
 namespace palpate::gui {
 namespace {
 
-constexpr int kMostThreshold = 4095;       // [counts]
-constexpr int kMostUsefulThreshold = 600;  // [counts] end of the slider
+// End of the slider of a threshold, as a part of full scale: 600 of 4095 counts.
+constexpr double kMostUsefulThreshold = 600.0 / 4095.0;
 constexpr const char* kPick = "Saved settings…";
 
 enum TactileSettingsPanelColumn { kSquare, kName, kSensitivity, kThreshold };
@@ -39,18 +41,6 @@ TactileSettingsPanel::TactileSettingsPanel(QSettings& settings, QWidget* parent)
     return QInputDialog::getText(this, "Save settings", "Name", QLineEdit::Normal, suggestion);
   };
   table_ = new QWidget(this);
-  auto* grid = new QGridLayout(table_);
-  grid->setContentsMargins(0, 0, 0, 0);
-  grid->setHorizontalSpacing(8);
-  grid->setVerticalSpacing(4);
-  grid->addWidget(tactileSettingsPanelCaption("matrix", table_), 0, kName);
-  grid->addWidget(tactileSettingsPanelCaption("sensitivity", table_), 0, kSensitivity);
-  grid->addWidget(tactileSettingsPanelCaption("threshold, counts", table_), 0, kThreshold);
-  grid->setColumnStretch(kSensitivity, 1);
-  grid->setColumnStretch(kThreshold, 1);
-  makeRow(0, "all");
-  for (const MatrixDescription& matrix : sdh2().matrices)
-    makeRow(static_cast<int>(rows_.size()), QString::fromStdString(matrix.shortName));
   note_ = tactileSettingsPanelCaption({}, this);
   // Keeps room for one line, so that nothing moves when a note appears.
   note_->setMinimumHeight(fontMetrics().lineSpacing());
@@ -60,22 +50,64 @@ TactileSettingsPanel::TactileSettingsPanel(QSettings& settings, QWidget* parent)
   column->addWidget(table_);
   column->addWidget(note_);
   makeButtons();
+  setMatrices(movableHand());
   refresh({}, {});
 }
 
-QWidget* TactileSettingsPanel::makeRow(int row, const QString& name) {
+void TactileSettingsPanel::makeTable() {
+  auto* grid = new QGridLayout(table_);
+  grid->setContentsMargins(0, 0, 0, 0);
+  grid->setHorizontalSpacing(8);
+  grid->setVerticalSpacing(4);
+  grid->addWidget(tactileSettingsPanelCaption("matrix", table_), 0, kName);
+  grid->addWidget(tactileSettingsPanelCaption("sensitivity", table_), 0, kSensitivity);
+  grid->addWidget(tactileSettingsPanelCaption("threshold, counts", table_), 0, kThreshold);
+  grid->setColumnStretch(kSensitivity, 1);
+  grid->setColumnStretch(kThreshold, 1);
+}
+
+void TactileSettingsPanel::setMatrices(const HandDescription& hand) {
+  QStringList names;
+  for (const MatrixDescription& matrix : hand.matrices)
+    names.append(QString::fromStdString(matrix.shortName));
+  const int fullScale = static_cast<int>(hand.maximumCounts);
+  if (names == rowNames_ && fullScale == fullScale_) return;
+  rowNames_ = names;
+  fullScale_ = fullScale;
+  rows_.clear();
+  auto* old = table_;
+  table_ = new QWidget(this);
+  table_->setEnabled(old->isEnabled());
+  makeTable();
+  makeRow(0, "all");
+  for (const QString& name : names) makeRow(static_cast<int>(rows_.size()), name);
+  delete layout()->replaceWidget(old, table_);
+  delete old;
+  // The buttons follow the rows.
+  QWidget* before = rows_.back().threshold;
+  for (QWidget* each : std::initializer_list<QWidget*>{reset_, names_, save_, remove_}) {
+    setTabOrder(before, each);
+    before = each;
+  }
+  setTheme(theme_);
+}
+
+void TactileSettingsPanel::makeRow(int row, const QString& name) {
   auto* grid = static_cast<QGridLayout*>(table_->layout());
   Row made{};
   made.square = new QLabel(table_);
   made.square->setFixedSize(10, 10);
   made.sensitivity =
       new ValueSlider("Sensitivity of " + name, {0.0, 1.0, 1.0, 0.05, 2, {}}, table_);
-  made.threshold = new ValueSlider(
-      "Threshold of " + name, {0.0, kMostThreshold, kMostUsefulThreshold, 1.0, 0, {}}, table_);
+  const double fullScale = fullScale_;
+  made.threshold =
+      new ValueSlider("Threshold of " + name,
+                      {0.0, fullScale, std::round(fullScale * kMostUsefulThreshold), 1.0, 0, {}},
+                      table_);
   made.sensitivity->setObjectName("sensitivity" + QString::number(row - 1));
   made.threshold->setObjectName("threshold" + QString::number(row - 1));
   made.sensitivity->setToolTip("0 lowest .. 1 highest; factory setting 0.5");
-  made.threshold->setToolTip("Counts below are not sent, 0..4095");
+  made.threshold->setToolTip("Counts below are not sent, 0.." + QString::number(fullScale_));
   const int digit = fontMetrics().horizontalAdvance('0');
   constexpr int kFrame = 14;
   made.sensitivity->field()->setFixedWidth(4 * digit + kFrame);
@@ -94,7 +126,6 @@ QWidget* TactileSettingsPanel::makeRow(int row, const QString& name) {
     send({SetThreshold{matrix, static_cast<int>(value)}});
   });
   rows_.push_back(made);
-  return table_;
 }
 
 void TactileSettingsPanel::makeButtons() {

@@ -28,6 +28,8 @@ class TactileSettingsPanel : public QWidget {
   TactileSettingsPanel(QSettings& settings, QWidget* parent);
   // Null: no hand. Both must outlive this, or be replaced by null before they are destroyed.
   void setHand(CaptureSession* session, GraspControl* control);
+  // Shows one row for each matrix of `hand`, and one for all.
+  void setMatrices(const HandDescription& hand);
   // Shows the values that the hand reports, and whether they can be changed now. Call it
   // repeatedly.
   void refresh(const GraspStatus& status, const DeviceInfo& facts);
@@ -50,7 +52,8 @@ class TactileSettingsPanel : public QWidget {
     ValueSlider* sensitivity;
     ValueSlider* threshold;
   };
-  QWidget* makeRow(int row, const QString& name);
+  void makeTable();
+  void makeRow(int row, const QString& name);
   void makeButtons();
   void send(const std::vector<DeviceCommand>& commands);
   void applySettings(const TactileSettings& to);
@@ -64,6 +67,10 @@ class TactileSettingsPanel : public QWidget {
   GraspControl* control_ = nullptr;
   // The first row sets all matrices.
   std::vector<Row> rows_;
+  // Of the rows, without the first.
+  QStringList rowNames_;
+  // [counts], as the controller sends them.
+  int fullScale_ = 0;
   QLabel* note_;
   QWidget* table_;
   QPushButton* reset_;

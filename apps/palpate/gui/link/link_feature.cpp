@@ -77,6 +77,7 @@ void LinkFeature::connectLog() {
             line);
   });
   connect(&live, &LiveController::sourceOpened, this, [this, &live] {
+    noticeLogged_ = false;
     panel_->log("connected: " + describe(live.source()->connection));
   });
   connect(&live, &LiveController::failed, this, [this](const QString& message) {
@@ -127,7 +128,12 @@ void LinkFeature::look() {
   const LinkHealth& health = live.health();
   alarmNotifier_.updateAlarms(source->finished() ? std::vector<Alarm>() : health.alarms,
                               systemClock().monotonicUs());
-  panel_->showHealth(health, live.preflight());
+  const StreamDevice* stream = source->streamDevice();
+  panel_->showHealth(health, live.preflight(), stream ? factsOf(*stream) : std::vector<Fact>());
+  if (stream && !noticeLogged_ && !stream->notice().empty()) {
+    noticeLogged_ = true;
+    panel_->log(QString::fromStdString(stream->notice()));
+  }
 }
 
 std::vector<DockSpec> LinkFeature::docks() {

@@ -51,6 +51,8 @@ class LinkFeature : public Feature {
   AlarmNotifier alarmNotifier_;
   // An alarm appeared after the user closed the banner.
   bool alarmIsNew_ = false;
+  // Whether it was logged where senders of the stream are awaited.
+  bool noticeLogged_ = false;
   std::unique_ptr<OtherPrograms> others_;
 };
 

@@ -7,6 +7,7 @@
 #include <QTime>
 #include <QVBoxLayout>
 
+#include <palpate/core/escaped_line.h>
 #include <palpate/core/time.h>
 
 #include "gui/appearance/captions.h"
@@ -105,6 +106,23 @@ std::vector<Fact> factsOf(const LinkHealth& health) {
   return facts;
 }
 
+std::vector<Fact> factsOf(const StreamDevice& stream) {
+  std::vector<Fact> facts;
+  if (const std::string notice = stream.notice(); !notice.empty())
+    facts.push_back({"senders", QString::fromStdString(notice), stream.isOpenToOthers()});
+  const DeviceInfo info = stream.facts();
+  QString sender = QString::fromStdString(escapedLine(info.serial));
+  if (!info.firmware.empty())
+    sender += (sender.isEmpty() ? "firmware " : ", firmware ") +
+              QString::fromStdString(escapedLine(info.firmware));
+  if (!sender.isEmpty()) facts.push_back({"sender", sender});
+  if (const std::string fault = stream.lastFault(); !fault.empty())
+    facts.push_back({"refused last",
+                     QString::fromStdString(escapedLine(fault)),
+                     !stream.status().tactile.message.empty()});
+  return facts;
+}
+
 LinkPanel::LinkPanel(QWidget* parent) : QWidget(parent) {
   check_ = new QLabel(this);
   check_->setObjectName("preflight");
@@ -175,7 +193,9 @@ void LinkPanel::clear() {
   showCheck();
 }
 
-void LinkPanel::showHealth(const LinkHealth& health, const std::optional<PreflightCheck>& check) {
+void LinkPanel::showHealth(const LinkHealth& health,
+                           const std::optional<PreflightCheck>& check,
+                           const std::vector<Fact>& stream) {
   connected_ = true;
   recording_ = health.recorder.state != RecorderStatus::State::kIdle;
   lastCheck_ = check;
@@ -186,13 +206,16 @@ void LinkPanel::showHealth(const LinkHealth& health, const std::optional<Preflig
     known.diskHours = check->diskHours;
   }
   std::vector<Fact> facts = factsOf(known);
+  // Below the state of the port.
+  facts.insert(facts.begin() + 1, stream.begin(), stream.end());
   if (facts.size() != facts_->facts().size()) {
     facts_->setFacts(std::move(facts));
   } else {
-    bool sameMarks = true;
+    bool sameRows = true;
     for (std::size_t i = 0; i < facts.size(); ++i)
-      sameMarks = sameMarks && facts[i].warning == facts_->facts()[i].warning;
-    if (!sameMarks)
+      sameRows = sameRows && facts[i].warning == facts_->facts()[i].warning &&
+                 facts[i].name == facts_->facts()[i].name;
+    if (!sameRows)
       facts_->setFacts(std::move(facts));
     else
       for (std::size_t i = 0; i < facts.size(); ++i) facts_->setValue(i, facts[i].value);

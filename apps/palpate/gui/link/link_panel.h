@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <palpate/capture/link_health.h>
+#include <palpate/device/stream_device.h>
 #include <palpate/recording/recording_event.h>
 
 #include "gui/appearance/theme.h"
@@ -22,6 +23,9 @@ namespace palpate::gui {
 QString nameOf(PortState state);
 // What is known about the link, one row for each fact; for the dock and for tests.
 std::vector<Fact> factsOf(const LinkHealth& health);
+// Where senders of a stream are awaited and from which machines, who sends, and what was refused
+// last.
+std::vector<Fact> factsOf(const StreamDevice& stream);
 
 class LinkPanel : public QWidget {
   Q_OBJECT
@@ -29,7 +33,10 @@ class LinkPanel : public QWidget {
   explicit LinkPanel(QWidget* parent = nullptr);
   // Shows that nothing is connected; the log is kept.
   void clear();
-  void showHealth(const LinkHealth& health, const std::optional<PreflightCheck>& check);
+  // `stream`: what factsOf() tells of the stream that is received; empty for other connections.
+  void showHealth(const LinkHealth& health,
+                  const std::optional<PreflightCheck>& check,
+                  const std::vector<Fact>& stream = {});
   void showAlarms(const QStringList& alarms);
   // Shows which interfaces are open to other programs; an empty list hides this part.
   void showOtherPrograms(std::vector<Fact> facts);

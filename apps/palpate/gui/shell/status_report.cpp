@@ -114,6 +114,10 @@ void StatusReport::reportLive() {
       "bad " + QString::number(health.badChecksums),
       "saturated " + QString::number(health.frames.saturatedFrames)};
   now.notice = notice();
+  // Until something is sent, where it is awaited.
+  if (const StreamDevice* stream = live.source() ? live.source()->streamDevice() : nullptr;
+      stream && now.notice.isEmpty() && !live.hasReceivedFrames())
+    now.notice = QString::fromStdString(stream->notice());
   now.right = describe(live.connection());
   if (const QString open = OtherPrograms::shortText(windowState_.actions); !open.isEmpty())
     now.right = open + " · " + now.right;

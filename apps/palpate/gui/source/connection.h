@@ -1,15 +1,31 @@
-// Describes what the window connects to: a hand on its ports, the emulated hand, or the replay of a
-// recording. The dialogue Connect edits it; LiveController opens it.
+// Describes what the window connects to: a hand on its ports, a stream of frames, the emulated
+// hand, or the replay of a recording. The dialogue Connect edits it; LiveController opens it.
 #pragma once
 
 #include <QSettings>
 #include <QString>
 #include <array>
 
+#include <palpate/device/stream_device.h>
+
 namespace palpate::gui {
 
+// A stream of frames of any hand, which is read only.
+struct StreamConnection {
+  // As in StreamDeviceOptions::source, but never standard input.
+  QString source = {};
+  // As findHand() takes it: the name of a known hand, or a folder.
+  QString hand = {};
+  StreamFormat format = StreamFormat::kAuto;
+  // Of lines of numbers.
+  StreamTime time = StreamTime::kAuto;
+  // Of a serial port [baud].
+  int baud = 115'200;
+  bool operator==(const StreamConnection&) const = default;
+};
+
 struct Connection {
-  enum class Kind { kPorts, kEmulated, kReplay };
+  enum class Kind { kPorts, kStream, kEmulated, kReplay };
   Kind kind = Kind::kEmulated;
   // For kPorts: addresses as openChannel() takes them. One of the two may be empty.
   // dsaPort is that of the tactile controller, sdhPort that of the motion controller.
@@ -21,12 +37,17 @@ struct Connection {
   bool sceneScriptRuns = false;
   // For kReplay: path of the recording.
   QString recording = {};
+  // For kStream.
+  StreamConnection stream = {};
   bool operator==(const Connection&) const = default;
 };
-inline constexpr std::array kAllConnectionKinds = {
-    Connection::Kind::kPorts, Connection::Kind::kEmulated, Connection::Kind::kReplay};
+inline constexpr std::array kAllConnectionKinds = {Connection::Kind::kPorts,
+                                                   Connection::Kind::kStream,
+                                                   Connection::Kind::kEmulated,
+                                                   Connection::Kind::kReplay};
 
-// "hand on ttyUSB0 and ttyUSB1", "emulated hand · ball", "replay of foam_ball.dsa"
+// "hand on ttyUSB0 and ttyUSB1", "stream from ttyACM0 · my_pad", "emulated hand · ball", "replay of
+// foam_ball.dsa"
 QString describe(const Connection& connection);
 // What is missing before the connection can be tried, one line; empty: nothing.
 QString problemOf(const Connection& connection);

@@ -7,6 +7,7 @@
 #include <palpate/emulator/physical_hand.h>
 #include <palpate/emulator/scene.h>
 #include <palpate/live/signals_stage.h>
+#include <palpate/model/hand_file.h>
 #include <palpate/recording/recording.h>
 
 namespace palpate::gui {
@@ -17,6 +18,17 @@ std::unique_ptr<EmulatedHand> emulatedHand(const Connection& connection,
   Scene scene = loadScene(connection.scene.toStdString(), dataFolder / "scenes");
   if (!connection.sceneScriptRuns) scene.script.clear();
   return std::make_unique<EmulatedHand>(std::make_unique<PhysicalHand>(scene));
+}
+
+std::unique_ptr<Device> streamOf(const StreamConnection& stream,
+                                 const std::filesystem::path& dataFolder) {
+  StreamDeviceOptions options;
+  options.source = stream.source.toStdString();
+  options.hand = findHand(stream.hand.toStdString(), handFolders(dataFolder));
+  options.format = stream.format;
+  options.time = stream.time;
+  options.baud = stream.baud;
+  return std::make_unique<StreamDevice>(std::move(options));
 }
 
 std::unique_ptr<Device> deviceOf(LiveSource& source,
@@ -31,6 +43,8 @@ std::unique_ptr<Device> deviceOf(LiveSource& source,
       if (profile.numFrames() == 0) throw FileError(path, "has no frames: nothing to replay");
       return std::make_unique<Replay>(std::move(profile), ReplayOptions{}, readEvents(path).events);
     }
+    case Connection::Kind::kStream:
+      return streamOf(connection.stream, dataFolder);
     case Connection::Kind::kEmulated:
       source.emulated = emulatedHand(connection, dataFolder);
       ports.dsaPort = source.emulated->dsaPort();
@@ -77,6 +91,10 @@ bool LiveSource::finished() const {
   return replay && replay->finished();
 }
 
+const StreamDevice* LiveSource::streamDevice() const {
+  return session ? dynamic_cast<const StreamDevice*>(&session->device()) : nullptr;
+}
+
 std::unique_ptr<LiveSource> openSource(const Connection& connection,
                                        const std::filesystem::path& dataFolder,
                                        const Progress& progress) {
@@ -112,7 +130,8 @@ std::unique_ptr<LiveSource> openSource(const Connection& connection,
   source->chain = std::make_unique<ProcessingChain>(std::move(stages), std::move(options));
   source->chain->connect(*source->session);
   source->chain->start();
-  if (connection.kind != Connection::Kind::kReplay) {
+  if (connection.kind == Connection::Kind::kPorts ||
+      connection.kind == Connection::Kind::kEmulated) {
     source->control = std::make_unique<GraspControl>(*source->session);
     source->control->run();
   }

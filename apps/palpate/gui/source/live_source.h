@@ -30,6 +30,8 @@ struct LiveSource {
 
   // True for a replay that has reached its end: no more frames arrive, and that is no fault.
   bool finished() const;
+  // The stream that is received; null for other connections.
+  const StreamDevice* streamDevice() const;
 
   Connection connection;
   // Set only for an emulated hand.
@@ -45,7 +47,7 @@ struct LiveSource {
   PressureStage* pressure = nullptr;
   // A stage of `chain`.
   SlipStage* slip = nullptr;
-  // Null for a replay, which can't be moved.
+  // Null for a replay and for a stream, which can't be moved.
   std::unique_ptr<GraspControl> control;
 };
 

@@ -1,0 +1,402 @@
+#include "gui/connect/stream_page.h"
+
+#include <QComboBox>
+#include <QFileDialog>
+#include <QFormLayout>
+#include <QIntValidator>
+#include <QLabel>
+#include <QLineEdit>
+#include <QPushButton>
+#include <QSpinBox>
+#include <QStackedWidget>
+#include <QVBoxLayout>
+#include <stdexcept>
+
+#include <palpate/core/error.h>
+#include <palpate/core/number_text.h>
+#include <palpate/device/stream_device.h>
+#include <palpate/model/hand_file.h>
+
+#include "gui/appearance/captions.h"
+#include "gui/connect/port_field.h"
+#include "gui/widgets/state_mark.h"
+#include "gui/widgets/two_line_delegate.h"
+
+namespace palpate::gui {
+namespace {
+
+constexpr int kUsualPort = 9871;
+constexpr int kHighestPort = 65'535;
+constexpr int kLeastBaud = 50, kMostBaud = 10'000'000;
+constexpr int kHandRole = Qt::UserRole + 2;  // in the form that findHand() takes
+constexpr const char* kTcp = "tcp:";
+constexpr const char* kListenAt = "listen:";
+constexpr const char* kUdpAt = "udp:";
+
+QString streamPageText(const std::string& of) { return QString::fromStdString(of); }
+
+// "matrices 3 x 14x6, 3 x 13x6, 456 taxels; 7 joints, 10 temperatures; 0 to 4095 counts"
+QString handSummaryOf(const HandDescription& hand) {
+  const SensorLayout& layout = *hand.layout;
+  QString summary = (layout.numMatrices() == 1 ? "matrix " : "matrices ") +
+                    streamPageText(sizesText(layout)) + ", " +
+                    streamPageText(counted(layout.numTaxels(), "taxel"));
+  summary +=
+      hand.axes.empty() ? "; no joints" : "; " + streamPageText(counted(hand.axes.size(), "joint"));
+  if (!hand.temperatureSensors.empty())
+    summary += ", " + streamPageText(counted(hand.temperatureSensors.size(), "temperature"));
+  return summary + "; 0 to " + streamPageText(numberText(hand.maximumCounts)) + " " +
+         streamPageText(hand.unit);
+}
+
+// A line of text with a mark in front of it.
+QWidget* markedLine(StateMark*& mark, QLabel*& label, const char* name, Theme theme) {
+  auto* line = new QWidget;
+  mark = new StateMark(theme, line);
+  label = new QLabel(line);
+  label->setObjectName(name);
+  label->setTextFormat(Qt::PlainText);
+  label->setWordWrap(true);
+  label->setProperty("role", "muted");
+  label->setAlignment(Qt::AlignLeft | Qt::AlignTop);
+  // Two lines, so that the layout does not change when the text wraps.
+  label->setMinimumHeight(2 * label->fontMetrics().lineSpacing());
+  auto* row = new QHBoxLayout(line);
+  row->setContentsMargins(0, 0, 0, 0);
+  row->setSpacing(7);
+  row->addWidget(mark, 0, Qt::AlignTop);
+  row->addWidget(label, 1);
+  return line;
+}
+
+QSpinBox* portBox(const char* name, int least) {
+  auto* box = new QSpinBox;
+  box->setObjectName(name);
+  box->setRange(least, kHighestPort);
+  box->setValue(kUsualPort);
+  if (least == 0) box->setSpecialValueText("any free one");
+  return box;
+}
+
+}  // namespace
+
+StreamPage::StreamPage(const std::vector<std::filesystem::path>& handFolders,
+                       PortScan& scan,
+                       Theme theme,
+                       QWidget* parent)
+    : QWidget(parent), folders_(handFolders), scan_(scan) {
+  form_ = new QFormLayout;
+  form_->setContentsMargins(0, 0, 0, 0);
+  form_->setHorizontalSpacing(12);
+  form_->setVerticalSpacing(6);
+  form_->setFieldGrowthPolicy(QFormLayout::AllNonFixedFieldsGrow);
+  place_ = new QComboBox(this);
+  place_->setObjectName("streamPlace");
+  place_->addItems({"Serial port",
+                    "TCP: connect to a sender",
+                    "TCP: wait for a sender",
+                    "UDP: wait for datagrams"});
+  form_->addRow("&Source", place_);
+  form_->addRow("", makePlace(theme));
+  form_->addRow("&Hand", makeHand(theme));
+  makeForm();
+  auto* column = new QVBoxLayout(this);
+  column->setContentsMargins(0, 0, 0, 0);
+  column->addLayout(form_);
+  column->addStretch(1);
+
+  askForFolder = [this] {
+    return QFileDialog::getExistingDirectory(this, "Folder of a hand (with its hand.json)");
+  };
+  connect(place_, &QComboBox::currentIndexChanged, this, &StreamPage::refresh);
+  connect(port_, &PortField::changed, this, &StreamPage::refresh);
+  connect(host_, &QLineEdit::textChanged, this, &StreamPage::refresh);
+  connect(hostPort_, &QSpinBox::valueChanged, this, &StreamPage::refresh);
+  for (const Place place : {kListen, kUdp}) {
+    connect(addresses_[place], &QLineEdit::textChanged, this, &StreamPage::refresh);
+    connect(ports_[place], &QSpinBox::valueChanged, this, &StreamPage::refresh);
+  }
+  for (QComboBox* box : {hand_, format_, time_})
+    connect(box, &QComboBox::currentIndexChanged, this, &StreamPage::refresh);
+  connect(baud_, &QComboBox::editTextChanged, this, &StreamPage::refresh);
+  connect(&scan_, &PortScan::portsListed, this, [this](const QList<ScannedPort>& ports) {
+    port_->setChoices(ports);
+    for (int i = 0; i < ports.size(); ++i)
+      port_->setDetail(i,
+                       streamPageText(ports[i].info.description) +
+                           (ports[i].info.readable ? "" : " · no permission to read it"));
+  });
+  setStream({});
+}
+
+// Disconnects the fields first: when one is destroyed with the keyboard focus, it emits that it was
+// edited.
+StreamPage::~StreamPage() {
+  for (QObject* each : findChildren<QObject*>()) each->disconnect(this);
+}
+
+QWidget* StreamPage::makePlace(Theme theme) {
+  fields_ = new QStackedWidget(this);
+  port_ = new PortField(
+      "&Port", "Choose a port, or type the path of a device or of a pty.", "stream", theme, this);
+  port_->box()->setToolTip("A port of the list, or another device such as /dev/pts/3");
+  auto* connection = new QWidget(this);
+  auto* row = new QHBoxLayout(connection);
+  row->setContentsMargins(0, 0, 0, 0);
+  host_ = new QLineEdit;
+  host_->setObjectName("streamHost");
+  host_->setPlaceholderText("name or address of the machine that sends");
+  hostPort_ = portBox("streamHostPort", 1);
+  row->addWidget(host_, 1);
+  row->addWidget(new QLabel("port"));
+  row->addWidget(hostPort_);
+  fields_->addWidget(port_);
+  fields_->addWidget(connection);
+  for (const Place place : {kListen, kUdp}) {
+    auto* awaiting = new QWidget(this);
+    auto* line = new QHBoxLayout(awaiting);
+    line->setContentsMargins(0, 0, 0, 0);
+    const bool udp = place == kUdp;
+    ports_[place] = portBox(udp ? "streamUdpPort" : "streamListenPort", 0);
+    addresses_[place] = new QLineEdit;
+    addresses_[place]->setObjectName(udp ? "streamUdpAddress" : "streamListenAddress");
+    addresses_[place]->setPlaceholderText("this machine only");
+    addresses_[place]->setToolTip(
+        "Without an address only programs of this machine can send. With one, such as 0.0.0.0 or "
+        "::, any machine that reaches it can");
+    line->addWidget(new QLabel("port"));
+    line->addWidget(ports_[place]);
+    line->addWidget(new QLabel("address"));
+    line->addWidget(addresses_[place], 1);
+    fields_->addWidget(awaiting);
+  }
+  auto* whole = new QWidget(this);
+  auto* column = new QVBoxLayout(whole);
+  column->setContentsMargins(0, 0, 0, 0);
+  column->setSpacing(4);
+  column->addWidget(fields_);
+  column->addWidget(markedLine(placeMark_, placeText_, "streamPlaceText", theme));
+  return whole;
+}
+
+QWidget* StreamPage::makeHand(Theme theme) {
+  auto* whole = new QWidget(this);
+  hand_ = new QComboBox;
+  hand_->setObjectName("streamHand");
+  hand_->setItemDelegate(new TwoLineDelegate(theme, hand_));
+  hand_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
+  for (const KnownHand& each : knownHands(folders_)) handIndex(streamPageText(each.key));
+  hand_->setCurrentIndex(-1);
+  hand_->setPlaceholderText("choose a hand");
+  auto* choose = new QPushButton("Choose f&older…");
+  choose->setObjectName("streamHandFolder");
+  choose->setAutoDefault(false);
+  connect(choose, &QPushButton::clicked, this, [this] {
+    const QString chosen = askForFolder();
+    if (chosen.isEmpty()) return;
+    // The folder may have been corrected since it was read.
+    hands_.remove(chosen);
+    hand_->setCurrentIndex(handIndex(chosen));
+    refresh();
+  });
+  auto* row = new QHBoxLayout;
+  row->addWidget(hand_, 1);
+  row->addWidget(choose);
+  auto* column = new QVBoxLayout(whole);
+  column->setContentsMargins(0, 0, 0, 0);
+  column->setSpacing(4);
+  column->addLayout(row);
+  column->addWidget(markedLine(handMark_, handText_, "streamHandText", theme));
+  whole->setFocusProxy(hand_);
+  return whole;
+}
+
+void StreamPage::makeForm() {
+  format_ = new QComboBox(this);
+  format_->setObjectName("streamFormat");
+  format_->addItem("found by itself", static_cast<int>(StreamFormat::kAuto));
+  format_->addItem("lines of numbers", static_cast<int>(StreamFormat::kLines));
+  format_->addItem("JSON", static_cast<int>(StreamFormat::kJson));
+  format_->addItem("packets", static_cast<int>(StreamFormat::kBinary));
+  time_ = new QComboBox(this);
+  time_->setObjectName("streamTime");
+  time_->addItem("found by itself", static_cast<int>(StreamTime::kAuto));
+  time_->addItem("no time", static_cast<int>(StreamTime::kNone));
+  time_->addItem("seconds", static_cast<int>(StreamTime::kSeconds));
+  time_->addItem("milliseconds", static_cast<int>(StreamTime::kMilliseconds));
+  time_->addItem("microseconds", static_cast<int>(StreamTime::kMicroseconds));
+  time_->setToolTip("The time in lines of numbers; JSON and packets say theirs themselves");
+  baud_ = new QComboBox(this);
+  baud_->setObjectName("streamBaud");
+  baud_->setEditable(true);
+  baud_->setInsertPolicy(QComboBox::NoInsert);
+  baud_->setCompleter(nullptr);
+  baud_->setValidator(new QIntValidator(kLeastBaud, kMostBaud, baud_));
+  for (const int each : {9600, 57'600, 115'200, 230'400, 460'800, 921'600, 1'000'000, 2'000'000})
+    baud_->addItem(QString::number(each));
+  form_->addRow("&Format", format_);
+  form_->addRow("T&ime", time_);
+  form_->addRow("Bau&d rate", baud_);
+  baudRow_ = form_->labelForField(baud_);
+}
+
+StreamPage::Place StreamPage::place() const { return static_cast<Place>(place_->currentIndex()); }
+
+QString StreamPage::source() const {
+  switch (place()) {
+    case kSerial:
+      return port_->port();
+    case kConnect: {
+      const QString host = host_->text().trimmed();
+      return host.isEmpty() ? QString() : kTcp + host + ":" + QString::number(hostPort_->value());
+    }
+    case kListen:
+    case kUdp:
+      break;
+  }
+  QString address = addresses_[place()]->text().trimmed();
+  if (address.contains(':') && !address.startsWith('[')) address = "[" + address + "]";
+  return (place() == kUdp ? kUdpAt : kListenAt) + (address.isEmpty() ? address : address + ":") +
+         QString::number(ports_[place()]->value());
+}
+
+void StreamPage::setSource(const QString& source) {
+  const auto portAndAddress = [](const QString& rest) {
+    const qsizetype colon = rest.lastIndexOf(':');
+    return std::pair(rest.mid(colon + 1).toInt(), colon < 0 ? QString() : rest.left(colon));
+  };
+  if (source.startsWith(kTcp)) {
+    place_->setCurrentIndex(kConnect);
+    const auto [port, host] = portAndAddress(source.mid(4));
+    host_->setText(host);
+    hostPort_->setValue(port);
+    return;
+  }
+  for (const auto& [place, prefix] : {std::pair(kListen, kListenAt), std::pair(kUdp, kUdpAt)}) {
+    if (!source.startsWith(prefix)) continue;
+    place_->setCurrentIndex(place);
+    const auto [port, address] = portAndAddress(source.mid(QString(prefix).size()));
+    addresses_[place]->setText(address);
+    ports_[place]->setValue(port);
+    return;
+  }
+  place_->setCurrentIndex(kSerial);
+  port_->setPort(source);
+}
+
+// Reads the hand if it is not known yet, and adds it to the list.
+int StreamPage::handIndex(const QString& nameOrFolder) {
+  if (!hands_.contains(nameOrFolder)) hands_.insert(nameOrFolder, read(nameOrFolder));
+  const Choice& choice = hands_[nameOrFolder];
+  int index = hand_->findData(nameOrFolder, kHandRole);
+  if (index < 0) {
+    index = hand_->count();
+    hand_->addItem(nameOrFolder.section('/', -1));
+    hand_->setItemData(index, nameOrFolder, kHandRole);
+    hand_->setItemData(index, nameOrFolder, Qt::ToolTipRole);
+  }
+  hand_->setItemData(
+      index, choice.fault.isEmpty() ? choice.summary : choice.fault, TwoLineDelegate::kDetailRole);
+  return index;
+}
+
+StreamPage::Choice StreamPage::read(const QString& nameOrFolder) const {
+  try {
+    return {handSummaryOf(findHand(nameOrFolder.toStdString(), folders_)), {}};
+  } catch (const Error& error) {
+    return {{}, QString::fromUtf8(error.what()).simplified()};
+  }
+}
+
+void StreamPage::setStream(const StreamConnection& stream) {
+  setSource(stream.source);
+  hand_->setCurrentIndex(stream.hand.isEmpty() ? -1 : handIndex(stream.hand));
+  format_->setCurrentIndex(format_->findData(static_cast<int>(stream.format)));
+  time_->setCurrentIndex(time_->findData(static_cast<int>(stream.time)));
+  baud_->setEditText(QString::number(stream.baud));
+  refresh();
+}
+
+StreamConnection StreamPage::stream() const {
+  StreamConnection stream;
+  stream.source = source();
+  stream.hand = hand_->currentData(kHandRole).toString();
+  stream.format = static_cast<StreamFormat>(format_->currentData().toInt());
+  if (time_->isEnabled()) stream.time = static_cast<StreamTime>(time_->currentData().toInt());
+  stream.baud = baud_->currentText().toInt();
+  return stream;
+}
+
+QString StreamPage::sourceProblem() const {
+  const QString source = this->source();
+  if (source.isEmpty()) return {};
+  if (place() == kSerial) {
+    if (source == "-") return "Standard input is for the command line: palpate record --stream -.";
+    for (const char* prefix : {kTcp, kListenAt, kUdpAt})
+      if (source.startsWith(prefix)) return "This is a network name: choose TCP or UDP as source.";
+    const int baud = baud_->currentText().toInt();
+    if (baud < kLeastBaud || baud > kMostBaud) return "The baud rate is not in 50..10000000.";
+    return {};
+  }
+  try {
+    StreamDevice({.source = source.toStdString(), .hand = sdh2()});
+  } catch (const std::invalid_argument& wrong) {
+    return QString::fromUtf8(wrong.what()).simplified();
+  }
+  return {};
+}
+
+QString StreamPage::problem() const {
+  if (const QString wrong = sourceProblem(); !wrong.isEmpty()) return wrong;
+  const QString fault = hands_.value(hand_->currentData(kHandRole).toString()).fault;
+  return fault.isEmpty() ? fault : "This hand can't be used: " + fault;
+}
+
+void StreamPage::look() { scan_.listOnly(); }
+
+void StreamPage::refresh() {
+  const bool serial = place() == kSerial;
+  fields_->setCurrentIndex(place());
+  baud_->setVisible(serial);
+  baudRow_->setVisible(serial);
+  const auto format = static_cast<StreamFormat>(format_->currentData().toInt());
+  time_->setEnabled(format == StreamFormat::kAuto || format == StreamFormat::kLines);
+
+  const QString wrong = sourceProblem();
+  QString where;
+  bool open = false;
+  if (!wrong.isEmpty()) {
+    where = wrong;
+  } else if (place() == kListen || place() == kUdp) {
+    const QString port = ports_[place()]->value() == 0
+                             ? "a free port, which the dock Link then names,"
+                             : "port " + QString::number(ports_[place()]->value());
+    open = StreamDevice({.source = source().toStdString(), .hand = sdh2()}).isOpenToOthers();
+    where = QString(place() == kUdp ? "Datagrams are" : "A sender is") + " awaited at " + port +
+            ". " +
+            (open ? "Any machine that reaches this address can send: there is neither a password "
+                    "nor encryption."
+                  : "Only programs of this machine can send.");
+  } else if (serial) {
+    where = "8 data bits, no parity, 1 stop bit. Nothing is sent to the device.";
+  } else {
+    where = host_->text().trimmed().isEmpty()
+                ? "The machine and the port at which the sender waits."
+                : "The connection is tried until the sender answers.";
+  }
+  placeText_->setText(where);
+  placeMark_->setState(!wrong.isEmpty() ? StateMark::State::kBad
+                       : open           ? StateMark::State::kWarning
+                                        : StateMark::State::kNone);
+  const QString name = hand_->currentData(kHandRole).toString();
+  const Choice choice = hands_.value(name);
+  handText_->setText(name.isEmpty()           ? "The hand whose frames are sent."
+                     : choice.fault.isEmpty() ? choice.summary
+                                              : choice.fault);
+  handMark_->setState(name.isEmpty()           ? StateMark::State::kNone
+                      : choice.fault.isEmpty() ? StateMark::State::kGood
+                                               : StateMark::State::kBad);
+  emit changed();
+}
+
+}  // namespace palpate::gui
