@@ -1,14 +1,19 @@
 // The window on a stream of another hand: shown, recorded, lost, found again; what such a hand
 // lacks is absent.
 #include <QDockWidget>
+#include <QDoubleSpinBox>
 #include <QLabel>
-#include <QPushButton>
+#include <QStackedWidget>
 #include <filesystem>
 
 #include <palpate/model/hand_file.h>
 #include <palpate/recording/recording.h>
 
+#include "gui/calibrate/force_page.h"
 #include "gui/connect/stream_fixture.h"
+#include "gui/matrices/matrices_feature.h"
+#include "gui/matrices/matrices_panel.h"
+#include "gui/matrices/taxel_text.h"
 #include "gui/widgets/facts_view.h"
 #include "gui/widgets/status_strip.h"
 
@@ -137,6 +142,59 @@ TEST_F(StreamShownTest, AnglesAndTemperaturesAreShownInTheirUnits) {
     return facts.size() == 1 && facts[0].value == "12.5 mm";
   }));
   EXPECT_EQ(find<QWidget>("handTemperatures")->isHidden(), gripper.temperatureSensors.empty());
+}
+
+// The texts of a widget's labels and of the facts in it that can be seen.
+QString visibleText(QWidget* in) {
+  QStringList all;
+  for (QLabel* each : in->findChildren<QLabel*>())
+    if (each->isVisible()) all.append(each->text());
+  for (FactsView* each : in->findChildren<FactsView*>())
+    if (each->isVisible())
+      for (const Fact& fact : each->facts()) all.append(fact.name + ": " + fact.value);
+  return all.join('\n');
+}
+
+TEST_F(StreamShownTest, NothingIsSaidOfJointsTemperaturesAndMotionThatAPadLacks) {
+  show("flat_pad_16x16", padValues());
+  for (const char* dock : {"Inspect", "Hand", "Link", "Timeline"}) {
+    auto* shown = find<QDockWidget>(dock);
+    shown->show();
+    shown->raise();
+    QCoreApplication::processEvents();
+    const QString text = visibleText(shown);
+    EXPECT_FALSE(text.isEmpty()) << dock;
+    for (const char* absent : {"oint", "emperature", "°C", "firmware", "reshape", "motion"})
+      EXPECT_FALSE(text.contains(absent)) << dock << ": " << text.toStdString();
+  }
+}
+
+TEST_F(StreamShownTest, ValuesHaveTheUnitAndTheFullScaleOfTheHand) {
+  const HandDescription& sole = builtInHand("sole");
+  std::vector<float> values(sole.layout->numCells(), 0.0F);
+  const MatrixLayout& first = sole.layout->matrix(0);
+  int x = 0;
+  while (!first.exists(0, x)) ++x;
+  values[static_cast<std::size_t>(x)] = 12.5F;
+  show("sole", values);
+  auto& panel = window().feature<MatricesFeature>().panel();
+  EXPECT_EQ(taxelText(sole, {0, 0, x}, window().state().currentFrame.frame(), nullptr),
+            QString::fromStdString(sole.matrixName(0)) + " · x " + QString::number(x) +
+                ", y 0 · 12.50 kPa");
+  EXPECT_TRUE(find<QDoubleSpinBox>("rangeMaximum")->toolTip().endsWith("in kPa"));
+  // A light touch is not shown in the brightest colour: a part of full scale is.
+  EXPECT_NEAR(panel.pictureOptions().rangeMax,
+              static_cast<double>(sole.maximumCounts) * 500.0 / 4095.0,
+              1.0);
+  window().state().appearance.change(
+      [](ViewSettings& view) { view.range = RangeMode::kFullScale; });
+  EXPECT_EQ(panel.pictureOptions().rangeMax, static_cast<double>(sole.maximumCounts));
+  // Nothing to calibrate.
+  find<QDockWidget>("Calibrate")->show();
+  auto* force = window().findChild<ForcePage*>();
+  qobject_cast<QStackedWidget*>(force->parentWidget())->setCurrentWidget(force);
+  EXPECT_EQ(force->emptyText(),
+            "The values of this hand are kPa already: there is nothing to calibrate.");
 }
 
 }  // namespace

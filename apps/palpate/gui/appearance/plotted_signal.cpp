@@ -22,10 +22,10 @@ QString nameOf(PlottedSignal signal) {
   return "mean";
 }
 
-QString unitOf(PlottedSignal signal) {
+QString unitOf(PlottedSignal signal, const QString& handUnit) {
   if (signal == PlottedSignal::kActive) return "taxels";
   if (signal == PlottedSignal::kArea) return "mm²";
-  return "counts";
+  return handUnit;
 }
 
 PlottedSignal plottedSignalFrom(const QString& name) {

@@ -51,6 +51,12 @@ QString textIn(const Json& json, const char* key) {
 
 }  // namespace
 
+QString notCalibratable(const HandDescription& hand) {
+  if (hand.unit == "counts") return {};
+  return "The values of this hand are " + QString::fromStdString(hand.unit) +
+         " already: there is nothing to calibrate.";
+}
+
 QString formulaOf(const Surface& surface, const QString& x) {
   constexpr int kDigits = 4;
   QString text;

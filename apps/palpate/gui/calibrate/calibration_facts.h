@@ -16,6 +16,9 @@ namespace palpate::gui {
 // left out; `x` is the name of the first variable.
 QString formulaOf(const Surface& surface, const QString& x);
 std::vector<Fact> calibrationFacts(const Calibration& calibration);
+// Why the values of this hand can't be calibrated, in one sentence: they have a physical unit
+// already. Empty when they are counts.
+QString notCalibratable(const HandDescription& hand);
 // Tables for export and copying: the samples of a calibration, each with the pressure that the
 // calibration gives for it; and any list of facts.
 TextTable sampleTable(const ShownCalibrationPtr& shown);

@@ -13,6 +13,7 @@
 #include <palpate/core/number_text.h>
 
 #include "gui/appearance/captions.h"
+#include "gui/calibrate/calibration_facts.h"
 #include "gui/calibrate/force_chart.h"
 #include "gui/widgets/figures_table.h"
 #include "gui/widgets/notes_label.h"
@@ -234,6 +235,7 @@ void ForcePage::showCalibration() {
 QString ForcePage::emptyReason() const {
   if (QString why = ComputedPage::emptyReason(); !why.isEmpty() && !live()) return why;
   if (live() && !liveHand_) return "Waiting for the hand.";
+  if (const QString why = notCalibratable(*hand()); !why.isEmpty()) return why;
   if (appliedCalibration(settings_, handName()).isEmpty())
     return "No calibration is applied to this hand: its values are counts.\n\nMake one on the page "
            "Pressure, or choose a saved one.";

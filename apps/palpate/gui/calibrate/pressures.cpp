@@ -7,12 +7,15 @@
 
 #include <palpate/core/error.h>
 
+#include "gui/appearance/hand_unit.h"
 #include "gui/calibrate/force_page.h"
 
 namespace palpate::gui {
 namespace {
 
-constexpr const char* kNone = "none: values are counts";
+QString noCalibration(const HandDescription* hand) {
+  return "none: values are " + (hand ? unitOf(*hand) : QString("counts"));
+}
 
 }  // namespace
 
@@ -46,7 +49,7 @@ void Pressures::renew() {
   if (of_ && *of_ == now) return;
   of_ = std::move(now);
   reader_.reset();
-  QString text = path.isEmpty() ? QString(kNone) : QFileInfo(path).fileName();
+  QString text = path.isEmpty() ? noCalibration(displayed.hand()) : QFileInfo(path).fileName();
   try {
     if (source)
       renewLive(path);

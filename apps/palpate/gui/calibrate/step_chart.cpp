@@ -156,7 +156,7 @@ void StepChart::style() {
 }
 
 void StepChart::nameAxes() {
-  const QString unit = unitOf(signal_);
+  const QString unit = unitOf(signal_, "counts");
   yAxis->setLabel(fittingName(nameOf(signal_) + " in " + unit, unit, *this));
   residual_->setLabel(height() < 260 ? QString() : "residual");
   time_->setLabel("time from the step's begin in s");
@@ -181,7 +181,7 @@ QString StepChart::valuesAt(const QPointF& at) const {
   if (found == graph(kData)->data()->constBegin()) return {};
   --found;
   QString text = figure(found->key, 3) + " s\n" + nameOf(signal_) + " " + figure(found->value, 1) +
-                 " " + unitOf(signal_);
+                 " " + unitOf(signal_, "counts");
   if (step_.fit.converged) {
     const double fitted = stepResponse(step_.fit.parameters, found->key);
     text += "\nfit " + figure(fitted, 1) + ", residual " + figure(found->value - fitted, 2);

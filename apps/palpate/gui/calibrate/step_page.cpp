@@ -15,6 +15,7 @@
 #include <palpate/core/number_text.h>
 
 #include "gui/appearance/captions.h"
+#include "gui/calibrate/calibration_facts.h"
 #include "gui/calibrate/step_chart.h"
 #include "gui/widgets/figures_table.h"
 #include "gui/widgets/notes_label.h"
@@ -264,6 +265,11 @@ void StepPage::take(const std::shared_ptr<const FoundSteps>& found) {
   const QSignalBlocker blocker(table_);
   table_->selectRow(0);
   showStep(0);
+}
+
+QString StepPage::emptyReason() const {
+  const QString why = ComputedPage::emptyReason();
+  return why.isEmpty() ? notCalibratable(recording()->profile.hand()) : why;
 }
 
 void StepPage::choose(std::size_t step) { table_->selectRow(static_cast<int>(step)); }

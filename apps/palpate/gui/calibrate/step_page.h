@@ -50,6 +50,7 @@ class StepPage : public ComputedPage {
   void foundChanged();
 
  protected:
+  QString emptyReason() const override;
   void compute() override;
   void forget() override;
   void resizeEvent(QResizeEvent* event) override;

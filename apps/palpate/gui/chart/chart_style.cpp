@@ -62,10 +62,11 @@ QString fittingName(const QString& name, const QString& shortName, const QWidget
   return fits ? name : shortName;
 }
 
-QString signalAxisName(PlottedSignal signal, const QWidget& plot) {
+QString signalAxisName(PlottedSignal signal, const QString& handUnit, const QWidget& plot) {
   QString whole = nameOf(signal);
-  if (!whole.endsWith(unitOf(signal))) whole += " in " + unitOf(signal);
-  return fittingName(whole, unitOf(signal), plot);
+  const QString unit = unitOf(signal, handUnit);
+  if (!whole.endsWith(unit)) whole += " in " + unit;
+  return fittingName(whole, unit, plot);
 }
 
 void styleExtraAxis(QCPAxis& axis, const QWidget& plot, Theme theme) {

@@ -22,16 +22,18 @@ struct PlottedCurve {
   QPen pen;
 };
 
-QString unitOf(const SeriesChoice& choice);
-// Name of the axis: "mean in counts", "taxels in counts", "joint angle in °", "temperature in °C".
-QString axisNameOf(const SeriesChoice& choice);
+QString unitOf(const SeriesChoice& choice, const HandDescription& hand);
+// Name of the axis: "mean in counts", "taxels in counts", "joint angle in °", "joint position in
+// mm", "temperature in °C".
+QString axisNameOf(const SeriesChoice& choice, const HandDescription& hand);
 
 PlottedCurve matrixCurve(const HandDescription& hand,
                          std::size_t row,
                          SignalKind signal,
                          Theme theme);
 // `place`: index among the taxel curves, which decides the colour.
-PlottedCurve taxelCurve(const TaxelSelection& taxels,
+PlottedCurve taxelCurve(const HandDescription& hand,
+                        const TaxelSelection& taxels,
                         const QString& name,
                         std::size_t place,
                         Theme theme);

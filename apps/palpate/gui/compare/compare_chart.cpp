@@ -87,7 +87,7 @@ void CompareChart::rebuild() {
   clearGraphs();
   clearItems();
   contact_ = nullptr;
-  yAxis->setLabel(signalAxisName(curves_.signal, *this));
+  yAxis->setLabel(signalAxisName(curves_.signal, curves_.handUnit, *this));
   for (const CompareSide side : {CompareSide::kA, CompareSide::kB}) {
     QCPGraph* graph = addGraph();
     QPen pen(sideColor(side, theme_), 1.6);
@@ -245,7 +245,7 @@ void CompareChart::wheelEvent(QWheelEvent* event) {
 
 void CompareChart::resizeEvent(QResizeEvent* event) {
   QCustomPlot::resizeEvent(event);
-  yAxis->setLabel(signalAxisName(curves_.signal, *this));
+  yAxis->setLabel(signalAxisName(curves_.signal, curves_.handUnit, *this));
   constexpr int kLow = 130;  // [px]; lower: fewer ticks
   yAxis->ticker()->setTickCount(event->size().height() < kLow ? 2 : 4);
   refill();
@@ -261,8 +261,8 @@ QString CompareChart::valuesAt(double seconds) const {
     text += "\n" + QString(name) + "  ";
     const auto frame = timed.frameAt(at);
     if (!frame || !series || *frame >= series->values.size()) return text += "no frame", void();
-    text += QString::number(series->values[*frame], 'f', 1) + " " + unitOf(curves_.signal) +
-            " · frame " + QString::number(*frame);
+    text += QString::number(series->values[*frame], 'f', 1) + " " +
+            unitOf(curves_.signal, curves_.handUnit) + " · frame " + QString::number(*frame);
   };
   line("A", *curves_.a, curves_.curveA, seconds);
   line("B", *curves_.b, curves_.curveB, seconds - curves_.offsetS);

@@ -23,6 +23,8 @@ struct CompareCurves {
   std::shared_ptr<const Series> curveA, curveB;
   double offsetS = 0.0;
   PlottedSignal signal = PlottedSignal::kMean;
+  // Unit of A's values.
+  QString handUnit = "counts";
 };
 
 class CompareChart : public QCustomPlot {

@@ -14,6 +14,7 @@
 #include <palpate/core/number_text.h>
 
 #include "gui/appearance/difference_map.h"
+#include "gui/appearance/hand_unit.h"
 #include "gui/chart/chart_picture.h"
 #include "gui/compare/compare_chart.h"
 #include "gui/compare/compare_header.h"
@@ -436,13 +437,16 @@ void ComparePanel::showEmpty() {
                          : QString("Open two recordings to compare them."));
 }
 
+QString ComparePanel::handUnit() const { return a_ ? unitOf(a_->profile.hand()) : QString(); }
+
 void ComparePanel::showCurves() {
   chart_->setCurves({.a = answer_.a,
                      .b = answer_.b,
                      .curveA = answer_.curveA,
                      .curveB = answer_.curveB,
                      .offsetS = answer_.offsetS,
-                     .signal = settings_.signal});
+                     .signal = settings_.signal,
+                     .handUnit = handUnit()});
 }
 
 QString ComparePanel::captionOf(bool ofB, const std::optional<std::size_t>& frame) const {
@@ -599,7 +603,7 @@ QString ComparePanel::figures() const {
   }
   const CurveComparison& found = *answer_.figures;
   if (found.samples == 0) return "no common time";
-  const QString unit = " " + unitOf(settings_.signal);
+  const QString unit = " " + unitOf(settings_.signal, handUnit());
   return "correlation " +
          (found.correlation ? figure(*found.correlation, 3) : QString("not defined")) +
          " · A − B: mean " + signedText(found.meanDifference, 1) + ", rms " +
@@ -654,11 +658,12 @@ TextTable ComparePanel::differenceTable() const {
     names.emplace_back("all");
   }
   const std::size_t numRows = rows.size();
+  const std::string unit = handUnit().toStdString();
   return {.header = {"matrix",
                      "touched",
-                     "difference_mean [counts]",
-                     "difference_rms [counts]",
-                     "difference_largest [counts]",
+                     "difference_mean [" + unit + "]",
+                     "difference_rms [" + unit + "]",
+                     "difference_largest [" + unit + "]",
                      "y",
                      "x"},
           .numRows = numRows,
@@ -680,7 +685,7 @@ TextTable ComparePanel::curveTable() const {
   TextTable table{.header = {"time_s", "frame_a", "a", "frame_b", "b"}};
   if (!answer_.curveA || !answer_.a || !answer_.b) return table;
   const std::string unit = " " + gui::nameOf(settings_.signal).toStdString() + " [" +
-                           unitOf(settings_.signal).toStdString() + "]";
+                           unitOf(settings_.signal, handUnit()).toStdString() + "]";
   table.header[2] += unit;
   table.header[4] += unit;
   table.numRows = answer_.curveA->timeS.size();

@@ -104,6 +104,8 @@ class ComparePanel : public QWidget {
   // Showing the results.
   void showEmpty();
   void showCurves();
+  // Unit of the values of A.
+  QString handUnit() const;
   void showFrames();
   void showLook();
   void showNotice();

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "gui/appearance/difference_map.h"
+#include "gui/appearance/hand_unit.h"
 
 namespace palpate::gui {
 namespace {
@@ -124,7 +125,7 @@ QString CompareView::valueText(CompareGroup group) const {
   if (frame.values.size() != hand.layout->numCells()) return "no frame";
   const auto value = static_cast<double>(frame.matrix(hover_->matrix)(hover_->y, hover_->x));
   const int decimals = value == std::round(value) ? 0 : 2;
-  if (group == CompareGroup::kDifference) return signedText(value, decimals) + " counts";
+  if (group == CompareGroup::kDifference) return signedText(value, decimals) + " " + unitOf(hand);
   return QString::number(value, 'f', decimals) +
          (frame.matrix(hover_->matrix)(hover_->y, hover_->x) >= hand.saturationCounts
               ? " (saturated)"

@@ -136,7 +136,8 @@ void paintHandOverlay(QPainter& painter,
           kHandPictureBarWidth,
           height);
       painter.setRenderHint(QPainter::Antialiasing, false);
-      paintColorBar(painter, bar, lookOf(options, drawing).range, options.page);
+      paintColorBar(
+          painter, bar, lookOf(options, drawing).range, withUnit(options.page, drawing.hand()));
     }
   }
   painter.restore();

@@ -303,10 +303,11 @@ void HandSceneBuilder::addTaxels(HandScene& scene, const HandLook& look) const {
   const bool bars = look.taxels == TaxelShape::kBars || look.taxels == TaxelShape::kFlatBars;
   const double span = std::max(1e-9, look.range.maximum - look.range.minimum);
   const SensorLayout& layout = *hand_->layout;
+  const float least = leastSeen(*hand_);
   eachTaxel(layout, look, [&](std::size_t place, std::size_t m, int y, int x) {
     const TaxelPatch& patch = places[place];
     const float value = handState_.frame ? handState_.frame->allValues()[place] : 0.0F;
-    const bool active = handState_.frame && isSeen(handState_.frame->values[place], value);
+    const bool active = handState_.frame && isSeen(handState_.frame->values[place], value, least);
     const bool scanned = layout.matrix(m).enabled(y, x);
     const QRgb color =
         active ? table[static_cast<std::size_t>(colorIndex(

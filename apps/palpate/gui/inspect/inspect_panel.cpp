@@ -8,6 +8,7 @@
 #include <palpate/core/time.h>
 
 #include "gui/appearance/captions.h"
+#include "gui/appearance/hand_unit.h"
 
 namespace palpate::gui {
 namespace {
@@ -28,7 +29,8 @@ std::vector<Fact> inspectPanelFactsOf(const OpenedRecording& recording,
   const ProfileInfo& info = profile.info();
   std::vector<Fact> facts;
   facts.push_back({"file", QString::fromStdString(recording.path.filename().string())});
-  const QString type = info.valueType == ValueType::kCounts ? "counts" : "float values";
+  const HandDescription& hand = profile.hand();
+  const QString type = info.valueType == ValueType::kCounts ? unitOf(hand) : "float values";
   facts.push_back({"format", QString::fromStdString(info.format) + ", " + type});
   facts.push_back({"hand", QString::fromStdString(profile.hand().name)});
   if (!info.serial.empty()) facts.push_back({"serial", QString::fromStdString(info.serial)});
@@ -57,8 +59,9 @@ std::vector<Fact> inspectPanelFactsOf(const OpenedRecording& recording,
                        : QString::number(enabled) + " of " + QString::number(taxels) + " scanned",
                    enabled != taxels});
   const auto maximum = recording.maximumNow();
-  facts.push_back(
-      {"largest value", maximum ? figure(*maximum, 0) + " counts" : QString("being counted")});
+  facts.push_back({"largest value",
+                   maximum ? figure(*maximum, decimalsOf(hand)) + " " + unitOf(hand)
+                           : QString("being counted")});
   const auto saturated = recording.saturatedFramesNow();
   facts.push_back({"saturated frames",
                    saturated ? QString::number(*saturated) : QString("being counted"),
@@ -128,10 +131,12 @@ InspectPanel::InspectPanel(QWidget* parent) : QScrollArea(parent) {
   left->addStretch(1);
   auto* right = new QVBoxLayout;
   right->setSpacing(4);
-  right->addWidget(sectionHeading("Joint angles", content));
+  anglesHeading_ = sectionHeading("Joint angles", content);
+  temperaturesHeading_ = sectionHeading("Temperatures", content);
+  right->addWidget(anglesHeading_);
   right->addWidget(angles_);
   right->addSpacing(12);
-  right->addWidget(sectionHeading("Temperatures", content));
+  right->addWidget(temperaturesHeading_);
   right->addWidget(temperatures_);
   right->addStretch(1);
   columns_ = new QBoxLayout(QBoxLayout::LeftToRight);
@@ -203,8 +208,16 @@ void InspectPanel::setHand(const HandDescription& hand) {
 
 void InspectPanel::listSensors(const HandDescription& hand, bool angles, bool temperatures) {
   std::vector<Fact> rows;
-  for (const AxisDescription& axis : hand.axes)
+  angleUnits_.clear();
+  for (const AxisDescription& axis : hand.axes) {
+    angleUnits_.push_back(unitOf(axis));
     if (angles) rows.push_back({QString::fromStdString(axis.name), "–"});
+  }
+  // What the hand lacks is absent; what the recording lacks is said.
+  for (QWidget* each : std::initializer_list<QWidget*>{anglesHeading_, angles_})
+    each->setVisible(!hand.axes.empty());
+  for (QWidget* each : std::initializer_list<QWidget*>{temperaturesHeading_, temperatures_})
+    each->setVisible(!hand.temperatureSensors.empty());
   angles_->setFacts(rows.empty() ? noneOf() : rows);
   rows.clear();
   for (const auto& sensor : hand.temperatureSensors)
@@ -232,8 +245,10 @@ void InspectPanel::showFrame(std::size_t frame,
 }
 
 void InspectPanel::showAngles(const JointAngles& angles) {
-  for (std::size_t i = 0; i < std::min(angles.deg.size(), angles_->facts().size()); ++i)
-    angles_->setValue(i, figure(angles.deg[i], 1) + "°");
+  const std::size_t rows =
+      std::min({angles.deg.size(), angles_->facts().size(), angleUnits_.size()});
+  for (std::size_t i = 0; i < rows; ++i)
+    angles_->setValue(i, figure(angles.deg[i], 1) + angleUnits_[i]);
 }
 
 void InspectPanel::showTemperatures(const Temperatures& temperatures) {

@@ -58,6 +58,9 @@ class InspectPanel : public QScrollArea {
   QLabel* heading_;
   FactsView* facts_;
   QLabel* eventsHeading_;
+  QLabel* anglesHeading_;
+  QLabel* temperaturesHeading_;
+  std::vector<QString> angleUnits_;
   FactsView* events_;
   FactsView* angles_;
   FactsView* temperatures_;

@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "gui/appearance/captions.h"
+#include "gui/appearance/hand_unit.h"
 
 namespace palpate::gui {
 namespace {
@@ -69,6 +70,7 @@ void MatrixTableModel::setRecording(const OpenedRecordingPtr& recording) {
   forces_.clear();
   if (recording_) {
     hand_ = recording_->profile.hand();
+    decimals_ = decimalsOf(hand_);
     shown_.resize(recording_->numMatrices() + 1);
     // Matrices that were never touched aren't plotted, nor is the sum of all until the user asks
     // for it.
@@ -83,6 +85,7 @@ void MatrixTableModel::setHand(const HandDescription& hand) {
   beginResetModel();
   recording_.reset();
   hand_ = hand;
+  decimals_ = decimalsOf(hand);
   shown_.assign(hand.layout->numMatrices() + 1, {});
   forces_.clear();
   plotted_.assign(hand.layout->numMatrices(), true);
@@ -94,6 +97,7 @@ void MatrixTableModel::setHand(const HandDescription& hand) {
 void MatrixTableModel::renewHand(const HandDescription& hand) {
   if (recording_ || hand.layout->numMatrices() != numMatrices()) return setHand(hand);
   hand_ = hand;
+  decimals_ = decimalsOf(hand);
   emit dataChanged(index(0, 0), index(rowCount() - 1, kNumColumns - 1));
 }
 
@@ -161,15 +165,15 @@ QString MatrixTableModel::text(std::size_t row, int column) const {
     case kActive:
       return QString::number(now.active);
     case kMean:
-      return now.active == 0 ? "–" : QString::number(now.mean, 'f', 0);
+      return now.active == 0 ? "–" : QString::number(now.mean, 'f', decimals_);
     case kMaximum:
-      return now.active == 0 ? "–" : QString::number(now.maximum, 'f', 0);
+      return now.active == 0 ? "–" : QString::number(now.maximum, 'f', decimals_);
     case kForce:
       return row < forces_.size() ? figure(forces_[row].newtons, 2) : QString("–");
     case kMinimum:
-      return now.active == 0 ? "–" : QString::number(now.minimum, 'f', 0);
+      return now.active == 0 ? "–" : QString::number(now.minimum, 'f', decimals_);
     case kSum:
-      return QString::number(now.sum, 'f', 0);
+      return QString::number(now.sum, 'f', decimals_);
     case kArea:
       return QString::number(now.areaMm2, 'f', 0);
     default:
@@ -238,14 +242,15 @@ QVariant MatrixTableModel::headerData(int section, Qt::Orientation orientation, 
   static const char* const names[] = {"matrix", "active", "mean", "max", "N", "min", "sum", "mm²"};
   static const char* const tips[] = {"Sensor matrix; tick to plot it in the timeline",
                                      "Taxels with a value above 0",
-                                     "Mean of the active taxels in counts",
-                                     "Largest value in counts",
+                                     "Mean of the active taxels in %1",
+                                     "Largest value in %1",
                                      "Force in newtons; needs a calibration (Calibrate)",
-                                     "Smallest value of the active taxels in counts",
-                                     "Sum of all values in counts",
+                                     "Smallest value of the active taxels in %1",
+                                     "Sum of all values in %1",
                                      "Area of the active taxels in mm²"};
   if (role == Qt::DisplayRole) return names[section];
-  if (role == Qt::ToolTipRole) return tips[section];
+  if (role == Qt::ToolTipRole)
+    return QString(tips[section]).replace("%1", hand_.layout ? unitOf(hand_) : QString("counts"));
   return {};
 }
 

@@ -67,6 +67,8 @@ class MatrixTableModel : public QAbstractTableModel {
 
   OpenedRecordingPtr recording_;
   HandDescription hand_;
+  // Of values, for this hand.
+  int decimals_ = 0;
   // Signals of the current frame, the whole hand last.
   std::vector<CharacteristicSignals> shown_;
   // In the order of shown_, or empty.

@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "gui/appearance/difference_map.h"
+#include "gui/appearance/hand_unit.h"
 #include "gui/matrices/heat_image.h"
 
 namespace palpate::gui {
@@ -18,8 +19,6 @@ constexpr double kGridLine = 1.0;        // [px] between squares
 constexpr double kValuesFrom = 11.0;     // [px] below this side numbers can't be read
 constexpr double kSmallestFontPx = 5.0;  // of values [px]
 constexpr double kLargestFontPx = 15.0;
-// Least value at which a taxel is drawn that wasn't active as recorded.
-constexpr float kLeastSeenCounts = 0.5F;
 
 QRectF squareOf(const QRectF& taxel) {
   if (taxel.width() < kGridFrom) return taxel;
@@ -112,11 +111,14 @@ QColor contrasting(const QColor& background) {
   return luminance > 0.179 ? Qt::black : Qt::white;
 }
 
-// The font of the values: as large as "4095" allows in a square.
-QFont valueFont(const MatricesPictureOptions& options, double side) {
+// The font of the values: as large as full scale, such as "4095", allows in a square.
+QFont valueFont(const MatricesPictureOptions& options, const HandDescription& hand, double side) {
   QFont font = options.font;
-  // "4095" is about 2.6 times as wide as the font size.
-  const double widthPerPx = options.difference ? 3.3 : 2.62;
+  const auto digits = QString::number(static_cast<double>(hand.maximumCounts), 'f', 0).size() +
+                      (decimalsOf(hand) > 0 ? decimalsOf(hand) + 1 : 0);
+  // Four digits are about 2.6 times as wide as the font size.
+  const double widthPerPx =
+      (options.difference ? 3.3 : 2.62) * static_cast<double>(std::max<qsizetype>(4, digits)) / 4.0;
   const double px = std::clamp((side - 2.0) / widthPerPx, kSmallestFontPx, kLargestFontPx);
   font.setPixelSize(std::max(1, static_cast<int>(std::lround(px))));
   return font;
@@ -195,12 +197,17 @@ void paintMatricesBackground(QPainter& painter,
     }
   }
   if (geometry.numMatrices() > 0 && options.colorBar)
-    paintColorBar(painter, geometry.colorBarRect(), range, options);
+    paintColorBar(painter, geometry.colorBarRect(), range, withUnit(options, hand));
   painter.restore();
 }
 
-bool isSeen(float contact, float value) noexcept {
-  return contact > 0.0F || value >= kLeastSeenCounts;
+MatricesPictureOptions withUnit(MatricesPictureOptions options, const HandDescription& hand) {
+  if (options.unit.isEmpty()) options.unit = unitOf(hand);
+  return options;
+}
+
+float leastSeen(const HandDescription& hand) {
+  return 0.5F * std::pow(10.0F, -static_cast<float>(decimalsOf(hand)));
 }
 
 void paintMatrixValues(QPainter& painter,
@@ -228,11 +235,13 @@ void paintMatrixValues(QPainter& painter,
                                            : plainHeatImage(values, layout, image));
   }
   const bool withText = options.values && side >= kValuesFrom;
-  if (withText) painter.setFont(valueFont(options, side));
+  const int decimals = decimalsOf(hand);
+  const float least = leastSeen(hand);
+  if (withText) painter.setFont(valueFont(options, hand, side));
   for (int y = 0; y < layout.rows; ++y) {
     for (int x = 0; x < layout.columns; ++x) {
       const float value = values(y, x);
-      const bool seen = options.difference ? value != 0.0F : isSeen(contact(y, x), value);
+      const bool seen = options.difference ? value != 0.0F : isSeen(contact(y, x), value, least);
       if (!seen || !layout.enabled(y, x)) continue;
       const int index = colorIndex(static_cast<double>(value), range.minimum, range.maximum);
       const QColor color = QColor::fromRgb(table[static_cast<std::size_t>(index)]);
@@ -243,8 +252,10 @@ void paintMatrixValues(QPainter& painter,
       painter.setPen(contrasting(color));
       painter.drawText(square,
                        Qt::AlignCenter | Qt::TextDontClip,
-                       options.difference ? signedText(static_cast<double>(value), 0)
-                                          : QString::number(std::lround(value)));
+                       options.difference ? signedText(static_cast<double>(value), decimals)
+                       : decimals == 0
+                           ? QString::number(std::lround(value))
+                           : QString::number(static_cast<double>(value), 'f', decimals));
     }
   }
   painter.restore();

@@ -40,8 +40,8 @@ struct MatricesPictureOptions {
   QString title;
   // At the top right.
   QString caption;
-  // Unit of the values.
-  QString unit = "counts";
+  // Unit of the values; empty: that of the hand.
+  QString unit;
   bool colorBar = true;
   // The values are signed: the difference map is used, with 0 in its middle.
   bool difference = false;
@@ -91,9 +91,16 @@ struct ValueRange {
 };
 ValueRange rangeOf(const MatricesPictureOptions& options, const TactileFrame& frame);
 
+// The options with the unit of the hand, unless they have one.
+MatricesPictureOptions withUnit(MatricesPictureOptions options, const HandDescription& hand);
+
 // Whether a taxel is drawn: it was active as recorded (`contact`), or the filters leave at least
-// half a count in it.
-bool isSeen(float contact, float value) noexcept;
+// `least` in it, which is leastSeen().
+inline bool isSeen(float contact, float value, float least) noexcept {
+  return contact > 0.0F || value >= least;
+}
+// Half a unit of the last digit that is shown: half a count.
+float leastSeen(const HandDescription& hand);
 
 // The parts of the picture, for a widget that caches the background as a pixmap. The background is
 // everything that doesn't depend on the values (names, colour bar, taxels at rest, masks); the

@@ -12,16 +12,24 @@
 #include <algorithm>
 #include <cmath>
 
+#include "gui/appearance/hand_unit.h"
+
 namespace palpate::gui {
 namespace {
 
 constexpr int kMatricesPanelControlHeight = 26;  // [px] of boxes beside buttons
 constexpr int kMatricesPanelNarrowest = 360;     // [px]
 constexpr int kMatricesPanelCompactBelow = 700;  // [px] of width: buttons lose their text
-// Least end of the range of a live hand, so that a first light touch isn't shown in the brightest
-// colour.
-constexpr double kLeastLiveRange = 500.0;
-constexpr double kLiveRangeStep = 250.0;  // [counts]
+// Parts of full scale that the range of a live hand has at least, so that a first light touch isn't
+// shown in the brightest colour, and grows by: 500 and 250 of 4095 counts.
+constexpr double kLeastLivePart = 500.0 / 4095.0;
+constexpr double kLiveStepPart = 250.0 / 4095.0;
+
+// A part of full scale in whole steps of the last decimal.
+double liveRangePart(const HandDescription& hand, double part) {
+  const double scale = std::pow(10.0, decimalsOf(hand));
+  return std::max(1.0, std::round(part * static_cast<double>(hand.maximumCounts) * scale)) / scale;
+}
 
 QToolButton* buttonFor(QAction* action, QWidget* parent) {
   auto* button = new QToolButton(parent);
@@ -65,8 +73,8 @@ MatricesPanel::MatricesPanel(QAction* interpolated, QAction* values, QWidget* pa
   for (QComboBox* box : {map_, range_}) box->setMinimumHeight(kMatricesPanelControlHeight);
   range_->setToolTip("Where the colour range ends (R)");
   for (const RangeMode mode : kAllRangeModes) range_->addItem(nameOf(mode));
-  minimum_ = rangeField(header, "rangeMinimum", "Value of the lowest colour in counts");
-  maximum_ = rangeField(header, "rangeMaximum", "Value of the highest colour in counts");
+  minimum_ = rangeField(header, "rangeMinimum", "Value of the lowest colour");
+  maximum_ = rangeField(header, "rangeMaximum", "Value of the highest colour");
   to_ = new QLabel("–", header);
 
   auto* row = new QHBoxLayout(header);
@@ -101,7 +109,8 @@ MatricesPanel::MatricesPanel(QAction* interpolated, QAction* values, QWidget* pa
   const auto manual = [this] {
     // A maximum that is not above the minimum is raised to minimum + 1.
     const double low = minimum_->value();
-    emit manualRangeChosen(low, std::max(maximum_->value(), low + 1.0));
+    const double step = std::pow(10.0, -minimum_->decimals());
+    emit manualRangeChosen(low, std::max(maximum_->value(), low + step));
   };
   connect(minimum_, &QDoubleSpinBox::valueChanged, this, manual);
   connect(maximum_, &QDoubleSpinBox::valueChanged, this, manual);
@@ -124,11 +133,12 @@ void MatricesPanel::setRecording(const OpenedRecordingPtr& recording) {
   }
   range_->setItemText(0, nameOf(RangeMode::kRecording));
   hand_ = recording_->profile.hand();
+  showUnit();
   view_->setHand(*hand_);
   applyLook();
 }
 
-void MatricesPanel::forgetLargest() { largestLive_ = kLeastLiveRange; }
+void MatricesPanel::forgetLargest() { largestLive_ = 0.0; }
 
 void MatricesPanel::setHand(const HandDescription& hand) {
   recording_.reset();
@@ -136,8 +146,23 @@ void MatricesPanel::setHand(const HandDescription& hand) {
   // A live source has no whole recording yet.
   range_->setItemText(0, "largest so far");
   hand_ = hand;
+  largestLive_ = std::max(largestLive_, liveRangePart(hand, kLeastLivePart));
+  showUnit();
   view_->setHand(hand);
   applyLook();
+}
+
+void MatricesPanel::showUnit() {
+  const int decimals = decimalsOf(*hand_);
+  const QSignalBlocker blockedMin(minimum_), blockedMax(maximum_);
+  for (QDoubleSpinBox* field : {minimum_, maximum_}) {
+    field->setDecimals(decimals);
+    field->setSingleStep(liveRangePart(*hand_, kLiveStepPart / 5.0));
+  }
+  minimum_->setValue(settings_.manualMin);
+  maximum_->setValue(settings_.manualMax);
+  minimum_->setToolTip("Value of the lowest colour in " + unitOf(*hand_));
+  maximum_->setToolTip("Value of the highest colour in " + unitOf(*hand_));
 }
 
 void MatricesPanel::show(const TactileFrame& frame) {
@@ -149,7 +174,8 @@ void MatricesPanel::show(const TactileFrame& frame) {
         static_cast<double>(*std::max_element(frame_.values.begin(), frame_.values.end()));
     // In steps, so that the colours don't change continuously while the force increases.
     if (largest > largestLive_) {
-      largestLive_ = std::ceil(largest / kLiveRangeStep) * kLiveRangeStep;
+      const double step = liveRangePart(*hand_, kLiveStepPart);
+      largestLive_ = std::ceil(largest / step) * step;
       applyLook();
     }
   }
@@ -175,7 +201,8 @@ void MatricesPanel::setSettings(const ViewSettings& settings, Theme theme) {
 }
 
 ValueRange MatricesPanel::rangeNow() const {
-  double maximum = 1.0;
+  const double scale = hand_ ? std::pow(10.0, decimalsOf(*hand_)) : 1.0;
+  double maximum = 1.0 / scale;
   switch (settings_.range) {
     case RangeMode::kManual:
       return {settings_.manualMin, settings_.manualMax};
@@ -191,8 +218,8 @@ ValueRange MatricesPanel::rangeNow() const {
           std::max(maximum, recording_ ? recording_->maximumNow().value_or(0.0) : largestLive_);
       break;
   }
-  // Filters produce fractions; the scale needs whole counts.
-  return {0.0, std::ceil(maximum)};
+  // Filters produce fractions; the scale needs whole steps of the last decimal.
+  return {0.0, std::ceil(maximum * scale) / scale};
 }
 
 void MatricesPanel::renewRange() {

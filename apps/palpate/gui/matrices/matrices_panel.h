@@ -55,6 +55,8 @@ class MatricesPanel : public QWidget {
  private:
   ValueRange rangeNow() const;
   void applyLook();
+  // Unit and decimals of the range fields.
+  void showUnit();
 
   MatricesView* view_;
   QList<QToolButton*> looks_;
@@ -65,7 +67,7 @@ class MatricesPanel : public QWidget {
   QDoubleSpinBox* maximum_;
   OpenedRecordingPtr recording_;
   std::optional<HandDescription> hand_;
-  // Upper end of the colour range of a live hand [counts].
+  // Upper end of the colour range of a live hand, in its unit.
   double largestLive_ = 0.0;
   TactileFrame frame_;
   ViewSettings settings_;

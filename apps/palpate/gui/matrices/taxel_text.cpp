@@ -1,8 +1,10 @@
 #include "gui/matrices/taxel_text.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "gui/appearance/captions.h"
+#include "gui/appearance/hand_unit.h"
 
 namespace palpate::gui {
 namespace {
@@ -32,11 +34,13 @@ QString taxelText(const HandDescription& hand,
   if (!layout.enabled(y, x)) return where + "masked: not scanned";
   if (!frame) return where + "no frame yet";
   const float value = frame->allValues(m)(y, x);
-  if (!(value > 0.0F)) return where + "0 counts, at rest";
-  const QString number = value == std::round(value)
-                             ? QString::number(std::lround(value))
-                             : QString::number(static_cast<double>(value), 'f', 2);
-  return where + number + " counts" + (value >= hand.saturationCounts ? ", saturated" : "") +
+  if (!(value > 0.0F)) return where + "0 " + unitOf(hand) + ", at rest";
+  const QString number =
+      value == std::round(value)
+          ? QString::number(std::lround(value))
+          : QString::number(static_cast<double>(value), 'f', std::max(2, decimalsOf(hand)));
+  return where + number + " " + unitOf(hand) +
+         (value >= hand.saturationCounts ? ", saturated" : "") +
          pressureText(hand, place, pressure);
 }
 

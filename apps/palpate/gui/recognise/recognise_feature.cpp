@@ -92,7 +92,9 @@ void RecogniseFeature::renew() {
   panel_->ask().setLive(shown != nullptr, collector_ && collector_->touched());
   panel_->teach().setLive(source != nullptr);
   if (!source || !source->control)
-    panel_->today().setZeroPossible(source ? "A replay can't be moved." : "No hand is connected.",
+    panel_->today().setZeroPossible(!source                  ? "No hand is connected."
+                                    : source->streamDevice() ? "This hand is read, not moved."
+                                                             : "A replay can't be moved.",
                                     false);
 }
 

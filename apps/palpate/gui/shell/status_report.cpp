@@ -6,6 +6,7 @@
 #include <palpate/core/number_text.h>
 
 #include "gui/appearance/captions.h"
+#include "gui/appearance/hand_unit.h"
 #include "gui/link/other_programs.h"
 #include "gui/widgets/status_strip.h"
 
@@ -78,7 +79,7 @@ void StatusReport::report() {
     const OpenedRecordingPtr& seen = windowState_.displayed.filteredRecording();
     const CharacteristicSignals all = seen->at(playback.frame(), seen->numMatrices());
     now.figures = {"active " + QString::number(all.active),
-                   "max " + QString::number(all.maximum, 'f', 0),
+                   "max " + QString::number(all.maximum, 'f', decimalsOf(seen->profile.hand())),
                    "saturated " + QString::number(windowState_.currentFrame.saturated())};
     now.right = "frame " + QString::number(playback.frame()) + " of " +
                 QString::number(playback.numFrames()) + "   " +
@@ -154,8 +155,10 @@ QString StatusReport::chosenTaxels() const {
           largest = std::max(largest, static_cast<double>(values(y, x)));
         }
   }
-  return text + ": mean " + figure(sum / static_cast<double>(count), 0) + ", max " +
-         figure(largest, 0) + " counts";
+  const HandDescription* hand = windowState_.displayed.hand();
+  const int decimals = hand ? decimalsOf(*hand) : 0;
+  return text + ": mean " + figure(sum / static_cast<double>(count), decimals) + ", max " +
+         figure(largest, decimals) + " " + (hand ? unitOf(*hand) : QString());
 }
 
 }  // namespace palpate::gui

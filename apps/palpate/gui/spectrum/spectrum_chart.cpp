@@ -242,12 +242,12 @@ void SpectrumChart::nameAxes() {
   time_->setLabel(low       ? QString()
                   : seconds ? "time from the first frame in s"
                             : "time from the first frame in h:min:s");
-  yAxis->setLabel(low ? QString() : "counts");
+  yAxis->setLabel(low ? QString() : answer_.unit);
   frequency_->setLabel(low ? "Hz" : "frequency in Hz");
   const bool db = scale_ == SpectrumScale::kDecibels;
-  colors_->axis()->setLabel(low  ? (db ? "dB" : "counts")
-                            : db ? "dB re 1 counts²/Hz"
-                                 : "magnitude in counts");
+  colors_->axis()->setLabel(low  ? (db ? "dB" : answer_.unit)
+                            : db ? "dB re 1 " + answer_.unit + "²/Hz"
+                                 : "magnitude in " + answer_.unit);
   spectra_->setMinimumMargins(QMargins(52, fontMetrics().height() + 6, 8, 10));
 }
 
@@ -311,7 +311,8 @@ QString SpectrumChart::valuesAt(const QPointF& at) const {
       const double psd = static_cast<double>(part.psd[cell]);
       return time + " · " + figure(static_cast<double>(bin) * part.binHz, 2) + " Hz\nPSD " +
              (psd > 0.0 ? figure(decibels(psd, -400.0), 1) + " dB" : QString("0")) +
-             "\nmagnitude " + figure(static_cast<double>(part.magnitude[cell]), 2) + " counts";
+             "\nmagnitude " + figure(static_cast<double>(part.magnitude[cell]), 2) + " " +
+             answer_.unit;
     }
     return time + "\nno whole window around this moment";
   }
@@ -319,7 +320,7 @@ QString SpectrumChart::valuesAt(const QPointF& at) const {
   // The last sample at or before that time.
   auto found = graph(0)->data()->findEnd(seconds, false);
   if (found == graph(0)->data()->constBegin() || std::isnan((--found)->value)) return time;
-  return time + "\n" + figure(found->value, 0) + " counts";
+  return time + "\n" + figure(found->value, 0) + " " + answer_.unit;
 }
 
 void SpectrumChart::paint(QPainter& painter,

@@ -40,8 +40,7 @@ SpectrumHeader::SpectrumHeader(QWidget* parent) : QWidget(parent) {
   scale_ = new QComboBox(this);
   scale_->setObjectName("spectrumScale");
   scale_->setAccessibleName("What the colours mean");
-  scale_->setToolTip(
-      "Power spectral density in dB re 1 counts²/Hz, or the amplitude of a tone in counts");
+  scale_->setToolTip("Power spectral density in dB, or the amplitude of a tone");
   scale_->setFocusPolicy(Qt::TabFocus);
   for (const SpectrumScale each : kAllSpectrumScales) scale_->addItem(nameOf(each));
   auto* row = new QHBoxLayout(this);

@@ -60,7 +60,8 @@ TextTable segmentTable(const SpectrumAnswer& answer) {
 }
 
 TextTable meanTable(const SpectrumAnswer& answer) {
-  return {.header = {"frequency_hz", "psd [counts^2/Hz]", "magnitude [counts]"},
+  const std::string unit = answer.unit.toStdString();
+  return {.header = {"frequency_hz", "psd [" + unit + "^2/Hz]", "magnitude [" + unit + "]"},
           .numRows = answer.spectrogram->mean.psd.size(),
           .row = [mean = answer.spectrogram->mean](std::size_t row) {
             return std::vector<std::string>{numberText(static_cast<double>(row) * mean.binHz),

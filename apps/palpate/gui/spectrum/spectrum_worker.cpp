@@ -7,6 +7,8 @@
 #include <palpate/core/error.h>
 #include <palpate/signals/strongest_taxel.h>
 
+#include "gui/appearance/hand_unit.h"
+
 namespace palpate::gui {
 namespace {
 
@@ -109,6 +111,7 @@ SpectrumAnswer SpectrumWorker::answerTo(const SpectrumQuestion& question,
     kept_->of = question.recording;
   }
   SpectrumAnswer answer{.taxels = question.taxels,
+                        .unit = unitOf(profile.hand()),
                         .strongest = question.taxels.empty(),
                         .whole = fitsWhole(question),
                         .options = question.options.limitedToCells()};

@@ -32,6 +32,8 @@ struct SpectrumQuestion {
 struct SpectrumAnswer {
   // The taxels whose mean is the signal; empty when no taxel has a signal.
   TaxelSelection taxels = {};
+  // Unit of the hand's values.
+  QString unit = "counts";
   // The taxel was chosen automatically.
   bool strongest = false;
   // The whole recording was computed, not only the visible span.

@@ -55,8 +55,11 @@ double LiveChart::secondsOf(std::int64_t hostUs) const {
   return static_cast<double>(hostUs - originUs_.value_or(hostUs)) / kUsPerS;
 }
 
-void LiveChart::setHistory(const SignalHistory* history, std::size_t numMatrices) {
+void LiveChart::setHistory(const SignalHistory* history,
+                           std::size_t numMatrices,
+                           const QString& handUnit) {
   history_ = history;
+  handUnit_ = handUnit;
   originUs_.reset();
   newestUs_ = 0;
   setHeld(false);
@@ -223,7 +226,7 @@ void LiveChart::shadeGap(double beginS, double endS) {
   events_.push_back({beginS, endS, true, shape, text});
 }
 
-void LiveChart::nameAxis() { yAxis->setLabel(signalAxisName(signal_, *this)); }
+void LiveChart::nameAxis() { yAxis->setLabel(signalAxisName(signal_, handUnit_, *this)); }
 
 void LiveChart::wheelEvent(QWheelEvent* event) {
   setWindowS(windowS_ / std::pow(kWheelZoom, event->angleDelta().y() / kWheelNotch));

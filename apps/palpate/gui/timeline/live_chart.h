@@ -23,9 +23,11 @@ class LiveChart : public QCustomPlot {
 
   explicit LiveChart(QWidget* parent = nullptr);
 
-  // Sets the signals of another source with so many matrices; null: none. `history` must outlive
-  // this object, or be replaced before it is destroyed.
-  void setHistory(const SignalHistory* history, std::size_t numMatrices);
+  // Sets the signals of another source with so many matrices and this unit; null: none. `history`
+  // must outlive this object, or be replaced before it is destroyed.
+  void setHistory(const SignalHistory* history,
+                  std::size_t numMatrices,
+                  const QString& handUnit = "counts");
   void setSignal(PlottedSignal signal);
   // One entry per matrix and, last, one for the whole hand.
   void setPlotted(const std::vector<bool>& plotted);
@@ -79,6 +81,7 @@ class LiveChart : public QCustomPlot {
   void forget(double beforeS);
 
   const SignalHistory* history_ = nullptr;
+  QString handUnit_ = "counts";
   PlottedSignal signal_ = PlottedSignal::kMean;
   std::vector<bool> plotted_;
   // Row of each graph: a matrix, or the whole hand.

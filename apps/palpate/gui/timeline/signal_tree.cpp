@@ -9,6 +9,7 @@
 #include <algorithm>
 
 #include "gui/appearance/captions.h"
+#include "gui/appearance/hand_unit.h"
 
 namespace palpate::gui {
 namespace {
@@ -130,7 +131,8 @@ void SignalTree::rebuild() {
     item->setFlags(Qt::NoItemFlags);
     item->setData(0, kSignalTreeKind, kSection);
   };
-  QTreeWidgetItem* taxels = section("Taxels (mean in counts)");
+  QTreeWidgetItem* taxels =
+      section("Taxels (mean in " + (hand_.layout ? unitOf(hand_) : QString("counts")) + ")");
   line(taxels,
        numChosen_ == 0 ? QString("the chosen taxels (none now)")
                        : "the chosen taxels (" + QString::number(numChosen_) + ")",
@@ -144,17 +146,26 @@ void SignalTree::rebuild() {
       item->setFlags(item->flags() | Qt::ItemIsEditable);
       item->setToolTip(0, "F2 renames it, Del deletes it");
     }
-  QTreeWidgetItem* angles = section("Joint angles (°)");
-  if (!hasAngles_) nothing(angles, "none in this recording");
-  for (std::size_t i = 0; hasAngles_ && i < hand_.axes.size(); ++i)
+  // What the hand lacks is absent; what the recording lacks is said.
+  const bool slides = !hand_.axes.empty() &&
+                      std::all_of(hand_.axes.begin(),
+                                  hand_.axes.end(),
+                                  [](const AxisDescription& axis) { return axis.isSliding; });
+  QTreeWidgetItem* angles = hand_.layout && hand_.axes.empty()
+                                ? nullptr
+                                : section(slides ? "Joint positions (mm)" : "Joint angles (°)");
+  if (angles && !hasAngles_) nothing(angles, "none in this recording");
+  for (std::size_t i = 0; angles && hasAngles_ && i < hand_.axes.size(); ++i)
     line(angles,
          QString::fromStdString(hand_.axes[i].name),
          kAngle,
          static_cast<int>(i),
          extras_.angles.contains(static_cast<int>(i)));
-  QTreeWidgetItem* temperatures = section("Temperatures (°C)");
-  if (!hasTemperatures_) nothing(temperatures, "none in this recording");
-  for (std::size_t i = 0; hasTemperatures_ && i < hand_.temperatureSensors.size(); ++i)
+  QTreeWidgetItem* temperatures =
+      hand_.layout && hand_.temperatureSensors.empty() ? nullptr : section("Temperatures (°C)");
+  if (temperatures && !hasTemperatures_) nothing(temperatures, "none in this recording");
+  for (std::size_t i = 0; temperatures && hasTemperatures_ && i < hand_.temperatureSensors.size();
+       ++i)
     line(temperatures,
          QString::fromStdString(hand_.temperatureSensors[i].name),
          kTemperature,

@@ -5,6 +5,7 @@
 #include <QToolButton>
 
 #include "gui/appearance/captions.h"
+#include "gui/appearance/hand_unit.h"
 #include "gui/appearance/next_choice.h"
 #include "gui/chart/chart_picture.h"
 #include "gui/timeline/curve_table.h"
@@ -118,7 +119,8 @@ void TimelineFeature::takeLive() {
   if (!source) return;
   if (source->history.get() != history_) {
     history_ = source->history.get();
-    liveChart_->setHistory(history_, state().displayed.hand()->layout->numMatrices());
+    const HandDescription& hand = *state().displayed.hand();
+    liveChart_->setHistory(history_, hand.layout->numMatrices(), unitOf(hand));
   }
   liveChart_->setPlotted(state().selection.plotted());
 }
@@ -252,7 +254,8 @@ std::vector<PlottedCurve> TimelineFeature::curves() const {
   const TaxelSelection& chosen = state().selection.taxels();
   if (extras_.chosenTaxels && !chosen.empty()) {
     const std::size_t count = chosen.count();
-    add(taxelCurve(chosen,
+    add(taxelCurve(*hand,
+                   chosen,
                    count == 1 ? QString("chosen taxel") : QString::number(count) + " chosen taxels",
                    0,
                    theme));
@@ -260,7 +263,7 @@ std::vector<PlottedCurve> TimelineFeature::curves() const {
   std::size_t place = 1;
   for (const TaxelGroups::Group& group : groups_.of(recording->profile.layout()))
     if (extras_.groups.contains(group.name))
-      add(taxelCurve(group.taxels, group.name, place++, theme));
+      add(taxelCurve(*hand, group.taxels, group.name, place++, theme));
   for (const int axis : extras_.angles)
     if (axis < static_cast<int>(hand->axes.size()))
       add(angleCurve(*hand, static_cast<std::size_t>(axis), theme));
