@@ -69,6 +69,13 @@ QWidget* markedLine(StateMark*& mark, QLabel*& label, const char* name, Theme th
   return line;
 }
 
+// Whether other machines can send to the source; throws std::invalid_argument when it is malformed.
+// Nothing is opened, and the hand does not matter.
+bool isOpenToOthers(const QString& source) {
+  return StreamDevice({.source = source.toStdString(), .hand = *builtInHands().front().hand})
+      .isOpenToOthers();
+}
+
 QSpinBox* portBox(const char* name, int least) {
   auto* box = new QSpinBox;
   box->setObjectName(name);
@@ -339,7 +346,7 @@ QString StreamPage::sourceProblem() const {
     return {};
   }
   try {
-    StreamDevice({.source = source.toStdString(), .hand = sdh2()});
+    isOpenToOthers(source);
   } catch (const std::invalid_argument& wrong) {
     return QString::fromUtf8(wrong.what()).simplified();
   }
@@ -371,7 +378,7 @@ void StreamPage::refresh() {
     const QString port = ports_[place()]->value() == 0
                              ? "a free port, which the dock Link then names,"
                              : "port " + QString::number(ports_[place()]->value());
-    open = StreamDevice({.source = source().toStdString(), .hand = sdh2()}).isOpenToOthers();
+    open = isOpenToOthers(source());
     where = QString(place() == kUdp ? "Datagrams are" : "A sender is") + " awaited at " + port +
             ". " +
             (open ? "Any machine that reaches this address can send: there is neither a password "

@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "palpate/device/sdh2.h"
 #include <palpate/core/error.h>
 #include <palpate/model/hand_file.h>
 

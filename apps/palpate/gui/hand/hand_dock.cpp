@@ -10,7 +10,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "palpate/device/sdh2.h"
 #include <palpate/capture/link_health.h>
 #include <palpate/core/time.h>
 #include <palpate/device/stream_device.h>

@@ -13,7 +13,6 @@
 #include <initializer_list>
 #include <stdexcept>
 
-#include "palpate/device/sdh2.h"
 #include <palpate/model/hand_description.h>
 
 #include "gui/widgets/value_slider.h"
