@@ -6,7 +6,9 @@
 #include <gtest/gtest.h>
 
 #include "palpate/device/sdh2.h"
+#include "palpate/model/hand_file.h"
 
+#include "gui/hand3d/hand_picture.h"
 #include "gui/testing/sample_profiles.h"
 #include "testing/sdh2.h"
 
@@ -94,6 +96,20 @@ TEST_F(HandSceneBuilderTest, SphereAndContactsAreThoseOfTheContactGeometry) {
       (Eigen::Vector3d(vertex[0], vertex[1], vertex[2]) - expected.centroidSphere->centreMm).norm(),
       expected.centroidSphere->radiusMm,
       1e-3);
+}
+
+// A hand without axes needs no angles, and none of an earlier hand are assumed.
+TEST_F(HandSceneBuilderTest, AHandWithoutAxesIsPosedByItsFrame) {
+  const HandDescription& pad = builtInHand("flat_pad_16x16");
+  drawing_.setHand(pad);
+  EXPECT_FALSE(drawing_.posed());
+  TactileFrame frame;
+  frame.layout = pad.layout;
+  frame.values.assign(pad.layout->numCells(), 0.0F);
+  frame.values[17] = 100.0F;
+  drawing_.setMoment(frame, {});
+  EXPECT_TRUE(drawing_.posed());
+  EXPECT_EQ(poseNotice(drawing_, false), "");
 }
 
 TEST_F(HandSceneBuilderTest, WithoutAnglesItRestsGreyedAndMeasuresNothing) {

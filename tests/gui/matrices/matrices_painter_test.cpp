@@ -79,6 +79,48 @@ TEST(MatricesGeometry, FitsIntoEverySizeWithWholePixels) {
   }
 }
 
+// A hand of `count` equal matrices in a grid of so many columns.
+HandDescription handOf(std::size_t count, int rows, int columns, int gridColumns) {
+  HandDescription hand;
+  hand.layout = std::make_shared<const SensorLayout>(
+      std::vector<MatrixLayout>(count, MatrixLayout::full(rows, columns, 2.0)));
+  for (int m = 0; m < static_cast<int>(count); ++m) {
+    MatrixDescription matrix;
+    matrix.name = "matrix " + std::to_string(m);
+    matrix.shortName = std::to_string(m);
+    matrix.pictureColumn = m % gridColumns;
+    matrix.pictureRow = m / gridColumns;
+    hand.matrices.push_back(matrix);
+  }
+  return hand;
+}
+
+TEST(MatricesGeometry, AnyNumberAndSizeOfMatricesIsInsideAndApart) {
+  for (const HandDescription& hand : {handOf(64, 16, 16, 8),
+                                      handOf(64, 14, 6, 64),
+                                      handOf(64, 6, 14, 1),
+                                      handOf(1, 256, 256, 1),
+                                      handOf(1, 256, 1, 1),
+                                      handOf(1, 1, 256, 1),
+                                      handOf(1, 1, 1, 1)})
+    for (const QSize size : {QSize(1200, 900), QSize(460, 500), QSize(360, 240)}) {
+      const MatricesGeometry g = geometry(options(), hand, size);
+      ASSERT_EQ(g.numMatrices(), hand.matrices.size());
+      const QRectF area{QPointF(), QSizeF(size)};
+      for (std::size_t m = 0; m < g.numMatrices(); ++m) {
+        EXPECT_TRUE(area.contains(g.matrixRect(m)))
+            << m << " of " << g.numMatrices() << " in " << size.width();
+        EXPECT_FALSE(g.matrixRect(m).intersects(g.colorBarRect())) << m;
+        for (std::size_t other = 0; other < m; ++other)
+          EXPECT_FALSE(g.matrixRect(m).intersects(g.matrixRect(other))) << m << ", " << other;
+        const MatrixLayout& layout = hand.layout->matrix(m);
+        const TaxelPlace last{m, layout.rows - 1, layout.columns - 1};
+        EXPECT_EQ(g.placeAt(g.taxelRect(m, last.y, last.x).center()), last);
+      }
+      EXPECT_TRUE(area.contains(g.colorBarRect()));
+    }
+}
+
 TEST(MatricesGeometry, FindsEveryTaxelAtItsMiddle) {
   const MatricesGeometry g = geometry();
   for (std::size_t m = 0; m < 6; ++m)

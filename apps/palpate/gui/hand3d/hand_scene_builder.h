@@ -52,7 +52,11 @@ class HandSceneBuilder {
   void setSlip(std::vector<HandSlip> slip) { slip_ = std::move(slip); }
   const std::vector<HandSlip>& slip() const noexcept { return slip_; }
   const HandState& handState() const noexcept { return handState_; }
-  bool posed() const noexcept { return !handState_.anglesDeg.empty(); }
+  // Whether the pose of the hand is known: by its joint angles, or because it has no axes.
+  bool posed() const noexcept {
+    return geometry_ && handState_.frame &&
+           handState_.anglesDeg.size() == geometry_->description().numAxes;
+  }
   const HandPose& pose() const noexcept { return pose_; }
 
   // The look that is really drawn: taxels are laid flat when the geometry isn't known.

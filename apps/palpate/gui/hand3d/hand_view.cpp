@@ -83,7 +83,7 @@ void HandView::clear() {
 void HandView::setMoment(const TactileFrame& frame, const std::vector<double>& anglesDeg) {
   if (!drawing_.hasHand()) return;
   const HandState& shown = drawing_.handState();
-  assumed_ = anglesDeg.empty() && !assumedDeg_.empty();
+  assumed_ = anglesDeg.empty() && !assumedDeg_.empty() && !drawing_.hand().axes.empty();
   const std::vector<double>& angles = assumed_ ? assumedDeg_ : anglesDeg;
   if (shown.frame && shown.frame->values == frame.values && shown.anglesDeg == angles) return;
   const bool first = !shown.frame;

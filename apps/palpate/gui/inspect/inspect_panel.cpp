@@ -213,6 +213,9 @@ void InspectPanel::listSensors(const HandDescription& hand, bool angles, bool te
     angleUnits_.push_back(unitOf(axis));
     if (angles) rows.push_back({QString::fromStdString(axis.name), "–"});
   }
+  const bool slides = std::all_of(
+      hand.axes.begin(), hand.axes.end(), [](const auto& axis) { return axis.isSliding; });
+  anglesHeading_->setText(slides ? "JOINT POSITIONS" : "JOINT ANGLES");
   // What the hand lacks is absent; what the recording lacks is said.
   for (QWidget* each : std::initializer_list<QWidget*>{anglesHeading_, angles_})
     each->setVisible(!hand.axes.empty());

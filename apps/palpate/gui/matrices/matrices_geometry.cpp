@@ -15,6 +15,10 @@ constexpr double kBarGap = 26.0;                     // [px] between matrices an
 constexpr double kNarrowGap = 18.0;                  // [px] least space between columns of matrices
 constexpr double kWideGapTaxels = 2.5;               // [taxels] most space between them
 constexpr double kRowGap = 10.0;                     // [px] between rows of matrices
+// Where matrices are many: the largest shares of the picture's width and height that gaps and names
+// take.
+constexpr double kLargestGapShare = 0.25;
+constexpr double kLargestNameShare = 0.5;
 constexpr double kMatricesGeometryLargestTaxel = 64.0;  // [px]; limits small pads
 
 // Extent of the columns and rows of the picture [mm].
@@ -63,7 +67,6 @@ MatricesGeometry::MatricesGeometry(const QRectF& area,
                                    const MatricesPictureOptions& options)
     : area_(area) {
   const QFontMetricsF metrics(pictureFont(options));
-  const double nameHeight = metrics.height() + 4.0;
   QRectF inside = area.adjusted(kMatricesGeometryMargin,
                                 kMatricesGeometryMargin * 0.6,
                                 -kMatricesGeometryMargin,
@@ -79,24 +82,31 @@ MatricesGeometry::MatricesGeometry(const QRectF& area,
   const double barSpace =
       options.colorBar ? kBarGap + kMatricesGeometryBarWidth + kMatricesGeometryBarLabels : 0.0;
 
-  const double freeWidth = inside.width() - barSpace - (columns - 1) * kNarrowGap;
-  const double freeHeight = inside.height() - rows * nameHeight - (rows - 1) * kRowGap;
+  const double narrowGap =
+      std::min(kNarrowGap, kLargestGapShare * std::max(0.0, inside.width() - barSpace) / columns);
+  const double rowGap = std::min(kRowGap, kLargestGapShare * inside.height() / rows);
+  double nameHeight = metrics.height() + 4.0;
+  // No names where they would take the place of the matrices.
+  if (rows * nameHeight > kLargestNameShare * inside.height()) nameHeight = 0.0;
+  const double freeWidth = inside.width() - barSpace - (columns - 1) * narrowGap;
+  const double freeHeight = inside.height() - rows * nameHeight - (rows - 1) * rowGap;
   double pxPerMm = std::min(freeWidth / matricesGeometrySum(grid.columnMm),
                             freeHeight / matricesGeometrySum(grid.rowMm));
   // The pitch of the first matrix gets whole pixels; all pitches of an SDH-2 are equal.
   const double pitchMm = hand.layout->matrix(0).pitchMm;
-  double side = std::clamp(pxPerMm * pitchMm, 1.0, kMatricesGeometryLargestTaxel);
+  double side = std::clamp(pxPerMm * pitchMm, 1e-3, kMatricesGeometryLargestTaxel);
   if (side >= 3.0) side = snapped(side, options.pixelRatio);
   pxPerMm = side / pitchMm;
 
   // Spare width goes between the fingers up to a limit, the rest to both sides.
   const double spare = inside.width() - barSpace - pxPerMm * matricesGeometrySum(grid.columnMm);
-  double gap = kNarrowGap;
-  if (columns > 1) gap = std::clamp(spare / (columns - 1), kNarrowGap, kWideGapTaxels * side);
-  gap = std::max(gap, kNarrowGap);
+  double gap = narrowGap;
+  if (columns > 1)
+    gap = std::clamp(spare / (columns - 1), narrowGap, std::max(narrowGap, kWideGapTaxels * side));
+  gap = std::max(gap, narrowGap);
   const double width = pxPerMm * matricesGeometrySum(grid.columnMm) + (columns - 1) * gap;
   const double height =
-      pxPerMm * matricesGeometrySum(grid.rowMm) + rows * nameHeight + (rows - 1) * kRowGap;
+      pxPerMm * matricesGeometrySum(grid.rowMm) + rows * nameHeight + (rows - 1) * rowGap;
   const double left = inside.left() + std::max(0.0, (inside.width() - width - barSpace) / 2);
   const double top = inside.top() + std::max(0.0, (inside.height() - height) / 2);
 
@@ -107,7 +117,7 @@ MatricesGeometry::MatricesGeometry(const QRectF& area,
     double x = left;
     for (std::size_t c = 0; c < column; ++c) x += grid.columnMm[c] * pxPerMm + gap;
     double y = top;
-    for (std::size_t r = 0; r < row; ++r) y += nameHeight + grid.rowMm[r] * pxPerMm + kRowGap;
+    for (std::size_t r = 0; r < row; ++r) y += nameHeight + grid.rowMm[r] * pxPerMm + rowGap;
     const double itsSide = layout.pitchMm * pxPerMm;
     x += (grid.columnMm[column] * pxPerMm - layout.columns * itsSide) / 2;
     x = snapped(x, options.pixelRatio);
