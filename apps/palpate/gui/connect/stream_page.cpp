@@ -363,6 +363,10 @@ void StreamPage::look() { scan_.listOnly(); }
 
 void StreamPage::refresh() {
   const bool serial = place() == kSerial;
+  // The other fields take no space.
+  for (int i = 0; i < fields_->count(); ++i)
+    fields_->widget(i)->setSizePolicy(QSizePolicy::Preferred,
+                                      i == place() ? QSizePolicy::Maximum : QSizePolicy::Ignored);
   fields_->setCurrentIndex(place());
   baud_->setVisible(serial);
   baudRow_->setVisible(serial);
