@@ -54,6 +54,8 @@ py::list matricesOf(const HandDescription& hand) {
     one["columns"] = matrix.columns;
     one["pitch_mm"] = matrix.pitchMm;
     one["taxels"] = matrix.numTaxels();
+    one["full_scale"] = hand.maximumOf(m);
+    one["saturation"] = hand.saturationOf(m);
     list.append(one);
   }
   return list;
@@ -218,14 +220,16 @@ void bindHands(py::module_& module) {
       .def_readonly("name", &HandDescription::name, "Name of the hand.")
       .def_readonly("maker", &HandDescription::maker, "Who makes it; may be empty.")
       .def_readonly("unit", &HandDescription::unit, "Unit of the taxels' values.")
-      .def_readonly("full_scale", &HandDescription::maximumCounts, "Largest value of a taxel.")
+      .def_readonly(
+          "full_scale", &HandDescription::maximumCounts, "Largest value of a taxel of any matrix.")
       .def_readonly("saturation",
                     &HandDescription::saturationCounts,
-                    "From this value on a taxel is saturated.")
+                    "From this value on a taxel is saturated, unless its matrix "
+                    "says otherwise.")
       .def_property_readonly("matrices",
                              &matricesOf,
                              "Its matrices: list of dicts index, name, finger, rows, columns, "
-                             "pitch_mm, taxels.")
+                             "pitch_mm, taxels, full_scale, saturation.")
       .def_property_readonly(
           "axes", &axesOf, "Its joints: list of dicts name, unit (deg, mm), minimum, maximum.")
       .def_property_readonly(

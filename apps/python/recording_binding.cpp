@@ -126,7 +126,7 @@ py::dict info(const Profile& profile) {
       profile.readFrame(i, frame);
       const float peak = *std::max_element(frame.values.begin(), frame.values.end());
       largest = i == 0 ? static_cast<double>(peak) : std::max(largest, static_cast<double>(peak));
-      saturated += peak >= profile.hand().saturationCounts ? 1 : 0;
+      saturated += numSaturated(profile.hand(), frame) > 0 ? 1 : 0;
     }
   });
   py::dict result;

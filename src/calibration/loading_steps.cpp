@@ -66,6 +66,7 @@ StepSignal stepSignal(const Profile& profile,
   const MatrixLayout layout = profile.layout().matrix(matrix);
   const std::size_t first = profile.layout().offset(matrix);
   std::vector<bool> wasOn(layout.numCells(), false);
+  const float saturation = profile.hand().saturationOf(matrix);
   StepSignal out;
   out.timeS.reserve(profile.numFrames());
   out.values.reserve(profile.numFrames());
@@ -79,7 +80,7 @@ StepSignal stepSignal(const Profile& profile,
     for (std::size_t place = 0; place < values.size(); ++place) {
       const bool on = values[place] > 0.0F;
       active += on ? 1 : 0;
-      saturated += values[place] >= profile.hand().saturationCounts ? 1 : 0;
+      saturated += values[place] >= saturation ? 1 : 0;
       switched += on != wasOn[place] ? 1 : 0;
       wasOn[place] = on;
     }

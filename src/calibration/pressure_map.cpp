@@ -51,8 +51,7 @@ PressureMap::PressureMap(Calibration calibration,
     : calibration_(std::move(calibration)),
       handName_(hand.name),
       layout_(hand.layout),
-      options_(std::move(options)),
-      saturationCounts_(static_cast<double>(hand.saturationCounts)) {
+      options_(std::move(options)) {
   if (!calibration_.pressure.valid())
     throw std::invalid_argument("PressureMap: the calibration has no P(K, T)");
   for (const SettingsChange& change : options_.changes) requireFitting(change.settings);
@@ -100,6 +99,7 @@ void PressureMap::prepare(const HandDescription& hand) {
     matrix.rows = layout.rows;
     matrix.columns = layout.columns;
     matrix.taxelAreaMm2 = layout.taxelAreaMm2();
+    matrix.saturationCounts = static_cast<double>(hand.saturationOf(m));
     matrix.sensor =
         m < hand.matrices.size() ? hand.matrices[m].temperatureSensor.value_or(SIZE_MAX) : SIZE_MAX;
     if (layout.columns <= kMostColumns) {
@@ -131,8 +131,10 @@ PressureMap::Contact PressureMap::contactIn(std::span<const float> values,
     copy = copy.unaryExpr([](float v) { return std::isfinite(v) && v > 0.0F ? v : 0.0F; });
     const auto& layout = layout_->matrix(static_cast<std::size_t>(&matrix - matrices_.data()));
     const CharacteristicSignals signals = characteristicSignals(copy, layout);
-    return {
-        signals.sum, signals.filteredMean, signals.active, signals.maximum >= saturationCounts_};
+    return {signals.sum,
+            signals.filteredMean,
+            signals.active,
+            signals.maximum >= matrix.saturationCounts};
   }
   float sum = 0.0F, filtered = 0.0F, maximum = 0.0F;
   rows_.assign(static_cast<std::size_t>(matrix.rows) + 2, 0);
@@ -157,7 +159,7 @@ PressureMap::Contact PressureMap::contactIn(std::span<const float> values,
     filteredActive += std::popcount((rows_[y] | rows_[y + 1] | rows_[y + 2]) & matrix.enabled[y]);
   contact.sum = static_cast<double>(sum);
   contact.filteredMean = filteredActive > 0 ? static_cast<double>(filtered) / filteredActive : 0.0;
-  contact.saturated = static_cast<double>(maximum) >= saturationCounts_;
+  contact.saturated = static_cast<double>(maximum) >= matrix.saturationCounts;
   return contact;
 }
 

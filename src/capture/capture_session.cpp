@@ -74,7 +74,7 @@ CaptureSession::CaptureSession(std::unique_ptr<Device> device,
           clock),
       meter_(options_.health),
       scansItself_(device_->isFreeRunning()),
-      saturationCounts_(device_->hand().saturationCounts) {}
+      hand_(device_->hand()) {}
 
 CaptureSession::~CaptureSession() {
   stop();
@@ -95,7 +95,7 @@ void CaptureSession::start() {
     shown_.clear();
     lastTemperatures_.reset();
   }
-  saturationCounts_ = device_->hand().saturationCounts;
+  hand_ = device_->hand();
   if (options_.ownThread) recorder_.run();
   device_->start(*this);
   started_ = true;
@@ -149,9 +149,7 @@ void CaptureSession::note(const RecordingEvent& event) {
 }
 
 void CaptureSession::onFrame(TactileFrame&& frame) {
-  const float limit = saturationCounts_;
-  bool saturated = false;
-  for (const float value : frame.values) saturated |= value >= limit;
+  const bool saturated = numSaturated(hand_, frame) > 0;
   if (scansItself_ && frame.layout != expectedFor_) {
     expectedFor_ = frame.layout;
     std::size_t enabled = 0;

@@ -34,10 +34,10 @@ std::string emptyReason(const HandDescription& hand,
                         const std::optional<MatrixSettings>& settings,
                         double needed) {
   if (hand.layout->matrix(matrix).numEnabled() == 0) return "no taxel of it is scanned";
-  if (static_cast<double>(hand.saturationCounts) < needed)
-    return "it saturates at " + numberText(static_cast<double>(hand.saturationCounts)) + " counts";
+  const auto saturation = static_cast<double>(hand.saturationOf(matrix));
+  if (saturation < needed) return "it saturates at " + numberText(saturation) + " counts";
   if (!settings) return {};
-  const double left = static_cast<double>(hand.maximumCounts) - settings->thresholdCounts;
+  const double left = static_cast<double>(hand.maximumOf(matrix)) - settings->thresholdCounts;
   if (left < needed)
     return "its threshold of " + std::to_string(settings->thresholdCounts) +
            " leaves no more than " + numberText(std::max(left, 0.0)) + " counts";

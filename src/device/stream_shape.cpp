@@ -45,13 +45,16 @@ StreamShape::StreamShape(const HandDescription& hand)
     : layout_(hand.layout),
       numAxes_(hand.axes.size()),
       numTemperatures_(hand.temperatureSensors.size()),
-      fullScale_(hand.maximumCounts),
       unit_(hand.unit) {
   if (!layout_ || layout_->numCells() == 0)
     throw std::invalid_argument("StreamShape: the hand has no matrices");
-  if (!(fullScale_ > 0.0F) || !std::isfinite(fullScale_))
-    throw std::invalid_argument("StreamShape: the full scale of the hand is " +
-                                numberText(fullScale_) + ", not above 0");
+  for (std::size_t m = 0; m < layout_->numMatrices(); ++m) {
+    const float fullScale = hand.maximumOf(m);
+    if (!(fullScale > 0.0F) || !std::isfinite(fullScale))
+      throw std::invalid_argument("StreamShape: the full scale of the hand is " +
+                                  numberText(fullScale) + ", not above 0");
+    fullScales_.push_back(fullScale);
+  }
   numPlaces_ = layout_->numCells();
   numTaxels_ = layout_->numTaxels();
   if (numTaxels_ == numPlaces_) return;
@@ -86,19 +89,24 @@ std::string StreamShape::expected(StreamItemKind kind) const {
 std::string StreamShape::arrange(std::span<float> values, std::size_t count) const {
   if (values.size() != numPlaces_ || !fits(StreamItemKind::kFrame, count))
     throw std::invalid_argument("StreamShape::arrange: wrong number of values");
-  const auto isGood = [this](float value) { return value >= 0.0F && value <= fullScale_; };
-  // Without an early exit, so that the compiler makes vector instructions of it.
-  bool allGood = true;
-  for (std::size_t i = 0; i < count; ++i) allGood &= isGood(values[i]);
-  if (!allGood) {
-    for (std::size_t i = 0; i < count; ++i) {
+  std::size_t from = 0;
+  for (std::size_t m = 0; m < fullScales_.size(); ++m) {
+    const MatrixLayout& matrix = layout_->matrix(m);
+    const std::size_t to = from + (count == numPlaces_ ? matrix.numCells() : matrix.numTaxels());
+    const float most = fullScales_[m];
+    const auto isGood = [most](float value) { return value >= 0.0F && value <= most; };
+    // Without an early exit, so that the compiler makes vector instructions of it.
+    bool allGood = true;
+    for (std::size_t i = from; i < to; ++i) allGood &= isGood(values[i]);
+    for (std::size_t i = from; i < to && !allGood; ++i) {
       // Whatever is sent for a place without a taxel is not used.
       if (isGood(values[i]) || (count == numPlaces_ && !exists_.empty() && exists_[i] == 0))
         continue;
       const std::string value = "value " + std::to_string(i + 1) + " is " + numberText(values[i]);
       return std::isnan(values[i]) ? value
-                                   : value + ", not in 0.." + numberText(fullScale_) + " " + unit_;
+                                   : value + ", not in 0.." + numberText(most) + " " + unit_;
     }
+    from = to;
   }
   if (exists_.empty()) return {};
   // From the end, since a value moves only towards the end.

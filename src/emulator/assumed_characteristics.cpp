@@ -4,14 +4,17 @@ namespace palpate {
 
 SensorCharacteristics assumedCharacteristics(const HandDescription& hand) {
   const double fullScale = static_cast<double>(hand.maximumCounts);
-  MatrixCharacteristics matrix;
-  matrix.noiseIntercept = 0.005 * fullScale;
-  matrix.noiseRmse = 0.001 * fullScale;
-  matrix.restIntercept = 0.002 * fullScale;
-  matrix.taxelSd = 0.001 * fullScale;
-  matrix.sensitivity = 1.0;
   SensorCharacteristics sensor;
-  sensor.matrices.assign(hand.layout->numMatrices(), matrix);
+  for (std::size_t m = 0; m < hand.layout->numMatrices(); ++m) {
+    const double ownScale = static_cast<double>(hand.maximumOf(m));
+    MatrixCharacteristics matrix;
+    matrix.noiseIntercept = 0.005 * ownScale;
+    matrix.noiseRmse = 0.001 * ownScale;
+    matrix.restIntercept = 0.002 * ownScale;
+    matrix.taxelSd = 0.001 * ownScale;
+    matrix.sensitivity = hand.unit == "counts" ? ownScale / fullScale : 1.0;
+    sensor.matrices.push_back(matrix);
+  }
   sensor.pressure[2] = hand.unit == "kPa" ? 1.0 : kAssumedFullScaleKpa / fullScale;
   sensor.largestCounts = fullScale;
   sensor.neighbourFraction = 0.05;

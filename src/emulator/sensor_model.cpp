@@ -36,8 +36,8 @@ SensorModel::SensorModel(const HandDescription& hand,
                          std::uint64_t seed)
     : layout_(*hand.layout),
       characteristics_(characteristics),
-      fullScale_(static_cast<double>(hand.maximumCounts)),
-      resolution_(hand.unit == "counts" ? 1.0 : fullScale_ / kStreamSteps),
+      resolution_(hand.unit == "counts" ? 1.0
+                                        : static_cast<double>(hand.maximumCounts) / kStreamSteps),
       first_(layout_.numCells()),
       lagged_(layout_.numCells()),
       creep_(layout_.numCells()),
@@ -48,6 +48,7 @@ SensorModel::SensorModel(const HandDescription& hand,
                                 std::to_string(characteristics_.matrices.size()) +
                                 " matrices for " + std::to_string(layout_.numMatrices()));
   for (std::size_t m = 0; m < layout_.numMatrices(); ++m) {
+    fullScales_.push_back(static_cast<double>(hand.maximumOf(m)));
     const MatrixCharacteristics& matrix = characteristics_.matrices[m];
     MatrixSetting setting;
     setting.sensitivity = setting.factorySensitivity = matrix.sensitivity;
@@ -121,8 +122,9 @@ void SensorModel::scanPlaces(std::span<const double> degC,
     const double shared = matrix.sharedSd * normal_(random_);
     const double rest = matrix.restCounts(degC[m]);
     const double threshold = thresholdOf(m);
+    const double largest = std::min(characteristics_.largestCounts, fullScales_[m]);
     for (std::size_t i = 0; i < layout.numCells(); ++i, ++place) {
-      store(place, 0.0);
+      store(m, place, 0.0);
       if (layout.staticMask[i] == 0 || setting.dynamicMask[i] == 0) continue;
       const OffsetTaxel* const raised = raised_[place];
       const double sd = raised ? raised->sd : matrix.taxelSd;
@@ -133,7 +135,7 @@ void SensorModel::scanPlaces(std::span<const double> degC,
         continue;  // noise can't raise it above the threshold
       const double drawn = normal_(random_);
       raw += shared + sd * (raised ? drawn : heavyTailed(drawn));
-      store(place, saturated(raw - threshold, characteristics_.largestCounts));
+      store(m, place, saturated(raw - threshold, largest));
     }
   }
 }
@@ -141,28 +143,32 @@ void SensorModel::scanPlaces(std::span<const double> degC,
 void SensorModel::scan(std::span<const double> degC,
                        double handDegC,
                        std::span<std::uint16_t> counts) {
-  const double most = std::min(std::floor(fullScale_), kLargestWireCounts);
   scanPlaces(
       degC,
       handDegC,
       counts.size(),
       [this](std::size_t m) { return static_cast<double>(settings_[m].thresholdCounts); },
-      [&](std::size_t place, double above) {
+      [&](std::size_t m, std::size_t place, double above) {
+        const double most = std::min(std::floor(fullScales_[m]), kLargestWireCounts);
         counts[place] = static_cast<std::uint16_t>(std::clamp(std::round(above), 0.0, most));
       });
 }
 
 void SensorModel::measure(std::span<const double> degC, double handDegC, std::span<float> values) {
-  const double mostSteps = std::floor(fullScale_ / resolution_);
   const auto thresholdOf = [&](std::size_t m) {
     if (settings_[m].thresholdCounts > 0) return static_cast<double>(settings_[m].thresholdCounts);
     const MatrixCharacteristics& matrix = characteristics_.matrices[m];
     return matrix.noiseIntercept + matrix.noiseSlope * degC[m] + kNoiseMultiple * matrix.noiseRmse;
   };
-  scanPlaces(degC, handDegC, values.size(), thresholdOf, [&](std::size_t place, double above) {
-    const double steps = std::clamp(std::round(above / resolution_), 0.0, mostSteps);
-    values[place] = static_cast<float>(steps * resolution_);
-  });
+  scanPlaces(degC,
+             handDegC,
+             values.size(),
+             thresholdOf,
+             [&](std::size_t m, std::size_t place, double above) {
+               const double mostSteps = std::floor(fullScales_[m] / resolution_);
+               const double steps = std::clamp(std::round(above / resolution_), 0.0, mostSteps);
+               values[place] = static_cast<float>(steps * resolution_);
+             });
 }
 
 void spreadPressure(const SensorLayout& layout, double share, std::span<double> pressureKpa) {

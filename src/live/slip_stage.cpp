@@ -69,8 +69,8 @@ void SlipStage::applyReferenceRequests(const SensorLayout& layout) {
   const std::lock_guard lock(mutex_);
   if (changed_ || detectors_.size() != layout.numMatrices()) {
     detectors_.clear();
-    const SlipDetectorOptions options = withScaleOf(hand_, options_);
-    for (const MatrixLayout& matrix : layout.matrices()) detectors_.emplace_back(matrix, options);
+    for (std::size_t m = 0; m < layout.numMatrices(); ++m)
+      detectors_.emplace_back(layout.matrix(m), withScaleOf(hand_, m, options_));
     slipping_.assign(detectors_.size(), std::nullopt);
     changed_ = false;
   }

@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <utility>
 
+#include "palpate/core/number_text.h"
 #include "palpate/model/hand_file.h"
+#include "palpate/model/tactile_frame.h"
 
 namespace palpate {
 
@@ -18,6 +21,39 @@ bool sameSizes(const SensorLayout& a, const SensorLayout& b) {
 
 std::string HandDescription::matrixName(std::size_t matrix) const {
   return matrix < matrices.size() ? matrices[matrix].name : "matrix " + std::to_string(matrix);
+}
+
+float HandDescription::maximumOf(std::size_t matrix) const {
+  return matrix < matrices.size() ? matrices[matrix].maximumCounts.value_or(maximumCounts)
+                                  : maximumCounts;
+}
+
+float HandDescription::saturationOf(std::size_t matrix) const {
+  return matrix < matrices.size() ? matrices[matrix].saturationCounts.value_or(saturationCounts)
+                                  : saturationCounts;
+}
+
+std::string HandDescription::saturationText() const {
+  std::set<float> limits;
+  for (std::size_t m = 0; m < layout->numMatrices(); ++m) limits.insert(saturationOf(m));
+  std::string text;
+  for (const float limit : limits) text += (text.empty() ? "" : " or ") + numberText(limit);
+  return text;
+}
+
+std::size_t numSaturated(const HandDescription& hand, const TactileFrame& frame) noexcept {
+  if (frame.values.size() != hand.layout->numCells()) return 0;
+  std::size_t count = 0;
+  auto values = frame.values.begin();
+  const std::vector<MatrixLayout>& matrices = hand.layout->matrices();
+  for (std::size_t m = 0; m < matrices.size(); ++m) {
+    const auto end = values + static_cast<std::ptrdiff_t>(matrices[m].numCells());
+    const float limit = hand.saturationOf(m);
+    count += static_cast<std::size_t>(
+        std::count_if(values, end, [limit](float value) { return value >= limit; }));
+    values = end;
+  }
+  return count;
 }
 
 HandDescription withSeriesOf(HandDescription hand,

@@ -124,6 +124,18 @@ MatrixSurface surfaceOf(const JsonField& field, const MatrixLayout& layout) {
   return surface;
 }
 
+// The full scale of a matrix is at most that of the hand, its saturation at most its full scale.
+void readScale(const JsonField& item, const HandDescription& hand, MatrixDescription& matrix) {
+  const auto most = static_cast<double>(hand.maximumCounts);
+  if (item.has("full_scale"))
+    matrix.maximumCounts = static_cast<float>(item.at("full_scale").number(1e-6, most));
+  const auto full = static_cast<double>(matrix.maximumCounts.value_or(hand.maximumCounts));
+  if (item.has("saturation"))
+    matrix.saturationCounts = static_cast<float>(item.at("saturation").number(1e-6, full));
+  else if (matrix.maximumCounts)
+    matrix.saturationCounts = std::min(*matrix.maximumCounts, hand.saturationCounts);
+}
+
 void readMatrices(const JsonField& root, HandDescription& hand, HandFile& file) {
   const JsonField list = root.required("matrices");
   const std::vector<JsonField> items = list.items(kMostMatrices);
@@ -140,6 +152,8 @@ void readMatrices(const JsonField& root, HandDescription& hand, HandFile& file) 
                "columns",
                "pitch_mm",
                "mask",
+               "full_scale",
+               "saturation",
                "picture",
                "temperature_sensor",
                "surface"});
@@ -151,6 +165,7 @@ void readMatrices(const JsonField& root, HandDescription& hand, HandFile& file) 
         item.integer("finger", static_cast<std::int64_t>(m), 0, kMostMatrices - 1));
     matrix.segment = textAt(item, "segment");
     layouts.push_back(layoutOf(item));
+    readScale(item, hand, matrix);
     if (item.has("picture")) {
       const JsonField picture = item.at("picture");
       picture.only({"column", "row"});

@@ -122,20 +122,19 @@ ContactStatistics contactStatistics(const Profile& profile, const GraspSegment& 
   const TactileFrame& values = mean;
   const SensorLayout& layout = profile.layout();
   std::vector<MatrixStatistics> matrices;
-  double sum = 0.0, active = 0.0, touched = 0.0;
+  double sum = 0.0, peak = 0.0, active = 0.0, touched = 0.0;  // sum, peak: of full scale
   for (std::size_t m = 0; m < layout.numMatrices(); ++m) {
-    matrices.push_back(statisticsOf(values.matrix(m)));
+    const auto fullScale = static_cast<double>(profile.hand().maximumOf(m));
+    const auto places = values.matrix(m);
+    matrices.push_back(statisticsOf(places));
+    matrices.back().sum /= fullScale;
+    peak = std::max(peak, static_cast<double>(places.maxCoeff()) / fullScale);
     sum += matrices.back().sum;
     active += matrices.back().active;
     touched += matrices.back().active > 0.0 ? 1.0 : 0.0;
   }
-  const auto fullScale = static_cast<double>(profile.hand().maximumCounts);
-  const auto peak =
-      static_cast<double>(*std::max_element(values.values.begin(), values.values.end()));
-  out.values = {std::log(sum / fullScale + kLoadFloor),
-                std::log(peak / fullScale + kLoadFloor),
-                std::log(active + 1.0),
-                touched};
+  out.values = {
+      std::log(sum + kLoadFloor), std::log(peak + kLoadFloor), std::log(active + 1.0), touched};
   for (std::size_t m = 0; m < matrices.size(); ++m) {
     const MatrixLayout& matrix = layout.matrix(m);
     const MatrixStatistics& of = matrices[m];

@@ -92,7 +92,6 @@ class Finder {
     // First entry of this frame.
     const std::size_t first = touches_.size();
     touches_.resize(first + fingers_.numbers.size());
-    const auto saturation = static_cast<double>(profile_.hand().saturationCounts);
     std::size_t touching = 0;
     for (std::size_t m = 0; m < matrices.size(); ++m) {
       if (!matrices[m].active) continue;
@@ -100,7 +99,8 @@ class Finder {
       if (!touches) ++touching;
       touches = true;
       frame.sum += matrices[m].sum;
-      frame.saturated = frame.saturated || matrices[m].maximum >= saturation;
+      frame.saturated = frame.saturated ||
+                        matrices[m].maximum >= static_cast<double>(profile_.hand().saturationOf(m));
     }
     if (options_.rule == GraspRule::kStudy)
       frame.contact = std::all_of(

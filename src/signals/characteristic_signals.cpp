@@ -1,6 +1,7 @@
 #include "palpate/signals/characteristic_signals.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -89,6 +90,13 @@ CharacteristicSignals wholeFrameSignals(const TactileFrame& frame) {
     areaMm2 += active * layout.taxelAreaMm2();
   }
   return signalsFrom(raw, filtered, areaMm2);
+}
+
+bool isSaturated(std::span<const CharacteristicSignals> rows, const HandDescription& hand) {
+  const std::size_t matrices = std::min(rows.size(), hand.layout->numMatrices());
+  for (std::size_t m = 0; m < matrices; ++m)
+    if (rows[m].maximum >= static_cast<double>(hand.saturationOf(m))) return true;
+  return false;
 }
 
 void allSignals(const TactileFrame& frame, std::vector<CharacteristicSignals>& rows) {

@@ -36,7 +36,6 @@ void SignalOverview::compute(const Progress& progress) {
   const std::size_t frames = profile_.numFrames();
   const std::size_t framesPerReport =
       std::max<std::size_t>(1, kSignalOverviewPlacesPerReport / profile_.layout().numCells());
-  const auto saturation = static_cast<double>(profile_.hand().saturationCounts);
   std::vector<std::int64_t> stampsUs;
   stampsUs.reserve(frames);
   std::vector<CharacteristicSignals> rows;
@@ -51,7 +50,7 @@ void SignalOverview::compute(const Progress& progress) {
     for (const CharacteristicSignals& row : rows)
       for (const SignalKind kind : kAllSignalKinds) (*series++)->add(timeS, valueOf(row, kind));
     maximum_ = std::max(maximum_, rows.back().maximum);
-    if (rows.back().maximum >= saturation) ++saturatedFrames_;
+    if (isSaturated(rows, profile_.hand())) ++saturatedFrames_;
   }
   timing_ = timingOf(stampsUs);
   // The first series is finished last, since complete() looks at it.

@@ -12,6 +12,14 @@ SensorSlipDetector::SensorSlipDetector(const SensorLayout& layout,
   for (const MatrixLayout& matrix : layout.matrices()) detectors_.emplace_back(matrix, options);
 }
 
+SensorSlipDetector::SensorSlipDetector(const HandDescription& hand,
+                                       const SlipDetectorOptions& options)
+    : detections_(hand.layout->numMatrices()) {
+  detectors_.reserve(detections_.size());
+  for (std::size_t m = 0; m < detections_.size(); ++m)
+    detectors_.emplace_back(hand.layout->matrix(m), withScaleOf(hand, m, options));
+}
+
 const std::vector<SlipDetection>& SensorSlipDetector::update(const TactileFrame& frame,
                                                              std::span<const double> jointsDeg) {
   if (!frame.layout || frame.layout->numMatrices() != detectors_.size())

@@ -58,9 +58,11 @@ void SlipDetectorOptions::validate() const {
                                 std::to_string(countsScale));
 }
 
-SlipDetectorOptions withScaleOf(const HandDescription& hand, SlipDetectorOptions options) {
-  options.countsScale = kSlipFullScaleCounts / static_cast<double>(hand.maximumCounts);
-  const double saturation = static_cast<double>(hand.saturationCounts) * options.countsScale;
+SlipDetectorOptions withScaleOf(const HandDescription& hand,
+                                std::size_t matrix,
+                                SlipDetectorOptions options) {
+  options.countsScale = kSlipFullScaleCounts / static_cast<double>(hand.maximumOf(matrix));
+  const double saturation = static_cast<double>(hand.saturationOf(matrix)) * options.countsScale;
   options.tracker.saturationCounts = saturation;
   options.windows.hypotheses.registration.saturationCounts = saturation;
   return options;

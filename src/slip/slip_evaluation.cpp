@@ -157,11 +157,11 @@ void SlipEvaluation::add(const Profile& profile, bool slip, const Progress& prog
   for (const SlipLabel& label : labels) onsets.push_back(label.onset);
   std::sort(onsets.begin(), onsets.end());
   SlipWindowsOptions options = options_;
-  options.hypotheses.registration.saturationCounts =
-      static_cast<double>(profile.hand().saturationCounts);
   std::vector<SlipWindows> windows;
   std::vector<Series> series(matrices);
   for (std::size_t m = 0; m < matrices; ++m) {
+    options.hypotheses.registration.saturationCounts =
+        static_cast<double>(profile.hand().saturationOf(m));
     windows.emplace_back(profile.layout().matrix(m), options);
     series[m].slip = slip;
     series[m].fold = static_cast<int>(holds_ % 2);

@@ -20,7 +20,7 @@ void runSlipDetector(const Profile& profile,
     throw std::invalid_argument("runSlipDetector: referenceFrame is " +
                                 std::to_string(options.referenceFrame) + " of " +
                                 std::to_string(profile.numFrames()));
-  SensorSlipDetector detector(profile.layout(), withScaleOf(profile.hand(), options.detector));
+  SensorSlipDetector detector(profile.hand(), options.detector);
   TactileFrame frame;
   std::vector<double> jointsDeg;
   std::optional<std::size_t> sample;

@@ -40,6 +40,25 @@ TEST(StreamShape, ValuesOfTaxelsMoveToTheirPlaces) {
   EXPECT_EQ(values, (std::vector<float>{1, 0, 2, 3}));
 }
 
+TEST(StreamShape, EachMatrixHasItsOwnFullScale) {
+  HandDescription hand = padHand({{1, 2}, {2, 2}});
+  MatrixLayout masked = MatrixLayout::full(1, 2, 2.0);
+  masked.staticMask[1] = 0;
+  hand.layout =
+      std::make_shared<const SensorLayout>(std::vector{masked, MatrixLayout::full(2, 2, 2.0)});
+  hand.matrices[1].maximumCounts = 255.0F;
+  const StreamShape shape(hand);
+  const auto arranged = [&](std::vector<float> values, std::size_t count) {
+    values.resize(6);
+    return shape.arrange(values, count);
+  };
+  EXPECT_EQ(arranged({4095, 0, 255, 0, 0, 255}, 6), "");
+  EXPECT_EQ(arranged({4095, 0, 255, 256, 0, 0}, 6), "value 4 is 256, not in 0..255 counts");
+  EXPECT_EQ(arranged({4095, 255, 0, 0, 255}, 5), "");
+  EXPECT_EQ(arranged({4095, 256, 0, 0, 255}, 5), "value 2 is 256, not in 0..255 counts");
+  EXPECT_EQ(arranged({4096, 255, 0, 0, 255}, 5), "value 1 is 4096, not in 0..4095 counts");
+}
+
 TEST(StreamShape, AMaskedPlaceIsZeroWhateverWasSent) {
   const StreamShape shape(smallHand());
   std::vector<float> values{1, NAN, 3, 4};

@@ -365,6 +365,26 @@ SensorCharacteristics linearSensor(double fullScale) {
   return sensor;
 }
 
+TEST(SensorModelMeasure, AMatrixReadsNoMoreThanItsOwnFullScale) {
+  HandDescription hand = padOf(1000.0F, "counts");
+  hand.layout = std::make_shared<const SensorLayout>(
+      std::vector{MatrixLayout::full(1, 1, 2.0), MatrixLayout::full(1, 1, 2.0)});
+  hand.matrices.resize(2);
+  hand.matrices[1].maximumCounts = 300.0F;
+  SensorCharacteristics sensor = linearSensor(1000.0);
+  sensor.matrices.resize(2, sensor.matrices[0]);
+  SensorModel model(hand, sensor, 1);
+  model.advance(std::vector<double>{1e6, 1e6}, 10.0);
+  const std::vector<double> degC = {30.0, 30.0};
+  std::vector<float> values(2);
+  model.measure(degC, 30.0, values);
+  EXPECT_EQ(values, (std::vector<float>{1000.0F, 300.0F}));
+  for (MatrixSetting& setting : model.settings()) setting.thresholdCounts = 0;
+  std::vector<std::uint16_t> counts(2);
+  model.scan(degC, 30.0, counts);
+  EXPECT_EQ(counts, (std::vector<std::uint16_t>{1000, 300}));
+}
+
 TEST(SensorModelMeasure, ValuesAreInTheUnitAndScaleOfTheHand) {
   const std::vector<double> kpa = {0.0, 50.0, 1e6, 50.0};
   const std::vector<double> degC = {30.0};

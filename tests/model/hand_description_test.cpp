@@ -50,6 +50,24 @@ TEST(HandDescription, RecognisesTheSdh2BySizesAndKeepsTheFilesMasks) {
   EXPECT_EQ(hand.axes[6].name, "finger 2 distal");
 }
 
+TEST(HandDescription, EachMatrixHasItsOwnSaturation) {
+  HandDescription hand = describeHand(
+      SensorLayout({MatrixLayout::full(1, 2, 1.0), MatrixLayout::full(1, 2, 1.0)}), 0, 0);
+  hand.maximumCounts = hand.saturationCounts = 1000.0F;
+  hand.matrices[1].maximumCounts = 250.0F;
+  hand.matrices[1].saturationCounts = 200.0F;
+  EXPECT_EQ(hand.maximumOf(0), 1000.0F);
+  EXPECT_EQ(hand.maximumOf(1), 250.0F);
+  EXPECT_EQ(hand.saturationOf(7), 1000.0F) << "no such matrix";
+  EXPECT_EQ(hand.saturationText(), "200 or 1000");
+  TactileFrame frame;
+  frame.layout = hand.layout;
+  frame.values = {999.0F, 1000.0F, 199.0F, 250.0F};
+  EXPECT_EQ(numSaturated(hand, frame), 2u);
+  frame.values.pop_back();
+  EXPECT_EQ(numSaturated(hand, frame), 0u) << "a frame of another sensor";
+}
+
 TEST(HandDescription, DescribesWhatItDoesNotKnow) {
   const HandDescription hand = describeHand(SensorLayout({MatrixLayout::full(2, 3, 1.0),
                                                           MatrixLayout::full(2, 3, 1.0),

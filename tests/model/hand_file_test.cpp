@@ -56,6 +56,31 @@ TEST(HandFile, ReadsAPad) {
   EXPECT_TRUE(hand.file->surfaces.empty());
 }
 
+TEST(HandFile, AMatrixMayHaveItsOwnFullScaleAndSaturation) {
+  const auto own = [](const std::string& matrix) {
+    return parsed(R"(, "saturation": 900)", matrix);
+  };
+  const HandDescription usual = own("");
+  EXPECT_EQ(usual.maximumOf(0), 1000.0F);
+  EXPECT_EQ(usual.saturationOf(0), 900.0F);
+  const HandDescription scale = own(R"(, "full_scale": 250)");
+  EXPECT_EQ(scale.maximumOf(0), 250.0F);
+  EXPECT_EQ(scale.saturationOf(0), 250.0F);
+  const HandDescription larger = own(R"(, "full_scale": 950)");
+  EXPECT_EQ(larger.saturationOf(0), 900.0F);
+  const HandDescription both = own(R"(, "full_scale": 250, "saturation": 200)");
+  EXPECT_EQ(both.maximumOf(0), 250.0F);
+  EXPECT_EQ(both.saturationOf(0), 200.0F);
+  EXPECT_EQ(both.maximumCounts, 1000.0F);
+  EXPECT_EQ(both.saturationText(), "200");
+  EXPECT_EQ(own(R"(, "saturation": 950)").saturationOf(0), 950.0F);
+  EXPECT_NE(faultOf(handText("", R"(, "full_scale": 1001)")).find("matrices[0].full_scale"),
+            std::string::npos);
+  EXPECT_NE(faultOf(handText("", R"(, "full_scale": 250, "saturation": 251)"))
+                .find("matrices[0].saturation"),
+            std::string::npos);
+}
+
 TEST(HandFile, ReadsAxesAndPreshapes) {
   const HandDescription hand = parsed(R"(, "axes": [
       {"name": "slide", "unit": "mm", "minimum": 0, "maximum": 50, "maximum_force_n": 80},

@@ -61,6 +61,24 @@ TEST(ContactStatistics, AreThoseOfTheDefinition) {
   EXPECT_NEAR(of["m0_minor"], 0.0, 1e-9);
 }
 
+// Each matrix counts in relation to its own full scale: 100 of 1000 on one pad is as much as 25 of
+// 250 on the other.
+TEST(ContactStatistics, AreRelativeToTheFullScaleOfEachMatrix) {
+  HandDescription hand = describeHand(
+      SensorLayout({MatrixLayout::full(1, 2, 1.0), MatrixLayout::full(1, 2, 1.0)}), 0, 0);
+  hand.maximumCounts = hand.saturationCounts = 1000.0F;
+  hand.matrices[1].maximumCounts = 250.0F;
+  ProfileBuilder builder(hand);
+  for (std::int64_t us = 0; us < 50'000; us += 10'000)
+    builder.addFrame(us, std::vector{100.0F, 0.0F, 25.0F, 0.0F});
+  const Profile profile = builder.finish({});
+  auto of = named(hand, contactStatistics(profile, whole(profile)));
+  EXPECT_NEAR(of["ln_sum"], std::log(0.2 + 0.001), 1e-6);
+  EXPECT_NEAR(of["ln_peak"], std::log(0.1 + 0.001), 1e-6);
+  EXPECT_NEAR(of["m0_share"], 0.5, 1e-6);
+  EXPECT_NEAR(of["m1_share"], 0.5, 1e-6);
+}
+
 // Frames below nine tenths of the largest load don't count.
 TEST(ContactStatistics, AreThoseOfThePlateau) {
   std::vector<float> low(kPlaces, 0.0F), high(kPlaces, 0.0F);

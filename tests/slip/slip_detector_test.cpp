@@ -283,12 +283,24 @@ TEST(SlipDetector, RefusesOtherSizes) {
                std::invalid_argument);
 }
 
+TEST(SlipDetector, AMatrixWithItsOwnFullScaleIsRelativeToThat) {
+  HandDescription hand =
+      describeHand(SensorLayout({SyntheticSensor{}.layout, SyntheticSensor{}.layout}), 0, 0);
+  hand.maximumCounts = hand.saturationCounts = 4095.0F;
+  hand.matrices[1].maximumCounts = 1023.75F;
+  hand.matrices[1].saturationCounts = 1000.0F;
+  EXPECT_EQ(withScaleOf(hand, 0, {}).countsScale, 1.0);
+  EXPECT_EQ(withScaleOf(hand, 1, {}).countsScale, 4.0);
+  EXPECT_EQ(withScaleOf(hand, 1, {}).tracker.saturationCounts, 4000.0);
+  EXPECT_EQ(withScaleOf(hand, 1, {}).windows.hypotheses.registration.saturationCounts, 4000.0);
+}
+
 // The same contact on a hand with another full scale gives the same motion and the same alarm.
 TEST(SlipDetector, ReadingsAreRelativeToTheFullScaleOfTheHand) {
   for (const float fullScale : {1023.0F, 40.0F, 65'535.0F}) {
     HandDescription hand = describeHand(SensorLayout({SyntheticSensor{}.layout}), 0, 0);
     hand.maximumCounts = hand.saturationCounts = fullScale;
-    const SlipDetectorOptions options = withScaleOf(hand, {});
+    const SlipDetectorOptions options = withScaleOf(hand, 0, {});
     EXPECT_NEAR(options.tracker.saturationCounts, 4095.0, 1e-3);
     Watch usual;
     SlipDetector other(usual.slip.sensor().layout, options);

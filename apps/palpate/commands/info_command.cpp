@@ -36,7 +36,7 @@ ValueReport valuesOf(const Profile& profile, const Progress& progress) {
     profile.readFrame(i, frame);
     const float largest = *std::max_element(frame.values.begin(), frame.values.end());
     report.maximum = std::max(report.maximum, static_cast<double>(largest));
-    if (largest >= profile.hand().saturationCounts) ++report.saturatedFrames;
+    if (numSaturated(profile.hand(), frame) > 0) ++report.saturatedFrames;
   }
   return report;
 }
@@ -231,11 +231,9 @@ std::string plainText(const std::string& file,
   text += row("gaps", gaps);
   text += row("joint angles", std::to_string(profile.numAngles()) + " samples");
   text += row("temperatures", std::to_string(profile.numTemperatures()) + " samples");
-  text +=
-      row("largest value",
-          numberText(values.maximum) + ", " + std::to_string(values.saturatedFrames) +
-              " frames with a saturated taxel (>= " + numberText(profile.hand().saturationCounts) +
-              ")");
+  text += row("largest value",
+              numberText(values.maximum) + ", " + std::to_string(values.saturatedFrames) +
+                  " frames with a saturated taxel (>= " + profile.hand().saturationText() + ")");
   text += row("matrices", std::to_string(profile.layout().numMatrices()));
   text += matricesText(profile);
   text += notesText(recording);

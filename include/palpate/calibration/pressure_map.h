@@ -108,6 +108,7 @@ class PressureMap {
     // Rows as bits, 1 for each enabled taxel; empty with more than 64 columns.
     std::vector<std::uint64_t> enabled;
     double taxelAreaMm2 = 0.0;
+    double saturationCounts = 0.0;
     // Sensitivity of the calibration / that of the frames.
     double sensitivityRatio = 1.0;
     double extraSdCounts = 0.0;  // from thresholds that differ
@@ -129,7 +130,6 @@ class PressureMap {
   PressureMapOptions options_;
   std::vector<Prepared> matrices_;
   std::vector<DriftCompensation> drift_;
-  double saturationCounts_ = 0.0;
   std::size_t nextChange_ = 0;  // index into options_.changes
   mutable std::vector<std::uint64_t> rows_;
 };

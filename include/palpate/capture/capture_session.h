@@ -109,7 +109,7 @@ class CaptureSession : private DeviceSink {
   const bool scansItself_;
   // Layout for which the expected rate was set; used only by the thread that delivers frames.
   std::shared_ptr<const SensorLayout> expectedFor_;
-  std::atomic<float> saturationCounts_;
+  HandDescription hand_;  // of the device when it was started
   std::atomic<bool> started_ = false;
 
   LatestValue<SharedFrame> screenFrame_;

@@ -71,7 +71,7 @@ class StreamShape {
   std::size_t numTaxels_ = 0;
   std::size_t numAxes_ = 0;
   std::size_t numTemperatures_ = 0;
-  float fullScale_ = 0.0F;
+  std::vector<float> fullScales_;  // per matrix
   std::string unit_;
   std::vector<std::uint8_t> exists_;  // per place; empty when no place is masked
 };

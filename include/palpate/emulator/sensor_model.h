@@ -55,8 +55,8 @@ class SensorModel {
 
   const SensorLayout layout_;
   const SensorCharacteristics characteristics_;
-  const double fullScale_;   // [unit of the hand]
-  const double resolution_;  // of measure() [unit of the hand]
+  std::vector<double> fullScales_;  // per matrix [unit of the hand]
+  const double resolution_;         // of measure() [unit of the hand]
   std::vector<MatrixSetting> settings_;
   std::vector<double> first_, lagged_, creep_;  // per place [kPa]
   bool atRest_ = true;

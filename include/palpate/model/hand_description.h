@@ -13,6 +13,8 @@
 
 namespace palpate {
 
+struct TactileFrame;
+
 // Name and position of one sensor matrix.
 struct MatrixDescription {
   std::string name;       // "finger 0 distal"
@@ -25,6 +27,10 @@ struct MatrixDescription {
   int pictureRow = 0;
   // The nearest temperature sensor (index into temperatureSensors); empty when none is known.
   std::optional<std::size_t> temperatureSensor = std::nullopt;
+  // Full scale and saturation where they differ from those of the hand, in its unit. Code asks
+  // HandDescription::maximumOf() and saturationOf().
+  std::optional<float> maximumCounts = std::nullopt;
+  std::optional<float> saturationCounts = std::nullopt;
 };
 
 // Name and limits of one axis. Lengths take the place of angles where the axis slides: `Deg` in a
@@ -57,10 +63,13 @@ struct HandDescription {
   std::vector<MatrixDescription> matrices;     // one per matrix of the layout
   std::vector<AxisDescription> axes;
   std::vector<TemperatureSensorDescription> temperatureSensors;
-  float maximumCounts = 4095.0F;  // full scale of the converter
-  // A taxel at or above this value [counts] is saturated. All code takes the limit from here.
+  // Full scale of the converter; the largest one where matrices differ (maximumOf).
+  float maximumCounts = 4095.0F;
+  // A taxel at or above this value [counts] is saturated, unless its matrix has a limit of its own
+  // (saturationOf).
   float saturationCounts = 4095.0F;
-  // Unit of the taxels' values: "counts", or a physical unit ("kPa", "N").
+  // Unit of the taxels' values: "counts", or a physical unit ("kPa", "N"). All matrices have the
+  // same, since they share a scale of colours, an axis of values, and sums over all of them.
   std::string unit = "counts";
   // Preshapes, surfaces, sensor characteristics and the texts of the files that the description
   // was read from; null when it was not read from a file.
@@ -68,7 +77,18 @@ struct HandDescription {
 
   // Returns for example "finger 0 distal", or "matrix 7" when the description has no such matrix.
   std::string matrixName(std::size_t matrix) const;
+  // Full scale of a matrix, and the value from which on its taxels are saturated; those of the hand
+  // when the description has no such matrix.
+  float maximumOf(std::size_t matrix) const;
+  float saturationOf(std::size_t matrix) const;
+  // The values from which on taxels are saturated, as text: "3500", or "900 or 3500" where matrices
+  // differ.
+  std::string saturationText() const;
 };
+
+// Number of taxels of a frame of this hand that are saturated; 0 when the frame has another number
+// of values than the layout.
+std::size_t numSaturated(const HandDescription& hand, const TactileFrame& frame) noexcept;
 
 // Whether two layouts have as many matrices, of the same rows and columns.
 bool sameSizes(const SensorLayout& a, const SensorLayout& b);

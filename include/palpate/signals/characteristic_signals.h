@@ -54,6 +54,8 @@ std::vector<CharacteristicSignals> characteristicSignals(const TactileFrame& fra
 CharacteristicSignals wholeFrameSignals(const TactileFrame& frame);
 // Computes both: one row per matrix, and the whole frame last. `rows` is overwritten.
 void allSignals(const TactileFrame& frame, std::vector<CharacteristicSignals>& rows);
+// Whether a taxel is saturated in a frame of a hand, by the rows of allSignals().
+bool isSaturated(std::span<const CharacteristicSignals> rows, const HandDescription& hand);
 
 // The signals of all frames of a profile, one row per frame and matrix.
 class SignalTable {

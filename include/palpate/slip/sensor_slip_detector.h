@@ -15,6 +15,9 @@ class SensorSlipDetector {
  public:
   // Throws std::invalid_argument.
   explicit SensorSlipDetector(const SensorLayout& layout, const SlipDetectorOptions& options = {});
+  // For readings of a hand: each matrix has its own scale, see withScaleOf(). Throws
+  // std::invalid_argument.
+  explicit SensorSlipDetector(const HandDescription& hand, const SlipDetectorOptions& options = {});
 
   // Processes the next frame and the joint angles that belong to it (may be empty). Returns one
   // result per matrix, valid until the next call. Throws std::invalid_argument (another layout).

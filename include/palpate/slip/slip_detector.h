@@ -52,9 +52,11 @@ struct SlipDetectorOptions {
   void validate() const;
 };
 
-// Returns the options for readings of a hand: countsScale brings its full scale to 4095, and its
-// saturation is that of all registrations.
-SlipDetectorOptions withScaleOf(const HandDescription& hand, SlipDetectorOptions options);
+// Returns the options for readings of a matrix of a hand: countsScale brings its full scale to
+// 4095, and its saturation is that of all registrations.
+SlipDetectorOptions withScaleOf(const HandDescription& hand,
+                                std::size_t matrix,
+                                SlipDetectorOptions options);
 
 // Result of one frame of one matrix.
 struct SlipDetection {

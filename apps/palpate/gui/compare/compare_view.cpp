@@ -127,7 +127,7 @@ QString CompareView::valueText(CompareGroup group) const {
   const int decimals = value == std::round(value) ? 0 : 2;
   if (group == CompareGroup::kDifference) return signedText(value, decimals) + " " + unitOf(hand);
   return QString::number(value, 'f', decimals) +
-         (frame.matrix(hover_->matrix)(hover_->y, hover_->x) >= hand.saturationCounts
+         (frame.matrix(hover_->matrix)(hover_->y, hover_->x) >= hand.saturationOf(hover_->matrix)
               ? " (saturated)"
               : "");
 }

@@ -222,7 +222,7 @@ void paintMatrixValues(QPainter& painter,
   const ConstMatrixMap contact = frame.matrix(matrix);
   const ColorTable& table = tableOf(options);
   const double side = geometry.taxelSide(matrix);
-  const auto saturation = hand.saturationCounts;
+  const auto saturation = hand.saturationOf(matrix);
   HeatImageOptions image{options.map, range.minimum, range.maximum};
   if (options.difference) image.difference = &table;
   painter.save();

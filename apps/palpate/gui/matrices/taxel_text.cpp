@@ -40,8 +40,7 @@ QString taxelText(const HandDescription& hand,
           ? QString::number(std::lround(value))
           : QString::number(static_cast<double>(value), 'f', std::max(2, decimalsOf(hand)));
   return where + number + " " + unitOf(hand) +
-         (value >= hand.saturationCounts ? ", saturated" : "") +
-         pressureText(hand, place, pressure);
+         (value >= hand.saturationOf(m) ? ", saturated" : "") + pressureText(hand, place, pressure);
 }
 
 }  // namespace palpate::gui

@@ -92,7 +92,6 @@ void readThrough(OpenedRecording& opened, const Progress& progress) {
   opened.timing = timingOf(opened.profile);
   opened.whole.reserve(numFrames);
   opened.timeS.reserve(numFrames);
-  const auto saturation = static_cast<double>(opened.profile.hand().saturationCounts);
   std::vector<CharacteristicSignals> rows;
   std::vector<CharacteristicSignals> all;
   all.reserve(numFrames * opened.numMatrices());
@@ -103,7 +102,7 @@ void readThrough(OpenedRecording& opened, const Progress& progress) {
     allSignals(frame, rows);
     opened.whole.push_back(rows.back());
     opened.maximum = std::max(opened.maximum, rows.back().maximum);
-    if (rows.back().maximum >= saturation) ++opened.saturatedFrames;
+    if (isSaturated(rows, opened.profile.hand())) ++opened.saturatedFrames;
     opened.timeS.push_back(static_cast<double>(frame.hostUs - opened.profile.frameTimeUs(0)) /
                            kUsPerS);
     for (std::size_t m = 0; m < opened.numMatrices(); ++m)

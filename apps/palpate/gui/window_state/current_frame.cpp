@@ -116,11 +116,8 @@ void CurrentFrame::setStale(const StaleNotice& old) {
 std::ptrdiff_t CurrentFrame::saturated() const {
   const OpenedRecordingPtr recording = displayed_.recorded();
   if (!recording) return 0;
-  const float saturation = recording->profile.hand().saturationCounts;
-  const auto count = [saturation](const TactileFrame& frame) {
-    return std::count_if(frame.values.begin(), frame.values.end(), [saturation](float value) {
-      return value >= saturation;
-    });
+  const auto count = [&hand = recording->profile.hand()](const TactileFrame& frame) {
+    return static_cast<std::ptrdiff_t>(numSaturated(hand, frame));
   };
   if (displayed_.filteredRecording() == recording) return count(frame_);
   try {
