@@ -102,6 +102,7 @@ const SlipRotation& RotationTracker::update(const ContactMoments& moments,
     const double off = orientation - angleDeg_;
     const double step = off - 180.0 * std::round(off / 180.0);
     angleDeg_ += step;
+    countsTurns_ = countsTurns_ && std::abs(step) <= kMaxAxisStepDeg;
     state_.valid = hasLast_;
     if (hasLast_) state_.rotationDeg = step;
   } else {
@@ -112,10 +113,11 @@ const SlipRotation& RotationTracker::update(const ContactMoments& moments,
   if (wantsReference_) {
     referenceDeg_ = angleDeg_;
     hasReference_ = true;
+    countsTurns_ = true;
     wantsReference_ = false;
   }
-  state_.refValid = hasReference_;
-  if (hasReference_) state_.refRotationDeg = angleDeg_ - referenceDeg_;
+  state_.refValid = hasReference_ && countsTurns_;
+  if (state_.refValid) state_.refRotationDeg = angleDeg_ - referenceDeg_;
   return state_;
 }
 
@@ -124,6 +126,7 @@ bool RotationTracker::setReference() noexcept {
   hasReference_ = hasLast_;
   wantsReference_ = !hasLast_;
   if (hasLast_) referenceDeg_ = angleDeg_;
+  countsTurns_ = true;
   return hasLast_;
 }
 

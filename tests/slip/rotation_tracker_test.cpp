@@ -35,6 +35,24 @@ TEST(RotationTracker, CountsWholeTurnsBothWays) {
     EXPECT_NEAR(tracker.update(lying(30.0 + 9.0 * i), 0.5).refRotationDeg, 9.0 * i, 1e-7);
 }
 
+// By turns of 60 degrees the axis could have turned by -120 as well: no number of turns is known
+// until there is a new reference.
+TEST(RotationTracker, AJumpOfTheAxisLosesTheCountOfTurns) {
+  RotationTracker tracker;
+  tracker.update(lying(10.0), 0.5);
+  EXPECT_NEAR(tracker.update(lying(54.0), 0.5).refRotationDeg, 44.0, 1e-9);
+  EXPECT_FALSE(tracker.update(lying(114.0), 0.5).refValid);
+  SlipRotation rotation = tracker.update(lying(118.0), 0.5);
+  EXPECT_TRUE(rotation.valid);
+  EXPECT_NEAR(rotation.rotationDeg, 4.0, 1e-9);
+  EXPECT_FALSE(rotation.refValid);
+  EXPECT_EQ(rotation.refRotationDeg, 44.0) << "the last one that was known";
+  tracker.setReference();
+  rotation = tracker.update(lying(120.0), 0.5);
+  EXPECT_TRUE(rotation.refValid);
+  EXPECT_NEAR(rotation.refRotationDeg, 2.0, 1e-9);
+}
+
 TEST(RotationTracker, RoundContactsHaveNoDirection) {
   RotationTracker tracker;
   tracker.update(lying(10.0), 0.5);

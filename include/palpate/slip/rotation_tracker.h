@@ -30,7 +30,8 @@ struct SlipRotation {
   // Whether this frame and the reference have a direction.
   bool refValid = false;
   // Rotation since the reference [deg], whole turns counted. It keeps its last value while it is
-  // not valid.
+  // not valid. An axis tells an angle only up to half turns, which are counted from step to step:
+  // after a step of more than kMaxAxisStepDeg it is not valid until there is a new reference.
   double refRotationDeg = 0.0;
   PrincipalAxis axis;
   double roundness = 0.0;
@@ -48,6 +49,10 @@ struct SlipRotation {
 // moves out. `moments` are those of `frame`. Values that are not above 0 don't count.
 inline constexpr double kMaxCutAxisDeg = 10.0;
 bool axisIsDetermined(const ConstMatrixMap& frame, const ContactMoments& moments) noexcept;
+
+// Largest step of the axis that is taken for a rotation [deg]. The axis of a nearly round contact
+// jumps by up to 90 deg in either direction, and such steps would add up to turns that never were.
+inline constexpr double kMaxAxisStepDeg = 45.0;
 
 class RotationTracker {
  public:
@@ -84,6 +89,8 @@ class RotationTracker {
   // Unwrapped angle of the reference [deg].
   double referenceDeg_ = 0.0;
   bool hasReference_ = false;
+  // Whether every step since the reference was at most kMaxAxisStepDeg.
+  bool countsTurns_ = true;
   bool wantsReference_ = true;
 };
 

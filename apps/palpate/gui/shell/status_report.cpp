@@ -112,7 +112,7 @@ void StatusReport::reportLive() {
       "rate " + figure(health.frames.rateHz, 1) + " fps",
       "age " + (live.stale() ? QString("–") : figure(health.device.tactile.ageMs, 0)) + " ms",
       "lost " + QString::number(health.lost),
-      "bad " + QString::number(health.badChecksums),
+      "bad " + QString::number(health.badChecksums + health.device.tactile.suspect),
       "saturated " + QString::number(health.frames.saturatedFrames)};
   now.notice = notice();
   // Until something is sent, where it is awaited.
