@@ -63,6 +63,41 @@ class HandViewTest : public ::testing::Test {
   TactileFrame frame_ = emptyFrame();
 };
 
+// While the hand stands still, every second frame of 30 a second draws its colours; a moved hand is
+// drawn at once, and so is the newest frame when the stream stops.
+TEST_F(HandViewTest, DrawsTheColorsOfARunningHandLessOftenThanItsMotion) {
+  const auto drawn = [&](std::int64_t hostUs, float counts, const std::vector<double>& anglesDeg) {
+    const int before = view_.numPaints();
+    frame_.hostUs = hostUs;
+    frame_.matrix(1)(4, 2) = counts;
+    view_.setLiveMoment(frame_, anglesDeg);
+    QCoreApplication::processEvents();
+    return view_.numPaints() - before;
+  };
+  EXPECT_EQ(drawn(1'000'000, 10.0F, kPose), 1);
+  EXPECT_EQ(drawn(1'033'000, 20.0F, kPose), 0);
+  EXPECT_EQ(drawn(1'066'000, 30.0F, kPose), 1);
+  // A contact that ends between two drawings doesn't stay in the picture.
+  EXPECT_EQ(drawn(1'070'000, 0.0F, kPose), 0);
+  EXPECT_EQ(drawn(1'090'000, 0.0F, kPose), 0);
+  EXPECT_EQ(drawn(1'120'000, 0.0F, kPose), 1);
+  std::vector<double> moved = kPose;
+  moved[1] += 1.0;
+  EXPECT_EQ(drawn(1'130'000, 30.0F, moved), 1);
+  EXPECT_EQ(drawn(1'163'000, 40.0F, moved), 0);
+  const int before = view_.numPaints();
+  view_.setStale({"no data", false});
+  QCoreApplication::processEvents();
+  EXPECT_EQ(view_.numPaints() - before, 1);
+  EXPECT_EQ(view_.drawing().handState().frame->matrix(1)(4, 2), 40.0F);
+  // A recording shows every frame that is asked for.
+  frame_.hostUs += 1000;
+  frame_.matrix(1)(4, 2) = 50.0F;
+  view_.setMoment(frame_, moved);
+  QCoreApplication::processEvents();
+  EXPECT_EQ(view_.numPaints() - before, 2);
+}
+
 TEST_F(HandViewTest, ShowsAllOfTheHandAtFirst) {
   for (const Eigen::Vector3d& point : view_.drawing().extent(look_)) {
     const auto at = view_.camera().project(point, view_.size());

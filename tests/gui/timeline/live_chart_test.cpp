@@ -49,6 +49,23 @@ TEST_F(LiveChartTest, RollsWithTheNewestFrame) {
   EXPECT_DOUBLE_EQ((chart_.graph(0)->data()->constEnd() - 1)->value, 0.0);
 }
 
+TEST_F(LiveChartTest, MovesOnInStepsThatAreSeenAndLosesNothing) {
+  for (int i = 0; i <= 40 * 30; ++i) frame(i / 30.0, 100.0);
+  chart_.refresh(0.0);
+  frame(40.033, 200.0);
+  chart_.refresh(0.0);
+  EXPECT_NEAR(chart_.xAxis->range().upper, 40.0, 1e-6) << "not drawn yet";
+  EXPECT_EQ((chart_.graph(2)->data()->constEnd() - 1)->value, 200.0) << "but taken";
+  frame(40.067, 100.0);
+  chart_.refresh(0.0);
+  EXPECT_NEAR(chart_.xAxis->range().upper, 40.067, 1e-6);
+  EXPECT_EQ(chart_.graph(2)->data()->size(), 40 * 30 + 3);
+  frame(40.1, 100.0);
+  chart_.refresh(0.0);
+  chart_.refresh(0.5);
+  EXPECT_NEAR(chart_.xAxis->range().upper, 40.6, 1e-6) << "nothing comes any more";
+}
+
 TEST_F(LiveChartTest, StartsFullAndGrowsFromTheLeft) {
   frame(0.0, 10.0);
   frame(2.0, 10.0);

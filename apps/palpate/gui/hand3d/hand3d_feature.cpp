@@ -101,8 +101,8 @@ void Hand3dFeature::connectMoment() {
           this,
           [this](const LiveResults& results) {
             if (panel_->isHidden()) return;
-            panel_->show(*results.frame,
-                         results.angles ? results.angles->deg : std::vector<double>());
+            panel_->showLive(*results.frame,
+                             results.angles ? results.angles->deg : std::vector<double>());
           });
   connect(
       &windowState.currentFrame, &CurrentFrame::staleNoticeChanged, this, [&windowState, &view] {

@@ -148,6 +148,10 @@ void HandPanel::show(const TactileFrame& frame, const std::vector<double>& angle
   view_->setMoment(frame, anglesDeg);
 }
 
+void HandPanel::showLive(const TactileFrame& frame, const std::vector<double>& anglesDeg) {
+  view_->setLiveMoment(frame, anglesDeg);
+}
+
 void HandPanel::setColors(const MatricesLook& colors) {
   HandLook look = view_->look();
   look.map = colors.map;

@@ -26,6 +26,7 @@ class HandPanel : public QWidget {
   void setHand(const HandDescription& hand);
   // Shows one frame with its joint angles [deg]; empty: the angles aren't known.
   void show(const TactileFrame& frame, const std::vector<double>& anglesDeg);
+  void showLive(const TactileFrame& frame, const std::vector<double>& anglesDeg);
   // Takes the colours of the heat maps.
   void setColors(const MatricesLook& look);
   // Sets the look except its colours.

@@ -14,6 +14,9 @@
 namespace palpate::gui {
 namespace {
 
+// Least time between two drawings of which only the colours differ [us]: every second frame of an
+// SDH-2.
+constexpr std::int64_t kLiveColorsUs = 50'000;
 // A shorter movement is a click, not a drag.
 constexpr double kClickPx = 4.0;
 // Zoom factor per eighth of a degree of the wheel.
@@ -81,15 +84,34 @@ void HandView::clear() {
 }
 
 void HandView::setMoment(const TactileFrame& frame, const std::vector<double>& anglesDeg) {
+  takeMoment(frame, anglesDeg, false);
+}
+
+void HandView::setLiveMoment(const TactileFrame& frame, const std::vector<double>& anglesDeg) {
+  takeMoment(frame, anglesDeg, true);
+}
+
+void HandView::takeMoment(const TactileFrame& frame,
+                          const std::vector<double>& anglesDeg,
+                          bool live) {
   if (!drawing_.hasHand()) return;
   const HandState& shown = drawing_.handState();
   assumed_ = anglesDeg.empty() && !assumedDeg_.empty() && !drawing_.hand().axes.empty();
   const std::vector<double>& angles = assumed_ ? assumedDeg_ : anglesDeg;
-  if (shown.frame && shown.frame->values == frame.values && shown.anglesDeg == angles) return;
+  const std::int64_t sinceUs = frame.hostUs - drawnUs_;
+  const bool tooSoon = live && sinceUs >= 0 && sinceUs < kLiveColorsUs;
+  if (shown.frame && shown.frame->values == frame.values && shown.anglesDeg == angles) {
+    if (sceneIsOld_ && !tooSoon) drawAnew();
+    return;
+  }
   const bool first = !shown.frame;
+  const bool moves = shown.anglesDeg != angles;
   drawing_.setMoment(frame, angles);
   if (first && !moved_) fitFirstView();
-  drawAnew();
+  if (tooSoon && !first && !moves)
+    sceneIsOld_ = true;
+  else
+    drawAnew();
   if (hover_) emit hovered(hoverText());
 }
 
@@ -131,6 +153,7 @@ void HandView::setCamera(const HandCamera& camera) {
 
 void HandView::drawAnew() {
   sceneIsOld_ = true;
+  if (const auto& frame = drawing_.handState().frame) drawnUs_ = frame->hostUs;
   update();
   if (canvas_) canvas_->update();
 }

@@ -35,6 +35,10 @@ class HandView : public QWidget {
   void clear();
   // Sets frame and joint angles [deg]; without angles the rest pose is drawn, greyed.
   void setMoment(const TactileFrame& frame, const std::vector<double>& anglesDeg);
+  // As setMoment(), for frames of a running hand: while the hand stands still, the colours of its
+  // taxels are drawn anew 16 times a second at most, and when the stream stops (setStale()).
+  // Drawing the hand takes more time than anything else in a window that is live.
+  void setLiveMoment(const TactileFrame& frame, const std::vector<double>& anglesDeg);
   // Angles for a recording that has none [deg]; empty: none are assumed.
   void setAssumedAngles(const std::vector<double>& anglesDeg);
   const std::vector<double>& assumedAngles() const noexcept { return assumedDeg_; }
@@ -96,6 +100,7 @@ class HandView : public QWidget {
  private:
   enum class Drag { kNone, kClick, kOrbit, kPan, kZoom, kChoose };
   void renew();
+  void takeMoment(const TactileFrame& frame, const std::vector<double>& anglesDeg, bool live);
   void drawAnew();
   void fitTo(const std::vector<Eigen::Vector3d>& pointsMm);
   void fitFirstView();
@@ -111,6 +116,8 @@ class HandView : public QWidget {
   HandScene scene_;
   HandRaster raster_;
   bool sceneIsOld_ = true;
+  // Time stamp of the frame when the view was last drawn anew [us since 1970].
+  std::int64_t drawnUs_ = 0;
   HandLook look_;
   HandCamera camera_;
   std::vector<Eigen::Vector3d> extent_;

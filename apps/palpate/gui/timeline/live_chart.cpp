@@ -20,6 +20,9 @@ constexpr double kShrinkBelow = 0.35;
 // Without a frame for so long [s], the chart scrolls by itself.
 constexpr double kOldS = 0.4;
 constexpr std::size_t kMostEvents = 200;
+// Least time that the chart moves on when it is drawn [s]: every second frame of an SDH-2, 2 pixels
+// of a chart of 30 s on a usual screen.
+constexpr double kLeastStepS = 0.05;
 
 // The least 1, 2 or 5 times a power of ten at or above `value`, so that the axis changes only in
 // steps.
@@ -150,9 +153,13 @@ void LiveChart::refresh(double silentS) {
   append(samples, true);
   if (samples.empty() && (silentS < kOldS || !originUs_)) return;
   const double newestS = originUs_ ? secondsOf(newestUs_) : 0.0;
-  nowS_ = samples.empty() ? newestS + silentS : newestS;
-  forget(nowS_ - kMaxWindowS);
-  roll(nowS_);
+  const double nowS = samples.empty() ? newestS + silentS : newestS;
+  // A step of less than this is not seen, but drawing takes as long as for a large one. What
+  // arrived is drawn by the next step, or when nothing comes any more.
+  if (nowS >= nowS_ && nowS - nowS_ < kLeastStepS && graphCount() > 0 && graph(0)->dataCount() > 2)
+    return;
+  forget(nowS - kMaxWindowS);
+  roll(nowS);
 }
 
 void LiveChart::roll(double nowS) {
