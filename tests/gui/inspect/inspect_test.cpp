@@ -61,6 +61,35 @@ TEST_F(InspectTest, OnlyWhatChangedIsToldToTheTable) {
   EXPECT_EQ(changed.size(), 2) << "matrix 1 and all";
 }
 
+TEST_F(InspectTest, LiveValuesAreShownAtAReadableRateAndTheNewestOnesWhenNoneFollow) {
+  InspectPanel panel;
+  panel.setHand(sdh2());
+  const auto mean = [&] {
+    return panel.table().index(0, MatrixTableModel::kMean).data(Qt::DisplayRole).toString();
+  };
+  const auto show = [&](std::int64_t hostUs, double counts) {
+    auto frame = std::make_shared<TactileFrame>(sdh2().layout);
+    frame->hostUs = hostUs;
+    LiveResults results;
+    results.frame = frame;
+    results.matrixSignals.resize(6);
+    results.matrixSignals[0].mean = results.matrixSignals[0].sum = counts;
+    results.matrixSignals[0].maximum = counts;
+    results.matrixSignals[0].active = 1;
+    panel.showLive(results);
+    return mean();
+  };
+  EXPECT_EQ(show(1'000'000, 10.0), "10");
+  EXPECT_EQ(show(1'033'000, 20.0), "10");
+  EXPECT_EQ(show(1'066'000, 30.0), "10");
+  EXPECT_EQ(show(1'100'000, 40.0), "40");
+  EXPECT_EQ(show(1'133'000, 50.0), "40");
+  panel.showLatest();
+  EXPECT_EQ(mean(), "50");
+  panel.showLatest();
+  EXPECT_EQ(mean(), "50");
+}
+
 TEST_F(InspectTest, AClickOnATickPlotsTheRow) {
   open({"good.dsa"});
   auto* chart = window().findChild<TimelineChart*>();

@@ -64,11 +64,14 @@ InspectFeature::InspectFeature(WindowState& windowState, QWidget* window)
   });
   connect(
       &windowState.currentFrame, &CurrentFrame::resultsReceived, panel_, &InspectPanel::showLive);
-  connect(
-      &windowState.currentFrame, &CurrentFrame::staleNoticeChanged, this, [&windowState, &table] {
-        if (windowState.displayed.isLive())
-          table.setStale(!windowState.currentFrame.old().notice.isEmpty());
-      });
+  connect(&windowState.currentFrame,
+          &CurrentFrame::staleNoticeChanged,
+          this,
+          [this, &windowState, &table] {
+            if (!windowState.displayed.isLive()) return;
+            panel_->showLatest();
+            table.setStale(!windowState.currentFrame.old().notice.isEmpty());
+          });
   connect(&windowState.events, &EventController::changed, this, [this, &windowState] {
     if (const EventEditor* editor = windowState.events.editor())
       panel_->showEvents(editor->events());

@@ -4,6 +4,7 @@
 #include <QLabel>
 #include <QResizeEvent>
 #include <algorithm>
+#include <utility>
 
 #include <palpate/core/time.h>
 
@@ -15,6 +16,8 @@ namespace {
 
 // From this width [px] the panel has two columns.
 constexpr int kTwoColumnsFrom = 430;
+// Least time between two live values that are shown [us].
+constexpr std::int64_t kReadableUs = 100'000;
 
 // Frame rate as text; slow rates get more decimals, as a recording may have 30 frames per second,
 // or one in three seconds.
@@ -160,6 +163,7 @@ InspectPanel::InspectPanel(QWidget* parent) : QScrollArea(parent) {
 
 void InspectPanel::setRecording(const OpenedRecordingPtr& recording,
                                 const OpenedRecordingPtr& asRecorded) {
+  latest_.reset();
   recording_ = recording;
   asRecorded_ = asRecorded;
   model_->setRecording(recording);
@@ -197,6 +201,8 @@ void InspectPanel::renewFacts() {
 }
 
 void InspectPanel::setHand(const HandDescription& hand) {
+  latest_.reset();
+  shownUs_ = 0;
   recording_.reset();
   asRecorded_.reset();
   showEvents({});
@@ -231,11 +237,20 @@ void InspectPanel::listSensors(const HandDescription& hand, bool angles, bool te
 void InspectPanel::setLiveFacts(std::vector<Fact> facts) { facts_->setFacts(std::move(facts)); }
 
 void InspectPanel::showLive(const LiveResults& results) {
-  std::vector<CharacteristicSignals> rows = results.matrixSignals;
-  rows.push_back(results.wholeSignals);
+  latest_ = std::make_unique<const LiveResults>(results);
+  const std::int64_t sinceUs = results.frame->hostUs - shownUs_;
+  if (sinceUs < 0 || sinceUs >= kReadableUs) showLatest();
+}
+
+void InspectPanel::showLatest() {
+  if (!latest_) return;
+  const auto results = std::move(latest_);
+  shownUs_ = results->frame->hostUs;
+  std::vector<CharacteristicSignals> rows = results->matrixSignals;
+  rows.push_back(results->wholeSignals);
   model_->showSignals(rows);
-  if (results.angles) showAngles(*results.angles);
-  if (results.temperatures) showTemperatures(*results.temperatures);
+  if (results->angles) showAngles(*results->angles);
+  if (results->temperatures) showTemperatures(*results->temperatures);
 }
 
 void InspectPanel::showFrame(std::size_t frame,

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <QScrollArea>
+#include <cstdint>
+#include <memory>
 
 #include <palpate/live/live_results.h>
 #include <palpate/model/hand_state.h>
@@ -37,7 +39,11 @@ class InspectPanel : public QScrollArea {
   void renewHand(const HandDescription& hand) { model_->renewHand(hand); }
   // Facts about the connection.
   void setLiveFacts(std::vector<Fact> facts);
+  // Shows results ten times a second at most: nobody reads more numbers, and drawing text takes
+  // time. Those in between are shown by showLatest().
   void showLive(const LiveResults& results);
+  // To be called when no results follow for now: shows the newest ones.
+  void showLatest();
   void setTheme(Theme theme);
   MatrixTableModel& table() noexcept { return *model_; }
   QSize sizeHint() const override { return {470, 400}; }
@@ -51,6 +57,10 @@ class InspectPanel : public QScrollArea {
   void showTemperatures(const Temperatures& temperatures);
 
   OpenedRecordingPtr recording_;
+  // Newest live results that aren't shown yet; null when all are.
+  std::unique_ptr<const LiveResults> latest_;
+  // Time stamp of the live frame that is shown [us since 1970].
+  std::int64_t shownUs_ = 0;
   OpenedRecordingPtr asRecorded_;
   QString calibration_;
   MatrixTableModel* model_;
