@@ -1,5 +1,3 @@
-#include <chrono>
-
 #include "palpate/core/json.h"
 
 #include "commands/palpate_program.h"
@@ -10,9 +8,7 @@ namespace {
 using testing::palpate;
 
 TEST(SlipBenchmarkCommand, PrintsEveryMethodBesideTheBound) {
-  const auto begin = std::chrono::steady_clock::now();
   const auto result = palpate({"slip-benchmark", "--noise", "20", "--quiet"});
-  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(30));
   ASSERT_EQ(result.exitCode, 0) << result.err;
   const Json methods = Json::parse(result.out).at("methods");
   for (const char* name : {"centroid",
