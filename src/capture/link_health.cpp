@@ -29,7 +29,10 @@ std::string portFault(const PortStatus& port, const std::string& name) {
     case PortState::kConnecting:
       return where + " is not connected yet" + why;
     case PortState::kSilent:
-      return where + " is silent" + (why.empty() ? ": check the hand's power and cable" : why);
+      return port.items == 0 && port.suspect > 0 && !why.empty()
+                 ? where + " sends nothing that fits the hand" + why
+                 : where + " is silent" +
+                       (why.empty() ? ": check the hand's power and cable" : why);
     case PortState::kLost:
       return where + " is disconnected" + (why.empty() ? ": plug it in again" : why);
     case PortState::kFault:

@@ -228,6 +228,22 @@ TEST(LinkHealth, saysTheNameOfAPortOnce) {
   EXPECT_EQ(withoutPort(PortStatus{}), "");
 }
 
+TEST(LinkHealth, aSenderOfAnotherHandIsNotSilent) {
+  LinkInputs inputs = streaming();
+  PortStatus& port = inputs.device.tactile;
+  port.state = PortState::kSilent;
+  port.port = "tcp:localhost:9871";
+  port.message = "tcp:localhost:9871: packet 7: 384 values instead of 256";
+  port.items = 0;
+  port.suspect = 7;
+  inputs.frames.ageMs = 2'000.0;
+  EXPECT_EQ(assessHealth(inputs).alarms.at(0).text,
+            "the tactile port tcp:localhost:9871 sends nothing that fits the hand: packet 7: 384 "
+            "values instead of 256");
+  port.items = 100;
+  EXPECT_NE(assessHealth(inputs).alarms.at(0).text.find("is silent"), std::string::npos);
+}
+
 TEST(LinkHealth, aHandThatIsTooHotIsAnAlarm) {
   LinkInputs inputs = streaming();
   inputs.temperatures = Temperatures{0, {30.0, 65.0}};

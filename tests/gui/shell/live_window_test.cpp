@@ -132,6 +132,29 @@ TEST_F(LiveWindowTest, NothingIsConnectedWithoutBeingAsked) {
   EXPECT_FALSE(actions().at("mark")->isEnabled());
 }
 
+// A recording that is opened meanwhile takes the dock Hand away, with its Stop.
+TEST_F(LiveWindowTest, StopStaysInSightAndNoKeyMovesAHandThatIsNotShown) {
+  auto* stop = find<QPushButton>("toolBarStop");
+  EXPECT_FALSE(stop->isVisible()) << "there is nothing to stop";
+  connectEmulatedHand();
+  ASSERT_TRUE(await([&] { return stop->isVisible(); }));
+  click("openHand");
+  ASSERT_TRUE(await([&] { return bench_->handMoves(); }));
+  open({"good.dsa"});
+  ASSERT_TRUE(window().state().displayed.isRecording());
+  EXPECT_TRUE(stop->isVisible());
+  for (const char* action :
+       {"graspHand", "reactiveGrasp", "slipAwareGrasp", "openHand", "relaxHand"}) {
+    EXPECT_FALSE(actions().at(action)->isEnabled()) << action;
+    EXPECT_TRUE(actions().at(action)->toolTip().contains("F6")) << action;
+  }
+  EXPECT_TRUE(bench_->handMoves());
+  QTest::mouseClick(stop, Qt::LeftButton);
+  EXPECT_TRUE(await([&] { return !bench_->handMoves(); }));
+  window().state().displayed.showLive();
+  EXPECT_TRUE(await([&] { return actions().at("graspHand")->isEnabled(); }));
+}
+
 TEST_F(LiveWindowTest, AReactiveGraspIsFeltSeenAndStopped) {
   connectEmulatedHand();
   EXPECT_FALSE(bench_->handMoves()) << "connecting moves nothing";

@@ -30,6 +30,8 @@ constexpr int kHandDockMargin = 12;
 constexpr int kStateLines = 4;  // lines reserved for the status text
 constexpr const char* kStopTip =
     "Stops the hand now; the motors stay on and hold (Esc works everywhere)";
+constexpr const char* kNotInSightTip =
+    "A recording is shown, not the hand. Live (F6) shows the hand; then it can be moved";
 constexpr const char* kReadOnlyTip = "This hand is read, not moved";
 constexpr const char* kHandDockNothing = "–";
 
@@ -277,10 +279,17 @@ void HandDock::showUnmeasurable(const std::vector<MatrixSettings>& settings) {
   emit unmeasurableChanged(unmeasurable_);
 }
 
+void HandDock::setInSight(bool on) {
+  inSight_ = on;
+  showBound();
+}
+
 void HandDock::showBound() {
   for (const auto& [action, button] : bound_) {
-    action->setEnabled(button->isEnabled());
-    action->setToolTip(button->toolTip());
+    // Nobody moves a hand by a key who looks at something else; Stop works always.
+    const bool offered = inSight_ || button == stop_;
+    action->setEnabled(button->isEnabled() && offered);
+    action->setToolTip(offered ? button->toolTip() : kNotInSightTip);
   }
 }
 

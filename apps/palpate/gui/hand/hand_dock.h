@@ -41,6 +41,8 @@ class HandDock : public QWidget {
   // null before they are destroyed.
   void setHand(CaptureSession* session, GraspControl* control);
   // The connected hand was found to be another one, or scans other taxels.
+  // Whether the window shows the hand, and not a recording: only then keys and menu move it.
+  void setInSight(bool on);
   void updateHand();
   // Connects menu entries and keys with the buttons: they do the same and are enabled together.
   // Call it once.
@@ -100,6 +102,7 @@ class HandDock : public QWidget {
   QWidget* heats_;
   FactsView* temperatures_;
   StopKey* stopKey_;
+  bool inSight_ = true;
   QTimer timer_;
   // When the motion port was last missing [us since 1970].
   std::optional<std::int64_t> goneUs_;

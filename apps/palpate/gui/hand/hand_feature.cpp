@@ -27,6 +27,9 @@ HandFeature::HandFeature(WindowState& windowState, QWidget* window)
   });
   connect(&live, &LiveController::leaving, this, [this] { panel_->setHand(nullptr, nullptr); });
   connect(&windowState.displayed, &DisplayedSource::handChanged, panel_, &HandDock::updateHand);
+  connect(&windowState.displayed, &DisplayedSource::changed, this, [this, &windowState] {
+    panel_->setInSight(!windowState.displayed.isRecording());
+  });
   connect(panel_,
           &HandDock::unmeasurableChanged,
           &windowState.derivedResults,

@@ -167,7 +167,7 @@ QString sphereText(const HandSceneBuilder& drawing, SphereOf of) {
 QString poseNotice(const HandSceneBuilder& drawing, bool assumed) {
   if (!drawing.hasHand()) return {};
   if (!drawing.hasGeometry())
-    return "The geometry of this sensor isn't known: its matrices laid flat.";
+    return "The geometry of this sensor isn't known: its matrices are laid flat.";
   if (!drawing.handState().frame) return {};
   if (!drawing.posed()) return "No usable joint angles: the hand is shown at rest, without sizes.";
   if (assumed) return "Joint angles are assumed, not recorded.";

@@ -5,6 +5,7 @@
 #include <QLabel>
 #include <QMainWindow>
 #include <QMenuBar>
+#include <QPushButton>
 #include <QStyle>
 #include <QToolBar>
 #include <QToolButton>
@@ -182,6 +183,7 @@ void WindowMenus::buildToolBar(const ActionRegistry& book) {
   auto* brand = new QLabel("<b>Palpate</b>", bar);
   brand->setContentsMargins(4, 0, 10, 0);
   bar->addWidget(brand);
+  addStop(*bar, at("stopHand"));
   bar->addActions({at("open"), at("exportPicture")});
   bar->addSeparator();
   menus_.connections->setToolTipsVisible(true);
@@ -218,6 +220,24 @@ void WindowMenus::buildToolBar(const ActionRegistry& book) {
   menus_.recordings->setMaximumWidth(420);
   menus_.recordingsShown = bar->addWidget(menus_.recordings);
   bar->addAction(at("keys"));
+}
+
+// Stop is at the beginning of the tool bar, where nothing covers it, whatever the window shows, as
+// long as a hand is connected that can be moved.
+void WindowMenus::addStop(QToolBar& bar, QAction* stop) {
+  auto* button = new QPushButton("Stop", &bar);
+  button->setObjectName("toolBarStop");
+  button->setProperty("danger", true);
+  button->setFocusPolicy(Qt::NoFocus);  // has a key instead
+  button->setMinimumHeight(kWindowMenusControlHeight);
+  connect(button, &QPushButton::clicked, stop, &QAction::trigger);
+  QAction* shown = bar.addWidget(button);
+  const auto follow = [shown, button, stop] {
+    shown->setVisible(stop->isEnabled());
+    button->setToolTip(stop->toolTip());
+  };
+  connect(stop, &QAction::changed, button, follow);
+  follow();
 }
 
 // Groups the playback controls in one widget, which is hidden while a live source is shown.

@@ -57,6 +57,7 @@ class WindowMenus {
   void buildMenuBar(const ActionRegistry& book, const QList<QAction*>& dockToggles);
   void buildToolBar(const ActionRegistry& book);
   void addOthers(const ActionRegistry& book);
+  void addStop(QToolBar& bar, QAction* stop);
   QWidget* makePlayback(QToolBar& bar, const ActionRegistry& book);
 };
 
