@@ -202,6 +202,10 @@ void saveEvents(const fs::path& path,
                 const SaveEventsOptions& options) {
   eventStoreRequireStorable(asRead, events);
   requireThere(path);
+  if (isHdf5Recording(path))
+    throw FileError(path,
+                    "notes can't be added to an HDF5 file; convert it to .palpate and add them "
+                    "there");
   if (isNativeRecording(path))
     saveRows(path, asRead, events, options);
   else

@@ -14,6 +14,8 @@
 #include "palpate/recording/dsa_reader.h"
 #include "palpate/recording/dsa_recovery.h"
 #include "palpate/recording/dsa_writer.h"
+#include "palpate/recording/hdf5_recording.h"
+#include "palpate/recording/mat_export.h"
 #include "palpate/recording/palpate_reader.h"
 #include "palpate/recording/palpate_recovery.h"
 #include "palpate/recording/palpate_writer.h"
@@ -29,6 +31,32 @@ namespace palpate {
 namespace {
 
 constexpr std::string_view kSqliteStart{"SQLite format 3\0", 16};
+constexpr std::string_view kHdf5Start{"\x89HDF\r\n\x1a\n", 8};
+constexpr std::string_view kMatStart = "MATLAB 5.0 MAT-file";
+
+// What a file holds, as its first bytes tell, and where they are those of no recording (damaged)
+// the ending of its name.
+enum class Container { kDsa, kNative, kHdf5, kMat };
+Container containerOf(const std::filesystem::path& path) {
+  // Closing a file that this very process writes would drop SQLite's locks on it.
+  if (RecordingLock::isHeld(path)) return Container::kNative;
+  FileSource source(path);
+  std::array<char, kMatStart.size()> first{};
+  const std::string_view start(first.data(), source.read(first));
+  if (start.starts_with(kSqliteStart)) return Container::kNative;
+  if (start.starts_with(kHdf5Start)) return Container::kHdf5;
+  if (start.starts_with(kMatStart)) return Container::kMat;
+  if (start.starts_with("BZh") || start.starts_with('<')) return Container::kDsa;
+  const std::string ending = lowerEndingOf(path);
+  if (ending == ".palpate") return Container::kNative;
+  if (ending == ".h5" || ending == ".hdf5") return Container::kHdf5;
+  return ending == ".mat" ? Container::kMat : Container::kDsa;
+}
+
+[[noreturn]] void throwOnlyWritten(const std::filesystem::path& path) {
+  throw FormatError(path,
+                    "MAT files are written, not read: take the recording that it was made from");
+}
 
 std::string countsText(std::size_t frames, std::size_t angles, std::size_t temperatures) {
   return counted(frames, "frame") + ", " + counted(angles, "angle sample") + ", " +
@@ -146,20 +174,27 @@ DsaReadOptions dsaOptions(std::size_t threads) {
 }  // namespace
 
 bool isNativeRecording(const std::filesystem::path& path) {
-  // Closing a file that this very process writes would drop SQLite's locks on it.
-  if (RecordingLock::isHeld(path)) return true;
-  FileSource source(path);
-  std::array<char, kSqliteStart.size()> first{};
-  const std::string_view start(first.data(), source.read(first));
-  if (start == kSqliteStart) return true;
-  return lowerEndingOf(path) == ".palpate" && !start.starts_with("BZh") && !start.starts_with('<');
+  return containerOf(path) == Container::kNative;
+}
+
+bool isHdf5Recording(const std::filesystem::path& path) {
+  return containerOf(path) == Container::kHdf5;
 }
 
 Profile openRecording(const std::filesystem::path& path,
                       const Progress& progress,
                       std::size_t threads) {
-  return isNativeRecording(path) ? readPalpate(path, progress)
-                                 : readDsa(path, progress, dsaOptions(threads));
+  switch (containerOf(path)) {
+    case Container::kNative:
+      return readPalpate(path, progress);
+    case Container::kHdf5:
+      return readHdf5(path).profile;
+    case Container::kMat:
+      throwOnlyWritten(path);
+    case Container::kDsa:
+      break;
+  }
+  return readDsa(path, progress, dsaOptions(threads));
 }
 
 namespace {
@@ -192,6 +227,14 @@ void addNotes(const std::filesystem::path& path, ReadableRecording& recording) {
   } catch (const FileError& error) {  // notes that may not be read, or are no file
     recording.damage = error.what();
   }
+}
+
+ReadableRecording readableHdf5(const std::filesystem::path& path, const Progress& progress) {
+  Hdf5Recording recording = readHdf5(path);
+  readThrough(recording.profile, progress);
+  return {.profile = std::move(recording.profile),
+          .events = std::move(recording.events),
+          .meta = std::move(recording.meta)};
 }
 
 ReadableRecording openReadable(const std::filesystem::path& path,
@@ -248,6 +291,7 @@ std::optional<ReadableRecording> recoveredPalpate(const std::filesystem::path& p
 ReadableRecording readableRecording(const std::filesystem::path& path,
                                     const Progress& progress,
                                     std::size_t threads) {
+  if (isHdf5Recording(path)) return readableHdf5(path, progress);
   // From 0 to 1 once, also where a second way has to be taken.
   double reached = 0.0;
   const auto partOf = [&](double begin, double share) -> Progress {
@@ -275,7 +319,22 @@ VerifyReport verifyRecording(const std::filesystem::path& path,
                              std::size_t threads) {
   VerifyReport report;
   try {
-    if (isNativeRecording(path)) return verifyNative(path, progress);
+    switch (containerOf(path)) {
+      case Container::kNative:
+        return verifyNative(path, progress);
+      case Container::kHdf5: {
+        const Profile profile = readHdf5(path).profile;
+        readThrough(profile, progress);
+        report.state = VerifyReport::State::kSound;
+        report.message =
+            countsText(profile.numFrames(), profile.numAngles(), profile.numTemperatures());
+        return report;
+      }
+      case Container::kMat:
+        throwOnlyWritten(path);
+      case Container::kDsa:
+        break;
+    }
   } catch (const Cancelled&) {
     throw;
   } catch (const Error& error) {
@@ -306,14 +365,18 @@ RecordingFormat formatOf(const std::filesystem::path& path) {
   if (ending == ".csv") return RecordingFormat::kCsv;
   if (ending == ".npz") return RecordingFormat::kNpz;
   if (ending == ".jsonl") return RecordingFormat::kJsonLines;
-  throw FileError(path, "its name must end in .dsa, .palpate, .csv, .npz or .jsonl");
+  if (ending == ".h5" || ending == ".hdf5") return RecordingFormat::kHdf5;
+  if (ending == ".mat") return RecordingFormat::kMat;
+  throw FileError(path, "its name must end in .dsa, .palpate, .csv, .npz, .jsonl, .h5 or .mat");
 }
 
 EventsReport readEvents(const std::filesystem::path& path) {
+  if (isHdf5Recording(path)) return {readHdf5(path).events, 0};
   return isNativeRecording(path) ? readPalpateEvents(path) : readEventSidecar(path);
 }
 
 std::map<std::string, std::string> readRecordingMeta(const std::filesystem::path& path) {
+  if (isHdf5Recording(path)) return readHdf5(path).meta;
   if (!isNativeRecording(path)) return {};
   const PalpateConnection access(path);
   return access.meta().values;
@@ -329,7 +392,8 @@ SaveReport saveRecording(const Profile& profile,
                          std::span<const RecordingEvent> events,
                          const std::filesystem::path& path,
                          Overwrite overwrite,
-                         const Progress& progress) {
+                         const Progress& progress,
+                         const SaveExtras& extras) {
   SaveReport report;
   switch (formatOf(path)) {
     case RecordingFormat::kDsa: {
@@ -340,16 +404,22 @@ SaveReport saveRecording(const Profile& profile,
       break;
     }
     case RecordingFormat::kPalpate:
-      writePalpate(profile, events, path, overwrite, progress);
+      writePalpate(profile, events, path, overwrite, progress, extras.meta);
       break;
     case RecordingFormat::kCsv:
-      writeCsv(profile, path, overwrite, progress);
+      writeCsv(profile, path, overwrite, progress, extras.unitsRow);
       break;
     case RecordingFormat::kNpz:
       writeNpz(profile, events, path, overwrite, progress);
       break;
     case RecordingFormat::kJsonLines:
       writeTactileSensorLines(profile, path, overwrite, progress);
+      break;
+    case RecordingFormat::kHdf5:
+      writeHdf5({profile, events, extras.meta, extras.exported}, path, overwrite, progress);
+      break;
+    case RecordingFormat::kMat:
+      writeMat(profile, events, extras.meta, extras.exported, path, overwrite, progress);
       break;
   }
   return report;
@@ -362,6 +432,8 @@ RecoverReport recoverRecording(const std::filesystem::path& in,
   formatOf(out);  // before the work, not after it
   requireOther(in, out);
   requireWritable(out, overwrite);
+  if (isHdf5Recording(in))
+    throw FileError(in, "HDF5 files can't be recovered; 'palpate convert' takes what is undamaged");
   return isNativeRecording(in) ? recoverNative(in, out, overwrite, progress)
                                : recoverDsa(in, out, overwrite, progress);
 }

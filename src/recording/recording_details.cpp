@@ -11,6 +11,7 @@
 #include "palpate/core/error.h"
 #include "palpate/core/escaped_line.h"
 #include "palpate/recording/dsa_reader.h"
+#include "palpate/recording/hdf5_recording.h"
 #include "palpate/recording/recording.h"
 
 #include "recording/event_sidecar.h"
@@ -112,6 +113,25 @@ void readDsaThrough(RecordingDetails& details, const Progress& progress, std::si
   details.durationUs = profile.frameTimeUs(profile.numFrames() - 1) - *details.startUs;
 }
 
+void readHdf5Details(RecordingDetails& details) {
+  details.form = "hdf5";
+  const Hdf5Recording recording = readHdf5(details.path);
+  const auto valueOf = [&](const char* key) {
+    const auto found = recording.meta.find(key);
+    return found == recording.meta.end() ? std::string() : found->second;
+  };
+  details.operatorName = bounded(valueOf("operator"));
+  details.object = bounded(valueOf("object"));
+  details.run = bounded(valueOf("run"));
+  addNote(details.notes, valueOf("notes"));
+  addEvents(details, {recording.events, 0});
+  const Profile& profile = recording.profile;
+  details.numFrames = static_cast<std::int64_t>(profile.numFrames());
+  if (profile.numFrames() == 0) return;
+  details.startUs = profile.frameTimeUs(0);
+  details.durationUs = profile.durationUs();
+}
+
 void fail(RecordingDetails& details, State state, std::string message) {
   details.state = state;
   details.message = std::move(message);
@@ -160,6 +180,7 @@ RecordingDetails readDetails(const fs::path& path, const Progress& progress, std
   }
   attemptRecordingDetails(details, [&] {
     if (isNativeRecording(path)) return readNative(details);
+    if (isHdf5Recording(path)) return readHdf5Details(details);
     readDsaThrough(details, progress, threads);
   });
   if (details.form == "dsa") {

@@ -63,7 +63,7 @@ std::vector<SecondSummary> secondsOf(const Profile& profile, const Progress& pro
 }
 
 std::vector<SecondSummary> readSeconds(const std::filesystem::path& path) {
-  if (!isNativeRecording(path)) return secondsOf(readDsa(path));
+  if (!isNativeRecording(path)) return secondsOf(openRecording(path));
   PalpateConnection access(path);
   const std::size_t numMatrices = readLayout(access.database()).numMatrices();
   auto seconds =

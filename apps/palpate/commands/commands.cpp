@@ -74,9 +74,10 @@ void refuseMistypedCommand(const std::string& word) {
   throw UsageError(message);
 }
 
-int dispatch(const Arguments& words, OtherCommands others) {
+int dispatch(const Arguments& words, OtherCommands others, NeedsOthers needsOthers) {
   const auto runCommand = [&](const Command& command, const Arguments& rest) {
-    return command.run ? command.run(rest) : others(command.name, rest);
+    if (!command.run || (needsOthers && needsOthers(rest))) return others(command.name, rest);
+    return command.run(rest);
   };
   if (!words.empty()) {
     if (words[0] == "help" && words.size() == 2)
@@ -111,9 +112,9 @@ void fillClosedStreams() {
       ::open("/dev/null", stream == STDIN_FILENO ? O_WRONLY : O_RDONLY);
 }
 
-int runCaught(const Arguments& words, OtherCommands others) {
+int runCaught(const Arguments& words, OtherCommands others, NeedsOthers needsOthers) {
   try {
-    return dispatch(words, others);
+    return dispatch(words, others, needsOthers);
   } catch (const UsageError& error) {
     return fail(kWrongUsage, error.what());
   } catch (const std::bad_alloc&) {
@@ -134,7 +135,7 @@ const std::vector<Command>& allCommands() {
       {"classify", "names what was grasped, with a trained model", nullptr},
       {"compare", "compares two recordings frame by frame, as CSV", &compareCommand},
       {"contact", "where a hand touches, and how large the held object is", nullptr},
-      {"convert", "converts recordings: .dsa, .palpate, .csv, .npz", &convertCommand},
+      {"convert", "converts recordings: .dsa, .palpate, .csv, .npz, .h5, .mat", &convertCommand},
       {"demo", "a tour without a window: emulated hands grasp objects, which are named", nullptr},
       {"emulate", "runs the emulated hand on two ports, until it is interrupted", nullptr},
       {"evaluate", "measures how well grasps are recognised", nullptr},
@@ -186,9 +187,9 @@ fs::path dataFolder() {
   return prefix / PALPATE_INSTALLED_DATA;
 }
 
-int run(int argc, char** argv, OtherCommands others) {
+int run(int argc, char** argv, OtherCommands others, NeedsOthers needsOthers) {
   fillClosedStreams();
-  const int code = runCaught({argv + std::min(argc, 1), argv + argc}, others);
+  const int code = runCaught({argv + std::min(argc, 1), argv + argc}, others, needsOthers);
   // Output that was printed but not written (a full disk, a closed pipe) is a failure.
   std::cout.flush();
   const bool written = std::fflush(stdout) == 0 && std::ferror(stdout) == 0 && std::cout.good();

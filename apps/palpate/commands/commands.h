@@ -72,8 +72,11 @@ int windowCommand(const Arguments& words);
 
 // All commands, in the order of `palpate --help`.
 const std::vector<Command>& allCommands();
-// Runs the whole program; returns its exit code.
-int run(int argc, char** argv, OtherCommands others);
+// Whether words of a command line need formats that the program does without.
+using NeedsOthers = bool (*)(const Arguments& words);
+// Runs the whole program; returns its exit code. Where `needsOthers` says so, `others` runs every
+// command.
+int run(int argc, char** argv, OtherCommands others, NeedsOthers needsOthers = nullptr);
 // The folder of the program's own data (example recordings): $PALPATE_DATA, else the folder
 // relative to this executable: share/palpate in a build folder, otherwise that of the installation
 // to which it belongs.

@@ -11,6 +11,8 @@
 
 #include "commands/command_line.h"
 #include "commands/commands.h"
+#include "commands/export_options.h"
+#include "commands/filter_options.h"
 #include "commands/recording_list.h"
 
 namespace palpate::commands {
@@ -39,6 +41,7 @@ int convertOne(const CommandLine& given, const std::string& in, const std::strin
   requireWritable(out, overwrite);
   const auto from = given.integer("from", 0, INT64_MAX);
   const auto to = given.integer("to", 0, INT64_MAX);
+  const Recipe recipe = recipeOf(given);
   Profile profile = [&] {
     ProgressLine progress("reading " + in, given.quiet());
     return openRecording(in, progress.callback());
@@ -54,9 +57,12 @@ int convertOne(const CommandLine& given, const std::string& in, const std::strin
     profile = cropped(profile, first, last);
     events.events = eventsWithin(events.events, profile);
   }
+  profile = filteredBy(recipe, profile, in);
+  SaveExtras extras = saveExtrasOf(given, in, out, profile, recipe);
+  if (from || to) extras.meta.erase("settings");  // those at the start of the whole recording
   const SaveReport saved = [&] {
     ProgressLine progress("writing " + out, given.quiet());
-    return saveRecording(profile, events.events, out, overwrite, progress.callback());
+    return saveRecording(profile, events.events, out, overwrite, progress.callback(), extras);
   }();
   if (!given.quiet())
     std::printf("%s\n", (doneText(out, profile) + movedText(saved.movedStamps)).c_str());
@@ -88,6 +94,7 @@ int convertFolder(const CommandLine& given,
                   const fs::path& outFolder,
                   const std::string& form) {
   const Overwrite overwrite = given.has("force") ? Overwrite::kReplace : Overwrite::kRefuse;
+  const Recipe recipe = recipeOf(given);
   requireOutside(folder, outFolder);
   std::set<fs::path> made;
   return forEachRecording(
@@ -101,14 +108,20 @@ int convertFolder(const CommandLine& given,
                           "'" + out.string() +
                               "' was already made from a file of the same name and another format");
         requireWritable(out, overwrite);
-        const Profile profile =
-            openRecording(file, [&](double fraction) { return progress(0.5 * fraction); });
+        const Profile profile = filteredBy(
+            recipe,
+            openRecording(file, [&](double fraction) { return progress(0.5 * fraction); }),
+            file);
         const EventsReport events = readEvents(file);
+        const SaveExtras extras = saveExtrasOf(given, file, out, profile, recipe);
         convertMakeFolder(out.parent_path());
-        const SaveReport saved =
-            saveRecording(profile, events.events, out, overwrite, [&](double fraction) {
-              return progress(0.5 + 0.5 * fraction);
-            });
+        const SaveReport saved = saveRecording(
+            profile,
+            events.events,
+            out,
+            overwrite,
+            [&](double fraction) { return progress(0.5 + 0.5 * fraction); },
+            extras);
         made.insert(out);
         FileOutcome outcome;
         if (!given.quiet())
@@ -130,10 +143,11 @@ int convertCommand(const Arguments& words) {
            "Of a FOLDER every recording\nbelow it, into OUTFOLDER under the same names with "
            "the ending of FORM, a line per file; one that\nfails doesn't stop the others: exit "
            "code 3.",
-       .options = {{"from", "N", "first frame, default 0"},
-                   {"to", "M", "last frame (inclusive), default the last one"},
-                   {"to-form", "FORM", "of a folder: dsa, palpate, csv, npz or jsonl"},
-                   {"force", "", "replace OUT, or files in OUTFOLDER"}},
+       .options = withExportOptions(withFilterOptions(
+           {{"from", "N", "first frame, default 0"},
+            {"to", "M", "last frame (inclusive), default the last one"},
+            {"to-form", "FORM", "of a folder: dsa, palpate, csv, npz, h5, mat or jsonl"},
+            {"force", "", "replace OUT, or files in OUTFOLDER"}})),
        .example = "palpate convert foam_ball.dsa grasp3.palpate --from 700 --to 1400",
        .minArguments = 2,
        .maxArguments = 2},
@@ -141,7 +155,7 @@ int convertCommand(const Arguments& words) {
   if (given.helpShown()) return kDone;
   const std::string& in = given.words()[0];
   const std::string& out = given.words()[1];
-  const auto form = given.choice("to-form", {"dsa", "palpate", "csv", "npz", "jsonl"});
+  const auto form = given.choice("to-form", {"dsa", "palpate", "csv", "npz", "h5", "mat", "jsonl"});
   std::error_code ignored;
   const bool isFolder = fs::is_directory(in, ignored);
   if (isFolder && !form)

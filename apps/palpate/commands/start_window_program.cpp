@@ -1,7 +1,11 @@
 #include "commands/start_window_program.h"
 
+#include <algorithm>
+#include <array>
 #include <cerrno>
+#include <fstream>
 #include <string>
+#include <string_view>
 #include <system_error>
 #include <utility>
 #include <vector>
@@ -12,6 +16,26 @@
 
 namespace palpate::commands {
 namespace fs = std::filesystem;
+
+bool needsHdf5(const Arguments& words) {
+  constexpr std::string_view kStart{"\x89HDF\r\n\x1a\n", 8};
+  for (const std::string& word : words) {
+    std::string last = word.substr(word.find('=') + 1);
+    std::transform(last.begin(), last.end(), last.begin(), [](unsigned char letter) {
+      return letter >= 'A' && letter <= 'Z' ? static_cast<char>(letter - 'A' + 'a')
+                                            : static_cast<char>(letter);
+    });
+    if (last == "h5" || last == "hdf5" || last.ends_with(".h5") || last.ends_with(".hdf5"))
+      return true;
+    // No pipe is opened: nobody may ever write into it.
+    std::error_code ignored;
+    if (!fs::is_regular_file(word, ignored)) continue;
+    std::array<char, kStart.size()> first{};
+    std::ifstream(word, std::ios::binary).read(first.data(), first.size());
+    if (std::string_view(first.data(), first.size()) == kStart) return true;
+  }
+  return false;
+}
 
 fs::path windowProgramOf(const fs::path& program) {
   const fs::path folder = program.parent_path();

@@ -1,5 +1,5 @@
-// The program `palpate` starts in a few milliseconds because it loads neither Qt nor OpenCV nor
-// Ceres. Where a command needs them, or the window is wanted, it becomes `palpate_window`.
+// The program `palpate` starts in a few milliseconds because it loads neither Qt nor OpenCV, Ceres
+// or HDF5. Where a command needs them, or the window is wanted, it becomes `palpate_window`.
 #pragma once
 
 #include <filesystem>
@@ -13,6 +13,10 @@ namespace palpate::commands {
 // same. Does not return; throws Error when palpate_window can't be started. `name` and `words` as
 // for OtherCommands.
 int startWindowProgram(const std::string& name, const Arguments& words);
+
+// Whether a word of a command line is about HDF5: it (or what follows its '=') is the ending of
+// such a file or ends so, or it names a file whose first bytes are those of HDF5.
+bool needsHdf5(const Arguments& words);
 
 // Where palpate_window lies: beside `program` in a build folder, otherwise where the installation
 // has it. `program` is the path of this executable, links followed.

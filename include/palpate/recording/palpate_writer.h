@@ -84,11 +84,14 @@ void writePalpate(const std::filesystem::path& path,
                   const std::function<void(PalpateWriter&)>& fill,
                   Overwrite overwrite = Overwrite::kRefuse);
 
-// Writes a whole profile in the same way. Throws FileError, Cancelled.
+// Writes a whole profile in the same way. `meta`: as readRecordingMeta(); what the profile and the
+// file say by themselves (hand, serial number, number of frames, ..) stands in place of it. Throws
+// FileError, Cancelled.
 void writePalpate(const Profile& profile,
                   std::span<const RecordingEvent> events,
                   const std::filesystem::path& path,
                   Overwrite overwrite = Overwrite::kRefuse,
-                  const Progress& progress = {});
+                  const Progress& progress = {},
+                  const std::map<std::string, std::string>& meta = {});
 
 }  // namespace palpate

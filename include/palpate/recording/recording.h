@@ -11,13 +11,15 @@
 #include <palpate/core/output_file.h>
 #include <palpate/core/progress.h>
 #include <palpate/model/profile.h>
+#include <palpate/recording/exported_series.h>
 #include <palpate/recording/recording_event.h>
 
 namespace palpate {
 
 // Reads a recording; its form is told by its first bytes, never by its name (a .dsa is bzip2 or
-// XML). `threads`: of a .dsa, as DsaReadOptions::threads. Throws FileError, FormatError, Cancelled;
-// what() is one line that says what to do.
+// XML). HDF5 files that Palpate has written (hdf5_recording.h) are recordings, too. `threads`: of a
+// .dsa, as DsaReadOptions::threads. Throws FileError, FormatError, Cancelled; what() is one line
+// that says what to do.
 Profile openRecording(const std::filesystem::path& path,
                       const Progress& progress = {},
                       std::size_t threads = 0);
@@ -26,6 +28,9 @@ Profile openRecording(const std::filesystem::path& path,
 // they are neither SQLite's nor those of a .dsa (damaged), the ending of the name does. Throws
 // FileError.
 bool isNativeRecording(const std::filesystem::path& path);
+// Whether a file is taken for HDF5: by its first bytes; where they are those of no recording
+// (damaged), by the ending .h5 or .hdf5 of its name. Throws FileError.
+bool isHdf5Recording(const std::filesystem::path& path);
 
 // A recording as far as it can be read, whole or damaged.
 struct ReadableRecording {
@@ -54,19 +59,19 @@ VerifyReport verifyRecording(const std::filesystem::path& path,
                              std::size_t threads = 0);
 
 // The forms a recording can be saved in.
-enum class RecordingFormat { kDsa, kPalpate, kCsv, kNpz, kJsonLines };
-// The form that the ending of a name stands for: .dsa, .palpate, .csv, .npz, .jsonl, in small or
-// capital letters. Throws FileError naming them all.
+enum class RecordingFormat { kDsa, kPalpate, kCsv, kNpz, kJsonLines, kHdf5, kMat };
+// The form that the ending of a name stands for: .dsa, .palpate, .csv, .npz, .jsonl, .h5 (or
+// .hdf5), .mat, in small or capital letters. Throws FileError naming them all.
 RecordingFormat formatOf(const std::filesystem::path& path);
 
-// What was noted or happened in a recording: the events of a .palpate, the sidecar
+// What was noted or happened in a recording: the events of a .palpate or .h5, the sidecar
 // NAME.dsa.notes.json of a .dsa (none: no events). Throws FileError, FormatError.
 EventsReport readEvents(const std::filesystem::path& path);
 
 // What was said of a recording as a whole when it was made: by the device about itself, by the
 // operator about the run. These are the keys and values of the table `meta` of a native recording
-// (docs/palpate_format.md): "serial", "firmware", "settings" (JSON), "operator", ..; a .dsa has
-// none. Throws FileError, FormatError.
+// (docs/palpate_format.md), which an .h5 keeps: "serial", "firmware", "settings" (JSON),
+// "operator", ..; a .dsa has none. Throws FileError, FormatError.
 std::map<std::string, std::string> readRecordingMeta(const std::filesystem::path& path);
 
 // Throws FileError when both name the same file (by a link, too): nothing is written onto its
@@ -77,14 +82,23 @@ void requireOther(const std::filesystem::path& in, const std::filesystem::path& 
 struct SaveReport {
   std::size_t movedStamps = 0;  // of a .dsa: see DsaWriteReport
 };
-// Saves a profile in the form of PATH's ending: whole or not at all. Events go into a .palpate,
-// into the sidecar of a .dsa, into `meta` of an .npz; a .csv or .jsonl has no place for them.
-// Throws FileError, Cancelled.
+// What is saved beside a profile and its events, in the forms that have a place for it.
+struct SaveExtras {
+  // As readRecordingMeta(): into a .palpate and an .h5. What the profile says by itself (hand,
+  // serial number, ..) is added.
+  std::map<std::string, std::string> meta = {};
+  ExportExtras exported = {};  // into an .h5 and a .mat; its series are read to their end
+  bool unitsRow = false;       // of a .csv: see writeCsv()
+};
+// Saves a profile in the form of PATH's ending: whole or not at all. Events go into a .palpate, an
+// .h5 and a .mat, into the sidecar of a .dsa, into `meta` of an .npz; a .csv or .jsonl has no place
+// for them. Throws FileError, Cancelled.
 SaveReport saveRecording(const Profile& profile,
                          std::span<const RecordingEvent> events,
                          const std::filesystem::path& path,
                          Overwrite overwrite = Overwrite::kRefuse,
-                         const Progress& progress = {});
+                         const Progress& progress = {},
+                         const SaveExtras& extras = {});
 
 struct RecoverReport {
   enum class State { kWhole, kPart, kNothing };

@@ -16,11 +16,13 @@ namespace palpate {
 
 // PATH.csv: `frame,time_ms,matrix,y,x,value` for active taxels; beside it PATH.angles.csv and
 // PATH.temperatures.csv with a column per axis or sensor, where there are any. Every file is whole
-// or not there; an existing one is only replaced when asked. Throws FileError, Cancelled.
+// or not there; an existing one is only replaced when asked. `unitsRow`: below the names a row with
+// the unit of each column, empty where it has none. Throws FileError, Cancelled.
 void writeCsv(const Profile& profile,
               const std::filesystem::path& path,
               Overwrite overwrite = Overwrite::kRefuse,
-              const Progress& progress = {});
+              const Progress& progress = {},
+              bool unitsRow = false);
 
 // PATH.npz (stored zip of .npy arrays; numpy.load opens it with allow_pickle=False): `time_ms` (T,
 // int64), `m0`.. (T, rows, columns; uint16 for counts, float32 otherwise), of a filtered recording

@@ -52,6 +52,20 @@ std::string sampleHeader(std::size_t columns, const char* name, const char* unit
   return header + "\n";
 }
 
+std::string angleUnits(const Profile& profile) {
+  std::vector<std::string> units{"", "ms"};
+  const std::vector<AxisDescription>& axes = profile.hand().axes;
+  for (std::size_t i = 0; i < profile.angles(0).deg.size(); ++i)
+    units.emplace_back(i < axes.size() ? axes[i].unit() : "deg");
+  return csvLine(units);
+}
+
+std::string temperatureUnits(const Profile& profile) {
+  std::vector<std::string> units{"", "ms"};
+  units.resize(2 + profile.temperatures(0).degC.size(), "degC");
+  return csvLine(units);
+}
+
 fs::path tableExportWithEnding(const fs::path& path, const char* ending) {
   fs::path other = path;
   other += ending;
@@ -63,7 +77,8 @@ fs::path tableExportWithEnding(const fs::path& path, const char* ending) {
 void writeCsv(const Profile& profile,
               const fs::path& path,
               Overwrite overwrite,
-              const Progress& progress) {
+              const Progress& progress,
+              bool unitsRow) {
   constexpr std::size_t kFramesPerReport = 256;
   OutputFile taxels(path, overwrite);
   std::optional<OutputFile> angles;
@@ -74,6 +89,7 @@ void writeCsv(const Profile& profile,
     temperatures.emplace(tableExportWithEnding(path, ".temperatures.csv"), overwrite);
 
   std::string text = "frame,time_ms,matrix,y,x,value\n";
+  if (unitsRow) text += csvLine({"", "ms", "", "", "", profile.hand().unit});
   TactileFrame frame;
   for (std::size_t i = 0; i < profile.numFrames(); ++i) {
     reportProgress(progress, i, profile.numFrames(), kFramesPerReport);
@@ -99,14 +115,16 @@ void writeCsv(const Profile& profile,
   if (angles)
     tableExportWriteSamples(
         *angles,
-        sampleHeader(profile.angles(0).deg.size(), "axis", "deg"),
+        sampleHeader(profile.angles(0).deg.size(), "axis", "deg") +
+            (unitsRow ? angleUnits(profile) : ""),
         profile.numAngles(),
         [&](std::size_t i) { return profile.angleTimeUs(i); },
         [&](std::size_t i) { return profile.angles(i).deg; });
   if (temperatures)
     tableExportWriteSamples(
         *temperatures,
-        sampleHeader(profile.temperatures(0).degC.size(), "sensor", "degc"),
+        sampleHeader(profile.temperatures(0).degC.size(), "sensor", "degc") +
+            (unitsRow ? temperatureUnits(profile) : ""),
         profile.numTemperatures(),
         [&](std::size_t i) { return profile.temperatureTimeUs(i); },
         [&](std::size_t i) { return profile.temperatures(i).degC; });

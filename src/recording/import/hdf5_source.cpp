@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <mutex>
 #include <system_error>
 #include <utility>
 
@@ -11,6 +10,7 @@
 #include "palpate/core/error.h"
 #include "palpate/core/escaped_line.h"
 
+#include "recording/hdf5_library.h"
 #include "recording/import/column_unit.h"
 
 namespace palpate {
@@ -19,31 +19,6 @@ namespace {
 constexpr std::size_t kMostDataSets = 10'000;
 constexpr std::size_t kMostHdf5Dimensions = 8;
 constexpr hsize_t kLargestHdf5Row = 1u << 24;  // numbers
-
-// Debian's library is not made for threads.
-std::mutex& hdf5Mutex() {
-  static std::mutex mutex;
-  return mutex;
-}
-
-// Owns an identifier of the library.
-class Hdf5Id {
- public:
-  using Close = herr_t (*)(hid_t);
-  Hdf5Id(hid_t id, Close close) : id_(id), close_(close) {}
-  ~Hdf5Id() {
-    if (id_ >= 0) close_(id_);
-  }
-  Hdf5Id(Hdf5Id&& other) noexcept : id_(std::exchange(other.id_, -1)), close_(other.close_) {}
-  Hdf5Id(const Hdf5Id&) = delete;
-  Hdf5Id& operator=(const Hdf5Id&) = delete;
-  hid_t get() const { return id_; }
-  bool ok() const { return id_ >= 0; }
-
- private:
-  hid_t id_;
-  Close close_;
-};
 
 struct DataSet {
   std::string name;
@@ -56,32 +31,7 @@ struct DataSet {
 // The text of an attribute, such as `units`; empty where there is none.
 std::string attributeText(hid_t object, const char* name) {
   constexpr std::size_t kMostBytes = 64;
-  if (H5Aexists(object, name) <= 0) return {};
-  const Hdf5Id attribute(H5Aopen(object, name, H5P_DEFAULT), H5Aclose);
-  if (!attribute.ok()) return {};
-  const Hdf5Id type(H5Aget_type(attribute.get()), H5Tclose);
-  const Hdf5Id space(H5Aget_space(attribute.get()), H5Sclose);
-  if (H5Tget_class(type.get()) != H5T_STRING || H5Sget_simple_extent_npoints(space.get()) != 1)
-    return {};
-  const Hdf5Id memory(H5Tcopy(H5T_C_S1), H5Tclose);
-  H5Tset_cset(memory.get(), H5Tget_cset(type.get()));
-  std::string text;
-  if (H5Tis_variable_str(type.get()) > 0) {
-    H5Tset_size(memory.get(), H5T_VARIABLE);
-    char* pointer = nullptr;
-    if (H5Aread(attribute.get(), memory.get(), static_cast<void*>(&pointer)) < 0 || !pointer)
-      return {};
-    text = pointer;
-    H5free_memory(pointer);
-  } else {
-    const std::size_t size = H5Tget_size(type.get());
-    if (size > kMostBytes) return {};
-    text.assign(size + 1, '\0');
-    H5Tset_size(memory.get(), size + 1);
-    if (H5Aread(attribute.get(), memory.get(), text.data()) < 0) return {};
-    text.resize(text.find('\0'));
-  }
-  return text.size() > kMostBytes ? std::string() : text;
+  return readHdf5Text(object, name, kMostBytes).value_or("");
 }
 
 herr_t collectName(hid_t, const char* name, const H5O_info_t* info, void* data) {
@@ -133,8 +83,7 @@ struct Hdf5Source::Impl {
 };
 
 Hdf5Source::Hdf5Source(const std::filesystem::path& path) : ArraySource(path) {
-  const std::lock_guard lock(hdf5Mutex());
-  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // errors are reported here, not printed
+  const auto lock = hdf5Lock();
   auto impl = std::make_unique<Impl>(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT));
   if (!impl->file.ok())
     throw FormatError(path, "can't be opened as HDF5: it is cut off, damaged or being written");
@@ -179,7 +128,7 @@ Hdf5Source::Hdf5Source(const std::filesystem::path& path) : ArraySource(path) {
 }
 
 Hdf5Source::~Hdf5Source() {
-  const std::lock_guard lock(hdf5Mutex());
+  const auto lock = hdf5Lock();
   impl_.reset();
 }
 
@@ -193,7 +142,7 @@ void Hdf5Source::load(std::size_t column,
                       std::uint64_t first,
                       std::size_t count,
                       std::vector<double>& values) {
-  const std::lock_guard lock(hdf5Mutex());
+  const auto lock = hdf5Lock();
   values.resize(count * columns_[column].width());
   if (!impl_->read(column, first, count, H5T_NATIVE_DOUBLE, values.data()))
     throw FormatError(path_, inQuotes(columns_[column].name) + " can't be read: damaged");
@@ -208,7 +157,7 @@ void Hdf5Source::loadTimes(std::size_t column,
     if (!ok) throw FormatError(path_, inQuotes(columns_[column].name) + " can't be read: damaged");
   };
   times.assign(count, {});
-  const std::lock_guard lock(hdf5Mutex());
+  const auto lock = hdf5Lock();
   if (set.isInteger) {
     std::vector<std::int64_t> values(count);  // larger unsigned numbers are cut to INT64_MAX
     requireRead(impl_->read(column, first, count, H5T_NATIVE_INT64, values.data()));

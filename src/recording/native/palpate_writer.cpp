@@ -442,11 +442,25 @@ void writePalpate(const Profile& profile,
                   std::span<const RecordingEvent> events,
                   const fs::path& path,
                   Overwrite overwrite,
-                  const Progress& progress) {
+                  const Progress& progress,
+                  const std::map<std::string, std::string>& meta) {
+  std::map<std::string, std::string> all = metaOf(profile);
+  for (const auto& [key, value] : meta)
+    // The texts of a hand belong together.
+    if (key != "hand_json" && key != "hand_urdf") all.try_emplace(key, value);
+  // Written when the recording is finished.
+  for (const char* key : {"format",
+                          "finished",
+                          "value_type",
+                          "frames",
+                          "angle_samples",
+                          "temperature_samples",
+                          "seconds"})
+    all.erase(key);
   writePalpate(
       path,
       profile.hand().layout,
-      metaOf(profile),
+      all,
       [&](PalpateWriter& writer) { writeAll(profile, events, writer, progress); },
       overwrite);
 }

@@ -1,0 +1,65 @@
+// A recording as an HDF5 file, which h5py, MATLAB, HDFView and others open; docs/bridges.md has its
+// layout. It holds all of a recording (frames, stamps, angles, temperatures, events, hand, what was
+// said of it) bit by bit, so that it can be read back, and beside that where it comes from and
+// series that were computed of its frames.
+//
+// A program that does without HDF5 has these functions, too (CMake property PALPATE_WITHOUT_HDF5):
+// there they throw Error.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <map>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <palpate/core/output_file.h>
+#include <palpate/core/progress.h>
+#include <palpate/model/profile.h>
+#include <palpate/recording/exported_series.h>
+#include <palpate/recording/recording_event.h>
+
+namespace palpate {
+
+// The version of the layout that is written, and the newest that is read.
+constexpr int kHdf5LayoutVersion = 1;
+
+struct Hdf5WriteOptions {
+  int level = 1;  // of the compression (deflate), 0..9
+  // Threads that compress; 0: as many as the machine runs at once. The file is the same.
+  std::size_t threads = 0;
+};
+
+// What is written of a recording. All of it must outlive the call.
+struct Hdf5Content {
+  const Profile& profile;
+  std::span<const RecordingEvent> events;
+  // As readRecordingMeta(); what the profile says by itself (hand, serial number, ..) is added.
+  const std::map<std::string, std::string>& meta;
+  const ExportExtras& extras;  // its series are read to their end
+};
+
+// Writes PATH, whole or not at all. Memory is bounded, whatever the length of the recording. Throws
+// FileError, Cancelled, std::invalid_argument (a level out of range), and what reading throws.
+void writeHdf5(const Hdf5Content& content,
+               const std::filesystem::path& path,
+               Overwrite overwrite = Overwrite::kRefuse,
+               const Progress& progress = {},
+               const Hdf5WriteOptions& options = {});
+
+// A recording in an HDF5 file. Stamps lie in memory; frames, angles and temperatures are read when
+// they are asked for, and the profile is safe from several threads.
+struct Hdf5Recording {
+  Profile profile;
+  std::vector<RecordingEvent> events;
+  std::map<std::string, std::string> meta;
+  Provenance provenance;
+};
+
+// Opens what writeHdf5() has made. Throws FileError; FormatError where it is damaged or cut off,
+// another program's (palpate import reads those), of a newer layout, or compressed by a filter that
+// is not there.
+Hdf5Recording readHdf5(const std::filesystem::path& path);
+
+}  // namespace palpate

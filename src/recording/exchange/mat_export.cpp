@@ -1,0 +1,296 @@
+#include "palpate/recording/mat_export.h"
+
+#include <cstring>
+#include <utility>
+#include <vector>
+
+#include "palpate/core/error.h"
+#include "palpate/model/hand_file.h"
+
+#include "recording/exchange/mat_file.h"
+
+namespace palpate {
+namespace {
+
+using Fields = std::vector<std::pair<std::string, MatValue>>;
+
+template <typename Number>
+std::string_view matBytesOf(const std::vector<Number>& numbers) {
+  return {reinterpret_cast<const char*>(numbers.data()), numbers.size() * sizeof(Number)};
+}
+
+// Times are collected while values are written, and written behind them.
+class MatExport {
+ public:
+  MatExport(const Profile& profile, const Progress& progress)
+      : profile_(profile), progress_(progress) {}
+
+  MatValue tactile() {
+    const SensorLayout& layout = profile_.layout();
+    const bool counts = profile_.info().valueType == ValueType::kCounts;
+    Fields fields;
+    for (std::size_t m = 0; m < layout.numMatrices(); ++m) {
+      const std::string name = "m" + std::to_string(m);
+      fields.emplace_back(name,
+                          MatValue::numbers(counts ? MatNumber::kU16 : MatNumber::kF32,
+                                            shapeOf(m),
+                                            [this, m, counts](const MatSink& sink) {
+                                              writeMatrix(m, counts, sink);
+                                            }));
+      if (!counts)
+        fields.emplace_back(
+            name + "_active",
+            MatValue::numbers(MatNumber::kU8, shapeOf(m), [this, m](const MatSink& sink) {
+              writeActive(m, sink);
+            }));
+      const MatrixLayout& matrix = layout.matrix(m);
+      fields.emplace_back(name + "_static_mask", maskOf(matrix, matrix.staticMask));
+      fields.emplace_back(name + "_dynamic_mask", maskOf(matrix, matrix.dynamicMask));
+      fields.emplace_back(name + "_name", MatValue::text(profile_.hand().matrixName(m)));
+      fields.emplace_back(name + "_y", positions(matrix.rows, matrix.pitchMm));
+      fields.emplace_back(name + "_x", positions(matrix.columns, matrix.pitchMm));
+    }
+    fields.emplace_back("units", MatValue::text(profile_.hand().unit));
+    fields.emplace_back("time_us", stampsOf(profile_.numFrames(), [this](std::size_t i) {
+                          return profile_.frameTimeUs(i);
+                        }));
+    bool anyDevice = false;
+    const std::vector<std::int64_t> deviceMs = deviceTimes(anyDevice);
+    if (anyDevice) fields.emplace_back("device_time_ms", MatValue::column(deviceMs));
+    return MatValue::structure(std::move(fields));
+  }
+
+  template <typename ValuesOf, typename TimeOf>
+  MatValue samples(const std::string& name,
+                   std::size_t count,
+                   ValuesOf valuesOf,
+                   TimeOf timeOf,
+                   std::vector<std::string> names,
+                   std::vector<std::string> units) {
+    const std::size_t width = count > 0 ? valuesOf(0).size() : names.size();
+    names.resize(width);
+    units.resize(width);
+    return MatValue::structure({{name,
+                                 MatValue::numbers(MatNumber::kF64,
+                                                   {width, count},
+                                                   [=](const MatSink& sink) {
+                                                     for (std::size_t i = 0; i < count; ++i)
+                                                       sink(matBytesOf(valuesOf(i)));
+                                                   })},
+                                {"column", MatValue::texts(names)},
+                                {"units", MatValue::texts(units)},
+                                {"time_us", stampsOf(count, timeOf)}});
+  }
+
+  MatValue angles() {
+    std::vector<std::string> names;
+    std::vector<std::string> units;
+    for (const AxisDescription& axis : profile_.hand().axes) {
+      names.push_back(axis.name);
+      units.emplace_back(axis.unit());
+    }
+    return samples(
+        "angles",
+        profile_.numAngles(),
+        [this](std::size_t i) { return profile_.angles(i).deg; },
+        [this](std::size_t i) { return profile_.angleTimeUs(i); },
+        std::move(names),
+        std::move(units));
+  }
+
+  MatValue temperatures() {
+    std::vector<std::string> names;
+    for (const TemperatureSensorDescription& sensor : profile_.hand().temperatureSensors)
+      names.push_back(sensor.name);
+    std::vector<std::string> units(
+        profile_.numTemperatures() > 0 ? profile_.temperatures(0).degC.size() : names.size(),
+        "deg C");
+    return samples(
+        "values",
+        profile_.numTemperatures(),
+        [this](std::size_t i) { return profile_.temperatures(i).degC; },
+        [this](std::size_t i) { return profile_.temperatureTimeUs(i); },
+        std::move(names),
+        std::move(units));
+  }
+
+  static MatValue series(ExportedSeries& from) {
+    std::vector<std::string> names;
+    std::vector<std::string> units;
+    for (const ExportedSeries::Column& column : from.columns()) {
+      names.push_back(column.name);
+      units.push_back(column.unit);
+    }
+    const auto times = std::make_shared<std::vector<std::int64_t>>();
+    const std::size_t width = names.size();
+    return MatValue::structure(
+        {{"values",
+          MatValue::numbers(MatNumber::kF64,
+                            {width, from.numRows()},
+                            [times, width, &from](const MatSink& sink) {
+                              std::vector<double> row(width);
+                              std::int64_t timeUs = 0;
+                              while (from.next(timeUs, row)) {
+                                times->push_back(timeUs);
+                                sink(matBytesOf(row));
+                              }
+                            })},
+         {"column", MatValue::texts(names)},
+         {"units", MatValue::texts(units)},
+         {"time_us",
+          MatValue::numbers(MatNumber::kI64, {from.numRows(), 1}, [times](const MatSink& sink) {
+            sink(matBytesOf(*times));
+          })}});
+  }
+
+ private:
+  std::vector<std::uint64_t> shapeOf(std::size_t m) const {
+    const MatrixLayout& matrix = profile_.layout().matrix(m);
+    return {static_cast<std::uint64_t>(matrix.columns),
+            static_cast<std::uint64_t>(matrix.rows),
+            profile_.numFrames()};
+  }
+
+  static MatValue maskOf(const MatrixLayout& matrix, const Mask& mask) {
+    return MatValue::numbers(
+        MatNumber::kU8,
+        {static_cast<std::uint64_t>(matrix.columns), static_cast<std::uint64_t>(matrix.rows)},
+        [mask](const MatSink& sink) { sink(matBytesOf(mask)); });
+  }
+
+  static MatValue positions(int count, double pitchMm) {
+    std::vector<double> values;
+    for (int i = 0; i < count; ++i) values.push_back(i * pitchMm);
+    return MatValue::column(values);
+  }
+
+  template <typename TimeOf>
+  static MatValue stampsOf(std::size_t count, TimeOf timeOf) {
+    return MatValue::numbers(MatNumber::kI64, {count, 1}, [count, timeOf](const MatSink& sink) {
+      for (std::size_t i = 0; i < count; ++i) {
+        const std::int64_t timeUs = timeOf(i);
+        sink({reinterpret_cast<const char*>(&timeUs), sizeof timeUs});
+      }
+    });
+  }
+
+  // INT64_MIN: none.
+  std::vector<std::int64_t> deviceTimes(bool& any) const {
+    std::vector<std::int64_t> times(profile_.numFrames(), INT64_MIN);
+    TactileFrame frame;
+    for (std::size_t i = 0; i < times.size(); ++i) {
+      profile_.readFrame(i, frame);
+      any = any || frame.deviceMs;
+      times[i] = frame.deviceMs.value_or(INT64_MIN);
+    }
+    return times;
+  }
+
+  template <typename Take>
+  void forEachFrame(Take take) {
+    constexpr std::size_t kFramesPerReport = 256;
+    TactileFrame frame;
+    for (std::size_t i = 0; i < profile_.numFrames(); ++i) {
+      if (progress_ && i % kFramesPerReport == 0) {
+        const double within = static_cast<double>(i) / static_cast<double>(profile_.numFrames());
+        const auto passes = static_cast<double>(profile_.layout().numMatrices());
+        if (!progress_((static_cast<double>(pass_) + within) / passes)) throw Cancelled();
+      }
+      profile_.readFrame(i, frame);
+      take(frame);
+    }
+  }
+
+  void writeMatrix(std::size_t m, bool counts, const MatSink& sink) {
+    const std::size_t cells = profile_.layout().matrix(m).numCells();
+    std::vector<std::uint16_t> whole(cells);
+    pass_ = m;
+    forEachFrame([&](const TactileFrame& frame) {
+      const float* all = frame.allValues().data() + profile_.layout().offset(m);
+      if (!counts) return sink({reinterpret_cast<const char*>(all), cells * sizeof(float)});
+      for (std::size_t k = 0; k < cells; ++k) whole[k] = static_cast<std::uint16_t>(all[k]);
+      sink(matBytesOf(whole));
+    });
+  }
+
+  void writeActive(std::size_t m, const MatSink& sink) {
+    const std::size_t cells = profile_.layout().matrix(m).numCells();
+    std::vector<std::uint8_t> active(cells);
+    forEachFrame([&](const TactileFrame& frame) {
+      const float* own = frame.values.data() + profile_.layout().offset(m);
+      for (std::size_t k = 0; k < cells; ++k) active[k] = own[k] > 0.0F;
+      sink(matBytesOf(active));
+    });
+  }
+
+  const Profile& profile_;
+  const Progress& progress_;
+  std::size_t pass_ = 0;
+};
+
+MatValue matEventsOf(std::span<const RecordingEvent> events) {
+  std::vector<std::int64_t> times;
+  std::vector<std::int64_t> ends;
+  std::vector<double> matrices;
+  std::vector<std::string> kinds;
+  std::vector<std::string> texts;
+  std::vector<std::string> jsons;
+  for (const RecordingEvent& event : events) {
+    times.push_back(event.tUs);
+    ends.push_back(event.t1Us);
+    matrices.push_back(event.matrix ? static_cast<double>(*event.matrix) : -1.0);
+    kinds.push_back(event.kind);
+    texts.push_back(event.text);
+    jsons.push_back(event.json);
+  }
+  return MatValue::structure({{"time_us", MatValue::column(times)},
+                              {"end_us", MatValue::column(ends)},
+                              {"kind", MatValue::texts(kinds)},
+                              {"matrix", MatValue::column(matrices)},
+                              {"text", MatValue::texts(texts)},
+                              {"json", MatValue::texts(jsons)}});
+}
+
+MatValue matMetaOf(const Profile& profile, std::map<std::string, std::string> meta) {
+  for (auto& [key, value] : handMeta(profile.hand())) meta[key] = value;
+  std::vector<std::string> keys;
+  std::vector<std::string> values;
+  for (const auto& [key, value] : meta) {
+    keys.push_back(key);
+    values.push_back(value);
+  }
+  return MatValue::structure({{"key", MatValue::texts(keys)}, {"value", MatValue::texts(values)}});
+}
+
+MatValue matProvenanceOf(const Provenance& from, const Profile& profile) {
+  return MatValue::structure(
+      {{"program", MatValue::text(from.program)},
+       {"source_file", MatValue::text(from.sourceFile)},
+       {"source_sha256", MatValue::text(from.sourceSha256)},
+       {"filters", MatValue::text(from.filters)},
+       {"calibration", MatValue::text(from.calibration)},
+       {"hand", MatValue::text(from.hand.empty() ? profile.hand().name : from.hand)}});
+}
+
+}  // namespace
+
+void writeMat(const Profile& profile,
+              std::span<const RecordingEvent> events,
+              const std::map<std::string, std::string>& meta,
+              const ExportExtras& extras,
+              const std::filesystem::path& path,
+              Overwrite overwrite,
+              const Progress& progress) {
+  MatFile file(path, overwrite, extras.provenance.program);
+  MatExport content(profile, progress);
+  file.add("provenance", matProvenanceOf(extras.provenance, profile));
+  file.add("meta", matMetaOf(profile, meta));
+  file.add("tactile", content.tactile());
+  file.add("joints", content.angles());
+  file.add("temperatures", content.temperatures());
+  file.add("events", matEventsOf(events));
+  for (const auto& series : extras.series) file.add(series->name(), MatExport::series(*series));
+  file.commit();
+}
+
+}  // namespace palpate

@@ -1,0 +1,651 @@
+#include <algorithm>
+#include <bit>
+#include <cstring>
+#include <limits>
+#include <optional>
+#include <stdexcept>
+#include <thread>
+#include <utility>
+
+#include <hdf5.h>
+#include <hdf5_hl.h>
+
+#include "palpate/core/bounded_queue.h"
+#include "palpate/core/error.h"
+#include "palpate/model/hand_file.h"
+#include "palpate/recording/hdf5_recording.h"
+
+#include "recording/hdf5/chunk_compression.h"
+#include "recording/hdf5/hdf5_layout.h"
+#include "recording/hdf5/hdf5_output.h"
+
+namespace palpate {
+namespace {
+
+using Bytes = std::vector<unsigned char>;
+using Shape = std::vector<hsize_t>;
+
+constexpr std::size_t kMostChunkBytes = 256u << 10;
+constexpr std::size_t kMostChunkFrames = 1024;
+constexpr std::size_t kMostChunkRows = 4096;
+
+// The kinds of numbers that are written.
+struct NumberType {
+  hid_t stored;
+  std::size_t bytes;
+};
+NumberType u8() { return {H5T_STD_U8LE, 1}; }
+NumberType u16() { return {H5T_STD_U16LE, 2}; }
+NumberType i32() { return {H5T_STD_I32LE, 4}; }
+NumberType i64() { return {H5T_STD_I64LE, 8}; }
+NumberType f32() { return {H5T_IEEE_F32LE, 4}; }
+NumberType f64() { return {H5T_IEEE_F64LE, 8}; }
+
+// An array in the file whose first axis is cut into chunks, and where wanted its second one.
+struct ChunkedArray {
+  Hdf5Id id;
+  NumberType type{};
+  Shape shape;
+  Shape chunk;
+};
+
+template <typename Number>
+void put(Bytes& bytes, std::size_t index, Number value) {
+  std::memcpy(bytes.data() + index * sizeof value, &value, sizeof value);
+}
+
+class Hdf5Writer {
+ public:
+  Hdf5Writer(const Hdf5Content& content,
+             const std::filesystem::path& path,
+             Overwrite overwrite,
+             const Progress& progress,
+             const Hdf5WriteOptions& options)
+      : content_(content),
+        profile_(content.profile),
+        progress_(progress),
+        options_(options),
+        out_(path, overwrite),
+        work_((options.threads != 0 ? options.threads
+                                    : std::max(1u, std::thread::hardware_concurrency())) -
+              1) {}
+
+  void write() {
+    {
+      const auto lock = hdf5Lock();
+      writeRoot();
+      writeMeta();
+      writeEvents();
+      makeGroup("tactile");
+      makeGroup("joints");
+      makeGroup("temperatures");
+    }
+    writeSamples(
+        "joints",
+        "angles",
+        profile_.numAngles(),
+        [&](std::size_t i) { return profile_.angleTimeUs(i); },
+        [&](std::size_t i) { return profile_.angles(i).deg; },
+        axisNames(),
+        axisUnits());
+    const std::size_t sensors =
+        profile_.numTemperatures() > 0 ? profile_.temperatures(0).degC.size() : 0;
+    writeSamples(
+        "temperatures",
+        "values",
+        profile_.numTemperatures(),
+        [&](std::size_t i) { return profile_.temperatureTimeUs(i); },
+        [&](std::size_t i) { return profile_.temperatures(i).degC; },
+        sensorNames(sensors),
+        std::vector<std::string>(sensors, "deg C"));
+    writeFrames();
+    work_.finishAll();
+    series_.clear();
+    arrays_.clear();
+    out_.commit();
+  }
+
+ private:
+  // A series that is being computed by a thread of its own, and where its rows go.
+  struct RowBlock {
+    std::size_t first = 0;
+    Bytes times;
+    std::vector<Bytes> columns;
+    std::exception_ptr failure;
+  };
+  struct RunningSeries {
+    explicit RunningSeries(ExportedSeries& given) : series(given) {}
+    ~RunningSeries() { queue.close(); }
+    ExportedSeries& series;
+    ChunkedArray* times = nullptr;
+    ChunkedArray* values = nullptr;
+    std::size_t rowsPerBlock = 1;
+    std::size_t taken = 0;
+    BoundedQueue<RowBlock> queue{2};
+    std::jthread thread;  // last: it ends before what it uses
+  };
+
+  // -- Objects of the file; the lock is held. --
+
+  Hdf5Id makeGroup(const std::string& name) {
+    Hdf5Id group(H5Gcreate2(out_.file(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT),
+                 H5Gclose);
+    out_.require(group.ok());
+    return group;
+  }
+
+  template <typename Value>
+  void attribute(hid_t object, const char* name, const Value& value) {
+    out_.require(writeHdf5Attribute(object, name, value));
+  }
+
+  // A small array, stored as it is.
+  Hdf5Id smallArray(const std::string& name,
+                    const NumberType& type,
+                    const Shape& shape,
+                    const void* values) {
+    const Hdf5Id space(H5Screate_simple(static_cast<int>(shape.size()), shape.data(), nullptr),
+                       H5Sclose);
+    Hdf5Id set(H5Dcreate2(out_.file(),
+                          name.c_str(),
+                          type.stored,
+                          space.get(),
+                          H5P_DEFAULT,
+                          plainProperties().get(),
+                          H5P_DEFAULT),
+               H5Dclose);
+    out_.require(set.ok());
+    const bool any = std::find(shape.begin(), shape.end(), 0) == shape.end();
+    out_.require(!any ||
+                 H5Dwrite(set.get(), type.stored, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) >= 0);
+    return set;
+  }
+
+  Hdf5Id textArray(const std::string& name, const std::vector<std::string>& texts) {
+    std::vector<std::string> stored;
+    for (const std::string& text : texts) stored.push_back(hdf5StoredText(text));
+    std::vector<const char*> pointers;
+    for (const std::string& text : stored) pointers.push_back(text.c_str());
+    const Hdf5Id type = hdf5TextType();
+    return smallArray(name, {type.get(), 0}, {texts.size()}, pointers.data());
+  }
+
+  // Properties of a data set that depend on no time.
+  static Hdf5Id plainProperties() {
+    Hdf5Id properties(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+    H5Pset_obj_track_times(properties.get(), 0);
+    return properties;
+  }
+
+  // An array of chunks that are written whole; `fill` is its value where none was written.
+  ChunkedArray& chunkedArray(const std::string& name,
+                             const NumberType& type,
+                             Shape shape,
+                             Shape chunk,
+                             std::optional<std::int64_t> fill = {}) {
+    Shape most = shape;
+    most[0] = H5S_UNLIMITED;
+    const auto rank = static_cast<int>(shape.size());
+    const Hdf5Id space(H5Screate_simple(rank, shape.data(), most.data()), H5Sclose);
+    const Hdf5Id properties = plainProperties();
+    H5Pset_chunk(properties.get(), rank, chunk.data());
+    H5Pset_shuffle(properties.get());
+    H5Pset_deflate(properties.get(), static_cast<unsigned>(options_.level));
+    if (fill) H5Pset_fill_value(properties.get(), H5T_NATIVE_INT64, &*fill);
+    Hdf5Id set(H5Dcreate2(out_.file(),
+                          name.c_str(),
+                          type.stored,
+                          space.get(),
+                          H5P_DEFAULT,
+                          properties.get(),
+                          H5P_DEFAULT),
+               H5Dclose);
+    out_.require(set.ok());
+    return *arrays_.emplace_back(std::make_unique<ChunkedArray>(
+        ChunkedArray{std::move(set), type, std::move(shape), std::move(chunk)}));
+  }
+
+  void makeScale(hid_t set, const char* name) { out_.require(H5DSset_scale(set, name) >= 0); }
+  void attachScale(hid_t set, hid_t scale, unsigned axis) {
+    out_.require(H5DSattach_scale(set, scale, axis) >= 0);
+  }
+
+  // The stamps of a series, as the scale of its first axis.
+  ChunkedArray& timeArray(const std::string& group, std::size_t count, std::size_t perChunk) {
+    ChunkedArray& times = chunkedArray(group + "/time_us", i64(), {count}, {perChunk});
+    attribute(times.id.get(), "units", std::string("us"));
+    attribute(times.id.get(), "epoch", std::string("1970-01-01T00:00:00Z"));
+    makeScale(times.id.get(), "time");
+    return times;
+  }
+
+  // -- Chunks --
+
+  // Compresses a chunk on some thread and writes it in the order of these calls.
+  void addChunk(ChunkedArray& array, Shape offset, Bytes raw) {
+    struct Chunk {
+      Shape offset;
+      Bytes raw;
+      Bytes packed;
+    };
+    auto chunk = std::make_shared<Chunk>(Chunk{std::move(offset), std::move(raw), {}});
+    const std::size_t bytes = array.type.bytes;
+    work_.add(
+        [chunk, bytes, level = options_.level] {
+          chunk->packed = shuffledAndDeflated(chunk->raw, bytes, level);
+          chunk->raw = {};
+        },
+        [this, chunk, set = array.id.get()] {
+          const auto lock = hdf5Lock();
+          out_.require(H5Dwrite_chunk(set,
+                                      H5P_DEFAULT,
+                                      0,
+                                      chunk->offset.data(),
+                                      chunk->packed.size(),
+                                      chunk->packed.data()) >= 0);
+        });
+  }
+
+  // -- Parts of the recording --
+
+  void writeRoot() {
+    const hid_t root = out_.file();
+    const Provenance& from = content_.extras.provenance;
+    attribute(root, "format", std::string(hdf5_layout::kFormat));
+    attribute(root, "format_version", std::int64_t{kHdf5LayoutVersion});
+    attribute(root, "program", from.program);
+    attribute(root, "source_file", from.sourceFile);
+    attribute(root, "source_sha256", from.sourceSha256);
+    attribute(root, "filters", from.filters);
+    attribute(root, "calibration", from.calibration);
+    attribute(root, "hand", from.hand.empty() ? profile_.hand().name : from.hand);
+  }
+
+  void writeMeta() {
+    std::map<std::string, std::string> meta = content_.meta;
+    const ProfileInfo& info = profile_.info();
+    if (!info.serial.empty()) meta["serial"] = info.serial;
+    if (!info.firmware.empty()) meta["firmware"] = info.firmware;
+    if (!info.sensorRevision.empty()) meta["sensor_revision"] = info.sensorRevision;
+    // What belongs to the file of the source, or is known better.
+    for (const char* key : {"format",
+                            "finished",
+                            "value_type",
+                            "frames",
+                            "angle_samples",
+                            "temperature_samples",
+                            "seconds",
+                            "hand",
+                            "hand_json",
+                            "hand_urdf"})
+      meta.erase(key);
+    meta.merge(handMeta(profile_.hand()));
+    std::vector<std::string> keys;
+    std::vector<std::string> values;
+    for (const auto& [key, value] : meta) {
+      keys.push_back(key);
+      values.push_back(value);
+    }
+    makeGroup("meta");
+    const Hdf5Id key = textArray("meta/key", keys);
+    const Hdf5Id value = textArray("meta/value", values);
+    if (keys.empty()) return;
+    makeScale(key.get(), "key");
+    attachScale(value.get(), key.get(), 0);
+  }
+
+  void writeEvents() {
+    std::vector<std::int64_t> times;
+    std::vector<std::int64_t> ends;
+    std::vector<std::int32_t> matrices;
+    std::vector<std::string> kinds;
+    std::vector<std::string> texts;
+    std::vector<std::string> jsons;
+    for (const RecordingEvent& event : content_.events) {
+      times.push_back(event.tUs);
+      ends.push_back(event.t1Us);
+      matrices.push_back(event.matrix.value_or(hdf5_layout::kNoMatrix));
+      kinds.push_back(event.kind);
+      texts.push_back(event.text);
+      jsons.push_back(event.json);
+    }
+    makeGroup("events");
+    const Shape count{times.size()};
+    const Hdf5Id time = smallArray("events/time_us", i64(), count, times.data());
+    attribute(time.get(), "units", std::string("us"));
+    attribute(time.get(), "epoch", std::string("1970-01-01T00:00:00Z"));
+    std::vector<Hdf5Id> columns;
+    columns.push_back(smallArray("events/end_us", i64(), count, ends.data()));
+    attribute(columns.back().get(), "units", std::string("us"));
+    columns.push_back(textArray("events/kind", kinds));
+    columns.push_back(smallArray("events/matrix", i32(), count, matrices.data()));
+    columns.push_back(textArray("events/text", texts));
+    columns.push_back(textArray("events/json", jsons));
+    if (times.empty()) return;
+    makeScale(time.get(), "time");
+    for (const Hdf5Id& column : columns) attachScale(column.get(), time.get(), 0);
+  }
+
+  std::vector<std::string> axisNames() const {
+    std::vector<std::string> names;
+    for (const AxisDescription& axis : profile_.hand().axes) names.push_back(axis.name);
+    return names;
+  }
+  std::vector<std::string> axisUnits() const {
+    std::vector<std::string> units;
+    for (const AxisDescription& axis : profile_.hand().axes) units.emplace_back(axis.unit());
+    return units;
+  }
+  std::vector<std::string> sensorNames(std::size_t count) const {
+    std::vector<std::string> names;
+    for (const TemperatureSensorDescription& sensor : profile_.hand().temperatureSensors)
+      names.push_back(sensor.name);
+    names.resize(count);
+    return names;
+  }
+
+  // Joint angles or temperatures: times, and a column per value.
+  template <typename TimeOf, typename ValuesOf>
+  void writeSamples(const std::string& group,
+                    const std::string& name,
+                    std::size_t count,
+                    TimeOf timeOf,
+                    ValuesOf valuesOf,
+                    std::vector<std::string> names,
+                    std::vector<std::string> units) {
+    if (count == 0) return;
+    const std::size_t width = valuesOf(0).size();
+    names.resize(width);
+    units.resize(width);
+    const std::size_t perChunk = std::min(count, kMostChunkRows);
+    ChunkedArray* times = nullptr;
+    ChunkedArray* values = nullptr;
+    {
+      const auto lock = hdf5Lock();
+      times = &timeArray(group, count, perChunk);
+      values = &chunkedArray(group + "/" + name, f64(), {count, width}, {perChunk, width});
+      const bool sameUnit = std::equal(units.begin() + 1, units.end(), units.begin());
+      attribute(
+          values->id.get(), "units", sameUnit ? units.front() : std::string("see column_units"));
+      attribute(values->id.get(), "column_units", units);
+      const Hdf5Id column = textArray(group + "/column", names);
+      makeScale(column.get(), "column");
+      attachScale(values->id.get(), times->id.get(), 0);
+      attachScale(values->id.get(), column.get(), 1);
+    }
+    for (std::size_t first = 0; first < count; first += perChunk) {
+      Bytes timeBytes(perChunk * 8);
+      Bytes valueBytes(perChunk * width * 8);
+      const std::size_t end = std::min(count, first + perChunk);
+      for (std::size_t i = first; i < end; ++i) {
+        put(timeBytes, i - first, timeOf(i));
+        const std::vector<double> row = valuesOf(i);
+        if (row.size() != width)
+          throw std::invalid_argument("writeHdf5: samples of several widths");
+        std::memcpy(valueBytes.data() + (i - first) * width * 8, row.data(), width * 8);
+      }
+      addChunk(*times, {first}, std::move(timeBytes));
+      addChunk(*values, {first, 0}, std::move(valueBytes));
+    }
+  }
+
+  // The arrays of the frames.
+  struct FrameArrays {
+    ChunkedArray* times = nullptr;
+    ChunkedArray* deviceTimes = nullptr;  // made with the first frame that has one
+    ChunkedArray* isFiltered = nullptr;   // of a recording of floats
+    std::vector<ChunkedArray*> matrices;
+    std::vector<ChunkedArray*> active;  // of a recording of floats
+    std::size_t perChunk = 1;
+  };
+
+  std::size_t framesPerChunk() const {
+    std::size_t largest = 1;
+    for (const MatrixLayout& matrix : profile_.layout().matrices())
+      largest = std::max(largest, matrix.numCells());
+    const std::size_t fitting = kMostChunkBytes / (largest * sizeof(float));
+    return std::clamp<std::size_t>(std::min(fitting, profile_.numFrames()), 1, kMostChunkFrames);
+  }
+
+  // Positions of rows or columns [mm], as a scale.
+  void attachPositions(ChunkedArray& array,
+                       const std::string& name,
+                       const char* axis,
+                       int count,
+                       double pitchMm,
+                       unsigned dimension) {
+    std::vector<double> positions;
+    for (int i = 0; i < count; ++i) positions.push_back(i * pitchMm);
+    const Hdf5Id scale = smallArray(name, f64(), {positions.size()}, positions.data());
+    attribute(scale.get(), "units", std::string("mm"));
+    makeScale(scale.get(), axis);
+    attachScale(array.id.get(), scale.get(), dimension);
+  }
+
+  void makeMatrix(FrameArrays& frames, std::size_t m, bool counts) {
+    const MatrixLayout& layout = profile_.layout().matrix(m);
+    const HandDescription& hand = profile_.hand();
+    const std::string path = hdf5_layout::matrixPath(m);
+    const auto rows = static_cast<hsize_t>(layout.rows);
+    const auto columns = static_cast<hsize_t>(layout.columns);
+    const Shape shape{profile_.numFrames(), rows, columns};
+    const Shape chunk{frames.perChunk, rows, columns};
+    ChunkedArray& array = chunkedArray(path, counts ? u16() : f32(), shape, chunk);
+    const hid_t id = array.id.get();
+    attribute(id, "units", hand.unit);
+    attribute(id, "axes", std::string("time, row (0 is the fingertip), column"));
+    attribute(id, "name", hand.matrixName(m));
+    attribute(id, "pitch_mm", layout.pitchMm);
+    attribute(id, "unique_id", layout.uniqueId);
+    attachScale(id, frames.times->id.get(), 0);
+    attachPositions(array, path + "_y", "y", layout.rows, layout.pitchMm, 1);
+    attachPositions(array, path + "_x", "x", layout.columns, layout.pitchMm, 2);
+    const Hdf5Id staticMask =
+        smallArray(path + "_static_mask", u8(), {rows, columns}, layout.staticMask.data());
+    const Hdf5Id dynamicMask =
+        smallArray(path + "_dynamic_mask", u8(), {rows, columns}, layout.dynamicMask.data());
+    frames.matrices.push_back(&array);
+    if (counts) return;
+    ChunkedArray& active = chunkedArray(path + "_active", u8(), shape, chunk);
+    attachScale(active.id.get(), frames.times->id.get(), 0);
+    frames.active.push_back(&active);
+  }
+
+  FrameArrays makeFrameArrays() {
+    const auto lock = hdf5Lock();
+    FrameArrays frames;
+    frames.perChunk = framesPerChunk();
+    const std::size_t count = profile_.numFrames();
+    const bool counts = profile_.info().valueType == ValueType::kCounts;
+    frames.times = &timeArray("tactile", count, frames.perChunk);
+    for (std::size_t m = 0; m < profile_.layout().numMatrices(); ++m) makeMatrix(frames, m, counts);
+    if (!counts) {
+      frames.isFiltered = &chunkedArray("tactile/filtered", u8(), {count}, {frames.perChunk});
+      attachScale(frames.isFiltered->id.get(), frames.times->id.get(), 0);
+    }
+    return frames;
+  }
+
+  void makeDeviceTimes(FrameArrays& frames) {
+    const auto lock = hdf5Lock();
+    frames.deviceTimes = &chunkedArray("tactile/device_time_ms",
+                                       i64(),
+                                       {profile_.numFrames()},
+                                       {frames.perChunk},
+                                       hdf5_layout::kNoDeviceTime);
+    const hid_t id = frames.deviceTimes->id.get();
+    attribute(id, "units", std::string("ms"));
+    attribute(id, "missing_value", hdf5_layout::kNoDeviceTime);
+    attachScale(id, frames.times->id.get(), 0);
+  }
+
+  void writeFrames() {
+    FrameArrays frames = makeFrameArrays();
+    for (const auto& series : content_.extras.series) startSeries(*series);
+    const std::size_t count = profile_.numFrames();
+    TactileFrame frame;
+    for (std::size_t first = 0; first < count; first += frames.perChunk) {
+      reportProgress(progress_, first, count);
+      writeFrameChunk(frames, first, std::min(count, first + frames.perChunk), frame);
+      for (const auto& series : series_) takeRows(*series, first + frames.perChunk);
+    }
+    for (const auto& series : series_) takeRows(*series, series->series.numRows());
+  }
+
+  void writeFrameChunk(FrameArrays& frames,
+                       std::size_t first,
+                       std::size_t end,
+                       TactileFrame& frame) {
+    const SensorLayout& layout = profile_.layout();
+    const bool counts = frames.active.empty();
+    Bytes times(frames.perChunk * 8);
+    Bytes deviceTimes(frames.perChunk * 8);
+    Bytes isFiltered(counts ? 0 : frames.perChunk);
+    std::vector<Bytes> values(layout.numMatrices());
+    std::vector<Bytes> active(counts ? 0 : layout.numMatrices());
+    for (std::size_t m = 0; m < values.size(); ++m) {
+      const std::size_t cells = frames.perChunk * layout.matrix(m).numCells();
+      values[m].resize(cells * (counts ? 2 : 4));
+      if (!counts) active[m].resize(cells);
+    }
+    bool anyDevice = false;
+    for (std::size_t i = 0; i < frames.perChunk; ++i)
+      put(deviceTimes, i, hdf5_layout::kNoDeviceTime);
+    for (std::size_t i = first; i < end; ++i) {
+      profile_.readFrame(i, frame);
+      const std::size_t at = i - first;
+      put(times, at, frame.hostUs);
+      put(deviceTimes, at, frame.deviceMs.value_or(hdf5_layout::kNoDeviceTime));
+      anyDevice = anyDevice || frame.deviceMs;
+      if (!counts) isFiltered[at] = frame.filtered.empty() ? 0 : 1;
+      for (std::size_t m = 0; m < values.size(); ++m) {
+        const std::size_t cells = layout.matrix(m).numCells();
+        const float* all = frame.allValues().data() + layout.offset(m);
+        if (counts) {
+          auto* to = reinterpret_cast<std::uint16_t*>(values[m].data()) + at * cells;
+          bool exact = true;
+          for (std::size_t k = 0; k < cells; ++k) {
+            to[k] = static_cast<std::uint16_t>(static_cast<int>(all[k]));
+            exact &= static_cast<float>(to[k]) == all[k];
+          }
+          if (!exact)
+            throw std::invalid_argument("writeHdf5: frame " + std::to_string(i) +
+                                        " of a recording of counts has another value");
+        } else {
+          std::memcpy(values[m].data() + at * cells * 4, all, cells * 4);
+          const float* own = frame.values.data() + layout.offset(m);
+          // Of a filtered frame: where `values` has what the filters gave, also where that is below
+          // zero; elsewhere it is +0.
+          const bool filtered = !frame.filtered.empty();
+          for (std::size_t k = 0; k < cells; ++k)
+            active[m][at * cells + k] =
+                filtered ? std::bit_cast<std::uint32_t>(own[k]) != 0 : own[k] > 0.0F;
+        }
+      }
+    }
+    if (anyDevice && !frames.deviceTimes) makeDeviceTimes(frames);
+    addChunk(*frames.times, {first}, std::move(times));
+    if (frames.deviceTimes) addChunk(*frames.deviceTimes, {first}, std::move(deviceTimes));
+    if (frames.isFiltered) addChunk(*frames.isFiltered, {first}, std::move(isFiltered));
+    for (std::size_t m = 0; m < values.size(); ++m) {
+      addChunk(*frames.matrices[m], {first, 0, 0}, std::move(values[m]));
+      if (!counts) addChunk(*frames.active[m], {first, 0, 0}, std::move(active[m]));
+    }
+  }
+
+  // -- Series --
+
+  void startSeries(ExportedSeries& series) {
+    auto running = std::make_unique<RunningSeries>(series);
+    const std::size_t count = series.numRows();
+    const std::size_t width = series.columns().size();
+    running->rowsPerBlock = std::clamp<std::size_t>(count, 1, kMostChunkRows);
+    {
+      const auto lock = hdf5Lock();
+      const std::string& group = series.name();
+      makeGroup(group);
+      std::vector<std::string> names;
+      std::vector<std::string> units;
+      for (const ExportedSeries::Column& column : series.columns()) {
+        names.push_back(column.name);
+        units.push_back(column.unit);
+      }
+      running->times = &timeArray(group, count, running->rowsPerBlock);
+      running->values =
+          &chunkedArray(group + "/values", f64(), {count, width}, {running->rowsPerBlock, 1});
+      attribute(running->values->id.get(), "column_units", units);
+      const Hdf5Id column = textArray(group + "/column", names);
+      makeScale(column.get(), "column");
+      attachScale(running->values->id.get(), running->times->id.get(), 0);
+      attachScale(running->values->id.get(), column.get(), 1);
+    }
+    running->thread = std::jthread([&to = *running] { computeRows(to); });
+    series_.push_back(std::move(running));
+  }
+
+  static void computeRows(RunningSeries& to) {
+    const std::size_t width = to.series.columns().size();
+    std::vector<double> row(width);
+    RowBlock block;
+    std::size_t inBlock = 0;
+    const auto begin = [&](std::size_t first) {
+      block = {first, Bytes(to.rowsPerBlock * 8), std::vector<Bytes>(width), {}};
+      for (Bytes& column : block.columns) column.resize(to.rowsPerBlock * 8);
+      inBlock = 0;
+    };
+    try {
+      begin(0);
+      std::int64_t timeUs = 0;
+      for (std::size_t i = 0; to.series.next(timeUs, row); ++i) {
+        put(block.times, inBlock, timeUs);
+        for (std::size_t c = 0; c < width; ++c) put(block.columns[c], inBlock, row[c]);
+        if (++inBlock < to.rowsPerBlock) continue;
+        if (!to.queue.push(std::move(block))) return;
+        begin(i + 1);
+      }
+      if (inBlock > 0) to.queue.push(std::move(block));
+    } catch (...) {
+      block = {};
+      block.failure = std::current_exception();
+      to.queue.push(std::move(block));
+    }
+    to.queue.close();
+  }
+
+  // Writes the blocks that begin before row `until`.
+  void takeRows(RunningSeries& from, std::size_t until) {
+    while (from.taken < std::min(until, from.series.numRows())) {
+      auto block = from.queue.pop();
+      if (!block) throw std::logic_error("writeHdf5: a series has fewer rows than it says");
+      if (block->failure) std::rethrow_exception(block->failure);
+      addChunk(*from.times, {block->first}, std::move(block->times));
+      for (std::size_t c = 0; c < block->columns.size(); ++c)
+        addChunk(*from.values, {block->first, c}, std::move(block->columns[c]));
+      from.taken += from.rowsPerBlock;
+    }
+  }
+
+  const Hdf5Content& content_;
+  const Profile& profile_;
+  const Progress& progress_;
+  const Hdf5WriteOptions options_;
+  Hdf5Output out_;
+  std::vector<std::unique_ptr<ChunkedArray>> arrays_;
+  OrderedWork work_;
+  std::vector<std::unique_ptr<RunningSeries>> series_;
+};
+
+}  // namespace
+
+void writeHdf5(const Hdf5Content& content,
+               const std::filesystem::path& path,
+               Overwrite overwrite,
+               const Progress& progress,
+               const Hdf5WriteOptions& options) {
+  if (options.level < 0 || options.level > 9)
+    throw std::invalid_argument("Hdf5WriteOptions.level is " + std::to_string(options.level) +
+                                ", not in 0..9");
+  Hdf5Writer(content, path, overwrite, progress, options).write();
+}
+
+}  // namespace palpate
