@@ -45,6 +45,73 @@ TEST_F(ConvertCommand, aRangeOfFramesIncludesBothEnds) {
   EXPECT_FALSE(std::filesystem::exists(in("c.dsa")));
 }
 
+TEST_F(ConvertCommand, toHdf5AndBackIsTheSameAsStraight) {
+  const auto result = palpate({"convert", in("a.dsa"), in("a.h5")});
+  EXPECT_EQ(result.exitCode, 0) << result.err;
+  ASSERT_EQ(palpate({"convert", in("a.h5"), in("b.palpate")}).exitCode, 0);
+  ASSERT_EQ(palpate({"convert", in("a.dsa"), in("c.palpate")}).exitCode, 0);
+  EXPECT_TRUE(testing::readFile(in("b.palpate")) == testing::readFile(in("c.palpate")));
+  const auto info = palpate({"info", in("a.h5"), "--json"});
+  EXPECT_NE(info.out.find("\"frames\": 64"), std::string::npos) << info.out;
+  EXPECT_EQ(palpate({"verify", in("a.h5")}).exitCode, 0);
+  EXPECT_EQ(palpate({"signals", in("a.h5")}).out, palpate({"signals", in("a.dsa")}).out);
+  // By its first bytes, whatever its name.
+  std::filesystem::rename(in("a.h5"), in("plain"));
+  EXPECT_EQ(palpate({"signals", in("plain")}).out, palpate({"signals", in("a.dsa")}).out);
+}
+
+TEST_F(ConvertCommand, anExportSaysWhereItComesFromAndHasSeriesUnlessTheyAreLeftOut) {
+  ASSERT_EQ(palpate({"convert", in("a.dsa"), in("a.h5"), "--filter", "median:size=3"}).exitCode, 0);
+  ASSERT_EQ(palpate({"convert", in("a.dsa"), in("b.h5"), "--no-signals", "--no-slip"}).exitCode, 0);
+  ASSERT_EQ(palpate({"convert", in("a.dsa"), in("a.mat")}).exitCode, 0);
+  const auto python = testing::runProgram("/usr/bin/python3",
+                                          {"-c",
+                                           R"(
+import sys, hashlib, h5py, scipy.io
+folder = sys.argv[1] + '/'
+sha = hashlib.sha256(open(folder + 'a.dsa', 'rb').read()).hexdigest()
+a = h5py.File(folder + 'a.h5'); b = h5py.File(folder + 'b.h5')
+assert a.attrs['source_file'] == 'a.dsa' and a.attrs['source_sha256'] == sha
+assert a.attrs['program'].startswith('palpate ') and 'median' in a.attrs['filters']
+assert a['tactile/m0'].dtype == 'float32' and b['tactile/m0'].dtype == 'uint16'
+assert a['signals/values'].shape == (64, 49) and a['slip/values'].shape == (64, 66)
+assert 'signals' not in b and 'slip' not in b and b.attrs['filters'] == ''
+mat = scipy.io.loadmat(folder + 'a.mat', simplify_cells=True)
+assert mat['provenance']['source_sha256'] == sha and mat['slip']['values'].shape == (66, 64)
+)",
+                                           folder_.path().string()});
+  EXPECT_EQ(python.exitCode, 0) << python.err;
+  expectOneLineError(palpate({"convert", in("a.dsa"), in("c.palpate"), "--filter", "median"}),
+                     2,
+                     {"palpate filter"});
+  expectOneLineError(palpate({"info", in("a.mat")}), 1, {"MAT files are written, not read"});
+  testing::writeFile(in("x.h5"), "hello");
+  expectOneLineError(palpate({"info", in("x.h5")}), 1, {"can't be opened as HDF5"});
+}
+
+TEST_F(ConvertCommand, aFolderIsConvertedToHdf5) {
+  const testing::TemporaryFolder made;
+  std::filesystem::copy_file(in("a.dsa"), in("b.dsa"));
+  const auto result = palpate({"convert", in(""), made / "out", "--to-form", "h5"});
+  EXPECT_EQ(result.exitCode, 0) << result.err;
+  EXPECT_EQ(openRecording(made / "out/b.h5").numFrames(), 64u);
+}
+
+TEST_F(ConvertCommand, theUnitsStandInTheSecondRowWhereTheyAreAskedFor) {
+  ASSERT_EQ(palpate({"convert", in("a.dsa"), in("a.csv"), "--units-row"}).exitCode, 0);
+  const auto secondRow = [&](const char* name) {
+    const std::string text = testing::readFile(in(name));
+    const std::size_t begin = text.find('\n') + 1;
+    return text.substr(begin, text.find('\n', begin) - begin);
+  };
+  EXPECT_EQ(secondRow("a.csv"), ",ms,,,,counts");
+  EXPECT_EQ(secondRow("a.csv.angles.csv"), ",ms,deg,deg,deg,deg,deg,deg,deg");
+  EXPECT_EQ(secondRow("a.csv.temperatures.csv"),
+            ",ms,degC,degC,degC,degC,degC,degC,degC,degC,degC");
+  expectOneLineError(
+      palpate({"convert", in("a.dsa"), in("a.npz"), "--units-row"}), 2, {"is for .csv"});
+}
+
 TEST_F(ConvertCommand, csvHasARowPerActiveTaxelAndItsNeighbours) {
   ASSERT_EQ(palpate({"convert", in("a.dsa"), in("a.csv")}).exitCode, 0);
   const Profile profile = openRecording(in("a.dsa"));

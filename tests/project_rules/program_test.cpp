@@ -28,12 +28,13 @@ TEST(Program, LoadsNoQt5) {
 
 // So that a command without a window starts in a few milliseconds. These libraries bring more than
 // sixty others.
-TEST(Program, WithoutAWindowLoadsNeitherQtNorOpenCvNorCeres) {
+TEST(Program, WithoutAWindowLoadsNeitherQtNorOpenCvNorCeresNorHdf5) {
   const std::string program = PALPATE_PROGRAM;
   if (program.empty()) GTEST_SKIP() << "built without the program (PALPATE_APPS=OFF)";
   const std::string libraries = librariesOf(program);
   EXPECT_NE(libraries.find("libbz2"), std::string::npos) << libraries;
-  for (const char* name : {"libQt", "opencv", "ceres", "glog", "lapack", "libGL", "not found"})
+  for (const char* name :
+       {"libQt", "opencv", "ceres", "glog", "lapack", "libGL", "hdf5", "libcurl", "not found"})
     EXPECT_EQ(libraries.find(name), std::string::npos) << name << "\n" << libraries;
 }
 

@@ -54,9 +54,11 @@ class MatExport {
     fields.emplace_back("time_us", stampsOf(profile_.numFrames(), [this](std::size_t i) {
                           return profile_.frameTimeUs(i);
                         }));
-    bool anyDevice = false;
-    const std::vector<std::int64_t> deviceMs = deviceTimes(anyDevice);
-    if (anyDevice) fields.emplace_back("device_time_ms", MatValue::column(deviceMs));
+    fields.emplace_back(
+        "device_time_ms",
+        MatValue::numbers(MatNumber::kI64, {profile_.numFrames(), 1}, [this](const MatSink& sink) {
+          sink(matBytesOf(deviceMs_));
+        }));
     return MatValue::structure(std::move(fields));
   }
 
@@ -104,7 +106,7 @@ class MatExport {
       names.push_back(sensor.name);
     std::vector<std::string> units(
         profile_.numTemperatures() > 0 ? profile_.temperatures(0).degC.size() : names.size(),
-        "deg C");
+        "degC");
     return samples(
         "values",
         profile_.numTemperatures(),
@@ -174,18 +176,6 @@ class MatExport {
     });
   }
 
-  // INT64_MIN: none.
-  std::vector<std::int64_t> deviceTimes(bool& any) const {
-    std::vector<std::int64_t> times(profile_.numFrames(), INT64_MIN);
-    TactileFrame frame;
-    for (std::size_t i = 0; i < times.size(); ++i) {
-      profile_.readFrame(i, frame);
-      any = any || frame.deviceMs;
-      times[i] = frame.deviceMs.value_or(INT64_MIN);
-    }
-    return times;
-  }
-
   template <typename Take>
   void forEachFrame(Take take) {
     constexpr std::size_t kFramesPerReport = 256;
@@ -206,6 +196,7 @@ class MatExport {
     std::vector<std::uint16_t> whole(cells);
     pass_ = m;
     forEachFrame([&](const TactileFrame& frame) {
+      if (m == 0) deviceMs_.push_back(frame.deviceMs.value_or(INT64_MIN));
       const float* all = frame.allValues().data() + profile_.layout().offset(m);
       if (!counts) return sink({reinterpret_cast<const char*>(all), cells * sizeof(float)});
       for (std::size_t k = 0; k < cells; ++k) whole[k] = static_cast<std::uint16_t>(all[k]);
@@ -226,6 +217,7 @@ class MatExport {
   const Profile& profile_;
   const Progress& progress_;
   std::size_t pass_ = 0;
+  std::vector<std::int64_t> deviceMs_;  // of the frames, collected with the first matrix
 };
 
 MatValue matEventsOf(std::span<const RecordingEvent> events) {

@@ -97,7 +97,7 @@ class Hdf5Writer {
         [&](std::size_t i) { return profile_.temperatureTimeUs(i); },
         [&](std::size_t i) { return profile_.temperatures(i).degC; },
         sensorNames(sensors),
-        std::vector<std::string>(sensors, "deg C"));
+        std::vector<std::string>(sensors, "degC"));
     writeFrames();
     work_.finishAll();
     series_.clear();

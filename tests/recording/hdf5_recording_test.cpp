@@ -1,0 +1,384 @@
+#include "palpate/recording/hdf5_recording.h"
+
+#include <csignal>
+#include <random>
+#include <thread>
+
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <sys/file.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include "palpate/core/error.h"
+#include "palpate/core/file_descriptor.h"
+#include "palpate/model/profile_builder.h"
+#include "palpate/recording/recording.h"
+
+#include "recording/import_samples.h"
+#include "recording/palpate_samples.h"
+#include "testing/testing.h"
+
+namespace palpate::hdf5_recording_test {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::TemporaryFolder;
+
+const RecordingEvent kOddEvent{5, 9, "note", 1, std::string("a\0b\xC0 \xC3\xBC", 7), "{\"k\":1}"};
+
+// Rows of a recording's frames, one column.
+class Ramp final : public ExportedSeries {
+ public:
+  explicit Ramp(std::size_t rows) : rows_(rows) {}
+  const std::string& name() const override { return name_; }
+  const std::vector<Column>& columns() const override { return columns_; }
+  std::size_t numRows() const override { return rows_; }
+  bool next(std::int64_t& timeUs, std::span<double> values) override {
+    if (index_ == rows_) return false;
+    timeUs = 1000 + static_cast<std::int64_t>(index_);
+    values[0] = 0.5 * static_cast<double>(index_);
+    values[1] = -static_cast<double>(index_++);
+    return true;
+  }
+
+ private:
+  std::string name_ = "signals";
+  std::vector<Column> columns_{{"m0/mean", "counts"}, {"m0/active", "taxels"}};
+  std::size_t rows_;
+  std::size_t index_ = 0;
+};
+
+// Two pads and four axes. Every third frame is filtered, some values of which are below zero.
+Profile randomProfile(std::uint32_t seed, bool floats, std::size_t frames) {
+  std::mt19937 random(seed);
+  const auto layout = std::make_shared<const SensorLayout>(
+      std::vector<MatrixLayout>{MatrixLayout::full(3, 5, 1.25), MatrixLayout::full(1, 2, 7.0)});
+  ProfileBuilder builder(layout);
+  std::int64_t timeUs = 1'600'000'000'000'000;
+  for (std::size_t i = 0; i < frames; ++i) {
+    TactileFrame frame(layout);
+    frame.hostUs = timeUs += 1 + random() % 50'000;
+    if (i > 10 && random() % 4 != 0) frame.deviceMs = static_cast<std::int64_t>(random());
+    for (float& value : frame.values)
+      value = random() % 3 == 0 ? static_cast<float>(random() % 4096) : 0.0F;
+    if (floats && i % 3 == 0) {
+      std::vector<float> all;
+      std::vector<bool> active;
+      for (std::size_t k = 0; k < frame.values.size(); ++k) {
+        all.push_back(static_cast<float>(random() % 2000) / 7.0F - 40.0F);
+        active.push_back(random() % 2 == 0);
+      }
+      frame.setFiltered(std::move(all), active);
+    }
+    builder.addFrame(frame);
+    if (i % 2 == 0) builder.addAngles(frame.hostUs, std::vector<double>{0.1 * i, -3.0, 1.0 / 3, 7});
+    if (i % 100 == 0) builder.addTemperatures(frame.hostUs, std::vector<double>{20.5, 0.1 * i});
+  }
+  return builder.finish({.serial = "12AB", .firmware = "2.9"});
+}
+
+void expectSame(const Profile& a, const Profile& b) {
+  ASSERT_EQ(a.numFrames(), b.numFrames());
+  ASSERT_EQ(a.numAngles(), b.numAngles());
+  ASSERT_EQ(a.numTemperatures(), b.numTemperatures());
+  EXPECT_TRUE(a.layout() == b.layout());
+  EXPECT_EQ(a.hand().name, b.hand().name);
+  EXPECT_EQ(a.info().valueType, b.info().valueType);
+  EXPECT_EQ(a.info().serial, b.info().serial);
+  EXPECT_EQ(a.info().firmware, b.info().firmware);
+  for (std::size_t i = 0; i < a.numFrames(); ++i) {
+    const TactileFrame x = a.frame(i);
+    const TactileFrame y = b.frame(i);
+    ASSERT_EQ(x.hostUs, y.hostUs) << i;
+    ASSERT_EQ(x.deviceMs, y.deviceMs) << i;
+    ASSERT_TRUE(x.values == y.values) << i;
+    ASSERT_TRUE(x.filtered == y.filtered) << i;
+  }
+  for (std::size_t i = 0; i < a.numAngles(); ++i) {
+    ASSERT_EQ(a.angleTimeUs(i), b.angleTimeUs(i));
+    ASSERT_EQ(a.angles(i).deg, b.angles(i).deg);
+  }
+  for (std::size_t i = 0; i < a.numTemperatures(); ++i) {
+    ASSERT_EQ(a.temperatureTimeUs(i), b.temperatureTimeUs(i));
+    ASSERT_EQ(a.temperatures(i).degC, b.temperatures(i).degC);
+  }
+}
+
+void write(const Profile& profile, const fs::path& path, const Hdf5WriteOptions& options = {}) {
+  ExportExtras extras;
+  extras.provenance = {"palpate 9", "a.dsa", "00ff", "median:size=3", "", "pads"};
+  extras.series.push_back(std::make_unique<Ramp>(profile.numFrames()));
+  const std::vector<RecordingEvent> events{kOddEvent, {7, 7, "mark", {}, "", ""}};
+  writeHdf5({profile, events, {{"operator", "A. B."}, {"frames", "99"}}, extras},
+            path,
+            Overwrite::kReplace,
+            {},
+            options);
+}
+
+std::string errorOf(const fs::path& path) {
+  try {
+    openRecording(path);
+  } catch (const Error& error) {
+    const std::string line = error.what();
+    EXPECT_EQ(line.find('\n'), std::string::npos) << line;
+    return line;
+  }
+  return "opened";
+}
+
+TEST(Hdf5Recording, randomRecordingsComeBackBitByBit) {
+  const TemporaryFolder folder;
+  for (const bool floats : {false, true}) {
+    for (const std::size_t frames : {0, 1, 1023, 1024, 2600}) {
+      const Profile profile = randomProfile(static_cast<std::uint32_t>(frames), floats, frames);
+      write(profile, folder / "a.h5");
+      const Hdf5Recording read = readHdf5(folder / "a.h5");
+      expectSame(profile, read.profile);
+      EXPECT_EQ(read.events, (std::vector<RecordingEvent>{kOddEvent, {7, 7, "mark", {}, "", ""}}));
+      EXPECT_EQ(read.meta.at("operator"), "A. B.");
+      EXPECT_FALSE(read.meta.contains("frames"));  // of the file of the source
+      EXPECT_EQ(read.provenance.filters, "median:size=3");
+      EXPECT_EQ(read.provenance.sourceSha256, "00ff");
+    }
+  }
+}
+
+// Also by way of a native recording: what was said of the recording stays as well.
+TEST(Hdf5Recording, aNativeRecordingComesBackAsItWas) {
+  const TemporaryFolder folder;
+  testing::writeSamples(folder / "a.palpate", 3000);
+  const Profile profile = openRecording(folder / "a.palpate");
+  SaveExtras extras;
+  extras.meta = readRecordingMeta(folder / "a.palpate");
+  extras.meta["settings"] = "[{\"sensitivity\":0.5}]";
+  const auto events = readEvents(folder / "a.palpate").events;
+  saveRecording(profile, events, folder / "a.h5", Overwrite::kRefuse, {}, extras);
+  EXPECT_EQ(testing::dumped(openRecording(folder / "a.h5")), testing::dumped(profile));
+  EXPECT_EQ(readEvents(folder / "a.h5").events, events);
+  SaveExtras back;
+  back.meta = readRecordingMeta(folder / "a.h5");
+  saveRecording(openRecording(folder / "a.h5"),
+                readEvents(folder / "a.h5").events,
+                folder / "b.palpate",
+                Overwrite::kRefuse,
+                {},
+                back);
+  EXPECT_EQ(testing::dumped(openRecording(folder / "b.palpate")), testing::dumped(profile));
+  EXPECT_EQ(readEvents(folder / "b.palpate").events, events);
+  auto meta = readRecordingMeta(folder / "b.palpate");
+  EXPECT_EQ(meta, extras.meta);
+}
+
+TEST(Hdf5Recording, realRecordingsComeBackBitByBit) {
+  const auto recordings = testing::recordingsFolder();
+  if (!recordings) GTEST_SKIP() << "no recordings: set PALPATE_RECORDINGS";
+  const TemporaryFolder folder;
+  std::size_t tried = 0;
+  for (const fs::path& file : testing::recordingsToTry(*recordings)) {
+    if (++tried > 12 && !testing::exhaustive()) break;
+    const Profile profile = openRecording(file);
+    writeHdf5({profile, {}, {}, ExportExtras{}}, folder / "a.h5", Overwrite::kReplace);
+    SCOPED_TRACE(file.string());
+    expectSame(profile, openRecording(folder / "a.h5"));
+  }
+  EXPECT_GT(tried, 0u);
+}
+
+TEST(Hdf5Recording, theFileDoesNotDependOnTheNumberOfThreads) {
+  const TemporaryFolder folder;
+  const Profile profile = randomProfile(3, true, 2600);
+  write(profile, folder / "1.h5", {.threads = 1});
+  write(profile, folder / "4.h5", {.threads = 4});
+  EXPECT_TRUE(testing::readFile(folder / "1.h5") == testing::readFile(folder / "4.h5"));
+}
+
+TEST(Hdf5Recording, severalThreadsReadAtOnce) {
+  const TemporaryFolder folder;
+  const Profile profile = randomProfile(5, true, 2600);
+  write(profile, folder / "a.h5");
+  const Profile read = openRecording(folder / "a.h5");
+  std::vector<std::jthread> threads;
+  std::array<int, 4> wrong{};
+  for (std::size_t t = 0; t < wrong.size(); ++t)
+    threads.emplace_back([&, t] {
+      for (std::size_t i = t; i < 2600; i += 7) {
+        const std::size_t k = (i * 977) % 2600;
+        if (!(read.frame(k).values == profile.frame(k).values)) ++wrong[t];
+        if (read.angles(k / 2).deg != profile.angles(k / 2).deg) ++wrong[t];
+      }
+    });
+  threads.clear();
+  EXPECT_EQ(wrong, (std::array<int, 4>{}));
+}
+
+TEST(Hdf5Recording, h5pyReadsArraysScalesAndUnits) {
+  const TemporaryFolder folder;
+  const Profile profile = randomProfile(8, false, 2000);
+  write(profile, folder / "a.h5");
+  std::string truth;
+  for (std::size_t i = 0; i < profile.numFrames(); ++i) {
+    double sum = 0.0;
+    for (std::size_t k = 0; k < 15; ++k)
+      sum += static_cast<double>(profile.frame(i).values[k]) * static_cast<double>(k + 1);
+    truth += std::to_string(profile.frameTimeUs(i)) + " " + std::to_string(sum) + "\n";
+  }
+  testing::writeFile(folder / "truth", truth);
+  testing::runPython(folder, R"(
+import sys, numpy as np, h5py
+folder = sys.argv[1] + '/'
+truth = np.loadtxt(folder + 'truth')
+with h5py.File(folder + 'a.h5') as f:
+  m = f['tactile/m0']
+  assert m.shape == (2000, 3, 5) and m.dtype == np.uint16 and m.compression == 'gzip' and m.shuffle
+  assert m.attrs['units'] == 'counts' and m.attrs['pitch_mm'] == 1.25
+  assert [d.keys()[0] for d in m.dims] == ['time', 'y', 'x']
+  assert np.array_equal(m.dims[0][0][:], truth[:, 0].astype(np.int64))
+  assert np.allclose(m.dims[1][0][:], [0, 1.25, 2.5])
+  assert np.array_equal(m[:].reshape(2000, 15) @ np.arange(1, 16), truth[:, 1])
+  assert f['joints/angles'].shape == (1000, 4) and f['joints/angles'][3, 1] == -3.0
+  assert f['temperatures/values'].attrs['units'] == 'degC'
+  assert list(f['signals/column'].asstr()[:]) == ['m0/mean', 'm0/active']
+  assert list(f['signals/values'].attrs['column_units']) == ['counts', 'taxels']
+  rows = f['signals/values'][:]
+  assert np.array_equal(rows[:, 0], 0.5 * np.arange(2000)) and np.array_equal(rows[:, 1], -np.arange(2000.))
+  assert f['signals/time_us'][1999] == 2999
+  assert f['events/kind'].asstr()[1] == 'mark' and f['events/matrix'][0] == 1 and f['events/matrix'][1] < 0
+  assert f.attrs['source_file'] == 'a.dsa' and f.attrs['filters'] == 'median:size=3'
+)");
+}
+
+TEST(Hdf5Recording, foreignDamagedAndNewerFilesAreOneLineEach) {
+  const TemporaryFolder folder;
+  write(randomProfile(1, false, 1500), folder / "a.h5");
+  testing::runPython(folder, R"(
+import sys, shutil, h5py
+folder = sys.argv[1] + '/'
+def changed(name):
+  shutil.copy(folder + 'a.h5', folder + name)
+  return h5py.File(folder + name, 'r+')
+with h5py.File(folder + 'foreign.h5', 'w') as f: f['x'] = [1, 2, 3]
+with changed('newer.h5') as f: f.attrs['format_version'] = 2
+with changed('no_joints.h5') as f: del f['joints']
+with changed('no_mask.h5') as f: del f['tactile/m1_static_mask']
+with changed('shorter.h5') as f: f['tactile/m1'].resize(1400, axis=0)
+with changed('lzf.h5') as f:
+  values = f['tactile/m0'][:]; pitch = f['tactile/m0'].attrs['pitch_mm']; del f['tactile/m0']
+  f.create_dataset('tactile/m0', data=values, compression='lzf', chunks=(100, 3, 5)).attrs['pitch_mm'] = pitch
+with changed('stamps.h5') as f: f['tactile/time_us'][7] = 3
+with changed('value.h5') as f: f['tactile/m0'][700, 0, 0] = 5000
+with changed('text.h5') as f:
+  del f['tactile/m0']; f['tactile/m0'] = 'hello'
+)");
+  const auto expectError = [&](const char* name, const std::string& words) {
+    const std::string error = errorOf(folder / name);
+    EXPECT_NE(error.find(words), std::string::npos) << name << ": " << error;
+  };
+  expectError("foreign.h5", "palpate import");
+  expectError("newer.h5", "newer Palpate");
+  expectError("no_joints.h5", "the group 'joints' is missing");
+  expectError("no_mask.h5", "\"tactile/m1_static_mask\" is missing");
+  expectError("shorter.h5", "instead of 1500 x 1 x 2");
+  expectError("lzf.h5", "filter that is not there (32000");
+  expectError("stamps.h5", "does not ascend at sample 7");
+  expectError("text.h5", "\"tactile/m0\" must be frames x rows x columns");
+  const Profile profile = openRecording(folder / "value.h5");
+  EXPECT_THROW(profile.frame(700), FormatError);
+  EXPECT_EQ(verifyRecording(folder / "value.h5").state, VerifyReport::State::kUnreadable);
+  EXPECT_EQ(verifyRecording(folder / "a.h5").state, VerifyReport::State::kSound);
+  testing::writeFile(folder / "hello.h5", "hello");
+  expectError("hello.h5", "can't be opened as HDF5");
+}
+
+TEST(Hdf5Recording, aFileThatIsCutOffAnywhereIsOneLine) {
+  const TemporaryFolder folder;
+  write(randomProfile(1, false, 1500), folder / "a.h5");
+  const std::string whole = testing::readFile(folder / "a.h5");
+  for (std::size_t length = 8; length < whole.size(); length += whole.size() / 40) {
+    testing::writeFile(folder / "cut.h5", whole.substr(0, length));
+    EXPECT_NE(errorOf(folder / "cut.h5"), "opened") << length;
+  }
+}
+
+// Damaged bytes: an error, or other numbers; never anything else.
+TEST(Hdf5Recording, changedBytesNeverCrash) {
+  const TemporaryFolder folder;
+  write(randomProfile(1, true, 300), folder / "a.h5");
+  const std::string whole = testing::readFile(folder / "a.h5");
+  std::mt19937 random(1);
+  for (int round = 0; round < 300; ++round) {
+    std::string bad = whole;
+    for (int k = 0; k < 8; ++k) bad[random() % bad.size()] = static_cast<char>(random());
+    testing::writeFile(folder / "bad.h5", bad);
+    EXPECT_FALSE(verifyRecording(folder / "bad.h5").message.empty());
+  }
+}
+
+TEST(Hdf5Recording, aFullDiskIsAnErrorAndLeavesNothing) {
+  const TemporaryFolder folder;
+  const Profile profile = randomProfile(1, false, 20'000);
+  for (const rlim_t bytes : {0, 2'000, 50'000, 200'000}) {
+    const auto full = [&] {
+      ::signal(SIGXFSZ, SIG_IGN);
+      const rlimit limit{bytes, bytes};
+      ::setrlimit(RLIMIT_FSIZE, &limit);
+      try {
+        write(profile, folder / "a.h5");
+      } catch (const FileError& error) {
+        ::_exit(std::string(error.what()).find("File too large") != std::string::npos ? 7 : 8);
+      }
+      ::_exit(0);
+    };
+    EXPECT_EXIT(full(), ::testing::ExitedWithCode(7), "") << bytes;
+    EXPECT_TRUE(fs::is_empty(folder.path())) << bytes;
+  }
+  write(profile, folder / "a.h5");
+  EXPECT_GT(fs::file_size(folder / "a.h5"), 200'000u);
+}
+
+TEST(Hdf5Recording, aFileThatAnotherProgramWritesIsNotReplaced) {
+  const TemporaryFolder folder;
+  const Profile profile = randomProfile(1, false, 10);
+  write(profile, folder / "a.h5");
+  const FileDescriptor other(::open((folder / "a.h5").c_str(), O_RDWR | O_CLOEXEC));
+  ASSERT_EQ(::flock(other.get(), LOCK_EX | LOCK_NB), 0);
+  EXPECT_THROW(write(profile, folder / "a.h5"), FileError);
+  ::flock(other.get(), LOCK_UN);
+  write(profile, folder / "a.h5");
+}
+
+TEST(Hdf5Recording, cancellingAndASeriesThatFailsLeaveNothing) {
+  class Failing final : public ExportedSeries {
+   public:
+    const std::string& name() const override { return name_; }
+    const std::vector<Column>& columns() const override { return columns_; }
+    std::size_t numRows() const override { return 5000; }
+    bool next(std::int64_t&, std::span<double>) override { throw FormatError("a.dsa", "damaged"); }
+
+   private:
+    std::string name_ = "slip";
+    std::vector<Column> columns_{{"m0/dx", "taxels"}};
+  };
+  const TemporaryFolder folder;
+  const Profile profile = randomProfile(1, false, 5000);
+  ExportExtras extras;
+  extras.series.push_back(std::make_unique<Failing>());
+  EXPECT_THROW(writeHdf5({profile, {}, {}, extras}, folder / "a.h5"), FormatError);
+  EXPECT_THROW(writeHdf5({profile, {}, {}, ExportExtras{}},
+                         folder / "a.h5",
+                         Overwrite::kRefuse,
+                         [](double) { return false; }),
+               Cancelled);
+  EXPECT_TRUE(fs::is_empty(folder.path()));
+}
+
+TEST(Hdf5Recording, notesCantBeAddedAndNothingIsRecovered) {
+  const TemporaryFolder folder;
+  write(randomProfile(1, false, 10), folder / "a.h5");
+  EXPECT_THROW(recoverRecording(folder / "a.h5", folder / "b.palpate"), FileError);
+  EXPECT_FALSE(fs::exists(folder / "b.palpate"));
+}
+
+}  // namespace
+}  // namespace palpate::hdf5_recording_test
