@@ -28,6 +28,7 @@ constexpr std::uint32_t kMiDouble = 9;
 constexpr std::uint32_t kMiInt64 = 12;
 constexpr std::uint32_t kMiMatrix = 14;
 constexpr std::uint32_t kMiCompressed = 15;
+constexpr std::uint32_t kMiUtf16 = 17;
 
 constexpr std::uint64_t kMostVariableBytes = std::numeric_limits<std::int32_t>::max();
 constexpr std::size_t kFieldNameBytes = 32;  // with the NUL at its end
@@ -85,7 +86,7 @@ void matWriteElement(const MatSink& sink, std::uint32_t type, const std::string&
   matWritePadding(sink, data.size());
 }
 
-// UTF-8 as units of UTF-16; what is no UTF-8 becomes U+FFFD.
+// UTF-8 as units of UTF-16; what is no UTF-8, or above U+FFFF, becomes U+FFFD.
 std::u16string utf16(std::string_view text) {
   constexpr char16_t kReplacement = 0xFFFD;
   std::u16string units;
@@ -109,14 +110,10 @@ std::u16string utf16(std::string_view text) {
     }
     const bool overlong = (more == 2 && code < 0x800) || (more == 3 && code < 0x10000);
     const bool surrogate = code >= 0xD800 && code < 0xE000;
-    if (found < more || overlong || surrogate || code > 0x10FFFF) {
-      units += kReplacement;
-    } else if (code < 0x10000) {
-      units += static_cast<char16_t>(code);
-    } else {
-      units += static_cast<char16_t>(0xD800 + ((code - 0x10000) >> 10));
-      units += static_cast<char16_t>(0xDC00 + ((code - 0x10000) & 0x3FF));
-    }
+    // Readers count letters in units (MATLAB) or in code points (SciPy): these are the same below
+    // U+10000 only.
+    const bool readable = found == more && !overlong && !surrogate && code < 0x10000;
+    units += readable ? static_cast<char16_t>(code) : kReplacement;
   }
   return units;
 }
@@ -236,7 +233,7 @@ void MatValue::write(const std::string& name, const MatSink& sink) const {
     return;
   }
   const std::uint64_t bytes = dataBytes();
-  matWriteTag(sink, matTypeOf(type_).element, bytes);
+  matWriteTag(sink, class_ == Class::kChar ? kMiUtf16 : matTypeOf(type_).element, bytes);
   std::uint64_t written = 0;
   fill_([&](std::string_view piece) {
     written += piece.size();
