@@ -291,7 +291,9 @@ std::optional<ReadableRecording> recoveredPalpate(const std::filesystem::path& p
 ReadableRecording readableRecording(const std::filesystem::path& path,
                                     const Progress& progress,
                                     std::size_t threads) {
-  if (isHdf5Recording(path)) return readableHdf5(path, progress);
+  const Container container = containerOf(path);
+  if (container == Container::kHdf5) return readableHdf5(path, progress);
+  if (container == Container::kMat) throwOnlyWritten(path);
   // From 0 to 1 once, also where a second way has to be taken.
   double reached = 0.0;
   const auto partOf = [&](double begin, double share) -> Progress {
