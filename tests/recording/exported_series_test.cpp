@@ -6,7 +6,7 @@ namespace palpate::exported_series_test {
 namespace {
 
 TEST(Provenance, sameOnlyWhereEveryTextIs) {
-  const Provenance a{"palpate 1", "a.dsa", "00", "median", "pad", "sdh2"};
+  const Provenance a{"palpate 1", "a.dsa", "00", "median", "pad", "pad_hand"};
   Provenance b = a;
   EXPECT_EQ(a, b);
   for (std::string* text :

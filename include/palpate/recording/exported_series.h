@@ -17,7 +17,7 @@ struct Provenance {
   std::string sourceSha256;  // of its bytes, 64 lower-case hexadecimal digits
   std::string filters;       // the chain as text, as `--filter` takes it
   std::string calibration;   // name of the calibration
-  std::string hand;          // name of the hand ("sdh2")
+  std::string hand;          // name of the hand ("flat_pad_16x16")
   bool operator==(const Provenance&) const = default;
 };
 
