@@ -98,15 +98,16 @@ std::optional<std::int64_t> jsonTimeUs(double us) {
   return std::llround(us);
 }
 
-// Reads the frame of a schunk_sdh/TactileSensor into `values`, one per place.
+// Reads the matrices of a schunk_sdh/TactileSensor into `values`, one per place, and notes them in
+// `seen`.
 void readTactileMatrices(const Json& matrices,
                          const SensorLayout& layout,
+                         std::vector<bool>& seen,
                          std::vector<float>& values) {
   if (!matrices.isArray()) throw Error("tactile_matrix is no list");
-  if (matrices.size() != layout.numMatrices())
+  if (matrices.size() == 0 || matrices.size() > layout.numMatrices())
     throw Error(std::to_string(matrices.size()) + " matrices instead of " +
                 std::to_string(layout.numMatrices()));
-  std::vector<bool> seen(layout.numMatrices());
   for (std::size_t i = 0; i < matrices.size(); ++i) {
     const Json matrix = matrices.at(i);
     const std::int64_t id = matrix.at("matrix_id").asInteger();
@@ -325,11 +326,57 @@ void StreamLineParser::deliver(const Head& head, std::size_t count, const Sink& 
   sink(item);
 }
 
+// A frame may come in several messages with the same number, each with some of the matrices.
+// Returns it when all of them are there.
+std::optional<StreamItem> StreamLineParser::readJsonFrame(const Json& object) {
+  const SensorLayout& layout = shape_.layout();
+  const Json matrices = object.at("tactile_matrix");
+  const Json header = object.at("header");
+  const std::optional<std::uint32_t> sequence = jsonSequence(header.at("seq"));
+  const bool isWhole = matrices.isArray() && matrices.size() == layout.numMatrices();
+  const bool continues = numPartMatrices_ > 0 && sequence && sequence == partSequence_;
+  if (!continues) dropPart();
+  std::vector<bool> seen = continues ? partSeen_ : std::vector<bool>(layout.numMatrices());
+  std::vector<float>& values = isWhole ? values_ : partValues_;
+  values.resize(layout.numCells());
+  readTactileMatrices(matrices, layout, seen, values);
+  if (!isWhole) {
+    if (!sequence)
+      throw Error(std::to_string(matrices.size()) + " matrices instead of " +
+                  std::to_string(layout.numMatrices()));
+    partSequence_ = sequence;
+    numPartMatrices_ += matrices.size();
+    partSeen_ = std::move(seen);
+    if (numPartMatrices_ < layout.numMatrices()) return std::nullopt;
+    values_ = partValues_;
+    numPartMatrices_ = 0;
+  }
+  if (const std::string fault = shape_.arrange(values_, values_.size()); !fault.empty())
+    throw Error(fault);
+  StreamItem item;
+  item.values = values_;
+  item.sequence = sequence;
+  const Json stamp = header.at("stamp");
+  if (stamp.contains("secs"))
+    item.deviceUs = jsonTimeUs(1e6 * stamp.at("secs").asDouble() +
+                               1e-3 * (stamp.contains("nsecs") ? stamp.at("nsecs").asDouble() : 0.0));
+  return item;
+}
+
+// Refuses the frame whose other matrices did not come.
+void StreamLineParser::dropPart() {
+  if (numPartMatrices_ == 0) return;
+  refuse("frame " + std::to_string(*partSequence_) + " has " + std::to_string(numPartMatrices_) +
+         " matrices instead of " + std::to_string(shape_.layout().numMatrices()));
+  numPartMatrices_ = 0;
+}
+
 void StreamLineParser::readJson(std::string_view line, const Sink& sink) {
   std::vector<StreamItem> items;
   std::vector<double> angles;
   std::vector<double> temperatures;
   std::string description;
+  bool isFrame = false;
   try {
     const Json object = Json::parse(line);
     const auto addNumbers = [&](const char* key, StreamItemKind kind, std::vector<double>& kept) {
@@ -354,21 +401,13 @@ void StreamLineParser::readJson(std::string_view line, const Sink& sink) {
       items.push_back(item);
     }
     if (object.contains("tactile_matrix")) {
-      readTactileMatrices(object.at("tactile_matrix"), shape_.layout(), values_);
-      if (const std::string fault = shape_.arrange(values_, values_.size()); !fault.empty())
-        throw Error(fault);
-      StreamItem item;
-      item.values = values_;
-      const Json header = object.at("header");
-      item.sequence = jsonSequence(header.at("seq"));
-      const Json stamp = header.at("stamp");
-      if (stamp.contains("secs"))
-        item.deviceUs =
-            jsonTimeUs(1e6 * stamp.at("secs").asDouble() +
-                       1e-3 * (stamp.contains("nsecs") ? stamp.at("nsecs").asDouble() : 0.0));
-      items.push_back(item);
+      if (std::optional<StreamItem> item = readJsonFrame(object)) items.push_back(*item);
+      isFrame = true;
     }
-    if (items.empty())
+    // The signals of a frame come in several objects; angles and temperatures are in the first.
+    const bool isSignals = object.at("t").isNumber() && object.at("sequence").isNumber();
+    if (isSignals && !items.empty()) readsSignals_ = true;
+    if (items.empty() && !isFrame && !(isSignals && readsSignals_))
       throw Error(
           "it has none of tactile_matrix, angles_deg, temperatures_degc and description: nothing "
           "of it can be shown");

@@ -2,6 +2,7 @@
 
 #include <cstdlib>
 
+#include "palpate/interop/datagrams.h"
 #include "palpate/interop/signal_json.h"
 #include "palpate/recording/tactile_sensor_json.h"
 
@@ -60,10 +61,19 @@ void LiveStream::send(const LiveResults& results) {
   for (const StreamKind kind : kAllStreamKinds) {
     Stream& stream = streams_.at(placeOf(kind));
     if (!stream.sender) continue;
+    const std::uint64_t sequence = stream.sequence++;
+    if (kind == StreamKind::kTactile) {
+      for (const std::string& part : tactileDatagrams(*results.frame, sequence))
+        stream.sender->send(part);
+      continue;
+    }
     text_.clear();
-    const LinkHealth* link = kind == StreamKind::kSignals ? linkAt(results.frame->hostUs) : nullptr;
-    appendStreamed(text_, kind, results, stream.sequence++, link);
-    stream.sender->send(text_);
+    appendStreamed(text_, kind, results, sequence, linkAt(results.frame->hostUs));
+    if (text_.size() <= kMaxDatagramBytes) {
+      stream.sender->send(text_);
+      continue;
+    }
+    for (const std::string& part : signalDatagrams(text_)) stream.sender->send(part);
   }
 }
 

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -16,6 +17,7 @@
 #include <palpate/device/stream_shape.h>
 
 namespace palpate {
+class Json;
 
 // The time at the beginning of a line.
 enum class StreamTime {
@@ -71,6 +73,8 @@ class StreamLineParser {
   void takeLine(std::string_view line, const Sink& sink);
   void readNumbers(std::string_view line, const Sink& sink);
   void readJson(std::string_view line, const Sink& sink);
+  std::optional<StreamItem> readJsonFrame(const Json& object);
+  void dropPart();
   bool readHead(std::string_view line, Head& head);
   std::size_t readValues(const char* at, const char* end, bool& failed);
   void deliver(const Head& head, std::size_t count, const Sink& sink);
@@ -87,6 +91,13 @@ class StreamLineParser {
   std::vector<double> numbers_;   // of the present line, as many as an item has at most
   std::string_view firstNumber_;  // as it was written
   std::vector<float> values_;
+  // A frame of which only some matrices came yet.
+  std::size_t numPartMatrices_ = 0;  // 0: none
+  std::optional<std::uint32_t> partSequence_;
+  std::vector<bool> partSeen_;  // per matrix
+  std::vector<float> partValues_;
+  // Whether signals of a frame were read: further parts of them hold nothing to show.
+  bool readsSignals_ = false;
 };
 
 }  // namespace palpate

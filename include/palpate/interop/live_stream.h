@@ -1,5 +1,6 @@
 // Streams the results of live processing to other programs on this machine: off by default, to
-// 127.0.0.1 only, one datagram per frame and stream. Sending never waits for a receiver.
+// 127.0.0.1 only. What is sent for a frame is divided into datagrams of at most 1400 bytes
+// (datagrams.h). Sending never waits for a receiver.
 //
 //   ProcessingChain --results--> LiveStream --UDP--> PlotJuggler (signals),
 //                                                    readers of TactileSensor (taxels)

@@ -9,9 +9,11 @@
 // tactile_array). Keys of header and stamp are those of ROS 1, as rosbridge has them.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include <palpate/core/output_file.h>
 #include <palpate/core/progress.h>
@@ -25,6 +27,12 @@ namespace palpate {
 // fingertip, cells_x values each [counts]: 0 where there is no taxel. Values are rounded to whole
 // counts and kept in 0..32767, which changes none that a sensor sent.
 void appendTactileSensorJson(std::string& out, const TactileFrame& frame, std::uint64_t sequence);
+
+// The same frame as several messages with the same header: each has as many whole matrices, in their
+// order, as fit into `maxBytes`, at least one.
+std::vector<std::string> tactileSensorMessages(const TactileFrame& frame,
+                                               std::uint64_t sequence,
+                                               std::size_t maxBytes);
 
 // PATH.jsonl: a message per frame, seq from 0; angles, temperatures and events have no place in it.
 // Whole or not there. Throws FileError, Cancelled.

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <span>
+#include <string_view>
 #include <utility>
 
 #include "palpate/core/json.h"
@@ -31,26 +32,51 @@ Json matrixJson(const TactileFrame& frame, std::size_t m) {
           jsonList(std::span(values.data(), static_cast<std::size_t>(values.size())), wholeCounts));
 }
 
-}  // namespace
-
-void appendTactileSensorJson(std::string& out, const TactileFrame& frame, std::uint64_t sequence) {
+Json messageJson(const TactileFrame& frame, std::uint64_t sequence, Json matrices) {
   std::int64_t seconds = frame.hostUs / kSecondUs;
   std::int64_t restUs = frame.hostUs % kSecondUs;
   if (restUs < 0) {  // before 1970: nanoseconds count upwards all the same
     --seconds;
     restUs += kSecondUs;
   }
-  Json matrices = Json::array();
-  for (std::size_t m = 0; m < frame.layout->numMatrices(); ++m) matrices.push(matrixJson(frame, m));
   Json stamp = Json::object().set("secs", seconds).set("nsecs", restUs * kNsPerUs);
   Json header = Json::object()
                     .set("seq", static_cast<std::int64_t>(sequence))
                     .set("stamp", std::move(stamp))
                     .set("frame_id", "sdh");
-  out += Json::object()
-             .set("header", std::move(header))
-             .set("tactile_matrix", std::move(matrices))
-             .text(-1);
+  return Json::object()
+      .set("header", std::move(header))
+      .set("tactile_matrix", std::move(matrices));
+}
+
+}  // namespace
+
+void appendTactileSensorJson(std::string& out, const TactileFrame& frame, std::uint64_t sequence) {
+  Json matrices = Json::array();
+  for (std::size_t m = 0; m < frame.layout->numMatrices(); ++m) matrices.push(matrixJson(frame, m));
+  out += messageJson(frame, sequence, std::move(matrices)).text(-1);
+}
+
+std::vector<std::string> tactileSensorMessages(const TactileFrame& frame,
+                                               std::uint64_t sequence,
+                                               std::size_t maxBytes) {
+  constexpr std::string_view kEnd = "]}";
+  std::string head = messageJson(frame, sequence, Json::array()).text(-1);
+  head.resize(head.size() - kEnd.size());
+  std::vector<std::string> messages;
+  std::string message = head;
+  for (std::size_t m = 0; m < frame.layout->numMatrices(); ++m) {
+    const std::string matrix = matrixJson(frame, m).text(-1);
+    if (message.size() > head.size() &&
+        message.size() + 1 + matrix.size() + kEnd.size() > maxBytes) {
+      messages.push_back(message + std::string(kEnd));
+      message = head;
+    }
+    if (message.size() > head.size()) message += ',';
+    message += matrix;
+  }
+  messages.push_back(message + std::string(kEnd));
+  return messages;
 }
 
 void writeTactileSensorLines(const Profile& profile,

@@ -1,0 +1,36 @@
+// Divides what is sent for one frame into datagrams that no network has to cut in pieces
+// (IP fragments): at most 1400 bytes each, below the 1472 bytes of payload that fit into one
+// Ethernet frame.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <palpate/model/tactile_frame.h>
+
+namespace palpate {
+
+constexpr std::size_t kMaxDatagramBytes = 1400;
+
+// Divides the object of signal_json.h. Each part is a whole JSON object: "t" and "sequence", and
+// some of the other keys, each with its whole value: first the arrays, then the others in their
+// order. Only an array that does not
+// fit into one datagram is divided: its values are then keys of their own, "angles_deg[0]",
+// "angles_deg[1]", .. (the names that PlotJuggler gives to values of an array); null has no key.
+// An object that fits is returned as it is. `object` must be one of appendSignalJson(). A key
+// that is no array is never divided, and makes a part of its own where it is longer than
+// `maxBytes`; those of a frame are at most about 900 bytes long.
+std::vector<std::string> signalDatagrams(std::string_view object,
+                                         std::size_t maxBytes = kMaxDatagramBytes);
+
+// The frame as messages schunk_sdh/TactileSensor (recording/tactile_sensor_json.h) with the same
+// header, each with as many whole matrices as fit. A matrix that does not fit has a message of its
+// own, which is longer.
+std::vector<std::string> tactileDatagrams(const TactileFrame& frame,
+                                          std::uint64_t sequence,
+                                          std::size_t maxBytes = kMaxDatagramBytes);
+
+}  // namespace palpate

@@ -1,0 +1,124 @@
+#include "palpate/interop/foxglove_stream.h"
+
+#include <cstdlib>
+#include <utility>
+
+namespace palpate {
+namespace {
+
+constexpr std::int64_t kFoxgloveLinkIntervalUs = 250'000;
+
+}  // namespace
+
+struct FoxgloveStream::Open {
+  Open(const HandDescription& hand, FoxgloveOptions options)
+      : messages(hand, options.image), server(std::move(options.server), messages.channels()) {}
+
+  FoxgloveMessages messages;
+  FoxgloveServer server;
+  std::uint64_t sequence = 0;
+  bool shapesSent = false;
+  std::optional<LinkHealth> link;
+  std::int64_t askedUs = 0;   // stamp of the frame when link was updated
+  std::int64_t anglesUs = -1;  // stamp of the angles that were sent last
+};
+
+FoxgloveStream::FoxgloveStream(HandDescription hand, LinkHealthQuery askLink)
+    : hand_(std::move(hand)), askLink_(std::move(askLink)) {}
+
+FoxgloveStream::~FoxgloveStream() = default;
+
+// The old server ends before the new one listens, because both may have the same port.
+void FoxgloveStream::switchOn(FoxgloveOptions options) {
+  switchOff();
+  auto open = std::make_unique<Open>(hand_, std::move(options));
+  const std::lock_guard lock(mutex_);
+  open_ = std::move(open);
+}
+
+// The goodbye does not make senders wait.
+void FoxgloveStream::switchOff() {
+  std::unique_ptr<Open> old;
+  {
+    const std::lock_guard lock(mutex_);
+    old = std::exchange(open_, nullptr);
+  }
+}
+
+bool FoxgloveStream::on() const {
+  const std::lock_guard lock(mutex_);
+  return open_ != nullptr;
+}
+
+std::optional<FoxgloveServerStats> FoxgloveStream::stats() const {
+  const std::lock_guard lock(mutex_);
+  if (!open_) return {};
+  return open_->server.stats();
+}
+
+std::string FoxgloveStream::url() const {
+  const std::lock_guard lock(mutex_);
+  return open_ ? open_->server.url() : std::string();
+}
+
+std::uint16_t FoxgloveStream::port() const {
+  const std::lock_guard lock(mutex_);
+  return open_ ? open_->server.port() : 0;
+}
+
+std::string FoxgloveStream::geometryProblem() const {
+  const std::lock_guard lock(mutex_);
+  return open_ ? open_->messages.geometryProblem() : std::string();
+}
+
+const LinkHealth* FoxgloveStream::linkAt(Open& open, std::int64_t hostUs) {
+  if (!askLink_) return nullptr;
+  if (!open.link || std::abs(hostUs - open.askedUs) >= kFoxgloveLinkIntervalUs) {
+    open.link = askLink_();
+    open.askedUs = hostUs;
+  }
+  return &*open.link;
+}
+
+void FoxgloveStream::send(const LiveResults& results) {
+  const std::lock_guard lock(mutex_);
+  if (!open_) return;
+  FoxgloveMessages& messages = open_->messages;
+  FoxgloveServer& server = open_->server;
+  const TactileFrame& frame = *results.frame;
+  const std::int64_t nowUs = frame.hostUs;
+  const std::uint64_t sequence = open_->sequence++;
+  for (std::size_t m = 0; m < messages.numImages(); ++m)
+    if (server.wanted(m)) server.publish(m, nowUs, messages.image(frame, m));
+  if (server.wanted(messages.signalsChannel()))
+    server.publish(messages.signalsChannel(),
+                   nowUs,
+                   messages.signals(results, sequence, linkAt(*open_, nowUs)));
+  // Angles come less often than frames, or more often: each sample is sent once.
+  if (const auto joints = messages.jointsChannel();
+      joints && results.angles && results.angles->hostUs != open_->anglesUs &&
+      server.wanted(*joints)) {
+    server.publish(*joints, results.angles->hostUs, messages.joints(*results.angles));
+    open_->anglesUs = results.angles->hostUs;
+  }
+  if (const auto shapes = messages.shapesChannel();
+      shapes && !std::exchange(open_->shapesSent, true))
+    server.publish(*shapes, nowUs, messages.shapes(nowUs));
+  const auto transforms = messages.transformsChannel();
+  const auto taxels = messages.taxelsChannel();
+  const bool wantsTransforms = transforms && server.wanted(*transforms);
+  const bool wantsTaxels = taxels && server.wanted(*taxels);
+  if ((!wantsTransforms && !wantsTaxels) || !messages.setPose(results)) return;
+  if (wantsTransforms) server.publish(*transforms, nowUs, messages.transforms(nowUs));
+  if (wantsTaxels) server.publish(*taxels, nowUs, messages.taxels(frame));
+}
+
+void FoxgloveStream::send(const RecordingEvent& event) {
+  const std::lock_guard lock(mutex_);
+  if (!open_) return;
+  const std::size_t channel = open_->messages.eventsChannel();
+  if (open_->server.wanted(channel))
+    open_->server.publish(channel, event.tUs, open_->messages.event(event));
+}
+
+}  // namespace palpate
