@@ -9,6 +9,7 @@
 
 #include "python/arrays.h"
 #include "python/bindings.h"
+#include "python/flat_table.h"
 #include "python/interruption.h"
 
 namespace palpate::python {
@@ -153,8 +154,8 @@ Profile fromArrays(const py::object& timeMs,
   return builder.finish(info);
 }
 
-// Directions and places have three components x, y, z; other values with several components have
-// one for each matrix, axis and so on.
+}  // namespace
+
 bool isVector(const std::string& name) {
   for (const char* vector : {"sphere_mm",
                              "centroid_sphere_mm",
@@ -207,8 +208,6 @@ py::dict flat(const py::dict& table) {
   }
   return columns;
 }
-
-}  // namespace
 
 void bindArrays(py::module_& module) {
   module.def(

@@ -8,6 +8,7 @@ namespace palpate::python {
 void bindProfile(pybind11::module_& module);      // Profile
 void bindRecordings(pybind11::module_& module);   // load, verify, recover, events, ..
 void bindArrays(pybind11::module_& module);       // from_arrays
+void bindTables(pybind11::module_& module);       // to_pandas, to_xarray
 void bindHands(pybind11::module_& module);        // Hand, hands, record
 void bindFilters(pybind11::module_& module);      // filter, filters, recipes, ghosts, ..
 void bindSignals(pybind11::module_& module);      // signals, spectrum, ..

@@ -52,6 +52,7 @@ PYBIND11_MODULE(palpate, module) {
   bindProfile(module);
   bindRecordings(module);
   bindArrays(module);
+  bindTables(module);
   bindHands(module);
   bindFilters(module);
   bindSignals(module);

@@ -1,8 +1,10 @@
 #include "commands/live_streams.h"
 
 #include <algorithm>
+#include <cstdio>
 
 #include "palpate/calibration/calibration.h"
+#include "palpate/core/escaped_line.h"
 #include "palpate/core/number_text.h"
 #include "palpate/live/pressure_stage.h"
 #include "palpate/live/signals_stage.h"
@@ -20,40 +22,91 @@ std::vector<SensorSettings> settingsOf(const CaptureSession& session) {
   return settings;
 }
 
-ChainOptions sendingTo(LiveStream& stream) {
+ChainOptions sendingTo(LiveStream& stream, FoxgloveStream& foxglove) {
   ChainOptions options;
-  options.onResults = [&stream](const LiveResults& results) { stream.send(results); };
+  options.onResults = [&](const LiveResults& results) {
+    stream.send(results);
+    foxglove.send(results);
+  };
+  options.onEvent = [&](const RecordingEvent& event) { foxglove.send(event); };
   return options;
+}
+
+[[noreturn]] void refuseTarget(const std::string& text, const std::string& option) {
+  throw UsageError("--" + option +
+                   " must be signals, tactile or foxglove, with a port of this machine where it is "
+                   "another one (signals:9999), not '" +
+                   text + "'");
+}
+
+// The port behind the name; nothing when there is none. Port 0 is for the WebSocket only: a free one.
+std::optional<std::uint16_t> targetPort(const std::string& text,
+                                        const std::string& name,
+                                        const std::string& option,
+                                        std::int64_t least) {
+  if (name.size() == text.size()) return std::nullopt;
+  const auto port = parseInteger(text.substr(name.size() + 1));
+  if (!port || *port < least || *port > 65'535) refuseTarget(text, option);
+  return static_cast<std::uint16_t>(*port);
+}
+
+void addFoxglove(const CommandLine& given, StreamTargets& targets) {
+  for (const char* option : {"listen", "origin", "image"})
+    if (given.has(option) && !targets.foxglove)
+      throw UsageError("--" + std::string(option) + " needs --to foxglove");
+  if (!targets.foxglove) return;
+  FoxgloveServerOptions& server = targets.foxglove->server;
+  server.address = given.text("listen").value_or(server.address);
+  server.origins = given.texts("origin");
+  if (given.choice("image", {"values", "colored"}) == "colored")
+    targets.foxglove->image = FoxgloveImage::kColored;
+}
+
+bool isLoopback(const std::string& address) {
+  return address == "::1" || address.starts_with("127.");
 }
 
 }  // namespace
 
-StreamTarget streamTargetOf(const std::string& text, const std::string& option) {
-  const std::string name = text.substr(0, text.find(':'));
-  for (const StreamKind kind : kAllStreamKinds) {
-    if (name != nameOf(kind)) continue;
-    if (name.size() == text.size()) return {kind, usualPort(kind)};
-    const auto port = parseInteger(text.substr(name.size() + 1));
-    if (!port || *port < 1 || *port > 65'535) break;
-    return {kind, static_cast<std::uint16_t>(*port)};
-  }
-  throw UsageError("--" + option +
-                   " must be signals or tactile, with a port of this machine where it is another "
-                   "one (signals:9999), not '" +
-                   text + "'");
+std::vector<OptionSpec> foxgloveOptions() {
+  return {{"listen", "ADDRESS", "of the WebSocket, default 127.0.0.1: only this machine"},
+          {"origin", "URL", "a web page that may connect beside https://app.foxglove.dev"},
+          {"image", "FORM", "of the WebSocket's heat maps: values (default) or colored"}};
 }
 
-std::vector<StreamTarget> streamTargetsOf(const CommandLine& given, const std::string& option) {
-  std::vector<StreamTarget> targets;
+StreamTargets streamTargetsOf(const CommandLine& given, const std::string& option) {
+  StreamTargets targets;
+  const auto refuseTwice = [&](const std::string& name) {
+    throw UsageError("--" + option + " " + name + " is given twice");
+  };
   for (const std::string& text : given.texts(option)) {
-    const StreamTarget target = streamTargetOf(text, option);
-    if (std::any_of(targets.begin(), targets.end(), [&](const StreamTarget& other) {
-          return other.kind == target.kind;
-        }))
-      throw UsageError("--" + option + " " + nameOf(target.kind) + " is given twice");
-    targets.push_back(target);
+    const std::string name = text.substr(0, text.find(':'));
+    if (name == "foxglove") {
+      if (targets.foxglove) refuseTwice(name);
+      targets.foxglove.emplace();
+      targets.foxglove->server.port =
+          targetPort(text, name, option, 0).value_or(kUsualFoxglovePort);
+      continue;
+    }
+    const auto kind = std::find_if(kAllStreamKinds.begin(),
+                                   kAllStreamKinds.end(),
+                                   [&](StreamKind each) { return name == nameOf(each); });
+    if (kind == kAllStreamKinds.end()) refuseTarget(text, option);
+    for (const StreamTarget& other : targets.datagrams)
+      if (other.kind == *kind) refuseTwice(name);
+    targets.datagrams.push_back(
+        {*kind, targetPort(text, name, option, 1).value_or(usualPort(*kind))});
   }
+  addFoxglove(given, targets);
   return targets;
+}
+
+void warnAboutTargets(const StreamTargets& targets) {
+  if (!targets.foxglove || isLoopback(targets.foxglove->server.address)) return;
+  std::fprintf(stderr,
+               "palpate: %s:%d: any machine that reaches this address can read the hand\n",
+               escapedLine(targets.foxglove->server.address).c_str(),
+               static_cast<int>(targets.foxglove->server.port));
 }
 
 std::optional<Calibration> streamCalibrationOf(const CommandLine& given) {
@@ -77,23 +130,41 @@ std::vector<std::unique_ptr<Stage>> streamedStages(CaptureSession* session,
 }
 
 LiveStreams::LiveStreams(CaptureSession& session,
-                         const std::vector<StreamTarget>& targets,
+                         const StreamTargets& targets,
                          const std::optional<Calibration>& calibration)
     : targets_(targets),
       stream_([&session] { return session.health(); }),
-      chain_(streamedStages(&session, session.device().hand(), calibration), sendingTo(stream_)) {
-  for (const StreamTarget& target : targets_) stream_.switchOn(target.kind, target.port);
+      foxglove_(session.device().hand(), [&session] { return session.health(); }),
+      chain_(streamedStages(&session, session.device().hand(), calibration),
+             sendingTo(stream_, foxglove_)) {
+  warnAboutTargets(targets_);
+  for (const StreamTarget& target : targets_.datagrams)
+    stream_.switchOn(target.kind, target.port);
+  if (targets_.foxglove) foxglove_.switchOn(*targets_.foxglove);
   chain_.connect(session);
   chain_.start();
 }
 
+std::vector<std::string> LiveStreams::places() const {
+  if (!targets_.foxglove) return {};
+  return {"foxglove=" + foxglove_.url()};
+}
+
 std::vector<std::string> LiveStreams::lines() const {
   std::vector<std::string> lines;
-  for (const StreamTarget& target : targets_)
+  for (const StreamTarget& target : targets_.datagrams)
     if (const auto stats = stream_.stats(target.kind))
       lines.push_back(
           std::string(nameOf(target.kind)) + " to 127.0.0.1:" + std::to_string(target.port) + ": " +
           std::to_string(stats->sent) + " sent, " + std::to_string(stats->dropped) + " dropped");
+  if (const auto stats = foxglove_.stats())
+    lines.push_back("foxglove at " + foxglove_.url() + ": " + counted(stats->accepted, "client") +
+                    ", " + std::to_string(stats->sent) + " sent, " +
+                    std::to_string(stats->dropped) + " dropped" +
+                    (stats->refused == 0 ? std::string()
+                                         : ", " + std::to_string(stats->refused) +
+                                               " refused (the last: " +
+                                               escapedLine(stats->lastRefusal) + ")"));
   return lines;
 }
 

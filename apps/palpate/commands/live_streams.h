@@ -12,6 +12,7 @@
 
 #include <palpate/calibration/calibration.h>
 #include <palpate/capture/capture_session.h>
+#include <palpate/interop/foxglove_stream.h>
 #include <palpate/interop/live_stream.h>
 #include <palpate/live/processing_chain.h>
 
@@ -25,9 +26,21 @@ struct StreamTarget {
   // UDP port on 127.0.0.1.
   std::uint16_t port = 0;
 };
-// Parses "signals", "tactile" or "signals:9999"; throws UsageError that names the option.
-StreamTarget streamTargetOf(const std::string& text, const std::string& option);
-std::vector<StreamTarget> streamTargetsOf(const CommandLine& given, const std::string& option);
+
+// What a command sends to other programs.
+struct StreamTargets {
+  std::vector<StreamTarget> datagrams = {};
+  std::optional<FoxgloveOptions> foxglove = std::nullopt;  // nothing: no WebSocket
+
+  bool empty() const { return datagrams.empty() && !foxglove; }
+  std::size_t size() const { return datagrams.size() + (foxglove ? 1 : 0); }
+};
+
+// Parses the values of --to ("signals", "tactile", "foxglove", "signals:9999") and the options of
+// foxgloveOptions(). Throws UsageError that names the option.
+StreamTargets streamTargetsOf(const CommandLine& given, const std::string& option);
+// The options of the WebSocket.
+std::vector<OptionSpec> foxgloveOptions();
 
 // The stages that compute what is streamed. Without `calibration` there are no pressures and
 // forces.
@@ -37,22 +50,27 @@ std::vector<std::unique_ptr<Stage>> streamedStages(CaptureSession* session,
 // The calibration that --calibration names; nothing when the option is missing. Throws Error.
 std::optional<Calibration> streamCalibrationOf(const CommandLine& given);
 
+// Says on stderr what the user must know about them: who else can read the hand.
+void warnAboutTargets(const StreamTargets& targets);
+
 // Processes the frames of a session and sends the results as long as this object exists. The
 // session must outlive it.
 class LiveStreams {
  public:
   LiveStreams(CaptureSession& session,
-              const std::vector<StreamTarget>& targets,
+              const StreamTargets& targets,
               const std::optional<Calibration>& calibration);
-  const LiveStream& stream() const noexcept { return stream_; }
+  // "foxglove=ws://127.0.0.1:8765", a line for each interface that others connect to.
+  std::vector<std::string> places() const;
   // Why processing ended by itself; empty when it did not.
   std::string failure() const { return chain_.failure(); }
   // One line for each target: "signals to 127.0.0.1:9870: 310 sent, 2 dropped".
   std::vector<std::string> lines() const;
 
  private:
-  const std::vector<StreamTarget> targets_;
+  const StreamTargets targets_;
   LiveStream stream_;
+  FoxgloveStream foxglove_;
   ProcessingChain chain_;
 };
 

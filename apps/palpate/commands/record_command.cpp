@@ -220,13 +220,17 @@ CommandSpec recordSpec() {
                   {"split-mb", "N", "a new file at about N MB"},
                   remoteOption(),
                   socketOption(),
-                  {"to", "STREAM", "signals or tactile, live to other programs: 'stream --help'"},
+                  {"to",
+                   "STREAM",
+                   "signals, tactile or foxglove, live to other programs: 'stream --help'"},
                   {"calibration", "C.json", "with --to signals: also pressures and forces"},
                   {"json", "", "report as JSON"}},
       .example = "palpate record --dsa /dev/ttyUSB0 --sdh /dev/ttyUSB1 -o grasp.palpate",
       .maxArguments = 0};
   const std::vector<OptionSpec> stream = streamSourceOptions();
   spec.options.insert(spec.options.begin() + 2, stream.begin(), stream.end());
+  const std::vector<OptionSpec> foxglove = foxgloveOptions();
+  spec.options.insert(spec.options.end(), foxglove.begin(), foxglove.end());
   return spec;
 }
 
@@ -244,12 +248,15 @@ int recordCommand(const Arguments& words) {
   const double firstFrameS = given.number("wait", 0.1, 1e6).value_or(15.0);
   if (given.has("socket") && !given.has("remote")) throw UsageError("--socket needs --remote");
   RecordingOptions options = recordingOptions(given);
-  const std::vector<StreamTarget> targets = streamTargetsOf(given, "to");
+  const StreamTargets targets = streamTargetsOf(given, "to");
   const auto calibration = streamCalibrationOf(given);
   Interruption interruption;  // must exist until the file is finished
   CaptureSession session(recordedDevice(given), streamCaptureOptions(given));
   std::unique_ptr<LiveStreams> streams;
   if (!targets.empty()) streams = std::make_unique<LiveStreams>(session, targets, calibration);
+  if (streams && !given.quiet())
+    for (const std::string& place : streams->places())
+      std::fprintf(stderr, "%s\n", place.c_str());
   if (given.has("remote")) return recordRemotely(given, session, interruption, std::move(options));
   session.startRecording(std::move(options));
   recordUntilDone(session, interruption, firstFrameS, given.quiet());

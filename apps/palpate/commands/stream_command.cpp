@@ -1,5 +1,5 @@
 // The command `palpate stream` sends the signals of a hand to other programs while it runs: as
-// datagrams to this machine, or as lines on standard output.
+// datagrams to this machine, over a WebSocket, or as lines on standard output.
 #include <atomic>
 #include <cstdio>
 #include <memory>
@@ -13,6 +13,7 @@
 #include "palpate/core/error.h"
 #include "palpate/core/escaped_line.h"
 #include "palpate/core/interruption.h"
+#include "palpate/core/number_text.h"
 #include "palpate/device/live_hand.h"
 #include "palpate/recording/recording.h"
 
@@ -64,19 +65,20 @@ CommandSpec streamSpec() {
   CommandSpec spec{
       .synopsis =
           "palpate stream (--dsa PORT [--sdh PORT] | --stream SOURCE --hand NAME|FOLDER | FILE) "
-          "[--to "
-          "STREAM].. [--lines]",
+          "[--to STREAM].. [--foxglove [PORT]] [--lines]",
       .purpose =
           "Sends what a hand measures live to other programs on this machine: a JSON object per "
           "frame, as "
           "UDP\ndatagrams to 127.0.0.1 or as lines on standard output. STREAM: signals (default; "
-          "for PlotJuggler,\nport 9870) or tactile (all taxels as schunk_sdh/TactileSensor, port "
-          "9871), with another port as\nsignals:9999. FILE: a recording, played in its own time "
+          "for PlotJuggler,\nport 9870), tactile (all taxels as schunk_sdh/TactileSensor, port "
+          "9871) or foxglove (a WebSocket\nfor Foxglove at 127.0.0.1:8765: heat maps, the hand in "
+          "space, joints, signals, events), with another\nport as signals:9999. FILE: a recording, played in its own time "
           "(with --lines at once). Runs until Ctrl-C. Of a damaged recording "
           "what can be read is sent, and\nthe rest is reported: exit code 3.",
       .options = {{"dsa", "PORT", "tactile controller"},
                   {"sdh", "PORT", "motion controller: angles and temperatures"},
                   {"to", "STREAM", "what to send, and where to; may be repeated"},
+                  {"foxglove", "[PORT]", "the same as --to foxglove[:PORT]; PORT 0 takes a free one"},
                   {"lines", "", "lines on standard output instead of datagrams"},
                   {"calibration", "C.json", "also pressures and forces"},
                   {"duration", "S", "stop after so many seconds"}},
@@ -84,7 +86,28 @@ CommandSpec streamSpec() {
       .maxArguments = 1};
   const std::vector<OptionSpec> stream = streamSourceOptions();
   spec.options.insert(spec.options.begin() + 2, stream.begin(), stream.end());
+  const std::vector<OptionSpec> foxglove = foxgloveOptions();
+  spec.options.insert(spec.options.end(), foxglove.begin(), foxglove.end());
   return spec;
+}
+
+// Replaces --foxglove and --foxglove PORT by what they mean: options of CommandLine either have a
+// value or have none.
+Arguments withoutFoxgloveFlag(const Arguments& words) {
+  Arguments result;
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    constexpr std::string_view kAssigned = "--foxglove=";
+    if (words[i].starts_with(kAssigned)) {
+      result.insert(result.end(), {"--to", "foxglove:" + words[i].substr(kAssigned.size())});
+    } else if (words[i] == "--foxglove") {
+      const bool hasPort = i + 1 < words.size() && parseInteger(words[i + 1]).has_value();
+      result.insert(result.end(), {"--to", hasPort ? "foxglove:" + words[i + 1] : "foxglove"});
+      if (hasPort) ++i;
+    } else {
+      result.push_back(words[i]);
+    }
+  }
+  return result;
 }
 
 // The readable part of a recording; `damage` describes the rest.
@@ -170,13 +193,16 @@ void requireFrames(const CaptureSession& session, const CommandLine& given) {
                            : ": " + why));
 }
 
-int streamDatagrams(const CommandLine& given, std::vector<StreamTarget> targets) {
-  if (targets.empty()) targets.push_back(streamTargetOf("signals", "to"));
+int streamToPrograms(const CommandLine& given, StreamTargets targets) {
+  if (targets.empty())
+    targets.datagrams.push_back({StreamKind::kSignals, usualPort(StreamKind::kSignals)});
   const auto calibration = streamCalibrationOf(given);
   Interruption interruption;
   std::string damage;
   CaptureSession session(streamDeviceOf(given, damage));
   LiveStreams streams(session, targets, calibration);
+  for (const std::string& place : streams.places()) std::printf("%s\n", place.c_str());
+  std::fflush(stdout);
   runSession(given, session, interruption, [&] { return !streams.failure().empty(); });
   requireFrames(session, given);
   session.stop();
@@ -213,11 +239,13 @@ int streamLinesOf(const CommandLine& given, StreamKind kind) {
   return endOf(damage);
 }
 
-int streamLines(const CommandLine& given, const std::vector<StreamTarget>& targets) {
+int streamLines(const CommandLine& given, const StreamTargets& targets) {
+  if (targets.foxglove)
+    throw UsageError("--lines writes signals or tactile: the WebSocket has no lines");
   if (targets.size() > 1) throw UsageError("--lines writes one stream: give one --to");
   if (!targets.empty() && given.text("to")->find(':') != std::string::npos)
     throw UsageError("--lines writes to standard output: give no port");
-  const StreamKind kind = targets.empty() ? StreamKind::kSignals : targets.front().kind;
+  const StreamKind kind = targets.empty() ? StreamKind::kSignals : targets.datagrams.front().kind;
   if (!given.words().empty()) return streamLinesOf(given, kind);
   Interruption interruption;
   std::string damage;  // stays empty without a recording
@@ -251,7 +279,7 @@ int streamLines(const CommandLine& given, const std::vector<StreamTarget>& targe
 }  // namespace
 
 int streamCommand(const Arguments& words) {
-  const CommandLine given(streamSpec(), words);
+  const CommandLine given(streamSpec(), withoutFoxgloveFlag(words));
   if (given.helpShown()) return kDone;
   checkStreamSource(given);
   const bool isLive = given.has("dsa") || given.has("stream");
@@ -260,8 +288,8 @@ int streamCommand(const Arguments& words) {
         isLive ? "give --dsa PORT, --stream SOURCE or a recording, not two of them"
                : "stream needs --dsa PORT, --stream SOURCE and --hand NAME|FOLDER, or a recording");
   if (given.has("sdh") && !given.has("dsa")) throw UsageError("--sdh needs --dsa");
-  const std::vector<StreamTarget> targets = streamTargetsOf(given, "to");
-  return given.has("lines") ? streamLines(given, targets) : streamDatagrams(given, targets);
+  const StreamTargets targets = streamTargetsOf(given, "to");
+  return given.has("lines") ? streamLines(given, targets) : streamToPrograms(given, targets);
 }
 
 }  // namespace palpate::commands

@@ -1,0 +1,125 @@
+"""to_pandas() and to_xarray() against the NumPy arrays of the same recording."""
+import sys
+
+import numpy as np
+import palpate
+import pytest
+
+pandas = pytest.importorskip("pandas")
+xarray = pytest.importorskip("xarray")
+
+T_US = 1_400_000_000_123_000
+
+
+def sample(hand="sdh2"):
+    rng = np.random.default_rng(5)
+    places = sum(m["rows"] * m["columns"] for m in palpate.Hand(hand).matrices)
+    frames = rng.integers(1, 4000, (12, places))
+    axes = len(palpate.Hand(hand).axes)
+    return palpate.record(frames, hand, time_ms=T_US // 1000 + 30 * np.arange(12), serial="S1",
+                          angles=rng.normal(0, 9, (12, axes)) if axes else None)
+
+
+def same_instants(index, time_us):
+    np.testing.assert_array_equal(np.asarray(index).astype("datetime64[us]").astype("int64"), time_us)
+
+
+def test_a_recording_as_a_frame_has_a_column_per_taxel():
+    profile = sample()
+    frame = profile.to_pandas()
+    same_instants(frame.index, profile.time_us)
+    assert frame.index.name == "time" and frame.columns.names == ["matrix", "y", "x"]
+    assert frame.shape == (12, 456)
+    for m, matrix in enumerate(profile.matrices):
+        for y, x in ((0, 2), (matrix["rows"] - 1, 5)):
+            np.testing.assert_array_equal(frame[(matrix["name"], y, x)], profile.taxel(m, x, y))
+    assert ("finger 0 distal", 0, 0) not in frame.columns  # no taxel is there
+    assert frame.attrs == {"units": "counts", "hand": profile.hand, "serial": "S1"}
+
+
+def test_a_matrix_is_an_array_over_time_and_mm():
+    profile = sample()
+    array = profile.to_xarray(1)
+    assert array.dims == ("time", "y", "x") and array.name == "finger 0 distal"
+    same_instants(array.time, profile.time_us)
+    np.testing.assert_allclose(array.x, 3.4 * np.arange(6))
+    np.testing.assert_allclose(array.y, 3.4 * np.arange(13))
+    assert array.x.attrs["units"] == array.y.attrs["units"] == "mm"
+    mask = profile.matrices[1]["static_mask"]
+    np.testing.assert_array_equal(array.values[:, mask], profile.matrix(1)[:, mask])
+    assert np.isnan(array.values[:, ~mask]).all() and (~mask).sum() == 10
+    assert array.attrs["units"] == "counts" and array.attrs["hand"] == profile.hand
+    near = array.sel(x=7.0, y=10.0, method="nearest")
+    np.testing.assert_array_equal(near, profile.taxel(1, 2, 3))
+    with pytest.raises(IndexError, match="matrix 6 is not in 0..5"):
+        profile.to_xarray(6)
+
+
+def test_all_series_of_a_recording():
+    profile = sample()
+    arrays = profile.to_xarray()
+    assert list(arrays) == [m["name"] for m in profile.matrices] + ["angles"]
+    angles = arrays["angles"]
+    assert angles.dims == ("time", "axis") and list(angles.axis.values) == profile.axes
+    np.testing.assert_array_equal(angles, profile.angles)
+    assert angles.attrs["units"] == "deg"
+    pad = sample("flat_pad_16x16").to_xarray()
+    assert len(pad) == 1 and "angles" not in pad
+
+
+def test_signals_have_a_column_per_matrix_and_units():
+    profile = sample()
+    table = palpate.signals(profile)
+    frame = palpate.to_pandas(table)
+    same_instants(frame.index, 1000 * table["time_ms"])
+    for name, values in palpate.flat(table).items():
+        np.testing.assert_array_equal(frame[name], values)
+    assert frame.attrs["units"]["mean_3"] == "counts"
+    assert frame.attrs["units"]["area_mm2_0"] == "mm^2"
+    assert "active_0" not in frame.attrs["units"]
+    assert palpate.to_pandas(table, unit="kPa").attrs["units"]["mean_3"] == "kPa"
+    data = palpate.to_xarray(table)
+    assert data["mean"].dims == ("time", "matrix") and data["mean"].attrs["units"] == "counts"
+    np.testing.assert_array_equal(data["mean"], table["mean"])
+    same_instants(data.time, 1000 * table["time_ms"])
+    assert palpate.to_xarray(palpate.signals(profile, 0))["sum"].dims == ("time",)
+
+
+def test_slip_contact_and_grasps():
+    profile = palpate.synthesize(duration=4, grasps=1)[0]
+    slip = palpate.slip(profile, 1)
+    frame = palpate.to_pandas(slip)
+    np.testing.assert_array_equal(frame["dx"], slip["dx"])
+    assert list(frame["state"]) == list(slip["state"])
+    assert frame.attrs["units"]["dx"] == "taxels" and frame.attrs["units"]["rotation_deg"] == "deg"
+    contact = palpate.contact(profile, angles_deg=np.zeros(7))
+    data = palpate.to_xarray(contact)
+    assert data["centroid_mm"].dims == ("time", "matrix", "axis")
+    assert data["sphere_mm"].dims == ("time", "axis") and data["sphere_mm"].attrs["units"] == "mm"
+    np.testing.assert_array_equal(data["centroid_mm"].sel(axis="z"), contact["centroid_mm"][..., 2])
+    np.testing.assert_array_equal(palpate.to_pandas(contact)["centroid_mm_1_z"],
+                                  contact["centroid_mm"][:, 1, 2])
+    grasps = palpate.grasps(profile)
+    table = palpate.to_pandas(grasps)
+    same_instants(table.index, 1000 * grasps["begin_ms"])
+    assert list(table["fingers"]) == grasps["fingers"] and len(table) == 1
+    assert "fingers" not in palpate.to_xarray(grasps)
+
+
+def test_what_is_no_table():
+    with pytest.raises(ValueError, match="isn't a table"):
+        palpate.to_pandas({"a": np.arange(3), "text": "report"})
+    with pytest.raises(ValueError, match="rows"):
+        palpate.to_xarray({"a": np.arange(3), "b": np.arange(4)})
+    data = palpate.to_xarray({"a": np.arange(3)})
+    assert data["a"].dims == ("row",)
+
+
+@pytest.mark.parametrize("package, calls", [
+    ("pandas", [lambda: palpate.to_pandas({"a": np.arange(3)}), lambda: sample().to_pandas()]),
+    ("xarray", [lambda: palpate.to_xarray({"a": np.arange(3)}), lambda: sample().to_xarray()])])
+def test_without_the_package_the_error_names_it(monkeypatch, package, calls):
+    monkeypatch.setitem(sys.modules, package, None)
+    for call in calls:
+        with pytest.raises(ImportError, match=f"needs {package}, .* install python3-{package}"):
+            call()
