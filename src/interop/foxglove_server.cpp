@@ -44,7 +44,7 @@ constexpr std::size_t kMostSubscriptions = 4096;
 constexpr std::size_t kMostHandshakes = 64;
 // Messages that may wait for the server's thread: a second of 60 channels at 30 Hz.
 constexpr std::size_t kMostPosted = 2048;
-constexpr auto kGoodbye = std::chrono::milliseconds(300);
+constexpr auto kGoodbye = std::chrono::milliseconds(40);
 constexpr auto kAcceptRest = std::chrono::milliseconds(100);
 constexpr auto kSilence = std::chrono::seconds(60);
 constexpr std::size_t kMessageHeadBytes = 13;

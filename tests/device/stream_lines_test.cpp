@@ -306,6 +306,53 @@ TEST(StreamLines, JsonFaultsNameTheMatrix) {
   EXPECT_EQ(faultOf("1,2,3\n", {.acceptNumbers = false}), "line 1: \"1,2,3\" is no JSON object");
 }
 
+// As `palpate stream --to tactile` divides a frame into datagrams.
+TEST(StreamLines, AFrameMayComeInMessagesWithTheSameNumber) {
+  StreamLineParser parser{StreamShape(padHand({{1, 2}, {1, 1}, {1, 2}}))};
+  std::vector<std::vector<float>> frames;
+  const auto push = [&](int seq, const std::string& matrices) {
+    const std::string line = "{\"header\":{\"seq\":" + std::to_string(seq) +
+                             "},\"tactile_matrix\":[" + matrices + "]}\n";
+    parser.push(std::as_bytes(std::span(line)), [&](const StreamItem& item) {
+      frames.emplace_back(item.values.begin(), item.values.end());
+    });
+  };
+  const std::string a = R"({"matrix_id":0,"cells_x":2,"cells_y":1,"tactile_array":[1,2]})";
+  const std::string b = R"({"matrix_id":1,"cells_x":1,"cells_y":1,"tactile_array":[3]})";
+  const std::string c = R"({"matrix_id":2,"cells_x":2,"cells_y":1,"tactile_array":[4,5]})";
+  push(7, a + "," + b);
+  EXPECT_TRUE(frames.empty());
+  push(7, c);
+  ASSERT_EQ(frames.size(), 1u);
+  EXPECT_EQ(frames[0], (std::vector<float>{1, 2, 3, 4, 5}));
+  push(8, c + "," + b + "," + a);  // a whole one
+  EXPECT_EQ(frames.size(), 2u);
+  EXPECT_EQ(parser.stats().refused, 0u);
+  push(9, a);  // its other matrices do not come
+  push(10, b);
+  EXPECT_EQ(parser.stats().refused, 1u);
+  EXPECT_NE(parser.lastFault().find("frame 9 has 1 matrices instead of 3"), std::string::npos)
+      << parser.lastFault();
+  push(10, b);
+  EXPECT_NE(parser.lastFault().find("matrix 1 is there twice"), std::string::npos);
+  push(10, c + "," + a);
+  EXPECT_EQ(frames.size(), 3u);
+}
+
+// Angles come in the first of them; the others hold nothing that is a frame.
+TEST(StreamLines, PartsOfSignalsAreNotRefused) {
+  const auto refusedOf = [](const std::string& text) {
+    StreamLineParser parser{StreamShape(padHand({{1, 3}}, 2))};
+    parser.push(std::as_bytes(std::span(text)), [](const StreamItem&) {});
+    return parser.stats().refused;
+  };
+  const std::string angles = "{\"t\":1.5,\"sequence\":3,\"angles_deg\":[1,2]}\n";
+  const std::string signals = "{\"t\":1.5,\"sequence\":3,\"m0\":{\"sum\":3}}\n";
+  EXPECT_EQ(refusedOf(angles + signals + signals), 0u);
+  EXPECT_EQ(refusedOf(signals), 1u);
+  EXPECT_EQ(refusedOf(angles + "{\"m0\":{\"sum\":3}}\n"), 1u);
+}
+
 TEST(StreamLines, ADatagramEndsItsLine) {
   StreamLineParser parser{StreamShape(padHand({{1, 3}}))};
   std::size_t items = 0;

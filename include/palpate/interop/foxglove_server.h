@@ -69,7 +69,7 @@ class FoxgloveServer {
   // Starts listening. Throws Error (the port is in use, the address is none of this machine),
   // std::invalid_argument (an option out of range).
   FoxgloveServer(FoxgloveServerOptions options, std::vector<FoxgloveChannel> channels);
-  // Says goodbye to the clients, for at most 0.3 s.
+  // Says goodbye to the clients, for at most 0.04 s.
   ~FoxgloveServer();
   FoxgloveServer(const FoxgloveServer&) = delete;
   FoxgloveServer& operator=(const FoxgloveServer&) = delete;

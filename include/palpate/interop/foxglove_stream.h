@@ -39,7 +39,7 @@ class FoxgloveStream {
   // Listens from now on; counters restart. Throws Error (the port is in use, and so on),
   // std::invalid_argument.
   void switchOn(FoxgloveOptions options);
-  // Says goodbye to clients, for at most 0.3 s.
+  // Says goodbye to clients, for at most 0.04 s.
   void switchOff();
   bool on() const;
   // Empty while it is off.

@@ -15,6 +15,8 @@ LinkActions::LinkActions(ActionRegistry& book) {
   streamTactile =
       book.make("streamTactile", "Hand", "Stream all &taxels (ROS TactileSensor)", {}, true);
   streamTactile->setToolTip("A datagram of JSON per frame, to this machine only");
+  streamFoxglove = book.make("streamFoxglove", "Hand", "Show the hand in &Foxglove", {}, true);
+  streamFoxglove->setToolTip("A WebSocket for Foxglove, on this machine only");
   remoteControl = book.make("remoteControl", "Hand", "&Remote control", {}, true);
   remoteControl->setToolTip("Your programs can start, stop and label recordings");
 }

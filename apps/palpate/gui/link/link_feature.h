@@ -21,6 +21,7 @@ struct LinkActions {
   QAction* muteAlarms = nullptr;
   // Streams of live data to other programs; the settings store whether they are on.
   QAction* streamSignals = nullptr;
+  QAction* streamFoxglove = nullptr;
   QAction* streamTactile = nullptr;
   // Off in every new window. data() is the path of the socket; empty: the default path.
   QAction* remoteControl = nullptr;

@@ -7,12 +7,18 @@
 namespace palpate::gui {
 namespace {
 
+constexpr const char* kFoxgloveKey = "streams/foxglove";
+
 const char* otherProgramsKeyOf(StreamKind kind) {
   return kind == StreamKind::kSignals ? "streams/signals" : "streams/tactile";
 }
 
 QString otherProgramsNameOf(StreamKind kind) {
   return kind == StreamKind::kSignals ? "signals (PlotJuggler)" : "taxels (TactileSensor)";
+}
+
+QString clientsText(std::size_t clients) {
+  return clients == 1 ? QString("1 client") : QString::number(clients) + " clients";
 }
 
 }  // namespace
@@ -30,6 +36,11 @@ OtherPrograms::OtherPrograms(const OtherProgramsOptions& options, QObject* paren
       switchStream(kind, on);
     });
   }
+  actions_.streamFoxglove->setChecked(settings_.value(kFoxgloveKey, false).toBool());
+  connect(actions_.streamFoxglove, &QAction::toggled, this, [this](bool on) {
+    settings_.setValue(kFoxgloveKey, on);
+    switchFoxglove(on);
+  });
   connect(actions_.remoteControl, &QAction::toggled, this, &OtherPrograms::switchRemote);
   connect(&live_, &LiveController::sourceOpened, this, &OtherPrograms::useStreams);
   connect(&live_, &LiveController::ended, this, &OtherPrograms::changed);
@@ -49,6 +60,41 @@ std::uint16_t OtherPrograms::portOf(StreamKind kind) const {
 void OtherPrograms::useStreams() {
   for (const StreamKind kind : kAllStreamKinds)
     if (actionOf(kind)->isChecked()) switchStream(kind, true);
+  if (actions_.streamFoxglove->isChecked()) switchFoxglove(true);
+}
+
+std::uint16_t OtherPrograms::foxglovePort() const {
+  const int port = settings_.value("streams/foxglove_port", kUsualFoxglovePort).toInt();
+  return port >= 1 && port <= UINT16_MAX ? static_cast<std::uint16_t>(port) : kUsualFoxglovePort;
+}
+
+void OtherPrograms::switchFoxglove(bool on) {
+  LiveSource* source = live_.source();
+  if (!source) return reportFoxglove(on);
+  if (!on) {
+    source->foxglove->switchOff();
+    return reportFoxglove(on);
+  }
+  try {
+    FoxgloveOptions options;
+    options.server.port = foxglovePort();
+    for (const QString& origin : settings_.value("streams/foxglove_origins").toStringList())
+      options.server.origins.push_back(origin.toStdString());
+    source->foxglove->switchOn(std::move(options));
+  } catch (const Error& error) {
+    actions_.streamFoxglove->setChecked(false);
+    emit failed("Not streaming: " + QString::fromUtf8(error.what()));
+    return;
+  }
+  reportFoxglove(on);
+  if (const std::string problem = source->foxglove->geometryProblem(); !problem.empty())
+    emit logged("Foxglove does not show the hand in space: " + QString::fromStdString(problem));
+}
+
+void OtherPrograms::reportFoxglove(bool on) {
+  emit logged(on ? "streaming to Foxglove at ws://127.0.0.1:" + QString::number(foxglovePort())
+                 : QString("no longer streaming to Foxglove"));
+  emit changed();
 }
 
 void OtherPrograms::switchStream(StreamKind kind, bool on) {
@@ -122,19 +168,33 @@ std::vector<Fact> OtherPrograms::facts() const {
                                 : QString(" · no receiver");
     facts.push_back({otherProgramsNameOf(kind), value});
   }
+  if (actions_.streamFoxglove->isChecked()) {
+    QString value = "ws://127.0.0.1:" + QString::number(foxglovePort());
+    std::optional<FoxgloveServerStats> stats;
+    if (const LiveSource* source = live_.source()) stats = source->foxglove->stats();
+    if (!stats)
+      value += " · nothing is connected";
+    else
+      value += " · " + clientsText(stats->clients);
+    if (stats && stats->dropped > 0) value += ", " + QString::number(stats->dropped) + " dropped";
+    if (stats && !stats->lastRefusal.empty())
+      value += " · refused: " + QString::fromStdString(stats->lastRefusal);
+    facts.push_back({"Foxglove", value});
+  }
   if (server_) {
     const std::size_t clients = server_->stats().clients;
     facts.push_back(
         {"remote control",
          QString::fromStdString(server_->socket().string()) + " · " +
-             (clients == 1 ? QString("1 client") : QString::number(clients) + " clients")});
+             clientsText(clients)});
   }
   return facts;
 }
 
 QString OtherPrograms::shortText(const ActionRegistry& actions) {
   QStringList open;
-  if (actions.at("streamSignals")->isChecked() || actions.at("streamTactile")->isChecked())
+  if (actions.at("streamSignals")->isChecked() || actions.at("streamTactile")->isChecked() ||
+      actions.at("streamFoxglove")->isChecked())
     open.append("streaming");
   if (actions.at("remoteControl")->isChecked()) open.append("remote control");
   return open.join(", ");

@@ -1,5 +1,5 @@
 // The interfaces of the window for other programs on this machine: live signals and taxels as
-// datagrams, and remote control. All are off until the operator switches them on by actions; the
+// datagrams, the WebSocket for Foxglove, and remote control. All are off until the operator switches them on by actions; the
 // dock Link shows which are on.
 #pragma once
 
@@ -30,7 +30,8 @@ struct OtherProgramsOptions {
 
 // Streams keep the state that they had at the last start; remote control is off in every new
 // window. The data() of its action is the path of the socket; empty: the default path. The settings
-// streams/signals_port and streams/tactile_port contain the ports.
+// streams/signals_port, streams/tactile_port and streams/foxglove_port contain the ports, and
+// streams/foxglove_origins the web pages that may connect to the WebSocket.
 class OtherPrograms : public QObject {
   Q_OBJECT
  public:
@@ -54,6 +55,10 @@ class OtherPrograms : public QObject {
   std::uint16_t portOf(StreamKind kind) const;
   void useStreams();
   void switchStream(StreamKind kind, bool on);
+  // Opens or closes the WebSocket of the source that is connected.
+  void switchFoxglove(bool on);
+  void reportFoxglove(bool on);
+  std::uint16_t foxglovePort() const;
   void switchRemote(bool on);
   void logRequest(const RemoteRequest& request, const RemoteAnswer& answer);
 

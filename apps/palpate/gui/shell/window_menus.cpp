@@ -152,7 +152,8 @@ void WindowMenus::buildMenuBar(const ActionRegistry& book, const QList<QAction*>
   menus_.scanned->addAction(at("chooseNone"));
   QMenu* others = hand->addMenu("Other &programs");
   others->setToolTipsVisible(true);
-  others->addActions({at("streamSignals"), at("streamTactile"), at("remoteControl")});
+  others->addActions(
+      {at("streamSignals"), at("streamTactile"), at("streamFoxglove"), at("remoteControl")});
   hand->addAction(at("muteAlarms"));
 
   QMenu* playback = menu("&Playback");

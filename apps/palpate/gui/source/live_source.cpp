@@ -119,13 +119,20 @@ std::unique_ptr<LiveSource> openSource(const Connection& connection,
   ChainOptions options;
   source->stream =
       std::make_unique<LiveStream>([session = source->session.get()] { return session->health(); });
+  source->foxglove = std::make_unique<FoxgloveStream>(
+      source->session->device().hand(),
+      [session = source->session.get()] { return session->health(); });
   options.onResults = [history = source->history.get(),
-                       stream = source->stream.get()](const LiveResults& results) {
+                       stream = source->stream.get(),
+                       foxglove = source->foxglove.get()](const LiveResults& results) {
     history->add(results);
     stream->send(results);
+    foxglove->send(results);
   };
-  options.onEvent = [session = source->session.get()](const RecordingEvent& event) {
+  options.onEvent = [session = source->session.get(),
+                     foxglove = source->foxglove.get()](const RecordingEvent& event) {
     session->note(event);
+    foxglove->send(event);
   };
   source->chain = std::make_unique<ProcessingChain>(std::move(stages), std::move(options));
   source->chain->connect(*source->session);

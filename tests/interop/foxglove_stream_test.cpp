@@ -1,0 +1,118 @@
+#include "palpate/interop/foxglove_stream.h"
+
+#include "palpate/core/error.h"
+#include "palpate/core/json.h"
+#include "palpate/device/sdh2.h"
+
+#include "interop/listening_sockets.h"
+#include "interop/sample_results.h"
+#include "interop/web_socket_client.h"
+#include "testing/testing.h"
+
+namespace palpate::foxglove_stream_test {
+namespace {
+using testing::sampleResults;
+using testing::WebSocketClient;
+
+FoxgloveOptions anyPort() {
+  FoxgloveOptions options;
+  options.server.port = 0;
+  return options;
+}
+
+std::int64_t channelOf(const Json& channels, const std::string& topic) {
+  for (std::size_t i = 0; i < channels.size(); ++i)
+    if (channels.at(i).at("topic").asString() == topic) return channels.at(i).at("id").asInteger();
+  return -1;
+}
+
+// Subscribes and waits until the server has done so.
+void subscribe(WebSocketClient& client, const std::vector<std::string>& topics) {
+  client.frame();  // serverInfo
+  const Json channels = Json::parse(client.frame().value().payload).at("channels");
+  Json list = Json::array();
+  for (std::size_t i = 0; i < topics.size(); ++i)
+    list.push(Json::object().set("id", i).set("channelId", channelOf(channels, topics[i])));
+  client.say(Json::object().set("op", "subscribe").set("subscriptions", list).text(-1));
+  client.say("{}");
+  while (client.frame().value().opcode != 1) {
+  }
+}
+
+TEST(FoxgloveStream, IsOffUntilItIsSwitchedOn) {
+  FoxgloveStream stream(sdh2());
+  EXPECT_FALSE(stream.on());
+  EXPECT_FALSE(stream.stats());
+  EXPECT_EQ(stream.url(), "");
+  stream.send(sampleResults());
+  EXPECT_EQ(testing::listeningSocketsOf(::getpid()), std::vector<std::string>());
+  stream.switchOn(anyPort());
+  EXPECT_TRUE(stream.on());
+  EXPECT_EQ(testing::listeningSocketsOf(::getpid()).size(), 1u);
+  stream.switchOff();
+  EXPECT_EQ(testing::listeningSocketsOf(::getpid()), std::vector<std::string>());
+}
+
+TEST(FoxgloveStream, SendsWhatAFrameHolds) {
+  int asked = 0;
+  FoxgloveStream stream(sdh2(), [&asked] {
+    ++asked;
+    return LinkHealth();
+  });
+  stream.switchOn(anyPort());
+  WebSocketClient client(stream.port());
+  ASSERT_TRUE(client.join());
+  const std::vector<std::string> topics = {
+      "/signals", "/tactile/finger_0_distal/image", "/joint_states", "/tf", "/hand/taxels"};
+  subscribe(client, topics);
+  LiveResults results = sampleResults();
+  results.angles = JointAngles{results.frame->hostUs, std::vector<double>(7, 0.0)};
+  stream.send(results);
+  std::set<std::size_t> seen;
+  while (seen.size() < topics.size()) {
+    const std::string payload = client.frame().value().payload;
+    EXPECT_TRUE(Json::parse(payload.substr(13)).isObject());
+    seen.insert(static_cast<unsigned char>(payload[1]));
+  }
+  EXPECT_EQ(asked, 1);
+  EXPECT_EQ(stream.stats()->published, topics.size() + 1);  // and the shapes, for later readers
+  stream.send(results);  // the same sample of the angles is not sent twice
+  EXPECT_EQ(stream.stats()->published, 2 * topics.size());
+}
+
+TEST(FoxgloveStream, EventsAreALog) {
+  FoxgloveStream stream(sdh2());
+  stream.switchOn(anyPort());
+  WebSocketClient client(stream.port());
+  ASSERT_TRUE(client.join());
+  subscribe(client, {"/events"});
+  stream.send(RecordingEvent{7'000'000, 7'000'000, "slip", 1, "begins", ""});
+  const Json log = Json::parse(client.frame().value().payload.substr(13));
+  EXPECT_EQ(log.at("name").asString(), "slip");
+  EXPECT_EQ(log.at("message").asString(), "finger 0 distal: begins");
+}
+
+TEST(FoxgloveStream, NothingIsMadeThatNobodyReads) {
+  FoxgloveStream stream(sdh2(), []() -> LinkHealth {
+    ADD_FAILURE() << "nobody reads the signals";
+    return {};
+  });
+  stream.switchOn(anyPort());
+  for (int i = 0; i < 5; ++i) stream.send(sampleResults());
+  EXPECT_EQ(stream.stats()->published, 1u);  // the shapes
+}
+
+TEST(FoxgloveStream, CanBeSwitchedOnAgainAtItsPort) {
+  FoxgloveStream stream(sdh2());
+  stream.switchOn(anyPort());
+  FoxgloveOptions same;
+  same.server.port = stream.port();
+  stream.switchOn(same);
+  EXPECT_EQ(stream.port(), same.server.port);
+  FoxgloveStream other(sdh2());
+  EXPECT_THROW(other.switchOn(same), Error);
+  EXPECT_FALSE(other.on());
+}
+
+}  // namespace
+}  // namespace palpate::foxglove_stream_test
