@@ -342,7 +342,7 @@ TEST(StreamLines, AFrameMayComeInMessagesWithTheSameNumber) {
 // Angles come in the first of them; the others hold nothing that is a frame.
 TEST(StreamLines, PartsOfSignalsAreNotRefused) {
   const auto refusedOf = [](const std::string& text) {
-    StreamLineParser parser{StreamShape(padHand({{1, 3}}, 2))};
+    StreamLineParser parser{StreamShape(testing::smallHand())};
     parser.push(std::as_bytes(std::span(text)), [](const StreamItem&) {});
     return parser.stats().refused;
   };
