@@ -12,9 +12,9 @@
 
 #include "python/arrays.h"
 #include "python/bindings.h"
-#include "python/table_binding.h"
 #include "python/events.h"
 #include "python/interruption.h"
+#include "python/table_binding.h"
 
 namespace palpate::python {
 namespace py = pybind11;
@@ -306,13 +306,14 @@ void bindProfile(py::module_& module) {
            "pandas.DataFrame of the taxels that exist: a row per frame, indexed by its host time "
            "(datetime64, UTC), a column per taxel, named by matrix, y and x; attrs: units, hand, "
            "serial. ImportError without pandas.")
-      .def("to_xarray",
-           &profileToXarray,
-           py::arg("matrix") = py::none(),
-           "xarray.DataArray of one matrix: dims time (datetime64, UTC), y and x [mm from taxel (0, "
-           "0)]; NaN where there is no taxel. Without `matrix` a dict of them by the names of the "
-           "matrices, with 'angles' (time, axis) and 'temperatures' (time, sensor) where the "
-           "recording has them. attrs: units, hand, serial. ImportError without xarray.")
+      .def(
+          "to_xarray",
+          &profileToXarray,
+          py::arg("matrix") = py::none(),
+          "xarray.DataArray of one matrix: dims time (datetime64, UTC), y and x [mm from taxel (0, "
+          "0)]; NaN where there is no taxel. Without `matrix` a dict of them by the names of the "
+          "matrices, with 'angles' (time, axis) and 'temperatures' (time, sensor) where the "
+          "recording has them. attrs: units, hand, serial. ImportError without xarray.")
       .def_property_readonly("matrices",
                              &matrices,
                              "The matrices in wire order: list of dicts index, name, rows, "

@@ -28,9 +28,7 @@ py::module_ importedPackage(const char* name, const char* function) {
 }
 
 // Host times [us since 1970] as numpy.datetime64.
-py::object instants(const py::object& timeUs) {
-  return timeUs.attr("astype")("datetime64[us]");
-}
+py::object instants(const py::object& timeUs) { return timeUs.attr("astype")("datetime64[us]"); }
 
 py::object millisecondInstants(const py::object& timeMs) {
   return instants(timeMs.attr("astype")("int64") * py::int_(1000));
@@ -87,8 +85,8 @@ py::object toPandas(const py::dict& table, const std::string& unit) {
     frame.attr("__setitem__")(key, value);
   }
   if (const char* time = timeColumn(arrays))
-    frame.attr("index") = pandas.attr("DatetimeIndex")(millisecondInstants(arrays[time]),
-                                                       py::arg("name") = "time");
+    frame.attr("index") =
+        pandas.attr("DatetimeIndex")(millisecondInstants(arrays[time]), py::arg("name") = "time");
   frame.attr("attrs")[kUnits] = units;
   return frame;
 }
@@ -137,7 +135,9 @@ std::string taxelUnitOf(const py::object& profile) {
   return profile.cast<const Profile&>().hand().unit;
 }
 
-py::object matrixArray(const py::module_& xarray, const py::object& profile, const py::dict& matrix) {
+py::object matrixArray(const py::module_& xarray,
+                       const py::object& profile,
+                       const py::dict& matrix) {
   const py::module_ numpy = py::module_::import("numpy");
   const py::object values = profile.attr("matrix")(matrix["index"]);
   const py::object shown = numpy.attr("where")(matrix["static_mask"], values, numpy.attr("nan"));
@@ -158,8 +158,7 @@ py::object matrixArray(const py::module_& xarray, const py::object& profile, con
                                   py::arg("coords") = coordinates,
                                   py::arg("dims") = dims,
                                   py::arg("name") = matrix["name"],
-                                  py::arg("attrs") =
-                                      attributesOf(profile, taxelUnitOf(profile)));
+                                  py::arg("attrs") = attributesOf(profile, taxelUnitOf(profile)));
 }
 
 // Angles or temperatures: (time, `dim`).
@@ -195,17 +194,17 @@ py::object profileToPandas(const py::object& profile) {
     const py::object mask = matrix["static_mask"];
     masks.append(mask.attr("ravel")());
     for (const py::handle place : numpy.attr("argwhere")(mask))
-      names.append(py::make_tuple(
-          matrix["name"], place.attr("item")(0), place.attr("item")(1)));
+      names.append(py::make_tuple(matrix["name"], place.attr("item")(0), place.attr("item")(1)));
   }
   py::list levels;
   for (const char* level : {"matrix", "y", "x"}) levels.append(level);
   const py::object exists = numpy.attr("concatenate")(masks);
-  const py::object values = profile.attr("frames")().attr("T").attr("__getitem__")(exists).attr("T");
+  const py::object values =
+      profile.attr("frames")().attr("T").attr("__getitem__")(exists).attr("T");
   py::object frame = pandas.attr("DataFrame")(
       values,
-      py::arg("index") = pandas.attr("DatetimeIndex")(instants(profile.attr("time_us")),
-                                                      py::arg("name") = "time"),
+      py::arg("index") =
+          pandas.attr("DatetimeIndex")(instants(profile.attr("time_us")), py::arg("name") = "time"),
       py::arg("columns") =
           pandas.attr("MultiIndex").attr("from_tuples")(names, py::arg("names") = levels));
   frame.attr("attrs").attr("update")(attributesOf(profile, taxelUnitOf(profile)));
@@ -241,15 +240,16 @@ py::object profileToXarray(const py::object& profile, std::optional<std::int64_t
 }
 
 void bindTables(py::module_& module) {
-  module.def("to_pandas",
-             &toPandas,
-             py::arg("table"),
-             py::kw_only(),
-             py::arg("unit") = "counts",
-             "pandas.DataFrame of a table (signals(), slip(), contact(), grasps(), ..): the columns "
-             "of flat(), indexed by host time (datetime64, UTC) where the table has time_ms or "
-             "begin_ms. attrs['units']: column -> unit; `unit` is that of the taxels' values. "
-             "ImportError without pandas, ValueError for what is no table.");
+  module.def(
+      "to_pandas",
+      &toPandas,
+      py::arg("table"),
+      py::kw_only(),
+      py::arg("unit") = "counts",
+      "pandas.DataFrame of a table (signals(), slip(), contact(), grasps(), ..): the columns "
+      "of flat(), indexed by host time (datetime64, UTC) where the table has time_ms or "
+      "begin_ms. attrs['units']: column -> unit; `unit` is that of the taxels' values. "
+      "ImportError without pandas, ValueError for what is no table.");
   module.def("to_xarray",
              &toXarray,
              py::arg("table"),

@@ -358,8 +358,9 @@ std::optional<StreamItem> StreamLineParser::readJsonFrame(const Json& object) {
   item.sequence = sequence;
   const Json stamp = header.at("stamp");
   if (stamp.contains("secs"))
-    item.deviceUs = jsonTimeUs(1e6 * stamp.at("secs").asDouble() +
-                               1e-3 * (stamp.contains("nsecs") ? stamp.at("nsecs").asDouble() : 0.0));
+    item.deviceUs =
+        jsonTimeUs(1e6 * stamp.at("secs").asDouble() +
+                   1e-3 * (stamp.contains("nsecs") ? stamp.at("nsecs").asDouble() : 0.0));
   return item;
 }
 

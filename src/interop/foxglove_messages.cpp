@@ -152,9 +152,9 @@ void addShape(Json& entity, const LinkShape& shape) {
       entity.set("spheres", Json::array().push(body.set("color", grey)));
       return;
     case LinkShape::Kind::kCylinder:
-      entity.set(
-          "cylinders",
-          Json::array().push(body.set("bottom_scale", 1.0).set("top_scale", 1.0).set("color", grey)));
+      entity.set("cylinders",
+                 Json::array().push(
+                     body.set("bottom_scale", 1.0).set("top_scale", 1.0).set("color", grey)));
       return;
     case LinkShape::Kind::kMesh:
       break;
@@ -212,9 +212,8 @@ FoxgloveMessages::FoxgloveMessages(HandDescription hand, FoxgloveImage image)
   for (std::size_t m = 0; m < hand_.layout->numMatrices(); ++m) {
     const std::string name = topicName(hand_.matrixName(m), taken);
     frameIds_.push_back(Json(name).text(-1));
-    addChannel({"/tactile/" + name + "/image",
-                "foxglove.RawImage",
-                foxgloveImageSchema(hand_.unit)});
+    addChannel(
+        {"/tactile/" + name + "/image", "foxglove.RawImage", foxgloveImageSchema(hand_.unit)});
   }
   signals_ = addChannel({"/signals", "palpate.Signals", foxgloveSignalsSchema(hand_)});
   events_ = addChannel({"/events", "foxglove.Log", foxgloveLogSchema()});
@@ -242,7 +241,9 @@ std::string FoxgloveMessages::image(const TactileFrame& frame, std::size_t matri
   const MatrixLayout& layout = hand_.layout->matrix(matrix);
   const auto values = frame.allValues(matrix);
   std::string bytes;
-  const char* encoding = image_ == FoxgloveImage::kColored ? "rgb8" : countsOnly_ ? "mono16" : "32FC1";
+  const char* encoding = image_ == FoxgloveImage::kColored ? "rgb8"
+                         : countsOnly_                     ? "mono16"
+                                                           : "32FC1";
   for (int y = 0; y < layout.rows; ++y)
     for (int x = 0; x < layout.columns; ++x) {
       const float value = values(y, x);
@@ -287,9 +288,8 @@ std::string FoxgloveMessages::joints(const JointAngles& angles) const {
     if (!std::isfinite(angles.deg[i])) continue;
     if (!std::exchange(first, false)) out += ',';
     out += "{\"name\":" + jointNames_[i] + ",\"position\":";
-    appendNumber(
-        out,
-        angles.deg[i] * (hand_.axes[i].isSliding ? kMPerMm : std::numbers::pi / 180.0));
+    appendNumber(out,
+                 angles.deg[i] * (hand_.axes[i].isSliding ? kMPerMm : std::numbers::pi / 180.0));
     out += '}';
   }
   out += "]}";
@@ -375,16 +375,17 @@ std::string FoxgloveMessages::taxels(const TactileFrame& frame) const {
       }
   std::string out = "{\"timestamp\":";
   appendTime(out, frame.hostUs);
-  out += std::string(",\"frame_id\":\"") + kHandFrame +
-         "\",\"pose\":{\"position\":{\"x\":0,\"y\":0,\"z\":0},"
-         "\"orientation\":{\"x\":0,\"y\":0,\"z\":0,\"w\":1}},\"point_stride\":" +
-         std::to_string(kPointBytes) +
-         ",\"fields\":[{\"name\":\"x\",\"offset\":0,\"type\":7},"
-         "{\"name\":\"y\",\"offset\":4,\"type\":7},{\"name\":\"z\",\"offset\":8,\"type\":7},"
-         "{\"name\":\"value\",\"offset\":12,\"type\":7},"
-         "{\"name\":\"red\",\"offset\":16,\"type\":1},{\"name\":\"green\",\"offset\":17,\"type\":1},"
-         "{\"name\":\"blue\",\"offset\":18,\"type\":1},"
-         "{\"name\":\"alpha\",\"offset\":19,\"type\":1}],\"data\":\"";
+  out +=
+      std::string(",\"frame_id\":\"") + kHandFrame +
+      "\",\"pose\":{\"position\":{\"x\":0,\"y\":0,\"z\":0},"
+      "\"orientation\":{\"x\":0,\"y\":0,\"z\":0,\"w\":1}},\"point_stride\":" +
+      std::to_string(kPointBytes) +
+      ",\"fields\":[{\"name\":\"x\",\"offset\":0,\"type\":7},"
+      "{\"name\":\"y\",\"offset\":4,\"type\":7},{\"name\":\"z\",\"offset\":8,\"type\":7},"
+      "{\"name\":\"value\",\"offset\":12,\"type\":7},"
+      "{\"name\":\"red\",\"offset\":16,\"type\":1},{\"name\":\"green\",\"offset\":17,\"type\":1},"
+      "{\"name\":\"blue\",\"offset\":18,\"type\":1},"
+      "{\"name\":\"alpha\",\"offset\":19,\"type\":1}],\"data\":\"";
   appendBase64(out, bytes.data(), bytes.size());
   out += "\"}";
   return out;

@@ -16,11 +16,11 @@ inline constexpr const char* kNothingIsTaken =
 
 // What a handshake says, already divided into header fields.
 struct FoxgloveHandshake {
-  bool isUpgrade = false;     // a complete WebSocket upgrade
-  bool hasOneOrigin = true;   // at most one field Origin
-  std::string origin = {};    // empty: none
+  bool isUpgrade = false;      // a complete WebSocket upgrade
+  bool hasOneOrigin = true;    // at most one field Origin
+  std::string origin = {};     // empty: none
   std::string protocols = {};  // Sec-WebSocket-Protocol, separated by commas
-  std::size_t clients = 0;    // connected now
+  std::size_t clients = 0;     // connected now
   std::size_t maxClients = 1;
 };
 

@@ -32,7 +32,8 @@ Json schemaTime() {
   return schemaObject({{"sec", schemaWhole("s since 1970")}, {"nsec", schemaWhole("ns")}});
 }
 Json schemaVector(const std::string& unit) {
-  return schemaObject({{"x", schemaNumber(unit)}, {"y", schemaNumber(unit)}, {"z", schemaNumber(unit)}});
+  return schemaObject(
+      {{"x", schemaNumber(unit)}, {"y", schemaNumber(unit)}, {"z", schemaNumber(unit)}});
 }
 Json schemaQuaternion() {
   return schemaObject(
@@ -47,9 +48,7 @@ Json schemaColor() {
                        {"b", schemaNumber("0..1")},
                        {"a", schemaNumber("0..1")}});
 }
-std::string titled(const char* title, Json schema) {
-  return schema.set("title", title).text(-1);
-}
+std::string titled(const char* title, Json schema) { return schema.set("title", title).text(-1); }
 
 Json signalKeys() {
   Json keys = Json::object();
@@ -157,12 +156,13 @@ std::string foxgloveSceneSchema() {
 }
 
 std::string foxgloveJointsSchema() {
-  return titled("foxglove.JointStates",
-                schemaObject({{"timestamp", schemaTime()},
-                              {"joints",
-                               schemaList(schemaObject(
-                                   {{"name", schemaText()},
-                                    {"position", schemaNumber("rad; m where the axis slides")}}))}}));
+  return titled(
+      "foxglove.JointStates",
+      schemaObject({{"timestamp", schemaTime()},
+                    {"joints",
+                     schemaList(schemaObject(
+                         {{"name", schemaText()},
+                          {"position", schemaNumber("rad; m where the axis slides")}}))}}));
 }
 
 std::string foxgloveLogSchema() {

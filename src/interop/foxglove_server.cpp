@@ -219,9 +219,8 @@ class FoxgloveServer::Impl::Session : public std::enable_shared_from_this<Sessio
       return;
     }
     if (std::exchange(closing_, true)) return;
-    stream_.async_close(websocket::close_code::going_away, [self = shared_from_this()](BoostError) {
-      self->server_.ended(self);
-    });
+    stream_.async_close(websocket::close_code::going_away,
+                        [self = shared_from_this()](BoostError) { self->server_.ended(self); });
   }
 
  private:
@@ -262,15 +261,14 @@ class FoxgloveServer::Impl::Session : public std::enable_shared_from_this<Sessio
     refusal_.body() = reply.text + "\n";
     refusal_.keep_alive(false);
     refusal_.prepare_payload();
-    http::async_write(
-        beast::get_lowest_layer(stream_),
-        refusal_,
-        [self = shared_from_this()](BoostError, std::size_t) {
-          beast::get_lowest_layer(self->stream_)
-              .socket()
-              .shutdown(tcp::socket::shutdown_send, self->ignored_);
-          self->server_.ended(self);
-        });
+    http::async_write(beast::get_lowest_layer(stream_),
+                      refusal_,
+                      [self = shared_from_this()](BoostError, std::size_t) {
+                        beast::get_lowest_layer(self->stream_)
+                            .socket()
+                            .shutdown(tcp::socket::shutdown_send, self->ignored_);
+                        self->server_.ended(self);
+                      });
   }
 
   void accept(const std::string& protocol) {
@@ -339,12 +337,10 @@ class FoxgloveServer::Impl::Session : public std::enable_shared_from_this<Sessio
 
   // Level 1: a warning, shown among the problems of the connection.
   void sayStatus(const std::string& message) {
-    queueText(std::make_shared<const std::string>(Json::object()
-                                                      .set("op", "status")
-                                                      .set("level", 1)
-                                                      .set("message", message)
-                                                      .text(-1)),
-              true);
+    queueText(
+        std::make_shared<const std::string>(
+            Json::object().set("op", "status").set("level", 1).set("message", message).text(-1)),
+        true);
   }
 
   void sayOne(std::uint32_t id, const Posted& message, bool droppable) {

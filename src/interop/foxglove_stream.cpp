@@ -19,7 +19,7 @@ struct FoxgloveStream::Open {
   std::uint64_t sequence = 0;
   bool shapesSent = false;
   std::optional<LinkHealth> link;
-  std::int64_t askedUs = 0;   // stamp of the frame when link was updated
+  std::int64_t askedUs = 0;    // stamp of the frame when link was updated
   std::int64_t anglesUs = -1;  // stamp of the angles that were sent last
 };
 
@@ -95,9 +95,9 @@ void FoxgloveStream::send(const LiveResults& results) {
                    nowUs,
                    messages.signals(results, sequence, linkAt(*open_, nowUs)));
   // Angles come less often than frames, or more often: each sample is sent once.
-  if (const auto joints = messages.jointsChannel();
-      joints && results.angles && results.angles->hostUs != open_->anglesUs &&
-      server.wanted(*joints)) {
+  if (const auto joints = messages.jointsChannel(); joints && results.angles &&
+                                                    results.angles->hostUs != open_->anglesUs &&
+                                                    server.wanted(*joints)) {
     server.publish(*joints, results.angles->hostUs, messages.joints(*results.angles));
     open_->anglesUs = results.angles->hostUs;
   }

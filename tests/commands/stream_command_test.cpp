@@ -87,7 +87,8 @@ TEST(StreamCommand, DatagramsAreReadByAnotherPalpate) {
   const std::string port = std::to_string(free.port());
   free.close();
   BackgroundProgram sender(
-      PALPATE_PROGRAM, {"stream", demoFile(), "--to", "tactile:" + port, "--to", "signals:" + port});
+      PALPATE_PROGRAM,
+      {"stream", demoFile(), "--to", "tactile:" + port, "--to", "signals:" + port});
   const auto result = palpate({"record",
                                "--stream",
                                "udp:" + port,

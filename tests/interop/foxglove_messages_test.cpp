@@ -112,7 +112,8 @@ TEST(FoxgloveMessages, JointsAreInRadians) {
 
 TEST(FoxgloveMessages, EventsHaveALevelAndTheirMatrix) {
   const FoxgloveMessages messages(sdh2());
-  const Json gap = Json::parse(messages.event({5'000'000, 5'000'000, "gap", {}, "3 \"frames\"", ""}));
+  const Json gap =
+      Json::parse(messages.event({5'000'000, 5'000'000, "gap", {}, "3 \"frames\"", ""}));
   EXPECT_EQ(gap.at("level").asInteger(), 3);
   EXPECT_EQ(gap.at("message").asString(), "3 \"frames\"");
   EXPECT_EQ(gap.at("timestamp").at("sec").asInteger(), 5);
@@ -173,7 +174,8 @@ TEST(FoxgloveMessages, ShapesStandInTheFramesOfTheirLinks) {
 
 // Every hand that is built in, of 1 to many matrices, with and without joints.
 TEST(FoxgloveMessages, EveryHandHasItsChannels) {
-  for (const std::string& name : {"sdh2", "flat_pad_16x16", "four_fingers", "parallel_gripper", "sole"}) {
+  for (const std::string name :
+       {"sdh2", "flat_pad_16x16", "four_fingers", "parallel_gripper", "sole"}) {
     const HandDescription hand = builtInHand(name);
     FoxgloveMessages messages(hand);
     EXPECT_EQ(messages.geometryProblem(), "") << name;

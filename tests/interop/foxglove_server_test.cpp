@@ -49,8 +49,7 @@ TEST(FoxgloveServer, GreetsAndAdvertises) {
   FoxgloveServer server(freePort(), twoChannels());
   EXPECT_EQ(server.url(), "ws://127.0.0.1:" + std::to_string(server.port()));
   WebSocketClient client(server.port());
-  const std::string head =
-      client.handshake(WebSocketClient::request("foxglove.websocket.v1"));
+  const std::string head = client.handshake(WebSocketClient::request("foxglove.websocket.v1"));
   EXPECT_NE(head.find("HTTP/1.1 101 "), std::string::npos) << head;
   // The example of RFC 6455, section 1.3.
   EXPECT_NE(head.find("Sec-WebSocket-Accept: s3pPLMBiTxaQ9kYGzzhZRbK+xOo="), std::string::npos);
@@ -79,8 +78,9 @@ TEST(FoxgloveServer, ChoosesTheNewestProtocolThatIsOffered) {
     const std::string head = client.handshake(WebSocketClient::request(offered));
     const std::string key = "Sec-WebSocket-Protocol: ";
     const std::size_t at = head.find(key);
-    return at == std::string::npos ? std::string()
-                                   : head.substr(at + key.size(), head.find('\r', at) - at - key.size());
+    return at == std::string::npos
+               ? std::string()
+               : head.substr(at + key.size(), head.find('\r', at) - at - key.size());
   };
   EXPECT_EQ(chosen("foxglove.websocket.v1"), "foxglove.websocket.v1");
   EXPECT_EQ(chosen("foxglove.websocket.v1, foxglove.sdk.v1"), "foxglove.sdk.v1");
@@ -189,7 +189,9 @@ TEST(FoxgloveServer, BadRequestsAreAnsweredAndTheClientGoesOn) {
     EXPECT_EQ(status.at("op").asString(), "status");
     return status.at("message").asString();
   };
-  const auto text = [](const std::string& payload) { return WebSocketClient::masked(0x81, payload); };
+  const auto text = [](const std::string& payload) {
+    return WebSocketClient::masked(0x81, payload);
+  };
   EXPECT_NE(answerTo(text("nonsense")).find("no JSON"), std::string::npos);
   EXPECT_NE(answerTo(text("[]")).find("op"), std::string::npos);
   EXPECT_NE(answerTo(text(R"({"op":"subscribe"})")).find("subscriptions"), std::string::npos);
@@ -201,8 +203,9 @@ TEST(FoxgloveServer, BadRequestsAreAnsweredAndTheClientGoesOn) {
             std::string::npos);
   EXPECT_NE(answerTo(text(R"({"op":"advertise","channels":[]})")).find("only sends"),
             std::string::npos);
-  EXPECT_NE(answerTo(WebSocketClient::masked(0x82, std::string("\x01\0\0\0\0x", 6))).find("only sends"),
-            std::string::npos);
+  EXPECT_NE(
+      answerTo(WebSocketClient::masked(0x82, std::string("\x01\0\0\0\0x", 6))).find("only sends"),
+      std::string::npos);
   // One message in three frames.
   client.send(WebSocketClient::masked(0x01, R"({"op":"subscribe","subscri)"));
   client.send(WebSocketClient::masked(0x00, R"(ptions":[{"id":5,"chan)"));

@@ -39,7 +39,8 @@ ChainOptions sendingTo(LiveStream& stream, FoxgloveStream& foxglove) {
                    text + "'");
 }
 
-// The port behind the name; nothing when there is none. Port 0 is for the WebSocket only: a free one.
+// The port behind the name; nothing when there is none. Port 0 is for the WebSocket only: a free
+// one.
 std::optional<std::uint16_t> targetPort(const std::string& text,
                                         const std::string& name,
                                         const std::string& option,
@@ -138,8 +139,7 @@ LiveStreams::LiveStreams(CaptureSession& session,
       chain_(streamedStages(&session, session.device().hand(), calibration),
              sendingTo(stream_, foxglove_)) {
   warnAboutTargets(targets_);
-  for (const StreamTarget& target : targets_.datagrams)
-    stream_.switchOn(target.kind, target.port);
+  for (const StreamTarget& target : targets_.datagrams) stream_.switchOn(target.kind, target.port);
   if (targets_.foxglove) foxglove_.switchOn(*targets_.foxglove);
   chain_.connect(session);
   chain_.start();
@@ -158,13 +158,12 @@ std::vector<std::string> LiveStreams::lines() const {
           std::string(nameOf(target.kind)) + " to 127.0.0.1:" + std::to_string(target.port) + ": " +
           std::to_string(stats->sent) + " sent, " + std::to_string(stats->dropped) + " dropped");
   if (const auto stats = foxglove_.stats())
-    lines.push_back("foxglove at " + foxglove_.url() + ": " + counted(stats->accepted, "client") +
-                    ", " + std::to_string(stats->sent) + " sent, " +
-                    std::to_string(stats->dropped) + " dropped" +
-                    (stats->refused == 0 ? std::string()
-                                         : ", " + std::to_string(stats->refused) +
-                                               " refused (the last: " +
-                                               escapedLine(stats->lastRefusal) + ")"));
+    lines.push_back(
+        "foxglove at " + foxglove_.url() + ": " + counted(stats->accepted, "client") + ", " +
+        std::to_string(stats->sent) + " sent, " + std::to_string(stats->dropped) + " dropped" +
+        (stats->refused == 0 ? std::string()
+                             : ", " + std::to_string(stats->refused) +
+                                   " refused (the last: " + escapedLine(stats->lastRefusal) + ")"));
   return lines;
 }
 

@@ -255,8 +255,7 @@ int recordCommand(const Arguments& words) {
   std::unique_ptr<LiveStreams> streams;
   if (!targets.empty()) streams = std::make_unique<LiveStreams>(session, targets, calibration);
   if (streams && !given.quiet())
-    for (const std::string& place : streams->places())
-      std::fprintf(stderr, "%s\n", place.c_str());
+    for (const std::string& place : streams->places()) std::fprintf(stderr, "%s\n", place.c_str());
   if (given.has("remote")) return recordRemotely(given, session, interruption, std::move(options));
   session.startRecording(std::move(options));
   recordUntilDone(session, interruption, firstFrameS, given.quiet());

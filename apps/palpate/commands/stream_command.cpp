@@ -72,13 +72,16 @@ CommandSpec streamSpec() {
           "UDP\ndatagrams to 127.0.0.1 or as lines on standard output. STREAM: signals (default; "
           "for PlotJuggler,\nport 9870), tactile (all taxels as schunk_sdh/TactileSensor, port "
           "9871) or foxglove (a WebSocket\nfor Foxglove at 127.0.0.1:8765: heat maps, the hand in "
-          "space, joints, signals, events), with another\nport as signals:9999. FILE: a recording, played in its own time "
+          "space, joints, signals, events), with another\nport as signals:9999. FILE: a recording, "
+          "played in its own time "
           "(with --lines at once). Runs until Ctrl-C. Of a damaged recording "
           "what can be read is sent, and\nthe rest is reported: exit code 3.",
       .options = {{"dsa", "PORT", "tactile controller"},
                   {"sdh", "PORT", "motion controller: angles and temperatures"},
                   {"to", "STREAM", "what to send, and where to; may be repeated"},
-                  {"foxglove", "[PORT]", "the same as --to foxglove[:PORT]; PORT 0 takes a free one"},
+                  {"foxglove",
+                   "[PORT]",
+                   "the same as --to foxglove[:PORT]; PORT 0 takes a free one"},
                   {"lines", "", "lines on standard output instead of datagrams"},
                   {"calibration", "C.json", "also pressures and forces"},
                   {"duration", "S", "stop after so many seconds"}},

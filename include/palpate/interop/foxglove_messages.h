@@ -2,8 +2,8 @@
 // Foxglove's message schemas (docs.foxglove.dev, "Message schemas": RawImage, PointCloud,
 // FrameTransforms, SceneUpdate, JointStates, Log), so that its panels show them without more.
 //
-// Lengths are in m and angles in rad there, as Foxglove's schemas ask for; signals keep their units,
-// which the schema of their channel names. docs/interop.md lists the channels.
+// Lengths are in m and angles in rad there, as Foxglove's schemas ask for; signals keep their
+// units, which the schema of their channel names. docs/interop.md lists the channels.
 #pragma once
 
 #include <cstdint>
@@ -90,7 +90,7 @@ class FoxgloveMessages {
   std::string geometryProblem_;
   HandPose pose_;
   std::vector<FoxgloveChannel> channels_;
-  std::vector<std::string> frameIds_;   // of the matrices, as JSON texts
+  std::vector<std::string> frameIds_;    // of the matrices, as JSON texts
   std::vector<std::string> jointNames_;  // as JSON texts
   std::size_t signals_ = 0, events_ = 0;
   std::optional<std::size_t> joints_, transforms_, taxels_, shapes_;

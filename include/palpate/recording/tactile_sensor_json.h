@@ -28,8 +28,8 @@ namespace palpate {
 // counts and kept in 0..32767, which changes none that a sensor sent.
 void appendTactileSensorJson(std::string& out, const TactileFrame& frame, std::uint64_t sequence);
 
-// The same frame as several messages with the same header: each has as many whole matrices, in their
-// order, as fit into `maxBytes`, at least one.
+// The same frame as several messages with the same header: each has as many whole matrices, in
+// their order, as fit into `maxBytes`, at least one.
 std::vector<std::string> tactileSensorMessages(const TactileFrame& frame,
                                                std::uint64_t sequence,
                                                std::size_t maxBytes);

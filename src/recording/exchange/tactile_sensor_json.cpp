@@ -44,9 +44,7 @@ Json messageJson(const TactileFrame& frame, std::uint64_t sequence, Json matrice
                     .set("seq", static_cast<std::int64_t>(sequence))
                     .set("stamp", std::move(stamp))
                     .set("frame_id", "sdh");
-  return Json::object()
-      .set("header", std::move(header))
-      .set("tactile_matrix", std::move(matrices));
+  return Json::object().set("header", std::move(header)).set("tactile_matrix", std::move(matrices));
 }
 
 }  // namespace

@@ -185,8 +185,7 @@ std::vector<Fact> OtherPrograms::facts() const {
     const std::size_t clients = server_->stats().clients;
     facts.push_back(
         {"remote control",
-         QString::fromStdString(server_->socket().string()) + " · " +
-             clientsText(clients)});
+         QString::fromStdString(server_->socket().string()) + " · " + clientsText(clients)});
   }
   return facts;
 }

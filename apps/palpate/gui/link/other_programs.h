@@ -1,6 +1,6 @@
 // The interfaces of the window for other programs on this machine: live signals and taxels as
-// datagrams, the WebSocket for Foxglove, and remote control. All are off until the operator switches them on by actions; the
-// dock Link shows which are on.
+// datagrams, the WebSocket for Foxglove, and remote control. All are off until the operator
+// switches them on by actions; the dock Link shows which are on.
 #pragma once
 
 #include <QObject>
