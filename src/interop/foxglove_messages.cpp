@@ -271,9 +271,9 @@ std::string FoxgloveMessages::image(const TactileFrame& frame, std::size_t matri
   return out;
 }
 
-std::string FoxgloveMessages::signals(const LiveResults& results,
-                                      std::uint64_t sequence,
-                                      const LinkHealth* link) const {
+std::string FoxgloveMessages::signalObject(const LiveResults& results,
+                                           std::uint64_t sequence,
+                                           const LinkHealth* link) const {
   std::string out;
   appendSignalJson(out, results, sequence, link);
   return out;

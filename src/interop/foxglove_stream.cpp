@@ -93,7 +93,7 @@ void FoxgloveStream::send(const LiveResults& results) {
   if (server.wanted(messages.signalsChannel()))
     server.publish(messages.signalsChannel(),
                    nowUs,
-                   messages.signals(results, sequence, linkAt(*open_, nowUs)));
+                   messages.signalObject(results, sequence, linkAt(*open_, nowUs)));
   // Angles come less often than frames, or more often: each sample is sent once.
   if (const auto joints = messages.jointsChannel(); joints && results.angles &&
                                                     results.angles->hostUs != open_->anglesUs &&

@@ -157,11 +157,12 @@ TEST(FoxgloveMessages, TransformsAgreeWithTheTaxels) {
 }
 
 TEST(FoxgloveMessages, ShapesStandInTheFramesOfTheirLinks) {
-  const FoxgloveMessages messages(sdh2());
+  EXPECT_FALSE(FoxgloveMessages(sdh2()).shapesChannel());  // its URDF describes none
+  const FoxgloveMessages messages(builtInHand("four_fingers"));
   ASSERT_TRUE(messages.shapesChannel());
   EXPECT_TRUE(messages.channels()[*messages.shapesChannel()].latched);
   const Json entities = Json::parse(messages.shapes(1)).at("entities");
-  ASSERT_GT(entities.size(), 0u);
+  ASSERT_EQ(entities.size(), 21u);  // as many as its URDF has visuals
   for (std::size_t i = 0; i < entities.size(); ++i) {
     const Json entity = entities.at(i);
     const std::string frame = entity.at("frame_id").asString();

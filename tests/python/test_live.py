@@ -79,7 +79,7 @@ def test_messages_are_valid_by_the_schemas_that_are_advertised():
         client = Client(streaming.port())
         assert client.info["op"] == "serverInfo"
         topics = [topic for topic in client.channels if topic != "/events"]
-        assert {"/signals", "/joint_states", "/tf", "/hand/taxels", "/hand/shapes"} < set(topics)
+        assert {"/signals", "/joint_states", "/tf", "/hand/taxels"} < set(topics)
         for topic, (_, message) in first_of_each(client, topics).items():
             schema = json.loads(client.channels[topic]["schema"])
             jsonschema.validate(message, schema)

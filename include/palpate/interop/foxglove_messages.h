@@ -61,9 +61,9 @@ class FoxgloveMessages {
   // foxglove.RawImage of one matrix, row 0 (the fingertip) on top. Throws std::out_of_range.
   std::string image(const TactileFrame& frame, std::size_t matrix) const;
   // The object of signal_json.h.
-  std::string signals(const LiveResults& results,
-                      std::uint64_t sequence,
-                      const LinkHealth* link) const;
+  std::string signalObject(const LiveResults& results,
+                           std::uint64_t sequence,
+                           const LinkHealth* link) const;
   // foxglove.JointStates; position in rad or m.
   std::string joints(const JointAngles& angles) const;
   // foxglove.Log: a warning for gaps, faults and alarms, information otherwise.
