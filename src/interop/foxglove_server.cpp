@@ -283,6 +283,7 @@ class FoxgloveServer::Impl::Session : public std::enable_shared_from_this<Sessio
           response.set(http::field::sec_websocket_protocol, protocol);
         }));
     stream_.read_message_max(kMostClientBytes);
+    stream_.auto_fragment(false);  // a message is one frame: simple clients read no others
     stream_.async_accept(parser_.get(), [self = shared_from_this()](BoostError error) {
       if (error) {
         self->server_.refuse("a WebSocket handshake failed: " + error.message());
