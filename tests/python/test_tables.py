@@ -14,7 +14,7 @@ T_US = 1_400_000_000_123_000
 def sample(hand="sdh2"):
     rng = np.random.default_rng(5)
     places = sum(m["rows"] * m["columns"] for m in palpate.Hand(hand).matrices)
-    frames = rng.integers(1, 4000, (12, places))
+    frames = rng.integers(1, 1000, (12, places))
     axes = len(palpate.Hand(hand).axes)
     return palpate.record(frames, hand, time_ms=T_US // 1000 + 30 * np.arange(12), serial="S1",
                           angles=rng.normal(0, 9, (12, axes)) if axes else None)

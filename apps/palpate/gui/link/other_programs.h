@@ -18,6 +18,7 @@
 
 namespace palpate::gui {
 
+class ActionRegistry;
 struct LinkActions;
 
 // What OtherPrograms needs; the references must outlive it.
