@@ -124,6 +124,29 @@ def test_a_pad_without_joints_has_images_only(tmp_path):
         assert (image["width"], image["height"]) == (16, 16)
 
 
+def test_foxglove_reads_along_while_a_hand_is_recorded(tmp_path):
+    emulator = subprocess.Popen([PROGRAM, "emulate", "--hand", "parallel_gripper", "--stream", "0"],
+                                stdout=subprocess.PIPE, text=True)
+    source = emulator.stdout.readline().strip().removeprefix("stream=")
+    out = tmp_path / "a.palpate"
+    recorder = subprocess.Popen([PROGRAM, "record", "--stream", source, "--hand", "parallel_gripper",
+                                 "-o", str(out), "--to", "foxglove:0"], stderr=subprocess.PIPE, text=True)
+    try:
+        client = Client(int(recorder.stderr.readline().rsplit(":", 1)[1]))
+        time_ns, image = first_of_each(client, ["/tactile/left_finger/image"])[
+            "/tactile/left_finger/image"]
+        recorder.send_signal(signal.SIGINT)
+        assert recorder.wait(60) == 0, recorder.stderr.read()
+    finally:
+        recorder.kill()
+        emulator.kill()
+    recorded = palpate.load(out)
+    (frame,) = np.flatnonzero(recorded.time_us * 1000 == time_ns)
+    values = np.frombuffer(base64.b64decode(image["data"]),
+                           "<u2" if image["encoding"] == "mono16" else "<f4")
+    np.testing.assert_array_equal(values, recorded.matrix(0)[frame].ravel())
+
+
 def test_wrong_usage_is_one_line():
     def fails(*options):
         result = subprocess.run([PROGRAM, "stream", str(DEMO), *options], capture_output=True, text=True)
