@@ -360,16 +360,28 @@ VerifyReport verifyRecording(const std::filesystem::path& path,
   return report;
 }
 
+std::span<const RecordingForm> recordingForms() noexcept {
+  static constexpr RecordingForm kForms[] = {
+      {RecordingFormat::kDsa, ".dsa", "DSA recording"},
+      {RecordingFormat::kPalpate, ".palpate", "Palpate recording"},
+      {RecordingFormat::kCsv, ".csv", "CSV, a row per active taxel"},
+      {RecordingFormat::kNpz, ".npz", "NumPy"},
+      {RecordingFormat::kJsonLines, ".jsonl", "JSON lines, schunk_sdh/TactileSensor"},
+      {RecordingFormat::kHdf5, ".h5", "HDF5"},
+      {RecordingFormat::kHdf5, ".hdf5", "HDF5"},
+      {RecordingFormat::kMat, ".mat", "MATLAB, MAT 5"}};
+  return kForms;
+}
+
 RecordingFormat formatOf(const std::filesystem::path& path) {
   const std::string ending = lowerEndingOf(path);
-  if (ending == ".dsa") return RecordingFormat::kDsa;
-  if (ending == ".palpate") return RecordingFormat::kPalpate;
-  if (ending == ".csv") return RecordingFormat::kCsv;
-  if (ending == ".npz") return RecordingFormat::kNpz;
-  if (ending == ".jsonl") return RecordingFormat::kJsonLines;
-  if (ending == ".h5" || ending == ".hdf5") return RecordingFormat::kHdf5;
-  if (ending == ".mat") return RecordingFormat::kMat;
-  throw FileError(path, "its name must end in .dsa, .palpate, .csv, .npz, .jsonl, .h5 or .mat");
+  std::string list;
+  for (const RecordingForm& form : recordingForms()) {
+    if (ending == form.ending) return form.format;
+    const bool last = &form == &recordingForms().back();
+    list += (list.empty() ? "" : last ? " or " : ", ") + std::string(form.ending);
+  }
+  throw FileError(path, "its name must end in " + list);
 }
 
 EventsReport readEvents(const std::filesystem::path& path) {

@@ -4,11 +4,14 @@
 #include <cstdio>
 #include <set>
 
+#include "palpate/batch/batch_task.h"
 #include "palpate/core/error.h"
 #include "palpate/core/escaped_line.h"
+#include "palpate/core/number_text.h"
 #include "palpate/recording/crop.h"
 #include "palpate/recording/recording.h"
 
+#include "commands/batch_options.h"
 #include "commands/command_line.h"
 #include "commands/commands.h"
 #include "commands/export_options.h"
@@ -131,11 +134,28 @@ int convertFolder(const CommandLine& given,
       });
 }
 
+std::vector<std::string> formNames() {
+  std::vector<std::string> names;
+  for (const RecordingForm& form : recordingForms()) names.emplace_back(form.ending + 1);
+  return names;
+}
+
+int convertBatch(const CommandLine& given) {
+  for (const char* name : {"from", "to", "to-form"})
+    if (given.has(name))
+      throw UsageError("--" + std::string(name) + " doesn't go with -o; the ending of the template " +
+                       "chooses the form");
+  std::vector<std::string> endings;
+  for (const RecordingForm& form : recordingForms()) endings.emplace_back(form.ending);
+  return runBatchCommand(given, endings, convertTask());
+}
+
 }  // namespace
 
 int convertCommand(const Arguments& words) {
   const CommandLine given(
-      {.synopsis = "palpate convert IN OUT [--from N --to M] | FOLDER OUTFOLDER --to-form FORM",
+      {.synopsis = "palpate convert IN OUT [--from N --to M] | FOLDER OUTFOLDER --to-form FORM\n"
+                   "       palpate convert PATH... -o TEMPLATE",
        .purpose =
            "Converts a recording; the ending of OUT chooses the format: .dsa, .palpate, .csv "
            "(with\nOUT.angles.csv and OUT.temperatures.csv beside it), .npz (for NumPy) or .jsonl "
@@ -143,19 +163,21 @@ int convertCommand(const Arguments& words) {
            "Of a FOLDER every recording\nbelow it, into OUTFOLDER under the same names with "
            "the ending of FORM, a line per file; one that\nfails doesn't stop the others: exit "
            "code 3.",
-       .options = withExportOptions(withFilterOptions(
+       .options = withBatchOptions(withExportOptions(withFilterOptions(
            {{"from", "N", "first frame, default 0"},
             {"to", "M", "last frame (inclusive), default the last one"},
-            {"to-form", "FORM", "of a folder: dsa, palpate, csv, npz, h5, mat or jsonl"},
-            {"force", "", "replace OUT, or files in OUTFOLDER"}})),
+            {"to-form", "FORM", "of a folder: dsa, palpate, csv, npz, jsonl, h5 or mat"}}))),
        .example = "palpate convert foam_ball.dsa grasp3.palpate --from 700 --to 1400",
-       .minArguments = 2,
-       .maxArguments = 2},
+       .minArguments = 1},
       words);
   if (given.helpShown()) return kDone;
+  if (given.has("output")) return convertBatch(given);
+  if (given.words().size() != 2)
+    throw UsageError("convert takes IN OUT, FOLDER OUTFOLDER or PATH.. -o TEMPLATE, not " +
+                     counted(given.words().size(), "word"));
   const std::string& in = given.words()[0];
   const std::string& out = given.words()[1];
-  const auto form = given.choice("to-form", {"dsa", "palpate", "csv", "npz", "h5", "mat", "jsonl"});
+  const auto form = given.choice("to-form", formNames());
   std::error_code ignored;
   const bool isFolder = fs::is_directory(in, ignored);
   if (isFolder && !form)
@@ -163,6 +185,9 @@ int convertCommand(const Arguments& words) {
   if (!isFolder && form) throw UsageError("--to-form needs a folder; " + in + " isn't one");
   if (isFolder && (given.has("from") || given.has("to")))
     throw UsageError("--from and --to work with one recording, not with a folder");
+  if (isFolder && hasBatchOptions(given))
+    return runBatchCommand(given, {}, convertTask(), in, fs::path(out) / ("{name}." + *form));
+  refuseBatchOptions(given);
   return isFolder ? convertFolder(given, in, out, *form) : convertOne(given, in, out);
 }
 

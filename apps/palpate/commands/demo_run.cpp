@@ -18,7 +18,6 @@
 
 #include "commands/commands.h"
 #include "commands/demo_pictures.h"
-#include "commands/slip_rows.h"
 #include "gui/shell/run_window.h"
 
 namespace palpate::commands {

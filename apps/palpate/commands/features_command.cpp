@@ -2,12 +2,12 @@
 #include <cstdio>
 #include <filesystem>
 
+#include "palpate/batch/batch_task.h"
 #include "palpate/core/escaped_line.h"
 #include "palpate/core/interruption.h"
-#include "palpate/core/number_text.h"
-#include "palpate/core/text_table.h"
 #include "palpate/recognition/feature_table.h"
 
+#include "commands/batch_options.h"
 #include "commands/command_line.h"
 #include "commands/commands.h"
 
@@ -29,22 +29,11 @@ FeatureTable gather(const CommandLine& given, const FeatureExtractionOptions& op
       });
 }
 
-std::vector<std::string> featuresCellsOf(const FeatureRow& row) {
-  std::vector<std::string> cells = {row.className,
-                                    row.file.string(),
-                                    std::to_string(row.begin),
-                                    std::to_string(row.end),
-                                    std::to_string(row.initialFrame),
-                                    std::to_string(row.endFrame)};
-  for (const double value : row.values) cells.push_back(numberText(value));
-  return cells;
-}
-
 }  // namespace
 
 int featuresCommand(const Arguments& words) {
   const CommandLine given(
-      {.synopsis = "palpate features PATH... [--set study|best|session|statistics]",
+      {.synopsis = "palpate features PATH... [--set study|best|session|statistics] [-o TEMPLATE]",
        .purpose =
            "Prints the features of every grasp as a row of CSV: class, file, first and last frame "
            "(both inclusive),\nthe frames at which it begins and ends for the features, then the "
@@ -61,11 +50,11 @@ int featuresCommand(const Arguments& words) {
            "in a row;\nwith statistics two fingers touch, or the only one. A grasp without "
            "features (no joint angles, pads that don't face each other) "
            "and a recording without a grasp are\nreported on standard error; then the exit code is "
-           "3.",
-       .options = {{"set",
+           "3. With -o a table for each recording.",
+       .options = withBatchOptions({{"set",
                     "SET",
                     "study, best (default where two pads pinch), session or statistics (default of "
-                    "other hands)"}},
+                    "other hands)"}}),
        .example = "palpate features recordings --set best > features.csv",
        .minArguments = 1},
       words);
@@ -73,6 +62,8 @@ int featuresCommand(const Arguments& words) {
   FeatureExtractionOptions options;
   const auto set = given.choice("set", {"study", "best", "session", "statistics"});
   if (set) options.set = *featureSetNamed(*set);
+  if (given.has("output")) return runBatchCommand(given, {".csv"}, featuresTask(options.set));
+  refuseBatchOptions(given);
   const FeatureTable table = gather(given, options);
 
   if (table.set == FeatureSet::kSession && !given.quiet())
@@ -84,10 +75,8 @@ int featuresCommand(const Arguments& words) {
     return kFailed;
   }
   StandardOutput out;
-  std::vector<std::string> header = {"class", "file", "begin", "end", "initial_frame", "end_frame"};
-  header.insert(header.end(), table.names.begin(), table.names.end());
-  out.write(csvLine(header));
-  for (const FeatureRow& row : table.rows) out.write(csvLine(featuresCellsOf(row)));
+  out.write(featureHeaderLine(table));
+  for (const FeatureRow& row : table.rows) out.write(featureLine(row));
   out.finish();
   return table.problems.empty() ? kDone : kPartlyDone;
 }

@@ -2,9 +2,8 @@
 
 #include <stdexcept>
 
+#include "palpate/batch/batch_task.h"
 #include "palpate/core/number_text.h"
-#include "palpate/filter/filtered_profile.h"
-#include "palpate/recording/recording.h"
 
 #include "commands/commands.h"
 
@@ -75,12 +74,7 @@ Profile filteredBy(const Recipe& recipe,
                    const Profile& profile,
                    const std::filesystem::path& file,
                    const Progress& progress) {
-  if (recipe.empty()) return profile;
-  try {
-    return filteredProfile(profile, recipe, {settingsTimesUs(readEvents(file).events)}, progress);
-  } catch (const std::invalid_argument& error) {
-    throw Error(file.string() + ": " + error.what());
-  }
+  return filteredRecording(recipe, profile, file, progress);
 }
 
 std::optional<SignalKind> signalChosen(const CommandLine& given) {

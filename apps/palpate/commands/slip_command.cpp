@@ -5,66 +5,22 @@
 #include <optional>
 #include <string>
 
+#include "palpate/batch/batch_task.h"
 #include "palpate/core/error.h"
 #include "palpate/core/number_text.h"
 #include "palpate/core/text_table.h"
 #include "palpate/core/time.h"
-#include "palpate/slip/slip_segments.h"
+#include "palpate/slip/slip_rows.h"
 
 #include "commands/command_line.h"
+#include "commands/batch_options.h"
 #include "commands/commands.h"
 #include "commands/recording_list.h"
-#include "commands/slip_rows.h"
 
 namespace palpate::commands {
 namespace {
 
-constexpr const char* kSegmentColumns =
-    "begin,end,begin_ms,end_ms,matrix,path_taxels,rotation_deg,confidence";
-
-struct SlipRequest {
-  SlipRunOptions pass;
-  std::optional<std::int64_t> matrix;
-};
-
-void writeRows(StandardOutput& out,
-               const Profile& profile,
-               const SlipRequest& request,
-               const std::string& lineEnd,
-               const Progress& progress) {
-  forEachSlipRow(
-      profile,
-      request.pass,
-      request.matrix,
-      [&](const std::string& row) { out.write(row + lineEnd); },
-      progress);
-}
-
-void writeSegments(StandardOutput& out,
-                   const Profile& profile,
-                   const SlipRequest& request,
-                   const std::string& lineEnd,
-                   const Progress& progress) {
-  std::string line;
-  for (const SlipSegment& segment : findSlips(profile, {.pass = request.pass}, progress)) {
-    if (request.matrix && *request.matrix != static_cast<std::int64_t>(segment.matrix)) continue;
-    line.clear();
-    for (const std::int64_t value : {static_cast<std::int64_t>(segment.begin),
-                                     static_cast<std::int64_t>(segment.end),
-                                     segment.beginUs / kUsPerMs,
-                                     segment.endUs / kUsPerMs,
-                                     static_cast<std::int64_t>(segment.matrix)}) {
-      appendNumber(line, value);
-      line += ',';
-    }
-    appendNumber(line, segment.pathTaxels);
-    appendSlipCell(line, true, segment.rotationDeg);
-    appendSlipCell(line, true, segment.confidence);
-    out.write(line += lineEnd);
-  }
-}
-
-void readReference(const CommandLine& given, SlipRequest& request) {
+void readReference(const CommandLine& given, SlipTable& request) {
   const std::string word = given.text("reference").value_or("first");
   SlipDetectorOptions& detector = request.pass.detector;
   if (word == "first") {
@@ -79,8 +35,8 @@ void readReference(const CommandLine& given, SlipRequest& request) {
   }
 }
 
-SlipRequest slipRequestOf(const CommandLine& given) {
-  SlipRequest request;
+SlipTable slipTableOf(const CommandLine& given) {
+  SlipTable request;
   SlipDetectorOptions& detector = request.pass.detector;
   std::vector<std::string> methods;
   for (const SlipMethod method : slipMethods()) methods.emplace_back(nameOf(method));
@@ -95,31 +51,19 @@ SlipRequest slipRequestOf(const CommandLine& given) {
   return request;
 }
 
-void requireThere(const std::filesystem::path& file,
-                  const Profile& profile,
-                  const SlipRequest& request) {
-  const auto matrices = static_cast<std::int64_t>(profile.layout().numMatrices());
-  if (request.matrix && *request.matrix >= matrices)
-    throw Error(file.string() + ": has no matrix " + std::to_string(*request.matrix) +
-                ", only 0.." + std::to_string(matrices - 1));
-  if (request.pass.detector.reference == SlipReference::kGiven &&
-      request.pass.referenceFrame >= profile.numFrames())
-    throw Error(file.string() + ": has no frame " + std::to_string(request.pass.referenceFrame) +
-                " to be the reference; it has " + std::to_string(profile.numFrames()));
-}
-
 }  // namespace
 
 int slipCommand(const Arguments& words) {
   const CommandLine given(
-      {.synopsis = "palpate slip PATH... [--method METHOD] [--reference first|rest|FRAME]",
+      {.synopsis = "palpate slip PATH... [--method METHOD] [--reference first|rest|FRAME] [-o TEMPLATE]",
        .purpose =
            "Prints, for every frame and every matrix with an active taxel, how the contact moved "
            "since the frame before\n(dx, dy) and since the reference [taxels, x right, y down], "
            "how it turned, and whether that is slip, as CSV;\ndocs/slip.md explains the columns. "
            "With --segments a row per slip instead. PATH is a recording, or a folder:\nevery "
-           "recording below it. With several a last column names the file.",
-       .options = {{"method",
+           "recording below it. With several a last column names the file. With "
+           "-o a table for each\nrecording.",
+       .options = withBatchOptions({{"method",
                     "METHOD",
                     "centroid, alcazar, ncc-paraboloid, ncc-gauss3, phase, phase-normalized, "
                     "register, contest (default: weighed against a load that shifts)"},
@@ -131,13 +75,19 @@ int slipCommand(const Arguments& words) {
                    {"step", "T", "threshold per frame [taxels], default 0.20"},
                    {"limit", "T", "threshold since the reference [taxels], default 1.0"},
                    {"rotation", "DEG", "threshold of turning [deg], default 5"},
-                   {"segments", "", "a row per slip: frames, matrix, length of the way"}},
+                   {"segments", "", "a row per slip: frames, matrix, length of the way"}}),
        .example = "palpate slip bottle.dsa --reference rest > slip.csv",
        .minArguments = 1},
       words);
   if (given.helpShown()) return kDone;
-  const SlipRequest request = slipRequestOf(given);
+  const SlipTable request = slipTableOf(given);
   const bool segments = given.has("segments");
+  if (given.has("output")) {
+    SlipTable table = request;
+    table.segments = segments;
+    return runBatchCommand(given, {".csv"}, slipTask(table));
+  }
+  refuseBatchOptions(given);
   const RecordingList recordings = recordingsIn(given.words());
   StandardOutput out;
   bool headerWritten = false;
@@ -147,11 +97,16 @@ int slipCommand(const Arguments& words) {
       [&](const std::filesystem::path& file, const Profile& profile, const Progress& progress) {
         requireThere(file, profile, request);
         if (!headerWritten)
-          out.write(std::string(segments ? kSegmentColumns : kSlipColumns) +
+          out.write(std::string(segments ? kSlipSegmentColumns : kSlipColumns) +
                     (recordings.several ? ",file\n" : "\n"));
         headerWritten = true;
         const std::string lineEnd = recordings.several ? "," + csvLine({file.string()}) : "\n";
-        (segments ? writeSegments : writeRows)(out, profile, request, lineEnd, progress);
+        (segments ? forEachSlipSegmentRow : forEachSlipRow)(
+            profile,
+            request.pass,
+            request.matrix,
+            [&](const std::string& row) { out.write(row + lineEnd); },
+            progress);
         out.finish();
       });
 }

@@ -60,8 +60,15 @@ VerifyReport verifyRecording(const std::filesystem::path& path,
 
 // The forms a recording can be saved in.
 enum class RecordingFormat { kDsa, kPalpate, kCsv, kNpz, kJsonLines, kHdf5, kMat };
-// The form that the ending of a name stands for: .dsa, .palpate, .csv, .npz, .jsonl, .h5 (or
-// .hdf5), .mat, in small or capital letters. Throws FileError naming them all.
+struct RecordingForm {
+  RecordingFormat format;
+  const char* ending;   // with its dot: ".palpate"
+  const char* purpose;  // for lists: "Palpate recording"
+};
+// All forms with the endings that stand for them.
+std::span<const RecordingForm> recordingForms() noexcept;
+// The form that the ending of a name stands for, in small or capital letters. Throws FileError naming
+// them all.
 RecordingFormat formatOf(const std::filesystem::path& path);
 
 // What was noted or happened in a recording: the events of a .palpate or .h5, the sidecar

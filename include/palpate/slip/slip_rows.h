@@ -1,5 +1,5 @@
-// Slip as CSV, for `palpate slip` and `palpate demo`: one row for each frame and matrix with an
-// active taxel.
+// Slip as CSV: one row for each frame and matrix with an active taxel, or one for each slip.
+// docs/slip.md explains the columns.
 #pragma once
 
 #include <cstdint>
@@ -7,11 +7,11 @@
 #include <optional>
 #include <string>
 
-#include "palpate/core/progress.h"
-#include "palpate/model/profile.h"
-#include "palpate/slip/slip_segments.h"
+#include <palpate/core/progress.h>
+#include <palpate/model/profile.h>
+#include <palpate/slip/slip_segments.h>
 
-namespace palpate::commands {
+namespace palpate {
 
 // The header row without line end.
 extern const char* const kSlipColumns;
@@ -22,7 +22,14 @@ void forEachSlipRow(const Profile& profile,
                     std::optional<std::int64_t> matrix,
                     const std::function<void(const std::string& row)>& sink,
                     const Progress& progress = {});
+// The same for the slips of findSlips().
+extern const char* const kSlipSegmentColumns;
+void forEachSlipSegmentRow(const Profile& profile,
+                           const SlipRunOptions& pass,
+                           std::optional<std::int64_t> matrix,
+                           const std::function<void(const std::string& row)>& sink,
+                           const Progress& progress = {});
 // Appends ",VALUE", or "," when the value is unknown.
 void appendSlipCell(std::string& row, bool known, double value);
 
-}  // namespace palpate::commands
+}  // namespace palpate

@@ -1,11 +1,11 @@
-#include "commands/slip_rows.h"
+#include "palpate/slip/slip_rows.h"
 
 #include <vector>
 
 #include "palpate/core/number_text.h"
 #include "palpate/core/time.h"
 
-namespace palpate::commands {
+namespace palpate {
 namespace {
 
 void appendDetection(std::string& row, const SlipDetection& detection) {
@@ -37,6 +37,9 @@ const char* const kSlipColumns =
     "frame,time_ms,matrix,active,valid,dx,dy,ref_dx,ref_dy,rotation_valid,rotation_deg,"
     "ref_rotation_deg,orientation_deg,eccentricity,roundness,residual,confidence,p_moved,state,"
     "slipping";
+
+const char* const kSlipSegmentColumns =
+    "begin,end,begin_ms,end_ms,matrix,path_taxels,rotation_deg,confidence";
 
 void appendSlipCell(std::string& row, bool known, double value) {
   row += ',';
@@ -70,4 +73,28 @@ void forEachSlipRow(const Profile& profile,
       progress);
 }
 
-}  // namespace palpate::commands
+void forEachSlipSegmentRow(const Profile& profile,
+                           const SlipRunOptions& pass,
+                           std::optional<std::int64_t> matrix,
+                           const std::function<void(const std::string& row)>& sink,
+                           const Progress& progress) {
+  std::string row;
+  for (const SlipSegment& segment : findSlips(profile, {.pass = pass}, progress)) {
+    if (matrix && *matrix != static_cast<std::int64_t>(segment.matrix)) continue;
+    row.clear();
+    for (const std::int64_t value : {static_cast<std::int64_t>(segment.begin),
+                                     static_cast<std::int64_t>(segment.end),
+                                     segment.beginUs / kUsPerMs,
+                                     segment.endUs / kUsPerMs,
+                                     static_cast<std::int64_t>(segment.matrix)}) {
+      appendNumber(row, value);
+      row += ',';
+    }
+    appendNumber(row, segment.pathTaxels);
+    appendSlipCell(row, true, segment.rotationDeg);
+    appendSlipCell(row, true, segment.confidence);
+    sink(row);
+  }
+}
+
+}  // namespace palpate

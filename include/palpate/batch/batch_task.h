@@ -1,0 +1,53 @@
+// What a batch can do with each recording: convert it, or compute a table of it. The tables are
+// those of the commands of the same names.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include <palpate/batch/batch_run.h>
+#include <palpate/filter/recipe.h>
+#include <palpate/recognition/feature_table.h>
+#include <palpate/slip/slip_segments.h>
+
+namespace palpate {
+
+// Each throws std::invalid_argument where a filter is not allowed; the work throws Error for a
+// matrix or frame that a recording doesn't have.
+
+// The form is that of the result's ending (formatOf()).
+BatchTask convertTask(const Recipe& filters = {});
+
+struct SignalTable {
+  std::optional<std::int64_t> matrix = {};  // only this one
+  Recipe filters = {};                      // of the frames, first
+  Recipe smooth = {};                       // of the signals, over time
+};
+BatchTask signalsTask(const SignalTable& table);
+
+struct SlipTable {
+  SlipRunOptions pass = {};
+  std::optional<std::int64_t> matrix = {};
+  bool segments = false;  // a row per slip instead of one per frame and matrix
+};
+BatchTask slipTask(const SlipTable& table);
+// Throws Error when the recording hasn't the matrix or the reference frame of the table.
+void requireThere(const std::filesystem::path& file, const Profile& profile, const SlipTable& table);
+
+// Without grasps with features the work fails. The class of a grasp is as in feature_table.h.
+BatchTask featuresTask(std::optional<FeatureSet> set = {});
+// The lines of `palpate features`, each with its line end.
+std::string featureHeaderLine(const FeatureTable& table);
+std::string featureLine(const FeatureRow& row);
+
+// The filtered recording; the recording itself when the recipe is empty. Events "settings" restart
+// the filters over time. Throws Error (a matrix that the recording does not have; an unreadable
+// file) and Cancelled.
+Profile filteredRecording(const Recipe& recipe,
+                          const Profile& profile,
+                          const std::filesystem::path& file,
+                          const Progress& progress = {});
+
+}  // namespace palpate

@@ -1,0 +1,28 @@
+// The characteristic signals of a recording as CSV: one row for each frame and matrix. docs/signals.md
+// explains the columns.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <string>
+
+#include <palpate/core/progress.h>
+#include <palpate/filter/recipe.h>
+#include <palpate/model/profile.h>
+
+namespace palpate {
+
+// The header row without line end.
+extern const char* const kSignalColumns;
+// Passes the rows of one frame at a time to `sink`, each with `lineEnd`; of one matrix or of all.
+// `smooth`: filters over time that are applied to the signals themselves; may be empty. Throws
+// Cancelled, std::invalid_argument (a filter over space), and what the sink throws.
+void writeSignalRows(const Profile& profile,
+                     std::optional<std::size_t> onlyMatrix,
+                     const Recipe& smooth,
+                     const std::string& lineEnd,
+                     const std::function<void(const std::string& lines)>& sink,
+                     const Progress& progress = {});
+
+}  // namespace palpate

@@ -1,0 +1,223 @@
+#include "palpate/batch/batch_plan.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <map>
+#include <set>
+#include <stdexcept>
+#include <string_view>
+#include <system_error>
+
+#include <time.h>
+
+#include "palpate/core/error.h"
+#include "palpate/core/escaped_line.h"
+#include "palpate/core/parallel.h"
+#include "palpate/recording/recording.h"
+#include "palpate/recording/recording_folder.h"
+
+namespace palpate {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr std::size_t kMostNameBytes = 255;
+constexpr std::array kFieldNames = {"name", "folder", "ending", "date", "time"};
+
+std::string localText(std::int64_t timeUs, const char* format) {
+  constexpr std::int64_t kUsPerS = 1'000'000;
+  const auto seconds = static_cast<time_t>(timeUs / kUsPerS - (timeUs % kUsPerS < 0 ? 1 : 0));
+  struct tm parts {};
+  ::localtime_r(&seconds, &parts);
+  char text[64];
+  return {text, std::strftime(text, sizeof text, format, &parts)};
+}
+
+void requireFields(std::string_view text) {
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t open = text.find_first_of("{}", at);
+    if (open == std::string_view::npos) return;
+    const std::size_t close = text.find_first_of("{}", open + 1);
+    if (text[open] == '}' || close == std::string_view::npos || text[close] == '{')
+      throw std::invalid_argument("template '" + escapedLine(text) + "': a brace without its partner");
+    const std::string_view field = text.substr(open + 1, close - open - 1);
+    if (std::find(kFieldNames.begin(), kFieldNames.end(), field) == kFieldNames.end())
+      throw std::invalid_argument("template '" + escapedLine(text) + "': {" + escapedLine(field) +
+                                  "} isn't known; use {name}, {folder}, {ending}, {date}, {time}");
+    at = close + 1;
+  }
+}
+
+std::string joinedFolders(const fs::path& folder) {
+  std::string text;
+  for (const fs::path& part : folder) text += (text.empty() ? "" : "_") + part.string();
+  return text;
+}
+
+// `text` with its fields replaced. An empty field takes the "_" or "-" behind it along.
+std::string filledText(std::string_view text, const BatchNameFields& fields, bool isFolder) {
+  std::string filled;
+  while (!text.empty()) {
+    const std::size_t open = std::min(text.find('{'), text.size());
+    filled += text.substr(0, open);
+    text.remove_prefix(open);
+    if (text.empty()) break;
+    const std::size_t close = text.find('}');
+    const std::string_view field = text.substr(1, close - 1);
+    std::string value;
+    if (field == "name") value = fields.name;
+    if (field == "folder") value = isFolder ? fields.folder.string() : joinedFolders(fields.folder);
+    if (field == "ending") value = fields.ending;
+    if (field == "date") value = localText(fields.timeUs, "%Y-%m-%d");
+    if (field == "time") value = localText(fields.timeUs, "%H-%M-%S");
+    filled += value;
+    text.remove_prefix(close + 1);
+    if (value.empty() && !text.empty() && (text[0] == '_' || text[0] == '-')) text.remove_prefix(1);
+  }
+  return filled;
+}
+
+fs::path realPath(const fs::path& path) {
+  std::error_code failure;
+  const fs::path real = fs::weakly_canonical(fs::absolute(path), failure);
+  return failure ? fs::absolute(path).lexically_normal() : real;
+}
+
+bool isWithin(const fs::path& path, const fs::path& folder) {
+  return std::mismatch(folder.begin(), folder.end(), path.begin(), path.end()).first ==
+         folder.end();
+}
+
+void findSources(const std::vector<fs::path>& paths, BatchPlan& plan, const Progress& progress) {
+  std::set<fs::path> known;
+  const auto add = [&](const fs::path& source, const fs::path& root) {
+    if (known.insert(realPath(source)).second)
+      plan.items.push_back({.source = source, .root = root});
+  };
+  for (const fs::path& path : paths) {
+    std::error_code ignored;
+    if (!fs::is_directory(path, ignored)) {
+      add(path, {});
+      continue;
+    }
+    if (isWithin(realPath(plan.folder), realPath(path)))
+      throw FileError(plan.folder, "lies in the folder that is read; name one outside");
+    const RecordingFolder found = recordingsBelow(path, progress);
+    for (const fs::path& file : found.files) add(file, path);
+    for (const std::string& problem : found.problems) plan.problems.push_back(problem);
+    if (found.files.empty() && found.problems.empty())
+      plan.problems.emplace_back(
+          FileError(path, "no recording (.palpate, .dsa) in this folder or its subfolders").what());
+  }
+}
+
+void nameTarget(BatchItem& item, const BatchTemplate& names) {
+  BatchNameFields fields;
+  fields.name = item.source.stem().string();
+  fields.ending = item.source.extension().string();
+  if (!fields.ending.empty()) fields.ending.erase(0, 1);
+  if (!item.root.empty())
+    fields.folder = item.source.parent_path().lexically_relative(item.root).lexically_normal();
+  if (fields.folder == ".") fields.folder.clear();
+  try {
+    if (names.needsTime()) {
+      const Profile profile = openRecording(item.source, {}, 1);
+      if (profile.numFrames() == 0)
+        throw FileError(item.source, "has no frames, so {date} and {time} aren't known");
+      fields.timeUs = profile.frameTimeUs(0);
+    }
+    item.target = names.pathFor(fields);
+  } catch (const std::exception& error) {
+    item.problem = error.what();
+  }
+}
+
+void requireDifferent(const BatchPlan& plan) {
+  std::set<fs::path> sources;
+  for (const BatchItem& item : plan.items) sources.insert(realPath(item.source));
+  std::map<fs::path, fs::path> made;
+  std::map<fs::path, fs::path> folders;  // asked once each
+  for (const BatchItem& item : plan.items) {
+    if (item.target.empty()) continue;
+    fs::path& folder = folders[item.target.parent_path()];
+    if (folder.empty()) folder = realPath(item.target.parent_path());
+    const fs::path real = folder / item.target.filename();
+    const auto [other, isNew] = made.emplace(real, item.source);
+    if (!isNew)
+      throw FileError(item.target,
+                      "would be made from both '" + other->second.string() + "' and '" +
+                          item.source.string() +
+                          "'; tell them apart by {folder}, {ending}, {date} or {time}");
+    if (sources.contains(real) || sources.contains(realPath(item.target)))
+      throw FileError(item.target, "would be written onto a recording that is read");
+  }
+}
+
+}  // namespace
+
+BatchTemplate::BatchTemplate(const std::string& text) {
+  if (std::any_of(text.begin(), text.end(), [](unsigned char c) { return c < 0x20 || c == 0x7F; }))
+    throw std::invalid_argument("template '" + escapedLine(text) +
+                                "': control characters aren't allowed in names");
+  requireFields(text);
+  const fs::path path(text);
+  name_ = path.filename().string();
+  if (name_.empty() || fs::path(name_).extension().string().size() < 2 ||
+      ending().find_first_of("{}") != std::string::npos)
+    throw std::invalid_argument("template '" + escapedLine(text) +
+                                "': it must end in a name with an ending, as out/{name}.csv");
+  bool fixed = true;
+  for (const fs::path& part : path.parent_path()) {
+    fixed = fixed && part.string().find('{') == std::string::npos;
+    if (fixed)
+      folder_ /= part;
+    else
+      folders_.push_back(part.string());
+  }
+  if (folder_.empty()) folder_ = ".";
+  keepsFolders_ = text.find("{folder}") == std::string::npos;
+}
+
+bool BatchTemplate::needsTime() const noexcept {
+  const auto has = [](const std::string& text) {
+    return text.find("{date}") != std::string::npos || text.find("{time}") != std::string::npos;
+  };
+  return has(name_) || std::any_of(folders_.begin(), folders_.end(), has);
+}
+
+fs::path BatchTemplate::pathFor(const BatchNameFields& fields) const {
+  fs::path path = folder_;
+  const auto addFolders = [&](const fs::path& folders) {
+    for (const fs::path& part : folders) {
+      if (part == "..") throw Error("'" + escapedLine(folders.string()) + "' leaves its folder");
+      if (!part.empty()) path /= part;
+    }
+  };
+  for (const std::string& folder : folders_) addFolders(filledText(folder, fields, true));
+  if (keepsFolders_) addFolders(fields.folder);
+  const std::string name = filledText(name_, fields, false);
+  const std::string stem = fs::path(name).stem().string();
+  if (name.starts_with('.') || stem.empty())
+    throw Error("'" + escapedLine(name) + "' isn't a name for a result: nothing in front of its ending");
+  if (name.size() > kMostNameBytes)
+    throw Error("'" + escapedLine(name) + "' is longer than the 255 bytes of a name");
+  return path / name;
+}
+
+BatchPlan planBatch(const std::vector<fs::path>& paths,
+                    const BatchTemplate& names,
+                    const Progress& progress) {
+  BatchPlan plan;
+  plan.folder = names.folder();
+  findSources(paths, plan, progress);
+  // Only reading the time takes long.
+  forEachInParallel(
+      plan.items.size(),
+      [&](std::size_t i) { nameTarget(plan.items[i], names); },
+      progress,
+      names.needsTime() ? 0 : 1);
+  requireDifferent(plan);
+  return plan;
+}
+
+}  // namespace palpate

@@ -1,0 +1,224 @@
+#include "palpate/batch/batch_task.h"
+
+#include <stdexcept>
+#include <vector>
+
+#include "palpate/core/error.h"
+#include "palpate/core/number_text.h"
+#include "palpate/core/text_table.h"
+#include "palpate/filter/filtered_profile.h"
+#include "palpate/recording/recording.h"
+#include "palpate/signals/signal_filter.h"
+#include "palpate/signals/signal_rows.h"
+#include "palpate/slip/slip_rows.h"
+
+namespace palpate {
+namespace fs = std::filesystem;
+namespace {
+
+// The part of the progress between two fractions.
+Progress partOf(const Progress& progress, double begin, double end) {
+  return [&progress, begin, end](double fraction) {
+    return !progress || progress(begin + (end - begin) * fraction);
+  };
+}
+
+std::string matrixText(const std::optional<std::int64_t>& matrix) {
+  return matrix ? "; matrix " + std::to_string(*matrix) : "";
+}
+
+void requireMatrix(const fs::path& file,
+                   const Profile& profile,
+                   const std::optional<std::int64_t>& matrix) {
+  const auto matrices = static_cast<std::int64_t>(profile.layout().numMatrices());
+  if (matrix && *matrix >= matrices)
+    throw Error(file.string() + ": has no matrix " + std::to_string(*matrix) + ", only 0.." +
+                std::to_string(matrices - 1));
+}
+
+// What `palpate slip` and the window can set.
+std::string passText(const SlipRunOptions& pass) {
+  const SlipDetectorOptions& detector = pass.detector;
+  const SlipRuleOptions& rule = detector.rule;
+  return std::string(nameOf(detector.method)) + "; reference " +
+         std::to_string(static_cast<int>(detector.reference)) + " " +
+         std::to_string(pass.referenceFrame) + "; limits " + numberText(rule.stepTaxels) + " " +
+         numberText(rule.referenceTaxels) + " " + numberText(rule.rotationDeg);
+}
+
+// A table that is written row by row; its bytes are gathered to pieces.
+class TableFile {
+ public:
+  TableFile(const fs::path& path, Overwrite overwrite) : file_(path, overwrite) {}
+  void write(std::string_view text) {
+    constexpr std::size_t kPiece = 1u << 16;
+    text_ += text;
+    if (text_.size() >= kPiece) flush();
+  }
+  void commit() {
+    flush();
+    file_.commit();
+  }
+
+ private:
+  void flush() {
+    file_.write(text_);
+    text_.clear();
+  }
+  OutputFile file_;
+  std::string text_;
+};
+
+// Folders of one class each lie in the given folder; see feature_table.h.
+std::string classIn(const BatchItem& item) {
+  if (item.root.empty()) return {};
+  const fs::path below = item.source.parent_path().lexically_relative(item.root);
+  if (!below.empty() && below != ".") return classOfFolder(item.root / *below.begin());
+  return classOfFolder(fs::absolute(item.root).lexically_normal());
+}
+
+}  // namespace
+
+BatchTask convertTask(const Recipe& filters) {
+  filters.validate();
+  return {.options = "convert; " + recipeText(filters),
+          .work = [filters](const BatchItem& item,
+                            Overwrite overwrite,
+                            const Progress& progress,
+                            std::size_t threads) {
+            formatOf(item.target);
+            const Profile whole = openRecording(item.source, partOf(progress, 0.0, 0.5), threads);
+            const EventsReport events = readEvents(item.source);
+            const Profile profile =
+                filteredRecording(filters, whole, item.source, partOf(progress, 0.5, 0.5));
+            const SaveReport saved = saveRecording(
+                profile, events.events, item.target, overwrite, partOf(progress, 0.5, 1.0));
+            BatchAnswer answer{.said = counted(profile.numFrames(), "frame")};
+            if (saved.movedStamps > 0)
+              answer.said += "; " + std::to_string(saved.movedStamps) +
+                             " time stamps moved behind the one before: whole milliseconds must "
+                             "grow";
+            if (events.damaged > 0)
+              answer.problem = item.source.string() + ": " + std::to_string(events.damaged) +
+                               " damaged events were left out";
+            return answer;
+          }};
+}
+
+BatchTask signalsTask(const SignalTable& table) {
+  table.filters.validate();
+  SignalFilter(table.smooth, 1, [](std::int64_t, std::span<const SignalValues>) {});
+  return {.options = "signals; " + recipeText(table.filters) + "; smooth " +
+                     recipeText(table.smooth) + matrixText(table.matrix),
+          .work = [table](const BatchItem& item,
+                          Overwrite overwrite,
+                          const Progress& progress,
+                          std::size_t threads) {
+            const Profile whole = openRecording(item.source, partOf(progress, 0.0, 0.5), threads);
+            const Profile profile =
+                filteredRecording(table.filters, whole, item.source, partOf(progress, 0.5, 0.5));
+            requireMatrix(item.source, profile, table.matrix);
+            TableFile out(item.target, overwrite);
+            out.write(std::string(kSignalColumns) + "\n");
+            writeSignalRows(
+                profile,
+                table.matrix,
+                table.smooth,
+                "\n",
+                [&](const std::string& lines) { out.write(lines); },
+                partOf(progress, 0.5, 1.0));
+            out.commit();
+            return BatchAnswer{.said = counted(profile.numFrames(), "frame")};
+          }};
+}
+
+void requireThere(const fs::path& file, const Profile& profile, const SlipTable& table) {
+  requireMatrix(file, profile, table.matrix);
+  if (table.pass.detector.reference == SlipReference::kGiven &&
+      table.pass.referenceFrame >= profile.numFrames())
+    throw Error(file.string() + ": has no frame " + std::to_string(table.pass.referenceFrame) +
+                " to be the reference; it has " + std::to_string(profile.numFrames()));
+}
+
+BatchTask slipTask(const SlipTable& table) {
+  return {.options = std::string("slip") + (table.segments ? "; segments" : "") + "; " +
+                     passText(table.pass) + matrixText(table.matrix),
+          .work = [table](const BatchItem& item,
+                          Overwrite overwrite,
+                          const Progress& progress,
+                          std::size_t threads) {
+            const Profile profile = openRecording(item.source, partOf(progress, 0.0, 0.2), threads);
+            requireThere(item.source, profile, table);
+            TableFile out(item.target, overwrite);
+            out.write(std::string(table.segments ? kSlipSegmentColumns : kSlipColumns) + "\n");
+            std::size_t rows = 0;
+            (table.segments ? forEachSlipSegmentRow : forEachSlipRow)(
+                profile,
+                table.pass,
+                table.matrix,
+                [&](const std::string& row) {
+                  out.write(row + "\n");
+                  ++rows;
+                },
+                partOf(progress, 0.2, 1.0));
+            out.commit();
+            return BatchAnswer{.said = counted(rows, table.segments ? "slip" : "row")};
+          }};
+}
+
+BatchTask featuresTask(std::optional<FeatureSet> set) {
+  return {.options = "features; " + std::string(set ? featureSetName(*set) : "default"),
+          .work = [set](const BatchItem& item,
+                        Overwrite overwrite,
+                        const Progress& progress,
+                        std::size_t) {
+            FeatureTable table =
+                extractFeatures({item.source}, {.set = set, .threads = 1}, progress);
+            if (table.rows.empty())
+              throw Error(table.problems.empty()
+                              ? FileError(item.source, "has no grasp with features").what()
+                              : table.problems.front());
+            TableFile out(item.target, overwrite);
+            out.write(featureHeaderLine(table));
+            for (FeatureRow& row : table.rows) {
+              row.className = classIn(item);
+              out.write(featureLine(row));
+            }
+            out.commit();
+            BatchAnswer answer{.said = counted(table.rows.size(), "grasp")};
+            if (!table.problems.empty()) answer.problem = table.problems.front();
+            return answer;
+          }};
+}
+
+std::string featureHeaderLine(const FeatureTable& table) {
+  std::vector<std::string> header = {
+      "class", "file", "begin", "end", "initial_frame", "end_frame"};
+  header.insert(header.end(), table.names.begin(), table.names.end());
+  return csvLine(header);
+}
+
+std::string featureLine(const FeatureRow& row) {
+  std::vector<std::string> cells = {row.className,
+                                    row.file.string(),
+                                    std::to_string(row.begin),
+                                    std::to_string(row.end),
+                                    std::to_string(row.initialFrame),
+                                    std::to_string(row.endFrame)};
+  for (const double value : row.values) cells.push_back(numberText(value));
+  return csvLine(cells);
+}
+
+Profile filteredRecording(const Recipe& recipe,
+                          const Profile& profile,
+                          const fs::path& file,
+                          const Progress& progress) {
+  if (recipe.empty()) return profile;
+  try {
+    return filteredProfile(profile, recipe, {settingsTimesUs(readEvents(file).events)}, progress);
+  } catch (const std::invalid_argument& error) {
+    throw Error(file.string() + ": " + error.what());
+  }
+}
+
+}  // namespace palpate

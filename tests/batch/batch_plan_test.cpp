@@ -1,0 +1,1 @@
+#include "palpate/batch/batch_plan.h"
