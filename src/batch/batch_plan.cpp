@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdio>
 #include <map>
 #include <set>
 #include <stdexcept>
@@ -24,13 +23,20 @@ namespace {
 constexpr std::size_t kMostNameBytes = 255;
 constexpr std::array kFieldNames = {"name", "folder", "ending", "date", "time"};
 
-std::string localText(std::int64_t timeUs, const char* format) {
+struct LocalBegin {
+  std::string date;  // 2014-11-27
+  std::string time;  // 10-31-05
+};
+LocalBegin localBegin(std::int64_t timeUs) {
   constexpr std::int64_t kUsPerS = 1'000'000;
   const auto seconds = static_cast<time_t>(timeUs / kUsPerS - (timeUs % kUsPerS < 0 ? 1 : 0));
   struct tm parts {};
   ::localtime_r(&seconds, &parts);
   char text[64];
-  return {text, std::strftime(text, sizeof text, format, &parts)};
+  LocalBegin begin;
+  begin.date.assign(text, std::strftime(text, sizeof text, "%Y-%m-%d", &parts));
+  begin.time.assign(text, std::strftime(text, sizeof text, "%H-%M-%S", &parts));
+  return begin;
 }
 
 void requireFields(std::string_view text) {
@@ -68,8 +74,8 @@ std::string filledText(std::string_view text, const BatchNameFields& fields, boo
     if (field == "name") value = fields.name;
     if (field == "folder") value = isFolder ? fields.folder.string() : joinedFolders(fields.folder);
     if (field == "ending") value = fields.ending;
-    if (field == "date") value = localText(fields.timeUs, "%Y-%m-%d");
-    if (field == "time") value = localText(fields.timeUs, "%H-%M-%S");
+    if (field == "date") value = localBegin(fields.timeUs).date;
+    if (field == "time") value = localBegin(fields.timeUs).time;
     filled += value;
     text.remove_prefix(close + 1);
     if (value.empty() && !text.empty() && (text[0] == '_' || text[0] == '-')) text.remove_prefix(1);

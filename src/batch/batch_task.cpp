@@ -105,7 +105,7 @@ BatchTask convertTask(const Recipe& filters) {
           }};
 }
 
-BatchTask signalsTask(const SignalTable& table) {
+BatchTask signalsTask(const SignalRowsOptions& table) {
   table.filters.validate();
   SignalFilter(table.smooth, 1, [](std::int64_t, std::span<const SignalValues>) {});
   return {.options = "signals; " + recipeText(table.filters) + "; smooth " +
@@ -132,7 +132,7 @@ BatchTask signalsTask(const SignalTable& table) {
           }};
 }
 
-void requireThere(const fs::path& file, const Profile& profile, const SlipTable& table) {
+void requireThere(const fs::path& file, const Profile& profile, const SlipRowsOptions& table) {
   requireMatrix(file, profile, table.matrix);
   if (table.pass.detector.reference == SlipReference::kGiven &&
       table.pass.referenceFrame >= profile.numFrames())
@@ -140,7 +140,7 @@ void requireThere(const fs::path& file, const Profile& profile, const SlipTable&
                 " to be the reference; it has " + std::to_string(profile.numFrames()));
 }
 
-BatchTask slipTask(const SlipTable& table) {
+BatchTask slipTask(const SlipRowsOptions& table) {
   return {.options = std::string("slip") + (table.segments ? "; segments" : "") + "; " +
                      passText(table.pass) + matrixText(table.matrix),
           .work = [table](const BatchItem& item,

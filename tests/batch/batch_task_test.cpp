@@ -1,1 +1,101 @@
 #include "palpate/batch/batch_task.h"
+
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "palpate/core/error.h"
+#include "palpate/emulator/synthetic_profile.h"
+#include "palpate/recording/recording.h"
+#include "palpate/signals/signal_rows.h"
+#include "palpate/slip/slip_rows.h"
+
+#include "testing/testing.h"
+
+namespace palpate::batch_task_test {
+namespace {
+
+class BatchTasks : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    std::filesystem::create_directories(folder_ / "in/golf_ball/day");
+    item_ = {.source = folder_ / "in/golf_ball/day/a.palpate", .root = folder_ / "in"};
+    saveRecording(synthesize({.durationS = 4.0, .grasps = 1}), {}, item_.source);
+  }
+  std::string made(const BatchTask& task, const char* name) {
+    item_.target = folder_ / name;
+    task.work(item_, Overwrite::kRefuse, {}, 1);
+    return testing::readFile(item_.target);
+  }
+  std::string refusalOf(const BatchTask& task) {
+    try {
+      made(task, "refused.csv");
+    } catch (const Error& error) {
+      EXPECT_FALSE(std::filesystem::exists(folder_ / "refused.csv"));
+      return error.what();
+    }
+    return {};
+  }
+  testing::TemporaryFolder folder_;
+  BatchItem item_;
+};
+
+TEST_F(BatchTasks, ConvertsToEveryForm) {
+  for (const RecordingForm& form : recordingForms()) {
+    const std::string name = std::string("converted") + form.ending;
+    saveRecording(openRecording(item_.source), {}, folder_ / ("expected" + std::string(form.ending)));
+    EXPECT_FALSE(made(convertTask(), name.c_str()).empty()) << form.ending;
+    if (form.format != RecordingFormat::kPalpate)  // that has a time of writing
+      EXPECT_TRUE(testing::readFile(folder_ / name) ==
+                  testing::readFile(folder_ / ("expected" + std::string(form.ending))))
+          << form.ending;
+  }
+  EXPECT_THROW(made(convertTask(), "converted.txt"), FileError);
+}
+
+TEST_F(BatchTasks, SignalsAreTheRowsOfTheRecording) {
+  const Profile profile = openRecording(item_.source);
+  std::string rows = std::string(kSignalColumns) + "\n";
+  writeSignalRows(profile, 1, {}, "\n", [&](const std::string& lines) { rows += lines; });
+  EXPECT_TRUE(made(signalsTask({.matrix = 1}), "s.csv") == rows);
+  EXPECT_NE(refusalOf(signalsTask({.matrix = 6})).find("has no matrix 6, only 0..5"),
+            std::string::npos);
+  const std::vector<std::string> median = {"median"};
+  EXPECT_THROW(signalsTask({.smooth = parseRecipe(median)}), std::invalid_argument);
+}
+
+TEST_F(BatchTasks, FiltersAreApplied) {
+  const std::vector<std::string> median = {"median"};
+  const Recipe recipe = parseRecipe(median);
+  EXPECT_FALSE(made(signalsTask({.filters = recipe}), "f.csv") ==
+               made(signalsTask({}), "plain.csv"));
+  EXPECT_NE(signalsTask({.filters = recipe}).options, signalsTask({}).options);
+}
+
+TEST_F(BatchTasks, SlipIsTheRowsOfTheRecording) {
+  const Profile profile = openRecording(item_.source);
+  std::string rows = std::string(kSlipColumns) + "\n";
+  forEachSlipRow(profile, {}, {}, [&](const std::string& row) { rows += row + "\n"; });
+  EXPECT_TRUE(made(slipTask({}), "slip.csv") == rows);
+  SlipRowsOptions late;
+  late.pass.detector.reference = SlipReference::kGiven;
+  late.pass.referenceFrame = profile.numFrames();
+  EXPECT_NE(refusalOf(slipTask(late)).find("to be the reference"), std::string::npos);
+  EXPECT_NE(slipTask(late).options, slipTask({}).options);
+  EXPECT_NE(slipTask({.segments = true}).options, slipTask({}).options);
+}
+
+TEST_F(BatchTasks, FeaturesHaveTheClassOfTheFolder) {
+  const std::string table = made(featuresTask(FeatureSet::kStatistics), "f.csv");
+  EXPECT_EQ(table.rfind("class,file,begin,end,initial_frame,end_frame,", 0), 0U) << table;
+  EXPECT_NE(table.find("\ngolf ball," + item_.source.string() + ","), std::string::npos) << table;
+  item_.source = folder_ / "in/golf_ball/empty.palpate";
+  saveRecording(synthesize({.durationS = 2.0, .grasps = 0}), {}, item_.source);
+  EXPECT_NE(refusalOf(featuresTask(FeatureSet::kStatistics)).find("empty.palpate"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace palpate::batch_task_test

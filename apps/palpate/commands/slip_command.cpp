@@ -20,7 +20,7 @@
 namespace palpate::commands {
 namespace {
 
-void readReference(const CommandLine& given, SlipTable& request) {
+void readReference(const CommandLine& given, SlipRowsOptions& request) {
   const std::string word = given.text("reference").value_or("first");
   SlipDetectorOptions& detector = request.pass.detector;
   if (word == "first") {
@@ -35,8 +35,8 @@ void readReference(const CommandLine& given, SlipTable& request) {
   }
 }
 
-SlipTable slipTableOf(const CommandLine& given) {
-  SlipTable request;
+SlipRowsOptions slipOptionsOf(const CommandLine& given) {
+  SlipRowsOptions request;
   SlipDetectorOptions& detector = request.pass.detector;
   std::vector<std::string> methods;
   for (const SlipMethod method : slipMethods()) methods.emplace_back(nameOf(method));
@@ -80,10 +80,10 @@ int slipCommand(const Arguments& words) {
        .minArguments = 1},
       words);
   if (given.helpShown()) return kDone;
-  const SlipTable request = slipTableOf(given);
+  const SlipRowsOptions request = slipOptionsOf(given);
   const bool segments = given.has("segments");
   if (given.has("output")) {
-    SlipTable table = request;
+    SlipRowsOptions table = request;
     table.segments = segments;
     return runBatchCommand(given, {".csv"}, slipTask(table));
   }

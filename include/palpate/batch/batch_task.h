@@ -20,21 +20,21 @@ namespace palpate {
 // The form is that of the result's ending (formatOf()).
 BatchTask convertTask(const Recipe& filters = {});
 
-struct SignalTable {
+struct SignalRowsOptions {
   std::optional<std::int64_t> matrix = {};  // only this one
   Recipe filters = {};                      // of the frames, first
   Recipe smooth = {};                       // of the signals, over time
 };
-BatchTask signalsTask(const SignalTable& table);
+BatchTask signalsTask(const SignalRowsOptions& table);
 
-struct SlipTable {
+struct SlipRowsOptions {
   SlipRunOptions pass = {};
   std::optional<std::int64_t> matrix = {};
   bool segments = false;  // a row per slip instead of one per frame and matrix
 };
-BatchTask slipTask(const SlipTable& table);
+BatchTask slipTask(const SlipRowsOptions& table);
 // Throws Error when the recording hasn't the matrix or the reference frame of the table.
-void requireThere(const std::filesystem::path& file, const Profile& profile, const SlipTable& table);
+void requireThere(const std::filesystem::path& file, const Profile& profile, const SlipRowsOptions& table);
 
 // Without grasps with features the work fails. The class of a grasp is as in feature_table.h.
 BatchTask featuresTask(std::optional<FeatureSet> set = {});

@@ -1,0 +1,126 @@
+#include <filesystem>
+
+#include "palpate/recording/recording.h"
+
+#include "commands/palpate_program.h"
+
+namespace palpate::batch_options_test {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::expectOneLineError;
+using testing::palpate;
+
+class BatchOptionsTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    fs::create_directories(folder_ / "in/deep");
+    ASSERT_EQ(palpate({"synthesize", "-o", in("a.dsa"), "--duration", "2"}).exitCode, 0);
+    fs::copy_file(in("a.dsa"), in("deep/b.dsa"));
+  }
+  std::string in(const std::string& name = {}) const { return folder_ / ("in/" + name); }
+  std::string out(const std::string& name) const { return folder_ / ("out/" + name); }
+  // What stands behind the lines of the results.
+  static std::string summary(std::size_t done, std::size_t skipped, std::size_t failed) {
+    const auto row = [](std::string name, std::size_t count) {
+      name.resize(14, ' ');
+      const std::string number = std::to_string(count);
+      return name + std::string(6 - number.size(), ' ') + number + "\n";
+    };
+    return row("done", done) + row("skipped", skipped) + row("failed", failed);
+  }
+  testing::TemporaryFolder folder_;
+};
+
+TEST_F(BatchOptionsTest, SignalsOfEachRecordingAreThoseOfTheCommand) {
+  const auto result = palpate({"signals", in(), "-o", out("{name}.csv"), "--threads", "2"});
+  EXPECT_EQ(result.exitCode, 0) << result.err;
+  EXPECT_EQ(result.out,
+            out("a.csv") + ": 64 frames\n" + out("deep/b.csv") + ": 64 frames\n" +
+                summary(2, 0, 0));
+  EXPECT_EQ(result.err, "");
+  EXPECT_TRUE(testing::readFile(out("deep/b.csv")) ==
+              palpate({"signals", in("deep/b.dsa")}).out);
+}
+
+TEST_F(BatchOptionsTest, SlipFeaturesAndConversionsToo) {
+  EXPECT_EQ(palpate({"slip", in(), "-o", out("{name}.csv"), "-q"}).exitCode, 0);
+  EXPECT_TRUE(testing::readFile(out("a.csv")) == palpate({"slip", in("a.dsa")}).out);
+  EXPECT_EQ(palpate({"slip", in(), "--segments", "-o", out("{name}.slips.csv"), "-q"}).exitCode, 0);
+  EXPECT_TRUE(testing::readFile(out("a.slips.csv")) ==
+              palpate({"slip", in("a.dsa"), "--segments"}).out);
+  EXPECT_EQ(palpate({"features",
+                     in("a.dsa"),
+                     "--set",
+                     "statistics",
+                     "-o",
+                     out("{name}.features.csv"),
+                     "-q"})
+                .exitCode,
+            0);
+  EXPECT_TRUE(testing::readFile(out("a.features.csv")) ==
+              palpate({"features", in("a.dsa"), "--set", "statistics"}).out);
+  EXPECT_EQ(palpate({"convert", in(), "-o", out("{folder}/{name}.npz"), "-q"}).exitCode, 0);
+  ASSERT_EQ(palpate({"convert", in("a.dsa"), (folder_ / "one.npz").string()}).exitCode, 0);
+  EXPECT_TRUE(testing::readFile(out("a.npz")) == testing::readFile(folder_ / "one.npz"));
+}
+
+TEST_F(BatchOptionsTest, ResumesAndReports) {
+  const std::string report = folder_ / "report.csv";
+  testing::writeFile(in("bad.dsa"), "hello");
+  const std::vector<std::string> words = {
+      "signals", in(), "-o", out("{name}.csv"), "--resume", "--report", report};
+  const auto first = palpate(words);
+  EXPECT_EQ(first.exitCode, 3);
+  EXPECT_EQ(std::count(first.err.begin(), first.err.end(), '\n'), 1) << first.err;
+  EXPECT_NE(first.out.find(summary(2, 0, 1)), std::string::npos) << first.out;
+  fs::remove(out("a.csv"));
+  const auto second = palpate(words);
+  EXPECT_EQ(second.exitCode, 3);
+  EXPECT_NE(second.out.find(summary(1, 1, 1)), std::string::npos) << second.out;
+  EXPECT_TRUE(fs::exists(out("a.csv")));
+  const std::string table = testing::readFile(report);
+  EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 4) << table;
+  EXPECT_EQ(table.rfind("source,result,state,text\n", 0), 0U) << table;
+  EXPECT_NE(table.find(",skipped,"), std::string::npos) << table;
+  EXPECT_NE(table.find(",failed,"), std::string::npos) << table;
+}
+
+TEST_F(BatchOptionsTest, FoldersAreConvertedByTheOldWordsToo) {
+  const std::vector<std::string> words = {
+      "convert", in(), out(""), "--to-form", "npz", "--resume", "-q"};
+  EXPECT_EQ(palpate(words).exitCode, 0);
+  EXPECT_TRUE(fs::exists(out("deep/b.npz")));
+  const auto again = palpate({"convert", in(), out(""), "--to-form", "npz", "--resume"});
+  EXPECT_EQ(again.exitCode, 0) << again.err;
+  EXPECT_NE(again.out.find(summary(0, 2, 0)), std::string::npos) << again.out;
+}
+
+TEST_F(BatchOptionsTest, BadInputGetsOneLine) {
+  fs::create_directories(folder_ / "empty");
+  expectOneLineError(palpate({"signals", folder_ / "empty", "-o", out("{name}.csv")}),
+                     1,
+                     {"no recording"});
+  expectOneLineError(palpate({"signals", in(), "-o", in("made/{name}.csv")}), 1, {"lies in"});
+  expectOneLineError(palpate({"signals", in(), "-o", out("{hand}.csv")}), 2, {"{hand} isn't known"});
+  expectOneLineError(palpate({"signals", in(), "-o", out("{name}.npz")}), 2, {"must end in .csv"});
+  expectOneLineError(palpate({"convert", in(), "-o", out("{name}.txt")}), 2, {".palpate"});
+  expectOneLineError(palpate({"signals", in(), "--resume"}), 2, {"--resume needs -o"});
+  expectOneLineError(palpate({"convert", in("a.dsa"), "-o", out("{name}.npz"), "--from", "3"}),
+                     2,
+                     {"--from doesn't go with -o"});
+  expectOneLineError(palpate({"convert", in("a.dsa")}), 2, {"-o TEMPLATE"});
+  EXPECT_FALSE(fs::exists(folder_ / "out"));
+  testing::writeFile(folder_ / "out", "a file");
+  expectOneLineError(palpate({"signals", in(), "-o", out("{name}.csv")}), 1, {"out"});
+}
+
+TEST_F(BatchOptionsTest, TwoRecordingsNeverGetOneResult) {
+  fs::copy_file(in("a.dsa"), in("deep/a.dsa"));
+  expectOneLineError(
+      palpate({"signals", in(), "-o", out("{folder}x.csv")}), 1, {"from both", "deep/a.dsa"});
+  EXPECT_FALSE(fs::exists(folder_ / "out"));
+}
+
+}  // namespace
+}  // namespace palpate::batch_options_test

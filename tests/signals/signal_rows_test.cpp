@@ -1,0 +1,66 @@
+#include "palpate/signals/signal_rows.h"
+
+#include <algorithm>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "palpate/core/error.h"
+#include "palpate/device/sdh2.h"
+#include "palpate/model/hand_description.h"
+#include "palpate/model/profile_builder.h"
+
+#include "testing/testing.h"
+
+namespace palpate::signal_rows_test {
+namespace {
+
+// Two frames at 1 s and 1.031 s; in the second one taxel of matrix 1 reads 16.
+Profile oneTaxel() {
+  ProfileBuilder builder(sdh2().layout);
+  TactileFrame frame(sdh2().layout);
+  builder.addFrame(1'000'000, frame.values);
+  frame.matrix(1)(5, 2) = 16.0F;
+  builder.addFrame(1'031'000, frame.values);
+  return builder.finish({});
+}
+
+std::string rowsOf(std::optional<std::size_t> matrix, const Recipe& smooth = {}) {
+  std::string rows;
+  writeSignalRows(
+      oneTaxel(), matrix, smooth, ";\n", [&](const std::string& lines) { rows += lines; });
+  return rows;
+}
+
+TEST(SignalRows, HaveTheColumnsOfTheHeader) {
+  EXPECT_EQ(std::string(kSignalColumns),
+            "frame,time_ms,matrix,mean,filtered_mean,min,max,sum,active,area_mm2");
+  // The Gaussian spreads 16 over nine taxels; their mean is 16 / 9. A taxel is 3.4 mm x 3.4 mm.
+  const std::string rows = rowsOf(1);
+  EXPECT_EQ(rows.rfind("0,1000,1,0,0,0,0,0,0,0;\n1,1031,1,16,1.77", 0), 0U) << rows;
+  EXPECT_NE(rows.find(",16,16,16,1,11.5"), std::string::npos) << rows;
+}
+
+TEST(SignalRows, AreOneForEachFrameAndMatrix) {
+  const std::string rows = rowsOf({});
+  EXPECT_EQ(std::count(rows.begin(), rows.end(), '\n'), 2 * 6);
+}
+
+TEST(SignalRows, AreSmoothedOverTime) {
+  const std::vector<std::string> kalman = {"kalman"};
+  const std::string rows = rowsOf(1, parseRecipe(kalman));
+  EXPECT_EQ(std::count(rows.begin(), rows.end(), '\n'), 2);
+  EXPECT_NE(rows, rowsOf(1));
+  const std::vector<std::string> median = {"median"};
+  EXPECT_THROW(rowsOf(1, parseRecipe(median)), std::invalid_argument);
+}
+
+TEST(SignalRows, CanBeCancelled) {
+  EXPECT_THROW(writeSignalRows(
+                   oneTaxel(), {}, {}, "\n", [](const auto&) {}, [](double) { return false; }),
+               Cancelled);
+}
+
+}  // namespace
+}  // namespace palpate::signal_rows_test
