@@ -58,16 +58,14 @@ std::optional<FileStamp> stampOf(const fs::path& path) {
   return FileStamp{facts.st_size, facts.st_mtim.tv_sec * kNsPerS + facts.st_mtim.tv_nsec};
 }
 
-BatchJournal::BatchJournal(const fs::path& folder)
-    : folder_(folder), path_(folder / kJournalName) {
+BatchJournal::BatchJournal(const fs::path& folder) : folder_(folder), path_(folder / kJournalName) {
   std::error_code failure;
   fs::create_directories(folder, failure);
   if (failure) throw FileError(folder, "can't be created: " + failure.message());
   if (!fs::is_directory(folder, failure)) throw FileError(folder, "is not a folder");
   constexpr mode_t kMode = 0666;
   file_ = FileDescriptor(::open(path_.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, kMode));
-  if (file_.get() < 0)
-    throw FileError(folder, "can't be written into: " + systemText(errno));
+  if (file_.get() < 0) throw FileError(folder, "can't be written into: " + systemText(errno));
   if (::flock(file_.get(), LOCK_EX | LOCK_NB) != 0) {
     if (errno == EWOULDBLOCK)
       throw FileError(folder, "another batch is writing into this folder; wait until it has ended");

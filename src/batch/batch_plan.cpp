@@ -45,7 +45,8 @@ void requireFields(std::string_view text) {
     if (open == std::string_view::npos) return;
     const std::size_t close = text.find_first_of("{}", open + 1);
     if (text[open] == '}' || close == std::string_view::npos || text[close] == '{')
-      throw std::invalid_argument("template '" + escapedLine(text) + "': a brace without its partner");
+      throw std::invalid_argument("template '" + escapedLine(text) +
+                                  "': a brace without its partner");
     const std::string_view field = text.substr(open + 1, close - open - 1);
     if (std::find(kFieldNames.begin(), kFieldNames.end(), field) == kFieldNames.end())
       throw std::invalid_argument("template '" + escapedLine(text) + "': {" + escapedLine(field) +
@@ -204,7 +205,8 @@ fs::path BatchTemplate::pathFor(const BatchNameFields& fields) const {
   const std::string name = filledText(name_, fields, false);
   const std::string stem = fs::path(name).stem().string();
   if (name.starts_with('.') || stem.empty())
-    throw Error("'" + escapedLine(name) + "' isn't a name for a result: nothing in front of its ending");
+    throw Error("'" + escapedLine(name) +
+                "' isn't a name for a result: nothing in front of its ending");
   if (name.size() > kMostNameBytes)
     throw Error("'" + escapedLine(name) + "' is longer than the 255 bytes of a name");
   return path / name;

@@ -167,11 +167,10 @@ BatchTask slipTask(const SlipRowsOptions& table) {
 }
 
 BatchTask featuresTask(std::optional<FeatureSet> set) {
-  return {.options = "features; " + std::string(set ? featureSetName(*set) : "default"),
-          .work = [set](const BatchItem& item,
-                        Overwrite overwrite,
-                        const Progress& progress,
-                        std::size_t) {
+  return {
+      .options = "features; " + std::string(set ? featureSetName(*set) : "default"),
+      .work =
+          [set](const BatchItem& item, Overwrite overwrite, const Progress& progress, std::size_t) {
             FeatureTable table =
                 extractFeatures({item.source}, {.set = set, .threads = 1}, progress);
             if (table.rows.empty())
@@ -192,8 +191,7 @@ BatchTask featuresTask(std::optional<FeatureSet> set) {
 }
 
 std::string featureHeaderLine(const FeatureTable& table) {
-  std::vector<std::string> header = {
-      "class", "file", "begin", "end", "initial_frame", "end_frame"};
+  std::vector<std::string> header = {"class", "file", "begin", "end", "initial_frame", "end_frame"};
   header.insert(header.end(), table.names.begin(), table.names.end());
   return csvLine(header);
 }

@@ -24,10 +24,10 @@ SignalValues columnsOf(const SignalValues& row) {
 }
 
 void appendSignalRow(std::string& lines,
-                      std::size_t frame,
-                      std::int64_t hostUs,
-                      std::size_t matrix,
-                      const SignalValues& columns) {
+                     std::size_t frame,
+                     std::int64_t hostUs,
+                     std::size_t matrix,
+                     const SignalValues& columns) {
   appendNumber(lines, static_cast<std::int64_t>(frame));
   lines += ',';
   appendNumber(lines, hostUs / kUsPerMs);

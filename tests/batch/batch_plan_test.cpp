@@ -80,8 +80,7 @@ class BatchPlanning : public ::testing::Test {
 };
 
 TEST_F(BatchPlanning, KeepsTheFoldersAndTakesEachSourceOnce) {
-  const BatchPlan plan =
-      planBatch({folder_ / "in", folder_ / "in/b.dsa"}, names("out/{name}.csv"));
+  const BatchPlan plan = planBatch({folder_ / "in", folder_ / "in/b.dsa"}, names("out/{name}.csv"));
   ASSERT_EQ(plan.items.size(), 2U);
   EXPECT_EQ(plan.items[0].target, folder_ / "out/b.csv");
   EXPECT_EQ(plan.items[1].target, folder_ / "out/deep/a.csv");

@@ -29,16 +29,17 @@ class BatchRuns : public ::testing::Test {
     plan_ = planBatch({folder_ / "in"}, BatchTemplate((folder_ / "out/{name}.csv").string()));
   }
   BatchTask copying(const std::string& options = "copy") {
-    return {.options = options,
-            .work = [this](const BatchItem& item, Overwrite overwrite, const Progress&, std::size_t) {
-              ++works_;
-              const std::string bytes = testing::readFile(item.source);
-              if (bytes == "bad") throw FileError(item.source, "is bad");
-              OutputFile out(item.target, overwrite);
-              out.write(bytes);
-              out.commit();
-              return BatchAnswer{.said = "copied"};
-            }};
+    return {
+        .options = options,
+        .work = [this](const BatchItem& item, Overwrite overwrite, const Progress&, std::size_t) {
+          ++works_;
+          const std::string bytes = testing::readFile(item.source);
+          if (bytes == "bad") throw FileError(item.source, "is bad");
+          OutputFile out(item.target, overwrite);
+          out.write(bytes);
+          out.commit();
+          return BatchAnswer{.said = "copied"};
+        }};
   }
   std::size_t worksOf(const BatchOptions& options, const std::string& name = "copy") {
     works_ = 0;
@@ -137,14 +138,15 @@ TEST_F(BatchRuns, StopsWhenItIsCancelledAndKeepsWhatIsDone) {
   BatchTask task = copying();
   std::atomic<bool> begun = false;
   const auto copy = task.work;
-  task.work = [&](const BatchItem& item, Overwrite overwrite, const Progress& progress, std::size_t n) {
-    if (item.source.stem() != "r15") return copy(item, overwrite, progress, n);
-    begun = true;
-    for (;;) {
-      if (!progress(0.5)) throw Cancelled();
-      std::this_thread::yield();
-    }
-  };
+  task.work =
+      [&](const BatchItem& item, Overwrite overwrite, const Progress& progress, std::size_t n) {
+        if (item.source.stem() != "r15") return copy(item, overwrite, progress, n);
+        begun = true;
+        for (;;) {
+          if (!progress(0.5)) throw Cancelled();
+          std::this_thread::yield();
+        }
+      };
   const BatchReport report =
       runBatch(plan_, task, {.threads = 2}, {}, [&](const BatchStatus&) { return !begun; });
   EXPECT_TRUE(report.cancelled);
@@ -161,16 +163,17 @@ TEST_F(BatchRuns, ASecondBatchIntoTheSameFolderIsRefused) {
   BatchTask task = copying();
   const auto copy = task.work;
   std::string refusal;
-  task.work = [&](const BatchItem& item, Overwrite overwrite, const Progress& progress, std::size_t n) {
-    if (item.source.stem() == "r10") {
-      try {
-        runBatch(plan_, copying());
-      } catch (const FileError& error) {
-        refusal = error.what();
-      }
-    }
-    return copy(item, overwrite, progress, n);
-  };
+  task.work =
+      [&](const BatchItem& item, Overwrite overwrite, const Progress& progress, std::size_t n) {
+        if (item.source.stem() == "r10") {
+          try {
+            runBatch(plan_, copying());
+          } catch (const FileError& error) {
+            refusal = error.what();
+          }
+        }
+        return copy(item, overwrite, progress, n);
+      };
   EXPECT_EQ(runBatch(plan_, task).status.done, 20U);
   EXPECT_NE(refusal.find("another batch"), std::string::npos) << refusal;
 }

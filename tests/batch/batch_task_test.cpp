@@ -45,12 +45,13 @@ class BatchTasks : public ::testing::Test {
 TEST_F(BatchTasks, ConvertsToEveryForm) {
   for (const RecordingForm& form : recordingForms()) {
     const std::string name = std::string("converted") + form.ending;
-    saveRecording(openRecording(item_.source), {}, folder_ / ("expected" + std::string(form.ending)));
+    saveRecording(
+        openRecording(item_.source), {}, folder_ / ("expected" + std::string(form.ending)));
     EXPECT_FALSE(made(convertTask(), name.c_str()).empty()) << form.ending;
-    if (form.format != RecordingFormat::kPalpate)  // that has a time of writing
-      EXPECT_TRUE(testing::readFile(folder_ / name) ==
-                  testing::readFile(folder_ / ("expected" + std::string(form.ending))))
-          << form.ending;
+    if (form.format == RecordingFormat::kPalpate) continue;  // it holds the time of writing
+    EXPECT_TRUE(testing::readFile(folder_ / name) ==
+                testing::readFile(folder_ / ("expected" + std::string(form.ending))))
+        << form.ending;
   }
   EXPECT_THROW(made(convertTask(), "converted.txt"), FileError);
 }

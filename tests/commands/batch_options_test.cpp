@@ -35,12 +35,11 @@ class BatchOptionsTest : public ::testing::Test {
 TEST_F(BatchOptionsTest, SignalsOfEachRecordingAreThoseOfTheCommand) {
   const auto result = palpate({"signals", in(), "-o", out("{name}.csv"), "--threads", "2"});
   EXPECT_EQ(result.exitCode, 0) << result.err;
-  EXPECT_EQ(result.out,
-            out("a.csv") + ": 64 frames\n" + out("deep/b.csv") + ": 64 frames\n" +
-                summary(2, 0, 0));
+  EXPECT_EQ(
+      result.out,
+      out("a.csv") + ": 64 frames\n" + out("deep/b.csv") + ": 64 frames\n" + summary(2, 0, 0));
   EXPECT_EQ(result.err, "");
-  EXPECT_TRUE(testing::readFile(out("deep/b.csv")) ==
-              palpate({"signals", in("deep/b.dsa")}).out);
+  EXPECT_TRUE(testing::readFile(out("deep/b.csv")) == palpate({"signals", in("deep/b.dsa")}).out);
 }
 
 TEST_F(BatchOptionsTest, SlipFeaturesAndConversionsToo) {
@@ -49,15 +48,11 @@ TEST_F(BatchOptionsTest, SlipFeaturesAndConversionsToo) {
   EXPECT_EQ(palpate({"slip", in(), "--segments", "-o", out("{name}.slips.csv"), "-q"}).exitCode, 0);
   EXPECT_TRUE(testing::readFile(out("a.slips.csv")) ==
               palpate({"slip", in("a.dsa"), "--segments"}).out);
-  EXPECT_EQ(palpate({"features",
-                     in("a.dsa"),
-                     "--set",
-                     "statistics",
-                     "-o",
-                     out("{name}.features.csv"),
-                     "-q"})
-                .exitCode,
-            0);
+  EXPECT_EQ(
+      palpate(
+          {"features", in("a.dsa"), "--set", "statistics", "-o", out("{name}.features.csv"), "-q"})
+          .exitCode,
+      0);
   EXPECT_TRUE(testing::readFile(out("a.features.csv")) ==
               palpate({"features", in("a.dsa"), "--set", "statistics"}).out);
   EXPECT_EQ(palpate({"convert", in(), "-o", out("{folder}/{name}.npz"), "-q"}).exitCode, 0);
@@ -98,11 +93,11 @@ TEST_F(BatchOptionsTest, FoldersAreConvertedByTheOldWordsToo) {
 
 TEST_F(BatchOptionsTest, BadInputGetsOneLine) {
   fs::create_directories(folder_ / "empty");
-  expectOneLineError(palpate({"signals", folder_ / "empty", "-o", out("{name}.csv")}),
-                     1,
-                     {"no recording"});
+  expectOneLineError(
+      palpate({"signals", folder_ / "empty", "-o", out("{name}.csv")}), 1, {"no recording"});
   expectOneLineError(palpate({"signals", in(), "-o", in("made/{name}.csv")}), 1, {"lies in"});
-  expectOneLineError(palpate({"signals", in(), "-o", out("{hand}.csv")}), 2, {"{hand} isn't known"});
+  expectOneLineError(
+      palpate({"signals", in(), "-o", out("{hand}.csv")}), 2, {"{hand} isn't known"});
   expectOneLineError(palpate({"signals", in(), "-o", out("{name}.npz")}), 2, {"must end in .csv"});
   expectOneLineError(palpate({"convert", in(), "-o", out("{name}.txt")}), 2, {".palpate"});
   expectOneLineError(palpate({"signals", in(), "--resume"}), 2, {"--resume needs -o"});

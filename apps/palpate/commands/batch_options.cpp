@@ -115,8 +115,8 @@ int runBatchCommand(const CommandLine& given,
   Interruption interruption;
   std::vector<fs::path> paths = {folder};
   if (folder.empty()) paths.assign(given.words().begin(), given.words().end());
-  const BatchPlan plan = planBatch(
-      paths, nameTemplate, [&](double) { return !interruption.waitForSignal(0); });
+  const BatchPlan plan =
+      planBatch(paths, nameTemplate, [&](double) { return !interruption.waitForSignal(0); });
   for (const std::string& problem : plan.problems) sayBatch(problem);
   StatusLine line(given.quiet());
   StandardOutput out;

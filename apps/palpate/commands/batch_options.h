@@ -19,8 +19,9 @@ bool hasBatchOptions(const CommandLine& given);
 void refuseBatchOptions(const CommandLine& given);
 
 // Runs the task over the words of the command, or over `folder` if it is given with the template
-// `names`; returns the exit code: 0 all done or skipped, 1 none, 3 some, also after an interruption.
-// The ending of the template must be one of `endings` (empty: any). Throws UsageError, Error before anything is computed.
+// `names`; returns the exit code: 0 all done or skipped, 1 none, 3 some, also after an
+// interruption. The ending of the template must be one of `endings` (empty: any). Throws
+// UsageError, Error before anything is computed.
 int runBatchCommand(const CommandLine& given,
                     const std::vector<std::string>& endings,
                     const BatchTask& task,

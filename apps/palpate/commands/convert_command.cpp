@@ -143,8 +143,8 @@ std::vector<std::string> formNames() {
 int convertBatch(const CommandLine& given) {
   for (const char* name : {"from", "to", "to-form"})
     if (given.has(name))
-      throw UsageError("--" + std::string(name) + " doesn't go with -o; the ending of the template " +
-                       "chooses the form");
+      throw UsageError("--" + std::string(name) +
+                       " doesn't go with -o; the ending of the template " + "chooses the form");
   std::vector<std::string> endings;
   for (const RecordingForm& form : recordingForms()) endings.emplace_back(form.ending);
   return runBatchCommand(given, endings, convertTask());

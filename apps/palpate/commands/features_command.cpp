@@ -51,10 +51,11 @@ int featuresCommand(const Arguments& words) {
            "features (no joint angles, pads that don't face each other) "
            "and a recording without a grasp are\nreported on standard error; then the exit code is "
            "3. With -o a table for each recording.",
-       .options = withBatchOptions({{"set",
-                    "SET",
-                    "study, best (default where two pads pinch), session or statistics (default of "
-                    "other hands)"}}),
+       .options = withBatchOptions(
+           {{"set",
+             "SET",
+             "study, best (default where two pads pinch), session or statistics (default of "
+             "other hands)"}}),
        .example = "palpate features recordings --set best > features.csv",
        .minArguments = 1},
       words);

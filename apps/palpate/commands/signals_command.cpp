@@ -9,8 +9,8 @@
 #include "palpate/signals/signal_filter.h"
 #include "palpate/signals/signal_rows.h"
 
-#include "commands/command_line.h"
 #include "commands/batch_options.h"
+#include "commands/command_line.h"
 #include "commands/commands.h"
 #include "commands/filter_options.h"
 #include "commands/recording_list.h"
@@ -33,7 +33,8 @@ Recipe smoothOf(const CommandLine& given) {
 
 int signalsCommand(const Arguments& words) {
   const CommandLine given(
-      {.synopsis = "palpate signals PATH... [--matrix M] [--filter SPEC..] [--smooth SPEC..] [-o TEMPLATE]",
+      {.synopsis =
+           "palpate signals PATH... [--matrix M] [--filter SPEC..] [--smooth SPEC..] [-o TEMPLATE]",
        .purpose = "Prints the characteristic signals of every matrix in every frame as CSV: mean, "
                   "minimum, maximum,\nsum and number of the active taxels (value > 0), their area, "
                   "and the mean of the 3x3 Gaussian-\nfiltered matrix over its active taxels. An "

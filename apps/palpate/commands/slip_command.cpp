@@ -12,8 +12,8 @@
 #include "palpate/core/time.h"
 #include "palpate/slip/slip_rows.h"
 
-#include "commands/command_line.h"
 #include "commands/batch_options.h"
+#include "commands/command_line.h"
 #include "commands/commands.h"
 #include "commands/recording_list.h"
 
@@ -55,7 +55,8 @@ SlipRowsOptions slipOptionsOf(const CommandLine& given) {
 
 int slipCommand(const Arguments& words) {
   const CommandLine given(
-      {.synopsis = "palpate slip PATH... [--method METHOD] [--reference first|rest|FRAME] [-o TEMPLATE]",
+      {.synopsis =
+           "palpate slip PATH... [--method METHOD] [--reference first|rest|FRAME] [-o TEMPLATE]",
        .purpose =
            "Prints, for every frame and every matrix with an active taxel, how the contact moved "
            "since the frame before\n(dx, dy) and since the reference [taxels, x right, y down], "
@@ -63,19 +64,20 @@ int slipCommand(const Arguments& words) {
            "With --segments a row per slip instead. PATH is a recording, or a folder:\nevery "
            "recording below it. With several a last column names the file. With "
            "-o a table for each\nrecording.",
-       .options = withBatchOptions({{"method",
-                    "METHOD",
-                    "centroid, alcazar, ncc-paraboloid, ncc-gauss3, phase, phase-normalized, "
-                    "register, contest (default: weighed against a load that shifts)"},
-                   {"matrix", "M", "only this one"},
-                   {"reference",
-                    "WHAT",
-                    "first: first frame with an active taxel (default); rest: each contact when it "
-                    "rests; or a frame"},
-                   {"step", "T", "threshold per frame [taxels], default 0.20"},
-                   {"limit", "T", "threshold since the reference [taxels], default 1.0"},
-                   {"rotation", "DEG", "threshold of turning [deg], default 5"},
-                   {"segments", "", "a row per slip: frames, matrix, length of the way"}}),
+       .options = withBatchOptions(
+           {{"method",
+             "METHOD",
+             "centroid, alcazar, ncc-paraboloid, ncc-gauss3, phase, phase-normalized, "
+             "register, contest (default: weighed against a load that shifts)"},
+            {"matrix", "M", "only this one"},
+            {"reference",
+             "WHAT",
+             "first: first frame with an active taxel (default); rest: each contact when it "
+             "rests; or a frame"},
+            {"step", "T", "threshold per frame [taxels], default 0.20"},
+            {"limit", "T", "threshold since the reference [taxels], default 1.0"},
+            {"rotation", "DEG", "threshold of turning [deg], default 5"},
+            {"segments", "", "a row per slip: frames, matrix, length of the way"}}),
        .example = "palpate slip bottle.dsa --reference rest > slip.csv",
        .minArguments = 1},
       words);

@@ -22,10 +22,10 @@
 namespace palpate {
 
 struct BatchNameFields {
-  std::string name;
-  std::filesystem::path folder;  // relative
-  std::string ending;            // without its dot
-  std::int64_t timeUs = 0;       // [us since 1970]
+  std::string name = {};
+  std::filesystem::path folder = {};  // relative
+  std::string ending = {};            // without its dot
+  std::int64_t timeUs = 0;            // [us since 1970]
 };
 
 class BatchTemplate {

@@ -32,8 +32,8 @@ struct BatchTask {
   // Everything that the bytes of the results depend on beside the recording and the result's
   // ending. --resume compares it.
   std::string options;
-  // Writes item.target, whole or not at all. Called from several threads at once. `threads`: to read
-  // with, as openRecording(). Throws Error, Cancelled.
+  // Writes item.target, whole or not at all. Called from several threads at once. `threads`: to
+  // read with, as openRecording(). Throws Error, Cancelled.
   std::function<BatchAnswer(
       const BatchItem& item, Overwrite overwrite, const Progress& progress, std::size_t threads)>
       work;
@@ -44,9 +44,9 @@ struct BatchOptions {
   std::size_t threads = 0;
   Overwrite overwrite = Overwrite::kRefuse;
   // A result is not made again when the journal says that it was made with the same options, of
-  // this recording as it is now, and it is still the file that was written. One that is out of date,
-  // or was interrupted before the journal knew that it is whole, is replaced. Any other file is
-  // replaced only with Overwrite::kReplace.
+  // this recording as it is now, and it is still the file that was written. One that is out of
+  // date, or was interrupted before the journal knew that it is whole, is replaced. Any other file
+  // is replaced only with Overwrite::kReplace.
   bool resume = false;
 };
 

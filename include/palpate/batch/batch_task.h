@@ -34,7 +34,9 @@ struct SlipRowsOptions {
 };
 BatchTask slipTask(const SlipRowsOptions& table);
 // Throws Error when the recording hasn't the matrix or the reference frame of the table.
-void requireThere(const std::filesystem::path& file, const Profile& profile, const SlipRowsOptions& table);
+void requireThere(const std::filesystem::path& file,
+                  const Profile& profile,
+                  const SlipRowsOptions& table);
 
 // Without grasps with features the work fails. The class of a grasp is as in feature_table.h.
 BatchTask featuresTask(std::optional<FeatureSet> set = {});

@@ -67,8 +67,8 @@ struct RecordingForm {
 };
 // All forms with the endings that stand for them.
 std::span<const RecordingForm> recordingForms() noexcept;
-// The form that the ending of a name stands for, in small or capital letters. Throws FileError naming
-// them all.
+// The form that the ending of a name stands for, in small or capital letters. Throws FileError
+// naming them all.
 RecordingFormat formatOf(const std::filesystem::path& path);
 
 // What was noted or happened in a recording: the events of a .palpate or .h5, the sidecar

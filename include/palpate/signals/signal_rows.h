@@ -1,5 +1,5 @@
-// The characteristic signals of a recording as CSV: one row for each frame and matrix. docs/signals.md
-// explains the columns.
+// The characteristic signals of a recording as CSV: one row for each frame and matrix.
+// docs/signals.md explains the columns.
 #pragma once
 
 #include <cstddef>
