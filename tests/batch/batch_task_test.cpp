@@ -63,6 +63,8 @@ TEST_F(BatchTasks, SignalsAreTheRowsOfTheRecording) {
   EXPECT_TRUE(made(signalsTask({.matrix = 1}), "s.csv") == rows);
   EXPECT_NE(refusalOf(signalsTask({.matrix = 6})).find("has no matrix 6, only 0..5"),
             std::string::npos);
+  std::filesystem::remove(item_.source);  // vanished since it was found
+  EXPECT_NE(refusalOf(signalsTask({})).find("a.palpate"), std::string::npos);
   const std::vector<std::string> median = {"median"};
   EXPECT_THROW(signalsTask({.smooth = parseRecipe(median)}), std::invalid_argument);
 }

@@ -48,13 +48,14 @@ TEST_F(BatchOptionsTest, SlipFeaturesAndConversionsToo) {
   EXPECT_EQ(palpate({"slip", in(), "--segments", "-o", out("{name}.slips.csv"), "-q"}).exitCode, 0);
   EXPECT_TRUE(testing::readFile(out("a.slips.csv")) ==
               palpate({"slip", in("a.dsa"), "--segments"}).out);
-  EXPECT_EQ(
-      palpate(
-          {"features", in("a.dsa"), "--set", "statistics", "-o", out("{name}.features.csv"), "-q"})
-          .exitCode,
-      0);
-  EXPECT_TRUE(testing::readFile(out("a.features.csv")) ==
-              palpate({"features", in("a.dsa"), "--set", "statistics"}).out);
+  // Long enough for a grasp.
+  const std::string recording = folder_ / "long.dsa";
+  ASSERT_EQ(palpate({"synthesize", "-o", recording, "--duration", "12"}).exitCode, 0);
+  const std::string features = out("{name}.features.csv");
+  EXPECT_EQ(palpate({"features", recording, "--set", "statistics", "-o", features, "-q"}).exitCode,
+            0);
+  EXPECT_TRUE(testing::readFile(out("long.features.csv")) ==
+              palpate({"features", recording, "--set", "statistics"}).out);
   EXPECT_EQ(palpate({"convert", in(), "-o", out("{folder}/{name}.npz"), "-q"}).exitCode, 0);
   ASSERT_EQ(palpate({"convert", in("a.dsa"), (folder_ / "one.npz").string()}).exitCode, 0);
   EXPECT_TRUE(testing::readFile(out("a.npz")) == testing::readFile(folder_ / "one.npz"));

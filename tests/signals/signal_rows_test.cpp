@@ -16,12 +16,12 @@
 namespace palpate::signal_rows_test {
 namespace {
 
-// Two frames at 1 s and 1.031 s; in the second one taxel of matrix 1 reads 16.
+// Two frames at 1 s and 1.031 s; in the second one taxel of matrix 0 reads 16.
 Profile oneTaxel() {
   ProfileBuilder builder(sdh2().layout);
   TactileFrame frame(sdh2().layout);
   builder.addFrame(1'000'000, frame.values);
-  frame.matrix(1)(5, 2) = 16.0F;
+  frame.matrix(0)(5, 2) = 16.0F;
   builder.addFrame(1'031'000, frame.values);
   return builder.finish({});
 }
@@ -36,9 +36,10 @@ std::string rowsOf(std::optional<std::size_t> matrix, const Recipe& smooth = {})
 TEST(SignalRows, HaveTheColumnsOfTheHeader) {
   EXPECT_EQ(std::string(kSignalColumns),
             "frame,time_ms,matrix,mean,filtered_mean,min,max,sum,active,area_mm2");
-  // The Gaussian spreads 16 over nine taxels; their mean is 16 / 9. A taxel is 3.4 mm x 3.4 mm.
-  const std::string rows = rowsOf(1);
-  EXPECT_EQ(rows.rfind("0,1000,1,0,0,0,0,0,0,0;\n1,1031,1,16,1.77", 0), 0U) << rows;
+  // All taxels of matrix 0 exist; the Gaussian spreads 16 over nine of them: 16 / 9. A taxel is
+  // 3.4 mm x 3.4 mm: 11.56 mm2.
+  const std::string rows = rowsOf(0);
+  EXPECT_EQ(rows.rfind("0,1000,0,0,0,0,0,0,0,0;\n1,1031,0,16,1.77", 0), 0U) << rows;
   EXPECT_NE(rows.find(",16,16,16,1,11.5"), std::string::npos) << rows;
 }
 
@@ -49,11 +50,11 @@ TEST(SignalRows, AreOneForEachFrameAndMatrix) {
 
 TEST(SignalRows, AreSmoothedOverTime) {
   const std::vector<std::string> kalman = {"kalman"};
-  const std::string rows = rowsOf(1, parseRecipe(kalman));
+  const std::string rows = rowsOf(0, parseRecipe(kalman));
   EXPECT_EQ(std::count(rows.begin(), rows.end(), '\n'), 2);
-  EXPECT_NE(rows, rowsOf(1));
+  EXPECT_NE(rows, rowsOf(0));
   const std::vector<std::string> median = {"median"};
-  EXPECT_THROW(rowsOf(1, parseRecipe(median)), std::invalid_argument);
+  EXPECT_THROW(rowsOf(0, parseRecipe(median)), std::invalid_argument);
 }
 
 TEST(SignalRows, CanBeCancelled) {
