@@ -15,6 +15,7 @@
 #include "palpate/model/timing.h"
 #include "palpate/recording/recording.h"
 #include "palpate/signals/characteristic_signals.h"
+#include "palpate/slip/slip_rows.h"
 
 #include "commands/commands.h"
 #include "commands/demo_pictures.h"
