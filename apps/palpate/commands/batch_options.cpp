@@ -40,12 +40,12 @@ BatchTemplate templateOf(const std::string& text, const std::vector<std::string>
 }
 
 // The line of progress on a terminal.
-class StatusLine {
+class BatchLine {
  public:
-  explicit StatusLine(bool quiet) : enabled_(!quiet && ::isatty(STDERR_FILENO) == 1) {}
-  ~StatusLine() { wipe(); }
-  StatusLine(const StatusLine&) = delete;
-  StatusLine& operator=(const StatusLine&) = delete;
+  explicit BatchLine(bool quiet) : enabled_(!quiet && ::isatty(STDERR_FILENO) == 1) {}
+  ~BatchLine() { wipe(); }
+  BatchLine(const BatchLine&) = delete;
+  BatchLine& operator=(const BatchLine&) = delete;
   void show(const BatchStatus& status) {
     if (!enabled_) return;
     std::fprintf(stderr, "\r%s\033[K", statusText(status).c_str());
@@ -118,7 +118,7 @@ int runBatchCommand(const CommandLine& given,
   const BatchPlan plan =
       planBatch(paths, nameTemplate, [&](double) { return !interruption.waitForSignal(0); });
   for (const std::string& problem : plan.problems) sayBatch(problem);
-  StatusLine line(given.quiet());
+  BatchLine line(given.quiet());
   StandardOutput out;
   const BatchReport report = runBatch(
       plan,
