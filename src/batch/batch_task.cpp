@@ -79,10 +79,11 @@ std::string classIn(const BatchItem& item) {
 
 }  // namespace
 
-BatchTask convertTask(const Recipe& filters) {
-  filters.validate();
-  return {.options = "convert; " + recipeText(filters),
-          .work = [filters](const BatchItem& item,
+BatchTask convertTask(const ConvertOptions& options) {
+  options.filters.validate();
+  return {.options = "convert; " + recipeText(options.filters) +
+                     (options.extrasText.empty() ? "" : "; " + options.extrasText),
+          .work = [options](const BatchItem& item,
                             Overwrite overwrite,
                             const Progress& progress,
                             std::size_t threads) {
@@ -90,9 +91,10 @@ BatchTask convertTask(const Recipe& filters) {
             const Profile whole = openRecording(item.source, partOf(progress, 0.0, 0.5), threads);
             const EventsReport events = readEvents(item.source);
             const Profile profile =
-                filteredRecording(filters, whole, item.source, partOf(progress, 0.5, 0.5));
+                filteredRecording(options.filters, whole, item.source, partOf(progress, 0.5, 0.5));
+            const SaveExtras extras = options.extras ? options.extras(item, profile) : SaveExtras{};
             const SaveReport saved = saveRecording(
-                profile, events.events, item.target, overwrite, partOf(progress, 0.5, 1.0));
+                profile, events.events, item.target, overwrite, partOf(progress, 0.5, 1.0), extras);
             BatchAnswer answer{.said = counted(profile.numFrames(), "frame")};
             if (saved.movedStamps > 0)
               answer.said += "; " + std::to_string(saved.movedStamps) +

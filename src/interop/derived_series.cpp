@@ -75,8 +75,7 @@ class SignalsSeries final : public FrameSeries {
 class SlipRowSeries final : public FrameSeries {
  public:
   SlipRowSeries(const Profile& profile, const SlipDetectorOptions& options)
-      : FrameSeries(profile, "slip"),
-        detector_(profile.layout(), withScaleOf(profile.hand(), options)) {
+      : FrameSeries(profile, "slip"), detector_(profile.hand(), options) {
     static const std::vector<Column> ofMatrix = {{"active", "taxels"},
                                                  {"dx", "taxels"},
                                                  {"dy", "taxels"},

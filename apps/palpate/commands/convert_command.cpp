@@ -140,6 +140,19 @@ std::vector<std::string> formNames() {
   return names;
 }
 
+// `given` must outlive the task.
+BatchTask convertTaskOf(const CommandLine& given) {
+  const Recipe recipe = recipeOf(given);
+  ConvertOptions options{.filters = recipe};
+  options.extras = [&given, recipe](const BatchItem& item, const Profile& profile) {
+    return saveExtrasOf(given, item.source, item.target, profile, recipe);
+  };
+  for (const char* name : {"no-signals", "no-slip", "units-row"})
+    if (given.has(name))
+      options.extrasText += (options.extrasText.empty() ? "" : " ") + std::string(name);
+  return convertTask(options);
+}
+
 int convertBatch(const CommandLine& given) {
   for (const char* name : {"from", "to", "to-form"})
     if (given.has(name))
@@ -147,7 +160,7 @@ int convertBatch(const CommandLine& given) {
                        " doesn't go with -o; the ending of the template " + "chooses the form");
   std::vector<std::string> endings;
   for (const RecordingForm& form : recordingForms()) endings.emplace_back(form.ending);
-  return runBatchCommand(given, endings, convertTask());
+  return runBatchCommand(given, endings, convertTaskOf(given));
 }
 
 }  // namespace
@@ -186,7 +199,8 @@ int convertCommand(const Arguments& words) {
   if (isFolder && (given.has("from") || given.has("to")))
     throw UsageError("--from and --to work with one recording, not with a folder");
   if (isFolder && hasBatchOptions(given))
-    return runBatchCommand(given, {}, convertTask(), in, fs::path(out) / ("{name}." + *form));
+    return runBatchCommand(
+        given, {}, convertTaskOf(given), in, fs::path(out) / ("{name}." + *form));
   refuseBatchOptions(given);
   return isFolder ? convertFolder(given, in, out, *form) : convertOne(given, in, out);
 }

@@ -4,12 +4,14 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 
 #include <palpate/batch/batch_run.h>
 #include <palpate/filter/recipe.h>
 #include <palpate/recognition/feature_table.h>
+#include <palpate/recording/recording.h>
 #include <palpate/slip/slip_segments.h>
 
 namespace palpate {
@@ -17,8 +19,16 @@ namespace palpate {
 // Each throws std::invalid_argument where a filter is not allowed; the work throws Error for a
 // matrix or frame that a recording doesn't have.
 
+struct ConvertOptions {
+  Recipe filters = {};
+  // What is saved beside the frames of a result, of the recording as it was opened or filtered; may
+  // be empty: nothing.
+  std::function<SaveExtras(const BatchItem&, const Profile&)> extras = {};
+  // The options of `extras` as text: a result that was made with others is not up to date.
+  std::string extrasText = {};
+};
 // The form is that of the result's ending (formatOf()).
-BatchTask convertTask(const Recipe& filters = {});
+BatchTask convertTask(const ConvertOptions& options = {});
 
 struct SignalRowsOptions {
   std::optional<std::int64_t> matrix = {};  // only this one
