@@ -231,13 +231,13 @@ void WindowMenus::addStop(QToolBar& bar, QAction* stop) {
   button->setProperty("danger", true);
   button->setFocusPolicy(Qt::NoFocus);  // has a key instead
   button->setMinimumHeight(kWindowMenusControlHeight);
-  connect(button, &QPushButton::clicked, stop, &QAction::trigger);
+  QObject::connect(button, &QPushButton::clicked, stop, &QAction::trigger);
   QAction* shown = bar.addWidget(button);
   const auto follow = [shown, button, stop] {
     shown->setVisible(stop->isEnabled());
     button->setToolTip(stop->toolTip());
   };
-  connect(stop, &QAction::changed, button, follow);
+  QObject::connect(stop, &QAction::changed, button, follow);
   follow();
 }
 
