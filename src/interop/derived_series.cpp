@@ -130,8 +130,9 @@ class SlipRowSeries final : public FrameSeries {
 std::vector<std::unique_ptr<ExportedSeries>> derivedSeries(const Profile& profile,
                                                            const DerivedSeriesOptions& options) {
   std::vector<std::unique_ptr<ExportedSeries>> series;
-  if (options.signals) series.push_back(std::make_unique<SignalsSeries>(profile));
-  if (options.slip) series.push_back(std::make_unique<SlipRowSeries>(profile, options.detector));
+  if (options.withSignals) series.push_back(std::make_unique<SignalsSeries>(profile));
+  if (options.withSlip)
+    series.push_back(std::make_unique<SlipRowSeries>(profile, options.detector));
   return series;
 }
 

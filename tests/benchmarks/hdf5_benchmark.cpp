@@ -38,12 +38,13 @@ void setTaxelBytes(benchmark::State& state, const Profile& profile) {
                                                     profile.layout().numCells() * 2));
 }
 
-void writeHdf5With(benchmark::State& state, bool signals, bool slip) {
+void writeHdf5With(benchmark::State& state, bool withSignals, bool withSlip) {
   const Profile profile = hourOfFrames();
   const palpate::testing::TemporaryFolder folder;
   for ([[maybe_unused]] auto _ : state) {
     palpate::ExportExtras extras;
-    extras.series = palpate::derivedSeries(profile, {.signals = signals, .slip = slip});
+    extras.series =
+        palpate::derivedSeries(profile, {.withSignals = withSignals, .withSlip = withSlip});
     palpate::writeHdf5({profile, {}, {}, extras}, folder / "a.h5", palpate::Overwrite::kReplace);
   }
   setTaxelBytes(state, profile);

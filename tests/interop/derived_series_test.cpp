@@ -33,7 +33,7 @@ std::map<std::string, double> nextRow(ExportedSeries& series) {
 
 TEST(DerivedSeries, signalsAreThoseOfEachMatrixAndOfAllTogether) {
   const Profile profile = onePad({{0, 0, 0, 0, 0, 0, 0, 0}, {10, 0, 30, 0, 0, 0, 8, 0}});
-  const auto all = derivedSeries(profile, {.slip = false});
+  const auto all = derivedSeries(profile, {.withSlip = false});
   ASSERT_EQ(all.size(), 1u);
   ExportedSeries& signals = *all[0];
   EXPECT_EQ(signals.name(), "signals");
@@ -75,7 +75,7 @@ TEST(DerivedSeries, theUnitsAreThoseOfTheHandAndOfEachColumn) {
 // The detector is run over the same frames by the function that the commands use.
 TEST(DerivedSeries, slipIsWhatTheDetectorSaysOfEveryFrame) {
   const Profile profile = synthesize({.durationS = 4.0, .grasps = 1, .noiseCounts = 4.0});
-  const auto all = derivedSeries(profile, {.signals = false});
+  const auto all = derivedSeries(profile, {.withSignals = false});
   ASSERT_EQ(all.size(), 1u);
   ExportedSeries& slip = *all[0];
   EXPECT_EQ(slip.name(), "slip");

@@ -33,8 +33,8 @@ SaveExtras saveExtrasOf(const CommandLine& given,
   extras.provenance.sourceSha256 = sha256OfFile(in);
   extras.provenance.filters = recipeText(recipe);
   extras.provenance.hand = profile.hand().name;
-  extras.series =
-      derivedSeries(profile, {.signals = !given.has("no-signals"), .slip = !given.has("no-slip")});
+  extras.series = derivedSeries(
+      profile, {.withSignals = !given.has("no-signals"), .withSlip = !given.has("no-slip")});
   return all;
 }
 

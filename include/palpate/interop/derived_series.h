@@ -21,8 +21,8 @@
 namespace palpate {
 
 struct DerivedSeriesOptions {
-  bool signals = true;
-  bool slip = true;
+  bool withSignals = true;
+  bool withSlip = true;
   // As the views of the window have it: the method `contest`, the reference is taken when the
   // contact is at rest.
   SlipDetectorOptions detector = {};
