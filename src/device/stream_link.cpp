@@ -203,6 +203,7 @@ void StreamLink::takeFrame(const StreamItem& item) {
   frame.values.assign(item.values.begin(), item.values.end());
   frame.hostUs = stampAfter(session_.lastStampUs);
   const std::int64_t hostUs = frame.hostUs;
+  session_.lastDeviceUs = item.deviceUs;
   const auto deviceUs = deviceTime(item, nowUs);
   if (deviceUs) {
     frame.deviceMs = floorMs(*deviceUs);
@@ -246,7 +247,11 @@ std::optional<std::uint64_t> StreamLink::missingBefore(const StreamItem& item,
   }
   session_.lateSequence.reset();
   session_.lastSequence = number;
-  const auto passedUs = static_cast<double>(monotonicUs - session_.lastFrameUs);
+  // What waited in a buffer arrives at once, also what was sent seconds apart: then the sender's
+  // clock says how much time passed.
+  auto passedUs = static_cast<double>(monotonicUs - session_.lastFrameUs);
+  if (item.deviceUs && session_.lastDeviceUs)
+    passedUs = std::max(passedUs, static_cast<double>(*item.deviceUs - *session_.lastDeviceUs));
   const bool tooFar = step > kLargeStep && session_.periodUs > 0.0 &&
                       step * session_.periodUs > 10.0 * passedUs + kSecondUs;
   if (step > 0 && !tooFar) return static_cast<std::uint64_t>(step - 1);

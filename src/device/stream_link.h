@@ -97,6 +97,7 @@ class StreamLink : public PortLink {
     StreamClock clock;
     bool speedReported = false;
     std::optional<std::uint32_t> lastSequence;
+    std::optional<std::int64_t> lastDeviceUs;  // of the last frame, by the sender's clock
     std::optional<std::uint32_t> lateSequence;
     double periodUs = 0.0;  // usual time between two frames; 0: not known
     std::uint64_t bytes = 0;

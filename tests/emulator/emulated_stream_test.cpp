@@ -291,10 +291,13 @@ TEST(EmulatedStream, FramesThatTheClientDoesNotReadAreLostAndCounted) {
   } blocked(gate);
   gate.lock();
   device.start(blocked);
-  EXPECT_TRUE(awaited([&] { return stream.counts().lost > 10; }, std::chrono::minutes(2)));
+  // More than a second of frames, which the receiver finds when it reads what waited.
+  constexpr std::uint64_t kLost = 10'000;
+  EXPECT_TRUE(awaited([&] { return stream.counts().lost > kLost; }, std::chrono::minutes(2)));
   gate.unlock();
   // It first reads all that waits in the buffers.
-  EXPECT_TRUE(awaited([&] { return device.status().tactile.lost > 10; }, std::chrono::minutes(2)));
+  EXPECT_TRUE(
+      awaited([&] { return device.status().tactile.lost > kLost; }, std::chrono::minutes(2)));
   device.stop();
   EXPECT_EQ(device.status().tactile.badChecksums, 0u);
 }

@@ -138,7 +138,7 @@ TEST_F(LiveWindowTest, StopStaysInSightAndNoKeyMovesAHandThatIsNotShown) {
   EXPECT_FALSE(stop->isVisible()) << "there is nothing to stop";
   connectEmulatedHand();
   ASSERT_TRUE(await([&] { return stop->isVisible(); }));
-  click("openHand");
+  click("graspHand");
   ASSERT_TRUE(await([&] { return bench_->handMoves(); }));
   open({"good.dsa"});
   ASSERT_TRUE(window().state().displayed.isRecording());
@@ -148,9 +148,11 @@ TEST_F(LiveWindowTest, StopStaysInSightAndNoKeyMovesAHandThatIsNotShown) {
     EXPECT_FALSE(actions().at(action)->isEnabled()) << action;
     EXPECT_TRUE(actions().at(action)->toolTip().contains("F6")) << action;
   }
-  EXPECT_TRUE(bench_->handMoves());
   QTest::mouseClick(stop, Qt::LeftButton);
   EXPECT_TRUE(await([&] { return !bench_->handMoves(); }));
+  const auto ended = live().source()->control->status().last;
+  ASSERT_TRUE(ended);
+  EXPECT_EQ(ended->outcome, GraspOutcome::kStopped);
   window().state().displayed.showLive();
   EXPECT_TRUE(await([&] { return actions().at("graspHand")->isEnabled(); }));
 }
