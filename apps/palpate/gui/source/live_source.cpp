@@ -10,6 +10,8 @@
 #include <palpate/model/hand_file.h>
 #include <palpate/recording/recording.h>
 
+#include "gui/source/recording_opener.h"
+
 namespace palpate::gui {
 namespace {
 
@@ -39,7 +41,7 @@ std::unique_ptr<Device> deviceOf(LiveSource& source,
   switch (connection.kind) {
     case Connection::Kind::kReplay: {
       const std::filesystem::path path = connection.recording.toStdString();
-      Profile profile = openRecording(path, progress);
+      Profile profile = openForWindow(path, progress);
       if (profile.numFrames() == 0) throw FileError(path, "has no frames: nothing to replay");
       return std::make_unique<Replay>(std::move(profile), ReplayOptions{}, readEvents(path).events);
     }
