@@ -1,12 +1,15 @@
 #include "palpate/core/hash.h"
 
 #include <array>
+#include <cerrno>
 #include <fstream>
 #include <memory>
 #include <span>
+#include <system_error>
 #include <vector>
 
 #include <openssl/evp.h>
+#include <unistd.h>
 
 #include "palpate/core/error.h"
 #include "palpate/core/number_text.h"
@@ -53,6 +56,23 @@ std::string sha256OfFile(const std::filesystem::path& path) {
     hash.add(piece.data(), static_cast<std::size_t>(in.gcount()));
   } while (in);
   if (in.bad()) throw FileError(path, "can't be read");
+  return hash.hexadecimal();
+}
+
+std::string sha256OfDescriptor(int descriptor,
+                               std::uint64_t from,
+                               const std::filesystem::path& path) {
+  Sha256 hash;
+  std::vector<char> piece(1u << 18);
+  auto at = static_cast<off_t>(from);
+  while (true) {
+    const ssize_t got = ::pread(descriptor, piece.data(), piece.size(), at);
+    if (got < 0 && errno == EINTR) continue;
+    if (got < 0) throw FileError(path, "can't be read: " + std::generic_category().message(errno));
+    if (got == 0) break;
+    hash.add(piece.data(), static_cast<std::size_t>(got));
+    at += got;
+  }
   return hash.hexadecimal();
 }
 

@@ -3,6 +3,9 @@
 #include <cstdlib>
 #include <utility>
 
+#include "palpate/core/number_text.h"
+#include "palpate/model/gap_detector.h"
+
 namespace palpate {
 namespace {
 
@@ -21,6 +24,8 @@ struct FoxgloveStream::Open {
   std::optional<LinkHealth> link;
   std::int64_t askedUs = 0;    // stamp of the frame when link was updated
   std::int64_t anglesUs = -1;  // stamp of the angles that were sent last
+  GapDetector gaps;
+  std::optional<std::int64_t> frameUs;  // stamp of the last frame
 };
 
 FoxgloveStream::FoxgloveStream(HandDescription hand, LinkHealthQuery askLink)
@@ -88,6 +93,16 @@ void FoxgloveStream::send(const LiveResults& results) {
   const TactileFrame& frame = *results.frame;
   const std::int64_t nowUs = frame.hostUs;
   const std::uint64_t sequence = open_->sequence++;
+  const auto beforeUs = std::exchange(open_->frameUs, nowUs);
+  if (beforeUs && nowUs <= *beforeUs)  // a recording that is played again
+    open_->gaps.reset();
+  if (open_->gaps.afterGap(nowUs) && server.wanted(messages.eventsChannel())) {
+    const std::string text =
+        "no frame for " + fixedText(1e-6 * static_cast<double>(nowUs - *beforeUs), 1) + " s";
+    server.publish(messages.eventsChannel(),
+                   nowUs,
+                   messages.event({*beforeUs, nowUs, "gap", std::nullopt, text, ""}));
+  }
   for (std::size_t m = 0; m < messages.numImages(); ++m)
     if (server.wanted(m)) server.publish(m, nowUs, messages.image(frame, m));
   if (server.wanted(messages.signalsChannel()))

@@ -31,7 +31,6 @@ namespace palpate {
 namespace {
 
 constexpr std::string_view kSqliteStart{"SQLite format 3\0", 16};
-constexpr std::string_view kHdf5Start{"\x89HDF\r\n\x1a\n", 8};
 constexpr std::string_view kMatStart = "MATLAB 5.0 MAT-file";
 
 // What a file holds, as its first bytes tell, and where they are those of no recording (damaged)
@@ -41,10 +40,10 @@ Container containerOf(const std::filesystem::path& path) {
   // Closing a file that this very process writes would drop SQLite's locks on it.
   if (RecordingLock::isHeld(path)) return Container::kNative;
   FileSource source(path);
-  std::array<char, kMatStart.size()> first{};
+  std::array<char, 32> first{};
   const std::string_view start(first.data(), source.read(first));
   if (start.starts_with(kSqliteStart)) return Container::kNative;
-  if (start.starts_with(kHdf5Start)) return Container::kHdf5;
+  if (startsLikeHdf5(start)) return Container::kHdf5;
   if (start.starts_with(kMatStart)) return Container::kMat;
   if (start.starts_with("BZh") || start.starts_with('<')) return Container::kDsa;
   const std::string ending = lowerEndingOf(path);

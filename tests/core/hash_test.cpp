@@ -1,6 +1,10 @@
 #include "palpate/core/hash.h"
 
+#include <fcntl.h>
+#include <unistd.h>
+
 #include "palpate/core/error.h"
+#include "palpate/core/file_descriptor.h"
 
 #include "testing/testing.h"
 
@@ -25,6 +29,16 @@ TEST(Hash, OfFilesLongerThanOnePiece) {
   testing::writeFile(folder / "a", std::string(1'000'000, 'a'));
   EXPECT_EQ(sha256OfFile(folder / "a"), kOfMillionA);
   EXPECT_THROW(sha256OfFile(folder / "missing"), FileError);
+}
+
+TEST(Hash, OfADescriptorFromAByteOn) {
+  const testing::TemporaryFolder folder;
+  testing::writeFile(folder / "a", "head" + std::string(1'000'000, 'a'));
+  const FileDescriptor file(::open((folder / "a").c_str(), O_RDONLY | O_CLOEXEC));
+  EXPECT_EQ(sha256OfDescriptor(file.get(), 4, folder / "a"), kOfMillionA);
+  EXPECT_EQ(sha256OfDescriptor(file.get(), 2'000'000, folder / "a"), kOfNothing);
+  EXPECT_EQ(::lseek(file.get(), 0, SEEK_CUR), 0);
+  EXPECT_THROW(sha256OfDescriptor(-1, 0, folder / "a"), FileError);
 }
 
 }  // namespace

@@ -93,6 +93,31 @@ TEST(FoxgloveStream, EventsAreALog) {
   EXPECT_EQ(log.at("message").asString(), "finger 0 distal: begins");
 }
 
+TEST(FoxgloveStream, AnIntervalWithoutFramesIsAnEvent) {
+  FoxgloveStream stream(sdh2());
+  stream.switchOn(anyPort());
+  WebSocketClient client(stream.port());
+  ASSERT_TRUE(client.join());
+  subscribe(client, {"/events"});
+  const auto sendAt = [&](std::int64_t us) {
+    TactileFrame frame(sdh2().layout);
+    frame.hostUs = us;
+    LiveResults results;
+    results.frame = std::make_shared<const TactileFrame>(frame);
+    stream.send(results);
+  };
+  for (int i = 0; i < 20; ++i) sendAt(1'000'000 + i * 33'000);
+  EXPECT_EQ(stream.stats()->published, 0u);
+  sendAt(1'000'000 + 19 * 33'000 + 2'300'000);
+  const Json log = Json::parse(client.frame().value().payload.substr(13));
+  EXPECT_EQ(log.at("name").asString(), "gap");
+  EXPECT_EQ(log.at("message").asString(), "no frame for 2.3 s");
+  EXPECT_EQ(log.at("timestamp").at("sec").asInteger(), 1);
+  EXPECT_EQ(log.at("timestamp").at("nsec").asInteger(), 627'000'000);
+  sendAt(500'000);  // a recording that is played again
+  EXPECT_EQ(stream.stats()->published, 1u);
+}
+
 TEST(FoxgloveStream, NothingIsMadeThatNobodyReads) {
   const HandDescription hand = builtInHand("parallel_gripper");
   FoxgloveStream stream(hand, []() -> LinkHealth {

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "palpate/recording/hdf5_recording.h"
+
 #include "recording/import_samples.h"
 
 namespace palpate::table_source_test {
@@ -312,6 +314,27 @@ with h5py.File(folder + 'a.h5', 'w') as f, open(folder + 'truth.csv', 'w') as ou
   const std::string whole = testing::readFile(folder / "a.h5");
   EXPECT_NE(refusalOf(whole.substr(0, whole.size() / 2)).find("can't be opened as HDF5"),
             std::string::npos);
+}
+
+// MATLAB's files of version 7.3 are HDF5 behind 512 bytes of text.
+TEST(Hdf5DataSets, OfAMatlabFileAreReadAndARecordingIsNamedAsOne) {
+  const testing::TemporaryFolder folder;
+  testing::runPython(folder, R"(
+import sys, h5py
+path = sys.argv[1] + '/a.mat'
+with h5py.File(path, 'w', userblock_size=512) as f: f['pad'] = [[1., 2.], [3., 4.]]
+with open(path, 'r+b') as f: f.write(b'MATLAB 7.3 MAT-file'.ljust(512))
+)");
+  EXPECT_TRUE(isHdf5Table(folder / "a.mat"));
+  const ReadTable read = readTable(folder / "a.mat");
+  ASSERT_EQ(read.columns.size(), 1u);
+  EXPECT_EQ(read.columns[0].name, "pad");
+  EXPECT_EQ(read.rows.size(), 2u);
+  EXPECT_NE(refusalOf(std::string(kHdf5RecordingStart)).find("is a recording already"),
+            std::string::npos);
+  EXPECT_FALSE(isHdf5Table(folder / "nothing"));
+  testing::writeFile(folder / "short", "\x89HD");
+  EXPECT_FALSE(isHdf5Table(folder / "short"));
 }
 
 TEST(TableColumn, WidthIsTheProductOfItsShape) {

@@ -13,12 +13,12 @@
 #include <unistd.h>
 
 #include "palpate/core/error.h"
+#include "palpate/recording/hdf5_recording.h"
 
 namespace palpate::commands {
 namespace fs = std::filesystem;
 
 bool needsHdf5(const Arguments& words) {
-  constexpr std::string_view kStart{"\x89HDF\r\n\x1a\n", 8};
   for (const std::string& word : words) {
     std::string last = word.substr(word.find('=') + 1);
     std::transform(last.begin(), last.end(), last.begin(), [](unsigned char letter) {
@@ -30,9 +30,9 @@ bool needsHdf5(const Arguments& words) {
     // No pipe is opened: nobody may ever write into it.
     std::error_code ignored;
     if (!fs::is_regular_file(word, ignored)) continue;
-    std::array<char, kStart.size()> first{};
+    std::array<char, kHdf5RecordingStart.size()> first{};
     std::ifstream(word, std::ios::binary).read(first.data(), first.size());
-    if (std::string_view(first.data(), first.size()) == kStart) return true;
+    if (startsLikeHdf5({first.data(), first.size()})) return true;
   }
   return false;
 }

@@ -12,6 +12,7 @@
 #include <map>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <palpate/core/output_file.h>
@@ -24,6 +25,14 @@ namespace palpate {
 
 // The version of the layout that is written, and the newest that is read.
 constexpr int kHdf5LayoutVersion = 1;
+
+// The first bytes of what writeHdf5() writes, and of HDF5 files without a user block.
+constexpr std::string_view kHdf5RecordingStart = "Palpate recording in HDF5\n";
+constexpr std::string_view kHdf5Signature{"\x89HDF\r\n\x1a\n", 8};
+// Whether the first bytes of a file (26 or more, if it has so many) are those of HDF5.
+constexpr bool startsLikeHdf5(std::string_view first) noexcept {
+  return first.starts_with(kHdf5RecordingStart) || first.starts_with(kHdf5Signature);
+}
 
 struct Hdf5WriteOptions {
   int level = 1;  // of the compression (deflate), 0..9
@@ -57,9 +66,11 @@ struct Hdf5Recording {
   Provenance provenance;
 };
 
-// Opens what writeHdf5() has made. Throws FileError; FormatError where it is damaged or cut off,
-// another program's (palpate import reads those), of a newer layout, or compressed by a filter that
-// is not there.
+// Opens what writeHdf5() has made. The whole file is read once for its checksum before the HDF5
+// library sees it: a damaged one could end the process there. While a profile of the file exists,
+// the file is not opened again. Throws FileError; FormatError where it is damaged, cut off or
+// changed, another program's (palpate import reads those), of a newer layout, or compressed by a
+// filter that is not there.
 Hdf5Recording readHdf5(const std::filesystem::path& path);
 
 }  // namespace palpate

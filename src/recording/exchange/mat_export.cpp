@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "palpate/core/error.h"
-#include "palpate/model/hand_file.h"
 
 #include "recording/exchange/mat_file.h"
+#include "recording/profile_meta.h"
 
 namespace palpate {
 namespace {
@@ -243,11 +243,10 @@ MatValue matEventsOf(std::span<const RecordingEvent> events) {
                               {"json", MatValue::texts(jsons)}});
 }
 
-MatValue matMetaOf(const Profile& profile, std::map<std::string, std::string> meta) {
-  for (auto& [key, value] : handMeta(profile.hand())) meta[key] = value;
+MatValue matMetaOf(const Profile& profile, const std::map<std::string, std::string>& said) {
   std::vector<std::string> keys;
   std::vector<std::string> values;
-  for (const auto& [key, value] : meta) {
+  for (const auto& [key, value] : writtenMeta(profile, said)) {
     keys.push_back(key);
     values.push_back(value);
   }

@@ -2,15 +2,28 @@
 // which writer and reader agree on. Private to this module.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <string>
+
+#include "palpate/recording/hdf5_recording.h"
 
 namespace palpate::hdf5_layout {
 
 constexpr const char* kFormat = "palpate";  // value of the attribute `format`
 constexpr std::int64_t kNoDeviceTime = std::numeric_limits<std::int64_t>::min();
 constexpr std::int32_t kNoMatrix = std::numeric_limits<std::int32_t>::min();
+
+// HDF5 leaves the first bytes of a file to the program that writes it (user block). They hold a
+// checksum of all bytes behind them, because the library is not safe against a damaged file.
+constexpr std::size_t kUserBlockBytes = 512;
+inline std::string userBlock(const std::string& sha256OfTheRest) {
+  std::string block(kHdf5RecordingStart);
+  block += "SHA-256 of the bytes from 512 on:\n" + sha256OfTheRest + "\n";
+  block.resize(kUserBlockBytes, '\0');
+  return block;
+}
 
 inline std::string matrixPath(std::size_t matrix) { return "tactile/m" + std::to_string(matrix); }
 

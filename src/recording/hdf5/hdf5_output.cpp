@@ -11,6 +11,9 @@
 
 #include "palpate/core/error.h"
 #include "palpate/core/file_descriptor.h"
+#include "palpate/core/hash.h"
+
+#include "recording/hdf5/hdf5_layout.h"
 
 namespace palpate {
 namespace {
@@ -147,6 +150,7 @@ Hdf5Output::Hdf5Output(const std::filesystem::path& path, Overwrite overwrite)
   const DriverInfo info{out_.descriptor(), &error_};
   require(driver_.ok() && H5Pset_driver(access.get(), driver_.get(), &info) >= 0 &&
           H5Pset_fclose_degree(access.get(), H5F_CLOSE_STRONG) >= 0 &&
+          H5Pset_userblock(creation.get(), hdf5_layout::kUserBlockBytes) >= 0 &&
           // Names of members in the order in which they were made, and no times: the same recording
           // gives the same bytes.
           H5Pset_link_creation_order(creation.get(),
@@ -169,6 +173,10 @@ void Hdf5Output::require(bool ok) const {
 void Hdf5Output::commit() {
   require(file_.reset());
   driver_.reset();
+  const std::string block = hdf5_layout::userBlock(
+      sha256OfDescriptor(out_.descriptor(), hdf5_layout::kUserBlockBytes, out_.path()));
+  // As the position of the descriptor never moved, this is written at the beginning.
+  out_.write(block);
   out_.commit();
 }
 

@@ -1,13 +1,23 @@
 #include <algorithm>
+#include <cerrno>
 #include <cmath>
 #include <cstring>
 #include <list>
+#include <memory>
 #include <mutex>
 #include <optional>
+#include <system_error>
 #include <utility>
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include "palpate/core/error.h"
 #include "palpate/core/escaped_line.h"
+#include "palpate/core/file_descriptor.h"
+#include "palpate/core/hash.h"
 #include "palpate/model/hand_file.h"
 #include "palpate/recording/hdf5_recording.h"
 #include "palpate/recording/palpate_schema.h"
@@ -240,12 +250,75 @@ class SampleSeries {
   mutable std::size_t firstInBlock_ = 0;
 };
 
+std::vector<RecordingEvent> hdf5EventsOf(const fs::path& path, hid_t file) {
+  if (!hdf5HasObject(file, "events")) throw FormatError(path, "the group 'events' is missing");
+  const auto times = ReadArray(path, file, "events/time_us").integers(kMostEvents);
+  const auto integers = [&](const char* name) {
+    const ReadArray array(path, file, name);
+    array.requireShape({times.size()});
+    return array.integers(kMostEvents);
+  };
+  const auto texts = [&](const char* name) {
+    const ReadArray array(path, file, name);
+    array.requireShape({times.size()});
+    return array.texts(kMostEvents, 2 * kMaxEventBytes);
+  };
+  const auto ends = integers("events/end_us");
+  const auto matrices = integers("events/matrix");
+  auto kinds = texts("events/kind");
+  auto words = texts("events/text");
+  auto jsons = texts("events/json");
+  std::vector<RecordingEvent> events;
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    RecordingEvent& event = events.emplace_back();
+    event.tUs = times[i];
+    event.t1Us = ends[i];
+    if (matrices[i] < INT32_MIN || matrices[i] > INT32_MAX)
+      throw FormatError(path, "\"events/matrix\" is out of range in row " + std::to_string(i));
+    if (matrices[i] != hdf5_layout::kNoMatrix) event.matrix = static_cast<int>(matrices[i]);
+    event.kind = std::move(kinds[i]);
+    event.text = std::move(words[i]);
+    event.json = std::move(jsons[i]);
+    if (event.kind.size() + event.text.size() + event.json.size() > kMaxEventBytes)
+      throw FormatError(path, "event " + std::to_string(i) + " is too long");
+  }
+  return events;
+}
+
+std::map<std::string, std::string> hdf5MetaOf(const fs::path& path, hid_t file) {
+  if (!hdf5HasObject(file, "meta")) throw FormatError(path, "the group 'meta' is missing");
+  const auto keys = ReadArray(path, file, "meta/key").texts(kMostMetaRows, kMostAttributeBytes);
+  const ReadArray valueArray(path, file, "meta/value");
+  valueArray.requireShape({keys.size()});
+  auto values = valueArray.texts(kMostMetaRows, kMostMetaBytes);
+  std::map<std::string, std::string> meta;
+  for (std::size_t i = 0; i < keys.size(); ++i) meta[keys[i]] = std::move(values[i]);
+  return meta;
+}
+
+Provenance hdf5ProvenanceOf(hid_t file) {
+  const auto text = [&](const char* name) {
+    return hdf5RestoredText(readHdf5Text(file, name, kMostAttributeBytes).value_or(""));
+  };
+  Provenance from;
+  from.program = text("program");
+  from.sourceFile = text("source_file");
+  from.sourceSha256 = text("source_sha256");
+  from.filters = text("filters");
+  from.calibration = text("calibration");
+  from.hand = text("hand");
+  return from;
+}
+
 class Hdf5Storage final : public ProfileStorage {
  public:
   // The lock is held.
   Hdf5Storage(const fs::path& path, Hdf5Id file)
       : path_(path),
         file_(std::move(file)),
+        from_(hdf5ProvenanceOf(file_.get())),
+        meta_(hdf5MetaOf(path, file_.get())),
+        events_(hdf5EventsOf(path, file_.get())),
         angles_(path, file_.get(), "joints", "angles"),
         temperatures_(path, file_.get(), "temperatures", "values") {
     readLayout();
@@ -281,7 +354,9 @@ class Hdf5Storage final : public ProfileStorage {
   bool counts() const { return counts_; }
   const SampleSeries& angleSeries() const { return angles_; }
   const SampleSeries& temperatureSeries() const { return temperatures_; }
-  hid_t file() const { return file_.get(); }
+  const Provenance& provenance() const { return from_; }
+  const std::map<std::string, std::string>& meta() const { return meta_; }
+  const std::vector<RecordingEvent>& events() const { return events_; }
 
   std::size_t numFrames() const override { return timesUs_.size(); }
   std::int64_t frameTimeUs(std::size_t frame) const override { return timesUs_[frame]; }
@@ -449,6 +524,9 @@ class Hdf5Storage final : public ProfileStorage {
 
   fs::path path_;
   Hdf5Id file_;
+  Provenance from_;
+  std::map<std::string, std::string> meta_;
+  std::vector<RecordingEvent> events_;
   SampleSeries angles_;
   SampleSeries temperatures_;
   SensorLayout layout_;
@@ -461,52 +539,6 @@ class Hdf5Storage final : public ProfileStorage {
   std::size_t framesPerBlock_ = 1;
   mutable std::list<std::shared_ptr<const FrameBlock>> cache_;  // the last used one first
 };
-
-std::vector<RecordingEvent> hdf5EventsOf(const fs::path& path, hid_t file) {
-  if (!hdf5HasObject(file, "events")) throw FormatError(path, "the group 'events' is missing");
-  const auto times = ReadArray(path, file, "events/time_us").integers(kMostEvents);
-  const auto integers = [&](const char* name) {
-    const ReadArray array(path, file, name);
-    array.requireShape({times.size()});
-    return array.integers(kMostEvents);
-  };
-  const auto texts = [&](const char* name) {
-    const ReadArray array(path, file, name);
-    array.requireShape({times.size()});
-    return array.texts(kMostEvents, 2 * kMaxEventBytes);
-  };
-  const auto ends = integers("events/end_us");
-  const auto matrices = integers("events/matrix");
-  auto kinds = texts("events/kind");
-  auto words = texts("events/text");
-  auto jsons = texts("events/json");
-  std::vector<RecordingEvent> events;
-  for (std::size_t i = 0; i < times.size(); ++i) {
-    RecordingEvent& event = events.emplace_back();
-    event.tUs = times[i];
-    event.t1Us = ends[i];
-    if (matrices[i] < INT32_MIN || matrices[i] > INT32_MAX)
-      throw FormatError(path, "\"events/matrix\" is out of range in row " + std::to_string(i));
-    if (matrices[i] != hdf5_layout::kNoMatrix) event.matrix = static_cast<int>(matrices[i]);
-    event.kind = std::move(kinds[i]);
-    event.text = std::move(words[i]);
-    event.json = std::move(jsons[i]);
-    if (event.kind.size() + event.text.size() + event.json.size() > kMaxEventBytes)
-      throw FormatError(path, "event " + std::to_string(i) + " is too long");
-  }
-  return events;
-}
-
-std::map<std::string, std::string> hdf5MetaOf(const fs::path& path, hid_t file) {
-  if (!hdf5HasObject(file, "meta")) throw FormatError(path, "the group 'meta' is missing");
-  const auto keys = ReadArray(path, file, "meta/key").texts(kMostMetaRows, kMostAttributeBytes);
-  const ReadArray valueArray(path, file, "meta/value");
-  valueArray.requireShape({keys.size()});
-  auto values = valueArray.texts(kMostMetaRows, kMostMetaBytes);
-  std::map<std::string, std::string> meta;
-  for (std::size_t i = 0; i < keys.size(); ++i) meta[keys[i]] = std::move(values[i]);
-  return meta;
-}
 
 void requirePalpateLayout(const fs::path& path, hid_t file) {
   if (readHdf5Text(file, "format", kMostAttributeBytes) != hdf5_layout::kFormat)
@@ -523,31 +555,84 @@ void requirePalpateLayout(const fs::path& path, hid_t file) {
                           std::to_string(kHdf5LayoutVersion));
 }
 
-}  // namespace
+// What is the same as long as nobody writes a file.
+struct FileIdentity {
+  dev_t device;
+  ino_t node;
+  off_t bytes;
+  std::int64_t changedNs;
+  bool operator==(const FileIdentity&) const = default;
+};
 
-Hdf5Recording readHdf5(const fs::path& path) {
+FileIdentity identityOf(const fs::path& path, int descriptor) {
+  struct stat found {};
+  if (::fstat(descriptor, &found) != 0)
+    throw FileError(path, "can't be read: " + std::generic_category().message(errno));
+  return {found.st_dev,
+          found.st_ino,
+          found.st_size,
+          std::int64_t{found.st_mtim.tv_sec} * 1'000'000'000 + found.st_mtim.tv_nsec};
+}
+
+// The library is not safe against damage in a file's structures: it sees none whose checksum
+// doesn't fit.
+void requireUndamaged(const fs::path& path, int descriptor) {
+  if (::flock(descriptor, LOCK_SH | LOCK_NB) != 0 && errno == EWOULDBLOCK)
+    throw FormatError(path, "is being written by another program");
+  std::string block(hdf5_layout::kUserBlockBytes, '\0');
+  const ssize_t got = ::pread(descriptor, block.data(), block.size(), 0);
+  block.resize(static_cast<std::size_t>(std::max<ssize_t>(got, 0)));
+  if (block.starts_with(kHdf5Signature))
+    throw FormatError(path,
+                      "is an HDF5 file of another program; 'palpate import' makes a recording of "
+                      "its tables");
+  if (!block.starts_with(kHdf5RecordingStart))
+    throw FormatError(path,
+                      "can't be opened as HDF5: its beginning is damaged, or of another file");
+  if (block !=
+      hdf5_layout::userBlock(sha256OfDescriptor(descriptor, hdf5_layout::kUserBlockBytes, path)))
+    throw FormatError(
+        path,
+        "is damaged, cut off, or was changed by another program: its checksum doesn't "
+        "fit");
+}
+
+// Files that are open, so that events and meta of a recording are not another opening.
+struct OpenHdf5File {
+  FileIdentity identity;
+  std::weak_ptr<const Hdf5Storage> storage;
+};
+
+std::shared_ptr<const Hdf5Storage> openedHdf5(const fs::path& path) {
   const auto lock = hdf5Lock();
+  static std::vector<OpenHdf5File> open;
   std::error_code failure;
   if (!fs::is_regular_file(path, failure))
     throw FileError(path, failure ? "can't be read: " + failure.message() : "is not a file");
-  Hdf5Id file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
-  if (!file.ok())
-    throw FormatError(path, "can't be opened as HDF5: it is cut off, damaged or being written");
+  const FileDescriptor descriptor(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
+  if (descriptor.get() < 0)
+    throw FileError(path, "can't be read: " + std::generic_category().message(errno));
+  const FileIdentity identity = identityOf(path, descriptor.get());
+  std::erase_if(open, [](const OpenHdf5File& file) { return file.storage.expired(); });
+  for (const OpenHdf5File& file : open)
+    if (file.identity == identity)
+      if (auto storage = file.storage.lock()) return storage;
+  requireUndamaged(path, descriptor.get());
+  // The very file that was checked, whatever the name stands for by now.
+  const std::string checked = "/proc/self/fd/" + std::to_string(descriptor.get());
+  Hdf5Id file(H5Fopen(checked.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
+  if (!file.ok()) throw FormatError(path, "can't be opened as HDF5: it is being written");
   requirePalpateLayout(path, file.get());
-  const hid_t id = file.get();
-  Provenance from;
-  const auto text = [&](const char* name) {
-    return hdf5RestoredText(readHdf5Text(id, name, kMostAttributeBytes).value_or(""));
-  };
-  from.program = text("program");
-  from.sourceFile = text("source_file");
-  from.sourceSha256 = text("source_sha256");
-  from.filters = text("filters");
-  from.calibration = text("calibration");
-  from.hand = text("hand");
-  auto meta = hdf5MetaOf(path, id);
-  auto events = hdf5EventsOf(path, id);
-  auto storage = std::make_shared<Hdf5Storage>(path, std::move(file));
+  auto storage = std::make_shared<const Hdf5Storage>(path, std::move(file));
+  open.push_back({identity, storage});
+  return storage;
+}
+
+}  // namespace
+
+Hdf5Recording readHdf5(const fs::path& path) {
+  const std::shared_ptr<const Hdf5Storage> storage = openedHdf5(path);
+  auto meta = storage->meta();
   ProfileInfo info;
   info.format = "hdf5";
   info.serial = meta["serial"];
@@ -560,10 +645,10 @@ Hdf5Recording readHdf5(const fs::path& path) {
                                       storage->layout(),
                                       storage->angleSeries().width(),
                                       storage->temperatureSeries().width());
-  return {Profile(std::move(info), std::move(hand), std::move(storage)),
-          std::move(events),
+  return {Profile(std::move(info), std::move(hand), storage),
+          storage->events(),
           std::move(meta),
-          std::move(from)};
+          storage->provenance()};
 }
 
 }  // namespace palpate

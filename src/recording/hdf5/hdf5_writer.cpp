@@ -12,12 +12,12 @@
 
 #include "palpate/core/bounded_queue.h"
 #include "palpate/core/error.h"
-#include "palpate/model/hand_file.h"
 #include "palpate/recording/hdf5_recording.h"
 
 #include "recording/hdf5/chunk_compression.h"
 #include "recording/hdf5/hdf5_layout.h"
 #include "recording/hdf5/hdf5_output.h"
+#include "recording/profile_meta.h"
 
 namespace palpate {
 namespace {
@@ -262,27 +262,9 @@ class Hdf5Writer {
   }
 
   void writeMeta() {
-    std::map<std::string, std::string> meta = content_.meta;
-    const ProfileInfo& info = profile_.info();
-    if (!info.serial.empty()) meta["serial"] = info.serial;
-    if (!info.firmware.empty()) meta["firmware"] = info.firmware;
-    if (!info.sensorRevision.empty()) meta["sensor_revision"] = info.sensorRevision;
-    // What belongs to the file of the source, or is known better.
-    for (const char* key : {"format",
-                            "finished",
-                            "value_type",
-                            "frames",
-                            "angle_samples",
-                            "temperature_samples",
-                            "seconds",
-                            "hand",
-                            "hand_json",
-                            "hand_urdf"})
-      meta.erase(key);
-    meta.merge(handMeta(profile_.hand()));
     std::vector<std::string> keys;
     std::vector<std::string> values;
-    for (const auto& [key, value] : meta) {
+    for (const auto& [key, value] : writtenMeta(profile_, content_.meta)) {
       keys.push_back(key);
       values.push_back(value);
     }

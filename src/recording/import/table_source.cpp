@@ -7,6 +7,7 @@
 
 #include "palpate/core/error.h"
 #include "palpate/core/text_file.h"
+#include "palpate/recording/hdf5_recording.h"
 
 #include "recording/import/csv_source.h"
 #include "recording/import/hdf5_source.h"
@@ -17,6 +18,9 @@ namespace {
 
 constexpr std::array<std::pair<char, std::string_view>, 5> kDelimiterNames = {
     {{'\0', "detect"}, {',', "comma"}, {';', "semicolon"}, {'\t', "tab"}, {' ', "blank"}}};
+
+// MATLAB leaves so many bytes in front of HDF5's own.
+constexpr std::size_t kUserBlockBytes = 512;
 
 }  // namespace
 
@@ -38,18 +42,30 @@ std::optional<char> delimiterNamed(std::string_view name) {
   return std::nullopt;
 }
 
+bool isHdf5Table(const std::filesystem::path& path) noexcept {
+  try {
+    const std::string first = beginningOfFile(path, kUserBlockBytes + kHdf5Signature.size());
+    return std::string_view(first).starts_with(kHdf5Signature) ||
+           std::string_view(first).substr(std::min(first.size(), kUserBlockBytes)) ==
+               kHdf5Signature;
+  } catch (const std::exception&) {
+    return false;
+  }
+}
+
 std::unique_ptr<TableSource> openTable(const std::filesystem::path& path,
                                        const TableOptions& options) {
-  constexpr std::size_t kFirstBytes = 8;
+  constexpr std::size_t kFirstBytes = kHdf5RecordingStart.size();
   std::error_code failure;
   if (std::filesystem::is_directory(path, failure)) throw FileError(path, "is a folder");
   const std::string first = beginningOfFile(path, kFirstBytes);
   if (first.starts_with("PK\x03\x04") || first.starts_with("PK\x05\x06") ||
       first.starts_with("\x93NUMPY"))
     return std::make_unique<NpzSource>(path);
-  if (first.starts_with("\x89HDF\r\n\x1A\n")) return std::make_unique<Hdf5Source>(path);
-  if (first.starts_with("BZh") || first.starts_with("SQLite f"))
+  if (first.starts_with("BZh") || first.starts_with("SQLite f") ||
+      first.starts_with(kHdf5RecordingStart))
     throw FormatError(path, "is a recording already: open or convert it");
+  if (isHdf5Table(path)) return std::make_unique<Hdf5Source>(path);
   if (first.starts_with("\x1F\x8B"))
     throw FormatError(path, "is compressed; unpack it with gunzip");
   return std::make_unique<CsvSource>(path, options);

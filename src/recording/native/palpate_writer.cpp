@@ -8,13 +8,13 @@
 
 #include "palpate/core/error.h"
 #include "palpate/core/progress.h"
-#include "palpate/model/hand_file.h"
 #include "palpate/recording/palpate_blocks.h"
 #include "palpate/recording/palpate_schema.h"
 
 #include "recording/native/palpate_connection.h"
 #include "recording/native/palpate_rows.h"
 #include "recording/native/sqlite_database.h"
+#include "recording/profile_meta.h"
 
 namespace palpate {
 namespace fs = std::filesystem;
@@ -97,16 +97,6 @@ class TemporaryNeighbour {
 template <typename TimeOf, typename Add>
 void addUntil(std::size_t& next, std::size_t count, std::int64_t untilUs, TimeOf timeOf, Add add) {
   while (next < count && timeOf(next) <= untilUs) add(next++);
-}
-
-std::map<std::string, std::string> metaOf(const Profile& profile) {
-  std::map<std::string, std::string> meta;
-  if (!profile.info().serial.empty()) meta["serial"] = profile.info().serial;
-  if (!profile.info().firmware.empty()) meta["firmware"] = profile.info().firmware;
-  if (!profile.info().sensorRevision.empty())
-    meta["sensor_revision"] = profile.info().sensorRevision;
-  meta.merge(handMeta(profile.hand()));
-  return meta;
 }
 
 void writeAll(const Profile& profile,
@@ -444,23 +434,10 @@ void writePalpate(const Profile& profile,
                   Overwrite overwrite,
                   const Progress& progress,
                   const std::map<std::string, std::string>& meta) {
-  std::map<std::string, std::string> all = metaOf(profile);
-  for (const auto& [key, value] : meta)
-    // The texts of a hand belong together.
-    if (key != "hand_json" && key != "hand_urdf") all.try_emplace(key, value);
-  // Written when the recording is finished.
-  for (const char* key : {"format",
-                          "finished",
-                          "value_type",
-                          "frames",
-                          "angle_samples",
-                          "temperature_samples",
-                          "seconds"})
-    all.erase(key);
   writePalpate(
       path,
       profile.hand().layout,
-      all,
+      writtenMeta(profile, meta),
       [&](PalpateWriter& writer) { writeAll(profile, events, writer, progress); },
       overwrite);
 }

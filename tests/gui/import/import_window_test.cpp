@@ -2,6 +2,8 @@
 #include <QAction>
 #include <QTimer>
 
+#include "palpate/core/error.h"
+#include "palpate/model/hand_file.h"
 #include "palpate/recording/recording.h"
 
 #include "gui/import/import_dialog.h"
@@ -54,6 +56,25 @@ TEST_F(ImportWindowTest, TheRecordingIsShownAndTheChoicesAreRemembered) {
       [&] { return window().state().messages.flashed().contains("(20 frames)"); }, 30'000));
   EXPECT_EQ(openRecording(out).numFrames(), 20u);
   EXPECT_EQ(loadImportRequest(window().state().settings).hand, "flat_pad_16x16");
+}
+
+// A damaged HDF5 file can end the process, which then holds no hand any more.
+TEST(ImportRequest, Hdf5IsRefusedWhileAHandIsConnected) {
+  const testing::TemporaryFolder folder;
+  for (const std::size_t userBlock : {0u, 512u}) {
+    testing::writeFile(folder / "a.h5",
+                       std::string(userBlock, ' ') + "\x89HDF\r\n\x1a\n" + std::string(600, '\0'));
+    ImportRequest request;
+    request.data = QString::fromStdString(folder / "a.h5");
+    request.hand = "flat_pad_16x16";
+    request.out = QString::fromStdString(folder / "a.palpate");
+    request.handConnected = true;
+    const auto folders = handFolders(testing::dataFolder());
+    EXPECT_TRUE(lookAtImport(request, folders).problem.contains("disconnect the hand first"));
+    EXPECT_THROW(runImport(request, folders, {}), FormatError);
+    request.handConnected = false;
+    EXPECT_FALSE(lookAtImport(request, folders).problem.contains("disconnect"));
+  }
 }
 
 TEST_F(ImportWindowTest, WhatWasRefusedStaysInTheBanner) {

@@ -55,20 +55,6 @@ TEST(RecordingOpener, DeliversTheRecordingWithItsSignals) {
   }
 }
 
-TEST(RecordingOpener, TheWindowOpensNoHdf5FileWhateverItsName) {
-  const testing::TemporaryFolder folder;
-  for (const char* name : {"a.h5", "a.dsa"}) {
-    testing::writeFile(folder / name, std::string("\x89HDF\r\n\x1a\n") + std::string(600, '\0'));
-    try {
-      openForWindow(folder / name, {});
-      ADD_FAILURE() << name;
-    } catch (const FormatError& error) {
-      EXPECT_NE(std::string(error.what()).find("palpate convert"), std::string::npos)
-          << error.what();
-    }
-  }
-}
-
 TEST(RecordingOpener, TellsWhatIsWrongAndGoesOnWithTheNext) {
   RecordingOpener opener([](const std::filesystem::path& path, const Progress&) {
     if (path == "bad.dsa") throw FormatError(path, "cut short", 12);

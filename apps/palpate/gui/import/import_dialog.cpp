@@ -66,8 +66,12 @@ QString sampleText(const ImportPreview& preview) {
 
 ImportDialog::ImportDialog(QSettings& settings,
                            std::vector<std::filesystem::path> folders,
+                           bool handConnected,
                            QWidget* parent)
-    : QDialog(parent), settings_(settings), folders_(std::move(folders)) {
+    : QDialog(parent),
+      settings_(settings),
+      folders_(std::move(folders)),
+      handConnected_(handConnected) {
   setWindowTitle("Import");
   const ImportRequest last = loadImportRequest(settings);
   auto* upper = new QHBoxLayout;
@@ -82,7 +86,7 @@ ImportDialog::ImportDialog(QSettings& settings,
         this,
         "Choose a file to import",
         folder,
-        "Tables (*.csv *.tsv *.txt *.log *.dat *.npy *.npz *.h5 *.hdf5);;All files (*)");
+        "Tables (*.csv *.tsv *.txt *.log *.dat *.npy *.npz *.h5 *.hdf5 *.mat);;All files (*)");
   };
   askForHand = [this] { return QFileDialog::getExistingDirectory(this, "Folder of a hand"); };
   askForName = [this](const QString& suggestion) {
@@ -319,6 +323,7 @@ ImportRequest ImportDialog::request() const {
   request.out = out_->text().trimmed();
   request.strict = strict_->isChecked();
   request.replace = replace_->isChecked();
+  request.handConnected = handConnected_;
   return request;
 }
 

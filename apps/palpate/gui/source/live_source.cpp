@@ -41,7 +41,7 @@ std::unique_ptr<Device> deviceOf(LiveSource& source,
   switch (connection.kind) {
     case Connection::Kind::kReplay: {
       const std::filesystem::path path = connection.recording.toStdString();
-      Profile profile = openForWindow(path, progress);
+      Profile profile = openRecording(path, progress);
       if (profile.numFrames() == 0) throw FileError(path, "has no frames: nothing to replay");
       return std::make_unique<Replay>(std::move(profile), ReplayOptions{}, readEvents(path).events);
     }

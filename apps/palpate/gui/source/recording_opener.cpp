@@ -17,18 +17,9 @@ constexpr double kRecordingOpenerSmallestNews = 0.01;
 
 }  // namespace
 
-Profile openForWindow(const std::filesystem::path& path, const Progress& progress) {
-  if (isHdf5Recording(path))
-    throw FormatError(path,
-                      "is an HDF5 file, which the window doesn't open: 'palpate convert " +
-                          path.filename().string() + " " + path.stem().string() +
-                          ".palpate' makes a recording of it");
-  return openRecording(path, progress);
-}
-
 RecordingOpener::RecordingOpener(QObject* parent)
     : RecordingOpener([](const std::filesystem::path& path,
-                         const Progress& progress) { return openForWindow(path, progress); },
+                         const Progress& progress) { return openRecording(path, progress); },
                       parent) {}
 
 RecordingOpener::RecordingOpener(Read read, QObject* parent)

@@ -15,11 +15,6 @@
 
 namespace palpate::gui {
 
-// Opens a recording as openRecording() does, but no HDF5 file: the HDF5 library can end the whole
-// process when such a file is damaged, and this process may be moving a hand. Throws as
-// openRecording(), and FormatError for an HDF5 file.
-Profile openForWindow(const std::filesystem::path& path, const Progress& progress);
-
 class RecordingOpener : public QObject {
   Q_OBJECT
  public:

@@ -21,7 +21,7 @@ const Clock& clockOf(const WindowEnvironment& environment) {
 RecordingOpener::Read readerOf(const WindowEnvironment& environment) {
   if (environment.read) return environment.read;
   return [](const std::filesystem::path& path, const Progress& progress) {
-    return openForWindow(path, progress);
+    return openRecording(path, progress);
   };
 }
 

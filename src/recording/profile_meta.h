@@ -1,0 +1,39 @@
+// What every form of a file says of a recording as a whole (docs/palpate_format.md, "meta").
+// Private to this module; inline, because the library of HDF5 files, which this module links, needs
+// it, too.
+#pragma once
+
+#include <map>
+#include <string>
+
+#include "palpate/model/hand_file.h"
+#include "palpate/model/profile.h"
+
+namespace palpate {
+
+// Keys and values to be written: `said`, which was said of the recording before, and what the
+// profile says by itself (serial number, hand, ..), which is the newer truth. Left out is what
+// belongs to the file that it was read from: its form, the numbers of its samples.
+inline std::map<std::string, std::string> writtenMeta(
+    const Profile& profile, const std::map<std::string, std::string>& said) {
+  std::map<std::string, std::string> meta;
+  const ProfileInfo& info = profile.info();
+  if (!info.serial.empty()) meta["serial"] = info.serial;
+  if (!info.firmware.empty()) meta["firmware"] = info.firmware;
+  if (!info.sensorRevision.empty()) meta["sensor_revision"] = info.sensorRevision;
+  meta.merge(handMeta(profile.hand()));
+  for (const auto& [key, value] : said)
+    // The texts of a hand belong together.
+    if (key != "hand_json" && key != "hand_urdf") meta.try_emplace(key, value);
+  for (const char* key : {"format",
+                          "finished",
+                          "value_type",
+                          "frames",
+                          "angle_samples",
+                          "temperature_samples",
+                          "seconds"})
+    meta.erase(key);
+  return meta;
+}
+
+}  // namespace palpate
