@@ -1,7 +1,7 @@
 # Types of the module palpate; what everything does stands in its docstrings and in docs/python.md.
 import os
-from collections.abc import Sequence
-from typing import Any, Union
+from collections.abc import Iterator, Sequence
+from typing import Any, Union, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -17,6 +17,11 @@ class Error(RuntimeError): ...
 
 class Profile:
     def __len__(self) -> int: ...
+    @overload
+    def __getitem__(self, frame: int) -> NDArray[np.float32]: ...
+    @overload
+    def __getitem__(self, frames: slice) -> Profile: ...
+    def __iter__(self) -> Iterator[NDArray[np.float32]]: ...
     @property
     def angle_time_ms(self) -> NDArray[np.int64]: ...
     @property

@@ -14,6 +14,7 @@
 #include "python/bindings.h"
 #include "python/events.h"
 #include "python/interruption.h"
+#include "python/profile_pickle.h"
 #include "python/table_binding.h"
 
 namespace palpate::python {
@@ -178,6 +179,34 @@ Profile crop(const Profile& profile, std::int64_t begin, std::int64_t end) {
       [&](const Progress& progress) { return cropped(profile, first, last, progress); });
 }
 
+// As profile[10:20].
+Profile sliced(const Profile& profile, const py::slice& slice) {
+  py::ssize_t first = 0;
+  py::ssize_t stop = 0;
+  py::ssize_t step = 0;
+  py::ssize_t length = 0;
+  if (!slice.compute(static_cast<py::ssize_t>(profile.numFrames()), &first, &stop, &step, &length))
+    throw py::error_already_set();
+  if (step != 1)
+    throw py::value_error("a profile has no steps: take frames()[::step], or slice without one");
+  if (length == 0) throw py::value_error("there are no frames in this slice");
+  return crop(profile, first, first + length - 1);
+}
+
+FloatArray frameOf(const Profile& profile, std::int64_t index) {
+  const std::size_t i = checkedIndex("frame", index, profile.numFrames());
+  FloatArray array(static_cast<py::ssize_t>(profile.layout().numCells()));
+  const TactileFrame frame = profile.frame(i);
+  std::copy(frame.allValues().begin(), frame.allValues().end(), array.mutable_data());
+  return array;
+}
+
+// Goes through the frames; keeps the profile.
+struct FrameIterator {
+  Profile profile;
+  std::size_t next = 0;
+};
+
 void save(const Profile& profile,
           const std::filesystem::path& path,
           const py::object& events,
@@ -200,6 +229,23 @@ using ProfileClass = py::class_<Profile>;
 void bindValues(ProfileClass& profile) {
   profile.def("__len__", [](const Profile& p) { return p.numFrames(); })
       .def("__repr__", &described)
+      .def("__getitem__",
+           &frameOf,
+           py::arg("frame"),
+           "One frame: float32 (places,), as frames() has them; negative from the end.")
+      .def("__getitem__",
+           &sliced,
+           py::arg("frames"),
+           "profile[10:20]: these frames as a profile of its own, as crop(). ValueError for a step "
+           "or without frames.")
+      .def(
+          "__iter__",
+          [](const Profile& p) { return FrameIterator{p}; },
+          "The frames one after the other, as profile[i].")
+      // Profiles are read-only: a copy is the same one.
+      .def("__copy__", [](const py::object& self) { return self; })
+      .def("__deepcopy__", [](const py::object& self, const py::dict&) { return self; })
+      .def(py::pickle(&pickledProfile, &unpickledProfile))
       .def("frames",
            &frames,
            py::arg("start") = 0,
@@ -290,6 +336,12 @@ void bindTimes(ProfileClass& profile) {
 }  // namespace
 
 void bindProfile(py::module_& module) {
+  py::class_<FrameIterator>(module, "_FrameIterator", py::module_local())
+      .def("__iter__", [](const py::object& self) { return self; })
+      .def("__next__", [](FrameIterator& frames) {
+        if (frames.next >= frames.profile.numFrames()) throw py::stop_iteration();
+        return frameOf(frames.profile, static_cast<std::int64_t>(frames.next++));
+      });
   ProfileClass profile(
       module,
       "Profile",

@@ -1,6 +1,9 @@
 """palpate.load(), Profile, save(): against the independent reader of the tests and NumPy's own."""
+import copy
 import json
+import multiprocessing
 import os
+import pickle
 import tempfile
 import unittest
 from pathlib import Path
@@ -20,6 +23,63 @@ def recordings():
     if not folder.is_dir():
         raise unittest.SkipTest("shared data is missing: set PALPATE_RECORDINGS")
     return folder
+
+
+class AsASequence(unittest.TestCase):
+    def setUp(self):
+        self.profile = palpate.load(WHOLE)
+
+    def test_frames_by_number_and_one_after_the_other(self):
+        frames = self.profile.frames()
+        np.testing.assert_array_equal(self.profile[3], frames[3])
+        np.testing.assert_array_equal(self.profile[-1], frames[-1])
+        np.testing.assert_array_equal(np.array(list(self.profile)), frames)
+        for index in (len(frames), -len(frames) - 1):
+            with self.assertRaises(IndexError):
+                self.profile[index]
+        with self.assertRaises(TypeError):
+            self.profile["3"]
+
+    def test_a_slice_is_a_profile(self):
+        part = self.profile[2:-3]
+        np.testing.assert_array_equal(part.frames(), self.profile.frames()[2:-3])
+        np.testing.assert_array_equal(part.time_us, self.profile.time_us[2:-3])
+        self.assertEqual(len(self.profile[:10_000_000]), len(self.profile))
+        for wrong in (slice(0, 10, 2), slice(5, 5)):
+            with self.assertRaises(ValueError):
+                self.profile[wrong]
+
+    def same(self, a, b):
+        np.testing.assert_array_equal(a.frames(), b.frames())
+        np.testing.assert_array_equal(a.time_us, b.time_us)
+        np.testing.assert_array_equal(a.angles, b.angles)
+        np.testing.assert_array_equal(a.angle_time_ms, b.angle_time_ms)
+        np.testing.assert_array_equal(a.temperatures, b.temperatures)
+        for name in ("hand", "format", "value_type", "serial", "firmware", "warnings", "axes"):
+            self.assertEqual(getattr(a, name), getattr(b, name), name)
+
+    def test_pickle_keeps_all(self):
+        self.same(pickle.loads(pickle.dumps(self.profile)), self.profile)
+        filtered = palpate.filter(self.profile, "gaussian")
+        self.same(pickle.loads(pickle.dumps(filtered)), filtered)
+        pad = palpate.record(np.full((3, 256), 0.5, np.float32), "flat_pad_16x16", rate=10)
+        self.same(pickle.loads(pickle.dumps(pad)), pad)
+
+    def test_other_processes_take_it(self):
+        with multiprocessing.get_context("fork").Pool(1) as pool:
+            self.assertEqual(pool.map(len, [self.profile]), [len(self.profile)])
+
+    def test_what_is_no_profile_is_refused(self):
+        reduced = self.profile.__reduce_ex__(2)
+        for state in ((b"nonsense", "dsa", []), (b"",)):
+            made = palpate.Profile.__new__(palpate.Profile)
+            with self.assertRaises((ValueError, TypeError)):
+                made.__setstate__(state)
+        self.assertEqual(len(reduced[2]), 3)
+
+    def test_copies_are_the_same(self):
+        self.assertIs(copy.copy(self.profile), self.profile)
+        self.assertIs(copy.deepcopy(self.profile), self.profile)
 
 
 class Arrays(unittest.TestCase):
