@@ -74,12 +74,15 @@ std::string damageText(const PalpateRecovery& recovery) {
   add(recovery.damagedBlocks, "damaged block");
   if (recovery.blocksFromPages > 0)
     text += (text.empty() ? "" : ", ") + counted(recovery.blocksFromPages, "block") +
-            " found in the raw pages";
+            " found beside the damaged tables";
   add(recovery.damagedRows, "damaged row");
-  if (recovery.layoutLost) text += (text.empty() ? "" : ", ") + std::string("layout lost");
-  if (recovery.layoutAssumed) text += (text.empty() ? "" : ", ") + std::string("layout assumed");
+  if (recovery.layoutLost)
+    text += (text.empty() ? "" : ", ") + std::string("the sensor's layout is lost");
+  if (recovery.layoutAssumed)
+    text += (text.empty() ? "" : ", ") +
+            std::string("the sensor's layout is lost, that of the SDH-2 is assumed");
   if (!recovery.sqliteError.empty())
-    text += (text.empty() ? "" : ", ") + std::string("SQLite stopped");
+    text += (text.empty() ? "" : ", ") + std::string("the tables of the file are damaged");
   return text;
 }
 
@@ -103,6 +106,9 @@ RecoverReport recoverNative(const std::filesystem::path& in,
                             const std::filesystem::path& out,
                             Overwrite overwrite,
                             const Progress& progress) {
+  std::error_code failure;
+  if (std::filesystem::file_size(in, failure) == 0 && !failure && !hasHotJournal(in))
+    throw FormatError(in, "is empty");
   const PalpateRecovery recovery = recoverPalpateProfile(in, progress);
   RecoverReport report;
   if (!recovery.profile) {
@@ -142,7 +148,11 @@ RecoverReport recoverDsa(const std::filesystem::path& in,
   } else {
     const DsaRecovery recovery = recoverDsaProfile(in, progress);
     if (!recovery.profile) {
-      report.message = "nothing can be saved: " + checked.message;
+      // Without the name of the file, which stands in front of all of it.
+      const std::string name = in.string() + ": ";
+      report.message = "nothing can be saved: " + (checked.message.starts_with(name)
+                                                       ? checked.message.substr(name.size())
+                                                       : checked.message);
       return report;
     }
     saveRecording(*recovery.profile, events, out, overwrite, progress);

@@ -129,6 +129,26 @@ TEST(DamagedFiles, aCutAtEveryByteGivesOneError) {
   }
 }
 
+// 'palpate recover' is named where it may help, and doesn't name itself.
+TEST(DamagedFiles, recoveryIsPromisedOnlyWhereSomethingMayBeLeft) {
+  const testing::TemporaryFolder folder;
+  const std::string packed = testing::compressed(testing::exampleXml());
+  testing::writeFile(folder / "cut.dsa", packed.substr(0, packed.size() / 2));
+  EXPECT_EQ(recoverRecording(folder / "cut.dsa", folder / "out.palpate").message,
+            "nothing can be saved: its bzip2 data ends early, at byte " +
+                std::to_string(packed.size() / 2) +
+                " of the file: the file is cut within its first block, nothing of it can be read");
+  // A second bzip2 stream that is cut.
+  testing::writeFile(folder / "second.dsa", packed + packed.substr(0, packed.size() / 2));
+  expectError(folder / "second.dsa", {"the file is cut; 'palpate recover' may save"});
+  const std::string verified = verifyRecording(folder / "second.dsa").message;
+  EXPECT_EQ(verified.find("recover' may"), std::string::npos) << verified;
+  for (const char* name : {"empty.dsa", "empty.palpate"}) {
+    testing::writeFile(folder / name, "");
+    expectError(folder / name, {"is empty"});
+  }
+}
+
 TEST(DamagedFiles, aFlippedBitAnywhereGivesOneErrorOrTheSameData) {
   const testing::TemporaryFolder folder;
   const std::string packed = testing::compressed(testing::exampleXml());

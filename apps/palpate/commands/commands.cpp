@@ -80,9 +80,11 @@ int dispatch(const Arguments& words, OtherCommands others, NeedsOthers needsOthe
     return command.run(rest);
   };
   if (!words.empty()) {
-    if (words[0] == "help" && words.size() == 2)
+    if (words[0] == "help" && words.size() == 2) {
       for (const Command& command : allCommands())
         if (words[1] == command.name) return runCommand(command, {"--help"});
+      refuseMistypedCommand(words[1]);
+    }
     if (words[0] == "--help" || words[0] == "-h" || words[0] == "help") {
       commandsShowHelp();
       return kDone;

@@ -78,11 +78,14 @@ std::size_t Bzip2Decoder::read(std::span<char> out) {
       throw Error("bytes that are no bzip2 data follow the recording, from byte " +
                   std::to_string(streamBegin_) + " of the file");
     } else if (result != BZ_OK) {
-      throw Error("its bzip2 data is damaged near" + place() +
-                  "; palpate recover may save the frames of its other blocks");
+      throw Error("its bzip2 data is damaged near" + place() + kDsaRecoverHint);
     } else if (z.avail_out > 0 && z.avail_in == 0 && !refill()) {
+      // A block comes out when all of it is there.
+      const bool wholeBlocks = numStreams_ > 0 || z.total_out_lo32 > 0 || z.total_out_hi32 > 0;
       throw Error("its bzip2 data ends early, at" + place() +
-                  ": the file is cut; palpate recover may save the frames of its whole blocks");
+                  (wholeBlocks
+                       ? std::string(": the file is cut") + kDsaRecoverHint
+                       : ": the file is cut within its first block, nothing of it can be read"));
     }
   }
   return out.size() - z.avail_out;

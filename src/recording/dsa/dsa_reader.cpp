@@ -10,6 +10,7 @@
 #include "palpate/core/xml.h"
 #include "palpate/recording/dsa_recovery.h"
 
+#include "recording/dsa/bzip2_decoder.h"
 #include "recording/dsa/dsa_document.h"
 #include "recording/dsa/dsa_xml_stream.h"
 
@@ -84,7 +85,7 @@ Profile readDocument(ByteSource& source,
 std::string describe(const DsaRecovery& saved) {
   std::string text = counted(saved.frames, "frame") + ", " + counted(saved.angles, "angle sample") +
                      " and " + counted(saved.temperatures, "temperature sample") +
-                     " can be read (palpate recover saves them)";
+                     " can be read ('palpate recover' saves them)";
   if (saved.blocks > 0)
     text += "; " + std::to_string(saved.intactBlocks) + " of " +
             counted(saved.blocks, "bzip2 block") + " intact";
@@ -132,7 +133,16 @@ DsaVerifyReport verifyDsa(const std::filesystem::path& path,
     return report;
   } catch (const FormatError& error) {
     report.message = error.what();
+    // Whether it may is said below.
+    const std::size_t hint = report.message.find(kDsaRecoverHint);
+    if (hint != std::string::npos)
+      report.message.erase(hint, std::string_view(kDsaRecoverHint).size());
   }
+  const auto addNothing = [&] {
+    const std::string_view nothing = "nothing of it can be read";
+    if (report.message.find(nothing) == std::string::npos)
+      report.message += "; " + std::string(nothing);
+  };
   try {
     const DsaRecovery saved = recoverDsaProfile(path, half(progress, 0.5), options);
     report.frames = saved.frames;
@@ -142,14 +152,14 @@ DsaVerifyReport verifyDsa(const std::filesystem::path& path,
       report.state = DsaVerifyReport::State::kDamaged;
       report.message += "; " + describe(saved);
     } else {
-      report.message += "; nothing can be read";
+      addNothing();
     }
   } catch (const Cancelled&) {
     throw;
   } catch (const std::bad_alloc&) {
     report.message += "; there is not enough memory to search it for intact parts";
   } catch (const Error&) {
-    report.message += "; nothing can be read";  // the first message says why
+    addNothing();  // the first message says why
   }
   return report;
 }

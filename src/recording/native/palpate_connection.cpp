@@ -221,6 +221,7 @@ void PalpateConnection::open(const fs::path& path) {
     fs::remove_all(copyFolder_, failure);
   }
   if (!isHeld) database_->execute("BEGIN");
+  if (size == 0 && copyFolder_.empty()) throw FormatError(path, "is empty");
   if (database_->integerOf("PRAGMA application_id") != kPalpateApplicationId)
     throw FormatError(path, "is an SQLite file, but not a palpate recording");
   const std::int64_t version = database_->integerOf("PRAGMA user_version");
