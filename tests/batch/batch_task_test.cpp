@@ -45,8 +45,14 @@ class BatchTasks : public ::testing::Test {
 TEST_F(BatchTasks, ConvertsToEveryForm) {
   for (const RecordingForm& form : recordingForms()) {
     const std::string name = std::string("converted") + form.ending;
-    saveRecording(
-        openRecording(item_.source), {}, folder_ / ("expected" + std::string(form.ending)));
+    const std::filesystem::path expected = folder_ / ("expected" + std::string(form.ending));
+    const Profile profile = openRecording(item_.source);
+    saveRecording(profile,
+                  {},
+                  expected,
+                  Overwrite::kRefuse,
+                  {},
+                  exportExtras({}, item_.source, expected, profile, {}));
     EXPECT_FALSE(made(convertTask(), name.c_str()).empty()) << form.ending;
     if (form.format == RecordingFormat::kPalpate) continue;  // it holds the time of writing
     EXPECT_TRUE(testing::readFile(folder_ / name) ==

@@ -38,8 +38,8 @@ constexpr int kMostThreadsShown = 256;
 constexpr const char* kBatchFoldersKey = "batch/lastFolder";
 
 constexpr const char* kBatchStyle = R"(
-QLineEdit { background: palette(base); border: 1px solid palette(mid); border-radius: 4px; padding: 3px 6px; }
-QLineEdit:focus { border-color: palette(highlight); }
+#batchFolder, #batchNames, #batchFilters, #batchSmooth { background: palette(base); border: 1px solid palette(mid); border-radius: 4px; padding: 3px 6px; }
+#batchFolder:focus, #batchNames:focus, #batchFilters:focus, #batchSmooth:focus { border-color: palette(highlight); }
 QListWidget { background: palette(base); border: 1px solid palette(mid); border-radius: 4px; }
 #batchFoot { border-top: 1px solid palette(mid); }
 #batchSaid[problem="true"] { color: palette(bright-text); }
@@ -147,6 +147,16 @@ QWidget* BatchDialog::makeRecordings() {
   paths_->setSelectionMode(QAbstractItemView::ExtendedSelection);
   paths_->setTextElideMode(Qt::ElideMiddle);
   paths_->setMinimumHeight(90);
+  auto* hint = new QLabel("Drop recordings and folders here", paths_->viewport());
+  hint->setObjectName("batchHint");
+  hint->setProperty("role", "muted");
+  hint->setAttribute(Qt::WA_TransparentForMouseEvents);
+  auto* centre = new QVBoxLayout(paths_->viewport());
+  centre->addWidget(hint, 0, Qt::AlignCenter);
+  const auto showHint = [this, hint] { hint->setVisible(paths_->count() == 0); };
+  connect(paths_->model(), &QAbstractItemModel::rowsInserted, hint, showHint);
+  connect(paths_->model(), &QAbstractItemModel::rowsRemoved, hint, showHint);
+  connect(paths_->model(), &QAbstractItemModel::modelReset, hint, showHint);
   count_ = plainLabel("batchCount");
   count_->setProperty("role", "muted");
   auto* files = batchButton("batchAddFiles", "Add &files…");
@@ -224,12 +234,18 @@ QWidget* BatchDialog::makePlace() {
   options->addSpacing(14);
   options->addWidget(replace_);
   options->addStretch(1);
+  threads_->setButtonSymbols(QAbstractSpinBox::NoButtons);
   auto* threadsLabel = new QLabel("At the same ti&me");
   threadsLabel->setBuddy(threads_);
   options->addWidget(threadsLabel);
   options->addWidget(threads_);
-  form->addRow("Into fold&er", folderRow);
-  form->addRow("N&ames", namesRow);
+  const auto label = [](const QString& text, QWidget* field) {
+    auto* made = new QLabel(text);
+    made->setBuddy(field);
+    return made;
+  };
+  form->addRow(label("Into fold&er", folder_), folderRow);
+  form->addRow(label("N&ames", names_), namesRow);
   form->addRow("", preview_);
   form->addRow("", options);
   return part;

@@ -42,6 +42,7 @@ QDoubleSpinBox* limitBox(const char* name, double least, double most, const QStr
   box->setObjectName(name);
   box->setRange(least, most);
   box->setDecimals(3);
+  box->setButtonSymbols(QAbstractSpinBox::NoButtons);
   box->setToolTip(tip);
   box->setAccessibleName(tip);
   return box;
@@ -88,6 +89,7 @@ BatchFields::BatchFields(QWidget* parent)
   matrix_->setObjectName("batchMatrix");
   matrix_->setRange(-1, kMostMatrix);
   matrix_->setSpecialValueText("all");
+  matrix_->setButtonSymbols(QAbstractSpinBox::NoButtons);
   method_ = batchComboBox("batchMethod", methodItems());
   reference_ = batchComboBox("batchReference", {{"first", "first"}, {"rest", "rest"}});
   reference_->setEditable(true);
