@@ -560,7 +560,7 @@ TEST(UnitsRow, ARecordingWithAnotherUnitFails) {
   HandDescription hand = openRecording(folder / "a.dsa").hand();
   hand.unit = "kPa";
   ProfileBuilder builder(hand);
-  builder.addFrame(1'000'000, std::vector<float>(hand.layout->numTaxels(), 1.0F));
+  builder.addFrame(1'000'000, std::vector<float>(hand.layout->numCells(), 1.0F));
   saveRecording(builder.finish({}), {}, folder / "b.palpate");
   const auto result = palpate({"signals", folder.path(), "--units-row"});
   EXPECT_EQ(result.exitCode, 3) << result.err;

@@ -64,7 +64,13 @@ std::vector<OptionSpec> withBatchOptions(std::vector<OptionSpec> options) {
        "TEMPLATE",
        "a file for each recording, as out/{name}.csv; also {folder}, {ending}, {date}, {time}; "
        "docs/bridges.md"},
-      {"force", "", "replace files that exist"},
+      {"force", "", "replace files that exist"}};
+  options.insert(options.end(), batch.begin(), batch.end());
+  return withResumeOptions(std::move(options));
+}
+
+std::vector<OptionSpec> withResumeOptions(std::vector<OptionSpec> options) {
+  const std::vector<OptionSpec> batch = {
       {"resume", "", "with -o: go on; what is whole already isn't made again"},
       {"threads", "N", "with -o: recordings at the same time; default: one per core"},
       {"report", "FILE.csv", "with -o: what became of each recording"}};

@@ -13,6 +13,8 @@ namespace palpate::commands {
 
 // `options` followed by --output, --force, --resume, --threads and --report.
 std::vector<OptionSpec> withBatchOptions(std::vector<OptionSpec> options);
+// `options` followed by the last three only.
+std::vector<OptionSpec> withResumeOptions(std::vector<OptionSpec> options);
 // Whether one of --resume, --threads and --report is given.
 bool hasBatchOptions(const CommandLine& given);
 // Throws UsageError when one of them is given: it needs -o.

@@ -109,7 +109,7 @@ TEST_F(BatchWindowTest, MakesTheBytesOfTheCommand) {
 }
 
 TEST_F(BatchWindowTest, CancelKeepsWhatIsDoneAndStartGoesOn) {
-  constexpr int kFiles = 400;
+  constexpr int kFiles = 120;
   makeMany(kFiles);
   const fs::path out = folder_ / "out";
   const BatchChoices choices{
@@ -127,6 +127,10 @@ TEST_F(BatchWindowTest, CancelKeepsWhatIsDoneAndStartGoesOn) {
   const auto* said = dialog().findChild<QLabel*>("batchSaid");
   EXPECT_TRUE(said->text().startsWith("Cancelled: ")) << said->text().toStdString();
   EXPECT_TRUE(said->text().contains("not done"));
+  run(choices);
+  EXPECT_EQ(filesIn(out).size(), static_cast<std::size_t>(kFiles));
+  EXPECT_TRUE(said->text().contains(QString("%1 skipped").arg(made.size())))
+      << said->text().toStdString();
 }
 
 TEST_F(BatchWindowTest, RunsOnWhileTheDialogIsClosedAndEscapeEndsIt) {
@@ -147,6 +151,7 @@ TEST_F(BatchWindowTest, QuittingAsksAndEndsTheBatch) {
   makeMany(400);
   const fs::path out = folder_ / "out";
   begin({.paths = {text(folder_ / "many")}, .work = BatchWork::kSlip, .folder = text(out)});
+  ASSERT_TRUE(QTest::qWaitFor([&] { return fs::exists(out) && !filesIn(out).empty(); }, 30'000));
   int asked = 0;
   bool answer = false;
   window().state().prompts.endBatch = [&] {

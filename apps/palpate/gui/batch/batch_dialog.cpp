@@ -29,7 +29,7 @@
 namespace palpate::gui {
 namespace {
 
-constexpr QSize kBatchDialogSize(940, 640);
+constexpr QSize kBatchDialogSize(900, 600);
 constexpr int kBatchMargin = 14;
 constexpr int kFirstNames = 4;  // lines of the preview
 constexpr int kCalmMs = 200;    // without changes, before the names are looked for

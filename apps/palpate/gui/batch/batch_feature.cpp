@@ -10,7 +10,7 @@ namespace palpate::gui {
 
 BatchFeature::BatchFeature(WindowState& windowState, QWidget* window)
     : Feature(windowState, window),
-      batch_(windowState.actions.make("batch", "File", "&Batch…", {})),
+      batch_(windowState.actions.make("batch", "File", "&Batch…", {key("Ctrl+Alt+B")})),
       strip_(new OpeningStrip(window, "Running a", "batch")) {
   batch_->setToolTip("Make a file of each of many recordings: convert, signals, slip, features");
   on(batch_, [this] { showDialog(); });

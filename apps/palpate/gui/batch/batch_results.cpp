@@ -12,6 +12,7 @@
 #include <QTableView>
 #include <QVBoxLayout>
 #include <algorithm>
+#include <string_view>
 #include <utility>
 
 #include <palpate/core/error.h>
@@ -32,6 +33,13 @@ bool isBad(const BatchResult& result) {
 
 QString textOfPath(const std::filesystem::path& path) {
   return QString::fromStdString(escapedLine(path.string()));
+}
+
+// Without the recording's path at the begin, which is in another column.
+QString textOfResult(const BatchItem& item, const BatchResult& result) {
+  const std::string begin = item.source.string() + ": ";
+  const std::size_t skipped = result.text.rfind(begin, 0) == 0 ? begin.size() : 0;
+  return QString::fromStdString(escapedLine(std::string_view(result.text).substr(skipped)));
 }
 
 }  // namespace
@@ -66,7 +74,7 @@ QVariant BatchResultsModel::data(const QModelIndex& index, int role) const {
     case kResultState:
       return nameOf(result.state);
     default:
-      return QString::fromStdString(escapedLine(result.text));
+      return textOfResult(item, result);
   }
 }
 
@@ -103,6 +111,7 @@ BatchResults::BatchResults(QWidget* parent)
   table_->verticalHeader()->setDefaultSectionSize(table_->fontMetrics().height() + 8);
   table_->horizontalHeader()->setStretchLastSection(true);
   table_->horizontalHeader()->setHighlightSections(false);
+  table_->horizontalHeader()->setDefaultAlignment(Qt::AlignLeft | Qt::AlignVCenter);
   table_->setColumnWidth(kRecording, 260);
   table_->setColumnWidth(kResultState, 100);
   all_ = new QCheckBox("Show all &recordings");
@@ -124,6 +133,7 @@ BatchResults::BatchResults(QWidget* parent)
     foot->addWidget(button);
   }
   auto* column = new QVBoxLayout(this);
+  column->setContentsMargins(14, 10, 14, 8);
   column->addWidget(summary_);
   column->addWidget(table_, 1);
   column->addLayout(foot);
