@@ -14,6 +14,7 @@
 
 #include "palpate/core/error.h"
 #include "palpate/emulator/synthetic_profile.h"
+#include "palpate/model/hand_file.h"
 #include "palpate/model/profile_builder.h"
 #include "palpate/recording/dsa_writer.h"
 #include "palpate/recording/read_ahead.h"
@@ -556,19 +557,25 @@ TEST(UnitsRow, StandsBelowTheNamesOfEveryTable) {
 
 TEST(UnitsRow, ARecordingWithAnotherUnitFails) {
   const TemporaryFolder folder;
-  synthesize(folder / "a.dsa", "4");
-  HandDescription hand = openRecording(folder / "a.dsa").hand();
-  hand.unit = "kPa";
-  ProfileBuilder builder(hand);
-  builder.addFrame(1'000'000, std::vector<float>(hand.layout->numCells(), 1.0F));
-  saveRecording(builder.finish({}), {}, folder / "b.palpate");
+  fs::copy(testing::dataFolder() / "hands/flat_pad_16x16", folder / "pad");
+  const auto save = [&](const char* name) {
+    const HandDescription hand = readHandFolder(folder / "pad");
+    ProfileBuilder builder(hand);
+    builder.addFrame(1'000'000, std::vector<float>(hand.layout->numCells(), 1.0F));
+    saveRecording(builder.finish({}), {}, folder / name);
+  };
+  save("a.palpate");
+  std::string text = readFile(folder / "pad/hand.json");
+  const std::string counts = "\"unit\": \"counts\"";
+  text.replace(text.find(counts), counts.size(), "\"unit\": \"kPa\"");
+  writeFile(folder / "pad/hand.json", text);
+  save("b.palpate");
   const auto result = palpate({"signals", folder.path(), "--units-row"});
   EXPECT_EQ(result.exitCode, 3) << result.err;
   EXPECT_NE(result.err.find("b.palpate: its values have another unit"), std::string::npos)
       << result.err;
   EXPECT_EQ(result.out.find("b.palpate"), std::string::npos);
-  const auto contact =
-      palpate({"contact", folder.path(), "--matrices", "--units-row", "--angles", "0,0,0,0,0,0,0"});
+  const auto contact = palpate({"contact", folder.path(), "--matrices", "--units-row"});
   EXPECT_NE(contact.err.find("b.palpate: its values have another unit"), std::string::npos)
       << contact.err;
   EXPECT_EQ(palpate({"signals", folder.path()}).exitCode, 0);

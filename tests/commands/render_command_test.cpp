@@ -232,7 +232,7 @@ TEST(RenderCommand, APictureOfEachRecording) {
     auto resumed = words(folder / "in", out / "{name}.png");
     resumed.emplace_back("--resume");
     EXPECT_NE(palpate(resumed, kHeadless).out.find("skipped            3\n"), std::string::npos);
-    resumed.emplace_back("--interpolated");
+    resumed.insert(resumed.end(), {"--dpi", "96"});
     EXPECT_NE(palpate(resumed, kHeadless).out.find("done               3\n"), std::string::npos);
   }
   const std::string in = folder / "in";

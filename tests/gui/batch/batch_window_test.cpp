@@ -109,11 +109,11 @@ TEST_F(BatchWindowTest, MakesTheBytesOfTheCommand) {
 }
 
 TEST_F(BatchWindowTest, CancelKeepsWhatIsDoneAndStartGoesOn) {
-  constexpr int kFiles = 120;
+  constexpr int kFiles = 300;
   makeMany(kFiles);
   const fs::path out = folder_ / "out";
   const BatchChoices choices{
-      .paths = {text(folder_ / "many")}, .work = BatchWork::kSlip, .folder = text(out)};
+      .paths = {text(folder_ / "many")}, .work = BatchWork::kSignals, .folder = text(out)};
   begin(choices);
   EXPECT_FALSE(dialog().findChild<QPushButton*>("batchStart")->isEnabled());
   ASSERT_TRUE(QTest::qWaitFor([&] { return fs::exists(out) && filesIn(out).size() > 2; }, 30'000));
