@@ -139,17 +139,24 @@ void nameTarget(BatchItem& item, const BatchTemplate& names) {
   }
 }
 
-void requireDifferent(const BatchPlan& plan) {
+void requireDifferent(BatchPlan& plan, SameResults sameResults) {
   std::set<fs::path> sources;
   for (const BatchItem& item : plan.items) sources.insert(realPath(item.source));
   std::map<fs::path, fs::path> made;
   std::map<fs::path, fs::path> folders;  // asked once each
-  for (const BatchItem& item : plan.items) {
+  for (BatchItem& item : plan.items) {
     if (item.target.empty()) continue;
     fs::path& folder = folders[item.target.parent_path()];
     if (folder.empty()) folder = realPath(item.target.parent_path());
     const fs::path real = folder / item.target.filename();
     const auto [other, isNew] = made.emplace(real, item.source);
+    if (!isNew && sameResults == SameResults::kSecondFails) {
+      item.problem = item.source.string() + ": '" + item.target.string() +
+                     "' is already made from '" + other->second.string() +
+                     "', a recording of the same name and another format";
+      item.target.clear();
+      continue;
+    }
     if (!isNew)
       throw FileError(item.target,
                       "would be made from both '" + other->second.string() + "' and '" +
@@ -185,6 +192,15 @@ BatchTemplate::BatchTemplate(const std::string& text) {
   keepsFolders_ = text.find("{folder}") == std::string::npos;
 }
 
+BatchTemplate::BatchTemplate(const fs::path& folder, const std::string& below)
+    : BatchTemplate(below) {
+  const fs::path path(below);
+  if (path.is_absolute() || std::find(path.begin(), path.end(), "..") != path.end())
+    throw std::invalid_argument("template '" + escapedLine(below) +
+                                "': it must lie below the folder of the results");
+  folder_ = folder_ == "." ? folder : folder / folder_;
+}
+
 bool BatchTemplate::needsTime() const noexcept {
   const auto has = [](const std::string& text) {
     return text.find("{date}") != std::string::npos || text.find("{time}") != std::string::npos;
@@ -214,7 +230,8 @@ fs::path BatchTemplate::pathFor(const BatchNameFields& fields) const {
 
 BatchPlan planBatch(const std::vector<fs::path>& paths,
                     const BatchTemplate& names,
-                    const Progress& progress) {
+                    const Progress& progress,
+                    SameResults sameResults) {
   BatchPlan plan;
   plan.folder = names.folder();
   findSources(paths, plan, progress);
@@ -224,7 +241,7 @@ BatchPlan planBatch(const std::vector<fs::path>& paths,
       [&](std::size_t i) { nameTarget(plan.items[i], names); },
       progress,
       names.needsTime() ? 0 : 1);
-  requireDifferent(plan);
+  requireDifferent(plan, sameResults);
   return plan;
 }
 

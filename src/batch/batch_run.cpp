@@ -11,6 +11,8 @@
 #include <system_error>
 #include <thread>
 
+#include <sys/resource.h>
+
 #include "palpate/core/error.h"
 #include "palpate/core/escaped_line.h"
 #include "palpate/core/number_text.h"
@@ -26,7 +28,8 @@ namespace {
 using State = BatchResult::State;
 constexpr std::chrono::milliseconds kWatchInterval(100);
 constexpr std::uintmax_t kLeastWeight = 1u << 10;  // a recording is work however small it is
-constexpr double kLeastFraction = 0.01;            // an estimate of less says nothing
+constexpr int kBackgroundNice = 10;
+constexpr double kLeastFraction = 0.01;  // an estimate of less says nothing
 
 // What --resume does about a result.
 enum class Known { kNew, kWhole, kOurs };
@@ -87,6 +90,8 @@ class BatchRun {
 
  private:
   void work() {
+    // Of this thread only. Where it is refused, the batch is no less right.
+    if (options_.inBackground) ::setpriority(PRIO_PROCESS, 0, kBackgroundNice);
     for (;;) {
       const std::size_t index = next_++;
       if (index >= plan_.items.size() || cancelled_) break;

@@ -36,6 +36,26 @@ void requireMatrix(const fs::path& file,
                 std::to_string(matrices - 1));
 }
 
+// The recording of an item, filtered; the first half of the progress.
+Profile openFiltered(const BatchItem& item,
+                     const Recipe& filters,
+                     const Progress& progress,
+                     std::size_t threads) {
+  const Profile whole = openRecording(item.source, partOf(progress, 0.0, 0.5), threads);
+  return filteredRecording(filters, whole, item.source, partOf(progress, 0.5, 0.5));
+}
+
+std::string choicesText(const ExportChoices& choices) {
+  std::string text;
+  const auto add = [&](bool given, const char* name) {
+    if (given) text += (text.empty() ? "; " : " ") + std::string(name);
+  };
+  add(!choices.withSignals, "no-signals");
+  add(!choices.withSlip, "no-slip");
+  add(choices.unitsRow, "units-row");
+  return text;
+}
+
 // What `palpate slip` and the window can set.
 std::string passText(const SlipRunOptions& pass) {
   const SlipDetectorOptions& detector = pass.detector;
@@ -81,18 +101,16 @@ std::string classIn(const BatchItem& item) {
 
 BatchTask convertTask(const ConvertOptions& options) {
   options.filters.validate();
-  return {.options = "convert; " + recipeText(options.filters) +
-                     (options.extrasText.empty() ? "" : "; " + options.extrasText),
+  return {.options = "convert; " + recipeText(options.filters) + choicesText(options.choices),
           .work = [options](const BatchItem& item,
                             Overwrite overwrite,
                             const Progress& progress,
                             std::size_t threads) {
             formatOf(item.target);
-            const Profile whole = openRecording(item.source, partOf(progress, 0.0, 0.5), threads);
+            const Profile profile = openFiltered(item, options.filters, progress, threads);
             const EventsReport events = readEvents(item.source);
-            const Profile profile =
-                filteredRecording(options.filters, whole, item.source, partOf(progress, 0.5, 0.5));
-            const SaveExtras extras = options.extras ? options.extras(item, profile) : SaveExtras{};
+            const SaveExtras extras =
+                exportExtras(options.choices, item.source, item.target, profile, options.filters);
             const SaveReport saved = saveRecording(
                 profile, events.events, item.target, overwrite, partOf(progress, 0.5, 1.0), extras);
             BatchAnswer answer{.said = counted(profile.numFrames(), "frame")};
@@ -111,17 +129,17 @@ BatchTask signalsTask(const SignalRowsOptions& table) {
   table.filters.validate();
   SignalFilter(table.smooth, 1, [](std::int64_t, std::span<const SignalValues>) {});
   return {.options = "signals; " + recipeText(table.filters) + "; smooth " +
-                     recipeText(table.smooth) + matrixText(table.matrix),
+                     recipeText(table.smooth) + matrixText(table.matrix) +
+                     (table.unitsRow ? "; units-row" : ""),
           .work = [table](const BatchItem& item,
                           Overwrite overwrite,
                           const Progress& progress,
                           std::size_t threads) {
-            const Profile whole = openRecording(item.source, partOf(progress, 0.0, 0.5), threads);
-            const Profile profile =
-                filteredRecording(table.filters, whole, item.source, partOf(progress, 0.5, 0.5));
+            const Profile profile = openFiltered(item, table.filters, progress, threads);
             requireMatrix(item.source, profile, table.matrix);
             TableFile out(item.target, overwrite);
             out.write(std::string(kSignalColumns) + "\n");
+            if (table.unitsRow) out.write(signalUnits(profile.hand()) + "\n");
             writeSignalRows(
                 profile,
                 table.matrix,
@@ -134,6 +152,28 @@ BatchTask signalsTask(const SignalRowsOptions& table) {
           }};
 }
 
+void setSlipMethod(SlipRowsOptions& table, std::string_view name) {
+  const auto method = slipMethodNamed(name);
+  if (!method)
+    throw std::invalid_argument("there is no method '" + std::string(name) + "' of slip");
+  table.pass.detector.method = *method;
+  table.pass.detector.hypothesisAlarm = *method == SlipMethod::kHypotheses;
+}
+
+void setSlipReference(SlipRowsOptions& table, const std::string& word) {
+  SlipDetectorOptions& detector = table.pass.detector;
+  if (word == "first") {
+    detector.reference = SlipReference::kFirst;
+  } else if (word == "rest") {
+    detector.reference = SlipReference::kWhenAtRest;
+  } else if (const auto frame = parseInteger(word); frame && *frame >= 0) {
+    detector.reference = SlipReference::kGiven;
+    table.pass.referenceFrame = static_cast<std::size_t>(*frame);
+  } else {
+    throw std::invalid_argument("'" + word + "'; it is first, rest, or the number of a frame");
+  }
+}
+
 void requireThere(const fs::path& file, const Profile& profile, const SlipRowsOptions& table) {
   requireMatrix(file, profile, table.matrix);
   if (table.pass.detector.reference == SlipReference::kGiven &&
@@ -144,15 +184,18 @@ void requireThere(const fs::path& file, const Profile& profile, const SlipRowsOp
 
 BatchTask slipTask(const SlipRowsOptions& table) {
   return {.options = std::string("slip") + (table.segments ? "; segments" : "") + "; " +
-                     passText(table.pass) + matrixText(table.matrix),
+                     passText(table.pass) + matrixText(table.matrix) +
+                     (table.unitsRow ? "; units-row" : ""),
           .work = [table](const BatchItem& item,
                           Overwrite overwrite,
                           const Progress& progress,
                           std::size_t threads) {
-            const Profile profile = openRecording(item.source, partOf(progress, 0.0, 0.2), threads);
+            const Profile profile = openFiltered(item, {}, partOf(progress, 0.0, 0.4), threads);
             requireThere(item.source, profile, table);
             TableFile out(item.target, overwrite);
             out.write(std::string(table.segments ? kSlipSegmentColumns : kSlipColumns) + "\n");
+            if (table.unitsRow)
+              out.write(std::string(table.segments ? kSlipSegmentUnits : kSlipUnits) + "\n");
             std::size_t rows = 0;
             (table.segments ? forEachSlipSegmentRow : forEachSlipRow)(
                 profile,

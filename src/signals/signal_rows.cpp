@@ -1,6 +1,7 @@
 #include "palpate/signals/signal_rows.h"
 
 #include "palpate/core/number_text.h"
+#include "palpate/core/text_table.h"
 #include "palpate/core/time.h"
 #include "palpate/signals/characteristic_signals.h"
 #include "palpate/signals/signal_filter.h"
@@ -43,6 +44,13 @@ void appendSignalRow(std::string& lines,
 
 const char* const kSignalColumns =
     "frame,time_ms,matrix,mean,filtered_mean,min,max,sum,active,area_mm2";
+
+std::string signalUnits(const HandDescription& hand) {
+  const std::string& unit = hand.unit;
+  std::string line = csvLine({"", "ms", "", unit, unit, unit, unit, unit, "taxels", "mm^2"});
+  line.pop_back();
+  return line;
+}
 
 void writeSignalRows(const Profile& profile,
                      std::optional<std::size_t> onlyMatrix,

@@ -38,8 +38,12 @@ const char* const kSlipColumns =
     "ref_rotation_deg,orientation_deg,eccentricity,roundness,residual,confidence,p_moved,state,"
     "slipping";
 
+const char* const kSlipUnits = ",ms,,taxels,,taxels,taxels,taxels,taxels,,deg,deg,deg,,,,,,,";
+
 const char* const kSlipSegmentColumns =
     "begin,end,begin_ms,end_ms,matrix,path_taxels,rotation_deg,confidence";
+
+const char* const kSlipSegmentUnits = ",,ms,ms,,taxels,deg,";
 
 void appendSlipCell(std::string& row, bool known, double value) {
   row += ',';

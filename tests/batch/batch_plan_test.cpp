@@ -50,6 +50,17 @@ TEST(BatchTemplate, FillsItsFields) {
   EXPECT_EQ(BatchTemplate("out/{folder}/{folder}_{name}.csv").pathFor({.name = "x"}), "out/x.csv");
 }
 
+TEST(BatchTemplate, AFolderMayHaveBraces) {
+  const BatchNameFields fields{.name = "x", .folder = "a"};
+  const BatchTemplate names("out/{name}", "sub/{folder}_{name}.csv");
+  EXPECT_EQ(names.folder(), "out/{name}/sub");
+  EXPECT_EQ(names.pathFor(fields), "out/{name}/sub/a_x.csv");
+  EXPECT_EQ(BatchTemplate("/data/{x}", "{name}.csv").pathFor(fields), "/data/{x}/a/x.csv");
+  EXPECT_THROW(BatchTemplate("out", "/{name}.csv"), std::invalid_argument);
+  EXPECT_THROW(BatchTemplate("out", "../{name}.csv"), std::invalid_argument);
+  EXPECT_THROW(BatchTemplate("out", "{hand}.csv"), std::invalid_argument);
+}
+
 TEST(BatchTemplate, RefusesNamesThatAreNotAllowed) {
   EXPECT_THROW(BatchTemplate("out/{folder}.csv").pathFor({.name = "x"}), Error);
   EXPECT_THROW(BatchTemplate("out/.{name}.csv").pathFor({.name = "x"}), Error);
@@ -95,6 +106,20 @@ TEST_F(BatchPlanning, RefusesWhatWouldCollide) {
   EXPECT_NE(both.find("b.dsa"), std::string::npos) << both;
   EXPECT_NE(both.find("b.palpate"), std::string::npos) << both;
   EXPECT_EQ(refusalOf({folder_ / "in"}, "out/{name}_{ending}.csv"), "");
+}
+
+TEST_F(BatchPlanning, OrLetsTheSecondOneFail) {
+  testing::writeFile(folder_ / "in/b.palpate", "c");
+  const BatchPlan plan =
+      planBatch({folder_ / "in"}, names("out/{name}.csv"), {}, SameResults::kSecondFails);
+  ASSERT_EQ(plan.items.size(), 3U);
+  EXPECT_EQ(plan.items[0].target, folder_ / "out/b.csv");
+  EXPECT_EQ(plan.items[0].problem, "");
+  EXPECT_EQ(plan.items[1].source, folder_ / "in/b.palpate");
+  EXPECT_TRUE(plan.items[1].target.empty());
+  EXPECT_NE(plan.items[1].problem.find("b.palpate: "), std::string::npos);
+  EXPECT_NE(plan.items[1].problem.find("b.dsa"), std::string::npos);
+  EXPECT_EQ(plan.items[2].target, folder_ / "out/deep/a.csv");
 }
 
 TEST_F(BatchPlanning, RefusesTargetsThatAreSourcesOrLieAmongThem) {

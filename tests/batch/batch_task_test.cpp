@@ -45,8 +45,14 @@ class BatchTasks : public ::testing::Test {
 TEST_F(BatchTasks, ConvertsToEveryForm) {
   for (const RecordingForm& form : recordingForms()) {
     const std::string name = std::string("converted") + form.ending;
-    saveRecording(
-        openRecording(item_.source), {}, folder_ / ("expected" + std::string(form.ending)));
+    const std::filesystem::path expected = folder_ / ("expected" + std::string(form.ending));
+    const Profile profile = openRecording(item_.source);
+    saveRecording(profile,
+                  {},
+                  expected,
+                  Overwrite::kRefuse,
+                  {},
+                  exportExtras({}, item_.source, expected, profile, {}));
     EXPECT_FALSE(made(convertTask(), name.c_str()).empty()) << form.ending;
     if (form.format == RecordingFormat::kPalpate) continue;  // it holds the time of writing
     EXPECT_TRUE(testing::readFile(folder_ / name) ==
@@ -67,6 +73,42 @@ TEST_F(BatchTasks, SignalsAreTheRowsOfTheRecording) {
   EXPECT_NE(refusalOf(signalsTask({})).find("a.palpate"), std::string::npos);
   const std::vector<std::string> median = {"median"};
   EXPECT_THROW(signalsTask({.smooth = parseRecipe(median)}), std::invalid_argument);
+}
+
+TEST_F(BatchTasks, UnitsStandInTheSecondRow) {
+  const auto secondRow = [](const std::string& text) {
+    const std::size_t begin = text.find('\n') + 1;
+    return text.substr(begin, text.find('\n', begin) - begin);
+  };
+  const Profile profile = openRecording(item_.source);
+  EXPECT_EQ(secondRow(made(signalsTask({.unitsRow = true}), "u.csv")), signalUnits(profile.hand()));
+  EXPECT_EQ(secondRow(made(slipTask({.unitsRow = true}), "v.csv")), kSlipUnits);
+  EXPECT_EQ(secondRow(made(slipTask({.segments = true, .unitsRow = true}), "w.csv")),
+            kSlipSegmentUnits);
+  EXPECT_EQ(secondRow(made(convertTask({.choices = {.unitsRow = true}}), "x.csv")),
+            ",ms,,,,counts");
+  EXPECT_NE(signalsTask({.unitsRow = true}).options, signalsTask({}).options);
+  EXPECT_NE(slipTask({.unitsRow = true}).options, slipTask({}).options);
+  EXPECT_NE(convertTask({.choices = {.unitsRow = true}}).options, convertTask().options);
+}
+
+TEST_F(BatchTasks, TheWordsOfSlipAreThoseOfTheCommand) {
+  SlipRowsOptions table;
+  setSlipMethod(table, "register");
+  EXPECT_EQ(table.pass.detector.method, SlipMethod::kRegister);
+  EXPECT_FALSE(table.pass.detector.hypothesisAlarm);
+  setSlipMethod(table, "contest");
+  EXPECT_TRUE(table.pass.detector.hypothesisAlarm);
+  EXPECT_THROW(setSlipMethod(table, "guess"), std::invalid_argument);
+  setSlipReference(table, "rest");
+  EXPECT_EQ(table.pass.detector.reference, SlipReference::kWhenAtRest);
+  setSlipReference(table, "17");
+  EXPECT_EQ(table.pass.detector.reference, SlipReference::kGiven);
+  EXPECT_EQ(table.pass.referenceFrame, 17u);
+  setSlipReference(table, "first");
+  EXPECT_EQ(table.pass.detector.reference, SlipReference::kFirst);
+  for (const char* word : {"", "-1", "1.5", "later"})
+    EXPECT_THROW(setSlipReference(table, word), std::invalid_argument) << word;
 }
 
 TEST_F(BatchTasks, FiltersAreApplied) {

@@ -1,8 +1,10 @@
+#include <csignal>
 #include <filesystem>
 
 #include "palpate/recording/recording.h"
 
 #include "commands/palpate_program.h"
+#include "testing/background_program.h"
 
 namespace palpate::batch_options_test {
 namespace {
@@ -87,6 +89,15 @@ TEST_F(BatchOptionsTest, FoldersAreConvertedByTheOldWordsToo) {
       "convert", in(), out(""), "--to-form", "npz", "--resume", "-q"};
   EXPECT_EQ(palpate(words).exitCode, 0);
   EXPECT_TRUE(fs::exists(out("deep/b.npz")));
+  // It is a batch also without its options, which leaves no table behind the lines.
+  const auto plain = palpate({"convert", in(), folder_ / "plain", "--to-form", "npz"});
+  EXPECT_EQ(plain.exitCode, 0) << plain.err;
+  EXPECT_EQ(plain.out,
+            (folder_ / "plain/a.npz").string() + ": 64 frames\n" +
+                (folder_ / "plain/deep/b.npz").string() + ": 64 frames\n");
+  const auto braces = palpate({"convert", in(), folder_ / "{x}", "--to-form", "npz", "-q"});
+  EXPECT_EQ(braces.exitCode, 0) << braces.err;
+  EXPECT_TRUE(testing::readFile(folder_ / "{x}/a.npz") == testing::readFile(out("a.npz")));
   const auto again = palpate({"convert", in(), out(""), "--to-form", "npz", "--resume"});
   EXPECT_EQ(again.exitCode, 0) << again.err;
   EXPECT_NE(again.out.find(summary(0, 2, 0)), std::string::npos) << again.out;
@@ -109,6 +120,81 @@ TEST_F(BatchOptionsTest, BadInputGetsOneLine) {
   EXPECT_FALSE(fs::exists(folder_ / "out"));
   testing::writeFile(folder_ / "out", "a file");
   expectOneLineError(palpate({"signals", in(), "-o", out("{name}.csv")}), 1, {"out"});
+}
+
+TEST_F(BatchOptionsTest, UnitsStandInTheSecondRowOfEachTable) {
+  for (const std::string command : {"signals", "slip"}) {
+    const std::string names = out(command + "_{name}.csv");
+    EXPECT_EQ(palpate({command, in(), "--units-row", "-o", names, "-q"}).exitCode, 0);
+    EXPECT_TRUE(testing::readFile(out("deep/" + command + "_b.csv")) ==
+                palpate({command, in("deep/b.dsa"), "--units-row"}).out)
+        << command;
+  }
+  expectOneLineError(palpate({"convert", in(), "-o", out("{name}.npz"), "--units-row"}),
+                     2,
+                     {"--units-row is for .csv"});
+}
+
+// All files below a folder but hidden ones.
+std::vector<fs::path> filesBelow(const fs::path& folder) {
+  std::vector<fs::path> files;
+  for (const auto& each : fs::recursive_directory_iterator(folder))
+    if (each.is_regular_file() && each.path().filename() != ".palpate_batch")
+      files.push_back(each.path());
+  return files;
+}
+
+TEST_F(BatchOptionsTest, CtrlCLeavesWholeFilesAndResumeGoesOn) {
+  constexpr std::size_t kFiles = 600;
+  ASSERT_EQ(palpate({"synthesize", "-o", in("0.dsa"), "--duration", "20"}).exitCode, 0);
+  fs::remove_all(in("deep"));
+  fs::remove(in("a.dsa"));
+  for (std::size_t i = 1; i < kFiles; ++i)
+    fs::create_hard_link(in("0.dsa"), in(std::to_string(i) + ".dsa"));
+  const std::string whole = palpate({"signals", in("0.dsa")}).out;
+  const std::vector<std::string> words = {"signals", in(), "-o", out("{name}.csv"), "--resume"};
+  for (const int number : {SIGINT, SIGTERM}) {
+    testing::BackgroundProgram program(PALPATE_PROGRAM, words);
+    ASSERT_TRUE(program.awaitLine(" frames")) << program.err();
+    program.signal(number);
+    EXPECT_EQ(program.wait(), 3);
+    // Standard error is no terminal: it has no line of progress.
+    EXPECT_EQ(program.err().rfind("palpate: interrupted: ", 0), 0U) << program.err();
+    const std::string err = program.err();
+    EXPECT_EQ(std::count(err.begin(), err.end(), '\n'), 1) << err;
+    EXPECT_NE(err.find("of 600 are done; --resume goes on"), std::string::npos);
+    EXPECT_NE(program.out().find("\nnot done "), std::string::npos) << program.out();
+    EXPECT_LT(filesBelow(out("")).size(), kFiles);
+  }
+  const std::size_t before = filesBelow(out("")).size();
+  for (const fs::path& file : filesBelow(out("")))
+    EXPECT_TRUE(testing::readFile(file) == whole) << file;
+  const auto rest = palpate(words);
+  EXPECT_EQ(rest.exitCode, 0) << rest.err;
+  EXPECT_EQ(rest.err, "");
+  EXPECT_NE(rest.out.find(summary(kFiles - before, before, 0)), std::string::npos);
+  EXPECT_EQ(filesBelow(out("")).size(), kFiles);
+}
+
+// As on a full disk: no file may be larger than 8 kB.
+TEST_F(BatchOptionsTest, WhatCanNotBeWrittenFailsWithALineEach) {
+  const auto result = testing::runProgram("/bin/bash",
+                                          {"-c",
+                                           "trap '' XFSZ; ulimit -f 8; exec \"$0\" \"$@\"",
+                                           PALPATE_PROGRAM,
+                                           "signals",
+                                           in(),
+                                           "-o",
+                                           out("{name}.csv"),
+                                           "--report",
+                                           folder_ / "report.csv"});
+  EXPECT_EQ(result.exitCode, 1) << result.out;
+  EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 2) << result.err;
+  EXPECT_NE(result.err.find("a.csv"), std::string::npos) << result.err;
+  EXPECT_NE(result.err.find("deep/b.csv"), std::string::npos) << result.err;
+  EXPECT_TRUE(filesBelow(out("")).empty());
+  const auto again = palpate({"signals", in(), "-o", out("{name}.csv"), "--resume"});
+  EXPECT_EQ(again.exitCode, 0) << again.err;
 }
 
 TEST_F(BatchOptionsTest, TwoRecordingsNeverGetOneResult) {

@@ -14,6 +14,8 @@
 
 #include "palpate/core/error.h"
 #include "palpate/emulator/synthetic_profile.h"
+#include "palpate/model/hand_file.h"
+#include "palpate/model/profile_builder.h"
 #include "palpate/recording/dsa_writer.h"
 #include "palpate/recording/read_ahead.h"
 
@@ -519,6 +521,65 @@ TEST(SignalsOfAFolder, MemoryDoesNotGrowWithTheFolder) {
   linkTo(54);
   ASSERT_EQ(palpate({"signals", folder.path(), "--matrix", "0"}).exitCode, 0);
   EXPECT_LT(peakOfChildren() - few, 5u << 20);
+}
+
+// The second line of each table has as many cells as the first one.
+TEST(UnitsRow, StandsBelowTheNamesOfEveryTable) {
+  const TemporaryFolder folder;
+  synthesize(folder / "a.dsa", "4");
+  fs::copy_file(folder / "a.dsa", folder / "b.dsa");
+  const std::map<std::string, std::string> expected = {
+      {"signals", ",ms,,counts,counts,counts,counts,counts,taxels,mm^2"},
+      {"slip", ",ms,,taxels,,taxels,taxels,taxels,taxels,,deg,deg,deg,,,,,,,"},
+      {"slip --segments", ",,ms,ms,,taxels,deg,"},
+      {"contact", ",ms,taxels,mm,mm,mm,mm,N"},
+      {"contact --matrices", ",ms,,taxels,counts,mm^2,mm,mm,mm,,,,,,,mm,,,,mm,mm,mm"},
+      {"contact --size", ",,,,,,mm,mm,mm,mm,mm,mm,mm,mm,mm"},
+      {"grasps", ",,ms,ms,,"}};
+  for (const auto& [command, units] : expected)
+    for (const bool several : {false, true}) {
+      Names words = {"--units-row", (several ? folder.path() : folder / "a.dsa").string()};
+      if (const std::size_t blank = command.find(' '); blank != std::string::npos)
+        words.insert(words.begin(), command.substr(blank + 1));
+      words.insert(words.begin(), command.substr(0, command.find(' ')));
+      const auto result = palpate(words);
+      std::istringstream lines(result.out);
+      std::string header, row;
+      std::getline(lines, header);
+      std::getline(lines, row);
+      EXPECT_EQ(row, units + (several ? "," : "")) << command << result.err;
+      EXPECT_EQ(std::count(row.begin(), row.end(), ','),
+                std::count(header.begin(), header.end(), ','))
+          << command;
+      for (std::string line; std::getline(lines, line);) EXPECT_NE(line, row) << command;
+    }
+}
+
+TEST(UnitsRow, ARecordingWithAnotherUnitFails) {
+  const TemporaryFolder folder;
+  fs::copy(testing::dataFolder() / "hands/flat_pad_16x16", folder / "pad");
+  const auto save = [&](const char* name) {
+    const HandDescription hand = readHandFolder(folder / "pad");
+    ProfileBuilder builder(hand);
+    builder.addFrame(1'000'000, std::vector<float>(hand.layout->numCells(), 1.0F));
+    saveRecording(builder.finish({}), {}, folder / name);
+  };
+  save("a.palpate");
+  std::string text = readFile(folder / "pad/hand.json");
+  const std::string counts = "\"unit\": \"counts\"";
+  text.replace(text.find(counts), counts.size(), "\"unit\": \"kPa\"");
+  writeFile(folder / "pad/hand.json", text);
+  save("b.palpate");
+  const auto result = palpate({"signals", folder.path(), "--units-row"});
+  EXPECT_EQ(result.exitCode, 3) << result.err;
+  EXPECT_NE(result.err.find("b.palpate: its values have another unit"), std::string::npos)
+      << result.err;
+  EXPECT_EQ(result.out.find("b.palpate"), std::string::npos);
+  const auto contact = palpate({"contact", folder.path(), "--matrices", "--units-row"});
+  EXPECT_NE(contact.err.find("b.palpate: its values have another unit"), std::string::npos)
+      << contact.err;
+  EXPECT_EQ(palpate({"signals", folder.path()}).exitCode, 0);
+  EXPECT_EQ(palpate({"signals", folder / "b.palpate", "--units-row"}).exitCode, 0);
 }
 
 }  // namespace

@@ -204,5 +204,49 @@ TEST(RenderCommand, AnInterruptedSeriesLeavesWholePictures) {
       << program.err();
 }
 
+TEST(RenderCommand, APictureOfEachRecording) {
+  namespace fs = std::filesystem;
+  const testing::TemporaryFolder folder;
+  fs::create_directories(folder / "in/deep");
+  for (const char* name : {"in/a.dsa", "in/b.dsa", "in/deep/c.dsa"})
+    fs::copy_file(demoFile(), folder / name);
+  testing::writeFile(folder / "in/bad.dsa", "hello");
+  const std::vector<std::vector<std::string>> looks = {
+      {"--values", "--theme", "dark"}, {"--frame", "90", "--view", "hand", "--size", "400x400"}};
+  for (std::size_t i = 0; i < looks.size(); ++i) {
+    const auto words = [&](const fs::path& in, const fs::path& out) {
+      std::vector<std::string> all = {"render", in.string(), "-o", out.string()};
+      all.insert(all.end(), looks[i].begin(), looks[i].end());
+      return all;
+    };
+    const fs::path out = folder / ("out" + std::to_string(i));
+    const auto result = palpate(words(folder / "in", out / "{name}.png"), kHeadless);
+    EXPECT_EQ(result.exitCode, 3) << result.err;
+    EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
+    EXPECT_NE(result.err.find("bad.dsa: "), std::string::npos) << result.err;
+    EXPECT_NE(result.out.find("done               3\n"), std::string::npos) << result.out;
+    const fs::path one = folder / ("one" + std::to_string(i));
+    fs::create_directories(one);
+    ASSERT_EQ(palpate(words(folder / "in/deep/c.dsa", one / "c.png"), kHeadless).exitCode, 0);
+    EXPECT_TRUE(testing::readFile(out / "deep/c.png") == testing::readFile(one / "c.png"));
+    auto resumed = words(folder / "in", out / "{name}.png");
+    resumed.emplace_back("--resume");
+    EXPECT_NE(palpate(resumed, kHeadless).out.find("skipped            3\n"), std::string::npos);
+    resumed.insert(resumed.end(), {"--dpi", "96"});
+    EXPECT_NE(palpate(resumed, kHeadless).out.find("done               3\n"), std::string::npos);
+  }
+  const std::string in = folder / "in";
+  expectOneLineError(
+      palpate({"render", in, "-o", folder / "{name}.gif"}, kHeadless), 2, {".png, .svg or .pdf"});
+  expectOneLineError(palpate({"render", in, "--from", "3", "-o", folder / "{name}.png"}, kHeadless),
+                     2,
+                     {"--frame"});
+  expectOneLineError(palpate({"render", demoFile(), "--resume", "-o", folder / "x.png"}, kHeadless),
+                     2,
+                     {"-o TEMPLATE"});
+  expectOneLineError(
+      palpate({"render", in, "-o", folder / "out/x.png"}, kHeadless), 1, {"from both"});
+}
+
 }  // namespace
 }  // namespace palpate::render_command_test

@@ -97,5 +97,28 @@ TEST_F(RenderMovieTest, InterruptedItLeavesNothing) {
   EXPECT_FALSE(fake.runs("pid"));
 }
 
+TEST_F(RenderMovieTest, AMovieOfEachRecording) {
+  const FakeFfmpeg fake;
+  fs::create_directories(folder_ / "in");
+  for (const char* name : {"in/a.dsa", "in/b.dsa"})
+    fs::copy_file(testing::dataFolder() / "demo_grasps.dsa", folder_ / name);
+  const auto result =
+      testing::palpate({"render",
+                        folder_ / "in",
+                        "--from",
+                        "40",
+                        "--to",
+                        "49",
+                        "-o",
+                        folder_ / "out/{name}.mp4",
+                        "--threads",
+                        "1"},
+                       {{"DISPLAY", ""}, {"WAYLAND_DISPLAY", ""}, {"QT_QPA_PLATFORM", ""}});
+  EXPECT_EQ(result.exitCode, 0) << result.err;
+  EXPECT_NE(result.out.find("b.mp4: 10 frames\n"), std::string::npos) << result.out;
+  for (const char* name : {"out/a.mp4", "out/b.mp4"})
+    EXPECT_EQ(testing::readFile(folder_ / name), "whole");
+}
+
 }  // namespace
 }  // namespace palpate::render_movie_test

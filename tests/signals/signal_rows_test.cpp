@@ -63,5 +63,15 @@ TEST(SignalRows, CanBeCancelled) {
                Cancelled);
 }
 
+TEST(SignalRows, HaveAUnitForEachColumn) {
+  HandDescription hand;
+  hand.unit = "kPa";
+  EXPECT_EQ(signalUnits(hand), ",ms,,kPa,kPa,kPa,kPa,kPa,taxels,mm^2");
+  const std::string columns = kSignalColumns;
+  const std::string units = signalUnits(hand);
+  EXPECT_EQ(std::count(units.begin(), units.end(), ','),
+            std::count(columns.begin(), columns.end(), ','));
+}
+
 }  // namespace
 }  // namespace palpate::signal_rows_test

@@ -68,5 +68,13 @@ TEST(SlipRows, LeaveUnknownCellsEmpty) {
   EXPECT_EQ(row, "x,,1.5");
 }
 
+TEST(SlipRows, HaveAUnitForEachColumn) {
+  const auto cells = [](const std::string& line) {
+    return std::count(line.begin(), line.end(), ',');
+  };
+  EXPECT_EQ(cells(kSlipUnits), cells(kSlipColumns));
+  EXPECT_EQ(cells(kSlipSegmentUnits), cells(kSlipSegmentColumns));
+}
+
 }  // namespace
 }  // namespace palpate::slip_rows_test

@@ -25,20 +25,6 @@ void sayBatch(const std::string& message) {
   std::fprintf(stderr, "palpate: %s\n", escapedLine(message).c_str());
 }
 
-BatchTemplate templateOf(const std::string& text, const std::vector<std::string>& endings) {
-  try {
-    const BatchTemplate names(text);
-    if (endings.empty()) return names;
-    const std::string ending = lowerEndingOf("x" + names.ending());
-    if (std::find(endings.begin(), endings.end(), ending) != endings.end()) return names;
-    std::string list;
-    for (const std::string& each : endings) list += (list.empty() ? "" : ", ") + each;
-    throw UsageError("-o '" + text + "' must end in " + list);
-  } catch (const std::invalid_argument& error) {
-    throw UsageError(std::string("-o: ") + error.what());
-  }
-}
-
 // The line of progress on a terminal.
 class BatchLine {
  public:
@@ -78,7 +64,13 @@ std::vector<OptionSpec> withBatchOptions(std::vector<OptionSpec> options) {
        "TEMPLATE",
        "a file for each recording, as out/{name}.csv; also {folder}, {ending}, {date}, {time}; "
        "docs/bridges.md"},
-      {"force", "", "replace files that exist"},
+      {"force", "", "replace files that exist"}};
+  options.insert(options.end(), batch.begin(), batch.end());
+  return withResumeOptions(std::move(options));
+}
+
+std::vector<OptionSpec> withResumeOptions(std::vector<OptionSpec> options) {
+  const std::vector<OptionSpec> batch = {
       {"resume", "", "with -o: go on; what is whole already isn't made again"},
       {"threads", "N", "with -o: recordings at the same time; default: one per core"},
       {"report", "FILE.csv", "with -o: what became of each recording"}};
@@ -96,13 +88,25 @@ void refuseBatchOptions(const CommandLine& given) {
       throw UsageError("--" + std::string(name) + " needs -o TEMPLATE, as -o out/{name}.csv");
 }
 
+BatchTemplate batchTemplateOf(const CommandLine& given, const std::vector<std::string>& endings) {
+  const std::string text = *given.text("output");
+  try {
+    const BatchTemplate names(text);
+    if (endings.empty()) return names;
+    const std::string ending = lowerEndingOf("x" + names.ending());
+    if (std::find(endings.begin(), endings.end(), ending) != endings.end()) return names;
+    std::string list;
+    for (const std::string& each : endings) list += (list.empty() ? "" : ", ") + each;
+    throw UsageError("-o '" + text + "' must end in " + list);
+  } catch (const std::invalid_argument& error) {
+    throw UsageError(std::string("-o: ") + error.what());
+  }
+}
+
 int runBatchCommand(const CommandLine& given,
-                    const std::vector<std::string>& endings,
+                    const BatchTemplate& names,
                     const BatchTask& task,
-                    const fs::path& folder,
-                    const fs::path& names) {
-  const BatchTemplate nameTemplate =
-      templateOf(names.empty() ? *given.text("output") : names.string(), endings);
+                    const BatchCommand& command) {
   BatchOptions options;
   options.threads = static_cast<std::size_t>(given.integer("threads", 1, kMostThreads).value_or(0));
   options.overwrite = given.has("force") ? Overwrite::kReplace : Overwrite::kRefuse;
@@ -113,10 +117,10 @@ int runBatchCommand(const CommandLine& given,
   if (table) requireWritable(*table, overwriteTable);
 
   Interruption interruption;
-  std::vector<fs::path> paths = {folder};
-  if (folder.empty()) paths.assign(given.words().begin(), given.words().end());
-  const BatchPlan plan =
-      planBatch(paths, nameTemplate, [&](double) { return !interruption.waitForSignal(0); });
+  std::vector<fs::path> paths = command.paths;
+  if (paths.empty()) paths.assign(given.words().begin(), given.words().end());
+  const BatchPlan plan = planBatch(
+      paths, names, [&](double) { return !interruption.waitForSignal(0); }, command.sameResults);
   for (const std::string& problem : plan.problems) sayBatch(problem);
   BatchLine line(given.quiet());
   StandardOutput out;
@@ -145,7 +149,10 @@ int runBatchCommand(const CommandLine& given,
   if (report.cancelled)
     sayBatch("interrupted: " + std::to_string(report.status.done + report.status.skipped) + " of " +
              std::to_string(plan.items.size()) + " are done; --resume goes on");
-  if (!given.quiet() && plan.items.size() > 1) {
+  if (!command.summary && report.status.failed > 1)
+    sayBatch(std::to_string(report.status.failed) + " of " + std::to_string(plan.items.size()) +
+             " recordings failed");
+  if (command.summary && !given.quiet() && plan.items.size() > 1) {
     out.write(summaryText(plan, report, kMostReasons));
     out.finish();
   }

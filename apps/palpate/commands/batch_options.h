@@ -13,19 +13,28 @@ namespace palpate::commands {
 
 // `options` followed by --output, --force, --resume, --threads and --report.
 std::vector<OptionSpec> withBatchOptions(std::vector<OptionSpec> options);
+// `options` followed by the last three only.
+std::vector<OptionSpec> withResumeOptions(std::vector<OptionSpec> options);
 // Whether one of --resume, --threads and --report is given.
 bool hasBatchOptions(const CommandLine& given);
 // Throws UsageError when one of them is given: it needs -o.
 void refuseBatchOptions(const CommandLine& given);
 
-// Runs the task over the words of the command, or over `folder` if it is given with the template
-// `names`; returns the exit code: 0 all done or skipped, 1 none, 3 some, also after an
-// interruption. The ending of the template must be one of `endings` (empty: any). Throws
-// UsageError, Error before anything is computed.
+// The template of -o, whose ending must be one of `endings` (empty: any). Throws UsageError.
+BatchTemplate batchTemplateOf(const CommandLine& given, const std::vector<std::string>& endings);
+
+struct BatchCommand {
+  // What is read; empty: the words of the command.
+  std::vector<std::filesystem::path> paths = {};
+  SameResults sameResults = SameResults::kRefuse;
+  // Whether a table of what was done and failed ends the output.
+  bool summary = true;
+};
+// Runs the task; returns the exit code: 0 all done or skipped, 1 none, 3 some, also after an
+// interruption. Throws UsageError, Error before anything is computed.
 int runBatchCommand(const CommandLine& given,
-                    const std::vector<std::string>& endings,
+                    const BatchTemplate& names,
                     const BatchTask& task,
-                    const std::filesystem::path& folder = {},
-                    const std::filesystem::path& names = {});
+                    const BatchCommand& command = {});
 
 }  // namespace palpate::commands

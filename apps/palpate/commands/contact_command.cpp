@@ -20,6 +20,7 @@
 #include "commands/command_line.h"
 #include "commands/commands.h"
 #include "commands/contact_size.h"
+#include "commands/export_options.h"
 #include "commands/hand_options.h"
 #include "commands/recording_list.h"
 
@@ -28,10 +29,20 @@ namespace {
 
 constexpr const char* kFrameColumns =
     "frame,time_ms,active,sphere_x_mm,sphere_y_mm,sphere_z_mm,sphere_radius_mm,force_n";
+constexpr const char* kFrameUnits = ",ms,taxels,mm,mm,mm,mm,N";
 constexpr const char* kMatrixColumns =
     "frame,time_ms,matrix,active,sum,area_mm2,centroid_x_mm,centroid_y_mm,centroid_z_mm,nx,ny,nz,"
     "major_x,major_y,major_z,major_sd_mm,minor_x,minor_y,minor_z,minor_sd_mm,surface_x_mm,"
     "surface_y_mm";
+
+// The units of kMatrixColumns.
+std::string matrixUnits(const HandDescription& hand) {
+  std::string line =
+      csvLine({"", "ms", "", "taxels", hand.unit, "mm^2", "mm", "mm", "mm", "",   "",
+               "", "",   "", "",       "mm",      "",     "",   "",   "mm", "mm", "mm"});
+  line.pop_back();
+  return line;
+}
 
 struct ContactRequest {
   std::optional<std::vector<double>> anglesDeg;  // used instead of recorded angles
@@ -241,6 +252,7 @@ int contactCommand(const Arguments& words) {
        .options = withCalibration(
            {{"angles", "A0,A1,..", "assume these joint angles [deg] for all frames"},
             {"matrices", "", "a row per matrix"},
+            unitsRowOption(),
             {"size", "", "a row per grasp: how large the object is, how much it gave way"},
             {"threshold", "N", "active is above N [counts], default 0"},
             {"fingertip",
@@ -269,6 +281,7 @@ int contactCommand(const Arguments& words) {
   const RecordingList recordings = recordingsIn(given.words());
   StandardOutput out;
   bool headerWritten = false, whole = true;
+  std::string units;
   const int code = forEachProfile(
       recordings,
       given.quiet(),
@@ -283,6 +296,14 @@ int contactCommand(const Arguments& words) {
         if (!headerWritten)
           out.write(std::string(request.matrices ? kMatrixColumns : kFrameColumns) +
                     (recordings.several ? ",file\n" : "\n"));
+        if (given.has("units-row")) {
+          const std::string line =
+              request.matrices ? matrixUnits(profile.hand()) : std::string(kFrameUnits);
+          if (!headerWritten)
+            out.write((units = line) + (recordings.several ? ",\n" : "\n"));
+          else if (line != units)
+            throw Error(file.string() + ": " + kOtherUnits);
+        }
         headerWritten = true;
         const std::string lineEnd = recordings.several ? "," + csvLine({file.string()}) : "\n";
         // When a recording fails in the middle, the rows written so far are kept, and the failure

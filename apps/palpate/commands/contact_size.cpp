@@ -90,6 +90,12 @@ int contactSizes(const CommandLine& given) {
         std::vector<std::string> names = header();
         if (recordings.several) names.emplace_back("file");
         if (!headerWritten) out.write(csvLine(names));
+        if (!headerWritten && given.has("units-row")) {
+          std::vector<std::string> units(6);
+          units.resize(header().size(), "mm");
+          units.resize(names.size());
+          out.write(csvLine(units));
+        }
         headerWritten = true;
         for (const GraspSegment& grasp : grasps) {
           const ObjectSizeReport report =

@@ -2,7 +2,6 @@
 // form.
 #include <algorithm>
 #include <cstdio>
-#include <set>
 
 #include "palpate/batch/batch_task.h"
 #include "palpate/core/error.h"
@@ -16,7 +15,6 @@
 #include "commands/commands.h"
 #include "commands/export_options.h"
 #include "commands/filter_options.h"
-#include "commands/recording_list.h"
 
 namespace palpate::commands {
 namespace fs = std::filesystem;
@@ -45,6 +43,7 @@ int convertOne(const CommandLine& given, const std::string& in, const std::strin
   const auto from = given.integer("from", 0, INT64_MAX);
   const auto to = given.integer("to", 0, INT64_MAX);
   const Recipe recipe = recipeOf(given);
+  const ExportChoices choices = exportChoicesOf(given, recipe, out);
   Profile profile = [&] {
     ProgressLine progress("reading " + in, given.quiet());
     return openRecording(in, progress.callback());
@@ -61,7 +60,7 @@ int convertOne(const CommandLine& given, const std::string& in, const std::strin
     events.events = eventsWithin(events.events, profile);
   }
   profile = filteredBy(recipe, profile, in);
-  SaveExtras extras = saveExtrasOf(given, in, out, profile, recipe);
+  SaveExtras extras = exportExtras(choices, in, out, profile, recipe);
   if (from || to) extras.meta.erase("settings");  // those at the start of the whole recording
   const SaveReport saved = [&] {
     ProgressLine progress("writing " + out, given.quiet());
@@ -74,93 +73,42 @@ int convertOne(const CommandLine& given, const std::string& in, const std::strin
   return kPartlyDone;
 }
 
-// Throws when `out` is inside `folder`: the result would otherwise be converted again the next
-// time.
-void requireOutside(const fs::path& folder, const fs::path& out) {
-  const fs::path inside = fs::weakly_canonical(fs::absolute(folder));
-  const fs::path made = fs::weakly_canonical(fs::absolute(out));
-  if (std::mismatch(inside.begin(), inside.end(), made.begin(), made.end()).first == inside.end())
-    throw FileError(out, "lies in the folder that is to be converted; name one outside");
-  std::error_code ignored;
-  if (fs::exists(out, ignored) && !fs::is_directory(out, ignored))
-    throw FileError(out, "is not a folder");
-}
-
-void convertMakeFolder(const fs::path& folder) {
-  std::error_code failure;
-  fs::create_directories(folder, failure);
-  if (failure) throw FileError(folder, "can't be created: " + failure.message());
-}
-
-int convertFolder(const CommandLine& given,
-                  const fs::path& folder,
-                  const fs::path& outFolder,
-                  const std::string& form) {
-  const Overwrite overwrite = given.has("force") ? Overwrite::kReplace : Overwrite::kRefuse;
-  const Recipe recipe = recipeOf(given);
-  requireOutside(folder, outFolder);
-  std::set<fs::path> made;
-  return forEachRecording(
-      recordingsIn({folder.string()}),
-      given.quiet(),
-      [&](const fs::path& file, const Progress& progress) {
-        fs::path out = outFolder / file.lexically_relative(folder);
-        out.replace_extension("." + form);
-        if (made.contains(out))
-          throw FileError(file,
-                          "'" + out.string() +
-                              "' was already made from a file of the same name and another format");
-        requireWritable(out, overwrite);
-        const Profile profile = filteredBy(
-            recipe,
-            openRecording(file, [&](double fraction) { return progress(0.5 * fraction); }),
-            file);
-        const EventsReport events = readEvents(file);
-        const SaveExtras extras = saveExtrasOf(given, file, out, profile, recipe);
-        convertMakeFolder(out.parent_path());
-        const SaveReport saved = saveRecording(
-            profile,
-            events.events,
-            out,
-            overwrite,
-            [&](double fraction) { return progress(0.5 + 0.5 * fraction); },
-            extras);
-        made.insert(out);
-        FileOutcome outcome;
-        if (!given.quiet())
-          outcome.said = escapedLine(doneText(out, profile) + movedText(saved.movedStamps));
-        if (events.damaged > 0) outcome.problem = damagedText(file.string(), events.damaged);
-        return outcome;
-      });
-}
-
 std::vector<std::string> formNames() {
   std::vector<std::string> names;
   for (const RecordingForm& form : recordingForms()) names.emplace_back(form.ending + 1);
   return names;
 }
 
-// `given` must outlive the task.
-BatchTask convertTaskOf(const CommandLine& given) {
+BatchTask convertTaskOf(const CommandLine& given, const std::string& ending) {
   const Recipe recipe = recipeOf(given);
-  ConvertOptions options{.filters = recipe};
-  options.extras = [&given, recipe](const BatchItem& item, const Profile& profile) {
-    return saveExtrasOf(given, item.source, item.target, profile, recipe);
-  };
-  for (const char* name : {"no-signals", "no-slip", "units-row"})
-    if (given.has(name))
-      options.extrasText += (options.extrasText.empty() ? "" : " ") + std::string(name);
-  return convertTask(options);
+  return convertTask(
+      {.filters = recipe, .choices = exportChoicesOf(given, recipe, "result" + ending)});
 }
 
 int convertBatch(const CommandLine& given) {
   for (const char* name : {"from", "to", "to-form"})
     if (given.has(name))
       throw UsageError("--" + std::string(name) +
-                       " doesn't go with -o; the ending of the template " + "chooses the form");
+                       " doesn't go with -o; the ending of the template chooses the form");
   std::vector<std::string> endings;
   for (const RecordingForm& form : recordingForms()) endings.emplace_back(form.ending);
-  return runBatchCommand(given, endings, convertTaskOf(given));
+  const BatchTemplate names = batchTemplateOf(given, endings);
+  return runBatchCommand(given, names, convertTaskOf(given, names.ending()));
+}
+
+// FOLDER OUTFOLDER --to-form FORM: a batch that keeps the names; of two that would get the same
+// one, the second fails.
+int convertFolder(const CommandLine& given, const std::string& form) {
+  const fs::path outFolder = given.words()[1];
+  std::error_code ignored;
+  if (fs::exists(outFolder, ignored) && !fs::is_directory(outFolder, ignored))
+    throw FileError(outFolder, "is not a folder");
+  return runBatchCommand(given,
+                         BatchTemplate(outFolder, "{name}." + form),
+                         convertTaskOf(given, "." + form),
+                         {.paths = {given.words()[0]},
+                          .sameResults = SameResults::kSecondFails,
+                          .summary = hasBatchOptions(given)});
 }
 
 }  // namespace
@@ -198,11 +146,9 @@ int convertCommand(const Arguments& words) {
   if (!isFolder && form) throw UsageError("--to-form needs a folder; " + in + " isn't one");
   if (isFolder && (given.has("from") || given.has("to")))
     throw UsageError("--from and --to work with one recording, not with a folder");
-  if (isFolder && hasBatchOptions(given))
-    return runBatchCommand(
-        given, {}, convertTaskOf(given), in, fs::path(out) / ("{name}." + *form));
+  if (isFolder) return convertFolder(given, *form);
   refuseBatchOptions(given);
-  return isFolder ? convertFolder(given, in, out, *form) : convertOne(given, in, out);
+  return convertOne(given, in, out);
 }
 
 }  // namespace palpate::commands

@@ -1,10 +1,10 @@
 #include "commands/export_options.h"
 
-#include "palpate/core/hash.h"
-#include "palpate/interop/derived_series.h"
-#include "palpate/recording/recording.h"
+#include <stdexcept>
 
 namespace palpate::commands {
+
+OptionSpec unitsRowOption() { return {"units-row", "", "a second row with the units"}; }
 
 std::vector<OptionSpec> withExportOptions(std::vector<OptionSpec> options) {
   options.push_back({"no-signals", "", "of .h5 and .mat: without the characteristic signals"});
@@ -13,29 +13,18 @@ std::vector<OptionSpec> withExportOptions(std::vector<OptionSpec> options) {
   return options;
 }
 
-SaveExtras saveExtrasOf(const CommandLine& given,
-                        const std::filesystem::path& in,
-                        const std::filesystem::path& out,
-                        const Profile& profile,
-                        const Recipe& recipe) {
-  const RecordingFormat format = formatOf(out);
-  SaveExtras all;
-  all.unitsRow = given.has("units-row");
-  if (all.unitsRow && format != RecordingFormat::kCsv)
-    throw UsageError("--units-row is for .csv; " + out.string() + " isn't one");
-  if (!recipe.empty() && (format == RecordingFormat::kDsa || format == RecordingFormat::kPalpate))
-    throw UsageError("'palpate filter' makes filtered recordings; --filter is for exports");
-  all.meta = readRecordingMeta(in);
-  if (format != RecordingFormat::kHdf5 && format != RecordingFormat::kMat) return all;
-  ExportExtras& extras = all.exported;
-  extras.provenance.program = "palpate " PALPATE_VERSION;
-  extras.provenance.sourceFile = in.filename().string();
-  extras.provenance.sourceSha256 = sha256OfFile(in);
-  extras.provenance.filters = recipeText(recipe);
-  extras.provenance.hand = profile.hand().name;
-  extras.series = derivedSeries(
-      profile, {.withSignals = !given.has("no-signals"), .withSlip = !given.has("no-slip")});
-  return all;
+ExportChoices exportChoicesOf(const CommandLine& given,
+                              const Recipe& filters,
+                              const std::filesystem::path& out) {
+  const ExportChoices choices{.withSignals = !given.has("no-signals"),
+                              .withSlip = !given.has("no-slip"),
+                              .unitsRow = given.has("units-row")};
+  try {
+    requirePossible(choices, filters, out);
+  } catch (const std::invalid_argument& error) {
+    throw UsageError(error.what());
+  }
+  return choices;
 }
 
 }  // namespace palpate::commands

@@ -1,29 +1,25 @@
-// What exports to other programs write beside the recording: where it comes from, and the series of
-// signals and slip, which options leave out.
+// What exports to other programs write beside the recording: options that leave series out, and the
+// row with the units.
 #pragma once
 
 #include <filesystem>
 #include <vector>
 
-#include <palpate/filter/recipe.h>
-#include <palpate/model/profile.h>
-#include <palpate/recording/recording.h>
+#include <palpate/batch/export_extras.h>
 
 #include "commands/command_line.h"
 
 namespace palpate::commands {
 
+// --units-row of commands that print CSV.
+OptionSpec unitsRowOption();
 // `options` followed by --no-signals, --no-slip and --units-row.
 std::vector<OptionSpec> withExportOptions(std::vector<OptionSpec> options);
 
-// What is saved beside `profile`, which was read from `in`, filtered by `recipe` (empty: not
-// filtered) and is to be saved as `out`: what was said of the recording, and for .h5 and .mat the
-// series and where all of it comes from (`in` is read for its hash). Throws UsageError (an option
-// that `out` can't have), FileError, FormatError.
-SaveExtras saveExtrasOf(const CommandLine& given,
-                        const std::filesystem::path& in,
-                        const std::filesystem::path& out,
-                        const Profile& profile,
-                        const Recipe& recipe);
+// What the options choose for a recording that is filtered by `filters` and saved as `out`. Throws
+// UsageError (an option that `out` can't have), FileError (an unknown ending).
+ExportChoices exportChoicesOf(const CommandLine& given,
+                              const Recipe& filters,
+                              const std::filesystem::path& out);
 
 }  // namespace palpate::commands

@@ -63,7 +63,8 @@ int featuresCommand(const Arguments& words) {
   FeatureExtractionOptions options;
   const auto set = given.choice("set", {"study", "best", "session", "statistics"});
   if (set) options.set = *featureSetNamed(*set);
-  if (given.has("output")) return runBatchCommand(given, {".csv"}, featuresTask(options.set));
+  if (given.has("output"))
+    return runBatchCommand(given, batchTemplateOf(given, {".csv"}), featuresTask(options.set));
   refuseBatchOptions(given);
   const FeatureTable table = gather(given, options);
 

@@ -12,6 +12,7 @@
 
 #include "commands/command_line.h"
 #include "commands/commands.h"
+#include "commands/export_options.h"
 #include "commands/recording_list.h"
 
 namespace palpate::commands {
@@ -67,7 +68,7 @@ int graspsCommand(const Arguments& words) {
            "  1, 1/2 or 1/4 for both, one or none of its ends inside the recording (not at its "
            "first "
            "or last frame,\n  nor beside a gap): what is cut off was not seen to begin or to end",
-       .options = {{"rule", "RULE", "general (default) or study"}},
+       .options = {{"rule", "RULE", "general (default) or study"}, unitsRowOption()},
        .example = "palpate grasps recordings --rule general > grasps.csv",
        .minArguments = 1},
       words);
@@ -77,10 +78,12 @@ int graspsCommand(const Arguments& words) {
   const RecordingList list = recordingsIn(given.words());
   std::vector<std::string> header = {"begin", "end", "begin_ms", "end_ms", "fingers", "quality"};
   if (list.several) header.emplace_back("file");
+  std::vector<std::string> units = {"", "", "ms", "ms", "", ""};
+  units.resize(header.size());
   return writeProfileTexts(
       list,
       given.quiet(),
-      {.begin = csvLine(header)},
+      {.begin = csvLine(header) + (given.has("units-row") ? csvLine(units) : "")},
       [&](const std::filesystem::path& file,
           const Profile& profile,
           const TextSink& write,

@@ -161,6 +161,7 @@ class TooMuchText {};
 struct TextAhead {
   bool done = false;  // otherwise the work is done when its turn comes
   std::vector<std::string> notes = {};
+  std::string units = {};
   std::string text = {};
   std::string damage = {};
   std::exception_ptr failure = {};
@@ -187,6 +188,16 @@ int writeTexts(const RecordingList& list,
   ListRun run(list, quiet);
   StandardOutput out;
   bool begun = false;
+  std::string units;  // of the first recording
+  const auto unitsOf = [&](const Content& content) {
+    return frame.units ? frame.units(profileOf(content)) : std::string();
+  };
+  const auto begin = [&](const fs::path& file, const std::string& itsUnits) {
+    if (begun && itsUnits != units) throw Error(file.string() + ": " + kOtherUnits);
+    out.write(begun ? frame.between : frame.begin + itsUnits);
+    units = itsUnits;
+    begun = true;
+  };
 
   const auto atItsTurn = [&](const fs::path& file, const Progress& progress, std::size_t threads) {
     const Content content = read(file, halfOf(progress, 0.0), threads);
@@ -194,10 +205,7 @@ int writeTexts(const RecordingList& list,
     run.leaveTheTerminal();
     bool first = true;
     const auto write = [&](const std::string& text) {
-      if (std::exchange(first, false)) {
-        out.write(begun ? frame.between : frame.begin);
-        begun = true;
-      }
+      if (std::exchange(first, false)) begin(file, unitsOf(content));
       out.write(text);
     };
     work(file, content, write, halfOf(progress, 0.5));
@@ -211,6 +219,7 @@ int writeTexts(const RecordingList& list,
     try {
       const Content content = read(file, halfOf(progress, 0.0), threads);
       result.notes = notedWarnings(file, profileOf(content));
+      result.units = unitsOf(content);
       const auto write = [&](const std::string& text) {
         if (result.text.size() + text.size() > kMostTextAhead) throw TooMuchText();
         result.text += text;
@@ -243,8 +252,8 @@ int writeTexts(const RecordingList& list,
       for (const std::string& note : result.notes) run.note(note);
       run.leaveTheTerminal();
       if (!result.failure || !result.text.empty()) {
-        out.write((begun ? frame.between : frame.begin) + result.text);
-        begun = true;
+        begin(file, result.units);
+        out.write(result.text);
       }
     }
     // The rows of each recording at once.

@@ -51,10 +51,16 @@ using ReadableText = std::function<void(const std::filesystem::path& file,
                                         const ReadableRecording&,
                                         const TextSink& write,
                                         const Progress&)>;
+// Why a recording can't stand in a table whose row of units is that of an earlier one.
+inline constexpr const char* kOtherUnits =
+    "its values have another unit than those of the recordings before; give it a table of its own";
 // What stands between the texts of the recordings.
 struct TextFrame {
   std::string begin = {};    // once, in front of the first recording that is done or wrote text
   std::string between = {};  // in front of every further one
+  // The row with the units behind `begin`; may be empty: none. A recording that has other units
+  // than the first one fails.
+  std::function<std::string(const Profile&)> units = {};
 };
 
 // Runs `work` for every file, one at a time, and prints on standard error one line for each file

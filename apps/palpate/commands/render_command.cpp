@@ -1,22 +1,28 @@
 // The command `palpate render FILE --frame N -o OUT.{png,svg,pdf}` draws a picture of one frame;
-// --from N --to M -o FOLDER draws a picture of each, -o OUT.mp4 writes a movie.
+// --from N --to M -o FOLDER draws a picture of each, -o OUT.mp4 writes a movie; -o out/{name}.png
+// draws one of each of many recordings.
 #include <QGuiApplication>
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
+#include <set>
 
+#include "palpate/batch/batch_run.h"
 #include "palpate/core/error.h"
 #include "palpate/core/interruption.h"
 #include "palpate/core/number_text.h"
 #include "palpate/recording/recording.h"
 #include "palpate/signals/characteristic_signals.h"
 
+#include "commands/batch_options.h"
 #include "commands/command_line.h"
 #include "commands/commands.h"
 #include "commands/display.h"
 #include "commands/picture_size.h"
 #include "commands/render_hand.h"
 #include "commands/render_movie.h"
+#include "gui/picture/ffmpeg.h"
 #include "gui/picture/picture_export.h"
 #include "gui/picture/picture_series.h"
 
@@ -219,6 +225,80 @@ int drawOne(const CommandLine& given,
   return kDone;
 }
 
+// What is drawn of each recording.
+struct RenderPage {
+  gui::MatricesPictureOptions options = {};
+  Sheet sheet = {};
+};
+
+// The options that pictures depend on, as text: of all but those of the batch itself.
+std::string renderText(const CommandLine& given, const CommandSpec& spec) {
+  const std::set<std::string> others = {"output", "force", "resume", "threads", "report", "quiet"};
+  std::string text = "render";
+  for (const OptionSpec& option : spec.options) {
+    const std::string name = option.name.substr(0, option.name.find(','));
+    if (others.contains(name) || !given.has(name)) continue;
+    text += "; " + name;
+    for (const std::string& value : given.texts(name)) text += " " + value;
+  }
+  return text;
+}
+
+// A picture of one frame of each recording, or a movie of each.
+BatchTask renderTask(const CommandLine& given, const CommandSpec& spec, const RenderPage& page) {
+  return {.options = renderText(given, spec),
+          .work = [&given, page](const BatchItem& item,
+                                 Overwrite overwrite,
+                                 const Progress& progress,
+                                 std::size_t threads) {
+            const bool isMovie = isMovieName(item.target.string());
+            const std::string file = item.source.string();
+            const Profile profile = openRecording(
+                item.source,
+                [&](double fraction) {
+                  return !progress || progress(fraction * (isMovie ? 0.1 : 0.9));
+                },
+                threads);
+            gui::MatricesPictureOptions options = page.options;
+            gui::PicturePaper paper = page.sheet.paper;
+            options.title = QString::fromStdString(item.source.filename().string());
+            paper.title = options.title;
+            if (isMovie) {
+              const gui::FrameSpan span = chosenSpan(given, file, profile);
+              options.pixelRatio = paper.scale();
+              useOneRange(profile, span, options);
+              writeChosenMovie(
+                  given,
+                  item.target,
+                  profile,
+                  span,
+                  painterOf(given, profile, span, options),
+                  paper,
+                  overwrite,
+                  [&](double fraction) { return !progress || progress(0.1 + 0.9 * fraction); });
+              return BatchAnswer{.said = counted(span.count(), "frame")};
+            }
+            const std::size_t frame =
+                chosenFrame(given.integer("frame", 0, INT64_MAX), file, profile);
+            if (gui::imageFormatOf(item.target.string()) == gui::ImageFormat::kPng)
+              options.pixelRatio = paper.scale();
+            const auto paint = painterOf(given, profile, {frame, frame}, options);
+            gui::writePicture(
+                item.target.string(),
+                [&](QPainter& painter) { paint(painter, frame); },
+                paper,
+                overwrite);
+            return BatchAnswer{.said = "frame " + std::to_string(frame)};
+          }};
+}
+
+// Whether the words are those of a batch: several recordings, a folder, or a template as OUT.
+bool isRenderBatch(const CommandLine& given) {
+  std::error_code ignored;
+  return given.words().size() > 1 || fs::is_directory(given.words()[0], ignored) ||
+         given.text("output").value_or("").find('{') != std::string::npos;
+}
+
 // Checks the options without reading a file.
 void checkUsage(const CommandLine& given, bool isSeries) {
   const auto out = given.text("output");
@@ -228,6 +308,8 @@ void checkUsage(const CommandLine& given, bool isSeries) {
   const bool isMovie = isMovieName(*out);
   checkMovieUsage(given);
   const bool isPicture = gui::imageFormatOf(*out).has_value();
+  if (isRenderBatch(given) && isSeries && !isMovie)
+    throw UsageError("a batch draws one frame of each recording (--frame), or movies: .mp4");
   if (isSeries && given.has("frame"))
     throw UsageError("give --frame, or --from and --to, not both");
   if (isSeries && isPicture)
@@ -245,12 +327,27 @@ void checkUsage(const CommandLine& given, bool isSeries) {
                        " is for paper: give one of them");
 }
 
+int renderBatch(const CommandLine& given, const CommandSpec& spec, RenderPage page) {
+  const BatchTemplate names = batchTemplateOf(given, {".png", ".svg", ".pdf", ".mp4"});
+  if (isMovieName(*given.text("output")) && !gui::findFfmpeg()) throw Error(gui::ffmpegMissing());
+  drawWithoutDisplay();
+  std::string name = "palpate";
+  char* arguments[] = {name.data(), nullptr};
+  int count = 1;
+  const RuntimeFolder runtime;
+  const QGuiApplication application(count, arguments);
+  page.options.font = QGuiApplication::font();
+  if (page.sheet.textUnits > 0) page.options.font.setPixelSize(page.sheet.textUnits);
+  return runBatchCommand(given, names, renderTask(given, spec, page));
+}
+
 }  // namespace
 
 int renderCommand(const Arguments& words) {
   CommandSpec spec = {
       .synopsis =
-          "palpate render FILE [--frame N | --from N --to M] -o OUT.{png,svg,pdf}|FOLDER|OUT.mp4",
+          "palpate render FILE [--frame N | --from N --to M] -o OUT.{png,svg,pdf}|FOLDER|OUT.mp4\n"
+          "       palpate render PATH... -o TEMPLATE",
       .purpose =
           "Draws the heat maps of one frame, or the hand in 3-D. The ending of OUT chooses the "
           "format; SVG and PDF "
@@ -258,7 +355,8 @@ int renderCommand(const Arguments& words) {
           "are vector\ngraphics with text as text. With --from or --to, a PNG of each frame from "
           "N "
           "to M, both inclusive:\nFOLDER/NAME_00042.png. To OUT.mp4, a movie of these frames as "
-          "they came; it takes the program\nffmpeg ($PALPATE_FFMPEG, else in $PATH).",
+          "they came; it takes the program\nffmpeg ($PALPATE_FFMPEG, else in $PATH). With a "
+          "template as OUT (out/{name}.png), a picture or movie of each\nrecording.",
       .options = {{"frame", "N", "default: the frame of largest sum"},
                   {"from", "N", "first frame of a series; default 0"},
                   {"to", "M", "last frame, inclusive; default the recording's last"},
@@ -285,14 +383,16 @@ int renderCommand(const Arguments& words) {
                   {"theme", "dark|light", "default light"},
                   {"force", "", "replace OUT"}},
       .example = "palpate render foam_ball.dsa --frame 2411 -o frame.svg --values",
-      .minArguments = 1,
-      .maxArguments = 1};
+      .minArguments = 1};
   const auto ofHand = handViewOptions();
   spec.options.insert(spec.options.end(), ofHand.begin(), ofHand.end());
+  spec.options = withResumeOptions(std::move(spec.options));
   const CommandLine given(spec, words);
   if (given.helpShown()) return kDone;
   const bool isSeries = given.has("from") || given.has("to");
   checkUsage(given, isSeries);
+  const bool isBatch = isRenderBatch(given);
+  if (!isBatch) refuseBatchOptions(given);
   gui::MatricesPictureOptions options;
   if (const auto size = given.text("size")) options.size = parsedSize(*size, kSmallestPicture);
   if (const auto map = given.choice("map", colorMapNames())) options.map = *gui::colorMapFrom(*map);
@@ -307,6 +407,7 @@ int renderCommand(const Arguments& words) {
   const bool isMovie = isMovieName(*given.text("output"));
   if (isMovie && !given.has("dpi") && sheet.textUnits == 0) sheet.paper.dpi = kMovieDpi;
   const Overwrite overwrite = given.has("force") ? Overwrite::kReplace : Overwrite::kRefuse;
+  if (isBatch) return renderBatch(given, spec, {options, sheet});
 
   if (isMovie) requireMovie(*given.text("output"), overwrite);  // before the long work
 

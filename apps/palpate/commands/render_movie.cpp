@@ -59,6 +59,20 @@ void requireMovie(const std::string& out, Overwrite overwrite) {
   requireWritable(out, overwrite);
 }
 
+gui::Movie writeChosenMovie(const CommandLine& given,
+                            const std::filesystem::path& out,
+                            const Profile& profile,
+                            const gui::FrameSpan& span,
+                            const gui::FramePictures::Paint& paint,
+                            const gui::PicturePaper& paper,
+                            Overwrite overwrite,
+                            const Progress& progress) {
+  const auto timeUs = [&](std::size_t frame) { return profile.frameTimeUs(frame); };
+  const gui::Movie movie = gui::plannedMovie(span, timeUs, chosenOptions(given), progress);
+  gui::writeMovie(out, movie, paint, paper, overwrite, progress);
+  return movie;
+}
+
 int drawMovie(const CommandLine& given,
               const Profile& profile,
               const gui::FrameSpan& span,
@@ -66,7 +80,6 @@ int drawMovie(const CommandLine& given,
               const gui::PicturePaper& paper,
               Overwrite overwrite) {
   const std::string out = *given.text("output");
-  const auto timeUs = [&](std::size_t frame) { return profile.frameTimeUs(frame); };
   Interruption interruption;
   gui::Movie movie;
   try {
@@ -75,8 +88,7 @@ int drawMovie(const CommandLine& given,
     const auto goOn = [&](double fraction) {
       return !interruption.waitForSignal(0) && (!show || show(fraction));
     };
-    movie = gui::plannedMovie(span, timeUs, chosenOptions(given), goOn);
-    gui::writeMovie(out, movie, paint, paper, overwrite, goOn);
+    movie = writeChosenMovie(given, out, profile, span, paint, paper, overwrite, goOn);
   } catch (const Cancelled&) {
     std::fprintf(stderr, "palpate: interrupted: %s was not written\n", out.c_str());
     return kPartlyDone;

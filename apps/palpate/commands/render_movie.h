@@ -1,11 +1,15 @@
 // `palpate render .. -o OUT.mp4`: writes a movie of the frames.
 #pragma once
 
+#include <filesystem>
+
 #include "palpate/core/output_file.h"
+#include "palpate/core/progress.h"
 #include "palpate/model/profile.h"
 
 #include "commands/command_line.h"
 #include "gui/picture/exported_view.h"
+#include "gui/picture/movie_writer.h"
 #include "gui/picture/picture_export.h"
 
 namespace palpate::commands {
@@ -18,7 +22,16 @@ void checkMovieUsage(const CommandLine& given);
 // Throws Error when ffmpeg is missing, or when OUT exists already or cannot be a file.
 void requireMovie(const std::string& out, Overwrite overwrite);
 
-// Writes the movie with the options --speed and --fps; returns the exit code. Throws Error.
+// Writes the movie with the options --speed and --fps. Throws as gui::writeMovie().
+gui::Movie writeChosenMovie(const CommandLine& given,
+                            const std::filesystem::path& out,
+                            const Profile& profile,
+                            const gui::FrameSpan& span,
+                            const gui::FramePictures::Paint& paint,
+                            const gui::PicturePaper& paper,
+                            Overwrite overwrite,
+                            const Progress& progress);
+// The same with its progress on standard error; returns the exit code. Throws Error.
 int drawMovie(const CommandLine& given,
               const Profile& profile,
               const gui::FrameSpan& span,

@@ -12,6 +12,7 @@
 #include "commands/batch_options.h"
 #include "commands/command_line.h"
 #include "commands/commands.h"
+#include "commands/export_options.h"
 #include "commands/filter_options.h"
 #include "commands/recording_list.h"
 
@@ -44,6 +45,7 @@ int signalsCommand(const Arguments& words) {
                   "With -o a table for each recording.",
        .options = withBatchOptions(withFilterOptions(
            {{"matrix", "M", "only this matrix (0, 1, ..)"},
+            unitsRowOption(),
             {"smooth", "SPEC", "then filter the signals themselves over time, as kalman:q=0.05"}})),
        .example = "palpate signals foam_ball.dsa --matrix 1 > curve.csv",
        .minArguments = 1},
@@ -52,15 +54,23 @@ int signalsCommand(const Arguments& words) {
   const auto matrix = given.integer("matrix", 0, INT64_MAX);
   const Recipe recipe = recipeOf(given);
   const Recipe smooth = smoothOf(given);
+  const bool unitsRow = given.has("units-row");
   if (given.has("output"))
     return runBatchCommand(
-        given, {".csv"}, signalsTask({.matrix = matrix, .filters = recipe, .smooth = smooth}));
+        given,
+        batchTemplateOf(given, {".csv"}),
+        signalsTask({.matrix = matrix, .filters = recipe, .smooth = smooth, .unitsRow = unitsRow}));
   refuseBatchOptions(given);
   const RecordingList recordings = recordingsIn(given.words());
+  const char* const noUnit = recordings.several ? ",\n" : "\n";
+  TextFrame frame{.begin = std::string(kSignalColumns) +
+                           std::string(recordings.several ? ",file\n" : "\n")};
+  if (unitsRow)
+    frame.units = [noUnit](const Profile& profile) { return signalUnits(profile.hand()) + noUnit; };
   return writeProfileTexts(
       recordings,
       given.quiet(),
-      {.begin = std::string(kSignalColumns) + std::string(recordings.several ? ",file\n" : "\n")},
+      frame,
       [&](const std::filesystem::path& file,
           const Profile& unfiltered,
           const TextSink& write,

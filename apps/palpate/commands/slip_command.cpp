@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <stdexcept>
 #include <string>
 
 #include "palpate/batch/batch_task.h"
@@ -15,34 +16,24 @@
 #include "commands/batch_options.h"
 #include "commands/command_line.h"
 #include "commands/commands.h"
+#include "commands/export_options.h"
 #include "commands/recording_list.h"
 
 namespace palpate::commands {
 namespace {
-
-void readReference(const CommandLine& given, SlipRowsOptions& request) {
-  const std::string word = given.text("reference").value_or("first");
-  SlipDetectorOptions& detector = request.pass.detector;
-  if (word == "first") {
-    detector.reference = SlipReference::kFirst;
-  } else if (word == "rest") {
-    detector.reference = SlipReference::kWhenAtRest;
-  } else if (const auto frame = parseInteger(word); frame && *frame >= 0) {
-    detector.reference = SlipReference::kGiven;
-    request.pass.referenceFrame = static_cast<std::size_t>(*frame);
-  } else {
-    throw UsageError("--reference is '" + word + "'; it is first, rest, or the number of a frame");
-  }
-}
 
 SlipRowsOptions slipOptionsOf(const CommandLine& given) {
   SlipRowsOptions request;
   SlipDetectorOptions& detector = request.pass.detector;
   std::vector<std::string> methods;
   for (const SlipMethod method : slipMethods()) methods.emplace_back(nameOf(method));
-  if (const auto name = given.choice("method", methods)) detector.method = *slipMethodNamed(*name);
-  detector.hypothesisAlarm = detector.method == SlipMethod::kHypotheses;
-  readReference(given, request);
+  const auto name = given.choice("method", methods);
+  setSlipMethod(request, name ? std::string_view(*name) : nameOf(detector.method));
+  try {
+    setSlipReference(request, given.text("reference").value_or("first"));
+  } catch (const std::invalid_argument& error) {
+    throw UsageError(std::string("--reference is ") + error.what());
+  }
   request.matrix = given.integer("matrix", 0, INT32_MAX);
   SlipRuleOptions& rule = detector.rule;
   rule.stepTaxels = given.number("step", 1e-3, 100.0).value_or(rule.stepTaxels);
@@ -77,17 +68,20 @@ int slipCommand(const Arguments& words) {
             {"step", "T", "threshold per frame [taxels], default 0.20"},
             {"limit", "T", "threshold since the reference [taxels], default 1.0"},
             {"rotation", "DEG", "threshold of turning [deg], default 5"},
-            {"segments", "", "a row per slip: frames, matrix, length of the way"}}),
+            {"segments", "", "a row per slip: frames, matrix, length of the way"},
+            unitsRowOption()}),
        .example = "palpate slip bottle.dsa --reference rest > slip.csv",
        .minArguments = 1},
       words);
   if (given.helpShown()) return kDone;
   const SlipRowsOptions request = slipOptionsOf(given);
   const bool segments = given.has("segments");
+  const bool unitsRow = given.has("units-row");
   if (given.has("output")) {
     SlipRowsOptions table = request;
     table.segments = segments;
-    return runBatchCommand(given, {".csv"}, slipTask(table));
+    table.unitsRow = unitsRow;
+    return runBatchCommand(given, batchTemplateOf(given, {".csv"}), slipTask(table));
   }
   refuseBatchOptions(given);
   const RecordingList recordings = recordingsIn(given.words());
@@ -101,6 +95,9 @@ int slipCommand(const Arguments& words) {
         if (!headerWritten)
           out.write(std::string(segments ? kSlipSegmentColumns : kSlipColumns) +
                     (recordings.several ? ",file\n" : "\n"));
+        if (!headerWritten && unitsRow)
+          out.write(std::string(segments ? kSlipSegmentUnits : kSlipUnits) +
+                    (recordings.several ? ",\n" : "\n"));
         headerWritten = true;
         const std::string lineEnd = recordings.several ? "," + csvLine({file.string()}) : "\n";
         (segments ? forEachSlipSegmentRow : forEachSlipRow)(

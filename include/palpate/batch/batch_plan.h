@@ -33,6 +33,9 @@ class BatchTemplate {
   // Throws std::invalid_argument for an unknown field, a brace without its partner, a name that is
   // missing or has no ending, or a control character.
   explicit BatchTemplate(const std::string& text);
+  // The template `below`, a relative path, in a folder that is taken as it is, also with braces.
+  // Throws in addition for a path that is absolute or contains "..".
+  BatchTemplate(const std::filesystem::path& folder, const std::string& below);
 
   // The folders in front of the first field; "." when there are none.
   const std::filesystem::path& folder() const noexcept { return folder_; }
@@ -68,11 +71,16 @@ struct BatchPlan {
   std::filesystem::path folder;
 };
 
+// What becomes of recordings that would have the same result: the batch is refused, or all but the
+// first fail.
+enum class SameResults { kRefuse, kSecondFails };
+
 // Finds the recordings (recordingsBelow()) and names the results; writes nothing. Throws Error when
-// two recordings would have the same result, a result would be a source, or the results lie in a
-// folder that is read; Cancelled.
+// two recordings would have the same result (kRefuse), a result would be a source, or the results
+// lie in a folder that is read; Cancelled.
 BatchPlan planBatch(const std::vector<std::filesystem::path>& paths,
                     const BatchTemplate& names,
-                    const Progress& progress = {});
+                    const Progress& progress = {},
+                    SameResults sameResults = SameResults::kRefuse);
 
 }  // namespace palpate

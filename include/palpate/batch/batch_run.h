@@ -48,6 +48,9 @@ struct BatchOptions {
   // date, or was interrupted before the journal knew that it is whole, is replaced. Any other file
   // is replaced only with Overwrite::kReplace.
   bool resume = false;
+  // Its threads leave the processor to the others of the machine: beside a window that shows a
+  // hand.
+  bool inBackground = false;
 };
 
 struct BatchResult {

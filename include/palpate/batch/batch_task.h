@@ -4,11 +4,12 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <functional>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include <palpate/batch/batch_run.h>
+#include <palpate/batch/export_extras.h>
 #include <palpate/filter/recipe.h>
 #include <palpate/recognition/feature_table.h>
 #include <palpate/recording/recording.h>
@@ -21,19 +22,17 @@ namespace palpate {
 
 struct ConvertOptions {
   Recipe filters = {};
-  // What is saved beside the frames of a result, of the recording as it was opened or filtered; may
-  // be empty: nothing.
-  std::function<SaveExtras(const BatchItem&, const Profile&)> extras = {};
-  // The options of `extras` as text: a result that was made with others is not up to date.
-  std::string extrasText = {};
+  ExportChoices choices = {};
 };
-// The form is that of the result's ending (formatOf()).
+// The form is that of the result's ending (formatOf()); requirePossible() says which choices it
+// can have.
 BatchTask convertTask(const ConvertOptions& options = {});
 
 struct SignalRowsOptions {
   std::optional<std::int64_t> matrix = {};  // only this one
   Recipe filters = {};                      // of the frames, first
   Recipe smooth = {};                       // of the signals, over time
+  bool unitsRow = false;                    // a second row with the units
 };
 BatchTask signalsTask(const SignalRowsOptions& table);
 
@@ -41,8 +40,13 @@ struct SlipRowsOptions {
   SlipRunOptions pass = {};
   std::optional<std::int64_t> matrix = {};
   bool segments = false;  // a row per slip instead of one per frame and matrix
+  bool unitsRow = false;  // a second row with the units
 };
 BatchTask slipTask(const SlipRowsOptions& table);
+// Set the method by its name (slip_method.h), and the reference: "first", "rest", or the number of
+// a frame. Both throw std::invalid_argument.
+void setSlipMethod(SlipRowsOptions& table, std::string_view name);
+void setSlipReference(SlipRowsOptions& table, const std::string& word);
 // Throws Error when the recording hasn't the matrix or the reference frame of the table.
 void requireThere(const std::filesystem::path& file,
                   const Profile& profile,

@@ -9,12 +9,15 @@
 
 #include <palpate/core/progress.h>
 #include <palpate/filter/recipe.h>
+#include <palpate/model/hand_description.h>
 #include <palpate/model/profile.h>
 
 namespace palpate {
 
 // The header row without line end.
 extern const char* const kSignalColumns;
+// The units of these columns, in a row of as many cells without line end.
+std::string signalUnits(const HandDescription& hand);
 // Passes the rows of one frame at a time to `sink`, each with `lineEnd`; of one matrix or of all.
 // `smooth`: filters over time that are applied to the signals themselves; may be empty. Throws
 // Cancelled, std::invalid_argument (a filter over space), and what the sink throws.

@@ -15,6 +15,8 @@ namespace palpate {
 
 // The header row without line end.
 extern const char* const kSlipColumns;
+// The units of these columns, in a row of as many cells without line end.
+extern const char* const kSlipUnits;
 // Calls `sink` for each row, without line end; of one matrix or of all. Throws as runSlipDetector()
 // does, and what the sink throws.
 void forEachSlipRow(const Profile& profile,
@@ -24,6 +26,7 @@ void forEachSlipRow(const Profile& profile,
                     const Progress& progress = {});
 // The same for the slips of findSlips().
 extern const char* const kSlipSegmentColumns;
+extern const char* const kSlipSegmentUnits;
 void forEachSlipSegmentRow(const Profile& profile,
                            const SlipRunOptions& pass,
                            std::optional<std::int64_t> matrix,

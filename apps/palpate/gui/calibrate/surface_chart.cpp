@@ -20,7 +20,7 @@ namespace {
 constexpr int kAcross = 120, kUp = 80;     // number of cells
 constexpr double kSurfaceChartAir = 0.12;  // margin beside the samples, as a part of the span
 constexpr double kLeastSpanDegC = 4.0;
-constexpr double kSurfaceChartPointSize = 7.0, kChosenSize = 12.0;  // [px]
+constexpr double kSurfaceChartPointSize = 7.0, kSurfaceChartChosenSize = 12.0;  // [px]
 constexpr int kBeyondAlpha = 90;  // of 255; opacity outside the measured region
 
 QCPColorGradient gradient() {
@@ -146,7 +146,10 @@ void SurfaceChart::addPoints() {
     const double degC = temperatureOf(sample, model_.options);
     (sample.used ? used : unused)->addData(sample.staticResponseCounts, degC);
     if (chosen_ == s)
-      scatter({QCPScatterStyle::ssCircle, QPen(colors.accent, 2.0), Qt::NoBrush, kChosenSize})
+      scatter({QCPScatterStyle::ssCircle,
+               QPen(colors.accent, 2.0),
+               Qt::NoBrush,
+               kSurfaceChartChosenSize})
           ->addData(sample.staticResponseCounts, degC);
   }
 }

@@ -32,6 +32,12 @@ LibraryFeature::LibraryFeature(WindowState& windowState, QWidget* window)
   connect(panel_, &LibraryPanel::compareRequested, this, [this](const QString& path) {
     compareWith(path.toStdString());
   });
+  windowState.chosenRecordings = [this] {
+    return panel_->isVisible() ? panel_->chosen() : QStringList();
+  };
+  connect(panel_, &LibraryPanel::batchRequested, this, [&windowState] {
+    windowState.actions.at("batch")->trigger();
+  });
   panel_->comparable = [&windowState] { return windowState.displayed.isRecording(); };
   connect(panel_, &LibraryPanel::said, this, [&windowState](const QString& message) {
     windowState.log.add(LogLine::Severity::kWarning, message);

@@ -342,6 +342,7 @@ void LibraryPanel::showMenu(const QPoint& at) {
   add("&Compare with the one shown", "Ctrl+Return", one && comparable(), [&] {
     emit compareRequested(paths.first());
   });
+  add("&Batch…", {}, !paths.isEmpty(), [this] { emit batchRequested(); });
   menu.addSeparator();
   add("&Show in the file manager", {}, one, [&] { reveal(paths.first()); });
   add("Copy &rows", "Ctrl+C", !paths.isEmpty(), [this] { table_->copyRows(); });

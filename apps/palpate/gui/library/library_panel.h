@@ -40,6 +40,8 @@ class LibraryPanel : public QWidget {
   // Scans the folder again.
   void refresh();
   void startSearch();
+  // Paths of the chosen rows.
+  QStringList chosen() const;
   bool scanning() const noexcept { return scanner_.busy(); }
 
   // Asks the user for a folder; an empty answer means cancelled.
@@ -53,6 +55,8 @@ class LibraryPanel : public QWidget {
  signals:
   void openRequested(const QStringList& paths);
   void compareRequested(const QString& path);
+  // A file is to be made of each of the chosen recordings.
+  void batchRequested();
   // A warning for the log: what could not be read.
   void said(const QString& message);
   // A scan has ended.
@@ -76,8 +80,6 @@ class LibraryPanel : public QWidget {
   void showSummary();
   void showFolder();
   void rememberColumns();
-  // Paths of the chosen rows.
-  QStringList chosen() const;
   void openChosen();
 
   QSettings& settings_;

@@ -1,5 +1,6 @@
 #include "gui/shell/features.h"
 
+#include "gui/batch/batch_feature.h"
 #include "gui/calibrate/calibrate_feature.h"
 #include "gui/compare/compare_feature.h"
 #include "gui/connect/connect_feature.h"
@@ -52,6 +53,7 @@ std::vector<std::unique_ptr<Feature>> allFeatures(WindowState& windowState, QWid
   add(std::make_unique<RecordFeature>(windowState, window));
   add(std::make_unique<ExportFeature>(windowState, window));
   add(std::make_unique<ImportFeature>(windowState, window));
+  add(std::make_unique<BatchFeature>(windowState, window));
   add(std::make_unique<HelpFeature>(windowState, window));
   return all;
 }

@@ -212,6 +212,7 @@ void MainWindow::closeEvent(QCloseEvent* event) {
   if (closing_) {
     if (live.state() != LiveController::State::kNone) return event->ignore();
   } else if ((live.recording() && !windowState_->prompts.endRecording()) ||
+             (windowState_->batchRunning() && !windowState_->prompts.endBatch()) ||
              !windowState_->events.settle(windowState_->recordings.all())) {
     // All questions come before anything is discarded.
     return event->ignore();
@@ -230,6 +231,7 @@ void MainWindow::closeEvent(QCloseEvent* event) {
 
 void MainWindow::endNow() {
   windowState_->prompts.endRecording = [] { return true; };
+  windowState_->prompts.endBatch = [] { return true; };
   windowState_->prompts.unsaved = [](const QString&) { return UserPrompts::Unsaved::kSave; };
   if (QWidget* dialog = QApplication::activeModalWidget()) dialog->close();
   close();

@@ -65,7 +65,7 @@ void WindowMenus::buildMenuBar(const ActionRegistry& book, const QList<QAction*>
   file->addAction(at("open"));
   file->addMenu(menus_.recent);
   menus_.recent->setToolTipsVisible(true);
-  file->addActions({at("importTable"), at("openDemo")});
+  file->addActions({at("importTable"), at("batch"), at("openDemo")});
   file->addSeparator();
   file->addActions({at("nextRecording"), at("previousRecording"), at("closeRecording")});
   file->addSeparator();

@@ -22,6 +22,8 @@ struct UserPrompts {
       recording;
   // Asks whether the running recording may be ended now.
   std::function<bool()> endRecording;
+  // Asks whether the running batch may be ended now.
+  std::function<bool()> endBatch;
   // Asks for the text of a label or a note; nothing: cancelled. `title` is the title of the
   // dialogue, `text` the present text.
   std::function<std::optional<QString>(const QString& title, const QString& text)> text;

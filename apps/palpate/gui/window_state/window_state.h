@@ -4,7 +4,9 @@
 
 #include <QSettings>
 #include <QString>
+#include <QStringList>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -82,6 +84,10 @@ struct WindowState {
   DerivedResults derivedResults;
   ComparisonMode comparison;
   HandCommands handCommands;
+  // The recordings chosen in the Library; may be empty: no Library.
+  std::function<QStringList()> chosenRecordings;
+  // Whether a batch runs; may be empty: none.
+  std::function<bool()> batchRunning;
 
   std::filesystem::path demoRecording() const;
 

@@ -1,0 +1,467 @@
+#include "gui/batch/batch_dialog.h"
+
+#include <QAction>
+#include <QCheckBox>
+#include <QDragEnterEvent>
+#include <QFileDialog>
+#include <QFileInfo>
+#include <QFormLayout>
+#include <QFrame>
+#include <QLabel>
+#include <QLineEdit>
+#include <QListWidget>
+#include <QMimeData>
+#include <QProgressBar>
+#include <QPushButton>
+#include <QScrollArea>
+#include <QSpinBox>
+#include <QStyle>
+#include <QTabWidget>
+#include <QVBoxLayout>
+#include <algorithm>
+#include <memory>
+
+#include <palpate/core/number_text.h>
+
+#include "gui/batch/batch_fields.h"
+#include "gui/batch/batch_results.h"
+
+namespace palpate::gui {
+namespace {
+
+constexpr QSize kBatchDialogSize(900, 600);
+constexpr int kBatchMargin = 14;
+constexpr int kFirstNames = 4;  // lines of the preview
+constexpr int kCalmMs = 200;    // without changes, before the names are looked for
+constexpr int kBarSteps = 1000;
+constexpr int kMostThreadsShown = 256;
+constexpr const char* kBatchFoldersKey = "batch/lastFolder";
+
+constexpr const char* kBatchStyle = R"(
+#batchFolder, #batchNames, #batchFilters, #batchSmooth { background: palette(base); border: 1px solid palette(mid); border-radius: 4px; padding: 3px 6px; }
+#batchFolder:focus, #batchNames:focus, #batchFilters:focus, #batchSmooth:focus { border-color: palette(highlight); }
+QListWidget { background: palette(base); border: 1px solid palette(mid); border-radius: 4px; }
+#batchFoot { border-top: 1px solid palette(mid); }
+#batchSaid[problem="true"] { color: palette(bright-text); }
+)";
+
+constexpr const char* kFieldsTip =
+    "{name}: the recording's name without its ending\n"
+    "{folder}: the folders between the given folder and the recording\n"
+    "{ending}: the recording's ending: dsa, palpate\n"
+    "{date}, {time}: when the recording begins, 2014-11-27 and 10-31-05\n"
+    "Names without {folder} keep the folders of the recordings.";
+
+QPushButton* batchButton(const char* name, const QString& text) {
+  auto* button = new QPushButton(text);
+  button->setObjectName(name);
+  button->setAutoDefault(false);
+  return button;
+}
+
+QLabel* plainLabel(const char* name) {
+  auto* label = new QLabel;
+  label->setObjectName(name);
+  label->setTextFormat(Qt::PlainText);
+  return label;
+}
+
+QStringList pathsOf(const QMimeData& data) {
+  QStringList paths;
+  for (const QUrl& url : data.urls())
+    if (url.isLocalFile()) paths << url.toLocalFile();
+  return paths;
+}
+
+}  // namespace
+
+BatchDialog::BatchDialog(QSettings& settings, BatchController& controller, QWidget* parent)
+    : QDialog(parent), settings_(settings), controller_(controller), pages_(new QTabWidget) {
+  setWindowTitle("Batch");
+  setObjectName("batchDialog");
+  setStyleSheet(kBatchStyle);
+  setAcceptDrops(true);
+  setSizeGripEnabled(true);
+  askForFiles = [this] {
+    return QFileDialog::getOpenFileNames(this,
+                                         "Recordings to read",
+                                         settings_.value(kBatchFoldersKey).toString(),
+                                         "Recordings (*.palpate *.dsa);;All files (*)");
+  };
+  askForFolder = [this](const QString& begin) {
+    return QFileDialog::getExistingDirectory(this, "Choose a folder", begin);
+  };
+  results_ = new BatchResults;
+  results_->setObjectName("batchResults");
+  pages_->setObjectName("batchPages");
+  pages_->setDocumentMode(true);
+  pages_->addTab(makeChoices(), "&Choices");
+  pages_->addTab(results_, "Res&ults");
+  auto* whole = new QVBoxLayout(this);
+  whole->setContentsMargins(0, 6, 0, 0);
+  whole->setSpacing(0);
+  whole->addWidget(pages_, 1);
+  whole->addWidget(makeFoot());
+  delay_.setSingleShot(true);
+  delay_.setInterval(kCalmMs);
+  connect(&delay_, &QTimer::timeout, this, &BatchDialog::look);
+  setChoices(loadBatchChoices(settings));
+  connectFields();
+  connectController();
+  resize(kBatchDialogSize);
+  changed();
+}
+
+// A field that loses the focus while the dialog is destroyed says once more that it was edited.
+BatchDialog::~BatchDialog() {
+  for (QObject* each : findChildren<QObject*>()) each->disconnect(this);
+}
+
+QWidget* BatchDialog::makeChoices() {
+  auto* page = new QWidget;
+  auto* column = new QVBoxLayout(page);
+  column->setContentsMargins(kBatchMargin, 10, kBatchMargin, 8);
+  column->setSpacing(10);
+  auto* upper = new QHBoxLayout;
+  upper->setSpacing(20);
+  recordings_ = makeRecordings();
+  fields_ = new BatchFields;
+  auto* side = new QVBoxLayout;
+  side->addWidget(fields_);
+  side->addStretch(1);
+  upper->addWidget(recordings_, 1);
+  upper->addLayout(side, 1);
+  place_ = makePlace();
+  column->addLayout(upper, 1);
+  column->addWidget(place_);
+  return page;
+}
+
+QWidget* BatchDialog::makeRecordings() {
+  auto* side = new QWidget;
+  auto* column = new QVBoxLayout(side);
+  column->setContentsMargins(0, 0, 0, 0);
+  paths_ = new QListWidget;
+  paths_->setObjectName("batchPaths");
+  paths_->setAccessibleName("Recordings and folders");
+  paths_->setSelectionMode(QAbstractItemView::ExtendedSelection);
+  paths_->setTextElideMode(Qt::ElideMiddle);
+  paths_->setMinimumHeight(90);
+  auto* hint = new QLabel("Drop recordings and folders here", paths_->viewport());
+  hint->setObjectName("batchHint");
+  hint->setProperty("role", "muted");
+  hint->setAttribute(Qt::WA_TransparentForMouseEvents);
+  auto* centre = new QVBoxLayout(paths_->viewport());
+  centre->addWidget(hint, 0, Qt::AlignCenter);
+  const auto showHint = [this, hint] { hint->setVisible(paths_->count() == 0); };
+  connect(paths_->model(), &QAbstractItemModel::rowsInserted, hint, showHint);
+  connect(paths_->model(), &QAbstractItemModel::rowsRemoved, hint, showHint);
+  connect(paths_->model(), &QAbstractItemModel::modelReset, hint, showHint);
+  count_ = plainLabel("batchCount");
+  count_->setProperty("role", "muted");
+  auto* files = batchButton("batchAddFiles", "Add &files…");
+  auto* folder = batchButton("batchAddFolder", "Add fol&der…");
+  remove_ = batchButton("batchRemove", "&Remove");
+  auto* buttons = new QHBoxLayout;
+  for (QPushButton* button : {files, folder, remove_}) buttons->addWidget(button);
+  buttons->addStretch(1);
+  column->addWidget(paths_, 1);
+  column->addWidget(count_);
+  column->addLayout(buttons);
+  auto* removeKey = new QAction(paths_);
+  removeKey->setShortcut(QKeySequence::Delete);
+  removeKey->setShortcutContext(Qt::WidgetShortcut);
+  paths_->addAction(removeKey);
+  connect(removeKey, &QAction::triggered, this, &BatchDialog::removeChosen);
+  connect(remove_, &QPushButton::clicked, this, &BatchDialog::removeChosen);
+  connect(files, &QPushButton::clicked, this, [this] { addPaths(askForFiles()); });
+  connect(folder, &QPushButton::clicked, this, [this] {
+    const QString chosen = askForFolder(settings_.value(kBatchFoldersKey).toString());
+    if (!chosen.isEmpty()) addPaths({chosen});
+  });
+  connect(paths_, &QListWidget::itemSelectionChanged, this, &BatchDialog::showState);
+  return side;
+}
+
+QWidget* BatchDialog::makePlace() {
+  auto* part = new QWidget;
+  auto* form = new QFormLayout(part);
+  form->setContentsMargins(0, 0, 0, 0);
+  form->setFieldGrowthPolicy(QFormLayout::AllNonFixedFieldsGrow);
+  folder_ = new QLineEdit;
+  folder_->setObjectName("batchFolder");
+  folder_->setPlaceholderText("the folder of the results; it is made where it is missing");
+  auto* browse = batchButton("batchBrowse", "&Browse…");
+  connect(browse, &QPushButton::clicked, this, [this] {
+    const QString chosen = askForFolder(folder_->text());
+    if (!chosen.isEmpty()) folder_->setText(chosen);
+  });
+  auto* folderRow = new QHBoxLayout;
+  folderRow->addWidget(folder_, 1);
+  folderRow->addWidget(browse);
+  names_ = new QLineEdit;
+  names_->setObjectName("batchNames");
+  names_->setToolTip(kFieldsTip);
+  ending_ = plainLabel("batchEnding");
+  auto* help = plainLabel("batchFieldsHelp");
+  help->setText("{name} {folder} {ending} {date} {time}");
+  help->setToolTip(kFieldsTip);
+  help->setProperty("role", "muted");
+  auto* namesRow = new QHBoxLayout;
+  namesRow->addWidget(names_, 1);
+  namesRow->addWidget(ending_);
+  namesRow->addSpacing(12);
+  namesRow->addWidget(help);
+  preview_ = plainLabel("batchPreview");
+  preview_->setProperty("role", "muted");
+  preview_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
+  preview_->setFixedHeight(preview_->fontMetrics().lineSpacing() * (kFirstNames + 1));
+  preview_->setAlignment(Qt::AlignLeft | Qt::AlignTop);
+  resume_ = new QCheckBox("&Keep results that are whole");
+  resume_->setObjectName("batchResume");
+  resume_->setToolTip(
+      "A result is not made again when it was made with the same choices of the same recording");
+  replace_ = new QCheckBox("Rep&lace other files");
+  replace_->setObjectName("batchReplace");
+  replace_->setToolTip("Replace files that exist already, also those that no batch has made");
+  threads_ = new QSpinBox;
+  threads_->setObjectName("batchThreads");
+  threads_->setRange(0, kMostThreadsShown);
+  threads_->setSpecialValueText("one per core");
+  threads_->setToolTip("Recordings at the same time");
+  auto* options = new QHBoxLayout;
+  options->addWidget(resume_);
+  options->addSpacing(14);
+  options->addWidget(replace_);
+  options->addStretch(1);
+  threads_->setButtonSymbols(QAbstractSpinBox::NoButtons);
+  auto* threadsLabel = new QLabel("At the same ti&me");
+  threadsLabel->setBuddy(threads_);
+  options->addWidget(threadsLabel);
+  options->addWidget(threads_);
+  const auto label = [](const QString& text, QWidget* field) {
+    auto* made = new QLabel(text);
+    made->setBuddy(field);
+    return made;
+  };
+  form->addRow(label("Into fold&er", folder_), folderRow);
+  form->addRow(label("N&ames", names_), namesRow);
+  form->addRow("", preview_);
+  form->addRow("", options);
+  return part;
+}
+
+QWidget* BatchDialog::makeFoot() {
+  auto* foot = new QFrame;
+  foot->setObjectName("batchFoot");
+  auto* column = new QVBoxLayout(foot);
+  column->setContentsMargins(kBatchMargin, 8, kBatchMargin, 12);
+  bar_ = new QProgressBar;
+  bar_->setObjectName("batchDialogProgress");
+  bar_->setRange(0, kBarSteps);
+  bar_->setTextVisible(false);
+  bar_->setFixedHeight(8);
+  QSizePolicy kept = bar_->sizePolicy();
+  kept.setRetainSizeWhenHidden(true);
+  bar_->setSizePolicy(kept);
+  said_ = plainLabel("batchSaid");
+  said_->setWordWrap(true);
+  said_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
+  said_->setMinimumHeight(2 * said_->fontMetrics().lineSpacing());
+  cancel_ = batchButton("batchCancel", "Cancel");
+  close_ = batchButton("batchClose", "Close");
+  close_->setToolTip("A running batch goes on");
+  start_ = batchButton("batchStart", "&Start");
+  start_->setProperty("primary", true);
+  start_->setMinimumWidth(110);
+  start_->setDefault(true);
+  connect(cancel_, &QPushButton::clicked, &controller_, &BatchController::cancel);
+  connect(close_, &QPushButton::clicked, this, &QDialog::close);
+  connect(start_, &QPushButton::clicked, this, &BatchDialog::start);
+  auto* row = new QHBoxLayout;
+  row->addWidget(said_, 1);
+  row->addSpacing(8);
+  for (QPushButton* button : {cancel_, close_, start_}) row->addWidget(button);
+  column->addWidget(bar_);
+  column->addLayout(row);
+  return foot;
+}
+
+void BatchDialog::connectFields() {
+  connect(fields_, &BatchFields::edited, this, &BatchDialog::changed);
+  for (QLineEdit* field : {folder_, names_})
+    connect(field, &QLineEdit::textChanged, this, &BatchDialog::changed);
+  for (QCheckBox* box : {resume_, replace_})
+    connect(box, &QCheckBox::toggled, this, &BatchDialog::changed);
+  connect(threads_, &QSpinBox::valueChanged, this, &BatchDialog::changed);
+  connect(&job_, &BackgroundJob::finished, this, &BatchDialog::showState);
+  connect(results_, &BatchResults::said, this, [this](const QString& text) { say(text, false); });
+}
+
+void BatchDialog::connectController() {
+  connect(&controller_, &BatchController::started, this, [this] {
+    bar_->setValue(0);
+    showState();
+    say("Reading the folders …", false);
+  });
+  connect(&controller_, &BatchController::progressed, this, &BatchDialog::showProgress);
+  connect(&controller_, &BatchController::ended, this, [this] {
+    results_->show(controller_.outcome());
+    pages_->setCurrentWidget(results_);
+    const BatchReport& report = controller_.outcome()->report;
+    say((report.cancelled ? "Cancelled: " : "Ended: ") + countsText(report.status), false);
+  });
+  connect(&controller_, &BatchController::failed, this, [this](const QString& message) {
+    pages_->setCurrentIndex(0);
+    say(message, true);
+  });
+  connect(&controller_, &BatchController::finished, this, [this] {
+    const QString text = said_->text();
+    const bool isProblem = said_->property("problem").toBool();
+    showState();
+    say(text, isProblem);
+  });
+}
+
+BatchChoices BatchDialog::choices() const {
+  BatchChoices choices;
+  fields_->readInto(choices);
+  for (int row = 0; row < paths_->count(); ++row)
+    choices.paths << paths_->item(row)->data(Qt::UserRole).toString();
+  choices.folder = folder_->text().trimmed();
+  choices.names = names_->text().trimmed();
+  choices.resume = resume_->isChecked();
+  choices.replace = replace_->isChecked();
+  choices.threads = threads_->value();
+  return choices;
+}
+
+void BatchDialog::setChoices(const BatchChoices& choices) {
+  filling_ = true;
+  fields_->fill(choices);
+  setPaths(choices.paths);
+  folder_->setText(choices.folder);
+  names_->setText(choices.names);
+  resume_->setChecked(choices.resume);
+  replace_->setChecked(choices.replace);
+  threads_->setValue(choices.threads);
+  filling_ = false;
+  changed();
+}
+
+void BatchDialog::setPaths(const QStringList& paths) {
+  paths_->clear();
+  addPaths(paths);
+  changed();
+}
+
+void BatchDialog::addPaths(const QStringList& paths) {
+  for (const QString& each : paths) {
+    const QFileInfo file(each);
+    const QString path = file.absoluteFilePath();
+    bool known = false;
+    for (int row = 0; row < paths_->count(); ++row)
+      known = known || paths_->item(row)->data(Qt::UserRole).toString() == path;
+    if (known) continue;
+    auto* item = new QListWidgetItem(file.isDir() && path != "/" ? path + "/" : path, paths_);
+    item->setData(Qt::UserRole, path);
+    item->setToolTip(path);
+    if (!filling_) settings_.setValue(kBatchFoldersKey, file.absolutePath());
+  }
+  changed();
+}
+
+void BatchDialog::removeChosen() {
+  qDeleteAll(paths_->selectedItems());
+  changed();
+}
+
+void BatchDialog::changed() {
+  if (filling_) return;
+  ++change_;
+  ending_->setText(endingOf(choices()));
+  delay_.start();
+  showState();
+}
+
+void BatchDialog::look() {
+  job_.cancel();
+  auto look = std::make_shared<BatchLook>();
+  const std::size_t change = change_;
+  job_.start(
+      "look",
+      [choices = choices(), look](const Progress& progress) {
+        *look = lookAtBatch(choices, progress);
+      },
+      [this, look, change] {
+        if (change != change_) return;
+        shown_ = change;
+        look_ = std::move(*look);
+        showLook();
+      });
+}
+
+void BatchDialog::showLook() {
+  const std::size_t count = look_.plan.items.size();
+  count_->setText(count == 0 ? "" : QString::fromStdString(counted(count, "recording")));
+  QStringList lines = firstNames(look_.plan, kFirstNames);
+  const std::size_t listed = static_cast<std::size_t>(lines.size());
+  if (count > listed) lines << QString("and %1 more").arg(count - listed);
+  QStringList shown;
+  for (const QString& line : lines)
+    shown << preview_->fontMetrics().elidedText(line, Qt::ElideMiddle, preview_->width());
+  preview_->setText(shown.join("\n"));
+  preview_->setToolTip(lines.join("\n"));
+  showState();
+}
+
+QString BatchDialog::problem() const {
+  if (controller_.busy()) return "a batch is running";
+  if (shown_ != change_) return "reading the folders";
+  return look_.problem;
+}
+
+void BatchDialog::showState() {
+  const bool busy = controller_.busy();
+  recordings_->setEnabled(!busy);
+  fields_->setEnabled(!busy);
+  place_->setEnabled(!busy);
+  bar_->setVisible(busy);
+  cancel_->setVisible(busy);
+  remove_->setEnabled(!paths_->selectedItems().isEmpty());
+  const QString text = problem();
+  start_->setEnabled(text.isEmpty());
+  if (!busy) say(text, !text.isEmpty() && shown_ == change_);
+}
+
+void BatchDialog::showProgress(const BatchStatus& status) {
+  if (!controller_.busy()) return;
+  bar_->setValue(static_cast<int>(status.fraction * kBarSteps));
+  say(QString::fromStdString(statusText(status)), false);
+}
+
+void BatchDialog::say(const QString& text, bool isProblem) {
+  said_->setText(text);
+  if (said_->property("problem").toBool() == isProblem) return;
+  said_->setProperty("problem", isProblem);
+  said_->style()->unpolish(said_);
+  said_->style()->polish(said_);
+}
+
+void BatchDialog::start() {
+  if (!problem().isEmpty()) return;
+  const BatchChoices now = choices();
+  saveBatchChoices(now, settings_);
+  controller_.start(now);
+}
+
+void BatchDialog::dragEnterEvent(QDragEnterEvent* event) {
+  if (!controller_.busy() && !pathsOf(*event->mimeData()).isEmpty()) event->acceptProposedAction();
+}
+
+void BatchDialog::dropEvent(QDropEvent* event) {
+  event->acceptProposedAction();
+  addPaths(pathsOf(*event->mimeData()));
+}
+
+}  // namespace palpate::gui

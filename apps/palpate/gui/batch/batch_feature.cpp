@@ -1,0 +1,93 @@
+#include "gui/batch/batch_feature.h"
+
+#include <QMessageBox>
+
+#include "gui/batch/batch_dialog.h"
+#include "gui/batch/batch_fields.h"
+#include "gui/widgets/opening_strip.h"
+
+namespace palpate::gui {
+
+BatchFeature::BatchFeature(WindowState& windowState, QWidget* window)
+    : Feature(windowState, window),
+      batch_(windowState.actions.make("batch", "File", "&Batch…", {key("Ctrl+Alt+B")})),
+      strip_(new OpeningStrip(window, "Running a", "batch")) {
+  batch_->setToolTip("Make a file of each of many recordings: convert, signals, slip, features");
+  on(batch_, [this] { showDialog(); });
+  connect(&controller_, &BatchController::started, strip_, [this] { strip_->begin("batch"); });
+  connect(&controller_, &BatchController::progressed, strip_, [this](const BatchStatus& status) {
+    strip_->setProgress(status.fraction);
+  });
+  connect(&controller_, &BatchController::finished, strip_, &OpeningStrip::end);
+  connect(strip_, &OpeningStrip::cancelRequested, &controller_, &BatchController::cancel);
+  connect(&controller_, &BatchController::failed, &windowState.messages, &Messages::fail);
+  connect(&controller_, &BatchController::ended, this, &BatchFeature::report);
+  windowState.escapeHandler.add(EscapeHandler::Order::kWork, [this] {
+    if (!controller_.busy()) return false;
+    controller_.cancel();
+    return true;
+  });
+  windowState.prompts.endBatch = [this] {
+    return QMessageBox::question(
+               this->window(),
+               "Palpate",
+               "A batch is running. What is finished stays; the rest is not made. End the batch?",
+               QMessageBox::Yes | QMessageBox::Cancel,
+               QMessageBox::Cancel) == QMessageBox::Yes;
+  };
+  windowState.batchRunning = [this] { return controller_.busy(); };
+}
+
+BatchFeature::~BatchFeature() {
+  state().batchRunning = nullptr;
+  // The dialog refers to the controller.
+  delete dialog_;
+}
+
+void BatchFeature::showDialog() {
+  if (!dialog_) {
+    dialog_ = new BatchDialog(state().settings, controller_, window());
+    dialog_->fields().windowFilters = [this] {
+      return state().activeFilters.on() ? state().activeFilters.text() : QString();
+    };
+  }
+  if (!controller_.busy()) begin();
+  dialog_->show();
+  dialog_->raise();
+  dialog_->activateWindow();
+}
+
+// Begins with what is chosen in the Library; with an empty list also with the recording that is
+// shown.
+void BatchFeature::begin() {
+  const QStringList chosen = state().chosenRecordings ? state().chosenRecordings() : QStringList();
+  const bool empty = dialog_->choices().paths.isEmpty();
+  if (chosen.size() > 1 || (empty && !chosen.isEmpty())) {
+    dialog_->setPaths(chosen);
+  } else if (const OpenedRecordingPtr shown = state().displayed.recorded(); empty && shown) {
+    dialog_->setPaths({QString::fromStdString(shown->path.string())});
+  }
+}
+
+void BatchFeature::report() {
+  const BatchReport& report = controller_.outcome()->report;
+  const QString text =
+      (report.cancelled ? "Batch cancelled: " : "Batch: ") + countsText(report.status);
+  // What failed stays in the banner until it is closed, unless the dialog shows it.
+  const bool bad = report.status.failed + report.status.inPart > 0;
+  if (bad && !(dialog_ && dialog_->isVisible()))
+    state().messages.fail(text + "; File > Batch has what failed and why");
+  else
+    state().messages.flash(text);
+}
+
+void BatchFeature::remember() {
+  controller_.cancel();
+  if (!dialog_) return;
+  saveBatchChoices(dialog_->choices(), state().settings);
+  dialog_->hide();
+}
+
+std::vector<BannerSpec> BatchFeature::strips() { return {{BannerSpec::Order::kWork, strip_}}; }
+
+}  // namespace palpate::gui

@@ -1,0 +1,222 @@
+#include "gui/batch/batch_fields.h"
+
+#include <QCheckBox>
+#include <QComboBox>
+#include <QDoubleSpinBox>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QLineEdit>
+#include <QPushButton>
+#include <QSpinBox>
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include <palpate/recording/recording.h>
+#include <palpate/slip/slip_method.h>
+
+namespace palpate::gui {
+namespace {
+
+constexpr int kMostMatrix = 999;
+
+QComboBox* batchComboBox(const char* name, const std::vector<std::pair<QString, QString>>& items) {
+  auto* box = new QComboBox;
+  box->setObjectName(name);
+  // A long item must not widen the dialog.
+  box->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
+  box->setMinimumContentsLength(10);
+  for (const auto& [text, value] : items) box->addItem(text, value);
+  return box;
+}
+
+QCheckBox* batchCheckBox(const char* name, const QString& text, const QString& tip = {}) {
+  auto* box = new QCheckBox(text);
+  box->setObjectName(name);
+  box->setToolTip(tip);
+  return box;
+}
+
+QDoubleSpinBox* limitBox(const char* name, double least, double most, const QString& tip) {
+  auto* box = new QDoubleSpinBox;
+  box->setObjectName(name);
+  box->setRange(least, most);
+  box->setDecimals(3);
+  box->setButtonSymbols(QAbstractSpinBox::NoButtons);
+  box->setToolTip(tip);
+  box->setAccessibleName(tip);
+  return box;
+}
+
+std::vector<std::pair<QString, QString>> formItems() {
+  std::vector<std::pair<QString, QString>> items;
+  for (const RecordingForm& form : recordingForms())
+    items.emplace_back(QString("%1: %2").arg(form.ending, form.purpose), form.ending + 1);
+  return items;
+}
+
+std::vector<std::pair<QString, QString>> methodItems() {
+  std::vector<std::pair<QString, QString>> items;
+  for (const SlipMethod method : slipMethods()) {
+    const QString name = QString::fromStdString(std::string(nameOf(method)));
+    items.emplace_back(name, name);
+  }
+  return items;
+}
+
+void chooseBatchValue(QComboBox& box, const QString& value) {
+  box.setCurrentIndex(std::max(0, box.findData(value)));
+}
+
+}  // namespace
+
+BatchFields::BatchFields(QWidget* parent)
+    : QWidget(parent), windowFilters([] { return QString(); }), form_(new QFormLayout(this)) {
+  form_->setContentsMargins(0, 0, 0, 0);
+  form_->setFieldGrowthPolicy(QFormLayout::AllNonFixedFieldsGrow);
+  work_ = batchComboBox("batchWork",
+                        {{"convert: recordings in another format", "convert"},
+                         {"signals: a table of each matrix over time", "signals"},
+                         {"slip: a table of how contacts move", "slip"},
+                         {"features: a table of the grasps", "features"}});
+  ending_ = batchComboBox("batchForm", formItems());
+  filtersRow_ = makeFilters();
+  smooth_ = new QLineEdit;
+  smooth_->setObjectName("batchSmooth");
+  smooth_->setPlaceholderText("none; as kalman:q=0.05");
+  smooth_->setToolTip("Filters over time of the signals themselves");
+  matrix_ = new QSpinBox;
+  matrix_->setObjectName("batchMatrix");
+  matrix_->setRange(-1, kMostMatrix);
+  matrix_->setSpecialValueText("all");
+  matrix_->setButtonSymbols(QAbstractSpinBox::NoButtons);
+  method_ = batchComboBox("batchMethod", methodItems());
+  reference_ = batchComboBox("batchReference", {{"first", "first"}, {"rest", "rest"}});
+  reference_->setEditable(true);
+  reference_->setToolTip(
+      "first: the first frame with an active taxel; rest: each contact when it rests; or the "
+      "number of a frame");
+  limits_ = makeLimits();
+  set_ = batchComboBox("batchSet",
+                       {{"default of the hand", ""},
+                        {"best", "best"},
+                        {"study", "study"},
+                        {"session", "session"},
+                        {"statistics", "statistics"}});
+  segments_ = batchCheckBox("batchSegments", "A row per sl&ip instead of one per frame");
+  signals_ = batchCheckBox("batchSignals", "With the characteristic &signals");
+  slip_ = batchCheckBox("batchSlip", "With the sl&ip");
+  unitsRow_ = batchCheckBox("batchUnitsRow", "A second row with the &units");
+  form_->addRow("&Make", work_);
+  form_->addRow("F&ormat", ending_);
+  form_->addRow("Fi&lters", filtersRow_);
+  form_->addRow("Smoo&th", smooth_);
+  form_->addRow("Matri&x", matrix_);
+  form_->addRow("Met&hod", method_);
+  form_->addRow("Refere&nce", reference_);
+  form_->addRow("Limits", limits_);
+  form_->addRow("Featur&es", set_);
+  for (QCheckBox* box : {segments_, signals_, slip_, unitsRow_}) form_->addRow("", box);
+  const auto changed = [this] {
+    showFields();
+    emit edited();
+  };
+  for (QComboBox* box : {work_, ending_, method_, set_})
+    connect(box, &QComboBox::currentIndexChanged, this, changed);
+  connect(reference_, &QComboBox::currentTextChanged, this, changed);
+  for (QLineEdit* field : {filters_, smooth_})
+    connect(field, &QLineEdit::textChanged, this, changed);
+  connect(matrix_, &QSpinBox::valueChanged, this, changed);
+  for (QDoubleSpinBox* box : {step_, limit_, rotation_})
+    connect(box, &QDoubleSpinBox::valueChanged, this, changed);
+  for (QCheckBox* box : {segments_, signals_, slip_, unitsRow_})
+    connect(box, &QCheckBox::toggled, this, changed);
+}
+
+QWidget* BatchFields::makeFilters() {
+  auto* row = new QWidget;
+  auto* layout = new QHBoxLayout(row);
+  layout->setContentsMargins(0, 0, 0, 0);
+  filters_ = new QLineEdit;
+  filters_->setObjectName("batchFilters");
+  filters_->setPlaceholderText("none; as median:size=3 | kalman");
+  auto* take = new QPushButton("As sho&wn");
+  take->setObjectName("batchTakeFilters");
+  take->setAutoDefault(false);
+  take->setToolTip("The filters that the window applies now");
+  connect(take, &QPushButton::clicked, this, [this] { filters_->setText(windowFilters()); });
+  layout->addWidget(filters_, 1);
+  layout->addWidget(take);
+  row->setFocusProxy(filters_);
+  return row;
+}
+
+QWidget* BatchFields::makeLimits() {
+  auto* row = new QWidget;
+  auto* layout = new QHBoxLayout(row);
+  layout->setContentsMargins(0, 0, 0, 0);
+  step_ = limitBox("batchStep", 1e-3, 100.0, "Threshold per frame [taxels]");
+  limit_ = limitBox("batchLimit", 1e-3, 100.0, "Threshold since the reference [taxels]");
+  rotation_ = limitBox("batchRotation", 0.1, 360.0, "Threshold of turning [deg]");
+  rotation_->setSuffix("°");
+  for (QDoubleSpinBox* box : {step_, limit_, rotation_}) layout->addWidget(box, 1);
+  return row;
+}
+
+void BatchFields::fill(const BatchChoices& choices) {
+  const QSignalBlocker quiet(this);
+  work_->setCurrentIndex(static_cast<int>(choices.work));
+  chooseBatchValue(*ending_, choices.form);
+  filters_->setText(choices.filters);
+  smooth_->setText(choices.smooth);
+  matrix_->setValue(choices.matrix);
+  chooseBatchValue(*method_, choices.method);
+  reference_->setCurrentText(choices.reference);
+  segments_->setChecked(choices.segments);
+  step_->setValue(choices.stepTaxels);
+  limit_->setValue(choices.limitTaxels);
+  rotation_->setValue(choices.rotationDeg);
+  chooseBatchValue(*set_, choices.featureSet);
+  signals_->setChecked(choices.withSignals);
+  slip_->setChecked(choices.withSlip);
+  unitsRow_->setChecked(choices.unitsRow);
+  showFields();
+}
+
+void BatchFields::readInto(BatchChoices& choices) const {
+  choices.work = static_cast<BatchWork>(work_->currentIndex());
+  choices.form = ending_->currentData().toString();
+  choices.filters = filters_->text().trimmed();
+  choices.smooth = smooth_->text().trimmed();
+  choices.matrix = matrix_->value();
+  choices.method = method_->currentData().toString();
+  choices.reference = reference_->currentText().trimmed();
+  choices.segments = segments_->isChecked();
+  choices.stepTaxels = step_->value();
+  choices.limitTaxels = limit_->value();
+  choices.rotationDeg = rotation_->value();
+  choices.featureSet = set_->currentData().toString();
+  choices.withSignals = signals_->isChecked();
+  choices.withSlip = slip_->isChecked();
+  choices.unitsRow = unitsRow_->isChecked();
+}
+
+void BatchFields::showFields() {
+  BatchChoices now;
+  readInto(now);
+  const bool ofSlip = now.work == BatchWork::kSlip;
+  form_->setRowVisible(ending_, now.work == BatchWork::kConvert);
+  form_->setRowVisible(filtersRow_, usesFilters(now));
+  form_->setRowVisible(smooth_, now.work == BatchWork::kSignals);
+  form_->setRowVisible(matrix_, usesMatrix(now));
+  form_->setRowVisible(method_, ofSlip);
+  form_->setRowVisible(reference_, ofSlip);
+  form_->setRowVisible(limits_, ofSlip);
+  form_->setRowVisible(set_, now.work == BatchWork::kFeatures);
+  form_->setRowVisible(segments_, ofSlip);
+  form_->setRowVisible(signals_, usesSeries(now));
+  form_->setRowVisible(slip_, usesSeries(now));
+  form_->setRowVisible(unitsRow_, usesUnitsRow(now));
+}
+
+}  // namespace palpate::gui

@@ -1,0 +1,221 @@
+#include "gui/batch/batch_results.h"
+
+#include <QAction>
+#include <QApplication>
+#include <QCheckBox>
+#include <QClipboard>
+#include <QFileDialog>
+#include <QHBoxLayout>
+#include <QHeaderView>
+#include <QLabel>
+#include <QPushButton>
+#include <QTableView>
+#include <QVBoxLayout>
+#include <algorithm>
+#include <string_view>
+#include <utility>
+
+#include <palpate/core/error.h>
+#include <palpate/core/escaped_line.h>
+#include <palpate/core/text_table.h>
+
+#include "gui/desktop/reveal_file.h"
+
+namespace palpate::gui {
+namespace {
+
+using State = BatchResult::State;
+enum Column { kRecording, kResultState, kWhy, kNumColumns };
+
+bool isBad(const BatchResult& result) {
+  return result.state == State::kFailed || result.state == State::kInPart;
+}
+
+QString textOfPath(const std::filesystem::path& path) {
+  return QString::fromStdString(escapedLine(path.string()));
+}
+
+// Without the recording's path at the begin, which is in another column.
+QString textOfResult(const BatchItem& item, const BatchResult& result) {
+  const std::string begin = item.source.string() + ": ";
+  const std::size_t skipped = result.text.rfind(begin, 0) == 0 ? begin.size() : 0;
+  return QString::fromStdString(escapedLine(std::string_view(result.text).substr(skipped)));
+}
+
+}  // namespace
+
+void BatchResultsModel::show(std::shared_ptr<const BatchOutcome> outcome, bool all) {
+  beginResetModel();
+  outcome_ = std::move(outcome);
+  rows_.clear();
+  if (outcome_)
+    for (std::size_t i = 0; i < outcome_->report.results.size(); ++i)
+      if (all || isBad(outcome_->report.results[i])) rows_.push_back(i);
+  endResetModel();
+}
+
+int BatchResultsModel::rowCount(const QModelIndex& parent) const {
+  return parent.isValid() ? 0 : static_cast<int>(rows_.size());
+}
+
+int BatchResultsModel::columnCount(const QModelIndex& parent) const {
+  return parent.isValid() ? 0 : kNumColumns;
+}
+
+QVariant BatchResultsModel::data(const QModelIndex& index, int role) const {
+  if (!index.isValid() || (role != Qt::DisplayRole && role != Qt::ToolTipRole)) return {};
+  const std::size_t row = rows_[static_cast<std::size_t>(index.row())];
+  const BatchItem& item = outcome_->plan.items[row];
+  const BatchResult& result = outcome_->report.results[row];
+  switch (index.column()) {
+    case kRecording:
+      if (role == Qt::ToolTipRole || item.root.empty()) return textOfPath(item.source);
+      return textOfPath(item.source.lexically_relative(item.root));
+    case kResultState:
+      return nameOf(result.state);
+    default:
+      return textOfResult(item, result);
+  }
+}
+
+QVariant BatchResultsModel::headerData(int section, Qt::Orientation orientation, int role) const {
+  static const QStringList names = {"Recording", "State", "What was made, or why not"};
+  if (role != Qt::DisplayRole || orientation != Qt::Horizontal) return {};
+  return names.value(section);
+}
+
+QString BatchResultsModel::source(int row) const {
+  return QString::fromStdString(
+      outcome_->plan.items[rows_[static_cast<std::size_t>(row)]].source.string());
+}
+
+BatchResults::BatchResults(QWidget* parent)
+    : QWidget(parent), reveal(revealInFileManager), model_(new BatchResultsModel(this)) {
+  askForReport = [this] {
+    return QFileDialog::getSaveFileName(this, "Save the report", "batch.csv", "Tables (*.csv)");
+  };
+  summary_ = new QLabel;
+  summary_->setObjectName("batchSummary");
+  summary_->setTextFormat(Qt::PlainText);
+  summary_->setWordWrap(true);
+  table_ = new QTableView;
+  table_->setObjectName("batchTable");
+  table_->setModel(model_);
+  table_->setSelectionBehavior(QAbstractItemView::SelectRows);
+  table_->setEditTriggers(QAbstractItemView::NoEditTriggers);
+  table_->setTabKeyNavigation(false);
+  table_->setShowGrid(false);
+  table_->setWordWrap(false);
+  table_->setTextElideMode(Qt::ElideMiddle);
+  table_->verticalHeader()->hide();
+  table_->verticalHeader()->setDefaultSectionSize(table_->fontMetrics().height() + 8);
+  table_->horizontalHeader()->setStretchLastSection(true);
+  table_->horizontalHeader()->setHighlightSections(false);
+  table_->horizontalHeader()->setDefaultAlignment(Qt::AlignLeft | Qt::AlignVCenter);
+  table_->setColumnWidth(kRecording, 260);
+  table_->setColumnWidth(kResultState, 100);
+  all_ = new QCheckBox("Show all &recordings");
+  all_->setObjectName("batchShowAll");
+  copy_ = new QPushButton("Co&py");
+  copy_->setObjectName("batchCopy");
+  copy_->setToolTip("Copy the selected rows, or all (Ctrl+C)");
+  save_ = new QPushButton("Save re&port…");
+  save_->setObjectName("batchSaveReport");
+  save_->setToolTip("A table of all recordings as CSV: source, result, state, text");
+  show_ = new QPushButton("Sho&w recording");
+  show_->setObjectName("batchReveal");
+  show_->setToolTip("Show the recording in the file manager; also by a double click");
+  auto* foot = new QHBoxLayout;
+  foot->addWidget(all_);
+  foot->addStretch(1);
+  for (QPushButton* button : {show_, copy_, save_}) {
+    button->setAutoDefault(false);
+    foot->addWidget(button);
+  }
+  auto* column = new QVBoxLayout(this);
+  column->setContentsMargins(14, 10, 14, 8);
+  column->addWidget(summary_);
+  column->addWidget(table_, 1);
+  column->addLayout(foot);
+  auto* copyKey = new QAction(table_);
+  copyKey->setShortcut(QKeySequence::Copy);
+  copyKey->setShortcutContext(Qt::WidgetShortcut);
+  table_->addAction(copyKey);
+  connect(copyKey, &QAction::triggered, this, &BatchResults::copyRows);
+  connect(copy_, &QPushButton::clicked, this, &BatchResults::copyRows);
+  connect(save_, &QPushButton::clicked, this, &BatchResults::saveReport);
+  connect(all_, &QCheckBox::toggled, this, &BatchResults::fill);
+  const auto revealRow = [this](const QModelIndex& index) {
+    if (index.isValid()) reveal(model_->source(index.row()));
+  };
+  connect(table_, &QTableView::doubleClicked, this, revealRow);
+  connect(show_, &QPushButton::clicked, this, [this, revealRow] {
+    revealRow(table_->selectionModel()->currentIndex());
+  });
+  connect(table_->selectionModel(),
+          &QItemSelectionModel::currentChanged,
+          this,
+          [this](const QModelIndex& now) { show_->setEnabled(now.isValid()); });
+  fill();
+}
+
+void BatchResults::show(const std::shared_ptr<const BatchOutcome>& outcome) {
+  outcome_ = outcome;
+  fill();
+}
+
+void BatchResults::fill() {
+  model_->show(outcome_, all_->isChecked());
+  show_->setEnabled(false);
+  const bool some = outcome_ != nullptr;
+  copy_->setEnabled(some && model_->rowCount() > 0);
+  save_->setEnabled(some);
+  if (!some) return summary_->setText("No batch has run yet.");
+  QString text =
+      (outcome_->report.cancelled ? "Cancelled: " : "") + countsText(outcome_->report.status) + ".";
+  if (outcome_->report.cancelled) text += " Start goes on with what is not done.";
+  for (const std::string& problem : outcome_->plan.problems)
+    text += "\n" + QString::fromStdString(escapedLine(problem));
+  summary_->setText(text);
+}
+
+void BatchResults::copyRows() {
+  QModelIndexList rows = table_->selectionModel()->selectedRows();
+  std::sort(
+      rows.begin(), rows.end(), [](const auto& a, const auto& b) { return a.row() < b.row(); });
+  if (rows.isEmpty())
+    for (int row = 0; row < model_->rowCount(); ++row) rows.append(model_->index(row, 0));
+  if (rows.isEmpty()) return;
+  const TextTable table{.header = {"recording", "state", "text"},
+                        .numRows = static_cast<std::size_t>(rows.size()),
+                        .row = [&](std::size_t i) -> std::vector<std::string> {
+                          const int row = rows[static_cast<qsizetype>(i)].row();
+                          return {model_->source(row).toStdString(),
+                                  model_->index(row, kResultState).data().toString().toStdString(),
+                                  model_->index(row, kWhy).data().toString().toStdString()};
+                        }};
+  QApplication::clipboard()->setText(
+      QString::fromStdString(tabbedText(table, static_cast<std::size_t>(rows.size()))));
+  emit said(
+      QString("%1 copied").arg(rows.size() == 1 ? "1 row" : QString("%1 rows").arg(rows.size())));
+}
+
+void BatchResults::saveReport() {
+  if (!outcome_) return;
+  QString path = askForReport();
+  if (path.isEmpty()) return;
+  // The file dialog has asked whether a file of the chosen name may be replaced.
+  Overwrite overwrite = Overwrite::kReplace;
+  if (!path.endsWith(".csv", Qt::CaseInsensitive)) {
+    path += ".csv";
+    overwrite = Overwrite::kRefuse;
+  }
+  try {
+    writeTable(reportTable(outcome_->plan, outcome_->report), path.toStdString(), overwrite);
+    emit said("saved: " + path);
+  } catch (const Error& error) {
+    emit said(QString::fromStdString(escapedLine(error.what())));
+  }
+}
+
+}  // namespace palpate::gui

@@ -1,0 +1,36 @@
+// What a conversion writes beside the frames of a recording: where the result comes from, and the
+// series of signals and slip. The command `palpate convert`, batches and the window make the same.
+#pragma once
+
+#include <filesystem>
+
+#include <palpate/filter/recipe.h>
+#include <palpate/model/profile.h>
+#include <palpate/recording/recording.h>
+
+namespace palpate {
+
+struct ExportChoices {
+  bool withSignals = true;  // of .h5 and .mat: the characteristic signals
+  bool withSlip = true;     // of .h5 and .mat: the slip
+  bool unitsRow = false;    // of .csv: a second row with the units
+  bool operator==(const ExportChoices&) const = default;
+};
+
+// Throws std::invalid_argument when a file with the ending of `out` can't be made with these
+// choices and filters, FileError for an ending that is not known.
+void requirePossible(const ExportChoices& choices,
+                     const Recipe& filters,
+                     const std::filesystem::path& out);
+
+// What is saved beside `profile`, which was read from `in`, filtered by `filters` (empty: not
+// filtered) and is to be saved as `out`: what was said of the recording, and for .h5 and .mat the
+// series and where all of it comes from (`in` is read for its hash). Throws as requirePossible(),
+// FileError, FormatError.
+SaveExtras exportExtras(const ExportChoices& choices,
+                        const std::filesystem::path& in,
+                        const std::filesystem::path& out,
+                        const Profile& profile,
+                        const Recipe& filters);
+
+}  // namespace palpate

@@ -1,0 +1,43 @@
+#include "palpate/batch/export_extras.h"
+
+#include <stdexcept>
+
+#include "palpate/core/hash.h"
+#include "palpate/interop/derived_series.h"
+
+namespace palpate {
+
+void requirePossible(const ExportChoices& choices,
+                     const Recipe& filters,
+                     const std::filesystem::path& out) {
+  const RecordingFormat format = formatOf(out);
+  if (choices.unitsRow && format != RecordingFormat::kCsv)
+    throw std::invalid_argument("--units-row is for .csv; " + out.string() + " isn't one");
+  if (!filters.empty() && (format == RecordingFormat::kDsa || format == RecordingFormat::kPalpate))
+    throw std::invalid_argument(
+        "'palpate filter' makes filtered recordings; --filter is for exports");
+}
+
+SaveExtras exportExtras(const ExportChoices& choices,
+                        const std::filesystem::path& in,
+                        const std::filesystem::path& out,
+                        const Profile& profile,
+                        const Recipe& filters) {
+  requirePossible(choices, filters, out);
+  const RecordingFormat format = formatOf(out);
+  SaveExtras all;
+  all.unitsRow = choices.unitsRow;
+  all.meta = readRecordingMeta(in);
+  if (format != RecordingFormat::kHdf5 && format != RecordingFormat::kMat) return all;
+  ExportExtras& extras = all.exported;
+  extras.provenance.program = "palpate " PALPATE_VERSION;
+  extras.provenance.sourceFile = in.filename().string();
+  extras.provenance.sourceSha256 = sha256OfFile(in);
+  extras.provenance.filters = recipeText(filters);
+  extras.provenance.hand = profile.hand().name;
+  extras.series =
+      derivedSeries(profile, {.withSignals = choices.withSignals, .withSlip = choices.withSlip});
+  return all;
+}
+
+}  // namespace palpate

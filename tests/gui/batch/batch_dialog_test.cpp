@@ -1,0 +1,238 @@
+#include "gui/batch/batch_dialog.h"
+
+#include <QCheckBox>
+#include <QClipboard>
+#include <QLabel>
+#include <QLineEdit>
+#include <QListWidget>
+#include <QMimeData>
+#include <QPushButton>
+#include <QTableView>
+#include <QTest>
+#include <algorithm>
+
+#include <gtest/gtest.h>
+
+#include "palpate/emulator/synthetic_profile.h"
+#include "palpate/recording/recording.h"
+
+#include "gui/batch/batch_fields.h"
+#include "gui/batch/batch_results.h"
+#include "testing/testing.h"
+
+namespace palpate::gui::batch_dialog_test {
+namespace {
+
+namespace fs = std::filesystem;
+
+class BatchDialogTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    fs::create_directories(folder_ / "in/deep");
+    saveRecording(synthesize({.durationS = 2.0, .grasps = 1}), {}, folder_ / "in/a.dsa");
+    fs::copy_file(folder_ / "in/a.dsa", folder_ / "in/deep/b.dsa");
+    start();
+  }
+  void start() {
+    dialog_ = std::make_unique<BatchDialog>(settings_, controller_);
+    dialog_->show();
+  }
+  static QString text(const fs::path& path) { return QString::fromStdString(path.string()); }
+  void look() {
+    ASSERT_TRUE(QTest::qWaitFor([&] { return !dialog_->looking(); }, 20'000));
+  }
+  void choose(BatchChoices choices) {
+    dialog_->setChoices(choices);
+    look();
+  }
+  void run() {
+    dialog_->start();
+    ASSERT_TRUE(controller_.busy());
+    ASSERT_TRUE(QTest::qWaitFor([&] { return !controller_.busy(); }, 30'000));
+  }
+  BatchChoices both() { return {.paths = {text(folder_ / "in")}, .folder = text(folder_ / "out")}; }
+  template <class Widget>
+  Widget* find(const char* name) {
+    return dialog_->findChild<Widget*>(name);
+  }
+  bool canStart() { return find<QPushButton>("batchStart")->isEnabled(); }
+
+  testing::TemporaryFolder folder_;
+  QSettings settings_{text(folder_ / "s.ini"), QSettings::IniFormat};
+  BatchController controller_;
+  std::unique_ptr<BatchDialog> dialog_;
+};
+
+TEST_F(BatchDialogTest, ShowsTheFirstNamesAndHowManyRecordingsThereAre) {
+  choose(both());
+  EXPECT_EQ(dialog_->problem(), "");
+  EXPECT_TRUE(canStart());
+  EXPECT_EQ(find<QLabel>("batchCount")->text(), "2 recordings");
+  EXPECT_EQ(find<QLabel>("batchPreview")->text(), "a.dsa → a.npz\ndeep/b.dsa → deep/b.npz");
+  find<QLineEdit>("batchNames")->setText("{ending}/{folder}_{name}_x");
+  EXPECT_FALSE(canStart()) << "names that are not known yet";
+  look();
+  EXPECT_EQ(find<QLabel>("batchPreview")->text(),
+            "a.dsa → dsa/a_x.npz\ndeep/b.dsa → dsa/deep_b_x.npz");
+  EXPECT_FALSE(fs::exists(folder_ / "out")) << "nothing is written before Start";
+}
+
+TEST_F(BatchDialogTest, WhatCanNotBeDoneIsSaidAndStartIsOff) {
+  const auto expect = [&](const BatchChoices& choices, const char* words) {
+    choose(choices);
+    EXPECT_TRUE(dialog_->problem().contains(words)) << dialog_->problem().toStdString();
+    EXPECT_EQ(find<QLabel>("batchSaid")->text(), dialog_->problem());
+    EXPECT_FALSE(canStart());
+    dialog_->start();
+    EXPECT_FALSE(controller_.busy());
+  };
+  BatchChoices choices = both();
+  choices.paths.clear();
+  expect(choices, "add the recordings");
+  choices.paths = {text(folder_ / "nowhere")};
+  expect(choices, "nowhere");
+  choices = both();
+  choices.folder.clear();
+  expect(choices, "choose a folder");
+  choices.folder = text(folder_ / "in/a.dsa");
+  expect(choices, "is not a folder");
+  choices.folder = text(folder_ / "in/made");
+  expect(choices, "lies in the folder that is read");
+  choices = both();
+  for (const auto& [names, words] : {std::pair{"{hand}", "{hand} isn't known"},
+                                     std::pair{"{name", "a brace without its partner"},
+                                     std::pair{"../{name}", "below the folder of the results"},
+                                     std::pair{"{folder}x", "would be made from both"}}) {
+    choices.names = names;
+    if (QString(names) == "{folder}x") fs::copy_file(folder_ / "in/a.dsa", folder_ / "in/c.dsa");
+    expect(choices, words);
+  }
+  choices = both();
+  choices.filters = "sharpen";
+  expect(choices, "Filters: ");
+  choices.work = BatchWork::kSignals;
+  choices.filters = "";
+  choices.smooth = "median";
+  expect(choices, "Smooth: ");
+  choices.work = BatchWork::kSlip;
+  choices.reference = "somewhere";
+  expect(choices, "Reference: ");
+  fs::create_directories(folder_ / "empty");
+  choices = both();
+  choices.paths = {text(folder_ / "empty")};
+  expect(choices, "no recording");
+}
+
+TEST_F(BatchDialogTest, OnlyFieldsWithAnEffectAreSeen) {
+  const auto seen = [&](const char* name) { return find<QWidget>(name)->isVisible(); };
+  BatchChoices choices = both();
+  choices.form = "h5";
+  choose(choices);
+  EXPECT_TRUE(seen("batchSignals") && seen("batchFilters") && !seen("batchUnitsRow"));
+  choices.form = "csv";
+  choose(choices);
+  EXPECT_TRUE(!seen("batchSignals") && seen("batchUnitsRow") && !seen("batchMethod"));
+  choices.form = "palpate";
+  choose(choices);
+  EXPECT_FALSE(seen("batchFilters")) << "palpate filter makes filtered recordings";
+  choices.work = BatchWork::kSlip;
+  choose(choices);
+  EXPECT_TRUE(seen("batchMethod") && seen("batchSegments") && !seen("batchForm"));
+  choices.work = BatchWork::kFeatures;
+  choose(choices);
+  EXPECT_TRUE(seen("batchSet") && !seen("batchUnitsRow") && !seen("batchMatrix"));
+}
+
+TEST_F(BatchDialogTest, TheChoicesAreRemembered) {
+  BatchChoices choices = both();
+  choices.work = BatchWork::kSlip;
+  choices.method = "register";
+  choices.reference = "17";
+  choices.segments = true;
+  choices.stepTaxels = 0.25;
+  choices.unitsRow = true;
+  choices.matrix = 3;
+  choices.names = "{name}_slips";
+  choices.resume = false;
+  choices.threads = 2;
+  choose(choices);
+  EXPECT_EQ(dialog_->choices(), choices);
+  run();
+  dialog_.reset();
+  EXPECT_EQ(loadBatchChoices(settings_), choices);
+  start();
+  EXPECT_EQ(dialog_->choices(), choices);
+  settings_.setValue("batch/form", "mp3");
+  settings_.setValue("batch/work", 99);
+  EXPECT_EQ(loadBatchChoices(settings_).form, "npz");
+  EXPECT_EQ(loadBatchChoices(settings_).work, BatchWork::kConvert);
+}
+
+TEST_F(BatchDialogTest, PathsAreAddedOnceAndRemovedAndDropped) {
+  dialog_->askForFiles = [&] { return QStringList{text(folder_ / "in/a.dsa")}; };
+  dialog_->askForFolder = [&](const QString&) { return text(folder_ / "in"); };
+  for (int twice = 0; twice < 2; ++twice) {
+    find<QPushButton>("batchAddFiles")->click();
+    find<QPushButton>("batchAddFolder")->click();
+  }
+  const QStringList two = {text(folder_ / "in/a.dsa"), text(folder_ / "in")};
+  EXPECT_EQ(dialog_->choices().paths, two);
+  find<QListWidget>("batchPaths")->setCurrentRow(0);
+  find<QPushButton>("batchRemove")->click();
+  EXPECT_EQ(dialog_->choices().paths, QStringList{two[1]});
+  QMimeData data;
+  data.setUrls({QUrl::fromLocalFile(two[0])});
+  QDragEnterEvent enter(QPoint(5, 5), Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
+  QApplication::sendEvent(dialog_.get(), &enter);
+  EXPECT_TRUE(enter.isAccepted());
+  QDropEvent drop({5, 5}, Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
+  QApplication::sendEvent(dialog_.get(), &drop);
+  EXPECT_TRUE(drop.isAccepted());
+  EXPECT_EQ(dialog_->choices().paths, QStringList({two[1], two[0]}));
+}
+
+TEST_F(BatchDialogTest, WhatFailedIsListedWithItsReasonAndReported) {
+  testing::writeFile(folder_ / "in/bad.dsa", "hello");
+  choose(both());
+  run();
+  const auto* table = find<QTableView>("batchTable");
+  const QAbstractItemModel& rows = *table->model();
+  ASSERT_EQ(rows.rowCount(), 1);
+  EXPECT_EQ(rows.index(0, 0).data().toString(), "bad.dsa");
+  EXPECT_EQ(rows.index(0, 1).data().toString(), "failed");
+  EXPECT_TRUE(rows.index(0, 2).data().toString().startsWith("is not a .dsa"))
+      << rows.index(0, 2).data().toString().toStdString();
+  EXPECT_EQ(find<QLabel>("batchSummary")->text(), "2 done, 1 failed.");
+  EXPECT_EQ(find<QLabel>("batchSaid")->text(), "Ended: 2 done, 1 failed");
+  find<QCheckBox>("batchShowAll")->setChecked(true);
+  EXPECT_EQ(rows.rowCount(), 3);
+  find<QPushButton>("batchCopy")->click();
+  EXPECT_EQ(QApplication::clipboard()->text().count('\n'), 4);
+  QString revealed;
+  dialog_->results().reveal = [&](const QString& path) { revealed = path; };
+  emit const_cast<QTableView*>(table)->doubleClicked(rows.index(2, 0));
+  EXPECT_EQ(revealed, text(folder_ / "in/deep/b.dsa"));
+  dialog_->results().askForReport = [&] { return text(folder_ / "report"); };
+  find<QPushButton>("batchSaveReport")->click();
+  const std::string report = testing::readFile(folder_ / "report.csv");
+  EXPECT_EQ(std::count(report.begin(), report.end(), '\n'), 4) << report;
+  EXPECT_EQ(report.rfind("source,result,state,text\n", 0), 0U) << report;
+  // Once more: what is whole is kept.
+  look();
+  run();
+  EXPECT_EQ(find<QLabel>("batchSummary")->text(), "0 done, 2 skipped, 1 failed.");
+}
+
+TEST_F(BatchDialogTest, AnHdf5FileFails) {
+  saveRecording(synthesize({.durationS = 2.0, .grasps = 1}), {}, folder_ / "in/x.h5");
+  BatchChoices choices = both();
+  choices.paths = {text(folder_ / "in/x.h5")};
+  choose(choices);
+  run();
+  const QAbstractItemModel& rows = *find<QTableView>("batchTable")->model();
+  ASSERT_EQ(rows.rowCount(), 1);
+  EXPECT_TRUE(rows.index(0, 2).data().toString().contains("HDF5"));
+}
+
+}  // namespace
+}  // namespace palpate::gui::batch_dialog_test
