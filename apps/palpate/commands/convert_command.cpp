@@ -147,9 +147,10 @@ BatchTask convertTaskOf(const CommandLine& given) {
   options.extras = [&given, recipe](const BatchItem& item, const Profile& profile) {
     return saveExtrasOf(given, item.source, item.target, profile, recipe);
   };
-  for (const char* name : {"no-signals", "no-slip", "units-row"})
+  for (const char* name : {"no-signals", "no-slip", "units-row", "compression", "images"})
     if (given.has(name))
-      options.extrasText += (options.extrasText.empty() ? "" : " ") + std::string(name);
+      options.extrasText += (options.extrasText.empty() ? "" : " ") + std::string(name) +
+                            given.text(name).value_or("");
   return convertTask(options);
 }
 
@@ -179,7 +180,7 @@ int convertCommand(const Arguments& words) {
        .options = withBatchOptions(withExportOptions(withFilterOptions(
            {{"from", "N", "first frame, default 0"},
             {"to", "M", "last frame (inclusive), default the last one"},
-            {"to-form", "FORM", "of a folder: dsa, palpate, csv, npz, jsonl, h5 or mat"}}))),
+            {"to-form", "FORM", "of a folder: dsa, palpate, csv, npz, jsonl, h5, mat or mcap"}}))),
        .example = "palpate convert foam_ball.dsa grasp3.palpate --from 700 --to 1400",
        .minArguments = 1},
       words);

@@ -13,13 +13,13 @@
 
 namespace palpate::commands {
 
-// `options` followed by --no-signals, --no-slip and --units-row.
+// `options` followed by --no-signals, --no-slip, --compression, --images and --units-row.
 std::vector<OptionSpec> withExportOptions(std::vector<OptionSpec> options);
 
 // What is saved beside `profile`, which was read from `in`, filtered by `recipe` (empty: not
-// filtered) and is to be saved as `out`: what was said of the recording, and for .h5 and .mat the
-// series and where all of it comes from (`in` is read for its hash). Throws UsageError (an option
-// that `out` can't have), FileError, FormatError.
+// filtered) and is to be saved as `out`: what was said of the recording, and for .h5, .mat and
+// .mcap the series and where all of it comes from (`in` is read for its hash). Throws UsageError
+// (an option that `out` can't have), FileError, FormatError.
 SaveExtras saveExtrasOf(const CommandLine& given,
                         const std::filesystem::path& in,
                         const std::filesystem::path& out,
