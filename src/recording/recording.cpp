@@ -277,8 +277,8 @@ ReadableRecording readableMcap(const std::filesystem::path& path,
   const Profile& profile = recording.profile;
   std::string damage = std::move(recording.damage);
   if (!damage.empty())
-    damage += "; readable: " +
-              countsText(profile.numFrames(), profile.numAngles(), profile.numTemperatures());
+    damage = "the file " + damage + "; readable: " +
+             countsText(profile.numFrames(), profile.numAngles(), profile.numTemperatures());
   return {.profile = std::move(recording.profile),
           .events = std::move(recording.events),
           .damage = std::move(damage),

@@ -200,7 +200,8 @@ class ForeignReader {
   void requireImages() const {
     for (std::size_t i = 0; i < topics_.size(); ++i)
       if (topics_[i].messages > 0 && joints_ != i) return;
-    fail("has no images (sensor_msgs/msg/Image, CDR) that could be matrices");
+    fail((structure_.damage.empty() ? "" : structure_.damage + "; before that it ") +
+         std::string("has no images (sensor_msgs/msg/Image, CDR) that could be matrices"));
   }
 
   // Matrices in the order of the names of their topics.

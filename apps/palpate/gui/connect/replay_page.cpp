@@ -67,7 +67,7 @@ ReplayPage::ReplayPage(const QStringList& recent, Theme theme, QWidget* parent) 
     return QFileDialog::getOpenFileName(this,
                                         "Choose a recording",
                                         QFileInfo(recording()).path(),
-                                        "Recordings (*.palpate *.dsa);;All files (*)");
+                                        "Recordings (*.palpate *.dsa *.mcap);;All files (*)");
   };
   connect(path_, &QComboBox::editTextChanged, this, &ReplayPage::refresh);
   connect(browse, &QPushButton::clicked, this, [this] {

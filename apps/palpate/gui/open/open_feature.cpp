@@ -58,10 +58,11 @@ OpenFeature::OpenFeature(WindowState& windowState, QWidget* window)
   actions_.openDemo->setVisible(hasDemo(windowState));
   actions_.openDemo->setEnabled(hasDemo(windowState));
   windowState.prompts.recordings = [&windowState, window] {
-    return QFileDialog::getOpenFileNames(window,
-                                         "Open recordings",
-                                         windowState.recent.lastFolder(),
-                                         "Recordings (*.dsa *.palpate *.xml);;All files (*)");
+    return QFileDialog::getOpenFileNames(
+        window,
+        "Open recordings",
+        windowState.recent.lastFolder(),
+        "Recordings (*.dsa *.palpate *.mcap *.xml);;All files (*)");
   };
   connectOpener();
   connectActions();
