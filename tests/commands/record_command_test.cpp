@@ -145,7 +145,7 @@ TEST(RecordCommand, OfAKilledProcessTheMcapFileHasItsWholeChunks) {
   ASSERT_TRUE(awaitFrames(path, 900));
   program.signal(SIGKILL);
   program.wait();
-  const auto opened = palpate({"info", folder / "a.mcap"});
+  const auto opened = palpate({"convert", folder / "a.mcap", folder / "c.palpate"});
   EXPECT_EQ(opened.exitCode, 1);
   EXPECT_NE(opened.err.find("'palpate recover'"), std::string::npos) << opened.err;
   EXPECT_EQ(palpate({"recover", folder / "a.mcap", folder / "b.palpate"}).exitCode, 3);

@@ -396,6 +396,43 @@ for name, chunk in ('loose', 0), ('chunks', 3):
   }
 }
 
+// Another program put the same records into chunks of three messages, or of one.
+TEST(McapRecording, aFileThatWasWrittenAnewWithOtherChunksIsTheSame) {
+  const TemporaryFolder folder;
+  const Profile profile = randomProfile(2, true, 100);
+  write(profile, folder / "a.mcap");
+  runMcapPython(folder, R"(
+data = open(folder + 'a.mcap', 'rb').read()
+for size in 1, 3:
+  out = open(folder + f'{size}.mcap', 'wb')
+  out.write(m.MAGIC)
+  waiting = []
+  def end_chunk():
+    raw = b''.join(waiting)
+    waiting.clear()
+    out.write(m.record(6, struct.pack('<QQQI', 0, 0, len(raw), 0) + m.text('') + struct.pack('<Q', len(raw)) + raw))
+  for opcode, at, content in m.records(data, 8, len(data) - 8):
+    if opcode == 6:
+      for _, _, message in m.records(content[40:], 0, len(content) - 40):
+        waiting.append(m.record(5, message))
+        if len(waiting) == size: end_chunk()
+    elif opcode == 15:
+      if waiting: end_chunk()
+      out.write(m.record(15, bytes(4)) + m.record(2, bytes(20)) + m.MAGIC)
+      break
+    elif opcode != 7:
+      out.write(m.record(opcode, content))
+  out.close()
+)");
+  for (const char* name : {"1.mcap", "3.mcap"}) {
+    const McapRecording read = readMcap(folder / name);
+    expectSame(profile, read.profile);
+    EXPECT_EQ(read.events, kEvents);
+    EXPECT_EQ(readMcapEvents(folder / name), kEvents);
+    EXPECT_EQ(recoverMcap(folder / name).profile.numFrames(), 100u);
+  }
+}
+
 TEST(McapRecording, whatCantBeReadOfOtherProgramsIsOneLineEach) {
   const TemporaryFolder folder;
   runMcapPython(folder, R"(
@@ -450,11 +487,13 @@ void changeBytes(const fs::path& from,
 TEST(McapRecording, damagedAndNewerFilesNameWhatIsWrong) {
   const TemporaryFolder folder;
   write(randomProfile(1, false, 300), folder / "a.mcap");
-  changeBytes(folder / "a.mcap", folder / "data.mcap", "mono16", "mono17");
+  changeBytes(folder / "a.mcap", folder / "data.mcap", "00ff", "00fe");
   expectError(folder / "data.mcap", "the checksum of its data section is wrong; 'palpate recover'");
+  changeBytes(folder / "a.mcap", folder / "changed.mcap", "mono16", "mono17");
+  expectError(folder / "changed.mcap", "chunk 0 is damaged: its checksum is wrong");
   const std::string whole = testing::readFile(folder / "a.mcap");
-  // Without the checksum of the data section, the one of the chunk is seen.
-  std::string bytes = testing::readFile(folder / "data.mcap");
+  // Without the checksum of the data section, too.
+  std::string bytes = testing::readFile(folder / "changed.mcap");
   std::size_t end = bytes.rfind(std::string("\x0F\x04\0\0\0\0\0\0\0", 9));
   ASSERT_NE(end, std::string::npos);
   bytes.replace(end + 9, 4, 4, '\0');

@@ -59,6 +59,9 @@ struct McapBlock {
   std::size_t temperatureWidth = 0;
   std::vector<RecordingEvent> events;
   bool cutFrame = false;  // the last frame had not all of its images, and is left out
+  // Other programs may put the images of a frame into two chunks.
+  std::size_t leading = 0;    // images that belong to the last frame of the chunk before
+  std::size_t continued = 0;  // images of the last frame that came from the chunk behind
 };
 
 // Where the messages of a recording are in a file that Palpate has written, and what they say.
@@ -83,8 +86,13 @@ class McapOwnFile {
   bool saysFloat() const { return saysFloat_; }
   std::optional<std::uint16_t> eventChannel() const { return eventChannel_; }
 
+  // Returns the records of the chunk so many behind; nothing where there is none.
+  using Next = std::function<std::optional<std::string>(std::size_t ahead)>;
   // Throws FormatError, which begins with `place`. Of a salvage a frame that was cut is left out.
-  McapBlock block(std::string_view records, const std::string& place, bool salvage) const {
+  McapBlock block(std::string_view records,
+                  const std::string& place,
+                  bool salvage,
+                  const Next& next) const {
     McapBlock block;
     std::size_t images = layout_.numMatrices();  // of the last frame, that are there
     const auto fail = [&](const std::string& fault) {
@@ -96,27 +104,30 @@ class McapOwnFile {
           "has a frame without all of its images: the file was changed by another program, or is "
           "damaged");
     };
+    const auto takeImage = [&](const McapMessage& message) {
+      if (images >= layout_.numMatrices() || roles_[message.channel].matrix != images)
+        fail(
+            "has an image that belongs to no frame: the file was changed by another program, or "
+            "is damaged");
+      const std::string fault = addImage(message.data, message.channel, block);
+      if (!fault.empty()) fail("has an image that " + fault);
+      ++images;
+    };
     const bool whole = forEachMcapRecord(records, [&](std::uint8_t op, std::string_view content) {
-      if (op != mcap_format::kMessage) return;
       McapMessage message;
-      if (!readMcapMessage(content, message)) fail("has a damaged message");
-      if (message.channel >= roles_.size()) return;
+      if (!readRoleMessage(op, content, message)) return;
       switch (roles_[message.channel].role) {
         case McapRole::kFrame:
           endFrame();
           images = 0;
           if (!addFrame(message.data, block)) fail("has a damaged message about a frame");
           break;
-        case McapRole::kImage: {
-          if (images >= layout_.numMatrices() || roles_[message.channel].matrix != images)
-            fail(
-                "has an image that belongs to no frame: the file was changed by another program, "
-                "or is damaged");
-          const std::string fault = addImage(message.data, message.channel, block);
-          if (!fault.empty()) fail("has an image that " + fault);
-          ++images;
+        case McapRole::kImage:
+          if (block.frameUs.empty())
+            ++block.leading;
+          else
+            takeImage(message);
           break;
-        }
         case McapRole::kAngles:
           if (!addSample(message.data, block.angleUs, block.angles, block.angleWidth))
             fail("has damaged angles");
@@ -134,6 +145,22 @@ class McapOwnFile {
       }
     });
     if (!whole) fail("is damaged: its records don't fit");
+    // A frame may go on over several chunks where these are very small.
+    for (std::size_t ahead = 1; images != layout_.numMatrices(); ++ahead) {
+      const std::optional<std::string> more = next(ahead);
+      if (!more) break;
+      bool ended = false;
+      forEachMcapRecord(*more, [&](std::uint8_t op, std::string_view content) {
+        McapMessage message;
+        if (ended || !readRoleMessage(op, content, message)) return;
+        const McapRole role = roles_[message.channel].role;
+        ended = role == McapRole::kFrame;
+        if (role != McapRole::kImage) return;
+        takeImage(message);
+        ++block.continued;
+      });
+      if (ended) break;
+    }
     if (images != layout_.numMatrices() && salvage)
       dropLastFrame(block);
     else
@@ -147,6 +174,13 @@ class McapOwnFile {
     std::size_t matrix = 0;
     bool protobuf = false;
   };
+
+  // Returns false for records that are no message of a known channel.
+  bool readRoleMessage(std::uint8_t opcode, std::string_view content, McapMessage& message) const {
+    if (opcode != mcap_format::kMessage) return false;
+    if (!readMcapMessage(content, message)) throw FormatError(path_, "has a damaged message");
+    return message.channel < roles_.size();
+  }
 
   void dropLastFrame(McapBlock& block) const {
     block.cutFrame = true;
@@ -165,7 +199,9 @@ class McapOwnFile {
     std::vector<MatrixLayout> matrices(static_cast<std::size_t>(numMatrices));
     std::vector<bool> found(matrices.size());
     bool frames = false;
-    for (const auto& [id, channel] : channels.channels) {
+    for (const auto& entry : channels.channels) {
+      const std::uint16_t id = entry.first;
+      const McapChannel& channel = entry.second;
       if (roles_.size() <= id) roles_.resize(std::size_t{id} + 1);
       ChannelRole& role = roles_[id];
       const auto schema = channels.schemas.find(channel.schema);
@@ -330,6 +366,24 @@ class McapOwnFile {
   bool saysFloat_ = false;
 };
 
+McapBlock readMcapBlock(const McapFile& file,
+                        const McapOwnFile& own,
+                        const std::vector<McapPiece>& pieces,
+                        std::size_t index,
+                        bool salvage) {
+  const auto next = [&](std::size_t ahead) -> std::optional<std::string> {
+    if (ahead >= pieces.size() - index) return std::nullopt;
+    try {
+      return readMcapPiece(file, pieces[index + ahead], index + ahead);
+    } catch (const FormatError&) {
+      if (!salvage) throw;
+      return std::nullopt;
+    }
+  };
+  return own.block(
+      readMcapPiece(file, pieces[index], index), "chunk " + std::to_string(index), salvage, next);
+}
+
 // Where the samples of a series begin in each chunk, and their stamps.
 struct McapSeriesIndex {
   std::vector<std::int64_t> timesUs;
@@ -429,8 +483,7 @@ class McapStorage final : public ProfileStorage {
 
  private:
   McapBlock readBlock(std::size_t piece) const {
-    return own_.block(
-        readMcapPiece(file_, pieces_[piece], piece), "chunk " + std::to_string(piece), salvage_);
+    return readMcapBlock(file_, own_, pieces_, piece, salvage_);
   }
 
   // The file may be another one by now.
@@ -469,6 +522,14 @@ class McapStorage final : public ProfileStorage {
   }
 
   void take(McapBlock& block, std::size_t piece) {
+    // Images without a frame are those that frames before have taken.
+    if (!salvage_ && block.leading > continued_)
+      throw FormatError(file_.path(),
+                        "chunk " + std::to_string(piece) +
+                            " has images that belong to no frame: the file was changed by another "
+                            "program, or is damaged");
+    continued_ -= std::min(continued_, block.leading);
+    continued_ += block.continued;
     append(frames_, block.frameUs, 0, "frames", piece);
     append(angles_, block.angleUs, block.angleWidth, "angles", piece);
     append(temperatures_, block.temperatureUs, block.temperatureWidth, "temperatures", piece);
@@ -502,6 +563,7 @@ class McapStorage final : public ProfileStorage {
   McapSeriesIndex temperatures_;
   std::vector<RecordingEvent> events_;
   std::size_t cutFrames_ = 0;
+  std::size_t continued_ = 0;  // images that frames have taken from chunks to come
   bool anyFloat_ = false;
   mutable std::mutex mutex_;
   mutable std::list<std::pair<std::size_t, std::shared_ptr<const McapBlock>>> cache_;
@@ -590,8 +652,13 @@ McapRecording openMcap(const fs::path& path,
   constexpr double kWalk = 0.3;  // share of the time
   McapFile file(path);
   McapStructure structure = readMcapStructure(file, true, part(0.0, kWalk));
-  if (!structure.damage.empty() && !salvage)
+  if (!structure.damage.empty() && !salvage) {
+    // Names the chunk that is damaged, if it is one.
+    if (structure.checksumWrong)
+      for (std::size_t i = 0; i < structure.pieces.size(); ++i)
+        readMcapPiece(file, structure.pieces[i], i);
     throw FormatError(path, structure.damage + "; 'palpate recover' saves what can be read");
+  }
   if (isOwnMcap(structure))
     return openOwnMcap(
         std::move(file), std::move(structure), part(kWalk, 1.0 - kWalk), threads, salvage);
@@ -622,7 +689,7 @@ std::vector<RecordingEvent> readMcapEvents(const fs::path& path) {
         std::find(piece.indexed.begin(), piece.indexed.end(), *own.eventChannel()) ==
             piece.indexed.end())
       continue;
-    McapBlock block = own.block(readMcapPiece(file, piece, i), "chunk " + std::to_string(i), false);
+    McapBlock block = readMcapBlock(file, own, structure.pieces, i, false);
     std::move(block.events.begin(), block.events.end(), std::back_inserter(events));
     if (events.size() > kMostMcapEvents) throw FormatError(path, "has too many events");
   }

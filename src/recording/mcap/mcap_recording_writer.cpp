@@ -160,6 +160,16 @@ void McapRecordingWriter::beginAngles(std::size_t width) {
                                   mcap_format::kJointStates,
                                   "cdr",
                                   withQos({}));
+  std::string message;
+  CdrWriter cdr(message);
+  cdr.time(0);
+  const std::size_t begin = message.size();
+  cdr.text("");
+  cdr.number(static_cast<std::uint32_t>(width));
+  for (std::size_t i = 0; i < width; ++i)
+    cdr.text(i < hand_.axes.size() ? mcapShownText(hand_.axes[i].name)
+                                   : "axis " + std::to_string(i));
+  jointNames_ = message.substr(begin);
 }
 
 void McapRecordingWriter::beginTemperatures(std::size_t width) {
@@ -257,13 +267,10 @@ void McapRecordingWriter::addAngles(const JointAngles& angles) {
   std::string& out = file_.beginMessage(jointStates_, mcapTimeNs(angles.hostUs));
   CdrWriter cdr(out);
   cdr.time(angles.hostUs);
-  cdr.text("");
-  cdr.number(static_cast<std::uint32_t>(numAngles_));
+  out += jointNames_;
   std::vector<double> positions(numAngles_);
   for (std::size_t i = 0; i < numAngles_; ++i) {
-    const bool known = i < hand_.axes.size();
-    cdr.text(known ? mcapShownText(hand_.axes[i].name) : "axis " + std::to_string(i));
-    const bool slides = known && hand_.axes[i].isSliding;
+    const bool slides = i < hand_.axes.size() && hand_.axes[i].isSliding;
     positions[i] = slides ? angles.deg[i] / 1000.0 : angles.deg[i] * std::numbers::pi / 180.0;
   }
   cdr.sequence(std::span<const double>(positions));

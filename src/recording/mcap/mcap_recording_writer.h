@@ -58,6 +58,7 @@ class McapRecordingWriter {
   std::uint16_t log_ = 0;
   std::optional<std::uint16_t> angles_;
   std::uint16_t jointStates_ = 0;
+  std::string jointNames_;  // of a JointState: from behind the stamp to before the positions
   std::optional<std::uint16_t> temperatures_;
   std::size_t numAngles_ = 0;
   std::size_t numTemperatures_ = 0;

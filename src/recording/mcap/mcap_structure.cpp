@@ -78,6 +78,10 @@ class McapWalk {
     if (checksums_) addToCrc(0, position_);
     while (result_.damage.empty() && !ended_) step();
     if (result_.damage.empty()) checkEnd();
+    if (result_.damage.empty() && wrongChecksum_) {
+      damage("is damaged: the checksum of its " + std::string(wrongChecksum_) + " is wrong");
+      result_.checksumWrong = true;
+    }
     endLoosePiece();
     return std::move(result_);
   }
@@ -167,8 +171,7 @@ class McapWalk {
     } else if (opcode == mcap_format::kDataEnd) {
       const auto crc = content.number<std::uint32_t>();
       if (!content.ok()) return damage("is damaged: the end of the data" + mcapAt(at));
-      if (checksums_ && crc != 0 && crc != crc_)
-        return damage("is damaged: the checksum of its data section is wrong");
+      if (checksums_ && crc != 0 && crc != crc_) wrongChecksum_ = "data section";
       summaryAt_ = at + content_.size();
       crc_ = 0;
     } else if (opcode == mcap_format::kFooter) {
@@ -180,7 +183,7 @@ class McapWalk {
       // The checksum covers the footer but for itself.
       if (checksums_ && summary == summaryAt_ && summary != 0 && crc != 0) {
         addToCrc(position_, at + 16);
-        if (crc != crc_) damage("is damaged: the checksum of its summary is wrong");
+        if (crc != crc_ && !wrongChecksum_) wrongChecksum_ = "summary";
       }
     }
   }
@@ -277,6 +280,7 @@ class McapWalk {
   std::uint64_t kept_ = 0;
   std::size_t steps_ = 0;
   std::uint32_t crc_ = 0;
+  const char* wrongChecksum_ = nullptr;  // of which part
   bool ended_ = false;
   std::string head_;
   std::string content_;
@@ -354,7 +358,7 @@ std::string readMcapPiece(const McapFile& file, const McapPiece& piece, std::siz
     if (!fault.empty()) fail(fault);
   }
   if (piece.crc != 0 && piece.crc != mcap_format::addToCrc(0, raw))
-    fail("is damaged: its checksum is wrong");
+    fail("is damaged: its checksum is wrong; 'palpate recover' saves the others");
   return raw;
 }
 

@@ -68,6 +68,8 @@ struct McapStructure {
   std::map<std::string, std::string> attachments;                      // of hand.json, hand.urdf
   McapChannels channels;  // of those outside of chunks and in the summary
   std::vector<McapPiece> pieces;
+  // All records are there, but a checksum of the whole is wrong.
+  bool checksumWrong = false;
   // One line: where the file is cut off or damaged. What stands before is in this structure.
   std::string damage;
 };
