@@ -53,6 +53,8 @@ std::string choicesText(const ExportChoices& choices) {
   add(!choices.withSignals, "no-signals");
   add(!choices.withSlip, "no-slip");
   add(choices.unitsRow, "units-row");
+  if (choices.compression) add(true, nameOf(*choices.compression));
+  if (choices.images) add(true, *choices.images == McapImages::kRos ? "ros" : "foxglove");
   return text;
 }
 

@@ -13,6 +13,11 @@ void requirePossible(const ExportChoices& choices,
   const RecordingFormat format = formatOf(out);
   if (choices.unitsRow && format != RecordingFormat::kCsv)
     throw std::invalid_argument("--units-row is for .csv; " + out.string() + " isn't one");
+  for (const char* option :
+       {choices.compression ? "--compression" : "", choices.images ? "--images" : ""})
+    if (*option && format != RecordingFormat::kMcap)
+      throw std::invalid_argument(std::string(option) + " is for .mcap; " + out.string() +
+                                  " isn't one");
   if (!filters.empty() && (format == RecordingFormat::kDsa || format == RecordingFormat::kPalpate))
     throw std::invalid_argument(
         "'palpate filter' makes filtered recordings; --filter is for exports");
@@ -28,7 +33,11 @@ SaveExtras exportExtras(const ExportChoices& choices,
   SaveExtras all;
   all.unitsRow = choices.unitsRow;
   all.meta = readRecordingMeta(in);
-  if (format != RecordingFormat::kHdf5 && format != RecordingFormat::kMat) return all;
+  if (choices.compression) all.mcap.compression = *choices.compression;
+  if (choices.images) all.mcap.images = *choices.images;
+  if (format != RecordingFormat::kHdf5 && format != RecordingFormat::kMat &&
+      format != RecordingFormat::kMcap)
+    return all;
   ExportExtras& extras = all.exported;
   extras.provenance.program = "palpate " PALPATE_VERSION;
   extras.provenance.sourceFile = in.filename().string();

@@ -303,6 +303,7 @@ void Recorder::clearPreTrigger() {
 void Recorder::start(RecordingOptions options) {
   options.validate();
   requireNewFile(options.path);
+  if (options.mcap) requireNewFile(mcapPathOf(options.path));
   Impl& impl = *impl_;
   RoundTime time{impl.clock.monotonicUs(), impl.nowUs(), 0};
   // Before the first item the time of the stamps is unknown; every item counts as after the start

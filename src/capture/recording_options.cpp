@@ -51,9 +51,13 @@ void RecordingOptions::validate() const {
   atLeast(splitBytes, kLeastBytes, "splitBytes");
   atLeast(stopAfterFrames, std::int64_t{1}, "stopAfterFrames");
   atLeast(stopAfterBytes, kLeastBytes, "stopAfterBytes");
+  if (mcap) mcap->validate();
+  requireRecordingOptions(mcapQueueItems > 0, "mcapQueueItems must be at least 1");
   for (const auto& [key, value] : meta)
     requireRecordingOptions(!isReservedMeta(key), "meta '" + key + "' is the recording's own");
 }
+
+fs::path mcapPathOf(const fs::path& path) { return fs::path(path).replace_extension(".mcap"); }
 
 fs::path partPath(const fs::path& path, int part) {
   if (part <= 1) return path;

@@ -48,7 +48,9 @@ RecordingParts::RecordingParts(RecordingOptions options,
       vfs_(recorder.vfs),
       start_(start),
       notice_(std::move(notice)),
-      folder_(options_.path.has_parent_path() ? options_.path.parent_path() : fs::path(".")) {}
+      folder_(options_.path.has_parent_path() ? options_.path.parent_path() : fs::path(".")) {
+  if (options_.mcap) mcap_ = std::make_unique<McapMirror>(*options_.mcap, options_.mcapQueueItems);
+}
 
 // True if the item is between the begin of the pre-trigger time and the end; detects the end.
 bool RecordingParts::belongs(const CaptureItem& item) {
@@ -110,7 +112,12 @@ std::unique_ptr<PalpateWriter> RecordingParts::makeWriter(
       if (!isReservedMeta(key)) meta.insert_or_assign(key, value);
   // An existing file is skipped: nothing is ever replaced.
   std::error_code ignored;
-  while (fs::exists(fs::symlink_status(partPath(options_.path, nextPart_), ignored))) ++nextPart_;
+  const auto exists = [&](const fs::path& path) {
+    return fs::exists(fs::symlink_status(path, ignored));
+  };
+  while (exists(partPath(options_.path, nextPart_)) ||
+         (mcap_ && exists(mcapPathOf(partPath(options_.path, nextPart_)))))
+    ++nextPart_;
   const fs::path path = partPath(options_.path, nextPart_);
   if (!paths_.empty()) {
     meta["part"] = std::to_string(paths_.size() + 1);
@@ -122,6 +129,7 @@ std::unique_ptr<PalpateWriter> RecordingParts::makeWriter(
   auto writer = std::make_unique<PalpateWriter>(path, layout, meta, writerOptions);
   ++nextPart_;
   paths_.push_back(path);
+  if (mcap_) mcap_->begin(mcapPathOf(path), layout, meta);
   return writer;
 }
 
@@ -196,6 +204,7 @@ void RecordingParts::write(const CaptureItem& item, RoundTime time) {
     refusedWhy_ = error.what();
     return;
   }
+  if (mcap_) mcap_->add(item);
   endLossInterval(item.index());
   ++dirtyItems_;
   if (!dirtySinceMonoUs_) dirtySinceMonoUs_ = time.sinceMonoUs;
@@ -249,6 +258,7 @@ void RecordingParts::writePendingEvents() {
   while (!unwrittenEvents_.empty()) {
     // Throws while the disk is full; the event then stays pending.
     writer_->addEvent(unwrittenEvents_.front());
+    if (mcap_) mcap_->add(unwrittenEvents_.front());
     ++counts_.events;
     ++dirtyItems_;
     unwrittenEvents_.erase(unwrittenEvents_.begin());
@@ -270,7 +280,22 @@ void RecordingParts::updateCounters(RoundTime time) {
   counts_.counters = std::move(counters);
 }
 
+void RecordingParts::lookAfterMcap(RoundTime time) {
+  if (!mcap_) return;
+  mcap_->flushWhenDue(time.monoUs);
+  const std::string failure = mcap_->takeFailure();
+  if (failure.empty()) return;
+  mcapFailure_ = failure;
+  addOwn({time.nowUs,
+          time.nowUs,
+          "alarm",
+          {},
+          "the MCAP file stopped, the recording goes on: " + failure,
+          ""});
+}
+
 void RecordingParts::round(RoundTime time) {
+  lookAfterMcap(time);
   if (closing_ && time.monoUs >= nextTryMonoUs_ && closeOldPart(time)) onCommitSucceeded(time);
   if (!writer_) {
     if (frameHeld_ && time.monoUs >= nextTryMonoUs_) open(time);
@@ -346,6 +371,11 @@ bool RecordingParts::finish(RoundTime time) {
     onCommitFailed(error.what(), time);
     return !(unfinished_ = true);
   }
+  if (mcap_) {
+    mcap_->finish();
+    const std::string failure = mcap_->takeFailure();
+    if (!failure.empty()) mcapFailure_ = failure;
+  }
   unfinished_ = false;
   return true;
 }
@@ -381,6 +411,8 @@ RecordingReport RecordingParts::report() const {
   report.rateHz = intervals_.rateHz();
   report.meanRateHz = intervals_.meanRateHz();
   report.bytes = bytesOnDisk();
+  if (mcap_) report.mcapPaths = mcap_->paths();
+  report.mcapFailure = mcapFailure_;
   if (unfinished_)
     report.message =
         error_ + "; what was written before is safe: 'palpate recover' finishes the file";

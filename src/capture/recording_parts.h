@@ -13,6 +13,7 @@
 #include "palpate/recording/palpate_writer.h"
 
 #include "capture/interval_statistics.h"
+#include "capture/mcap_mirror.h"
 
 namespace palpate {
 
@@ -80,6 +81,7 @@ class RecordingParts {
   void onCommitFailed(const std::string& what, RoundTime time);
   void onCommitSucceeded(RoundTime time);
   std::int64_t bytesOnDisk() const;
+  void lookAfterMcap(RoundTime time);
 
   const RecordingOptions options_;
   const std::int64_t commitIntervalUs_;
@@ -100,6 +102,10 @@ class RecordingParts {
   std::int64_t bytesInOldParts_ = 0;
   std::deque<CaptureItem> held_;  // items that wait for a file
   bool frameHeld_ = false;
+
+  // The MCAP file beside it.
+  std::unique_ptr<McapMirror> mcap_;
+  std::string mcapFailure_;
 
   // Items that wait for a commit.
   std::optional<std::int64_t> dirtySinceMonoUs_;

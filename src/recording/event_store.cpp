@@ -206,6 +206,10 @@ void saveEvents(const fs::path& path,
     throw FileError(path,
                     "notes can't be added to an HDF5 file; convert it to .palpate and add them "
                     "there");
+  if (isMcapRecording(path))
+    throw FileError(path,
+                    "notes can't be added to an MCAP file; convert it to .palpate and add them "
+                    "there");
   if (isNativeRecording(path))
     saveRows(path, asRead, events, options);
   else

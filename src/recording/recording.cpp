@@ -16,6 +16,7 @@
 #include "palpate/recording/dsa_writer.h"
 #include "palpate/recording/hdf5_recording.h"
 #include "palpate/recording/mat_export.h"
+#include "palpate/recording/mcap_recording.h"
 #include "palpate/recording/palpate_reader.h"
 #include "palpate/recording/palpate_recovery.h"
 #include "palpate/recording/palpate_writer.h"
@@ -31,11 +32,12 @@ namespace palpate {
 namespace {
 
 constexpr std::string_view kSqliteStart{"SQLite format 3\0", 16};
+constexpr std::string_view kMcapStart{"\x89MCAP0\r\n", 8};
 constexpr std::string_view kMatStart = "MATLAB 5.0 MAT-file";
 
 // What a file holds, as its first bytes tell, and where they are those of no recording (damaged)
 // the ending of its name.
-enum class Container { kDsa, kNative, kHdf5, kMat };
+enum class Container { kDsa, kNative, kHdf5, kMat, kMcap };
 Container containerOf(const std::filesystem::path& path) {
   // Closing a file that this very process writes would drop SQLite's locks on it.
   if (RecordingLock::isHeld(path)) return Container::kNative;
@@ -45,10 +47,12 @@ Container containerOf(const std::filesystem::path& path) {
   if (start.starts_with(kSqliteStart)) return Container::kNative;
   if (startsLikeHdf5(start)) return Container::kHdf5;
   if (start.starts_with(kMatStart)) return Container::kMat;
+  if (start.starts_with(kMcapStart)) return Container::kMcap;
   if (start.starts_with("BZh") || start.starts_with('<')) return Container::kDsa;
   const std::string ending = lowerEndingOf(path);
   if (ending == ".palpate") return Container::kNative;
   if (ending == ".h5" || ending == ".hdf5") return Container::kHdf5;
+  if (ending == ".mcap") return Container::kMcap;
   return ending == ".mat" ? Container::kMat : Container::kDsa;
 }
 
@@ -122,6 +126,29 @@ RecoverReport recoverNative(const std::filesystem::path& in,
   return report;
 }
 
+RecoverReport recoverMcapFile(const std::filesystem::path& in,
+                              const std::filesystem::path& out,
+                              Overwrite overwrite,
+                              const Progress& progress) {
+  const McapRecording recording = recoverMcap(in, progress);
+  const Profile& profile = recording.profile;
+  RecoverReport report;
+  if (profile.numFrames() + profile.numAngles() + profile.numTemperatures() == 0 &&
+      !recording.damage.empty()) {
+    report.message = "nothing can be saved: " + recording.damage;
+    return report;
+  }
+  SaveExtras extras;
+  extras.meta = recording.meta;
+  saveRecording(profile, recording.events, out, overwrite, progress, extras);
+  const bool whole = recording.damage.empty();
+  report.state = whole ? RecoverReport::State::kWhole : RecoverReport::State::kPart;
+  report.message = (whole ? "nothing was damaged; saved " : "saved ") +
+                   countsText(profile.numFrames(), profile.numAngles(), profile.numTemperatures()) +
+                   (whole ? "" : "; the file " + recording.damage);
+  return report;
+}
+
 // Notes beside a damaged .dsa; that they are damaged, too, is no reason to save nothing.
 std::vector<RecordingEvent> readEventsOf(const std::filesystem::path& path, std::string& lost) {
   try {
@@ -190,6 +217,10 @@ bool isHdf5Recording(const std::filesystem::path& path) {
   return containerOf(path) == Container::kHdf5;
 }
 
+bool isMcapRecording(const std::filesystem::path& path) {
+  return containerOf(path) == Container::kMcap;
+}
+
 Profile openRecording(const std::filesystem::path& path,
                       const Progress& progress,
                       std::size_t threads) {
@@ -198,6 +229,8 @@ Profile openRecording(const std::filesystem::path& path,
       return readPalpate(path, progress);
     case Container::kHdf5:
       return readHdf5(path).profile;
+    case Container::kMcap:
+      return readMcap(path, progress, threads).profile;
     case Container::kMat:
       throwOnlyWritten(path);
     case Container::kDsa:
@@ -243,6 +276,21 @@ ReadableRecording readableHdf5(const std::filesystem::path& path, const Progress
   readThrough(recording.profile, progress);
   return {.profile = std::move(recording.profile),
           .events = std::move(recording.events),
+          .meta = std::move(recording.meta)};
+}
+
+ReadableRecording readableMcap(const std::filesystem::path& path,
+                               const Progress& progress,
+                               std::size_t threads) {
+  McapRecording recording = recoverMcap(path, progress, threads);
+  const Profile& profile = recording.profile;
+  std::string damage = std::move(recording.damage);
+  if (!damage.empty())
+    damage = "the file " + damage + "; readable: " +
+             countsText(profile.numFrames(), profile.numAngles(), profile.numTemperatures());
+  return {.profile = std::move(recording.profile),
+          .events = std::move(recording.events),
+          .damage = std::move(damage),
           .meta = std::move(recording.meta)};
 }
 
@@ -302,6 +350,7 @@ ReadableRecording readableRecording(const std::filesystem::path& path,
                                     std::size_t threads) {
   const Container container = containerOf(path);
   if (container == Container::kHdf5) return readableHdf5(path, progress);
+  if (container == Container::kMcap) return readableMcap(path, progress, threads);
   if (container == Container::kMat) throwOnlyWritten(path);
   // From 0 to 1 once, also where a second way has to be taken.
   double reached = 0.0;
@@ -341,6 +390,16 @@ VerifyReport verifyRecording(const std::filesystem::path& path,
             countsText(profile.numFrames(), profile.numAngles(), profile.numTemperatures());
         return report;
       }
+      case Container::kMcap: {
+        const ReadableRecording mcap = readableMcap(path, progress, threads);
+        report.state =
+            mcap.damage.empty() ? VerifyReport::State::kSound : VerifyReport::State::kDamaged;
+        report.message = mcap.damage.empty() ? countsText(mcap.profile.numFrames(),
+                                                          mcap.profile.numAngles(),
+                                                          mcap.profile.numTemperatures())
+                                             : mcap.damage;
+        return report;
+      }
       case Container::kMat:
         throwOnlyWritten(path);
       case Container::kDsa:
@@ -378,7 +437,8 @@ std::span<const RecordingForm> recordingForms() noexcept {
       {RecordingFormat::kJsonLines, ".jsonl", "JSON lines, schunk_sdh/TactileSensor"},
       {RecordingFormat::kHdf5, ".h5", "HDF5"},
       {RecordingFormat::kHdf5, ".hdf5", "HDF5"},
-      {RecordingFormat::kMat, ".mat", "MATLAB, MAT 5"}};
+      {RecordingFormat::kMat, ".mat", "MATLAB, MAT 5"},
+      {RecordingFormat::kMcap, ".mcap", "MCAP, for ROS 2 and Foxglove"}};
   return kForms;
 }
 
@@ -395,11 +455,13 @@ RecordingFormat formatOf(const std::filesystem::path& path) {
 
 EventsReport readEvents(const std::filesystem::path& path) {
   if (isHdf5Recording(path)) return {readHdf5(path).events, 0};
+  if (isMcapRecording(path)) return {readMcapEvents(path), 0};
   return isNativeRecording(path) ? readPalpateEvents(path) : readEventSidecar(path);
 }
 
 std::map<std::string, std::string> readRecordingMeta(const std::filesystem::path& path) {
   if (isHdf5Recording(path)) return readHdf5(path).meta;
+  if (isMcapRecording(path)) return readMcapMeta(path);
   if (!isNativeRecording(path)) return {};
   const PalpateConnection access(path);
   return access.meta().values;
@@ -444,6 +506,10 @@ SaveReport saveRecording(const Profile& profile,
     case RecordingFormat::kMat:
       writeMat(profile, events, extras.meta, extras.exported, path, overwrite, progress);
       break;
+    case RecordingFormat::kMcap:
+      writeMcap(
+          {profile, events, extras.meta, extras.exported}, path, overwrite, progress, extras.mcap);
+      break;
   }
   return report;
 }
@@ -457,6 +523,7 @@ RecoverReport recoverRecording(const std::filesystem::path& in,
   requireWritable(out, overwrite);
   if (isHdf5Recording(in))
     throw FileError(in, "HDF5 files can't be recovered; 'palpate convert' takes what is undamaged");
+  if (isMcapRecording(in)) return recoverMcapFile(in, out, overwrite, progress);
   return isNativeRecording(in) ? recoverNative(in, out, overwrite, progress)
                                : recoverDsa(in, out, overwrite, progress);
 }

@@ -12,6 +12,7 @@
 #include "palpate/core/escaped_line.h"
 #include "palpate/recording/dsa_reader.h"
 #include "palpate/recording/hdf5_recording.h"
+#include "palpate/recording/mcap_recording.h"
 #include "palpate/recording/recording.h"
 
 #include "recording/event_sidecar.h"
@@ -113,9 +114,9 @@ void readDsaThrough(RecordingDetails& details, const Progress& progress, std::si
   details.durationUs = profile.frameTimeUs(profile.numFrames() - 1) - *details.startUs;
 }
 
-void readHdf5Details(RecordingDetails& details) {
-  details.form = "hdf5";
-  const Hdf5Recording recording = readHdf5(details.path);
+// Of a recording in one of the forms that other programs read.
+template <typename Recording>
+void takeDetails(const Recording& recording, RecordingDetails& details) {
   const auto valueOf = [&](const char* key) {
     const auto found = recording.meta.find(key);
     return found == recording.meta.end() ? std::string() : found->second;
@@ -130,6 +131,16 @@ void readHdf5Details(RecordingDetails& details) {
   if (profile.numFrames() == 0) return;
   details.startUs = profile.frameTimeUs(0);
   details.durationUs = profile.durationUs();
+}
+
+void readHdf5Details(RecordingDetails& details) {
+  details.form = "hdf5";
+  takeDetails(readHdf5(details.path), details);
+}
+
+void readMcapDetails(RecordingDetails& details, const Progress& progress, std::size_t threads) {
+  details.form = "mcap";
+  takeDetails(readMcap(details.path, progress, threads), details);
 }
 
 void fail(RecordingDetails& details, State state, std::string message) {
@@ -181,6 +192,7 @@ RecordingDetails readDetails(const fs::path& path, const Progress& progress, std
   attemptRecordingDetails(details, [&] {
     if (isNativeRecording(path)) return readNative(details);
     if (isHdf5Recording(path)) return readHdf5Details(details);
+    if (isMcapRecording(path)) return readMcapDetails(details, progress, threads);
     readDsaThrough(details, progress, threads);
   });
   if (details.form == "dsa") {

@@ -111,6 +111,52 @@ TEST(Recorder, splitsByTimeWithoutLosingOrDoublingAnItem) {
   EXPECT_TRUE(report.complete) << report.message;
 }
 
+TEST(Recorder, anMcapFileBesideEachPartHoldsTheSame) {
+  const TemporaryFolder folder;
+  ScriptedSession scripted;
+  RecordingOptions options = to(folder / "a.palpate");
+  options.splitS = 1.0;
+  options.mcap.emplace();
+  scripted.session->startRecording(options);
+  scripted.run(1.5);
+  scripted.session->mark("here");
+  scripted.run(0.5);
+  const RecordingReport report = scripted.session->stopRecording();
+  EXPECT_EQ(report.mcapPaths, (std::vector{folder / "a.mcap", folder / "a_002.mcap"}));
+  EXPECT_EQ(report.mcapFailure, "");
+  for (std::size_t part = 0; part < 2; ++part) {
+    EXPECT_EQ(numbersIn(report.mcapPaths[part]), numbersIn(report.paths[part]));
+    const Profile mcap = openRecording(report.mcapPaths[part]);
+    const Profile native = openRecording(report.paths[part]);
+    EXPECT_EQ(mcap.numAngles(), native.numAngles());
+    EXPECT_EQ(mcap.numTemperatures(), native.numTemperatures());
+    EXPECT_EQ(mcap.hand().name, native.hand().name);
+    EXPECT_EQ(readEvents(report.mcapPaths[part]).events, readEvents(report.paths[part]).events);
+  }
+}
+
+TEST(Recorder, anMcapFileThatCanNotBeWrittenStopsAndTheRecordingGoesOn) {
+  const TemporaryFolder folder;
+  ScriptedSession scripted;
+  RecordingOptions options = to(folder / "a.palpate");
+  options.mcap.emplace();
+  writeFile(folder / "a.mcap", "precious");
+  EXPECT_THROW(scripted.session->startRecording(options), FileError);
+  fs::remove(folder / "a.mcap");
+  // More than can wait.
+  options.mcapQueueItems = 1;
+  scripted.session->startRecording(options);
+  scripted.run(3.0);
+  const RecordingReport report = scripted.session->stopRecording();
+  EXPECT_NE(report.mcapFailure.find("could not keep up"), std::string::npos) << report.mcapFailure;
+  EXPECT_TRUE(report.complete) << report.message;
+  EXPECT_EQ(numbersIn(folder / "a.palpate"), upTo(0, 300));
+  std::size_t alarms = 0;
+  for (const RecordingEvent& event : readEvents(folder / "a.palpate").events)
+    alarms += event.kind == "alarm" && event.text.find("MCAP") != std::string::npos ? 1u : 0u;
+  EXPECT_EQ(alarms, 1u);
+}
+
 TEST(Recorder, splitsBySize) {
   const TemporaryFolder folder;
   CaptureOptions capture;

@@ -60,6 +60,32 @@ TEST_F(ConvertCommand, toHdf5AndBackIsTheSameAsStraight) {
   EXPECT_EQ(palpate({"signals", in("plain")}).out, palpate({"signals", in("a.dsa")}).out);
 }
 
+TEST_F(ConvertCommand, toMcapAndBackIsTheSameAsStraight) {
+  ASSERT_EQ(palpate({"convert", in("a.dsa"), in("c.palpate")}).exitCode, 0);
+  const std::vector<std::vector<std::string>> choices{
+      {}, {"--compression", "lz4"}, {"--compression", "none", "--images", "foxglove"}};
+  for (const auto& options : choices) {
+    std::vector<std::string> words{"convert", in("a.dsa"), in("a.mcap"), "--force"};
+    words.insert(words.end(), options.begin(), options.end());
+    ASSERT_EQ(palpate(words).exitCode, 0);
+    ASSERT_EQ(palpate({"convert", in("a.mcap"), in("b.palpate"), "--force"}).exitCode, 0);
+    EXPECT_TRUE(testing::readFile(in("b.palpate")) == testing::readFile(in("c.palpate")));
+  }
+  const auto info = palpate({"info", in("a.mcap"), "--json"});
+  EXPECT_NE(info.out.find("\"frames\": 64"), std::string::npos) << info.out;
+  EXPECT_EQ(palpate({"verify", in("a.mcap")}).exitCode, 0);
+  // By its first bytes, whatever its name.
+  std::filesystem::rename(in("a.mcap"), in("plain"));
+  EXPECT_EQ(palpate({"signals", in("plain")}).out, palpate({"signals", in("a.dsa")}).out);
+  expectOneLineError(palpate({"convert", in("a.dsa"), in("d.h5"), "--images", "ros"}),
+                     2,
+                     {"--images is for .mcap"});
+  expectOneLineError(
+      palpate({"convert", in("a.dsa"), in("d.mcap"), "--compression", "gzip"}), 2, {"compression"});
+  testing::writeFile(in("x.mcap"), "hello");
+  expectOneLineError(palpate({"info", in("x.mcap")}), 1, {"no MCAP file"});
+}
+
 TEST_F(ConvertCommand, anExportSaysWhereItComesFromAndHasSeriesUnlessTheyAreLeftOut) {
   ASSERT_EQ(palpate({"convert", in("a.dsa"), in("a.h5"), "--filter", "median:size=3"}).exitCode, 0);
   ASSERT_EQ(palpate({"convert", in("a.dsa"), in("b.h5"), "--no-signals", "--no-slip"}).exitCode, 0);

@@ -105,6 +105,60 @@ TEST(RecordCommand, ASignalEndsItCleanly) {
   }
 }
 
+TEST(RecordCommand, AnMcapFileBesideEachPartHoldsTheSame) {
+  const TemporaryFolder folder;
+  const auto hand = handAt(300.0);
+  const auto result = palpate({"record",
+                               "--dsa",
+                               hand->dsaPort(),
+                               "-o",
+                               folder / "a.palpate",
+                               "--duration",
+                               "1.5",
+                               "--split-minutes",
+                               "0.0167",
+                               "--mcap",
+                               "--json"});
+  ASSERT_EQ(result.exitCode, 0) << result.err;
+  EXPECT_EQ(Json::parse(result.out).at("mcap_files").size(), 2u);
+  for (const char* name : {"a", "a_002"}) {
+    const Profile native = openRecording(folder / (name + std::string(".palpate")));
+    const Profile mcap = openRecording(folder / (name + std::string(".mcap")));
+    ASSERT_EQ(native.numFrames(), mcap.numFrames());
+    for (std::size_t i = 0; i < native.numFrames(); ++i) {
+      ASSERT_EQ(native.frame(i).values, mcap.frame(i).values);
+      ASSERT_EQ(native.frame(i).deviceMs, mcap.frame(i).deviceMs);
+    }
+  }
+  const auto again = palpate(
+      {"record", "--dsa", hand->dsaPort(), "-o", folder / "a_002.palpate", "--duration", "1"});
+  EXPECT_EQ(again.exitCode, 1);
+}
+
+// The emulated hand goes on; what was in the file for a second is there.
+TEST(RecordCommand, OfAKilledProcessTheMcapFileHasItsWholeChunks) {
+  const TemporaryFolder folder;
+  const auto hand = handAt(300.0);
+  const fs::path path = folder / "a.palpate";
+  BackgroundProgram program(PALPATE_PROGRAM,
+                            {"record", "--dsa", hand->dsaPort(), "-o", path.string(), "--mcap"});
+  ASSERT_TRUE(awaitFrames(path, 900));
+  program.signal(SIGKILL);
+  program.wait();
+  const auto opened = palpate({"convert", folder / "a.mcap", folder / "c.palpate"});
+  EXPECT_EQ(opened.exitCode, 1);
+  EXPECT_NE(opened.err.find("'palpate recover'"), std::string::npos) << opened.err;
+  EXPECT_EQ(palpate({"recover", folder / "a.mcap", folder / "b.palpate"}).exitCode, 3);
+  const Profile saved = openRecording(folder / "b.palpate");
+  const Profile native = openRecording(path);
+  EXPECT_GT(saved.numFrames(), 200u);
+  ASSERT_LE(saved.numFrames(), native.numFrames());
+  for (std::size_t i = 0; i < saved.numFrames(); ++i) {
+    ASSERT_EQ(saved.frameTimeUs(i), native.frameTimeUs(i));
+    ASSERT_EQ(saved.frame(i).values, native.frame(i).values);
+  }
+}
+
 TEST(RecordCommand, SplitPartsHoldEverythingOnce) {
   const TemporaryFolder folder;
   const auto hand = handAt(300.0);

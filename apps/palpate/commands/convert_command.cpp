@@ -119,15 +119,15 @@ int convertCommand(const Arguments& words) {
                    "       palpate convert PATH... -o TEMPLATE",
        .purpose =
            "Converts a recording; the ending of OUT chooses the format: .dsa, .palpate, .csv "
-           "(with\nOUT.angles.csv and OUT.temperatures.csv beside it), .npz (for NumPy) or .jsonl "
-           "(frames as\nschunk_sdh/TactileSensor). "
+           "(with\nOUT.angles.csv and OUT.temperatures.csv beside it), .npz (for NumPy), .h5, .mat, "
+           ".mcap\n(docs/bridges.md) or .jsonl (frames as schunk_sdh/TactileSensor). "
            "Of a FOLDER every recording\nbelow it, into OUTFOLDER under the same names with "
            "the ending of FORM, a line per file; one that\nfails doesn't stop the others: exit "
            "code 3.",
        .options = withBatchOptions(withExportOptions(withFilterOptions(
            {{"from", "N", "first frame, default 0"},
             {"to", "M", "last frame (inclusive), default the last one"},
-            {"to-form", "FORM", "of a folder: dsa, palpate, csv, npz, jsonl, h5 or mat"}}))),
+            {"to-form", "FORM", "of a folder: dsa, palpate, csv, npz, jsonl, h5, mat or mcap"}}))),
        .example = "palpate convert foam_ball.dsa grasp3.palpate --from 700 --to 1400",
        .minArguments = 1},
       words);

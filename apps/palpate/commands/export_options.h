@@ -13,7 +13,7 @@ namespace palpate::commands {
 
 // --units-row of commands that print CSV.
 OptionSpec unitsRowOption();
-// `options` followed by --no-signals, --no-slip and --units-row.
+// `options` followed by --no-signals, --no-slip, --compression, --images and --units-row.
 std::vector<OptionSpec> withExportOptions(std::vector<OptionSpec> options);
 
 // What the options choose for a recording that is filtered by `filters` and saved as `out`. Throws

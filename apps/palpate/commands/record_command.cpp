@@ -94,6 +94,7 @@ RecordingOptions recordingOptions(const CommandLine& given) {
     options.splitS = *minutes * 60.0;
   if (const auto megabytes = given.number("split-mb", 0.1, 1e6))
     options.splitBytes = static_cast<std::int64_t>(*megabytes * 1e6);
+  if (given.has("mcap")) options.mcap.emplace();
   return options;
 }
 
@@ -146,6 +147,8 @@ std::string recordJsonText(const RecordingReport& report, const DeviceStatus& de
   Json files = jsonList(report.paths, [](const fs::path& path) { return path.string(); });
   return Json::object()
       .set("files", files)
+      .set("mcap_files",
+           jsonList(report.mcapPaths, [](const fs::path& path) { return path.string(); }))
       .set("frames", report.frames)
       .set("angles", report.angles)
       .set("temperatures", report.temperatures)
@@ -218,6 +221,7 @@ CommandSpec recordSpec() {
                   {"notes", "TEXT", "any other notes"},
                   {"split-minutes", "M", "a new file after M minutes: NAME_002.palpate, .."},
                   {"split-mb", "N", "a new file at about N MB"},
+                  {"mcap", "", "write OUT.mcap beside it, too: for Foxglove and ROS 2"},
                   remoteOption(),
                   socketOption(),
                   {"to",
@@ -270,7 +274,11 @@ int recordCommand(const Arguments& words) {
                                ? recordJsonText(report, device)
                                : lineText(report, device) + refusedText(session, device);
   if (given.has("json") || !given.quiet()) std::printf("%s\n", text.c_str());
-  if (report.complete) return kDone;
+  if (!report.mcapFailure.empty())
+    std::fprintf(stderr,
+                 "palpate: the MCAP file stopped before the end: %s\n",
+                 escapedLine(report.mcapFailure).c_str());
+  if (report.complete) return report.mcapFailure.empty() ? kDone : kPartlyDone;
   std::fprintf(stderr, "palpate: %s\n", escapedLine(report.message).c_str());
   return kPartlyDone;
 }

@@ -3,17 +3,22 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 
 #include <palpate/filter/recipe.h>
 #include <palpate/model/profile.h>
+#include <palpate/recording/mcap_recording.h>
 #include <palpate/recording/recording.h>
 
 namespace palpate {
 
 struct ExportChoices {
-  bool withSignals = true;  // of .h5 and .mat: the characteristic signals
-  bool withSlip = true;     // of .h5 and .mat: the slip
+  bool withSignals = true;  // of .h5, .mat and .mcap: the characteristic signals
+  bool withSlip = true;     // of .h5, .mat and .mcap: the slip
   bool unitsRow = false;    // of .csv: a second row with the units
+  // Of .mcap; empty: as McapWriteOptions has them.
+  std::optional<McapCompression> compression = {};
+  std::optional<McapImages> images = {};
   bool operator==(const ExportChoices&) const = default;
 };
 
@@ -24,9 +29,9 @@ void requirePossible(const ExportChoices& choices,
                      const std::filesystem::path& out);
 
 // What is saved beside `profile`, which was read from `in`, filtered by `filters` (empty: not
-// filtered) and is to be saved as `out`: what was said of the recording, and for .h5 and .mat the
-// series and where all of it comes from (`in` is read for its hash). Throws as requirePossible(),
-// FileError, FormatError.
+// filtered) and is to be saved as `out`: what was said of the recording, and for .h5, .mat and
+// .mcap the series and where all of it comes from (`in` is read for its hash). Throws as
+// requirePossible(), FileError, FormatError.
 SaveExtras exportExtras(const ExportChoices& choices,
                         const std::filesystem::path& in,
                         const std::filesystem::path& out,

@@ -21,6 +21,7 @@
 
 #include <palpate/capture/capture_queue.h>
 #include <palpate/core/time.h>
+#include <palpate/recording/mcap_recording.h>
 
 namespace palpate {
 
@@ -54,9 +55,17 @@ struct RecordingOptions {
   std::optional<double> stopAfterS;             // > 0
   std::optional<std::int64_t> stopAfterFrames;  // >= 1
   std::optional<std::int64_t> stopAfterBytes;   // size of all parts, approximate; >= 64 KiB
+  // Writes the same into NAME.mcap beside each part, too, on a thread of its own, to which nothing
+  // waits. Where that can't keep up or its disk fails it stops, with an event "alarm"; the
+  // recording goes on. What has been taken for a second is in the file at the latest.
+  std::optional<McapWriteOptions> mcap;
+  std::size_t mcapQueueItems = 16'384;  // that wait for it at most
   // Throws std::invalid_argument naming the field.
   void validate() const;
 };
+
+// Path of the MCAP file beside a part: NAME.mcap.
+std::filesystem::path mcapPathOf(const std::filesystem::path& path);
 
 // Path of a part: NAME.palpate is followed by NAME_002.palpate, ..; existing files are skipped.
 std::filesystem::path partPath(const std::filesystem::path& path, int part);
@@ -83,6 +92,10 @@ struct RecordingReport {
   double rateHz = 0.0;             // 1 / median interval; 0 with fewer than two frames
   double meanRateHz = 0.0;         // (frames - 1) / duration
   std::int64_t bytes = 0;          // on disk, all parts
+  // RecordingOptions::mcap: the files that were begun, and why that stopped before the end; empty:
+  // it did not.
+  std::vector<std::filesystem::path> mcapPaths;
+  std::string mcapFailure;
   // True when every part is finished and nothing was lost, refused or left unwritten.
   bool complete = true;
   std::string message;  // one line that describes a problem; empty: none
@@ -137,8 +150,9 @@ class Recorder {
   // the thread runs or a recording is made.
   void clearPreTrigger();
 
-  // Starts a recording. Throws FileError (exists, no such folder, not writable),
-  // std::invalid_argument (not a .palpate, options), std::logic_error (already recording).
+  // Starts a recording. Throws FileError (it or its NAME.mcap exists, no such folder, not
+  // writable), std::invalid_argument (not a .palpate, options), std::logic_error (already
+  // recording).
   void start(RecordingOptions options);
   // Writes all items pushed before and finishes the file. Returns the last report if no recording
   // runs (it may have stopped by itself), or an empty one if there never was a recording.

@@ -12,14 +12,15 @@
 #include <palpate/core/progress.h>
 #include <palpate/model/profile.h>
 #include <palpate/recording/exported_series.h>
+#include <palpate/recording/mcap_recording.h>
 #include <palpate/recording/recording_event.h>
 
 namespace palpate {
 
 // Reads a recording; its form is told by its first bytes, never by its name (a .dsa is bzip2 or
-// XML). HDF5 files that Palpate has written (hdf5_recording.h) are recordings, too. `threads`: of a
-// .dsa, as DsaReadOptions::threads. Throws FileError, FormatError, Cancelled; what() is one line
-// that says what to do.
+// XML). HDF5 files that Palpate has written (hdf5_recording.h) and MCAP files (mcap_recording.h)
+// are recordings, too. `threads`: of a .dsa, as DsaReadOptions::threads. Throws FileError,
+// FormatError, Cancelled; what() is one line that says what to do.
 Profile openRecording(const std::filesystem::path& path,
                       const Progress& progress = {},
                       std::size_t threads = 0);
@@ -31,6 +32,8 @@ bool isNativeRecording(const std::filesystem::path& path);
 // Whether a file is taken for HDF5: by its first bytes; where they are those of no recording
 // (damaged), by the ending .h5 or .hdf5 of its name. Throws FileError.
 bool isHdf5Recording(const std::filesystem::path& path);
+// Whether a file is taken for MCAP: in the same way, by the ending .mcap. Throws FileError.
+bool isMcapRecording(const std::filesystem::path& path);
 
 // A recording as far as it can be read, whole or damaged.
 struct ReadableRecording {
@@ -59,7 +62,7 @@ VerifyReport verifyRecording(const std::filesystem::path& path,
                              std::size_t threads = 0);
 
 // The forms a recording can be saved in.
-enum class RecordingFormat { kDsa, kPalpate, kCsv, kNpz, kJsonLines, kHdf5, kMat };
+enum class RecordingFormat { kDsa, kPalpate, kCsv, kNpz, kJsonLines, kHdf5, kMat, kMcap };
 struct RecordingForm {
   RecordingFormat format;
   const char* ending;   // with its dot: ".palpate"
@@ -71,14 +74,14 @@ std::span<const RecordingForm> recordingForms() noexcept;
 // naming them all.
 RecordingFormat formatOf(const std::filesystem::path& path);
 
-// What was noted or happened in a recording: the events of a .palpate or .h5, the sidecar
+// What was noted or happened in a recording: the events of a .palpate, .h5 or .mcap, the sidecar
 // NAME.dsa.notes.json of a .dsa (none: no events). Throws FileError, FormatError.
 EventsReport readEvents(const std::filesystem::path& path);
 
 // What was said of a recording as a whole when it was made: by the device about itself, by the
 // operator about the run. These are the keys and values of the table `meta` of a native recording
-// (docs/palpate_format.md), which an .h5 keeps: "serial", "firmware", "settings" (JSON),
-// "operator", ..; a .dsa has none. Throws FileError, FormatError.
+// (docs/palpate_format.md), which an .h5 and an .mcap keep: "serial", "firmware", "settings"
+// (JSON), "operator", ..; a .dsa has none. Throws FileError, FormatError.
 std::map<std::string, std::string> readRecordingMeta(const std::filesystem::path& path);
 
 // Throws FileError when both name the same file (by a link, too): nothing is written onto its
@@ -91,15 +94,17 @@ struct SaveReport {
 };
 // What is saved beside a profile and its events, in the forms that have a place for it.
 struct SaveExtras {
-  // As readRecordingMeta(): into a .palpate and an .h5. What the profile says by itself (hand,
-  // serial number, ..) is added.
+  // As readRecordingMeta(): into a .palpate, an .h5 and an .mcap. What the profile says by itself
+  // (hand, serial number, ..) is added.
   std::map<std::string, std::string> meta = {};
-  ExportExtras exported = {};  // into an .h5 and a .mat; its series are read to their end
+  // Into an .h5, a .mat and an .mcap; its series are read to their end.
+  ExportExtras exported = {};
+  McapWriteOptions mcap = {};  // of an .mcap
   bool unitsRow = false;       // of a .csv: see writeCsv()
 };
 // Saves a profile in the form of PATH's ending: whole or not at all. Events go into a .palpate, an
-// .h5 and a .mat, into the sidecar of a .dsa, into `meta` of an .npz; a .csv or .jsonl has no place
-// for them. Throws FileError, Cancelled.
+// .h5, an .mcap and a .mat, into the sidecar of a .dsa, into `meta` of an .npz; a .csv or .jsonl
+// has no place for them. Throws FileError, Cancelled.
 SaveReport saveRecording(const Profile& profile,
                          std::span<const RecordingEvent> events,
                          const std::filesystem::path& path,

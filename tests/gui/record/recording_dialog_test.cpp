@@ -79,6 +79,9 @@ TEST_F(RecordingDialogTest, ShowsWhatIsGivenAndGivesItBack) {
   EXPECT_EQ(back.object, "foam ball");
   EXPECT_EQ(back.notes, "first");
   EXPECT_TRUE(back.askEachTime);
+  EXPECT_FALSE(back.withMcap);
+  find<QCheckBox>("recordingMcap")->click();
+  EXPECT_TRUE(dialog_->settings().withMcap);
   EXPECT_EQ(back.markLabels, given_.markLabels);
 }
 

@@ -43,6 +43,7 @@ TEST_F(RecordingSettingsTest, WhatWasSavedComesBack) {
   settings_.operatorName = "Zo\u00eb, \"the\" operator";
   settings_.notes = "two\nlines; 22 \u00b0C = warm";
   settings_.askEachTime = false;
+  settings_.withMcap = true;
   settings_.markLabels[0] = "zero";
   settings_.markLabels[7] = "";  // taken away on purpose: no default comes back
   {
@@ -56,6 +57,8 @@ TEST_F(RecordingSettingsTest, WhatWasSavedComesBack) {
   EXPECT_EQ(loaded.object, "foam ball");
   EXPECT_EQ(loaded.notes, settings_.notes);
   EXPECT_FALSE(loaded.askEachTime);
+  EXPECT_TRUE(loaded.withMcap);
+  EXPECT_TRUE(recordingOptions(loaded, folder_ / "a.palpate").mcap);
   EXPECT_EQ(loaded.markLabels, settings_.markLabels);
 }
 

@@ -99,7 +99,8 @@ bool usesFilters(const BatchChoices& choices) {
 }
 
 bool usesSeries(const BatchChoices& choices) {
-  return choices.work == BatchWork::kConvert && (choices.form == "h5" || choices.form == "mat");
+  return choices.work == BatchWork::kConvert &&
+         (choices.form == "h5" || choices.form == "mat" || choices.form == "mcap");
 }
 
 bool usesUnitsRow(const BatchChoices& choices) {

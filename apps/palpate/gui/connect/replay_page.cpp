@@ -64,10 +64,11 @@ ReplayPage::ReplayPage(const QStringList& recent, Theme theme, QWidget* parent) 
   grid->setRowStretch(5, 1);
   grid->setColumnStretch(1, 1);
   askForRecording = [this] {
-    return QFileDialog::getOpenFileName(this,
-                                        "Choose a recording",
-                                        QFileInfo(recording()).path(),
-                                        "Recordings (*.palpate *.dsa *.h5 *.hdf5);;All files (*)");
+    return QFileDialog::getOpenFileName(
+        this,
+        "Choose a recording",
+        QFileInfo(recording()).path(),
+        "Recordings (*.palpate *.dsa *.h5 *.hdf5 *.mcap);;All files (*)");
   };
   connect(path_, &QComboBox::editTextChanged, this, &ReplayPage::refresh);
   connect(browse, &QPushButton::clicked, this, [this] {

@@ -62,7 +62,7 @@ OpenFeature::OpenFeature(WindowState& windowState, QWidget* window)
         window,
         "Open recordings",
         windowState.recent.lastFolder(),
-        "Recordings (*.dsa *.palpate *.h5 *.hdf5 *.xml);;All files (*)");
+        "Recordings (*.dsa *.palpate *.h5 *.hdf5 *.mcap *.xml);;All files (*)");
   };
   connectOpener();
   connectActions();

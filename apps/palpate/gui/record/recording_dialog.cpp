@@ -166,6 +166,10 @@ QWidget* RecordingDialog::makeFields() {
   browse->setAutoDefault(false);
   connect(browse, &QPushButton::clicked, this, &RecordingDialog::browse);
   add("&Folder", folder_, browse);
+  mcap_ = new QCheckBox("Also an &MCAP file, for Foxglove and ROS 2", fields);
+  mcap_->setObjectName("recordingMcap");
+  mcap_->setToolTip("Written beside the recording, under its name");
+  grid->addWidget(mcap_, row, 1, 1, 2);
   return fields;
 }
 
@@ -249,6 +253,7 @@ void RecordingDialog::fill(const RecordingSettings& settings) {
   notes_->setPlainText(settings.notes);
   template_->setText(settings.nameTemplate);
   folder_->setText(settings.folder);
+  mcap_->setChecked(settings.withMcap);
   ask_->setChecked(settings.askEachTime);
   marks_->setLabels(settings.markLabels);
 }
@@ -260,6 +265,7 @@ RecordingSettings RecordingDialog::settings() const {
   settings.notes = notes_->toPlainText().trimmed();
   settings.nameTemplate = template_->text().trimmed();
   settings.folder = folderFromText(folder_->text());
+  settings.withMcap = mcap_->isChecked();
   settings.askEachTime = ask_->isChecked();
   settings.markLabels = marks_->labels();
   return settings;

@@ -72,6 +72,7 @@ class RecordingDialog : public QDialog {
   QLabel* place_ = nullptr;
   QLabel* problem_ = nullptr;
   KeyLabels* marks_ = nullptr;
+  QCheckBox* mcap_ = nullptr;
   QCheckBox* ask_ = nullptr;
   QPushButton* ok_ = nullptr;
   NextRecording next_;

@@ -22,6 +22,7 @@ constexpr const char* kTemplate = "recording/template";
 constexpr const char* kOperator = "recording/operator";
 constexpr const char* kObject = "recording/object";
 constexpr const char* kNotes = "recording/notes";
+constexpr const char* kMcap = "recording/mcap";
 constexpr const char* kAsk = "recording/ask";
 
 QString labelKey(std::size_t digit) { return QString("recording/label%1").arg(digit); }
@@ -93,6 +94,7 @@ RecordingSettings loadRecordingSettings(const QSettings& settings) {
   recording.operatorName = recordingSettingsTextOf(settings, kOperator, {});
   recording.object = recordingSettingsTextOf(settings, kObject, {});
   recording.notes = recordingSettingsTextOf(settings, kNotes, {});
+  recording.withMcap = settings.value(kMcap, false).toBool();
   recording.askEachTime = settings.value(kAsk, true).toBool();
   for (std::size_t digit = 0; digit < recording.markLabels.size(); ++digit) {
     QString& label = recording.markLabels[digit];
@@ -107,6 +109,7 @@ void saveRecordingSettings(const RecordingSettings& recording, QSettings& settin
   settings.setValue(kOperator, recording.operatorName);
   settings.setValue(kObject, recording.object);
   settings.setValue(kNotes, recording.notes);
+  settings.setValue(kMcap, recording.withMcap);
   settings.setValue(kAsk, recording.askEachTime);
   for (std::size_t digit = 0; digit < recording.markLabels.size(); ++digit)
     settings.setValue(labelKey(digit), recording.markLabels[digit]);
@@ -140,6 +143,7 @@ RecordingOptions recordingOptions(const RecordingSettings& recording, const fs::
   note("operator", recording.operatorName);
   note("object", recording.object);
   note("notes", recording.notes);
+  if (recording.withMcap) options.mcap.emplace();
   return options;
 }
 

@@ -20,6 +20,7 @@ struct RecordingSettings {
   QString operatorName;
   QString object;
   QString notes;
+  bool withMcap = false;  // an MCAP file beside each recording
   bool askEachTime = true;
   // Labels of the keys 0..9. An empty text leaves its key without a label.
   std::array<QString, 10> markLabels = {

@@ -1,0 +1,132 @@
+// A recording as an MCAP file, the container of ROS 2 and Foxglove (specification: mcap.dev/spec);
+// docs/bridges.md has its topics. It holds all of a recording (frames, stamps, angles,
+// temperatures, events, hand, what was said of it) bit by bit, so that it can be read back, and
+// beside that where it comes from and series that were computed of its frames. MCAP files of other
+// programs are read as far as they have images of one channel.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <palpate/core/output_file.h>
+#include <palpate/core/progress.h>
+#include <palpate/model/profile.h>
+#include <palpate/recording/exported_series.h>
+#include <palpate/recording/recording_event.h>
+
+namespace palpate {
+
+// The version of the topics that is written, and the newest that is read.
+constexpr int kMcapLayoutVersion = 1;
+
+// How the chunks of a file are compressed.
+enum class McapCompression { kNone, kLz4, kZstd };
+// "none", "lz4", "zstd".
+const char* nameOf(McapCompression compression) noexcept;
+
+// The messages that hold the taxels of a matrix.
+enum class McapImages {
+  kRos,       // sensor_msgs/msg/Image in CDR; the file has the profile "ros2"
+  kFoxglove,  // foxglove.RawImage in protobuf; the file has no profile
+};
+
+struct McapWriteOptions {
+  McapCompression compression = McapCompression::kZstd;
+  int level = 1;  // of Zstandard, 1..19
+  McapImages images = McapImages::kRos;
+  std::size_t chunkBytes = 1u << 20;  // at about this size a chunk ends, 1 KiB..64 MiB
+  // Threads that compress; 0: as many as the machine runs at once. The file is the same.
+  std::size_t threads = 0;
+  // Throws std::invalid_argument naming the field.
+  void validate() const;
+};
+
+// What is written of a recording. All of it must outlive the call.
+struct McapContent {
+  const Profile& profile;
+  std::span<const RecordingEvent> events;
+  // As readRecordingMeta(); what the profile says by itself (hand, serial number, ..) is added.
+  const std::map<std::string, std::string>& meta;
+  const ExportExtras& extras;  // its series are read to their end
+};
+
+// Writes PATH, whole or not at all. Memory is bounded, whatever the length of the recording. Throws
+// FileError, Cancelled, std::invalid_argument (options out of range), and what reading throws.
+void writeMcap(const McapContent& content,
+               const std::filesystem::path& path,
+               Overwrite overwrite = Overwrite::kRefuse,
+               const Progress& progress = {},
+               const McapWriteOptions& options = {});
+
+// Writes an MCAP file beside a recording that is being made. The file is there from the beginning;
+// when the process is killed, its complete chunks can be read (recoverRecording()). Not
+// thread-safe.
+class McapLiveWriter {
+ public:
+  // Creates PATH (never replaces one). `hand`: its layout is that of all frames. `meta`: as for a
+  // native recording. Throws FileError, std::invalid_argument (options).
+  McapLiveWriter(const std::filesystem::path& path,
+                 const HandDescription& hand,
+                 const std::map<std::string, std::string>& meta,
+                 const McapWriteOptions& options = {});
+  // Without finish() the file stays an unfinished one.
+  ~McapLiveWriter();
+  McapLiveWriter(const McapLiveWriter&) = delete;
+  McapLiveWriter& operator=(const McapLiveWriter&) = delete;
+
+  // Each appends. Throw FileError (the disk is full, ..): the file ends with its last whole chunk,
+  // and nothing more can be added. Throw std::invalid_argument (a frame of another layout, stamps
+  // that don't ascend): nothing was added.
+  void addFrame(const TactileFrame& frame);
+  void addAngles(const JointAngles& angles);
+  void addTemperatures(const Temperatures& temperatures);
+  void addEvent(const RecordingEvent& event);
+  // Writes what waits for its chunk. Throws FileError.
+  void flush();
+  // Writes what waits and the summary, and syncs the file. Throws FileError.
+  void finish();
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+// A recording in an MCAP file. Stamps lie in memory; frames, angles and temperatures are read when
+// they are asked for, and the profile is safe from several threads.
+struct McapRecording {
+  Profile profile;
+  std::vector<RecordingEvent> events;
+  std::map<std::string, std::string> meta;
+  Provenance provenance;
+  std::string damage;  // of recoverMcap(), one line: what is missing; empty: nothing
+};
+
+// Reads a whole MCAP file through, all its checksums, and opens it. Of another program's file each
+// topic of images becomes a matrix of a plain hand, in the order of the topics' names: messages
+// sensor_msgs/msg/Image (CDR) of the encodings mono8, mono16, 8UC1, 16UC1, 32FC1. A frame is made
+// at every stamp of any of them and holds the last image of each; the angles are those of the first
+// topic of sensor_msgs/msg/JointState, as if all joints turned. Throws FileError; FormatError
+// where it is cut off, damaged, compressed in another way, of a newer layout, where images have
+// several sizes, or none is there; Cancelled.
+McapRecording readMcap(const std::filesystem::path& path,
+                       const Progress& progress = {},
+                       std::size_t threads = 0);
+// Reads what can be read of a file that is cut off or damaged: without chunks whose checksum is
+// wrong, and up to where it was cut. Throws FileError, FormatError (nothing can be read),
+// Cancelled.
+McapRecording recoverMcap(const std::filesystem::path& path,
+                          const Progress& progress = {},
+                          std::size_t threads = 0);
+// Events, or what was said of the recording, of a file that Palpate has written; of others none.
+// Only what they need is read. Throw as readMcap().
+std::vector<RecordingEvent> readMcapEvents(const std::filesystem::path& path);
+std::map<std::string, std::string> readMcapMeta(const std::filesystem::path& path);
+
+}  // namespace palpate

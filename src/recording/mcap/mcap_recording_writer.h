@@ -1,0 +1,71 @@
+// The messages of a recording, written into an MCAP file sample by sample; writeMcap() and
+// McapLiveWriter use it. Private to this module.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "palpate/recording/mcap_recording.h"
+
+#include "recording/mcap/mcap_file_writer.h"
+
+namespace palpate {
+
+class McapRecordingWriter {
+ public:
+  // `counts`: all frames have whole counts; without it each frame tells. What the profile says by
+  // itself stands in `meta` already.
+  McapRecordingWriter(McapFileWriter::Write write,
+                      const HandDescription& hand,
+                      std::optional<bool> counts,
+                      const std::map<std::string, std::string>& meta,
+                      const Provenance& provenance,
+                      const McapWriteOptions& options);
+
+  // Begin a channel. Call them before the samples.
+  void beginAngles(std::size_t width);
+  void beginTemperatures(std::size_t width);
+  std::uint16_t beginSeries(const std::string& name,
+                            const std::vector<ExportedSeries::Column>& columns);
+
+  // Throw std::invalid_argument (another number of values, a value that is no count).
+  void addFrame(const TactileFrame& frame);
+  void addAngles(const JointAngles& angles);
+  void addTemperatures(const Temperatures& temperatures);
+  void addEvent(const RecordingEvent& event);
+  void addRow(std::uint16_t series, std::int64_t timeUs, std::span<const double> values);
+
+  McapFileWriter& file() noexcept { return file_; }
+
+ private:
+  std::uint16_t valuesChannel(const std::string& topic,
+                              const std::vector<ExportedSeries::Column>& columns);
+  void addValues(std::uint16_t channel, std::int64_t timeUs, std::span<const double> values);
+  void addImage(std::size_t matrix, const TactileFrame& frame, bool counts);
+
+  const HandDescription hand_;
+  const std::optional<bool> counts_;
+  const McapImages images_;
+  McapFileWriter file_;
+  std::optional<std::uint16_t> valuesSchema_;
+  std::uint16_t frames_ = 0;
+  std::vector<std::uint16_t> imageChannels_;
+  std::vector<std::string> frameIds_;
+  std::uint16_t events_ = 0;
+  std::uint16_t log_ = 0;
+  std::optional<std::uint16_t> angles_;
+  std::uint16_t jointStates_ = 0;
+  std::string jointNames_;  // of a JointState: from behind the stamp to before the positions
+  std::optional<std::uint16_t> temperatures_;
+  std::size_t numAngles_ = 0;
+  std::size_t numTemperatures_ = 0;
+};
+
+// `meta` as it is stored: without what belongs to the file of its source or stands elsewhere.
+std::map<std::string, std::string> mcapStoredMeta(const std::map<std::string, std::string>& meta,
+                                                  const HandDescription& hand);
+
+}  // namespace palpate

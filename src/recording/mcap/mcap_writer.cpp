@@ -1,0 +1,271 @@
+// writeMcap() and McapLiveWriter of mcap_recording.h.
+#include <algorithm>
+#include <cerrno>
+#include <exception>
+#include <limits>
+#include <stdexcept>
+#include <system_error>
+#include <thread>
+#include <utility>
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include "palpate/core/bounded_queue.h"
+#include "palpate/core/error.h"
+#include "palpate/core/file_descriptor.h"
+#include "palpate/model/hand_file.h"
+#include "palpate/recording/mcap_recording.h"
+
+#include "recording/mcap/mcap_recording_writer.h"
+
+namespace palpate {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr std::size_t kMcapRowsPerBlock = 1024;
+constexpr std::size_t kMcapFramesPerReport = 1024;
+
+// A series that is being computed by a thread of its own.
+class McapRunningSeries {
+ public:
+  explicit McapRunningSeries(ExportedSeries& series)
+      : series_(series), width_(series.columns().size()), left_(series.numRows()) {
+    thread_ = std::jthread([this] { compute(); });
+  }
+  ~McapRunningSeries() { queue_.close(); }
+
+  // Time of the next row; empty after the last one.
+  std::optional<std::int64_t> nextUs() {
+    if (left_ == 0) return std::nullopt;
+    if (at_ == block_.times.size()) take();
+    return block_.times[at_];
+  }
+  std::span<const double> row() const { return {block_.values.data() + at_ * width_, width_}; }
+  void advance() {
+    ++at_;
+    --left_;
+  }
+
+ private:
+  struct Block {
+    std::vector<std::int64_t> times;
+    std::vector<double> values;
+    std::exception_ptr failure;
+  };
+
+  void take() {
+    auto block = queue_.pop();
+    if (!block) throw std::logic_error("writeMcap: a series has fewer rows than it says");
+    if (block->failure) std::rethrow_exception(block->failure);
+    block_ = std::move(*block);
+    at_ = 0;
+  }
+
+  void compute() {
+    Block block;
+    try {
+      std::vector<double> row(width_);
+      std::int64_t timeUs = 0;
+      while (series_.next(timeUs, row)) {
+        block.times.push_back(timeUs);
+        block.values.insert(block.values.end(), row.begin(), row.end());
+        if (block.times.size() < kMcapRowsPerBlock) continue;
+        if (!queue_.push(std::exchange(block, {}))) return;
+      }
+      if (!block.times.empty()) queue_.push(std::move(block));
+    } catch (...) {
+      block = {};
+      block.failure = std::current_exception();
+      queue_.push(std::move(block));
+    }
+    queue_.close();
+  }
+
+  ExportedSeries& series_;
+  const std::size_t width_;
+  std::size_t left_;
+  Block block_;
+  std::size_t at_ = 0;
+  BoundedQueue<Block> queue_{4};
+  std::jthread thread_;  // last: it ends before what it uses
+};
+
+[[noreturn]] void throwMcapCantWrite(const fs::path& path, int error) {
+  throw FileError(path, "can't be written: " + std::generic_category().message(error));
+}
+
+}  // namespace
+
+void writeMcap(const McapContent& content,
+               const fs::path& path,
+               Overwrite overwrite,
+               const Progress& progress,
+               const McapWriteOptions& options) {
+  options.validate();
+  const Profile& profile = content.profile;
+  OutputFile out(path, overwrite);
+  std::map<std::string, std::string> meta = content.meta;
+  const ProfileInfo& info = profile.info();
+  if (!info.serial.empty()) meta["serial"] = info.serial;
+  if (!info.firmware.empty()) meta["firmware"] = info.firmware;
+  if (!info.sensorRevision.empty()) meta["sensor_revision"] = info.sensorRevision;
+  McapRecordingWriter writer([&out](std::string_view bytes) { out.write(bytes); },
+                             profile.hand(),
+                             info.valueType == ValueType::kCounts,
+                             meta,
+                             content.extras.provenance,
+                             options);
+  if (profile.numAngles() > 0) writer.beginAngles(profile.angles(0).deg.size());
+  if (profile.numTemperatures() > 0) writer.beginTemperatures(profile.temperatures(0).degC.size());
+  std::vector<std::pair<std::uint16_t, std::unique_ptr<McapRunningSeries>>> series;
+  for (const auto& one : content.extras.series)
+    series.emplace_back(writer.beginSeries(one->name(), one->columns()),
+                        std::make_unique<McapRunningSeries>(*one));
+
+  // All series in order of time; at equal times what is first here.
+  constexpr std::int64_t kNever = std::numeric_limits<std::int64_t>::max();
+  std::size_t event = 0;
+  std::size_t temperature = 0;
+  std::size_t angle = 0;
+  const auto writeUntil = [&](std::int64_t endUs, bool all) {
+    const auto isDue = [&](std::int64_t timeUs) { return all || timeUs <= endUs; };
+    const auto eventUs = [&] {
+      return event < content.events.size() ? content.events[event].tUs : kNever;
+    };
+    const auto temperatureUs = [&] {
+      return temperature < profile.numTemperatures() ? profile.temperatureTimeUs(temperature)
+                                                     : kNever;
+    };
+    const auto angleUs = [&] {
+      return angle < profile.numAngles() ? profile.angleTimeUs(angle) : kNever;
+    };
+    while (true) {
+      const bool anyEvent = event < content.events.size() && isDue(eventUs());
+      const bool anyTemperature = temperature < profile.numTemperatures() && isDue(temperatureUs());
+      const bool anyAngle = angle < profile.numAngles() && isDue(angleUs());
+      if (anyEvent && (!anyTemperature || eventUs() <= temperatureUs()) &&
+          (!anyAngle || eventUs() <= angleUs()))
+        writer.addEvent(content.events[event++]);
+      else if (anyTemperature && (!anyAngle || temperatureUs() <= angleUs()))
+        writer.addTemperatures(profile.temperatures(temperature++));
+      else if (anyAngle)
+        writer.addAngles(profile.angles(angle++));
+      else
+        break;
+    }
+  };
+  const auto writeRows = [&](std::int64_t endUs, bool all) {
+    for (auto& [channel, rows] : series)
+      for (auto next = rows->nextUs(); next && (all || *next <= endUs); next = rows->nextUs()) {
+        writer.addRow(channel, *next, rows->row());
+        rows->advance();
+      }
+  };
+  TactileFrame frame;
+  for (std::size_t i = 0; i < profile.numFrames(); ++i) {
+    reportProgress(progress, i, profile.numFrames(), kMcapFramesPerReport);
+    profile.readFrame(i, frame);
+    writeUntil(frame.hostUs, false);
+    writer.addFrame(frame);
+    writeRows(frame.hostUs, false);
+  }
+  writeUntil(0, true);
+  writeRows(0, true);
+  writer.file().finish();
+  out.commit();
+}
+
+struct McapLiveWriter::Impl {
+  Impl(const fs::path& givenPath,
+       const HandDescription& hand,
+       const std::map<std::string, std::string>& meta,
+       McapWriteOptions options)
+      : path(givenPath) {
+    options.validate();
+    options.threads = 1;
+    constexpr mode_t kMode = 0666;  // reduced by the umask, as for other files
+    file = FileDescriptor(
+        ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC | O_NOFOLLOW, kMode));
+    if (file.get() < 0 && errno == EEXIST) throw FileError(path, "exists already");
+    if (file.get() < 0) throwMcapCantWrite(path, errno);
+    Provenance from;
+    const auto program = meta.find("program");
+    if (program != meta.end()) from.program = program->second;
+    writer = std::make_unique<McapRecordingWriter>(
+        [this](std::string_view bytes) { write(bytes); }, hand, std::nullopt, meta, from, options);
+    layout = hand.layout;
+  }
+
+  // Of bytes that can't be written whole none stays, so that the file ends with whole records.
+  void write(std::string_view bytes) {
+    if (failed) throwMcapCantWrite(path, EIO);
+    std::size_t done = 0;
+    while (done < bytes.size()) {
+      const ssize_t now = ::write(file.get(), bytes.data() + done, bytes.size() - done);
+      if (now < 0 && errno == EINTR) continue;
+      if (now < 0) {
+        const int error = errno;
+        failed = true;
+        if (::ftruncate(file.get(), static_cast<off_t>(size)) != 0) {
+          // What remains of the record is cut off; recovery finds that.
+        }
+        throwMcapCantWrite(path, error);
+      }
+      done += static_cast<std::size_t>(now);
+    }
+    size += bytes.size();
+  }
+
+  static void requireLater(std::optional<std::int64_t>& last, std::int64_t timeUs) {
+    if (last && timeUs <= *last)
+      throw std::invalid_argument("McapLiveWriter: a stamp is not later than the one before");
+    last = timeUs;
+  }
+
+  const fs::path path;
+  FileDescriptor file;
+  std::uint64_t size = 0;
+  bool failed = false;
+  std::shared_ptr<const SensorLayout> layout;
+  std::unique_ptr<McapRecordingWriter> writer;
+  std::optional<std::int64_t> lastFrameUs;
+  std::optional<std::int64_t> lastAnglesUs;
+  std::optional<std::int64_t> lastTemperaturesUs;
+};
+
+McapLiveWriter::McapLiveWriter(const fs::path& path,
+                               const HandDescription& hand,
+                               const std::map<std::string, std::string>& meta,
+                               const McapWriteOptions& options)
+    : impl_(std::make_unique<Impl>(path, hand, meta, options)) {}
+
+McapLiveWriter::~McapLiveWriter() = default;
+
+void McapLiveWriter::addFrame(const TactileFrame& frame) {
+  if (!frame.layout || !(*frame.layout == *impl_->layout))
+    throw std::invalid_argument("McapLiveWriter: a frame of another layout");
+  Impl::requireLater(impl_->lastFrameUs, frame.hostUs);
+  impl_->writer->addFrame(frame);
+}
+
+void McapLiveWriter::addAngles(const JointAngles& angles) {
+  Impl::requireLater(impl_->lastAnglesUs, angles.hostUs);
+  impl_->writer->addAngles(angles);
+}
+
+void McapLiveWriter::addTemperatures(const Temperatures& temperatures) {
+  Impl::requireLater(impl_->lastTemperaturesUs, temperatures.hostUs);
+  impl_->writer->addTemperatures(temperatures);
+}
+
+void McapLiveWriter::addEvent(const RecordingEvent& event) { impl_->writer->addEvent(event); }
+
+void McapLiveWriter::flush() { impl_->writer->file().flush(); }
+
+void McapLiveWriter::finish() {
+  impl_->writer->file().finish();
+  if (::fsync(impl_->file.get()) != 0) throwMcapCantWrite(impl_->path, errno);
+}
+
+}  // namespace palpate

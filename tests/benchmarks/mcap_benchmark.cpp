@@ -1,0 +1,93 @@
+// Recordings to MCAP (target: 100 MB of taxels per second, two bytes per taxel, in 300 MB of
+// memory) and back: a synthetic recording of an hour in a .palpate, in each compression, and with
+// its signals; beside it the same frames only read.
+#include <filesystem>
+
+#include <benchmark/benchmark.h>
+
+#include "palpate/emulator/synthetic_profile.h"
+#include "palpate/interop/derived_series.h"
+#include "palpate/recording/mcap_recording.h"
+#include "palpate/recording/recording.h"
+
+#include "testing/testing.h"
+
+namespace {
+
+using palpate::McapCompression;
+using palpate::Profile;
+
+// The recording, made once.
+Profile mcapHourOfFrames() {
+  static const palpate::testing::TemporaryFolder folder;
+  const std::filesystem::path path = folder / "hour.palpate";
+  if (!std::filesystem::exists(path)) {
+    palpate::SyntheticOptions options;
+    options.durationS = 3600.0;
+    options.grasps = 900;
+    options.noiseCounts = 3.0;
+    palpate::saveRecording(palpate::synthesize(options), {}, path);
+  }
+  return palpate::openRecording(path);
+}
+
+void setMcapTaxelBytes(benchmark::State& state, const Profile& profile) {
+  state.SetBytesProcessed(static_cast<std::int64_t>(state.iterations() * profile.numFrames() *
+                                                    profile.layout().numCells() * 2));
+}
+
+void writeMcapWith(benchmark::State& state, McapCompression compression, bool withSignals) {
+  const Profile profile = mcapHourOfFrames();
+  const palpate::testing::TemporaryFolder folder;
+  for ([[maybe_unused]] auto _ : state) {
+    palpate::ExportExtras extras;
+    extras.series =
+        palpate::derivedSeries(profile, {.withSignals = withSignals, .withSlip = false});
+    palpate::McapWriteOptions options;
+    options.compression = compression;
+    palpate::writeMcap(
+        {profile, {}, {}, extras}, folder / "a.mcap", palpate::Overwrite::kReplace, {}, options);
+  }
+  setMcapTaxelBytes(state, profile);
+}
+
+void mcapZstd(benchmark::State& state) { writeMcapWith(state, McapCompression::kZstd, false); }
+void mcapLz4(benchmark::State& state) { writeMcapWith(state, McapCompression::kLz4, false); }
+void mcapNone(benchmark::State& state) { writeMcapWith(state, McapCompression::kNone, false); }
+void mcapWithSignals(benchmark::State& state) {
+  writeMcapWith(state, McapCompression::kZstd, true);
+}
+
+// Opened, which reads all of it, and each frame read.
+void mcapRead(benchmark::State& state) {
+  const Profile profile = mcapHourOfFrames();
+  const palpate::testing::TemporaryFolder folder;
+  palpate::writeMcap({profile, {}, {}, palpate::ExportExtras{}}, folder / "a.mcap");
+  palpate::TactileFrame frame;
+  for ([[maybe_unused]] auto _ : state) {
+    const Profile read = palpate::openRecording(folder / "a.mcap");
+    for (std::size_t i = 0; i < read.numFrames(); ++i) read.readFrame(i, frame);
+  }
+  setMcapTaxelBytes(state, profile);
+}
+
+// The reference.
+void mcapPlainRead(benchmark::State& state) {
+  const Profile profile = mcapHourOfFrames();
+  palpate::TactileFrame frame;
+  for ([[maybe_unused]] auto _ : state)
+    for (std::size_t i = 0; i < profile.numFrames(); ++i) {
+      profile.readFrame(i, frame);
+      benchmark::DoNotOptimize(frame.values.data());
+    }
+  setMcapTaxelBytes(state, profile);
+}
+
+BENCHMARK(mcapPlainRead)->Unit(benchmark::kMillisecond)->UseRealTime();
+BENCHMARK(mcapNone)->Unit(benchmark::kMillisecond)->UseRealTime();
+BENCHMARK(mcapLz4)->Unit(benchmark::kMillisecond)->UseRealTime();
+BENCHMARK(mcapZstd)->Unit(benchmark::kMillisecond)->UseRealTime();
+BENCHMARK(mcapWithSignals)->Unit(benchmark::kMillisecond)->UseRealTime();
+BENCHMARK(mcapRead)->Unit(benchmark::kMillisecond)->UseRealTime();
+
+}  // namespace

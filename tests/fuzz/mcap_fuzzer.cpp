@@ -1,0 +1,80 @@
+// Fuzzes the reader of MCAP files, of Palpate's own and of other programs', and the salvage with
+// files of any kind. Beyond not crashing: what is read is finite and strictly ordered, and salvage
+// gives at least what the reader gives.
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+
+#include <unistd.h>
+
+#include "palpate/core/error.h"
+#include "palpate/recording/mcap_recording.h"
+
+namespace {
+
+using palpate::Profile;
+
+void require(bool condition) {
+  if (!condition) std::abort();
+}
+
+void requireSane(const Profile& profile) {
+  palpate::TactileFrame frame;
+  for (std::size_t i = 0; i < profile.numFrames(); ++i) {
+    profile.readFrame(i, frame);
+    for (const float value : frame.allValues()) require(std::isfinite(value));
+    require(i == 0 || profile.frameTimeUs(i) > profile.frameTimeUs(i - 1));
+  }
+  for (std::size_t i = 0; i < profile.numAngles(); ++i)
+    for (const double deg : profile.angles(i).deg) require(std::isfinite(deg));
+  for (std::size_t i = 0; i < profile.numTemperatures(); ++i)
+    for (const double degC : profile.temperatures(i).degC) require(std::isfinite(degC));
+}
+
+// A file of this process, in memory where the system has such a folder.
+const std::filesystem::path& inputPath() {
+  static const std::filesystem::path path = [] {
+    const std::filesystem::path memory = "/dev/shm";
+    const auto folder =
+        std::filesystem::is_directory(memory) ? memory : std::filesystem::temp_directory_path();
+    return folder / ("palpate-fuzz-" + std::to_string(getpid()) + ".mcap");
+  }();
+  return path;
+}
+
+template <typename Work>
+void attempt(Work work) {
+  try {
+    work();
+  } catch (const palpate::FormatError&) {
+  } catch (const palpate::FileError&) {
+  }
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const auto& path = inputPath();
+  std::ofstream(path, std::ios::binary)
+      .write(reinterpret_cast<const char*>(data), static_cast<std::streamsize>(size));
+  std::size_t frames = 0;
+  attempt([&] {
+    const auto recording = palpate::readMcap(path, {}, 1);
+    requireSane(recording.profile);
+    frames = recording.profile.numFrames();
+    require(recording.damage.empty());
+  });
+  attempt([&] { palpate::readMcapEvents(path); });
+  attempt([&] { palpate::readMcapMeta(path); });
+  std::size_t saved = 0;
+  attempt([&] {
+    const auto recording = palpate::recoverMcap(path, {}, 1);
+    requireSane(recording.profile);
+    saved = recording.profile.numFrames();
+  });
+  require(saved >= frames);
+  std::filesystem::remove(path);
+  return 0;
+}
