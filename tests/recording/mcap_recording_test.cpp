@@ -529,7 +529,7 @@ TEST(McapRecording, anyChangedByteIsFoundAndTheRestIsSaved) {
   const std::string whole = testing::readFile(folder / "a.mcap");
   std::mt19937 random(7);
   std::size_t saved = 0;
-  for (int round = 0; round < 200; ++round) {
+  for (int round = 0; round < 80; ++round) {
     std::string bad = whole;
     bad[8 + random() % (bad.size() - 16)] ^= static_cast<char>(1 + random() % 255);
     testing::writeFile(folder / "bad.mcap", bad);
@@ -547,7 +547,7 @@ TEST(McapRecording, anyChangedByteIsFoundAndTheRestIsSaved) {
       ASSERT_EQ(read.profile.frame(i).values, profile.frame(*at).values) << round;
     }
   }
-  EXPECT_GT(saved, 100u);
+  EXPECT_GT(saved, 40u);
 }
 
 TEST(McapRecording, aFileThatIsCutOffAnywhereIsReadUpToThere) {

@@ -15,8 +15,11 @@
 namespace palpate {
 namespace {
 
-// Memory for the result grows by at most this much beyond what was decompressed.
-constexpr std::size_t kMcapDecompressStep = 1u << 20;
+// Memory for the result grows by steps, which are in proportion to what is to be decompressed: a
+// false size costs little.
+constexpr std::size_t kLeastMcapStep = 64u << 10;
+constexpr std::size_t kMostMcapStep = 4u << 20;
+constexpr std::size_t kMcapStepPerByte = 32;
 
 std::string mcapLz4(std::string_view raw) {
   LZ4F_preferences_t preferences{};
@@ -40,22 +43,24 @@ std::string mcapZstd(std::string_view raw, int level) {
   return packed;
 }
 
-// Calls step(out, outSize, in, inSize) until all is taken: it sets both sizes to what it used and
-// returns a fault or an empty text.
+// Calls decompress(out, outSize, in, inSize) until all is taken: it sets both sizes to what it used
+// and returns a fault or an empty text.
 template <typename Step>
-std::string mcapDecompressBy(Step step,
+std::string mcapDecompressBy(Step decompress,
                              std::string_view packed,
                              std::size_t size,
                              std::string& raw) {
   raw.clear();
+  const std::size_t step =
+      std::clamp(kMcapStepPerByte * packed.size(), kLeastMcapStep, kMostMcapStep);
   std::size_t used = 0;
   std::size_t made = 0;
   while (true) {
     // One byte more than declared: what is too long is seen.
-    raw.resize(std::min(size + 1, made + kMcapDecompressStep));
+    raw.resize(std::min(size + 1, made + step));
     std::size_t in = packed.size() - used;
     std::size_t out = raw.size() - made;
-    std::string fault = step(raw.data() + made, out, packed.data() + used, in);
+    std::string fault = decompress(raw.data() + made, out, packed.data() + used, in);
     if (!fault.empty()) return fault;
     used += in;
     made += out;

@@ -416,24 +416,30 @@ std::optional<McapImage> readRawImage(std::string_view message) {
 }
 
 void mcapPixels(const McapImage& image, float* out) {
-  const std::size_t pixelBytes = mcapPixelBytes(image.encoding);
-  for (std::uint32_t row = 0; row < image.rows; ++row) {
-    const char* from = image.data.data() + std::size_t{row} * image.step;
-    for (std::uint32_t k = 0; k < image.columns; ++k, from += pixelBytes) {
-      if (pixelBytes == 1) {
-        *out++ = static_cast<unsigned char>(*from);
-      } else if (pixelBytes == 2) {
+  const auto each = [&](std::size_t pixelBytes, const auto& valueOf) {
+    for (std::uint32_t row = 0; row < image.rows; ++row) {
+      const char* const from = image.data.data() + std::size_t{row} * image.step;
+      for (std::size_t k = 0; k < image.columns; ++k) *out++ = valueOf(from + k * pixelBytes);
+    }
+  };
+  const bool swapped = image.bigEndian;
+  switch (mcapPixelBytes(image.encoding)) {
+    case 1:
+      return each(1, [](const char* from) {
+        return static_cast<float>(static_cast<unsigned char>(*from));
+      });
+    case 2:
+      return each(2, [swapped](const char* from) {
         std::uint16_t value = 0;
         std::memcpy(&value, from, sizeof value);
-        if (image.bigEndian) value = static_cast<std::uint16_t>(value << 8 | value >> 8);
-        *out++ = value;
-      } else {
+        return static_cast<float>(swapped ? __builtin_bswap16(value) : value);
+      });
+    default:
+      return each(4, [swapped](const char* from) {
         std::uint32_t bits = 0;
         std::memcpy(&bits, from, sizeof bits);
-        if (image.bigEndian) bits = __builtin_bswap32(bits);
-        *out++ = std::bit_cast<float>(bits);
-      }
-    }
+        return std::bit_cast<float>(swapped ? __builtin_bswap32(bits) : bits);
+      });
   }
 }
 
