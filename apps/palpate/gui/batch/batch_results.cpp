@@ -27,7 +27,7 @@ namespace {
 using State = BatchResult::State;
 enum Column { kRecording, kResultState, kWhy, kNumColumns };
 
-bool isBad(const BatchResult& result) {
+bool isBadResult(const BatchResult& result) {
   return result.state == State::kFailed || result.state == State::kInPart;
 }
 
@@ -50,7 +50,7 @@ void BatchResultsModel::show(std::shared_ptr<const BatchOutcome> outcome, bool a
   rows_.clear();
   if (outcome_)
     for (std::size_t i = 0; i < outcome_->report.results.size(); ++i)
-      if (all || isBad(outcome_->report.results[i])) rows_.push_back(i);
+      if (all || isBadResult(outcome_->report.results[i])) rows_.push_back(i);
   endResetModel();
 }
 
