@@ -79,7 +79,7 @@ class HandView : public QWidget {
   // Number of times the view has been drawn.
   int numPaints() const noexcept { return numPaints_; }
   QSize sizeHint() const override { return {520, 560}; }
-  QSize minimumSizeHint() const override { return {240, 200}; }
+  QSize minimumSizeHint() const override { return {180, 120}; }
 
  signals:
   void selectionChanged();

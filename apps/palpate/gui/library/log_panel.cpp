@@ -18,6 +18,7 @@
 #include <palpate/core/output_file.h>
 
 #include "gui/widgets/empty_page.h"
+#include "gui/widgets/fitting_pages.h"
 
 namespace palpate::gui {
 
@@ -131,7 +132,7 @@ void LogPanel::buildTop() {
 }
 
 void LogPanel::buildTable() {
-  pages_ = new QStackedWidget(this);
+  pages_ = new FittingPages(this);
   table_ = new LogTable(pages_);
   table_->setObjectName("logTable");
   table_->setModel(filter_);
