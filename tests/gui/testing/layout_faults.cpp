@@ -82,14 +82,13 @@ Clip clipOf(const QWidget& widget, const QWidget& window) {
         return clip;
       }
     } else if (!room.adjusted(-kSlack, -kSlack, kSlack, kSlack).contains(rect)) {
-      clip.faults.append(
-          QString("%1: lies at %2,%3 %4x%5, outside %6")
-              .arg(describe(widget))
-              .arg(rect.x())
-              .arg(rect.y())
-              .arg(rect.width())
-              .arg(rect.height())
-              .arg(describe(*around)));
+      clip.faults.append(QString("%1: lies at %2,%3 %4x%5, outside %6")
+                             .arg(describe(widget))
+                             .arg(rect.x())
+                             .arg(rect.y())
+                             .arg(rect.width())
+                             .arg(rect.height())
+                             .arg(describe(*around)));
       return clip;
     }
     at = around;
@@ -101,7 +100,8 @@ void checkLabel(const QLabel& label, QStringList& faults) {
   if (label.text().isEmpty()) return;
   const QSize hint = label.sizeHint();
   if (!label.wordWrap()) {
-    const QSize least = label.minimumSizeHint().expandedTo(label.inherits("palpate::gui::ElidedText") ? QSize() : hint);
+    const QSize least = label.minimumSizeHint().expandedTo(
+        label.inherits("palpate::gui::ElidedText") ? QSize() : hint);
     if (label.width() + kSlack < least.width() || label.height() + kSlack < least.height())
       faults.append(wanted(label, "the text", least));
     return;
@@ -140,8 +140,8 @@ void checkCombo(const QComboBox& box, QStringList& faults) {
   if (box.sizeAdjustPolicy() == QComboBox::AdjustToMinimumContentsLengthWithIcon) return;
   if (!box.itemIcon(box.currentIndex()).isNull()) widest += box.iconSize().width() + 4;
   if (widest > room + kSlack)
-    faults.append(wanted(box, "'" + box.currentText() + "'",
-                         {box.width() + widest - room, box.height()}));
+    faults.append(
+        wanted(box, "'" + box.currentText() + "'", {box.width() + widest - room, box.height()}));
 }
 
 void checkTable(const QTableView& table, QStringList& faults) {
@@ -154,9 +154,7 @@ void checkTable(const QTableView& table, QStringList& faults) {
     constexpr int kPadding = 4;
     if (header->isVisible() && !title.isEmpty() &&
         header->fontMetrics().horizontalAdvance(title) + kPadding > width + kSlack)
-      faults.append(QString("%1: heading '%2' has %3 px")
-                        .arg(describe(table), title)
-                        .arg(width));
+      faults.append(QString("%1: heading '%2' has %3 px").arg(describe(table), title).arg(width));
     for (int row = 0; row < std::min(table.model()->rowCount(), 40); ++row) {
       const QModelIndex index = table.model()->index(row, column);
       const QString text = index.data().toString();
@@ -197,8 +195,8 @@ void checkContent(const QWidget& widget, QStringList& faults) {
     return checkTable(*table, faults);
   if (const auto* button = qobject_cast<const QAbstractButton*>(&widget)) {
     const QSize hint = button->sizeHint();
-    if (!button->text().isEmpty() && (button->width() + kSlack < hint.width() ||
-                                      button->height() + 2 * kSlack < hint.height()))
+    if (!button->text().isEmpty() &&
+        (button->width() + kSlack < hint.width() || button->height() + 2 * kSlack < hint.height()))
       faults.append(wanted(widget, "the button", hint));
     return;
   }
@@ -207,8 +205,8 @@ void checkContent(const QWidget& widget, QStringList& faults) {
     const int room = field->width();
     const int needed = field->fontMetrics().horizontalAdvance(spin->text()) + 2;
     if (needed > room + kSlack)
-      faults.append(wanted(widget, "'" + spin->text() + "'",
-                           {spin->width() + needed - room, spin->height()}));
+      faults.append(wanted(
+          widget, "'" + spin->text() + "'", {spin->width() + needed - room, spin->height()}));
     return;
   }
   if (const auto* field = qobject_cast<const QLineEdit*>(&widget)) {
@@ -239,9 +237,9 @@ bool isBehindATab(const QWidget& widget, const QWidget& window) {
 void checkOverlaps(const QWidget& around, QStringList& faults) {
   // Parts of a spin box, a combo box and a scroll area are placed by the style.
   if (qobject_cast<const QAbstractScrollArea*>(&around) ||
-      qobject_cast<const QAbstractSpinBox*>(&around) ||
-      qobject_cast<const QComboBox*>(&around) || qobject_cast<const QLineEdit*>(&around) ||
-      qobject_cast<const QTabBar*>(&around) || around.inherits("QComboBoxPrivateContainer"))
+      qobject_cast<const QAbstractSpinBox*>(&around) || qobject_cast<const QComboBox*>(&around) ||
+      qobject_cast<const QLineEdit*>(&around) || qobject_cast<const QTabBar*>(&around) ||
+      around.inherits("QComboBoxPrivateContainer"))
     return;
   const auto* area = qobject_cast<const QAbstractScrollArea*>(around.parentWidget());
   if (area && qobject_cast<const QAbstractItemView*>(area)) return;
@@ -279,9 +277,9 @@ QStringList layoutFaults(const QWidget& window) {
       continue;
     }
     const QWidget* parent = widget->parentWidget();
-    if (qobject_cast<const QAbstractItemView*>(parent) ||
-        qobject_cast<const QComboBox*>(parent) || qobject_cast<const QAbstractSpinBox*>(parent) ||
-        qobject_cast<const QTabBar*>(parent) || qobject_cast<const QScrollBar*>(widget))
+    if (qobject_cast<const QAbstractItemView*>(parent) || qobject_cast<const QComboBox*>(parent) ||
+        qobject_cast<const QAbstractSpinBox*>(parent) || qobject_cast<const QTabBar*>(parent) ||
+        qobject_cast<const QScrollBar*>(widget))
       continue;
     if (parent && parent->parentWidget() &&
         qobject_cast<const QAbstractItemView*>(parent->parentWidget()))

@@ -27,7 +27,8 @@ constexpr int kCalibrateUsualWidth = 640;
 
 CalibrateFeature::CalibrateFeature(WindowState& windowState, QWidget* window)
     : Feature(windowState, window), panel_(new CalibratePanel(windowState.settings, window)) {
-  dock_ = new Dock("Calibrate", new ContentScroll(panel_, kLeastDockContent), &panel_->header(), window);
+  dock_ = new Dock(
+      "Calibrate", new ContentScroll(panel_, kLeastDockContent), &panel_->header(), window);
   pressures_ = std::make_unique<Pressures>(windowState, panel_->force());
   connect(&windowState.displayed, &DisplayedSource::shown, this, &CalibrateFeature::takeSource);
   connect(&windowState.events, &EventController::changed, this, &CalibrateFeature::takeKept);

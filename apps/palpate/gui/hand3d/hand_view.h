@@ -102,6 +102,7 @@ class HandView : public QWidget {
   void renew();
   void takeMoment(const TactileFrame& frame, const std::vector<double>& anglesDeg, bool live);
   void drawAnew();
+  bool leavesView() const;
   void fitTo(const std::vector<Eigen::Vector3d>& pointsMm);
   void fitFirstView();
   void paintOver(QPainter& painter);

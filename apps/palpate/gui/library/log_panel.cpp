@@ -99,6 +99,8 @@ void LogPanel::buildTop() {
   words_->setObjectName("logSearch");
   words_->setClearButtonEnabled(true);
   words_->setPlaceholderText("Search");
+  constexpr int kAroundWord = 24;  // [px]
+  words_->setMinimumWidth(words_->fontMetrics().horizontalAdvance("Search") + kAroundWord);
   auto* row = new QHBoxLayout;
   row->setContentsMargins(8, 6, 8, 6);
   row->setSpacing(6);

@@ -39,7 +39,8 @@ RecogniseFeature::RecogniseFeature(WindowState& windowState, QWidget* window)
     : Feature(windowState, window),
       actions_(windowState.actions),
       panel_(new RecognisePanel(windowState.settings, windowState.environment.dataFolder, window)) {
-  dock_ = new Dock("Recognise", new ContentScroll(panel_, kLeastDockContent), &panel_->header(), window);
+  dock_ = new Dock(
+      "Recognise", new ContentScroll(panel_, kLeastDockContent), &panel_->header(), window);
   connectAll();
 }
 

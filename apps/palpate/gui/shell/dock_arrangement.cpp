@@ -265,9 +265,8 @@ void DockArrangement::makeRoomFor(const DockSpec& offer) {
     }
     const int wanted = static_cast<int>(window_.height() * offer.shareOfHeight);
     if (wanted > 0 && dock->height() < wanted && below) {
-      window_.resizeDocks({dock, below},
-                          {wanted, static_cast<int>(window_.height() * kBottomBelow)},
-                          Qt::Vertical);
+      window_.resizeDocks(
+          {dock, below}, {wanted, static_cast<int>(window_.height() * kBottomBelow)}, Qt::Vertical);
       room.bottom = below->height();
     }
     rooms_.try_emplace(dock, room);

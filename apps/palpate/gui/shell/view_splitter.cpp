@@ -1,13 +1,15 @@
 #include "gui/shell/view_splitter.h"
 
 #include <QEvent>
+#include <algorithm>
 
 namespace palpate::gui {
 namespace {
 
-QSize leastOf(const QWidget& view) {
-  return view.minimumSizeHint().expandedTo(view.minimumSize());
-}
+// Below this width [px], views side by side would show less than below one another.
+constexpr int kComfortable = 460;
+
+QSize leastOf(const QWidget& view) { return view.minimumSizeHint().expandedTo(view.minimumSize()); }
 
 }  // namespace
 
@@ -34,7 +36,7 @@ QSize ViewSplitter::largest() const {
   return all;
 }
 
-int ViewSplitter::widthSideBySide() const { return sum().width(); }
+int ViewSplitter::widthSideBySide() const { return std::max(sum().width(), kComfortable); }
 
 QSize ViewSplitter::minimumSizeHint() const {
   // A splitter that isn't high enough for views below one another needs the width of all.
@@ -43,7 +45,7 @@ QSize ViewSplitter::minimumSizeHint() const {
 }
 
 void ViewSplitter::arrange() {
-  const bool stacked = width() < sum().width() && height() >= sum().height();
+  const bool stacked = width() < widthSideBySide() && height() >= sum().height();
   const Qt::Orientation wanted = stacked ? Qt::Vertical : Qt::Horizontal;
   if (orientation() == wanted) return;
   const QList<int> parts = sizes();

@@ -24,6 +24,8 @@ SlipFeature::SlipFeature(WindowState& windowState, QWidget* window)
   dock_ = new Dock("Slip", new ContentScroll(panel_, kLeastDockContent), nullptr, window);
   reference_->setToolTip("The frame that is shown becomes the reference of slip (O)");
   connectBench();
+  // The next connection may have its history at the same address.
+  connect(&windowState.live, &LiveController::ended, this, [this] { liveOf_ = nullptr; });
   connect(panel_, &SlipPanel::said, &windowState.messages, &Messages::flash);
   connect(panel_, &SlipPanel::foundChanged, &windowState.events, &EventController::renewMarks);
   connect(panel_, &SlipPanel::foundChanged, this, &SlipFeature::showArrows);

@@ -49,6 +49,9 @@ TimelineFeature::TimelineFeature(WindowState& windowState, QWidget* window)
         QInputDialog::getText(window, title, title + ":", QLineEdit::Normal, text, &good);
     return good ? std::optional(answer.simplified()) : std::nullopt;
   };
+  connect(&windowState.appearance, &ViewAppearance::timeAxisChanged, this, [this, &windowState] {
+    chart_->setRight(windowState.appearance.timeAxisRight());
+  });
   connectSubject();
   connectLive();
   connectSelection();

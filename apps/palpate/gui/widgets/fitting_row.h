@@ -1,4 +1,5 @@
-// A row of controls that hides some of them while it is too narrow for all, so that none is cut off.
+// A row of controls that hides some of them while it is too narrow for all, so that none is cut
+// off.
 #pragma once
 
 #include <QList>
