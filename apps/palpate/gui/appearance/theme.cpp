@@ -56,6 +56,10 @@ QToolButton:checked { background: @accentSoft; border-color: @accent; color: @ac
 QToolButton:disabled { background: transparent; }
 QToolButton[flat="true"] { background: transparent; border-color: transparent; }
 QToolButton[flat="true"]:hover { border-color: @accent; }
+QFileDialog QToolButton { padding: 2px; }
+QDialogButtonBox { dialogbuttonbox-buttons-have-icons: 0; }
+QMessageBox QLabel#qt_msgbox_label { min-width: 320px; }
+QInputDialog { min-width: 380px; }
 QPushButton { background: @raised; border: 1px solid @border; border-radius: 5px; padding: 5px 14px; }
 QPushButton:hover, QPushButton:focus { border-color: @accent; }
 QPushButton:pressed { background: @accentSoft; }
@@ -65,6 +69,7 @@ QPushButton[danger="true"] { background: @dangerSoft; border-color: @danger; col
 QPushButton[danger="true"]:pressed { background: @danger; color: @window; }
 QPushButton[danger="true"]:disabled { background: transparent; border-color: @border; color: @muted; }
 QAbstractSpinBox { background: @window; border: 1px solid @border; border-radius: 4px; padding: 3px 5px; }
+QAbstractSpinBox::up-button, QAbstractSpinBox::down-button { width: 0; border: 0; }
 QAbstractSpinBox:focus { border-color: @accent; }
 QAbstractSpinBox:disabled { color: @muted; }
 QDockWidget { titlebar-close-icon: none; titlebar-normal-icon: none; }

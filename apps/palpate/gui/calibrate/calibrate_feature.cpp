@@ -12,6 +12,7 @@
 #include "gui/calibrate/pressure_page.h"
 #include "gui/calibrate/step_page.h"
 #include "gui/calibrate/tare_page.h"
+#include "gui/widgets/content_scroll.h"
 #include "gui/widgets/dock.h"
 
 namespace palpate::gui {
@@ -26,7 +27,8 @@ constexpr int kCalibrateUsualWidth = 640;
 
 CalibrateFeature::CalibrateFeature(WindowState& windowState, QWidget* window)
     : Feature(windowState, window), panel_(new CalibratePanel(windowState.settings, window)) {
-  dock_ = new Dock("Calibrate", panel_, &panel_->header(), window);
+  dock_ = new Dock(
+      "Calibrate", new ContentScroll(panel_, kLeastDockContent), &panel_->header(), window);
   pressures_ = std::make_unique<Pressures>(windowState, panel_->force());
   connect(&windowState.displayed, &DisplayedSource::shown, this, &CalibrateFeature::takeSource);
   connect(&windowState.events, &EventController::changed, this, &CalibrateFeature::takeKept);

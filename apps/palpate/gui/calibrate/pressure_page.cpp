@@ -23,6 +23,7 @@
 #include "gui/calibrate/surface_chart.h"
 #include "gui/widgets/facts_view.h"
 #include "gui/widgets/figures_table.h"
+#include "gui/widgets/fitting_pages.h"
 #include "gui/widgets/notes_label.h"
 #include "gui/widgets/number_field.h"
 
@@ -74,7 +75,7 @@ std::vector<FigureCell> pressurePageRowOf(const PressureSample& sample,
 PressurePage::PressurePage(QWidget* parent) : ComputedPage("pressure", parent) {
   makeTop();
   auto* content = new QWidget(this);
-  charts_ = new QStackedWidget(content);
+  charts_ = new FittingPages(content);
   chart_ = new PressureChart(charts_);
   surface_ = new SurfaceChart(charts_);
   charts_->addWidget(chart_);

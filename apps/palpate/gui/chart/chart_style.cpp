@@ -1,5 +1,7 @@
 #include "gui/chart/chart_style.h"
 
+#include <algorithm>
+
 #include "gui/chart/plot.h"
 
 namespace palpate::gui {
@@ -16,6 +18,28 @@ void styleAxis(QCPAxis& axis, const ThemeColors& colors, const QFont& font) {
   axis.grid()->setPen(QPen(colors.grid));
   axis.grid()->setZeroLinePen(QPen(colors.grid));
   axis.grid()->setSubGridVisible(false);
+}
+
+// Numbers that would lie on each other in a low or narrow chart are left out.
+void fitTicks(QCustomPlot& plot) {
+  constexpr int kMostAlong = 4, kMostAcross = 9;
+  const int line = plot.fontMetrics().lineSpacing();
+  constexpr int kNumberWidth = 62;  // [px] with a gap
+  bool changed = false;
+  const auto fit = [&changed](QCPAxis* axis, int count) {
+    if (!axis->visible() || axis->ticker()->tickCount() == count ||
+        axis->ticker().dynamicCast<QCPAxisTickerFixed>())
+      return;
+    axis->ticker()->setTickCount(count);
+    changed = true;
+  };
+  for (QCPAxisRect* rect : plot.axisRects()) {
+    const int along = std::clamp(2 * rect->height() / (3 * line), 1, kMostAlong);
+    const int across = std::clamp(rect->width() / kNumberWidth, 2, kMostAcross);
+    for (QCPAxis* axis : rect->axes(QCPAxis::atLeft | QCPAxis::atRight)) fit(axis, along);
+    for (QCPAxis* axis : rect->axes(QCPAxis::atBottom)) fit(axis, across);
+  }
+  if (changed) plot.replot(QCustomPlot::rpQueuedReplot);
 }
 
 // Makes x a time on the axis, and y a share of the height.
@@ -40,7 +64,14 @@ void arrangeChart(QCustomPlot& plot) {
   plot.xAxis->setTickLengthIn(0);
   plot.yAxis->setTickLengthIn(0);
   plot.xAxis->setTickLengthOut(4);
-  plot.axisRect()->setMinimumMargins(QMargins(52, 10, 20, 10));
+  plot.axisRect()->setMinimumMargins(QMargins(timeAxisLeft(plot), 10, 20, 10));
+  QObject::connect(&plot, &QCustomPlot::afterLayout, &plot, [&plot] { fitTicks(plot); });
+}
+
+int timeAxisLeft(const QWidget& plot) {
+  constexpr int kAround = 18;  // [px] ticks and gaps
+  const QFontMetrics metrics = plot.fontMetrics();
+  return metrics.horizontalAdvance("00000") + metrics.lineSpacing() + kAround;
 }
 
 void styleChart(QCustomPlot& plot, Theme theme) {

@@ -24,6 +24,9 @@ inline constexpr double kWheelZoom = 1.25;
 
 // Sets up the numbers, ticks and margins of both axes; called once per chart.
 void arrangeChart(QCustomPlot& plot);
+// The space left of a chart over time [px]: the same in each chart, so that their time axes begin
+// at the same place.
+int timeAxisLeft(const QWidget& plot);
 // Gives background and axes the colours of a theme.
 void styleChart(QCustomPlot& plot, Theme theme);
 // The pen of a matrix; that of all matrices together (`whole`) is dashed.

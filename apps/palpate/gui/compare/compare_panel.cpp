@@ -20,6 +20,7 @@
 #include "gui/compare/compare_header.h"
 #include "gui/compare/compare_strip.h"
 #include "gui/compare/compare_view.h"
+#include "gui/widgets/fitting_pages.h"
 
 namespace palpate::gui {
 namespace {
@@ -98,7 +99,7 @@ void ComparePanel::build(QAction* leave, QAction* interpolated, QAction* values)
   parts->addWidget(makeCurveHeader());
   parts->addWidget(strip_);
   parts->addWidget(chart_, kChartShare);
-  stack_ = new QStackedWidget(this);
+  stack_ = new FittingPages(this);
   stack_->addWidget(makeEmpty());
   stack_->addWidget(content);
   auto* column = new QVBoxLayout(this);

@@ -6,6 +6,7 @@
 #include <exception>
 
 #include "gui/desktop/button_keys.h"
+#include "gui/desktop/field_keys.h"
 #include "gui/desktop/wheel_guard.h"
 
 // Resources of a static library must be initialised explicitly, by a function outside of any
@@ -79,9 +80,12 @@ void forgetFailuresAtEvents() {
 std::unique_ptr<QApplication> makeApplication(int& argc, char** argv) {
   std::unique_ptr<QApplication> application;
   if (!QApplication::instance()) {
+    // All dialogues look like the window, and can have the button that stops the hand.
+    QCoreApplication::setAttribute(Qt::AA_DontUseNativeDialogs);
     application = std::make_unique<GuardedApplication>(argc, argv);
     new WheelGuard(application.get());
     new ButtonKeys(application.get());
+    new FieldKeys(application.get());
   }
   QApplication::setApplicationName("palpate");
   QApplication::setApplicationDisplayName("Palpate");

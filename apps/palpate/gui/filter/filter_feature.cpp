@@ -1,6 +1,7 @@
 #include "gui/filter/filter_feature.h"
 
 #include "gui/filter/filter_panel.h"
+#include "gui/widgets/content_scroll.h"
 #include "gui/widgets/dock.h"
 
 namespace palpate::gui {
@@ -22,7 +23,7 @@ FilterFeature::FilterFeature(WindowState& windowState, QWidget* window)
       action_(windowState.actions.make(
           "filtered", "View", "&Filtered, or as recorded", {key("A")}, true)),
       panel_(new FilterPanel(windowState.activeFilters.editor(), window)) {
-  dock_ = new Dock("Filter", panel_, nullptr, window);
+  dock_ = new Dock("Filter", new ContentScroll(panel_, kLeastDockContent), nullptr, window);
   ActiveFilters& activeFilters = windowState.activeFilters;
   action_->setToolTip("After the filters, or before (A)");
   panel_->setOn(activeFilters.on());

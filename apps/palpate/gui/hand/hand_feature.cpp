@@ -1,5 +1,6 @@
 #include "gui/hand/hand_feature.h"
 
+#include "gui/hand/dialog_stop.h"
 #include "gui/hand/hand_dock.h"
 #include "gui/hand/sensitivity_modes.h"
 #include "gui/widgets/dock.h"
@@ -21,6 +22,7 @@ HandFeature::HandFeature(WindowState& windowState, QWidget* window)
       panel_(new HandDock(windowState.settings, window)) {
   dock_ = new Dock("Hand", panel_, nullptr, window);
   panel_->bind(actions_);
+  new DialogStop(*actions_.stopHand, this);
   LiveController& live = windowState.live;
   connect(&live, &LiveController::sourceOpened, this, [this, &live] {
     panel_->setHand(live.source()->session.get(), live.source()->control.get());

@@ -5,7 +5,6 @@
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QMenu>
-#include <QResizeEvent>
 #include <QSignalBlocker>
 #include <QToolButton>
 #include <QVBoxLayout>
@@ -13,12 +12,12 @@
 
 #include <palpate/core/error.h>
 
+#include "gui/widgets/fitting_row.h"
+
 namespace palpate::gui {
 namespace {
 
 constexpr int kHandPanelControlHeight = 26;  // [px] of boxes beside buttons
-// From this width [px] there is room for the box of the sphere.
-constexpr int kBoxesAbove = 400;
 
 template <class All, class Value>
 int handPanelIndexOf(const All& all, Value value) {
@@ -52,7 +51,7 @@ std::vector<Eigen::Vector3d> handPanelExtentOf(const OpenedRecording& recording,
 }  // namespace
 
 HandPanel::HandPanel(const QList<QAction*>& shown, QWidget* parent) : QWidget(parent) {
-  auto* header = new QWidget(this);
+  auto* header = new FittingRow(this);
   header->setObjectName("ViewHeader");
   header->setAttribute(Qt::WA_StyledBackground);
   const auto box = [header](const char* name, const char* tip) {
@@ -79,15 +78,17 @@ HandPanel::HandPanel(const QList<QAction*>& shown, QWidget* parent) : QWidget(pa
   menu->addActions(shown);
   more->setMenu(menu);
 
-  auto* row = new QHBoxLayout(header);
-  row->setContentsMargins(12, 4, 10, 4);
-  row->setSpacing(6);
-  row->addWidget(new QLabel("<b>Hand</b>", header));
-  row->addStretch(1);
-  row->addWidget(taxels_);
-  row->addWidget(spheres_);
-  row->addWidget(matrix_);
-  row->addWidget(more);
+  QHBoxLayout& row = header->row();
+  row.setContentsMargins(12, 4, 10, 4);
+  row.setSpacing(6);
+  row.addWidget(new QLabel("<b>Hand</b>", header));
+  row.addStretch(1);
+  row.addWidget(taxels_);
+  row.addWidget(spheres_);
+  row.addWidget(matrix_);
+  row.addWidget(more);
+  // The menu View, Hand in 3-D has all of them, too.
+  header->setOptional({spheres_, taxels_, matrix_});
 
   view_ = new HandView(this);
   view_->setObjectName("handView");
@@ -116,7 +117,6 @@ HandPanel::HandPanel(const QList<QAction*>& shown, QWidget* parent) : QWidget(pa
       if (index > 0) look.only = static_cast<std::size_t>(index - 1);
     });
   });
-  setMinimumWidth(240);
 }
 
 void HandPanel::listMatrices(const HandDescription& hand) {
@@ -169,11 +169,6 @@ void HandPanel::setLook(const HandLook& wanted) {
   taxels_->setCurrentIndex(handPanelIndexOf(kAllTaxelShapes, look.taxels));
   spheres_->setCurrentIndex(handPanelIndexOf(kAllSphereLooks, look.sphere));
   matrix_->setCurrentIndex(look.only ? static_cast<int>(*look.only) + 1 : 0);
-}
-
-void HandPanel::resizeEvent(QResizeEvent* event) {
-  QWidget::resizeEvent(event);
-  spheres_->setVisible(event->size().width() >= kBoxesAbove);
 }
 
 }  // namespace palpate::gui

@@ -38,9 +38,6 @@ class HandPanel : public QWidget {
   // The user chose a look with the controls of the header.
   void lookChosen(const palpate::gui::HandLook& look);
 
- protected:
-  void resizeEvent(QResizeEvent* event) override;
-
  private:
   void listMatrices(const HandDescription& hand);
 

@@ -65,7 +65,10 @@ double paintSphereText(QPainter& painter,
                     top,
                     area.width() - 2.0 * kHandPictureMargin,
                     metrics.height());
-  painter.drawText(line, Qt::AlignLeft | Qt::AlignVCenter, text);
+  const QString shorter = text.section(", ", 1);
+  painter.drawText(line,
+                   Qt::AlignLeft | Qt::AlignVCenter,
+                   metrics.horizontalAdvance(text) <= line.width() ? text : shorter);
   return line.bottom() + 6.0;
 }
 
@@ -160,7 +163,8 @@ QString sphereText(const HandSceneBuilder& drawing, SphereOf of) {
   const HandContact& contact = drawing.handState().contact;
   const auto& sphere = of == SphereOf::kTaxels ? contact.taxelSphere : contact.centroidSphere;
   if (!sphere || !(sphere->radiusMm > 0.0)) return {};
-  return QString(of == SphereOf::kTaxels ? "enclosing sphere " : "sphere of centroids ") +
+  return QString(of == SphereOf::kTaxels ? "enclosing sphere, diameter "
+                                         : "sphere of centroids, diameter ") +
          QString::number(2.0 * sphere->radiusMm, 'f', 1) + " mm";
 }
 

@@ -107,7 +107,7 @@ void HandView::takeMoment(const TactileFrame& frame,
   const bool first = !shown.frame;
   const bool moves = shown.anglesDeg != angles;
   drawing_.setMoment(frame, angles);
-  if (first && !moved_) fitFirstView();
+  if (!moved_ && (first || (live && moves && leavesView()))) fitFirstView();
   if (tooSoon && !first && !moves)
     sceneIsOld_ = true;
   else
@@ -149,6 +149,17 @@ void HandView::select(const TaxelSelection& selection) {
 void HandView::setCamera(const HandCamera& camera) {
   camera_ = camera;
   drawAnew();
+}
+
+// Whether a part of the hand lies outside the picture: a hand that opens moves out of the view that
+// was fitted to a closed one.
+bool HandView::leavesView() const {
+  const QRectF picture(rect());
+  for (const Eigen::Vector3d& pointMm : drawing_.extent(drawing_.effective(look_))) {
+    const auto seen = camera_.project(pointMm, size());
+    if (!seen || !picture.contains(seen->at)) return true;
+  }
+  return false;
 }
 
 void HandView::drawAnew() {

@@ -79,7 +79,7 @@ class HandView : public QWidget {
   // Number of times the view has been drawn.
   int numPaints() const noexcept { return numPaints_; }
   QSize sizeHint() const override { return {520, 560}; }
-  QSize minimumSizeHint() const override { return {240, 200}; }
+  QSize minimumSizeHint() const override { return {180, 120}; }
 
  signals:
   void selectionChanged();
@@ -102,6 +102,7 @@ class HandView : public QWidget {
   void renew();
   void takeMoment(const TactileFrame& frame, const std::vector<double>& anglesDeg, bool live);
   void drawAnew();
+  bool leavesView() const;
   void fitTo(const std::vector<Eigen::Vector3d>& pointsMm);
   void fitFirstView();
   void paintOver(QPainter& painter);

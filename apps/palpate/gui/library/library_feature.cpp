@@ -4,6 +4,7 @@
 #include <QStandardPaths>
 
 #include "gui/library/library_panel.h"
+#include "gui/widgets/content_scroll.h"
 #include "gui/widgets/dock.h"
 
 namespace palpate::gui {
@@ -23,7 +24,7 @@ LibraryFeature::LibraryFeature(WindowState& windowState, QWidget* window)
     : Feature(windowState, window),
       panel_(new LibraryPanel(
           windowState.settings, cacheFolderFor(windowState.settings), catalogRecordings, window)) {
-  dock_ = new Dock("Library", panel_, nullptr, window);
+  dock_ = new Dock("Library", new ContentScroll(panel_, kLeastDockContent), nullptr, window);
   connect(panel_, &LibraryPanel::openRequested, this, [&windowState](const QStringList& paths) {
     std::vector<std::filesystem::path> files;
     for (const QString& path : paths) files.emplace_back(path.toStdString());

@@ -19,6 +19,7 @@
 #include "gui/appearance/icons.h"
 #include "gui/desktop/reveal_file.h"
 #include "gui/widgets/empty_page.h"
+#include "gui/widgets/fitting_pages.h"
 
 namespace palpate::gui {
 namespace {
@@ -55,7 +56,7 @@ LibraryPanel::LibraryPanel(QSettings& settings,
   column->setContentsMargins(0, 0, 0, 0);
   column->setSpacing(0);
   buildTop();
-  pages_ = new QStackedWidget(this);
+  pages_ = new FittingPages(this);
   column->addWidget(pages_, 1);
   buildTable();
   buildEmpty();

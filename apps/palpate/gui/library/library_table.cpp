@@ -46,6 +46,8 @@ LibraryTable::LibraryTable(QAbstractItemModel* model, QWidget* parent) : QTableV
   setTabKeyNavigation(false);
   setDragEnabled(true);
   setShowGrid(false);
+  // Names of one object differ at their ends.
+  setTextElideMode(Qt::ElideMiddle);
   setWordWrap(false);
   setFrameShape(QFrame::NoFrame);
   setHorizontalScrollMode(QAbstractItemView::ScrollPerPixel);
@@ -58,10 +60,11 @@ LibraryTable::LibraryTable(QAbstractItemModel* model, QWidget* parent) : QTableV
   header->setSectionsMovable(true);
   header->setStretchLastSection(true);
   header->setMinimumSectionSize(36);
-  constexpr int kLetters[] = {26, 12, 17, 14, 12, 8, 18, 18, 18};
+  constexpr int kLetters[] = {26, 13, 17, 14, 12, 8, 18, 18, 18};
   constexpr int kPadding = 14;  // [px]
   for (int column = 0; column < model->columnCount(); ++column)
-    header->resizeSection(column, kLetters[column] * fontMetrics().averageCharWidth() + kPadding);
+    header->resizeSection(column,
+                          kLetters[column] * fontMetrics().horizontalAdvance('0') + kPadding);
 }
 
 bool LibraryTable::event(QEvent* event) {

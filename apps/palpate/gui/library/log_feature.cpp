@@ -2,6 +2,7 @@
 
 #include "gui/library/library_panel.h"
 #include "gui/library/log_panel.h"
+#include "gui/widgets/content_scroll.h"
 #include "gui/widgets/dock.h"
 
 namespace palpate::gui {
@@ -19,7 +20,7 @@ QString openedText(const OpenedRecording& recording) {
 
 LogFeature::LogFeature(WindowState& windowState, QWidget* window)
     : Feature(windowState, window), panel_(new LogPanel(windowState.log, window)) {
-  dock_ = new Dock("Log", panel_, nullptr, window);
+  dock_ = new Dock("Log", new ContentScroll(panel_, kLeastDockContent), nullptr, window);
   connect(&windowState.opener,
           &RecordingOpener::opened,
           this,

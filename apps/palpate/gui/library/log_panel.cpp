@@ -18,6 +18,7 @@
 #include <palpate/core/output_file.h>
 
 #include "gui/widgets/empty_page.h"
+#include "gui/widgets/fitting_pages.h"
 
 namespace palpate::gui {
 
@@ -98,6 +99,8 @@ void LogPanel::buildTop() {
   words_->setObjectName("logSearch");
   words_->setClearButtonEnabled(true);
   words_->setPlaceholderText("Search");
+  constexpr int kAroundWord = 24;  // [px]
+  words_->setMinimumWidth(words_->fontMetrics().horizontalAdvance("Search") + kAroundWord);
   auto* row = new QHBoxLayout;
   row->setContentsMargins(8, 6, 8, 6);
   row->setSpacing(6);
@@ -131,7 +134,7 @@ void LogPanel::buildTop() {
 }
 
 void LogPanel::buildTable() {
-  pages_ = new QStackedWidget(this);
+  pages_ = new FittingPages(this);
   table_ = new LogTable(pages_);
   table_->setObjectName("logTable");
   table_->setModel(filter_);

@@ -16,8 +16,12 @@ struct Blend {
 };
 
 // Interpolates at (x, y) [taxels]; the centre of the first taxel is (0, 0).
-Blend blendAt(
-    const ConstMatrixMap& values, const MatrixLayout& layout, double y, double x, bool isSigned) {
+Blend blendAt(const ConstMatrixMap& values,
+              const MatrixLayout& layout,
+              double y,
+              double x,
+              bool isSigned,
+              double least) {
   const int y0 = static_cast<int>(std::floor(y));
   const int x0 = static_cast<int>(std::floor(x));
   double weights = 0.0;
@@ -34,7 +38,7 @@ Blend blendAt(
       const auto value = static_cast<double>(values(row, column));
       weights += weight;
       sum += weight * value;
-      if (value > 0.0 || isSigned) active += weight;
+      if ((value > 0.0 && value >= least) || isSigned) active += weight;
     }
   }
   if (weights <= 0.0) return {};
@@ -56,8 +60,12 @@ QImage smoothHeatImage(const ConstMatrixMap& values,
     auto* line = reinterpret_cast<QRgb*>(image.scanLine(py));
     for (int px = 0; px < image.width(); ++px) {
       if (!layout.enabled(py / scale, px / scale)) continue;
-      const Blend blend =
-          blendAt(values, layout, (py + 0.5) / scale - 0.5, (px + 0.5) / scale - 0.5, isSigned);
+      const Blend blend = blendAt(values,
+                                  layout,
+                                  (py + 0.5) / scale - 0.5,
+                                  (px + 0.5) / scale - 0.5,
+                                  isSigned,
+                                  options.least);
       if (blend.activity <= 0.0) continue;
       const int index = colorIndex(blend.value, options.rangeMin, options.rangeMax);
       const QRgb color = colors[static_cast<std::size_t>(index)];
@@ -79,7 +87,9 @@ QImage plainHeatImage(const ConstMatrixMap& values,
     auto* line = reinterpret_cast<QRgb*>(image.scanLine(y));
     for (int x = 0; x < layout.columns; ++x) {
       const auto value = static_cast<double>(values(y, x));
-      if ((isSigned ? value == 0.0 : !(value > 0.0)) || !layout.enabled(y, x)) continue;
+      if ((isSigned ? value == 0.0 : !(value > 0.0 && value >= options.least)) ||
+          !layout.enabled(y, x))
+        continue;
       line[x] =
           colors[static_cast<std::size_t>(colorIndex(value, options.rangeMin, options.rangeMax))];
     }

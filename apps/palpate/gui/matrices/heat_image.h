@@ -15,6 +15,8 @@ struct HeatImageOptions {
   ColorMapName map = ColorMapName::kInferno;
   double rangeMin = 0.0;  // [counts]
   double rangeMax = 1.0;
+  // Values below this are at rest [counts].
+  double least = 0.0;
   // Pixels per taxel of a smooth image.
   int pixelsPerTaxel = 8;
   // Colour table for signed values, used instead of `map` when set; then every enabled taxel is

@@ -84,6 +84,9 @@ void matricesPainterPaintNames(QPainter& painter,
     QString name = QString::fromStdString(hand.matrixName(m));
     if (metrics.horizontalAdvance(name) > rect.width())
       name = QString::fromStdString(hand.matrices[m].shortName);
+    // Where there is no room, whole words are left out; the place tells proximal from distal.
+    while (name.contains(' ') && metrics.horizontalAdvance(name) > rect.width())
+      name = name.section(' ', 0, -2);
     painter.drawText(rect.adjusted(0, 0, 0, -3),
                      Qt::AlignHCenter | Qt::AlignBottom | Qt::TextDontClip,
                      metrics.elidedText(name, Qt::ElideRight, rect.width()));
@@ -224,6 +227,7 @@ void paintMatrixValues(QPainter& painter,
   const double side = geometry.taxelSide(matrix);
   const auto saturation = hand.saturationOf(matrix);
   HeatImageOptions image{options.map, range.minimum, range.maximum};
+  image.least = static_cast<double>(leastSeen(hand));
   if (options.difference) image.difference = &table;
   painter.save();
   painter.setRenderHint(QPainter::Antialiasing, false);

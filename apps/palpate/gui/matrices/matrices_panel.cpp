@@ -13,12 +13,12 @@
 #include <cmath>
 
 #include "gui/appearance/hand_unit.h"
+#include "gui/widgets/fitting_row.h"
 
 namespace palpate::gui {
 namespace {
 
 constexpr int kMatricesPanelControlHeight = 26;  // [px] of boxes beside buttons
-constexpr int kMatricesPanelNarrowest = 360;     // [px]
 constexpr int kMatricesPanelCompactBelow = 700;  // [px] of width: buttons lose their text
 // Parts of full scale that the range of a live hand has at least, so that a first light touch isn't
 // shown in the brightest colour, and grows by: 500 and 250 of 4095 counts.
@@ -58,7 +58,7 @@ QDoubleSpinBox* rangeField(QWidget* parent, const char* name, const char* tip) {
 
 MatricesPanel::MatricesPanel(QAction* interpolated, QAction* values, QWidget* parent)
     : QWidget(parent) {
-  auto* header = new QWidget(this);
+  auto* header = new FittingRow(this);
   header->setObjectName("ViewHeader");
   header->setAttribute(Qt::WA_StyledBackground);
   auto* title = new QLabel("<b>Matrices</b>", header);
@@ -70,28 +70,32 @@ MatricesPanel::MatricesPanel(QAction* interpolated, QAction* values, QWidget* pa
   range_ = new QComboBox(header);
   range_->setObjectName("rangeBox");
   range_->setFocusPolicy(Qt::NoFocus);  // has a shortcut instead
-  for (QComboBox* box : {map_, range_}) box->setMinimumHeight(kMatricesPanelControlHeight);
+  for (QComboBox* box : {map_, range_}) {
+    box->setMinimumHeight(kMatricesPanelControlHeight);
+    box->setSizeAdjustPolicy(QComboBox::AdjustToContents);
+  }
   range_->setToolTip("Where the colour range ends (R)");
   for (const RangeMode mode : kAllRangeModes) range_->addItem(nameOf(mode));
   minimum_ = rangeField(header, "rangeMinimum", "Value of the lowest colour");
   maximum_ = rangeField(header, "rangeMaximum", "Value of the highest colour");
   to_ = new QLabel("–", header);
 
-  auto* row = new QHBoxLayout(header);
-  row->setContentsMargins(12, 4, 10, 4);
-  row->setSpacing(6);
-  row->addWidget(title);
-  row->addStretch(1);
+  QHBoxLayout& row = header->row();
+  row.setContentsMargins(12, 4, 10, 4);
+  row.setSpacing(6);
+  row.addWidget(title);
+  row.addStretch(1);
   looks_ = {buttonFor(interpolated, header), buttonFor(values, header)};
-  for (QToolButton* button : looks_) row->addWidget(button);
-  row->addSpacing(6);
-  row->addWidget(map_);
-  row->addWidget(range_);
-  row->addWidget(minimum_);
-  row->addWidget(to_);
-  row->addWidget(maximum_);
+  for (QToolButton* button : looks_) row.addWidget(button);
+  row.addSpacing(6);
+  row.addWidget(map_);
+  row.addWidget(range_);
+  row.addWidget(minimum_);
+  row.addWidget(to_);
+  row.addWidget(maximum_);
+  // They are in the menu View, too.
+  header->setOptional({map_, looks_[0], looks_[1]});
 
-  setMinimumWidth(kMatricesPanelNarrowest);
   view_ = new MatricesView(this);
   view_->setObjectName("matricesView");
   auto* column = new QVBoxLayout(this);

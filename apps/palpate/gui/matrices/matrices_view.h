@@ -65,7 +65,7 @@ class MatricesView : public QWidget {
   // Time of the newest frame that is completely painted [us since 1970]; 0: none yet.
   std::int64_t paintedUs() const noexcept { return paintedUs_; }
   QSize sizeHint() const override { return {560, 560}; }
-  QSize minimumSizeHint() const override { return {320, 240}; }
+  QSize minimumSizeHint() const override { return {220, 130}; }
 
  signals:
   void hovered(const QString& text);

@@ -5,6 +5,7 @@
 #include <QLabel>
 #include <QPainter>
 #include <QPushButton>
+#include <QSplitter>
 #include <QStackedWidget>
 #include <QVBoxLayout>
 #include <algorithm>
@@ -90,6 +91,7 @@ CheckPage::CheckPage(TrainingController& controller, QWidget* parent)
   caption_ = new QLabel(content);
   caption_->setObjectName("checkCaption");
   caption_->setProperty("role", "muted");
+  caption_->setWordWrap(true);
   back_ = new QPushButton("All objects", content);
   back_->setObjectName("checkBack");
   lists_ = new QStackedWidget(content);
@@ -110,15 +112,26 @@ CheckPage::CheckPage(TrainingController& controller, QWidget* parent)
   top->setSpacing(8);
   top->addWidget(protocol_, 1);
   top->addWidget(check_);
+  auto* below = new QWidget(content);
   auto* line = new QHBoxLayout;
   line->addWidget(caption_, 1);
   line->addWidget(back_);
+  auto* under = new QVBoxLayout(below);
+  under->setContentsMargins(0, 4, 0, 0);
+  under->setSpacing(6);
+  under->addLayout(line);
+  under->addWidget(lists_, 1);
+  // The border between the matrix and the lists can be dragged.
+  auto* parts = new QSplitter(Qt::Vertical, content);
+  parts->setObjectName("checkParts");
+  parts->setChildrenCollapsible(false);
+  parts->addWidget(confusion_);
+  parts->addWidget(below);
+  parts->setStretchFactor(0, 3);
+  parts->setStretchFactor(1, 2);
   auto* inner = new QVBoxLayout(content);
   inner->setContentsMargins(0, 0, 0, 0);
-  inner->setSpacing(6);
-  inner->addWidget(confusion_, 3);
-  inner->addLayout(line);
-  inner->addWidget(lists_, 2);
+  inner->addWidget(parts);
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(12, 8, 12, 10);
   column->setSpacing(8);

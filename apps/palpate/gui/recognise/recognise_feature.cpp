@@ -12,6 +12,7 @@
 #include "gui/recognise/recognise_panel.h"
 #include "gui/recognise/today_page.h"
 #include "gui/recognise/training_page.h"
+#include "gui/widgets/content_scroll.h"
 #include "gui/widgets/dock.h"
 
 namespace palpate::gui {
@@ -38,7 +39,8 @@ RecogniseFeature::RecogniseFeature(WindowState& windowState, QWidget* window)
     : Feature(windowState, window),
       actions_(windowState.actions),
       panel_(new RecognisePanel(windowState.settings, windowState.environment.dataFolder, window)) {
-  dock_ = new Dock("Recognise", panel_, &panel_->header(), window);
+  dock_ = new Dock(
+      "Recognise", new ContentScroll(panel_, kLeastDockContent), &panel_->header(), window);
   connectAll();
 }
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "gui/widgets/fitting_pages.h"
+
 namespace palpate::gui {
 namespace {
 
@@ -19,13 +21,12 @@ QVBoxLayout* centreColumn(QWidget* parent) {
 CentralWidget::CentralWidget(QSettings& settings, QWidget* parent)
     : QWidget(parent), settings_(settings) {
   lines_ = centreColumn(this);
-  pages_ = new QStackedWidget(this);
+  pages_ = new FittingPages(this);
   auto* page = new QWidget(pages_);
   column_ = centreColumn(page);
-  work_ = new QStackedWidget(page);
-  views_ = new QSplitter(Qt::Horizontal, work_);
+  work_ = new FittingPages(page);
+  views_ = new ViewSplitter(work_);
   views_->setObjectName("views");
-  views_->setChildrenCollapsible(false);
   work_->addWidget(views_);
   column_->addWidget(work_, 1);
   pages_->addWidget(page);

@@ -3,12 +3,12 @@
 #pragma once
 
 #include <QSettings>
-#include <QSplitter>
 #include <QStackedWidget>
 #include <QVBoxLayout>
 #include <QWidget>
 #include <vector>
 
+#include "gui/shell/view_splitter.h"
 #include "gui/window_state/displayed_source.h"
 #include "gui/window_state/feature.h"
 
@@ -29,6 +29,8 @@ class CentralWidget : public QWidget {
   void setPlace(DisplayedSource::Kind place);
   void setComparing(bool on);
   void remember();
+  // The width at which the views fit side by side [px].
+  int comfortableWidth() const { return views_->widthSideBySide(); }
 
  private:
   QSettings& settings_;
@@ -37,7 +39,7 @@ class CentralWidget : public QWidget {
   QStackedWidget* pages_;
   // Views, or the comparison of two recordings.
   QStackedWidget* work_;
-  QSplitter* views_;
+  ViewSplitter* views_;
   QVBoxLayout* column_;
   std::vector<QWidget*> below_;
 };

@@ -4,6 +4,7 @@
 #include <QTimer>
 #include <algorithm>
 
+#include "gui/shell/central_widget.h"
 #include "gui/widgets/dock.h"
 #include "gui/window_state/action_registry.h"
 
@@ -24,17 +25,32 @@ constexpr double kBottomBelow = 0.17;
 // Below this height of the window [px] there is no room for both docks.
 constexpr int kLowWindow = 760;
 
+// Whether docks of a side extend over the width of the window.
+bool isAcross(Qt::DockWidgetArea side) {
+  return side == Qt::BottomDockWidgetArea || side == Qt::TopDockWidgetArea;
+}
+
 QString shownKey(const Dock& dock) { return dock.objectName().toLower() + "/shown"; }
 
 }  // namespace
 
-DockArrangement::DockArrangement(QMainWindow& window, QSettings& settings)
-    : window_(window), settings_(settings) {
+DockArrangement::DockArrangement(QMainWindow& window,
+                                 const CentralWidget& centre,
+                                 QSettings& settings)
+    : window_(window), centre_(centre), settings_(settings) {
   layouts_[Kind::kRecording] = settings.value("window/layout").toByteArray();
   layouts_[Kind::kLive] = settings.value("window/live_layout").toByteArray();
   window.setCorner(Qt::BottomRightCorner, Qt::BottomDockWidgetArea);
   window.setCorner(Qt::BottomLeftCorner, Qt::BottomDockWidgetArea);
   window.setTabPosition(Qt::AllDockWidgetAreas, QTabWidget::North);
+  // A tab that the user chooses may need more width than the one before.
+  connect(&window, &QMainWindow::tabifiedDockWidgetActivated, this, [this](QDockWidget* activated) {
+    auto* dock = qobject_cast<Dock*>(activated);
+    if (!dock || isAcross(window_.dockWidgetArea(dock))) return;
+    QTimer::singleShot(0, dock, [this, dock] {
+      if (!dock->isFloating() && !dock->visibleRegion().isEmpty()) widen(*dock, 0);
+    });
+  });
 }
 
 void DockArrangement::add(const DockSpec& offer) {
@@ -42,11 +58,12 @@ void DockArrangement::add(const DockSpec& offer) {
   setSection(*toggle, "View");
   toggle->setShortcut(offer.key);
   window_.addAction(toggle);
-  connect(toggle, &QAction::triggered, this, [this, offer](bool shown) {
-    if (!shown) return;
-    if (offer.preferredWidthPx > 0) offer.dock->raise();
-    makeRoomFor(offer);
-    if (offer.asked) offer.asked();
+  // The key of a dock behind another tab brings it to the front, where Qt's own handler would close
+  // it.
+  toggle->disconnect(offer.dock);
+  connect(toggle, &QAction::triggered, this, [this, offer] { this->toggle(offer); });
+  connect(toggle, &QAction::toggled, this, [this, offer](bool shown) {
+    if (!shown) giveRoomBack(offer);
   });
   offers_.push_back(offer);
 }
@@ -182,9 +199,7 @@ QStringList DockArrangement::names() const {
 void DockArrangement::show(const QString& name) {
   for (const DockSpec& offer : offers_) {
     if (offer.dock->objectName() != name) continue;
-    offer.dock->show();
-    offer.dock->raise();
-    makeRoomFor(offer);
+    bringToFront(offer);
   }
 }
 
@@ -194,27 +209,85 @@ QList<QAction*> DockArrangement::toggles() const {
   return toggles;
 }
 
+void DockArrangement::toggle(const DockSpec& offer) {
+  Dock* dock = offer.dock;
+  const bool inFront = dock->isVisible() && !dock->visibleRegion().isEmpty();
+  if (inFront) {
+    dock->close();
+    return;
+  }
+  bringToFront(offer);
+  if (offer.asked) offer.asked();
+}
+
+void DockArrangement::bringToFront(const DockSpec& offer) {
+  offer.dock->show();
+  offer.dock->raise();
+  offer.dock->toggleViewAction()->setChecked(true);
+  makeRoomFor(offer);
+}
+
+Dock* DockArrangement::neighbour(const Dock& dock) const {
+  for (const DockSpec& offer : offers_)
+    if (offer.dock != &dock && !offer.dock->isHidden() && !offer.dock->isFloating() &&
+        window_.dockWidgetArea(offer.dock) == window_.dockWidgetArea(const_cast<Dock*>(&dock)))
+      return offer.dock;
+  return nullptr;
+}
+
+void DockArrangement::widen(Dock& dock, int widthPx) {
+  const int spare = centre_.width() - centre_.comfortableWidth();
+  const int wanted =
+      std::max(dock.contentWidth(), std::min(widthPx, dock.width() + std::max(0, spare)));
+  if (dock.width() < wanted) window_.resizeDocks({&dock}, {wanted}, Qt::Horizontal);
+}
+
 // Enlarges a dock that the user asked for, so that its content can be read.
 void DockArrangement::makeRoomFor(const DockSpec& offer) {
   Dock* dock = offer.dock;
-  const Dock* below = bottom() ? bottom()->dock : nullptr;
-  if (offer.above && below && window_.height() < kLowWindow && !dock->isFloating()) {
+  Dock* below = bottom() ? bottom()->dock : nullptr;
+  if (dock->isFloating()) return;
+  if (offer.above && below && window_.height() < kLowWindow) {
     // Without room for both, they become tabs.
-    window_.tabifyDockWidget(bottom()->dock, dock);
+    window_.tabifyDockWidget(below, dock);
     dock->raise();
     return;
   }
-  if (offer.preferredWidthPx == 0 && offer.shareOfHeight == 0.0) return;
+  Room room;
+  if (const Dock* beside = neighbour(*dock)) room.widthBefore = beside->width();
+  if (offer.shareOfHeight > 0.0 && below) room.bottomBefore = below->height();
   // Runs after the dock has got its place.
-  QTimer::singleShot(0, this, [this, offer, dock] {
-    if (dock->isFloating()) return;
-    if (offer.preferredWidthPx > 0 && dock->width() < offer.preferredWidthPx)
-      window_.resizeDocks({dock}, {offer.preferredWidthPx}, Qt::Horizontal);
+  QTimer::singleShot(0, this, [this, offer, dock, below, room]() mutable {
+    if (dock->isFloating() || dock->isHidden()) return;
+    if (!isAcross(window_.dockWidgetArea(dock))) {
+      widen(*dock, std::max(offer.preferredWidthPx, dock->contentWidth()));
+      room.width = dock->width();
+    }
     const int wanted = static_cast<int>(window_.height() * offer.shareOfHeight);
-    if (wanted > 0 && dock->height() < wanted && bottom())
-      window_.resizeDocks({dock, bottom()->dock},
-                          {wanted, static_cast<int>(window_.height() * kBottomBelow)},
-                          Qt::Vertical);
+    if (wanted > 0 && dock->height() < wanted && below) {
+      window_.resizeDocks(
+          {dock, below}, {wanted, static_cast<int>(window_.height() * kBottomBelow)}, Qt::Vertical);
+      room.bottom = below->height();
+    }
+    rooms_.try_emplace(dock, room);
+  });
+}
+
+void DockArrangement::giveRoomBack(const DockSpec& offer) {
+  const auto at = rooms_.find(offer.dock);
+  if (at == rooms_.end()) return;
+  const Room room = at->second;
+  rooms_.erase(at);
+  const int width = offer.dock->width();
+  Dock* below = bottom() ? bottom()->dock : nullptr;
+  const int belowHeight = below ? below->height() : 0;
+  QTimer::singleShot(0, this, [this, offer, room, width, below, belowHeight] {
+    if (!offer.dock->isHidden()) return;
+    if (Dock* beside = neighbour(*offer.dock);
+        beside && room.widthBefore > 0 && width == room.width && width > room.widthBefore)
+      window_.resizeDocks({beside}, {room.widthBefore}, Qt::Horizontal);
+    if (below && room.bottomBefore > 0 && !below->isHidden() && belowHeight == room.bottom)
+      window_.resizeDocks({below}, {room.bottomBefore}, Qt::Vertical);
   });
 }
 

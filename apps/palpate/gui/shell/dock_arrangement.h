@@ -17,11 +17,14 @@
 
 namespace palpate::gui {
 
+class CentralWidget;
+class Dock;
+
 class DockArrangement : public QObject {
   Q_OBJECT
  public:
-  // Both must outlive this object. The settings store the layouts.
-  DockArrangement(QMainWindow& window, QSettings& settings);
+  // All must outlive this object. The settings store the layouts.
+  DockArrangement(QMainWindow& window, const CentralWidget& centre, QSettings& settings);
 
   void add(const DockSpec& offer);
   // To be called once all docks have been added.
@@ -51,14 +54,32 @@ class DockArrangement : public QObject {
   const DockSpec* front() const;
   // The dock across the bottom of the window.
   const DockSpec* bottom() const;
+  // What the key of a dock does: brings it to the front; closes it if it is there.
+  void toggle(const DockSpec& offer);
+  void bringToFront(const DockSpec& offer);
   void makeRoomFor(const DockSpec& offer);
+  // Gives the room back that makeRoomFor() took, unless the user has changed it since.
+  void giveRoomBack(const DockSpec& offer);
+  // Widens a dock up to `widthPx`, as far as the views in the centre stay side by side, but at
+  // least so far that its content isn't cut.
+  void widen(Dock& dock, int widthPx);
+  // A visible dock at the same side; null: there is none.
+  Dock* neighbour(const Dock& dock) const;
+
+  // Sizes before and after makeRoomFor() [px]; 0: unchanged.
+  struct Room {
+    int widthBefore = 0, width = 0;
+    int bottomBefore = 0, bottom = 0;
+  };
 
   QMainWindow& window_;
+  const CentralWidget& centre_;
   QSettings& settings_;
   std::vector<DockSpec> offers_;
   DisplayedSource::Kind place_ = DisplayedSource::Kind::kNothing;
   bool placed_ = false;
   std::map<DisplayedSource::Kind, QByteArray> layouts_;
+  std::map<const Dock*, Room> rooms_;
   // The layout before hideAll().
   QByteArray hidden_;
 };

@@ -2,6 +2,7 @@
 
 #include <QApplication>
 #include <QCloseEvent>
+#include <QScreen>
 #include <QStatusBar>
 #include <algorithm>
 
@@ -31,10 +32,17 @@ ShellActions::ShellActions(ActionRegistry& book) {
 
 namespace {
 
-constexpr QSize kSmallestWindow(900, 600);
 constexpr QSize kUsualWindow(1440, 900);
+// Room for the frame and the title bar of the window manager [px].
+constexpr QSize kFrame(4, 36);
 // Below this width of the window [px] buttons have no text.
 constexpr int kCompactBelow = 1340;
+
+// The largest size of a window that lies within the screen.
+QSize sizeOnScreen() {
+  const QScreen* screen = QGuiApplication::primaryScreen();
+  return screen ? screen->availableSize() - kFrame : kUsualWindow;
+}
 
 }  // namespace
 
@@ -42,11 +50,10 @@ MainWindow::MainWindow(const WindowEnvironment& environment)
     : windowState_(std::make_unique<WindowState>(environment, this)),
       actions_(windowState_->actions),
       menus_(std::make_unique<WindowMenus>(*this)),
-      docks_(std::make_unique<DockArrangement>(*this, windowState_->settings)),
       centre_(new CentralWidget(windowState_->settings, this)),
+      docks_(std::make_unique<DockArrangement>(*this, *centre_, windowState_->settings)),
       banner_(new MessageBanner(centre_)) {
   setWindowTitle("Palpate");
-  setMinimumSize(kSmallestWindow);
   setAcceptDrops(true);
   setDockOptions(AnimatedDocks | AllowNestedDocks | AllowTabbedDocks);
   setCentralWidget(centre_);
@@ -65,7 +72,7 @@ MainWindow::MainWindow(const WindowEnvironment& environment)
   // Called after the features exist, so that the dock Hand with its Stop learns of a hand before
   // the window changes.
   windowState_->displayed.follow();
-  resize(kUsualWindow);
+  resize(kUsualWindow.boundedTo(sizeOnScreen()));
   restoreGeometry(windowState_->settings.value("window/geometry").toByteArray());
   centre_->begin();
   docks_->begin();

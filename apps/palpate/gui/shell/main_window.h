@@ -74,8 +74,8 @@ class MainWindow : public QMainWindow {
   std::unique_ptr<WindowState> windowState_;
   ShellActions actions_;
   std::unique_ptr<WindowMenus> menus_;
-  std::unique_ptr<DockArrangement> docks_;
   CentralWidget* centre_;
+  std::unique_ptr<DockArrangement> docks_;
   MessageBanner* banner_;
   std::unique_ptr<StatusReport> status_;
   std::vector<std::unique_ptr<Feature>> features_;

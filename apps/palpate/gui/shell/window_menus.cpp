@@ -10,6 +10,7 @@
 #include <QToolBar>
 #include <QToolButton>
 
+#include "gui/widgets/eliding_box.h"
 #include "gui/window_state/action_registry.h"
 
 namespace palpate::gui {
@@ -32,7 +33,7 @@ WindowMenus::WindowMenus(QMainWindow& window) : window_(window) {
   menus_.scanned = new QMenu("Scanned &taxels", &window);
   menus_.recent = new QMenu("Open &recent", &window);
   menus_.speed = new QComboBox(&window);
-  menus_.recordings = new QComboBox(&window);
+  menus_.recordings = new ElidingBox(&window);
 }
 
 void WindowMenus::fill(const ActionRegistry& book, const QList<QAction*>& dockToggles) {

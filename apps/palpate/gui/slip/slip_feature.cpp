@@ -5,6 +5,7 @@
 #include "gui/slip/slip_chart.h"
 #include "gui/slip/slip_controls.h"
 #include "gui/slip/slip_panel.h"
+#include "gui/widgets/content_scroll.h"
 #include "gui/widgets/dock.h"
 
 namespace palpate::gui {
@@ -20,9 +21,11 @@ SlipFeature::SlipFeature(WindowState& windowState, QWidget* window)
       reference_(windowState.actions.make(
           "slipReference", "View", "S&lip is measured from here", {key("O")})),
       panel_(new SlipPanel(windowState.settings, window)) {
-  dock_ = new Dock("Slip", panel_, nullptr, window);
+  dock_ = new Dock("Slip", new ContentScroll(panel_, kLeastDockContent), nullptr, window);
   reference_->setToolTip("The frame that is shown becomes the reference of slip (O)");
   connectBench();
+  // The next connection may have its history at the same address.
+  connect(&windowState.live, &LiveController::ended, this, [this] { liveOf_ = nullptr; });
   connect(panel_, &SlipPanel::said, &windowState.messages, &Messages::flash);
   connect(panel_, &SlipPanel::foundChanged, &windowState.events, &EventController::renewMarks);
   connect(panel_, &SlipPanel::foundChanged, this, &SlipFeature::showArrows);

@@ -83,8 +83,7 @@ SpectrumChart::SpectrumChart(QWidget* parent) : QCustomPlot(parent) {
   arrangeChart(*this);
   setMouseTracking(true);
   xAxis->setTickLabels(false);
-  yAxis->ticker()->setTickCount(3);
-  axisRect()->setMinimumMargins(QMargins(52, 8, 8, 4));
+  axisRect()->setMinimumMargins(QMargins(timeAxisLeft(*this), 8, 8, 4));
   addGraph();
   spectra_ = new QCPAxisRect(this);
   plotLayout()->addElement(1, 0, spectra_);
@@ -93,7 +92,6 @@ SpectrumChart::SpectrumChart(QWidget* parent) : QCustomPlot(parent) {
   time_ = spectra_->axis(QCPAxis::atBottom);
   frequency_ = spectra_->axis(QCPAxis::atLeft);
   time_->ticker()->setTickCount(9);
-  frequency_->ticker()->setTickCount(4);
   frequency_->setLabel("frequency in Hz");
   for (QCPAxis* axis : {time_, frequency_}) axis->setLayer("axes");
   colors_ = new QCPColorScale(this);
@@ -118,7 +116,10 @@ SpectrumChart::SpectrumChart(QWidget* parent) : QCustomPlot(parent) {
   cursor_ = new QWidget(this);
   cursor_->setObjectName("cursor");
   cursor_->setAttribute(Qt::WA_TransparentForMouseEvents);
-  connect(this, &QCustomPlot::afterReplot, this, &SpectrumChart::placeCursor);
+  connect(this, &QCustomPlot::afterReplot, this, [this] {
+    placeCursor();
+    if (isVisible()) emit rightChanged(width() - spectra_->rect().right() - 1);
+  });
 }
 
 void SpectrumChart::setAnswer(const SpectrumAnswer& answer) {
@@ -237,7 +238,6 @@ void SpectrumChart::style() {
 void SpectrumChart::nameAxes() {
   const bool low = height() < kLowBelow;
   colors_->axis()->ticker()->setTickCount(low ? 2 : 4);
-  frequency_->ticker()->setTickCount(low ? 2 : 4);
   const bool seconds = time_->range().upper <= kSpectrumChartLongestInS;
   time_->setLabel(low       ? QString()
                   : seconds ? "time from the first frame in s"
@@ -248,7 +248,8 @@ void SpectrumChart::nameAxes() {
   colors_->axis()->setLabel(low  ? (db ? "dB" : answer_.unit)
                             : db ? "dB re 1 " + answer_.unit + "²/Hz"
                                  : "magnitude in " + answer_.unit);
-  spectra_->setMinimumMargins(QMargins(52, fontMetrics().height() + 6, 8, 10));
+  spectra_->setMinimumMargins(
+      QMargins(timeAxisLeft(*this), fontMetrics().height() + 6, 8, low ? 22 : 10));
 }
 
 // Shows the longest notes that fit.
@@ -378,6 +379,11 @@ void SpectrumChart::wheelEvent(QWheelEvent* event) {
 void SpectrumChart::resizeEvent(QResizeEvent* event) {
   QCustomPlot::resizeEvent(event);
   writeNotes();
+}
+
+void SpectrumChart::hideEvent(QHideEvent* event) {
+  QCustomPlot::hideEvent(event);
+  emit rightChanged(0);
 }
 
 bool SpectrumChart::event(QEvent* event) {

@@ -52,6 +52,8 @@ class SpectrumChart : public QCustomPlot {
   void zoomRequested(double seconds, double factor);
   void panRequested(double seconds);
   void fitRequested();
+  // The space right of the time axis is another one now [px]; 0: the chart isn't visible.
+  void rightChanged(int px);
 
  protected:
   void mousePressEvent(QMouseEvent* event) override;
@@ -60,6 +62,7 @@ class SpectrumChart : public QCustomPlot {
   void mouseDoubleClickEvent(QMouseEvent* event) override;
   void wheelEvent(QWheelEvent* event) override;
   void resizeEvent(QResizeEvent* event) override;
+  void hideEvent(QHideEvent* event) override;
   bool event(QEvent* event) override;
 
  private:

@@ -33,6 +33,8 @@ void SpectrumFeature::connectChart() {
   SpectrumChart& chart = panel_->chart();
   connect(
       &chart, &SpectrumChart::seekRequested, &state().playback, &PlaybackController::seekSeconds);
+  connect(
+      &chart, &SpectrumChart::rightChanged, &state().appearance, &ViewAppearance::setTimeAxisRight);
   connect(&chart, &SpectrumChart::fitRequested, &selection, &Selection::showAll);
   connect(&chart, &SpectrumChart::zoomRequested, &selection, &Selection::zoomAbout);
   connect(&chart, &SpectrumChart::panRequested, this, [&selection](double seconds) {

@@ -8,6 +8,7 @@
 #include <palpate/core/number_text.h>
 
 #include "gui/widgets/empty_page.h"
+#include "gui/widgets/fitting_pages.h"
 #include "gui/widgets/opening_strip.h"
 
 namespace palpate::gui {
@@ -78,7 +79,7 @@ SpectrumPanel::SpectrumPanel(QSettings& settings, QWidget* parent)
   header_ = new SpectrumHeader(this);
   header_->setSetting(loaded(settings));
   strip_ = new OpeningStrip(this, "Computing", "spectrum");
-  pages_ = new QStackedWidget(this);
+  pages_ = new FittingPages(this);
   empty_ = new EmptyPage("spectrum", pages_);
   chart_ = new SpectrumChart(pages_);
   chart_->setScale(header_->setting().scale);

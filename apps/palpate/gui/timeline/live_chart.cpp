@@ -65,6 +65,7 @@ void LiveChart::setHistory(const SignalHistory* history,
   handUnit_ = handUnit;
   originUs_.reset();
   newestUs_ = 0;
+  nowS_ = 0.0;
   setHeld(false);
   largest_ = 0.0;
   plotted_.assign(history ? numMatrices + 1 : 0, true);
@@ -166,8 +167,10 @@ void LiveChart::roll(double nowS) {
   nowS_ = nowS;
   const double toS = std::max(nowS, windowS_);
   xAxis->setRange(toS - windowS_, toS);
-  constexpr double kTicks = 12.0;
-  secondsTicker_->setTickStep(niceAbove(windowS_ / kTicks));
+  constexpr double kMostTicks = 12.0, kTickRoom = 60.0;  // [px]
+  const double ticks = std::clamp(axisRect()->width() / kTickRoom, 2.0, kMostTicks);
+  secondsTicker_->setTickStep(niceAbove(windowS_ / ticks));
+  arrangeNames();
   fitHeight(toS - windowS_);
   replot(QCustomPlot::rpQueuedReplot);
 }
@@ -216,11 +219,33 @@ void LiveChart::line(double atS, const QString& name, const QColor& color) {
   shape->end->setCoords(atS, 1.0);
   shape->setPen(QPen(color, 1.0));
   auto* text = wordAt(*this, atS, name, Qt::AlignLeft, colorsOf(theme_).text);
-  // Names of neighbouring lines are placed one below the other.
-  constexpr std::size_t kLines = 4;
-  const auto lineHeight = static_cast<int>(fontMetrics().lineSpacing());
-  text->setPadding(QMargins(4, static_cast<int>(lines_++ % kLines) * lineHeight, 0, 0));
   events_.push_back({atS, atS, false, shape, text});
+  arrangedFor_ = 0.0;
+}
+
+// Places names of neighbouring events one below the other, so that none covers another one; a name
+// for which no line is free is hidden.
+void LiveChart::arrangeNames() {
+  const double pxPerS = axisRect()->width() / windowS_;
+  const double key = pxPerS + 1e6 * axisRect()->height();
+  if (key == arrangedFor_) return;
+  arrangedFor_ = key;
+  const int lineHeight = fontMetrics().lineSpacing();
+  constexpr int kMostLines = 4, kBetween = 10;  // [px]
+  const int lines = std::clamp(axisRect()->height() / (2 * lineHeight), 1, kMostLines);
+  std::vector<double> usedTo(static_cast<std::size_t>(lines), -1e12);  // [px]
+  for (const Shown& event : events_) {
+    const double width = fontMetrics().horizontalAdvance(event.name->text());
+    const double left =
+        event.isGap ? (event.beginS + event.endS) / 2 * pxPerS - width / 2 : event.beginS * pxPerS;
+    const auto free =
+        std::find_if(usedTo.begin(), usedTo.end(), [&](double to) { return to <= left; });
+    event.name->setVisible(free != usedTo.end());
+    if (free == usedTo.end()) continue;
+    *free = left + width + kBetween;
+    event.name->setPadding(
+        QMargins(event.isGap ? 0 : 4, static_cast<int>(free - usedTo.begin()) * lineHeight, 0, 0));
+  }
 }
 
 void LiveChart::shadeGap(double beginS, double endS) {
@@ -231,6 +256,7 @@ void LiveChart::shadeGap(double beginS, double endS) {
                       Qt::AlignHCenter,
                       colorsOf(theme_).warning);
   events_.push_back({beginS, endS, true, shape, text});
+  arrangedFor_ = 0.0;
 }
 
 void LiveChart::nameAxis() { yAxis->setLabel(signalAxisName(signal_, handUnit_, *this)); }

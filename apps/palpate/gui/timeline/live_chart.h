@@ -74,6 +74,7 @@ class LiveChart : public QCustomPlot {
   void rebuild();
   void append(const std::vector<SignalSample>& samples, bool areNew);
   void roll(double nowS);
+  void arrangeNames();
   void fitHeight(double fromS);
   void nameAxis();
   void shadeGap(double beginS, double endS);
@@ -98,7 +99,8 @@ class LiveChart : public QCustomPlot {
   double largest_ = 0.0;
   std::deque<Shown> events_;
   // Number of lines drawn since the start.
-  std::size_t lines_ = 0;
+  // Scale and height for which the names are arranged; 0: they aren't.
+  double arrangedFor_ = 0.0;
 };
 
 }  // namespace palpate::gui

@@ -111,6 +111,15 @@ void TimelineChart::setCurves(const std::vector<PlottedCurve>& curves) {
   rebuildGraphs();
 }
 
+void TimelineChart::setRight(int px) {
+  QMargins margins = axisRect()->minimumMargins();
+  constexpr int kUsualRight = 20;  // [px]
+  margins.setRight(std::max(px, kUsualRight));
+  if (margins == axisRect()->minimumMargins()) return;
+  axisRect()->setMinimumMargins(margins);
+  replot(QCustomPlot::rpQueuedReplot);
+}
+
 void TimelineChart::setTheme(Theme theme) {
   theme_ = theme;
   const ThemeColors& colors = colorsOf(theme);

@@ -34,6 +34,8 @@ class TimelineChart : public QCustomPlot {
   void setBefore(const OpenedRecordingPtr& before);
   SeriesStore& storeBefore() noexcept { return before_; }
   void setTheme(Theme theme);
+  // The least space right of the time axis [px].
+  void setRight(int px);
   // Moves the cursor; when it leaves a zoomed view, the view moves on by a page.
   void setPosition(double seconds);
 

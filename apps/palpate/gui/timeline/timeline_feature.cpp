@@ -14,6 +14,7 @@
 #include "gui/timeline/timeline_header.h"
 #include "gui/timeline/timeline_panel.h"
 #include "gui/widgets/dock.h"
+#include "gui/widgets/fitting_pages.h"
 #include "gui/widgets/opening_strip.h"
 
 namespace palpate::gui {
@@ -33,7 +34,7 @@ TimelineFeature::TimelineFeature(WindowState& windowState, QWidget* window)
       {actions.zoomSelection, actions.addLabel, actions.crop, actions.dropSelection}, window);
   signalTree_ = new SignalTree(groups_, window);
   signalTree_->setExtras(extras_);
-  charts_ = new QStackedWidget(window);
+  charts_ = new FittingPages(window);
   panel_ = new TimelinePanel(charts_);
   chart_ = &panel_->chart();
   liveChart_ = new LiveChart(charts_);
@@ -48,6 +49,9 @@ TimelineFeature::TimelineFeature(WindowState& windowState, QWidget* window)
         QInputDialog::getText(window, title, title + ":", QLineEdit::Normal, text, &good);
     return good ? std::optional(answer.simplified()) : std::nullopt;
   };
+  connect(&windowState.appearance, &ViewAppearance::timeAxisChanged, this, [this, &windowState] {
+    chart_->setRight(windowState.appearance.timeAxisRight());
+  });
   connectSubject();
   connectLive();
   connectSelection();

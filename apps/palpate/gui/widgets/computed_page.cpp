@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "gui/widgets/empty_page.h"
+#include "gui/widgets/fitting_pages.h"
 #include "gui/widgets/opening_strip.h"
 
 namespace palpate::gui {
@@ -13,7 +14,7 @@ namespace palpate::gui {
 ComputedPage::ComputedPage(const QString& part, QWidget* parent) : QWidget(parent) {
   setObjectName(part + "Page");
   strip_ = new OpeningStrip(this, "Computing", part);
-  pages_ = new QStackedWidget(this);
+  pages_ = new FittingPages(this);
   empty_ = new EmptyPage(part, pages_);
   pages_->addWidget(empty_);
   auto* column = new QVBoxLayout(this);

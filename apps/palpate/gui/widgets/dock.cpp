@@ -3,8 +3,10 @@
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QToolButton>
+#include <algorithm>
 
 #include "gui/appearance/icons.h"
+#include "gui/widgets/content_scroll.h"
 
 namespace palpate::gui {
 
@@ -33,6 +35,13 @@ Dock::Dock(const QString& name, QWidget* content, QWidget* header, QWidget* pare
     layout->addStretch(1);
   layout->addWidget(close_);
   setTitleBarWidget(row);
+}
+
+int Dock::contentWidth() const {
+  int width = minimumSizeHint().width();
+  if (const auto* area = qobject_cast<const ContentScroll*>(widget()))
+    width = std::max(width, area->widget()->minimumSizeHint().width());
+  return std::max(width, titleBarWidget()->sizeHint().width());
 }
 
 void Dock::setTheme(Theme theme) { close_->setIcon(makeIcon(IconShape::kClose, theme)); }

@@ -17,6 +17,8 @@ class Dock : public QDockWidget {
   // shown in the title row.
   Dock(const QString& name, QWidget* content, QWidget* header, QWidget* parent);
   void setTheme(Theme theme);
+  // The width at which nothing of the dock has to be scrolled sideways [px].
+  int contentWidth() const;
 
  private:
   QToolButton* close_;

@@ -6,6 +6,7 @@
 #include <QStyledItemDelegate>
 #include <algorithm>
 #include <numeric>
+#include <utility>
 
 namespace palpate::gui {
 namespace {
@@ -17,7 +18,8 @@ constexpr int kIcon = 16;                // [px] side of an icon
 constexpr int kFiguresTableAir = 5;      // [px] above and below
 // Least width of a column, as a share of its usual width.
 constexpr double kFiguresTableNarrowest = 0.85;
-constexpr int kLastLeast = 64;  // [px] of the last column
+constexpr int kLongestWhole = 150;  // [px] of a text; a longer one may be shortened
+constexpr int kLastLeast = 64;      // [px] of the last column
 // Further rows are reached by scrolling.
 constexpr int kFiguresTableMostRowsSeen = 6;
 
@@ -91,6 +93,7 @@ FiguresTable::FiguresTable(const std::vector<FigureColumn>& columns, QWidget* pa
     widths_.push_back(column.letters * fontMetrics().horizontalAdvance('0') +
                       2 * kFiguresTablePadding);
   }
+  needed_ = neededWidths();
   connect(this, &QTableWidget::itemSelectionChanged, this, [this] {
     if (const int row = chosenRow(); row >= 0) emit rowChosen(row);
   });
@@ -116,7 +119,28 @@ void FiguresTable::setRows(const std::vector<std::vector<FigureCell>>& rows) {
       item->setToolTip(cell.tip);
       item->setIcon(cell.icon);
     }
-  if (!sameCount) updateGeometry();
+  const std::vector<int> before = std::exchange(needed_, neededWidths());
+  if (needed_ != before) fitColumns();
+  if (!sameCount || needed_ != before) updateGeometry();
+}
+
+std::vector<int> FiguresTable::neededWidths() const {
+  std::vector<int> widths;
+  const QFontMetrics metrics = fontMetrics();
+  for (int x = 0; x < columnCount(); ++x) {
+    int width =
+        horizontalHeader()->fontMetrics().horizontalAdvance(horizontalHeaderItem(x)->text());
+    for (int y = 0; y < rowCount(); ++y) {
+      const QTableWidgetItem* cell = item(y, x);
+      // Names of files and the like are shortened, and their tool tips have them in full.
+      const int letters = std::max(metrics.horizontalAdvance(cell->text()),
+                                   metrics.horizontalAdvance(cell->data(kDetailRole).toString()));
+      const int icon = cell->icon().isNull() ? 0 : kIcon + kFiguresTablePadding;
+      width = std::max(width, std::min(letters + icon, kLongestWhole));
+    }
+    widths.push_back(width + 2 * kFiguresTablePadding + 1);
+  }
+  return widths;
 }
 
 void FiguresTable::setTheme(Theme theme) {
@@ -135,11 +159,14 @@ void FiguresTable::fitColumns() {
       std::clamp(static_cast<double>(room - kLastLeast) / before, kFiguresTableNarrowest, 1.0);
   int used = 0;
   for (int i = 0; i + 1 < columnCount(); ++i) {
-    const int width = static_cast<int>(scale * widths_[static_cast<std::size_t>(i)]);
+    const auto at = static_cast<std::size_t>(i);
+    const int width = std::max(static_cast<int>(scale * widths_[at]), needed_[at]);
     horizontalHeader()->resizeSection(i, width);
     used += width;
   }
-  horizontalHeader()->resizeSection(columnCount() - 1, std::max(room - used, kLastLeast));
+  horizontalHeader()->resizeSection(
+      columnCount() - 1,
+      std::max({room - used, std::min(kLastLeast, widths_.back()), needed_.back()}));
 }
 
 void FiguresTable::resizeEvent(QResizeEvent* event) {
@@ -160,7 +187,12 @@ QSize FiguresTable::sizeHint() const {
 }
 
 QSize FiguresTable::minimumSizeHint() const {
-  return {200, horizontalHeader()->sizeHint().height() + verticalHeader()->defaultSectionSize()};
+  // A table that doesn't scroll sideways shows all of its columns.
+  const int width = horizontalScrollBarPolicy() == Qt::ScrollBarAlwaysOff
+                        ? std::accumulate(needed_.begin(), needed_.end(), 0)
+                        : 0;
+  return {std::max(200, width),
+          horizontalHeader()->sizeHint().height() + verticalHeader()->defaultSectionSize()};
 }
 
 bool FiguresTable::event(QEvent* event) {

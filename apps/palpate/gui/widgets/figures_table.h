@@ -58,9 +58,12 @@ class FiguresTable : public QTableWidget {
  private:
   // The last column takes the remaining width; where there is too little, the others shrink.
   void fitColumns();
+  // The widths at which headings and figures aren't shortened [px].
+  std::vector<int> neededWidths() const;
 
   // Widths of the columns when there is room [px].
   std::vector<int> widths_;
+  std::vector<int> needed_;
 };
 
 }  // namespace palpate::gui

@@ -1,10 +1,15 @@
 #include "gui/widgets/paged_panel.h"
 
 #include <QButtonGroup>
+#include <QEvent>
 #include <QHBoxLayout>
+#include <QMenu>
 #include <QStackedWidget>
 #include <QToolButton>
+#include <algorithm>
 #include <utility>
+
+#include "gui/widgets/fitting_pages.h"
 
 namespace palpate::gui {
 
@@ -15,8 +20,17 @@ PagedPanel::PagedPanel(QSettings& settings, QString key, QWidget* parent)
   row->setContentsMargins(0, 0, 0, 0);
   row->setSpacing(4);
   row->addStretch(1);
+  list_ = new QToolButton(header_);
+  list_->setObjectName(key_ + "Pages");
+  list_->setToolTip("Another page of this dock");
+  list_->setPopupMode(QToolButton::InstantPopup);
+  list_->setFocusPolicy(Qt::TabFocus);
+  list_->setMenu(new QMenu(list_));
+  list_->hide();
+  row->addWidget(list_);
+  header_->installEventFilter(this);
   chooser_ = new QButtonGroup(this);
-  pages_ = new QStackedWidget(this);
+  pages_ = new FittingPages(this);
 }
 
 void PagedPanel::addPage(QWidget* page, const QString& name, const QString& tip) {
@@ -28,6 +42,22 @@ void PagedPanel::addPage(QWidget* page, const QString& name, const QString& tip)
   button->setFocusPolicy(Qt::TabFocus);
   chooser_->addButton(button, pages_->addWidget(page));
   header_->layout()->addWidget(button);
+  connect(list_->menu()->addAction(name), &QAction::triggered, button, &QToolButton::click);
+  // Without a least width of its own, the layout would ask for the width of all buttons.
+  list_->setText(name);
+  header_->setMinimumWidth(std::max(header_->minimumWidth(), list_->sizeHint().width()));
+}
+
+bool PagedPanel::eventFilter(QObject* watched, QEvent* event) {
+  if (watched == header_ && event->type() == QEvent::Resize) {
+    int needed = -header_->layout()->spacing();
+    for (const QAbstractButton* button : chooser_->buttons())
+      needed += button->sizeHint().width() + header_->layout()->spacing();
+    const bool narrow = header_->width() < needed;
+    list_->setVisible(narrow);
+    for (QAbstractButton* button : chooser_->buttons()) button->setVisible(!narrow);
+  }
+  return QWidget::eventFilter(watched, event);
 }
 
 void PagedPanel::showLastPage() {
@@ -35,6 +65,7 @@ void PagedPanel::showLastPage() {
   connect(chooser_, &QButtonGroup::idToggled, this, [this, setting](int page, bool on) {
     if (!on) return;
     pages_->setCurrentIndex(page);
+    list_->setText(pageName());
     settings_.setValue(setting, pageName());
   });
   const QString last = settings_.value(setting).toString();

@@ -8,6 +8,7 @@
 
 class QButtonGroup;
 class QStackedWidget;
+class QToolButton;
 
 namespace palpate::gui {
 
@@ -30,10 +31,14 @@ class PagedPanel : public QWidget {
   // For the layout, and as parent widget of the pages.
   QStackedWidget& pages() const noexcept { return *pages_; }
 
+  // Shows a list in place of the buttons where the title row is too narrow for them.
+  bool eventFilter(QObject* watched, QEvent* event) override;
+
  private:
   QSettings& settings_;
   const QString key_;
   QWidget* header_;
+  QToolButton* list_;
   QButtonGroup* chooser_;
   QStackedWidget* pages_;
 };

@@ -29,6 +29,14 @@ class ViewAppearance : public QObject {
     emit themeChanged();
     emit changed();
   }
+  // The space right of the time axis that the charts in one column leave [px], so that the axes end
+  // at the same place; 0: each as it needs.
+  int timeAxisRight() const noexcept { return timeAxisRight_; }
+  void setTimeAxisRight(int px) {
+    if (px == timeAxisRight_) return;
+    timeAxisRight_ = px;
+    emit timeAxisChanged();
+  }
   // Writes the appearance to the settings, together with the settings of the playback.
   void remember(double speed, bool loop, bool skipGaps) {
     view_.speed = speed;
@@ -41,10 +49,12 @@ class ViewAppearance : public QObject {
   void themeChanged();
   // Any member of view() has changed.
   void changed();
+  void timeAxisChanged();
 
  private:
   QSettings& settings_;
   ViewSettings view_;
+  int timeAxisRight_ = 0;
 };
 
 }  // namespace palpate::gui

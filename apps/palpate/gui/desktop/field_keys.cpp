@@ -1,0 +1,25 @@
+#include "gui/desktop/field_keys.h"
+
+#include <QAbstractSpinBox>
+#include <QApplication>
+#include <QKeyEvent>
+#include <QLineEdit>
+
+namespace palpate::gui {
+
+FieldKeys::FieldKeys(QObject* parent) : QObject(parent) { qApp->installEventFilter(this); }
+
+bool FieldKeys::eventFilter(QObject* watched, QEvent* event) {
+  if (event->type() != QEvent::ShortcutOverride) return false;
+  if (!qobject_cast<QLineEdit*>(watched) && !qobject_cast<QAbstractSpinBox*>(watched)) return false;
+  const auto* key = static_cast<const QKeyEvent*>(event);
+  const bool letter = key->key() >= Qt::Key_A && key->key() <= Qt::Key_Z;
+  if (!letter || key->modifiers() != Qt::ControlModifier) return false;
+  for (const Qt::Key own : {Qt::Key_A, Qt::Key_C, Qt::Key_V, Qt::Key_X, Qt::Key_Y, Qt::Key_Z})
+    if (key->key() == own) return false;
+  // An ignored override lets the shortcut be looked up; without one, the field gets the key.
+  event->ignore();
+  return true;
+}
+
+}  // namespace palpate::gui

@@ -1,0 +1,59 @@
+#include "gui/hand/dialog_stop.h"
+
+#include <QApplication>
+#include <QEvent>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QLayout>
+#include <QPushButton>
+
+namespace palpate::gui {
+namespace {
+
+constexpr const char* kDialogStopName = "dialogStop";
+
+}  // namespace
+
+DialogStop::DialogStop(QAction& stop, QObject* parent) : QObject(parent), stop_(stop) {
+  qApp->installEventFilter(this);
+}
+
+bool DialogStop::eventFilter(QObject* watched, QEvent* event) {
+  // Polish comes before the dialogue gets its size, Show each time that it is opened.
+  if (event->type() != QEvent::Polish && event->type() != QEvent::Show) return false;
+  auto* dialog = qobject_cast<QDialog*>(watched);
+  if (dialog && dialog->isModal()) showIn(*dialog);
+  return false;
+}
+
+void DialogStop::showIn(QDialog& dialog) {
+  QLayout* layout = dialog.layout();
+  if (!layout) return;
+  QWidget* bar = layout->menuBar();
+  if (bar && bar->objectName() != kDialogStopName) return;
+  if (!stop_.isEnabled()) {
+    if (!bar) return;
+    layout->setMenuBar(nullptr);
+    bar->deleteLater();
+    return;
+  }
+  if (bar) return;
+  bar = new QWidget(&dialog);
+  bar->setObjectName(kDialogStopName);
+  auto* button = new QPushButton("Stop  (Esc)", bar);
+  button->setObjectName("dialogStopButton");
+  button->setProperty("danger", true);
+  button->setAutoDefault(false);
+  button->setFocusPolicy(Qt::NoFocus);
+  button->setToolTip(stop_.toolTip());
+  connect(button, &QPushButton::clicked, &stop_, &QAction::trigger);
+  auto* row = new QHBoxLayout(bar);
+  row->setContentsMargins(12, 8, 12, 0);
+  row->addWidget(new QLabel("A hand is connected.", bar));
+  row->addStretch(1);
+  row->addWidget(button);
+  // A layout gives its menu bar a row of its own, whatever else the dialogue has.
+  layout->setMenuBar(bar);
+}
+
+}  // namespace palpate::gui

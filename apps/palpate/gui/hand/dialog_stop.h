@@ -1,0 +1,27 @@
+// While a modal dialogue is open, the window's buttons are dead; so each modal dialogue gets a
+// button Stop of its own as long as a hand is connected that can be moved. (Esc works everywhere.)
+#pragma once
+
+#include <QAction>
+#include <QDialog>
+#include <QObject>
+
+namespace palpate::gui {
+
+class DialogStop : public QObject {
+ public:
+  // `stop`: the action that stops the hand; enabled while there is a hand to stop. It must outlive
+  // this object.
+  DialogStop(QAction& stop, QObject* parent);
+
+ protected:
+  // Filters the events of the whole application.
+  bool eventFilter(QObject* watched, QEvent* event) override;
+
+ private:
+  void showIn(QDialog& dialog);
+
+  QAction& stop_;
+};
+
+}  // namespace palpate::gui

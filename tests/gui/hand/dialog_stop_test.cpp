@@ -1,0 +1,66 @@
+// A modal dialogue has a button that stops the hand while there is a hand to stop.
+#include "gui/hand/dialog_stop.h"
+
+#include <QInputDialog>
+#include <QMessageBox>
+#include <QPushButton>
+#include <QSignalSpy>
+#include <QTest>
+#include <QVBoxLayout>
+#include <initializer_list>
+
+#include <gtest/gtest.h>
+
+namespace palpate::gui::dialog_stop_test {
+namespace {
+
+QPushButton* stopOf(const QDialog& dialog) {
+  return dialog.findChild<QPushButton*>("dialogStopButton");
+}
+
+TEST(DialogStop, EachModalDialogueStopsTheHandByAClick) {
+  QAction stop("Stop");
+  const DialogStop dialogs(stop, nullptr);
+  QSignalSpy stopped(&stop, &QAction::triggered);
+  QMessageBox question(QMessageBox::Question, "Palpate", "Go on?", QMessageBox::Yes);
+  QInputDialog name;
+  for (QDialog* dialog : std::initializer_list<QDialog*>{&question, &name}) {
+    dialog->open();
+    QCoreApplication::processEvents();
+    QPushButton* button = stopOf(*dialog);
+    ASSERT_NE(button, nullptr);
+    EXPECT_TRUE(button->isVisible());
+    EXPECT_TRUE(dialog->rect().contains(
+        QRect(button->mapTo(dialog, QPoint(0, 0)), button->size())));
+    QTest::mouseClick(button, Qt::LeftButton);
+    EXPECT_TRUE(dialog->isVisible()) << "the dialogue stays";
+    dialog->close();
+  }
+  EXPECT_EQ(stopped.size(), 2);
+}
+
+TEST(DialogStop, WithoutAHandThereIsNoButton) {
+  QAction stop("Stop");
+  const DialogStop dialogs(stop, nullptr);
+  QInputDialog name;
+  name.open();
+  EXPECT_NE(stopOf(name), nullptr);
+  name.close();
+  stop.setEnabled(false);
+  name.open();
+  QCoreApplication::sendPostedEvents(nullptr, QEvent::DeferredDelete);
+  EXPECT_EQ(stopOf(name), nullptr);
+  name.close();
+}
+
+TEST(DialogStop, ADialogueThatIsNotModalLeavesTheWindowsButtonUsable) {
+  QAction stop("Stop");
+  const DialogStop dialogs(stop, nullptr);
+  QDialog keys;
+  new QVBoxLayout(&keys);
+  keys.show();
+  EXPECT_EQ(stopOf(keys), nullptr);
+}
+
+}  // namespace
+}  // namespace palpate::gui::dialog_stop_test

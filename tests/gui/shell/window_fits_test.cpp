@@ -1,0 +1,176 @@
+// The window fits small screens: with a recording and with a live hand, with each dock, at each
+// size and in both themes, nothing is cut off and nothing lies over something else.
+#include <QDockWidget>
+#include <QLineEdit>
+#include <QPushButton>
+#include <QScreen>
+
+#include "gui/source/live_controller.h"
+#include "gui/testing/layout_faults.h"
+#include "gui/testing/window_fixture.h"
+
+namespace palpate::gui::window_fits_test {
+namespace {
+namespace fs = std::filesystem;
+
+constexpr QSize kSizes[] = {{1280, 800}, {1366, 768}, {1440, 900}};
+
+class WindowFitsTest : public WindowTest {
+ protected:
+  WindowFitsTest() {
+    fs::create_directory_symlink(testing::dataFolder() / "scenes", folder_ / "scenes");
+  }
+
+  void processAll() {
+    // Docks reach their places at once.
+    window().setAnimated(false);
+    for (int i = 0; i < 4; ++i) QCoreApplication::processEvents();
+  }
+  void connectEmulated() {
+    Connection connection;
+    connection.kind = Connection::Kind::kEmulated;
+    connection.scene = "ball";
+    window().state().connectTo(connection);
+    ASSERT_TRUE(QTest::qWaitFor(
+        [&] { return window().state().displayed.isLive() && !window().state().live.stale(); },
+        20'000));
+  }
+  void expectNoFaults(const QString& where) {
+    processAll();
+    const QStringList faults = layoutFaults(window());
+    EXPECT_TRUE(faults.isEmpty()) << where.toStdString() << ":\n  "
+                                  << faults.join("\n  ").toStdString();
+  }
+  void press(const QKeySequence& key) {
+    WindowTest::press(static_cast<Qt::Key>(key[0].key()), key[0].keyboardModifiers());
+  }
+  // Every dock in turn, by its key, in the layout of the first start.
+  void expectEveryDockFits(const char* source) {
+    for (const QSize size : kSizes)
+      for (const ThemeChoice theme : {ThemeChoice::kDark, ThemeChoice::kLight}) {
+        if (theme == ThemeChoice::kLight && size != kSizes[0]) continue;
+        window().state().appearance.setTheme(theme);
+        window().resize(size);
+        const QString at = QString("%1 at %2x%3, %4")
+                               .arg(source)
+                               .arg(size.width())
+                               .arg(size.height())
+                               .arg(nameOf(theme));
+        window().setAnimated(false);
+        window().docks().reset();
+        expectNoFaults(at);
+        EXPECT_EQ(window().size(), size) << at.toStdString();
+        for (QAction* toggle : window().docks().toggles()) {
+          window().docks().reset();
+          QCoreApplication::processEvents();
+          auto* dock = find<QDockWidget>(toggle->text().toUtf8());
+          if (dock->isVisible()) dock->close();
+          toggle->trigger();
+          expectNoFaults(at + ", " + toggle->text());
+          if (dock->objectName() == "Library" || dock->objectName() == "Log") dock->close();
+        }
+      }
+  }
+};
+
+TEST_F(WindowFitsTest, ARecordingWithEveryDock) {
+  open({"rich.dsa"});
+  window().settle();
+  expectEveryDockFits("recording");
+}
+
+TEST_F(WindowFitsTest, ALiveHandWithEveryDock) {
+  connectEmulated();
+  expectEveryDockFits("live");
+}
+
+TEST_F(WindowFitsTest, ARecordingBesideALiveHand) {
+  connectEmulated();
+  open({"rich_recording_with_quite_a_long_name_of_an_object_2026-11-22_run_0123.dsa"});
+  window().settle();
+  for (const QSize size : {QSize(1280, 800), QSize(1024, 700)}) {
+    window().resize(size);
+    window().docks().reset();
+    expectNoFaults(QString("%1x%2").arg(size.width()).arg(size.height()));
+  }
+}
+
+TEST_F(WindowFitsTest, AllDocksAtOnceAreScrolledNotCut) {
+  open({"rich.dsa"});
+  window().resize(1280, 800);
+  window().setAnimated(false);
+  for (const QString& name : window().docks().names()) {
+    window().docks().show(name);
+    processAll();
+  }
+  EXPECT_EQ(window().size(), QSize(1280, 800));
+  expectNoFaults("all docks");
+}
+
+TEST_F(WindowFitsTest, TheWindowIsNoLargerThanTheScreen) {
+  const QSize screen = QGuiApplication::primaryScreen()->availableSize();
+  EXPECT_LE(window().frameGeometry().width(), screen.width());
+  EXPECT_LE(window().frameGeometry().height(), screen.height());
+}
+
+TEST_F(WindowFitsTest, TheKeyOfADockBehindAnotherBringsItToTheFront) {
+  open({"rich.dsa"});
+  window().setAnimated(false);
+  auto* inspect = find<QDockWidget>("Inspect");
+  for (const char* name : {"Link", "Filter", "Log", "Slip", "Calibrate", "Recognise", "Hand"}) {
+    auto* dock = find<QDockWidget>(name);
+    const QKeySequence key = dock->toggleViewAction()->shortcut();
+    press(key);
+    processAll();
+    EXPECT_FALSE(dock->visibleRegion().isEmpty()) << name << ", closed before";
+    inspect->raise();
+    processAll();
+    ASSERT_TRUE(dock->visibleRegion().isEmpty()) << name;
+    press(key);
+    processAll();
+    EXPECT_FALSE(dock->visibleRegion().isEmpty()) << name << ", behind Inspect before";
+    EXPECT_TRUE(dock->toggleViewAction()->isChecked()) << name;
+    press(key);
+    processAll();
+    EXPECT_TRUE(dock->isHidden()) << name << ", in front before";
+    EXPECT_FALSE(dock->toggleViewAction()->isChecked()) << name;
+  }
+}
+
+TEST_F(WindowFitsTest, ADockThatTookRoomGivesItBack) {
+  open({"rich.dsa"});
+  window().resize(1440, 900);
+  window().setAnimated(false);
+  window().docks().reset();
+  processAll();
+  const auto* timeline = find<QDockWidget>("Timeline");
+  const auto* inspect = find<QDockWidget>("Inspect");
+  const QSize timelineBefore = timeline->size(), inspectBefore = inspect->size();
+  for (const char* name : {"Spectrum", "Slip"}) {
+    const QKeySequence key = find<QDockWidget>(name)->toggleViewAction()->shortcut();
+    press(key);
+    processAll();
+    press(key);
+    processAll();
+    EXPECT_EQ(timeline->size(), timelineBefore) << name;
+    EXPECT_EQ(inspect->size(), inspectBefore) << name;
+  }
+}
+
+TEST_F(WindowFitsTest, KeysOfTheWindowWorkWhileAFieldHasTheFocus) {
+  open({"rich.dsa"});
+  press(QKeySequence("Ctrl+Shift+L"));
+  processAll();
+  auto* search = find<QLineEdit>("librarySearch");
+  ASSERT_TRUE(search->hasFocus());
+  auto* spectrum = find<QDockWidget>("Spectrum");
+  ASSERT_TRUE(spectrum->isHidden());
+  QTest::keyClick(search, Qt::Key_U, Qt::ControlModifier);
+  EXPECT_FALSE(spectrum->isHidden());
+  search->setText("words");
+  QTest::keyClick(search, Qt::Key_A, Qt::ControlModifier);
+  EXPECT_EQ(search->selectedText(), "words") << "what everybody knows stays with the field";
+}
+
+}  // namespace
+}  // namespace palpate::gui::window_fits_test
