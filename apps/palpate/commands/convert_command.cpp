@@ -119,7 +119,8 @@ int convertCommand(const Arguments& words) {
                    "       palpate convert PATH... -o TEMPLATE",
        .purpose =
            "Converts a recording; the ending of OUT chooses the format: .dsa, .palpate, .csv "
-           "(with\nOUT.angles.csv and OUT.temperatures.csv beside it), .npz (for NumPy), .h5, .mat, "
+           "(with\nOUT.angles.csv and OUT.temperatures.csv beside it), .npz (for NumPy), .h5, "
+           ".mat, "
            ".mcap\n(docs/bridges.md) or .jsonl (frames as schunk_sdh/TactileSensor). "
            "Of a FOLDER every recording\nbelow it, into OUTFOLDER under the same names with "
            "the ending of FORM, a line per file; one that\nfails doesn't stop the others: exit "
