@@ -30,8 +30,8 @@ TEST(DialogStop, EachModalDialogueStopsTheHandByAClick) {
     QPushButton* button = stopOf(*dialog);
     ASSERT_NE(button, nullptr);
     EXPECT_TRUE(button->isVisible());
-    EXPECT_TRUE(dialog->rect().contains(
-        QRect(button->mapTo(dialog, QPoint(0, 0)), button->size())));
+    EXPECT_TRUE(
+        dialog->rect().contains(QRect(button->mapTo(dialog, QPoint(0, 0)), button->size())));
     QTest::mouseClick(button, Qt::LeftButton);
     EXPECT_TRUE(dialog->isVisible()) << "the dialogue stays";
     dialog->close();
