@@ -35,6 +35,8 @@ QString describe(const QWidget& widget) {
   if (const auto* button = qobject_cast<const QAbstractButton*>(&widget)) text = button->text();
   if (const auto* box = qobject_cast<const QComboBox*>(&widget)) text = box->currentText();
   if (const auto* field = qobject_cast<const QLineEdit*>(&widget)) text = field->text();
+  if (const auto* tabs = qobject_cast<const QTabBar*>(&widget))
+    for (int i = 0; i < tabs->count(); ++i) text += tabs->tabText(i) + "|";
   const QString name = widget.objectName().isEmpty() && widget.parentWidget()
                            ? widget.parentWidget()->objectName() + "/"
                            : widget.objectName();
@@ -137,7 +139,9 @@ void checkCombo(const QComboBox& box, QStringList& faults) {
           .width();
   // Names of files are shortened; the list shows them in full.
   int widest = box.fontMetrics().horizontalAdvance(box.currentText());
-  if (box.sizeAdjustPolicy() == QComboBox::AdjustToMinimumContentsLengthWithIcon) return;
+  if (box.sizeAdjustPolicy() == QComboBox::AdjustToMinimumContentsLengthWithIcon ||
+      box.inherits("palpate::gui::ElidingBox"))
+    return;
   if (!box.itemIcon(box.currentIndex()).isNull()) widest += box.iconSize().width() + 4;
   if (widest > room + kSlack)
     faults.append(
@@ -228,6 +232,9 @@ bool isOverlay(const QWidget& widget) {
 
 // Whether `widget` is (in) a dock behind another tab: Qt moves it out of the window.
 bool isBehindATab(const QWidget& widget, const QWidget& window) {
+  // So does it with a bar that has one tab only.
+  if (qobject_cast<const QTabBar*>(&widget) && widget.parentWidget() == &window)
+    return !widget.geometry().intersects(window.rect());
   const QWidget* dock = &widget;
   while (dock && dock != &window && !qobject_cast<const QDockWidget*>(dock))
     dock = dock->parentWidget();

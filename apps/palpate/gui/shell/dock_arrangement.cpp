@@ -259,17 +259,20 @@ void DockArrangement::makeRoomFor(const DockSpec& offer) {
   // Runs after the dock has got its place.
   QTimer::singleShot(0, this, [this, offer, dock, below, room]() mutable {
     if (dock->isFloating() || dock->isHidden()) return;
-    if (!isAcross(window_.dockWidgetArea(dock))) {
+    if (!isAcross(window_.dockWidgetArea(dock)))
       widen(*dock, std::max(offer.preferredWidthPx, dock->contentWidth()));
-      room.width = dock->width();
-    }
     const int wanted = static_cast<int>(window_.height() * offer.shareOfHeight);
     if (wanted > 0 && dock->height() < wanted && below) {
       window_.resizeDocks(
           {dock, below}, {wanted, static_cast<int>(window_.height() * kBottomBelow)}, Qt::Vertical);
-      room.bottom = below->height();
     }
-    rooms_.try_emplace(dock, room);
+    // The sizes hold after the layout has been applied.
+    QTimer::singleShot(0, this, [this, dock, below, room]() mutable {
+      if (dock->isFloating() || dock->isHidden()) return;
+      room.width = dock->width();
+      if (room.bottomBefore > 0) room.bottom = below->height();
+      rooms_.try_emplace(dock, room);
+    });
   });
 }
 

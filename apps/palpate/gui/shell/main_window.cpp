@@ -37,6 +37,8 @@ constexpr QSize kUsualWindow(1440, 900);
 constexpr QSize kFrame(4, 36);
 // Below this width of the window [px] buttons have no text.
 constexpr int kCompactBelow = 1340;
+// Below this width the tool bar has no name of the program.
+constexpr int kNarrowBelow = 1120;
 
 // The largest size of a window that lies within the screen.
 QSize sizeOnScreen() {
@@ -256,6 +258,7 @@ void MainWindow::showEvent(QShowEvent* event) {
 void MainWindow::resizeEvent(QResizeEvent* event) {
   QMainWindow::resizeEvent(event);
   menus_->setCompact(event->size().width() < kCompactBelow);
+  menus_->setNarrow(event->size().width() < kNarrowBelow);
 }
 
 }  // namespace palpate::gui

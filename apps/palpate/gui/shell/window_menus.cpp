@@ -184,7 +184,7 @@ void WindowMenus::buildToolBar(const ActionRegistry& book) {
   bar->setIconSize({16, 16});
   auto* brand = new QLabel("<b>Palpate</b>", bar);
   brand->setContentsMargins(4, 0, 10, 0);
-  bar->addWidget(brand);
+  brand_ = bar->addWidget(brand);
   addStop(*bar, at("stopHand"));
   bar->addActions({at("open"), at("exportPicture")});
   bar->addSeparator();
@@ -273,6 +273,8 @@ QWidget* WindowMenus::makePlayback(QToolBar& bar, const ActionRegistry& book) {
 }
 
 void WindowMenus::setPlaybackShown(bool on) { playback_->setVisible(on); }
+
+void WindowMenus::setNarrow(bool on) { brand_->setVisible(!on); }
 
 void WindowMenus::setCompact(bool on) {
   compact_ = on;

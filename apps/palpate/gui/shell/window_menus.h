@@ -32,6 +32,8 @@ class WindowMenus {
 
   // Shows buttons without text, for a narrow window.
   void setCompact(bool on);
+  // Leaves the name of the program out of the tool bar.
+  void setNarrow(bool on);
   void setPlaybackShown(bool on);
   // Shows what is connected; empty: shows nothing. `good`: data arrive.
   void showLink(const QString& text, bool good);
@@ -49,6 +51,7 @@ class WindowMenus {
   QToolButton* play_ = nullptr;
   QAction* playback_ = nullptr;
   QAction* linkAction_ = nullptr;
+  QAction* brand_ = nullptr;
   bool compact_ = false;
 
   void styleRecord();

@@ -16,10 +16,7 @@ constexpr int kWarningRole = Qt::UserRole + 2;
 constexpr int kFiguresTablePadding = 6;  // [px] beside a figure
 constexpr int kIcon = 16;                // [px] side of an icon
 constexpr int kFiguresTableAir = 5;      // [px] above and below
-// Least width of a column, as a share of its usual width.
-constexpr double kFiguresTableNarrowest = 0.85;
-constexpr int kLongestWhole = 150;  // [px] of a text; a longer one may be shortened
-constexpr int kLastLeast = 64;      // [px] of the last column
+constexpr int kLongestWhole = 150;       // [px] of a text; a longer one may be shortened
 // Further rows are reached by scrolling.
 constexpr int kFiguresTableMostRowsSeen = 6;
 
@@ -155,8 +152,7 @@ void FiguresTable::setSingleLine() {
 void FiguresTable::fitColumns() {
   const int room = viewport()->width();
   const int before = std::accumulate(widths_.begin(), widths_.end() - 1, 0);
-  const double scale =
-      std::clamp(static_cast<double>(room - kLastLeast) / before, kFiguresTableNarrowest, 1.0);
+  const double scale = std::clamp(static_cast<double>(room - needed_.back()) / before, 0.0, 1.0);
   int used = 0;
   for (int i = 0; i + 1 < columnCount(); ++i) {
     const auto at = static_cast<std::size_t>(i);
@@ -164,9 +160,7 @@ void FiguresTable::fitColumns() {
     horizontalHeader()->resizeSection(i, width);
     used += width;
   }
-  horizontalHeader()->resizeSection(
-      columnCount() - 1,
-      std::max({room - used, std::min(kLastLeast, widths_.back()), needed_.back()}));
+  horizontalHeader()->resizeSection(columnCount() - 1, std::max(room - used, needed_.back()));
 }
 
 void FiguresTable::resizeEvent(QResizeEvent* event) {
