@@ -1,6 +1,8 @@
 #include "gui/shell/dock_arrangement.h"
 
 #include <QAction>
+#include <QChildEvent>
+#include <QTabBar>
 #include <QTimer>
 #include <algorithm>
 
@@ -42,6 +44,7 @@ DockArrangement::DockArrangement(QMainWindow& window,
   layouts_[Kind::kLive] = settings.value("window/live_layout").toByteArray();
   window.setCorner(Qt::BottomRightCorner, Qt::BottomDockWidgetArea);
   window.setCorner(Qt::BottomLeftCorner, Qt::BottomDockWidgetArea);
+  window.installEventFilter(this);
   window.setTabPosition(Qt::AllDockWidgetAreas, QTabWidget::North);
   // A tab that the user chooses may need more width than the one before.
   connect(&window, &QMainWindow::tabifiedDockWidgetActivated, this, [this](QDockWidget* activated) {
@@ -65,6 +68,7 @@ void DockArrangement::add(const DockSpec& offer) {
   connect(toggle, &QAction::toggled, this, [this, offer](bool shown) {
     if (!shown) giveRoomBack(offer);
   });
+  offer.dock->installEventFilter(this);
   offers_.push_back(offer);
 }
 
@@ -276,20 +280,41 @@ void DockArrangement::makeRoomFor(const DockSpec& offer) {
   });
 }
 
+bool DockArrangement::eventFilter(QObject* watched, QEvent* event) {
+  if (event->type() == QEvent::ChildAdded && watched == &window_) {
+    QObject* child = static_cast<QChildEvent*>(event)->child();
+    if (child->isWidgetType()) child->installEventFilter(this);
+  } else if (event->type() == QEvent::Paint) {
+    // Qt leaves tab bars without tabs over other widgets: they would draw a line across them, and
+    // take their clicks.
+    if (auto* bar = qobject_cast<QTabBar*>(watched)) {
+      const bool empty = bar->count() == 0;
+      bar->setAttribute(Qt::WA_TransparentForMouseEvents, empty);
+      return empty;
+    }
+  } else if (event->type() == QEvent::Close) {
+    const auto at = rooms_.find(qobject_cast<Dock*>(watched));
+    if (at != rooms_.end()) {
+      at->second.lastWidth = at->first->width();
+      at->second.lastBottom = bottom() ? bottom()->dock->height() : 0;
+    }
+  }
+  return QObject::eventFilter(watched, event);
+}
+
 void DockArrangement::giveRoomBack(const DockSpec& offer) {
   const auto at = rooms_.find(offer.dock);
   if (at == rooms_.end()) return;
   const Room room = at->second;
   rooms_.erase(at);
-  const int width = offer.dock->width();
   Dock* below = bottom() ? bottom()->dock : nullptr;
-  const int belowHeight = below ? below->height() : 0;
-  QTimer::singleShot(0, this, [this, offer, room, width, below, belowHeight] {
+  QTimer::singleShot(0, this, [this, offer, room, below] {
     if (!offer.dock->isHidden()) return;
-    if (Dock* beside = neighbour(*offer.dock);
-        beside && room.widthBefore > 0 && width == room.width && width > room.widthBefore)
+    if (Dock* beside = neighbour(*offer.dock); beside && room.widthBefore > 0 &&
+                                               room.lastWidth == room.width &&
+                                               room.width > room.widthBefore)
       window_.resizeDocks({beside}, {room.widthBefore}, Qt::Horizontal);
-    if (below && room.bottomBefore > 0 && !below->isHidden() && belowHeight == room.bottom)
+    if (below && room.bottomBefore > 0 && !below->isHidden() && room.lastBottom == room.bottom)
       window_.resizeDocks({below}, {room.bottomBefore}, Qt::Vertical);
   });
 }

@@ -46,6 +46,10 @@ class DockArrangement : public QObject {
   void show(const QString& name);
   QList<QAction*> toggles() const;
 
+ protected:
+  // Watches docks, and the tab bars that the window makes.
+  bool eventFilter(QObject* watched, QEvent* event) override;
+
  private:
   void placeDocks();
   void placeSides();
@@ -70,6 +74,8 @@ class DockArrangement : public QObject {
   struct Room {
     int widthBefore = 0, width = 0;
     int bottomBefore = 0, bottom = 0;
+    // When the dock was closed.
+    int lastWidth = 0, lastBottom = 0;
   };
 
   QMainWindow& window_;

@@ -151,16 +151,19 @@ void FiguresTable::setSingleLine() {
 
 void FiguresTable::fitColumns() {
   const int room = viewport()->width();
-  const int before = std::accumulate(widths_.begin(), widths_.end() - 1, 0);
-  const double scale = std::clamp(static_cast<double>(room - needed_.back()) / before, 0.0, 1.0);
+  const std::size_t last = needed_.size() - 1;
+  int wanted = 0;
+  for (std::size_t i = 0; i < last; ++i) wanted += std::max(0, widths_[i] - needed_[i]);
+  // What is left when each column has what it needs.
+  const int spare = std::max(0, room - std::accumulate(needed_.begin(), needed_.end(), 0));
+  const double share = wanted > 0 ? std::min(1.0, static_cast<double>(spare) / wanted) : 0.0;
   int used = 0;
-  for (int i = 0; i + 1 < columnCount(); ++i) {
-    const auto at = static_cast<std::size_t>(i);
-    const int width = std::max(static_cast<int>(scale * widths_[at]), needed_[at]);
-    horizontalHeader()->resizeSection(i, width);
-    used += width;
+  for (std::size_t i = 0; i < last; ++i) {
+    const int more = static_cast<int>(share * std::max(0, widths_[i] - needed_[i]));
+    horizontalHeader()->resizeSection(static_cast<int>(i), needed_[i] + more);
+    used += needed_[i] + more;
   }
-  horizontalHeader()->resizeSection(columnCount() - 1, std::max(room - used, needed_.back()));
+  horizontalHeader()->resizeSection(static_cast<int>(last), std::max(room - used, needed_[last]));
 }
 
 void FiguresTable::resizeEvent(QResizeEvent* event) {
