@@ -400,6 +400,13 @@ echo "$(nproc) cores, $(sed -n 's/^model name\\s*: //p' /proc/cpuinfo | head -n 
         "summary": (wall("daySeconds"), MS),
         "peak": (counter("dayRandomFrame", "peak_MB"), MEGABYTES)},
         env={"PALPATE_BENCHMARK_DAY": "1"}),
+    bench("day_exports", 400, "^dayExport", {
+        f"{form}_{what}": (counter(f"dayExport/{form}", key, factor), write)
+        for form in ("raw", "h5", "h5_signals_slip", "mcap", "csv")
+        for what, key, factor, write in (("rate", "bytes_per_second", 1e-6, fixed(0, "MB/s")),
+                                         ("peak", "peak_MB", 1.0, MEGABYTES),
+                                         ("file", "file_MB", 1.0, MEGABYTES))},
+        env={"PALPATE_BENCHMARK_DAY": "1"}),
     bench("timeline", 150, "timelineOfADay", {
         "drawn": (counter("timelineOfADay", "drawn_s"), S),
         "zoom_median": (counter("timelineOfADay", "zoom_p50_ms", 1e-3), MS),
@@ -412,6 +419,14 @@ echo "$(nproc) cores, $(sed -n 's/^model name\\s*: //p' /proc/cpuinfo | head -n 
         "processor": (processor_s, S), "peak": (peak_mb, MEGABYTES)}, recordings=True)
     for command in ("info", "signals", "verify", "grasps")
 ] + [
+    Part(f"convert_{form}", 20, f'"$PALPATE" convert -q "$RECORDINGS" -o "out/{{folder}}_{{name}}.{form}"{more}',
+         show=f"palpate convert FOLDER -o 'out/{{folder}}_{{name}}.{form}'{more}", figures={
+        "wall": (wall_s, S), "peak": (peak_mb, MEGABYTES)}, recordings=True)
+    for form, more in (("h5", " --no-slip"), ("mcap", " --no-slip"), ("npz", ""))
+] + [
+    Part("convert_h5_slip", 25, '"$PALPATE" convert -q "$RECORDINGS" -o "out/{folder}_{name}.h5"',
+         show="palpate convert FOLDER -o 'out/{folder}_{name}.h5'", figures={
+        "wall": (wall_s, S), "peak": (peak_mb, MEGABYTES)}, recordings=True),
     bench("start", 20, "processTo", {
         "picture": (wall("processToPicture"), S),
         "first_paint": (counter("processToFirstPaint", "first_paint_ms", 1e-3), MS),
@@ -650,6 +665,19 @@ SECTIONS = {
         Row(f"all shared recordings: `{command}` of the folder, processor time, peak memory",
             f"{{folder_{command}.processor}}, {{folder_{command}.peak}}", f"folder_{command}")
         for command in ("info", "signals", "verify", "grasps")
+    ],
+    "exports": [
+        Row(f"24 hours of an SDH-2 to {name}: taxels per second (target 100 MB/s), peak memory (target 300 MB), the file",
+            f"{{day_exports.{form}_rate}}, {{day_exports.{form}_peak}}, {{day_exports.{form}_file}}", "day_exports")
+        for form, name in (("h5", "`.h5`"), ("h5_signals_slip", "`.h5` with signals and slip"),
+                           ("mcap", "`.mcap`"), ("csv", "`.csv`"),
+                           ("raw", "a file of counts as they are, the reference"))
+    ] + [
+        Row(f"all shared recordings (609) to {name}, wall time on two cores{target}, peak memory",
+            f"{{{part}.wall}}, {{{part}.peak}}", part)
+        for part, name, target in (("convert_h5", "`.h5`", " (target 10 s)"),
+                                   ("convert_h5_slip", "`.h5` with slip", ""),
+                                   ("convert_mcap", "`.mcap`", ""), ("convert_npz", "`.npz`", ""))
     ],
     "window": [
         Row("from process start to the first paint of the window (target 200 ms); to a picture of the window "

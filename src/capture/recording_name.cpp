@@ -115,7 +115,7 @@ std::string filled(const std::string& marked, const RecordingNameFields& fields,
   return name + ".palpate";
 }
 
-// Matches recordings (also their parts and journals) that differ in run and time only.
+// Matches recordings (also their parts, journals and MCAP files) that differ in run and time only.
 std::regex patternOf(const std::string& marked) {
   std::string pattern;
   for (const char c : marked) {
@@ -128,7 +128,7 @@ std::regex patternOf(const std::string& marked) {
     else
       pattern += c;
   }
-  return std::regex(pattern + "(?:_[0-9]{3,})?\\.palpate.*");
+  return std::regex(pattern + "(?:_[0-9]{3,})?\\.(?:palpate|mcap).*");
 }
 
 int largestRun(const fs::path& folder, const std::string& marked) {
@@ -150,8 +150,12 @@ bool taken(const fs::path& path) {
   std::error_code ignored;
   fs::path journal = path;
   journal += "-journal";
+  // The file that may be written beside it (RecordingOptions::mcap).
+  fs::path mcap = path;
+  mcap.replace_extension(".mcap");
   return fs::exists(fs::symlink_status(path, ignored)) ||
-         fs::exists(fs::symlink_status(journal, ignored));
+         fs::exists(fs::symlink_status(journal, ignored)) ||
+         fs::exists(fs::symlink_status(mcap, ignored));
 }
 
 }  // namespace

@@ -12,16 +12,17 @@
 namespace palpate {
 
 // Keys and values to be written: `said`, which was said of the recording before, and what the
-// profile says by itself (serial number, hand, ..), which is the newer truth. Left out is what
+// profile says by itself (`info` and `hand`), which is the newer truth. Left out is what
 // belongs to the file that it was read from: its form, the numbers of its samples.
 inline std::map<std::string, std::string> writtenMeta(
-    const Profile& profile, const std::map<std::string, std::string>& said) {
+    const ProfileInfo& info,
+    const HandDescription& hand,
+    const std::map<std::string, std::string>& said) {
   std::map<std::string, std::string> meta;
-  const ProfileInfo& info = profile.info();
   if (!info.serial.empty()) meta["serial"] = info.serial;
   if (!info.firmware.empty()) meta["firmware"] = info.firmware;
   if (!info.sensorRevision.empty()) meta["sensor_revision"] = info.sensorRevision;
-  meta.merge(handMeta(profile.hand()));
+  meta.merge(handMeta(hand));
   for (const auto& [key, value] : said)
     // The texts of a hand belong together.
     if (key != "hand_json" && key != "hand_urdf") meta.try_emplace(key, value);

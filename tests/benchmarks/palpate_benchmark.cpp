@@ -277,6 +277,7 @@ void dayExport(benchmark::State& state, const std::string& ending, bool withSlip
 PALPATE_DAY_EXPORT(raw, "raw", false);
 PALPATE_DAY_EXPORT(h5, "h5", false);
 PALPATE_DAY_EXPORT(h5_signals_slip, "h5", true);
+PALPATE_DAY_EXPORT(mcap, "mcap", false);
 PALPATE_DAY_EXPORT(csv, "csv", false);
 
 }  // namespace

@@ -135,6 +135,8 @@ TEST_F(RecordingName, runIsTheNextFreeNumberOfThisOperatorAndObject) {
   EXPECT_EQ(nextRecordingPath(folder.path(), form, cup), folder / "Ada_cup_005.palpate");
   writeFile(folder / "Ada_cup_0999.palpate-journal", "");  // of an unfinished recording
   EXPECT_EQ(nextRecordingPath(folder.path(), form, cup), folder / "Ada_cup_1000.palpate");
+  writeFile(folder / "Ada_cup_1003.mcap", "");  // whose recording was moved away
+  EXPECT_EQ(nextRecordingPath(folder.path(), form, cup), folder / "Ada_cup_1004.palpate");
 }
 
 TEST_F(RecordingName, runGoesOnThoughTheTimeDiffers) {
@@ -151,6 +153,8 @@ TEST_F(RecordingName, withoutRunATakenNameGetsANumber) {
   EXPECT_EQ(nextRecordingPath(folder.path(), "cup", {}), folder / "cup-2.palpate");
   fs::create_symlink("/nowhere", folder / "cup-2.palpate");
   EXPECT_EQ(nextRecordingPath(folder.path(), "cup", {}), folder / "cup-3.palpate");
+  writeFile(folder / "cup-3.mcap", "");
+  EXPECT_EQ(nextRecordingPath(folder.path(), "cup", {}), folder / "cup-4.palpate");
   EXPECT_THROW(nextRecordingPath(folder / "none", "cup", {}), FileError);
 }
 

@@ -38,8 +38,8 @@ std::string recordingFileName(std::string_view nameTemplate,
 
 // The next unused path in `folder`. {run} is one more than the largest number among recordings
 // whose names differ only in it (and in {time}); without {run} a used name gets "-2", "-3", ..
-// Creates nothing, so it is suitable for a preview, too. Throws std::invalid_argument as above,
-// FileError (no such folder).
+// A name is used when NAME.mcap is there, too. Creates nothing, so it is suitable for a preview,
+// too. Throws std::invalid_argument as above, FileError (no such folder).
 std::filesystem::path nextRecordingPath(const std::filesystem::path& folder,
                                         std::string_view nameTemplate,
                                         const RecordingNameFields& fields);

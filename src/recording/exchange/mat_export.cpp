@@ -246,7 +246,7 @@ MatValue matEventsOf(std::span<const RecordingEvent> events) {
 MatValue matMetaOf(const Profile& profile, const std::map<std::string, std::string>& said) {
   std::vector<std::string> keys;
   std::vector<std::string> values;
-  for (const auto& [key, value] : writtenMeta(profile, said)) {
+  for (const auto& [key, value] : writtenMeta(profile.info(), profile.hand(), said)) {
     keys.push_back(key);
     values.push_back(value);
   }

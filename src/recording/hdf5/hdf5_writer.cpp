@@ -264,7 +264,7 @@ class Hdf5Writer {
   void writeMeta() {
     std::vector<std::string> keys;
     std::vector<std::string> values;
-    for (const auto& [key, value] : writtenMeta(profile_, content_.meta)) {
+    for (const auto& [key, value] : writtenMeta(profile_.info(), profile_.hand(), content_.meta)) {
       keys.push_back(key);
       values.push_back(value);
     }

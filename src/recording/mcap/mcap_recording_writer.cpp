@@ -12,6 +12,7 @@
 
 #include "recording/mcap/mcap_format.h"
 #include "recording/mcap/mcap_messages.h"
+#include "recording/profile_meta.h"
 
 namespace palpate {
 namespace {
@@ -55,24 +56,6 @@ std::uint8_t mcapLogLevel(const std::string& kind) {
 
 }  // namespace
 
-std::map<std::string, std::string> mcapStoredMeta(const std::map<std::string, std::string>& meta,
-                                                  const HandDescription& hand) {
-  std::map<std::string, std::string> stored = meta;
-  for (const char* key : {"format",
-                          "finished",
-                          "value_type",
-                          "frames",
-                          "angle_samples",
-                          "temperature_samples",
-                          "seconds",
-                          "hand",
-                          "hand_json",
-                          "hand_urdf"})
-    stored.erase(key);
-  stored.merge(handMeta(hand));
-  return stored;
-}
-
 McapRecordingWriter::McapRecordingWriter(McapFileWriter::Write write,
                                          const HandDescription& hand,
                                          std::optional<bool> counts,
@@ -98,7 +81,7 @@ McapRecordingWriter::McapRecordingWriter(McapFileWriter::Write write,
   if (counts) about["value_type"] = *counts ? "counts" : "float";
   file_.addMetadata(mcap_format::kAboutRecord, about);
 
-  std::map<std::string, std::string> said = mcapStoredMeta(meta, hand);
+  std::map<std::string, std::string> said = writtenMeta({}, hand, meta);
   const std::string json = said["hand_json"];
   const std::string urdf = said["hand_urdf"];
   said.erase("hand_json");

@@ -64,8 +64,4 @@ class McapRecordingWriter {
   std::size_t numTemperatures_ = 0;
 };
 
-// `meta` as it is stored: without what belongs to the file of its source or stands elsewhere.
-std::map<std::string, std::string> mcapStoredMeta(const std::map<std::string, std::string>& meta,
-                                                  const HandDescription& hand);
-
 }  // namespace palpate

@@ -18,6 +18,7 @@
 #include "palpate/recording/mcap_recording.h"
 
 #include "recording/mcap/mcap_recording_writer.h"
+#include "recording/profile_meta.h"
 
 namespace palpate {
 namespace fs = std::filesystem;
@@ -105,15 +106,10 @@ void writeMcap(const McapContent& content,
   options.validate();
   const Profile& profile = content.profile;
   OutputFile out(path, overwrite);
-  std::map<std::string, std::string> meta = content.meta;
-  const ProfileInfo& info = profile.info();
-  if (!info.serial.empty()) meta["serial"] = info.serial;
-  if (!info.firmware.empty()) meta["firmware"] = info.firmware;
-  if (!info.sensorRevision.empty()) meta["sensor_revision"] = info.sensorRevision;
   McapRecordingWriter writer([&out](std::string_view bytes) { out.write(bytes); },
                              profile.hand(),
-                             info.valueType == ValueType::kCounts,
-                             meta,
+                             profile.info().valueType == ValueType::kCounts,
+                             writtenMeta(profile.info(), profile.hand(), content.meta),
                              content.extras.provenance,
                              options);
   if (profile.numAngles() > 0) writer.beginAngles(profile.angles(0).deg.size());

@@ -437,7 +437,7 @@ void writePalpate(const Profile& profile,
   writePalpate(
       path,
       profile.hand().layout,
-      writtenMeta(profile, meta),
+      writtenMeta(profile.info(), profile.hand(), meta),
       [&](PalpateWriter& writer) { writeAll(profile, events, writer, progress); },
       overwrite);
 }
