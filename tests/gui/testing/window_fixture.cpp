@@ -1,5 +1,7 @@
 #include "gui/testing/window_fixture.h"
 
+#include <QSettings>
+
 #include <palpate/core/error.h>
 #include <palpate/emulator/synthetic_profile.h>
 
@@ -33,6 +35,9 @@ MainWindow& WindowTest::start() {
                                                            .settingsPath = settingsFile(),
                                                            .clock = &clock_,
                                                            .read = read});
+  // The screen that draws to memory is smaller than a usual one.
+  if (!QSettings(settingsFile(), QSettings::IniFormat).contains("window/geometry"))
+    window_->resize(1440, 900);
   window_->show();
   QApplication::setActiveWindow(window_.get());
   QCoreApplication::processEvents();

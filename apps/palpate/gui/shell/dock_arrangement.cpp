@@ -65,9 +65,6 @@ void DockArrangement::add(const DockSpec& offer) {
   // it.
   toggle->disconnect(offer.dock);
   connect(toggle, &QAction::triggered, this, [this, offer] { this->toggle(offer); });
-  connect(toggle, &QAction::toggled, this, [this, offer](bool shown) {
-    if (!shown) giveRoomBack(offer);
-  });
   offer.dock->installEventFilter(this);
   offers_.push_back(offer);
 }
@@ -297,22 +294,23 @@ bool DockArrangement::eventFilter(QObject* watched, QEvent* event) {
     if (at != rooms_.end()) {
       at->second.lastWidth = at->first->width();
       at->second.lastBottom = bottom() ? bottom()->dock->height() : 0;
+      giveRoomBack(*at->first);
     }
   }
   return QObject::eventFilter(watched, event);
 }
 
-void DockArrangement::giveRoomBack(const DockSpec& offer) {
-  const auto at = rooms_.find(offer.dock);
+void DockArrangement::giveRoomBack(const Dock& dock) {
+  const auto at = rooms_.find(&dock);
   if (at == rooms_.end()) return;
   const Room room = at->second;
   rooms_.erase(at);
   Dock* below = bottom() ? bottom()->dock : nullptr;
-  QTimer::singleShot(0, this, [this, offer, room, below] {
-    if (!offer.dock->isHidden()) return;
-    if (Dock* beside = neighbour(*offer.dock); beside && room.widthBefore > 0 &&
-                                               room.lastWidth == room.width &&
-                                               room.width > room.widthBefore)
+  QTimer::singleShot(0, this, [this, closed = &dock, room, below] {
+    if (!closed->isHidden()) return;
+    if (Dock* beside = neighbour(*closed); beside && room.widthBefore > 0 &&
+                                           room.lastWidth == room.width &&
+                                           room.width > room.widthBefore)
       window_.resizeDocks({beside}, {room.widthBefore}, Qt::Horizontal);
     if (below && room.bottomBefore > 0 && !below->isHidden() && room.lastBottom == room.bottom)
       window_.resizeDocks({below}, {room.bottomBefore}, Qt::Vertical);

@@ -63,7 +63,7 @@ class DockArrangement : public QObject {
   void bringToFront(const DockSpec& offer);
   void makeRoomFor(const DockSpec& offer);
   // Gives the room back that makeRoomFor() took, unless the user has changed it since.
-  void giveRoomBack(const DockSpec& offer);
+  void giveRoomBack(const Dock& dock);
   // Widens a dock up to `widthPx`, as far as the views in the centre stay side by side, but at
   // least so far that its content isn't cut.
   void widen(Dock& dock, int widthPx);
