@@ -223,15 +223,20 @@ TEST_F(BatchDialogTest, WhatFailedIsListedWithItsReasonAndReported) {
   EXPECT_EQ(find<QLabel>("batchSummary")->text(), "0 done, 2 skipped, 1 failed.");
 }
 
-TEST_F(BatchDialogTest, AnHdf5FileFails) {
-  saveRecording(synthesize({.durationS = 2.0, .grasps = 1}), {}, folder_ / "in/x.h5");
+TEST_F(BatchDialogTest, AnHdf5FileIsReadAndAChangedOneFails) {
+  for (const char* name : {"in/x.h5", "in/changed.h5"})
+    saveRecording(synthesize({.durationS = 2.0, .grasps = 1}), {}, folder_ / name);
+  std::string bytes = testing::readFile(folder_ / "in/changed.h5");
+  bytes[bytes.size() / 2] ^= 1;
+  testing::writeFile(folder_ / "in/changed.h5", bytes);
   BatchChoices choices = both();
-  choices.paths = {text(folder_ / "in/x.h5")};
+  choices.paths = {text(folder_ / "in/x.h5"), text(folder_ / "in/changed.h5")};
   choose(choices);
   run();
+  EXPECT_EQ(find<QLabel>("batchSummary")->text(), "1 done, 0 skipped, 1 failed.");
   const QAbstractItemModel& rows = *find<QTableView>("batchTable")->model();
   ASSERT_EQ(rows.rowCount(), 1);
-  EXPECT_TRUE(rows.index(0, 2).data().toString().contains("HDF5"));
+  EXPECT_TRUE(rows.index(0, 2).data().toString().contains("checksum"));
 }
 
 }  // namespace

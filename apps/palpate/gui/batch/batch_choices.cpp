@@ -10,7 +10,6 @@
 #include <palpate/core/error.h>
 #include <palpate/core/escaped_line.h>
 #include <palpate/filter/recipe.h>
-#include <palpate/recording/hdf5_recording.h>
 
 #include "gui/source/recording_settings.h"
 
@@ -34,48 +33,6 @@ Recipe recipeFromText(const QString& text, const char* what) {
 
 std::optional<std::int64_t> matrixOf(const BatchChoices& choices) {
   return choices.matrix < 0 ? std::nullopt : std::optional<std::int64_t>(choices.matrix);
-}
-
-BatchTask plainTaskOf(const BatchChoices& choices) {
-  const Recipe filters =
-      usesFilters(choices) ? recipeFromText(choices.filters, "Filters") : Recipe();
-  const bool unitsRow = usesUnitsRow(choices) && choices.unitsRow;
-  switch (choices.work) {
-    case BatchWork::kConvert:
-      return convertTask({.filters = filters,
-                          .choices = {.withSignals = choices.withSignals || !usesSeries(choices),
-                                      .withSlip = choices.withSlip || !usesSeries(choices),
-                                      .unitsRow = unitsRow}});
-    case BatchWork::kSignals: {
-      const Recipe smooth = recipeFromText(choices.smooth, "Smooth");
-      try {
-        return signalsTask({.matrix = matrixOf(choices),
-                            .filters = filters,
-                            .smooth = smooth,
-                            .unitsRow = unitsRow});
-      } catch (const std::invalid_argument& error) {
-        throw std::invalid_argument(std::string("Smooth: ") + error.what());
-      }
-    }
-    case BatchWork::kSlip: {
-      SlipRowsOptions table{
-          .matrix = matrixOf(choices), .segments = choices.segments, .unitsRow = unitsRow};
-      setSlipMethod(table, choices.method.toStdString());
-      try {
-        setSlipReference(table, choices.reference.trimmed().toStdString());
-      } catch (const std::invalid_argument& error) {
-        throw std::invalid_argument(std::string("Reference: ") + error.what());
-      }
-      SlipRuleOptions& rule = table.pass.detector.rule;
-      rule.stepTaxels = choices.stepTaxels;
-      rule.referenceTaxels = choices.limitTaxels;
-      rule.rotationDeg = choices.rotationDeg;
-      return slipTask(table);
-    }
-    case BatchWork::kFeatures:
-      break;
-  }
-  return featuresTask(featureSetNamed(choices.featureSet.toStdString()));
 }
 
 // A path of the list that isn't there; empty: all are.
@@ -127,17 +84,45 @@ BatchTemplate templateOf(const BatchChoices& choices) {
 }
 
 BatchTask taskOf(const BatchChoices& choices) {
-  BatchTask task = plainTaskOf(choices);
-  task.work = [work = task.work](const BatchItem& item,
-                                 Overwrite overwrite,
-                                 const Progress& progress,
-                                 std::size_t threads) {
-    if (isHdf5Recording(item.source))
-      throw FormatError(item.source,
-                        "is an HDF5 file, which the window doesn't open: the command palpate does");
-    return work(item, overwrite, progress, threads);
-  };
-  return task;
+  const Recipe filters =
+      usesFilters(choices) ? recipeFromText(choices.filters, "Filters") : Recipe();
+  const bool unitsRow = usesUnitsRow(choices) && choices.unitsRow;
+  switch (choices.work) {
+    case BatchWork::kConvert:
+      return convertTask({.filters = filters,
+                          .choices = {.withSignals = choices.withSignals || !usesSeries(choices),
+                                      .withSlip = choices.withSlip || !usesSeries(choices),
+                                      .unitsRow = unitsRow}});
+    case BatchWork::kSignals: {
+      const Recipe smooth = recipeFromText(choices.smooth, "Smooth");
+      try {
+        return signalsTask({.matrix = matrixOf(choices),
+                            .filters = filters,
+                            .smooth = smooth,
+                            .unitsRow = unitsRow});
+      } catch (const std::invalid_argument& error) {
+        throw std::invalid_argument(std::string("Smooth: ") + error.what());
+      }
+    }
+    case BatchWork::kSlip: {
+      SlipRowsOptions table{
+          .matrix = matrixOf(choices), .segments = choices.segments, .unitsRow = unitsRow};
+      setSlipMethod(table, choices.method.toStdString());
+      try {
+        setSlipReference(table, choices.reference.trimmed().toStdString());
+      } catch (const std::invalid_argument& error) {
+        throw std::invalid_argument(std::string("Reference: ") + error.what());
+      }
+      SlipRuleOptions& rule = table.pass.detector.rule;
+      rule.stepTaxels = choices.stepTaxels;
+      rule.referenceTaxels = choices.limitTaxels;
+      rule.rotationDeg = choices.rotationDeg;
+      return slipTask(table);
+    }
+    case BatchWork::kFeatures:
+      break;
+  }
+  return featuresTask(featureSetNamed(choices.featureSet.toStdString()));
 }
 
 BatchOptions optionsOf(const BatchChoices& choices) {

@@ -60,7 +60,6 @@ QString endingOf(const BatchChoices& choices);
 
 // All throw std::invalid_argument with the reason why it can't be done.
 BatchTemplate templateOf(const BatchChoices& choices);
-// Recordings that are HDF5 files fail, as the window opens none (openForWindow()).
 BatchTask taskOf(const BatchChoices& choices);
 BatchOptions optionsOf(const BatchChoices& choices);
 
