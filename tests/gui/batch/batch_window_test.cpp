@@ -109,7 +109,7 @@ TEST_F(BatchWindowTest, MakesTheBytesOfTheCommand) {
 }
 
 TEST_F(BatchWindowTest, CancelKeepsWhatIsDoneAndStartGoesOn) {
-  constexpr int kFiles = 300;
+  constexpr int kFiles = 40;
   makeMany(kFiles);
   const fs::path out = folder_ / "out";
   const BatchChoices choices{
