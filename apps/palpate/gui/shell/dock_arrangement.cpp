@@ -5,6 +5,7 @@
 #include <QTabBar>
 #include <QTimer>
 #include <algorithm>
+#include <cstdlib>
 
 #include "gui/shell/central_widget.h"
 #include "gui/widgets/dock.h"
@@ -222,10 +223,14 @@ void DockArrangement::toggle(const DockSpec& offer) {
 }
 
 void DockArrangement::bringToFront(const DockSpec& offer) {
+  // Measured before the dock takes its place.
+  Room before;
+  if (const Dock* beside = neighbour(*offer.dock)) before.widthBefore = beside->width();
+  if (offer.shareOfHeight > 0.0 && bottom()) before.bottomBefore = bottom()->dock->height();
   offer.dock->show();
   offer.dock->raise();
   offer.dock->toggleViewAction()->setChecked(true);
-  makeRoomFor(offer);
+  makeRoomFor(offer, before);
 }
 
 Dock* DockArrangement::neighbour(const Dock& dock) const {
@@ -244,7 +249,7 @@ void DockArrangement::widen(Dock& dock, int widthPx) {
 }
 
 // Enlarges a dock that the user asked for, so that its content can be read.
-void DockArrangement::makeRoomFor(const DockSpec& offer) {
+void DockArrangement::makeRoomFor(const DockSpec& offer, const Room& before) {
   Dock* dock = offer.dock;
   Dock* below = bottom() ? bottom()->dock : nullptr;
   if (dock->isFloating()) return;
@@ -254,11 +259,8 @@ void DockArrangement::makeRoomFor(const DockSpec& offer) {
     dock->raise();
     return;
   }
-  Room room;
-  if (const Dock* beside = neighbour(*dock)) room.widthBefore = beside->width();
-  if (offer.shareOfHeight > 0.0 && below) room.bottomBefore = below->height();
   // Runs after the dock has got its place.
-  QTimer::singleShot(0, this, [this, offer, dock, below, room]() mutable {
+  QTimer::singleShot(0, this, [this, offer, dock, below, before] {
     if (dock->isFloating() || dock->isHidden()) return;
     if (!isAcross(window_.dockWidgetArea(dock)))
       widen(*dock, std::max(offer.preferredWidthPx, dock->contentWidth()));
@@ -268,7 +270,7 @@ void DockArrangement::makeRoomFor(const DockSpec& offer) {
           {dock, below}, {wanted, static_cast<int>(window_.height() * kBottomBelow)}, Qt::Vertical);
     }
     // The sizes hold after the layout has been applied.
-    QTimer::singleShot(0, this, [this, dock, below, room]() mutable {
+    QTimer::singleShot(0, this, [this, dock, below, room = before]() mutable {
       if (dock->isFloating() || dock->isHidden()) return;
       room.width = dock->width();
       if (room.bottomBefore > 0) room.bottom = below->height();
@@ -312,7 +314,10 @@ void DockArrangement::giveRoomBack(const Dock& dock) {
                                            room.lastWidth == room.width &&
                                            room.width > room.widthBefore)
       window_.resizeDocks({beside}, {room.widthBefore}, Qt::Horizontal);
-    if (below && room.bottomBefore > 0 && !below->isHidden() && room.lastBottom == room.bottom)
+    // A little less or more is no change by the user: rows of events come and go.
+    constexpr int kAlike = 40;  // [px]
+    if (below && room.bottomBefore > 0 && !below->isHidden() &&
+        std::abs(room.lastBottom - room.bottom) <= kAlike)
       window_.resizeDocks({below}, {room.bottomBefore}, Qt::Vertical);
   });
 }

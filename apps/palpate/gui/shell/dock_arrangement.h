@@ -51,6 +51,14 @@ class DockArrangement : public QObject {
   bool eventFilter(QObject* watched, QEvent* event) override;
 
  private:
+  // Sizes before and after makeRoomFor() [px]; 0: unchanged.
+  struct Room {
+    int widthBefore = 0, width = 0;
+    int bottomBefore = 0, bottom = 0;
+    // When the dock was closed.
+    int lastWidth = 0, lastBottom = 0;
+  };
+
   void placeDocks();
   void placeSides();
   const DockSpec* leftWhileLive() const;
@@ -61,7 +69,7 @@ class DockArrangement : public QObject {
   // What the key of a dock does: brings it to the front; closes it if it is there.
   void toggle(const DockSpec& offer);
   void bringToFront(const DockSpec& offer);
-  void makeRoomFor(const DockSpec& offer);
+  void makeRoomFor(const DockSpec& offer, const Room& before);
   // Gives the room back that makeRoomFor() took, unless the user has changed it since.
   void giveRoomBack(const Dock& dock);
   // Widens a dock up to `widthPx`, as far as the views in the centre stay side by side, but at
@@ -69,14 +77,6 @@ class DockArrangement : public QObject {
   void widen(Dock& dock, int widthPx);
   // A visible dock at the same side; null: there is none.
   Dock* neighbour(const Dock& dock) const;
-
-  // Sizes before and after makeRoomFor() [px]; 0: unchanged.
-  struct Room {
-    int widthBefore = 0, width = 0;
-    int bottomBefore = 0, bottom = 0;
-    // When the dock was closed.
-    int lastWidth = 0, lastBottom = 0;
-  };
 
   QMainWindow& window_;
   const CentralWidget& centre_;
