@@ -196,7 +196,8 @@ TEST_F(HandViewTest, SaysWhenThereAreNoAnglesOrOnesOutOfRange) {
   EXPECT_EQ(sphereText(view_.drawing(), SphereOf::kTaxels), "");
   view_.setAssumedAngles(kPose);
   EXPECT_TRUE(view_.drawing().posed());
-  EXPECT_TRUE(sphereText(view_.drawing(), SphereOf::kTaxels).startsWith("enclosing sphere, diameter "));
+  EXPECT_TRUE(
+      sphereText(view_.drawing(), SphereOf::kTaxels).startsWith("enclosing sphere, diameter "));
   EXPECT_TRUE(view_.pictureOptions({}).notice.contains("assumed"));
   std::vector<double> wide = kPose;
   wide[1] = 200.0;
