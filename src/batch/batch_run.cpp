@@ -38,10 +38,15 @@ Known knownAs(const BatchJournal& journal, const JournalEntry& now, const BatchI
   const std::optional<FileStamp> there = stampOf(item.target);
   const JournalEntry* before = journal.find(item.target);
   if (!there || !before) return Known::kNew;
+  // The result of another recording or command is as precious as anybody's file.
+  const auto command = [](const std::string& options) {
+    return options.substr(0, options.find(';'));
+  };
+  if (before->source != now.source || command(before->options) != command(now.options))
+    return Known::kNew;
   if (!before->targetStamp) return Known::kOurs;  // interrupted behind its last step
   if (*before->targetStamp != *there) return Known::kNew;
-  const bool same = before->source == now.source && before->options == now.options &&
-                    before->sourceStamp == now.sourceStamp;
+  const bool same = before->options == now.options && before->sourceStamp == now.sourceStamp;
   return same ? Known::kWhole : Known::kOurs;
 }
 

@@ -1,11 +1,19 @@
 #include "palpate/capture/link_health.h"
 
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <string>
 
 #include "palpate/core/number_text.h"
 
 namespace palpate {
 namespace {
+
+std::string minutesText(double hours) {
+  const auto minutes = static_cast<std::uint64_t>(std::max(0.0, std::round(hours * 60.0)));
+  return minutes == 0 ? "less than a minute" : counted(minutes, "minute");
+}
 
 constexpr std::int64_t kWindowUs = 2'000'000;
 constexpr double kExpectationS = 5.0;  // minimum time before the mean rate is the expected one
@@ -251,8 +259,8 @@ LinkHealth assessHealth(const LinkInputs& inputs, const HealthOptions& options) 
   addRecorderAlarms(inputs.recorder, options, health.alarms);
   if (health.diskHours && *health.diskHours < options.lowDiskHours)
     health.alarms.push_back({AlarmKind::kLowDisk,
-                             "the disk is full in " + fixedText(*health.diskHours * 60.0, 0) +
-                                 " minutes: free some space, or record elsewhere"});
+                             "the disk is full in " + minutesText(*health.diskHours) +
+                                 ": free some space, or record elsewhere"});
   if (const auto hottest = hottestOf(inputs); hottest && *hottest > options.maxTemperatureDegC)
     health.alarms.push_back({AlarmKind::kTooHot,
                              "the hand is " + fixedText(*hottest, 0) +
@@ -282,7 +290,7 @@ PreflightCheck checkPreflight(const LinkInputs& inputs,
   if (!folder.writable)
     return red(where + " can't be written: choose another folder, or change its permissions");
   if (hours && *hours < options.lowDiskHours)
-    return red("space for only " + fixedText(*hours * 60.0, 0) + " minutes in " + where);
+    return red("space for only " + minutesText(*hours) + " in " + where);
   std::string text = "ready: " + fixedText(frames.rateHz, 1) + " frames/s";
   if (const auto hottest = hottestOf(inputs)) {
     if (*hottest > options.maxTemperatureDegC)

@@ -385,6 +385,11 @@ std::int64_t RecordingParts::bytesOnDisk() const {
          (writer_ ? writer_->bytesOnDisk() : 0);
 }
 
+std::int64_t RecordingParts::framesOnDisk() const {
+  return framesInOldParts_ + (closing_ ? closing_->framesOnDisk() : 0) +
+         (writer_ ? writer_->framesOnDisk() : 0);
+}
+
 void RecordingParts::describe(RecorderStatus& status) const {
   using State = RecorderStatus::State;
   status.state = paths_.empty() ? State::kWaiting : State::kRecording;
@@ -394,8 +399,7 @@ void RecordingParts::describe(RecorderStatus& status) const {
   status.angles = counts_.angles;
   status.temperatures = counts_.temperatures;
   status.recordedS = intervals_.durationS();
-  status.framesOnDisk = framesInOldParts_ + (closing_ ? closing_->framesOnDisk() : 0) +
-                        (writer_ ? writer_->framesOnDisk() : 0);
+  status.framesOnDisk = framesOnDisk();
   status.bytesOnDisk = bytesOnDisk();
   status.lost = counts_.lost + lostInQueues_;
   status.refused = counts_.refused;
@@ -413,10 +417,14 @@ RecordingReport RecordingParts::report() const {
   report.bytes = bytesOnDisk();
   if (mcap_) report.mcapPaths = mcap_->paths();
   report.mcapFailure = mcapFailure_;
-  if (unfinished_)
+  if (unfinished_) {
+    // What waited in memory for the disk is gone.
+    const std::int64_t onDisk = framesOnDisk();
+    report.lost += counts_.frames - onDisk;
+    report.frames = onDisk;
     report.message =
         error_ + "; what was written before is safe: 'palpate recover' finishes the file";
-  else if (report.lost > 0)
+  } else if (report.lost > 0)
     report.message = std::to_string(report.lost) + " items were lost; gap events tell which";
   else if (report.refused > 0)
     report.message = std::to_string(report.refused) + " items were refused: " + refusedWhy_;

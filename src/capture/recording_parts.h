@@ -81,6 +81,7 @@ class RecordingParts {
   void onCommitFailed(const std::string& what, RoundTime time);
   void onCommitSucceeded(RoundTime time);
   std::int64_t bytesOnDisk() const;
+  std::int64_t framesOnDisk() const;
   void lookAfterMcap(RoundTime time);
 
   const RecordingOptions options_;

@@ -105,8 +105,12 @@ TEST_F(BatchRuns, ResumesWithWhatIsMissingOrOutOfDate) {
   EXPECT_EQ(worksOf({.resume = true}), 2U);
   EXPECT_EQ(testing::readFile(folder_ / "out/r12.csv"), "longer");
 
-  EXPECT_EQ(worksOf({.resume = true}, "other options"), 20U);
+  EXPECT_EQ(worksOf({.resume = true}, "copy; other options"), 20U);
   EXPECT_EQ(last_.status.done, 20U);
+  // Results of another command are not replaced.
+  EXPECT_EQ(worksOf({.resume = true}, "signals; other options"), 0U);
+  EXPECT_EQ(last_.status.failed, 20U);
+  EXPECT_EQ(worksOf({.resume = true}, "copy; other options"), 0U);
   // A result that somebody changed is not replaced.
   testing::writeFile(folder_ / "out/r13.csv", "somebody's");
   EXPECT_EQ(worksOf({.resume = true}), 19U);

@@ -73,12 +73,14 @@ std::filesystem::path partPath(const std::filesystem::path& path, int part);
 struct RecordingReport {
   // Parts in order; empty when no frame arrived and so no file was created.
   std::vector<std::filesystem::path> paths;
-  std::int64_t frames = 0;  // recorded in all parts
+  // Recorded in all parts; of a recording that could not be finished those that are on disk.
+  std::int64_t frames = 0;
   std::int64_t angles = 0;
   std::int64_t temperatures = 0;
   std::int64_t events = 0;
   // Number of received items that are missing in the recording because a queue overflowed or
-  // the disk failed; gap events say which.
+  // the disk failed; gap events say which. Of a recording that could not be finished, the frames
+  // that waited for the disk are counted, too; no event tells of them.
   std::int64_t lost = 0;
   // Number of items that could not be recorded, because their time is not later than the
   // previous one or a value is not a number.

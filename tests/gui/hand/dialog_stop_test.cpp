@@ -2,6 +2,7 @@
 #include "gui/hand/dialog_stop.h"
 
 #include <QInputDialog>
+#include <QLabel>
 #include <QMessageBox>
 #include <QPushButton>
 #include <QSignalSpy>
@@ -37,6 +38,25 @@ TEST(DialogStop, EachModalDialogueStopsTheHandByAClick) {
     dialog->close();
   }
   EXPECT_EQ(stopped.size(), 2);
+}
+
+TEST(DialogStop, AQuestionIsReadWhole) {
+  QAction stop("Stop");
+  const DialogStop dialogs(stop, nullptr);
+  QMessageBox question(QMessageBox::Question,
+                       "Palpate",
+                       "A batch is running. What is finished stays; the rest is not made. End the "
+                       "batch?",
+                       QMessageBox::Yes | QMessageBox::Cancel);
+  question.open();
+  QCoreApplication::processEvents();
+  ASSERT_NE(stopOf(question), nullptr);
+  const auto* label = question.findChild<QLabel*>("qt_msgbox_label");
+  ASSERT_NE(label, nullptr);
+  EXPECT_GE(label->width(), label->minimumSizeHint().width());
+  EXPECT_GE(label->height(), label->heightForWidth(label->width()));
+  EXPECT_TRUE(question.rect().contains(label->geometry()));
+  question.close();
 }
 
 TEST(DialogStop, WithoutAHandThereIsNoButton) {

@@ -2,9 +2,11 @@
 
 #include <QApplication>
 #include <QEvent>
+#include <QGridLayout>
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QLayout>
+#include <QMessageBox>
 #include <QPushButton>
 
 namespace palpate::gui {
@@ -29,11 +31,12 @@ bool DialogStop::eventFilter(QObject* watched, QEvent* event) {
 void DialogStop::showIn(QDialog& dialog) {
   QLayout* layout = dialog.layout();
   if (!layout) return;
-  QWidget* bar = layout->menuBar();
-  if (bar && bar->objectName() != kDialogStopName) return;
+  if (layout->menuBar() && layout->menuBar()->objectName() != kDialogStopName) return;
+  auto* bar = dialog.findChild<QWidget*>(kDialogStopName, Qt::FindDirectChildrenOnly);
   if (!stop_.isEnabled()) {
     if (!bar) return;
     layout->setMenuBar(nullptr);
+    layout->removeWidget(bar);
     bar->deleteLater();
     return;
   }
@@ -52,8 +55,13 @@ void DialogStop::showIn(QDialog& dialog) {
   row->addWidget(new QLabel("A hand is connected.", bar));
   row->addStretch(1);
   row->addWidget(button);
-  // A layout gives its menu bar a row of its own, whatever else the dialogue has.
-  layout->setMenuBar(bar);
+  // A layout gives its menu bar a row of its own, whatever else the dialogue has. A message box
+  // doesn't count it into its size: there it is a row below.
+  auto* grid = qobject_cast<QGridLayout*>(layout);
+  if (grid && qobject_cast<QMessageBox*>(&dialog))
+    grid->addWidget(bar, grid->rowCount(), 0, 1, grid->columnCount());
+  else
+    layout->setMenuBar(bar);
 }
 
 }  // namespace palpate::gui

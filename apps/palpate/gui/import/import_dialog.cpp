@@ -108,6 +108,17 @@ ImportDialog::~ImportDialog() {
   for (QObject* each : findChildren<QObject*>()) each->disconnect(this);
 }
 
+namespace {
+
+// The name of a row of several fields; its key goes to the first of them.
+QLabel* importFieldName(const QString& text, QWidget* field) {
+  auto* label = new QLabel(text);
+  label->setBuddy(field);
+  return label;
+}
+
+}  // namespace
+
 QWidget* ImportDialog::makeFile() {
   auto* side = new QWidget(this);
   auto* form = new QFormLayout(side);
@@ -126,13 +137,13 @@ QWidget* ImportDialog::makeFile() {
   data_ = new QLineEdit;
   data_->setObjectName("importData");
   data_->setPlaceholderText("CSV, text, .npy, .npz, HDF5");
-  form->addRow("&File", withButton(data_, "Bro&wse…", "importBrowse", [this] {
+  form->addRow(importFieldName("&File", data_), withButton(data_, "Bro&wse…", "importBrowse", [this] {
                  const QString chosen = askForData();
                  if (!chosen.isEmpty()) setData(chosen);
                }));
   hand_ = new QComboBox;
   hand_->setObjectName("importHand");
-  form->addRow("&Hand", withButton(hand_, "Fol&der…", "importHandFolder", [this] {
+  form->addRow(importFieldName("&Hand", hand_), withButton(hand_, "Fol&der…", "importHandFolder", [this] {
                  const QString chosen = askForHand();
                  if (!chosen.isEmpty()) setHand(chosen);
                }));
@@ -153,7 +164,7 @@ QWidget* ImportDialog::makeFile() {
     listPresets("");
   });
   presets->addWidget(removePreset_);
-  form->addRow("&Mapping", presets);
+  form->addRow(importFieldName("&Mapping", preset_), presets);
   delimiter_ = importComboBox("importDelimiter",
                               {{"detected", "detect"},
                                {"comma", "comma"},
@@ -166,7 +177,7 @@ QWidget* ImportDialog::makeFile() {
       {{"names: detected", "detect"}, {"first line: names", "present"}, {"no names", "absent"}});
   auto* text = new QHBoxLayout;
   for (QComboBox* box : {delimiter_, decimal_, header_}) text->addWidget(box, 1);
-  form->addRow("Te&xt", text);
+  form->addRow(importFieldName("Te&xt", delimiter_), text);
   time_ = new QLineEdit;
   time_->setObjectName("importTime");
   time_->setPlaceholderText(kDetected);
@@ -189,7 +200,7 @@ QWidget* ImportDialog::makeFile() {
   time->addWidget(time_, 2);
   time->addWidget(timeUnit_, 1);
   time->addWidget(rate_, 1);
-  form->addRow("&Time", time);
+  form->addRow(importFieldName("&Time", time_), time);
   return side;
 }
 

@@ -96,7 +96,7 @@ StartPage::StartPage(RecentFiles& recent, bool withDemo, QWidget* parent)
             &QPushButton::clicked,
             this,
             &StartPage::demoRequested);
-  dropHint_ = new QLabel("or drop a recording (.dsa, .palpate) anywhere in this window", this);
+  dropHint_ = new QLabel("or drop a recording (.dsa, .palpate, .h5, .mcap) anywhere in this window", this);
   dropHint_->setObjectName("DropHint");
   dropHint_->setAlignment(Qt::AlignCenter);
   dropHint_->setMinimumHeight(64);
@@ -137,7 +137,7 @@ StartPage::StartPage(RecentFiles& recent, bool withDemo, QWidget* parent)
 void StartPage::setDragging(bool on) {
   dropHint_->setProperty("dragging", on);
   dropHint_->setText(on ? "drop it to open it"
-                        : "or drop a recording (.dsa, .palpate) anywhere in this window");
+                        : "or drop a recording (.dsa, .palpate, .h5, .mcap) anywhere in this window");
   style()->unpolish(dropHint_);
   style()->polish(dropHint_);
 }

@@ -59,8 +59,9 @@ QString countedText(std::int64_t count, std::string_view noun) {
 QString summaryOf(const RecordingReport& report) {
   QString text = QString::fromStdString(report.paths.front().filename().string());
   if (report.paths.size() > 1) text += " and " + QString::number(report.paths.size() - 1) + " more";
-  text += ": " + QString::number(report.frames) + " frames in " + figure(report.durationS, 1) +
-          " s, " + megabytes(report.bytes);
+  text += ": " + QString::number(report.frames) + " frames";
+  if (report.complete) text += " in " + figure(report.durationS, 1) + " s";
+  text += ", " + megabytes(report.bytes);
   const auto counter = [&report](const char* name) {
     const auto at = report.counters.find(name);
     return at == report.counters.end() ? std::int64_t{0} : at->second;
@@ -75,7 +76,11 @@ QString summaryOf(const RecordingReport& report) {
     text +=
         (report.gaps == 1 ? QString(", 1 gap") : ", " + QString::number(report.gaps) + " gaps") +
         " in which no frame came";
-  if (report.lost == 0 && report.gaps == 0 && notReceived == 0) text += ", nothing lost";
+  if (report.complete && report.lost == 0 && report.gaps == 0 && notReceived == 0) text += ", nothing lost";
+  if (!report.mcapFailure.empty())
+    text += "; the MCAP file is not whole: " + QString::fromStdString(report.mcapFailure);
+  else if (!report.mcapPaths.empty())
+    text += "; MCAP too";
   return text;
 }
 

@@ -166,7 +166,7 @@ QWidget* RecordingDialog::makeFields() {
   browse->setAutoDefault(false);
   connect(browse, &QPushButton::clicked, this, &RecordingDialog::browse);
   add("&Folder", folder_, browse);
-  mcap_ = new QCheckBox("Also an &MCAP file, for Foxglove and ROS 2", fields);
+  mcap_ = new QCheckBox("Also an MCA&P file, for Foxglove and ROS 2", fields);
   mcap_->setObjectName("recordingMcap");
   mcap_->setToolTip("Written beside the recording, under its name");
   grid->addWidget(mcap_, row, 1, 1, 2);
