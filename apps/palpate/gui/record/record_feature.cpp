@@ -113,6 +113,7 @@ void RecordFeature::connectActions() {
   RecordActions& actions = actions_;
   on(actions.record, [this] { toggle(); });
   on(actions.recordingSettings, [this] {
+    takeFolder();
     if (const auto wanted = state().prompts.recording(settings_, "Keep")) use(*wanted);
   });
   actions.openRecorded->setEnabled(false);
@@ -215,9 +216,15 @@ void RecordFeature::use(const RecordingSettings& settings) {
   }
 }
 
+// The dialog Settings changes the folder, too.
+void RecordFeature::takeFolder() {
+  settings_.folder = loadRecordingSettings(state().settings).folder;
+}
+
 void RecordFeature::toggle() {
   LiveController& live = state().live;
   if (live.recording()) return live.stopRecording();
+  takeFolder();
   if (settings_.askEachTime) {
     const auto wanted = state().prompts.recording(settings_, "Start recording");
     if (!wanted) return;
