@@ -56,6 +56,14 @@ QString countedText(std::int64_t count, std::string_view noun) {
   return QString::fromStdString(counted(static_cast<std::uint64_t>(count), noun));
 }
 
+// How much is missing, from the duration and the usual rate; empty: too little to say.
+QString missingText(const RecordingReport& report) {
+  if (!(report.rateHz > 0.0) || report.frames < 2) return {};
+  const double missingS = report.durationS - static_cast<double>(report.frames - 1) / report.rateHz;
+  constexpr double kLeastToldS = 0.1;
+  return missingS < kLeastToldS ? QString() : ": " + figure(missingS, 1) + " s are missing";
+}
+
 QString summaryOf(const RecordingReport& report) {
   QString text = QString::fromStdString(report.paths.front().filename().string());
   if (report.paths.size() > 1) text += " and " + QString::number(report.paths.size() - 1) + " more";
@@ -74,7 +82,7 @@ QString summaryOf(const RecordingReport& report) {
   if (report.gaps > 0)
     text +=
         (report.gaps == 1 ? QString(", 1 gap") : ", " + QString::number(report.gaps) + " gaps") +
-        " in which no frame came";
+        " in which no frame came" + missingText(report);
   if (report.lost == 0 && report.gaps == 0 && notReceived == 0) text += ", nothing lost";
   return text;
 }
