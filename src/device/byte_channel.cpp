@@ -18,7 +18,7 @@ namespace {
 [[noreturn]] void refuseKind(const std::string& port, const std::string& kind) {
   throw DeviceError(DeviceFault::kNotFound,
                     port,
-                    "this is " + kind + ", not a port; 'palpate ports' lists what is there");
+                    "this is " + kind + ", not a port; name a serial port or tcp:HOST:PORT");
 }
 
 }  // namespace
@@ -32,7 +32,7 @@ std::unique_ptr<ByteChannel> openChannel(const std::string& port, const ChannelO
   if (port.empty() || port.find('\0') != std::string::npos)
     throw DeviceError(DeviceFault::kNotFound,
                       port,
-                      "this isn't the name of a port; 'palpate ports' lists what is there");
+                      "this isn't the name of a port; name a serial port or tcp:HOST:PORT");
   struct stat info {};
   if (::stat(port.c_str(), &info) != 0) throwOpenError(errno, port);
   if (S_ISDIR(info.st_mode)) refuseKind(port, "a folder");

@@ -309,8 +309,8 @@ const DsaControllerInfo& DsaController::open() {
     }
     if (clock_.monotonicUs() - startUs > usOf(options_.openTimeout))
       failSilent(
-          "no tactile controller answers; check cable and power (`palpate ports` shows "
-          "what answers where)");
+          "no tactile controller answers; check cable and power, and that this isn't the motion "
+          "port");
   }
   awaitSilence(framesTaken_ > 0 ? options_.settle : options_.settle / 2, options_.openTimeout);
   framesTaken_ = 0;

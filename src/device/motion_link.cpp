@@ -107,9 +107,11 @@ void MotionLink::connect(ByteChannel& channel) {
   }
   const SdhControllerInfo facts = controller_->open();
   if (const auto known = this->facts(); wasConnected() && known && known->serial != facts.serial)
-    throw DeviceError(DeviceFault::kWrongDevice,
-                      port_,
-                      "another hand answers here than before; connect again if that is intended");
+    throw DeviceError(
+        DeviceFault::kWrongDevice,
+        port_,
+        "a hand with another serial number answers at this port; to use it, disconnect and "
+        "connect again");
   if (!leftMoving && anyMoves(controller_->states())) {
     // The motion was left by a program that died, or by one on another port.
     controller_->stop();

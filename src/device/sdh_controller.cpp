@@ -118,7 +118,7 @@ const SdhControllerInfo& SdhController::open() {
     link_->fail(DeviceFault::kSilent,
                 std::string(noise ? "this device doesn't answer like a motion controller"
                                   : "no motion controller answers here") +
-                    "; check cable and power; 'palpate ports' tells which port is which");
+                    "; check cable and power, and that this isn't the tactile port");
   }
   const SdhFirmware firmware = SdhFirmware::parse(facts_.firmware);
   binary_ = firmware.atLeast(0, 0, 2, 15);

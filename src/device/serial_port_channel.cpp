@@ -20,8 +20,7 @@ void require(sp_return result, const std::string& name, const std::string& what)
   if (result == SP_ERR_FAIL && what.empty()) throwOpenError(sp_last_error_code(), name);
   throw DeviceError(DeviceFault::kUnsupported,
                     name,
-                    "this port can't be set to " + what +
-                        "; use another port or adapter, 'palpate ports' lists what is there");
+                    "this port can't be set to " + what + "; use another port or adapter");
 }
 
 }  // namespace
@@ -56,8 +55,9 @@ std::unique_ptr<ByteChannel> SerialPortChannel::open(const std::string& path,
                                                      int baud) {
   sp_port* found = nullptr;
   if (sp_get_port_by_name(path.c_str(), &found) != SP_OK)
-    throw DeviceError(
-        DeviceFault::kNotFound, name, "no such port; 'palpate ports' lists what is there");
+    throw DeviceError(DeviceFault::kNotFound,
+                      name,
+                      "no such port; check its name, and that the adapter is plugged in");
   Port port(found, Closer{});
   // Locked before libserialport opens and configures the port: another program may be streaming
   // there.

@@ -32,20 +32,21 @@ void throwOpenError(int error, const std::string& name) {
     case ENOENT:
     case ENOTDIR:
     case ELOOP:
-      throw DeviceError(
-          DeviceFault::kNotFound, name, "no such port; 'palpate ports' lists what is there");
+      throw DeviceError(DeviceFault::kNotFound,
+                        name,
+                        "no such port; check its name, and that the adapter is plugged in");
     case ENXIO:
     case ENODEV:
     case EIO:
       throw DeviceError(DeviceFault::kNotFound,
                         name,
-                        "nothing is plugged in behind this port; 'palpate ports' lists what is "
-                        "there");
+                        "nothing is plugged in behind this port; plug the adapter in, or name "
+                        "another port");
     default:
-      throw DeviceError(DeviceFault::kNotFound,
-                        name,
-                        "can't be opened (" + std::generic_category().message(error) +
-                            "); 'palpate ports' lists what is there");
+      throw DeviceError(
+          DeviceFault::kNotFound,
+          name,
+          "can't be opened (" + std::generic_category().message(error) + "); name another port");
   }
 }
 
@@ -78,7 +79,7 @@ std::unique_ptr<ByteChannel> TtyChannel::open(const std::string& path, const std
   if (::isatty(fd.get()) != 1)
     throw DeviceError(DeviceFault::kNotFound,
                       name,
-                      "this isn't a serial line; 'palpate ports' lists what is there");
+                      "this isn't a serial line; name a serial port or tcp:HOST:PORT");
   if (::tcgetsid(fd.get()) == ::getsid(0))
     throw DeviceError(
         DeviceFault::kBusy, name, "this is the terminal the program runs in; name another port");

@@ -74,7 +74,7 @@ TEST_F(DsaControllerTest, WaitsForAControllerThatBoots) {
 TEST_F(DsaControllerTest, SilenceEndsWithinTheLimitAndSaysWhatToDo) {
   hand.deafUntilUs = INT64_MAX;
   EXPECT_EQ(faultOf([&] { controller.open(); }), DeviceFault::kSilent);
-  EXPECT_NE(message.find("palpate ports"), std::string::npos) << message;
+  EXPECT_NE(message.find("check cable and power"), std::string::npos) << message;
   EXPECT_LT(clock.nowUs, 16'500'000);
 }
 

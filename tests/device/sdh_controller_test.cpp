@@ -231,7 +231,7 @@ TEST_F(SdhControllerTest, AnEmptyLineIsSaidToBeSilent) {
   hand.dead = true;
   const DeviceError error = errorOf([&] { controller.open(); });
   EXPECT_EQ(error.fault(), DeviceFault::kSilent);
-  EXPECT_NE(std::string(error.what()).find("palpate ports"), std::string::npos);
+  EXPECT_NE(std::string(error.what()).find("check cable and power"), std::string::npos);
   EXPECT_LT(seconds(), 5.0);
 }
 

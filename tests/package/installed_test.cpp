@@ -73,12 +73,16 @@ TEST_F(Installed, HasEverythingThatAPackageTakes) {
                            "share/doc/palpate/changelog.Debian.gz",
                            "share/doc/palpate/README.md",
                            "share/doc/palpate/docs/commands.md",
+                           "share/palpate/docs/commands.md",
+                           "share/palpate/docs/pictures/window.png",
                            "share/palpate/demo_grasps.dsa",
                            "share/palpate/emulated_objects.json",
                            "share/palpate/scenes/ball.json"})
     EXPECT_TRUE(fs::is_regular_file(path(name))) << name;
   for (const auto& entry : fs::directory_iterator(dataFolder() / "scenes"))
     EXPECT_TRUE(fs::exists(path("share/palpate/scenes") / entry.path().filename())) << entry.path();
+  for (const auto& entry : fs::directory_iterator(projectFolder() / "docs"))
+    EXPECT_TRUE(fs::exists(path("share/palpate/docs") / entry.path().filename())) << entry.path();
 }
 
 TEST_F(Installed, HasNothingOfTheBuild) {

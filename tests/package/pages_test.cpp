@@ -150,7 +150,7 @@ for line; do
   echo "${COMPREPLY[*]}"
 done)";
   const TemporaryFolder folder;
-  for (const char* name : {"a.dsa", "B.DSA", "c.palpate", "d.json", "e.txt"})
+  for (const char* name : {"a.dsa", "B.DSA", "c.palpate", "d.json", "e.txt", "f.h5", "g.mcap"})
     writeFile(folder / name, "");
   fs::create_directory(folder / "place");
   std::vector<std::string> arguments = {
@@ -169,7 +169,8 @@ done)";
       {"palpate calibrate ", kinds},
       {"palpate compare --align ", {"contact", "start", "clock"}},
       {"palpate calibrate step --loss h", {"huber"}},
-      {"palpate info ", {"a.dsa", "B.DSA", "c.palpate", "place"}},
+      {"palpate info ", {"a.dsa", "B.DSA", "c.palpate", "f.h5", "g.mcap", "place"}},
+      {"palpate import ", {"e.txt", "f.h5", "place"}},
       {"palpate filter --recipe ", {"d.json", "place"}},
       {"palpate demo -o ", {"place"}},
       {"palpate emulate --scene foam", {"foam_ball"}},
@@ -189,7 +190,7 @@ done)";
   for (const std::string& command : commands)
     EXPECT_EQ(offered(i++), said().at(command)) << command;
   for (const auto& [line, expected] : others) EXPECT_EQ(offered(i++), expected) << line;
-  names.insert({"a.dsa", "B.DSA", "c.palpate", "place"});
+  names.insert({"a.dsa", "B.DSA", "c.palpate", "f.h5", "g.mcap", "place"});
   EXPECT_EQ(offered(i), names);
 }
 

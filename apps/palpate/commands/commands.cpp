@@ -12,6 +12,7 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include "palpate/core/error.h"
 #include "palpate/core/escaped_line.h"
 
 #include "commands/command_line.h"
@@ -119,6 +120,13 @@ int runCaught(const Arguments& words, OtherCommands others, NeedsOthers needsOth
     return dispatch(words, others, needsOthers);
   } catch (const UsageError& error) {
     return fail(kWrongUsage, error.what());
+  } catch (const DeviceError& error) {
+    const bool missing =
+        error.fault() == DeviceFault::kNotFound || error.fault() == DeviceFault::kSilent;
+    return fail(
+        kFailed,
+        error.what() +
+            std::string(missing ? "; 'palpate ports' tells what answers at each port" : ""));
   } catch (const std::bad_alloc&) {
     return fail(kFailed, "out of memory");
   } catch (const std::exception& error) {

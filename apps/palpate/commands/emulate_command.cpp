@@ -134,7 +134,8 @@ CommandSpec emulateSpec() {
                {"faults",
                 "SPEC",
                 "faults to simulate: crc=RATE,drop=RATE,insert=RATE,stall=S@AT,unplug=S@AT,"
-                "junk_start=BYTES,boot=S"},
+                "junk_start=BYTES,boot=S; RATE: part of the packets (crc) or bytes, 0..1; S@AT: "
+                "for S seconds, AT seconds after the start"},
                {"truth", "OUT.csv", "write true contacts, forces and slip of each frame"},
                {"rate",
                 "real|max|HZ",

@@ -203,7 +203,7 @@ int importCommand(const Arguments& words) {
             {"header", "WORD", "a line of names is present, absent or detect (default)"},
             {"strict", "", "the first row that can't be used is an error"},
             {"force", "", "replace OUT, and the file of --save-map"}},
-       .example = "palpate import pad.csv --hand flat_pad -o pad.palpate",
+       .example = "palpate import pad.csv --hand flat_pad_16x16 -o pad.palpate",
        .minArguments = 1,
        .maxArguments = 1},
       words);

@@ -8,11 +8,12 @@ import re
 import subprocess
 import tempfile
 
-RECORDINGS = ("dsa", "palpate")
+RECORDINGS = ("dsa", "palpate", "h5", "hdf5", "mcap")
 # How the positional words of a synopsis complete: file endings, or nothing but folders.
 WORDS = {
     "FILE": RECORDINGS, "PATH": RECORDINGS, "IN": RECORDINGS, "A": RECORDINGS, "B": RECORDINGS,
-    "OUT": RECORDINGS + ("csv", "npz"), "PORT": "port", "FOLDER": (), "OUTFOLDER": (),
+    "OUT": RECORDINGS + ("csv", "npz", "mat"), "DATA": ("csv", "tsv", "txt", "npy", "npz", "h5", "hdf5"),
+    "PORT": "port", "FOLDER": (), "OUTFOLDER": (),
 }
 
 
@@ -132,7 +133,7 @@ def fill(command, option):
     endings = re.findall(r"(?:\.|\{|,)([a-z][a-z0-9]{1,7})\b", option.value)
     if endings:
         option.kind, option.endings = "file", tuple(dict.fromkeys(endings))
-    elif re.fullmatch(r"DIR|FOLDER|OUTFOLDER", option.value):
+    elif re.fullmatch(r"(NAME\|)?(DIR|FOLDER|OUTFOLDER)", option.value):
         option.kind = "folder"
     elif option.value == "PORT":
         option.kind = "port"

@@ -30,7 +30,9 @@ namespace palpate {
 class SdhInterrupted : public DeviceError {
  public:
   explicit SdhInterrupted(const std::string& port)
-      : DeviceError(DeviceFault::kSilent, port, "given up for a stop") {}
+      : DeviceError(DeviceFault::kSilent,
+                    port,
+                    "this request wasn't finished: the stop of the hand came first") {}
 };
 
 struct SdhControllerOptions {

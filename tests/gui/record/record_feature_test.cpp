@@ -35,6 +35,19 @@ TEST_F(RecordFeatureTest, ThatNothingIsLostIsNotSaidBesideAGap) {
   EXPECT_TRUE(offered().endsWith("1 gap in which no frame came")) << offered().toStdString();
 }
 
+TEST_F(RecordFeatureTest, SaysHowMuchIsMissingInGaps) {
+  // 101 frames at 10 Hz are 10 s; 2.5 s of 12.5 s are missing.
+  RecordingReport report;
+  report.paths = {folder_ / "run_001.palpate"};
+  report.frames = 101;
+  report.rateHz = 10.0;
+  report.durationS = 12.5;
+  report.gaps = 1;
+  emit windowState_->live.recordingEnded(report);
+  EXPECT_TRUE(offered().endsWith("1 gap in which no frame came: 2.5 s are missing"))
+      << offered().toStdString();
+}
+
 TEST_F(RecordFeatureTest, WhatTheConnectionLostIsSaid) {
   RecordingReport report;
   report.paths = {folder_ / "run_001.palpate"};

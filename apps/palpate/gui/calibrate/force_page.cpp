@@ -237,7 +237,7 @@ QString ForcePage::emptyReason() const {
   if (live() && !liveHand_) return "Waiting for the hand.";
   if (const QString why = notCalibratable(*hand()); !why.isEmpty()) return why;
   if (appliedCalibration(settings_, handName()).isEmpty())
-    return "No calibration is applied to this hand: its values are counts.\n\nMake one on the page "
+    return "No calibration is applied to this hand.\n\nMake one on the page "
            "Pressure, or choose a saved one.";
   return live() ? QString() : kept_.problem;
 }

@@ -2,6 +2,7 @@
 
 #include <QMenu>
 #include <QMessageBox>
+#include <QPushButton>
 
 #include <palpate/emulator/scene.h>
 #include <palpate/model/hand_file.h>
@@ -83,12 +84,21 @@ void ConnectFeature::addQuestions() {
     return dialog.connection();
   };
   windowState.prompts.endRecording = [this] {
-    return QMessageBox::question(
-               window(),
-               "Palpate",
-               "A recording is running. It must be finished first. Finish the recording?",
-               QMessageBox::Yes | QMessageBox::Cancel,
-               QMessageBox::Yes) == QMessageBox::Yes;
+    const LiveSource* source = state().live.source();
+    const bool moves = source && source->control && source->control->status().request;
+    QMessageBox question(
+        QMessageBox::Question,
+        "Finish the recording",
+        QString("A recording is running. Before the hand is disconnected, the recording is "
+                "finished; all that was recorded is kept.") +
+            (moves ? " The hand is moving: it is stopped." : ""),
+        QMessageBox::NoButton,
+        window());
+    QPushButton* finish = question.addButton("Finish the recording", QMessageBox::AcceptRole);
+    question.addButton("Keep recording", QMessageBox::RejectRole);
+    question.setDefaultButton(finish);
+    question.exec();
+    return question.clickedButton() == finish;
   };
 }
 

@@ -3,11 +3,14 @@
 #include <QDialogButtonBox>
 #include <QLabel>
 #include <QVBoxLayout>
+#include <QWhatsThis>
 
 #include <Eigen/Core>
 
 #include "gui/chart/plot.h"
 #include "gui/help/keys_dialog.h"
+#include "gui/help/manual_window.h"
+#include "gui/help/whats_this.h"
 
 namespace palpate::gui {
 
@@ -42,6 +45,8 @@ AboutDialog::AboutDialog(QWidget* parent) : QDialog(parent) {
 
 HelpFeature::HelpFeature(WindowState& windowState, QWidget* window) : Feature(windowState, window) {
   QAction* keys = windowState.actions.make("keys", "Help", "&Keys", {key("F1")});
+  QAction* manual = windowState.actions.make("manual", "Help", "&Manual", {key("Ctrl+F1")});
+  QAction* what = windowState.actions.make("whatsThis", "Help", "&What's this?", {key("Shift+F1")});
   QAction* about = windowState.actions.make("about", "Help", "&About Palpate");
   windowState.actions.setIcon(keys, IconShape::kHelp);
   on(keys, [window] {
@@ -49,11 +54,32 @@ HelpFeature::HelpFeature(WindowState& windowState, QWidget* window) : Feature(wi
     dialog->setAttribute(Qt::WA_DeleteOnClose);
     dialog->show();
   });
+  on(manual, [this] { showManual(); });
+  on(what, [] { QWhatsThis::enterWhatsThisMode(); });
+  new WhatsThis(
+      [pages = std::make_shared<ManualPages>(
+           ManualPages::folderFor(windowState.environment.dataFolder))](const QString& dock) {
+        return pages->firstParagraph("docks.md", ManualPages::anchorOf(dock));
+      },
+      this);
   on(about, [window] {
     auto* dialog = new AboutDialog(window);
     dialog->setAttribute(Qt::WA_DeleteOnClose);
     dialog->show();
   });
+}
+
+void HelpFeature::showManual() {
+  if (!manual_) {
+    manual_ = new ManualWindow(ManualPages::folderFor(state().environment.dataFolder),
+                               state().appearance.theme(),
+                               window());
+    manual_->setAttribute(Qt::WA_DeleteOnClose);
+    followTheme(manual_.data());
+  }
+  manual_->QWidget::show();
+  manual_->raise();
+  manual_->activateWindow();
 }
 
 }  // namespace palpate::gui

@@ -1,11 +1,14 @@
-// The feature with the menu Help: the list of keys and the About dialog.
+// The feature with the menu Help: the list of keys, the manual, What's this and the About dialog.
 #pragma once
 
 #include <QDialog>
+#include <QPointer>
 
 #include "gui/window_state/feature.h"
 
 namespace palpate::gui {
+
+class ManualWindow;
 
 // The About dialog: version, licence, and the libraries that the program uses.
 class AboutDialog : public QDialog {
@@ -19,6 +22,11 @@ class HelpFeature : public Feature {
   Q_OBJECT
  public:
   HelpFeature(WindowState& windowState, QWidget* window);
+
+ private:
+  void showManual();
+
+  QPointer<ManualWindow> manual_;
 };
 
 }  // namespace palpate::gui

@@ -100,7 +100,7 @@ void TrainingController::look() {
 void TrainingController::take(const std::shared_ptr<const FeatureTable>& table) {
   table_ = table;
   problem_ = table->rows.empty() ? table->numFiles == 0
-                                       ? QString("The folder holds no recording yet.")
+                                       ? QString("No recording has been read from the folder yet.")
                                        : QString("No grasp is found in its recordings.")
                                  : QString();
   emit folderChanged();

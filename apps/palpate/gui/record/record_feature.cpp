@@ -56,6 +56,14 @@ QString countedText(std::int64_t count, std::string_view noun) {
   return QString::fromStdString(counted(static_cast<std::uint64_t>(count), noun));
 }
 
+// How much is missing, from the duration and the usual rate; empty: too little to say.
+QString missingText(const RecordingReport& report) {
+  if (!(report.rateHz > 0.0) || report.frames < 2) return {};
+  const double missingS = report.durationS - static_cast<double>(report.frames - 1) / report.rateHz;
+  constexpr double kLeastToldS = 0.1;
+  return missingS < kLeastToldS ? QString() : ": " + figure(missingS, 1) + " s are missing";
+}
+
 QString summaryOf(const RecordingReport& report) {
   QString text = QString::fromStdString(report.paths.front().filename().string());
   if (report.paths.size() > 1) text += " and " + QString::number(report.paths.size() - 1) + " more";
@@ -75,7 +83,7 @@ QString summaryOf(const RecordingReport& report) {
   if (report.gaps > 0)
     text +=
         (report.gaps == 1 ? QString(", 1 gap") : ", " + QString::number(report.gaps) + " gaps") +
-        " in which no frame came";
+        " in which no frame came" + missingText(report);
   if (report.complete && report.lost == 0 && report.gaps == 0 && notReceived == 0) text += ", nothing lost";
   if (!report.mcapFailure.empty())
     text += "; the MCAP file is not whole: " + QString::fromStdString(report.mcapFailure);
@@ -118,6 +126,7 @@ void RecordFeature::connectActions() {
   RecordActions& actions = actions_;
   on(actions.record, [this] { toggle(); });
   on(actions.recordingSettings, [this] {
+    takeFolder();
     if (const auto wanted = state().prompts.recording(settings_, "Keep")) use(*wanted);
   });
   actions.openRecorded->setEnabled(false);
@@ -220,9 +229,15 @@ void RecordFeature::use(const RecordingSettings& settings) {
   }
 }
 
+// The dialog Settings changes the folder, too.
+void RecordFeature::takeFolder() {
+  settings_.folder = loadRecordingSettings(state().settings).folder;
+}
+
 void RecordFeature::toggle() {
   LiveController& live = state().live;
   if (live.recording()) return live.stopRecording();
+  takeFolder();
   if (settings_.askEachTime) {
     const auto wanted = state().prompts.recording(settings_, "Start recording");
     if (!wanted) return;

@@ -47,6 +47,7 @@ class RecordFeature : public Feature {
   void connectRecorder();
   void connectUnfinished();
   void use(const RecordingSettings& settings);
+  void takeFolder();
   void toggle();
   void mark(const QString& label, std::optional<int> digit);
   void showState();

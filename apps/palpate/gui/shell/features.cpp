@@ -19,6 +19,7 @@
 #include "gui/playback/playback_feature.h"
 #include "gui/recognise/recognise_feature.h"
 #include "gui/record/record_feature.h"
+#include "gui/settings/settings_feature.h"
 #include "gui/slip/slip_feature.h"
 #include "gui/spectrum/spectrum_feature.h"
 #include "gui/timeline/timeline_feature.h"
@@ -54,6 +55,7 @@ std::vector<std::unique_ptr<Feature>> allFeatures(WindowState& windowState, QWid
   add(std::make_unique<ExportFeature>(windowState, window));
   add(std::make_unique<ImportFeature>(windowState, window));
   add(std::make_unique<BatchFeature>(windowState, window));
+  add(std::make_unique<SettingsFeature>(windowState, window));
   add(std::make_unique<HelpFeature>(windowState, window));
   return all;
 }

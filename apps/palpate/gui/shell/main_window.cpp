@@ -8,6 +8,7 @@
 
 #include "gui/desktop/application.h"
 #include "gui/export/export_feature.h"
+#include "gui/settings/settings_feature.h"
 #include "gui/shell/central_widget.h"
 #include "gui/shell/features.h"
 #include "gui/shell/status_report.h"
@@ -211,6 +212,7 @@ void MainWindow::remember() {
   centre_->remember();
   docks_->remember();
   windowState_->settings.setValue("window/geometry", saveGeometry());
+  forgetChosen(windowState_->settings);
   windowState_->settings.sync();
 }
 

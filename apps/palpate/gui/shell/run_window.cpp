@@ -11,6 +11,7 @@
 #include "gui/hand3d/hand3d_feature.h"
 #include "gui/hand3d/hand_panel.h"
 #include "gui/open/session_storage.h"
+#include "gui/settings/settings_feature.h"
 #include "gui/shell/main_window.h"
 
 namespace palpate::gui {
@@ -62,10 +63,10 @@ int runWindow(int& argc, char** argv, const WindowOptions& options) {
   // The window is visible before the first file is read.
   if (options.demo)
     window.state().connectTo(emulatedBallConnection(true));
-  else if (options.files.empty())
-    restoreSession(window.state());
-  else
+  else if (!options.files.empty())
     window.state().open(options.files);
+  else if (reopensSession(window.state().settings))
+    restoreSession(window.state());
   return QGuiApplication::exec();
 }
 

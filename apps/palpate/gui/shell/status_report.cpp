@@ -107,6 +107,7 @@ void StatusReport::reportLive() {
             : "frames to write: " + QString::number(recorder.frames - recorder.framesOnDisk);
   else
     now.state = "live";
+  if (windowState_.activeFilters.applied()) now.state += " · filtered";
   if (held) now.state = "on hold (P resumes) · " + now.state;
   now.figures = {
       "rate " + figure(health.frames.rateHz, 1) + " fps",

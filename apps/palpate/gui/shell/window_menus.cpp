@@ -74,7 +74,7 @@ void WindowMenus::buildMenuBar(const ActionRegistry& book, const QList<QAction*>
   file->addSeparator();
   file->addActions({at("exportPicture"), at("exportAgain"), at("copyPicture"), at("copyTable")});
   file->addSeparator();
-  file->addAction(at("quit"));
+  file->addActions({at("settings"), at("quit")});
 
   window_.menuBar()->addMenu(menus_.edit);
   sections_["Edit"] = menus_.edit;
@@ -172,7 +172,7 @@ void WindowMenus::buildMenuBar(const ActionRegistry& book, const QList<QAction*>
   playback->addActions({at("faster"), at("slower"), at("loop"), at("skipGaps")});
 
   QMenu* help = menu("&Help");
-  help->addActions({at("keys"), at("about")});
+  help->addActions({at("manual"), at("whatsThis"), at("keys"), at("about")});
 }
 
 void WindowMenus::buildToolBar(const ActionRegistry& book) {

@@ -3,6 +3,8 @@
 #include <palpate/core/number_text.h>
 #include <palpate/core/time.h>
 
+#include "gui/appearance/plotted_signal.h"
+
 namespace palpate::gui {
 namespace {
 

@@ -100,6 +100,11 @@ void ActiveFilters::setOn(bool on) {
   messages_.flash(!on                ? QString("as it was recorded")
                   : recipe().empty() ? QString("no filter is in the chain: Ctrl+Shift+F")
                                      : "filtered: " + text());
+  LiveSource* source = live_.source();
+  if (!on && source && live_.recording() && !recipe().empty()) {
+    const std::int64_t us = source->session->nowUs();
+    source->session->note({us, us, "note", std::nullopt, "filters were switched off", {}});
+  }
   noteInLiveRecording();
 }
 

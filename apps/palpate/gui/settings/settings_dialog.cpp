@@ -1,0 +1,221 @@
+#include "gui/settings/settings_dialog.h"
+
+#include <QCheckBox>
+#include <QComboBox>
+#include <QDialogButtonBox>
+#include <QDir>
+#include <QFileDialog>
+#include <QFileInfo>
+#include <QFormLayout>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QLineEdit>
+#include <QPushButton>
+#include <QSpinBox>
+#include <QVBoxLayout>
+
+#include "gui/appearance/captions.h"
+#include "gui/appearance/text_size.h"
+#include "gui/source/recording_settings.h"
+
+namespace palpate::gui {
+namespace {
+
+constexpr int kSettingsMargin = 20;  // [px]
+constexpr int kSettingsWidth = 560;  // [px]
+
+// Of all choices, the index of one.
+template <class Choices, class Choice>
+int indexOf(const Choices& all, Choice wanted) {
+  for (std::size_t i = 0; i < all.size(); ++i)
+    if (all[i] == wanted) return static_cast<int>(i);
+  return 0;
+}
+
+QString problemOfExports(const QString& folder) {
+  if (!QDir::isAbsolutePath(folder)) return "The folder of exports isn't an absolute path";
+  const QFileInfo info(folder);
+  if (!info.isDir()) return "There is no folder " + folder + "; choose another one for exports";
+  if (!info.isWritable())
+    return "You have no permission to write to " + folder + "; choose another folder for exports";
+  return {};
+}
+
+}  // namespace
+
+const std::vector<Forgettable>& forgettable() {
+  static const std::vector<Forgettable> all = {
+      {"recent",
+       "Recent recordings",
+       "The list of the start page and of the menu File",
+       {"recent"}},
+      {"session",
+       "Open recordings",
+       "Which recordings are open, and the position and view in each",
+       {"session"}},
+      {"window", "Arrangement", "Size of the window, places of its docks and views", {"window"}},
+      {"connection",
+       "Connection",
+       "Ports, stream and scene that were connected last",
+       {"connection"}},
+      {"everything",
+       "Everything",
+       "All settings of the window, calibrations and groups of taxels too; the next start is as "
+       "the first one. Files stay as they are",
+       {}}};
+  return all;
+}
+
+SettingsDialog::SettingsDialog(const WindowChoices& choices,
+                               std::function<QString(const QString&)> problemOf,
+                               QWidget* parent)
+    : QDialog(parent), before_(choices), problemOf_(std::move(problemOf)) {
+  setWindowTitle("Settings");
+  askForFolder = [this](const QString& title, const QString& begin) {
+    return QFileDialog::getExistingDirectory(this, title, begin);
+  };
+  auto* form = new QFormLayout;
+  form->setHorizontalSpacing(14);
+  form->setVerticalSpacing(8);
+  addLook(*form);
+  addFolders(*form);
+  addMemory(*form);
+  buttons_ = new QDialogButtonBox(QDialogButtonBox::Ok | QDialogButtonBox::Cancel, this);
+  connect(buttons_, &QDialogButtonBox::accepted, this, &QDialog::accept);
+  connect(buttons_, &QDialogButtonBox::rejected, this, &SettingsDialog::reject);
+  auto* page = new QVBoxLayout(this);
+  page->setContentsMargins(kSettingsMargin, kSettingsMargin, kSettingsMargin, 14);
+  page->setSpacing(14);
+  page->addLayout(form);
+  page->addStretch(1);
+  page->addWidget(buttons_);
+  fill(choices);
+  resize(kSettingsWidth, sizeHint().height());
+}
+
+void SettingsDialog::addLook(QFormLayout& form) {
+  form.addRow(sectionHeading("Look", this));
+  theme_ = new QComboBox(this);
+  theme_->setObjectName("settingsTheme");
+  theme_->addItems({"as the desktop", "dark", "light"});
+  form.addRow("&Theme", theme_);
+  textPt_ = new QSpinBox(this);
+  textPt_->setObjectName("settingsTextPt");
+  // The value below the least one stands for the desktop's size.
+  textPt_->setRange(kLeastTextPt - 1, kMostTextPt);
+  textPt_->setSpecialValueText("as the desktop");
+  textPt_->setSuffix(" pt");
+  textPt_->setToolTip("Size of all text, 7 to 18 pt");
+  form.addRow("Te&xt size", textPt_);
+  map_ = new QComboBox(this);
+  map_->setObjectName("settingsMap");
+  for (const ColorMapName map : kAllColorMaps) map_->addItem(nameOf(map));
+  form.addRow("&Colour map", map_);
+  range_ = new QComboBox(this);
+  range_->setObjectName("settingsRange");
+  for (const RangeMode mode : kAllRangeModes) range_->addItem(nameOf(mode));
+  range_->setToolTip("Where the colours of the heat maps end");
+  form.addRow("Colour r&ange", range_);
+  for (QComboBox* box : {theme_, map_, range_})
+    connect(box, &QComboBox::currentIndexChanged, this, &SettingsDialog::tell);
+  connect(textPt_, &QSpinBox::valueChanged, this, &SettingsDialog::tell);
+}
+
+QLineEdit* SettingsDialog::addFolder(QFormLayout& form, const QString& label, const char* name) {
+  auto* field = new QLineEdit(this);
+  field->setObjectName(name);
+  auto* browse = new QPushButton("Browse…", this);
+  browse->setAutoDefault(false);
+  browse->setAccessibleName("Browse for the folder of " + QString(label).remove('&').toLower());
+  auto* row = new QHBoxLayout;
+  row->addWidget(field, 1);
+  row->addWidget(browse);
+  auto* title = new QLabel(label, this);
+  title->setBuddy(field);
+  form.addRow(title, row);
+  connect(browse, &QPushButton::clicked, this, [this, field, label] {
+    const QString chosen =
+        askForFolder("Folder of " + QString(label).remove('&').toLower(), field->text());
+    if (!chosen.isEmpty()) field->setText(chosen);
+  });
+  connect(field, &QLineEdit::textChanged, this, &SettingsDialog::tell);
+  return field;
+}
+
+void SettingsDialog::addFolders(QFormLayout& form) {
+  form.addRow(sectionHeading("Folders", this));
+  recordings_ = addFolder(form, "&Recordings", "settingsRecordings");
+  recordings_->setToolTip("Where new recordings are written; it is made when it is needed");
+  exports_ = addFolder(form, "&Exports", "settingsExports");
+  exports_->setToolTip("Where pictures, movies and tables are written");
+  problem_ = new QLabel(this);
+  problem_->setObjectName("settingsProblem");
+  problem_->setTextFormat(Qt::PlainText);
+  problem_->setWordWrap(true);
+  problem_->setStyleSheet("color: palette(bright-text)");
+  form.addRow(problem_);
+}
+
+void SettingsDialog::addMemory(QFormLayout& form) {
+  form.addRow(sectionHeading("Memory", this));
+  reopen_ = new QCheckBox("Open at the &start what was open at the end", this);
+  reopen_->setObjectName("settingsReopen");
+  form.addRow(reopen_);
+  connect(reopen_, &QCheckBox::toggled, this, &SettingsDialog::tell);
+  form.addRow(new QLabel("Forget when the window closes:", this));
+  for (const Forgettable& each : forgettable()) {
+    auto* box = new QCheckBox(each.text, this);
+    box->setObjectName(QString("settingsForget_") + each.name);
+    box->setToolTip(each.explanation);
+    form.addRow(box);
+    connect(box, &QCheckBox::toggled, this, &SettingsDialog::tell);
+    forgotten_.push_back(box);
+  }
+}
+
+void SettingsDialog::fill(const WindowChoices& choices) {
+  filling_ = true;
+  theme_->setCurrentIndex(indexOf(kAllThemeChoices, choices.theme));
+  textPt_->setValue(choices.textPt > 0 ? choices.textPt : kLeastTextPt - 1);
+  map_->setCurrentIndex(indexOf(kAllColorMaps, choices.map));
+  range_->setCurrentIndex(indexOf(kAllRangeModes, choices.range));
+  recordings_->setText(choices.recordings);
+  exports_->setText(choices.exports);
+  reopen_->setChecked(choices.reopen);
+  for (std::size_t i = 0; i < forgotten_.size(); ++i)
+    forgotten_[i]->setChecked(choices.forgotten.contains(forgettable()[i].name));
+  filling_ = false;
+}
+
+WindowChoices SettingsDialog::choices() const {
+  WindowChoices choices;
+  choices.theme = kAllThemeChoices.at(static_cast<std::size_t>(theme_->currentIndex()));
+  choices.textPt = textPt_->value() < kLeastTextPt ? 0 : textPt_->value();
+  choices.map = kAllColorMaps.at(static_cast<std::size_t>(map_->currentIndex()));
+  choices.range = kAllRangeModes.at(static_cast<std::size_t>(range_->currentIndex()));
+  choices.recordings = folderFromText(recordings_->text());
+  choices.exports = folderFromText(exports_->text());
+  choices.reopen = reopen_->isChecked();
+  for (std::size_t i = 0; i < forgotten_.size(); ++i)
+    if (forgotten_[i]->isChecked()) choices.forgotten.append(forgettable()[i].name);
+  return choices;
+}
+
+void SettingsDialog::tell() {
+  if (filling_) return;
+  const WindowChoices now = choices();
+  // What stood there before is no mistake of the user.
+  QString problem;
+  if (now.recordings != before_.recordings) problem = problemOf_(now.recordings);
+  if (problem.isEmpty() && now.exports != before_.exports) problem = problemOfExports(now.exports);
+  problem_->setText(problem);
+  buttons_->button(QDialogButtonBox::Ok)->setEnabled(problem.isEmpty());
+  if (problem.isEmpty()) emit changed(now);
+}
+
+void SettingsDialog::reject() {
+  emit changed(before_);
+  QDialog::reject();
+}
+
+}  // namespace palpate::gui

@@ -1,0 +1,103 @@
+#include "gui/settings/settings_dialog.h"
+
+#include <QCheckBox>
+#include <QComboBox>
+#include <QDialogButtonBox>
+#include <QLabel>
+#include <QLineEdit>
+#include <QPushButton>
+#include <QSpinBox>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "testing/testing.h"
+
+namespace palpate::gui::settings_dialog_test {
+namespace {
+
+class SettingsDialogTest : public ::testing::Test {
+ protected:
+  SettingsDialogTest() {
+    begin_.theme = ThemeChoice::kDark;
+    begin_.textPt = 11;
+    begin_.map = ColorMapName::kViridis;
+    begin_.range = RangeMode::kFrame;
+    begin_.recordings = "/gone/recordings";
+    begin_.exports = "/gone/exports";
+    begin_.reopen = false;
+    begin_.forgotten = {"session"};
+    dialog_ = std::make_unique<SettingsDialog>(
+        begin_,
+        [](const QString& folder) { return folder.startsWith("/bad") ? "can't be used" : ""; },
+        nullptr);
+    QObject::connect(dialog_.get(), &SettingsDialog::changed, [this](const WindowChoices& now) {
+      told_.push_back(now);
+    });
+  }
+  template <class Widget>
+  Widget* find(const char* name) {
+    return dialog_->findChild<Widget*>(name);
+  }
+  QString problem() { return find<QLabel>("settingsProblem")->text(); }
+  bool canFinish() {
+    return dialog_->findChild<QDialogButtonBox*>()->button(QDialogButtonBox::Ok)->isEnabled();
+  }
+  testing::TemporaryFolder folder_;
+  WindowChoices begin_;
+  std::unique_ptr<SettingsDialog> dialog_;
+  std::vector<WindowChoices> told_;
+};
+
+TEST_F(SettingsDialogTest, ShowsWhatIsChosen) {
+  EXPECT_EQ(dialog_->choices(), begin_);
+  EXPECT_TRUE(told_.empty());
+  EXPECT_EQ(problem(), "") << "a folder that is gone is no mistake of the user";
+}
+
+TEST_F(SettingsDialogTest, TellsEveryChangeAtOnceAndCancelTakesThemBack) {
+  find<QComboBox>("settingsTheme")->setCurrentText("light");
+  find<QSpinBox>("settingsTextPt")->setValue(6);
+  find<QComboBox>("settingsMap")->setCurrentText("grey");
+  find<QCheckBox>("settingsReopen")->setChecked(true);
+  find<QCheckBox>("settingsForget_session")->setChecked(false);
+  find<QCheckBox>("settingsForget_window")->setChecked(true);
+  ASSERT_EQ(told_.size(), 6u);
+  EXPECT_EQ(told_.front().theme, ThemeChoice::kLight);
+  EXPECT_EQ(told_.back().textPt, 0) << "as the desktop";
+  EXPECT_EQ(told_.back().map, ColorMapName::kGrey);
+  EXPECT_TRUE(told_.back().reopen);
+  EXPECT_EQ(told_.back().forgotten, QStringList{"window"});
+  dialog_->reject();
+  EXPECT_EQ(told_.back(), begin_);
+}
+
+TEST_F(SettingsDialogTest, AFolderThatCantBeUsedIsRefused) {
+  find<QLineEdit>("settingsRecordings")->setText("/bad/place");
+  EXPECT_EQ(problem(), "can't be used");
+  EXPECT_FALSE(canFinish());
+  EXPECT_TRUE(told_.empty());
+  find<QLineEdit>("settingsRecordings")->setText("/gone/recordings");
+  EXPECT_TRUE(canFinish());
+  find<QLineEdit>("settingsExports")->setText("pictures");
+  EXPECT_EQ(problem(), "The folder of exports isn't an absolute path");
+  find<QLineEdit>("settingsExports")->setText("/gone/elsewhere");
+  EXPECT_TRUE(problem().startsWith("There is no folder /gone/elsewhere"));
+  find<QLineEdit>("settingsExports")->setText(QString::fromStdString(folder_.path().string()));
+  EXPECT_EQ(problem(), "");
+  EXPECT_EQ(told_.back().exports.toStdString(), folder_.path().string());
+}
+
+TEST_F(SettingsDialogTest, BrowseFillsTheField) {
+  dialog_->askForFolder = [](const QString& title, const QString& begin) {
+    EXPECT_EQ(title, "Folder of recordings");
+    EXPECT_EQ(begin, "/gone/recordings");
+    return QString("/other");
+  };
+  for (QPushButton* button : dialog_->findChildren<QPushButton*>())
+    if (button->accessibleName().contains("recordings")) button->click();
+  EXPECT_EQ(dialog_->choices().recordings, "/other");
+}
+
+}  // namespace
+}  // namespace palpate::gui::settings_dialog_test
