@@ -25,13 +25,19 @@ class RecoveryFeatureTest : public WindowTest {
     window_->show();
     QApplication::setActiveWindow(window_.get());
   }
-  // A recording of 24 s in which the values of one block are changed; its frames.
+  // A recording of 24 s in which the values of a block are changed; its frames.
   std::size_t writeDamaged(const fs::path& path) {
     const Profile profile = synthesize({.durationS = 24.0, .grasps = 4, .noiseCounts = 3.0});
     writePalpate(profile, {}, path);
-    std::string bytes = testing::readFile(path);
-    for (std::size_t i = bytes.size() / 4; i < bytes.size() / 4 + 20; ++i) bytes[i] ^= 0x5a;
-    testing::writeFile(path, bytes);
+    const std::string sound = testing::readFile(path);
+    // Blocks of frames and of joint angles lie in turn: the first place that costs frames.
+    for (std::size_t percent = 50; percent < 95; ++percent) {
+      std::string bytes = sound;
+      const std::size_t at = bytes.size() * percent / 100;
+      for (std::size_t i = at; i < at + 20; ++i) bytes[i] ^= 0x5a;
+      testing::writeFile(path, bytes);
+      if (verifyRecording(path).message.find("lost frame") != std::string::npos) break;
+    }
     return profile.numFrames();
   }
   QString offered() {
