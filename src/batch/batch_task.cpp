@@ -27,6 +27,10 @@ std::string matrixText(const std::optional<std::int64_t>& matrix) {
   return matrix ? "; matrix " + std::to_string(*matrix) : "";
 }
 
+std::string filtersText(const Recipe& filters) {
+  return filters.empty() ? "" : "; " + recipeText(filters);
+}
+
 void requireMatrix(const fs::path& file,
                    const Profile& profile,
                    const std::optional<std::int64_t>& matrix) {
@@ -185,14 +189,16 @@ void requireThere(const fs::path& file, const Profile& profile, const SlipRowsOp
 }
 
 BatchTask slipTask(const SlipRowsOptions& table) {
+  table.filters.validate();
   return {.options = std::string("slip") + (table.segments ? "; segments" : "") + "; " +
                      passText(table.pass) + matrixText(table.matrix) +
-                     (table.unitsRow ? "; units-row" : ""),
+                     (table.unitsRow ? "; units-row" : "") + filtersText(table.filters),
           .work = [table](const BatchItem& item,
                           Overwrite overwrite,
                           const Progress& progress,
                           std::size_t threads) {
-            const Profile profile = openFiltered(item, {}, partOf(progress, 0.0, 0.4), threads);
+            const Profile profile =
+                openFiltered(item, table.filters, partOf(progress, 0.0, 0.4), threads);
             requireThere(item.source, profile, table);
             TableFile out(item.target, overwrite);
             out.write(std::string(table.segments ? kSlipSegmentColumns : kSlipColumns) + "\n");
@@ -213,13 +219,16 @@ BatchTask slipTask(const SlipRowsOptions& table) {
           }};
 }
 
-BatchTask featuresTask(std::optional<FeatureSet> set) {
-  return {
-      .options = "features; " + std::string(set ? featureSetName(*set) : "default"),
-      .work =
-          [set](const BatchItem& item, Overwrite overwrite, const Progress& progress, std::size_t) {
-            FeatureTable table =
-                extractFeatures({item.source}, {.set = set, .threads = 1}, progress);
+BatchTask featuresTask(std::optional<FeatureSet> set, const Recipe& filters) {
+  filters.validate();
+  return {.options = "features; " + std::string(set ? featureSetName(*set) : "default") +
+                     filtersText(filters),
+          .work = [set, filters](const BatchItem& item,
+                                 Overwrite overwrite,
+                                 const Progress& progress,
+                                 std::size_t) {
+            FeatureTable table = extractFeatures(
+                {item.source}, {.set = set, .threads = 1, .filters = filters}, progress);
             if (table.rows.empty())
               throw Error(table.problems.empty()
                               ? FileError(item.source, "has no grasp with features").what()

@@ -8,6 +8,7 @@
 #include "palpate/core/error.h"
 #include "palpate/core/number_text.h"
 #include "palpate/core/parallel.h"
+#include "palpate/filter/filtered_profile.h"
 #include "palpate/model/hand_file.h"
 #include "palpate/recording/read_ahead.h"
 #include "palpate/recording/recording.h"
@@ -38,6 +39,16 @@ std::string spanText(const GraspFeatures& grasp) {
   return "grasp " + std::to_string(grasp.begin) + ".." + std::to_string(grasp.end);
 }
 
+// Events "settings" restart the filters over time.
+Profile filteredFirst(const Recipe& filters, const Profile& profile, const fs::path& file) {
+  if (filters.empty()) return profile;
+  try {
+    return filteredProfile(profile, filters, {settingsTimesUs(readEvents(file).events)});
+  } catch (const std::invalid_argument& error) {
+    throw Error(file.string() + ": " + error.what());
+  }
+}
+
 // `alone`: no other recording is read at the same time.
 Gathered gather(const Source& source, const FeatureExtractionOptions& options, bool alone) {
   Gathered out;
@@ -46,7 +57,9 @@ Gathered gather(const Source& source, const FeatureExtractionOptions& options, b
   };
   try {
     const Profile profile =
-        openRecording(source.file, {}, alone ? 0 : threadsBesideOthers(source.file));
+        filteredFirst(options.filters,
+                      openRecording(source.file, {}, alone ? 0 : threadsBesideOthers(source.file)),
+                      source.file);
     out.set = options.set.value_or(defaultFeatureSet(profile.hand()));
     out.sensor = sensorText(profile.layout());
     if (out.set == FeatureSet::kStatistics || pinchHandOf(profile.hand()))

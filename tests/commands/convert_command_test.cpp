@@ -1,3 +1,4 @@
+#include "palpate/emulator/synthetic_profile.h"
 #include "palpate/recording/recording.h"
 
 #include "commands/palpate_program.h"
@@ -239,6 +240,40 @@ TEST_F(ConvertCommand, labelsComeAlong) {
   ASSERT_EQ(palpate({"convert", in("b.palpate"), in("c.dsa")}).exitCode, 0);
   ASSERT_EQ(palpate({"convert", in("c.dsa"), in("d.palpate")}).exitCode, 0);
   EXPECT_EQ(readEvents(in("d.palpate")).events, events);
+}
+
+// A file for each grasp, with the labels that touch it.
+TEST_F(ConvertCommand, MakesAFileOfEachGrasp) {
+  namespace fs = std::filesystem;
+  const testing::TemporaryFolder folder;
+  const Profile profile = synthesize({.durationS = 24.0, .grasps = 3});
+  const std::int64_t t0 = profile.frameTimeUs(0);
+  const std::int64_t t1 = profile.frameTimeUs(profile.numFrames() - 1);
+  fs::create_directories(folder / "in/day");
+  saveRecording(profile,
+                std::vector<RecordingEvent>{{t0, t1, "label", std::nullopt, "ball", ""}},
+                folder / "in/day/run.palpate");
+  const std::string names = (folder / "out/{name}_{n}.palpate").string();
+  const auto made = palpate({"convert", "--each-grasp", folder / "in", "-o", names});
+  EXPECT_EQ(made.exitCode, 0) << made.err;
+  EXPECT_NE(made.out.find("run.palpate: 3 grasps"), std::string::npos) << made.out;
+  std::size_t frames = 0;
+  for (const char* name : {"run_01.palpate", "run_02.palpate", "run_03.palpate"}) {
+    const fs::path file = folder / "out/day" / name;
+    ASSERT_TRUE(fs::exists(file)) << file;
+    frames += openRecording(file).numFrames();
+    ASSERT_EQ(readEvents(file).events.size(), 1u);
+    EXPECT_EQ(readEvents(file).events[0].text, "ball");
+  }
+  EXPECT_GT(frames, 60u);
+  EXPECT_LT(frames, profile.numFrames());
+  const auto again = palpate({"convert", "--each-grasp", folder / "in", "-o", names});
+  EXPECT_EQ(again.exitCode, 1);
+  EXPECT_EQ(palpate({"convert", "--each-grasp", folder / "in", "-o", names, "--force"}).exitCode,
+            0);
+  expectOneLineError(palpate({"convert", "--each-grasp", folder / "in"}), 2, {"needs -o"});
+  expectOneLineError(
+      palpate({"convert", "--each-grasp", folder / "in", "-o", "out/{name}.palpate"}), 2, {"{n}"});
 }
 
 }  // namespace

@@ -53,6 +53,7 @@ int handsCommand(const Arguments& words);
 int importCommand(const Arguments& words);
 int infoCommand(const Arguments& words);
 int kinematicsCommand(const Arguments& words);
+int labelsCommand(const Arguments& words);
 int portsCommand(const Arguments& words);
 int recordCommand(const Arguments& words);
 int recoverCommand(const Arguments& words);

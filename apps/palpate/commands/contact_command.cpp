@@ -21,6 +21,7 @@
 #include "commands/commands.h"
 #include "commands/contact_size.h"
 #include "commands/export_options.h"
+#include "commands/filter_options.h"
 #include "commands/hand_options.h"
 #include "commands/recording_list.h"
 
@@ -249,7 +250,7 @@ int contactCommand(const Arguments& words) {
            "is "
            "held. PATH is a\nrecording, or a folder: every recording below it. With several a last "
            "column names the file. A recording\nwithout joint angles needs --angles.",
-       .options = withCalibration(
+       .options = withCalibration(withFilterOptions(
            {{"angles", "A0,A1,..", "assume these joint angles [deg] for all frames"},
             {"matrices", "", "a row per matrix"},
             unitsRowOption(),
@@ -260,7 +261,7 @@ int contactCommand(const Arguments& words) {
              "radius of bent fingertips: nominal (default; SDH-2: 58 mm) or effective "
              "(default of --size; 48.4 mm)"},
             {"from", "N", "first frame, default 0"},
-            {"to", "M", "last frame (inclusive), default the last one"}}),
+            {"to", "M", "last frame (inclusive), default the last one"}})),
        .example = "palpate contact foam_ball.dsa > contact.csv",
        .minArguments = 1},
       words);
@@ -278,14 +279,16 @@ int contactCommand(const Arguments& words) {
   request.to = given.integer("to", 0, INT64_MAX);
   if (request.from && request.to && *request.from > *request.to)
     throw UsageError("--from is after --to");
+  const Recipe recipe = recipeOf(given);
   const RecordingList recordings = recordingsIn(given.words());
   StandardOutput out;
-  bool headerWritten = false, whole = true;
+  bool headerWritten = false, allThere = true;
   std::string units;
   const int code = forEachProfile(
       recordings,
       given.quiet(),
-      [&](const std::filesystem::path& file, const Profile& profile, const Progress& progress) {
+      [&](const std::filesystem::path& file, const Profile& whole, const Progress& progress) {
+        const Profile profile = filteredBy(recipe, whole, file, progress);
         const HandGeometry geometry(geometryOf(given, file, profile));
         const bool isRigid = profile.hand().axes.empty();
         request.anglesDeg = isRigid ? std::vector<double>() : anglesOf(given, profile.hand());
@@ -316,9 +319,9 @@ int contactCommand(const Arguments& words) {
           throw;
         }
         out.finish();
-        whole = reportProblems(file, problems, given.quiet()) && whole;
+        allThere = reportProblems(file, problems, given.quiet()) && allThere;
       });
-  return code == kDone && !whole ? kPartlyDone : code;
+  return code == kDone && !allThere ? kPartlyDone : code;
 }
 
 }  // namespace palpate::commands

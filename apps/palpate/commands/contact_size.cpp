@@ -10,6 +10,7 @@
 #include "palpate/recognition/grasp_segments.h"
 
 #include "commands/commands.h"
+#include "commands/filter_options.h"
 #include "commands/hand_options.h"
 #include "commands/recording_list.h"
 
@@ -73,13 +74,15 @@ void sayContactSize(const std::filesystem::path& file,
 int contactSizes(const CommandLine& given) {
   for (const char* option : {"angles", "matrices", "threshold", "from", "to"})
     if (given.has(option)) throw UsageError(std::string("--size can't be used with --") + option);
+  const Recipe recipe = recipeOf(given);
   const RecordingList recordings = recordingsIn(given.words());
   StandardOutput out;
-  bool headerWritten = false, whole = true;
+  bool headerWritten = false, allThere = true;
   const int code = forEachProfile(
       recordings,
       given.quiet(),
-      [&](const std::filesystem::path& file, const Profile& profile, const Progress& progress) {
+      [&](const std::filesystem::path& file, const Profile& whole, const Progress& progress) {
+        const Profile profile = filteredBy(recipe, whole, file, progress);
         const HandGeometry geometry(geometryOf(given, file, profile, "effective"));
         if (profile.numAngles() == 0)
           throw Error(file.string() +
@@ -109,12 +112,12 @@ int contactSizes(const CommandLine& given) {
                            std::to_string(report.unusableFrames) +
                                " frames without usable joint angles are left out");
           if (!report.valid) sayContactSize(file, grasp, "no size: " + report.problem);
-          whole = whole && report.valid && report.unusableFrames == 0;
+          allThere = allThere && report.valid && report.unusableFrames == 0;
         }
         // Writes the rows of each recording at once.
         out.finish();
       });
-  return code == kDone && !whole ? kPartlyDone : code;
+  return code == kDone && !allThere ? kPartlyDone : code;
 }
 
 }  // namespace palpate::commands

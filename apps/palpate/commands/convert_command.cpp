@@ -2,8 +2,10 @@
 // form.
 #include <algorithm>
 #include <cstdio>
+#include <stdexcept>
 
 #include "palpate/batch/batch_task.h"
+#include "palpate/batch/grasp_files.h"
 #include "palpate/core/error.h"
 #include "palpate/core/escaped_line.h"
 #include "palpate/core/number_text.h"
@@ -15,6 +17,7 @@
 #include "commands/commands.h"
 #include "commands/export_options.h"
 #include "commands/filter_options.h"
+#include "commands/recording_list.h"
 
 namespace palpate::commands {
 namespace fs = std::filesystem;
@@ -85,6 +88,72 @@ BatchTask convertTaskOf(const CommandLine& given, const std::string& ending) {
       {.filters = recipe, .choices = exportChoicesOf(given, recipe, "result" + ending)});
 }
 
+// The folder of `words` in which a recording was found; empty for one that was given by itself.
+fs::path rootOf(const Arguments& words, const fs::path& file) {
+  std::error_code ignored;
+  for (const std::string& word : words) {
+    const fs::path below = file.lexically_relative(word);
+    if (fs::is_directory(word, ignored) && !below.empty() && *below.begin() != "..") return word;
+  }
+  return {};
+}
+
+BatchNameFields nameFieldsOf(const Arguments& words, const fs::path& file, const Profile& profile) {
+  const fs::path root = rootOf(words, file);
+  const std::string ending = file.extension().string();
+  BatchNameFields fields{.name = file.stem().string(),
+                         .ending = ending.empty() ? "" : ending.substr(1),
+                         .timeUs = profile.numFrames() > 0 ? profile.frameTimeUs(0) : 0};
+  if (!root.empty()) fields.folder = file.parent_path().lexically_relative(root);
+  if (fields.folder == ".") fields.folder.clear();
+  return fields;
+}
+
+// --each-grasp PATH.. -o TEMPLATE
+int convertGrasps(const CommandLine& given) {
+  for (const char* name : {"from", "to", "to-form", "resume", "threads", "report"})
+    if (given.has(name))
+      throw UsageError("--" + std::string(name) + " doesn't go with --each-grasp");
+  if (!given.has("output"))
+    throw UsageError("--each-grasp needs -o TEMPLATE, as -o out/{name}_{n}.palpate");
+  const Recipe recipe = recipeOf(given);
+  const GraspTemplate names = [&] {
+    try {
+      return GraspTemplate(*given.text("output"));
+    } catch (const std::invalid_argument& error) {
+      throw UsageError(std::string("-o: ") + error.what());
+    }
+  }();
+  const ExportChoices choices = exportChoicesOf(given, recipe, "result" + names.ending());
+  formatOf("result" + names.ending());
+  return forEachRecording(
+      recordingsIn(given.words()),
+      given.quiet(),
+      [&](const fs::path& file, const Progress& progress) {
+        const Profile whole = openRecording(file, progress);
+        const EventsReport events = readEvents(file);
+        // Grasps are those of the recorded values, as the window shows them.
+        const std::vector<GraspFrames> grasps = graspFrames(whole, events.events);
+        if (grasps.empty()) throw FileError(file, "has no grasp");
+        const Profile profile = filteredBy(recipe, whole, file);
+        const BatchNameFields fields = nameFieldsOf(given.words(), file, whole);
+        std::vector<fs::path> paths;
+        for (std::size_t i = 0; i < grasps.size(); ++i)
+          paths.push_back(names.pathFor(fields, i + 1, grasps.size()));
+        GraspFilesOptions options;
+        options.overwrite = given.has("force") ? Overwrite::kReplace : Overwrite::kRefuse;
+        options.extras = [&](const Profile& part, const fs::path& out) {
+          SaveExtras extras = exportExtras(choices, file, out, part, recipe);
+          extras.meta.erase("settings");  // those at the start of the whole recording
+          return extras;
+        };
+        saveGrasps(file, profile, events.events, grasps, paths, options, progress);
+        FileOutcome outcome{.said = file.string() + ": " + counted(grasps.size(), "grasp")};
+        if (events.damaged > 0) outcome.problem = damagedText(file.string(), events.damaged);
+        return outcome;
+      });
+}
+
 int convertBatch(const CommandLine& given) {
   for (const char* name : {"from", "to", "to-form"})
     if (given.has(name))
@@ -116,7 +185,7 @@ int convertFolder(const CommandLine& given, const std::string& form) {
 int convertCommand(const Arguments& words) {
   const CommandLine given(
       {.synopsis = "palpate convert IN OUT [--from N --to M] | FOLDER OUTFOLDER --to-form FORM\n"
-                   "       palpate convert PATH... -o TEMPLATE",
+                   "       palpate convert PATH... [--each-grasp] -o TEMPLATE",
        .purpose =
            "Converts a recording; the ending of OUT chooses the format: .dsa, .palpate, .csv "
            "(with\nOUT.angles.csv and OUT.temperatures.csv beside it), .npz (for NumPy), .h5, "
@@ -128,11 +197,13 @@ int convertCommand(const Arguments& words) {
        .options = withBatchOptions(withExportOptions(withFilterOptions(
            {{"from", "N", "first frame, default 0"},
             {"to", "M", "last frame (inclusive), default the last one"},
+            {"each-grasp", "", "a file for each grasp, as -o out/{name}_{n}.palpate"},
             {"to-form", "FORM", "of a folder: dsa, palpate, csv, npz, jsonl, h5, mat or mcap"}}))),
        .example = "palpate convert foam_ball.dsa grasp3.palpate --from 700 --to 1400",
        .minArguments = 1},
       words);
   if (given.helpShown()) return kDone;
+  if (given.has("each-grasp")) return convertGrasps(given);
   if (given.has("output")) return convertBatch(given);
   if (given.words().size() != 2)
     throw UsageError("convert takes IN OUT, FOLDER OUTFOLDER or PATH.. -o TEMPLATE, not " +

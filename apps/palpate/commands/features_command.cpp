@@ -10,6 +10,7 @@
 #include "commands/batch_options.h"
 #include "commands/command_line.h"
 #include "commands/commands.h"
+#include "commands/filter_options.h"
 
 namespace palpate::commands {
 namespace {
@@ -51,11 +52,11 @@ int featuresCommand(const Arguments& words) {
            "features (no joint angles, pads that don't face each other) "
            "and a recording without a grasp are\nreported on standard error; then the exit code is "
            "3. With -o a table for each recording.",
-       .options = withBatchOptions(
+       .options = withBatchOptions(withFilterOptions(
            {{"set",
              "SET",
              "study, best (default where two pads pinch), session or statistics (default of "
-             "other hands)"}}),
+             "other hands)"}})),
        .example = "palpate features recordings --set best > features.csv",
        .minArguments = 1},
       words);
@@ -63,8 +64,10 @@ int featuresCommand(const Arguments& words) {
   FeatureExtractionOptions options;
   const auto set = given.choice("set", {"study", "best", "session", "statistics"});
   if (set) options.set = *featureSetNamed(*set);
+  options.filters = recipeOf(given);
   if (given.has("output"))
-    return runBatchCommand(given, batchTemplateOf(given, {".csv"}), featuresTask(options.set));
+    return runBatchCommand(
+        given, batchTemplateOf(given, {".csv"}), featuresTask(options.set, options.filters));
   refuseBatchOptions(given);
   const FeatureTable table = gather(given, options);
 

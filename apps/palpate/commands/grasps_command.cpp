@@ -13,6 +13,7 @@
 #include "commands/command_line.h"
 #include "commands/commands.h"
 #include "commands/export_options.h"
+#include "commands/filter_options.h"
 #include "commands/recording_list.h"
 
 namespace palpate::commands {
@@ -68,13 +69,15 @@ int graspsCommand(const Arguments& words) {
            "  1, 1/2 or 1/4 for both, one or none of its ends inside the recording (not at its "
            "first "
            "or last frame,\n  nor beside a gap): what is cut off was not seen to begin or to end",
-       .options = {{"rule", "RULE", "general (default) or study"}, unitsRowOption()},
+       .options =
+           withFilterOptions({{"rule", "RULE", "general (default) or study"}, unitsRowOption()}),
        .example = "palpate grasps recordings --rule general > grasps.csv",
        .minArguments = 1},
       words);
   if (given.helpShown()) return kDone;
   GraspSegmentOptions options;
   if (given.choice("rule", {"general", "study"}) == "study") options.rule = GraspRule::kStudy;
+  const Recipe recipe = recipeOf(given);
   const RecordingList list = recordingsIn(given.words());
   std::vector<std::string> header = {"begin", "end", "begin_ms", "end_ms", "fingers", "quality"};
   if (list.several) header.emplace_back("file");
@@ -85,9 +88,10 @@ int graspsCommand(const Arguments& words) {
       given.quiet(),
       {.begin = csvLine(header) + (given.has("units-row") ? csvLine(units) : "")},
       [&](const std::filesystem::path& file,
-          const Profile& profile,
+          const Profile& whole,
           const TextSink& write,
           const Progress& progress) {
+        const Profile profile = filteredBy(recipe, whole, file, progress);
         requirePads(file, profile, options);
         for (const GraspSegment& grasp : findGrasps(profile, options, progress)) {
           std::vector<std::string> cells = graspsCellsOf(profile, grasp);

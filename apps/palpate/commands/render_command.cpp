@@ -19,6 +19,7 @@
 #include "commands/command_line.h"
 #include "commands/commands.h"
 #include "commands/display.h"
+#include "commands/filter_options.h"
 #include "commands/picture_size.h"
 #include "commands/render_hand.h"
 #include "commands/render_movie.h"
@@ -229,6 +230,7 @@ int drawOne(const CommandLine& given,
 struct RenderPage {
   gui::MatricesPictureOptions options = {};
   Sheet sheet = {};
+  Recipe filters = {};
 };
 
 // The options that pictures depend on, as text: of all but those of the batch itself.
@@ -253,12 +255,15 @@ BatchTask renderTask(const CommandLine& given, const CommandSpec& spec, const Re
                                  std::size_t threads) {
             const bool isMovie = isMovieName(item.target.string());
             const std::string file = item.source.string();
-            const Profile profile = openRecording(
-                item.source,
-                [&](double fraction) {
-                  return !progress || progress(fraction * (isMovie ? 0.1 : 0.9));
-                },
-                threads);
+            const Profile profile =
+                filteredBy(page.filters,
+                           openRecording(
+                               item.source,
+                               [&](double fraction) {
+                                 return !progress || progress(fraction * (isMovie ? 0.1 : 0.9));
+                               },
+                               threads),
+                           item.source);
             gui::MatricesPictureOptions options = page.options;
             gui::PicturePaper paper = page.sheet.paper;
             options.title = QString::fromStdString(item.source.filename().string());
@@ -386,9 +391,10 @@ int renderCommand(const Arguments& words) {
       .minArguments = 1};
   const auto ofHand = handViewOptions();
   spec.options.insert(spec.options.end(), ofHand.begin(), ofHand.end());
-  spec.options = withResumeOptions(std::move(spec.options));
+  spec.options = withResumeOptions(withFilterOptions(std::move(spec.options)));
   const CommandLine given(spec, words);
   if (given.helpShown()) return kDone;
+  const Recipe recipe = recipeOf(given);
   const bool isSeries = given.has("from") || given.has("to");
   checkUsage(given, isSeries);
   const bool isBatch = isRenderBatch(given);
@@ -407,14 +413,14 @@ int renderCommand(const Arguments& words) {
   const bool isMovie = isMovieName(*given.text("output"));
   if (isMovie && !given.has("dpi") && sheet.textUnits == 0) sheet.paper.dpi = kMovieDpi;
   const Overwrite overwrite = given.has("force") ? Overwrite::kReplace : Overwrite::kRefuse;
-  if (isBatch) return renderBatch(given, spec, {options, sheet});
+  if (isBatch) return renderBatch(given, spec, {options, sheet, recipe});
 
   if (isMovie) requireMovie(*given.text("output"), overwrite);  // before the long work
 
   const std::string& file = given.words()[0];
   const Profile profile = [&] {
     ProgressLine progress("reading " + file, given.quiet());
-    return openRecording(file, progress.callback());
+    return filteredBy(recipe, openRecording(file, progress.callback()), file);
   }();
   options.title = QString::fromStdString(fs::path(file).filename().string());
   sheet.paper.title = options.title;

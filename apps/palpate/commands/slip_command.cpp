@@ -17,6 +17,7 @@
 #include "commands/command_line.h"
 #include "commands/commands.h"
 #include "commands/export_options.h"
+#include "commands/filter_options.h"
 #include "commands/recording_list.h"
 
 namespace palpate::commands {
@@ -55,7 +56,7 @@ int slipCommand(const Arguments& words) {
            "With --segments a row per slip instead. PATH is a recording, or a folder:\nevery "
            "recording below it. With several a last column names the file. With "
            "-o a table for each\nrecording.",
-       .options = withBatchOptions(
+       .options = withBatchOptions(withFilterOptions(
            {{"method",
              "METHOD",
              "centroid, alcazar, ncc-paraboloid, ncc-gauss3, phase, phase-normalized, "
@@ -69,7 +70,7 @@ int slipCommand(const Arguments& words) {
             {"limit", "T", "threshold since the reference [taxels], default 1.0"},
             {"rotation", "DEG", "threshold of turning [deg], default 5"},
             {"segments", "", "a row per slip: frames, matrix, length of the way"},
-            unitsRowOption()}),
+            unitsRowOption()})),
        .example = "palpate slip bottle.dsa --reference rest > slip.csv",
        .minArguments = 1},
       words);
@@ -77,10 +78,12 @@ int slipCommand(const Arguments& words) {
   const SlipRowsOptions request = slipOptionsOf(given);
   const bool segments = given.has("segments");
   const bool unitsRow = given.has("units-row");
+  const Recipe recipe = recipeOf(given);
   if (given.has("output")) {
     SlipRowsOptions table = request;
     table.segments = segments;
     table.unitsRow = unitsRow;
+    table.filters = recipe;
     return runBatchCommand(given, batchTemplateOf(given, {".csv"}), slipTask(table));
   }
   refuseBatchOptions(given);
@@ -90,7 +93,8 @@ int slipCommand(const Arguments& words) {
   return forEachProfile(
       recordings,
       given.quiet(),
-      [&](const std::filesystem::path& file, const Profile& profile, const Progress& progress) {
+      [&](const std::filesystem::path& file, const Profile& whole, const Progress& progress) {
+        const Profile profile = filteredBy(recipe, whole, file, progress);
         requireThere(file, profile, request);
         if (!headerWritten)
           out.write(std::string(segments ? kSlipSegmentColumns : kSlipColumns) +

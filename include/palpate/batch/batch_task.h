@@ -41,6 +41,7 @@ struct SlipRowsOptions {
   std::optional<std::int64_t> matrix = {};
   bool segments = false;  // a row per slip instead of one per frame and matrix
   bool unitsRow = false;  // a second row with the units
+  Recipe filters = {};    // of the frames, first
 };
 BatchTask slipTask(const SlipRowsOptions& table);
 // Set the method by its name (slip_method.h), and the reference: "first", "rest", or the number of
@@ -53,7 +54,7 @@ void requireThere(const std::filesystem::path& file,
                   const SlipRowsOptions& table);
 
 // Without grasps with features the work fails. The class of a grasp is as in feature_table.h.
-BatchTask featuresTask(std::optional<FeatureSet> set = {});
+BatchTask featuresTask(std::optional<FeatureSet> set = {}, const Recipe& filters = {});
 // The lines of `palpate features`, each with its line end.
 std::string featureHeaderLine(const FeatureTable& table);
 std::string featureLine(const FeatureRow& row);

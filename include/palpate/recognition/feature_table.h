@@ -18,6 +18,7 @@
 #include <Eigen/Core>
 
 #include <palpate/core/progress.h>
+#include <palpate/filter/recipe.h>
 #include <palpate/recognition/grasp_features.h>
 
 namespace palpate {
@@ -85,6 +86,8 @@ struct FeatureExtractionOptions {
   std::optional<FeatureSet> set = std::nullopt;
   // Number of threads; 0: as many as the machine runs at once. The table does not depend on it.
   std::size_t threads = 0;
+  // The recordings are filtered first.
+  Recipe filters = {};
 };
 
 // Extracts the features of all recordings in the given folders (as above) and files. The first

@@ -104,6 +104,28 @@ TEST_F(OpeningTest, ByDragAndDrop) {
   EXPECT_EQ(window().state().recordings.all().size(), 3u);
 }
 
+TEST_F(OpeningTest, AFolderOpensTheLibraryOnIt) {
+  std::filesystem::create_directories(folder_ / "runs");
+  const QString folder = QString::fromStdString((folder_ / "runs").string());
+  EXPECT_TRUE(drop({QUrl::fromLocalFile(folder)}));
+  LibraryPanel& library = window().feature<LibraryFeature>().panel();
+  EXPECT_EQ(library.folder(), folder);
+  EXPECT_TRUE(library.isVisible());
+  EXPECT_EQ(bannerText(), "");
+  EXPECT_TRUE(onStartPage());
+  // Beside files of the same call.
+  EXPECT_TRUE(drop({QUrl::fromLocalFile(folder), url("good.dsa")}));
+  waitUntilOpened();
+  EXPECT_EQ(currentName(), "good.dsa");
+}
+
+TEST_F(OpeningTest, TheStartPageShowsTheLibrary) {
+  LibraryPanel& library = window().feature<LibraryFeature>().panel();
+  ASSERT_FALSE(library.isVisible());
+  QTest::mouseClick(find<QPushButton>("startLibrary"), Qt::LeftButton);
+  EXPECT_TRUE(library.isVisible());
+}
+
 TEST_F(OpeningTest, WhatIsNoLocalFileIsNotTaken) {
   EXPECT_FALSE(drop({QUrl("https://example.org/a.dsa")}));
   EXPECT_FALSE(drop({}));

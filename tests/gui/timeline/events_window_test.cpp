@@ -1,7 +1,10 @@
 // The analyst's way through a recording: grasps, labels, notes, undo, saving, cropping, curves of
 // anything.
+#include <QClipboard>
 #include <QCloseEvent>
 #include <QLabel>
+#include <QPushButton>
+#include <QTableWidget>
 
 #include <palpate/emulator/synthetic_profile.h>
 #include <palpate/recording/event_store.h>
@@ -95,6 +98,145 @@ TEST_F(EventsWindowTest, ShiftNGoesBack) {
   press(Qt::Key_N);
   press(Qt::Key_N, Qt::ShiftModifier);
   EXPECT_EQ(rows().chosen(), 0u);
+}
+
+TEST_F(EventsWindowTest, NGoesOnFromTheCursor) {
+  for (int i = 0; i < 3; ++i) press(Qt::Key_N);
+  EXPECT_EQ(rows().chosen(), 2u);
+  press(Qt::Key_Home);
+  press(Qt::Key_N);
+  EXPECT_EQ(rows().chosen(), 0u);
+  playback().seekFrame((truth_.grasps[1].begin + truth_.grasps[1].end) / 2);
+  press(Qt::Key_N);
+  EXPECT_EQ(rows().chosen(), 2u);
+  playback().seekFrame((truth_.grasps[1].begin + truth_.grasps[1].end) / 2);
+  press(Qt::Key_N, Qt::ShiftModifier);
+  EXPECT_EQ(rows().chosen(), 1u);
+  press(Qt::Key_N, Qt::ShiftModifier);
+  EXPECT_EQ(rows().chosen(), 0u);
+  press(Qt::Key_N, Qt::ShiftModifier);
+  EXPECT_EQ(rows().chosen(), 0u) << "there is none before";
+}
+
+TEST_F(EventsWindowTest, AfterAClickOnAnEventTheArrowsStepFrames) {
+  const QRectF bar = rows().barOf(0);
+  ASSERT_FALSE(bar.isEmpty());
+  QTest::mouseClick(&rows(), Qt::LeftButton, {}, bar.center().toPoint());
+  ASSERT_EQ(rows().chosen(), 0u);
+  EXPECT_FALSE(rows().hasFocus());
+  const std::size_t frame = playback().frame();
+  press(Qt::Key_Right);
+  EXPECT_EQ(playback().frame(), frame + 1);
+  EXPECT_EQ(rows().chosen(), 0u);
+}
+
+TEST_F(EventsWindowTest, WithoutItsSelectionAnEventIsNotChosen) {
+  press(Qt::Key_N);
+  ASSERT_TRUE(rows().chosen());
+  window().state().selection.setSpan(std::nullopt);
+  EXPECT_FALSE(rows().chosen());
+  press(Qt::Key_Delete);
+  EXPECT_EQ(marksIn(EventLane::kGrasps), 3);
+}
+
+TEST_F(EventsWindowTest, CursorZoomAndSelectionAreKeptForEachRecording) {
+  const std::filesystem::path other = folder_ / "other.palpate";
+  saveRecording(synthesize({.durationS = 12.0, .grasps = 3}), {}, other);
+  playback().seekFrame(100);
+  window().state().selection.show({2.0, 6.0});
+  window().state().selection.setSpan(TimeSpan{3.0, 4.0});
+  window().state().open({other});
+  waitUntilOpened();
+  EXPECT_EQ(playback().frame(), 0u);
+  EXPECT_FALSE(chart().selection());
+  actions().at("nextRecording")->trigger();
+  EXPECT_EQ(playback().frame(), 100u);
+  EXPECT_NEAR(chart().seen().lower, 2.0, 1e-6);
+  EXPECT_NEAR(chart().seen().upper, 6.0, 1e-6);
+  ASSERT_TRUE(chart().selection());
+  EXPECT_NEAR(chart().selection()->fromS, 3.0, 1e-9);
+}
+
+TEST_F(EventsWindowTest, LabelsGoOutAsATableAndComeBack) {
+  playback().seekSeconds(2.0);
+  press(Qt::Key_B, Qt::ControlModifier);
+  chart().setSelection(TimeSpan{3.0, 4.0});
+  answer_ = "slow, \"very\"";
+  press(Qt::Key_B, Qt::ControlModifier | Qt::ShiftModifier);
+  const QString table = QString::fromStdString((folder_ / "labels.csv").string());
+  QString proposed;
+  window().state().prompts.newFile =
+      [&](const QString&, const QString& suggestion, const QString&) {
+        proposed = suggestion;
+        return table;
+      };
+  window().state().prompts.file = [&](auto&&...) { return table; };
+  actions().at("exportLabels")->trigger();
+  EXPECT_TRUE(proposed.endsWith("grasps_labels.csv"));
+  EXPECT_EQ(testing::readFile(table.toStdString()),
+            "begin_s,end_s,kind,text,matrix\n"
+            "2.000000,2.000000,label,touch,\n"
+            "3.000000,4.000000,note,\"slow, \"\"very\"\"\",\n");
+  actions().at("importLabels")->trigger();
+  EXPECT_EQ(window().state().events.editor()->events().size(), 2u) << "they are there already";
+  const auto before = window().state().events.editor()->events();
+  press(Qt::Key_Z, Qt::ControlModifier);
+  press(Qt::Key_Z, Qt::ControlModifier);
+  EXPECT_EQ(window().state().events.editor()->events().size(), 0u);
+  actions().at("importLabels")->trigger();
+  EXPECT_EQ(window().state().events.editor()->events(), before);
+  press(Qt::Key_Z, Qt::ControlModifier);
+  EXPECT_EQ(window().state().events.editor()->events().size(), 0u) << "undone at once";
+  testing::writeFile(table.toStdString(), "begin_s,text\n1,good\nx,bad\n");
+  actions().at("importLabels")->trigger();
+  EXPECT_EQ(window().state().events.editor()->events().size(), 1u);
+  EXPECT_TRUE(bannerText().contains("line 3: begin_s 'x' is not a number"))
+      << bannerText().toStdString();
+  testing::writeFile(table.toStdString(), "no table");
+  actions().at("importLabels")->trigger();
+  EXPECT_TRUE(bannerText().contains("begin_s and text")) << bannerText().toStdString();
+}
+
+TEST_F(EventsWindowTest, EachGraspIsExportedWithItsLabels) {
+  playback().seekFrame((truth_.grasps[1].begin + truth_.grasps[1].end) / 2);
+  press(Qt::Key_B, Qt::ControlModifier);
+  window().state().prompts.newFile = [&](const QString&, const QString&, const QString&) {
+    return QString::fromStdString((folder_ / "parts/one.palpate").string());
+  };
+  actions().at("exportGrasps")->trigger();
+  window().settle();
+  EXPECT_EQ(bannerText(), "");
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto file = folder_ / ("parts/one_0" + std::to_string(i + 1) + ".palpate");
+    const Profile part = openRecording(file);
+    const auto& truth = truth_.grasps[i];
+    EXPECT_NEAR(
+        static_cast<double>(part.numFrames()), static_cast<double>(truth.end - truth.begin + 1), 5);
+    EXPECT_EQ(readEvents(file).events.size(), i == 1 ? 1u : 0u);
+  }
+  actions().at("exportGrasps")->trigger();
+  window().settle();
+  EXPECT_FALSE(bannerText().isEmpty()) << "nothing is replaced without being asked";
+}
+
+TEST_F(EventsWindowTest, StatisticsOfTheSelectionAreATable) {
+  EXPECT_FALSE(actions().at("statistics")->isEnabled());
+  chart().setSelection(TimeSpan{2.0, 9.0});
+  actions().at("statistics")->trigger();
+  window().settle();
+  auto* table = window().findChild<QTableWidget*>("statisticsTable");
+  ASSERT_TRUE(table);
+  const OpenedRecordingPtr recording = window().state().displayed.recorded();
+  const auto frames = *recording->framesWithin(2.0, 9.0);
+  int plotted = 0;
+  for (const bool on : window().state().selection.plotted()) plotted += on ? 1 : 0;
+  EXPECT_EQ(table->rowCount(), plotted);
+  EXPECT_EQ(table->item(0, 2)->text().toULongLong(), frames.second - frames.first + 1);
+  QTest::mouseClick(window().findChild<QPushButton*>("copyStatistics"), Qt::LeftButton);
+  const QString copied = QGuiApplication::clipboard()->text();
+  EXPECT_TRUE(copied.startsWith("curve\tunit\tframes\tmean\tsd\tmin\tmax\tslope [unit/s]\t"))
+      << copied.toStdString();
+  EXPECT_EQ(copied.trimmed().split('\n').size(), plotted + 1);
 }
 
 TEST_F(EventsWindowTest, LabelsAndNotesAreMadeUndoneAndSaved) {

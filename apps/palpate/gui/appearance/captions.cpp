@@ -22,4 +22,8 @@ QString figure(double value, int decimals) {
   return QString::fromStdString(fixedText(value, decimals));
 }
 
+QString inWindowWords(QString message) {
+  return message.replace("'palpate recover'", "File > Recover…");
+}
+
 }  // namespace palpate::gui

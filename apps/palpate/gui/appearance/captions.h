@@ -14,6 +14,9 @@ QLabel* sectionHeading(const QString& text, QWidget* parent);
 // The value with so many decimals, independent of the locale: "31.7".
 QString figure(double value, int decimals);
 
+// A message of the library in the words of the window: the menu entry instead of the command.
+QString inWindowWords(QString message);
+
 // Converts a std::filesystem::path into a QString.
 inline QString pathText(const std::filesystem::path& path) {
   return QString::fromStdString(path.string());

@@ -33,6 +33,10 @@ LibraryFeature::LibraryFeature(WindowState& windowState, QWidget* window)
   connect(panel_, &LibraryPanel::compareRequested, this, [this](const QString& path) {
     compareWith(path.toStdString());
   });
+  windowState.showLibrary = [this](const QString& folder) {
+    if (!folder.isEmpty()) panel_->setFolder(folder);
+    emit dockRequested(dock_);
+  };
   windowState.chosenRecordings = [this] {
     return panel_->isVisible() ? panel_->chosen() : QStringList();
   };

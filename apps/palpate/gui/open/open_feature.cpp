@@ -64,6 +64,14 @@ OpenFeature::OpenFeature(WindowState& windowState, QWidget* window)
         windowState.recent.lastFolder(),
         "Recordings (*.dsa *.palpate *.h5 *.hdf5 *.mcap *.xml);;All files (*)");
   };
+  windowState.prompts.file =
+      [window](const QString& title, const QString& folder, const QString& filter) {
+        return QFileDialog::getOpenFileName(window, title, folder, filter);
+      };
+  windowState.prompts.newFile =
+      [window](const QString& title, const QString& suggestion, const QString& filter) {
+        return QFileDialog::getSaveFileName(window, title, suggestion, filter);
+      };
   connectOpener();
   connectActions();
   window->installEventFilter(this);
@@ -125,6 +133,9 @@ void OpenFeature::connectActions() {
 void OpenFeature::connectStartPage() {
   WindowState& windowState = state();
   connect(startPage_, &StartPage::openRequested, actions_.open, &QAction::trigger);
+  connect(startPage_, &StartPage::libraryRequested, this, [&windowState] {
+    if (windowState.showLibrary) windowState.showLibrary({});
+  });
   connect(startPage_, &StartPage::demoRequested, actions_.openDemo, &QAction::trigger);
   connect(startPage_,
           &StartPage::connectRequested,

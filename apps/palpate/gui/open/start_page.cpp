@@ -15,6 +15,8 @@
 namespace palpate::gui {
 namespace {
 
+constexpr const char* kDropText =
+    "or drop recordings (.dsa, .palpate) or a folder anywhere in this window";
 constexpr int kColumnWidth = 560;        // [px]
 constexpr int kStartPageRowHeight = 46;  // [px] of a recent file
 
@@ -91,12 +93,18 @@ StartPage::StartPage(RecentFiles& recent, bool withDemo, QWidget* parent)
           &QPushButton::clicked,
           this,
           &StartPage::openRequested);
+  connect(button("Look through a folder",
+                 "startLibrary",
+                 "The Library lists the recordings of a folder and its subfolders (Ctrl+Shift+L)"),
+          &QPushButton::clicked,
+          this,
+          &StartPage::libraryRequested);
   if (withDemo)
     connect(button("Try the demo recording", "startDemo", "(Ctrl+D)"),
             &QPushButton::clicked,
             this,
             &StartPage::demoRequested);
-  dropHint_ = new QLabel("or drop a recording (.dsa, .palpate, .h5, .mcap) anywhere in this window", this);
+  dropHint_ = new QLabel(kDropText, this);
   dropHint_->setObjectName("DropHint");
   dropHint_->setAlignment(Qt::AlignCenter);
   dropHint_->setMinimumHeight(64);
@@ -136,8 +144,7 @@ StartPage::StartPage(RecentFiles& recent, bool withDemo, QWidget* parent)
 
 void StartPage::setDragging(bool on) {
   dropHint_->setProperty("dragging", on);
-  dropHint_->setText(on ? "drop it to open it"
-                        : "or drop a recording (.dsa, .palpate, .h5, .mcap) anywhere in this window");
+  dropHint_->setText(on ? "drop it to open it" : kDropText);
   style()->unpolish(dropHint_);
   style()->polish(dropHint_);
 }

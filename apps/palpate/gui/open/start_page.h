@@ -23,6 +23,7 @@ class StartPage : public QWidget {
 
  signals:
   void openRequested();
+  void libraryRequested();
   // The user wants the demo recording.
   void demoRequested();
   void connectRequested();

@@ -16,6 +16,7 @@
 #include "gui/link/link_feature.h"
 #include "gui/matrices/matrices_feature.h"
 #include "gui/open/open_feature.h"
+#include "gui/open/recovery_feature.h"
 #include "gui/playback/playback_feature.h"
 #include "gui/recognise/recognise_feature.h"
 #include "gui/record/record_feature.h"
@@ -52,6 +53,7 @@ std::vector<std::unique_ptr<Feature>> allFeatures(WindowState& windowState, QWid
   add(std::make_unique<RecogniseFeature>(windowState, window));
   add(std::make_unique<ConnectFeature>(windowState, window));
   add(std::make_unique<RecordFeature>(windowState, window));
+  add(std::make_unique<RecoveryFeature>(windowState, window));
   add(std::make_unique<ExportFeature>(windowState, window));
   add(std::make_unique<ImportFeature>(windowState, window));
   add(std::make_unique<BatchFeature>(windowState, window));

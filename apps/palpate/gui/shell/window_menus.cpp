@@ -66,11 +66,11 @@ void WindowMenus::buildMenuBar(const ActionRegistry& book, const QList<QAction*>
   file->addAction(at("open"));
   file->addMenu(menus_.recent);
   menus_.recent->setToolTipsVisible(true);
-  file->addActions({at("importTable"), at("batch"), at("openDemo")});
+  file->addActions({at("importTable"), at("batch"), at("recover"), at("openDemo")});
   file->addSeparator();
   file->addActions({at("nextRecording"), at("previousRecording"), at("closeRecording")});
   file->addSeparator();
-  file->addAction(at("saveEvents"));
+  file->addActions({at("saveEvents"), at("importLabels"), at("exportLabels"), at("exportGrasps")});
   file->addSeparator();
   file->addActions({at("exportPicture"), at("exportAgain"), at("copyPicture"), at("copyTable")});
   file->addSeparator();
@@ -86,7 +86,7 @@ void WindowMenus::buildMenuBar(const ActionRegistry& book, const QList<QAction*>
   menus_.edit->addActions({at("nextEvent"), at("previousEvent"), at("toEvents")});
   menus_.edit->addSeparator();
   menus_.edit->addActions({at("selectFrom"), at("selectTo"), at("selectAll"), at("dropSelection")});
-  menus_.edit->addActions({at("zoomSelection"), at("crop")});
+  menus_.edit->addActions({at("zoomSelection"), at("statistics"), at("crop")});
   menus_.edit->addSeparator();
   menus_.edit->addAction(at("nameTaxels"));
 

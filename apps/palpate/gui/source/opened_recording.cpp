@@ -18,8 +18,9 @@ namespace {
 
 constexpr std::int64_t kWholeS = 1'000'000;  // one second [us]
 constexpr std::size_t kFramesPerReport = 256;
-// Name of the native format in ProfileInfo.
+// Name of the native format in ProfileInfo, and the begin of the warning of an unfinished one.
 constexpr const char* kNativeFormat = "palpate";
+constexpr const char* kUnfinishedWarning = "unfinished:";
 
 // Fills in what the per-second summary tells before any frame is read. It doesn't show gaps shorter
 // than two seconds.
@@ -65,8 +66,9 @@ void takeSummary(OpenedRecording& opened, const std::vector<SecondSummary>& seco
 void openBySummary(OpenedRecording& opened, const Progress& progress) {
   std::vector<SecondSummary> seconds;
   try {
-    seconds = opened.profile.info().format == kNativeFormat ? readSeconds(opened.path)
-                                                            : secondsOf(opened.profile, progress);
+    // The summary of a damaged recording counts the frames that are lost, too.
+    const bool stored = opened.profile.info().format == kNativeFormat && opened.damage.empty();
+    seconds = stored ? readSeconds(opened.path) : secondsOf(opened.profile, progress);
   } catch (const Cancelled&) {
     throw;
   } catch (const Error&) {
@@ -185,10 +187,26 @@ const Gap* OpenedRecording::gapAt(double seconds) const {
   return nullptr;
 }
 
-OpenedRecordingPtr makeOpenedRecording(std::filesystem::path path,
-                                       Profile profile,
-                                       const Progress& progress,
-                                       std::size_t longFrom) {
+namespace {
+
+// In a damaged recording also the short spans without frames count as gaps, for what was lost may
+// be short: those of more than kLostIntervals usual intervals.
+std::vector<Gap> lostSpans(const OpenedRecording& opened) {
+  constexpr double kLostIntervals = 2.5;
+  if (opened.timing.rateHz <= 0.0) return opened.timing.gaps;
+  const double longestS = kLostIntervals / opened.timing.rateHz;
+  std::vector<Gap> gaps;
+  for (std::size_t i = 1; i < opened.timeS.size(); ++i)
+    if (const double seconds = opened.timeS[i] - opened.timeS[i - 1]; seconds > longestS)
+      gaps.push_back({i - 1, seconds});
+  return gaps;
+}
+
+std::shared_ptr<OpenedRecording> computed(std::filesystem::path path,
+                                          Profile profile,
+                                          std::string damage,
+                                          const Progress& progress,
+                                          std::size_t longFrom) {
   auto opened = std::make_shared<OpenedRecording>(OpenedRecording{.path = std::move(path),
                                                                   .profile = std::move(profile),
                                                                   .timing = {},
@@ -199,6 +217,7 @@ OpenedRecordingPtr makeOpenedRecording(std::filesystem::path path,
                                                                   .touched = {},
                                                                   .events = {},
                                                                   .eventsFailure = {},
+                                                                  .damage = std::move(damage),
                                                                   .overview = {}});
   opened->touched.assign(opened->numMatrices(), false);
   if (isLongRecording(opened->profile, longFrom)) {
@@ -206,10 +225,39 @@ OpenedRecordingPtr makeOpenedRecording(std::filesystem::path path,
     opened->overview = std::make_shared<SignalOverview>(opened->profile);
   } else {
     readThrough(*opened, progress);
+    if (!opened->damage.empty()) opened->timing.gaps = lostSpans(*opened);
   }
   for (const Gap& gap : opened->timing.gaps) opened->gapFrames.push_back(gap.frame);
+  return opened;
+}
+
+}  // namespace
+
+OpenedRecordingPtr makeOpenedRecording(std::filesystem::path path,
+                                       Profile profile,
+                                       const Progress& progress,
+                                       std::size_t longFrom) {
+  const auto opened = computed(std::move(path), std::move(profile), {}, progress, longFrom);
   readTheirEvents(*opened);
   return opened;
+}
+
+OpenedRecordingPtr makeOpenedRecording(std::filesystem::path path,
+                                       ReadableRecording readable,
+                                       const Progress& progress,
+                                       std::size_t longFrom) {
+  const auto opened = computed(
+      std::move(path), std::move(readable.profile), std::move(readable.damage), progress, longFrom);
+  opened->events = {std::move(readable.events), readable.damagedEvents};
+  opened->meta = std::move(readable.meta);
+  return opened;
+}
+
+bool isUnfinished(const OpenedRecording& recording) {
+  const auto& warnings = recording.profile.info().warnings;
+  return std::any_of(warnings.begin(), warnings.end(), [](const std::string& warning) {
+    return warning.starts_with(kUnfinishedWarning);
+  });
 }
 
 }  // namespace palpate::gui

@@ -16,6 +16,7 @@
 #include <palpate/core/progress.h>
 #include <palpate/model/profile.h>
 #include <palpate/model/timing.h>
+#include <palpate/recording/recording.h>
 #include <palpate/recording/recording_event.h>
 #include <palpate/signals/characteristic_signals.h>
 #include <palpate/signals/signal_overview.h>
@@ -56,6 +57,9 @@ struct OpenedRecording {
   std::map<std::string, std::string> meta = {};
   // Why the events couldn't be read; empty: they were read.
   std::string eventsFailure;
+  // What is missing of a damaged recording, of which only the readable part was opened; one line,
+  // empty: nothing.
+  std::string damage;
   // Of a long recording: the timeline fills it (compute()). Null: `table` has all signals.
   std::shared_ptr<SignalOverview> overview;
 
@@ -91,5 +95,12 @@ OpenedRecordingPtr makeOpenedRecording(std::filesystem::path path,
                                        Profile profile,
                                        const Progress& progress = {},
                                        std::size_t longFrom = OpenedRecording::kLongFrom);
+// The same of the readable part of a damaged recording.
+OpenedRecordingPtr makeOpenedRecording(std::filesystem::path path,
+                                       ReadableRecording readable,
+                                       const Progress& progress = {},
+                                       std::size_t longFrom = OpenedRecording::kLongFrom);
+// Whether the recording was never finished: its writer ended before it could.
+bool isUnfinished(const OpenedRecording& recording);
 
 }  // namespace palpate::gui

@@ -20,10 +20,16 @@ constexpr double kRecordingOpenerSmallestNews = 0.01;
 RecordingOpener::RecordingOpener(QObject* parent)
     : RecordingOpener([](const std::filesystem::path& path,
                          const Progress& progress) { return openRecording(path, progress); },
+                      [](const std::filesystem::path& path, const Progress& progress) {
+                        return readableRecording(path, progress);
+                      },
                       parent) {}
 
 RecordingOpener::RecordingOpener(Read read, QObject* parent)
-    : QObject(parent), read_(std::move(read)) {}
+    : RecordingOpener(std::move(read), {}, parent) {}
+
+RecordingOpener::RecordingOpener(Read read, ReadDamaged readDamaged, QObject* parent)
+    : QObject(parent), read_(std::move(read)), readDamaged_(std::move(readDamaged)) {}
 
 RecordingOpener::~RecordingOpener() {
   waiting_.clear();
@@ -62,7 +68,7 @@ void RecordingOpener::work(const Asked& asked) {
   const std::filesystem::path& path = asked.path;
   const QString name = QString::fromStdString(path.string());
   double reported = -1.0;
-  const auto part = [&](double from, double share) {
+  const std::function<Progress(double, double)> part = [&](double from, double share) -> Progress {
     return [this, &reported, from, share](double fraction) {
       const double now = from + share * fraction;
       if (now - reported >= kRecordingOpenerSmallestNews) {
@@ -74,9 +80,17 @@ void RecordingOpener::work(const Asked& asked) {
     };
   };
   try {
-    Profile profile = read_(path, part(0.0, kRecordingOpenerReadShare));
-    auto recording = makeOpenedRecording(
-        path, std::move(profile), part(kRecordingOpenerReadShare, 1.0 - kRecordingOpenerReadShare));
+    OpenedRecordingPtr recording;
+    try {
+      Profile profile = read_(path, part(0.0, kRecordingOpenerReadShare));
+      recording =
+          makeOpenedRecording(path,
+                              std::move(profile),
+                              part(kRecordingOpenerReadShare, 1.0 - kRecordingOpenerReadShare));
+    } catch (const FormatError& error) {
+      if (!readDamaged_) throw;
+      recording = readablePart(path, error.what(), part);
+    }
     conclude([this, recording, ticket = asked.ticket] { emit opened(recording, ticket); });
   } catch (const Cancelled&) {
     conclude([this, name] { emit cancelled(name); });
@@ -86,6 +100,17 @@ void RecordingOpener::work(const Asked& asked) {
     const QString message = QString::fromUtf8(error.what());
     conclude([this, name, message] { emit failed(name, message); });
   }
+}
+
+// Throws FormatError when nothing can be read.
+OpenedRecordingPtr RecordingOpener::readablePart(
+    const std::filesystem::path& path,
+    const std::string& why,
+    const std::function<Progress(double, double)>& part) const {
+  ReadableRecording readable = readDamaged_(path, part(0.0, kRecordingOpenerReadShare));
+  if (readable.damage.empty()) readable.damage = why;
+  return makeOpenedRecording(
+      path, std::move(readable), part(kRecordingOpenerReadShare, 1.0 - kRecordingOpenerReadShare));
 }
 
 void RecordingOpener::conclude(std::function<void()> report) {

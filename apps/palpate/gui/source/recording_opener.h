@@ -20,8 +20,13 @@ class RecordingOpener : public QObject {
  public:
   // How a file is read; tests supply their own function.
   using Read = std::function<Profile(const std::filesystem::path&, const Progress&)>;
+  // How the readable part of a damaged file is read.
+  using ReadDamaged =
+      std::function<ReadableRecording(const std::filesystem::path&, const Progress&)>;
 
   explicit RecordingOpener(QObject* parent = nullptr);
+  // Without `readDamaged` a damaged file fails.
+  RecordingOpener(Read read, ReadDamaged readDamaged, QObject* parent = nullptr);
   RecordingOpener(Read read, QObject* parent = nullptr);
   // Cancels all files and waits for the worker.
   ~RecordingOpener() override;
@@ -54,7 +59,12 @@ class RecordingOpener : public QObject {
   // Runs `report` in the thread of this object, then starts the next file.
   void conclude(std::function<void()> report);
 
+  OpenedRecordingPtr readablePart(const std::filesystem::path& path,
+                                  const std::string& why,
+                                  const std::function<Progress(double, double)>& part) const;
+
   Read read_;
+  ReadDamaged readDamaged_;
   std::deque<Asked> waiting_;
   // Number of tickets given.
   std::uint64_t tickets_ = 0;

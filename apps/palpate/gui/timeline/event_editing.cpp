@@ -50,8 +50,8 @@ void EventEditing::connectActions() {
   on(actions.removeEvent, [this] {
     if (rows_.chosen()) windowState_.events.remove(*rows_.chosen());
   });
-  on(actions.nextEvent, [this] { rows_.chooseNext(1); });
-  on(actions.previousEvent, [this] { rows_.chooseNext(-1); });
+  on(actions.nextEvent, [this] { goToNext(1); });
+  on(actions.previousEvent, [this] { goToNext(-1); });
   on(actions.toEvents, [this] { rows_.setFocus(); });
   on(actions.saveEvents, [this] {
     const OpenedRecordingPtr recording = windowState_.displayed.recorded();
@@ -95,6 +95,15 @@ void EventEditing::connectRows() {
   });
   connect(&rows_, &EventRows::menuRequested, this, [this](auto, const QPoint& at) {
     windowState_.menus.edit->popup(at);
+  });
+  // An event whose span is no longer selected isn't chosen any more: Del would delete what is out
+  // of sight.
+  connect(&windowState_.selection, &Selection::spanChanged, this, [this] {
+    const auto chosen = rows_.chosen();
+    if (!chosen || *chosen >= rows_.marks().size()) return;
+    const EventMark& mark = rows_.marks()[*chosen];
+    if (mark.toS <= mark.fromS || windowState_.selection.span()) return;
+    rows_.choose(std::nullopt);
   });
   connect(windowState_.menus.edit, &QMenu::aboutToShow, this, [this] {
     showUndo();
@@ -144,6 +153,12 @@ void EventEditing::showUndo() {
       text("&Redo", stack && stack->canRedo(), stack ? stack->redoText() : QString()));
 }
 
+void EventEditing::goToNext(int step) {
+  const double nowS = windowState_.playback.positionS();
+  if (rows_.chosen() && shownAtS_ && *shownAtS_ == nowS) return rows_.chooseNext(step);
+  rows_.chooseNextFrom(nowS, step);
+}
+
 // Moves the cursor to the begin of the mark, selects its span, and scrolls it into view.
 void EventEditing::show(std::size_t index) {
   const EventMark mark = rows_.marks().at(index);
@@ -155,6 +170,7 @@ void EventEditing::show(std::size_t index) {
   else if (mark.fromS < seen.fromS || mark.toS > seen.toS)
     selection.show({(mark.fromS + mark.toS - spanS) / 2, (mark.fromS + mark.toS + spanS) / 2});
   windowState_.playback.seekSeconds(mark.fromS);
+  shownAtS_ = windowState_.playback.positionS();
   selection.setSpan(mark.toS > mark.fromS ? std::optional(TimeSpan{mark.fromS, mark.toS})
                                           : std::nullopt);
   windowState_.actionEnabler.refresh();

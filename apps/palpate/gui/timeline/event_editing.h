@@ -4,6 +4,7 @@
 #include <QObject>
 #include <QString>
 #include <cstddef>
+#include <optional>
 
 #include "gui/timeline/timeline_actions.h"
 #include "gui/window_state/window_state.h"
@@ -29,10 +30,14 @@ class EventEditing : public QObject {
   void addGrasp();
   void show(std::size_t mark);
   void showUndo();
+  // Goes on from the chosen event as long as the cursor stands on it, else from the cursor.
+  void goToNext(int step);
 
   WindowState& windowState_;
   const TimelineActions& actions_;
   EventRows& rows_;
+  // Where show() left the cursor [s]; nothing: no event was shown.
+  std::optional<double> shownAtS_;
 };
 
 }  // namespace palpate::gui

@@ -31,7 +31,8 @@ constexpr int kMaxTextLength = 300;
 EventRows::EventRows(QWidget* parent) : QWidget(parent) {
   setObjectName("eventRows");
   setMouseTracking(true);
-  setFocusPolicy(Qt::StrongFocus);
+  // A click chooses an event and leaves the arrow keys to the playback; Tab and F7 bring them here.
+  setFocusPolicy(Qt::TabFocus);
   setAccessibleName("Events of the recording");
   setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
 }
@@ -206,16 +207,36 @@ void EventRows::choose(std::optional<std::size_t> mark) {
 
 void EventRows::chooseNext(int step) {
   if (marks_.empty()) return;
-  const EventLane lane = chosen_ ? marks_[*chosen_].lane : marks_.front().lane;
-  std::vector<std::size_t> row;
-  for (std::size_t i = 0; i < marks_.size(); ++i)
-    if (marks_[i].lane == lane) row.push_back(i);
+  const std::vector<std::size_t> row = rowOfChosen();
   std::ptrdiff_t at = step > 0 ? -1 : static_cast<std::ptrdiff_t>(row.size());
   for (std::size_t i = 0; i < row.size(); ++i)
     if (chosen_ == row[i]) at = static_cast<std::ptrdiff_t>(i);
   at = std::clamp<std::ptrdiff_t>(at + step, 0, static_cast<std::ptrdiff_t>(row.size()) - 1);
   choose(row[static_cast<std::size_t>(at)]);
   emit markChosen(*chosen_);
+}
+
+void EventRows::chooseNextFrom(double seconds, int step) {
+  // A mark that begins here comes next: goToNext() goes on from one that is chosen.
+  constexpr double kSameS = 0.001;
+  std::optional<std::size_t> next;
+  for (const std::size_t i : rowOfChosen()) {
+    if (step > 0 && !next && marks_[i].fromS > seconds - kSameS) next = i;
+    if (step < 0 && marks_[i].fromS < seconds - kSameS) next = i;
+  }
+  if (!next) return;
+  choose(next);
+  emit markChosen(*next);
+}
+
+std::vector<std::size_t> EventRows::rowOfChosen() const {
+  std::vector<std::size_t> row;
+  if (marks_.empty()) return row;
+  const EventLane lane =
+      chosen_ && *chosen_ < marks_.size() ? marks_[*chosen_].lane : marks_.front().lane;
+  for (std::size_t i = 0; i < marks_.size(); ++i)
+    if (marks_[i].lane == lane) row.push_back(i);
+  return row;
 }
 
 void EventRows::mousePressEvent(QMouseEvent* event) {

@@ -31,6 +31,9 @@ class EventRows : public QWidget {
   // Chooses the next (step 1) or previous (step -1) mark in the row of the chosen one; in the first
   // row if none is chosen.
   void chooseNext(int step);
+  // The same from a time [s]: the next mark that begins after it, or the previous one that begins
+  // before; none is left as it is.
+  void chooseNextFrom(double seconds, int step);
   // Opens an input field over the bar; textChanged() follows when the user presses Enter.
   void editText(std::size_t mark);
   // Rectangle of the bar [px]; empty: not visible.
@@ -66,6 +69,8 @@ class EventRows : public QWidget {
   int rowHeight() const;
   double pixelOf(double seconds) const;
   double secondsAt(double pixel) const;
+  // The marks in the row of the chosen one, or in the first row; in order of time.
+  std::vector<std::size_t> rowOfChosen() const;
   std::optional<std::size_t> markAt(const QPointF& at) const;
   Part partAt(std::size_t mark, const QPointF& at) const;
   void paintMark(QPainter& painter, std::size_t mark) const;

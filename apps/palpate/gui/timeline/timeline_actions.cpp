@@ -24,6 +24,10 @@ TimelineActions::TimelineActions(ActionRegistry& book) {
   crop = book.make("crop", "Edit", "&Crop to a new recording…", {key("Ctrl+Shift+X")});
   zoomSelection = book.make("zoomSelection", "Edit", "&Zoom to the selection", {key("Z")});
   dropSelection = book.make("dropSelection", "Edit", "Select n&othing", {key("Ctrl+Shift+Space")});
+  statistics =
+      book.make("statistics", "Edit", "Stat&istics of the selection…", {key("Ctrl+Alt+A")});
+  statistics->setToolTip("Mean, deviation, extremes, slope and integral of every curve");
+  statistics->setIconText("Statistics…");
   nameTaxels = book.make("nameTaxels", "Edit", "Name the chosen &taxels…", {key("Ctrl+Shift+G")});
   nextSignal = book.make("nextSignal", "View", "Ne&xt signal in the timeline", {key("S")});
   chooseCurves = book.make("chooseCurves", "View", "Cu&rves in the timeline…", {key("C")});

@@ -29,6 +29,8 @@ struct TimelineActions {
   QAction* crop = nullptr;
   QAction* zoomSelection = nullptr;
   QAction* dropSelection = nullptr;
+  // Statistics of the curves over the selection.
+  QAction* statistics = nullptr;
   // Makes a named group of the selected taxels.
   QAction* nameTaxels = nullptr;
   QAction* nextSignal = nullptr;

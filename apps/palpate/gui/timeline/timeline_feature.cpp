@@ -8,7 +8,10 @@
 #include "gui/appearance/hand_unit.h"
 #include "gui/appearance/next_choice.h"
 #include "gui/chart/chart_picture.h"
+#include "gui/timeline/curve_statistics.h"
 #include "gui/timeline/curve_table.h"
+#include "gui/timeline/grasp_export.h"
+#include "gui/timeline/label_exchange.h"
 #include "gui/timeline/live_chart.h"
 #include "gui/timeline/timeline_chart.h"
 #include "gui/timeline/timeline_header.h"
@@ -58,6 +61,8 @@ TimelineFeature::TimelineFeature(WindowState& windowState, QWidget* window)
   connectActions();
   connectCurves();
   editing_ = std::make_unique<EventEditing>(windowState, actions_, panel_->rows(), window);
+  new LabelExchange(windowState, this);
+  graspExport_ = new GraspExport(windowState, window, this);
 }
 
 TimelineFeature::~TimelineFeature() { liveChart_->setHistory(nullptr, 0); }
@@ -207,6 +212,8 @@ void TimelineFeature::connectActions() {
   on(actions.zoomSelection, [&selection] {
     if (selection.span()) selection.showWithMargin(*selection.span());
   });
+  on(actions.statistics, [this] { showStatistics(); });
+  connect(&statisticsJob_, &BackgroundJob::failed, &state().messages, &Messages::fail);
   const auto zoom = [this](double factor) {
     if (state().displayed.isLive())
       liveChart_->setWindowS(liveChart_->windowS() / factor);
@@ -224,8 +231,9 @@ void TimelineFeature::connectActions() {
                     [this, frames] { return frames() || state().displayed.isLive(); });
   actionEnabler.add({actions.selectFrom, actions.selectTo, actions.selectAll, actions.chooseCurves},
                     frames);
-  actionEnabler.add({actions.crop, actions.zoomSelection, actions.dropSelection},
-                    [frames, &selection] { return frames() && selection.span().has_value(); });
+  actionEnabler.add(
+      {actions.crop, actions.zoomSelection, actions.dropSelection, actions.statistics},
+      [frames, &selection] { return frames() && selection.span().has_value(); });
 }
 
 void TimelineFeature::connectCurves() {
@@ -323,6 +331,32 @@ void TimelineFeature::selectEnd(bool begin) {
   selection.setSpan(span);
 }
 
+void TimelineFeature::showStatistics() {
+  const OpenedRecordingPtr recording = state().displayed.filteredRecording();
+  const auto frames = state().selectedFrames();
+  const std::vector<PlottedCurve> shown = curves();
+  if (!recording || !frames)
+    return state().messages.flash("nothing is selected: drag in the timeline, or press [ and ]");
+  if (shown.empty()) return state().messages.flash("no curve is shown: choose some (C)");
+  auto table = std::make_shared<TextTable>();
+  statisticsJob_.cancel();
+  statisticsJob_.start(
+      fileNameOf(*recording),
+      [recording, shown, frames, table](const Progress& progress) {
+        *table = statisticsTable(recording, shown, *frames, progress);
+      },
+      [this, recording, frames, table] {
+        const QString range = fileNameOf(*recording) + state().activeFilters.caption() +
+                              ", frames " + QString::number(frames->first) + " to " +
+                              QString::number(frames->last) + ", " +
+                              figure(recording->timeAt(frames->first), 3) + " to " +
+                              figure(recording->timeAt(frames->last), 3) + " s";
+        auto* dialog = new StatisticsDialog(*table, range, window());
+        dialog->setAttribute(Qt::WA_DeleteOnClose);
+        dialog->show();
+      });
+}
+
 void TimelineFeature::nameChosenTaxels() {
   const TaxelSelection chosen = state().selection.taxels();
   Messages& messages = state().messages;
@@ -349,7 +383,8 @@ std::vector<DockSpec> TimelineFeature::docks() {
 }
 
 std::vector<BannerSpec> TimelineFeature::strips() {
-  return {{BannerSpec::Order::kWork, &crop_->strip()}};
+  return {{BannerSpec::Order::kWork, &crop_->strip()},
+          {BannerSpec::Order::kWork, &graspExport_->strip()}};
 }
 
 void TimelineFeature::remember() { savePlottedExtras(extras_, state().settings); }
@@ -357,7 +392,8 @@ void TimelineFeature::remember() { savePlottedExtras(extras_, state().settings);
 void TimelineFeature::settle() {
   chart_->store().waitUntilRead();
   chart_->storeBefore().waitUntilRead();
-  while (crop_->busy()) QCoreApplication::processEvents(QEventLoop::WaitForMoreEvents);
+  while (crop_->busy() || graspExport_->busy() || statisticsJob_.busy())
+    QCoreApplication::processEvents(QEventLoop::WaitForMoreEvents);
 }
 
 std::vector<ExportedView> TimelineFeature::views() {
@@ -394,6 +430,12 @@ std::vector<ExportedView> TimelineFeature::views() {
     if (const auto frames = recording->framesWithin(seen.lower, seen.upper))
       add("what is seen", FrameSpan{frames->first, frames->second});
     add("the whole recording", FrameSpan{0, recording->profile.numFrames() - 1});
+    if (const auto selected = windowState.selectedFrames())
+      tables.push_back(
+          {"statistics of the selected range",
+           [of = windowState.displayed.filteredRecording(), now = curves(), span = *selected] {
+             return statisticsTable(of, now, span);
+           }});
     return tables;
   };
   return {view};

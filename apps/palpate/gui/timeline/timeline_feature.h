@@ -15,6 +15,7 @@
 
 namespace palpate::gui {
 
+class GraspExport;
 class LiveChart;
 class TimelineChart;
 class TimelineHeader;
@@ -51,6 +52,7 @@ class TimelineFeature : public Feature {
   void showSelection();
   void selectEnd(bool begin);
   void nameChosenTaxels();
+  void showStatistics();
 
   TimelineActions actions_;
   TaxelGroups groups_;
@@ -64,6 +66,9 @@ class TimelineFeature : public Feature {
   LiveChart* liveChart_;
   Dock* dock_;
   std::unique_ptr<CropJob> crop_;
+  GraspExport* graspExport_;
+  // Computes the statistics of a selection.
+  BackgroundJob statisticsJob_;
   std::unique_ptr<EventEditing> editing_;
   // Identifies the source of the live chart; never dereferenced.
   const SignalHistory* history_ = nullptr;

@@ -70,14 +70,14 @@ void CurrentFrame::showFrame(std::size_t index) {
     seen->profile.readFrame(index, frame_);
   } catch (const Error& error) {
     // The frame can't be read: the views still show the previous one.
-    return setStale({error.what()});
+    return setStale({inWindowWords(QString::fromUtf8(error.what()))});
   }
   try {
     angles_ = seen->profile.anglesAtFrame(index);
     temperatures_ = seen->profile.temperaturesAtFrame(index);
   } catch (const Error& error) {
     // The frame was read, but angles or temperatures can't be.
-    damage = error.what();
+    damage = inWindowWords(QString::fromUtf8(error.what()));
   }
   damaged_ = !damage.isEmpty();
   emit frameChanged();

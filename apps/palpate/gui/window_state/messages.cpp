@@ -1,5 +1,7 @@
 #include "gui/window_state/messages.h"
 
+#include "gui/appearance/captions.h"
+
 namespace palpate::gui {
 namespace {
 
@@ -17,8 +19,8 @@ Messages::Messages(ActivityLog& log, QObject* parent) : QObject(parent), log_(lo
 }
 
 void Messages::flash(const QString& notice) {
-  flashed_ = notice;
-  log_.add(LogLine::Severity::kInfo, notice);
+  flashed_ = inWindowWords(notice);
+  log_.add(LogLine::Severity::kInfo, flashed_);
   flashTimer_.start();
   emit changed();
 }
@@ -29,8 +31,9 @@ void Messages::hover(const QString& text) {
 }
 
 void Messages::failAbout(const QString& topic, const QString& message) {
-  log_.add(LogLine::Severity::kError, message);
-  emit failed(topic, message);
+  const QString text = inWindowWords(message);
+  log_.add(LogLine::Severity::kError, text);
+  emit failed(topic, text);
 }
 
 void Messages::withdraw(const QString& topic) { emit withdrawn(topic); }

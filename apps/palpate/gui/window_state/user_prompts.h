@@ -29,6 +29,11 @@ struct UserPrompts {
   std::function<std::optional<QString>(const QString& title, const QString& text)> text;
   // Asks where to save a part of a recording; an empty answer: cancelled.
   std::function<QString(const QString& suggestion)> cropped;
+  // Asks for a file to read or to write; an empty answer: cancelled. `filter` is that of
+  // QFileDialog.
+  std::function<QString(const QString& title, const QString& folder, const QString& filter)> file;
+  std::function<QString(const QString& title, const QString& suggestion, const QString& filter)>
+      newFile;
   // Asks whether to save unsaved labels.
   enum class Unsaved { kSave, kDiscard, kCancel };
   std::function<Unsaved(const QString& names)> unsaved;

@@ -25,6 +25,14 @@ RecordingOpener::Read readerOf(const WindowEnvironment& environment) {
   };
 }
 
+// With a reader of its own, files are read by it alone.
+RecordingOpener::ReadDamaged damagedReaderOf(const WindowEnvironment& environment) {
+  if (environment.read) return {};
+  return [](const std::filesystem::path& path, const Progress& progress) {
+    return readableRecording(path, progress);
+  };
+}
+
 }  // namespace
 
 WindowState::WindowState(const WindowEnvironment& given, QWidget* window)
@@ -36,7 +44,7 @@ WindowState::WindowState(const WindowEnvironment& given, QWidget* window)
       messages(log),
       actions(window),
       playback(clockOf(given)),
-      opener(readerOf(given)),
+      opener(readerOf(given), damagedReaderOf(given)),
       recordings(opener),
       live(given.dataFolder),
       displayed(live, playback, selection),
@@ -51,7 +59,17 @@ std::filesystem::path WindowState::demoRecording() const {
 void WindowState::open(const std::vector<std::filesystem::path>& files, OpenRequest::Then then) {
   if (files.empty()) return;
   messages.dismissFailures();
-  recordings.open({files, then});
+  OpenRequest request{.files = {}, .then = then};
+  std::filesystem::path folder;
+  for (const std::filesystem::path& file : files) {
+    std::error_code ignored;
+    if (showLibrary && std::filesystem::is_directory(file, ignored))
+      folder = file;
+    else
+      request.files.push_back(file);
+  }
+  if (!folder.empty()) showLibrary(QFileInfo(pathText(folder)).absoluteFilePath());
+  if (!request.files.empty()) recordings.open(request);
 }
 
 void WindowState::askAndOpen(OpenRequest::Then then) {

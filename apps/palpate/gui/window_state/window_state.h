@@ -86,12 +86,15 @@ struct WindowState {
   HandCommands handCommands;
   // The recordings chosen in the Library; may be empty: no Library.
   std::function<QStringList()> chosenRecordings;
+  // Shows a folder in the Library (empty: the last one); may be empty: no Library.
+  std::function<void(const QString& folder)> showLibrary;
   // Whether a batch runs; may be empty: none.
   std::function<bool()> batchRunning;
 
   std::filesystem::path demoRecording() const;
 
-  // Opens the files in the background; messages about earlier files are withdrawn.
+  // Opens the files in the background; messages about earlier files are withdrawn. Of folders the
+  // last one is shown in the Library.
   void open(const std::vector<std::filesystem::path>& files,
             OpenRequest::Then then = OpenRequest::Then::kShowFirst);
   // Asks the user for the files, then opens them.

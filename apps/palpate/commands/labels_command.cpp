@@ -1,0 +1,99 @@
+// The command `palpate labels PATH...` prints the labels of recordings as CSV, and adds those of
+// such a table to a recording.
+#include <cstdio>
+
+#include "palpate/core/error.h"
+#include "palpate/core/escaped_line.h"
+#include "palpate/core/number_text.h"
+#include "palpate/core/text_file.h"
+#include "palpate/core/text_table.h"
+#include "palpate/recording/event_store.h"
+#include "palpate/recording/label_table.h"
+#include "palpate/recording/recording.h"
+
+#include "commands/command_line.h"
+#include "commands/commands.h"
+#include "commands/recording_list.h"
+
+namespace palpate::commands {
+namespace {
+
+void sayLabels(const std::string& message) {
+  std::fprintf(stderr, "palpate: %s\n", escapedLine(message).c_str());
+}
+
+int importLabels(const CommandLine& given, const std::string& file, const std::string& from) {
+  const std::string csv = readTextFile(from, kMaxLabelTableBytes);
+  const Profile profile = [&] {
+    ProgressLine progress("reading " + file, given.quiet());
+    return openRecording(file, progress.callback());
+  }();
+  const EventsReport present = readEvents(file);
+  const LabelTable table = [&] {
+    try {
+      return readLabelTable(csv, profile);
+    } catch (const Error& error) {
+      throw FormatError(from, error.what());
+    }
+  }();
+  const std::vector<RecordingEvent> added = newLabels(table, present.events);
+  if (!added.empty()) {
+    std::vector<RecordingEvent> all = present.events;
+    all.insert(all.end(), added.begin(), added.end());
+    saveEvents(file, present, all);
+  }
+  const std::size_t known = table.events.size() - added.size();
+  if (!given.quiet())
+    std::printf("%s\n",
+                (file + ": " + counted(added.size(), "label") + " added" +
+                 (known > 0 ? ", " + std::to_string(known) + " were there already" : ""))
+                    .c_str());
+  for (const std::string& problem : table.problems) sayLabels(from + ": " + problem);
+  if (table.problems.empty()) return kDone;
+  return table.events.empty() ? kFailed : kPartlyDone;
+}
+
+}  // namespace
+
+int labelsCommand(const Arguments& words) {
+  const CommandLine given(
+      {.synopsis = "palpate labels PATH... | FILE --import LABELS.csv",
+       .purpose =
+           "Prints what a person has noted in recordings (labels, notes, marks, corrected grasps) "
+           "as CSV: begin_s,\nend_s [s from the first frame], kind (label, note, mark, segment), "
+           "text, matrix. PATH is a recording, or a\nfolder: every recording below it. With "
+           "several, "
+           "a last column names the file.\n\n"
+           "With --import the labels of such a table are added to FILE, which keeps its own; one "
+           "that it has already\nisn't added again. Columns may stand in any order; begin_s and "
+           "text must be there, the others may be\nmissing: without end_s a moment, without kind a "
+           "label. Rows that are wrong are left out and named by their\nline; then the exit code "
+           "is 3, or 1 if all are.",
+       .options = {{"import", "LABELS.csv", "add the labels of this table to FILE"}},
+       .example = "palpate labels recordings > labels.csv",
+       .minArguments = 1},
+      words);
+  if (given.helpShown()) return kDone;
+  if (const auto from = given.text("import")) {
+    if (given.words().size() != 1) throw UsageError("--import takes one FILE");
+    return importLabels(given, given.words()[0], *from);
+  }
+  const RecordingList list = recordingsIn(given.words());
+  std::vector<std::string> header = labelHeader();
+  if (list.several) header.emplace_back("file");
+  return writeReadableTexts(
+      list,
+      given.quiet(),
+      {.begin = csvLine(header)},
+      [&](const std::filesystem::path& file,
+          const ReadableRecording& recording,
+          const TextSink& write,
+          const Progress&) {
+        for (std::vector<std::string>& cells : labelRows(recording.events, recording.profile)) {
+          if (list.several) cells.push_back(file.string());
+          write(csvLine(cells));
+        }
+      });
+}
+
+}  // namespace palpate::commands

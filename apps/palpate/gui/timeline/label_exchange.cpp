@@ -1,0 +1,106 @@
+#include "gui/timeline/label_exchange.h"
+
+#include <QFileInfo>
+
+#include <palpate/core/error.h>
+#include <palpate/core/number_text.h>
+#include <palpate/core/text_file.h>
+#include <palpate/core/text_table.h>
+#include <palpate/recording/label_table.h>
+
+#include "gui/appearance/captions.h"
+
+namespace palpate::gui {
+namespace {
+
+constexpr const char* kTableFilter = "Table (*.csv);;All files (*)";
+constexpr qsizetype kMostProblems = 3;
+
+QString labelCount(std::size_t count) { return QString::fromStdString(counted(count, "label")); }
+
+}  // namespace
+
+LabelExchange::LabelExchange(WindowState& windowState, QObject* parent)
+    : QObject(parent), windowState_(windowState) {
+  ActionRegistry& book = windowState.actions;
+  QAction* exported = book.make("exportLabels", "File", "Expor&t labels…");
+  exported->setToolTip("Labels, notes and marked grasps as a table (CSV)");
+  QAction* imported = book.make("importLabels", "File", "&Import labels…");
+  imported->setToolTip("Adds the labels of a table (CSV): begin_s, end_s, kind, text, matrix");
+  connect(exported, &QAction::triggered, this, &LabelExchange::exportLabels);
+  connect(imported, &QAction::triggered, this, &LabelExchange::importLabels);
+  const auto editable = [this] {
+    return windowState_.events.editor() && windowState_.displayed.hasFrames();
+  };
+  windowState.actionEnabler.add({imported}, editable);
+  windowState.actionEnabler.add({exported}, [this, editable] {
+    if (!editable()) return false;
+    const auto& events = windowState_.events.editor()->events();
+    return std::any_of(events.begin(), events.end(), isTabledLabel);
+  });
+}
+
+void LabelExchange::exportLabels() {
+  const OpenedRecordingPtr recording = windowState_.displayed.recorded();
+  EventEditor* editor = windowState_.events.editor();
+  if (!recording || !editor) return;
+  const auto rows = labelRows(editor->events(), recording->profile);
+  if (rows.empty()) return windowState_.messages.flash("there are no labels to export");
+  const QFileInfo source(pathText(recording->path));
+  QString path = windowState_.prompts.newFile(
+      "Export labels",
+      source.absolutePath() + "/" + source.completeBaseName() + "_labels.csv",
+      kTableFilter);
+  if (path.isEmpty()) return;
+  if (QFileInfo(path).suffix().isEmpty()) path += ".csv";
+  try {
+    // The dialogue has already asked whether an existing file may be replaced.
+    writeTable({.header = labelHeader(),
+                .numRows = rows.size(),
+                .row = [&rows](std::size_t row) { return rows[row]; }},
+               path.toStdString(),
+               Overwrite::kReplace);
+    windowState_.messages.flash("written: " + path + " (" + labelCount(rows.size()) + ")");
+  } catch (const Error& error) {
+    windowState_.messages.fail(QString::fromUtf8(error.what()));
+  }
+}
+
+void LabelExchange::importLabels() {
+  const OpenedRecordingPtr recording = windowState_.displayed.recorded();
+  if (!recording || !windowState_.events.editor()) return;
+  const QString path = windowState_.prompts.file(
+      "Import labels", QFileInfo(pathText(recording->path)).absolutePath(), kTableFilter);
+  // The dialogue runs an event loop: the recording may have been closed meanwhile.
+  EventEditor* editor = windowState_.events.editor();
+  if (path.isEmpty() || !editor || windowState_.displayed.recorded() != recording) return;
+  Messages& messages = windowState_.messages;
+  const QString name = QFileInfo(path).fileName();
+  try {
+    const LabelTable table =
+        readLabelTable(readTextFile(path.toStdString(), kMaxLabelTableBytes), recording->profile);
+    const std::vector<RecordingEvent> added = newLabels(table, editor->events());
+    if (!added.empty())
+      editor->changeTogether("importing labels", [&] {
+        for (const RecordingEvent& event : added) editor->add(event, "importing labels");
+      });
+    const std::size_t known = table.events.size() - added.size();
+    QString said = name + ": " + labelCount(added.size()) + " added";
+    if (known > 0) said += ", " + QString::number(known) + " were there already";
+    if (table.problems.empty()) return messages.flash(said);
+    QStringList problems;
+    for (const std::string& problem : table.problems) {
+      if (problems.size() == kMostProblems) break;
+      problems.append(QString::fromStdString(problem));
+    }
+    const auto bad = static_cast<qsizetype>(table.problems.size());
+    if (bad > kMostProblems) problems.append(QString::number(bad - kMostProblems) + " more");
+    messages.fail(said + "; left out: " + problems.join("; "));
+  } catch (const FileError& error) {
+    messages.fail(QString::fromUtf8(error.what()));
+  } catch (const Error& error) {
+    messages.fail(path + ": " + QString::fromUtf8(error.what()));
+  }
+}
+
+}  // namespace palpate::gui

@@ -1,0 +1,67 @@
+// A file of its own for each grasp of a recording, with the labels that belong to it.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <palpate/batch/batch_plan.h>
+#include <palpate/core/progress.h>
+#include <palpate/model/profile.h>
+#include <palpate/recording/recording.h>
+
+namespace palpate {
+
+// Frames of a grasp, both inclusive.
+struct GraspFrames {
+  std::size_t begin = 0;
+  std::size_t end = 0;
+  bool operator==(const GraspFrames&) const = default;
+};
+
+// The grasps as a person has corrected them (events "segment"; one that holds no frame is left
+// out); without such events those that findGrasps() finds by its general rule. In order of time.
+// Throws Cancelled.
+std::vector<GraspFrames> graspFrames(const Profile& profile,
+                                     std::span<const RecordingEvent> events,
+                                     const Progress& progress = {});
+
+// Names files by a template of batches (batch_plan.h) with one more field, {n}: the number of the
+// grasp from 1, with at least two digits.
+class GraspTemplate {
+ public:
+  // Throws std::invalid_argument as BatchTemplate does, and when the name has no {n}.
+  explicit GraspTemplate(std::string text);
+  // `count`: of the grasps of the recording; all its numbers have as many digits. Throws Error when
+  // the name is not allowed.
+  std::filesystem::path pathFor(const BatchNameFields& fields,
+                                std::size_t number,
+                                std::size_t count) const;
+  // Of the files, with its dot.
+  std::string ending() const;
+
+ private:
+  std::string text_;
+};
+
+struct GraspFilesOptions {
+  Overwrite overwrite = Overwrite::kRefuse;
+  // What is saved beside a grasp; may be empty: nothing.
+  std::function<SaveExtras(const Profile& part, const std::filesystem::path& out)> extras = {};
+};
+// Saves each grasp with the events that touch it. `paths` has one for each
+// grasp. Throws std::invalid_argument when it hasn't; FileError: before anything is written when a
+// file exists already (kRefuse) or is `source`; Cancelled. Files that were written before a failure
+// are whole, and stay.
+void saveGrasps(const std::filesystem::path& source,
+                const Profile& profile,
+                std::span<const RecordingEvent> events,
+                std::span<const GraspFrames> grasps,
+                std::span<const std::filesystem::path> paths,
+                const GraspFilesOptions& options = {},
+                const Progress& progress = {});
+
+}  // namespace palpate

@@ -1,0 +1,53 @@
+// The labels of a recording as a table: what a person has noted (labels, notes, marks and corrected
+// segments) as CSV that a spreadsheet or a script can read and write, and back.
+//
+// Columns: begin_s, end_s [s from the first frame of the recording], kind ("label", "note", "mark",
+// "segment"), text, matrix (index in wire order; empty: none). Times have six decimals, so that the
+// events read back are the same to the microsecond. What the table has no column for (the JSON of
+// an event) isn't in it.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <palpate/model/profile.h>
+#include <palpate/recording/recording_event.h>
+
+namespace palpate {
+
+// The kinds that a table of labels has.
+bool isTabledLabel(const RecordingEvent& event);
+
+// The names of the columns.
+std::vector<std::string> labelHeader();
+// The cells of each label among the events, in order of time. A profile without frames has none.
+std::vector<std::vector<std::string>> labelRows(std::span<const RecordingEvent> events,
+                                                const Profile& profile);
+
+struct LabelTable {
+  std::vector<RecordingEvent> events;  // of the good rows, in order of the lines
+  // One line for each bad row: "line 7: begin_s 'abc' is not a number". Lines count from 1.
+  std::vector<std::string> problems;
+};
+
+// Largest table that is read [bytes].
+inline constexpr std::size_t kMaxLabelTableBytes = 16u << 20;
+
+// Reads a table of labels, separated by commas, semicolons or tabs. Columns are found by their
+// names in the first line, in any order; begin_s and text must be there. Without end_s a label is a
+// moment, without kind it is a "label". Other columns are passed over. A row is bad when a number
+// is none, it ends before it begins, begins or ends outside of the recording, has an unknown kind,
+// no matrix of the recording, no text (a segment may have none), or another number of cells than
+// the first line. Throws Error when the first line has not these columns, or when the profile has
+// no frames.
+LabelTable readLabelTable(std::string_view csv, const Profile& profile);
+
+// The events of `table` that `present` doesn't have yet (the JSON doesn't count): a table that is
+// imported twice adds its labels once.
+std::vector<RecordingEvent> newLabels(const LabelTable& table,
+                                      std::span<const RecordingEvent> present);
+
+}  // namespace palpate

@@ -1,0 +1,122 @@
+#include "palpate/batch/grasp_files.h"
+
+#include <algorithm>
+#include <set>
+#include <stdexcept>
+#include <utility>
+
+#include "palpate/core/error.h"
+#include "palpate/recognition/grasp_segments.h"
+#include "palpate/recording/crop.h"
+#include "palpate/recording/label_table.h"
+
+namespace palpate {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr std::string_view kNumberField = "{n}";
+constexpr const char* kSegment = "segment";
+
+std::string withNumber(std::string text, const std::string& number) {
+  for (std::size_t at = text.find(kNumberField); at != std::string::npos;
+       at = text.find(kNumberField, at + number.size()))
+    text.replace(at, kNumberField.size(), number);
+  return text;
+}
+
+std::string numberOf(std::size_t number, std::size_t count) {
+  constexpr std::size_t kLeastDigits = 2;
+  std::string text = std::to_string(number);
+  const std::size_t digits = std::max(kLeastDigits, std::to_string(count).size());
+  return text.size() < digits ? std::string(digits - text.size(), '0') + text : text;
+}
+
+// Frames within a span of time [us]; nothing: end before begin.
+GraspFrames framesWithin(const Profile& profile, std::int64_t fromUs, std::int64_t toUs) {
+  const auto last = profile.frameAt(toUs);
+  if (!last || profile.frameTimeUs(*last) < fromUs) return {1, 0};
+  std::size_t first = profile.frameAt(fromUs).value_or(0);
+  if (profile.frameTimeUs(first) < fromUs) ++first;
+  if (profile.frameTimeUs(*last) > toUs) return {1, 0};
+  return {first, *last};
+}
+
+}  // namespace
+
+std::vector<GraspFrames> graspFrames(const Profile& profile,
+                                     std::span<const RecordingEvent> events,
+                                     const Progress& progress) {
+  std::vector<GraspFrames> grasps;
+  if (profile.numFrames() == 0) return grasps;
+  const bool corrected = std::any_of(events.begin(), events.end(), [](const RecordingEvent& event) {
+    return event.kind == kSegment;
+  });
+  if (!corrected) {
+    for (const GraspSegment& found : findGrasps(profile, {}, progress))
+      grasps.push_back({found.begin, found.end});
+    return grasps;
+  }
+  for (const RecordingEvent& event : events) {
+    if (event.kind != kSegment || !isTabledLabel(event)) continue;
+    const GraspFrames frames = framesWithin(profile, event.tUs, event.t1Us);
+    if (frames.begin <= frames.end) grasps.push_back(frames);
+  }
+  std::stable_sort(grasps.begin(), grasps.end(), [](const GraspFrames& a, const GraspFrames& b) {
+    return a.begin < b.begin;
+  });
+  return grasps;
+}
+
+GraspTemplate::GraspTemplate(std::string text) : text_(std::move(text)) {
+  if (fs::path(text_).filename().string().find(kNumberField) == std::string::npos)
+    throw std::invalid_argument("'" + text_ +
+                                "' has no {n} in its name, the number of the grasp: as "
+                                "out/{name}_{n}.palpate");
+  const BatchTemplate checked(withNumber(text_, "01"));
+}
+
+fs::path GraspTemplate::pathFor(const BatchNameFields& fields,
+                                std::size_t number,
+                                std::size_t count) const {
+  return BatchTemplate(withNumber(text_, numberOf(number, count))).pathFor(fields);
+}
+
+std::string GraspTemplate::ending() const { return fs::path(text_).extension().string(); }
+
+void saveGrasps(const fs::path& source,
+                const Profile& profile,
+                std::span<const RecordingEvent> events,
+                std::span<const GraspFrames> grasps,
+                std::span<const fs::path> paths,
+                const GraspFilesOptions& options,
+                const Progress& progress) {
+  if (paths.size() != grasps.size())
+    throw std::invalid_argument("each grasp needs a file of its own");
+  std::set<fs::path> taken;
+  for (const fs::path& path : paths) {
+    formatOf(path);
+    requireOther(source, path);
+    requireWritable(path, options.overwrite);
+    if (!taken.insert(path.lexically_normal()).second)
+      throw FileError(path, "would be the file of two grasps");
+  }
+  for (std::size_t i = 0; i < grasps.size(); ++i) {
+    const auto partOf = [&](double begin) -> Progress {
+      return [&progress, begin, i, &grasps](double fraction) {
+        return !progress || progress((static_cast<double>(i) + begin + 0.5 * fraction) /
+                                     static_cast<double>(grasps.size()));
+      };
+    };
+    const Profile part = cropped(profile, grasps[i].begin, grasps[i].end, partOf(0.0));
+    std::error_code ignored;
+    fs::create_directories(paths[i].parent_path(), ignored);  // saving says what is wrong
+    saveRecording(part,
+                  eventsWithin(events, part),
+                  paths[i],
+                  options.overwrite,
+                  partOf(0.5),
+                  options.extras ? options.extras(part, paths[i]) : SaveExtras());
+  }
+}
+
+}  // namespace palpate

@@ -1,0 +1,231 @@
+#include "palpate/recording/label_table.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+#include "palpate/core/error.h"
+#include "palpate/core/number_text.h"
+#include "palpate/core/time.h"
+
+namespace palpate {
+namespace {
+
+constexpr std::array<std::string_view, 4> kLabelKinds = {"label", "note", "mark", "segment"};
+// The window notes a recording without grasps as this moment; it is no label.
+constexpr std::string_view kNoGrasp = "no grasp";
+constexpr int kTimeDecimals = 6;
+
+bool isLabelKind(std::string_view kind) {
+  return std::find(kLabelKinds.begin(), kLabelKinds.end(), kind) != kLabelKinds.end();
+}
+
+// Cells of a table, row by row (RFC 4180: a quoted cell may have line breaks).
+class LabelCells {
+ public:
+  explicit LabelCells(std::string_view csv) : rest_(csv) {
+    constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+    if (rest_.starts_with(kByteOrderMark)) rest_.remove_prefix(kByteOrderMark.size());
+    const std::string_view first = rest_.substr(0, rest_.find('\n'));
+    for (const char delimiter : {'\t', ';', ','})
+      if (first.find(delimiter) != std::string_view::npos) delimiter_ = delimiter;
+  }
+  // The line in which the row begins, from 1.
+  std::size_t line() const noexcept { return line_; }
+  // Whether a quote was opened and never closed.
+  bool unclosed() const noexcept { return unclosed_; }
+  // The next row that is not empty; false at the end.
+  bool next(std::vector<std::string>& cells) {
+    do {
+      if (rest_.empty()) return false;
+      line_ = nextLine_;
+      readRow(cells);
+    } while (cells.size() == 1 && cells[0].empty());
+    return true;
+  }
+
+ private:
+  void readRow(std::vector<std::string>& cells) {
+    cells.assign(1, {});
+    bool quoted = false;
+    std::size_t i = 0;
+    for (; i < rest_.size(); ++i) {
+      const char c = rest_[i];
+      if (c == '\n') ++nextLine_;
+      if (quoted) {
+        if (c != '"')
+          cells.back() += c;
+        else if (i + 1 < rest_.size() && rest_[i + 1] == '"')
+          cells.back() += rest_[++i];
+        else
+          quoted = false;
+      } else if (c == '"' && cells.back().empty()) {
+        quoted = true;
+      } else if (c == delimiter_) {
+        cells.emplace_back();
+      } else if (c == '\n') {
+        ++i;
+        break;
+      } else if (c != '\r') {
+        cells.back() += c;
+      }
+    }
+    unclosed_ = quoted;
+    rest_.remove_prefix(i);
+  }
+
+  std::string_view rest_;
+  char delimiter_ = ',';
+  std::size_t nextLine_ = 1;
+  std::size_t line_ = 0;
+  bool unclosed_ = false;
+};
+
+// Index of each column in the rows; nothing: the table doesn't have it.
+struct LabelColumns {
+  std::optional<std::size_t> begin, end, kind, text, matrix;
+  std::size_t count = 0;
+};
+
+LabelColumns columnsOf(const std::vector<std::string>& names) {
+  LabelColumns columns;
+  columns.count = names.size();
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (names[i] == "begin_s") columns.begin = i;
+    if (names[i] == "end_s") columns.end = i;
+    if (names[i] == "kind") columns.kind = i;
+    if (names[i] == "text") columns.text = i;
+    if (names[i] == "matrix") columns.matrix = i;
+  }
+  if (!columns.begin || !columns.text)
+    throw Error(
+        "the first line must name the columns begin_s and text (and may name end_s, kind, matrix)");
+  return columns;
+}
+
+std::string labelQuoted(const std::string& text) { return "'" + text + "'"; }
+
+// Reads rows of one recording. Throws Error with the problem of a row.
+class LabelReader {
+ public:
+  LabelReader(const LabelColumns& columns, const Profile& profile)
+      : columns_(columns),
+        numMatrices_(profile.layout().numMatrices()),
+        beginUs_(profile.frameTimeUs(0)),
+        endUs_(profile.frameTimeUs(profile.numFrames() - 1)) {}
+
+  RecordingEvent eventOf(const std::vector<std::string>& cells) const {
+    if (cells.size() != columns_.count)
+      throw Error("has " + counted(cells.size(), "cell") + ", the first line has " +
+                  std::to_string(columns_.count));
+    const auto cell = [&](const std::optional<std::size_t>& column) {
+      return column ? cells[*column] : std::string();
+    };
+    RecordingEvent event;
+    event.kind = cell(columns_.kind).empty() ? "label" : cell(columns_.kind);
+    if (!isLabelKind(event.kind))
+      throw Error("kind " + labelQuoted(event.kind) + " is none of label, note, mark, segment");
+    event.tUs = timeOf("begin_s", cell(columns_.begin));
+    event.t1Us = cell(columns_.end).empty() ? event.tUs : timeOf("end_s", cell(columns_.end));
+    if (event.t1Us < event.tUs) throw Error("ends before it begins");
+    event.text = cell(columns_.text);
+    if (event.text.empty() && event.kind != "segment") throw Error("has no text");
+    if (event.text.size() + event.kind.size() > kMaxEventBytes) throw Error("its text is too long");
+    event.matrix = matrixOf(cell(columns_.matrix));
+    return event;
+  }
+
+ private:
+  std::int64_t timeOf(const std::string& name, const std::string& text) const {
+    const auto seconds = parseDouble(text);
+    if (!seconds) throw Error(name + " " + labelQuoted(text) + " is not a number");
+    const double lengthS = static_cast<double>(endUs_ - beginUs_) / kUsPerS;
+    // Half a microsecond: the last time is written with six decimals.
+    constexpr double kRounding = 0.6e-6;
+    if (*seconds < -kRounding || *seconds > lengthS + kRounding)
+      throw Error(name + " " + labelQuoted(text) + " lies outside of the recording, which lasts " +
+                  fixedText(lengthS, 3) + " s");
+    return beginUs_ + std::llround(*seconds * kUsPerS);
+  }
+  std::optional<int> matrixOf(const std::string& text) const {
+    if (text.empty()) return std::nullopt;
+    const auto matrix = parseInteger(text);
+    if (!matrix || *matrix < 0 || static_cast<std::size_t>(*matrix) >= numMatrices_)
+      throw Error("matrix " + labelQuoted(text) + " is none of 0.." +
+                  std::to_string(numMatrices_ - 1));
+    return static_cast<int>(*matrix);
+  }
+
+  LabelColumns columns_;
+  std::size_t numMatrices_;
+  std::int64_t beginUs_;
+  std::int64_t endUs_;
+};
+
+}  // namespace
+
+bool isTabledLabel(const RecordingEvent& event) {
+  const bool noGrasp = event.kind == "segment" && event.text == kNoGrasp && event.t1Us == event.tUs;
+  return isLabelKind(event.kind) && !noGrasp;
+}
+
+std::vector<std::string> labelHeader() { return {"begin_s", "end_s", "kind", "text", "matrix"}; }
+
+std::vector<std::vector<std::string>> labelRows(std::span<const RecordingEvent> events,
+                                                const Profile& profile) {
+  std::vector<std::vector<std::string>> rows;
+  if (profile.numFrames() == 0) return rows;
+  const std::int64_t beginUs = profile.frameTimeUs(0);
+  const auto seconds = [beginUs](std::int64_t us) {
+    return fixedText(static_cast<double>(us - beginUs) / kUsPerS, kTimeDecimals);
+  };
+  std::vector<const RecordingEvent*> labels;
+  for (const RecordingEvent& event : events)
+    if (isTabledLabel(event)) labels.push_back(&event);
+  std::stable_sort(
+      labels.begin(), labels.end(), [](const auto* a, const auto* b) { return a->tUs < b->tUs; });
+  for (const RecordingEvent* event : labels)
+    rows.push_back({seconds(event->tUs),
+                    seconds(event->t1Us),
+                    event->kind,
+                    event->text,
+                    event->matrix ? std::to_string(*event->matrix) : ""});
+  return rows;
+}
+
+LabelTable readLabelTable(std::string_view csv, const Profile& profile) {
+  if (profile.numFrames() == 0) throw Error("the recording has no frames to label");
+  LabelCells lines(csv);
+  std::vector<std::string> cells;
+  if (!lines.next(cells)) throw Error("the table is empty");
+  const LabelReader reader(columnsOf(cells), profile);
+  LabelTable table;
+  while (lines.next(cells)) {
+    try {
+      if (lines.unclosed()) throw Error("a quote is never closed");
+      table.events.push_back(reader.eventOf(cells));
+    } catch (const Error& error) {
+      table.problems.push_back("line " + std::to_string(lines.line()) + ": " + error.what());
+    }
+  }
+  return table;
+}
+
+std::vector<RecordingEvent> newLabels(const LabelTable& table,
+                                      std::span<const RecordingEvent> present) {
+  std::vector<RecordingEvent> added;
+  const auto isSame = [](const RecordingEvent& a, const RecordingEvent& b) {
+    return a.tUs == b.tUs && a.t1Us == b.t1Us && a.kind == b.kind && a.text == b.text &&
+           a.matrix == b.matrix;
+  };
+  for (const RecordingEvent& event : table.events) {
+    const auto same = [&](const RecordingEvent& other) { return isSame(event, other); };
+    if (std::none_of(present.begin(), present.end(), same) &&
+        std::none_of(added.begin(), added.end(), same))
+      added.push_back(event);
+  }
+  return added;
+}
+
+}  // namespace palpate

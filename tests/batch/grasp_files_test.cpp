@@ -1,0 +1,89 @@
+#include "palpate/batch/grasp_files.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include <gtest/gtest.h>
+
+#include "palpate/core/error.h"
+#include "palpate/emulator/synthetic_profile.h"
+#include "palpate/recognition/grasp_segments.h"
+
+#include "testing/testing.h"
+
+namespace palpate::grasp_files_test {
+namespace {
+namespace fs = std::filesystem;
+
+Profile threeGrasps() { return synthesize({.durationS = 24.0, .grasps = 3}); }
+
+TEST(GraspFiles, AreOfTheGraspsThatAreFound) {
+  const Profile profile = threeGrasps();
+  const auto found = findGrasps(profile);
+  const auto frames = graspFrames(profile, {});
+  ASSERT_EQ(frames.size(), 3u);
+  for (std::size_t i = 0; i < 3; ++i)
+    EXPECT_EQ(frames[i], (GraspFrames{found[i].begin, found[i].end}));
+}
+
+TEST(GraspFiles, AreOfTheGraspsThatAPersonHasCorrected) {
+  const Profile profile = threeGrasps();
+  const auto at = [&](std::size_t frame) { return profile.frameTimeUs(frame); };
+  const std::vector<RecordingEvent> events = {
+      {at(200), at(300), "segment", std::nullopt, "grasp", ""},
+      {at(50), at(50), "label", std::nullopt, "ball", ""},
+      {at(10), at(20), "segment", std::nullopt, "grasp", ""},
+      {at(30) + 1, at(30) + 2, "segment", std::nullopt, "between two frames", ""}};
+  EXPECT_EQ(graspFrames(profile, events), (std::vector<GraspFrames>{{10, 20}, {200, 300}}));
+  const std::vector<RecordingEvent> none = {
+      {at(0), at(0), "segment", std::nullopt, "no grasp", ""}};
+  EXPECT_TRUE(graspFrames(profile, none).empty());
+}
+
+TEST(GraspFiles, AreNamedByATemplateWithTheirNumber) {
+  const GraspTemplate names("out/{name}_{n}.palpate");
+  EXPECT_EQ(names.pathFor({.name = "ball"}, 3, 12), "out/ball_03.palpate");
+  EXPECT_EQ(names.pathFor({.name = "ball"}, 3, 120), "out/ball_003.palpate");
+  EXPECT_EQ(names.ending(), ".palpate");
+  EXPECT_THROW(GraspTemplate("out/{name}.palpate"), std::invalid_argument);
+  EXPECT_THROW(GraspTemplate("{n}/{name}.palpate"), std::invalid_argument);
+  EXPECT_THROW(GraspTemplate("out/{what}_{n}.palpate"), std::invalid_argument);
+}
+
+TEST(GraspFiles, HoldTheirFramesAndTheLabelsThatTouchThem) {
+  const testing::TemporaryFolder folder;
+  const Profile profile = threeGrasps();
+  const std::vector<GraspFrames> grasps = {{10, 20}, {200, 300}};
+  const auto at = [&](std::size_t frame) { return profile.frameTimeUs(frame); };
+  const std::vector<RecordingEvent> events = {
+      {at(15), at(15), "label", std::nullopt, "first", ""},
+      {at(250), at(400), "note", std::nullopt, "second", ""}};
+  const std::vector<fs::path> paths = {folder / "new/a.palpate", folder / "new/b.palpate"};
+  saveGrasps(folder / "whole.palpate", profile, events, grasps, paths);
+  const Profile second = openRecording(paths[1]);
+  ASSERT_EQ(second.numFrames(), 101u);
+  EXPECT_EQ(second.frameTimeUs(0), at(200));
+  EXPECT_EQ(second.frame(100).values, profile.frame(300).values);
+  const auto labels = readEvents(paths[1]).events;
+  ASSERT_EQ(labels.size(), 1u);
+  EXPECT_EQ(labels[0].text, "second");
+  EXPECT_EQ(readEvents(paths[0]).events.at(0).text, "first");
+}
+
+TEST(GraspFiles, NothingIsWrittenWhenOneExistsAlready) {
+  const testing::TemporaryFolder folder;
+  const Profile profile = threeGrasps();
+  const std::vector<GraspFrames> grasps = {{10, 20}, {200, 300}};
+  const std::vector<fs::path> paths = {folder / "a.palpate", folder / "b.palpate"};
+  testing::writeFile(paths[1], "mine");
+  EXPECT_THROW(saveGrasps(folder / "whole.palpate", profile, {}, grasps, paths), FileError);
+  EXPECT_FALSE(fs::exists(paths[0]));
+  EXPECT_EQ(testing::readFile(paths[1]), "mine");
+  const std::vector<fs::path> same = {folder / "c.palpate", folder / "c.palpate"};
+  EXPECT_THROW(saveGrasps(folder / "whole.palpate", profile, {}, grasps, same), FileError);
+  EXPECT_FALSE(fs::exists(folder / "c.palpate"));
+  EXPECT_THROW(saveGrasps(folder / "c.palpate", profile, {}, grasps, {}), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace palpate::grasp_files_test

@@ -1,0 +1,152 @@
+// A damaged recording opens as far as it can be read, says so, and is recovered from the window.
+#include "gui/open/recovery_feature.h"
+
+#include <QPushButton>
+#include <QToolButton>
+
+#include <palpate/emulator/synthetic_profile.h>
+#include <palpate/recording/palpate_writer.h>
+#include <palpate/recording/recording.h>
+
+#include "gui/testing/window_fixture.h"
+#include "gui/widgets/offer_strip.h"
+#include "recording/palpate_samples.h"
+
+namespace palpate::gui::recovery_feature_test {
+namespace {
+namespace fs = std::filesystem;
+
+class RecoveryFeatureTest : public WindowTest {
+ protected:
+  // A window that reads real files.
+  void startReading() {
+    window_ = std::make_unique<MainWindow>(WindowEnvironment{
+        .dataFolder = folder_.path(), .settingsPath = settingsFile(), .clock = &clock_});
+    window_->show();
+    QApplication::setActiveWindow(window_.get());
+  }
+  // A recording of 24 s in which the values of a block are changed; its frames.
+  std::size_t writeDamaged(const fs::path& path) {
+    const Profile profile = synthesize({.durationS = 24.0, .grasps = 4, .noiseCounts = 3.0});
+    writePalpate(profile, {}, path);
+    const std::string sound = testing::readFile(path);
+    // Blocks of frames and of joint angles lie in turn: the first place that costs frames.
+    for (std::size_t percent = 50; percent < 95; ++percent) {
+      std::string bytes = sound;
+      const std::size_t at = bytes.size() * percent / 100;
+      for (std::size_t i = at; i < at + 20; ++i) bytes[i] ^= 0x5a;
+      testing::writeFile(path, bytes);
+      if (verifyRecording(path).message.find("lost frame") != std::string::npos) break;
+    }
+    return profile.numFrames();
+  }
+  QString offered() {
+    const auto* accept = find<QPushButton>("recoverAccept");
+    if (!accept->isVisible()) return {};
+    return static_cast<const OfferStrip*>(accept->parentWidget())->text();
+  }
+  OpenedRecordingPtr displayed() { return window().state().displayed.recorded(); }
+  static bool await(const std::function<bool()>& condition) {
+    return QTest::qWaitFor(condition, 20'000);
+  }
+};
+
+TEST_F(RecoveryFeatureTest, ADamagedRecordingIsShownAsFarAsItCanBeRead) {
+  const std::size_t all = writeDamaged(folder_ / "run.palpate");
+  startReading();
+  open({"run.palpate"});
+  ASSERT_TRUE(displayed());
+  EXPECT_LT(displayed()->profile.numFrames(), all);
+  EXPECT_GT(displayed()->profile.numFrames(), all / 2);
+  EXPECT_EQ(bannerText(), "");
+  EXPECT_TRUE(offered().startsWith("run.palpate is damaged; shown is what can be read. "))
+      << offered().toStdString();
+  EXPECT_TRUE(offered().contains("lost frame")) << offered().toStdString();
+  EXPECT_FALSE(offered().contains("palpate recover"));
+  // The span without frames is a gap, however short.
+  ASSERT_EQ(displayed()->timing.gaps.size(), 1u);
+  const std::size_t lost = all - displayed()->profile.numFrames();
+  EXPECT_NEAR(displayed()->timing.gaps[0].seconds, static_cast<double>(lost + 1) / 31.7, 0.05);
+}
+
+TEST_F(RecoveryFeatureTest, RecoversIntoANewFileAndOpensIt) {
+  const fs::path path = folder_ / "run.palpate";
+  writeDamaged(path);
+  const std::string before = testing::readFile(path);
+  startReading();
+  open({"run.palpate"});
+  QString proposed;
+  window().state().prompts.newFile = [&](const QString&,
+                                         const QString& suggestion,
+                                         const QString&) { return proposed = suggestion; };
+  QTest::mouseClick(find<QPushButton>("recoverAccept"), Qt::LeftButton);
+  EXPECT_EQ(proposed.toStdString(), (folder_ / "run_recovered.palpate").string());
+  ASSERT_TRUE(await([&] { return displayed() && displayed()->path.filename() != "run.palpate"; }));
+  EXPECT_EQ(displayed()->path.filename(), "run_recovered.palpate");
+  EXPECT_EQ(displayed()->damage, "");
+  EXPECT_EQ(offered(), "");
+  EXPECT_EQ(testing::readFile(path), before);
+  EXPECT_EQ(verifyRecording(proposed.toStdString()).state, VerifyReport::State::kSound);
+}
+
+TEST_F(RecoveryFeatureTest, ACutDsaOpensWithItsReadableFrames) {
+  saveRecording(
+      synthesize({.durationS = 60.0, .grasps = 8, .noiseCounts = 30.0}), {}, folder_ / "whole.dsa");
+  const std::string bytes = testing::readFile(folder_ / "whole.dsa");
+  testing::writeFile(folder_ / "cut.dsa", bytes.substr(0, bytes.size() * 3 / 4));
+  startReading();
+  open({"cut.dsa"});
+  ASSERT_TRUE(displayed()) << bannerText().toStdString();
+  EXPECT_GT(displayed()->profile.numFrames(), 300u);
+  EXPECT_TRUE(offered().contains("Readable: ")) << offered().toStdString();
+}
+
+TEST_F(RecoveryFeatureTest, AnUnfinishedRecordingSaysSo) {
+  testing::writeSamples(folder_ / "run.palpate", 70, false);
+  startReading();
+  open({"run.palpate"});
+  ASSERT_TRUE(displayed());
+  EXPECT_TRUE(offered().contains("was never finished")) << offered().toStdString();
+}
+
+TEST_F(RecoveryFeatureTest, ClosedItIsNotOfferedAgainAndASoundOneNever) {
+  writeDamaged(folder_ / "run.palpate");
+  writePalpate(synthesize({.durationS = 4.0, .grasps = 1}), {}, folder_ / "sound.palpate");
+  startReading();
+  open({"run.palpate", "sound.palpate"});
+  EXPECT_NE(offered(), "");
+  actions().at("nextRecording")->trigger();
+  EXPECT_EQ(offered(), "");
+  actions().at("nextRecording")->trigger();
+  EXPECT_NE(offered(), "");
+  QTest::mouseClick(find<QToolButton>("recoverClose"), Qt::LeftButton);
+  actions().at("nextRecording")->trigger();
+  actions().at("nextRecording")->trigger();
+  EXPECT_EQ(offered(), "");
+}
+
+TEST_F(RecoveryFeatureTest, WithoutADamagedOneTheActionAsksForAFile) {
+  writeDamaged(folder_ / "bad.palpate");
+  startReading();
+  window().state().prompts.file = [&](auto&&...) {
+    return QString::fromStdString((folder_ / "bad.palpate").string());
+  };
+  window().state().prompts.newFile = [](const QString&, const QString& suggestion, const QString&) {
+    return suggestion;
+  };
+  actions().at("recover")->trigger();
+  ASSERT_TRUE(await([&] { return displayed() != nullptr; }));
+  EXPECT_EQ(displayed()->path.filename(), "bad_recovered.palpate");
+}
+
+TEST_F(RecoveryFeatureTest, NothingReadableIsSaidInTheWordsOfTheWindow) {
+  testing::writeFile(folder_ / "text.palpate", "no recording at all");
+  startReading();
+  open({"text.palpate"});
+  EXPECT_FALSE(displayed());
+  EXPECT_NE(bannerText(), "");
+  EXPECT_FALSE(bannerText().contains("palpate recover")) << bannerText().toStdString();
+}
+
+}  // namespace
+}  // namespace palpate::gui::recovery_feature_test

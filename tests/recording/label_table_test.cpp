@@ -1,0 +1,92 @@
+#include "palpate/recording/label_table.h"
+
+#include <gtest/gtest.h>
+
+#include "palpate/core/error.h"
+#include "palpate/core/text_table.h"
+#include "palpate/emulator/synthetic_profile.h"
+
+namespace palpate::label_table_test {
+namespace {
+
+Profile tenSeconds() { return synthesize({.durationS = 10.0, .grasps = 1}); }
+
+std::string csvOf(std::span<const RecordingEvent> events, const Profile& profile) {
+  std::string csv = csvLine(labelHeader());
+  for (const auto& row : labelRows(events, profile)) csv += csvLine(row);
+  return csv;
+}
+
+TEST(LabelTable, HasARowForEachLabelInOrderOfTime) {
+  const Profile profile = tenSeconds();
+  const std::int64_t t0 = profile.frameTimeUs(0);
+  const std::vector<RecordingEvent> events = {
+      {t0 + 4'000'001, t0 + 5'500'000, "segment", std::nullopt, "grasp", ""},
+      {t0, t0, "gap", std::nullopt, "", ""},
+      {t0 + 1'250'000, t0 + 1'250'000, "label", 3, "slips, a little", ""}};
+  EXPECT_EQ(csvOf(events, profile),
+            "begin_s,end_s,kind,text,matrix\n"
+            "1.250000,1.250000,label,\"slips, a little\",3\n"
+            "4.000001,5.500000,segment,grasp,\n");
+}
+
+TEST(LabelTable, ReadsBackTheSameEvents) {
+  const Profile profile = tenSeconds();
+  const std::int64_t t0 = profile.frameTimeUs(0);
+  const std::int64_t t1 = profile.frameTimeUs(profile.numFrames() - 1);
+  std::vector<RecordingEvent> events = {
+      {t0, t1, "note", std::nullopt, "all of it; \"quoted\"\nin two lines", ""},
+      {t0 + 7, t0 + 123'457, "label", 0, "a\tb", ""},
+      {t1, t1, "mark", 5, "=1+1", ""}};
+  const LabelTable table = readLabelTable(csvOf(events, profile), profile);
+  EXPECT_TRUE(table.problems.empty());
+  EXPECT_EQ(table.events, events);
+  EXPECT_TRUE(newLabels(table, events).empty());
+  EXPECT_EQ(newLabels(table, std::span(events).first(1)).size(), 2u);
+}
+
+TEST(LabelTable, TakesColumnsInAnyOrderAndOtherDelimiters) {
+  const Profile profile = tenSeconds();
+  const LabelTable table =
+      readLabelTable("\xEF\xBB\xBFtext;extra;begin_s\r\nball;9;2.5\r\n\r\ncube;;3\r\n", profile);
+  ASSERT_EQ(table.events.size(), 2u);
+  EXPECT_EQ(table.events[0].kind, "label");
+  EXPECT_EQ(table.events[0].text, "ball");
+  EXPECT_EQ(table.events[0].tUs, profile.frameTimeUs(0) + 2'500'000);
+  EXPECT_EQ(table.events[0].t1Us, table.events[0].tUs);
+  EXPECT_EQ(table.events[1].text, "cube");
+}
+
+TEST(LabelTable, NamesBadRowsByTheirLine) {
+  const LabelTable table = readLabelTable(
+      "begin_s,end_s,kind,text,matrix\n"
+      "abc,1,label,a,\n"
+      "1,2,label,\"two\nlines\",\n"
+      "3,2,label,b,\n"
+      "1,99,label,c,\n"
+      "1,2,gap,d,\n"
+      "1,2,label,e,6\n"
+      "1,2,label,,\n"
+      "1,2,label\n"
+      "1,2,label,\"never closed,\n",
+      tenSeconds());
+  ASSERT_EQ(table.events.size(), 1u);
+  ASSERT_EQ(table.problems.size(), 8u);
+  EXPECT_EQ(table.problems[0], "line 2: begin_s 'abc' is not a number");
+  EXPECT_EQ(table.problems[1], "line 5: ends before it begins");
+  EXPECT_TRUE(table.problems[2].starts_with("line 6: end_s '99' lies outside of the recording"))
+      << table.problems[2];
+  EXPECT_EQ(table.problems[3], "line 7: kind 'gap' is none of label, note, mark, segment");
+  EXPECT_EQ(table.problems[4], "line 8: matrix '6' is none of 0..5");
+  EXPECT_EQ(table.problems[5], "line 9: has no text");
+  EXPECT_EQ(table.problems[6], "line 10: has 3 cells, the first line has 5");
+  EXPECT_EQ(table.problems[7], "line 11: a quote is never closed");
+}
+
+TEST(LabelTable, RefusesATableWithoutItsColumns) {
+  EXPECT_THROW(readLabelTable("start,label\n1,a\n", tenSeconds()), Error);
+  EXPECT_THROW(readLabelTable("", tenSeconds()), Error);
+}
+
+}  // namespace
+}  // namespace palpate::label_table_test
