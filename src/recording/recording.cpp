@@ -522,7 +522,9 @@ RecoverReport recoverRecording(const std::filesystem::path& in,
   requireOther(in, out);
   requireWritable(out, overwrite);
   if (isHdf5Recording(in))
-    throw FileError(in, "HDF5 files can't be recovered: one that is damaged is not read at all; take the recording that it was made from");
+    throw FileError(in,
+                    "HDF5 files can't be recovered: one that is damaged is not read at all; take "
+                    "the recording that it was made from");
   if (isMcapRecording(in)) return recoverMcapFile(in, out, overwrite, progress);
   return isNativeRecording(in) ? recoverNative(in, out, overwrite, progress)
                                : recoverDsa(in, out, overwrite, progress);

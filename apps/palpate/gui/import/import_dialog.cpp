@@ -137,13 +137,15 @@ QWidget* ImportDialog::makeFile() {
   data_ = new QLineEdit;
   data_->setObjectName("importData");
   data_->setPlaceholderText("CSV, text, .npy, .npz, HDF5");
-  form->addRow(importFieldName("&File", data_), withButton(data_, "Bro&wse…", "importBrowse", [this] {
+  form->addRow(importFieldName("&File", data_),
+               withButton(data_, "Bro&wse…", "importBrowse", [this] {
                  const QString chosen = askForData();
                  if (!chosen.isEmpty()) setData(chosen);
                }));
   hand_ = new QComboBox;
   hand_->setObjectName("importHand");
-  form->addRow(importFieldName("&Hand", hand_), withButton(hand_, "Fol&der…", "importHandFolder", [this] {
+  form->addRow(importFieldName("&Hand", hand_),
+               withButton(hand_, "Fol&der…", "importHandFolder", [this] {
                  const QString chosen = askForHand();
                  if (!chosen.isEmpty()) setHand(chosen);
                }));

@@ -84,7 +84,8 @@ QString summaryOf(const RecordingReport& report) {
     text +=
         (report.gaps == 1 ? QString(", 1 gap") : ", " + QString::number(report.gaps) + " gaps") +
         " in which no frame came" + missingText(report);
-  if (report.complete && report.lost == 0 && report.gaps == 0 && notReceived == 0) text += ", nothing lost";
+  if (report.complete && report.lost == 0 && report.gaps == 0 && notReceived == 0)
+    text += ", nothing lost";
   if (!report.mcapFailure.empty())
     text += "; the MCAP file is not whole: " + QString::fromStdString(report.mcapFailure);
   else if (!report.mcapPaths.empty())
