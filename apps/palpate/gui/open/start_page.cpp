@@ -16,7 +16,7 @@ namespace palpate::gui {
 namespace {
 
 constexpr const char* kDropText =
-    "or drop recordings (.dsa, .palpate) or a folder anywhere in this window";
+    "or drop recordings (.dsa, .palpate, .h5, .mcap) or a folder anywhere in this window";
 constexpr int kColumnWidth = 560;        // [px]
 constexpr int kStartPageRowHeight = 46;  // [px] of a recent file
 

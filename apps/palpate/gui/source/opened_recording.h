@@ -59,7 +59,7 @@ struct OpenedRecording {
   std::string eventsFailure;
   // What is missing of a damaged recording, of which only the readable part was opened; one line,
   // empty: nothing.
-  std::string damage;
+  std::string damage = {};
   // Of a long recording: the timeline fills it (compute()). Null: `table` has all signals.
   std::shared_ptr<SignalOverview> overview;
 
