@@ -20,11 +20,8 @@ class FilteredCommandsTest : public ::testing::Test {
     saveRecording(synthesize({.durationS = 12.0, .grasps = 2, .noiseCounts = 20.0}),
                   {},
                   folder_ / "raw/a.palpate");
-    const auto made = palpate({"convert",
-                               folder_ / "raw/a.palpate",
-                               folder_ / "filtered/a.palpate",
-                               "--filter",
-                               kFilter});
+    const auto made = palpate(
+        {"filter", folder_ / "raw/a.palpate", folder_ / "filtered/a.palpate", "--filter", kFilter});
     EXPECT_EQ(made.exitCode, 0) << made.err;
   }
   static constexpr const char* kFilter = "median:size=3";

@@ -32,7 +32,7 @@ GraspExport::GraspExport(WindowState& windowState, QWidget* window, QObject* par
     : QObject(parent),
       windowState_(windowState),
       strip_(new OpeningStrip(window, "Exporting the grasps of", "exportingGrasps")) {
-  QAction* action = windowState.actions.make("exportGrasps", "File", "Export each &grasp…");
+  QAction* action = windowState.actions.make("exportGrasps", "File", "Export each grasp…");
   action->setToolTip("A recording of its own for each grasp, with its labels");
   connect(action, &QAction::triggered, this, &GraspExport::exportEach);
   windowState.actionEnabler.add({action},
