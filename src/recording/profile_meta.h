@@ -37,4 +37,20 @@ inline std::map<std::string, std::string> writtenMeta(
   return meta;
 }
 
+// What `meta`, which writtenMeta() made, says of the profile; empty keys are
+// taken out. `format` as in ProfileInfo.
+inline ProfileInfo readInfo(std::map<std::string, std::string>& meta,
+                            const char* format,
+                            bool counts) {
+  ProfileInfo info;
+  info.format = format;
+  info.serial = meta["serial"];
+  info.firmware = meta["firmware"];
+  info.sensorRevision = meta["sensor_revision"];
+  for (const char* key : {"serial", "firmware", "sensor_revision"})
+    if (meta[key].empty()) meta.erase(key);
+  info.valueType = counts ? ValueType::kCounts : ValueType::kFloat;
+  return info;
+}
+
 }  // namespace palpate

@@ -24,6 +24,7 @@
 
 #include "recording/hdf5/hdf5_layout.h"
 #include "recording/hdf5_library.h"
+#include "recording/profile_meta.h"
 
 namespace palpate {
 namespace fs = std::filesystem;
@@ -633,14 +634,7 @@ std::shared_ptr<const Hdf5Storage> openedHdf5(const fs::path& path) {
 Hdf5Recording readHdf5(const fs::path& path) {
   const std::shared_ptr<const Hdf5Storage> storage = openedHdf5(path);
   auto meta = storage->meta();
-  ProfileInfo info;
-  info.format = "hdf5";
-  info.serial = meta["serial"];
-  info.firmware = meta["firmware"];
-  info.sensorRevision = meta["sensor_revision"];
-  for (const char* key : {"serial", "firmware", "sensor_revision"})
-    if (meta[key].empty()) meta.erase(key);
-  info.valueType = storage->counts() ? ValueType::kCounts : ValueType::kFloat;
+  ProfileInfo info = readInfo(meta, "hdf5", storage->counts());
   HandDescription hand = recordedHand(meta,
                                       storage->layout(),
                                       storage->angleSeries().width(),

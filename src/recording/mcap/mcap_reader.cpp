@@ -22,6 +22,7 @@
 #include "recording/mcap/mcap_format.h"
 #include "recording/mcap/mcap_messages.h"
 #include "recording/mcap/mcap_structure.h"
+#include "recording/profile_meta.h"
 
 namespace palpate {
 namespace fs = std::filesystem;
@@ -618,14 +619,7 @@ McapRecording openOwnMcap(McapFile file,
       std::make_shared<McapStorage>(std::move(file), std::move(own), std::move(structure.pieces));
   const std::size_t damaged = storage->scan(progress, threads, salvage);
   auto meta = mcapMetaOf(structure);
-  ProfileInfo info;
-  info.format = "mcap";
-  info.serial = meta["serial"];
-  info.firmware = meta["firmware"];
-  info.sensorRevision = meta["sensor_revision"];
-  for (const char* key : {"serial", "firmware", "sensor_revision"})
-    if (meta[key].empty()) meta.erase(key);
-  info.valueType = storage->counts() ? ValueType::kCounts : ValueType::kFloat;
+  ProfileInfo info = readInfo(meta, "mcap", storage->counts());
   HandDescription hand = recordedHand(
       meta, storage->own().layout(), storage->angleWidth(), storage->temperatureWidth());
   std::string damage = structure.damage;
