@@ -8,35 +8,18 @@
 
 #include <benchmark/benchmark.h>
 
-#include "palpate/emulator/synthetic_profile.h"
 #include "palpate/interop/derived_series.h"
 #include "palpate/recording/hdf5_recording.h"
 #include "palpate/recording/recording.h"
 
+#include "benchmarks/hour_recording.h"
 #include "testing/testing.h"
 
 namespace {
 
 using palpate::Profile;
-
-// The recording, made once.
-Profile hourOfFrames() {
-  static const palpate::testing::TemporaryFolder folder;
-  const std::filesystem::path path = folder / "hour.palpate";
-  if (!std::filesystem::exists(path)) {
-    palpate::SyntheticOptions options;
-    options.durationS = 3600.0;
-    options.grasps = 900;
-    options.noiseCounts = 3.0;
-    palpate::saveRecording(palpate::synthesize(options), {}, path);
-  }
-  return palpate::openRecording(path);
-}
-
-void setTaxelBytes(benchmark::State& state, const Profile& profile) {
-  state.SetBytesProcessed(static_cast<std::int64_t>(state.iterations() * profile.numFrames() *
-                                                    profile.layout().numCells() * 2));
-}
+using palpate::benchmarks::hourOfFrames;
+using palpate::benchmarks::setTaxelBytes;
 
 void writeHdf5With(benchmark::State& state, bool withSignals, bool withSlip) {
   const Profile profile = hourOfFrames();

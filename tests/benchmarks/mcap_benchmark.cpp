@@ -5,39 +5,22 @@
 
 #include <benchmark/benchmark.h>
 
-#include "palpate/emulator/synthetic_profile.h"
 #include "palpate/interop/derived_series.h"
 #include "palpate/recording/mcap_recording.h"
 #include "palpate/recording/recording.h"
 
+#include "benchmarks/hour_recording.h"
 #include "testing/testing.h"
 
 namespace {
 
 using palpate::McapCompression;
 using palpate::Profile;
-
-// The recording, made once.
-Profile mcapHourOfFrames() {
-  static const palpate::testing::TemporaryFolder folder;
-  const std::filesystem::path path = folder / "hour.palpate";
-  if (!std::filesystem::exists(path)) {
-    palpate::SyntheticOptions options;
-    options.durationS = 3600.0;
-    options.grasps = 900;
-    options.noiseCounts = 3.0;
-    palpate::saveRecording(palpate::synthesize(options), {}, path);
-  }
-  return palpate::openRecording(path);
-}
-
-void setMcapTaxelBytes(benchmark::State& state, const Profile& profile) {
-  state.SetBytesProcessed(static_cast<std::int64_t>(state.iterations() * profile.numFrames() *
-                                                    profile.layout().numCells() * 2));
-}
+using palpate::benchmarks::hourOfFrames;
+using palpate::benchmarks::setTaxelBytes;
 
 void writeMcapWith(benchmark::State& state, McapCompression compression, bool withSignals) {
-  const Profile profile = mcapHourOfFrames();
+  const Profile profile = hourOfFrames();
   const palpate::testing::TemporaryFolder folder;
   for ([[maybe_unused]] auto _ : state) {
     palpate::ExportExtras extras;
@@ -48,7 +31,7 @@ void writeMcapWith(benchmark::State& state, McapCompression compression, bool wi
     palpate::writeMcap(
         {profile, {}, {}, extras}, folder / "a.mcap", palpate::Overwrite::kReplace, {}, options);
   }
-  setMcapTaxelBytes(state, profile);
+  setTaxelBytes(state, profile);
 }
 
 void mcapZstd(benchmark::State& state) { writeMcapWith(state, McapCompression::kZstd, false); }
@@ -60,7 +43,7 @@ void mcapWithSignals(benchmark::State& state) {
 
 // Opened, which reads all of it, and each frame read.
 void mcapRead(benchmark::State& state) {
-  const Profile profile = mcapHourOfFrames();
+  const Profile profile = hourOfFrames();
   const palpate::testing::TemporaryFolder folder;
   palpate::writeMcap({profile, {}, {}, palpate::ExportExtras{}}, folder / "a.mcap");
   palpate::TactileFrame frame;
@@ -68,19 +51,19 @@ void mcapRead(benchmark::State& state) {
     const Profile read = palpate::openRecording(folder / "a.mcap");
     for (std::size_t i = 0; i < read.numFrames(); ++i) read.readFrame(i, frame);
   }
-  setMcapTaxelBytes(state, profile);
+  setTaxelBytes(state, profile);
 }
 
 // The reference.
 void mcapPlainRead(benchmark::State& state) {
-  const Profile profile = mcapHourOfFrames();
+  const Profile profile = hourOfFrames();
   palpate::TactileFrame frame;
   for ([[maybe_unused]] auto _ : state)
     for (std::size_t i = 0; i < profile.numFrames(); ++i) {
       profile.readFrame(i, frame);
       benchmark::DoNotOptimize(frame.values.data());
     }
-  setMcapTaxelBytes(state, profile);
+  setTaxelBytes(state, profile);
 }
 
 BENCHMARK(mcapPlainRead)->Unit(benchmark::kMillisecond)->UseRealTime();
