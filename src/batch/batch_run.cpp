@@ -213,8 +213,7 @@ class BatchRun {
     if (weight_ > 0.0) now.fraction = std::min(1.0, passed / weight_);
     constexpr double kSPerUs = 1e-6;
     const double elapsedS = static_cast<double>(systemClock().monotonicUs() - startUs_) * kSPerUs;
-    if (elapsedS > 0.0)
-      now.perSecond = static_cast<double>(now.done + now.failed + now.skipped) / elapsedS;
+    if (elapsedS > 0.0) now.perSecond = static_cast<double>(now.done + now.failed) / elapsedS;
     // What was skipped took no time and says nothing about the rest.
     const double own = passed - skipped;
     if (own > kLeastFraction * (weight_ - skipped))
@@ -274,7 +273,7 @@ std::string statusText(const BatchStatus& status) {
   std::string text = std::to_string(status.done + status.skipped + status.failed) + " of " +
                      std::to_string(status.total);
   if (status.failed > 0) text += ", " + std::to_string(status.failed) + " failed";
-  text += ", " + fixedText(status.perSecond, 1) + "/s";
+  if (status.perSecond > 0.0) text += ", " + fixedText(status.perSecond, 1) + "/s";
   if (!status.remainingS) return text;
   constexpr std::int64_t kSPerMin = 60;
   const auto left = static_cast<std::int64_t>(std::ceil(*status.remainingS));

@@ -56,6 +56,17 @@ class WindowSums {
   std::size_t frames_ = 0;
 };
 
+// The asked length, or as much as it takes to hold the fewest frames [s].
+double windowLengthS(const Profile& profile, double askedS) {
+  constexpr std::size_t kMostIntervals = 4096;
+  std::vector<float> intervals;
+  for (std::size_t i = 1; i < profile.numFrames() && intervals.size() < kMostIntervals; ++i)
+    intervals.push_back(static_cast<float>(profile.frameTimeUs(i) - profile.frameTimeUs(i - 1)));
+  if (intervals.empty()) return askedS;
+  const double usualS = static_cast<double>(upperMedian(std::span(intervals))) / kUsPerS;
+  return std::max(askedS, usualS * static_cast<double>(kFewestFrames));
+}
+
 std::vector<Window> windowsOf(const Profile& profile, double windowS, const Progress& progress) {
   constexpr std::size_t kFramesPerReport = 256;
   std::vector<Window> windows;
@@ -153,7 +164,8 @@ Tare findTare(const Profile& profile, const TareOptions& options, const Progress
   const SensorLayout& layout = profile.layout();
   Tare tare;
   tare.zero.assign(layout.numCells(), 0.0F);
-  const std::vector<Window> windows = windowsOf(profile, options.windowS, progress);
+  const std::vector<Window> windows =
+      windowsOf(profile, windowLengthS(profile, options.windowS), progress);
   for (std::size_t m = 0; m < layout.numMatrices(); ++m)
     tare.matrices.push_back(
         tareOf(windows, layout.offset(m), layout.matrix(m).numCells(), options, tare.zero));

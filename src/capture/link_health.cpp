@@ -86,6 +86,10 @@ void addRecorderAlarms(const RecorderStatus& recorder,
   if (!recorder.writeError.empty())
     alarms.push_back({AlarmKind::kWriteError,
                       recorder.writeError + " (new data waits in memory, writing is tried again)"});
+  if (!recorder.mcapFailure.empty())
+    alarms.push_back({AlarmKind::kMcapStopped,
+                      "the MCAP file stopped, the recording goes on: " + recorder.mcapFailure +
+                          "; make an MCAP file of the recording afterwards"});
   if (recorder.blockedS > kBlockedAlarmS)
     alarms.push_back({AlarmKind::kSlowDisk,
                       "the disk has kept the recorder waiting for " +

@@ -404,6 +404,7 @@ void RecordingParts::describe(RecorderStatus& status) const {
   status.lost = counts_.lost + lostInQueues_;
   status.refused = counts_.refused;
   status.writeError = error_;
+  status.mcapFailure = mcapFailure_;
 }
 
 RecordingReport RecordingParts::report() const {

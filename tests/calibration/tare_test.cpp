@@ -49,6 +49,20 @@ TEST(Tare, FindsTheZeroInUnloadedWindows) {
   EXPECT_EQ(tare.matrices[1].windows[0].end, 299u);
 }
 
+TEST(Tare, WindowsOfASlowRecordingAreAsLongAsThreeFramesNeed) {
+  // A frame every 3 s: no window of 1 s holds more than one.
+  ProfileBuilder builder(twoMatrices());
+  for (int i = 0; i < 60; ++i) {
+    std::vector<float> values(8, 0.0F);
+    values[4] = 30.0F;
+    builder.addFrame(1'000'000 + static_cast<std::int64_t>(i) * 3'000'000, values);
+  }
+  const Tare tare = findTare(builder.finish({}));
+  ASSERT_TRUE(tare.matrices[1].valid) << tare.matrices[1].note;
+  EXPECT_EQ(tare.zero[4], 30.0F);
+  EXPECT_EQ(tare.zero[0], 0.0F);
+}
+
 TEST(Tare, TakesTheZeroOffAndLeavesRawRaw) {
   const Profile profile = recording();
   const Tare tare = findTare(profile);

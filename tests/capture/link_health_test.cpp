@@ -188,6 +188,12 @@ TEST(LinkHealth, everyTroubleHasItsAlarm) {
   EXPECT_EQ(kindsOf(assessHealth(inputs)),
             (std::vector{AlarmKind::kWriteError, AlarmKind::kSlowDisk, AlarmKind::kOverflow}));
   inputs = streaming();
+  inputs.recorder.mcapFailure = "a.mcap: the disk is full";
+  const LinkHealth stopped = assessHealth(inputs);
+  EXPECT_EQ(kindsOf(stopped), std::vector{AlarmKind::kMcapStopped});
+  EXPECT_NE(stopped.alarms[0].text.find("the recording goes on: a.mcap: the disk is full"),
+            std::string::npos);
+  inputs = streaming();
   inputs.recorder.freeBytes = 18'000 * 3600 / 2;  // half an hour, at the nominal rate
   const LinkHealth low = assessHealth(inputs);
   EXPECT_EQ(kindsOf(low), std::vector{AlarmKind::kLowDisk});

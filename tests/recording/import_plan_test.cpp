@@ -143,8 +143,8 @@ TEST(ImportPlan, SaysWhatDoesNotFit) {
   const std::vector<std::pair<std::string, std::string>> cases = {
       {refused("t,a0,a1,a2", {}, pad(2, 2)), "1 matrix of 2 x 2, 4 places"},
       {refused("t,a0,a1,a2", {}, pad(2, 2)), "the file has t, a0, a1, a2"},
-      {refused("a0,a1,a2,a3", {}, pad(2, 2)), "--rate"},
-      {refused("t,a0,a1,a2,a3,b0,b1,b2,b3", {}, pad(2, 2)), "choose with --matrix"},
+      {refused("a0,a1,a2,a3", {}, pad(2, 2)), "the rate of the rows"},
+      {refused("t,a0,a1,a2,a3,b0,b1,b2,b3", {}, pad(2, 2)), "choose the columns of each matrix"},
       {refused(header, matrix("b*"), pad(2, 2)), "no column of numbers matches"},
       {refused(header, matrix("a9"), pad(2, 2)), "there is no column \"a9\"; there are t, a0"},
       {refused(header, matrix("#9"), pad(2, 2)), "has 6 columns"},

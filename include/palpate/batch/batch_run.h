@@ -70,7 +70,7 @@ struct BatchStatus {
   std::size_t failed = 0;
   // 0..1, by the sizes of the recordings, with the part that is done of those in work.
   double fraction = 0.0;
-  double perSecond = 0.0;  // recordings finished
+  double perSecond = 0.0;  // recordings done or failed; those skipped take no time
   // [s], estimated; nothing while too little is done.
   std::optional<double> remainingS = {};
 };

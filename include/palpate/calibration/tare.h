@@ -17,7 +17,8 @@ namespace palpate {
 
 // What counts as unloaded.
 struct TareOptions {
-  // Length of a window, which is unloaded or not as a whole [s]; > 0.
+  // Length of a window, which is unloaded or not as a whole [s]; > 0. Where frames are rarer than
+  // three in this time, a window is as long as three usual intervals of frames.
   double windowS = 1.0;
   // A matrix whose calmest window has a larger reading [counts] is never unloaded; >= 0.
   double maxRestCounts = 150;

@@ -123,6 +123,8 @@ struct RecorderStatus {
   std::int64_t refused = 0;
   // Last error of the disk; empty while writing works.
   std::string writeError;
+  // Why the MCAP file beside the recording stopped; empty: it did not.
+  std::string mcapFailure;
   // Time for which a write has been blocked by the disk [s].
   double blockedS = 0.0;
   // On the recording's disk, updated once a second.

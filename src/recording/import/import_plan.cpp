@@ -315,7 +315,9 @@ void Planner::findTime(PlannedSeries& series, const std::string& named) {
       sameRows(columns_[*time_], columns_[series.columns.front()]))
     series.time = time_;
   if (!series.time && isFrames)
-    fail("no column of times was found; name it with --time, or give the rate with --rate");
+    fail(
+        "no column of times was found; name that column (time), or give the rate of the rows "
+        "(rate)");
   if (!series.time) return;
   if (!sameRows(columns_[*series.time], columns_[series.columns.front()]))
     fail(inQuotes(columns_[*series.time].name) + " has " +
@@ -348,7 +350,7 @@ void Planner::setTimeUnit(PlannedSeries& series) {
         return row[0] == std::floor(row[0]);
       });
       series.timeUnit = rows.empty() ? TimeUnit::kSeconds : guessTimeUnit(rows.back()[0], whole);
-      origin = "guessed from the values; --time-unit tells it";
+      origin = "guessed from the values; choose the unit if it is another";
     }
   }
   if (series.kind == Kind::kFrames)
@@ -443,7 +445,7 @@ PlannedSeries Planner::foundFrames() {
     if (whole)
       refuse("both " + inQuotes(columns_[whole->columns.front()].name) + " and " +
              inQuotes(columns_[group.columns.front()].name) +
-             " could be the taxels; choose with --matrix");
+             " could be the taxels; choose the columns of each matrix");
     whole = &group;
   }
   if (whole) {
@@ -501,7 +503,7 @@ PlannedSeries Planner::foundFrames() {
     if (group.columns.size() == 1 && inOrder(group.elements)) return series;
   refuse("no columns fit the hand " + inQuotes(hand_.name) + ", which has " + shapeText(layout) +
          " (expected are so many columns, or arrays of rows x " + matrixShape(layout.matrix(0)) +
-         "); the file has " + namesText(columns_) + "; choose with --matrix");
+         "); the file has " + namesText(columns_) + "; choose the columns of each matrix");
 }
 
 PlannedSeries Planner::frames() {

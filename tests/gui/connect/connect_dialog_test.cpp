@@ -2,8 +2,11 @@
 #include "gui/connect/connect_dialog.h"
 
 #include <QCheckBox>
+#include <QComboBox>
 #include <QListWidget>
+#include <QPushButton>
 #include <QRadioButton>
+#include <QSettings>
 #include <utility>
 #include <vector>
 
@@ -66,6 +69,33 @@ TEST_F(ConnectDialogTest, EnterDoesNothingWhileSomethingIsMissing) {
   find<QWidget>("recording")->setFocus();
   press(Qt::Key_Return);
   EXPECT_TRUE(dialog_->isVisible());
+}
+
+TEST_F(ConnectDialogTest, AConnectionIsSavedUnderANameChosenAndForgotten) {
+  QSettings settings(QString::fromStdString((folder_ / "named.ini").string()),
+                     QSettings::IniFormat);
+  openWith(settings, {.kind = Connection::Kind::kEmulated, .scene = "ball"});
+  auto* saved = find<QComboBox>("savedConnections");
+  EXPECT_FALSE(saved->isEnabled()) << "none yet";
+  QString suggested;
+  dialog_->askForName = [&](const QString& suggestion) {
+    suggested = suggestion;
+    return QString(" the ball ");
+  };
+  find<QPushButton>("saveConnection")->click();
+  EXPECT_EQ(suggested, "emulated hand · ball");
+  EXPECT_EQ(saved->currentText(), "the ball");
+  const QString recording = file("a.dsa", "x");
+  openWith(settings, {.kind = Connection::Kind::kReplay, .recording = recording});
+  saved = find<QComboBox>("savedConnections");
+  saved->setCurrentIndex(saved->findText("the ball"));
+  emit saved->activated(saved->currentIndex());
+  EXPECT_EQ(dialog_->connection().kind, Connection::Kind::kEmulated);
+  EXPECT_EQ(dialog_->connection().scene, "ball");
+  EXPECT_TRUE(find<QRadioButton>("kindEmulated")->isChecked());
+  find<QPushButton>("forgetConnection")->click();
+  EXPECT_TRUE(connectionNames(settings).isEmpty());
+  EXPECT_FALSE(find<QPushButton>("forgetConnection")->isEnabled());
 }
 
 TEST_F(ConnectDialogTest, EscapeCancels) {

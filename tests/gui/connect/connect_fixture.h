@@ -51,6 +51,17 @@ class ConnectDialogTest : public ::testing::Test {
     QApplication::setActiveWindow(dialog_.get());  // without a window manager nobody else does
     return *dialog_;
   }
+  void openWith(QSettings& settings, const Connection& last) {
+    dialog_.reset();
+    dialog_ = std::make_unique<ConnectDialog>(ConnectChoices{.last = last,
+                                                             .scenesFolder = scenesFolder_,
+                                                             .handFolders = handFolders_,
+                                                             .theme = Theme::kDark,
+                                                             .settings = &settings},
+                                              *scan_,
+                                              nullptr);
+    dialog_->show();
+  }
   ConnectDialog& openPorts(const QString& tactile = {}, const QString& motion = {}) {
     open({.kind = Connection::Kind::kPorts, .dsaPort = tactile, .sdhPort = motion});
     return *dialog_;

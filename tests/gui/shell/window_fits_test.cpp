@@ -109,6 +109,24 @@ TEST_F(WindowFitsTest, AllDocksAtOnceAreScrolledNotCut) {
   expectNoFaults("all docks");
 }
 
+TEST_F(WindowFitsTest, AHandBesideManyOpenDocksDoesNotEnlargeTheWindow) {
+  const QSize size(1280, 764);
+  window().resize(size);
+  window().setAnimated(false);
+  open({"rich.dsa"});
+  for (const char* name : {"Spectrum", "Library", "Calibrate", "Slip", "Log", "Inspect"})
+    window().docks().show(name);
+  processAll();
+  connectEmulated();
+  processAll();
+  EXPECT_EQ(window().size(), size);
+  EXPECT_FALSE(find<QDockWidget>("Hand")->visibleRegion().isEmpty()) << "its Stop can be pressed";
+  window().docks().show("Library");
+  processAll();
+  EXPECT_EQ(window().size(), size);
+  EXPECT_FALSE(find<QDockWidget>("Library")->visibleRegion().isEmpty());
+}
+
 TEST_F(WindowFitsTest, TheWindowIsNoLargerThanTheScreen) {
   const QSize screen = QGuiApplication::primaryScreen()->availableSize();
   MainWindow fresh({.dataFolder = folder_.path(),

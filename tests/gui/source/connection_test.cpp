@@ -52,6 +52,27 @@ TEST_F(ConnectionTest, ComesBackFromTheSettingsAsItWas) {
   }
 }
 
+TEST_F(ConnectionTest, SeveralAreKeptUnderTheirNames) {
+  const Connection left = {.kind = Connection::Kind::kPorts, .dsaPort = "a", .sdhPort = "b"};
+  const Connection right = {.kind = Connection::Kind::kReplay, .recording = "/x.palpate"};
+  {
+    QSettings settings(path_, QSettings::IniFormat);
+    EXPECT_TRUE(connectionNames(settings).isEmpty());
+    saveNamedConnection(settings, "left hand", left);
+    saveNamedConnection(settings, "bench 1/2, ü %", right);
+  }
+  QSettings settings(path_, QSettings::IniFormat);
+  EXPECT_EQ(connectionNames(settings), (QStringList{"bench 1/2, ü %", "left hand"}));
+  EXPECT_EQ(namedConnection(settings, "left hand"), left);
+  EXPECT_EQ(namedConnection(settings, "bench 1/2, ü %"), right);
+  EXPECT_EQ(namedConnection(settings, "other"), std::nullopt);
+  EXPECT_EQ(loadConnection(settings), Connection{}) << "the last one is another matter";
+  saveNamedConnection(settings, "left hand", right);
+  EXPECT_EQ(namedConnection(settings, "left hand"), right);
+  removeNamedConnection(settings, "left hand");
+  EXPECT_EQ(connectionNames(settings), QStringList{"bench 1/2, ü %"});
+}
+
 TEST_F(ConnectionTest, TheLastOneCounts) {
   store({.kind = Connection::Kind::kPorts, .dsaPort = "a", .sdhPort = "b"});
   store({.kind = Connection::Kind::kPorts, .dsaPort = "", .sdhPort = "b"});

@@ -402,6 +402,43 @@ TEST_F(EventsWindowTest, NothingIsCroppedOntoItself) {
             window().state().displayed.unfilteredRecording()->profile.numFrames());
 }
 
+TEST_F(EventsWindowTest, TheWholeRecordingIsSavedAsAnotherWithItsLabels) {
+  playback().seekSeconds(2.0);
+  press(Qt::Key_B, Qt::ControlModifier);
+  QString suggested, filter;
+  QString chosen = QString::fromStdString((folder_ / "copy").string());
+  window_->state().prompts.newFile =
+      [&](const QString&, const QString& suggestion, const QString& formats) {
+        suggested = suggestion;
+        filter = formats;
+        return chosen;
+      };
+  QAction* saveAs = window().state().actions.at("saveAs");
+  ASSERT_TRUE(saveAs->isEnabled());
+  saveAs->trigger();
+  window().settle();
+  EXPECT_TRUE(suggested.endsWith("grasps_copy.palpate")) << suggested.toStdString();
+  for (const RecordingForm& form : recordingForms())
+    EXPECT_TRUE(filter.contains(form.ending)) << form.ending;
+  const Profile copy = openRecording(folder_ / "copy.palpate");
+  const Profile all = openRecording(path_);
+  ASSERT_EQ(copy.numFrames(), all.numFrames());
+  for (std::size_t i = 0; i < all.numFrames(); i += 50)
+    ASSERT_EQ(copy.frame(i).values, all.frame(i).values);
+  ASSERT_EQ(readEvents(folder_ / "copy.palpate").events.size(), 1U);
+  EXPECT_TRUE(readEvents(path_).events.empty()) << "the original stays as it was";
+  EXPECT_FALSE(window().state().actions.at("saveEvents")->isEnabled())
+      << "nothing is left that was not saved";
+  chosen = QString::fromStdString((folder_ / "copy.h5").string());
+  saveAs->trigger();
+  window().settle();
+  EXPECT_EQ(openRecording(folder_ / "copy.h5").numFrames(), all.numFrames());
+  chosen = QString::fromStdString((folder_ / "copy.docx").string());
+  saveAs->trigger();
+  window().settle();
+  EXPECT_TRUE(bannerText().contains(".docx")) << bannerText().toStdString();
+}
+
 TEST_F(EventsWindowTest, TheLabelsOfAPartGoWithIt) {
   playback().seekSeconds(2.0);
   press(Qt::Key_B, Qt::ControlModifier);

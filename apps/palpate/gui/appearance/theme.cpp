@@ -27,7 +27,8 @@ QPalette paletteOf(Theme theme) {
   palette.setColor(QPalette::HighlightedText, theme == Theme::kDark ? colors.window : Qt::white);
   palette.setColor(QPalette::Mid, colors.border);
   palette.setColor(QPalette::Dark, colors.border);
-  for (const auto role : {QPalette::WindowText, QPalette::Text, QPalette::ButtonText}) {
+  for (const auto role :
+       {QPalette::WindowText, QPalette::Text, QPalette::ButtonText, QPalette::PlaceholderText}) {
     QColor faded = colors.muted;
     faded.setAlphaF(0.55F);
     palette.setColor(QPalette::Disabled, role, faded);

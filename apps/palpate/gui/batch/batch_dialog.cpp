@@ -25,6 +25,7 @@
 
 #include "gui/batch/batch_fields.h"
 #include "gui/batch/batch_results.h"
+#include "gui/widgets/dialog_properties.h"
 
 namespace palpate::gui {
 namespace {
@@ -80,6 +81,7 @@ BatchDialog::BatchDialog(QSettings& settings, BatchController& controller, QWidg
   setWindowTitle("Batch");
   setObjectName("batchDialog");
   setStyleSheet(kBatchStyle);
+  setProperty(kWantsStopProperty, true);
   setAcceptDrops(true);
   setSizeGripEnabled(true);
   askForFiles = [this] {
@@ -301,6 +303,7 @@ void BatchDialog::connectFields() {
 void BatchDialog::connectController() {
   connect(&controller_, &BatchController::started, this, [this] {
     bar_->setValue(0);
+    results_->begin();
     showState();
     say("Reading the folders …", false);
   });
@@ -318,6 +321,7 @@ void BatchDialog::connectController() {
   connect(&controller_, &BatchController::finished, this, [this] {
     const QString text = said_->text();
     const bool isProblem = said_->property("problem").toBool();
+    results_->show(controller_.outcome());
     showState();
     say(text, isProblem);
   });

@@ -7,6 +7,12 @@
 #include "gui/widgets/opening_strip.h"
 
 namespace palpate::gui {
+namespace {
+
+// Topic of the message that stays until the failures were seen.
+constexpr const char* kBatchFailures = "batch failures";
+
+}  // namespace
 
 BatchFeature::BatchFeature(WindowState& windowState, QWidget* window)
     : Feature(windowState, window),
@@ -14,7 +20,10 @@ BatchFeature::BatchFeature(WindowState& windowState, QWidget* window)
       strip_(new OpeningStrip(window, "Running a", "batch")) {
   batch_->setToolTip("Make a file of each of many recordings: convert, signals, slip, features");
   on(batch_, [this] { showDialog(); });
-  connect(&controller_, &BatchController::started, strip_, [this] { strip_->begin("batch"); });
+  connect(&controller_, &BatchController::started, strip_, [this] {
+    strip_->begin("batch");
+    state().messages.withdraw(kBatchFailures);
+  });
   connect(&controller_, &BatchController::progressed, strip_, [this](const BatchStatus& status) {
     strip_->setProgress(status.fraction);
   });
@@ -52,6 +61,7 @@ void BatchFeature::showDialog() {
     };
   }
   if (!controller_.busy()) begin();
+  state().messages.withdraw(kBatchFailures);
   dialog_->show();
   dialog_->raise();
   dialog_->activateWindow();
@@ -76,7 +86,7 @@ void BatchFeature::report() {
   // What failed stays in the banner until it is closed, unless the dialog shows it.
   const bool bad = report.status.failed + report.status.inPart > 0;
   if (bad && !(dialog_ && dialog_->isVisible()))
-    state().messages.fail(text + "; File > Batch has what failed and why");
+    state().messages.failAbout(kBatchFailures, text + "; File > Batch has what failed and why");
   else
     state().messages.flash(text);
 }

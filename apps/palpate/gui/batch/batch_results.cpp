@@ -159,7 +159,13 @@ BatchResults::BatchResults(QWidget* parent)
   fill();
 }
 
+void BatchResults::begin() {
+  running_ = true;
+  fill();
+}
+
 void BatchResults::show(const std::shared_ptr<const BatchOutcome>& outcome) {
+  running_ = false;
   outcome_ = outcome;
   fill();
 }
@@ -170,6 +176,9 @@ void BatchResults::fill() {
   const bool some = outcome_ != nullptr;
   copy_->setEnabled(some && model_->rowCount() > 0);
   save_->setEnabled(some);
+  if (running_)
+    return summary_->setText(some ? "A batch is running. The table shows the one before."
+                                  : "A batch is running.");
   if (!some) return summary_->setText("No batch has run yet.");
   QString text =
       (outcome_->report.cancelled ? "Cancelled: " : "") + countsText(outcome_->report.status) + ".";

@@ -39,6 +39,8 @@ class BatchResults : public QWidget {
   Q_OBJECT
  public:
   explicit BatchResults(QWidget* parent = nullptr);
+  // A batch begins: the table keeps what the one before has made, and says so.
+  void begin();
   void show(const std::shared_ptr<const BatchOutcome>& outcome);
   // Copies the selected rows, or all when none is selected, for a spreadsheet.
   void copyRows();
@@ -58,6 +60,7 @@ class BatchResults : public QWidget {
   void fill();
 
   std::shared_ptr<const BatchOutcome> outcome_;
+  bool running_ = false;
   BatchResultsModel* model_;
   QLabel* summary_;
   QTableView* table_;

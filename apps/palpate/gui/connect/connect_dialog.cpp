@@ -4,12 +4,14 @@
 #include <QComboBox>
 #include <QFrame>
 #include <QHBoxLayout>
+#include <QInputDialog>
 #include <QLabel>
 #include <QPushButton>
 #include <QRadioButton>
 #include <QShowEvent>
 #include <QStackedWidget>
 #include <QVBoxLayout>
+#include <algorithm>
 
 #include "gui/connect/ports_page.h"
 #include "gui/connect/replay_page.h"
@@ -57,17 +59,13 @@ ConnectDialog::ConnectDialog(const ConnectChoices& choices, PortScan& scan, QWid
       scan_(scan),
       last_(choices.last),
       theme_(choices.theme),
+      settings_(choices.settings),
       kind_(choices.last.kind) {
   setWindowTitle("Connect");
   ports_ = new PortsPage(scan, theme_, this);
   stream_ = new StreamPage(choices.handFolders, scan, theme_, this);
   scenes_ = new ScenePage(choices.scenesFolder, theme_, this);
   replay_ = new ReplayPage(choices.recentRecordings, theme_, this);
-  ports_->setPorts(last_.dsaPort, last_.sdhPort);
-  stream_->setStream(last_.stream);
-  scenes_->setScene(last_.scene);
-  scenes_->setRunsScript(last_.sceneScriptRuns);
-  replay_->setRecording(last_.recording);
   pages_ = new QStackedWidget(this);
   for (const Connection::Kind kind : kAllConnectionKinds)
     pages_->addWidget(kind == Connection::Kind::kPorts      ? static_cast<QWidget*>(ports_)
@@ -90,7 +88,14 @@ ConnectDialog::ConnectDialog(const ConnectChoices& choices, PortScan& scan, QWid
   connect(stream_, &StreamPage::changed, this, &ConnectDialog::refresh);
   connect(scenes_, &ScenePage::changed, this, &ConnectDialog::refresh);
   connect(replay_, &ReplayPage::changed, this, &ConnectDialog::refresh);
-  kinds_[connectDialogIndexOf(kind_)]->setChecked(true);
+  askForName = [this](const QString& suggestion) {
+    return QInputDialog::getText(this,
+                                 "Save the connection",
+                                 "Name; one of the same name is replaced",
+                                 QLineEdit::Normal,
+                                 suggestion);
+  };
+  fill(last_);
   pages_->setCurrentIndex(static_cast<int>(connectDialogIndexOf(kind_)));
   refresh();
   resize(kConnectDialogUsualSize);
@@ -132,12 +137,79 @@ QWidget* ConnectDialog::makeKinds() {
     kinds_[connectDialogIndexOf(kind)] = button;
   }
   column->addStretch(1);
+  if (settings_) column->addWidget(makeSaved());
   auto* calm = new QLabel("Connecting never moves the hand.", side);
   calm->setObjectName("connectIsCalm");
   calm->setWordWrap(true);
   calm->setProperty("role", "muted");
   column->addWidget(calm);
   return side;
+}
+
+QWidget* ConnectDialog::makeSaved() {
+  auto* part = new QWidget(this);
+  auto* column = new QVBoxLayout(part);
+  column->setContentsMargins(0, 0, 0, 10);
+  auto* title = new QLabel("Sa&ved connections", part);
+  saved_ = new QComboBox(part);
+  saved_->setObjectName("savedConnections");
+  saved_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
+  saved_->setToolTip("A connection that was saved under a name; choosing it fills the fields");
+  title->setBuddy(saved_);
+  auto* save = new QPushButton("Save &under…", part);
+  save->setObjectName("saveConnection");
+  save->setAutoDefault(false);
+  save->setToolTip("Save what is chosen here under a name");
+  forget_ = new QPushButton("Forget", part);
+  forget_->setObjectName("forgetConnection");
+  forget_->setAutoDefault(false);
+  auto* buttons = new QHBoxLayout;
+  buttons->addWidget(save);
+  buttons->addWidget(forget_);
+  buttons->addStretch(1);
+  column->addWidget(title);
+  column->addWidget(saved_);
+  column->addLayout(buttons);
+  listSaved({});
+  connect(saved_, &QComboBox::activated, this, [this] {
+    const QString name = saved_->currentData().toString();
+    forget_->setEnabled(!name.isEmpty());
+    if (const auto connection = namedConnection(*settings_, name)) fill(*connection);
+  });
+  connect(save, &QPushButton::clicked, this, &ConnectDialog::saveUnderName);
+  connect(forget_, &QPushButton::clicked, this, [this] {
+    removeNamedConnection(*settings_, saved_->currentData().toString());
+    listSaved({});
+  });
+  return part;
+}
+
+void ConnectDialog::listSaved(const QString& chosen) {
+  saved_->clear();
+  const QStringList names = connectionNames(*settings_);
+  saved_->addItem(names.isEmpty() ? "none yet" : "choose one", QString());
+  for (const QString& name : names) saved_->addItem(name, name);
+  saved_->setCurrentIndex(std::max(0, saved_->findData(chosen)));
+  saved_->setEnabled(!names.isEmpty());
+  forget_->setEnabled(saved_->currentIndex() > 0);
+}
+
+void ConnectDialog::saveUnderName() {
+  const QString now = saved_->currentData().toString();
+  const QString name = askForName(now.isEmpty() ? describe(connection()) : now).trimmed();
+  if (name.isEmpty()) return;
+  saveNamedConnection(*settings_, name, connection());
+  listSaved(name);
+}
+
+void ConnectDialog::fill(const Connection& connection) {
+  ports_->setPorts(connection.dsaPort, connection.sdhPort);
+  stream_->setStream(connection.stream);
+  scenes_->setScene(connection.scene);
+  scenes_->setRunsScript(connection.sceneScriptRuns);
+  replay_->setRecording(connection.recording);
+  kinds_[connectDialogIndexOf(connection.kind)]->setChecked(true);
+  refresh();
 }
 
 QWidget* ConnectDialog::makeFoot() {

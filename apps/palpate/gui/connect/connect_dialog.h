@@ -3,15 +3,18 @@
 #pragma once
 
 #include <QDialog>
+#include <QSettings>
 #include <QStringList>
 #include <array>
 #include <filesystem>
+#include <functional>
 #include <vector>
 
 #include "gui/appearance/theme.h"
 #include "gui/connect/port_scan.h"
 #include "gui/source/connection.h"
 
+class QComboBox;
 class QLabel;
 class QPushButton;
 class QRadioButton;
@@ -36,6 +39,9 @@ struct ConnectChoices {
   // Paths, newest first.
   QStringList recentRecordings = {};
   Theme theme = Theme::kDark;
+  // Stores connections that are saved under a name; null: none can be saved. It must outlive the
+  // dialog.
+  QSettings* settings = nullptr;
 };
 
 class ConnectDialog : public QDialog {
@@ -50,6 +56,8 @@ class ConnectDialog : public QDialog {
   Connection connection() const;
   // Why the chosen connection cannot be tried, in one line; empty when it can.
   QString problem() const;
+  // Asks for the name of the shown connection; empty: cancelled.
+  std::function<QString(const QString& suggestion)> askForName;
 
   void done(int result) override;
 
@@ -58,18 +66,26 @@ class ConnectDialog : public QDialog {
 
  private:
   QWidget* makeKinds();
+  QWidget* makeSaved();
   QWidget* makeFoot();
+  // Fills all fields.
+  void fill(const Connection& connection);
+  void listSaved(const QString& chosen);
+  void saveUnderName();
   void choose(Connection::Kind kind);
   void refresh();
 
   PortScan& scan_;
   Connection last_;
   Theme theme_;
+  QSettings* settings_;
   Connection::Kind kind_;
   bool looked_ = false;
   bool listed_ = false;
   std::array<QRadioButton*, kAllConnectionKinds.size()> kinds_ = {};
   QStackedWidget* pages_ = nullptr;
+  QComboBox* saved_ = nullptr;
+  QPushButton* forget_ = nullptr;
   PortsPage* ports_ = nullptr;
   StreamPage* stream_ = nullptr;
   ScenePage* scenes_ = nullptr;

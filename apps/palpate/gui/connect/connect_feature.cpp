@@ -77,7 +77,8 @@ void ConnectFeature::addQuestions() {
                           .scenesFolder = scenesFolder(),
                           .handFolders = handFolders(windowState.environment.dataFolder),
                           .recentRecordings = windowState.recent.paths(),
-                          .theme = windowState.appearance.theme()},
+                          .theme = windowState.appearance.theme(),
+                          .settings = &windowState.settings},
                          scan,
                          window());
     if (dialog.exec() != QDialog::Accepted) return std::nullopt;
@@ -146,6 +147,8 @@ void ConnectFeature::fillMenu() {
   };
   const Connection last = loadConnection(windowState.settings);
   if (problemOf(last).isEmpty()) add(menu, "Again: " + describe(last), last);
+  for (const QString& name : connectionNames(windowState.settings))
+    if (const auto saved = namedConnection(windowState.settings, name)) add(menu, name, *saved);
   menu->addAction(actions_.connectHand);
   menu->addSeparator();
   QMenu* scenes = menu->addMenu("&Emulated hand");

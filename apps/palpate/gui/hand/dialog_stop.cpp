@@ -9,6 +9,8 @@
 #include <QMessageBox>
 #include <QPushButton>
 
+#include "gui/widgets/dialog_properties.h"
+
 namespace palpate::gui {
 namespace {
 
@@ -24,8 +26,18 @@ bool DialogStop::eventFilter(QObject* watched, QEvent* event) {
   // Polish comes before the dialogue gets its size, Show each time that it is opened.
   if (event->type() != QEvent::Polish && event->type() != QEvent::Show) return false;
   auto* dialog = qobject_cast<QDialog*>(watched);
-  if (dialog && dialog->isModal()) showIn(*dialog);
+  if (!dialog) return false;
+  if (dialog->isModal())
+    showIn(*dialog);
+  else if (dialog->property(kWantsStopProperty).toBool())
+    follow(*dialog);
   return false;
+}
+
+void DialogStop::follow(QDialog& dialog) {
+  showIn(dialog);
+  disconnect(&stop_, &QAction::enabledChanged, &dialog, nullptr);
+  connect(&stop_, &QAction::enabledChanged, &dialog, [this, &dialog] { showIn(dialog); });
 }
 
 void DialogStop::showIn(QDialog& dialog) {

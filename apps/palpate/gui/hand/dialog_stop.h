@@ -1,4 +1,5 @@
-// While a modal dialogue is open, the window's buttons are dead; so each modal dialogue gets a
+// While a modal dialogue is open, the window's buttons are dead, and a large dialogue may lie over
+// them; so each modal dialogue, and each other one that asks for it (kWantsStopProperty), gets a
 // button Stop of its own as long as a hand is connected that can be moved. (Esc works everywhere.)
 #pragma once
 
@@ -20,6 +21,8 @@ class DialogStop : public QObject {
 
  private:
   void showIn(QDialog& dialog);
+  // A dialogue that isn't modal stays open while a hand is connected or disconnected.
+  void follow(QDialog& dialog);
 
   QAction& stop_;
 };

@@ -2,6 +2,7 @@
 
 #include <QCheckBox>
 #include <QComboBox>
+#include <QDir>
 #include <QDoubleSpinBox>
 #include <QFileDialog>
 #include <QFileInfo>
@@ -262,7 +263,10 @@ QWidget* ImportDialog::makeFoot() {
 
 void ImportDialog::connectFields() {
   const auto changed = [this] { look(); };
-  connect(data_, &QLineEdit::editingFinished, this, changed);
+  connect(data_, &QLineEdit::editingFinished, this, [this] {
+    proposeOut();
+    look();
+  });
   connect(time_, &QLineEdit::editingFinished, this, changed);
   for (QComboBox* box : {hand_, delimiter_, decimal_, header_, timeUnit_})
     connect(box, &QComboBox::currentIndexChanged, this, changed);
@@ -276,9 +280,24 @@ void ImportDialog::connectFields() {
 
 void ImportDialog::setData(const QString& path) {
   data_->setText(path);
-  const QFileInfo file(path);
-  out_->setText(file.path() + "/" + file.completeBaseName() + ".palpate");
+  out_->clear();
+  proposeOut();
   look();
+}
+
+void ImportDialog::proposeOut() {
+  const QFileInfo file(data_->text().trimmed());
+  if (!file.isFile() || (!out_->text().trimmed().isEmpty() && out_->text() != proposed_)) return;
+  proposed_ = file.path() + "/" + file.completeBaseName() + ".palpate";
+  out_->setText(proposed_);
+}
+
+QString ImportDialog::out() const {
+  QString out = out_->text().trimmed();
+  if (out.isEmpty()) return out;
+  if (QFileInfo(out).suffix().isEmpty()) out += ".palpate";
+  // A name without a folder is saved beside the table.
+  return QFileInfo(data_->text().trimmed()).absoluteDir().filePath(out);
 }
 
 void ImportDialog::setHand(const QString& nameOrFolder) {
@@ -333,7 +352,7 @@ ImportRequest ImportDialog::request() const {
   request.mapping.time.rateHz.reset();
   if (rate_->value() > 0.0) request.mapping.time.rateHz = rate_->value();
   fields_->readInto(request.mapping);
-  request.out = out_->text().trimmed();
+  request.out = out();
   request.strict = strict_->isChecked();
   request.replace = replace_->isChecked();
   request.handConnected = handConnected_;
@@ -411,7 +430,7 @@ QString ImportDialog::problem() const {
   if (const QString wrong = fields_->problem(); !wrong.isEmpty()) return wrong;
   if (shown_ != change_) return "reading the file";
   if (!looked_.problem.isEmpty()) return looked_.problem;
-  const QString out = out_->text().trimmed();
+  const QString out = this->out();
   if (out.isEmpty()) return "choose where to save the recording";
   if (!out.endsWith(".palpate", Qt::CaseInsensitive)) return "an import is saved as .palpate";
   const QFileInfo file(out);
@@ -424,7 +443,7 @@ void ImportDialog::showProblem() {
   const QString text = problem();
   problem_->setText(text);
   ok_->setEnabled(text.isEmpty());
-  replace_->setVisible(QFileInfo::exists(out_->text().trimmed()));
+  replace_->setVisible(QFileInfo::exists(out()));
 }
 
 void ImportDialog::accept() {

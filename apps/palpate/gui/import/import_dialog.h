@@ -63,6 +63,10 @@ class ImportDialog : public QDialog {
   void showMapping(const ImportMapping& mapping);
   void usePreset();
   void listPresets(const QString& chosen);
+  // Beside the table, unless a name was typed already.
+  void proposeOut();
+  // Where to save: with folder and ending; empty: nothing was typed.
+  QString out() const;
   void look();
   void take(const ImportLook& look);
   void showColumns(const ImportPreview& preview);
@@ -92,6 +96,7 @@ class ImportDialog : public QDialog {
   QLabel* form_ = nullptr;
   QTableWidget* columns_ = nullptr;
   QLabel* choices_ = nullptr;
+  QString proposed_;
   QLineEdit* out_ = nullptr;
   QCheckBox* strict_ = nullptr;
   QCheckBox* replace_ = nullptr;

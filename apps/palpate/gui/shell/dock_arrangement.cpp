@@ -2,6 +2,7 @@
 
 #include <QAction>
 #include <QChildEvent>
+#include <QLayout>
 #include <QTabBar>
 #include <QTimer>
 #include <algorithm>
@@ -118,6 +119,31 @@ void DockArrangement::setPlace(Kind place) {
     offer.dock->toggleViewAction()->setEnabled(there || offer.everywhere);
     if (offer.everywhere) offer.dock->setVisible(shown[i]);
   }
+  keepWindowSize(leftWhileLive() ? leftWhileLive()->dock : nullptr);
+}
+
+void DockArrangement::keepWindowSize(Dock* inFront) {
+  const QSize most = window_.size();
+  const auto fits = [&] {
+    window_.layout()->invalidate();
+    const QSize least = window_.layout()->minimumSize();
+    return least.width() <= most.width() && least.height() <= most.height();
+  };
+  for (const Qt::DockWidgetArea side :
+       {Qt::LeftDockWidgetArea, Qt::RightDockWidgetArea, Qt::BottomDockWidgetArea}) {
+    if (fits()) break;
+    std::vector<Dock*> docks;
+    for (const DockSpec& offer : offers_)
+      if (!offer.dock->isHidden() && !offer.dock->isFloating() &&
+          window_.dockWidgetArea(offer.dock) == side)
+        docks.push_back(offer.dock);
+    // Docks that are tabs already share one place, and tabifying them again only changes their
+    // order.
+    for (std::size_t i = 1; i < docks.size(); ++i)
+      if (!window_.tabifiedDockWidgets(docks.front()).contains(docks[i]))
+        window_.tabifyDockWidget(docks.front(), docks[i]);
+  }
+  if (inFront && !inFront->isHidden()) inFront->raise();
 }
 
 void DockArrangement::placeDocks() {
@@ -171,6 +197,7 @@ void DockArrangement::reset() {
   if (bottom())
     window_.resizeDocks(
         {bottom()->dock}, {static_cast<int>(window_.height() * kBottomShare)}, Qt::Vertical);
+  keepWindowSize(nullptr);
 }
 
 void DockArrangement::hideAll() {
@@ -230,6 +257,7 @@ void DockArrangement::bringToFront(const DockSpec& offer) {
   offer.dock->show();
   offer.dock->raise();
   offer.dock->toggleViewAction()->setChecked(true);
+  keepWindowSize(offer.dock);
   makeRoomFor(offer, before);
 }
 
@@ -283,6 +311,12 @@ bool DockArrangement::eventFilter(QObject* watched, QEvent* event) {
   if (event->type() == QEvent::ChildAdded && watched == &window_) {
     QObject* child = static_cast<QChildEvent*>(event)->child();
     if (child->isWidgetType()) child->installEventFilter(this);
+  } else if (event->type() == QEvent::Polish) {
+    // Names of many tabs are scrolled: cut to a letter each they could not be told apart.
+    if (auto* bar = qobject_cast<QTabBar*>(watched)) {
+      bar->setElideMode(Qt::ElideNone);
+      bar->setUsesScrollButtons(true);
+    }
   } else if (event->type() == QEvent::Paint) {
     // Qt leaves tab bars without tabs over other widgets: they would draw a line across them, and
     // take their clicks.

@@ -69,6 +69,9 @@ class DockArrangement : public QObject {
   // What the key of a dock does: brings it to the front; closes it if it is there.
   void toggle(const DockSpec& offer);
   void bringToFront(const DockSpec& offer);
+  // Docks above each other become tabs when the window is too small for all of them: Qt would
+  // enlarge it, beyond the screen. `inFront` is the tab to be seen; null: any.
+  void keepWindowSize(Dock* inFront);
   void makeRoomFor(const DockSpec& offer, const Room& before);
   // Gives the room back that makeRoomFor() took, unless the user has changed it since.
   void giveRoomBack(const Dock& dock);

@@ -2,7 +2,6 @@
 
 #include <QApplication>
 #include <QCloseEvent>
-#include <QScreen>
 #include <QStatusBar>
 #include <algorithm>
 
@@ -11,6 +10,7 @@
 #include "gui/settings/settings_feature.h"
 #include "gui/shell/central_widget.h"
 #include "gui/shell/features.h"
+#include "gui/shell/screen_room.h"
 #include "gui/shell/status_report.h"
 #include "gui/widgets/dock.h"
 #include "gui/widgets/message_banner.h"
@@ -34,17 +34,14 @@ ShellActions::ShellActions(ActionRegistry& book) {
 namespace {
 
 constexpr QSize kUsualWindow(1440, 900);
-// Room for the frame and the title bar of the window manager [px].
-constexpr QSize kFrame(4, 36);
 // Below this width of the window [px] buttons have no text.
 constexpr int kCompactBelow = 1340;
 // Below this width the tool bar has no name of the program.
 constexpr int kNarrowBelow = 1120;
 
-// The largest size of a window that lies within the screen.
-QSize sizeOnScreen() {
-  const QScreen* screen = QGuiApplication::primaryScreen();
-  return screen ? screen->availableSize() - kFrame : kUsualWindow;
+QSize firstSize() {
+  const QSize room = roomOnScreen(nullptr);
+  return room.isValid() ? kUsualWindow.boundedTo(room) : kUsualWindow;
 }
 
 }  // namespace
@@ -75,7 +72,7 @@ MainWindow::MainWindow(const WindowEnvironment& environment)
   // Called after the features exist, so that the dock Hand with its Stop learns of a hand before
   // the window changes.
   windowState_->displayed.follow();
-  resize(kUsualWindow.boundedTo(sizeOnScreen()));
+  resize(firstSize());
   restoreGeometry(windowState_->settings.value("window/geometry").toByteArray());
   centre_->begin();
   docks_->begin();

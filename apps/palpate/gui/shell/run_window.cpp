@@ -13,19 +13,18 @@
 #include "gui/open/session_storage.h"
 #include "gui/settings/settings_feature.h"
 #include "gui/shell/main_window.h"
+#include "gui/shell/screen_room.h"
 
 namespace palpate::gui {
 namespace {
 
 // The usual size is larger than a small screen, and part of the window would be out of reach.
 void fitOnScreen(MainWindow& window) {
-  constexpr int kTitleBarHeight = 36;  // [px] of most desktops
   if (window.isMaximized() || window.isFullScreen()) return;
-  const QRect screen = window.screen()->availableGeometry();
-  const QSize fitting = window.size().boundedTo(screen.size() - QSize(0, kTitleBarHeight));
+  const QSize fitting = window.size().boundedTo(roomOnScreen(window.screen()));
   if (fitting == window.size()) return;
   window.resize(fitting);
-  window.move(screen.topLeft());
+  window.move(window.screen()->availableGeometry().topLeft());
 }
 
 }  // namespace

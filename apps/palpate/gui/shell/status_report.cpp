@@ -95,7 +95,8 @@ void StatusReport::reportLive() {
   const LinkHealth& health = live.health();
   const RecorderStatus& recorder = health.recorder;
   Status now;
-  now.lamp = live.stale() || held ? Status::Lamp::kWarning : Status::Lamp::kGood;
+  const bool diskFails = !recorder.writeError.empty() || !recorder.mcapFailure.empty();
+  now.lamp = live.stale() || held || diskFails ? Status::Lamp::kWarning : Status::Lamp::kGood;
   if (live.source() && live.source()->finished())
     now.state = "the replay has ended";
   else if (live.stale())
@@ -107,6 +108,10 @@ void StatusReport::reportLive() {
             : "frames to write: " + QString::number(recorder.frames - recorder.framesOnDisk);
   else
     now.state = "live";
+  if (!recorder.writeError.empty())
+    now.state += " · can't be written: " + QString::fromStdString(recorder.writeError);
+  else if (!recorder.mcapFailure.empty())
+    now.state += " · no MCAP file any more";
   if (windowState_.activeFilters.applied()) now.state += " · filtered";
   if (held) now.state = "on hold (P resumes) · " + now.state;
   now.figures = {

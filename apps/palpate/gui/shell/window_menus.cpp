@@ -70,7 +70,8 @@ void WindowMenus::buildMenuBar(const ActionRegistry& book, const QList<QAction*>
   file->addSeparator();
   file->addActions({at("nextRecording"), at("previousRecording"), at("closeRecording")});
   file->addSeparator();
-  file->addActions({at("saveEvents"), at("importLabels"), at("exportLabels"), at("exportGrasps")});
+  file->addActions(
+      {at("saveEvents"), at("saveAs"), at("importLabels"), at("exportLabels"), at("exportGrasps")});
   file->addSeparator();
   file->addActions({at("exportPicture"), at("exportAgain"), at("copyPicture"), at("copyTable")});
   file->addSeparator();

@@ -1,21 +1,25 @@
 #include "gui/source/connection.h"
 
 #include <QFileInfo>
+#include <QUrl>
 
 namespace palpate::gui {
 namespace {
 
-constexpr const char* kConnectionKind = "connection/kind";
-constexpr const char* kDsaPort = "connection/tactile_port";
-constexpr const char* kSdhPort = "connection/motion_port";
-constexpr const char* kScene = "connection/scene";
-constexpr const char* kSceneActs = "connection/scene_acts";
-constexpr const char* kRecording = "connection/recording";
-constexpr const char* kStreamSource = "connection/stream_source";
-constexpr const char* kStreamHand = "connection/stream_hand";
-constexpr const char* kStreamFormat = "connection/stream_format";
-constexpr const char* kStreamTime = "connection/stream_time";
-constexpr const char* kStreamBaud = "connection/stream_baud";
+// Groups of the settings: the last connection, and those with names.
+constexpr const char* kLastConnection = "connection";
+constexpr const char* kNamedConnections = "connections";
+constexpr const char* kConnectionKind = "kind";
+constexpr const char* kDsaPort = "tactile_port";
+constexpr const char* kSdhPort = "motion_port";
+constexpr const char* kScene = "scene";
+constexpr const char* kSceneActs = "scene_acts";
+constexpr const char* kRecording = "recording";
+constexpr const char* kStreamSource = "stream_source";
+constexpr const char* kStreamHand = "stream_hand";
+constexpr const char* kStreamFormat = "stream_format";
+constexpr const char* kStreamTime = "stream_time";
+constexpr const char* kStreamBaud = "stream_baud";
 // In the order of StreamFormat and StreamTime.
 constexpr std::array kStreamFormats = {"auto", "lines", "json", "binary"};
 constexpr std::array kStreamTimes = {"auto", "none", "s", "ms", "us"};
@@ -23,7 +27,7 @@ constexpr std::array kStreamTimes = {"auto", "none", "s", "ms", "us"};
 // The value whose name is stored; the first one when none is.
 template <class Value, std::size_t kCount>
 Value storedValue(const QSettings& settings,
-                  const char* key,
+                  const QString& key,
                   const std::array<const char*, kCount>& names) {
   const QString name = settings.value(key).toString();
   for (std::size_t i = 0; i < kCount; ++i)
@@ -53,6 +57,47 @@ QString connectionShortName(const QString& port) {
   constexpr int kKept = 13;
   const QString name = port.startsWith('/') ? port.section('/', -1) : port;
   return name.size() <= kLongest ? name : name.left(kKept) + "…" + name.right(kKept);
+}
+
+Connection connectionIn(const QSettings& settings, const QString& group) {
+  const auto at = [&group](const char* key) { return group + "/" + key; };
+  Connection connection;
+  const QString kind = settings.value(at(kConnectionKind)).toString();
+  for (const Connection::Kind each : kAllConnectionKinds)
+    if (connectionKeyOf(each) == kind) connection.kind = each;
+  connection.dsaPort = settings.value(at(kDsaPort)).toString();
+  connection.sdhPort = settings.value(at(kSdhPort)).toString();
+  connection.scene = settings.value(at(kScene), connection.scene).toString();
+  connection.sceneScriptRuns = settings.value(at(kSceneActs), connection.sceneScriptRuns).toBool();
+  connection.recording = settings.value(at(kRecording)).toString();
+  StreamConnection& stream = connection.stream;
+  stream.source = settings.value(at(kStreamSource)).toString();
+  stream.hand = settings.value(at(kStreamHand)).toString();
+  stream.format = storedValue<StreamFormat>(settings, at(kStreamFormat), kStreamFormats);
+  stream.time = storedValue<StreamTime>(settings, at(kStreamTime), kStreamTimes);
+  if (const int baud = settings.value(at(kStreamBaud)).toInt(); baud > 0) stream.baud = baud;
+  return connection;
+}
+
+void storeConnection(const Connection& connection, QSettings& settings, const QString& group) {
+  const auto at = [&group](const char* key) { return group + "/" + key; };
+  settings.setValue(at(kConnectionKind), connectionKeyOf(connection.kind));
+  settings.setValue(at(kDsaPort), connection.dsaPort);
+  settings.setValue(at(kSdhPort), connection.sdhPort);
+  settings.setValue(at(kScene), connection.scene);
+  settings.setValue(at(kSceneActs), connection.sceneScriptRuns);
+  settings.setValue(at(kRecording), connection.recording);
+  const StreamConnection& stream = connection.stream;
+  settings.setValue(at(kStreamSource), stream.source);
+  settings.setValue(at(kStreamHand), stream.hand);
+  settings.setValue(at(kStreamFormat), kStreamFormats[static_cast<std::size_t>(stream.format)]);
+  settings.setValue(at(kStreamTime), kStreamTimes[static_cast<std::size_t>(stream.time)]);
+  settings.setValue(at(kStreamBaud), stream.baud);
+}
+
+// Names of keys must not contain '/'.
+QString connectionGroupOf(const QString& name) {
+  return QString(kNamedConnections) + "/" + QString::fromLatin1(QUrl::toPercentEncoding(name));
 }
 
 }  // namespace
@@ -98,37 +143,34 @@ QString problemOf(const Connection& connection) {
 }
 
 Connection loadConnection(const QSettings& settings) {
-  Connection connection;
-  const QString kind = settings.value(kConnectionKind).toString();
-  for (const Connection::Kind each : kAllConnectionKinds)
-    if (connectionKeyOf(each) == kind) connection.kind = each;
-  connection.dsaPort = settings.value(kDsaPort).toString();
-  connection.sdhPort = settings.value(kSdhPort).toString();
-  connection.scene = settings.value(kScene, connection.scene).toString();
-  connection.sceneScriptRuns = settings.value(kSceneActs, connection.sceneScriptRuns).toBool();
-  connection.recording = settings.value(kRecording).toString();
-  StreamConnection& stream = connection.stream;
-  stream.source = settings.value(kStreamSource).toString();
-  stream.hand = settings.value(kStreamHand).toString();
-  stream.format = storedValue<StreamFormat>(settings, kStreamFormat, kStreamFormats);
-  stream.time = storedValue<StreamTime>(settings, kStreamTime, kStreamTimes);
-  if (const int baud = settings.value(kStreamBaud).toInt(); baud > 0) stream.baud = baud;
-  return connection;
+  return connectionIn(settings, kLastConnection);
 }
 
 void saveConnection(const Connection& connection, QSettings& settings) {
-  settings.setValue(kConnectionKind, connectionKeyOf(connection.kind));
-  settings.setValue(kDsaPort, connection.dsaPort);
-  settings.setValue(kSdhPort, connection.sdhPort);
-  settings.setValue(kScene, connection.scene);
-  settings.setValue(kSceneActs, connection.sceneScriptRuns);
-  settings.setValue(kRecording, connection.recording);
-  const StreamConnection& stream = connection.stream;
-  settings.setValue(kStreamSource, stream.source);
-  settings.setValue(kStreamHand, stream.hand);
-  settings.setValue(kStreamFormat, kStreamFormats[static_cast<std::size_t>(stream.format)]);
-  settings.setValue(kStreamTime, kStreamTimes[static_cast<std::size_t>(stream.time)]);
-  settings.setValue(kStreamBaud, stream.baud);
+  storeConnection(connection, settings, kLastConnection);
+}
+
+QStringList connectionNames(QSettings& settings) {
+  settings.beginGroup(kNamedConnections);
+  const QStringList keys = settings.childGroups();
+  settings.endGroup();
+  QStringList names;
+  for (const QString& key : keys) names << QUrl::fromPercentEncoding(key.toLatin1());
+  names.sort(Qt::CaseInsensitive);
+  return names;
+}
+
+std::optional<Connection> namedConnection(QSettings& settings, const QString& name) {
+  if (!connectionNames(settings).contains(name)) return std::nullopt;
+  return connectionIn(settings, connectionGroupOf(name));
+}
+
+void saveNamedConnection(QSettings& settings, const QString& name, const Connection& connection) {
+  storeConnection(connection, settings, connectionGroupOf(name));
+}
+
+void removeNamedConnection(QSettings& settings, const QString& name) {
+  settings.remove(connectionGroupOf(name));
 }
 
 }  // namespace palpate::gui

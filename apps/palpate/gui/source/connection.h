@@ -4,7 +4,9 @@
 
 #include <QSettings>
 #include <QString>
+#include <QStringList>
 #include <array>
+#include <optional>
 
 #include <palpate/device/stream_device.h>
 
@@ -56,5 +58,14 @@ QString problemOf(const Connection& connection);
 // defaults.
 Connection loadConnection(const QSettings& settings);
 void saveConnection(const Connection& connection, QSettings& settings);
+
+// Connections that the user has saved under a name, in the order of the names. A name is any text
+// but an empty one.
+QStringList connectionNames(QSettings& settings);
+// Nothing: there is none of this name.
+std::optional<Connection> namedConnection(QSettings& settings, const QString& name);
+// Replaces one of the same name.
+void saveNamedConnection(QSettings& settings, const QString& name, const Connection& connection);
+void removeNamedConnection(QSettings& settings, const QString& name);
 
 }  // namespace palpate::gui

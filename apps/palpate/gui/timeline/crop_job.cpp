@@ -2,8 +2,11 @@
 
 #include <QFileDialog>
 #include <QFileInfo>
+#include <QPointer>
 #include <utility>
 
+#include <palpate/batch/export_extras.h>
+#include <palpate/core/error.h>
 #include <palpate/recording/crop.h>
 #include <palpate/recording/recording.h>
 
@@ -15,18 +18,37 @@ namespace {
 
 constexpr const char* kCropFolder = "recent/crop_folder";
 
+// The filter of a file dialogue: each format that a recording can be saved in.
+QString formatFilter() {
+  QStringList formats;
+  for (const RecordingForm& form : recordingForms())
+    formats.append(QString("%1 (*%2)").arg(form.purpose, form.ending));
+  return formats.join(";;");
+}
+
+// Whether a file of this format can be opened as a recording.
+bool canBeOpened(const QString& path) {
+  const RecordingFormat format = formatOf(path.toStdString());
+  return format == RecordingFormat::kPalpate || format == RecordingFormat::kDsa ||
+         format == RecordingFormat::kHdf5 || format == RecordingFormat::kMcap;
+}
+
+// Whether a file of this format holds labels, notes and grasps.
+bool holdsEvents(const QString& path) {
+  const RecordingFormat format = formatOf(path.toStdString());
+  return format != RecordingFormat::kCsv && format != RecordingFormat::kJsonLines;
+}
+
 }  // namespace
 
-CropJob::CropJob(WindowState& windowState, QAction& crop, QWidget* window)
-    : windowState_(windowState), strip_(new OpeningStrip(window, "Cropping", "working")) {
+CropJob::CropJob(WindowState& windowState, QAction& crop, QAction& saveAs, QWidget* window)
+    : windowState_(windowState), strip_(new OpeningStrip(window, "Saving", "working")) {
   windowState.prompts.cropped = [window](const QString& suggestion) {
     return QFileDialog::getSaveFileName(
-        window,
-        "Crop to a new recording",
-        suggestion,
-        "Palpate recording (*.palpate);;DSA recording (*.dsa);;CSV table (*.csv);;NumPy (*.npz)");
+        window, "Crop to a new recording", suggestion, formatFilter());
   };
   connect(&crop, &QAction::triggered, this, &CropJob::cropSelection);
+  connect(&saveAs, &QAction::triggered, this, &CropJob::saveAs);
   connect(&job_, &BackgroundJob::started, strip_, &OpeningStrip::begin);
   connect(&job_, &BackgroundJob::progressed, strip_, &OpeningStrip::setProgress);
   connect(&job_, &BackgroundJob::finished, strip_, &OpeningStrip::end);
@@ -59,35 +81,71 @@ void CropJob::cropSelection() {
   if (path.isEmpty()) return;
   if (QFileInfo(path).suffix().isEmpty()) path += ".palpate";
   windowState_.settings.setValue(kCropFolder, QFileInfo(path).absolutePath());
-  start(path, frames->first, frames->last);
+  start(path, Frames{frames->first, frames->last});
 }
 
-void CropJob::start(const QString& path, std::size_t first, std::size_t last) {
+void CropJob::saveAs() {
+  const OpenedRecordingPtr recording = windowState_.displayed.unfilteredRecording();
+  if (!recording) return;
+  const QFileInfo file(pathText(recording->path));
+  const QString folder = windowState_.settings.value(kCropFolder, file.absolutePath()).toString();
+  // A copy beside the recording gets a name of its own.
+  QString suggestion = folder + "/" + file.completeBaseName() + ".palpate";
+  if (QFileInfo::exists(suggestion))
+    suggestion = folder + "/" + file.completeBaseName() + "_copy.palpate";
+  QString path = windowState_.prompts.newFile("Save the recording as", suggestion, formatFilter());
+  if (path.isEmpty()) return;
+  if (QFileInfo(path).suffix().isEmpty()) path += ".palpate";
+  windowState_.settings.setValue(kCropFolder, QFileInfo(path).absolutePath());
+  start(path, std::nullopt);
+}
+
+void CropJob::start(const QString& path, const std::optional<Frames>& part) {
+  try {
+    formatOf(path.toStdString());
+  } catch (const Error& error) {
+    return windowState_.messages.fail(QString::fromUtf8(error.what()));
+  }
   EventEditor* editor = windowState_.events.editor();
   std::vector<RecordingEvent> noted = editor ? editor->events() : std::vector<RecordingEvent>();
   job_.start(
       path,
       [recording = windowState_.displayed.unfilteredRecording(),
-       first,
-       last,
+       part,
        path,
        noted = std::move(noted)](const Progress& progress) {
         const std::filesystem::path out = path.toStdString();
         requireOther(recording->path, out);
+        const auto save = [&](const Profile& profile,
+                              const std::vector<RecordingEvent>& events,
+                              const Progress& saving) {
+          SaveExtras extras = exportExtras({}, recording->path, out, profile, {});
+          if (part) extras.meta.erase("settings");  // those at the start of the whole recording
+          // The dialogue has already asked whether an existing file may be replaced.
+          saveRecording(profile, events, out, Overwrite::kReplace, saving, extras);
+        };
+        if (!part) return save(recording->profile, noted, progress);
         const auto half = [&](double from) {
           return [&progress, from](double fraction) { return progress(from + 0.5 * fraction); };
         };
-        const Profile part = cropped(recording->profile, first, last, half(0.0));
-        // The dialogue has already asked whether an existing file may be replaced.
-        saveRecording(part, eventsWithin(noted, part), out, Overwrite::kReplace, half(0.5));
+        const Profile selected = cropped(recording->profile, part->first, part->last, half(0.0));
+        save(selected, eventsWithin(noted, selected), half(0.5));
       },
-      [this, path, count = last - first + 1] {
+      [this,
+       path,
+       part,
+       editor = QPointer<EventEditor>(editor),
+       state = editor ? editor->undoStack().index() : 0,
+       count = part ? part->last - part->first + 1
+                    : windowState_.displayed.unfilteredRecording()->profile.numFrames()] {
+        // What was changed meanwhile is not in the copy.
+        if (!part && editor && editor->undoStack().index() == state && holdsEvents(path))
+          editor->undoStack().setClean();
         windowState_.messages.flash("written: " + path + " (" + QString::number(count) +
                                     " frames)");
-        windowState_.recent.add(path);
+        if (canBeOpened(path)) windowState_.recent.add(path);
         emit written(path);
-        const QString ending = QFileInfo(path).suffix().toLower();
-        if (ending == "csv" || ending == "npz") return;
+        if (!canBeOpened(path)) return;
         windowState_.recordings.open({{path.toStdString()}, OpenRequest::Then::kList});
       });
 }

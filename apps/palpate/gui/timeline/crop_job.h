@@ -1,8 +1,9 @@
-// Saves the selected part of a recording as a new recording, in the background.
+// Saves the displayed recording, or its selected part, as a new file, in the background.
 #pragma once
 
 #include <QObject>
 #include <cstddef>
+#include <optional>
 
 #include "gui/source/background_job.h"
 #include "gui/window_state/window_state.h"
@@ -14,11 +15,14 @@ class OpeningStrip;
 class CropJob : public QObject {
   Q_OBJECT
  public:
-  // The window state must outlive this object. `crop` starts the job.
-  CropJob(WindowState& windowState, QAction& crop, QWidget* window);
+  // The window state must outlive this object. `crop` and `saveAs` start the job.
+  CropJob(WindowState& windowState, QAction& crop, QAction& saveAs, QWidget* window);
 
   // Asks where to save the selected part of the displayed recording, and saves it.
   void cropSelection();
+  // Asks where and in which format to save the whole of the displayed recording with its labels,
+  // notes and grasps as they are now, and saves it.
+  void saveAs();
   // Shows the progress above the centre of the window.
   OpeningStrip& strip() noexcept { return *strip_; }
   bool busy() const noexcept { return job_.busy(); }
@@ -27,7 +31,11 @@ class CropJob : public QObject {
   void written(const QString& path);
 
  private:
-  void start(const QString& path, std::size_t first, std::size_t last);
+  struct Frames {
+    std::size_t first = 0, last = 0;  // both are saved
+  };
+  // No frames: the whole recording.
+  void start(const QString& path, const std::optional<Frames>& part);
 
   WindowState& windowState_;
   OpeningStrip* strip_;

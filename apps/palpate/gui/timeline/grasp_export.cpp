@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include <palpate/batch/export_extras.h>
 #include <palpate/batch/grasp_files.h>
 #include <palpate/core/error.h>
 #include <palpate/core/number_text.h>
@@ -87,9 +88,8 @@ void GraspExport::exportEach() {
           throw Error(error.what());
         }
         GraspFilesOptions options;
-        options.extras = [meta = recording->meta](const Profile&, const std::filesystem::path&) {
-          SaveExtras extras;
-          extras.meta = meta;
+        options.extras = [recording](const Profile& grasp, const std::filesystem::path& out) {
+          SaveExtras extras = exportExtras({}, recording->path, out, grasp, {});
           extras.meta.erase("settings");  // those at the start of the whole recording
           return extras;
         };

@@ -22,6 +22,10 @@ TimelineActions::TimelineActions(ActionRegistry& book) {
   selectTo = book.make("selectTo", "Edit", "Selection &ends here", {key("]")});
   selectAll = book.make("selectAll", "Edit", "Select &all of it", {key("Ctrl+A")});
   crop = book.make("crop", "Edit", "&Crop to a new recording…", {key("Ctrl+Shift+X")});
+  saveAs = book.make("saveAs", "File", "Save &as…", {key("Ctrl+Alt+W")});
+  saveAs->setToolTip(
+      "Saves the whole recording with its labels, notes and grasps: as another recording, or in a "
+      "format of other programs");
   zoomSelection = book.make("zoomSelection", "Edit", "&Zoom to the selection", {key("Z")});
   dropSelection = book.make("dropSelection", "Edit", "Select n&othing", {key("Ctrl+Shift+Space")});
   statistics =

@@ -27,6 +27,7 @@ struct TimelineActions {
   QAction* selectTo = nullptr;
   QAction* selectAll = nullptr;
   QAction* crop = nullptr;
+  QAction* saveAs = nullptr;
   QAction* zoomSelection = nullptr;
   QAction* dropSelection = nullptr;
   // Statistics of the curves over the selection.

@@ -44,7 +44,7 @@ TimelineFeature::TimelineFeature(WindowState& windowState, QWidget* window)
   charts_->addWidget(panel_);
   charts_->addWidget(liveChart_);
   dock_ = new Dock("Timeline", charts_, header_, window);
-  crop_ = std::make_unique<CropJob>(windowState, *actions_.crop, window);
+  crop_ = std::make_unique<CropJob>(windowState, *actions_.crop, *actions_.saveAs, window);
   windowState.prompts.text = [window](const QString& title,
                                       const QString& text) -> std::optional<QString> {
     bool good = false;
@@ -229,7 +229,11 @@ void TimelineFeature::connectActions() {
   const auto frames = [this] { return state().displayed.hasFrames(); };
   actionEnabler.add({actions.zoomIn, actions.zoomOut, actions.fit},
                     [this, frames] { return frames() || state().displayed.isLive(); });
-  actionEnabler.add({actions.selectFrom, actions.selectTo, actions.selectAll, actions.chooseCurves},
+  actionEnabler.add({actions.selectFrom,
+                     actions.selectTo,
+                     actions.selectAll,
+                     actions.chooseCurves,
+                     actions.saveAs},
                     frames);
   actionEnabler.add(
       {actions.crop, actions.zoomSelection, actions.dropSelection, actions.statistics},

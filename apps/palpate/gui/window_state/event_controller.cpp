@@ -178,7 +178,8 @@ bool EventController::save(const OpenedRecordingPtr& recording) {
     editors_.at(recording.get())->save();
     return true;
   } catch (const std::exception& error) {
-    messages_.fail("Labels, notes and grasps were not saved: " + QString::fromUtf8(error.what()));
+    messages_.fail("Labels, notes and grasps were not saved: " + QString::fromUtf8(error.what()) +
+                   "; File > Save as… saves the recording with them under another name");
     return false;
   }
 }
