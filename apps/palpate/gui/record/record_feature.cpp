@@ -1,5 +1,7 @@
 #include "gui/record/record_feature.h"
 
+#include <QMessageBox>
+#include <QPushButton>
 #include <QTimer>
 #include <string_view>
 
@@ -7,6 +9,7 @@
 
 #include "gui/appearance/captions.h"
 #include "gui/appearance/icons.h"
+#include "gui/record/countdown_strip.h"
 #include "gui/record/recording_dialog.h"
 #include "gui/widgets/offer_strip.h"
 
@@ -23,6 +26,10 @@ RecordActions::RecordActions(ActionRegistry& book) {
       book.make("recordingSettings", "Hand", "Recording &names and marks…", {key("Ctrl+N")});
   openRecorded =
       book.make("openRecorded", "Hand", "&Open the last recording", {key("Ctrl+Shift+O")});
+  renameRecorded =
+      book.make("renameRecorded", "Hand", "Rename the last recordin&g…", {key("Ctrl+Alt+N")});
+  discardRecorded =
+      book.make("discardRecorded", "Hand", "Discard the last recording…", {key("Ctrl+Alt+D")});
   mark = book.make("mark", "Hand", "&Mark the moment", {key("Space")});
   for (int digit = 0; digit < kDigits; ++digit)
     labels.append(book.add("labels",
@@ -99,6 +106,8 @@ RecordFeature::RecordFeature(WindowState& windowState, QWidget* window)
     : Feature(windowState, window),
       actions_(windowState.actions),
       offer_(new OfferStrip(window)),
+      take_(windowState),
+      countdownStrip_(new CountdownStrip(window)),
       unfinished_(windowState.settings) {
   windowState.prompts.recording = [window](
                                       const RecordingSettings& last,
@@ -107,7 +116,16 @@ RecordFeature::RecordFeature(WindowState& windowState, QWidget* window)
     if (dialog.exec() != QDialog::Accepted) return std::nullopt;
     return dialog.settings();
   };
+  windowState.prompts.confirmed = [window](const QString& text, const QString& button) {
+    QMessageBox box(QMessageBox::Question, "Palpate", text, QMessageBox::Cancel, window);
+    const QPushButton* yes = box.addButton(button, QMessageBox::DestructiveRole);
+    box.setDefaultButton(QMessageBox::Cancel);
+    box.exec();
+    return box.clickedButton() == yes;
+  };
   connectActions();
+  connectTake();
+  connectCountdown();
   connectRecorder();
   connectUnfinished();
   use(loadRecordingSettings(windowState.settings));
@@ -130,8 +148,11 @@ void RecordFeature::connectActions() {
     takeFolder();
     if (const auto wanted = state().prompts.recording(settings_, "Keep")) use(*wanted);
   });
-  actions.openRecorded->setEnabled(false);
-  on(actions.openRecorded, [this] { state().open(lastRecorded_); });
+  for (QAction* action : {actions.openRecorded, actions.renameRecorded, actions.discardRecorded})
+    action->setEnabled(false);
+  on(actions.openRecorded, [this] { state().open(take_.paths()); });
+  on(actions.renameRecorded, [this] { take_.rename(); });
+  on(actions.discardRecorded, [this] { take_.discard(); });
   on(actions.mark, [this] { mark({}, std::nullopt); });
   for (qsizetype digit = 0; digit < actions.labels.size(); ++digit)
     on(actions.labels[digit], [this, digit] {
@@ -144,6 +165,43 @@ void RecordFeature::connectActions() {
   // playback.
   state().actionEnabler.add(actions.labels + QList<QAction*>{actions.mark},
                             [this] { return state().displayed.isLive(); });
+}
+
+void RecordFeature::connectTake() {
+  connect(&take_, &RecordedTake::changed, this, [this] {
+    const bool some = !take_.paths().empty();
+    for (QAction* action :
+         {actions_.openRecorded, actions_.renameRecorded, actions_.discardRecorded})
+      action->setEnabled(some);
+  });
+  connect(&take_,
+          &RecordedTake::renamed,
+          this,
+          [this](const std::filesystem::path&, const std::filesystem::path& to) {
+            offerTake("Renamed: " + QString::fromStdString(to.filename().string()));
+          });
+  connect(&take_, &RecordedTake::discarded, this, [this] { offer_->dismiss(); });
+}
+
+void RecordFeature::connectCountdown() {
+  connect(&countdown_, &RecordingCountdown::changed, this, &RecordFeature::showCountdown);
+  connect(
+      countdownStrip_, &CountdownStrip::cancelRequested, &countdown_, &RecordingCountdown::cancel);
+  // One press of Escape stops the hand and cancels the countdown, whatever the hand does.
+  connect(&state().handCommands, &HandCommands::stopped, this, [this] {
+    if (countdown_.cancel()) escaped_.start();
+  });
+  state().escapeHandler.add(EscapeHandler::Order::kShow, [this] {
+    if (countdown_.cancel()) return true;
+    constexpr qint64 kSamePressMs = 200;
+    const bool same = escaped_.isValid() && escaped_.elapsed() < kSamePressMs;
+    escaped_.invalidate();
+    return same;
+  });
+  // Something else started a recording, or the hand was disconnected.
+  connect(&state().live, &LiveController::stateChanged, this, [this] {
+    if (!state().live.source() || state().live.recording()) countdown_.cancel();
+  });
 }
 
 void RecordFeature::connectRecorder() {
@@ -238,16 +296,32 @@ void RecordFeature::takeFolder() {
 void RecordFeature::toggle() {
   LiveController& live = state().live;
   if (live.recording()) return live.stopRecording();
+  if (countdown_.cancel()) return;
   takeFolder();
   if (settings_.askEachTime) {
     const auto wanted = state().prompts.recording(settings_, "Start recording");
     if (!wanted) return;
     use(*wanted);
   }
+  if (settings_.countdownS > 0)
+    countdown_.start(settings_.countdownS, [this] { begin(); });
+  else
+    begin();
+}
+
+void RecordFeature::begin() {
+  LiveController& live = state().live;
+  if (!live.source() || live.recording()) return;
   offer_->dismiss();
   live.startRecording([settings = settings_] {
     return recordingOptions(settings, nextPath(settings, systemClock().wallUs()));
   });
+  // Notes are about one recording.
+  if (!settings_.notes.isEmpty()) {
+    RecordingSettings next = settings_;
+    next.notes.clear();
+    use(next);
+  }
   showState();
 }
 
@@ -258,10 +332,17 @@ void RecordFeature::mark(const QString& label, std::optional<int> digit) {
                          (live.recording() ? "" : " (nothing is being recorded)"));
 }
 
+void RecordFeature::showCountdown() {
+  countdownStrip_->show(countdown_.leftS());
+  if (countdown_.running()) offer_->dismiss();
+  showState();
+}
+
 // Shows the duration of the recording and the amount on disk on the button.
 void RecordFeature::showState() {
   QAction* action = actions_.record;
-  const bool on = state().live.source() && state().live.recording();
+  const bool counting = countdown_.running();
+  const bool on = counting || (state().live.source() && state().live.recording());
   if (on != action->property(kRecordingProperty).toBool() || action->icon().isNull()) {
     action->setProperty(kRecordingProperty, on);
     action->setIcon(
@@ -271,11 +352,15 @@ void RecordFeature::showState() {
                           : "Start recording, with the last two seconds (Ctrl+R)");
   }
   QString text = " Record";
-  if (on) {
+  if (counting) {
+    text = " in " + QString::number(countdown_.leftS()) + " s";
+  } else if (on) {
     const RecorderStatus& recorder = state().live.health().recorder;
+    const QString end = recorder.stopAfterS ? " of " + clockText(*recorder.stopAfterS) : QString();
     text = recorder.state == RecorderStatus::State::kRecording
-               ? " " + clockText(recorder.elapsedS) + " · " + megabytes(recorder.bytesOnDisk)
-               : QString(" waiting for a frame");
+               ? " " + clockText(recorder.elapsedS) + end + " · " + megabytes(recorder.bytesOnDisk)
+           : recorder.state == RecorderStatus::State::kArmed ? QString(" waiting for contact")
+                                                             : QString(" waiting for a frame");
   }
   if (action->iconText() != text) action->setIconText(text);
 }
@@ -290,17 +375,25 @@ void RecordFeature::offer(const RecordingReport& report) {
     messages.logLink("nothing was recorded: " + why);
     return;
   }
-  lastRecorded_ = report.paths;
-  actions_.openRecorded->setEnabled(true);
+  take_.set(report.paths);
   const QString summary = summaryOf(report);
   messages.logLink("recorded " + summary);
   if (!report.complete)
     messages.fail(QString::fromStdString(report.paths.front().filename().string()) +
                   ": something is missing: " + QString::fromStdString(report.message));
-  if (!offering_) return;
-  offer_->offer("Recorded " + summary, "Open", [this] { state().open(lastRecorded_); });
+  offerTake("Recorded " + summary);
 }
 
-std::vector<BannerSpec> RecordFeature::strips() { return {{BannerSpec::Order::kOffer, offer_}}; }
+void RecordFeature::offerTake(const QString& text) {
+  if (!offering_) return;
+  offer_->offer(text, "Open", [this] { state().open(take_.paths()); });
+  offer_->offerAlso("Rename…", "Another name, with what belongs to it", [this] { take_.rename(); });
+  offer_->offerAlso(
+      "Discard…", "Moves it to the trash, after a question", [this] { take_.discard(); });
+}
+
+std::vector<BannerSpec> RecordFeature::strips() {
+  return {{BannerSpec::Order::kOffer, countdownStrip_}, {BannerSpec::Order::kOffer, offer_}};
+}
 
 }  // namespace palpate::gui

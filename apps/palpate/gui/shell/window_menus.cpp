@@ -141,7 +141,11 @@ void WindowMenus::buildMenuBar(const ActionRegistry& book, const QList<QAction*>
   hand->addSeparator();
   hand->addActions({at("live"), at("hold")});
   hand->addSeparator();
-  hand->addActions({at("record"), at("recordingSettings"), at("openRecorded")});
+  hand->addActions({at("record"),
+                    at("recordingSettings"),
+                    at("openRecorded"),
+                    at("renameRecorded"),
+                    at("discardRecorded")});
   QMenu* marks = hand->addMenu("Mar&ks");
   marks->addAction(at("mark"));
   marks->addActions(book.all("labels"));
