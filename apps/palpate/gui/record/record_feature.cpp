@@ -10,6 +10,7 @@
 #include "gui/appearance/captions.h"
 #include "gui/appearance/icons.h"
 #include "gui/record/countdown_strip.h"
+#include "gui/record/plan_dialog.h"
 #include "gui/record/recording_dialog.h"
 #include "gui/widgets/offer_strip.h"
 
@@ -26,6 +27,7 @@ RecordActions::RecordActions(ActionRegistry& book) {
       book.make("recordingSettings", "Hand", "Recording &names and marks…", {key("Ctrl+N")});
   openRecorded =
       book.make("openRecorded", "Hand", "&Open the last recording", {key("Ctrl+Shift+O")});
+  recordingPlan = book.make("recordingPlan", "Hand", "Record&ing plan…", {key("Ctrl+Alt+P")});
   renameRecorded =
       book.make("renameRecorded", "Hand", "Rename the last recordin&g…", {key("Ctrl+Alt+N")});
   discardRecorded =
@@ -106,6 +108,7 @@ RecordFeature::RecordFeature(WindowState& windowState, QWidget* window)
     : Feature(windowState, window),
       actions_(windowState.actions),
       offer_(new OfferStrip(window)),
+      plan_(windowState.settings),
       take_(windowState),
       countdownStrip_(new CountdownStrip(window)),
       unfinished_(windowState.settings) {
@@ -126,6 +129,7 @@ RecordFeature::RecordFeature(WindowState& windowState, QWidget* window)
   connectActions();
   connectTake();
   connectCountdown();
+  connectPlan();
   connectRecorder();
   connectUnfinished();
   use(loadRecordingSettings(windowState.settings));
@@ -139,6 +143,11 @@ RecordFeature::RecordFeature(WindowState& windowState, QWidget* window)
     actions_.record->setIcon({});
     showState();
   });
+}
+
+RecordFeature::~RecordFeature() {
+  // The dialog refers to the plan.
+  delete planDialog_;
 }
 
 void RecordFeature::connectActions() {
@@ -177,11 +186,48 @@ void RecordFeature::connectTake() {
   connect(&take_,
           &RecordedTake::renamed,
           this,
-          [this](const std::filesystem::path&, const std::filesystem::path& to) {
+          [this](const std::filesystem::path& from, const std::filesystem::path& to) {
+            plan_.rename(from, to);
             offerTake("Renamed: " + QString::fromStdString(to.filename().string()));
           });
-  connect(&take_, &RecordedTake::discarded, this, [this] { offer_->dismiss(); });
+  connect(&take_, &RecordedTake::discarded, this, [this](const std::filesystem::path& path) {
+    plan_.forget(path);
+    offer_->dismiss();
+  });
 }
+
+void RecordFeature::connectPlan() {
+  on(actions_.recordingPlan, [this] { showPlan(); });
+  connect(&plan_,
+          &PlanController::checked,
+          this,
+          [this](const std::filesystem::path& file, const QString& problem) {
+            if (problem.isEmpty() || !offering_) return;
+            const QString name = QString::fromStdString(file.filename().string());
+            state().messages.logLink(name + ": " + problem);
+            offer_->offer(name + ": " + problem + ". Repeat it?", "Repeat", [this, file] {
+              plan_.reject(file);
+              state().messages.flash(plan_.nextText());
+            });
+            offer_->offerAlso("Keep", "It counts as it is", [this] { offer_->dismiss(); });
+            offer_->offerAlso("Discard…",
+                              "Moves it to the trash, after a question, and repeats it",
+                              [this] { take_.discard(); });
+          });
+}
+
+void RecordFeature::showPlan() {
+  if (!planDialog_) planDialog_ = new PlanDialog(state(), plan_, actions_.record, window());
+  planDialog_->show();
+  planDialog_->raise();
+  planDialog_->activateWindow();
+}
+
+void RecordFeature::remember() {
+  if (planDialog_) planDialog_->hide();
+}
+
+void RecordFeature::settle() { plan_.settle(); }
 
 void RecordFeature::connectCountdown() {
   connect(&countdown_, &RecordingCountdown::changed, this, &RecordFeature::showCountdown);
@@ -214,6 +260,7 @@ void RecordFeature::connectRecorder() {
   connect(&live, &LiveController::recordingFailed, this, [this](const QString& message) {
     state().messages.failAbout(kRecordingTopic, "Not recording: " + message);
     state().messages.logLink("not recording: " + message);
+    plan_.end({});
     showState();
   });
   connect(&live, &LiveController::recordingEnded, this, &RecordFeature::offer);
@@ -298,22 +345,30 @@ void RecordFeature::toggle() {
   if (live.recording()) return live.stopRecording();
   if (countdown_.cancel()) return;
   takeFolder();
-  if (settings_.askEachTime) {
+  const auto planned = plan_.nextSettings(settings_);
+  if (!planned && settings_.askEachTime) {
     const auto wanted = state().prompts.recording(settings_, "Start recording");
     if (!wanted) return;
     use(*wanted);
   }
-  if (settings_.countdownS > 0)
-    countdown_.start(settings_.countdownS, [this] { begin(); });
+  const RecordingSettings next = planned.value_or(settings_);
+  const bool isPlanned = planned.has_value();
+  if (next.countdownS > 0)
+    countdown_.start(next.countdownS, [this, next, isPlanned] { begin(next, isPlanned); });
   else
-    begin();
+    begin(next, isPlanned);
 }
 
-void RecordFeature::begin() {
+void RecordFeature::begin(const RecordingSettings& settings, bool planned) {
   LiveController& live = state().live;
   if (!live.source() || live.recording()) return;
   offer_->dismiss();
-  live.startRecording([settings = settings_] {
+  // A take may be a little shorter than it was to be: by the interval of two frames.
+  constexpr double kNearlyWhole = 0.95, kUsualLeastS = 1.0;
+  if (planned)
+    plan_.begin(settings.limits.stopAfterS ? kNearlyWhole * *settings.limits.stopAfterS
+                                           : kUsualLeastS);
+  live.startRecording([settings] {
     return recordingOptions(settings, nextPath(settings, systemClock().wallUs()));
   });
   // Notes are about one recording.
@@ -367,6 +422,7 @@ void RecordFeature::showState() {
 
 void RecordFeature::offer(const RecordingReport& report) {
   Messages& messages = state().messages;
+  plan_.end(report);
   showState();
   if (report.paths.empty()) {
     const QString why = report.message.empty() ? QString("no frame came while it ran")
@@ -381,7 +437,10 @@ void RecordFeature::offer(const RecordingReport& report) {
   if (!report.complete)
     messages.fail(QString::fromStdString(report.paths.front().filename().string()) +
                   ": something is missing: " + QString::fromStdString(report.message));
-  offerTake("Recorded " + summary);
+  const QString plan = plan_.plan().find(report.paths.front()) && plan_.followed()
+                           ? " · " + plan_.progressText() + ", " + plan_.nextText()
+                           : QString();
+  offerTake("Recorded " + summary + plan);
 }
 
 void RecordFeature::offerTake(const QString& text) {

@@ -1,6 +1,6 @@
 // The feature that records the connected source: starts and stops recordings, also after a
-// countdown, sets marks, offers to open, rename or discard the result, and offers to recover
-// recordings that were never finished.
+// countdown, sets marks, offers to open, rename or discard the result, follows a plan of
+// recordings, and offers to recover recordings that were never finished.
 #pragma once
 
 #include <QAction>
@@ -11,6 +11,7 @@
 #include <optional>
 #include <vector>
 
+#include "gui/record/plan_controller.h"
 #include "gui/record/recorded_take.h"
 #include "gui/record/recording_countdown.h"
 #include "gui/record/recovery_finder.h"
@@ -28,6 +29,8 @@ struct RecordActions {
   QAction* recordingSettings = nullptr;
   // Opens the last recording that was made.
   QAction* openRecorded = nullptr;
+  // Opens the plan of recordings.
+  QAction* recordingPlan = nullptr;
   QAction* renameRecorded = nullptr;
   QAction* discardRecorded = nullptr;
   QAction* mark = nullptr;
@@ -37,12 +40,15 @@ struct RecordActions {
 
 class CountdownStrip;
 class OfferStrip;
+class PlanDialog;
 
 class RecordFeature : public Feature {
   Q_OBJECT
  public:
   RecordFeature(WindowState& windowState, QWidget* window);
+  ~RecordFeature() override;
 
+  PlanController& plan() noexcept { return plan_; }
   RecordedTake& lastTake() noexcept { return take_; }
   RecordingCountdown& countdown() noexcept { return countdown_; }
   RecoveryFinder& unfinished() noexcept { return unfinished_; }
@@ -50,6 +56,8 @@ class RecordFeature : public Feature {
   void offerUnfinished();
   std::vector<BannerSpec> strips() override;
   void start() override;
+  void remember() override;
+  void settle() override;
 
  private:
   void connectActions();
@@ -57,10 +65,12 @@ class RecordFeature : public Feature {
   void connectUnfinished();
   void connectTake();
   void connectCountdown();
+  void connectPlan();
+  void showPlan();
   void use(const RecordingSettings& settings);
   void takeFolder();
   void toggle();
-  void begin();
+  void begin(const RecordingSettings& settings, bool planned);
   void mark(const QString& label, std::optional<int> digit);
   void showState();
   void showCountdown();
@@ -72,6 +82,9 @@ class RecordFeature : public Feature {
   // False once something was announced that closes the window.
   bool offering_ = true;
   RecordingSettings settings_;
+  PlanController plan_;
+  // Made when it is asked for.
+  PlanDialog* planDialog_ = nullptr;
   RecordedTake take_;
   RecordingCountdown countdown_;
   CountdownStrip* countdownStrip_;

@@ -143,6 +143,7 @@ void WindowMenus::buildMenuBar(const ActionRegistry& book, const QList<QAction*>
   hand->addSeparator();
   hand->addActions({at("record"),
                     at("recordingSettings"),
+                    at("recordingPlan"),
                     at("openRecorded"),
                     at("renameRecorded"),
                     at("discardRecorded")});

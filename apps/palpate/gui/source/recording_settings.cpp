@@ -60,7 +60,10 @@ void saveNumber(QSettings& settings, const char* key, const std::optional<double
 }
 
 RecordingNameFields fieldsOf(const RecordingSettings& recording, std::int64_t nowUs) {
-  return {nowUs, recording.operatorName.toStdString(), recording.object.toStdString()};
+  return {nowUs,
+          recording.operatorName.toStdString(),
+          recording.object.toStdString(),
+          recording.run.toStdString()};
 }
 
 // Throws Error unless recordings can be written to `folder`, which may have to be created. Returns
@@ -190,6 +193,8 @@ RecordingOptions recordingOptions(const RecordingSettings& recording, const fs::
   note("operator", recording.operatorName);
   note("object", recording.object);
   note("notes", recording.notes);
+  note("run", recording.run);
+  note("repetition", recording.repetition);
   recording.limits.applyTo(options);
   options.startOnContact = recording.startOnContact;
   options.stopWithoutContactS = recording.stopWithoutContactS;

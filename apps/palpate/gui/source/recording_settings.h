@@ -22,6 +22,9 @@ struct RecordingSettings {
   QString operatorName;
   QString object;
   QString notes;
+  // Of one recording of a plan, and not kept: which run, and which of its repetitions ("2 of 3").
+  QString run;
+  QString repetition;
   // When it stops by itself, and goes on in a new file.
   RecordingLimits limits;
   // Seconds that are counted down before it begins, 0..kMostCountdownS.
