@@ -14,19 +14,19 @@ namespace palpate {
 
 // One recording that was made for a row of the plan.
 struct PlannedTake {
-  std::filesystem::path file;  // of its first part
+  std::filesystem::path file = {};  // of its first part
   // What a check found wrong with it, one line; empty: nothing.
-  std::string problem;
+  std::string problem = {};
   // It was rejected: it counts no longer, and is to be repeated.
   bool rejected = false;
   bool operator==(const PlannedTake&) const = default;
 };
 
 struct PlanRow {
-  std::string object;   // not empty
-  std::string run;      // which run; may be empty
-  int repetitions = 1;  // 1..RecordingPlan::kMostRepetitions
-  std::string notes;
+  std::string object = {};  // not empty
+  std::string run = {};     // which run; may be empty
+  int repetitions = 1;      // 1..RecordingPlan::kMostRepetitions
+  std::string notes = {};
   std::vector<PlannedTake> takes = {};  // in the order in which they were made
 
   // Number of takes that count.

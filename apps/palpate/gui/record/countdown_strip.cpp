@@ -38,7 +38,7 @@ CountdownStrip::CountdownStrip(QWidget* parent) : QWidget(parent) {
   hide();
 }
 
-void CountdownStrip::show(int leftS) {
+void CountdownStrip::setLeft(int leftS) {
   digits_->setText(leftS > 0 ? QString::number(leftS) : QString());
   setVisible(leftS > 0);
 }

@@ -12,7 +12,7 @@ class CountdownStrip : public QWidget {
  public:
   explicit CountdownStrip(QWidget* parent = nullptr);
   // Shows the seconds left; 0 hides the line.
-  void show(int leftS);
+  void setLeft(int leftS);
 
  signals:
   void cancelRequested();

@@ -2,6 +2,7 @@
 
 #include <QAction>
 #include <QCheckBox>
+#include <QFrame>
 #include <QHBoxLayout>
 #include <QHeaderView>
 #include <QLabel>
@@ -10,6 +11,7 @@
 #include <QTableView>
 #include <QVBoxLayout>
 #include <algorithm>
+#include <array>
 
 #include <palpate/core/error.h>
 
@@ -119,18 +121,18 @@ QWidget* PlanDialog::makeRows() {
   header->setStretchLastSection(true);
   auto* add = makeButton("planAdd", "&Add row", "One more row below");
   remove_ = makeButton("planRemove", "Re&move row", "Removes the chosen row; its files stay");
-  auto* import = makeButton(
+  auto* take = makeButton(
       "planImport", "&Import…", "A table (CSV) with the columns object, run, repetitions, notes");
   export_ = makeButton("planExport", "&Export…", "The plan as a table (CSV)");
   anew_ = makeButton("planAnew", "&Begin anew…", "All takes are to be made again; files stay");
   connect(add, &QPushButton::clicked, this, &PlanDialog::addRow);
   connect(remove_, &QPushButton::clicked, this, &PlanDialog::removeRow);
-  connect(import, &QPushButton::clicked, this, &PlanDialog::importTable);
+  connect(take, &QPushButton::clicked, this, &PlanDialog::importTable);
   connect(export_, &QPushButton::clicked, this, &PlanDialog::exportTable);
   connect(anew_, &QPushButton::clicked, this, &PlanDialog::beginAnew);
   auto* buttons = new QHBoxLayout;
   buttons->setSpacing(8);
-  for (QPushButton* button : {add, remove_, import, export_, anew_}) buttons->addWidget(button);
+  for (QPushButton* button : {add, remove_, take, export_, anew_}) buttons->addWidget(button);
   buttons->addStretch(1);
   auto* column = new QVBoxLayout(part);
   column->setContentsMargins(kPlanDialogMargin, 0, kPlanDialogMargin, 0);

@@ -388,7 +388,7 @@ void RecordFeature::mark(const QString& label, std::optional<int> digit) {
 }
 
 void RecordFeature::showCountdown() {
-  countdownStrip_->show(countdown_.leftS());
+  countdownStrip_->setLeft(countdown_.leftS());
   if (countdown_.running()) offer_->dismiss();
   showState();
 }

@@ -2,6 +2,7 @@
 
 #include <QFile>
 #include <stdexcept>
+#include <utility>
 
 #include <palpate/capture/recording_name.h>
 #include <palpate/core/error.h>
