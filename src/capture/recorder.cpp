@@ -202,6 +202,8 @@ struct Recorder::Impl {
     RecorderStatus next;
     if (parts) parts->describe(next);
     const std::lock_guard lock(mutex);
+    // A contact began it later than it was asked for.
+    if (parts) requestTime.monoUs = parts->startMonoUs();
     next.freeBytes = ask ? freeNow : status.freeBytes;
     status = std::move(next);
   }
@@ -314,11 +316,12 @@ void Recorder::start(RecordingOptions options) {
   if (impl.active) throw std::logic_error("Recorder: records already");
   impl.lostAtStart.store(lost);
   impl.active = true;
+  const bool armed = options.startOnContact;
   impl.request = std::move(options);
   impl.requestTime = time;
   impl.report = {};
   impl.status = {};
-  impl.status.state = RecorderStatus::State::kWaiting;
+  impl.status.state = armed ? RecorderStatus::State::kArmed : RecorderStatus::State::kWaiting;
   impl.queue.wake();
 }
 

@@ -61,7 +61,10 @@ std::string valueOf(std::string_view placeholder, const RecordingNameFields& fie
   if (placeholder == "time") return {kTimeMark};
   if (placeholder == "operator") return fileNamePart(fields.operatorName);
   if (placeholder == "object") return fileNamePart(fields.object);
-  if (placeholder == "run") return {kRunMark};
+  if (placeholder == "run") {
+    const std::string text = fileNamePart(fields.run);
+    return text.empty() ? std::string{kRunMark} : text + "_" + kRunMark;
+  }
   throw std::invalid_argument("RecordingName: {" + escapedLine(placeholder) +
                               "} isn't known; use {date}, {time}, {operator}, {object}, {run}");
 }

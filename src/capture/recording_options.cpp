@@ -51,6 +51,9 @@ void RecordingOptions::validate() const {
   atLeast(splitBytes, kLeastBytes, "splitBytes");
   atLeast(stopAfterFrames, std::int64_t{1}, "stopAfterFrames");
   atLeast(stopAfterBytes, kLeastBytes, "stopAfterBytes");
+  contact.validate();
+  finite(stopWithoutContactS, "stopWithoutContactS");
+  atLeast(stopWithoutContactS, 0.05, "stopWithoutContactS");
   if (mcap) mcap->validate();
   requireRecordingOptions(mcapQueueItems > 0, "mcapQueueItems must be at least 1");
   for (const auto& [key, value] : meta)

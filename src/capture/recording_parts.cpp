@@ -48,8 +48,38 @@ RecordingParts::RecordingParts(RecordingOptions options,
       vfs_(recorder.vfs),
       start_(start),
       notice_(std::move(notice)),
-      folder_(options_.path.has_parent_path() ? options_.path.parent_path() : fs::path(".")) {
+      folder_(options_.path.has_parent_path() ? options_.path.parent_path() : fs::path(".")),
+      contact_(options_.contact),
+      armed_(options_.startOnContact) {
   if (options_.mcap) mcap_ = std::make_unique<McapMirror>(*options_.mcap, options_.mcapQueueItems);
+}
+
+// Keeps the items of the time before a contact, with which the recording then begins.
+void RecordingParts::awaitContact(const CaptureItem& item, RoundTime time) {
+  before_.push_back(item);
+  const auto* frame = std::get_if<SharedFrame>(&item);
+  // A contact from before the request counts if it is still there.
+  if (frame && (*frame)->hostUs >= start_.nowUs) contact_->add(**frame);
+  if (const auto contactUs = contact_->firstContactUs()) {
+    armed_ = false;
+    start_ = {time.monoUs, *contactUs, time.sinceMonoUs};
+    contact_.emplace(options_.contact);
+    for (const CaptureItem& waiting : std::exchange(before_, {})) add(waiting, time);
+    return;
+  }
+  const std::int64_t fromUs =
+      std::min(stampOf(item), contact_->touchingSinceUs().value_or(INT64_MAX)) -
+      microseconds(options_.preTriggerS);
+  while (stampOf(before_.front()) < fromUs || before_.size() > kMostHeld) before_.pop_front();
+}
+
+// Sets the end when nothing has been touched for long enough.
+void RecordingParts::endAfterRelease(const TactileFrame& frame) {
+  contact_->add(frame);
+  const auto releasedUs = contact_->releasedUs();
+  if (!releasedUs) return;
+  const std::int64_t endUs = *releasedUs + microseconds(*options_.stopWithoutContactS);
+  if (frame.hostUs >= endUs) endUs_ = endUs_ ? std::min(*endUs_, endUs) : endUs;
 }
 
 // True if the item is between the begin of the pre-trigger time and the end; detects the end.
@@ -59,6 +89,8 @@ bool RecordingParts::belongs(const CaptureItem& item) {
   const bool isFrame = streamOf(item) == CaptureStream::kTactile;
   if (isFrame && stampUs >= start_.nowUs && framesSinceStart_ == 0 && options_.stopAfterS)
     endUs_ = stampUs + microseconds(*options_.stopAfterS);
+  if (isFrame && stampUs >= start_.nowUs && options_.stopWithoutContactS)
+    endAfterRelease(*std::get<SharedFrame>(item));
   if (endUs_ && stampUs >= *endUs_) {
     ended_ = isFrame;  // items of the other port may be ahead
     return false;
@@ -73,6 +105,7 @@ bool RecordingParts::belongs(const CaptureItem& item) {
 }
 
 void RecordingParts::add(const CaptureItem& item, RoundTime time) {
+  if (armed_) return awaitContact(item, time);
   if (!belongs(item)) return;
   const auto* frame = std::get_if<SharedFrame>(&item);
   if (!writer_) {
@@ -392,9 +425,10 @@ std::int64_t RecordingParts::framesOnDisk() const {
 
 void RecordingParts::describe(RecorderStatus& status) const {
   using State = RecorderStatus::State;
-  status.state = paths_.empty() ? State::kWaiting : State::kRecording;
+  status.state = armed_ ? State::kArmed : paths_.empty() ? State::kWaiting : State::kRecording;
   status.path = paths_.empty() ? options_.path : paths_.back();
   status.parts = static_cast<int>(paths_.size());
+  status.stopAfterS = options_.stopAfterS;
   status.frames = counts_.frames;
   status.angles = counts_.angles;
   status.temperatures = counts_.temperatures;
@@ -430,7 +464,8 @@ RecordingReport RecordingParts::report() const {
   else if (report.refused > 0)
     report.message = std::to_string(report.refused) + " items were refused: " + refusedWhy_;
   else if (paths_.empty())
-    report.message = "no frame came: nothing was recorded";
+    report.message = armed_ ? "nothing was touched: nothing was recorded"
+                            : "no frame came: nothing was recorded";
   report.complete = report.message.empty();
   return report;
 }

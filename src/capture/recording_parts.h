@@ -55,11 +55,15 @@ class RecordingParts {
   std::optional<std::int64_t> oldestUncommittedMonoUs() const noexcept { return dirtySinceMonoUs_; }
   // Number of items that the queues lost since the start; their gaps arrive as events.
   void noteQueueLosses(std::int64_t items) noexcept { lostInQueues_ = items; }
+  // Monotonic time since which it records: of the request, or of the contact that began it.
+  std::int64_t startMonoUs() const noexcept { return start_.monoUs; }
   void describe(RecorderStatus& status) const;
   RecordingReport report() const;
   const std::filesystem::path& folder() const noexcept { return folder_; }
 
  private:
+  void awaitContact(const CaptureItem& item, RoundTime time);
+  void endAfterRelease(const TactileFrame& frame);
   bool belongs(const CaptureItem& item);
   void hold(const CaptureItem& item);
   void take(const CaptureItem& item, RoundTime time);
@@ -87,9 +91,14 @@ class RecordingParts {
   const RecordingOptions options_;
   const std::int64_t commitIntervalUs_;
   const std::string vfs_;
-  const RoundTime start_;
+  RoundTime start_;
   const Notice notice_;
   const std::filesystem::path folder_;
+
+  // Contact.
+  std::optional<ContactTrigger> contact_;
+  bool armed_ = false;              // waits for contact
+  std::deque<CaptureItem> before_;  // items of the time before it
 
   // Parts.
   std::vector<std::filesystem::path> paths_;

@@ -158,5 +158,15 @@ TEST_F(RecordingName, withoutRunATakenNameGetsANumber) {
   EXPECT_THROW(nextRecordingPath(folder / "none", "cup", {}), FileError);
 }
 
+TEST_F(RecordingName, TheTextOfARunStandsBeforeItsNumber) {
+  const RecordingNameFields left{kTimeUs, "", "ball", "left side"};
+  EXPECT_EQ(recordingFileName("{object}_{run}", left, 2), "ball_left_side_002.palpate");
+  const TemporaryFolder folder;
+  writeFile(folder / "ball_left_side_004.palpate", "");
+  writeFile(folder / "ball_right_009.palpate", "");
+  EXPECT_EQ(nextRecordingPath(folder.path(), "{object}_{run}", left),
+            folder / "ball_left_side_005.palpate");
+}
+
 }  // namespace
 }  // namespace palpate::recording_name_test

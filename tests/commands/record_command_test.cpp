@@ -87,6 +87,27 @@ TEST(RecordCommand, RecordsWhatTheHandSends) {
   EXPECT_EQ(verifyRecording(folder / "a.palpate").state, VerifyReport::State::kSound);
 }
 
+// The numbered hand touches from its first frame on.
+TEST(RecordCommand, ContactBeginsItAndItsDurationCountsFromThere) {
+  const TemporaryFolder folder;
+  const auto hand = handAt(100.0);
+  const auto result = palpate({"record",
+                               "--dsa",
+                               hand->dsaPort(),
+                               "-o",
+                               folder / "a.palpate",
+                               "--start-on-contact",
+                               "--stop-without-contact",
+                               "5",
+                               "--duration",
+                               "1"});
+  ASSERT_EQ(result.exitCode, 0) << result.err;
+  const Profile profile = openRecording(folder / "a.palpate");
+  EXPECT_GT(profile.durationUs(), 800'000);
+  EXPECT_LT(profile.durationUs(), 3'000'000) << "with the two seconds before, at most";
+  expectConsecutive({folder / "a.palpate"});
+}
+
 TEST(RecordCommand, ASignalEndsItCleanly) {
   const TemporaryFolder folder;
   const auto hand = handAt(100.0);
@@ -239,6 +260,13 @@ TEST(RecordCommand, RefusesWrongUsage) {
   expectOneLineError(palpate({"record", "--dsa", "x", "-o", "a.dsa"}), 2, {"palpate convert"});
   expectOneLineError(
       palpate({"record", "--dsa", "x", "-o", "a.palpate", "--duration", "0"}), 2, {"--duration"});
+  expectOneLineError(
+      palpate({"record", "--dsa", "x", "-o", "a.palpate", "--stop-without-contact", "0"}),
+      2,
+      {"--stop-without-contact"});
+  expectOneLineError(palpate({"record", "--dsa", "x", "-o", ".", "--remote", "--start-on-contact"}),
+                     2,
+                     {"--remote"});
   expectOneLineError(palpate({"record", "--dsa", "x", "-o", "{foo}.palpate"}), 2, {"{foo}"});
 }
 

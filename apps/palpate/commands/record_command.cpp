@@ -11,6 +11,7 @@
 #include <unistd.h>
 
 #include "palpate/capture/capture_session.h"
+#include "palpate/capture/recording_limits.h"
 #include "palpate/capture/recording_name.h"
 #include "palpate/core/error.h"
 #include "palpate/core/escaped_line.h"
@@ -46,7 +47,8 @@ class StatusLine {
     }
     const RecorderStatus& recorder = health.recorder;
     std::string line =
-        recorder.state == RecorderStatus::State::kWaiting
+        recorder.state == RecorderStatus::State::kArmed ? "waiting for contact"
+        : recorder.state == RecorderStatus::State::kWaiting
             ? "waiting for the first frame"
             : fixedText(recorder.recordedS, 1) + " s, " + std::to_string(recorder.frames) +
                   " frames, " + fixedText(health.frames.rateHz, 1) + "/s, " +
@@ -87,13 +89,23 @@ RecordingOptions recordingOptions(const CommandLine& given) {
   RecordingOptions options;
   if (!given.has("remote")) options.path = outputPath(given);
   options.preTriggerS = 0.0;
-  options.stopAfterS = given.number("duration", 0.05, 1e7);
+  using Limits = RecordingLimits;
+  Limits limits;
+  limits.stopAfterS = given.number("duration", Limits::kLeastStopS, Limits::kMostStopS);
+  limits.splitMinutes =
+      given.number("split-minutes", Limits::kLeastSplitMinutes, Limits::kMostSplitMinutes);
+  limits.splitMb = given.number("split-mb", Limits::kLeastSplitMb, Limits::kMostSplitMb);
+  limits.applyTo(options);
   for (const char* key : {"operator", "object", "run", "notes"})
     if (const auto text = given.text(key)) options.meta[key] = *text;
-  if (const auto minutes = given.number("split-minutes", 1.0 / 60.0, 1e5))
-    options.splitS = *minutes * 60.0;
-  if (const auto megabytes = given.number("split-mb", 0.1, 1e6))
-    options.splitBytes = static_cast<std::int64_t>(*megabytes * 1e6);
+  options.startOnContact = given.has("start-on-contact");
+  options.stopWithoutContactS = given.number("stop-without-contact", 0.05, 1e6);
+  options.contact.threshold =
+      given.number("contact-threshold", 0.0, 1e9).value_or(options.contact.threshold);
+  if (given.has("remote") && (options.startOnContact || options.stopWithoutContactS))
+    throw UsageError("with --remote other programs start and stop, not contact");
+  // The moment of contact itself is not the first that counts.
+  if (options.startOnContact) options.preTriggerS = RecordingOptions().preTriggerS;
   if (given.has("mcap")) options.mcap.emplace();
   return options;
 }
@@ -114,7 +126,7 @@ void recordUntilDone(CaptureSession& session,
     notice.show();
     if (stream != nullptr && stream->finished()) return;
     const RecorderStatus recorder = session.recorderStatus();
-    if (recorder.state == RecorderStatus::State::kWaiting && recorder.elapsedS >= firstFrameS &&
+    if (recorder.state != RecorderStatus::State::kRecording && recorder.elapsedS >= firstFrameS &&
         !session.health().frames.ageMs)
       return;
     if (look % kShowEvery == 0) status.show(session.health(), session.takeEvents());
@@ -221,6 +233,9 @@ CommandSpec recordSpec() {
                   {"notes", "TEXT", "any other notes"},
                   {"split-minutes", "M", "a new file after M minutes: NAME_002.palpate, .."},
                   {"split-mb", "N", "a new file at about N MB"},
+                  {"start-on-contact", "", "begin when something is touched, and 2 s before it"},
+                  {"stop-without-contact", "S", "end when nothing is touched for S seconds"},
+                  {"contact-threshold", "N", "contact is above N (default 0: any active taxel)"},
                   {"mcap", "", "write OUT.mcap beside it, too: for Foxglove and ROS 2"},
                   remoteOption(),
                   socketOption(),

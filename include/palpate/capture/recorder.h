@@ -20,6 +20,7 @@
 #include <vector>
 
 #include <palpate/capture/capture_queue.h>
+#include <palpate/capture/contact_trigger.h>
 #include <palpate/core/time.h>
 #include <palpate/recording/mcap_recording.h>
 
@@ -55,6 +56,15 @@ struct RecordingOptions {
   std::optional<double> stopAfterS;             // > 0
   std::optional<std::int64_t> stopAfterFrames;  // >= 1
   std::optional<std::int64_t> stopAfterBytes;   // size of all parts, approximate; >= 64 KiB
+  // Contact, for the two options that follow.
+  ContactTriggerOptions contact = {};
+  // The recording begins with the first contact that is present after the start, and preTriggerS
+  // before it; until then nothing is written (RecorderStatus::State::kArmed). All limits then count
+  // from the contact.
+  bool startOnContact = false;
+  // It ends after a contact, once there has been none for this time [s], 0.05..1e6. What is missing
+  // (the stream was interrupted) doesn't count as released.
+  std::optional<double> stopWithoutContactS = {};
   // Writes the same into NAME.mcap beside each part, too, on a thread of its own, to which nothing
   // waits. Where that can't keep up or its disk fails it stops, with an event "alarm"; the
   // recording goes on. What has been taken for a second is in the file at the latest.
@@ -106,6 +116,7 @@ struct RecordingReport {
 struct RecorderStatus {
   enum class State {
     kIdle,       // no recording; the last seconds are kept in memory
+    kArmed,      // waiting for contact: there is no file yet
     kWaiting,    // waiting for the first frame: there is no file yet
     kRecording,  // frames are written to disk
   };
@@ -115,8 +126,10 @@ struct RecorderStatus {
   std::int64_t frames = 0;
   std::int64_t angles = 0;
   std::int64_t temperatures = 0;
-  double elapsedS = 0.0;          // since the start [s]
-  double recordedS = 0.0;         // first to newest frame [s]
+  double elapsedS = 0.0;   // since the start, or since the contact that began it [s]
+  double recordedS = 0.0;  // first to newest frame [s]
+  // RecordingOptions::stopAfterS of this recording.
+  std::optional<double> stopAfterS;
   std::int64_t framesOnDisk = 0;  // committed
   std::int64_t bytesOnDisk = 0;   // all parts
   std::int64_t lost = 0;

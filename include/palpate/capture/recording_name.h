@@ -5,7 +5,8 @@
 //   {time}      10-31-05, local time of the machine
 //   {operator}  as typed
 //   {object}    as typed
-//   {run}       the next free number in the folder, at least three digits
+//   {run}       the next free number in the folder, at least three digits; behind the text of the
+//               run if there is one: "left_002"
 //
 // Whatever the user types, the result is one valid file name: it can't leave its folder, be hidden,
 // be taken for an option, or change the output of a terminal. Blanks become "_", as in class
@@ -23,6 +24,8 @@ struct RecordingNameFields {
   std::int64_t timeUs = 0;  // [us since 1970]
   std::string operatorName;
   std::string object;
+  // Which run, as typed; may be empty. {run} is then this text and the next free number of it.
+  std::string run = {};
 };
 
 // `text` as a part of a file name: path separators, blanks, control characters, invalid UTF-8 and

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 
+#include "palpate/core/csv_rows.h"
 #include "palpate/core/error.h"
 #include "palpate/core/number_text.h"
 #include "palpate/core/time.h"
@@ -20,67 +21,6 @@ constexpr int kTimeDecimals = 6;
 bool isLabelKind(std::string_view kind) {
   return std::find(kLabelKinds.begin(), kLabelKinds.end(), kind) != kLabelKinds.end();
 }
-
-// Cells of a table, row by row (RFC 4180: a quoted cell may have line breaks).
-class LabelCells {
- public:
-  explicit LabelCells(std::string_view csv) : rest_(csv) {
-    constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
-    if (rest_.starts_with(kByteOrderMark)) rest_.remove_prefix(kByteOrderMark.size());
-    const std::string_view first = rest_.substr(0, rest_.find('\n'));
-    for (const char delimiter : {'\t', ';', ','})
-      if (first.find(delimiter) != std::string_view::npos) delimiter_ = delimiter;
-  }
-  // The line in which the row begins, from 1.
-  std::size_t line() const noexcept { return line_; }
-  // Whether a quote was opened and never closed.
-  bool unclosed() const noexcept { return unclosed_; }
-  // The next row that is not empty; false at the end.
-  bool next(std::vector<std::string>& cells) {
-    do {
-      if (rest_.empty()) return false;
-      line_ = nextLine_;
-      readRow(cells);
-    } while (cells.size() == 1 && cells[0].empty());
-    return true;
-  }
-
- private:
-  void readRow(std::vector<std::string>& cells) {
-    cells.assign(1, {});
-    bool quoted = false;
-    std::size_t i = 0;
-    for (; i < rest_.size(); ++i) {
-      const char c = rest_[i];
-      if (c == '\n') ++nextLine_;
-      if (quoted) {
-        if (c != '"')
-          cells.back() += c;
-        else if (i + 1 < rest_.size() && rest_[i + 1] == '"')
-          cells.back() += rest_[++i];
-        else
-          quoted = false;
-      } else if (c == '"' && cells.back().empty()) {
-        quoted = true;
-      } else if (c == delimiter_) {
-        cells.emplace_back();
-      } else if (c == '\n') {
-        ++i;
-        break;
-      } else if (c != '\r') {
-        cells.back() += c;
-      }
-    }
-    unclosed_ = quoted;
-    rest_.remove_prefix(i);
-  }
-
-  std::string_view rest_;
-  char delimiter_ = ',';
-  std::size_t nextLine_ = 1;
-  std::size_t line_ = 0;
-  bool unclosed_ = false;
-};
 
 // Index of each column in the rows; nothing: the table doesn't have it.
 struct LabelColumns {
@@ -196,7 +136,7 @@ std::vector<std::vector<std::string>> labelRows(std::span<const RecordingEvent> 
 
 LabelTable readLabelTable(std::string_view csv, const Profile& profile) {
   if (profile.numFrames() == 0) throw Error("the recording has no frames to label");
-  LabelCells lines(csv);
+  CsvRows lines(csv);
   std::vector<std::string> cells;
   if (!lines.next(cells)) throw Error("the table is empty");
   const LabelReader reader(columnsOf(cells), profile);

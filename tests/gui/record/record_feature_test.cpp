@@ -1,6 +1,11 @@
 // Recording over the bench: what is offered when one has ended.
 #include "gui/record/record_feature.h"
 
+#include <QAction>
+#include <QLabel>
+#include <QPushButton>
+
+#include "gui/record/countdown_strip.h"
 #include "gui/widgets/offer_strip.h"
 #include "gui/window_state/window_state_fixture.h"
 
@@ -10,7 +15,7 @@ namespace {
 class RecordFeatureTest : public WindowStateTest {
  protected:
   RecordFeatureTest() : feature_(*windowState_, &actionsOf_) {}
-  QString offered() { return qobject_cast<OfferStrip*>(feature_.strips().front().widget)->text(); }
+  QString offered() { return qobject_cast<OfferStrip*>(feature_.strips().back().widget)->text(); }
   void endRecording(std::int64_t gaps = 0) {
     RecordingReport report;
     report.gaps = gaps;
@@ -56,6 +61,77 @@ TEST_F(RecordFeatureTest, WhatTheConnectionLostIsSaid) {
   emit windowState_->live.recordingEnded(report);
   EXPECT_TRUE(offered().endsWith("6 frames lost on the way from the hand, 24 bad checksums"))
       << offered().toStdString();
+}
+
+TEST_F(RecordFeatureTest, TheLastRecordingCanBeRenamedAndDiscarded) {
+  const auto enabled = [this](const char* action) {
+    return windowState_->actions.at(action)->isEnabled();
+  };
+  EXPECT_FALSE(enabled("renameRecorded"));
+  EXPECT_FALSE(enabled("discardRecorded"));
+  endRecording();
+  EXPECT_TRUE(enabled("renameRecorded"));
+  EXPECT_TRUE(enabled("discardRecorded"));
+  const auto buttons = feature_.strips().back().widget->findChildren<QPushButton*>("offerOther");
+  ASSERT_EQ(buttons.size(), 2);
+  EXPECT_EQ(buttons[0]->text(), "Rename…");
+  EXPECT_EQ(buttons[1]->text(), "Discard…");
+}
+
+TEST_F(RecordFeatureTest, ACountdownIsSeenAndRecordOrEscapeCancelsIt) {
+  connectEmulated();
+  QWidget* strip = feature_.strips().front().widget;
+  windowState_->prompts.recording = [this](RecordingSettings settings, const QString&) {
+    settings.folder = QString::fromStdString(folder_.path().string());
+    settings.countdownS = 30;
+    return settings;
+  };
+  QAction* record = windowState_->actions.at("record");
+  record->trigger();
+  EXPECT_TRUE(feature_.countdown().running());
+  EXPECT_FALSE(strip->isHidden());
+  EXPECT_EQ(strip->findChild<QLabel*>("countdownDigits")->text(), "30");
+  EXPECT_EQ(record->iconText(), " in 30 s");
+  feature_.countdown().tick();
+  EXPECT_EQ(record->iconText(), " in 29 s");
+  record->trigger();
+  EXPECT_FALSE(feature_.countdown().running());
+  EXPECT_TRUE(strip->isHidden());
+  record->trigger();
+  windowState_->escapeHandler.press();
+  EXPECT_FALSE(feature_.countdown().running());
+  record->trigger();
+  emit windowState_->handCommands.stopped();
+  EXPECT_FALSE(feature_.countdown().running()) << "Stop cancels, too";
+  EXPECT_FALSE(windowState_->live.recording());
+  disconnect();
+}
+
+TEST_F(RecordFeatureTest, AfterTheCountdownItRecordsAndNotesAreOfOneRecording) {
+  connectEmulated();
+  windowState_->prompts.recording = [this](RecordingSettings settings, const QString&) {
+    settings.folder = QString::fromStdString(folder_.path().string());
+    settings.countdownS = 1;
+    settings.notes = "of this one";
+    return settings;
+  };
+  windowState_->actions.at("record")->trigger();
+  feature_.countdown().tick();
+  EXPECT_TRUE(windowState_->live.recording());
+  EXPECT_EQ(loadRecordingSettings(windowState_->settings).notes, "");
+  EXPECT_EQ(loadRecordingSettings(windowState_->settings).countdownS, 1);
+  disconnect();
+}
+
+TEST_F(RecordFeatureTest, AHandThatGoesCancelsTheCountdown) {
+  connectEmulated();
+  windowState_->prompts.recording = [](RecordingSettings settings, const QString&) {
+    settings.countdownS = 30;
+    return settings;
+  };
+  windowState_->actions.at("record")->trigger();
+  disconnect();
+  EXPECT_FALSE(feature_.countdown().running());
 }
 
 TEST_F(RecordFeatureTest, AWindowThatClosesOffersNothingAnyMore) {

@@ -1,15 +1,18 @@
 #include "gui/record/recording_dialog.h"
 
 #include <QCheckBox>
+#include <QDoubleSpinBox>
 #include <QLabel>
 #include <QLineEdit>
 #include <QMenu>
 #include <QPlainTextEdit>
 #include <QPushButton>
 #include <QSignalSpy>
+#include <QSpinBox>
 #include <QTest>
 #include <QToolButton>
 
+#include "gui/testing/layout_faults.h"
 #include "testing/testing.h"
 
 namespace palpate::gui::recording_dialog_test {
@@ -216,6 +219,71 @@ TEST_F(RecordingDialogTest, MarksUnfoldBelowAndFoldAgain) {
   find<QToolButton>("marksHeader")->click();
   EXPECT_EQ(dialog_->height(), folded);
   EXPECT_EQ(notes->height(), notesHeight);
+}
+
+TEST_F(RecordingDialogTest, WhenItStopsAndSplitsIsSaidInOneLineAndGivenBack) {
+  auto* summary = find<QLabel>("timingSummary");
+  EXPECT_EQ(summary->accessibleName(), "until it is stopped, in one file");
+  EXPECT_EQ(dialog_->settings().limits, RecordingLimits());
+  find<QToolButton>("timingHeader")->click();
+  find<QDoubleSpinBox>("recordingStopAfter")->setValue(30.0);
+  find<QDoubleSpinBox>("recordingSplitMinutes")->setValue(10.0);
+  find<QDoubleSpinBox>("recordingSplitMb")->setValue(500.0);
+  const RecordingLimits limits{.stopAfterS = 30.0, .splitMinutes = 10.0, .splitMb = 500.0};
+  EXPECT_EQ(dialog_->settings().limits, limits);
+  find<QToolButton>("timingHeader")->click();
+  EXPECT_EQ(summary->accessibleName(), "stops after 30 s, a new file every 10 min or 500 MB");
+  given_.limits = limits;
+  open();
+  EXPECT_EQ(dialog_->settings().limits, limits);
+}
+
+TEST_F(RecordingDialogTest, CountdownAndContactAreSaidInOneLineAndGivenBack) {
+  find<QToolButton>("timingHeader")->click();
+  find<QSpinBox>("recordingCountdown")->setValue(5);
+  find<QCheckBox>("recordingOnContact")->click();
+  find<QDoubleSpinBox>("recordingContactThreshold")->setValue(250.0);
+  find<QDoubleSpinBox>("recordingReleased")->setValue(1.5);
+  given_ = dialog_->settings();
+  EXPECT_EQ(given_.countdownS, 5);
+  EXPECT_TRUE(given_.startOnContact);
+  EXPECT_EQ(given_.contactThreshold, 250.0);
+  EXPECT_EQ(given_.stopWithoutContactS, 1.5);
+  EXPECT_EQ(find<QLabel>("timingSummary")->accessibleName(),
+            "5 s countdown, begins when touched, stops untouched for 1.5 s");
+  open();
+  EXPECT_EQ(dialog_->settings().countdownS, 5);
+  EXPECT_TRUE(dialog_->settings().startOnContact);
+  EXPECT_EQ(dialog_->settings().stopWithoutContactS, 1.5);
+}
+
+TEST_F(RecordingDialogTest, TooShortALimitBecomesTheShortestOne) {
+  find<QDoubleSpinBox>("recordingStopAfter")->setValue(0.01);
+  find<QDoubleSpinBox>("recordingSplitMinutes")->setValue(0.01);
+  EXPECT_EQ(dialog_->settings().limits.stopAfterS, RecordingLimits::kLeastStopS);
+  EXPECT_EQ(dialog_->settings().limits.splitMinutes, RecordingLimits::kLeastSplitMinutes);
+}
+
+TEST_F(RecordingDialogTest, OnASmallScreenTheFieldsAreScrolledAndTheButtonsStayWhole) {
+  find<QToolButton>("timingHeader")->click();
+  find<QToolButton>("marksHeader")->click();
+  for (const QSize size : {QSize(580, 640), QSize(580, 400), QSize(1000, 500)}) {
+    dialog_->resize(size);
+    QTest::qWait(0);
+    EXPECT_EQ(dialog_->size(), size);
+    const QStringList faults = layoutFaults(*dialog_);
+    EXPECT_TRUE(faults.isEmpty()) << faults.join("\n").toStdString();
+    for (const char* name : {"recordingOk", "recordingCancel"}) {
+      const auto* button = find<QPushButton>(name);
+      EXPECT_EQ(button->visibleRegion().boundingRect().size(), button->size()) << name;
+    }
+  }
+}
+
+TEST_F(RecordingDialogTest, IsNoHigherThanTheScreen) {
+  find<QToolButton>("timingHeader")->click();
+  find<QToolButton>("marksHeader")->click();
+  EXPECT_LE(dialog_->height(), dialog_->screen()->availableGeometry().height() - 40);
 }
 
 TEST_F(RecordingDialogTest, ALongNameFitsIntoTheDialog) {

@@ -44,6 +44,11 @@ TEST_F(RecordingSettingsTest, WhatWasSavedComesBack) {
   settings_.notes = "two\nlines; 22 \u00b0C = warm";
   settings_.askEachTime = false;
   settings_.withMcap = true;
+  settings_.countdownS = 7;
+  settings_.startOnContact = true;
+  settings_.stopWithoutContactS = 2.5;
+  settings_.contactThreshold = 300.0;
+  settings_.limits = {.stopAfterS = 12.5, .splitMinutes = 0.5, .splitMb = 200.0};
   settings_.markLabels[0] = "zero";
   settings_.markLabels[7] = "";  // taken away on purpose: no default comes back
   {
@@ -58,6 +63,15 @@ TEST_F(RecordingSettingsTest, WhatWasSavedComesBack) {
   EXPECT_EQ(loaded.notes, settings_.notes);
   EXPECT_FALSE(loaded.askEachTime);
   EXPECT_TRUE(loaded.withMcap);
+  EXPECT_EQ(loaded.limits, settings_.limits);
+  const RecordingOptions options = recordingOptions(loaded, folder_ / "a.palpate");
+  EXPECT_EQ(options.stopAfterS, 12.5);
+  EXPECT_EQ(options.splitS, 30.0);
+  EXPECT_EQ(loaded.countdownS, 7);
+  EXPECT_TRUE(options.startOnContact);
+  EXPECT_EQ(options.stopWithoutContactS, 2.5);
+  EXPECT_EQ(options.contact.threshold, 300.0);
+  EXPECT_EQ(options.splitBytes, 200'000'000);
   EXPECT_TRUE(recordingOptions(loaded, folder_ / "a.palpate").mcap);
   EXPECT_EQ(loaded.markLabels, settings_.markLabels);
 }
@@ -68,6 +82,7 @@ TEST_F(RecordingSettingsTest, TheFirstDayHasSensibleOnesAndMakesNoFolder) {
   EXPECT_EQ(QDir(first.folder).dirName(), "Palpate recordings");
   EXPECT_EQ(first.nameTemplate, "{date}_{object}_{run}");
   EXPECT_TRUE(first.askEachTime);
+  EXPECT_EQ(first.limits, RecordingLimits());
   EXPECT_EQ(first.markLabels[1], "contact");
   EXPECT_EQ(first.markLabels[2], "slip");
   EXPECT_EQ(first.markLabels[3], "release");
@@ -77,10 +92,20 @@ TEST_F(RecordingSettingsTest, WhatMakesNoSenseInTheFileIsReplaced) {
   QSettings store(file(), QSettings::IniFormat);
   store.setValue("recording/folder", "not/a/whole/path");
   store.setValue("recording/template", "  ");
+  store.setValue("recording/stop_after_s", -3.0);
+  store.setValue("recording/split_min", "soon");
+  store.setValue("recording/countdown_s", 1000);
+  store.setValue("recording/stop_without_contact_s", 0.0);
+  store.setValue("recording/contact_threshold", "much");
+  store.setValue("recording/split_mb", 1e12);
   store.setValue("recording/label1", QString(500, 'x') + "\n\t y");
   const RecordingSettings odd = loadRecordingSettings(store);
   EXPECT_EQ(odd.folder, defaultRecordingsFolder());
   EXPECT_EQ(odd.nameTemplate, "{date}_{object}_{run}");
+  EXPECT_EQ(odd.limits, RecordingLimits());
+  EXPECT_EQ(odd.countdownS, 0);
+  EXPECT_FALSE(odd.stopWithoutContactS);
+  EXPECT_EQ(odd.contactThreshold, 0.0);
   EXPECT_EQ(odd.markLabels[1], QString(60, 'x'));
 }
 

@@ -90,6 +90,7 @@ QLabel[role="heading"] { color: @muted; font-weight: bold; }
 QLabel[role="muted"] { color: @muted; }
 #MessageBanner { background: @dangerSoft; border-bottom: 1px solid @danger; }
 #AlarmStrip { background: @dangerSoft; border-bottom: 1px solid @danger; }
+#CountdownStrip { background: @dangerSoft; border-bottom: 1px solid @danger; }
 #OfferStrip { background: @accentSoft; border-bottom: 1px solid @accent; }
 #LinkPill { background: @dangerSoft; border: 1px solid @warning; border-radius: 10px; padding: 2px 10px; margin: 0 4px; color: @warning; }
 #LinkPill[good="true"] { background: @accentSoft; border-color: @accentSoft; color: @accent; }

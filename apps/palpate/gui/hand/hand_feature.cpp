@@ -37,6 +37,7 @@ HandFeature::HandFeature(WindowState& windowState, QWidget* window)
           &windowState.derivedResults,
           &DerivedResults::setUnmeasurable);
   connect(panel_, &HandDock::stopPressed, &windowState.handCommands, &HandCommands::asked);
+  connect(panel_, &HandDock::stopPressed, &windowState.handCommands, &HandCommands::stopped);
   connect(panel_, &HandDock::asked, &windowState.handCommands, &HandCommands::asked);
   followTheme(panel_);
   SensitivityModes& modes = panel_->sensitivity();

@@ -131,6 +131,10 @@ RecordingSettings RemoteController::settingsNow() const {
   take("operator", settings.operatorName);
   take("object", settings.object);
   take("notes", settings.notes);
+  // When a recording ends is decided by who started it.
+  settings.limits.stopAfterS.reset();
+  settings.startOnContact = false;
+  settings.stopWithoutContactS.reset();
   if (!nameTemplate_.isEmpty()) settings.nameTemplate = nameTemplate_;
   return settings;
 }

@@ -11,6 +11,7 @@
 #include <palpate/recognition/grasp_collector.h>
 #include <palpate/recognition/model_search.h>
 #include <palpate/recognition/recognition_session.h>
+#include <palpate/recognition/take_quality.h>
 #include <palpate/recording/recording.h>
 
 namespace palpate::gui {
@@ -19,7 +20,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kTrainingControllerFolderKey = "recognise/folder";
-constexpr double kGoodQuality = 0.5;  // a clip of this quality or better is stored at once
 constexpr std::size_t kBlocks = 5, kSplits = 10;
 
 // Options with the classifier that also works on recordings of another session, where the features
@@ -129,7 +129,7 @@ void TrainingController::capture(const QString& object, const Profile& clip) {
   taught.seconds = static_cast<double>(clip.durationUs()) / kUsPerS;
   if (!grasp.features.problem.empty())
     taught.problem = QString::fromStdString(grasp.features.problem);
-  else if (grasp.quality < kGoodQuality)
+  else if (grasp.quality < kGoodGraspQuality)
     taught.problem = "low quality";
   clips_.push_back(std::move(taught));
   if (clips_.back().problem.isEmpty()) save(clips_.size() - 1);

@@ -3,8 +3,6 @@
 #include <QGridLayout>
 #include <QLabel>
 #include <QLineEdit>
-#include <QToolButton>
-#include <QVBoxLayout>
 
 namespace palpate::gui {
 namespace {
@@ -16,48 +14,20 @@ constexpr std::array<std::size_t, 10> kKeyOrder = {1, 2, 3, 4, 5, 6, 7, 8, 9, 0}
 
 constexpr const char* kKeyLabelsStyle = R"(
 #keyCap { background: palette(button); border: 1px solid palette(mid); border-radius: 4px; padding: 3px 0; }
-#marksHeader { padding: 4px 6px 4px 2px; }
 )";
 
 }  // namespace
 
-KeyLabels::KeyLabels(QWidget* parent) : QWidget(parent) {
-  setStyleSheet(kKeyLabelsStyle);
-  header_ = new QToolButton(this);
-  header_->setObjectName("marksHeader");
-  header_->setText("&Marks by key");
-  header_->setToolTip("What the digit keys add to a running recording");
-  header_->setCheckable(true);
-  header_->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
-  header_->setProperty("flat", true);
-  header_->setFocusPolicy(Qt::StrongFocus);
-  summary_ = new QLabel(this);
-  summary_->setObjectName("marksSummary");
-  summary_->setTextFormat(Qt::PlainText);
-  summary_->setProperty("role", "muted");
-  summary_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
-  auto* head = new QHBoxLayout;
-  head->setSpacing(8);
-  head->addWidget(header_);
-  head->addWidget(summary_, 1);
-  grid_ = makeGrid();
-  auto* column = new QVBoxLayout(this);
-  column->setContentsMargins(0, 0, 0, 0);
-  column->setSpacing(4);
-  column->addLayout(head);
-  column->addWidget(grid_);
-  connect(header_, &QToolButton::toggled, this, [this](bool open) {
-    fold(open);
-    // Updates the layout at once, so that parent widgets get the new height.
-    layout()->activate();
-    emit folded();
-  });
-  fold(false);
+KeyLabels::KeyLabels(QWidget* parent)
+    : FoldingPart(
+          "marks", "&Marks by key", "What the digit keys add to a running recording", parent) {
+  body()->setStyleSheet(kKeyLabelsStyle);
+  fillGrid();
+  sumUp();
 }
 
-QWidget* KeyLabels::makeGrid() {
-  auto* made = new QWidget(this);
-  made->setObjectName("marksGrid");
+void KeyLabels::fillGrid() {
+  QWidget* made = body();
   auto* grid = new QGridLayout(made);
   grid->setContentsMargins(0, 2, 0, 0);
   grid->setHorizontalSpacing(8);
@@ -66,7 +36,7 @@ QWidget* KeyLabels::makeGrid() {
   grid->setColumnStretch(1, 1);
   grid->setColumnStretch(4, 1);
   const int keyWidth = 2 * fontMetrics().horizontalAdvance('0') + 12;
-  QWidget* before = header_;
+  QWidget* before = header();
   int place = 0;
   for (const std::size_t digit : kKeyOrder) {
     const QString name = QString::number(digit);
@@ -79,7 +49,7 @@ QWidget* KeyLabels::makeGrid() {
     field->setAccessibleName("Label of key " + name);
     field->setPlaceholderText("mark " + name);
     field->setMaxLength(kKeyLabelsMostLetters);
-    connect(field, &QLineEdit::textChanged, this, &KeyLabels::sumUp);
+    connect(field, &QLineEdit::textChanged, this, [this] { sumUp(); });
     const int column = place / kRows * 3;
     grid->addWidget(key, place % kRows, column);
     grid->addWidget(field, place % kRows, column + 1);
@@ -87,7 +57,6 @@ QWidget* KeyLabels::makeGrid() {
     before = fields_[digit] = field;
     ++place;
   }
-  return made;
 }
 
 void KeyLabels::setLabels(const Labels& labels) {
@@ -102,30 +71,12 @@ KeyLabels::Labels KeyLabels::labels() const {
   return labels;
 }
 
-void KeyLabels::fold(bool open) {
-  header_->setArrowType(open ? Qt::DownArrow : Qt::RightArrow);
-  grid_->setVisible(open);
-  sumUp();
-}
-
-void KeyLabels::sumUp() {
+QString KeyLabels::summary() const {
   QStringList marks;
   const Labels all = labels();
   for (const std::size_t digit : kKeyOrder)
     if (!all[digit].isEmpty()) marks.append(QString::number(digit) + " " + all[digit]);
-  const QString text = marks.isEmpty() ? "no labels" : marks.join(" · ");
-  // When open, all labels are visible.
-  const bool open = header_->isChecked();
-  summary_->setText(
-      open ? QString()
-           : summary_->fontMetrics().elidedText(text, Qt::ElideRight, summary_->width()));
-  summary_->setAccessibleName(text);
-}
-
-void KeyLabels::resizeEvent(QResizeEvent* event) {
-  QWidget::resizeEvent(event);
-  layout()->activate();
-  sumUp();
+  return marks.isEmpty() ? "no labels" : marks.join(" · ");
 }
 
 }  // namespace palpate::gui

@@ -2,17 +2,15 @@
 // recording: ten fields in two columns that fold under a one-line summary.
 #pragma once
 
-#include <QString>
-#include <QWidget>
 #include <array>
 
-class QLabel;
+#include "gui/record/folding_part.h"
+
 class QLineEdit;
-class QToolButton;
 
 namespace palpate::gui {
 
-class KeyLabels : public QWidget {
+class KeyLabels : public FoldingPart {
   Q_OBJECT
  public:
   explicit KeyLabels(QWidget* parent = nullptr);
@@ -23,22 +21,13 @@ class KeyLabels : public QWidget {
   // Without leading and trailing blanks.
   Labels labels() const;
 
- signals:
-  // Opened or folded: the preferred height has changed.
-  void folded();
-
  protected:
-  void resizeEvent(QResizeEvent* event) override;
+  QString summary() const override;
 
  private:
-  QWidget* makeGrid();
-  void fold(bool open);
-  void sumUp();
+  void fillGrid();
 
-  QToolButton* header_;
-  QLabel* summary_;
   std::array<QLineEdit*, 10> fields_{};
-  QWidget* grid_;
 };
 
 }  // namespace palpate::gui

@@ -1,5 +1,7 @@
 #include "gui/record/record_feature.h"
 
+#include <QMessageBox>
+#include <QPushButton>
 #include <QTimer>
 #include <string_view>
 
@@ -7,6 +9,8 @@
 
 #include "gui/appearance/captions.h"
 #include "gui/appearance/icons.h"
+#include "gui/record/countdown_strip.h"
+#include "gui/record/plan_dialog.h"
 #include "gui/record/recording_dialog.h"
 #include "gui/widgets/offer_strip.h"
 
@@ -23,6 +27,11 @@ RecordActions::RecordActions(ActionRegistry& book) {
       book.make("recordingSettings", "Hand", "Recording &names and marks…", {key("Ctrl+N")});
   openRecorded =
       book.make("openRecorded", "Hand", "&Open the last recording", {key("Ctrl+Shift+O")});
+  recordingPlan = book.make("recordingPlan", "Hand", "Record&ing plan…", {key("Ctrl+Alt+P")});
+  renameRecorded =
+      book.make("renameRecorded", "Hand", "Rename the last recordin&g…", {key("Ctrl+Alt+N")});
+  discardRecorded =
+      book.make("discardRecorded", "Hand", "Discard the last recording…", {key("Ctrl+Alt+D")});
   mark = book.make("mark", "Hand", "&Mark the moment", {key("Space")});
   for (int digit = 0; digit < kDigits; ++digit)
     labels.append(book.add("labels",
@@ -99,6 +108,9 @@ RecordFeature::RecordFeature(WindowState& windowState, QWidget* window)
     : Feature(windowState, window),
       actions_(windowState.actions),
       offer_(new OfferStrip(window)),
+      plan_(windowState.settings),
+      take_(windowState),
+      countdownStrip_(new CountdownStrip(window)),
       unfinished_(windowState.settings) {
   windowState.prompts.recording = [window](
                                       const RecordingSettings& last,
@@ -107,7 +119,17 @@ RecordFeature::RecordFeature(WindowState& windowState, QWidget* window)
     if (dialog.exec() != QDialog::Accepted) return std::nullopt;
     return dialog.settings();
   };
+  windowState.prompts.confirmed = [window](const QString& text, const QString& button) {
+    QMessageBox box(QMessageBox::Question, "Palpate", text, QMessageBox::Cancel, window);
+    const QPushButton* yes = box.addButton(button, QMessageBox::DestructiveRole);
+    box.setDefaultButton(QMessageBox::Cancel);
+    box.exec();
+    return box.clickedButton() == yes;
+  };
   connectActions();
+  connectTake();
+  connectCountdown();
+  connectPlan();
   connectRecorder();
   connectUnfinished();
   use(loadRecordingSettings(windowState.settings));
@@ -123,6 +145,11 @@ RecordFeature::RecordFeature(WindowState& windowState, QWidget* window)
   });
 }
 
+RecordFeature::~RecordFeature() {
+  // The dialog refers to the plan.
+  delete planDialog_;
+}
+
 void RecordFeature::connectActions() {
   RecordActions& actions = actions_;
   on(actions.record, [this] { toggle(); });
@@ -130,8 +157,11 @@ void RecordFeature::connectActions() {
     takeFolder();
     if (const auto wanted = state().prompts.recording(settings_, "Keep")) use(*wanted);
   });
-  actions.openRecorded->setEnabled(false);
-  on(actions.openRecorded, [this] { state().open(lastRecorded_); });
+  for (QAction* action : {actions.openRecorded, actions.renameRecorded, actions.discardRecorded})
+    action->setEnabled(false);
+  on(actions.openRecorded, [this] { state().open(take_.paths()); });
+  on(actions.renameRecorded, [this] { take_.rename(); });
+  on(actions.discardRecorded, [this] { take_.discard(); });
   on(actions.mark, [this] { mark({}, std::nullopt); });
   for (qsizetype digit = 0; digit < actions.labels.size(); ++digit)
     on(actions.labels[digit], [this, digit] {
@@ -146,6 +176,80 @@ void RecordFeature::connectActions() {
                             [this] { return state().displayed.isLive(); });
 }
 
+void RecordFeature::connectTake() {
+  connect(&take_, &RecordedTake::changed, this, [this] {
+    const bool some = !take_.paths().empty();
+    for (QAction* action :
+         {actions_.openRecorded, actions_.renameRecorded, actions_.discardRecorded})
+      action->setEnabled(some);
+  });
+  connect(&take_,
+          &RecordedTake::renamed,
+          this,
+          [this](const std::filesystem::path& from, const std::filesystem::path& to) {
+            plan_.rename(from, to);
+            offerTake("Renamed: " + QString::fromStdString(to.filename().string()));
+          });
+  connect(&take_, &RecordedTake::discarded, this, [this](const std::filesystem::path& path) {
+    plan_.forget(path);
+    offer_->dismiss();
+  });
+}
+
+void RecordFeature::connectPlan() {
+  on(actions_.recordingPlan, [this] { showPlan(); });
+  connect(&plan_,
+          &PlanController::checked,
+          this,
+          [this](const std::filesystem::path& file, const QString& problem) {
+            if (problem.isEmpty() || !offering_) return;
+            const QString name = QString::fromStdString(file.filename().string());
+            state().messages.logLink(name + ": " + problem);
+            offer_->offer(name + ": " + problem + ". Repeat it?", "Repeat", [this, file] {
+              plan_.reject(file);
+              state().messages.flash(plan_.nextText());
+            });
+            offer_->offerAlso("Keep", "It counts as it is", [this] { offer_->dismiss(); });
+            offer_->offerAlso("Discard…",
+                              "Moves it to the trash, after a question, and repeats it",
+                              [this] { take_.discard(); });
+          });
+}
+
+void RecordFeature::showPlan() {
+  if (!planDialog_) planDialog_ = new PlanDialog(state(), plan_, actions_.record, window());
+  planDialog_->show();
+  planDialog_->raise();
+  planDialog_->activateWindow();
+}
+
+void RecordFeature::remember() {
+  if (planDialog_) planDialog_->hide();
+}
+
+void RecordFeature::settle() { plan_.settle(); }
+
+void RecordFeature::connectCountdown() {
+  connect(&countdown_, &RecordingCountdown::changed, this, &RecordFeature::showCountdown);
+  connect(
+      countdownStrip_, &CountdownStrip::cancelRequested, &countdown_, &RecordingCountdown::cancel);
+  // One press of Escape stops the hand and cancels the countdown, whatever the hand does.
+  connect(&state().handCommands, &HandCommands::stopped, this, [this] {
+    if (countdown_.cancel()) escaped_.start();
+  });
+  state().escapeHandler.add(EscapeHandler::Order::kShow, [this] {
+    if (countdown_.cancel()) return true;
+    constexpr qint64 kSamePressMs = 200;
+    const bool same = escaped_.isValid() && escaped_.elapsed() < kSamePressMs;
+    escaped_.invalidate();
+    return same;
+  });
+  // Something else started a recording, or the hand was disconnected.
+  connect(&state().live, &LiveController::stateChanged, this, [this] {
+    if (!state().live.source() || state().live.recording()) countdown_.cancel();
+  });
+}
+
 void RecordFeature::connectRecorder() {
   LiveController& live = state().live;
   connect(&live, &LiveController::recordingStarted, this, [this] {
@@ -156,6 +260,7 @@ void RecordFeature::connectRecorder() {
   connect(&live, &LiveController::recordingFailed, this, [this](const QString& message) {
     state().messages.failAbout(kRecordingTopic, "Not recording: " + message);
     state().messages.logLink("not recording: " + message);
+    plan_.end({});
     showState();
   });
   connect(&live, &LiveController::recordingEnded, this, &RecordFeature::offer);
@@ -238,16 +343,40 @@ void RecordFeature::takeFolder() {
 void RecordFeature::toggle() {
   LiveController& live = state().live;
   if (live.recording()) return live.stopRecording();
+  if (countdown_.cancel()) return;
   takeFolder();
-  if (settings_.askEachTime) {
+  const auto planned = plan_.nextSettings(settings_);
+  if (!planned && settings_.askEachTime) {
     const auto wanted = state().prompts.recording(settings_, "Start recording");
     if (!wanted) return;
     use(*wanted);
   }
+  const RecordingSettings next = planned.value_or(settings_);
+  const bool isPlanned = planned.has_value();
+  if (next.countdownS > 0)
+    countdown_.start(next.countdownS, [this, next, isPlanned] { begin(next, isPlanned); });
+  else
+    begin(next, isPlanned);
+}
+
+void RecordFeature::begin(const RecordingSettings& settings, bool planned) {
+  LiveController& live = state().live;
+  if (!live.source() || live.recording()) return;
   offer_->dismiss();
-  live.startRecording([settings = settings_] {
+  // A take may be a little shorter than it was to be: by the interval of two frames.
+  constexpr double kNearlyWhole = 0.95, kUsualLeastS = 1.0;
+  if (planned)
+    plan_.begin(settings.limits.stopAfterS ? kNearlyWhole * *settings.limits.stopAfterS
+                                           : kUsualLeastS);
+  live.startRecording([settings] {
     return recordingOptions(settings, nextPath(settings, systemClock().wallUs()));
   });
+  // Notes are about one recording.
+  if (!settings_.notes.isEmpty()) {
+    RecordingSettings next = settings_;
+    next.notes.clear();
+    use(next);
+  }
   showState();
 }
 
@@ -258,10 +387,17 @@ void RecordFeature::mark(const QString& label, std::optional<int> digit) {
                          (live.recording() ? "" : " (nothing is being recorded)"));
 }
 
+void RecordFeature::showCountdown() {
+  countdownStrip_->setLeft(countdown_.leftS());
+  if (countdown_.running()) offer_->dismiss();
+  showState();
+}
+
 // Shows the duration of the recording and the amount on disk on the button.
 void RecordFeature::showState() {
   QAction* action = actions_.record;
-  const bool on = state().live.source() && state().live.recording();
+  const bool counting = countdown_.running();
+  const bool on = counting || (state().live.source() && state().live.recording());
   if (on != action->property(kRecordingProperty).toBool() || action->icon().isNull()) {
     action->setProperty(kRecordingProperty, on);
     action->setIcon(
@@ -271,17 +407,22 @@ void RecordFeature::showState() {
                           : "Start recording, with the last two seconds (Ctrl+R)");
   }
   QString text = " Record";
-  if (on) {
+  if (counting) {
+    text = " in " + QString::number(countdown_.leftS()) + " s";
+  } else if (on) {
     const RecorderStatus& recorder = state().live.health().recorder;
+    const QString end = recorder.stopAfterS ? " of " + clockText(*recorder.stopAfterS) : QString();
     text = recorder.state == RecorderStatus::State::kRecording
-               ? " " + clockText(recorder.elapsedS) + " · " + megabytes(recorder.bytesOnDisk)
-               : QString(" waiting for a frame");
+               ? " " + clockText(recorder.elapsedS) + end + " · " + megabytes(recorder.bytesOnDisk)
+           : recorder.state == RecorderStatus::State::kArmed ? QString(" waiting for contact")
+                                                             : QString(" waiting for a frame");
   }
   if (action->iconText() != text) action->setIconText(text);
 }
 
 void RecordFeature::offer(const RecordingReport& report) {
   Messages& messages = state().messages;
+  plan_.end(report);
   showState();
   if (report.paths.empty()) {
     const QString why = report.message.empty() ? QString("no frame came while it ran")
@@ -290,17 +431,28 @@ void RecordFeature::offer(const RecordingReport& report) {
     messages.logLink("nothing was recorded: " + why);
     return;
   }
-  lastRecorded_ = report.paths;
-  actions_.openRecorded->setEnabled(true);
+  take_.set(report.paths);
   const QString summary = summaryOf(report);
   messages.logLink("recorded " + summary);
   if (!report.complete)
     messages.fail(QString::fromStdString(report.paths.front().filename().string()) +
                   ": something is missing: " + QString::fromStdString(report.message));
-  if (!offering_) return;
-  offer_->offer("Recorded " + summary, "Open", [this] { state().open(lastRecorded_); });
+  const QString plan = plan_.plan().find(report.paths.front()) && plan_.followed()
+                           ? " · " + plan_.progressText() + ", " + plan_.nextText()
+                           : QString();
+  offerTake("Recorded " + summary + plan);
 }
 
-std::vector<BannerSpec> RecordFeature::strips() { return {{BannerSpec::Order::kOffer, offer_}}; }
+void RecordFeature::offerTake(const QString& text) {
+  if (!offering_) return;
+  offer_->offer(text, "Open", [this] { state().open(take_.paths()); });
+  offer_->offerAlso("Rename…", "Another name, with what belongs to it", [this] { take_.rename(); });
+  offer_->offerAlso(
+      "Discard…", "Moves it to the trash, after a question", [this] { take_.discard(); });
+}
+
+std::vector<BannerSpec> RecordFeature::strips() {
+  return {{BannerSpec::Order::kOffer, countdownStrip_}, {BannerSpec::Order::kOffer, offer_}};
+}
 
 }  // namespace palpate::gui

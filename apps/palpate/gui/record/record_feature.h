@@ -1,14 +1,19 @@
-// The feature that records the connected source: starts and stops recordings, sets marks, offers to
-// open the result, and offers to recover recordings that were never finished.
+// The feature that records the connected source: starts and stops recordings, also after a
+// countdown, sets marks, offers to open, rename or discard the result, follows a plan of
+// recordings, and offers to recover recordings that were never finished.
 #pragma once
 
 #include <QAction>
 #include <QActionGroup>
+#include <QElapsedTimer>
 #include <QList>
 #include <filesystem>
 #include <optional>
 #include <vector>
 
+#include "gui/record/plan_controller.h"
+#include "gui/record/recorded_take.h"
+#include "gui/record/recording_countdown.h"
 #include "gui/record/recovery_finder.h"
 #include "gui/source/recording_settings.h"
 #include "gui/window_state/action_registry.h"
@@ -24,42 +29,67 @@ struct RecordActions {
   QAction* recordingSettings = nullptr;
   // Opens the last recording that was made.
   QAction* openRecorded = nullptr;
+  // Opens the plan of recordings.
+  QAction* recordingPlan = nullptr;
+  QAction* renameRecorded = nullptr;
+  QAction* discardRecorded = nullptr;
   QAction* mark = nullptr;
   // For the digit keys 0..9.
   QList<QAction*> labels;
 };
 
+class CountdownStrip;
 class OfferStrip;
+class PlanDialog;
 
 class RecordFeature : public Feature {
   Q_OBJECT
  public:
   RecordFeature(WindowState& windowState, QWidget* window);
+  ~RecordFeature() override;
 
+  PlanController& plan() noexcept { return plan_; }
+  RecordedTake& lastTake() noexcept { return take_; }
+  RecordingCountdown& countdown() noexcept { return countdown_; }
   RecoveryFinder& unfinished() noexcept { return unfinished_; }
   // Searches for recordings that were never finished, and offers to recover them.
   void offerUnfinished();
   std::vector<BannerSpec> strips() override;
   void start() override;
+  void remember() override;
+  void settle() override;
 
  private:
   void connectActions();
   void connectRecorder();
   void connectUnfinished();
+  void connectTake();
+  void connectCountdown();
+  void connectPlan();
+  void showPlan();
   void use(const RecordingSettings& settings);
   void takeFolder();
   void toggle();
+  void begin(const RecordingSettings& settings, bool planned);
   void mark(const QString& label, std::optional<int> digit);
   void showState();
+  void showCountdown();
   void offer(const RecordingReport& report);
+  void offerTake(const QString& text);
 
   RecordActions actions_;
   OfferStrip* offer_;
   // False once something was announced that closes the window.
   bool offering_ = true;
   RecordingSettings settings_;
-  // The files of the last recording, one for each part.
-  std::vector<std::filesystem::path> lastRecorded_;
+  PlanController plan_;
+  // Made when it is asked for.
+  PlanDialog* planDialog_ = nullptr;
+  RecordedTake take_;
+  RecordingCountdown countdown_;
+  CountdownStrip* countdownStrip_;
+  // When Escape cancelled the countdown; it then does nothing else.
+  QElapsedTimer escaped_;
   RecoveryFinder unfinished_;
   // Files of the running recovery.
   std::vector<std::filesystem::path> recovered_;

@@ -12,11 +12,14 @@
 #include <QMenu>
 #include <QPlainTextEdit>
 #include <QPushButton>
+#include <QScreen>
 #include <QTimer>
 #include <QVBoxLayout>
 #include <algorithm>
 
 #include "gui/record/key_labels.h"
+#include "gui/record/recording_timing.h"
+#include "gui/widgets/content_scroll.h"
 #include "gui/widgets/elided_text.h"
 
 namespace palpate::gui {
@@ -27,6 +30,10 @@ constexpr int kRecordingDialogMargin = 20;  // [px]
 // Largest number of letters in a field; the file name is shortened to less.
 constexpr int kRecordingDialogMostLetters = 200;
 constexpr int kNoteLines = 3;
+// Least height of the fields, where they are scrolled [px].
+constexpr int kRecordingDialogLeastScroll = 150;
+// Room that the frame of the desktop takes around the dialog [px].
+constexpr int kRecordingDialogFrame = 44;
 // [ms]; {time} changes, and other programs may write into the folder
 constexpr int kRecordingDialogRefreshMs = 1000;
 
@@ -88,28 +95,41 @@ RecordingDialog::RecordingDialog(const RecordingSettings& settings,
   askForFolder = [this](const QString& begin) {
     return QFileDialog::getExistingDirectory(this, "Folder for recordings", begin);
   };
-  auto* middle = new QVBoxLayout;
+  auto* content = new QWidget;
+  auto* middle = new QVBoxLayout(content);
   middle->setContentsMargins(
-      kRecordingDialogMargin, kRecordingDialogMargin, kRecordingDialogMargin, 14);
+      kRecordingDialogMargin, kRecordingDialogMargin, kRecordingDialogMargin, 4);
   middle->setSpacing(12);
   middle->addWidget(makeFields(), 1);
-  middle->addWidget(makePreview());
-  marks_ = new KeyLabels(this);
+  timing_ = new RecordingTiming(content);
+  middle->addWidget(timing_);
+  marks_ = new KeyLabels(content);
   middle->addWidget(marks_);
+  scroll_ = new ContentScroll(content, {0, kRecordingDialogLeastScroll}, this);
+  auto* preview = new QVBoxLayout;
+  preview->setContentsMargins(kRecordingDialogMargin, 8, kRecordingDialogMargin, 14);
+  preview->addWidget(makePreview());
   auto* whole = new QVBoxLayout(this);
   whole->setContentsMargins(0, 0, 0, 0);
   whole->setSpacing(0);
-  whole->addLayout(middle, 1);
+  // On a small screen the fields are scrolled; the name and the buttons stay.
+  whole->addWidget(scroll_, 1);
+  whole->addLayout(preview);
   whole->addWidget(makeFoot(okText));
   fill(settings);
   for (QLineEdit* field : {operator_, object_, template_, folder_})
     connect(field, &QLineEdit::textChanged, this, &RecordingDialog::refresh);
-  connect(marks_, &KeyLabels::folded, this, &RecordingDialog::fitMarks);
+  // Where a part is opened, the dialog becomes taller instead of the notes smaller.
+  for (FoldingPart* part : {static_cast<FoldingPart*>(timing_), static_cast<FoldingPart*>(marks_)})
+    connect(part, &FoldingPart::folded, this, [this] {
+      fitHeight(std::max(0, notes_->height() - notes_->sizeHint().height()));
+    });
   auto* timer = new QTimer(this);
   connect(timer, &QTimer::timeout, this, &RecordingDialog::refresh);
   timer->start(kRecordingDialogRefreshMs);
   refresh();
-  resize(kRecordingDialogWidth, sizeHint().height());
+  resize(kRecordingDialogWidth, height());
+  fitHeight();
 }
 
 QLineEdit* RecordingDialog::makeField(const char* name, int maxLetters) {
@@ -147,7 +167,7 @@ QWidget* RecordingDialog::makeFields() {
   notes_->setObjectName("recordingNotes");
   notes_->setTabChangesFocus(true);
   notes_->setPlaceholderText("any other notes");
-  notes_->setToolTip("Kept in the recording. Ctrl+Enter: done");
+  notes_->setToolTip("Kept in this recording, not in the next ones. Ctrl+Enter: done");
   notes_->installEventFilter(this);
   notes_->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Expanding);
   add("No&tes", notes_);
@@ -166,7 +186,7 @@ QWidget* RecordingDialog::makeFields() {
   browse->setAutoDefault(false);
   connect(browse, &QPushButton::clicked, this, &RecordingDialog::browse);
   add("&Folder", folder_, browse);
-  mcap_ = new QCheckBox("Also an MCA&P file, for Foxglove and ROS 2", fields);
+  mcap_ = new QCheckBox("Also an M&CAP file, for Foxglove and ROS 2", fields);
   mcap_->setObjectName("recordingMcap");
   mcap_->setToolTip("Written beside the recording, under its name");
   grid->addWidget(mcap_, row, 1, 1, 2);
@@ -253,6 +273,7 @@ void RecordingDialog::fill(const RecordingSettings& settings) {
   notes_->setPlainText(settings.notes);
   template_->setText(settings.nameTemplate);
   folder_->setText(settings.folder);
+  timing_->fill(settings);
   mcap_->setChecked(settings.withMcap);
   ask_->setChecked(settings.askEachTime);
   marks_->setLabels(settings.markLabels);
@@ -265,6 +286,7 @@ RecordingSettings RecordingDialog::settings() const {
   settings.notes = notes_->toPlainText().trimmed();
   settings.nameTemplate = template_->text().trimmed();
   settings.folder = folderFromText(folder_->text());
+  timing_->readInto(settings);
   settings.withMcap = mcap_->isChecked();
   settings.askEachTime = ask_->isChecked();
   settings.markLabels = marks_->labels();
@@ -293,11 +315,12 @@ void RecordingDialog::browse() {
   if (!chosen.isEmpty()) folder_->setText(chosen);
 }
 
-// When the labels are opened, the dialog becomes taller instead of the notes smaller.
-void RecordingDialog::fitMarks() {
-  const int growth = std::max(0, notes_->height() - notes_->sizeHint().height());
+void RecordingDialog::fitHeight(int extraPx) {
+  scroll_->widget()->layout()->activate();
+  scroll_->updateGeometry();
   layout()->activate();
-  resize(width(), sizeHint().height() + growth);
+  const int most = screen()->availableGeometry().height() - kRecordingDialogFrame;
+  resize(width(), std::min(sizeHint().height() + extraPx, most));
 }
 
 void RecordingDialog::refresh() {
@@ -338,6 +361,8 @@ void RecordingDialog::showEvent(QShowEvent* event) {
   first->setFocus();
   first->selectAll();
   refresh();
+  // The button that stops the hand may have come to it.
+  fitHeight(std::max(0, notes_->height() - notes_->sizeHint().height()));
 }
 
 void RecordingDialog::resizeEvent(QResizeEvent* event) {

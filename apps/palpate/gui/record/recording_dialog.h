@@ -1,6 +1,6 @@
-// The dialog with the settings of the next recording: operator, object, notes, name, folder, and
-// labels of the digit keys. It shows the resulting file name, and any problem, while the user
-// types.
+// The dialog with the settings of the next recording: operator, object, notes, name, folder,
+// when it begins and ends, and labels of the digit keys. It shows the resulting file name, and any
+// problem, while the user types.
 #pragma once
 
 #include <QDialog>
@@ -20,7 +20,9 @@ class QPushButton;
 
 namespace palpate::gui {
 
+class ContentScroll;
 class KeyLabels;
+class RecordingTiming;
 
 class RecordingDialog : public QDialog {
   Q_OBJECT
@@ -56,7 +58,8 @@ class RecordingDialog : public QDialog {
   void fill(const RecordingSettings& settings);
   void insert(const QString& placeholder);
   void browse();
-  void fitMarks();
+  // Makes the dialog as high as its content, as far as the screen has room for it.
+  void fitHeight(int extraPx = 0);
   void refresh();
   void showTexts();
 
@@ -71,6 +74,8 @@ class RecordingDialog : public QDialog {
   QLabel* name_ = nullptr;
   QLabel* place_ = nullptr;
   QLabel* problem_ = nullptr;
+  ContentScroll* scroll_ = nullptr;
+  RecordingTiming* timing_ = nullptr;
   KeyLabels* marks_ = nullptr;
   QCheckBox* mcap_ = nullptr;
   QCheckBox* ask_ = nullptr;

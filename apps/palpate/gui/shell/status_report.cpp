@@ -101,6 +101,8 @@ void StatusReport::reportLive() {
     now.state = "the replay has ended";
   else if (live.stale())
     now.state = live.hasReceivedFrames() ? "no data" : "waiting for data";
+  else if (recorder.state == RecorderStatus::State::kArmed)
+    now.state = "recording waits for contact";
   else if (recorder.state != RecorderStatus::State::kIdle)
     now.state =
         recorder.framesOnDisk >= recorder.frames

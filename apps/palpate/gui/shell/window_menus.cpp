@@ -142,7 +142,12 @@ void WindowMenus::buildMenuBar(const ActionRegistry& book, const QList<QAction*>
   hand->addSeparator();
   hand->addActions({at("live"), at("hold")});
   hand->addSeparator();
-  hand->addActions({at("record"), at("recordingSettings"), at("openRecorded")});
+  hand->addActions({at("record"),
+                    at("recordingSettings"),
+                    at("recordingPlan"),
+                    at("openRecorded"),
+                    at("renameRecorded"),
+                    at("discardRecorded")});
   QMenu* marks = hand->addMenu("Mar&ks");
   marks->addAction(at("mark"));
   marks->addActions(book.all("labels"));

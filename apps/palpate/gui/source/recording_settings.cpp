@@ -23,6 +23,13 @@ constexpr const char* kOperator = "recording/operator";
 constexpr const char* kObject = "recording/object";
 constexpr const char* kNotes = "recording/notes";
 constexpr const char* kMcap = "recording/mcap";
+constexpr const char* kStopAfter = "recording/stop_after_s";
+constexpr const char* kSplitMinutes = "recording/split_min";
+constexpr const char* kSplitMb = "recording/split_mb";
+constexpr const char* kCountdown = "recording/countdown_s";
+constexpr const char* kOnContact = "recording/start_on_contact";
+constexpr const char* kReleased = "recording/stop_without_contact_s";
+constexpr const char* kThreshold = "recording/contact_threshold";
 constexpr const char* kAsk = "recording/ask";
 
 QString labelKey(std::size_t digit) { return QString("recording/label%1").arg(digit); }
@@ -34,8 +41,29 @@ QString recordingSettingsTextOf(const QSettings& settings,
   return text.contains(QChar('\0')) ? otherwise : text;
 }
 
+// A number in the range; nothing: there is none, or one that makes no sense.
+std::optional<double> recordingNumberOf(const QSettings& settings,
+                                        const char* key,
+                                        double least,
+                                        double most) {
+  bool isNumber = false;
+  const double value = settings.value(key).toDouble(&isNumber);
+  if (!isNumber || !(value >= least && value <= most)) return std::nullopt;
+  return value;
+}
+
+void saveNumber(QSettings& settings, const char* key, const std::optional<double>& value) {
+  if (value)
+    settings.setValue(key, *value);
+  else
+    settings.remove(key);
+}
+
 RecordingNameFields fieldsOf(const RecordingSettings& recording, std::int64_t nowUs) {
-  return {nowUs, recording.operatorName.toStdString(), recording.object.toStdString()};
+  return {nowUs,
+          recording.operatorName.toStdString(),
+          recording.object.toStdString(),
+          recording.run.toStdString()};
 }
 
 // Throws Error unless recordings can be written to `folder`, which may have to be created. Returns
@@ -94,6 +122,21 @@ RecordingSettings loadRecordingSettings(const QSettings& settings) {
   recording.operatorName = recordingSettingsTextOf(settings, kOperator, {});
   recording.object = recordingSettingsTextOf(settings, kObject, {});
   recording.notes = recordingSettingsTextOf(settings, kNotes, {});
+  using Limits = RecordingLimits;
+  recording.limits.stopAfterS =
+      recordingNumberOf(settings, kStopAfter, Limits::kLeastStopS, Limits::kMostStopS);
+  recording.limits.splitMinutes = recordingNumberOf(
+      settings, kSplitMinutes, Limits::kLeastSplitMinutes, Limits::kMostSplitMinutes);
+  recording.limits.splitMb =
+      recordingNumberOf(settings, kSplitMb, Limits::kLeastSplitMb, Limits::kMostSplitMb);
+  recording.countdownS = static_cast<int>(
+      recordingNumberOf(settings, kCountdown, 0.0, RecordingSettings::kMostCountdownS)
+          .value_or(0.0));
+  recording.startOnContact = settings.value(kOnContact, false).toBool();
+  recording.stopWithoutContactS =
+      recordingNumberOf(settings, kReleased, kLeastReleasedS, kMostReleasedS);
+  recording.contactThreshold =
+      recordingNumberOf(settings, kThreshold, 0.0, kMostContactThreshold).value_or(0.0);
   recording.withMcap = settings.value(kMcap, false).toBool();
   recording.askEachTime = settings.value(kAsk, true).toBool();
   for (std::size_t digit = 0; digit < recording.markLabels.size(); ++digit) {
@@ -109,6 +152,13 @@ void saveRecordingSettings(const RecordingSettings& recording, QSettings& settin
   settings.setValue(kOperator, recording.operatorName);
   settings.setValue(kObject, recording.object);
   settings.setValue(kNotes, recording.notes);
+  saveNumber(settings, kStopAfter, recording.limits.stopAfterS);
+  saveNumber(settings, kSplitMinutes, recording.limits.splitMinutes);
+  saveNumber(settings, kSplitMb, recording.limits.splitMb);
+  settings.setValue(kCountdown, recording.countdownS);
+  settings.setValue(kOnContact, recording.startOnContact);
+  saveNumber(settings, kReleased, recording.stopWithoutContactS);
+  settings.setValue(kThreshold, recording.contactThreshold);
   settings.setValue(kMcap, recording.withMcap);
   settings.setValue(kAsk, recording.askEachTime);
   for (std::size_t digit = 0; digit < recording.markLabels.size(); ++digit)
@@ -143,6 +193,12 @@ RecordingOptions recordingOptions(const RecordingSettings& recording, const fs::
   note("operator", recording.operatorName);
   note("object", recording.object);
   note("notes", recording.notes);
+  note("run", recording.run);
+  note("repetition", recording.repetition);
+  recording.limits.applyTo(options);
+  options.startOnContact = recording.startOnContact;
+  options.stopWithoutContactS = recording.stopWithoutContactS;
+  options.contact.threshold = recording.contactThreshold;
   if (recording.withMcap) options.mcap.emplace();
   return options;
 }

@@ -1,5 +1,5 @@
-// The operator's settings for new recordings: folder, names, operator, object, labels; with the
-// functions that build the path of the next recording from them.
+// The operator's settings for new recordings: folder, names, operator, object, limits, labels; with
+// the functions that build the path of the next recording from them.
 #pragma once
 
 #include <QSettings>
@@ -7,8 +7,10 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 
 #include <palpate/capture/recorder.h>
+#include <palpate/capture/recording_limits.h>
 
 namespace palpate::gui {
 
@@ -20,6 +22,19 @@ struct RecordingSettings {
   QString operatorName;
   QString object;
   QString notes;
+  // Of one recording of a plan, and not kept: which run, and which of its repetitions ("2 of 3").
+  QString run;
+  QString repetition;
+  // When it stops by itself, and goes on in a new file.
+  RecordingLimits limits;
+  // Seconds that are counted down before it begins, 0..kMostCountdownS.
+  static constexpr int kMostCountdownS = 60;
+  int countdownS = 0;
+  // It begins with contact, and ends when nothing has been touched for a time [s]; a taxel touches
+  // above the threshold, in the unit of the hand.
+  bool startOnContact = false;
+  std::optional<double> stopWithoutContactS;
+  double contactThreshold = 0.0;
   bool withMcap = false;  // an MCAP file beside each recording
   bool askEachTime = true;
   // Labels of the keys 0..9. An empty text leaves its key without a label.
@@ -36,6 +51,9 @@ QString folderFromText(const QString& typed);
 // Values in the settings that make no sense are replaced by the defaults, so that a settings file
 // never stops the program.
 RecordingSettings loadRecordingSettings(const QSettings& settings);
+// Ranges of stopWithoutContactS [s] and contactThreshold.
+inline constexpr double kLeastReleasedS = 0.05, kMostReleasedS = 1e4, kMostContactThreshold = 1e6;
+
 void saveRecordingSettings(const RecordingSettings& recording, QSettings& settings);
 
 // Returns the path of the next recording, at which no file exists; creates the folder if needed.

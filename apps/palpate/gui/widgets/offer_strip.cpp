@@ -45,6 +45,9 @@ OfferStrip::OfferStrip(QWidget* parent) : QWidget(parent) {
   row->setSpacing(12);
   row->addWidget(text_, 1);
   row->addWidget(accept_);
+  others_ = new QHBoxLayout;
+  others_->setSpacing(12);
+  row->addLayout(others_);
   row->addWidget(close_);
   hide();
 }
@@ -53,6 +56,7 @@ void OfferStrip::offer(const QString& text,
                        const QString& button,
                        std::function<void()> accept,
                        std::function<void()> decline) {
+  removeOthers();
   text_->setText(text);
   accept_->setText(button);
   accept_->show();
@@ -61,7 +65,29 @@ void OfferStrip::offer(const QString& text,
   show();
 }
 
+void OfferStrip::offerAlso(const QString& button,
+                           const QString& tip,
+                           std::function<void()> action) {
+  auto* made = new QPushButton(button, this);
+  made->setObjectName("offerOther");
+  made->setToolTip(tip);
+  made->setFocusPolicy(Qt::TabFocus);
+  made->setAutoDefault(false);
+  connect(made, &QPushButton::clicked, this, std::move(action));
+  others_->addWidget(made);
+}
+
+void OfferStrip::removeOthers() {
+  while (QLayoutItem* item = others_->takeAt(0)) {
+    // Its own click may have led here.
+    item->widget()->hide();
+    item->widget()->deleteLater();
+    delete item;
+  }
+}
+
 void OfferStrip::say(const QString& text) {
+  removeOthers();
   text_->setText(text);
   accept_->hide();
   onAccept_ = {};

@@ -7,6 +7,7 @@
 
 #include "gui/appearance/theme.h"
 
+class QHBoxLayout;
 class QLabel;
 class QPushButton;
 class QToolButton;
@@ -23,6 +24,8 @@ class OfferStrip : public QWidget {
              const QString& button,
              std::function<void()> accept,
              std::function<void()> decline = {});
+  // Adds a button to the present offer; `action` may be called several times, and the line stays.
+  void offerAlso(const QString& button, const QString& tip, std::function<void()> action);
   // Shows only a text, while the accepted action runs.
   void say(const QString& text);
   // Hides the line without calling `decline`.
@@ -31,8 +34,11 @@ class OfferStrip : public QWidget {
   void setTheme(Theme theme);
 
  private:
+  void removeOthers();
+
   QLabel* text_;
   QPushButton* accept_;
+  QHBoxLayout* others_;
   QToolButton* close_;
   std::function<void()> onAccept_;
   std::function<void()> onDecline_;

@@ -23,6 +23,8 @@ class HandCommands : public QObject {
  signals:
   // The user commands a motion, or Stop.
   void asked();
+  // The user commands Stop, by the button or by Escape.
+  void stopped();
   // High sensitivity begins or ends. With thresholds at the noise, ghost readings appear.
   void highSensitivityChanged(bool on);
 };

@@ -22,6 +22,8 @@ struct UserPrompts {
       recording;
   // Asks whether the running recording may be ended now.
   std::function<bool()> endRecording;
+  // Asks before something is done that can't be undone; `button`: what is done ("Discard").
+  std::function<bool(const QString& text, const QString& button)> confirmed;
   // Asks whether the running batch may be ended now.
   std::function<bool()> endBatch;
   // Asks for the text of a label or a note; nothing: cancelled. `title` is the title of the

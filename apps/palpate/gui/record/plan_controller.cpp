@@ -1,0 +1,198 @@
+#include "gui/record/plan_controller.h"
+
+#include <QCoreApplication>
+#include <QEventLoop>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include <palpate/core/error.h>
+#include <palpate/core/number_text.h>
+#include <palpate/core/output_file.h>
+#include <palpate/core/text_file.h>
+#include <palpate/recognition/take_quality.h>
+#include <palpate/recording/recording.h>
+
+namespace palpate::gui {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr const char* kPlanKey = "recording/plan";
+constexpr const char* kFollowPlanKey = "recording/follow_plan";
+
+std::int64_t lostIn(const RecordingReport& report) {
+  const auto fromHand = report.counters.find("lost");
+  return report.lost + (fromHand == report.counters.end() ? 0 : fromHand->second);
+}
+
+}  // namespace
+
+PlanController::PlanController(QSettings& settings, QObject* parent)
+    : QObject(parent), settings_(settings) {
+  const QByteArray kept = settings.value(kPlanKey).toString().toUtf8();
+  try {
+    if (!kept.isEmpty()) plan_ = RecordingPlan::fromJson({kept.data(), std::size_t(kept.size())});
+  } catch (const Error&) {
+    // A settings file never stops the program.
+  }
+  followed_ = settings.value(kFollowPlanKey, false).toBool();
+  // A take that can't be checked is one with a problem; see end().
+  connect(&checking_, &BackgroundJob::finished, this, &PlanController::changed);
+}
+
+void PlanController::save() {
+  settings_.setValue(kPlanKey, QString::fromStdString(plan_.json()));
+  emit changed();
+}
+
+void PlanController::setFollowed(bool on) {
+  if (on == followed_) return;
+  followed_ = on;
+  settings_.setValue(kFollowPlanKey, on);
+  emit followedChanged(on);
+  emit changed();
+}
+
+void PlanController::addRow(const PlanRow& row) {
+  plan_.addRow(row);
+  save();
+}
+
+void PlanController::setRow(std::size_t row, const PlanRow& now) {
+  plan_.setRow(row, now);
+  save();
+}
+
+void PlanController::removeRow(std::size_t row) {
+  plan_.removeRow(row);
+  if (row_ == row)
+    row_.reset();
+  else if (row_ && *row_ > row)
+    --*row_;
+  save();
+}
+
+void PlanController::importCsv(const fs::path& path) {
+  const std::string name = path.filename().string() + ": ";
+  PlanTable table;
+  try {
+    table = readPlanTable(readTextFile(path, kMaxPlanTableBytes));
+  } catch (const FileError&) {
+    throw;
+  } catch (const Error& error) {
+    throw Error(name + error.what());
+  }
+  if (!table.problems.empty())
+    throw Error(name + table.problems.front() +
+                (table.problems.size() > 1
+                     ? ", and " + counted(table.problems.size() - 1, "more problem")
+                     : "") +
+                "; the plan is as it was");
+  if (table.rows.empty()) throw Error(name + "has no rows; the plan is as it was");
+  RecordingPlan plan;
+  for (PlanRow& row : table.rows) plan.addRow(std::move(row));
+  plan_ = std::move(plan);
+  row_.reset();
+  lastTake_.reset();
+  save();
+}
+
+void PlanController::exportCsv(const fs::path& path) const {
+  OutputFile out(path, Overwrite::kReplace);
+  out.write(planCsv(plan_));
+  out.commit();
+}
+
+void PlanController::beginAnew() {
+  plan_.forgetTakes();
+  lastTake_.reset();
+  save();
+}
+
+std::optional<RecordingSettings> PlanController::nextSettings(const RecordingSettings& last) const {
+  const auto next = plan_.next();
+  if (!followed_ || !next) return std::nullopt;
+  const PlanRow& row = plan_.rows()[next->row];
+  RecordingSettings settings = last;
+  settings.object = QString::fromStdString(row.object);
+  settings.run = QString::fromStdString(row.run);
+  settings.repetition = QString("%1 of %2").arg(next->repetition).arg(row.repetitions);
+  if (!row.notes.empty()) settings.notes = QString::fromStdString(row.notes);
+  return settings;
+}
+
+void PlanController::begin(double leastS) {
+  const auto next = plan_.next();
+  if (next) row_ = next->row;
+  leastS_ = leastS;
+}
+
+void PlanController::end(const RecordingReport& report) {
+  const auto row = std::exchange(row_, std::nullopt);
+  if (!row || report.paths.empty()) return;
+  const fs::path file = report.paths.front();
+  plan_.addTake(*row, {.file = file});
+  lastTake_ = file;
+  save();
+  auto problem = std::make_shared<std::string>();
+  checking_.start(
+      "the take",
+      [problem, paths = report.paths, lost = lostIn(report), leastS = leastS_](
+          const Progress& progress) {
+        try {
+          std::vector<Profile> parts;
+          for (const fs::path& path : paths) parts.push_back(openRecording(path));
+          *problem = checkTake(parts, lost, {.leastS = leastS}, progress).problem();
+        } catch (const Cancelled&) {
+          throw;
+        } catch (const std::exception& error) {
+          *problem = std::string("can't be checked: ") + error.what();
+        }
+      },
+      [this, problem, file] {
+        // It may have been discarded or renamed meanwhile.
+        if (!plan_.setProblem(file, *problem)) return;
+        save();
+        emit checked(file, QString::fromStdString(*problem));
+      });
+}
+
+void PlanController::reject(const fs::path& file) {
+  if (!plan_.reject(file)) return;
+  if (lastTake_ == file) lastTake_.reset();
+  save();
+}
+
+void PlanController::rename(const fs::path& from, const fs::path& to) {
+  if (!plan_.rename(from, to)) return;
+  if (lastTake_ == from) lastTake_ = to;
+  save();
+}
+
+void PlanController::forget(const fs::path& file) {
+  if (!plan_.forget(file)) return;
+  if (lastTake_ == file) lastTake_.reset();
+  save();
+}
+
+QString PlanController::progressText() const {
+  if (plan_.rows().empty()) return {};
+  return QString("%1 of %2").arg(plan_.numDone()).arg(plan_.total());
+}
+
+QString PlanController::nextText() const {
+  if (plan_.rows().empty()) return {};
+  const auto next = plan_.next();
+  if (!next) return "the plan is done";
+  const PlanRow& row = plan_.rows()[next->row];
+  QString text = "next: " + QString::fromStdString(row.object);
+  if (!row.run.empty()) text += ", " + QString::fromStdString(row.run);
+  if (row.repetitions > 1) text += QString(", %1 of %2").arg(next->repetition).arg(row.repetitions);
+  return text;
+}
+
+void PlanController::settle() {
+  while (checking_.busy()) QCoreApplication::processEvents(QEventLoop::WaitForMoreEvents);
+}
+
+}  // namespace palpate::gui

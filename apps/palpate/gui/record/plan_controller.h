@@ -1,0 +1,79 @@
+// The plan of recordings in the window: keeps it in the settings, gives each planned recording its
+// object, run and notes, checks each take in the background, and tells what comes next.
+#pragma once
+
+#include <QObject>
+#include <QSettings>
+#include <QString>
+#include <filesystem>
+#include <optional>
+
+#include <palpate/capture/recorder.h>
+#include <palpate/capture/recording_plan.h>
+
+#include "gui/source/background_job.h"
+#include "gui/source/recording_settings.h"
+
+namespace palpate::gui {
+
+class PlanController : public QObject {
+  Q_OBJECT
+ public:
+  // Reads the plan from the settings, which must outlive this object.
+  explicit PlanController(QSettings& settings, QObject* parent = nullptr);
+
+  const RecordingPlan& plan() const noexcept { return plan_; }
+  // Whether Record makes the next recording of the plan.
+  bool followed() const noexcept { return followed_; }
+  void setFollowed(bool on);
+
+  // These throw Error with one line for the user; then nothing has changed.
+  void addRow(const PlanRow& row);
+  void setRow(std::size_t row, const PlanRow& now);
+  void importCsv(const std::filesystem::path& path);
+  void exportCsv(const std::filesystem::path& path) const;
+  void removeRow(std::size_t row);
+  // The takes are forgotten, their files stay.
+  void beginAnew();
+
+  // `last` with object, run and notes of the next take; nothing: the plan isn't followed, or done.
+  std::optional<RecordingSettings> nextSettings(const RecordingSettings& last) const;
+  // The recording that begins is that take; it must not be shorter than `leastS` [s].
+  void begin(double leastS);
+  // It ended, or could not be begun (no paths). A take is checked; checked() follows.
+  void end(const RecordingReport& report);
+
+  // Repeats a take: it counts no longer.
+  void reject(const std::filesystem::path& file);
+  // The newest take that counts, made since the window was opened; nothing: none.
+  const std::optional<std::filesystem::path>& lastTake() const noexcept { return lastTake_; }
+  void rename(const std::filesystem::path& from, const std::filesystem::path& to);
+  void forget(const std::filesystem::path& file);
+
+  // "3 of 12", "next: ball, left, 2 of 3" or "the plan is done"; empty: the plan has no row.
+  QString progressText() const;
+  QString nextText() const;
+
+  // Waits for the check that runs.
+  void settle();
+
+ signals:
+  void changed();
+  void followedChanged(bool on);
+  // `problem` is empty for a good take.
+  void checked(const std::filesystem::path& file, const QString& problem);
+
+ private:
+  void save();
+
+  QSettings& settings_;
+  RecordingPlan plan_;
+  bool followed_ = false;
+  // The take that is being recorded.
+  std::optional<std::size_t> row_;
+  double leastS_ = 0.0;
+  std::optional<std::filesystem::path> lastTake_;
+  BackgroundJob checking_;
+};
+
+}  // namespace palpate::gui

@@ -1,0 +1,269 @@
+#include "gui/record/plan_dialog.h"
+
+#include <QAction>
+#include <QCheckBox>
+#include <QFrame>
+#include <QHBoxLayout>
+#include <QHeaderView>
+#include <QLabel>
+#include <QProgressBar>
+#include <QPushButton>
+#include <QTableView>
+#include <QVBoxLayout>
+#include <algorithm>
+#include <array>
+
+#include <palpate/core/error.h>
+
+#include "gui/appearance/captions.h"
+#include "gui/record/plan_model.h"
+#include "gui/widgets/elided_text.h"
+
+namespace palpate::gui {
+namespace {
+
+constexpr QSize kPlanDialogSize(820, 460);  // [px]
+constexpr int kPlanDialogMargin = 16;       // [px]
+constexpr const char* kPlanTables = "Tables (*.csv);;All files (*)";
+constexpr const char* kPlanDialogStyle = R"(
+QTableView { background: palette(base); border: 1px solid palette(mid); border-radius: 4px; }
+#planFoot { border-top: 1px solid palette(mid); }
+#planSaid { color: palette(bright-text); }
+)";
+
+}  // namespace
+
+PlanDialog::PlanDialog(WindowState& windowState,
+                       PlanController& controller,
+                       QAction* record,
+                       QWidget* parent)
+    : QDialog(parent), windowState_(windowState), controller_(controller), record_(record) {
+  setWindowTitle("Recording plan");
+  setObjectName("planDialog");
+  setStyleSheet(kPlanDialogStyle);
+  setSizeGripEnabled(true);
+  progress_ = new QLabel(this);
+  progress_->setObjectName("planProgress");
+  QFont bold = progress_->font();
+  bold.setBold(true);
+  progress_->setFont(bold);
+  next_ = new QLabel(this);
+  next_->setObjectName("planNext");
+  next_->setTextFormat(Qt::PlainText);
+  next_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
+  bar_ = new QProgressBar(this);
+  bar_->setObjectName("planBar");
+  bar_->setTextVisible(false);
+  bar_->setMaximumWidth(180);
+  bar_->setMaximumHeight(10);
+  said_ = new QLabel(this);
+  said_->setObjectName("planSaid");
+  said_->setTextFormat(Qt::PlainText);
+  said_->setWordWrap(true);
+  auto* top = new QHBoxLayout;
+  top->setContentsMargins(kPlanDialogMargin, 12, kPlanDialogMargin, 0);
+  top->setSpacing(12);
+  top->addWidget(progress_);
+  top->addWidget(next_, 1);
+  top->addWidget(bar_);
+  auto* whole = new QVBoxLayout(this);
+  whole->setContentsMargins(0, 0, 0, 0);
+  whole->setSpacing(10);
+  whole->addLayout(top);
+  whole->addWidget(makeRows(), 1);
+  whole->addWidget(makeFoot());
+  connect(model_, &PlanModel::refused, this, &PlanDialog::say);
+  connect(&controller, &PlanController::changed, this, &PlanDialog::showState);
+  connect(&windowState.live, &LiveController::stateChanged, this, &PlanDialog::showState);
+  connect(record, &QAction::changed, this, &PlanDialog::showState);
+  connect(table_->selectionModel(),
+          &QItemSelectionModel::selectionChanged,
+          this,
+          &PlanDialog::showState);
+  connect(model_, &QAbstractItemModel::modelReset, this, &PlanDialog::showState);
+  resize(kPlanDialogSize);
+  say({});
+  showState();
+}
+
+// Fields say that they were edited while they are destroyed.
+PlanDialog::~PlanDialog() {
+  for (QObject* each : findChildren<QObject*>()) each->disconnect(this);
+}
+
+QPushButton* PlanDialog::makeButton(const char* name, const QString& text, const QString& tip) {
+  auto* button = new QPushButton(text, this);
+  button->setObjectName(name);
+  button->setToolTip(tip);
+  button->setAutoDefault(false);
+  return button;
+}
+
+QWidget* PlanDialog::makeRows() {
+  auto* part = new QWidget(this);
+  model_ = new PlanModel(controller_, this);
+  table_ = new QTableView(part);
+  table_->setObjectName("planTable");
+  table_->setAccessibleName("Plan of recordings");
+  table_->setModel(model_);
+  table_->setSelectionBehavior(QAbstractItemView::SelectRows);
+  table_->setSelectionMode(QAbstractItemView::SingleSelection);
+  table_->setTabKeyNavigation(false);
+  table_->setWordWrap(false);
+  table_->verticalHeader()->setDefaultAlignment(Qt::AlignCenter);
+  QHeaderView* header = table_->horizontalHeader();
+  header->setHighlightSections(false);
+  header->setSectionResizeMode(QHeaderView::Interactive);
+  const int letter = fontMetrics().averageCharWidth();
+  const std::array letters = {18, 12, 13, 22, 10, 20};
+  for (int column = 0; column < PlanModel::kNumColumns; ++column)
+    header->resizeSection(column, letter * letters.at(static_cast<std::size_t>(column)));
+  header->setStretchLastSection(true);
+  auto* add = makeButton("planAdd", "&Add row", "One more row below");
+  remove_ = makeButton("planRemove", "Re&move row", "Removes the chosen row; its files stay");
+  auto* take = makeButton(
+      "planImport", "&Import…", "A table (CSV) with the columns object, run, repetitions, notes");
+  export_ = makeButton("planExport", "&Export…", "The plan as a table (CSV)");
+  anew_ = makeButton("planAnew", "&Begin anew…", "All takes are to be made again; files stay");
+  connect(add, &QPushButton::clicked, this, &PlanDialog::addRow);
+  connect(remove_, &QPushButton::clicked, this, &PlanDialog::removeRow);
+  connect(take, &QPushButton::clicked, this, &PlanDialog::importTable);
+  connect(export_, &QPushButton::clicked, this, &PlanDialog::exportTable);
+  connect(anew_, &QPushButton::clicked, this, &PlanDialog::beginAnew);
+  auto* buttons = new QHBoxLayout;
+  buttons->setSpacing(8);
+  for (QPushButton* button : {add, remove_, take, export_, anew_}) buttons->addWidget(button);
+  buttons->addStretch(1);
+  auto* column = new QVBoxLayout(part);
+  column->setContentsMargins(kPlanDialogMargin, 0, kPlanDialogMargin, 0);
+  column->setSpacing(8);
+  column->addWidget(table_, 1);
+  column->addLayout(buttons);
+  column->addWidget(said_);
+  return part;
+}
+
+QWidget* PlanDialog::makeFoot() {
+  auto* foot = new QFrame(this);
+  foot->setObjectName("planFoot");
+  follow_ = new QCheckBox("&Follow the plan", foot);
+  follow_->setObjectName("planFollow");
+  follow_->setToolTip("Record (Ctrl+R) makes the next recording of the plan, without asking");
+  connect(follow_, &QCheckBox::toggled, &controller_, &PlanController::setFollowed);
+  repeat_ = makeButton(
+      "planRepeat", "Re&peat last take", "The last take counts no longer, and comes next again");
+  connect(repeat_, &QPushButton::clicked, this, &PlanDialog::repeatLast);
+  auto* close = makeButton("planClose", "&Close", "The plan is kept");
+  connect(close, &QPushButton::clicked, this, &QDialog::reject);
+  recordNext_ = makeButton("planRecord", "&Record next", "Records what comes next");
+  recordNext_->setProperty("primary", true);
+  connect(recordNext_, &QPushButton::clicked, this, &PlanDialog::recordNext);
+  auto* row = new QHBoxLayout(foot);
+  row->setContentsMargins(kPlanDialogMargin, 12, kPlanDialogMargin, 12);
+  row->setSpacing(8);
+  row->addWidget(follow_);
+  row->addStretch(1);
+  row->addWidget(close);
+  row->addWidget(repeat_);
+  row->addWidget(recordNext_);
+  return foot;
+}
+
+void PlanDialog::say(const QString& text) {
+  said_->setText(text);
+  said_->setVisible(!text.isEmpty());
+}
+
+void PlanDialog::showState() {
+  const RecordingPlan& plan = controller_.plan();
+  const bool some = !plan.rows().empty();
+  progress_->setText(some ? controller_.progressText() : "The plan is empty");
+  showElided(next_,
+             some ? controller_.nextText() : "add rows, or import a table",
+             std::max(120, next_->contentsRect().width()));
+  bar_->setMaximum(std::max(1, plan.total()));
+  bar_->setValue(plan.numDone());
+  follow_->setChecked(controller_.followed());
+  remove_->setEnabled(table_->selectionModel()->hasSelection());
+  export_->setEnabled(some);
+  anew_->setEnabled(some && std::any_of(plan.rows().begin(),
+                                        plan.rows().end(),
+                                        [](const auto& row) { return !row.takes.empty(); }));
+  repeat_->setEnabled(controller_.lastTake().has_value());
+  const bool on = record_->property(kRecordingProperty).toBool();
+  recordNext_->setText(on ? "Stop &recording" : "&Record next");
+  recordNext_->setEnabled(record_->isEnabled() && (on || plan.next().has_value()));
+  recordNext_->setToolTip(record_->isEnabled() ? "Records what comes next"
+                                               : "Connect a hand first (Ctrl+K)");
+}
+
+void PlanDialog::addRow() {
+  try {
+    controller_.addRow({.object = "object"});
+  } catch (const Error& error) {
+    return say(QString::fromUtf8(error.what()));
+  }
+  say({});
+  const QModelIndex added = model_->index(model_->rowCount() - 1, PlanModel::kObject);
+  table_->setCurrentIndex(added);
+  table_->edit(added);
+}
+
+void PlanDialog::removeRow() {
+  const QModelIndexList chosen = table_->selectionModel()->selectedRows();
+  if (chosen.isEmpty()) return;
+  const int row = chosen.front().row();
+  controller_.removeRow(static_cast<std::size_t>(row));
+  say({});
+  if (model_->rowCount() > 0) table_->selectRow(std::min(row, model_->rowCount() - 1));
+}
+
+void PlanDialog::importTable() {
+  const QString path =
+      windowState_.prompts.file("Read a plan", windowState_.recent.lastFolder(), kPlanTables);
+  if (path.isEmpty()) return;
+  const bool replaces = controller_.plan().numDone() > 0;
+  if (replaces && !windowState_.prompts.confirmed(
+                      "The plan with its " + controller_.progressText() +
+                          " takes is replaced by the table; files stay. Replace it?",
+                      "Replace"))
+    return;
+  try {
+    controller_.importCsv(path.toStdString());
+    say({});
+  } catch (const Error& error) {
+    say(QString::fromUtf8(error.what()));
+  }
+}
+
+void PlanDialog::exportTable() {
+  QString path = windowState_.prompts.newFile(
+      "Save the plan", windowState_.recent.lastFolder() + "/plan.csv", kPlanTables);
+  if (path.isEmpty()) return;
+  if (!path.endsWith(".csv")) path += ".csv";
+  try {
+    controller_.exportCsv(path.toStdString());
+    say({});
+    windowState_.messages.flash("saved: " + path);
+  } catch (const Error& error) {
+    say(QString::fromUtf8(error.what()));
+  }
+}
+
+void PlanDialog::beginAnew() {
+  if (windowState_.prompts.confirmed(
+          "All takes of the plan are to be made again; their files stay. Begin anew?",
+          "Begin anew"))
+    controller_.beginAnew();
+}
+
+void PlanDialog::recordNext() {
+  controller_.setFollowed(true);
+  record_->trigger();
+}
+
+void PlanDialog::repeatLast() {
+  if (const auto last = controller_.lastTake()) controller_.reject(*last);
+}
+
+}  // namespace palpate::gui

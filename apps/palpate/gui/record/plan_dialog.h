@@ -1,0 +1,65 @@
+// The window of the plan of recordings: the table, what comes next, how far the plan is, the
+// quality of the takes, and buttons that record the next one and repeat a bad one. It is not modal:
+// the window, and Stop, stay usable.
+#pragma once
+
+#include <QDialog>
+
+#include "gui/record/plan_controller.h"
+#include "gui/window_state/window_state.h"
+
+class QCheckBox;
+class QLabel;
+class QProgressBar;
+class QPushButton;
+class QTableView;
+
+namespace palpate::gui {
+
+class PlanModel;
+
+class PlanDialog : public QDialog {
+  Q_OBJECT
+ public:
+  // Both must outlive the dialog. `record`: the action that starts and stops a recording.
+  PlanDialog(WindowState& windowState,
+             PlanController& controller,
+             QAction* record,
+             QWidget* parent = nullptr);
+  ~PlanDialog() override;
+
+ public slots:
+  // Shows what is present; called with every change.
+  void showState();
+
+ private:
+  QWidget* makeRows();
+  QWidget* makeFoot();
+  QPushButton* makeButton(const char* name, const QString& text, const QString& tip);
+  void addRow();
+  void removeRow();
+  void importTable();
+  void exportTable();
+  void beginAnew();
+  void recordNext();
+  void repeatLast();
+  void say(const QString& text);
+
+  WindowState& windowState_;
+  PlanController& controller_;
+  QAction* record_;
+  PlanModel* model_;
+  QTableView* table_;
+  QLabel* progress_;
+  QLabel* next_;
+  QProgressBar* bar_;
+  QLabel* said_;
+  QCheckBox* follow_;
+  QPushButton* remove_;
+  QPushButton* export_;
+  QPushButton* anew_;
+  QPushButton* repeat_;
+  QPushButton* recordNext_;
+};
+
+}  // namespace palpate::gui

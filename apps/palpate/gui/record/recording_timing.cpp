@@ -1,0 +1,158 @@
+#include "gui/record/recording_timing.h"
+
+#include <QCheckBox>
+#include <QDoubleSpinBox>
+#include <QFormLayout>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QSpinBox>
+#include <algorithm>
+
+namespace palpate::gui {
+namespace {
+
+// A field whose 0 means "none".
+QDoubleSpinBox* timingField(const char* name,
+                            double most,
+                            int decimals,
+                            const QString& suffix,
+                            const QString& none,
+                            const QString& tip,
+                            QWidget* parent) {
+  auto* field = new QDoubleSpinBox(parent);
+  field->setObjectName(name);
+  field->setRange(0.0, most);
+  field->setDecimals(decimals);
+  field->setSuffix(suffix);
+  field->setSpecialValueText(none);
+  field->setToolTip(tip);
+  field->setAccessibleName(tip);
+  field->setButtonSymbols(QAbstractSpinBox::NoButtons);
+  return field;
+}
+
+// The value of a field, at least `least`; nothing: none.
+std::optional<double> timingValue(const QDoubleSpinBox& field, double least) {
+  if (!(field.value() > 0.0)) return std::nullopt;
+  return std::max(least, field.value());
+}
+
+QWidget* timingRow(std::initializer_list<QWidget*> fields, QWidget* parent) {
+  auto* row = new QWidget(parent);
+  auto* layout = new QHBoxLayout(row);
+  layout->setContentsMargins(0, 0, 0, 0);
+  layout->setSpacing(8);
+  for (QWidget* field : fields) layout->addWidget(field, qobject_cast<QLabel*>(field) ? 0 : 1);
+  row->setFocusProxy(*fields.begin());
+  return row;
+}
+
+}  // namespace
+
+RecordingTiming::RecordingTiming(QWidget* parent)
+    : FoldingPart("timing",
+                  "B&egin and end",
+                  "When it begins and stops by itself, and when a new file begins",
+                  parent) {
+  using Limits = RecordingLimits;
+  QWidget* made = body();
+  auto* form = new QFormLayout(made);
+  form->setContentsMargins(0, 2, 0, 0);
+  form->setHorizontalSpacing(12);
+  form->setVerticalSpacing(6);
+  countdown_ = new QSpinBox(made);
+  countdown_->setObjectName("recordingCountdown");
+  countdown_->setRange(0, RecordingSettings::kMostCountdownS);
+  countdown_->setSuffix(" s");
+  countdown_->setSpecialValueText("none");
+  countdown_->setButtonSymbols(QAbstractSpinBox::NoButtons);
+  countdown_->setToolTip("Seconds that are counted down before it begins; Esc cancels");
+  countdown_->setAccessibleName(countdown_->toolTip());
+  form->addRow("Count&down", countdown_);
+  onContact_ = new QCheckBox("When touc&hed", made);
+  onContact_->setObjectName("recordingOnContact");
+  onContact_->setToolTip(
+      "It waits until 3 taxels are touched in 3 frames; the two seconds before are in it, too");
+  threshold_ = timingField("recordingContactThreshold",
+                           kMostContactThreshold,
+                           2,
+                           "",
+                           "any active taxel",
+                           "A taxel is touched above this value, in the unit of the hand (counts)",
+                           made);
+  form->addRow("Begin", timingRow({onContact_, new QLabel("above", made), threshold_}, made));
+  stopAfter_ = timingField("recordingStopAfter",
+                           Limits::kMostStopS,
+                           2,
+                           " s",
+                           "not by itself",
+                           "So long after the first frame the recording stops by itself",
+                           made);
+  form->addRow("&Stop after", stopAfter_);
+  released_ = timingField("recordingReleased",
+                          kMostReleasedS,
+                          2,
+                          " s",
+                          "not by release",
+                          "It stops when something was touched and then nothing for so long",
+                          made);
+  form->addRow("Stop &untouched for", released_);
+  splitMinutes_ = timingField("recordingSplitMinutes",
+                              Limits::kMostSplitMinutes,
+                              2,
+                              " min",
+                              "any time",
+                              "After so many minutes the recording goes on in a new file: "
+                              "NAME_002.palpate, .. Nothing is lost in between",
+                              made);
+  splitMb_ = timingField("recordingSplitMb",
+                         Limits::kMostSplitMb,
+                         1,
+                         " MB",
+                         "any size",
+                         "At about so many megabytes the recording goes on in a new file",
+                         made);
+  form->addRow("Ne&w file every",
+               timingRow({splitMinutes_, new QLabel("or", made), splitMb_}, made));
+  connect(countdown_, &QSpinBox::valueChanged, this, [this] { sumUp(); });
+  connect(onContact_, &QCheckBox::toggled, this, [this] { sumUp(); });
+  for (QDoubleSpinBox* field : {threshold_, stopAfter_, released_, splitMinutes_, splitMb_})
+    connect(field, &QDoubleSpinBox::valueChanged, this, [this] { sumUp(); });
+  sumUp();
+}
+
+void RecordingTiming::fill(const RecordingSettings& settings) {
+  countdown_->setValue(settings.countdownS);
+  onContact_->setChecked(settings.startOnContact);
+  threshold_->setValue(settings.contactThreshold);
+  released_->setValue(settings.stopWithoutContactS.value_or(0.0));
+  stopAfter_->setValue(settings.limits.stopAfterS.value_or(0.0));
+  splitMinutes_->setValue(settings.limits.splitMinutes.value_or(0.0));
+  splitMb_->setValue(settings.limits.splitMb.value_or(0.0));
+}
+
+void RecordingTiming::readInto(RecordingSettings& settings) const {
+  using Limits = RecordingLimits;
+  settings.countdownS = countdown_->value();
+  settings.startOnContact = onContact_->isChecked();
+  settings.contactThreshold = threshold_->value();
+  settings.stopWithoutContactS = timingValue(*released_, kLeastReleasedS);
+  settings.limits.stopAfterS = timingValue(*stopAfter_, Limits::kLeastStopS);
+  settings.limits.splitMinutes = timingValue(*splitMinutes_, Limits::kLeastSplitMinutes);
+  settings.limits.splitMb = timingValue(*splitMb_, Limits::kLeastSplitMb);
+}
+
+QString RecordingTiming::summary() const {
+  RecordingSettings settings;
+  readInto(settings);
+  QStringList parts;
+  if (settings.countdownS > 0) parts << QString("%1 s countdown").arg(settings.countdownS);
+  if (settings.startOnContact) parts << "begins when touched";
+  if (settings.stopWithoutContactS)
+    parts << "stops untouched for " + QString::number(*settings.stopWithoutContactS) + " s";
+  if (const std::string limits = textOf(settings.limits); !limits.empty())
+    parts << QString::fromStdString(limits);
+  return parts.isEmpty() ? "until it is stopped, in one file" : parts.join(", ");
+}
+
+}  // namespace palpate::gui

@@ -1,0 +1,47 @@
+#include "palpate/capture/recording_limits.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "palpate/core/number_text.h"
+
+namespace palpate {
+namespace {
+
+void requireLimit(const std::optional<double>& value, double least, double most, const char* rule) {
+  if (value && !(*value >= least && *value <= most))
+    throw std::invalid_argument(std::string("RecordingLimits: ") + rule);
+}
+
+}  // namespace
+
+void RecordingLimits::validate() const {
+  requireLimit(stopAfterS, kLeastStopS, kMostStopS, "stopAfterS must be 0.05..1e7 s");
+  requireLimit(
+      splitMinutes, kLeastSplitMinutes, kMostSplitMinutes, "splitMinutes must be 1/60..1e5 min");
+  requireLimit(splitMb, kLeastSplitMb, kMostSplitMb, "splitMb must be 0.1..1e6 MB");
+}
+
+void RecordingLimits::applyTo(RecordingOptions& options) const {
+  validate();
+  options.stopAfterS = stopAfterS;
+  options.splitS.reset();
+  options.splitBytes.reset();
+  // Not below the least that a recorder accepts, to which a rounded sixtieth may come close.
+  if (splitMinutes) options.splitS = std::max(1.0, *splitMinutes * 60.0);
+  if (splitMb) options.splitBytes = std::llround(*splitMb * 1e6);
+}
+
+std::string textOf(const RecordingLimits& limits) {
+  std::string text;
+  if (limits.stopAfterS) text = "stops after " + numberText(*limits.stopAfterS) + " s";
+  if (!limits.splitMinutes && !limits.splitMb) return text;
+  text += text.empty() ? "a new file every " : ", a new file every ";
+  if (limits.splitMinutes) text += numberText(*limits.splitMinutes) + " min";
+  if (limits.splitMinutes && limits.splitMb) text += " or ";
+  if (limits.splitMb) text += numberText(*limits.splitMb) + " MB";
+  return text;
+}
+
+}  // namespace palpate

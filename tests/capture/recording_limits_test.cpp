@@ -1,0 +1,70 @@
+#include "palpate/capture/recording_limits.h"
+
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "testing/testing.h"
+
+namespace palpate::recording_limits_test {
+namespace {
+
+TEST(RecordingLimits, WithoutLimitsARecordingGoesOnInOneFile) {
+  RecordingOptions options;
+  options.splitS = 60.0;
+  options.stopAfterS = 5.0;
+  RecordingLimits().applyTo(options);
+  EXPECT_FALSE(options.stopAfterS);
+  EXPECT_FALSE(options.splitS);
+  EXPECT_FALSE(options.splitBytes);
+  EXPECT_EQ(textOf(RecordingLimits()), "");
+}
+
+TEST(RecordingLimits, MinutesAndMegabytesBecomeSecondsAndBytes) {
+  RecordingOptions options;
+  options.path = "a.palpate";
+  RecordingLimits{.stopAfterS = 30.0, .splitMinutes = 2.5, .splitMb = 0.1}.applyTo(options);
+  EXPECT_EQ(options.stopAfterS, 30.0);
+  EXPECT_EQ(options.splitS, 150.0);
+  EXPECT_EQ(options.splitBytes, 100'000);
+  EXPECT_NO_THROW(options.validate());
+}
+
+TEST(RecordingLimits, TheSmallestAndLargestAreAcceptedByTheRecorder) {
+  using Limits = RecordingLimits;
+  for (const Limits& limits :
+       {Limits{Limits::kLeastStopS, Limits::kLeastSplitMinutes, Limits::kLeastSplitMb},
+        Limits{Limits::kMostStopS, Limits::kMostSplitMinutes, Limits::kMostSplitMb}}) {
+    RecordingOptions options;
+    options.path = "a.palpate";
+    limits.applyTo(options);
+    EXPECT_NO_THROW(options.validate());
+  }
+}
+
+TEST(RecordingLimits, OtherValuesAreRefusedByName) {
+  const auto refusal = [](const RecordingLimits& limits) -> std::string {
+    RecordingOptions options;
+    try {
+      limits.applyTo(options);
+    } catch (const std::invalid_argument& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_EQ(refusal({.stopAfterS = 0.0}), "RecordingLimits: stopAfterS must be 0.05..1e7 s");
+  EXPECT_EQ(refusal({.stopAfterS = std::numeric_limits<double>::quiet_NaN()}),
+            "RecordingLimits: stopAfterS must be 0.05..1e7 s");
+  EXPECT_EQ(refusal({.splitMinutes = -1.0}), "RecordingLimits: splitMinutes must be 1/60..1e5 min");
+  EXPECT_EQ(refusal({.splitMb = 2e6}), "RecordingLimits: splitMb must be 0.1..1e6 MB");
+}
+
+TEST(RecordingLimits, AreSaidInWords) {
+  EXPECT_EQ(textOf({.stopAfterS = 30.0}), "stops after 30 s");
+  EXPECT_EQ(textOf({.splitMb = 500.0}), "a new file every 500 MB");
+  EXPECT_EQ(textOf({.stopAfterS = 1.5, .splitMinutes = 10.0, .splitMb = 500.0}),
+            "stops after 1.5 s, a new file every 10 min or 500 MB");
+}
+
+}  // namespace
+}  // namespace palpate::recording_limits_test

@@ -1,0 +1,149 @@
+#include "gui/record/plan_controller.h"
+
+#include <QSignalSpy>
+
+#include <palpate/core/error.h>
+#include <palpate/recording/recording.h>
+
+#include "gui/testing/sample_profiles.h"
+#include "testing/testing.h"
+
+namespace palpate::gui::plan_controller_test {
+namespace {
+namespace fs = std::filesystem;
+
+class PlanControllerTest : public ::testing::Test {
+ protected:
+  PlanControllerTest() {
+    controller_.addRow({.object = "ball", .run = "left", .repetitions = 2, .notes = "slowly"});
+    controller_.addRow({.object = "cup"});
+    QObject::connect(&controller_,
+                     &PlanController::checked,
+                     &controller_,
+                     [this](const fs::path&, const QString& problem) { checked_ << problem; });
+  }
+  // A take that was recorded: of frames in which something is touched for a second, or not.
+  RecordingReport recorded(const std::string& name) {
+    RecordingReport report;
+    report.paths = {folder_ / name};
+    saveRecording(twentyFrames(), {}, report.paths.front());
+    return report;
+  }
+  std::string refusal(const std::string& csv) {
+    testing::writeFile(folder_ / "plan.csv", csv);
+    try {
+      controller_.importCsv(folder_ / "plan.csv");
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return "";
+  }
+
+  const testing::TemporaryFolder folder_;
+  QSettings settings_{QString::fromStdString((folder_ / "p.ini").string()), QSettings::IniFormat};
+  PlanController controller_{settings_};
+  QStringList checked_;
+};
+
+TEST_F(PlanControllerTest, OnlyAFollowedPlanNamesTheNextRecording) {
+  RecordingSettings last;
+  last.operatorName = "Ada";
+  EXPECT_FALSE(controller_.nextSettings(last));
+  controller_.setFollowed(true);
+  const auto next = controller_.nextSettings(last);
+  ASSERT_TRUE(next);
+  EXPECT_EQ(next->object, "ball");
+  EXPECT_EQ(next->run, "left");
+  EXPECT_EQ(next->repetition, "1 of 2");
+  EXPECT_EQ(next->notes, "slowly");
+  EXPECT_EQ(next->operatorName, "Ada");
+  const RecordingOptions options = recordingOptions(*next, folder_ / "a.palpate");
+  EXPECT_EQ(options.meta.at("run"), "left");
+  EXPECT_EQ(options.meta.at("repetition"), "1 of 2");
+}
+
+TEST_F(PlanControllerTest, ATakeIsCheckedCountedAndRejected) {
+  controller_.setFollowed(true);
+  EXPECT_EQ(controller_.progressText(), "0 of 3");
+  EXPECT_EQ(controller_.nextText(), "next: ball, left, 1 of 2");
+  // Twenty frames, 50 ms apart: 0.95 s.
+  controller_.begin(2.0);
+  controller_.end(recorded("a.palpate"));
+  controller_.settle();
+  EXPECT_EQ(controller_.progressText(), "1 of 3");
+  ASSERT_EQ(checked_.size(), 1);
+  EXPECT_TRUE(checked_[0].contains("long, not 2.0 s")) << checked_[0].toStdString();
+  EXPECT_EQ(controller_.plan().rows()[0].takes[0].problem, checked_[0].toStdString());
+  EXPECT_EQ(controller_.lastTake(), folder_ / "a.palpate");
+  controller_.reject(folder_ / "a.palpate");
+  EXPECT_EQ(controller_.progressText(), "0 of 3");
+  EXPECT_FALSE(controller_.lastTake());
+}
+
+TEST_F(PlanControllerTest, ARecordingThatIsNotOfThePlanIsNotCounted) {
+  controller_.end(recorded("a.palpate"));
+  EXPECT_EQ(controller_.progressText(), "0 of 3");
+  controller_.begin(1.0);
+  controller_.end({});
+  controller_.end(recorded("b.palpate"));
+  EXPECT_EQ(controller_.progressText(), "0 of 3") << "the planned one was never begun";
+}
+
+TEST_F(PlanControllerTest, LostFramesAreAProblem) {
+  controller_.begin(0.0);
+  RecordingReport report = recorded("a.palpate");
+  report.counters = {{"lost", 6}};
+  controller_.end(report);
+  controller_.settle();
+  ASSERT_EQ(checked_.size(), 1);
+  EXPECT_TRUE(checked_[0].contains("6 frames lost")) << checked_[0].toStdString();
+}
+
+TEST_F(PlanControllerTest, IsRememberedAfterARestart) {
+  controller_.setFollowed(true);
+  controller_.begin(0.0);
+  controller_.end(recorded("a.palpate"));
+  controller_.settle();
+  const PlanController again(settings_);
+  EXPECT_TRUE(again.followed());
+  EXPECT_EQ(again.plan(), controller_.plan());
+  EXPECT_EQ(again.progressText(), "1 of 3");
+  settings_.setValue("recording/plan", "{nonsense");
+  EXPECT_TRUE(PlanController(settings_).plan().rows().empty());
+}
+
+TEST_F(PlanControllerTest, ATableReplacesThePlanOrChangesNothing) {
+  const RecordingPlan before = controller_.plan();
+  EXPECT_EQ(refusal("object,repetitions\nball,x\n,2\n"),
+            "plan.csv: line 2, repetitions: 'x' is not a whole number, and 1 more problem; the "
+            "plan is as it was");
+  EXPECT_EQ(refusal("object\n"), "plan.csv: has no rows; the plan is as it was");
+  EXPECT_NE(refusal("nothing\n1\n").find("must name the column object"), std::string::npos);
+  EXPECT_THROW(controller_.importCsv(folder_ / "none.csv"), Error);
+  EXPECT_EQ(controller_.plan(), before);
+  EXPECT_EQ(refusal("object,repetitions\npen,4\n"), "");
+  EXPECT_EQ(controller_.progressText(), "0 of 4");
+  controller_.exportCsv(folder_ / "out.csv");
+  EXPECT_EQ(testing::readFile(folder_ / "out.csv"),
+            "object,run,repetitions,notes,done\npen,,4,,0\n");
+}
+
+TEST_F(PlanControllerTest, RenamedAndDiscardedTakesAreFollowed) {
+  controller_.begin(0.0);
+  controller_.end(recorded("a.palpate"));
+  controller_.settle();
+  controller_.rename(folder_ / "a.palpate", folder_ / "b.palpate");
+  EXPECT_EQ(controller_.lastTake(), folder_ / "b.palpate");
+  controller_.forget(folder_ / "b.palpate");
+  EXPECT_EQ(controller_.progressText(), "0 of 3");
+}
+
+TEST_F(PlanControllerTest, ARowThatGoesWhileItIsRecordedIsNotCounted) {
+  controller_.begin(0.0);
+  controller_.removeRow(0);
+  controller_.end(recorded("a.palpate"));
+  EXPECT_EQ(controller_.progressText(), "0 of 1");
+}
+
+}  // namespace
+}  // namespace palpate::gui::plan_controller_test

@@ -1,0 +1,136 @@
+#include "gui/record/plan_dialog.h"
+
+#include <QCheckBox>
+#include <QLabel>
+#include <QPushButton>
+#include <QTableView>
+
+#include <palpate/core/error.h>
+
+#include "gui/record/plan_model.h"
+#include "gui/testing/layout_faults.h"
+#include "gui/window_state/window_state_fixture.h"
+
+namespace palpate::gui::plan_dialog_test {
+namespace {
+
+class PlanDialogTest : public WindowStateTest {
+ protected:
+  PlanDialogTest()
+      : controller_(windowState_->settings),
+        record_(windowState_->actions.make("record", "Hand", "&Record")) {
+    QObject::connect(record_, &QAction::triggered, record_, [this] { ++recorded_; });
+    windowState_->prompts.confirmed = [](const QString&, const QString&) { return true; };
+    controller_.addRow({.object = "ball", .run = "left", .repetitions = 2, .notes = "slowly"});
+    controller_.addRow({.object = "cup"});
+    dialog_ = std::make_unique<PlanDialog>(*windowState_, controller_, record_);
+    dialog_->show();
+  }
+  template <class Widget>
+  Widget* find(const char* name) {
+    auto* found = dialog_->findChild<Widget*>(name);
+    if (!found) throw std::runtime_error(std::string("no ") + name);
+    return found;
+  }
+  void click(const char* name) { QTest::mouseClick(find<QPushButton>(name), Qt::LeftButton); }
+  QAbstractItemModel* table() { return find<QTableView>("planTable")->model(); }
+  QString cell(int row, int column) { return table()->index(row, column).data().toString(); }
+  QString said() { return find<QLabel>("planSaid")->text(); }
+
+  PlanController controller_;
+  QAction* record_;
+  int recorded_ = 0;
+  std::unique_ptr<PlanDialog> dialog_;
+};
+
+TEST_F(PlanDialogTest, ShowsThePlanAndWhatComesNext) {
+  EXPECT_EQ(find<QLabel>("planProgress")->text(), "0 of 3");
+  EXPECT_EQ(find<QLabel>("planNext")->accessibleName(), "next: ball, left, 1 of 2");
+  ASSERT_EQ(table()->rowCount(), 2);
+  EXPECT_EQ(cell(0, PlanModel::kObject), "ball");
+  EXPECT_EQ(cell(0, PlanModel::kDone), "0 of 2");
+  EXPECT_TRUE(table()->index(0, 0).data(Qt::FontRole).value<QFont>().bold()) << "the next one";
+  EXPECT_FALSE(table()->index(1, 0).data(Qt::FontRole).value<QFont>().bold());
+}
+
+TEST_F(PlanDialogTest, CellsAreEditedAndABadValueIsNamedByRowAndColumn) {
+  const QModelIndex repetitions = table()->index(1, PlanModel::kRepetitions);
+  EXPECT_TRUE(table()->setData(repetitions, "5"));
+  EXPECT_EQ(controller_.plan().rows()[1].repetitions, 5);
+  EXPECT_FALSE(table()->setData(repetitions, "many"));
+  EXPECT_EQ(said(), "row 2, repetitions: 'many' is not a whole number");
+  EXPECT_FALSE(table()->setData(repetitions, "0"));
+  EXPECT_EQ(said(), "row 2, repetitions: must be 1..999");
+  EXPECT_FALSE(table()->setData(table()->index(0, PlanModel::kObject), " "));
+  EXPECT_EQ(said(), "row 1, object: is empty");
+  EXPECT_EQ(controller_.plan().rows()[0].object, "ball");
+  EXPECT_FALSE(table()->flags(table()->index(0, PlanModel::kDone)) & Qt::ItemIsEditable);
+}
+
+TEST_F(PlanDialogTest, RowsAreAddedAndRemoved) {
+  click("planAdd");
+  EXPECT_EQ(table()->rowCount(), 3);
+  find<QTableView>("planTable")->selectRow(0);
+  click("planRemove");
+  EXPECT_EQ(cell(0, PlanModel::kObject), "cup");
+}
+
+TEST_F(PlanDialogTest, TablesAreReadAndWritten) {
+  const QString path = QString::fromStdString((folder_ / "plan.csv").string());
+  testing::writeFile(folder_ / "plan.csv", "object,repetitions\npen,x\n");
+  windowState_->prompts.file = [&](const QString&, const QString&, const QString&) { return path; };
+  windowState_->prompts.newFile = windowState_->prompts.file;
+  click("planImport");
+  EXPECT_EQ(said(),
+            "plan.csv: line 2, repetitions: 'x' is not a whole number; the plan is as it was");
+  EXPECT_EQ(table()->rowCount(), 2);
+  click("planExport");
+  EXPECT_EQ(said(), "");
+  EXPECT_EQ(testing::readFile(folder_ / "plan.csv"),
+            "object,run,repetitions,notes,done\nball,left,2,slowly,0\ncup,,1,,0\n");
+  click("planImport");
+  EXPECT_EQ(table()->rowCount(), 2);
+}
+
+TEST_F(PlanDialogTest, RecordNextFollowsThePlan) {
+  EXPECT_FALSE(find<QCheckBox>("planFollow")->isChecked());
+  click("planRecord");
+  EXPECT_EQ(recorded_, 1);
+  EXPECT_TRUE(controller_.followed());
+  EXPECT_TRUE(find<QCheckBox>("planFollow")->isChecked());
+  record_->setProperty(kRecordingProperty, true);
+  emit record_->changed();
+  EXPECT_EQ(find<QPushButton>("planRecord")->text(), "Stop &recording");
+  record_->setEnabled(false);
+  EXPECT_FALSE(find<QPushButton>("planRecord")->isEnabled());
+}
+
+TEST_F(PlanDialogTest, TheLastTakeIsRepeatedAndThePlanBegunAnew) {
+  EXPECT_FALSE(find<QPushButton>("planRepeat")->isEnabled());
+  RecordingReport report;
+  report.paths = {folder_ / "none.palpate"};
+  controller_.begin(0.0);
+  controller_.end(report);
+  controller_.settle();
+  EXPECT_EQ(cell(0, PlanModel::kDone), "1 of 2");
+  EXPECT_TRUE(cell(0, PlanModel::kState).contains("can't be checked"));
+  click("planRepeat");
+  EXPECT_EQ(cell(0, PlanModel::kDone), "0 of 2");
+  EXPECT_EQ(cell(0, PlanModel::kState), "to be repeated");
+  click("planAnew");
+  EXPECT_TRUE(controller_.plan().rows()[0].takes.empty());
+}
+
+TEST_F(PlanDialogTest, NothingIsCutOff) {
+  table()->setData(table()->index(0, PlanModel::kObject), QString(150, 'x'));
+  table()->setData(table()->index(1, PlanModel::kRepetitions), "x");
+  for (const QSize size : {QSize(820, 460), QSize(720, 360)}) {
+    dialog_->resize(size);
+    QTest::qWait(0);
+    const QStringList faults = layoutFaults(*dialog_);
+    EXPECT_TRUE(faults.isEmpty()) << faults.join("\n").toStdString();
+  }
+}
+
+}  // namespace
+}  // namespace palpate::gui::plan_dialog_test

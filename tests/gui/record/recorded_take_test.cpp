@@ -1,0 +1,99 @@
+#include "gui/record/recorded_take.h"
+
+#include <QSignalSpy>
+
+#include "gui/window_state/window_state_fixture.h"
+
+namespace palpate::gui::recorded_take_test {
+namespace {
+namespace fs = std::filesystem;
+
+class RecordedTakeTest : public WindowStateTest {
+ protected:
+  RecordedTakeTest() : take_(*windowState_) {
+    for (const char* name : {"run_001.palpate", "run_001.mcap"})
+      testing::writeFile(folder_ / name, name);
+    windowState_->prompts.text = [this](const QString& title, const QString& text) {
+      titles_ << title;
+      offered_ << text;
+      return answers_.isEmpty() ? std::optional<QString>() : answers_.takeFirst();
+    };
+    windowState_->prompts.confirmed = [this](const QString& text, const QString&) {
+      titles_ << text;
+      return agreed_;
+    };
+    take_.moveToTrash = [this](const QString& path) {
+      if (!trash_) return false;
+      trashed_ << path.section('/', -1);
+      return QFile::remove(path);
+    };
+    QObject::connect(&windowState_->messages,
+                     &Messages::failed,
+                     &actionsOf_,
+                     [this](const QString&, const QString& text) { failed_ << text; });
+    take_.set({folder_ / "run_001.palpate"});
+  }
+  bool there(const char* name) { return fs::exists(folder_ / name); }
+
+  RecordedTake take_;
+  QStringList titles_, offered_, failed_, trashed_, answers_;
+  bool agreed_ = true;
+  bool trash_ = true;
+};
+
+TEST_F(RecordedTakeTest, GetsANewNameWithWhatBelongsToIt) {
+  answers_ = {" good ball.palpate "};
+  QSignalSpy changed(&take_, &RecordedTake::changed);
+  take_.rename();
+  EXPECT_EQ(offered_, QStringList("run_001"));
+  EXPECT_EQ(take_.paths().front(), folder_ / "good_ball.palpate");
+  EXPECT_TRUE(there("good_ball.palpate"));
+  EXPECT_TRUE(there("good_ball.mcap"));
+  EXPECT_FALSE(there("run_001.palpate"));
+  EXPECT_EQ(changed.size(), 1);
+}
+
+TEST_F(RecordedTakeTest, ATakenNameIsSaidAndAskedAgainWithWhatWasTyped) {
+  testing::writeFile(folder_ / "taken.palpate", "other");
+  answers_ = {"taken", "free"};
+  take_.rename();
+  ASSERT_EQ(titles_.size(), 2);
+  EXPECT_TRUE(titles_[1].contains("exists already; give another name"));
+  EXPECT_EQ(offered_[1], "taken");
+  EXPECT_TRUE(there("free.palpate"));
+  EXPECT_EQ(testing::readFile(folder_ / "taken.palpate"), "other");
+}
+
+TEST_F(RecordedTakeTest, WhatIsNoNameChangesNothing) {
+  answers_ = {" .. ", " .. "};
+  take_.rename();
+  EXPECT_TRUE(there("run_001.palpate"));
+  EXPECT_EQ(failed_, QStringList("that is no name of a file"));
+}
+
+TEST_F(RecordedTakeTest, IsDiscardedIntoTheTrashAfterAQuestion) {
+  agreed_ = false;
+  take_.discard();
+  EXPECT_TRUE(there("run_001.palpate"));
+  agreed_ = true;
+  take_.discard();
+  EXPECT_EQ(titles_.back(), "Discard run_001.palpate? It is moved to the trash.");
+  EXPECT_EQ(trashed_, (QStringList{"run_001.palpate", "run_001.mcap"}));
+  EXPECT_TRUE(take_.paths().empty());
+  take_.discard();
+  take_.rename();
+  EXPECT_EQ(titles_.size(), 2) << "there is nothing any more";
+}
+
+TEST_F(RecordedTakeTest, WithoutATrashItSaysThatItDeletes) {
+  trash_ = false;
+  take_.discard();
+  ASSERT_EQ(titles_.size(), 2);
+  EXPECT_TRUE(titles_[1].contains("has no trash")) << titles_[1].toStdString();
+  EXPECT_TRUE(titles_[1].endsWith("for good?"));
+  EXPECT_FALSE(there("run_001.palpate"));
+  EXPECT_FALSE(there("run_001.mcap"));
+}
+
+}  // namespace
+}  // namespace palpate::gui::recorded_take_test
