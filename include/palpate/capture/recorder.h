@@ -90,6 +90,9 @@ struct RecordingReport {
   std::map<std::string, std::int64_t> counters;
   std::int64_t gaps = 0;           // intervals longer than max(1 s, 5 median intervals)
   std::int64_t writeFailures = 0;  // commits that failed, and were tried again
+  // Stamps of the first and the last recorded frame [us since 1970]; 0: no frame was recorded.
+  std::int64_t firstFrameUs = 0;
+  std::int64_t lastFrameUs = 0;
   double durationS = 0.0;          // first to last frame [s]
   double rateHz = 0.0;             // 1 / median interval; 0 with fewer than two frames
   double meanRateHz = 0.0;         // (frames - 1) / duration
@@ -116,6 +119,9 @@ struct RecorderStatus {
   std::int64_t angles = 0;
   std::int64_t temperatures = 0;
   double elapsedS = 0.0;          // since the start [s]
+  // Stamps of the first and the newest recorded frame [us since 1970]; 0: there is none yet.
+  std::int64_t firstFrameUs = 0;
+  std::int64_t lastFrameUs = 0;
   double recordedS = 0.0;         // first to newest frame [s]
   std::int64_t framesOnDisk = 0;  // committed
   std::int64_t bytesOnDisk = 0;   // all parts

@@ -84,7 +84,7 @@ TEST_F(TaxelGroupsTest, TheListTicksThem) {
   TaxelGroups groups(settings());
   groups.keep("thumb tip", tip());
   SignalTree tree(groups);
-  tree.setSource(sdh2(), true, false);
+  tree.setSource(sdh2(), {.hasAngles = true});
   QSignalSpy changed(&tree, &SignalTree::extrasChanged);
   EXPECT_TRUE(tree.lines().contains("[x] the chosen taxels (none now)"));
   EXPECT_TRUE(tree.setTicked("thumb tip", true));

@@ -115,7 +115,7 @@ void WindowMenus::buildMenuBar(const ActionRegistry& book, const QList<QAction*>
   QMenu* plots = view->addMenu("&Plotted matrices");
   plots->addActions(book.all("plots"));
   view->addAction(at("chooseCurves"));
-  view->addActions({at("zoomIn"), at("zoomOut"), at("fit")});
+  view->addActions({at("zoomIn"), at("zoomOut"), at("fit"), at("axes")});
   view->addSeparator();
   view->addActions({at("slipReference"), at("compare")});
   view->addActions(dockToggles);
@@ -140,6 +140,12 @@ void WindowMenus::buildMenuBar(const ActionRegistry& book, const QList<QAction*>
   hand->addActions({at("whatIsIt"), at("showMode")});
   hand->addSeparator();
   hand->addActions({at("live"), at("hold")});
+  QMenu* chart = hand->addMenu("Live char&t");
+  chart->addActions({at("freezeLive"), at("liveNewest"), at("liveOldest")});
+  chart->addActions({at("liveEarlier"), at("liveLater")});
+  chart->addSeparator();
+  chart->addActions({at("selectFrom"), at("selectTo"), at("cursorBack"), at("cursorForward")});
+  chart->addActions({at("zoomSelection"), at("dropSelection")});
   hand->addSeparator();
   hand->addActions({at("record"), at("recordingSettings"), at("openRecorded")});
   QMenu* marks = hand->addMenu("Mar&ks");
