@@ -29,7 +29,7 @@ struct AxisRangeOptions {
 // The least 1, 2 or 5 times a power of ten at or above `value`; 1e-9 at least.
 double niceAbove(double value);
 
-// Range for a chart that stands still: all values, with 6 % of room. No values: 0..1.
+// Range for a chart that stands still: all values, with 6 % of room. No values: 0..1.06.
 AxisRange fittedRange(const std::optional<ValueExtent>& values, bool fromZero);
 
 // Range for a rolling chart. It changes only in steps, and becomes smaller only when the values

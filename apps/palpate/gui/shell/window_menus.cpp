@@ -140,7 +140,7 @@ void WindowMenus::buildMenuBar(const ActionRegistry& book, const QList<QAction*>
   hand->addActions({at("whatIsIt"), at("showMode")});
   hand->addSeparator();
   hand->addActions({at("live"), at("hold")});
-  QMenu* chart = hand->addMenu("Live char&t");
+  QMenu* chart = hand->addMenu("L&ive chart");
   chart->addActions({at("freezeLive"), at("liveNewest"), at("liveOldest")});
   chart->addActions({at("liveEarlier"), at("liveLater")});
   chart->addSeparator();

@@ -39,13 +39,13 @@ TimelineActions::TimelineActions(ActionRegistry& book) {
   freeze =
       book.make("freezeLive", "Hand", "&Freeze the live chart", {key("Shift+P")}, true);
   newest = book.make("liveNewest", "Hand", "&Newest frame in the live chart", {key("End")});
-  oldest = book.make("liveOldest", "Hand", "&Oldest frame in the live chart", {key("Home")});
-  earlier = book.make("liveEarlier", "Hand", "&Earlier in the live chart", {key("Alt+Left")});
+  oldest = book.make("liveOldest", "Hand", "Ol&dest frame in the live chart", {key("Home")});
+  earlier = book.make("liveEarlier", "Hand", "Ea&rlier in the live chart", {key("Alt+Left")});
   later = book.make("liveLater", "Hand", "&Later in the live chart", {key("Alt+Right")});
   cursorBack =
       book.make("cursorBack", "Hand", "Cursor a frame &back", {key("Alt+Shift+Left")});
   cursorForward =
-      book.make("cursorForward", "Hand", "Cursor a frame &forward", {key("Alt+Shift+Right")});
+      book.make("cursorForward", "Hand", "Cursor a frame for&ward", {key("Alt+Shift+Right")});
   cursorBack->setToolTip("Moves the cursor of the live chart that was set last");
   cursorForward->setToolTip("Moves the cursor of the live chart that was set last");
   crop->setIconText("Crop…");

@@ -50,7 +50,7 @@ class TimelineHeader : public QWidget {
     // Buttons for a live source only.
     QList<QAction*> ofLive = {};
   };
-  explicit TimelineHeader(const Actions& actions = {}, QWidget* parent = nullptr);
+  explicit TimelineHeader(const Actions& actions, QWidget* parent = nullptr);
   void setSignal(PlottedSignal signal);
   void setCurves(const std::vector<PlottedCurve>& curves, Theme theme);
   // "3.20 – 5.10 s · 61 frames"; empty: nothing is selected, no cursor is set.
