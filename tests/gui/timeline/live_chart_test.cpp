@@ -231,20 +231,21 @@ TEST_F(LiveChartTest, MarksAndGraspsAreLinesAtTheirMoment) {
 TEST_F(LiveChartTest, ARecordingIsMarkedWhereItBeganAndEnded) {
   framesTo(10.0);
   chart_.showRecording(kStartUs + 4'000'000, kStartUs + 9'900'000, true);
-  EXPECT_EQ(chart_.numEvents(), 1u) << "its begin";
+  EXPECT_EQ(chart_.numRecordingEnds(), 1u) << "its begin";
   chart_.showRecording(kStartUs + 4'000'000, kStartUs + 10'000'000, true);
-  EXPECT_EQ(chart_.numEvents(), 1u);
+  EXPECT_EQ(chart_.numRecordingEnds(), 1u);
   chart_.showRecording(kStartUs + 4'000'000, kStartUs + 10'000'000, false);
-  EXPECT_EQ(chart_.numEvents(), 2u) << "and its end";
+  EXPECT_EQ(chart_.numRecordingEnds(), 2u) << "and its end";
   chart_.showRecording(kStartUs + 4'000'000, kStartUs + 10'000'000, false);
-  EXPECT_EQ(chart_.numEvents(), 2u);
+  EXPECT_EQ(chart_.numRecordingEnds(), 2u);
+  EXPECT_EQ(chart_.numEvents(), 0u);
   chart_.replot();
   EXPECT_TRUE(chart_.valuesAt(4.0).contains("here the recording begins"));
   // A recording of which nothing was seen while it ran, and one without a frame.
   chart_.showRecording(kStartUs + 9'950'000, kStartUs + 10'000'000, false);
-  EXPECT_EQ(chart_.numEvents(), 4u);
+  EXPECT_EQ(chart_.numRecordingEnds(), 4u);
   chart_.showRecording(0, 0, false);
-  EXPECT_EQ(chart_.numEvents(), 4u);
+  EXPECT_EQ(chart_.numRecordingEnds(), 4u);
 }
 
 TEST_F(LiveChartTest, TheWheelChangesHowMuchIsSeen) {

@@ -479,6 +479,7 @@ void LiveChart::showRecording(std::int64_t firstUs, std::int64_t lastUs, bool ru
     bar->topLeft->setCoords(beginS, 1.0 - kBarHeight);
     recordings_.push_back({beginS, endS, true, bar});
     line(beginS, "recording", "here the recording begins", colors.danger);
+    events_.back().endsRecording = true;
   }
   Recorded& recording = recordings_.back();
   if (!recording.runs) return;
@@ -487,9 +488,15 @@ void LiveChart::showRecording(std::int64_t firstUs, std::int64_t lastUs, bool ru
   if (!runs) {
     recording.endS = endS;
     line(endS, "end of recording", "here the recording ends", colors.danger);
+    events_.back().endsRecording = true;
   }
   recording.bar->bottomRight->setCoords(recording.endS, 1.0);
   replot(QCustomPlot::rpQueuedReplot);
+}
+
+std::size_t LiveChart::numRecordingEnds() const {
+  return static_cast<std::size_t>(std::count_if(
+      events_.begin(), events_.end(), [](const Shown& event) { return event.endsRecording; }));
 }
 
 void LiveChart::line(double atS, const QString& name, const QString& text, const QColor& color) {
@@ -502,7 +509,7 @@ void LiveChart::line(double atS, const QString& name, const QString& text, const
   shape->end->setCoords(atS, 1.0);
   shape->setPen(QPen(color, 1.0));
   auto* word = wordAt(*this, atS, name, Qt::AlignLeft, colorsOf(theme_).text);
-  events_.push_back({atS, atS, false, shape, word, text});
+  events_.push_back({atS, atS, false, shape, word, text, false});
   arrangedFor_ = 0.0;
   arrangeNames();
   if (!following_) replot(QCustomPlot::rpQueuedReplot);
@@ -544,7 +551,7 @@ void LiveChart::shadeNewGaps() {
                         name,
                         Qt::AlignHCenter,
                         colorsOf(theme_).warning);
-    events_.push_back({gap.fromS, gap.toS, true, shape, word, name});
+    events_.push_back({gap.fromS, gap.toS, true, shape, word, name, false});
     arrangedFor_ = 0.0;
   }
 }

@@ -93,9 +93,10 @@ class LiveChart : public QCustomPlot {
   // What the tool tip says at a time: time and values; empty where nothing was measured.
   QString valuesAt(double seconds) const;
 
-  // For tests: number of graphs, and of events and gaps that are drawn.
+  // For tests: number of graphs, of events and gaps that are drawn, and of ends of recordings.
   int numGraphs() const { return graphCount(); }
-  std::size_t numEvents() const noexcept { return events_.size(); }
+  std::size_t numEvents() const { return events_.size() - numRecordingEnds(); }
+  std::size_t numRecordingEnds() const;
 
   QSize sizeHint() const override { return {900, 210}; }
   QSize minimumSizeHint() const override { return {240, 110}; }
@@ -128,6 +129,8 @@ class LiveChart : public QCustomPlot {
     QCPItemText* name = nullptr;
     // All of it, for the tool tip.
     QString text;
+    // Whether a recording begins or ends here.
+    bool endsRecording = false;
   };
   struct Recorded {
     double beginS = 0.0;
