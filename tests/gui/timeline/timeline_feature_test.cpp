@@ -1,6 +1,9 @@
 // The dock Timeline over the bench: what is plotted of a recording and of what is live.
 #include "gui/timeline/timeline_feature.h"
 
+#include <QCheckBox>
+#include <QDoubleSpinBox>
+
 #include "gui/timeline/live_chart.h"
 #include "gui/timeline/timeline_panel.h"
 #include "gui/window_state/window_state_fixture.h"
@@ -98,6 +101,28 @@ TEST_F(TimelineFeatureTest, RangesByHandAreRemembered) {
   EXPECT_EQ(feature_.panel().chart().yAxis->range(), QCPRange(0.0, 250.0));
   feature_.panel().chart().axes().setByHand("counts", std::nullopt);
   EXPECT_TRUE(settings.value("plotted/axes").toStringList().isEmpty());
+}
+
+TEST_F(TimelineFeatureTest, TheEndsOfAnAxisAreTyped) {
+  windowState_->displayed.show(recording("a"));
+  windowState_->selection.setPlotted({true, true});
+  windowState_->actions.at("axes")->trigger();
+  auto* editor = actionsOf_.findChild<QFrame*>("AxisEditor");
+  ASSERT_NE(editor, nullptr);
+  EXPECT_TRUE(editor->isVisible());
+  const QCPAxis& axis = *feature_.panel().chart().yAxis;
+  auto* automatic = editor->findChild<QCheckBox*>("automaticAxis");
+  EXPECT_TRUE(automatic->isChecked());
+  const QCPRange before = axis.range();
+  editor->findChild<QDoubleSpinBox*>("axisTo")->setValue(1234.5);
+  EXPECT_FALSE(automatic->isChecked());
+  EXPECT_DOUBLE_EQ(axis.range().upper, 1234.5);
+  EXPECT_TRUE(axis.label().contains("by hand")) << axis.label().toStdString();
+  editor->findChild<QDoubleSpinBox*>("axisFrom")->setValue(2000.0);
+  EXPECT_DOUBLE_EQ(axis.range().upper, 1234.5) << "that is no range";
+  automatic->setChecked(true);
+  EXPECT_EQ(axis.range(), before);
+  editor->hide();
 }
 
 }  // namespace

@@ -52,7 +52,10 @@ void UnitAxes::rebuild(const std::vector<PlottedCurve>& curves, Theme theme) {
 
 void UnitAxes::nameAxes() {
   plot_.yAxis->setLabel({});
-  for (const Axis& axis : axes_) axis.axis->setLabel(fittingName(axis.name, axis.unit, plot_));
+  for (const Axis& axis : axes_) {
+    const QString how = byHand_.contains(axis.unit) ? " (by hand)" : "";
+    axis.axis->setLabel(fittingName(axis.name + how, axis.unit + how, plot_));
+  }
 }
 
 QCPAxis* UnitAxes::of(const QString& unit) const {
@@ -89,6 +92,7 @@ void UnitAxes::setByHand(const RangesByHand& ranges) {
     const auto own = byHand_.find(axis.unit);
     if (own != byHand_.end()) axis.axis->setRange(own->second.from, own->second.to);
   }
+  nameAxes();
   emit byHandChanged();
 }
 

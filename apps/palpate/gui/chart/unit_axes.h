@@ -32,7 +32,7 @@ class UnitAxes : public QObject {
 
   // Makes the axes of these curves; the chart must have no graph. Ranges by hand stay.
   void rebuild(const std::vector<PlottedCurve>& curves, Theme theme);
-  // Names the axes, as the height of the chart permits.
+  // Names the axes, as the height of the chart permits; one that was set by hand says so.
   void nameAxes();
   // The axis of a unit of the curves.
   QCPAxis* of(const QString& unit) const;
