@@ -66,8 +66,9 @@ double LiveSeries::valueOf(Entry& entry, const SignalSample& sample) {
     case SeriesChoice::Kind::kMatrix:
       break;
   }
-  return choice.index < sample.rows.size() ? palpate::valueOf(sample.rows[choice.index], choice.signal)
-                                           : kNoValue;
+  return choice.index < sample.rows.size()
+             ? palpate::valueOf(sample.rows[choice.index], choice.signal)
+             : kNoValue;
 }
 
 void LiveSeries::setWanted(const std::vector<SeriesChoice>& wanted) {
@@ -89,7 +90,8 @@ void LiveSeries::setWanted(const std::vector<SeriesChoice>& wanted) {
   entries_ = std::move(entries);
   if (added.empty() || !history_ || empty()) return;
   std::size_t at = first_;
-  for (const SharedSignalSample& sample : history_->after(std::numeric_limits<std::int64_t>::min())) {
+  for (const SharedSignalSample& sample :
+       history_->after(std::numeric_limits<std::int64_t>::min())) {
     if (sample->hostUs > *newestUs_) break;
     const double timeS = secondsOf(sample->hostUs);
     while (at < timeS_.size() && timeS_[at] < timeS) ++at;
@@ -104,7 +106,8 @@ std::size_t LiveSeries::update() {
   const auto keptFromUs = history_->oldestUs();
   // After a long time without update() the history has dropped samples that were never taken.
   bool missed = newestUs_ && keptFromUs && *keptFromUs > *newestUs_;
-  const auto samples = history_->after(newestUs_.value_or(std::numeric_limits<std::int64_t>::min()));
+  const auto samples =
+      history_->after(newestUs_.value_or(std::numeric_limits<std::int64_t>::min()));
   for (const SharedSignalSample& sample : samples) {
     if (!originUs_) originUs_ = sample->hostUs;
     if (!empty() && (sample->afterGap || missed)) breaks_.push_back(timeS_.size() - 1);
@@ -123,16 +126,16 @@ void LiveSeries::forgetBefore(std::int64_t hostUs) {
   if (first_ < kLeastRemoved || 2 * first_ < timeS_.size()) return;
   const auto removed = static_cast<std::ptrdiff_t>(first_);
   timeS_.erase(timeS_.begin(), timeS_.begin() + removed);
-  for (Entry& entry : entries_) entry.values.erase(entry.values.begin(), entry.values.begin() + removed);
+  for (Entry& entry : entries_)
+    entry.values.erase(entry.values.begin(), entry.values.begin() + removed);
   std::erase_if(breaks_, [this](std::size_t index) { return index < first_; });
   for (std::size_t& index : breaks_) index -= first_;
   first_ = 0;
 }
 
 const LiveSeries::Entry* LiveSeries::find(const SeriesChoice& choice) const {
-  const auto found = std::find_if(entries_.begin(), entries_.end(), [&](const Entry& entry) {
-    return entry.choice == choice;
-  });
+  const auto found = std::find_if(
+      entries_.begin(), entries_.end(), [&](const Entry& entry) { return entry.choice == choice; });
   return found == entries_.end() ? nullptr : &*found;
 }
 
@@ -150,8 +153,8 @@ std::vector<SeriesPoint> LiveSeries::points(const SeriesChoice& choice,
 }
 
 std::optional<std::size_t> LiveSeries::indexAt(double timeS) const {
-  const auto after = std::upper_bound(
-      timeS_.begin() + static_cast<std::ptrdiff_t>(first_), timeS_.end(), timeS);
+  const auto after =
+      std::upper_bound(timeS_.begin() + static_cast<std::ptrdiff_t>(first_), timeS_.end(), timeS);
   const auto index = static_cast<std::size_t>(after - timeS_.begin());
   return index == first_ ? std::nullopt : std::optional(index - 1);
 }
@@ -173,9 +176,8 @@ std::optional<double> LiveSeries::sampleTimeAt(double timeS) const {
 std::optional<double> LiveSeries::sampleTimeBeside(double timeS, std::ptrdiff_t samples) const {
   if (empty()) return std::nullopt;
   const auto at = static_cast<std::ptrdiff_t>(indexAt(timeS).value_or(first_)) + samples;
-  return timeS_[static_cast<std::size_t>(std::clamp(at,
-                                                    static_cast<std::ptrdiff_t>(first_),
-                                                    static_cast<std::ptrdiff_t>(timeS_.size()) - 1))];
+  return timeS_[static_cast<std::size_t>(std::clamp(
+      at, static_cast<std::ptrdiff_t>(first_), static_cast<std::ptrdiff_t>(timeS_.size()) - 1))];
 }
 
 std::optional<TimeSpan> LiveSeries::gapAt(double timeS) const {
@@ -192,10 +194,10 @@ std::optional<std::pair<double, double>> LiveSeries::extremes(const SeriesChoice
   const Entry* entry = find(choice);
   if (!entry) return std::nullopt;
   const auto begin = timeS_.begin() + static_cast<std::ptrdiff_t>(first_);
-  const auto from = static_cast<std::size_t>(std::lower_bound(begin, timeS_.end(), fromS) -
-                                             timeS_.begin());
-  const auto to = static_cast<std::size_t>(std::upper_bound(begin, timeS_.end(), toS) -
-                                           timeS_.begin());
+  const auto from =
+      static_cast<std::size_t>(std::lower_bound(begin, timeS_.end(), fromS) - timeS_.begin());
+  const auto to =
+      static_cast<std::size_t>(std::upper_bound(begin, timeS_.end(), toS) - timeS_.begin());
   double low = std::numeric_limits<double>::infinity();
   double high = -low;
   // Comparisons with NaN are false.

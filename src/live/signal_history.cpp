@@ -13,10 +13,10 @@ namespace palpate {
 
 KeptTaxels::KeptTaxels(const std::vector<float>& values) {
   const auto isZero = [](float value) { return value == 0.0F; };
-  const auto active = values.size() - static_cast<std::size_t>(
-                                          std::count_if(values.begin(), values.end(), isZero));
-  if (active > 0 && active * (sizeof(float) + sizeof(std::uint32_t)) >=
-                        values.size() * sizeof(float)) {
+  const auto active =
+      values.size() - static_cast<std::size_t>(std::count_if(values.begin(), values.end(), isZero));
+  if (active > 0 &&
+      active * (sizeof(float) + sizeof(std::uint32_t)) >= values.size() * sizeof(float)) {
     values_ = values;
     return;
   }

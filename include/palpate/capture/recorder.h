@@ -93,10 +93,10 @@ struct RecordingReport {
   // Stamps of the first and the last recorded frame [us since 1970]; 0: no frame was recorded.
   std::int64_t firstFrameUs = 0;
   std::int64_t lastFrameUs = 0;
-  double durationS = 0.0;          // first to last frame [s]
-  double rateHz = 0.0;             // 1 / median interval; 0 with fewer than two frames
-  double meanRateHz = 0.0;         // (frames - 1) / duration
-  std::int64_t bytes = 0;          // on disk, all parts
+  double durationS = 0.0;   // first to last frame [s]
+  double rateHz = 0.0;      // 1 / median interval; 0 with fewer than two frames
+  double meanRateHz = 0.0;  // (frames - 1) / duration
+  std::int64_t bytes = 0;   // on disk, all parts
   // RecordingOptions::mcap: the files that were begun, and why that stopped before the end; empty:
   // it did not.
   std::vector<std::filesystem::path> mcapPaths;
@@ -118,7 +118,7 @@ struct RecorderStatus {
   std::int64_t frames = 0;
   std::int64_t angles = 0;
   std::int64_t temperatures = 0;
-  double elapsedS = 0.0;          // since the start [s]
+  double elapsedS = 0.0;  // since the start [s]
   // Stamps of the first and the newest recorded frame [us since 1970]; 0: there is none yet.
   std::int64_t firstFrameUs = 0;
   std::int64_t lastFrameUs = 0;

@@ -53,8 +53,8 @@ using SharedSignalSample = std::shared_ptr<const SignalSample>;
 
 // The oldest samples are dropped as soon as one of the limits is exceeded.
 struct SignalHistoryOptions {
-  double keepS = 600.0;                   // [s], > 0
-  std::size_t keepSamples = 30000;        // >= 1
+  double keepS = 600.0;                  // [s], > 0
+  std::size_t keepSamples = 30000;       // >= 1
   std::size_t keepBytes = 64ULL << 20U;  // about 1.3 kB per sample of an SDH-2, >= 1
 };
 

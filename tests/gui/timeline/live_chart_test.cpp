@@ -50,7 +50,9 @@ class LiveChartTest : public ::testing::Test {
     chart_.refresh(0.0);
   }
   void send(QEvent& event) { QApplication::sendEvent(&chart_, &event); }
-  void wheel(int notches, Qt::KeyboardModifiers modifiers = Qt::NoModifier, QPointF at = {300, 100}) {
+  void wheel(int notches,
+             Qt::KeyboardModifiers modifiers = Qt::NoModifier,
+             QPointF at = {300, 100}) {
     QWheelEvent event(at,
                       chart_.mapToGlobal(at),
                       {},
@@ -68,12 +70,8 @@ class LiveChartTest : public ::testing::Test {
   void drag(const QPoint& from, const QPoint& to, Qt::KeyboardModifiers modifiers = {}) {
     chart_.replot();
     QTest::mousePress(&chart_, Qt::LeftButton, modifiers, from);
-    QMouseEvent move(QEvent::MouseMove,
-                     to,
-                     chart_.mapToGlobal(to),
-                     Qt::NoButton,
-                     Qt::LeftButton,
-                     modifiers);
+    QMouseEvent move(
+        QEvent::MouseMove, to, chart_.mapToGlobal(to), Qt::NoButton, Qt::LeftButton, modifiers);
     send(move);
     QTest::mouseRelease(&chart_, Qt::LeftButton, modifiers, to);
   }
@@ -159,7 +157,8 @@ TEST_F(LiveChartTest, RollsOnBySilenceAndShadesTheGap) {
   plot({2}, SignalKind::kMaximum);
   chart_.refresh(0.0);
   EXPECT_EQ(chart_.numEvents(), 1u);
-  EXPECT_TRUE(chart_.valuesAt(33.0).contains("gap of 3.0 s")) << chart_.valuesAt(33.0).toStdString();
+  EXPECT_TRUE(chart_.valuesAt(33.0).contains("gap of 3.0 s"))
+      << chart_.valuesAt(33.0).toStdString();
 }
 
 TEST_F(LiveChartTest, HeightFollowsTheLargestInSight) {

@@ -100,12 +100,11 @@ TEST_F(TaxelGroupsTest, TheListTicksThem) {
 }
 
 TEST_F(TaxelGroupsTest, WhatIsTickedIsRemembered) {
-  const PlottedExtras extras{
-      .chosenTaxels = false,
-      .groups = {"a", "b, c"},
-      .angles = {1, 6},
-      .temperatures = {0},
-      .forces = {2, 6}};
+  const PlottedExtras extras{.chosenTaxels = false,
+                             .groups = {"a", "b, c"},
+                             .angles = {1, 6},
+                             .temperatures = {0},
+                             .forces = {2, 6}};
   savePlottedExtras(extras, settings());
   EXPECT_EQ(loadPlottedExtras(settings()), extras);
   settings().setValue("plotted/angles", QStringList{"-1", "x", "3", "9999"});

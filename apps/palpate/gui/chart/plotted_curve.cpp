@@ -108,12 +108,12 @@ PlottedCurve temperatureCurve(const HandDescription& hand, std::size_t sensor, T
 
 PlottedCurve forceCurve(const HandDescription& hand, std::size_t row, Theme theme) {
   const bool whole = row == hand.layout->numMatrices();
-  PlottedCurve made =
-      curve(hand,
-            {.kind = PlottedCurveKind::kForce, .index = row},
-            (whole ? QString("whole hand") : QString::fromStdString(hand.matrixName(row))) + " force",
-            whole ? wholeColor(theme) : matrixColor(row, theme),
-            Qt::DotLine);
+  PlottedCurve made = curve(
+      hand,
+      {.kind = PlottedCurveKind::kForce, .index = row},
+      (whole ? QString("whole hand") : QString::fromStdString(hand.matrixName(row))) + " force",
+      whole ? wholeColor(theme) : matrixColor(row, theme),
+      Qt::DotLine);
   made.pen.setWidthF(kForceCurveWidth);
   return made;
 }

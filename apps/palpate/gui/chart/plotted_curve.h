@@ -49,9 +49,8 @@ QString readingOf(const PlottedCurve& curve, std::optional<double> value);
 // As readingOf(), always with a sign: "+134 counts", "−2.0 °".
 QString differenceOf(const PlottedCurve& curve, std::optional<double> difference);
 // A heading and, below it, name and value of each curve; for tool tips.
-QString readingsText(
-    const QString& heading,
-    const std::vector<PlottedCurve>& curves,
-    const std::function<std::optional<double>(const SeriesChoice&)>& valueOfCurve);
+QString readingsText(const QString& heading,
+                     const std::vector<PlottedCurve>& curves,
+                     const std::function<std::optional<double>(const SeriesChoice&)>& valueOfCurve);
 
 }  // namespace palpate::gui

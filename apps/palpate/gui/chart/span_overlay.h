@@ -23,8 +23,8 @@ class SpanOverlay {
   // The widgets belong to the chart.
   explicit SpanOverlay(QWidget* chart);
   void setTheme(Theme theme);
-  // Shows both ends, at these positions [px of the chart], in any order; nothing: no such end. Parts
-  // outside of `plot` are hidden; the shade needs both ends.
+  // Shows both ends, at these positions [px of the chart], in any order; nothing: no such end.
+  // Parts outside of `plot` are hidden; the shade needs both ends.
   void place(const QRect& plot, std::optional<double> first, std::optional<double> second);
 
  private:

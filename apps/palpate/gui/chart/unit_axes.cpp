@@ -12,15 +12,14 @@ namespace palpate::gui {
 UnitAxes::UnitAxes(QCustomPlot& plot) : plot_(plot) {}
 
 const UnitAxes::Axis* UnitAxes::find(const QString& unit) const {
-  const auto found = std::find_if(
-      axes_.begin(), axes_.end(), [&](const Axis& axis) { return axis.unit == unit; });
+  const auto found =
+      std::find_if(axes_.begin(), axes_.end(), [&](const Axis& axis) { return axis.unit == unit; });
   return found == axes_.end() ? nullptr : &*found;
 }
 
 void UnitAxes::rebuild(const std::vector<PlottedCurve>& curves, Theme theme) {
   QCPAxisRect& rect = *plot_.axisRect();
-  while (rect.axisCount(QCPAxis::atRight) > 1)
-    rect.removeAxis(rect.axis(QCPAxis::atRight, 1));
+  while (rect.axisCount(QCPAxis::atRight) > 1) rect.removeAxis(rect.axis(QCPAxis::atRight, 1));
   plot_.yAxis2->setVisible(false);
   axes_.clear();
   for (const PlottedCurve& curve : curves) {
@@ -123,8 +122,7 @@ bool UnitAxes::wheel(const QWheelEvent& event) {
   const QCPAxis& axis = *of(*unit);
   const double factor = std::pow(kWheelZoom, -event.angleDelta().y() / kWheelNotch);
   // The end of a range that begins at 0 stays there.
-  const double fixed =
-      axis.range().lower == 0.0 ? 0.0 : axis.pixelToCoord(event.position().y());
+  const double fixed = axis.range().lower == 0.0 ? 0.0 : axis.pixelToCoord(event.position().y());
   setByHand(*unit,
             AxisRange{fixed + (axis.range().lower - fixed) * factor,
                       fixed + (axis.range().upper - fixed) * factor});

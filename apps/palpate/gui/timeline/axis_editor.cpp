@@ -92,7 +92,8 @@ void AxisEditor::openBeside(const QWidget& widget, UnitAxes& axes) {
   adjustSize();
   const QRect screen = widget.screen()->availableGeometry();
   QPoint at = widget.mapToGlobal(QPoint(0, widget.height() + 2));
-  if (at.y() + height() > screen.bottom()) at.setY(widget.mapToGlobal(QPoint(0, -height() - 2)).y());
+  if (at.y() + height() > screen.bottom())
+    at.setY(widget.mapToGlobal(QPoint(0, -height() - 2)).y());
   at.setX(std::clamp(at.x(), screen.left(), std::max(screen.left(), screen.right() - width())));
   move(at);
   show();

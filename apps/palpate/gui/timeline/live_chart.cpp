@@ -76,7 +76,8 @@ LiveChart::LiveChart(QWidget* parent)
   arrangeChart(*this);
   setAccessibleName("Live chart");
   setToolTip(
-      "Wheel: how many seconds are shown; Shift+wheel: scroll back; drag: cursors with differences");
+      "Wheel: how many seconds are shown; Shift+wheel: scroll back; drag: cursors with "
+      "differences");
   setMouseTracking(true);
   xAxis->setLabel("time since the first frame in s");
   xAxis->setTicker(secondsTicker_);
@@ -319,8 +320,8 @@ void LiveChart::setTimeCursorHere(std::size_t which) {
     setTimeCursor(which, series_.newestS());
   else
     setTimeCursor(which,
-              underMouse() && axisRect()->rect().contains(mouse) ? secondsAt(mouse.x())
-                                                                 : seen().center());
+                  underMouse() && axisRect()->rect().contains(mouse) ? secondsAt(mouse.x())
+                                                                     : seen().center());
 }
 
 void LiveChart::moveTimeCursor(std::ptrdiff_t samples) {
@@ -423,8 +424,10 @@ void LiveChart::placeWords() {
   for (QLabel* words : {behind_, readings_}) {
     if (words->isHidden()) continue;
     const QSize size = words->sizeHint();
-    const QRect place(
-        std::max(0, plot.right() - size.width() - kLiveWordsMargin), top, size.width(), size.height());
+    const QRect place(std::max(0, plot.right() - size.width() - kLiveWordsMargin),
+                      top,
+                      size.width(),
+                      size.height());
     if (words->geometry() != place) words->setGeometry(place);
     top = place.bottom() + 2;
   }
@@ -441,10 +444,10 @@ void LiveChart::forget(double beforeS) {
     drop(events_.front());
     events_.pop_front();
   }
-  while (!recordings_.empty() && (beforeS == std::numeric_limits<double>::infinity() ||
-                                  (!recordings_.front().runs &&
-                                   (recordings_.front().endS < beforeS ||
-                                    recordings_.size() > kMostRecordings)))) {
+  while (!recordings_.empty() &&
+         (beforeS == std::numeric_limits<double>::infinity() ||
+          (!recordings_.front().runs &&
+           (recordings_.front().endS < beforeS || recordings_.size() > kMostRecordings)))) {
     removeItem(recordings_.front().bar);
     recordings_.pop_front();
   }
@@ -546,11 +549,8 @@ void LiveChart::shadeNewGaps() {
     shadedToS_ = gap.toS;
     auto* shape = shadeSpan(*this, gap.fromS, gap.toS, theme_);
     const QString name = "gap " + figure(gap.lengthS(), 1) + " s";
-    auto* word = wordAt(*this,
-                        (gap.fromS + gap.toS) / 2,
-                        name,
-                        Qt::AlignHCenter,
-                        colorsOf(theme_).warning);
+    auto* word =
+        wordAt(*this, (gap.fromS + gap.toS) / 2, name, Qt::AlignHCenter, colorsOf(theme_).warning);
     events_.push_back({gap.fromS, gap.toS, true, shape, word, name, false});
     arrangedFor_ = 0.0;
   }
@@ -609,8 +609,7 @@ LiveChart::Drag LiveChart::dragAt(const QPointF& at) const {
   };
   const double first = distance(cursors_[0]);
   const double second = distance(cursors_[1]);
-  if (std::min(first, second) <= kHandleReach)
-    return first < second ? Drag::kFirst : Drag::kSecond;
+  if (std::min(first, second) <= kHandleReach) return first < second ? Drag::kFirst : Drag::kSecond;
   return Drag::kSelect;
 }
 

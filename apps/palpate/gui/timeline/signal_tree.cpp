@@ -166,23 +166,24 @@ void SignalTree::rebuild() {
   QTreeWidgetItem* temperatures =
       hand_.layout && hand_.temperatureSensors.empty() ? nullptr : section("Temperatures (°C)");
   if (temperatures && !source_.hasTemperatures) nothing(temperatures, none);
-  for (std::size_t i = 0; temperatures && source_.hasTemperatures && i < hand_.temperatureSensors.size();
+  for (std::size_t i = 0;
+       temperatures && source_.hasTemperatures && i < hand_.temperatureSensors.size();
        ++i)
     line(temperatures,
          QString::fromStdString(hand_.temperatureSensors[i].name),
          kTemperature,
          static_cast<int>(i),
          extras_.temperatures.contains(static_cast<int>(i)));
-  QTreeWidgetItem* forces =
-      hand_.layout && source_.hasForces ? section("Forces (N)") : nullptr;
+  QTreeWidgetItem* forces = hand_.layout && source_.hasForces ? section("Forces (N)") : nullptr;
   if (forces && !*source_.hasForces) nothing(forces, "need a calibration: Calibrate, Force");
   for (std::size_t i = 0; forces && *source_.hasForces && i <= hand_.layout->numMatrices(); ++i)
-    line(forces,
-         "force on " + (i < hand_.layout->numMatrices() ? QString::fromStdString(hand_.matrixName(i))
-                                                        : QString("the whole hand")),
-         kForce,
-         static_cast<int>(i),
-         extras_.forces.contains(static_cast<int>(i)));
+    line(
+        forces,
+        "force on " + (i < hand_.layout->numMatrices() ? QString::fromStdString(hand_.matrixName(i))
+                                                       : QString("the whole hand")),
+        kForce,
+        static_cast<int>(i),
+        extras_.forces.contains(static_cast<int>(i)));
   tree_->expandAll();
   group_->setEnabled(numChosen_ > 0);
   building_ = false;

@@ -1,6 +1,6 @@
 // A list with check boxes that chooses which curves the timeline shows in addition to those of the
-// matrices: the selected taxels, named groups, joint angles, temperatures, forces. It stays open while
-// several are ticked.
+// matrices: the selected taxels, named groups, joint angles, temperatures, forces. It stays open
+// while several are ticked.
 #pragma once
 
 #include <QFrame>

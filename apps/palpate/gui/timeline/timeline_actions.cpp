@@ -36,14 +36,12 @@ TimelineActions::TimelineActions(ActionRegistry& book) {
   fit = book.make("fit", "View", "Show the &whole timeline", {key("F")});
   axes = book.make("axes", "View", "Vertical axes of the timeline…", {key("Shift+V")});
   axes->setToolTip("Ranges of the vertical axes: automatic, or by hand");
-  freeze =
-      book.make("freezeLive", "Hand", "&Freeze the live chart", {key("Shift+P")}, true);
+  freeze = book.make("freezeLive", "Hand", "&Freeze the live chart", {key("Shift+P")}, true);
   newest = book.make("liveNewest", "Hand", "&Newest frame in the live chart", {key("End")});
   oldest = book.make("liveOldest", "Hand", "Ol&dest frame in the live chart", {key("Home")});
   earlier = book.make("liveEarlier", "Hand", "Ea&rlier in the live chart", {key("Alt+Left")});
   later = book.make("liveLater", "Hand", "&Later in the live chart", {key("Alt+Right")});
-  cursorBack =
-      book.make("cursorBack", "Hand", "Cursor a frame &back", {key("Alt+Shift+Left")});
+  cursorBack = book.make("cursorBack", "Hand", "Cursor a frame &back", {key("Alt+Shift+Left")});
   cursorForward =
       book.make("cursorForward", "Hand", "Cursor a frame for&ward", {key("Alt+Shift+Right")});
   cursorBack->setToolTip("Moves the cursor of the live chart that was set last");

@@ -240,7 +240,7 @@ void TimelineChart::setSelection(std::optional<TimeSpan> span) {
 }
 
 void TimelineChart::placeSelection() {
-  const auto pixel = [&](double TimeSpan::* end) {
+  const auto pixel = [&](double TimeSpan::*end) {
     return selection_ ? std::optional(pixelOf((*selection_).*end)) : std::nullopt;
   };
   span_.place(axisRect()->rect(), pixel(&TimeSpan::fromS), pixel(&TimeSpan::toS));

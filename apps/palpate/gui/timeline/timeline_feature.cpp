@@ -65,14 +65,13 @@ TimelineFeature::TimelineFeature(WindowState& windowState, QWidget* window)
       groups_(windowState.settings),
       extras_(loadPlottedExtras(windowState.settings)) {
   TimelineActions& actions = actions_;
-  header_ = new TimelineHeader(
-      {.ofSelection = {actions.zoomSelection,
-                       actions.addLabel,
-                       actions.crop,
-                       actions.dropSelection},
-       .ofCursors = {actions.zoomSelection, actions.dropSelection},
-       .ofLive = {actions.freeze}},
-      window);
+  header_ = new TimelineHeader({.ofSelection = {actions.zoomSelection,
+                                                actions.addLabel,
+                                                actions.crop,
+                                                actions.dropSelection},
+                                .ofCursors = {actions.zoomSelection, actions.dropSelection},
+                                .ofLive = {actions.freeze}},
+                               window);
   signalTree_ = new SignalTree(groups_, window);
   signalTree_->setExtras(extras_);
   charts_ = new FittingPages(window);
@@ -300,9 +299,7 @@ void TimelineFeature::connectSelection() {
   connect(&selection, &Selection::spanRequested, chart_, &TimelineChart::showSpan);
   connect(&selection, &Selection::fullRangeRequested, chart_, &TimelineChart::fit);
   connect(&selection, &Selection::zoomRequested, chart_, &TimelineChart::zoomAbout);
-  connect(&selection, &Selection::plottedChanged, this, [this, &selection] {
-    showCurves();
-  });
+  connect(&selection, &Selection::plottedChanged, this, [this, &selection] { showCurves(); });
   connect(&selection, &Selection::taxelsChanged, this, [this, &selection] {
     signalTree_->setNumChosen(selection.taxels().count());
     if (extras_.chosenTaxels) showCurves();
@@ -405,7 +402,8 @@ std::vector<PlottedCurve> TimelineFeature::curves() const {
                    theme));
   }
   std::size_t place = 1;
-  for (const TaxelGroups::Group& group : groups_.of(live ? *hand->layout : recording->profile.layout()))
+  for (const TaxelGroups::Group& group :
+       groups_.of(live ? *hand->layout : recording->profile.layout()))
     if (extras_.groups.contains(group.name))
       add(taxelCurve(*hand, group.taxels, group.name, place++, theme));
   for (const int axis : extras_.angles)
