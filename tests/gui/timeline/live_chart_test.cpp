@@ -342,7 +342,8 @@ TEST_F(LiveChartTest, WheelAndMouseScroll) {
 }
 
 TEST_F(LiveChartTest, WhatIsForgottenCannotBeScrolledTo) {
-  for (int i = 0; i <= 7000; ++i) frame(i / 10.0, 1.0);
+  framesTo(1.0);
+  for (int i = 11; i <= 7000; ++i) frame(i / 10.0, 1.0);
   chart_.refresh(0.0);
   chart_.showOldest();
   EXPECT_NEAR(chart_.seen().lower, 100.0, 1e-6) << "ten minutes are kept";

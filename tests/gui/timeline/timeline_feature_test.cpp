@@ -62,7 +62,7 @@ TEST_F(TimelineFeatureTest, LiveThereAreTheSameCurvesAsOfARecording) {
   chosen.add(1, 5, 1, 8, 4);
   windowState_->selection.setTaxels(chosen);
   EXPECT_EQ(chart.numGraphs(), 3);
-  ASSERT_TRUE(QTest::qWaitFor([&] { return chart.graph(2)->data()->size() > 5; }, 20'000));
+  ASSERT_TRUE(QTest::qWaitFor([&] { return chart.graph(2)->data()->size() > 0; }, 20'000));
   EXPECT_EQ(chart.curves()[0].name, "16 chosen taxels");
   EXPECT_GT((chart.graph(2)->data()->constEnd() - 1)->value, 10.0) << "a motor is warm";
 }
@@ -70,7 +70,8 @@ TEST_F(TimelineFeatureTest, LiveThereAreTheSameCurvesAsOfARecording) {
 TEST_F(TimelineFeatureTest, KeysFreezeScrollAndMeasureLive) {
   connectEmulated();
   LiveChart& chart = feature_.liveChart();
-  ASSERT_TRUE(QTest::qWaitFor([&] { return chart.graph(0)->data()->size() > 10; }, 20'000));
+  windowState_->selection.setPlotted(std::vector<bool>(7, true));
+  ASSERT_TRUE(QTest::qWaitFor([&] { return chart.graph(0)->data()->size() > 0; }, 20'000));
   windowState_->actionEnabler.refresh();
   ActionRegistry& actions = windowState_->actions;
   EXPECT_FALSE(actions.at("zoomSelection")->isEnabled());
@@ -106,7 +107,7 @@ TEST_F(TimelineFeatureTest, RangesByHandAreRemembered) {
 TEST_F(TimelineFeatureTest, TheEndsOfAnAxisAreTyped) {
   windowState_->displayed.show(recording("a"));
   windowState_->selection.setPlotted({true, true});
-  windowState_->actions.at("axes")->trigger();
+  windowState_->actions.at("verticalAxes")->trigger();
   auto* editor = actionsOf_.findChild<QFrame*>("AxisEditor");
   ASSERT_NE(editor, nullptr);
   EXPECT_TRUE(editor->isVisible());

@@ -115,7 +115,7 @@ void WindowMenus::buildMenuBar(const ActionRegistry& book, const QList<QAction*>
   QMenu* plots = view->addMenu("&Plotted matrices");
   plots->addActions(book.all("plots"));
   view->addAction(at("chooseCurves"));
-  view->addActions({at("zoomIn"), at("zoomOut"), at("fit"), at("axes")});
+  view->addActions({at("zoomIn"), at("zoomOut"), at("fit"), at("verticalAxes")});
   view->addSeparator();
   view->addActions({at("slipReference"), at("compare")});
   view->addActions(dockToggles);
