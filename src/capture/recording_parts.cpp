@@ -432,6 +432,8 @@ void RecordingParts::describe(RecorderStatus& status) const {
   status.frames = counts_.frames;
   status.angles = counts_.angles;
   status.temperatures = counts_.temperatures;
+  status.firstFrameUs = intervals_.firstUs();
+  status.lastFrameUs = intervals_.lastUs();
   status.recordedS = intervals_.durationS();
   status.framesOnDisk = framesOnDisk();
   status.bytesOnDisk = bytesOnDisk();
@@ -446,6 +448,8 @@ RecordingReport RecordingParts::report() const {
   report.paths = paths_;
   report.lost += lostInQueues_;
   report.gaps = intervals_.gaps();
+  report.firstFrameUs = intervals_.firstUs();
+  report.lastFrameUs = intervals_.lastUs();
   report.durationS = intervals_.durationS();
   report.rateHz = intervals_.rateHz();
   report.meanRateHz = intervals_.meanRateHz();

@@ -70,6 +70,7 @@ class Reader {
         profile_.readFrame(sample, frame_);
         return {seconds(frame_.hostUs), meanOf(frame_, choice_.taxels)};
       case ProfileSeriesKind::kMatrix:
+      case ProfileSeriesKind::kForce:  // no profile has it: hasSeries()
         break;
     }
     profile_.readFrame(sample, frame_);
@@ -138,6 +139,8 @@ bool hasSeries(const Profile& profile, const SeriesChoice& choice) {
       return choice.index < profile.temperatures(0).degC.size();
     case ProfileSeriesKind::kTaxels:
       return !choice.taxels.empty() && TaxelSelection(profile.layout()).sameSensor(choice.taxels);
+    case ProfileSeriesKind::kForce:
+      return false;
     case ProfileSeriesKind::kMatrix:
       break;
   }

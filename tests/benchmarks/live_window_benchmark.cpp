@@ -316,7 +316,7 @@ void windowReplug(benchmark::State& state) {
 }
 
 // Twelve minutes by PALPATE_BENCHMARK_MINUTES=12 (one where nothing is said): descriptors, threads
-// and memory, this in six parts of the time. The chart remembers five minutes: until then memory
+// and memory, this in six parts of the time. The chart remembers ten minutes: until then memory
 // grows by what it keeps.
 void windowSoak(benchmark::State& state) {
   const int asked = qEnvironmentVariableIntValue("PALPATE_BENCHMARK_MINUTES");

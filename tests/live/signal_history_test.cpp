@@ -25,10 +25,10 @@ TEST(SignalHistory, GivesWhatIsLaterThanAStamp) {
   EXPECT_EQ(history.after(0).size(), 5u);
   const auto late = history.after(90'000);
   ASSERT_EQ(late.size(), 2u);
-  EXPECT_EQ(late[0].hostUs, 120'000);
-  ASSERT_EQ(late[0].rows.size(), 7u);
-  EXPECT_DOUBLE_EQ(late[0].rows[2].sum, 4.0);
-  EXPECT_DOUBLE_EQ(late[0].rows[6].sum, 8.0);
+  EXPECT_EQ(late[0]->hostUs, 120'000);
+  ASSERT_EQ(late[0]->rows.size(), 7u);
+  EXPECT_DOUBLE_EQ(late[0]->rows[2].sum, 4.0);
+  EXPECT_DOUBLE_EQ(late[0]->rows[6].sum, 8.0);
   EXPECT_TRUE(history.after(150'000).empty());
 }
 
@@ -36,10 +36,53 @@ TEST(SignalHistory, KeepsSecondsAndSamplesAsAsked) {
   SignalHistory seconds({.keepS = 1.0, .keepSamples = 1000});
   for (int i = 0; i <= 100; ++i) seconds.add(resultsAt(i * 100'000));
   EXPECT_EQ(seconds.size(), 11u);  // 9.0 .. 10.0 s
-  EXPECT_EQ(seconds.after(0).front().hostUs, 9'000'000);
+  EXPECT_EQ(seconds.after(0).front()->hostUs, 9'000'000);
   SignalHistory samples({.keepS = 1000.0, .keepSamples = 7});
   for (int i = 0; i <= 100; ++i) samples.add(resultsAt(i * 100'000));
   EXPECT_EQ(samples.size(), 7u);
+}
+
+TEST(SignalHistory, TakesNoMoreMemoryThanAllowed) {
+  SignalHistory history({.keepS = 1e6, .keepSamples = 1'000'000, .keepBytes = 100'000});
+  for (int i = 1; i <= 1000; ++i) history.add(resultsAt(i * 30'000));
+  EXPECT_LE(history.bytes(), 100'000u);
+  EXPECT_GT(history.bytes(), 90'000u);
+  EXPECT_EQ(history.after(0).back()->hostUs, 30'000'000);
+  EXPECT_EQ(history.oldestUs(), history.after(0).front()->hostUs);
+  // One sample is kept however large it is.
+  SignalHistory tiny({.keepS = 1.0, .keepSamples = 10, .keepBytes = 1});
+  tiny.add(resultsAt(1));
+  EXPECT_EQ(tiny.size(), 1u);
+}
+
+TEST(SignalHistory, TenMinutesOfAFullHandFitIntoItsMemory) {
+  // Half of all taxels are active: that is much for a grasp.
+  auto frame = std::make_shared<TactileFrame>(sdh2().layout);
+  for (std::size_t i = 0; i < frame->values.size(); i += 2) frame->values[i] = 100.0F;
+  LiveResults results = resultsAt(1);
+  results.frame = frame;
+  results.angles = JointAngles{1, std::vector<double>(7)};
+  results.temperatures = Temperatures{1, std::vector<double>(9)};
+  SignalHistory history;
+  history.add(results);
+  EXPECT_LT(static_cast<double>(history.bytes()) * 600.0 * 31.7,
+            static_cast<double>(history.options().keepBytes));
+}
+
+TEST(SignalHistory, KeepsTaxelsSparselyOrAll) {
+  std::vector<float> values(100, 0.0F);
+  values[3] = 4.0F;
+  values[50] = 8.0F;
+  const KeptTaxels few(values);
+  EXPECT_EQ(few.bytes(), 2 * 8u);
+  std::vector<bool> chosen(100, false);
+  chosen[3] = chosen[4] = chosen[50] = chosen[51] = true;
+  EXPECT_DOUBLE_EQ(few.meanOf(chosen, 4), 3.0);
+  EXPECT_DOUBLE_EQ(few.meanOf({}, 0), 0.0);
+  const std::vector<float> full(100, 2.5F);
+  const KeptTaxels all(full);
+  EXPECT_EQ(all.bytes(), 400u);
+  EXPECT_DOUBLE_EQ(all.meanOf(chosen, 4), 2.5);
 }
 
 TEST(SignalHistory, MarksWhatComesAfterAGap) {
@@ -49,9 +92,9 @@ TEST(SignalHistory, MarksWhatComesAfterAGap) {
   history.add(resultsAt(1'260'000 + 1'010'000));  // above
   const auto all = history.after(-1);
   ASSERT_EQ(all.size(), 12u);
-  EXPECT_FALSE(all[0].afterGap);
-  EXPECT_FALSE(all[10].afterGap);
-  EXPECT_TRUE(all[11].afterGap);
+  EXPECT_FALSE(all[0]->afterGap);
+  EXPECT_FALSE(all[10]->afterGap);
+  EXPECT_TRUE(all[11]->afterGap);
 }
 
 TEST(SignalHistory, ASlowStreamHasNoGapsOfItsOwn) {
@@ -59,7 +102,7 @@ TEST(SignalHistory, ASlowStreamHasNoGapsOfItsOwn) {
   for (int i = 0; i < 10; ++i) history.add(resultsAt(i * 3'000'000));  // one in 3 s
   const auto all = history.after(-1);
   // The first interval has no earlier interval to be compared with.
-  for (std::size_t i = 2; i < all.size(); ++i) EXPECT_FALSE(all[i].afterGap) << i;
+  for (std::size_t i = 2; i < all.size(); ++i) EXPECT_FALSE(all[i]->afterGap) << i;
 }
 
 TEST(SignalHistory, LeavesOutWhatIsNotLater) {
@@ -77,6 +120,8 @@ TEST(SignalHistory, LeavesOutWhatIsNotLater) {
 TEST(SignalHistory, RefusesOptionsWithoutRoom) {
   EXPECT_THROW(SignalHistory({.keepS = 0.0, .keepSamples = 1}), std::invalid_argument);
   EXPECT_THROW(SignalHistory({.keepS = 1.0, .keepSamples = 0}), std::invalid_argument);
+  EXPECT_THROW(SignalHistory({.keepS = 1.0, .keepSamples = 1, .keepBytes = 0}),
+               std::invalid_argument);
 }
 
 }  // namespace

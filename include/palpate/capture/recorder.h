@@ -100,10 +100,13 @@ struct RecordingReport {
   std::map<std::string, std::int64_t> counters;
   std::int64_t gaps = 0;           // intervals longer than max(1 s, 5 median intervals)
   std::int64_t writeFailures = 0;  // commits that failed, and were tried again
-  double durationS = 0.0;          // first to last frame [s]
-  double rateHz = 0.0;             // 1 / median interval; 0 with fewer than two frames
-  double meanRateHz = 0.0;         // (frames - 1) / duration
-  std::int64_t bytes = 0;          // on disk, all parts
+  // Stamps of the first and the last recorded frame [us since 1970]; 0: no frame was recorded.
+  std::int64_t firstFrameUs = 0;
+  std::int64_t lastFrameUs = 0;
+  double durationS = 0.0;   // first to last frame [s]
+  double rateHz = 0.0;      // 1 / median interval; 0 with fewer than two frames
+  double meanRateHz = 0.0;  // (frames - 1) / duration
+  std::int64_t bytes = 0;   // on disk, all parts
   // RecordingOptions::mcap: the files that were begun, and why that stopped before the end; empty:
   // it did not.
   std::vector<std::filesystem::path> mcapPaths;
@@ -126,7 +129,10 @@ struct RecorderStatus {
   std::int64_t frames = 0;
   std::int64_t angles = 0;
   std::int64_t temperatures = 0;
-  double elapsedS = 0.0;   // since the start, or since the contact that began it [s]
+  double elapsedS = 0.0;  // since the start, or since the contact that began it [s]
+  // Stamps of the first and the newest recorded frame [us since 1970]; 0: there is none yet.
+  std::int64_t firstFrameUs = 0;
+  std::int64_t lastFrameUs = 0;
   double recordedS = 0.0;  // first to newest frame [s]
   // RecordingOptions::stopAfterS of this recording.
   std::optional<double> stopAfterS;

@@ -1,11 +1,13 @@
-// The last minutes of the characteristic signals, for a rolling chart: filled by live processing,
-// read by the display.
+// The last minutes of a live source, for a rolling chart: characteristic signals, taxels, joint
+// angles, temperatures and forces of every frame. Filled by live processing, read by the display.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 #include <deque>
+#include <memory>
 #include <mutex>
+#include <optional>
 #include <vector>
 
 #include <palpate/live/live_results.h>
@@ -13,18 +15,47 @@
 
 namespace palpate {
 
+// The values of all places of a frame, of which most are usually 0: either only those that are not
+// 0, with their places, or all of them, whichever takes less memory.
+class KeptTaxels {
+ public:
+  KeptTaxels() = default;
+  explicit KeptTaxels(const std::vector<float>& values);
+  // Mean of the places for which `chosen` is set; 0 when none is. Places beyond the end of either
+  // count as 0. `numChosen`: number of set places.
+  double meanOf(const std::vector<bool>& chosen, std::size_t numChosen) const;
+  std::size_t bytes() const noexcept;
+
+ private:
+  // Ascending; empty: `values_` has all places.
+  std::vector<std::uint32_t> places_;
+  std::vector<float> values_;
+};
+
+// What is kept of one frame.
 struct SignalSample {
   std::int64_t hostUs = 0;  // stamp of the frame [us since 1970]
   // True when the sample follows a gap of more than max(1 s, 5 median intervals); the chart then
   // draws no line to it.
   bool afterGap = false;
   std::vector<CharacteristicSignals> rows;  // one per matrix, then all matrices together
-};
+  std::shared_ptr<const SensorLayout> layout;
+  KeptTaxels taxels;                 // values of the frame (TactileFrame::allValues)
+  std::vector<double> anglesDeg;     // the last ones at or before the frame; empty: none
+  std::vector<double> temperatures;  // [deg C], likewise
+  // Force on each matrix, then on the whole hand [N]; empty: no calibration is applied.
+  std::vector<double> forcesN;
 
+  // Memory that the sample takes, approximately.
+  std::size_t bytes() const noexcept;
+};
+using SharedSignalSample = std::shared_ptr<const SignalSample>;
+
+// The oldest samples are dropped as soon as one of the limits is exceeded.
 struct SignalHistoryOptions {
-  double keepS = 300.0;  // [s], > 0
-  // Maximum number of samples at any rate; about 0.4 kB each.
-  std::size_t keepSamples = 30000;
+  double keepS = 600.0;                  // [s], > 0
+  std::size_t keepSamples = 30000;       // >= 1
+  std::size_t keepBytes = 64ULL << 20U;  // about 1.3 kB per sample of an SDH-2, >= 1
 };
 
 // Every function may be called from any thread.
@@ -33,12 +64,17 @@ class SignalHistory {
   // Throws std::invalid_argument naming the field.
   explicit SignalHistory(const SignalHistoryOptions& options = {});
 
+  const SignalHistoryOptions& options() const noexcept { return options_; }
   // Adds the results of SignalsStage. A frame that isn't later than the last one is ignored.
   void add(const LiveResults& results);
   void clear();
   // Samples later than a stamp, oldest first.
-  std::vector<SignalSample> after(std::int64_t hostUs) const;
+  std::vector<SharedSignalSample> after(std::int64_t hostUs) const;
+  // Stamp of the oldest sample; empty: there is none.
+  std::optional<std::int64_t> oldestUs() const;
   std::size_t size() const;
+  // Memory of all samples, approximately.
+  std::size_t bytes() const;
 
  private:
   std::int64_t medianIntervalUs() const;
@@ -46,7 +82,8 @@ class SignalHistory {
   static constexpr std::size_t kIntervals = 15;
   const SignalHistoryOptions options_;
   mutable std::mutex mutex_;
-  std::deque<SignalSample> samples_;
+  std::deque<SharedSignalSample> samples_;
+  std::size_t bytes_ = 0;
   std::deque<std::int64_t> intervalsUs_;  // newest intervals [us]
 };
 

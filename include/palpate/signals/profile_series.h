@@ -24,7 +24,10 @@ struct SeriesChoice {
     kAngle,  // joint angle `index` [deg]
     // Temperature sensor `index` [deg C]; NaN where the value is exactly 0, since the sensor has
     // not reported then.
-    kTemperature
+    kTemperature,
+    // Force on matrix `index` [N]; with index = number of matrices, on the whole hand. Only of live
+    // sources (live/live_series.h): a profile has none without a calibration.
+    kForce
   };
   Kind kind = Kind::kMatrix;
   std::size_t index = 0;

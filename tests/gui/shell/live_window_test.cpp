@@ -199,6 +199,7 @@ TEST_F(LiveWindowTest, RecordsWithMarksAndOpensWhatWasRecorded) {
   press(Qt::Key_R, Qt::ControlModifier);
   ASSERT_TRUE(await([&] { return offered().contains("ball_001.palpate"); }));
   EXPECT_TRUE(offered().contains("nothing lost"));
+  EXPECT_EQ(chart().numRecordingEnds(), 2u) << "begin and end are marked";
   const auto events = readEvents(folder_ / "runs" / "ball_001.palpate").events;
   const auto count = [&](const std::string& kind, const std::string& text) {
     return std::count_if(events.begin(), events.end(), [&](const RecordingEvent& event) {

@@ -84,7 +84,7 @@ TEST_F(TaxelGroupsTest, TheListTicksThem) {
   TaxelGroups groups(settings());
   groups.keep("thumb tip", tip());
   SignalTree tree(groups);
-  tree.setSource(sdh2(), true, false);
+  tree.setSource(sdh2(), {.hasAngles = true});
   QSignalSpy changed(&tree, &SignalTree::extrasChanged);
   EXPECT_TRUE(tree.lines().contains("[x] the chosen taxels (none now)"));
   EXPECT_TRUE(tree.setTicked("thumb tip", true));
@@ -100,8 +100,11 @@ TEST_F(TaxelGroupsTest, TheListTicksThem) {
 }
 
 TEST_F(TaxelGroupsTest, WhatIsTickedIsRemembered) {
-  const PlottedExtras extras{
-      .chosenTaxels = false, .groups = {"a", "b, c"}, .angles = {1, 6}, .temperatures = {0}};
+  const PlottedExtras extras{.chosenTaxels = false,
+                             .groups = {"a", "b, c"},
+                             .angles = {1, 6},
+                             .temperatures = {0},
+                             .forces = {2, 6}};
   savePlottedExtras(extras, settings());
   EXPECT_EQ(loadPlottedExtras(settings()), extras);
   settings().setValue("plotted/angles", QStringList{"-1", "x", "3", "9999"});

@@ -22,6 +22,26 @@ QString nameOf(PlottedSignal signal) {
   return "mean";
 }
 
+QString meaningOf(PlottedSignal signal) {
+  switch (signal) {
+    case PlottedSignal::kFilteredMean:
+      return "Mean of the active taxels after smoothing over 3 x 3 taxels";
+    case PlottedSignal::kMaximum:
+      return "Largest taxel";
+    case PlottedSignal::kMinimum:
+      return "Smallest of the active taxels";
+    case PlottedSignal::kSum:
+      return "Sum of all taxels: steady when another taxel is touched";
+    case PlottedSignal::kActive:
+      return "Number of taxels that read more than 0";
+    case PlottedSignal::kArea:
+      return "Active taxels times the area of a taxel";
+    case PlottedSignal::kMean:
+      break;
+  }
+  return "Mean of the active taxels: it falls when another taxel begins to read something";
+}
+
 QString unitOf(PlottedSignal signal, const QString& handUnit) {
   if (signal == PlottedSignal::kActive) return "taxels";
   if (signal == PlottedSignal::kArea) return "mm²";

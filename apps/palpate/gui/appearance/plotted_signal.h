@@ -12,6 +12,8 @@ inline constexpr const auto& kAllPlottedSignals = kAllSignalKinds;
 
 // "mean", "filtered mean", ..; also the key in the settings.
 QString nameOf(PlottedSignal signal);
+// One sentence for a tool tip, for example that the mean falls when another taxel is touched.
+QString meaningOf(PlottedSignal signal);
 // "taxels", "mm²", or the unit of the hand's values.
 QString unitOf(PlottedSignal signal, const QString& handUnit);
 // The signal of this name; kMean for an unknown name.

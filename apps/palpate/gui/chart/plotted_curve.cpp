@@ -1,5 +1,7 @@
 #include "gui/chart/plotted_curve.h"
 
+#include <cmath>
+
 #include "gui/appearance/hand_unit.h"
 #include "gui/appearance/plotted_signal.h"
 
@@ -7,6 +9,7 @@ namespace palpate::gui {
 namespace {
 
 constexpr double kPlottedCurveWidth = 1.4;
+constexpr double kForceCurveWidth = 2.0;
 using PlottedCurveKind = SeriesChoice::Kind;
 
 bool slides(const HandDescription& hand, std::size_t axis) {
@@ -33,6 +36,8 @@ QString unitOf(const SeriesChoice& choice, const HandDescription& hand) {
       return slides(hand, choice.index) ? "mm" : "°";
     case PlottedCurveKind::kTemperature:
       return "°C";
+    case PlottedCurveKind::kForce:
+      return "N";
     case PlottedCurveKind::kTaxels:
       return unitOf(hand);
     case PlottedCurveKind::kMatrix:
@@ -47,6 +52,8 @@ QString axisNameOf(const SeriesChoice& choice, const HandDescription& hand) {
       return slides(hand, choice.index) ? "joint position in mm" : "joint angle in °";
     case PlottedCurveKind::kTemperature:
       return "temperature in °C";
+    case PlottedCurveKind::kForce:
+      return "force in N";
     case PlottedCurveKind::kTaxels:
       return "taxels in " + unitOf(hand);
     case PlottedCurveKind::kMatrix:
@@ -97,6 +104,54 @@ PlottedCurve temperatureCurve(const HandDescription& hand, std::size_t sensor, T
                                        : "sensor " + QString::number(sensor),
                matrixColor(sensor + 1, theme),
                Qt::DashDotLine);
+}
+
+PlottedCurve forceCurve(const HandDescription& hand, std::size_t row, Theme theme) {
+  const bool whole = row == hand.layout->numMatrices();
+  PlottedCurve made = curve(
+      hand,
+      {.kind = PlottedCurveKind::kForce, .index = row},
+      (whole ? QString("whole hand") : QString::fromStdString(hand.matrixName(row))) + " force",
+      whole ? wholeColor(theme) : matrixColor(row, theme),
+      Qt::DotLine);
+  made.pen.setWidthF(kForceCurveWidth);
+  return made;
+}
+
+namespace {
+
+int decimalsOf(const PlottedCurve& curve) {
+  switch (curve.choice.kind) {
+    case PlottedCurveKind::kMatrix:
+      return 0;
+    case PlottedCurveKind::kForce:
+      return 2;
+    default:
+      return 1;
+  }
+}
+
+}  // namespace
+
+QString readingOf(const PlottedCurve& curve, std::optional<double> value) {
+  if (!value) return "–";
+  return QString::number(*value, 'f', decimalsOf(curve)) + " " + curve.unit;
+}
+
+QString differenceOf(const PlottedCurve& curve, std::optional<double> difference) {
+  if (!difference) return "–";
+  const QString size = readingOf(curve, std::abs(*difference));
+  return (*difference < 0.0 ? "−" : "+") + size;
+}
+
+QString readingsText(
+    const QString& heading,
+    const std::vector<PlottedCurve>& curves,
+    const std::function<std::optional<double>(const SeriesChoice&)>& valueOfCurve) {
+  QString text = heading;
+  for (const PlottedCurve& curve : curves)
+    text += "\n" + curve.name + "  " + readingOf(curve, valueOfCurve(curve.choice));
+  return text;
 }
 
 }  // namespace palpate::gui

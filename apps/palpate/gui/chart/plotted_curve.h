@@ -3,6 +3,8 @@
 
 #include <QPen>
 #include <QString>
+#include <functional>
+#include <optional>
 #include <vector>
 
 #include <palpate/model/hand_description.h>
@@ -15,7 +17,7 @@ namespace palpate::gui {
 struct PlottedCurve {
   SeriesChoice choice;
   QString name;  // "finger 0 distal", "thumb tip", "finger 1 distal (joint)", "motor 3"
-  // "counts", "°C"; curves of one unit share an axis.
+  // "counts", "°C", "N"; curves of one unit share an axis.
   QString unit;
   // Name of the axis: "mean in counts", "joint angle in °".
   QString axis;
@@ -24,7 +26,7 @@ struct PlottedCurve {
 
 QString unitOf(const SeriesChoice& choice, const HandDescription& hand);
 // Name of the axis: "mean in counts", "taxels in counts", "joint angle in °", "joint position in
-// mm", "temperature in °C".
+// mm", "temperature in °C", "force in N".
 QString axisNameOf(const SeriesChoice& choice, const HandDescription& hand);
 
 PlottedCurve matrixCurve(const HandDescription& hand,
@@ -39,5 +41,16 @@ PlottedCurve taxelCurve(const HandDescription& hand,
                         Theme theme);
 PlottedCurve angleCurve(const HandDescription& hand, std::size_t axis, Theme theme);
 PlottedCurve temperatureCurve(const HandDescription& hand, std::size_t sensor, Theme theme);
+// `row`: a matrix, or the number of matrices for the whole hand.
+PlottedCurve forceCurve(const HandDescription& hand, std::size_t row, Theme theme);
+
+// "812 counts", "31.4 °", "0.52 N"; "–" for no value.
+QString readingOf(const PlottedCurve& curve, std::optional<double> value);
+// As readingOf(), always with a sign: "+134 counts", "−2.0 °".
+QString differenceOf(const PlottedCurve& curve, std::optional<double> difference);
+// A heading and, below it, name and value of each curve; for tool tips.
+QString readingsText(const QString& heading,
+                     const std::vector<PlottedCurve>& curves,
+                     const std::function<std::optional<double>(const SeriesChoice&)>& valueOfCurve);
 
 }  // namespace palpate::gui

@@ -22,6 +22,9 @@ const std::vector<KeyEntry>& mouseEntries() {
   static const std::vector<KeyEntry> entries = {
       {"Mouse", "Click or drag", "In the timeline or the seek bar: move through time"},
       {"Mouse", "Wheel", "In the timeline: zoom; with Shift: pan"},
+      {"Mouse", "Wheel or drag", "Over a vertical axis: its range; double click: automatic"},
+      {"Mouse", "Drag", "In the live chart: two cursors with differences; click: none"},
+      {"Mouse", "Double click", "In the live chart: to the newest frame"},
       {"Mouse", "Middle or Shift+drag", "In the timeline: pan"},
       {"Mouse", "Double click", "In the timeline: show all of it; on an event: name it"},
       {"Mouse", "Drag", "In the timeline: select; along its axis: scrub; ends can be moved"},

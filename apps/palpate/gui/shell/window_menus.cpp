@@ -116,7 +116,7 @@ void WindowMenus::buildMenuBar(const ActionRegistry& book, const QList<QAction*>
   QMenu* plots = view->addMenu("&Plotted matrices");
   plots->addActions(book.all("plots"));
   view->addAction(at("chooseCurves"));
-  view->addActions({at("zoomIn"), at("zoomOut"), at("fit")});
+  view->addActions({at("zoomIn"), at("zoomOut"), at("fit"), at("verticalAxes")});
   view->addSeparator();
   view->addActions({at("slipReference"), at("compare")});
   view->addActions(dockToggles);
@@ -141,6 +141,12 @@ void WindowMenus::buildMenuBar(const ActionRegistry& book, const QList<QAction*>
   hand->addActions({at("whatIsIt"), at("showMode")});
   hand->addSeparator();
   hand->addActions({at("live"), at("hold")});
+  QMenu* chart = hand->addMenu("L&ive chart");
+  chart->addActions({at("freezeLive"), at("liveNewest"), at("liveOldest")});
+  chart->addActions({at("liveEarlier"), at("liveLater")});
+  chart->addSeparator();
+  chart->addActions({at("selectFrom"), at("selectTo"), at("cursorBack"), at("cursorForward")});
+  chart->addActions({at("zoomSelection"), at("dropSelection")});
   hand->addSeparator();
   hand->addActions({at("record"),
                     at("recordingSettings"),

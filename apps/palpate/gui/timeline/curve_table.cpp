@@ -18,6 +18,8 @@ std::string curveCell(const OpenedRecording& recording,
   switch (choice.kind) {
     case SeriesChoice::Kind::kMatrix:
       return numberText(valueOf(recording.at(frame, choice.index), choice.signal));
+    case SeriesChoice::Kind::kForce:
+      return {};
     case SeriesChoice::Kind::kTaxels:
       return numberText(meanOf(recording.profile.frame(frame), choice.taxels));
     case SeriesChoice::Kind::kAngle: {

@@ -1,106 +1,197 @@
-// The chart of a live source: shows the chosen signals of the last seconds and scrolls with time;
-// gaps are shaded, marks and grasps are lines. The mouse wheel changes the visible duration.
+// The chart of a live source: shows the chosen curves of the last seconds and scrolls with time;
+// gaps are shaded, recordings have a bar, marks and motions are lines. It can be frozen and
+// scrolled back through all that the history keeps while data go on arriving; two cursors measure
+// differences. The wheel changes the visible duration, Shift+wheel, Shift+drag and the middle
+// button scroll, a drag sets both cursors, a double click returns to the newest frame.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <deque>
+#include <map>
+#include <memory>
 #include <optional>
 #include <vector>
 
-#include <palpate/live/signal_history.h>
+#include <palpate/core/text_table.h>
+#include <palpate/live/live_series.h>
+#include <palpate/model/hand_description.h>
 #include <palpate/recording/recording_event.h>
+#include <palpate/signals/axis_range.h>
 
-#include "gui/appearance/plotted_signal.h"
 #include "gui/appearance/theme.h"
 #include "gui/chart/plot.h"
+#include "gui/chart/plotted_curve.h"
+#include "gui/chart/span_overlay.h"
+#include "gui/chart/unit_axes.h"
+
+class QLabel;
 
 namespace palpate::gui {
 
 class LiveChart : public QCustomPlot {
   Q_OBJECT
  public:
-  static constexpr double kShortestS = 2.0, kUsualS = 30.0, kMaxWindowS = 300.0;
+  static constexpr double kShortestS = 2.0, kUsualS = 30.0, kMaxWindowS = 600.0;
 
   explicit LiveChart(QWidget* parent = nullptr);
 
-  // Sets the signals of another source with so many matrices and this unit; null: none. `history`
-  // must outlive this object, or be replaced before it is destroyed.
-  void setHistory(const SignalHistory* history,
-                  std::size_t numMatrices,
-                  const QString& handUnit = "counts");
-  void setSignal(PlottedSignal signal);
-  // One entry per matrix and, last, one for the whole hand.
-  void setPlotted(const std::vector<bool>& plotted);
+  // Takes another source, or none (null). `history` must outlive this object, or be replaced before
+  // it is destroyed; `hand` only tells where values end (saturation).
+  void setHistory(const SignalHistory* history, const HandDescription* hand = nullptr);
+  // Curves without values stay empty.
+  void setCurves(std::vector<PlottedCurve> curves);
+  const std::vector<PlottedCurve>& curves() const noexcept { return curves_; }
   void setTheme(Theme theme);
-  // Visible duration [s], clamped to 2..300.
+  UnitAxes& axes() noexcept { return *axes_; }
+  // Visible duration [s], clamped to 2..600. The newest frame, or the middle of a chart that was
+  // scrolled back, stays where it is.
   void setWindowS(double seconds);
   double windowS() const noexcept { return windowS_; }
-  // While held, the chart doesn't scroll and shows that it is held; data that arrive meanwhile are
+  // While held, the chart doesn't change and shows that it is held; data that arrive meanwhile are
   // drawn afterwards.
   void setHeld(bool held);
 
   // Takes new samples. `silentS`: time since the last frame [s]; after 0.4 s without a frame the
   // chart scrolls by itself.
   void refresh(double silentS);
-  // Draws a line with a name at the time of the event; an event with a duration is shaded.
+  // Draws a line with a name at the time of the event.
   void addEvent(const RecordingEvent& event);
+  // Marks the span of a recording by the stamps of its first and last frame [us since 1970]; while
+  // it runs, the last frame is the newest one.
+  void showRecording(std::int64_t firstUs, std::int64_t lastUs, bool runs);
 
-  // For tests: number of graphs and of events that are drawn.
+  // Whether the chart scrolls with the newest frame; otherwise it is frozen, at the newest frame or
+  // further back.
+  bool following() const noexcept { return following_; }
+  void setFollowing(bool on);
+  // Scrolls by a share of the visible duration, below 0 to earlier times. Arriving at the newest
+  // frame, the chart follows it again.
+  void scroll(double share);
+  void showOldest();
+  // Freezes the chart at this span, limited to what is kept.
+  void showSpan(double fromS, double toS);
+  QCPRange seen() const { return xAxis->range(); }
+  double secondsAt(double pixel) const { return xAxis->pixelToCoord(pixel); }
+  double pixelOf(double seconds) const { return xAxis->coordToPixel(seconds); }
+
+  // Times of the two cursors, each at a sample; nothing: it isn't set.
+  using Cursors = std::array<std::optional<double>, 2>;
+  const Cursors& cursors() const noexcept { return cursors_; }
+  void setTimeCursor(std::size_t which, double seconds);
+  // Sets a cursor at the newest frame or, in a frozen chart, where the mouse is over it, otherwise
+  // at its middle.
+  void setTimeCursorHere(std::size_t which);
+  // Moves the cursor that was set last by so many samples.
+  void moveTimeCursor(std::ptrdiff_t samples);
+  void clearTimeCursors();
+  // "12.30 – 15.10 s · Δt 2.80 s"; of one cursor "12.30 s"; empty: none is set.
+  QString cursorWords() const;
+  // Times and values at both cursors, and their differences; a row per curve.
+  TextTable cursorTable() const;
+
+  // What the tool tip says at a time: time and values; empty where nothing was measured.
+  QString valuesAt(double seconds) const;
+
+  // For tests: number of graphs, of events and gaps that are drawn, and of ends of recordings.
   int numGraphs() const { return graphCount(); }
-  std::size_t numEvents() const noexcept { return events_.size(); }
-  double largestSeen() const noexcept { return largest_; }
+  std::size_t numEvents() const { return events_.size() - numRecordingEnds(); }
+  std::size_t numRecordingEnds() const;
 
   QSize sizeHint() const override { return {900, 210}; }
   QSize minimumSizeHint() const override { return {240, 110}; }
 
  signals:
   void windowChanged(double seconds);
+  void followingChanged(bool on);
+  void cursorsChanged();
+  void menuRequested(const QPoint& globalPosition);
 
  protected:
   void paintEvent(QPaintEvent* event) override;
+  void mousePressEvent(QMouseEvent* event) override;
+  void mouseMoveEvent(QMouseEvent* event) override;
+  void mouseReleaseEvent(QMouseEvent* event) override;
+  void mouseDoubleClickEvent(QMouseEvent* event) override;
   void wheelEvent(QWheelEvent* event) override;
+  void contextMenuEvent(QContextMenuEvent* event) override;
   void resizeEvent(QResizeEvent* event) override;
   void changeEvent(QEvent* event) override;
+  bool event(QEvent* event) override;
 
  private:
+  enum class Drag { kNone, kPan, kSelect, kFirst, kSecond };
   struct Shown {
     double beginS = 0.0;
     double endS = 0.0;
     bool isGap = false;
     QCPAbstractItem* shape = nullptr;
     QCPItemText* name = nullptr;
+    // All of it, for the tool tip.
+    QString text;
+    // Whether a recording begins or ends here.
+    bool endsRecording = false;
   };
-  double secondsOf(std::int64_t hostUs) const;
-  void rebuild();
-  void append(const std::vector<SignalSample>& samples, bool areNew);
-  void roll(double nowS);
+  struct Recorded {
+    double beginS = 0.0;
+    double endS = 0.0;
+    bool runs = true;
+    QCPItemRect* bar = nullptr;
+  };
+  void rebuildGraphs();
+  void follow(double nowS);
+  // Shows the span and draws it.
+  void showRange(double fromS, double toS);
+  // Freezes the chart at the span that begins there, as long as now.
+  void scrollTo(double fromS);
+  void refill();
+  void scaleAxes();
   void arrangeNames();
-  void fitHeight(double fromS);
-  void nameAxis();
-  void shadeGap(double beginS, double endS);
-  void line(double atS, const QString& name, const QColor& color);
+  void shadeNewGaps();
+  void line(double atS, const QString& name, const QString& text, const QColor& color);
   void forget(double beforeS);
+  void placeOverlays();
+  void placeWords();
+  void showBehind();
+  QString cursorText(int mostLines) const;
+  std::optional<double> differenceAtCursors(const SeriesChoice& choice) const;
+  void renewToolTip();
+  Drag dragAt(const QPointF& at) const;
+  void dragTo(const QPointF& at);
 
-  const SignalHistory* history_ = nullptr;
-  QString handUnit_ = "counts";
-  PlottedSignal signal_ = PlottedSignal::kMean;
-  std::vector<bool> plotted_;
-  // Row of each graph: a matrix, or the whole hand.
-  std::vector<std::size_t> rows_;
+  LiveSeries series_;
+  bool hasHistory_ = false;
+  // Where the values of taxels end; nothing: not known.
+  std::optional<double> saturation_;
+  std::vector<PlottedCurve> curves_;
+  std::unique_ptr<UnitAxes> axes_;
+  std::map<QString, RollingRange> ranges_;
   QSharedPointer<QCPAxisTickerFixed> secondsTicker_;
   Theme theme_ = Theme::kDark;
   double windowS_ = kUsualS;
   bool held_ = false;
-  // Time stamp of the first sample [us], which is second 0.
-  std::optional<std::int64_t> originUs_;
-  std::int64_t newestUs_ = 0;
+  bool following_ = true;
+  // Right end of the axis when it was drawn last.
   double nowS_ = 0.0;
-  // Upper end of the vertical axis.
-  double largest_ = 0.0;
+  // End of the last gap that is shaded.
+  double shadedToS_ = 0.0;
   std::deque<Shown> events_;
-  // Number of lines drawn since the start.
+  std::deque<Recorded> recordings_;
   // Scale and height for which the names are arranged; 0: they aren't.
   double arrangedFor_ = 0.0;
+  SpanOverlay span_;
+  Cursors cursors_;
+  std::size_t lastCursor_ = 0;
+  // Values at the cursors, and how far behind the newest frame the chart is.
+  QLabel* readings_;
+  QLabel* behind_;
+  Drag drag_ = Drag::kNone;
+  QPointF pressedAt_;
+  double pressedS_ = 0.0;
+  QCPRange panFrom_;
+  // The tool tip that is shown, where it is, and for what time it was made.
+  QString toolTip_;
+  QPoint toolTipAt_;
 };
 
 }  // namespace palpate::gui

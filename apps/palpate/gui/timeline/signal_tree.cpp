@@ -21,7 +21,7 @@ constexpr int kIndex = Qt::UserRole + 1;
 // Name of a group before it is edited.
 constexpr int kName = Qt::UserRole + 2;
 constexpr int kMostNumbers = 64;
-enum SignalTreeKind { kSection, kChosen, kGroup, kAngle, kTemperature };
+enum SignalTreeKind { kSection, kChosen, kGroup, kAngle, kTemperature, kForce };
 
 std::set<int> numbersIn(const QVariant& value) {
   std::set<int> numbers;
@@ -48,6 +48,7 @@ PlottedExtras loadPlottedExtras(const QSettings& settings) {
     extras.groups.insert(name);
   extras.angles = numbersIn(settings.value("plotted/angles"));
   extras.temperatures = numbersIn(settings.value("plotted/temperatures"));
+  extras.forces = numbersIn(settings.value("plotted/forces"));
   return extras;
 }
 
@@ -56,6 +57,7 @@ void savePlottedExtras(const PlottedExtras& extras, QSettings& settings) {
   settings.setValue("plotted/groups", QStringList(extras.groups.begin(), extras.groups.end()));
   settings.setValue("plotted/angles", signalTreeWordsOf(extras.angles));
   settings.setValue("plotted/temperatures", signalTreeWordsOf(extras.temperatures));
+  settings.setValue("plotted/forces", signalTreeWordsOf(extras.forces));
 }
 
 SignalTree::SignalTree(TaxelGroups& groups, QWidget* parent)
@@ -86,10 +88,9 @@ SignalTree::SignalTree(TaxelGroups& groups, QWidget* parent)
   connect(&groups_, &TaxelGroups::changed, this, &SignalTree::rebuild);
 }
 
-void SignalTree::setSource(const HandDescription& hand, bool hasAngles, bool hasTemperatures) {
+void SignalTree::setSource(const HandDescription& hand, const SignalSource& source) {
   hand_ = hand;
-  hasAngles_ = hasAngles;
-  hasTemperatures_ = hasTemperatures;
+  source_ = source;
   rebuild();
 }
 
@@ -147,6 +148,7 @@ void SignalTree::rebuild() {
       item->setToolTip(0, "F2 renames it, Del deletes it");
     }
   // What the hand lacks is absent; what the recording lacks is said.
+  const QString none = source_.hasForces ? "none from this source" : "none in this recording";
   const bool slides = !hand_.axes.empty() &&
                       std::all_of(hand_.axes.begin(),
                                   hand_.axes.end(),
@@ -154,8 +156,8 @@ void SignalTree::rebuild() {
   QTreeWidgetItem* angles = hand_.layout && hand_.axes.empty()
                                 ? nullptr
                                 : section(slides ? "Joint positions (mm)" : "Joint angles (°)");
-  if (angles && !hasAngles_) nothing(angles, "none in this recording");
-  for (std::size_t i = 0; angles && hasAngles_ && i < hand_.axes.size(); ++i)
+  if (angles && !source_.hasAngles) nothing(angles, none);
+  for (std::size_t i = 0; angles && source_.hasAngles && i < hand_.axes.size(); ++i)
     line(angles,
          QString::fromStdString(hand_.axes[i].name),
          kAngle,
@@ -163,14 +165,25 @@ void SignalTree::rebuild() {
          extras_.angles.contains(static_cast<int>(i)));
   QTreeWidgetItem* temperatures =
       hand_.layout && hand_.temperatureSensors.empty() ? nullptr : section("Temperatures (°C)");
-  if (temperatures && !hasTemperatures_) nothing(temperatures, "none in this recording");
-  for (std::size_t i = 0; temperatures && hasTemperatures_ && i < hand_.temperatureSensors.size();
+  if (temperatures && !source_.hasTemperatures) nothing(temperatures, none);
+  for (std::size_t i = 0;
+       temperatures && source_.hasTemperatures && i < hand_.temperatureSensors.size();
        ++i)
     line(temperatures,
          QString::fromStdString(hand_.temperatureSensors[i].name),
          kTemperature,
          static_cast<int>(i),
          extras_.temperatures.contains(static_cast<int>(i)));
+  QTreeWidgetItem* forces = hand_.layout && source_.hasForces ? section("Forces (N)") : nullptr;
+  if (forces && !*source_.hasForces) nothing(forces, "need a calibration: Calibrate, Force");
+  for (std::size_t i = 0; forces && *source_.hasForces && i <= hand_.layout->numMatrices(); ++i)
+    line(
+        forces,
+        "force on " + (i < hand_.layout->numMatrices() ? QString::fromStdString(hand_.matrixName(i))
+                                                       : QString("the whole hand")),
+        kForce,
+        static_cast<int>(i),
+        extras_.forces.contains(static_cast<int>(i)));
   tree_->expandAll();
   group_->setEnabled(numChosen_ > 0);
   building_ = false;
@@ -208,6 +221,9 @@ void SignalTree::onItemChanged(QTreeWidgetItem* item) {
       break;
     case kTemperature:
       put(extras_.temperatures, index);
+      break;
+    case kForce:
+      put(extras_.forces, index);
       break;
     default:
       return;

@@ -1,11 +1,12 @@
 // A list with check boxes that chooses which curves the timeline shows in addition to those of the
-// matrices: the selected taxels, named groups, joint angles, temperatures. It stays open while
-// several are ticked.
+// matrices: the selected taxels, named groups, joint angles, temperatures, forces. It stays open
+// while several are ticked.
 #pragma once
 
 #include <QFrame>
 #include <QSettings>
 #include <QStringList>
+#include <optional>
 #include <set>
 #include <vector>
 
@@ -26,10 +27,20 @@ struct PlottedExtras {
   std::set<QString> groups;
   std::set<int> angles;
   std::set<int> temperatures;
+  // Forces on matrices; the number of matrices stands for the whole hand.
+  std::set<int> forces;
   bool operator==(const PlottedExtras&) const = default;
 };
 PlottedExtras loadPlottedExtras(const QSettings& settings);
 void savePlottedExtras(const PlottedExtras& extras, QSettings& settings);
+
+// Which curves a source has.
+struct SignalSource {
+  bool hasAngles = false;
+  bool hasTemperatures = false;
+  // Whether a calibration gives forces; nothing: forces aren't offered.
+  std::optional<bool> hasForces = std::nullopt;
+};
 
 class SignalTree : public QFrame {
   Q_OBJECT
@@ -37,7 +48,7 @@ class SignalTree : public QFrame {
   explicit SignalTree(TaxelGroups& groups, QWidget* parent = nullptr);
 
   // Sets which curves are available.
-  void setSource(const HandDescription& hand, bool hasAngles, bool hasTemperatures);
+  void setSource(const HandDescription& hand, const SignalSource& source);
   void setNumChosen(std::size_t taxels);
   void setExtras(const PlottedExtras& extras);
   const PlottedExtras& extras() const noexcept { return extras_; }
@@ -62,8 +73,7 @@ class SignalTree : public QFrame {
 
   TaxelGroups& groups_;
   HandDescription hand_;
-  bool hasAngles_ = false;
-  bool hasTemperatures_ = false;
+  SignalSource source_;
   std::size_t numChosen_ = 0;
   PlottedExtras extras_;
   bool building_ = false;

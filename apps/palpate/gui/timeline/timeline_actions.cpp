@@ -38,6 +38,18 @@ TimelineActions::TimelineActions(ActionRegistry& book) {
   zoomIn = book.make("zoomIn", "View", "Zoom the timeline &in", {key("Ctrl++"), key("Ctrl+=")});
   zoomOut = book.make("zoomOut", "View", "Zoom the timeline &out", {key("Ctrl+-")});
   fit = book.make("fit", "View", "Show the &whole timeline", {key("F")});
+  axes = book.make("verticalAxes", "View", "Vertical axes of the timeline…", {key("Shift+V")});
+  axes->setToolTip("Ranges of the vertical axes: automatic, or by hand");
+  freeze = book.make("freezeLive", "Hand", "&Freeze the live chart", {key("Shift+P")}, true);
+  newest = book.make("liveNewest", "Hand", "&Newest frame in the live chart", {key("End")});
+  oldest = book.make("liveOldest", "Hand", "Ol&dest frame in the live chart", {key("Home")});
+  earlier = book.make("liveEarlier", "Hand", "Ea&rlier in the live chart", {key("Alt+Left")});
+  later = book.make("liveLater", "Hand", "&Later in the live chart", {key("Alt+Right")});
+  cursorBack = book.make("cursorBack", "Hand", "Cursor a frame &back", {key("Alt+Shift+Left")});
+  cursorForward =
+      book.make("cursorForward", "Hand", "Cursor a frame for&ward", {key("Alt+Shift+Right")});
+  cursorBack->setToolTip("Moves the cursor of the live chart that was set last");
+  cursorForward->setToolTip("Moves the cursor of the live chart that was set last");
   crop->setIconText("Crop…");
   addLabel->setIconText("Label…");
   zoomSelection->setIconText("Zoom");

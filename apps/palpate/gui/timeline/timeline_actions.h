@@ -39,6 +39,16 @@ struct TimelineActions {
   QAction* zoomIn = nullptr;
   QAction* zoomOut = nullptr;
   QAction* fit = nullptr;
+  // Range of the vertical axes.
+  QAction* axes = nullptr;
+  // The live chart: freeze it, scroll it, move its cursors.
+  QAction* freeze = nullptr;
+  QAction* newest = nullptr;
+  QAction* oldest = nullptr;
+  QAction* earlier = nullptr;
+  QAction* later = nullptr;
+  QAction* cursorBack = nullptr;
+  QAction* cursorForward = nullptr;
   QActionGroup* signalsPlotted = nullptr;
 };
 

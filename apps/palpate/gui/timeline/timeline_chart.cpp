@@ -18,36 +18,24 @@ namespace {
 constexpr int kTimelineChartFaint = 110;
 // Length of the axis for a recording without duration [s].
 constexpr double kEmptyDurationS = 1.0;
-// Headroom above the highest curve.
-constexpr double kTimelineChartHeadroom = 1.06;
 // Margin beside a shown span, as a share of it.
 constexpr double kTimelineChartAir = 0.08;
 constexpr int kTimelineChartCursorWidth = 2;  // [px]
 // Share of the old page with which a new page starts.
 constexpr double kTimelineChartPageRest = 0.1;
 constexpr std::size_t kMostGapMarks = 2000;
-constexpr int kHandleWidth = 3;  // [px]
 // A view of later times shows h:min:s [s].
 constexpr double kTimelineChartLongestInS = 1200.0;
 // Below this visible duration [s] ticks need fractions of a second.
 constexpr double kFewSecondsS = 8.0;
 
-QWidget* overlay(QWidget* parent, const char* name) {
-  auto* widget = new QWidget(parent);
-  widget->setObjectName(name);
-  widget->setAttribute(Qt::WA_TransparentForMouseEvents);
-  widget->hide();
-  return widget;
-}
-
 // Movement per notch, as a share of the visible span.
 constexpr double kTimelineMouseWheelPan = 0.1;
-// Distance from a handle or the cursor at which the mouse still takes it [px].
-constexpr double kHandleReach = 6.0;
 
 }  // namespace
 
-TimelineChart::TimelineChart(QWidget* parent) : QCustomPlot(parent) {
+TimelineChart::TimelineChart(QWidget* parent)
+    : QCustomPlot(parent), axes_(std::make_unique<UnitAxes>(*this)), span_(this) {
   arrangeChart(*this);
   setAccessibleName("Timeline");
   setMouseTracking(true);
@@ -55,9 +43,11 @@ TimelineChart::TimelineChart(QWidget* parent) : QCustomPlot(parent) {
   clockTicker_.reset(new QCPAxisTickerTime);
   clockTicker_->setTickCount(secondsTicker_->tickCount());
   nameTime();
-  shade_ = overlay(this, "selectionShade");
-  for (QWidget*& handle : handles_) handle = overlay(this, "selectionHandle");
-  cursor_ = overlay(this, "cursor");
+  cursor_ = overlayOn(this, "cursor");
+  connect(axes_.get(), &UnitAxes::byHandChanged, this, [this] {
+    scaleAxes();
+    replot(QCustomPlot::rpQueuedReplot);
+  });
   // Margins are known only after the axes have been laid out.
   connect(this, &QCustomPlot::afterReplot, this, [this] {
     placeCursor();
@@ -124,52 +114,24 @@ void TimelineChart::setTheme(Theme theme) {
   theme_ = theme;
   const ThemeColors& colors = colorsOf(theme);
   styleChart(*this, theme);
-  QColor soft = colors.accent;
-  soft.setAlphaF(0.16F);
-  shade_->setStyleSheet("background: " + soft.name(QColor::HexArgb));
-  for (QWidget* handle : handles_) handle->setStyleSheet("background: " + colors.accent.name());
+  span_.setTheme(theme);
   cursor_->setStyleSheet("background: " + colors.accent.name());
   rebuildGraphs();
-}
-
-// The axis of the first unit is on the left, all others on the right.
-QCPAxis* TimelineChart::axisFor(const PlottedCurve& curve) {
-  QCPAxis*& axis = axes_[curve.unit];
-  if (!axis) {
-    if (axes_.size() == 1)
-      axis = yAxis;
-    else if (axes_.size() == 2)
-      axis = yAxis2;
-    else
-      axis = axisRect()->addAxis(QCPAxis::atRight);
-    axis->setVisible(true);
-    axis->setTickLabels(true);
-    if (axis != yAxis) styleExtraAxis(*axis, *this, theme_);
-    axisNames_[curve.unit] = curve.axis;
-  } else if (axisNames_[curve.unit] != curve.axis) {
-    // Several quantities share the unit.
-    axisNames_[curve.unit] = curve.unit;
-  }
-  return axis;
 }
 
 void TimelineChart::rebuildGraphs() {
   clearGraphs();
   clearItems();
   gapLabels_.clear();
-  while (axisRect()->axisCount(QCPAxis::atRight) > 1)
-    axisRect()->removeAxis(axisRect()->axis(QCPAxis::atRight, 1));
-  yAxis2->setVisible(false);
-  axes_.clear();
-  axisNames_.clear();
+  axes_->rebuild(curves_, theme_);
   for (const PlottedCurve& curve : curves_) {
-    QCPGraph* added = addGraph(xAxis, axisFor(curve));
+    QCPGraph* added = addGraph(xAxis, axes_->of(curve.unit));
     added->setPen(curve.pen);
     // The points are decimated already.
     added->setAdaptiveSampling(false);
   }
   for (const PlottedCurve& curve : hasBefore_ ? curves_ : std::vector<PlottedCurve>()) {
-    QCPGraph* behind = addGraph(xAxis, axisFor(curve));
+    QCPGraph* behind = addGraph(xAxis, axes_->of(curve.unit));
     QPen faint = curve.pen;
     QColor color = faint.color();
     color.setAlpha(kTimelineChartFaint);
@@ -190,41 +152,27 @@ void TimelineChart::rebuildGraphs() {
                                 Qt::AlignHCenter,
                                 colorsOf(theme_).warning));
   }
-  nameAxes();
   scaleAxes();
   refill();
-}
-
-void TimelineChart::nameAxes() {
-  yAxis->setLabel({});
-  for (const auto& [unit, axis] : axes_) axis->setLabel(fittingName(axisNames_[unit], unit, *this));
 }
 
 // Axes begin at zero unless values are below; those of angles and temperatures begin at their
 // lowest value.
 void TimelineChart::scaleAxes() {
-  for (const auto& [unit, axis] : axes_) {
-    std::optional<std::pair<double, double>> extent;
-    bool fromZero = true;
+  for (const QString& unit : axes_->units()) {
+    std::optional<ValueExtent> extent;
     for (const PlottedCurve& curve : curves_) {
       if (curve.unit != unit) continue;
       auto its = store_.extremes(curve.choice);
       if (!its) continue;
       if (const auto before = before_.extremes(curve.choice))
         its = {std::min(its->first, before->first), std::max(its->second, before->second)};
-      fromZero = curve.choice.kind == SeriesChoice::Kind::kMatrix ||
-                 curve.choice.kind == SeriesChoice::Kind::kTaxels;
-      if (!extent) extent = its;
-      extent->first = std::min(extent->first, its->first);
-      extent->second = std::max(extent->second, its->second);
+      if (!extent) extent = ValueExtent{its->first, its->second};
+      extent->low = std::min(extent->low, its->first);
+      extent->high = std::max(extent->high, its->second);
     }
-    auto [low, high] = extent.value_or(std::pair(0.0, 0.0));
-    if (fromZero) low = std::min(low, 0.0);
-    if (!(high > low)) high = low + 1.0;
-    const double air = (high - low) * (kTimelineChartHeadroom - 1.0);
-    axis->setRange(fromZero && low == 0.0 ? 0.0 : low - air, high + air);
+    axes_->setAutomatic(unit, fittedRange(extent, axes_->fromZero(unit)));
   }
-  if (axes_.empty()) yAxis->setRange(0.0, 1.0);
 }
 
 void TimelineChart::refill() {
@@ -291,23 +239,11 @@ void TimelineChart::setSelection(std::optional<TimeSpan> span) {
   emit selectionChanged();
 }
 
-// The selection is made of widgets over the curves, so moving it redraws no curve.
 void TimelineChart::placeSelection() {
-  const QRect plot = axisRect()->rect();
-  const auto pixel = [&](double seconds) {
-    return static_cast<int>(std::lround(std::clamp(pixelOf(seconds), -1e6, 1e6)));
+  const auto pixel = [&](double TimeSpan::*end) {
+    return selection_ ? std::optional(pixelOf((*selection_).*end)) : std::nullopt;
   };
-  const int from = selection_ ? pixel(selection_->fromS) : 0;
-  const int to = selection_ ? pixel(selection_->toS) : 0;
-  const bool seen = selection_ && to >= plot.left() && from <= plot.right();
-  shade_->setVisible(seen);
-  const int left = std::max(from, plot.left());
-  shade_->setGeometry(
-      left, plot.top(), std::max(1, std::min(to, plot.right()) - left), plot.height());
-  for (const auto& [handle, x] : {std::pair(handles_[0], from), {handles_[1], to}}) {
-    handle->setVisible(seen && x >= plot.left() - 1 && x <= plot.right() + 1);
-    handle->setGeometry(x - kHandleWidth / 2, plot.top(), kHandleWidth, plot.height());
-  }
+  span_.place(axisRect()->rect(), pixel(&TimeSpan::fromS), pixel(&TimeSpan::toS));
 }
 
 void TimelineChart::setVisibleRange(double from, double to) {
@@ -367,6 +303,7 @@ TimelineChart::Drag TimelineChart::dragAt(const QPointF& at) const {
 
 void TimelineChart::mousePressEvent(QMouseEvent* event) {
   if (!recording_) return;
+  if (axes_->press(*event)) return;
   const bool left = event->button() == Qt::LeftButton;
   pressedAt_ = event->position();
   pressedS_ = secondsAt(pressedAt_.x());
@@ -411,6 +348,7 @@ void TimelineChart::dragTo(const QPointF& at) {
 }
 
 void TimelineChart::mouseMoveEvent(QMouseEvent* event) {
+  if (axes_->move(*event)) return;
   if (drag_ != Drag::kNone) return dragTo(event->position());
   if (!recording_) return;
   const Drag here = dragAt(event->position());
@@ -421,6 +359,7 @@ void TimelineChart::mouseMoveEvent(QMouseEvent* event) {
 }
 
 void TimelineChart::mouseReleaseEvent(QMouseEvent* event) {
+  if (axes_->release()) return;
   const bool still =
       std::abs(event->position().x() - pressedAt_.x()) < QApplication::startDragDistance();
   // A click moves the cursor and clears a selection elsewhere.
@@ -434,11 +373,14 @@ void TimelineChart::mouseReleaseEvent(QMouseEvent* event) {
 }
 
 void TimelineChart::mouseDoubleClickEvent(QMouseEvent* event) {
-  if (event->button() == Qt::LeftButton) fit();
+  if (event->button() != Qt::LeftButton || axes_->doubleClick(*event)) return;
+  fit();
 }
 
 void TimelineChart::wheelEvent(QWheelEvent* event) {
   if (!recording_) return;
+  event->accept();
+  if (axes_->wheel(*event)) return;
   const double notches = event->angleDelta().y() / kWheelNotch;
   const double sideways = event->angleDelta().x() / kWheelNotch;
   if (sideways != 0.0 || event->modifiers() & Qt::ShiftModifier) {
@@ -449,7 +391,6 @@ void TimelineChart::wheelEvent(QWheelEvent* event) {
   } else {
     zoomAbout(secondsAt(event->position().x()), std::pow(kWheelZoom, notches));
   }
-  event->accept();
 }
 
 void TimelineChart::contextMenuEvent(QContextMenuEvent* event) {
@@ -458,7 +399,7 @@ void TimelineChart::contextMenuEvent(QContextMenuEvent* event) {
 
 void TimelineChart::resizeEvent(QResizeEvent* event) {
   QCustomPlot::resizeEvent(event);
-  nameAxes();
+  axes_->nameAxes();
   refill();
 }
 
@@ -467,17 +408,12 @@ QString TimelineChart::valuesAt(double seconds) const {
     return {};
   const std::int64_t atUs = recording_->profile.frameTimeUs(0) + std::llround(seconds * 1e6);
   const std::size_t frame = recording_->profile.frameAt(atUs).value_or(0);
-  QString text =
+  const QString text =
       QString::number(recording_->timeAt(frame), 'f', 2) + " s · frame " + QString::number(frame);
   if (const Gap* gap = recording_->gapAt(seconds))
     return text + "\ngap of " + QString::number(gap->seconds, 'f', 1) + " s: nothing was recorded";
-  for (const PlottedCurve& curve : curves_) {
-    const auto value = store_.valueAt(curve.choice, seconds);
-    const int digits = curve.choice.kind == SeriesChoice::Kind::kMatrix ? 0 : 1;
-    text += "\n" + curve.name + "  " +
-            (value ? QString::number(*value, 'f', digits) + " " + curve.unit : QString("–"));
-  }
-  return text;
+  return readingsText(
+      text, curves_, [&](const SeriesChoice& choice) { return store_.valueAt(choice, seconds); });
 }
 
 bool TimelineChart::event(QEvent* event) {

@@ -1,10 +1,10 @@
 // The chart of a recording: chosen curves over time, one axis per unit, shaded gaps, a cursor that
 // moves without redrawing the curves, and a selection with handles. A click seeks, a drag selects,
 // a drag along the axis moves the cursor; the wheel zooms, the middle button (or Shift) pans, a
-// double click shows everything.
+// double click shows everything. Vertical axes are automatic, or set by hand (UnitAxes).
 #pragma once
 
-#include <map>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -13,6 +13,8 @@
 #include "gui/appearance/theme.h"
 #include "gui/chart/plot.h"
 #include "gui/chart/plotted_curve.h"
+#include "gui/chart/span_overlay.h"
+#include "gui/chart/unit_axes.h"
 #include "gui/source/opened_recording.h"
 #include "gui/timeline/series_store.h"
 
@@ -28,6 +30,7 @@ class TimelineChart : public QCustomPlot {
   // Curves that the recording doesn't have stay empty.
   void setCurves(const std::vector<PlottedCurve>& curves);
   const std::vector<PlottedCurve>& curves() const noexcept { return curves_; }
+  UnitAxes& axes() noexcept { return *axes_; }
   SeriesStore& store() noexcept { return store_; }
   // The same recording without filters: its curves are drawn faintly behind. Null, or a long
   // recording: none are drawn.
@@ -81,8 +84,6 @@ class TimelineChart : public QCustomPlot {
   enum class Drag { kNone, kPan, kScrub, kSelect, kFrom, kTo };
 
   void rebuildGraphs();
-  QCPAxis* axisFor(const PlottedCurve& curve);
-  void nameAxes();
   void nameTime();
   void refill();
   void scaleAxes();
@@ -100,9 +101,7 @@ class TimelineChart : public QCustomPlot {
   // Whether curves are drawn behind.
   bool hasBefore_ = false;
   std::vector<PlottedCurve> curves_;
-  // The axes by unit.
-  std::map<QString, QCPAxis*> axes_;
-  std::map<QString, QString> axisNames_;
+  std::unique_ptr<UnitAxes> axes_;
   Theme theme_ = Theme::kDark;
   QSharedPointer<QCPAxisTicker> secondsTicker_;
   QSharedPointer<QCPAxisTickerTime> clockTicker_;
@@ -110,9 +109,8 @@ class TimelineChart : public QCustomPlot {
   // One per gap.
   std::vector<QCPItemText*> gapLabels_;
   QWidget* cursor_;
-  // Shade over the selection.
-  QWidget* shade_;
-  QWidget* handles_[2];
+  // The selection.
+  SpanOverlay span_;
   double positionS_ = 0.0;
   std::optional<TimeSpan> selection_;
   Drag drag_ = Drag::kNone;

@@ -3,11 +3,13 @@
 #include <QInputDialog>
 #include <QMenu>
 #include <QToolButton>
+#include <algorithm>
 
 #include "gui/appearance/captions.h"
 #include "gui/appearance/hand_unit.h"
 #include "gui/appearance/next_choice.h"
 #include "gui/chart/chart_picture.h"
+#include "gui/timeline/axis_editor.h"
 #include "gui/timeline/curve_statistics.h"
 #include "gui/timeline/curve_table.h"
 #include "gui/timeline/grasp_export.h"
@@ -24,6 +26,36 @@ namespace palpate::gui {
 namespace {
 
 constexpr double kZoomStep = 1.5;
+// Share of the visible duration by which a key scrolls the live chart.
+constexpr double kScrollStep = 0.5;
+// Margin beside the cursors when they are zoomed to, as a share of their distance.
+constexpr double kCursorAir = 0.1;
+// Settings of the ranges of axes that were set by hand.
+constexpr const char* kAxesSetting = "plotted/axes";
+constexpr const char* kLiveAxesSetting = "live/axes";
+
+// Each range is a text "begin end unit".
+RangesByHand loadRanges(const QSettings& settings, const char* name) {
+  RangesByHand ranges;
+  for (const QString& text : settings.value(name).toStringList()) {
+    bool fromGood = false;
+    bool toGood = false;
+    const double from = text.section(' ', 0, 0).toDouble(&fromGood);
+    const double to = text.section(' ', 1, 1).toDouble(&toGood);
+    const QString unit = text.section(' ', 2);
+    if (fromGood && toGood && !unit.isEmpty()) ranges[unit] = {from, to};
+  }
+  return ranges;
+}
+
+void saveRanges(const RangesByHand& ranges, QSettings& settings, const char* name) {
+  constexpr int kDigits = 10;
+  QStringList texts;
+  for (const auto& [unit, range] : ranges)
+    texts.append(QString::number(range.from, 'g', kDigits) + " " +
+                 QString::number(range.to, 'g', kDigits) + " " + unit);
+  settings.setValue(name, texts);
+}
 
 }  // namespace
 
@@ -33,14 +65,20 @@ TimelineFeature::TimelineFeature(WindowState& windowState, QWidget* window)
       groups_(windowState.settings),
       extras_(loadPlottedExtras(windowState.settings)) {
   TimelineActions& actions = actions_;
-  header_ = new TimelineHeader(
-      {actions.zoomSelection, actions.addLabel, actions.crop, actions.dropSelection}, window);
+  header_ = new TimelineHeader({.ofSelection = {actions.zoomSelection,
+                                                actions.addLabel,
+                                                actions.crop,
+                                                actions.dropSelection},
+                                .ofCursors = {actions.zoomSelection, actions.dropSelection},
+                                .ofLive = {actions.freeze}},
+                               window);
   signalTree_ = new SignalTree(groups_, window);
   signalTree_->setExtras(extras_);
   charts_ = new FittingPages(window);
   panel_ = new TimelinePanel(charts_);
   chart_ = &panel_->chart();
   liveChart_ = new LiveChart(charts_);
+  axisEditor_ = new AxisEditor(window);
   charts_->addWidget(panel_);
   charts_->addWidget(liveChart_);
   dock_ = new Dock("Timeline", charts_, header_, window);
@@ -57,6 +95,7 @@ TimelineFeature::TimelineFeature(WindowState& windowState, QWidget* window)
   });
   connectSubject();
   connectLive();
+  connectLiveChart();
   connectSelection();
   connectActions();
   connectCurves();
@@ -65,7 +104,7 @@ TimelineFeature::TimelineFeature(WindowState& windowState, QWidget* window)
   graspExport_ = new GraspExport(windowState, window, this);
 }
 
-TimelineFeature::~TimelineFeature() { liveChart_->setHistory(nullptr, 0); }
+TimelineFeature::~TimelineFeature() { liveChart_->setHistory(nullptr); }
 
 void TimelineFeature::connectSubject() {
   DisplayedSource& displayed = state().displayed;
@@ -93,7 +132,6 @@ void TimelineFeature::connectSubject() {
   connect(&look, &ViewAppearance::changed, this, [this, &look] {
     header_->setSignal(look.view().signal);
     checkChoice(actions_.signalsPlotted, kAllPlottedSignals, look.view().signal);
-    liveChart_->setSignal(look.view().signal);
     showCurves();
   });
   const auto useSignal = [&look](PlottedSignal signal) {
@@ -118,8 +156,8 @@ void TimelineFeature::takeSource() {
   state().selection.setVisibleSpan({seen.lower, seen.upper});
   if (displayed.isRecording())
     signalTree_->setSource(behind->profile.hand(),
-                           behind->profile.numAngles() > 0,
-                           behind->profile.numTemperatures() > 0);
+                           {.hasAngles = behind->profile.numAngles() > 0,
+                            .hasTemperatures = behind->profile.numTemperatures() > 0});
   if (displayed.isLive()) takeLive();
 }
 
@@ -128,18 +166,35 @@ void TimelineFeature::takeLive() {
   if (!source) return;
   if (source->history.get() != history_) {
     history_ = source->history.get();
-    const HandDescription& hand = *state().displayed.hand();
-    liveChart_->setHistory(history_, hand.layout->numMatrices(), unitOf(hand));
+    liveChart_->setHistory(history_, state().displayed.hand());
   }
-  liveChart_->setPlotted(state().selection.plotted());
+  offerLiveCurves();
+}
+
+void TimelineFeature::offerLiveCurves() {
+  const HandDescription* hand = state().displayed.isLive() ? state().displayed.hand() : nullptr;
+  if (!hand) return;
+  signalTree_->setSource(*hand,
+                         {.hasAngles = !hand->axes.empty(),
+                          .hasTemperatures = !hand->temperatureSensors.empty(),
+                          .hasForces = hasForces_});
+  showCurves();
 }
 
 void TimelineFeature::connectLive() {
   LiveController& live = state().live;
   CurrentFrame& currentFrame = state().currentFrame;
   connect(&live, &LiveController::leaving, this, [this] {
-    liveChart_->setHistory(nullptr, 0);
+    liveChart_->setHistory(nullptr);
     history_ = nullptr;
+  });
+  connect(&state().displayed, &DisplayedSource::handChanged, this, [this] { offerLiveCurves(); });
+  const DerivedResults& derived = state().derivedResults;
+  connect(&derived, &DerivedResults::pressureChanged, this, [this, &derived] {
+    const bool has = derived.pressure() != nullptr;
+    if (has == hasForces_) return;
+    hasForces_ = has;
+    offerLiveCurves();
   });
   connect(&live,
           &LiveController::eventsReceived,
@@ -159,10 +214,67 @@ void TimelineFeature::connectLive() {
         !source->finished())
       liveChart_->refresh(live.silentS());
   });
+  // The health of the link tells which frames are being recorded.
+  connect(&live, &LiveController::refreshed, this, [this, &live] {
+    const RecorderStatus& recorder = live.health().recorder;
+    if (recorder.state != RecorderStatus::State::kRecording || recorder.firstFrameUs == 0) return;
+    liveChart_->showRecording(recorder.firstFrameUs, recorder.lastFrameUs, true);
+  });
+  connect(&live, &LiveController::recordingEnded, this, [this](const RecordingReport& report) {
+    liveChart_->showRecording(report.firstFrameUs, report.lastFrameUs, false);
+  });
   QSettings& settings = state().settings;
   liveChart_->setWindowS(settings.value("live/window_s", LiveChart::kUsualS).toDouble());
   connect(liveChart_, &LiveChart::windowChanged, this, [&settings](double seconds) {
     settings.setValue("live/window_s", seconds);
+  });
+}
+
+void TimelineFeature::connectLiveChart() {
+  TimelineActions& actions = actions_;
+  const auto showFrozen = [this] {
+    const bool frozen = !liveChart_->following();
+    actions_.freeze->setChecked(frozen);
+    actions_.freeze->setIconText(frozen ? "To the newest" : "Freeze");
+    actions_.freeze->setToolTip(frozen ? "The chart follows the newest frame again (End)"
+                                       : "The chart stays as it is, data go on arriving (Shift+P)");
+  };
+  showFrozen();
+  connect(liveChart_, &LiveChart::followingChanged, this, showFrozen);
+  connect(liveChart_, &LiveChart::cursorsChanged, this, &TimelineFeature::showSelection);
+  connect(liveChart_, &LiveChart::menuRequested, this, [this, &actions](const QPoint& at) {
+    QMenu menu(window());
+    menu.addActions({actions.freeze, actions.newest, actions.oldest});
+    menu.addSeparator();
+    menu.addActions({actions.selectFrom, actions.selectTo});
+    menu.addActions({actions.zoomSelection, actions.dropSelection});
+    menu.addSeparator();
+    menu.addActions({actions.chooseCurves, actions.axes});
+    menu.exec(at);
+  });
+  on(actions.freeze, [this](bool frozen) { liveChart_->setFollowing(!frozen); });
+  on(actions.newest, [this] { liveChart_->setFollowing(true); });
+  on(actions.oldest, [this] { liveChart_->showOldest(); });
+  on(actions.earlier, [this] { liveChart_->scroll(-kScrollStep); });
+  on(actions.later, [this] { liveChart_->scroll(kScrollStep); });
+  on(actions.cursorBack, [this] { liveChart_->moveTimeCursor(-1); });
+  on(actions.cursorForward, [this] { liveChart_->moveTimeCursor(1); });
+  on(actions.axes, [this] {
+    axisEditor_->openBeside(*header_->curvesButton(),
+                            state().displayed.isLive() ? liveChart_->axes() : chart_->axes());
+  });
+  for (UnitAxes* axes : {&liveChart_->axes(), &chart_->axes()}) {
+    const char* name = axes == &chart_->axes() ? kAxesSetting : kLiveAxesSetting;
+    axes->setByHand(loadRanges(state().settings, name));
+    connect(axes, &UnitAxes::byHandChanged, this, [this, axes, name] {
+      saveRanges(axes->byHand(), state().settings, name);
+    });
+  }
+  state().actionEnabler.add(
+      {actions.freeze, actions.newest, actions.oldest, actions.earlier, actions.later},
+      [this] { return state().displayed.isLive(); });
+  state().actionEnabler.add({actions.cursorBack, actions.cursorForward}, [this] {
+    return state().displayed.isLive() && !liveChart_->cursorWords().isEmpty();
   });
 }
 
@@ -187,10 +299,7 @@ void TimelineFeature::connectSelection() {
   connect(&selection, &Selection::spanRequested, chart_, &TimelineChart::showSpan);
   connect(&selection, &Selection::fullRangeRequested, chart_, &TimelineChart::fit);
   connect(&selection, &Selection::zoomRequested, chart_, &TimelineChart::zoomAbout);
-  connect(&selection, &Selection::plottedChanged, this, [this, &selection] {
-    if (state().displayed.isLive()) liveChart_->setPlotted(selection.plotted());
-    showCurves();
-  });
+  connect(&selection, &Selection::plottedChanged, this, [this, &selection] { showCurves(); });
   connect(&selection, &Selection::taxelsChanged, this, [this, &selection] {
     signalTree_->setNumChosen(selection.taxels().count());
     if (extras_.chosenTaxels) showCurves();
@@ -208,8 +317,18 @@ void TimelineFeature::connectActions() {
   on(actions.selectFrom, [this] { selectEnd(true); });
   on(actions.selectTo, [this] { selectEnd(false); });
   on(actions.selectAll, [&selection] { selection.setSpan(TimeSpan{0.0, selection.durationS()}); });
-  on(actions.dropSelection, [&selection] { selection.setSpan(std::nullopt); });
-  on(actions.zoomSelection, [&selection] {
+  on(actions.dropSelection, [this, &selection] {
+    if (state().displayed.isLive()) return liveChart_->clearTimeCursors();
+    selection.setSpan(std::nullopt);
+  });
+  on(actions.zoomSelection, [this, &selection] {
+    const LiveChart::Cursors& cursors = liveChart_->cursors();
+    if (state().displayed.isLive()) {
+      if (!cursors[0] || !cursors[1]) return;
+      const auto [fromS, toS] = std::minmax(*cursors[0], *cursors[1]);
+      const double air = kCursorAir * (toS - fromS);
+      return liveChart_->showSpan(fromS - air, toS + air);
+    }
     if (selection.span()) selection.showWithMargin(*selection.span());
   });
   on(actions.statistics, [this] { showStatistics(); });
@@ -223,21 +342,26 @@ void TimelineFeature::connectActions() {
   on(actions.zoomIn, [zoom] { zoom(kZoomStep); });
   on(actions.zoomOut, [zoom] { zoom(1.0 / kZoomStep); });
   on(actions.fit, [this] {
-    state().displayed.isLive() ? liveChart_->setWindowS(LiveChart::kUsualS) : chart_->fit();
+    if (!state().displayed.isLive()) return chart_->fit();
+    liveChart_->setWindowS(LiveChart::kUsualS);
+    liveChart_->setFollowing(true);
   });
   ActionEnabler& actionEnabler = state().actionEnabler;
   const auto frames = [this] { return state().displayed.hasFrames(); };
-  actionEnabler.add({actions.zoomIn, actions.zoomOut, actions.fit},
-                    [this, frames] { return frames() || state().displayed.isLive(); });
-  actionEnabler.add({actions.selectFrom,
-                     actions.selectTo,
-                     actions.selectAll,
+  actionEnabler.add({actions.zoomIn,
+                     actions.zoomOut,
+                     actions.fit,
                      actions.chooseCurves,
-                     actions.saveAs},
-                    frames);
-  actionEnabler.add(
-      {actions.crop, actions.zoomSelection, actions.dropSelection, actions.statistics},
-      [frames, &selection] { return frames() && selection.span().has_value(); });
+                     actions.axes,
+                     actions.selectFrom,
+                     actions.selectTo},
+                    [this, frames] { return frames() || state().displayed.isLive(); });
+  actionEnabler.add({actions.selectAll, actions.saveAs}, frames);
+  const auto selected = [frames, &selection] { return frames() && selection.span().has_value(); };
+  actionEnabler.add({actions.crop, actions.statistics}, selected);
+  actionEnabler.add({actions.zoomSelection, actions.dropSelection}, [this, selected] {
+    return state().displayed.isLive() ? !liveChart_->cursorWords().isEmpty() : selected();
+  });
 }
 
 void TimelineFeature::connectCurves() {
@@ -262,10 +386,11 @@ std::vector<PlottedCurve> TimelineFeature::curves() const {
   for (std::size_t row = 0; row < plotted.size(); ++row)
     if (plotted[row])
       curves.push_back(matrixCurve(*hand, row, state().appearance.view().signal, theme));
+  const bool live = state().displayed.isLive();
   const OpenedRecordingPtr recording = state().displayed.recorded();
-  if (!recording) return curves;
+  if (!recording && !live) return curves;
   const auto add = [&](PlottedCurve curve) {
-    if (hasSeries(recording->profile, curve.choice)) curves.push_back(std::move(curve));
+    if (live || hasSeries(recording->profile, curve.choice)) curves.push_back(std::move(curve));
   };
   const TaxelSelection& chosen = state().selection.taxels();
   if (extras_.chosenTaxels && !chosen.empty()) {
@@ -277,7 +402,8 @@ std::vector<PlottedCurve> TimelineFeature::curves() const {
                    theme));
   }
   std::size_t place = 1;
-  for (const TaxelGroups::Group& group : groups_.of(recording->profile.layout()))
+  for (const TaxelGroups::Group& group :
+       groups_.of(live ? *hand->layout : recording->profile.layout()))
     if (extras_.groups.contains(group.name))
       add(taxelCurve(*hand, group.taxels, group.name, place++, theme));
   for (const int axis : extras_.angles)
@@ -286,6 +412,9 @@ std::vector<PlottedCurve> TimelineFeature::curves() const {
   for (const int sensor : extras_.temperatures)
     if (sensor < static_cast<int>(hand->temperatureSensors.size()))
       add(temperatureCurve(*hand, static_cast<std::size_t>(sensor), theme));
+  for (const int row : extras_.forces)
+    if (live && hasForces_ && row <= static_cast<int>(hand->layout->numMatrices()))
+      add(forceCurve(*hand, static_cast<std::size_t>(row), theme));
   return curves;
 }
 
@@ -293,8 +422,11 @@ void TimelineFeature::showCurves() {
   const bool live = state().displayed.isLive();
   const std::vector<PlottedCurve> now = curves();
   header_->setCurves(now, state().appearance.theme());
-  header_->setPlain(live);
-  if (!live) chart_->setCurves(now);
+  header_->setLive(live);
+  if (live)
+    liveChart_->setCurves(now);
+  else
+    chart_->setCurves(now);
 }
 
 void TimelineFeature::showReading() {
@@ -307,7 +439,10 @@ void TimelineFeature::showReading() {
 }
 
 void TimelineFeature::showSelection() {
-  if (state().displayed.isLive()) return;
+  if (state().displayed.isLive()) {
+    header_->setSelection(liveChart_->cursorWords());
+    return state().actionEnabler.refresh();
+  }
   QString words;
   const auto& span = state().selection.span();
   if (span && state().displayed.isRecording()) {
@@ -323,6 +458,7 @@ void TimelineFeature::showSelection() {
 }
 
 void TimelineFeature::selectEnd(bool begin) {
+  if (state().displayed.isLive()) return liveChart_->setTimeCursorHere(begin ? 0 : 1);
   if (!state().displayed.hasFrames()) return;
   Selection& selection = state().selection;
   const double now = state().playback.positionS();
@@ -420,6 +556,9 @@ std::vector<ExportedView> TimelineFeature::views() {
   };
   view.tables = [this, &windowState] {
     std::vector<ExportedTable> tables;
+    const LiveChart::Cursors& cursors = liveChart_->cursors();
+    if (windowState.displayed.isLive() && cursors[0] && cursors[1])
+      tables.push_back({"the two cursors", [made = liveChart_->cursorTable()] { return made; }});
     const OpenedRecordingPtr recording = windowState.displayed.recorded();
     if (!recording) return tables;
     const auto add = [&](const QString& name, const std::optional<FrameSpan>& span) {

@@ -15,6 +15,7 @@
 
 namespace palpate::gui {
 
+class AxisEditor;
 class GraspExport;
 class LiveChart;
 class TimelineChart;
@@ -41,11 +42,14 @@ class TimelineFeature : public Feature {
  private:
   void connectSubject();
   void connectLive();
+  void connectLiveChart();
   void connectSelection();
   void connectActions();
   void connectCurves();
   void takeSource();
   void takeLive();
+  // The curves that the live source has.
+  void offerLiveCurves();
   std::vector<PlottedCurve> curves() const;
   void showCurves();
   void showReading();
@@ -64,6 +68,7 @@ class TimelineFeature : public Feature {
   // The chart of panel_.
   TimelineChart* chart_;
   LiveChart* liveChart_;
+  AxisEditor* axisEditor_;
   Dock* dock_;
   std::unique_ptr<CropJob> crop_;
   GraspExport* graspExport_;
@@ -72,6 +77,8 @@ class TimelineFeature : public Feature {
   std::unique_ptr<EventEditing> editing_;
   // Identifies the source of the live chart; never dereferenced.
   const SignalHistory* history_ = nullptr;
+  // Whether the live source has forces now: a calibration is applied.
+  bool hasForces_ = false;
 };
 
 }  // namespace palpate::gui

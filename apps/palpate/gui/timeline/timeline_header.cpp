@@ -61,18 +61,20 @@ void Legend::paintEvent(QPaintEvent*) {
   }
 }
 
-TimelineHeader::TimelineHeader(const QList<QAction*>& ofSelection, QWidget* parent)
-    : QWidget(parent) {
+TimelineHeader::TimelineHeader(const Actions& actions, QWidget* parent) : QWidget(parent) {
   signal_ = new QComboBox(this);
   signal_->setObjectName("signalBox");
   signal_->setFocusPolicy(Qt::NoFocus);  // has a shortcut instead
   signal_->setToolTip("What is plotted of each ticked matrix (S)");
-  for (const PlottedSignal signal : kAllPlottedSignals) signal_->addItem(nameOf(signal));
+  for (const PlottedSignal signal : kAllPlottedSignals) {
+    signal_->addItem(nameOf(signal));
+    signal_->setItemData(signal_->count() - 1, meaningOf(signal), Qt::ToolTipRole);
+  }
   curves_ = new QToolButton(this);
   curves_->setObjectName("curvesButton");
   curves_->setText("Curves");
   curves_->setFocusPolicy(Qt::NoFocus);  // has a shortcut instead
-  curves_->setToolTip("Taxels, joint angles and temperatures in the timeline (C)");
+  curves_->setToolTip("Taxels, joint angles, temperatures and forces in the timeline (C)");
   legend_ = new Legend(this);
   reading_ = new QLabel(this);
   reading_->setObjectName("readingWords");
@@ -86,12 +88,17 @@ TimelineHeader::TimelineHeader(const QList<QAction*>& ofSelection, QWidget* pare
   selectionWords_->setObjectName("selectionWords");
   strip->addWidget(selectionWords_);
   strip->addSpacing(4);
-  for (QAction* action : ofSelection) {
-    auto* button = new QToolButton(selection_);
+  const auto buttonFor = [](QAction* action, QWidget* of) {
+    auto* button = new QToolButton(of);
     button->setDefaultAction(action);
     button->setToolButtonStyle(Qt::ToolButtonTextOnly);
-    button->setFocusPolicy(Qt::NoFocus);
+    button->setFocusPolicy(Qt::NoFocus);  // has a shortcut instead
+    return button;
+  };
+  for (QAction* action : actions.ofSelection) {
+    QToolButton* button = buttonFor(action, selection_);
     strip->addWidget(button);
+    if (!actions.ofCursors.contains(action)) ofRecording_.append(button);
   }
   selection_->hide();
   auto* row = new QHBoxLayout(this);
@@ -103,6 +110,11 @@ TimelineHeader::TimelineHeader(const QList<QAction*>& ofSelection, QWidget* pare
   row->addWidget(legend_, 1);
   row->addWidget(reading_);
   row->addWidget(selection_);
+  for (QAction* action : actions.ofLive) {
+    ofLive_.append(buttonFor(action, this));
+    ofLive_.last()->hide();
+    row->addWidget(ofLive_.last());
+  }
   connect(signal_, &QComboBox::activated, this, [this](int index) {
     emit signalChosen(kAllPlottedSignals[static_cast<std::size_t>(index)]);
   });
@@ -127,12 +139,10 @@ void TimelineHeader::setReading(const QString& words) {
   reading_->setVisible(!words.isEmpty());
 }
 
-void TimelineHeader::setPlain(bool plain) {
-  curves_->setVisible(!plain);
-  if (plain) {
-    selection_->hide();
-    reading_->hide();
-  }
+void TimelineHeader::setLive(bool live) {
+  for (QToolButton* button : ofRecording_) button->setVisible(!live);
+  for (QToolButton* button : ofLive_) button->setVisible(live);
+  if (live) reading_->hide();
 }
 
 }  // namespace palpate::gui

@@ -42,16 +42,23 @@ class Legend : public QWidget {
 class TimelineHeader : public QWidget {
   Q_OBJECT
  public:
-  // The actions become buttons beside the text of setSelection().
-  explicit TimelineHeader(const QList<QAction*>& ofSelection = {}, QWidget* parent = nullptr);
+  struct Actions {
+    // These become buttons beside the text of setSelection(), those of them that are also in
+    // `ofCursors` for a live source.
+    QList<QAction*> ofSelection = {};
+    QList<QAction*> ofCursors = {};
+    // Buttons for a live source only.
+    QList<QAction*> ofLive = {};
+  };
+  explicit TimelineHeader(const Actions& actions, QWidget* parent = nullptr);
   void setSignal(PlottedSignal signal);
   void setCurves(const std::vector<PlottedCurve>& curves, Theme theme);
-  // "3.20 – 5.10 s · 61 frames"; empty: nothing is selected.
+  // "3.20 – 5.10 s · 61 frames"; empty: nothing is selected, no cursor is set.
   void setSelection(const QString& words);
   // "reading 34 %"; empty: everything is read.
   void setReading(const QString& words);
-  // Shows only the signal of the matrices, as for a live source.
-  void setPlain(bool plain);
+  // Shows what there is for a live source, or for a recording.
+  void setLive(bool live);
   QToolButton* curvesButton() const noexcept { return curves_; }
 
  signals:
@@ -65,6 +72,9 @@ class TimelineHeader : public QWidget {
   QLabel* reading_;
   QWidget* selection_;
   QLabel* selectionWords_;
+  // Buttons for a recording only, and for a live source only.
+  QList<QToolButton*> ofRecording_;
+  QList<QToolButton*> ofLive_;
 };
 
 }  // namespace palpate::gui

@@ -1,0 +1,166 @@
+#include "gui/chart/unit_axes.h"
+
+#include <QWheelEvent>
+#include <algorithm>
+#include <cmath>
+
+#include "gui/chart/chart_style.h"
+#include "gui/chart/plot.h"
+
+namespace palpate::gui {
+
+UnitAxes::UnitAxes(QCustomPlot& plot) : plot_(plot) {}
+
+const UnitAxes::Axis* UnitAxes::find(const QString& unit) const {
+  const auto found =
+      std::find_if(axes_.begin(), axes_.end(), [&](const Axis& axis) { return axis.unit == unit; });
+  return found == axes_.end() ? nullptr : &*found;
+}
+
+void UnitAxes::rebuild(const std::vector<PlottedCurve>& curves, Theme theme) {
+  QCPAxisRect& rect = *plot_.axisRect();
+  while (rect.axisCount(QCPAxis::atRight) > 1) rect.removeAxis(rect.axis(QCPAxis::atRight, 1));
+  plot_.yAxis2->setVisible(false);
+  axes_.clear();
+  for (const PlottedCurve& curve : curves) {
+    const bool fromZero = curve.choice.kind != SeriesChoice::Kind::kAngle &&
+                          curve.choice.kind != SeriesChoice::Kind::kTemperature;
+    const auto known = std::find_if(
+        axes_.begin(), axes_.end(), [&](const Axis& axis) { return axis.unit == curve.unit; });
+    if (known != axes_.end()) {
+      // Several quantities share the unit.
+      if (known->name != curve.axis) known->name = curve.unit;
+      known->fromZero = known->fromZero && fromZero;
+      continue;
+    }
+    QCPAxis* axis = axes_.empty()       ? plot_.yAxis
+                    : axes_.size() == 1 ? plot_.yAxis2
+                                        : rect.addAxis(QCPAxis::atRight);
+    axis->setVisible(true);
+    axis->setTickLabels(true);
+    if (axis != plot_.yAxis) styleExtraAxis(*axis, plot_, theme);
+    axes_.push_back({curve.unit, curve.axis, fromZero, axis});
+  }
+  if (axes_.empty()) plot_.yAxis->setRange(0.0, 1.0);
+  for (const Axis& axis : axes_) {
+    const auto own = byHand_.find(axis.unit);
+    if (own != byHand_.end()) axis.axis->setRange(own->second.from, own->second.to);
+  }
+  nameAxes();
+}
+
+void UnitAxes::nameAxes() {
+  plot_.yAxis->setLabel({});
+  for (const Axis& axis : axes_) {
+    const QString how = byHand_.contains(axis.unit) ? " (by hand)" : "";
+    axis.axis->setLabel(fittingName(axis.name + how, axis.unit + how, plot_));
+  }
+}
+
+QCPAxis* UnitAxes::of(const QString& unit) const {
+  const Axis* found = find(unit);
+  return found ? found->axis : plot_.yAxis;
+}
+
+std::vector<QString> UnitAxes::units() const {
+  std::vector<QString> units;
+  for (const Axis& axis : axes_) units.push_back(axis.unit);
+  return units;
+}
+
+QString UnitAxes::nameOf(const QString& unit) const {
+  const Axis* found = find(unit);
+  return found ? found->name : unit;
+}
+
+bool UnitAxes::fromZero(const QString& unit) const {
+  const Axis* found = find(unit);
+  return !found || found->fromZero;
+}
+
+void UnitAxes::setAutomatic(const QString& unit, const AxisRange& range) {
+  if (!byHand_.contains(unit)) of(unit)->setRange(range.from, range.to);
+}
+
+void UnitAxes::setByHand(const RangesByHand& ranges) {
+  byHand_.clear();
+  for (const auto& [unit, range] : ranges)
+    if (std::isfinite(range.from) && std::isfinite(range.to) && range.from < range.to)
+      byHand_[unit] = range;
+  for (const Axis& axis : axes_) {
+    const auto own = byHand_.find(axis.unit);
+    if (own != byHand_.end()) axis.axis->setRange(own->second.from, own->second.to);
+  }
+  nameAxes();
+  emit byHandChanged();
+}
+
+void UnitAxes::setByHand(const QString& unit, const std::optional<AxisRange>& range) {
+  RangesByHand ranges = byHand_;
+  if (!range)
+    ranges.erase(unit);
+  else if (std::isfinite(range->from) && std::isfinite(range->to) && range->from < range->to)
+    ranges[unit] = *range;
+  if (ranges != byHand_) setByHand(ranges);
+}
+
+std::optional<QString> UnitAxes::unitAt(const QPointF& at) const {
+  const QRect plot = plot_.axisRect()->rect();
+  if (at.y() < plot.top() || at.y() > plot.bottom()) return std::nullopt;
+  if (at.x() >= plot.left() && at.x() <= plot.right()) return std::nullopt;
+  for (const Axis& axis : axes_) {
+    // The first axis also has the margin left of it.
+    if (axis.axis == plot_.yAxis && at.x() < plot.left()) return axis.unit;
+    if (axis.axis->selectTest(at, false) >= 0.0) return axis.unit;
+  }
+  return std::nullopt;
+}
+
+bool UnitAxes::wheel(const QWheelEvent& event) {
+  const auto unit = unitAt(event.position());
+  if (!unit) return false;
+  const QCPAxis& axis = *of(*unit);
+  const double factor = std::pow(kWheelZoom, -event.angleDelta().y() / kWheelNotch);
+  // The end of a range that begins at 0 stays there.
+  const double fixed = axis.range().lower == 0.0 ? 0.0 : axis.pixelToCoord(event.position().y());
+  setByHand(*unit,
+            AxisRange{fixed + (axis.range().lower - fixed) * factor,
+                      fixed + (axis.range().upper - fixed) * factor});
+  return true;
+}
+
+bool UnitAxes::press(const QMouseEvent& event) {
+  if (event.button() != Qt::LeftButton) return false;
+  const auto unit = unitAt(event.position());
+  if (!unit) return false;
+  dragged_ = *unit;
+  draggedFrom_ = {of(*unit)->range().lower, of(*unit)->range().upper};
+  pressedY_ = event.position().y();
+  return true;
+}
+
+bool UnitAxes::move(const QMouseEvent& event) {
+  if (dragged_.isEmpty()) return false;
+  const double perPixel =
+      (draggedFrom_.to - draggedFrom_.from) / std::max(1, plot_.axisRect()->height());
+  const double moved = (event.position().y() - pressedY_) * perPixel;
+  if (moved != 0.0)
+    setByHand(dragged_, AxisRange{draggedFrom_.from + moved, draggedFrom_.to + moved});
+  return true;
+}
+
+bool UnitAxes::release() {
+  if (dragged_.isEmpty()) return false;
+  dragged_.clear();
+  return true;
+}
+
+bool UnitAxes::doubleClick(const QMouseEvent& event) {
+  const auto unit = unitAt(event.position());
+  if (!unit) return false;
+  dragged_.clear();
+  setByHand(*unit, std::nullopt);
+  return true;
+}
+
+}  // namespace palpate::gui

@@ -1,0 +1,103 @@
+#include "gui/timeline/axis_editor.h"
+
+#include <QCheckBox>
+#include <QGridLayout>
+#include <QLabel>
+#include <QScreen>
+#include <algorithm>
+#include <limits>
+
+#include "gui/chart/plot.h"
+#include "gui/widgets/number_field.h"
+
+namespace palpate::gui {
+namespace {
+
+constexpr double kFurthest = 1e9;
+
+SecondsField* endField(QWidget* parent, double value, const QString& name) {
+  auto* field = new SecondsField(parent);
+  field->setSuffix({});
+  field->setRange(-kFurthest, kFurthest);
+  field->setDecimals(2);
+  field->setValue(value);
+  field->setAccessibleName(name);
+  field->setToolTip(name);
+  field->setKeyboardTracking(false);
+  constexpr int kFieldWidth = 110;  // [px]
+  field->setMinimumWidth(kFieldWidth);
+  return field;
+}
+
+}  // namespace
+
+AxisEditor::AxisEditor(QWidget* parent) : QFrame(parent, Qt::Popup) {
+  setObjectName("AxisEditor");
+  setFrameShape(QFrame::StyledPanel);
+  auto* column = new QVBoxLayout(this);
+  column->setContentsMargins(10, 10, 10, 10);
+}
+
+void AxisEditor::rebuild() {
+  delete rows_;
+  rows_ = new QWidget(this);
+  auto* grid = new QGridLayout(rows_);
+  grid->setContentsMargins(0, 0, 0, 0);
+  layout()->addWidget(rows_);
+  if (axes_->units().empty())
+    grid->addWidget(new QLabel("no curve is shown: choose some (C)", rows_), 0, 0);
+  int row = 0;
+  for (const QString& unit : axes_->units()) {
+    const QString name = axes_->nameOf(unit);
+    const bool byHand = axes_->byHand().contains(unit);
+    const QCPRange range = axes_->of(unit)->range();
+    auto* automatic = new QCheckBox("automatic", rows_);
+    automatic->setObjectName("automaticAxis");
+    automatic->setChecked(!byHand);
+    automatic->setAccessibleName(name + ": automatic");
+    automatic->setToolTip("The axis follows the values that are visible");
+    auto* from = endField(rows_, range.lower, name + ": begin of the axis");
+    from->setObjectName("axisFrom");
+    auto* to = endField(rows_, range.upper, name + ": end of the axis");
+    to->setObjectName("axisTo");
+    grid->addWidget(new QLabel(name, rows_), row, 0);
+    grid->addWidget(automatic, row, 1);
+    grid->addWidget(from, row, 2);
+    grid->addWidget(new QLabel("to", rows_), row, 3);
+    grid->addWidget(to, row, 4);
+    ++row;
+    const auto use = [this, unit, automatic, from, to] {
+      if (!axes_ || !(from->value() < to->value())) return;
+      automatic->setChecked(false);
+      axes_->setByHand(unit, AxisRange{from->value(), to->value()});
+    };
+    connect(from, &QDoubleSpinBox::valueChanged, this, use);
+    connect(to, &QDoubleSpinBox::valueChanged, this, use);
+    connect(automatic, &QCheckBox::toggled, this, [this, unit, use, from, to](bool on) {
+      if (!axes_) return;
+      if (!on) return use();
+      axes_->setByHand(unit, std::nullopt);
+      const QCPRange now = axes_->of(unit)->range();
+      const QSignalBlocker quietFrom(from);
+      const QSignalBlocker quietTo(to);
+      from->setValue(now.lower);
+      to->setValue(now.upper);
+    });
+  }
+}
+
+void AxisEditor::openBeside(const QWidget& widget, UnitAxes& axes) {
+  axes_ = &axes;
+  rebuild();
+  adjustSize();
+  const QRect screen = widget.screen()->availableGeometry();
+  QPoint at = widget.mapToGlobal(QPoint(0, widget.height() + 2));
+  if (at.y() + height() > screen.bottom())
+    at.setY(widget.mapToGlobal(QPoint(0, -height() - 2)).y());
+  at.setX(std::clamp(at.x(), screen.left(), std::max(screen.left(), screen.right() - width())));
+  move(at);
+  show();
+  if (auto* first = findChild<QCheckBox*>()) first->setFocus();
+}
+
+}  // namespace palpate::gui

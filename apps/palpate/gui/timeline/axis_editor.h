@@ -1,0 +1,29 @@
+// A small list of the vertical axes of a chart, one line per unit: whether the range is automatic,
+// and its ends. A change acts at once; Escape or a click elsewhere closes the list.
+#pragma once
+
+#include <QFrame>
+#include <QPointer>
+
+#include "gui/chart/unit_axes.h"
+
+class QGridLayout;
+
+namespace palpate::gui {
+
+class AxisEditor : public QFrame {
+  Q_OBJECT
+ public:
+  explicit AxisEditor(QWidget* parent = nullptr);
+
+  // Opens below (or above) a widget, for the axes of a chart; they must outlive this object.
+  void openBeside(const QWidget& widget, UnitAxes& axes);
+
+ private:
+  void rebuild();
+
+  QPointer<UnitAxes> axes_;
+  QWidget* rows_ = nullptr;
+};
+
+}  // namespace palpate::gui
