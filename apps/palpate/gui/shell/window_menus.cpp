@@ -86,7 +86,7 @@ void WindowMenus::buildMenuBar(const ActionRegistry& book, const QList<QAction*>
   menus_.edit->addActions({at("nextEvent"), at("previousEvent"), at("toEvents")});
   menus_.edit->addSeparator();
   menus_.edit->addActions({at("selectFrom"), at("selectTo"), at("selectAll"), at("dropSelection")});
-  menus_.edit->addActions({at("zoomSelection"), at("statistics"), at("crop")});
+  menus_.edit->addActions({at("zoomSelection"), at("statistics"), at("differences"), at("crop")});
   menus_.edit->addSeparator();
   menus_.edit->addAction(at("nameTaxels"));
 
@@ -115,7 +115,7 @@ void WindowMenus::buildMenuBar(const ActionRegistry& book, const QList<QAction*>
   QMenu* plots = view->addMenu("&Plotted matrices");
   plots->addActions(book.all("plots"));
   view->addAction(at("chooseCurves"));
-  view->addActions({at("zoomIn"), at("zoomOut"), at("fit")});
+  view->addActions({at("zoomIn"), at("zoomOut"), at("fit"), at("axisScales")});
   view->addSeparator();
   view->addActions({at("slipReference"), at("compare")});
   view->addActions(dockToggles);

@@ -28,6 +28,16 @@ TimelineActions::TimelineActions(ActionRegistry& book) {
       book.make("statistics", "Edit", "Stat&istics of the selection…", {key("Ctrl+Alt+A")});
   statistics->setToolTip("Mean, deviation, extremes, slope and integral of every curve");
   statistics->setIconText("Statistics…");
+  differences = book.make("differences",
+                          "Edit",
+                          "Differences bet&ween the ends of the selection",
+                          {key("Ctrl+Alt+D")},
+                          true);
+  differences->setToolTip(
+      "Shows Δt, and of every curve its change, beside the ends of the selection");
+  axisScales =
+      book.make("axisScales", "View", "&Vertical axes of the timeline…", {key("Ctrl+Alt+V")});
+  axisScales->setToolTip("Ranges by hand and logarithmic axes");
   nameTaxels = book.make("nameTaxels", "Edit", "Name the chosen &taxels…", {key("Ctrl+Shift+G")});
   nextSignal = book.make("nextSignal", "View", "Ne&xt signal in the timeline", {key("S")});
   chooseCurves = book.make("chooseCurves", "View", "Cu&rves in the timeline…", {key("C")});

@@ -111,6 +111,19 @@ void TimelineChart::setCurves(const std::vector<PlottedCurve>& curves) {
   rebuildGraphs();
 }
 
+void TimelineChart::setScales(const AxisScales& scales) {
+  if (scales == scales_) return;
+  scales_ = scales;
+  scaleAxes();
+  replot(QCustomPlot::rpQueuedReplot);
+}
+
+std::map<QString, std::pair<double, double>> TimelineChart::axisRanges() const {
+  std::map<QString, std::pair<double, double>> ranges;
+  for (const auto& [unit, axis] : axes_) ranges[unit] = {axis->range().lower, axis->range().upper};
+  return ranges;
+}
+
 void TimelineChart::setRight(int px) {
   QMargins margins = axisRect()->minimumMargins();
   constexpr int kUsualRight = 20;  // [px]
@@ -222,9 +235,13 @@ void TimelineChart::scaleAxes() {
     if (fromZero) low = std::min(low, 0.0);
     if (!(high > low)) high = low + 1.0;
     const double air = (high - low) * (kTimelineChartHeadroom - 1.0);
-    axis->setRange(fromZero && low == 0.0 ? 0.0 : low - air, high + air);
+    const auto scale = scales_.find(unit);
+    applyAxisScale(*axis,
+                   scale == scales_.end() ? AxisScale{} : scale->second,
+                   fromZero && low == 0.0 ? 0.0 : low - air,
+                   high + air);
   }
-  if (axes_.empty()) yAxis->setRange(0.0, 1.0);
+  if (axes_.empty()) applyAxisScale(*yAxis, {}, 0.0, 1.0);
 }
 
 void TimelineChart::refill() {

@@ -14,6 +14,7 @@
 #include "gui/chart/plot.h"
 #include "gui/chart/plotted_curve.h"
 #include "gui/source/opened_recording.h"
+#include "gui/timeline/axis_scale.h"
 #include "gui/timeline/series_store.h"
 
 namespace palpate::gui {
@@ -34,6 +35,11 @@ class TimelineChart : public QCustomPlot {
   void setBefore(const OpenedRecordingPtr& before);
   SeriesStore& storeBefore() noexcept { return before_; }
   void setTheme(Theme theme);
+  // How the vertical axes are scaled, by unit.
+  void setScales(const AxisScales& scales);
+  const AxisScales& scales() const noexcept { return scales_; }
+  // The visible range of each vertical axis, by unit.
+  std::map<QString, std::pair<double, double>> axisRanges() const;
   // The least space right of the time axis [px].
   void setRight(int px);
   // Moves the cursor; when it leaves a zoomed view, the view moves on by a page.
@@ -103,6 +109,7 @@ class TimelineChart : public QCustomPlot {
   // The axes by unit.
   std::map<QString, QCPAxis*> axes_;
   std::map<QString, QString> axisNames_;
+  AxisScales scales_;
   Theme theme_ = Theme::kDark;
   QSharedPointer<QCPAxisTicker> secondsTicker_;
   QSharedPointer<QCPAxisTickerTime> clockTicker_;

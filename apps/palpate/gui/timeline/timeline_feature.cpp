@@ -8,6 +8,8 @@
 #include "gui/appearance/hand_unit.h"
 #include "gui/appearance/next_choice.h"
 #include "gui/chart/chart_picture.h"
+#include "gui/timeline/axis_scale_dialog.h"
+#include "gui/timeline/cursor_readout.h"
 #include "gui/timeline/curve_statistics.h"
 #include "gui/timeline/curve_table.h"
 #include "gui/timeline/grasp_export.h"
@@ -24,6 +26,7 @@ namespace palpate::gui {
 namespace {
 
 constexpr double kZoomStep = 1.5;
+constexpr const char* kDifferencesKey = "timeline/differences";
 
 }  // namespace
 
@@ -213,6 +216,18 @@ void TimelineFeature::connectActions() {
     if (selection.span()) selection.showWithMargin(*selection.span());
   });
   on(actions.statistics, [this] { showStatistics(); });
+  readout_ = new CursorReadout(*chart_);
+  const bool differences = state().settings.value(kDifferencesKey, false).toBool();
+  actions.differences->setChecked(differences);
+  readout_->setOn(differences);
+  on(actions.differences, [this](bool shown) {
+    readout_->setOn(shown);
+    state().settings.setValue(kDifferencesKey, shown);
+    if (shown && !state().selection.span())
+      state().messages.flash("select a range: drag in the timeline, or press [ and ]");
+  });
+  chart_->setScales(savedAxisScales(state().settings));
+  on(actions.axisScales, [this] { showAxisScales(); });
   connect(&statisticsJob_, &BackgroundJob::failed, &state().messages, &Messages::fail);
   const auto zoom = [this](double factor) {
     if (state().displayed.isLive())
@@ -229,7 +244,12 @@ void TimelineFeature::connectActions() {
   const auto frames = [this] { return state().displayed.hasFrames(); };
   actionEnabler.add({actions.zoomIn, actions.zoomOut, actions.fit},
                     [this, frames] { return frames() || state().displayed.isLive(); });
-  actionEnabler.add({actions.selectFrom, actions.selectTo, actions.selectAll, actions.chooseCurves},
+  actionEnabler.add({actions.selectFrom,
+                     actions.selectTo,
+                     actions.selectAll,
+                     actions.chooseCurves,
+                     actions.differences,
+                     actions.axisScales},
                     frames);
   actionEnabler.add(
       {actions.crop, actions.zoomSelection, actions.dropSelection, actions.statistics},
@@ -338,23 +358,37 @@ void TimelineFeature::showStatistics() {
   if (!recording || !frames)
     return state().messages.flash("nothing is selected: drag in the timeline, or press [ and ]");
   if (shown.empty()) return state().messages.flash("no curve is shown: choose some (C)");
-  auto table = std::make_shared<TextTable>();
+  auto selected = std::make_shared<SelectedCurves>();
   statisticsJob_.cancel();
   statisticsJob_.start(
       fileNameOf(*recording),
-      [recording, shown, frames, table](const Progress& progress) {
-        *table = statisticsTable(recording, shown, *frames, progress);
+      [recording, shown, frames, selected](const Progress& progress) {
+        *selected = selectedCurves(recording, shown, *frames, progress);
       },
-      [this, recording, frames, table] {
+      [this, recording, frames, selected] {
         const QString range = fileNameOf(*recording) + state().activeFilters.caption() +
                               ", frames " + QString::number(frames->first) + " to " +
                               QString::number(frames->last) + ", " +
                               figure(recording->timeAt(frames->first), 3) + " to " +
                               figure(recording->timeAt(frames->last), 3) + " s";
-        auto* dialog = new StatisticsDialog(*table, range, window());
+        auto* dialog = new StatisticsDialog(*selected, range, state().appearance.theme(), window());
         dialog->setAttribute(Qt::WA_DeleteOnClose);
         dialog->show();
       });
+}
+
+void TimelineFeature::showAxisScales() {
+  const auto ranges = chart_->axisRanges();
+  if (ranges.empty()) return state().messages.flash("no curve is shown: choose some (C)");
+  QStringList units;
+  for (const auto& [unit, range] : ranges) units.append(unit);
+  auto* dialog = new AxisScaleDialog(units, chart_->scales(), ranges, window());
+  dialog->setAttribute(Qt::WA_DeleteOnClose);
+  connect(dialog, &AxisScaleDialog::changed, this, [this, dialog] {
+    chart_->setScales(dialog->scales());
+    saveAxisScales(dialog->scales(), state().settings);
+  });
+  dialog->show();
 }
 
 void TimelineFeature::nameChosenTaxels() {

@@ -15,6 +15,7 @@
 
 namespace palpate::gui {
 
+class CursorReadout;
 class GraspExport;
 class LiveChart;
 class TimelineChart;
@@ -53,6 +54,7 @@ class TimelineFeature : public Feature {
   void selectEnd(bool begin);
   void nameChosenTaxels();
   void showStatistics();
+  void showAxisScales();
 
   TimelineActions actions_;
   TaxelGroups groups_;
@@ -63,6 +65,7 @@ class TimelineFeature : public Feature {
   TimelinePanel* panel_;
   // The chart of panel_.
   TimelineChart* chart_;
+  CursorReadout* readout_;
   LiveChart* liveChart_;
   Dock* dock_;
   std::unique_ptr<CropJob> crop_;
