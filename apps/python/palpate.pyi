@@ -383,6 +383,7 @@ def slip_segments(
     limit: float = 1.0,
     rotation: float = 5.0,
 ) -> _Table: ...
+def derive(profile: Profile, formula: str) -> NDArray[np.float64]: ...
 def coherence(
     time_s: ArrayLike,
     a: ArrayLike,

@@ -9,6 +9,7 @@
 #include "palpate/signals/characteristic_signals.h"
 #include "palpate/signals/coherence.h"
 #include "palpate/signals/first_contact.h"
+#include "palpate/signals/formula.h"
 #include "palpate/signals/spectrum.h"
 #include "palpate/signals/strongest_taxel.h"
 #include "palpate/signals/welch.h"
@@ -205,6 +206,15 @@ py::dict coherence(const Numbers& timeS,
   return result;
 }
 
+DoubleArray derive(const Profile& profile, const std::string& text) {
+  const Formula formula(text);
+  const Series series = unlocked([&](const Progress& progress) {
+    return derivedSeries(
+        profile, formula, 0.0, static_cast<double>(profile.durationUs()) / kUsPerS + 1.0, progress);
+  });
+  return arrayOf(series.values);
+}
+
 py::object strongest(const Profile& profile) {
   const auto place =
       unlocked([&](const Progress& progress) { return strongestTaxel(profile, 4000, progress); });
@@ -266,6 +276,15 @@ void bindSignals(py::module_& module) {
              "psd_a, psd_b: (B,); segments, level_95 (independent noise is above it in 5 % of the "
              "bins), rate_hz. overlap: default window / 2. As scipy.signal.coherence after "
              "resampling to an even grid. ValueError with fewer than two segments.");
+  module.def("derive",
+             &derive,
+             py::arg("profile"),
+             py::arg("formula"),
+             "derive(profile, formula) -> array\n\n"
+             "A curve that a formula makes of signals, at every frame (T,): 'm1_sum - m3_sum', "
+             "'der(hand_sum)', 'abs(m5_x2_y9) / max(1, m5_max)'; angle3 [deg] and temperature4 "
+             "[deg C] are interpolated, t [s] is the time from the first frame. ValueError for a "
+             "text that is no formula, and for a signal that isn't there.");
   module.def("strongest_taxel",
              &strongest,
              py::arg("profile"),

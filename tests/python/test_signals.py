@@ -161,3 +161,17 @@ def test_coherence_and_peaks_are_those_of_scipy():
     assert peak["amplitude"] == pytest.approx(20, rel=0.05)
     with pytest.raises(ValueError, match="two segments"):
         palpate.coherence(t[:100], a[:100], b[:100])
+
+
+def test_derived_curves_are_those_of_numpy():
+    random = np.random.default_rng(8)
+    values = random.integers(1, 4000, (60, 3, 4)).astype(float)
+    profile = palpate.from_arrays(1_000_000 + np.cumsum(random.integers(20, 40, 60)), [values])
+    seconds = np.asarray(profile.time_ms() - profile.time_ms()[0]) / 1e3
+    sums = values.sum(axis=(1, 2))
+    np.testing.assert_allclose(palpate.derive(profile, "m0_sum / 2 - abs(m0_x1_y2)"),
+                               sums / 2 - values[:, 2, 1])
+    np.testing.assert_allclose(palpate.derive(profile, "der(hand_sum)"), np.gradient(sums, seconds))
+    for wrong in ("m0_sum +", "m7_sum", "angle0"):
+        with pytest.raises(ValueError, match="formula"):
+            palpate.derive(profile, wrong)
