@@ -56,10 +56,7 @@ void CursorReadout::renew() {
       lines.append(QString::number(curves.size() - kMostReadoutCurves) +
                    " more: Statistics (Ctrl+Alt+A)");
   }
-  if (lines != lines_) {
-    lines_ = lines;
-    setText(lines_.join('\n'));
-  }
+  lines_ = lines;
   setVisible(!lines_.isEmpty());
   place();
 }
@@ -67,7 +64,17 @@ void CursorReadout::renew() {
 void CursorReadout::place() {
   if (isHidden()) return;
   const QRect plot = chart_.axisRect()->rect();
-  const QSize wanted = sizeHint().boundedTo(plot.size() - QSize(2 * kReadoutAir, 2 * kReadoutAir));
+  const QSize most = plot.size() - QSize(2 * kReadoutAir, 2 * kReadoutAir);
+  QString words = lines_.join('\n');
+  const auto heightOf = [this](qsizetype lines) {
+    return static_cast<int>(lines) * fontMetrics().lineSpacing() + 2 * (margin() + frameWidth());
+  };
+  // A low chart has room for a single line.
+  if (heightOf(lines_.size()) > most.height())
+    words = fontMetrics().elidedText(
+        lines_.join("  ·  "), Qt::ElideRight, most.width() - 2 * (margin() + frameWidth()));
+  if (words != text()) setText(words);
+  const QSize wanted = sizeHint().boundedTo(most);
   const QRect room(plot.right() - kReadoutAir - wanted.width(),
                    plot.top() + kReadoutAir,
                    wanted.width(),
