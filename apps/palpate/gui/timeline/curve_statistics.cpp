@@ -180,7 +180,7 @@ StatisticsDialog::StatisticsDialog(const SelectedCurves& selected,
   auto* histogram = new HistogramPage(selected, theme, tabs);
   auto* relation = new RelationPage(selected, theme, tabs);
   tabs->addTab(histogram, "&Histogram");
-  tabs->addTab(relation, "&XY plot");
+  tabs->addTab(relation, "XY &plot");
   auto* buttons = new QDialogButtonBox(QDialogButtonBox::Close, this);
   QPushButton* copy = buttons->addButton("C&opy", QDialogButtonBox::ActionRole);
   copy->setObjectName("copyStatistics");
