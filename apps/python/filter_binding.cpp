@@ -1,4 +1,5 @@
 // Binds palpate.filter(), the catalogue of filters, recipes, filters of single series, and ghosts.
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <string>
@@ -14,6 +15,7 @@
 #include "palpate/filter/kelvin_voigt_estimation.h"
 #include "palpate/filter/recipe.h"
 #include "palpate/filter/savitzky_golay.h"
+#include "palpate/model/timing.h"
 
 #include "python/arrays.h"
 #include "python/bindings.h"
@@ -109,6 +111,13 @@ DoubleArray filterSeries(const Numbers& timeS, const Numbers& values, const py::
     if (step.kind().domain != FilterDomain::kTemporal)
       throw py::value_error(step.name + " needs neighbours: a series takes filters over time");
   Collector out;
+  if (recipe.dependsOnRate()) {
+    std::vector<std::int64_t> stampsUs;
+    for (const double time : times)
+      stampsUs.push_back(std::isfinite(time) ? std::llround((time - times.front()) * kUsPerS) : 0);
+    if (std::is_sorted(stampsUs.begin(), stampsUs.end()))
+      recipe.validateForRate(timingOf(stampsUs).rateHz);
+  }
   FilterChain chain(recipe, out);
   TactileFrame frame(std::make_shared<const SensorLayout>(
       std::vector<MatrixLayout>{MatrixLayout::full(1, 1, 1.0)}));
@@ -236,15 +245,17 @@ void bindFilters(py::module_& module) {
       py::arg("force") = false,
       "save_recipe(path, *specs, name='', force=False) -> None\n\n"
       "Writes a recipe file (JSON). OSError when it exists, unless force.");
-  module.def(
-      "filter_series",
-      &filterSeries,
-      py::arg("time_s"),
-      py::arg("values"),
-      "filter_series(time_s, values, *specs) -> array\n\n"
-      "One series through filters over time ('kalman', 'savitzky-golay:window=7', ..): "
-      "time_s (n,) [s], ascending; values (n,); float64 (n,), 7 digits. They restart after "
-      "gaps (longer than max(1 s, 5 median intervals)). ValueError for a filter over space.");
+  module.def("filter_series",
+             &filterSeries,
+             py::arg("time_s"),
+             py::arg("values"),
+             "filter_series(time_s, values, *specs) -> array\n\n"
+             "One series through filters over time ('kalman', 'savitzky-golay:window=7', "
+             "'low-pass:cutoff=5', ..): "
+             "time_s (n,) [s], ascending; values (n,); float64 (n,), 7 digits. They restart after "
+             "gaps (longer than max(1 s, 5 median intervals)). ValueError for a filter over space, "
+             "and for a frequency of half "
+             "the rate (1 / median interval) or more.");
   module.def(
       "savitzky_golay",
       [](int window, int order, int derivative, std::optional<double> position) {

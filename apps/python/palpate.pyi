@@ -383,6 +383,17 @@ def slip_segments(
     limit: float = 1.0,
     rotation: float = 5.0,
 ) -> _Table: ...
+def derive(profile: Profile, formula: str) -> NDArray[np.float64]: ...
+def coherence(
+    time_s: ArrayLike,
+    a: ArrayLike,
+    b: ArrayLike,
+    *,
+    window: int = 256,
+    overlap: int | None = None,
+    detrend: str = "mean",
+    rate: str = "mean",
+) -> _Report: ...
 def spectrum(
     time_s: ArrayLike,
     values: ArrayLike,

@@ -7,9 +7,12 @@
 #include "palpate/core/progress.h"
 #include "palpate/model/timing.h"
 #include "palpate/signals/characteristic_signals.h"
+#include "palpate/signals/coherence.h"
 #include "palpate/signals/first_contact.h"
+#include "palpate/signals/formula.h"
 #include "palpate/signals/spectrum.h"
 #include "palpate/signals/strongest_taxel.h"
+#include "palpate/signals/welch.h"
 
 #include "python/arrays.h"
 #include "python/bindings.h"
@@ -152,6 +155,17 @@ py::dict spectrum(const Numbers& timeS,
   result["magnitude"] = table(found.magnitude);
   result["mean_psd"] = arrayOf(found.mean.psd);
   result["mean_magnitude"] = arrayOf(found.mean.magnitude);
+  py::list peaks;
+  for (const SpectralPeak& peak : spectralPeaks(found.mean)) {
+    py::dict one;
+    one["frequency_hz"] = peak.frequencyHz;
+    one["psd"] = peak.psd;
+    one["amplitude"] = peak.amplitude;
+    one["width_hz"] = peak.widthHz;
+    one["prominence_db"] = peak.prominenceDb;
+    peaks.append(one);
+  }
+  result["peaks"] = peaks;
   result["strongest_hz"] = found.mean.strongestHz();
   result["rate_hz"] = found.report.rateHz;
   result["nyquist_hz"] = found.report.nyquistHz;
@@ -159,6 +173,46 @@ py::dict spectrum(const Numbers& timeS,
   result["not_finite"] = found.report.notFinite;
   result["in_no_segment"] = found.report.inNoSegment;
   return result;
+}
+
+py::dict coherence(const Numbers& timeS,
+                   const Numbers& a,
+                   const Numbers& b,
+                   int window,
+                   std::optional<int> overlap,
+                   const std::string& detrend,
+                   const std::string& rate) {
+  const SpectrumOptions options = optionsOf(window, overlap.value_or(window / 2), detrend, rate);
+  const std::vector<double> times = vectorOf(timeS, "time_s"), valuesA = vectorOf(a, "a"),
+                            valuesB = vectorOf(b, "b");
+  const Coherence found = unlocked([&](const Progress& progress) {
+    return coherenceOf(times, valuesA, valuesB, options, progress);
+  });
+  if (found.coherence.empty())
+    throw py::value_error(
+        "coherence needs two segments in a span without a gap: take a smaller "
+        "window than " +
+        std::to_string(window));
+  py::dict result;
+  result["frequency_hz"] = column<double>(
+      found.coherence.size(), [&](std::size_t k) { return found.binHz * static_cast<double>(k); });
+  result["coherence"] = arrayOf(found.coherence);
+  result["phase_deg"] = arrayOf(found.phaseDeg);
+  result["psd_a"] = arrayOf(found.psdA);
+  result["psd_b"] = arrayOf(found.psdB);
+  result["segments"] = found.segments;
+  result["level_95"] = found.level95();
+  result["rate_hz"] = found.report.rateHz;
+  return result;
+}
+
+DoubleArray derive(const Profile& profile, const std::string& text) {
+  const Formula formula(text);
+  const Series series = unlocked([&](const Progress& progress) {
+    return derivedSeries(
+        profile, formula, 0.0, static_cast<double>(profile.durationUs()) / kUsPerS + 1.0, progress);
+  });
+  return arrayOf(series.values);
 }
 
 py::object strongest(const Profile& profile) {
@@ -201,11 +255,36 @@ void bindSignals(py::module_& module) {
              "Stretches without a gap are resampled to an even grid first; Hann window. dict "
              "time_s (S,) middles of the segments [s], frequency_hz (B,) [Hz], bin_hz (S,) of each "
              "segment [Hz], psd (S, B) [units^2/Hz], magnitude (S, B) [units], mean_psd, "
-             "mean_magnitude (B,), strongest_hz, rate_hz, nyquist_hz [Hz] (nothing above can be "
+             "mean_magnitude (B,), peaks of the mean [{frequency_hz, psd, amplitude, width_hz, "
+             "prominence_db}], strongest_hz, rate_hz, nyquist_hz [Hz] (nothing above can be "
              "seen), jitter (sd of the intervals / mean), not_finite, in_no_segment (samples). "
              "overlap: default window - 1; detrend: 'mean', 'line', 'none'; rate of the grid: "
              "'mean', 'median'. ValueError for a series without a span free of gaps as long as the "
              "window.");
+  module.def("coherence",
+             &coherence,
+             py::arg("time_s"),
+             py::arg("a"),
+             py::arg("b"),
+             py::kw_only(),
+             py::arg("window") = 256,
+             py::arg("overlap") = py::none(),
+             py::arg("detrend") = "mean",
+             py::arg("rate") = "mean",
+             "What two series have in common at each frequency: time_s, a, b (n,). dict "
+             "frequency_hz, coherence (0..1; NaN without power), phase_deg (of b relative to a), "
+             "psd_a, psd_b: (B,); segments, level_95 (independent noise is above it in 5 % of the "
+             "bins), rate_hz. overlap: default window / 2. As scipy.signal.coherence after "
+             "resampling to an even grid. ValueError with fewer than two segments.");
+  module.def("derive",
+             &derive,
+             py::arg("profile"),
+             py::arg("formula"),
+             "derive(profile, formula) -> array\n\n"
+             "A curve that a formula makes of signals, at every frame (T,): 'm1_sum - m3_sum', "
+             "'der(hand_sum)', 'abs(m5_x2_y9) / max(1, m5_max)'; angle3 [deg] and temperature4 "
+             "[deg C] are interpolated, t [s] is the time from the first frame. ValueError for a "
+             "text that is no formula, and for a signal that isn't there.");
   module.def("strongest_taxel",
              &strongest,
              py::arg("profile"),

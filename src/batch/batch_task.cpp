@@ -7,6 +7,7 @@
 #include "palpate/core/number_text.h"
 #include "palpate/core/text_table.h"
 #include "palpate/filter/filtered_profile.h"
+#include "palpate/model/timing.h"
 #include "palpate/recording/recording.h"
 #include "palpate/signals/signal_filter.h"
 #include "palpate/signals/signal_rows.h"
@@ -143,6 +144,7 @@ BatchTask signalsTask(const SignalRowsOptions& table) {
                           std::size_t threads) {
             const Profile profile = openFiltered(item, table.filters, progress, threads);
             requireMatrix(item.source, profile, table.matrix);
+            requireBelowHalfRate(table.smooth, profile, item.source);
             TableFile out(item.target, overwrite);
             out.write(std::string(kSignalColumns) + "\n");
             if (table.unitsRow) out.write(signalUnits(profile.hand()) + "\n");
@@ -261,6 +263,15 @@ std::string featureLine(const FeatureRow& row) {
                                     std::to_string(row.endFrame)};
   for (const double value : row.values) cells.push_back(numberText(value));
   return csvLine(cells);
+}
+
+void requireBelowHalfRate(const Recipe& recipe, const Profile& profile, const fs::path& file) {
+  if (!recipe.dependsOnRate()) return;
+  try {
+    recipe.validateForRate(timingOf(profile).rateHz);
+  } catch (const std::invalid_argument& error) {
+    throw Error(file.string() + ": " + error.what());
+  }
 }
 
 Profile filteredRecording(const Recipe& recipe,

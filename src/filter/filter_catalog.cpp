@@ -13,6 +13,8 @@ using FilterCatalogKind = FilterOption::Kind;
 constexpr double kAutomatic = std::numeric_limits<double>::quiet_NaN();
 constexpr double kFilterCatalogLargestSize = 31;  // taxels
 constexpr double kLargestWindow = 1001;           // frames
+constexpr double kLowestEdgeHz = 0.001;
+constexpr double kHighestEdgeHz = 10'000;
 
 const char* const kSpatialBorder =
     "the taxel at the border is repeated; masked taxels are neither read nor written";
@@ -125,6 +127,74 @@ std::vector<FilterKind> spatialKinds() {
        "Erosion, then dilation: removes whatever the element doesn't fit into.",
        kSpatialBorder,
        "study 2.4"},
+  };
+}
+
+FilterOption edge(const char* key, double defaultValue, const char* purpose) {
+  return real(key, kLowestEdgeHz, kHighestEdgeHz, defaultValue, "Hz", purpose);
+}
+FilterOption butterworthOrder() {
+  return {"order",
+          "",
+          FilterCatalogKind::kInteger,
+          1,
+          8,
+          2,
+          {},
+          "steepness: 20 dB per decade and order; twice that with centred=1"};
+}
+FilterOption zeroPhase() {
+  FilterOption option = centred();
+  option.purpose = "forwards and backwards over the recording, without delay; else up to now";
+  return option;
+}
+
+// The filters of filter/butterworth.h.
+std::vector<FilterKind> butterworthKinds() {
+  const char* const border =
+      "begins as if the first value had always been there, and again after a gap; centred=1: the "
+      "signal goes on as its reflection through the end point";
+  const char* const source =
+      "Butterworth 1930, bilinear transform in sections of second order; as scipy.signal.butter";
+  return {
+      {"low-pass",
+       "Low-pass (Butterworth)",
+       FilterDomain::kTemporal,
+       {edge("cutoff", 5, "passes what is slower; below half the frame rate"),
+        butterworthOrder(),
+        zeroPhase()},
+       "Passes slow changes: a contact without its vibration.",
+       border,
+       source},
+      {"high-pass",
+       "High-pass (Butterworth)",
+       FilterDomain::kTemporal,
+       {edge("cutoff", 0.5, "passes what is faster; below half the frame rate"),
+        butterworthOrder(),
+        zeroPhase()},
+       "Passes fast changes, about 0: without drift and resting load.",
+       border,
+       source},
+      {"band-pass",
+       "Band-pass (Butterworth)",
+       FilterDomain::kTemporal,
+       {edge("low", 1, "lower edge of what passes"),
+        edge("high", 5, "upper edge of what passes; below half the frame rate"),
+        butterworthOrder(),
+        zeroPhase()},
+       "Passes the changes between two frequencies, about 0: slip and roughness.",
+       border,
+       source},
+      {"band-stop",
+       "Band-stop, notch (Butterworth)",
+       FilterDomain::kTemporal,
+       {edge("low", 4, "lower edge of what is removed"),
+        edge("high", 6, "upper edge of what is removed; below half the frame rate"),
+        butterworthOrder(),
+        zeroPhase()},
+       "Removes the changes between two frequencies: a vibration of the hand itself.",
+       border,
+       source},
   };
 }
 
@@ -261,7 +331,7 @@ std::vector<FilterKind> spatioTemporalKinds() {
 const std::vector<FilterKind>& all() {
   static const std::vector<FilterKind> kinds = [] {
     std::vector<FilterKind> made = spatialKinds();
-    for (auto&& more : {temporalKinds(), spatioTemporalKinds()})
+    for (auto&& more : {temporalKinds(), butterworthKinds(), spatioTemporalKinds()})
       made.insert(made.end(), more.begin(), more.end());
     return made;
   }();

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "palpate/core/time.h"
 #include "palpate/filter/filter_chain.h"
 
 namespace palpate {
@@ -12,8 +13,11 @@ constexpr int kPlaces = 1;        // rows and columns of the matrix of the trial
 constexpr float kLoad = 1000.0F;  // counts
 constexpr int kMostFrames = 4096;
 constexpr double kForgotten = 1e-9;
-constexpr std::int64_t kIntervalUs = 30'000;
 constexpr std::size_t kMostMemory = 5000;
+// Frames of the mean rate of a Butterworth filter.
+constexpr std::size_t kFramesOfRate = 64;
+// Where stamps are irregular, the frames may be this much closer than on average.
+constexpr double kCloserFrames = 2.0;
 
 // Counts the frames until the middle of the matrix has half the load.
 class StepWatcher final : public FrameSink {
@@ -43,7 +47,7 @@ Recipe tried(const Recipe& recipe) {
   return causal;
 }
 
-std::optional<std::size_t> memoryOf(const FilterStep& step) {
+std::optional<std::size_t> memoryOf(const FilterStep& step, double rateHz) {
   if (step.kind().option("window") != nullptr) {
     const auto window = static_cast<std::size_t>(step.integer("window"));
     // At the beginning of a stretch, the polynomial also uses later frames.
@@ -51,6 +55,11 @@ std::optional<std::size_t> memoryOf(const FilterStep& step) {
   }
   if (step.kind().domain == FilterDomain::kSpatial) return 0;
   if (!step.causal()) return std::nullopt;
+  if (const auto butterworth = butterworthOf(step)) {
+    const double frames = kCloserFrames * butterworthLength(*butterworth, rateHz);
+    if (!(frames < static_cast<double>(kMostMemory))) return std::nullopt;
+    return static_cast<std::size_t>(frames) + kFramesOfRate;
+  }
   if (step.name != "kalman") return kMostMemory;
   const double q = step.value("q");
   const double r = step.value("r");
@@ -63,9 +72,10 @@ std::optional<std::size_t> memoryOf(const FilterStep& step) {
 
 }  // namespace
 
-std::optional<int> latencyFrames(const Recipe& recipe) {
+std::optional<int> latencyFrames(const Recipe& recipe, double rateHz) {
   const Recipe causal = tried(recipe);
-  const auto memory = filterLengthFrames(causal);
+  const auto memory = filterLengthFrames(causal, rateHz);
+  const double intervalUs = kUsPerS / rateHz;
   const int before =
       static_cast<int>(std::min<std::size_t>(memory.value_or(kMostFrames), kMostMemory)) + 2;
   StepWatcher watcher;
@@ -76,25 +86,25 @@ std::optional<int> latencyFrames(const Recipe& recipe) {
   for (int i = 0; i < before + kMostFrames && !watcher.arrived(); ++i) {
     frame.layout = layout;
     frame.values.assign(layout->numCells(), i < before ? 0.0F : kLoad);
-    frame.hostUs = i * kIntervalUs;
+    frame.hostUs = std::llround(i * intervalUs);
     chain.push(frame);
   }
   if (!watcher.arrived()) return std::nullopt;
   return *watcher.arrived() - before;
 }
 
-std::optional<int> latencyFrames(const FilterStep& step) {
+std::optional<int> latencyFrames(const FilterStep& step, double rateHz) {
   Recipe recipe;
   recipe.steps.push_back(step);
   recipe.steps.back().enabled = true;
-  return latencyFrames(recipe);
+  return latencyFrames(recipe, rateHz);
 }
 
-std::optional<std::size_t> filterLengthFrames(const Recipe& recipe) {
+std::optional<std::size_t> filterLengthFrames(const Recipe& recipe, double rateHz) {
   std::size_t sum = 0;
   for (const FilterStep& step : recipe.steps) {
     if (!step.enabled) continue;
-    const auto memory = memoryOf(step);
+    const auto memory = memoryOf(step, rateHz);
     if (!memory) return std::nullopt;
     sum += *memory;
   }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <stdexcept>
+#include <utility>
 
 #include "palpate/core/escaped_line.h"
 #include "palpate/core/number_text.h"
@@ -97,6 +98,11 @@ double parseValue(const FilterStep& step, const FilterOption& option, std::strin
   return *number;
 }
 
+// The lower or upper edge of a band.
+double edgeOf(const FilterStep& step, const char* key) {
+  return step.kind().option("cutoff") != nullptr ? step.value("cutoff") : step.value(key);
+}
+
 bool same(double a, double b) { return a == b || (std::isnan(a) && std::isnan(b)); }
 
 }  // namespace
@@ -120,7 +126,8 @@ void FilterStep::validate() const {
     throw std::invalid_argument(
         name + ": size * size * window must be at most " + std::to_string(kMostMedianValues) +
         ", is " + std::to_string(integer("size") * integer("size") * integer("window")));
-  if (kind.option("order") != nullptr) {
+  if (const auto butterworth = butterworthOf(*this)) butterworth->validate();
+  if (kind.option("order") != nullptr && window != nullptr) {
     if (integer("order") >= integer("window"))
       throw std::invalid_argument(name + ": order must be below the window of " +
                                   std::to_string(integer("window")) + ", is " +
@@ -130,6 +137,12 @@ void FilterStep::validate() const {
                                   " of a polynomial of order " + std::to_string(integer("order")) +
                                   " is 0 everywhere: choose a higher order");
   }
+}
+
+void FilterStep::validateForRate(double rateHz) const {
+  validate();
+  const auto butterworth = butterworthOf(*this);
+  if (butterworth && rateHz > 0.0) butterworth->validateForRate(rateHz);
 }
 
 double FilterStep::value(std::string_view key) const {
@@ -151,6 +164,21 @@ bool FilterStep::causal() const {
   for (const char* key : {"e", "eta", "q", "r"})
     if (std::isnan(value(key))) return false;
   return true;
+}
+
+std::optional<ButterworthOptions> butterworthOf(const FilterStep& step) {
+  using Band = ButterworthOptions::Band;
+  constexpr std::pair<const char*, Band> kBands[] = {{"low-pass", Band::kLowPass},
+                                                     {"high-pass", Band::kHighPass},
+                                                     {"band-pass", Band::kBandPass},
+                                                     {"band-stop", Band::kBandStop}};
+  for (const auto& [name, band] : kBands)
+    if (step.name == name)
+      return ButterworthOptions{.band = band,
+                                .lowHz = edgeOf(step, "low"),
+                                .highHz = edgeOf(step, "high"),
+                                .order = step.integer("order")};
+  return std::nullopt;
 }
 
 FilterStep parseFilterStep(std::string_view text) {

@@ -10,6 +10,7 @@
 #include "palpate/core/progress.h"
 #include "palpate/filter/filter_chain.h"
 #include "palpate/model/profile_builder.h"
+#include "palpate/model/timing.h"
 
 namespace palpate {
 namespace {
@@ -120,11 +121,14 @@ class ComputedFrames final : public BesideFrames {
 
 class FilteredFrames final : public BesideFrames {
  public:
-  FilteredFrames(Profile source, Recipe recipe, std::vector<std::int64_t> restartsUs)
+  FilteredFrames(Profile source,
+                 Recipe recipe,
+                 std::vector<std::int64_t> restartsUs,
+                 std::size_t memory)
       : BesideFrames(std::move(source)),
         recipe_(std::move(recipe)),
         restartsUs_(std::move(restartsUs)),
-        memory_(*filterLengthFrames(recipe_) + kFramesForRate) {}
+        memory_(memory + kFramesForRate) {}
 
   void readFrame(std::size_t frame, TactileFrame& out) const override {
     const std::lock_guard lock(mutex_);
@@ -204,10 +208,13 @@ Profile filteredProfile(const Profile& source,
   if (recipe.empty()) return source;
   ProfileInfo info = source.info();
   info.valueType = ValueType::kFloat;
-  if (filterLengthFrames(recipe))
-    return Profile(info,
-                   source.hand(),
-                   std::make_shared<FilteredFrames>(source, recipe, std::move(options.restartsUs)));
+  const double rateHz = recipe.dependsOnRate() ? timingOf(source).rateHz : 0.0;
+  recipe.validateForRate(rateHz);
+  if (const auto memory = filterLengthFrames(recipe, rateHz > 0.0 ? rateHz : kUsualRateHz))
+    return Profile(
+        info,
+        source.hand(),
+        std::make_shared<FilteredFrames>(source, recipe, std::move(options.restartsUs), *memory));
   return Profile(info,
                  source.hand(),
                  std::make_shared<ComputedFrames>(

@@ -38,7 +38,8 @@ std::unique_ptr<FrameFilter> makeFrameFilter(const FilterStep& step,
     case FilterDomain::kTemporal:
       break;
   }
-  const bool smoother = step.name == "rts" || step.name == "kalman" || step.name == "kelvin-voigt";
+  const bool smoother = step.name == "rts" || step.name == "kalman" ||
+                        step.name == "kelvin-voigt" || butterworthOf(step).has_value();
   if (smoother && !step.causal()) return detail::stretchFilter(step, std::move(layout));
   return detail::temporalFilter(step, std::move(layout));
 }

@@ -98,6 +98,23 @@ void Recipe::validate() const {
   }
 }
 
+void Recipe::validateForRate(double rateHz) const {
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    if (!steps[i].enabled) continue;
+    try {
+      steps[i].validateForRate(rateHz);
+    } catch (const std::invalid_argument& error) {
+      throw std::invalid_argument(stepNumber(i) + error.what());
+    }
+  }
+}
+
+bool Recipe::dependsOnRate() const {
+  return std::any_of(steps.begin(), steps.end(), [](const FilterStep& step) {
+    return step.enabled && butterworthOf(step);
+  });
+}
+
 bool Recipe::empty() const noexcept {
   return std::none_of(
       steps.begin(), steps.end(), [](const FilterStep& step) { return step.enabled; });

@@ -7,6 +7,7 @@
 
 #include "palpate/core/error.h"
 #include "palpate/core/time.h"
+#include "palpate/filter/butterworth.h"
 #include "palpate/filter/kalman.h"
 #include "palpate/filter/kelvin_voigt_estimation.h"
 
@@ -104,6 +105,23 @@ class Smoother final : public StretchFilter {
   const KalmanOptions options_;
 };
 
+// A Butterworth filter forwards and backwards.
+class ZeroPhase final : public StretchFilter {
+ public:
+  ZeroPhase(const FilterStep& step, std::shared_ptr<const SensorLayout> layout)
+      : StretchFilter(step, std::move(layout)), options_(*butterworthOf(step)) {}
+
+ protected:
+  void prepare(std::span<const double>, std::span<const double>) override {}
+  std::vector<double> filtered(std::span<const double> timeS,
+                               std::span<const double> series) override {
+    return butterworthZeroPhase(timeS, series, options_);
+  }
+
+ private:
+  const ButterworthOptions options_;
+};
+
 std::optional<double> givenOf(const FilterStep& step, const char* key) {
   const double value = step.value(key);
   return std::isnan(value) ? std::nullopt : std::optional(value);
@@ -142,6 +160,7 @@ class KelvinVoigt final : public StretchFilter {
 
 std::unique_ptr<FrameFilter> stretchFilter(const FilterStep& step,
                                            std::shared_ptr<const SensorLayout> layout) {
+  if (butterworthOf(step)) return std::make_unique<ZeroPhase>(step, std::move(layout));
   if (step.name == "kelvin-voigt") return std::make_unique<KelvinVoigt>(step, std::move(layout));
   return std::make_unique<Smoother>(step, std::move(layout));
 }

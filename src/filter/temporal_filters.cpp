@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "palpate/core/time.h"
+#include "palpate/filter/butterworth.h"
 #include "palpate/filter/kelvin_voigt.h"
 #include "palpate/filter/savitzky_golay.h"
 
@@ -208,6 +210,38 @@ class KelvinVoigtFrames final : public FrameFilter {
   bool begun_ = false;
 };
 
+// All taxels have the same stamps, so that a section is designed once for all.
+class ButterworthFrames final : public FrameFilter {
+ public:
+  ButterworthFrames(const FilterStep& step, const SensorLayout& layout)
+      : places_(placesOf(step, layout)),
+        filter_(*butterworthOf(step), places_.size()),
+        values_(places_.size(), 0.0) {}
+
+  void push(TactileFrame& frame, FrameSink& out) override {
+    const double intervalS = begun_ ? static_cast<double>(frame.hostUs - lastUs_) / kUsPerS : 1.0;
+    begun_ = true;
+    lastUs_ = frame.hostUs;
+    for (std::size_t i = 0; i < places_.size(); ++i)
+      values_[i] = static_cast<double>(frame.values[places_[i]]);
+    filter_.step(values_, intervalS);
+    for (std::size_t i = 0; i < places_.size(); ++i)
+      frame.values[places_[i]] = static_cast<float>(values_[i]);
+    out.take(frame);
+  }
+  void finish(FrameSink&) override {
+    begun_ = false;
+    filter_.restart();
+  }
+
+ private:
+  const std::vector<std::size_t> places_;
+  ButterworthFilter filter_;
+  std::vector<double> values_;
+  std::int64_t lastUs_ = 0;
+  bool begun_ = false;
+};
+
 }  // namespace
 
 std::unique_ptr<FrameFilter> temporalFilter(const FilterStep& step,
@@ -216,6 +250,7 @@ std::unique_ptr<FrameFilter> temporalFilter(const FilterStep& step,
   if (step.name == "temporal-gaussian") return std::make_unique<TemporalGaussian>(step, *layout);
   if (step.name == "temporal-min") return std::make_unique<TemporalMinimum>(step, *layout);
   if (step.name == "savitzky-golay") return std::make_unique<SavitzkyGolay>(step, *layout);
+  if (butterworthOf(step)) return std::make_unique<ButterworthFrames>(step, *layout);
   if (step.name == "kelvin-voigt") return std::make_unique<KelvinVoigtFrames>(step, *layout);
   return std::make_unique<KalmanFilter>(step, *layout);
 }

@@ -3,6 +3,7 @@
 #include "palpate/core/number_text.h"
 #include "palpate/core/text_table.h"
 #include "palpate/core/time.h"
+#include "palpate/model/timing.h"
 #include "palpate/signals/characteristic_signals.h"
 #include "palpate/signals/signal_filter.h"
 
@@ -73,6 +74,7 @@ void writeSignalRows(const Profile& profile,
     sink(lines);
     ++written;
   };
+  if (smooth.dependsOnRate()) smooth.validateForRate(timingOf(profile).rateHz);
   SignalFilter filter(smooth, layout.numMatrices(), write);
   for (std::size_t i = 0; i < profile.numFrames(); ++i) {
     reportProgress(progress, i, profile.numFrames());

@@ -95,5 +95,6 @@ BENCHMARK_CAPTURE(filterHand, runningMean, "running-mean");
 BENCHMARK_CAPTURE(filterHand, temporalMin, "temporal-min");
 BENCHMARK_CAPTURE(filterHand, kalman, "kalman");
 BENCHMARK_CAPTURE(filterHand, savitzkyGolay, "savitzky-golay:window=7");
+BENCHMARK_CAPTURE(filterHand, lowPass, "low-pass:order=4");
 
 }  // namespace

@@ -240,5 +240,25 @@ TEST(FilterCommand, WhatIsTouchedStaysAsRecorded) {
   }
 }
 
+TEST(FilterCommand, AFrequencyMustBeBelowHalfTheRate) {
+  const testing::TemporaryFolder folder;
+  const std::string in = writeGrasps(folder);
+  expectOneLineError(
+      palpate({"filter", in, folder / "out.palpate", "--filter", "low-pass:cutoff=900"}),
+      1,
+      {"low-pass: 900 Hz is not below ", in});
+  EXPECT_FALSE(std::filesystem::exists(folder / "out.palpate"));
+  expectOneLineError(palpate({"signals", in, "--smooth", "band-pass:low=2,high=900"}),
+                     1,
+                     {"band-pass: 900 Hz is not below ", in});
+  expectOneLineError(palpate({"signals", in, "--smooth", "band-pass:low=9,high=2"}),
+                     2,
+                     {"low must be below high"});
+  const auto done = palpate(
+      {"filter", in, folder / "out.palpate", "--filter", "low-pass:cutoff=5,order=3,centred=1"});
+  EXPECT_EQ(done.exitCode, 0) << done.err;
+  EXPECT_NE(done.out.find("needs later frames"), std::string::npos) << done.out;
+}
+
 }  // namespace
 }  // namespace palpate::filter_command_test

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <sstream>
@@ -183,6 +184,61 @@ TEST(SpectrumCommand, SaysWhatRealRecordingsCannotShow) {
   expectOneLineError(palpate({"spectrum", file, "--matrix", "0", "--x", "1", "--y", "9"}),
                      1,
                      {"masked", "no taxel of this matrix is scanned"});
+}
+
+TEST(SpectrumCommand, OneLineWithItsPeaks) {
+  const testing::TemporaryFolder folder;
+  writeTone(folder / "tone.dsa", 1000);
+  const std::vector<std::string> taxel = {
+      "spectrum", folder / "tone.dsa", "--matrix", "1", "--x", "2", "--y", "7", "--from", "100"};
+  const auto with = [&](std::vector<std::string> more) {
+    std::vector<std::string> words = taxel;
+    words.insert(words.end(), more.begin(), more.end());
+    return palpate(words);
+  };
+  const auto line = with({"--welch", "--window", "64"});
+  ASSERT_EQ(line.exitCode, 0) << line.err;
+  EXPECT_EQ(line.out.substr(0, 27), "frequency_hz,psd,magnitude\n");
+  EXPECT_EQ(std::count(line.out.begin(), line.out.end(), '\n'), 34);  // 33 bins
+  const auto peaks = with({"--peaks", "--window", "64", "--quiet"});
+  ASSERT_EQ(peaks.exitCode, 0) << peaks.err;
+  std::istringstream lines(peaks.out);
+  std::string text;
+  std::getline(lines, text);
+  EXPECT_EQ(text, "frequency_hz,psd,amplitude,width_hz,prominence_db");
+  std::getline(lines, text);
+  EXPECT_NEAR(parseDouble(text.substr(0, text.find(','))).value(), 6.25, 0.01);
+  const Json json = Json::parse(with({"--welch", "--window", "64", "--json"}).out);
+  EXPECT_NEAR(json.at("peaks").at(0).at("frequency_hz").asDouble(), 6.25, 0.01);
+  EXPECT_NEAR(json.at("peaks").at(0).at("amplitude").asDouble(), 400.0, 2.0);
+  EXPECT_EQ(json.at("psd").size(), 33u);
+  expectOneLineError(with({"--welch", "--window", "2000"}), 1, {"smaller --window"});
+  expectOneLineError(with({"--welch", "--coherence", "1:mean,2:mean"}), 2, {"not both"});
+}
+
+TEST(SpectrumCommand, CoherenceOfTwoSignals) {
+  const testing::TemporaryFolder folder;
+  const std::string file = folder / "tone.dsa";
+  writeTone(file, 1000);
+  const auto with = [&](const std::string& both, std::vector<std::string> more = {}) {
+    std::vector<std::string> words = {"spectrum", file, "--coherence", both, "--from", "100"};
+    words.insert(words.end(), more.begin(), more.end());
+    return palpate(words);
+  };
+  const auto found = with("1:2:7,1:max", {"--window", "64"});
+  ASSERT_EQ(found.exitCode, 0) << found.err;
+  EXPECT_EQ(found.out.substr(0, 44), "frequency_hz,coherence,phase_deg,psd_a,psd_b");
+  const Json json = Json::parse(with("1:2:7,hand:max", {"--window", "64", "--json"}).out);
+  EXPECT_NEAR(json.at("coherence").at(8).asDouble(), 1.0, 1e-6);  // 6.25 Hz
+  // A signal at rest has no power: no coherence.
+  const Json rest = Json::parse(with("1:2:7,1:3:7", {"--window", "64", "--json"}).out);
+  EXPECT_TRUE(rest.at("coherence").at(8).isNull());
+  expectOneLineError(with("1:mean"), 2, {"two signals A,B"});
+  expectOneLineError(with("1:mean,1:width"), 2, {"\"1:width\" is no signal"});
+  expectOneLineError(with("1:mean,9:mean"), 1, {"has no matrix 9"});
+  expectOneLineError(with("1:mean,1:99:2"), 1, {"no such taxel"});
+  expectOneLineError(with("1:mean,2:mean", {"--window", "800"}), 1, {"two segments"});
+  expectOneLineError(with("1:mean,2:mean", {"--matrix", "1"}), 2, {"leave out --matrix"});
 }
 
 }  // namespace

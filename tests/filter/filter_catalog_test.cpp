@@ -24,6 +24,10 @@ TEST(FilterCatalog, HasThePromisedNamesKeysAndDefaults) {
       {"temporal-min", {{"window", 3}, {"centred", 0}}},
       {"kalman", {{"q", 0.05}, {"r", 0.5}}},
       {"rts", {{"q", 0.05}, {"r", 0.5}}},
+      {"low-pass", {{"cutoff", 5}, {"order", 2}, {"centred", 0}}},
+      {"high-pass", {{"cutoff", 0.5}, {"order", 2}, {"centred", 0}}},
+      {"band-pass", {{"low", 1}, {"high", 5}, {"order", 2}, {"centred", 0}}},
+      {"band-stop", {{"low", 4}, {"high", 6}, {"order", 2}, {"centred", 0}}},
       {"median3d", {{"size", 3}, {"window", 3}, {"masked", 0}, {"centred", 0}}},
       {"min-median", {{"window", 3}, {"size", 3}, {"masked", 0}, {"centred", 0}}},
       {"savitzky-golay", {{"window", 5}, {"order", 2}, {"derivative", 0}, {"centred", 0}}},
@@ -59,7 +63,7 @@ TEST(FilterCatalog, EveryFilterSaysWhatItIs) {
     }
     EXPECT_NO_THROW(FilterStep{.name = kind.name}.validate()) << kind.name;
   }
-  EXPECT_EQ(names.size(), 15u);
+  EXPECT_EQ(names.size(), 19u);
 }
 
 TEST(FilterCatalog, UnknownNamesListTheKnownOnes) {

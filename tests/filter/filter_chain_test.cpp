@@ -69,6 +69,8 @@ const char* const kCausal[] = {"box",
                                "temporal-gaussian",
                                "temporal-min",
                                "kalman",
+                               "low-pass:order=3",
+                               "band-stop",
                                "kelvin-voigt:m=1,e=400,eta=40,q=1e8,r=1",
                                "median3d",
                                "min-median",
@@ -166,6 +168,8 @@ TEST(FilterChain, TimeStartsAnewAfterAGap) {
                            "median3d:centred=1",
                            "min-median",
                            "savitzky-golay:centred=1",
+                           "high-pass:order=5",
+                           "band-pass:centred=1",
                            "kelvin-voigt:m=1,e=400,eta=40,q=1e8,r=1"}) {
     auto expected = through(text, first);
     const auto rest = through(text, second);
@@ -253,6 +257,14 @@ TEST(FilterLatency, CountsFramesUntilHalfOfAStepIsThere) {
     EXPECT_EQ(*latency, frames) << text;
   }
   EXPECT_FALSE(latencyFrames(recipeOf("savitzky-golay:derivative=2")));
+}
+
+TEST(FilterLatency, OfAFrequencyDependsOnTheRate) {
+  // scipy 1.10.1: sosfilt(butter(2, 2, fs=rate, output="sos"), ones) first is 0.5 or more at these
+  // indices.
+  EXPECT_EQ(latencyFrames(recipeOf("low-pass:cutoff=2"), 50.0), 6);
+  EXPECT_EQ(latencyFrames(recipeOf("low-pass:cutoff=2"), 200.0), 23);
+  EXPECT_EQ(latencyFrames(recipeOf("high-pass:cutoff=2"), 50.0), 0);
 }
 
 TEST(FilterMemory, IsTheSumOfTheWindows) {

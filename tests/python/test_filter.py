@@ -145,3 +145,27 @@ def test_kelvin_voigt_finds_the_pace():
     assert fit["natural_hz"] == pytest.approx(20 / (2 * np.pi), rel=0.1)
     assert np.all(np.diff(fit["log_likelihood"]) > -1e-3)
     assert fit["smoothed"].shape == t.shape and np.all(fit["smoothed_variance"] >= 0)
+
+
+def test_butterworth_as_scipy_has_it():
+    signal = pytest.importorskip("scipy.signal")
+    t = np.arange(400) / 100.0
+    values = 500 + 100 * np.sin(2 * np.pi * 3 * t) + 40 * np.cos(2 * np.pi * 21 * t) + 80 * (t > 2)
+    for spec, order, edges, kind in (("low-pass:cutoff=8,order=4", 4, 8, "low"),
+                                     ("high-pass:cutoff=2,order=3", 3, 2, "high"),
+                                     ("band-pass:low=2,high=9,order=2", 2, [2, 9], "bandpass"),
+                                     ("band-stop:low=19,high=23,order=2", 2, [19, 23], "bandstop")):
+        sos = signal.butter(order, edges, kind, fs=100, output="sos")
+        forward, _ = signal.sosfilt(sos, values, zi=signal.sosfilt_zi(sos) * values[0])
+        np.testing.assert_allclose(palpate.filter_series(t, values, spec), forward, atol=2e-3)
+        np.testing.assert_allclose(palpate.filter_series(t, values, spec + ",centred=1"),
+                                   signal.sosfiltfilt(sos, values), atol=2e-3)
+
+
+def test_frequencies_end_at_half_the_rate():
+    t = np.arange(50) / 40.0
+    for spec in ("low-pass:cutoff=20", "band-stop:low=5,high=30,centred=1"):
+        with pytest.raises(ValueError, match="not below 20.00 Hz, half the rate"):
+            palpate.filter_series(t, np.ones(50), spec)
+    with pytest.raises(ValueError, match="not below 20.00 Hz, half the rate"):
+        palpate.filter(sequence(np.zeros((50, 2, 2)), interval_ms=25), "high-pass:cutoff=20")

@@ -141,3 +141,37 @@ def test_contact_of_filtered_values_is_that_of_the_recording():
         held = np.where(values > 0, given, 0).astype(float)
         np.testing.assert_allclose(found["sum"], held.sum(axis=(1, 2)), rtol=1e-6)
         np.testing.assert_allclose(found["mean"][10:20], held[10:20].sum(axis=(1, 2)) / 4, rtol=1e-6)
+
+
+def test_coherence_and_peaks_are_those_of_scipy():
+    signal = pytest.importorskip("scipy.signal")
+    random = np.random.default_rng(5)
+    t = np.arange(2000) / 80.0
+    a = 20 * np.sin(2 * np.pi * 7 * t) + random.normal(size=2000)
+    b = 5 * np.sin(2 * np.pi * 7 * t - 1) + random.normal(size=2000)
+    found = palpate.coherence(t, a, b, window=128)
+    frequency, expected = signal.coherence(a, b, 80, nperseg=128)
+    np.testing.assert_allclose(found["frequency_hz"], frequency, rtol=1e-9)
+    np.testing.assert_allclose(found["coherence"], expected, atol=1e-6)
+    cross = signal.csd(a, b, 80, nperseg=128)[1]
+    near = np.argmin(abs(frequency - 7))
+    assert found["phase_deg"][near] == pytest.approx(np.degrees(np.angle(cross[near])), abs=1e-3)
+    peak = palpate.spectrum(t, a, window=128, overlap=64)["peaks"][0]
+    assert peak["frequency_hz"] == pytest.approx(7, abs=0.05)
+    assert peak["amplitude"] == pytest.approx(20, rel=0.05)
+    with pytest.raises(ValueError, match="two segments"):
+        palpate.coherence(t[:100], a[:100], b[:100])
+
+
+def test_derived_curves_are_those_of_numpy():
+    random = np.random.default_rng(8)
+    values = random.integers(1, 4000, (60, 3, 4)).astype(float)
+    profile = palpate.from_arrays(1_000_000 + np.cumsum(random.integers(20, 40, 60)), [values])
+    seconds = np.asarray(profile.time_ms() - profile.time_ms()[0]) / 1e3
+    sums = values.sum(axis=(1, 2))
+    np.testing.assert_allclose(palpate.derive(profile, "m0_sum / 2 - abs(m0_x1_y2)"),
+                               sums / 2 - values[:, 2, 1])
+    np.testing.assert_allclose(palpate.derive(profile, "der(hand_sum)"), np.gradient(sums, seconds))
+    for wrong in ("m0_sum +", "m7_sum", "angle0"):
+        with pytest.raises(ValueError, match="formula"):
+            palpate.derive(profile, wrong)

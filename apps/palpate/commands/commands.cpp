@@ -149,6 +149,7 @@ const std::vector<Command>& allCommands() {
        "converts recordings: .dsa, .palpate, .csv, .npz, .h5, .mat, .mcap",
        &convertCommand},
       {"demo", "a tour without a window: emulated hands grasp objects, which are named", nullptr},
+      {"derive", "curves that a formula makes of signals, as CSV", &deriveCommand},
       {"emulate", "runs the emulated hand on two ports, until it is interrupted", nullptr},
       {"evaluate", "measures how well grasps are recognised", nullptr},
       {"features", "features of each grasp for recognition, as CSV", &featuresCommand},

@@ -59,6 +59,7 @@ int recordCommand(const Arguments& words);
 int recoverCommand(const Arguments& words);
 int remoteCommand(const Arguments& words);
 int renderCommand(const Arguments& words);
+int deriveCommand(const Arguments& words);
 int signalsCommand(const Arguments& words);
 int slipBenchmarkCommand(const Arguments& words);
 int stepBenchmarkCommand(const Arguments& words);

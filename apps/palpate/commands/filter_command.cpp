@@ -5,6 +5,7 @@
 #include "palpate/core/escaped_line.h"
 #include "palpate/core/number_text.h"
 #include "palpate/filter/filter_chain.h"
+#include "palpate/model/timing.h"
 #include "palpate/recording/recording.h"
 
 #include "commands/command_line.h"
@@ -14,9 +15,9 @@
 namespace palpate::commands {
 namespace {
 
-std::string latencyText(const Recipe& recipe) {
+std::string latencyText(const Recipe& recipe, double rateHz) {
   if (!recipe.causal()) return "needs later frames: not for a live hand";
-  const auto latency = latencyFrames(recipe);
+  const auto latency = rateHz > 0.0 ? latencyFrames(recipe, rateHz) : latencyFrames(recipe);
   if (!latency) return "a load step doesn't reach half its height";
   return "a contact is seen " + std::to_string(*latency) + (*latency == 1 ? " frame" : " frames") +
          " later";
@@ -89,7 +90,7 @@ int filterCommand(const Arguments& words) {
                 out.c_str(),
                 filtered.numFrames(),
                 recipeText(recipe).c_str(),
-                latencyText(recipe).c_str());
+                latencyText(recipe, timingOf(profile).rateHz).c_str());
   if (events.damaged == 0) return kDone;
   std::fprintf(
       stderr,

@@ -76,6 +76,7 @@ int signalsCommand(const Arguments& words) {
           const TextSink& write,
           const Progress& progress) {
         const Profile profile = filteredBy(recipe, unfiltered, file);
+        requireBelowHalfRate(smooth, profile, file);
         std::optional<std::size_t> only;
         if (matrix) {
           only = static_cast<std::size_t>(*matrix);

@@ -4,13 +4,17 @@
 #include <cmath>
 #include <cstdio>
 #include <optional>
+#include <utility>
+#include <vector>
 
 #include "palpate/core/error.h"
 #include "palpate/core/json.h"
 #include "palpate/core/number_text.h"
 #include "palpate/recording/recording.h"
+#include "palpate/signals/coherence.h"
 #include "palpate/signals/profile_series.h"
 #include "palpate/signals/spectrum.h"
+#include "palpate/signals/welch.h"
 
 #include "commands/command_line.h"
 #include "commands/commands.h"
@@ -85,10 +89,59 @@ SeriesChoice choiceOf(const CommandLine& given, const SensorLayout& layout) {
   return taxelOf(layout, static_cast<std::size_t>(*matrix), *x, *y, file);
 }
 
-// The series from frame `from` to frame `to`, both inclusive.
-Series seriesOf(const CommandLine& given, const Profile& profile, const Progress& progress) {
+// A signal of --coherence: "1:mean", "hand:sum", or the taxel "5:2:9" (matrix, x, y).
+SeriesChoice signalNamed(const std::string& text,
+                         const SensorLayout& layout,
+                         const std::string& file) {
+  const auto refuse = [&]() -> UsageError {
+    return UsageError("--coherence: \"" + text +
+                      "\" is no signal; a signal is MATRIX:NAME, as 1:mean or hand:sum, or a taxel "
+                      "MATRIX:X:Y, as 5:2:9");
+  };
+  std::vector<std::string> parts;
+  for (std::size_t begin = 0;;) {
+    const auto end = text.find(':', begin);
+    parts.push_back(text.substr(begin, end - begin));
+    if (end == std::string::npos) break;
+    begin = end + 1;
+  }
+  const bool hand = parts.front() == "hand";
+  const auto matrix = parseInteger(parts.front());
+  if (parts.size() < 2 || parts.size() > 3 || (!hand && (!matrix || *matrix < 0))) throw refuse();
+  const auto numMatrices = static_cast<std::int64_t>(layout.numMatrices());
+  if (!hand && *matrix >= numMatrices)
+    throw Error(file + ": has no matrix " + parts.front() + ", only 0.." +
+                std::to_string(numMatrices - 1));
+  const auto m = static_cast<std::size_t>(hand ? numMatrices : *matrix);
+  if (parts.size() == 2) {
+    const auto signal = signalKindNamed(parts[1]);
+    if (!signal) throw refuse();
+    return {.index = m, .signal = *signal};
+  }
+  const auto x = parseInteger(parts[1]), y = parseInteger(parts[2]);
+  if (hand || !x || !y || *x < 0 || *y < 0) throw refuse();
+  return taxelOf(layout, m, *x, *y, file);
+}
+
+// The two signals of --coherence.
+std::pair<SeriesChoice, SeriesChoice> coherenceChoices(const CommandLine& given,
+                                                       const SensorLayout& layout) {
+  const std::string text = *given.text("coherence");
+  const auto comma = text.find(',');
+  if (comma == std::string::npos || text.find(',', comma + 1) != std::string::npos)
+    throw UsageError("--coherence needs two signals A,B, as 1:mean,3:mean or 5:2:9,5:3:9; is \"" +
+                     text + "\"");
   const std::string& file = given.words().front();
-  const SeriesChoice choice = choiceOf(given, profile.layout());
+  return {signalNamed(text.substr(0, comma), layout, file),
+          signalNamed(text.substr(comma + 1), layout, file)};
+}
+
+// The series from frame `from` to frame `to`, both inclusive.
+Series seriesOf(const CommandLine& given,
+                const Profile& profile,
+                const SeriesChoice& choice,
+                const Progress& progress) {
+  const std::string& file = given.words().front();
   if (profile.numFrames() == 0) throw Error(file + ": has no frames");
   const auto last = static_cast<std::int64_t>(profile.numFrames()) - 1;
   const std::int64_t from = given.integer("from", 0, last).value_or(0);
@@ -108,12 +161,13 @@ Series seriesOf(const CommandLine& given, const Profile& profile, const Progress
   return series;
 }
 
-SpectrumOptions spectrumOptionsOf(const CommandLine& given) {
-  SpectrumOptions options;
+SpectrumOptions spectrumOptionsOf(const CommandLine& given, bool oneLine) {
+  SpectrumOptions options = oneLine ? welchOptions() : SpectrumOptions{};
   options.window = static_cast<int>(given.integer("window", 2, 65'536).value_or(options.window));
-  // Default: all but one sample, as in the study.
-  options.overlap = static_cast<int>(
-      given.integer("overlap", 0, options.window - 1).value_or(options.window - 1));
+  // Default: all but one sample, as in the study; half a window where segments are averaged.
+  options.overlap =
+      static_cast<int>(given.integer("overlap", 0, options.window - 1)
+                           .value_or(oneLine ? options.window / 2 : options.window - 1));
   const std::string detrend = given.choice("detrend", {"mean", "line", "none"}).value_or("mean");
   options.detrend = detrend == "none"   ? Detrend::kNone
                     : detrend == "line" ? Detrend::kLine
@@ -181,6 +235,135 @@ std::string tooShort(const SpectrumReport& report, const SpectrumOptions& option
          " samples, a window takes " + std::to_string(options.window) + ": take a smaller --window";
 }
 
+Json peaksJson(const std::vector<SpectralPeak>& peaks) {
+  return jsonList(peaks, [](const SpectralPeak& peak) {
+    return Json::object()
+        .set("frequency_hz", peak.frequencyHz)
+        .set("psd", peak.psd)
+        .set("amplitude", peak.amplitude)
+        .set("width_hz", peak.widthHz)
+        .set("prominence_db", peak.prominenceDb);
+  });
+}
+
+// A line of numbers; NaN is an empty cell.
+void appendLine(std::string& text, std::initializer_list<double> values) {
+  char before = 0;
+  for (const double value : values) {
+    if (before != 0) text += before;
+    before = ',';
+    if (std::isfinite(value)) appendNumber(text, value);
+  }
+  text += '\n';
+}
+
+void sayGrid(const CommandLine& given, const SpectrumReport& report) {
+  if (given.quiet()) return;
+  std::fprintf(stderr,
+               "palpate: intervals vary by %s %%: resampled to %s Hz; nothing above %s Hz can be "
+               "seen\n",
+               fixedText(report.jitter * kPercent, 0).c_str(),
+               fixedText(report.rateHz, 2).c_str(),
+               fixedText(report.nyquistHz, 2).c_str());
+}
+
+// --welch and --peaks.
+int writeMeanSpectrum(const CommandLine& given,
+                      const Series& series,
+                      const SpectrumOptions& options,
+                      ProgressLine& line) {
+  const std::string& file = given.words().front();
+  const WelchSpectrum spectrum =
+      welchSpectrum(series.timeS, series.values, options, line.callback());
+  if (spectrum.mean.psd.empty()) throw Error(file + ": " + tooShort(spectrum.report, options));
+  const std::vector<SpectralPeak> peaks = spectralPeaks(spectrum.mean);
+  std::string text;
+  if (given.has("json")) {
+    text = Json::object()
+               .set("samples", spectrum.report.samples)
+               .set("rate_hz", known(spectrum.report.rateHz))
+               .set("nyquist_hz", known(spectrum.report.nyquistHz))
+               .set("jitter", spectrum.report.jitter)
+               .set("window", options.window)
+               .set("overlap", options.overlap)
+               .set("bin_hz", spectrum.mean.binHz)
+               .set("segments", spectrum.mean.segments)
+               .set("psd", jsonList(spectrum.mean.psd))
+               .set("magnitude", jsonList(spectrum.mean.magnitude))
+               .set("peaks", peaksJson(peaks))
+               .text() +
+           "\n";
+  } else if (given.has("peaks")) {
+    text = "frequency_hz,psd,amplitude,width_hz,prominence_db\n";
+    for (const SpectralPeak& peak : peaks)
+      appendLine(text,
+                 {peak.frequencyHz, peak.psd, peak.amplitude, peak.widthHz, peak.prominenceDb});
+  } else {
+    text = "frequency_hz,psd,magnitude\n";
+    for (std::size_t k = 0; k < spectrum.mean.psd.size(); ++k)
+      appendLine(text,
+                 {static_cast<double>(k) * spectrum.mean.binHz,
+                  spectrum.mean.psd[k],
+                  spectrum.mean.magnitude[k]});
+  }
+  StandardOutput out;
+  out.write(text);
+  out.finish();
+  line.wipe();
+  if (!given.has("json")) sayGrid(given, spectrum.report);
+  return kDone;
+}
+
+int writeCoherence(const CommandLine& given,
+                   const Profile& profile,
+                   const SpectrumOptions& options,
+                   ProgressLine& line) {
+  const std::string& file = given.words().front();
+  const auto [choiceA, choiceB] = coherenceChoices(given, profile.layout());
+  const Series a = seriesOf(given, profile, choiceA, line.callback());
+  const Series b = seriesOf(given, profile, choiceB, line.callback());
+  const Coherence found = coherenceOf(a.timeS, a.values, b.values, options, line.callback());
+  if (found.coherence.empty())
+    throw Error(file + ": coherence needs two segments; " + tooShort(found.report, options));
+  std::string text;
+  if (given.has("json")) {
+    text = Json::object()
+               .set("rate_hz", known(found.report.rateHz))
+               .set("nyquist_hz", known(found.report.nyquistHz))
+               .set("window", options.window)
+               .set("overlap", options.overlap)
+               .set("bin_hz", found.binHz)
+               .set("segments", found.segments)
+               .set("level_95", found.level95())
+               .set("coherence", jsonList(found.coherence))
+               .set("phase_deg", jsonList(found.phaseDeg))
+               .text() +
+           "\n";
+  } else {
+    text = "frequency_hz,coherence,phase_deg,psd_a,psd_b\n";
+    for (std::size_t k = 0; k < found.coherence.size(); ++k)
+      appendLine(text,
+                 {static_cast<double>(k) * found.binHz,
+                  found.coherence[k],
+                  found.phaseDeg[k],
+                  found.psdA[k],
+                  found.psdB[k]});
+  }
+  StandardOutput out;
+  out.write(text);
+  out.finish();
+  line.wipe();
+  if (!given.has("json")) {
+    sayGrid(given, found.report);
+    if (!given.quiet())
+      std::fprintf(stderr,
+                   "palpate: of independent noise 5 %% of the bins are above %s (%zu segments)\n",
+                   fixedText(found.level95(), 3).c_str(),
+                   found.segments);
+  }
+  return kDone;
+}
+
 }  // namespace
 
 int spectrumCommand(const Arguments& words) {
@@ -194,7 +377,10 @@ int spectrumCommand(const Arguments& words) {
            "of its mean rate; nothing\nabove half that rate can be seen. Hann window (periodic), "
            "power spectral density one-sided in\ncounts^2/Hz, magnitude in counts: a tone of "
            "amplitude A at a bin reads A. time_s is the middle\nof the window, from the "
-           "recording's first frame.",
+           "recording's first frame. With --welch one line instead: frequency_hz,psd,magnitude, "
+           "the "
+           "mean over\nsegments; with --peaks its peaks; with --coherence what two signals have in "
+           "common: frequency_hz,\ncoherence,phase_deg,psd_a,psd_b.",
        .options = withFilterOptions(
            {{"matrix", "M", "matrix (0, 1, ..)"},
             {"x", "X", "column of the taxel"},
@@ -203,25 +389,46 @@ int spectrumCommand(const Arguments& words) {
              "NAME",
              "instead of a taxel: mean, filtered_mean, min, max, sum, active, area_mm2; "
              "without --matrix of the whole hand"},
-            {"window", "N", "samples per segment, 2..65536, default 32"},
-            {"overlap", "N", "samples shared with the next segment, default window - 1"},
+            {"welch", "", "the mean over all segments as one line (Welch)"},
+            {"peaks", "", "the peaks of this line: frequency, density, amplitude, width"},
+            {"coherence",
+             "A,B",
+             "coherence and phase of two signals, as 1:mean,3:mean; taxels as 5:2:9,5:3:9"},
+            {"window",
+             "N",
+             "samples per segment, 2..65536, default 32; 256 for --welch, --peaks, --coherence"},
+            {"overlap",
+             "N",
+             "samples shared with the next segment, default window - 1; window / 2 for these"},
             {"detrend", "HOW", "what a segment loses first: mean (default), line, none"},
             {"rate", "HOW", "of the even grid: mean (default) or median of the intervals"},
             {"from", "N", "first frame, default 0"},
             {"to", "N", "last frame, inclusive"},
-            {"json", "", "no spectra: rate, Nyquist, jitter, strongest line as JSON"}}),
+            {"json",
+             "",
+             "no table: rate, Nyquist, jitter, strongest line (or line and peaks) as JSON"}}),
        .example = "palpate spectrum roughness_test_rough.dsa --matrix 5 --x 2 --y 9 > spectra.csv",
        .minArguments = 1,
        .maxArguments = 1},
       words);
   if (given.helpShown()) return kDone;
-  const SpectrumOptions options = spectrumOptionsOf(given);
+  const bool twoSignals = given.has("coherence");
+  const bool oneLine = given.has("welch") || given.has("peaks");
+  if (twoSignals && oneLine) throw UsageError("give --coherence, or --welch and --peaks, not both");
+  if (twoSignals)
+    for (const char* one : {"matrix", "x", "y", "signal"})
+      if (given.has(one))
+        throw UsageError(std::string("--coherence names its signals itself: leave out --") + one);
+  const SpectrumOptions options = spectrumOptionsOf(given, twoSignals || oneLine);
   const Recipe recipe = recipeOf(given);
   const std::string& file = given.words().front();
   ProgressLine line("reading " + file, given.quiet());
   const Profile profile =
       filteredBy(recipe, openRecording(file, line.callback()), file, line.callback());
-  const Series series = seriesOf(given, profile, line.callback());
+  if (twoSignals) return writeCoherence(given, profile, options, line);
+  const Series series =
+      seriesOf(given, profile, choiceOf(given, profile.layout()), line.callback());
+  if (oneLine) return writeMeanSpectrum(given, series, options, line);
   const SpectrumReport plan = planSpectra(series.timeS, series.values, options);
   if (plan.segments == 0) throw Error(file + ": " + tooShort(plan, options));
 
@@ -259,13 +466,7 @@ int spectrumCommand(const Arguments& words) {
       line.callback());
   out.finish();
   line.wipe();
-  if (!given.quiet())
-    std::fprintf(stderr,
-                 "palpate: intervals vary by %s %%: resampled to %s Hz; nothing above %s Hz can be "
-                 "seen\n",
-                 fixedText(plan.jitter * kPercent, 0).c_str(),
-                 fixedText(plan.rateHz, 2).c_str(),
-                 fixedText(plan.nyquistHz, 2).c_str());
+  sayGrid(given, plan);
   return kDone;
 }
 

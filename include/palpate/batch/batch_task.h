@@ -66,5 +66,10 @@ Profile filteredRecording(const Recipe& recipe,
                           const Profile& profile,
                           const std::filesystem::path& file,
                           const Progress& progress = {});
+// Throws Error when the recipe has a frequency that is not below half of the recording's rate (1 /
+// median interval); for filters of signals.
+void requireBelowHalfRate(const Recipe& recipe,
+                          const Profile& profile,
+                          const std::filesystem::path& file);
 
 }  // namespace palpate

@@ -73,11 +73,14 @@ class FilterChain {
 };
 
 // Delay of the chain [frames]: the number of frames until a step of load reaches half of its height
-// at the output. Empty if it never does (a derivative). 0 for steps that use future frames.
-std::optional<int> latencyFrames(const Recipe& recipe);
-std::optional<int> latencyFrames(const FilterStep& step);
+// at the output. Empty if it never does (a derivative). 0 for steps that use future frames. The
+// delay of filters with a frequency depends on the rate of the frames [Hz], above 0.
+inline constexpr double kUsualRateHz = 1e6 / 30'000.0;
+std::optional<int> latencyFrames(const Recipe& recipe, double rateHz = kUsualRateHz);
+std::optional<int> latencyFrames(const FilterStep& step, double rateHz = kUsualRateHz);
 // Largest number of earlier frames that influence an output frame (length of the impulse response).
-// Empty when all earlier frames since the last gap do.
-std::optional<std::size_t> filterLengthFrames(const Recipe& recipe);
+// Empty when all earlier frames since the last gap do. The length of filters with a frequency
+// depends on the rate of the frames [Hz], above 0.
+std::optional<std::size_t> filterLengthFrames(const Recipe& recipe, double rateHz = kUsualRateHz);
 
 }  // namespace palpate

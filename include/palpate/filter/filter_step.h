@@ -5,10 +5,12 @@
 
 #include <cstddef>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include <palpate/filter/butterworth.h>
 #include <palpate/filter/filter_catalog.h>
 
 namespace palpate {
@@ -24,8 +26,12 @@ struct FilterStep {
 
   // Throws std::invalid_argument for an unknown name or key (listing the known ones), a value out
   // of range, an even window, and options that contradict each other (the order must be below the
-  // window; search and patch must fit together).
+  // window; search and patch must fit together;
+  // the lower edge of a band must be below the upper one).
   void validate() const;
+  // Also throws std::invalid_argument when a frequency is at or above half of the rate of the
+  // frames [Hz]. A rate of 0 is not known and checks nothing.
+  void validateForRate(double rateHz) const;
   const FilterKind& kind() const { return filterKind(name); }
   // Returns the given value or the default; NaN means automatic. Throws std::invalid_argument for a
   // key that the filter does not have.
@@ -38,6 +44,9 @@ struct FilterStep {
   bool causal() const;
   bool operator==(const FilterStep&) const = default;
 };
+
+// The band and order of a Butterworth filter; empty for other filters.
+std::optional<ButterworthOptions> butterworthOf(const FilterStep& step);
 
 // Parses and validates a text. Throws std::invalid_argument that says what is wrong and what is
 // allowed.

@@ -24,8 +24,9 @@ struct FilteredProfileOptions {
 // all frames of a stretch at once is applied to the whole profile inside this function.
 //
 // When a frame of the source cannot be read, reading it here throws the same error, and filters
-// over time restart after it. Throws std::invalid_argument (recipe), Cancelled, and Error (a recipe
-// that needs whole stretches meets a frame that cannot be read).
+// over time restart after it. Throws std::invalid_argument (recipe, or a frequency that is not
+// below half of the profile's rate, 1 / median interval), Cancelled, and Error (a recipe that needs
+// whole stretches meets a frame that cannot be read).
 Profile filteredProfile(const Profile& source,
                         const Recipe& recipe,
                         FilteredProfileOptions options = {},

@@ -25,6 +25,11 @@ struct Recipe {
 
   // Throws std::invalid_argument that names the wrong step (counted from 1), or too many steps.
   void validate() const;
+  // Throws std::invalid_argument that names the wrong step when an enabled step has a frequency at
+  // or above half of the rate of the frames [Hz]; 0 is an unknown rate.
+  void validateForRate(double rateHz) const;
+  // Returns whether an enabled step has a frequency, so that it depends on the rate.
+  bool dependsOnRate() const;
   // Returns whether no step is enabled.
   bool empty() const noexcept;
   // Returns whether all enabled steps are causal, so that the recipe can run live.

@@ -20,7 +20,8 @@ extern const char* const kSignalColumns;
 std::string signalUnits(const HandDescription& hand);
 // Passes the rows of one frame at a time to `sink`, each with `lineEnd`; of one matrix or of all.
 // `smooth`: filters over time that are applied to the signals themselves; may be empty. Throws
-// Cancelled, std::invalid_argument (a filter over space), and what the sink throws.
+// Cancelled, std::invalid_argument (a filter over space, or a frequency that is
+// not below half of the rate, 1 / median interval), and what the sink throws.
 void writeSignalRows(const Profile& profile,
                      std::optional<std::size_t> onlyMatrix,
                      const Recipe& smooth,

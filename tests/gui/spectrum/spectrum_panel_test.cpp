@@ -16,6 +16,7 @@
 #include <palpate/core/error.h>
 #include <palpate/model/profile_builder.h>
 
+#include "gui/spectrum/spectrum_line_page.h"
 #include "gui/testing/sample_profiles.h"
 #include "testing/testing.h"
 
@@ -331,6 +332,65 @@ TEST_F(SpectrumPanelTest, IsSeenInBothThemes) {
     const QPoint rest(tone.x(), static_cast<int>(map->valueAxis()->coordToPixel(22.0)));
     EXPECT_GT(image.pixelColor(tone).lightness(), image.pixelColor(rest).lightness() + 60);
   }
+}
+
+TEST_F(SpectrumPanelTest, OneLineOfTheSelectedRangeWithItsPeaks) {
+  show(tones(400));
+  panel_->header().setSetting({.window = 64, .overlap = 32, .view = SpectrumView::kLine});
+  panel_->settle();
+  ASSERT_TRUE(panel_->shown());
+  EXPECT_TRUE(panel_->linePage().isVisible());
+  const SpectrumAnswer& answer = panel_->linePage().chart().answer();
+  ASSERT_EQ(answer.peaks.size(), 1u);
+  EXPECT_NEAR(answer.peaks[0].frequencyHz, 6.25, 0.01);
+  EXPECT_NEAR(answer.peaks[0].amplitude, 400.0, 1.0);
+  EXPECT_EQ(answer.mean->mean.segments, 11u);  // (400 - 64) / 32 + 1
+  EXPECT_TRUE(title().contains("visible 0.00 to")) << title().toStdString();
+  panel_->setSpan(TimeSpan{2.0, 4.0});
+  panel_->settle();
+  EXPECT_EQ(panel_->linePage().chart().answer().series->values.size(), 101u);
+  EXPECT_TRUE(title().contains("selected 2.00 to 4.00 s")) << title().toStdString();
+  const auto tables = panel_->tables();
+  ASSERT_EQ(tables.size(), 2u);
+  EXPECT_EQ(tables[0].name, "mean spectrum");
+  EXPECT_EQ(tables[0].make().numRows, 33u);
+  EXPECT_EQ(tables[1].make().numRows, 1u);
+  panel_->setSpan(TimeSpan{2.0, 2.5});
+  panel_->settle();
+  EXPECT_TRUE(panel_->emptyText().contains("26 samples, a window takes 64"))
+      << panel_->emptyText().toStdString();
+}
+
+TEST_F(SpectrumPanelTest, CoherenceWithTheMeanOfAMatrix) {
+  show(tones(400));
+  panel_->header().setSetting({.window = 64, .overlap = 32, .view = SpectrumView::kCoherence});
+  panel_->settle();
+  auto* other = find<QComboBox>("coherenceWith");
+  ASSERT_TRUE(other->isVisible());
+  EXPECT_EQ(other->count(), 7);
+  // The first matrix feels nothing: no power in common.
+  EXPECT_TRUE(std::isnan(panel_->linePage().chart().answer().coherence->coherence[8]));
+  other->setCurrentIndex(1);
+  emit other->activated(1);
+  panel_->settle();
+  const auto coherence = panel_->linePage().chart().answer().coherence;
+  ASSERT_EQ(coherence->coherence.size(), 33u);
+  EXPECT_NEAR(coherence->coherence[8], 1.0, 1e-6);  // 6.25 Hz
+  EXPECT_TRUE(panel_->name().contains(" with mean of finger 0 distal"))
+      << panel_->name().toStdString();
+  ASSERT_EQ(panel_->tables().size(), 1u);
+  EXPECT_EQ(panel_->tables()[0].make().header.size(), 5u);
+  panel_->header().setSetting({});
+  panel_->settle();
+  EXPECT_FALSE(other->isVisible());
+  EXPECT_TRUE(panel_->chart().isVisible());
+}
+
+TEST_F(SpectrumPanelTest, TheViewIsRemembered) {
+  show(tones(400));
+  panel_->header().setSetting({.view = SpectrumView::kLine});
+  panel_ = std::make_unique<SpectrumPanel>(settings_);
+  EXPECT_EQ(panel_->header().setting().view, SpectrumView::kLine);
 }
 
 }  // namespace

@@ -1,9 +1,14 @@
 // The analyst's way through a recording: grasps, labels, notes, undo, saving, cropping, curves of
 // anything.
+#include <QCheckBox>
 #include <QClipboard>
 #include <QCloseEvent>
+#include <QComboBox>
+#include <QDoubleSpinBox>
 #include <QLabel>
 #include <QPushButton>
+#include <QSpinBox>
+#include <QTabWidget>
 #include <QTableWidget>
 
 #include <palpate/emulator/synthetic_profile.h>
@@ -15,6 +20,8 @@
 #include "gui/matrices/matrices_panel.h"
 #include "gui/matrices/matrices_view.h"
 #include "gui/testing/window_fixture.h"
+#include "gui/timeline/axis_scale.h"
+#include "gui/timeline/cursor_readout.h"
 #include "gui/timeline/timeline_feature.h"
 #include "gui/timeline/timeline_header.h"
 #include "gui/timeline/timeline_panel.h"
@@ -237,6 +244,79 @@ TEST_F(EventsWindowTest, StatisticsOfTheSelectionAreATable) {
   EXPECT_TRUE(copied.startsWith("curve\tunit\tframes\tmean\tsd\tmin\tmax\tslope [unit/s]\t"))
       << copied.toStdString();
   EXPECT_EQ(copied.trimmed().split('\n').size(), plotted + 1);
+}
+
+TEST_F(EventsWindowTest, StatisticsHaveDifferencesAHistogramAndAnXyPlot) {
+  chart().setSelection(TimeSpan{2.0, 9.0});
+  actions().at("statistics")->trigger();
+  window().settle();
+  auto* tabs = window().findChild<QTabWidget*>("statisticsTabs");
+  ASSERT_TRUE(tabs);
+  ASSERT_EQ(tabs->count(), 4);
+  const auto copied = [&](int page) {
+    tabs->setCurrentIndex(page);
+    QTest::mouseClick(window().findChild<QPushButton*>("copyStatistics"), Qt::LeftButton);
+    return QGuiApplication::clipboard()->text().trimmed().split('\n');
+  };
+  const OpenedRecordingPtr recording = window().state().displayed.recorded();
+  const auto frames = *recording->framesWithin(2.0, 9.0);
+  const std::size_t count = frames.second - frames.first + 1;
+  const QStringList differences = copied(1);
+  EXPECT_EQ(differences[0], "curve\tunit\tat begin\tat end\tdy\tdy/dt [unit/s]");
+  const QStringList first = differences[1].split('\t');
+  EXPECT_NEAR(first[4].toDouble(), first[3].toDouble() - first[2].toDouble(), 1e-9);
+  window().findChild<QSpinBox*>("histogramBins")->setValue(10);
+  const QStringList histogram = copied(2);
+  ASSERT_EQ(histogram.size(), 11);
+  std::size_t sum = 0;
+  for (int i = 1; i < histogram.size(); ++i) sum += histogram[i].split('\t')[2].toULongLong();
+  EXPECT_EQ(sum, count);
+  window().findChild<QComboBox*>("relationX")->setCurrentIndex(0);
+  window().findChild<QComboBox*>("relationY")->setCurrentIndex(0);
+  EXPECT_EQ(static_cast<std::size_t>(copied(3).size()), count + 1);
+  EXPECT_TRUE(window().findChild<QLabel*>("relationWords")->text().contains("correlation 1.0000"))
+      << window().findChild<QLabel*>("relationWords")->text().toStdString();
+}
+
+TEST_F(EventsWindowTest, DifferencesStandBesideTheEndsOfTheSelection) {
+  auto& readout = *window().findChild<CursorReadout*>();
+  actions().at("differences")->setChecked(true);
+  EXPECT_TRUE(readout.isHidden());
+  chart().setSelection(TimeSpan{2.0, 4.5});
+  ASSERT_FALSE(readout.isHidden());
+  EXPECT_EQ(readout.lines()[0], "Δt 2.500 s (0.4 Hz)");
+  const PlottedCurve& curve = chart().curves().front();
+  const double from = *chart().store().valueAt(curve.choice, 2.0);
+  const double to = *chart().store().valueAt(curve.choice, 4.5);
+  EXPECT_TRUE(readout.lines()[1].contains("Δ " + QString::number(to - from, 'g', 5)))
+      << readout.lines()[1].toStdString();
+  EXPECT_TRUE(chart().rect().contains(readout.geometry()));
+  chart().setSelection(std::nullopt);
+  EXPECT_TRUE(readout.isHidden());
+}
+
+TEST_F(EventsWindowTest, AVerticalAxisIsLogarithmicAndRemembersIt) {
+  UnitAxes& axes = chart().axes();
+  const QCPRange before = axes.of("counts")->range();
+  actions().at("verticalAxes")->trigger();
+  auto* log = window().findChild<QCheckBox*>("logAxis");
+  ASSERT_TRUE(log);
+  log->setChecked(true);
+  EXPECT_EQ(chart().yAxis->scaleType(), QCPAxis::stLogarithmic);
+  EXPECT_NEAR(axes.of("counts")->range().lower, before.upper / 1000.0, 1e-9);
+  EXPECT_EQ(axes.of("counts")->range().upper, before.upper);
+  axes.setByHand("counts", AxisRange{10.0, 1000.0});
+  EXPECT_EQ(axes.of("counts")->range().lower, 10.0);
+  axes.setByHand("counts", std::nullopt);
+  const auto stored = [&] {
+    return window().state().settings.value("plotted/axes_logarithmic").toStringList();
+  };
+  EXPECT_EQ(stored(), QStringList{"counts"});
+  log->setChecked(false);
+  EXPECT_EQ(chart().yAxis->scaleType(), QCPAxis::stLinear);
+  EXPECT_EQ(axes.of("counts")->range().lower, before.lower);
+  EXPECT_EQ(axes.of("counts")->range().upper, before.upper);
+  EXPECT_TRUE(stored().isEmpty());
 }
 
 TEST_F(EventsWindowTest, LabelsAndNotesAreMadeUndoneAndSaved) {

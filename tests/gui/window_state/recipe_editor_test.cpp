@@ -72,6 +72,16 @@ TEST(RecipeEditor, OptionsThatDependOnEachOtherGoAlong) {
   editor.setOption(0, "window", 1001);
   EXPECT_EQ(textOf(editor), "median3d:size=1,window=1001");
   editor.setRecipe({});
+  editor.insert(0, parseFilterStep("band-pass:low=2,high=4"));
+  editor.setOption(0, "low", 6);
+  EXPECT_EQ(textOf(editor), "band-pass:low=6,high=12");
+  editor.setOption(0, "high", 3);
+  EXPECT_EQ(textOf(editor), "band-pass:low=1.5,high=3");
+  editor.setOption(0, "low", 10'000);
+  EXPECT_EQ(textOf(editor), "band-pass:low=5000,high=10000");
+  editor.setOption(0, "order", 8);
+  EXPECT_EQ(textOf(editor), "band-pass:low=5000,high=10000,order=8");
+  editor.setRecipe({});
   editor.insert(0, parseFilterStep("temporal-min:window=4"));
   editor.setOption(0, "centred", 1);
   EXPECT_EQ(editor.recipe().steps[0].integer("window"), 5);

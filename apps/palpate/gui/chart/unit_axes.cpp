@@ -40,11 +40,13 @@ void UnitAxes::rebuild(const std::vector<PlottedCurve>& curves, Theme theme) {
     axis->setTickLabels(true);
     if (axis != plot_.yAxis) styleExtraAxis(*axis, plot_, theme);
     axes_.push_back({curve.unit, curve.axis, fromZero, axis});
+    // The axis may have been that of another unit.
+    scale(axes_.back(), {axis->range().lower, axis->range().upper});
   }
   if (axes_.empty()) plot_.yAxis->setRange(0.0, 1.0);
   for (const Axis& axis : axes_) {
     const auto own = byHand_.find(axis.unit);
-    if (own != byHand_.end()) axis.axis->setRange(own->second.from, own->second.to);
+    if (own != byHand_.end()) scale(axis, own->second);
   }
   nameAxes();
 }
@@ -52,7 +54,8 @@ void UnitAxes::rebuild(const std::vector<PlottedCurve>& curves, Theme theme) {
 void UnitAxes::nameAxes() {
   plot_.yAxis->setLabel({});
   for (const Axis& axis : axes_) {
-    const QString how = byHand_.contains(axis.unit) ? " (by hand)" : "";
+    const QString how = QString(byHand_.contains(axis.unit) ? " (by hand)" : "") +
+                        (logarithmic_.contains(axis.unit) ? " (log)" : "");
     axis.axis->setLabel(fittingName(axis.name + how, axis.unit + how, plot_));
   }
 }
@@ -79,7 +82,42 @@ bool UnitAxes::fromZero(const QString& unit) const {
 }
 
 void UnitAxes::setAutomatic(const QString& unit, const AxisRange& range) {
-  if (!byHand_.contains(unit)) of(unit)->setRange(range.from, range.to);
+  const Axis* axis = find(unit);
+  if (axis && !byHand_.contains(unit)) scale(*axis, range);
+}
+
+void UnitAxes::scale(const Axis& axis, const AxisRange& range) {
+  constexpr double kDecades = 1e3;
+  constexpr int kTicks = 4;
+  const bool log = logarithmic_.contains(axis.unit);
+  const auto type = log ? QCPAxis::stLogarithmic : QCPAxis::stLinear;
+  if (axis.axis->scaleType() != type) {
+    axis.axis->setScaleType(type);
+    axis.axis->setTicker(log ? QSharedPointer<QCPAxisTicker>(new QCPAxisTickerLog)
+                             : QSharedPointer<QCPAxisTicker>(new QCPAxisTicker));
+    axis.axis->ticker()->setTickCount(kTicks);
+  }
+  AxisRange shown = range;
+  if (log && !(shown.to > 0.0)) shown.to = 1.0;
+  if (log && !(shown.from > 0.0)) shown.from = shown.to / kDecades;
+  axis.axis->setRange(shown.from, shown.to);
+}
+
+void UnitAxes::setLogarithmic(const std::set<QString>& units) {
+  if (units == logarithmic_) return;
+  logarithmic_ = units;
+  for (const Axis& axis : axes_) scale(axis, {axis.axis->range().lower, axis.axis->range().upper});
+  nameAxes();
+  emit logarithmicChanged();
+}
+
+void UnitAxes::setLogarithmic(const QString& unit, bool on) {
+  std::set<QString> units = logarithmic_;
+  if (on)
+    units.insert(unit);
+  else
+    units.erase(unit);
+  setLogarithmic(units);
 }
 
 void UnitAxes::setByHand(const RangesByHand& ranges) {
@@ -89,7 +127,7 @@ void UnitAxes::setByHand(const RangesByHand& ranges) {
       byHand_[unit] = range;
   for (const Axis& axis : axes_) {
     const auto own = byHand_.find(axis.unit);
-    if (own != byHand_.end()) axis.axis->setRange(own->second.from, own->second.to);
+    if (own != byHand_.end()) scale(axis, own->second);
   }
   nameAxes();
   emit byHandChanged();
@@ -121,8 +159,15 @@ bool UnitAxes::wheel(const QWheelEvent& event) {
   if (!unit) return false;
   const QCPAxis& axis = *of(*unit);
   const double factor = std::pow(kWheelZoom, -event.angleDelta().y() / kWheelNotch);
+  const double pointed = axis.pixelToCoord(event.position().y());
+  if (axis.scaleType() == QCPAxis::stLogarithmic) {
+    setByHand(*unit,
+              AxisRange{pointed * std::pow(axis.range().lower / pointed, factor),
+                        pointed * std::pow(axis.range().upper / pointed, factor)});
+    return true;
+  }
   // The end of a range that begins at 0 stays there.
-  const double fixed = axis.range().lower == 0.0 ? 0.0 : axis.pixelToCoord(event.position().y());
+  const double fixed = axis.range().lower == 0.0 ? 0.0 : pointed;
   setByHand(*unit,
             AxisRange{fixed + (axis.range().lower - fixed) * factor,
                       fixed + (axis.range().upper - fixed) * factor});
@@ -141,6 +186,14 @@ bool UnitAxes::press(const QMouseEvent& event) {
 
 bool UnitAxes::move(const QMouseEvent& event) {
   if (dragged_.isEmpty()) return false;
+  if (of(dragged_)->scaleType() == QCPAxis::stLogarithmic) {
+    const double ratio =
+        std::pow(draggedFrom_.to / draggedFrom_.from,
+                 (event.position().y() - pressedY_) / std::max(1, plot_.axisRect()->height()));
+    if (ratio != 1.0)
+      setByHand(dragged_, AxisRange{draggedFrom_.from * ratio, draggedFrom_.to * ratio});
+    return true;
+  }
   const double perPixel =
       (draggedFrom_.to - draggedFrom_.from) / std::max(1, plot_.axisRect()->height());
   const double moved = (event.position().y() - pressedY_) * perPixel;

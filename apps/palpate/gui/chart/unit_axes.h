@@ -1,12 +1,13 @@
 // The vertical axes of a chart over time: one per unit of its curves, the first on the left, all
 // others on the right. Each range is automatic, or set by hand: the wheel over an axis zooms it, a
-// drag moves it, a double click makes it automatic again.
+// drag moves it, a double click makes it automatic again. Each axis is linear or logarithmic.
 #pragma once
 
 #include <QObject>
 #include <QString>
 #include <map>
 #include <optional>
+#include <set>
 #include <vector>
 
 #include <palpate/signals/axis_range.h>
@@ -51,6 +52,12 @@ class UnitAxes : public QObject {
   // Nothing: automatic. A range that isn't ascending and finite is ignored.
   void setByHand(const QString& unit, const std::optional<AxisRange>& range);
 
+  // A logarithmic axis shows values above 0: it begins three decades below its end where its range
+  // reaches 0 or below.
+  const std::set<QString>& logarithmic() const noexcept { return logarithmic_; }
+  void setLogarithmic(const std::set<QString>& units);
+  void setLogarithmic(const QString& unit, bool on);
+
   // The unit of the axis at a place of the chart.
   std::optional<QString> unitAt(const QPointF& at) const;
   // Mouse events of the chart; true: it was for an axis.
@@ -63,6 +70,7 @@ class UnitAxes : public QObject {
  signals:
   // A range was set by hand, or made automatic again.
   void byHandChanged();
+  void logarithmicChanged();
 
  private:
   struct Axis {
@@ -72,10 +80,13 @@ class UnitAxes : public QObject {
     QCPAxis* axis = nullptr;
   };
   const Axis* find(const QString& unit) const;
+  // Sets the kind of scale and the range.
+  void scale(const Axis& axis, const AxisRange& range);
 
   QCustomPlot& plot_;
   std::vector<Axis> axes_;
   RangesByHand byHand_;
+  std::set<QString> logarithmic_;
   // The axis that the mouse drags, and its range and the place when that began.
   QString dragged_;
   AxisRange draggedFrom_;

@@ -87,7 +87,7 @@ void WindowMenus::buildMenuBar(const ActionRegistry& book, const QList<QAction*>
   menus_.edit->addActions({at("nextEvent"), at("previousEvent"), at("toEvents")});
   menus_.edit->addSeparator();
   menus_.edit->addActions({at("selectFrom"), at("selectTo"), at("selectAll"), at("dropSelection")});
-  menus_.edit->addActions({at("zoomSelection"), at("statistics"), at("crop")});
+  menus_.edit->addActions({at("zoomSelection"), at("statistics"), at("differences"), at("crop")});
   menus_.edit->addSeparator();
   menus_.edit->addAction(at("nameTaxels"));
 

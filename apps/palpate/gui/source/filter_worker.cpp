@@ -45,8 +45,10 @@ OpenedRecordingPtr filteredRecording(const OpenedRecordingPtr& source,
 
 FilterFigures figuresOf(const OpenedRecording& source, const Recipe& recipe) {
   FilterFigures figures;
-  figures.latency = latencyFrames(recipe);
-  for (const FilterStep& step : recipe.steps) figures.latencies.push_back(latencyFrames(step));
+  const double rateHz = source.timing.rateHz > 0.0 ? source.timing.rateHz : kUsualRateHz;
+  figures.latency = latencyFrames(recipe, rateHz);
+  for (const FilterStep& step : recipe.steps)
+    figures.latencies.push_back(latencyFrames(step, rateHz));
   Nowhere nowhere;
   FilterChain chain(recipe, nowhere);
   const std::size_t numFrames = source.profile.numFrames();

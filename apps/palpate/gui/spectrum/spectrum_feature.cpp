@@ -17,6 +17,9 @@ SpectrumFeature::SpectrumFeature(WindowState& windowState, QWidget* window)
   connect(&windowState.selection, &Selection::taxelsChanged, this, &SpectrumFeature::takeTaxels);
   connect(
       &windowState.selection, &Selection::visibleSpanChanged, this, &SpectrumFeature::takeSight);
+  connect(&windowState.selection, &Selection::spanChanged, this, [this] {
+    panel_->setSpan(state().selection.span());
+  });
   connect(&windowState.appearance, &ViewAppearance::changed, this, &SpectrumFeature::takeLook);
   connect(&windowState.playback,
           &PlaybackController::positionChanged,
@@ -48,6 +51,7 @@ void SpectrumFeature::takeSource() {
   takeTaxels();
   takeLook();
   takeSight();
+  panel_->setSpan(state().selection.span());
   panel_->setPosition(state().playback.positionS());
 }
 
@@ -82,9 +86,9 @@ std::vector<ExportedView> SpectrumFeature::views() {
   view.widget = panel_;
   view.isThere = [this] { return panel_->shown(); };
   view.fileName = [this] { return state().recordingStem() + "_spectrum"; };
-  view.size = [this] { return QSizeF(panel_->chart().size()); };
+  view.size = [this] { return panel_->chartSize(); };
   view.paint = [this](QPainter& painter, const PictureLook& look) {
-    panel_->chart().paint(painter, look, state().pictureTitle(), panel_->name());
+    panel_->paint(painter, look, state().pictureTitle());
   };
   view.tables = [this] { return panel_->tables(); };
   return {view};

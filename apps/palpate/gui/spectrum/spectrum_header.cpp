@@ -16,6 +16,18 @@ constexpr int kLongest = 65'536;
 
 }  // namespace
 
+QString nameOf(SpectrumView view) {
+  switch (view) {
+    case SpectrumView::kMap:
+      return "over time";
+    case SpectrumView::kLine:
+      return "mean line";
+    case SpectrumView::kCoherence:
+      break;
+  }
+  return "coherence";
+}
+
 SpectrumHeader::SpectrumHeader(QWidget* parent) : QWidget(parent) {
   name_ = new QLabel(this);
   name_->setObjectName("spectrumName");
@@ -37,6 +49,14 @@ SpectrumHeader::SpectrumHeader(QWidget* parent) : QWidget(parent) {
   overlap_ =
       field("spectrumOverlap", "Samples that a segment shares with the next, 0 to window - 1");
   overlap_->setRange(0, kLongest - 1);
+  view_ = new QComboBox(this);
+  view_->setObjectName("spectrumView");
+  view_->setAccessibleName("What the dock shows");
+  view_->setToolTip(
+      "Spectra over time, their mean with its peaks, or the coherence with another signal.\nMean "
+      "and coherence are of the selected range; without one, of the visible part.");
+  view_->setFocusPolicy(Qt::TabFocus);
+  for (const SpectrumView each : kAllSpectrumViews) view_->addItem(nameOf(each));
   scale_ = new QComboBox(this);
   scale_->setObjectName("spectrumScale");
   scale_->setAccessibleName("What the colours mean");
@@ -47,6 +67,8 @@ SpectrumHeader::SpectrumHeader(QWidget* parent) : QWidget(parent) {
   row->setContentsMargins(0, 0, 0, 0);
   row->setSpacing(6);
   row->addWidget(name_, 1);
+  row->addSpacing(4);
+  row->addWidget(view_);
   row->addSpacing(4);
   row->addWidget(new QLabel("Window", this));
   row->addWidget(window_);
@@ -69,6 +91,11 @@ SpectrumHeader::SpectrumHeader(QWidget* parent) : QWidget(parent) {
     setting.overlap = overlap;
     take(setting);
   });
+  connect(view_, &QComboBox::activated, this, [this](int index) {
+    SpectrumSetting setting = setting_;
+    setting.view = kAllSpectrumViews[static_cast<std::size_t>(index)];
+    take(setting);
+  });
   connect(scale_, &QComboBox::activated, this, [this](int index) {
     SpectrumSetting setting = setting_;
     setting.scale = kAllSpectrumScales[static_cast<std::size_t>(index)];
@@ -78,11 +105,13 @@ SpectrumHeader::SpectrumHeader(QWidget* parent) : QWidget(parent) {
 
 void SpectrumHeader::show(const SpectrumSetting& setting) {
   setting_ = setting;
-  const QSignalBlocker window(window_), overlap(overlap_), scale(scale_);
+  const QSignalBlocker window(window_), overlap(overlap_), scale(scale_), view(view_);
   window_->setValue(setting.window);
   overlap_->setRange(0, setting.window - 1);
   overlap_->setValue(setting.overlap);
   scale_->setCurrentText(nameOf(setting.scale));
+  scale_->setEnabled(setting.view != SpectrumView::kCoherence);
+  view_->setCurrentText(nameOf(setting.view));
 }
 
 void SpectrumHeader::setSetting(const SpectrumSetting& setting) {

@@ -1,5 +1,5 @@
-// The title row of the dock Spectrum: the name of the signal, and the controls for window length,
-// overlap and scale.
+// The title row of the dock Spectrum: the name of the signal, and the controls for the view, window
+// length, overlap and scale.
 #pragma once
 
 #include <QWidget>
@@ -12,11 +12,23 @@ class QSpinBox;
 
 namespace palpate::gui {
 
+// What the dock shows.
+enum class SpectrumView {
+  kMap,       // spectra over time
+  kLine,      // the mean over time, with its peaks
+  kCoherence  // coherence with another signal
+};
+inline constexpr std::array kAllSpectrumViews = {
+    SpectrumView::kMap, SpectrumView::kLine, SpectrumView::kCoherence};
+// The name of a view: "over time", "mean line", "coherence".
+QString nameOf(SpectrumView view);
+
 // The choices of the title row.
 struct SpectrumSetting {
   int window = 32;   // [samples] 2..65,536
   int overlap = 31;  // [samples] 0..window-1
   SpectrumScale scale = SpectrumScale::kDecibels;
+  SpectrumView view = SpectrumView::kMap;
   bool operator==(const SpectrumSetting&) const = default;
 };
 
@@ -45,6 +57,7 @@ class SpectrumHeader : public QWidget {
   QSpinBox* window_;
   QSpinBox* overlap_;
   QComboBox* scale_;
+  QComboBox* view_;
 };
 
 }  // namespace palpate::gui

@@ -7,6 +7,7 @@
 
 #include <palpate/core/number_text.h>
 
+#include "gui/spectrum/spectrum_line_page.h"
 #include "gui/widgets/empty_page.h"
 #include "gui/widgets/fitting_pages.h"
 #include "gui/widgets/opening_strip.h"
@@ -17,6 +18,7 @@ namespace {
 constexpr const char* kWindowKey = "spectrum/window";
 constexpr const char* kOverlapKey = "spectrum/overlap";
 constexpr const char* kScaleKey = "spectrum/scale";
+constexpr const char* kViewKey = "spectrum/view";
 // [ms] time without changes before a long recording is computed again
 constexpr int kSpectrumPanelCalmMs = 120;
 
@@ -27,14 +29,18 @@ SpectrumSetting loaded(const QSettings& settings) {
   setting.overlap = settings.value(kOverlapKey, usual.overlap).toInt();
   for (const SpectrumScale each : kAllSpectrumScales)
     if (settings.value(kScaleKey).toString() == nameOf(each)) setting.scale = each;
+  for (const SpectrumView each : kAllSpectrumViews)
+    if (settings.value(kViewKey).toString() == nameOf(each)) setting.view = each;
   return setting;
 }
 
 bool sameWork(const SpectrumQuestion& a, const SpectrumQuestion& b) {
   const SpectrumOptions &one = a.options.spectrum, &other = b.options.spectrum;
   if (a.recording != b.recording || a.taxels != b.taxels || one.window != other.window ||
-      one.overlap != other.overlap)
+      one.overlap != other.overlap || a.work != b.work)
     return false;
+  if (b.work != SpectrumWork::kOverTime)
+    return a.span == b.span && (b.work == SpectrumWork::kMean || a.other == b.other);
   return fitsWhole(b) || (a.fromS == b.fromS && a.toS == b.toS);
 }
 
@@ -84,7 +90,10 @@ SpectrumPanel::SpectrumPanel(QSettings& settings, QWidget* parent)
   chart_ = new SpectrumChart(pages_);
   chart_->setScale(header_->setting().scale);
   pages_->addWidget(empty_);
+  linePage_ = new SpectrumLinePage(pages_);
+  linePage_->chart().setScale(header_->setting().scale);
   pages_->addWidget(chart_);
+  pages_->addWidget(linePage_);
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(0, 0, 0, 0);
   column->setSpacing(0);
@@ -98,9 +107,12 @@ SpectrumPanel::SpectrumPanel(QSettings& settings, QWidget* parent)
     settings_.setValue(kWindowKey, setting.window);
     settings_.setValue(kOverlapKey, setting.overlap);
     settings_.setValue(kScaleKey, gui::nameOf(setting.scale));
+    settings_.setValue(kViewKey, gui::nameOf(setting.view));
     chart_->setScale(setting.scale);
+    linePage_->chart().setScale(setting.scale);
     ask();
   });
+  connect(linePage_, &SpectrumLinePage::otherChanged, this, &SpectrumPanel::ask);
   connect(&worker_, &SpectrumWorker::started, strip_, [this] { strip_->begin("spectra"); });
   connect(&worker_, &SpectrumWorker::progressed, strip_, &OpeningStrip::setProgress);
   connect(&worker_, &SpectrumWorker::ended, strip_, &OpeningStrip::end);
@@ -122,6 +134,7 @@ void SpectrumPanel::setSource(const OpenedRecordingPtr& recording, bool live) {
   asked_.reset();
   worker_.cancel();
   name_.clear();
+  if (recording_) linePage_->setHand(recording_->profile.hand());
   header_->setName({});
   if (live)
     say("Spectra need a recording. Record what is connected (Ctrl+R), and open the recording.");
@@ -147,9 +160,31 @@ void SpectrumPanel::setVisibleRange(double fromS, double toS) {
   if (recording_ && isVisible()) later_.start();
 }
 
+void SpectrumPanel::setSpan(const std::optional<TimeSpan>& span) {
+  if (span == span_) return;
+  span_ = span;
+  if (recording_ && isVisible()) later_.start();
+}
+
+TimeSpan SpectrumPanel::lineSpan() const { return span_.value_or(TimeSpan{fromS_, toS_}); }
+
 void SpectrumPanel::setPosition(double seconds) { chart_->setPosition(seconds); }
 
-void SpectrumPanel::setTheme(Theme theme) { chart_->setTheme(theme); }
+void SpectrumPanel::setTheme(Theme theme) {
+  chart_->setTheme(theme);
+  linePage_->setTheme(theme);
+}
+
+void SpectrumPanel::paint(QPainter& painter, const PictureLook& look, const QString& title) {
+  if (pages_->currentWidget() == linePage_)
+    linePage_->chart().paint(painter, look, title, name_);
+  else
+    chart_->paint(painter, look, title, name_);
+}
+
+QSizeF SpectrumPanel::chartSize() const {
+  return pages_->currentWidget() == linePage_ ? linePage_->chart().size() : chart_->size();
+}
 
 void SpectrumPanel::ask() {
   later_.stop();
@@ -159,6 +194,13 @@ void SpectrumPanel::ask() {
   if (TaxelSelection(recording_->profile.layout()).sameSensor(taxels_)) question.taxels = taxels_;
   question.options.spectrum.window = header_->setting().window;
   question.options.spectrum.overlap = header_->setting().overlap;
+  const SpectrumView view = header_->setting().view;
+  if (view != SpectrumView::kMap) {
+    question.work = view == SpectrumView::kLine ? SpectrumWork::kMean : SpectrumWork::kCoherence;
+    question.span = lineSpan();
+    question.other = linePage_->other();
+  }
+  linePage_->setChoosing(view == SpectrumView::kCoherence);
   if (asked_ && sameWork(*asked_, question)) return;
   asked_ = question;
   worker_.ask(question);
@@ -198,6 +240,7 @@ void SpectrumPanel::take(const SpectrumAnswer& answer) {
   name_ = nameOf(answer);
   header_->setName(answer.strongest ? name_ + "   (the strongest; choose others in the matrices)"
                                     : name_);
+  if (answer.work != SpectrumWork::kOverTime) return takeLine(answer);
   if (answer.spectrogram->parts.empty()) {
     std::size_t longest = 0;
     for (const GapFreeSpan& stretch : answer.spectrogram->report.stretches)
@@ -213,6 +256,28 @@ void SpectrumPanel::take(const SpectrumAnswer& answer) {
   pages_->setCurrentWidget(chart_);
 }
 
+void SpectrumPanel::takeLine(const SpectrumAnswer& answer) {
+  const QString range = (span_ ? "selected " : "visible ") +
+                        QString::number(answer.span.fromS, 'f', 2) + " to " +
+                        QString::number(answer.span.toS, 'f', 2) + " s";
+  const bool two = answer.work == SpectrumWork::kCoherence;
+  const SpectrumReport& report = two ? answer.coherence->report : answer.mean->report;
+  if (two ? answer.coherence->coherence.empty() : answer.mean->mean.psd.empty()) {
+    std::size_t longest = 0;
+    for (const GapFreeSpan& stretch : report.stretches)
+      longest = std::max(longest, stretch.gridSamples);
+    return say(QString("Too short: the ") + (span_ ? "selected range" : "visible part") +
+               " without a gap has " + QString::number(longest) + " samples, a window takes " +
+               QString::number(answer.options.window) +
+               (two ? " and coherence needs two windows" : "") +
+               ".\nMake the window smaller, or the range longer.");
+  }
+  if (two) name_ += " with " + linePage_->otherName();
+  header_->setName(name_ + " · " + range);
+  linePage_->setAnswer(answer);
+  pages_->setCurrentWidget(linePage_);
+}
+
 void SpectrumPanel::say(const QString& text, const QString& button) {
   empty_->say(text, button);
   pages_->setCurrentWidget(empty_);
@@ -222,7 +287,7 @@ QString SpectrumPanel::emptyText() const {
   return pages_->currentWidget() == empty_ ? empty_->text() : QString();
 }
 
-bool SpectrumPanel::shown() const { return isVisible() && pages_->currentWidget() == chart_; }
+bool SpectrumPanel::shown() const { return isVisible() && pages_->currentWidget() != empty_; }
 
 void SpectrumPanel::settle() {
   ask();
@@ -231,6 +296,7 @@ void SpectrumPanel::settle() {
 
 std::vector<ExportedTable> SpectrumPanel::tables() const {
   std::vector<ExportedTable> tables;
+  if (pages_->currentWidget() == linePage_) return linePage_->tables();
   if (pages_->currentWidget() != chart_) return tables;
   tables.push_back({"spectra", [answer = chart_->answer()] { return segmentTable(answer); }});
   tables.push_back({"mean spectrum", [answer = chart_->answer()] { return meanTable(answer); }});

@@ -18,6 +18,7 @@ class QStackedWidget;
 namespace palpate::gui {
 
 class EmptyPage;
+class SpectrumLinePage;
 class OpeningStrip;
 
 class SpectrumPanel : public QWidget {
@@ -27,15 +28,21 @@ class SpectrumPanel : public QWidget {
   // For the title row of the dock.
   SpectrumHeader& header() noexcept { return *header_; }
   SpectrumChart& chart() noexcept { return *chart_; }
+  SpectrumLinePage& linePage() noexcept { return *linePage_; }
 
   // `recording`: null when there is none. `live`: a live source is shown instead.
   void setSource(const OpenedRecordingPtr& recording, bool live);
   // Sets the chosen taxels; empty when none is chosen.
   void setTaxels(const TaxelSelection& taxels);
   void setVisibleRange(double fromS, double toS);
+  // The selected range, which the mean and the coherence are of; nothing: the visible part.
+  void setSpan(const std::optional<TimeSpan>& span);
   void setPosition(double seconds);
   void setTheme(Theme theme);
   void setMap(ColorMapName map) { chart_->setMap(map); }
+  // Paints the shown chart for export, and says how large it is.
+  void paint(QPainter& painter, const PictureLook& look, const QString& title);
+  QSizeF chartSize() const;
   // Cancels the computation; returns whether one was running.
   bool cancel();
 
@@ -60,6 +67,9 @@ class SpectrumPanel : public QWidget {
  private:
   void ask();
   void take(const SpectrumAnswer& answer);
+  // Shows a mean spectrum or a coherence.
+  void takeLine(const SpectrumAnswer& answer);
+  TimeSpan lineSpan() const;
   void say(const QString& text, const QString& button = {});
   QString nameOf(const SpectrumAnswer& answer) const;
 
@@ -69,6 +79,7 @@ class SpectrumPanel : public QWidget {
   TaxelSelection taxels_;
   double fromS_ = 0.0;
   double toS_ = 0.0;
+  std::optional<TimeSpan> span_;
   QString name_;
   // The last question, answered or not.
   std::optional<SpectrumQuestion> asked_;
@@ -79,6 +90,7 @@ class SpectrumPanel : public QWidget {
   QStackedWidget* pages_;
   EmptyPage* empty_;
   SpectrumChart* chart_;
+  SpectrumLinePage* linePage_;
 };
 
 }  // namespace palpate::gui

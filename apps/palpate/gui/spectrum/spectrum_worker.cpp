@@ -18,6 +18,21 @@ constexpr double kLookShare = 0.2;
 constexpr double kSpectrumWorkerReadShare = 0.5;
 constexpr double kToldStep = 0.02;
 
+// The samples of a series within a span; readSeries() also returns their neighbours.
+Series spanOf(const Profile& profile,
+              const SeriesChoice& choice,
+              const TimeSpan& span,
+              const Progress& progress) {
+  const Series all = readSeries(profile, choice, span.fromS, span.toS, progress);
+  Series within;
+  for (std::size_t i = 0; i < all.timeS.size(); ++i)
+    if (all.timeS[i] >= span.fromS && all.timeS[i] <= span.toS) {
+      within.timeS.push_back(all.timeS[i]);
+      within.values.push_back(all.values[i]);
+    }
+  return within;
+}
+
 // Progress of one part of the work, which starts at `base` and makes up `share` of the whole.
 Progress part(const Progress& whole, double base, double share) {
   return [&whole, base, share](double done) { return whole(base + share * done); };
@@ -103,6 +118,31 @@ void SpectrumWorker::work(const SpectrumQuestion& question, int generation) {
       Qt::QueuedConnection);
 }
 
+void SpectrumWorker::answerOverSpan(const SpectrumQuestion& question,
+                                    const SeriesChoice& choice,
+                                    SpectrumAnswer& answer,
+                                    const Progress& progress) {
+  const Profile& profile = question.recording->profile;
+  const double half = kSpectrumWorkerReadShare / 2.0, read = kLookShare + kSpectrumWorkerReadShare;
+  answer.series = std::make_shared<Series>(
+      spanOf(profile, choice, question.span, part(progress, kLookShare, half)));
+  if (question.work == SpectrumWork::kMean) {
+    answer.mean = std::make_shared<WelchSpectrum>(welchSpectrum(answer.series->timeS,
+                                                                answer.series->values,
+                                                                answer.options,
+                                                                part(progress, read, 1.0 - read)));
+    answer.peaks = spectralPeaks(answer.mean->mean);
+    return;
+  }
+  const Series other =
+      spanOf(profile, question.other, question.span, part(progress, kLookShare + half, half));
+  answer.coherence = std::make_shared<Coherence>(coherenceOf(answer.series->timeS,
+                                                             answer.series->values,
+                                                             other.values,
+                                                             answer.options,
+                                                             part(progress, read, 1.0 - read)));
+}
+
 SpectrumAnswer SpectrumWorker::answerTo(const SpectrumQuestion& question,
                                         const Progress& progress) {
   const Profile& profile = question.recording->profile;
@@ -114,7 +154,9 @@ SpectrumAnswer SpectrumWorker::answerTo(const SpectrumQuestion& question,
                         .unit = unitOf(profile.hand()),
                         .strongest = question.taxels.empty(),
                         .whole = fitsWhole(question),
-                        .options = question.options.limitedToCells()};
+                        .options = question.options.limitedToCells(),
+                        .work = question.work,
+                        .span = question.span};
   if (answer.strongest) {
     if (!kept_->looked) {
       kept_->strongest = TaxelSelection(profile.layout());
@@ -128,6 +170,10 @@ SpectrumAnswer SpectrumWorker::answerTo(const SpectrumQuestion& question,
   const SeriesChoice choice{.kind = SeriesChoice::Kind::kTaxels, .taxels = answer.taxels};
   if (!hasSeries(profile, choice)) return answer;
   const Progress reading = part(progress, kLookShare, kSpectrumWorkerReadShare);
+  if (question.work != SpectrumWork::kOverTime) {
+    answerOverSpan(question, choice, answer, progress);
+    return answer;
+  }
   if (!answer.whole) {
     answer.series = std::make_shared<Series>(
         readSeries(profile, choice, question.fromS, question.toS, reading));

@@ -7,13 +7,20 @@
 #include <QThreadPool>
 #include <atomic>
 #include <memory>
+#include <vector>
 
+#include <palpate/model/timing.h>
+#include <palpate/signals/coherence.h>
 #include <palpate/signals/profile_series.h>
 #include <palpate/signals/spectrogram.h>
+#include <palpate/signals/welch.h>
 
 #include "gui/source/opened_recording.h"
 
 namespace palpate::gui {
+
+// What of a spectrum is requested.
+enum class SpectrumWork { kOverTime, kMean, kCoherence };
 
 // Which spectrum is requested.
 struct SpectrumQuestion {
@@ -26,6 +33,11 @@ struct SpectrumQuestion {
   // recording is computed instead.
   double fromS = 0.0;
   double toS = 0.0;
+  SpectrumWork work = SpectrumWork::kOverTime;
+  // The span of the mean or coherence [s since the first frame].
+  TimeSpan span = {};
+  // The other signal of the coherence.
+  SeriesChoice other = {};
 };
 
 // The computed spectrum.
@@ -43,6 +55,14 @@ struct SpectrumAnswer {
   std::shared_ptr<const Series> series = nullptr;
   // Null when there is none; without parts when the signal is too short.
   std::shared_ptr<const Spectrogram> spectrogram = nullptr;
+  SpectrumWork work = SpectrumWork::kOverTime;
+  // The mean over the span with its peaks; null unless it was requested. Without bins when the span
+  // is too short.
+  std::shared_ptr<const WelchSpectrum> mean = nullptr;
+  std::vector<SpectralPeak> peaks = {};
+  // Null unless it was requested; without bins when the span is too short for two segments.
+  std::shared_ptr<const Coherence> coherence = nullptr;
+  TimeSpan span = {};
   // Why the work failed, in one line; for example an unreadable block.
   QString failure = {};
 };
@@ -74,6 +94,10 @@ class SpectrumWorker : public QObject {
  private:
   struct Kept;
   void work(const SpectrumQuestion& question, int generation);
+  void answerOverSpan(const SpectrumQuestion& question,
+                      const SeriesChoice& choice,
+                      SpectrumAnswer& answer,
+                      const Progress& progress);
   SpectrumAnswer answerTo(const SpectrumQuestion& question, const Progress& progress);
 
   // Has one thread, which alone uses `kept_`.

@@ -65,6 +65,15 @@ void AxisEditor::rebuild() {
     grid->addWidget(from, row, 2);
     grid->addWidget(new QLabel("to", rows_), row, 3);
     grid->addWidget(to, row, 4);
+    auto* log = new QCheckBox("log", rows_);
+    log->setObjectName("logAxis");
+    log->setChecked(axes_->logarithmic().contains(unit));
+    log->setAccessibleName(name + ": logarithmic");
+    log->setToolTip("A logarithmic axis: it shows only values above 0");
+    connect(log, &QCheckBox::toggled, this, [this, unit](bool on) {
+      if (axes_) axes_->setLogarithmic(unit, on);
+    });
+    grid->addWidget(log, row, 5);
     ++row;
     const auto use = [this, unit, automatic, from, to] {
       if (!axes_ || !(from->value() < to->value())) return;

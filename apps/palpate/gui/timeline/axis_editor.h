@@ -1,5 +1,6 @@
 // A small list of the vertical axes of a chart, one line per unit: whether the range is automatic,
-// and its ends. A change acts at once; Escape or a click elsewhere closes the list.
+// its ends, and whether it is logarithmic. A change acts at once; Escape or a click elsewhere
+// closes the list.
 #pragma once
 
 #include <QFrame>

@@ -5,7 +5,9 @@
 #include <QGuiApplication>
 #include <QLabel>
 #include <QPushButton>
+#include <QTabWidget>
 #include <QVBoxLayout>
+#include <algorithm>
 #include <cmath>
 #include <memory>
 
@@ -14,6 +16,8 @@
 #include <palpate/signals/range_statistics.h>
 
 #include "gui/timeline/curve_table.h"
+#include "gui/timeline/histogram_page.h"
+#include "gui/timeline/relation_page.h"
 #include "gui/widgets/figures_table.h"
 
 namespace palpate::gui {
@@ -21,7 +25,8 @@ namespace {
 
 // Cells of a curve table before those of the curves.
 constexpr std::size_t kTimeCells = 3;
-constexpr std::size_t kTimeCell = 2;  // time_s
+constexpr std::size_t kTimeCell = 2;   // time_s
+constexpr std::size_t kTextCells = 2;  // name and unit
 constexpr int kStatisticsDigits = 6;
 
 double valueOfCell(const std::string& cell) {
@@ -34,29 +39,33 @@ std::string statisticsCell(double value) {
 
 }  // namespace
 
-TextTable statisticsTable(const OpenedRecordingPtr& recording,
-                          const std::vector<PlottedCurve>& curves,
-                          const FrameSpan& span,
-                          const Progress& progress) {
+SelectedCurves selectedCurves(const OpenedRecordingPtr& recording,
+                              const std::vector<PlottedCurve>& curves,
+                              const FrameSpan& span,
+                              const Progress& progress) {
+  SelectedCurves selected{.gapS = gapFromS(recording->timingNow())};
+  for (const PlottedCurve& curve : curves) {
+    const bool ofMatrix = curve.choice.kind == SeriesChoice::Kind::kMatrix;
+    selected.curves.push_back(
+        {curve.name + (ofMatrix ? " " + nameOf(curve.choice.signal) : QString()), curve.unit});
+  }
   const TextTable values = curveTable(recording, curves, span);
-  std::vector<double> timeS;
-  std::vector<std::vector<double>> series(curves.size());
   for (std::size_t i = 0; i < values.numRows; ++i) {
     reportProgress(progress, i, values.numRows);
     const std::vector<std::string> cells = values.row(i);
-    timeS.push_back(valueOfCell(cells[kTimeCell]));
-    for (std::size_t c = 0; c < series.size(); ++c)
-      series[c].push_back(valueOfCell(cells[kTimeCells + c]));
+    selected.timeS.push_back(valueOfCell(cells[kTimeCell]));
+    for (std::size_t c = 0; c < selected.curves.size(); ++c)
+      selected.curves[c].values.push_back(valueOfCell(cells[kTimeCells + c]));
   }
+  return selected;
+}
+
+TextTable statisticsTable(const SelectedCurves& selected) {
   auto rows = std::make_shared<std::vector<std::vector<std::string>>>();
-  for (std::size_t c = 0; c < series.size(); ++c) {
-    const RangeStatistics found =
-        rangeStatistics(timeS, series[c], gapFromS(recording->timingNow()));
-    const bool ofMatrix = curves[c].choice.kind == SeriesChoice::Kind::kMatrix;
-    const QString name =
-        curves[c].name + (ofMatrix ? " " + nameOf(curves[c].choice.signal) : QString());
-    rows->push_back({name.toStdString(),
-                     curves[c].unit.toStdString(),
+  for (const SelectedCurves::Curve& curve : selected.curves) {
+    const RangeStatistics found = rangeStatistics(selected.timeS, curve.values, selected.gapS);
+    rows->push_back({curve.name.toStdString(),
+                     curve.unit.toStdString(),
                      std::to_string(found.count),
                      statisticsCell(found.mean),
                      statisticsCell(found.sd),
@@ -78,49 +87,118 @@ TextTable statisticsTable(const OpenedRecordingPtr& recording,
           .row = [rows](std::size_t row) { return (*rows)[row]; }};
 }
 
-StatisticsDialog::StatisticsDialog(const TextTable& table, const QString& range, QWidget* parent)
+TextTable statisticsTable(const OpenedRecordingPtr& recording,
+                          const std::vector<PlottedCurve>& curves,
+                          const FrameSpan& span,
+                          const Progress& progress) {
+  return statisticsTable(selectedCurves(recording, curves, span, progress));
+}
+
+TextTable differenceTable(const SelectedCurves& selected) {
+  auto rows = std::make_shared<std::vector<std::vector<std::string>>>();
+  for (const SelectedCurves::Curve& curve : selected.curves) {
+    std::vector<std::string> cells = {curve.name.toStdString(), curve.unit.toStdString()};
+    const auto finite = [](double value) { return std::isfinite(value); };
+    const auto first = std::find_if(curve.values.begin(), curve.values.end(), finite);
+    const auto last = std::find_if(curve.values.rbegin(), curve.values.rend(), finite);
+    if (first == curve.values.end()) {
+      cells.resize(6);
+      rows->push_back(std::move(cells));
+      continue;
+    }
+    const auto from = static_cast<std::size_t>(first - curve.values.begin());
+    const auto to = static_cast<std::size_t>(curve.values.rend() - last) - 1;
+    const double change = *last - *first;
+    const double seconds = selected.timeS[to] - selected.timeS[from];
+    cells.insert(cells.end(),
+                 {statisticsCell(*first),
+                  statisticsCell(*last),
+                  statisticsCell(change),
+                  seconds > 0.0 ? statisticsCell(change / seconds) : std::string()});
+    rows->push_back(std::move(cells));
+  }
+  return {.header = {"curve", "unit", "at begin", "at end", "dy", "dy/dt [unit/s]"},
+          .numRows = rows->size(),
+          .row = [rows](std::size_t row) { return (*rows)[row]; }};
+}
+
+StatisticsDialog::StatisticsDialog(const SelectedCurves& selected,
+                                   const QString& range,
+                                   Theme theme,
+                                   QWidget* parent)
     : QDialog(parent) {
   setWindowTitle("Statistics of the selection");
   auto* heading = new QLabel(range, this);
   heading->setTextFormat(Qt::PlainText);
   heading->setWordWrap(true);
-  auto* figures =
-      new FiguresTable({{.name = "curve", .letters = 24, .words = true},
-                        {.name = "unit", .letters = 7, .words = true},
-                        {.name = "frames"},
-                        {.name = "mean", .letters = 9},
-                        {.name = "sd", .tip = "standard deviation, n - 1", .letters = 9},
-                        {.name = "min", .letters = 9},
-                        {.name = "max", .letters = 9},
-                        {.name = "slope [unit/s]", .letters = 9},
-                        {.name = "integral [unit s]", .letters = 9}},
-                       this);
-  figures->setObjectName("statisticsTable");
-  figures->setSingleLine();
-  std::vector<std::vector<FigureCell>> rows;
-  for (std::size_t i = 0; i < table.numRows; ++i) {
-    std::vector<FigureCell> cells;
-    for (const std::string& cell : table.row(i)) {
-      const auto number = cells.size() < kTimeCells ? std::nullopt : parseDouble(cell);
-      cells.push_back({number ? QString::number(*number, 'g', kStatisticsDigits)
-                              : QString::fromStdString(cell)});
+  auto* tabs = new QTabWidget(this);
+  tabs->setObjectName("statisticsTabs");
+  const auto table = [&](const char* name, const TextTable& of, const auto& columns) {
+    auto* figures = new FiguresTable(columns, tabs);
+    figures->setObjectName(name);
+    figures->setSingleLine();
+    figures->setTheme(theme);
+    std::vector<std::vector<FigureCell>> rows;
+    for (std::size_t i = 0; i < of.numRows; ++i) {
+      std::vector<FigureCell> cells;
+      for (const std::string& cell : of.row(i)) {
+        // Name and unit are texts, and the number of frames is shown as it is.
+        const bool text = cells.size() < kTextCells || of.header[cells.size()] == "frames";
+        const auto number = text ? std::nullopt : parseDouble(cell);
+        cells.push_back({number ? QString::number(*number, 'g', kStatisticsDigits)
+                                : QString::fromStdString(cell)});
+      }
+      rows.push_back(std::move(cells));
     }
-    rows.push_back(std::move(cells));
-  }
-  figures->setRows(rows);
+    figures->setRows(rows);
+    return figures;
+  };
+  const TextTable statistics = statisticsTable(selected), differences = differenceTable(selected);
+  tabs->addTab(table("statisticsTable",
+                     statistics,
+                     std::vector<FigureColumn>{
+                         {.name = "curve", .letters = 24, .words = true},
+                         {.name = "unit", .letters = 7, .words = true},
+                         {.name = "frames"},
+                         {.name = "mean", .letters = 9},
+                         {.name = "sd", .tip = "standard deviation, n - 1", .letters = 9},
+                         {.name = "min", .letters = 9},
+                         {.name = "max", .letters = 9},
+                         {.name = "slope [unit/s]", .letters = 9},
+                         {.name = "integral [unit s]", .letters = 9}}),
+               "&Statistics");
+  tabs->addTab(table("differenceTable",
+                     differences,
+                     std::vector<FigureColumn>{
+                         {.name = "curve", .letters = 24, .words = true},
+                         {.name = "unit", .letters = 7, .words = true},
+                         {.name = "at begin", .tip = "first value of the range", .letters = 9},
+                         {.name = "at end", .tip = "last value of the range", .letters = 9},
+                         {.name = "dy", .tip = "at end - at begin", .letters = 9},
+                         {.name = "dy/dt [unit/s]", .letters = 9}}),
+               "&Differences");
+  auto* histogram = new HistogramPage(selected, theme, tabs);
+  auto* relation = new RelationPage(selected, theme, tabs);
+  tabs->addTab(histogram, "&Histogram");
+  tabs->addTab(relation, "XY &plot");
   auto* buttons = new QDialogButtonBox(QDialogButtonBox::Close, this);
-  QPushButton* copy = buttons->addButton("Copy", QDialogButtonBox::ActionRole);
+  QPushButton* copy = buttons->addButton("C&opy", QDialogButtonBox::ActionRole);
   copy->setObjectName("copyStatistics");
-  copy->setToolTip("Copies the table with all digits, for a spreadsheet");
-  connect(copy, &QPushButton::clicked, this, [table] {
-    QGuiApplication::clipboard()->setText(QString::fromStdString(tabbedText(table, table.numRows)));
+  copy->setToolTip("Copies the table of this page with all digits, for a spreadsheet");
+  connect(copy, &QPushButton::clicked, this, [=] {
+    const int page = tabs->currentIndex();
+    const TextTable shown = page == 0   ? statistics
+                            : page == 1 ? differences
+                            : page == 2 ? histogram->table()
+                                        : relation->table();
+    QGuiApplication::clipboard()->setText(QString::fromStdString(tabbedText(shown, shown.numRows)));
   });
   connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
   auto* page = new QVBoxLayout(this);
   page->addWidget(heading);
-  page->addWidget(figures, 1);
+  page->addWidget(tabs, 1);
   page->addWidget(buttons);
-  constexpr int kWidth = 900, kHeight = 320;  // [px]
+  constexpr int kWidth = 900, kHeight = 420;  // [px]
   resize(kWidth, kHeight);
 }
 

@@ -1,4 +1,5 @@
-// The statistics of the curves over the selected range, in a table that can be copied.
+// The statistics of the curves over the selected range, in tables that can be copied, and their
+// histogram and XY plot.
 #pragma once
 
 #include <QDialog>
@@ -12,20 +13,50 @@
 
 namespace palpate::gui {
 
+// The values of the shown curves at the frames of a selection.
+struct SelectedCurves {
+  struct Curve {
+    QString name;
+    QString unit;
+    // One value per frame; NaN where there is none.
+    std::vector<double> values = {};
+  };
+  // Times of the frames from the first frame of the recording [s].
+  std::vector<double> timeS = {};
+  std::vector<Curve> curves = {};
+  // Longer intervals between frames are gaps [s].
+  double gapS = 0.0;
+};
+// Reads every frame of the span. Throws Cancelled, FormatError (a damaged frame).
+SelectedCurves selectedCurves(const OpenedRecordingPtr& recording,
+                              const std::vector<PlottedCurve>& curves,
+                              const FrameSpan& span,
+                              const Progress& progress = {});
+
 // A row per curve: its name and unit, the number of frames with a value, mean, standard deviation,
 // smallest and largest value, slope [unit/s], integral over time [unit s]; see
 // palpate/signals/range_statistics.h. Values are those of curveTable(). Reads every frame of the
 // span. Throws Cancelled, FormatError (a damaged frame).
+TextTable statisticsTable(const SelectedCurves& selected);
 TextTable statisticsTable(const OpenedRecordingPtr& recording,
                           const std::vector<PlottedCurve>& curves,
                           const FrameSpan& span,
                           const Progress& progress = {});
 
+// A row per curve: name, unit, its first and its last value in the selection, their difference, and
+// the difference by the time between them [unit/s].
+TextTable differenceTable(const SelectedCurves& selected);
+
+// Shows the statistics, the differences between the ends, a histogram, and an XY plot of the
+// selection.
 class StatisticsDialog : public QDialog {
   Q_OBJECT
  public:
-  // `range`: what the table is of, in words.
-  StatisticsDialog(const TextTable& table, const QString& range, QWidget* parent = nullptr);
+  // `range`: what the tables are of, in words.
+  StatisticsDialog(const SelectedCurves& selected,
+                   const QString& range,
+                   Theme theme,
+                   QWidget* parent = nullptr);
 };
 
 }  // namespace palpate::gui

@@ -81,10 +81,12 @@ LiveChart::LiveChart(QWidget* parent)
   setMouseTracking(true);
   xAxis->setLabel("time since the first frame in s");
   xAxis->setTicker(secondsTicker_);
-  connect(axes_.get(), &UnitAxes::byHandChanged, this, [this] {
+  const auto rescale = [this] {
     scaleAxes();
     replot(QCustomPlot::rpQueuedReplot);
-  });
+  };
+  connect(axes_.get(), &UnitAxes::byHandChanged, this, rescale);
+  connect(axes_.get(), &UnitAxes::logarithmicChanged, this, rescale);
   // Margins are known only after the axes have been laid out.
   connect(this, &QCustomPlot::afterReplot, this, &LiveChart::placeOverlays);
   follow(0.0);

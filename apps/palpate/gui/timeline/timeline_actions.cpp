@@ -32,6 +32,13 @@ TimelineActions::TimelineActions(ActionRegistry& book) {
       book.make("statistics", "Edit", "Stat&istics of the selection…", {key("Ctrl+Alt+A")});
   statistics->setToolTip("Mean, deviation, extremes, slope and integral of every curve");
   statistics->setIconText("Statistics…");
+  differences = book.make("differences",
+                          "Edit",
+                          "Differences bet&ween the ends of the selection",
+                          {key("Ctrl+Alt+D")},
+                          true);
+  differences->setToolTip(
+      "Shows Δt, and of every curve its change, beside the ends of the selection");
   nameTaxels = book.make("nameTaxels", "Edit", "Name the chosen &taxels…", {key("Ctrl+Shift+G")});
   nextSignal = book.make("nextSignal", "View", "Ne&xt signal in the timeline", {key("S")});
   chooseCurves = book.make("chooseCurves", "View", "Cu&rves in the timeline…", {key("C")});
@@ -39,7 +46,7 @@ TimelineActions::TimelineActions(ActionRegistry& book) {
   zoomOut = book.make("zoomOut", "View", "Zoom the timeline &out", {key("Ctrl+-")});
   fit = book.make("fit", "View", "Show the &whole timeline", {key("F")});
   axes = book.make("verticalAxes", "View", "Vertical axes of the timeline…", {key("Shift+V")});
-  axes->setToolTip("Ranges of the vertical axes: automatic, or by hand");
+  axes->setToolTip("Ranges of the vertical axes: automatic, or by hand; linear or logarithmic");
   freeze = book.make("freezeLive", "Hand", "&Freeze the live chart", {key("Shift+P")}, true);
   newest = book.make("liveNewest", "Hand", "&Newest frame in the live chart", {key("End")});
   oldest = book.make("liveOldest", "Hand", "Ol&dest frame in the live chart", {key("Home")});

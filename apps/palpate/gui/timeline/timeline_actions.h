@@ -32,6 +32,9 @@ struct TimelineActions {
   QAction* dropSelection = nullptr;
   // Statistics of the curves over the selection.
   QAction* statistics = nullptr;
+  // Shows the differences between the ends of the selection in the chart.
+  QAction* differences = nullptr;
+  // Sets the vertical axes by hand.
   // Makes a named group of the selected taxels.
   QAction* nameTaxels = nullptr;
   QAction* nextSignal = nullptr;

@@ -44,10 +44,12 @@ TimelineChart::TimelineChart(QWidget* parent)
   clockTicker_->setTickCount(secondsTicker_->tickCount());
   nameTime();
   cursor_ = overlayOn(this, "cursor");
-  connect(axes_.get(), &UnitAxes::byHandChanged, this, [this] {
+  const auto rescale = [this] {
     scaleAxes();
     replot(QCustomPlot::rpQueuedReplot);
-  });
+  };
+  connect(axes_.get(), &UnitAxes::byHandChanged, this, rescale);
+  connect(axes_.get(), &UnitAxes::logarithmicChanged, this, rescale);
   // Margins are known only after the axes have been laid out.
   connect(this, &QCustomPlot::afterReplot, this, [this] {
     placeCursor();

@@ -37,6 +37,7 @@ class TimelineChart : public QCustomPlot {
   void setBefore(const OpenedRecordingPtr& before);
   SeriesStore& storeBefore() noexcept { return before_; }
   void setTheme(Theme theme);
+  // The visible range of each vertical axis, by unit.
   // The least space right of the time axis [px].
   void setRight(int px);
   // Moves the cursor; when it leaves a zoomed view, the view moves on by a page.

@@ -10,6 +10,7 @@
 #include "gui/appearance/next_choice.h"
 #include "gui/chart/chart_picture.h"
 #include "gui/timeline/axis_editor.h"
+#include "gui/timeline/cursor_readout.h"
 #include "gui/timeline/curve_statistics.h"
 #include "gui/timeline/curve_table.h"
 #include "gui/timeline/grasp_export.h"
@@ -56,6 +57,7 @@ void saveRanges(const RangesByHand& ranges, QSettings& settings, const char* nam
                  QString::number(range.to, 'g', kDigits) + " " + unit);
   settings.setValue(name, texts);
 }
+constexpr const char* kDifferencesKey = "timeline/differences";
 
 }  // namespace
 
@@ -265,7 +267,14 @@ void TimelineFeature::connectLiveChart() {
   });
   for (UnitAxes* axes : {&liveChart_->axes(), &chart_->axes()}) {
     const char* name = axes == &chart_->axes() ? kAxesSetting : kLiveAxesSetting;
+    const QString logName = QString(name) + "_logarithmic";
     axes->setByHand(loadRanges(state().settings, name));
+    const QStringList logs = state().settings.value(logName).toStringList();
+    axes->setLogarithmic(std::set<QString>(logs.begin(), logs.end()));
+    connect(axes, &UnitAxes::logarithmicChanged, this, [this, axes, logName] {
+      const std::set<QString>& units = axes->logarithmic();
+      state().settings.setValue(logName, QStringList(units.begin(), units.end()));
+    });
     connect(axes, &UnitAxes::byHandChanged, this, [this, axes, name] {
       saveRanges(axes->byHand(), state().settings, name);
     });
@@ -332,6 +341,16 @@ void TimelineFeature::connectActions() {
     if (selection.span()) selection.showWithMargin(*selection.span());
   });
   on(actions.statistics, [this] { showStatistics(); });
+  readout_ = new CursorReadout(*chart_);
+  const bool differences = state().settings.value(kDifferencesKey, false).toBool();
+  actions.differences->setChecked(differences);
+  readout_->setOn(differences);
+  on(actions.differences, [this](bool shown) {
+    readout_->setOn(shown);
+    state().settings.setValue(kDifferencesKey, shown);
+    if (shown && !state().selection.span())
+      state().messages.flash("select a range: drag in the timeline, or press [ and ]");
+  });
   connect(&statisticsJob_, &BackgroundJob::failed, &state().messages, &Messages::fail);
   const auto zoom = [this](double factor) {
     if (state().displayed.isLive())
@@ -356,7 +375,7 @@ void TimelineFeature::connectActions() {
                      actions.selectFrom,
                      actions.selectTo},
                     [this, frames] { return frames() || state().displayed.isLive(); });
-  actionEnabler.add({actions.selectAll, actions.saveAs}, frames);
+  actionEnabler.add({actions.selectAll, actions.saveAs, actions.differences}, frames);
   const auto selected = [frames, &selection] { return frames() && selection.span().has_value(); };
   actionEnabler.add({actions.crop, actions.statistics}, selected);
   actionEnabler.add({actions.zoomSelection, actions.dropSelection}, [this, selected] {
@@ -478,20 +497,20 @@ void TimelineFeature::showStatistics() {
   if (!recording || !frames)
     return state().messages.flash("nothing is selected: drag in the timeline, or press [ and ]");
   if (shown.empty()) return state().messages.flash("no curve is shown: choose some (C)");
-  auto table = std::make_shared<TextTable>();
+  auto selected = std::make_shared<SelectedCurves>();
   statisticsJob_.cancel();
   statisticsJob_.start(
       fileNameOf(*recording),
-      [recording, shown, frames, table](const Progress& progress) {
-        *table = statisticsTable(recording, shown, *frames, progress);
+      [recording, shown, frames, selected](const Progress& progress) {
+        *selected = selectedCurves(recording, shown, *frames, progress);
       },
-      [this, recording, frames, table] {
+      [this, recording, frames, selected] {
         const QString range = fileNameOf(*recording) + state().activeFilters.caption() +
                               ", frames " + QString::number(frames->first) + " to " +
                               QString::number(frames->last) + ", " +
                               figure(recording->timeAt(frames->first), 3) + " to " +
                               figure(recording->timeAt(frames->last), 3) + " s";
-        auto* dialog = new StatisticsDialog(*table, range, window());
+        auto* dialog = new StatisticsDialog(*selected, range, state().appearance.theme(), window());
         dialog->setAttribute(Qt::WA_DeleteOnClose);
         dialog->show();
       });

@@ -16,6 +16,7 @@
 namespace palpate::gui {
 
 class AxisEditor;
+class CursorReadout;
 class GraspExport;
 class LiveChart;
 class TimelineChart;
@@ -67,6 +68,7 @@ class TimelineFeature : public Feature {
   TimelinePanel* panel_;
   // The chart of panel_.
   TimelineChart* chart_;
+  CursorReadout* readout_;
   LiveChart* liveChart_;
   AxisEditor* axisEditor_;
   Dock* dock_;

@@ -191,9 +191,12 @@ std::optional<FilterFigures> ActiveFilters::liveFigures() {
   if (liveFigures_.costsUs.size() != recipe().steps.size() || liveRecipe_ != recipe()) {
     liveRecipe_ = recipe();
     liveFigures_ = {};
-    liveFigures_.latency = latencyFrames(recipe());
+    // The rate at the time of the change: delays of filters with a frequency are counted in frames.
+    const double measuredHz = live_.health().frames.rateHz;
+    const double rateHz = measuredHz > 0.0 ? measuredHz : kUsualRateHz;
+    liveFigures_.latency = latencyFrames(recipe(), rateHz);
     for (const FilterStep& step : recipe().steps)
-      liveFigures_.latencies.push_back(latencyFrames(step));
+      liveFigures_.latencies.push_back(latencyFrames(step, rateHz));
   }
   liveFigures_.costsUs = source->filters->costsUs();
   liveFigures_.costsUs.resize(recipe().steps.size(), 0.0);

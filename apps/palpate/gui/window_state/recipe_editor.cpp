@@ -28,7 +28,16 @@ void reconcile(FilterStep& step, const std::string& chosen) {
     while (step.integer(other) > 1 && !sound(step))
       step.explicitOptions[other] = step.integer(other) - 2;
   }
-  if (kind.option("order") == nullptr) return;
+  if (kind.option("low") != nullptr && step.value("low") >= step.value("high")) {
+    // An octave between the edges; at the end of the range, the chosen edge gives way.
+    const double lowest = kind.option("low")->minimum, highest = kind.option("high")->maximum;
+    const double low = std::clamp(
+        chosen == "low" ? step.value("low") : step.value("high") / 2.0, lowest, highest / 2.0);
+    step.explicitOptions["low"] = low;
+    step.explicitOptions["high"] =
+        std::max(chosen == "low" ? 2.0 * low : step.value("high"), 2.0 * low);
+  }
+  if (kind.option("order") == nullptr || kind.option("window") == nullptr) return;
   if (step.integer("order") >= step.integer("window")) {
     if (chosen == "order")
       step.explicitOptions["window"] = step.integer("order") / 2 * 2 + 3;

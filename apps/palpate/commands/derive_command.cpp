@@ -1,0 +1,110 @@
+// The command `palpate derive FILE NAME=FORMULA..` prints curves that formulas make of the signals
+// of a recording as CSV.
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+#include "palpate/core/error.h"
+#include "palpate/core/number_text.h"
+#include "palpate/core/text_table.h"
+#include "palpate/recording/recording.h"
+#include "palpate/signals/formula.h"
+
+#include "commands/command_line.h"
+#include "commands/commands.h"
+#include "commands/filter_options.h"
+
+namespace palpate::commands {
+namespace {
+
+struct NamedFormula {
+  std::string name;
+  Formula formula;
+};
+
+// "rate=der(hand_sum)"; without NAME= the formula is its own name.
+NamedFormula namedFormula(const std::string& word) {
+  // The first = that is no comparison parts the name.
+  const auto equals = word.find('=');
+  const bool named = equals != std::string::npos && equals > 0 &&
+                     std::string("!<>").find(word[equals - 1]) == std::string::npos &&
+                     (equals + 1 == word.size() || word[equals + 1] != '=');
+  try {
+    return {named ? word.substr(0, equals) : word, Formula(named ? word.substr(equals + 1) : word)};
+  } catch (const std::invalid_argument& error) {
+    throw UsageError(error.what());
+  }
+}
+
+}  // namespace
+
+int deriveCommand(const Arguments& words) {
+  const CommandLine given(
+      {.synopsis = "palpate derive FILE NAME=FORMULA.. [--from N] [--to N] [--filter SPEC..]",
+       .purpose =
+           "Prints curves that formulas make of signals as CSV: frame,time_s and a column for each "
+           "formula.\nSignals: m1_mean, m1_filtered_mean, m1_min, m1_max, m1_sum, m1_active, "
+           "m1_area_mm2 of matrix 1;\nhand_sum and so on of the whole hand; m5_x2_y9 a taxel "
+           "(column 2, row 9); angle3 [deg] and\ntemperature4 [deg C], interpolated at the frames; "
+           "t [s]. Operators + - * / ^ ( ), comparisons\nand a ? b : c; functions abs sqrt min max "
+           "exp ln sin .., and der(x), the slope of x over time [1/s].\nA value that isn't known "
+           "is "
+           "an empty cell.",
+       .options = withFilterOptions(
+           {{"from", "N", "first frame, default 0"}, {"to", "N", "last frame, inclusive"}}),
+       .example = "palpate derive foam_ball.dsa grip=m1_sum-m3_sum > grip.csv",
+       .minArguments = 2},
+      words);
+  if (given.helpShown()) return kDone;
+  const Recipe recipe = recipeOf(given);
+  const std::string& file = given.words().front();
+  std::vector<NamedFormula> formulas;
+  for (std::size_t i = 1; i < given.words().size(); ++i)
+    formulas.push_back(namedFormula(given.words()[i]));
+  ProgressLine line("reading " + file, given.quiet());
+  const Profile profile =
+      filteredBy(recipe, openRecording(file, line.callback()), file, line.callback());
+  if (profile.numFrames() == 0) throw Error(file + ": has no frames");
+  const auto last = static_cast<std::int64_t>(profile.numFrames()) - 1;
+  const auto from = static_cast<std::size_t>(given.integer("from", 0, last).value_or(0));
+  const auto to = static_cast<std::size_t>(given.integer("to", 0, last).value_or(last));
+  if (from > to) throw UsageError("--from is after --to");
+  // The whole recording is computed, so that a slope at the ends of the part is that of its
+  // neighbours.
+  std::vector<Series> curves;
+  std::vector<std::string> header = {"frame", "time_s"};
+  for (const NamedFormula& one : formulas) {
+    line.setLabel("computing " + one.name);
+    try {
+      curves.push_back(derivedSeries(profile,
+                                     one.formula,
+                                     0.0,
+                                     static_cast<double>(profile.durationUs()) / 1e6 + 1.0,
+                                     line.callback()));
+    } catch (const std::invalid_argument& error) {
+      throw Error(file + ": " + error.what());
+    }
+    header.push_back(one.name);
+  }
+  StandardOutput out;
+  out.write(csvLine(header));
+  std::string text;
+  for (std::size_t i = from; i <= to; ++i) {
+    text.clear();
+    appendNumber(text, static_cast<std::int64_t>(i));
+    text += ',';
+    appendNumber(text, curves.front().timeS[i]);
+    for (const Series& curve : curves) {
+      text += ',';
+      if (std::isfinite(curve.values[i])) appendNumber(text, curve.values[i]);
+    }
+    text += '\n';
+    out.write(text);
+  }
+  out.finish();
+  line.wipe();
+  return kDone;
+}
+
+}  // namespace palpate::commands

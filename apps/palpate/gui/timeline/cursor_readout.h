@@ -1,0 +1,31 @@
+// The readout of two cursors in the timeline, which are the ends of the selection: the time between
+// them, and the values of the curves at both with their difference. An overlay of the chart.
+#pragma once
+
+#include <QLabel>
+
+namespace palpate::gui {
+
+class TimelineChart;
+
+class CursorReadout : public QLabel {
+  Q_OBJECT
+ public:
+  explicit CursorReadout(TimelineChart& chart);
+  // Whether it is shown while something is selected.
+  void setOn(bool on);
+  bool on() const noexcept { return on_; }
+  // The lines that are shown, for tests: "Δt 1.900 s (0.526 Hz)", "finger 0 distal 120 → 480 Δ 360
+  // counts".
+  QStringList lines() const { return lines_; }
+
+ private:
+  void renew();
+  void place();
+
+  TimelineChart& chart_;
+  bool on_ = false;
+  QStringList lines_;
+};
+
+}  // namespace palpate::gui

@@ -1,0 +1,110 @@
+#include "gui/timeline/histogram_page.h"
+
+#include <QComboBox>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QSpinBox>
+#include <QVBoxLayout>
+#include <algorithm>
+
+#include <palpate/core/number_text.h>
+
+#include "gui/chart/chart_style.h"
+#include "gui/chart/plot.h"
+#include "gui/timeline/curve_statistics.h"
+
+namespace palpate::gui {
+
+HistogramPage::HistogramPage(const SelectedCurves& selected, Theme theme, QWidget* parent)
+    : QWidget(parent) {
+  curve_ = new QComboBox(this);
+  curve_->setObjectName("histogramCurve");
+  curve_->setAccessibleName("Curve of the histogram");
+  for (const SelectedCurves::Curve& curve : selected.curves) {
+    curve_->addItem(curve.name);
+    values_.push_back(curve.values);
+    units_.push_back(curve.unit);
+  }
+  bins_ = new QSpinBox(this);
+  bins_->setObjectName("histogramBins");
+  bins_->setAccessibleName("Number of bins");
+  bins_->setRange(0, static_cast<int>(kMostHistogramBins));
+  bins_->setSpecialValueText("automatic");
+  bins_->setToolTip("0: automatic, after Freedman and Diaconis");
+  bins_->setKeyboardTracking(false);
+  words_ = new QLabel(this);
+  words_->setObjectName("histogramWords");
+  plot_ = new QCustomPlot(this);
+  plot_->setMinimumSize(240, 140);
+  plot_->setAccessibleName("Histogram");
+  arrangeChart(*plot_);
+  bars_ = new QCPBars(plot_->xAxis, plot_->yAxis);
+  styleChart(*plot_, theme);
+  const ThemeColors& colors = colorsOf(theme);
+  QColor fill = colors.accent;
+  fill.setAlphaF(0.5F);
+  bars_->setBrush(fill);
+  bars_->setPen(QPen(colors.accent));
+  plot_->yAxis->setLabel("frames");
+  auto* row = new QHBoxLayout;
+  auto* curveLabel = new QLabel("C&urve", this);
+  curveLabel->setBuddy(curve_);
+  auto* binsLabel = new QLabel("&Bins", this);
+  binsLabel->setBuddy(bins_);
+  row->addWidget(curveLabel);
+  row->addWidget(curve_, 1);
+  row->addWidget(binsLabel);
+  row->addWidget(bins_);
+  auto* column = new QVBoxLayout(this);
+  column->addLayout(row);
+  column->addWidget(plot_, 1);
+  column->addWidget(words_);
+  connect(curve_, &QComboBox::currentIndexChanged, this, &HistogramPage::show);
+  connect(bins_, &QSpinBox::valueChanged, this, &HistogramPage::show);
+  show();
+}
+
+void HistogramPage::show() {
+  const int at = curve_->currentIndex();
+  if (at < 0) return;
+  const auto index = static_cast<std::size_t>(at);
+  histogram_ = histogramOf(values_[index], static_cast<std::size_t>(bins_->value()));
+  QVector<double> keys, counts;
+  std::size_t most = 0, all = 0;
+  for (std::size_t i = 0; i < histogram_.counts.size(); ++i) {
+    keys.append(histogram_.low + (static_cast<double>(i) + 0.5) * histogram_.width);
+    counts.append(static_cast<double>(histogram_.counts[i]));
+    most = std::max(most, histogram_.counts[i]);
+    all += histogram_.counts[i];
+  }
+  bars_->setData(keys, counts, true);
+  bars_->setWidth(histogram_.width);
+  const double high =
+      histogram_.low + histogram_.width * static_cast<double>(histogram_.counts.size());
+  plot_->xAxis->setRange(histogram_.low, std::max(high, histogram_.low + 1e-9));
+  plot_->yAxis->setRange(0.0, std::max<double>(1.0, static_cast<double>(most)) * 1.05);
+  plot_->xAxis->setLabel(curve_->currentText() + " in " + units_[index]);
+  QString words = QString::number(all) + " values in " + QString::number(histogram_.counts.size()) +
+                  " bins of " + QString::number(histogram_.width, 'g', 4) + " " + units_[index];
+  if (histogram_.notFinite > 0)
+    words += "; " + QString::number(histogram_.notFinite) + " frames without a value";
+  words_->setText(all == 0 ? "No frame of the selection has a value." : words);
+  plot_->replot(QCustomPlot::rpQueuedReplot);
+}
+
+TextTable HistogramPage::table() const {
+  const std::string unit =
+      curve_->currentIndex() < 0
+          ? std::string()
+          : units_[static_cast<std::size_t>(curve_->currentIndex())].toStdString();
+  return {.header = {"from [" + unit + "]", "to [" + unit + "]", "frames"},
+          .numRows = histogram_.counts.size(),
+          .row = [histogram = histogram_](std::size_t row) {
+            const double low = histogram.low + static_cast<double>(row) * histogram.width;
+            return std::vector<std::string>{numberText(low),
+                                            numberText(low + histogram.width),
+                                            std::to_string(histogram.counts[row])};
+          }};
+}
+
+}  // namespace palpate::gui

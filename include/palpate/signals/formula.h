@@ -1,0 +1,76 @@
+// A curve that is computed from the signals of a profile by a formula: a difference, a ratio, a
+// derivative. muParser evaluates the formula. The command `derive` and the timeline use it.
+//
+//   operators   + - * / ^ ( ), comparisons, && ||, condition ? a : b
+//   functions   abs sqrt min max sum avg exp ln log10 log2 sin cos tan asin acos atan rint sign ..
+//   der(x)      slope of x over time [1/s]; x is any formula
+//   t           time from the first frame [s]
+//   signals     m1_mean, m1_filtered_mean, m1_min, m1_max, m1_sum, m1_active, m1_area_mm2 (matrix
+//               1), hand_sum (whole hand), m5_x2_y9 (a taxel: column 2, row 9), angle3 (joint 3
+//               [deg]), temperature4 (sensor 4 [deg C])
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <palpate/core/progress.h>
+#include <palpate/model/profile.h>
+#include <palpate/signals/profile_series.h>
+
+namespace palpate {
+
+// The signal of that name (see above); nothing when it is no name of a signal. Whether the profile
+// has the signal is another question: hasSeries().
+std::optional<SeriesChoice> signalNamed(const std::string& name, const SensorLayout& layout);
+
+// Slope of a series over time: central differences of second order for uneven stamps, one-sided
+// ones at the ends, as numpy.gradient(values, timeS). Intervals longer than `longestS` are gaps:
+// each side ends there. NaN for a single sample. Throws std::invalid_argument unless times ascend,
+// one per value.
+std::vector<double> derivativeOf(std::span<const double> timeS,
+                                 std::span<const double> values,
+                                 double longestS);
+
+// A parsed formula.
+class Formula {
+ public:
+  static constexpr std::size_t kLongest = 1000;  // letters
+
+  // Throws std::invalid_argument that says what is wrong with the text.
+  explicit Formula(const std::string& text);
+  ~Formula();
+  Formula(const Formula& other);
+  Formula& operator=(const Formula& other);
+
+  const std::string& text() const noexcept { return text_; }
+  // The names of the signals in the formula, without t, in alphabetical order.
+  const std::vector<std::string>& names() const noexcept { return names_; }
+
+  // Computes the curve at every time [s]; `values` has the signals in the order of names(), one
+  // value per time. `longestS`: longer intervals are gaps for der(). Throws std::invalid_argument
+  // for other sizes, and when the formula can't be computed.
+  std::vector<double> evaluate(std::span<const double> timeS,
+                               const std::vector<std::vector<double>>& values,
+                               double longestS) const;
+
+ private:
+  struct Derivative;
+  std::string text_;
+  std::string parsed_;  // with der(..) replaced by variables
+  std::vector<std::string> names_;
+  std::vector<Derivative> derivatives_;
+};
+
+// Computes the formula at every frame of fromS..toS. Angles and temperatures are interpolated at
+// the frames. Throws std::invalid_argument for a name that is no signal or that the profile lacks,
+// and as Formula; Cancelled; Error (a frame that can't be read).
+Series derivedSeries(const Profile& profile,
+                     const Formula& formula,
+                     double fromS,
+                     double toS,
+                     const Progress& progress = {});
+
+}  // namespace palpate

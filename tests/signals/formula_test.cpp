@@ -1,0 +1,131 @@
+#include "palpate/signals/formula.h"
+
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "palpate/emulator/synthetic_profile.h"
+
+#include "testing/testing.h"
+
+namespace palpate::formula_test {
+namespace {
+
+using Names = std::vector<std::string>;
+
+constexpr double kEver = std::numeric_limits<double>::infinity();
+
+double one(const std::string& text, const std::vector<std::vector<double>>& values = {}) {
+  return Formula(text).evaluate(std::vector{2.0}, values, kEver).at(0);
+}
+
+TEST(Formula, ComputesSampleBySample) {
+  EXPECT_EQ(one("1 + 2 * 3"), 7.0);
+  EXPECT_EQ(one("-(a - b) / 4", {{10.0}, {2.0}}), -2.0);
+  EXPECT_EQ(one("abs(a) + sqrt(b)", {{-3.0}, {16.0}}), 7.0);
+  EXPECT_EQ(one("min(a, b) * max(a, b, 5)", {{2.0}, {3.0}}), 10.0);
+  EXPECT_EQ(one("a > 1 ? t : 0", {{1.5}}), 2.0);
+  EXPECT_TRUE(std::isnan(one("a + 1", {{std::nan("")}})));
+  EXPECT_TRUE(std::isinf(one("1 / a", {{0.0}})));
+}
+
+TEST(Formula, NamesItsSignals) {
+  EXPECT_EQ(Formula("m3_mean - m1_mean + t").names(), (Names{"m1_mean", "m3_mean"}));
+  EXPECT_EQ(Formula("der(a + der (b)) + under").names(), (Names{"a", "b", "under"}));
+  EXPECT_EQ(Formula("42").names(), Names{});
+}
+
+// numpy 1.24: numpy.gradient([1, 4, 9, 7, 7.5], [0, 1, 1.5, 3, 3.2]).
+TEST(Formula, DerivativesAreNumPys) {
+  const std::vector<double> timeS = {0.0, 1.0, 1.5, 3.0, 3.2};
+  const std::vector<double> values = {1.0, 4.0, 9.0, 7.0, 7.5};
+  const auto slopes = derivativeOf(timeS, values, kEver);
+  const std::vector<double> expected = {3, 7.66666666667, 7.16666666667, 2.04901960784, 2.5};
+  for (std::size_t i = 0; i < expected.size(); ++i) EXPECT_NEAR(slopes[i], expected[i], 1e-9) << i;
+  EXPECT_EQ(Formula("der(a)").evaluate(timeS, {values}, kEver), slopes);
+  const auto twice = Formula("2 * der(a + 1) - t").evaluate(timeS, {values}, kEver);
+  for (std::size_t i = 0; i < expected.size(); ++i)
+    EXPECT_NEAR(twice[i], 2.0 * expected[i] - timeS[i], 1e-9) << i;
+  // A gap parts them.
+  const auto parted = derivativeOf(timeS, values, 1.2);
+  EXPECT_NEAR(parted[2], (9.0 - 4.0) / 0.5, 1e-12);
+  EXPECT_NEAR(parted[3], (7.5 - 7.0) / 0.2, 1e-12);
+  EXPECT_TRUE(std::isnan(derivativeOf(std::vector{1.0}, std::vector{1.0}, kEver)[0]));
+}
+
+TEST(Formula, RefusesWhatIsNone) {
+  const auto refusal = [](const std::string& text) {
+    try {
+      Formula made(text);
+    } catch (const std::invalid_argument& error) {
+      EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos) << error.what();
+      return std::string(error.what());
+    }
+    return "taken: " + text;
+  };
+  for (const char* text :
+       {"", "1 +", "a b", "(a", "a)", "sqrt()", "foo(a)", "a $ b", "der(", "\"a\""})
+    EXPECT_EQ(refusal(text).rfind("formula \"", 0), 0u) << refusal(text);
+  EXPECT_NE(refusal("a = 3").find("=="), std::string::npos);
+  EXPECT_NE(refusal("a, b").find("comma"), std::string::npos);
+  EXPECT_NE(refusal("der(a").find("isn't closed"), std::string::npos);
+  EXPECT_NE(refusal(std::string(1001, '1')).find("at most 1000"), std::string::npos);
+  EXPECT_NE(refusal("a == 3"), "");
+  EXPECT_EQ(refusal("a >= 3"), "taken: a >= 3");
+  EXPECT_THROW(Formula("a").evaluate(std::vector{1.0}, {}, kEver), std::invalid_argument);
+  EXPECT_THROW(Formula("a").evaluate(std::vector{1.0}, {{}}, kEver), std::invalid_argument);
+}
+
+TEST(DerivedSeries, AreComputedAtTheFrames) {
+  const Profile profile = synthesize({.durationS = 6.0, .grasps = 2});
+  const Series sum = readSeries(
+      profile, {.index = profile.layout().numMatrices(), .signal = SignalKind::kSum}, 0.0, 6.0);
+  const Series derived = derivedSeries(profile, Formula("2 * hand_sum - 1"), 0.0, 6.0);
+  ASSERT_EQ(derived.timeS.size(), sum.timeS.size());
+  for (std::size_t i = 0; i < sum.values.size(); ++i) {
+    EXPECT_NEAR(derived.timeS[i], sum.timeS[i], 1e-9);
+    EXPECT_EQ(derived.values[i], 2.0 * sum.values[i] - 1.0);
+  }
+  // An angle is interpolated between its samples.
+  const Series angle = derivedSeries(profile, Formula("angle1 + 0 * m1_mean"), 1.0, 2.0);
+  const Series recorded =
+      readSeries(profile, {.kind = SeriesChoice::Kind::kAngle, .index = 1}, 0.0, 6.0);
+  const auto [low, high] = std::minmax_element(recorded.values.begin(), recorded.values.end());
+  EXPECT_GT(angle.values.size(), 10u);
+  for (const double value : angle.values) {
+    EXPECT_GE(value, *low);
+    EXPECT_LE(value, *high);
+  }
+  EXPECT_EQ(derivedSeries(profile, Formula("t"), 0.0, 6.0).values, derived.timeS);
+}
+
+TEST(DerivedSeries, NameTheSignalsOfTheHand) {
+  const Profile profile = synthesize({.durationS = 1.0, .grasps = 1});
+  const SensorLayout& layout = profile.layout();
+  for (const char* name : {"m0_mean",
+                           "m5_area_mm2",
+                           "hand_active",
+                           "m1_x2_y7",
+                           "angle6",
+                           "temperature8",
+                           "m2_filtered_mean"})
+    EXPECT_TRUE(signalNamed(name, layout)) << name;
+  for (const char* name : {"m6_mean",
+                           "m0_meen",
+                           "hand_x1_y1",
+                           "m1_x9_y7",
+                           "m1_x2_y99",
+                           "mean",
+                           "m_mean",
+                           "angle",
+                           "angle-1",
+                           "m1_x_y",
+                           "_",
+                           ""})
+    EXPECT_FALSE(signalNamed(name, layout)) << name;
+  for (const char* text : {"m9_mean", "angle77"})
+    EXPECT_THROW(derivedSeries(profile, Formula(text), 0.0, 1.0), std::invalid_argument) << text;
+}
+
+}  // namespace
+}  // namespace palpate::formula_test
