@@ -415,21 +415,27 @@ void LiveChart::placeOverlays() {
   span_.place(axisRect()->rect(), pixel(cursors_[0]), pixel(cursors_[1]));
   const int lineHeight = fontMetrics().lineSpacing();
   const bool any = cursors_[0] || cursors_[1];
-  if (any) readings_->setText(cursorText(std::max(2, axisRect()->height() / lineHeight - 1)));
+  const int room = axisRect()->height() - (behind_->isHidden() ? 0 : behind_->height());
+  if (any) readings_->setText(cursorText(std::max(2, room / lineHeight - 1)));
   readings_->setVisible(any);
   placeWords();
 }
 
+// How far behind the chart is stands at the right, the values at the cursors below it, or at the
+// left where they would cover the cursors.
 void LiveChart::placeWords() {
   const QRect plot = axisRect()->rect();
   int top = plot.top() + kLiveWordsMargin;
+  const double last = std::max(cursors_[0].value_or(-1.0), cursors_[1].value_or(-1.0));
   for (QLabel* words : {behind_, readings_}) {
     if (words->isHidden()) continue;
     const QSize size = words->sizeHint();
-    const QRect place(std::max(0, plot.right() - size.width() - kLiveWordsMargin),
-                      top,
-                      size.width(),
-                      size.height());
+    int left = plot.right() - size.width() - kLiveWordsMargin;
+    if (words == readings_ && pixelOf(last) >= left) {
+      left = plot.left() + kLiveWordsMargin;
+      top = plot.top() + kLiveWordsMargin;
+    }
+    const QRect place(std::max(0, left), top, size.width(), size.height());
     if (words->geometry() != place) words->setGeometry(place);
     top = place.bottom() + 2;
   }
