@@ -368,7 +368,11 @@ TEST_F(SpectrumPanelTest, CoherenceWithTheMeanOfAMatrix) {
   auto* other = find<QComboBox>("coherenceWith");
   ASSERT_TRUE(other->isVisible());
   EXPECT_EQ(other->count(), 7);
+  EXPECT_EQ(other->currentText(), "whole hand");
   // The first matrix feels nothing: no power in common.
+  other->setCurrentIndex(0);
+  emit other->activated(0);
+  panel_->settle();
   EXPECT_TRUE(std::isnan(panel_->linePage().chart().answer().coherence->coherence[8]));
   other->setCurrentIndex(1);
   emit other->activated(1);

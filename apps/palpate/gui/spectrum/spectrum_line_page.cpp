@@ -5,6 +5,7 @@
 #include <QLabel>
 #include <QStackedWidget>
 #include <QVBoxLayout>
+#include <algorithm>
 #include <cmath>
 
 #include <palpate/core/number_text.h>
@@ -131,6 +132,8 @@ void SpectrumLinePage::setHand(const HandDescription& hand) {
   if (names == present) return;
   other_->clear();
   other_->addItems(names);
+  // A single matrix may feel nothing.
+  other_->setCurrentIndex(other_->count() - 1);
 }
 
 SeriesChoice SpectrumLinePage::other() const {
@@ -165,9 +168,14 @@ void SpectrumLinePage::setAnswer(const SpectrumAnswer& answer) {
     peaks_->setRows(rows);
   }
   for (FiguresTable* table : {peaks_, common_}) table->clearSelection();
-  none_->setText(answer.coherence ? "No common frequency: nowhere is the coherence above that of "
-                                    "independent noise."
-                                  : "No peak stands 3 dB above its surroundings.");
+  const auto known = [](double value) { return std::isfinite(value); };
+  const bool still =
+      answer.coherence &&
+      std::none_of(answer.coherence->coherence.begin(), answer.coherence->coherence.end(), known);
+  none_->setText(still              ? "One of the signals doesn't change here."
+                 : answer.coherence ? "No common frequency: nowhere is the coherence above that of "
+                                      "independent noise."
+                                    : "No peak stands 3 dB above its surroundings.");
   pages_->setCurrentWidget(rows.empty()       ? static_cast<QWidget*>(none_)
                            : answer.coherence ? common_
                                               : peaks_);
