@@ -17,6 +17,7 @@
 
 #include "gui/appearance/captions.h"
 #include "gui/record/plan_model.h"
+#include "gui/widgets/dialog_properties.h"
 #include "gui/widgets/elided_text.h"
 
 namespace palpate::gui {
@@ -42,6 +43,7 @@ PlanDialog::PlanDialog(WindowState& windowState,
   setObjectName("planDialog");
   setStyleSheet(kPlanDialogStyle);
   setSizeGripEnabled(true);
+  setProperty(kWantsStopProperty, true);
   progress_ = new QLabel(this);
   progress_->setObjectName("planProgress");
   QFont bold = progress_->font();
