@@ -17,13 +17,13 @@ using testing::palpate;
 
 class DeriveCommandTest : public ::testing::Test {
  protected:
-  DeriveCommandTest() {
-    saveRecording(synthesize({.durationS = 6.0, .grasps = 2}), {}, file_);
-    profile_ = openRecording(file_);
+  static Profile saved(const std::string& file) {
+    saveRecording(synthesize({.durationS = 6.0, .grasps = 2}), {}, file);
+    return openRecording(file);
   }
   testing::TemporaryFolder folder_;
-  std::string file_ = folder_ / "in.dsa";
-  Profile profile_;
+  const std::string file_ = folder_ / "in.dsa";
+  const Profile profile_ = saved(file_);
 };
 
 TEST_F(DeriveCommandTest, PrintsAColumnForEachFormula) {

@@ -20,7 +20,6 @@
 #include "gui/matrices/matrices_panel.h"
 #include "gui/matrices/matrices_view.h"
 #include "gui/testing/window_fixture.h"
-#include "gui/timeline/axis_scale.h"
 #include "gui/timeline/cursor_readout.h"
 #include "gui/timeline/timeline_feature.h"
 #include "gui/timeline/timeline_header.h"
