@@ -83,8 +83,8 @@ PlanDialog::PlanDialog(WindowState& windowState,
           this,
           &PlanDialog::showState);
   connect(model_, &QAbstractItemModel::modelReset, this, &PlanDialog::showState);
-  resize(kPlanDialogSize);
   say({});
+  resize(kPlanDialogSize);
   showState();
 }
 
@@ -169,6 +169,13 @@ QWidget* PlanDialog::makeFoot() {
   row->addWidget(repeat_);
   row->addWidget(recordNext_);
   return foot;
+}
+
+void PlanDialog::resizeEvent(QResizeEvent* event) {
+  QDialog::resizeEvent(event);
+  layout()->activate();
+  // What comes next is shortened to another width.
+  showState();
 }
 
 void PlanDialog::say(const QString& text) {

@@ -32,6 +32,9 @@ class PlanDialog : public QDialog {
   // Shows what is present; called with every change.
   void showState();
 
+ protected:
+  void resizeEvent(QResizeEvent* event) override;
+
  private:
   QWidget* makeRows();
   QWidget* makeFoot();

@@ -4,6 +4,7 @@
 #include <QLabel>
 #include <QPushButton>
 #include <QToolButton>
+#include <QVBoxLayout>
 #include <utility>
 
 #include "gui/appearance/icons.h"
@@ -40,14 +41,21 @@ OfferStrip::OfferStrip(QWidget* parent) : QWidget(parent) {
     dismiss();
     if (decline) decline();
   });
-  auto* row = new QHBoxLayout(this);
-  row->setContentsMargins(14, 6, 8, 6);
+  auto* row = new QHBoxLayout;
   row->setSpacing(12);
   row->addWidget(text_, 1);
   row->addWidget(accept_);
   others_ = new QHBoxLayout;
   others_->setSpacing(12);
-  row->addLayout(others_);
+  // Below, so that the window needs no more width for them.
+  auto* below = new QHBoxLayout;
+  below->addStretch(1);
+  below->addLayout(others_);
+  auto* lines = new QVBoxLayout(this);
+  lines->setContentsMargins(14, 6, 8, 6);
+  lines->setSpacing(4);
+  lines->addLayout(row);
+  lines->addLayout(below);
   row->addWidget(close_);
   hide();
 }
