@@ -35,8 +35,7 @@ TimelineActions::TimelineActions(ActionRegistry& book) {
                           true);
   differences->setToolTip(
       "Shows Δt, and of every curve its change, beside the ends of the selection");
-  axisScales =
-      book.make("axisScales", "View", "&Vertical axes of the timeline…", {key("Ctrl+Alt+V")});
+  axisScales = book.make("axisScales", "View", "Vertical axes &by hand…", {key("Ctrl+Alt+V")});
   axisScales->setToolTip("Ranges by hand and logarithmic axes");
   nameTaxels = book.make("nameTaxels", "Edit", "Name the chosen &taxels…", {key("Ctrl+Shift+G")});
   nextSignal = book.make("nextSignal", "View", "Ne&xt signal in the timeline", {key("S")});
