@@ -7,7 +7,7 @@
 namespace palpate {
 namespace {
 
-constexpr double kNoDensity = 1e-30;  // part of the largest density
+constexpr double kNoDensity = 1e-12;  // part of the largest density
 
 // Offset of the top of the parabola from the bin [bins], -0.5..0.5, and the factor of its value.
 struct PeakTop {

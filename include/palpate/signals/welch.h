@@ -49,7 +49,7 @@ struct SpectralPeakOptions {
 };
 // The peaks in the order of their density, the largest first. The first and the last bin are no
 // peaks. As scipy.signal.find_peaks(10 log10(psd), prominence=3) and peak_widths at half of psd.
-// Bins without density count as 1e-30 of the largest.
+// Densities below 1e-12 of the largest are rounding and count as that.
 std::vector<SpectralPeak> spectralPeaks(const MeanSpectrum& mean,
                                         const SpectralPeakOptions& options = {});
 

@@ -279,7 +279,7 @@ TEST_F(EventsWindowTest, StatisticsHaveDifferencesAHistogramAndAnXyPlot) {
 
 TEST_F(EventsWindowTest, DifferencesStandBesideTheEndsOfTheSelection) {
   auto& readout = *window().findChild<CursorReadout*>();
-  actions().at("differences")->setChecked(true);
+  actions().at("differences")->trigger();
   EXPECT_TRUE(readout.isHidden());
   chart().setSelection(TimeSpan{2.0, 4.5});
   ASSERT_FALSE(readout.isHidden());

@@ -45,7 +45,7 @@ TimelineActions::TimelineActions(ActionRegistry& book) {
   zoomIn = book.make("zoomIn", "View", "Zoom the timeline &in", {key("Ctrl++"), key("Ctrl+=")});
   zoomOut = book.make("zoomOut", "View", "Zoom the timeline &out", {key("Ctrl+-")});
   fit = book.make("fit", "View", "Show the &whole timeline", {key("F")});
-  axes = book.make("verticalAxes", "View", "Vertical axes of the timeline…", {key("Shift+V")});
+  axes = book.make("verticalAxes", "View", "Vertical axes &by hand…", {key("Shift+V")});
   axes->setToolTip("Ranges of the vertical axes: automatic, or by hand; linear or logarithmic");
   freeze = book.make("freezeLive", "Hand", "&Freeze the live chart", {key("Shift+P")}, true);
   newest = book.make("liveNewest", "Hand", "&Newest frame in the live chart", {key("End")});
