@@ -39,7 +39,7 @@ PlanDialog::PlanDialog(WindowState& windowState,
                        QAction* record,
                        QWidget* parent)
     : QDialog(parent), windowState_(windowState), controller_(controller), record_(record) {
-  setWindowTitle("Recording plan");
+  setWindowTitle("Plan of recordings");
   setObjectName("planDialog");
   setStyleSheet(kPlanDialogStyle);
   setSizeGripEnabled(true);

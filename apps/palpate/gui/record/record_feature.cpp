@@ -27,7 +27,7 @@ RecordActions::RecordActions(ActionRegistry& book) {
       book.make("recordingSettings", "Hand", "Recording &names and marks…", {key("Ctrl+N")});
   openRecorded =
       book.make("openRecorded", "Hand", "&Open the last recording", {key("Ctrl+Shift+O")});
-  recordingPlan = book.make("recordingPlan", "Hand", "Record&ing plan…", {key("Ctrl+Alt+P")});
+  recordingPlan = book.make("recordingPlan", "Hand", "Plan o&f recordings…", {key("Ctrl+Alt+P")});
   renameRecorded =
       book.make("renameRecorded", "Hand", "Rename the last recordin&g…", {key("Ctrl+Alt+N")});
   discardRecorded =

@@ -18,11 +18,12 @@ namespace {
 
 constexpr const char* kCropFolder = "recent/crop_folder";
 
-// The filter of a file dialogue: each format that a recording can be saved in.
+// The filter of a file dialogue: each format that a recording can be saved in, its own first.
 QString formatFilter() {
   QStringList formats;
   for (const RecordingForm& form : recordingForms())
-    formats.append(QString("%1 (*%2)").arg(form.purpose, form.ending));
+    formats.insert(form.format == RecordingFormat::kPalpate ? 0 : formats.size(),
+                   QString("%1 (*%2)").arg(form.purpose, form.ending));
   return formats.join(";;");
 }
 

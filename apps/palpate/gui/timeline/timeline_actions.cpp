@@ -35,7 +35,7 @@ TimelineActions::TimelineActions(ActionRegistry& book) {
   differences = book.make("differences",
                           "Edit",
                           "Differences bet&ween the ends of the selection",
-                          {key("Ctrl+Alt+D")},
+                          {key("Ctrl+Alt+E")},
                           true);
   differences->setToolTip(
       "Shows Δt, and of every curve its change, beside the ends of the selection");
