@@ -166,7 +166,9 @@ class HelpExamples : public ::testing::Test {
       return must("palpate convert -q " + (*recordings_ / "grasps/foam_ball.dsa").string() + " " +
                   word);
     if (word == "broken.dsa") {
-      const std::string whole = readFile(*recordings_ / "grasps/foam_ball.dsa");
+      // Two bzip2 blocks are left; the first of them is whole.
+      const std::string whole =
+          readFile(*recordings_ / "calibration_sensitivity/sensitivity_0.1-1.0.dsa");
       return writeFile(at(word), whole.substr(0, whole.size() / 2));
     }
     if (word == "objects.json") {
@@ -224,7 +226,9 @@ TEST_F(HelpExamples, ThoseThatEndByThemselvesSucceed) {
     for (const std::string& example : examplesIn(helpOf(words))) {
       makeInputs(example);
       const ProgramResult result = this->run(example);
-      EXPECT_EQ(result.exitCode, 0) << example << "\n" << result.err;
+      // Of the broken recording something is lost: 3, as its help says.
+      EXPECT_EQ(result.exitCode, words.front() == "recover" ? 3 : 0) << example << "\n"
+                                                                     << result.err;
       // What it is said to write is there.
       std::smatch match;
       if (std::regex_search(example, match, std::regex("(?:-o|>) (\\S+)"))) {
