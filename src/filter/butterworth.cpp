@@ -213,6 +213,26 @@ void zeroPhaseStretch(std::span<const double> timeS,
   for (std::size_t i = 0; i < n; ++i) values[i] = extended[extended.size() - 1 - pad - i];
 }
 
+// Applies `filter(times, part)` to each stretch without a gap; `part` holds its finite values.
+template <class Filter>
+std::vector<double> filteredByStretch(std::span<const double> timeS,
+                                      std::span<const double> values,
+                                      const ButterworthOptions& options,
+                                      std::span<const std::size_t> gapSamples,
+                                      const Filter& filter) {
+  options.validate();
+  requireSeries(timeS, values);
+  std::vector<double> out(values.begin(), values.end());
+  for (const SampleRange& stretch : sampleStretches(values.size(), gapSamples)) {
+    const std::size_t n = stretch.end - stretch.begin;
+    const auto times = timeS.subspan(stretch.begin, n);
+    std::vector<double> part = finiteValues(times, values.subspan(stretch.begin, n));
+    filter(times, part);
+    std::copy(part.begin(), part.end(), out.begin() + static_cast<std::ptrdiff_t>(stretch.begin));
+  }
+  return out;
+}
+
 }  // namespace
 
 void ButterworthOptions::validate() const {
@@ -355,39 +375,33 @@ std::vector<double> butterworthFiltered(std::span<const double> timeS,
                                         std::span<const double> values,
                                         const ButterworthOptions& options,
                                         std::span<const std::size_t> gapSamples) {
-  options.validate();
-  requireSeries(timeS, values);
-  std::vector<double> out(values.begin(), values.end());
-  for (const SampleRange& stretch : sampleStretches(values.size(), gapSamples)) {
-    const std::size_t n = stretch.end - stretch.begin;
-    const auto times = timeS.subspan(stretch.begin, n);
-    std::vector<double> part = finiteValues(times, values.subspan(stretch.begin, n));
-    if (!std::isfinite(part.front())) continue;
-    std::vector<double> intervalsS{0.0};
-    for (std::size_t i = 1; i < n; ++i) intervalsS.push_back(times[i] - times[i - 1]);
-    const double rateHz = n > 1 ? static_cast<double>(n - 1) / (times.back() - times.front())
-                                : 4.0 * std::max(options.lowHz, options.highHz);
-    filterStretch(part, intervalsS, butterworthSections(options, rateHz), rateHz);
-    std::copy(part.begin(), part.end(), out.begin() + static_cast<std::ptrdiff_t>(stretch.begin));
-  }
-  return out;
+  return filteredByStretch(
+      timeS,
+      values,
+      options,
+      gapSamples,
+      [&](std::span<const double> times, std::vector<double>& part) {
+        if (!std::isfinite(part.front())) return;
+        const std::size_t n = part.size();
+        std::vector<double> intervalsS{0.0};
+        for (std::size_t i = 1; i < n; ++i) intervalsS.push_back(times[i] - times[i - 1]);
+        const double rateHz = n > 1 ? static_cast<double>(n - 1) / (times.back() - times.front())
+                                    : 4.0 * std::max(options.lowHz, options.highHz);
+        filterStretch(part, intervalsS, butterworthSections(options, rateHz), rateHz);
+      });
 }
 
 std::vector<double> butterworthZeroPhase(std::span<const double> timeS,
                                          std::span<const double> values,
                                          const ButterworthOptions& options,
                                          std::span<const std::size_t> gapSamples) {
-  options.validate();
-  requireSeries(timeS, values);
-  std::vector<double> out(values.begin(), values.end());
-  for (const SampleRange& stretch : sampleStretches(values.size(), gapSamples)) {
-    const std::size_t n = stretch.end - stretch.begin;
-    const auto times = timeS.subspan(stretch.begin, n);
-    std::vector<double> part = finiteValues(times, values.subspan(stretch.begin, n));
-    zeroPhaseStretch(times, part, options);
-    std::copy(part.begin(), part.end(), out.begin() + static_cast<std::ptrdiff_t>(stretch.begin));
-  }
-  return out;
+  return filteredByStretch(timeS,
+                           values,
+                           options,
+                           gapSamples,
+                           [&](std::span<const double> times, std::vector<double>& part) {
+                             zeroPhaseStretch(times, part, options);
+                           });
 }
 
 }  // namespace palpate

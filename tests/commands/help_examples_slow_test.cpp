@@ -63,19 +63,22 @@ std::vector<std::vector<std::string>> allCommands() {
 }
 
 // Listens for UDP datagrams at a port of this machine.
-class DatagramsAt {
+class Datagrams {
  public:
-  explicit DatagramsAt(std::uint16_t port) : fd_(::socket(AF_INET, SOCK_DGRAM | SOCK_NONBLOCK, 0)) {
+  Datagrams() : fd_(::socket(AF_INET, SOCK_DGRAM | SOCK_NONBLOCK, 0)) {
     sockaddr_in address{};
     address.sin_family = AF_INET;
-    address.sin_port = htons(port);
     address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-    bound_ = ::bind(fd_, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0;
+    socklen_t size = sizeof address;
+    if (::bind(fd_, reinterpret_cast<const sockaddr*>(&address), size) == 0 &&
+        ::getsockname(fd_, reinterpret_cast<sockaddr*>(&address), &size) == 0)
+      port_ = ntohs(address.sin_port);
   }
-  ~DatagramsAt() { ::close(fd_); }
-  DatagramsAt(const DatagramsAt&) = delete;
-  DatagramsAt& operator=(const DatagramsAt&) = delete;
-  bool bound() const noexcept { return bound_; }
+  ~Datagrams() { ::close(fd_); }
+  Datagrams(const Datagrams&) = delete;
+  Datagrams& operator=(const Datagrams&) = delete;
+  // A port that was free; 0: none could be had.
+  int port() const noexcept { return port_; }
   bool arrived() const noexcept {
     char byte = 0;
     return ::recv(fd_, &byte, 1, 0) >= 0;
@@ -83,7 +86,7 @@ class DatagramsAt {
 
  private:
   int fd_;
-  bool bound_ = false;
+  int port_ = 0;
 };
 
 class HelpExamples : public ::testing::Test {
@@ -265,9 +268,11 @@ TEST_F(HelpExamples, RecordRunsUntilItIsStopped) {
 TEST_F(HelpExamples, StreamRunsUntilItIsStopped) {
   const auto emulated = hand();
   for (const std::string& example : examplesIn(helpOf({"stream"}))) {
-    const DatagramsAt listener(9870);
-    if (!listener.bound()) GTEST_SKIP() << "another program listens at port 9870";
-    const auto program = begin(withPortsOf(example, folder_.path()));
+    // To a free port instead of the usual one, which another program may use.
+    const Datagrams listener;
+    ASSERT_GT(listener.port(), 0);
+    const auto program = begin(withPortsOf(example, folder_.path()) +
+                               " --to signals:" + std::to_string(listener.port()));
     ASSERT_TRUE(awaited([&] { return listener.arrived(); })) << program->err();
     program->signal(SIGINT);
     EXPECT_EQ(program->wait(), 0) << program->err();
