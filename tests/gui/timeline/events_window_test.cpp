@@ -512,6 +512,13 @@ TEST_F(EventsWindowTest, TheWholeRecordingIsSavedAsAnotherWithItsLabels) {
   saveAs->trigger();
   window().settle();
   EXPECT_EQ(openRecording(folder_ / "copy.h5").numFrames(), all.numFrames());
+  // The file may be gone since it was opened: what was read can still be saved.
+  std::filesystem::rename(path_, folder_ / "elsewhere.palpate");
+  chosen = QString::fromStdString((folder_ / "rescued.palpate").string());
+  saveAs->trigger();
+  window().settle();
+  std::filesystem::rename(folder_ / "elsewhere.palpate", path_);
+  EXPECT_EQ(openRecording(folder_ / "rescued.palpate").numFrames(), all.numFrames());
   chosen = QString::fromStdString((folder_ / "copy.docx").string());
   saveAs->trigger();
   window().settle();

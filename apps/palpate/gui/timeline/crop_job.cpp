@@ -65,6 +65,21 @@ CropJob::CropJob(WindowState& windowState, QAction& crop, QAction& saveAs, QWidg
   });
 }
 
+SaveExtras CropJob::extrasOf(const OpenedRecording& recording,
+                             const Profile& profile,
+                             const std::filesystem::path& out,
+                             bool isPart) {
+  const RecordingFormat format = formatOf(out);
+  SaveExtras extras;
+  // The file of the recording may be damaged, or gone since it was opened.
+  if (format == RecordingFormat::kHdf5 || format == RecordingFormat::kMat ||
+      format == RecordingFormat::kMcap)
+    extras = exportExtras({}, recording.path, out, profile, {});
+  extras.meta = recording.meta;
+  if (isPart) extras.meta.erase("settings");
+  return extras;
+}
+
 void CropJob::cropSelection() {
   const OpenedRecordingPtr recording = windowState_.displayed.unfilteredRecording();
   if (!recording || !windowState_.selection.span())
@@ -120,10 +135,13 @@ void CropJob::start(const QString& path, const std::optional<Frames>& part) {
         const auto save = [&](const Profile& profile,
                               const std::vector<RecordingEvent>& events,
                               const Progress& saving) {
-          SaveExtras extras = exportExtras({}, recording->path, out, profile, {});
-          if (part) extras.meta.erase("settings");  // those at the start of the whole recording
           // The dialogue has already asked whether an existing file may be replaced.
-          saveRecording(profile, events, out, Overwrite::kReplace, saving, extras);
+          saveRecording(profile,
+                        events,
+                        out,
+                        Overwrite::kReplace,
+                        saving,
+                        extrasOf(*recording, profile, out, part.has_value()));
         };
         if (!part) return save(recording->profile, noted, progress);
         const auto half = [&](double from) {

@@ -3,7 +3,10 @@
 
 #include <QObject>
 #include <cstddef>
+#include <filesystem>
 #include <optional>
+
+#include <palpate/recording/recording.h>
 
 #include "gui/source/background_job.h"
 #include "gui/window_state/window_state.h"
@@ -26,6 +29,15 @@ class CropJob : public QObject {
   // Shows the progress above the centre of the window.
   OpeningStrip& strip() noexcept { return *strip_; }
   bool busy() const noexcept { return job_.busy(); }
+
+  // What is saved beside `profile`, which is `recording` or a part of it: what was said of the
+  // recording when it was opened (the settings at its start only with the whole), and for formats
+  // of other programs where it comes from; for those the recording's file is read again. Throws as
+  // exportExtras().
+  static SaveExtras extrasOf(const OpenedRecording& recording,
+                             const Profile& profile,
+                             const std::filesystem::path& out,
+                             bool isPart);
 
  signals:
   void written(const QString& path);

@@ -5,12 +5,12 @@
 #include <stdexcept>
 #include <vector>
 
-#include <palpate/batch/export_extras.h>
 #include <palpate/batch/grasp_files.h>
 #include <palpate/core/error.h>
 #include <palpate/core/number_text.h>
 
 #include "gui/appearance/captions.h"
+#include "gui/timeline/crop_job.h"
 #include "gui/widgets/opening_strip.h"
 
 namespace palpate::gui {
@@ -89,9 +89,7 @@ void GraspExport::exportEach() {
         }
         GraspFilesOptions options;
         options.extras = [recording](const Profile& grasp, const std::filesystem::path& out) {
-          SaveExtras extras = exportExtras({}, recording->path, out, grasp, {});
-          extras.meta.erase("settings");  // those at the start of the whole recording
-          return extras;
+          return CropJob::extrasOf(*recording, grasp, out, true);
         };
         saveGrasps(recording->path, recording->profile, events, grasps, *files, options, progress);
       },
