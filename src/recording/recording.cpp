@@ -90,6 +90,29 @@ std::string damageText(const PalpateRecovery& recovery) {
   return text;
 }
 
+// Adds a note at the first sample that says where the recording comes from, and what is missing.
+std::vector<RecordingEvent> withOrigin(std::vector<RecordingEvent> events,
+                                       const Profile& profile,
+                                       const std::filesystem::path& in,
+                                       const std::string& missing) {
+  std::optional<std::int64_t> firstUs;
+  const auto take = [&](std::int64_t us) { firstUs = std::min(us, firstUs.value_or(us)); };
+  if (profile.numFrames() > 0) take(profile.frameTimeUs(0));
+  if (profile.numAngles() > 0) take(profile.angleTimeUs(0));
+  if (profile.numTemperatures() > 0) take(profile.temperatureTimeUs(0));
+  if (!firstUs) return events;
+  RecordingEvent note;
+  note.tUs = note.t1Us = *firstUs;
+  note.kind = "note";
+  note.text = "Recovered from the damaged file " + in.filename().string() + ": " + missing;
+  const auto at = std::lower_bound(
+      events.begin(), events.end(), note.tUs, [](const RecordingEvent& event, std::int64_t us) {
+        return event.tUs < us;
+      });
+  events.insert(at, std::move(note));
+  return events;
+}
+
 VerifyReport verifyNative(const std::filesystem::path& path, const Progress& progress) {
   const PalpateRecovery recovery = recoverPalpateProfile(path, progress);
   VerifyReport report;
@@ -119,7 +142,13 @@ RecoverReport recoverNative(const std::filesystem::path& in,
     report.message = "nothing can be saved: no intact block was found";
     return report;
   }
-  saveRecording(*recovery.profile, recovery.events, out, overwrite, progress);
+  saveRecording(*recovery.profile,
+                recovery.whole()
+                    ? recovery.events
+                    : withOrigin(recovery.events, *recovery.profile, in, damageText(recovery)),
+                out,
+                overwrite,
+                progress);
   report.state = recovery.whole() ? RecoverReport::State::kWhole : RecoverReport::State::kPart;
   report.message = "saved " + countsText(recovery.frames, recovery.angles, recovery.temperatures);
   if (!recovery.whole()) report.message += "; " + damageText(recovery);
@@ -140,8 +169,14 @@ RecoverReport recoverMcapFile(const std::filesystem::path& in,
   }
   SaveExtras extras;
   extras.meta = recording.meta;
-  saveRecording(profile, recording.events, out, overwrite, progress, extras);
   const bool whole = recording.damage.empty();
+  saveRecording(profile,
+                whole ? recording.events
+                      : withOrigin(recording.events, profile, in, "the file " + recording.damage),
+                out,
+                overwrite,
+                progress,
+                extras);
   report.state = whole ? RecoverReport::State::kWhole : RecoverReport::State::kPart;
   report.message = (whole ? "nothing was damaged; saved " : "saved ") +
                    countsText(profile.numFrames(), profile.numAngles(), profile.numTemperatures()) +
@@ -182,13 +217,18 @@ RecoverReport recoverDsa(const std::filesystem::path& in,
                                                        : checked.message);
       return report;
     }
-    saveRecording(*recovery.profile, events, out, overwrite, progress);
+    const std::string lost = "lost: the rest (" + std::to_string(recovery.intactBlocks) + " of " +
+                             counted(recovery.blocks, "bzip2 block") + " intact, " +
+                             counted(recovery.cutSamples, "sample") + " cut)";
+    saveRecording(*recovery.profile,
+                  withOrigin(events, *recovery.profile, in, lost),
+                  out,
+                  overwrite,
+                  progress);
     report.state = RecoverReport::State::kPart;
     report.message = "saved " +
-                     countsText(recovery.frames, recovery.angles, recovery.temperatures) +
-                     "; lost: the rest (" + std::to_string(recovery.intactBlocks) + " of " +
-                     counted(recovery.blocks, "bzip2 block") + " intact, " +
-                     counted(recovery.cutSamples, "sample") + " cut)";
+                     countsText(recovery.frames, recovery.angles, recovery.temperatures) + "; " +
+                     lost;
   }
   if (!lostNotes.empty()) {
     report.state = RecoverReport::State::kPart;

@@ -54,6 +54,60 @@ TEST(PalpateDamage, flippedValuesOfTheSummaryAreNoticedAndRebuilt) {
   EXPECT_EQ(verifyRecording(folder / "b.palpate").state, VerifyReport::State::kSound);
 }
 
+// A loss shorter than a gap would be joined by a straight line, and nobody could tell.
+TEST(PalpateDamage, theRecoveredRecordingTellsOfEachLostSpan) {
+  const TemporaryFolder folder;
+  writeSamples(folder / "a.palpate", 200);
+  sqlite3* db = nullptr;
+  ASSERT_EQ(sqlite3_open((folder / "a.palpate").c_str(), &db), SQLITE_OK);
+  const auto number = [&](const std::string& query) {
+    sqlite3_stmt* statement = nullptr;
+    EXPECT_EQ(sqlite3_prepare_v2(db, query.c_str(), -1, &statement, nullptr), SQLITE_OK);
+    EXPECT_EQ(sqlite3_step(statement), SQLITE_ROW) << query;
+    const std::int64_t value = sqlite3_column_int64(statement, 0);
+    sqlite3_finalize(statement);
+    return value;
+  };
+  ASSERT_GE(number("SELECT count(*) FROM block WHERE stream=0"), 5);
+  const std::string third =
+      "(SELECT first FROM block WHERE stream=0 ORDER BY first LIMIT 1 OFFSET 2)";
+  const std::int64_t first = number("SELECT " + third);
+  const std::int64_t lost = number("SELECT n FROM block WHERE stream=0 AND first=" + third);
+  const std::int64_t beforeUs =
+      number("SELECT max(t1_us) FROM block WHERE stream=0 AND first<" + third);
+  const std::int64_t behindUs =
+      number("SELECT min(t0_us) FROM block WHERE stream=0 AND first>" + third);
+  ASSERT_EQ(sqlite3_exec(db,
+                         ("UPDATE block SET data=zeroblob(length(data)) WHERE stream=0 AND first=" +
+                          std::to_string(first))
+                             .c_str(),
+                         nullptr,
+                         nullptr,
+                         nullptr),
+            SQLITE_OK);
+  sqlite3_close(db);
+  recoverRecording(folder / "a.palpate", folder / "b.palpate");
+  const std::vector<RecordingEvent> before = readEvents(folder / "a.palpate").events;
+  const std::vector<RecordingEvent> events = readEvents(folder / "b.palpate").events;
+  ASSERT_EQ(events.size(), before.size() + 2);
+  const auto gap = std::find_if(events.begin(), events.end(), [&](const RecordingEvent& event) {
+    return event.kind == "gap" && event.tUs == beforeUs;
+  });
+  ASSERT_NE(gap, events.end());
+  EXPECT_EQ(gap->t1Us, behindUs);
+  EXPECT_EQ(gap->json,
+            R"({"stream":"tactile","lost":)" + std::to_string(lost) +
+                R"(,"reason":"the file was damaged"})");
+  EXPECT_NE(gap->text.find(std::to_string(lost) + " frame"), std::string::npos) << gap->text;
+  const auto note = std::find_if(events.begin(), events.end(), [](const RecordingEvent& event) {
+    return event.kind == "note" &&
+           event.text.starts_with("Recovered from the damaged file a.palpate: ");
+  });
+  ASSERT_NE(note, events.end());
+  EXPECT_NE(note->text.find(std::to_string(lost) + " lost frame"), std::string::npos) << note->text;
+  EXPECT_EQ(verifyRecording(folder / "b.palpate").state, VerifyReport::State::kSound);
+}
+
 // SQLite stores an integer in 1, 2, 3, 4, 6 or 8 bytes, the smallest that hold it (its file format,
 // section 2.1). The deleted row is still on its page.
 TEST(PalpateDamage, aBlockThatSqliteNoLongerReachesKeepsItsTimesOfAnySize) {

@@ -16,6 +16,8 @@ namespace palpate {
 
 struct PalpateRecovery {
   std::optional<Profile> profile;  // made of the intact blocks; none when no block is intact
+  // Those of the recording, and one of kind "gap" for each span of items that is missing (behind
+  // the last saved item: a moment at its time). In order of time.
   std::vector<RecordingEvent> events;
   std::size_t frames = 0;  // saved
   std::size_t angles = 0;

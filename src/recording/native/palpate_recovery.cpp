@@ -11,12 +11,15 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string_view>
 #include <vector>
 
 #include <unistd.h>
 
 #include "palpate/core/byte_order.h"
 #include "palpate/core/error.h"
+#include "palpate/core/json.h"
+#include "palpate/core/number_text.h"
 #include "palpate/model/hand_file.h"
 #include "palpate/recording/palpate_blocks.h"
 #include "palpate/recording/palpate_schema.h"
@@ -360,6 +363,29 @@ std::int64_t expectedItems(const Findings& found, Stream stream) {
   return std::clamp<std::int64_t>(expected, 0, kMost);
 }
 
+// An event for items that are missing between two times: without it, a reader of the saved
+// recording could not tell a loss shorter than a gap.
+RecordingEvent lossEvent(Stream stream,
+                         std::int64_t count,
+                         std::int64_t fromUs,
+                         std::int64_t toUs) {
+  constexpr std::array<std::string_view, 3> kNames{"tactile", "angles", "temperatures"};
+  constexpr std::array<std::string_view, 3> kItems{"frame", "angle sample", "temperature sample"};
+  const auto index = static_cast<std::size_t>(stream);
+  RecordingEvent event;
+  event.tUs = fromUs;
+  event.t1Us = toUs;
+  event.kind = "gap";
+  event.text =
+      counted(static_cast<std::size_t>(count), kItems.at(index)) + " lost: the file was damaged";
+  event.json = Json::object()
+                   .set("stream", kNames.at(index))
+                   .set("lost", count)
+                   .set("reason", "the file was damaged")
+                   .text(-1);
+  return event;
+}
+
 // Puts the blocks of a stream together, numbered without holes; what makes no sense is left out.
 // Returns the number of items that are missing.
 std::size_t assemble(const Findings& found,
@@ -369,6 +395,7 @@ std::size_t assemble(const Findings& found,
   BlockIndex index;
   std::int64_t items = 0;
   std::int64_t next = 0;
+  std::optional<std::int64_t> lastUs;
   for (const auto& [first, place] : found.blocks->stream(stream)) {
     const bool fits = first >= next &&
                       indexBlock(found.blocks->load(place.id), storage.width(stream), index) &&
@@ -377,10 +404,17 @@ std::size_t assemble(const Findings& found,
       ++recovery.damagedBlocks;
       continue;
     }
+    if (first > next)
+      recovery.events.push_back(
+          lossEvent(stream, first - next, lastUs.value_or(place.t0Us), place.t0Us));
     items += place.n;
     next = first + place.n;
+    lastUs = place.t1Us;
   }
-  return static_cast<std::size_t>(std::max<std::int64_t>(0, expectedItems(found, stream) - items));
+  const std::int64_t expected = expectedItems(found, stream);
+  if (lastUs && expected > next)
+    recovery.events.push_back(lossEvent(stream, expected - next, *lastUs, *lastUs));
+  return static_cast<std::size_t>(std::max<std::int64_t>(0, expected - items));
 }
 
 std::size_t numDifferent(const std::vector<SecondSummary>& a, const std::vector<SecondSummary>& b) {
@@ -444,6 +478,9 @@ void buildProfile(const fs::path& path,
     else
       missing = assemble(found, stream, *storage, recovery);
   }
+  std::stable_sort(recovery.events.begin(),
+                   recovery.events.end(),
+                   [](const RecordingEvent& a, const RecordingEvent& b) { return a.tUs < b.tUs; });
   recovery.lostFrames = lost[0];
   recovery.lostAngles = lost[1];
   recovery.lostTemperatures = lost[2];

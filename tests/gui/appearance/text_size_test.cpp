@@ -1,10 +1,18 @@
 #include "gui/appearance/text_size.h"
 
 #include <QApplication>
+#include <QComboBox>
 #include <QLabel>
+#include <QMenuBar>
+#include <QPushButton>
+#include <QSpinBox>
+#include <QVBoxLayout>
+#include <initializer_list>
 
 #include <gtest/gtest.h>
 
+#include "gui/appearance/captions.h"
+#include "gui/appearance/theme.h"
 #include "testing/testing.h"
 
 namespace palpate::gui::text_size_test {
@@ -39,6 +47,45 @@ TEST(TextSizeTest, ReachesAllWidgetsInProportionAndComesBack) {
   QCoreApplication::processEvents();
   EXPECT_NEAR(plain.font().pointSizeF(), before, 0.01);
   EXPECT_NEAR(large.font().pointSizeF(), 2.0 * before, 0.3);
+}
+
+// Qt passes no font on to children under a style sheet of the application.
+TEST(TextSizeTest, ReachesChildrenUnderTheStyleSheetOfTheTheme) {
+  applyTheme(*qApp, Theme::kLight);
+  const double before = QFontInfo(QApplication::font()).pointSizeF();
+  QWidget window;
+  auto* column = new QVBoxLayout(&window);
+  auto* button = new QPushButton("press", &window);
+  auto* bold = new QPushButton("danger", &window);
+  bold->setProperty("danger", true);
+  auto* field = new QSpinBox(&window);
+  auto* list = new QComboBox(&window);
+  list->addItem("choice");
+  auto* heading = new QLabel("heading", &window);
+  heading->setProperty("role", "heading");
+  auto* caption = sectionHeading("caption", &window);
+  auto* menus = new QMenuBar(&window);
+  menus->addMenu("File");
+  const double captionPt = caption->font().pointSizeF();
+  for (QWidget* each :
+       std::initializer_list<QWidget*>{menus, button, bold, field, list, heading, caption})
+    column->addWidget(each);
+  window.show();
+  QCoreApplication::processEvents();
+  const QSize small = button->sizeHint();
+  for (const int pt : {18, 7, 16}) {
+    applyTextPt(pt);
+    QCoreApplication::processEvents();
+    for (QWidget* each : std::initializer_list<QWidget*>{menus, button, bold, field, list, heading})
+      EXPECT_NEAR(QFontInfo(each->font()).pointSizeF(), pt, 0.5)
+          << each->metaObject()->className() << " at " << pt << " pt";
+    EXPECT_NEAR(caption->font().pointSizeF(), captionPt * pt / before, 0.5) << pt;
+    EXPECT_TRUE(bold->font().bold());
+  }
+  EXPECT_GT(button->sizeHint().height(), small.height());
+  applyTextPt(0);
+  QCoreApplication::processEvents();
+  EXPECT_EQ(button->sizeHint(), small);
 }
 
 }  // namespace

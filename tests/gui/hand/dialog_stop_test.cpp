@@ -7,10 +7,13 @@
 #include <QPushButton>
 #include <QSignalSpy>
 #include <QTest>
+#include <QTimer>
 #include <QVBoxLayout>
 #include <initializer_list>
 
 #include <gtest/gtest.h>
+
+#include "gui/appearance/theme.h"
 
 namespace palpate::gui::dialog_stop_test {
 namespace {
@@ -57,6 +60,42 @@ TEST(DialogStop, AQuestionIsReadWhole) {
   EXPECT_GE(label->height(), label->heightForWidth(label->width()));
   EXPECT_TRUE(question.rect().contains(label->geometry()));
   question.close();
+}
+
+// With the theme's style sheet, which changes what text and buttons take.
+TEST(DialogStop, QuestionsAndNamesAreReadWholeInTheTheme) {
+  applyTheme(*qApp, Theme::kLight);
+  QAction stop("Stop");
+  const DialogStop dialogs(stop, nullptr);
+  QWidget window;
+  window.resize(1200, 700);
+  window.show();
+  QMessageBox question(
+      QMessageBox::Question,
+      "Finish the recording",
+      "A recording is running. Before the hand is disconnected, the recording is "
+      "finished; all that was recorded is kept. The hand is moving: it is stopped.",
+      QMessageBox::NoButton,
+      &window);
+  question.setDefaultButton(question.addButton("Finish the recording", QMessageBox::AcceptRole));
+  question.addButton("Keep recording", QMessageBox::RejectRole);
+  QTimer::singleShot(100, &question, [&] {
+    const auto* label = question.findChild<QLabel*>("qt_msgbox_label");
+    ASSERT_NE(label, nullptr);
+    EXPECT_GE(label->width(), label->minimumSizeHint().width());
+    EXPECT_GE(label->height(), label->heightForWidth(label->width()));
+    question.close();
+  });
+  question.exec();
+  QInputDialog name(&window);
+  name.setLabelText("Name");
+  name.open();
+  QCoreApplication::processEvents();
+  const QPushButton* button = stopOf(name);
+  ASSERT_NE(button, nullptr);
+  EXPECT_GE(button->width(), button->sizeHint().width());
+  EXPECT_LE(button->parentWidget()->sizeHint().width(), name.width());
+  name.close();
 }
 
 TEST(DialogStop, WithoutAHandThereIsNoButton) {

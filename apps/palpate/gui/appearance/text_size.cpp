@@ -1,8 +1,12 @@
 #include "gui/appearance/text_size.h"
 
 #include <QApplication>
+#include <QEvent>
+#include <QPointer>
 #include <QWidget>
 #include <cmath>
+#include <utility>
+#include <vector>
 
 namespace palpate::gui {
 namespace {
@@ -24,13 +28,24 @@ void applyTextPt(int pt) {
   constexpr double kSame = 0.01;
   if (std::abs(wantedPt - beforePt) < kSame) return;
   font.setPointSizeF(wantedPt);
-  QApplication::setFont(font);
   // Widgets with a size of their own take none of the application.
+  std::vector<std::pair<QPointer<QWidget>, double>> ownSizes;
   for (QWidget* widget : QApplication::allWidgets()) {
+    const QFont own = widget->font();
+    if (widget->testAttribute(Qt::WA_SetFont) && own.pointSizeF() > 0.0 &&
+        (own.resolveMask() & QFont::SizeResolved) != 0)
+      ownSizes.emplace_back(widget, own.pointSizeF());
+  }
+  QApplication::setFont(font);
+  // Qt tells windows only, and under a style sheet children don't inherit the font of their window.
+  for (QWidget* widget : QApplication::allWidgets()) {
+    QEvent changed(QEvent::ApplicationFontChange);
+    QApplication::sendEvent(widget, &changed);
+  }
+  for (const auto& [widget, sizePt] : ownSizes) {
+    if (!widget) continue;
     QFont own = widget->font();
-    if (!widget->testAttribute(Qt::WA_SetFont) || own.pointSizeF() <= 0.0) continue;
-    if ((own.resolveMask() & QFont::SizeResolved) == 0) continue;
-    own.setPointSizeF(own.pointSizeF() * wantedPt / beforePt);
+    own.setPointSizeF(sizePt * wantedPt / beforePt);
     widget->setFont(own);
   }
 }

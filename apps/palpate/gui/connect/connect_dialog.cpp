@@ -8,6 +8,7 @@
 #include <QLabel>
 #include <QPushButton>
 #include <QRadioButton>
+#include <QScreen>
 #include <QShowEvent>
 #include <QStackedWidget>
 #include <QVBoxLayout>
@@ -17,6 +18,7 @@
 #include "gui/connect/replay_page.h"
 #include "gui/connect/scene_page.h"
 #include "gui/connect/stream_page.h"
+#include "gui/widgets/content_scroll.h"
 #include "gui/widgets/state_mark.h"
 
 namespace palpate::gui {
@@ -24,6 +26,7 @@ namespace {
 
 constexpr QSize kConnectDialogUsualSize(840, 500);
 constexpr int kKindsWidth = 236;          // [px]
+constexpr int kLeastKindsHeight = 160;    // [px]
 constexpr int kConnectDialogMargin = 20;  // [px]
 
 struct KindText {
@@ -98,7 +101,7 @@ ConnectDialog::ConnectDialog(const ConnectChoices& choices, PortScan& scan, QWid
   fill(last_);
   pages_->setCurrentIndex(static_cast<int>(connectDialogIndexOf(kind_)));
   refresh();
-  resize(kConnectDialogUsualSize);
+  resize(kConnectDialogUsualSize.expandedTo(sizeHint()).boundedTo(screen()->availableSize()));
 }
 
 ConnectDialog::~ConnectDialog() {
@@ -114,7 +117,6 @@ QWidget* ConnectDialog::makeKinds() {
   const ThemeColors& colors = colorsOf(theme_);
   side->setStyleSheet(QString("#connectKinds { background: %1; border-right: 1px solid %2; }")
                           .arg(colors.window.name(), colors.border.name()));
-  side->setFixedWidth(kKindsWidth);
   auto* column = new QVBoxLayout(side);
   column->setContentsMargins(16, kConnectDialogMargin, 16, 14);
   column->setSpacing(3);
@@ -143,7 +145,11 @@ QWidget* ConnectDialog::makeKinds() {
   calm->setWordWrap(true);
   calm->setProperty("role", "muted");
   column->addWidget(calm);
-  return side;
+  // Names are never cut, however large the text is; with little height the column scrolls.
+  side->setMinimumWidth(std::max(kKindsWidth, column->minimumSize().width()));
+  auto* scroll = new ContentScroll(side, QSize(0, kLeastKindsHeight), this);
+  scroll->setSizePolicy(QSizePolicy::Fixed, QSizePolicy::Expanding);
+  return scroll;
 }
 
 QWidget* ConnectDialog::makeSaved() {

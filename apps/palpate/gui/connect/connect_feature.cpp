@@ -146,7 +146,8 @@ void ConnectFeature::fillMenu() {
             [&windowState, connection] { windowState.connectTo(connection); });
   };
   const Connection last = loadConnection(windowState.settings);
-  if (problemOf(last).isEmpty()) add(menu, "Again: " + describe(last), last);
+  if (hasLastConnection(windowState.settings) && problemOf(last).isEmpty())
+    add(menu, "Again: " + describe(last), last);
   for (const QString& name : connectionNames(windowState.settings))
     if (const auto saved = namedConnection(windowState.settings, name)) add(menu, name, *saved);
   menu->addAction(actions_.connectHand);

@@ -4,10 +4,16 @@
 #include <QGridLayout>
 #include <QLineEdit>
 #include <QSignalBlocker>
+#include <QTimer>
 
 #include "gui/widgets/two_line_delegate.h"
 
 namespace palpate::gui {
+namespace {
+
+constexpr int kTypingPauseMs = 800;
+
+}  // namespace
 
 PortField::PortField(const QString& title,
                      const QString& whenEmpty,
@@ -56,6 +62,12 @@ PortField::PortField(const QString& title,
     emit entered();
   });
   connect(box_->lineEdit(), &QLineEdit::editingFinished, this, &PortField::entered);
+  // A typed port is checked when the user pauses, too.
+  auto* pause = new QTimer(this);
+  pause->setSingleShot(true);
+  pause->setInterval(kTypingPauseMs);
+  connect(box_->lineEdit(), &QLineEdit::textEdited, pause, qOverload<>(&QTimer::start));
+  connect(pause, &QTimer::timeout, this, &PortField::entered);
 }
 
 // Disconnects the box first: when it is destroyed with the keyboard focus, it emits that typing has

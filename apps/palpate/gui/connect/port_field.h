@@ -47,7 +47,7 @@ class PortField : public QWidget {
  signals:
   // port() has changed.
   void changed();
-  // The user has finished typing or has chosen a port.
+  // The user has finished typing, pauses in it, or has chosen a port.
   void entered();
 
  private:

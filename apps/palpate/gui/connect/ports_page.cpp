@@ -129,6 +129,7 @@ void PortsPage::setPorts(const QString& tactile, const QString& motion) {
 
 QString PortsPage::problem() const {
   const QString tactile = keyOf(tactile_->port());
+  if (!swapText().isEmpty()) return "Swap the ports, or choose others.";
   if (tactile.isEmpty() || tactile != keyOf(motion_->port())) return {};
   return "These are two names of the same port: tactile and motion controller need different ones.";
 }
@@ -224,6 +225,8 @@ void PortsPage::refresh() {
   const bool running = scan_.running();
   const auto answered = static_cast<int>(answers_.size());
   const auto all = answered + static_cast<int>(asking_.size());
+  // A disabled button would pass the keyboard focus on to the choice of another kind of hand.
+  if (running && look_->hasFocus()) tactile_->box()->setFocus();
   look_->setEnabled(!running);
   progress_->setVisible(running);
   // With no known port, the bar shows a busy state.

@@ -8,6 +8,7 @@
 #include <QLayout>
 #include <QMessageBox>
 #include <QPushButton>
+#include <algorithm>
 
 #include "gui/widgets/dialog_properties.h"
 
@@ -74,6 +75,8 @@ void DialogStop::showIn(QDialog& dialog) {
     grid->addWidget(bar, grid->rowCount(), 0, 1, grid->columnCount());
   else
     layout->setMenuBar(bar);
+  // No layout counts the width of its menu bar.
+  dialog.setMinimumWidth(std::max(dialog.minimumWidth(), bar->sizeHint().width()));
 }
 
 }  // namespace palpate::gui

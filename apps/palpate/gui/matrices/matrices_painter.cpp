@@ -73,20 +73,33 @@ void paintMasked(QPainter& painter, const QRectF& square, const ThemeColors& col
   painter.drawLine(cross.bottomLeft(), cross.topRight());
 }
 
+// Each long word as its first letters and a full stop: "0 proximal" becomes "0 prox.".
+QString abbreviated(const QString& name) {
+  constexpr qsizetype kLongWord = 6;
+  constexpr qsizetype kKept = 4;
+  QStringList words = name.split(' ');
+  for (QString& word : words)
+    if (word.size() > kLongWord) word = word.left(kKept) + '.';
+  return words.join(' ');
+}
+
 void matricesPainterPaintNames(QPainter& painter,
                                const MatricesGeometry& geometry,
                                const HandDescription& hand,
                                const MatricesPictureOptions& options) {
   const QFontMetricsF metrics(pictureFont(options));
+  const auto fits = [&](const QString& name, const QRectF& rect) {
+    return metrics.horizontalAdvance(name) <= rect.width();
+  };
   painter.setPen(colorsOf(options.theme).muted);
   for (std::size_t m = 0; m < geometry.numMatrices(); ++m) {
     const QRectF rect = geometry.nameRect(m);
     QString name = QString::fromStdString(hand.matrixName(m));
-    if (metrics.horizontalAdvance(name) > rect.width())
-      name = QString::fromStdString(hand.matrices[m].shortName);
-    // Where there is no room, whole words are left out; the place tells proximal from distal.
-    while (name.contains(' ') && metrics.horizontalAdvance(name) > rect.width())
-      name = name.section(' ', 0, -2);
+    if (!fits(name, rect)) name = QString::fromStdString(hand.matrices[m].shortName);
+    // Where there is no room, long words are abbreviated; where that isn't enough, whole words are
+    // left out.
+    if (!fits(name, rect)) name = abbreviated(name);
+    while (name.contains(' ') && !fits(name, rect)) name = name.section(' ', 0, -2);
     painter.drawText(rect.adjusted(0, 0, 0, -3),
                      Qt::AlignHCenter | Qt::AlignBottom | Qt::TextDontClip,
                      metrics.elidedText(name, Qt::ElideRight, rect.width()));

@@ -11,18 +11,22 @@
 #include <QLabel>
 #include <QLineEdit>
 #include <QPushButton>
+#include <QScreen>
 #include <QSpinBox>
 #include <QVBoxLayout>
+#include <algorithm>
 
 #include "gui/appearance/captions.h"
 #include "gui/appearance/text_size.h"
 #include "gui/source/recording_settings.h"
+#include "gui/widgets/content_scroll.h"
 
 namespace palpate::gui {
 namespace {
 
 constexpr int kSettingsMargin = 20;  // [px]
 constexpr int kSettingsWidth = 560;  // [px]
+constexpr int kSettingsFrame = 60;   // [px] of the window manager and of a panel
 
 // Of all choices, the index of one.
 template <class Choices, class Choice>
@@ -74,7 +78,9 @@ SettingsDialog::SettingsDialog(const WindowChoices& choices,
   askForFolder = [this](const QString& title, const QString& begin) {
     return QFileDialog::getExistingDirectory(this, title, begin);
   };
-  auto* form = new QFormLayout;
+  auto* fields = new QWidget;
+  auto* form = new QFormLayout(fields);
+  form->setContentsMargins(0, 0, 0, 0);
   form->setHorizontalSpacing(14);
   form->setVerticalSpacing(8);
   addLook(*form);
@@ -86,11 +92,13 @@ SettingsDialog::SettingsDialog(const WindowChoices& choices,
   auto* page = new QVBoxLayout(this);
   page->setContentsMargins(kSettingsMargin, kSettingsMargin, kSettingsMargin, 14);
   page->setSpacing(14);
-  page->addLayout(form);
-  page->addStretch(1);
+  // With large text on a small screen the fields scroll: OK and Cancel stay in reach.
+  constexpr int kLeastHeight = 160;  // [px]
+  page->addWidget(new ContentScroll(fields, QSize(0, kLeastHeight)), 1);
   page->addWidget(buttons_);
   fill(choices);
-  resize(kSettingsWidth, sizeHint().height());
+  const QSize most = screen()->availableSize() - QSize(0, kSettingsFrame);
+  resize(QSize(std::max(kSettingsWidth, sizeHint().width()), sizeHint().height()).boundedTo(most));
 }
 
 void SettingsDialog::addLook(QFormLayout& form) {

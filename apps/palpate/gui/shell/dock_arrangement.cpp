@@ -104,6 +104,7 @@ const DockSpec* DockArrangement::leftWhileLive() const {
 void DockArrangement::setPlace(Kind place) {
   if (placed_ && place == place_) return;
   if (placed_ && place_ != Kind::kNothing) layouts_[place_] = window_.saveState();
+  const QSize before = window_.size();
   std::vector<bool> shown;
   for (const DockSpec& offer : offers_) shown.push_back(!offer.dock->isHidden());
   placed_ = true;
@@ -119,11 +120,10 @@ void DockArrangement::setPlace(Kind place) {
     offer.dock->toggleViewAction()->setEnabled(there || offer.everywhere);
     if (offer.everywhere) offer.dock->setVisible(shown[i]);
   }
-  keepWindowSize(leftWhileLive() ? leftWhileLive()->dock : nullptr);
+  keepWindowSize(before, leftWhileLive() ? leftWhileLive()->dock : nullptr);
 }
 
-void DockArrangement::keepWindowSize(Dock* inFront) {
-  const QSize most = window_.size();
+void DockArrangement::keepWindowSize(QSize most, Dock* inFront) {
   const auto fits = [&] {
     window_.layout()->invalidate();
     const QSize least = window_.layout()->minimumSize();
@@ -144,6 +144,15 @@ void DockArrangement::keepWindowSize(Dock* inFront) {
         window_.tabifyDockWidget(docks.front(), docks[i]);
   }
   if (inFront && !inFront->isHidden()) inFront->raise();
+  // It may have grown before its docks became tabs, or grow until they have their sizes.
+  const auto shrink = [this, most] {
+    const QSize now = window_.size();
+    const bool larger = now.width() > most.width() || now.height() > most.height();
+    if (larger && window_.isVisible() && !window_.isMaximized() && !window_.isFullScreen())
+      window_.resize(now.boundedTo(most));
+  };
+  shrink();
+  QTimer::singleShot(0, this, shrink);
 }
 
 void DockArrangement::placeDocks() {
@@ -185,6 +194,8 @@ void DockArrangement::placeSides() {
 void DockArrangement::reset() {
   if (place_ == Kind::kNothing) return layouts_.clear();
   const bool live = place_ == Kind::kLive;
+  // A window grows at once when a dock doesn't fit.
+  const QSize before = window_.size();
   placeDocks();
   const double share = live ? kRightShareLive : kRightShare;
   const int narrowest = live ? kNarrowestRightLive : kNarrowestRight;
@@ -197,7 +208,7 @@ void DockArrangement::reset() {
   if (bottom())
     window_.resizeDocks(
         {bottom()->dock}, {static_cast<int>(window_.height() * kBottomShare)}, Qt::Vertical);
-  keepWindowSize(nullptr);
+  keepWindowSize(before, nullptr);
 }
 
 void DockArrangement::hideAll() {
@@ -251,13 +262,14 @@ void DockArrangement::toggle(const DockSpec& offer) {
 
 void DockArrangement::bringToFront(const DockSpec& offer) {
   // Measured before the dock takes its place.
+  const QSize windowBefore = window_.size();
   Room before;
   if (const Dock* beside = neighbour(*offer.dock)) before.widthBefore = beside->width();
   if (offer.shareOfHeight > 0.0 && bottom()) before.bottomBefore = bottom()->dock->height();
   offer.dock->show();
   offer.dock->raise();
   offer.dock->toggleViewAction()->setChecked(true);
-  keepWindowSize(offer.dock);
+  keepWindowSize(windowBefore, offer.dock);
   makeRoomFor(offer, before);
 }
 
@@ -285,6 +297,11 @@ void DockArrangement::makeRoomFor(const DockSpec& offer, const Room& before) {
     // Without room for both, they become tabs.
     window_.tabifyDockWidget(below, dock);
     dock->raise();
+    QTimer::singleShot(0, this, [this, dock, room = before]() mutable {
+      if (dock->isFloating() || dock->isHidden()) return;
+      room.bottom = heightOfBottom(*dock);
+      rooms_.try_emplace(dock, room);
+    });
     return;
   }
   // Runs after the dock has got its place.
@@ -301,7 +318,7 @@ void DockArrangement::makeRoomFor(const DockSpec& offer, const Room& before) {
     QTimer::singleShot(0, this, [this, dock, below, room = before]() mutable {
       if (dock->isFloating() || dock->isHidden()) return;
       room.width = dock->width();
-      if (room.bottomBefore > 0) room.bottom = below->height();
+      if (room.bottomBefore > 0) room.bottom = heightOfBottom(*dock);
       rooms_.try_emplace(dock, room);
     });
   });
@@ -329,11 +346,19 @@ bool DockArrangement::eventFilter(QObject* watched, QEvent* event) {
     const auto at = rooms_.find(qobject_cast<Dock*>(watched));
     if (at != rooms_.end()) {
       at->second.lastWidth = at->first->width();
-      at->second.lastBottom = bottom() ? bottom()->dock->height() : 0;
+      at->second.lastBottom = heightOfBottom(*at->first);
       giveRoomBack(*at->first);
     }
   }
   return QObject::eventFilter(watched, event);
+}
+
+// A tab that isn't in front keeps the height that it had when it was.
+int DockArrangement::heightOfBottom(const Dock& dock) const {
+  if (!bottom()) return 0;
+  Dock* below = bottom()->dock;
+  return window_.tabifiedDockWidgets(below).contains(const_cast<Dock*>(&dock)) ? dock.height()
+                                                                               : below->height();
 }
 
 void DockArrangement::giveRoomBack(const Dock& dock) {

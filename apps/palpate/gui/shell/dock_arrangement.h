@@ -70,10 +70,13 @@ class DockArrangement : public QObject {
   void toggle(const DockSpec& offer);
   void bringToFront(const DockSpec& offer);
   // Docks above each other become tabs when the window is too small for all of them: Qt would
-  // enlarge it, beyond the screen. `inFront` is the tab to be seen; null: any.
-  void keepWindowSize(Dock* inFront);
+  // enlarge it, beyond the screen. `most` is the size that the window may have [px]; `inFront` is
+  // the tab to be seen, null: any.
+  void keepWindowSize(QSize most, Dock* inFront);
   void makeRoomFor(const DockSpec& offer, const Room& before);
   // Gives the room back that makeRoomFor() took, unless the user has changed it since.
+  // Height of the place at the bottom, whichever of its tabs is in front: that dock or `dock` [px].
+  int heightOfBottom(const Dock& dock) const;
   void giveRoomBack(const Dock& dock);
   // Widens a dock up to `widthPx`, as far as the views in the centre stay side by side, but at
   // least so far that its content isn't cut.

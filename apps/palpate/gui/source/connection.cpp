@@ -146,6 +146,13 @@ Connection loadConnection(const QSettings& settings) {
   return connectionIn(settings, kLastConnection);
 }
 
+bool hasLastConnection(QSettings& settings) {
+  settings.beginGroup(kLastConnection);
+  const bool has = !settings.childKeys().isEmpty();
+  settings.endGroup();
+  return has;
+}
+
 void saveConnection(const Connection& connection, QSettings& settings) {
   storeConnection(connection, settings, kLastConnection);
 }

@@ -1,5 +1,7 @@
 #include "gui/source/opened_recording.h"
 
+#include <QJsonDocument>
+#include <QJsonObject>
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -112,6 +114,32 @@ void readThrough(OpenedRecording& opened, const Progress& progress) {
     all.insert(all.end(), rows.begin(), rows.end() - 1);
   }
   opened.table = SignalTable(opened.numMatrices(), std::move(all));
+}
+
+// Spans of lost frames that are too short for the rule of gaps (gap_detector.h), but that the
+// recording itself tells of, are gaps as well.
+void addGapsOfEvents(OpenedRecording& opened) {
+  const Profile& profile = opened.profile;
+  std::vector<Gap>& gaps = opened.timing.gaps;
+  for (const RecordingEvent& event : opened.events.events) {
+    if (event.kind != "gap" || event.t1Us <= event.tUs) continue;
+    const QJsonValue stream =
+        QJsonDocument::fromJson(QByteArray::fromStdString(event.json)).object()["stream"];
+    if (stream.toString("tactile") != "tactile") continue;
+    const std::optional<std::size_t> before = profile.frameAt(event.tUs);
+    if (!before || *before + 1 >= profile.numFrames()) continue;
+    const std::int64_t beginUs = profile.frameTimeUs(*before);
+    const std::int64_t endUs = profile.frameTimeUs(*before + 1);
+    constexpr double kLostIntervals = 1.5;
+    const double seconds = static_cast<double>(endUs - beginUs) / kUsPerS;
+    if (opened.timing.rateHz > 0.0 && seconds < kLostIntervals / opened.timing.rateHz) continue;
+    const bool known =
+        std::any_of(gaps.begin(), gaps.end(), [&](const Gap& gap) { return gap.frame == *before; });
+    if (!known) gaps.push_back({*before, seconds});
+  }
+  std::sort(gaps.begin(), gaps.end(), [](const Gap& a, const Gap& b) { return a.frame < b.frame; });
+  opened.gapFrames.clear();
+  for (const Gap& gap : gaps) opened.gapFrames.push_back(gap.frame);
 }
 
 void readTheirEvents(OpenedRecording& opened) {
@@ -239,6 +267,7 @@ OpenedRecordingPtr makeOpenedRecording(std::filesystem::path path,
                                        std::size_t longFrom) {
   const auto opened = computed(std::move(path), std::move(profile), {}, progress, longFrom);
   readTheirEvents(*opened);
+  addGapsOfEvents(*opened);
   return opened;
 }
 
@@ -250,6 +279,7 @@ OpenedRecordingPtr makeOpenedRecording(std::filesystem::path path,
       std::move(path), std::move(readable.profile), std::move(readable.damage), progress, longFrom);
   opened->events = {std::move(readable.events), readable.damagedEvents};
   opened->meta = std::move(readable.meta);
+  addGapsOfEvents(*opened);
   return opened;
 }
 
