@@ -97,7 +97,7 @@ void addRecorderAlarms(const RecorderStatus& recorder,
   if (recorder.lost > 0)
     alarms.push_back({AlarmKind::kOverflow,
                       std::to_string(recorder.lost) +
-                          " items are missing in the recording; its gap events tell which"});
+                          " items are missing in the recording; its gap events show where"});
 }
 
 // Text about a low rate for the operator: the problem, and what to do.

@@ -120,7 +120,7 @@ void GraspStateMachine::requireMeasurableLimit(const GraspRequest& request) cons
     text += (text.empty() ? "" : "; ") + unfelt.why;
   if (!text.empty())
     refuse("refused: a limit of " + std::to_string(maxLimitOf(request)) +
-           " counts would not be felt: " + text);
+           " counts can't be measured: " + text);
 }
 
 bool GraspStateMachine::isOverLimit() const noexcept {

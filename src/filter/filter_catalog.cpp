@@ -240,7 +240,7 @@ std::vector<FilterKind> temporalKinds() {
          0,
          {},
          "smoothed over the whole recording, as rts; else the frames up to now"}},
-       "Expects a taxel to stay as it is: smooth, at the cost of some delay.",
+       "Assumes that a taxel keeps its value: smooth, with some delay.",
        "begins at the first frame, and again after a gap",
        "study 2.1.2; Q 0.05 and R 0.5 give the steady gain 0.270156"},
       {"kelvin-voigt",

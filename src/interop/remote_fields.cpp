@@ -38,7 +38,7 @@ void setRecorderFields(Json& fields, const RecorderStatus& recorder) {
 RemoteAnswer stopAnswer(const RecordingReport& report) {
   if (report.paths.empty())
     return RemoteAnswer::refused(
-        "no_frames", report.message.empty() ? "no frame came while it ran" : report.message);
+        "no_frames", report.message.empty() ? "no frame arrived while it ran" : report.message);
   RemoteAnswer answer;
   answer.message = report.message;
   Json files = Json::array();
@@ -93,7 +93,7 @@ std::optional<RemoteAnswer> startResult(const RecorderStatus& recorder,
   const std::string time = fixedText(limits.firstFrameS, 1) + " s";
   if (recorder.frames > 0)
     return RemoteAnswer::refused("disk", "no frame was on disk within " + time);
-  return RemoteAnswer::refused("no_frames", "no frame came within " + time);
+  return RemoteAnswer::refused("no_frames", "no frame arrived within " + time);
 }
 
 }  // namespace palpate

@@ -136,7 +136,7 @@ std::vector<std::string> learningNotes(const SampleSet& samples) {
     if (counts[c] == 1) single.push_back(samples.classes[c]);
   if (!constant.empty()) notes.push_back("never vary, so they don't help: " + listOf(constant));
   if (!single.empty())
-    notes.push_back("one grasp only, which is too few to tell how they differ: " + listOf(single));
+    notes.push_back("only one grasp, which is too few to estimate the scatter: " + listOf(single));
   return notes;
 }
 

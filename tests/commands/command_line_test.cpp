@@ -1,5 +1,7 @@
 #include "commands/command_line.h"
 
+#include <sstream>
+
 #include "commands/commands.h"
 #include "commands/palpate_program.h"
 

@@ -61,7 +61,8 @@ ImportMapping importMappingOf(const CommandLine& given) {
   if (const auto start = given.text("start")) {
     mapping.time.startUs = parseDate(*start);
     if (!mapping.time.startUs)
-      throw UsageError("--start " + inQuotes(*start) + " is no date such as 2026-11-22T10:31:05Z");
+      throw UsageError("--start " + inQuotes(*start) +
+                       " is not a date such as 2026-11-22T10:31:05Z");
   }
   if (given.has("matrix")) {
     mapping.matrices.clear();

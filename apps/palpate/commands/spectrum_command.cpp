@@ -94,9 +94,10 @@ SeriesChoice signalNamed(const std::string& text,
                          const SensorLayout& layout,
                          const std::string& file) {
   const auto refuse = [&]() -> UsageError {
-    return UsageError("--coherence: \"" + text +
-                      "\" is no signal; a signal is MATRIX:NAME, as 1:mean or hand:sum, or a taxel "
-                      "MATRIX:X:Y, as 5:2:9");
+    return UsageError(
+        "--coherence: \"" + text +
+        "\" is not a signal; a signal is MATRIX:NAME, as 1:mean or hand:sum, or a taxel "
+        "MATRIX:X:Y, as 5:2:9");
   };
   std::vector<std::string> parts;
   for (std::size_t begin = 0;;) {

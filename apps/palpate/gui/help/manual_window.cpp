@@ -107,7 +107,7 @@ ManualWindow::ManualWindow(const std::filesystem::path& folder, Theme theme, QWi
   contents_->setAccessibleName("Contents");
   results_->setWordWrap(true);
   results_->setFrameShape(QFrame::NoFrame);
-  results_->setAccessibleName("Places found");
+  results_->setAccessibleName("Search results");
   left_->addWidget(contents_);
   left_->addWidget(results_);
   auto* halves = new QSplitter(this);
