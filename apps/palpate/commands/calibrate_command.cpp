@@ -27,16 +27,12 @@ constexpr std::array kKinds = {
     Kind{"noise",
          "measures the noise floor of an unloaded hand over its temperature",
          &calibrateNoise},
-    Kind{"step",
-         "fits gain, drift and time constants to each loading step",
-         &calibrateStep},
+    Kind{"step", "fits gain, drift and time constants to each loading step", &calibrateStep},
     Kind{"pressure",
          "fits pressure to gain and temperature, from a table of recordings",
          &calibratePressure},
     Kind{"sensitivity", "measures gain against the sensor's sensitivity", &calibrateSensitivity},
-    Kind{"tare",
-         "measures the unloaded readings and notes them in the recording",
-         &calibrateTare},
+    Kind{"tare", "measures the unloaded readings and notes them in the recording", &calibrateTare},
     Kind{"apply", "computes pressure and force of a recording by a calibration", &calibrateApply},
 };
 
