@@ -169,6 +169,8 @@ done)";
       {"palpate calibrate ", kinds},
       {"palpate help recov", {"recover"}},
       {"palpate help calibrate ", kinds},
+      {"palpate remote st", {"start", "status", "stop"}},
+      {"palpate kinematics --hand sd", {"sdh2"}},
       {"palpate compare --align ", {"contact", "start", "clock"}},
       {"palpate calibrate step --loss h", {"huber"}},
       {"palpate info ", {"a.dsa", "B.DSA", "c.palpate", "f.h5", "g.mcap", "place"}},

@@ -66,7 +66,7 @@ _palpate() {
         patterns = "|".join(quoted(f"{command.name} {each}") for each in option.spellings())
         action = bash_action(option.choices, option.kind, option.endings or ())
         lines.append(f"    {patterns}) {action}; return ;;")
-    lines += ["  esac", "  $split && return", "", "  local options= endings= kinds=", "  case $command in"]
+    lines += ["  esac", "  $split && return", "", "  local options= endings= kinds= requests=", "  case $command in"]
     for command in program.all():
         options = " ".join(each for option in command.options for each in option.spellings())
         if command.name in kinds:
@@ -75,6 +75,7 @@ _palpate() {
             continue
         endings = f" endings='@({'|'.join(command.endings)})'" if command.endings else ""
         ports = " endings=ports" if command.ports else ""
+        ports += f" requests={quoted(' '.join(command.requests))}" if command.requests else ""
         more = " --version" if not command.name else ""
         lines.append(f"    {quoted(command.name)}) options={quoted(options + more)}{endings}{ports} ;;")
     lines += ["  esac", f"""  if [[ $cur == -* ]]; then
@@ -83,6 +84,10 @@ _palpate() {
   fi
   ((cword == 1)) && _palpate_words 'help {names}'
   [[ -n $kinds ]] && _palpate_words "$kinds"
+  if [[ -n $requests ]]; then
+    ((cword == 2)) && _palpate_words "$requests"
+    return 0
+  fi
   case $endings in
     '') ((cword == 1)) || [[ -n $kinds ]] || _filedir -d ;;
     ports) _palpate_ports ;;
@@ -124,7 +129,8 @@ def zsh_spec(option):
 
 
 def zsh_arguments(command):
-    words = "_palpate_ports" if command.ports else \
+    words = f"({' '.join(command.requests)})" if command.requests else \
+        "_palpate_ports" if command.ports else \
         zsh_files(command.endings) if command.endings else "_files -/"
     specs = [spec for option in command.options for spec in zsh_spec(option)]
     return " \\\n        ".join(["_arguments -s -S"] + specs + [quoted(f"*:file:{words}")])
@@ -231,7 +237,9 @@ complete -c palpate -n '__palpate_first help' -a '{names}'"""]
             continue
         condition = f"__palpate_in {command.name}".strip()
         lines += [fish_option(condition, option) for option in command.options]
-        if command.ports:
+        if command.requests:
+            lines.append(f"complete -c palpate -n '__palpate_first {command.name}' -a {quoted(' '.join(command.requests))}")
+        elif command.ports:
             lines.append(f"complete -c palpate -n {quoted(condition)} -F -a {quoted(PORTS)}")
         elif command.endings:
             lines.append(f"complete -c palpate -n {quoted(condition)} -a {quoted(fish_files(command.endings))}")
