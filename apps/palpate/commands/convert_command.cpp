@@ -24,11 +24,11 @@ namespace fs = std::filesystem;
 namespace {
 
 std::string damagedText(const std::string& in, std::size_t damaged) {
-  return in + ": " + std::to_string(damaged) + " damaged events were left out";
+  return in + ": " + counted(damaged, "damaged event") + " left out";
 }
 
 std::string doneText(const fs::path& out, const Profile& profile) {
-  return out.string() + ": " + std::to_string(profile.numFrames()) + " frames";
+  return out.string() + ": " + counted(profile.numFrames(), "frame");
 }
 
 // Reports the time stamps that a .dsa file could not store unchanged.

@@ -85,9 +85,9 @@ int filterCommand(const Arguments& words) {
   line.wipe();
   if (recipePath) writeRecipe(*recipePath, recipe, given.has("force"));
   if (!given.quiet())
-    std::printf("%s: %zu frames through %s; %s\n",
+    std::printf("%s: %s filtered by %s; %s\n",
                 out.c_str(),
-                filtered.numFrames(),
+                counted(filtered.numFrames(), "frame").c_str(),
                 recipeText(recipe).c_str(),
                 latencyText(recipe, timingOf(profile).rateHz).c_str());
   if (events.damaged == 0) return kDone;

@@ -229,11 +229,11 @@ std::string plainText(const std::string& file,
     gaps += (&gap == &timing.gaps.front() ? ": " : ", ") + fixedText(gap.seconds, 1) +
             " s after frame " + std::to_string(gap.frame);
   text += row("gaps", gaps);
-  text += row("joint angles", std::to_string(profile.numAngles()) + " samples");
-  text += row("temperatures", std::to_string(profile.numTemperatures()) + " samples");
+  text += row("joint angles", counted(profile.numAngles(), "sample"));
+  text += row("temperatures", counted(profile.numTemperatures(), "sample"));
   text += row("largest value",
-              numberText(values.maximum) + ", " + std::to_string(values.saturatedFrames) +
-                  " frames with a saturated taxel (>= " + profile.hand().saturationText() + ")");
+              numberText(values.maximum) + ", " + counted(values.saturatedFrames, "frame") +
+                  " with a saturated taxel (>= " + profile.hand().saturationText() + ")");
   text += row("matrices", std::to_string(profile.layout().numMatrices()));
   text += matricesText(profile);
   text += notesText(recording);

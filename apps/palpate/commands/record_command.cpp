@@ -184,10 +184,10 @@ std::string recordJsonText(const RecordingReport& report, const DeviceStatus& de
 std::string lineText(const RecordingReport& report, const DeviceStatus& device) {
   std::string line = report.paths.front().string();
   if (report.paths.size() > 1) line += " and " + std::to_string(report.paths.size() - 1) + " more";
-  return line + ": " + std::to_string(report.frames) + " frames in " +
+  return line + ": " + counted(static_cast<std::uint64_t>(report.frames), "frame") + " in " +
          fixedText(report.durationS, 1) + " s (" + fixedText(report.meanRateHz, 1) + "/s), " +
-         std::to_string(report.angles) + " angles, " + std::to_string(report.temperatures) +
-         " temperatures; " +
+         counted(static_cast<std::uint64_t>(report.angles), "angle sample") + ", " +
+         counted(static_cast<std::uint64_t>(report.temperatures), "temperature sample") + "; " +
          std::to_string(static_cast<std::int64_t>(device.tactile.lost) + report.lost) + " lost, " +
          counted(badChecksumsOf(device), "bad checksum") + ", " +
          counted(static_cast<std::uint64_t>(report.gaps), "gap");
