@@ -104,6 +104,8 @@ TEST(Program, WrongUsageIsExitCodeTwoInOneLine) {
   expectOneLineError(palpate({"inof", "x"}), 2, {"inof", "did you mean 'info'"});
   expectOneLineError(palpate({"xyzzyxyzzy"}), 2, {"xyzzyxyzzy", "--help"});
   expectOneLineError(palpate({"info"}), 2, {"usage: palpate info PATH"});
+  expectOneLineError(palpate({"info", "--jsn", "x"}), 2, {"--jsn", "'palpate info --help'"});
+  expectOneLineError(palpate({"help", "inof"}), 2, {"no command is called", "'info'"});
   expectOneLineError(palpate({"info", "a", "--jsom"}), 2, {"--jsom"});
   expectOneLineError(palpate({"signals", "a", "--matrix", "-1"}), 2, {"--matrix", "'-1'"});
   expectOneLineError(palpate({"--unknown"}), 2, {"--unknown"});

@@ -1,6 +1,7 @@
 #include "commands/command_line.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cerrno>
 #include <cmath>
 #include <cstdio>
@@ -31,6 +32,15 @@ std::string inOneLine(const std::string& synopsis) {
     at = end + 1;
   }
   return line;
+}
+
+// The words of a synopsis that name its command: "palpate calibrate noise".
+std::string commandIn(const std::string& synopsis) {
+  std::istringstream words(synopsis);
+  std::string command;
+  for (std::string word; words >> word && std::islower(static_cast<unsigned char>(word[0]));)
+    command += (command.empty() ? "" : " ") + word;
+  return command;
 }
 
 po::options_description described(const CommandSpec& spec) {
@@ -130,7 +140,8 @@ CommandLine::CommandLine(const CommandSpec& spec, const std::vector<std::string>
         values_[name].insert(values_[name].end(), option.value.begin(), option.value.end());
     }
   } catch (const po::error& error) {
-    throw UsageError(error.what());
+    throw UsageError(error.what() +
+                     ("; '" + commandIn(spec.synopsis) + " --help' lists the options"));
   }
   if (has("help")) {
     commandLineShowHelp(spec, options);

@@ -58,16 +58,17 @@ std::size_t distance(std::string_view a, std::string_view b) {
 }
 
 // Throws for a first word that is neither a command nor a file: it was probably meant as a command.
-void refuseMistypedCommand(const std::string& word) {
+void refuseMistypedCommand(const std::string& word, bool mayBeFile = true) {
   std::error_code ignored;
-  if (word.starts_with('-') || word.find_first_of("./") != std::string::npos ||
-      fs::exists(word, ignored))
+  if (mayBeFile && (word.starts_with('-') || word.find_first_of("./") != std::string::npos ||
+                    fs::exists(word, ignored)))
     return;
   const auto& all = allCommands();
   const auto nearest = std::min_element(all.begin(), all.end(), [&](const auto& a, const auto& b) {
     return distance(word, a.name) < distance(word, b.name);
   });
-  std::string message = "no command and no file is called '" + word + "'";
+  std::string message =
+      (mayBeFile ? "no command and no file is called '" : "no command is called '") + word + "'";
   if (distance(word, nearest->name) <= 2)
     message += "; did you mean '" + std::string(nearest->name) + "'?";
   else
@@ -86,7 +87,7 @@ int dispatch(const Arguments& words, OtherCommands others, NeedsOthers needsOthe
       rest.emplace_back("--help");
       for (const Command& command : allCommands())
         if (words[1] == command.name) return runCommand(command, rest);
-      refuseMistypedCommand(words[1]);
+      refuseMistypedCommand(words[1], false);
     }
     if (words[0] == "--help" || words[0] == "-h" || words[0] == "help") {
       commandsShowHelp();
