@@ -60,8 +60,8 @@ std::size_t distance(std::string_view a, std::string_view b) {
 // Throws for a first word that is neither a command nor a file: it was probably meant as a command.
 void refuseMistypedCommand(const std::string& word, bool mayBeFile = true) {
   std::error_code ignored;
-  if (mayBeFile && (word.starts_with('-') || word.find_first_of("./") != std::string::npos ||
-                    fs::exists(word, ignored)))
+  if (word.starts_with('-')) return;
+  if (mayBeFile && (word.find_first_of("./") != std::string::npos || fs::exists(word, ignored)))
     return;
   const auto& all = allCommands();
   const auto nearest = std::min_element(all.begin(), all.end(), [&](const auto& a, const auto& b) {
