@@ -85,8 +85,8 @@ void GraspStateMachine::begin(const GraspRequest& request,
       refuse("refused: a " +
              std::string(request.mode == GraspMode::kSlip ? "slip-aware" : "reactive") +
              " grasp needs tactile frames, and " +
-             (silence ? "none has come for " + millisecondsText(*silence) + " ms"
-                      : std::string("none has come yet")));
+             (silence ? "none has arrived for " + millisecondsText(*silence) + " ms"
+                      : std::string("none has arrived yet")));
     }
     requireMeasurableLimit(request);
     if (peak_.counts > static_cast<float>(request.limitCounts))

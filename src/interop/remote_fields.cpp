@@ -61,8 +61,8 @@ RemoteAnswer stopAnswer(const RecordingReport& report) {
 std::optional<RemoteAnswer> noHand(const LinkHealth& health, const StartLimits& limits) {
   const auto& ageMs = health.frames.ageMs;
   if (ageMs && *ageMs <= limits.noHandS * kMsPerS) return {};
-  std::string why = ageMs ? "no frame has come for " + fixedText(*ageMs / kMsPerS, 1) + " s"
-                          : std::string("no frame has come yet");
+  std::string why = ageMs ? "no frame has arrived for " + fixedText(*ageMs / kMsPerS, 1) + " s"
+                          : std::string("no frame has arrived yet");
   const PortStatus& tactile = health.device.tactile;
   why += tactile.message.empty() ? "; is the hand switched on, and its cable in?"
                                  : ": " + tactile.message;
