@@ -63,7 +63,7 @@ TEST(ImportMapping, RefusesWhatMakesNoSenseWithItsPlace) {
       {R"("time": {"unit": "hours"})", "time.unit is not s, ms"},
       {R"("time": {"rate_hz": 0})", "time.rate_hz"},
       {R"("time": {"rate_hz": "fast"})", "time.rate_hz is not a number"},
-      {R"("time": {"start": "yesterday"})", "time.start is no date"},
+      {R"("time": {"start": "yesterday"})", "time.start is not a date"},
       {R"("time": [])", "time is not an object"},
       {R"("matrices": {})", "matrices is not a list"},
       {R"("matrices": [{"columns": "a", "scale": 0}])", "matrices[0].scale is 0"},
