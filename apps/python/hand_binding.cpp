@@ -144,7 +144,7 @@ std::vector<std::int64_t> recordTimesUs(const py::object& timeMs,
     throw py::value_error("time_ms has " + std::to_string(ms.size()) + " times, frames " +
                           std::to_string(count));
   for (const double one : ms) {
-    if (!(std::abs(one) < 1e15)) throw py::value_error("time_ms holds what is no time");
+    if (!(std::abs(one) < 1e15)) throw py::value_error("time_ms holds what is not a time");
     us.push_back(std::llround(one * kUsPerMs));
   }
   return us;

@@ -161,7 +161,7 @@ void requireDifferent(BatchPlan& plan, SameResults sameResults) {
       throw FileError(item.target,
                       "would be made from both '" + other->second.string() + "' and '" +
                           item.source.string() +
-                          "'; tell them apart by {folder}, {ending}, {date} or {time}");
+                          "'; make the names differ with {folder}, {ending}, {date} or {time}");
     if (sources.contains(real) || sources.contains(realPath(item.target)))
       throw FileError(item.target, "would be written onto a recording that is read");
   }

@@ -31,8 +31,8 @@ void addAreaShare(std::span<const PressureSample> samples, PressureModel& model)
       shares.push_back(model.options.indenterAreaMm2 / sample.activeAreaMm2);
   if (!(model.options.indenterAreaMm2 > 0.0)) {
     model.notes.push_back(
-        "the stamp's area isn't known (--area): forces count every active taxel whole, though the "
-        "rubber spreads a load");
+        "the indenter's area isn't known (--area): forces include the whole area of every active "
+        "taxel, although the rubber spreads a load to taxels beside the indenter");
     return;
   }
   if (shares.empty()) return;

@@ -399,7 +399,7 @@ StepFit fitStep(std::span<const double> timeS,
   fit.numDropped = timeS.size() - order.size();
   if (fit.numDropped > 0)
     fit.notes.push_back(std::to_string(fit.numDropped) + " of " + std::to_string(timeS.size()) +
-                        " samples are no numbers or before the step: left out");
+                        " samples are not numbers or before the step: left out");
   std::stable_sort(order.begin(), order.end(), [&](auto a, auto b) { return timeS[a] < timeS[b]; });
   std::vector<double> t, y;
   for (const std::size_t i : order) {

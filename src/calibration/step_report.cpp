@@ -64,7 +64,9 @@ void assess(const StepSignal& signal, double taxelAreaMm2, FittedStep& fitted) {
   const auto note = [&](std::string text) { fitted.notes.push_back(std::move(text)); };
   const std::size_t frames = step.end - step.begin + 1;
   if (!step.beginSeen)
-    note("loaded from the first frame on: when the load came is not known, K holds only roughly");
+    note(
+        "loaded from the first frame on: the time of loading is not known, so K is only "
+        "approximate");
   if (!signal.saturatedTaxels.empty()) {
     for (std::size_t i = step.begin; i <= step.end; ++i)
       if (signal.saturatedTaxels[i] > 0) ++fitted.saturatedFrames;

@@ -207,7 +207,7 @@ Surface fitSurface(std::span<const SurfacePoint> points,
   surface.numPoints = usable.size();
   if (usable.size() < points.size())
     surface.notes.push_back(std::to_string(points.size() - usable.size()) +
-                            " points are no numbers: left out");
+                            " points are not numbers: left out");
   std::uint32_t chosen = selection == SurfaceSelection::kAllTerms ? (1U << terms.size()) - 1U
                                                                   : bestSubset(usable, terms);
   const auto fit = chosen != 0 ? fitTerms(usable, terms, chosen) : std::nullopt;

@@ -97,7 +97,7 @@ void addRecorderAlarms(const RecorderStatus& recorder,
   if (recorder.lost > 0)
     alarms.push_back({AlarmKind::kOverflow,
                       std::to_string(recorder.lost) +
-                          " items are missing in the recording; its gap events tell which"});
+                          " items are missing in the recording; its gap events show where"});
 }
 
 // Text about a low rate for the operator: the problem, and what to do.
@@ -108,7 +108,7 @@ std::string lowRateText(const LinkMonitor::Reading& frames, const HealthOptions&
   if (frames.lineRateHz < options.lowRateFraction * frames.expectedRateHz)
     return text + ": noise fills the line; raise the threshold (dock Hand), or scan fewer taxels";
   return text +
-         ": frames come late or not at all; see lost and bad checksums (dock Link), try "
+         ": frames arrive late or not at all; see lost and bad checksums (dock Link), try "
          "another USB port or cable, end other programs";
 }
 
@@ -301,7 +301,7 @@ PreflightCheck checkPreflight(const LinkInputs& inputs,
       return red("the hand is " + fixedText(*hottest, 0) + " deg C hot: let it cool down");
     text += ", up to " + fixedText(*hottest, 0) + " deg C";
   } else if (inputs.device.motion) {
-    return red("no temperature has come yet");
+    return red("no temperature has been received yet");
   }
   if (hours) text += ", disk for " + hoursText(*hours);
   return {true, text, folder.freeBytes, hours};

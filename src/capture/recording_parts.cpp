@@ -464,12 +464,12 @@ RecordingReport RecordingParts::report() const {
     report.message =
         error_ + "; what was written before is safe: 'palpate recover' finishes the file";
   } else if (report.lost > 0)
-    report.message = std::to_string(report.lost) + " items were lost; gap events tell which";
+    report.message = std::to_string(report.lost) + " items were lost; the gap events show where";
   else if (report.refused > 0)
     report.message = std::to_string(report.refused) + " items were refused: " + refusedWhy_;
   else if (paths_.empty())
     report.message = armed_ ? "nothing was touched: nothing was recorded"
-                            : "no frame came: nothing was recorded";
+                            : "no frame arrived: nothing was recorded";
   report.complete = report.message.empty();
   return report;
 }

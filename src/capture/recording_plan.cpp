@@ -187,7 +187,7 @@ std::string RecordingPlan::json() const {
 
 RecordingPlan RecordingPlan::fromJson(std::string_view text) {
   const Json json = Json::parse(text);
-  if (!json.isObject() || !json.contains("plan")) throw Error("is no plan of recordings");
+  if (!json.isObject() || !json.contains("plan")) throw Error("is not a plan of recordings");
   if (json.at("plan").asInteger() != kPlanFormat)
     throw Error("is a plan of another version of the program");
   RecordingPlan plan;

@@ -274,10 +274,9 @@ void GraspControl::grasp(const GraspRequest& request) {
       if (const std::string why = motionProblem(session_.device().status()); !why.empty())
         throw DeviceError(DeviceFault::kRefused, "grasp", "refused: the hand can't move: " + why);
       if (request.mode != GraspMode::kPlain && settingsPending())
-        throw DeviceError(
-            DeviceFault::kRefused,
-            "grasp",
-            "refused: a tactile setting is just being changed; once more in a second");
+        throw DeviceError(DeviceFault::kRefused,
+                          "grasp",
+                          "refused: a tactile setting is being changed; try again in a second");
       machine_.setSettings(session_.device().facts().matrices);
       machine_.begin(request, clock_.monotonicUs(), session_.nowUs());
       lastFault_.clear();
@@ -374,7 +373,7 @@ GraspStatus GraspControl::status() const {
   if (status.cannotReact.empty() && !machine_.stream().alive(clock_.monotonicUs()))
     status.cannotReact = "no tactile frames come";
   if (status.cannotReact.empty() && settingsPending())
-    status.cannotReact = "a tactile setting is just being changed";
+    status.cannotReact = "a tactile setting is being changed";
   if (machine_.underTactileControl()) status.cannotChange = "fingers move under tactile control";
   status.periodMs = static_cast<double>(machine_.stream().medianPeriodUs()) / 1e3;
   status.silenceLimitMs = static_cast<double>(machine_.stream().silenceLimitUs()) / 1e3;

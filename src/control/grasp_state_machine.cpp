@@ -85,8 +85,8 @@ void GraspStateMachine::begin(const GraspRequest& request,
       refuse("refused: a " +
              std::string(request.mode == GraspMode::kSlip ? "slip-aware" : "reactive") +
              " grasp needs tactile frames, and " +
-             (silence ? "none has come for " + millisecondsText(*silence) + " ms"
-                      : std::string("none has come yet")));
+             (silence ? "none has arrived for " + millisecondsText(*silence) + " ms"
+                      : std::string("none has arrived yet")));
     }
     requireMeasurableLimit(request);
     if (peak_.counts > static_cast<float>(request.limitCounts))
@@ -120,7 +120,7 @@ void GraspStateMachine::requireMeasurableLimit(const GraspRequest& request) cons
     text += (text.empty() ? "" : "; ") + unfelt.why;
   if (!text.empty())
     refuse("refused: a limit of " + std::to_string(maxLimitOf(request)) +
-           " counts would not be felt: " + text);
+           " counts can't be measured: " + text);
 }
 
 bool GraspStateMachine::isOverLimit() const noexcept {
@@ -318,7 +318,7 @@ void GraspStateMachine::onMotionPortGone(const std::string& why, std::int64_t mo
   }
   end(GraspOutcome::kPortGone,
       phase_ == GraspPhase::kStopping ? report_.text + ", and " + gone
-                                      : gone + "; the hand holds, nobody watches");
+                                      : gone + "; the hand holds, without slip detection");
 }
 
 void GraspStateMachine::onTactilePortGone(const std::string& why, std::int64_t monoUs) {
@@ -327,7 +327,7 @@ void GraspStateMachine::onTactilePortGone(const std::string& why, std::int64_t m
     stopWith(GraspOutcome::kStreamLost, "stopped: the tactile port is gone: " + why, monoUs);
   else if (isHolding())
     end(GraspOutcome::kStreamLost,
-        "the tactile port is gone: " + why + "; the hand holds, nobody watches");
+        "the tactile port is gone: " + why + "; the hand holds, without slip detection");
 }
 
 // The text is set last: it may find no memory, and the stop must be sent nevertheless.
@@ -344,15 +344,16 @@ void GraspStateMachine::fault(std::string_view why, std::int64_t monoUs) {
   if (!active()) return;
   const bool held = isHolding();
   stopWith(GraspOutcome::kFailed, {}, monoUs);
-  report_.text =
-      "failed: " + std::string(why) + (held ? ": the hand holds, nobody watches" : ": stopped");
+  report_.text = "failed: " + std::string(why) +
+                 (held ? ": the hand holds, without slip detection" : ": stopped");
 }
 
 void GraspStateMachine::stop(std::int64_t monoUs) {
   if (observesOvershoot()) return endOvershoot();
   if (isHolding() || (phase_ == GraspPhase::kStopping && next_ != Next::kEnd))
-    return stopWith(
-        GraspOutcome::kStopped, "stopped by the user: the hand holds, nobody watches", monoUs);
+    return stopWith(GraspOutcome::kStopped,
+                    "stopped by the user: the hand holds, without slip detection",
+                    monoUs);
   if (isMoving()) stopWith(GraspOutcome::kStopped, "stopped by the user", monoUs);
 }
 
@@ -479,14 +480,14 @@ void GraspStateMachine::respondToSlip(const GripSlip& slip, std::int64_t monoUs)
 void GraspStateMachine::onHoldingTime(std::int64_t monoUs) {
   if (monoUs > stream_.deadAtUs())
     return end(GraspOutcome::kStreamLost,
-               "no tactile frames come any more: the hand holds, nobody watches");
+               "no more tactile frames arrive: the hand holds, without slip detection");
   if (phase_ != GraspPhase::kHolding) return;
   const HoldingOptions& holding = report_.request.holding;
   if (endUs_ != 0 && monoUs >= endUs_)
     return end(GraspOutcome::kFinished,
                "finished: held for " + numberText(holding.holdS) + " s, " +
                    std::to_string(report_.slips) + " slips, limit " + std::to_string(limit_) +
-                   " counts; the hand goes on holding");
+                   " counts; the hand keeps holding");
   if (monoUs < lastSlipUs_ + microsecondsOf(holding.noSlipS)) return;
   lastSlipUs_ = monoUs;
   if (holding.weightN > 0.0 && !frictionTested_) {

@@ -62,7 +62,7 @@ std::vector<UnmeasurableLimit> unmeasurableLimits(const HandDescription& hand,
                                         m,
                                         known ? std::optional(settings[m]) : std::nullopt,
                                         static_cast<double>(limitCounts) + kLimitMarginCounts);
-    if (!why.empty()) unfelt.push_back({m, hand.matrixName(m) + " can't tell: " + why});
+    if (!why.empty()) unfelt.push_back({m, hand.matrixName(m) + " can't measure it: " + why});
   }
   return unfelt;
 }

@@ -260,7 +260,7 @@ void DsaController::pullFrame() {
   acquisition(true, 0);
   const std::int64_t endUs = clock_.monotonicUs() + usOf(options_.answerTimeout);
   while (framesTaken_ == before) {
-    if (clock_.monotonicUs() > endUs) failSilent("no frame came within a second of asking");
+    if (clock_.monotonicUs() > endUs) failSilent("no frame arrived within a second of the request");
     poll(milliseconds(20));
   }
 }
@@ -458,10 +458,11 @@ void DsaController::setThreshold(std::size_t matrix, int counts, bool persistent
     throw std::invalid_argument("threshold " + std::to_string(counts) +
                                 " is not in 0..4095 counts");
   if (!facts_.hasThresholds())
-    throw DeviceError(DeviceFault::kUnsupported,
-                      channel_.name(),
-                      "firmware " + facts_.firmwareText() +
-                          " of the tactile controller knows no thresholds (268 or newer does)");
+    throw DeviceError(
+        DeviceFault::kUnsupported,
+        channel_.name(),
+        "firmware " + facts_.firmwareText() +
+            " of the tactile controller has no thresholds (firmware 268 or newer has)");
   whilePaused([&] {
     Bytes payload = {static_cast<std::byte>(persistent ? kPersistent : 0u),
                      static_cast<std::byte>(matrix)};

@@ -126,14 +126,14 @@ class Prober {
       probe.message = "tactile controller, firmware " + probe.firmware + ", serial " + probe.serial;
     } else if (tactilePackets_ > 0) {
       probe.answer = PortAnswer::kTactile;
-      probe.message = "tactile controller that doesn't say which; switch it off and on";
+      probe.message = "tactile controller that doesn't report its type; switch it off and on";
     } else if (boots_) {
       probe.answer = PortAnswer::kTactile;
-      probe.message = "tactile controller that is starting; ask again in 10 s";
+      probe.message = "tactile controller that is starting; check again in 10 s";
     } else if (bytes_ > 0) {
       probe.answer = PortAnswer::kUnknownDevice;
       probe.message = "something else: " + std::to_string(bytes_) +
-                      " bytes that are no answer of a hand; check the speed of the line";
+                      " bytes that no hand sends; check the speed of the line";
     } else {
       probe.message = "nothing answers; is the hand switched on and the cable right?";
     }
@@ -230,11 +230,11 @@ std::string describeSwap(const PortProbe& tactilePort, const PortProbe& motionPo
   if (motionAtTactile)
     return tactilePort.port +
            " was named as the tactile port, but the motion controller answers there; 'palpate "
-           "ports' lists what is where";
+           "ports' lists the device at each port";
   if (tactileAtMotion)
     return motionPort.port +
            " was named as the motion port, but the tactile controller answers there; 'palpate "
-           "ports' lists what is where";
+           "ports' lists the device at each port";
   return {};
 }
 

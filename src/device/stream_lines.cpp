@@ -104,7 +104,7 @@ void readTactileMatrices(const Json& matrices,
                          const SensorLayout& layout,
                          std::vector<bool>& seen,
                          std::vector<float>& values) {
-  if (!matrices.isArray()) throw Error("tactile_matrix is no list");
+  if (!matrices.isArray()) throw Error("tactile_matrix is not a list");
   if (matrices.size() == 0 || matrices.size() > layout.numMatrices())
     throw Error(std::to_string(matrices.size()) + " matrices instead of " +
                 std::to_string(layout.numMatrices()));
@@ -207,7 +207,7 @@ void StreamLineParser::takeLine(std::string_view line, const Sink& sink) {
   } else if (options_.acceptNumbers) {
     readNumbers(line, sink);
   } else {
-    refuse(inQuotes(line) + " is no JSON object");
+    refuse(inQuotes(line) + " is not a JSON object");
   }
 }
 

@@ -24,7 +24,7 @@ std::string sizeText(std::int64_t rows, std::int64_t columns) {
 }
 
 std::string mismatchOf(const Json& matrices, const SensorLayout& layout) {
-  if (!matrices.isArray()) throw Error("matrices is no list");
+  if (!matrices.isArray()) throw Error("matrices is not a list");
   if (matrices.size() != layout.numMatrices())
     return "the sender has " + std::to_string(matrices.size()) + " matrices, the chosen hand " +
            std::to_string(layout.numMatrices());
@@ -129,7 +129,7 @@ std::string StreamShape::check(std::span<const double> numbers) const {
 
 StreamDescription readStreamDescription(std::string_view text, const StreamShape& shape) {
   const Json object = Json::parse(text);
-  if (!object.isObject()) throw Error("the description is no JSON object");
+  if (!object.isObject()) throw Error("the description is not a JSON object");
   StreamDescription described{describedText(object, "name"),
                               describedText(object, "serial"),
                               describedText(object, "firmware"),

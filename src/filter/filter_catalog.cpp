@@ -19,7 +19,7 @@ constexpr double kHighestEdgeHz = 10'000;
 const char* const kSpatialBorder =
     "the taxel at the border is repeated; masked taxels are neither read nor written";
 const char* const kShrinks =
-    "the window holds the frames there are: shorter after the first frame and after a gap";
+    "the window holds the available frames: fewer after the first frame and after a gap";
 
 FilterOption odd(
     const char* key, double maximum, double defaultValue, const char* unit, const char* purpose) {
@@ -33,7 +33,7 @@ FilterOption size(double defaultValue = 3) {
              "width of the window, 2 radius + 1");
 }
 FilterOption window(double defaultValue) {
-  return odd("window", kLargestWindow, defaultValue, "frames", "frames that count");
+  return odd("window", kLargestWindow, defaultValue, "frames", "frames in the window");
 }
 FilterOption real(const char* key,
                   double minimum,
@@ -95,10 +95,15 @@ std::vector<FilterKind> spatialKinds() {
        "Bilateral",
        FilterDomain::kSpatial,
        {odd("diameter", kFilterCatalogLargestSize, 3, "taxels", "diameter of the round window"),
-        real("sigma_value", 0.01, 10000, 50, "counts", "difference of value that still counts"),
-        real("sigma_space", 0.01, 1000, 3, "taxels", "distance that still counts"),
+        real("sigma_value",
+             0.01,
+             10000,
+             50,
+             "counts",
+             "width of the weight over the difference of values"),
+        real("sigma_space", 0.01, 1000, 3, "taxels", "width of the weight over the distance"),
         masked()},
-       "Gaussian over neighbours of like value: smooths and keeps edges.",
+       "Gaussian over neighbours of similar value: smooths and keeps edges.",
        kSpatialBorder,
        "Tomasi and Manduchi 1998; study 2.3"},
       {"nlm",
@@ -106,7 +111,12 @@ std::vector<FilterKind> spatialKinds() {
        FilterDomain::kSpatial,
        {odd("patch", 9, 3, "taxels", "width of the patches that are compared"),
         odd("search", 21, 5, "taxels", "width of the region that is searched"),
-        real("h", 0.01, 10000, 50, "counts", "root mean square difference that still counts"),
+        real("h",
+             0.01,
+             10000,
+             50,
+             "counts",
+             "width of the weight over the root mean square difference"),
         masked()},
        "Mean of taxels whose surroundings look alike.",
        kSpatialBorder,
@@ -124,7 +134,7 @@ std::vector<FilterKind> spatialKinds() {
          "structuring element"},
         size(),
         masked()},
-       "Erosion, then dilation: removes whatever the element doesn't fit into.",
+       "Erosion, then dilation: removes contacts into which the structuring element doesn't fit.",
        kSpatialBorder,
        "study 2.4"},
   };
@@ -160,7 +170,7 @@ std::vector<FilterKind> butterworthKinds() {
       {"low-pass",
        "Low-pass (Butterworth)",
        FilterDomain::kTemporal,
-       {edge("cutoff", 5, "passes what is slower; below half the frame rate"),
+       {edge("cutoff", 5, "lower frequencies pass; below half the frame rate"),
         butterworthOrder(),
         zeroPhase()},
        "Passes slow changes: a contact without its vibration.",
@@ -169,7 +179,7 @@ std::vector<FilterKind> butterworthKinds() {
       {"high-pass",
        "High-pass (Butterworth)",
        FilterDomain::kTemporal,
-       {edge("cutoff", 0.5, "passes what is faster; below half the frame rate"),
+       {edge("cutoff", 0.5, "higher frequencies pass; below half the frame rate"),
         butterworthOrder(),
         zeroPhase()},
        "Passes fast changes, about 0: without drift and resting load.",
@@ -178,8 +188,8 @@ std::vector<FilterKind> butterworthKinds() {
       {"band-pass",
        "Band-pass (Butterworth)",
        FilterDomain::kTemporal,
-       {edge("low", 1, "lower edge of what passes"),
-        edge("high", 5, "upper edge of what passes; below half the frame rate"),
+       {edge("low", 1, "lower edge of the pass band"),
+        edge("high", 5, "upper edge of the pass band; below half the frame rate"),
         butterworthOrder(),
         zeroPhase()},
        "Passes the changes between two frequencies, about 0: slip and roughness.",
@@ -188,8 +198,8 @@ std::vector<FilterKind> butterworthKinds() {
       {"band-stop",
        "Band-stop, notch (Butterworth)",
        FilterDomain::kTemporal,
-       {edge("low", 4, "lower edge of what is removed"),
-        edge("high", 6, "upper edge of what is removed; below half the frame rate"),
+       {edge("low", 4, "lower edge of the stop band"),
+        edge("high", 6, "upper edge of the stop band; below half the frame rate"),
         butterworthOrder(),
         zeroPhase()},
        "Removes the changes between two frequencies: a vibration of the hand itself.",
@@ -201,7 +211,7 @@ std::vector<FilterKind> butterworthKinds() {
 std::vector<FilterKind> temporalKinds() {
   FilterOption anyWindow = window(3);
   anyWindow.kind = FilterCatalogKind::kInteger;
-  anyWindow.purpose = "frames that count; odd with centred=1";
+  anyWindow.purpose = "frames in the window; odd with centred=1";
   return {
       {"running-mean",
        "Running mean",
@@ -224,7 +234,7 @@ std::vector<FilterKind> temporalKinds() {
        "Temporal minimum",
        FilterDomain::kTemporal,
        {anyWindow, centred()},
-       "Smallest of the last frames: flickering taxels vanish, contacts come a little later.",
+       "Smallest of the last frames: removes flickering taxels; contacts appear a little later.",
        kShrinks,
        "study 2.4"},
       {"kalman",
@@ -240,23 +250,37 @@ std::vector<FilterKind> temporalKinds() {
          0,
          {},
          "smoothed over the whole recording, as rts; else the frames up to now"}},
-       "Expects a taxel to stay as it is: smooth, at the cost of some delay.",
+       "Assumes that a taxel keeps its value: smooth, with some delay.",
        "begins at the first frame, and again after a gap",
        "study 2.1.2; Q 0.05 and R 0.5 give the steady gain 0.270156"},
       {"kelvin-voigt",
        "Kalman, Kelvin-Voigt",
        FilterDomain::kTemporal,
        {real("m", 1e-9, 1e9, kAutomatic, "force s^2/count", "mass; left out: 1"),
-        real("e", 0, 1e9, kAutomatic, "force/count", "spring; left out: found in the recording"),
-        real(
-            "eta", 0, 1e9, kAutomatic, "force s/count", "damper; left out: found in the recording"),
+        real("e",
+             0,
+             1e9,
+             kAutomatic,
+             "force/count",
+             "spring; left out: estimated from the recording"),
+        real("eta",
+             0,
+             1e9,
+             kAutomatic,
+             "force s/count",
+             "damper; left out: estimated from the recording"),
         real("q",
              1e-12,
              1e18,
              kAutomatic,
              "force^2 s",
-             "noise of the force; left out: found in the recording"),
-        real("r", 1e-9, 1e9, kAutomatic, "counts^2", "noise; left out: found in the recording"),
+             "noise of the force; left out: estimated from the recording"),
+        real("r",
+             1e-9,
+             1e9,
+             kAutomatic,
+             "counts^2",
+             "noise; left out: estimated from the recording"),
         {"centred",
          "",
          FilterCatalogKind::kFlag,
@@ -265,8 +289,9 @@ std::vector<FilterKind> temporalKinds() {
          0,
          {},
          "smoothed over the whole recording; else the frames up to now"}},
-       "Mass, spring and damper driven by noise; what is left out comes from the recording by "
-       "expectation-maximisation. The simple one does better.",
+       "Mass, spring and damper driven by noise; parameters that are left out are estimated from "
+       "the recording by "
+       "expectation-maximisation. The filter kalman is better.",
        "begins at the first frame, and again after a gap",
        "study 2.1.2, eq. 2.1"},
       {"rts",
@@ -274,13 +299,13 @@ std::vector<FilterKind> temporalKinds() {
        FilterDomain::kTemporal,
        {real("q", 0, 1e6, 0.05, "counts^2", "variance of the process per frame"),
         real("r", 1e-6, 1e6, 0.5, "counts^2", "variance of the measurement")},
-       "The zero-order Kalman filter forwards and back: no delay, for recordings only.",
+       "The filter kalman, forwards and backwards: no delay, for recordings only.",
        "from the first frame to the last, or to a gap",
        "Rauch, Tung and Striebel 1965; study 2.1.2"},
       {"savitzky-golay",
        "Savitzky-Golay",
        FilterDomain::kTemporal,
-       {odd("window", kMaxSavitzkyGolayWindow, 5, "frames", "frames that count"),
+       {odd("window", kMaxSavitzkyGolayWindow, 5, "frames", "frames in the window"),
         {"order",
          "",
          FilterCatalogKind::kInteger,
@@ -322,7 +347,7 @@ std::vector<FilterKind> spatioTemporalKinds() {
        FilterDomain::kSpatioTemporal,
        {anyWindow, size(), masked(), centred()},
        "Smallest of the last frames, then the middle value of the neighbours.",
-       "the window holds the frames there are; the taxel at the border is repeated; masked taxels "
+       "the window holds the available frames; the taxel at the border is repeated; masked taxels "
        "are neither read nor written",
        "study 2.4; called \"3D median\" by the program of the study"},
   };

@@ -136,7 +136,7 @@ class FilteredFrames final : public BesideFrames {
     reader.usedAt = ++uses_;
     while (!reader.last || reader.last->first < frame) {
       auto next = reader.cursor->advance(source_.numFrames() - 1, frame);
-      if (!next) throw Error("frame " + std::to_string(frame) + " came out of no filter");
+      if (!next) throw Error("frame " + std::to_string(frame) + " was returned by no filter");
       reader.last = std::move(next);
     }
     // The cursor skipped this frame because it could not be read: let the source throw its error.

@@ -114,7 +114,7 @@ struct FoxgloveServer::Impl {
     const std::string place = options.address + ":" + std::to_string(options.port);
     BoostError failure;
     const auto address = asio::ip::make_address(options.address, failure);
-    if (failure) throw Error("'" + options.address + "' is no numeric address");
+    if (failure) throw Error("'" + options.address + "' is not a numeric address");
     const tcp::endpoint endpoint(address, options.port);
     acceptor.open(endpoint.protocol(), failure);
     if (!failure) acceptor.set_option(asio::socket_base::reuse_address(true), failure);
@@ -247,7 +247,7 @@ class FoxgloveServer::Impl::Session : public std::enable_shared_from_this<Sessio
     const FoxgloveReply reply = replyTo(handshake, server_.options.origins);
     if (reply.status != kSwitchingProtocols) return sendRefusal(reply);
     if (buffer_.size() > 0)
-      return sendRefusal({400, "", "Data came before the handshake was finished."});
+      return sendRefusal({400, "", "Data arrived before the handshake was finished."});
     accept(reply.protocol);
   }
 

@@ -30,7 +30,8 @@ struct RemoteClient::Impl {
     pollfd waiting{socket.get(), events, 0};
     const int ready = left > 0 ? ::poll(&waiting, 1, static_cast<int>(left)) : 0;
     if (ready < 0 && errno != EINTR) gone();
-    if (ready == 0) throw FileError(path, "no answer in time; ask 'status' what goes on");
+    if (ready == 0)
+      throw FileError(path, "no answer in time; the request 'status' shows what it does");
   }
 
   void send(std::string_view bytes, SteadyTime::time_point end) const {

@@ -38,7 +38,7 @@ void setRecorderFields(Json& fields, const RecorderStatus& recorder) {
 RemoteAnswer stopAnswer(const RecordingReport& report) {
   if (report.paths.empty())
     return RemoteAnswer::refused(
-        "no_frames", report.message.empty() ? "no frame came while it ran" : report.message);
+        "no_frames", report.message.empty() ? "no frame arrived while it ran" : report.message);
   RemoteAnswer answer;
   answer.message = report.message;
   Json files = Json::array();
@@ -61,8 +61,8 @@ RemoteAnswer stopAnswer(const RecordingReport& report) {
 std::optional<RemoteAnswer> noHand(const LinkHealth& health, const StartLimits& limits) {
   const auto& ageMs = health.frames.ageMs;
   if (ageMs && *ageMs <= limits.noHandS * kMsPerS) return {};
-  std::string why = ageMs ? "no frame has come for " + fixedText(*ageMs / kMsPerS, 1) + " s"
-                          : std::string("no frame has come yet");
+  std::string why = ageMs ? "no frame has arrived for " + fixedText(*ageMs / kMsPerS, 1) + " s"
+                          : std::string("no frame has arrived yet");
   const PortStatus& tactile = health.device.tactile;
   why += tactile.message.empty() ? "; is the hand switched on, and its cable in?"
                                  : ": " + tactile.message;
@@ -93,7 +93,7 @@ std::optional<RemoteAnswer> startResult(const RecorderStatus& recorder,
   const std::string time = fixedText(limits.firstFrameS, 1) + " s";
   if (recorder.frames > 0)
     return RemoteAnswer::refused("disk", "no frame was on disk within " + time);
-  return RemoteAnswer::refused("no_frames", "no frame came within " + time);
+  return RemoteAnswer::refused("no_frames", "no frame arrived within " + time);
 }
 
 }  // namespace palpate

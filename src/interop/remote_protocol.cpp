@@ -82,7 +82,7 @@ ReadRequest readRequest(std::string_view line) {
   if (line.size() > kMaxRequestBytes)
     return refuse("too_long",
                   "a request has at most " + std::to_string(kMaxRequestBytes) + " bytes");
-  // A line that escapedLine() would change is no text: control characters, invalid UTF-8. Tabs
+  // A line that escapedLine() would change is not a text: control characters, invalid UTF-8. Tabs
   // count as blanks.
   std::string plain(line);
   std::replace(plain.begin(), plain.end(), '\t', ' ');

@@ -27,7 +27,7 @@ using Eigen::Vector3d;
 void validateFrame(const Isometry3d& frame, const std::string& name) {
   if (!frame.matrix().allFinite()) misfit(name + " is at a place that is not a number");
   if (!frame.linear().isUnitary(1e-6) || frame.linear().determinant() < 0.0)
-    misfit(name + " is turned by what is no rotation");
+    misfit(name + " has a matrix that is not a rotation");
 }
 
 void validateFinger(const Finger& finger, const std::string& name, std::size_t numAxes) {

@@ -13,9 +13,9 @@ constexpr std::size_t kLongestCountsRun = 15;
 constexpr std::size_t kLongestFloatsRun = 255;
 constexpr float kMaxCounts = 4095.0F;
 
-// Returns a value other than zero when `value` is no number of counts. Uses integers only, so that
-// the compiler can vectorise a loop over it: the bits of floats from 0 to 4095 are ordered like the
-// numbers, and the bits of negative floats (also -0) are a negative integer.
+// Returns a value other than zero when `value` is not a number of counts. Uses integers only, so
+// that the compiler can vectorise a loop over it: the bits of floats from 0 to 4095 are ordered
+// like the numbers, and the bits of negative floats (also -0) are a negative integer.
 std::int32_t differsFromCounts(float value) noexcept {
   constexpr auto kMaxBits = std::bit_cast<std::int32_t>(kMaxCounts);
   const auto bits = std::bit_cast<std::int32_t>(value);
@@ -74,7 +74,7 @@ void encodeFrame(std::span<const float> values, FrameCoding coding, std::vector<
     const float value = values[i];
     if (counts && differsFromCounts(value) != 0) {
       out.resize(start);
-      throw std::invalid_argument("encodeFrame: a value is no number of counts 0..4095");
+      throw std::invalid_argument("encodeFrame: a value is not a number of counts 0..4095");
     }
     std::size_t left = runLength(values.subspan(i));
     i += left;

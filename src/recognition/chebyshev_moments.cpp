@@ -21,7 +21,7 @@ void requirePicture(const Eigen::MatrixXd& picture, const ChebyshevPolynomials& 
         "Chebyshev moments: a picture of " + std::to_string(picture.rows()) + " x " +
         std::to_string(picture.cols()) + " for polynomials of size " + std::to_string(of.size()));
   if (!picture.allFinite())
-    throw std::invalid_argument("Chebyshev moments: a picture with values that are no numbers");
+    throw std::invalid_argument("Chebyshev moments: a picture with values that are not numbers");
 }
 
 struct CentralMoments {

@@ -82,7 +82,7 @@ ContactStatistics contactStatistics(const Profile& profile, const GraspSegment& 
     double sum = 0.0;
     for (const float value : frame.values) sum += static_cast<double>(std::max(value, 0.0F));
     if (!std::isfinite(sum)) {
-      out.problem = "values that are no numbers in frame " + std::to_string(i);
+      out.problem = "values that are not numbers in frame " + std::to_string(i);
       return out;
     }
     sums.push_back(sum);

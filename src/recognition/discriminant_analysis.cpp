@@ -110,7 +110,8 @@ DiscriminantAnalysis DiscriminantAnalysis::of(const Eigen::MatrixXd& x,
       betweenScatter(within, fitted.mean),
       regularised(within.covariance, fitted.shrinkage, options.ridge));
   if (solver.info() != Eigen::Success)
-    throw std::invalid_argument("DiscriminantAnalysis: the scatter has values that are no numbers");
+    throw std::invalid_argument(
+        "DiscriminantAnalysis: the scatter has values that are not numbers");
   const std::size_t there = std::min(static_cast<std::size_t>(x.cols()), classes - 1);
   const auto count = static_cast<Eigen::Index>(
       options.components == 0 ? there : std::min(options.components, there));

@@ -67,7 +67,7 @@ PinchFrames readPinch(const Profile& profile,
       const bool isPad = m == hand.pads[0] || m == hand.pads[1];
       if (!isPad && !allMatrices) continue;
       const ConstMatrixMap matrix = values.matrix(m);
-      if (!matrix.allFinite()) out.problem = "values that are no numbers" + inFrame(i);
+      if (!matrix.allFinite()) out.problem = "values that are not numbers" + inFrame(i);
       loads[m] = padLoad(matrix, layout.matrix(m).pitchMm);
       if (isPad && !(loads[m].sum > 0.0) && out.problem.empty())
         out.problem = "matrix " + std::to_string(m) + " doesn't touch" + inFrame(i);

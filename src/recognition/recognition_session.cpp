@@ -36,7 +36,7 @@ std::size_t RecognitionSession::add(std::vector<double> values, std::int64_t tim
 }
 
 void RecognitionSession::setLabel(std::size_t grasp, std::optional<int> classIndex) {
-  if (!model_.adaptsToSession()) throw Error("this model can't adapt to a day");
+  if (!model_.adaptsToSession()) throw Error("this model can't be adapted to a session");
   if (classIndex &&
       (*classIndex < 0 || static_cast<std::size_t>(*classIndex) >= model_.classes.size()))
     throw std::out_of_range("class " + std::to_string(*classIndex));

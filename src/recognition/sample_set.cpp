@@ -100,7 +100,7 @@ SampleSet studyPart(const SampleSet& study, StudyPart part) {
 
 void requireLearnable(const SampleSet& samples) {
   samples.validate();
-  if (samples.numSamples() == 0) throw Error("there is no grasp to learn from");
+  if (samples.numSamples() == 0) throw Error("there is no grasp to train with");
   for (Eigen::Index row = 0; row < samples.x.rows(); ++row)
     for (Eigen::Index column = 0; column < samples.x.cols(); ++column)
       if (!std::isfinite(samples.x(row, column)))
@@ -118,7 +118,9 @@ void requireLearnable(const SampleSet& samples) {
     only = samples.classes[c];
     most = std::max(most, counts[c]);
   }
-  if (withSamples < 2) throw Error("there is only one class (" + only + "): two are the least");
+  if (withSamples < 2)
+    throw Error("there is only one class (" + only +
+                "), at least two are needed: a folder per class");
   if (most < 2)
     throw Error("no class has more than one grasp: record at least two grasps of an object");
   for (Eigen::Index column = 0; column < samples.x.cols(); ++column)
@@ -134,9 +136,10 @@ std::vector<std::string> learningNotes(const SampleSet& samples) {
   const std::vector<std::size_t> counts = samples.counts();
   for (std::size_t c = 0; c < counts.size(); ++c)
     if (counts[c] == 1) single.push_back(samples.classes[c]);
-  if (!constant.empty()) notes.push_back("never vary, so they don't help: " + listOf(constant));
+  if (!constant.empty())
+    notes.push_back("features that never vary have no effect: " + listOf(constant));
   if (!single.empty())
-    notes.push_back("one grasp only, which is too few to tell how they differ: " + listOf(single));
+    notes.push_back("only one grasp, which is too few to estimate the scatter: " + listOf(single));
   return notes;
 }
 

@@ -128,7 +128,7 @@ SessionAdaptiveClassifier SessionAdaptiveClassifier::learn(const Eigen::MatrixXd
   options.validate();
   requireSamples(x, y, classes.size(), features.size());
   if (classes.size() < 2) throw Error("a model needs two classes or more");
-  if (!x.allFinite()) throw Error("features that are no numbers");
+  if (!x.allFinite()) throw Error("features that are not numbers");
   const Scatters scatters = scattersOf(x, y, classes.size());
   for (std::size_t c = 0; c < classes.size(); ++c)
     if (scatters.counts[c] == 0.0) throw Error("class '" + classes[c] + "' has no sample");
@@ -188,7 +188,7 @@ SessionAdaptiveClassifier::SessionAdaptiveClassifier(SessionAdaptiveParameters d
     throw Error("a model with degrees of freedom not above 2");
   if (!(data_.fewShotScatterScale > 0.0 && std::isfinite(data_.fewShotScatterScale)) ||
       !(data_.seenInSessionLogPrior >= 0.0 && std::isfinite(data_.seenInSessionLogPrior)))
-    throw Error("a model with a weight that is no number");
+    throw Error("a model with a weight that is not a number");
   if (data_.pooled.rows() != d || data_.pooled.cols() != d || !data_.pooled.allFinite())
     throw Error("a model with a scatter of another size than its features");
   for (std::size_t c = 0; c < data_.classComponents.size(); ++c)
@@ -210,7 +210,7 @@ SessionAdaptiveClassifier::Prepared SessionAdaptiveClassifier::prepare(
       distribution.scatter.cols() != d)
     throw Error("a model with a description of another size than its features: " + what);
   if (!distribution.mean.allFinite() || !distribution.scatter.allFinite())
-    throw Error("a model with values that are no numbers: " + what);
+    throw Error("a model with values that are not numbers: " + what);
   // The features differ by orders of magnitude; scaling makes the decomposition well conditioned.
   if (!(distribution.scatter.diagonal().minCoeff() > 0.0))
     throw Error("a model with a variance that isn't positive: " + what);
@@ -248,7 +248,7 @@ Eigen::VectorXd SessionAdaptiveClassifier::withoutOffset(const Eigen::VectorXd& 
                                 " values for " + std::to_string(data_.features.size()) +
                                 " features");
   if (!x.allFinite() || !std::isfinite(offsetMm))
-    throw std::invalid_argument("SessionAdaptiveClassifier: a value that is no number");
+    throw std::invalid_argument("SessionAdaptiveClassifier: a value that is not a number");
   return moved(x, offsetMm);
 }
 
@@ -289,7 +289,7 @@ void SessionAdaptiveClassifier::addSessionComponents(const Eigen::MatrixXd& x,
                                                      const std::vector<int>& y,
                                                      double offsetMm) {
   requireSamples(x, y, data_.classes.size(), data_.features.size());
-  if (!x.allFinite()) throw Error("features that are no numbers");
+  if (!x.allFinite()) throw Error("features that are not numbers");
   std::vector<std::pair<Eigen::VectorXd, double>> sums(data_.classes.size(),
                                                        {Eigen::VectorXd::Zero(x.cols()), 0.0});
   for (Eigen::Index i = 0; i < x.rows(); ++i) {

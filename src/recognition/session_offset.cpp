@@ -264,7 +264,7 @@ SessionOffset unknownOffset(const SessionOffsetOptions& options) {
 
 SessionOffset givenOffset(double mm, double sdMm) {
   if (!std::isfinite(mm) || !(sdMm >= 0.0 && std::isfinite(sdMm)))
-    throw std::invalid_argument("givenOffset: a value that is no number, or an error below 0");
+    throw std::invalid_argument("givenOffset: a value that is not a number, or an error below 0");
   if (sdMm == 0.0) {
     SessionOffset out = oneValue(mm, OffsetSource::kGiven);
     out.trusted = true;
@@ -280,7 +280,7 @@ SessionOffset measuredOffset(double mm,
   options.validate();
   if (!std::isfinite(mm) || !(sdMm > 0.0 && std::isfinite(sdMm)))
     throw std::invalid_argument(
-        "measuredOffset: a value that is no number, or an error not above 0");
+        "measuredOffset: a value that is not a number, or an error not above 0");
   // Widens or refines the grid where the value is far from 0 or its standard deviation is small.
   SessionOffsetOptions grid = options;
   grid.gridHalfWidthMm =

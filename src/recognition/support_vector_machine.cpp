@@ -75,7 +75,7 @@ SupportVectorMachine SupportVectorMachine::of(const Eigen::MatrixXd& x,
   }
   // OpenCV reports invalid input by its own exception and prints it on stderr, so that invalid
   // input is refused before.
-  if (!x.allFinite()) refuseSupportVectorMachine("a feature is no number");
+  if (!x.allFinite()) refuseSupportVectorMachine("a feature is not a number");
   if (x.cols() == 0) refuseSupportVectorMachine("no features");
   SupportVectorMachine machine;
   machine.numClasses = numClasses;

@@ -54,7 +54,7 @@ Json validationJson(const ValidationReport& report) {
 void requireCarriesOver(const TrainedModel& model) {
   if (!model.adaptsToSession())
     throw Error("a model of classifier " + std::string(classifierName(model.pipeline.classifier)) +
-                " can't adapt to a day: train one with --classifier gauss");
+                " can't be adapted to a session: train one with --classifier gauss");
 }
 
 Prediction predictionOf(const OpenSetPrediction& day) {
@@ -161,7 +161,7 @@ std::string notKnownYetText(const TrainedModel& model, const SessionOffset& offs
   touch += "label grasps of two objects that differ in size";
   if (reference)
     touch += "; one of '" + model.classes[reference->classIndex] +
-             "' tells most, the offset to +- " + fixedText(reference->sdMm, 1) + " mm";
+             "' determines the offset best, to +- " + fixedText(reference->sdMm, 1) + " mm";
   const double sdMm = offset.origin == OffsetSource::kBatch ? unknownOffset().sdMm : offset.sdMm;
   return "it can't be known yet whether the object is one of the trained ones, because the session "
          "offset is not known (+- " +
@@ -190,8 +190,8 @@ SessionOffset offsetOfEmptyHand(const TrainedModel& model, const EmptyHandZero& 
   if (!today.problem.empty()) throw Error(today.problem);
   if (!model.trainingZero)
     throw Error(
-        "the model has no zero of the empty hand to compare with: record the empty hand on the day "
-        "of training (palpate train --empty-hand-zero, or Zero before Train)");
+        "the model has no zero of the empty hand to compare with: record the empty hand in the "
+        "session of the training (palpate train --empty-hand-zero, or Zero before Train)");
   return emptyHandOffset(today, *model.trainingZero);
 }
 

@@ -138,8 +138,8 @@ void requireFinished(const fs::path& path) {
     throw FileError(path, "is being recorded; save its notes when it is finished");
   if (access.unfinished())
     throw FileError(path,
-                    "was never finished; save it with 'palpate recover' first, then note what "
-                    "that gives");
+                    "was never finished; recover it first ('palpate recover'), and save the notes "
+                    "in the recovered recording");
 }
 
 void saveRows(const fs::path& given,

@@ -57,13 +57,19 @@ Container containerOf(const std::filesystem::path& path) {
 }
 
 [[noreturn]] void throwOnlyWritten(const std::filesystem::path& path) {
-  throw FormatError(path,
-                    "MAT files are written, not read: take the recording that it was made from");
+  throw FormatError(
+      path, "MAT files are written, not read: open the recording that it was exported from");
 }
 
 std::string countsText(std::size_t frames, std::size_t angles, std::size_t temperatures) {
   return counted(frames, "frame") + ", " + counted(angles, "angle sample") + ", " +
          counted(temperatures, "temperature sample");
+}
+
+// A message without the name of its file, which the caller prints in front of it.
+std::string withoutName(const std::filesystem::path& path, const std::string& message) {
+  const std::string name = path.string() + ": ";
+  return message.starts_with(name) ? message.substr(name.size()) : message;
 }
 
 // What is wrong with a native recording; empty when nothing is.
@@ -78,13 +84,13 @@ std::string damageText(const PalpateRecovery& recovery) {
   add(recovery.damagedBlocks, "damaged block");
   if (recovery.blocksFromPages > 0)
     text += (text.empty() ? "" : ", ") + counted(recovery.blocksFromPages, "block") +
-            " found beside the damaged tables";
+            " found outside of the damaged tables";
   add(recovery.damagedRows, "damaged row");
   if (recovery.layoutLost)
     text += (text.empty() ? "" : ", ") + std::string("the sensor's layout is lost");
   if (recovery.layoutAssumed)
     text += (text.empty() ? "" : ", ") +
-            std::string("the sensor's layout is lost, that of the SDH-2 is assumed");
+            std::string("the sensor's layout is lost: that of the SDH-2 is assumed");
   if (!recovery.sqliteError.empty())
     text += (text.empty() ? "" : ", ") + std::string("the tables of the file are damaged");
   return text;
@@ -124,7 +130,8 @@ VerifyReport verifyNative(const std::filesystem::path& path, const Progress& pro
   } else {
     report.state =
         recovery.profile ? VerifyReport::State::kDamaged : VerifyReport::State::kUnreadable;
-    report.message = damageText(recovery) + "; readable: " + report.message;
+    report.message = recovery.profile ? damageText(recovery) + "; readable: " + report.message
+                                      : "no intact block was found; nothing of it can be read";
   }
   return report;
 }
@@ -151,7 +158,7 @@ RecoverReport recoverNative(const std::filesystem::path& in,
                 progress);
   report.state = recovery.whole() ? RecoverReport::State::kWhole : RecoverReport::State::kPart;
   report.message = "saved " + countsText(recovery.frames, recovery.angles, recovery.temperatures);
-  if (!recovery.whole()) report.message += "; " + damageText(recovery);
+  if (!recovery.whole()) report.message += "; damage of the file: " + damageText(recovery);
   return report;
 }
 
@@ -210,16 +217,14 @@ RecoverReport recoverDsa(const std::filesystem::path& in,
   } else {
     const DsaRecovery recovery = recoverDsaProfile(in, progress);
     if (!recovery.profile) {
-      // Without the name of the file, which stands in front of all of it.
-      const std::string name = in.string() + ": ";
-      report.message = "nothing can be saved: " + (checked.message.starts_with(name)
-                                                       ? checked.message.substr(name.size())
-                                                       : checked.message);
+      report.message = "nothing can be saved: " + withoutName(in, checked.message);
       return report;
     }
-    const std::string lost = "lost: the rest (" + std::to_string(recovery.intactBlocks) + " of " +
-                             counted(recovery.blocks, "bzip2 block") + " intact, " +
-                             counted(recovery.cutSamples, "sample") + " cut)";
+    std::string lost = "the rest is lost";
+    if (recovery.blocks > 0)
+      lost += ": " + std::to_string(recovery.intactBlocks) + " of " +
+              counted(recovery.blocks, "bzip2 block") + " could be read, " +
+              counted(recovery.cutSamples, "sample") + " at the edge of a lost block not";
     saveRecording(*recovery.profile,
                   withOrigin(events, *recovery.profile, in, lost),
                   out,
@@ -448,7 +453,7 @@ VerifyReport verifyRecording(const std::filesystem::path& path,
   } catch (const Cancelled&) {
     throw;
   } catch (const Error& error) {
-    report.message = error.what();
+    report.message = withoutName(path, error.what());
     return report;
   }
   const DsaVerifyReport dsa = verifyDsa(path, progress, dsaOptions(threads));
@@ -563,8 +568,8 @@ RecoverReport recoverRecording(const std::filesystem::path& in,
   requireWritable(out, overwrite);
   if (isHdf5Recording(in))
     throw FileError(in,
-                    "HDF5 files can't be recovered: one that is damaged is not read at all; take "
-                    "the recording that it was made from");
+                    "is an HDF5 file; if it is damaged, nothing of it can be recovered: use the "
+                    "recording that it was exported from");
   if (isMcapRecording(in)) return recoverMcapFile(in, out, overwrite, progress);
   return isNativeRecording(in) ? recoverNative(in, out, overwrite, progress)
                                : recoverDsa(in, out, overwrite, progress);

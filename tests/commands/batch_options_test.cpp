@@ -162,7 +162,7 @@ TEST_F(BatchOptionsTest, CtrlCLeavesWholeFilesAndResumeGoesOn) {
     EXPECT_EQ(program.err().rfind("palpate: interrupted: ", 0), 0U) << program.err();
     const std::string err = program.err();
     EXPECT_EQ(std::count(err.begin(), err.end(), '\n'), 1) << err;
-    EXPECT_NE(err.find("of 200 are done; --resume goes on"), std::string::npos);
+    EXPECT_NE(err.find("of 200 are done; continue with --resume"), std::string::npos);
     EXPECT_NE(program.out().find("\nnot done "), std::string::npos) << program.out();
     EXPECT_LT(filesBelow(out("")).size(), kFiles);
   }

@@ -1,5 +1,7 @@
 #include "commands/command_line.h"
 
+#include <sstream>
+
 #include "commands/commands.h"
 #include "commands/palpate_program.h"
 
@@ -61,10 +63,26 @@ TEST(Program, EveryCommandExplainsItselfWithAnExample) {
   }
 }
 
+// What a command does is explained in lines that an ordinary terminal doesn't break.
+TEST(Program, HelpFitsIntoEightyColumns) {
+  for (const Command& command : allCommands()) {
+    const std::string help = palpate({command.name, "--help"}).out;
+    const std::size_t begin = help.find("\n\n"), end = help.find("\nExample:");
+    ASSERT_LT(begin, end) << command.name;
+    std::istringstream lines(help.substr(begin, end - begin));
+    for (std::string line; std::getline(lines, line);)
+      EXPECT_LE(line.size(), 80u) << command.name << ": " << line;
+  }
+  std::istringstream lines(palpate({"--help"}).out);
+  for (std::string line; std::getline(lines, line);) EXPECT_LE(line.size(), 90u) << line;
+}
+
 TEST(Program, HelpOfACommandIsTheCommandsHelp) {
   const auto result = palpate({"help", "info"});
   EXPECT_EQ(result.exitCode, 0);
   EXPECT_EQ(result.out, palpate({"info", "--help"}).out);
+  EXPECT_EQ(palpate({"help", "calibrate", "noise"}).out,
+            palpate({"calibrate", "noise", "--help"}).out);
 }
 
 TEST(Program, AUsageOfSeveralLinesIsAnErrorOfOneLine) {
@@ -86,6 +104,8 @@ TEST(Program, WrongUsageIsExitCodeTwoInOneLine) {
   expectOneLineError(palpate({"inof", "x"}), 2, {"inof", "did you mean 'info'"});
   expectOneLineError(palpate({"xyzzyxyzzy"}), 2, {"xyzzyxyzzy", "--help"});
   expectOneLineError(palpate({"info"}), 2, {"usage: palpate info PATH"});
+  expectOneLineError(palpate({"info", "--jsn", "x"}), 2, {"--jsn", "'palpate info --help'"});
+  expectOneLineError(palpate({"help", "inof"}), 2, {"no command is called", "'info'"});
   expectOneLineError(palpate({"info", "a", "--jsom"}), 2, {"--jsom"});
   expectOneLineError(palpate({"signals", "a", "--matrix", "-1"}), 2, {"--matrix", "'-1'"});
   expectOneLineError(palpate({"--unknown"}), 2, {"--unknown"});

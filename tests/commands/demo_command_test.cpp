@@ -392,7 +392,7 @@ TEST(DemoCommand, InterruptedItLeavesNothing) {
     EXPECT_TRUE(fs::exists(folder / "tour" / "grasp.palpate"));  // and the others are written to
     program.signal(signal);
     EXPECT_EQ(program.wait(), 1) << program.out();
-    EXPECT_EQ(program.err(), "palpate: interrupted: nothing of the tour was kept\n");
+    EXPECT_EQ(program.err(), "palpate: interrupted: the files of the tour were removed\n");
     EXPECT_TRUE(fs::is_empty(folder.path()));
   }
 }

@@ -100,7 +100,7 @@ TEST(GraspsCommand, KnowsBothRules) {
 TEST(GraspsCommand, HelpSaysWhatQualityIs) {
   const std::string help = palpate({"grasps", "--help"}).out;
   for (const char* words :
-       {"quality", "product", "saturated", "sd / mean", "bridged", "20 frames", "0.6 s"})
+       {"quality", "product", "saturated", "sd / mean", "ignored", "20 frames", "0.6 s"})
     EXPECT_NE(help.find(words), std::string::npos) << words;
 }
 

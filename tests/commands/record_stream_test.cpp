@@ -55,8 +55,9 @@ TEST(RecordStream, TheLastRefusedLineIsNamed) {
 
 TEST(RecordStream, WithoutAFrameTheReasonIsSaid) {
   const TemporaryFolder folder;
-  expectOneLineError(
-      recordText(folder, line(0, 255)), 1, {"no frame came", "line 1: 255 numbers instead of 256"});
+  expectOneLineError(recordText(folder, line(0, 255)),
+                     1,
+                     {"no frame arrived", "line 1: 255 numbers instead of 256"});
   EXPECT_FALSE(std::filesystem::exists(folder / "a.palpate"));
 }
 

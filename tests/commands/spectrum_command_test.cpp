@@ -234,7 +234,7 @@ TEST(SpectrumCommand, CoherenceOfTwoSignals) {
   const Json rest = Json::parse(with("1:2:7,1:3:7", {"--window", "64", "--json"}).out);
   EXPECT_TRUE(rest.at("coherence").at(8).isNull());
   expectOneLineError(with("1:mean"), 2, {"two signals A,B"});
-  expectOneLineError(with("1:mean,1:width"), 2, {"\"1:width\" is no signal"});
+  expectOneLineError(with("1:mean,1:width"), 2, {"\"1:width\" is not a signal"});
   expectOneLineError(with("1:mean,9:mean"), 1, {"has no matrix 9"});
   expectOneLineError(with("1:mean,1:99:2"), 1, {"no such taxel"});
   expectOneLineError(with("1:mean,2:mean", {"--window", "800"}), 1, {"two segments"});

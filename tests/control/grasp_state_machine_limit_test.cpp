@@ -98,11 +98,12 @@ TEST(GraspStateMachine, RefusesALimitThatCannotBeFeltNamingTheMatrix) {
   EXPECT_EQ(refusal(usual, reactive(200)), "");
   auto settings = usual;
   for (MatrixSettings& each : settings) each.thresholdCounts = 4095;
-  EXPECT_NE(refusal(settings, reactive(200)).find("finger 0 proximal can't tell"),
+  EXPECT_NE(refusal(settings, reactive(200)).find("finger 0 proximal can't measure it"),
             std::string::npos);
   settings = usual;
   settings[3].sensitivity = 0.0;
-  EXPECT_NE(refusal(settings, reactive(200)).find("finger 1 distal can't tell"), std::string::npos)
+  EXPECT_NE(refusal(settings, reactive(200)).find("finger 1 distal can't measure it"),
+            std::string::npos)
       << refusal(settings, reactive(200));
   GraspRequest pinch = reactive(200);
   pinch.preshape = "pinch-parallel";  // finger 1 stays folded
@@ -112,7 +113,7 @@ TEST(GraspStateMachine, RefusesALimitThatCannotBeFeltNamingTheMatrix) {
   settings = usual;
   settings[0].thresholdCounts = 2000;  // the first limit can be measured, the highest (2200) can't
   EXPECT_EQ(refusal(settings, reactive(200)), "");
-  EXPECT_NE(refusal(settings, slip).find("2200 counts would not be felt"), std::string::npos);
+  EXPECT_NE(refusal(settings, slip).find("2200 counts can't be measured"), std::string::npos);
 }
 
 TEST(GraspStateMachine, RefusesWhereNoTaxelOfAMatrixIsScanned) {
@@ -129,7 +130,7 @@ TEST(GraspStateMachine, RefusesWhereNoTaxelOfAMatrixIsScanned) {
     bench.begin(reactive(200));
     FAIL();
   } catch (const DeviceError& error) {
-    EXPECT_NE(std::string(error.what()).find("finger 2 distal can't tell: no taxel"),
+    EXPECT_NE(std::string(error.what()).find("finger 2 distal can't measure it: no taxel"),
               std::string::npos)
         << error.what();
   }
@@ -164,7 +165,7 @@ TEST(GraspStateMachine, AFaultStopsWhateverRuns) {
 // There is no memory for its text, as for a text longer than any string.
 TEST(GraspStateMachine, AFaultThatFindsNoMemoryForItsTextStopsAllTheSame) {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-  GTEST_SKIP() << "such a text is no object that a program may have, and the sanitizer says so";
+  GTEST_SKIP() << "such a text is not an object that a program may have, and the sanitizer says so";
 #endif
   Bench bench;
   bench.begin({});

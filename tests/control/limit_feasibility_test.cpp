@@ -35,7 +35,7 @@ TEST(FeltLimit, AThresholdThatLeavesTooLittleIsNamed) {
   const auto unfelt = unmeasurableLimits(sdh2(), settings, 200);
   EXPECT_EQ(namesOf(unfelt), std::vector<std::string>{"finger 0 distal"});
   EXPECT_EQ(unfelt.at(0).why,
-            "finger 0 distal can't tell: its threshold of 4095 leaves no more than 0 counts");
+            "finger 0 distal can't measure it: its threshold of 4095 leaves no more than 0 counts");
   // 4095 - 3700 = 395 counts are left: a limit of 200 needs 400.
   settings[1].thresholdCounts = 3700;
   EXPECT_EQ(unmeasurableLimits(sdh2(), settings, 200).size(), 1u);

@@ -111,7 +111,8 @@ TEST(PortGone, AHandThatHoldsStandsStill) {
   hold(bench, slipAware());
   const GraspReport report = gone(bench);
   EXPECT_EQ(report.outcome, GraspOutcome::kPortGone);
-  EXPECT_EQ(report.text, "the motion port is gone: unplugged; the hand holds, nobody watches");
+  EXPECT_EQ(report.text,
+            "the motion port is gone: unplugged; the hand holds, without slip detection");
   EXPECT_EQ(report.remainingMotionS, 0.0);
 }
 
@@ -132,9 +133,10 @@ TEST(PortGone, AStopWhileItHoldsLeavesItHolding) {
   hold(bench, slipAware());
   bench.machine.stop(bench.us);
   const GraspReport report = gone(bench);
-  EXPECT_EQ(report.text,
-            "stopped by the user: the hand holds, nobody watches, and the motion port is gone: "
-            "unplugged");
+  EXPECT_EQ(
+      report.text,
+      "stopped by the user: the hand holds, without slip detection, and the motion port is gone: "
+      "unplugged");
   EXPECT_EQ(report.remainingMotionS, 0.0);
 }
 

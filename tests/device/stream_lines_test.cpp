@@ -303,7 +303,7 @@ TEST(StreamLines, JsonFaultsNameTheMatrix) {
   EXPECT_NE(faultOf("{\"tactile_matrix\":[{}\n").find("line 1: "), std::string::npos);
   EXPECT_EQ(faultOf("{}\n", {.acceptJson = false}),
             "line 1: this is JSON, and lines of numbers are expected");
-  EXPECT_EQ(faultOf("1,2,3\n", {.acceptNumbers = false}), "line 1: \"1,2,3\" is no JSON object");
+  EXPECT_EQ(faultOf("1,2,3\n", {.acceptNumbers = false}), "line 1: \"1,2,3\" is not a JSON object");
 }
 
 // As `palpate stream --to tactile` divides a frame into datagrams.

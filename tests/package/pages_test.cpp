@@ -167,6 +167,10 @@ done)";
   }
   const std::vector<std::pair<std::string, Options>> others = {
       {"palpate calibrate ", kinds},
+      {"palpate help recov", {"recover"}},
+      {"palpate help calibrate ", kinds},
+      {"palpate remote st", {"start", "status", "stop"}},
+      {"palpate kinematics --hand sd", {"sdh2"}},
       {"palpate compare --align ", {"contact", "start", "clock"}},
       {"palpate calibrate step --loss h", {"huber"}},
       {"palpate info ", {"a.dsa", "B.DSA", "c.palpate", "f.h5", "g.mcap", "place"}},
@@ -190,7 +194,7 @@ done)";
   for (const std::string& command : commands)
     EXPECT_EQ(offered(i++), said().at(command)) << command;
   for (const auto& [line, expected] : others) EXPECT_EQ(offered(i++), expected) << line;
-  names.insert({"a.dsa", "B.DSA", "c.palpate", "f.h5", "g.mcap", "place"});
+  names.insert({"help", "a.dsa", "B.DSA", "c.palpate", "f.h5", "g.mcap", "place"});
   EXPECT_EQ(offered(i), names);
 }
 

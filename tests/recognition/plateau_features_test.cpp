@@ -140,7 +140,7 @@ TEST(PlateauFeatures, WhatIsMissingIsSaid) {
   EXPECT_EQ(problem(pinchProfile({20, {50.0, 1.0F, 1.0F}})),
             "half a grasp: 20 frames, of at least 21");
   EXPECT_EQ(problem(testing::damagedProfile(pinchProfile(steps(false)), 3, -1)),
-            "values that are no numbers in frame 3");
+            "values that are not numbers in frame 3");
   EXPECT_EQ(problem(testing::damagedProfile(pinchProfile(steps(false)), -1, 3)),
             "joint angles that are missing or no numbers in frame 3");
   // At phi0 = 0 fingers 0 and 2 face in the same direction.

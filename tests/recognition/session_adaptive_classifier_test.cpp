@@ -123,7 +123,7 @@ TEST(SessionAdaptiveClassifier, WhatCannotBeLearntIsSaid) {
             "every class has one sample only: record at least two grasps of an object");
   MatrixXd bad = square.x;
   bad(3, 1) = std::nan("");
-  EXPECT_EQ(said(bad, square.y, {"l", "r"}), "features that are no numbers");
+  EXPECT_EQ(said(bad, square.y, {"l", "r"}), "features that are not numbers");
   EXPECT_THROW(SessionAdaptiveClassifier::learn(square.x, {0, 1}, {"l", "r"}, {"a", "b"}),
                std::invalid_argument);
   EXPECT_THROW(SessionAdaptiveClassifier::learn(square.x, square.y, {"l", "r"}, {"a"}),

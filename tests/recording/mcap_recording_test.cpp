@@ -466,8 +466,8 @@ with open(folder + 'hello.mcap', 'w') as f: f.write('hello')
   expectError(folder / "ros1.mcap", "only cdr");
   expectError(folder / "compression.mcap", "compression that is not known, \"snappy\"");
   expectError(folder / "short.mcap", "damaged image");
-  expectError(folder / "version.mcap", "no MCAP file of version 0");
-  expectError(folder / "hello.mcap", "no MCAP file of version 0");
+  expectError(folder / "version.mcap", "MCAP file of version 0");
+  expectError(folder / "hello.mcap", "MCAP file of version 0");
 }
 
 // Replaces bytes in a file without compression and makes the checksums unknown.

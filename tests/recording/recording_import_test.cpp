@@ -206,7 +206,7 @@ TEST(RecordingImport, StrictStopsAtTheFirstRefusedRowAndWritesNothing) {
       {"2,1,,3,4\n", "line 3, column 3 is empty"},
       {"2,1,2,3,1e50\n", "line 3, column 5: \"1e50\""},
       {"1,1,2,3,4\n", "line 3: the time 1 is not later"},
-      {"soon,1,2,3,4\n", "line 3: \"soon\" is no time"}};
+      {"soon,1,2,3,4\n", "line 3: \"soon\" is not a time"}};
   for (const auto& [row, words] : cases) {
     const TemporaryFolder folder;
     const std::string what = testing::errorOf([&, &row = row] {

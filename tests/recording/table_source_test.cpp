@@ -12,7 +12,7 @@ namespace {
 struct ReadTable {
   std::string form;
   std::vector<TableColumn> columns;
-  std::vector<std::vector<double>> rows;  // NaN where a cell is no number
+  std::vector<std::vector<double>> rows;  // NaN where a cell is not a number
   std::vector<std::string> names() const {
     std::vector<std::string> names;
     for (const TableColumn& column : columns) names.push_back(column.name);

@@ -55,22 +55,18 @@ int adaptCommand(const Arguments& words) {
   const CommandLine given(
       {.synopsis = "palpate adapt MODEL.json [PATH] [--empty-hand-zero FILE] -o MODEL2.json",
        .purpose =
-           "Adapts a model to today: estimates the session offset (by how much the hand reads "
-           "sizes wrong today), and\nstores it with its error and origin. From either or both "
-           "of:\n\n"
-           "  FILE  a recording in which the empty hand closes until its pads touch (palpate grasp "
-           "--preshape pinch-empty\n        --mode reactive): no object, no label. Needs a model "
-           "that was trained with such a touch of its own session.\n"
-           "  PATH  a folder with a folder of recordings per class, some of the model's: labelled "
-           "grasps, which also show\n        how the objects measure today. One grasp of each "
-           "object is usually enough; at least two\n        different objects are needed for "
-           "answers that are called sure.\n\n"
-           "Of grasps of several sessions (more than 8 h apart) the newest counts, and what is "
-           "left out is reported: exit code 3.\nWhat the model stored of the same session is kept, "
-           "of "
-           "another session "
-           "forgotten. Prints the "
-           "offset and the classes as\nJSON.",
+           "Adapts a model to the session of today: estimates the session offset (by how many mm "
+           "the hand reads all sizes larger or smaller today) and stores it with its standard "
+           "deviation and its source. The sources, one or both:\n\n  FILE  a recording in which "
+           "the empty hand closes until its pads touch (palpate grasp --preshape pinch-empty "
+           "--mode reactive). It needs no object and no label, but a model that was trained with "
+           "such a recording of its own session.\n  PATH  labelled grasps of today: a folder with "
+           "a folder of recordings per class. They also show how the objects measure today. One "
+           "grasp of each object is usually enough; answers are called sure only after grasps of "
+           "at least two different objects.\n\nIf the grasps are of several sessions (more than 8 "
+           "h apart), the newest session is used, and the others are reported: exit code 3. What "
+           "an earlier call stored of the same session is kept; what it stored of another session "
+           "is removed. Prints the offset and the classes as JSON.",
        .options = {{"output,o", "MODEL2.json", "write the adapted model there"},
                    zeroOptionSpec(),
                    {"force", "", "replace MODEL2.json"},
@@ -81,7 +77,7 @@ int adaptCommand(const Arguments& words) {
       words);
   if (given.helpShown()) return kDone;
   const auto out = given.text("output");
-  if (!out) throw UsageError("-o MODEL2.json is missing: where the adapted model goes");
+  if (!out) throw UsageError("-o MODEL2.json is missing: the file for the adapted model");
   const bool grasps = given.words().size() > 1;
   if (!grasps && !given.has("empty-hand-zero"))
     throw UsageError(

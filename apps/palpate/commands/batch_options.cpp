@@ -71,9 +71,9 @@ std::vector<OptionSpec> withBatchOptions(std::vector<OptionSpec> options) {
 
 std::vector<OptionSpec> withResumeOptions(std::vector<OptionSpec> options) {
   const std::vector<OptionSpec> batch = {
-      {"resume", "", "with -o: go on; what is whole already isn't made again"},
+      {"resume", "", "with -o: continue; files that are complete are kept"},
       {"threads", "N", "with -o: recordings at the same time; default: one per core"},
-      {"report", "FILE.csv", "with -o: what became of each recording"}};
+      {"report", "FILE.csv", "with -o: write a table with the result of each recording"}};
   options.insert(options.end(), batch.begin(), batch.end());
   return options;
 }
@@ -148,7 +148,7 @@ int runBatchCommand(const CommandLine& given,
   if (table) writeTable(reportTable(plan, report), *table, overwriteTable);
   if (report.cancelled)
     sayBatch("interrupted: " + std::to_string(report.status.done + report.status.skipped) + " of " +
-             std::to_string(plan.items.size()) + " are done; --resume goes on");
+             std::to_string(plan.items.size()) + " are done; continue with --resume");
   if (!command.summary && report.status.failed > 1)
     sayBatch(std::to_string(report.status.failed) + " of " + std::to_string(plan.items.size()) +
              " recordings failed");

@@ -68,12 +68,9 @@ int calibrateApply(const Arguments& words) {
   options.push_back({"force", "", "replace OUT"});
   const CommandLine given(
       {.synopsis = "palpate calibrate apply FILE --calibration C.json [-o OUT.palpate]",
-       .purpose = "Pressure and force by a calibration. Prints CSV, a row per frame and matrix "
-                  "that is touched: K [counts], "
-                  "pressure\n[kPa] and force [N] with their standard deviations; in_range 0: "
-                  "outside the measured range, don't rely on it."
-
-       ,
+       .purpose = "Computes pressure and force by a calibration. Prints CSV, a row per frame and "
+                  "matrix that is touched: K [counts], pressure [kPa] and force [N] with their "
+                  "standard deviations; in_range 0: outside the measured range, not reliable.",
        .options = options,
        .example = "palpate calibrate apply grasp.palpate --calibration hand.json > force.csv",
        .minArguments = 1,

@@ -24,22 +24,22 @@ struct Kind {
 };
 
 constexpr std::array kKinds = {
-    Kind{"noise", "noise floor of an unloaded hand over its temperature", &calibrateNoise},
-    Kind{"step",
-         "fits the response to each loading step: gain, drift, time constants",
-         &calibrateStep},
+    Kind{"noise",
+         "measures the noise floor of an unloaded hand over its temperature",
+         &calibrateNoise},
+    Kind{"step", "fits gain, drift and time constants to each loading step", &calibrateStep},
     Kind{"pressure",
-         "pressure from gain and temperature, from a table of recordings",
+         "fits pressure to gain and temperature, from a table of recordings",
          &calibratePressure},
-    Kind{"sensitivity", "gain against the sensor's sensitivity", &calibrateSensitivity},
-    Kind{"tare", "what the taxels read unloaded, noted beside the data", &calibrateTare},
-    Kind{"apply", "pressure and force of a recording by a calibration", &calibrateApply},
+    Kind{"sensitivity", "measures gain against the sensor's sensitivity", &calibrateSensitivity},
+    Kind{"tare", "measures the unloaded readings and notes them in the recording", &calibrateTare},
+    Kind{"apply", "computes pressure and force of a recording by a calibration", &calibrateApply},
 };
 
 void showKinds() {
   std::puts(
       "Usage: palpate calibrate KIND ...\n\n"
-      "From counts to kilopascals and newtons, with error bars. KIND:");
+      "Converts counts to kilopascals and newtons, with standard deviations. KIND:");
   for (const Kind& kind : kKinds) std::printf("  %-12s %s\n", kind.name, kind.summary);
   std::puts(
       "\nEvery KIND takes --help and --quiet.\n\n"
@@ -58,8 +58,9 @@ int calibrateCommand(const Arguments& words) {
     if (!words.empty() && words[0] == kind.name) return kind.run({words.begin() + 1, words.end()});
     known += (known.empty() ? "" : ", ") + std::string(kind.name);
   }
-  throw UsageError(words.empty() ? "calibrate needs a KIND: one of " + known
-                                 : "calibrate has no KIND '" + words[0] + "', only " + known);
+  throw UsageError(words.empty()
+                       ? "calibrate needs a KIND: one of " + known
+                       : "calibrate has no KIND '" + words[0] + "'; give one of " + known);
 }
 
 std::size_t matrixGiven(const CommandLine& given) {

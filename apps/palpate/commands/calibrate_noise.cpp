@@ -14,17 +14,15 @@ namespace palpate::commands {
 int calibrateNoise(const Arguments& words) {
   const CommandLine given(
       {.synopsis = "palpate calibrate noise FILE [-o N.xml|N.json]",
-       .purpose = "Noise floor of a hand that nothing touches, recorded at threshold 0 while it "
-                  "warms up: per matrix a line "
-                  "of the\nlargest reading over the temperature of the nearest motor. Prints JSON: "
-                  "slope [counts/deg C], "
-                  "intercept, rmse\n[counts] (the study's) and rmse_true (of this line). A "
-                  "threshold of intercept + slope T + "
-                  "3 rmse hides the noise.",
+       .purpose = "Measures the noise floor of a hand that nothing touches, recorded at threshold "
+                  "0 while it warms up: per matrix a line of the largest reading over the "
+                  "temperature of the nearest motor. Prints JSON: slope [counts/deg C], intercept "
+                  "[counts], rmse [counts] (as the study defines it) and rmse_true (of this line). "
+                  "A threshold of intercept + slope T + 3 rmse hides the noise.",
        .options = {{"bins", "N", "equal bins over the temperatures, default 20"},
                    {"output,o",
                     "OUT",
-                    "write it there: .xml as the prior program reads it, else JSON"},
+                    "write the lines to this file: .xml for the prior program, else JSON"},
                    {"force", "", "replace OUT"}},
        .example = "palpate calibrate noise temperature-noise.dsa -o noise.xml",
        .minArguments = 1,

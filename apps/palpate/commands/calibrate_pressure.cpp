@@ -27,29 +27,28 @@ constexpr std::uint64_t kLargestNoiseFloor = 64u << 20;  // [bytes]
 int calibratePressure(const Arguments& words) {
   const CommandLine given(
       {.synopsis = "palpate calibrate pressure TABLE.csv [-o P.json]",
-       .purpose = "Pressure from gain K and temperature T: P(K, T), and from the drift m: P(m, T) "
-                  "[kPa]. TABLE names "
-                  "recordings of\nloading steps and their pressures: "
-                  "file,pressure_kpa[,temperature_c]. Terms are kept where "
-                  "leave-one-out says so,\nT is that of the motor nearest to the matrix; --choices "
-                  "study keeps all terms and "
-                  "takes the study's T. Prints the\ncalibration as JSON, or writes it to P.json "
-                  "for `calibrate apply` and "
-                  "`contact --calibration`.",
-       .options = {{"matrix",
-                    "M",
-                    "the matrix that was loaded; default the one with the largest readings"},
-                   {"choices", "NAME", "default or study"},
-                   {"area", "MM2", "area of the stamp [mm^2]: forces then count what it covers"},
-                   {"sensitivity", "S", "used for the recordings, default 1"},
-                   {"threshold", "N", "used for the recordings [counts], default 100"},
-                   {"loss", "NAME", "loss of the step fits: squares (default), huber, cauchy"},
-                   {"noise", "N.json", "noise lines (`calibrate noise`) to keep with it"},
-                   {"sensitivity-offset",
-                    "COUNTS",
-                    "offset of K over sensitivity (`calibrate sensitivity`)"},
-                   {"output,o", "P.json", "write the result to this file"},
-                   {"force", "", "replace P.json"}},
+       .purpose =
+           "Fits the pressure as a function of gain K and temperature T, P(K, T), and of drift m "
+           "and T, P(m, T) [kPa]. TABLE names recordings of loading steps and their pressures: "
+           "file,pressure_kpa[,temperature_c]. Terms are kept if leave-one-out cross-validation "
+           "improves with them; T is that of the motor nearest to the matrix. --choices study "
+           "keeps all terms and takes the study's T. Prints the calibration as JSON, or writes it "
+           "to P.json for `calibrate apply` and `contact --calibration`.",
+       .options =
+           {{"matrix",
+             "M",
+             "the matrix that was loaded; default the one with the largest readings"},
+            {"choices", "NAME", "default or study"},
+            {"area", "MM2", "area of the indenter [mm^2]: forces are then those on this area"},
+            {"sensitivity", "S", "sensitivity of the recordings, default 1"},
+            {"threshold", "N", "threshold of the recordings [counts], default 100"},
+            {"loss", "NAME", "loss of the step fits: squares (default), huber, cauchy"},
+            {"noise", "N.json", "noise lines (`calibrate noise`) to store in the calibration"},
+            {"sensitivity-offset",
+             "COUNTS",
+             "offset of K over sensitivity (`calibrate sensitivity`)"},
+            {"output,o", "P.json", "write the result to this file"},
+            {"force", "", "replace P.json"}},
        .example = "palpate calibrate pressure weights.csv --area 110.25 -o hand.json",
        .minArguments = 1,
        .maxArguments = 1},

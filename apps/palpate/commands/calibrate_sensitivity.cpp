@@ -26,7 +26,7 @@ std::vector<double> sensitivitiesGiven(const CommandLine& given, std::size_t ste
       throw UsageError("--sensitivities must be above 0, at most 1");
   if (values.size() != steps)
     throw Error("--sensitivities names " + std::to_string(values.size()) +
-                " values, the recording holds " + std::to_string(steps) + " steps");
+                " values, but the recording has " + std::to_string(steps) + " steps");
   return values;
 }
 
@@ -35,12 +35,11 @@ std::vector<double> sensitivitiesGiven(const CommandLine& given, std::size_t ste
 int calibrateSensitivity(const Arguments& words) {
   const CommandLine given(
       {.synopsis = "palpate calibrate sensitivity FILE --matrix M [--sensitivities S1,S2,..]",
-       .purpose = "Gain K against sensitivity: one load, put on again at several sensitivities in "
-                  "one recording. Prints JSON: "
-                  "the\npoints, slope, offset and r2 of K = slope s + offset, and what the "
-                  "threshold has to do with the "
-                  "offset. Without\n--sensitivities the N steps are taken as 1/N, 2/N, .., 1 (a "
-                  ".dsa stores no sensitivity).",
+       .purpose =
+           "Measures gain K against sensitivity: the same load, put on again at several "
+           "sensitivities in one recording. Prints JSON: the points, slope, offset and r2 of K = "
+           "slope s + offset, and how the threshold explains the offset. Without --sensitivities "
+           "the N steps are taken as 1/N, 2/N, .., 1 (a .dsa stores no sensitivity).",
        .options = {{"matrix", "M", "the matrix that was loaded"},
                    {"sensitivities", "S1,S2,..", "sensitivities of the steps, in order"},
                    {"threshold",

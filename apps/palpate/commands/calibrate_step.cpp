@@ -12,13 +12,11 @@ int calibrateStep(const Arguments& words) {
   const CommandLine given(
       {.synopsis =
            "palpate calibrate step FILE --matrix M [--loss squares|huber|cauchy] [-o OUT.json]",
-       .purpose =
-           "Finds the loading steps of a matrix (something is put onto it and stays) and fits a "
-           "second order lag\n"
-           "with linear drift to each: a(t) = K phi(t; T1, T2) + m t. Prints JSON: per step the "
-           "frames, K [counts], "
-           "m\n[counts/s], T1, T2 [s], covariance (in the order K, m, T1, T2), what the curve says "
-           "(dead time, inflection,\nt_k), temperatures, and in `notes` what speaks against it.",
+       .purpose = "Finds the loading steps of a matrix (something is put onto it and stays) and "
+                  "fits a second order lag with linear drift to each: a(t) = K phi(t; T1, T2) + m "
+                  "t. Prints JSON: per step the frames, K [counts], m [counts/s], T1, T2 [s], "
+                  "covariance (in the order K, m, T1, T2), properties of the curve (dead time, "
+                  "inflection, t_k), temperatures, and in `notes` the reasons to doubt the fit.",
        .options = {{"matrix", "M", "the matrix that was loaded"},
                    {"signal",
                     "NAME",

@@ -38,18 +38,16 @@ int calibrateTare(const Arguments& words) {
   const CommandLine given(
       {.synopsis = "palpate calibrate tare FILE [--apply | --remove]",
        .purpose = "Finds the windows in which nothing touches a matrix, and what its taxels read "
-                  "there: the zero. Prints JSON; "
-                  "with\n--apply it is noted in the recording as an event (kind tare; a .dsa: in "
-                  "its sidecar) that `calibrate "
-                  "apply` and\n`contact --calibration` go by. The values themselves never change; "
-                  "--remove takes the event "
-                  "away again.",
+                  "there: the zero. Prints JSON. With --apply the zero is noted in the recording "
+                  "as an event (kind tare; of a .dsa in its sidecar), and `calibrate apply` and "
+                  "`contact --calibration` subtract it. The recorded values never change; --remove "
+                  "deletes the event.",
        .options = {{"window", "S", "length of a window [s], default 1"},
                    {"most",
                     "N",
-                    "a matrix that never reads less is never unloaded [counts], default 150"},
+                    "a matrix that never reads less counts as always loaded [counts], default 150"},
                    {"apply", "", "note it in the recording"},
-                   {"remove", "", "take it away again"},
+                   {"remove", "", "remove it from the recording"},
                    {"output,o", "OUT.json", "write the JSON to this file"},
                    {"force", "", "replace OUT.json"}},
        .example = "palpate calibrate tare session.palpate --apply",
@@ -78,7 +76,10 @@ int calibrateTare(const Arguments& words) {
   std::size_t found = 0;
   for (const MatrixTare& matrix : tare.matrices) found += matrix.valid ? 1 : 0;
   if (given.has("apply")) {
-    if (found == 0) throw FileError(file, "has no unloaded window: no zero to note");
+    if (found == 0)
+      throw FileError(file,
+                      "has no unloaded window, so there is no zero to note; give a larger --most, "
+                      "or a recording in which nothing touches the hand");
     const EventsReport events = readEvents(file);
     std::vector<RecordingEvent> all = withoutTare(events);
     all.push_back(eventOf(tare, profile));

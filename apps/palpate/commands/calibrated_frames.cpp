@@ -61,14 +61,15 @@ PressureMapOptions withNoted(PressureMapOptions options, const std::filesystem::
 }  // namespace
 
 std::vector<OptionSpec> calibrationOptions() {
-  return {
-      {"calibration", "C.json", "what `palpate calibrate pressure` wrote"},
-      {"sensor-sensitivity",
-       "S",
-       "used for the recording, default as noted or reported in it, or that of the calibration"},
-      {"sensor-threshold", "N", "used for the recording [counts], default that of the calibration"},
-      {"no-tare", "", "don't take off the zeros that `calibrate tare --apply` noted"},
-      {"no-drift", "", "don't take the creep out of contacts that last"}};
+  return {{"calibration", "C.json", "what `palpate calibrate pressure` wrote"},
+          {"sensor-sensitivity",
+           "S",
+           "sensitivity of the recording; default: as stored in it, else that of the calibration"},
+          {"sensor-threshold",
+           "N",
+           "threshold of the recording [counts], default that of the calibration"},
+          {"no-tare", "", "don't subtract the zeros that `calibrate tare --apply` noted"},
+          {"no-drift", "", "don't correct the creep of long contacts"}};
 }
 
 std::vector<OptionSpec> withCalibration(std::vector<OptionSpec> options) {
@@ -108,7 +109,9 @@ CalibratedFrames::CalibratedFrames(const CalibrationChoice& choice,
            profile.hand(),
            withSerial(withNoted(choice.options, file), profile)) {
   if (profile.info().valueType != ValueType::kCounts)
-    throw FileError(file, "holds filtered values: a calibration needs counts");
+    throw FileError(file,
+                    "holds filtered values; a calibration needs counts: use the recording before "
+                    "it was filtered");
   if (choice.tare) tare_ = tareIn(file, profile.layout());
 }
 

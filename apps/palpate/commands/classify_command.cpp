@@ -45,18 +45,15 @@ int classifyCommand(const Arguments& words) {
       {.synopsis =
            "palpate classify MODEL.json FILE... [--json] [--session-offset model|none|batch|MM]",
        .purpose =
-           "Says what was grasped: a line per grasp, or with --json an object. FILEs (recordings, "
-           "or "
-           "folders of them) of\none call are of one session. An answer is called sure when it is "
-           "right "
-           "95 times in 100: in the session of the\ntraining, or with an offset of the session "
-           "that "
-           "can be trusted.\n\n  model  what `adapt` stored (default); of a fresh model 0 in the "
-           "session of the training, else as none\n  none   nothing is assumed: all offsets are "
-           "weighed\n  batch  estimated from all grasps of the "
-           "call, unlabelled, and applied; resting on fewer than two different\n         objects "
-           "it "
-           "warns and nothing is sure\n  MM     so many mm the hand reads too wide",
+           "Names the grasped objects: prints a line per grasp, or with --json one object. All "
+           "FILEs of a call (recordings, or folders of them) must be of one session. An answer is "
+           "called sure when it is right in 95 of 100 cases. That holds in the session of the "
+           "training, or with a reliable session offset. The values of --session-offset:\n\n  "
+           "model  what `adapt` stored (default); of a model that was not adapted: 0 in the "
+           "session of the training, else as none\n  none   no assumption: the answer is averaged "
+           "over all possible offsets\n  batch  estimated from all grasps of this call, without "
+           "labels; of fewer than two different objects it warns, and no answer is sure\n  MM     "
+           "the hand reads sizes larger by this many mm",
        .options = {{"json", "", "one JSON object"},
                    {"session-offset", "WHICH", "model (default), none, batch, or mm"}},
        .example = "palpate classify objects.json grasp.dsa --json --session-offset batch",

@@ -1,6 +1,7 @@
 #include "commands/command_line.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cerrno>
 #include <cmath>
 #include <cstdio>
@@ -33,6 +34,15 @@ std::string inOneLine(const std::string& synopsis) {
   return line;
 }
 
+// The words of a synopsis that name its command: "palpate calibrate noise".
+std::string commandIn(const std::string& synopsis) {
+  std::istringstream words(synopsis);
+  std::string command;
+  for (std::string word; words >> word && std::islower(static_cast<unsigned char>(word[0]));)
+    command += (command.empty() ? "" : " ") + word;
+  return command;
+}
+
 po::options_description described(const CommandSpec& spec) {
   po::options_description options("Options");
   const auto add = [&](const OptionSpec& option) {
@@ -49,9 +59,50 @@ po::options_description described(const CommandSpec& spec) {
   return options;
 }
 
+constexpr std::size_t kHelpWidth = 79;  // columns; Boost lays out the options for 80
+
+// The column at which the text of a row "  NAME  text" begins; of another indented line that of its
+// first letter.
+std::size_t hangingIndent(const std::string& line) {
+  const std::size_t name = line.find_first_not_of(' ');
+  const std::size_t gap = line.find("  ", name);
+  const std::size_t text = gap == std::string::npos ? gap : line.find_first_not_of(' ', gap);
+  return text == std::string::npos ? name : text;
+}
+
+// Lines of at most kHelpWidth columns; further ones are indented like the text of the first. A
+// number stays beside its unit.
+std::string wrapped(const std::string& line) {
+  if (line.size() <= kHelpWidth) return line + "\n";
+  const bool indented = line.front() == ' ';
+  const std::size_t hang = indented ? hangingIndent(line) : 0;
+  std::string text, current = line.substr(0, hang);
+  std::istringstream words(line.substr(hang));
+  bool first = true;
+  for (std::string word, more; words >> word; first = false) {
+    while (word.find_first_not_of("0123456789.") == std::string::npos && words >> more)
+      word += " " + more;
+    if (!first && current.size() + 1 + word.size() > kHelpWidth) {
+      text += current + "\n";
+      current = std::string(hang, ' ');
+      first = true;
+    }
+    current += (first ? "" : " ") + word;
+  }
+  return text + current + "\n";
+}
+
+// Each line of `text` is a paragraph or a row of a table.
+std::string wrappedLines(const std::string& text) {
+  std::istringstream lines(text);
+  std::string all;
+  for (std::string line; std::getline(lines, line);) all += wrapped(line);
+  return all;
+}
+
 void commandLineShowHelp(const CommandSpec& spec, const po::options_description& options) {
   std::ostringstream text;
-  text << "Usage: " << spec.synopsis << "\n\n" << spec.purpose << "\n\n" << options;
+  text << "Usage: " << spec.synopsis << "\n\n" << wrappedLines(spec.purpose) << "\n" << options;
   text << "\nExample:\n  " << spec.example << "\n";
   std::cout << text.str() << std::flush;
 }
@@ -89,7 +140,8 @@ CommandLine::CommandLine(const CommandSpec& spec, const std::vector<std::string>
         values_[name].insert(values_[name].end(), option.value.begin(), option.value.end());
     }
   } catch (const po::error& error) {
-    throw UsageError(error.what());
+    throw UsageError(error.what() +
+                     ("; '" + commandIn(spec.synopsis) + " --help' lists the options"));
   }
   if (has("help")) {
     commandLineShowHelp(spec, options);

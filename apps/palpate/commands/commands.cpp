@@ -27,18 +27,18 @@ void commandsShowHelp() {
          ": workbench for tactile robot hands\n\n"
          "Usage:\n"
          "  palpate [FILE...]       open recordings in the window\n"
-         "  palpate --demo          open the window on a demonstration\n"
+         "  palpate --demo          open the window on an emulated hand that grasps a ball\n"
          "  palpate --screenshot OUT.png [--size WxH] [--frame N] [--after S] [--dock NAME]...\n"
          "                          [--theme dark|light] [FILE | --demo]\n"
-         "  palpate COMMAND ...     work without a window\n\n"
+         "  palpate COMMAND ...     work without a window\n"
+         "  palpate help COMMAND    explain a command, as 'palpate COMMAND --help'\n\n"
          "Commands:\n";
   for (const Command& command : allCommands())
-    std::printf("  %-12s %s\n", command.name, command.summary);
+    std::printf("  %-14s %s\n", command.name, command.summary);
   std::cout << std::flush;
   std::puts(
-      "\n'palpate COMMAND --help' explains a command. Exit codes: 0 done, 1 failed, 2 wrong "
-      "usage,\n"
-      "3 done in part (damaged input, some of several files).");
+      "\nExit codes: 0 done, 1 failed, 2 wrong usage, 3 done in part (damaged input, or some of\n"
+      "several files failed).");
 }
 
 // Number of letters to insert, delete or change to make one word equal to the other.
@@ -58,16 +58,17 @@ std::size_t distance(std::string_view a, std::string_view b) {
 }
 
 // Throws for a first word that is neither a command nor a file: it was probably meant as a command.
-void refuseMistypedCommand(const std::string& word) {
+void refuseMistypedCommand(const std::string& word, bool mayBeFile = true) {
   std::error_code ignored;
-  if (word.starts_with('-') || word.find_first_of("./") != std::string::npos ||
-      fs::exists(word, ignored))
+  if (word.starts_with('-')) return;
+  if (mayBeFile && (word.find_first_of("./") != std::string::npos || fs::exists(word, ignored)))
     return;
   const auto& all = allCommands();
   const auto nearest = std::min_element(all.begin(), all.end(), [&](const auto& a, const auto& b) {
     return distance(word, a.name) < distance(word, b.name);
   });
-  std::string message = "no command and no file is called '" + word + "'";
+  std::string message =
+      (mayBeFile ? "no command and no file is called '" : "no command is called '") + word + "'";
   if (distance(word, nearest->name) <= 2)
     message += "; did you mean '" + std::string(nearest->name) + "'?";
   else
@@ -81,10 +82,12 @@ int dispatch(const Arguments& words, OtherCommands others, NeedsOthers needsOthe
     return command.run(rest);
   };
   if (!words.empty()) {
-    if (words[0] == "help" && words.size() == 2) {
+    if (words[0] == "help" && words.size() >= 2) {
+      Arguments rest(words.begin() + 2, words.end());  // the kind of a calibration
+      rest.emplace_back("--help");
       for (const Command& command : allCommands())
-        if (words[1] == command.name) return runCommand(command, {"--help"});
-      refuseMistypedCommand(words[1]);
+        if (words[1] == command.name) return runCommand(command, rest);
+      refuseMistypedCommand(words[1], false);
     }
     if (words[0] == "--help" || words[0] == "-h" || words[0] == "help") {
       commandsShowHelp();
@@ -123,10 +126,9 @@ int runCaught(const Arguments& words, OtherCommands others, NeedsOthers needsOth
   } catch (const DeviceError& error) {
     const bool missing =
         error.fault() == DeviceFault::kNotFound || error.fault() == DeviceFault::kSilent;
-    return fail(
-        kFailed,
-        error.what() +
-            std::string(missing ? "; 'palpate ports' tells what answers at each port" : ""));
+    return fail(kFailed,
+                error.what() +
+                    std::string(missing ? "; 'palpate ports' lists the device at each port" : ""));
   } catch (const std::bad_alloc&) {
     return fail(kFailed, "out of memory");
   } catch (const std::exception& error) {
@@ -138,51 +140,49 @@ int runCaught(const Arguments& words, OtherCommands others, NeedsOthers needsOth
 
 const std::vector<Command>& allCommands() {
   static const std::vector<Command> commands = {
-      {"adapt", "adapts a recognition model to today, with labelled grasps", nullptr},
+      {"adapt", "adapts a recognition model to the session of today", nullptr},
       {"calibrate",
        "calibrates counts to kPa and N: noise, steps, pressure, sensitivity, tare",
        nullptr},
-      {"classify", "names what was grasped, with a trained model", nullptr},
+      {"classify", "names the grasped objects with a trained model", nullptr},
       {"compare", "compares two recordings frame by frame, as CSV", &compareCommand},
-      {"contact", "where a hand touches, and how large the held object is", nullptr},
+      {"contact", "measures where the hand touches and how large the object is, as CSV", nullptr},
       {"convert",
-       "converts recordings: .dsa, .palpate, .csv, .npz, .h5, .mat, .mcap",
+       "converts recordings: .dsa, .palpate, .csv, .npz, .h5, .mat, .mcap, .jsonl",
        &convertCommand},
-      {"demo", "a tour without a window: emulated hands grasp objects, which are named", nullptr},
-      {"derive", "curves that a formula makes of signals, as CSV", &deriveCommand},
-      {"emulate", "runs the emulated hand on two ports, until it is interrupted", nullptr},
-      {"evaluate", "measures how well grasps are recognised", nullptr},
-      {"features", "features of each grasp for recognition, as CSV", &featuresCommand},
-      {"filter", "filters a recording with a chain of filters", &filterCommand},
-      {"ghosts",
-       "counts false taxels, and what filters do to them and to contacts",
-       &ghostsCommand},
-      {"grasp", "moves a connected hand: plain and reactive grasps", nullptr},
-      {"grasps", "where the grasps in recordings are, as CSV", &graspsCommand},
-      {"hands", "lists the hands that are known, and checks the folder of one", &handsCommand},
+      {"demo", "runs a tour without a window: emulated hands grasp and recognise objects", nullptr},
+      {"derive", "computes curves from signals by formulas, as CSV", &deriveCommand},
+      {"emulate", "runs an emulated hand on two ports until it is interrupted", nullptr},
+      {"evaluate", "measures how well grasps are recognised, as JSON", nullptr},
+      {"features", "computes the features of each grasp for recognition, as CSV", &featuresCommand},
+      {"filter", "filters a recording with one or several filters", &filterCommand},
+      {"ghosts", "counts falsely active taxels with and without filters, as CSV", &ghostsCommand},
+      {"grasp", "moves a connected hand: plain, reactive and slip-aware grasps", nullptr},
+      {"grasps", "finds the grasps in recordings, as CSV", &graspsCommand},
+      {"hands", "lists the known hands, and checks the folder of a hand", &handsCommand},
       {"import", "imports tables of other programs: CSV, NumPy, HDF5", nullptr},
-      {"info", "what is in a recording, or in each of a folder", &infoCommand},
-      {"kinematics", "where the taxels are at a set of joint angles", &kinematicsCommand},
-      {"labels",
-       "labels, notes and marked grasps as CSV, out of recordings and into them",
-       &labelsCommand},
-      {"ports", "lists the ports and the device on each", &portsCommand},
+      {"info", "shows what recordings contain", &infoCommand},
+      {"kinematics",
+       "computes where the taxels are at given joint angles, as CSV",
+       &kinematicsCommand},
+      {"labels", "prints or imports labels, notes and marked grasps, as CSV", &labelsCommand},
+      {"ports", "lists the ports and the device at each", &portsCommand},
       {"record", "records a connected hand", nullptr},
-      {"recover", "saves what can be saved of a damaged or unfinished recording", &recoverCommand},
+      {"recover", "saves what is readable in a damaged or unfinished recording", &recoverCommand},
       {"remote", "controls a running palpate: status, start, stop, label, ..", &remoteCommand},
-      {"render", "a picture of one frame: PNG, SVG or PDF", nullptr},
-      {"signals", "characteristic signals of each matrix as CSV", &signalsCommand},
-      {"slip", "how contacts move on every matrix, and whether that is slip, as CSV", &slipCommand},
+      {"render", "draws frames as pictures (PNG, SVG, PDF) or as a movie (MP4)", nullptr},
+      {"signals", "computes the characteristic signals of each matrix, as CSV", &signalsCommand},
+      {"slip", "measures how contacts move on each matrix and detects slip, as CSV", &slipCommand},
       {"slip-benchmark",
-       "how well every method measures slip, against synthetic truth, as JSON",
+       "measures the accuracy of every slip method on synthetic data, as JSON",
        &slipBenchmarkCommand},
-      {"spectrum", "spectra of a taxel or a signal over time, as CSV", &spectrumCommand},
+      {"spectrum", "computes spectra of a taxel or a signal, as CSV", &spectrumCommand},
       {"step-benchmark",
-       "how often the intervals of loading steps hold the truth, against synthetic steps, as JSON",
+       "measures the reliability of the intervals of step fits, as JSON",
        nullptr},
-      {"stream", "sends live signals or taxels to other programs (PlotJuggler)", nullptr},
+      {"stream", "sends live signals or taxels to other programs (PlotJuggler, Foxglove)", nullptr},
       {"synthesize", "makes a synthetic recording with known content", &synthesizeCommand},
-      {"train", "trains a model that recognises what is grasped", nullptr},
+      {"train", "trains a model that recognises grasped objects", nullptr},
       {"verify", "checks every byte of recordings", &verifyCommand},
   };
   return commands;

@@ -37,7 +37,7 @@ double offsetFor(const CommandLine& given, const TimedProfile& a, const TimedPro
       throw Error(given.words()[i] +
                   ": no lasting contact (3 taxels in 3 frames in a row); use --align start");
   }
-  throw Error("these two can't be aligned");
+  throw Error("these two recordings can't be aligned; try --align start");
 }
 
 void compareAppendRow(std::string& line,
@@ -63,13 +63,12 @@ void compareAppendRow(std::string& line,
 int compareCommand(const Arguments& words) {
   const CommandLine given(
       {.synopsis = "palpate compare A B [--align contact|start|clock] [--offset S]",
-       .purpose =
-           "Aligns two recordings in time and prints, for every frame of A that has "
-           "a frame of B\nbeside it (the last one at or before), what each matrix has in both: "
-           "the means of the active\ntaxels, and mean and root mean square of A - B over the "
-           "taxels that are active in either. First\ncontact: at least 3 active taxels in "
-           "each of 3 frames in a row. Matrices with other rows or\ncolumns in B are left "
-           "out.",
+       .purpose = "Aligns two recordings in time. For every frame of A it takes the frame of B at "
+                  "the same time (or the last one before it) and prints of each matrix: the mean "
+                  "of the active taxels in A and in B, and mean and root mean square of A - B over "
+                  "the taxels that are active in either. The first contact is the first of three "
+                  "frames in a row in which at least 3 taxels are active. Matrices whose number of "
+                  "rows or columns differs in B are left out.",
        .options = {{"align",
                     "HOW",
                     "contact (default): first contacts; start; clock: by host time"},

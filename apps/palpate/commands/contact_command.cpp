@@ -240,22 +240,21 @@ bool reportProblems(const std::filesystem::path& file, const AngleProblems& prob
 int contactCommand(const Arguments& words) {
   const CommandLine given(
       {.synopsis = "palpate contact PATH... [--angles A0,A1,..] [--matrices | --size]",
-       .purpose =
-           "Prints, for every frame, how many taxels are active (value > 0) and the smallest "
-           "sphere around them in the\nhand's base frame [mm], as CSV; empty where nothing "
-           "touches. force_n [N] is empty without --calibration (its standard deviation: calibrate "
-           "apply). With --matrices a row per "
-           "matrix instead: its contact centroid, mean normal, principal axes and\nthe standard "
-           "deviations along them; with --size a row per grasp: diameter and compression of what "
-           "is "
-           "held. PATH is a\nrecording, or a folder: every recording below it. With several a last "
-           "column names the file. A recording\nwithout joint angles needs --angles.",
+       .purpose = "Prints for every frame, as CSV, how many taxels are active (value > 0) and the "
+                  "smallest sphere around them in the hand's base frame [mm]; the sphere is empty "
+                  "where nothing touches. The column force_n [N] is filled with --calibration "
+                  "only; `palpate calibrate apply` also prints its standard deviation. With "
+                  "--matrices there is a row per matrix instead: its contact centroid, mean "
+                  "normal, principal axes and the standard deviations along them. With --size "
+                  "there is a row per grasp: diameter and compression of the object. PATH is a "
+                  "recording, or a folder: every recording below it. With several recordings a "
+                  "last column names the file. A recording without joint angles needs --angles.",
        .options = withCalibration(withFilterOptions(
            {{"angles", "A0,A1,..", "assume these joint angles [deg] for all frames"},
             {"matrices", "", "a row per matrix"},
             unitsRowOption(),
-            {"size", "", "a row per grasp: how large the object is, how much it gave way"},
-            {"threshold", "N", "active is above N [counts], default 0"},
+            {"size", "", "a row per grasp: diameter and compression of the object"},
+            {"threshold", "N", "a taxel above N is active [counts], default 0"},
             {"fingertip",
              "study|effective",
              "radius of bent fingertips: nominal (default; SDH-2: 58 mm) or effective "

@@ -107,10 +107,10 @@ int contactSizes(const CommandLine& given) {
           if (recordings.several) cells.push_back(file.string());
           out.write(csvLine(cells));
           if (report.unusableFrames > 0)
-            sayContactSize(file,
-                           grasp,
-                           std::to_string(report.unusableFrames) +
-                               " frames without usable joint angles are left out");
+            sayContactSize(
+                file,
+                grasp,
+                counted(report.unusableFrames, "frame") + " without usable joint angles left out");
           if (!report.valid) sayContactSize(file, grasp, "no size: " + report.problem);
           allThere = allThere && report.valid && report.unusableFrames == 0;
         }

@@ -24,11 +24,11 @@ namespace fs = std::filesystem;
 namespace {
 
 std::string damagedText(const std::string& in, std::size_t damaged) {
-  return in + ": " + std::to_string(damaged) + " damaged events were left out";
+  return in + ": " + counted(damaged, "damaged event") + " left out";
 }
 
 std::string doneText(const fs::path& out, const Profile& profile) {
-  return out.string() + ": " + std::to_string(profile.numFrames()) + " frames";
+  return out.string() + ": " + counted(profile.numFrames(), "frame");
 }
 
 // Reports the time stamps that a .dsa file could not store unchanged.
@@ -186,14 +186,12 @@ int convertCommand(const Arguments& words) {
   const CommandLine given(
       {.synopsis = "palpate convert IN OUT [--from N --to M] | FOLDER OUTFOLDER --to-form FORM\n"
                    "       palpate convert PATH... [--each-grasp] -o TEMPLATE",
-       .purpose =
-           "Converts a recording; the ending of OUT chooses the format: .dsa, .palpate, .csv "
-           "(with\nOUT.angles.csv and OUT.temperatures.csv beside it), .npz (for NumPy), .h5, "
-           ".mat, "
-           ".mcap\n(docs/bridges.md) or .jsonl (frames as schunk_sdh/TactileSensor). "
-           "Of a FOLDER every recording\nbelow it, into OUTFOLDER under the same names with "
-           "the ending of FORM, a line per file; one that\nfails doesn't stop the others: exit "
-           "code 3.",
+       .purpose = "Converts a recording. The ending of OUT chooses the format: .dsa, .palpate, "
+                  ".csv (with OUT.angles.csv and OUT.temperatures.csv beside it), .npz (for "
+                  "NumPy), .h5, .mat, .mcap (docs/bridges.md) or .jsonl (frames as "
+                  "schunk_sdh/TactileSensor). Of a FOLDER it converts every recording below it, "
+                  "into OUTFOLDER under the same names with the ending of FORM, and prints a line "
+                  "per file. If one fails, the others are still converted: exit code 3.",
        .options = withBatchOptions(withExportOptions(withFilterOptions(
            {{"from", "N", "first frame, default 0"},
             {"to", "M", "last frame (inclusive), default the last one"},

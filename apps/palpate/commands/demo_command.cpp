@@ -52,14 +52,13 @@ void sayWhatIsNext(const fs::path& folder, bool failed) {
 int demoCommand(const Arguments& words) {
   const CommandLine given(
       {.synopsis = "palpate demo -o DIR",
-       .purpose =
-           "A headless tour on emulated hands, in about 15 seconds: six of them grasp an "
-           "object each, "
-           "between the fingers of\na seventh a pen slips. They are recorded over their ports, "
-           "replayed and exported; the slip is found, what was\nheld is named and compared with "
-           "what was there, the window is drawn, and report.html shows it all. Written\ninto DIR "
-           "(DIR-2, DIR-3, .. when it exists). A line per step: ok, skipped or failed, and a "
-           "figure. Ctrl-C\nends it and removes the folder it made.",
+       .purpose = "Runs a tour on emulated hands without a window, in about 15 seconds. Six hands "
+                  "grasp an object each, and a pen slips between the fingers of a seventh. The "
+                  "tour records them over their ports, replays and exports the recordings, detects "
+                  "the slip, recognises the objects and compares the answers with the truth, draws "
+                  "the window, and shows everything in report.html. It writes into DIR, or into "
+                  "DIR-2, DIR-3, .. if DIR exists, and prints a line per step: ok, skipped or "
+                  "failed, and a figure. Ctrl-C ends the tour and removes the folder that it made.",
        .options = {{"output,o", "DIR", "folder to make, default palpate-demo"}},
        .example = "palpate demo -o tour",
        .maxArguments = 0},
@@ -85,7 +84,7 @@ int demoCommand(const Arguments& words) {
     // The demo created this folder, so that everything in it can be removed.
     std::error_code ignored;
     fs::remove_all(folder, ignored);
-    throw Error("interrupted: nothing of the tour was kept");
+    throw Error("interrupted: the files of the tour were removed");
   }
   if (!given.quiet()) sayWhatIsNext(folder, failed);
   return failed ? kFailed : kDone;

@@ -52,7 +52,7 @@ PullTimes pullTimesOf(const Scene& scene) {
   const ScriptStep* pull = stepOf<LoadObject>(scene);
   const ScriptStep* release = stepOf<ReleaseAction>(scene);
   if (!pull || !release || release->atS <= pull->atS)
-    throw Error("the scene " + scene.name + " does not pull at what is held, and release it");
+    throw Error("the scene " + scene.name + " does not pull at the held object and release it");
   return {pull->atS, release->atS, release->atS + kOpenS};
 }
 

@@ -58,7 +58,7 @@ class ReplayComparison : public DeviceSink {
       throw Error("the replay differs from the recording in " + std::to_string(different_) +
                   " items");
     return std::to_string(frames_) + " frames and " + std::to_string(angles_) +
-           " samples of the joint angles came again, bit by bit";
+           " samples of the joint angles are identical in the replay";
   }
 
  private:

@@ -43,14 +43,13 @@ int deriveCommand(const Arguments& words) {
   const CommandLine given(
       {.synopsis = "palpate derive FILE NAME=FORMULA.. [--from N] [--to N] [--filter SPEC..]",
        .purpose =
-           "Prints curves that formulas make of signals as CSV: frame,time_s and a column for each "
-           "formula.\nSignals: m1_mean, m1_filtered_mean, m1_min, m1_max, m1_sum, m1_active, "
-           "m1_area_mm2 of matrix 1;\nhand_sum and so on of the whole hand; m5_x2_y9 a taxel "
-           "(column 2, row 9); angle3 [deg] and\ntemperature4 [deg C], interpolated at the frames; "
-           "t [s]. Operators + - * / ^ ( ), comparisons\nand a ? b : c; functions abs sqrt min max "
-           "exp ln sin .., and der(x), the slope of x over time [1/s].\nA value that isn't known "
-           "is "
-           "an empty cell.",
+           "Computes curves from signals by formulas and prints them as CSV: frame,time_s and a "
+           "column for each formula. Signals: m1_mean, m1_filtered_mean, m1_min, m1_max, m1_sum, "
+           "m1_active, m1_area_mm2 of matrix 1; hand_sum and so on of the whole hand; m5_x2_y9 a "
+           "taxel (column 2, row 9); angle3 [deg] and temperature4 [deg C], interpolated at the "
+           "frames; t [s]. Operators + - * / ^ ( ), comparisons and a ? b : c; functions abs sqrt "
+           "min max exp ln sin .., and der(x), the slope of x over time [1/s]. A value that isn't "
+           "known is an empty cell.",
        .options = withFilterOptions(
            {{"from", "N", "first frame, default 0"}, {"to", "N", "last frame, inclusive"}}),
        .example = "palpate derive foam_ball.dsa grip=m1_sum-m3_sum > grip.csv",

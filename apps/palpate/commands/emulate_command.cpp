@@ -110,44 +110,45 @@ std::unique_ptr<HandModel> modelOf(const CommandLine& given, std::uint64_t seed)
 }
 
 CommandSpec emulateSpec() {
-  return {.synopsis = "palpate emulate [--dsa LINK] [--sdh LINK] [--scene NAME|FILE.json] ..",
-          .purpose =
-              "An emulated hand: both controllers speak their protocols on two pseudo-terminals "
-              "(or TCP ports of this\nmachine). Prints one line 'dsa=PATH sdh=PATH' when it is "
-              "ready, and runs until it is interrupted.\nWith --hand and --stream it is any hand, "
-              "with contact physics on its surfaces, that sends packets or lines to\nwhoever "
-              "connects to a TCP port; the line is 'stream=tcp:ADDRESS:PORT' then.",
-          .options =
-              {{"dsa", "LINK", "name for the tactile port; tcp:127.0.0.1:PORT for TCP (0: any)"},
-               {"sdh", "LINK", "name for the motion port"},
-               handOption(),
-               {"stream",
-                "PORT",
-                "send the frames of --hand at this TCP port of this machine (0: any); ADDRESS:PORT "
-                "opens it to other machines"},
-               {"format", "FORMAT", "form of the stream: binary (default), lines or json"},
-               {"scene",
-                "NAME|FILE.json",
-                "objects and events around the hand; default empty, for a stream a scene that "
-                "touches every matrix"},
-               {"replay", "FILE", "plays a recording: each frame once, then nothing"},
-               {"faults",
-                "SPEC",
-                "faults to simulate: crc=RATE,drop=RATE,insert=RATE,stall=S@AT,unplug=S@AT,"
-                "junk_start=BYTES,boot=S; RATE: part of the packets (crc) or bytes, 0..1; S@AT: "
-                "for S seconds, AT seconds after the start"},
-               {"truth", "OUT.csv", "write true contacts, forces and slip of each frame"},
-               {"rate",
-                "real|max|HZ",
-                "real: a serial line at 115200 baud (default); HZ: frames per second, "
-                "0.1..1000; max: as fast as the client reads. For a stream HZ, 0.1..5000 (default "
-                "100), or max"},
-               {"seed", "N", "seed of noise and faults, default 1"},
-               {"dsa-firmware", "N", "firmware of the tactile controller, default 10496 (2.9.0.0)"},
-               {"sdh-firmware", "TEXT", "firmware of the motion controller, default 0.0.3.3"},
-               {"force", "", "replace OUT.csv"}},
-          .example = "palpate emulate --dsa /tmp/dsa --sdh /tmp/sdh --scene ball",
-          .maxArguments = 0};
+  return {
+      .synopsis = "palpate emulate [--dsa LINK] [--sdh LINK] [--scene NAME|FILE.json] ..",
+      .purpose =
+          "Runs an emulated hand: both controllers speak their protocols on two pseudo-terminals "
+          "(or TCP ports of this machine). Prints one line 'dsa=PATH sdh=PATH' when it is ready, "
+          "and runs until it is interrupted (Ctrl-C). With --hand and --stream it emulates any "
+          "hand, with contact physics on its surfaces, and sends packets or lines to every program "
+          "that connects to a TCP port; the line is then 'stream=tcp:ADDRESS:PORT'.",
+      .options =
+          {{"dsa", "LINK", "name for the tactile port; tcp:127.0.0.1:PORT for TCP (0: any)"},
+           {"sdh", "LINK", "name for the motion port"},
+           handOption(),
+           {"stream",
+            "PORT",
+            "send the frames of --hand at this TCP port of this machine (0: any); ADDRESS:PORT "
+            "opens it to other machines"},
+           {"format", "FORMAT", "form of the stream: binary (default), lines or json"},
+           {"scene",
+            "NAME|FILE.json",
+            "objects and events around the hand; default empty, for a stream a scene that "
+            "touches every matrix"},
+           {"replay", "FILE", "plays a recording: each frame once, then nothing"},
+           {"faults",
+            "SPEC",
+            "faults to simulate: crc=RATE,drop=RATE,insert=RATE,stall=S@AT,unplug=S@AT,"
+            "junk_start=BYTES,boot=S; RATE: part of the packets (crc) or bytes, 0..1; S@AT: "
+            "for S seconds, AT seconds after the start"},
+           {"truth", "OUT.csv", "write true contacts, forces and slip of each frame"},
+           {"rate",
+            "real|max|HZ",
+            "real: a serial line at 115200 baud (default); HZ: frames per second, "
+            "0.1..1000; max: as fast as the client reads. For a stream HZ, 0.1..5000 (default "
+            "100), or max"},
+           {"seed", "N", "seed of noise and faults, default 1"},
+           {"dsa-firmware", "N", "firmware of the tactile controller, default 10496 (2.9.0.0)"},
+           {"sdh-firmware", "TEXT", "firmware of the motion controller, default 0.0.3.3"},
+           {"force", "", "replace OUT.csv"}},
+      .example = "palpate emulate --dsa /tmp/dsa --sdh /tmp/sdh --scene ball",
+      .maxArguments = 0};
 }
 
 // Waits for a signal. Throws when the emulated hand stops by itself.

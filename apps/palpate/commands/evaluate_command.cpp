@@ -255,17 +255,23 @@ int evaluateCommand(const Arguments& words) {
       {"protocol", "P", "S (default): stratified shuffles; B: five contiguous blocks per class"},
       {"splits", "N", "splits of protocol S, default 10"},
       {"seed", "N", "seed of protocol S, default 0"},
-      {"confidence", "", "calibrate probabilities too: adds their error and the coverage curve"},
+      {"confidence",
+       "",
+       "calibrate probabilities, too: adds their calibration error and the coverage curve"},
       {"weights", "", "adds how much the classifier depends on each feature"},
-      {"learning-curve", "", "adds accuracy against training grasps per class"},
+      {"learning-curve",
+       "",
+       "adds the accuracy for different numbers of training grasps per class"},
       {"eliminate", "", "adds recursive feature elimination"},
       {"unknown", "", "adds how well unknown objects are detected: each class left out in turn"},
       {"later", "PATH2", "with --unknown: the same on these grasps of another session (gauss)"},
       {"model", "M.json", "test this model instead (protocol X)"},
-      {"adapt", "K", "the first K grasps of each class and session adapt it and don't count"},
+      {"adapt",
+       "K",
+       "adapt it with the first K grasps of each class and session, which are not tested"},
       {"session-offset",
        "WHICH",
-       "model (default: what adapt stored), none (summed over), batch, or mm"},
+       "model (default: what adapt stored), none (all offsets are averaged), batch, or mm"},
       {"json", "", "no effect: it always prints JSON"}};
   for (OptionSpec& one : pipelineOptionSpecs()) options.insert(options.begin() + 1, std::move(one));
   const CommandLine given(
@@ -274,16 +280,15 @@ int evaluateCommand(const Arguments& words) {
            "..\n       palpate evaluate --model M.json PATH [--adapt K] [--session-offset "
            "model|none|batch|MM]",
        .purpose =
-           "How well grasps are recognised, as JSON. PATH: a folder with a folder of recordings "
-           "per "
-           "class.\n\nWithout --model by cross-validation: everything (scaling, discriminant "
-           "analysis, classifier) is fitted to\nthe training part of each split alone. Default "
-           "classifier: svm with C = 100, of the set best gauss, as train\ntakes; default no "
-           "discriminant analysis. Both protocols stay within the recordings: they don't show\nhow "
-           "it will be in another session.\n\nWith --model: the model on other recordings; "
-           "candidates "
-           "are all its classes, unknown counts as wrong.\nGrasps more than 8 hours apart are "
-           "different sessions, each with an offset of its own.",
+           "Measures how well grasps are recognised and prints the result as JSON. PATH: a folder "
+           "with a folder of recordings per class.\n\nWithout --model it uses cross-validation: "
+           "everything (scaling, discriminant analysis, classifier) is fitted to the training part "
+           "of each split alone. The default classifier is svm with C = 100, for the set best it "
+           "is gauss, as in `train`; the default is no discriminant analysis. Both protocols stay "
+           "within the recordings: they don't show the accuracy in another session.\n\nWith "
+           "--model it tests the model on other recordings. The candidates are all classes of the "
+           "model; the answer unknown counts as wrong. Grasps more than 8 hours apart are "
+           "different sessions, and each session has its own offset.",
        .options = options,
        .example = "palpate evaluate recordings --set study --lda 14 --splits 50",
        .minArguments = 1,

@@ -37,21 +37,18 @@ int featuresCommand(const Arguments& words) {
       {.synopsis = "palpate features PATH... [--set study|best|session|statistics] [-o TEMPLATE]",
        .purpose =
            "Prints the features of every grasp as a row of CSV: class, file, first and last frame "
-           "(both inclusive),\nthe frames at which it begins and ends for the features, then the "
-           "features. PATH is a folder with a folder\nper class (class = its name with _ as "
-           "blank), or a recording (no class).\n\n"
-           "  best     what holds in another session: contact geometry and force on the load "
-           "plateau\n"
-           "  study    the 54 numbers of the study, to compare with it\n"
-           "  session  best, with joint angles at rest: remembers the pose in which an object was "
-           "presented; of no\n           use in another session\n"
-           "  statistics  load, extent and position of the contact on every matrix, of any hand\n\n"
-           "A grasp: the two pads of the hand that pinch (matrices 1 and 5 of an SDH-2) touch for "
-           "more than 20 frames "
-           "in a row;\nwith statistics two fingers touch, or the only one. A grasp without "
-           "features (no joint angles, pads that don't face each other) "
-           "and a recording without a grasp are\nreported on standard error; then the exit code is "
-           "3. With -o a table for each recording.",
+           "(both inclusive), the first and last frame that the features use, then the features. "
+           "PATH is a folder with a folder per class (the class is its name, with _ for a blank), "
+           "or a recording (no class). The sets:\n\n  best        features that stay valid in "
+           "another session: contact geometry and force on the load plateau\n  study       the 54 "
+           "features of the study, to compare with it\n  session     best, and the joint angles at "
+           "rest: these depend on how the object was presented, and are of no use in another "
+           "session\n  statistics  load, extent and position of the contact on every matrix, of "
+           "any hand\n\nA grasp: the two pads of the hand that pinch (matrices 1 and 5 of an "
+           "SDH-2) are both active for more than 20 frames in a row; with statistics two fingers "
+           "are, or the only one. A grasp without features (no joint angles, or pads that don't "
+           "face each other) and a recording without a grasp are reported on standard error; then "
+           "the exit code is 3. With -o there is a table for each recording.",
        .options = withBatchOptions(withFilterOptions(
            {{"set",
              "SET",

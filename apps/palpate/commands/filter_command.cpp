@@ -33,20 +33,19 @@ RecordingEvent filteredEvent(const Recipe& recipe, const Profile& profile) {
 int filterCommand(const Arguments& words) {
   const CommandLine given(
       {.synopsis = "palpate filter IN OUT --filter SPEC.. | --recipe R.json | --list",
-       .purpose =
-           "Writes the recording IN filtered; the ending of OUT chooses the format as in 'palpate "
-           "convert'.\nSPEC is a filter with its options, as median:size=3,masked=1; several run "
-           "one after the other.\nValues are floats, nothing is rounded to counts. Filters over "
-           "time start again after a gap\n(longer than max(1 s, 5 median intervals) of the frames "
-
-           "before it), after other settings and\nother masks. Borders are repeated; masked taxels "
-           "are neither read nor written. The same chain\nruns in the window, on recordings and "
-           "live.",
+       .purpose = "Filters the recording IN and writes the result; the ending of OUT chooses the "
+                  "format as in `palpate convert`. SPEC is a filter with its options, as "
+                  "median:size=3,masked=1; several are applied one after the other. Values are "
+                  "floats, nothing is rounded to counts. Filters over time start again after a gap "
+                  "(longer than max(1 s, 5 median intervals) of the frames before it), and where "
+                  "settings or masks of the sensor changed. At the borders of a matrix the "
+                  "outermost values are repeated; masked taxels are neither read nor changed. The "
+                  "window applies the same filters, to recordings and live.",
        .options = {{"filter", "SPEC", "a filter; may be given several times, or joined by |"},
                    {"recipe",
                     "R.json",
-                    "a recipe, as the Filter dock saves it; before every --filter"},
-                   {"save-recipe", "R.json", "write the chain as a recipe, too"},
+                    "a recipe, as the Filter dock saves it, before every --filter"},
+                   {"save-recipe", "R.json", "write the filters as a recipe, too"},
                    {"list", "", "list all filters with options, ranges and sources"},
                    {"force", "", "replace OUT and R.json"}},
        .example = "palpate filter foam_ball.dsa calm.palpate --filter median --filter kalman:q=0.1",
@@ -86,9 +85,9 @@ int filterCommand(const Arguments& words) {
   line.wipe();
   if (recipePath) writeRecipe(*recipePath, recipe, given.has("force"));
   if (!given.quiet())
-    std::printf("%s: %zu frames through %s; %s\n",
+    std::printf("%s: %s filtered by %s; %s\n",
                 out.c_str(),
-                filtered.numFrames(),
+                counted(filtered.numFrames(), "frame").c_str(),
                 recipeText(recipe).c_str(),
                 latencyText(recipe, timingOf(profile).rateHz).c_str());
   if (events.damaged == 0) return kDone;

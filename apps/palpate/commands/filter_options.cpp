@@ -48,8 +48,8 @@ const char* domainText(FilterDomain domain) {
 }  // namespace
 
 std::vector<OptionSpec> filterOptions() {
-  return {{"filter", "SPEC", "filters first, as median:size=3; several: one after the other"},
-          {"recipe", "R.json", "filters first, by a recipe; before every --filter"}};
+  return {{"filter", "SPEC", "filter first, as median:size=3; may be repeated"},
+          {"recipe", "R.json", "filter first by a recipe, before every --filter"}};
 }
 
 std::vector<OptionSpec> withFilterOptions(std::vector<OptionSpec> options) {

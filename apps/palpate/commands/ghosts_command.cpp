@@ -180,24 +180,23 @@ int ghostsCommand(const Arguments& words) {
   const CommandLine given(
       {.synopsis = "palpate ghosts [PATH...] [--filter SPEC]... [--recipe R.json] [--json]",
        .purpose =
-           "Measures filters against ghosts: taxels that are active (value > 0) while nothing "
-           "touches them. A CSV row\nfor each filter that might help and each preset; with "
-           "--filter or --recipe for this chain alone.\n\n"
-           "Of recordings: nothing may touch the hand in them; make sure of that (it is so in "
-           "recordings of\nthe noise floor). With --below, recordings at threshold 0: what "
-
-           "thresholds at the noise floor (less\nCOUNTS) leave of them. Without PATH: an emulated "
-           "hand with the noise of the "
-           "real one at sensitivity 1, thresholds\nat the noise floor (docs/ghosting.md) and below "
-           "it; contacts of five sizes come, hold and go, and it is known\nwhich taxels the same "
-           "sensor would report without noise.\n\n"
-           "false: active, and nothing touches it; scattered: those of matrices that are not "
-           "lifted as a whole (more\nthan a quarter of their taxels); frames_false: share of "
-           "frames with at least one; whole_matrix: share of\nmatrices, over all frames, that are "
-           "lifted; touched_removed: share of the truly touched active taxels that\nthe chain "
-           "takes away, also by size of the contact; delay: frames from a contact's first taxel "
-           "as it came to\nthe first one filtered; latency_frames: of the chain itself; cost_us: "
-           "mean time of the chain per frame.",
+           "Measures how well filters remove ghosts: taxels that are active (value > 0) while "
+           "nothing touches them. Prints a CSV row for each filter that might help and for each "
+           "preset; with --filter or --recipe for these filters alone.\n\nOf recordings: nothing "
+           "may touch the hand in them; make sure of that (it is so in recordings of the noise "
+           "floor). With --below, PATH must be recordings at threshold 0: it counts what would "
+           "remain with thresholds that many counts below the noise floor. Without PATH it uses an "
+           "emulated hand with the noise of the real one at sensitivity 1, and thresholds at the "
+           "noise floor (docs/ghosting.md) and below it. Contacts of five sizes begin, hold and "
+           "end there, and it is known which taxels the same sensor would report without "
+           "noise.\n\nThe columns: false: active taxels that nothing touches; scattered: the false "
+           "ones, without matrices of which more than a quarter of the taxels are active at once; "
+           "frames_false: fraction of frames with at least one; whole_matrix: fraction of "
+           "matrices, over all frames, with more than a quarter active; touched_removed: fraction "
+           "of the truly touched active taxels that the filters remove, also by size of the "
+           "contact; delay: frames from the first active taxel of a contact without filter to the "
+           "first one with it; latency_frames: of the filters themselves; cost_us: mean time of "
+           "the filters per frame.",
        .options = withFilterOptions(
            {{"deg", "DEGC", "emulated: temperature of the hand, default 30 and 45; several times"},
             {"below",

@@ -28,25 +28,23 @@ CommandSpec graspSpec() {
   return {
       .synopsis = "palpate grasp --sdh PORT [--dsa PORT] --preshape NAME [--close R] ..",
       .purpose =
-          "Moves a hand. 'plain' goes to the preshape at close ratio R (0 open .. 1 closed, "
-          "default 0.5), whatever\nthe fingers touch. 'reactive' opens to the preshape, then "
-          "closes to R "
-          "(default 1) until the first taxel is over\nN counts. 'slip' does the same, then holds: "
-          "it closes again, to a limit raised by "
-          "300 counts, when what it\nholds slips, until Ctrl-C or for S seconds. Ctrl-C stops the "
-          "hand. Prints a line per state: seconds, state, text. The hand stays powered and "
-          "holds.\nNAME: parallel, "
-          "cylindrical, centrical, spherical, pinch-parallel, pinch-tilted, pinch-empty, "
-          "calibration.",
+          "Moves a hand. The mode 'plain' moves to the preshape at close ratio R (0 open .. 1 "
+          "closed, default 0.5), without regard to contact. 'reactive' opens to the preshape, then "
+          "closes to R (default 1) and stops when the first taxel exceeds N counts. 'slip' does "
+          "the same and then holds the object: when the object slips, the hand closes again, to a "
+          "limit raised by 300 counts. It ends with Ctrl-C or after --hold seconds. Ctrl-C stops "
+          "the hand. Prints a line per state: seconds, state, text. After the command the motors "
+          "stay on and hold the object. NAME: parallel, cylindrical, centrical, spherical, "
+          "pinch-parallel, pinch-tilted, pinch-empty, calibration.",
       .options = {{"sdh", "PORT", "motion controller"},
                   {"dsa", "PORT", "tactile controller; 'reactive' and 'slip' need it"},
-                  {"preshape", "NAME", "how the fingers stand"},
+                  {"preshape", "NAME", "preshape: pose of the fingers before they close"},
                   {"close", "R", "close ratio, 0..1"},
                   {"velocity", "V", "velocity of the joints, 1..100 deg/s, default 10"},
                   {"mode", "plain|reactive|slip", "default plain"},
                   {"limit", "N", "limit of 'reactive' and 'slip', 3..3300 counts, default 200"},
                   {"most", "N", "of 'slip': the limit rises up to N counts, default 2200"},
-                  {"hold", "S", "of 'slip': ends after S seconds; the hand goes on holding"},
+                  {"hold", "S", "of 'slip': end after S seconds; the hand keeps holding"},
                   {"calm",
                    "S",
                    "of 'slip': after S seconds without slip the limit falls again, default 5"},
@@ -90,7 +88,8 @@ GraspRequest graspRequestOf(const CommandLine& given) {
     request.closeRatio = 1.0;
   }
   const auto preshape = given.text("preshape");
-  if (!preshape) throw UsageError("grasp needs --preshape NAME");
+  if (!preshape)
+    throw UsageError("grasp needs --preshape NAME; 'palpate grasp --help' lists the names");
   try {
     request.preshape = findPreshape(defaultHand().file->preshapes, *preshape).name;
   } catch (const std::invalid_argument& error) {
@@ -187,7 +186,7 @@ int graspCommand(const Arguments& words) {
   if (ports.sdhPort.empty()) throw UsageError("grasp needs --sdh PORT");
   if (ports.dsaPort.empty() && request.mode != GraspMode::kPlain)
     throw UsageError("--mode " + std::string(nameOf(request.mode)) +
-                     " needs --dsa PORT: it stops by what the fingers feel");
+                     " needs --dsa PORT: it stops by the readings of the taxels");
   const double waitS = given.number("wait", 0.1, 1e6).value_or(15.0);
   const StateLines lines(given.quiet());
   Interruption interruption;

@@ -107,9 +107,9 @@ int checkFolders(const std::vector<std::string>& folders) {
 int handsCommand(const Arguments& words) {
   const CommandLine given(
       {.synopsis = "palpate hands [--json]\npalpate hands check FOLDER..",
-       .purpose = "Lists the hands that are known: the built-in ones, and those in "
-                  "~/.local/share/palpate/hands.\nWith check: reads the hand.json, URDF and meshes "
-                  "of each folder, and says what does not fit.",
+       .purpose = "Lists the known hands: the built-in ones, and those in "
+                  "~/.local/share/palpate/hands. With check: reads the hand.json, URDF and meshes "
+                  "of each FOLDER, and prints what does not fit together.",
        .options = {{"json", "", "as JSON, one object per hand"}},
        .example = "palpate hands check my_hand",
        .minArguments = 0},

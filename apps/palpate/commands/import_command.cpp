@@ -61,7 +61,8 @@ ImportMapping importMappingOf(const CommandLine& given) {
   if (const auto start = given.text("start")) {
     mapping.time.startUs = parseDate(*start);
     if (!mapping.time.startUs)
-      throw UsageError("--start " + inQuotes(*start) + " is no date such as 2026-11-22T10:31:05Z");
+      throw UsageError("--start " + inQuotes(*start) +
+                       " is not a date such as 2026-11-22T10:31:05Z");
   }
   if (given.has("matrix")) {
     mapping.matrices.clear();
@@ -172,44 +173,45 @@ int importCommand(const Arguments& words) {
   const CommandLine given(
       {.synopsis =
            "palpate import DATA --hand NAME|FOLDER [-o OUT.palpate] [--map M.json] [--preview]",
-       .purpose =
-           "Imports a table of another program as a recording: text (CSV, what microcontrollers "
-           "print),\nNumPy's .npy and .npz, HDF5. A row is a frame. Columns are found by names and "
-           "shapes, or chosen:\nNAME, A..B, #3..#86 (by position, from 1), left*, "
-           "m{m}[{y}][{x}] (matrix, row, column).\nRows that can't be used are counted: exit "
-           "code 3.",
-       .options =
-           {handOption(),
-            {"output,o", "OUT.palpate", "default: DATA with the ending .palpate"},
-            {"map", "M.json", "the mapping of an earlier import; other options go before it"},
-            {"save-map", "M.json", "saves the mapping"},
-            {"preview", "", "shows columns, first rows and what becomes what; writes nothing"},
-            {"json", "", "the report as JSON"},
-            {"matrix",
-             "[M=]COLUMNS",
-             "the columns of matrix M, or of all matrices; may be repeated"},
-            {"scale", "X", "of the matrices: value = number * X + offset"},
-            {"offset", "X", "see --scale"},
-            {"unit", "UNIT", "of the matrices, after scale and offset (kPa, Pa, N, ..)"},
-            {"angles", "COLUMNS", "the joint angles, in the order of the axes, or none"},
-            {"angle-unit", "UNIT", "deg or rad, mm or m"},
-            {"temperatures", "COLUMNS", "the temperatures, in the order of the sensors, or none"},
-            {"time", "COLUMN", "the times of the rows"},
-            {"time-unit", "UNIT", "s, ms, us, ns or iso"},
-            {"rate", "HZ", "rows at equal intervals, where there are no times"},
-            {"start", "DATE", "date of the first row (2026-11-22T10:31:05Z)"},
-            {"delimiter", "NAME", "comma, semicolon, tab, blank or detect (default)"},
-            {"decimal", "NAME", "point (default) or comma"},
-            {"header", "WORD", "a line of names is present, absent or detect (default)"},
-            {"strict", "", "the first row that can't be used is an error"},
-            {"force", "", "replace OUT, and the file of --save-map"}},
+       .purpose = "Imports a table of another program as a recording: text (CSV, or lines that "
+                  "microcontrollers print), NumPy's .npy and .npz, HDF5. A row is a frame. Columns "
+                  "are found by names and shapes, or chosen: NAME, A..B, #3..#86 (by position, "
+                  "from 1), left*, m{m}[{y}][{x}] (matrix, row, column). Rows that can't be used "
+                  "are left out and counted: exit code 3.",
+       .options = {handOption(),
+                   {"output,o", "OUT.palpate", "default: DATA with the ending .palpate"},
+                   {"map", "M.json", "the mapping of an earlier import; other options override it"},
+                   {"save-map", "M.json", "saves the mapping"},
+                   {"preview", "", "shows columns, first rows and the mapping; writes nothing"},
+                   {"json", "", "the report as JSON"},
+                   {"matrix",
+                    "[M=]COLUMNS",
+                    "the columns of matrix M, or of all matrices; may be repeated"},
+                   {"scale", "X", "of the matrices: value = number * X + offset"},
+                   {"offset", "X", "see --scale"},
+                   {"unit", "UNIT", "of the matrices, after scale and offset (kPa, Pa, N, ..)"},
+                   {"angles", "COLUMNS", "the joint angles, in the order of the axes, or none"},
+                   {"angle-unit", "UNIT", "deg or rad, mm or m"},
+                   {"temperatures",
+                    "COLUMNS",
+                    "the temperatures, in the order of the sensors, or none"},
+                   {"time", "COLUMN", "the times of the rows"},
+                   {"time-unit", "UNIT", "s, ms, us, ns or iso"},
+                   {"rate", "HZ", "rows at equal intervals, where there are no times"},
+                   {"start", "DATE", "date of the first row (2026-11-22T10:31:05Z)"},
+                   {"delimiter", "NAME", "comma, semicolon, tab, blank or detect (default)"},
+                   {"decimal", "NAME", "point (default) or comma"},
+                   {"header", "WORD", "a line of names is present, absent or detect (default)"},
+                   {"strict", "", "the first row that can't be used is an error"},
+                   {"force", "", "replace OUT, and the file of --save-map"}},
        .example = "palpate import pad.csv --hand flat_pad_16x16 -o pad.palpate",
        .minArguments = 1,
        .maxArguments = 1},
       words);
   if (given.helpShown()) return kDone;
   const fs::path data = given.words()[0];
-  if (!given.has("hand")) throw UsageError("import needs --hand; 'palpate hands' lists them");
+  if (!given.has("hand"))
+    throw UsageError("import needs --hand NAME|FOLDER; 'palpate hands' lists the names");
   const bool preview = given.has("preview");
   for (const char* option : {"output", "save-map", "strict", "force", "json"})
     if (preview && given.has(option))

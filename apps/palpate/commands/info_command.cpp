@@ -229,11 +229,11 @@ std::string plainText(const std::string& file,
     gaps += (&gap == &timing.gaps.front() ? ": " : ", ") + fixedText(gap.seconds, 1) +
             " s after frame " + std::to_string(gap.frame);
   text += row("gaps", gaps);
-  text += row("joint angles", std::to_string(profile.numAngles()) + " samples");
-  text += row("temperatures", std::to_string(profile.numTemperatures()) + " samples");
+  text += row("joint angles", counted(profile.numAngles(), "sample"));
+  text += row("temperatures", counted(profile.numTemperatures(), "sample"));
   text += row("largest value",
-              numberText(values.maximum) + ", " + std::to_string(values.saturatedFrames) +
-                  " frames with a saturated taxel (>= " + profile.hand().saturationText() + ")");
+              numberText(values.maximum) + ", " + counted(values.saturatedFrames, "frame") +
+                  " with a saturated taxel (>= " + profile.hand().saturationText() + ")");
   text += row("matrices", std::to_string(profile.layout().numMatrices()));
   text += matricesText(profile);
   text += notesText(recording);
@@ -322,16 +322,13 @@ int infoCommand(const Arguments& words) {
   const CommandLine given(
       {.synopsis = "palpate info PATH... [--json]",
        .purpose =
-           "Says what is in a recording: frames, rates, gaps, matrices, angles, temperatures, "
-           "largest value,\nwho recorded what (operator, object, run, notes), labels and events "
-           "(of a "
-           ".dsa those of its notes).\nThe rate comes from the median interval; a gap is longer "
-           "than "
-           "max(1 s, 5 median intervals).\nOf several PATHs or a folder (every recording below "
-           "it): "
-           "a table as CSV, a row each; a file that\ncan't be read is reported, and the others are "
-           "printed: exit code 3. Of a damaged one it says\nwhat can be read, and what is missing: "
-           "exit code 3, too.",
+           "Shows what a recording contains: frames, rates, gaps, matrices, angles, temperatures, "
+           "largest value, what was entered before recording (operator, object, run, notes), "
+           "labels and events (of a .dsa those of its notes). The rate comes from the median "
+           "interval; a gap is longer than max(1 s, 5 median intervals). Of several PATHs or a "
+           "folder (every recording below it) it prints a table as CSV, a row each; a file that "
+           "can't be read is reported, and the others are printed: exit code 3. Of a damaged "
+           "recording it shows what can be read and what is missing: exit code 3, too.",
        .options = {{"json", "", "one JSON object; of several: with a list, recordings"}},
        .example = "palpate info foam_ball.dsa --json",
        .minArguments = 1},

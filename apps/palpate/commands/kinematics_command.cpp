@@ -38,11 +38,10 @@ int kinematicsCommand(const Arguments& words) {
       {.synopsis =
            "palpate kinematics --angles A0,A1,.. [--hand NAME|FOLDER] [--matrix M | --point "
            "M,X_MM,Y_MM]",
-       .purpose =
-           "Positions [mm] and outward normals of the taxels in the hand's base frame, as "
-           "CSV:\nmatrix,x,y,x_mm,y_mm,z_mm,nx,ny,nz,exists. With --point, of one point of a "
-           "sensor surface,\nin mm from the centre of taxel (0, 0); its x and y are then "
-           "fractions of taxels.",
+       .purpose = "Prints positions [mm] and outward normals of the taxels in the hand's base "
+                  "frame, as CSV: matrix,x,y,x_mm,y_mm,z_mm,nx,ny,nz,exists. With --point it "
+                  "prints those of one point of a sensor surface, given in mm from the centre of "
+                  "taxel (0, 0); x and y are then fractions of taxels.",
        .options = {anglesOption(),
                    handOption(),
                    {"matrix", "M", "this matrix only"},

@@ -60,15 +60,13 @@ int labelsCommand(const Arguments& words) {
       {.synopsis = "palpate labels PATH... | FILE --import LABELS.csv",
        .purpose =
            "Prints what a person has noted in recordings (labels, notes, marks, corrected grasps) "
-           "as CSV: begin_s,\nend_s [s from the first frame], kind (label, note, mark, segment), "
-           "text, matrix. PATH is a recording, or a\nfolder: every recording below it. With "
-           "several, "
-           "a last column names the file.\n\n"
-           "With --import the labels of such a table are added to FILE, which keeps its own; one "
-           "that it has already\nisn't added again. Columns may stand in any order; begin_s and "
-           "text must be there, the others may be\nmissing: without end_s a moment, without kind a "
-           "label. Rows that are wrong are left out and named by their\nline; then the exit code "
-           "is 3, or 1 if all are.",
+           "as CSV: begin_s, end_s [s from the first frame], kind (label, note, mark, segment), "
+           "text, matrix. PATH is a recording, or a folder: every recording below it. With several "
+           "recordings a last column names the file.\n\nWith --import the labels of such a table "
+           "are added to FILE, which keeps its own; a label that FILE already has isn't added "
+           "again. Columns may stand in any order. begin_s and text are required; a row without "
+           "end_s is a moment, a row without kind is a label. Wrong rows are left out and named by "
+           "their line number; then the exit code is 3, or 1 if all rows are wrong.",
        .options = {{"import", "LABELS.csv", "add the labels of this table to FILE"}},
        .example = "palpate labels recordings > labels.csv",
        .minArguments = 1},

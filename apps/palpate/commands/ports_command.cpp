@@ -150,11 +150,10 @@ int portsCommand(const Arguments& words) {
   const CommandLine given(
       {.synopsis = "palpate ports [PORT...] [--json] [--no-probe]",
        .purpose =
-           "Lists the serial ports and asks each what is behind it: the hand's motion controller, "
-           "its\ntactile controller, or neither. With PORTs (also ptys and tcp:HOST:PORT) only "
-           "these are asked.\nA port that another program holds is left alone; every other one is "
-           "sent a few bytes: use\n--no-probe where devices are attached that these could "
-           "disturb.",
+           "Lists the serial ports and the device at each: the hand's motion controller, its "
+           "tactile controller, or neither. With PORTs (also ptys and tcp:HOST:PORT) only these "
+           "are asked. A port that another program uses is not opened. Every other port is sent a "
+           "few bytes: give --no-probe if devices are attached that these bytes could disturb.",
        .options = {{"json", "", "one JSON object"}, {"no-probe", "", "list only, send nothing"}},
        .example = "palpate ports"},
       words);

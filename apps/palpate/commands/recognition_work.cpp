@@ -42,7 +42,8 @@ FeatureTable extractFeatureTable(const CommandLine& given,
   for (const std::string& problem : table.problems) sayLine(problem);
   if (table.rows.empty())
     throw Error("no grasp with features in " + std::to_string(table.numFiles) +
-                (table.numFiles == 1 ? " recording" : " recordings") + ": nothing to work with");
+                (table.numFiles == 1 ? " recording" : " recordings") +
+                "; look at 'palpate grasps' for why");
   return table;
 }
 

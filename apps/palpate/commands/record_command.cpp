@@ -103,7 +103,9 @@ RecordingOptions recordingOptions(const CommandLine& given) {
   options.contact.threshold =
       given.number("contact-threshold", 0.0, 1e9).value_or(options.contact.threshold);
   if (given.has("remote") && (options.startOnContact || options.stopWithoutContactS))
-    throw UsageError("with --remote other programs start and stop, not contact");
+    throw UsageError(
+        "--start-on-contact and --stop-without-contact can't be used with --remote: other programs "
+        "start and stop");
   // The moment of contact itself is not the first that counts.
   if (options.startOnContact) options.preTriggerS = RecordingOptions().preTriggerS;
   if (given.has("mcap")) options.mcap.emplace();
@@ -139,13 +141,13 @@ std::string nothingText(const DeviceStatus& device,
                         const StreamDevice* stream) {
   const bool isStream = stream != nullptr;
   if (isStream && !stream->lastFault().empty())
-    return port + ": no frame came: " + stream->lastFault();
+    return port + ": no frame arrived: " + stream->lastFault();
   const PortStatus& tactile = device.tactile;
   if (!tactile.message.empty())
-    return port + ": no frame came: " + (isStream ? withoutPort(tactile) : tactile.message);
-  if (isStream) return port + ": no frame came; is the sender running?";
+    return port + ": no frame arrived: " + (isStream ? withoutPort(tactile) : tactile.message);
+  if (isStream) return port + ": no frame arrived; is the sender running?";
   return port +
-         ": no frame came; is the hand switched on, and this its tactile port? ('palpate ports' "
+         ": no frame arrived; is the hand switched on, and this its tactile port? ('palpate ports' "
          "shows it)";
 }
 
@@ -182,10 +184,10 @@ std::string recordJsonText(const RecordingReport& report, const DeviceStatus& de
 std::string lineText(const RecordingReport& report, const DeviceStatus& device) {
   std::string line = report.paths.front().string();
   if (report.paths.size() > 1) line += " and " + std::to_string(report.paths.size() - 1) + " more";
-  return line + ": " + std::to_string(report.frames) + " frames in " +
+  return line + ": " + counted(static_cast<std::uint64_t>(report.frames), "frame") + " in " +
          fixedText(report.durationS, 1) + " s (" + fixedText(report.meanRateHz, 1) + "/s), " +
-         std::to_string(report.angles) + " angles, " + std::to_string(report.temperatures) +
-         " temperatures; " +
+         counted(static_cast<std::uint64_t>(report.angles), "angle sample") + ", " +
+         counted(static_cast<std::uint64_t>(report.temperatures), "temperature sample") + "; " +
          std::to_string(static_cast<std::int64_t>(device.tactile.lost) + report.lost) + " lost, " +
          counted(badChecksumsOf(device), "bad checksum") + ", " +
          counted(static_cast<std::uint64_t>(report.gaps), "gap");
@@ -213,29 +215,31 @@ CommandSpec recordSpec() {
           "palpate record (--dsa PORT [--sdh PORT] | --stream SOURCE --hand NAME|FOLDER) -o "
           "OUT.palpate [--duration S] [--remote] ..",
       .purpose =
-          "Records a hand until Ctrl-C, or for S seconds from the first frame. What came is on "
-          "disk within\n150 ms; OUT is written from the first frame on and never replaced. PORT: "
-          "a "
-          "serial device, a\n/dev/serial/by-id name, a pty, or tcp:HOST:PORT. OUT may hold "
-          "{date}, "
-          "{time}, {operator},\n{object}, {run} (next free number). With --remote nothing is "
-          "recorded "
-          "until it is asked for; OUT is\nthen a folder, or the template of names in one. Exit "
-          "code 3: something is missing in a recording.",
+          "Records a hand until Ctrl-C, or for S seconds from the first frame. Received data is on "
+          "disk within 150 ms; OUT is written from the first frame on and is never replaced. PORT: "
+          "a serial device, a /dev/serial/by-id name, a pty, or tcp:HOST:PORT. OUT may hold "
+          "{date}, {time}, {operator}, {object}, {run} (next free number). With --remote it "
+          "records only when another program asks for it (palpate remote start); OUT is then a "
+          "folder, or a folder with a template of file names. Exit code 3: something is missing in "
+          "a recording.",
       .options = {{"dsa", "PORT", "tactile controller"},
                   {"sdh", "PORT", "motion controller: angles and temperatures"},
                   {"output,o", "OUT.palpate", "where to record"},
-                  {"duration", "S", "stop after so many seconds from the first frame"},
-                  {"wait", "S", "give up when no frame comes within so many seconds, default 15"},
+                  {"duration", "S", "stop S seconds after the first frame"},
+                  {"wait", "S", "give up if no frame arrives within S seconds, default 15"},
                   {"operator", "NAME", "who records"},
                   {"object", "NAME", "what is grasped"},
                   {"run", "TEXT", "which run"},
                   {"notes", "TEXT", "any other notes"},
                   {"split-minutes", "M", "a new file after M minutes: NAME_002.palpate, .."},
                   {"split-mb", "N", "a new file at about N MB"},
-                  {"start-on-contact", "", "begin when something is touched, and 2 s before it"},
-                  {"stop-without-contact", "S", "end when nothing is touched for S seconds"},
-                  {"contact-threshold", "N", "contact is above N (default 0: any active taxel)"},
+                  {"start-on-contact",
+                   "",
+                   "begin with the first contact, and include the 2 s before it"},
+                  {"stop-without-contact", "S", "end after S seconds without contact"},
+                  {"contact-threshold",
+                   "N",
+                   "contact: a taxel above N counts (default 0: any active taxel)"},
                   {"mcap", "", "write OUT.mcap beside it, too: for Foxglove and ROS 2"},
                   remoteOption(),
                   socketOption(),

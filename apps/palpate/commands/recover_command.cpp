@@ -12,11 +12,10 @@ namespace palpate::commands {
 int recoverCommand(const Arguments& words) {
   const CommandLine given(
       {.synopsis = "palpate recover IN OUT",
-       .purpose =
-           "Saves what can be saved of a damaged or unfinished recording; IN is never "
-           "touched. The ending of\nOUT chooses the format (.dsa, .palpate, .csv, .npz). Exit "
-           "code: 0 nothing was lost, 3 something was,\n1 nothing could be saved (then there "
-           "is no OUT).",
+       .purpose = "Saves what is readable in a damaged or unfinished recording; IN is never "
+                  "changed. The ending of OUT chooses the format, as in `palpate convert` "
+                  "(.palpate, .dsa, .csv, .npz, ..). Exit code: 0 nothing was lost, 3 something "
+                  "was lost, 1 nothing could be saved (then there is no OUT).",
        .options = {{"force", "", "replace OUT"}},
        .example = "palpate recover broken.dsa saved.palpate",
        .minArguments = 2,

@@ -38,17 +38,16 @@ int remoteCommand(const Arguments& words) {
   const CommandLine given(
       {.synopsis = "palpate remote [--socket PATH] REQUEST [TEXT]",
        .purpose =
-           "Controls a palpate on this machine that was started with --remote (or where Remote "
-           "control is "
-           "switched\non), waits until it is done, and prints the answer as a line of JSON. "
-           "REQUEST: "
-           "status, start [NAME]\n(done when frames are on disk), stop (when the file is "
-           "closed), label "
-           "TEXT, mark, file [TEMPLATE],\nset KEY [TEXT] (operator, object, run, notes), "
-           "help. Exit "
-           "code 1: it was refused; 3: stopped, but\nsomething is missing in the recording.",
-       .options = {{"socket", "PATH", "where it listens; default $XDG_RUNTIME_DIR/palpate-remote"},
-                   {"wait", "S", "give up without an answer after so many seconds, default 60"}},
+           "Controls a palpate on this machine that was started with --remote, or in whose window "
+           "Remote control is switched on. Waits until the request is done, and prints the answer "
+           "as a line of JSON. REQUEST: status, start [NAME] (done when frames are on disk), stop "
+           "(done when the file is closed), label TEXT, mark, file [TEMPLATE], set KEY [TEXT] "
+           "(operator, object, run, notes), help. Exit code 1: the request was refused; 3: "
+           "stopped, but something is missing in the recording.",
+       .options = {{"socket",
+                    "PATH",
+                    "socket at which it listens; default $XDG_RUNTIME_DIR/palpate-remote"},
+                   {"wait", "S", "give up after S seconds without an answer, default 60"}},
        .example = "palpate remote start pen_{run}",
        .minArguments = 1},
       words);

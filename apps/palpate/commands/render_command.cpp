@@ -355,13 +355,11 @@ int renderCommand(const Arguments& words) {
           "       palpate render PATH... -o TEMPLATE",
       .purpose =
           "Draws the heat maps of one frame, or the hand in 3-D. The ending of OUT chooses the "
-          "format; SVG and PDF "
-
-          "are vector\ngraphics with text as text. With --from or --to, a PNG of each frame from "
-          "N "
-          "to M, both inclusive:\nFOLDER/NAME_00042.png. To OUT.mp4, a movie of these frames as "
-          "they came; it takes the program\nffmpeg ($PALPATE_FFMPEG, else in $PATH). With a "
-          "template as OUT (out/{name}.png), a picture or movie of each\nrecording.",
+          "format; SVG and PDF are vector graphics with text as text. With --from or --to it draws "
+          "a PNG of each frame from N to M, both inclusive: FOLDER/NAME_00042.png. If OUT ends in "
+          ".mp4, it makes a movie of these frames at their recorded times; this needs the program "
+          "ffmpeg ($PALPATE_FFMPEG, else in $PATH). With a template as OUT (out/{name}.png) it "
+          "makes a picture or movie of each recording.",
       .options = {{"frame", "N", "default: the frame of largest sum"},
                   {"from", "N", "first frame of a series; default 0"},
                   {"to", "M", "last frame, inclusive; default the recording's last"},

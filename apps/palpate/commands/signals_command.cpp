@@ -37,12 +37,12 @@ int signalsCommand(const Arguments& words) {
       {.synopsis =
            "palpate signals PATH... [--matrix M] [--filter SPEC..] [--smooth SPEC..] [-o TEMPLATE]",
        .purpose = "Prints the characteristic signals of every matrix in every frame as CSV: mean, "
-                  "minimum, maximum,\nsum and number of the active taxels (value > 0), their area, "
-                  "and the mean of the 3x3 Gaussian-\nfiltered matrix over its active taxels. An "
-                  "empty matrix has zeros. PATH is a recording, or a\nfolder: every recording "
-                  "below it. With several a last column names the file; one that can't be\nread is "
-                  "reported, and the rows of the others are printed: exit code 3. "
-                  "With -o a table for each recording.",
+                  "minimum, maximum, sum and number of the active taxels (value > 0), their area, "
+                  "and the mean of the 3x3 Gaussian-filtered matrix over its active taxels. A "
+                  "matrix without active taxels has zeros. PATH is a recording, or a folder: every "
+                  "recording below it. With several recordings a last column names the file; one "
+                  "that can't be read is reported, and the rows of the others are printed: exit "
+                  "code 3. With -o there is a table for each recording.",
        .options = withBatchOptions(withFilterOptions(
            {{"matrix", "M", "only this matrix (0, 1, ..)"},
             unitsRowOption(),

@@ -50,26 +50,26 @@ int slipCommand(const Arguments& words) {
       {.synopsis =
            "palpate slip PATH... [--method METHOD] [--reference first|rest|FRAME] [-o TEMPLATE]",
        .purpose =
-           "Prints, for every frame and every matrix with an active taxel, how the contact moved "
-           "since the frame before\n(dx, dy) and since the reference [taxels, x right, y down], "
-           "how it turned, and whether that is slip, as CSV;\ndocs/slip.md explains the columns. "
-           "With --segments a row per slip instead. PATH is a recording, or a folder:\nevery "
-           "recording below it. With several a last column names the file. With "
-           "-o a table for each\nrecording.",
+           "Prints for every frame and every matrix with an active taxel, as CSV, how the contact "
+           "moved since the frame before (dx, dy) and since the reference [taxels, x right, y "
+           "down], by which angle it turned, and whether that is slip; docs/slip.md explains the "
+           "columns. With --segments there is a row per slip instead. PATH is a recording, or a "
+           "folder: every recording below it. With several recordings a last column names the "
+           "file. With -o there is a table for each recording.",
        .options = withBatchOptions(withFilterOptions(
            {{"method",
              "METHOD",
              "centroid, alcazar, ncc-paraboloid, ncc-gauss3, phase, phase-normalized, "
-             "register, contest (default: weighed against a load that shifts)"},
-            {"matrix", "M", "only this one"},
+             "register, contest (default: compares a motion with a load shift)"},
+            {"matrix", "M", "only this matrix"},
             {"reference",
              "WHAT",
-             "first: first frame with an active taxel (default); rest: each contact when it "
-             "rests; or a frame"},
+             "first: first frame with an active taxel (default); rest: each contact from when "
+             "it is at rest; or a frame"},
             {"step", "T", "threshold per frame [taxels], default 0.20"},
             {"limit", "T", "threshold since the reference [taxels], default 1.0"},
-            {"rotation", "DEG", "threshold of turning [deg], default 5"},
-            {"segments", "", "a row per slip: frames, matrix, length of the way"},
+            {"rotation", "DEG", "threshold of the rotation [deg], default 5"},
+            {"segments", "", "a row per slip: frames, matrix, length of the path"},
             unitsRowOption()})),
        .example = "palpate slip bottle.dsa --reference rest > slip.csv",
        .minArguments = 1},

@@ -94,9 +94,10 @@ SeriesChoice signalNamed(const std::string& text,
                          const SensorLayout& layout,
                          const std::string& file) {
   const auto refuse = [&]() -> UsageError {
-    return UsageError("--coherence: \"" + text +
-                      "\" is no signal; a signal is MATRIX:NAME, as 1:mean or hand:sum, or a taxel "
-                      "MATRIX:X:Y, as 5:2:9");
+    return UsageError(
+        "--coherence: \"" + text +
+        "\" is not a signal; a signal is MATRIX:NAME, as 1:mean or hand:sum, or a taxel "
+        "MATRIX:X:Y, as 5:2:9");
   };
   std::vector<std::string> parts;
   for (std::size_t begin = 0;;) {
@@ -370,17 +371,16 @@ int spectrumCommand(const Arguments& words) {
   const CommandLine given(
       {.synopsis = "palpate spectrum FILE --matrix M --x X --y Y [--window 32] [--overlap 31] ..",
        .purpose =
-           "Short-time Fourier transform of one taxel (value in counts; 0 where it feels nothing) "
-           "or of a\nmatrix signal, as CSV: segment,time_s,frequency_hz,psd,magnitude. Frames come "
-           "at uneven intervals:\nevery span without a gap is first interpolated onto an even "
-           "grid "
-           "of its mean rate; nothing\nabove half that rate can be seen. Hann window (periodic), "
-           "power spectral density one-sided in\ncounts^2/Hz, magnitude in counts: a tone of "
-           "amplitude A at a bin reads A. time_s is the middle\nof the window, from the "
-           "recording's first frame. With --welch one line instead: frequency_hz,psd,magnitude, "
-           "the "
-           "mean over\nsegments; with --peaks its peaks; with --coherence what two signals have in "
-           "common: frequency_hz,\ncoherence,phase_deg,psd_a,psd_b.",
+           "Computes the short-time Fourier transform of one taxel (in counts; 0 where it is not "
+           "active) or of a signal of a matrix, as CSV: segment,time_s,frequency_hz,psd,magnitude. "
+           "The intervals of frames are uneven: every span without a gap is first interpolated to "
+           "equal intervals at its mean rate; frequencies above half that rate can't be measured. "
+           "Hann window (periodic), power spectral density one-sided in counts^2/Hz, magnitude in "
+           "counts: a sine of amplitude A at a bin has magnitude A. time_s is the middle of the "
+           "window, from the recording's first frame.\n\nWith --welch it prints one spectrum "
+           "instead, the mean over all segments: frequency_hz,psd,magnitude; with --peaks the "
+           "peaks of this spectrum; with --coherence what two signals have in common: "
+           "frequency_hz,coherence,phase_deg,psd_a,psd_b.",
        .options = withFilterOptions(
            {{"matrix", "M", "matrix (0, 1, ..)"},
             {"x", "X", "column of the taxel"},
@@ -389,8 +389,8 @@ int spectrumCommand(const Arguments& words) {
              "NAME",
              "instead of a taxel: mean, filtered_mean, min, max, sum, active, area_mm2; "
              "without --matrix of the whole hand"},
-            {"welch", "", "the mean over all segments as one line (Welch)"},
-            {"peaks", "", "the peaks of this line: frequency, density, amplitude, width"},
+            {"welch", "", "the mean over all segments as one spectrum (Welch)"},
+            {"peaks", "", "the peaks of this spectrum: frequency, density, amplitude, width"},
             {"coherence",
              "A,B",
              "coherence and phase of two signals, as 1:mean,3:mean; taxels as 5:2:9,5:3:9"},
@@ -399,9 +399,14 @@ int spectrumCommand(const Arguments& words) {
              "samples per segment, 2..65536, default 32; 256 for --welch, --peaks, --coherence"},
             {"overlap",
              "N",
-             "samples shared with the next segment, default window - 1; window / 2 for these"},
-            {"detrend", "HOW", "what a segment loses first: mean (default), line, none"},
-            {"rate", "HOW", "of the even grid: mean (default) or median of the intervals"},
+             "samples shared with the next segment, default window - 1; window / 2 for --welch, "
+             "--peaks, --coherence"},
+            {"detrend",
+             "HOW",
+             "what is subtracted from each segment first: mean (default), line, none"},
+            {"rate",
+             "HOW",
+             "sampling rate after interpolation: mean (default) or median of the intervals"},
             {"from", "N", "first frame, default 0"},
             {"to", "N", "last frame, inclusive"},
             {"json",

@@ -63,10 +63,10 @@ int stepBenchmarkCommand(const Arguments& words) {
       {.synopsis = "palpate step-benchmark [--trials N] [--seed N]",
        .purpose =
            "Fits synthetic loading steps whose parameters are known, by noise, length and drift, "
-           "and counts how often\nthe stated 95 % intervals contain them, with Wilson's interval "
-           "of that share. Prints JSON; docs/calibration.md\nexplains it.",
+           "and counts how often the stated 95 % intervals contain them, with Wilson's interval of "
+           "that fraction. Prints JSON; docs/calibration.md explains it.",
        .options = {{"trials", "N", "steps per kind, default 200"},
-                   {"seed", "N", "seed of noise and stamps, default 1"}},
+                   {"seed", "N", "seed of noise and loads, default 1"}},
        .example = "palpate step-benchmark --trials 50",
        .maxArguments = 0},
       words);

@@ -68,23 +68,19 @@ CommandSpec streamSpec() {
           "[--to STREAM].. [--foxglove [PORT]] [--lines]",
       .purpose =
           "Sends what a hand measures live to other programs on this machine: a JSON object per "
-          "frame, as "
-          "UDP\ndatagrams to 127.0.0.1 or as lines on standard output. STREAM: signals (default; "
-          "for PlotJuggler,\nport 9870), tactile (all taxels as schunk_sdh/TactileSensor, port "
-          "9871) or foxglove (a WebSocket\nfor Foxglove at 127.0.0.1:8765: heat maps, the hand in "
-          "space, joints, signals, events), with another\nport as signals:9999. FILE: a recording, "
-          "played in its own time "
-          "(with --lines at once). Runs until Ctrl-C. Of a damaged recording "
-          "what can be read is sent, and\nthe rest is reported: exit code 3.",
+          "frame, as UDP datagrams to 127.0.0.1 or as lines on standard output. STREAM: signals "
+          "(default; for PlotJuggler, port 9870), tactile (all taxels as schunk_sdh/TactileSensor, "
+          "port 9871) or foxglove (a WebSocket for Foxglove at 127.0.0.1:8765: heat maps, the hand "
+          "in 3-D, joints, signals, events); another port is given as signals:9999. FILE: a "
+          "recording, played at its recorded times (with --lines at once). Runs until Ctrl-C. Of a "
+          "damaged recording it sends what can be read and reports the rest: exit code 3.",
       .options = {{"dsa", "PORT", "tactile controller"},
                   {"sdh", "PORT", "motion controller: angles and temperatures"},
-                  {"to", "STREAM", "what to send, and where to; may be repeated"},
-                  {"foxglove",
-                   "[PORT]",
-                   "the same as --to foxglove[:PORT]; PORT 0 takes a free one"},
+                  {"to", "STREAM", "what to send, and to which port; may be repeated"},
+                  {"foxglove", "[PORT]", "the same as --to foxglove[:PORT]; PORT 0: any free one"},
                   {"lines", "", "lines on standard output instead of datagrams"},
                   {"calibration", "C.json", "also pressures and forces"},
-                  {"duration", "S", "stop after so many seconds"}},
+                  {"duration", "S", "stop after S seconds"}},
       .example = "palpate stream --dsa /dev/ttyUSB0 --sdh /dev/ttyUSB1",
       .maxArguments = 1};
   const std::vector<OptionSpec> stream = streamSourceOptions();
@@ -188,10 +184,10 @@ void requireFrames(const CaptureSession& session, const CommandLine& given) {
   if (health.frames.frames > 0) return;
   const std::string& why = health.device.tactile.message;
   if (const auto source = given.text("stream"))
-    throw Error(*source + ": no frame came" +
+    throw Error(*source + ": no frame arrived" +
                 (why.empty() ? std::string("; is the sender running?")
                              : ": " + withoutPort(health.device.tactile)));
-  throw Error(given.text("dsa").value_or("") + ": no frame came" +
+  throw Error(given.text("dsa").value_or("") + ": no frame arrived" +
               (why.empty() ? std::string("; is the hand switched on, and this its tactile port?")
                            : ": " + why));
 }
@@ -274,7 +270,7 @@ int streamLines(const CommandLine& given, const StreamTargets& targets) {
   const ChainStats stats = chain.stats();
   if (stats.skipped == 0) return kDone;
   std::fprintf(stderr,
-               "palpate: %llu frames were skipped: the reader is too slow\n",
+               "palpate: %llu frames were skipped: the program that reads them is too slow\n",
                static_cast<unsigned long long>(stats.skipped));
   return kPartlyDone;
 }

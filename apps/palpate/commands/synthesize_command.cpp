@@ -53,14 +53,14 @@ int synthesizeCommand(const Arguments& words) {
   const CommandLine given(
       {.synopsis = "palpate synthesize -o OUT.dsa [--scene NAME] [--duration S] [--grasps N] "
                    "[--noise SD] ..",
-       .purpose = "Makes a synthetic recording of pinch grasps: the same options give the same "
-                  "frames. The\nrecording in data/ was made by it.\n\n"
-                  "With --scene the emulated hand plays a scene (palpate emulate --scene), without "
-                  "ports and without\nwaiting; with --grasps N it plays it N times, each time with "
-                  "the objects a little differently placed.\n--zero-error lets its joints stand "
-                  "elsewhere than they say, as "
-                  "those of a hand that was referenced again:\nthe scene empty_touch with the same "
-                  "error is the recording of the empty hand for palpate adapt --empty-hand-zero.",
+       .purpose =
+           "Makes a synthetic recording of pinch grasps: the same options give the same frames. "
+           "The recording in data/ was made by this command.\n\nWith --scene the emulated hand "
+           "plays a scene (palpate emulate --scene), without ports and without waiting; with "
+           "--grasps N it plays the scene N times, each time with the objects at slightly "
+           "different places. --zero-error gives its joints an error of their zero, as after a new "
+           "referencing: the scene empty_touch with the same error makes the recording of the "
+           "empty hand for palpate adapt --empty-hand-zero.",
        .options = {{"output,o", "OUT.dsa", "where to write it"},
                    {"scene", "NAME", "of data/scenes, or a JSON file"},
                    {"duration", "S", "length [s] (of a scene: of each run), default 12"},
@@ -72,7 +72,7 @@ int synthesizeCommand(const Arguments& words) {
                    {"zero-error",
                     "DEG",
                     "of a scene: error of the proximal joints' zero, default 0"},
-                   {"days-later", "N", "of a scene: host time so many days later, default 0"},
+                   {"days-later", "N", "of a scene: host time N days later, default 0"},
                    {"force", "", "replace OUT.dsa"}},
        .example = "palpate synthesize -o grasps.dsa --grasps 4 --noise 8",
        .maxArguments = 0},

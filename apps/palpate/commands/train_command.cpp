@@ -72,13 +72,11 @@ int trainCommand(const Arguments& words) {
            "[--classifier svm|qda|lda|gauss]\n                     [--empty-hand-zero FILE]",
        .purpose =
            "Trains a model of the objects in a folder (a folder of recordings per class) and "
-           "prints a "
-           "report as JSON.\nWhat isn't given is chosen by cross-validation over contiguous "
-           "blocks; "
-           "of the set best it is gauss, the one\nclassifier that carries over to another session "
-           "(--session-offset, adapt). With the empty hand's zero of the session of training, "
-           "`adapt` "
-           "takes that of another\nsession instead of labelled grasps.",
+           "prints a report as JSON. Options that aren't given are chosen by cross-validation over "
+           "contiguous blocks. For the set best the classifier is gauss, the only one that can be "
+           "adapted to another session (--session-offset, adapt). If the model also has the empty "
+           "hand's zero of this session (--empty-hand-zero), `adapt` can use a recording of the "
+           "empty hand of another session instead of labelled grasps.",
        .options = options,
        .example = "palpate train recordings -o objects.json",
        .minArguments = 1,
@@ -86,7 +84,7 @@ int trainCommand(const Arguments& words) {
       words);
   if (given.helpShown()) return kDone;
   const auto out = given.text("output");
-  if (!out) throw UsageError("-o MODEL.json is missing: where the model goes");
+  if (!out) throw UsageError("-o MODEL.json is missing: the file for the model");
   const Overwrite overwrite = given.has("force") ? Overwrite::kReplace : Overwrite::kRefuse;
   std::optional<FeatureSet> asked;
   if (const auto name = given.choice("set", {"best", "study", "session", "statistics"}))

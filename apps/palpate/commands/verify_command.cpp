@@ -48,11 +48,11 @@ int worse(int a, int b) {
 int verifyCommand(const Arguments& words) {
   const CommandLine given(
       {.synopsis = "palpate verify PATH...",
-       .purpose = "Checks every byte of recordings; one line per file says sound, damaged (and how "
-                  "much can still\nbe read) or unreadable. Exit code: 0 all sound, 3 damaged but "
-                  "partly readable, 1 nothing\nreadable; with several files the worst. PATH "
-                  "is a recording, or a folder: every recording\nbelow it. With --quiet only the "
-                  "exit code is given.",
+       .purpose =
+           "Checks every byte of recordings; one line per file says sound, damaged (and how much "
+           "can still be read) or unreadable. Exit code: 0 all sound, 3 damaged but partly "
+           "readable, 1 nothing readable; with several files the worst. PATH is a recording, or a "
+           "folder: every recording below it. With --quiet it gives only the exit code.",
        .options = {},
        .example = "palpate verify foam_ball.dsa hockey_ball.dsa",
        .minArguments = 1},

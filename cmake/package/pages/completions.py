@@ -31,6 +31,7 @@ def bash_action(choices, kind, endings):
 def bash(program):
     kinds = {command.name: command.kinds for command in program.commands if command.kinds}
     names = " ".join(command.name for command in program.commands)
+    helped = {name: [kind.name.split()[1] for kind in of] for name, of in kinds.items()}
     lines = [HEAD.rstrip(), """
 _palpate_words() {
   COMPREPLY+=($(compgen -W "$1" -- "$cur"))
@@ -49,8 +50,12 @@ _palpate() {
   # The command is the first word, its kind (calibrate noise) the second.
   local command= at=1
   if ((cword > 1)); then
-    command=${words[1]}""",
-             "    case $command in"]
+    command=${words[1]}
+    if [[ $command == help ]]; then""",
+             f"      ((cword == 2)) && _palpate_words '{names}'"]
+    for name, of in helped.items():
+        lines.append(f"      ((cword == 3)) && [[ ${{words[2]}} == {name} ]] && _palpate_words '{' '.join(of)}'")
+    lines += ["      return 0", "    fi", "    case $command in"]
     for name, of in kinds.items():
         lines.append(f"      {name}) ((cword > 2)) && command+=\" ${{words[2]}}\" at=2 ;;")
     lines += ["    esac", "  fi", "  case $command in", f"    {'|'.join(names.split())}) ;;"]
@@ -61,7 +66,7 @@ _palpate() {
         patterns = "|".join(quoted(f"{command.name} {each}") for each in option.spellings())
         action = bash_action(option.choices, option.kind, option.endings or ())
         lines.append(f"    {patterns}) {action}; return ;;")
-    lines += ["  esac", "  $split && return", "", "  local options= endings= kinds=", "  case $command in"]
+    lines += ["  esac", "  $split && return", "", "  local options= endings= kinds= requests=", "  case $command in"]
     for command in program.all():
         options = " ".join(each for option in command.options for each in option.spellings())
         if command.name in kinds:
@@ -70,14 +75,19 @@ _palpate() {
             continue
         endings = f" endings='@({'|'.join(command.endings)})'" if command.endings else ""
         ports = " endings=ports" if command.ports else ""
+        ports += f" requests={quoted(' '.join(command.requests))}" if command.requests else ""
         more = " --version" if not command.name else ""
         lines.append(f"    {quoted(command.name)}) options={quoted(options + more)}{endings}{ports} ;;")
     lines += ["  esac", f"""  if [[ $cur == -* ]]; then
     _palpate_words "$options"
     return
   fi
-  ((cword == 1)) && _palpate_words '{names}'
+  ((cword == 1)) && _palpate_words 'help {names}'
   [[ -n $kinds ]] && _palpate_words "$kinds"
+  if [[ -n $requests ]]; then
+    ((cword == 2)) && _palpate_words "$requests"
+    return 0
+  fi
   case $endings in
     '') ((cword == 1)) || [[ -n $kinds ]] || _filedir -d ;;
     ports) _palpate_ports ;;
@@ -119,7 +129,8 @@ def zsh_spec(option):
 
 
 def zsh_arguments(command):
-    words = "_palpate_ports" if command.ports else \
+    words = f"({' '.join(command.requests)})" if command.requests else \
+        "_palpate_ports" if command.ports else \
         zsh_files(command.endings) if command.endings else "_files -/"
     specs = [spec for option in command.options for spec in zsh_spec(option)]
     return " \\\n        ".join(["_arguments -s -S"] + specs + [quoted(f"*:file:{words}")])
@@ -134,6 +145,7 @@ _palpate_ports() {
 }
 """]
     lines += ["_palpate_commands() {", "  local -a commands=("]
+    lines += ["    " + quoted("help:explains a command")]
     lines += ["    " + quoted(f"{c.name}:{c.summary}") for c in program.commands]
     lines += ["  )", "  _describe -t commands command commands", "}", ""]
     for command in program.commands:
@@ -143,7 +155,8 @@ _palpate_ports() {
             lines += ["  )", "  _describe -t kinds kind kinds", "}", ""]
     lines += ["_palpate() {", "  local curcontext=$curcontext name=$words[2]",
               "  if (( CURRENT == 2 )) && [[ $words[2] != -* ]]; then",
-              "    _palpate_commands", "  fi", "  if (( CURRENT > 2 )); then", "    case $name in"]
+              "    _palpate_commands", "  fi", "  if (( CURRENT > 2 )); then", "    case $name in",
+              "      help) (( CURRENT == 3 )) && _palpate_commands; return ;;"]
     for command in program.commands:
         if not command.kinds:
             lines += [f"      {command.name})", "        shift words; (( CURRENT-- ))",
@@ -188,7 +201,7 @@ def fish_option(condition, option):
 def fish(program):
     names = " ".join(command.name for command in program.commands)
     lines = [HEAD.rstrip(), f"""
-set -g __palpate_commands {names}
+set -g __palpate_commands {names} help
 # The words given so far begin with these, or (without any) with no command.
 function __palpate_in
     set -l given (commandline -opc)
@@ -211,7 +224,9 @@ function __palpate_files
     string match -ri -- "^.*(?:/|\\.(?:$endings))\$" (complete -C "__palpate_any_file "(commandline -ct))
 end
 complete -c palpate -f
-complete -c palpate -n __palpate_first -l version -d 'version of the program'"""]
+complete -c palpate -n __palpate_first -l version -d 'version of the program'
+complete -c palpate -n __palpate_first -a help -d 'explains a command'
+complete -c palpate -n '__palpate_first help' -a '{names}'"""]
     for command in program.commands:
         lines.append(f"complete -c palpate -n __palpate_first -a {command.name} -d {quoted(command.summary)}")
         for kind in command.kinds:
@@ -222,7 +237,9 @@ complete -c palpate -n __palpate_first -l version -d 'version of the program'"""
             continue
         condition = f"__palpate_in {command.name}".strip()
         lines += [fish_option(condition, option) for option in command.options]
-        if command.ports:
+        if command.requests:
+            lines.append(f"complete -c palpate -n '__palpate_first {command.name}' -a {quoted(' '.join(command.requests))}")
+        elif command.ports:
             lines.append(f"complete -c palpate -n {quoted(condition)} -F -a {quoted(PORTS)}")
         elif command.endings:
             lines.append(f"complete -c palpate -n {quoted(condition)} -a {quoted(fish_files(command.endings))}")

@@ -3,6 +3,7 @@
 The man page and the completions are made of this and of nothing else, so that they say what the
 program says. A help text of another form than expected is an error: the build fails.
 """
+import json
 import os
 import re
 import subprocess
@@ -42,6 +43,7 @@ class Command:
         self.kinds = []         # commands of their own: noise, step, ..
         self.endings = ()       # of the files it takes as words
         self.ports = False      # takes ports as words
+        self.requests = []      # what its first word can be (palpate remote)
 
 
 def run(program, *words):
@@ -133,7 +135,7 @@ def fill(command, option):
     endings = re.findall(r"(?:\.|\{|,)([a-z][a-z0-9]{1,7})\b", option.value)
     if endings:
         option.kind, option.endings = "file", tuple(dict.fromkeys(endings))
-    elif re.fullmatch(r"(NAME\|)?(DIR|FOLDER|OUTFOLDER)", option.value):
+    elif re.fullmatch(r"(NAME\|)?(DIR|FOLDER|OUTFOLDER|PATH2)", option.value):
         option.kind = "folder"
     elif option.value == "PORT":
         option.kind = "port"
@@ -155,6 +157,8 @@ def positional(command):
             else:
                 endings += WORDS.get(word[0], ())
     command.endings = tuple(dict.fromkeys(endings))
+    said = re.search(r"REQUEST: (.*?)\.(?: |$)", re.sub(r" \([^)]*\)", "", " ".join(command.purpose)))
+    command.requests = [each.split()[0] for each in said[1].split(", ")] if said else []
 
 
 def read_command(program, name, summary, words):
@@ -204,8 +208,11 @@ class Program:
         self.window = read_command(program, "", "the window", ["--demo"])
         filters = [line.split()[0] for line in run(program, "filter", "--list").splitlines()
                    if re.match(r"[a-z]", line)]
+        hands = [json.loads(line)["key"] for line in run(program, "hands", "--json").splitlines()]
         for command in self.all():
             for option in command.options:
+                if option.name == "hand":
+                    option.choices = hands
                 if option.name == "filter" and option.value == "SPEC":
                     option.choices = filters
 

@@ -61,8 +61,8 @@ class Json {
   std::size_t size() const;               // items of an array or object, otherwise 0
   std::vector<std::string> keys() const;  // of an object, in order
   bool contains(std::string_view key) const;
-  // Returns the value of `key` (null when it is absent or this is no object), or at `index` of an
-  // array. It shares the data with this value without a copy, and stays valid when this value
+  // Returns the value of `key` (null when it is absent or this is not an object), or at `index` of
+  // an array. It shares the data with this value without a copy, and stays valid when this value
   // changes or is destroyed.
   Json at(std::string_view key) const;
   Json at(std::size_t index) const;  // throws std::out_of_range

@@ -16,7 +16,7 @@ namespace palpate {
 class JsonField {
  public:
   // The whole value of a file. `file` names the file in errors, `rootName` the value ("the scene").
-  // Throws FormatError with line and column when `text` is no JSON.
+  // Throws FormatError with line and column when `text` is not a JSON.
   static JsonField parse(std::string_view text,
                          const std::filesystem::path& file,
                          std::string rootName);

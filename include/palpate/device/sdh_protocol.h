@@ -129,8 +129,8 @@ std::optional<std::vector<double>> parseSdhNumbers(std::string_view text);
 std::string sdhErrorText(int code);
 std::string sdhErrorAdvice(int code);
 
-// A firmware release for comparisons: "0.0.3.3" -> {0, 0, 3, 3}; a part that is no number counts as
-// 0.
+// A firmware release for comparisons: "0.0.3.3" -> {0, 0, 3, 3}; a part that is not a number counts
+// as 0.
 struct SdhFirmware {
   int parts[4] = {};
   static SdhFirmware parse(std::string_view text) noexcept;

@@ -20,8 +20,8 @@ struct FilteredProfileOptions {
 
 // Frames that are read in order pass the chain once. A frame that is read out of order is computed
 // from all earlier frames that influence it (filter_chain.h, filterLengthFrames()); with recursive
-// filters, from so many that the rest contributes less than 1e-9 of the value. A recipe that needs
-// all frames of a stretch at once is applied to the whole profile inside this function.
+// filters, from enough frames that the others contribute less than 1e-9 of the value. A recipe that
+// needs all frames of a stretch at once is applied to the whole profile inside this function.
 //
 // When a frame of the source cannot be read, reading it here throws the same error, and filters
 // over time restart after it. Throws std::invalid_argument (recipe, or a frequency that is not

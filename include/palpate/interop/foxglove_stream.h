@@ -1,4 +1,4 @@
-// Sends a hand live to Foxglove: heat maps, the hand in space, joints, signals and events over a
+// Sends a hand live to Foxglove: heat maps, the hand in 3-D, joints, signals and events over a
 // WebSocket (foxglove_server.h). Off by default; loopback unless another address is asked for.
 //
 //   ProcessingChain --results--> FoxgloveStream --messages--> FoxgloveServer --> Foxglove

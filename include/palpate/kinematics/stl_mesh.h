@@ -12,8 +12,8 @@ namespace palpate {
 // Corners of one triangle, counter-clockwise seen from outside, in the file's unit.
 using StlTriangle = std::array<Eigen::Vector3f, 3>;
 
-// Throws FileError, and FormatError for what is no STL: a wrong length, numbers that are not
-// finite, more than a million triangles.
+// Throws FileError, and FormatError for a file that is not an STL file: a wrong length,
+// numbers that are not finite, more than a million triangles.
 std::vector<StlTriangle> readStl(const std::filesystem::path& path);
 
 }  // namespace palpate

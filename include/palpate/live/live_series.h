@@ -48,7 +48,7 @@ class LiveSeries {
   std::optional<double> valueAt(const SeriesChoice& choice, double timeS) const;
   // Time of the sample at or before a time, of the first one before that [s]. Empty: no sample.
   std::optional<double> sampleTimeAt(double timeS) const;
-  // Time of the sample so many samples after (below 0: before) the one at `timeS`, limited to the
+  // Time of the sample that is `samples` after (below 0: before) the one at `timeS`, limited to the
   // first and the newest one [s]. Empty: no sample.
   std::optional<double> sampleTimeBeside(double timeS, std::ptrdiff_t samples) const;
   // The gap that contains the time.

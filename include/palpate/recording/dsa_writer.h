@@ -12,7 +12,8 @@ namespace palpate {
 
 // What the form could not hold as it was.
 struct DsaWriteReport {
-  std::size_t movedStamps = 0;  // samples stamped later than they came, so that stamps grow
+  // Samples with a later time stamp than recorded, so that stamps grow.
+  std::size_t movedStamps = 0;
 };
 
 // The format belongs to the DSACON32-M: a hand with another controller, unit or full scale is

@@ -33,7 +33,7 @@ struct SaveEventsOptions {
 // Throws std::invalid_argument when `events` lacks or changes what happened, or one of them is
 // empty of kind, ends before it begins, or is longer than kMaxEventBytes. Throws FileError, and
 // changes nothing: read-only file or folder, disk full, being recorded, unfinished (recover it
-// first), gone, or its events are no longer `asRead`: somebody else has changed them. Throws
+// first), gone, or its events are no longer `asRead`: another program has changed them. Throws
 // FormatError (damaged).
 void saveEvents(const std::filesystem::path& path,
                 const EventsReport& asRead,

@@ -29,7 +29,7 @@ constexpr int kHdf5LayoutVersion = 1;
 // The first bytes of what writeHdf5() writes, and of HDF5 files without a user block.
 constexpr std::string_view kHdf5RecordingStart = "Palpate recording in HDF5\n";
 constexpr std::string_view kHdf5Signature{"\x89HDF\r\n\x1a\n", 8};
-// Whether the first bytes of a file (26 or more, if it has so many) are those of HDF5.
+// Whether the first bytes of a file (26 or more, if the file has that many) are those of HDF5.
 constexpr bool startsLikeHdf5(std::string_view first) noexcept {
   return first.starts_with(kHdf5RecordingStart) || first.starts_with(kHdf5Signature);
 }

@@ -124,7 +124,7 @@ McapRecording readMcap(const std::filesystem::path& path,
 McapRecording recoverMcap(const std::filesystem::path& path,
                           const Progress& progress = {},
                           std::size_t threads = 0);
-// Events, or what was said of the recording, of a file that Palpate has written; of others none.
+// The events, or the meta data, of a file that Palpate has written; of other files none.
 // Only what they need is read. Throw as readMcap().
 std::vector<RecordingEvent> readMcapEvents(const std::filesystem::path& path);
 std::map<std::string, std::string> readMcapMeta(const std::filesystem::path& path);

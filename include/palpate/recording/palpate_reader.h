@@ -32,7 +32,7 @@ struct PalpateContent {
   std::map<std::string, std::string> meta;  // as readRecordingMeta()
 };
 
-// Throws as readPalpate(); events that can't be read are told by eventsFault instead.
+// Throws as readPalpate(); if the events can't be read, eventsFault says why instead.
 PalpateContent readPalpateContent(const std::filesystem::path& path, const Progress& progress);
 
 }  // namespace palpate

@@ -50,9 +50,10 @@ class PalpateWriter {
 
   // Each appends in order of time and commits when the interval has passed since the last commit.
   // Throw std::invalid_argument (wrong size, not finite, time not later than before): nothing was
-  // added. Throw FileError (the disk is full, ..): what was committed before is safe; what came
-  // since, this call's sample too, is kept in memory, and the next commit that is due tries again.
-  // Only when kMaxPendingBytes wait there does a call refuse its sample: pendingFull() tells.
+  // added. Throw FileError (the disk is full, ..): what was committed before is safe; later
+  // samples, also that of this call, are kept in memory, and the next commit that is due writes
+  // them. Only when kMaxPendingBytes are kept does a call refuse its sample: pendingFull() is then
+  // true.
   void addFrame(const TactileFrame& frame);
   void addAngles(const JointAngles& angles);
   void addTemperatures(const Temperatures& temperatures);

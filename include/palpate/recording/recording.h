@@ -17,10 +17,10 @@
 
 namespace palpate {
 
-// Reads a recording; its form is told by its first bytes, never by its name (a .dsa is bzip2 or
-// XML). HDF5 files that Palpate has written (hdf5_recording.h) and MCAP files (mcap_recording.h)
-// are recordings, too. `threads`: of a .dsa, as DsaReadOptions::threads. Throws FileError,
-// FormatError, Cancelled; what() is one line that says what to do.
+// Reads a recording; its format is recognised by its first bytes, never by its name (a .dsa is
+// bzip2 or XML). HDF5 files that Palpate has written (hdf5_recording.h) and MCAP files
+// (mcap_recording.h) are recordings, too. `threads`: of a .dsa, as DsaReadOptions::threads. Throws
+// FileError, FormatError, Cancelled; what() is one line that says what to do.
 Profile openRecording(const std::filesystem::path& path,
                       const Progress& progress = {},
                       std::size_t threads = 0);
@@ -70,7 +70,7 @@ struct RecordingForm {
 };
 // All forms with the endings that stand for them.
 std::span<const RecordingForm> recordingForms() noexcept;
-// The form that the ending of a name stands for, in small or capital letters. Throws FileError
+// The format of a name by its ending, in small or capital letters. Throws FileError
 // naming them all.
 RecordingFormat formatOf(const std::filesystem::path& path);
 

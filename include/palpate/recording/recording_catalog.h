@@ -26,7 +26,7 @@ struct CatalogReport {
   std::size_t numRead = 0;                     // not from the cache
   std::vector<std::string> problems;           // a line for each folder that can't be looked into
   std::vector<std::filesystem::path> folders;  // that were looked into
-  bool local = false;        // on a disk of this computer, which tells when something in it changes
+  bool local = false;  // on a disk of this computer, which reports when something in it changes
   std::string cacheProblem;  // why nothing could be kept; empty: all is well
 };
 

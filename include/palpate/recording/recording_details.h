@@ -17,15 +17,15 @@ namespace palpate {
 struct RecordingDetails {
   enum class State {
     kFinished,
-    kRecording,   // somebody is writing it: as far as it is now
-    kUnfinished,  // its writer died; it can be recovered
+    kRecording,   // a process is writing it: its present state
+    kUnfinished,  // its writer ended before it was finished; it can be recovered
     kDamaged,     // message says how
     kUnreadable,  // no permission, an input/output error, ..: message
   };
 
   std::filesystem::path path;
   std::string form;                // "palpate", "dsa"; empty: unreadable
-  State state = State::kFinished;  // as far as it can be told without reading the frames
+  State state = State::kFinished;  // as far as it is known without reading the frames
   std::string message;             // one line; empty: nothing is wrong
   std::uintmax_t sizeBytes = 0;
   std::int64_t changedUs = 0;           // last change of the file [us since 1970]
@@ -47,8 +47,8 @@ const char* nameOf(RecordingDetails::State state);
 // The state of such a name; none for any other text.
 std::optional<RecordingDetails::State> detailsStateFrom(const std::string& name);
 
-// What a list says of one recording. Never throws for a bad file, which is told by `state` and
-// `message`; `threads` as for openRecording(). Throws Cancelled.
+// What a list says of one recording. Never throws for a bad file: `state` and `message` say what
+// is wrong with it; `threads` as for openRecording(). Throws Cancelled.
 RecordingDetails readDetails(const std::filesystem::path& path,
                              const Progress& progress = {},
                              std::size_t threads = 0);

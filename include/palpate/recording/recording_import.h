@@ -90,8 +90,8 @@ struct ImportPreview {
 constexpr std::size_t kPreviewRows = 2000;
 constexpr std::size_t kShownPreviewRows = 8;
 
-// Throws FileError, FormatError when the table can't be opened; what is wrong with the mapping is
-// told by `problem`.
+// Throws FileError, FormatError when the table can't be opened; errors of the mapping are
+// reported in `problem`.
 ImportPreview previewImport(const std::filesystem::path& data,
                             const HandDescription& hand,
                             const ImportMapping& mapping);

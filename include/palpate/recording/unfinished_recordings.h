@@ -17,12 +17,12 @@ struct UnfinishedRecording {
   std::uintmax_t sizeBytes = 0;
 };
 
-// The files *.palpate of FOLDER itself that were never finished, that nobody is writing, and that
-// hold something to recover (samples, events); the one changed last stands first. Left out are:
-// what can't be read or is no recording, hidden files, symbolic links (what they lead to has a
+// The files *.palpate of FOLDER itself that were never finished, that no process is writing, and
+// that hold something to recover (samples, events); the one changed last is the first. Left out
+// are: what can't be read or is no recording, hidden files, symbolic links (what they lead to has a
 // folder of its own), and recordings beside which lies what was recovered from them. One that died
-// inside a commit is told by its journal and its header alone, and found even if it turns out to
-// hold nothing. A folder that isn't there has none. Throws FileError (it can't be listed),
+// inside a commit is recognised by its journal and its header alone, and listed even if it holds
+// nothing. A folder that isn't there has none. Throws FileError (it can't be listed),
 // Cancelled.
 std::vector<UnfinishedRecording> findUnfinished(const std::filesystem::path& folder,
                                                 const Progress& progress = {});

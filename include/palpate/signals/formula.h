@@ -65,8 +65,8 @@ class Formula {
 };
 
 // Computes the formula at every frame of fromS..toS. Angles and temperatures are interpolated at
-// the frames. Throws std::invalid_argument for a name that is no signal or that the profile lacks,
-// and as Formula; Cancelled; Error (a frame that can't be read).
+// the frames. Throws std::invalid_argument for a name that is not a signal or that the profile
+// lacks, and as Formula; Cancelled; Error (a frame that can't be read).
 Series derivedSeries(const Profile& profile,
                      const Formula& formula,
                      double fromS,

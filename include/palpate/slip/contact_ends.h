@@ -15,8 +15,8 @@ namespace palpate {
 // without contact. Throws std::invalid_argument when the frame has another size.
 double loadAtTwoSides(const MatrixLayout& layout, const ConstMatrixMap& frame);
 
-// Whether a frame tells more of a surface than of its motion: more than four taxels (the motion has
-// the four unknowns dx, dy, angle and gain) read at least twice the smallest active value, and
+// Whether a frame determines more of a surface than its motion: more than four taxels (the motion
+// has the four unknowns dx, dy, angle and gain) read at least twice the smallest active value, and
 // twice three standard deviations of the noise [counts]. A taxel below the threshold is uncertain
 // by the threshold; where no reading is far above it, the shape of the contact is not known.
 bool isStrongContact(const ConstMatrixMap& frame, double noiseCounts) noexcept;

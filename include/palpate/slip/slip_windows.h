@@ -58,7 +58,7 @@ class SlipWindows {
   ConstMatrixMap frame() const { return {current_.data(), layout_.rows, layout_.columns}; }
   // Moments of the last frame.
   const ContactMoments& moments() const noexcept { return moments_; }
-  // Whether the last frame came after a gap.
+  // Whether there is a gap before the last frame.
   bool afterGap() const noexcept { return afterGap_; }
 
  private:
@@ -69,7 +69,7 @@ class SlipWindows {
   };
   // Returns a stored frame counted from the newest one (0).
   const Kept& back(std::size_t frames) const;
-  // Returns the evidence of the last frame against the stored one so many frames back.
+  // Returns the evidence of the last frame against the stored one `frames` frames before.
   WindowEvidence compare(std::size_t frames, std::span<const double> jointsDeg) const;
   SlipHypothesisResult hypothesesAgainst(const Kept& then, const WindowEvidence& window);
 

@@ -68,7 +68,7 @@ class SurfaceInformation {
   std::vector<float> right_;
   // b - A c, kept up to date by add() and solve().
   std::vector<float> residual_;
-  // Whether coefficients came in that residual_ does not cover yet.
+  // Whether coefficients were added that residual_ does not include yet.
   bool isResidualOld_ = false;
   // Of the conjugate gradients.
   std::vector<float> direction_;

@@ -88,9 +88,9 @@ std::string describe(const DsaRecovery& saved) {
                      " can be read ('palpate recover' saves them)";
   if (saved.blocks > 0)
     text += "; " + std::to_string(saved.intactBlocks) + " of " +
-            counted(saved.blocks, "bzip2 block") + " intact";
+            counted(saved.blocks, "bzip2 block") + " can be read";
   if (saved.layoutAssumed)
-    text += "; the sensor's layout is lost, that of the SDH-2 is assumed, to which the frames fit";
+    text += "; the sensor's layout is lost: that of the SDH-2 is assumed, which fits the frames";
   return text;
 }
 

@@ -544,8 +544,7 @@ class Hdf5Storage final : public ProfileStorage {
 void requirePalpateLayout(const fs::path& path, hid_t file) {
   if (readHdf5Text(file, "format", kMostAttributeBytes) != hdf5_layout::kFormat)
     throw FormatError(path,
-                      "is an HDF5 file of another program; 'palpate import' makes a recording of "
-                      "its tables");
+                      "is an HDF5 file of another program; import its tables ('palpate import')");
   const auto version = readHdf5Integer(file, "format_version");
   if (!version || *version < 1)
     throw FormatError(path, "does not say which version of the layout it has (format_version)");
@@ -585,8 +584,7 @@ void requireUndamaged(const fs::path& path, int descriptor) {
   block.resize(static_cast<std::size_t>(std::max<ssize_t>(got, 0)));
   if (block.starts_with(kHdf5Signature))
     throw FormatError(path,
-                      "is an HDF5 file of another program; 'palpate import' makes a recording of "
-                      "its tables");
+                      "is an HDF5 file of another program; import its tables ('palpate import')");
   if (!block.starts_with(kHdf5RecordingStart))
     throw FormatError(path,
                       "can't be opened as HDF5: its beginning is damaged, or of another file");

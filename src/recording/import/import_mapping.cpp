@@ -22,7 +22,7 @@ class MappingField {
  public:
   MappingField(Json json, std::string place, const std::filesystem::path& source)
       : json_(std::move(json)), place_(std::move(place)), source_(source) {
-    if (!json_.isObject()) fail("is no object");
+    if (!json_.isObject()) fail("is not an object");
   }
   [[noreturn]] void fail(const std::string& what) const {
     throw FormatError(source_, (place_.empty() ? "the mapping" : place_) + " " + what);
@@ -38,13 +38,13 @@ class MappingField {
   bool has(const char* key) const { return json_.contains(key); }
   std::string text(const char* key) const {
     if (!has(key)) return {};
-    if (!json_.at(key).isString()) failAt(key, "is no text");
+    if (!json_.at(key).isString()) failAt(key, "is not a text");
     return json_.at(key).asString();
   }
   std::optional<double> number(const char* key) const {
     if (!has(key)) return std::nullopt;
     if (!json_.at(key).isNumber() || !std::isfinite(json_.at(key).asDouble()))
-      failAt(key, "is no number");
+      failAt(key, "is not a number");
     return json_.at(key).asDouble();
   }
   MappingField object(const char* key) const {
@@ -125,7 +125,7 @@ TimeMapping timeFrom(const MappingField& field) {
     field.failAt("rate_hz", "is not above 0 and at most 1000000");
   if (field.has("start")) {
     time.startUs = parseDate(field.text("start"));
-    if (!time.startUs) field.failAt("start", "is no date such as 2026-11-22T10:31:05Z");
+    if (!time.startUs) field.failAt("start", "is not a date such as 2026-11-22T10:31:05Z");
   }
   return time;
 }
@@ -135,7 +135,7 @@ MatrixMapping matrixFrom(const MappingField& field) {
   MatrixMapping made;
   if (const auto matrix = field.number("matrix")) {
     if (*matrix < 0.0 || *matrix > 255.0 || *matrix != std::floor(*matrix))
-      field.failAt("matrix", "is no whole number from 0 to 255");
+      field.failAt("matrix", "is not a whole number from 0 to 255");
     made.matrix = static_cast<std::size_t>(*matrix);
   }
   made.columns = field.text("columns");
@@ -205,7 +205,7 @@ ImportMapping mappingFromJson(const std::string& text, const std::filesystem::pa
   if (field.has("matrices")) {
     const Json list = field.json().at("matrices");
     if (!list.isArray() || list.size() > kMostMatrixMappings)
-      field.failAt("matrices", "is no list of at most 256 entries");
+      field.failAt("matrices", "is not a list of at most 256 entries");
     for (std::size_t i = 0; i < list.size(); ++i)
       mapping.matrices.push_back(
           matrixFrom(MappingField(list.at(i), "matrices[" + std::to_string(i) + "]", source)));

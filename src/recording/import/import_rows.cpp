@@ -99,7 +99,7 @@ std::optional<std::int64_t> ImportRows::timeOf(const TableSource& source, const 
       refuse(source,
              row,
              refused.text,
-             ": " + inQuotes(row.time.text) + " is no time" +
+             ": " + inQuotes(row.time.text) + " is not a time" +
                  (cellNumber(row.time.text, ',') ? " (a decimal comma?)" : ""));
     return std::nullopt;
   }
@@ -254,9 +254,9 @@ void ImportRows::takeTaxel(const TableSource& source, const TableRow& row, std::
   const auto whole = [&](std::size_t at) {
     const double value = row.values[at];
     if (value != std::floor(value) || value < 0.0 || value > 1e15)
-      throw FormatError(
-          source.path(),
-          "line " + std::to_string(row.line) + ", " + source.placeOf(at) + " is no whole number");
+      throw FormatError(source.path(),
+                        "line " + std::to_string(row.line) + ", " + source.placeOf(at) +
+                            " is not a whole number");
     return static_cast<std::int64_t>(value);
   };
   const std::int64_t frame = whole(0);

@@ -300,7 +300,7 @@ McapFile::McapFile(fs::path path)
   size_ = static_cast<std::uint64_t>(facts.st_size);
   std::string start;
   if (size_ >= mcap_format::kMagic.size()) read(0, mcap_format::kMagic.size(), start);
-  if (start != mcap_format::kMagic) throw FormatError(path_, "is no MCAP file of version 0");
+  if (start != mcap_format::kMagic) throw FormatError(path_, "isn't an MCAP file of version 0");
 }
 
 void McapFile::read(std::uint64_t offset, std::size_t size, std::string& out) const {

@@ -148,7 +148,7 @@ TEST_F(StreamPageTest, RefusesWhatMakesNoSenseBeforeTrying) {
   type("streamPort", "/dev/ttyACM0");
   EXPECT_TRUE(canConnect());
   find<QComboBox>("streamBaud")->setEditText("20");
-  EXPECT_EQ(problem(), "The baud rate is not in 50..10000000.");
+  EXPECT_EQ(problem(), "The baud rate must be between 50 and 10000000.");
   find<QComboBox>("streamBaud")->setEditText("250000");
   EXPECT_EQ(chosen().baud, 250'000);
   EXPECT_TRUE(canConnect());

@@ -63,8 +63,8 @@ TEST_F(StreamShownTest, CountsWhatIsLostAndNamesWhatIsRefused) {
   number_ += 3;
   EXPECT_TRUE(await([&] { return linkFact("lost") == "3"; }));
   send("1,2,3");
-  EXPECT_TRUE(await([&] { return linkFact("refused last").contains("3 numbers instead of 256"); }))
-      << linkFact("refused last").toStdString();
+  EXPECT_TRUE(await([&] { return linkFact("last refused").contains("3 numbers instead of 256"); }))
+      << linkFact("last refused").toStdString();
   EXPECT_EQ(linkFact("suspect"), "1");
 }
 

@@ -335,7 +335,7 @@ TEST_F(HandDockTest, AMatrixThatCannotTellTheLimitIsMarkedAndNamed) {
   EXPECT_EQ(name->toolTip(), "");
   type("sensitivity1", "0");
   ASSERT_TRUE(await([&] { return onTheHand()[1].sensitivity == 0.0; }));
-  EXPECT_TRUE(await([&] { return name->toolTip().contains("finger 0 distal can't tell"); }))
+  EXPECT_TRUE(await([&] { return name->toolTip().contains("finger 0 distal can't measure it"); }))
       << name->toolTip().toStdString();
   EXPECT_FALSE(name->styleSheet().isEmpty());
   EXPECT_EQ(find<QLabel>("matrixName3")->toolTip(), "");
@@ -355,7 +355,8 @@ TEST_F(HandDockTest, TheMarkOfAMatrixAgreesWithTheRefusals) {
   ASSERT_TRUE(await([&] { return isEnabled("reactiveGrasp"); }));
   auto* folded = find<QLabel>("matrixName3");
   type("sensitivity3", "0");
-  EXPECT_TRUE(await([&] { return folded->toolTip().contains("finger 1 distal can't tell"); }));
+  EXPECT_TRUE(
+      await([&] { return folded->toolTip().contains("finger 1 distal can't measure it"); }));
   auto* preshape = find<QComboBox>("preshape");
   preshape->setCurrentIndex(preshape->findData("pinch-parallel"));
   EXPECT_TRUE(await([&] { return folded->toolTip().isEmpty(); })) << "it stays folded away";
@@ -365,7 +366,7 @@ TEST_F(HandDockTest, TheMarkOfAMatrixAgreesWithTheRefusals) {
       << name->toolTip().toStdString();
   ASSERT_TRUE(await([&] { return isEnabled("slipAwareGrasp"); }));
   click("slipAwareGrasp");
-  EXPECT_TRUE(await([&] { return state().contains("2200 counts would not be felt"); }))
+  EXPECT_TRUE(await([&] { return state().contains("2200 counts can't be measured"); }))
       << state().toStdString();
 }
 

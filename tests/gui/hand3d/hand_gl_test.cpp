@@ -137,7 +137,7 @@ TEST_F(HandGlTest, OddScenesAreDrawnToo) {
   samples::SceneMaker make;
   make.box({0, 0, 95}, {40, 40, 40}, qRgb(0, 250, 0));
   const QImage expected = drawn(make.scene, camera);
-  // What is no number is left out, and nothing else; so is what is no whole triangle.
+  // What is not a number is left out, and nothing else; so is what is no whole triangle.
   HandScene broken;
   broken.solid = {{.positionMm = {kNan, 0, 0}, .color = qRgb(255, 0, 0)},
                   {.positionMm = {0, 300, 300}, .color = qRgb(255, 0, 0)},
@@ -148,7 +148,7 @@ TEST_F(HandGlTest, OddScenesAreDrawnToo) {
   broken.lines.push_back({.fromMm = {kNan, 0, 0}, .toMm = {0, 0, 0}, .color = 0});
   broken.points.push_back({.atMm = {0, kNan, 0}, .color = 0});
   EXPECT_EQ(drawn(broken, camera), expected);
-  // Huge, and with a normal that is no number: the picture is full of it.
+  // Huge, and with a normal that is not a number: the picture is full of it.
   samples::SceneMaker huge;
   huge.box({0, 0, 0}, {1e5F, 1e5F, 10}, qRgb(90, 90, 90));
   for (SceneVertex& vertex : huge.scene.solid) vertex.normal = {kNan, kNan, kNan};

@@ -329,7 +329,7 @@ TEST(HandRaster, VerticesThatAreNoNumbersAreLeftOut) {
       EXPECT_EQ(at(image, 0, 0), kGreen);
     }
   }
-  Maker lit;  // a normal that is no number doesn't hurt either
+  Maker lit;  // a normal that is not a number doesn't hurt either
   lit.rectangle(0, -40, 40, -40, 40, kGreen);
   for (SceneVertex& vertex : lit.scene.solid) vertex.normal = {kNan, 0, 0};
   lit.scene.solid.resize(lit.scene.solid.size() - 1);  // no whole triangle at the end

@@ -164,7 +164,7 @@ TEST_F(ImportDialogTest, MappingsAreRememberedByName) {
 TEST_F(ImportDialogTest, NothingIsReplacedUnasked) {
   testing::writeFile(folder_ / "pad.palpate", "mine");
   showPad();
-  EXPECT_EQ(dialog_->problem(), "pad.palpate exists already");
+  EXPECT_EQ(dialog_->problem(), "pad.palpate exists already: replace it, or choose another name");
   find<QCheckBox>("importReplace")->setChecked(true);
   EXPECT_EQ(dialog_->problem(), "");
   find<QLineEdit>("importOut")->setText(path("pad.csv"));

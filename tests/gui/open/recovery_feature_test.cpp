@@ -59,7 +59,7 @@ TEST_F(RecoveryFeatureTest, ADamagedRecordingIsShownAsFarAsItCanBeRead) {
   EXPECT_LT(displayed()->profile.numFrames(), all);
   EXPECT_GT(displayed()->profile.numFrames(), all / 2);
   EXPECT_EQ(bannerText(), "");
-  EXPECT_TRUE(offered().startsWith("run.palpate is damaged; shown is what can be read. "))
+  EXPECT_TRUE(offered().startsWith("run.palpate is damaged; only its readable part is shown. "))
       << offered().toStdString();
   EXPECT_TRUE(offered().contains("lost frame")) << offered().toStdString();
   EXPECT_FALSE(offered().contains("palpate recover"));

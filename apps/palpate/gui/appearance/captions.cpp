@@ -2,6 +2,7 @@
 
 #include <QFont>
 #include <QLabel>
+#include <utility>
 
 #include <palpate/core/number_text.h>
 
@@ -23,7 +24,21 @@ QString figure(double value, int decimals) {
 }
 
 QString inWindowWords(QString message) {
-  return message.replace("'palpate recover'", "File > Recover…");
+  static constexpr std::pair<const char*, const char*> kWords[] = {
+      {"'palpate recover'", "File > Recover…"},
+      {"'palpate import'", "File > Import…"},
+      {"'palpate convert'", "File > Export…"},
+      {"'palpate ports'", "Connect… (Ctrl+K)"},
+      {"give another name, or --force to replace it", "choose another name"},
+      {"give another folder, or --force to replace them", "choose another folder"},
+      {"write .h5, or a part with --from and --to", "export .h5, or a selection of the timeline"},
+      {"read the file with --decimal comma", "choose decimal comma"},
+      {"train one with --classifier gauss", "train one with the classifier gauss"},
+      {"(palpate train --empty-hand-zero, or Zero before Train)", "(Zero before Train)"},
+      {" isn't known (--area)", " isn't known"},
+  };
+  for (const auto& [command, window] : kWords) message.replace(command, window);
+  return message;
 }
 
 }  // namespace palpate::gui

@@ -39,7 +39,7 @@ QString meaningOf(PlottedSignal signal) {
     case PlottedSignal::kMean:
       break;
   }
-  return "Mean of the active taxels: it falls when another taxel begins to read something";
+  return "Mean of the active taxels: it falls when another taxel becomes active";
 }
 
 QString unitOf(PlottedSignal signal, const QString& handUnit) {

@@ -94,7 +94,7 @@ ConnectDialog::ConnectDialog(const ConnectChoices& choices, PortScan& scan, QWid
   askForName = [this](const QString& suggestion) {
     return QInputDialog::getText(this,
                                  "Save the connection",
-                                 "Name; one of the same name is replaced",
+                                 "Name of the connection (one of the same name is replaced)",
                                  QLineEdit::Normal,
                                  suggestion);
   };
@@ -160,12 +160,12 @@ QWidget* ConnectDialog::makeSaved() {
   saved_ = new QComboBox(part);
   saved_->setObjectName("savedConnections");
   saved_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
-  saved_->setToolTip("A connection that was saved under a name; choosing it fills the fields");
+  saved_->setToolTip("Choose a saved connection to fill in the fields");
   title->setBuddy(saved_);
   auto* save = new QPushButton("Save &under…", part);
   save->setObjectName("saveConnection");
   save->setAutoDefault(false);
-  save->setToolTip("Save what is chosen here under a name");
+  save->setToolTip("Save these settings under a name");
   forget_ = new QPushButton("Forget", part);
   forget_->setObjectName("forgetConnection");
   forget_->setAutoDefault(false);

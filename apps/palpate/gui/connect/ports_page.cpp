@@ -100,7 +100,7 @@ QWidget* PortsPage::makeLookRow() {
   look_ = new QPushButton("Search &again", line);
   look_->setObjectName("lookAgain");
   look_->setAutoDefault(false);
-  look_->setToolTip("List the ports again and check the device on each");
+  look_->setToolTip("List the ports again and check the device at each");
   connect(look_, &QPushButton::clicked, this, &PortsPage::look);
   progress_ = new QProgressBar(line);
   progress_->setObjectName("portsProgress");

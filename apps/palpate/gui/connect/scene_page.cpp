@@ -112,8 +112,9 @@ void ScenePage::showChosen() {
   problem_ = item ? item->data(kProblemRole).toString() : QString();
   const bool canAct = item && item->data(kScriptRole).toBool();
   acts_->setEnabled(canAct);
-  acts_->setToolTip(canAct ? "The hand grasps and opens as its script says; you watch and record"
-                           : "This scene has no script");
+  acts_->setToolTip(canAct
+                        ? "The script of the scene closes and opens the hand; you watch and record"
+                        : "This scene has no script");
   emit changed();
 }
 

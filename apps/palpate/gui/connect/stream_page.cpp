@@ -232,7 +232,7 @@ void StreamPage::makeForm() {
   time_->addItem("seconds", static_cast<int>(StreamTime::kSeconds));
   time_->addItem("milliseconds", static_cast<int>(StreamTime::kMilliseconds));
   time_->addItem("microseconds", static_cast<int>(StreamTime::kMicroseconds));
-  time_->setToolTip("The time in lines of numbers; JSON and packets say theirs themselves");
+  time_->setToolTip("The unit of time in lines of numbers; JSON and packets contain theirs");
   baud_ = new QComboBox(this);
   baud_->setObjectName("streamBaud");
   baud_->setEditable(true);
@@ -338,11 +338,13 @@ QString StreamPage::sourceProblem() const {
   const QString source = this->source();
   if (source.isEmpty()) return {};
   if (place() == kSerial) {
-    if (source == "-") return "Standard input is for the command line: palpate record --stream -.";
+    if (source == "-")
+      return "Standard input can't be used in the window: choose a port of the list, TCP or UDP.";
     for (const char* prefix : {kTcp, kListenAt, kUdpAt})
       if (source.startsWith(prefix)) return "This is a network name: choose TCP or UDP as source.";
     const int baud = baud_->currentText().toInt();
-    if (baud < kLeastBaud || baud > kMostBaud) return "The baud rate is not in 50..10000000.";
+    if (baud < kLeastBaud || baud > kMostBaud)
+      return "The baud rate must be between 50 and 10000000.";
     return {};
   }
   try {
@@ -380,7 +382,7 @@ void StreamPage::refresh() {
     where = wrong;
   } else if (place() == kListen || place() == kUdp) {
     const QString port = ports_[place()]->value() == 0
-                             ? "a free port, which the dock Link then names,"
+                             ? "a free port, which the dock Link then shows"
                              : "port " + QString::number(ports_[place()]->value());
     open = isOpenToOthers(source());
     where = QString(place() == kUdp ? "Datagrams are" : "A sender is") + " awaited at " + port +
@@ -393,7 +395,7 @@ void StreamPage::refresh() {
   } else {
     where = host_->text().trimmed().isEmpty()
                 ? "The machine and the port at which the sender waits."
-                : "The connection is tried until the sender answers.";
+                : "Palpate tries to connect until the sender answers.";
   }
   placeText_->setText(where);
   placeMark_->setState(!wrong.isEmpty() ? StateMark::State::kBad

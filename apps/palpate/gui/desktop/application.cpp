@@ -50,14 +50,14 @@ void GuardedApplication::note(const char* what) noexcept {
         this, [this, text = QString::fromUtf8(what)] { showFailure(text); }, Qt::QueuedConnection);
   } catch (...) {
     // There is no memory for a longer message.
-    qCritical("The window had an error, and goes on");
+    qCritical("An error occurred in the window; it continues");
   }
 }
 
 void GuardedApplication::showFailure(const QString& what) {
   if (reportedFailures_.contains(what) || reportedFailures_.size() >= kMostTold) return;
   reportedFailures_.insert(what);
-  qCritical("The window had an error, and goes on: %s", qUtf8Printable(what));
+  qCritical("An error occurred in the window; it continues: %s", qUtf8Printable(what));
   emit failed("An error occurred in the window: " + what +
               ". Save your work; if it happens again, restart Palpate");
 }

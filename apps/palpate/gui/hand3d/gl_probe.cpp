@@ -27,7 +27,8 @@ QString tryToDraw() {
   HandGl gl;
   if (const QString why = gl.initialize(); !why.isEmpty()) return why;
   QOpenGLFramebufferObject target(kSide, kSide, QOpenGLFramebufferObject::Depth);
-  if (!target.isValid() || !target.bind()) return QStringLiteral("the driver gives no framebuffer");
+  if (!target.isValid() || !target.bind())
+    return QStringLiteral("the driver provides no framebuffer");
   const HandCamera camera;
   const Eigen::Vector3f middle = camera.targetMm.cast<float>();
   HandScene scene;
@@ -70,7 +71,7 @@ QString openGlProblem(SoftwareGl software) {
   surface.create();
   QOpenGLContext context;
   context.setFormat(format);
-  if (!context.create()) return QStringLiteral("the window system gives no OpenGL context");
+  if (!context.create()) return QStringLiteral("the window system provides no OpenGL context");
   if (!surface.isValid() || !context.makeCurrent(&surface))
     return QStringLiteral("the OpenGL context can't be used");
   const QString renderer = QString::fromUtf8(

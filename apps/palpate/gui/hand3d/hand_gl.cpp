@@ -113,7 +113,7 @@ QString HandGl::Gl::build(QOpenGLShaderProgram& program, const char* vertexText)
       !program.addShaderFromSourceCode(QOpenGLShader::Fragment, source(kFragment)) ||
       !program.link()) {
     const QString log = program.log().simplified();
-    return QStringLiteral("the driver takes no shader of OpenGL 3.3") +
+    return QStringLiteral("the driver doesn't accept shaders of OpenGL 3.3") +
            (log.isEmpty() ? QString() : QStringLiteral(": ") + log.left(200));
   }
   return {};
@@ -159,7 +159,7 @@ QString HandGl::Gl::buildAll() {
   if (!make<SceneVertex>(solid, &Gl::describeSurface) ||
       !make<SceneVertex>(clear, &Gl::describeSurface) ||
       !make<ClipVertex>(flatTriangles, &Gl::describeFlat))
-    return QStringLiteral("the driver gives no buffer for vertices");
+    return QStringLiteral("the driver provides no vertex buffer");
   return {};
 }
 

@@ -30,7 +30,7 @@ const std::vector<KeyEntry>& mouseEntries() {
       {"Mouse", "Drag", "In the timeline: select; along its axis: scrub; ends can be moved"},
       {"Mouse", "Click or drag", "Over taxels: choose them; with Ctrl: choose more"},
       {"Mouse", "Drag", "Hand in 3-D: turn; with Shift or the middle button: move"},
-      {"Mouse", "Wheel or right drag", "Hand in 3-D: nearer and further"},
+      {"Mouse", "Wheel or right drag", "Hand in 3-D: zoom"},
       {"Mouse", "Click, Ctrl+drag", "Hand in 3-D: choose taxels; double click: all of it"},
       {"Mouse", "Right button", "Over the matrices: which taxels are scanned"},
       {"Mouse", "Hover", "Over a taxel or the timeline: the values there"},

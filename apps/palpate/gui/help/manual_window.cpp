@@ -13,6 +13,8 @@
 #include <QVBoxLayout>
 #include <algorithm>
 
+#include <palpate/core/number_text.h>
+
 namespace palpate::gui {
 namespace {
 
@@ -107,7 +109,7 @@ ManualWindow::ManualWindow(const std::filesystem::path& folder, Theme theme, QWi
   contents_->setAccessibleName("Contents");
   results_->setWordWrap(true);
   results_->setFrameShape(QFrame::NoFrame);
-  results_->setAccessibleName("Places found");
+  results_->setAccessibleName("Search results");
   left_->addWidget(contents_);
   left_->addWidget(results_);
   auto* halves = new QSplitter(this);
@@ -281,7 +283,7 @@ void ManualWindow::search() {
   markHits();
   if (words_->text().isEmpty()) return say({});
   say(hits_.empty() ? QString("Not found on any page")
-                    : QString("Found at %1 places").arg(hits_.size()));
+                    : "Found at " + QString::fromStdString(counted(hits_.size(), "place")));
 }
 
 // All places on this page are marked, the chosen one strongest.

@@ -21,6 +21,7 @@
 #include <palpate/core/number_text.h>
 #include <palpate/model/hand_file.h>
 
+#include "gui/appearance/captions.h"
 #include "gui/import/import_fields.h"
 
 namespace palpate::gui {
@@ -198,7 +199,7 @@ QWidget* ImportDialog::makeFile() {
   rate_->setSuffix(" Hz");
   rate_->setSpecialValueText("times of the file");
   rate_->setKeyboardTracking(false);
-  rate_->setToolTip("The rate of the rows, when the file has no times");
+  rate_->setToolTip("Rows per second, if the file has no times");
   auto* time = new QHBoxLayout;
   time->addWidget(time_, 2);
   time->addWidget(timeUnit_, 1);
@@ -307,7 +308,7 @@ void ImportDialog::setHand(const QString& nameOrFolder) {
 
 void ImportDialog::listPresets(const QString& chosen) {
   preset_->clear();
-  preset_->addItem("as below", "");
+  preset_->addItem("none", "");
   for (const QString& name : importPresets(settings_)) preset_->addItem(name, name);
   chooseImportValue(*preset_, chosen);
   removePreset_->setEnabled(preset_->currentIndex() > 0);
@@ -432,16 +433,19 @@ QString ImportDialog::problem() const {
   if (!looked_.problem.isEmpty()) return looked_.problem;
   const QString out = this->out();
   if (out.isEmpty()) return "choose where to save the recording";
-  if (!out.endsWith(".palpate", Qt::CaseInsensitive)) return "an import is saved as .palpate";
+  if (!out.endsWith(".palpate", Qt::CaseInsensitive))
+    return "an import is saved as .palpate: change the ending of the name";
   const QFileInfo file(out);
-  if (!file.absoluteDir().exists()) return file.absolutePath() + " does not exist";
-  if (file.exists() && !replace_->isChecked()) return file.fileName() + " exists already";
+  if (!file.absoluteDir().exists())
+    return file.absolutePath() + " does not exist: choose another folder";
+  if (file.exists() && !replace_->isChecked())
+    return file.fileName() + " exists already: replace it, or choose another name";
   return {};
 }
 
 void ImportDialog::showProblem() {
   const QString text = problem();
-  problem_->setText(text);
+  problem_->setText(inWindowWords(text));
   ok_->setEnabled(text.isEmpty());
   replace_->setVisible(QFileInfo::exists(out()));
 }

@@ -22,7 +22,8 @@ ImportFields::ImportFields(QWidget* parent) : QTableWidget(0, kNumFieldColumns, 
   horizontalHeader()->setSectionResizeMode(kColumns, QHeaderView::Stretch);
   setTabKeyNavigation(false);
   horizontalHeaderItem(kColumns)->setToolTip(
-      "Empty: found by the names. NAME, A..B, #3..#86 (by position), left*, m{m}[{y}][{x}], none");
+      "Empty: found by names. Otherwise NAME, A..B, #3..#86 (by position), left*, m{m}[{y}][{x}], "
+      "or none");
   connect(this, &QTableWidget::cellChanged, this, [this] { emit edited(); });
 }
 

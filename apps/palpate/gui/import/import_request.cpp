@@ -40,7 +40,7 @@ void requireHarmless(const ImportRequest& request) {
   if (request.handConnected && isHdf5Table(data))
     throw FormatError(data,
                       "is an HDF5 file, and a damaged one could end the program: disconnect the "
-                      "hand first, or run 'palpate import'");
+                      "hand first, then import it");
 }
 
 }  // namespace

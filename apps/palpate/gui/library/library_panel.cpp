@@ -152,7 +152,7 @@ void LibraryPanel::buildBottom() {
   bar_->setFixedSize(90, 8);
   stop_ = new QToolButton(this);
   stop_->setObjectName("libraryStop");
-  stop_->setText("End search");
+  stop_->setText("Stop reading");
   stop_->setProperty("flat", true);
   stop_->setToolTip("Stops reading the folder");
   auto* row = new QHBoxLayout;
@@ -263,7 +263,7 @@ void LibraryPanel::showState() {
   QString text;
   QString button = "Choose a folder…";
   if (folder_.isEmpty()) {
-    text = "The recordings of a folder, and of all folders in it, to be searched and opened.";
+    text = "Here you search and open the recordings of a folder and of its subfolders.";
   } else if (model_->numRecordings() > 0) {
     if (filter_->rowCount() == 0) {
       text = "Nothing here matches “" + search_->text().simplified() + "”.";
@@ -340,7 +340,7 @@ void LibraryPanel::showMenu(const QPoint& at) {
   };
   const bool one = paths.size() == 1;
   add("&Open", "Return", !paths.isEmpty(), [this] { openChosen(); });
-  add("&Compare with the one shown", "Ctrl+Return", one && comparable(), [&] {
+  add("&Compare with the shown recording", "Ctrl+Return", one && comparable(), [&] {
     emit compareRequested(paths.first());
   });
   add("&Batch…", {}, !paths.isEmpty(), [this] { emit batchRequested(); });

@@ -116,9 +116,9 @@ void LogPanel::buildTop() {
     return made;
   };
   QToolButton* copy =
-      button("Copy", "logCopy", "Copy the lines that are chosen, or all that are shown");
+      button("Copy", "logCopy", "Copy the selected lines, or all lines that are shown");
   QToolButton* save =
-      button("Save…", "logSave", "Save the lines that are chosen, or all that are shown");
+      button("Save…", "logSave", "Save the selected lines, or all lines that are shown");
   static_cast<QVBoxLayout*>(layout())->addLayout(row);
   connect(severity_, &QComboBox::currentIndexChanged, this, [this](int index) {
     filter_->setLeast(static_cast<LogLine::Severity>(index));

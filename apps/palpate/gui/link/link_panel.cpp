@@ -117,7 +117,7 @@ std::vector<Fact> factsOf(const StreamDevice& stream) {
               QString::fromStdString(escapedLine(info.firmware));
   if (!sender.isEmpty()) facts.push_back({"sender", sender});
   if (const std::string fault = stream.lastFault(); !fault.empty())
-    facts.push_back({"refused last",
+    facts.push_back({"last refused",
                      QString::fromStdString(escapedLine(fault)),
                      !stream.status().tactile.message.empty()});
   return facts;

@@ -88,7 +88,7 @@ void OtherPrograms::switchFoxglove(bool on) {
   }
   reportFoxglove(on);
   if (const std::string problem = source->foxglove->geometryProblem(); !problem.empty())
-    emit logged("Foxglove does not show the hand in space: " + QString::fromStdString(problem));
+    emit logged("Foxglove does not show the hand in 3-D: " + QString::fromStdString(problem));
 }
 
 void OtherPrograms::reportFoxglove(bool on) {

@@ -74,7 +74,7 @@ MatricesPanel::MatricesPanel(QAction* interpolated, QAction* values, QWidget* pa
     box->setMinimumHeight(kMatricesPanelControlHeight);
     box->setSizeAdjustPolicy(QComboBox::AdjustToContents);
   }
-  range_->setToolTip("Where the colour range ends (R)");
+  range_->setToolTip("Upper end of the colour range (R)");
   for (const RangeMode mode : kAllRangeModes) range_->addItem(nameOf(mode));
   minimum_ = rangeField(header, "rangeMinimum", "Value of the lowest colour");
   maximum_ = rangeField(header, "rangeMaximum", "Value of the highest colour");

@@ -44,7 +44,7 @@ void ScanChoice::scan(MaskChoice choice) {
       answers_.push_back(source->control->change(command));
     windowState_.messages.flash(
         commands.empty() ? "these taxels are scanned already"
-                         : "which taxels are scanned is being changed: the stream pauses");
+                         : "changing which taxels are scanned: no frames until this is done");
   } catch (const std::exception& error) {
     windowState_.messages.fail(error.what());
   }
@@ -59,7 +59,7 @@ void ScanChoice::takeAnswers() {
     try {
       answer.get();
     } catch (const std::exception& error) {
-      windowState_.messages.fail("Which taxels are scanned was not changed: " +
+      windowState_.messages.fail("The choice of scanned taxels was not changed: " +
                                  QString(error.what()));
     }
   }

@@ -65,9 +65,10 @@ QString RecoveryFeature::damageOfDisplayed() const {
   const QString name = fileNameOf(*recording);
   const QString how = " Recovering saves what can be read as a new recording; the file is kept.";
   if (!recording->damage.empty())
-    return name + " is damaged; shown is what can be read. " + damageSentence(*recording) + how;
+    return name + " is damaged; only its readable part is shown. " + damageSentence(*recording) +
+           how;
   if (isUnfinished(*recording))
-    return name + " was never finished: the program that recorded it ended before." + how;
+    return name + " was never finished: the program that recorded it ended too early." + how;
   // Of a long recording, and of angles and temperatures, damage shows when it is come to.
   if (!state().currentFrame.old().notice.isEmpty())
     return name + " is damaged: a part of it can't be read." + how;

@@ -41,7 +41,8 @@ void restoreSession(WindowState& windowState) {
   }
   windowState.open(files);
   if (!missing.isEmpty())
-    windowState.messages.fail("Open last time, but missing now: " + missing.join(", "));
+    windowState.messages.fail("These recordings were open last time and are missing now: " +
+                              missing.join(", "));
 }
 
 }  // namespace palpate::gui

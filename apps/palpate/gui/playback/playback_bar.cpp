@@ -39,7 +39,7 @@ PlaybackBar::PlaybackBar(PlaybackController& playback, QWidget* parent)
   seekBar_ = new SeekBar(this);
   seekBar_->setObjectName("seekBar");
   frame_ = makeField<FrameField>(this, "frameField", 7);
-  frame_->setToolTip("Frame, counted from 0: type one and press Enter (Ctrl+G)");
+  frame_->setToolTip("Frame number, from 0: type one and press Enter (Ctrl+G)");
   frame_->setAccessibleName("Frame");
   ofFrames_ = new QLabel(this);
   ofFrames_->setObjectName("ofFrames");

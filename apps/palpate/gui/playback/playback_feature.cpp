@@ -113,7 +113,7 @@ void PlaybackFeature::showState() {
   const bool playing = playback.playing();
   actions.play->setIconText(playing ? " Pause" : " Play");
   actions.play->setIcon(makeIcon(playing ? IconShape::kPause : IconShape::kPlay, theme));
-  actions.play->setToolTip(playing ? "Pause (Space)" : "Play by the real time stamps (Space)");
+  actions.play->setToolTip(playing ? "Pause (Space)" : "Play at the recorded times (Space)");
   actions.loop->setChecked(playback.loop());
   actions.skipGaps->setChecked(playback.skipGaps());
   const auto* at = std::find(std::begin(PlaybackController::kSpeeds),

@@ -64,8 +64,8 @@ const std::vector<Forgettable>& forgettable() {
        {"connection"}},
       {"everything",
        "Everything",
-       "All settings of the window, calibrations and groups of taxels too; the next start is as "
-       "the first one. Files stay as they are",
+       "All settings of the window, also calibrations and groups of taxels; the next start is like "
+       "the first one. Recordings and other files are kept",
        {}}};
   return all;
 }
@@ -122,7 +122,7 @@ void SettingsDialog::addLook(QFormLayout& form) {
   range_ = new QComboBox(this);
   range_->setObjectName("settingsRange");
   for (const RangeMode mode : kAllRangeModes) range_->addItem(nameOf(mode));
-  range_->setToolTip("Where the colours of the heat maps end");
+  range_->setToolTip("Upper end of the colour range of the heat maps");
   form.addRow("Colour r&ange", range_);
   for (QComboBox* box : {theme_, map_, range_})
     connect(box, &QComboBox::currentIndexChanged, this, &SettingsDialog::tell);
@@ -153,7 +153,8 @@ QLineEdit* SettingsDialog::addFolder(QFormLayout& form, const QString& label, co
 void SettingsDialog::addFolders(QFormLayout& form) {
   form.addRow(sectionHeading("Folders", this));
   recordings_ = addFolder(form, "&Recordings", "settingsRecordings");
-  recordings_->setToolTip("Where new recordings are written; it is made when it is needed");
+  recordings_->setToolTip(
+      "Where new recordings are written; the folder is created when it is needed");
   exports_ = addFolder(form, "&Exports", "settingsExports");
   exports_->setToolTip("Where pictures, movies and tables are written");
   problem_ = new QLabel(this);
@@ -166,7 +167,7 @@ void SettingsDialog::addFolders(QFormLayout& form) {
 
 void SettingsDialog::addMemory(QFormLayout& form) {
   form.addRow(sectionHeading("Memory", this));
-  reopen_ = new QCheckBox("Open at the &start what was open at the end", this);
+  reopen_ = new QCheckBox("At the &start, open the recordings that were open last time", this);
   reopen_->setObjectName("settingsReopen");
   form.addRow(reopen_);
   connect(reopen_, &QCheckBox::toggled, this, &SettingsDialog::tell);

@@ -79,7 +79,8 @@ void runDemo(MainWindow& window) {
       });
   window.state().connectTo(emulatedBallConnection(true));
   for (double waitedS = 0.0; !window.state().live.hasReceivedFrames(); waitedS += kLookS) {
-    if (failure.isEmpty() && waitedS > kPatienceS) failure = "no frame of the emulated hand came";
+    if (failure.isEmpty() && waitedS > kPatienceS)
+      failure = "no frame of the emulated hand arrived";
     if (!failure.isEmpty()) throw Error(failure.toStdString());
     runFor(kLookS);
   }

@@ -125,9 +125,9 @@ QImage runAndPress(QWidget& window,
   loop.exec();
   if (failure)
     throw Error(
-        "there is nothing to press named '" + *failure +
+        "--press finds no key, action or button '" + *failure +
         "': give the key of an action that can be used now (F1 lists them), or the words on a "
-        "button that is seen");
+        "visible button");
   return dialogue;
 }
 

@@ -26,7 +26,7 @@ enum ReferenceRow { kRestRow, kFirstRow, kFrameRow };
 QString tipOf(SlipMethod method) {
   switch (method) {
     case SlipMethod::kCentroid:
-      return "Centroid of all active taxels: fast, but a load that shifts looks like motion";
+      return "Centroid of all active taxels: fast, but a load shift looks like motion";
     case SlipMethod::kAlcazar:
       return "Centre of mass of the full convolution: the same as the centroid";
     case SlipMethod::kNccParaboloid:
@@ -40,7 +40,7 @@ QString tipOf(SlipMethod method) {
     case SlipMethod::kRegister:
       return "Rigid registration of a key frame: no drift";
     case SlipMethod::kHypotheses:
-      return "Registration weighed against a load that shifts without motion";
+      return "Registration, compared with a load shift without motion";
   }
   return {};
 }
@@ -65,7 +65,7 @@ SlipControls::SlipControls(QSettings& settings, QWidget* parent)
   reference_ = box("slipReference", "Motion is measured from");
   reference_->addItems({"rest", "first contact"});
   reference_->setItemData(
-      kRestRow, "Each contact, once it rests; again after a slip", Qt::ToolTipRole);
+      kRestRow, "Each contact, from when it is at rest; again after a slip", Qt::ToolTipRole);
   reference_->setItemData(kFirstRow, "The first frame with an active taxel, kept", Qt::ToolTipRole);
   reference_->setToolTip("Where motion is measured from");
   reference_->setCurrentIndex(settings.value(kReference).toString() == "first" ? kFirstRow

@@ -92,11 +92,12 @@ QString meaningOf(const SlipSample* sample) {
     case SlipState::kStill:
       return "No significant motion of the contact.";
     case SlipState::kLoading:
-      return "It moves, but no more than is normal while the load changes this fast.";
+      return "The contact moves, but no more than is normal while the load changes this fast.";
     case SlipState::kLoadShift:
-      return "The load moved to another place, the contact didn't.";
+      return "The load shifted to other taxels; the contact didn't move.";
     case SlipState::kAmbiguous:
-      return "The shape can't separate motion from a shifting load; or it isn't confirmed yet.";
+      return "The shape of the contact can't distinguish motion from a load shift, or slip isn't "
+             "confirmed yet.";
     case SlipState::kSlip:
       return "The contact moves over the matrix.";
     case SlipState::kInvalid:

@@ -326,15 +326,16 @@ void SlipPanel::showNotes(const SlipSample* sample) {
   if (sample) {
     QStringList facts;
     if (sample->pMoved >= 0.0F)
-      facts.append("P(moved) " + figure(static_cast<double>(sample->pMoved), 2));
+      facts.append("motion score " + figure(static_cast<double>(sample->pMoved), 2));
     facts.append("confidence " + figure(static_cast<double>(sample->confidence), 2));
     facts.append("eccentricity " + figure(static_cast<double>(sample->eccentricity), 2));
     facts.append("roundness " + figure(static_cast<double>(sample->roundness), 2));
     text += "\n" + facts.join(" · ");
     if (!sample->refValid && !found()->options.referenceFrame)
-      text += "\nNo reference yet: it is taken when the contact rests.";
+      text += "\nNo reference yet: it is taken when the contact is at rest.";
     if (!live() && found()->options.reference != controls_->options().reference)
-      text += "\nNo contact rests in this recording: motion is measured from the first contact.";
+      text +=
+          "\nNo contact is at rest in this recording: motion is measured from the first contact.";
   }
   if (notes_->text() == text) return;
   notes_->setText(text);

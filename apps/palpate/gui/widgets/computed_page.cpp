@@ -53,7 +53,7 @@ void ComputedPage::setSource(const OpenedRecordingPtr& recording, bool live) {
 
 QString ComputedPage::emptyReason() const {
   if (live_)
-    return "This works with recordings only. Record what is connected (Ctrl+R), and open the "
+    return "This works with recordings only. Record the connected hand (Ctrl+R), then open the "
            "recording.";
   if (!recording_) return "Open a recording first.";
   if (recording_->profile.numFrames() == 0) return "This recording has no frames.";

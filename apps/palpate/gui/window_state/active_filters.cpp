@@ -97,9 +97,10 @@ void ActiveFilters::setOn(bool on) {
   settings_.setValue(kOnKey, on);
   apply();
   emit onChanged(on);
-  messages_.flash(!on                ? QString("as it was recorded")
-                  : recipe().empty() ? QString("no filter is in the chain: Ctrl+Shift+F")
-                                     : "filtered: " + text());
+  messages_.flash(!on ? QString("filters are off: values as recorded")
+                  : recipe().empty()
+                      ? QString("no filter is chosen: add one in the dock Filter (Ctrl+Shift+F)")
+                      : "filtered: " + text());
   LiveSource* source = live_.source();
   if (!on && source && live_.recording() && !recipe().empty()) {
     const std::int64_t us = source->session->nowUs();
@@ -168,7 +169,7 @@ void ActiveFilters::takeKeptRecipe() {
   if (!now || now->sameSteps(recipe())) return;
   editor_.setRecipe(*now);
   setOn(true);
-  messages_.flash("filters kept with the recording: " + QString::fromStdString(recipeText(*now)));
+  messages_.flash("filters of the recording: " + QString::fromStdString(recipeText(*now)));
 }
 
 void ActiveFilters::keepWithRecording() {
@@ -181,8 +182,8 @@ void ActiveFilters::keepWithRecording() {
       us, us, kRecipeKind, std::nullopt, recipeText(recipe()), recipeJson(recipe()).text(-1)};
   events_.keep(kRecipeKind, none ? std::nullopt : std::optional(event), "the recipe");
   keptTaken_ = recording;
-  messages_.flash(none ? "no filters are kept with the recording: save with Ctrl+S"
-                       : "the filters are kept with the recording: save with Ctrl+S");
+  messages_.flash(none ? "the recording's filters are removed: save it with Ctrl+S"
+                       : "the filters are added to the recording: save it with Ctrl+S");
 }
 
 std::optional<FilterFigures> ActiveFilters::liveFigures() {

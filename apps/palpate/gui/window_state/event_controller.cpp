@@ -29,7 +29,7 @@ EventController::EventController(DisplayedSource& displayed,
   };
   recordings_.mayReplace = [this](const OpenedRecordingPtr& recording) {
     if (!hasUnsaved(recording) || discarded_.contains(recording.get())) return true;
-    messages_.flash(fileNameOf(*recording) + " wasn't replaced: it has unsaved changes");
+    messages_.flash(fileNameOf(*recording) + " wasn't replaced: save or discard its changes first");
     return false;
   };
 }

@@ -164,7 +164,7 @@ void addSteps(const StepReport& report,
                   " (found)\n" + spanText(mark.fromS, mark.toS);
     if (found.fit.converged)
       mark.detail += "\nK " + figure(found.fit.parameters.staticResponseCounts, 1) + " counts" +
-                     (found.usable() ? "" : ", not to be calibrated with");
+                     (found.usable() ? "" : ", not used for calibration");
     marks.push_back(std::move(mark));
   }
   sortMarks(marks);

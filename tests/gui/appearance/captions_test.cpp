@@ -1,0 +1,20 @@
+#include "gui/appearance/captions.h"
+
+#include <gtest/gtest.h>
+
+namespace palpate::gui::captions_test {
+namespace {
+
+// The library names commands and options; the window names its own menus.
+TEST(Captions, MessagesNameMenusInsteadOfCommands) {
+  EXPECT_EQ(inWindowWords("a.dsa: is cut; 'palpate recover' may save what is left"),
+            "a.dsa: is cut; File > Recover… may save what is left");
+  EXPECT_EQ(inWindowWords("a.csv: exists already; give another name, or --force to replace it"),
+            "a.csv: exists already; choose another name");
+  EXPECT_EQ(inWindowWords("import its tables ('palpate import')"),
+            "import its tables (File > Import…)");
+  EXPECT_EQ(inWindowWords("nothing to change"), "nothing to change");
+}
+
+}  // namespace
+}  // namespace palpate::gui::captions_test
