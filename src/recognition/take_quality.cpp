@@ -60,6 +60,12 @@ void TakeCheckOptions::validate() const {
   requireTakeOption(leastQuality >= 0.0 && leastQuality <= 1.0, "leastQuality must be 0..1");
 }
 
+bool TakeCheckOptions::operator==(const TakeCheckOptions& other) const noexcept {
+  return contact.frames == other.contact.frames && contact.taxels == other.contact.taxels &&
+         leastS == other.leastS && mostLost == other.mostLost &&
+         mostSaturated == other.mostSaturated && leastQuality == other.leastQuality;
+}
+
 std::string TakeQuality::problem() const {
   std::string line;
   for (const std::string& each : problems) line += (line.empty() ? "" : "; ") + each;

@@ -30,7 +30,7 @@ struct TakeCheckOptions {
 
   // Throws std::invalid_argument that names the field.
   void validate() const;
-  bool operator==(const TakeCheckOptions&) const = default;
+  bool operator==(const TakeCheckOptions& other) const noexcept;
 };
 
 struct TakeQuality {

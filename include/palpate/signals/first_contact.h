@@ -20,7 +20,6 @@ struct FirstContactOptions {
 
   // Throws std::invalid_argument that names the field.
   void validate() const;
-  bool operator==(const FirstContactOptions&) const = default;
 };
 
 // Returns the first of the first `frames` consecutive frames with at least `taxels` active taxels
