@@ -64,7 +64,7 @@ TEST_F(GraspsPageTest, ListsEachGraspWithItsFeatures) {
   for (int row = 1; row < 8; ++row)
     EXPECT_GE(cell(row - 1, column).toDouble(), cell(row, column).toDouble());
   EXPECT_EQ(cell(0, GraspTableModel::kObject), "ball") << "the larger one";
-  EXPECT_TRUE(layoutFaults(*panel_).isEmpty()) << layoutFaults(*panel_).join("\n").toStdString();
+  EXPECT_TRUE(layoutFaults(page()).isEmpty()) << layoutFaults(page()).join("\n").toStdString();
 }
 
 TEST_F(GraspsPageTest, TableAndPlotChooseTheSameGrasp) {
