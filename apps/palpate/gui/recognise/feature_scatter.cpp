@@ -22,7 +22,7 @@ namespace {
 constexpr double kScatterPoint = 6.0;   // [px]
 constexpr double kScatterNear = 9.0;    // [px]
 constexpr double kScatterFaint = 0.15;  // of points of other objects
-constexpr int kScatterNamesWidth = 120;
+constexpr int kScatterNamesWidth = 136;  // [px]
 constexpr int kScatterIcon = 14;  // [px]
 
 constexpr std::array kScatterForms = {QCPScatterStyle::ssDisc,
@@ -75,6 +75,9 @@ FeatureScatter::FeatureScatter(QWidget* parent)
   names_->setAccessibleName("Objects of the scatter plot");
   names_->setToolTip("A click lets an object stand out; a second one shows all again");
   names_->setFrameShape(QFrame::NoFrame);
+  // Longer names are shortened; their tool tips have them in full.
+  names_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+  names_->setTextElideMode(Qt::ElideRight);
   names_->setFixedWidth(kScatterNamesWidth);
   names_->setIconSize(QSize(kScatterIcon, kScatterIcon));
   names_->setSelectionMode(QAbstractItemView::SingleSelection);

@@ -27,7 +27,7 @@ RecogniseActions::RecogniseActions(ActionRegistry& book) {
 
 namespace {
 
-constexpr int kRecogniseUsualWidth = 430;  // [px]
+constexpr int kRecogniseUsualWidth = 485;  // [px] with the buttons of all pages
 constexpr int kHearingMs = 50;
 constexpr int kAskAgainRounds = 10;  // timer calls: asks twice a second
 constexpr double kSteadyS = 0.8;     // holding time before the first automatic question
