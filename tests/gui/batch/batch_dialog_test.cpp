@@ -19,6 +19,7 @@
 
 #include "gui/batch/batch_fields.h"
 #include "gui/batch/batch_results.h"
+#include "gui/testing/layout_faults.h"
 #include "testing/testing.h"
 
 namespace palpate::gui::batch_dialog_test {
@@ -127,6 +128,26 @@ TEST_F(BatchDialogTest, PicturesAreDrawnOfEachRecording) {
   run();
   EXPECT_NE(testing::readFile(folder_ / "out/a.svg").find("<svg"), std::string::npos);
   EXPECT_EQ(loadBatchChoices(settings_), choices);
+}
+
+TEST_F(BatchDialogTest, FitsOnASmallScreenWhateverIsMade) {
+  for (const BatchWork work : {BatchWork::kConvert,
+                               BatchWork::kSignals,
+                               BatchWork::kSlip,
+                               BatchWork::kFeatures,
+                               BatchWork::kRender}) {
+    BatchChoices choices = both();
+    choices.work = work;
+    choices.form = "h5";
+    choices.picture = "mp4";
+    saveBatchChoices(choices, settings_);
+    start();
+    look();
+    EXPECT_LE(dialog_->height(), 660) << static_cast<int>(work);
+    EXPECT_LE(dialog_->minimumSizeHint().height(), 660) << static_cast<int>(work);
+    EXPECT_TRUE(layoutFaults(*dialog_).isEmpty())
+        << layoutFaults(*dialog_).join("\n").toStdString();
+  }
 }
 
 TEST_F(BatchDialogTest, WhatCanNotBeDoneIsSaidAndStartIsOff) {

@@ -158,6 +158,8 @@ BatchFields::BatchFields(QWidget* parent)
     connect(box, &QDoubleSpinBox::valueChanged, this, changed);
   for (QCheckBox* box : {eachGrasp_, interpolated_, values_, segments_, signals_, slip_, unitsRow_})
     connect(box, &QCheckBox::toggled, this, changed);
+  // Before the layouts around it ask for its height: that of the rows that are seen.
+  showFields();
 }
 
 QWidget* BatchFields::makeFilters() {
@@ -263,6 +265,7 @@ void BatchFields::showFields() {
   form_->setRowVisible(signals_, usesSeries(now));
   form_->setRowVisible(slip_, usesSeries(now));
   form_->setRowVisible(unitsRow_, usesUnitsRow(now));
+  updateGeometry();
 }
 
 }  // namespace palpate::gui

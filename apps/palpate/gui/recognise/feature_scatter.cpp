@@ -19,11 +19,11 @@
 namespace palpate::gui {
 namespace {
 
-constexpr double kScatterPoint = 6.0;   // [px]
-constexpr double kScatterNear = 9.0;    // [px]
-constexpr double kScatterFaint = 0.15;  // of points of other objects
+constexpr double kScatterPoint = 6.0;    // [px]
+constexpr double kScatterNear = 9.0;     // [px]
+constexpr double kScatterFaint = 0.15;   // of points of other objects
 constexpr int kScatterNamesWidth = 136;  // [px]
-constexpr int kScatterIcon = 14;  // [px]
+constexpr int kScatterIcon = 14;         // [px]
 
 constexpr std::array kScatterForms = {QCPScatterStyle::ssDisc,
                                       QCPScatterStyle::ssSquare,
