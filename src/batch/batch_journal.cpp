@@ -31,6 +31,12 @@ std::optional<JournalEntry> entryOf(const std::string& line) {
     if (json.contains("target_size"))
       entry.targetStamp = {json.at("target_size").asInteger(),
                            json.at("target_changed_ns").asInteger()};
+    if (json.contains("results"))
+      for (std::size_t i = 0; i < json.at("results").size(); ++i) {
+        const Json one = json.at("results").at(i);
+        entry.results.push_back({one.at("path").asString(),
+                                 {one.at("size").asInteger(), one.at("changed_ns").asInteger()}});
+      }
     return entry;
   } catch (const Error&) {
     return std::nullopt;  // a line that was not written to its end
@@ -46,6 +52,13 @@ std::string lineOf(const JournalEntry& entry) {
     json.set("target_size", entry.targetStamp->size);
     json.set("target_changed_ns", entry.targetStamp->changedNs);
   }
+  if (!entry.results.empty())
+    json.set("results", jsonList(entry.results, [](const WrittenFile& file) {
+               return Json::object()
+                   .set("path", file.path)
+                   .set("size", file.stamp.size)
+                   .set("changed_ns", file.stamp.changedNs);
+             }));
   return json.text(-1) + "\n";
 }
 

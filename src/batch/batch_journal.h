@@ -7,6 +7,7 @@
 #include <mutex>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "palpate/core/file_descriptor.h"
 
@@ -21,6 +22,12 @@ struct FileStamp {
 // Nothing: there is no such file.
 std::optional<FileStamp> stampOf(const std::filesystem::path& path);
 
+// A result as it was written; its path is relative to the folder of the journal.
+struct WrittenFile {
+  std::string path;
+  FileStamp stamp = {};
+};
+
 struct JournalEntry {
   std::string target;  // relative to the folder
   std::string source;  // absolute
@@ -28,6 +35,8 @@ struct JournalEntry {
   FileStamp sourceStamp = {};
   // Of the whole result; nothing: it was begun only.
   std::optional<FileStamp> targetStamp = {};
+  // Where a recording has several results: all of them, and no targetStamp.
+  std::vector<WrittenFile> results = {};
 };
 
 class BatchJournal {
@@ -43,10 +52,12 @@ class BatchJournal {
                         const std::string& options) const;
   // Appends an entry; may be called from several threads. Throws FileError.
   void add(const JournalEntry& entry);
+  // A path as the journal names it, and back.
+  std::string relative(const std::filesystem::path& target) const;
+  std::filesystem::path pathOf(const std::string& relative) const { return folder_ / relative; }
 
  private:
   void read();
-  std::string relative(const std::filesystem::path& target) const;
 
   std::filesystem::path folder_;
   std::filesystem::path path_;

@@ -119,13 +119,7 @@ void findSources(const std::vector<fs::path>& paths, BatchPlan& plan, const Prog
 }
 
 void nameTarget(BatchItem& item, const BatchTemplate& names) {
-  BatchNameFields fields;
-  fields.name = item.source.stem().string();
-  fields.ending = item.source.extension().string();
-  if (!fields.ending.empty()) fields.ending.erase(0, 1);
-  if (!item.root.empty())
-    fields.folder = item.source.parent_path().lexically_relative(item.root).lexically_normal();
-  if (fields.folder == ".") fields.folder.clear();
+  BatchNameFields fields = nameFieldsOf(item);
   try {
     if (names.needsTime()) {
       const Profile profile = openRecording(item.source, {}, 1);
@@ -168,6 +162,17 @@ void requireDifferent(BatchPlan& plan, SameResults sameResults) {
 }
 
 }  // namespace
+
+BatchNameFields nameFieldsOf(const BatchItem& item) {
+  BatchNameFields fields;
+  fields.name = item.source.stem().string();
+  fields.ending = item.source.extension().string();
+  if (!fields.ending.empty()) fields.ending.erase(0, 1);
+  if (!item.root.empty())
+    fields.folder = item.source.parent_path().lexically_relative(item.root).lexically_normal();
+  if (fields.folder == ".") fields.folder.clear();
+  return fields;
+}
 
 BatchTemplate::BatchTemplate(const std::string& text) {
   if (std::any_of(text.begin(), text.end(), [](unsigned char c) { return c < 0x20 || c == 0x7F; }))

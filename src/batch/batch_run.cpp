@@ -31,22 +31,32 @@ constexpr std::uintmax_t kLeastWeight = 1u << 10;  // a recording is work howeve
 constexpr int kBackgroundNice = 10;
 constexpr double kLeastFraction = 0.01;  // an estimate of less says nothing
 
-// What --resume does about a result.
+// What --resume does about a result. kOurs: files of an earlier run, which may be replaced.
 enum class Known { kNew, kWhole, kOurs };
 
+// The files of a finished entry, as they were written.
+std::vector<WrittenFile> filesOf(const JournalEntry& entry) {
+  if (!entry.results.empty() || !entry.targetStamp) return entry.results;
+  return {{entry.target, *entry.targetStamp}};
+}
+
 Known knownAs(const BatchJournal& journal, const JournalEntry& now, const BatchItem& item) {
-  const std::optional<FileStamp> there = stampOf(item.target);
   const JournalEntry* before = journal.find(item.target);
-  if (!there || !before) return Known::kNew;
+  if (!before) return Known::kNew;
   // The result of another recording or command is as precious as anybody's file.
   const auto command = [](const std::string& options) {
     return options.substr(0, options.find(';'));
   };
   if (before->source != now.source || command(before->options) != command(now.options))
     return Known::kNew;
-  if (!before->targetStamp) return Known::kOurs;  // interrupted behind its last step
-  if (*before->targetStamp != *there) return Known::kNew;
-  const bool same = before->options == now.options && before->sourceStamp == now.sourceStamp;
+  const std::vector<WrittenFile> files = filesOf(*before);
+  if (files.empty()) return Known::kOurs;  // interrupted behind its last step
+  bool same = before->options == now.options && before->sourceStamp == now.sourceStamp;
+  for (const WrittenFile& file : files) {
+    const std::optional<FileStamp> there = stampOf(journal.pathOf(file.path));
+    if (there && *there != file.stamp) return Known::kNew;
+    same = same && there;
+  }
   return same ? Known::kWhole : Known::kOurs;
 }
 
@@ -132,27 +142,44 @@ class BatchRun {
     if (!item.problem.empty()) return {State::kFailed, item.problem};
     JournalEntry entry = journal_.entryFor(item.target, item.source, task_.options);
     Overwrite overwrite = options_.overwrite;
+    BatchItem now = item;
     if (options_.resume) {
       const Known known = knownAs(journal_, entry, item);
       if (known == Known::kWhole) return {State::kSkipped, item.target.string() + ": is whole"};
-      if (known == Known::kOurs) overwrite = Overwrite::kReplace;
+      const JournalEntry* before = journal_.find(item.target);
+      if (known == Known::kOurs && before->results.empty()) overwrite = Overwrite::kReplace;
+      // Of several files only those that were written may be replaced.
+      if (known == Known::kOurs)
+        for (const WrittenFile& file : before->results)
+          now.earlier.push_back(journal_.pathOf(file.path));
     }
     requireOther(item.source, item.target);
     makeFolder(item.target.parent_path());
-    requireWritable(item.target, overwrite);
+    if (now.earlier.empty()) requireWritable(item.target, overwrite);
     journal_.add(entry);
     const BatchAnswer answer = task_.work(
-        item,
+        now,
         overwrite,
         [this, index](double fraction) {
           parts_[index] = std::clamp(fraction, 0.0, 1.0);
           return !cancelled_;
         },
         readThreads_);
-    entry.targetStamp = stampOf(item.target);
+    const bool isOne = answer.results.empty();
+    if (isOne) entry.targetStamp = stampOf(item.target);
+    for (const fs::path& result : answer.results)
+      entry.results.push_back({journal_.relative(result), stampOf(result).value_or(FileStamp())});
     journal_.add(entry);
     if (!answer.problem.empty()) return {State::kInPart, answer.problem};
-    return {State::kDone, item.target.string() + (answer.said.empty() ? "" : ": ") + answer.said};
+    const fs::path& named = isOne ? item.target : item.source;
+    const auto left = static_cast<std::size_t>(
+        std::count_if(now.earlier.begin(), now.earlier.end(), [&](const fs::path& file) {
+          const auto& made = answer.results;
+          return std::find(made.begin(), made.end(), file) == made.end() && stampOf(file);
+        }));
+    return {State::kDone,
+            named.string() + (answer.said.empty() ? "" : ": ") + answer.said +
+                (left > 0 ? "; " + counted(left, "file") + " of an earlier run left over" : "")};
   }
 
   static void makeFolder(const fs::path& folder) {

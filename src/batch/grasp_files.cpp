@@ -72,13 +72,25 @@ GraspTemplate::GraspTemplate(std::string text) : text_(std::move(text)) {
     throw std::invalid_argument("'" + text_ +
                                 "' has no {n} in its name, the number of the grasp: as "
                                 "out/{name}_{n}.palpate");
-  const BatchTemplate checked(withNumber(text_, "01"));
+  planned();
 }
+
+GraspTemplate::GraspTemplate(fs::path folder, std::string below) : GraspTemplate(std::move(below)) {
+  folder_ = std::move(folder);
+  planned();
+}
+
+BatchTemplate GraspTemplate::numbered(const std::string& number) const {
+  const std::string text = withNumber(text_, number);
+  return folder_ ? BatchTemplate(*folder_, text) : BatchTemplate(text);
+}
+
+BatchTemplate GraspTemplate::planned() const { return numbered(numberOf(1, 1)); }
 
 fs::path GraspTemplate::pathFor(const BatchNameFields& fields,
                                 std::size_t number,
                                 std::size_t count) const {
-  return BatchTemplate(withNumber(text_, numberOf(number, count))).pathFor(fields);
+  return numbered(numberOf(number, count)).pathFor(fields);
 }
 
 std::string GraspTemplate::ending() const { return fs::path(text_).extension().string(); }
@@ -92,11 +104,16 @@ void saveGrasps(const fs::path& source,
                 const Progress& progress) {
   if (paths.size() != grasps.size())
     throw std::invalid_argument("each grasp needs a file of its own");
+  const auto overwriteOf = [&options](const fs::path& path) {
+    const auto& ours = options.replaceable;
+    return std::find(ours.begin(), ours.end(), path) != ours.end() ? Overwrite::kReplace
+                                                                   : options.overwrite;
+  };
   std::set<fs::path> taken;
   for (const fs::path& path : paths) {
     formatOf(path);
     requireOther(source, path);
-    requireWritable(path, options.overwrite);
+    requireWritable(path, overwriteOf(path));
     if (!taken.insert(path.lexically_normal()).second)
       throw FileError(path, "would be the file of two grasps");
   }
@@ -113,7 +130,7 @@ void saveGrasps(const fs::path& source,
     saveRecording(part,
                   eventsWithin(events, part),
                   paths[i],
-                  options.overwrite,
+                  overwriteOf(paths[i]),
                   partOf(0.5),
                   options.extras ? options.extras(part, paths[i]) : SaveExtras());
   }

@@ -31,6 +31,7 @@ struct Gathered {
   std::string sensor;
   std::vector<std::string> names;
   FeatureSet set = FeatureSet::kBest;
+  bool pinches = false;
   bool failed = false;
   std::size_t failedGrasps = 0;
 };
@@ -62,11 +63,14 @@ Gathered gather(const Source& source, const FeatureExtractionOptions& options, b
                       source.file);
     out.set = options.set.value_or(defaultFeatureSet(profile.hand()));
     out.sensor = sensorText(profile.layout());
-    if (out.set == FeatureSet::kStatistics || pinchHandOf(profile.hand()))
+    out.pinches = pinchHandOf(profile.hand()) != nullptr;
+    if (out.set == FeatureSet::kStatistics || out.pinches)
       out.names = featureNames(out.set, profile.hand());
     RecordingFeatures found = recordingFeatures(profile, out.set);
     if (!found.problem.empty()) say(found.problem);
+    std::size_t number = 0;
     for (GraspFeatures& grasp : found.grasps) {
+      ++number;
       if (!grasp.problem.empty()) {
         say(spanText(grasp) + ": " + grasp.problem);
         ++out.failedGrasps;
@@ -79,7 +83,9 @@ Gathered gather(const Source& source, const FeatureExtractionOptions& options, b
                           .initialFrame = grasp.initialFrame,
                           .endFrame = grasp.endFrame,
                           .timeUs = profile.frameTimeUs(grasp.begin),
-                          .values = std::move(grasp.values)});
+                          .values = std::move(grasp.values),
+                          .number = number,
+                          .quality = grasp.quality});
     }
   } catch (const Error& error) {
     out.problems.emplace_back(error.what());  // names the file
@@ -110,6 +116,14 @@ void addFolder(const fs::path& folder,
 }
 
 }  // namespace
+
+FeatureTable without(const FeatureTable& table, const std::set<LeftOutGrasp>& leftOut) {
+  FeatureTable kept = table;
+  std::erase_if(kept.rows, [&](const FeatureRow& row) {
+    return leftOut.contains({row.file, row.begin});
+  });
+  return kept;
+}
 
 std::vector<std::int64_t> timesOf(const FeatureTable& table) {
   std::vector<std::int64_t> times;
@@ -201,6 +215,9 @@ FeatureTable extractFeatures(const std::vector<fs::path>& paths,
     table.set = options.set.value_or(FeatureSet::kBest);
     table.names = featureNames(table.set, defaultHand());
   }
+  const auto read = std::find_if(
+      gathered.begin(), gathered.end(), [](const Gathered& of) { return !of.sensor.empty(); });
+  if (read != gathered.end()) table.handPinches = read->pinches;
   for (std::size_t i = 0; i < gathered.size(); ++i) {
     Gathered& of = gathered[i];
     if (!of.names.empty() && (of.sensor != table.sensor || of.names != table.names)) {

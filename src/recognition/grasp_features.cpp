@@ -66,6 +66,18 @@ std::vector<std::string> featureNames(FeatureSet set, const HandDescription& des
   return names;
 }
 
+std::string_view featureUnit(FeatureSet set, std::string_view name) noexcept {
+  if (set == FeatureSet::kStatistics) return {};
+  if (set == FeatureSet::kStudy) {
+    if (name == "diameter" || name == "compressibility") return "mm";
+    return name.starts_with("std_") ? "full scale" : std::string_view();
+  }
+  if (name == "size_z" || name == "compression_mm") return "mm";
+  if (set == FeatureSet::kBest) return {};
+  if (name.starts_with("angle_")) return "deg";
+  return name.ends_with("_row") || name.ends_with("_column") ? "taxels" : std::string_view();
+}
+
 std::string_view sessionSetWarning() noexcept {
   return "the set 'session' holds joint angles at rest: it remembers the pose in which each object "
          "was presented, is best within one session, and fails in another session (use 'best')";
@@ -75,6 +87,7 @@ GraspFeatures graspFeatures(const Profile& profile, const GraspSegment& grasp, F
   GraspFeatures out;
   out.begin = grasp.begin;
   out.end = grasp.end;
+  out.quality = grasp.quality;
   if (set == FeatureSet::kStatistics) {
     ContactStatistics found = contactStatistics(profile, grasp);
     out.problem = std::move(found.problem);

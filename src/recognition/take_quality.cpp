@@ -41,6 +41,13 @@ void findTakeProblems(TakeQuality& take, const TakeCheckOptions& options) {
   if (take.saturated > options.mostSaturated)
     take.problems.push_back("saturated in " + fixedText(100.0 * take.saturated, 0) +
                             " % of the frames");
+  if (!(options.leastQuality > 0.0) || take.graspQuality.value_or(0.0) >= options.leastQuality)
+    return;
+  if (!take.graspQuality)
+    take.problems.emplace_back("no grasp");
+  else
+    take.problems.push_back("quality " + fixedText(*take.graspQuality, 2) + ", not " +
+                            fixedText(options.leastQuality, 2));
 }
 
 }  // namespace
@@ -50,6 +57,13 @@ void TakeCheckOptions::validate() const {
   requireTakeOption(leastS >= 0.0 && leastS <= 1e9, "leastS must be 0..1e9");
   requireTakeOption(mostLost >= 0, "mostLost must be 0 or more");
   requireTakeOption(mostSaturated >= 0.0 && mostSaturated <= 1.0, "mostSaturated must be 0..1");
+  requireTakeOption(leastQuality >= 0.0 && leastQuality <= 1.0, "leastQuality must be 0..1");
+}
+
+bool TakeCheckOptions::operator==(const TakeCheckOptions& other) const noexcept {
+  return contact.frames == other.contact.frames && contact.taxels == other.contact.taxels &&
+         leastS == other.leastS && mostLost == other.mostLost &&
+         mostSaturated == other.mostSaturated && leastQuality == other.leastQuality;
 }
 
 std::string TakeQuality::problem() const {

@@ -62,6 +62,65 @@ TEST_F(BatchTasks, ConvertsToEveryForm) {
   EXPECT_THROW(made(convertTask(), "converted.txt"), FileError);
 }
 
+// A file for each grasp; a second run makes only what is missing or of an earlier state.
+TEST_F(BatchTasks, GraspsAreResumed) {
+  namespace fs = std::filesystem;
+  const fs::path source = folder_ / "in/golf_ball/day/b.palpate";
+  saveRecording(synthesize({.durationS = 24.0, .grasps = 3}), {}, source);
+  const GraspTemplate names(folder_ / "{out}", "{name}_{n}.csv");
+  const auto run = [&](const ConvertOptions& options = {}) {
+    const BatchPlan plan = planBatch({source}, names.planned());
+    const BatchReport report =
+        runBatch(plan, graspsTask(names, options), {.threads = 2, .resume = true});
+    return report.results.at(0);
+  };
+  using State = BatchResult::State;
+  const BatchResult first = run();
+  EXPECT_EQ(first.state, State::kDone) << first.text;
+  EXPECT_EQ(first.text, source.string() + ": 3 grasps");
+  const auto file = [&](int number) {
+    return folder_ / "{out}" / ("b_0" + std::to_string(number) + ".csv");
+  };
+  for (int i = 1; i <= 3; ++i) ASSERT_TRUE(fs::exists(file(i))) << file(i);
+  EXPECT_EQ(run().state, State::kSkipped);
+  // One is gone: all are made again.
+  const std::string second = testing::readFile(file(2));
+  fs::remove(file(2));
+  EXPECT_EQ(run().state, State::kDone);
+  EXPECT_EQ(testing::readFile(file(2)), second);
+  // Another choice: the files that were made are replaced.
+  EXPECT_EQ(run({.choices = {.unitsRow = true}}).state, State::kDone);
+  EXPECT_NE(testing::readFile(file(2)), second);
+  // What a person has changed since is kept.
+  testing::writeFile(file(3), "mine");
+  EXPECT_EQ(run().state, State::kFailed);
+  EXPECT_EQ(testing::readFile(file(3)), "mine");
+  // So is a file that no run has made.
+  fs::remove(file(3));
+  ASSERT_EQ(run().state, State::kDone);
+  saveRecording(synthesize({.durationS = 32.0, .grasps = 4}), {}, source, Overwrite::kReplace);
+  testing::writeFile(file(4), "mine");
+  const BatchResult refused = run();
+  EXPECT_EQ(refused.state, State::kFailed);
+  EXPECT_NE(refused.text.find("b_04.csv"), std::string::npos) << refused.text;
+  EXPECT_EQ(testing::readFile(file(4)), "mine");
+  fs::remove(file(4));
+  EXPECT_EQ(run().text, source.string() + ": 4 grasps");
+  // Fewer grasps leave a file over.
+  saveRecording(synthesize({.durationS = 24.0, .grasps = 3}), {}, source, Overwrite::kReplace);
+  EXPECT_EQ(run().text, source.string() + ": 3 grasps; 1 file of an earlier run left over");
+  EXPECT_TRUE(fs::exists(file(4)));
+}
+
+TEST_F(BatchTasks, WithoutAGraspNothingIsMade) {
+  const std::filesystem::path source = folder_ / "in/still.palpate";
+  saveRecording(synthesize({.durationS = 4.0, .grasps = 0}), {}, source);
+  const GraspTemplate names(folder_ / "out", "{name}_{n}.palpate");
+  const BatchReport report = runBatch(planBatch({source}, names.planned()), graspsTask(names), {});
+  EXPECT_EQ(report.results.at(0).state, BatchResult::State::kFailed);
+  EXPECT_NE(report.results.at(0).text.find("has no grasp"), std::string::npos);
+}
+
 TEST_F(BatchTasks, SignalsAreTheRowsOfTheRecording) {
   const Profile profile = openRecording(item_.source);
   std::string rows = std::string(kSignalColumns) + "\n";

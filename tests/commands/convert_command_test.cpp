@@ -271,6 +271,22 @@ TEST_F(ConvertCommand, MakesAFileOfEachGrasp) {
   EXPECT_EQ(again.exitCode, 1);
   EXPECT_EQ(palpate({"convert", "--each-grasp", folder / "in", "-o", names, "--force"}).exitCode,
             0);
+  // As other batch work it goes on, in parallel, and reports.
+  const std::string report = (folder / "report.csv").string();
+  const auto resumed = palpate({"convert",
+                                "--each-grasp",
+                                folder / "in",
+                                "-o",
+                                names,
+                                "--resume",
+                                "--threads",
+                                "2",
+                                "--report",
+                                report});
+  EXPECT_EQ(resumed.exitCode, 0) << resumed.err;
+  EXPECT_NE(resumed.out.find("is whole"), std::string::npos) << resumed.out;
+  EXPECT_NE(testing::readFile(report).find(",skipped,"), std::string::npos)
+      << testing::readFile(report);
   expectOneLineError(palpate({"convert", "--each-grasp", folder / "in"}), 2, {"needs -o"});
   expectOneLineError(
       palpate({"convert", "--each-grasp", folder / "in", "-o", "out/{name}.palpate"}), 2, {"{n}"});

@@ -1,12 +1,15 @@
 #include "palpate/recognition/feature_table.h"
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 
 #include <gtest/gtest.h>
 
 #include "palpate/core/error.h"
 #include "palpate/device/sdh2.h"
+#include "palpate/model/hand_file.h"
+#include "palpate/model/profile_builder.h"
 #include "palpate/recording/recording.h"
 
 #include "recognition/pinch_profile.h"
@@ -55,6 +58,41 @@ TEST(FeatureTable, ClassesAreTheNamesOfFolders) {
   EXPECT_EQ(extractFeatures({folder / "all/pen/a.dsa"}).rows[0].className, "");
   EXPECT_EQ(extractFeatures({folder / "all/golf_ball/"}).classes(),
             (std::vector<std::string>{"deeper", "golf ball"}));
+}
+
+TEST(FeatureTable, RowsHaveTheirNumberAndCanBeLeftOut) {
+  const TemporaryFolder folder;
+  saveGrasps(folder / "pen/a.dsa", 3);
+  saveGrasps(folder / "pen/b.dsa", 1);
+  const FeatureTable table = extractFeatures({folder.path()});
+  ASSERT_EQ(table.rows.size(), 4u);
+  const std::array<std::size_t, 4> numbers = {1, 2, 3, 1};
+  for (std::size_t i = 0; i < 4; ++i) {
+    EXPECT_EQ(table.rows[i].number, numbers.at(i));
+    EXPECT_GT(table.rows[i].quality, 0.0);
+    EXPECT_LE(table.rows[i].quality, 1.0);
+  }
+  const FeatureTable kept = without(table,
+                                    {{folder / "pen/a.dsa", table.rows[1].begin},
+                                     {folder / "pen/b.dsa", table.rows[3].begin + 1},
+                                     {folder / "gone.dsa", 0}});
+  ASSERT_EQ(kept.rows.size(), 3u) << "what isn't there is ignored";
+  EXPECT_EQ(kept.rows[1].number, 3u);
+  EXPECT_EQ(kept.names, table.names);
+  EXPECT_EQ(kept.sensor, table.sensor);
+}
+
+// Also when a set was asked for that the hand doesn't have.
+TEST(FeatureTable, SaysWhetherTheHandPinches) {
+  const TemporaryFolder folder;
+  saveGrasps(folder / "pen/a.dsa", 1);
+  EXPECT_TRUE(extractFeatures({folder / "pen"}, {.set = FeatureSet::kStatistics}).handPinches);
+  ProfileBuilder builder(builtInHand("flat_pad_16x16"));
+  builder.addFrame(0, std::vector<float>(256, 0.0F));
+  fs::create_directories(folder / "pad");
+  saveRecording(builder.finish({}), {}, folder / "pad/x.palpate");
+  EXPECT_FALSE(extractFeatures({folder / "pad"}, {.set = FeatureSet::kBest}).handPinches);
+  EXPECT_FALSE(extractFeatures({folder / "pad"}).handPinches);
 }
 
 TEST(FeatureTable, DoesNotDependOnThreads) {

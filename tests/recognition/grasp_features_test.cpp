@@ -55,6 +55,30 @@ TEST(GraspFeatures, SetsHaveNames) {
   EXPECT_NE(sessionSetWarning().find("remembers the pose"), std::string_view::npos);
 }
 
+// Units by the headers of the sets: plateau_features.h, study_features.h, contact_statistics.h.
+TEST(GraspFeatures, HaveUnits) {
+  EXPECT_EQ(featureUnit(FeatureSet::kBest, "size_z"), "mm");
+  EXPECT_EQ(featureUnit(FeatureSet::kSession, "compression_mm"), "mm");
+  EXPECT_EQ(featureUnit(FeatureSet::kBest, "ln_sum"), "");
+  EXPECT_EQ(featureUnit(FeatureSet::kSession, "angle_5"), "deg");
+  EXPECT_EQ(featureUnit(FeatureSet::kSession, "m1_row"), "taxels");
+  EXPECT_EQ(featureUnit(FeatureSet::kStatistics, "m1_row"), "") << "from -1 to 1";
+  EXPECT_EQ(featureUnit(FeatureSet::kStudy, "diameter"), "mm");
+  EXPECT_EQ(featureUnit(FeatureSet::kStudy, "std_5"), "full scale");
+  EXPECT_EQ(featureUnit(FeatureSet::kStudy, "m1_T00"), "");
+}
+
+TEST(GraspFeatures, KeepTheQualityOfTheGrasp) {
+  const Profile profile = twoGrasps();
+  const auto grasps = findPinches(profile, FeatureSet::kBest);
+  const auto found = recordingFeatures(profile, FeatureSet::kBest);
+  ASSERT_EQ(found.grasps.size(), grasps.size());
+  for (std::size_t i = 0; i < grasps.size(); ++i) {
+    EXPECT_EQ(found.grasps[i].quality, grasps[i].quality);
+    EXPECT_GT(found.grasps[i].quality, 0.5) << "held steadily";
+  }
+}
+
 TEST(GraspFeatures, EveryGraspOfARecordingHasARow) {
   const Profile profile = twoGrasps();
   for (const FeatureSet set : kSets) {
@@ -72,7 +96,7 @@ TEST(GraspFeatures, EveryGraspOfARecordingHasARow) {
       EXPECT_GE(grasp.initialFrame, grasp.begin);
       EXPECT_LE(grasp.endFrame, grasp.end);
     }
-    EXPECT_EQ(graspFeatures(profile, {.begin = 50, .end = 79, .fingers = {}}, set),
+    EXPECT_EQ(graspFeatures(profile, {.begin = 50, .end = 79, .fingers = {}, .quality = 1.0}, set),
               found.grasps[1]);
   }
 }

@@ -75,6 +75,23 @@ TEST(TakeQuality, SaturationIsAFractionOfTheFrames) {
   EXPECT_TRUE(check(profile, 0, {.mostSaturated = 0.1}).good());
 }
 
+// Half of the frames of the grasp are saturated, else it is held steadily: quality 1/2 and less.
+TEST(TakeQuality, AGraspCanBeAskedFor) {
+  const Profile half =
+      Take().frames(50).frames(20, 3400.0F).frames(20, 3500.0F).frames(10).finish();
+  const double quality = check(half).graspQuality.value();
+  EXPECT_LT(quality, 0.55);
+  const TakeQuality bad = check(half, 0, {.mostSaturated = 1.0, .leastQuality = 0.6});
+  EXPECT_TRUE(bad.problem().starts_with("quality 0.") && bad.problem().ends_with(", not 0.60"))
+      << bad.problem();
+  EXPECT_TRUE(check(half, 0, {.mostSaturated = 1.0, .leastQuality = 0.3}).good());
+  // Three frames are a contact, and no grasp.
+  const TakeQuality none =
+      check(Take().frames(20).frames(4, 500.0F).frames(40).finish(), 0, {.leastQuality = 0.1});
+  EXPECT_EQ(none.problem(), "no grasp");
+  EXPECT_THROW(checkTake({}, 0, {.leastQuality = 1.5}), std::invalid_argument);
+}
+
 TEST(TakeQuality, PartsAreOneTake) {
   const std::array parts{Take().frames(41).finish(), Take().frames(41, 800.0F).finish()};
   const TakeQuality take = checkTake(parts, 0, {.leastS = 3.9});

@@ -17,7 +17,6 @@
 #include "commands/commands.h"
 #include "commands/export_options.h"
 #include "commands/filter_options.h"
-#include "commands/recording_list.h"
 
 namespace palpate::commands {
 namespace fs = std::filesystem;
@@ -88,30 +87,9 @@ BatchTask convertTaskOf(const CommandLine& given, const std::string& ending) {
       {.filters = recipe, .choices = exportChoicesOf(given, recipe, "result" + ending)});
 }
 
-// The folder of `words` in which a recording was found; empty for one that was given by itself.
-fs::path rootOf(const Arguments& words, const fs::path& file) {
-  std::error_code ignored;
-  for (const std::string& word : words) {
-    const fs::path below = file.lexically_relative(word);
-    if (fs::is_directory(word, ignored) && !below.empty() && *below.begin() != "..") return word;
-  }
-  return {};
-}
-
-BatchNameFields nameFieldsOf(const Arguments& words, const fs::path& file, const Profile& profile) {
-  const fs::path root = rootOf(words, file);
-  const std::string ending = file.extension().string();
-  BatchNameFields fields{.name = file.stem().string(),
-                         .ending = ending.empty() ? "" : ending.substr(1),
-                         .timeUs = profile.numFrames() > 0 ? profile.frameTimeUs(0) : 0};
-  if (!root.empty()) fields.folder = file.parent_path().lexically_relative(root);
-  if (fields.folder == ".") fields.folder.clear();
-  return fields;
-}
-
 // --each-grasp PATH.. -o TEMPLATE
 int convertGrasps(const CommandLine& given) {
-  for (const char* name : {"from", "to", "to-form", "resume", "threads", "report"})
+  for (const char* name : {"from", "to", "to-form"})
     if (given.has(name))
       throw UsageError("--" + std::string(name) + " doesn't go with --each-grasp");
   if (!given.has("output"))
@@ -126,32 +104,8 @@ int convertGrasps(const CommandLine& given) {
   }();
   const ExportChoices choices = exportChoicesOf(given, recipe, "result" + names.ending());
   formatOf("result" + names.ending());
-  return forEachRecording(
-      recordingsIn(given.words()),
-      given.quiet(),
-      [&](const fs::path& file, const Progress& progress) {
-        const Profile whole = openRecording(file, progress);
-        const EventsReport events = readEvents(file);
-        // Grasps are those of the recorded values, as the window shows them.
-        const std::vector<GraspFrames> grasps = graspFrames(whole, events.events);
-        if (grasps.empty()) throw FileError(file, "has no grasp");
-        const Profile profile = filteredBy(recipe, whole, file);
-        const BatchNameFields fields = nameFieldsOf(given.words(), file, whole);
-        std::vector<fs::path> paths;
-        for (std::size_t i = 0; i < grasps.size(); ++i)
-          paths.push_back(names.pathFor(fields, i + 1, grasps.size()));
-        GraspFilesOptions options;
-        options.overwrite = given.has("force") ? Overwrite::kReplace : Overwrite::kRefuse;
-        options.extras = [&](const Profile& part, const fs::path& out) {
-          SaveExtras extras = exportExtras(choices, file, out, part, recipe);
-          extras.meta.erase("settings");  // those at the start of the whole recording
-          return extras;
-        };
-        saveGrasps(file, profile, events.events, grasps, paths, options, progress);
-        FileOutcome outcome{.said = file.string() + ": " + counted(grasps.size(), "grasp")};
-        if (events.damaged > 0) outcome.problem = damagedText(file.string(), events.damaged);
-        return outcome;
-      });
+  return runBatchCommand(
+      given, names.planned(), graspsTask(names, {.filters = recipe, .choices = choices}));
 }
 
 int convertBatch(const CommandLine& given) {

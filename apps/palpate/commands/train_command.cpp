@@ -7,6 +7,7 @@
 #include "palpate/core/time.h"
 #include "palpate/recognition/model_search.h"
 #include "palpate/recognition/trained_model.h"
+#include "palpate/recognition/training_choice.h"
 
 #include "commands/recognition_work.h"
 
@@ -15,17 +16,16 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The choices for the model search. The feature set `best` is meant for other sessions, and only
-// the classifier gauss works there, so that it is used even if another one is more accurate within
-// the recordings. Everything else is chosen by cross-validation.
 ModelSearchOptions searchGiven(const CommandLine& given, FeatureSet set) {
-  ModelSearchOptions search;
   PipelineOptions requested;
   requested.classifier =
       set == FeatureSet::kBest && !given.has("lda") ? ClassifierKind::kGauss : ClassifierKind::kSvm;
   takePipelineOptions(given, requested);
-  if (given.has("classifier") || requested.classifier == ClassifierKind::kGauss)
-    search.classifier = requested.classifier;
+  std::optional<ClassifierKind> classifier;
+  if (given.has("classifier")) classifier = requested.classifier;
+  ModelSearchOptions search = searchOptions(set, classifier);
+  // gauss takes no components, so that another classifier is meant.
+  if (given.has("lda") && !classifier) search.classifier.reset();
   search.components = requested.components;
   if (given.has("c")) search.costs = {requested.svm.c};
   return search;
@@ -100,15 +100,14 @@ int trainCommand(const Arguments& words) {
   const SampleSet samples = samplesOf(table);
   requireLearnable(samples);
   sayNotes(given, set, samples);
-  const std::vector<PipelineOptions> grid = modelGrid(samples, search);
-  if (grid.empty()) throw UsageError("gauss takes no --lda: choose --classifier svm, qda or lda");
-  ModelSearchReport found;
+  if (modelGrid(samples, search).empty())
+    throw UsageError("gauss takes no --lda: choose --classifier svm, qda or lda");
+  ChosenPipeline found;
   TrainedModel model;
   runInterruptibly(given, "choosing", [&](const Progress& progress) {
-    if (grid.size() > 1) found = searchModel(samples, search, progress);
+    found = choosePipeline(samples, search, progress);
   });
-  PipelineOptions chosen =
-      found.candidates.empty() ? grid.front() : found.candidates[found.chosen].options;
+  PipelineOptions chosen = found.options;
   if (given.text("shrinkage")) {
     PipelineOptions requested = chosen;
     requested.components.reset();
@@ -123,7 +122,7 @@ int trainCommand(const Arguments& words) {
   model.madeAt = utcStamp();
   model.trainingZero = zero;
   model.options = jsonOf(chosen).set("path", given.words().front());
-  if (!found.candidates.empty()) model.options.set("chosen_from", jsonOf(found));
+  if (!found.report.candidates.empty()) model.options.set("chosen_from", jsonOf(found.report));
   saveModel(model, *out, overwrite);
   printObject(reportOf(model, *out, learningNotes(samples)));
   return codeFor(table);

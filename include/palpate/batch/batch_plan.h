@@ -60,7 +60,11 @@ struct BatchItem {
   std::filesystem::path target = {};
   // Why it has no target, in one line; else empty.
   std::string problem = {};
+  // Results of an earlier run that this one may replace (BatchOptions::resume).
+  std::vector<std::filesystem::path> earlier = {};
 };
+// The fields of a recording's name but its time.
+BatchNameFields nameFieldsOf(const BatchItem& item);
 
 struct BatchPlan {
   // In the order of the given paths, those of a folder sorted by path; each source once.

@@ -26,13 +26,16 @@ namespace palpate {
 struct BatchAnswer {
   std::string said = {};     // "64 frames"
   std::string problem = {};  // why it was done only in part, in one line; else empty
+  // The files that were written, where there can be several for a recording; empty: item.target.
+  std::vector<std::filesystem::path> results = {};
 };
 
 struct BatchTask {
   // Everything that the bytes of the results depend on beside the recording and the result's
   // ending. --resume compares it.
   std::string options;
-  // Writes item.target, whole or not at all. Called from several threads at once. `threads`: to
+  // Writes item.target, whole or not at all; or the files that the answer names, of which those in
+  // item.earlier may be replaced in any case. Called from several threads at once. `threads`: to
   // read with, as openRecording(). Throws Error, Cancelled.
   std::function<BatchAnswer(
       const BatchItem& item, Overwrite overwrite, const Progress& progress, std::size_t threads)>

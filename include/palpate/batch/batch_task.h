@@ -10,6 +10,7 @@
 
 #include <palpate/batch/batch_run.h>
 #include <palpate/batch/export_extras.h>
+#include <palpate/batch/grasp_files.h>
 #include <palpate/filter/recipe.h>
 #include <palpate/recognition/feature_table.h>
 #include <palpate/recording/recording.h>
@@ -27,6 +28,11 @@ struct ConvertOptions {
 // The form is that of the result's ending (formatOf()); requirePossible() says which choices it
 // can have.
 BatchTask convertTask(const ConvertOptions& options = {});
+
+// A file for each grasp of a recording (grasp_files.h): the grasps are those of the recorded
+// values, the files hold the filtered ones. The plan must be made with names.planned(). A recording
+// without a grasp fails.
+BatchTask graspsTask(const GraspTemplate& names, const ConvertOptions& options = {});
 
 struct SignalRowsOptions {
   std::optional<std::int64_t> matrix = {};  // only this one

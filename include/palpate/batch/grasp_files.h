@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -35,6 +36,10 @@ class GraspTemplate {
  public:
   // Throws std::invalid_argument as BatchTemplate does, and when the name has no {n}.
   explicit GraspTemplate(std::string text);
+  // The template `below`, a relative path, in a folder that is taken as it is, also with braces.
+  GraspTemplate(std::filesystem::path folder, std::string below);
+  // Names the file of the first grasp: for the plan of a batch.
+  BatchTemplate planned() const;
   // `count`: of the grasps of the recording; all its numbers have as many digits. Throws Error when
   // the name is not allowed.
   std::filesystem::path pathFor(const BatchNameFields& fields,
@@ -44,11 +49,16 @@ class GraspTemplate {
   std::string ending() const;
 
  private:
+  BatchTemplate numbered(const std::string& number) const;
+
+  std::optional<std::filesystem::path> folder_;
   std::string text_;
 };
 
 struct GraspFilesOptions {
   Overwrite overwrite = Overwrite::kRefuse;
+  // Files that may be replaced in any case.
+  std::vector<std::filesystem::path> replaceable = {};
   // What is saved beside a grasp; may be empty: nothing.
   std::function<SaveExtras(const Profile& part, const std::filesystem::path& out)> extras = {};
 };

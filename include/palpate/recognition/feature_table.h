@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -37,10 +38,16 @@ struct FeatureRow {
   std::int64_t timeUs = 0;
   // One finite value per feature.
   std::vector<double> values;
+  // Number of the grasp among all of its recording, from 1; grasps without features are counted.
+  std::size_t number = 0;
+  // GraspSegment::quality, 0..1.
+  double quality = 0.0;
 };
 
 struct FeatureTable {
   FeatureSet set = FeatureSet::kBest;
+  // Whether the hand of the recordings has two pads that pinch, as all sets but `statistics` need.
+  bool handPinches = true;
   // Names of the features.
   std::vector<std::string> names;
   // In the order of the given paths, within a folder sorted by path, within a file by time.
@@ -62,6 +69,15 @@ struct FeatureTable {
   // The classes of the rows, sorted, each once. Rows without a class are ignored.
   std::vector<std::string> classes() const;
 };
+
+// A grasp that is left out of a table: its recording as FeatureRow::file, and its first frame.
+struct LeftOutGrasp {
+  std::filesystem::path file;
+  std::size_t begin = 0;
+  auto operator<=>(const LeftOutGrasp&) const = default;
+};
+// The table without these grasps; one that it doesn't have is ignored.
+FeatureTable without(const FeatureTable& table, const std::set<LeftOutGrasp>& leftOut);
 
 // Host time at which each grasp began [us since 1970], and the features as a matrix with one row
 // per grasp.

@@ -38,6 +38,9 @@ std::optional<FeatureSet> featureSetNamed(std::string_view name) noexcept;
 FeatureSet defaultFeatureSet(const HandDescription& hand);
 // Throws Error when the hand has no pads that pinch and the set needs them.
 std::vector<std::string> featureNames(FeatureSet set, const HandDescription& hand);
+// Unit of a feature of a set: "mm", "deg", "taxels", "full scale"; empty for a number without unit,
+// such as a logarithm or a share, and for a name that the set doesn't have.
+std::string_view featureUnit(FeatureSet set, std::string_view name) noexcept;
 // Warning, one line, to be shown wherever the set `session` is chosen.
 std::string_view sessionSetWarning() noexcept;
 
@@ -49,6 +52,8 @@ struct GraspFeatures {
   // `session`: the first frame with a quarter of the largest load and the last frame of the
   // plateau.
   std::size_t initialFrame = 0, endFrame = 0;
+  // GraspSegment::quality.
+  double quality = 0.0;
   // Finite values in the order of featureNames(); empty if there is a problem.
   std::vector<double> values;
   // Reason why there are no values, one line; otherwise empty.

@@ -25,9 +25,12 @@ struct TakeCheckOptions {
   double leastS = 1.0;          // shortest duration [s], 0..1e9
   std::int64_t mostLost = 0;    // frames that may be lost, 0 or more
   double mostSaturated = 0.02;  // fraction of the frames with a saturated taxel, 0..1
+  // Least quality of its best grasp (GraspSegment::quality), 0..1; 0: a take needs no grasp.
+  double leastQuality = 0.0;
 
   // Throws std::invalid_argument that names the field.
   void validate() const;
+  bool operator==(const TakeCheckOptions& other) const noexcept;
 };
 
 struct TakeQuality {

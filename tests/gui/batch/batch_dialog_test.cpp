@@ -2,6 +2,7 @@
 
 #include <QCheckBox>
 #include <QClipboard>
+#include <QImage>
 #include <QLabel>
 #include <QLineEdit>
 #include <QListWidget>
@@ -18,6 +19,7 @@
 
 #include "gui/batch/batch_fields.h"
 #include "gui/batch/batch_results.h"
+#include "gui/testing/layout_faults.h"
 #include "testing/testing.h"
 
 namespace palpate::gui::batch_dialog_test {
@@ -75,6 +77,77 @@ TEST_F(BatchDialogTest, ShowsTheFirstNamesAndHowManyRecordingsThereAre) {
   EXPECT_EQ(find<QLabel>("batchPreview")->text(),
             "a.dsa → dsa/a_x.npz\ndeep/b.dsa → dsa/deep_b_x.npz");
   EXPECT_FALSE(fs::exists(folder_ / "out")) << "nothing is written before Start";
+}
+
+TEST_F(BatchDialogTest, AFileForEachGraspHasItsNumberInItsName) {
+  saveRecording(
+      synthesize({.durationS = 24.0, .grasps = 3}), {}, folder_ / "in/a.dsa", Overwrite::kReplace);
+  fs::remove_all(folder_ / "in/deep");
+  BatchChoices choices = both();
+  choices.form = "palpate";
+  choose(choices);
+  auto* each = find<QCheckBox>("batchEachGrasp");
+  ASSERT_TRUE(each->isVisible());
+  each->setChecked(true);
+  look();
+  EXPECT_EQ(find<QLineEdit>("batchNames")->text(), "{name}_{n}");
+  EXPECT_EQ(find<QLabel>("batchPreview")->text(), "a.dsa → a_01.palpate");
+  find<QLineEdit>("batchNames")->setText("{name}");
+  look();
+  EXPECT_TRUE(dialog_->problem().contains("{n}")) << dialog_->problem().toStdString();
+  find<QLineEdit>("batchNames")->setText("{name}_{n}");
+  look();
+  run();
+  for (const char* name : {"a_01.palpate", "a_02.palpate", "a_03.palpate"})
+    EXPECT_TRUE(fs::exists(folder_ / "out" / name)) << name;
+  EXPECT_EQ(controller_.outcome()->report.status.done, 1u);
+  look();
+  run();
+  EXPECT_EQ(controller_.outcome()->report.status.skipped, 1u) << "they are whole";
+  EXPECT_TRUE(loadBatchChoices(settings_).eachGrasp);
+  each->setChecked(false);
+  EXPECT_EQ(find<QLineEdit>("batchNames")->text(), "{name}");
+}
+
+TEST_F(BatchDialogTest, PicturesAreDrawnOfEachRecording) {
+  BatchChoices choices = both();
+  choices.work = BatchWork::kRender;
+  choices.map = "viridis";
+  choose(choices);
+  EXPECT_TRUE(find<QWidget>("batchPicture")->isVisible());
+  EXPECT_TRUE(find<QWidget>("batchFilters")->isVisible());
+  EXPECT_FALSE(find<QWidget>("batchSpeed")->isVisible()) << "of a movie only";
+  EXPECT_FALSE(find<QWidget>("batchForm")->isVisible());
+  run();
+  const QImage image(text(folder_ / "out/a.png"));
+  EXPECT_EQ(image.size(), QSize(1800, 1440)) << "900 x 720 units, twice as many pixels";
+  EXPECT_TRUE(fs::exists(folder_ / "out/deep/b.png"));
+  EXPECT_EQ(controller_.outcome()->report.status.done, 2u);
+  choices.picture = "svg";
+  choose(choices);
+  run();
+  EXPECT_NE(testing::readFile(folder_ / "out/a.svg").find("<svg"), std::string::npos);
+  EXPECT_EQ(loadBatchChoices(settings_), choices);
+}
+
+TEST_F(BatchDialogTest, FitsOnASmallScreenWhateverIsMade) {
+  for (const BatchWork work : {BatchWork::kConvert,
+                               BatchWork::kSignals,
+                               BatchWork::kSlip,
+                               BatchWork::kFeatures,
+                               BatchWork::kRender}) {
+    BatchChoices choices = both();
+    choices.work = work;
+    choices.form = "h5";
+    choices.picture = "mp4";
+    saveBatchChoices(choices, settings_);
+    start();
+    look();
+    EXPECT_LE(dialog_->height(), 660) << static_cast<int>(work);
+    EXPECT_LE(dialog_->minimumSizeHint().height(), 660) << static_cast<int>(work);
+    EXPECT_TRUE(layoutFaults(*dialog_).isEmpty())
+        << layoutFaults(*dialog_).join("\n").toStdString();
+  }
 }
 
 TEST_F(BatchDialogTest, WhatCanNotBeDoneIsSaidAndStartIsOff) {

@@ -6,6 +6,7 @@
 #include <QPushButton>
 
 #include "palpate/device/sdh2.h"
+#include "palpate/model/hand_file.h"
 
 #include "gui/recognise/answer_view.h"
 #include "gui/recognise/ask_page.h"
@@ -146,7 +147,7 @@ TEST_F(RecognisePanelTest, AFolderTeachesAndIsChecked) {
   panel_->teach().askForPlace = [&](const QString&) { return out; };
   find<QPushButton>("teachTrain")->click();
   settle();
-  EXPECT_EQ(find<QLabel>("recogniseModel")->text(), "mine.json · 2 objects");
+  EXPECT_EQ(find<QLabel>("recogniseModel")->text(), "mine.json · 2 objects · best, gauss");
   EXPECT_EQ(loadModel(out).classes, (std::vector<std::string>{"ball", "pen"}));
   panel_->show();
   panel_->showPage("Check");
@@ -165,6 +166,75 @@ TEST_F(RecognisePanelTest, AFolderTeachesAndIsChecked) {
   auto* grasps = find<FiguresTable>("checkGrasps");
   emit grasps->cellClicked(0, 0);
   EXPECT_EQ(file.filename(), "pen.palpate");
+}
+
+TEST_F(RecognisePanelTest, FeaturesAndClassifierCanBeChosen) {
+  panel_->teaching().setFolder(teach({"ball", "pen"}, 5));
+  settle();
+  const auto choose = [&](const char* name, const QString& text) {
+    auto* box = find<QComboBox>(name);
+    const int index = box->findText(text);
+    ASSERT_GE(index, 0);
+    box->setCurrentIndex(index);
+    emit box->activated(index);
+    settle();
+  };
+  auto* bound = find<QLabel>("teachBound");
+  EXPECT_TRUE(bound->isHidden()) << "best with gauss carries over";
+  choose("teachSet", "study");
+  EXPECT_FALSE(bound->isHidden());
+  choose("teachClassifier", "lda");
+  EXPECT_TRUE(bound->text().contains("only gauss")) << bound->text().toStdString();
+  ASSERT_TRUE(panel_->teaching().table());
+  EXPECT_EQ(panel_->teaching().table()->set, FeatureSet::kStudy);
+  const auto out = folder_ / "mine.json";
+  panel_->teach().askForPlace = [&](const QString&) { return out; };
+  find<QPushButton>("teachTrain")->click();
+  settle();
+  const TrainedModel model = loadModel(out);
+  EXPECT_EQ(model.set, FeatureSet::kStudy);
+  EXPECT_EQ(model.pipeline.classifier, ClassifierKind::kLda);
+  EXPECT_EQ(model.features.size(), 54u);
+  const QString said = find<QLabel>("recogniseModel")->text();
+  EXPECT_TRUE(said.startsWith("mine.json · 2 objects · study, ") && said.endsWith("lda"))
+      << said.toStdString();
+  find<QPushButton>("checkNow")->click();
+  settle();
+  ASSERT_TRUE(panel_->teaching().checked());
+  EXPECT_EQ(panel_->teaching().checked()->options.classifier, ClassifierKind::kLda);
+  EXPECT_TRUE(find<QLabel>("checkResult")->text().contains("with study, "))
+      << find<QLabel>("checkResult")->text().toStdString();
+  // The choice is kept, and what the hand doesn't have can't be chosen.
+  TrainingController later(settings_);
+  EXPECT_EQ(later.choice(), panel_->teaching().choice());
+  EXPECT_EQ(later.choice().set, FeatureSet::kStudy);
+}
+
+TEST_F(RecognisePanelTest, OfAHandWithoutAPinchOtherFeaturesCanNotBeChosen) {
+  ProfileBuilder builder(builtInHand("flat_pad_16x16"));
+  for (std::int64_t i = 0; i < 60; ++i) {
+    std::vector<float> values(256, 0.0F);
+    if (i >= 10 && i < 50) values[16 * 4 + 8] = 500.0F;
+    builder.addFrame(i * 33'000, values);
+  }
+  std::filesystem::create_directories(folder_ / "pads" / "coin");
+  saveRecording(builder.finish({}), {}, folder_ / "pads" / "coin" / "a.palpate");
+  panel_->teaching().setFolder(folder_ / "pads");
+  settle();
+  EXPECT_EQ(panel_->teaching().set(), FeatureSet::kStatistics);
+  auto* sets = find<QComboBox>("teachSet");
+  const auto isPossible = [&](const QString& name) {
+    return (sets->model()->flags(sets->model()->index(sets->findText(name), 0)) &
+            Qt::ItemIsEnabled) != 0;
+  };
+  EXPECT_TRUE(isPossible("statistics"));
+  for (const char* name : {"best", "study", "session"}) {
+    EXPECT_FALSE(isPossible(name)) << name;
+    EXPECT_TRUE(sets->itemData(sets->findText(name), Qt::ToolTipRole)
+                    .toString()
+                    .contains("no two pads that pinch"))
+        << name;
+  }
 }
 
 TEST_F(RecognisePanelTest, OneObjectIsTooFew) {

@@ -2,6 +2,7 @@
 #include <QCheckBox>
 #include <QDockWidget>
 #include <QPushButton>
+#include <QTableView>
 #include <chrono>
 #include <thread>
 
@@ -10,8 +11,10 @@
 #include "gui/recognise/answer_view.h"
 #include "gui/recognise/ask_page.h"
 #include "gui/recognise/check_page.h"
+#include "gui/recognise/grasps_page.h"
 #include "gui/recognise/presentation_window.h"
 #include "gui/recognise/recognise_fixture.h"
+#include "gui/testing/layout_faults.h"
 #include "gui/timeline/event_rows.h"
 #include "gui/timeline/timeline_chart.h"
 #include "gui/timeline/timeline_feature.h"
@@ -78,6 +81,43 @@ TEST_F(RecogniseWindowTest, AGraspOfTheCheckIsOpenedAndSelected) {
   ASSERT_TRUE(selection);
   EXPECT_NEAR(selection->fromS, window().state().displayed.unfilteredRecording()->timeAt(60), 1e-6);
   EXPECT_NEAR(selection->toS, window().state().displayed.unfilteredRecording()->timeAt(200), 1e-6);
+}
+
+// All pages with grasps of two objects, in the usual layout.
+TEST_F(RecogniseWindowTest, AGraspOfTheTableIsOpenedAndThePagesFit) {
+  const auto folder = folder_ / "objects";
+  for (const char* name : {"ball", "pen"}) {
+    std::filesystem::create_directories(folder / name);
+    std::filesystem::copy_file(record(name), folder / name / (std::string(name) + ".palpate"));
+  }
+  openIt((folder / "ball" / "ball.palpate").string());
+  window().docks().show("Recognise");
+  panel().teaching().setFolder(folder);
+  settle();
+  for (const QString& page : panel().pageNames()) {
+    panel().showPage(page);
+    QCoreApplication::processEvents();
+    const QStringList faults = layoutFaults(window());
+    EXPECT_TRUE(faults.isEmpty()) << page.toStdString() << ":\n" << faults.join("\n").toStdString();
+  }
+  panel().showPage("Grasps");
+  QTableView& table = panel().grasps().table();
+  ASSERT_EQ(table.model()->rowCount(), 4);
+  table.selectRow(3);  // the second of the pen
+  const FeatureRow& grasp = panel().teaching().table()->rows.at(3);
+  table.setFocus();
+  QTest::keyClick(&table, Qt::Key_Return);
+  ASSERT_TRUE(QTest::qWaitFor(
+      [&] {
+        return window().state().displayed.unfilteredRecording() &&
+               window().state().displayed.unfilteredRecording()->path == grasp.file;
+      },
+      20'000));
+  const auto& selection = window().feature<TimelineFeature>().panel().chart().selection();
+  ASSERT_TRUE(selection);
+  EXPECT_NEAR(selection->fromS,
+              window().state().displayed.unfilteredRecording()->timeAt(grasp.begin),
+              1e-6);
 }
 
 TEST_F(RecogniseWindowTest, NamesWhatTheEmulatedHandHolds) { EXPECT_EQ(heldName("pen"), "pen"); }

@@ -80,6 +80,26 @@ TEST_F(PlanControllerTest, ATakeIsCheckedCountedAndRejected) {
   EXPECT_FALSE(controller_.lastTake());
 }
 
+TEST_F(PlanControllerTest, TheLimitsOfTheCheckAreSetAndKept) {
+  TakeCheckOptions limits;
+  limits.leastS = 3.0;
+  limits.mostLost = 4;
+  limits.mostSaturated = 0.5;
+  limits.leastQuality = 0.25;
+  limits.contact.taxels = 1000;
+  controller_.setLimits(limits);
+  EXPECT_EQ(PlanController(settings_).limits(), limits);
+  controller_.begin(std::nullopt);
+  controller_.end(recorded("a.palpate"));
+  controller_.settle();
+  ASSERT_EQ(checked_.size(), 1);
+  EXPECT_TRUE(checked_[0].contains("nothing was touched")) << "by a thousand taxels";
+  EXPECT_TRUE(checked_[0].contains("long, not 3.0 s")) << checked_[0].toStdString();
+  EXPECT_TRUE(checked_[0].contains("no grasp")) << checked_[0].toStdString();
+  settings_.setValue("recording/plan_limits/most_saturated", 7.0);
+  EXPECT_EQ(PlanController(settings_).limits(), TakeCheckOptions()) << "out of range";
+}
+
 TEST_F(PlanControllerTest, ARecordingThatIsNotOfThePlanIsNotCounted) {
   controller_.end(recorded("a.palpate"));
   EXPECT_EQ(controller_.progressText(), "0 of 3");

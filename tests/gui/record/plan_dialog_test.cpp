@@ -1,8 +1,11 @@
 #include "gui/record/plan_dialog.h"
 
+#include <QAbstractButton>
 #include <QCheckBox>
+#include <QDoubleSpinBox>
 #include <QLabel>
 #include <QPushButton>
+#include <QSpinBox>
 #include <QTableView>
 
 #include <palpate/core/error.h>
@@ -65,6 +68,25 @@ TEST_F(PlanDialogTest, CellsAreEditedAndABadValueIsNamedByRowAndColumn) {
   EXPECT_EQ(said(), "row 1, object: is empty");
   EXPECT_EQ(controller_.plan().rows()[0].object, "ball");
   EXPECT_FALSE(table()->flags(table()->index(0, PlanModel::kDone)) & Qt::ItemIsEditable);
+}
+
+TEST_F(PlanDialogTest, TheLimitsOfTheCheckAreFoldedAndSet) {
+  EXPECT_TRUE(find<QLabel>("planLimitsSummary")->accessibleName().contains("1.0 s at least") ||
+              find<QLabel>("planLimitsSummary")->text().contains("1.0 s"));
+  find<QAbstractButton>("planLimitsHeader")->click();
+  QCoreApplication::processEvents();
+  ASSERT_TRUE(find<QDoubleSpinBox>("planLeastS")->isVisible());
+  EXPECT_TRUE(layoutFaults(*dialog_).isEmpty()) << layoutFaults(*dialog_).join("\n").toStdString();
+  find<QDoubleSpinBox>("planLeastS")->setValue(2.5);
+  find<QDoubleSpinBox>("planMostSaturated")->setValue(10.0);
+  find<QSpinBox>("planMostLost")->setValue(3);
+  EXPECT_DOUBLE_EQ(controller_.limits().leastS, 2.5);
+  EXPECT_DOUBLE_EQ(controller_.limits().mostSaturated, 0.1);
+  EXPECT_EQ(controller_.limits().mostLost, 3);
+  PlanDialog later(*windowState_, controller_, record_);
+  EXPECT_EQ(later.findChild<QDoubleSpinBox*>("planLeastS")->value(), 2.5);
+  click("planUsualLimits");
+  EXPECT_EQ(controller_.limits(), TakeCheckOptions());
 }
 
 TEST_F(PlanDialogTest, RowsAreAddedAndRemoved) {

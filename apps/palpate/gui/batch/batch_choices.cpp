@@ -11,6 +11,7 @@
 #include <palpate/core/escaped_line.h>
 #include <palpate/filter/recipe.h>
 
+#include "gui/batch/batch_pictures.h"
 #include "gui/source/recording_settings.h"
 
 namespace palpate::gui {
@@ -52,7 +53,7 @@ QString relativeName(const fs::path& path, const fs::path& folder) {
 bool usesFilters(const BatchChoices& choices) {
   if (choices.work == BatchWork::kConvert)
     return choices.form != "dsa" && choices.form != "palpate";
-  return choices.work == BatchWork::kSignals;
+  return choices.work == BatchWork::kSignals || choices.work == BatchWork::kRender;
 }
 
 bool usesSeries(const BatchChoices& choices) {
@@ -62,25 +63,49 @@ bool usesSeries(const BatchChoices& choices) {
 
 bool usesUnitsRow(const BatchChoices& choices) {
   if (choices.work == BatchWork::kConvert) return choices.form == "csv";
-  return choices.work != BatchWork::kFeatures;
+  return choices.work == BatchWork::kSignals || choices.work == BatchWork::kSlip;
 }
 
 bool usesMatrix(const BatchChoices& choices) {
   return choices.work == BatchWork::kSignals || choices.work == BatchWork::kSlip;
 }
 
+bool usesEachGrasp(const BatchChoices& choices) {
+  return choices.work == BatchWork::kConvert && choices.eachGrasp;
+}
+
 QString endingOf(const BatchChoices& choices) {
+  if (choices.work == BatchWork::kRender) return "." + choices.picture;
   return choices.work == BatchWork::kConvert ? "." + choices.form : QString(".csv");
 }
 
-BatchTemplate templateOf(const BatchChoices& choices) {
+namespace {
+
+fs::path resultFolderOf(const BatchChoices& choices) {
   if (choices.folder.trimmed().isEmpty())
     throw std::invalid_argument("choose a folder for the results");
   const QString folder = folderFromText(choices.folder);
   if (!QFileInfo(folder).isAbsolute())
     throw std::invalid_argument("the folder of the results must begin with / or ~");
-  return BatchTemplate(fs::path(folder.toStdString()),
-                       (choices.names.trimmed() + endingOf(choices)).toStdString());
+  return folder.toStdString();
+}
+
+std::string resultNamesOf(const BatchChoices& choices) {
+  return (choices.names.trimmed() + endingOf(choices)).toStdString();
+}
+
+}  // namespace
+
+BatchTemplate templateOf(const BatchChoices& choices) {
+  if (usesEachGrasp(choices)) return graspTemplateOf(choices).planned();
+  return BatchTemplate(resultFolderOf(choices), resultNamesOf(choices));
+}
+
+GraspTemplate graspTemplateOf(const BatchChoices& choices) {
+  const fs::path folder = resultFolderOf(choices);
+  if (!choices.names.contains("{n}"))
+    throw std::invalid_argument("the names need {n}, the number of the grasp: {name}_{n}");
+  return GraspTemplate(folder, resultNamesOf(choices));
 }
 
 BatchTask taskOf(const BatchChoices& choices) {
@@ -88,11 +113,15 @@ BatchTask taskOf(const BatchChoices& choices) {
       usesFilters(choices) ? recipeFromText(choices.filters, "Filters") : Recipe();
   const bool unitsRow = usesUnitsRow(choices) && choices.unitsRow;
   switch (choices.work) {
-    case BatchWork::kConvert:
-      return convertTask({.filters = filters,
-                          .choices = {.withSignals = choices.withSignals || !usesSeries(choices),
-                                      .withSlip = choices.withSlip || !usesSeries(choices),
-                                      .unitsRow = unitsRow}});
+    case BatchWork::kConvert: {
+      const ConvertOptions convert{
+          .filters = filters,
+          .choices = {.withSignals = choices.withSignals || !usesSeries(choices),
+                      .withSlip = choices.withSlip || !usesSeries(choices),
+                      .unitsRow = unitsRow}};
+      return choices.eachGrasp ? graspsTask(graspTemplateOf(choices), convert)
+                               : convertTask(convert);
+    }
     case BatchWork::kSignals: {
       const Recipe smooth = recipeFromText(choices.smooth, "Smooth");
       try {
@@ -119,6 +148,14 @@ BatchTask taskOf(const BatchChoices& choices) {
       rule.rotationDeg = choices.rotationDeg;
       return slipTask(table);
     }
+    case BatchWork::kRender:
+      return picturesTask(
+          {.filters = filters,
+           .map = colorMapFrom(choices.map.toStdString()).value_or(ColorMapName::kInferno),
+           .interpolated = choices.interpolated,
+           .values = choices.printedValues,
+           .speed = choices.speed},
+          choices.picture);
     case BatchWork::kFeatures:
       break;
   }
@@ -186,6 +223,12 @@ void saveBatchChoices(const BatchChoices& choices, QSettings& settings) {
   settings.setValue("work", static_cast<int>(choices.work));
   settings.setValue("filters", choices.filters);
   settings.setValue("form", choices.form);
+  settings.setValue("eachGrasp", choices.eachGrasp);
+  settings.setValue("picture", choices.picture);
+  settings.setValue("map", choices.map);
+  settings.setValue("interpolated", choices.interpolated);
+  settings.setValue("printedValues", choices.printedValues);
+  settings.setValue("speed", choices.speed);
   settings.setValue("signals", choices.withSignals);
   settings.setValue("slip", choices.withSlip);
   settings.setValue("unitsRow", choices.unitsRow);
@@ -216,7 +259,7 @@ BatchChoices loadBatchChoices(const QSettings& settings) {
   int work = 0;
   read("paths", choices.paths);
   read("work", work);
-  if (work >= 0 && work <= static_cast<int>(BatchWork::kFeatures))
+  if (work >= 0 && work <= static_cast<int>(BatchWork::kRender))
     choices.work = static_cast<BatchWork>(work);
   read("filters", choices.filters);
   read("form", choices.form);
@@ -225,6 +268,15 @@ BatchChoices loadBatchChoices(const QSettings& settings) {
         return choices.form == form.ending + 1;
       }))
     choices.form = BatchChoices().form;
+  read("eachGrasp", choices.eachGrasp);
+  read("picture", choices.picture);
+  if (!batchPictureForms().contains(choices.picture)) choices.picture = BatchChoices().picture;
+  read("map", choices.map);
+  if (!colorMapFrom(choices.map.toStdString())) choices.map = BatchChoices().map;
+  read("interpolated", choices.interpolated);
+  read("printedValues", choices.printedValues);
+  read("speed", choices.speed);
+  if (!(choices.speed >= kLeastBatchSpeed && choices.speed <= kMostBatchSpeed)) choices.speed = 1.0;
   read("signals", choices.withSignals);
   read("slip", choices.withSlip);
   read("unitsRow", choices.unitsRow);

@@ -8,11 +8,12 @@
 
 #include <palpate/batch/batch_plan.h>
 #include <palpate/batch/batch_run.h>
+#include <palpate/batch/grasp_files.h>
 
 namespace palpate::gui {
 
 // What a batch makes of each recording; the work is that of the commands of these names.
-enum class BatchWork { kConvert, kSignals, kSlip, kFeatures };
+enum class BatchWork { kConvert, kSignals, kSlip, kFeatures, kRender };
 
 struct BatchChoices {
   // Recordings and folders.
@@ -22,6 +23,8 @@ struct BatchChoices {
   QString filters = {};
   // Ending of the results of kConvert, without its dot.
   QString form = "npz";
+  // Of kConvert: a file for each grasp; `names` then contains {n}.
+  bool eachGrasp = false;
   // Of kConvert to .h5 and .mat.
   bool withSignals = true;
   bool withSlip = true;
@@ -40,6 +43,12 @@ struct BatchChoices {
   double rotationDeg = 5.0;
   // Set of kFeatures; empty: the default of the hand.
   QString featureSet = {};
+  // Of kRender: "png", "svg", "pdf", or "mp4" for a movie; the look as in MatricesPictureOptions.
+  QString picture = "png";
+  QString map = "inferno";
+  bool interpolated = false;
+  bool printedValues = false;
+  double speed = 1.0;  // of a movie
   // Folder of the results, and the template of their names below it, without ending.
   QString folder = {};
   QString names = "{name}";
@@ -55,11 +64,14 @@ bool usesFilters(const BatchChoices& choices);
 bool usesSeries(const BatchChoices& choices);  // withSignals, withSlip
 bool usesUnitsRow(const BatchChoices& choices);
 bool usesMatrix(const BatchChoices& choices);
+bool usesEachGrasp(const BatchChoices& choices);
 // Ending of the results, with its dot.
 QString endingOf(const BatchChoices& choices);
 
 // All throw std::invalid_argument with the reason why it can't be done.
 BatchTemplate templateOf(const BatchChoices& choices);
+// Of a batch with a file for each grasp.
+GraspTemplate graspTemplateOf(const BatchChoices& choices);
 BatchTask taskOf(const BatchChoices& choices);
 BatchOptions optionsOf(const BatchChoices& choices);
 

@@ -20,6 +20,7 @@
 #include <QVBoxLayout>
 #include <algorithm>
 #include <memory>
+#include <utility>
 
 #include <palpate/core/number_text.h>
 
@@ -51,6 +52,7 @@ constexpr const char* kFieldsTip =
     "{folder}: the folders between the given folder and the recording\n"
     "{ending}: the recording's ending: dsa, palpate\n"
     "{date}, {time}: when the recording begins, 2014-11-27 and 10-31-05\n"
+    "{n}: the number of the grasp, where there is a file for each grasp\n"
     "Names without {folder} keep the folders of the recordings.";
 
 QPushButton* batchButton(const char* name, const QString& text) {
@@ -383,6 +385,13 @@ void BatchDialog::removeChosen() {
 void BatchDialog::changed() {
   if (filling_) return;
   ++change_;
+  // A file for each grasp needs its number in the name.
+  const bool eachGrasp = usesEachGrasp(choices());
+  if (eachGrasp != std::exchange(eachGrasp_, eachGrasp)) {
+    const QString names = names_->text().trimmed();
+    if (eachGrasp && !names.contains("{n}")) names_->setText(names + "_{n}");
+    if (!eachGrasp && names.endsWith("_{n}")) names_->setText(names.chopped(4));
+  }
   ending_->setText(endingOf(choices()));
   delay_.start();
   showState();

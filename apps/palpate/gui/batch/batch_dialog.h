@@ -77,6 +77,7 @@ class BatchDialog : public QDialog {
   std::size_t change_ = 0;
   std::size_t shown_ = 0;
   bool filling_ = false;
+  bool eachGrasp_ = false;
   QTabWidget* pages_;
   QListWidget* paths_ = nullptr;
   QLabel* count_ = nullptr;

@@ -15,6 +15,8 @@
 #include <palpate/recording/recording.h>
 #include <palpate/slip/slip_method.h>
 
+#include "gui/batch/batch_pictures.h"
+
 namespace palpate::gui {
 namespace {
 
@@ -55,6 +57,12 @@ std::vector<std::pair<QString, QString>> formItems() {
   return items;
 }
 
+std::vector<std::pair<QString, QString>> mapItems() {
+  std::vector<std::pair<QString, QString>> items;
+  for (const ColorMapName map : kAllColorMaps) items.emplace_back(nameOf(map), nameOf(map));
+  return items;
+}
+
 std::vector<std::pair<QString, QString>> methodItems() {
   std::vector<std::pair<QString, QString>> items;
   for (const SlipMethod method : slipMethods()) {
@@ -78,7 +86,17 @@ BatchFields::BatchFields(QWidget* parent)
                         {{"convert: recordings in another format", "convert"},
                          {"signals: a table of each matrix over time", "signals"},
                          {"slip: a table of how contacts move", "slip"},
-                         {"features: a table of the grasps", "features"}});
+                         {"features: a table of the grasps", "features"},
+                         {"render: a picture or a movie", "render"}});
+  picture_ = batchComboBox("batchPicture",
+                           {{".png: the frame of the largest sum, pixels", "png"},
+                            {".svg: the frame of the largest sum, vectors", "svg"},
+                            {".pdf: the frame of the largest sum, vectors", "pdf"},
+                            {".mp4: a movie of all frames", "mp4"}});
+  map_ = batchComboBox("batchMap", mapItems());
+  speed_ = limitBox(
+      "batchSpeed", kLeastBatchSpeed, kMostBatchSpeed, "Speed of the movie; 1: as it was recorded");
+  speed_->setDecimals(2);
   ending_ = batchComboBox("batchForm", formItems());
   filtersRow_ = makeFilters();
   smooth_ = new QLineEdit;
@@ -103,12 +121,20 @@ BatchFields::BatchFields(QWidget* parent)
                         {"study", "study"},
                         {"session", "session"},
                         {"statistics", "statistics"}});
+  eachGrasp_ = batchCheckBox("batchEachGrasp",
+                             "A file for eac&h grasp",
+                             "Its names contain {n}, the number of the grasp; labels are copied");
+  interpolated_ = batchCheckBox("batchInterpolated", "Smooth between &taxels");
+  values_ = batchCheckBox("batchValues", "The &value of each active taxel");
   segments_ = batchCheckBox("batchSegments", "A row per sl&ip instead of one per frame");
   signals_ = batchCheckBox("batchSignals", "With the characteristic &signals");
   slip_ = batchCheckBox("batchSlip", "With the sl&ip");
   unitsRow_ = batchCheckBox("batchUnitsRow", "A second row with the &units");
   form_->addRow("&Make", work_);
   form_->addRow("F&ormat", ending_);
+  form_->addRow("F&ormat", picture_);
+  form_->addRow("Colour ma&p", map_);
+  form_->addRow("Mov&ie speed", speed_);
   form_->addRow("Fi&lters", filtersRow_);
   form_->addRow("Smoo&th", smooth_);
   form_->addRow("Matri&x", matrix_);
@@ -116,21 +142,24 @@ BatchFields::BatchFields(QWidget* parent)
   form_->addRow("Refere&nce", reference_);
   form_->addRow("Limits", limits_);
   form_->addRow("Featur&es", set_);
-  for (QCheckBox* box : {segments_, signals_, slip_, unitsRow_}) form_->addRow("", box);
+  for (QCheckBox* box : {eachGrasp_, interpolated_, values_, segments_, signals_, slip_, unitsRow_})
+    form_->addRow("", box);
   const auto changed = [this] {
     showFields();
     emit edited();
   };
-  for (QComboBox* box : {work_, ending_, method_, set_})
+  for (QComboBox* box : {work_, ending_, picture_, map_, method_, set_})
     connect(box, &QComboBox::currentIndexChanged, this, changed);
   connect(reference_, &QComboBox::currentTextChanged, this, changed);
   for (QLineEdit* field : {filters_, smooth_})
     connect(field, &QLineEdit::textChanged, this, changed);
   connect(matrix_, &QSpinBox::valueChanged, this, changed);
-  for (QDoubleSpinBox* box : {step_, limit_, rotation_})
+  for (QDoubleSpinBox* box : {speed_, step_, limit_, rotation_})
     connect(box, &QDoubleSpinBox::valueChanged, this, changed);
-  for (QCheckBox* box : {segments_, signals_, slip_, unitsRow_})
+  for (QCheckBox* box : {eachGrasp_, interpolated_, values_, segments_, signals_, slip_, unitsRow_})
     connect(box, &QCheckBox::toggled, this, changed);
+  // Before the layouts around it ask for its height: that of the rows that are seen.
+  showFields();
 }
 
 QWidget* BatchFields::makeFilters() {
@@ -167,6 +196,12 @@ void BatchFields::fill(const BatchChoices& choices) {
   const QSignalBlocker quiet(this);
   work_->setCurrentIndex(static_cast<int>(choices.work));
   chooseBatchValue(*ending_, choices.form);
+  chooseBatchValue(*picture_, choices.picture);
+  chooseBatchValue(*map_, choices.map);
+  speed_->setValue(choices.speed);
+  eachGrasp_->setChecked(choices.eachGrasp);
+  interpolated_->setChecked(choices.interpolated);
+  values_->setChecked(choices.printedValues);
   filters_->setText(choices.filters);
   smooth_->setText(choices.smooth);
   matrix_->setValue(choices.matrix);
@@ -186,6 +221,12 @@ void BatchFields::fill(const BatchChoices& choices) {
 void BatchFields::readInto(BatchChoices& choices) const {
   choices.work = static_cast<BatchWork>(work_->currentIndex());
   choices.form = ending_->currentData().toString();
+  choices.picture = picture_->currentData().toString();
+  choices.map = map_->currentData().toString();
+  choices.speed = speed_->value();
+  choices.eachGrasp = eachGrasp_->isChecked();
+  choices.interpolated = interpolated_->isChecked();
+  choices.printedValues = values_->isChecked();
   choices.filters = filters_->text().trimmed();
   choices.smooth = smooth_->text().trimmed();
   choices.matrix = matrix_->value();
@@ -206,6 +247,13 @@ void BatchFields::showFields() {
   readInto(now);
   const bool ofSlip = now.work == BatchWork::kSlip;
   form_->setRowVisible(ending_, now.work == BatchWork::kConvert);
+  const bool drawn = now.work == BatchWork::kRender;
+  form_->setRowVisible(picture_, drawn);
+  form_->setRowVisible(map_, drawn);
+  form_->setRowVisible(speed_, drawn && now.picture == "mp4");
+  form_->setRowVisible(eachGrasp_, now.work == BatchWork::kConvert);
+  form_->setRowVisible(interpolated_, drawn);
+  form_->setRowVisible(values_, drawn);
   form_->setRowVisible(filtersRow_, usesFilters(now));
   form_->setRowVisible(smooth_, now.work == BatchWork::kSignals);
   form_->setRowVisible(matrix_, usesMatrix(now));
@@ -217,6 +265,7 @@ void BatchFields::showFields() {
   form_->setRowVisible(signals_, usesSeries(now));
   form_->setRowVisible(slip_, usesSeries(now));
   form_->setRowVisible(unitsRow_, usesUnitsRow(now));
+  updateGeometry();
 }
 
 }  // namespace palpate::gui

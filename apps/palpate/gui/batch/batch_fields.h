@@ -38,6 +38,9 @@ class BatchFields : public QWidget {
   QFormLayout* form_;
   QComboBox* work_;
   QComboBox* ending_;
+  QComboBox* picture_;
+  QComboBox* map_;
+  QDoubleSpinBox* speed_;
   QWidget* filtersRow_;
   QLineEdit* filters_ = nullptr;
   QLineEdit* smooth_;
@@ -49,6 +52,9 @@ class BatchFields : public QWidget {
   QDoubleSpinBox* limit_ = nullptr;
   QDoubleSpinBox* rotation_ = nullptr;
   QComboBox* set_;
+  QCheckBox* eachGrasp_;
+  QCheckBox* interpolated_;
+  QCheckBox* values_;
   QCheckBox* segments_;
   QCheckBox* signals_;
   QCheckBox* slip_;

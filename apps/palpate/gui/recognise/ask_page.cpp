@@ -9,6 +9,8 @@
 #include <QPushButton>
 #include <QVBoxLayout>
 
+#include <palpate/recognition/training_choice.h>
+
 #include "gui/recognise/answer_view.h"
 
 namespace palpate::gui {
@@ -132,10 +134,13 @@ void AskPage::showModel() {
   const TrainedModel* model = controller_.model();
   const auto count = model ? static_cast<int>(model->classes.size()) : 0;
   const QString file = QString::fromStdString(controller_.modelPath().filename().string());
-  model_->setText(model ? file + " · " + QString::number(count) + " objects"
+  const QString with =
+      model ? QString::fromStdString(madeWithText(model->set, model->pipeline)) : QString();
+  model_->setText(model ? file + " · " + QString::number(count) + " objects · " + with
                   : controller_.modelProblem().isEmpty() ? QString("no model")
                                                          : file + " can't be used");
-  model_->setToolTip(model ? QString::fromStdString(controller_.modelPath().string())
+  model_->setToolTip(model ? QString::fromStdString(controller_.modelPath().string()) +
+                                 "\nmade with " + with
                            : controller_.modelProblem());
   classes_->clear();
   if (model)

@@ -196,7 +196,11 @@ void CheckPage::showCheck() {
   result_->setText("right " + figure(100.0 * report.accuracyMean, 1) + " ± " +
                    figure(100.0 * report.accuracySd, 1) + " %, among the best three " +
                    figure(100.0 * report.top3, 1) + " %: " + QString::number(wrong) + " of " +
-                   QString::number(report.confusion.total()) + " answers wrong");
+                   QString::number(report.confusion.total()) + " answers wrong; with " +
+                   QString::fromStdString(madeWithText(checked->table->set, checked->options)));
+  result_->setToolTip(
+      "What Teach leaves open (components, C) is chosen on the same grasps, so that such a result "
+      "is a little too good");
   result_->show();
   confusion_->setMatrix(report.confusion);
   listObjects();

@@ -8,6 +8,7 @@
 #include "gui/recognise/answer_view.h"
 #include "gui/recognise/ask_page.h"
 #include "gui/recognise/check_page.h"
+#include "gui/recognise/grasps_page.h"
 #include "gui/recognise/presentation_window.h"
 #include "gui/recognise/recognise_panel.h"
 #include "gui/recognise/today_page.h"
@@ -26,7 +27,7 @@ RecogniseActions::RecogniseActions(ActionRegistry& book) {
 
 namespace {
 
-constexpr int kRecogniseUsualWidth = 430;  // [px]
+constexpr int kRecogniseUsualWidth = 485;  // [px] with the buttons of all pages
 constexpr int kHearingMs = 50;
 constexpr int kAskAgainRounds = 10;  // timer calls: asks twice a second
 constexpr double kSteadyS = 0.8;     // holding time before the first automatic question
@@ -59,6 +60,7 @@ void RecogniseFeature::connectAll() {
   // After a stop or any other command to the hand, the zero measurement no longer moves it.
   connect(&windowState.handCommands, &HandCommands::asked, this, &RecogniseFeature::cancelZero);
   connect(&panel_->check(), &CheckPage::graspAsked, this, &RecogniseFeature::showGrasp);
+  connect(&panel_->grasps(), &GraspsPage::graspAsked, this, &RecogniseFeature::showGrasp);
   panel_->teach().zeroNow = [this] { return zero_; };
   connect(&panel_->ask(), &AskPage::asked, this, &RecogniseFeature::ask);
   connect(&panel_->ask(), &AskPage::showRequested, this, &RecogniseFeature::showFull);
@@ -310,13 +312,16 @@ std::vector<ExportedView> RecogniseFeature::views() {
   view.rank = 2;
   view.widget = panel_;
   view.isThere = [this] {
-    return panel_->isVisible() &&
-           (panel_->check().shown() || !panel_->controller().answer().name().isEmpty());
+    return panel_->isVisible() && (panel_->check().shown() || panel_->grasps().shown() ||
+                                   !panel_->controller().answer().name().isEmpty());
   };
   view.fileName = [] { return QString("recognised"); };
-  view.tables = [this] { return panel_->check().tables(); };
+  view.tables = [this] {
+    return panel_->grasps().shown() ? panel_->grasps().tables() : panel_->check().tables();
+  };
   view.paint = [this](QPainter& painter, const PictureLook& look) {
     if (panel_->check().shown()) return panel_->check().paint(painter, look);
+    if (panel_->grasps().shown()) return panel_->grasps().paint(painter, look);
     const RecognitionAnswer& answer = panel_->controller().answer();
     paintAnswer(painter,
                 QRectF(QPointF(0, 0), look.size).adjusted(24, 24, -24, -24),

@@ -5,6 +5,7 @@
 
 #include "gui/recognise/ask_page.h"
 #include "gui/recognise/check_page.h"
+#include "gui/recognise/grasps_page.h"
 #include "gui/recognise/today_page.h"
 #include "gui/recognise/training_page.h"
 #include "gui/widgets/opening_strip.h"
@@ -21,11 +22,13 @@ RecognisePanel::RecognisePanel(QSettings& settings,
   ask_ = new AskPage(*controller_, &pages());
   today_ = new TodayPage(*controller_, &pages());
   teach_ = new TrainingPage(*teaching_, &pages());
+  grasps_ = new GraspsPage(*teaching_, settings, &pages());
   check_ = new CheckPage(*teaching_, &pages());
   strip_ = new OpeningStrip(this, "Working on", "recognise");
   addPage(ask_, "Ask", "What is in the hand");
   addPage(today_, "Today", "Adapts the model to the hand of today");
   addPage(teach_, "Teach", "Captures grasps of objects, and learns from them");
+  addPage(grasps_, "Grasps", "The grasps that teach, and their features");
   addPage(check_, "Check", "How well they are told apart");
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(0, 0, 0, 0);
@@ -48,8 +51,9 @@ RecognisePanel::RecognisePanel(QSettings& settings,
           this,
           [this](const TrainedModel& model, const QString& path) {
             controller_->takeModel(model, path.toStdString());
-            emit said("trained with " + QString::number(model.classes.size()) +
-                      " objects: " + path.section('/', -1));
+            emit said("trained with " + QString::number(model.classes.size()) + " objects (" +
+                      QString::fromStdString(madeWithText(model.set, model.pipeline)) +
+                      "): " + path.section('/', -1));
           });
   showLastPage();
 }
@@ -60,6 +64,7 @@ void RecognisePanel::setTheme(Theme theme) {
   ask_->setTheme(theme);
   today_->setTheme(theme);
   teach_->setTheme(theme);
+  grasps_->setTheme(theme);
   check_->setTheme(theme);
 }
 

@@ -1,4 +1,4 @@
-// The content of the dock Recognise: the pages Ask, Today, Teach and Check.
+// The content of the dock Recognise: the pages Ask, Today, Teach, Grasps and Check.
 #pragma once
 
 #include <filesystem>
@@ -13,6 +13,7 @@ namespace palpate::gui {
 
 class AskPage;
 class CheckPage;
+class GraspsPage;
 class OpeningStrip;
 class TrainingPage;
 class TodayPage;
@@ -30,6 +31,7 @@ class RecognisePanel : public PagedPanel {
   AskPage& ask() noexcept { return *ask_; }
   TodayPage& today() noexcept { return *today_; }
   TrainingPage& teach() noexcept { return *teach_; }
+  GraspsPage& grasps() noexcept { return *grasps_; }
   CheckPage& check() noexcept { return *check_; }
   bool cancel();
   void settle();
@@ -50,6 +52,7 @@ class RecognisePanel : public PagedPanel {
   AskPage* ask_;
   TodayPage* today_;
   TrainingPage* teach_;
+  GraspsPage* grasps_;
   CheckPage* check_;
 };
 

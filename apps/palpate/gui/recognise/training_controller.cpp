@@ -22,13 +22,37 @@ namespace fs = std::filesystem;
 constexpr const char* kTrainingControllerFolderKey = "recognise/folder";
 constexpr std::size_t kBlocks = 5, kSplits = 10;
 
-// Options with the classifier that also works on recordings of another session, where the features
-// do.
-PipelineOptions trainingOptions(FeatureSet set) {
-  PipelineOptions options;
-  options.classifier = set == FeatureSet::kBest ? ClassifierKind::kGauss : ClassifierKind::kSvm;
-  options.calibrationBlocks = kBlocks;
-  return options;
+constexpr const char* kTrainingSetKey = "recognise/featureSet";
+constexpr const char* kTrainingClassifierKey = "recognise/classifier";
+constexpr const char* kLeftOutKey = "recognise/leftOut";
+
+std::shared_ptr<const FeatureTable> gatherTraining(const fs::path& folder,
+                                                   const TrainingChoice& choice,
+                                                   const Progress& progress) {
+  return std::make_shared<const FeatureTable>(
+      extractFeatures({folder}, {.set = choice.set}, progress));
+}
+
+Progress trainingPart(const Progress& progress, double from, double to) {
+  return [&progress, from, to](double fraction) {
+    return !progress || progress(from + (to - from) * fraction);
+  };
+}
+
+// Chooses what is left open by cross-validation.
+ChosenPipeline chosenFor(const SampleSet& samples,
+                         FeatureSet set,
+                         const TrainingChoice& choice,
+                         const Progress& progress) {
+  ChosenPipeline chosen = choosePipeline(samples, searchOptions(set, choice.classifier), progress);
+  chosen.options.calibrationBlocks = kBlocks;
+  return chosen;
+}
+
+Json leftOutJson(const std::set<LeftOutGrasp>& grasps) {
+  return jsonList(grasps, [](const LeftOutGrasp& grasp) {
+    return Json::object().set("file", grasp.file.string()).set("begin", grasp.begin);
+  });
 }
 
 fs::path objectFolder(const fs::path& folder, const QString& object) {
@@ -53,6 +77,10 @@ fs::path teachingDeskFreePlace(const fs::path& wanted) {
 TrainingController::TrainingController(QSettings& settings, QObject* parent)
     : QObject(parent), settings_(settings) {
   folder_ = settings.value(kTrainingControllerFolderKey).toString().toStdString();
+  choice_.set = featureSetNamed(settings.value(kTrainingSetKey).toString().toStdString());
+  choice_.classifier =
+      classifierNamed(settings.value(kTrainingClassifierKey).toString().toStdString());
+  readLeftOut();
   connect(&job_, &BackgroundJob::failed, this, &TrainingController::failed);
   connect(&saving_, &BackgroundJob::failed, this, &TrainingController::failed);
 }
@@ -65,14 +93,83 @@ void TrainingController::setFolder(const fs::path& folder) {
   table_.reset();
   clips_.clear();
   checked_.reset();
+  readLeftOut();
+  emit leftOutChanged();
   emit clipsChanged();
   emit checkedChanged();
   look();
 }
 
-std::shared_ptr<const FeatureTable> TrainingController::gather(const fs::path& folder,
-                                                               const Progress& progress) const {
-  return std::make_shared<const FeatureTable>(extractFeatures({folder}, {}, progress));
+void TrainingController::setChoice(const TrainingChoice& choice) {
+  if (choice == choice_) return;
+  const bool otherSet = choice.set != choice_.set;
+  choice_ = choice;
+  const auto text = [](std::string_view name) {
+    return QString::fromUtf8(name.data(), static_cast<qsizetype>(name.size()));
+  };
+  settings_.setValue(kTrainingSetKey, choice.set ? text(featureSetName(*choice.set)) : QString());
+  settings_.setValue(kTrainingClassifierKey,
+                     choice.classifier ? text(classifierName(*choice.classifier)) : QString());
+  emit choiceChanged();
+  if (otherSet) look();
+}
+
+FeatureSet TrainingController::set() const {
+  return choice_.set ? *choice_.set : table_ ? table_->set : FeatureSet::kBest;
+}
+
+// The settings have a list of "FRAME RECORDING" for each folder; recordings are relative to it.
+void TrainingController::readLeftOut() {
+  leftOut_.clear();
+  leavingOut_.clear();
+  const QVariantMap folders = settings_.value(kLeftOutKey).toMap();
+  for (const QString& text :
+       folders.value(QString::fromStdString(folder_.string())).toStringList()) {
+    bool isNumber = false;
+    const auto begin = text.section(' ', 0, 0).toULongLong(&isNumber);
+    const QString file = text.section(' ', 1);
+    if (isNumber && !file.isEmpty()) leftOut_.insert({folder_ / file.toStdString(), begin});
+  }
+}
+
+void TrainingController::changeLeftOut(const std::vector<LeftOutGrasp>& grasps, bool out) {
+  for (const LeftOutGrasp& grasp : grasps) {
+    if (out)
+      leftOut_.insert(grasp);
+    else
+      leftOut_.erase(grasp);
+  }
+  QVariantMap folders = settings_.value(kLeftOutKey).toMap();
+  QStringList texts;
+  for (const LeftOutGrasp& each : leftOut_)
+    texts << QString::number(each.begin) + ' ' +
+                 QString::fromStdString(each.file.lexically_relative(folder_).string());
+  const QString key = QString::fromStdString(folder_.string());
+  if (texts.isEmpty())
+    folders.remove(key);
+  else
+    folders.insert(key, texts);
+  settings_.setValue(kLeftOutKey, folders);
+  emit leftOutChanged();
+  emit folderChanged();
+}
+
+void TrainingController::setLeftOut(const std::vector<std::size_t>& rows, bool out) {
+  std::vector<LeftOutGrasp> changed;
+  for (const std::size_t row : rows) {
+    const FeatureRow& grasp = table_->rows.at(row);
+    if (isLeftOut(grasp) != out) changed.push_back({grasp.file, grasp.begin});
+  }
+  if (changed.empty()) return;
+  leavingOut_.emplace_back(changed, out);
+  changeLeftOut(changed, out);
+}
+
+void TrainingController::undoLeavingOut() {
+  if (leavingOut_.empty()) return;
+  const auto [grasps, out] = leavingOut_.back();
+  leavingOut_.pop_back();
+  changeLeftOut(grasps, !out);
 }
 
 void TrainingController::look() {
@@ -88,21 +185,23 @@ void TrainingController::look() {
   auto found = std::make_shared<std::shared_ptr<const FeatureTable>>();
   job_.start(
       "the recordings of the folder",
-      [this, found, folder = folder_](const Progress& progress) {
-        *found = gather(folder, progress);
+      [found, folder = folder_, choice = choice_](const Progress& progress) {
+        *found = gatherTraining(folder, choice, progress);
       },
-      [this, found, folder = folder_] {
-        if (folder == folder_) take(*found);
+      [this, found, folder = folder_, set = choice_.set] {
+        if (folder == folder_ && set == choice_.set) take(*found);
       });
   emit folderChanged();
 }
 
 void TrainingController::take(const std::shared_ptr<const FeatureTable>& table) {
   table_ = table;
-  problem_ = table->rows.empty() ? table->numFiles == 0
-                                       ? QString("No recording has been read from the folder yet.")
-                                       : QString("No grasp is found in its recordings.")
-                                 : QString();
+  const std::string noFeatures = whyNoFeatures(table->set, table->handPinches);
+  problem_ = !noFeatures.empty() ? QString::fromStdString("No features: " + noFeatures + ".")
+             : table->rows.empty()
+                 ? table->numFiles == 0 ? QString("No recording has been read from the folder yet.")
+                                        : QString("No grasp is found in its recordings.")
+                 : QString();
   emit folderChanged();
 }
 
@@ -111,7 +210,7 @@ std::map<QString, int> TrainingController::counts() const {
   std::map<fs::path, bool> known;
   if (table_)
     for (const FeatureRow& row : table_->rows) {
-      ++counts[QString::fromStdString(row.className)];
+      counts[QString::fromStdString(row.className)] += isLeftOut(row) ? 0 : 1;
       known[row.file] = true;
     }
   for (const TrainingClip& clip : clips_) {
@@ -222,51 +321,58 @@ void TrainingController::train(const fs::path& out, const std::optional<EmptyHan
   auto made = std::make_shared<Made>();
   job_.start(
       "the model",
-      [this, made, out, zero, folder = folder_](const Progress& progress) {
-        const auto part = [&](double from, double to) -> Progress {
-          return [&progress, from, to](double fraction) {
-            return !progress || progress(from + (to - from) * fraction);
-          };
-        };
-        made->table = gather(folder, part(0.0, 0.5));
-        const SampleSet samples = samplesOf(*made->table);
+      [made, out, zero, folder = folder_, choice = choice_, leftOut = leftOut_](
+          const Progress& progress) {
+        made->table = gatherTraining(folder, choice, trainingPart(progress, 0.0, 0.5));
+        const FeatureTable kept = without(*made->table, leftOut);
+        const SampleSet samples = samplesOf(kept);
         requireLearnable(samples);
-        const PipelineOptions options = trainingOptions(made->table->set);
-        made->model =
-            trainModel(samples, made->table->set, made->table->sensor, options, part(0.5, 0.9));
-        made->model.inputs = inputsOf(*made->table, part(0.9, 1.0));
+        const ChosenPipeline chosen =
+            chosenFor(samples, kept.set, choice, trainingPart(progress, 0.5, 0.7));
+        made->model = trainModel(
+            samples, kept.set, kept.sensor, chosen.options, trainingPart(progress, 0.7, 0.9));
+        made->model.inputs = inputsOf(kept, trainingPart(progress, 0.9, 1.0));
         made->model.programVersion = PALPATE_VERSION;
         made->model.madeAt = utcText(systemClock().wallUs());
-        made->model.options = jsonOf(options).set("path", folder.string());
+        made->model.options = jsonOf(chosen.options).set("path", folder.string());
+        if (!chosen.report.candidates.empty())
+          made->model.options.set("chosen_from", jsonOf(chosen.report));
+        if (!leftOut.empty()) made->model.options.set("left_out", leftOutJson(leftOut));
         made->model.trainingZero = zero;
         saveModel(made->model, out, Overwrite::kReplace);
       },
-      [this, made, out] {
-        take(made->table);
+      [this, made, out, set = choice_.set] {
+        if (set == choice_.set) take(made->table);
         emit trained(made->model, QString::fromStdString(out.string()));
       });
 }
 
 void TrainingController::check(bool blocks) {
-  auto made = std::make_shared<TrainingValidation>();
-  made->blocks = blocks;
+  struct Made {
+    std::shared_ptr<const FeatureTable> whole;
+    std::shared_ptr<TrainingValidation> validation = std::make_shared<TrainingValidation>();
+  };
+  auto made = std::make_shared<Made>();
+  made->validation->blocks = blocks;
   job_.start(
       "cross-validation",
-      [this, made, folder = folder_](const Progress& progress) {
-        made->table =
-            gather(folder, [&](double fraction) { return !progress || progress(0.6 * fraction); });
-        made->samples = samplesOf(*made->table);
-        requireLearnable(made->samples);
-        const auto splits = made->blocks ? blockSplits(made->samples.y, kBlocks)
-                                         : stratifiedSplits(made->samples.y, kSplits, 0);
-        made->report = crossValidate(
-            made->samples, trainingOptions(made->table->set), splits, 0, [&](double fraction) {
-              return !progress || progress(0.6 + 0.4 * fraction);
-            });
+      [made, folder = folder_, choice = choice_, leftOut = leftOut_](const Progress& progress) {
+        made->whole = gatherTraining(folder, choice, trainingPart(progress, 0.0, 0.5));
+        TrainingValidation& check = *made->validation;
+        check.table = std::make_shared<const FeatureTable>(without(*made->whole, leftOut));
+        check.samples = samplesOf(*check.table);
+        requireLearnable(check.samples);
+        check.options =
+            chosenFor(check.samples, check.table->set, choice, trainingPart(progress, 0.5, 0.7))
+                .options;
+        const auto splits = check.blocks ? blockSplits(check.samples.y, kBlocks)
+                                         : stratifiedSplits(check.samples.y, kSplits, 0);
+        check.report = crossValidate(
+            check.samples, check.options, splits, 0, trainingPart(progress, 0.7, 1.0));
       },
-      [this, made] {
-        take(made->table);
-        checked_ = made;
+      [this, made, set = choice_.set] {
+        if (set == choice_.set) take(made->whole);
+        checked_ = made->validation;
         emit checkedChanged();
       });
 }

@@ -10,6 +10,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <vector>
 
 #include <palpate/model/profile.h>
@@ -18,6 +19,7 @@
 #include <palpate/recognition/feature_table.h>
 #include <palpate/recognition/sample_set.h>
 #include <palpate/recognition/trained_model.h>
+#include <palpate/recognition/training_choice.h>
 
 #include "gui/source/background_job.h"
 
@@ -50,8 +52,10 @@ struct TrainingClip {
 
 // Results of a cross-validation over the training folder.
 struct TrainingValidation {
+  // Without the grasps that are left out.
   std::shared_ptr<const FeatureTable> table;
   SampleSet samples;
+  PipelineOptions options;
   std::optional<ValidationReport> report;
   // Protocol B (blocks in time); otherwise S (random splits).
   bool blocks = true;
@@ -63,6 +67,11 @@ class TrainingController : public QObject {
   explicit TrainingController(QSettings& settings, QObject* parent = nullptr);
 
   const std::filesystem::path& folder() const noexcept { return folder_; }
+  // What is trained and checked with; the settings keep it. Another set reads the folder again.
+  const TrainingChoice& choice() const noexcept { return choice_; }
+  void setChoice(const TrainingChoice& choice);
+  // The set that is used: the chosen one, else that of the folder's hand.
+  FeatureSet set() const;
   // Sets and reads the training folder; empty: none.
   void setFolder(const std::filesystem::path& folder);
   // Reads the folder again.
@@ -71,7 +80,16 @@ class TrainingController : public QObject {
   const std::shared_ptr<const FeatureTable>& table() const noexcept { return table_; }
   // Why the folder cannot be read.
   QString problem() const { return problem_; }
-  // The objects with their number of grasps, including those captured since the folder was read.
+  // Grasps of the folder that neither train nor test; the settings keep them for each folder.
+  const std::set<LeftOutGrasp>& leftOut() const noexcept { return leftOut_; }
+  bool isLeftOut(const FeatureRow& row) const { return leftOut_.contains({row.file, row.begin}); }
+  // Leaves grasps out, or takes them in again: rows of the table.
+  void setLeftOut(const std::vector<std::size_t>& rows, bool out);
+  // Takes the last change of setLeftOut() back.
+  bool canUndoLeavingOut() const noexcept { return !leavingOut_.empty(); }
+  void undoLeavingOut();
+  // The objects with their number of grasps that train, including those captured since the folder
+  // was read.
   std::map<QString, int> counts() const;
 
   // Captures a grasp of an object. Good ones are stored at once; others wait for the user.
@@ -97,6 +115,8 @@ class TrainingController : public QObject {
  signals:
   // Another folder, or its content has changed.
   void folderChanged();
+  void choiceChanged();
+  void leftOutChanged();
   void clipsChanged();
   void trained(const palpate::TrainedModel& model, const QString& path);
   void checkedChanged();
@@ -104,13 +124,17 @@ class TrainingController : public QObject {
   void failed(const QString& message);
 
  private:
-  std::shared_ptr<const FeatureTable> gather(const std::filesystem::path& folder,
-                                             const Progress& progress) const;
   void take(const std::shared_ptr<const FeatureTable>& table);
   void save(std::size_t clip);
+  void readLeftOut();
+  void changeLeftOut(const std::vector<LeftOutGrasp>& grasps, bool out);
 
   QSettings& settings_;
   std::filesystem::path folder_;
+  TrainingChoice choice_;
+  std::set<LeftOutGrasp> leftOut_;
+  // The changes, newest last, each with whether it left the grasps out.
+  std::vector<std::pair<std::vector<LeftOutGrasp>, bool>> leavingOut_;
   std::shared_ptr<const FeatureTable> table_;
   QString problem_;
   std::vector<TrainingClip> clips_;

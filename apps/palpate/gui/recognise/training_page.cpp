@@ -1,12 +1,16 @@
 #include "gui/recognise/training_page.h"
 
+#include <QComboBox>
 #include <QCompleter>
 #include <QFileDialog>
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QLineEdit>
 #include <QPushButton>
+#include <QSignalBlocker>
+#include <QStandardItemModel>
 #include <QVBoxLayout>
+#include <array>
 
 #include "gui/appearance/captions.h"
 #include "gui/widgets/figures_table.h"
@@ -29,6 +33,46 @@ std::vector<FigureColumn> clipColumns() {
           {"s", "Length [s]", 5},
           {"quality", "0..1: held steadily, whole, not saturated", 7},
           {"", "State", 14, true}};
+}
+
+struct TaughtSet {
+  FeatureSet set;
+  const char* tip;
+};
+constexpr std::array kTaughtSets = {
+    TaughtSet{
+        FeatureSet::kBest,
+        "Size and shape of the contact, force and compression on the load plateau: what holds "
+        "in another session"},
+    TaughtSet{FeatureSet::kStudy, "The 54 numbers of the study, to compare with it"},
+    TaughtSet{FeatureSet::kSession,
+              "best, with joint angles at rest: most accurate within one session, of no use in "
+              "another one"},
+    TaughtSet{FeatureSet::kStatistics,
+              "Load, extent and position of the contact on every matrix, of any hand"}};
+
+struct TaughtClassifier {
+  ClassifierKind kind;
+  const char* tip;
+};
+constexpr std::array kTaughtClassifiers = {
+    TaughtClassifier{ClassifierKind::kGauss,
+                     "A distribution for each object with an offset of the session: the only one "
+                     "that can be adapted to another session"},
+    TaughtClassifier{ClassifierKind::kLda, "Gaussian distributions with a common covariance"},
+    TaughtClassifier{ClassifierKind::kQda, "A Gaussian distribution for each object"},
+    TaughtClassifier{ClassifierKind::kSvm, "Linear support vector machines, one against one"}};
+
+QString taughtName(std::string_view name) {
+  return QString::fromUtf8(name.data(), static_cast<qsizetype>(name.size()));
+}
+
+// A choice that can't be made stays visible, and its tool tip says why.
+void setItemPossible(QComboBox& box, int index, const QString& tip, const QString& whyNot) {
+  box.setItemData(
+      index, whyNot.isEmpty() ? tip : tip + "\nNot possible: " + whyNot, Qt::ToolTipRole);
+  auto* items = qobject_cast<QStandardItemModel*>(box.model());
+  if (items) items->item(index)->setEnabled(whyNot.isEmpty());
 }
 
 QString stateText(const TrainingClip& clip) {
@@ -64,6 +108,36 @@ TrainingPage::TrainingPage(TrainingController& controller, QWidget* parent)
   folder_->setObjectName("teachFolderName");
   folder_->setTextFormat(Qt::PlainText);
   folder_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
+  const auto field = [this](const char* name, const char* accessible, const char* tip) {
+    auto* box = new QComboBox(this);
+    box->setObjectName(name);
+    box->setAccessibleName(accessible);
+    box->setToolTip(tip);
+    return box;
+  };
+  set_ = field("teachSet", "Features", "What is measured of each grasp; Train and Check use it");
+  set_->addItem("automatic");
+  set_->setItemData(0, "best where two pads pinch, else statistics", Qt::ToolTipRole);
+  for (const TaughtSet& each : kTaughtSets) {
+    set_->addItem(taughtName(featureSetName(each.set)));
+    set_->setItemData(set_->count() - 1, each.tip, Qt::ToolTipRole);
+  }
+  classifier_ = field(
+      "teachClassifier", "Classifier", "What tells the objects apart; Train and Check use it");
+  classifier_->addItem("automatic");
+  classifier_->setItemData(
+      0,
+      "gauss with the features best; else the simplest of the most accurate in a cross-validation",
+      Qt::ToolTipRole);
+  for (const TaughtClassifier& each : kTaughtClassifiers) {
+    classifier_->addItem(taughtName(classifierName(each.kind)));
+    classifier_->setItemData(classifier_->count() - 1, each.tip, Qt::ToolTipRole);
+  }
+  bound_ = new QLabel(this);
+  bound_->setObjectName("teachBound");
+  bound_->setProperty("role", "muted");
+  bound_->setTextFormat(Qt::PlainText);
+  bound_->setWordWrap(true);
   objects_ = new FiguresTable(teachPageObjectColumns(), this);
   objects_->setObjectName("teachObjects");
   objects_->setSingleLine();
@@ -92,6 +166,12 @@ TrainingPage::TrainingPage(TrainingController& controller, QWidget* parent)
   top->addWidget(choose);
   top->addWidget(folder_, 1);
   top->addWidget(train_);
+  auto* choices = new QHBoxLayout;
+  choices->setSpacing(8);
+  choices->addWidget(new QLabel("Features", this));
+  choices->addWidget(set_, 1);
+  choices->addWidget(new QLabel("Classifier", this));
+  choices->addWidget(classifier_, 1);
   auto* middle = new QHBoxLayout;
   middle->setSpacing(8);
   middle->addWidget(object_, 1);
@@ -104,6 +184,8 @@ TrainingPage::TrainingPage(TrainingController& controller, QWidget* parent)
   column->setContentsMargins(12, 8, 12, 10);
   column->setSpacing(8);
   column->addLayout(top);
+  column->addLayout(choices);
+  column->addWidget(bound_);
   column->addWidget(objects_, 3);
   column->addWidget(sectionHeading("Capture", this));
   column->addLayout(middle);
@@ -113,6 +195,10 @@ TrainingPage::TrainingPage(TrainingController& controller, QWidget* parent)
   connect(choose, &QPushButton::clicked, this, [this] {
     if (const auto path = askForFolder(); !path.empty()) controller_.setFolder(path);
   });
+  for (QComboBox* box : {set_, classifier_})
+    connect(box, &QComboBox::activated, this, &TrainingPage::choose);
+  connect(&controller_, &TrainingController::choiceChanged, this, &TrainingPage::showChoice);
+  connect(&controller_, &TrainingController::folderChanged, this, &TrainingPage::showChoice);
   connect(objects_, &FiguresTable::rowChosen, this, [this](int row) {
     if (!capturing()) object_->setText(objects_->item(row, 0)->text());
   });
@@ -139,7 +225,42 @@ TrainingPage::TrainingPage(TrainingController& controller, QWidget* parent)
     return std::filesystem::path(path.toStdString());
   };
   showFolder();
+  showChoice();
   showClips();
+}
+
+void TrainingPage::choose() {
+  TrainingChoice choice;
+  if (const int at = set_->currentIndex(); at > 0)
+    choice.set = kTaughtSets.at(static_cast<std::size_t>(at - 1)).set;
+  if (const int at = classifier_->currentIndex(); at > 0)
+    choice.classifier = kTaughtClassifiers.at(static_cast<std::size_t>(at - 1)).kind;
+  controller_.setChoice(choice);
+}
+
+void TrainingPage::showChoice() {
+  const TrainingChoice& choice = controller_.choice();
+  const auto& table = controller_.table();
+  const QSignalBlocker sets(set_), classifiers(classifier_);
+  set_->setCurrentIndex(0);
+  classifier_->setCurrentIndex(0);
+  for (std::size_t i = 0; i < kTaughtSets.size(); ++i) {
+    const int index = static_cast<int>(i) + 1;
+    const TaughtSet& each = kTaughtSets.at(i);
+    if (choice.set == each.set) set_->setCurrentIndex(index);
+    const std::string whyNot = table ? whyNoFeatures(each.set, table->handPinches) : std::string();
+    setItemPossible(*set_, index, each.tip, QString::fromStdString(whyNot));
+  }
+  for (std::size_t i = 0; i < kTaughtClassifiers.size(); ++i)
+    if (choice.classifier == kTaughtClassifiers.at(i).kind)
+      classifier_->setCurrentIndex(static_cast<int>(i) + 1);
+  // What the cross-validation will choose isn't known yet; most often it isn't gauss.
+  const FeatureSet set = controller_.set();
+  const bool isGauss = searchOptions(set, choice.classifier).classifier == ClassifierKind::kGauss;
+  const std::string bound =
+      whyBoundToSession(set, isGauss ? ClassifierKind::kGauss : ClassifierKind::kSvm);
+  bound_->setText(QString::fromStdString("For the session of the training only: " + bound + "."));
+  bound_->setVisible(!bound.empty());
 }
 
 void TrainingPage::setLive(bool live) {

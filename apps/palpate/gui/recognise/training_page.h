@@ -9,6 +9,7 @@
 #include "gui/appearance/theme.h"
 #include "gui/recognise/training_controller.h"
 
+class QComboBox;
 class QLabel;
 class QLineEdit;
 class QPushButton;
@@ -40,6 +41,8 @@ class TrainingPage : public QWidget {
 
  private:
   void showFolder();
+  void showChoice();
+  void choose();
   void showClips();
   void showState();
   void train();
@@ -49,6 +52,9 @@ class TrainingPage : public QWidget {
   TrainingController& controller_;
   bool live_ = false;
   QLabel* folder_;
+  QComboBox* set_;
+  QComboBox* classifier_;
+  QLabel* bound_;
   FiguresTable* objects_;
   QLineEdit* object_;
   QPushButton* capture_;

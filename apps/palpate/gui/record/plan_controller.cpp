@@ -3,6 +3,7 @@
 #include <QCoreApplication>
 #include <QEventLoop>
 #include <memory>
+#include <stdexcept>
 #include <utility>
 #include <vector>
 
@@ -10,7 +11,6 @@
 #include <palpate/core/number_text.h>
 #include <palpate/core/output_file.h>
 #include <palpate/core/text_file.h>
-#include <palpate/recognition/take_quality.h>
 #include <palpate/recording/recording.h>
 
 namespace palpate::gui {
@@ -19,6 +19,26 @@ namespace {
 
 constexpr const char* kPlanKey = "recording/plan";
 constexpr const char* kFollowPlanKey = "recording/follow_plan";
+
+constexpr const char* kPlanLimitsKey = "recording/plan_limits/";
+
+TakeCheckOptions keptLimits(const QSettings& settings) {
+  TakeCheckOptions limits;
+  const auto kept = [&](const char* name, const auto& usual) {
+    return settings.value(QString(kPlanLimitsKey) + name, usual);
+  };
+  limits.contact.taxels = kept("taxels", limits.contact.taxels).toInt();
+  limits.leastS = kept("least_s", limits.leastS).toDouble();
+  limits.mostLost = kept("most_lost", static_cast<qlonglong>(limits.mostLost)).toLongLong();
+  limits.mostSaturated = kept("most_saturated", limits.mostSaturated).toDouble();
+  limits.leastQuality = kept("least_quality", limits.leastQuality).toDouble();
+  try {
+    limits.validate();
+  } catch (const std::invalid_argument&) {
+    return {};  // a settings file never stops the program
+  }
+  return limits;
+}
 
 std::int64_t lostIn(const RecordingReport& report) {
   const auto fromHand = report.counters.find("lost");
@@ -36,6 +56,7 @@ PlanController::PlanController(QSettings& settings, QObject* parent)
     // A settings file never stops the program.
   }
   followed_ = settings.value(kFollowPlanKey, false).toBool();
+  limits_ = keptLimits(settings);
   // A take that can't be checked is one with a problem; see end().
   connect(&checking_, &BackgroundJob::finished, this, &PlanController::changed);
 }
@@ -50,6 +71,20 @@ void PlanController::setFollowed(bool on) {
   followed_ = on;
   settings_.setValue(kFollowPlanKey, on);
   emit followedChanged(on);
+  emit changed();
+}
+
+void PlanController::setLimits(const TakeCheckOptions& limits) {
+  if (limits == limits_) return;
+  limits_ = limits;
+  const auto keep = [this](const char* name, const auto& value) {
+    settings_.setValue(QString(kPlanLimitsKey) + name, value);
+  };
+  keep("taxels", limits.contact.taxels);
+  keep("least_s", limits.leastS);
+  keep("most_lost", static_cast<qlonglong>(limits.mostLost));
+  keep("most_saturated", limits.mostSaturated);
+  keep("least_quality", limits.leastQuality);
   emit changed();
 }
 
@@ -121,7 +156,7 @@ std::optional<RecordingSettings> PlanController::nextSettings(const RecordingSet
   return settings;
 }
 
-void PlanController::begin(double leastS) {
+void PlanController::begin(std::optional<double> leastS) {
   const auto next = plan_.next();
   if (next) row_ = next->row;
   leastS_ = leastS;
@@ -135,14 +170,15 @@ void PlanController::end(const RecordingReport& report) {
   lastTake_ = file;
   save();
   auto problem = std::make_shared<std::string>();
+  TakeCheckOptions limits = limits_;
+  limits.leastS = leastS_.value_or(limits.leastS);
   checking_.start(
       "the take",
-      [problem, paths = report.paths, lost = lostIn(report), leastS = leastS_](
-          const Progress& progress) {
+      [problem, paths = report.paths, lost = lostIn(report), limits](const Progress& progress) {
         try {
           std::vector<Profile> parts;
           for (const fs::path& path : paths) parts.push_back(openRecording(path));
-          *problem = checkTake(parts, lost, {.leastS = leastS}, progress).problem();
+          *problem = checkTake(parts, lost, limits, progress).problem();
         } catch (const Cancelled&) {
           throw;
         } catch (const std::exception& error) {

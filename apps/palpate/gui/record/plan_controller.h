@@ -10,6 +10,7 @@
 
 #include <palpate/capture/recorder.h>
 #include <palpate/capture/recording_plan.h>
+#include <palpate/recognition/take_quality.h>
 
 #include "gui/source/background_job.h"
 #include "gui/source/recording_settings.h"
@@ -27,6 +28,11 @@ class PlanController : public QObject {
   bool followed() const noexcept { return followed_; }
   void setFollowed(bool on);
 
+  // The limits of the check of a take; the settings keep them beside the plan. Values out of range
+  // become the usual ones.
+  const TakeCheckOptions& limits() const noexcept { return limits_; }
+  void setLimits(const TakeCheckOptions& limits);
+
   // These throw Error with one line for the user; then nothing has changed.
   void addRow(const PlanRow& row);
   void setRow(std::size_t row, const PlanRow& now);
@@ -38,8 +44,9 @@ class PlanController : public QObject {
 
   // `last` with object, run and notes of the next take; nothing: the plan isn't followed, or done.
   std::optional<RecordingSettings> nextSettings(const RecordingSettings& last) const;
-  // The recording that begins is that take; it must not be shorter than `leastS` [s].
-  void begin(double leastS);
+  // The recording that begins is that take; it must not be shorter than `leastS` [s], where this is
+  // given, else than the limits say.
+  void begin(std::optional<double> leastS);
   // It ended, or could not be begun (no paths). A take is checked; checked() follows.
   void end(const RecordingReport& report);
 
@@ -71,7 +78,8 @@ class PlanController : public QObject {
   bool followed_ = false;
   // The take that is being recorded.
   std::optional<std::size_t> row_;
-  double leastS_ = 0.0;
+  std::optional<double> leastS_;
+  TakeCheckOptions limits_;
   std::optional<std::filesystem::path> lastTake_;
   BackgroundJob checking_;
 };

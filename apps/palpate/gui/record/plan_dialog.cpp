@@ -16,6 +16,7 @@
 #include <palpate/core/error.h>
 
 #include "gui/appearance/captions.h"
+#include "gui/record/plan_limits.h"
 #include "gui/record/plan_model.h"
 #include "gui/widgets/dialog_properties.h"
 #include "gui/widgets/elided_text.h"
@@ -140,7 +141,11 @@ QWidget* PlanDialog::makeRows() {
   column->setContentsMargins(kPlanDialogMargin, 0, kPlanDialogMargin, 0);
   column->setSpacing(8);
   column->addWidget(table_, 1);
+  limits_ = new PlanLimits(part);
+  limits_->fill(controller_.limits());
+  connect(limits_, &PlanLimits::edited, this, [this] { controller_.setLimits(limits_->limits()); });
   column->addLayout(buttons);
+  column->addWidget(limits_);
   column->addWidget(said_);
   return part;
 }

@@ -16,6 +16,7 @@ class QTableView;
 
 namespace palpate::gui {
 
+class PlanLimits;
 class PlanModel;
 
 class PlanDialog : public QDialog {
@@ -57,6 +58,7 @@ class PlanDialog : public QDialog {
   QLabel* next_;
   QProgressBar* bar_;
   QLabel* said_;
+  PlanLimits* limits_;
   QCheckBox* follow_;
   QPushButton* remove_;
   QPushButton* export_;

@@ -364,10 +364,10 @@ void RecordFeature::begin(const RecordingSettings& settings, bool planned) {
   if (!live.source() || live.recording()) return;
   offer_->dismiss();
   // A take may be a little shorter than it was to be: by the interval of two frames.
-  constexpr double kNearlyWhole = 0.95, kUsualLeastS = 1.0;
-  if (planned)
-    plan_.begin(settings.limits.stopAfterS ? kNearlyWhole * *settings.limits.stopAfterS
-                                           : kUsualLeastS);
+  constexpr double kNearlyWhole = 0.95;
+  std::optional<double> leastS;
+  if (settings.limits.stopAfterS) leastS = kNearlyWhole * *settings.limits.stopAfterS;
+  if (planned) plan_.begin(leastS);
   live.startRecording([settings] {
     return recordingOptions(settings, nextPath(settings, systemClock().wallUs()));
   });

@@ -1,0 +1,344 @@
+#include "gui/recognise/grasps_page.h"
+
+#include <QApplication>
+#include <QClipboard>
+#include <QComboBox>
+#include <QHBoxLayout>
+#include <QHeaderView>
+#include <QKeyEvent>
+#include <QLabel>
+#include <QPainter>
+#include <QPushButton>
+#include <QSortFilterProxyModel>
+#include <QSplitter>
+#include <QStackedWidget>
+#include <QTableView>
+#include <QVBoxLayout>
+#include <algorithm>
+#include <numeric>
+#include <utility>
+
+#include "gui/recognise/feature_scatter.h"
+#include "gui/recognise/grasp_table_model.h"
+#include "gui/widgets/empty_page.h"
+
+namespace palpate::gui {
+namespace {
+
+constexpr const char* kGraspsAxisXKey = "recognise/scatterX";
+constexpr const char* kGraspsAxisYKey = "recognise/scatterY";
+constexpr const char* kGraspsPartsKey = "recognise/graspsParts";
+constexpr int kMostGraspColumn = 170;  // [px]
+
+bool isGraspTableKey(const QKeyEvent& key) {
+  if (key.matches(QKeySequence::Copy) || key.matches(QKeySequence::SelectAll)) return true;
+  if ((key.modifiers() & ~(Qt::ShiftModifier | Qt::KeypadModifier)) != 0) return false;
+  switch (key.key()) {
+    case Qt::Key_Up:
+    case Qt::Key_Down:
+    case Qt::Key_Left:
+    case Qt::Key_Right:
+    case Qt::Key_Home:
+    case Qt::Key_End:
+    case Qt::Key_PageUp:
+    case Qt::Key_PageDown:
+    case Qt::Key_Return:
+    case Qt::Key_Enter:
+    case Qt::Key_Space:
+      return true;
+    default:
+      return false;
+  }
+}
+
+}  // namespace
+
+GraspsPage::GraspsPage(TrainingController& controller, QSettings& settings, QWidget* parent)
+    : QWidget(parent), controller_(controller), settings_(settings) {
+  setObjectName("graspsPage");
+  model_ = new GraspTableModel(this);
+  sorted_ = new QSortFilterProxyModel(this);
+  sorted_->setSourceModel(model_);
+  sorted_->setSortRole(GraspTableModel::kSortRole);
+  sorted_->setSortCaseSensitivity(Qt::CaseInsensitive);
+  empty_ = new EmptyPage("grasps", this);
+  pages_ = new QStackedWidget(this);
+  parts_ = new QSplitter(Qt::Vertical, this);
+  parts_->setObjectName("graspsParts");
+  parts_->setChildrenCollapsible(false);
+  parts_->addWidget(makeTable());
+  parts_->addWidget(makePlot());
+  parts_->setStretchFactor(0, 1);
+  parts_->setStretchFactor(1, 1);
+  parts_->restoreState(settings.value(kGraspsPartsKey).toByteArray());
+  pages_->addWidget(empty_);
+  pages_->addWidget(parts_);
+  auto* column = new QVBoxLayout(this);
+  column->setContentsMargins(12, 8, 12, 10);
+  column->addWidget(pages_);
+  connect(parts_, &QSplitter::splitterMoved, this, [this] {
+    settings_.setValue(kGraspsPartsKey, parts_->saveState());
+  });
+  connect(model_, &GraspTableModel::leavingOutAsked, this, [this](int row, bool out) {
+    controller_.setLeftOut({static_cast<std::size_t>(row)}, out);
+  });
+  connect(view_, &QTableView::doubleClicked, this, [this](const QModelIndex& index) {
+    openRow(sorted_->mapToSource(index).row());
+  });
+  connect(view_->selectionModel(), &QItemSelectionModel::selectionChanged, this, [this] {
+    scatter_->choose(chosenRow());
+    showState();
+  });
+  connect(scatter_, &FeatureScatter::rowChosen, this, [this](int row) {
+    const QModelIndex index = sorted_->mapFromSource(model_->index(row, 0));
+    view_->selectRow(index.row());
+    view_->scrollTo(index);
+  });
+  for (QComboBox* box : {x_, y_}) connect(box, &QComboBox::activated, this, &GraspsPage::setAxes);
+  connect(leave_, &QPushButton::clicked, this, &GraspsPage::leaveOutChosen);
+  connect(undo_, &QPushButton::clicked, &controller_, &TrainingController::undoLeavingOut);
+  connect(copy_, &QPushButton::clicked, this, &GraspsPage::copy);
+  connect(&controller_, &TrainingController::folderChanged, this, &GraspsPage::showTable);
+  connect(&controller_, &TrainingController::leftOutChanged, this, &GraspsPage::showLeftOut);
+  showTable();
+}
+
+QWidget* GraspsPage::makeTable() {
+  auto* part = new QWidget(parts_);
+  view_ = new QTableView(part);
+  view_->setObjectName("graspsTable");
+  view_->setAccessibleName("Grasps of the training folder");
+  view_->setModel(sorted_);
+  view_->setSelectionBehavior(QAbstractItemView::SelectRows);
+  view_->setSelectionMode(QAbstractItemView::ExtendedSelection);
+  view_->setEditTriggers(QAbstractItemView::NoEditTriggers);
+  view_->setTabKeyNavigation(false);
+  view_->setShowGrid(false);
+  view_->setWordWrap(false);
+  view_->setTextElideMode(Qt::ElideMiddle);
+  view_->setFrameShape(QFrame::NoFrame);
+  view_->setHorizontalScrollMode(QAbstractItemView::ScrollPerPixel);
+  view_->setSortingEnabled(true);
+  view_->sortByColumn(-1, Qt::AscendingOrder);
+  view_->verticalHeader()->hide();
+  view_->verticalHeader()->setDefaultSectionSize(view_->fontMetrics().height() + 8);
+  view_->horizontalHeader()->setHighlightSections(false);
+  view_->installEventFilter(this);
+  const auto button = [part](const char* name, const QString& text, const QString& tip) {
+    auto* made = new QPushButton(text, part);
+    made->setObjectName(name);
+    made->setToolTip(tip);
+    return made;
+  };
+  leave_ = button("graspsLeaveOut",
+                  "Leave out",
+                  "The chosen grasps neither train nor test; their recordings stay as they are");
+  undo_ = button("graspsUndo", "Undo", "Takes the last change of what is left out back");
+  copy_ = button("graspsCopy", "Copy", "The chosen rows, else all, for a spreadsheet (Ctrl+C)");
+  state_ = new QLabel(part);
+  state_->setObjectName("graspsState");
+  state_->setProperty("role", "muted");
+  state_->setWordWrap(true);
+  auto* row = new QHBoxLayout;
+  row->setSpacing(8);
+  row->addWidget(state_, 1);
+  for (QPushButton* each : {leave_, undo_, copy_}) row->addWidget(each);
+  auto* column = new QVBoxLayout(part);
+  column->setContentsMargins(0, 0, 0, 4);
+  column->setSpacing(6);
+  column->addWidget(view_, 1);
+  column->addLayout(row);
+  return part;
+}
+
+QWidget* GraspsPage::makePlot() {
+  auto* part = new QWidget(parts_);
+  const auto field = [part](const char* name, const char* accessible) {
+    auto* box = new QComboBox(part);
+    box->setObjectName(name);
+    box->setAccessibleName(accessible);
+    box->setToolTip(accessible);
+    box->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
+    box->setMinimumContentsLength(12);
+    return box;
+  };
+  x_ = field("scatterX", "Feature along x");
+  y_ = field("scatterY", "Feature along y");
+  scatter_ = new FeatureScatter(part);
+  auto* row = new QHBoxLayout;
+  row->setSpacing(8);
+  row->addWidget(new QLabel("x", part));
+  row->addWidget(x_, 1);
+  row->addWidget(new QLabel("y", part));
+  row->addWidget(y_, 1);
+  auto* column = new QVBoxLayout(part);
+  column->setContentsMargins(0, 4, 0, 0);
+  column->setSpacing(6);
+  column->addLayout(row);
+  column->addWidget(scatter_, 1);
+  return part;
+}
+
+std::vector<bool> GraspsPage::leftOut() const {
+  std::vector<bool> out;
+  if (const auto& table = controller_.table())
+    for (const FeatureRow& row : table->rows) out.push_back(controller_.isLeftOut(row));
+  return out;
+}
+
+void GraspsPage::showTable() {
+  const auto& table = controller_.table();
+  if (!table || table->rows.empty()) {
+    empty_->say(controller_.folder().empty()
+                    ? "Choose a folder of grasps on the page Teach: they are listed here."
+                : controller_.busy()              ? "The recordings of the folder are being read."
+                : controller_.problem().isEmpty() ? "The folder has no grasps yet."
+                                                  : controller_.problem());
+    pages_->setCurrentWidget(empty_);
+    model_->setTable(nullptr, {});
+    scatter_->setTable(nullptr, {});
+    return;
+  }
+  pages_->setCurrentWidget(parts_);
+  if (table == model_->table()) return showState();
+  model_->setTable(table, leftOut());
+  scatter_->setTable(table, leftOut());
+  fillAxes();
+  view_->resizeColumnsToContents();
+  QHeaderView* header = view_->horizontalHeader();
+  for (int column = 0; column < model_->columnCount(); ++column)
+    header->resizeSection(
+        column,
+        std::clamp(std::max(header->sectionSizeHint(column), header->sectionSize(column)),
+                   40,
+                   kMostGraspColumn));
+  showState();
+}
+
+void GraspsPage::showLeftOut() {
+  if (model_->table() != controller_.table()) return;
+  model_->setLeftOut(leftOut());
+  scatter_->setLeftOut(leftOut());
+  showState();
+}
+
+void GraspsPage::fillAxes() {
+  const FeatureTable& table = *controller_.table();
+  const auto fill = [&](QComboBox* box, const char* key, int usual) {
+    box->clear();
+    for (const std::string& name : table.names) box->addItem(featureLabel(table.set, name));
+    for (int i = 0; i < box->count(); ++i) box->setItemData(i, box->itemText(i), Qt::ToolTipRole);
+    const int last = box->findText(settings_.value(key).toString());
+    box->setCurrentIndex(last >= 0 ? last : std::min(usual, box->count() - 1));
+  };
+  fill(x_, kGraspsAxisXKey, 0);
+  fill(y_, kGraspsAxisYKey, 1);
+  scatter_->setAxes(static_cast<std::size_t>(x_->currentIndex()),
+                    static_cast<std::size_t>(y_->currentIndex()));
+}
+
+void GraspsPage::setAxes() {
+  settings_.setValue(kGraspsAxisXKey, x_->currentText());
+  settings_.setValue(kGraspsAxisYKey, y_->currentText());
+  scatter_->setAxes(static_cast<std::size_t>(x_->currentIndex()),
+                    static_cast<std::size_t>(y_->currentIndex()));
+}
+
+int GraspsPage::chosenRow() const {
+  const QModelIndexList rows = view_->selectionModel()->selectedRows();
+  return rows.isEmpty() ? -1 : sorted_->mapToSource(rows.front()).row();
+}
+
+std::vector<int> GraspsPage::shownRows() const {
+  std::vector<int> rows;
+  for (int row = 0; row < sorted_->rowCount(); ++row)
+    rows.push_back(sorted_->mapToSource(sorted_->index(row, 0)).row());
+  return rows;
+}
+
+void GraspsPage::showState() {
+  const auto& table = model_->table();
+  if (!table) return;
+  const std::vector<bool> out = leftOut();
+  const auto numOut = std::count(out.begin(), out.end(), true);
+  state_->setText(QString::number(table->rows.size()) + " grasps" +
+                  (numOut > 0 ? ", " + QString::number(numOut) + " left out" : QString()));
+  const QModelIndexList rows = view_->selectionModel()->selectedRows();
+  const bool allOut =
+      !rows.isEmpty() && std::all_of(rows.begin(), rows.end(), [this](const QModelIndex& row) {
+        return model_->isLeftOut(sorted_->mapToSource(row).row());
+      });
+  leave_->setEnabled(!rows.isEmpty());
+  leave_->setText(allOut ? "Take in" : "Leave out");
+  undo_->setEnabled(controller_.canUndoLeavingOut());
+}
+
+void GraspsPage::leaveOutChosen() {
+  const QModelIndexList rows = view_->selectionModel()->selectedRows();
+  const bool out = leave_->text() == "Leave out";
+  std::vector<std::size_t> chosen;
+  for (const QModelIndex& row : rows)
+    chosen.push_back(static_cast<std::size_t>(sorted_->mapToSource(row).row()));
+  controller_.setLeftOut(chosen, out);
+}
+
+void GraspsPage::openRow(int row) {
+  if (!model_->table() || row < 0) return;
+  const FeatureRow& grasp = model_->table()->rows.at(static_cast<std::size_t>(row));
+  emit graspAsked(grasp.file, grasp.begin, grasp.end);
+}
+
+void GraspsPage::copy() const {
+  std::vector<int> rows;
+  QModelIndexList chosen = view_->selectionModel()->selectedRows();
+  std::sort(
+      chosen.begin(), chosen.end(), [](const auto& a, const auto& b) { return a.row() < b.row(); });
+  for (const QModelIndex& row : chosen) rows.push_back(sorted_->mapToSource(row).row());
+  if (rows.empty()) rows = shownRows();
+  const TextTable text = graspTextTable(model_->table(), leftOut(), rows);
+  QApplication::clipboard()->setText(QString::fromStdString(tabbedText(text, text.numRows)));
+}
+
+bool GraspsPage::eventFilter(QObject* watched, QEvent* event) {
+  if (watched == view_ && event->type() == QEvent::ShortcutOverride &&
+      isGraspTableKey(static_cast<QKeyEvent&>(*event))) {
+    event->accept();
+    return true;
+  }
+  if (watched == view_ && event->type() == QEvent::KeyPress) {
+    const auto& key = static_cast<QKeyEvent&>(*event);
+    if (key.matches(QKeySequence::Copy)) {
+      copy();
+      return true;
+    }
+    if (key.key() == Qt::Key_Return || key.key() == Qt::Key_Enter) {
+      openRow(chosenRow());
+      return true;
+    }
+    if (key.key() == Qt::Key_Space && leave_->isEnabled()) {
+      leaveOutChosen();
+      return true;
+    }
+  }
+  return QWidget::eventFilter(watched, event);
+}
+
+bool GraspsPage::shown() const { return isVisible() && pages_->currentWidget() == parts_; }
+
+std::vector<ExportedTable> GraspsPage::tables() const {
+  if (!shown()) return {};
+  return {{"grasps", [table = model_->table(), out = leftOut(), rows = shownRows()] {
+             return graspTextTable(table, out, rows);
+           }}};
+}
+
+void GraspsPage::paint(QPainter& painter, const PictureLook& look) {
+  scatter_->paintPicture(painter, look);
+}
+
+void GraspsPage::setTheme(Theme theme) {
+  model_->setTheme(theme);
+  scatter_->setTheme(theme);
+}
+
+}  // namespace palpate::gui
