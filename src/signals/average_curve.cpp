@@ -99,8 +99,7 @@ std::vector<AlignedCurve> alignedStretches(std::shared_ptr<const Series> series,
                          .fromS = spans[i].fromS - marginS,
                          .toS = spans[i].toS + marginS,
                          .longestS = longestS};
-    if (i > 0)
-      stretch.fromS = std::min(spans[i].fromS, std::max(stretch.fromS, spans[i - 1].toS));
+    if (i > 0) stretch.fromS = std::min(spans[i].fromS, std::max(stretch.fromS, spans[i - 1].toS));
     if (i + 1 < spans.size())
       stretch.toS = std::max(spans[i].toS, std::min(stretch.toS, spans[i + 1].fromS));
     stretches.push_back(std::move(stretch));
@@ -152,8 +151,8 @@ AverageCurve averageCurve(std::span<const AlignedCurve> curves,
   const std::size_t numTimes = average.timeS.size();
   std::vector<std::vector<double>> resampledCurves;
   for (const AlignedCurve& curve : curves) {
-    if (progress && !progress(static_cast<double>(resampledCurves.size()) /
-                              static_cast<double>(curves.size())))
+    if (progress &&
+        !progress(static_cast<double>(resampledCurves.size()) / static_cast<double>(curves.size())))
       throw Cancelled();
     resampledCurves.push_back(alignedValues(curve, average.timeS));
   }

@@ -171,8 +171,8 @@ std::vector<double> appliedTo(std::span<const double> timeS,
     if (timeS[i + 1] - timeS[i] > longestS) gapSamples.push_back(i);
   if (kind == SeriesFunctionKind::kSmooth || kind == SeriesFunctionKind::kMedian)
     return windowed(kind, values, gapSamples, static_cast<std::size_t>(numbers.at(0)));
-  const bool any = std::any_of(
-      values.begin(), values.end(), [](double value) { return std::isfinite(value); });
+  const bool any =
+      std::any_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); });
   if (!any || values.size() < 2) return values;
   const ButterworthOptions options = bandOf(kind, numbers);
   options.validateForRate(1.0 / medianIntervalOf(timeS));

@@ -96,7 +96,8 @@ std::string withGrasps(const std::string& file, const std::vector<float>& counts
 }
 
 TEST_F(CompareCommandTest, AlignsTwoGrasps) {
-  const auto a = withGrasps(folder_ / "a.dsa", {500, 600}), b = withGrasps(folder_ / "b.dsa", {300});
+  const auto a = withGrasps(folder_ / "a.dsa", {500, 600}),
+             b = withGrasps(folder_ / "b.dsa", {300});
   const auto result = palpate({"compare", a, b, "--grasp", "2:1"});
   ASSERT_EQ(result.exitCode, 0) << result.err;
   const auto rows = lines(result.out);
@@ -117,7 +118,8 @@ TEST_F(CompareCommandTest, AlignsTwoGrasps) {
 // By hand: at the contact 500, 600 and 300, at 1 s 510, 610 and 310: mean 466.67, standard
 // deviation sqrt((33.33^2 + 133.33^2 + 166.67^2) / 2) = 152.7525.
 TEST_F(CompareCommandTest, PrintsTheAverageOverGrasps) {
-  const auto a = withGrasps(folder_ / "a.dsa", {500, 600}), b = withGrasps(folder_ / "b.dsa", {300});
+  const auto a = withGrasps(folder_ / "a.dsa", {500, 600}),
+             b = withGrasps(folder_ / "b.dsa", {300});
   const auto result = palpate({"compare", a, b, "--average", "m1_mean"});
   ASSERT_EQ(result.exitCode, 0) << result.err;
   const auto rows = lines(result.out);
@@ -128,15 +130,17 @@ TEST_F(CompareCommandTest, PrintsTheAverageOverGrasps) {
   std::vector<double> cells;
   std::istringstream row(rows.at(1 + 5 + 10));
   for (std::string cell; std::getline(row, cell, ',');) cells.push_back(*parseDouble(cell));
-  const std::vector<double> expected = {1.0, 3, 476.6666667, 323.9141435, 629.4191898, 510, 610, 310};
+  const std::vector<double> expected = {
+      1.0, 3, 476.6666667, 323.9141435, 629.4191898, 510, 610, 310};
   ASSERT_EQ(cells.size(), expected.size());
   for (std::size_t i = 0; i < cells.size(); ++i) EXPECT_NEAR(cells[i], expected[i], 1e-5) << i;
-  const auto median = lines(
-      palpate({"compare", a, b, "--average", "1:mean", "--percentiles", "0,100"}).out);
+  const auto median =
+      lines(palpate({"compare", a, b, "--average", "1:mean", "--percentiles", "0,100"}).out);
   EXPECT_TRUE(median.at(0).starts_with("time_s,curves,median,p0,p100,")) << median.at(0);
   EXPECT_TRUE(median.at(1 + 5 + 10).starts_with("1.000000,3,510,310,610,")) << median.at(16);
   // Whole recordings, and a formula.
-  const auto whole = lines(palpate({"compare", a, b, "--average", "2*m1_mean", "--of", "recordings"}).out);
+  const auto whole =
+      lines(palpate({"compare", a, b, "--average", "2*m1_mean", "--of", "recordings"}).out);
   EXPECT_TRUE(whole.at(1 + 10).starts_with("0.000000,2,800,")) << whole.at(11);
 }
 

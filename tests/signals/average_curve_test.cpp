@@ -60,8 +60,7 @@ TEST(AverageCurve, IsTheMedianWithPercentiles) {
   expectNear(found.low, {kNone, 2.4, 4.8, 0.6});
   expectNear(found.high, {kNone, 8.0, 8.8, 7.8});
   const AverageCurve whole = averageCurve(
-      three(),
-      {.band = AverageBand::kPercentiles, .lowPercent = 0.0, .highPercent = 100.0});
+      three(), {.band = AverageBand::kPercentiles, .lowPercent = 0.0, .highPercent = 100.0});
   expectNear(whole.low, {kNone, 2, 4, 0});
   expectNear(whole.high, {kNone, 9, 9, 9});
 }

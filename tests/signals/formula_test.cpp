@@ -58,9 +58,7 @@ TEST(Formula, DerivativesAreNumPys) {
 TEST(Formula, SmoothsOverSamplesButNotOverGaps) {
   const std::vector<double> timeS = {0, 1, 2, 3, 4, 10, 11};
   const std::vector<double> values = {3, 9, 0, 6, 3, 100, 200};
-  const auto of = [&](const char* text) {
-    return Formula(text).evaluate(timeS, {values}, 2.0);
-  };
+  const auto of = [&](const char* text) { return Formula(text).evaluate(timeS, {values}, 2.0); };
   EXPECT_EQ(of("smooth(a, 3)"), (std::vector<double>{6, 4, 5, 3, 4.5, 150, 150}));
   EXPECT_EQ(of("median(a, 3)"), (std::vector<double>{6, 3, 6, 3, 4.5, 150, 150}));
   EXPECT_EQ(of("smooth(a,1)"), values);

@@ -137,7 +137,8 @@ TEST(ProfileSeries, AFormulaIsASeriesToo) {
   const SeriesChoice twice{.kind = SeriesChoice::Kind::kFormula, .formula = "2*hand_sum + t"};
   ASSERT_TRUE(hasSeries(profile, twice));
   EXPECT_EQ(numSamples(profile, twice, -1e9, 1e9), profile.numFrames());
-  for (const auto& [fromS, toS] : {std::pair(-1e9, 1e9), std::pair(1.0, 2.0), std::pair(1.5, 1.5)}) {
+  for (const auto& [fromS, toS] :
+       {std::pair(-1e9, 1e9), std::pair(1.0, 2.0), std::pair(1.5, 1.5)}) {
     const Series plain = readSeries(profile, sum, fromS, toS);
     const Series derived = readSeries(profile, twice, fromS, toS);
     ASSERT_EQ(derived.timeS, plain.timeS);

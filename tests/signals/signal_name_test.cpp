@@ -37,9 +37,10 @@ TEST_F(SignalNameTest, BothSpellingsMeanTheSame) {
 }
 
 TEST_F(SignalNameTest, ATextThatIsNoneIsNone) {
-  for (const char* name : {"",   "_",     ":",        "mean",  "m_mean",  "m0_meen", "hand_x1_y1",
-                           "hm", "m-1_mean", "angle", "angle-1", "m1_x_y", "1:",     "1:2:",
-                           "m+1_mean", "hand:1:2", "1:2:3:4", "m1:mean", "1_mean", "angle 3"})
+  for (const char* name : {"",         "_",          ":",       "mean",     "m_mean",
+                           "m0_meen",  "hand_x1_y1", "hm",      "m-1_mean", "angle",
+                           "angle-1",  "m1_x_y",     "1:",      "1:2:",     "m+1_mean",
+                           "hand:1:2", "1:2:3:4",    "m1:mean", "1_mean",   "angle 3"})
     EXPECT_FALSE(parseSignalName(name)) << name;
   // These are names, but this hand has no such matrix or taxel.
   for (const char* name : {"m6_mean", "m1_x9_y7", "m1_x2_y99", "6:mean", "1:9:7", "m9_x1_y1"}) {

@@ -54,8 +54,8 @@ double offsetOfGrasps(const CommandLine& given, TimedProfile a, TimedProfile b) 
   };
   const std::size_t i = numberOf(text.substr(0, colon));
   const std::size_t j = colon == std::string::npos ? i : numberOf(text.substr(colon + 1));
-  for (const auto& [side, number, file] : {std::tuple(&a, i, given.words()[0]),
-                                           std::tuple(&b, j, given.words()[1])}) {
+  for (const auto& [side, number, file] :
+       {std::tuple(&a, i, given.words()[0]), std::tuple(&b, j, given.words()[1])}) {
     const auto grasps = graspsOf(file, side->profile, given.quiet());
     if (number > grasps.size())
       throw Error(file + ": has no grasp " + std::to_string(number) + ", only 1.." +
@@ -141,8 +141,8 @@ void addCurvesOf(const CommandLine& given, const std::string& file, NamedCurves&
   const TypedSignal signal =
       typedSignal(*given.text("average"), timed.profile.layout(), file, "--average");
   ProgressLine progress("reading " + file, given.quiet());
-  const auto series = std::make_shared<const Series>(typedSeries(
-      timed.profile, signal, -kFurthestS, kFurthestS, file, progress.callback()));
+  const auto series = std::make_shared<const Series>(
+      typedSeries(timed.profile, signal, -kFurthestS, kFurthestS, file, progress.callback()));
   const double longestS = gapFromS(timed.timing);
   if (given.choice("of", {"grasps", "recordings"}).value_or("grasps") == "recordings") {
     const std::string how = given.choice("align", {"contact", "start"}).value_or("contact");
@@ -170,8 +170,7 @@ int writeAverage(const CommandLine& given) {
   for (const char* other : {"grasp", "offset"})
     if (given.has(other))
       throw UsageError(std::string("--average aligns all at their contacts: leave out --") + other);
-  const bool ofGrasps =
-      given.choice("of", {"grasps", "recordings"}).value_or("grasps") == "grasps";
+  const bool ofGrasps = given.choice("of", {"grasps", "recordings"}).value_or("grasps") == "grasps";
   if (ofGrasps && given.has("align"))
     throw UsageError("--align needs --of recordings; grasps are aligned where they begin");
   const AverageOptions options = averageOptionsOf(given);
@@ -180,8 +179,8 @@ int writeAverage(const CommandLine& given) {
   const AverageCurve average = averageCurve(all.curves, options);
   const bool percentiles = options.band == AverageBand::kPercentiles;
   std::vector<std::string> header = {"time_s", "curves", percentiles ? "median" : "mean"};
-  for (const auto& [sign, percent] : {std::pair("low", options.lowPercent),
-                                      std::pair("high", options.highPercent)})
+  for (const auto& [sign, percent] :
+       {std::pair("low", options.lowPercent), std::pair("high", options.highPercent)})
     header.push_back(percentiles ? "p" + numberText(percent) : std::string(sign));
   header.insert(header.end(), all.names.begin(), all.names.end());
   std::vector<std::vector<double>> columns = {average.middle, average.low, average.high};
@@ -207,9 +206,10 @@ int writeAverage(const CommandLine& given) {
 
 int compareCommand(const Arguments& words) {
   const CommandLine given(
-      {.synopsis = "palpate compare A B [--align contact|start|clock | --grasp I:J | --offset S]\n"
-                   "       palpate compare FILE.. --average SIGNAL [--of grasps|recordings] [--band "
-                   "sd|percentiles]",
+      {.synopsis =
+           "palpate compare A B [--align contact|start|clock | --grasp I:J | --offset S]\n"
+           "       palpate compare FILE.. --average SIGNAL [--of grasps|recordings] [--band "
+           "sd|percentiles]",
        .purpose =
            "Aligns two recordings in time and prints, for every frame of A that has "
            "a frame of B\nbeside it (the last one at or before), what each matrix has in both: "

@@ -35,8 +35,8 @@ TypedSignal typedSignal(const std::string& text,
                         const std::string& file,
                         const std::string& option);
 
-// The series within fromS..toS, and perhaps its neighbours. Throws Error (the recording doesn't have
-// the signal; a frame that can't be read) and Cancelled.
+// The series within fromS..toS, and perhaps its neighbours. Throws Error (the recording doesn't
+// have the signal; a frame that can't be read) and Cancelled.
 Series typedSeries(const Profile& profile,
                    const TypedSignal& signal,
                    double fromS,

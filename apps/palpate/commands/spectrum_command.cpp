@@ -40,8 +40,9 @@ TypedSignal choiceOf(const CommandLine& given, const SensorLayout& layout) {
   if (const auto text = given.text("signal")) {
     if (x || y) throw UsageError("give --signal, or --x and --y, not both");
     if (const auto signal = signalKindNamed(*text))
-      return {.choice = SeriesChoice{.index = static_cast<std::size_t>(matrix.value_or(numMatrices)),
-                                     .signal = *signal}};
+      return {.choice =
+                  SeriesChoice{.index = static_cast<std::size_t>(matrix.value_or(numMatrices)),
+                               .signal = *signal}};
     if (matrix && parseSignalName(*text))
       throw UsageError("--signal " + *text + " names its matrix itself: leave out --matrix");
     // A plain word is one of the signals of a matrix, and refused with their names.
@@ -256,8 +257,11 @@ int writeCoherence(const CommandLine& given,
   const Series a = seriesOf(given, profile, signalA, line.callback());
   const Series b = seriesOf(given, profile, signalB, line.callback());
   // Joint angles and temperatures have other stamps than frames.
-  const Coherence found = coherenceOf(
-      a.timeS, a.values, resampled(b, a.timeS, gapFromS(timingOf(profile))), options, line.callback());
+  const Coherence found = coherenceOf(a.timeS,
+                                      a.values,
+                                      resampled(b, a.timeS, gapFromS(timingOf(profile))),
+                                      options,
+                                      line.callback());
   if (found.coherence.empty())
     throw Error(file + ": coherence needs two segments; " + tooShort(found.report, options));
   std::string text;

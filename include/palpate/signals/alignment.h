@@ -23,8 +23,11 @@ enum class Alignment {
   kGrasp,    // the first frames of two chosen grasps coincide
   kManual    // the user chose the offset
 };
-inline constexpr std::array kAllAlignments = {
-    Alignment::kContact, Alignment::kStart, Alignment::kClock, Alignment::kGrasp, Alignment::kManual};
+inline constexpr std::array kAllAlignments = {Alignment::kContact,
+                                              Alignment::kStart,
+                                              Alignment::kClock,
+                                              Alignment::kGrasp,
+                                              Alignment::kManual};
 // Name in settings and on the command line: "contact", "start", "clock", "grasp", "hand".
 std::string_view nameOf(Alignment alignment);
 std::optional<Alignment> alignmentFrom(std::string_view name);

@@ -4,7 +4,8 @@
 //
 // Time 0 is the common moment. The curves are resampled on one time base k * step, k = .., -1, 0,
 // 1, .., by linear interpolation; times in a gap of a curve, and outside of its span, are left out
-// for that curve only, as are values that aren't finite. At each time the average is over the curves that have a value there:
+// for that curve only, as are values that aren't finite. At each time the average is over the
+// curves that have a value there:
 //   kStandardDeviation  mean, mean - s, mean + s; s with n - 1 (as numpy.std(ddof=1))
 //   kPercentiles        median, and two percentiles by linear interpolation (as numpy.percentile)
 #pragma once

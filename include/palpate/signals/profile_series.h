@@ -57,8 +57,8 @@ std::size_t numSamples(const Profile& profile,
                        double toS);
 
 // Returns all samples within fromS..toS, and the nearest sample on either side of that span. Throws
-// std::invalid_argument when the profile does not have the series, or the formula can't be computed,
-// and Cancelled.
+// std::invalid_argument when the profile does not have the series, or the formula can't be
+// computed, and Cancelled.
 Series readSeries(const Profile& profile,
                   const SeriesChoice& choice,
                   double fromS,

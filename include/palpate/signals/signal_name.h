@@ -41,8 +41,8 @@ std::optional<SeriesChoice> signalNamed(std::string_view name, const SensorLayou
 // The name of a signal; empty when it has none: a group of several taxels, a force.
 std::string nameOf(const SeriesChoice& choice, const SensorLayout& layout);
 
-// A formula in which 1:mean and hand:sum are written m1_mean and hand_sum, as the parser of formulas
-// needs it. Taxels (5:2:9) are left as they are, because c ? 5 : 2 is a formula, too.
+// A formula in which 1:mean and hand:sum are written m1_mean and hand_sum, as the parser of
+// formulas needs it. Taxels (5:2:9) are left as they are, because c ? 5 : 2 is a formula, too.
 std::string withSignalNames(const std::string& formula);
 
 }  // namespace palpate

@@ -1,8 +1,6 @@
 #include "gui/compare/compare_chart.h"
 
-#include <QHelpEvent>
 #include <QMouseEvent>
-#include <QToolTip>
 #include <QWheelEvent>
 #include <algorithm>
 #include <cmath>
@@ -52,7 +50,7 @@ std::vector<std::size_t> gapFramesOf(const std::shared_ptr<const TimedProfile>& 
 
 }  // namespace
 
-CompareChart::CompareChart(QWidget* parent) : QCustomPlot(parent) {
+CompareChart::CompareChart(QWidget* parent) : ReadingChart(parent) {
   arrangeChart(*this);
   setAccessibleName("Curves of A and B");
   setMouseTracking(true);
@@ -176,11 +174,10 @@ void CompareChart::fillOverlaid() {
     std::vector<std::size_t> gaps;
     for (std::size_t i = 0; i + 1 < timeS.size(); ++i)
       if (timeS[i + 1] - timeS[i] > curve.longestS) gaps.push_back(i);
-    const DecimationOptions options{
-        .from = std::max(range.lower - shiftS, curve.fromS),
-        .to = std::min(range.upper - shiftS, curve.toS),
-        .columns = static_cast<std::size_t>(std::max(1, width())),
-        .breaks = gaps};
+    const DecimationOptions options{.from = std::max(range.lower - shiftS, curve.fromS),
+                                    .to = std::min(range.upper - shiftS, curve.toS),
+                                    .columns = static_cast<std::size_t>(std::max(1, width())),
+                                    .breaks = gaps};
     QVector<QCPGraphData> samples;
     if (options.from < options.to)
       for (const SeriesPoint& point : minMaxDecimated(timeS, curve.series->values, options))
@@ -193,7 +190,7 @@ void CompareChart::fillOverlaid() {
 std::vector<ChartLegendEntry> CompareChart::legendOf(const QString& nameA,
                                                      const QString& nameB) const {
   std::vector<ChartLegendEntry> entries = {{"A  " + nameA, graph(0)->pen()},
-                                          {"B  " + nameB, graph(1)->pen()}};
+                                           {"B  " + nameB, graph(1)->pen()}};
   const ComparedCurves& overlaid = curves_.overlaid;
   std::vector<std::size_t> named;
   for (const auto& [index, graph] : overlaidGraphs_) {
@@ -201,12 +198,13 @@ std::vector<ChartLegendEntry> CompareChart::legendOf(const QString& nameA,
     if (std::find(named.begin(), named.end(), each.recording) != named.end()) continue;
     named.push_back(each.recording);
     const bool grasps = each.name.contains(", grasp ");
-    entries.push_back({grasps ? "grasps of " + each.name.section(", grasp ", 0, 0) : each.name,
-                      graph->pen()});
+    entries.push_back(
+        {grasps ? "grasps of " + each.name.section(", grasp ", 0, 0) : each.name, graph->pen()});
   }
   if (averageGraphs_[2])
-    entries.push_back({gui::nameOf(overlaid.band) + " of " + QString::number(overlaid.curves.size()),
-                      averageGraphs_[2]->pen()});
+    entries.push_back(
+        {gui::nameOf(overlaid.band) + " of " + QString::number(overlaid.curves.size()),
+         averageGraphs_[2]->pen()});
   return entries;
 }
 
@@ -372,7 +370,8 @@ QString CompareChart::valuesAt(double seconds) const {
   for (std::size_t i = 0; i < std::min(overlaidGraphs_.size(), kMostInTip); ++i) {
     const OverlaidCurve& each = overlaid.curves[overlaidGraphs_[i].first];
     const double value = alignedValues(each.curve, now).front();
-    if (std::isfinite(value)) text += "\n" + each.name + "  " + QString::number(value, 'f', 1) + unit;
+    if (std::isfinite(value))
+      text += "\n" + each.name + "  " + QString::number(value, 'f', 1) + unit;
   }
   if (overlaidGraphs_.size() > kMostInTip)
     text += "\n… " + QString::number(overlaidGraphs_.size()) + " curves";
@@ -388,16 +387,6 @@ QString CompareChart::valuesAt(double seconds) const {
               QString::number(average.count[at]);
   }
   return text;
-}
-
-bool CompareChart::event(QEvent* event) {
-  if (event->type() == QEvent::ToolTip) {
-    const auto* help = static_cast<QHelpEvent*>(event);
-    QToolTip::showText(help->globalPos(), valuesAt(secondsAt(help->pos().x())), this);
-    return true;
-  }
-  if (event->type() == QEvent::FontChange) setTheme(theme_);
-  return QCustomPlot::event(event);
 }
 
 }  // namespace palpate::gui

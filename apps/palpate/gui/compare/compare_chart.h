@@ -13,7 +13,7 @@
 #include "gui/appearance/plotted_signal.h"
 #include "gui/appearance/theme.h"
 #include "gui/chart/chart_picture.h"
-#include "gui/chart/plot.h"
+#include "gui/chart/reading_chart.h"
 #include "gui/compare/compare_overlay.h"
 
 namespace palpate::gui {
@@ -31,7 +31,7 @@ struct CompareCurves {
   ComparedCurves overlaid = {};
 };
 
-class CompareChart : public QCustomPlot {
+class CompareChart : public ReadingChart {
   Q_OBJECT
  public:
   explicit CompareChart(QWidget* parent = nullptr);
@@ -74,7 +74,8 @@ class CompareChart : public QCustomPlot {
   void mouseDoubleClickEvent(QMouseEvent* event) override;
   void wheelEvent(QWheelEvent* event) override;
   void resizeEvent(QResizeEvent* event) override;
-  bool event(QEvent* event) override;
+  QString readingAt(const QPoint& at) const override { return valuesAt(secondsAt(at.x())); }
+  void restyle() override { setTheme(theme_); }
 
  private:
   enum class Drag { kNone, kSeek, kPan, kShift };

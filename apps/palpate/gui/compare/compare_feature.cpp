@@ -26,7 +26,8 @@ CompareFeature::CompareFeature(WindowState& windowState, QWidget* window)
   if (const auto known = alignmentFrom(last))
     if (*known != Alignment::kManual) panel_->setAlignment(*known);
   for (const CompareOverlay each : kAllCompareOverlays)
-    if (windowState.settings.value(kOverlayKey).toString() == nameOf(each)) panel_->setOverlay(each);
+    if (windowState.settings.value(kOverlayKey).toString() == nameOf(each))
+      panel_->setOverlay(each);
   for (const CompareBand each : kAllCompareBands)
     if (windowState.settings.value(kBandKey).toString() == nameOf(each)) panel_->setBand(each);
   panel_->setEvents([&windowState](const OpenedRecordingPtr& recording) {

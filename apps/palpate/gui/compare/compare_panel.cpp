@@ -730,10 +730,8 @@ void ComparePanel::paint(QPainter& painter, const PictureLook& look) const {
   below.titled = false;
   painter.save();
   painter.translate(0.0, split);
-  paintChart(painter,
-             below,
-             *chart_,
-             {.legend = chart_->legendOf(fileNameOf(*a_), fileNameOf(*b_))});
+  paintChart(
+      painter, below, *chart_, {.legend = chart_->legendOf(fileNameOf(*a_), fileNameOf(*b_))});
   painter.restore();
 }
 

@@ -230,12 +230,11 @@ ComparedCurves CompareWorker::overlaid(const CompareQuestion& question,
   if (question.band == CompareBand::kNone) return compared;
   std::vector<AlignedCurve> curves;
   for (const OverlaidCurve& each : compared.curves) curves.push_back(each.curve);
-  compared.average = std::make_shared<const AverageCurve>(
-      averageCurve(curves,
-                   {.band = question.band == CompareBand::kPercentiles
-                                ? AverageBand::kPercentiles
-                                : AverageBand::kStandardDeviation},
-                   progress));
+  compared.average = std::make_shared<const AverageCurve>(averageCurve(
+      curves,
+      {.band = question.band == CompareBand::kPercentiles ? AverageBand::kPercentiles
+                                                          : AverageBand::kStandardDeviation},
+      progress));
   return compared;
 }
 
@@ -275,13 +274,12 @@ void CompareWorker::work(const CompareQuestion& question, int generation) {
         if (each.recording == question.a) answer.graspsA = grasps(each, part(0.0));
         if (each.recording == question.b) answer.graspsB = grasps(each, part(0.0));
       }
-      const auto withGrasp = [](const TimedProfile& of,
-                                const std::vector<GraspFrames>& found,
-                                std::size_t chosen) {
-        auto with = std::make_shared<TimedProfile>(of);
-        if (!found.empty()) with->grasp = found[std::min(chosen, found.size() - 1)].begin;
-        return with;
-      };
+      const auto withGrasp =
+          [](const TimedProfile& of, const std::vector<GraspFrames>& found, std::size_t chosen) {
+            auto with = std::make_shared<TimedProfile>(of);
+            if (!found.empty()) with->grasp = found[std::min(chosen, found.size() - 1)].begin;
+            return with;
+          };
       answer.a = withGrasp(*answer.a, answer.graspsA, question.graspA);
       answer.b = withGrasp(*answer.b, answer.graspsB, question.graspB);
     }

@@ -13,6 +13,7 @@
 #include "gui/timeline/cursor_readout.h"
 #include "gui/timeline/curve_statistics.h"
 #include "gui/timeline/curve_table.h"
+#include "gui/timeline/formula_dialog.h"
 #include "gui/timeline/grasp_export.h"
 #include "gui/timeline/label_exchange.h"
 #include "gui/timeline/live_chart.h"
@@ -74,7 +75,7 @@ TimelineFeature::TimelineFeature(WindowState& windowState, QWidget* window)
                                 .ofCursors = {actions.zoomSelection, actions.dropSelection},
                                 .ofLive = {actions.freeze}},
                                window);
-  signalTree_ = new SignalTree(groups_, window);
+  signalTree_ = new SignalTree(groups_, windowState.formulas, window);
   signalTree_->setExtras(extras_);
   charts_ = new FittingPages(window);
   panel_ = new TimelinePanel(charts_);
@@ -394,6 +395,40 @@ void TimelineFeature::connectCurves() {
   connect(signalTree_, &SignalTree::groupRequested, this, &TimelineFeature::nameChosenTaxels);
   on(actions_.nameTaxels, [this] { nameChosenTaxels(); });
   connect(&groups_, &TaxelGroups::changed, this, &TimelineFeature::showCurves);
+  connect(signalTree_, &SignalTree::formulaRequested, this, &TimelineFeature::askForFormula);
+  on(actions_.newFormula, [this] { askForFormula({}); });
+  state().actionEnabler.add({actions_.newFormula},
+                            [this] { return state().displayed.hasFrames(); });
+  connect(&state().formulas, &FormulaCurves::changed, this, &TimelineFeature::showCurves);
+}
+
+void TimelineFeature::askForFormula(const QString& name) {
+  const OpenedRecordingPtr recording = state().displayed.filteredRecording();
+  if (!recording || recording->profile.numFrames() == 0)
+    return state().messages.flash("a formula needs a recording with frames");
+  const FormulaCurve before = state().formulas.named(name).value_or(FormulaCurve{});
+  auto* dialog = new FormulaDialog(
+      formulaSignals(
+          recording->profile.hand(), state().appearance.view().signal, state().selection.taxels()),
+      recording->profile,
+      before,
+      window());
+  dialog->setAttribute(Qt::WA_DeleteOnClose);
+  connect(dialog, &QDialog::accepted, this, [this, dialog, before] {
+    const FormulaCurve made = dialog->curve();
+    FormulaCurves& formulas = state().formulas;
+    // Renamed: the old name goes, unless the new one can't be kept.
+    if (!formulas.keep(made))
+      return state().messages.fail("There are too many formulas: delete some (Curves, Del)");
+    extras_.formulas.insert(made.name);
+    if (!before.name.isEmpty() && before.name != made.name) {
+      extras_.formulas.erase(before.name);
+      formulas.forget(before.name);
+    }
+    signalTree_->setExtras(extras_);
+    showCurves();
+  });
+  dialog->open();
 }
 
 std::vector<PlottedCurve> TimelineFeature::curves() const {
@@ -425,6 +460,10 @@ std::vector<PlottedCurve> TimelineFeature::curves() const {
        groups_.of(live ? *hand->layout : recording->profile.layout()))
     if (extras_.groups.contains(group.name))
       add(taxelCurve(*hand, group.taxels, group.name, place++, theme));
+  place = 0;
+  for (const FormulaCurve& each : state().formulas.all())
+    if (recording && !live && extras_.formulas.contains(each.name))
+      add(formulaCurve(each.choice(), each.name, each.unit, place++, theme));
   for (const int axis : extras_.angles)
     if (axis < static_cast<int>(hand->axes.size()))
       add(angleCurve(*hand, static_cast<std::size_t>(axis), theme));
