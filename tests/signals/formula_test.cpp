@@ -76,11 +76,14 @@ TEST(Formula, FiltersAreButterworthsWithoutDelay) {
   const auto low = Formula("lowpass(a, 5)").evaluate(timeS, {values}, kEver);
   EXPECT_EQ(low, butterworthZeroPhase(timeS, values, {.highHz = 5.0}));
   const auto high = Formula("a - highpass(a, 5)").evaluate(timeS, {values}, kEver);
-  const auto band = Formula("bandpass(a, 0.3, 5)").evaluate(timeS, {values}, kEver);
+  EXPECT_EQ(Formula("bandpass(a, 0.3, 5)").evaluate(timeS, {values}, kEver),
+            butterworthZeroPhase(
+                timeS,
+                values,
+                {.band = ButterworthOptions::Band::kBandPass, .lowHz = 0.3, .highHz = 5.0}));
   for (std::size_t i = 100; i < 300; ++i) {
     EXPECT_NEAR(low[i], slow[i], 0.03) << i;
     EXPECT_NEAR(high[i], slow[i], 0.03) << i;
-    EXPECT_NEAR(band[i], slow[i], 0.05) << i;
   }
   EXPECT_THROW((void)Formula("lowpass(a, 60)").evaluate(timeS, {values}, kEver),
                std::invalid_argument)
