@@ -48,9 +48,9 @@ int deriveCommand(const Arguments& words) {
            "m1_area_mm2 of matrix 1;\nhand_sum and so on of the whole hand; m5_x2_y9 a taxel "
            "(column 2, row 9); angle3 [deg] and\ntemperature4 [deg C], interpolated at the frames; "
            "t [s]. Operators + - * / ^ ( ), comparisons\nand a ? b : c; functions abs sqrt min max "
-           "exp ln sin .., and der(x), the slope of x over time [1/s].\nA value that isn't known "
-           "is "
-           "an empty cell.",
+           "exp ln sin .., and of curves: der(x), the slope over time [1/s]; smooth(x,n), "
+           "median(x,n) over n\nsamples; lowpass(x,hz), highpass(x,hz), bandpass(x,low,high). A "
+           "value that isn't known is an empty\ncell.",
        .options = withFilterOptions(
            {{"from", "N", "first frame, default 0"}, {"to", "N", "last frame, inclusive"}}),
        .example = "palpate derive foam_ball.dsa grip=m1_sum-m3_sum > grip.csv",

@@ -25,13 +25,13 @@ namespace palpate::gui {
 // The additional curves, stored in the settings.
 struct PlottedExtras {
   bool chosenTaxels = true;
-  std::set<QString> groups;
-  std::set<int> angles;
-  std::set<int> temperatures;
+  std::set<QString> groups = {};
+  std::set<int> angles = {};
+  std::set<int> temperatures = {};
   // Forces on matrices; the number of matrices stands for the whole hand.
-  std::set<int> forces;
+  std::set<int> forces = {};
   // Names of curves by formulas.
-  std::set<QString> formulas;
+  std::set<QString> formulas = {};
   bool operator==(const PlottedExtras&) const = default;
 };
 PlottedExtras loadPlottedExtras(const QSettings& settings);

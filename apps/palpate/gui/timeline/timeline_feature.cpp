@@ -5,6 +5,8 @@
 #include <QToolButton>
 #include <algorithm>
 
+#include <palpate/signals/signal_name.h>
+
 #include "gui/appearance/captions.h"
 #include "gui/appearance/hand_unit.h"
 #include "gui/appearance/next_choice.h"
@@ -407,12 +409,16 @@ void TimelineFeature::askForFormula(const QString& name) {
   if (!recording || recording->profile.numFrames() == 0)
     return state().messages.flash("a formula needs a recording with frames");
   const FormulaCurve before = state().formulas.named(name).value_or(FormulaCurve{});
-  auto* dialog = new FormulaDialog(
-      formulaSignals(
-          recording->profile.hand(), state().appearance.view().signal, state().selection.taxels()),
-      recording->profile,
-      before,
-      window());
+  std::vector<FormulaSignal> from = formulaSignals(
+      recording->profile.hand(), state().appearance.view().signal, state().selection.taxels());
+  // What is plotted comes first.
+  const std::vector<PlottedCurve> shown = curves();
+  std::stable_partition(from.begin(), from.end(), [&](const FormulaSignal& each) {
+    return std::any_of(shown.begin(), shown.end(), [&](const PlottedCurve& curve) {
+      return palpate::nameOf(curve.choice, recording->profile.layout()) == each.name.toStdString();
+    });
+  });
+  auto* dialog = new FormulaDialog(std::move(from), recording->profile, before, window());
   dialog->setAttribute(Qt::WA_DeleteOnClose);
   connect(dialog, &QDialog::accepted, this, [this, dialog, before] {
     const FormulaCurve made = dialog->curve();
