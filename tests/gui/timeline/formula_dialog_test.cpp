@@ -83,19 +83,19 @@ TEST_F(FormulaDialogTest, SaysInOneLineWhatIsWrongWhileTyping) {
   windowState_->displayed.show(recording("a"));
   FormulaDialog& dialog = open();
   auto& field = in<QLineEdit>(dialog, "formulaText");
-  const auto* good =
-      dialog.findChild<QDialogButtonBox*>()->button(QDialogButtonBox::Ok);
+  const auto* good = dialog.findChild<QDialogButtonBox*>()->button(QDialogButtonBox::Ok);
   auto& said = in<QLabel>(dialog, "formulaProblem");
   // Frames are 50 ms apart: filters need less than 10 Hz.
-  const std::vector<std::pair<const char*, const char*>> wrong = {{"m1_mean +", "nexpected"},
-                                                                  {"m9_mean", "m9_mean"},
-                                                                  {"thumb", "thumb"},
-                                                                  {"", "Type a formula"},
-                                                                  {"der(m1_mean", "isn't closed"},
-                                                                  {"lowpass(m1_mean)", "lowpass(x, Hz)"},
-                                                                  {"lowpass(m1_mean, 12)", "10"},
-                                                                  {"smooth(m1_mean, 4)", "odd"},
-                                                                  {"a = 3", "=="}};
+  const std::vector<std::pair<const char*, const char*>> wrong = {
+      {"m1_mean +", "nexpected"},
+      {"m9_mean", "m9_mean"},
+      {"thumb", "thumb"},
+      {"", "Type a formula"},
+      {"der(m1_mean", "isn't closed"},
+      {"lowpass(m1_mean)", "lowpass(x, Hz)"},
+      {"lowpass(m1_mean, 12)", "10"},
+      {"smooth(m1_mean, 4)", "odd"},
+      {"a = 3", "=="}};
   for (const auto& [text, words] : wrong) {
     field.setText(text);
     EXPECT_TRUE(said.text().contains(words)) << text << ": " << said.text().toStdString();

@@ -698,10 +698,10 @@ QString ComparePanel::figures() const {
   const QString correlation =
       "correlation " + (found.correlation ? figure(*found.correlation, 3) : QString("not defined"));
   if (overlay_ != CompareOverlay::kPair) return overlaidText() + "A and B: " + correlation;
-  return overlaidText() + correlation + " · A − B: mean " + signedText(found.meanDifference, 1) + ", rms " +
-         figure(found.rmsDifference, 1) + ", largest " + signedText(found.largestDifference, 1) +
-         unit + " at " + figure(found.largestAtS, 2) + " s · over " +
-         figure(found.toS - found.fromS, 2) + " s in common";
+  return overlaidText() + correlation + " · A − B: mean " + signedText(found.meanDifference, 1) +
+         ", rms " + figure(found.rmsDifference, 1) + ", largest " +
+         signedText(found.largestDifference, 1) + unit + " at " + figure(found.largestAtS, 2) +
+         " s · over " + figure(found.toS - found.fromS, 2) + " s in common";
 }
 
 void ComparePanel::showNotice() {

@@ -2,6 +2,8 @@
 
 #include <QInputDialog>
 #include <QMenu>
+#include <QPainter>
+#include <QPicture>
 #include <QToolButton>
 #include <algorithm>
 
@@ -11,6 +13,7 @@
 #include "gui/appearance/hand_unit.h"
 #include "gui/appearance/next_choice.h"
 #include "gui/chart/chart_picture.h"
+#include "gui/picture/picture_export.h"
 #include "gui/timeline/axis_editor.h"
 #include "gui/timeline/cursor_readout.h"
 #include "gui/timeline/curve_statistics.h"
@@ -617,6 +620,33 @@ std::vector<ExportedView> TimelineFeature::views() {
     QCustomPlot* plot =
         windowState.displayed.isLive() ? static_cast<QCustomPlot*>(liveChart_) : chart_;
     paintChart(painter, look, *plot, options);
+  };
+  // The chart with a cursor that moves from frame to frame.
+  view.framePart = [this, &windowState]() -> std::optional<FramePictures> {
+    std::optional<FramePictures> pictures = windowState.framePictures("_timeline");
+    if (!pictures) return pictures;
+    pictures->painter =
+        [this, recording = windowState.displayed.filteredRecording()](const PictureLook& look) {
+          ChartPictureOptions options;
+          for (const PlottedCurve& curve : curves())
+            options.legend.push_back({curve.name, curve.pen});
+          auto chart = std::make_shared<QPicture>();
+          QPainter onPicture(chart.get());
+          const QRectF axes = paintChart(onPicture, look, *chart_, options);
+          onPicture.end();
+          const Theme theme = look.forPrint ? Theme::kLight : state().appearance.theme();
+          const QPen pen(colorsOf(theme).accent, 2.0);
+          return FramePictures::Paint([chart, axes, pen, recording, seen = chart_->seen()](
+                                          QPainter& painter, std::size_t frame) {
+            replay(painter, *chart);
+            const double share = (recording->timeAt(frame) - seen.lower) / seen.size();
+            if (share < 0.0 || share > 1.0) return;
+            const double x = axes.left() + share * axes.width();
+            painter.setPen(pen);
+            painter.drawLine(QPointF(x, axes.top()), QPointF(x, axes.bottom()));
+          });
+        };
+    return pictures;
   };
   view.tables = [this, &windowState] {
     std::vector<ExportedTable> tables;
