@@ -6,6 +6,7 @@
 
 #include <palpate/core/error.h>
 #include <palpate/core/time.h>
+#include <palpate/recording/crop.h>
 #include <palpate/signals/formula.h>
 
 namespace palpate::gui {
@@ -70,10 +71,11 @@ QString problemOf(const QString& formula, const Profile* profile) {
     if (!profile || profile->numFrames() == 0) return {};
     // A few frames tell whether it can be computed: filters need frequencies below half the rate.
     constexpr std::size_t kTriedFrames = 200;
+    // Cropped, so that a recording of hours is tried as quickly.
     const std::size_t last = std::min(profile->numFrames() - 1, kTriedFrames);
     const double toS =
         static_cast<double>(profile->frameTimeUs(last) - profile->frameTimeUs(0)) / kUsPerS;
-    (void)derivedSeries(*profile, parsed, 0.0, toS);
+    (void)derivedSeries(cropped(*profile, 0, last), parsed, 0.0, toS);
     return {};
   } catch (const std::exception& error) {
     // "formula "..": " only repeats what stands in the field.
