@@ -154,6 +154,7 @@ TEST_F(FormulaDialogTest, ACurveIsChangedAndRenamed) {
 }
 
 TEST_F(FormulaDialogTest, WithoutARecordingThereIsNone) {
+  windowState_->actionEnabler.refresh();
   EXPECT_FALSE(windowState_->actions.at("newFormula")->isEnabled());
   EXPECT_EQ(actionsOf_.findChild<FormulaDialog*>("FormulaDialog"), nullptr);
 }

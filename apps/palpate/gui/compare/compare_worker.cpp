@@ -44,7 +44,7 @@ SeriesChoice choiceFor(const CompareQuestion& question, const OpenedRecording& r
 }
 
 // The span of all drawn curves on A's time axis; empty: none is drawn.
-std::optional<TimeSpan> spanOf(const ComparedCurves& compared) {
+std::optional<TimeSpan> drawnSpanOf(const ComparedCurves& compared) {
   std::optional<TimeSpan> span;
   for (const OverlaidCurve& each : compared.curves) {
     if (!each.drawn || each.curve.series->timeS.empty()) continue;
@@ -225,7 +225,7 @@ ComparedCurves CompareWorker::overlaid(const CompareQuestion& question,
                                 .longestS = gapFromS(answer.b->timing)},
                                1,
                                false});
-  if (ofGrasps) compared.span = spanOf(compared);
+  if (ofGrasps) compared.span = drawnSpanOf(compared);
   if (!without.isEmpty()) compared.leftOut = "Left out: " + without.join(", ");
   if (question.band == CompareBand::kNone) return compared;
   std::vector<AlignedCurve> curves;

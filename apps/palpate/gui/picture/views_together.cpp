@@ -64,7 +64,7 @@ Arrangement arrangementOf(const std::vector<QRectF>& onScreen) {
     }
     rows.push_back({each});
   }
-  Arrangement arranged{.size = {}, .places = std::vector<QRectF>(onScreen.size())};
+  Arrangement arranged{.size = QSizeF(0.0, 0.0), .places = std::vector<QRectF>(onScreen.size())};
   std::vector<double> heights;
   for (auto& row : rows) {
     std::stable_sort(row.begin(), row.end(), [&](std::size_t a, std::size_t b) {
