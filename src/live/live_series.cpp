@@ -45,6 +45,8 @@ double LiveSeries::valueOf(Entry& entry, const SignalSample& sample) {
     }
     case SeriesChoice::Kind::kForce:
       return valueIn(sample.forcesN, choice.index);
+    case SeriesChoice::Kind::kFormula:  // only of recordings
+      return kNoValue;
     case SeriesChoice::Kind::kTaxels:
       if (entry.layout != sample.layout) {
         entry.layout = sample.layout;

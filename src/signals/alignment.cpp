@@ -24,6 +24,8 @@ std::string_view nameOf(Alignment alignment) {
       return "clock";
     case Alignment::kManual:
       return "hand";
+    case Alignment::kGrasp:
+      return "grasp";
     case Alignment::kContact:
       break;
   }
@@ -79,6 +81,9 @@ std::optional<double> offsetBetween(const TimedProfile& a,
     case Alignment::kContact:
       if (!a.contact || !b.contact) return std::nullopt;
       return a.timeS(*a.contact) - b.timeS(*b.contact);
+    case Alignment::kGrasp:
+      if (!a.grasp || !b.grasp) return std::nullopt;
+      return a.timeS(*a.grasp) - b.timeS(*b.grasp);
     case Alignment::kManual:
       break;
   }

@@ -1,6 +1,7 @@
 #include "palpate/signals/formula.h"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cmath>
 #include <deque>
@@ -12,16 +13,22 @@
 #include <muParser.h>
 
 #include "palpate/core/number_text.h"
+#include "palpate/filter/butterworth.h"
 #include "palpate/model/gap_detector.h"
 #include "palpate/model/timing.h"
 #include "palpate/signals/resampled_series.h"
+#include "palpate/signals/signal_name.h"
 
 namespace palpate {
 
-// The variable that stands for der(..) and the formula inside.
+// The variable that stands for der(..) or a filter, and the formula inside.
 struct Formula::Derivative {
   std::string variable;
   Formula inside;
+  // Index in kSeriesFunctions.
+  std::size_t function = 0;
+  // The numbers behind the formula inside.
+  std::vector<double> numbers = {};
 };
 
 namespace {
@@ -38,16 +45,138 @@ bool ofName(char letter) {
   throw std::invalid_argument("formula \"" + text + "\": " + why);
 }
 
-// The place of the next "der(" from `begin` on.
-std::size_t findDerivative(const std::string& text, std::size_t begin) {
-  for (std::size_t at = text.find("der", begin); at != std::string::npos;
-       at = text.find("der", at + 1)) {
-    if (at > 0 && ofName(text[at - 1])) continue;
-    std::size_t open = at + 3;
-    while (open < text.size() && text[open] == ' ') ++open;
-    if (open < text.size() && text[open] == '(') return at;
+// A function of a whole series: muParser knows only functions of numbers.
+enum class SeriesFunctionKind { kDerivative, kSmooth, kMedian, kLowPass, kHighPass, kBandPass };
+struct SeriesFunction {
+  std::string_view name;
+  SeriesFunctionKind kind;
+  std::size_t numNumbers;
+  // How it is written.
+  const char* form;
+};
+constexpr std::array kSeriesFunctions = {
+    SeriesFunction{"der", SeriesFunctionKind::kDerivative, 0, "der(x)"},
+    SeriesFunction{"smooth", SeriesFunctionKind::kSmooth, 1, "smooth(x, samples)"},
+    SeriesFunction{"median", SeriesFunctionKind::kMedian, 1, "median(x, samples)"},
+    SeriesFunction{"lowpass", SeriesFunctionKind::kLowPass, 1, "lowpass(x, Hz)"},
+    SeriesFunction{"highpass", SeriesFunctionKind::kHighPass, 1, "highpass(x, Hz)"},
+    SeriesFunction{"bandpass", SeriesFunctionKind::kBandPass, 2, "bandpass(x, low Hz, high Hz)"}};
+
+// The next function of a series from `begin` on.
+struct FoundFunction {
+  std::size_t at = std::string::npos;
+  std::size_t open = std::string::npos;  // its bracket
+  std::size_t function = 0;
+};
+FoundFunction findFunction(const std::string& text, std::size_t begin) {
+  FoundFunction first;
+  for (std::size_t which = 0; which < kSeriesFunctions.size(); ++which) {
+    const std::string_view name = kSeriesFunctions[which].name;
+    for (std::size_t at = text.find(name, begin); at < first.at; at = text.find(name, at + 1)) {
+      if (at > 0 && ofName(text[at - 1])) continue;
+      std::size_t open = at + name.size();
+      while (open < text.size() && text[open] == ' ') ++open;
+      if (open >= text.size() || text[open] != '(') continue;
+      first = {at, open, which};
+      break;
+    }
   }
-  return std::string::npos;
+  return first;
+}
+
+// Parts a text at its commas outside of brackets.
+std::vector<std::string> partsOf(const std::string& text) {
+  std::vector<std::string> parts(1);
+  int depth = 0;
+  for (const char letter : text) {
+    if (letter == '(') ++depth;
+    if (letter == ')') --depth;
+    if (letter == ',' && depth == 0)
+      parts.emplace_back();
+    else
+      parts.back() += letter;
+  }
+  return parts;
+}
+
+ButterworthOptions bandOf(SeriesFunctionKind kind, const std::vector<double>& numbers) {
+  using Band = ButterworthOptions::Band;
+  if (kind == SeriesFunctionKind::kLowPass)
+    return {.band = Band::kLowPass, .highHz = numbers.at(0)};
+  if (kind == SeriesFunctionKind::kHighPass)
+    return {.band = Band::kHighPass, .lowHz = numbers.at(0)};
+  return {.band = Band::kBandPass, .lowHz = numbers.at(0), .highHz = numbers.at(1)};
+}
+
+// Throws std::invalid_argument that says what is wrong with the numbers.
+void validateNumbers(SeriesFunctionKind kind, const std::vector<double>& numbers) {
+  constexpr double kMostSamples = 100'001.0;
+  if (kind == SeriesFunctionKind::kDerivative) return;
+  if (kind != SeriesFunctionKind::kSmooth && kind != SeriesFunctionKind::kMedian)
+    return bandOf(kind, numbers).validate();
+  const double samples = numbers.at(0);
+  if (!(samples >= 1.0 && samples <= kMostSamples) || std::fmod(samples, 2.0) != 1.0)
+    throw std::invalid_argument("needs an odd number of samples, 1 to 100001");
+}
+
+// Mean or median of the finite values within half a window on either side of each sample, but not
+// beyond a gap; NaN where there is none.
+std::vector<double> windowed(SeriesFunctionKind kind,
+                             std::span<const double> values,
+                             std::span<const std::size_t> gapSamples,
+                             std::size_t samples) {
+  const std::size_t half = samples / 2;
+  std::vector<double> result(values.size(), kFormulaNan);
+  std::vector<double> here;
+  std::size_t begin = 0;
+  for (std::size_t stretch = 0; stretch <= gapSamples.size(); ++stretch) {
+    const std::size_t end = stretch < gapSamples.size() ? gapSamples[stretch] + 1 : values.size();
+    for (std::size_t i = begin; i < end; ++i) {
+      here.clear();
+      for (std::size_t k = std::max(begin + half, i) - half; k < std::min(end, i + half + 1); ++k)
+        if (std::isfinite(values[k])) here.push_back(values[k]);
+      if (here.empty()) continue;
+      if (kind == SeriesFunctionKind::kSmooth) {
+        double sum = 0.0;
+        for (const double value : here) sum += value;
+        result[i] = sum / static_cast<double>(here.size());
+      } else {
+        const std::size_t middle = here.size() / 2;
+        std::sort(here.begin(), here.end());
+        result[i] = here.size() % 2 == 1 ? here[middle] : (here[middle - 1] + here[middle]) / 2.0;
+      }
+    }
+    begin = end;
+  }
+  return result;
+}
+
+double medianIntervalOf(std::span<const double> timeS) {
+  if (timeS.size() < 2) return 0.0;
+  std::vector<double> intervals;
+  for (std::size_t i = 1; i < timeS.size(); ++i) intervals.push_back(timeS[i] - timeS[i - 1]);
+  const auto middle = intervals.begin() + static_cast<std::ptrdiff_t>(intervals.size() / 2);
+  std::nth_element(intervals.begin(), middle, intervals.end());
+  return *middle;
+}
+
+std::vector<double> appliedTo(std::span<const double> timeS,
+                              const std::vector<double>& values,
+                              double longestS,
+                              SeriesFunctionKind kind,
+                              const std::vector<double>& numbers) {
+  if (kind == SeriesFunctionKind::kDerivative) return derivativeOf(timeS, values, longestS);
+  std::vector<std::size_t> gapSamples;
+  for (std::size_t i = 0; i + 1 < timeS.size(); ++i)
+    if (timeS[i + 1] - timeS[i] > longestS) gapSamples.push_back(i);
+  if (kind == SeriesFunctionKind::kSmooth || kind == SeriesFunctionKind::kMedian)
+    return windowed(kind, values, gapSamples, static_cast<std::size_t>(numbers.at(0)));
+  const bool any =
+      std::any_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); });
+  if (!any || values.size() < 2) return values;
+  const ButterworthOptions options = bandOf(kind, numbers);
+  options.validateForRate(1.0 / medianIntervalOf(timeS));
+  return butterworthZeroPhase(timeS, values, options, gapSamples);
 }
 
 // muParser would take "a = 1" as an assignment, and "a, b" as two formulas.
@@ -85,43 +214,6 @@ std::string messageOf(const mu::Parser::exception_type& error) {
 
 }  // namespace
 
-std::optional<SeriesChoice> signalNamed(const std::string& name, const SensorLayout& layout) {
-  const auto numberBehind = [&](const std::string& word) -> std::optional<std::size_t> {
-    if (name.rfind(word, 0) != 0) return std::nullopt;
-    const auto number = parseInteger(std::string_view(name).substr(word.size()));
-    if (!number || *number < 0) return std::nullopt;
-    return static_cast<std::size_t>(*number);
-  };
-  if (const auto axis = numberBehind("angle"))
-    return SeriesChoice{.kind = SeriesChoice::Kind::kAngle, .index = *axis};
-  if (const auto sensor = numberBehind("temperature"))
-    return SeriesChoice{.kind = SeriesChoice::Kind::kTemperature, .index = *sensor};
-  const auto underline = name.find('_');
-  if (underline == std::string::npos) return std::nullopt;
-  const std::string place = name.substr(0, underline), rest = name.substr(underline + 1);
-  std::size_t m = layout.numMatrices();
-  if (place != "hand") {
-    if (place.empty() || place[0] != 'm') return std::nullopt;
-    const auto number = parseInteger(std::string_view(place).substr(1));
-    if (!number || *number < 0 || *number >= static_cast<std::int64_t>(layout.numMatrices()))
-      return std::nullopt;
-    m = static_cast<std::size_t>(*number);
-  }
-  if (const auto signal = signalKindNamed(rest)) return SeriesChoice{.index = m, .signal = *signal};
-  const auto second = rest.find("_y");
-  if (m == layout.numMatrices() || rest.empty() || rest[0] != 'x' || second == std::string::npos)
-    return std::nullopt;
-  const auto x = parseInteger(std::string_view(rest).substr(1, second - 1));
-  const auto y = parseInteger(std::string_view(rest).substr(second + 2));
-  const MatrixLayout& matrix = layout.matrix(m);
-  if (!x || !y || *x < 0 || *y < 0 || *x >= matrix.columns || *y >= matrix.rows ||
-      !matrix.enabled(static_cast<int>(*y), static_cast<int>(*x)))
-    return std::nullopt;
-  SeriesChoice choice{.kind = SeriesChoice::Kind::kTaxels, .taxels = TaxelSelection(layout)};
-  choice.taxels.toggle(m, static_cast<int>(*y), static_cast<int>(*x));
-  return choice;
-}
-
 std::vector<double> derivativeOf(std::span<const double> timeS,
                                  std::span<const double> values,
                                  double longestS) {
@@ -148,24 +240,46 @@ std::vector<double> derivativeOf(std::span<const double> timeS,
   return slopes;
 }
 
-Formula::Formula(const std::string& text) : text_(text) {
-  if (text.size() > kLongest)
+Formula::Formula(const std::string& given) : text_(given) {
+  const std::string text = withSignalNames(given);
+  if (given.size() > kLongest)
     throw std::invalid_argument("a formula has at most " + std::to_string(kLongest) + " letters");
   refuseAssignments(text);
   std::set<std::string> names;
   std::size_t begin = 0;
-  for (std::size_t at = findDerivative(text, 0); at != std::string::npos;
-       at = findDerivative(text, begin)) {
-    const std::size_t open = text.find('(', at);
-    std::size_t close = open, depth = 0;
+  for (FoundFunction found = findFunction(text, 0); found.at != std::string::npos;
+       found = findFunction(text, begin)) {
+    const SeriesFunction& function = kSeriesFunctions[found.function];
+    std::size_t close = found.open, depth = 0;
     for (; close < text.size(); ++close) {
       if (text[close] == '(') ++depth;
       if (text[close] == ')' && --depth == 0) break;
     }
-    if (close == text.size()) refuseFormula(text, "the bracket of der( isn't closed");
+    if (close == text.size())
+      refuseFormula(given, "the bracket of " + std::string(function.name) + "( isn't closed");
+    const std::vector<std::string> parts =
+        partsOf(text.substr(found.open + 1, close - found.open - 1));
+    if (parts.size() != function.numNumbers + 1)
+      refuseFormula(given, "it is written " + std::string(function.form));
     Derivative derivative{kDerivativeVariable + std::to_string(derivatives_.size()),
-                          Formula(text.substr(open + 1, close - open - 1))};
-    parsed_ += text.substr(begin, at - begin) + derivative.variable;
+                          Formula(parts.front()),
+                          found.function};
+    for (std::size_t i = 1; i < parts.size(); ++i) {
+      const auto first = parts[i].find_first_not_of(' '), last = parts[i].find_last_not_of(' ');
+      const auto number = first == std::string::npos
+                              ? std::nullopt
+                              : parseDouble(parts[i].substr(first, last - first + 1));
+      if (!number)
+        refuseFormula(given,
+                      std::string(function.form) + " takes a number, not \"" + parts[i] + "\"");
+      derivative.numbers.push_back(*number);
+    }
+    try {
+      validateNumbers(function.kind, derivative.numbers);
+    } catch (const std::invalid_argument& error) {
+      refuseFormula(given, std::string(function.form) + ": " + error.what());
+    }
+    parsed_ += text.substr(begin, found.at - begin) + derivative.variable;
     names.insert(derivative.inside.names_.begin(), derivative.inside.names_.end());
     derivatives_.push_back(std::move(derivative));
     begin = close + 1;
@@ -204,8 +318,15 @@ std::vector<double> Formula::evaluate(std::span<const double> timeS,
   for (const Derivative& derivative : derivatives_) {
     std::vector<std::vector<double>> inside;
     for (const std::string& name : derivative.inside.names_) inside.push_back(series.at(name));
-    series[derivative.variable] =
-        derivativeOf(timeS, derivative.inside.evaluate(timeS, inside, longestS), longestS);
+    try {
+      series[derivative.variable] = appliedTo(timeS,
+                                              derivative.inside.evaluate(timeS, inside, longestS),
+                                              longestS,
+                                              kSeriesFunctions[derivative.function].kind,
+                                              derivative.numbers);
+    } catch (const std::invalid_argument& error) {
+      refuseFormula(text_, error.what());
+    }
   }
   series[kTime].assign(timeS.begin(), timeS.end());
   std::vector<double> result;
@@ -223,6 +344,21 @@ std::vector<double> Formula::evaluate(std::span<const double> timeS,
     refuseFormula(text_, messageOf(error));
   }
   return result;
+}
+
+std::size_t Formula::reach(double rateHz) const {
+  constexpr double kMostSamples = 20'000.0;
+  double samples = 0.0;
+  for (const Derivative& derivative : derivatives_) {
+    const SeriesFunctionKind kind = kSeriesFunctions[derivative.function].kind;
+    double own = 1.0;
+    if (kind == SeriesFunctionKind::kSmooth || kind == SeriesFunctionKind::kMedian)
+      own = derivative.numbers.at(0) / 2.0;
+    else if (kind != SeriesFunctionKind::kDerivative && rateHz > 0.0)
+      own = butterworthLength(bandOf(kind, derivative.numbers), rateHz);
+    samples = std::max(samples, own + static_cast<double>(derivative.inside.reach(rateHz)));
+  }
+  return static_cast<std::size_t>(std::ceil(std::min(samples, kMostSamples)));
 }
 
 Series derivedSeries(const Profile& profile,
@@ -253,17 +389,32 @@ Series derivedSeries(const Profile& profile,
   };
   const TimingReport timing = timingOf(profile);
   const double longestS = gapThresholdS(timing.rateHz > 0.0 ? 1.0 / timing.rateHz : 0.0);
-  Series derived;
-  for (std::size_t i = 0; i < profile.numFrames(); ++i) {
-    const double timeS = static_cast<double>(profile.frameTimeUs(i) - profile.frameTimeUs(0)) / 1e6;
-    if (timeS >= fromS && timeS <= toS) derived.timeS.push_back(timeS);
-  }
+  std::vector<double> allTimesS;
+  for (std::size_t i = 0; i < profile.numFrames(); ++i)
+    allTimesS.push_back(static_cast<double>(profile.frameTimeUs(i) - profile.frameTimeUs(0)) / 1e6);
+  const auto first = static_cast<std::size_t>(
+      std::lower_bound(allTimesS.begin(), allTimesS.end(), fromS) - allTimesS.begin());
+  const auto end = static_cast<std::size_t>(
+      std::upper_bound(allTimesS.begin(), allTimesS.end(), toS) - allTimesS.begin());
+  if (first >= end) return {};
+  // Slopes and filters need the samples around the span, too.
+  const std::size_t reach = formula.reach(timing.rateHz);
+  const std::size_t begin = first - std::min(first, reach);
+  const std::size_t last = std::min(allTimesS.size() - 1, end - 1 + reach);
+  const std::vector<double> timeS(allTimesS.begin() + static_cast<std::ptrdiff_t>(begin),
+                                  allTimesS.begin() + static_cast<std::ptrdiff_t>(last) + 1);
   std::vector<std::vector<double>> values;
   for (std::size_t i = 0; i < choices.size(); ++i)
-    values.push_back(resampled(readSeries(profile, choices[i], fromS, toS, part(i)),
-                               derived.timeS,
-                               std::numeric_limits<double>::infinity()));
-  derived.values = formula.evaluate(derived.timeS, values, longestS);
+    values.push_back(
+        resampled(readSeries(profile, choices[i], timeS.front(), timeS.back(), part(i)),
+                  timeS,
+                  std::numeric_limits<double>::infinity()));
+  const std::vector<double> computed = formula.evaluate(timeS, values, longestS);
+  Series derived;
+  for (std::size_t i = first; i < end; ++i) {
+    derived.timeS.push_back(allTimesS[i]);
+    derived.values.push_back(computed[i - begin]);
+  }
   return derived;
 }
 

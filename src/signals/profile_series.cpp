@@ -8,6 +8,8 @@
 #include "palpate/core/error.h"
 #include "palpate/core/progress.h"
 #include "palpate/core/time.h"
+#include "palpate/signals/formula.h"
+#include "palpate/signals/signal_name.h"
 
 namespace palpate {
 namespace {
@@ -70,7 +72,8 @@ class Reader {
         profile_.readFrame(sample, frame_);
         return {seconds(frame_.hostUs), meanOf(frame_, choice_.taxels)};
       case ProfileSeriesKind::kMatrix:
-      case ProfileSeriesKind::kForce:  // no profile has it: hasSeries()
+      case ProfileSeriesKind::kForce:    // no profile has it: hasSeries()
+      case ProfileSeriesKind::kFormula:  // readFormula() computes it
         break;
     }
     profile_.readFrame(sample, frame_);
@@ -111,6 +114,33 @@ void readAll(const Profile& profile,
   }
 }
 
+bool hasFormula(const Profile& profile, const std::string& text) {
+  try {
+    const Formula formula(text);
+    return std::all_of(
+        formula.names().begin(), formula.names().end(), [&](const std::string& name) {
+          const auto choice = signalNamed(name, profile.layout());
+          return choice && hasSeries(profile, *choice);
+        });
+  } catch (const std::invalid_argument&) {
+    return false;
+  }
+}
+
+// The formula at the frames begin..end, end exclusive.
+Series readFormula(const Profile& profile,
+                   const SeriesChoice& choice,
+                   std::size_t begin,
+                   std::size_t end,
+                   const Progress& progress) {
+  if (begin >= end) return {};
+  const auto secondsAt = [&](std::size_t frame) {
+    return static_cast<double>(profile.frameTimeUs(frame) - originUs(profile)) / kUsPerS;
+  };
+  return derivedSeries(
+      profile, Formula(choice.formula), secondsAt(begin), secondsAt(end - 1), progress);
+}
+
 }  // namespace
 
 double meanOf(const TactileFrame& frame, const TaxelSelection& taxels) {
@@ -141,6 +171,8 @@ bool hasSeries(const Profile& profile, const SeriesChoice& choice) {
       return !choice.taxels.empty() && TaxelSelection(profile.layout()).sameSensor(choice.taxels);
     case ProfileSeriesKind::kForce:
       return false;
+    case ProfileSeriesKind::kFormula:
+      return hasFormula(profile, choice.formula);
     case ProfileSeriesKind::kMatrix:
       break;
   }
@@ -167,6 +199,8 @@ Series readSeries(const Profile& profile,
   const std::size_t begin = *sampleAt(profile, choice.kind, usOf(profile, fromS));
   const std::size_t end = std::min(*sampleAt(profile, choice.kind, usOf(profile, toS)) + 2,
                                    countOf(profile, choice.kind));
+  if (choice.kind == ProfileSeriesKind::kFormula)
+    return readFormula(profile, choice, begin, end, progress);
   series.timeS.reserve(end - begin);
   series.values.reserve(end - begin);
   readAll(profile, choice, begin, end, progress, [&](double timeS, double value) {
@@ -181,6 +215,22 @@ void visitSeries(const Profile& profile,
                  const std::function<void(double, double)>& sink,
                  const Progress& progress) {
   requireSeries(profile, choice);
+  if (choice.kind == ProfileSeriesKind::kFormula) {
+    // Long recordings are computed in parts.
+    constexpr std::size_t kPart = 200'000;
+    const std::size_t frames = profile.numFrames();
+    for (std::size_t begin = 0; begin < frames; begin += kPart) {
+      const std::size_t end = std::min(frames, begin + kPart);
+      const Progress part = [&](double done) {
+        const double now = static_cast<double>(begin) + done * static_cast<double>(end - begin);
+        return !progress || progress(now / static_cast<double>(frames));
+      };
+      const Series computed = readFormula(profile, choice, begin, end, part);
+      for (std::size_t i = 0; i < computed.timeS.size(); ++i)
+        sink(computed.timeS[i], computed.values[i]);
+    }
+    return;
+  }
   readAll(profile, choice, 0, countOf(profile, choice.kind), progress, sink);
 }
 

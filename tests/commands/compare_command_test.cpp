@@ -78,6 +78,91 @@ TEST_F(CompareCommandTest, SaysWhatIsWrong) {
   EXPECT_EQ(palpate({"compare", a, a, "--align", "start", "--offset", "1"}).exitCode, 2);
 }
 
+// Grasps of 25 frames each with two fingers, at rest between them: `counts` of each grasp, one more
+// per frame.
+std::string withGrasps(const std::string& file, const std::vector<float>& counts) {
+  ProfileBuilder builder(sdh2().layout);
+  int frame = 0;
+  for (const float of : counts)
+    for (int i = 0; i < 35; ++i, ++frame) {
+      TactileFrame tactile(sdh2().layout);
+      if (i >= 10)
+        for (const std::size_t matrix : {1u, 3u, 5u})
+          tactile.matrix(matrix).block(6, 2, 2, 2).setConstant(of + static_cast<float>(i - 10));
+      builder.addFrame(1'400'000'000'000'000 + frame * 100'000, tactile.values);
+    }
+  writeDsa(builder.finish({}), file, Overwrite::kReplace);
+  return file;
+}
+
+TEST_F(CompareCommandTest, AlignsTwoGrasps) {
+  const auto a = withGrasps(folder_ / "a.dsa", {500, 600}),
+             b = withGrasps(folder_ / "b.dsa", {300});
+  const auto result = palpate({"compare", a, b, "--grasp", "2:1"});
+  ASSERT_EQ(result.exitCode, 0) << result.err;
+  const auto rows = lines(result.out);
+  // The second grasp of A begins with frame 45 at 4.5 s, that of B with frame 10.
+  EXPECT_EQ(rows.at(1 + 1), "3.500000,35,0,1,0,0,0,0");
+  EXPECT_EQ(rows.at(1 + 6 * 10 + 1), "4.500000,45,10,1,600,300,300,300");
+  EXPECT_EQ(lines(palpate({"compare", a, a, "--grasp", "1"}).out).at(1 + 6 * 10 + 1),
+            "1.000000,10,10,1,500,500,0,0");
+  expectOneLineError(palpate({"compare", a, b, "--grasp", "1:2"}), 1, {"b.dsa", "only 1..1"});
+  expectOneLineError(palpate({"compare", a, b, "--grasp", "0:1"}), 2, {"from 1"});
+  expectOneLineError(palpate({"compare", a, b, "--grasp", "1:x"}), 2, {"I:J"});
+  expectOneLineError(
+      palpate({"compare", a, b, "--grasp", "1:1", "--offset", "1"}), 2, {"not both"});
+  const auto none = recording("none.dsa", 10, 2, 500.0F);
+  expectOneLineError(palpate({"compare", a, none, "--grasp", "1:1"}), 1, {"none.dsa", "no grasp"});
+}
+
+// By hand: at the contact 500, 600 and 300, at 1 s 510, 610 and 310: mean 466.67, standard
+// deviation sqrt((33.33^2 + 133.33^2 + 166.67^2) / 2) = 152.7525.
+TEST_F(CompareCommandTest, PrintsTheAverageOverGrasps) {
+  const auto a = withGrasps(folder_ / "a.dsa", {500, 600}),
+             b = withGrasps(folder_ / "b.dsa", {300});
+  const auto result = palpate({"compare", a, b, "--average", "m1_mean"});
+  ASSERT_EQ(result.exitCode, 0) << result.err;
+  const auto rows = lines(result.out);
+  EXPECT_EQ(rows.at(0),
+            "time_s,curves,mean,low,high," + a + " grasp 1," + a + " grasp 2," + b + " grasp 1");
+  // From 0.5 s before to the end of the recording or 0.5 s behind the grasp.
+  EXPECT_EQ(rows.at(1), "-0.500000,3,0,0,0,0,0,0");
+  std::vector<double> cells;
+  std::istringstream row(rows.at(1 + 5 + 10));
+  for (std::string cell; std::getline(row, cell, ',');) cells.push_back(*parseDouble(cell));
+  const std::vector<double> expected = {
+      1.0, 3, 476.6666667, 323.9141435, 629.4191898, 510, 610, 310};
+  ASSERT_EQ(cells.size(), expected.size());
+  for (std::size_t i = 0; i < cells.size(); ++i) EXPECT_NEAR(cells[i], expected[i], 1e-5) << i;
+  const auto median =
+      lines(palpate({"compare", a, b, "--average", "1:mean", "--percentiles", "0,100"}).out);
+  EXPECT_TRUE(median.at(0).starts_with("time_s,curves,median,p0,p100,")) << median.at(0);
+  EXPECT_TRUE(median.at(1 + 5 + 10).starts_with("1.000000,3,510,310,610,")) << median.at(16);
+  // Whole recordings, and a formula.
+  const auto whole =
+      lines(palpate({"compare", a, b, "--average", "2*m1_mean", "--of", "recordings"}).out);
+  EXPECT_TRUE(whole.at(1 + 10).starts_with("0.000000,2,800,")) << whole.at(11);
+}
+
+TEST_F(CompareCommandTest, SaysWhatIsWrongWithAnAverage) {
+  const auto a = withGrasps(folder_ / "a.dsa", {500});
+  const auto none = recording("none.dsa", 10, 2, 500.0F);
+  const auto with = [&](std::vector<std::string> more) {
+    std::vector<std::string> words = {"compare", a, "--average", "m1_mean"};
+    words.insert(words.end(), more.begin(), more.end());
+    return palpate(words);
+  };
+  expectOneLineError(with({none}), 1, {"none.dsa", "no grasp"});
+  EXPECT_EQ(with({none, "--of", "recordings"}).exitCode, 0);
+  expectOneLineError(with({"--percentiles", "90,10"}), 2, {"LOW,HIGH"});
+  expectOneLineError(with({"--grasp", "1:1"}), 2, {"leave out --grasp"});
+  expectOneLineError(with({"--align", "start"}), 2, {"--of recordings"});
+  expectOneLineError(palpate({"compare", a, "--average", "m1_meen"}), 2, {"m1_meen", "no signal"});
+  expectOneLineError(palpate({"compare", a, "--average", "m1_mean+"}), 2, {"as a formula"});
+  expectOneLineError(palpate({"compare", a, "--average", "m9_mean"}), 1, {"no matrix 9"});
+  expectOneLineError(palpate({"compare", a, a, "--band", "sd"}), 2, {"needs --average"});
+}
+
 TEST_F(CompareCommandTest, ARecordingWithItselfDiffersInNothing) {
   const auto a = recording("a.dsa", 6, 1, 40.0F);
   const auto rows = lines(palpate({"compare", a, a}).out);

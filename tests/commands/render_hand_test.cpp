@@ -1,4 +1,5 @@
 // palpate render --view hand, by the real program and without a display.
+#include <algorithm>
 #include <filesystem>
 #include <map>
 #include <vector>
@@ -126,6 +127,31 @@ TEST_F(RenderHandTest, ASeriesHasAPictureOfEachFrame) {
   for (const char* name :
        {"demo_grasps_00080.png", "demo_grasps_00081.png", "demo_grasps_00082.png"})
     EXPECT_TRUE(std::filesystem::exists(folder_ / "series" / name)) << name;
+}
+
+// Beside each other: the left half is the picture of the matrices of half the width.
+TEST_F(RenderHandTest, BothViewsSideBySide) {
+  const auto drawn = [&](const char* name, const char* view, const char* size) {
+    const auto result = palpate({"render",
+                                 demoFile(),
+                                 "--view",
+                                 view,
+                                 "--frame",
+                                 "90",
+                                 "--size",
+                                 size,
+                                 "-o",
+                                 folder_ / name},
+                                kHeadless);
+    EXPECT_EQ(result.exitCode, 0) << result.err;
+    return bytes(name);
+  };
+  const std::string both = drawn("both.svg", "both", "800x400");
+  const std::string matrices = drawn("matrices.svg", "matrices", "400x400");
+  const std::string hand = drawn("hand.svg", "hand", "400x400");
+  EXPECT_GT(both.size(), std::max(matrices.size(), hand.size()));
+  EXPECT_NE(both, matrices);
+  EXPECT_EQ(draw("x.png", {"--view", "all"}).exitCode, 2);
 }
 
 }  // namespace

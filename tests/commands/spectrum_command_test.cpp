@@ -230,6 +230,11 @@ TEST(SpectrumCommand, CoherenceOfTwoSignals) {
   EXPECT_EQ(found.out.substr(0, 44), "frequency_hz,coherence,phase_deg,psd_a,psd_b");
   const Json json = Json::parse(with("1:2:7,hand:max", {"--window", "64", "--json"}).out);
   EXPECT_NEAR(json.at("coherence").at(8).asDouble(), 1.0, 1e-6);  // 6.25 Hz
+  // Both spellings of names mean the same; formulas count, too.
+  EXPECT_EQ(with("m1_x2_y7,m1_max", {"--window", "64"}).out, found.out);
+  EXPECT_EQ(with("1*m1_x2_y7,max(m1_max,m1_max)", {"--window", "64"}).out, found.out);
+  expectOneLineError(with("1:mean,2*m9_mean"), 1, {"no signal \"m9_mean\""});
+  expectOneLineError(with("1:mean,2*"), 2, {"as a formula"});
   // A signal at rest has no power: no coherence.
   const Json rest = Json::parse(with("1:2:7,1:3:7", {"--window", "64", "--json"}).out);
   EXPECT_TRUE(rest.at("coherence").at(8).isNull());
@@ -237,6 +242,7 @@ TEST(SpectrumCommand, CoherenceOfTwoSignals) {
   expectOneLineError(with("1:mean,1:width"), 2, {"\"1:width\" is not a signal"});
   expectOneLineError(with("1:mean,9:mean"), 1, {"has no matrix 9"});
   expectOneLineError(with("1:mean,1:99:2"), 1, {"no such taxel"});
+  expectOneLineError(with("1:mean,angle9"), 1, {"has no angle9"});
   expectOneLineError(with("1:mean,2:mean", {"--window", "800"}), 1, {"two segments"});
   expectOneLineError(with("1:mean,2:mean", {"--matrix", "1"}), 2, {"leave out --matrix"});
 }

@@ -55,6 +55,20 @@ TEST_F(AlignmentTest, StartsAndClockAreWhatTheyAre) {
   EXPECT_EQ(offsetBetween(a_, b_, Alignment::kManual), std::nullopt);
 }
 
+TEST_F(AlignmentTest, ChosenGraspsComeOnTopOfEachOther) {
+  EXPECT_EQ(offsetBetween(a_, b_, Alignment::kGrasp), std::nullopt) << "none is chosen";
+  a_.grasp = 30;  // at 1.50 s
+  EXPECT_EQ(offsetBetween(a_, b_, Alignment::kGrasp), std::nullopt);
+  b_.grasp = 20;  // at 0.40 s
+  EXPECT_NEAR(*offsetBetween(a_, b_, Alignment::kGrasp), 1.50 - 0.40, 1e-12);
+  // The second grasp of a recording on its first one.
+  TimedProfile again = a_;
+  again.grasp = 12;
+  EXPECT_NEAR(*offsetBetween(again, a_, Alignment::kGrasp), 0.60 - 1.50, 1e-12);
+  b_.grasp = 50;
+  EXPECT_THROW((void)offsetBetween(a_, b_, Alignment::kGrasp), std::out_of_range);
+}
+
 TEST_F(AlignmentTest, WithoutContactOrFrameThereIsNoOffset) {
   const TimedProfile untouched = timedProfile(recorded(every(50, 9), 9));
   EXPECT_EQ(untouched.contact, std::nullopt);

@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "palpate/emulator/synthetic_profile.h"
+#include "palpate/filter/butterworth.h"
 
 #include "testing/testing.h"
 
@@ -53,6 +54,49 @@ TEST(Formula, DerivativesAreNumPys) {
   EXPECT_TRUE(std::isnan(derivativeOf(std::vector{1.0}, std::vector{1.0}, kEver)[0]));
 }
 
+// By hand: means and medians of up to three neighbours.
+TEST(Formula, SmoothsOverSamplesButNotOverGaps) {
+  const std::vector<double> timeS = {0, 1, 2, 3, 4, 10, 11};
+  const std::vector<double> values = {3, 9, 0, 6, 3, 100, 200};
+  const auto of = [&](const char* text) { return Formula(text).evaluate(timeS, {values}, 2.0); };
+  EXPECT_EQ(of("smooth(a, 3)"), (std::vector<double>{6, 4, 5, 3, 4.5, 150, 150}));
+  EXPECT_EQ(of("median(a, 3)"), (std::vector<double>{6, 3, 6, 3, 4.5, 150, 150}));
+  EXPECT_EQ(of("smooth(a,1)"), values);
+  EXPECT_EQ(of("median( 2 * a , 3 ) + 1"), (std::vector<double>{13, 7, 13, 7, 10, 301, 301}));
+}
+
+// The filter itself is checked against SciPy in butterworth_test: here that it is the one meant.
+TEST(Formula, FiltersAreButterworthsWithoutDelay) {
+  std::vector<double> timeS, values, slow;
+  for (int i = 0; i < 400; ++i) {
+    timeS.push_back(0.01 * i);
+    slow.push_back(std::sin(2.0 * M_PI * 1.0 * timeS.back()));
+    values.push_back(slow.back() + std::sin(2.0 * M_PI * 30.0 * timeS.back()));
+  }
+  const auto low = Formula("lowpass(a, 5)").evaluate(timeS, {values}, kEver);
+  EXPECT_EQ(low, butterworthZeroPhase(timeS, values, {.highHz = 5.0}));
+  const auto high = Formula("a - highpass(a, 5)").evaluate(timeS, {values}, kEver);
+  EXPECT_EQ(Formula("bandpass(a, 0.3, 5)").evaluate(timeS, {values}, kEver),
+            butterworthZeroPhase(
+                timeS,
+                values,
+                {.band = ButterworthOptions::Band::kBandPass, .lowHz = 0.3, .highHz = 5.0}));
+  for (std::size_t i = 100; i < 300; ++i) {
+    EXPECT_NEAR(low[i], slow[i], 0.03) << i;
+    EXPECT_NEAR(high[i], slow[i], 0.03) << i;
+  }
+  EXPECT_THROW((void)Formula("lowpass(a, 60)").evaluate(timeS, {values}, kEver),
+               std::invalid_argument)
+      << "half of the rate is 50 Hz";
+}
+
+TEST(Formula, KnowsOnHowManyNeighboursItDepends) {
+  EXPECT_EQ(Formula("a + b").reach(50.0), 0u);
+  EXPECT_EQ(Formula("der(a)").reach(50.0), 1u);
+  EXPECT_EQ(Formula("der(smooth(a, 9))").reach(50.0), 6u);
+  EXPECT_GT(Formula("lowpass(a, 1)").reach(50.0), 50u);
+}
+
 TEST(Formula, RefusesWhatIsNone) {
   const auto refusal = [](const std::string& text) {
     try {
@@ -99,31 +143,9 @@ TEST(DerivedSeries, AreComputedAtTheFrames) {
   EXPECT_EQ(derivedSeries(profile, Formula("t"), 0.0, 6.0).values, derived.timeS);
 }
 
-TEST(DerivedSeries, NameTheSignalsOfTheHand) {
+TEST(DerivedSeries, RefusesWhatTheHandLacks) {
   const Profile profile = synthesize({.durationS = 1.0, .grasps = 1});
-  const SensorLayout& layout = profile.layout();
-  for (const char* name : {"m0_mean",
-                           "m5_area_mm2",
-                           "hand_active",
-                           "m1_x2_y7",
-                           "angle6",
-                           "temperature8",
-                           "m2_filtered_mean"})
-    EXPECT_TRUE(signalNamed(name, layout)) << name;
-  for (const char* name : {"m6_mean",
-                           "m0_meen",
-                           "hand_x1_y1",
-                           "m1_x9_y7",
-                           "m1_x2_y99",
-                           "mean",
-                           "m_mean",
-                           "angle",
-                           "angle-1",
-                           "m1_x_y",
-                           "_",
-                           ""})
-    EXPECT_FALSE(signalNamed(name, layout)) << name;
-  for (const char* text : {"m9_mean", "angle77"})
+  for (const char* text : {"m9_mean", "angle77", "thumb"})
     EXPECT_THROW(derivedSeries(profile, Formula(text), 0.0, 1.0), std::invalid_argument) << text;
 }
 

@@ -131,5 +131,45 @@ TEST(ProfileSeries, CanBeCancelled) {
   EXPECT_THROW(readSeries(small(), {}, 0.0, 9.0, [](double) { return false; }), Cancelled);
 }
 
+TEST(ProfileSeries, AFormulaIsASeriesToo) {
+  const Profile profile = synthesize({.durationS = 4.0, .grasps = 1});
+  const SeriesChoice sum{.index = profile.layout().numMatrices(), .signal = SignalKind::kSum};
+  const SeriesChoice twice{.kind = SeriesChoice::Kind::kFormula, .formula = "2*hand_sum + t"};
+  ASSERT_TRUE(hasSeries(profile, twice));
+  EXPECT_EQ(numSamples(profile, twice, -1e9, 1e9), profile.numFrames());
+  for (const auto& [fromS, toS] :
+       {std::pair(-1e9, 1e9), std::pair(1.0, 2.0), std::pair(1.5, 1.5)}) {
+    const Series plain = readSeries(profile, sum, fromS, toS);
+    const Series derived = readSeries(profile, twice, fromS, toS);
+    ASSERT_EQ(derived.timeS, plain.timeS);
+    for (std::size_t i = 0; i < plain.values.size(); ++i)
+      EXPECT_EQ(derived.values[i], 2.0 * plain.values[i] + plain.timeS[i]) << i;
+  }
+  // A part is the same as that part of the whole: slopes and filters look beyond its ends.
+  for (const char* text : {"der(hand_sum)", "smooth(hand_sum, 7)", "lowpass(hand_sum, 8)"}) {
+    const SeriesChoice choice{.kind = SeriesChoice::Kind::kFormula, .formula = text};
+    const Series whole = readSeries(profile, choice, -1e9, 1e9);
+    const Series part = readSeries(profile, choice, 1.8, 2.2);
+    ASSERT_GT(part.values.size(), 5u);
+    const auto at = static_cast<std::size_t>(
+        std::find(whole.timeS.begin(), whole.timeS.end(), part.timeS.front()) -
+        whole.timeS.begin());
+    for (std::size_t i = 0; i < part.values.size(); ++i)
+      // Less than 1e-9 of what lies further away is left.
+      EXPECT_NEAR(part.values[i], whole.values.at(at + i), 0.01) << text << i;
+    std::size_t visited = 0;
+    visitSeries(profile, choice, [&](double timeS, double value) {
+      EXPECT_EQ(timeS, whole.timeS.at(visited));
+      EXPECT_EQ(value, whole.values.at(visited++));
+    });
+    EXPECT_EQ(visited, profile.numFrames());
+  }
+  for (const char* text : {"m9_mean", "1 +", "angle77", "thumb"}) {
+    const SeriesChoice choice{.kind = SeriesChoice::Kind::kFormula, .formula = text};
+    EXPECT_FALSE(hasSeries(profile, choice)) << text;
+    EXPECT_THROW(readSeries(profile, choice, 0.0, 1.0), std::invalid_argument) << text;
+  }
+}
+
 }  // namespace
 }  // namespace palpate::profile_series_test

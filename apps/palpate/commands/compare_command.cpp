@@ -1,16 +1,26 @@
 // The command `palpate compare A B [--align HOW]` prints two recordings side by side, frame by
-// frame, as CSV.
+// frame, as CSV; with --average the average of a signal over grasps or recordings.
+#include <cmath>
 #include <cstdint>
 #include <cstdio>
+#include <memory>
+#include <tuple>
+#include <utility>
+#include <vector>
 
+#include "palpate/batch/grasp_files.h"
 #include "palpate/core/error.h"
 #include "palpate/core/number_text.h"
+#include "palpate/core/text_table.h"
 #include "palpate/recording/recording.h"
+#include "palpate/signals/average_curve.h"
 #include "palpate/signals/characteristic_signals.h"
+#include "palpate/signals/curve_comparison.h"
 #include "palpate/signals/frame_difference.h"
 
 #include "commands/command_line.h"
 #include "commands/commands.h"
+#include "commands/signal_options.h"
 
 namespace palpate::commands {
 namespace {
@@ -23,7 +33,45 @@ TimedProfile opened(const std::string& file, bool quiet) {
   return timedProfile(openRecording(file, progress.callback()), {}, progress.callback());
 }
 
+// The grasps of a recording: as a person has corrected them, else those that are found.
+std::vector<GraspFrames> graspsOf(const std::string& file, const Profile& profile, bool quiet) {
+  ProgressLine progress("finding grasps in " + file, quiet);
+  std::vector<GraspFrames> grasps =
+      graspFrames(profile, readEvents(file).events, progress.callback());
+  if (grasps.empty()) throw Error(file + ": has no grasp");
+  return grasps;
+}
+
+// --grasp I:J, numbers from 1.
+double offsetOfGrasps(const CommandLine& given, TimedProfile a, TimedProfile b) {
+  const std::string text = *given.text("grasp");
+  const auto colon = text.find(':');
+  const auto numberOf = [&](const std::string& part) {
+    const auto number = parseInteger(part);
+    if (!number || *number < 1)
+      throw UsageError("--grasp needs two numbers I:J from 1, as 1:3; is \"" + text + "\"");
+    return static_cast<std::size_t>(*number);
+  };
+  const std::size_t i = numberOf(text.substr(0, colon));
+  const std::size_t j = colon == std::string::npos ? i : numberOf(text.substr(colon + 1));
+  for (const auto& [side, number, file] :
+       {std::tuple(&a, i, given.words()[0]), std::tuple(&b, j, given.words()[1])}) {
+    const auto grasps = graspsOf(file, side->profile, given.quiet());
+    if (number > grasps.size())
+      throw Error(file + ": has no grasp " + std::to_string(number) + ", only 1.." +
+                  std::to_string(grasps.size()));
+    side->grasp = grasps[number - 1].begin;
+  }
+  return *offsetBetween(a, b, Alignment::kGrasp);
+}
+
 double offsetFor(const CommandLine& given, const TimedProfile& a, const TimedProfile& b) {
+  if (given.has("grasp")) {
+    for (const char* other : {"align", "offset"})
+      if (given.has(other))
+        throw UsageError(std::string("give --grasp or --") + other + ", not both");
+    return offsetOfGrasps(given, a, b);
+  }
   if (const auto offsetS = given.number("offset", -kFurthestS, kFurthestS)) {
     if (given.has("align")) throw UsageError("give --align or --offset, not both");
     return *offsetS;
@@ -58,26 +106,143 @@ void compareAppendRow(std::string& line,
   line += '\n';
 }
 
+AverageOptions averageOptionsOf(const CommandLine& given) {
+  constexpr double kLongestStepS = 1e6;
+  AverageOptions options;
+  if (given.choice("band", {"sd", "percentiles"}).value_or("sd") == "percentiles")
+    options.band = AverageBand::kPercentiles;
+  if (const auto text = given.text("percentiles")) {
+    const std::vector<std::string> parts = splitSignals(*text);
+    const auto low = parseDouble(parts.front()), high = parseDouble(parts.back());
+    if (parts.size() != 2 || !low || !high || !(*low >= 0.0 && *low < *high && *high <= 100.0))
+      throw UsageError("--percentiles needs two numbers LOW,HIGH from 0 to 100, as 10,90; is \"" +
+                       *text + "\"");
+    if (given.has("band") && options.band != AverageBand::kPercentiles)
+      throw UsageError("give --band sd or --percentiles, not both");
+    options.band = AverageBand::kPercentiles;
+    options.lowPercent = *low;
+    options.highPercent = *high;
+  }
+  constexpr double kShortestStepS = 1e-6;
+  options.stepS = given.number("step", kShortestStepS, kLongestStepS).value_or(0.0);
+  options.least = static_cast<std::size_t>(given.integer("least", 1, INT32_MAX).value_or(2));
+  return options;
+}
+
+// Curves with their names.
+struct NamedCurves {
+  std::vector<AlignedCurve> curves;
+  std::vector<std::string> names;
+};
+
+void addCurvesOf(const CommandLine& given, const std::string& file, NamedCurves& all) {
+  const TimedProfile timed = opened(file, given.quiet());
+  if (timed.profile.numFrames() == 0) throw Error(file + ": has no frames");
+  const TypedSignal signal =
+      typedSignal(*given.text("average"), timed.profile.layout(), file, "--average");
+  ProgressLine progress("reading " + file, given.quiet());
+  const auto series = std::make_shared<const Series>(
+      typedSeries(timed.profile, signal, -kFurthestS, kFurthestS, file, progress.callback()));
+  const double longestS = gapFromS(timed.timing);
+  if (given.choice("of", {"grasps", "recordings"}).value_or("grasps") == "recordings") {
+    const std::string how = given.choice("align", {"contact", "start"}).value_or("contact");
+    if (how == "contact" && !timed.contact)
+      throw Error(file + ": no lasting contact (3 taxels in 3 frames in a row); use --align start");
+    all.curves.push_back({.series = series,
+                          .zeroS = how == "contact" ? timed.timeS(*timed.contact) : 0.0,
+                          .longestS = longestS});
+    all.names.push_back(file);
+    return;
+  }
+  std::vector<TimeSpan> spans;
+  for (const GraspFrames& grasp : graspsOf(file, timed.profile, given.quiet())) {
+    spans.push_back({timed.timeS(grasp.begin), timed.timeS(grasp.end)});
+    all.names.push_back(file + " grasp " + std::to_string(spans.size()));
+  }
+  constexpr double kUsualMarginS = 0.5;
+  const double marginS = given.number("margin", 0.0, kFurthestS).value_or(kUsualMarginS);
+  for (AlignedCurve& curve : alignedStretches(series, spans, marginS, longestS))
+    all.curves.push_back(std::move(curve));
+}
+
+// --average NAME
+int writeAverage(const CommandLine& given) {
+  for (const char* other : {"grasp", "offset"})
+    if (given.has(other))
+      throw UsageError(std::string("--average aligns all at their contacts: leave out --") + other);
+  const bool ofGrasps = given.choice("of", {"grasps", "recordings"}).value_or("grasps") == "grasps";
+  if (ofGrasps && given.has("align"))
+    throw UsageError("--align needs --of recordings; grasps are aligned where they begin");
+  const AverageOptions options = averageOptionsOf(given);
+  NamedCurves all;
+  for (const std::string& file : given.words()) addCurvesOf(given, file, all);
+  const AverageCurve average = averageCurve(all.curves, options);
+  const bool percentiles = options.band == AverageBand::kPercentiles;
+  std::vector<std::string> header = {"time_s", "curves", percentiles ? "median" : "mean"};
+  for (const auto& [sign, percent] :
+       {std::pair("low", options.lowPercent), std::pair("high", options.highPercent)})
+    header.push_back(percentiles ? "p" + numberText(percent) : std::string(sign));
+  header.insert(header.end(), all.names.begin(), all.names.end());
+  std::vector<std::vector<double>> columns = {average.middle, average.low, average.high};
+  for (const AlignedCurve& curve : all.curves)
+    columns.push_back(alignedValues(curve, average.timeS));
+  StandardOutput out;
+  out.write(csvLine(header));
+  std::string line;
+  for (std::size_t i = 0; i < average.timeS.size(); ++i) {
+    line = fixedText(average.timeS[i], kMicroseconds) + "," + std::to_string(average.count[i]);
+    for (const auto& column : columns) {
+      line += ',';
+      if (std::isfinite(column[i])) appendNumber(line, column[i]);
+    }
+    line += '\n';
+    out.write(line);
+  }
+  out.finish();
+  return kDone;
+}
+
 }  // namespace
 
 int compareCommand(const Arguments& words) {
   const CommandLine given(
-      {.synopsis = "palpate compare A B [--align contact|start|clock] [--offset S]",
-       .purpose = "Aligns two recordings in time. For every frame of A it takes the frame of B at "
-                  "the same time (or the last one before it) and prints of each matrix: the mean "
-                  "of the active taxels in A and in B, and mean and root mean square of A - B over "
-                  "the taxels that are active in either. The first contact is the first of three "
-                  "frames in a row in which at least 3 taxels are active. Matrices whose number of "
-                  "rows or columns differs in B are left out.",
-       .options = {{"align",
-                    "HOW",
-                    "contact (default): first contacts; start; clock: by host time"},
-                   {"offset", "S", "instead: when B begins, in seconds from A's first frame"}},
+      {.synopsis =
+           "palpate compare A B [--align contact|start|clock | --grasp I:J | --offset S]\n"
+           "       palpate compare FILE.. --average SIGNAL [--of grasps|recordings] [--band "
+           "sd|percentiles]",
+       .purpose =
+           "Aligns two recordings in time. For every frame of A it takes the frame of B at "
+           "the same time (or the last one before it) and prints of each matrix: the mean "
+           "of the active taxels in A and in B, and mean and root mean square of A - B over "
+           "the taxels that are active in either. The first contact is the first of three "
+           "frames in a row in which at least 3 taxels are active. Matrices whose number of "
+           "rows or columns differs in B are left out.\n"
+           "With --average, the grasps of all files are aligned where they begin. For every "
+           "moment it prints the mean of a signal with mean -+ standard deviation (n - 1), or "
+           "the median with percentiles, then the value of every grasp: "
+           "time_s,curves,mean,low,high,.. The column curves tells how many have a value.",
+       .options =
+           {{"align", "HOW", "contact (default): first contacts; start; clock: by host time"},
+            {"grasp", "I:J", "instead: where grasp I of A and grasp J of B begin, numbers from 1"},
+            {"offset", "S", "instead: when B begins, in seconds from A's first frame"},
+            {"average",
+             "SIGNAL",
+             "the average of a signal: m1_mean, hand_sum, m5_x2_y9, angle3, or a formula as for "
+             "derive"},
+            {"of", "WHAT", "grasps (default): all of each FILE; recordings: each as a whole"},
+            {"band", "HOW", "sd (default): mean and standard deviation; percentiles"},
+            {"percentiles", "LOW,HIGH", "default 10,90"},
+            {"margin", "S", "seconds before and after each grasp, default 0.5"},
+            {"step", "S", "of the time base, default: the longest median interval"},
+            {"least", "N", "values that a mean needs, default 2"}},
        .example = "palpate compare run_1.dsa run_2.dsa > differences.csv",
-       .minArguments = 2,
-       .maxArguments = 2},
+       .minArguments = 1},
       words);
   if (given.helpShown()) return kDone;
+  if (given.has("average")) return writeAverage(given);
+  for (const char* only : {"of", "band", "percentiles", "margin", "step", "least"})
+    if (given.has(only)) throw UsageError(std::string("--") + only + " needs --average");
+  if (given.words().size() != 2) throw UsageError("compare needs two recordings, or --average");
   const TimedProfile a = opened(given.words()[0], given.quiet());
   const TimedProfile b = opened(given.words()[1], given.quiet());
   const double offsetS = offsetFor(given, a, b);

@@ -48,8 +48,9 @@ int deriveCommand(const Arguments& words) {
            "m1_active, m1_area_mm2 of matrix 1; hand_sum and so on of the whole hand; m5_x2_y9 a "
            "taxel (column 2, row 9); angle3 [deg] and temperature4 [deg C], interpolated at the "
            "frames; t [s]. Operators + - * / ^ ( ), comparisons and a ? b : c; functions abs sqrt "
-           "min max exp ln sin .., and der(x), the slope of x over time [1/s]. A value that isn't "
-           "known is an empty cell.",
+           "min max exp ln sin .., and of signals: der(x), the slope of x over time [1/s]; "
+           "smooth(x,n) and median(x,n) over n samples; lowpass(x,hz), highpass(x,hz), "
+           "bandpass(x,low,high). A value that isn't known is an empty cell.",
        .options = withFilterOptions(
            {{"from", "N", "first frame, default 0"}, {"to", "N", "last frame, inclusive"}}),
        .example = "palpate derive foam_ball.dsa grip=m1_sum-m3_sum > grip.csv",

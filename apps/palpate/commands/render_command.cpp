@@ -125,8 +125,21 @@ gui::FramePictures::Paint painterOf(const CommandLine& given,
                                     const Profile& profile,
                                     const gui::FrameSpan& span,
                                     const gui::MatricesPictureOptions& options) {
-  if (given.text("view") == "hand") return handPainter(given, profile, span, options);
-  return FramePainter(profile, options);
+  const std::string view = given.text("view").value_or("matrices");
+  if (view == "hand") return handPainter(given, profile, span, options);
+  if (view != "both") return FramePainter(profile, options);
+  // The hand beside the matrices, each in one half.
+  gui::MatricesPictureOptions half = options;
+  half.size.setWidth(options.size.width() / 2.0);
+  return [matrices = gui::FramePictures::Paint(FramePainter(profile, half)),
+          hand = handPainter(given, profile, span, half),
+          width = half.size.width()](QPainter& painter, std::size_t frame) {
+    matrices(painter, frame);
+    painter.save();
+    painter.translate(width, 0.0);
+    hand(painter, frame);
+    painter.restore();
+  };
 }
 
 // The requested frame, else the frame with the largest sum.
@@ -366,7 +379,9 @@ int renderCommand(const Arguments& words) {
                   {"output,o", "OUT", "the picture or movie, or the folder of a series"},
                   {"speed", "X", "speed of a movie, 0.1..16; default 1: the recorded speed"},
                   {"fps", "N", "pictures per second of a movie, 1..120; default 30"},
-                  {"view", "matrices|hand", "what to draw; default matrices"},
+                  {"view",
+                   "matrices|hand|both",
+                   "what to draw; default matrices; both: side by side"},
                   {"size", "WxH", "px (96 per inch), default 900x720; PNG has twice as many"},
                   {"print", "", "for paper: white background, 174 mm wide, text of 8 pt, 300 dpi"},
                   {"width-mm", "W", "width on paper; journals take 85, 114, 174"},

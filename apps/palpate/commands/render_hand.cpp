@@ -70,12 +70,13 @@ std::vector<OptionSpec> handViewOptions() {
 }
 
 void checkHandUsage(const CommandLine& given) {
-  const bool hand = given.choice("view", {"matrices", "hand"}) == "hand";
+  const std::string view = given.choice("view", {"matrices", "hand", "both"}).value_or("matrices");
+  const bool hand = view != "matrices";
   for (const OptionSpec& option : handViewOptions())
     if (!hand && given.has(option.name))
-      throw UsageError("--" + std::string(option.name) + " needs --view hand");
+      throw UsageError("--" + std::string(option.name) + " needs --view hand or both");
   for (const char* name : {"interpolated", "values"})
-    if (hand && given.has(name))
+    if (view == "hand" && given.has(name))
       throw UsageError("--" + std::string(name) + " is for the heat maps, not for --view hand");
   given.choice("taxels", wordsOf(gui::kAllTaxelShapes));
   given.choice("sphere", wordsOf(gui::kAllSphereLooks));

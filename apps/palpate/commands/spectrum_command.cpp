@@ -10,69 +10,26 @@
 #include "palpate/core/error.h"
 #include "palpate/core/json.h"
 #include "palpate/core/number_text.h"
+#include "palpate/model/timing.h"
 #include "palpate/recording/recording.h"
 #include "palpate/signals/coherence.h"
+#include "palpate/signals/curve_comparison.h"
 #include "palpate/signals/profile_series.h"
+#include "palpate/signals/resampled_series.h"
+#include "palpate/signals/signal_name.h"
 #include "palpate/signals/spectrum.h"
 #include "palpate/signals/welch.h"
 
 #include "commands/command_line.h"
 #include "commands/commands.h"
 #include "commands/filter_options.h"
+#include "commands/signal_options.h"
 
 namespace palpate::commands {
 namespace {
 
 constexpr double kPercent = 100.0;
-constexpr std::size_t kMostNamed = 8;  // taxels in one line
-
-std::string placeText(std::size_t matrix, std::int64_t x, std::int64_t y) {
-  return "matrix " + std::to_string(matrix) + ", x " + std::to_string(x) + ", y " +
-         std::to_string(y);
-}
-
-// Describes the taxels that exist: all by name when they are few, else the columns of that row.
-std::string whatExists(const MatrixLayout& matrix, std::int64_t y) {
-  if (matrix.numEnabled() == 0) return "no taxel of this matrix is scanned";
-  std::string text;
-  if (matrix.numEnabled() <= kMostNamed) {
-    for (int row = 0; row < matrix.rows; ++row)
-      for (int x = 0; x < matrix.columns; ++x)
-        if (matrix.enabled(row, x))
-          text +=
-              (text.empty() ? "" : "; ") + ("x " + std::to_string(x)) + " y " + std::to_string(row);
-    return "there are " + text;
-  }
-  if (y >= matrix.rows)
-    return "x is 0.." + std::to_string(matrix.columns - 1) + ", y 0.." +
-           std::to_string(matrix.rows - 1);
-  for (int x = 0; x < matrix.columns; ++x)
-    if (matrix.enabled(static_cast<int>(y), x))
-      text += (text.empty() ? "" : ", ") + std::to_string(x);
-  return text.empty() ? "row " + std::to_string(y) + " has none"
-                      : "row " + std::to_string(y) + " has x " + text;
-}
-
-SeriesChoice taxelOf(const SensorLayout& layout,
-                     std::size_t m,
-                     std::int64_t x,
-                     std::int64_t y,
-                     const std::string& file) {
-  const MatrixLayout& matrix = layout.matrix(m);
-  const bool inside = x < matrix.columns && y < matrix.rows;
-  const int column = static_cast<int>(x), row = static_cast<int>(y);
-  if (!inside || !matrix.enabled(row, column)) {
-    const bool masked = inside && matrix.exists(row, column);
-    throw Error(file + ": " + placeText(m, x, y) +
-                (masked ? ": this taxel is masked, it was not scanned; " : ": no such taxel; ") +
-                whatExists(matrix, y));
-  }
-  SeriesChoice choice{.kind = SeriesChoice::Kind::kTaxels, .taxels = TaxelSelection(layout)};
-  choice.taxels.toggle(m, row, column);
-  return choice;
-}
-
-SeriesChoice choiceOf(const CommandLine& given, const SensorLayout& layout) {
+TypedSignal choiceOf(const CommandLine& given, const SensorLayout& layout) {
   const std::string& file = given.words().front();
   const auto matrix = given.integer("matrix", 0, INT64_MAX);
   const auto numMatrices = static_cast<std::int64_t>(layout.numMatrices());
@@ -80,67 +37,43 @@ SeriesChoice choiceOf(const CommandLine& given, const SensorLayout& layout) {
     throw Error(file + ": has no matrix " + std::to_string(*matrix) + ", only 0.." +
                 std::to_string(numMatrices - 1));
   const auto x = given.integer("x", 0, INT32_MAX), y = given.integer("y", 0, INT32_MAX);
-  if (const auto signal = signalChosen(given)) {
+  if (const auto text = given.text("signal")) {
     if (x || y) throw UsageError("give --signal, or --x and --y, not both");
-    return {.index = static_cast<std::size_t>(matrix.value_or(numMatrices)), .signal = *signal};
+    if (const auto signal = signalKindNamed(*text))
+      return {.choice =
+                  SeriesChoice{.index = static_cast<std::size_t>(matrix.value_or(numMatrices)),
+                               .signal = *signal}};
+    if (matrix && parseSignalName(*text))
+      throw UsageError("--signal " + *text + " names its matrix itself: leave out --matrix");
+    // A plain word is one of the signals of a matrix, and refused with their names.
+    if (text->find_first_not_of("abcdefghijklmnopqrstuvwxyz") == std::string::npos)
+      return {.choice = SeriesChoice{.index = static_cast<std::size_t>(numMatrices),
+                                     .signal = *signalChosen(given)}};
+    return typedSignal(*text, layout, file, "--signal");
   }
   if (!matrix || !x || !y)
     throw UsageError("spectrum needs --matrix M --x X --y Y (a taxel), or --signal");
-  return taxelOf(layout, static_cast<std::size_t>(*matrix), *x, *y, file);
-}
-
-// A signal of --coherence: "1:mean", "hand:sum", or the taxel "5:2:9" (matrix, x, y).
-SeriesChoice signalNamed(const std::string& text,
-                         const SensorLayout& layout,
-                         const std::string& file) {
-  const auto refuse = [&]() -> UsageError {
-    return UsageError(
-        "--coherence: \"" + text +
-        "\" is not a signal; a signal is MATRIX:NAME, as 1:mean or hand:sum, or a taxel "
-        "MATRIX:X:Y, as 5:2:9");
-  };
-  std::vector<std::string> parts;
-  for (std::size_t begin = 0;;) {
-    const auto end = text.find(':', begin);
-    parts.push_back(text.substr(begin, end - begin));
-    if (end == std::string::npos) break;
-    begin = end + 1;
-  }
-  const bool hand = parts.front() == "hand";
-  const auto matrix = parseInteger(parts.front());
-  if (parts.size() < 2 || parts.size() > 3 || (!hand && (!matrix || *matrix < 0))) throw refuse();
-  const auto numMatrices = static_cast<std::int64_t>(layout.numMatrices());
-  if (!hand && *matrix >= numMatrices)
-    throw Error(file + ": has no matrix " + parts.front() + ", only 0.." +
-                std::to_string(numMatrices - 1));
-  const auto m = static_cast<std::size_t>(hand ? numMatrices : *matrix);
-  if (parts.size() == 2) {
-    const auto signal = signalKindNamed(parts[1]);
-    if (!signal) throw refuse();
-    return {.index = m, .signal = *signal};
-  }
-  const auto x = parseInteger(parts[1]), y = parseInteger(parts[2]);
-  if (hand || !x || !y || *x < 0 || *y < 0) throw refuse();
-  return taxelOf(layout, m, *x, *y, file);
+  return {.choice = taxelOf(layout, static_cast<std::size_t>(*matrix), *x, *y, file)};
 }
 
 // The two signals of --coherence.
-std::pair<SeriesChoice, SeriesChoice> coherenceChoices(const CommandLine& given,
-                                                       const SensorLayout& layout) {
+std::pair<TypedSignal, TypedSignal> coherenceChoices(const CommandLine& given,
+                                                     const SensorLayout& layout) {
   const std::string text = *given.text("coherence");
-  const auto comma = text.find(',');
-  if (comma == std::string::npos || text.find(',', comma + 1) != std::string::npos)
-    throw UsageError("--coherence needs two signals A,B, as 1:mean,3:mean or 5:2:9,5:3:9; is \"" +
-                     text + "\"");
+  const std::vector<std::string> parts = splitSignals(text);
+  if (parts.size() != 2)
+    throw UsageError(
+        "--coherence needs two signals A,B, as m1_mean,m3_mean or m5_x2_y9,m5_x3_y9; is \"" + text +
+        "\"");
   const std::string& file = given.words().front();
-  return {signalNamed(text.substr(0, comma), layout, file),
-          signalNamed(text.substr(comma + 1), layout, file)};
+  return {typedSignal(parts[0], layout, file, "--coherence"),
+          typedSignal(parts[1], layout, file, "--coherence")};
 }
 
 // The series from frame `from` to frame `to`, both inclusive.
 Series seriesOf(const CommandLine& given,
                 const Profile& profile,
-                const SeriesChoice& choice,
+                const TypedSignal& signal,
                 const Progress& progress) {
   const std::string& file = given.words().front();
   if (profile.numFrames() == 0) throw Error(file + ": has no frames");
@@ -153,7 +86,7 @@ Series seriesOf(const CommandLine& given,
     return static_cast<double>(us) / 1e6;
   };
   const double fromS = secondsOf(from), toS = secondsOf(to);
-  Series series = readSeries(profile, choice, fromS, toS, progress);
+  Series series = typedSeries(profile, signal, fromS, toS, file, progress);
   // readSeries() also returns neighbours of the requested part, which are removed.
   while (!series.timeS.empty() && series.timeS.back() > toS + 1e-7) {
     series.timeS.pop_back();
@@ -320,10 +253,15 @@ int writeCoherence(const CommandLine& given,
                    const SpectrumOptions& options,
                    ProgressLine& line) {
   const std::string& file = given.words().front();
-  const auto [choiceA, choiceB] = coherenceChoices(given, profile.layout());
-  const Series a = seriesOf(given, profile, choiceA, line.callback());
-  const Series b = seriesOf(given, profile, choiceB, line.callback());
-  const Coherence found = coherenceOf(a.timeS, a.values, b.values, options, line.callback());
+  const auto [signalA, signalB] = coherenceChoices(given, profile.layout());
+  const Series a = seriesOf(given, profile, signalA, line.callback());
+  const Series b = seriesOf(given, profile, signalB, line.callback());
+  // Joint angles and temperatures have other stamps than frames.
+  const Coherence found = coherenceOf(a.timeS,
+                                      a.values,
+                                      resampled(b, a.timeS, gapFromS(timingOf(profile))),
+                                      options,
+                                      line.callback());
   if (found.coherence.empty())
     throw Error(file + ": coherence needs two segments; " + tooShort(found.report, options));
   std::string text;
@@ -388,12 +326,14 @@ int spectrumCommand(const Arguments& words) {
             {"signal",
              "NAME",
              "instead of a taxel: mean, filtered_mean, min, max, sum, active, area_mm2; "
-             "without --matrix of the whole hand"},
+             "without --matrix of the whole hand; or a name or formula as for derive: m1_mean, "
+             "m5_x2_y9, angle3, m1_sum-m3_sum"},
             {"welch", "", "the mean over all segments as one spectrum (Welch)"},
             {"peaks", "", "the peaks of this spectrum: frequency, density, amplitude, width"},
             {"coherence",
              "A,B",
-             "coherence and phase of two signals, as 1:mean,3:mean; taxels as 5:2:9,5:3:9"},
+             "coherence and phase of two signals or formulas, as m1_mean,m3_mean or "
+             "m5_x2_y9,m5_x3_y9"},
             {"window",
              "N",
              "samples per segment, 2..65536, default 32; 256 for --welch, --peaks, --coherence"},

@@ -20,11 +20,15 @@ enum class Alignment {
   kContact,  // the first lasting contacts coincide
   kStart,    // the first frames coincide
   kClock,    // the recordings keep their host times
+  kGrasp,    // the first frames of two chosen grasps coincide
   kManual    // the user chose the offset
 };
-inline constexpr std::array kAllAlignments = {
-    Alignment::kContact, Alignment::kStart, Alignment::kClock, Alignment::kManual};
-// Name in settings and on the command line: "contact", "start", "clock", "hand".
+inline constexpr std::array kAllAlignments = {Alignment::kContact,
+                                              Alignment::kStart,
+                                              Alignment::kClock,
+                                              Alignment::kGrasp,
+                                              Alignment::kManual};
+// Name in settings and on the command line: "contact", "start", "clock", "grasp", "hand".
 std::string_view nameOf(Alignment alignment);
 std::optional<Alignment> alignmentFrom(std::string_view name);
 
@@ -34,6 +38,8 @@ struct TimedProfile {
   TimingReport timing = {};
   // First frame of the first lasting contact.
   std::optional<std::size_t> contact = {};
+  // First frame of the chosen grasp, for Alignment::kGrasp. timedProfile() doesn't look for grasps.
+  std::optional<std::size_t> grasp = {};
 
   // Time of a frame from the first one [s]. Throws std::out_of_range.
   double timeS(std::size_t frame) const;
@@ -46,8 +52,9 @@ TimedProfile timedProfile(const Profile& profile,
                           const FirstContactOptions& options = {},
                           const Progress& progress = {});
 
-// Offset of B's first frame [s]. Empty for an empty profile, without a contact in one of the two,
-// and for kManual.
+// Offset of B's first frame [s]. Empty for an empty profile, without a contact (kContact) or a
+// chosen grasp (kGrasp) in one of the two, and for kManual. Throws std::out_of_range for a frame
+// that one of the two doesn't have.
 std::optional<double> offsetBetween(const TimedProfile& a,
                                     const TimedProfile& b,
                                     Alignment alignment);

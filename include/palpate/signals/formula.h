@@ -4,14 +4,17 @@
 //   operators   + - * / ^ ( ), comparisons, && ||, condition ? a : b
 //   functions   abs sqrt min max sum avg exp ln log10 log2 sin cos tan asin acos atan rint sign ..
 //   der(x)      slope of x over time [1/s]; x is any formula
+//   smooth(x, n), median(x, n)
+//               mean or median of n samples, odd, around each sample
+//   lowpass(x, hz), highpass(x, hz), bandpass(x, low, high)
+//               Butterworth filter of order 2, forward and backward: without delay
+//               (filter/butterworth.h)
+//               All of these end on either side of a gap.
 //   t           time from the first frame [s]
-//   signals     m1_mean, m1_filtered_mean, m1_min, m1_max, m1_sum, m1_active, m1_area_mm2 (matrix
-//               1), hand_sum (whole hand), m5_x2_y9 (a taxel: column 2, row 9), angle3 (joint 3
-//               [deg]), temperature4 (sensor 4 [deg C])
+//   signals     m1_mean, hand_sum, m5_x2_y9, angle3, temperature4: signals/signal_name.h
 #pragma once
 
 #include <memory>
-#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -21,10 +24,6 @@
 #include <palpate/signals/profile_series.h>
 
 namespace palpate {
-
-// The signal of that name (see above); nothing when it is no name of a signal. Whether the profile
-// has the signal is another question: hasSeries().
-std::optional<SeriesChoice> signalNamed(const std::string& name, const SensorLayout& layout);
 
 // Slope of a series over time: central differences of second order for uneven stamps, one-sided
 // ones at the ends, as numpy.gradient(values, timeS). Intervals longer than `longestS` are gaps:
@@ -49,6 +48,10 @@ class Formula {
   // The names of the signals in the formula, without t, in alphabetical order.
   const std::vector<std::string>& names() const noexcept { return names_; }
 
+  // Number of samples before and after a sample on which its value depends, at a rate [Hz]: 0
+  // without a slope or filter, at most 20,000.
+  std::size_t reach(double rateHz) const;
+
   // Computes the curve at every time [s]; `values` has the signals in the order of names(), one
   // value per time. `longestS`: longer intervals are gaps for der(). Throws std::invalid_argument
   // for other sizes, and when the formula can't be computed.
@@ -59,7 +62,8 @@ class Formula {
  private:
   struct Derivative;
   std::string text_;
-  std::string parsed_;  // with der(..) replaced by variables
+  // With der(..) and filters replaced by variables.
+  std::string parsed_;
   std::vector<std::string> names_;
   std::vector<Derivative> derivatives_;
 };

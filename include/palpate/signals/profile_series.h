@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <string>
 #include <vector>
 
 #include <palpate/core/progress.h>
@@ -27,12 +28,15 @@ struct SeriesChoice {
     kTemperature,
     // Force on matrix `index` [N]; with index = number of matrices, on the whole hand. Only of live
     // sources (live/live_series.h): a profile has none without a calibration.
-    kForce
+    kForce,
+    // What `formula` makes of the signals of the recording (signals/formula.h), at every frame.
+    kFormula
   };
   Kind kind = Kind::kMatrix;
   std::size_t index = 0;
   SignalKind signal = SignalKind::kMean;
   TaxelSelection taxels = {};
+  std::string formula = {};
   bool operator==(const SeriesChoice&) const = default;
 };
 
@@ -53,7 +57,8 @@ std::size_t numSamples(const Profile& profile,
                        double toS);
 
 // Returns all samples within fromS..toS, and the nearest sample on either side of that span. Throws
-// std::invalid_argument when the profile does not have the series, and Cancelled.
+// std::invalid_argument when the profile does not have the series, or the formula can't be
+// computed, and Cancelled.
 Series readSeries(const Profile& profile,
                   const SeriesChoice& choice,
                   double fromS,

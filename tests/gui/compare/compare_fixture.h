@@ -45,6 +45,22 @@ inline Profile grasped(std::size_t count,
   return builder.finish({});
 }
 
+// Grasps of 25 frames with two fingers, each after 10 frames at rest, 50 ms apart: `counts` of each
+// grasp, one more per frame.
+inline Profile manyGrasps(const std::vector<float>& counts) {
+  ProfileBuilder builder(sdh2().layout);
+  std::int64_t frame = 0;
+  for (const float of : counts)
+    for (int i = 0; i < 35; ++i, ++frame) {
+      TactileFrame tactile = emptyFrame();
+      if (i >= 10)
+        for (const std::size_t matrix : {1u, 3u, 5u})
+          tactile.matrix(matrix).block(5, 1, 3, 4).setConstant(of + static_cast<float>(i - 10));
+      builder.addFrame(1'400'000'000'000'000 + frame * 50'000, tactile.values);
+    }
+  return builder.finish({});
+}
+
 inline Profile pad() {
   const auto layout = std::make_shared<const SensorLayout>(
       std::vector<MatrixLayout>{MatrixLayout::full(4, 4, 2.0)});
@@ -69,6 +85,8 @@ class CompareWindowFixture : public WindowTest {
                             if (name == "third") return grasped(40, 5, 100.0F);
                             if (name == "untouched") return grasped(20, 20, 0.0F);
                             if (name == "one") return grasped(1, 0, 50.0F);
+                            if (name == "three") return manyGrasps({500.0F, 600.0F, 700.0F});
+                            if (name == "two") return manyGrasps({300.0F, 400.0F});
                             if (name == "pad") return pad();
                             if (name == "empty") return profileWithStamps({});
                             return twentyFrames();

@@ -190,6 +190,127 @@ TEST_F(ComparePanelTest, IsTakenAwayAsPictureAndTables) {
   EXPECT_EQ(curves.row(10), (std::vector<std::string>{"0.5", "10", "500", "30", "300"}));
 }
 
+TEST_F(ComparePanelTest, OpensAtTheCommonContact) {
+  open({"early.dsa", "late.dsa"});
+  ASSERT_EQ(playback().frame(), 0u);
+  compareNow();
+  EXPECT_EQ(playback().frame(), 10u) << "A's contact";
+  EXPECT_EQ(valueIn(CompareGroup::kA), 500.0F);
+  EXPECT_EQ(valueIn(CompareGroup::kB), 300.0F);
+  // A moment that was chosen before stays.
+  press(Qt::Key_Escape);
+  playback().seekFrame(33);
+  compareNow();
+  EXPECT_EQ(playback().frame(), 33u);
+}
+
+TEST_F(ComparePanelTest, AlignsAGraspOfAWithAGraspOfB) {
+  open({"three.dsa", "two.dsa"});
+  compareNow();
+  EXPECT_FALSE(find<QComboBox>("compareGraspA")->isVisible());
+  choose("compareAlignment", "grasps");
+  ASSERT_EQ(find<QComboBox>("compareGraspA")->count(), 3);
+  ASSERT_EQ(find<QComboBox>("compareGraspB")->count(), 2);
+  EXPECT_NEAR(*compare().offsetS(), 0.0, 1e-9) << "the first grasps";
+  choose("compareGraspA", "grasp 3");
+  choose("compareGraspB", "grasp 2");
+  // Grasp n begins with frame 35 (n - 1) + 10.
+  EXPECT_NEAR(*compare().offsetS(), (80 - 45) * 0.05, 1e-9);
+  playback().seekFrame(80);
+  EXPECT_EQ(valueIn(CompareGroup::kA), 700.0F);
+  EXPECT_EQ(valueIn(CompareGroup::kB), 400.0F);
+  EXPECT_EQ(compare().notice(), "");
+  choose("compareB", "three.dsa");
+  choose("compareAlignment", "first contact");
+  EXPECT_FALSE(find<QComboBox>("compareGraspB")->isVisible());
+}
+
+TEST_F(ComparePanelTest, TheSameRecordingTwiceBeginsWithItsFirstTwoGrasps) {
+  open({"three.dsa"});
+  compareNow();
+  QTest::mouseClick(find<QPushButton>("compareItself"), Qt::LeftButton);
+  settle();
+  choose("compareAlignment", "grasps");
+  EXPECT_NEAR(*compare().offsetS(), -35 * 0.05, 1e-9);
+  playback().seekFrame(12);
+  EXPECT_EQ(valueIn(CompareGroup::kA), 502.0F);
+  EXPECT_EQ(valueIn(CompareGroup::kB), 602.0F);
+}
+
+TEST_F(ComparePanelTest, WithoutGraspsTheStartsAreUsedAndSaid) {
+  open({"three.dsa", "third.dsa"});
+  compareNow();
+  choose("compareAlignment", "grasps");
+  EXPECT_EQ(compare().notice(), "No grasp in B: aligned by their starts");
+  EXPECT_EQ(*compare().offsetS(), 0.0);
+}
+
+TEST_F(ComparePanelTest, OverlaysGraspsAndTheirAverage) {
+  open({"three.dsa", "two.dsa", "third.dsa"});
+  compareNow();
+  choose("compareMatrix", "finger 0 distal");
+  choose("compareOverlay", "grasps of A");
+  const auto& overlaid = [&]() -> const ComparedCurves& {
+    return compare().chart().curves().overlaid;
+  };
+  ASSERT_EQ(overlaid().curves.size(), 3u);
+  EXPECT_EQ(overlaid().curves[1].name, "three.dsa, grasp 2");
+  EXPECT_NEAR(overlaid().curves[1].curve.zeroS, 45 * 0.05, 1e-9);
+  EXPECT_EQ(overlaid().average, nullptr);
+  EXPECT_EQ(compare().chart().graphCount(), 2 + 3);
+  EXPECT_NEAR(overlaid().zeroS, 0.5, 1e-9) << "where A's first grasp begins";
+  choose("compareBand", "mean ± sd");
+  ASSERT_TRUE(overlaid().average);
+  // At the contact 500, 600 and 700: mean 600, standard deviation 100 (n - 1).
+  const auto& average = *overlaid().average;
+  const auto zero = static_cast<std::size_t>(
+      std::find(average.timeS.begin(), average.timeS.end(), 0.0) - average.timeS.begin());
+  ASSERT_LT(zero, average.timeS.size());
+  EXPECT_NEAR(average.middle[zero], 600.0, 1e-9);
+  EXPECT_NEAR(average.high[zero], 700.0, 1e-9);
+  EXPECT_EQ(average.count[zero], 3u);
+  EXPECT_TRUE(compare().figures().startsWith("3 grasps, mean ± sd · "))
+      << compare().figures().toStdString();
+  choose("compareOverlay", "all grasps");
+  EXPECT_EQ(overlaid().curves.size(), 5u);
+  EXPECT_EQ(compare().notice(), "Left out: third.dsa has no grasp");
+  choose("compareBand", "median, 10–90 %");
+  // 300, 400, 500, 600, 700: ranks 0.4 and 3.6.
+  const auto& median = *overlaid().average;
+  const auto at = static_cast<std::size_t>(
+      std::find(median.timeS.begin(), median.timeS.end(), 0.0) - median.timeS.begin());
+  EXPECT_NEAR(median.middle[at], 500.0, 1e-9);
+  EXPECT_NEAR(median.low[at], 340.0, 1e-9);
+  EXPECT_NEAR(median.high[at], 660.0, 1e-9);
+  const TextTable table = compare().averageTable();
+  EXPECT_EQ(table.header.at(3), "median [counts]");
+  EXPECT_EQ(table.header.size(), 6u + 5u);
+  EXPECT_EQ(table.row(at).at(3), "500");
+}
+
+TEST_F(ComparePanelTest, OverlaysAllOpenRecordings) {
+  open({"early.dsa", "late.dsa", "third.dsa", "untouched.dsa"});
+  compareNow();
+  choose("compareOverlay", "all recordings");
+  const ComparedCurves& overlaid = compare().chart().curves().overlaid;
+  ASSERT_EQ(overlaid.curves.size(), 3u);
+  EXPECT_EQ(compare().notice(), "Left out: untouched.dsa has no contact");
+  // Contacts at 0.5, 1.5 and 0.25 s.
+  EXPECT_NEAR(overlaid.zeroS, 0.5, 1e-9);
+  EXPECT_NEAR(overlaid.curves[1].curve.zeroS, 1.5, 1e-9);
+  EXPECT_NEAR(overlaid.curves[2].curve.zeroS, 0.25, 1e-9);
+  EXPECT_EQ(compare().chart().graphCount(), 3) << "A and B are drawn once";
+  choose("compareBand", "mean ± sd");
+  EXPECT_EQ(compare().chart().graphCount(), 6);
+  choose("compareOverlay", "A and B");
+  EXPECT_TRUE(compare().figures().startsWith("2 curves, mean ± sd"));
+  // The choice is remembered.
+  window().close();
+  start();
+  EXPECT_EQ(compare().band(), CompareBand::kStandardDeviation);
+  EXPECT_EQ(compare().overlay(), CompareOverlay::kPair);
+}
+
 TEST_F(ComparePanelTest, MovingTheCursorIsQuick) {
   open({"early.dsa", "late.dsa"});
   compareNow();

@@ -4,6 +4,7 @@
 #include <QApplication>
 #include <QComboBox>
 #include <QLabel>
+#include <QLineEdit>
 #include <QProgressBar>
 #include <QPushButton>
 #include <QSpinBox>
@@ -367,7 +368,7 @@ TEST_F(SpectrumPanelTest, CoherenceWithTheMeanOfAMatrix) {
   panel_->settle();
   auto* other = find<QComboBox>("coherenceWith");
   ASSERT_TRUE(other->isVisible());
-  EXPECT_EQ(other->count(), 7);
+  EXPECT_EQ(other->count(), 8) << "six matrices, the hand, the taxels chosen now";
   EXPECT_EQ(other->currentText(), "whole hand");
   // The first matrix feels nothing: no power in common.
   other->setCurrentIndex(0);
@@ -388,6 +389,78 @@ TEST_F(SpectrumPanelTest, CoherenceWithTheMeanOfAMatrix) {
   panel_->settle();
   EXPECT_FALSE(other->isVisible());
   EXPECT_TRUE(panel_->chart().isVisible());
+}
+
+TEST_F(SpectrumPanelTest, CoherenceIsWithAnySecondSignal) {
+  show(tones(400));
+  panel_->header().setSetting({.window = 64, .overlap = 32, .view = SpectrumView::kCoherence});
+  panel_->settle();
+  auto* other = find<QComboBox>("coherenceWith");
+  const auto type = [&](const QString& text) {
+    other->setEditText(text);
+    emit other->lineEdit()->editingFinished();
+    panel_->settle();
+  };
+  const auto at8 = [&] { return panel_->linePage().chart().answer().coherence->coherence.at(8); };
+  // A taxel, a signal, a formula.
+  type("m1_max");
+  EXPECT_NEAR(at8(), 1.0, 1e-6);
+  EXPECT_TRUE(panel_->name().contains(" with m1_max")) << panel_->name().toStdString();
+  const SeriesChoice before = panel_->linePage().other();
+  type("m1_max+m0_sum*0");
+  EXPECT_NEAR(at8(), 1.0, 1e-6);
+  type("m1_max-");
+  EXPECT_NE(panel_->linePage().problem(), "");
+  EXPECT_FALSE(panel_->linePage().problem().contains('\n'));
+  EXPECT_EQ(panel_->linePage().other().formula, "m1_max+m0_sum*0") << "the last good one stays";
+  type("m9_mean");
+  EXPECT_TRUE(panel_->linePage().problem().contains("m9_mean"));
+  type("m1_max");
+  EXPECT_EQ(panel_->linePage().problem(), "");
+  EXPECT_EQ(panel_->linePage().other(), before);
+  // The taxels that are chosen now stay the second signal.
+  const int keep = other->findText("the taxels chosen now");
+  ASSERT_GE(keep, 0);
+  const SensorLayout& layout = *sdh2().layout;
+  TaxelSelection chosen(layout);
+  chosen.toggle(1, 7, 2);
+  panel_->setTaxels(chosen);
+  other->setCurrentIndex(keep);
+  emit other->activated(keep);
+  panel_->settle();
+  EXPECT_EQ(other->currentText(), "m1_x2_y7");
+  EXPECT_EQ(panel_->linePage().other().taxels, chosen);
+  TaxelSelection second(layout);
+  second.toggle(1, 8, 2);
+  panel_->setTaxels(second);
+  panel_->settle();
+  EXPECT_EQ(panel_->linePage().other().taxels, chosen);
+}
+
+TEST_F(SpectrumPanelTest, AFormulaHasSpectraToo) {
+  show(tones(400));
+  auto* signal = panel_->header().findChild<QComboBox*>("spectrumSignal");
+  EXPECT_TRUE(signal->isHidden()) << "there is none yet";
+  panel_->setFormulas({{"twice", "2*m1_max", "counts"}, {"foreign", "m40_max", ""}});
+  panel_->settle();
+  ASSERT_EQ(signal->count(), 3);
+  signal->setCurrentIndex(1);
+  emit signal->activated(1);
+  panel_->settle();
+  EXPECT_EQ(panel_->name(), "twice");
+  ASSERT_TRUE(panel_->chart().answer().series);
+  const double largest = *std::max_element(panel_->chart().answer().series->values.begin(),
+                                           panel_->chart().answer().series->values.end());
+  EXPECT_GT(largest, 0.0);
+  EXPECT_EQ(panel_->chart().answer().unit, "counts");
+  signal->setCurrentIndex(2);
+  emit signal->activated(2);
+  panel_->settle();
+  EXPECT_TRUE(panel_->emptyText().contains("\"foreign\" can't be computed"));
+  panel_->setFormulas({});
+  panel_->settle();
+  EXPECT_EQ(panel_->emptyText(), "");
+  EXPECT_NE(panel_->name(), "twice");
 }
 
 TEST_F(SpectrumPanelTest, TheViewIsRemembered) {

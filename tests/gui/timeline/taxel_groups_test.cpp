@@ -83,7 +83,8 @@ TEST_F(TaxelGroupsTest, ATornSettingsFileStopsNothing) {
 TEST_F(TaxelGroupsTest, TheListTicksThem) {
   TaxelGroups groups(settings());
   groups.keep("thumb tip", tip());
-  SignalTree tree(groups);
+  FormulaCurves formulas(settings());
+  SignalTree tree(groups, formulas);
   tree.setSource(sdh2(), {.hasAngles = true});
   QSignalSpy changed(&tree, &SignalTree::extrasChanged);
   EXPECT_TRUE(tree.lines().contains("[x] the chosen taxels (none now)"));

@@ -193,10 +193,10 @@ QColor inkOf(const QColor& color) {
   return ink;
 }
 
-void paintChart(QPainter& painter,
-                const PictureLook& look,
-                QCustomPlot& plot,
-                const ChartPictureOptions& options) {
+QRectF paintChart(QPainter& painter,
+                  const PictureLook& look,
+                  QCustomPlot& plot,
+                  const ChartPictureOptions& options) {
   const ThemeColors& paper = colorsOf(Theme::kLight);
   QFont font = plot.font();
   font.setPixelSize(look.textUnits > 0 ? look.textUnits : QFontInfo(plot.font()).pixelSize());
@@ -224,7 +224,11 @@ void paintChart(QPainter& painter,
   top = paintLegend(
       painter, options.legend.empty() ? ownNames(plot) : options.legend, look, font, top, text);
   QPicture picture;
+  QRectF axes;
   {
+    // The layout of the picture exists only while it is painted.
+    const QMetaObject::Connection laidOut = QObject::connect(
+        &plot, &QCustomPlot::afterLayout, &plot, [&] { axes = plot.axisRect()->rect(); });
     const Restyled restyled(plot, look, font);
     QCPPainter chart(&picture);
     chart.setMode(QCPPainter::pmVectorized);
@@ -233,12 +237,14 @@ void paintChart(QPainter& painter,
     plot.toPainter(&chart,
                    std::max(1, static_cast<int>(look.size.width())),
                    std::max(1, static_cast<int>(look.size.height() - top)));
+    QObject::disconnect(laidOut);
   }
   painter.translate(0.0, top);
   replay(painter, picture);
   painter.restore();
   // Restores the layout of the screen.
   plot.replot(QCustomPlot::rpQueuedReplot);
+  return axes.translated(0.0, top);
 }
 
 }  // namespace palpate::gui

@@ -34,9 +34,10 @@ struct ChartPictureOptions {
 QColor inkOf(const QColor& color);
 
 // Paints the chart, which looks as before afterwards. To be called in the thread of the window.
-void paintChart(QPainter& painter,
-                const PictureLook& look,
-                QCustomPlot& plot,
-                const ChartPictureOptions& options);
+// Returns the place of its axes in the picture, in units.
+QRectF paintChart(QPainter& painter,
+                  const PictureLook& look,
+                  QCustomPlot& plot,
+                  const ChartPictureOptions& options);
 
 }  // namespace palpate::gui

@@ -38,6 +38,8 @@ QString unitOf(const SeriesChoice& choice, const HandDescription& hand) {
       return "°C";
     case PlottedCurveKind::kForce:
       return "N";
+    case PlottedCurveKind::kFormula:  // FormulaCurve knows it
+      return {};
     case PlottedCurveKind::kTaxels:
       return unitOf(hand);
     case PlottedCurveKind::kMatrix:
@@ -54,6 +56,8 @@ QString axisNameOf(const SeriesChoice& choice, const HandDescription& hand) {
       return "temperature in °C";
     case PlottedCurveKind::kForce:
       return "force in N";
+    case PlottedCurveKind::kFormula:
+      return "formulas";
     case PlottedCurveKind::kTaxels:
       return "taxels in " + unitOf(hand);
     case PlottedCurveKind::kMatrix:
@@ -118,6 +122,19 @@ PlottedCurve forceCurve(const HandDescription& hand, std::size_t row, Theme them
   return made;
 }
 
+PlottedCurve formulaCurve(const SeriesChoice& choice,
+                          const QString& name,
+                          const QString& unit,
+                          std::size_t place,
+                          Theme theme) {
+  constexpr double kFormulaCurveWidth = 1.8;
+  return {choice,
+          name,
+          unit,
+          unit.isEmpty() ? QString("formulas") : "formulas in " + unit,
+          QPen(matrixColor(place + 2, theme), kFormulaCurveWidth)};
+}
+
 namespace {
 
 int decimalsOf(const PlottedCurve& curve) {
@@ -134,7 +151,10 @@ int decimalsOf(const PlottedCurve& curve) {
 }  // namespace
 
 QString readingOf(const PlottedCurve& curve, std::optional<double> value) {
-  if (!value) return "–";
+  if (!value || std::isnan(*value)) return "–";
+  constexpr int kFormulaDigits = 5;
+  if (curve.choice.kind == PlottedCurveKind::kFormula)
+    return (QString::number(*value, 'g', kFormulaDigits) + " " + curve.unit).trimmed();
   return QString::number(*value, 'f', decimalsOf(curve)) + " " + curve.unit;
 }
 

@@ -44,6 +44,13 @@ PlottedCurve temperatureCurve(const HandDescription& hand, std::size_t sensor, T
 // `row`: a matrix, or the number of matrices for the whole hand.
 PlottedCurve forceCurve(const HandDescription& hand, std::size_t row, Theme theme);
 
+// A curve by a formula; `place`: index among these curves, which decides the colour.
+PlottedCurve formulaCurve(const SeriesChoice& choice,
+                          const QString& name,
+                          const QString& unit,
+                          std::size_t place,
+                          Theme theme);
+
 // "812 counts", "31.4 °", "0.52 N"; "–" for no value.
 QString readingOf(const PlottedCurve& curve, std::optional<double> value);
 // As readingOf(), always with a sign: "+134 counts", "−2.0 °".

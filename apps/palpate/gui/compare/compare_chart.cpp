@@ -1,8 +1,6 @@
 #include "gui/compare/compare_chart.h"
 
-#include <QHelpEvent>
 #include <QMouseEvent>
-#include <QToolTip>
 #include <QWheelEvent>
 #include <algorithm>
 #include <cmath>
@@ -29,6 +27,20 @@ double compareChartLargestOf(const std::shared_ptr<const Series>& series) {
   return largest;
 }
 
+constexpr double kOverlaidWidth = 1.1;
+constexpr double kAverageWidth = 2.6;
+constexpr int kOverlaidOpacity = 150;  // of 255
+constexpr int kBandOpacity = 45;       // of 255
+constexpr std::size_t kMostInTip = 12;
+
+QPen overlaidPen(std::size_t recording, Theme theme) {
+  QColor color = recording == 0   ? sideColor(CompareSide::kA, theme)
+                 : recording == 1 ? sideColor(CompareSide::kB, theme)
+                                  : matrixColor(recording, theme);
+  color.setAlpha(kOverlaidOpacity);
+  return QPen(color, kOverlaidWidth);
+}
+
 std::vector<std::size_t> gapFramesOf(const std::shared_ptr<const TimedProfile>& timed) {
   std::vector<std::size_t> frames;
   if (timed)
@@ -38,7 +50,7 @@ std::vector<std::size_t> gapFramesOf(const std::shared_ptr<const TimedProfile>& 
 
 }  // namespace
 
-CompareChart::CompareChart(QWidget* parent) : QCustomPlot(parent) {
+CompareChart::CompareChart(QWidget* parent) : ReadingChart(parent) {
   arrangeChart(*this);
   setAccessibleName("Curves of A and B");
   setMouseTracking(true);
@@ -54,13 +66,17 @@ CompareChart::CompareChart(QWidget* parent) : QCustomPlot(parent) {
 
 TimeSpan CompareChart::whole() const {
   if (!curves_.a || !curves_.b) return {0.0, 1.0};
+  if (curves_.overlaid.span && curves_.overlaid.span->lengthS() >= kCompareChartShortestSeenS)
+    return *curves_.overlaid.span;
   TimeSpan span = wholeSpan(*curves_.a, *curves_.b, curves_.offsetS);
   if (span.lengthS() < kCompareChartShortestSeenS) span.toS = span.fromS + 1.0;
   return span;
 }
 
 void CompareChart::setCurves(const CompareCurves& curves) {
-  const bool otherPair = curves.a != curves_.a || curves.b != curves_.b;
+  // Another pair comes after no pair at all.
+  const bool otherPair = !curves_.a != !curves.a || !curves_.b != !curves.b ||
+                         curves.overlaid.span != curves_.overlaid.span;
   curves_ = curves;
   rebuild();
   if (otherPair) fit();
@@ -97,8 +113,14 @@ void CompareChart::rebuild() {
     // The points are already decimated.
     graph->setAdaptiveSampling(false);
   }
-  const double largest =
+  addOverlaid();
+  double largest =
       std::max(compareChartLargestOf(curves_.curveA), compareChartLargestOf(curves_.curveB));
+  for (const OverlaidCurve& each : curves_.overlaid.curves)
+    largest = std::max(largest, compareChartLargestOf(each.curve.series));
+  if (curves_.overlaid.average)
+    for (const double high : curves_.overlaid.average->high)
+      if (high > largest) largest = high;
   yAxis->setRange(0.0, largest > 0.0 ? largest * kCompareChartHeadroom : 1.0);
   if (curves_.a && curves_.a->contact) {
     contact_ = new QCPItemStraightLine(this);
@@ -109,6 +131,81 @@ void CompareChart::rebuild() {
     wordAt(*this, at, " first contact in A", Qt::AlignLeft, colorsOf(theme_).muted);
   }
   refill();
+}
+
+void CompareChart::addOverlaid() {
+  overlaidGraphs_.clear();
+  averageGraphs_ = {};
+  const ComparedCurves& overlaid = curves_.overlaid;
+  for (std::size_t i = 0; i < overlaid.curves.size(); ++i) {
+    if (!overlaid.curves[i].drawn) continue;
+    QCPGraph* graph = addGraph();
+    graph->setPen(overlaidPen(overlaid.curves[i].recording, theme_));
+    graph->setAdaptiveSampling(false);
+    overlaidGraphs_.emplace_back(i, graph);
+  }
+  if (!overlaid.average) return;
+  const QColor ink = colorsOf(theme_).text;
+  QColor shade = ink;
+  shade.setAlpha(kBandOpacity);
+  for (QCPGraph*& graph : averageGraphs_) {
+    graph = addGraph();
+    graph->setPen(Qt::NoPen);
+  }
+  averageGraphs_[1]->setBrush(shade);
+  averageGraphs_[1]->setChannelFillGraph(averageGraphs_[0]);
+  averageGraphs_[2]->setPen(QPen(ink, kAverageWidth));
+  const AverageCurve& average = *overlaid.average;
+  const std::array columns = {&average.low, &average.high, &average.middle};
+  for (std::size_t which = 0; which < columns.size(); ++which) {
+    QVector<QCPGraphData> samples;
+    for (std::size_t i = 0; i < average.timeS.size(); ++i)
+      samples.append({average.timeS[i] + overlaid.zeroS, (*columns[which])[i]});
+    averageGraphs_[which]->data()->set(samples, true);
+  }
+}
+
+void CompareChart::fillOverlaid() {
+  const QCPRange range = xAxis->range();
+  for (const auto& [index, graph] : overlaidGraphs_) {
+    const AlignedCurve& curve = curves_.overlaid.curves[index].curve;
+    const double shiftS = curves_.overlaid.zeroS - curve.zeroS;
+    const auto& timeS = curve.series->timeS;
+    std::vector<std::size_t> gaps;
+    for (std::size_t i = 0; i + 1 < timeS.size(); ++i)
+      if (timeS[i + 1] - timeS[i] > curve.longestS) gaps.push_back(i);
+    const DecimationOptions options{.from = std::max(range.lower - shiftS, curve.fromS),
+                                    .to = std::min(range.upper - shiftS, curve.toS),
+                                    .columns = static_cast<std::size_t>(std::max(1, width())),
+                                    .breaks = gaps};
+    QVector<QCPGraphData> samples;
+    if (options.from < options.to)
+      for (const SeriesPoint& point : minMaxDecimated(timeS, curve.series->values, options))
+        if (std::isnan(point.x) || (point.x >= curve.fromS && point.x <= curve.toS))
+          samples.append({point.x + shiftS, point.y});
+    graph->data()->set(samples, true);
+  }
+}
+
+std::vector<ChartLegendEntry> CompareChart::legendOf(const QString& nameA,
+                                                     const QString& nameB) const {
+  std::vector<ChartLegendEntry> entries = {{"A  " + nameA, graph(0)->pen()},
+                                           {"B  " + nameB, graph(1)->pen()}};
+  const ComparedCurves& overlaid = curves_.overlaid;
+  std::vector<std::size_t> named;
+  for (const auto& [index, graph] : overlaidGraphs_) {
+    const OverlaidCurve& each = overlaid.curves[index];
+    if (std::find(named.begin(), named.end(), each.recording) != named.end()) continue;
+    named.push_back(each.recording);
+    const bool grasps = each.name.contains(", grasp ");
+    entries.push_back(
+        {grasps ? "grasps of " + each.name.section(", grasp ", 0, 0) : each.name, graph->pen()});
+  }
+  if (averageGraphs_[2])
+    entries.push_back(
+        {gui::nameOf(overlaid.band) + " of " + QString::number(overlaid.curves.size()),
+         averageGraphs_[2]->pen()});
+  return entries;
 }
 
 void CompareChart::refill() {
@@ -135,6 +232,7 @@ void CompareChart::refill() {
   };
   fill(0, curves_.curveA, gapFramesOf(curves_.a), 0.0);
   fill(1, curves_.curveB, gapFramesOf(curves_.b), curves_.offsetS);
+  fillOverlaid();
   replot(QCustomPlot::rpQueuedReplot);
 }
 
@@ -266,17 +364,29 @@ QString CompareChart::valuesAt(double seconds) const {
   };
   line("A", *curves_.a, curves_.curveA, seconds);
   line("B", *curves_.b, curves_.curveB, seconds - curves_.offsetS);
-  return text;
-}
-
-bool CompareChart::event(QEvent* event) {
-  if (event->type() == QEvent::ToolTip) {
-    const auto* help = static_cast<QHelpEvent*>(event);
-    QToolTip::showText(help->globalPos(), valuesAt(secondsAt(help->pos().x())), this);
-    return true;
+  const ComparedCurves& overlaid = curves_.overlaid;
+  const QString unit = " " + unitOf(curves_.signal, curves_.handUnit);
+  const std::vector<double> now = {seconds - overlaid.zeroS};
+  for (std::size_t i = 0; i < std::min(overlaidGraphs_.size(), kMostInTip); ++i) {
+    const OverlaidCurve& each = overlaid.curves[overlaidGraphs_[i].first];
+    const double value = alignedValues(each.curve, now).front();
+    if (std::isfinite(value))
+      text += "\n" + each.name + "  " + QString::number(value, 'f', 1) + unit;
   }
-  if (event->type() == QEvent::FontChange) setTheme(theme_);
-  return QCustomPlot::event(event);
+  if (overlaidGraphs_.size() > kMostInTip)
+    text += "\n… " + QString::number(overlaidGraphs_.size()) + " curves";
+  if (overlaid.average && overlaid.average->stepS > 0.0 && !overlaid.average->timeS.empty()) {
+    const AverageCurve& average = *overlaid.average;
+    const double step = std::round((now.front() - average.timeS.front()) / average.stepS);
+    const auto at = static_cast<std::size_t>(std::max(0.0, step));
+    if (step >= 0.0 && at < average.middle.size() && std::isfinite(average.middle[at]))
+      text += "\n" + gui::nameOf(overlaid.band) + "  " +
+              QString::number(average.middle[at], 'f', 1) + " (" +
+              QString::number(average.low[at], 'f', 1) + " … " +
+              QString::number(average.high[at], 'f', 1) + ")" + unit + " of " +
+              QString::number(average.count[at]);
+  }
+  return text;
 }
 
 }  // namespace palpate::gui

@@ -1,4 +1,5 @@
-// The chart of a comparison: the curves of A (solid) and B (dashed) on one time axis. A click or
+// The chart of a comparison: the curves of A (solid) and B (dashed) on one time axis, further
+// curves (thin), and their average (thick) with its band. A click or
 // drag seeks, the wheel zooms, the middle button (or Shift) pans, a double click shows everything;
 // a drag with Ctrl shifts B.
 #pragma once
@@ -11,23 +12,26 @@
 
 #include "gui/appearance/plotted_signal.h"
 #include "gui/appearance/theme.h"
-#include "gui/chart/plot.h"
+#include "gui/chart/chart_picture.h"
+#include "gui/chart/reading_chart.h"
+#include "gui/compare/compare_overlay.h"
 
 namespace palpate::gui {
 
 // The curves of a comparison; their times refer to the common axis [s].
 struct CompareCurves {
   // null: not known yet
-  std::shared_ptr<const TimedProfile> a, b;
+  std::shared_ptr<const TimedProfile> a = {}, b = {};
   // Null when not known yet, or when the recording does not have the chosen matrix.
-  std::shared_ptr<const Series> curveA, curveB;
+  std::shared_ptr<const Series> curveA = {}, curveB = {};
   double offsetS = 0.0;
   PlottedSignal signal = PlottedSignal::kMean;
   // Unit of A's values.
   QString handUnit = "counts";
+  ComparedCurves overlaid = {};
 };
 
-class CompareChart : public QCustomPlot {
+class CompareChart : public ReadingChart {
   Q_OBJECT
  public:
   explicit CompareChart(QWidget* parent = nullptr);
@@ -49,6 +53,8 @@ class CompareChart : public QCustomPlot {
   double pixelOf(double seconds) const { return xAxis->coordToPixel(seconds); }
   int cursorPixel() const { return cursor_->x() + cursor_->width() / 2; }
   TimeSpan whole() const;
+  // A legend for pictures: A and B, the others, and the average.
+  std::vector<ChartLegendEntry> legendOf(const QString& nameA, const QString& nameB) const;
 
   QSize sizeHint() const override { return {900, 190}; }
   QSize minimumSizeHint() const override { return {240, 90}; }
@@ -68,11 +74,14 @@ class CompareChart : public QCustomPlot {
   void mouseDoubleClickEvent(QMouseEvent* event) override;
   void wheelEvent(QWheelEvent* event) override;
   void resizeEvent(QResizeEvent* event) override;
-  bool event(QEvent* event) override;
+  QString readingAt(const QPoint& at) const override { return valuesAt(secondsAt(at.x())); }
+  void restyle() override { setTheme(theme_); }
 
  private:
   enum class Drag { kNone, kSeek, kPan, kShift };
   void rebuild();
+  void addOverlaid();
+  void fillOverlaid();
   void refill();
   void setVisibleRange(double from, double to);
   void placeCursor();
@@ -83,6 +92,10 @@ class CompareChart : public QCustomPlot {
   QWidget* cursor_;
   QCPItemStraightLine* contact_ = nullptr;
   double positionS_ = 0.0;
+  // The graphs of the overlaid curves that are drawn, and of the average: its low and high end, and
+  // its middle.
+  std::vector<std::pair<std::size_t, QCPGraph*>> overlaidGraphs_;
+  std::array<QCPGraph*, 3> averageGraphs_ = {};
   // Everything is visible, and stays so when B moves.
   bool fitted_ = true;
   Drag drag_ = Drag::kNone;

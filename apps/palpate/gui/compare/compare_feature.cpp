@@ -9,6 +9,8 @@ namespace palpate::gui {
 namespace {
 
 constexpr const char* kAlignmentKey = "compare/alignment";
+constexpr const char* kOverlayKey = "compare/overlay";
+constexpr const char* kBandKey = "compare/band";
 
 }  // namespace
 
@@ -23,6 +25,14 @@ CompareFeature::CompareFeature(WindowState& windowState, QWidget* window)
   const std::string last = windowState.settings.value(kAlignmentKey).toString().toStdString();
   if (const auto known = alignmentFrom(last))
     if (*known != Alignment::kManual) panel_->setAlignment(*known);
+  for (const CompareOverlay each : kAllCompareOverlays)
+    if (windowState.settings.value(kOverlayKey).toString() == nameOf(each))
+      panel_->setOverlay(each);
+  for (const CompareBand each : kAllCompareBands)
+    if (windowState.settings.value(kBandKey).toString() == nameOf(each)) panel_->setBand(each);
+  panel_->setEvents([&windowState](const OpenedRecordingPtr& recording) {
+    return windowState.events.eventsOf(recording);
+  });
   connectPanel();
   connectBench();
 }
@@ -53,6 +63,10 @@ void CompareFeature::connectPanel() {
     if (panel_->alignment() != Alignment::kManual)
       windowState.settings.setValue(
           kAlignmentKey, QString::fromStdString(std::string(nameOf(panel_->alignment()))));
+  });
+  connect(panel_, &ComparePanel::overlayChanged, this, [this, &windowState] {
+    windowState.settings.setValue(kOverlayKey, nameOf(panel_->overlay()));
+    windowState.settings.setValue(kBandKey, nameOf(panel_->band()));
   });
   connect(panel_, &ComparePanel::hovered, &windowState.messages, &Messages::hover);
 }
@@ -127,9 +141,13 @@ std::vector<ExportedView> CompareFeature::views() {
   };
   view.paint = [this](QPainter& painter, const PictureLook& look) { panel_->paint(painter, look); };
   view.tables = [this] {
-    return std::vector<ExportedTable>{
+    std::vector<ExportedTable> tables = {
         {"differences of the frame", [table = panel_->differenceTable()] { return table; }},
         {"curves of both", [table = panel_->curveTable()] { return table; }}};
+    if (panel_->hasAverage())
+      tables.push_back(
+          {"the average and its curves", [table = panel_->averageTable()] { return table; }});
+    return tables;
   };
   return {view};
 }

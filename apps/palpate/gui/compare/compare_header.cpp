@@ -30,6 +30,8 @@ QString titleOf(Alignment alignment) {
       return "start of both";
     case Alignment::kClock:
       return "clock time";
+    case Alignment::kGrasp:
+      return "grasps";
     case Alignment::kManual:
       return "by hand";
     case Alignment::kContact:
@@ -75,6 +77,30 @@ CompareHeader::CompareHeader(QAction* leave,
   alignment_->setAccessibleName("Alignment");
   alignment_->setFocusPolicy(Qt::TabFocus);
   for (const Alignment each : kAllAlignments) alignment_->addItem(titleOf(each));
+  grasps_ = new QWidget(this);
+  const auto graspBox = [this](const char* name, const QString& tip) {
+    auto* box = new QComboBox(grasps_);
+    box->setObjectName(name);
+    box->setToolTip(tip);
+    box->setAccessibleName(tip);
+    box->setMinimumHeight(kCompareHeaderControlHeight);
+    box->setFocusPolicy(Qt::TabFocus);
+    connect(box, &QComboBox::activated, this, [this] {
+      emit graspsChosen(static_cast<std::size_t>(std::max(0, graspA_->currentIndex())),
+                        static_cast<std::size_t>(std::max(0, graspB_->currentIndex())));
+    });
+    return box;
+  };
+  graspA_ = graspBox("compareGraspA", "The grasp of A that begins where the one of B begins");
+  graspB_ = graspBox("compareGraspB", "The grasp of B that begins where the one of A begins");
+  auto* graspRow = new QHBoxLayout(grasps_);
+  graspRow->setContentsMargins(0, 0, 0, 0);
+  graspRow->setSpacing(6);
+  graspRow->addWidget(new QLabel("of A", grasps_));
+  graspRow->addWidget(graspA_);
+  graspRow->addWidget(new QLabel("of B", grasps_));
+  graspRow->addWidget(graspB_);
+  grasps_->hide();
   offset_ = new QDoubleSpinBox(this);
   offset_->setObjectName("compareOffset");
   offset_->setButtonSymbols(QAbstractSpinBox::NoButtons);
@@ -122,6 +148,7 @@ CompareHeader::CompareHeader(QAction* leave,
   second->setSpacing(6);
   second->addWidget(new QLabel("Aligned by", this));
   second->addWidget(alignment_);
+  second->addWidget(grasps_);
   second->addSpacing(8);
   second->addWidget(new QLabel("B begins at", this));
   second->addWidget(offset_);
@@ -172,6 +199,23 @@ void CompareHeader::setRecordings(const QStringList& names, int a, int b) {
 void CompareHeader::setAlignment(Alignment alignment) {
   alignment_->setCurrentIndex(static_cast<int>(
       std::find(kAllAlignments.begin(), kAllAlignments.end(), alignment) - kAllAlignments.begin()));
+  grasps_->setVisible(alignment == Alignment::kGrasp);
+}
+
+void CompareHeader::setGrasps(std::size_t countA,
+                              std::size_t countB,
+                              std::size_t chosenA,
+                              std::size_t chosenB) {
+  const auto fill = [](QComboBox* box, std::size_t count, std::size_t chosen) {
+    if (box->count() != static_cast<int>(count)) {
+      box->clear();
+      for (std::size_t i = 1; i <= count; ++i) box->addItem("grasp " + QString::number(i));
+    }
+    box->setEnabled(count > 0);
+    box->setCurrentIndex(count == 0 ? -1 : static_cast<int>(std::min(chosen, count - 1)));
+  };
+  fill(graspA_, countA, chosenA);
+  fill(graspB_, countB, chosenB);
 }
 
 void CompareHeader::setOffset(std::optional<double> offsetS) {

@@ -29,6 +29,9 @@ class CompareHeader : public QWidget {
   void setAlignment(Alignment alignment);
   // Time from A's first frame to B's first frame [s]; the field is empty when it is unknown.
   void setOffset(std::optional<double> offsetS);
+  // Which grasp of A is aligned with which of B, and how many each has (0: none); shown only for
+  // Alignment::kGrasp.
+  void setGrasps(std::size_t countA, std::size_t countB, std::size_t chosenA, std::size_t chosenB);
   void setTheme(Theme theme);
 
  signals:
@@ -38,6 +41,8 @@ class CompareHeader : public QWidget {
   void swapRequested();
   void alignmentChosen(palpate::Alignment alignment);
   void offsetTyped(double offsetS);
+  // Indices of the chosen grasps.
+  void graspsChosen(std::size_t ofA, std::size_t ofB);
 
  protected:
   void resizeEvent(QResizeEvent* event) override;
@@ -52,13 +57,17 @@ class CompareHeader : public QWidget {
   QLabel* swatchB_;
   QToolButton* swap_;
   QComboBox* alignment_;
+  // The choice of two grasps.
+  QWidget* grasps_;
+  QComboBox* graspA_;
+  QComboBox* graspB_;
   QDoubleSpinBox* offset_;
   QList<QToolButton*> withText_;
   int chosenA_ = -1;
   int chosenB_ = -1;
 };
 
-// The name of an alignment: "first contact", "start of both", "clock time", "by hand"
+// The name of an alignment: "first contact", "start of both", "clock time", "grasps", "by hand"
 QString titleOf(Alignment alignment);
 
 }  // namespace palpate::gui

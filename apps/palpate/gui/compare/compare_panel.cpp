@@ -125,6 +125,11 @@ QWidget* ComparePanel::makeCurveHeader() {
   signal_ = box("compareSignal", "What is plotted (S)");
   for (const PlottedSignal signal : kAllPlottedSignals) signal_->addItem(gui::nameOf(signal));
   matrix_ = box("compareMatrix", "Of which matrix");
+  overlayBox_ = box("compareOverlay", "Which curves the chart shows, all aligned with A");
+  for (const CompareOverlay overlay : kAllCompareOverlays)
+    overlayBox_->addItem(gui::nameOf(overlay));
+  bandBox_ = box("compareBand", "The average over the curves of the chart, with a band");
+  for (const CompareBand band : kAllCompareBands) bandBox_->addItem(gui::nameOf(band));
   figures_ = new QLabel(header);
   figures_->setObjectName("compareFigures");
   figures_->setTextFormat(Qt::PlainText);
@@ -135,6 +140,9 @@ QWidget* ComparePanel::makeCurveHeader() {
   row->setSpacing(6);
   row->addWidget(signal_);
   row->addWidget(matrix_);
+  row->addSpacing(10);
+  row->addWidget(overlayBox_);
+  row->addWidget(bandBox_);
   row->addSpacing(10);
   row->addWidget(figures_, 1);
   return header;
@@ -183,6 +191,15 @@ void ComparePanel::connectParts() {
   connect(header_, &CompareHeader::swapRequested, this, &ComparePanel::swap);
   connect(header_, &CompareHeader::alignmentChosen, this, &ComparePanel::setAlignment);
   connect(header_, &CompareHeader::offsetTyped, this, &ComparePanel::setOffset);
+  connect(header_, &CompareHeader::graspsChosen, this, &ComparePanel::setGrasps);
+  connect(overlayBox_, &QComboBox::activated, this, [this](int index) {
+    setOverlay(kAllCompareOverlays[static_cast<std::size_t>(index)]);
+    emit overlayChanged();
+  });
+  connect(bandBox_, &QComboBox::activated, this, [this](int index) {
+    setBand(kAllCompareBands[static_cast<std::size_t>(index)]);
+    emit overlayChanged();
+  });
   connect(&worker_, &CompareWorker::answered, this, &ComparePanel::take);
   for (auto* dragged : {static_cast<QObject*>(chart_), static_cast<QObject*>(strip_)}) {
     const auto on = [this](double offsetS) { moveTo(offsetS, true); };
@@ -234,7 +251,10 @@ void ComparePanel::setRecordings(const std::vector<OpenedRecordingPtr>& recordin
   for (const auto& each : recordings_) names.append(fileNameOf(*each));
   header_->setRecordings(
       names, comparePanelIndexOf(recordings_, a_), comparePanelIndexOf(recordings_, b_));
-  if (a_ != beforeA || b_ != beforeB) pairChanged();
+  if (a_ != beforeA || b_ != beforeB)
+    pairChanged();
+  else if (overlay_ == CompareOverlay::kRecordings || overlay_ == CompareOverlay::kAllGrasps)
+    ask();
   showEmpty();
 }
 
@@ -266,6 +286,10 @@ void ComparePanel::pairChanged() {
   answer_ = {};
   comparison_.reset();
   asked_ = false;
+  graspA_ = 0;
+  // The second grasp of a recording is compared with its first one.
+  graspB_ = a_ == b_ ? 1 : 0;
+  header_->setGrasps(0, 0, 0, 0);
   // A manual offset belongs to two certain recordings; for others it is reset.
   if (alignment_ == Alignment::kManual) alignment_ = Alignment::kContact;
   header_->setAlignment(alignment_);
@@ -300,7 +324,11 @@ void ComparePanel::fillMatrices() {
 void ComparePanel::setActive(bool on) {
   active_ = on;
   if (!on) return worker_.cancel();
-  if (!answer_.complete) asked_ = false;
+  // Grasps may have been edited meanwhile.
+  const bool ofGrasps = alignment_ == Alignment::kGrasp || overlay_ == CompareOverlay::kGraspsOfA ||
+                        overlay_ == CompareOverlay::kAllGrasps;
+  openAtContact();
+  if (!answer_.complete || ofGrasps) asked_ = false;
   if (!asked_) ask();
   showFrames();
 }
@@ -314,29 +342,69 @@ void ComparePanel::ask() {
   answer_.figures.reset();
   answer_.done = 0.0;
   showNotice();
+  std::vector<ComparedRecording> compared;
+  for (const OpenedRecordingPtr& each : recordings_)
+    compared.push_back({each, events_ ? events_(each) : each->events.events});
   worker_.ask({.a = a_,
                .b = b_,
                .alignment = alignment_,
                .handOffsetS = handOffsetS_,
                .choice = {.kind = SeriesChoice::Kind::kMatrix,
                           .index = matrix_->currentData().toULongLong(),
-                          .signal = settings_.signal}});
+                          .signal = settings_.signal},
+               .graspA = graspA_,
+               .graspB = graspB_,
+               .overlay = overlay_,
+               .band = band_,
+               .recordings = std::move(compared)});
+}
+
+void ComparePanel::openAtContact() {
+  if (!active_ || !answer_.a || !answer_.b || timeS_ > 0.0) return;
+  const TimedProfile& inA = *answer_.a;
+  const auto frame = answer_.alignment == Alignment::kGrasp     ? inA.grasp
+                     : answer_.alignment == Alignment::kContact ? inA.contact
+                                                                : std::nullopt;
+  if (frame && inA.timeS(*frame) > 0.0) emit seekRequested(inA.timeS(*frame));
+}
+
+void ComparePanel::setGrasps(std::size_t ofA, std::size_t ofB) {
+  graspA_ = ofA;
+  graspB_ = ofB;
+  ask();
+}
+
+void ComparePanel::setOverlay(CompareOverlay overlay) {
+  overlay_ = overlay;
+  overlayBox_->setCurrentText(gui::nameOf(overlay));
+  ask();
+}
+
+void ComparePanel::setBand(CompareBand band) {
+  band_ = band;
+  bandBox_->setCurrentText(gui::nameOf(band));
+  ask();
 }
 
 void ComparePanel::take(const CompareAnswer& answer) {
   const bool first = !answer_.a || !answer_.b;
   const auto largest = answer_.largestDifference;
   const double largestValue = answer_.largestValue;
+  const ComparedCurves overlaid = answer_.overlaid;
   answer_ = answer;
   if (!answer_.complete && !first && !answer_.largestDifference) {
     // Keeps colours and curves until the new ones are computed, so that they don't flicker.
     answer_.largestDifference = largest;
     answer_.largestValue = largestValue;
   }
+  if (!answer_.complete && !answer_.overlaid.average && answer_.overlaid.curves.empty())
+    answer_.overlaid = overlaid;
   if (answer_.a && answer_.b) {
     header_->setOffset(answer_.offsetS);
+    header_->setGrasps(answer_.graspsA.size(), answer_.graspsB.size(), graspA_, graspB_);
     showCurves();
     if (first) chart_->fit();
+    if (first) openAtContact();
   }
   showFrames();
 }
@@ -350,7 +418,8 @@ void ComparePanel::setAlignment(Alignment alignment) {
   if (alignment == Alignment::kManual) handOffsetS_ = answer_.offsetS;
   alignment_ = alignment;
   header_->setAlignment(alignment);
-  if (answer_.a && answer_.b) {
+  // The grasps are found by the worker.
+  if (answer_.a && answer_.b && alignment != Alignment::kGrasp) {
     const auto [by, offsetS] = chosenOffset(*answer_.a, *answer_.b, alignment, handOffsetS_);
     answer_.alignment = by;
     answer_.offsetS = offsetS;
@@ -447,7 +516,8 @@ void ComparePanel::showCurves() {
                      .curveB = answer_.curveB,
                      .offsetS = answer_.offsetS,
                      .signal = settings_.signal,
-                     .handUnit = handUnit()});
+                     .handUnit = handUnit(),
+                     .overlaid = answer_.overlaid});
 }
 
 QString ComparePanel::captionOf(bool ofB, const std::optional<std::size_t>& frame) const {
@@ -582,6 +652,14 @@ QString ComparePanel::notice() const {
     lines.append("No lasting contact (3 taxels in 3 frames) in " + without.join(" and ") +
                  ": aligned by their starts");
   }
+  if (alignment_ == Alignment::kGrasp && answer_.alignment != Alignment::kGrasp &&
+      answer_.complete) {
+    QStringList without;
+    if (answer_.graspsA.empty()) without.append("A");
+    if (answer_.graspsB.empty() && a_ != b_) without.append("B");
+    lines.append("No grasp in " + without.join(" and ") + ": aligned by their starts");
+  }
+  if (!answer_.overlaid.leftOut.isEmpty()) lines.append(answer_.overlaid.leftOut);
   const bool frames = inA.profile.numFrames() > 0 && inB.profile.numFrames() > 0;
   if (frames && !commonSpan(inA, inB, answer_.offsetS)) {
     const double laterS = answer_.offsetS - inA.timing.durationS;
@@ -596,6 +674,18 @@ QString ComparePanel::notice() const {
   return lines.join(". ");
 }
 
+// "6 grasps, mean ± sd · "; empty without an overlay.
+QString ComparePanel::overlaidText() const {
+  const ComparedCurves& overlaid = answer_.overlaid;
+  if (overlay_ == CompareOverlay::kPair && band_ == CompareBand::kNone) return {};
+  if (!answer_.complete) return {};
+  const bool ofGrasps =
+      overlay_ == CompareOverlay::kGraspsOfA || overlay_ == CompareOverlay::kAllGrasps;
+  const std::size_t count = overlaid.curves.size();
+  return QString::fromStdString(counted(count, ofGrasps ? "grasp" : "curve")) +
+         (band_ == CompareBand::kNone ? QString() : ", " + gui::nameOf(band_)) + " · ";
+}
+
 QString ComparePanel::figures() const {
   if (!answer_.a || !answer_.b || !hasPair()) return {};
   if (!answer_.figures) {
@@ -603,14 +693,15 @@ QString ComparePanel::figures() const {
     return "the other recording has no such matrix";
   }
   const CurveComparison& found = *answer_.figures;
-  if (found.samples == 0) return "no common time";
+  if (found.samples == 0) return overlaidText() + "no common time";
   const QString unit = " " + unitOf(settings_.signal, handUnit());
-  return "correlation " +
-         (found.correlation ? figure(*found.correlation, 3) : QString("not defined")) +
-         " · A − B: mean " + signedText(found.meanDifference, 1) + ", rms " +
-         figure(found.rmsDifference, 1) + ", largest " + signedText(found.largestDifference, 1) +
-         unit + " at " + figure(found.largestAtS, 2) + " s · over " +
-         figure(found.toS - found.fromS, 2) + " s in common";
+  const QString correlation =
+      "correlation " + (found.correlation ? figure(*found.correlation, 3) : QString("not defined"));
+  if (overlay_ != CompareOverlay::kPair) return overlaidText() + "A and B: " + correlation;
+  return overlaidText() + correlation + " · A − B: mean " + signedText(found.meanDifference, 1) +
+         ", rms " + figure(found.rmsDifference, 1) + ", largest " +
+         signedText(found.largestDifference, 1) + unit + " at " + figure(found.largestAtS, 2) +
+         " s · over " + figure(found.toS - found.fromS, 2) + " s in common";
 }
 
 void ComparePanel::showNotice() {
@@ -640,11 +731,8 @@ void ComparePanel::paint(QPainter& painter, const PictureLook& look) const {
   below.titled = false;
   painter.save();
   painter.translate(0.0, split);
-  paintChart(painter,
-             below,
-             *chart_,
-             {.legend = {{"A  " + fileNameOf(*a_), chart_->graph(0)->pen()},
-                         {"B  " + fileNameOf(*b_), chart_->graph(1)->pen()}}});
+  paintChart(
+      painter, below, *chart_, {.legend = chart_->legendOf(fileNameOf(*a_), fileNameOf(*b_))});
   painter.restore();
 }
 
@@ -679,6 +767,10 @@ TextTable ComparePanel::differenceTable() const {
                                             any ? std::to_string(row.y) : std::string(),
                                             any ? std::to_string(row.x) : std::string()};
           }};
+}
+
+TextTable ComparePanel::averageTable() const {
+  return gui::averageTable(answer_.overlaid, unitOf(settings_.signal, handUnit()));
 }
 
 // One row for each frame of A, with B's frame at the same moment if there is one.

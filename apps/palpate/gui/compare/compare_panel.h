@@ -3,6 +3,7 @@
 #pragma once
 
 #include <QWidget>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -52,6 +53,16 @@ class ComparePanel : public QWidget {
   std::optional<double> offsetS() const;
   // Sets the offset manually [s].
   void setOffset(double offsetS);
+  // Chooses the grasps that kGrasp aligns, by their indices.
+  void setGrasps(std::size_t ofA, std::size_t ofB);
+  // What the chart shows besides A and B.
+  void setOverlay(CompareOverlay overlay);
+  CompareOverlay overlay() const noexcept { return overlay_; }
+  void setBand(CompareBand band);
+  CompareBand band() const noexcept { return band_; }
+  // Tells the events of a recording as they are now; by default those of its file.
+  using Events = std::function<std::vector<RecordingEvent>(const OpenedRecordingPtr&)>;
+  void setEvents(Events events) { events_ = std::move(events); }
   // Sets the shown moment: time since A's first frame [s].
   void setTime(double seconds);
   double timeS() const noexcept { return timeS_; }
@@ -76,6 +87,8 @@ class ComparePanel : public QWidget {
   void paint(QPainter& painter, const PictureLook& look) const;
   TextTable differenceTable() const;
   TextTable curveTable() const;
+  bool hasAverage() const noexcept { return answer_.overlaid.average != nullptr; }
+  TextTable averageTable() const;
 
  signals:
   void aChosen(const palpate::gui::OpenedRecordingPtr& recording);
@@ -85,6 +98,8 @@ class ComparePanel : public QWidget {
   void seekRequested(double seconds);
   void signalChosen(palpate::gui::PlottedSignal signal);
   void alignmentChanged();
+  // The overlay or the band was chosen.
+  void overlayChanged();
   void openRequested();
   void hovered(const QString& text);
 
@@ -103,6 +118,9 @@ class ComparePanel : public QWidget {
   void askForAnother();
   // Showing the results.
   void showEmpty();
+  // Goes to the common contact when the comparison is at its begin.
+  void openAtContact();
+  QString overlaidText() const;
   void showCurves();
   // Unit of the values of A.
   QString handUnit() const;
@@ -120,6 +138,11 @@ class ComparePanel : public QWidget {
   CompareAnswer answer_;
   Alignment alignment_ = Alignment::kContact;
   double handOffsetS_ = 0.0;
+  std::size_t graspA_ = 0;
+  std::size_t graspB_ = 0;
+  CompareOverlay overlay_ = CompareOverlay::kPair;
+  CompareBand band_ = CompareBand::kNone;
+  Events events_;
   double timeS_ = 0.0;
   bool active_ = false;
   // The worker has the newest question.
@@ -140,6 +163,8 @@ class ComparePanel : public QWidget {
   CompareView* view_ = nullptr;
   QComboBox* signal_ = nullptr;
   QComboBox* matrix_ = nullptr;
+  QComboBox* overlayBox_ = nullptr;
+  QComboBox* bandBox_ = nullptr;
   QLabel* figures_ = nullptr;
   CompareStrip* strip_ = nullptr;
   CompareChart* chart_ = nullptr;

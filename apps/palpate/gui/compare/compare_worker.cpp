@@ -10,7 +10,7 @@
 namespace palpate::gui {
 namespace {
 
-constexpr std::size_t kCompareWorkerMostKept = 12;  // numbers of recordings and of curves
+constexpr std::size_t kCompareWorkerMostKept = 32;  // numbers of recordings and of curves
 constexpr std::size_t kPairsLookedAt = 4000;        // of a long recording: for the colour range
 
 // Shares of the whole work.
@@ -28,6 +28,36 @@ std::size_t framesInCommon(const TimedProfile& a, const TimedProfile& b, double 
   return at(span->toS) - at(span->fromS) + 1;
 }
 
+// The events that tell grasps.
+std::vector<RecordingEvent> segmentsAmong(const std::vector<RecordingEvent>& events) {
+  std::vector<RecordingEvent> segments;
+  for (const RecordingEvent& event : events)
+    if (event.kind == "segment") segments.push_back(event);
+  return segments;
+}
+
+SeriesChoice choiceFor(const CompareQuestion& question, const OpenedRecording& recording) {
+  SeriesChoice choice = question.choice;
+  // The index after the last matrix of A means all of them, for the others too.
+  if (choice.index == question.a->numMatrices()) choice.index = recording.numMatrices();
+  return choice;
+}
+
+// The span of all drawn curves on A's time axis; empty: none is drawn.
+std::optional<TimeSpan> drawnSpanOf(const ComparedCurves& compared) {
+  std::optional<TimeSpan> span;
+  for (const OverlaidCurve& each : compared.curves) {
+    if (!each.drawn || each.curve.series->timeS.empty()) continue;
+    const auto& timeS = each.curve.series->timeS;
+    const double shiftS = compared.zeroS - each.curve.zeroS;
+    const TimeSpan own{std::max(each.curve.fromS, timeS.front()) + shiftS,
+                       std::min(each.curve.toS, timeS.back()) + shiftS};
+    if (!span) span = own;
+    span = TimeSpan{std::min(span->fromS, own.fromS), std::max(span->toS, own.toS)};
+  }
+  return span;
+}
+
 }  // namespace
 
 // Results are found by the address of their recording; the pointers are weak, so that a closed
@@ -42,12 +72,19 @@ struct CompareWorker::Kept {
     SeriesChoice choice;
     std::shared_ptr<const Series> series;
   };
+  struct Grasps {
+    std::weak_ptr<const OpenedRecording> of;
+    std::vector<RecordingEvent> segments;
+    std::vector<GraspFrames> grasps;
+  };
+  std::deque<Grasps> grasps;
   std::deque<Timed> timed;
   std::deque<Curve> curves;
 
   void forgetClosed() {
     std::erase_if(timed, [](const Timed& each) { return each.of.expired(); });
     std::erase_if(curves, [](const Curve& each) { return each.of.expired(); });
+    std::erase_if(grasps, [](const Grasps& each) { return each.of.expired(); });
   }
 };
 
@@ -103,6 +140,104 @@ std::shared_ptr<const Series> CompareWorker::curve(const OpenedRecordingPtr& rec
   return series;
 }
 
+std::vector<GraspFrames> CompareWorker::grasps(const ComparedRecording& of,
+                                               const Progress& progress) {
+  const auto segments = segmentsAmong(of.events);
+  for (const auto& each : kept_->grasps)
+    if (each.of.lock() == of.recording && each.segments == segments) return each.grasps;
+  auto found = graspFrames(of.recording->profile, of.events, progress);
+  kept_->grasps.push_back({of.recording, segments, found});
+  if (kept_->grasps.size() > kCompareWorkerMostKept) kept_->grasps.pop_front();
+  return found;
+}
+
+ComparedCurves CompareWorker::overlaid(const CompareQuestion& question,
+                                       const CompareAnswer& answer,
+                                       const Progress& progress) {
+  constexpr double kMarginS = 0.5;  // before and after a grasp
+  const bool ofGrasps = question.overlay == CompareOverlay::kGraspsOfA ||
+                        question.overlay == CompareOverlay::kAllGrasps;
+  ComparedCurves compared{.band = question.band};
+  const TimedProfile& inA = *answer.a;
+  if (ofGrasps && !answer.graspsA.empty()) {
+    const std::size_t chosen = std::min(question.graspA, answer.graspsA.size() - 1);
+    compared.zeroS = inA.timeS(answer.graspsA[chosen].begin);
+  } else if (answer.alignment == Alignment::kGrasp) {
+    compared.zeroS = inA.timeS(*inA.grasp);
+  } else if (inA.contact) {
+    compared.zeroS = inA.timeS(*inA.contact);
+  }
+  QStringList without;
+  std::size_t others = 2;
+  for (const ComparedRecording& each : question.recordings) {
+    const OpenedRecordingPtr& recording = each.recording;
+    const bool isA = recording == question.a, isB = recording == question.b;
+    const bool other = !isA && !isB;
+    const std::size_t number = isA ? 0 : isB ? 1 : others++;
+    if (other && question.overlay == CompareOverlay::kPair) continue;
+    if (!isA && question.overlay == CompareOverlay::kGraspsOfA) continue;
+    const auto series = curve(recording, choiceFor(question, *recording), progress);
+    const auto timedOne = timed(recording, progress);
+    const QString name = fileNameOf(*recording);
+    if (!series || series->timeS.empty()) {
+      without.append(name + (series ? " has no frames" : " has no such matrix"));
+      continue;
+    }
+    const double longestS = gapFromS(timedOne->timing);
+    if (ofGrasps) {
+      std::vector<TimeSpan> spans;
+      for (const GraspFrames& grasp : grasps(each, progress))
+        spans.push_back({timedOne->timeS(grasp.begin), timedOne->timeS(grasp.end)});
+      if (spans.empty()) without.append(name + " has no grasp");
+      std::size_t grasp = 0;
+      for (AlignedCurve& stretch : alignedStretches(series, spans, kMarginS, longestS))
+        compared.curves.push_back({name + ", grasp " + QString::number(++grasp), stretch, number});
+      continue;
+    }
+    std::optional<double> offsetS;
+    if (isA) {
+      offsetS = 0.0;
+    } else if (isB) {
+      offsetS = answer.offsetS;
+    } else {
+      TimedProfile aligned = *timedOne;
+      Alignment how = answer.alignment;
+      if (how == Alignment::kManual) how = Alignment::kContact;
+      if (how == Alignment::kGrasp)
+        if (const auto found = grasps(each, progress); !found.empty())
+          aligned.grasp = found.front().begin;
+      offsetS = offsetBetween(inA, aligned, how);
+      if (!offsetS)
+        without.append(name + (how == Alignment::kGrasp ? " has no grasp" : " has no contact"));
+    }
+    if (!offsetS) continue;
+    compared.curves.push_back(
+        {name,
+         {.series = series, .zeroS = compared.zeroS - *offsetS, .longestS = longestS},
+         number,
+         other});
+  }
+  // The same recording twice: B is a second curve of it.
+  if (!ofGrasps && question.a == question.b && answer.curveB)
+    compared.curves.push_back({"B",
+                               {.series = answer.curveB,
+                                .zeroS = compared.zeroS - answer.offsetS,
+                                .longestS = gapFromS(answer.b->timing)},
+                               1,
+                               false});
+  if (ofGrasps) compared.span = drawnSpanOf(compared);
+  if (!without.isEmpty()) compared.leftOut = "Left out: " + without.join(", ");
+  if (question.band == CompareBand::kNone) return compared;
+  std::vector<AlignedCurve> curves;
+  for (const OverlaidCurve& each : compared.curves) curves.push_back(each.curve);
+  compared.average = std::make_shared<const AverageCurve>(averageCurve(
+      curves,
+      {.band = question.band == CompareBand::kPercentiles ? AverageBand::kPercentiles
+                                                          : AverageBand::kStandardDeviation},
+      progress));
+  return compared;
+}
+
 void CompareWorker::work(const CompareQuestion& question, int generation) {
   CompareAnswer answer;
   const auto report = [&] {
@@ -132,20 +267,30 @@ void CompareWorker::work(const CompareQuestion& question, int generation) {
     answer.done = kTimedShare / 2;
     answer.b = timed(question.b, part(kTimedShare / 2));
     answer.done = kTimedShare;
+    const bool ofGrasps = question.overlay == CompareOverlay::kGraspsOfA ||
+                          question.overlay == CompareOverlay::kAllGrasps;
+    if (question.alignment == Alignment::kGrasp || ofGrasps) {
+      for (const ComparedRecording& each : question.recordings) {
+        if (each.recording == question.a) answer.graspsA = grasps(each, part(0.0));
+        if (each.recording == question.b) answer.graspsB = grasps(each, part(0.0));
+      }
+      const auto withGrasp =
+          [](const TimedProfile& of, const std::vector<GraspFrames>& found, std::size_t chosen) {
+            auto with = std::make_shared<TimedProfile>(of);
+            if (!found.empty()) with->grasp = found[std::min(chosen, found.size() - 1)].begin;
+            return with;
+          };
+      answer.a = withGrasp(*answer.a, answer.graspsA, question.graspA);
+      answer.b = withGrasp(*answer.b, answer.graspsB, question.graspB);
+    }
     const auto [alignment, offsetS] =
         chosenOffset(*answer.a, *answer.b, question.alignment, question.handOffsetS);
     answer.alignment = alignment;
     answer.offsetS = offsetS;
     report();
-    const auto choiceFor = [&](const OpenedRecording& recording) {
-      SeriesChoice choice = question.choice;
-      // The index after the last matrix of A means all of them, for B too.
-      if (choice.index == question.a->numMatrices()) choice.index = recording.numMatrices();
-      return choice;
-    };
-    answer.curveA = curve(question.a, choiceFor(*question.a), part(kCurveShare));
+    answer.curveA = curve(question.a, choiceFor(question, *question.a), part(kCurveShare));
     answer.done = kTimedShare + kCurveShare;
-    answer.curveB = curve(question.b, choiceFor(*question.b), part(kCurveShare));
+    answer.curveB = curve(question.b, choiceFor(question, *question.b), part(kCurveShare));
     answer.done = kTimedShare + 2 * kCurveShare;
     report();
     if (answer.curveA && answer.curveB)
@@ -153,6 +298,8 @@ void CompareWorker::work(const CompareQuestion& question, int generation) {
                                      *answer.curveB,
                                      offsetS,
                                      {gapFromS(answer.a->timing), gapFromS(answer.b->timing)});
+    if (question.overlay != CompareOverlay::kPair || question.band != CompareBand::kNone)
+      answer.overlaid = overlaid(question, answer, part(0.0));
     report();
     const FrameComparison comparison(question.a->profile.hand().layout,
                                      question.b->profile.hand().layout);

@@ -8,14 +8,24 @@
 #include <deque>
 #include <memory>
 #include <optional>
+#include <vector>
 
+#include <palpate/batch/grasp_files.h>
+#include <palpate/recording/recording_event.h>
 #include <palpate/signals/alignment.h>
 #include <palpate/signals/curve_comparison.h>
 #include <palpate/signals/profile_series.h>
 
+#include "gui/compare/compare_overlay.h"
 #include "gui/source/opened_recording.h"
 
 namespace palpate::gui {
+
+// A recording with its events as they are now, which tell its grasps.
+struct ComparedRecording {
+  OpenedRecordingPtr recording;
+  std::vector<RecordingEvent> events;
+};
 
 // What is compared and how.
 struct CompareQuestion {
@@ -26,16 +36,26 @@ struct CompareQuestion {
   // The offset for kManual [s].
   double handOffsetS = 0.0;
   // What the curves show.
-  SeriesChoice choice;
+  SeriesChoice choice = {};
+  // Index of the chosen grasp of A and of B, for kGrasp.
+  std::size_t graspA = 0;
+  std::size_t graspB = 0;
+  CompareOverlay overlay = CompareOverlay::kPair;
+  CompareBand band = CompareBand::kNone;
+  // All open recordings, A and B too.
+  std::vector<ComparedRecording> recordings = {};
 };
 
 // What is known so far; results that are not computed yet are null or empty.
 struct CompareAnswer {
   std::shared_ptr<const TimedProfile> a, b;
-  // kStart when kContact was requested and there is no contact.
+  // kStart when kContact was requested and there is no contact, or kGrasp and there is no grasp.
   Alignment alignment = Alignment::kContact;
   // [s]; valid once a and b are set
   double offsetS = 0.0;
+  // The grasps of A and of B; empty: none, or not looked for.
+  std::vector<GraspFrames> graspsA, graspsB;
+  ComparedCurves overlaid;
   // Null in a complete answer when that recording does not have the chosen matrix.
   std::shared_ptr<const Series> curveA, curveB;
   std::optional<CurveComparison> figures;
@@ -51,7 +71,7 @@ struct CompareAnswer {
 };
 
 // The offset for an alignment, and the alignment that was used: kStart when kContact was requested
-// and there is no contact.
+// and there is no contact, or kGrasp and no grasp is chosen.
 struct ChosenOffset {
   Alignment alignment = Alignment::kStart;
   double offsetS = 0.0;
@@ -85,6 +105,10 @@ class CompareWorker : public QObject {
   std::shared_ptr<const Series> curve(const OpenedRecordingPtr& recording,
                                       const SeriesChoice& choice,
                                       const Progress& progress);
+  std::vector<GraspFrames> grasps(const ComparedRecording& of, const Progress& progress);
+  ComparedCurves overlaid(const CompareQuestion& question,
+                          const CompareAnswer& answer,
+                          const Progress& progress);
 
   // Has one thread, which alone uses `kept_`.
   QThreadPool pool_;

@@ -8,6 +8,7 @@
 #include <QPainter>
 
 #include "gui/export/export_dialog.h"
+#include "gui/picture/views_together.h"
 
 namespace palpate::gui {
 namespace {
@@ -52,6 +53,15 @@ ExportController::~ExportController() {
 }
 
 void ExportController::add(ExportedView view) { views_.push_back(std::move(view)); }
+
+void ExportController::addTogether() {
+  const std::size_t others = views_.size();
+  views_.push_back(viewsTogether([this, others] {
+    std::vector<const ExportedView*> views;
+    for (std::size_t i = 0; i < others; ++i) views.push_back(&views_[i]);
+    return views;
+  }));
+}
 
 std::vector<const ExportedView*> ExportController::present() const {
   std::vector<const ExportedView*> there;

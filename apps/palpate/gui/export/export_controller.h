@@ -30,6 +30,8 @@ class ExportController : public QObject {
 
   // Registers a view. The first one is the default when the user has not clicked into another.
   void add(ExportedView view);
+  // Adds the views that are visible together as one more; called after all others were added.
+  void addTogether();
   // The views that have something to show now.
   std::vector<const ExportedView*> present() const;
   bool anything() const { return !present().empty(); }

@@ -83,6 +83,9 @@ struct ExportedView {
   std::function<void(QPainter&, const PictureLook&)> paint = {};
   // Empty: the view has no tables.
   std::function<std::vector<ExportedTable>()> tables = {};
+  // A picture of each frame as a part of several views (views_together.h), for a view that is not
+  // offered as a movie of its own. Empty: framePictures.
+  std::function<std::optional<FramePictures>()> framePart = {};
   // Empty: the view has no pictures of frames.
   std::function<std::optional<FramePictures>()> framePictures = {};
 

@@ -113,7 +113,9 @@ void MainWindow::addFeatures() {
   std::stable_sort(views.begin(), views.end(), [](const ExportedView& a, const ExportedView& b) {
     return a.rank < b.rank;
   });
-  for (ExportedView& view : views) feature<ExportFeature>().exportController().add(std::move(view));
+  ExportController& exports = feature<ExportFeature>().exportController();
+  for (ExportedView& view : views) exports.add(std::move(view));
+  exports.addTogether();
 }
 
 // Connected before the features, so that their docks are placed before they take another source.

@@ -1,8 +1,6 @@
 #include "gui/spectrum/spectrum_chart.h"
 
-#include <QHelpEvent>
 #include <QMouseEvent>
-#include <QToolTip>
 #include <QWheelEvent>
 #include <algorithm>
 #include <cmath>
@@ -77,7 +75,7 @@ std::vector<QString> spectrumNotes(const SpectrumReport& report, const SpectrumO
   return {what + " · " + rest, what, nyquist + "; " + grid, nyquist};
 }
 
-SpectrumChart::SpectrumChart(QWidget* parent) : QCustomPlot(parent) {
+SpectrumChart::SpectrumChart(QWidget* parent) : ReadingChart(parent) {
   setObjectName("spectrumChart");
   setAccessibleName("Signal and its spectra");
   arrangeChart(*this);
@@ -384,16 +382,6 @@ void SpectrumChart::resizeEvent(QResizeEvent* event) {
 void SpectrumChart::hideEvent(QHideEvent* event) {
   QCustomPlot::hideEvent(event);
   emit rightChanged(0);
-}
-
-bool SpectrumChart::event(QEvent* event) {
-  if (event->type() == QEvent::ToolTip) {
-    const auto* help = static_cast<QHelpEvent*>(event);
-    QToolTip::showText(help->globalPos(), valuesAt(help->pos()), this);
-    return true;
-  }
-  if (event->type() == QEvent::FontChange) style();
-  return QCustomPlot::event(event);
 }
 
 }  // namespace palpate::gui

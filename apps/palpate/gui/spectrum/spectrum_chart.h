@@ -8,7 +8,7 @@
 
 #include "gui/appearance/color_map.h"
 #include "gui/appearance/theme.h"
-#include "gui/chart/plot.h"
+#include "gui/chart/reading_chart.h"
 #include "gui/picture/exported_view.h"
 #include "gui/spectrum/spectrum_worker.h"
 
@@ -25,7 +25,7 @@ QString nameOf(SpectrumScale scale);
 // longest first.
 std::vector<QString> spectrumNotes(const SpectrumReport& report, const SpectrumOptions& options);
 
-class SpectrumChart : public QCustomPlot {
+class SpectrumChart : public ReadingChart {
   Q_OBJECT
  public:
   explicit SpectrumChart(QWidget* parent = nullptr);
@@ -63,7 +63,8 @@ class SpectrumChart : public QCustomPlot {
   void wheelEvent(QWheelEvent* event) override;
   void resizeEvent(QResizeEvent* event) override;
   void hideEvent(QHideEvent* event) override;
-  bool event(QEvent* event) override;
+  QString readingAt(const QPoint& at) const override { return valuesAt(at); }
+  void restyle() override { style(); }
 
  private:
   void fillSignal();

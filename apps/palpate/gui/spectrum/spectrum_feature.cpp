@@ -26,6 +26,11 @@ SpectrumFeature::SpectrumFeature(WindowState& windowState, QWidget* window)
           panel_,
           &SpectrumPanel::setPosition);
   connect(panel_, &SpectrumPanel::said, &windowState.messages, &Messages::flash);
+  const auto takeFormulas = [this, &windowState] {
+    panel_->setFormulas(windowState.formulas.all());
+  };
+  connect(&windowState.formulas, &FormulaCurves::changed, this, takeFormulas);
+  takeFormulas();
   connectChart();
   windowState.escapeHandler.add(EscapeHandler::Order::kComputation,
                                 [this] { return panel_->cancel(); });

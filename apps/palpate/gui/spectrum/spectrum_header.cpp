@@ -57,6 +57,16 @@ SpectrumHeader::SpectrumHeader(QWidget* parent) : QWidget(parent) {
       "and coherence are of the selected range; without one, of the visible part.");
   view_->setFocusPolicy(Qt::TabFocus);
   for (const SpectrumView each : kAllSpectrumViews) view_->addItem(nameOf(each));
+  signal_ = new QComboBox(this);
+  signal_->setObjectName("spectrumSignal");
+  signal_->setAccessibleName("Of which signal");
+  signal_->setToolTip("Of which signal: the chosen taxels, or a curve by a formula");
+  signal_->setFocusPolicy(Qt::TabFocus);
+  signal_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
+  signal_->setMinimumContentsLength(12);
+  signal_->addItem("chosen taxels");
+  signal_->hide();
+  connect(signal_, &QComboBox::activated, this, &SpectrumHeader::changed);
   scale_ = new QComboBox(this);
   scale_->setObjectName("spectrumScale");
   scale_->setAccessibleName("What the colours mean");
@@ -68,6 +78,7 @@ SpectrumHeader::SpectrumHeader(QWidget* parent) : QWidget(parent) {
   row->setSpacing(6);
   row->addWidget(name_, 1);
   row->addSpacing(4);
+  row->addWidget(signal_);
   row->addWidget(view_);
   row->addSpacing(4);
   row->addWidget(new QLabel("Window", this));
@@ -131,6 +142,19 @@ void SpectrumHeader::setName(const QString& name) {
   whole_ = name;
   name_->setToolTip(name);
   elide();
+}
+
+void SpectrumHeader::setFormulas(const QStringList& names) {
+  const QString before = formula();
+  while (signal_->count() > 1) signal_->removeItem(1);
+  signal_->addItems(names);
+  signal_->setVisible(!names.isEmpty());
+  signal_->setCurrentIndex(
+      before.isEmpty() ? 0 : std::max(0, static_cast<int>(names.indexOf(before)) + 1));
+}
+
+QString SpectrumHeader::formula() const {
+  return signal_->currentIndex() > 0 ? signal_->currentText() : QString();
 }
 
 void SpectrumHeader::elide() {

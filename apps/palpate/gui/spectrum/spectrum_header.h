@@ -39,6 +39,10 @@ class SpectrumHeader : public QWidget {
   void setSetting(const SpectrumSetting& setting);
   const SpectrumSetting& setting() const noexcept { return setting_; }
   void setName(const QString& name);
+  // The curves by formulas that can be chosen instead of the chosen taxels.
+  void setFormulas(const QStringList& names);
+  // The chosen one; empty: the chosen taxels.
+  QString formula() const;
 
  signals:
   void changed();
@@ -54,6 +58,7 @@ class SpectrumHeader : public QWidget {
   SpectrumSetting setting_;
   QString whole_;
   QLabel* name_;
+  QComboBox* signal_;
   QSpinBox* window_;
   QSpinBox* overlap_;
   QComboBox* scale_;

@@ -1,7 +1,5 @@
 #include "gui/spectrum/spectrum_line_chart.h"
 
-#include <QHelpEvent>
-#include <QToolTip>
 #include <algorithm>
 #include <cmath>
 
@@ -19,7 +17,7 @@ constexpr int kLowLineChart = 190;  // [px]; lower: no room for names of axes
 
 }  // namespace
 
-SpectrumLineChart::SpectrumLineChart(QWidget* parent) : QCustomPlot(parent) {
+SpectrumLineChart::SpectrumLineChart(QWidget* parent) : ReadingChart(parent) {
   setObjectName("spectrumLineChart");
   setAccessibleName("Mean spectrum or coherence");
   arrangeChart(*this);
@@ -203,16 +201,6 @@ void SpectrumLineChart::paint(QPainter& painter,
 void SpectrumLineChart::resizeEvent(QResizeEvent* event) {
   QCustomPlot::resizeEvent(event);
   writeNote();
-}
-
-bool SpectrumLineChart::event(QEvent* event) {
-  if (event->type() == QEvent::ToolTip) {
-    const auto* help = static_cast<QHelpEvent*>(event);
-    QToolTip::showText(help->globalPos(), valuesAt(help->pos()), this);
-    return true;
-  }
-  if (event->type() == QEvent::FontChange) style();
-  return QCustomPlot::event(event);
 }
 
 }  // namespace palpate::gui

@@ -6,14 +6,14 @@
 #include <vector>
 
 #include "gui/appearance/theme.h"
-#include "gui/chart/plot.h"
+#include "gui/chart/reading_chart.h"
 #include "gui/picture/exported_view.h"
 #include "gui/spectrum/spectrum_chart.h"
 #include "gui/spectrum/spectrum_worker.h"
 
 namespace palpate::gui {
 
-class SpectrumLineChart : public QCustomPlot {
+class SpectrumLineChart : public ReadingChart {
   Q_OBJECT
  public:
   explicit SpectrumLineChart(QWidget* parent = nullptr);
@@ -35,7 +35,8 @@ class SpectrumLineChart : public QCustomPlot {
 
  protected:
   void resizeEvent(QResizeEvent* event) override;
-  bool event(QEvent* event) override;
+  QString readingAt(const QPoint& at) const override { return valuesAt(at); }
+  void restyle() override { style(); }
 
  private:
   void fill();

@@ -3,12 +3,14 @@
 #include <QComboBox>
 #include <QHBoxLayout>
 #include <QLabel>
+#include <QLineEdit>
 #include <QStackedWidget>
 #include <QVBoxLayout>
 #include <algorithm>
 #include <cmath>
 
 #include <palpate/core/number_text.h>
+#include <palpate/signals/signal_name.h>
 
 #include "gui/appearance/captions.h"
 #include "gui/widgets/figures_table.h"
@@ -63,6 +65,9 @@ TextTable coherenceTable(const SpectrumAnswer& answer) {
           }};
 }
 
+const QString kWholeHand = "whole hand";
+const QString kKeepTaxels = "the taxels chosen now";
+
 }  // namespace
 
 SpectrumLinePage::SpectrumLinePage(QWidget* parent) : QWidget(parent) {
@@ -71,7 +76,16 @@ SpectrumLinePage::SpectrumLinePage(QWidget* parent) : QWidget(parent) {
   other_ = new QComboBox(this);
   other_->setObjectName("coherenceWith");
   other_->setAccessibleName("The other signal");
-  other_->setToolTip("The other signal: the mean of the active taxels of a matrix");
+  other_->setToolTip(
+      "The other signal: the mean of a matrix, a curve by a formula, taxels,\nor a name or formula "
+      "that is typed: m1_max, m5_x2_y9, angle3, m1_sum-m3_sum");
+  other_->setEditable(true);
+  other_->setInsertPolicy(QComboBox::NoInsert);
+  problem_ = new QLabel(this);
+  problem_->setObjectName("coherenceProblem");
+  problem_->setTextFormat(Qt::PlainText);
+  problem_->setWordWrap(true);
+  problem_->hide();
   other_->setFocusPolicy(Qt::StrongFocus);
   other_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
   other_->setMinimumContentsLength(12);
@@ -112,40 +126,103 @@ SpectrumLinePage::SpectrumLinePage(QWidget* parent) : QWidget(parent) {
   side->setContentsMargins(0, 8, 8, 8);
   side->setSpacing(6);
   side->addLayout(with);
+  side->addWidget(problem_);
   side->addWidget(pages_, 1);
   auto* row = new QHBoxLayout(this);
   row->setContentsMargins(0, 0, 0, 0);
   row->setSpacing(4);
   row->addWidget(chart_, 3);
   row->addLayout(side, 2);
-  connect(other_, &QComboBox::activated, this, &SpectrumLinePage::otherChanged);
+  connect(other_, &QComboBox::activated, this, &SpectrumLinePage::choose);
+  connect(other_->lineEdit(), &QLineEdit::editingFinished, this, &SpectrumLinePage::choose);
   setChoosing(false);
 }
 
-void SpectrumLinePage::setHand(const HandDescription& hand) {
+void SpectrumLinePage::setRecording(const OpenedRecordingPtr& recording) {
+  recording_ = recording;
+  fillOthers();
+}
+
+void SpectrumLinePage::setFormulas(const std::vector<FormulaCurve>& formulas) {
+  formulas_ = formulas;
+  fillOthers();
+}
+
+void SpectrumLinePage::fillOthers() {
+  if (!recording_) return;
+  const HandDescription& hand = recording_->profile.hand();
   QStringList names;
   for (std::size_t m = 0; m < hand.layout->numMatrices(); ++m)
     names.append(QString::fromStdString(hand.matrixName(m)));
-  names.append("whole hand");
+  names.append(kWholeHand);
+  for (const FormulaCurve& each : formulas_) names.append(each.name);
+  names.append(kKeepTaxels);
   QStringList present;
   for (int i = 0; i < other_->count(); ++i) present.append(other_->itemText(i));
-  if (names == present) return;
-  other_->clear();
-  other_->addItems(names);
-  // A single matrix may feel nothing.
-  other_->setCurrentIndex(other_->count() - 1);
+  const QString before = other_->currentText();
+  if (names != present) {
+    other_->clear();
+    other_->addItems(names);
+    // A single matrix may feel nothing.
+    const int again = names.indexOf(before);
+    other_->setCurrentIndex(again >= 0 ? again : static_cast<int>(names.indexOf(kWholeHand)));
+  }
+  choose();
 }
 
-SeriesChoice SpectrumLinePage::other() const {
-  return {.index = static_cast<std::size_t>(std::max(0, other_->currentIndex())),
-          .signal = SignalKind::kMean};
+void SpectrumLinePage::choose() {
+  problem_->hide();
+  if (!recording_) return;
+  const Profile& profile = recording_->profile;
+  const SensorLayout& layout = profile.layout();
+  const QString text = other_->currentText().simplified();
+  const int listed = other_->findText(text, Qt::MatchFixedString | Qt::MatchCaseSensitive);
+  const auto numMatrices = static_cast<int>(layout.numMatrices());
+  if (listed >= 0 && listed <= numMatrices)
+    return take({.index = static_cast<std::size_t>(listed), .signal = SignalKind::kMean},
+                "mean of " + text);
+  for (const FormulaCurve& each : formulas_)
+    if (each.name == text && hasSeries(profile, each.choice())) return take(each.choice(), text);
+  QString wrong;
+  if (text == kKeepTaxels) {
+    if (!taxels_.empty() && TaxelSelection(layout).sameSensor(taxels_)) {
+      const SeriesChoice kept{.kind = SeriesChoice::Kind::kTaxels, .taxels = taxels_};
+      const QString name = QString::fromStdString(palpate::nameOf(kept, layout));
+      const QString shown =
+          name.isEmpty() ? QString::number(taxels_.count()) + " kept taxels" : name;
+      other_->setEditText(shown);
+      return take(kept, shown);
+    }
+    wrong = "Choose taxels in the matrices first.";
+  } else if (text == chosenName_) {
+    return;
+  } else if (const auto named = signalNamed(text.toStdString(), layout);
+             named && hasSeries(profile, *named)) {
+    return take(*named, text);
+  } else {
+    wrong = problemOf(text, &profile);
+    if (wrong.isEmpty())
+      return take({.kind = SeriesChoice::Kind::kFormula, .formula = text.toStdString()}, text);
+  }
+  problem_->setText(wrong);
+  problem_->show();
 }
 
-QString SpectrumLinePage::otherName() const { return "mean of " + other_->currentText(); }
+void SpectrumLinePage::take(const SeriesChoice& choice, const QString& name) {
+  chosenName_ = name;
+  if (choice == chosen_) return;
+  chosen_ = choice;
+  emit otherChanged();
+}
+
+QString SpectrumLinePage::problem() const {
+  return problem_->isHidden() ? QString() : problem_->text();
+}
 
 void SpectrumLinePage::setChoosing(bool choosing) {
   otherLabel_->setVisible(choosing);
   other_->setVisible(choosing);
+  if (!choosing) problem_->hide();
 }
 
 void SpectrumLinePage::setAnswer(const SpectrumAnswer& answer) {

@@ -23,11 +23,16 @@ class SpectrumLinePage : public QWidget {
 
   SpectrumLineChart& chart() noexcept { return *chart_; }
   const SpectrumLineChart& chart() const noexcept { return *chart_; }
-  // The signals that can be chosen as the other one: the mean of each matrix, then of the hand.
-  void setHand(const HandDescription& hand);
+  // The other signal is the mean of a matrix or of the hand, a formula, taxels that are kept as
+  // they are chosen now, or a name or formula that is typed. Null: no recording.
+  void setRecording(const OpenedRecordingPtr& recording);
+  void setFormulas(const std::vector<FormulaCurve>& formulas);
+  void setTaxels(const TaxelSelection& taxels) { taxels_ = taxels; }
   // The other signal of the coherence.
-  SeriesChoice other() const;
-  QString otherName() const;
+  const SeriesChoice& other() const noexcept { return chosen_; }
+  QString otherName() const { return chosenName_; }
+  // What is wrong with the typed signal; empty: nothing.
+  QString problem() const;
   // Shows an answer with a mean spectrum or a coherence.
   void setAnswer(const SpectrumAnswer& answer);
   // Whether the field for the other signal is shown.
@@ -40,9 +45,20 @@ class SpectrumLinePage : public QWidget {
   void otherChanged();
 
  private:
+  void fillOthers();
+  // Takes what the field for the other signal shows.
+  void choose();
+  void take(const SeriesChoice& choice, const QString& name);
+
+  OpenedRecordingPtr recording_;
+  std::vector<FormulaCurve> formulas_;
+  TaxelSelection taxels_;
+  SeriesChoice chosen_;
+  QString chosenName_;
   SpectrumLineChart* chart_;
   QLabel* otherLabel_;
   QComboBox* other_;
+  QLabel* problem_;
   QStackedWidget* pages_;
   FiguresTable* peaks_;
   FiguresTable* common_;

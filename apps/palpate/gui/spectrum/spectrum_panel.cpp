@@ -37,7 +37,7 @@ SpectrumSetting loaded(const QSettings& settings) {
 bool sameWork(const SpectrumQuestion& a, const SpectrumQuestion& b) {
   const SpectrumOptions &one = a.options.spectrum, &other = b.options.spectrum;
   if (a.recording != b.recording || a.taxels != b.taxels || one.window != other.window ||
-      one.overlap != other.overlap || a.work != b.work)
+      one.overlap != other.overlap || a.work != b.work || a.formula != b.formula)
     return false;
   if (b.work != SpectrumWork::kOverTime)
     return a.span == b.span && (b.work == SpectrumWork::kMean || a.other == b.other);
@@ -134,7 +134,7 @@ void SpectrumPanel::setSource(const OpenedRecordingPtr& recording, bool live) {
   asked_.reset();
   worker_.cancel();
   name_.clear();
-  if (recording_) linePage_->setHand(recording_->profile.hand());
+  linePage_->setRecording(recording_);
   header_->setName({});
   if (live)
     say("Spectra need a recording. Record what is connected (Ctrl+R), and open the recording.");
@@ -149,6 +149,16 @@ void SpectrumPanel::setSource(const OpenedRecordingPtr& recording, bool live) {
 
 void SpectrumPanel::setTaxels(const TaxelSelection& taxels) {
   taxels_ = taxels;
+  linePage_->setTaxels(taxels);
+  ask();
+}
+
+void SpectrumPanel::setFormulas(const std::vector<FormulaCurve>& formulas) {
+  formulas_ = formulas;
+  QStringList names;
+  for (const FormulaCurve& each : formulas_) names.append(each.name);
+  header_->setFormulas(names);
+  linePage_->setFormulas(formulas_);
   ask();
 }
 
@@ -192,6 +202,8 @@ void SpectrumPanel::ask() {
   SpectrumQuestion question{.recording = recording_, .fromS = fromS_, .toS = toS_};
   // Taxels of another sensor were chosen before this recording was opened, and are ignored.
   if (TaxelSelection(recording_->profile.layout()).sameSensor(taxels_)) question.taxels = taxels_;
+  for (const FormulaCurve& each : formulas_)
+    if (each.name == header_->formula()) question.formula = each;
   question.options.spectrum.window = header_->setting().window;
   question.options.spectrum.overlap = header_->setting().overlap;
   const SpectrumView view = header_->setting().view;
@@ -231,13 +243,17 @@ QString SpectrumPanel::nameOf(const SpectrumAnswer& answer) const {
 
 void SpectrumPanel::take(const SpectrumAnswer& answer) {
   if (!answer.failure.isEmpty()) return say(answer.failure, "Try again");
-  if (answer.taxels.empty() || !answer.series) {
+  if (!answer.formula.isEmpty() && !answer.series) {
+    header_->setName({});
+    return say("\"" + answer.formula + "\" can't be computed of this recording.");
+  }
+  if (answer.formula.isEmpty() && (answer.taxels.empty() || !answer.series)) {
     header_->setName({});
     return say(
         "No taxel of this recording is active. Choose one in the matrices: click or "
         "drag.");
   }
-  name_ = nameOf(answer);
+  name_ = answer.formula.isEmpty() ? nameOf(answer) : answer.formula;
   header_->setName(answer.strongest ? name_ + "   (the strongest; choose others in the matrices)"
                                     : name_);
   if (answer.work != SpectrumWork::kOverTime) return takeLine(answer);

@@ -34,6 +34,8 @@ class SpectrumPanel : public QWidget {
   void setSource(const OpenedRecordingPtr& recording, bool live);
   // Sets the chosen taxels; empty when none is chosen.
   void setTaxels(const TaxelSelection& taxels);
+  // The curves by formulas, which can be chosen as signals.
+  void setFormulas(const std::vector<FormulaCurve>& formulas);
   void setVisibleRange(double fromS, double toS);
   // The selected range, which the mean and the coherence are of; nothing: the visible part.
   void setSpan(const std::optional<TimeSpan>& span);
@@ -77,6 +79,7 @@ class SpectrumPanel : public QWidget {
   OpenedRecordingPtr recording_;
   bool live_ = false;
   TaxelSelection taxels_;
+  std::vector<FormulaCurve> formulas_;
   double fromS_ = 0.0;
   double toS_ = 0.0;
   std::optional<TimeSpan> span_;

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include <palpate/core/error.h>
+#include <palpate/signals/resampled_series.h>
 #include <palpate/signals/strongest_taxel.h>
 
 #include "gui/appearance/hand_unit.h"
@@ -48,6 +49,7 @@ struct SpectrumWorker::Kept {
   TaxelSelection strongest = {};
   // The taxels whose whole series is kept.
   TaxelSelection taxels = {};
+  std::string formula = {};
   std::shared_ptr<const Series> series = {};
 };
 
@@ -138,7 +140,7 @@ void SpectrumWorker::answerOverSpan(const SpectrumQuestion& question,
       spanOf(profile, question.other, question.span, part(progress, kLookShare + half, half));
   answer.coherence = std::make_shared<Coherence>(coherenceOf(answer.series->timeS,
                                                              answer.series->values,
-                                                             other.values,
+                                                             resampled(other, answer.series->timeS),
                                                              answer.options,
                                                              part(progress, read, 1.0 - read)));
 }
@@ -157,6 +159,11 @@ SpectrumAnswer SpectrumWorker::answerTo(const SpectrumQuestion& question,
                         .options = question.options.limitedToCells(),
                         .work = question.work,
                         .span = question.span};
+  if (question.formula) {
+    answer.strongest = false;
+    answer.formula = question.formula->name;
+    answer.unit = question.formula->unit;
+  }
   if (answer.strongest) {
     if (!kept_->looked) {
       kept_->strongest = TaxelSelection(profile.layout());
@@ -167,7 +174,9 @@ SpectrumAnswer SpectrumWorker::answerTo(const SpectrumQuestion& question,
     }
     answer.taxels = kept_->strongest;
   }
-  const SeriesChoice choice{.kind = SeriesChoice::Kind::kTaxels, .taxels = answer.taxels};
+  const SeriesChoice choice =
+      question.formula ? question.formula->choice()
+                       : SeriesChoice{.kind = SeriesChoice::Kind::kTaxels, .taxels = answer.taxels};
   if (!hasSeries(profile, choice)) return answer;
   const Progress reading = part(progress, kLookShare, kSpectrumWorkerReadShare);
   if (question.work != SpectrumWork::kOverTime) {
@@ -178,10 +187,11 @@ SpectrumAnswer SpectrumWorker::answerTo(const SpectrumQuestion& question,
     answer.series = std::make_shared<Series>(
         readSeries(profile, choice, question.fromS, question.toS, reading));
   } else {
-    if (!kept_->series || kept_->taxels != answer.taxels) {
+    if (!kept_->series || kept_->taxels != choice.taxels || kept_->formula != choice.formula) {
       kept_->series =
           std::make_shared<Series>(readSeries(profile, choice, -kEndOfTimeS, kEndOfTimeS, reading));
-      kept_->taxels = answer.taxels;
+      kept_->taxels = choice.taxels;
+      kept_->formula = choice.formula;
     }
     answer.series = kept_->series;
   }

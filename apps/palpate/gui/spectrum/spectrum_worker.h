@@ -7,6 +7,7 @@
 #include <QThreadPool>
 #include <atomic>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include <palpate/model/timing.h>
@@ -16,6 +17,7 @@
 #include <palpate/signals/welch.h>
 
 #include "gui/source/opened_recording.h"
+#include "gui/window_state/formula_curves.h"
 
 namespace palpate::gui {
 
@@ -28,6 +30,8 @@ struct SpectrumQuestion {
   OpenedRecordingPtr recording = nullptr;
   // The chosen taxels; empty: the strongest taxel.
   TaxelSelection taxels = {};
+  // Another signal instead of the taxels, with its name and unit.
+  std::optional<FormulaCurve> formula = {};
   SpectrogramOptions options = {};
   // The visible span [s since the first frame]. If the options allow it (fitsWhole()), the whole
   // recording is computed instead.
@@ -46,6 +50,8 @@ struct SpectrumAnswer {
   TaxelSelection taxels = {};
   // Unit of the hand's values.
   QString unit = "counts";
+  // Name of a signal that isn't one of taxels.
+  QString formula = {};
   // The taxel was chosen automatically.
   bool strongest = false;
   // The whole recording was computed, not only the visible span.

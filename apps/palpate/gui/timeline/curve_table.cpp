@@ -1,5 +1,10 @@
 #include "gui/timeline/curve_table.h"
 
+#include <cmath>
+#include <memory>
+#include <mutex>
+#include <stdexcept>
+
 #include <palpate/core/number_text.h>
 #include <palpate/core/time.h>
 
@@ -19,6 +24,7 @@ std::string curveCell(const OpenedRecording& recording,
     case SeriesChoice::Kind::kMatrix:
       return numberText(valueOf(recording.at(frame, choice.index), choice.signal));
     case SeriesChoice::Kind::kForce:
+    case SeriesChoice::Kind::kFormula:  // FormulaColumn
       return {};
     case SeriesChoice::Kind::kTaxels:
       return numberText(meanOf(recording.profile.frame(frame), choice.taxels));
@@ -34,6 +40,36 @@ std::string curveCell(const OpenedRecording& recording,
   return {};
 }
 
+// The values of a formula at the frames of a span, computed when the first one is asked for.
+class FormulaColumn {
+ public:
+  FormulaColumn(OpenedRecordingPtr recording, SeriesChoice choice, const FrameSpan& span)
+      : recording_(std::move(recording)), choice_(std::move(choice)), span_(span) {}
+
+  std::string cell(std::size_t row) {
+    std::call_once(computed_, [this] {
+      try {
+        values_ = readSeries(recording_->profile,
+                             choice_,
+                             recording_->timeAt(span_.first),
+                             recording_->timeAt(span_.last))
+                      .values;
+      } catch (const std::invalid_argument&) {
+        // It can't be computed of this recording: the cells stay empty.
+      }
+    });
+    return row < values_.size() && std::isfinite(values_[row]) ? numberText(values_[row])
+                                                               : std::string();
+  }
+
+ private:
+  OpenedRecordingPtr recording_;
+  SeriesChoice choice_;
+  FrameSpan span_;
+  std::once_flag computed_;
+  std::vector<double> values_;
+};
+
 }  // namespace
 
 TextTable curveTable(const OpenedRecordingPtr& recording,
@@ -41,21 +77,27 @@ TextTable curveTable(const OpenedRecordingPtr& recording,
                      const FrameSpan& span) {
   TextTable table{.header = {"frame", "time_ms", "time_s"}, .numRows = span.count()};
   std::vector<SeriesChoice> choices;
+  // Null for the others.
+  std::vector<std::shared_ptr<FormulaColumn>> formulas;
   for (const PlottedCurve& curve : curves) {
     choices.push_back(curve.choice);
+    formulas.push_back(curve.choice.kind == SeriesChoice::Kind::kFormula
+                           ? std::make_shared<FormulaColumn>(recording, curve.choice, span)
+                           : nullptr);
     const bool ofMatrix = curve.choice.kind == SeriesChoice::Kind::kMatrix;
     table.header.push_back(
         (curve.name + (ofMatrix ? " " + nameOf(curve.choice.signal) : "") + " [" + curve.unit + "]")
             .toStdString());
   }
-  table.row = [recording, choices, first = span.first](std::size_t row) {
+  table.row = [recording, choices, formulas, first = span.first](std::size_t row) {
     const std::size_t frame = first + row;
     std::vector<std::string> cells = {
         std::to_string(frame),
         std::to_string(recording->profile.frameTimeUs(frame) / kUsPerMs),
         numberText(recording->timeAt(frame))};
-    for (const SeriesChoice& choice : choices)
-      cells.push_back(curveCell(*recording, choice, frame));
+    for (std::size_t i = 0; i < choices.size(); ++i)
+      cells.push_back(formulas[i] ? formulas[i]->cell(row)
+                                  : curveCell(*recording, choices[i], frame));
     return cells;
   };
   return table;

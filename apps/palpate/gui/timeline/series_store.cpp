@@ -188,7 +188,9 @@ void SeriesStore::begin(Entry& entry) {
   };
   if (choice.kind == SeriesChoice::Kind::kMatrix)
     return keep(entry, fromTable(*recording_, choice));
-  if (numSamples(recording_->profile, choice, -kForever, kForever) <= kReadAtOnce)
+  // A formula may be slow, and may not be computable: it is read in the background.
+  if (choice.kind != SeriesChoice::Kind::kFormula &&
+      numSamples(recording_->profile, choice, -kForever, kForever) <= kReadAtOnce)
     return keep(entry, readSeries(recording_->profile, choice, -kForever, kForever));
   ++numJobs_;
   reads_.start([this, stop = stop_, choice, keep, profile = recording_->profile] {
@@ -208,7 +210,8 @@ void SeriesStore::beginLong(Entry& entry) {
   if (!ofMatrix) entry.buckets = std::make_shared<BucketSeries>(recording_->durationS(), 1.0);
   const auto goOn = [stop = stop_](double) { return !stop->load(); };
   takeFirstLook(entry);
-  if (!ofMatrix) {
+  // Of a formula each sample needs its neighbours, so that there is no quick first look.
+  if (!ofMatrix && choice.kind != SeriesChoice::Kind::kFormula) {
     ++numJobs_;
     reads_.start([this, stop = stop_, choice, goOn, profile = recording_->profile] {
       try {

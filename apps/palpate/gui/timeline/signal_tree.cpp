@@ -21,7 +21,7 @@ constexpr int kIndex = Qt::UserRole + 1;
 // Name of a group before it is edited.
 constexpr int kName = Qt::UserRole + 2;
 constexpr int kMostNumbers = 64;
-enum SignalTreeKind { kSection, kChosen, kGroup, kAngle, kTemperature, kForce };
+enum SignalTreeKind { kSection, kChosen, kGroup, kAngle, kTemperature, kForce, kFormulaLine };
 
 std::set<int> numbersIn(const QVariant& value) {
   std::set<int> numbers;
@@ -46,6 +46,8 @@ PlottedExtras loadPlottedExtras(const QSettings& settings) {
   extras.chosenTaxels = settings.value("plotted/chosen_taxels", true).toBool();
   for (const QString& name : settings.value("plotted/groups").toStringList())
     extras.groups.insert(name);
+  for (const QString& name : settings.value("plotted/formulas").toStringList())
+    extras.formulas.insert(name);
   extras.angles = numbersIn(settings.value("plotted/angles"));
   extras.temperatures = numbersIn(settings.value("plotted/temperatures"));
   extras.forces = numbersIn(settings.value("plotted/forces"));
@@ -55,13 +57,15 @@ PlottedExtras loadPlottedExtras(const QSettings& settings) {
 void savePlottedExtras(const PlottedExtras& extras, QSettings& settings) {
   settings.setValue("plotted/chosen_taxels", extras.chosenTaxels);
   settings.setValue("plotted/groups", QStringList(extras.groups.begin(), extras.groups.end()));
+  settings.setValue("plotted/formulas",
+                    QStringList(extras.formulas.begin(), extras.formulas.end()));
   settings.setValue("plotted/angles", signalTreeWordsOf(extras.angles));
   settings.setValue("plotted/temperatures", signalTreeWordsOf(extras.temperatures));
   settings.setValue("plotted/forces", signalTreeWordsOf(extras.forces));
 }
 
-SignalTree::SignalTree(TaxelGroups& groups, QWidget* parent)
-    : QFrame(parent, Qt::Popup), groups_(groups) {
+SignalTree::SignalTree(TaxelGroups& groups, FormulaCurves& formulas, QWidget* parent)
+    : QFrame(parent, Qt::Popup), groups_(groups), formulas_(formulas) {
   setObjectName("SignalTree");
   setFrameShape(QFrame::StyledPanel);
   tree_ = new QTreeWidget(this);
@@ -75,10 +79,24 @@ SignalTree::SignalTree(TaxelGroups& groups, QWidget* parent)
   group_ = new QPushButton("Name the chosen taxels…", this);
   group_->setObjectName("groupButton");
   group_->setToolTip("Keeps them as a group, for other recordings too (Ctrl+Shift+G)");
+  formula_ = new QPushButton("New formula or filter…", this);
+  formula_->setObjectName("formulaButton");
+  formula_->setToolTip("A slope, a difference, a filtered curve, or any formula of signals");
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(6, 6, 6, 6);
   column->addWidget(tree_, 1);
   column->addWidget(group_);
+  column->addWidget(formula_);
+  connect(formula_, &QPushButton::clicked, this, [this] {
+    hide();
+    emit formulaRequested({});
+  });
+  connect(tree_, &QTreeWidget::itemDoubleClicked, this, [this](QTreeWidgetItem* item) {
+    if (item->data(0, kSignalTreeKind).toInt() != kFormulaLine) return;
+    hide();
+    emit formulaRequested(item->data(0, kName).toString());
+  });
+  connect(&formulas_, &FormulaCurves::changed, this, &SignalTree::rebuild);
   connect(tree_, &QTreeWidget::itemChanged, this, &SignalTree::onItemChanged);
   // A click anywhere on a line ticks it; a click on the box has ticked it already.
   connect(group_, &QPushButton::clicked, this, [this] {
@@ -147,6 +165,15 @@ void SignalTree::rebuild() {
       item->setFlags(item->flags() | Qt::ItemIsEditable);
       item->setToolTip(0, "F2 renames it, Del deletes it");
     }
+  // Only recordings have them: a filter needs what comes after a sample, too.
+  if (!source_.hasForces && !formulas_.all().empty()) {
+    QTreeWidgetItem* formulas = section("Formulas and filters");
+    for (const FormulaCurve& each : formulas_.all()) {
+      auto* item = line(formulas, each.name, kFormulaLine, 0, extras_.formulas.contains(each.name));
+      item->setData(0, kName, each.name);
+      item->setToolTip(0, each.formula + "\nF2 or a double click changes it, Del deletes it");
+    }
+  }
   // What the hand lacks is absent; what the recording lacks is said.
   const QString none = source_.hasForces ? "none from this source" : "none in this recording";
   const bool slides = !hand_.axes.empty() &&
@@ -186,6 +213,7 @@ void SignalTree::rebuild() {
         extras_.forces.contains(static_cast<int>(i)));
   tree_->expandAll();
   group_->setEnabled(numChosen_ > 0);
+  formula_->setEnabled(hand_.layout != nullptr && !source_.hasForces);
   building_ = false;
 }
 
@@ -225,6 +253,9 @@ void SignalTree::onItemChanged(QTreeWidgetItem* item) {
     case kForce:
       put(extras_.forces, index);
       break;
+    case kFormulaLine:
+      put(extras_.formulas, item->data(0, kName).toString());
+      break;
     default:
       return;
   }
@@ -239,6 +270,20 @@ void SignalTree::keyPressEvent(QKeyEvent* event) {
     groups_.forget(name);
     emit extrasChanged();
     return;
+  }
+  if (item && item->data(0, kSignalTreeKind).toInt() == kFormulaLine) {
+    const QString name = item->data(0, kName).toString();
+    if (event->key() == Qt::Key_Delete) {
+      extras_.formulas.erase(name);
+      formulas_.forget(name);
+      emit extrasChanged();
+      return;
+    }
+    if (event->key() == Qt::Key_F2) {
+      hide();
+      emit formulaRequested(name);
+      return;
+    }
   }
   QFrame::keyPressEvent(event);
 }

@@ -1,6 +1,6 @@
 // A list with check boxes that chooses which curves the timeline shows in addition to those of the
-// matrices: the selected taxels, named groups, joint angles, temperatures, forces. It stays open
-// while several are ticked.
+// matrices: the selected taxels, named groups, formulas, joint angles, temperatures, forces. It
+// stays open while several are ticked.
 #pragma once
 
 #include <QFrame>
@@ -13,6 +13,7 @@
 #include <palpate/model/hand_description.h>
 
 #include "gui/timeline/taxel_groups.h"
+#include "gui/window_state/formula_curves.h"
 
 class QLabel;
 class QPushButton;
@@ -24,11 +25,13 @@ namespace palpate::gui {
 // The additional curves, stored in the settings.
 struct PlottedExtras {
   bool chosenTaxels = true;
-  std::set<QString> groups;
-  std::set<int> angles;
-  std::set<int> temperatures;
+  std::set<QString> groups = {};
+  std::set<int> angles = {};
+  std::set<int> temperatures = {};
   // Forces on matrices; the number of matrices stands for the whole hand.
-  std::set<int> forces;
+  std::set<int> forces = {};
+  // Names of curves by formulas.
+  std::set<QString> formulas = {};
   bool operator==(const PlottedExtras&) const = default;
 };
 PlottedExtras loadPlottedExtras(const QSettings& settings);
@@ -45,7 +48,7 @@ struct SignalSource {
 class SignalTree : public QFrame {
   Q_OBJECT
  public:
-  explicit SignalTree(TaxelGroups& groups, QWidget* parent = nullptr);
+  SignalTree(TaxelGroups& groups, FormulaCurves& formulas, QWidget* parent = nullptr);
 
   // Sets which curves are available.
   void setSource(const HandDescription& hand, const SignalSource& source);
@@ -62,6 +65,8 @@ class SignalTree : public QFrame {
   void extrasChanged();
   // The user asks to make a group of the selected taxels.
   void groupRequested();
+  // The user asks to change the curve of that name; empty: to make a new one.
+  void formulaRequested(const QString& name);
 
  protected:
   void keyPressEvent(QKeyEvent* event) override;
@@ -72,6 +77,7 @@ class SignalTree : public QFrame {
   void onItemChanged(QTreeWidgetItem* item);
 
   TaxelGroups& groups_;
+  FormulaCurves& formulas_;
   HandDescription hand_;
   SignalSource source_;
   std::size_t numChosen_ = 0;
@@ -79,6 +85,7 @@ class SignalTree : public QFrame {
   bool building_ = false;
   QTreeWidget* tree_;
   QPushButton* group_;
+  QPushButton* formula_;
 };
 
 }  // namespace palpate::gui

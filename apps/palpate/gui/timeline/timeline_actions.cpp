@@ -40,6 +40,8 @@ TimelineActions::TimelineActions(ActionRegistry& book) {
   differences->setToolTip(
       "Shows Δt, and of every curve its change, beside the ends of the selection");
   nameTaxels = book.make("nameTaxels", "Edit", "Name the chosen &taxels…", {key("Ctrl+Shift+G")});
+  newFormula = book.make("newFormula", "Edit", "Curve &by a formula or filter…");
+  newFormula->setToolTip("A slope, a difference, a filtered curve, or any formula of signals");
   nextSignal = book.make("nextSignal", "View", "Ne&xt signal in the timeline", {key("S")});
   chooseCurves = book.make("chooseCurves", "View", "Cu&rves in the timeline…", {key("C")});
   zoomIn = book.make("zoomIn", "View", "Zoom the timeline &in", {key("Ctrl++"), key("Ctrl+=")});

@@ -37,6 +37,8 @@ struct TimelineActions {
   // Sets the vertical axes by hand.
   // Makes a named group of the selected taxels.
   QAction* nameTaxels = nullptr;
+  // Makes a curve by a formula or a filter.
+  QAction* newFormula = nullptr;
   QAction* nextSignal = nullptr;
   QAction* chooseCurves = nullptr;
   QAction* zoomIn = nullptr;

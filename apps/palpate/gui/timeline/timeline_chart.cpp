@@ -1,9 +1,7 @@
 #include "gui/timeline/timeline_chart.h"
 
 #include <QContextMenuEvent>
-#include <QHelpEvent>
 #include <QMouseEvent>
-#include <QToolTip>
 #include <QWheelEvent>
 #include <algorithm>
 #include <cmath>
@@ -35,7 +33,7 @@ constexpr double kTimelineMouseWheelPan = 0.1;
 }  // namespace
 
 TimelineChart::TimelineChart(QWidget* parent)
-    : QCustomPlot(parent), axes_(std::make_unique<UnitAxes>(*this)), span_(this) {
+    : ReadingChart(parent), axes_(std::make_unique<UnitAxes>(*this)), span_(this) {
   arrangeChart(*this);
   setAccessibleName("Timeline");
   setMouseTracking(true);
@@ -416,16 +414,6 @@ QString TimelineChart::valuesAt(double seconds) const {
     return text + "\ngap of " + QString::number(gap->seconds, 'f', 1) + " s: nothing was recorded";
   return readingsText(
       text, curves_, [&](const SeriesChoice& choice) { return store_.valueAt(choice, seconds); });
-}
-
-bool TimelineChart::event(QEvent* event) {
-  if (event->type() == QEvent::ToolTip) {
-    const auto* help = static_cast<QHelpEvent*>(event);
-    QToolTip::showText(help->globalPos(), valuesAt(secondsAt(help->pos().x())), this);
-    return true;
-  }
-  if (event->type() == QEvent::FontChange) setTheme(theme_);
-  return QCustomPlot::event(event);
 }
 
 }  // namespace palpate::gui

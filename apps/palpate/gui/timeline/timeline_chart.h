@@ -11,8 +11,8 @@
 #include <palpate/model/timing.h>
 
 #include "gui/appearance/theme.h"
-#include "gui/chart/plot.h"
 #include "gui/chart/plotted_curve.h"
+#include "gui/chart/reading_chart.h"
 #include "gui/chart/span_overlay.h"
 #include "gui/chart/unit_axes.h"
 #include "gui/source/opened_recording.h"
@@ -20,7 +20,7 @@
 
 namespace palpate::gui {
 
-class TimelineChart : public QCustomPlot {
+class TimelineChart : public ReadingChart {
   Q_OBJECT
  public:
   explicit TimelineChart(QWidget* parent = nullptr);
@@ -79,7 +79,8 @@ class TimelineChart : public QCustomPlot {
   void wheelEvent(QWheelEvent* event) override;
   void contextMenuEvent(QContextMenuEvent* event) override;
   void resizeEvent(QResizeEvent* event) override;
-  bool event(QEvent* event) override;
+  QString readingAt(const QPoint& at) const override { return valuesAt(secondsAt(at.x())); }
+  void restyle() override { setTheme(theme_); }
 
  private:
   enum class Drag { kNone, kPan, kScrub, kSelect, kFrom, kTo };

@@ -2,17 +2,23 @@
 
 #include <QInputDialog>
 #include <QMenu>
+#include <QPainter>
+#include <QPicture>
 #include <QToolButton>
 #include <algorithm>
+
+#include <palpate/signals/signal_name.h>
 
 #include "gui/appearance/captions.h"
 #include "gui/appearance/hand_unit.h"
 #include "gui/appearance/next_choice.h"
 #include "gui/chart/chart_picture.h"
+#include "gui/picture/picture_export.h"
 #include "gui/timeline/axis_editor.h"
 #include "gui/timeline/cursor_readout.h"
 #include "gui/timeline/curve_statistics.h"
 #include "gui/timeline/curve_table.h"
+#include "gui/timeline/formula_dialog.h"
 #include "gui/timeline/grasp_export.h"
 #include "gui/timeline/label_exchange.h"
 #include "gui/timeline/live_chart.h"
@@ -74,7 +80,7 @@ TimelineFeature::TimelineFeature(WindowState& windowState, QWidget* window)
                                 .ofCursors = {actions.zoomSelection, actions.dropSelection},
                                 .ofLive = {actions.freeze}},
                                window);
-  signalTree_ = new SignalTree(groups_, window);
+  signalTree_ = new SignalTree(groups_, windowState.formulas, window);
   signalTree_->setExtras(extras_);
   charts_ = new FittingPages(window);
   panel_ = new TimelinePanel(charts_);
@@ -394,6 +400,44 @@ void TimelineFeature::connectCurves() {
   connect(signalTree_, &SignalTree::groupRequested, this, &TimelineFeature::nameChosenTaxels);
   on(actions_.nameTaxels, [this] { nameChosenTaxels(); });
   connect(&groups_, &TaxelGroups::changed, this, &TimelineFeature::showCurves);
+  connect(signalTree_, &SignalTree::formulaRequested, this, &TimelineFeature::askForFormula);
+  on(actions_.newFormula, [this] { askForFormula({}); });
+  state().actionEnabler.add({actions_.newFormula},
+                            [this] { return state().displayed.hasFrames(); });
+  connect(&state().formulas, &FormulaCurves::changed, this, &TimelineFeature::showCurves);
+}
+
+void TimelineFeature::askForFormula(const QString& name) {
+  const OpenedRecordingPtr recording = state().displayed.filteredRecording();
+  if (!recording || recording->profile.numFrames() == 0)
+    return state().messages.flash("a formula needs a recording with frames");
+  const FormulaCurve before = state().formulas.named(name).value_or(FormulaCurve{});
+  std::vector<FormulaSignal> from = formulaSignals(
+      recording->profile.hand(), state().appearance.view().signal, state().selection.taxels());
+  // What is plotted comes first.
+  const std::vector<PlottedCurve> shown = curves();
+  std::stable_partition(from.begin(), from.end(), [&](const FormulaSignal& each) {
+    return std::any_of(shown.begin(), shown.end(), [&](const PlottedCurve& curve) {
+      return palpate::nameOf(curve.choice, recording->profile.layout()) == each.name.toStdString();
+    });
+  });
+  auto* dialog = new FormulaDialog(std::move(from), recording->profile, before, window());
+  dialog->setAttribute(Qt::WA_DeleteOnClose);
+  connect(dialog, &QDialog::accepted, this, [this, dialog, before] {
+    const FormulaCurve made = dialog->curve();
+    FormulaCurves& formulas = state().formulas;
+    // Renamed: the old name goes, unless the new one can't be kept.
+    if (!formulas.keep(made))
+      return state().messages.fail("There are too many formulas: delete some (Curves, Del)");
+    extras_.formulas.insert(made.name);
+    if (!before.name.isEmpty() && before.name != made.name) {
+      extras_.formulas.erase(before.name);
+      formulas.forget(before.name);
+    }
+    signalTree_->setExtras(extras_);
+    showCurves();
+  });
+  dialog->open();
 }
 
 std::vector<PlottedCurve> TimelineFeature::curves() const {
@@ -425,6 +469,10 @@ std::vector<PlottedCurve> TimelineFeature::curves() const {
        groups_.of(live ? *hand->layout : recording->profile.layout()))
     if (extras_.groups.contains(group.name))
       add(taxelCurve(*hand, group.taxels, group.name, place++, theme));
+  place = 0;
+  for (const FormulaCurve& each : state().formulas.all())
+    if (recording && !live && extras_.formulas.contains(each.name))
+      add(formulaCurve(each.choice(), each.name, each.unit, place++, theme));
   for (const int axis : extras_.angles)
     if (axis < static_cast<int>(hand->axes.size()))
       add(angleCurve(*hand, static_cast<std::size_t>(axis), theme));
@@ -572,6 +620,33 @@ std::vector<ExportedView> TimelineFeature::views() {
     QCustomPlot* plot =
         windowState.displayed.isLive() ? static_cast<QCustomPlot*>(liveChart_) : chart_;
     paintChart(painter, look, *plot, options);
+  };
+  // The chart with a cursor that moves from frame to frame.
+  view.framePart = [this, &windowState]() -> std::optional<FramePictures> {
+    std::optional<FramePictures> pictures = windowState.framePictures("_timeline");
+    if (!pictures) return pictures;
+    pictures->painter =
+        [this, recording = windowState.displayed.filteredRecording()](const PictureLook& look) {
+          ChartPictureOptions options;
+          for (const PlottedCurve& curve : curves())
+            options.legend.push_back({curve.name, curve.pen});
+          auto chart = std::make_shared<QPicture>();
+          QPainter onPicture(chart.get());
+          const QRectF axes = paintChart(onPicture, look, *chart_, options);
+          onPicture.end();
+          const Theme theme = look.forPrint ? Theme::kLight : state().appearance.theme();
+          const QPen pen(colorsOf(theme).accent, 2.0);
+          return FramePictures::Paint([chart, axes, pen, recording, seen = chart_->seen()](
+                                          QPainter& painter, std::size_t frame) {
+            replay(painter, *chart);
+            const double share = (recording->timeAt(frame) - seen.lower) / seen.size();
+            if (share < 0.0 || share > 1.0) return;
+            const double x = axes.left() + share * axes.width();
+            painter.setPen(pen);
+            painter.drawLine(QPointF(x, axes.top()), QPointF(x, axes.bottom()));
+          });
+        };
+    return pictures;
   };
   view.tables = [this, &windowState] {
     std::vector<ExportedTable> tables;

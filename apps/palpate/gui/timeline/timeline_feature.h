@@ -57,6 +57,8 @@ class TimelineFeature : public Feature {
   void showSelection();
   void selectEnd(bool begin);
   void nameChosenTaxels();
+  // Asks for a curve by a formula; an empty name: a new one.
+  void askForFormula(const QString& name);
   void showStatistics();
 
   TimelineActions actions_;

@@ -78,6 +78,11 @@ const std::vector<GraspSegment>& EventController::graspsOf(const OpenedRecording
   return found;
 }
 
+std::vector<RecordingEvent> EventController::eventsOf(const OpenedRecordingPtr& recording) const {
+  const auto editor = editors_.find(recording.get());
+  return editor == editors_.end() ? recording->events.events : editor->second->events();
+}
+
 void EventController::renewMarks() {
   marks_.clear();
   if (const EventEditor* now = editor()) {

@@ -49,6 +49,9 @@ class EventController : public QObject {
   void forgetFound() { found_.clear(); }
   void renewMarks();
 
+  // The events of an open recording as they are now, saved or not.
+  std::vector<RecordingEvent> eventsOf(const OpenedRecordingPtr& recording) const;
+
   void add(const RecordingEvent& event, const QString& name);
   // Adds a grasp marked by the user. All grasps found automatically become events of the user, too.
   void addGrasp(const RecordingEvent& segment);

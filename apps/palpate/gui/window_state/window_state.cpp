@@ -50,7 +50,8 @@ WindowState::WindowState(const WindowEnvironment& given, QWidget* window)
       displayed(live, playback, selection),
       events(displayed, recordings, messages, prompts),
       activeFilters(displayed, events, live, messages, settings),
-      currentFrame(displayed, activeFilters, live, playback) {}
+      currentFrame(displayed, activeFilters, live, playback),
+      formulas(settings) {}
 
 std::filesystem::path WindowState::demoRecording() const {
   return environment.dataFolder / kDemoFile;

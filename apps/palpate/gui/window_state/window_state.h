@@ -29,6 +29,7 @@
 #include "gui/window_state/displayed_source.h"
 #include "gui/window_state/escape_handler.h"
 #include "gui/window_state/event_controller.h"
+#include "gui/window_state/formula_curves.h"
 #include "gui/window_state/hand_commands.h"
 #include "gui/window_state/menus.h"
 #include "gui/window_state/messages.h"
@@ -82,6 +83,7 @@ struct WindowState {
   ActiveFilters activeFilters;
   CurrentFrame currentFrame;
   DerivedResults derivedResults;
+  FormulaCurves formulas;
   ComparisonMode comparison;
   HandCommands handCommands;
   // The recordings chosen in the Library; may be empty: no Library.

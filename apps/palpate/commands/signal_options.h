@@ -1,0 +1,50 @@
+// A signal of a recording, or a formula over signals, as the user types it for a command.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include <palpate/core/progress.h>
+#include <palpate/model/profile.h>
+#include <palpate/signals/formula.h>
+#include <palpate/signals/profile_series.h>
+
+namespace palpate::commands {
+
+// The names of signals, for a help text.
+inline constexpr const char* kSignalNames =
+    "m1_mean, hand_sum, m5_x2_y9 (matrix, column, row), angle3, temperature4";
+
+// Either is set.
+struct TypedSignal {
+  std::optional<SeriesChoice> choice = {};
+  std::optional<Formula> formula = {};
+};
+
+// The taxel of matrix m. Throws Error that names the taxels which exist.
+SeriesChoice taxelOf(const SensorLayout& layout,
+                     std::size_t m,
+                     std::int64_t x,
+                     std::int64_t y,
+                     const std::string& file);
+
+// Throws UsageError, which begins with `option`, for a text that is neither a name
+// (signals/signal_name.h) nor a formula; Error when the hand has no such matrix or taxel.
+TypedSignal typedSignal(const std::string& text,
+                        const SensorLayout& layout,
+                        const std::string& file,
+                        const std::string& option);
+
+// The series within fromS..toS, and perhaps its neighbours. Throws Error (the recording doesn't
+// have the signal; a frame that can't be read) and Cancelled.
+Series typedSeries(const Profile& profile,
+                   const TypedSignal& signal,
+                   double fromS,
+                   double toS,
+                   const std::string& file,
+                   const Progress& progress);
+
+// Parts "A,B" at its commas outside of brackets.
+std::vector<std::string> splitSignals(const std::string& text);
+
+}  // namespace palpate::commands

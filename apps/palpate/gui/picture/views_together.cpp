@@ -1,0 +1,156 @@
+#include "gui/picture/views_together.h"
+
+#include <QColor>
+#include <QPainter>
+#include <QPalette>
+#include <algorithm>
+#include <numeric>
+#include <utility>
+
+namespace palpate::gui {
+namespace {
+
+PictureLook partLook(const PictureLook& look, const QRectF& place, bool first) {
+  PictureLook own = look;
+  own.size = QSizeF(look.size.width() * place.width(), look.size.height() * place.height());
+  // The first one names the recording for all.
+  own.titled = look.titled && first;
+  return own;
+}
+
+// Calls `paint` with the painter moved to the part's place.
+template <class Paint>
+void paintPart(QPainter& painter, const QSizeF& whole, const QRectF& place, const Paint& paint) {
+  painter.save();
+  painter.translate(whole.width() * place.left(), whole.height() * place.top());
+  painter.setClipRect(QRectF(0, 0, whole.width() * place.width(), whole.height() * place.height()));
+  paint();
+  painter.restore();
+}
+
+std::vector<const ExportedView*> together(const std::vector<const ExportedView*>& views) {
+  std::vector<const ExportedView*> parts;
+  for (const ExportedView* view : views)
+    if (view->widget && view->widget->isVisible() && view->paint &&
+        (view->framePart || view->framePictures) && view->isThere())
+      parts.push_back(view);
+  return parts;
+}
+
+Arrangement arrangedOnScreen(const std::vector<const ExportedView*>& parts) {
+  std::vector<QRectF> onScreen;
+  for (const ExportedView* part : parts)
+    onScreen.emplace_back(part->widget->mapToGlobal(QPoint()), part->sizeOnScreen());
+  return arrangementOf(onScreen);
+}
+
+}  // namespace
+
+Arrangement arrangementOf(const std::vector<QRectF>& onScreen) {
+  std::vector<std::size_t> order(onScreen.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return onScreen[a].top() < onScreen[b].top();
+  });
+  std::vector<std::vector<std::size_t>> rows;
+  for (const std::size_t each : order) {
+    const double middle = onScreen[each].center().y();
+    if (!rows.empty()) {
+      const QRectF& first = onScreen[rows.back().front()];
+      if (middle >= first.top() && middle <= first.bottom()) {
+        rows.back().push_back(each);
+        continue;
+      }
+    }
+    rows.push_back({each});
+  }
+  Arrangement arranged{.size = QSizeF(0.0, 0.0), .places = std::vector<QRectF>(onScreen.size())};
+  std::vector<double> heights;
+  for (auto& row : rows) {
+    std::stable_sort(row.begin(), row.end(), [&](std::size_t a, std::size_t b) {
+      return onScreen[a].left() < onScreen[b].left();
+    });
+    double width = 0.0, height = 0.0;
+    for (const std::size_t each : row) {
+      width += onScreen[each].width();
+      height = std::max(height, onScreen[each].height());
+    }
+    heights.push_back(height);
+    arranged.size.setWidth(std::max(arranged.size.width(), width));
+    arranged.size.setHeight(arranged.size.height() + height);
+  }
+  double top = 0.0;
+  for (std::size_t r = 0; r < rows.size(); ++r) {
+    double width = 0.0, left = 0.0;
+    for (const std::size_t each : rows[r]) width += onScreen[each].width();
+    for (const std::size_t each : rows[r]) {
+      const double share = onScreen[each].width() / width;
+      arranged.places[each] =
+          QRectF(left, top / arranged.size.height(), share, heights[r] / arranged.size.height());
+      left += share;
+    }
+    top += heights[r];
+  }
+  return arranged;
+}
+
+FramePictures framesTogether(std::vector<FramePictures> parts,
+                             const std::vector<QRectF>& places,
+                             const QColor& ground) {
+  FramePictures all = parts.front();
+  all.painter = [parts = std::move(parts), places, ground](const PictureLook& look) {
+    std::vector<FramePictures::Paint> paints;
+    for (std::size_t i = 0; i < parts.size(); ++i)
+      paints.push_back(parts[i].painter(partLook(look, places[i], i == 0)));
+    return FramePictures::Paint(
+        [paints, places, ground, size = look.size, forPrint = look.forPrint](QPainter& painter,
+                                                                             std::size_t frame) {
+          painter.fillRect(QRectF(QPointF(), size), forPrint ? QColor(Qt::white) : ground);
+          for (std::size_t i = 0; i < paints.size(); ++i)
+            paintPart(painter, size, places[i], [&] { paints[i](painter, frame); });
+        });
+  };
+  return all;
+}
+
+ExportedView viewsTogether(std::function<std::vector<const ExportedView*>()> parts) {
+  ExportedView view;
+  view.name = "Views together";
+  view.isThere = [parts] { return together(parts()).size() >= 2; };
+  view.fileName = [parts] {
+    const auto shown = together(parts());
+    return (shown.empty() ? QString("views") : shown.front()->fileName() + "_views");
+  };
+  view.size = [parts] { return arrangedOnScreen(together(parts())).size; };
+  const auto groundOf = [](const ExportedView& part) {
+    return part.widget->window()->palette().color(QPalette::Window);
+  };
+  view.paint = [parts, groundOf](QPainter& painter, const PictureLook& look) {
+    const auto shown = together(parts());
+    if (shown.empty()) return;
+    const Arrangement arranged = arrangedOnScreen(shown);
+    painter.fillRect(QRectF(QPointF(), look.size),
+                     look.forPrint ? QColor(Qt::white) : groundOf(*shown.front()));
+    for (std::size_t i = 0; i < shown.size(); ++i)
+      paintPart(painter, look.size, arranged.places[i], [&] {
+        shown[i]->paint(painter, partLook(look, arranged.places[i], i == 0));
+      });
+  };
+  view.framePictures = [parts, groundOf]() -> std::optional<FramePictures> {
+    const auto shown = together(parts());
+    std::vector<FramePictures> pictures;
+    for (const ExportedView* part : shown) {
+      auto own = part->framePart ? part->framePart() : part->framePicturesNow();
+      if (!own) return std::nullopt;
+      pictures.push_back(std::move(*own));
+    }
+    if (pictures.size() < 2) return std::nullopt;
+    FramePictures all = framesTogether(
+        std::move(pictures), arrangedOnScreen(shown).places, groundOf(*shown.front()));
+    all.fileName += "_views";
+    return all;
+  };
+  return view;
+}
+
+}  // namespace palpate::gui
