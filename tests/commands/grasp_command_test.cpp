@@ -254,5 +254,46 @@ TEST(GraspCommand, OverTheLimitAlreadyIsRefused) {
   EXPECT_TRUE(bench.log.deeds().empty());
 }
 
+TEST(GraspCommand, LimitsOfFingersAndInNewtonsAreChecked) {
+  const auto wrong = [](std::vector<std::string> more) {
+    std::vector<std::string> words{
+        "grasp", "--sdh", "/dev/null", "--dsa", "/dev/null", "--preshape", "centrical"};
+    words.insert(words.end(), more.begin(), more.end());
+    const auto result = palpate(words);
+    EXPECT_EQ(result.exitCode, 2) << result.err;
+    return result.err;
+  };
+  EXPECT_NE(wrong({"--finger-limits", "200,200,200"}).find("needs --mode"), std::string::npos);
+  EXPECT_NE(wrong({"--mode", "reactive", "--finger-limits", "200,200"}).find("takes 3 numbers"),
+            std::string::npos);
+  EXPECT_NE(wrong({"--mode", "reactive", "--finger-limits", "200,2,200"}).find("no count in 3"),
+            std::string::npos);
+  EXPECT_NE(wrong({"--mode", "reactive", "--force-limit", "2"}).find("need one another"),
+            std::string::npos);
+  EXPECT_NE(
+      wrong({"--mode", "reactive", "--force-limit", "0", "--calibration", "x"}).find("0.05..500"),
+      std::string::npos);
+}
+
+TEST(GraspCommand, AGraspStopsAtTheLimitOfAFinger) {
+  EmulatedBench bench(handWith("ball"));
+  const auto result = palpate({"grasp",
+                               "--sdh",
+                               bench.hand->sdhPort(),
+                               "--dsa",
+                               bench.hand->dsaPort(),
+                               "--preshape",
+                               "centrical",
+                               "--mode",
+                               "reactive",
+                               "--velocity",
+                               "60",
+                               "--finger-limits",
+                               "3000,3000,50"});
+  ASSERT_EQ(result.exitCode, 0) << result.err << result.out;
+  EXPECT_NE(result.out.find("limit_reached: limit reached: finger 2"), std::string::npos)
+      << result.out;
+}
+
 }  // namespace
 }  // namespace palpate::grasp_command_test

@@ -1,10 +1,12 @@
 // The command `palpate grasp --sdh PORT [--dsa PORT] --preshape NAME ..` moves a hand and prints
 // its states.
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <memory>
 #include <string>
 
+#include "palpate/calibration/calibration.h"
 #include "palpate/capture/capture_session.h"
 #include "palpate/control/grasp_control.h"
 #include "palpate/core/error.h"
@@ -18,6 +20,7 @@
 
 #include "commands/command_line.h"
 #include "commands/commands.h"
+#include "commands/hand_options.h"
 
 namespace palpate::commands {
 namespace {
@@ -45,6 +48,14 @@ CommandSpec graspSpec() {
                   {"velocity", "V", "velocity of the joints, 1..100 deg/s, default 10"},
                   {"mode", "plain|reactive|slip", "default plain"},
                   {"limit", "N", "limit of 'reactive' and 'slip', 3..3300 counts, default 200"},
+                  {"finger-limits",
+                   "N0,N1,..",
+                   "instead of --limit: a limit for each finger, in counts"},
+                  {"force-limit",
+                   "F[,F1,..]",
+                   "also stops when a finger presses harder than F newtons; F,F1,..: each finger; "
+                   "0.05..500, needs --calibration"},
+                  {"calibration", "FILE", "the calibration that measures --force-limit"},
                   {"most", "N", "of 'slip': the limit rises up to N counts, default 2200"},
                   {"hold", "S", "of 'slip': ends after S seconds; the hand goes on holding"},
                   {"calm",
@@ -80,6 +91,36 @@ void holdingOf(const CommandLine& given, GraspRequest& request) {
   holding.newtonsPerCount = given.number("newtons-per-count", 1e-9, 1.0).value_or(0.0);
 }
 
+// Limits of single fingers, and limits in newtons.
+void fingerLimitsOf(const CommandLine& given, GraspRequest& request) {
+  const auto limits = given.text("finger-limits");
+  const auto forces = given.text("force-limit");
+  for (const char* option : {"finger-limits", "force-limit"})
+    if (given.has(option) && request.mode == GraspMode::kPlain)
+      throw UsageError("--" + std::string(option) + " needs --mode reactive or slip");
+  if (limits && given.has("limit"))
+    throw UsageError("--limit and --finger-limits exclude one another");
+  if (given.has("force-limit") != given.has("calibration"))
+    throw UsageError("--force-limit and --calibration need one another");
+  if (limits) {
+    for (const double limit : numbersOf(*limits, "finger-limits", numMovableFingers())) {
+      if (limit != std::floor(limit) || limit < kMinGraspLimitCounts ||
+          limit > kMaxGraspLimitCounts)
+        throw UsageError("--finger-limits: " + numberText(limit) + " is no count in " +
+                         std::to_string(kMinGraspLimitCounts) + ".." +
+                         std::to_string(kMaxGraspLimitCounts));
+      request.fingerLimitCounts.push_back(static_cast<int>(limit));
+    }
+    request.limitCounts =
+        *std::max_element(request.fingerLimitCounts.begin(), request.fingerLimitCounts.end());
+  }
+  if (!forces) return;
+  request.forceLimitsN = numbersOf(*forces, "force-limit", 0);
+  // The limit in counts stays as a second one, as high as it can be.
+  if (!limits && !given.has("limit") && request.mode == GraspMode::kReactive)
+    request.limitCounts = kMaxGraspLimitCounts;
+}
+
 GraspRequest graspRequestOf(const CommandLine& given) {
   GraspRequest request;
   const std::string mode = given.choice("mode", {"plain", "reactive", "slip"}).value_or("plain");
@@ -102,7 +143,13 @@ GraspRequest graspRequestOf(const CommandLine& given) {
   const auto limit = given.integer("limit", kMinGraspLimitCounts, kMaxGraspLimitCounts);
   if (limit && !feels) throw UsageError("--limit needs --mode reactive or slip");
   request.limitCounts = static_cast<int>(limit.value_or(request.limitCounts));
+  fingerLimitsOf(given, request);
   holdingOf(given, request);
+  try {
+    request.validate();
+  } catch (const std::invalid_argument& error) {
+    throw UsageError(error.what());
+  }
   return request;
 }
 
@@ -189,10 +236,13 @@ int graspCommand(const Arguments& words) {
     throw UsageError("--mode " + std::string(nameOf(request.mode)) +
                      " needs --dsa PORT: it stops by what the fingers feel");
   const double waitS = given.number("wait", 0.1, 1e6).value_or(15.0);
+  std::optional<Calibration> calibration;
+  if (const auto file = given.text("calibration")) calibration = loadCalibration(*file);
   const StateLines lines(given.quiet());
   Interruption interruption;
   CaptureSession session(std::make_unique<LiveHand>(std::move(ports)));
   GraspControl control(session);
+  control.setCalibration(std::move(calibration));
   control.run();
   lines.show("connecting");
   session.start();

@@ -46,6 +46,7 @@ CaptureQueueOptions smallFeed() {
 }  // namespace
 
 HandDock::HandDock(QSettings& settings, QWidget* parent) : QWidget(parent) {
+  calibrationOf = [](const std::string&) { return std::optional<Calibration>(); };
   stopKey_ = new StopKey(this);
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(0, 0, 0, 0);
@@ -79,6 +80,11 @@ HandDock::HandDock(QSettings& settings, QWidget* parent) : QWidget(parent) {
   connect(tactile_, &TactileSettingsPanel::refused, this, refused);
   connect(sensitivity_, &SensitivityModes::refused, this, refused);
   connect(tactile_, &TactileSettingsPanel::changedByHand, sensitivity_, &SensitivityModes::endMode);
+  grasp_->highestLimit = [this](const GraspRequest& request) {
+    if (!session_) return kMaxGraspLimitCounts;
+    const DeviceInfo facts = session_->device().facts();
+    return highestMeasurableLimit(session_->device().hand(), facts.matrices, request);
+  };
   timer_.setInterval(kHandDockRefreshMs);
   connect(&timer_, &QTimer::timeout, this, &HandDock::refresh);
   setHand(nullptr, nullptr);
@@ -203,7 +209,12 @@ void HandDock::setHand(CaptureSession* session, GraspControl* control) {
   refresh();
 }
 
+void HandDock::renewCalibration() {
+  if (control_) control_->setCalibration(calibrationOf(session_->device().hand().name));
+}
+
 void HandDock::updateHand() {
+  renewCalibration();
   const HandDescription hand = session_ ? session_->device().hand() : movableHand();
   tactile_->setMatrices(hand);
   std::vector<Fact> facts;
@@ -256,7 +267,12 @@ void HandDock::bind(const HandActions& actions) {
 // everything, by the slip-aware grasp.
 void HandDock::showUnmeasurable(const std::vector<MatrixSettings>& settings) {
   const GraspRequest reactive = grasp_->request(GraspMode::kReactive);
-  Judged now{settings, layout_, reactive.preshape, reactive.limitCounts};
+  Judged now{settings,
+             layout_,
+             reactive.preshape,
+             reactive.limitCounts,
+             grasp_->request(GraspMode::kSlip).holding.maxLimitCounts,
+             reactive.fingerLimitCounts};
   if (judged_ == now) return;
   judged_ = std::move(now);
   std::vector<QString> why;

@@ -6,6 +6,7 @@
 #include <QSettings>
 #include <QTimer>
 #include <QWidget>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -52,6 +53,10 @@ class HandDock : public QWidget {
   // As in unmeasurableChanged().
   const std::vector<QString>& unmeasurable() const noexcept { return unmeasurable_; }
   SensitivityModes& sensitivity() noexcept { return *sensitivity_; }
+  // The calibration applied to the hand with this name, for limits in newtons; nothing: none.
+  std::function<std::optional<Calibration>(const std::string& hand)> calibrationOf;
+  // Call this when another calibration was applied.
+  void renewCalibration();
   // Updates the dock; a timer calls it while a hand is connected.
   void refresh();
   QSize sizeHint() const override { return {455, 640}; }
@@ -116,6 +121,8 @@ class HandDock : public QWidget {
     std::shared_ptr<const SensorLayout> layout;
     std::string preshape;
     int limitCounts = 0;
+    int maxLimitCounts = 0;
+    std::vector<int> fingerLimitCounts;
     bool operator==(const Judged&) const = default;
   };
   std::optional<Judged> judged_;
