@@ -82,14 +82,12 @@ QDoubleSpinBox* GraspOptions::field(const QString& name,
                                     const QString& title,
                                     double least,
                                     double most,
-                                    int decimals,
-                                    const QString& unit) {
+                                    int decimals) {
   auto* made = new SecondsField(body_);
   made->setObjectName(name);
   made->setAccessibleName(title);
   made->setDecimals(decimals);
   made->setRange(least, most);
-  if (!unit.isEmpty()) made->setSuffix(" " + unit);
   made->setFocusPolicy(Qt::StrongFocus);
   connect(made, &QDoubleSpinBox::valueChanged, this, &GraspOptions::remember);
   return made;
@@ -102,7 +100,7 @@ void GraspOptions::makeLimits(QGridLayout& grid) {
   unit_->addItems({"counts", "newtons"});
   grid.addWidget(new QLabel("Limit in", body_), 0, 0);
   grid.addWidget(unit_, 0, 1);
-  eachFinger_ = new QCheckBox("Each finger", body_);
+  eachFinger_ = new QCheckBox("Fingers 0, 1, 2", body_);
   eachFinger_->setObjectName("eachFinger");
   eachFinger_->setToolTip(
       "A limit of its own for each finger; in counts the largest taxel of the finger, in newtons "
@@ -117,14 +115,12 @@ void GraspOptions::makeLimits(QGridLayout& grid) {
                                   title + " in counts",
                                   kMinGraspLimitCounts,
                                   kMaxGraspLimitCounts,
-                                  0,
-                                  {}));
+                                  0));
     fingerNewtons_.push_back(field(
-        "fingerForce" + number, title + " in newtons", kMinForceLimitN, kMaxForceLimitN, 2, {}));
+        "fingerForce" + number, title + " in newtons", kMinForceLimitN, kMaxForceLimitN, 2));
     recall(settings_, fingerKey("counts", finger), *fingerCounts_.back(), 200.0);
     recall(settings_, fingerKey("n", finger), *fingerNewtons_.back(), kUsualForceN);
     for (QDoubleSpinBox* each : {fingerCounts_.back(), fingerNewtons_.back()}) {
-      each->setPrefix(number + ": ");
       each->setToolTip("Limit of finger " + number);
       fingers->addWidget(each, 1);
     }
@@ -141,13 +137,13 @@ void GraspOptions::makeLimits(QGridLayout& grid) {
 void GraspOptions::makeHolding(QGridLayout& grid) {
   const HoldingOptions usual;
   most_ = field(
-      "mostLimit", "Highest limit", kMinGraspLimitCounts, kMaxGraspLimitCounts, 0, "counts");
+      "mostLimit", "Highest limit", kMinGraspLimitCounts, kMaxGraspLimitCounts, 0);
   most_->setToolTip("Slip-aware: slips raise the limit up to this");
   recall(settings_, kMost, *most_, usual.maxLimitCounts);
-  calm_ = field("calmTime", "Calm", 0.1, 86'400.0, 1, "s");
+  calm_ = field("calmTime", "Calm", 0.1, 86'400.0, 1);
   calm_->setToolTip("Slip-aware: after this time without slip the limit falls again");
   recall(settings_, kCalm, *calm_, usual.noSlipS);
-  hold_ = field("holdTime", "Hold", 0.0, 86'400.0, 1, "s");
+  hold_ = field("holdTime", "Hold", 0.0, 86'400.0, 1);
   hold_->setToolTip("Slip-aware: ends after this time; the hand goes on holding. 0: until stopped");
   hold_->setSpecialValueText("until stopped");
   recall(settings_, kHold, *hold_, usual.holdS);
@@ -155,12 +151,12 @@ void GraspOptions::makeHolding(QGridLayout& grid) {
   loosen_->setObjectName("loosenHand");
   loosen_->setToolTip(
       "Slip-aware: the hand may open slowly to a limit that fell. Off in each new session");
-  mass_ = field("objectMass", "Object mass", 0.0, 100.0, 3, "kg");
+  mass_ = field("objectMass", "Object mass", 0.0, 100.0, 3);
   mass_->setToolTip(
       "Slip-aware: opens slowly once, until it slips, and measures the friction. Not kept for the "
       "next session");
   mass_->setSpecialValueText("not known");
-  newtonsPerCount_ = field("newtonsPerCount", "Newtons per count", 0.0, 1.0, 6, {});
+  newtonsPerCount_ = field("newtonsPerCount", "Newtons per count", 0.0, 1.0, 6);
   newtonsPerCount_->setToolTip("Of a calibration, for the friction; needs the object mass");
   newtonsPerCount_->setSpecialValueText("not known");
   const auto row = [&](int at, int column, const QString& title, QWidget* field) {
@@ -170,11 +166,11 @@ void GraspOptions::makeHolding(QGridLayout& grid) {
   auto* caption = new QLabel("Slip-aware grasp", body_);
   caption->setProperty("role", "muted");
   grid.addWidget(caption, 2, 0, 1, 4);
-  row(3, 0, "Most", most_);
-  row(3, 2, "Calm", calm_);
-  row(4, 0, "Hold", hold_);
+  row(3, 0, "Most, counts", most_);
+  row(3, 2, "Calm, s", calm_);
+  row(4, 0, "Hold, s", hold_);
   grid.addWidget(loosen_, 4, 2, 1, 2);
-  row(5, 0, "Object mass", mass_);
+  row(5, 0, "Object, kg", mass_);
   row(5, 2, "N/count", newtonsPerCount_);
   connect(loosen_, &QCheckBox::toggled, this, &GraspOptions::remember);
 }

@@ -46,8 +46,7 @@ class GraspOptions : public QWidget {
                         const QString& title,
                         double least,
                         double most,
-                        int decimals,
-                        const QString& unit);
+                        int decimals);
 
   QSettings& settings_;
   QToolButton* header_;

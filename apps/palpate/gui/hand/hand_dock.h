@@ -22,12 +22,16 @@ class QAction;
 class QLabel;
 class QPushButton;
 class QScrollArea;
+class QTabBar;
 
 namespace palpate::gui {
 
 struct HandActions;
 class FactsView;
+class FittingPages;
 class GraspPanel;
+class JointPanel;
+class SequencePanel;
 class SensitivityModes;
 class StopKey;
 class TactileSettingsPanel;
@@ -75,6 +79,8 @@ class HandDock : public QWidget {
  private:
   QWidget* makeHead();
   QWidget* makeBody(QSettings& settings);
+  void makePages(QSettings& settings, QWidget* content);
+  void connectMotions();
   bool isReadOnly() const { return session_ && !control_; }
   void say(const QString& text, bool bad);
   void showState(const GraspStatus& status);
@@ -96,7 +102,12 @@ class HandDock : public QWidget {
   QPushButton* stop_;
   // What is absent for a hand that is read only.
   std::vector<QWidget*> controls_;
+  // The pages Grasp, Joints and Sequence.
+  QTabBar* chooser_;
+  FittingPages* pages_;
   GraspPanel* grasp_;
+  JointPanel* joint_;
+  SequencePanel* sequence_;
   SensitivityModes* sensitivity_;
   TactileSettingsPanel* tactile_;
   // Joint angles with their heading; absent for a hand without axes.
