@@ -157,7 +157,8 @@ SequenceStep stepFrom(const JsonField& field) {
 }  // namespace
 
 std::string describe(const SequenceStep& step) {
-  if (!isMotion(step)) return std::string(nameOf(step.kind)) + ": " + numberText(step.seconds) + " s";
+  if (!isMotion(step))
+    return std::string(nameOf(step.kind)) + ": " + numberText(step.seconds) + " s";
   std::string text = describe(requestOf(step));
   if (step.kind == Kind::kGrasp && step.request.mode == GraspMode::kSlip)
     text += ", holds " + numberText(step.request.holding.holdS) + " s";
@@ -199,16 +200,16 @@ MotionSequence parseSequence(std::string_view text, const std::filesystem::path&
   root.required("version").integer(1, kSequenceVersion);
   MotionSequence sequence;
   sequence.hand = root.required("hand").text();
-  sequence.repetitions = static_cast<int>(
-      root.integer("repetitions", 1, 1, MotionSequence::kMostRepetitions));
+  sequence.repetitions =
+      static_cast<int>(root.integer("repetitions", 1, 1, MotionSequence::kMostRepetitions));
   for (const JsonField& each : root.required("steps").items(MotionSequence::kMostSteps))
     sequence.steps.push_back(stepFrom(each));
   return sequence;
 }
 
 std::string SequenceRun::place() const {
-  std::string text = "step " + std::to_string(status_.step + 1) + " of " +
-                     std::to_string(sequence_.steps.size());
+  std::string text =
+      "step " + std::to_string(status_.step + 1) + " of " + std::to_string(sequence_.steps.size());
   if (sequence_.repetitions > 1)
     text += ", " + std::to_string(status_.repetition + 1) + " of " +
             std::to_string(sequence_.repetitions) + " times";
@@ -269,11 +270,11 @@ void SequenceRun::next(std::int64_t hostUs) {
     status_.step = 0;
     ++status_.repetition;
   } else {
-    return finish("sequence finished: " + std::to_string(sequence_.steps.size()) + " steps" +
-                      (sequence_.repetitions > 1
-                           ? ", " + std::to_string(sequence_.repetitions) + " times"
-                           : ""),
-                  false);
+    return finish(
+        "sequence finished: " + std::to_string(sequence_.steps.size()) + " steps" +
+            (sequence_.repetitions > 1 ? ", " + std::to_string(sequence_.repetitions) + " times"
+                                       : ""),
+        false);
   }
   try {
     beginStep(hostUs);

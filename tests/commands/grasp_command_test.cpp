@@ -1,7 +1,9 @@
 // The real program on an emulated hand that runs in the test: what it says, and what arrives at the
 // hand.
 #include <csignal>
+#include <fstream>
 
+#include "palpate/control/motion_sequence.h"
 #include "palpate/core/number_text.h"
 
 #include "commands/palpate_program.h"
@@ -293,6 +295,36 @@ TEST(GraspCommand, AGraspStopsAtTheLimitOfAFinger) {
   ASSERT_EQ(result.exitCode, 0) << result.err << result.out;
   EXPECT_NE(result.out.find("limit_reached: limit reached: finger 2"), std::string::npos)
       << result.out;
+}
+
+TEST(GraspCommand, ASequenceOfAFileIsDoneStepByStep) {
+  EmulatedBench bench(stillHand(), {.rate = EmulationRate::kFixed, .hz = 30.0});
+  const TemporaryFolder folder;
+  MotionSequence sequence;
+  sequence.hand = movableHand().name;
+  SequenceStep step;
+  step.kind = SequenceStep::Kind::kOpen;
+  step.request.closeRatio = 0.0;
+  step.request.velocityDegPerS = 90.0;
+  SequenceStep rest;
+  rest.seconds = 0.1;
+  sequence.steps = {step, rest};
+  sequence.repetitions = 2;
+  const std::string file = (folder / "s.json").string();
+  std::ofstream(file) << sequenceText(sequence);
+  const auto result = palpate({"grasp", "--sdh", bench.hand->sdhPort(), "--sequence", file});
+  ASSERT_EQ(result.exitCode, 0) << result.err << result.out;
+  EXPECT_EQ(
+      statesOf(result.out),
+      (States{"connecting", "ready", "sequence", "sequence", "sequence", "sequence", "finished"}));
+  EXPECT_EQ(bench.log.named("m").size(), 2u);
+  std::ofstream(file) << "{}";
+  const auto bad = palpate({"grasp", "--sdh", bench.hand->sdhPort(), "--sequence", file});
+  EXPECT_EQ(bad.exitCode, 1);
+  EXPECT_NE(bad.err.find("no sequence"), std::string::npos) << bad.err;
+  const auto both = palpate(
+      {"grasp", "--sdh", bench.hand->sdhPort(), "--sequence", file, "--preshape", "parallel"});
+  EXPECT_EQ(both.exitCode, 2);
 }
 
 }  // namespace

@@ -267,7 +267,8 @@ TEST(MotionSequence, IsReadAsItWasWritten) {
   EXPECT_EQ(sequenceText(read), text);
   EXPECT_EQ(read.repetitions, 12);
   ASSERT_EQ(read.steps.size(), 7u);
-  for (std::size_t i = 0; i < 7; ++i) EXPECT_EQ(describe(read.steps[i]), describe(sequence.steps[i]));
+  for (std::size_t i = 0; i < 7; ++i)
+    EXPECT_EQ(describe(read.steps[i]), describe(sequence.steps[i]));
   EXPECT_EQ(read.steps[5].request.fingerLimitCounts, (std::vector<int>{400, 300, 200}));
   EXPECT_TRUE(read.steps[5].request.holding.loosen);
   EXPECT_NO_THROW(read.validate(sdh2()));
@@ -284,7 +285,8 @@ TEST(MotionSequence, BadFilesAreRefusedWithTheirPlace) {
   };
   EXPECT_NE(errorOf("no").find("s.json"), std::string::npos);
   EXPECT_NE(errorOf("[]").find("no sequence"), std::string::npos);
-  const std::string head = R"({"format": "palpate-sequence", "version": 1, "hand": "h", "steps": [)";
+  const std::string head =
+      R"({"format": "palpate-sequence", "version": 1, "hand": "h", "steps": [)";
   EXPECT_NE(errorOf(head + R"({"step": "jump"}]})").find("steps[0].step"), std::string::npos);
   EXPECT_NE(errorOf(head + R"({"step": "hold", "seconds": -1}]})").find("seconds"),
             std::string::npos);
@@ -359,9 +361,8 @@ TEST_F(SequenceOnTheHand, UnpluggingItEndsTheSequence) {
     ASSERT_TRUE(go([&] { return !run_->running(); })) << step;
     EXPECT_TRUE(run_->status().failed);
     bench_.hand->replug();
-    ASSERT_TRUE(go([&] {
-      return bench_.control->status().cannotReact.empty() && !bench_.handMoves();
-    }));
+    ASSERT_TRUE(
+        go([&] { return bench_.control->status().cannotReact.empty() && !bench_.handMoves(); }));
     const std::size_t motions = bench_.log.named("m").size();
     for (int i = 0; i < 50; ++i) run_->step(bench_.session->nowUs() + i * 1'000'000);
     EXPECT_EQ(bench_.log.named("m").size(), motions) << "it doesn't go on by itself";

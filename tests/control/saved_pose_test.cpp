@@ -29,7 +29,8 @@ TEST(SavedPose, FitsAHandOfItsNameWithinTheRangesOnly) {
   bad = pose();
   bad.anglesDeg.pop_back();
   EXPECT_EQ(problemOf(bad, sdh2()), "the pose 'rest' has 6 angles, the hand has 7 axes");
-  for (const double angle : {-90.01, 90.01, std::nan(""), std::numeric_limits<double>::infinity()}) {
+  for (const double angle :
+       {-90.01, 90.01, std::nan(""), std::numeric_limits<double>::infinity()}) {
     bad = pose();
     bad.anglesDeg[1] = angle;
     EXPECT_NE(problemOf(bad, sdh2()).find("out of range: finger 0 proximal"), std::string::npos);
@@ -57,10 +58,12 @@ TEST(SavedPose, BadFilesAreRefusedWithTheirPlace) {
   EXPECT_NE(errorOf(R"({"format": "palpate-poses", "version": 2, "poses": []})").find("version"),
             std::string::npos);
   const std::string head = R"({"format": "palpate-poses", "version": 1, "poses": [)";
-  EXPECT_NE(errorOf(head + R"({"name": "", "hand": "h", "angles_deg": []}]})").find("poses[0].name"),
-            std::string::npos);
-  EXPECT_NE(errorOf(head + R"({"name": "a", "hand": "h", "angles_deg": ["x"]}]})").find("angles_deg"),
-            std::string::npos);
+  EXPECT_NE(
+      errorOf(head + R"({"name": "", "hand": "h", "angles_deg": []}]})").find("poses[0].name"),
+      std::string::npos);
+  EXPECT_NE(
+      errorOf(head + R"({"name": "a", "hand": "h", "angles_deg": ["x"]}]})").find("angles_deg"),
+      std::string::npos);
   EXPECT_NE(errorOf(head + R"({"name": "a", "angles_deg": []}]})").find("hand"), std::string::npos);
 }
 

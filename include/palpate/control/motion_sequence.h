@@ -3,7 +3,8 @@
 // {"format": "palpate-sequence", "version": 1, "hand": NAME, "repetitions": 3, "steps": [
 //   {"step": "open", "preshape": "centrical", "velocity_deg_per_s": 20},
 //   {"step": "pose", "pose": {..as saved_pose.h..}, "velocity_deg_per_s": 20},
-//   {"step": "grasp", "mode": "reactive", "preshape": "centrical", "close": 1, .., "limit_counts": 200},
+//   {"step": "grasp", "mode": "reactive", "preshape": "centrical", "close": 1, .., "limit_counts":
+//   200},
 //   {"step": "hold", "seconds": 2}, {"step": "wait", "seconds": 1}]}
 #pragma once
 

@@ -176,8 +176,9 @@ TEST_F(SequencePanelTest, TheScannedTaxelsAreCounted) {
       << scanned->text().toStdString();
   Mask none(14 * 6, 0);
   bench_->control->change(SetDynamicMask{2, none});
-  EXPECT_TRUE(await([&] { return scanned->text().startsWith("402 of 486 taxels scanned; blind: "); }))
-      << scanned->text().toStdString();
+  EXPECT_TRUE(await([&] {
+    return scanned->text().startsWith("402 of 486 taxels scanned; blind: ");
+  })) << scanned->text().toStdString();
 }
 
 }  // namespace

@@ -78,11 +78,8 @@ GraspOptions::GraspOptions(QSettings& settings, QWidget* parent)
   setCalibrated(false);
 }
 
-QDoubleSpinBox* GraspOptions::field(const QString& name,
-                                    const QString& title,
-                                    double least,
-                                    double most,
-                                    int decimals) {
+QDoubleSpinBox* GraspOptions::field(
+    const QString& name, const QString& title, double least, double most, int decimals) {
   auto* made = new SecondsField(body_);
   made->setObjectName(name);
   made->setAccessibleName(title);
@@ -116,8 +113,8 @@ void GraspOptions::makeLimits(QGridLayout& grid) {
                                   kMinGraspLimitCounts,
                                   kMaxGraspLimitCounts,
                                   0));
-    fingerNewtons_.push_back(field(
-        "fingerForce" + number, title + " in newtons", kMinForceLimitN, kMaxForceLimitN, 2));
+    fingerNewtons_.push_back(
+        field("fingerForce" + number, title + " in newtons", kMinForceLimitN, kMaxForceLimitN, 2));
     recall(settings_, fingerKey("counts", finger), *fingerCounts_.back(), 200.0);
     recall(settings_, fingerKey("n", finger), *fingerNewtons_.back(), kUsualForceN);
     for (QDoubleSpinBox* each : {fingerCounts_.back(), fingerNewtons_.back()}) {
@@ -136,8 +133,7 @@ void GraspOptions::makeLimits(QGridLayout& grid) {
 
 void GraspOptions::makeHolding(QGridLayout& grid) {
   const HoldingOptions usual;
-  most_ = field(
-      "mostLimit", "Highest limit", kMinGraspLimitCounts, kMaxGraspLimitCounts, 0);
+  most_ = field("mostLimit", "Highest limit", kMinGraspLimitCounts, kMaxGraspLimitCounts, 0);
   most_->setToolTip("Slip-aware: slips raise the limit up to this");
   recall(settings_, kMost, *most_, usual.maxLimitCounts);
   calm_ = field("calmTime", "Calm", 0.1, 86'400.0, 1);
@@ -188,9 +184,10 @@ bool GraspOptions::eachFinger() const { return eachFinger_->isChecked(); }
 void GraspOptions::setCalibrated(bool calibrated) {
   if (!calibrated && inNewtons()) unit_->setCurrentIndex(0);
   unit_->setEnabled(calibrated);
-  const QString tip = calibrated ? "Of one taxel in counts, or of a whole finger in newtons, by the "
-                                   "calibration that is applied to this hand"
-                                 : kNoCalibrationTip;
+  const QString tip = calibrated
+                          ? "Of one taxel in counts, or of a whole finger in newtons, by the "
+                            "calibration that is applied to this hand"
+                          : kNoCalibrationTip;
   if (unit_->toolTip() != tip) unit_->setToolTip(tip);
 }
 
@@ -236,8 +233,7 @@ void GraspOptions::apply(GraspRequest& request) const {
   const bool feels = request.mode != GraspMode::kPlain;
   if (feels && eachFinger() && inNewtons()) {
     request.forceLimitsN.clear();
-    for (const QDoubleSpinBox* each : fingerNewtons_)
-      request.forceLimitsN.push_back(each->value());
+    for (const QDoubleSpinBox* each : fingerNewtons_) request.forceLimitsN.push_back(each->value());
   } else if (feels && eachFinger()) {
     for (const QDoubleSpinBox* each : fingerCounts_)
       request.fingerLimitCounts.push_back(static_cast<int>(each->value()));

@@ -42,11 +42,8 @@ class GraspOptions : public QWidget {
   void showChoice();
   void remember();
   QString summary() const;
-  QDoubleSpinBox* field(const QString& name,
-                        const QString& title,
-                        double least,
-                        double most,
-                        int decimals);
+  QDoubleSpinBox* field(
+      const QString& name, const QString& title, double least, double most, int decimals);
 
   QSettings& settings_;
   QToolButton* header_;

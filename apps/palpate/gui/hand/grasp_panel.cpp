@@ -105,7 +105,8 @@ GraspPanel::GraspPanel(QSettings& settings, QWidget* parent)
   int widest = 0;
   for (const ValueSlider* each : {close_, velocity_, limit_, forceLimit_})
     widest = std::max(widest, each->field()->sizeHint().width());
-  for (const ValueSlider* each : {close_, velocity_, limit_, forceLimit_}) each->field()->setFixedWidth(widest);
+  for (const ValueSlider* each : {close_, velocity_, limit_, forceLimit_})
+    each->field()->setFixedWidth(widest);
 
   // The order of creation is the tab order.
   grasp_ = button("Grasp", "graspHand", this);

@@ -233,8 +233,7 @@ void HandDock::showEvent(QShowEvent* event) {
   QWidget::showEvent(event);
   int widest = body_->widget()->minimumSizeHint().width();
   for (int i = 0; i < pages_->count(); ++i)
-    widest =
-        std::max(widest, pages_->widget(i)->minimumSizeHint().width() + 2 * kHandDockMargin);
+    widest = std::max(widest, pages_->widget(i)->minimumSizeHint().width() + 2 * kHandDockMargin);
   body_->setMinimumWidth(widest + body_->verticalScrollBar()->sizeHint().width());
 }
 

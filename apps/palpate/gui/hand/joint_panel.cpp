@@ -32,11 +32,8 @@ constexpr const char* kOwnPoses = "Own poses…";
 constexpr const char* kPoseFilter = "Poses (*.json)";
 constexpr qint64 kLargestPoseFile = 10'000'000;
 
-QPushButton* jointButton(const QString& text,
-                         const QString& name,
-                         const QString& tip,
-                         bool moves,
-                         QWidget* parent) {
+QPushButton* jointButton(
+    const QString& text, const QString& name, const QString& tip, bool moves, QWidget* parent) {
   auto* made = new QPushButton(text, parent);
   made->setObjectName(name);
   made->setToolTip(tip);

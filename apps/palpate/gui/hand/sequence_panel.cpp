@@ -29,11 +29,8 @@ constexpr const char* kSequenceFilter = "Sequences (*.json)";
 constexpr qint64 kLargestSequenceFile = 10'000'000;
 constexpr int kSequenceLines = 6;
 
-QPushButton* sequenceButton(const QString& text,
-                            const QString& name,
-                            const QString& tip,
-                            bool moves,
-                            QWidget* parent) {
+QPushButton* sequenceButton(
+    const QString& text, const QString& name, const QString& tip, bool moves, QWidget* parent) {
   auto* made = new QPushButton(text, parent);
   made->setObjectName(name);
   made->setToolTip(tip);
@@ -54,7 +51,8 @@ SequencePanel::SequencePanel(QSettings& settings, QWidget* parent)
     return QFileDialog::getOpenFileName(this, "Open a sequence", {}, kSequenceFilter);
   };
   askForFileToSave = [this] {
-    return QFileDialog::getSaveFileName(this, "Save the sequence", "sequence.json", kSequenceFilter);
+    return QFileDialog::getSaveFileName(
+        this, "Save the sequence", "sequence.json", kSequenceFilter);
   };
   sequence_.hand = movableHand().name;
   steps_ = new QListWidget(this);
@@ -159,15 +157,19 @@ void SequencePanel::fillAddMenu() {
     });
     action->setObjectName(name);
   };
-  addMenu_->addAction("Open", this, [this] {
-    SequenceStep step;
-    step.kind = StepKind::kOpen;
-    const GraspRequest now = graspRequest(GraspMode::kPlain);
-    step.request.preshape = now.preshape;
-    step.request.velocityDegPerS = now.velocityDegPerS;
-    step.request.closeRatio = 0.0;
-    add(std::move(step));
-  })->setObjectName("addOpen");
+  addMenu_
+      ->addAction("Open",
+                  this,
+                  [this] {
+                    SequenceStep step;
+                    step.kind = StepKind::kOpen;
+                    const GraspRequest now = graspRequest(GraspMode::kPlain);
+                    step.request.preshape = now.preshape;
+                    step.request.velocityDegPerS = now.velocityDegPerS;
+                    step.request.closeRatio = 0.0;
+                    add(std::move(step));
+                  })
+      ->setObjectName("addOpen");
   grasp("Grasp", GraspMode::kPlain, "addGrasp");
   grasp("Reactive grasp", GraspMode::kReactive, "addReactive");
   grasp("Slip-aware grasp", GraspMode::kSlip, "addSlipAware");
@@ -219,8 +221,8 @@ void SequencePanel::changed(int current) {
 void SequencePanel::list(int current) {
   steps_->clear();
   for (std::size_t i = 0; i < sequence_.steps.size(); ++i) {
-    const QString text = QString::number(i + 1) + "  " +
-                         QString::fromStdString(describe(sequence_.steps[i]));
+    const QString text =
+        QString::number(i + 1) + "  " + QString::fromStdString(describe(sequence_.steps[i]));
     auto* item = new QListWidgetItem(text, steps_);
     item->setToolTip(text);
   }

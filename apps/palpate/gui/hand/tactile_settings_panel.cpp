@@ -87,7 +87,8 @@ void TactileSettingsPanel::setMatrices(const HandDescription& hand) {
   delete old;
   // The buttons follow the rows.
   QWidget* before = rows_.back().threshold;
-  for (QWidget* each : std::initializer_list<QWidget*>{undo_, redo_, reset_, names_, save_, remove_}) {
+  for (QWidget* each :
+       std::initializer_list<QWidget*>{undo_, redo_, reset_, names_, save_, remove_}) {
     setTabOrder(before, each);
     before = each;
   }
@@ -254,9 +255,9 @@ void TactileSettingsPanel::showScanned(const std::shared_ptr<const SensorLayout>
     QStringList blind;
     for (std::size_t m = 0; m < layout->numMatrices(); ++m) {
       const MatrixLayout& matrix = layout->matrix(m);
-      const QString name =
-          m < static_cast<std::size_t>(rowNames_.size()) ? rowNames_[static_cast<qsizetype>(m)]
-                                                         : QString::number(m);
+      const QString name = m < static_cast<std::size_t>(rowNames_.size())
+                               ? rowNames_[static_cast<qsizetype>(m)]
+                               : QString::number(m);
       scanned += matrix.numEnabled();
       if (matrix.numEnabled() == 0) blind += name;
       each += name + ": " + QString::number(matrix.numEnabled()) + " of " +

@@ -91,7 +91,7 @@ class TactileSettingsPanel : public QWidget {
   // Which matrices cannot detect the limit; empty when all can.
   QString unmeasurableText_;
   TactileSettingsHistory history_;
-  bool restoring_ = false;  // what is sent comes from the history
+  bool restoring_ = false;                      // what is sent comes from the history
   std::shared_ptr<const SensorLayout> layout_;  // as shown
   Theme theme_ = Theme::kDark;
   std::vector<std::shared_future<CommandAnswer>> pending_;
