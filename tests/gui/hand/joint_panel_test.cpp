@@ -75,6 +75,19 @@ TEST_F(JointPanelTest, AllChangedJointsMoveTogetherAndAStoppedTargetStays) {
   EXPECT_FALSE(isEnabled("moveJoints"));
 }
 
+// A target that is set while a motion runs is not taken for reached when that motion ends.
+TEST_F(JointPanelTest, ATargetSetDuringAMotionStays) {
+  connectAndOpen();
+  type("jointVelocity", "60");
+  type("targetAngle4", "30");
+  click("moveJoint4");
+  ASSERT_TRUE(bench_->awaitMotion());
+  type("targetAngle4", "50");
+  ASSERT_TRUE(await([&] { return std::abs(angles()[4] - 30.0) < 0.01; }));
+  EXPECT_TRUE(await([&] { return isEnabled("moveJoint4"); }));
+  EXPECT_EQ(find<ValueSlider>("targetAngle4")->value(), 50.0);
+}
+
 TEST_F(JointPanelTest, AFieldTakesNoAngleBeyondTheRange) {
   connectAndOpen();
   type("targetAngle1", "-300");

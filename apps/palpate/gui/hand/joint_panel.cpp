@@ -141,10 +141,10 @@ void JointPanel::makeRows(QGridLayout& grid) {
     rows_.push_back(row);
     // While a slider is dragged the field shows the value, and the row counts as changed.
     connect(row.target->slider(), &QSlider::sliderPressed, this, [this, axis] {
-      rows_[axis].changed = true;
+      setChanged(rows_[axis]);
     });
     connect(row.target, &ValueSlider::chosen, this, [this, axis] {
-      rows_[axis].changed = true;
+      setChanged(rows_[axis]);
       showStatus(control_ ? control_->status() : GraspStatus{});
     });
     connect(row.move, &QPushButton::clicked, this, [this, axis] { move(axis); });
@@ -201,8 +201,13 @@ void JointPanel::choosePose(const QString& name) {
     return emit refused(QString::fromStdString(problem));
   for (std::size_t axis = 0; axis < rows_.size(); ++axis) {
     rows_[axis].target->showValue(pose->anglesDeg[axis]);
-    rows_[axis].changed = true;
+    setChanged(rows_[axis]);
   }
+}
+
+void JointPanel::setChanged(Row& row) {
+  row.changed = true;
+  row.underWay = false;
 }
 
 void JointPanel::savePose() {

@@ -68,6 +68,8 @@ class JointPanel : public QWidget {
   void move(std::optional<std::size_t> axis);
   void resetTargets();
   void showRow(Row& row);
+  // A new target; the end of a motion that runs doesn't count as having reached it.
+  static void setChanged(Row& row);
 
   PoseStore store_;
   QSettings& settings_;
