@@ -149,6 +149,8 @@ void GraspControl::processFrames() {
       machine_.onFrame(**frame, nowUs);
     else if (const auto* angles = std::get_if<JointAngles>(&item))
       machine_.onAngles(angles->deg);
+    else if (const auto* temperatures = std::get_if<Temperatures>(&item))
+      machine_.onTemperatures(temperatures->degC);
   items_.clear();
 }
 
@@ -260,7 +262,7 @@ void GraspControl::refused(const GraspRequest& request, const std::string& why) 
   last_ = report;
 }
 
-void GraspControl::grasp(const GraspRequest& request) {
+void GraspControl::grasp(const GraspRequest& request, std::optional<std::uint64_t> stopsBefore) {
   // The events are delivered before the caller returns, also after a refusal.
   const struct Delivery {
     GraspControl& control;
@@ -271,6 +273,8 @@ void GraspControl::grasp(const GraspRequest& request) {
     runGuardedCycle();  // processes what has arrived until now
     try {
       request.validate();
+      if (stopsBefore && *stopsBefore != stopsAsked_)
+        throw DeviceError(DeviceFault::kRefused, "grasp", "refused: the hand was stopped");
       if (const std::string why = motionProblem(session_.device().status()); !why.empty())
         throw DeviceError(DeviceFault::kRefused, "grasp", "refused: the hand can't move: " + why);
       if (request.mode != GraspMode::kPlain && settingsPending())
@@ -345,6 +349,12 @@ bool GraspControl::settingsPending() const {
       settings_.begin(), settings_.end(), [](const auto& answer) { return !isReady(answer); });
 }
 
+void GraspControl::setCalibration(std::optional<Calibration> calibration) {
+  const std::lock_guard lock(mutex_);
+  calibrated_ = calibration.has_value();
+  machine_.setCalibration(std::move(calibration));
+}
+
 std::shared_future<CommandAnswer> GraspControl::change(const DeviceCommand& setting) {
   if (!isSetting(setting))
     throw std::invalid_argument("GraspControl::change: that is no tactile setting");
@@ -369,6 +379,8 @@ GraspStatus GraspControl::status() const {
   status.cannotMove = motionProblem(session_.device().status());
   if (!status.cannotMove.empty()) status.portGone = portGone_;
   status.stopsAsked = stopsAsked_;
+  status.calibrated = calibrated_;
+  status.anglesDeg = machine_.anglesDeg();
   status.cannotReact = status.cannotMove;
   if (status.cannotReact.empty() && !machine_.stream().alive(clock_.monotonicUs()))
     status.cannotReact = "no tactile frames come";

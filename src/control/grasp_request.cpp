@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "palpate/control/finger_forces.h"
 #include "palpate/core/json.h"
 #include "palpate/core/number_text.h"
 #include "palpate/device/sdh2.h"
@@ -18,12 +19,38 @@ void requireRange(const char* field, double value, double least, double most, co
                               " is not in " + numberText(least) + ".." + numberText(most) + unit);
 }
 
+// A joint a little beyond its range, as a real one can be, stays where it is within the range.
+constexpr double kBeyondRangeDeg = 1.0;
+
+// The limits as text: "200 counts", "200, 150, 200 counts".
+template <typename Values>
+std::string listText(const Values& values) {
+  std::string text;
+  for (const auto value : values)
+    text += (text.empty() ? "" : ", ") + numberText(static_cast<double>(value));
+  return text;
+}
+
 Json parameters(const GraspRequest& request) {
   Json json = Json::object();
-  json.set("mode", nameOf(request.mode)).set("preshape", request.preshape);
+  json.set("mode", nameOf(request.mode));
+  if (isJointMotion(request)) {
+    Json targets = Json::array();
+    for (const std::optional<double>& each : request.targetDeg) targets.push(orNull(each));
+    json.set("target_deg", std::move(targets));
+    if (!request.title.empty()) json.set("title", request.title);
+  } else {
+    json.set("preshape", request.preshape);
+  }
   if (request.startRatio) json.set("start", *request.startRatio);
-  json.set("close", request.closeRatio).set("velocity_deg_per_s", request.velocityDegPerS);
-  if (request.mode != GraspMode::kPlain) json.set("limit_counts", request.limitCounts);
+  if (!isJointMotion(request)) json.set("close", request.closeRatio);
+  json.set("velocity_deg_per_s", request.velocityDegPerS);
+  if (request.mode != GraspMode::kPlain) {
+    json.set("limit_counts", request.limitCounts);
+    if (!request.fingerLimitCounts.empty())
+      json.set("finger_limit_counts", jsonList(request.fingerLimitCounts));
+    if (!request.forceLimitsN.empty()) json.set("force_limit_n", jsonList(request.forceLimitsN));
+  }
   if (request.mode == GraspMode::kSlip) {
     const HoldingOptions& holding = request.holding;
     json.set("raise_counts", holding.raiseCounts)
@@ -40,6 +67,8 @@ Json parameters(const GraspRequest& request) {
 }  // namespace
 
 const HandDescription& movableHand() { return sdh2(); }
+
+std::size_t numMovableFingers() { return numFingers(movableHand()); }
 
 std::string_view nameOf(GraspMode mode) {
   if (mode == GraspMode::kSlip) return "slip";
@@ -70,13 +99,38 @@ std::string_view nameOf(GraspOutcome outcome) {
   return "running";
 }
 
+namespace {
+
+void validateLimits(const GraspRequest& request) {
+  requireRange("limit", request.limitCounts, kMinGraspLimitCounts, kMaxGraspLimitCounts, " counts");
+  const std::size_t fingers = numMovableFingers();
+  if (!request.fingerLimitCounts.empty() && request.fingerLimitCounts.size() != fingers)
+    throw std::invalid_argument("grasp: " + std::to_string(request.fingerLimitCounts.size()) +
+                                " limits for a hand with " + std::to_string(fingers) + " fingers");
+  for (const int limit : request.fingerLimitCounts)
+    requireRange("limit of a finger", limit, kMinGraspLimitCounts, request.limitCounts, " counts");
+  if (request.forceLimitsN.size() > 1 && request.forceLimitsN.size() != fingers)
+    throw std::invalid_argument("grasp: " + std::to_string(request.forceLimitsN.size()) +
+                                " force limits for a hand with " + std::to_string(fingers) +
+                                " fingers");
+  for (const double limitN : request.forceLimitsN)
+    requireRange("force limit", limitN, kMinForceLimitN, kMaxForceLimitN, " N");
+}
+
+}  // namespace
+
 void GraspRequest::validate() const {
   sdh2Preshape(preshape);
   if (startRatio) requireRange("start ratio", *startRatio, 0.0, 1.0, "");
   requireRange("close ratio", closeRatio, 0.0, 1.0, "");
   requireRange("velocity", velocityDegPerS, kMinGraspDegPerS, kMaxGraspDegPerS, " deg/s");
-  if (mode != GraspMode::kPlain)
-    requireRange("limit", limitCounts, kMinGraspLimitCounts, kMaxGraspLimitCounts, " counts");
+  if (mode != GraspMode::kPlain) validateLimits(*this);
+  if (isJointMotion(*this)) {
+    if (mode == GraspMode::kSlip)
+      throw std::invalid_argument("grasp: a slip-aware grasp needs a preshape, not joint angles");
+    if (startRatio)
+      throw std::invalid_argument("grasp: a motion to joint angles has no start ratio");
+  }
   if (mode == GraspMode::kSlip) holding.validate(limitCounts);
 }
 
@@ -91,13 +145,51 @@ void HoldingOptions::validate(int limitCounts) const {
   requireRange("force per count", newtonsPerCount, 0.0, 1.0, " N");
 }
 
-MoveJoints motionTo(const GraspRequest& request, double closeRatio, const HandDescription& hand) {
+namespace {
+
+// The targets of a motion to joint angles; an axis without a target stays where it is.
+std::vector<double> jointTargets(const GraspRequest& request,
+                                 const HandDescription& hand,
+                                 const std::vector<double>& presentDeg) {
+  std::vector<double> targets;
+  for (std::size_t axis = 0; axis < std::min(request.targetDeg.size(), hand.axes.size()); ++axis) {
+    const AxisDescription& is = hand.axes[axis];
+    if (request.targetDeg[axis]) {
+      targets.push_back(*request.targetDeg[axis]);
+      continue;
+    }
+    if (presentDeg.size() != hand.axes.size())
+      throw std::invalid_argument("grasp: the present angle of " + is.name +
+                                  " is not known: it can't stay where it is");
+    const double present = presentDeg[axis];
+    requireRange(("present angle of " + is.name).c_str(),
+                 present,
+                 is.minimumDeg - kBeyondRangeDeg,
+                 is.maximumDeg + kBeyondRangeDeg,
+                 " deg");
+    targets.push_back(std::clamp(present, is.minimumDeg, is.maximumDeg));
+  }
+  return targets;
+}
+
+}  // namespace
+
+MoveJoints motionTo(const GraspRequest& request,
+                    double closeRatio,
+                    const HandDescription& hand,
+                    const std::vector<double>& presentDeg) {
   request.validate();
   MoveJoints move;
-  move.targetDeg = sdh2Preshape(request.preshape).anglesDeg(closeRatio);
+  const bool toAngles = isJointMotion(request);
+  const std::size_t given = toAngles ? request.targetDeg.size() : hand.axes.size();
+  if (given == hand.axes.size())
+    move.targetDeg = toAngles ? jointTargets(request, hand, presentDeg)
+                              : sdh2Preshape(request.preshape).anglesDeg(closeRatio);
   if (move.targetDeg.size() != hand.axes.size())
-    throw std::invalid_argument("grasp: the preshape has " + std::to_string(move.targetDeg.size()) +
-                                " axes, the hand " + std::to_string(hand.axes.size()));
+    throw std::invalid_argument(
+        (toAngles ? "grasp: the pose has " + std::to_string(given)
+                  : "grasp: the preshape has " + std::to_string(move.targetDeg.size())) +
+        " axes, the hand " + std::to_string(hand.axes.size()));
   for (std::size_t axis = 0; axis < hand.axes.size(); ++axis) {
     const AxisDescription& is = hand.axes[axis];
     requireRange(is.name.c_str(), move.targetDeg[axis], is.minimumDeg, is.maximumDeg, " deg");
@@ -105,6 +197,20 @@ MoveJoints motionTo(const GraspRequest& request, double closeRatio, const HandDe
   }
   move.ramp = request.mode != GraspMode::kPlain;
   return move;
+}
+
+int limitOf(const GraspRequest& request, int finger) {
+  const std::vector<int>& limits = request.fingerLimitCounts;
+  if (limits.empty()) return request.limitCounts;
+  if (finger >= 0 && static_cast<std::size_t>(finger) < limits.size())
+    return limits[static_cast<std::size_t>(finger)];
+  return *std::min_element(limits.begin(), limits.end());
+}
+
+std::optional<double> forceLimitOf(const GraspRequest& request, std::size_t finger) {
+  const std::vector<double>& limits = request.forceLimitsN;
+  if (limits.empty()) return std::nullopt;
+  return limits.size() == 1 ? limits[0] : limits.at(finger);
 }
 
 int maxLimitOf(const GraspRequest& request) {
@@ -117,7 +223,15 @@ std::vector<UnmeasurableLimit> unmeasurableLimits(const HandDescription& hand,
                                                   const std::vector<MatrixSettings>& settings,
                                                   const GraspRequest& request) {
   if (request.mode == GraspMode::kPlain) return {};
-  std::vector<UnmeasurableLimit> unfelt = unmeasurableLimits(hand, settings, maxLimitOf(request));
+  const int most = maxLimitOf(request);
+  std::vector<UnmeasurableLimit> unfelt;
+  if (request.fingerLimitCounts.empty()) unfelt = unmeasurableLimits(hand, settings, most);
+  for (std::size_t m = 0; m < hand.matrices.size() && !request.fingerLimitCounts.empty(); ++m) {
+    const int lower = request.limitCounts - limitOf(request, hand.matrices[m].finger);
+    for (UnmeasurableLimit& each : unmeasurableLimits(hand, settings, most - lower))
+      if (each.matrix == m) unfelt.push_back(std::move(each));
+  }
+  if (isJointMotion(request)) return unfelt;  // any finger may move
   const Preshape& preshape = sdh2Preshape(request.preshape);
   std::erase_if(unfelt, [&](const UnmeasurableLimit& each) {
     return each.matrix < hand.matrices.size() && !movesWith(preshape, hand.matrices[each.matrix]);
@@ -125,22 +239,50 @@ std::vector<UnmeasurableLimit> unmeasurableLimits(const HandDescription& hand,
   return unfelt;
 }
 
-bool isOpening(const GraspRequest& request) {
-  return request.mode == GraspMode::kPlain && request.closeRatio == 0.0 && !request.startRatio;
+int highestMeasurableLimit(const HandDescription& hand,
+                           const std::vector<MatrixSettings>& settings,
+                           GraspRequest request) {
+  constexpr int kStepCounts = 50;
+  request.fingerLimitCounts.clear();
+  for (int limit = kMaxGraspLimitCounts; limit >= kMinGraspLimitCounts; limit -= kStepCounts) {
+    request.limitCounts = request.holding.maxLimitCounts = limit;
+    if (unmeasurableLimits(hand, settings, request).empty()) return limit;
+  }
+  return 0;
 }
 
+bool isOpening(const GraspRequest& request) {
+  return request.mode == GraspMode::kPlain && request.closeRatio == 0.0 && !request.startRatio &&
+         !isJointMotion(request);
+}
+
+bool isJointMotion(const GraspRequest& request) { return !request.targetDeg.empty(); }
+
 std::string kindOf(const GraspRequest& request) {
+  if (isJointMotion(request))
+    return request.mode == GraspMode::kPlain ? "motion" : "reactive motion";
   return isOpening(request) ? "opening" : std::string(nameOf(request.mode)) + " grasp";
 }
 
 std::string describe(const GraspRequest& request) {
-  std::string text = kindOf(request) + ": " + request.preshape;
-  if (isOpening(request)) return text + ", " + numberText(request.velocityDegPerS) + " deg/s";
+  const bool toAngles = isJointMotion(request);
+  std::string text = kindOf(request) + ": " +
+                     (!toAngles               ? request.preshape
+                      : request.title.empty() ? std::string("to joint angles")
+                                              : request.title);
+  const std::string velocity = ", " + numberText(request.velocityDegPerS) + " deg/s";
+  if (isOpening(request)) return text + velocity;
   if (request.startRatio) text += ", from " + numberText(*request.startRatio);
-  text += std::string(request.startRatio ? " to " : ", to ") + numberText(request.closeRatio) +
-          ", " + numberText(request.velocityDegPerS) + " deg/s";
-  if (request.mode != GraspMode::kPlain)
-    text += ", limit " + std::to_string(request.limitCounts) + " counts";
+  if (!toAngles)
+    text += std::string(request.startRatio ? " to " : ", to ") + numberText(request.closeRatio);
+  text += velocity;
+  if (request.mode != GraspMode::kPlain) {
+    text += ", limit " +
+            (request.fingerLimitCounts.empty() ? std::to_string(request.limitCounts)
+                                               : listText(request.fingerLimitCounts)) +
+            " counts";
+    if (!request.forceLimitsN.empty()) text += ", " + listText(request.forceLimitsN) + " N";
+  }
   if (request.mode == GraspMode::kSlip)
     text += ", up to " + std::to_string(request.holding.maxLimitCounts);
   return text;
@@ -166,6 +308,8 @@ RecordingEvent endEvent(const GraspReport& report) {
         .set("y", report.peak.row)
         .set("counts", static_cast<double>(report.peak.counts));
   }
+  if (report.forceFinger)
+    json.set("force_finger", *report.forceFinger).set("force_n", report.forceN);
   if (report.peakAfterStop)
     json.set("reached_counts", static_cast<double>(report.peakAfterStop->counts))
         .set("reached_matrix", report.peakAfterStop->matrix);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 #include <utility>
 
 #include "palpate/core/error.h"
@@ -43,6 +44,26 @@ constexpr double kLongestLooseningS = 20.0;
 
 std::int64_t microsecondsOf(double seconds) { return std::llround(seconds * 1e6); }
 
+int fingerOf(const HandDescription& hand, std::size_t matrix) {
+  return matrix < hand.matrices.size() ? hand.matrices[matrix].finger : -1;
+}
+
+// The largest taxel of each matrix, into `peaks`; returns the largest of all.
+TaxelPeak taxelPeaks(const TactileFrame& frame, std::vector<TaxelPeak>& peaks) {
+  peaks.assign(frame.layout->numMatrices(), {});
+  TaxelPeak largest;
+  for (std::size_t m = 0; m < peaks.size(); ++m) {
+    const ConstMatrixMap values = frame.matrix(m);
+    peaks[m].matrix = m;
+    for (Eigen::Index row = 0; row < values.rows(); ++row)
+      for (Eigen::Index column = 0; column < values.cols(); ++column)
+        if (values(row, column) > peaks[m].counts)
+          peaks[m] = {m, static_cast<int>(row), static_cast<int>(column), values(row, column)};
+    if (peaks[m].counts > largest.counts) largest = peaks[m];
+  }
+  return largest;
+}
+
 }  // namespace
 
 std::string_view nameOf(GraspPhase phase) {
@@ -79,6 +100,7 @@ void GraspStateMachine::begin(const GraspRequest& request,
                               std::int64_t hostUs) {
   request.validate();
   if (active()) refuse("refused: the hand is " + std::string(nameOf(phase_)) + "; stop it first");
+  std::optional<FingerForces> forces;
   if (request.mode != GraspMode::kPlain) {
     if (!stream_.alive(monoUs)) {
       const auto silence = stream_.silenceUs(monoUs);
@@ -89,16 +111,20 @@ void GraspStateMachine::begin(const GraspRequest& request,
                       : std::string("none has arrived yet")));
     }
     requireMeasurableLimit(request);
-    if (peak_.counts > static_cast<float>(request.limitCounts))
-      refuse("refused: over the limit of " + std::to_string(request.limitCounts) + " already, at " +
-             placeOf(peak_) + "; open the hand, or raise the limit");
+    const TaxelPeak& loaded = loadedTaxel(request);
+    if (commonCounts(loaded, request) > static_cast<float>(request.limitCounts))
+      refuse("refused: over the limit of " +
+             std::to_string(limitOf(request, fingerOf(hand_, loaded.matrix))) + " already, at " +
+             placeOf(loaded) + "; open the hand, or raise the limit");
+    forces = forcesFor(request);
   }
   GraspReport report;
   report.request = request;
   report.beginUs = hostUs;
   // Both motions are checked before the first one is sent.
   if (request.startRatio) motionTo(request, *request.startRatio, hand_);
-  motionTo(request, request.closeRatio, hand_);
+  motionTo(request, request.closeRatio, hand_, anglesDeg_);
+  forces_ = std::move(forces);
   report_ = report;
   report_.limitCounts = limit_ = request.limitCounts;
   stops_ = 0;
@@ -125,7 +151,67 @@ void GraspStateMachine::requireMeasurableLimit(const GraspRequest& request) cons
 
 bool GraspStateMachine::isOverLimit() const noexcept {
   // The limit is below saturation: see requireMeasurableLimit().
-  return peak_.counts > static_cast<float>(limit_);
+  return loadCounts() > static_cast<float>(limit_) || fingerOverForce(report_.request);
+}
+
+float GraspStateMachine::commonCounts(const TaxelPeak& peak,
+                                      const GraspRequest& request) const noexcept {
+  return peak.counts +
+         static_cast<float>(request.limitCounts - limitOf(request, fingerOf(hand_, peak.matrix)));
+}
+
+const TaxelPeak& GraspStateMachine::loadedTaxel(const GraspRequest& request) const noexcept {
+  if (request.fingerLimitCounts.empty()) return peak_;
+  const TaxelPeak* loaded = &peak_;
+  for (const TaxelPeak& each : matrixPeaks_)
+    if (each.counts > 0.0F && commonCounts(each, request) > commonCounts(*loaded, request))
+      loaded = &each;
+  return *loaded;
+}
+
+std::optional<std::size_t> GraspStateMachine::fingerOverForce(
+    const GraspRequest& request) const noexcept {
+  if (!forces_) return std::nullopt;
+  for (std::size_t finger = 0; finger < forces_->forcesN().size(); ++finger)
+    if (const auto limitN = forceLimitOf(request, finger);
+        limitN && !(forces_->forcesN()[finger] <= *limitN))
+      return finger;
+  return std::nullopt;
+}
+
+std::string GraspStateMachine::forceText(std::size_t finger) const {
+  return "finger " + std::to_string(finger) + ": " + fixedText(forces_->forcesN()[finger], 2) +
+         " N";
+}
+
+void GraspStateMachine::setCalibration(std::optional<Calibration> calibration) {
+  calibration_ = std::move(calibration);
+}
+
+// Throws when a force limit of the request can't be measured, or is exceeded already.
+std::optional<FingerForces> GraspStateMachine::forcesFor(const GraspRequest& request) const {
+  if (request.forceLimitsN.empty()) return std::nullopt;
+  if (!calibration_)
+    refuse("refused: a limit in newtons needs a calibration of this hand, and none is applied");
+  std::optional<FingerForces> forces;
+  try {
+    forces.emplace(*calibration_, hand_, settings_);
+    if (newest_.layout) forces->apply(newest_, degC_);
+  } catch (const std::invalid_argument& error) {
+    refuse("refused: forces can't be measured: " + std::string(error.what()));
+  }
+  for (std::size_t finger = 0; finger < forces->forcesN().size(); ++finger) {
+    const auto limitN = forceLimitOf(request, finger);
+    const double largestN = forces->largestN(finger);
+    if (limitN && !(*limitN <= largestN))
+      refuse("refused: a limit of " + numberText(*limitN) + " N would not be felt: finger " +
+             std::to_string(finger) + " measures no more than " + fixedText(largestN, 1) + " N");
+    if (limitN && !(forces->forcesN()[finger] <= *limitN))
+      refuse("refused: over the limit of " + numberText(*limitN) + " N already, at finger " +
+             std::to_string(finger) + ": " + fixedText(forces->forcesN()[finger], 2) +
+             " N; open the hand, or raise the limit");
+  }
+  return forces;
 }
 
 // True when the matrices have changed, or the set of scanned taxels.
@@ -135,13 +221,14 @@ bool GraspStateMachine::updateLayout(const TactileFrame& frame) {
   if (another) {
     hand_ = describeHand(*frame.layout, hand_.axes.size(), hand_.temperatureSensors.size());
     grip_ = GripMonitor(hand_);
+    forces_.reset();
   }
   hand_.layout = frame.layout;
   return another;
 }
 
 void GraspStateMachine::move(double closeRatio, GraspPhase phase, std::int64_t monoUs) {
-  send(motionTo(report_.request, closeRatio, hand_), phase, monoUs);
+  send(motionTo(report_.request, closeRatio, hand_, anglesDeg_), phase, monoUs);
 }
 
 void GraspStateMachine::send(MoveJoints motion, GraspPhase phase, std::int64_t monoUs) {
@@ -157,9 +244,11 @@ void GraspStateMachine::send(MoveJoints motion, GraspPhase phase, std::int64_t m
 void GraspStateMachine::onFrame(const TactileFrame& frame, std::int64_t monoUs) {
   const auto silence = stream_.frame(frame.hostUs, monoUs);
   const bool anotherLayout = updateLayout(frame);
-  peak_ = taxelPeak(frame);
+  peak_ = taxelPeaks(frame, matrixPeaks_);
+  if (calibration_) newest_ = frame;
   if (anotherLayout && underTactileControl())
     return fault("the layout of the tactile sensor is another one than at the begin", monoUs);
+  if (active() && forces_) forces_->apply(frame, degC_);
   if (active() && isSlipAware()) grip_.onFrame(frame);
   // From the stop until the reading has settled.
   if (report_.peakAfterStop && (phase_ == GraspPhase::kStopping || phase_ == GraspPhase::kSettling))
@@ -169,11 +258,18 @@ void GraspStateMachine::onFrame(const TactileFrame& frame, std::int64_t monoUs) 
   if (!isMoving() || !underTactileControl()) return;
   if (phase_ == GraspPhase::kLoosening && !silence) return onLooseningFrame(monoUs);
   if (phase_ != GraspPhase::kLoosening && isOverLimit()) {
-    report_.peak = peak_;
-    report_.peakAfterStop = peak_;
+    report_.peakAfterStop = report_.peak = loadedTaxel(report_.request);
+    report_.forceFinger.reset();
+    std::string text = placeOf(report_.peak);
+    // The limit in counts is named where both are exceeded in the same frame.
+    if (!(loadCounts() > static_cast<float>(limit_))) {
+      report_.forceFinger = fingerOverForce(report_.request);
+      report_.forceN = forces_->forcesN()[*report_.forceFinger];
+      text = forceText(*report_.forceFinger);
+    }
     if (isSlipAware() && phase_ == GraspPhase::kClosing)
-      return pause(Next::kSettle, "limit reached: " + placeOf(peak_), monoUs);
-    stopWith(GraspOutcome::kLimitReached, "limit reached: " + placeOf(peak_), monoUs);
+      return pause(Next::kSettle, "limit reached: " + text, monoUs);
+    stopWith(GraspOutcome::kLimitReached, "limit reached: " + text, monoUs);
   } else if (silence) {
     stopWith(GraspOutcome::kStreamLost,
              "stopped: no tactile frames for " + millisecondsText(*silence) + " ms",
@@ -265,14 +361,19 @@ void GraspStateMachine::observeOvershoot(std::int64_t monoUs) {
 
 // Only after the limit was reached.
 void GraspStateMachine::measurePeakAfterStop() {
-  if (peak_.counts > report_.peakAfterStop->counts) report_.peakAfterStop = peak_;
+  const TaxelPeak& loaded = loadedTaxel(report_.request);
+  if (commonCounts(loaded, report_.request) > commonCounts(*report_.peakAfterStop, report_.request))
+    report_.peakAfterStop = loaded;
 }
 
 // Text such as "; rose to 3222 after the stop, 16 times the limit: close more slowly", or empty.
 std::string GraspStateMachine::riseText() const {
   if (!report_.peakAfterStop || report_.peakAfterStop->counts < report_.peak.counts + kRiseCounts)
     return {};
-  const double times = static_cast<double>(report_.peakAfterStop->counts) / std::max(limit_, 1);
+  const int lower = report_.request.limitCounts -
+                    limitOf(report_.request, fingerOf(hand_, report_.peakAfterStop->matrix));
+  const double times =
+      static_cast<double>(report_.peakAfterStop->counts) / std::max(limit_ - lower, 1);
   std::string text = "; rose to " + numberText(report_.peakAfterStop->counts) + " after the stop";
   if (times >= kFarOverLimit)
     text += ", " + fixedText(times, 1) + " times the limit: close more slowly";
@@ -459,9 +560,10 @@ void GraspStateMachine::respondToSlip(const GripSlip& slip, std::int64_t monoUs)
   lastSlipUs_ = monoUs;
   // The peak may be above the limit because of the overshoot: with a limit below the present
   // reading the hand would not close.
-  const int felt = std::max(limit_, static_cast<int>(peak_.counts));
+  const int load = static_cast<int>(loadCounts());
+  const int felt = std::max(limit_, load);
   const int raised = std::min(felt + holding.raiseCounts, holding.maxLimitCounts);
-  if (raised <= static_cast<int>(peak_.counts)) {
+  if (raised <= load || fingerOverForce(report_.request)) {
     limit_ = std::max(limit_, std::min(felt, holding.maxLimitCounts));
     note("at_limit", "slips, and the limit can't rise: " + slip.why, slip.matrix);
     grip_.setReference();
@@ -498,7 +600,7 @@ void GraspStateMachine::onHoldingTime(std::int64_t monoUs) {
   limit_ = std::max(limit_ - holding.raiseCounts, report_.request.limitCounts);
   report_.limitCounts = limit_;
   note("lower", "nothing slips: limit " + std::to_string(limit_) + " counts");
-  if (holding.loosen && peak_.counts > static_cast<float>(limit_))
+  if (holding.loosen && loadCounts() > static_cast<float>(limit_))
     loosen("loosen", "opening slowly to the lower limit", monoUs);
 }
 
@@ -518,7 +620,7 @@ void GraspStateMachine::onLooseningFrame(std::int64_t monoUs) {
     return respondToSlip(*slip, monoUs);
   }
   const double enough = frictionTestRunning_ ? kLeastOfLimit * report_.request.limitCounts : limit_;
-  if (static_cast<double>(peak_.counts) > enough && monoUs < settledUs_) return;
+  if (static_cast<double>(loadCounts()) > enough && monoUs < settledUs_) return;
   if (!frictionTestRunning_) return pause(Next::kSettle, "loose enough", monoUs);
   frictionTestRunning_ = false;
   note("friction", "it doesn't slip at " + numberText(peak_.counts) + " counts: closing again");

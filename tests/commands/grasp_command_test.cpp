@@ -1,7 +1,9 @@
 // The real program on an emulated hand that runs in the test: what it says, and what arrives at the
 // hand.
 #include <csignal>
+#include <fstream>
 
+#include "palpate/control/motion_sequence.h"
 #include "palpate/core/number_text.h"
 
 #include "commands/palpate_program.h"
@@ -252,6 +254,77 @@ TEST(GraspCommand, OverTheLimitAlreadyIsRefused) {
                                "reactive"});
   expectOneLineError(result, 1, {"over the limit of 200 already", "900 counts"});
   EXPECT_TRUE(bench.log.deeds().empty());
+}
+
+TEST(GraspCommand, LimitsOfFingersAndInNewtonsAreChecked) {
+  const auto wrong = [](std::vector<std::string> more) {
+    std::vector<std::string> words{
+        "grasp", "--sdh", "/dev/null", "--dsa", "/dev/null", "--preshape", "centrical"};
+    words.insert(words.end(), more.begin(), more.end());
+    const auto result = palpate(words);
+    EXPECT_EQ(result.exitCode, 2) << result.err;
+    return result.err;
+  };
+  EXPECT_NE(wrong({"--finger-limits", "200,200,200"}).find("needs --mode"), std::string::npos);
+  EXPECT_NE(wrong({"--mode", "reactive", "--finger-limits", "200,200"}).find("takes 3 numbers"),
+            std::string::npos);
+  EXPECT_NE(wrong({"--mode", "reactive", "--finger-limits", "200,2,200"}).find("no count in 3"),
+            std::string::npos);
+  EXPECT_NE(wrong({"--mode", "reactive", "--force-limit", "2"}).find("need one another"),
+            std::string::npos);
+  EXPECT_NE(
+      wrong({"--mode", "reactive", "--force-limit", "0", "--calibration", "x"}).find("0.05..500"),
+      std::string::npos);
+}
+
+TEST(GraspCommand, AGraspStopsAtTheLimitOfAFinger) {
+  EmulatedBench bench(handWith("ball"));
+  const auto result = palpate({"grasp",
+                               "--sdh",
+                               bench.hand->sdhPort(),
+                               "--dsa",
+                               bench.hand->dsaPort(),
+                               "--preshape",
+                               "centrical",
+                               "--mode",
+                               "reactive",
+                               "--velocity",
+                               "60",
+                               "--finger-limits",
+                               "3000,3000,50"});
+  ASSERT_EQ(result.exitCode, 0) << result.err << result.out;
+  EXPECT_NE(result.out.find("limit_reached: limit reached: finger 2"), std::string::npos)
+      << result.out;
+}
+
+TEST(GraspCommand, ASequenceOfAFileIsDoneStepByStep) {
+  EmulatedBench bench(stillHand(), {.rate = EmulationRate::kFixed, .hz = 30.0});
+  const TemporaryFolder folder;
+  MotionSequence sequence;
+  sequence.hand = movableHand().name;
+  SequenceStep step;
+  step.kind = SequenceStep::Kind::kOpen;
+  step.request.closeRatio = 0.0;
+  step.request.velocityDegPerS = 90.0;
+  SequenceStep rest;
+  rest.seconds = 0.1;
+  sequence.steps = {step, rest};
+  sequence.repetitions = 2;
+  const std::string file = (folder / "s.json").string();
+  std::ofstream(file) << sequenceText(sequence);
+  const auto result = palpate({"grasp", "--sdh", bench.hand->sdhPort(), "--sequence", file});
+  ASSERT_EQ(result.exitCode, 0) << result.err << result.out;
+  EXPECT_EQ(
+      statesOf(result.out),
+      (States{"connecting", "ready", "sequence", "sequence", "sequence", "sequence", "finished"}));
+  EXPECT_EQ(bench.log.named("m").size(), 2u);
+  std::ofstream(file) << "{}";
+  const auto bad = palpate({"grasp", "--sdh", bench.hand->sdhPort(), "--sequence", file});
+  EXPECT_EQ(bad.exitCode, 1);
+  EXPECT_NE(bad.err.find("no sequence"), std::string::npos) << bad.err;
+  const auto both = palpate(
+      {"grasp", "--sdh", bench.hand->sdhPort(), "--sequence", file, "--preshape", "parallel"});
+  EXPECT_EQ(both.exitCode, 2);
 }
 
 }  // namespace

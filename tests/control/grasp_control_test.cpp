@@ -321,5 +321,17 @@ TEST(GraspControl, RunsOnAThreadOfItsOwn) {
   EXPECT_EQ(bench.control->status().last->outcome, GraspOutcome::kLimitReached);
 }
 
+// A motion that follows another one by itself must not begin after a stop.
+TEST(GraspControl, AMotionThatAStopCameBeforeIsRefused) {
+  GraspBench bench;
+  const std::uint64_t stops = bench.control->status().stopsAsked;
+  bench.control->stop();
+  const std::size_t sent = bench.hand->commands.size();
+  EXPECT_THROW(bench.control->grasp({}, stops), DeviceError);
+  EXPECT_EQ(bench.hand->commands.size(), sent);
+  EXPECT_NE(bench.control->status().last->text.find("the hand was stopped"), std::string::npos);
+  EXPECT_NO_THROW(bench.control->grasp({}, stops + 1));
+}
+
 }  // namespace
 }  // namespace palpate::grasp_control_test

@@ -23,6 +23,12 @@ GraspRequest reactive() {
   return request;
 }
 
+GraspReport reportOf(const GraspRequest& request) {
+  GraspReport report;
+  report.request = request;
+  return report;
+}
+
 TEST(GraspRequest, RefusesWhatIsOutOfRangeOrNoNumber) {
   EXPECT_NO_THROW(GraspRequest{}.validate());
   EXPECT_NO_THROW(reactive().validate());
@@ -171,6 +177,93 @@ TEST(GraspRequest, ItsHighestLimitIsJudgedOnTheFingersThatItMoves) {
   EXPECT_EQ(matrices(GraspMode::kReactive, "pinch-parallel"), Matrices{}) << "finger 1 is folded";
   EXPECT_EQ(matrices(GraspMode::kSlip, "pinch-parallel"), Matrices{0});
   EXPECT_EQ(matrices(GraspMode::kSlip, "centrical"), (Matrices{0, 3}));
+}
+
+TEST(GraspRequest, LimitsOfFingersAreOnePerFingerAndNotAboveTheCommonOne) {
+  GraspRequest request = reactive();
+  request.limitCounts = 500;
+  for (const std::vector<int>& good : {std::vector<int>{}, {500, 3, 200}}) {
+    request.fingerLimitCounts = good;
+    EXPECT_NO_THROW(request.validate());
+  }
+  for (const std::vector<int>& bad :
+       {std::vector<int>{200}, {200, 200}, {200, 200, 200, 200}, {501, 200, 200}, {2, 200, 200}}) {
+    request.fingerLimitCounts = bad;
+    EXPECT_THROW(request.validate(), std::invalid_argument) << bad.size() << ' ' << bad[0];
+  }
+  request.fingerLimitCounts = {500, 300, 200};
+  EXPECT_EQ(limitOf(request, 1), 300);
+  EXPECT_EQ(limitOf(request, -1), 200) << "of no finger: the lowest";
+  EXPECT_EQ(describe(request),
+            "reactive grasp: centrical, to 1, 10 deg/s, limit 500, 300, 200 counts");
+}
+
+TEST(GraspRequest, ForceLimitsAreOneForAllOrOnePerFinger) {
+  GraspRequest request = reactive();
+  request.forceLimitsN = {2.5};
+  EXPECT_NO_THROW(request.validate());
+  EXPECT_EQ(forceLimitOf(request, 2), 2.5);
+  EXPECT_EQ(describe(request),
+            "reactive grasp: centrical, to 1, 10 deg/s, limit 200 counts, 2.5 N");
+  request.forceLimitsN = {1.0, 2.0, 3.0};
+  EXPECT_NO_THROW(request.validate());
+  EXPECT_EQ(forceLimitOf(request, 2), 3.0);
+  const Json event = Json::parse(beginEvent(reportOf(request)).json);
+  EXPECT_EQ(event.at("force_limit_n").at(1).asDouble(), 2.0);
+  for (const std::vector<double>& bad :
+       {std::vector<double>{1.0, 2.0}, {0.0}, {-1.0}, {501.0}, {kNan}, {kInf}, {1.0, kNan, 1.0}}) {
+    request.forceLimitsN = bad;
+    EXPECT_THROW(request.validate(), std::invalid_argument) << bad[0];
+  }
+}
+
+TEST(GraspRequest, AMotionToJointAnglesNamesEveryAxisAndRespectsItsRange) {
+  GraspRequest request;
+  request.targetDeg.assign(7, std::nullopt);
+  request.targetDeg[2] = 30.0;
+  request.title = "axis 2";
+  const std::vector<double> present{60, -75, 75, -75, 75, -75, 75};
+  const MoveJoints move = motionTo(request, 0.0, sdh2(), present);
+  EXPECT_EQ(move.targetDeg, (std::vector<double>{60, -75, 30, -75, 75, -75, 75}));
+  EXPECT_EQ(move.velocityDegPerS, std::vector<double>(7, 10.0));
+  EXPECT_EQ(describe(request), "motion: axis 2, 10 deg/s");
+  EXPECT_FALSE(isOpening(request));
+  EXPECT_TRUE(Json::parse(beginEvent(reportOf(request)).json).at("target_deg").at(0).isNull());
+  // Beyond the range of the axis (-90..90 deg), no number, and with unknown present angles.
+  for (const double value : {90.1, -90.1, kNan, kInf}) {
+    request.targetDeg[2] = value;
+    EXPECT_THROW(motionTo(request, 0.0, sdh2(), present), std::invalid_argument) << value;
+  }
+  request.targetDeg[2] = 30.0;
+  EXPECT_THROW(motionTo(request, 0.0, sdh2()), std::invalid_argument);
+  EXPECT_THROW(motionTo(request, 0.0, sdh2(), {1, 2, 3}), std::invalid_argument);
+  std::vector<double> beyond = present;
+  beyond[1] = -90.03;  // a real joint is a little beyond its range
+  EXPECT_EQ(motionTo(request, 0.0, sdh2(), beyond).targetDeg[1], -90.0);
+  beyond[1] = -95.0;
+  EXPECT_THROW(motionTo(request, 0.0, sdh2(), beyond), std::invalid_argument);
+  request.targetDeg.pop_back();
+  EXPECT_THROW(motionTo(request, 0.0, sdh2(), present), std::invalid_argument);
+  request.targetDeg.assign(7, 0.0);
+  request.mode = GraspMode::kSlip;
+  EXPECT_THROW(request.validate(), std::invalid_argument);
+  request.mode = GraspMode::kReactive;
+  request.startRatio = 0.0;
+  EXPECT_THROW(request.validate(), std::invalid_argument);
+}
+
+TEST(GraspRequest, LimitsOfFingersAreJudgedOneByOne) {
+  std::vector<MatrixSettings> settings(6, {0.5, 150});
+  settings[3].thresholdCounts = 3000;  // finger 1 reads no more than 1095
+  GraspRequest request = reactive();
+  request.limitCounts = 1500;
+  EXPECT_EQ(unmeasurableLimits(sdh2(), settings, request).size(), 1u);
+  request.fingerLimitCounts = {1500, 500, 1500};
+  EXPECT_TRUE(unmeasurableLimits(sdh2(), settings, request).empty());
+  EXPECT_LE(highestMeasurableLimit(sdh2(), settings, request), 1095 - 200);
+  EXPECT_GT(highestMeasurableLimit(sdh2(), settings, request), 1095 - 200 - 50);
+  settings[3].thresholdCounts = 4095;
+  EXPECT_EQ(highestMeasurableLimit(sdh2(), settings, request), 0);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include "palpate/core/error.h"
 #include "palpate/device/sdh2.h"
 
+#include "calibration/sample_calibrations.h"
 #include "control/machine_bench.h"
 #include "testing/testing.h"
 
@@ -176,6 +177,118 @@ TEST(GraspStateMachine, AFaultThatFindsNoMemoryForItsTextStopsAllTheSame) {
   EXPECT_TRUE(bench.takeStop());
   bench.machine.onStopAcknowledged(bench.us);
   EXPECT_EQ(bench.machine.takeReport()->outcome, GraspOutcome::kFailed);
+}
+
+TEST(GraspStateMachine, AFingerWithALowerLimitStopsTheHandAtIt) {
+  for (const bool lower : {true, false}) {
+    Bench bench;
+    GraspRequest request = reactive(800);
+    request.fingerLimitCounts = {800, 300, 800};
+    bench.begin(request);
+    bench.take();
+    // Matrix 3 is on finger 1, matrix 1 on finger 0; the largest reading is on finger 0.
+    bench.us += kPeriodUs;
+    TactileFrame felt(sdh2().layout);
+    felt.hostUs = 1'700'000'000'000'000 + bench.us;
+    felt.matrix(1)(3, 2) = 700.0F;
+    felt.matrix(3)(5, 1) = lower ? 301.0F : 300.0F;
+    bench.machine.onFrame(felt, bench.us);
+    EXPECT_EQ(bench.takeStop(), lower);
+    if (!lower) continue;
+    EXPECT_EQ(bench.machine.running().text, "limit reached: finger 1 distal, x 1, y 5: 301 counts");
+  }
+}
+
+TEST(GraspStateMachine, RefusesAGraspWhoseFingerIsOverItsOwnLimit) {
+  Bench bench;
+  bench.frames(1, 250.0F);  // matrix 1: finger 0
+  GraspRequest request = reactive(800);
+  request.fingerLimitCounts = {200, 800, 800};
+  EXPECT_THROW(bench.begin(request), DeviceError);
+  EXPECT_FALSE(bench.machine.takeCommand().has_value());
+  request.fingerLimitCounts = {800, 200, 800};
+  EXPECT_NO_THROW(bench.begin(request));
+}
+
+Calibration kiloPascals() { return testing::linearCalibration({0.5, 100.0, false}); }
+
+TEST(GraspStateMachine, ALimitInNewtonsStopsTheHandAtTheForce) {
+  Bench bench;
+  bench.machine.setCalibration(kiloPascals());
+  bench.machine.setSettings(std::vector<MatrixSettings>(6, {0.5, 100}));
+  GraspRequest request = reactive(3000);
+  request.forceLimitsN = {5.0};
+  bench.begin(request);
+  bench.take();
+  FingerForces expected(kiloPascals(), sdh2(), std::vector<MatrixSettings>(6, {0.5, 100}));
+  int frames = 0;
+  double before = 0.0, now = 0.0;
+  bool stopped = false;
+  for (float counts = 10.0F; !stopped && counts < 2000.0F; counts += 10.0F, ++frames) {
+    bench.us += kPeriodUs;
+    TactileFrame felt(sdh2().layout);
+    felt.hostUs = 1'700'000'000'000'000 + bench.us;
+    felt.matrix(4).setConstant(counts);  // finger 2
+    expected.apply(felt, {});
+    before = now;
+    now = expected.forcesN()[2];
+    bench.machine.onFrame(felt, bench.us);
+    stopped = bench.takeStop();
+  }
+  EXPECT_TRUE(stopped);
+  EXPECT_LE(before, 5.0);
+  EXPECT_GT(now, 5.0);
+  const GraspReport& report = bench.machine.running();
+  EXPECT_TRUE(report.text.starts_with("limit reached: finger 2: 5.")) << report.text;
+  EXPECT_EQ(report.forceFinger, 2u);
+  EXPECT_EQ(report.forceN, now);
+}
+
+TEST(GraspStateMachine, RefusesALimitInNewtonsThatItCannotMeasure) {
+  Bench bench;
+  GraspRequest request = reactive(3000);
+  request.forceLimitsN = {5.0};
+  const auto refusal = [&] {
+    try {
+      bench.begin(request);
+    } catch (const DeviceError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_NE(refusal().find("needs a calibration"), std::string::npos) << refusal();
+  Calibration another = kiloPascals();
+  another.hand = "another";
+  bench.machine.setCalibration(another);
+  EXPECT_NE(refusal().find("of another hand: another"), std::string::npos) << refusal();
+  Calibration half = kiloPascals();
+  half.pressure.areaFraction = 0.5;  // saturated: 352 kPa on 1873 mm^2, half of it
+  bench.machine.setCalibration(half);
+  request.forceLimitsN = {1.0, 1.0, 340.0};
+  EXPECT_NE(refusal().find("would not be felt: finger 2 measures no more than"), std::string::npos)
+      << refusal();
+  bench.us += kPeriodUs;
+  TactileFrame felt(sdh2().layout);
+  felt.hostUs = 1'700'000'000'000'000 + bench.us;
+  felt.matrix(0).setConstant(400.0F);
+  bench.machine.onFrame(felt, bench.us);
+  request.forceLimitsN = {5.0};
+  EXPECT_NE(refusal().find("over the limit of 5 N already, at finger 0"), std::string::npos)
+      << refusal();
+  EXPECT_FALSE(bench.machine.takeCommand().has_value()) << "nothing was sent";
+}
+
+TEST(GraspStateMachine, AMotionToJointAnglesUnderTactileControlStopsAtAContact) {
+  Bench bench;
+  GraspRequest request = reactive(200);
+  request.targetDeg.assign(7, std::nullopt);
+  request.targetDeg[4] = 10.0;
+  EXPECT_THROW(bench.begin(request), std::invalid_argument) << "the present angles are not known";
+  bench.machine.onAngles({60, -75, 75, -75, 75, -75, 75});
+  bench.begin(request);
+  EXPECT_EQ(bench.take().targetDeg, (std::vector<double>{60, -75, 75, -75, 10, -75, 75}));
+  bench.frames(1, 250.0F);
+  EXPECT_TRUE(bench.takeStop());
 }
 
 }  // namespace

@@ -1,16 +1,20 @@
 // The command `palpate grasp --sdh PORT [--dsa PORT] --preshape NAME ..` moves a hand and prints
 // its states.
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <memory>
 #include <string>
 
+#include "palpate/calibration/calibration.h"
 #include "palpate/capture/capture_session.h"
 #include "palpate/control/grasp_control.h"
+#include "palpate/control/motion_sequence.h"
 #include "palpate/core/error.h"
 #include "palpate/core/escaped_line.h"
 #include "palpate/core/interruption.h"
 #include "palpate/core/number_text.h"
+#include "palpate/core/text_file.h"
 #include "palpate/core/time.h"
 #include "palpate/device/live_hand.h"
 #include "palpate/model/hand_file.h"
@@ -18,16 +22,19 @@
 
 #include "commands/command_line.h"
 #include "commands/commands.h"
+#include "commands/hand_options.h"
 
 namespace palpate::commands {
 namespace {
 
 constexpr int kGraspLookMs = 20;
+constexpr std::size_t kMostSequenceBytes = 10'000'000;
 
 CommandSpec graspSpec() {
   return {
       .synopsis = "palpate grasp --sdh PORT [--dsa PORT] --preshape NAME [--close R] ..",
       .purpose =
+<<<<<<< HEAD
           "Moves a hand. The mode 'plain' moves to the preshape at close ratio R (0 open .. 1 "
           "closed, default 0.5), without regard to contact. 'reactive' opens to the preshape, then "
           "closes to R (default 1) and stops when the first taxel exceeds N counts. 'slip' does "
@@ -56,6 +63,46 @@ CommandSpec graspSpec() {
                    "F",
                    "newtons per count of a calibration, for the friction"},
                   {"wait", "S", "give up when the hand doesn't answer for S seconds, default 15"}},
+=======
+          "Moves a hand. 'plain' goes to the preshape at close ratio R (0 open .. 1 closed, "
+          "default 0.5), whatever\nthe fingers touch. 'reactive' opens to the preshape, then "
+          "closes to R "
+          "(default 1) until the first taxel is over\nN counts. 'slip' does the same, then holds: "
+          "it closes again, to a limit raised by "
+          "300 counts, when what it\nholds slips, until Ctrl-C or for S seconds. Ctrl-C stops the "
+          "hand. Prints a line per state: seconds, state, text. The hand stays powered and "
+          "holds.\nNAME: parallel, "
+          "cylindrical, centrical, spherical, pinch-parallel, pinch-tilted, pinch-empty, "
+          "calibration.",
+      .options =
+          {{"sdh", "PORT", "motion controller"},
+           {"dsa", "PORT", "tactile controller; 'reactive' and 'slip' need it"},
+           {"preshape", "NAME", "how the fingers stand"},
+           {"close", "R", "close ratio, 0..1"},
+           {"velocity", "V", "velocity of the joints, 1..100 deg/s, default 10"},
+           {"mode", "plain|reactive|slip", "default plain"},
+           {"limit", "N", "limit of 'reactive' and 'slip', 3..3300 counts, default 200"},
+           {"finger-limits", "N0,N1,..", "instead of --limit: a limit for each finger, in counts"},
+           {"force-limit",
+            "F[,F1,..]",
+            "also stops when a finger presses harder than F newtons; F,F1,..: each finger; "
+            "0.05..500, needs --calibration"},
+           {"calibration", "FILE", "the calibration that measures --force-limit"},
+           {"most", "N", "of 'slip': the limit rises up to N counts, default 2200"},
+           {"hold", "S", "of 'slip': ends after S seconds; the hand goes on holding"},
+           {"calm",
+            "S",
+            "of 'slip': after S seconds without slip the limit falls again, default 5"},
+           {"loosen", "", "of 'slip': the hand may open slowly to a limit that fell"},
+           {"object-mass",
+            "KG",
+            "of 'slip': opens slowly once, until it slips, and measures the friction"},
+           {"newtons-per-count", "F", "newtons per count of a calibration, for the friction"},
+           {"sequence",
+            "FILE",
+            "instead of a grasp: the steps of a table that the window saved (dock Hand)"},
+           {"wait", "S", "give up when the hand doesn't answer for S seconds, default 15"}},
+>>>>>>> 2db043cf2defc90b4b97dc7ccb69badfc2946cae
       .example =
           "palpate grasp --sdh /dev/ttyUSB1 --dsa /dev/ttyUSB0 --preshape centrical "
           "--mode reactive",
@@ -76,6 +123,36 @@ void holdingOf(const CommandLine& given, GraspRequest& request) {
   holding.loosen = given.has("loosen");
   holding.weightN = kGravity * given.number("object-mass", 0.001, 100.0).value_or(0.0);
   holding.newtonsPerCount = given.number("newtons-per-count", 1e-9, 1.0).value_or(0.0);
+}
+
+// Limits of single fingers, and limits in newtons.
+void fingerLimitsOf(const CommandLine& given, GraspRequest& request) {
+  const auto limits = given.text("finger-limits");
+  const auto forces = given.text("force-limit");
+  for (const char* option : {"finger-limits", "force-limit"})
+    if (given.has(option) && request.mode == GraspMode::kPlain)
+      throw UsageError("--" + std::string(option) + " needs --mode reactive or slip");
+  if (limits && given.has("limit"))
+    throw UsageError("--limit and --finger-limits exclude one another");
+  if (given.has("force-limit") != given.has("calibration"))
+    throw UsageError("--force-limit and --calibration need one another");
+  if (limits) {
+    for (const double limit : numbersOf(*limits, "finger-limits", numMovableFingers())) {
+      if (limit != std::floor(limit) || limit < kMinGraspLimitCounts ||
+          limit > kMaxGraspLimitCounts)
+        throw UsageError("--finger-limits: " + numberText(limit) + " is no count in " +
+                         std::to_string(kMinGraspLimitCounts) + ".." +
+                         std::to_string(kMaxGraspLimitCounts));
+      request.fingerLimitCounts.push_back(static_cast<int>(limit));
+    }
+    request.limitCounts =
+        *std::max_element(request.fingerLimitCounts.begin(), request.fingerLimitCounts.end());
+  }
+  if (!forces) return;
+  request.forceLimitsN = numbersOf(*forces, "force-limit", 0);
+  // The limit in counts stays as a second one, as high as it can be.
+  if (!limits && !given.has("limit") && request.mode == GraspMode::kReactive)
+    request.limitCounts = kMaxGraspLimitCounts;
 }
 
 GraspRequest graspRequestOf(const CommandLine& given) {
@@ -101,7 +178,13 @@ GraspRequest graspRequestOf(const CommandLine& given) {
   const auto limit = given.integer("limit", kMinGraspLimitCounts, kMaxGraspLimitCounts);
   if (limit && !feels) throw UsageError("--limit needs --mode reactive or slip");
   request.limitCounts = static_cast<int>(limit.value_or(request.limitCounts));
+  fingerLimitsOf(given, request);
   holdingOf(given, request);
+  try {
+    request.validate();
+  } catch (const std::invalid_argument& error) {
+    throw UsageError(error.what());
+  }
   return request;
 }
 
@@ -159,6 +242,46 @@ GraspReport follow(GraspControl& control, const StateLines& lines, Interruption&
   }
 }
 
+MotionSequence sequenceOf(const CommandLine& given) {
+  for (const char* option : {"preshape", "close", "velocity", "mode", "limit"})
+    if (given.has(option))
+      throw UsageError("--sequence excludes --" + std::string(option) +
+                       ": its steps have their own");
+  const std::filesystem::path file = *given.text("sequence");
+  MotionSequence sequence = parseSequence(readTextFile(file, kMostSequenceBytes), file);
+  try {
+    sequence.validate(movableHand());
+  } catch (const std::invalid_argument& error) {
+    throw FileError(file, error.what());
+  }
+  return sequence;
+}
+
+// Whether a step needs the tactile stream.
+bool feels(const MotionSequence& sequence) {
+  return std::any_of(sequence.steps.begin(), sequence.steps.end(), [](const SequenceStep& step) {
+    return step.kind == SequenceStep::Kind::kHold || step.request.mode != GraspMode::kPlain;
+  });
+}
+
+int runSequence(const MotionSequence& sequence,
+                CaptureSession& session,
+                GraspControl& control,
+                const StateLines& lines,
+                Interruption& interruption) {
+  SequenceRun run(control);
+  run.begin(sequence, session.device().hand(), session.nowUs());
+  for (std::string shown; run.running(); run.step(session.nowUs())) {
+    if (shown != run.status().text) lines.show("sequence", shown = run.status().text);
+    if (interruption.waitForSignal(kGraspLookMs)) control.stop();
+  }
+  if (!run.status().failed) {
+    lines.show("finished", run.status().text);
+    return kDone;
+  }
+  throw Error(run.status().text);
+}
+
 int exitCodeOf(const GraspReport& report) {
   switch (report.outcome) {
     case GraspOutcome::kFinished:
@@ -179,24 +302,40 @@ int exitCodeOf(const GraspReport& report) {
 int graspCommand(const Arguments& words) {
   const CommandLine given(graspSpec(), words);
   if (given.helpShown()) return kDone;
-  const GraspRequest request = graspRequestOf(given);
+  std::optional<MotionSequence> sequence;
+  if (given.has("sequence")) sequence = sequenceOf(given);
+  GraspRequest request;
+  if (!sequence)
+    request = graspRequestOf(given);
+  else if (feels(*sequence))
+    request.mode = GraspMode::kReactive;  // waits for the tactile stream, too
   LiveHandOptions ports;
   ports.sdhPort = given.text("sdh").value_or("");
   ports.dsaPort = given.text("dsa").value_or("");
   if (ports.sdhPort.empty()) throw UsageError("grasp needs --sdh PORT");
   if (ports.dsaPort.empty() && request.mode != GraspMode::kPlain)
+<<<<<<< HEAD
     throw UsageError("--mode " + std::string(nameOf(request.mode)) +
                      " needs --dsa PORT: it stops by the readings of the taxels");
+=======
+    throw UsageError(
+        (sequence ? std::string("the sequence") : "--mode " + std::string(nameOf(request.mode))) +
+        " needs --dsa PORT: it stops by what the fingers feel");
+>>>>>>> 2db043cf2defc90b4b97dc7ccb69badfc2946cae
   const double waitS = given.number("wait", 0.1, 1e6).value_or(15.0);
+  std::optional<Calibration> calibration;
+  if (const auto file = given.text("calibration")) calibration = loadCalibration(*file);
   const StateLines lines(given.quiet());
   Interruption interruption;
   CaptureSession session(std::make_unique<LiveHand>(std::move(ports)));
   GraspControl control(session);
+  control.setCalibration(std::move(calibration));
   control.run();
   lines.show("connecting");
   session.start();
   awaitHand(control, request, waitS, interruption);
   lines.show("ready");
+  if (sequence) return runSequence(*sequence, session, control, lines, interruption);
   control.grasp(request);
   return exitCodeOf(follow(control, lines, interruption));
 }

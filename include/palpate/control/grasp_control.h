@@ -38,6 +38,10 @@ struct GraspStatus {
   std::optional<GraspReport> portGone;
   // Number of calls of stop() and relax() so far, whether or not something was moving.
   std::uint64_t stopsAsked = 0;
+  // Joint angles as last read [deg]; empty: not known.
+  std::vector<double> anglesDeg;
+  // Whether a calibration is set, so that a grasp may have a limit in newtons.
+  bool calibrated = false;
   // Reason why no reactive grasp can begin; empty when one can begin.
   std::string cannotReact;
   // Reason why sensitivity, thresholds and masks can't be changed; empty when they can.
@@ -77,14 +81,19 @@ class GraspControl {
 
   // Begins a grasp. Throws std::invalid_argument (a value out of range or not a number) and
   // DeviceError kRefused (with the reason in one line); nothing was sent then, and the refusal is
-  // noted.
-  void grasp(const GraspRequest& request);
+  // noted. With `stopsBefore` it is refused, too, when a stop or relax was requested since the
+  // status in which GraspStatus::stopsAsked had this value: a motion that follows another one by
+  // itself must not begin after a stop.
+  void grasp(const GraspRequest& request, std::optional<std::uint64_t> stopsBefore = {});
   // Moves to the open hand of a preshape: a plain grasp with close ratio 0.
   void preshape(const std::string& name, double velocityDegPerS);
   // Sends a stop at once, whether or not the hand moves; no motion follows it.
   void stop() noexcept;
   // Stops, then switches the motors off: fingers can be moved by hand, and a held object may fall.
   void relax() noexcept;
+  // Sets the calibration by which limits in newtons are measured; nothing: such a grasp is refused.
+  // Holds from the next grasp on.
+  void setCalibration(std::optional<Calibration> calibration);
   // Changes sensitivity, threshold or mask. Throws DeviceError kRefused while fingers move under
   // tactile control; throws std::invalid_argument for a command that is no setting.
   std::shared_future<CommandAnswer> change(const DeviceCommand& setting);
@@ -137,6 +146,7 @@ class GraspControl {
   std::deque<GraspChange> changes_;
   std::optional<GraspReport> portGone_;  // see GraspStatus
   std::uint64_t stopsAsked_ = 0;
+  bool calibrated_ = false;
   // Last reported fault; the same fault is not reported again for a while in this grasp.
   std::string lastFault_;
   std::int64_t lastFaultUs_ = 0;  // [monotonic us]

@@ -64,9 +64,22 @@ struct HoldingOptions {
 // The hand whose motion is known: other hands are read, not moved.
 const HandDescription& movableHand();
 
+// Number of fingers with matrices of movableHand(); limits per finger are in the order of
+// MatrixDescription::finger.
+std::size_t numMovableFingers();
+
+constexpr double kMinForceLimitN = 0.05;
+constexpr double kMaxForceLimitN = 500.0;
+
 struct GraspRequest {
   GraspMode mode = GraspMode::kPlain;
   std::string preshape = "centrical";  // one of movableHand()
+  // Target of each axis [deg] instead of a preshape and its close ratio; a target that is empty:
+  // the axis stays at its present angle. Empty: the preshape counts. Not for a slip-aware grasp,
+  // and without a start ratio. `title`, one line, names the motion in texts: "axis 1", the name of
+  // a pose.
+  std::vector<std::optional<double>> targetDeg = {};
+  std::string title = {};
   // The hand moves to this ratio first, in a separate motion, 0 (open) .. 1; empty: it starts from
   // its present posture. In a reactive grasp this motion is under tactile control, too.
   std::optional<double> startRatio = {};
@@ -77,14 +90,30 @@ struct GraspRequest {
   // Limit of a reactive grasp, which stops above it, 3..3300 [counts]; first limit of a slip-aware
   // one.
   int limitCounts = 200;
+  // Lower limits of single fingers, one per finger, each 3..limitCounts [counts]; empty:
+  // limitCounts holds for all. A slip-aware grasp raises them together with limitCounts.
+  std::vector<int> fingerLimitCounts = {};
+  // Largest normal force of a finger, 0.05..500 [N]: one per finger, or one for all; empty: none.
+  // Needs a calibration (GraspControl::setCalibration). The grasp stops at this force or at the
+  // limit in counts, whichever is exceeded first. A slip raises no force limit.
+  std::vector<double> forceLimitsN = {};
   HoldingOptions holding = {};  // used by a slip-aware grasp
 
   // Throws std::invalid_argument naming field, value and range; nothing may be sent then.
   void validate() const;
 };
-// The command for one motion of a grasp. Throws as validate(), and when a target is beyond the
-// range of an axis (a hand with a smaller range than the SDH-2).
-MoveJoints motionTo(const GraspRequest& request, double closeRatio, const HandDescription& hand);
+// The command for one motion of a grasp; `presentDeg`: the present joint angles, for axes without a
+// target (empty: not known). Throws as validate(), when a target is beyond the range of an axis
+// (of targetDeg, or of a hand with a smaller range than the SDH-2), and when an axis without a
+// target has no known angle.
+MoveJoints motionTo(const GraspRequest& request,
+                    double closeRatio,
+                    const HandDescription& hand,
+                    const std::vector<double>& presentDeg = {});
+// The limit of a finger at the begin [counts]; that of all for a finger of no number.
+int limitOf(const GraspRequest& request, int finger);
+// The force limit of a finger [N]; nothing without one.
+std::optional<double> forceLimitOf(const GraspRequest& request, std::size_t finger);
 // The highest limit that a grasp may use; meaningless for a plain grasp.
 int maxLimitOf(const GraspRequest& request);
 // Matrices on the moved fingers that can't measure the highest limit of the grasp; a grasp with
@@ -93,9 +122,17 @@ int maxLimitOf(const GraspRequest& request);
 std::vector<UnmeasurableLimit> unmeasurableLimits(const HandDescription& hand,
                                                   const std::vector<MatrixSettings>& settings,
                                                   const GraspRequest& request);
+// The highest limit that every matrix on the moved fingers can measure, in steps of 50 from 3300
+// down [counts]; 0 when there is none. The limits of the request are ignored.
+int highestMeasurableLimit(const HandDescription& hand,
+                           const std::vector<MatrixSettings>& settings,
+                           GraspRequest request);
 // True for a plain motion to the open hand, which users see as "opening" and not as a grasp.
 bool isOpening(const GraspRequest& request);
-// The kind of the request without its parameters: "reactive grasp", "opening".
+// True for a motion to joint angles instead of a preshape.
+bool isJointMotion(const GraspRequest& request);
+// The kind of the request without its parameters: "reactive grasp", "opening", "motion", "reactive
+// motion".
 std::string kindOf(const GraspRequest& request);
 // The request with its parameters: "reactive grasp: centrical, from 0 to 1, 30 deg/s, limit 200
 // counts", "opening: centrical, 10 deg/s".
@@ -122,8 +159,12 @@ struct GraspReport {
   std::string text;          // one line for the user
   std::int64_t beginUs = 0;  // host time [us since 1970]
   std::int64_t endUs = 0;    // host time [us since 1970]
-  // For kLimitReached: largest taxel of the frame in which the limit was exceeded.
+  // For kLimitReached: largest taxel of the frame in which the limit was exceeded; with limits of
+  // single fingers the one that is farthest above its limit.
   TaxelPeak peak;
+  // For kLimitReached by a force: the finger and its force in that frame [N].
+  std::optional<std::size_t> forceFinger = {};
+  double forceN = 0.0;
   // For kFinished: axes that were blocked before their target.
   std::vector<int> heldAxes;
   // Largest taxel in the 0.5 s after the stop of a grasp under tactile control: the rubber responds

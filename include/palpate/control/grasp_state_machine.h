@@ -18,6 +18,7 @@
 #include <utility>
 #include <vector>
 
+#include <palpate/control/finger_forces.h>
 #include <palpate/control/grasp_request.h>
 #include <palpate/control/grip_monitor.h>
 #include <palpate/control/stream_monitor.h>
@@ -38,10 +39,16 @@ class GraspStateMachine {
   // Settings of the matrices as last read back from the controller; empty when unknown.
   void setSettings(std::vector<MatrixSettings> settings) { settings_ = std::move(settings); }
 
+  // The calibration by which forces are measured; nothing: no grasp with a limit in newtons begins.
+  void setCalibration(std::optional<Calibration> calibration);
+  // Temperatures as last read, for the forces.
+  void onTemperatures(const std::vector<double>& degC) { degC_ = degC; }
+
   // Begins a grasp; takeCommand() then returns the first motion. Throws std::invalid_argument
   // (request) and DeviceError kRefused; nothing must be sent then. Reasons to refuse: another grasp
-  // runs; and, under tactile control, the tactile stream is not alive, a taxel is already over the
-  // limit, or a matrix on a moving finger can't measure the limit. hostUs is used in the report.
+  // runs; and, under tactile control, the tactile stream is not alive, a taxel or a finger is
+  // already over its limit, a matrix on a moving finger can't measure the limit, or no calibration
+  // can measure a limit in newtons. hostUs is used in the report.
   void begin(const GraspRequest& request, std::int64_t monoUs, std::int64_t hostUs);
 
   // Processes every frame, also between grasps, so that the period of the stream is known when a
@@ -88,6 +95,8 @@ class GraspStateMachine {
   const GraspReport& running() const noexcept { return report_; }
   const StreamMonitor& stream() const noexcept { return stream_; }
   const TaxelPeak& peak() const noexcept { return peak_; }  // of the newest frame
+  // Joint angles as last read [deg]; empty: not known.
+  const std::vector<double>& anglesDeg() const noexcept { return anglesDeg_; }
 
  private:
   void move(double closeRatio, GraspPhase phase, std::int64_t monoUs);
@@ -119,6 +128,17 @@ class GraspStateMachine {
   std::string riseText() const;
   std::string holdingText() const;
   bool isOverLimit() const noexcept;
+  // The taxel that is nearest to its limit, or farthest above it.
+  const TaxelPeak& loadedTaxel(const GraspRequest& request) const noexcept;
+  // The reading of a taxel, raised by as much as the limit of its finger is below limitCounts: it
+  // is over its limit when this is over limit_.
+  float commonCounts(const TaxelPeak& peak, const GraspRequest& request) const noexcept;
+  float loadCounts() const noexcept {
+    return commonCounts(loadedTaxel(report_.request), report_.request);
+  }
+  std::optional<std::size_t> fingerOverForce(const GraspRequest& request) const noexcept;
+  std::string forceText(std::size_t finger) const;
+  std::optional<FingerForces> forcesFor(const GraspRequest& request) const;
   bool updateLayout(const TactileFrame& frame);
   void requireMeasurableLimit(const GraspRequest& request) const;
   void onHoldingFrame(std::int64_t monoUs);
@@ -135,6 +155,12 @@ class GraspStateMachine {
   std::vector<MatrixSettings> settings_;
   StreamMonitor stream_;
   TaxelPeak peak_;
+  std::vector<TaxelPeak> matrixPeaks_;  // of the newest frame, one per matrix
+  std::optional<Calibration> calibration_;
+  TactileFrame newest_;  // kept only with a calibration
+  std::vector<double> degC_;
+  // Of the running grasp, when it has force limits.
+  std::optional<FingerForces> forces_;
 
   GraspPhase phase_ = GraspPhase::kIdle;
   GraspReport report_;  // the running grasp

@@ -16,6 +16,7 @@
 
 #include "calibration/sample_calibrations.h"
 #include "control/emulated_bench.h"
+#include "gui/hand/hand_dock_bench.h"
 #include "gui/hand/sensitivity_modes.h"
 #include "gui/hand/tactile_settings_panel.h"
 #include "gui/widgets/facts_view.h"
@@ -43,52 +44,7 @@ class HotHand final : public HandModel {
   testing::StillHand still_;
 };
 
-class HandDockTest : public ::testing::Test {
- protected:
-  HandDockTest()
-      : settings_(QString::fromStdString((folder_ / "palpate.ini").string()), QSettings::IniFormat),
-        dock_(std::make_unique<HandDock>(settings_)) {
-    dock_->resize(455, 800);
-    dock_->show();
-  }
-  ~HandDockTest() override { dock_->setHand(nullptr, nullptr); }
-
-  void connectTo(std::unique_ptr<HandModel> model, EmulatedHandOptions options = {}) {
-    bench_ = std::make_unique<EmulatedBench>(std::move(model), std::move(options));
-    bench_->connect();
-    dock_->setHand(bench_->session.get(), bench_->control.get());
-  }
-  template <class Widget>
-  Widget* find(const char* name) {
-    auto* found = dock_->findChild<Widget*>(name);
-    if (!found) throw std::runtime_error(std::string("no ") + name);
-    return found;
-  }
-  void click(const char* name) { QTest::mouseClick(find<QPushButton>(name), Qt::LeftButton); }
-  QString state() { return find<QLabel>("handState")->text(); }
-  bool isEnabled(const char* name) { return find<QPushButton>(name)->isEnabled(); }
-  static bool await(const std::function<bool()>& condition) {
-    return QTest::qWaitFor(condition, 20'000);
-  }
-  void type(const char* slider, const QString& text) {
-    QDoubleSpinBox* field = find<ValueSlider>(slider)->field();
-    field->setFocus();
-    field->selectAll();
-    QTest::keyClicks(field, text);
-    QTest::keyClick(field, Qt::Key_Return);
-    field->clearFocus();
-  }
-  std::vector<MatrixSetting> onTheHand() {
-    std::vector<MatrixSetting> settings;
-    bench_->hand->withModel([&](HandModel& model) { settings = model.settings(); });
-    return settings;
-  }
-
-  const testing::TemporaryFolder folder_;
-  QSettings settings_;
-  std::unique_ptr<EmulatedBench> bench_;
-  std::unique_ptr<HandDock> dock_;
-};
+class HandDockTest : public HandDockBench {};
 
 TEST_F(HandDockTest, WithoutAHandItSaysSoAndOffersNothing) {
   EXPECT_EQ(state(), "No hand is connected.");

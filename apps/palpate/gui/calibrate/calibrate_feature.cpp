@@ -4,6 +4,7 @@
 #include <utility>
 
 #include <palpate/control/grasp_request.h>
+#include <palpate/core/error.h>
 #include <palpate/core/number_text.h>
 
 #include "gui/calibrate/calibrate_panel.h"
@@ -86,6 +87,20 @@ void CalibrateFeature::connectPages() {
             windowState.messages.flash("sensor settings added to the recording: save with Ctrl+S");
           });
   connect(&panel_->force(), &ForcePage::applied, pressures_.get(), &Pressures::reload);
+  connect(&panel_->force(),
+          &ForcePage::applied,
+          &windowState.handCommands,
+          &HandCommands::calibrationApplied);
+  windowState.handCommands.calibration =
+      [&windowState](const std::string& hand) -> std::optional<Calibration> {
+    const QString path = appliedCalibration(windowState.settings, hand);
+    if (path.isEmpty()) return std::nullopt;
+    try {
+      return usableCalibration(path);
+    } catch (const Error&) {
+      return std::nullopt;  // the page Force tells why
+    }
+  };
   connect(&panel_->pressure(), &PressurePage::applyRequested, this, &CalibrateFeature::apply);
 }
 
@@ -134,6 +149,7 @@ void CalibrateFeature::apply(const QString& path) {
       state().settings, recording ? recording->profile.hand().name : made->calibration.hand, path);
   panel_->force().calibrationChanged();
   pressures_->reload();
+  emit state().handCommands.calibrationApplied();
   state().messages.flash("applied: " + QFileInfo(path).fileName());
 }
 

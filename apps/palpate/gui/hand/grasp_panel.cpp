@@ -13,6 +13,7 @@
 #include <palpate/model/hand_file.h>
 
 #include "gui/desktop/button_keys.h"
+#include "gui/hand/grasp_options.h"
 #include "gui/widgets/value_slider.h"
 
 namespace palpate::gui {
@@ -22,6 +23,15 @@ constexpr const char* kPreshape = "grasp/preshape";
 constexpr const char* kClose = "grasp/close";
 constexpr const char* kVelocity = "grasp/velocity_deg_per_s";
 constexpr const char* kLimit = "grasp/limit_counts";
+constexpr const char* kForceLimit = "grasp/limit_n";
+constexpr double kUsualForceLimitN = 2.0;
+constexpr double kSliderForceLimitN = 20.0;
+constexpr const char* kLimitTip =
+    "A reactive grasp stops at the first taxel above it, a slip-aware one starts with it; an "
+    "SDH-2 saturates at 3500";
+constexpr const char* kForceLimitTip =
+    "A grasp stops when a finger presses harder, by the calibration. A slip-aware grasp begins "
+    "with its limit in counts, and never exceeds this one";
 
 double remembered(
     const QSettings& settings, const char* key, double least, double most, double usual) {
@@ -43,6 +53,7 @@ QPushButton* button(const QString& text, const QString& name, QWidget* parent) {
 
 GraspPanel::GraspPanel(QSettings& settings, QWidget* parent)
     : QWidget(parent), settings_(settings) {
+  highestLimit = [](const GraspRequest&) { return kMaxGraspLimitCounts; };
   const GraspRequest usual;
   preshape_ = new QComboBox(this);
   preshape_->setObjectName("preshape");
@@ -67,11 +78,20 @@ GraspPanel::GraspPanel(QSettings& settings, QWidget* parent)
       {kMinGraspLimitCounts, kMaxGraspLimitCounts, kMaxGraspLimitCounts, 1.0, 0, "counts"},
       this);
   limit_->setObjectName("limit");
-  limit_->setToolTip(
-      "A reactive grasp stops at the first taxel above it, a slip-aware one starts with it; an "
-      "SDH-2 saturates at 3500");
   limit_->showValue(
       remembered(settings, kLimit, kMinGraspLimitCounts, kMaxGraspLimitCounts, usual.limitCounts));
+
+  forceLimit_ = new ValueSlider(
+      "Force limit", {kMinForceLimitN, kMaxForceLimitN, kSliderForceLimitN, 0.05, 2, "N"}, this);
+  forceLimit_->setObjectName("forceLimit");
+  forceLimit_->showValue(
+      remembered(settings, kForceLimit, kMinForceLimitN, kMaxForceLimitN, kUsualForceLimitN));
+  auto* limits = new QWidget(this);
+  auto* limitsRow = new QHBoxLayout(limits);
+  limitsRow->setContentsMargins(0, 0, 0, 0);
+  limitsRow->addWidget(limit_);
+  limitsRow->addWidget(forceLimit_);
+  options_ = new GraspOptions(settings, this);
 
   auto* form = new QFormLayout;
   form->setContentsMargins(0, 0, 0, 0);
@@ -80,12 +100,13 @@ GraspPanel::GraspPanel(QSettings& settings, QWidget* parent)
   form->addRow("Preshape", preshape_);
   form->addRow("Close ratio", close_);
   form->addRow("Velocity", velocity_);
-  form->addRow("Limit", limit_);
+  form->addRow("Limit", limits);
   // Aligns the right edges of the fields.
   int widest = 0;
-  for (const ValueSlider* each : {close_, velocity_, limit_})
+  for (const ValueSlider* each : {close_, velocity_, limit_, forceLimit_})
     widest = std::max(widest, each->field()->sizeHint().width());
-  for (const ValueSlider* each : {close_, velocity_, limit_}) each->field()->setFixedWidth(widest);
+  for (const ValueSlider* each : {close_, velocity_, limit_, forceLimit_})
+    each->field()->setFixedWidth(widest);
 
   // The order of creation is the tab order.
   grasp_ = button("Grasp", "graspHand", this);
@@ -108,6 +129,9 @@ GraspPanel::GraspPanel(QSettings& settings, QWidget* parent)
   column->setSpacing(10);
   column->addLayout(form);
   column->addLayout(buttons);
+  // Below the buttons, which don't move when it unfolds.
+  column->addWidget(options_);
+  setTabOrder(relax_, options_);
 
   connect(open_, &QPushButton::clicked, this, [this] {
     GraspRequest request = this->request(GraspMode::kPlain);
@@ -123,9 +147,23 @@ GraspPanel::GraspPanel(QSettings& settings, QWidget* parent)
     emit asked();
   });
   connect(preshape_, &QComboBox::currentIndexChanged, this, &GraspPanel::remember);
-  for (ValueSlider* each : {close_, velocity_, limit_})
+  for (ValueSlider* each : {close_, velocity_, limit_, forceLimit_})
     connect(each, &ValueSlider::chosen, this, &GraspPanel::remember);
+  connect(options_, &GraspOptions::limitsChanged, this, &GraspPanel::showLimit);
+  showLimit();
   showStatus({});
+}
+
+void GraspPanel::showLimit() {
+  const bool inNewtons = options_->inNewtons();
+  limit_->setVisible(!inNewtons);
+  forceLimit_->setVisible(inNewtons);
+  for (ValueSlider* each : {limit_, forceLimit_}) {
+    each->setEnabled(!options_->eachFinger());
+    each->setToolTip(options_->eachFinger() ? "Each finger has its own limit, below: More"
+                     : inNewtons            ? kForceLimitTip
+                                            : kLimitTip);
+  }
 }
 
 void GraspPanel::remember() {
@@ -133,6 +171,7 @@ void GraspPanel::remember() {
   settings_.setValue(kClose, close_->value());
   settings_.setValue(kVelocity, velocity_->value());
   settings_.setValue(kLimit, limit_->value());
+  settings_.setValue(kForceLimit, forceLimit_->value());
 }
 
 GraspRequest GraspPanel::request(GraspMode mode) const {
@@ -142,8 +181,13 @@ GraspRequest GraspPanel::request(GraspMode mode) const {
   request.closeRatio = mode == GraspMode::kPlain ? close_->value() : 1.0;
   request.velocityDegPerS = velocity_->value();
   request.limitCounts = static_cast<int>(limit_->value());
-  // A limit above the default maximum is not reduced.
-  request.holding.maxLimitCounts = std::max(request.holding.maxLimitCounts, request.limitCounts);
+  if (mode != GraspMode::kPlain && options_->inNewtons()) {
+    request.forceLimitsN = {forceLimit_->value()};
+    // A slip-aware grasp raises its limit in counts when the object slips.
+    const int highest = mode == GraspMode::kReactive ? highestLimit(request) : 0;
+    if (highest > 0) request.limitCounts = highest;
+  }
+  options_->apply(request);
   return request;
 }
 
@@ -167,6 +211,7 @@ void GraspPanel::setControl(GraspControl* control, const QString& whyNot) {
 }
 
 void GraspPanel::showStatus(const GraspStatus& status) {
+  options_->setCalibrated(control_ && status.calibrated);
   const bool idle = status.phase == GraspPhase::kIdle;
   const bool canMove = control_ && status.cannotMove.empty();
   const bool canReact = control_ && status.cannotReact.empty();

@@ -4,6 +4,7 @@
 
 #include <QSettings>
 #include <QWidget>
+#include <functional>
 
 #include <palpate/control/grasp_control.h>
 
@@ -13,6 +14,7 @@ class QPushButton;
 
 namespace palpate::gui {
 
+class GraspOptions;
 class ValueSlider;
 
 class GraspPanel : public QWidget {
@@ -26,6 +28,9 @@ class GraspPanel : public QWidget {
   // Enables the motions that are possible now; the tool tips tell why others are not.
   void showStatus(const GraspStatus& status);
   GraspRequest request(GraspMode mode) const;
+  // The highest limit that the matrices can measure in such a grasp [counts]; a limit in newtons is
+  // watched together with it.
+  std::function<int(const GraspRequest& request)> highestLimit;
   // In the order of the dock: Grasp, Reactive, Slip-aware, Open, Relax.
   QList<QPushButton*> buttons() const { return {grasp_, reactive_, slipAware_, open_, relax_}; }
 
@@ -39,6 +44,7 @@ class GraspPanel : public QWidget {
  private:
   void begin(const GraspRequest& request);
   void remember();
+  void showLimit();
 
   QSettings& settings_;
   GraspControl* control_ = nullptr;
@@ -47,6 +53,8 @@ class GraspPanel : public QWidget {
   ValueSlider* close_;
   ValueSlider* velocity_;
   ValueSlider* limit_;
+  ValueSlider* forceLimit_;
+  GraspOptions* options_;
   QPushButton* open_;
   QPushButton* grasp_;
   QPushButton* reactive_;

@@ -6,6 +6,7 @@
 #include <QPushButton>
 #include <QScrollArea>
 #include <QScrollBar>
+#include <QTabBar>
 #include <QVBoxLayout>
 #include <algorithm>
 #include <cmath>
@@ -17,16 +18,20 @@
 #include "gui/appearance/captions.h"
 #include "gui/hand/grasp_panel.h"
 #include "gui/hand/hand_feature.h"
+#include "gui/hand/joint_panel.h"
 #include "gui/hand/sensitivity_modes.h"
+#include "gui/hand/sequence_panel.h"
 #include "gui/hand/stop_key.h"
 #include "gui/hand/tactile_settings_panel.h"
 #include "gui/widgets/facts_view.h"
+#include "gui/widgets/fitting_pages.h"
 
 namespace palpate::gui {
 namespace {
 
 constexpr int kHandDockRefreshMs = 50;
 constexpr int kHandDockMargin = 12;
+constexpr const char* kPageKey = "hand/page";
 constexpr int kStateLines = 4;  // lines reserved for the status text
 constexpr const char* kStopTip =
     "Stops the hand now; the motors stay on and hold (Esc works everywhere)";
@@ -46,6 +51,7 @@ CaptureQueueOptions smallFeed() {
 }  // namespace
 
 HandDock::HandDock(QSettings& settings, QWidget* parent) : QWidget(parent) {
+  calibrationOf = [](const std::string&) { return std::optional<Calibration>(); };
   stopKey_ = new StopKey(this);
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(0, 0, 0, 0);
@@ -70,15 +76,19 @@ HandDock::HandDock(QSettings& settings, QWidget* parent) : QWidget(parent) {
   });
   const auto refused = [this](const QString& why) { said_ = why; };
   const auto asked = [this] { said_.clear(); };
-  connect(grasp_, &GraspPanel::begins, this, asked);
+  connectMotions();
   connect(tactile_, &TactileSettingsPanel::changedByHand, this, asked);
   connect(sensitivity_, &SensitivityModes::asked, this, asked);
-  connect(grasp_, &GraspPanel::refused, this, refused);
-  connect(grasp_, &GraspPanel::asked, this, &HandDock::refresh);
-  connect(grasp_, &GraspPanel::asked, this, &HandDock::asked);
   connect(tactile_, &TactileSettingsPanel::refused, this, refused);
   connect(sensitivity_, &SensitivityModes::refused, this, refused);
   connect(tactile_, &TactileSettingsPanel::changedByHand, sensitivity_, &SensitivityModes::endMode);
+  // A mode changes the settings, too: undo goes back to those from before it.
+  connect(sensitivity_, &SensitivityModes::asked, tactile_, &TactileSettingsPanel::keepForUndo);
+  grasp_->highestLimit = [this](const GraspRequest& request) {
+    if (!session_) return kMaxGraspLimitCounts;
+    const DeviceInfo facts = session_->device().facts();
+    return highestMeasurableLimit(session_->device().hand(), facts.matrices, request);
+  };
   timer_.setInterval(kHandDockRefreshMs);
   connect(&timer_, &QTimer::timeout, this, &HandDock::refresh);
   setHand(nullptr, nullptr);
@@ -113,6 +123,55 @@ QWidget* HandDock::makeHead() {
   return head;
 }
 
+void HandDock::makePages(QSettings& settings, QWidget* content) {
+  grasp_ = new GraspPanel(settings, content);
+  joint_ = new JointPanel(settings, content);
+  sequence_ = new SequencePanel(settings, content);
+  chooser_ = new QTabBar(content);
+  chooser_->setObjectName("handPages");
+  chooser_->setDrawBase(false);
+  chooser_->setExpanding(false);
+  chooser_->setFocusPolicy(Qt::TabFocus);
+  pages_ = new FittingPages(content);
+  const auto page = [this](QWidget* panel, const QString& name, const QString& tip) {
+    // What is left of the height of a page stays below its panel.
+    pages_->addWidget(panel);
+    chooser_->setTabToolTip(chooser_->addTab(name), tip);
+  };
+  page(grasp_, "Grasp", "Close by a preshape: plain, reactive, slip-aware");
+  page(joint_, "Joints", "Single joints and own poses");
+  page(sequence_, "Sequence", "A table of motions, repeated");
+  connect(chooser_, &QTabBar::currentChanged, this, [this, &settings](int index) {
+    pages_->setCurrentIndex(index);
+    settings.setValue(kPageKey, index);
+  });
+  chooser_->setCurrentIndex(std::clamp(settings.value(kPageKey, 0).toInt(), 0, 2));
+}
+
+// What all pages that move the hand have in common.
+void HandDock::connectMotions() {
+  const auto common = [this](auto* panel) {
+    using Panel = std::remove_pointer_t<decltype(panel)>;
+    connect(panel, &Panel::begins, this, [this] { said_.clear(); });
+    connect(panel, &Panel::refused, this, [this](const QString& why) { said_ = why; });
+    connect(panel, &Panel::asked, this, &HandDock::refresh);
+    connect(panel, &Panel::asked, this, &HandDock::asked);
+  };
+  common(grasp_);
+  common(joint_);
+  common(sequence_);
+  joint_->reactiveLimits = [this] { return grasp_->request(GraspMode::kReactive); };
+  sequence_->graspRequest = [this](GraspMode mode) { return grasp_->request(mode); };
+  sequence_->poseVelocity = [this] { return joint_->velocityDegPerS(); };
+  sequence_->poses = [this] {
+    std::vector<SavedPose> poses;
+    const std::string& hand = movableHand().name;
+    for (const QString& name : joint_->poses().names(hand))
+      if (auto pose = joint_->poses().load(hand, name)) poses.push_back(std::move(*pose));
+    return poses;
+  };
+}
+
 QWidget* HandDock::makeBody(QSettings& settings) {
   auto* area = new QScrollArea(this);
   area->setWidgetResizable(true);
@@ -120,7 +179,7 @@ QWidget* HandDock::makeBody(QSettings& settings) {
   area->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
   area->setFocusPolicy(Qt::NoFocus);
   auto* content = new QWidget(area);
-  grasp_ = new GraspPanel(settings, content);
+  makePages(settings, content);
   sensitivity_ = new SensitivityModes(content);
   tactile_ = new TactileSettingsPanel(settings, content);
   angles_ = new FactsView(content);
@@ -152,8 +211,8 @@ QWidget* HandDock::makeBody(QSettings& settings) {
   auto* controls = new QVBoxLayout(settable);
   controls->setContentsMargins(0, 0, 0, 0);
   controls->setSpacing(8);
-  controls->addWidget(sectionHeading("Grasp", settable));
-  controls->addWidget(grasp_);
+  controls->addWidget(chooser_);
+  controls->addWidget(pages_);
   controls->addSpacing(8);
   controls->addWidget(sectionHeading("Matrices", settable));
   controls->addWidget(sensitivity_);
@@ -172,8 +231,10 @@ QWidget* HandDock::makeBody(QSettings& settings) {
 // The width is known only when the dock is shown.
 void HandDock::showEvent(QShowEvent* event) {
   QWidget::showEvent(event);
-  body_->setMinimumWidth(body_->widget()->minimumSizeHint().width() +
-                         body_->verticalScrollBar()->sizeHint().width());
+  int widest = body_->widget()->minimumSizeHint().width();
+  for (int i = 0; i < pages_->count(); ++i)
+    widest = std::max(widest, pages_->widget(i)->minimumSizeHint().width() + 2 * kHandDockMargin);
+  body_->setMinimumWidth(widest + body_->verticalScrollBar()->sizeHint().width());
 }
 
 void HandDock::setHand(CaptureSession* session, GraspControl* control) {
@@ -184,10 +245,10 @@ void HandDock::setHand(CaptureSession* session, GraspControl* control) {
   layout_.reset();
   goneUs_.reset();
   queue_ = session ? session->subscribe("the dock Hand", smallFeed()) : nullptr;
-  if (isReadOnly())
-    grasp_->setControl(nullptr, kReadOnlyTip);
-  else
-    grasp_->setControl(control);
+  const QString whyNot = isReadOnly() ? kReadOnlyTip : "No hand is connected";
+  grasp_->setControl(control, whyNot);
+  joint_->setControl(control, whyNot);
+  sequence_->setHand(session, control, whyNot);
   sensitivity_->setHand(session, control);
   tactile_->setHand(session, control);
   stopKey_->setControl(control);
@@ -203,7 +264,12 @@ void HandDock::setHand(CaptureSession* session, GraspControl* control) {
   refresh();
 }
 
+void HandDock::renewCalibration() {
+  if (control_) control_->setCalibration(calibrationOf(session_->device().hand().name));
+}
+
 void HandDock::updateHand() {
+  renewCalibration();
   const HandDescription hand = session_ ? session_->device().hand() : movableHand();
   tactile_->setMatrices(hand);
   std::vector<Fact> facts;
@@ -222,8 +288,14 @@ void HandDock::updateHand() {
 }
 
 void HandDock::refresh() {
+  if (control_) sequence_->refresh(control_->status());
   const GraspStatus status = control_ ? control_->status() : GraspStatus{};
-  grasp_->showStatus(status);
+  // While a step of a sequence rests, the hand is not free for another motion.
+  GraspStatus offered = status;
+  if (sequence_->running() && offered.phase == GraspPhase::kIdle)
+    offered.phase = GraspPhase::kHolding;
+  grasp_->showStatus(offered);
+  joint_->showStatus(offered);
   sensitivity_->refresh();
   const DeviceInfo facts = session_ ? session_->device().facts() : DeviceInfo{};
   showUnmeasurable(facts.matrices);
@@ -256,7 +328,12 @@ void HandDock::bind(const HandActions& actions) {
 // everything, by the slip-aware grasp.
 void HandDock::showUnmeasurable(const std::vector<MatrixSettings>& settings) {
   const GraspRequest reactive = grasp_->request(GraspMode::kReactive);
-  Judged now{settings, layout_, reactive.preshape, reactive.limitCounts};
+  Judged now{settings,
+             layout_,
+             reactive.preshape,
+             reactive.limitCounts,
+             grasp_->request(GraspMode::kSlip).holding.maxLimitCounts,
+             reactive.fingerLimitCounts};
   if (judged_ == now) return;
   judged_ = std::move(now);
   std::vector<QString> why;
@@ -310,6 +387,11 @@ void HandDock::showState(const GraspStatus& status) {
     const bool streamed = dynamic_cast<const StreamDevice*>(&session_->device()) != nullptr;
     return say(streamed ? "This hand is read, not moved: its stream takes no commands."
                         : "A recording is replayed: there is nothing to move.",
+               false);
+  }
+  if (sequence_->running()) {
+    const QString phase = status.phase == GraspPhase::kIdle ? QString() : phaseText(status);
+    return say(sequence_->stateText() + (phase.isEmpty() ? "" : "\n" + phase.section(" · ", 0, 0)),
                false);
   }
   if (status.phase != GraspPhase::kIdle) {
@@ -381,6 +463,7 @@ void HandDock::showSamples() {
     if (const auto* sample = std::get_if<Temperatures>(&item)) temperatures = sample;
     if (const auto* frame = std::get_if<SharedFrame>(&item)) layout_ = (*frame)->layout;
   }
+  tactile_->showScanned(layout_);
   if (angles)
     for (std::size_t i = 0; i < std::min(angles->deg.size(), angles_->facts().size()); ++i)
       angles_->setValue(i, figure(angles->deg[i], 1) + angleUnits_[i]);
@@ -399,6 +482,7 @@ void HandDock::showTemperatures(const Temperatures& temperatures) {
     if (facts[i].warning) hot += (hot.isEmpty() ? "" : ", ") + facts[i].name + " " + facts[i].value;
   }
   temperatures_->setFacts(std::move(facts));
+  if (!hot.isEmpty() && sequence_->running()) sequence_->end("too hot: " + hot);
   heat_->setVisible(!hot.isEmpty());
   heat_->setText("Too hot: " + hot + ". Relax the hand and let it cool below " +
                  figure(hottest, 0) + " °C.");

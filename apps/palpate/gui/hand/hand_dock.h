@@ -6,6 +6,7 @@
 #include <QSettings>
 #include <QTimer>
 #include <QWidget>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -21,12 +22,16 @@ class QAction;
 class QLabel;
 class QPushButton;
 class QScrollArea;
+class QTabBar;
 
 namespace palpate::gui {
 
 struct HandActions;
 class FactsView;
+class FittingPages;
 class GraspPanel;
+class JointPanel;
+class SequencePanel;
 class SensitivityModes;
 class StopKey;
 class TactileSettingsPanel;
@@ -52,6 +57,10 @@ class HandDock : public QWidget {
   // As in unmeasurableChanged().
   const std::vector<QString>& unmeasurable() const noexcept { return unmeasurable_; }
   SensitivityModes& sensitivity() noexcept { return *sensitivity_; }
+  // The calibration applied to the hand with this name, for limits in newtons; nothing: none.
+  std::function<std::optional<Calibration>(const std::string& hand)> calibrationOf;
+  // Call this when another calibration was applied.
+  void renewCalibration();
   // Updates the dock; a timer calls it while a hand is connected.
   void refresh();
   QSize sizeHint() const override { return {455, 640}; }
@@ -70,6 +79,8 @@ class HandDock : public QWidget {
  private:
   QWidget* makeHead();
   QWidget* makeBody(QSettings& settings);
+  void makePages(QSettings& settings, QWidget* content);
+  void connectMotions();
   bool isReadOnly() const { return session_ && !control_; }
   void say(const QString& text, bool bad);
   void showState(const GraspStatus& status);
@@ -91,7 +102,12 @@ class HandDock : public QWidget {
   QPushButton* stop_;
   // What is absent for a hand that is read only.
   std::vector<QWidget*> controls_;
+  // The pages Grasp, Joints and Sequence.
+  QTabBar* chooser_;
+  FittingPages* pages_;
   GraspPanel* grasp_;
+  JointPanel* joint_;
+  SequencePanel* sequence_;
   SensitivityModes* sensitivity_;
   TactileSettingsPanel* tactile_;
   // Joint angles with their heading; absent for a hand without axes.
@@ -116,6 +132,8 @@ class HandDock : public QWidget {
     std::shared_ptr<const SensorLayout> layout;
     std::string preshape;
     int limitCounts = 0;
+    int maxLimitCounts = 0;
+    std::vector<int> fingerLimitCounts;
     bool operator==(const Judged&) const = default;
   };
   std::optional<Judged> judged_;

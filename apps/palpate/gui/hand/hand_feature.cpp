@@ -45,6 +45,14 @@ HandFeature::HandFeature(WindowState& windowState, QWidget* window)
     const auto& lines = windowState.handCommands.noiseLines;
     return lines ? lines(hand) : std::optional<NoiseFloor>();
   };
+  panel_->calibrationOf = [&windowState](const std::string& hand) {
+    const auto& applied = windowState.handCommands.calibration;
+    return applied ? applied(hand) : std::optional<Calibration>();
+  };
+  connect(&windowState.handCommands,
+          &HandCommands::calibrationApplied,
+          panel_,
+          &HandDock::renewCalibration);
   connect(&modes,
           &SensitivityModes::highChanged,
           &windowState.handCommands,

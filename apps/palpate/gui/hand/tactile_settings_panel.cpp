@@ -48,6 +48,9 @@ TactileSettingsPanel::TactileSettingsPanel(QSettings& settings, QWidget* parent)
   column->setSpacing(8);
   column->addWidget(table_);
   column->addWidget(note_);
+  scanned_ = tactileSettingsPanelCaption({}, this);
+  scanned_->setObjectName("scannedTaxels");
+  scanned_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
   makeButtons();
   setMatrices(movableHand());
   refresh({}, {});
@@ -84,7 +87,8 @@ void TactileSettingsPanel::setMatrices(const HandDescription& hand) {
   delete old;
   // The buttons follow the rows.
   QWidget* before = rows_.back().threshold;
-  for (QWidget* each : std::initializer_list<QWidget*>{reset_, names_, save_, remove_}) {
+  for (QWidget* each :
+       std::initializer_list<QWidget*>{undo_, redo_, reset_, names_, save_, remove_}) {
     setTabOrder(before, each);
     before = each;
   }
@@ -136,6 +140,16 @@ void TactileSettingsPanel::makeButtons() {
     return made;
   };
   reset_ = button("Reset", "resetSettings", "Sensitivity 0.5, threshold 150 proximal, 300 distal");
+  undo_ = button("Undo", "undoSettings", "Back to the values from before the last change");
+  redo_ = button("Redo", "redoSettings", "Again to the values that were undone");
+  auto* above = new QHBoxLayout;
+  above->setSpacing(6);
+  above->addWidget(scanned_, 1);
+  above->addWidget(undo_);
+  above->addWidget(redo_);
+  static_cast<QVBoxLayout*>(layout())->addLayout(above);
+  connect(undo_, &QPushButton::clicked, this, [this] { restore(true); });
+  connect(redo_, &QPushButton::clicked, this, [this] { restore(false); });
   save_ = button("Save…", "saveSettings", "Saves these values under a name, for this hand");
   remove_ = button("Delete", "removeSettings", "Deletes the saved settings that were chosen last");
   names_ = new QComboBox(this);
@@ -177,6 +191,8 @@ void TactileSettingsPanel::setHand(CaptureSession* session, GraspControl* contro
   session_ = session;
   control_ = control;
   pending_.clear();
+  history_.clear();
+  showScanned(nullptr);
   listedFor_ = QString();
   listNames();
   refresh(control ? control->status() : GraspStatus{},
@@ -195,7 +211,8 @@ void TactileSettingsPanel::listNames() {
 }
 
 void TactileSettingsPanel::send(const std::vector<DeviceCommand>& commands) {
-  if (!control_) return;
+  if (!control_ || commands.empty()) return;
+  if (!restoring_) keepForUndo();
   emit changedByHand();
   try {
     for (const DeviceCommand& command : commands) pending_.push_back(control_->change(command));
@@ -211,6 +228,46 @@ void TactileSettingsPanel::applySettings(const TactileSettings& to) {
   } catch (const std::invalid_argument& error) {
     emit refused(error.what());
   }
+}
+
+void TactileSettingsPanel::keepForUndo() {
+  // Until the answers are there, the settings are those of a change that is only half done.
+  if (session_ && pending_.empty()) history_.changing(session_->device().facts().matrices);
+}
+
+void TactileSettingsPanel::restore(bool undo) {
+  if (!session_ || !pending_.empty()) return;
+  const TactileSettings now = session_->device().facts().matrices;
+  const auto wanted = undo ? history_.undo(now) : history_.redo(now);
+  if (!wanted) return;
+  restoring_ = true;
+  applySettings(*wanted);
+  restoring_ = false;
+}
+
+void TactileSettingsPanel::showScanned(const std::shared_ptr<const SensorLayout>& layout) {
+  if (layout == layout_ && (layout || scanned_->text().isEmpty())) return;
+  layout_ = layout;
+  QString text;
+  QStringList each;
+  if (layout) {
+    std::size_t scanned = 0;
+    QStringList blind;
+    for (std::size_t m = 0; m < layout->numMatrices(); ++m) {
+      const MatrixLayout& matrix = layout->matrix(m);
+      const QString name = m < static_cast<std::size_t>(rowNames_.size())
+                               ? rowNames_[static_cast<qsizetype>(m)]
+                               : QString::number(m);
+      scanned += matrix.numEnabled();
+      if (matrix.numEnabled() == 0) blind += name;
+      each += name + ": " + QString::number(matrix.numEnabled()) + " of " +
+              QString::number(matrix.numTaxels());
+    }
+    text = QString("%1 of %2 taxels scanned").arg(scanned).arg(layout->numTaxels());
+    if (!blind.isEmpty()) text += "; blind: " + blind.join(", ");
+  }
+  scanned_->setText(text);
+  scanned_->setToolTip(text.isEmpty() ? QString() : text + "\n" + each.join("\n"));
 }
 
 void TactileSettingsPanel::pollReplies() {
@@ -245,6 +302,9 @@ void TactileSettingsPanel::refresh(const GraspStatus& status, const DeviceInfo& 
   if (note_->text() != why) note_->setText(why);
   table_->setEnabled(may);
   reset_->setEnabled(may);
+  const bool settled = may && pending_.empty();
+  undo_->setEnabled(settled && history_.canUndo(values));
+  redo_->setEnabled(settled && history_.canRedo(values));
   names_->setEnabled(may && names_->count() > 1);
   save_->setEnabled(may);
   remove_->setEnabled(may && names_->currentIndex() > 0);

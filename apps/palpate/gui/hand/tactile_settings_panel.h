@@ -9,6 +9,7 @@
 #include <palpate/capture/capture_session.h>
 #include <palpate/control/grasp_control.h>
 #include <palpate/control/tactile_settings.h>
+#include <palpate/control/tactile_settings_history.h>
 
 #include "gui/appearance/theme.h"
 #include "gui/hand/hand_settings_store.h"
@@ -33,6 +34,10 @@ class TactileSettingsPanel : public QWidget {
   // Shows the values that the hand reports, and whether they can be changed now. Call it
   // repeatedly.
   void refresh(const GraspStatus& status, const DeviceInfo& facts);
+  // Shows how many taxels are scanned, by the layout of the newest frame; null: not known.
+  void showScanned(const std::shared_ptr<const SensorLayout>& layout);
+  // Keeps the present settings, to which Undo goes back: something is about to change them.
+  void keepForUndo();
   void setTheme(Theme theme);
   // Marks the matrices that cannot detect a limit [counts] with their settings: one reason for each
   // matrix; empty when it can.
@@ -57,6 +62,7 @@ class TactileSettingsPanel : public QWidget {
   void makeButtons();
   void send(const std::vector<DeviceCommand>& commands);
   void applySettings(const TactileSettings& to);
+  void restore(bool undo);
   void showValues(const TactileSettings& values);
   void listNames();
   void pollReplies();
@@ -73,6 +79,9 @@ class TactileSettingsPanel : public QWidget {
   int fullScale_ = 0;
   QLabel* note_;
   QWidget* table_;
+  QLabel* scanned_;
+  QPushButton* undo_;
+  QPushButton* redo_;
   QPushButton* reset_;
   QComboBox* names_;
   QPushButton* save_;
@@ -81,6 +90,9 @@ class TactileSettingsPanel : public QWidget {
   QString listedFor_;
   // Which matrices cannot detect the limit; empty when all can.
   QString unmeasurableText_;
+  TactileSettingsHistory history_;
+  bool restoring_ = false;                      // what is sent comes from the history
+  std::shared_ptr<const SensorLayout> layout_;  // as shown
   Theme theme_ = Theme::kDark;
   std::vector<std::shared_future<CommandAnswer>> pending_;
 };

@@ -7,7 +7,7 @@
 #include <optional>
 #include <string>
 
-#include <palpate/calibration/noise_floor.h>
+#include <palpate/calibration/calibration.h>
 
 namespace palpate::gui {
 
@@ -19,8 +19,13 @@ class HandCommands : public QObject {
   // Returns the noise lines to which high sensitivity sets the thresholds of the hand of this name.
   // An empty function, or nothing as its result: no noise lines are applied.
   std::function<std::optional<NoiseFloor>(const std::string& hand)> noiseLines;
+  // Returns the calibration that is applied to the hand of this name. An empty function, or nothing
+  // as its result: none is applied, or it can't be read.
+  std::function<std::optional<Calibration>(const std::string& hand)> calibration;
 
  signals:
+  // Another calibration was applied, or the applied one was removed.
+  void calibrationApplied();
   // The user commands a motion, or Stop.
   void asked();
   // The user commands Stop, by the button or by Escape.

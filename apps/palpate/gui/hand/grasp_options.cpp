@@ -1,0 +1,253 @@
+#include "gui/hand/grasp_options.h"
+
+#include <QCheckBox>
+#include <QComboBox>
+#include <QDoubleSpinBox>
+#include <QGridLayout>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QToolButton>
+#include <algorithm>
+#include <utility>
+
+#include "gui/appearance/captions.h"
+#include "gui/widgets/number_field.h"
+
+namespace palpate::gui {
+namespace {
+
+constexpr const char* kOptionsOpen = "grasp/more";
+constexpr const char* kEachFinger = "grasp/each_finger";
+constexpr const char* kMost = "grasp/most_counts";
+constexpr const char* kHold = "grasp/hold_s";
+constexpr const char* kCalm = "grasp/calm_s";
+constexpr double kGravity = 9.81;  // [m/s^2]
+constexpr double kUsualForceN = 2.0;
+constexpr const char* kNoCalibrationTip =
+    "Limits in newtons need a calibration of this hand: dock Calibrate, page Pressure, \"Apply to "
+    "this hand\"";
+
+QString fingerKey(const char* unit, std::size_t finger) {
+  return QString("grasp/finger_%1_%2").arg(finger).arg(unit);
+}
+
+// The stored value, if it is one within the range of the field.
+void recall(const QSettings& settings, const QString& key, QDoubleSpinBox& field, double usual) {
+  bool ok = false;
+  const double value = settings.value(key).toDouble(&ok);
+  field.setValue(ok && value >= field.minimum() && value <= field.maximum() ? value : usual);
+}
+
+}  // namespace
+
+GraspOptions::GraspOptions(QSettings& settings, QWidget* parent)
+    : QWidget(parent), settings_(settings) {
+  header_ = new QToolButton(this);
+  header_->setObjectName("moreGraspOptions");
+  header_->setText("More");
+  header_->setToolTip("Limits of single fingers and in newtons; how a slip-aware grasp holds");
+  header_->setCheckable(true);
+  header_->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
+  header_->setProperty("flat", true);
+  header_->setFocusPolicy(Qt::TabFocus);
+  summary_ = new QLabel(this);
+  summary_->setObjectName("graspOptionsSummary");
+  summary_->setProperty("role", "muted");
+  summary_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
+  body_ = new QWidget(this);
+  auto* head = new QHBoxLayout;
+  head->setSpacing(8);
+  head->addWidget(header_);
+  head->addWidget(summary_, 1);
+  auto* grid = new QGridLayout(body_);
+  grid->setContentsMargins(0, 0, 0, 0);
+  grid->setHorizontalSpacing(8);
+  grid->setVerticalSpacing(4);
+  grid->setColumnStretch(1, 1);
+  grid->setColumnStretch(3, 1);
+  makeLimits(*grid);
+  makeHolding(*grid);
+  auto* column = new QVBoxLayout(this);
+  column->setContentsMargins(0, 0, 0, 0);
+  column->setSpacing(4);
+  column->addLayout(head);
+  column->addWidget(body_);
+  connect(header_, &QToolButton::toggled, this, &GraspOptions::open);
+  header_->setChecked(settings.value(kOptionsOpen, false).toBool());
+  open(header_->isChecked());
+  setCalibrated(false);
+}
+
+QDoubleSpinBox* GraspOptions::field(
+    const QString& name, const QString& title, double least, double most, int decimals) {
+  auto* made = new SecondsField(body_);
+  made->setObjectName(name);
+  made->setAccessibleName(title);
+  made->setDecimals(decimals);
+  made->setRange(least, most);
+  made->setFocusPolicy(Qt::StrongFocus);
+  connect(made, &QDoubleSpinBox::valueChanged, this, &GraspOptions::remember);
+  return made;
+}
+
+void GraspOptions::makeLimits(QGridLayout& grid) {
+  unit_ = new QComboBox(body_);
+  unit_->setObjectName("limitUnit");
+  unit_->setAccessibleName("Unit of the limit");
+  unit_->addItems({"counts", "newtons"});
+  grid.addWidget(new QLabel("Limit in", body_), 0, 0);
+  grid.addWidget(unit_, 0, 1);
+  eachFinger_ = new QCheckBox("Fingers 0, 1, 2", body_);
+  eachFinger_->setObjectName("eachFinger");
+  eachFinger_->setToolTip(
+      "A limit of its own for each finger; in counts the largest taxel of the finger, in newtons "
+      "its whole force");
+  eachFinger_->setChecked(settings_.value(kEachFinger, false).toBool());
+  auto* fingers = new QHBoxLayout;
+  fingers->setSpacing(6);
+  for (std::size_t finger = 0; finger < numMovableFingers(); ++finger) {
+    const QString number = QString::number(finger);
+    const QString title = "Limit of finger " + number;
+    fingerCounts_.push_back(field("fingerLimit" + number,
+                                  title + " in counts",
+                                  kMinGraspLimitCounts,
+                                  kMaxGraspLimitCounts,
+                                  0));
+    fingerNewtons_.push_back(
+        field("fingerForce" + number, title + " in newtons", kMinForceLimitN, kMaxForceLimitN, 2));
+    recall(settings_, fingerKey("counts", finger), *fingerCounts_.back(), 200.0);
+    recall(settings_, fingerKey("n", finger), *fingerNewtons_.back(), kUsualForceN);
+    for (QDoubleSpinBox* each : {fingerCounts_.back(), fingerNewtons_.back()}) {
+      each->setToolTip("Limit of finger " + number);
+      fingers->addWidget(each, 1);
+    }
+  }
+  grid.addWidget(eachFinger_, 1, 0);
+  grid.addLayout(fingers, 1, 1, 1, 3);
+  connect(unit_, &QComboBox::currentIndexChanged, this, &GraspOptions::showChoice);
+  connect(eachFinger_, &QCheckBox::toggled, this, [this] {
+    remember();
+    showChoice();
+  });
+}
+
+void GraspOptions::makeHolding(QGridLayout& grid) {
+  const HoldingOptions usual;
+  most_ = field("mostLimit", "Highest limit", kMinGraspLimitCounts, kMaxGraspLimitCounts, 0);
+  most_->setToolTip("Slip-aware: slips raise the limit up to this");
+  recall(settings_, kMost, *most_, usual.maxLimitCounts);
+  calm_ = field("calmTime", "Calm", 0.1, 86'400.0, 1);
+  calm_->setToolTip("Slip-aware: after this time without slip the limit falls again");
+  recall(settings_, kCalm, *calm_, usual.noSlipS);
+  hold_ = field("holdTime", "Hold", 0.0, 86'400.0, 1);
+  hold_->setToolTip("Slip-aware: ends after this time; the hand goes on holding. 0: until stopped");
+  hold_->setSpecialValueText("until stopped");
+  recall(settings_, kHold, *hold_, usual.holdS);
+  loosen_ = new QCheckBox("Loosen", body_);
+  loosen_->setObjectName("loosenHand");
+  loosen_->setToolTip(
+      "Slip-aware: the hand may open slowly to a limit that fell. Off in each new session");
+  mass_ = field("objectMass", "Object mass", 0.0, 100.0, 3);
+  mass_->setToolTip(
+      "Slip-aware: opens slowly once, until it slips, and measures the friction. Not kept for the "
+      "next session");
+  mass_->setSpecialValueText("not known");
+  newtonsPerCount_ = field("newtonsPerCount", "Newtons per count", 0.0, 1.0, 6);
+  newtonsPerCount_->setToolTip("Of a calibration, for the friction; needs the object mass");
+  newtonsPerCount_->setSpecialValueText("not known");
+  const auto row = [&](int at, int column, const QString& title, QWidget* field) {
+    grid.addWidget(new QLabel(title, body_), at, column);
+    grid.addWidget(field, at, column + 1);
+  };
+  auto* caption = new QLabel("Slip-aware grasp", body_);
+  caption->setProperty("role", "muted");
+  grid.addWidget(caption, 2, 0, 1, 4);
+  row(3, 0, "Most, counts", most_);
+  row(3, 2, "Calm, s", calm_);
+  row(4, 0, "Hold, s", hold_);
+  grid.addWidget(loosen_, 4, 2, 1, 2);
+  row(5, 0, "Object, kg", mass_);
+  row(5, 2, "N/count", newtonsPerCount_);
+  connect(loosen_, &QCheckBox::toggled, this, &GraspOptions::remember);
+}
+
+void GraspOptions::open(bool on) {
+  header_->setArrowType(on ? Qt::DownArrow : Qt::RightArrow);
+  body_->setVisible(on);
+  settings_.setValue(kOptionsOpen, on);
+  showChoice();
+}
+
+bool GraspOptions::inNewtons() const { return unit_->currentIndex() == 1; }
+bool GraspOptions::eachFinger() const { return eachFinger_->isChecked(); }
+
+void GraspOptions::setCalibrated(bool calibrated) {
+  if (!calibrated && inNewtons()) unit_->setCurrentIndex(0);
+  unit_->setEnabled(calibrated);
+  const QString tip = calibrated
+                          ? "Of one taxel in counts, or of a whole finger in newtons, by the "
+                            "calibration that is applied to this hand"
+                          : kNoCalibrationTip;
+  if (unit_->toolTip() != tip) unit_->setToolTip(tip);
+}
+
+void GraspOptions::showChoice() {
+  for (QDoubleSpinBox* each : fingerCounts_) {
+    each->setVisible(!inNewtons());
+    each->setEnabled(eachFinger());
+  }
+  for (QDoubleSpinBox* each : fingerNewtons_) {
+    each->setVisible(inNewtons());
+    each->setEnabled(eachFinger());
+  }
+  summary_->setText(header_->isChecked() ? QString() : summary());
+  summary_->setToolTip(summary_->text());
+  emit limitsChanged();
+}
+
+QString GraspOptions::summary() const {
+  QStringList parts;
+  if (inNewtons()) parts += "limit in newtons";
+  if (eachFinger()) parts += "a limit for each finger";
+  if (hold_->value() > 0.0) parts += "holds " + figure(hold_->value(), 1) + " s";
+  if (loosen_->isChecked()) parts += "loosens";
+  if (mass_->value() > 0.0) parts += "measures friction";
+  return parts.join(", ");
+}
+
+void GraspOptions::remember() {
+  // A field that is being made.
+  if (!newtonsPerCount_) return;
+  settings_.setValue(kEachFinger, eachFinger());
+  settings_.setValue(kMost, most_->value());
+  settings_.setValue(kHold, hold_->value());
+  settings_.setValue(kCalm, calm_->value());
+  for (std::size_t finger = 0; finger < fingerCounts_.size(); ++finger) {
+    settings_.setValue(fingerKey("counts", finger), fingerCounts_[finger]->value());
+    settings_.setValue(fingerKey("n", finger), fingerNewtons_[finger]->value());
+  }
+  if (eachFinger()) emit limitsChanged();
+}
+
+void GraspOptions::apply(GraspRequest& request) const {
+  const bool feels = request.mode != GraspMode::kPlain;
+  if (feels && eachFinger() && inNewtons()) {
+    request.forceLimitsN.clear();
+    for (const QDoubleSpinBox* each : fingerNewtons_) request.forceLimitsN.push_back(each->value());
+  } else if (feels && eachFinger()) {
+    for (const QDoubleSpinBox* each : fingerCounts_)
+      request.fingerLimitCounts.push_back(static_cast<int>(each->value()));
+    request.limitCounts =
+        *std::max_element(request.fingerLimitCounts.begin(), request.fingerLimitCounts.end());
+  }
+  HoldingOptions& holding = request.holding;
+  // A limit above the highest one is not reduced.
+  holding.maxLimitCounts = std::max(static_cast<int>(most_->value()), request.limitCounts);
+  holding.noSlipS = calm_->value();
+  holding.holdS = hold_->value();
+  holding.loosen = loosen_->isChecked();
+  holding.weightN = kGravity * mass_->value();
+  holding.newtonsPerCount = newtonsPerCount_->value();
+}
+
+}  // namespace palpate::gui

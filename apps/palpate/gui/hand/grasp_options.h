@@ -1,0 +1,65 @@
+// The part of the dock Hand below the grasp buttons that folds: the unit of the limit, limits of
+// single fingers, and how a slip-aware grasp holds, with the words of `palpate grasp`.
+#pragma once
+
+#include <QSettings>
+#include <QWidget>
+#include <vector>
+
+#include <palpate/control/grasp_request.h>
+
+class QCheckBox;
+class QComboBox;
+class QDoubleSpinBox;
+class QGridLayout;
+class QLabel;
+class QToolButton;
+
+namespace palpate::gui {
+
+class GraspOptions : public QWidget {
+  Q_OBJECT
+ public:
+  // Stores choices in `settings`, which must outlive this. Not stored: the unit newtons, loosening
+  // and the object, which each session begins without.
+  GraspOptions(QSettings& settings, QWidget* parent);
+
+  bool inNewtons() const;
+  bool eachFinger() const;
+  // Whether a calibration is set, so that limits in newtons can be chosen.
+  void setCalibrated(bool calibrated);
+  // Sets what is chosen here; `request` has its common limits already.
+  void apply(GraspRequest& request) const;
+
+ signals:
+  // The unit, or whether each finger has its own limit, was chosen.
+  void limitsChanged();
+
+ private:
+  void makeLimits(QGridLayout& grid);
+  void makeHolding(QGridLayout& grid);
+  void open(bool on);
+  void showChoice();
+  void remember();
+  QString summary() const;
+  QDoubleSpinBox* field(
+      const QString& name, const QString& title, double least, double most, int decimals);
+
+  QSettings& settings_;
+  QToolButton* header_;
+  QLabel* summary_;
+  QWidget* body_;
+  QComboBox* unit_;
+  QCheckBox* eachFinger_;
+  // One per finger, in each unit.
+  std::vector<QDoubleSpinBox*> fingerCounts_;
+  std::vector<QDoubleSpinBox*> fingerNewtons_;
+  QDoubleSpinBox* most_ = nullptr;
+  QDoubleSpinBox* hold_ = nullptr;
+  QDoubleSpinBox* calm_ = nullptr;
+  QCheckBox* loosen_ = nullptr;
+  QDoubleSpinBox* mass_ = nullptr;
+  QDoubleSpinBox* newtonsPerCount_ = nullptr;
+};
+
+}  // namespace palpate::gui

@@ -1,0 +1,399 @@
+#include "gui/hand/joint_panel.h"
+
+#include <QCheckBox>
+#include <QComboBox>
+#include <QDoubleSpinBox>
+#include <QFile>
+#include <QFileDialog>
+#include <QGridLayout>
+#include <QHBoxLayout>
+#include <QInputDialog>
+#include <QLabel>
+#include <QMenu>
+#include <QPushButton>
+#include <QSlider>
+#include <algorithm>
+#include <initializer_list>
+#include <stdexcept>
+
+#include <palpate/core/error.h>
+#include <palpate/core/output_file.h>
+
+#include "gui/appearance/captions.h"
+#include "gui/desktop/button_keys.h"
+#include "gui/widgets/value_slider.h"
+
+namespace palpate::gui {
+namespace {
+
+constexpr const char* kJointVelocity = "joints/velocity_deg_per_s";
+constexpr const char* kJointContact = "joints/stop_at_contact";
+constexpr const char* kOwnPoses = "Own poses…";
+constexpr const char* kPoseFilter = "Poses (*.json)";
+constexpr qint64 kLargestPoseFile = 10'000'000;
+
+QPushButton* jointButton(
+    const QString& text, const QString& name, const QString& tip, bool moves, QWidget* parent) {
+  auto* made = new QPushButton(text, parent);
+  made->setObjectName(name);
+  made->setToolTip(tip);
+  made->setFocusPolicy(Qt::TabFocus);
+  made->setAutoDefault(false);
+  made->setProperty(kMovesHand, moves);
+  return made;
+}
+
+QString angleText(double value, const AxisDescription& axis) {
+  return figure(value, 1) + (axis.isSliding ? " mm" : "°");
+}
+
+}  // namespace
+
+JointPanel::JointPanel(QSettings& settings, QWidget* parent)
+    : QWidget(parent), store_(settings), settings_(settings) {
+  askForName = [this](const QString& suggestion) {
+    return QInputDialog::getText(this, "Pose", "Name", QLineEdit::Normal, suggestion);
+  };
+  askForFileToOpen = [this] {
+    return QFileDialog::getOpenFileName(this, "Import poses", {}, kPoseFilter);
+  };
+  askForFileToSave = [this] {
+    return QFileDialog::getSaveFileName(this, "Export poses", "poses.json", kPoseFilter);
+  };
+  reactiveLimits = [] { return GraspRequest{}; };
+  auto* grid = new QGridLayout;
+  grid->setContentsMargins(0, 0, 0, 0);
+  grid->setHorizontalSpacing(8);
+  grid->setVerticalSpacing(4);
+  grid->setColumnStretch(2, 1);
+  makeRows(*grid);
+  velocity_ = new ValueSlider("Velocity of the joints",
+                              {kMinGraspDegPerS, kMaxGraspDegPerS, kMaxGraspDegPerS, 1.0, 0, {}},
+                              this);
+  velocity_->setObjectName("jointVelocity");
+  velocity_->setToolTip("deg/s; joints that are slower go as fast as they can");
+  bool ok = false;
+  const double velocity = settings.value(kJointVelocity).toDouble(&ok);
+  velocity_->showValue(ok && velocity >= kMinGraspDegPerS && velocity <= kMaxGraspDegPerS
+                           ? velocity
+                           : GraspRequest{}.velocityDegPerS);
+  const int last = static_cast<int>(rows_.size());
+  grid->addWidget(new QLabel("Velocity, deg/s", this), last, 0, 1, 2);
+  grid->addWidget(velocity_, last, 2);
+  stopAtContact_ = new QCheckBox("Stop at a contact", this);
+  stopAtContact_->setObjectName("stopAtContact");
+  stopAtContact_->setToolTip("Moves under tactile control, with the limits of the page Grasp");
+  stopAtContact_->setChecked(settings.value(kJointContact, false).toBool());
+  move_ = jointButton("Move", "moveJoints", {}, true, this);
+  reset_ = jointButton(
+      "Reset", "resetTargets", "Targets are the present angles again; nothing moves", false, this);
+  auto* row = new QHBoxLayout;
+  row->setSpacing(6);
+  row->addWidget(stopAtContact_);
+  row->addStretch(1);
+  row->addWidget(move_);
+  row->addWidget(reset_);
+  auto* column = new QVBoxLayout(this);
+  column->setContentsMargins(0, 0, 0, 0);
+  column->setSpacing(8);
+  column->addLayout(grid);
+  column->addLayout(row);
+  column->addWidget(makePoses());
+  connect(velocity_, &ValueSlider::chosen, this, [this](double value) {
+    settings_.setValue(kJointVelocity, value);
+  });
+  connect(stopAtContact_, &QCheckBox::toggled, this, [this](bool on) {
+    settings_.setValue(kJointContact, on);
+  });
+  connect(move_, &QPushButton::clicked, this, [this] { move(std::nullopt); });
+  connect(reset_, &QPushButton::clicked, this, &JointPanel::resetTargets);
+  listPoses();
+  showStatus({});
+}
+
+void JointPanel::makeRows(QGridLayout& grid) {
+  const HandDescription& hand = movableHand();
+  for (std::size_t axis = 0; axis < hand.axes.size(); ++axis) {
+    const AxisDescription& is = hand.axes[axis];
+    const QString name = QString::fromStdString(is.name);
+    const QString number = QString::number(axis);
+    Row row{};
+    row.name = new QLabel(name, this);
+    row.present = new QLabel(this);
+    row.present->setObjectName("presentAngle" + number);
+    row.present->setProperty("role", "muted");
+    row.present->setAlignment(Qt::AlignRight | Qt::AlignVCenter);
+    row.present->setFixedWidth(fontMetrics().horizontalAdvance("-188.8°") + 4);
+    row.present->setToolTip("Present angle");
+    row.target = new ValueSlider(
+        "Target of " + name, {is.minimumDeg, is.maximumDeg, is.maximumDeg, 0.5, 1, {}}, this);
+    row.target->setObjectName("targetAngle" + number);
+    row.target->setToolTip(name + ": " + angleText(is.minimumDeg, is) + " .. " +
+                           angleText(is.maximumDeg, is) + "; moves only with Move");
+    row.target->field()->setFixedWidth(fontMetrics().horizontalAdvance("-188.8") + 18);
+    row.move = jointButton("Move", "moveJoint" + number, {}, true, this);
+    row.move->setAccessibleName("Move " + name);
+    const int at = static_cast<int>(axis);
+    grid.addWidget(row.name, at, 0);
+    grid.addWidget(row.present, at, 1);
+    grid.addWidget(row.target, at, 2);
+    grid.addWidget(row.move, at, 3);
+    rows_.push_back(row);
+    // While a slider is dragged the field shows the value, and the row counts as changed.
+    connect(row.target->slider(), &QSlider::sliderPressed, this, [this, axis] {
+      setChanged(rows_[axis]);
+    });
+    connect(row.target, &ValueSlider::chosen, this, [this, axis] {
+      setChanged(rows_[axis]);
+      showStatus(control_ ? control_->status() : GraspStatus{});
+    });
+    connect(row.move, &QPushButton::clicked, this, [this, axis] { move(axis); });
+  }
+}
+
+QWidget* JointPanel::makePoses() {
+  auto* part = new QWidget(this);
+  names_ = new QComboBox(part);
+  names_->setObjectName("ownPoses");
+  names_->setToolTip("Its angles become the targets; Move goes there");
+  names_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
+  names_->setMinimumContentsLength(8);
+  save_ = jointButton("Save…", "savePose", "Saves the present angles under a name", false, part);
+  rename_ = jointButton("Rename…", "renamePose", "Renames the chosen pose", false, part);
+  remove_ = jointButton("Delete", "removePose", "Deletes the chosen pose", false, part);
+  file_ = jointButton("File", "poseFile", "Poses from a file, or into one", false, part);
+  auto* menu = new QMenu(file_);
+  menu->addAction("Import…", this, &JointPanel::importPoses)->setObjectName("importPoses");
+  menu->addAction("Export…", this, &JointPanel::exportPoses)->setObjectName("exportPoses");
+  file_->setMenu(menu);
+  auto* row = new QHBoxLayout(part);
+  row->setContentsMargins(0, 0, 0, 0);
+  row->setSpacing(6);
+  row->addWidget(names_, 1);
+  for (QPushButton* each : {save_, rename_, remove_, file_}) row->addWidget(each);
+  connect(names_, &QComboBox::activated, this, [this](int index) {
+    if (index > 0) choosePose(names_->currentText());
+    showStatus(control_ ? control_->status() : GraspStatus{});
+  });
+  connect(save_, &QPushButton::clicked, this, &JointPanel::savePose);
+  connect(rename_, &QPushButton::clicked, this, &JointPanel::renamePose);
+  connect(remove_, &QPushButton::clicked, this, [this] {
+    if (names_->currentIndex() <= 0) return;
+    store_.remove(movableHand().name, names_->currentText());
+    listPoses();
+  });
+  return part;
+}
+
+void JointPanel::listPoses(const QString& chosen) {
+  names_->clear();
+  names_->addItem(kOwnPoses);
+  names_->addItems(store_.names(movableHand().name));
+  names_->setCurrentIndex(std::max(0, names_->findText(chosen)));
+  showStatus(control_ ? control_->status() : GraspStatus{});
+  emit posesChanged();
+}
+
+void JointPanel::choosePose(const QString& name) {
+  const auto pose = store_.load(movableHand().name, name);
+  if (!pose) return emit refused("the pose '" + name + "' can't be read");
+  if (const std::string problem = problemOf(*pose, movableHand()); !problem.empty())
+    return emit refused(QString::fromStdString(problem));
+  for (std::size_t axis = 0; axis < rows_.size(); ++axis) {
+    rows_[axis].target->showValue(pose->anglesDeg[axis]);
+    setChanged(rows_[axis]);
+  }
+}
+
+void JointPanel::setChanged(Row& row) {
+  row.changed = true;
+  row.underWay = false;
+}
+
+void JointPanel::savePose() {
+  if (!control_) return;
+  const std::vector<double> angles = control_->status().anglesDeg;
+  const QString name =
+      askForName(names_->currentIndex() > 0 ? names_->currentText() : QString()).trimmed();
+  if (name.isEmpty()) return;
+  SavedPose pose{name.toStdString(), movableHand().name, angles};
+  // A joint can be a few hundredths of a degree beyond its range.
+  for (std::size_t axis = 0; axis < std::min(angles.size(), movableHand().axes.size()); ++axis) {
+    const AxisDescription& is = movableHand().axes[axis];
+    const double within = std::clamp(angles[axis], is.minimumDeg, is.maximumDeg);
+    if (std::abs(within - angles[axis]) < 1.0) pose.anglesDeg[axis] = within;
+  }
+  if (const std::string problem = problemOf(pose, movableHand()); !problem.empty())
+    return emit refused(QString::fromStdString(problem));
+  store_.save(pose);
+  listPoses(name);
+}
+
+void JointPanel::renamePose() {
+  if (names_->currentIndex() <= 0) return;
+  const QString before = names_->currentText();
+  auto pose = store_.load(movableHand().name, before);
+  if (!pose) return emit refused("the pose '" + before + "' can't be read");
+  const QString name = askForName(before).trimmed();
+  if (name.isEmpty() || name == before) return;
+  if (store_.names(movableHand().name).contains(name))
+    return emit refused("a pose '" + name + "' exists already");
+  pose->name = name.toStdString();
+  store_.save(*pose);
+  store_.remove(movableHand().name, before);
+  listPoses(name);
+}
+
+// All poses of the file, or none.
+void JointPanel::importPoses() {
+  const QString path = askForFileToOpen();
+  if (path.isEmpty()) return;
+  QFile file(path);
+  if (!file.open(QIODevice::ReadOnly) || file.size() > kLargestPoseFile)
+    return emit refused(path + ": can't be read as a list of poses");
+  try {
+    const auto poses =
+        parsePoses(file.readAll().toStdString(), std::filesystem::path(path.toStdString()));
+    for (const SavedPose& pose : poses)
+      if (const std::string problem = problemOf(pose, movableHand()); !problem.empty())
+        return emit refused("nothing imported: " + QString::fromStdString(problem));
+    for (const SavedPose& pose : poses)
+      if (store_.names(movableHand().name).contains(QString::fromStdString(pose.name)))
+        return emit refused("nothing imported: a pose '" + QString::fromStdString(pose.name) +
+                            "' exists already");
+    for (const SavedPose& pose : poses) store_.save(pose);
+  } catch (const Error& error) {
+    return emit refused(error.what());
+  }
+  listPoses();
+}
+
+void JointPanel::exportPoses() {
+  std::vector<SavedPose> poses;
+  for (const QString& name : store_.names(movableHand().name))
+    if (auto pose = store_.load(movableHand().name, name)) poses.push_back(std::move(*pose));
+  if (poses.empty()) return emit refused("there is no pose to export");
+  const QString path = askForFileToSave();
+  if (path.isEmpty()) return;
+  try {
+    // The dialogue has asked about an existing file.
+    OutputFile file(path.toStdString(), Overwrite::kReplace);
+    file.write(posesText(poses));
+    file.commit();
+  } catch (const Error& error) {
+    emit refused(error.what());
+  }
+}
+
+double JointPanel::velocityDegPerS() const { return velocity_->value(); }
+
+// Moves one joint, or all whose target was set; the others stay.
+void JointPanel::move(std::optional<std::size_t> axis) {
+  if (!control_) return;
+  GraspRequest request;
+  if (stopAtContact_->isChecked()) request = reactiveLimits();
+  request.startRatio.reset();
+  request.velocityDegPerS = velocity_->value();
+  request.targetDeg.assign(rows_.size(), std::nullopt);
+  std::size_t moved = 0;
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    rows_[i].underWay = axis ? i == *axis : rows_[i].changed;
+    if (!rows_[i].underWay) continue;
+    request.targetDeg[i] = rows_[i].target->value();
+    ++moved;
+  }
+  if (moved == 0) return;
+  request.title = axis || moved == 1 ? std::string("one joint")
+                  : moved == rows_.size() && names_->currentIndex() > 0
+                      ? names_->currentText().toStdString()
+                      : std::to_string(moved) + " joints";
+  emit begins();
+  try {
+    control_->grasp(request);
+    moving_ = true;
+  } catch (const std::exception& error) {
+    const auto last = control_->status().last;
+    const bool refusedByHand = last && last->outcome == GraspOutcome::kRefused;
+    emit refused(refusedByHand ? QString::fromStdString(last->text) : QString(error.what()));
+  }
+  emit asked();
+}
+
+void JointPanel::resetTargets() {
+  for (Row& row : rows_) row.changed = false;
+  names_->setCurrentIndex(0);
+  showStatus(control_ ? control_->status() : GraspStatus{});
+}
+
+void JointPanel::setControl(GraspControl* control, const QString& whyNot) {
+  control_ = control;
+  whyNot_ = whyNot;
+  moving_ = false;
+  for (Row& row : rows_) row.changed = row.underWay = false;
+  showStatus(control ? control->status() : GraspStatus{});
+}
+
+void JointPanel::showStatus(const GraspStatus& status) {
+  const bool idle = status.phase == GraspPhase::kIdle;
+  const HandDescription& hand = movableHand();
+  const bool known = control_ && status.anglesDeg.size() == rows_.size();
+  if (moving_ && idle) {
+    // What was reached is no target any more; what was stopped on its way remains one.
+    moving_ = false;
+    const bool reached = status.last && status.last->outcome == GraspOutcome::kFinished &&
+                         status.last->heldAxes.empty();
+    for (Row& row : rows_)
+      if (row.underWay && reached) row.changed = false;
+  }
+  QString why;
+  if (!control_)
+    why = whyNot_;
+  else if (!status.cannotMove.empty())
+    why = QString::fromStdString(status.cannotMove);
+  else if (!known)
+    why = "The present angles are not known yet";
+  else if (!idle)
+    why = "The hand moves or holds: stop it first (Esc)";
+  std::size_t changed = 0;
+  for (std::size_t axis = 0; axis < rows_.size(); ++axis) {
+    Row& row = rows_[axis];
+    const QString present = known ? angleText(status.anglesDeg[axis], hand.axes[axis]) : "–";
+    if (row.present->text() != present) row.present->setText(present);
+    if (!row.changed) {
+      if (known)
+        row.target->showValue(status.anglesDeg[axis]);
+      else
+        row.target->showUnknown();
+    }
+    row.target->setEnabled(known);
+    changed += row.changed ? 1 : 0;
+    showRow(row);
+    const bool can = why.isEmpty() && row.changed;
+    row.move->setEnabled(can);
+    const QString tip = can             ? "Moves only this joint to its target"
+                        : why.isEmpty() ? "Set a target first"
+                                        : why;
+    if (row.move->toolTip() != tip) row.move->setToolTip(tip);
+  }
+  const bool can = why.isEmpty() && changed > 0;
+  move_->setEnabled(can);
+  const QString tip = can             ? "Moves all joints whose target was set; the others stay"
+                      : why.isEmpty() ? "Set a target first, or choose a pose"
+                                      : why;
+  if (move_->toolTip() != tip) move_->setToolTip(tip);
+  reset_->setEnabled(changed > 0);
+  velocity_->setEnabled(control_);
+  save_->setEnabled(known && status.cannotMove.empty());
+  rename_->setEnabled(names_->currentIndex() > 0);
+  remove_->setEnabled(names_->currentIndex() > 0);
+}
+
+// A row whose target differs from the present angle is bold.
+void JointPanel::showRow(Row& row) {
+  QFont font = row.name->font();
+  if (font.bold() == row.changed) return;
+  font.setBold(row.changed);
+  row.name->setFont(font);
+}
+
+}  // namespace palpate::gui

@@ -1,0 +1,91 @@
+// The page Joints of the dock Hand: one row for each joint with its present angle and a target, and
+// own poses by name. Nothing moves before a button Move is pressed.
+#pragma once
+
+#include <QSettings>
+#include <QWidget>
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include <palpate/control/grasp_control.h>
+
+#include "gui/hand/pose_store.h"
+
+class QCheckBox;
+class QComboBox;
+class QGridLayout;
+class QLabel;
+class QPushButton;
+
+namespace palpate::gui {
+
+class ValueSlider;
+
+class JointPanel : public QWidget {
+  Q_OBJECT
+ public:
+  // Stores velocity and poses in `settings`, which must outlive this.
+  JointPanel(QSettings& settings, QWidget* parent);
+  // As GraspPanel::setControl().
+  void setControl(GraspControl* control, const QString& whyNot = "No hand is connected");
+  // Call this repeatedly: shows present angles, and what is possible now.
+  void showStatus(const GraspStatus& status);
+  // Own poses: names, and one by its name with the reason when the hand can't take it.
+  PoseStore& poses() noexcept { return store_; }
+  double velocityDegPerS() const;
+
+  // The limits of a reactive grasp, for moving under tactile control.
+  std::function<GraspRequest()> reactiveLimits;
+  // Ask the user; an empty answer means cancelled. Tests replace them.
+  std::function<QString(const QString& suggestion)> askForName;
+  std::function<QString()> askForFileToOpen;
+  std::function<QString()> askForFileToSave;
+
+ signals:
+  void begins();
+  void refused(const QString& why);
+  void asked();
+  void posesChanged();
+
+ private:
+  struct Row {
+    QLabel* name;
+    QLabel* present;
+    ValueSlider* target;
+    QPushButton* move;
+    bool changed = false;  // the target was set and not yet reached
+    bool underWay = false;
+  };
+  void makeRows(QGridLayout& grid);
+  QWidget* makePoses();
+  void listPoses(const QString& chosen = {});
+  void choosePose(const QString& name);
+  void savePose();
+  void renamePose();
+  void importPoses();
+  void exportPoses();
+  void move(std::optional<std::size_t> axis);
+  void resetTargets();
+  void showRow(Row& row);
+  // A new target; the end of a motion that runs doesn't count as having reached it.
+  static void setChanged(Row& row);
+
+  PoseStore store_;
+  QSettings& settings_;
+  GraspControl* control_ = nullptr;
+  QString whyNot_ = "No hand is connected";
+  std::vector<Row> rows_;
+  ValueSlider* velocity_;
+  QCheckBox* stopAtContact_;
+  QPushButton* move_;
+  QPushButton* reset_;
+  QComboBox* names_;
+  QPushButton* save_;
+  QPushButton* rename_;
+  QPushButton* remove_;
+  QPushButton* file_;
+  bool moving_ = false;  // a motion of this page
+};
+
+}  // namespace palpate::gui

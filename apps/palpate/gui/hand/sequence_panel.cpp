@@ -1,0 +1,336 @@
+#include "gui/hand/sequence_panel.h"
+
+#include <QDoubleSpinBox>
+#include <QFile>
+#include <QFileDialog>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QListWidget>
+#include <QMenu>
+#include <QPushButton>
+#include <QVBoxLayout>
+#include <algorithm>
+#include <stdexcept>
+#include <utility>
+
+#include <palpate/core/error.h>
+#include <palpate/core/output_file.h>
+
+#include "gui/desktop/button_keys.h"
+#include "gui/widgets/number_field.h"
+
+namespace palpate::gui {
+namespace {
+
+using StepKind = SequenceStep::Kind;
+
+constexpr const char* kStoredSequence = "sequence/last";
+constexpr const char* kSequenceFilter = "Sequences (*.json)";
+constexpr qint64 kLargestSequenceFile = 10'000'000;
+constexpr int kSequenceLines = 6;
+
+QPushButton* sequenceButton(
+    const QString& text, const QString& name, const QString& tip, bool moves, QWidget* parent) {
+  auto* made = new QPushButton(text, parent);
+  made->setObjectName(name);
+  made->setToolTip(tip);
+  made->setFocusPolicy(Qt::TabFocus);
+  made->setAutoDefault(false);
+  made->setProperty(kMovesHand, moves);
+  return made;
+}
+
+}  // namespace
+
+SequencePanel::SequencePanel(QSettings& settings, QWidget* parent)
+    : QWidget(parent), settings_(settings) {
+  graspRequest = [](GraspMode) { return GraspRequest{}; };
+  poses = [] { return std::vector<SavedPose>(); };
+  poseVelocity = [] { return GraspRequest{}.velocityDegPerS; };
+  askForFileToOpen = [this] {
+    return QFileDialog::getOpenFileName(this, "Open a sequence", {}, kSequenceFilter);
+  };
+  askForFileToSave = [this] {
+    return QFileDialog::getSaveFileName(
+        this, "Save the sequence", "sequence.json", kSequenceFilter);
+  };
+  sequence_.hand = movableHand().name;
+  steps_ = new QListWidget(this);
+  steps_->setObjectName("sequenceSteps");
+  steps_->setAccessibleName("Steps of the sequence");
+  steps_->setFixedHeight(kSequenceLines * (fontMetrics().lineSpacing() + 6) + 8);
+  steps_->setTextElideMode(Qt::ElideRight);
+  makeButtons();
+  const QString stored = settings.value(kStoredSequence).toString();
+  if (!stored.isEmpty()) try {
+      sequence_ = parseSequence(stored.toStdString(), "settings");
+    } catch (const Error&) {
+      // A table that can't be read any more is left out.
+    }
+  times_->setValue(sequence_.repetitions);
+  list(0);
+  refresh({});
+}
+
+void SequencePanel::makeButtons() {
+  add_ = sequenceButton(
+      "Add", "addStep", "Adds a step with the values of the pages Grasp and Joints", false, this);
+  addMenu_ = new QMenu(add_);
+  connect(addMenu_, &QMenu::aboutToShow, this, &SequencePanel::fillAddMenu);
+  add_->setMenu(addMenu_);
+  seconds_ = new SecondsField(this);
+  seconds_->setObjectName("stepSeconds");
+  seconds_->setAccessibleName("Seconds of a step that holds or waits");
+  seconds_->setToolTip("Seconds of the next step that holds or waits");
+  seconds_->setDecimals(1);
+  seconds_->setRange(0.0, 86'400.0);
+  seconds_->setValue(2.0);
+  seconds_->setFocusPolicy(Qt::StrongFocus);
+  remove_ = sequenceButton("Remove", "removeStep", "Removes the chosen step", false, this);
+  up_ = sequenceButton("Up", "stepUp", "The chosen step earlier", false, this);
+  down_ = sequenceButton("Down", "stepDown", "The chosen step later", false, this);
+  times_ = new QSpinBox(this);
+  times_->setObjectName("sequenceTimes");
+  times_->setAccessibleName("Repetitions");
+  times_->setToolTip("How often the whole table is done");
+  times_->setRange(1, MotionSequence::kMostRepetitions);
+  times_->setFocusPolicy(Qt::StrongFocus);
+  start_ = sequenceButton("Start", "startSequence", {}, true, this);
+  file_ = sequenceButton("File", "sequenceFile", "The table from a file, or into one", false, this);
+  auto* menu = new QMenu(file_);
+  menu->addAction("Open…", this, &SequencePanel::openFile)->setObjectName("openSequence");
+  menu->addAction("Save…", this, &SequencePanel::saveFile)->setObjectName("saveSequence");
+  file_->setMenu(menu);
+  state_ = new QLabel(this);
+  state_->setObjectName("sequenceState");
+  state_->setProperty("role", "muted");
+  state_->setWordWrap(true);
+  // Room for two lines, so that nothing moves.
+  state_->setFixedHeight(2 * fontMetrics().lineSpacing() + 2);
+  auto* edit = new QHBoxLayout;
+  edit->setSpacing(6);
+  edit->addWidget(add_);
+  edit->addWidget(seconds_);
+  edit->addWidget(new QLabel("s", this));
+  edit->addStretch(1);
+  for (QPushButton* each : {remove_, up_, down_}) edit->addWidget(each);
+  auto* go = new QHBoxLayout;
+  go->setSpacing(6);
+  go->addWidget(times_);
+  go->addWidget(new QLabel("times", this));
+  go->addStretch(1);
+  go->addWidget(start_);
+  go->addWidget(file_);
+  auto* column = new QVBoxLayout(this);
+  column->setContentsMargins(0, 0, 0, 0);
+  column->setSpacing(6);
+  column->addWidget(steps_);
+  column->addLayout(edit);
+  column->addLayout(go);
+  column->addWidget(state_);
+  connect(remove_, &QPushButton::clicked, this, [this] {
+    const int row = steps_->currentRow();
+    if (row < 0) return;
+    sequence_.steps.erase(sequence_.steps.begin() + row);
+    changed(row);
+  });
+  connect(up_, &QPushButton::clicked, this, [this] { moveStep(-1); });
+  connect(down_, &QPushButton::clicked, this, [this] { moveStep(1); });
+  connect(times_, &QSpinBox::valueChanged, this, [this](int value) {
+    sequence_.repetitions = value;
+    settings_.setValue(kStoredSequence, QString::fromStdString(sequenceText(sequence_)));
+  });
+  connect(start_, &QPushButton::clicked, this, &SequencePanel::start);
+  connect(steps_, &QListWidget::currentRowChanged, this, [this] {
+    refresh(control_ ? control_->status() : GraspStatus{});
+  });
+}
+
+void SequencePanel::fillAddMenu() {
+  addMenu_->clear();
+  const auto grasp = [this](const QString& title, GraspMode mode, const char* name) {
+    QAction* action = addMenu_->addAction(title, this, [this, mode] {
+      SequenceStep step;
+      step.kind = StepKind::kGrasp;
+      step.request = graspRequest(mode);
+      add(std::move(step));
+    });
+    action->setObjectName(name);
+  };
+  addMenu_
+      ->addAction("Open",
+                  this,
+                  [this] {
+                    SequenceStep step;
+                    step.kind = StepKind::kOpen;
+                    const GraspRequest now = graspRequest(GraspMode::kPlain);
+                    step.request.preshape = now.preshape;
+                    step.request.velocityDegPerS = now.velocityDegPerS;
+                    step.request.closeRatio = 0.0;
+                    add(std::move(step));
+                  })
+      ->setObjectName("addOpen");
+  grasp("Grasp", GraspMode::kPlain, "addGrasp");
+  grasp("Reactive grasp", GraspMode::kReactive, "addReactive");
+  grasp("Slip-aware grasp", GraspMode::kSlip, "addSlipAware");
+  QMenu* own = addMenu_->addMenu("Pose");
+  for (const SavedPose& pose : poses())
+    own->addAction(QString::fromStdString(pose.name).replace("&", "&&"), this, [this, pose] {
+      SequenceStep step;
+      step.kind = StepKind::kPose;
+      step.pose = pose;
+      step.request.velocityDegPerS = poseVelocity();
+      add(std::move(step));
+    });
+  own->setEnabled(!own->isEmpty());
+  const auto still = [this](const QString& title, StepKind kind, const char* name) {
+    QAction* action = addMenu_->addAction(title, this, [this, kind] {
+      SequenceStep step;
+      step.kind = kind;
+      step.seconds = seconds_->value();
+      add(std::move(step));
+    });
+    action->setObjectName(name);
+  };
+  still("Hold", StepKind::kHold, "addHold");
+  still("Wait", StepKind::kWait, "addWait");
+}
+
+// Behind the chosen step, if it can be done by this hand.
+void SequencePanel::add(SequenceStep step) {
+  MotionSequence alone;
+  alone.hand = movableHand().name;
+  alone.steps = {step};
+  try {
+    alone.validate(movableHand());
+  } catch (const std::invalid_argument& error) {
+    return emit refused(QString(error.what()).remove("step 1: "));
+  }
+  if (sequence_.steps.size() >= MotionSequence::kMostSteps)
+    return emit refused("the sequence has as many steps as it can have");
+  const int at = sequence_.steps.empty() ? 0 : steps_->currentRow() + 1;
+  sequence_.steps.insert(sequence_.steps.begin() + at, std::move(step));
+  changed(at);
+}
+
+void SequencePanel::changed(int current) {
+  settings_.setValue(kStoredSequence, QString::fromStdString(sequenceText(sequence_)));
+  list(current);
+}
+
+void SequencePanel::list(int current) {
+  steps_->clear();
+  for (std::size_t i = 0; i < sequence_.steps.size(); ++i) {
+    const QString text =
+        QString::number(i + 1) + "  " + QString::fromStdString(describe(sequence_.steps[i]));
+    auto* item = new QListWidgetItem(text, steps_);
+    item->setToolTip(text);
+  }
+  const int last = static_cast<int>(sequence_.steps.size()) - 1;
+  steps_->setCurrentRow(std::min(current, last));
+  refresh(control_ ? control_->status() : GraspStatus{});
+}
+
+void SequencePanel::moveStep(int by) {
+  const int row = steps_->currentRow();
+  const int to = row + by;
+  if (row < 0 || to < 0 || to >= static_cast<int>(sequence_.steps.size())) return;
+  std::swap(sequence_.steps[static_cast<std::size_t>(row)],
+            sequence_.steps[static_cast<std::size_t>(to)]);
+  changed(to);
+}
+
+void SequencePanel::start() {
+  if (!run_) return;
+  emit begins();
+  try {
+    run_->begin(sequence_, session_->device().hand(), session_->nowUs());
+  } catch (const std::exception& error) {
+    emit refused(error.what());
+  }
+  emit asked();
+}
+
+void SequencePanel::openFile() {
+  const QString path = askForFileToOpen();
+  if (path.isEmpty()) return;
+  QFile file(path);
+  if (!file.open(QIODevice::ReadOnly) || file.size() > kLargestSequenceFile)
+    return emit refused(path + ": can't be read as a sequence");
+  try {
+    MotionSequence read =
+        parseSequence(file.readAll().toStdString(), std::filesystem::path(path.toStdString()));
+    read.validate(movableHand());
+    sequence_ = std::move(read);
+  } catch (const Error& error) {
+    return emit refused(error.what());
+  } catch (const std::invalid_argument& error) {
+    return emit refused(path + ": " + error.what());
+  }
+  times_->setValue(sequence_.repetitions);
+  changed(0);
+}
+
+void SequencePanel::saveFile() {
+  const QString path = askForFileToSave();
+  if (path.isEmpty()) return;
+  try {
+    // The dialogue has asked about an existing file.
+    OutputFile file(path.toStdString(), Overwrite::kReplace);
+    file.write(sequenceText(sequence_));
+    file.commit();
+  } catch (const Error& error) {
+    emit refused(error.what());
+  }
+}
+
+void SequencePanel::setHand(CaptureSession* session, GraspControl* control, const QString& whyNot) {
+  session_ = session;
+  control_ = session ? control : nullptr;
+  whyNot_ = whyNot;
+  run_ = control_ ? std::make_unique<SequenceRun>(*control_) : nullptr;
+  refresh(control_ ? control_->status() : GraspStatus{});
+}
+
+void SequencePanel::end(const QString& why) {
+  if (run_) run_->end(why.toStdString());
+}
+
+QString SequencePanel::stateText() const {
+  return run_ ? QString::fromStdString(run_->status().text) : QString();
+}
+
+void SequencePanel::refresh(const GraspStatus& status) {
+  if (run_ && session_) run_->step(session_->nowUs());
+  const bool runs = running();
+  QString why;
+  if (!control_)
+    why = whyNot_;
+  else if (runs)
+    why = "The sequence runs: stop it first (Esc)";
+  else if (!status.cannotMove.empty())
+    why = QString::fromStdString(status.cannotMove);
+  else if (status.phase != GraspPhase::kIdle)
+    why = "The hand moves or holds: stop it first (Esc)";
+  else if (sequence_.steps.empty())
+    why = "Add a step first";
+  start_->setEnabled(why.isEmpty());
+  const QString tip = why.isEmpty() ? "Does the steps in order; Stop or Esc ends all of it" : why;
+  if (start_->toolTip() != tip) start_->setToolTip(tip);
+  const int row = steps_->currentRow();
+  add_->setEnabled(!runs);
+  remove_->setEnabled(!runs && row >= 0);
+  up_->setEnabled(!runs && row > 0);
+  down_->setEnabled(!runs && row >= 0 && row + 1 < steps_->count());
+  times_->setEnabled(!runs);
+  file_->setEnabled(!runs);
+  steps_->setEnabled(!runs);
+  if (runs && row != static_cast<int>(run_->status().step))
+    steps_->setCurrentRow(static_cast<int>(run_->status().step));
+  const QString text = stateText();
+  if (state_->text() == text) return;
+  state_->setText(text);
+  state_->setToolTip(text);
+}
+
+}  // namespace palpate::gui

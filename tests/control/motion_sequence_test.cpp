@@ -1,0 +1,373 @@
+#include "palpate/control/motion_sequence.h"
+
+#include <cmath>
+#include <stdexcept>
+
+#include <gtest/gtest.h>
+
+#include "palpate/core/error.h"
+#include "palpate/device/sdh2.h"
+
+#include "control/emulated_bench.h"
+#include "control/scripted_hand.h"
+
+namespace palpate::motion_sequence_test {
+namespace {
+
+using Kind = SequenceStep::Kind;
+
+SequenceStep opening(double velocity = 100.0) {
+  SequenceStep step;
+  step.kind = Kind::kOpen;
+  step.request.closeRatio = 0.0;
+  step.request.velocityDegPerS = velocity;
+  return step;
+}
+SequenceStep grasping(GraspMode mode, double closeRatio = 1.0, double velocity = 100.0) {
+  SequenceStep step;
+  step.kind = Kind::kGrasp;
+  step.request.mode = mode;
+  step.request.closeRatio = closeRatio;
+  step.request.velocityDegPerS = velocity;
+  return step;
+}
+SequenceStep resting(Kind kind, double seconds) {
+  SequenceStep step;
+  step.kind = kind;
+  step.seconds = seconds;
+  return step;
+}
+SequenceStep posing() {
+  SequenceStep step;
+  step.kind = Kind::kPose;
+  step.pose = {"half", sdh2().name, {30, -40, 40, -40, 40, -40, 40}};
+  step.request.velocityDegPerS = 90.0;
+  return step;
+}
+// One step of each kind.
+MotionSequence everyKind() {
+  MotionSequence sequence;
+  sequence.hand = sdh2().name;
+  sequence.steps = {opening(),
+                    posing(),
+                    grasping(GraspMode::kReactive, 0.8),
+                    resting(Kind::kHold, 2.0),
+                    resting(Kind::kWait, 1.0)};
+  return sequence;
+}
+
+class SequenceRunTest : public ::testing::Test {
+ protected:
+  std::int64_t now() const { return bench_.clock.hostUs(); }
+  std::size_t numMotions() const { return bench_.hand->count<MoveJoints>(); }
+  // Advances by frames of 30 ms. The hand is still, so each motion ends after its announced second.
+  void pass(double seconds, float counts = 0.0F) {
+    for (int i = 0; i < static_cast<int>(std::lround(seconds / 0.03)); ++i) {
+      bench_.feel(1, counts);
+      run_.step(now());
+    }
+  }
+  bool reach(std::size_t step) {
+    for (int i = 0; i < 1000 && run_.running() && run_.status().step != step; ++i) pass(0.03);
+    return run_.running() && run_.status().step == step;
+  }
+
+  testing::GraspBench bench_;
+  SequenceRun run_{*bench_.control};
+};
+
+TEST_F(SequenceRunTest, DoesTheStepsInOrderAndRepeatsThem) {
+  MotionSequence sequence = everyKind();
+  sequence.repetitions = 3;
+  run_.begin(sequence, sdh2(), now());
+  EXPECT_EQ(run_.status().text, "step 1 of 5, 1 of 3 times: opening: centrical, 100 deg/s");
+  for (int repetition = 0; repetition < 3; ++repetition)
+    for (std::size_t step = 0; step < 5; ++step) {
+      ASSERT_TRUE(reach(step)) << run_.status().text;
+      EXPECT_EQ(run_.status().repetition, repetition);
+    }
+  pass(1.2);
+  EXPECT_FALSE(run_.running());
+  EXPECT_FALSE(run_.status().failed);
+  EXPECT_EQ(run_.status().text, "sequence finished: 5 steps, 3 times");
+  ASSERT_EQ(numMotions(), 9u);
+  std::vector<MoveJoints> moves;
+  for (const DeviceCommand& command : bench_.hand->commands)
+    if (const auto* move = std::get_if<MoveJoints>(&command)) moves.push_back(*move);
+  EXPECT_EQ(moves[0].targetDeg, (std::vector<double>{60, -75, 75, -75, 75, -75, 75}));
+  EXPECT_EQ(moves[4].targetDeg, (std::vector<double>{30, -40, 40, -40, 40, -40, 40}));
+}
+
+TEST_F(SequenceRunTest, HoldsForItsTime) {
+  MotionSequence sequence = everyKind();
+  sequence.steps = {resting(Kind::kHold, 2.0), opening()};
+  run_.begin(sequence, sdh2(), now());
+  pass(1.92);
+  EXPECT_EQ(run_.status().step, 0u);
+  EXPECT_EQ(numMotions(), 0u);
+  pass(0.12);
+  EXPECT_EQ(run_.status().step, 1u);
+  EXPECT_EQ(numMotions(), 1u);
+}
+
+TEST_F(SequenceRunTest, AStopInEachStepEndsTheSequence) {
+  for (const bool relaxed : {false, true})
+    for (std::size_t step = 0; step < 5; ++step) {
+      MotionSequence sequence = everyKind();
+      sequence.repetitions = 2;
+      run_.begin(sequence, sdh2(), now());
+      ASSERT_TRUE(reach(step)) << step;
+      relaxed ? bench_.control->relax() : bench_.control->stop();
+      const std::size_t motions = numMotions();
+      pass(6.0);
+      EXPECT_FALSE(run_.running());
+      EXPECT_TRUE(run_.status().failed);
+      EXPECT_NE(run_.status().text.find("step " + std::to_string(step + 1) + " of 5"),
+                std::string::npos)
+          << run_.status().text;
+      EXPECT_EQ(numMotions(), motions) << "no motion follows the stop in step " << step;
+    }
+}
+
+// From another thread, between the look at the status and the next motion.
+TEST_F(SequenceRunTest, AStopAtTheEndOfAStepLetsNoMotionFollow) {
+  MotionSequence sequence = everyKind();
+  sequence.steps = {resting(Kind::kWait, 0.5), opening()};
+  run_.begin(sequence, sdh2(), now());
+  pass(0.48);
+  bench_.clock.pass(100'000);
+  bench_.control->stop();
+  run_.step(now());
+  EXPECT_EQ(numMotions(), 0u);
+  EXPECT_FALSE(run_.running());
+}
+
+TEST_F(SequenceRunTest, AMotionPortThatIsGoneInEachStepEndsTheSequence) {
+  for (std::size_t step = 0; step < 5; ++step) {
+    run_.begin(everyKind(), sdh2(), now());
+    ASSERT_TRUE(reach(step)) << step;
+    bench_.hand->state.motion->state = PortState::kLost;
+    pass(0.3);
+    EXPECT_FALSE(run_.running()) << step;
+    EXPECT_TRUE(run_.status().failed);
+    bench_.hand->state.motion->state = PortState::kStreaming;
+    const std::size_t motions = numMotions();
+    pass(6.0);
+    EXPECT_EQ(numMotions(), motions) << "it doesn't go on when the port is back";
+  }
+}
+
+TEST_F(SequenceRunTest, SilenceOfTheTactileStreamEndsAHold) {
+  MotionSequence sequence = everyKind();
+  sequence.steps = {resting(Kind::kHold, 5.0), opening()};
+  run_.begin(sequence, sdh2(), now());
+  pass(1.0);
+  bench_.wait(300'000);
+  run_.step(now());
+  EXPECT_FALSE(run_.running());
+  EXPECT_NE(run_.status().text.find("no tactile frames come"), std::string::npos)
+      << run_.status().text;
+  EXPECT_EQ(numMotions(), 0u);
+}
+
+TEST_F(SequenceRunTest, AnAlarmEndsItAndStopsTheHand) {
+  run_.begin(everyKind(), sdh2(), now());
+  run_.end("motor 3 is too hot");
+  EXPECT_EQ(bench_.hand->count<StopMotion>(), 1u);
+  EXPECT_EQ(run_.status().text, "sequence ended in step 1 of 5: motor 3 is too hot");
+  pass(6.0);
+  EXPECT_EQ(numMotions(), 1u);
+}
+
+TEST_F(SequenceRunTest, ARefusedStepEndsItThere) {
+  MotionSequence sequence = everyKind();
+  sequence.steps = {opening(), grasping(GraspMode::kReactive)};
+  run_.begin(sequence, sdh2(), now());
+  pass(3.0, 900.0F);  // the reactive grasp is over its limit already
+  EXPECT_FALSE(run_.running());
+  EXPECT_NE(run_.status().text.find("step 2 of 2"), std::string::npos) << run_.status().text;
+  EXPECT_NE(run_.status().text.find("over the limit"), std::string::npos) << run_.status().text;
+  EXPECT_EQ(numMotions(), 1u);
+}
+
+TEST_F(SequenceRunTest, ABlockedOpeningEndsIt) {
+  run_.begin(everyKind(), sdh2(), now());
+  bench_.hand->states = {0, 4, 0, 0, 0, 0, 0};
+  pass(2.0);
+  EXPECT_FALSE(run_.running());
+  EXPECT_NE(run_.status().text.find("held: finger 0 proximal"), std::string::npos)
+      << run_.status().text;
+  EXPECT_EQ(numMotions(), 1u);
+  EXPECT_GE(bench_.hand->count<StopMotion>(), 1u) << "motors that push are stopped";
+}
+
+TEST_F(SequenceRunTest, AMotionOfSomebodyElseEndsIt) {
+  MotionSequence sequence = everyKind();
+  sequence.steps = {resting(Kind::kWait, 5.0), opening()};
+  run_.begin(sequence, sdh2(), now());
+  pass(0.3);
+  bench_.control->preshape("parallel", 5.0);
+  pass(0.3);
+  EXPECT_FALSE(run_.running());
+  pass(8.0);
+  EXPECT_EQ(numMotions(), 1u);
+}
+
+TEST_F(SequenceRunTest, NothingBeginsThatIsNotValid) {
+  const auto refused = [&](const MotionSequence& sequence) {
+    EXPECT_THROW(run_.begin(sequence, sdh2(), now()), std::invalid_argument);
+    EXPECT_FALSE(run_.running());
+    EXPECT_TRUE(bench_.hand->commands.empty());
+  };
+  MotionSequence sequence = everyKind();
+  sequence.steps.clear();
+  refused(sequence);
+  sequence = everyKind();
+  sequence.hand = "another";
+  refused(sequence);
+  for (const int repetitions : {0, -1, 10'001}) {
+    sequence = everyKind();
+    sequence.repetitions = repetitions;
+    refused(sequence);
+  }
+  sequence = everyKind();
+  sequence.steps[3].seconds = std::nan("");
+  refused(sequence);
+  sequence = everyKind();
+  sequence.steps[1].pose.anglesDeg[2] = 120.0;  // of the second step: the first doesn't move
+  refused(sequence);
+  sequence = everyKind();
+  sequence.steps[2].request.limitCounts = 4000;
+  refused(sequence);
+  sequence = everyKind();
+  sequence.steps[2] = grasping(GraspMode::kSlip);  // would hold for ever
+  refused(sequence);
+  sequence.steps[2].request.holding.holdS = 2.0;
+  EXPECT_NO_THROW(sequence.validate(sdh2()));
+  sequence = everyKind();
+  run_.begin(sequence, sdh2(), now());
+  EXPECT_THROW(run_.begin(sequence, sdh2(), now()), DeviceError) << "one at a time";
+}
+
+TEST(MotionSequence, IsReadAsItWasWritten) {
+  MotionSequence sequence = everyKind();
+  sequence.repetitions = 12;
+  SequenceStep slip = grasping(GraspMode::kSlip, 0.9, 15.0);
+  slip.request.startRatio = 0.25;
+  slip.request.limitCounts = 400;
+  slip.request.fingerLimitCounts = {400, 300, 200};
+  slip.request.forceLimitsN = {2.5};
+  slip.request.holding.holdS = 3.0;
+  slip.request.holding.loosen = true;
+  slip.request.holding.weightN = 1.5;
+  sequence.steps.push_back(slip);
+  sequence.steps.push_back(grasping(GraspMode::kPlain, 0.3));
+  const std::string text = sequenceText(sequence);
+  const MotionSequence read = parseSequence(text, "s.json");
+  EXPECT_EQ(sequenceText(read), text);
+  EXPECT_EQ(read.repetitions, 12);
+  ASSERT_EQ(read.steps.size(), 7u);
+  for (std::size_t i = 0; i < 7; ++i)
+    EXPECT_EQ(describe(read.steps[i]), describe(sequence.steps[i]));
+  EXPECT_EQ(read.steps[5].request.fingerLimitCounts, (std::vector<int>{400, 300, 200}));
+  EXPECT_TRUE(read.steps[5].request.holding.loosen);
+  EXPECT_NO_THROW(read.validate(sdh2()));
+}
+
+TEST(MotionSequence, BadFilesAreRefusedWithTheirPlace) {
+  const auto errorOf = [](const std::string& text) {
+    try {
+      parseSequence(text, "s.json");
+    } catch (const Error& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_NE(errorOf("no").find("s.json"), std::string::npos);
+  EXPECT_NE(errorOf("[]").find("no sequence"), std::string::npos);
+  const std::string head =
+      R"({"format": "palpate-sequence", "version": 1, "hand": "h", "steps": [)";
+  EXPECT_NE(errorOf(head + R"({"step": "jump"}]})").find("steps[0].step"), std::string::npos);
+  EXPECT_NE(errorOf(head + R"({"step": "hold", "seconds": -1}]})").find("seconds"),
+            std::string::npos);
+  EXPECT_NE(errorOf(head + R"({"step": "open", "velocity_deg_per_s": 500}]})").find("velocity"),
+            std::string::npos);
+  EXPECT_NE(errorOf(R"({"format": "palpate-sequence", "version": 9})").find("version"),
+            std::string::npos);
+}
+
+// On the emulated hand, over its ports.
+class SequenceOnTheHand : public ::testing::Test {
+ protected:
+  void connect() {
+    bench_.connect();
+    run_ = std::make_unique<SequenceRun>(*bench_.control);
+  }
+  bool go(const std::function<bool()>& until) {
+    return testing::eventuallyTrue([&] {
+      run_->step(bench_.session->nowUs());
+      return until();
+    });
+  }
+  void begin() {
+    MotionSequence sequence = everyKind();
+    sequence.steps = {
+        opening(), grasping(GraspMode::kReactive, 0.6, 60.0), resting(Kind::kHold, 0.3), posing()};
+    sequence.repetitions = 2;
+    run_->begin(sequence, sdh2(), bench_.session->nowUs());
+  }
+
+  testing::EmulatedBench bench_{testing::stillHand()};
+  std::unique_ptr<SequenceRun> run_;
+};
+
+TEST_F(SequenceOnTheHand, MovesItAsTheTableSays) {
+  connect();
+  begin();
+  ASSERT_TRUE(go([&] { return !run_->running(); }));
+  EXPECT_EQ(run_->status().text, "sequence finished: 4 steps, 2 times");
+  EXPECT_EQ(bench_.log.named("m").size(), 6u);
+  std::vector<double> angles;
+  bench_.hand->withModel([&](HandModel& model) { angles = model.joints().angles(); });
+  for (std::size_t axis = 0; axis < 7; ++axis)
+    EXPECT_NEAR(angles[axis], axis == 0 ? 30.0 : axis % 2 == 1 ? -40.0 : 40.0, 0.01);
+}
+
+TEST_F(SequenceOnTheHand, AStopInEachStepStopsTheHandForGood) {
+  connect();
+  for (std::size_t step = 0; step < 4; ++step) {
+    begin();
+    ASSERT_TRUE(go([&] { return run_->status().step == step; }));
+    const std::int64_t stoppedUs = systemClock().monotonicUs();
+    bench_.control->stop();
+    ASSERT_TRUE(testing::eventuallyTrue(
+        [&] { return bench_.log.firstSince("stop", stoppedUs).has_value(); }));
+    ASSERT_TRUE(go([&] { return !run_->running(); }));
+    ASSERT_TRUE(go([&] {
+      return !bench_.handMoves() && bench_.control->status().phase == GraspPhase::kIdle;
+    }));
+    const std::int64_t arrivedUs = bench_.log.firstSince("stop", stoppedUs)->monoUs;
+    for (const testing::ArrivedCommand& deed : bench_.log.deeds())
+      EXPECT_LE(deed.monoUs, arrivedUs) << deed.name << " behind the stop in step " << step;
+  }
+}
+
+TEST_F(SequenceOnTheHand, UnpluggingItEndsTheSequence) {
+  connect();
+  for (const std::size_t step : {std::size_t{1}, std::size_t{2}}) {
+    begin();
+    ASSERT_TRUE(go([&] { return run_->status().step == step; }));
+    bench_.hand->unplug(true, true);
+    ASSERT_TRUE(go([&] { return !run_->running(); })) << step;
+    EXPECT_TRUE(run_->status().failed);
+    bench_.hand->replug();
+    ASSERT_TRUE(
+        go([&] { return bench_.control->status().cannotReact.empty() && !bench_.handMoves(); }));
+    const std::size_t motions = bench_.log.named("m").size();
+    for (int i = 0; i < 50; ++i) run_->step(bench_.session->nowUs() + i * 1'000'000);
+    EXPECT_EQ(bench_.log.named("m").size(), motions) << "it doesn't go on by itself";
+  }
+}
+
+}  // namespace
+}  // namespace palpate::motion_sequence_test

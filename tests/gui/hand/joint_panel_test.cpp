@@ -1,0 +1,159 @@
+// Single joints and own poses in the dock Hand, on the emulated hand.
+#include "gui/hand/joint_panel.h"
+
+#include <QAction>
+#include <QComboBox>
+#include <QFile>
+#include <QSlider>
+#include <QTabBar>
+
+#include "palpate/device/sdh2.h"
+
+#include "gui/hand/hand_dock_bench.h"
+
+namespace palpate::gui::joint_panel_test {
+namespace {
+using testing::stillHand;
+
+class JointPanelTest : public HandDockBench {
+ protected:
+  void connectAndOpen() {
+    connectTo(stillHand());
+    dock_->resize(520, 900);
+    find<QTabBar>("handPages")->setCurrentIndex(1);
+    panel_ = dock_->findChild<JointPanel*>();
+    ASSERT_TRUE(await([&] { return find<ValueSlider>("targetAngle1")->value() == -75.0; }));
+  }
+  std::vector<double> angles() {
+    std::vector<double> now;
+    bench_->hand->withModel([&](HandModel& model) { now = model.joints().angles(); });
+    return now;
+  }
+  JointPanel* panel_ = nullptr;
+};
+
+TEST_F(JointPanelTest, NothingMovesBeforeMoveIsPressed) {
+  connectAndOpen();
+  EXPECT_FALSE(isEnabled("moveJoints"));
+  EXPECT_FALSE(isEnabled("moveJoint2"));
+  QSlider* slider = find<ValueSlider>("targetAngle2")->slider();
+  slider->setSliderDown(true);
+  for (const int value : {100, 60, 40}) slider->setSliderPosition(value);
+  slider->setSliderDown(false);
+  QTest::qWait(150);
+  EXPECT_TRUE(bench_->log.deeds().empty());
+  EXPECT_EQ(find<QLabel>("presentAngle2")->text(), "75.0°");
+  EXPECT_EQ(find<ValueSlider>("targetAngle2")->value(), 20.0);
+  ASSERT_TRUE(isEnabled("moveJoint2"));
+  auto* move = find<QPushButton>("moveJoint2");
+  move->setFocus();
+  QTest::keyClick(move, Qt::Key_Space);
+  EXPECT_TRUE(bench_->log.deeds().empty()) << "Space moves nothing";
+  click("moveJoint2");
+  ASSERT_TRUE(await([&] { return std::abs(angles()[2] - 20.0) < 0.01; }));
+  ASSERT_TRUE(await([&] { return !isEnabled("moveJoint2"); })) << "its target is reached";
+  for (const std::size_t axis : {std::size_t{1}, std::size_t{3}, std::size_t{5}})
+    EXPECT_NEAR(angles()[axis], -75.0, 0.01) << "the others stay";
+  EXPECT_NEAR(angles()[0], 60.0, 0.01);
+}
+
+TEST_F(JointPanelTest, AllChangedJointsMoveTogetherAndAStoppedTargetStays) {
+  connectAndOpen();
+  type("jointVelocity", "5");
+  type("targetAngle3", "-10");
+  type("targetAngle5", "-20");
+  click("moveJoints");
+  ASSERT_TRUE(bench_->awaitMotion());
+  EXPECT_TRUE(await([&] { return !isEnabled("moveJoints"); }));
+  EXPECT_EQ(bench_->control->status().request->velocityDegPerS, 5.0);
+  click("stopHand");
+  ASSERT_TRUE(await([&] { return !bench_->handMoves() && isEnabled("moveJoints"); }));
+  EXPECT_EQ(find<ValueSlider>("targetAngle3")->value(), -10.0);
+  EXPECT_TRUE(isEnabled("resetTargets"));
+  click("resetTargets");
+  EXPECT_TRUE(await([&] { return find<ValueSlider>("targetAngle3")->value() < -60.0; }));
+  EXPECT_FALSE(isEnabled("moveJoints"));
+}
+
+// A target that is set while a motion runs is not taken for reached when that motion ends.
+TEST_F(JointPanelTest, ATargetSetDuringAMotionStays) {
+  connectAndOpen();
+  type("jointVelocity", "60");
+  type("targetAngle4", "30");
+  click("moveJoint4");
+  ASSERT_TRUE(bench_->awaitMotion());
+  type("targetAngle4", "50");
+  ASSERT_TRUE(await([&] { return std::abs(angles()[4] - 30.0) < 0.01; }));
+  EXPECT_TRUE(await([&] { return isEnabled("moveJoint4"); }));
+  EXPECT_EQ(find<ValueSlider>("targetAngle4")->value(), 50.0);
+}
+
+TEST_F(JointPanelTest, AFieldTakesNoAngleBeyondTheRange) {
+  connectAndOpen();
+  type("targetAngle1", "-300");
+  EXPECT_GE(find<ValueSlider>("targetAngle1")->value(), -90.0);
+}
+
+TEST_F(JointPanelTest, APoseIsSavedGoneToRenamedAndDeleted) {
+  connectAndOpen();
+  panel_->askForName = [](const QString&) { return QString("rest / soft"); };
+  click("savePose");
+  auto* names = find<QComboBox>("ownPoses");
+  EXPECT_EQ(names->currentText(), "rest / soft");
+  type("jointVelocity", "100");
+  type("targetAngle4", "10");
+  click("moveJoint4");
+  ASSERT_TRUE(await([&] { return std::abs(angles()[4] - 10.0) < 0.01 && !bench_->handMoves(); }));
+  const std::size_t motions = bench_->log.named("m").size();
+  names->setCurrentIndex(1);
+  emit names->activated(1);
+  EXPECT_EQ(find<ValueSlider>("targetAngle4")->value(), 75.0);
+  EXPECT_EQ(bench_->log.named("m").size(), motions) << "choosing moves nothing";
+  ASSERT_TRUE(await([&] { return isEnabled("moveJoints"); }));
+  click("moveJoints");
+  ASSERT_TRUE(await([&] { return std::abs(angles()[4] - 75.0) < 0.01; }));
+  panel_->askForName = [](const QString&) { return QString("home"); };
+  click("renamePose");
+  EXPECT_EQ(names->count(), 2);
+  EXPECT_EQ(names->itemText(1), "home");
+  click("removePose");
+  EXPECT_EQ(names->count(), 1);
+}
+
+TEST_F(JointPanelTest, APoseOfAnotherHandOrOutOfRangeIsRefusedInOneLine) {
+  connectAndOpen();
+  SavedPose far{"far", sdh2().name, {0, 0, 120, 0, 0, 0, 0}};
+  panel_->poses().save(far);
+  QString why;
+  QObject::connect(panel_, &JointPanel::refused, panel_, [&](const QString& said) { why = said; });
+  auto* names = find<QComboBox>("ownPoses");
+  names->addItem("far");
+  names->setCurrentText("far");
+  emit names->activated(names->currentIndex());
+  EXPECT_TRUE(why.contains("out of range: finger 0 distal at 120")) << why.toStdString();
+  EXPECT_FALSE(isEnabled("moveJoints"));
+  const QString path = QString::fromStdString((folder_ / "poses.json").string());
+  const auto import = [&](const std::string& text) {
+    QFile file(path);
+    EXPECT_TRUE(file.open(QIODevice::WriteOnly));
+    file.write(text.c_str());
+    file.close();
+    panel_->askForFileToOpen = [&] { return path; };
+    why.clear();
+    dock_->findChild<QAction*>("importPoses")->trigger();
+  };
+  SavedPose good{"good", sdh2().name, {0, 0, 20, 0, 0, 0, 0}};
+  SavedPose foreign{"foreign", "another", {0, 0, 20, 0, 0, 0, 0}};
+  import(posesText({good, foreign}));
+  EXPECT_TRUE(why.startsWith("nothing imported: the pose 'foreign' is of another hand"))
+      << why.toStdString();
+  EXPECT_FALSE(panel_->poses().load(sdh2().name, "good")) << "all or none";
+  import("{");
+  EXPECT_TRUE(why.contains("poses.json")) << why.toStdString();
+  import(posesText({good}));
+  EXPECT_EQ(why, "");
+  EXPECT_TRUE(panel_->poses().load(sdh2().name, "good"));
+}
+
+}  // namespace
+}  // namespace palpate::gui::joint_panel_test
