@@ -34,7 +34,6 @@ CommandSpec graspSpec() {
   return {
       .synopsis = "palpate grasp --sdh PORT [--dsa PORT] --preshape NAME [--close R] ..",
       .purpose =
-<<<<<<< HEAD
           "Moves a hand. The mode 'plain' moves to the preshape at close ratio R (0 open .. 1 "
           "closed, default 0.5), without regard to contact. 'reactive' opens to the preshape, then "
           "closes to R (default 1) and stops when the first taxel exceeds N counts. 'slip' does "
@@ -43,41 +42,10 @@ CommandSpec graspSpec() {
           "the hand. Prints a line per state: seconds, state, text. After the command the motors "
           "stay on and hold the object. NAME: parallel, cylindrical, centrical, spherical, "
           "pinch-parallel, pinch-tilted, pinch-empty, calibration.",
-      .options = {{"sdh", "PORT", "motion controller"},
-                  {"dsa", "PORT", "tactile controller; 'reactive' and 'slip' need it"},
-                  {"preshape", "NAME", "preshape: pose of the fingers before they close"},
-                  {"close", "R", "close ratio, 0..1"},
-                  {"velocity", "V", "velocity of the joints, 1..100 deg/s, default 10"},
-                  {"mode", "plain|reactive|slip", "default plain"},
-                  {"limit", "N", "limit of 'reactive' and 'slip', 3..3300 counts, default 200"},
-                  {"most", "N", "of 'slip': the limit rises up to N counts, default 2200"},
-                  {"hold", "S", "of 'slip': end after S seconds; the hand keeps holding"},
-                  {"calm",
-                   "S",
-                   "of 'slip': after S seconds without slip the limit falls again, default 5"},
-                  {"loosen", "", "of 'slip': the hand may open slowly to a limit that fell"},
-                  {"object-mass",
-                   "KG",
-                   "of 'slip': opens slowly once, until it slips, and measures the friction"},
-                  {"newtons-per-count",
-                   "F",
-                   "newtons per count of a calibration, for the friction"},
-                  {"wait", "S", "give up when the hand doesn't answer for S seconds, default 15"}},
-=======
-          "Moves a hand. 'plain' goes to the preshape at close ratio R (0 open .. 1 closed, "
-          "default 0.5), whatever\nthe fingers touch. 'reactive' opens to the preshape, then "
-          "closes to R "
-          "(default 1) until the first taxel is over\nN counts. 'slip' does the same, then holds: "
-          "it closes again, to a limit raised by "
-          "300 counts, when what it\nholds slips, until Ctrl-C or for S seconds. Ctrl-C stops the "
-          "hand. Prints a line per state: seconds, state, text. The hand stays powered and "
-          "holds.\nNAME: parallel, "
-          "cylindrical, centrical, spherical, pinch-parallel, pinch-tilted, pinch-empty, "
-          "calibration.",
       .options =
           {{"sdh", "PORT", "motion controller"},
            {"dsa", "PORT", "tactile controller; 'reactive' and 'slip' need it"},
-           {"preshape", "NAME", "how the fingers stand"},
+           {"preshape", "NAME", "preshape: pose of the fingers before they close"},
            {"close", "R", "close ratio, 0..1"},
            {"velocity", "V", "velocity of the joints, 1..100 deg/s, default 10"},
            {"mode", "plain|reactive|slip", "default plain"},
@@ -89,7 +57,7 @@ CommandSpec graspSpec() {
             "0.05..500, needs --calibration"},
            {"calibration", "FILE", "the calibration that measures --force-limit"},
            {"most", "N", "of 'slip': the limit rises up to N counts, default 2200"},
-           {"hold", "S", "of 'slip': ends after S seconds; the hand goes on holding"},
+           {"hold", "S", "of 'slip': end after S seconds; the hand keeps holding"},
            {"calm",
             "S",
             "of 'slip': after S seconds without slip the limit falls again, default 5"},
@@ -102,7 +70,6 @@ CommandSpec graspSpec() {
             "FILE",
             "instead of a grasp: the steps of a table that the window saved (dock Hand)"},
            {"wait", "S", "give up when the hand doesn't answer for S seconds, default 15"}},
->>>>>>> 2db043cf2defc90b4b97dc7ccb69badfc2946cae
       .example =
           "palpate grasp --sdh /dev/ttyUSB1 --dsa /dev/ttyUSB0 --preshape centrical "
           "--mode reactive",
@@ -314,14 +281,9 @@ int graspCommand(const Arguments& words) {
   ports.dsaPort = given.text("dsa").value_or("");
   if (ports.sdhPort.empty()) throw UsageError("grasp needs --sdh PORT");
   if (ports.dsaPort.empty() && request.mode != GraspMode::kPlain)
-<<<<<<< HEAD
-    throw UsageError("--mode " + std::string(nameOf(request.mode)) +
-                     " needs --dsa PORT: it stops by the readings of the taxels");
-=======
     throw UsageError(
         (sequence ? std::string("the sequence") : "--mode " + std::string(nameOf(request.mode))) +
-        " needs --dsa PORT: it stops by what the fingers feel");
->>>>>>> 2db043cf2defc90b4b97dc7ccb69badfc2946cae
+        " needs --dsa PORT: it stops by the readings of the taxels");
   const double waitS = given.number("wait", 0.1, 1e6).value_or(15.0);
   std::optional<Calibration> calibration;
   if (const auto file = given.text("calibration")) calibration = loadCalibration(*file);
