@@ -241,7 +241,7 @@ TEST_F(ComparePanelTest, WithoutGraspsTheStartsAreUsedAndSaid) {
   open({"three.dsa", "third.dsa"});
   compareNow();
   choose("compareAlignment", "grasps");
-  EXPECT_EQ(compare().notice(), "No grasp in B: aligned by their starts");
+  EXPECT_EQ(compare().notice(), "No grasp in B: the recordings are aligned at their starts");
   EXPECT_EQ(*compare().offsetS(), 0.0);
 }
 

@@ -139,8 +139,9 @@ TEST_F(CompareWindowTest, WithoutContactStartsAreUsedAndSaid) {
   open({"early.dsa", "untouched.dsa"});
   compareNow();
   EXPECT_EQ(*compare().offsetS(), 0.0);
-  EXPECT_EQ(compare().notice(),
-            "No lasting contact (3 taxels in 3 frames) in B: aligned by their starts");
+  EXPECT_EQ(
+      compare().notice(),
+      "No lasting contact (3 taxels in 3 frames) in B: the recordings are aligned at their starts");
   EXPECT_TRUE(find<QLabel>("compareNotice")->isVisible());
 }
 

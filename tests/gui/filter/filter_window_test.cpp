@@ -160,7 +160,7 @@ TEST_F(FilterWindowTest, TheRecipeIsKeptWithTheRecordingAndFoundAgain) {
   setRecipe("median:masked=1 | kalman:q=0.2");
   for (QMenu* menu : window().feature<FilterFeature>().panel().findChildren<QMenu*>())
     for (QAction* action : menu->actions())
-      if (action->text() == "Keep it with the recording") action->trigger();
+      if (action->text() == "Add them to the recording") action->trigger();
   actions().at("saveEvents")->trigger();
   const auto events = readEvents(path_).events;
   ASSERT_EQ(events.size(), 1u);

@@ -83,11 +83,12 @@ TEST_F(RecognisePanelTest, WhatCanNotBeJudgedIsSaid) {
 TEST_F(RecognisePanelTest, WhatWasHeldTooShortIsNotSaidOfAnEmptyHand) {
   panel_->controller().setEmulated(true);
   settle();
-  panel_->controller().showProblem("Not held long enough: ask again in a second.", kHeldNow);
+  panel_->controller().showProblem("The object was not held long enough: try again in a second.",
+                                   kHeldNow);
   panel_->controller().contactEnded();
   EXPECT_EQ(panel_->controller().answer().kind, Kind::kNothing);
   EXPECT_EQ(find<AnswerView>("answerView")->answer().kind, Kind::kNothing);
-  EXPECT_FALSE(panel_->controller().answer().text.contains("Not held long enough"));
+  EXPECT_FALSE(panel_->controller().answer().text.contains("not held long enough"));
 }
 
 TEST_F(RecognisePanelTest, WithoutAnOffsetTheReasonNamesTheTouchThatWouldTell) {

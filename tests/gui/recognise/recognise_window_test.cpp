@@ -207,7 +207,7 @@ TEST_F(RecogniseLiveTest, TheShowNamesWhatIsHeldNowAndNothingThatWasLetGo) {
   moveTo(0.0);
   EXPECT_TRUE(await([&] {
     return full->view().answer().kind == RecognitionAnswer::Kind::kNothing &&
-           full->view().answer().text == "Hold something.";
+           full->view().answer().text == "Put an object into the hand.";
   })) << full->view().answer().accessibleText().toStdString();
   // Asked for, the last grasp is named in the dock, which says so; an audience sees an empty hand.
   QTest::keyClick(full, Qt::Key_Q);

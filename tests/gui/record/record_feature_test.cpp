@@ -37,7 +37,7 @@ TEST_F(RecordFeatureTest, ThatNothingIsLostIsNotSaidBesideAGap) {
   endRecording();
   EXPECT_TRUE(offered().endsWith("nothing lost")) << offered().toStdString();
   endRecording(1);
-  EXPECT_TRUE(offered().endsWith("1 gap in which no frame came")) << offered().toStdString();
+  EXPECT_TRUE(offered().endsWith("1 gap in which no frame arrived")) << offered().toStdString();
 }
 
 TEST_F(RecordFeatureTest, SaysHowMuchIsMissingInGaps) {
@@ -49,7 +49,7 @@ TEST_F(RecordFeatureTest, SaysHowMuchIsMissingInGaps) {
   report.durationS = 12.5;
   report.gaps = 1;
   emit windowState_->live.recordingEnded(report);
-  EXPECT_TRUE(offered().endsWith("1 gap in which no frame came: 2.5 s are missing"))
+  EXPECT_TRUE(offered().endsWith("1 gap in which no frame arrived: 2.5 s are missing"))
       << offered().toStdString();
 }
 

@@ -358,7 +358,7 @@ TEST_F(SpectrumPanelTest, OneLineOfTheSelectedRangeWithItsPeaks) {
   EXPECT_EQ(tables[1].make().numRows, 1u);
   panel_->setSpan(TimeSpan{2.0, 2.5});
   panel_->settle();
-  EXPECT_TRUE(panel_->emptyText().contains("26 samples, a window takes 64"))
+  EXPECT_TRUE(panel_->emptyText().contains("26 samples, but a window needs 64"))
       << panel_->emptyText().toStdString();
 }
 

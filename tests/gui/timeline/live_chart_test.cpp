@@ -239,7 +239,7 @@ TEST_F(LiveChartTest, ARecordingIsMarkedWhereItBeganAndEnded) {
   EXPECT_EQ(chart_.numRecordingEnds(), 2u);
   EXPECT_EQ(chart_.numEvents(), 0u);
   chart_.replot();
-  EXPECT_TRUE(chart_.valuesAt(4.0).contains("here the recording begins"));
+  EXPECT_TRUE(chart_.valuesAt(4.0).contains("the recording begins here"));
   // A recording of which nothing was seen while it ran, and one without a frame.
   chart_.showRecording(kStartUs + 9'950'000, kStartUs + 10'000'000, false);
   EXPECT_EQ(chart_.numRecordingEnds(), 4u);

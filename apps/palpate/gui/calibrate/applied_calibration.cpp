@@ -103,7 +103,8 @@ Calibration usableCalibration(const QString& path) {
   Calibration calibration = loadCalibration(path.toStdString());
   if (!calibration.pressure.valid())
     throw Error(path.toStdString() +
-                ": has no P(K, T), so it can't give forces; its notes say why");
+                ": has no P(K, T), so forces can't be computed; its notes say why: open it on the "
+                "page Pressure");
   return calibration;
 }
 

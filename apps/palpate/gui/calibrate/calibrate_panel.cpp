@@ -24,8 +24,8 @@ CalibratePanel::CalibratePanel(QSettings& settings, QWidget* parent)
   add(pressure_,
       "Pressure",
       "Pressure from gain and temperature, from recordings under known loads");
-  add(noise_, "Noise", "What an unloaded hand reads, over its temperature");
-  add(tare_, "Tare", "What taxels read when nothing touches them");
+  add(noise_, "Noise", "Readings of an unloaded hand, over its temperature");
+  add(tare_, "Tare", "Readings of taxels that nothing touches");
   add(force_, "Force", "Kilopascals and newtons of this recording");
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(0, 0, 0, 0);

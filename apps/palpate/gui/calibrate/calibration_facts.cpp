@@ -35,7 +35,7 @@ void addSurface(std::vector<Fact>& facts,
     facts.push_back({name, "not determined", true});
   } else {
     facts.push_back({name, formulaOf(surface, x)});
-    facts.push_back({name + " is off by",
+    facts.push_back({name + " has an error of",
                      figure(surface.rmse, 2) + " kPa rmse, " + figure(surface.looRmse, 2) +
                          " kPa leave-one-out; " + QString::number(surface.numPoints) + " steps, " +
                          QString::number(surface.numTerms) + " terms"});
@@ -82,11 +82,11 @@ std::vector<Fact> calibrationFacts(const Calibration& calibration) {
   facts.push_back({"without temperature",
                    figure(model.options.assumedDegC, 0) + " ± " +
                        figure(model.options.assumedSdDegC, 0) + " °C assumed"});
-  facts.push_back({"share of the active area",
+  facts.push_back({"fraction of the active area",
                    model.options.indenterAreaMm2 > 0.0
                        ? figure(model.areaFraction, 2) + " ± " + figure(model.areaFractionSd, 2) +
-                             " (stamp of " + figure(model.options.indenterAreaMm2, 2) + " mm²)"
-                       : QString("not known: every active taxel counts fully"),
+                             " (indenter of " + figure(model.options.indenterAreaMm2, 2) + " mm²)"
+                       : QString("not known: the whole area of every active taxel is used"),
                    model.options.indenterAreaMm2 <= 0.0});
   if (model.steadyS > 0.0) facts.push_back({"steady after", figure(model.steadyS, 2) + " s"});
   facts.push_back({"sensor's settings",

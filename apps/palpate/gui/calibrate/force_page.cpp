@@ -28,8 +28,8 @@ constexpr double kLeastSensitivity = 0.01;
 
 std::vector<FigureColumn> forcePageColumns() {
   return {{"matrix", {}, 16, true},
-          {"taxels", "Active ones", 6},
-          {"K", "Gain that was used: the filtered mean, creep taken out [counts]", 8},
+          {"taxels", "Active taxels", 6},
+          {"K", "Gain that was used: the filtered mean, creep corrected [counts]", 8},
           {"kPa", "Pressure of the contact; below: 95 % interval", 8},
           {"N", "Force; below: 95 % interval", 8},
           {"", "Why the value may be wrong", 18, true}};
@@ -44,7 +44,7 @@ std::vector<FigureCell> forcePageRowOf(const QString& name, const MatrixForce& f
   if (!force.inRange) flags.append("outside range");
   if (force.saturated) flags.append("saturated: the real value is higher");
   if (!force.temperatureKnown) flags.append("temperature assumed");
-  if (force.compensated) flags.append("creep taken out");
+  if (force.compensated) flags.append("creep corrected");
   return {{.text = name},
           {.text = QString::number(force.active)},
           {.text = figure(static_cast<double>(force.staticResponseCounts), 1)},

@@ -31,7 +31,7 @@ std::vector<FigureColumn> noisePageColumns() {
   return {{"matrix", {}, 15, true},
           {"slope", "[counts/°C]", 6},
           {"at 0 °C", "Intercept of the line [counts]", 6},
-          {"RMSE", "As in the study [counts]; below: of this line", 9},
+          {"RMSE", "RMSE as in the study [counts]; below: of this line", 9},
           {"°C", "Temperatures it was measured at", 9},
           {"threshold", "Line + 3 RMSE at the highest temperature [counts]: noise stays below", 8},
           {"frames", "With a temperature; below: those far above the line", 7},

@@ -159,7 +159,7 @@ void PressurePage::makeTop() {
   files->addWidget(apply_);
   auto* options = new QHBoxLayout;
   options->setSpacing(8);
-  study_ = new QCheckBox("As the study", this);
+  study_ = new QCheckBox("As in the study", this);
   study_->setObjectName("pressureStudy");
   study_->setToolTip(
       "All terms, and the study's temperatures; off: only terms that cross-validation keeps");
@@ -197,8 +197,8 @@ void PressurePage::makeTop() {
     return made;
   };
   area_ = field("pressureArea",
-                "Stamp in mm²",
-                "Loaded area; forces then count only the area under a load. 0: not known",
+                "Indenter in mm²",
+                "Area of the indenter; forces are then those on this area. 0: not known",
                 kLargestArea);
   sensitivity_ = field(
       "pressureSensitivity", "Sensitivity", "Used for the recordings, which don't store it", 1.0);

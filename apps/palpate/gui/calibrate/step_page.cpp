@@ -29,7 +29,7 @@ constexpr double kLarge = 1000.0;
 
 std::vector<FigureColumn> stepPageColumns() {
   return {
-      {"begin [s]", "When the load came, from the first frame; below: frames of the step", 8},
+      {"begin [s]", "Time of loading, from the first frame; below: frames of the step", 8},
       {"K [counts]",
        "Gain: what the signal reaches without the drift; below: half width of the 95 % interval",
        8},
@@ -64,7 +64,7 @@ QStringList flagsOf(const FittedStep& step) {
   if (!step.fit.converged && !step.fit.gainUndetermined) flags.append("no fit");
   if (step.fit.converged && !step.fit.steadyStateReached) flags.append("cut off");
   if (step.saturatedFrames > 0) flags.append("saturated");
-  if (!step.step.beginSeen) flags.append("begin not seen");
+  if (!step.step.beginSeen) flags.append("begin not recorded");
   if (step.fit.gainUndetermined) flags.append("K unknown");
   if (step.fit.identifiable && !step.fit.timesIdentifiable) flags.append("T2 unknown");
   if (step.step.flickerFrames > 0) flags.append("flickers");
@@ -172,7 +172,7 @@ StepPage::StepPage(QWidget* parent) : ComputedPage("steps", parent) {
   signal_->setCurrentText(nameOf(PlottedSignal::kFilteredMean));
   robust_ = new QCheckBox("Robust", this);
   robust_->setObjectName("stepRobust");
-  robust_->setToolTip("Outliers count less (Huber's loss)");
+  robust_->setToolTip("Gives outliers less weight (Huber's loss)");
   auto* row = new QHBoxLayout;
   row->setSpacing(8);
   row->addWidget(matrices_);

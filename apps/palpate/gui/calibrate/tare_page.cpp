@@ -19,9 +19,9 @@ namespace {
 std::vector<FigureColumn> tarePageColumns() {
   return {{"matrix", {}, 16, true},
           {"unloaded", "Time in which nothing touches it; below: windows", 10},
-          {"largest zero", "Of its taxels [counts]", 10},
+          {"largest zero", "Largest zero of its taxels [counts]", 10},
           {"taxels", "With a zero above 0", 8},
-          {"", "What is missing", 16, true}};
+          {"", "Why there is no zero", 16, true}};
 }
 
 double tarePageSecondsOf(const UnloadedWindow& window, const OpenedRecording& of) {
@@ -56,7 +56,7 @@ std::vector<FigureCell> tarePageRowOf(std::size_t m,
            .detail = QString::number(count) + (count == 1 ? " window" : " windows")},
           {.text = figure(tare.largestZero, 1)},
           {.text = QString::number(tare.raisedTaxels)},
-          {.text = tare.raisedTaxels == 0 ? "reads nothing" : "",
+          {.text = tare.raisedTaxels == 0 ? "no reading" : "",
            .tip = QString::fromStdString(tare.note)}};
 }
 
@@ -125,7 +125,7 @@ TarePage::TarePage(QWidget* parent) : ComputedPage("tare", parent) {
   remove_ = new QPushButton("Remove", this);
   remove_->setObjectName("tareRemove");
   remove_->setToolTip("Forces use the recorded values without a zero again");
-  keep_ = new QPushButton("Keep with the recording", this);
+  keep_ = new QPushButton("Add to the recording", this);
   keep_->setObjectName("tareKeep");
   keep_->setToolTip("As an event: forces use it, values never change (undo: Ctrl+Z)");
   keep_->setProperty("primary", true);

@@ -62,8 +62,8 @@ CompareHeader::CompareHeader(QAction* leave,
     : QWidget(parent) {
   setObjectName("ViewHeader");
   setAttribute(Qt::WA_StyledBackground);
-  a_ = recordingBox("compareA", "Recording A: the one that is played", swatchA_);
-  b_ = recordingBox("compareB", "Recording B: what it is compared with", swatchB_);
+  a_ = recordingBox("compareA", "Recording A: it is played", swatchA_);
+  b_ = recordingBox("compareB", "Recording B: it is compared with A", swatchB_);
   swap_ = new QToolButton(this);
   swap_->setObjectName("compareSwap");
   swap_->setText("⇄");

@@ -122,9 +122,9 @@ QWidget* ComparePanel::makeCurveHeader() {
     made->setFocusPolicy(Qt::TabFocus);
     return made;
   };
-  signal_ = box("compareSignal", "What is plotted (S)");
+  signal_ = box("compareSignal", "Plotted signal (S)");
   for (const PlottedSignal signal : kAllPlottedSignals) signal_->addItem(gui::nameOf(signal));
-  matrix_ = box("compareMatrix", "Of which matrix");
+  matrix_ = box("compareMatrix", "Plotted matrix");
   overlayBox_ = box("compareOverlay", "Which curves the chart shows, all aligned with A");
   for (const CompareOverlay overlay : kAllCompareOverlays)
     overlayBox_->addItem(gui::nameOf(overlay));
@@ -650,14 +650,15 @@ QString ComparePanel::notice() const {
     if (!inA.contact) without.append("A");
     if (!inB.contact && a_ != b_) without.append("B");
     lines.append("No lasting contact (3 taxels in 3 frames) in " + without.join(" and ") +
-                 ": aligned by their starts");
+                 ": the recordings are aligned at their starts");
   }
   if (alignment_ == Alignment::kGrasp && answer_.alignment != Alignment::kGrasp &&
       answer_.complete) {
     QStringList without;
     if (answer_.graspsA.empty()) without.append("A");
     if (answer_.graspsB.empty() && a_ != b_) without.append("B");
-    lines.append("No grasp in " + without.join(" and ") + ": aligned by their starts");
+    lines.append("No grasp in " + without.join(" and ") +
+                 ": the recordings are aligned at their starts");
   }
   if (!answer_.overlaid.leftOut.isEmpty()) lines.append(answer_.overlaid.leftOut);
   const bool frames = inA.profile.numFrames() > 0 && inB.profile.numFrames() > 0;

@@ -269,7 +269,7 @@ void ExportDialog::fillFrames() {
   const QSignalBlocker blocked(frames_);
   frames_->clear();
   if (form_->chosen() != ExportFormat::kMovie)
-    frames_->addItem("the one shown", static_cast<int>(ExportFrames::kShown));
+    frames_->addItem("the shown frame", static_cast<int>(ExportFrames::kShown));
   if (pictures && pictures->selected) {
     const FrameSpan span = *pictures->selected;
     frames_->addItem(

@@ -32,7 +32,7 @@ QString fileProblemOf(const ExportRequest& request) {
   const QFileInfo file(QString::fromStdString(pathOf(request).string()));
   if (file.isDir()) return file.fileName() + " is a folder.";
   if ((file.exists() || file.isSymLink()) && !request.replace)
-    return file.fileName() + " exists already.";
+    return file.fileName() + " exists already: tick Replace, or choose another name.";
   return {};
 }
 
@@ -65,7 +65,7 @@ QString descriptionOf(ExportFormat form) {
     case ExportFormat::kCsv:
       return "The numbers that are shown";
     case ExportFormat::kMovie:
-      return "A movie of the frames, as they came";
+      return "A movie of the frames, at their recorded times";
     case ExportFormat::kPng:
       break;
   }
@@ -228,7 +228,9 @@ QString problemOf(const ExportRequest& request, const ExportedView& view) {
   if (request.ofFrames()) {
     const auto pictures = view.framePicturesNow();
     const auto span = pictures ? spanOf(request, *pictures) : std::nullopt;
-    if (!span) return "Nothing is selected in the timeline.";
+    if (!span)
+      return "Nothing is selected in the timeline: drag over a range there, or choose other "
+             "frames.";
     if (request.isMovie()) return fileProblemOf(request);
     const std::size_t there = numExisting(seriesOf(request, *span));
     if (there > 0 && !request.replace)

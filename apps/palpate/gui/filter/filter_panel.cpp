@@ -99,7 +99,7 @@ QWidget* FilterPanel::makeTop() {
   auto* row = new QHBoxLayout(top);
   row->setContentsMargins(0, 0, 0, 0);
   row->setSpacing(6);
-  onBox_ = new QCheckBox("Filter what is shown", top);
+  onBox_ = new QCheckBox("Filter the shown frames", top);
   onBox_->setObjectName("filterOn");
   onBox_->setToolTip("After, or before: A");
   connect(onBox_, &QCheckBox::toggled, this, &FilterPanel::setOn);
@@ -110,7 +110,7 @@ QWidget* FilterPanel::makeTop() {
     made->setAccessibleName(tip);
     return made;
   };
-  undo_ = button("↶", "Undo a change of the chain");
+  undo_ = button("↶", "Undo a change of the filters");
   redo_ = button("↷", "Redo it");
   connect(undo_, &QToolButton::clicked, &editor_, &RecipeEditor::undo);
   connect(redo_, &QToolButton::clicked, &editor_, &RecipeEditor::redo);
@@ -196,8 +196,8 @@ void FilterPanel::fillMoreMenu(QMenu& menu) {
   menu.addSeparator();
   connect(menu.addAction("Open a recipe…"), &QAction::triggered, this, &FilterPanel::openRecipe);
   connect(menu.addAction("Save the recipe…"), &QAction::triggered, this, &FilterPanel::saveRecipe);
-  keep_ = menu.addAction("Keep it with the recording");
-  keep_->setToolTip("The chain is stored with the recording; the frames stay as they are");
+  keep_ = menu.addAction("Add them to the recording");
+  keep_->setToolTip("The filters are stored in the recording; the recorded frames don't change");
   connect(keep_, &QAction::triggered, this, &FilterPanel::keepRequested);
   menu.addSeparator();
   connect(menu.addAction("Remove all filters"), &QAction::triggered, this, [this] {
@@ -303,7 +303,7 @@ void FilterPanel::showTotals() {
   const Recipe& recipe = editor_.recipe();
   if (!failure_.isEmpty()) return totals_->setText(failure_);
   if (recipe.empty()) return totals_->setText("Nothing is filtered.");
-  if (!figures_) return totals_->setText(on_ ? "…" : "Off: what is shown is as it was recorded.");
+  if (!figures_) return totals_->setText(on_ ? "…" : "Filters are off: values as recorded.");
   const double costUs = std::accumulate(figures_->costsUs.begin(), figures_->costsUs.end(), 0.0);
   QString text = figure(costUs, 1) + " µs per frame, " + figure(costUs * kFastestHz / 1e4, 2) +
                  " % of a core at 230 frames/s. ";

@@ -70,7 +70,7 @@ GraspPanel::GraspPanel(QSettings& settings, QWidget* parent)
   velocity_ = new ValueSlider(
       "Velocity", {kMinGraspDegPerS, kMaxGraspDegPerS, kMaxGraspDegPerS, 1.0, 0, "deg/s"}, this);
   velocity_->setObjectName("velocity");
-  velocity_->setToolTip("Of the joints; those that are slower go as fast as they can");
+  velocity_->setToolTip("Velocity of the joints; slower joints move at their maximum");
   velocity_->showValue(
       remembered(settings, kVelocity, kMinGraspDegPerS, kMaxGraspDegPerS, usual.velocityDegPerS));
   limit_ = new ValueSlider(
@@ -232,12 +232,13 @@ void GraspPanel::showStatus(const GraspStatus& status) {
                : busy);
   set(relax_,
       canMove,
-      canMove ? "Motors off: fingers can be moved by hand, a held object may fall"
-              : why(status.cannotMove));
+      canMove
+          ? "Switches the motors off: the fingers can be moved by hand, and a held object may fall"
+          : why(status.cannotMove));
   set(grasp_,
       canMove && idle,
       !idle     ? busy
-      : canMove ? "To the close ratio, whatever the fingers touch"
+      : canMove ? "Closes to the close ratio, without regard to contact"
                 : why(status.cannotMove));
   set(reactive_,
       canReact && idle,

@@ -431,7 +431,7 @@ QString HandDock::motionBlockedReason(const GraspStatus& status) const {
   if (!status.portGone) return "The hand can't be moved: " + why;
   const QString gone = "The motion port is disconnected (" + why + "). ";
   const double remainingMotionS = status.portGone->remainingMotionS.value_or(0.0);
-  if (remainingMotionS == 0.0) return gone + "The hand stands still, and the motors hold.";
+  if (remainingMotionS == 0.0) return gone + "The hand does not move; the motors are on and hold.";
   const double leftS =
       remainingMotionS - static_cast<double>(session_->nowUs() - status.portGone->endUs) / kUsPerS;
   if (leftS > 0.0)
@@ -444,11 +444,11 @@ QString HandDock::motionBlockedReason(const GraspStatus& status) const {
 std::optional<QString> HandDock::lastGraspText(const GraspReport& report,
                                                const GraspStatus& status) const {
   if (report.outcome == GraspOutcome::kPortGone)
-    return "Ready. The motion port was disconnected during a motion, and is back.";
+    return "Ready. The motion port was disconnected during a motion, and is connected again.";
   if (goneUs_ && *goneUs_ > report.endUs)
     return "Ready. The motion port was disconnected, and is back.";
   if (report.outcome == GraspOutcome::kStreamLost && status.cannotReact.empty())
-    return "Ready. The last grasp was stopped: no tactile frames came. Now they come.";
+    return "Ready. The last grasp was stopped: no tactile frames arrived; they arrive again.";
   return std::nullopt;
 }
 

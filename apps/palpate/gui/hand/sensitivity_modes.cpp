@@ -29,7 +29,7 @@ SensitivityModes::SensitivityModes(QWidget* parent) : QWidget(parent) {
   add(SensitivityMode::kManual,
       "sensitivityManual",
       "By hand",
-      "Values stay as they are set below");
+      "Uses the values that are set below");
   add(SensitivityMode::kHigh,
       "sensitivityHigh",
       "High sensitivity",
@@ -119,12 +119,12 @@ QString SensitivityModes::describe(const SensitivityStatus& status) const {
   if (status.mode == SensitivityMode::kManual) return {};
   if (!status.waiting.empty()) return "Waits: " + QString::fromStdString(status.waiting);
   if (!status.failure.empty()) return "Not set: " + QString::fromStdString(status.failure);
-  if (status.setting) return "Being set: the stream pauses for half a second.";
+  if (status.setting) return "The settings are being changed: no frames for half a second.";
   if (status.measuring) return "Measuring the usual rate …";
   if (status.mode == SensitivityMode::kAdaptive) {
     const QString now = "Sensitivity " + figure(status.sensitivity, 2);
     if (status.saturated) return now + ": saturated at the lowest value.";
-    return now + (status.settled ? ": a higher one would saturate." : ": waits for a contact.");
+    return now + (status.settled ? ": a higher one would saturate." : ": waiting for a contact.");
   }
   QString text = "Thresholds follow the temperatures.";
   if (status.noise.guarding)

@@ -110,7 +110,8 @@ void TactileSettingsPanel::makeRow(int row, const QString& name) {
   made.sensitivity->setObjectName("sensitivity" + QString::number(row - 1));
   made.threshold->setObjectName("threshold" + QString::number(row - 1));
   made.sensitivity->setToolTip("0 lowest .. 1 highest; factory setting 0.5");
-  made.threshold->setToolTip("Counts below are not sent, 0.." + QString::number(fullScale_));
+  made.threshold->setToolTip("Readings below this are not sent [counts], 0.." +
+                             QString::number(fullScale_));
   const int digit = fontMetrics().horizontalAdvance('0');
   constexpr int kFrame = 14;
   made.sensitivity->field()->setFixedWidth(4 * digit + kFrame);
@@ -139,7 +140,10 @@ void TactileSettingsPanel::makeButtons() {
     made->setFocusPolicy(Qt::TabFocus);
     return made;
   };
-  reset_ = button("Reset", "resetSettings", "Sensitivity 0.5, threshold 150 proximal, 300 distal");
+  reset_ = button(
+      "Reset",
+      "resetSettings",
+      "Restore the factory settings: sensitivity 0.5, threshold 150 (proximal) and 300 (distal)");
   undo_ = button("Undo", "undoSettings", "Back to the values from before the last change");
   redo_ = button("Redo", "redoSettings", "Again to the values that were undone");
   auto* above = new QHBoxLayout;
@@ -151,7 +155,7 @@ void TactileSettingsPanel::makeButtons() {
   connect(undo_, &QPushButton::clicked, this, [this] { restore(true); });
   connect(redo_, &QPushButton::clicked, this, [this] { restore(false); });
   save_ = button("Save…", "saveSettings", "Saves these values under a name, for this hand");
-  remove_ = button("Delete", "removeSettings", "Deletes the saved settings that were chosen last");
+  remove_ = button("Delete", "removeSettings", "Deletes the saved settings chosen above");
   names_ = new QComboBox(this);
   names_->setObjectName("savedSettings");
   auto* row = new QHBoxLayout;
@@ -296,7 +300,7 @@ void TactileSettingsPanel::refresh(const GraspStatus& status, const DeviceInfo& 
   else if (!status.cannotChange.empty())
     why = "Not now: " + QString::fromStdString(status.cannotChange) + ".";
   else if (!pending_.empty())
-    why = "Being changed: the stream pauses for half a second.";
+    why = "The settings are being changed: no frames for half a second.";
   const bool may = why.isEmpty() || !pending_.empty();
   if (why.isEmpty()) why = unmeasurableText_;
   if (note_->text() != why) note_->setText(why);

@@ -22,8 +22,8 @@ namespace {
 
 std::vector<FigureColumn> checkPageObjectColumns() {
   return {{"object", {}, 14, true},
-          {"precision", "Share of answers with this name that are right", 9},
-          {"recall", "Share of grasps of this object that are found", 7},
+          {"precision", "Fraction of answers with this name that are right", 9},
+          {"recall", "Fraction of grasps of this object that are found", 7},
           {"F", "Harmonic mean of both", 6},
           {"grasps", "Number of tested grasps", 7}};
 }
@@ -78,7 +78,7 @@ CheckPage::CheckPage(TrainingController& controller, QWidget* parent)
   protocol_->setAccessibleName("Protocol");
   protocol_->addItems({"five blocks in time (B)", "ten shuffles (S)"});
   protocol_->setToolTip(
-      "Which grasps test and don't train. Neither shows how it will be in another session.");
+      "How test grasps are chosen. Neither choice shows the accuracy in another session.");
   check_ = new QPushButton("Check", this);
   check_->setObjectName("checkNow");
   check_->setProperty("primary", true);
@@ -181,10 +181,11 @@ void CheckPage::showCheck() {
   if (!checked) {
     result_->clear();
     result_->hide();
-    empty_->say(controller_.folder().empty()
-                    ? "Choose a folder of grasps on the page Teach: they are tested here."
-                    : "Check shows how well the objects of the folder are told apart. Each grasp "
-                      "is tested with a model trained without it.");
+    empty_->say(
+        controller_.folder().empty()
+            ? "Choose a folder of grasps on the page Teach: they are tested here."
+            : "Check shows how well the objects of the folder are distinguished. Each grasp "
+              "is tested with a model trained without it.");
     pages_->setCurrentWidget(empty_);
     return;
   }

@@ -42,7 +42,8 @@ void PresentationWindow::showAnswer() {
   if (answer.of == kLastGrasp || (live_ && !ofNow)) answer = {};
   answer.of.clear();
   // The audience needs no hint about buttons.
-  if (answer.kind == RecognitionAnswer::Kind::kNothing) answer.text = "Hold something.";
+  if (answer.kind == RecognitionAnswer::Kind::kNothing)
+    answer.text = "Put an object into the hand.";
   view_->setAnswer(answer);
 }
 

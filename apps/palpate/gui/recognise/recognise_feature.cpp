@@ -149,7 +149,8 @@ void RecogniseFeature::askOfHand() {
   if (auto held = collector_->now())
     return controller.ask({std::move(*held), std::nullopt, kHeldNow});
   if (collector_->touched())
-    return controller.showProblem("Not held long enough: ask again in a second.", kHeldNow);
+    return controller.showProblem("The object was not held long enough: try again in a second.",
+                                  kHeldNow);
   if (lastGrasp_) return controller.ask({*lastGrasp_, std::nullopt, kLastGrasp});
   controller.showProblem("Nothing is held, and there is no last grasp.", kHeldNow);
 }

@@ -27,9 +27,9 @@ RecognisePanel::RecognisePanel(QSettings& settings,
   strip_ = new OpeningStrip(this, "Working on", "recognise");
   addPage(ask_, "Ask", "What is in the hand");
   addPage(today_, "Today", "Adapts the model to the hand of today");
-  addPage(teach_, "Teach", "Captures grasps of objects, and learns from them");
+  addPage(teach_, "Teach", "Captures grasps of objects, and trains a model with them");
   addPage(grasps_, "Grasps", "The grasps that teach, and their features");
-  addPage(check_, "Check", "How well they are told apart");
+  addPage(check_, "Check", "How well they are distinguished");
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(0, 0, 0, 0);
   column->setSpacing(0);

@@ -109,7 +109,7 @@ QString offsetText(const SessionOffset& offset, bool emulated) {
   const QString value = figure(offset.mm, 1) + " mm";
   switch (offset.origin) {
     case OffsetSource::kNone:
-      return "session offset 0 mm, assumed: as on the day of training";
+      return "session offset 0 mm, assumed: as in the session of the training";
     case OffsetSource::kUnknown:
       return "session offset not known: all are considered";
     case OffsetSource::kGiven:

@@ -12,9 +12,10 @@ constexpr const char* kModelKey = "recognise/model";
 constexpr const char* kEmulatedModelKey = "recognise/emulated_model";
 constexpr const char* kEmulatedModel = "emulated_objects.json";
 
-constexpr const char* kHowToAsk = "Choose a grasp in the timeline, or hold something: then ask.";
+constexpr const char* kHowToAsk =
+    "Choose a grasp in the timeline, or let the hand hold an object; then press What is it? (Q).";
 constexpr const char* kNoModel =
-    "No model is chosen. Open one (Model), or teach objects on the page Teach.";
+    "No model is chosen. Open one (Model), or train one on the page Teach.";
 
 }  // namespace
 

@@ -46,7 +46,7 @@ TodayPage::TodayPage(RecognitionController& controller, QWidget* parent)
   source_->setObjectName("todaySource");
   source_->setAccessibleName("Where the offset comes from");
   source_->addItems(
-      {"as the model says", "nothing is assumed", "from today's grasps, unnamed", "typed"});
+      {"as the model says", "nothing is assumed", "from today's grasps, without labels", "typed"});
   source_->setToolTip(
       "Labelled grasps and the zero of the empty hand come first, except before a typed offset");
   typed_ = new SecondsField(this);

@@ -31,7 +31,7 @@ std::vector<FigureColumn> teachPageObjectColumns() {
 std::vector<FigureColumn> clipColumns() {
   return {{"captured as", {}, 13, true},
           {"s", "Length [s]", 5},
-          {"quality", "0..1: held steadily, whole, not saturated", 7},
+          {"quality", "Quality 0..1: held steadily, complete, not saturated", 7},
           {"", "State", 14, true}};
 }
 
@@ -332,7 +332,7 @@ void TrainingPage::showState() {
   train_->setEnabled(folder && !controller_.busy());
   capture_->setText(capturing() ? "End capture" : "Capture");
   state_->setText(!folder       ? "Choose a folder first: captured grasps go there."
-                  : capturing() ? "Capturing " + object() + ": grasp it, again and again."
+                  : capturing() ? "Capturing " + object() + ": grasp it several times."
                   : !controller_.problem().isEmpty() ? controller_.problem()
                   : !live_                           ? QString("Connect a hand to capture.")
                   : object().isEmpty()               ? QString("What will be grasped?")

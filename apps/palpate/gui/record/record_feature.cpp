@@ -92,7 +92,7 @@ QString summaryOf(const RecordingReport& report) {
   if (report.gaps > 0)
     text +=
         (report.gaps == 1 ? QString(", 1 gap") : ", " + QString::number(report.gaps) + " gaps") +
-        " in which no frame came" + missingText(report);
+        " in which no frame arrived" + missingText(report);
   if (report.complete && report.lost == 0 && report.gaps == 0 && notReceived == 0)
     text += ", nothing lost";
   if (!report.mcapFailure.empty())
@@ -425,7 +425,7 @@ void RecordFeature::offer(const RecordingReport& report) {
   plan_.end(report);
   showState();
   if (report.paths.empty()) {
-    const QString why = report.message.empty() ? QString("no frame came while it ran")
+    const QString why = report.message.empty() ? QString("no frame arrived while it was recording")
                                                : QString::fromStdString(report.message);
     messages.failAbout(kRecordingTopic, "Nothing was recorded: " + why);
     messages.logLink("nothing was recorded: " + why);

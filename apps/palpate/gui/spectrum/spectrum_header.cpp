@@ -51,7 +51,7 @@ SpectrumHeader::SpectrumHeader(QWidget* parent) : QWidget(parent) {
   overlap_->setRange(0, kLongest - 1);
   view_ = new QComboBox(this);
   view_->setObjectName("spectrumView");
-  view_->setAccessibleName("What the dock shows");
+  view_->setAccessibleName("Kind of spectrum");
   view_->setToolTip(
       "Spectra over time, their mean with its peaks, or the coherence with another signal.\nMean "
       "and coherence are of the selected range; without one, of the visible part.");
@@ -69,8 +69,8 @@ SpectrumHeader::SpectrumHeader(QWidget* parent) : QWidget(parent) {
   connect(signal_, &QComboBox::activated, this, &SpectrumHeader::changed);
   scale_ = new QComboBox(this);
   scale_->setObjectName("spectrumScale");
-  scale_->setAccessibleName("What the colours mean");
-  scale_->setToolTip("Power spectral density in dB, or the amplitude of a tone");
+  scale_->setAccessibleName("Quantity shown as colour");
+  scale_->setToolTip("Power spectral density in dB, or the amplitude of a sine");
   scale_->setFocusPolicy(Qt::TabFocus);
   for (const SpectrumScale each : kAllSpectrumScales) scale_->addItem(nameOf(each));
   auto* row = new QHBoxLayout(this);

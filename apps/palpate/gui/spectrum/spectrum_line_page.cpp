@@ -93,9 +93,9 @@ SpectrumLinePage::SpectrumLinePage(QWidget* parent) : QWidget(parent) {
   peaks_ = new FiguresTable(
       {{.name = "peak [Hz]", .tip = "frequency", .letters = 7},
        {.name = "density", .tip = "power spectral density at the top [units²/Hz]", .letters = 8},
-       {.name = "amplitude", .tip = "amplitude of a tone with this peak", .letters = 8},
+       {.name = "amplitude", .tip = "amplitude of a sine with this peak", .letters = 8},
        {.name = "width [Hz]",
-        .tip = "where the density falls to half (3 dB); a pure tone is 1.3 "
+        .tip = "where the density falls to half (3 dB); a sine is 1.3 "
                "to 2 bins wide",
         .letters = 7}},
       this);
@@ -249,10 +249,11 @@ void SpectrumLinePage::setAnswer(const SpectrumAnswer& answer) {
   const bool still =
       answer.coherence &&
       std::none_of(answer.coherence->coherence.begin(), answer.coherence->coherence.end(), known);
-  none_->setText(still              ? "One of the signals doesn't change here."
-                 : answer.coherence ? "No common frequency: nowhere is the coherence above that of "
-                                      "independent noise."
-                                    : "No peak stands 3 dB above its surroundings.");
+  none_->setText(
+      still ? "One of the signals doesn't change here."
+      : answer.coherence
+          ? "No common frequency: the coherence is nowhere above that of independent noise."
+          : "No peak is 3 dB above its surroundings.");
   pages_->setCurrentWidget(rows.empty()       ? static_cast<QWidget*>(none_)
                            : answer.coherence ? common_
                                               : peaks_);

@@ -263,7 +263,7 @@ void SpectrumPanel::take(const SpectrumAnswer& answer) {
       longest = std::max(longest, stretch.gridSamples);
     return say("Too short: " +
                QString(answer.whole ? "the longest span without a gap" : "the visible part") +
-               " without a gap has " + QString::number(longest) + " samples, a window takes " +
+               " without a gap has " + QString::number(longest) + " samples, but a window needs " +
                QString::number(answer.options.window) + ".\nMake the window smaller" +
                (answer.whole ? "." : ", or zoom out."));
   }
@@ -283,7 +283,7 @@ void SpectrumPanel::takeLine(const SpectrumAnswer& answer) {
     for (const GapFreeSpan& stretch : report.stretches)
       longest = std::max(longest, stretch.gridSamples);
     return say(QString("Too short: the ") + (span_ ? "selected range" : "visible part") +
-               " without a gap has " + QString::number(longest) + " samples, a window takes " +
+               " without a gap has " + QString::number(longest) + " samples, but a window needs " +
                QString::number(answer.options.window) +
                (two ? " and coherence needs two windows" : "") +
                ".\nMake the window smaller, or the range longer.");

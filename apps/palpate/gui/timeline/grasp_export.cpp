@@ -44,7 +44,8 @@ GraspExport::GraspExport(WindowState& windowState, QWidget* window, QObject* par
   connect(strip_, &OpeningStrip::cancelRequested, &job_, &BackgroundJob::cancel);
   connect(&job_, &BackgroundJob::failed, &windowState.messages, &Messages::fail);
   connect(&job_, &BackgroundJob::cancelled, this, [&windowState] {
-    windowState.messages.flash("exporting the grasps was cancelled; the files written are whole");
+    windowState.messages.flash(
+        "exporting the grasps was cancelled; the files that were written are complete");
   });
   windowState.escapeHandler.add(EscapeHandler::Order::kWork, [this] {
     if (!job_.busy()) return false;

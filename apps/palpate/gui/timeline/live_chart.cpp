@@ -489,7 +489,7 @@ void LiveChart::showRecording(std::int64_t firstUs, std::int64_t lastUs, bool ru
     bar->setLayer("overlay");
     bar->topLeft->setCoords(beginS, 1.0 - kBarHeight);
     recordings_.push_back({beginS, endS, true, bar});
-    line(beginS, "recording", "here the recording begins", colors.danger);
+    line(beginS, "recording", "the recording begins here", colors.danger);
     events_.back().endsRecording = true;
   }
   Recorded& recording = recordings_.back();
@@ -498,7 +498,7 @@ void LiveChart::showRecording(std::int64_t firstUs, std::int64_t lastUs, bool ru
   recording.runs = runs;
   if (!runs) {
     recording.endS = endS;
-    line(endS, "end of recording", "here the recording ends", colors.danger);
+    line(endS, "end of recording", "the recording ends here", colors.danger);
     events_.back().endsRecording = true;
   }
   recording.bar->bottomRight->setCoords(recording.endS, 1.0);

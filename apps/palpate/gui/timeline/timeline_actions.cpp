@@ -8,7 +8,7 @@ TimelineActions::TimelineActions(ActionRegistry& book) {
   saveEvents = book.make("saveEvents", "File", "&Save labels, notes and grasps", {key("Ctrl+S")});
   undo = book.make("undo", "Edit", "&Undo", {key("Ctrl+Z")});
   redo = book.make("redo", "Edit", "&Redo", {key("Ctrl+Shift+Z"), key("Ctrl+Y")});
-  addLabel = book.make("addLabel", "Edit", "&Label the selection or the moment…", {key("Ctrl+B")});
+  addLabel = book.make("addLabel", "Edit", "&Label the selection or the frame…", {key("Ctrl+B")});
   addNote =
       book.make("addNote", "Edit", "&Note on the selection or the moment…", {key("Ctrl+Shift+B")});
   addGrasp = book.make("addGrasp", "Edit", "&Mark the selection as a grasp", {key("Ctrl+Shift+P")});
@@ -20,7 +20,7 @@ TimelineActions::TimelineActions(ActionRegistry& book) {
   toEvents = book.make("toEvents", "Edit", "&Keyboard focus to the events", {key("F7")});
   selectFrom = book.make("selectFrom", "Edit", "Selection begins &here", {key("[")});
   selectTo = book.make("selectTo", "Edit", "Selection &ends here", {key("]")});
-  selectAll = book.make("selectAll", "Edit", "Select &all of it", {key("Ctrl+A")});
+  selectAll = book.make("selectAll", "Edit", "Select &all", {key("Ctrl+A")});
   crop = book.make("crop", "Edit", "&Crop to a new recording…", {key("Ctrl+Shift+X")});
   saveAs = book.make("saveAs", "File", "Save &as…", {key("Ctrl+Alt+W")});
   saveAs->setToolTip(
