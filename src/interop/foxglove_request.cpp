@@ -125,7 +125,7 @@ FoxgloveRequest readFoxgloveRequest(std::string_view text, std::size_t numChanne
     else
       readUnsubscriptions(list, request);
   } catch (const Error& error) {
-    request.problem = std::string("a message is not a JSON: ") + error.what();
+    request.problem = std::string("a message is not JSON: ") + error.what();
   }
   return request;
 }

@@ -71,7 +71,7 @@ TEST(PressureModel, KnowsTheShareOfTheAreaThatIsLoaded) {
   EXPECT_NEAR(fitPressureModel(samples(), options).areaFraction, 0.5, 1e-12);
   const PressureModel unknown = fitPressureModel(samples());
   EXPECT_EQ(unknown.areaFraction, 1.0);
-  EXPECT_NE(unknown.notes.at(0).find("stamp"), std::string::npos);
+  EXPECT_NE(unknown.notes.at(0).find("indenter"), std::string::npos);
 }
 
 TEST(PressureModel, SaysWhatIsMissing) {

@@ -182,7 +182,7 @@ TEST(Surface, SaysWhatTooFewOrCollinearPointsAllow) {
   const Surface rest = fitSurface(broken, surfaceTerms(1), SurfaceSelection::kAllTerms);
   EXPECT_TRUE(rest.valid);
   EXPECT_EQ(rest.numPoints, 40u);
-  EXPECT_NE(rest.notes.at(0).find("no numbers"), std::string::npos);
+  EXPECT_NE(rest.notes.at(0).find("not numbers"), std::string::npos);
   EXPECT_THROW(fitSurface(two, {}, SurfaceSelection::kAllTerms), std::invalid_argument);
 }
 

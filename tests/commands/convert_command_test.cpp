@@ -84,7 +84,7 @@ TEST_F(ConvertCommand, toMcapAndBackIsTheSameAsStraight) {
   expectOneLineError(
       palpate({"convert", in("a.dsa"), in("d.mcap"), "--compression", "gzip"}), 2, {"compression"});
   testing::writeFile(in("x.mcap"), "hello");
-  expectOneLineError(palpate({"info", in("x.mcap")}), 1, {"no MCAP file"});
+  expectOneLineError(palpate({"info", in("x.mcap")}), 1, {"isn't an MCAP file"});
 }
 
 TEST_F(ConvertCommand, anExportSaysWhereItComesFromAndHasSeriesUnlessTheyAreLeftOut) {

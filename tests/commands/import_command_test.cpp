@@ -132,7 +132,7 @@ TEST_F(ImportCommand, RefusesOptionsThatMakeNoSense) {
   refused({"--hand", pad, "--scale", "2"}, 2, "need --matrix");
   refused({"--hand", pad, "--rate", "10", "--time", "time_ms"}, 2, "--time");
   refused({"--hand", pad, "--rate", "0"}, 2, "--rate");
-  refused({"--hand", pad, "--start", "soon"}, 2, "no date");
+  refused({"--hand", pad, "--start", "soon"}, 2, "not a date");
   refused({"--hand", pad, "--delimiter", "pipe"}, 2, "semicolon");
   refused({"--hand", pad, "--decimal", "comma", "--delimiter", "comma"}, 2, "another delimiter");
   refused({"--hand", pad, "--matrix", "300=a"}, 2, "0 to 255");

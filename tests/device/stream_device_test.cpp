@@ -258,7 +258,7 @@ TEST(StreamDevice, ANamedFormTakesNoOther) {
   Bench json({.format = StreamFormat::kJson});
   json.send("1,2,3\n");
   EXPECT_EQ(json.status().items, 0u);
-  EXPECT_NE(json.link->lastFault().find("no JSON object"), std::string::npos);
+  EXPECT_NE(json.link->lastFault().find("not a JSON object"), std::string::npos);
 }
 
 TEST(StreamDevice, ADescriptionThatDisagreesKeepsFramesOut) {

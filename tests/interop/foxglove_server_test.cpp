@@ -192,7 +192,7 @@ TEST(FoxgloveServer, BadRequestsAreAnsweredAndTheClientGoesOn) {
   const auto text = [](const std::string& payload) {
     return WebSocketClient::masked(0x81, payload);
   };
-  EXPECT_NE(answerTo(text("nonsense")).find("no JSON"), std::string::npos);
+  EXPECT_NE(answerTo(text("nonsense")).find("not JSON"), std::string::npos);
   EXPECT_NE(answerTo(text("[]")).find("op"), std::string::npos);
   EXPECT_NE(answerTo(text(R"({"op":"subscribe"})")).find("subscriptions"), std::string::npos);
   EXPECT_NE(answerTo(text(R"({"op":"subscribe","subscriptions":[{"id":1,"channelId":2}]})"))

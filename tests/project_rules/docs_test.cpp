@@ -95,6 +95,7 @@ class Docs : public ::testing::Test {
     for (const std::string& name : matches(list, "\n  ([a-z][a-z-]*) ")) commands_.insert(name);
     ASSERT_GT(commands_.size(), 20u);
     for (const std::string& name : commands_) options_[name] = optionsIn(run({name, "--help"}));
+    commands_.insert("help");
     for (const std::string& kind : matches(run({"calibrate", "--help"}), "\n  ([a-z]+)  "))
       options_["calibrate " + kind] = optionsIn(run({"calibrate", kind, "--help"}));
     options_[""] = optionsIn(run({"--screenshot", "x.png", "--help"}));

@@ -71,7 +71,8 @@ TypedSignal typedSignal(const std::string& text,
                         const std::string& option) {
   const auto name = parseSignalName(text);
   if (!name) {
-    const std::string refusal = option + ": \"" + text + "\" is no signal, as " + kSignalNames;
+    const std::string refusal =
+        option + ": \"" + text + "\" is not a signal: signals are " + kSignalNames;
     if (looksLikeName(text)) throw UsageError(refusal);
     try {
       return {.formula = Formula(text)};

@@ -52,7 +52,7 @@ TEST(TextSizeTest, ReachesAllWidgetsInProportionAndComesBack) {
 // Qt passes no font on to children under a style sheet of the application.
 TEST(TextSizeTest, ReachesChildrenUnderTheStyleSheetOfTheTheme) {
   applyTheme(*qApp, Theme::kLight);
-  const double before = QFontInfo(QApplication::font()).pointSizeF();
+  const double before = QApplication::font().pointSizeF();
   QWidget window;
   auto* column = new QVBoxLayout(&window);
   auto* button = new QPushButton("press", &window);

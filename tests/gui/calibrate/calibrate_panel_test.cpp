@@ -103,7 +103,7 @@ TEST_F(CalibratePanelTest, SaysWhatIsMissing) {
   panel_->showPage("Steps");
   EXPECT_TRUE(why().contains("Open a recording"));
   panel_->setSource(nullptr, true);
-  EXPECT_TRUE(why().contains("Record what is connected"));
+  EXPECT_TRUE(why().contains("Record the connected hand"));
   show("Steps", makeOpenedRecording("e.dsa", profileWithStamps({})));
   EXPECT_TRUE(why().contains("no frame"));
   show("Steps", opened(loads(3, {0.0})));

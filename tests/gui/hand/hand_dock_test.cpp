@@ -545,7 +545,7 @@ TEST_F(HandDockTest, AdaptiveSensitivitySaysWhatItWaitsFor) {
   connectTo(testing::handWith("empty"));
   find<QToolButton>("sensitivityAdaptive")->click();
   EXPECT_TRUE(await([&] {
-    return dock_->sensitivity().statusText().contains("waits for a contact");
+    return dock_->sensitivity().statusText().contains("waiting for a contact");
   })) << dock_->sensitivity().statusText().toStdString();
   dock_->setHand(nullptr, nullptr);
   EXPECT_EQ(dock_->sensitivity().mode(), SensitivityMode::kManual);

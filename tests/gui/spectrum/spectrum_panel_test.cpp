@@ -155,7 +155,7 @@ TEST_F(SpectrumPanelTest, SaysWhyThereIsNothing) {
   panel_->show();
   EXPECT_TRUE(panel_->emptyText().contains("Open a recording"));
   panel_->setSource(nullptr, true);
-  EXPECT_TRUE(panel_->emptyText().contains("Record what is connected"));
+  EXPECT_TRUE(panel_->emptyText().contains("Record the connected hand"));
   show(makeOpenedRecording("empty.dsa", profileWithStamps({})));
   EXPECT_TRUE(panel_->emptyText().contains("no frame"));
   ProfileBuilder still(sdh2().layout);
@@ -166,7 +166,7 @@ TEST_F(SpectrumPanelTest, SaysWhyThereIsNothing) {
   EXPECT_TRUE(panel_->tables().empty());
   show(tones(20));
   EXPECT_TRUE(panel_->emptyText().contains("20 samples")) << panel_->emptyText().toStdString();
-  EXPECT_TRUE(panel_->emptyText().contains("a window takes 32"));
+  EXPECT_TRUE(panel_->emptyText().contains("a window needs 32"));
   find<QSpinBox>("spectrumWindow")->setValue(16);
   panel_->settle();
   EXPECT_EQ(panel_->emptyText(), "");

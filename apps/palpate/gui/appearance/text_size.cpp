@@ -11,6 +11,11 @@
 namespace palpate::gui {
 namespace {
 constexpr const char* kTextPtKey = "view/text_pt";
+
+// The size that was asked for; of a font in pixels, that of the font found, which is rounded.
+double sizePtOf(const QFont& font) {
+  return font.pointSizeF() > 0.0 ? font.pointSizeF() : QFontInfo(font).pointSizeF();
+}
 }  // namespace
 
 int loadTextPt(const QSettings& settings) {
@@ -21,9 +26,9 @@ int loadTextPt(const QSettings& settings) {
 void saveTextPt(int pt, QSettings& settings) { settings.setValue(kTextPtKey, pt); }
 
 void applyTextPt(int pt) {
-  static const double ofDesktopPt = QFontInfo(QApplication::font()).pointSizeF();
+  static const double ofDesktopPt = sizePtOf(QApplication::font());
   QFont font = QApplication::font();
-  const double beforePt = QFontInfo(font).pointSizeF();
+  const double beforePt = sizePtOf(font);
   const double wantedPt = pt > 0 ? pt : ofDesktopPt;
   constexpr double kSame = 0.01;
   if (std::abs(wantedPt - beforePt) < kSame) return;

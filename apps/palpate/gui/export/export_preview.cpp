@@ -41,17 +41,19 @@ void ExportPreview::show(const ExportedView& view, const ExportRequest& request)
   movie_ = {};
   ++generation_;
   soon_.stop();
+  view_ = nullptr;
   if (isTable_) {
     showTable(view, request);
   } else if (view.paint) {
     paper_ = paperOf(request, view.sizeOnScreen());
-    picture_ = pictureOf(view, lookOf(request, view.sizeOnScreen()));
+    view_ = &view;
+    look_ = lookOf(request, view.sizeOnScreen());
     const auto pictures = request.ofFrames() ? view.framePicturesNow() : std::nullopt;
     const auto span = pictures ? spanOf(request, *pictures) : std::nullopt;
     if (request.isSeries() && span) numFiles_ = span->count();
     timeUs_ = span ? pictures->timeUs : nullptr;
     if (span) frames_ = *span;
-    drawPreview();
+    isDrawn_ = false;
     soon_.start();
   }
   update();
@@ -83,32 +85,34 @@ void ExportPreview::showTable(const ExportedView& view, const ExportRequest& req
 void ExportPreview::measure() {
   worker_.clear();
   if (request_.isMovie()) return measureMovie();
-  worker_.start(
-      [this, picture = picture_, paper = paper_, form = request_.form, now = generation_.load()] {
-        const ImageFormat pictureForm = form == ExportFormat::kSvg   ? ImageFormat::kSvg
-                                        : form == ExportFormat::kPdf ? ImageFormat::kPdf
-                                                                     : ImageFormat::kPng;
-        double bytes = 0.0;
-        try {
-          bytes = static_cast<double>(pictureBytes(
-                                          pictureForm,
-                                          [&](QPainter& painter) { replay(painter, picture); },
-                                          paper,
-                                          "preview")
-                                          .size());
-        } catch (const std::exception&) {
-          // The picture is too large for the memory; its size in pixels is still shown.
-          return;
-        }
-        QMetaObject::invokeMethod(
-            this,
-            [this, bytes, now] {
-              if (now != generation_) return;
-              bytes_ = bytes;
-              emit summaryChanged();
-            },
-            Qt::QueuedConnection);
-      });
+  if (!view_) return;
+  worker_.start([this,
+                 picture = pictureOf(*view_, look_),
+                 paper = paper_,
+                 form = request_.form,
+                 now = generation_.load()] {
+    const ImageFormat pictureForm = form == ExportFormat::kSvg   ? ImageFormat::kSvg
+                                    : form == ExportFormat::kPdf ? ImageFormat::kPdf
+                                                                 : ImageFormat::kPng;
+    double bytes = 0.0;
+    try {
+      bytes = static_cast<double>(
+          pictureBytes(
+              pictureForm, [&](QPainter& painter) { replay(painter, picture); }, paper, "preview")
+              .size());
+    } catch (const std::exception&) {
+      // The picture is too large for the memory; its size in pixels is still shown.
+      return;
+    }
+    QMetaObject::invokeMethod(
+        this,
+        [this, bytes, now] {
+          if (now != generation_) return;
+          bytes_ = bytes;
+          emit summaryChanged();
+        },
+        Qt::QueuedConnection);
+  });
 }
 
 // Runs in the worker thread, because a recording of a day has millions of time stamps.
@@ -176,22 +180,28 @@ QRectF ExportPreview::paperRect() const {
 }
 
 // Draws the picture larger than shown and scales it down, so that details finer than a screen pixel
-// look as in the file.
+// look as in the file. Images in it, as of the hand, have the pixels that are shown, not all of the
+// file: they would take longer than all the rest.
 void ExportPreview::drawPreview() {
   constexpr double kFiner = 3.0;
   const QSizeF place = paperRect().size() * devicePixelRatioF();
-  if (isTable_ || place.width() < 1.0 || place.height() < 1.0) return;
+  isDrawn_ = true;
+  if (isTable_ || !view_ || place.width() < 1.0 || place.height() < 1.0) return;
+  PictureLook shown = look_;
+  shown.pixelRatio = place.width() / paper_.size.width();
+  const QPicture picture = pictureOf(*view_, shown);
   PicturePaper larger = paper_;
   larger.dpi = kFiner * place.width() / paper_.size.width() * paper_.unitsPerInch;
-  preview_ = pictureImage([this](QPainter& to) { replay(to, picture_); }, larger)
+  preview_ = pictureImage([&picture](QPainter& to) { replay(to, picture); }, larger)
                  .scaled(place.toSize(), Qt::IgnoreAspectRatio, Qt::SmoothTransformation);
 }
 
-void ExportPreview::resizeEvent(QResizeEvent*) { drawPreview(); }
+void ExportPreview::resizeEvent(QResizeEvent*) { isDrawn_ = false; }
 
 void ExportPreview::paintEvent(QPaintEvent*) {
   QPainter painter(this);
   if (isTable_) return paintRows(painter);
+  if (!isDrawn_) drawPreview();
   const QRectF paper = paperRect();
   constexpr int kShadow = 4;
   for (int i = kShadow; i > 0; --i)

@@ -51,9 +51,12 @@ class ExportPreview : public QWidget {
 
   ExportRequest request_;
   PicturePaper paper_;
-  QPicture picture_;
-  // The picture at the size of its place on the screen.
+  // What is exported; null: a table. It lives longer than the dialogue.
+  const ExportedView* view_ = nullptr;
+  PictureLook look_;
+  // The picture at the size of its place on the screen, once it is painted.
   QImage preview_;
+  bool isDrawn_ = false;
   bool isTable_ = false;
   // The first lines of a table.
   QStringList rows_;

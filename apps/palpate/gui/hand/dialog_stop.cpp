@@ -17,6 +17,15 @@ namespace {
 
 constexpr const char* kDialogStopName = "dialogStop";
 
+// No layout counts the width of its menu bar. A message box sizes itself, by the rows of its
+// layout.
+void widen(QDialog& dialog, QWidget& bar) {
+  if (qobject_cast<QMessageBox*>(&dialog)) return;
+  for (QWidget* child : bar.findChildren<QWidget*>()) child->ensurePolished();
+  bar.layout()->invalidate();
+  dialog.setMinimumWidth(std::max(dialog.minimumWidth(), bar.sizeHint().width()));
+}
+
 }  // namespace
 
 DialogStop::DialogStop(QAction& stop, QObject* parent) : QObject(parent), stop_(stop) {
@@ -53,7 +62,7 @@ void DialogStop::showIn(QDialog& dialog) {
     bar->deleteLater();
     return;
   }
-  if (bar) return;
+  if (bar) return widen(dialog, *bar);
   bar = new QWidget(&dialog);
   bar->setObjectName(kDialogStopName);
   auto* button = new QPushButton("Stop  (Esc)", bar);
@@ -75,8 +84,7 @@ void DialogStop::showIn(QDialog& dialog) {
     grid->addWidget(bar, grid->rowCount(), 0, 1, grid->columnCount());
   else
     layout->setMenuBar(bar);
-  // No layout counts the width of its menu bar.
-  dialog.setMinimumWidth(std::max(dialog.minimumWidth(), bar->sizeHint().width()));
+  widen(dialog, *bar);
 }
 
 }  // namespace palpate::gui

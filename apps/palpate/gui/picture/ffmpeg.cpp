@@ -40,8 +40,8 @@ std::optional<fs::path> findFfmpeg() {
 std::string ffmpegMissing() {
   if (const std::string chosen = chosenByHand(); !chosen.empty())
     return std::string(kVariable) + " doesn't name a program: " + chosen;
-  return "A movie needs the program ffmpeg (package ffmpeg), which isn't installed. A PNG of each "
-         "frame works without it: choose PNG.";
+  return "A movie needs the program ffmpeg, which isn't installed (sudo apt install ffmpeg). A PNG "
+         "of each frame works without it.";
 }
 
 // Lines " V....D libx264    libx264 H.264 / AVC ..": six flags, then the name.

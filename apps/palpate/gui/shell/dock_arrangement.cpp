@@ -148,9 +148,10 @@ void DockArrangement::keepWindowSize(QSize most, Dock* inFront) {
   const auto shrink = [this, most] {
     const QSize now = window_.size();
     const bool larger = now.width() > most.width() || now.height() > most.height();
-    if (larger && window_.isVisible() && !window_.isMaximized() && !window_.isFullScreen())
+    if (larger && !window_.isMaximized() && !window_.isFullScreen())
       window_.resize(now.boundedTo(most));
   };
+  if (!window_.isVisible()) return;
   shrink();
   QTimer::singleShot(0, this, shrink);
 }

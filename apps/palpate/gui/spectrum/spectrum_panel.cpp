@@ -137,7 +137,7 @@ void SpectrumPanel::setSource(const OpenedRecordingPtr& recording, bool live) {
   linePage_->setRecording(recording_);
   header_->setName({});
   if (live)
-    say("Spectra need a recording. Record what is connected (Ctrl+R), and open the recording.");
+    say("Spectra need a recording. Record the connected hand (Ctrl+R), and open the recording.");
   else if (!recording_)
     say("Open a recording to see the spectra of its taxels.");
   else if (recording_->profile.numFrames() == 0)
