@@ -70,6 +70,11 @@ class ExportDialogTest : public ::testing::Test {
   Widget* find(const char* name) {
     return dialog_->findChild<Widget*>(name);
   }
+  // The preview paints the picture when it is painted itself.
+  const PictureLook& paintedLook() {
+    find<ExportPreview>("exportPreview")->grab();
+    return look_;
+  }
   void click(const char* button) { find<QAbstractButton>(button)->click(); }
   QString summary() { return find<QLabel>("exportSummary")->text(); }
   bool canExport() { return find<QPushButton>("exportOk")->isEnabled(); }
@@ -105,7 +110,7 @@ TEST_F(ExportDialogTest, APresetSetsSizeAndTextInProportionToTheView) {
   EXPECT_TRUE(find<QDoubleSpinBox>("exportWidth")->isVisible());
   preset->setCurrentIndex(preset->findText("slide 16:9"));
   EXPECT_EQ(dialog_->request().sizeMm, QSizeF(254.0, 143.0));
-  EXPECT_EQ(look_.textUnits, 32) << "16 pt in halves";
+  EXPECT_EQ(paintedLook().textUnits, 32) << "16 pt in halves";
   EXPECT_NEAR(look_.size.width(), 254.0 / 25.4 * 144.0, 1e-9);
 }
 
@@ -137,12 +142,12 @@ TEST_F(ExportDialogTest, SaysPixelsMillimetresAndBytes) {
 
 TEST_F(ExportDialogTest, ColoursOfPaperOrScreen) {
   open();
-  EXPECT_TRUE(look_.forPrint);
+  EXPECT_TRUE(paintedLook().forPrint);
   find<QComboBox>("exportColors")->setCurrentIndex(1);
-  EXPECT_FALSE(look_.forPrint);
+  EXPECT_FALSE(paintedLook().forPrint);
   EXPECT_FALSE(dialog_->request().forPrint);
   find<QCheckBox>("exportTitled")->setChecked(false);
-  EXPECT_FALSE(look_.titled);
+  EXPECT_FALSE(paintedLook().titled);
 }
 
 TEST_F(ExportDialogTest, ASeriesGoesIntoAFolderOfItsName) {

@@ -3,6 +3,7 @@
 #include <QFontDatabase>
 #include <QFontMetricsF>
 #include <QPainter>
+#include <QPicture>
 #include <algorithm>
 
 #include "gui/appearance/captions.h"

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <QImage>
-#include <QPicture>
 #include <QStringList>
 #include <QThreadPool>
 #include <QTimer>
