@@ -384,8 +384,10 @@ GraspStatus GraspControl::status() const {
   status.cannotReact = status.cannotMove;
   if (status.cannotReact.empty() && !machine_.stream().alive(clock_.monotonicUs()))
     status.cannotReact = "no tactile frames come";
-  if (status.cannotReact.empty() && settingsPending())
+  if (status.cannotReact.empty() && settingsPending()) {
     status.cannotReact = "a tactile setting is being changed";
+    status.changesSetting = true;
+  }
   if (machine_.underTactileControl()) status.cannotChange = "fingers move under tactile control";
   status.periodMs = static_cast<double>(machine_.stream().medianPeriodUs()) / 1e3;
   status.silenceLimitMs = static_cast<double>(machine_.stream().silenceLimitUs()) / 1e3;

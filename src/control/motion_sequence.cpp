@@ -19,7 +19,6 @@ constexpr std::int64_t kSequenceVersion = 1;
 // The answers of a changed tactile setting take about half a second; a step of a sequence waits
 // for them.
 constexpr double kSettingsS = 5.0;
-constexpr const char* kSettingsChange = "a tactile setting is just being changed";
 
 bool isMotion(const SequenceStep& step) {
   return step.kind != Kind::kHold && step.kind != Kind::kWait;
@@ -309,12 +308,12 @@ void SequenceRun::step(std::int64_t hostUs) {
   if (now.phase != GraspPhase::kIdle || (now.last && now.last->beginUs > sinceUs_))
     return finish(at + "the hand does something else", true);
   if (!now.cannotMove.empty()) return finish(at + "the hand can't move: " + now.cannotMove, true);
-  if (usesTactile() && !now.cannotReact.empty() && now.cannotReact != kSettingsChange)
+  if (usesTactile() && !now.cannotReact.empty() && !now.changesSetting)
     return finish(at + now.cannotReact, true);
   const double seconds = static_cast<double>(hostUs - sinceUs_) / kUsPerS;
   if (seconds < step.seconds) return;
   // A setting that is being changed must be done before the next grasp under tactile control.
-  if (now.cannotReact == kSettingsChange && seconds < step.seconds + kSettingsS) return;
+  if (now.changesSetting && seconds < step.seconds + kSettingsS) return;
   next(hostUs);
 }
 

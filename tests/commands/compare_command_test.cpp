@@ -157,7 +157,8 @@ TEST_F(CompareCommandTest, SaysWhatIsWrongWithAnAverage) {
   expectOneLineError(with({"--percentiles", "90,10"}), 2, {"LOW,HIGH"});
   expectOneLineError(with({"--grasp", "1:1"}), 2, {"leave out --grasp"});
   expectOneLineError(with({"--align", "start"}), 2, {"--of recordings"});
-  expectOneLineError(palpate({"compare", a, "--average", "m1_meen"}), 2, {"m1_meen", "no signal"});
+  expectOneLineError(
+      palpate({"compare", a, "--average", "m1_meen"}), 2, {"m1_meen", "not a signal"});
   expectOneLineError(palpate({"compare", a, "--average", "m1_mean+"}), 2, {"as a formula"});
   expectOneLineError(palpate({"compare", a, "--average", "m9_mean"}), 1, {"no matrix 9"});
   expectOneLineError(palpate({"compare", a, a, "--band", "sd"}), 2, {"needs --average"});

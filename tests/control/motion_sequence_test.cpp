@@ -170,6 +170,25 @@ TEST_F(SequenceRunTest, SilenceOfTheTactileStreamEndsAHold) {
   EXPECT_EQ(numMotions(), 0u);
 }
 
+// A hold watches the tactile stream; a changed setting interrupts that for half a second.
+TEST_F(SequenceRunTest, ASettingThatIsChangedInAHoldDelaysTheNextStepOnly) {
+  MotionSequence sequence = everyKind();
+  sequence.steps = {resting(Kind::kHold, 1.0), grasping(GraspMode::kReactive)};
+  run_.begin(sequence, sdh2(), now());
+  pass(0.9);
+  bench_.hand->answers = false;
+  const auto answer = bench_.control->change(SetSensitivity{1, 0.7});
+  pass(0.6);
+  EXPECT_TRUE(run_.running()) << run_.status().text;
+  EXPECT_EQ(run_.status().step, 0u);
+  EXPECT_EQ(numMotions(), 0u);
+  bench_.hand->answers = true;
+  bench_.hand->waiting.at(0).set_value({});
+  pass(0.1);
+  EXPECT_EQ(run_.status().step, 1u) << run_.status().text;
+  EXPECT_EQ(numMotions(), 1u);
+}
+
 TEST_F(SequenceRunTest, AnAlarmEndsItAndStopsTheHand) {
   run_.begin(everyKind(), sdh2(), now());
   run_.end("motor 3 is too hot");

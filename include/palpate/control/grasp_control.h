@@ -44,6 +44,9 @@ struct GraspStatus {
   bool calibrated = false;
   // Reason why no reactive grasp can begin; empty when one can begin.
   std::string cannotReact;
+  // Whether the answer to a changed tactile setting is awaited: the only reason in `cannotReact`
+  // that passes by itself.
+  bool changesSetting = false;
   // Reason why sensitivity, thresholds and masks can't be changed; empty when they can.
   std::string cannotChange;
   double periodMs = 0.0;  // median period of the frames [ms]; 0: not known
