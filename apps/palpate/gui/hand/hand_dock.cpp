@@ -148,6 +148,17 @@ void HandDock::makePages(QSettings& settings, QWidget* content) {
   chooser_->setCurrentIndex(std::clamp(settings.value(kPageKey, 0).toInt(), 0, 2));
 }
 
+QStringList HandDock::pageNames() const {
+  QStringList names;
+  for (int i = 0; i < chooser_->count(); ++i) names.append(chooser_->tabText(i));
+  return names;
+}
+
+void HandDock::showPage(const QString& name) {
+  if (const auto index = pageNames().indexOf(name); index >= 0)
+    chooser_->setCurrentIndex(static_cast<int>(index));
+}
+
 // What all pages that move the hand have in common.
 void HandDock::connectMotions() {
   const auto common = [this](auto* panel) {

@@ -45,10 +45,13 @@ class HandDock : public QWidget {
   // Sets the connected hand; null when there is none. Both must outlive this, or be replaced by
   // null before they are destroyed.
   void setHand(CaptureSession* session, GraspControl* control);
-  // The connected hand was found to be another one, or scans other taxels.
   // Whether the window shows the hand, and not a recording: only then keys and menu move it.
   void setInSight(bool on);
+  // The connected hand was found to be another one, or scans other taxels.
   void updateHand();
+  QStringList pageNames() const;
+  // A name that no page has changes nothing.
+  void showPage(const QString& name);
   // Connects menu entries and keys with the buttons: they do the same and are enabled together.
   // Call it once.
   void bind(const HandActions& actions);

@@ -16,6 +16,8 @@
 #include "gui/connect/connect_feature.h"
 #include "gui/desktop/application.h"
 #include "gui/filter/filter_feature.h"
+#include "gui/hand/hand_dock.h"
+#include "gui/hand/hand_feature.h"
 #include "gui/hand3d/gl_probe.h"
 #include "gui/hand3d/hand3d_feature.h"
 #include "gui/hand3d/hand_panel.h"
@@ -160,6 +162,10 @@ void showDocks(MainWindow& window, const ScreenshotOptions& options) {
       window.docks().show(name);
     // "Calibrate/Noise" names a page of the dock.
     const QString page = QString::fromStdString(dock).section('/', 1);
+    const bool hasPages = name == "Hand" || name == "Calibrate" || name == "Recognise";
+    if (!page.isEmpty() && !hasPages)
+      throw Error("no page '" + page.toStdString() + "': " + name.toStdString() + " has no pages");
+    if (name == "Hand") showPage(window.feature<HandFeature>().panel(), name, page);
     if (name == "Calibrate") showPage(window.feature<CalibrateFeature>().panel(), name, page);
     if (name == "Recognise") showPage(window.feature<RecogniseFeature>().panel(), name, page);
   }
