@@ -114,7 +114,8 @@ TEST(WorkbenchCommand, ScreenshotRefusesBadInput) {
   expectOneLineError(palpate({"--demo", demoFile()}, kHeadless), 2, {"--demo"});
   expectOneLineError(shot({"--frame", "99999999", demoFile()}), 1, {"99999999"});
   expectOneLineError(shot({"--dock", "Nonsense", demoFile()}), 1, {"Nonsense", "Inspect"});
-  expectOneLineError(shot({"--dock", "Hand/Nonsense", demoFile()}), 1, {"Nonsense", "Grasp, Joints"});
+  expectOneLineError(
+      shot({"--dock", "Hand/Nonsense", demoFile()}), 1, {"Nonsense", "Grasp, Joints"});
   expectOneLineError(shot({"--dock", "Inspect/Grasp", demoFile()}), 1, {"Inspect has no pages"});
   expectOneLineError(shot({folder / "missing.dsa"}), 1, {"missing.dsa"});
   expectOneLineError(shot({"--demo", demoFile()}), 2, {"--demo"});

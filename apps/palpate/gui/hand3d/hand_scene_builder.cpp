@@ -609,7 +609,8 @@ void HandSceneBuilder::addSlip(HandScene& scene, const HandLook& look) const {
     const Vector3d from = arrow.originMm + kLiftMm * arrow.normal;
     const Vector3d way = static_cast<double>(kSlipEnlarged) * arrow.vectorMm;
     addArrow(scene, from, way, kContactPx, color.rgb());
-    scene.labels.push_back({from + way, figure(mm, 1) + " mm", color});
+    scene.labels.push_back(
+        {from + way, (slip.slipping ? "slip " : "moved ") + figure(mm, 1) + " mm", color});
   }
   // The motion of the object is drawn only while a contact slips; otherwise it is noise and the
   // effect of the load. It needs the pose of the fingers.
