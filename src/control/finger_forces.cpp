@@ -32,9 +32,10 @@ const Calibration& fitting(const Calibration& calibration, const HandDescription
 }  // namespace
 
 std::size_t numFingers(const HandDescription& hand) {
-  int last = -1;
-  for (const MatrixDescription& matrix : hand.matrices) last = std::max(last, matrix.finger);
-  return static_cast<std::size_t>(last + 1);
+  std::size_t number = 0;
+  for (const MatrixDescription& matrix : hand.matrices)
+    if (matrix.finger >= 0) number = std::max(number, static_cast<std::size_t>(matrix.finger) + 1);
+  return number;
 }
 
 FingerForces::FingerForces(const Calibration& calibration,

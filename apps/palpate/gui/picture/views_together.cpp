@@ -39,6 +39,7 @@ std::vector<const ExportedView*> together(const std::vector<const ExportedView*>
 
 Arrangement arrangedOnScreen(const std::vector<const ExportedView*>& parts) {
   std::vector<QRectF> onScreen;
+  onScreen.reserve(parts.size());
   for (const ExportedView* part : parts)
     onScreen.emplace_back(part->widget->mapToGlobal(QPoint()), part->sizeOnScreen());
   return arrangementOf(onScreen);

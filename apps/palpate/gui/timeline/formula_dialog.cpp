@@ -153,7 +153,7 @@ FormulaCurve FormulaDialog::curve() const {
 
 QString FormulaDialog::problem() const {
   const FormulaCurve now = curve();
-  if (const QString wrong = problemOf(now.formula, &profile_); !wrong.isEmpty()) return wrong;
+  if (QString wrong = problemOf(now.formula, &profile_); !wrong.isEmpty()) return wrong;
   return now.name.isEmpty() ? "The curve needs a name." : QString();
 }
 
