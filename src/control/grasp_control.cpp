@@ -223,6 +223,7 @@ std::string GraspControl::motionProblem(const DeviceStatus& status) {
 void GraspControl::report() {
   for (const GraspStep& note : machine_.takeNotes()) {
     this->note(noteEvent(machine_.running(), note, session_.nowUs()));
+    step_ = note.text;
     reportPhase(machine_.phase(), note.text);
   }
   if (auto ended = machine_.takeReport()) {
@@ -284,6 +285,7 @@ void GraspControl::grasp(const GraspRequest& request, std::optional<std::uint64_
       machine_.setSettings(session_.device().facts().matrices);
       machine_.begin(request, clock_.monotonicUs(), session_.nowUs());
       lastFault_.clear();
+      step_.clear();
       portGone_.reset();
     } catch (const std::exception& error) {
       refused(request, error.what());
@@ -374,7 +376,10 @@ GraspStatus GraspControl::status() const {
   status.phase = machine_.phase();
   // A grasp counts as ended only after its end was delivered to the session, too.
   if (!machine_.active() && pendingEndEvents_ > 0) status.phase = GraspPhase::kStopping;
-  if (machine_.active()) status.request = machine_.running().request;
+  if (machine_.active()) {
+    status.request = machine_.running().request;
+    status.step = step_;
+  }
   status.last = last_;
   status.cannotMove = motionProblem(session_.device().status());
   if (!status.cannotMove.empty()) status.portGone = portGone_;

@@ -300,7 +300,10 @@ RecordingEvent beginEvent(const GraspReport& report) {
 RecordingEvent endEvent(const GraspReport& report) {
   Json json = parameters(report.request);
   json.set("outcome", nameOf(report.outcome));
-  RecordingEvent event{report.beginUs, report.endUs, "grasp", {}, report.text, {}};
+  // The reading is observed until half a second after the stop.
+  const bool atLimit = report.outcome == GraspOutcome::kLimitReached && report.limitUs > 0;
+  RecordingEvent event{
+      report.beginUs, atLimit ? report.limitUs : report.endUs, "grasp", {}, report.text, {}};
   if (report.outcome == GraspOutcome::kLimitReached || report.peak.counts > 0.0F) {
     event.matrix = static_cast<int>(report.peak.matrix);
     json.set("matrix", report.peak.matrix)

@@ -259,6 +259,7 @@ void GraspStateMachine::onFrame(const TactileFrame& frame, std::int64_t monoUs) 
   if (phase_ == GraspPhase::kLoosening && !silence) return onLooseningFrame(monoUs);
   if (phase_ != GraspPhase::kLoosening && isOverLimit()) {
     report_.peakAfterStop = report_.peak = loadedTaxel(report_.request);
+    report_.limitUs = frame.hostUs;
     report_.forceFinger.reset();
     std::string text = placeOf(report_.peak);
     // The limit in counts is named where both are exceeded in the same frame.

@@ -57,7 +57,7 @@ std::unique_ptr<ByteChannel> SerialPortChannel::open(const std::string& path,
   if (sp_get_port_by_name(path.c_str(), &found) != SP_OK)
     throw DeviceError(DeviceFault::kNotFound,
                       name,
-                      "no such port; check its name, and that the adapter is plugged in");
+                      "no such port: plug in the adapter, or check the name of the port");
   Port port(found, Closer{});
   // Locked before libserialport opens and configures the port: another program may be streaming
   // there.

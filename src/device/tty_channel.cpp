@@ -34,7 +34,7 @@ void throwOpenError(int error, const std::string& name) {
     case ELOOP:
       throw DeviceError(DeviceFault::kNotFound,
                         name,
-                        "no such port; check its name, and that the adapter is plugged in");
+                        "no such port: plug in the adapter, or check the name of the port");
     case ENXIO:
     case ENODEV:
     case EIO:

@@ -159,6 +159,8 @@ struct GraspReport {
   std::string text;          // one line for the user
   std::int64_t beginUs = 0;  // host time [us since 1970]
   std::int64_t endUs = 0;    // host time [us since 1970]
+  // For kLimitReached: host time of the frame in which the limit was exceeded [us since 1970].
+  std::int64_t limitUs = 0;
   // For kLimitReached: largest taxel of the frame in which the limit was exceeded; with limits of
   // single fingers the one that is farthest above its limit.
   TaxelPeak peak;

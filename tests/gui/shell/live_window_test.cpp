@@ -150,8 +150,10 @@ TEST_F(LiveWindowTest, StopStaysInSightAndNoKeyMovesAHandThatIsNotShown) {
   }
   QTest::mouseClick(stop, Qt::LeftButton);
   EXPECT_TRUE(await([&] { return !bench_->handMoves(); }));
-  const auto ended = live().source()->control->status().last;
-  ASSERT_TRUE(ended);
+  // The hand stands before its answer to the stop arrives.
+  const GraspControl& control = *live().source()->control;
+  ASSERT_TRUE(await([&] { return control.status().last.has_value(); }));
+  const auto ended = control.status().last;
   EXPECT_EQ(ended->outcome, GraspOutcome::kStopped);
   window().state().displayed.showLive();
   EXPECT_TRUE(await([&] { return actions().at("graspHand")->isEnabled(); }));

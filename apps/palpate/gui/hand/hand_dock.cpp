@@ -105,7 +105,14 @@ QWidget* HandDock::makeHead() {
   // The height is fixed, so that no button moves: users remember the buttons of a robot by their
   // position.
   const int stateHeight = kStateLines * fontMetrics().lineSpacing() + 2;
-  state_->setFixedHeight(stateHeight);
+  // Longer texts are scrolled.
+  stateArea_ = new QScrollArea(head);
+  stateArea_->setFrameShape(QFrame::NoFrame);
+  stateArea_->setWidgetResizable(true);
+  stateArea_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+  stateArea_->setFocusPolicy(Qt::NoFocus);
+  stateArea_->setWidget(state_);
+  stateArea_->setFixedHeight(stateHeight);
   stop_ = new QPushButton("Stop  (Esc)", head);
   stop_->setObjectName("stopHand");
   stop_->setProperty("danger", true);
@@ -114,7 +121,7 @@ QWidget* HandDock::makeHead() {
   stop_->setMinimumWidth(120);
   auto* row = new QHBoxLayout;
   row->setSpacing(12);
-  row->addWidget(state_, 1);
+  row->addWidget(stateArea_, 1);
   row->addWidget(stop_);
   auto* column = new QVBoxLayout(head);
   column->setContentsMargins(kHandDockMargin, 10, kHandDockMargin, 8);
@@ -381,12 +388,13 @@ void HandDock::showBound() {
   }
 }
 
-void HandDock::say(const QString& text, bool bad) {
+void HandDock::say(const QString& text, bool bad, const QString& more) {
   if (state_->text() != text) {
     state_->setText(text);
-    // The whole text, in case it does not fit.
-    state_->setToolTip(text);
+    stateArea_->verticalScrollBar()->setValue(0);
   }
+  const QString tip = more.isEmpty() ? text : text + "\n" + more;
+  if (state_->toolTip() != tip) state_->setToolTip(tip);
   const QColor color = bad ? colorsOf(theme_).danger : colorsOf(theme_).text;
   const QString style = "color: " + color.name() + ";";
   if (state_->styleSheet() != style) state_->setStyleSheet(style);
@@ -410,7 +418,8 @@ void HandDock::showState(const GraspStatus& status) {
     if (status.request) said_.clear();
     return say(phaseText(status), false);
   }
-  if (!status.cannotMove.empty()) return say(motionBlockedReason(status), true);
+  if (!status.cannotMove.empty())
+    return say(motionBlockedReason(status), true, QString::fromStdString(status.cannotMove));
   if (!said_.isEmpty()) return say(said_, true);
   if (!status.last) return say("Ready.", false);
   if (const auto over = lastGraspText(*status.last, status)) return say(*over, false);
@@ -434,21 +443,27 @@ QString HandDock::phaseText(const GraspStatus& status) const {
   // "opening: centrical, 10 deg/s" already names the phase.
   if (isOpening(*status.request) && status.phase == GraspPhase::kClosing)
     return what.replace(": ", " · ");
+  // How it holds, and what may be wrong with it, comes before what was asked for.
+  if (status.phase == GraspPhase::kHolding && !status.step.empty())
+    return QString::fromStdString(status.step) + " · " + what;
   return phase + " · " + what;
 }
 
 QString HandDock::motionBlockedReason(const GraspStatus& status) const {
   const QString why = QString::fromStdString(status.cannotMove);
   if (!status.portGone) return "The hand can't be moved: " + why;
-  const QString gone = "The motion port is disconnected (" + why + "). ";
+  // What the hand does comes first. The status is in red, and the hand is looked for all the time.
+  const QString gone = " The motion port is disconnected: plug it in again.";
   const double remainingMotionS = status.portGone->remainingMotionS.value_or(0.0);
-  if (remainingMotionS == 0.0) return gone + "The hand does not move; the motors are on and hold.";
+  if (remainingMotionS == 0.0) return "The hand does not move; the motors are on and hold." + gone;
   const double leftS =
       remainingMotionS - static_cast<double>(session_->nowUs() - status.portGone->endUs) / kUsPerS;
   if (leftS > 0.0)
-    return gone + "The hand still moves to its target, for " + figure(std::ceil(leftS), 0) +
-           " s at most, and can't be stopped from here.";
-  return gone + "Its motion has ended, and the motors hold.";
+    return "The hand still moves to its target, for " + figure(std::ceil(leftS), 0) +
+           " s at most. The window can't stop it: use the emergency stop, or switch its power "
+           "off." +
+           gone;
+  return "Its motion has ended, and the motors hold." + gone;
 }
 
 // The text when the reason that ended the last grasp no longer exists.

@@ -85,7 +85,8 @@ class HandDock : public QWidget {
   void makePages(QSettings& settings, QWidget* content);
   void connectMotions();
   bool isReadOnly() const { return session_ && !control_; }
-  void say(const QString& text, bool bad);
+  // `more` is told by the tool tip only.
+  void say(const QString& text, bool bad, const QString& more = {});
   void showState(const GraspStatus& status);
   void showBound();
   void showUnmeasurable(const std::vector<MatrixSettings>& settings);
@@ -101,6 +102,7 @@ class HandDock : public QWidget {
   std::shared_ptr<CaptureQueue> queue_;
   std::vector<CaptureItem> items_;
   QLabel* state_;
+  QScrollArea* stateArea_;
   QLabel* heat_;
   QPushButton* stop_;
   // What is absent for a hand that is read only.

@@ -2,6 +2,7 @@
 
 #include "gui/hand/dialog_stop.h"
 #include "gui/hand/hand_dock.h"
+#include "gui/hand/motion_keys.h"
 #include "gui/hand/sensitivity_modes.h"
 #include "gui/widgets/dock.h"
 
@@ -23,6 +24,14 @@ HandFeature::HandFeature(WindowState& windowState, QWidget* window)
   dock_ = new Dock("Hand", panel_, nullptr, window);
   panel_->bind(actions_);
   new DialogStop(*actions_.stopHand, this);
+  auto* keys = new MotionKeys({actions_.graspHand,
+                               actions_.reactiveGrasp,
+                               actions_.slipAwareGrasp,
+                               actions_.openHand,
+                               actions_.relaxHand},
+                              window,
+                              this);
+  connect(keys, &MotionKeys::refused, &windowState.messages, &Messages::flash);
   LiveController& live = windowState.live;
   connect(&live, &LiveController::sourceOpened, this, [this, &live] {
     panel_->setHand(live.source()->session.get(), live.source()->control.get());

@@ -1,0 +1,33 @@
+#include "gui/hand/motion_keys.h"
+
+#include <QApplication>
+#include <QKeyEvent>
+#include <QWidget>
+#include <utility>
+
+namespace palpate::gui {
+
+MotionKeys::MotionKeys(QList<QAction*> actions, QWidget* window, QObject* parent)
+    : QObject(parent), actions_(std::move(actions)), window_(window) {
+  qApp->installEventFilter(this);
+}
+
+bool MotionKeys::eventFilter(QObject* watched, QEvent* event) {
+  // The key of an enabled action arrives as a shortcut, never as a KeyPress.
+  if (event->type() != QEvent::KeyPress) return false;
+  const auto* widget = qobject_cast<QWidget*>(watched);
+  const auto* key = static_cast<QKeyEvent*>(event);
+  if (!widget || widget->window() != window_ || key->isAutoRepeat()) return false;
+  const QKeySequence pressed(key->keyCombination());
+  for (const QAction* action : actions_) {
+    if (action->isEnabled() || !action->shortcuts().contains(pressed)) continue;
+    const bool same = key->timestamp() != 0 && key->timestamp() == lastPress_;
+    lastPress_ = key->timestamp();
+    if (!same) emit refused(action->text().remove('&') + ": " + action->toolTip());
+    // What has the focus must not take it for text.
+    return true;
+  }
+  return false;
+}
+
+}  // namespace palpate::gui

@@ -1,0 +1,31 @@
+// A key of a motion that can't begin now does nothing. This tells why, in the words of the tool tip
+// of the action.
+#pragma once
+
+#include <QAction>
+#include <QList>
+#include <QObject>
+
+namespace palpate::gui {
+
+class MotionKeys : public QObject {
+  Q_OBJECT
+ public:
+  // `window` and the actions must outlive this.
+  MotionKeys(QList<QAction*> actions, QWidget* window, QObject* parent = nullptr);
+
+ signals:
+  // One line: "Reactive grasp: The hand holds what it has grasped: stop it first (Esc)".
+  void refused(const QString& why);
+
+ protected:
+  bool eventFilter(QObject* watched, QEvent* event) override;
+
+ private:
+  QList<QAction*> actions_;
+  QWidget* window_;
+  // Time stamp of the last press [ms]: a press passes through several widgets.
+  quint64 lastPress_ = 0;
+};
+
+}  // namespace palpate::gui

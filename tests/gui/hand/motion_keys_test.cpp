@@ -1,0 +1,56 @@
+#include "gui/hand/motion_keys.h"
+
+#include <QLineEdit>
+#include <QSignalSpy>
+#include <QTest>
+
+#include <gtest/gtest.h>
+
+namespace palpate::gui::motion_keys_test {
+namespace {
+
+class MotionKeysTest : public ::testing::Test {
+ protected:
+  MotionKeysTest() {
+    open_.setShortcut(QKeySequence("Ctrl+Alt+O"));
+    open_.setToolTip("The hand moves: stop it first (Esc)");
+    window_.addAction(&open_);
+    window_.show();
+    field_.setFocus();
+  }
+  void press(Qt::Key key, Qt::KeyboardModifiers modifiers) {
+    QTest::keyClick(&field_, key, modifiers);
+  }
+
+  QWidget window_;
+  QLineEdit field_{&window_};
+  QAction open_{"&Open the hand"};
+  MotionKeys keys_{{&open_}, &window_};
+  QSignalSpy refused_{&keys_, &MotionKeys::refused};
+};
+
+TEST_F(MotionKeysTest, AKeyThatCannotBeTakenSaysWhyOnce) {
+  open_.setEnabled(false);
+  press(Qt::Key_O, Qt::ControlModifier | Qt::AltModifier);
+  ASSERT_EQ(refused_.size(), 1);
+  EXPECT_EQ(refused_[0][0].toString(), "Open the hand: The hand moves: stop it first (Esc)");
+  EXPECT_EQ(field_.text(), "");
+}
+
+TEST_F(MotionKeysTest, OtherKeysAndOtherWindowsAreLeftAlone) {
+  open_.setEnabled(false);
+  press(Qt::Key_O, Qt::NoModifier);
+  EXPECT_EQ(field_.text(), "o");
+  QLineEdit elsewhere;
+  elsewhere.show();
+  QTest::keyClick(&elsewhere, Qt::Key_O, Qt::ControlModifier | Qt::AltModifier);
+  EXPECT_EQ(refused_.size(), 0);
+}
+
+TEST_F(MotionKeysTest, AnEnabledActionIsLeftToQt) {
+  press(Qt::Key_O, Qt::ControlModifier | Qt::AltModifier);
+  EXPECT_EQ(refused_.size(), 0);
+}
+
+}  // namespace
+}  // namespace palpate::gui::motion_keys_test
