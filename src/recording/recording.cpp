@@ -103,9 +103,13 @@ std::vector<RecordingEvent> withOrigin(std::vector<RecordingEvent> events,
                                        const std::string& missing) {
   std::optional<std::int64_t> firstUs;
   const auto take = [&](std::int64_t us) { firstUs = std::min(us, firstUs.value_or(us)); };
-  if (profile.numFrames() > 0) take(profile.frameTimeUs(0));
-  if (profile.numAngles() > 0) take(profile.angleTimeUs(0));
-  if (profile.numTemperatures() > 0) take(profile.temperatureTimeUs(0));
+  // At the first frame, where the timeline begins.
+  if (profile.numFrames() > 0) {
+    take(profile.frameTimeUs(0));
+  } else {
+    if (profile.numAngles() > 0) take(profile.angleTimeUs(0));
+    if (profile.numTemperatures() > 0) take(profile.temperatureTimeUs(0));
+  }
   if (!firstUs) return events;
   RecordingEvent note;
   note.tUs = note.t1Us = *firstUs;

@@ -65,6 +65,8 @@ TEST_F(DeriveCommandTest, SaysWhatIsWrong) {
   expectOneLineError(palpate({"derive", file_, "a=1+"}), 2, {"formula \"1+\""});
   expectOneLineError(palpate({"derive", file_, "m1_meen"}), 1, {"there is no signal \"m1_meen\""});
   expectOneLineError(palpate({"derive", file_, "m9_mean"}), 1, {"there is no signal \"m9_mean\""});
+  expectOneLineError(palpate({"derive", file_, "a=m1_mean", "a=m3_mean"}), 2, {"the name 'a'"});
+  expectOneLineError(palpate({"derive", file_, "frame=m1_mean"}), 2, {"the name 'frame'"});
   expectOneLineError(palpate({"derive", file_, "angle99"}), 1, {"has no angle99"});
   expectOneLineError(
       palpate({"derive", file_, "hand_sum", "--from", "9", "--to", "3"}), 2, {"--from"});

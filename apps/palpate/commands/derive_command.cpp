@@ -1,6 +1,7 @@
 // The command `palpate derive FILE NAME=FORMULA..` prints curves that formulas make of the signals
 // of a recording as CSV.
 #include <cmath>
+#include <set>
 #include <stdexcept>
 #include <utility>
 #include <vector>
@@ -62,6 +63,10 @@ int deriveCommand(const Arguments& words) {
   std::vector<NamedFormula> formulas;
   for (std::size_t i = 1; i < given.words().size(); ++i)
     formulas.push_back(namedFormula(given.words()[i]));
+  std::set<std::string> names = {"frame", "time_s"};
+  for (const NamedFormula& one : formulas)
+    if (!names.insert(one.name).second)
+      throw UsageError("two columns would have the name '" + one.name + "': give another one");
   ProgressLine line("reading " + file, given.quiet());
   const Profile profile =
       filteredBy(recipe, openRecording(file, line.callback()), file, line.callback());

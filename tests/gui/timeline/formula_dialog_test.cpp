@@ -79,6 +79,17 @@ TEST_F(FormulaDialogTest, WritesTheFormulaOfWhatIsChosen) {
   dialog.reject();
 }
 
+TEST_F(FormulaDialogTest, AFormulaOfOnesOwnIsItsName) {
+  windowState_->displayed.show(recording("a"));
+  FormulaDialog& dialog = open();
+  choose(dialog, "formulaOf", "finger 0 distal mean");
+  QTest::keyClicks(&in<QLineEdit>(dialog, "formulaText"), "/20");
+  EXPECT_EQ(dialog.curve(), (FormulaCurve{"m1_mean/20", "m1_mean/20", ""}));
+  QTest::keyClicks(&in<QLineEdit>(dialog, "formulaUnit"), "N");
+  QTest::keyClicks(&in<QLineEdit>(dialog, "formulaText"), "0");
+  EXPECT_EQ(dialog.curve().unit, "N");
+}
+
 TEST_F(FormulaDialogTest, SaysInOneLineWhatIsWrongWhileTyping) {
   windowState_->displayed.show(recording("a"));
   FormulaDialog& dialog = open();

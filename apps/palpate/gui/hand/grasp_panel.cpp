@@ -131,6 +131,7 @@ GraspPanel::GraspPanel(QSettings& settings, QWidget* parent)
   column->addLayout(buttons);
   // Below the buttons, which don't move when it unfolds.
   column->addWidget(options_);
+  column->addStretch(1);
   setTabOrder(relax_, options_);
 
   connect(open_, &QPushButton::clicked, this, [this] {

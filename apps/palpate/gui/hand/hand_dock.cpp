@@ -25,6 +25,7 @@
 #include "gui/hand/tactile_settings_panel.h"
 #include "gui/widgets/facts_view.h"
 #include "gui/widgets/fitting_pages.h"
+#include "gui/widgets/status_lines.h"
 
 namespace palpate::gui {
 namespace {
@@ -98,30 +99,18 @@ HandDock::~HandDock() = default;
 
 QWidget* HandDock::makeHead() {
   auto* head = new QWidget(this);
-  state_ = new QLabel(head);
-  state_->setObjectName("handState");
-  state_->setWordWrap(true);
-  state_->setTextInteractionFlags(Qt::TextSelectableByMouse);
   // The height is fixed, so that no button moves: users remember the buttons of a robot by their
   // position.
-  const int stateHeight = kStateLines * fontMetrics().lineSpacing() + 2;
-  // Longer texts are scrolled.
-  stateArea_ = new QScrollArea(head);
-  stateArea_->setFrameShape(QFrame::NoFrame);
-  stateArea_->setWidgetResizable(true);
-  stateArea_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
-  stateArea_->setFocusPolicy(Qt::NoFocus);
-  stateArea_->setWidget(state_);
-  stateArea_->setFixedHeight(stateHeight);
+  state_ = new StatusLines(kStateLines, "handState", head);
   stop_ = new QPushButton("Stop  (Esc)", head);
   stop_->setObjectName("stopHand");
   stop_->setProperty("danger", true);
   stop_->setFocusPolicy(Qt::TabFocus);
-  stop_->setFixedHeight(stateHeight);
+  stop_->setFixedHeight(state_->height());
   stop_->setMinimumWidth(120);
   auto* row = new QHBoxLayout;
   row->setSpacing(12);
-  row->addWidget(stateArea_, 1);
+  row->addWidget(state_, 1);
   row->addWidget(stop_);
   auto* column = new QVBoxLayout(head);
   column->setContentsMargins(kHandDockMargin, 10, kHandDockMargin, 8);
@@ -389,15 +378,10 @@ void HandDock::showBound() {
 }
 
 void HandDock::say(const QString& text, bool bad, const QString& more) {
-  if (state_->text() != text) {
-    state_->setText(text);
-    stateArea_->verticalScrollBar()->setValue(0);
-  }
-  const QString tip = more.isEmpty() ? text : text + "\n" + more;
-  if (state_->toolTip() != tip) state_->setToolTip(tip);
+  state_->setText(text, more.isEmpty() ? QString() : text + "\n" + more);
   const QColor color = bad ? colorsOf(theme_).danger : colorsOf(theme_).text;
   const QString style = "color: " + color.name() + ";";
-  if (state_->styleSheet() != style) state_->setStyleSheet(style);
+  if (state_->label().styleSheet() != style) state_->label().setStyleSheet(style);
 }
 
 void HandDock::showState(const GraspStatus& status) {
@@ -520,7 +504,7 @@ void HandDock::setTheme(Theme theme) {
   angles_->setTheme(theme);
   temperatures_->setTheme(theme);
   heat_->setStyleSheet("color: " + colorsOf(theme).warning.name() + "; font-weight: bold;");
-  state_->setStyleSheet({});
+  state_->label().setStyleSheet({});
   refresh();
 }
 

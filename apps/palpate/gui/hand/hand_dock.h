@@ -33,6 +33,7 @@ class GraspPanel;
 class JointPanel;
 class SequencePanel;
 class SensitivityModes;
+class StatusLines;
 class StopKey;
 class TactileSettingsPanel;
 
@@ -101,8 +102,7 @@ class HandDock : public QWidget {
   GraspControl* control_ = nullptr;
   std::shared_ptr<CaptureQueue> queue_;
   std::vector<CaptureItem> items_;
-  QLabel* state_;
-  QScrollArea* stateArea_;
+  StatusLines* state_;
   QLabel* heat_;
   QPushButton* stop_;
   // What is absent for a hand that is read only.

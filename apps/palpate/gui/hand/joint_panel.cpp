@@ -99,6 +99,7 @@ JointPanel::JointPanel(QSettings& settings, QWidget* parent)
   column->addLayout(grid);
   column->addLayout(row);
   column->addWidget(makePoses());
+  column->addStretch(1);
   connect(velocity_, &ValueSlider::chosen, this, [this](double value) {
     settings_.setValue(kJointVelocity, value);
   });

@@ -18,6 +18,7 @@
 
 #include "gui/desktop/button_keys.h"
 #include "gui/widgets/number_field.h"
+#include "gui/widgets/status_lines.h"
 
 namespace palpate::gui {
 namespace {
@@ -101,12 +102,8 @@ void SequencePanel::makeButtons() {
   menu->addAction("Open…", this, &SequencePanel::openFile)->setObjectName("openSequence");
   menu->addAction("Save…", this, &SequencePanel::saveFile)->setObjectName("saveSequence");
   file_->setMenu(menu);
-  state_ = new QLabel(this);
-  state_->setObjectName("sequenceState");
-  state_->setProperty("role", "muted");
-  state_->setWordWrap(true);
-  // Room for two lines, so that nothing moves.
-  state_->setFixedHeight(2 * fontMetrics().lineSpacing() + 2);
+  state_ = new StatusLines(3, "sequenceState", this);
+  state_->label().setProperty("role", "muted");
   auto* edit = new QHBoxLayout;
   edit->setSpacing(6);
   edit->addWidget(add_);
@@ -128,6 +125,8 @@ void SequencePanel::makeButtons() {
   column->addLayout(edit);
   column->addLayout(go);
   column->addWidget(state_);
+  // What is left of the height is below: no button moves when another page is higher.
+  column->addStretch(1);
   connect(remove_, &QPushButton::clicked, this, [this] {
     const int row = steps_->currentRow();
     if (row < 0) return;
@@ -279,6 +278,8 @@ void SequencePanel::saveFile() {
     OutputFile file(path.toStdString(), Overwrite::kReplace);
     file.write(sequenceText(sequence_));
     file.commit();
+    said_ = "Saved: " + path;
+    refresh(control_ ? control_->status() : GraspStatus{});
   } catch (const Error& error) {
     emit refused(error.what());
   }
@@ -327,10 +328,13 @@ void SequencePanel::refresh(const GraspStatus& status) {
   steps_->setEnabled(!runs);
   if (runs && row != static_cast<int>(run_->status().step))
     steps_->setCurrentRow(static_cast<int>(run_->status().step));
-  const QString text = stateText();
-  if (state_->text() == text) return;
-  state_->setText(text);
-  state_->setToolTip(text);
+  if (runs) said_.clear();
+  const QString empty = sequence_.steps.empty() && !runs
+                            ? QString(
+                                  "Add steps: each takes the values of the pages Grasp and "
+                                  "Joints. Start does all of them in order.")
+                            : QString();
+  state_->setText(!said_.isEmpty() ? said_ : !empty.isEmpty() ? empty : stateText());
 }
 
 }  // namespace palpate::gui

@@ -12,13 +12,14 @@
 #include <palpate/control/motion_sequence.h>
 
 class QDoubleSpinBox;
-class QLabel;
 class QListWidget;
 class QMenu;
 class QPushButton;
 class QSpinBox;
 
 namespace palpate::gui {
+
+class StatusLines;
 
 class SequencePanel : public QWidget {
   Q_OBJECT
@@ -80,7 +81,9 @@ class SequencePanel : public QWidget {
   QSpinBox* times_;
   QPushButton* start_;
   QPushButton* file_;
-  QLabel* state_;
+  StatusLines* state_;
+  // What the page did last, until the sequence runs.
+  QString said_;
 };
 
 }  // namespace palpate::gui

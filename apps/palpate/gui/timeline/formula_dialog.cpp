@@ -140,7 +140,13 @@ FormulaDialog::FormulaDialog(std::vector<FormulaSignal> from,
   connect(formula_, &QLineEdit::textChanged, this, &FormulaDialog::check);
   connect(name_, &QLineEdit::textChanged, this, &FormulaDialog::check);
   connect(name_, &QLineEdit::textEdited, this, [this] { ownName_ = true; });
-  ownName_ = !before.name.isEmpty();
+  connect(unit_, &QLineEdit::textEdited, this, [this] { ownUnit_ = true; });
+  // A formula of one's own isn't what the lists above have named.
+  connect(formula_, &QLineEdit::textEdited, this, [this](const QString& text) {
+    if (!ownName_) name_->setText(text.simplified().left(FormulaCurves::kMaxNameLength));
+    if (!ownUnit_) unit_->clear();
+  });
+  ownName_ = ownUnit_ = !before.name.isEmpty();
   if (before.formula.isEmpty())
     write();
   else

@@ -61,6 +61,7 @@ class FormulaDialog : public QDialog {
   QPushButton* good_;
   // The name was typed, not made of the choice.
   bool ownName_ = false;
+  bool ownUnit_ = false;
 };
 
 }  // namespace palpate::gui

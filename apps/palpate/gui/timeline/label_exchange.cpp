@@ -86,7 +86,8 @@ void LabelExchange::importLabels() {
       });
     const std::size_t known = table.events.size() - added.size();
     QString said = name + ": " + labelCount(added.size()) + " added";
-    if (known > 0) said += ", " + QString::number(known) + " were there already";
+    if (known > 0)
+      said += ", " + QString::number(known) + (known == 1 ? " was" : " were") + " there already";
     if (table.problems.empty()) return messages.flash(said);
     QStringList problems;
     for (const std::string& problem : table.problems) {
