@@ -235,9 +235,9 @@ TEST(ByteChannel, RefusesWhatIsNoPort) {
   };
   EXPECT_EQ(fault(file, "file"), DeviceFault::kNotFound);
   EXPECT_EQ(fault(here, "folder"), DeviceFault::kNotFound);
-  EXPECT_EQ(fault(dangling, "plugged in"), DeviceFault::kNotFound);
+  EXPECT_EQ(fault(dangling, "plug in the adapter"), DeviceFault::kNotFound);
   EXPECT_EQ(fault("/dev/null", "isn't a serial line"), DeviceFault::kNotFound);
-  EXPECT_EQ(fault("/dev/ttyNONE9", "plugged in"), DeviceFault::kNotFound);
+  EXPECT_EQ(fault("/dev/ttyNONE9", "plug in the adapter"), DeviceFault::kNotFound);
   EXPECT_EQ(fault("", "isn't the name of a port"), DeviceFault::kNotFound);
   EXPECT_EQ(testing::readFile(file), "x");
 }
