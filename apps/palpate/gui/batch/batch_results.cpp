@@ -19,6 +19,7 @@
 #include <palpate/core/escaped_line.h>
 #include <palpate/core/text_table.h>
 
+#include "gui/appearance/captions.h"
 #include "gui/desktop/reveal_file.h"
 
 namespace palpate::gui {
@@ -184,7 +185,7 @@ void BatchResults::fill() {
       (outcome_->report.cancelled ? "Cancelled: " : "") + countsText(outcome_->report.status) + ".";
   if (outcome_->report.cancelled) text += " Start goes on with what is not done.";
   for (const std::string& problem : outcome_->plan.problems)
-    text += "\n" + QString::fromStdString(escapedLine(problem));
+    text += "\n" + inWindowWords(QString::fromStdString(escapedLine(problem)));
   summary_->setText(text);
 }
 

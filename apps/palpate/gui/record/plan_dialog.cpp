@@ -235,6 +235,8 @@ void PlanDialog::removeRow() {
 void PlanDialog::importTable() {
   const QString path =
       windowState_.prompts.file("Read a plan", windowState_.recent.lastFolder(), kPlanTables);
+  // The file dialogue is one of the main window, which would have the keyboard then.
+  activateWindow();
   if (path.isEmpty()) return;
   const bool replaces = controller_.plan().numDone() > 0;
   if (replaces && !windowState_.prompts.confirmed(

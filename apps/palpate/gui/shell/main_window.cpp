@@ -25,7 +25,7 @@ ShellActions::ShellActions(ActionRegistry& book) {
   resetLayout = book.make("resetLayout", "View", "Reset la&yout", {key("Ctrl+Shift+R")});
   dismiss = book.make("dismiss",
                       "Help",
-                      "Stop the hand; close the message, stop opening, leave full screen",
+                      "Stop the hand; close the message, clear the selection, stop opening, leave full screen",
                       {key("Esc")});
   hideInMenus(*dismiss);
   themes = book.choices("themes", {"as the desktop", "dark", "light"});
