@@ -223,7 +223,6 @@ std::string GraspControl::motionProblem(const DeviceStatus& status) {
 void GraspControl::report() {
   for (const GraspStep& note : machine_.takeNotes()) {
     this->note(noteEvent(machine_.running(), note, session_.nowUs()));
-    step_ = note.text;
     reportPhase(machine_.phase(), note.text);
   }
   if (auto ended = machine_.takeReport()) {
@@ -285,7 +284,6 @@ void GraspControl::grasp(const GraspRequest& request, std::optional<std::uint64_
       machine_.setSettings(session_.device().facts().matrices);
       machine_.begin(request, clock_.monotonicUs(), session_.nowUs());
       lastFault_.clear();
-      step_.clear();
       portGone_.reset();
     } catch (const std::exception& error) {
       refused(request, error.what());
@@ -378,7 +376,7 @@ GraspStatus GraspControl::status() const {
   if (!machine_.active() && pendingEndEvents_ > 0) status.phase = GraspPhase::kStopping;
   if (machine_.active()) {
     status.request = machine_.running().request;
-    status.step = step_;
+    if (machine_.phase() == GraspPhase::kHolding) status.holding = machine_.holdingText();
   }
   status.last = last_;
   status.cannotMove = motionProblem(session_.device().status());

@@ -302,8 +302,12 @@ RecordingEvent endEvent(const GraspReport& report) {
   json.set("outcome", nameOf(report.outcome));
   // The reading is observed until half a second after the stop.
   const bool atLimit = report.outcome == GraspOutcome::kLimitReached && report.limitUs > 0;
-  RecordingEvent event{
-      report.beginUs, atLimit ? report.limitUs : report.endUs, "grasp", {}, report.text, {}};
+  RecordingEvent event{report.beginUs,
+                       atLimit ? std::max(report.beginUs, report.limitUs) : report.endUs,
+                       "grasp",
+                       {},
+                       report.text,
+                       {}};
   if (report.outcome == GraspOutcome::kLimitReached || report.peak.counts > 0.0F) {
     event.matrix = static_cast<int>(report.peak.matrix);
     json.set("matrix", report.peak.matrix)

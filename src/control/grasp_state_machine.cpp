@@ -529,8 +529,6 @@ void GraspStateMachine::settle(std::int64_t monoUs) {
   if (endUs_ == 0 && holding.holdS > 0.0) endUs_ = settledUs_ + microsecondsOf(holding.holdS);
 }
 
-// Text such as "holding: limit 200 counts; rose to 3331 after the stop, above its highest limit of
-// 2200: close more slowly".
 std::string GraspStateMachine::holdingText() const {
   std::string text = "holding: limit " + std::to_string(limit_) + " counts";
   const int highest = report_.request.holding.maxLimitCounts;

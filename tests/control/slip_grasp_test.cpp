@@ -49,6 +49,8 @@ TEST(SlipGrasp, HoldsWhatRestsAndMovesNothing) {
   EXPECT_EQ(held.machine().running().slips, 0);
   EXPECT_EQ(held.hand().joints().motionCount(), motionCount);
   EXPECT_EQ(held.actions("holding"), 1);
+  EXPECT_TRUE(held.machine().holdingText().starts_with("holding: limit 400 counts"))
+      << held.machine().holdingText();
 }
 
 struct Pulled {
@@ -56,6 +58,7 @@ struct Pulled {
   int slips = 0;
   int limit = 0;
   GraspPhase phase = GraspPhase::kIdle;
+  std::string holding;
   std::string log;
 };
 
@@ -75,6 +78,7 @@ Pulled pullTheHandle(GraspMode mode, const HoldingOptions& holding = {}) {
                 held.machine().running().slips,
                 held.machine().running().limitCounts,
                 held.machine().phase(),
+                held.machine().holdingText(),
                 {}};
   for (const GraspStep& note : held.notes()) pulled.log += note.action + ": " + note.text + "\n";
   return pulled;
@@ -88,6 +92,9 @@ TEST(SlipGrasp, ClosesAgainUponWhatSlipsAndItStays) {
   EXPECT_GE(aware.slips, 2) << aware.log;
   EXPECT_GT(aware.limit, 400) << aware.log;
   EXPECT_LE(aware.limit, kMaxSlipLimitCounts) << aware.log;
+  // Whatever was the last step, it tells how it holds now.
+  EXPECT_TRUE(aware.holding.starts_with("holding: limit " + std::to_string(aware.limit)))
+      << aware.holding;
 }
 
 TEST(SlipGrasp, LowersItsLimitWhenNothingSlipsAndOpensOnlyWhenTold) {

@@ -30,8 +30,8 @@ namespace palpate {
 struct GraspStatus {
   GraspPhase phase = GraspPhase::kIdle;
   std::optional<GraspRequest> request;  // the running grasp
-  // The last step of the running grasp, one line, as "holding: limit 200 counts"; empty before it.
-  std::string step;
+  // While a slip-aware grasp holds: its limit, and how far the reading rose above it. One line.
+  std::string holding;
   std::optional<GraspReport> last;  // the grasp that ended last, including a refused one
   // Reason why no motion can begin, one line; empty when one can begin.
   std::string cannotMove;
@@ -153,7 +153,6 @@ class GraspControl {
   std::uint64_t stopsAsked_ = 0;
   bool calibrated_ = false;
   // Last reported fault; the same fault is not reported again for a while in this grasp.
-  std::string step_;
   std::string lastFault_;
   std::int64_t lastFaultUs_ = 0;  // [monotonic us]
   struct PendingEvent {

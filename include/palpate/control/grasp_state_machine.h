@@ -93,6 +93,9 @@ class GraspStateMachine {
     return active() && report_.request.mode != GraspMode::kPlain;
   }
   const GraspReport& running() const noexcept { return report_; }
+  // Text such as "holding: limit 200 counts; rose to 3331 after the stop, above its highest limit
+  // of 2200: close more slowly"; only of a slip-aware grasp.
+  std::string holdingText() const;
   const StreamMonitor& stream() const noexcept { return stream_; }
   const TaxelPeak& peak() const noexcept { return peak_; }  // of the newest frame
   // Joint angles as last read [deg]; empty: not known.
@@ -126,7 +129,6 @@ class GraspStateMachine {
   void endOvershoot();
   void measurePeakAfterStop();
   std::string riseText() const;
-  std::string holdingText() const;
   bool isOverLimit() const noexcept;
   // The taxel that is nearest to its limit, or farthest above it.
   const TaxelPeak& loadedTaxel(const GraspRequest& request) const noexcept;

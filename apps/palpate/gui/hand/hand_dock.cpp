@@ -428,8 +428,8 @@ QString HandDock::phaseText(const GraspStatus& status) const {
   if (isOpening(*status.request) && status.phase == GraspPhase::kClosing)
     return what.replace(": ", " · ");
   // How it holds, and what may be wrong with it, comes before what was asked for.
-  if (status.phase == GraspPhase::kHolding && !status.step.empty())
-    return QString::fromStdString(status.step) + " · " + what;
+  if (status.phase == GraspPhase::kHolding && !status.holding.empty())
+    return QString::fromStdString(status.holding) + " · " + what;
   return phase + " · " + what;
 }
 

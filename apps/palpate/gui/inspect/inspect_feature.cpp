@@ -64,14 +64,11 @@ InspectFeature::InspectFeature(WindowState& windowState, QWidget* window)
   });
   connect(
       &windowState.currentFrame, &CurrentFrame::resultsReceived, panel_, &InspectPanel::showLive);
-  connect(&windowState.currentFrame,
-          &CurrentFrame::staleNoticeChanged,
-          this,
-          [this, &windowState, &table] {
-            if (!windowState.displayed.isLive()) return;
-            panel_->showLatest();
-            table.setStale(!windowState.currentFrame.old().notice.isEmpty());
-          });
+  connect(&windowState.currentFrame, &CurrentFrame::staleNoticeChanged, this, [this, &windowState] {
+    if (!windowState.displayed.isLive()) return;
+    panel_->showLatest();
+    panel_->setStale(!windowState.currentFrame.old().notice.isEmpty());
+  });
   connect(&windowState.events, &EventController::changed, this, [this, &windowState] {
     if (const EventEditor* editor = windowState.events.editor())
       panel_->showEvents(editor->events());
@@ -119,7 +116,7 @@ void InspectFeature::takeSource() {
   } else {
     panel_->setRecording(displayed.filteredRecording(), displayed.unfilteredRecording());
   }
-  panel_->table().setStale(displayed.isLive() && !state().currentFrame.old().notice.isEmpty());
+  panel_->setStale(displayed.isLive() && !state().currentFrame.old().notice.isEmpty());
   showPlotted();
   showLinkFacts();
 }

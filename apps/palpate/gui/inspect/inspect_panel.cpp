@@ -277,6 +277,11 @@ void InspectPanel::showTemperatures(const Temperatures& temperatures) {
   }
 }
 
+void InspectPanel::setStale(bool old) {
+  model_->setStale(old);
+  for (FactsView* facts : {angles_, temperatures_}) facts->setStale(old);
+}
+
 void InspectPanel::setTheme(Theme theme) {
   model_->setTheme(theme);
   matrices_->setTheme(theme);

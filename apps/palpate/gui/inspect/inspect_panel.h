@@ -46,6 +46,8 @@ class InspectPanel : public QScrollArea {
   void showLatest();
   void setTheme(Theme theme);
   MatrixTableModel& table() noexcept { return *model_; }
+  // Whether the figures of the matrices, angles and temperatures are old: they are grey then.
+  void setStale(bool old);
   QSize sizeHint() const override { return {470, 400}; }
 
  protected:

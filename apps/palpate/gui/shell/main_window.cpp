@@ -23,10 +23,11 @@ ShellActions::ShellActions(ActionRegistry& book) {
   nextTheme = book.make("nextTheme", "View", "Dark or light", {key("Ctrl+T")});
   fullScreen = book.make("fullScreen", "View", "F&ull screen", {key("F11")}, true);
   resetLayout = book.make("resetLayout", "View", "Reset la&yout", {key("Ctrl+Shift+R")});
-  dismiss = book.make("dismiss",
-                      "Help",
-                      "Stop the hand; close the message, clear the selection, stop opening, leave full screen",
-                      {key("Esc")});
+  dismiss = book.make(
+      "dismiss",
+      "Help",
+      "Stop the hand; close the message, clear the selection, stop opening, leave full screen",
+      {key("Esc")});
   hideInMenus(*dismiss);
   themes = book.choices("themes", {"as the desktop", "dark", "light"});
 }
