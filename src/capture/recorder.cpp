@@ -115,6 +115,16 @@ struct Recorder::Impl {
     for (const CaptureItem& item : kept) parts->add(item, time);
   }
 
+  void moveWhenAsked() {
+    std::optional<fs::path> folder;
+    {
+      const std::lock_guard lock(mutex);
+      std::swap(folder, folderRequest);
+    }
+    if (folder && parts) parts->continueIn(*folder, now());
+    if (folder) freeBytesMonoUs.reset();
+  }
+
   void handle(std::vector<CaptureItem>& taken) {
     const RoundTime time = now();
     for (const CaptureItem& item : taken) {
@@ -133,6 +143,7 @@ struct Recorder::Impl {
       stopping = stopRequested;
     }
     beginWhenAsked();
+    moveWhenAsked();
     // Items that arrived during a slow write are as old as that write; so the time is taken again.
     const std::int64_t takingMonoUs = clock.monotonicUs();
     std::vector<RecordingEvent> ownGaps;
@@ -186,6 +197,7 @@ struct Recorder::Impl {
     const std::lock_guard lock(mutex);
     report = std::move(done);
     request.reset();
+    folderRequest.reset();
     stopRequested = false;
     active = false;
     stopped.notify_all();
@@ -232,6 +244,7 @@ struct Recorder::Impl {
   std::condition_variable stopped;
   std::optional<RecordingOptions> request;
   RoundTime requestTime;
+  std::optional<fs::path> folderRequest;
   bool active = false;
   bool stopRequested = false;
   RecordingReport report;
@@ -323,6 +336,14 @@ void Recorder::start(RecordingOptions options) {
   impl.status = {};
   impl.status.state = armed ? RecorderStatus::State::kArmed : RecorderStatus::State::kWaiting;
   impl.queue.wake();
+}
+
+void Recorder::continueIn(const fs::path& folder) {
+  requireWritableFolder(folder);
+  const std::lock_guard lock(impl_->mutex);
+  if (!impl_->active) throw std::logic_error("Recorder: records nothing");
+  impl_->folderRequest = folder;
+  impl_->queue.wake();
 }
 
 RecordingReport Recorder::stop() {

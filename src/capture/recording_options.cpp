@@ -26,7 +26,11 @@ void requireNewFile(const fs::path& path) {
   std::error_code failure;
   if (fs::exists(fs::symlink_status(path, failure)))
     throw FileError(path, "exists already; a recording is never replaced: give another name");
-  const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
+  requireWritableFolder(path.has_parent_path() ? path.parent_path() : fs::path("."));
+}
+
+void requireWritableFolder(const fs::path& folder) {
+  std::error_code failure;
   if (!fs::is_directory(folder, failure))
     throw FileError(folder, "isn't a folder: create it first");
   if (::access(folder.c_str(), W_OK | X_OK) != 0)

@@ -48,7 +48,8 @@ RecordingParts::RecordingParts(RecordingOptions options,
       vfs_(recorder.vfs),
       start_(start),
       notice_(std::move(notice)),
-      folder_(options_.path.has_parent_path() ? options_.path.parent_path() : fs::path(".")),
+      base_(options_.path),
+      folder_(base_.has_parent_path() ? base_.parent_path() : fs::path(".")),
       contact_(options_.contact),
       armed_(options_.startOnContact) {
   if (options_.mcap) mcap_ = std::make_unique<McapMirror>(*options_.mcap, options_.mcapQueueItems);
@@ -148,10 +149,10 @@ std::unique_ptr<PalpateWriter> RecordingParts::makeWriter(
   const auto exists = [&](const fs::path& path) {
     return fs::exists(fs::symlink_status(path, ignored));
   };
-  while (exists(partPath(options_.path, nextPart_)) ||
-         (mcap_ && exists(mcapPathOf(partPath(options_.path, nextPart_)))))
+  while (exists(partPath(base_, nextPart_)) ||
+         (mcap_ && exists(mcapPathOf(partPath(base_, nextPart_)))))
     ++nextPart_;
-  const fs::path path = partPath(options_.path, nextPart_);
+  const fs::path path = partPath(base_, nextPart_);
   if (!paths_.empty()) {
     meta["part"] = std::to_string(paths_.size() + 1);
     meta["part_of"] = paths_.front().filename().string();
@@ -202,7 +203,8 @@ void RecordingParts::split(const TactileFrame& frame, RoundTime time) {
     writePendingEvents();  // first: after a failure no new part may exist yet
     std::unique_ptr<PalpateWriter> next = makeWriter(frame.layout);
     closing_ = std::exchange(writer_, std::move(next));
-    layout_ = frame.layout;
+    closingLayout_ = std::exchange(layout_, frame.layout);
+    uncommittedBefore_ = std::exchange(uncommitted_, {});
     partHasFrames_ = false;
     dirtySinceMonoUs_.reset();
     dirtyItems_ = 0;
@@ -224,6 +226,7 @@ bool RecordingParts::closeOldPart(RoundTime time) {
   framesInOldParts_ += closing_->framesOnDisk();
   bytesInOldParts_ += closing_->bytesOnDisk();
   closing_.reset();
+  uncommittedBefore_.clear();
   return true;
 }
 
@@ -243,23 +246,103 @@ void RecordingParts::write(const CaptureItem& item, RoundTime time) {
   if (!dirtySinceMonoUs_) dirtySinceMonoUs_ = time.sinceMonoUs;
 }
 
+namespace {
+
+void append(PalpateWriter& writer, const CaptureItem& item) {
+  if (const auto* frame = std::get_if<SharedFrame>(&item))
+    writer.addFrame(**frame);
+  else if (const auto* angles = std::get_if<JointAngles>(&item))
+    writer.addAngles(*angles);
+  else if (const auto* temperatures = std::get_if<Temperatures>(&item))
+    writer.addTemperatures(*temperatures);
+  else if (const auto* event = std::get_if<RecordingEvent>(&item))
+    writer.addEvent(*event);
+}
+
+}  // namespace
+
 void RecordingParts::writeTo(const CaptureItem& item) {
-  if (const auto* frame = std::get_if<SharedFrame>(&item)) {
-    writer_->addFrame(**frame);
-    if (!partHasFrames_) partFirstUs_ = (*frame)->hostUs;
-    partHasFrames_ = true;
-    intervals_.add((*frame)->hostUs);
-    ++counts_.frames;
-  } else if (const auto* angles = std::get_if<JointAngles>(&item)) {
-    writer_->addAngles(*angles);
-    ++counts_.angles;
-  } else if (const auto* temperatures = std::get_if<Temperatures>(&item)) {
-    writer_->addTemperatures(*temperatures);
-    ++counts_.temperatures;
-  } else if (const auto* event = std::get_if<RecordingEvent>(&item)) {
-    writer_->addEvent(*event);
-    ++counts_.events;
+  append(*writer_, item);
+  keepUncommitted(item);
+  switch (streamOf(item)) {
+    case CaptureStream::kTactile: {
+      const std::int64_t stampUs = stampOf(item);
+      if (!partHasFrames_) partFirstUs_ = stampUs;
+      partHasFrames_ = true;
+      intervals_.add(stampUs);
+      ++counts_.frames;
+      break;
+    }
+    case CaptureStream::kAngles: ++counts_.angles; break;
+    case CaptureStream::kTemperatures: ++counts_.temperatures; break;
+    case CaptureStream::kEvents: ++counts_.events; break;
   }
+}
+
+void RecordingParts::keepUncommitted(const CaptureItem& item) {
+  uncommitted_.push_back(item);
+  if (uncommitted_.size() <= kMostHeld) return;
+  if (streamOf(uncommitted_.front()) == CaptureStream::kTactile) {
+    const std::int64_t stampUs = stampOf(uncommitted_.front());
+    if (!forgottenFrames_) forgottenFrames_ = CaptureLoss{stampUs, stampUs, 0};
+    forgottenFrames_->lastUs = stampUs;
+    ++forgottenFrames_->count;
+  }
+  uncommitted_.pop_front();
+}
+
+// A part in the present folder that contains `items`, in place of `old`.
+std::unique_ptr<PalpateWriter> RecordingParts::replaced(
+    std::unique_ptr<PalpateWriter>& old,
+    const std::shared_ptr<const SensorLayout>& layout,
+    const std::deque<CaptureItem>& items) {
+  std::unique_ptr<PalpateWriter> next = makeWriter(layout);
+  for (const CaptureItem& item : items) append(*next, item);
+  next->commit();
+  framesInOldParts_ += old->framesOnDisk();
+  bytesInOldParts_ += old->bytesOnDisk();
+  old->abandon();
+  return next;
+}
+
+void RecordingParts::continueIn(const fs::path& folder, RoundTime time) {
+  const fs::path before = base_;
+  const int partBefore = nextPart_;
+  const std::vector<fs::path> pathsBefore = paths_;
+  base_ = folder / base_.filename();
+  folder_ = folder;
+  nextPart_ = 1;
+  nextTryMonoUs_ = time.monoUs;
+  if (!writer_) {
+    if (frameHeld_) open(time);
+    return;
+  }
+  try {
+    if (closing_) {
+      closing_ = replaced(closing_, closingLayout_, uncommittedBefore_);
+      abandoned_.push_back(pathsBefore.at(pathsBefore.size() - 2));
+      uncommittedBefore_.clear();
+    }
+    writer_ = replaced(writer_, layout_, uncommitted_);
+    abandoned_.push_back(pathsBefore.back());
+  } catch (const std::exception& error) {
+    // A part that was begun in vain remains, unfinished and without anything that is missing here.
+    base_ = before;
+    folder_ = before.has_parent_path() ? before.parent_path() : fs::path(".");
+    nextPart_ = partBefore;
+    return onCommitFailed(error.what(), time);
+  }
+  uncommitted_.clear();
+  dirtySinceMonoUs_.reset();
+  dirtyItems_ = 0;
+  lastCounters_.clear();
+  if (const auto loss = std::exchange(forgottenFrames_, {})) {
+    counts_.lost += static_cast<std::int64_t>(loss->count);
+    counts_.frames -= static_cast<std::int64_t>(loss->count);
+    addOwn(gapEvent(CaptureStream::kTactile, *loss, "the disk could not be written"));
+  }
+  onCommitSucceeded(time);
+  closeOldPart(time);
 }
 
 void RecordingParts::recordLoss(const CaptureItem& item) {
@@ -291,6 +374,7 @@ void RecordingParts::writePendingEvents() {
   while (!unwrittenEvents_.empty()) {
     // Throws while the disk is full; the event then stays pending.
     writer_->addEvent(unwrittenEvents_.front());
+    keepUncommitted(unwrittenEvents_.front());
     if (mcap_) mcap_->add(unwrittenEvents_.front());
     ++counts_.events;
     ++dirtyItems_;
@@ -357,6 +441,8 @@ void RecordingParts::commit(RoundTime time) {
   }
   dirtySinceMonoUs_.reset();
   dirtyItems_ = 0;
+  uncommitted_.clear();
+  forgottenFrames_.reset();
   if (!closing_) onCommitSucceeded(time);
 }
 
@@ -443,9 +529,24 @@ void RecordingParts::describe(RecorderStatus& status) const {
   status.mcapFailure = mcapFailure_;
 }
 
+// Which parts are unfinished elsewhere.
+std::string RecordingParts::abandonedText() const {
+  std::string text = abandoned_.front().filename().string();
+  if (abandoned_.size() > 1) text += " and " + std::to_string(abandoned_.size() - 1) + " more";
+  return text + " could not be finished where it was begun: 'palpate recover' finishes it; " +
+         paths_.back().filename().string() + " in " + paths_.back().parent_path().string() +
+         " continues it";
+}
+
 RecordingReport RecordingParts::report() const {
   RecordingReport report = counts_;
   report.paths = paths_;
+  // What was moved away with its folder isn't found under its name.
+  std::error_code ignored;
+  std::erase_if(report.paths, [&](const fs::path& path) {
+    return std::find(abandoned_.begin(), abandoned_.end(), path) != abandoned_.end() &&
+           !fs::exists(path, ignored);
+  });
   report.lost += lostInQueues_;
   report.gaps = intervals_.gaps();
   report.firstFrameUs = intervals_.firstUs();
@@ -468,8 +569,10 @@ RecordingReport RecordingParts::report() const {
   else if (report.refused > 0)
     report.message = std::to_string(report.refused) + " items were refused: " + refusedWhy_;
   else if (paths_.empty())
-    report.message = armed_ ? "nothing was touched: nothing was recorded"
-                            : "no frame arrived: nothing was recorded";
+    report.message = armed_ ? "nothing was touched" : "no frame arrived";
+  else if (!abandoned_.empty())
+    report.message = abandonedText();
+  report.nothingTouched = armed_ && paths_.empty();
   report.complete = report.message.empty();
   return report;
 }

@@ -24,6 +24,9 @@ bool isReservedMeta(std::string_view key) noexcept;
 // folder, not writable.
 void requireNewFile(const std::filesystem::path& path);
 
+// Throws FileError: no such folder, not writable.
+void requireWritableFolder(const std::filesystem::path& folder);
+
 // Times of a round on both clocks.
 struct RoundTime {
   std::int64_t monoUs = 0;  // used for waiting and retrying
@@ -46,6 +49,9 @@ class RecordingParts {
   void add(const CaptureItem& item, RoundTime time);
   // Commits what is due and repeats what failed.
   void round(RoundTime time);
+  // Continues in another folder; see Recorder::continueIn(). When that fails, too, nothing changes,
+  // and the failure is noted.
+  void continueIn(const std::filesystem::path& folder, RoundTime time);
   // True when a limit of the options has been reached.
   bool ended(RoundTime time) const;
   // Tries to finish; returns false after a failure, to be called again.
@@ -75,6 +81,10 @@ class RecordingParts {
   bool closeOldPart(RoundTime time);
   void write(const CaptureItem& item, RoundTime time);
   void writeTo(const CaptureItem& item);
+  void keepUncommitted(const CaptureItem& item);
+  std::unique_ptr<PalpateWriter> replaced(std::unique_ptr<PalpateWriter>& old,
+                                          const std::shared_ptr<const SensorLayout>& layout,
+                                          const std::deque<CaptureItem>& items);
   void recordLoss(const CaptureItem& item);
   void endLossIntervals();
   void endLossInterval(std::size_t stream);
@@ -86,6 +96,7 @@ class RecordingParts {
   void onCommitSucceeded(RoundTime time);
   std::int64_t bytesOnDisk() const;
   std::int64_t framesOnDisk() const;
+  std::string abandonedText() const;
   void lookAfterMcap(RoundTime time);
 
   const RecordingOptions options_;
@@ -93,7 +104,9 @@ class RecordingParts {
   const std::string vfs_;
   RoundTime start_;
   const Notice notice_;
-  const std::filesystem::path folder_;
+  // The path of the first part, or that of the first one in another folder.
+  std::filesystem::path base_;
+  std::filesystem::path folder_;
 
   // Contact.
   std::optional<ContactTrigger> contact_;
@@ -106,6 +119,7 @@ class RecordingParts {
   std::unique_ptr<PalpateWriter> writer_;
   std::unique_ptr<PalpateWriter> closing_;  // previous part while it can't be finished
   std::shared_ptr<const SensorLayout> layout_;
+  std::shared_ptr<const SensorLayout> closingLayout_;
   std::int64_t partFirstUs_ = 0;
   bool partHasFrames_ = false;
   std::int64_t framesInOldParts_ = 0;
@@ -116,6 +130,14 @@ class RecordingParts {
   // The MCAP file beside it.
   std::unique_ptr<McapMirror> mcap_;
   std::string mcapFailure_;
+
+  // Items that wait for a commit, for a part in another folder: of the open part and of the previous
+  // one. After very long failures the oldest are missing.
+  std::deque<CaptureItem> uncommitted_;
+  std::deque<CaptureItem> uncommittedBefore_;
+  std::optional<CaptureLoss> forgottenFrames_;
+  // Parts that were left unfinished in another folder.
+  std::vector<std::filesystem::path> abandoned_;
 
   // Items that wait for a commit.
   std::optional<std::int64_t> dirtySinceMonoUs_;

@@ -74,7 +74,7 @@ TEST_F(ContactRecording, StoppedBeforeTheContactItLeavesNoFileAndSaysWhy) {
   run(1.0, false);
   const RecordingReport report = scripted_.session->stopRecording();
   EXPECT_TRUE(report.paths.empty());
-  EXPECT_EQ(report.message, "nothing was touched: nothing was recorded");
+  EXPECT_EQ(report.message, "nothing was touched");
   EXPECT_FALSE(fs::exists(options_.path));
   EXPECT_FALSE(scripted_.session->recording());
 }

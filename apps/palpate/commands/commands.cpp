@@ -83,7 +83,10 @@ int dispatch(const Arguments& words, OtherCommands others, NeedsOthers needsOthe
   };
   if (!words.empty()) {
     if (words[0] == "help" && words.size() >= 2) {
-      Arguments rest(words.begin() + 2, words.end());  // the kind of a calibration
+      Arguments rest(words.begin() + 2, words.end());
+      // Only a calibration has kinds.
+      if (!rest.empty() && words[1] != "calibrate")
+        throw UsageError("help explains one command: '" + rest.front() + "' is too many");
       rest.emplace_back("--help");
       for (const Command& command : allCommands())
         if (words[1] == command.name) return runCommand(command, rest);
@@ -99,7 +102,9 @@ int dispatch(const Arguments& words, OtherCommands others, NeedsOthers needsOthe
     }
     for (const Command& command : allCommands())
       if (words[0] == command.name) return runCommand(command, {words.begin() + 1, words.end()});
-    refuseMistypedCommand(words[0]);
+    // Help is asked of a command, not of a file.
+    const bool asksHelp = words.size() == 2 && (words[1] == "--help" || words[1] == "-h");
+    refuseMistypedCommand(words[0], !asksHelp);
   }
   return others({}, words);
 }

@@ -287,7 +287,7 @@ int recordCommand(const Arguments& words) {
   session.stop();
   const RecordingReport report = session.stopRecording();
   if (report.paths.empty())
-    throw Error(health.frames.ageMs ? report.message
+    throw Error(health.frames.ageMs ? "nothing was recorded: " + report.message
                                     : nothingText(device, *port, streamOf(session)));
   const std::string text = given.has("json")
                                ? recordJsonText(report, device)

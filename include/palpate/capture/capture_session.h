@@ -60,6 +60,8 @@ class CaptureSession : private DeviceSink {
   // not be started: the recording begins with its first frame.
   void startRecording(RecordingOptions options);
   RecordingReport stopRecording();
+  // As Recorder::continueIn().
+  void continueRecordingIn(const std::filesystem::path& folder) { recorder_.continueIn(folder); }
   bool recording() const { return recorder_.recording(); }
   RecorderStatus recorderStatus() const { return recorder_.status(); }
   // Marks the present moment: with an event "label" of this text (and of a digit key, if given), or

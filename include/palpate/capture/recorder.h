@@ -111,6 +111,9 @@ struct RecordingReport {
   // it did not.
   std::vector<std::filesystem::path> mcapPaths;
   std::string mcapFailure;
+  // Of a recording that waited for contact (startOnContact): it was stopped before there was any, as
+  // was asked for; `paths` is empty then.
+  bool nothingTouched = false;
   // True when every part is finished and nothing was lost, refused or left unwritten.
   bool complete = true;
   std::string message;  // one line that describes a problem; empty: none
@@ -177,6 +180,11 @@ class Recorder {
   // writable), std::invalid_argument (not a .palpate, options), std::logic_error (already
   // recording).
   void start(RecordingOptions options);
+  // Continues the running recording in another folder, when the present one can't be written any
+  // more (it was moved away, the disk is full): the next part, under the name of the first, begins
+  // with all items that are not on the disk yet. The part before it stays unfinished where it is.
+  // Throws std::logic_error (not recording), FileError (no such folder, not writable).
+  void continueIn(const std::filesystem::path& folder);
   // Writes all items pushed before and finishes the file. Returns the last report if no recording
   // runs (it may have stopped by itself), or an empty one if there never was a recording.
   RecordingReport stop();

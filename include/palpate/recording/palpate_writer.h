@@ -65,6 +65,9 @@ class PalpateWriter {
   // Writes index and last summaries, syncs, turns the journal off: a finished recording. Throws
   // FileError; then the recording is still an unfinished one, and finish() can be called again.
   void finish();
+  // Gives the recording up: what no commit has taken is dropped, and the destructor writes nothing.
+  // What was committed stays as an unfinished recording.
+  void abandon() noexcept;
   // Whether samples are being refused because commits have failed for too long.
   bool pendingFull() const noexcept;
 

@@ -392,6 +392,8 @@ void PalpateWriter::finish() {
   impl.lock.reset();
 }
 
+void PalpateWriter::abandon() noexcept { impl_->finished = true; }
+
 bool PalpateWriter::pendingFull() const noexcept {
   return impl_->pending.bytes >= kMaxPendingBytes;
 }

@@ -42,9 +42,22 @@ int undeletableCharacteristics(sqlite3_file* file) {
   return own->characteristics(file) | SQLITE_IOCAP_UNDELETABLE_WHEN_OPEN;
 }
 
+// An open file that is no longer found under its name can't be written: SQLite refuses it as
+// read-only, or can't open its journal. The reason says more than that.
+void throwIfGone(int code, const std::filesystem::path& path) {
+  if (code != SQLITE_READONLY && code != SQLITE_IOERR && code != SQLITE_CANTOPEN) return;
+  std::error_code failure;
+  const std::filesystem::path folder = path.parent_path();
+  if (!folder.empty() && !std::filesystem::exists(folder, failure) && !failure)
+    throw FileError(path, "is gone: its folder was moved, renamed or deleted");
+  if (code != SQLITE_CANTOPEN && !std::filesystem::exists(path, failure) && !failure)
+    throw FileError(path, "is gone: the file was moved, renamed or deleted");
+}
+
 }  // namespace
 
 void throwSqliteError(sqlite3* connection, int code, const std::filesystem::path& path) {
+  throwIfGone(code & 0xFF, path);
   switch (code & 0xFF) {
     case SQLITE_FULL:
       throw FileError(path, "can't be written: the disk is full");

@@ -1,3 +1,4 @@
+#include "gui/appearance/captions.h"
 #include "gui/batch/batch_results.h"
 
 #include <QAction>
@@ -39,7 +40,8 @@ QString textOfPath(const std::filesystem::path& path) {
 QString textOfResult(const BatchItem& item, const BatchResult& result) {
   const std::string begin = item.source.string() + ": ";
   const std::size_t skipped = result.text.rfind(begin, 0) == 0 ? begin.size() : 0;
-  return QString::fromStdString(escapedLine(std::string_view(result.text).substr(skipped)));
+  return inWindowWords(
+      QString::fromStdString(escapedLine(std::string_view(result.text).substr(skipped))));
 }
 
 }  // namespace
@@ -184,7 +186,7 @@ void BatchResults::fill() {
       (outcome_->report.cancelled ? "Cancelled: " : "") + countsText(outcome_->report.status) + ".";
   if (outcome_->report.cancelled) text += " Start goes on with what is not done.";
   for (const std::string& problem : outcome_->plan.problems)
-    text += "\n" + QString::fromStdString(escapedLine(problem));
+    text += "\n" + inWindowWords(QString::fromStdString(escapedLine(problem)));
   summary_->setText(text);
 }
 

@@ -54,8 +54,8 @@ void UnitAxes::rebuild(const std::vector<PlottedCurve>& curves, Theme theme) {
 void UnitAxes::nameAxes() {
   plot_.yAxis->setLabel({});
   for (const Axis& axis : axes_) {
-    const QString how = QString(byHand_.contains(axis.unit) ? " (by hand)" : "") +
-                        (logarithmic_.contains(axis.unit) ? " (log)" : "");
+    const QString how = QString(byHand_.contains(axis.unit) ? ", by hand" : "") +
+                        (logarithmic_.contains(axis.unit) ? ", log" : "");
     axis.axis->setLabel(fittingName(axis.name + how, axis.unit + how, plot_));
   }
 }

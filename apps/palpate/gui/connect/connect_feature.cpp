@@ -1,9 +1,14 @@
 #include "gui/connect/connect_feature.h"
 
+#include <QFileDialog>
+#include <QFileInfo>
 #include <QMenu>
 #include <QMessageBox>
 #include <QPushButton>
+#include <QStandardPaths>
+#include <algorithm>
 
+#include <palpate/core/number_text.h>
 #include <palpate/emulator/scene.h>
 #include <palpate/model/hand_file.h>
 
@@ -33,6 +38,16 @@ Connection emulatedBallConnection(bool runsScript) {
   ball.sceneScriptRuns = runsScript;
   return ball;
 }
+
+namespace {
+
+// What the end of the recording is for: "Before the program quits".
+QString endingText(UserPrompts::Ending ending) {
+  return ending == UserPrompts::Ending::kQuit ? "Before the program quits and the hand is disconnected"
+                                              : "Before the hand is disconnected";
+}
+
+}  // namespace
 
 ConnectFeature::ConnectFeature(WindowState& windowState, QWidget* window)
     : Feature(windowState, window), actions_(windowState.actions) {
@@ -84,23 +99,60 @@ void ConnectFeature::addQuestions() {
     if (dialog.exec() != QDialog::Accepted) return std::nullopt;
     return dialog.connection();
   };
-  windowState.prompts.endRecording = [this] {
-    const LiveSource* source = state().live.source();
-    const bool moves = source && source->control && source->control->status().request;
-    QMessageBox question(
-        QMessageBox::Question,
-        "Finish the recording",
-        QString("A recording is running. Before the hand is disconnected, the recording is "
-                "finished; all that was recorded is kept.") +
-            (moves ? " The hand is moving: it is stopped." : ""),
-        QMessageBox::NoButton,
-        window());
-    QPushButton* finish = question.addButton("Finish the recording", QMessageBox::AcceptRole);
-    question.addButton("Keep recording", QMessageBox::RejectRole);
-    question.setDefaultButton(finish);
-    question.exec();
-    return question.clickedButton() == finish;
+  windowState.prompts.endRecording = [this] { return mayEndRecording(); };
+  windowState.prompts.folder = [this](const QString& title, const QString& folder) {
+    return QFileDialog::getExistingDirectory(window(), title, folder);
   };
+}
+
+bool ConnectFeature::mayEndRecording() {
+  WindowState& windowState = state();
+  const LiveSource* source = windowState.live.source();
+  const bool moves = source && source->control && source->control->status().request;
+  const RecorderStatus& recorder = windowState.live.health().recorder;
+  const QString ended = endingText(windowState.prompts.ending);
+  const QString stopped = moves && windowState.prompts.ending != UserPrompts::Ending::kStop
+                              ? " The hand is moving: it is stopped."
+                              : "";
+  QMessageBox question(
+      QMessageBox::Question, "Finish the recording", {}, QMessageBox::NoButton, window());
+  const QPushButton* elsewhere = nullptr;
+  if (recorder.writeError.empty()) {
+    question.setText("A recording is running. " + ended +
+                     ", the recording is finished; all that was recorded is kept." + stopped);
+  } else {
+    const std::int64_t waiting = recorder.frames - recorder.framesOnDisk;
+    question.setText(
+        "The recording can't be written: " +
+        QString::fromStdString(
+            counted(static_cast<std::uint64_t>(std::max<std::int64_t>(0, waiting)), "frame")) +
+        (waiting == 1 ? " waits" : " wait") +
+        " in memory. Finishing it here loses them; in another folder they are kept." + stopped);
+    question.setInformativeText(QString::fromStdString(recorder.writeError));
+    elsewhere = question.addButton("Another folder…", QMessageBox::AcceptRole);
+  }
+  const QPushButton* finish =
+      question.addButton(elsewhere ? "Finish without them" : "Finish the recording",
+                         elsewhere ? QMessageBox::DestructiveRole : QMessageBox::AcceptRole);
+  QPushButton* keep = question.addButton("Keep recording", QMessageBox::RejectRole);
+  question.setEscapeButton(keep);
+  question.exec();
+  if (elsewhere && question.clickedButton() == elsewhere) return moveRecording();
+  return question.clickedButton() == finish;
+}
+
+// Asks for another folder until one can be written; false: cancelled.
+bool ConnectFeature::moveRecording() {
+  WindowState& windowState = state();
+  const QString home = QStandardPaths::writableLocation(QStandardPaths::HomeLocation);
+  const QString folder = windowState.prompts.folder("Another folder for the recording", home);
+  if (folder.isEmpty()) return false;
+  if (!QFileInfo(folder).isDir() || !QFileInfo(folder).isWritable()) {
+    windowState.messages.fail(folder + " can't be written: choose another folder");
+    return false;
+  }
+  windowState.live.continueRecordingIn(folder.toStdString());
+  return true;
 }
 
 void ConnectFeature::connectActions() {

@@ -32,6 +32,8 @@ class ConnectFeature : public Feature {
   void addQuestions();
   void connectActions();
   void fillMenu();
+  bool mayEndRecording();
+  bool moveRecording();
   std::filesystem::path scenesFolder() const;
 
   ConnectActions actions_;

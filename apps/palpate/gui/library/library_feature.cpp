@@ -55,6 +55,11 @@ LibraryFeature::LibraryFeature(WindowState& windowState, QWidget* window)
         if (panel_->folder().isEmpty() && !report.paths.empty())
           panel_->setFolder(QString::fromStdString(report.paths.front().parent_path().string()));
       });
+  connect(&windowState.displayed, &DisplayedSource::shown, this, [this] {
+    const OpenedRecordingPtr recording = state().displayed.recorded();
+    if (recording && !recording->damage.empty())
+      panel_->setDamaged(recording->path, recording->damage);
+  });
   followTheme(panel_);
 }
 

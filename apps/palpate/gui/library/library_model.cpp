@@ -89,8 +89,10 @@ void LibraryModel::take(const std::vector<LibraryEntry>& entries) {
     }
     Row& row = rows_[static_cast<std::size_t>(known->second)];
     row.seen = true;
-    if (row.entry.details == entry.details) continue;
-    row.entry = entry;
+    LibraryEntry taken = entry;
+    applyDamage(taken);
+    if (row.entry.details == taken.details) continue;
+    row.entry = std::move(taken);
     emit dataChanged(index(known->second, 0), index(known->second, kNumColumns - 1));
   }
   if (fresh.empty()) return;
@@ -99,6 +101,7 @@ void LibraryModel::take(const std::vector<LibraryEntry>& entries) {
   for (const LibraryEntry* entry : fresh) {
     rowOf_[entry->details.path] = static_cast<int>(rows_.size());
     rows_.push_back({*entry, true});
+    applyDamage(rows_.back().entry);
   }
   endInsertRows();
 }
@@ -118,6 +121,31 @@ void LibraryModel::endScan() {
   rowOf_.clear();
   for (std::size_t row = 0; row < rows_.size(); ++row)
     rowOf_[rows_[row].entry.details.path] = static_cast<int>(row);
+}
+
+void LibraryModel::setDamaged(const std::filesystem::path& path, const std::string& message) {
+  std::error_code failure;
+  damaged_[std::filesystem::weakly_canonical(path, failure)] = {message, std::nullopt};
+  for (std::size_t i = 0; i < rows_.size(); ++i)
+    if (applyDamage(rows_[i].entry)) {
+      const int row = static_cast<int>(i);
+      emit dataChanged(index(row, 0), index(row, kNumColumns - 1));
+    }
+}
+
+bool LibraryModel::applyDamage(LibraryEntry& entry) {
+  if (damaged_.empty()) return false;
+  std::error_code failure;
+  RecordingDetails& details = entry.details;
+  const auto known = damaged_.find(std::filesystem::weakly_canonical(details.path, failure));
+  if (known == damaged_.end()) return false;
+  Damage& damage = known->second;
+  if (!damage.changedUs) damage.changedUs = details.changedUs;
+  if (*damage.changedUs != details.changedUs) return false;
+  if (details.state != LibraryModelState::kFinished) return false;
+  details.state = LibraryModelState::kDamaged;
+  details.message = damage.message;
+  return true;
 }
 
 void LibraryModel::setTheme(Theme theme) {

@@ -6,6 +6,7 @@
 #include <QSortFilterProxyModel>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -38,6 +39,9 @@ class LibraryModel : public QAbstractTableModel {
   void beginScan();
   void take(const std::vector<LibraryEntry>& entries);
   void endScan();
+  // Marks a recording as damaged: a scan doesn't read its frames, but they were read since. It counts
+  // as long as the file isn't changed.
+  void setDamaged(const std::filesystem::path& path, const std::string& message);
   void setTheme(Theme theme);
 
   std::size_t numRecordings() const noexcept { return rows_.size(); }
@@ -64,7 +68,16 @@ class LibraryModel : public QAbstractTableModel {
   QString text(const RecordingDetails& details, int column) const;
   QString tip(const RecordingDetails& details) const;
 
+  struct Damage {
+    std::string message;
+    // RecordingDetails::changedUs of the file that was read; nothing: not known yet.
+    std::optional<std::int64_t> changedUs;
+  };
+  // Sets the state of a row that is known to be damaged; true: it is one.
+  bool applyDamage(LibraryEntry& entry);
+
   std::vector<Row> rows_;
+  std::map<std::filesystem::path, Damage> damaged_;
   std::map<std::filesystem::path, int> rowOf_;
   std::string folder_;
   Theme theme_ = Theme::kDark;

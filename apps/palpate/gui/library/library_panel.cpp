@@ -306,6 +306,10 @@ void LibraryPanel::chooseFolder() {
   if (!folder.isEmpty()) setFolder(QFileInfo(folder).absoluteFilePath());
 }
 
+void LibraryPanel::setDamaged(const std::filesystem::path& path, const std::string& message) {
+  model_->setDamaged(path, message);
+}
+
 void LibraryPanel::setTheme(Theme theme) {
   model_->setTheme(theme);
   folderButton_->setIcon(makeIcon(IconShape::kOpen, theme));

@@ -36,6 +36,8 @@ class LibraryPanel : public QWidget {
   // The folder is scanned as soon as the panel is visible.
   void setFolder(const QString& folder);
   const QString& folder() const noexcept { return folder_; }
+  // As LibraryModel::setDamaged().
+  void setDamaged(const std::filesystem::path& path, const std::string& message);
   void setTheme(Theme theme);
   // Scans the folder again.
   void refresh();

@@ -61,7 +61,7 @@ LibraryTable::LibraryTable(QAbstractItemModel* model, QWidget* parent) : QTableV
   header->setStretchLastSection(true);
   header->setMinimumSectionSize(36);
   constexpr int kLetters[] = {26, 13, 17, 14, 12, 8, 18, 18, 18};
-  constexpr int kPadding = 14;  // [px]
+  constexpr int kPadding = 24;  // [px] around the text of a cell
   for (int column = 0; column < model->columnCount(); ++column)
     header->resizeSection(column,
                           kLetters[column] * fontMetrics().horizontalAdvance('0') + kPadding);

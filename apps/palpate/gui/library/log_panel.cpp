@@ -72,6 +72,18 @@ void LogTable::keyPressEvent(QKeyEvent* event) {
   }
 }
 
+// Of a narrow log, each line has two rows of text.
+void LogTable::resizeEvent(QResizeEvent* event) {
+  QTableView::resizeEvent(event);
+  constexpr int kNarrowLetters = 70;
+  constexpr int kAroundLine = 6;  // [px]
+  const bool narrow = viewport()->width() < kNarrowLetters * fontMetrics().averageCharWidth();
+  const int height = (narrow ? 2 : 1) * fontMetrics().lineSpacing() + kAroundLine;
+  setWordWrap(narrow);
+  if (verticalHeader()->defaultSectionSize() != height)
+    verticalHeader()->setDefaultSectionSize(height);
+}
+
 LogPanel::LogPanel(ActivityLog& log, QWidget* parent)
     : QWidget(parent), log_(log), filter_(new LogFilter(log, this)) {
   setObjectName("LogPanel");
@@ -143,19 +155,17 @@ void LogPanel::buildTable() {
   table_->setEditTriggers(QAbstractItemView::NoEditTriggers);
   table_->setTabKeyNavigation(false);
   table_->setShowGrid(false);
-  table_->setWordWrap(false);
   table_->setFrameShape(QFrame::NoFrame);
   table_->setVerticalScrollMode(QAbstractItemView::ScrollPerPixel);
   table_->verticalHeader()->hide();
-  table_->verticalHeader()->setDefaultSectionSize(fontMetrics().height() + 6);
   table_->horizontalHeader()->hide();
   table_->horizontalHeader()->setStretchLastSection(true);
   constexpr int kPadding = 16;
   const auto widthOf = [this](const QString& text) {
     return fontMetrics().horizontalAdvance(text) + kPadding;
   };
-  table_->horizontalHeader()->resizeSection(ActivityLog::kTime, widthOf("00:00:00.000"));
-  table_->horizontalHeader()->resizeSection(ActivityLog::kSeverity, widthOf("warning__"));
+  table_->horizontalHeader()->resizeSection(ActivityLog::kTime, widthOf("00:00:00"));
+  table_->horizontalHeader()->resizeSection(ActivityLog::kSeverity, widthOf("warning"));
   empty_ = new EmptyPage("log", pages_);
   pages_->addWidget(table_);
   pages_->addWidget(empty_);

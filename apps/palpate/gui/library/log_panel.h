@@ -48,6 +48,7 @@ class LogTable : public QTableView {
  protected:
   bool event(QEvent* event) override;
   void keyPressEvent(QKeyEvent* event) override;
+  void resizeEvent(QResizeEvent* event) override;
 };
 
 class LogPanel : public QWidget {

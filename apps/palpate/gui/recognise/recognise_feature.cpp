@@ -70,6 +70,9 @@ void RecogniseFeature::connectAll() {
     ask();
   });
   on(actions_.presentationMode, [this] { showFull(); });
+  connect(&panel_->controller(), &RecognitionController::modelChanged, this, [this] {
+    if (full_ && !panel_->controller().whyNoModel().isEmpty()) showWhyNoModel();
+  });
   // Whatever makes the dock visible, the model is loaded.
   connect(dock_, &QDockWidget::visibilityChanged, this, [this](bool seen) {
     if (seen) renew();
@@ -211,6 +214,10 @@ void RecogniseFeature::showFull() {
     full_->close();
     return;
   }
+  // The model is opened when it is first needed.
+  const LiveSource* shown = state().displayed.source();
+  panel_->controller().setEmulated(shown && shown->emulated);
+  if (!panel_->controller().whyNoModel().isEmpty()) return showWhyNoModel();
   full_ = new PresentationWindow(panel_->controller(),
                                  state().displayed.source() != nullptr,
                                  state().appearance.theme(),
@@ -218,6 +225,14 @@ void RecogniseFeature::showFull() {
   connect(full_, &PresentationWindow::asked, this, &RecogniseFeature::ask);
   full_->showFullScreen();
   renew();
+}
+
+// The whole screen would only hide the dock in which a model is chosen.
+void RecogniseFeature::showWhyNoModel() {
+  if (full_) full_->close();
+  if (!dock_->isVisible()) emit dockRequested(dock_);
+  panel_->showPage("Ask");
+  state().messages.flash(panel_->controller().whyNoModel());
 }
 
 void RecogniseFeature::takeEnded(Profile grasp) {

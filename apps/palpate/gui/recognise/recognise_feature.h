@@ -59,6 +59,7 @@ class RecogniseFeature : public Feature {
   // the user wants that.
   void readLiveGrasps();
   void showFull();
+  void showWhyNoModel();
   void takeEnded(Profile grasp);
   // The zero of the empty hand: closes it until the pads touch, holds, opens.
   void beginZero();

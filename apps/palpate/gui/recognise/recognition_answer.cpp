@@ -88,7 +88,7 @@ QString RecognitionAnswer::confidenceWord() const {
 QString RecognitionAnswer::accessibleText() const {
   if (kind == Kind::kNothing || kind == Kind::kProblem) return text;
   if (kind == Kind::kUnknown)
-    return "unknown" + (best.empty() ? QString() : "; most like " + best.front().name);
+    return "unknown" + (best.empty() ? QString() : "; most similar: " + best.front().name);
   return name() + ", " + percent(best.front().p) + ", " + confidenceWord();
 }
 
@@ -195,16 +195,19 @@ void paintAnswer(QPainter& painter,
         QRectF(room.left(), y, room.width(), 1.4 * unit), left, answer.confidenceWord());
     y += 1.9 * unit;
   } else {
+    // The probabilities are those among the trained objects only, so they say nothing here.
     y = paintWords(painter,
                    QRectF(room.left(), y, room.width(), 4 * unit),
-                   "Not one of the trained objects. The most similar ones:",
+                   "Not one of the trained objects" +
+                       (answer.best.empty() ? QString(".")
+                                            : "; most similar: " + answer.best.front().name),
                    plain,
                    colors.muted) +
         0.4 * unit;
   }
-  // The runners-up; for an unknown object also the most similar class.
+  // The runners-up.
   const double nameWidth = 0.48 * room.width();
-  for (std::size_t k = named ? 1 : 0; k < answer.best.size(); ++k) {
+  for (std::size_t k = 1; named && k < answer.best.size(); ++k) {
     const auto& place = answer.best[k];
     painter.setFont(plain);
     painter.setPen(colors.muted);

@@ -126,9 +126,14 @@ void RecognitionController::changeSession(const std::function<void(RecognitionSe
   if (last_) classify(last_->first, last_->second);
 }
 
+QString RecognitionController::whyNoModel() const {
+  if (session_ || opening_.busy()) return {};
+  return modelProblem_.isEmpty() ? kNoModel : modelProblem_;
+}
+
 void RecognitionController::ask(const RecogniseQuestion& question) {
   if (!session_) {
-    if (!opening_.busy()) return showProblem(modelProblem_.isEmpty() ? kNoModel : modelProblem_);
+    if (!opening_.busy()) return showProblem(whyNoModel());
     waiting_ = question;
     return;
   }

@@ -49,6 +49,8 @@ class RecognitionController : public QObject {
   const TrainedModel* model() const { return session_ ? &session_->model() : nullptr; }
   const std::filesystem::path& modelPath() const noexcept { return path_; }
   QString modelProblem() const { return modelProblem_; }
+  // Why nothing can be asked, and what to do; empty: there is a model, or one is being opened.
+  QString whyNoModel() const;
   // The session with the model; null without a model.
   RecognitionSession* session() noexcept { return session_.get(); }
   // Changes the session by calling `change`, emits sessionChanged(), and evaluates the last grasp

@@ -367,7 +367,10 @@ void TrainingPage::train() {
   const auto& folder = controller_.folder();
   const auto out = askForPlace(
       QString::fromStdString((folder.parent_path() / folder.filename()).string()) + ".json");
-  if (out.empty()) return;
+  if (out.empty()) {
+    emit controller_.said("Nothing was trained: no file was chosen for the model");
+    return;
+  }
   controller_.train(out, zeroNow ? zeroNow() : std::nullopt);
 }
 

@@ -264,6 +264,7 @@ void RecordFeature::connectRecorder() {
     showState();
   });
   connect(&live, &LiveController::recordingEnded, this, &RecordFeature::offer);
+  connect(&live, &LiveController::ended, this, [this] { state().messages.withdraw(kRecordingTopic); });
   connect(&live, &LiveController::refreshed, this, &RecordFeature::showState);
   connect(&live, &LiveController::stateChanged, this, &RecordFeature::showState);
 }
@@ -342,7 +343,11 @@ void RecordFeature::takeFolder() {
 
 void RecordFeature::toggle() {
   LiveController& live = state().live;
-  if (live.recording()) return live.stopRecording();
+  if (live.recording()) {
+    // What can't be written now would be lost: another folder is offered first.
+    if (!live.health().recorder.writeError.empty() && !mayStop()) return;
+    return live.stopRecording();
+  }
   if (countdown_.cancel()) return;
   takeFolder();
   const auto planned = plan_.nextSettings(settings_);
@@ -357,6 +362,14 @@ void RecordFeature::toggle() {
     countdown_.start(next.countdownS, [this, next, isPlanned] { begin(next, isPlanned); });
   else
     begin(next, isPlanned);
+}
+
+bool RecordFeature::mayStop() {
+  UserPrompts& prompts = state().prompts;
+  prompts.ending = UserPrompts::Ending::kStop;
+  const bool may = prompts.endRecording();
+  prompts.ending = UserPrompts::Ending::kDisconnect;
+  return may;
 }
 
 void RecordFeature::begin(const RecordingSettings& settings, bool planned) {
@@ -425,6 +438,12 @@ void RecordFeature::offer(const RecordingReport& report) {
   plan_.end(report);
   showState();
   if (report.paths.empty()) {
+    if (report.nothingTouched) {
+      // Stopped by the user's own wish: that is no alarm.
+      messages.flash("The recording waited for contact and was stopped: nothing was recorded");
+      messages.logLink("nothing was recorded: nothing was touched");
+      return;
+    }
     const QString why = report.message.empty() ? QString("no frame arrived while it was recording")
                                                : QString::fromStdString(report.message);
     messages.failAbout(kRecordingTopic, "Nothing was recorded: " + why);

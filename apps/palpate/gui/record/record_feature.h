@@ -70,6 +70,7 @@ class RecordFeature : public Feature {
   void use(const RecordingSettings& settings);
   void takeFolder();
   void toggle();
+  bool mayStop();
   void begin(const RecordingSettings& settings, bool planned);
   void mark(const QString& label, std::optional<int> digit);
   void showState();

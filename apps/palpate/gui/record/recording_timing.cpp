@@ -12,14 +12,41 @@ namespace palpate::gui {
 namespace {
 
 // A field whose 0 means "none".
+// A typed value below the least one becomes the least one: only 0 is none.
+class TimingField : public QDoubleSpinBox {
+ public:
+  TimingField(double least, QWidget* parent) : QDoubleSpinBox(parent), least_(least) {}
+  double valueFromText(const QString& text) const override {
+    QString number = text;
+    if (number.endsWith(suffix())) number.chop(suffix().size());
+    bool isNumber = false;
+    const double typed = locale().toDouble(number.trimmed(), &isNumber);
+    if (isNumber && typed > 0.0 && typed < least_) return least_;
+    return QDoubleSpinBox::valueFromText(text);
+  }
+  // More decimals may be typed than are shown.
+  QValidator::State validate(QString& text, int& position) const override {
+    QString number = text;
+    if (number.endsWith(suffix())) number.chop(suffix().size());
+    bool isNumber = false;
+    const double typed = locale().toDouble(number.trimmed(), &isNumber);
+    if (isNumber && typed >= 0.0 && typed <= maximum()) return QValidator::Acceptable;
+    return QDoubleSpinBox::validate(text, position);
+  }
+
+ private:
+  double least_;
+};
+
 QDoubleSpinBox* timingField(const char* name,
+                            double least,
                             double most,
                             int decimals,
                             const QString& suffix,
                             const QString& none,
                             const QString& tip,
                             QWidget* parent) {
-  auto* field = new QDoubleSpinBox(parent);
+  auto* field = new TimingField(least, parent);
   field->setObjectName(name);
   field->setRange(0.0, most);
   field->setDecimals(decimals);
@@ -74,6 +101,7 @@ RecordingTiming::RecordingTiming(QWidget* parent)
   onContact_->setToolTip(
       "It waits until 3 taxels are touched in 3 frames; the two seconds before are in it, too");
   threshold_ = timingField("recordingContactThreshold",
+                           0.0,
                            kMostContactThreshold,
                            2,
                            "",
@@ -82,6 +110,7 @@ RecordingTiming::RecordingTiming(QWidget* parent)
                            made);
   form->addRow("Begin", timingRow({onContact_, new QLabel("above", made), threshold_}, made));
   stopAfter_ = timingField("recordingStopAfter",
+                           Limits::kLeastStopS,
                            Limits::kMostStopS,
                            2,
                            " s",
@@ -90,6 +119,7 @@ RecordingTiming::RecordingTiming(QWidget* parent)
                            made);
   form->addRow("&Stop after", stopAfter_);
   released_ = timingField("recordingReleased",
+                          kLeastReleasedS,
                           kMostReleasedS,
                           2,
                           " s",
@@ -98,6 +128,7 @@ RecordingTiming::RecordingTiming(QWidget* parent)
                           made);
   form->addRow("Stop &untouched for", released_);
   splitMinutes_ = timingField("recordingSplitMinutes",
+                              Limits::kLeastSplitMinutes,
                               Limits::kMostSplitMinutes,
                               2,
                               " min",
@@ -106,6 +137,7 @@ RecordingTiming::RecordingTiming(QWidget* parent)
                               "NAME_002.palpate, .. Nothing is lost in between",
                               made);
   splitMb_ = timingField("recordingSplitMb",
+                         Limits::kLeastSplitMb,
                          Limits::kMostSplitMb,
                          1,
                          " MB",

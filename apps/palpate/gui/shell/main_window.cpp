@@ -25,7 +25,8 @@ ShellActions::ShellActions(ActionRegistry& book) {
   resetLayout = book.make("resetLayout", "View", "Reset la&yout", {key("Ctrl+Shift+R")});
   dismiss = book.make("dismiss",
                       "Help",
-                      "Stop the hand; close the message, stop opening, leave full screen",
+                      "Stop the hand; close the message, stop opening, leave full screen, clear the "
+                      "selection",
                       {key("Esc")});
   hideInMenus(*dismiss);
   themes = book.choices("themes", {"as the desktop", "dark", "light"});
@@ -219,9 +220,16 @@ void MainWindow::remember() {
 // Then the window closes.
 void MainWindow::closeEvent(QCloseEvent* event) {
   LiveController& live = windowState_->live;
+  UserPrompts::Ending& ending = windowState_->prompts.ending;
+  const auto mayEnd = [this, &ending] {
+    ending = UserPrompts::Ending::kQuit;
+    const bool may = windowState_->prompts.endRecording();
+    ending = UserPrompts::Ending::kDisconnect;
+    return may;
+  };
   if (closing_) {
     if (live.state() != LiveController::State::kNone) return event->ignore();
-  } else if ((live.recording() && !windowState_->prompts.endRecording()) ||
+  } else if ((live.recording() && !mayEnd()) ||
              (windowState_->batchRunning() && !windowState_->prompts.endBatch()) ||
              !windowState_->events.settle(windowState_->recordings.all())) {
     // All questions come before anything is discarded.

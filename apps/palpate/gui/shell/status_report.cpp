@@ -110,8 +110,10 @@ void StatusReport::reportLive() {
             : "frames to write: " + QString::number(recorder.frames - recorder.framesOnDisk);
   else
     now.state = "live";
+  // Why it can't be written stands in the alarm above the views.
   if (!recorder.writeError.empty())
-    now.state += " · can't be written: " + QString::fromStdString(recorder.writeError);
+    now.state += " · " + QString::fromStdString(recorder.path.filename().string()) +
+                 " can't be written";
   else if (!recorder.mcapFailure.empty())
     now.state += " · no MCAP file any more";
   if (windowState_.activeFilters.applied()) now.state += " · filtered";

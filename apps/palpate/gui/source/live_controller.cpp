@@ -236,6 +236,18 @@ void LiveController::startRecording(std::function<RecordingOptions()> make) {
   });
 }
 
+void LiveController::continueRecordingIn(const std::filesystem::path& folder) {
+  if (!source_ || !recording_) return;
+  inWorker([this, folder, source = source_] {
+    try {
+      source->session->continueRecordingIn(folder);
+    } catch (const std::exception& failure) {
+      const QString error = QString::fromUtf8(failure.what());
+      QMetaObject::invokeMethod(this, [this, error] { emit failed(error); }, Qt::QueuedConnection);
+    }
+  });
+}
+
 void LiveController::stopRecording() {
   if (!source_ || !recording_ || stopping_) return;
   stopping_ = true;

@@ -57,6 +57,9 @@ class LiveController : public QObject {
   // reported by recordingFailed().
   void startRecording(std::function<RecordingOptions()> make);
   void stopRecording();
+  // As CaptureSession::continueRecordingIn(); failed() reports what it throws. A stopRecording() or
+  // end() after it comes after it in the worker, too.
+  void continueRecordingIn(const std::filesystem::path& folder);
   void mark(const QString& text, std::optional<int> digit);
   // Folder of future recordings; the preflight check examines it.
   void setFolder(const std::filesystem::path& folder) { folder_ = folder; }

@@ -92,7 +92,8 @@ QRectF EventRows::barOf(std::size_t index) const {
   const double to = std::max(pixelOf(dragged ? dragToS_ : mark.toS), from + kLeastBar);
   if (to < left_ || from > right_) return {};
   const auto row = std::find(lanes_.begin(), lanes_.end(), mark.lane) - lanes_.begin();
-  const double x0 = std::max<double>(from, left_);
+  // A mark at the end is as wide as one elsewhere.
+  const double x0 = std::max<double>(std::min<double>(from, right_ - kLeastBar), left_);
   const double x1 = std::min<double>(to, right_);
   return {x0,
           static_cast<double>(row) * rowHeight() + kEventRowsGap,
@@ -142,14 +143,24 @@ void EventRows::paintMark(QPainter& painter, std::size_t index) const {
   for (const EventMark& other : marks_)
     if (other.lane == mark.lane && other.fromS > mark.fromS)
       room = std::min(room, pixelOf(other.fromS) - bar.right() - 2 * kTextRoom);
-  const int narrowest = fontMetrics().averageCharWidth() * 3;
   if (mark.lane == EventLane::kGrasps || mark.lane == EventLane::kSteps ||
-      mark.lane == EventLane::kSlips || mark.lane == EventLane::kGaps || room < narrowest)
+      mark.lane == EventLane::kSlips || mark.lane == EventLane::kGaps)
     return;
-  const QRectF place(bar.right() + kTextRoom, bar.top(), room, bar.height());
-  painter.drawText(place,
-                   Qt::AlignVCenter | Qt::AlignLeft,
-                   fontMetrics().elidedText(mark.text, Qt::ElideRight, static_cast<int>(room)));
+  const int narrowest = fontMetrics().averageCharWidth() * 3;
+  const auto drawAt = [&](double x, double width, Qt::Alignment side) {
+    painter.drawText(QRectF(x, bar.top(), width, bar.height()),
+                     Qt::AlignVCenter | side,
+                     fontMetrics().elidedText(mark.text, Qt::ElideRight, static_cast<int>(width)));
+  };
+  if (room >= narrowest) return drawAt(bar.right() + kTextRoom, room, Qt::AlignLeft);
+  // At the right border, where nothing follows, it is painted before the bar.
+  double before = std::min<double>(bar.left() - left_, kMaxTextLength) - kTextRoom;
+  for (std::size_t i = 0; i < marks_.size(); ++i) {
+    if (marks_[i].lane != mark.lane || i == index) continue;
+    if (marks_[i].fromS > mark.fromS) return;
+    before = std::min(before, bar.left() - barOf(i).right() - 2 * kTextRoom);
+  }
+  if (before >= narrowest) drawAt(bar.left() - kTextRoom - before, before, Qt::AlignRight);
 }
 
 void EventRows::paintEvent(QPaintEvent*) {

@@ -381,9 +381,10 @@ void TimelineFeature::connectActions() {
                      actions.selectFrom,
                      actions.selectTo},
                     [this, frames] { return frames() || state().displayed.isLive(); });
-  actionEnabler.add({actions.selectAll, actions.saveAs, actions.differences}, frames);
+  // Without a selection, cropping says so.
+  actionEnabler.add({actions.selectAll, actions.saveAs, actions.differences, actions.crop}, frames);
   const auto selected = [frames, &selection] { return frames() && selection.span().has_value(); };
-  actionEnabler.add({actions.crop, actions.statistics}, selected);
+  actionEnabler.add({actions.statistics}, selected);
   actionEnabler.add({actions.zoomSelection, actions.dropSelection}, [this, selected] {
     return state().displayed.isLive() ? !liveChart_->cursorWords().isEmpty() : selected();
   });

@@ -20,8 +20,14 @@ struct UserPrompts {
   // Asks for name and settings of recordings, before one begins or in between; nothing: cancelled.
   std::function<std::optional<RecordingSettings>(const RecordingSettings&, const QString& button)>
       recording;
-  // Asks whether the running recording may be ended now.
+  // Asks whether the running recording may be ended now, and says what for (`ending`). If it can't be
+  // written, offers another folder for what waits in memory.
   std::function<bool()> endRecording;
+  // What ends the recording.
+  enum class Ending { kDisconnect, kQuit, kStop };
+  Ending ending = Ending::kDisconnect;
+  // Asks for a folder; an empty answer: cancelled.
+  std::function<QString(const QString& title, const QString& folder)> folder;
   // Asks before something is done that can't be undone; `button`: what is done ("Discard").
   std::function<bool(const QString& text, const QString& button)> confirmed;
   // Asks whether the running batch may be ended now.
