@@ -273,9 +273,15 @@ void RecordingParts::writeTo(const CaptureItem& item) {
       ++counts_.frames;
       break;
     }
-    case CaptureStream::kAngles: ++counts_.angles; break;
-    case CaptureStream::kTemperatures: ++counts_.temperatures; break;
-    case CaptureStream::kEvents: ++counts_.events; break;
+    case CaptureStream::kAngles:
+      ++counts_.angles;
+      break;
+    case CaptureStream::kTemperatures:
+      ++counts_.temperatures;
+      break;
+    case CaptureStream::kEvents:
+      ++counts_.events;
+      break;
   }
 }
 

@@ -131,8 +131,8 @@ class RecordingParts {
   std::unique_ptr<McapMirror> mcap_;
   std::string mcapFailure_;
 
-  // Items that wait for a commit, for a part in another folder: of the open part and of the previous
-  // one. After very long failures the oldest are missing.
+  // Items that wait for a commit, for a part in another folder: of the open part and of the
+  // previous one. After very long failures the oldest are missing.
   std::deque<CaptureItem> uncommitted_;
   std::deque<CaptureItem> uncommittedBefore_;
   std::optional<CaptureLoss> forgottenFrames_;

@@ -111,8 +111,8 @@ struct RecordingReport {
   // it did not.
   std::vector<std::filesystem::path> mcapPaths;
   std::string mcapFailure;
-  // Of a recording that waited for contact (startOnContact): it was stopped before there was any, as
-  // was asked for; `paths` is empty then.
+  // Of a recording that waited for contact (startOnContact): it was stopped before there was any,
+  // as was asked for; `paths` is empty then.
   bool nothingTouched = false;
   // True when every part is finished and nothing was lost, refused or left unwritten.
   bool complete = true;

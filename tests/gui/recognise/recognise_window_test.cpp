@@ -52,12 +52,13 @@ TEST_F(RecogniseWindowTest, NamesTheSelectedGrasp) {
 
 TEST_F(RecogniseWindowTest, AnswersOnTheWholeScreen) {
   openIt(record("pen"));
+  window().docks().show("Recognise");
+  panel().controller().useEmulatedModel();
+  settle();
   press(Qt::Key_Q, Qt::ShiftModifier);
   auto* full = window().findChild<PresentationWindow*>("showWindow");
   ASSERT_NE(full, nullptr);
   EXPECT_TRUE(full->isFullScreen());
-  panel().controller().useEmulatedModel();
-  settle();
   press(Qt::Key_N);
   QTest::keyClick(full, Qt::Key_Q);
   settle();
@@ -65,6 +66,15 @@ TEST_F(RecogniseWindowTest, AnswersOnTheWholeScreen) {
   QTest::keyClick(full, Qt::Key_Escape);
   EXPECT_TRUE(QTest::qWaitFor(
       [&] { return window().findChild<PresentationWindow*>("showWindow") == nullptr; }, 5'000));
+}
+
+TEST_F(RecogniseWindowTest, WithoutAModelTheDockOpensInsteadOfTheWholeScreen) {
+  openIt(record("pen"));
+  EXPECT_FALSE(dock()->isVisible());
+  press(Qt::Key_Q, Qt::ShiftModifier);
+  EXPECT_EQ(window().findChild<PresentationWindow*>("showWindow"), nullptr);
+  EXPECT_TRUE(dock()->isVisible());
+  EXPECT_TRUE(window().state().messages.flashed().startsWith("No model is chosen"));
 }
 
 TEST_F(RecogniseWindowTest, AGraspOfTheCheckIsOpenedAndSelected) {

@@ -1,4 +1,3 @@
-#include "gui/appearance/captions.h"
 #include "gui/batch/batch_results.h"
 
 #include <QAction>
@@ -20,6 +19,7 @@
 #include <palpate/core/escaped_line.h>
 #include <palpate/core/text_table.h>
 
+#include "gui/appearance/captions.h"
 #include "gui/desktop/reveal_file.h"
 
 namespace palpate::gui {

@@ -43,8 +43,9 @@ namespace {
 
 // What the end of the recording is for: "Before the program quits".
 QString endingText(UserPrompts::Ending ending) {
-  return ending == UserPrompts::Ending::kQuit ? "Before the program quits and the hand is disconnected"
-                                              : "Before the hand is disconnected";
+  return ending == UserPrompts::Ending::kQuit
+             ? "Before the program quits and the hand is disconnected"
+             : "Before the hand is disconnected";
 }
 
 }  // namespace
@@ -122,12 +123,12 @@ bool ConnectFeature::mayEndRecording() {
                      ", the recording is finished; all that was recorded is kept." + stopped);
   } else {
     const std::int64_t waiting = recorder.frames - recorder.framesOnDisk;
-    question.setText(
-        "The recording can't be written: " +
-        QString::fromStdString(
-            counted(static_cast<std::uint64_t>(std::max<std::int64_t>(0, waiting)), "frame")) +
-        (waiting == 1 ? " waits" : " wait") +
-        " in memory. Finishing it here loses them; in another folder they are kept." + stopped);
+    question.setText("The recording can't be written: " +
+                     QString::fromStdString(counted(
+                         static_cast<std::uint64_t>(std::max<std::int64_t>(0, waiting)), "frame")) +
+                     (waiting == 1 ? " waits" : " wait") +
+                     " in memory. Finishing it here loses them; in another folder they are kept." +
+                     stopped);
     question.setInformativeText(QString::fromStdString(recorder.writeError));
     elsewhere = question.addButton("Another folder…", QMessageBox::AcceptRole);
   }

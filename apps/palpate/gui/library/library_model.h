@@ -39,8 +39,8 @@ class LibraryModel : public QAbstractTableModel {
   void beginScan();
   void take(const std::vector<LibraryEntry>& entries);
   void endScan();
-  // Marks a recording as damaged: a scan doesn't read its frames, but they were read since. It counts
-  // as long as the file isn't changed.
+  // Marks a recording as damaged: a scan doesn't read its frames, but they were read since. It
+  // counts as long as the file isn't changed.
   void setDamaged(const std::filesystem::path& path, const std::string& message);
   void setTheme(Theme theme);
 

@@ -144,9 +144,9 @@ QWidget* PlanDialog::makeRows() {
   limits_ = new PlanLimits(part);
   limits_->fill(controller_.limits());
   connect(limits_, &PlanLimits::edited, this, [this] { controller_.setLimits(limits_->limits()); });
+  column->addWidget(said_);
   column->addLayout(buttons);
   column->addWidget(limits_);
-  column->addWidget(said_);
   return part;
 }
 
@@ -235,6 +235,8 @@ void PlanDialog::removeRow() {
 void PlanDialog::importTable() {
   const QString path =
       windowState_.prompts.file("Read a plan", windowState_.recent.lastFolder(), kPlanTables);
+  // The question for the file belongs to the main window, which is the active one after it.
+  activateWindow();
   if (path.isEmpty()) return;
   const bool replaces = controller_.plan().numDone() > 0;
   if (replaces && !windowState_.prompts.confirmed(

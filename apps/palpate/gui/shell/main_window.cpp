@@ -23,11 +23,12 @@ ShellActions::ShellActions(ActionRegistry& book) {
   nextTheme = book.make("nextTheme", "View", "Dark or light", {key("Ctrl+T")});
   fullScreen = book.make("fullScreen", "View", "F&ull screen", {key("F11")}, true);
   resetLayout = book.make("resetLayout", "View", "Reset la&yout", {key("Ctrl+Shift+R")});
-  dismiss = book.make("dismiss",
-                      "Help",
-                      "Stop the hand; close the message, stop opening, leave full screen, clear the "
-                      "selection",
-                      {key("Esc")});
+  dismiss =
+      book.make("dismiss",
+                "Help",
+                "Stop the hand; close the message, stop opening, leave full screen, clear the "
+                "selection",
+                {key("Esc")});
   hideInMenus(*dismiss);
   themes = book.choices("themes", {"as the desktop", "dark", "light"});
 }

@@ -112,8 +112,8 @@ void StatusReport::reportLive() {
     now.state = "live";
   // Why it can't be written stands in the alarm above the views.
   if (!recorder.writeError.empty())
-    now.state += " · " + QString::fromStdString(recorder.path.filename().string()) +
-                 " can't be written";
+    now.state +=
+        " · " + QString::fromStdString(recorder.path.filename().string()) + " can't be written";
   else if (!recorder.mcapFailure.empty())
     now.state += " · no MCAP file any more";
   if (windowState_.activeFilters.applied()) now.state += " · filtered";

@@ -243,7 +243,8 @@ void LiveController::continueRecordingIn(const std::filesystem::path& folder) {
       source->session->continueRecordingIn(folder);
     } catch (const std::exception& failure) {
       const QString error = QString::fromUtf8(failure.what());
-      QMetaObject::invokeMethod(this, [this, error] { emit failed(error); }, Qt::QueuedConnection);
+      QMetaObject::invokeMethod(
+          this, [this, error] { emit failed(error); }, Qt::QueuedConnection);
     }
   });
 }

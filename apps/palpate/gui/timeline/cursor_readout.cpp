@@ -71,9 +71,8 @@ void CursorReadout::place() {
   };
   // A low chart has room for a single line, which leaves half of the curves free.
   if (heightOf(lines_.size()) > most.height())
-    words = fontMetrics().elidedText(lines_.join("  ·  "),
-                                     Qt::ElideRight,
-                                     most.width() / 2 - 2 * (margin() + frameWidth()));
+    words = fontMetrics().elidedText(
+        lines_.join("  ·  "), Qt::ElideRight, most.width() / 2 - 2 * (margin() + frameWidth()));
   if (words != text()) setText(words);
   const QSize wanted = sizeHint().boundedTo(most);
   const QRect room(plot.right() - kReadoutAir - wanted.width(),

@@ -26,8 +26,10 @@ QString countsOf(const std::vector<RecordingEvent>& events) {
   for (const auto& [kind, noun] : {std::pair<const char*, const char*>{"label", "label"},
                                    {"note", "note"},
                                    {"segment", "marked grasp"}}) {
-    const auto number = std::count_if(
-        events.begin(), events.end(), [&](const RecordingEvent& event) { return event.kind == kind; });
+    const auto number =
+        std::count_if(events.begin(), events.end(), [&](const RecordingEvent& event) {
+          return event.kind == kind;
+        });
     if (number > 0)
       counts.append(
           QString::fromStdString(counted(static_cast<std::uint64_t>(number), std::string(noun))));

@@ -20,8 +20,8 @@ struct UserPrompts {
   // Asks for name and settings of recordings, before one begins or in between; nothing: cancelled.
   std::function<std::optional<RecordingSettings>(const RecordingSettings&, const QString& button)>
       recording;
-  // Asks whether the running recording may be ended now, and says what for (`ending`). If it can't be
-  // written, offers another folder for what waits in memory.
+  // Asks whether the running recording may be ended now, and says what for (`ending`). If it can't
+  // be written, offers another folder for what waits in memory.
   std::function<bool()> endRecording;
   // What ends the recording.
   enum class Ending { kDisconnect, kQuit, kStop };
