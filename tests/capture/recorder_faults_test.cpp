@@ -118,6 +118,62 @@ TEST(RecorderFaults, aDiskThatStaysFullLeavesTheFileValidAndCaptureGoesOn) {
   }
 }
 
+// Each frame of the session is in exactly one of the two files, in order.
+TEST(RecorderFaults, aRecordingGoesOnInAnotherFolderWithAllThatWaits) {
+  const TemporaryFolder folder;
+  const fs::path other = folder / "other";
+  fs::create_directory(other);
+  FaultyVfs vfs;
+  ScriptedSession scripted(onFaultyDisk());
+  scripted.session->startRecording(to(folder / "a.palpate"));
+  scripted.run(0.5);
+  vfs.failAt(Fault::kFull, vfs.operations() + 1);
+  scripted.run(0.5);
+  EXPECT_FALSE(scripted.session->recorderStatus().writeError.empty());
+  EXPECT_THROW(scripted.session->continueRecordingIn(folder / "none"), FileError);
+  vfs.heal();
+  scripted.session->continueRecordingIn(other);
+  scripted.run(0.5);
+  EXPECT_TRUE(scripted.session->recorderStatus().writeError.empty());
+  const RecordingReport report = scripted.session->stopRecording();
+  EXPECT_EQ(report.lost, 0);
+  ASSERT_EQ(report.paths.size(), 2u);
+  EXPECT_EQ(report.paths[1], other / "a.palpate");
+  EXPECT_EQ(report.frames, static_cast<std::int64_t>(scripted.frames));
+  EXPECT_NE(report.message.find("a.palpate"), std::string::npos);
+  std::size_t next = 0;
+  for (const fs::path& path : report.paths) {
+    const Profile profile = openRecording(path);
+    for (std::size_t i = 0; i < profile.numFrames(); ++i)
+      ASSERT_EQ(numberOf(profile.frame(i)), next++) << path;
+  }
+  EXPECT_EQ(next, scripted.frames);
+  EXPECT_EQ(verifyRecording(report.paths[1]).state, VerifyReport::State::kSound);
+}
+
+TEST(RecorderFaults, aFolderThatWasMovedAwayIsCalledGone) {
+  const TemporaryFolder folder;
+  const fs::path here = folder / "here", other = folder / "other";
+  fs::create_directory(here);
+  fs::create_directory(other);
+  ScriptedSession scripted;
+  scripted.session->startRecording(to(here / "a.palpate"));
+  scripted.run(0.5);
+  fs::rename(here, folder / "there");
+  scripted.run(0.5);
+  const std::string error = scripted.session->recorderStatus().writeError;
+  EXPECT_NE(error.find("is gone: its folder was moved, renamed or deleted"), std::string::npos)
+      << error;
+  scripted.session->continueRecordingIn(other);
+  scripted.run(0.2);
+  const RecordingReport report = scripted.session->stopRecording();
+  EXPECT_EQ(report.lost, 0);
+  EXPECT_EQ(report.paths, std::vector<fs::path>{other / "a.palpate"}) << "the other one is gone";
+  EXPECT_EQ(openRecording(folder / "there/a.palpate").numFrames() +
+                openRecording(other / "a.palpate").numFrames(),
+            scripted.frames);
+}
+
 TEST(RecorderFaults, whatTheMemoryCanNotHoldIsAnExactGap) {
   const TemporaryFolder folder;
   FaultyVfs vfs;

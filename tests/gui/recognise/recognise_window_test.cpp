@@ -52,10 +52,7 @@ TEST_F(RecogniseWindowTest, NamesTheSelectedGrasp) {
 
 TEST_F(RecogniseWindowTest, AnswersOnTheWholeScreen) {
   openIt(record("pen"));
-  // Without a model the whole screen would only hide the dock in which one is chosen.
-  press(Qt::Key_Q, Qt::ShiftModifier);
-  EXPECT_EQ(window().findChild<PresentationWindow*>("showWindow"), nullptr);
-  EXPECT_TRUE(dock()->isVisible());
+  window().docks().show("Recognise");
   panel().controller().useEmulatedModel();
   settle();
   press(Qt::Key_Q, Qt::ShiftModifier);
@@ -69,6 +66,15 @@ TEST_F(RecogniseWindowTest, AnswersOnTheWholeScreen) {
   QTest::keyClick(full, Qt::Key_Escape);
   EXPECT_TRUE(QTest::qWaitFor(
       [&] { return window().findChild<PresentationWindow*>("showWindow") == nullptr; }, 5'000));
+}
+
+TEST_F(RecogniseWindowTest, WithoutAModelTheDockOpensInsteadOfTheWholeScreen) {
+  openIt(record("pen"));
+  EXPECT_FALSE(dock()->isVisible());
+  press(Qt::Key_Q, Qt::ShiftModifier);
+  EXPECT_EQ(window().findChild<PresentationWindow*>("showWindow"), nullptr);
+  EXPECT_TRUE(dock()->isVisible());
+  EXPECT_TRUE(window().state().messages.flashed().startsWith("No model is chosen"));
 }
 
 TEST_F(RecogniseWindowTest, AGraspOfTheCheckIsOpenedAndSelected) {

@@ -4,6 +4,7 @@
 #include <QAction>
 #include <QLabel>
 #include <QPushButton>
+#include <QSignalSpy>
 
 #include "gui/record/countdown_strip.h"
 #include "gui/widgets/offer_strip.h"
@@ -51,6 +52,23 @@ TEST_F(RecordFeatureTest, SaysHowMuchIsMissingInGaps) {
   emit windowState_->live.recordingEnded(report);
   EXPECT_TRUE(offered().endsWith("1 gap in which no frame arrived: 2.5 s are missing"))
       << offered().toStdString();
+}
+
+// What the user stopped while it waited for contact is no alarm.
+TEST_F(RecordFeatureTest, StoppedBeforeAContactIsANoticeAndNoFailure) {
+  QSignalSpy failed(&windowState_->messages, &Messages::failed);
+  RecordingReport report;
+  report.nothingTouched = true;
+  report.complete = false;
+  report.message = "nothing was touched";
+  emit windowState_->live.recordingEnded(report);
+  EXPECT_EQ(failed.count(), 0);
+  EXPECT_TRUE(windowState_->messages.flashed().contains("nothing was recorded"));
+  report.nothingTouched = false;
+  report.message = "no frame arrived";
+  emit windowState_->live.recordingEnded(report);
+  ASSERT_EQ(failed.count(), 1);
+  EXPECT_EQ(failed[0][1].toString(), "Nothing was recorded: no frame arrived");
 }
 
 TEST_F(RecordFeatureTest, WhatTheConnectionLostIsSaid) {

@@ -40,7 +40,8 @@ QString textOfPath(const std::filesystem::path& path) {
 QString textOfResult(const BatchItem& item, const BatchResult& result) {
   const std::string begin = item.source.string() + ": ";
   const std::size_t skipped = result.text.rfind(begin, 0) == 0 ? begin.size() : 0;
-  return QString::fromStdString(escapedLine(std::string_view(result.text).substr(skipped)));
+  return inWindowWords(
+      QString::fromStdString(escapedLine(std::string_view(result.text).substr(skipped))));
 }
 
 }  // namespace

@@ -44,9 +44,14 @@ CalibrateFeature::CalibrateFeature(WindowState& windowState, QWidget* window)
   windowState.events.addFound(
       [this](const OpenedRecordingPtr& recording, std::vector<EventMark>& marks) {
         const auto& found = panel_->steps().found();
-        if (found && panel_->steps().source() == recording)
+        // Closed with the dock, which alone can remove them.
+        if (found && panel_->steps().source() == recording && !stepsHidden_)
           addSteps(found->report, *recording, marks);
       });
+  connect(dock_->toggleViewAction(), &QAction::toggled, this, [this](bool open) {
+    stepsHidden_ = !open;
+    state().events.renewMarks();
+  });
   windowState.escapeHandler.add(EscapeHandler::Order::kComputation,
                                 [this] { return panel_->cancel(); });
 }

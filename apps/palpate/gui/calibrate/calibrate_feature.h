@@ -36,6 +36,8 @@ class CalibrateFeature : public Feature {
 
   CalibratePanel* panel_;
   Dock* dock_;
+  // Its dock was closed since the steps were found.
+  bool stepsHidden_ = false;
   std::unique_ptr<Pressures> pressures_;
   struct Filters {
     Recipe recipe;

@@ -144,9 +144,9 @@ QWidget* PlanDialog::makeRows() {
   limits_ = new PlanLimits(part);
   limits_->fill(controller_.limits());
   connect(limits_, &PlanLimits::edited, this, [this] { controller_.setLimits(limits_->limits()); });
+  column->addWidget(said_);
   column->addLayout(buttons);
   column->addWidget(limits_);
-  column->addWidget(said_);
   return part;
 }
 

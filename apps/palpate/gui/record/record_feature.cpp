@@ -299,6 +299,7 @@ void RecordFeature::connectUnfinished() {
           this,
           [this](const QString& path, const QString& message, const QString& saved) {
             recovered_.emplace_back(saved.toStdString());
+            recoveredText_ = message;
             state().messages.logLink("recovered " + path.section('/', -1) + ": " + message);
           });
   connect(
@@ -309,11 +310,12 @@ void RecordFeature::connectUnfinished() {
     offer_->dismiss();
     if (recovered_.empty()) return;
     const auto count = recovered_.size();
-    offer_->offer(
-        count == 1 ? "Recovered " + QString::fromStdString(recovered_.front().filename().string())
-                   : QString("Recovered %1 recordings").arg(count),
-        "Open",
-        [this, paths = recovered_] { state().open(paths); });
+    offer_->offer(count == 1 ? "Recovered " +
+                                   QString::fromStdString(recovered_.front().filename().string()) +
+                                   ": " + recoveredText_
+                             : QString("Recovered %1 recordings").arg(count),
+                  "Open",
+                  [this, paths = recovered_] { state().open(paths); });
   });
 }
 

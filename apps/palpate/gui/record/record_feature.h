@@ -94,6 +94,8 @@ class RecordFeature : public Feature {
   RecoveryFinder unfinished_;
   // Files of the running recovery.
   std::vector<std::filesystem::path> recovered_;
+  // How much the last one of them holds.
+  QString recoveredText_;
 };
 
 }  // namespace palpate::gui

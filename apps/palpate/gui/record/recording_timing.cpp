@@ -119,7 +119,7 @@ RecordingTiming::RecordingTiming(QWidget* parent)
                            made);
   form->addRow("&Stop after", stopAfter_);
   released_ = timingField("recordingReleased",
-                          0.01,
+                          kLeastReleasedS,
                           kMostReleasedS,
                           2,
                           " s",

@@ -1,6 +1,8 @@
 #include "gui/timeline/label_exchange.h"
 
 #include <QFileInfo>
+#include <algorithm>
+#include <utility>
 
 #include <palpate/core/error.h>
 #include <palpate/core/number_text.h>
@@ -17,6 +19,23 @@ constexpr const char* kTableFilter = "Table (*.csv);;All files (*)";
 constexpr qsizetype kMostProblems = 3;
 
 QString labelCount(std::size_t count) { return QString::fromStdString(counted(count, "label")); }
+
+// "2 labels, 1 note, 1 marked grasp"; "0 labels"
+QString countsOf(const std::vector<RecordingEvent>& events) {
+  QStringList counts;
+  for (const auto& [kind, noun] : {std::pair<const char*, const char*>{"label", "label"},
+                                   {"note", "note"},
+                                   {"segment", "marked grasp"}}) {
+    const auto number =
+        std::count_if(events.begin(), events.end(), [&](const RecordingEvent& event) {
+          return event.kind == kind;
+        });
+    if (number > 0)
+      counts.append(
+          QString::fromStdString(counted(static_cast<std::uint64_t>(number), std::string(noun))));
+  }
+  return counts.isEmpty() ? labelCount(0) : counts.join(", ");
+}
 
 }  // namespace
 
@@ -85,7 +104,7 @@ void LabelExchange::importLabels() {
         for (const RecordingEvent& event : added) editor->add(event, "importing labels");
       });
     const std::size_t known = table.events.size() - added.size();
-    QString said = name + ": " + labelCount(added.size()) + " added";
+    QString said = name + ": " + countsOf(added) + " added";
     if (known > 0)
       said += ", " + QString::number(known) + (known == 1 ? " was" : " were") + " there already";
     if (table.problems.empty()) return messages.flash(said);

@@ -414,7 +414,11 @@ void LiveChart::placeOverlays() {
   };
   span_.place(axisRect()->rect(), pixel(cursors_[0]), pixel(cursors_[1]));
   const int lineHeight = fontMetrics().lineSpacing();
-  const bool any = cursors_[0] || cursors_[1];
+  // Cursors that were scrolled out of the chart have no box on it.
+  const auto isSeen = [this](const std::optional<double>& cursor) {
+    return cursor && *cursor >= seen().lower && *cursor <= seen().upper;
+  };
+  const bool any = isSeen(cursors_[0]) || isSeen(cursors_[1]);
   const int room = axisRect()->height() - (behind_->isHidden() ? 0 : behind_->height());
   if (any) readings_->setText(cursorText(std::max(2, room / lineHeight - 1)));
   readings_->setVisible(any);
