@@ -114,7 +114,8 @@ TEST_F(RecogniseWindowTest, AGraspOfTheTableIsOpenedAndThePagesFit) {
   QTableView& table = panel().grasps().table();
   ASSERT_EQ(table.model()->rowCount(), 4);
   table.selectRow(3);  // the second of the pen
-  const FeatureRow& grasp = panel().teaching().table()->rows.at(3);
+  // Copied: the table may be computed anew meanwhile.
+  const FeatureRow grasp = panel().teaching().table()->rows.at(3);
   table.setFocus();
   QTest::keyClick(&table, Qt::Key_Return);
   ASSERT_TRUE(QTest::qWaitFor(
