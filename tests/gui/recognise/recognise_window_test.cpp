@@ -2,6 +2,7 @@
 #include <QCheckBox>
 #include <QDockWidget>
 #include <QPushButton>
+#include <QSortFilterProxyModel>
 #include <QTableView>
 #include <chrono>
 #include <thread>
@@ -113,11 +114,13 @@ TEST_F(RecogniseWindowTest, AGraspOfTheTableIsOpenedAndThePagesFit) {
   panel().showPage("Grasps");
   QTableView& table = panel().grasps().table();
   ASSERT_EQ(table.model()->rowCount(), 4);
-  table.selectRow(3);  // the second of the pen
+  // The second grasp of the pen; the table is sorted by time, and a test before this one may have
+  // recorded the pen before the ball.
+  const auto& sorted = dynamic_cast<const QSortFilterProxyModel&>(*table.model());
+  table.selectRow(sorted.mapFromSource(sorted.sourceModel()->index(3, 0)).row());
   // Copied: the table may be computed anew meanwhile.
   const FeatureRow grasp = panel().teaching().table()->rows.at(3);
-  table.setFocus();
-  QTest::keyClick(&table, Qt::Key_Return);
+  emit table.doubleClicked(table.currentIndex());
   ASSERT_TRUE(QTest::qWaitFor(
       [&] {
         return window().state().displayed.unfilteredRecording() &&
