@@ -84,11 +84,11 @@ TEST(LiveMeasurement, AGapEndsIt) {
 
 TEST(LiveMeasurement, ASilentDeviceEndsIt) {
   LiveMeasurement none(sdh2());
-  none.noteSilence(2.9);
+  none.noteSilence(4.9);
   EXPECT_EQ(none.state(), State::kRunning);
-  none.noteSilence(3.1);
+  none.noteSilence(5.1);
   EXPECT_EQ(none.state(), State::kFailed);
-  EXPECT_EQ(none.failure(), "no frames for 3.1 s");
+  EXPECT_EQ(none.failure(), "no frames for 5.1 s");
   EXPECT_EQ(none.numFrames(), 0u);
   LiveMeasurement stopped(sdh2());
   addFrames(stopped, 0, 10);

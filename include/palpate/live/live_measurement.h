@@ -28,8 +28,9 @@ struct LiveMeasurementOptions {
   double seconds = 5.0;
   // The hand moves when a joint is further from its first angle [deg], > 0.
   double maxTravelDeg = 1.0;
-  // The first frame must arrive within this time [s], > 0.
-  double firstFrameWithinS = 3.0;
+  // The first frame must arrive within this time [s], > 0. After a change of settings the stream
+  // pauses for half a second per matrix.
+  double firstFrameWithinS = 5.0;
 
   // Throws std::invalid_argument that names the field.
   void validate() const;
