@@ -10,6 +10,7 @@
 #include "palpate/device/sdh2.h"
 
 #include "gui/calibrate/calibrate_fixture.h"
+#include "gui/calibrate/measure_row.h"
 #include "gui/calibrate/noise_page.h"
 #include "gui/calibrate/pressure_page.h"
 #include "gui/calibrate/step_chart.h"
@@ -21,7 +22,7 @@ namespace palpate::gui::calibrate_panel_test {
 namespace {
 
 // Every matrix reads 10 + .5 T, by turns one more and one less, while T goes from 20 to 40 deg C.
-Profile warmingUp() {
+Profile warmingUp(ProfileInfo info = {}) {
   const HandDescription& hand = sdh2();
   ProfileBuilder builder(hand.layout);
   for (int i = 0; i < 2000; ++i) {
@@ -33,7 +34,7 @@ Profile warmingUp() {
     builder.addFrame(us, frame.values);
     builder.addTemperatures(us, std::vector<double>(hand.temperatureSensors.size(), degC));
   }
-  return builder.finish({});
+  return builder.finish(std::move(info));
 }
 
 TEST_F(CalibratePanelTest, FindsTheStepsOfTheLoadedMatrix) {
@@ -161,6 +162,36 @@ TEST_F(CalibratePanelTest, NoiseLinesAreShownAndSaved) {
   find<QPushButton>("noiseSave")->click();
   EXPECT_EQ(said.size(), 2);
   EXPECT_TRUE(said[1][0].toString().contains("n.json")) << "said that it can't be written";
+}
+
+TEST_F(CalibratePanelTest, NoiseThatWasMeasuredLiveIsSavedWithItsOrigin) {
+  panel_->show();
+  panel_->showPage("Noise");
+  panel_->setSource(nullptr, true);
+  EXPECT_TRUE(why().contains("Measure now"));
+  ProfileInfo info;
+  info.format = kLiveMeasurementFormat;
+  info.serial = "1D9B0057";
+  info.warnings = {"12 frames were lost"};
+  panel_->noise().setMeasured(makeOpenedRecording("live_1", warmingUp(info)));
+  settle();
+  ASSERT_TRUE(panel_->noise().shown()) << why().toStdString();
+  for (const NoiseLine& line : panel_->noise().found()->floor.lines)
+    EXPECT_NEAR(line.slope, 0.5, 1e-3);
+  panel_->noise().save(folder_ / "n.json");
+  const Json json = Json::parse(testing::readFile(folder_ / "n.json"));
+  EXPECT_EQ(json.at("file").asString(), "live_1");
+  EXPECT_EQ(json.at("sha256").asString(), "") << "it is no file";
+  const Json measured = json.at("measured");
+  EXPECT_EQ(measured.at("serial").asString(), "1D9B0057");
+  EXPECT_EQ(measured.at("frames").asInteger(), 2000);
+  EXPECT_NEAR(measured.at("seconds").asDouble(), 199.9, 1e-9);
+  EXPECT_EQ(measured.at("missing").at(0).asString(), "12 frames were lost");
+  EXPECT_EQ(noiseFloorFrom(json).lines.size(), 6u);
+  // A recording doesn't show what was measured, and another hand neither.
+  show("Noise", nullptr);
+  EXPECT_TRUE(why().contains("Open a recording"));
+  EXPECT_EQ(panel_->noise().found(), nullptr);
 }
 
 TEST_F(CalibratePanelTest, TheTareIsProposed) {

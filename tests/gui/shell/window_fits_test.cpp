@@ -5,6 +5,7 @@
 #include <QPushButton>
 #include <QScreen>
 
+#include "gui/calibrate/calibrate_panel.h"
 #include "gui/source/live_controller.h"
 #include "gui/testing/layout_faults.h"
 #include "gui/testing/window_fixture.h"
@@ -84,6 +85,30 @@ TEST_F(WindowFitsTest, ARecordingWithEveryDock) {
 TEST_F(WindowFitsTest, ALiveHandWithEveryDock) {
   connectEmulated();
   expectEveryDockFits("live");
+}
+
+TEST_F(WindowFitsTest, AMeasurementOfALiveHand) {
+  connectEmulated();
+  window().setAnimated(false);
+  auto* panel = find<CalibratePanel>("CalibratePanel");
+  for (const QSize size : {QSize(1280, 800), QSize(1024, 700)})
+    for (const ThemeChoice theme : {ThemeChoice::kDark, ThemeChoice::kLight}) {
+      window().state().appearance.setTheme(theme);
+      window().resize(size);
+      window().docks().reset();
+      window().docks().show("Calibrate");
+      for (const char* page : {"Tare", "Noise"}) {
+        panel->showPage(page);
+        const QString part = QString(page).toLower();
+        const QString at = QString("%1 at %2x%3").arg(page).arg(size.width()).arg(size.height());
+        expectNoFaults(at);
+        find<QPushButton>((part + "Measure").toUtf8())->click();
+        processAll();
+        expectNoFaults(at + ", measuring or refused");
+        panel->cancel();
+        expectNoFaults(at + ", ended");
+      }
+    }
 }
 
 TEST_F(WindowFitsTest, ARecordingBesideALiveHand) {

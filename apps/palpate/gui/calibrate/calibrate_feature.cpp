@@ -21,6 +21,11 @@ namespace {
 
 constexpr const char* kTareKind = "tare";  // event kinds
 constexpr const char* kSettingsKind = "sensor_settings";
+// An event that comes before the file is begun may be left out.
+bool isBeingRecorded(const RecorderStatus& status) {
+  return status.state == RecorderStatus::State::kRecording;
+}
+
 // [px]; the tables fit without scrolling
 constexpr int kCalibrateUsualWidth = 640;
 
@@ -41,6 +46,7 @@ CalibrateFeature::CalibrateFeature(WindowState& windowState, QWidget* window)
   connect(panel_, &CalibratePanel::said, &windowState.messages, &Messages::flash);
   connectPages();
   connectNoise();
+  connectLive();
   windowState.events.addFound(
       [this](const OpenedRecordingPtr& recording, std::vector<EventMark>& marks) {
         const auto& found = panel_->steps().found();
@@ -65,13 +71,7 @@ void CalibrateFeature::connectPages() {
   connect(&panel_->force(), &ForcePage::seekRequested, &playback, &PlaybackController::seekSeconds);
   connect(
       &panel_->steps(), &StepPage::foundChanged, &windowState.events, &EventController::renewMarks);
-  connect(&panel_->tare(), &TarePage::keepRequested, this, [this, &windowState] {
-    const OpenedRecordingPtr recording = windowState.displayed.recorded();
-    if (!recording) return;
-    windowState.events.keep(
-        kTareKind, tareEvent(*panel_->tare().found(), recording->profile), "the zero");
-    windowState.messages.flash("zero added to the recording: save with Ctrl+S");
-  });
+  connect(&panel_->tare(), &TarePage::keepRequested, this, &CalibrateFeature::keepTare);
   connect(&panel_->tare(), &TarePage::removeRequested, this, [&windowState] {
     windowState.events.keep(kTareKind, std::nullopt, "the zero");
     windowState.messages.flash("zero removed from the recording: save with Ctrl+S");
@@ -125,6 +125,40 @@ void CalibrateFeature::connectNoise() {
           &HandCommands::highSensitivityChanged,
           this,
           &CalibrateFeature::filterGhosts);
+}
+
+// Measurements of the connected hand.
+void CalibrateFeature::connectLive() {
+  LiveController& live = state().live;
+  connect(&live, &LiveController::sourceOpened, this, [this, &live] {
+    panel_->setSession(live.source()->session.get());
+  });
+  connect(&live, &LiveController::leaving, this, [this] {
+    panel_->setSession(nullptr);
+    panel_->tare().setRecordingRuns(false);
+  });
+  connect(&live, &LiveController::refreshed, this, [this, &live] {
+    panel_->tare().setRecordingRuns(isBeingRecorded(live.health().recorder));
+  });
+}
+
+void CalibrateFeature::keepTare() {
+  WindowState& windowState = state();
+  TarePage& page = panel_->tare();
+  if (windowState.displayed.isLive()) {
+    LiveSource* source = windowState.live.source();
+    const OpenedRecordingPtr measured = page.foundIn();
+    if (!source || !measured || !isBeingRecorded(source->session->recorderStatus())) return;
+    CaptureSession& session = *source->session;
+    session.note(liveTareEvent(*page.found(), measured->profile, session.nowUs()));
+    page.setAdded();
+    windowState.messages.flash("zero added to the recording that is running");
+    return;
+  }
+  const OpenedRecordingPtr recording = windowState.displayed.recorded();
+  if (!recording) return;
+  windowState.events.keep(kTareKind, tareEvent(*page.found(), recording->profile), "the zero");
+  windowState.messages.flash("zero added to the recording: save with Ctrl+S");
 }
 
 void CalibrateFeature::takeSource() {

@@ -28,6 +28,8 @@ class CalibrateFeature : public Feature {
  private:
   void connectPages();
   void connectNoise();
+  void connectLive();
+  void keepTare();
   void takeSource();
   void takeKept();
   void apply(const QString& path);

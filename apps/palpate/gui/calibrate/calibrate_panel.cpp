@@ -4,6 +4,7 @@
 #include <QVBoxLayout>
 
 #include "gui/calibrate/force_page.h"
+#include "gui/calibrate/measure_row.h"
 #include "gui/calibrate/noise_page.h"
 #include "gui/calibrate/pressure_page.h"
 #include "gui/calibrate/step_page.h"
@@ -17,8 +18,8 @@ CalibratePanel::CalibratePanel(QSettings& settings, QWidget* parent)
   QWidget* parentOfPages = &pages();
   steps_ = new StepPage(parentOfPages);
   pressure_ = new PressurePage(parentOfPages);
-  noise_ = new NoisePage(parentOfPages);
-  tare_ = new TarePage(parentOfPages);
+  noise_ = new NoisePage(settings, parentOfPages);
+  tare_ = new TarePage(settings, parentOfPages);
   force_ = new ForcePage(settings, parentOfPages);
   add(steps_, "Steps", "Responses to applied loads: gain, drift, time constants");
   add(pressure_,
@@ -41,6 +42,14 @@ void CalibratePanel::add(ComputedPage* page, const QString& name, const QString&
 void CalibratePanel::setSource(const OpenedRecordingPtr& recording, bool live) {
   for (int i = 0; i < pages().count(); ++i)
     static_cast<ComputedPage*>(pages().widget(i))->setSource(recording, live);
+  for (MeasureRow* row : {&noise_->measureRow(), &tare_->measureRow()}) row->setLive(live);
+}
+
+void CalibratePanel::setSession(CaptureSession* session) {
+  for (MeasureRow* row : {&noise_->measureRow(), &tare_->measureRow()}) row->setSession(session);
+  if (!session) return;
+  noise_->setMeasured(nullptr);
+  tare_->setMeasured(nullptr);
 }
 
 void CalibratePanel::setTheme(Theme theme) {
@@ -55,9 +64,15 @@ void CalibratePanel::setPosition(double seconds) {
     static_cast<ComputedPage*>(pages().widget(i))->setPosition(seconds);
 }
 
-bool CalibratePanel::cancel() { return page().cancel(); }
+bool CalibratePanel::cancel() {
+  return page().cancel() || tare_->measureRow().cancel() || noise_->measureRow().cancel();
+}
 
-void CalibratePanel::settle() { page().settle(); }
+void CalibratePanel::settle() {
+  noise_->measureRow().settle();
+  tare_->measureRow().settle();
+  page().settle();
+}
 
 ComputedPage& CalibratePanel::page() const {
   return *static_cast<ComputedPage*>(pages().currentWidget());

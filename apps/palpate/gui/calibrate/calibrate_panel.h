@@ -7,6 +7,10 @@
 #include "gui/widgets/computed_page.h"
 #include "gui/widgets/paged_panel.h"
 
+namespace palpate {
+class CaptureSession;
+}
+
 namespace palpate::gui {
 
 class ForcePage;
@@ -21,6 +25,9 @@ class CalibratePanel : public PagedPanel {
   explicit CalibratePanel(QSettings& settings, QWidget* parent = nullptr);
 
   void setSource(const OpenedRecordingPtr& recording, bool live);
+  // Sets the session of the connected hand, which the pages Noise and Tare can measure; null: none,
+  // before it is closed. Of another hand than before nothing is measured yet.
+  void setSession(CaptureSession* session);
   void setTheme(Theme theme);
   void setPosition(double seconds);
   bool cancel();

@@ -16,6 +16,7 @@
 
 #include "gui/appearance/captions.h"
 #include "gui/calibrate/applied_calibration.h"
+#include "gui/calibrate/measure_row.h"
 #include "gui/calibrate/noise_chart.h"
 #include "gui/widgets/figures_table.h"
 #include "gui/widgets/notes_label.h"
@@ -26,6 +27,9 @@ namespace {
 
 constexpr double kFitShare = 0.9;  // part of the work; the rest is the hash of the file
 constexpr int kMostBins = 1000;
+constexpr int kNoiseMeasureS = 60;
+// All frames are used, unlike in a tare: a matrix must be at rest nearly always.
+constexpr double kNoiseRestShare = 0.9;
 
 std::vector<FigureColumn> noisePageColumns() {
   return {{"matrix", {}, 15, true},
@@ -107,7 +111,14 @@ TextTable binTable(const std::shared_ptr<const FoundNoise>& found) {
 
 }  // namespace
 
-NoisePage::NoisePage(QWidget* parent) : ComputedPage("noise", parent) {
+NoisePage::NoisePage(QSettings& settings, QWidget* parent) : ComputedPage("noise", parent) {
+  measure_ = new MeasureRow(settings,
+                            {.part = "noise",
+                             .usualSeconds = kNoiseMeasureS,
+                             .needsThreshold0 = true,
+                             .tip = "Noise of the connected hand at threshold 0 while it warms up"},
+                            this);
+  top().addWidget(measure_);
   bins_ = new FrameField(this);
   bins_->setObjectName("noiseBins");
   bins_->setAccessibleName("Bins");
@@ -161,6 +172,8 @@ NoisePage::NoisePage(QWidget* parent) : ComputedPage("noise", parent) {
     return QFileDialog::getOpenFileName(
         this, "Apply noise lines", {}, "Noise lines (*.json *.xml);;All files (*)");
   };
+  connect(measure_, &MeasureRow::measured, this, &NoisePage::setMeasured);
+  connect(measure_, &MeasureRow::said, this, &NoisePage::said);
   connect(apply_, &QPushButton::clicked, this, [this] { emit applyRequested(found_->floor); });
   connect(openLines, &QPushButton::clicked, this, [this] {
     const QString path = askForLines();
@@ -212,11 +225,23 @@ void NoisePage::compute() {
     found->file = of->path;
     found->floor = fitNoiseFloor(
         of->profile, options, [&](double done) { return progress(kFitShare * done); });
+    if (isMeasured(*of)) {
+      found->measured = of;
+      const auto why = notAtRest(findTare(of->profile), of->profile, kNoiseRestShare);
+      if (!why.empty()) return [this, why] { say(refusal(why)); };
+      return [this, found] { take(found); };
+    }
     // A recording that was never on disk has no hash.
     std::error_code ignored;
     if (std::filesystem::exists(of->path, ignored)) found->sha256 = sha256OfFile(of->path);
     return [this, found] { take(found); };
   });
+}
+
+QString NoisePage::liveReason() const {
+  return "\"Measure now\" reads the noise of the connected hand. Nothing may touch it, its "
+         "thresholds "
+         "must be 0, and it must warm up.\n\nOr record it (Ctrl+R), then open the recording.";
 }
 
 void NoisePage::take(const std::shared_ptr<const FoundNoise>& found) {
@@ -259,6 +284,18 @@ void NoisePage::save(const std::filesystem::path& path) const {
   } else {
     Json json = calibrationProvenance("noise");
     json.set("file", found_->file.string()).set("sha256", found_->sha256);
+    if (const OpenedRecordingPtr& measured = found_->measured) {
+      Json missing = Json::array();
+      for (const std::string& line : measured->profile.info().warnings) missing.push(line);
+      json.set("measured",
+               Json::object()
+                   .set("hand", measured->profile.hand().name)
+                   .set("serial", measured->profile.info().serial)
+                   .set("begin_us", measured->profile.frameTimeUs(0))
+                   .set("seconds", measured->durationS())
+                   .set("frames", measured->profile.numFrames())
+                   .set("missing", std::move(missing)));
+    }
     json.set("options", Json::object().set("bins", found_->options.bins));
     const Json lines = jsonOf(found_->floor);
     for (const std::string& key : lines.keys()) json.set(key, lines.at(key));

@@ -1,5 +1,6 @@
 // The page Noise of the dock Calibrate: for each matrix a line fitted to the largest reading over
-// temperature, with its RMSE and range. It is saved as JSON, or as XML for the prior program.
+// temperature, with its RMSE and range, of a recording or measured now of the connected hand. It is
+// saved as JSON, or as XML for the prior program.
 #pragma once
 
 #include <filesystem>
@@ -12,11 +13,13 @@
 
 class QLabel;
 class QPushButton;
+class QSettings;
 class QSpinBox;
 
 namespace palpate::gui {
 
 class FiguresTable;
+class MeasureRow;
 class NoiseChart;
 
 // A noise floor with the options and the recording that it was computed from.
@@ -25,16 +28,19 @@ struct FoundNoise {
   NoiseFloorOptions options;
   std::filesystem::path file;
   std::string sha256;
+  // Frames of the connected hand; null: of a recording.
+  OpenedRecordingPtr measured = {};
 };
 
 class NoisePage : public ComputedPage {
   Q_OBJECT
  public:
-  explicit NoisePage(QWidget* parent = nullptr);
+  explicit NoisePage(QSettings& settings, QWidget* parent = nullptr);
   void setTheme(Theme theme) override;
   std::vector<ExportedTable> tables() const override;
   void paint(QPainter& painter, const PictureLook& look, const QString& title) override;
 
+  MeasureRow& measureRow() noexcept { return *measure_; }
   // Null when no noise floor was computed.
   const std::shared_ptr<const FoundNoise>& found() const noexcept { return found_; }
   // Saves the noise floor: an .xml file in the form of the prior program, any other as JSON. Throws
@@ -52,6 +58,7 @@ class NoisePage : public ComputedPage {
  protected:
   void compute() override;
   void forget() override;
+  QString liveReason() const override;
 
  private:
   void take(const std::shared_ptr<const FoundNoise>& found);
@@ -59,6 +66,7 @@ class NoisePage : public ComputedPage {
   QStringList names() const;
 
   std::shared_ptr<const FoundNoise> found_;
+  MeasureRow* measure_;
   QSpinBox* bins_;
   QPushButton* save_;
   QPushButton* apply_;

@@ -7,14 +7,18 @@
 #include <algorithm>
 
 #include <palpate/core/number_text.h>
+#include <palpate/core/time.h>
 
 #include "gui/appearance/captions.h"
+#include "gui/calibrate/measure_row.h"
 #include "gui/picture/table_picture.h"
 #include "gui/widgets/figures_table.h"
 #include "gui/widgets/notes_label.h"
 
 namespace palpate::gui {
 namespace {
+
+constexpr int kTareMeasureS = 5;
 
 std::vector<FigureColumn> tarePageColumns() {
   return {{"matrix", {}, 16, true},
@@ -118,7 +122,23 @@ RecordingEvent tareEvent(const Tare& tare, const Profile& profile) {
   return event;
 }
 
-TarePage::TarePage(QWidget* parent) : ComputedPage("tare", parent) {
+RecordingEvent liveTareEvent(Tare tare, const Profile& measured, std::int64_t atUs) {
+  for (MatrixTare& matrix : tare.matrices) matrix.windows.clear();
+  RecordingEvent event = tareEvent(tare, measured);
+  event.tUs = event.t1Us = atUs;
+  event.text +=
+      ", measured for " + fixedText(static_cast<double>(measured.durationUs()) / kUsPerS, 1) + " s";
+  return event;
+}
+
+TarePage::TarePage(QSettings& settings, QWidget* parent) : ComputedPage("tare", parent) {
+  measure_ = new MeasureRow(settings,
+                            {.part = "tare",
+                             .usualSeconds = kTareMeasureS,
+                             .needsThreshold0 = false,
+                             .tip = "Readings of the connected hand, which nothing may touch"},
+                            this);
+  top().addWidget(measure_);
   state_ = new QLabel(this);
   state_->setObjectName("tareState");
   state_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
@@ -148,11 +168,14 @@ TarePage::TarePage(QWidget* parent) : ComputedPage("tare", parent) {
   column->addWidget(table_, 1);
   column->addWidget(notes_);
   setContent(content);
+  connect(measure_, &MeasureRow::measured, this, &TarePage::setMeasured);
+  connect(measure_, &MeasureRow::said, this, &TarePage::said);
   connect(keep_, &QPushButton::clicked, this, &TarePage::keepRequested);
   connect(remove_, &QPushButton::clicked, this, &TarePage::removeRequested);
   connect(table_, &FiguresTable::rowChosen, this, [this](int chosen) {
     const auto& windows = found_->matrices[static_cast<std::size_t>(chosen)].windows;
-    if (windows.empty()) return;
+    // The windows of a measurement are in no recording that could be shown.
+    if (windows.empty() || live()) return;
     const auto longest = std::max_element(windows.begin(), windows.end(), [&](auto& a, auto& b) {
       return tarePageSecondsOf(a, *recording()) < tarePageSecondsOf(b, *recording());
     });
@@ -163,6 +186,7 @@ TarePage::TarePage(QWidget* parent) : ComputedPage("tare", parent) {
 
 void TarePage::forget() {
   found_.reset();
+  added_ = false;
   showState();
 }
 
@@ -170,8 +194,17 @@ void TarePage::compute() {
   const OpenedRecordingPtr of = recording();
   run("unloaded windows", [this, of](const Progress& progress) -> Take {
     auto found = std::make_shared<const Tare>(findTare(of->profile, {}, progress));
+    // In a recording the other matrices are of use; the connected hand can be measured again.
+    if (isMeasured(*of))
+      if (const auto why = notAtRest(*found, of->profile, 0.0); !why.empty())
+        return [this, why] { say(refusal(why)); };
     return [this, found] { take(found); };
   });
+}
+
+QString TarePage::liveReason() const {
+  return "\"Measure now\" reads the taxels of the connected hand while nothing touches it.\n\nOr "
+         "record it (Ctrl+R), then open the recording.";
 }
 
 void TarePage::take(const std::shared_ptr<const Tare>& found) {
@@ -190,6 +223,18 @@ void TarePage::take(const std::shared_ptr<const Tare>& found) {
   showContent();
 }
 
+void TarePage::setRecordingRuns(bool runs) {
+  if (runs == recordingRuns_) return;
+  recordingRuns_ = runs;
+  added_ = false;
+  showState();
+}
+
+void TarePage::setAdded() {
+  added_ = true;
+  showState();
+}
+
 void TarePage::setKept(bool kept) {
   kept_ = kept;
   showState();
@@ -199,11 +244,15 @@ void TarePage::showState() {
   const bool unloaded = found_ && std::any_of(found_->matrices.begin(),
                                               found_->matrices.end(),
                                               [](const MatrixTare& each) { return each.valid; });
-  state_->setText(kept_                        ? "This recording has a zero."
-                  : unloaded && !found_->any() ? "At rest every taxel reads 0: nothing to subtract."
-                                               : "");
-  keep_->setEnabled(found_ && found_->any());
-  remove_->setVisible(kept_);
+  const bool kept = kept_ && !live();
+  const bool any = found_ && found_->any();
+  state_->setText(kept               ? "This recording has a zero."
+                  : unloaded && !any ? "At rest every taxel reads 0: nothing to subtract."
+                  : live() && added_ ? "Added to the recording that is running."
+                  : live() && any && !recordingRuns_ ? "Record (Ctrl+R) to add this zero."
+                                                     : "");
+  keep_->setEnabled(any && (!live() || recordingRuns_));
+  remove_->setVisible(kept);
 }
 
 void TarePage::setTheme(Theme theme) {

@@ -51,13 +51,24 @@ void ComputedPage::setSource(const OpenedRecordingPtr& recording, bool live) {
   if (ofRecording()) renew();
 }
 
+void ComputedPage::setMeasured(const OpenedRecordingPtr& measured) {
+  if (measured == measured_) return;
+  measured_ = measured;
+  if (!live_) return;
+  forget();
+  renew();
+}
+
 QString ComputedPage::emptyReason() const {
-  if (live_)
-    return "This works with recordings only. Record the connected hand (Ctrl+R), then open the "
-           "recording.";
-  if (!recording_) return "Open a recording first.";
-  if (recording_->profile.numFrames() == 0) return "This recording has no frames.";
+  if (live_ && !measured_) return liveReason();
+  if (!recording()) return "Open a recording first.";
+  if (recording()->profile.numFrames() == 0) return "This recording has no frames.";
   return {};
+}
+
+QString ComputedPage::liveReason() const {
+  return "This works with recordings only. Record the connected hand (Ctrl+R), then open the "
+         "recording.";
 }
 
 void ComputedPage::renew() {

@@ -29,6 +29,9 @@ class ComputedPage : public QWidget {
   // Sets the recording to compute from, as recorded, without filters; null: none. `live`: the
   // window shows a live source instead.
   void setSource(const OpenedRecordingPtr& recording, bool live);
+  // Sets what was measured of the connected hand, from which the page computes while the window
+  // shows a live source; null: nothing.
+  void setMeasured(const OpenedRecordingPtr& measured);
   virtual void setTheme(Theme theme) = 0;
   virtual void setPosition(double /*seconds*/) {}
   // The displayed results for export; call both only while shown().
@@ -54,7 +57,8 @@ class ComputedPage : public QWidget {
   using Take = std::function<void()>;
   using Work = std::function<Take(const Progress&)>;
 
-  const OpenedRecordingPtr& recording() const noexcept { return recording_; }
+  // The recording to compute from or, while the source is live, what was measured of it.
+  const OpenedRecordingPtr& recording() const noexcept { return live_ ? measured_ : recording_; }
   bool live() const noexcept { return live_; }
   // Layout of the rows above the result, which are always visible.
   QVBoxLayout& top() noexcept { return *top_; }
@@ -66,6 +70,8 @@ class ComputedPage : public QWidget {
   virtual bool ofRecording() const { return true; }
   // Why nothing can be computed now; empty: it can. By default a recording with frames is needed.
   virtual QString emptyReason() const;
+  // The same for a live source of which nothing was measured.
+  virtual QString liveReason() const;
   // Starts the computation by calling run().
   virtual void compute() = 0;
   // Called when the source has changed: drops the results of the previous one.
@@ -84,6 +90,7 @@ class ComputedPage : public QWidget {
   void ask();
 
   OpenedRecordingPtr recording_;
+  OpenedRecordingPtr measured_;
   bool live_ = false;
   // Nothing has been computed from the present inputs yet.
   bool stale_ = true;

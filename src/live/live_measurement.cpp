@@ -1,0 +1,184 @@
+#include "palpate/live/live_measurement.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+#include "palpate/core/error.h"
+#include "palpate/core/json.h"
+#include "palpate/core/number_text.h"
+#include "palpate/core/time.h"
+
+namespace palpate {
+namespace {
+
+const HandDescription& withLayout(const HandDescription& hand) {
+  if (!hand.layout) throw std::invalid_argument("LiveMeasurement: the hand has no layout");
+  return hand;
+}
+
+double secondsBetween(std::int64_t fromUs, std::int64_t toUs) {
+  return static_cast<double>(toUs - fromUs) / kUsPerS;
+}
+
+std::string framesText(std::uint64_t count) {
+  return std::to_string(count) + (count == 1 ? " frame" : " frames");
+}
+
+// Frames that a gap event reports as lost; 0 where it doesn't say, or speaks of other items.
+std::uint64_t framesLostIn(const RecordingEvent& event) {
+  try {
+    const Json json = Json::parse(event.json);
+    if (json.contains("stream") && json.at("stream").asString() != "tactile") return 0;
+    if (!json.contains("lost")) return 0;
+    return static_cast<std::uint64_t>(std::max<std::int64_t>(json.at("lost").asInteger(), 0));
+  } catch (const Error&) {
+    return 0;
+  }
+}
+
+}  // namespace
+
+void LiveMeasurementOptions::validate() const {
+  const auto require = [](bool good, const char* what, double is) {
+    if (!good)
+      throw std::invalid_argument(std::string("LiveMeasurementOptions: ") + what + ", is " +
+                                  numberText(is));
+  };
+  require(seconds >= 1.0 && seconds <= 3600.0, "seconds must be 1..3600", seconds);
+  require(maxTravelDeg > 0.0 && std::isfinite(maxTravelDeg),
+          "maxTravelDeg must be above 0",
+          maxTravelDeg);
+  require(firstFrameWithinS > 0.0 && std::isfinite(firstFrameWithinS),
+          "firstFrameWithinS must be above 0",
+          firstFrameWithinS);
+}
+
+LiveMeasurement::LiveMeasurement(HandDescription hand, const LiveMeasurementOptions& options)
+    : options_(options), hand_(std::move(hand)), builder_(withLayout(hand_)) {
+  options_.validate();
+  for (const MatrixLayout& matrix : hand_.layout->matrices()) numScanned_ += matrix.numEnabled();
+}
+
+void LiveMeasurement::add(const CaptureItem& item) {
+  if (state_ != State::kRunning) return;
+  if (const auto* frame = std::get_if<SharedFrame>(&item))
+    addFrame(**frame);
+  else if (const auto* angles = std::get_if<JointAngles>(&item))
+    addAngles(*angles);
+  else if (const auto* temperatures = std::get_if<Temperatures>(&item))
+    addTemperatures(*temperatures);
+  else
+    addEvent(std::get<RecordingEvent>(item));
+}
+
+void LiveMeasurement::addFrame(const TactileFrame& frame) {
+  if (frame.layout != hand_.layout && (!frame.layout || !(*frame.layout == *hand_.layout)))
+    return fail("other taxels are scanned than at the start");
+  const bool first = numFrames() == 0;
+  if (!first && frame.hostUs > lastUs_ && gaps_.afterGap(frame.hostUs))
+    return fail("no frames for " + fixedText(secondsBetween(lastUs_, frame.hostUs), 1) + " s");
+  try {
+    builder_.addFrame(frame.hostUs, frame.values, frame.deviceMs);
+  } catch (const std::invalid_argument&) {
+    ++numUnusable_;
+    return;
+  }
+  if (first) {
+    firstUs_ = frame.hostUs;
+    gaps_.afterGap(frame.hostUs);
+  }
+  lastUs_ = frame.hostUs;
+  if (secondsBetween(firstUs_, lastUs_) >= options_.seconds) state_ = State::kComplete;
+}
+
+void LiveMeasurement::addAngles(const JointAngles& angles) {
+  try {
+    builder_.addAngles(angles.hostUs, angles.deg);
+  } catch (const std::invalid_argument&) {
+    return;  // angles only tell whether the hand moves; the next ones do, too
+  }
+  if (firstDeg_.empty()) firstDeg_ = angles.deg;
+  for (std::size_t axis = 0; axis < std::min(firstDeg_.size(), angles.deg.size()); ++axis) {
+    const double travelDeg = std::abs(angles.deg[axis] - firstDeg_[axis]);
+    if (travelDeg <= options_.maxTravelDeg) continue;
+    const std::string name =
+        axis < hand_.axes.size() ? hand_.axes[axis].name : "joint " + std::to_string(axis);
+    return fail("the hand moved: " + name + " by " + fixedText(travelDeg, 1) + " deg");
+  }
+}
+
+void LiveMeasurement::addTemperatures(const Temperatures& temperatures) {
+  try {
+    builder_.addTemperatures(temperatures.hostUs, temperatures.degC);
+  } catch (const std::invalid_argument&) {
+    return;  // the previous temperature holds until the next one
+  }
+}
+
+void LiveMeasurement::addEvent(const RecordingEvent& event) {
+  if (event.kind == "gap") numLost_ += framesLostIn(event);
+  if (event.kind == "settings") fail("the sensor's settings were changed");
+  if (event.kind == "motion") fail("the hand was commanded: " + event.text);
+}
+
+void LiveMeasurement::noteSilence(double seconds) {
+  const std::size_t frames = numFrames();
+  const double usualS =
+      frames > 1 ? secondsBetween(firstUs_, lastUs_) / static_cast<double>(frames - 1) : 0.0;
+  const double longestS = frames == 0 ? options_.firstFrameWithinS
+                          : frames == 1
+                              ? std::max(options_.firstFrameWithinS, gapThresholdS(usualS))
+                              : gapThresholdS(usualS);
+  if (seconds > longestS) fail("no frames for " + fixedText(seconds, 1) + " s");
+}
+
+void LiveMeasurement::fail(std::string why) {
+  if (state_ != State::kRunning) return;
+  state_ = State::kFailed;
+  failure_ = std::move(why);
+}
+
+double LiveMeasurement::secondsLeft() const noexcept {
+  if (state_ == State::kComplete) return 0.0;
+  return std::max(options_.seconds - secondsBetween(firstUs_, lastUs_), 0.0);
+}
+
+std::vector<std::string> LiveMeasurement::warnings() const {
+  std::vector<std::string> lines;
+  if (numLost_ > 0)
+    lines.push_back(framesText(numLost_) + (numLost_ == 1 ? " was lost" : " were lost"));
+  if (numUnusable_ > 0)
+    lines.push_back(framesText(numUnusable_) + " without a valid time or value left out");
+  return lines;
+}
+
+Profile LiveMeasurement::takeProfile(ProfileInfo info) {
+  if (state_ != State::kComplete) throw std::logic_error("LiveMeasurement: it isn't complete");
+  if (std::exchange(taken_, true)) throw std::logic_error("LiveMeasurement: its profile was taken");
+  info.format = kLiveMeasurementFormat;
+  info.warnings = warnings();
+  return builder_.finish(std::move(info));
+}
+
+std::string notAtRest(const Tare& tare, const Profile& profile, double leastShare) {
+  std::string text;
+  const auto total = static_cast<double>(profile.numFrames());
+  for (std::size_t m = 0; m < tare.matrices.size(); ++m) {
+    const MatrixTare& matrix = tare.matrices[m];
+    std::size_t frames = 0;
+    for (const UnloadedWindow& window : matrix.windows) frames += window.end - window.begin + 1;
+    const double share = total > 0.0 ? static_cast<double>(frames) / total : 0.0;
+    if (matrix.valid && share >= leastShare) continue;
+    text += text.empty() ? "not at rest: " : "; ";
+    text += profile.hand().matrixName(m) + " (";
+    text += matrix.valid
+                ? "touched or moved in " + fixedText(100.0 * (1.0 - share), 0) + " % of the time"
+                : matrix.note;
+    text += ")";
+  }
+  return text;
+}
+
+}  // namespace palpate
