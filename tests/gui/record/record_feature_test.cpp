@@ -96,6 +96,44 @@ TEST_F(RecordFeatureTest, TheLastRecordingCanBeRenamedAndDiscarded) {
   EXPECT_EQ(buttons[1]->text(), "Discard…");
 }
 
+// The dialogue shows what the plan gives to the next recording; it isn't kept for others.
+TEST_F(RecordFeatureTest, TheSettingsShowWhatThePlanGives) {
+  windowState_->prompts.recording = [](RecordingSettings settings, const QString&) {
+    settings.object = "box";
+    return settings;
+  };
+  windowState_->actions.at("recordingSettings")->trigger();
+  feature_.plan().addRow({.object = "ball", .run = "left", .repetitions = 3});
+  feature_.plan().setFollowed(true);
+  RecordingSettings seen;
+  windowState_->prompts.recording = [&seen](RecordingSettings settings, const QString&) {
+    seen = settings;
+    settings.operatorName = "Ada";
+    return settings;
+  };
+  windowState_->actions.at("recordingSettings")->trigger();
+  EXPECT_EQ(seen.object, "ball");
+  EXPECT_EQ(seen.run, "left");
+  EXPECT_EQ(seen.repetition, "1 of 3");
+  const RecordingSettings kept = loadRecordingSettings(windowState_->settings);
+  EXPECT_EQ(kept.operatorName, "Ada");
+  EXPECT_EQ(kept.object, "box");
+}
+
+// Repeated in the window of the plan: the question above the views has its answer.
+TEST_F(RecordFeatureTest, TheQuestionAboutATakeGoesWhenItIsRepeatedElsewhere) {
+  feature_.plan().addRow({.object = "ball", .repetitions = 2});
+  feature_.plan().setFollowed(true);
+  feature_.plan().begin(std::nullopt);
+  endRecording();
+  emit feature_.plan().checked(folder_ / "run_001.palpate", "nothing was touched");
+  QWidget* strip = feature_.strips().back().widget;
+  ASSERT_TRUE(offered().contains("Repeat it?")) << offered().toStdString();
+  EXPECT_FALSE(strip->isHidden());
+  feature_.plan().reject(folder_ / "run_001.palpate");
+  EXPECT_TRUE(strip->isHidden());
+}
+
 TEST_F(RecordFeatureTest, ACountdownIsSeenAndRecordOrEscapeCancelsIt) {
   connectEmulated();
   QWidget* strip = feature_.strips().front().widget;

@@ -16,7 +16,14 @@ constexpr const char* kTextPtKey = "view/text_pt";
 double sizePtOf(const QFont& font) {
   return font.pointSizeF() > 0.0 ? font.pointSizeF() : QFontInfo(font).pointSizeF();
 }
+
+double& presentScale() noexcept {
+  static double scale = 1.0;
+  return scale;
+}
 }  // namespace
+
+double textScale() noexcept { return presentScale(); }
 
 int loadTextPt(const QSettings& settings) {
   const int pt = settings.value(kTextPtKey, 0).toInt();
@@ -30,6 +37,7 @@ void applyTextPt(int pt) {
   QFont font = QApplication::font();
   const double beforePt = sizePtOf(font);
   const double wantedPt = pt > 0 ? pt : ofDesktopPt;
+  presentScale() = wantedPt / ofDesktopPt;
   constexpr double kSame = 0.01;
   if (std::abs(wantedPt - beforePt) < kSame) return;
   font.setPointSizeF(wantedPt);

@@ -15,5 +15,7 @@ void saveTextPt(int pt, QSettings& settings);
 // Gives all widgets, present and future, text of this size. Texts that are larger or smaller than
 // the others stay so in proportion.
 void applyTextPt(int pt);
+// The present size of text over that of the desktop, as set by applyTextPt(); 1 before.
+double textScale() noexcept;
 
 }  // namespace palpate::gui

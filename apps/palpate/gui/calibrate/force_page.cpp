@@ -18,6 +18,7 @@
 #include "gui/widgets/figures_table.h"
 #include "gui/widgets/notes_label.h"
 #include "gui/widgets/number_field.h"
+#include "gui/widgets/text_fit.h"
 
 namespace palpate::gui {
 namespace {
@@ -140,7 +141,9 @@ void ForcePage::makeTop() {
     made->setToolTip(label + " used for this recording; a .dsa doesn't store it");
     made->setRange(least, most);
     made->setFocusPolicy(Qt::StrongFocus);
-    made->setFixedWidth(made->fontMetrics().horizontalAdvance("00000.00") + 18);
+    fitToText(*made, [made] {
+      made->setFixedWidth(made->fontMetrics().horizontalAdvance("00000.00") + 18);
+    });
     return made;
   };
   sensitivity_ = field("forceSensitivity", "Sensitivity", kLeastSensitivity, 1.0);

@@ -26,6 +26,7 @@
 #include "gui/widgets/fitting_pages.h"
 #include "gui/widgets/notes_label.h"
 #include "gui/widgets/number_field.h"
+#include "gui/widgets/text_fit.h"
 
 namespace palpate::gui {
 namespace {
@@ -189,7 +190,9 @@ void PressurePage::makeTop() {
     made->setToolTip(tip);
     made->setRange(0.0, most);
     made->setFocusPolicy(Qt::StrongFocus);
-    made->setFixedWidth(made->fontMetrics().horizontalAdvance("00000.00") + 18);
+    fitToText(*made, [made] {
+      made->setFixedWidth(made->fontMetrics().horizontalAdvance("00000.00") + 18);
+    });
     auto* words = new QLabel(label, this);
     words->setToolTip(tip);
     measured->addWidget(words);

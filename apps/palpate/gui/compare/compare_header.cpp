@@ -12,6 +12,7 @@
 #include <algorithm>
 
 #include "gui/appearance/difference_map.h"
+#include "gui/widgets/text_fit.h"
 
 namespace palpate::gui {
 namespace {
@@ -110,7 +111,9 @@ CompareHeader::CompareHeader(QAction* leave,
   offset_->setSingleStep(kOffsetStepS);
   offset_->setSuffix(" s");
   offset_->setKeyboardTracking(false);
-  offset_->setFixedWidth(offset_->fontMetrics().horizontalAdvance("-00000000.000 s") + 16);
+  fitToText(*offset_, [offset = offset_] {
+    offset->setFixedWidth(offset->fontMetrics().horizontalAdvance("-00000000.000 s") + 16);
+  });
   offset_->setFocusPolicy(Qt::StrongFocus);
   offset_->setToolTip("When B begins, in seconds from A's first frame (or drag B's bar)");
   offset_->setAccessibleName("Offset of B in seconds");

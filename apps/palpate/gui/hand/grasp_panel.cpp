@@ -14,6 +14,8 @@
 
 #include "gui/desktop/button_keys.h"
 #include "gui/hand/grasp_options.h"
+#include "gui/hand/motion_button.h"
+#include "gui/widgets/text_fit.h"
 #include "gui/widgets/value_slider.h"
 
 namespace palpate::gui {
@@ -102,11 +104,13 @@ GraspPanel::GraspPanel(QSettings& settings, QWidget* parent)
   form->addRow("Velocity", velocity_);
   form->addRow("Limit", limits);
   // Aligns the right edges of the fields.
-  int widest = 0;
-  for (const ValueSlider* each : {close_, velocity_, limit_, forceLimit_})
-    widest = std::max(widest, each->field()->sizeHint().width());
-  for (const ValueSlider* each : {close_, velocity_, limit_, forceLimit_})
-    each->field()->setFixedWidth(widest);
+  fitToText(*this, [this] {
+    int widest = 0;
+    for (const ValueSlider* each : {close_, velocity_, limit_, forceLimit_})
+      widest = std::max(widest, each->field()->sizeHint().width());
+    for (const ValueSlider* each : {close_, velocity_, limit_, forceLimit_})
+      each->field()->setFixedWidth(widest);
+  });
 
   // The order of creation is the tab order.
   grasp_ = button("Grasp", "graspHand", this);
@@ -217,7 +221,7 @@ void GraspPanel::showStatus(const GraspStatus& status) {
   const bool canMove = control_ && status.cannotMove.empty();
   const bool canReact = control_ && status.cannotReact.empty();
   const auto set = [](QPushButton* which, bool enabled, const QString& tip) {
-    which->setEnabled(enabled);
+    enableMotionButton(*which, enabled);
     if (which->toolTip() != tip) which->setToolTip(tip);
   };
   const bool holds = status.phase == GraspPhase::kHolding || status.phase == GraspPhase::kSettling;

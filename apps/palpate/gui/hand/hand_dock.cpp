@@ -106,7 +106,8 @@ QWidget* HandDock::makeHead() {
   stop_->setObjectName("stopHand");
   stop_->setProperty("danger", true);
   stop_->setFocusPolicy(Qt::TabFocus);
-  stop_->setFixedHeight(state_->height());
+  // As high as the lines beside it.
+  stop_->setSizePolicy(QSizePolicy::Minimum, QSizePolicy::Expanding);
   stop_->setMinimumWidth(120);
   auto* row = new QHBoxLayout;
   row->setSpacing(12);

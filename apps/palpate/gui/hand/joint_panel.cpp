@@ -21,6 +21,8 @@
 
 #include "gui/appearance/captions.h"
 #include "gui/desktop/button_keys.h"
+#include "gui/hand/motion_button.h"
+#include "gui/widgets/text_fit.h"
 #include "gui/widgets/value_slider.h"
 
 namespace palpate::gui {
@@ -124,14 +126,18 @@ void JointPanel::makeRows(QGridLayout& grid) {
     row.present->setObjectName("presentAngle" + number);
     row.present->setProperty("role", "muted");
     row.present->setAlignment(Qt::AlignRight | Qt::AlignVCenter);
-    row.present->setFixedWidth(fontMetrics().horizontalAdvance("-188.8°") + 4);
+    fitToText(*row.present, [label = row.present] {
+      label->setFixedWidth(label->fontMetrics().horizontalAdvance("-188.8°") + 4);
+    });
     row.present->setToolTip("Present angle");
     row.target = new ValueSlider(
         "Target of " + name, {is.minimumDeg, is.maximumDeg, is.maximumDeg, 0.5, 1, {}}, this);
     row.target->setObjectName("targetAngle" + number);
     row.target->setToolTip(name + ": " + angleText(is.minimumDeg, is) + " .. " +
                            angleText(is.maximumDeg, is) + "; moves only with Move");
-    row.target->field()->setFixedWidth(fontMetrics().horizontalAdvance("-188.8") + 18);
+    fitToText(*row.target->field(), [field = row.target->field()] {
+      field->setFixedWidth(field->fontMetrics().horizontalAdvance("-188.8") + 18);
+    });
     row.move = jointButton("Move", "moveJoint" + number, {}, true, this);
     row.move->setAccessibleName("Move " + name);
     const int at = static_cast<int>(axis);
@@ -370,14 +376,14 @@ void JointPanel::showStatus(const GraspStatus& status) {
     changed += row.changed ? 1 : 0;
     showRow(row);
     const bool can = why.isEmpty() && row.changed;
-    row.move->setEnabled(can);
+    enableMotionButton(*row.move, can);
     const QString tip = can             ? "Moves only this joint to its target"
                         : why.isEmpty() ? "Set a target first"
                                         : why;
     if (row.move->toolTip() != tip) row.move->setToolTip(tip);
   }
   const bool can = why.isEmpty() && changed > 0;
-  move_->setEnabled(can);
+  enableMotionButton(*move_, can);
   const QString tip = can             ? "Moves all joints whose target was set; the others stay"
                       : why.isEmpty() ? "Set a target first, or choose a pose"
                                       : why;

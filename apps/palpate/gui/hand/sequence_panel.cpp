@@ -17,8 +17,10 @@
 #include <palpate/core/output_file.h>
 
 #include "gui/desktop/button_keys.h"
+#include "gui/hand/motion_button.h"
 #include "gui/widgets/number_field.h"
 #include "gui/widgets/status_lines.h"
+#include "gui/widgets/text_fit.h"
 
 namespace palpate::gui {
 namespace {
@@ -59,7 +61,9 @@ SequencePanel::SequencePanel(QSettings& settings, QWidget* parent)
   steps_ = new QListWidget(this);
   steps_->setObjectName("sequenceSteps");
   steps_->setAccessibleName("Steps of the sequence");
-  steps_->setFixedHeight(kSequenceLines * (fontMetrics().lineSpacing() + 6) + 8);
+  fitToText(*steps_, [steps = steps_] {
+    steps->setFixedHeight(kSequenceLines * (steps->fontMetrics().lineSpacing() + 6) + 8);
+  });
   steps_->setTextElideMode(Qt::ElideRight);
   makeButtons();
   const QString stored = settings.value(kStoredSequence).toString();
@@ -315,7 +319,7 @@ void SequencePanel::refresh(const GraspStatus& status) {
     why = "The hand moves or holds: stop it first (Esc)";
   else if (sequence_.steps.empty())
     why = "Add a step first";
-  start_->setEnabled(why.isEmpty());
+  enableMotionButton(*start_, why.isEmpty());
   const QString tip = why.isEmpty() ? "Does the steps in order; Stop or Esc ends all of it" : why;
   if (start_->toolTip() != tip) start_->setToolTip(tip);
   const int row = steps_->currentRow();

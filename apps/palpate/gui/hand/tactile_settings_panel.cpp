@@ -15,6 +15,7 @@
 
 #include <palpate/model/hand_description.h>
 
+#include "gui/widgets/text_fit.h"
 #include "gui/widgets/value_slider.h"
 
 namespace palpate::gui {
@@ -112,10 +113,11 @@ void TactileSettingsPanel::makeRow(int row, const QString& name) {
   made.sensitivity->setToolTip("0 lowest .. 1 highest; factory setting 0.5");
   made.threshold->setToolTip("Readings below this are not sent [counts], 0.." +
                              QString::number(fullScale_));
-  const int digit = fontMetrics().horizontalAdvance('0');
-  constexpr int kFrame = 14;
-  made.sensitivity->field()->setFixedWidth(4 * digit + kFrame);
-  made.threshold->field()->setFixedWidth(4 * digit + kFrame);
+  for (QWidget* field : {made.sensitivity->field(), made.threshold->field()})
+    fitToText(*field, [field] {
+      constexpr int kFrame = 14;
+      field->setFixedWidth(4 * field->fontMetrics().horizontalAdvance('0') + kFrame);
+    });
   grid->addWidget(made.square, row + 1, kSquare);
   made.name = new QLabel(name, table_);
   made.name->setObjectName("matrixName" + QString::number(row - 1));

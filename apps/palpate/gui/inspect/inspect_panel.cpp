@@ -15,7 +15,7 @@ namespace palpate::gui {
 namespace {
 
 // From this width [px] the panel has two columns.
-constexpr int kTwoColumnsFrom = 430;
+constexpr int kTwoColumnsFrom = 430;  // [px]; with large text the width that both columns need
 // Least time between two live values that are shown [us].
 constexpr std::int64_t kReadableUs = 100'000;
 
@@ -111,7 +111,6 @@ std::vector<Fact> noneOf() { return {{"none in this recording", ""}}; }
 InspectPanel::InspectPanel(QWidget* parent) : QScrollArea(parent) {
   setWidgetResizable(true);
   setFrameShape(QFrame::NoFrame);
-  setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
   setFocusPolicy(Qt::NoFocus);
   auto* content = new QWidget(this);
   model_ = new MatrixTableModel(content);
@@ -289,7 +288,10 @@ void InspectPanel::setTheme(Theme theme) {
 }
 
 void InspectPanel::resizeEvent(QResizeEvent* event) {
-  const bool wide = event->size().width() >= kTwoColumnsFrom;
+  const int needed =
+      facts_->minimumSizeHint().width() + columns_->spacing() +
+      std::max(angles_->minimumSizeHint().width(), temperatures_->minimumSizeHint().width());
+  const bool wide = event->size().width() >= std::max(kTwoColumnsFrom, needed);
   columns_->setDirection(wide ? QBoxLayout::LeftToRight : QBoxLayout::TopToBottom);
   QScrollArea::resizeEvent(event);
 }

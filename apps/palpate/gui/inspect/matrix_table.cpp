@@ -8,6 +8,7 @@
 
 #include "gui/appearance/captions.h"
 #include "gui/appearance/hand_unit.h"
+#include "gui/widgets/text_fit.h"
 
 namespace palpate::gui {
 namespace {
@@ -268,23 +269,30 @@ MatrixTable::MatrixTable(MatrixTableModel* model, QWidget* parent) : QTableView(
   setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Fixed);
   setIconSize({10, 10});
   verticalHeader()->hide();
-  verticalHeader()->setDefaultSectionSize(fontMetrics().height() + 8);
   QHeaderView* header = horizontalHeader();
   header->setSectionsClickable(false);
   header->setHighlightSections(false);
   header->setMinimumSectionSize(24);
   header->setSectionResizeMode(QHeaderView::Fixed);
   header->setSectionResizeMode(MatrixTableModel::kName, QHeaderView::Stretch);
+  fitToText(*this, [this] { fitColumns(); });
+  connect(model, &QAbstractItemModel::modelReset, this, &QWidget::updateGeometry);
+}
+
+void MatrixTable::fitColumns() {
+  verticalHeader()->setDefaultSectionSize(fontMetrics().height() + 8);
   const int digit = fontMetrics().horizontalAdvance('0');
-  const int padding = 14;
+  constexpr int kPadding = 14;
   for (int column = kFirstNumber; column < MatrixTableModel::kNumColumns; ++column) {
     const int digits = column == MatrixTableModel::kSum ? 6 : 4;
-    const QString name = model->headerData(column, Qt::Horizontal, Qt::DisplayRole).toString();
-    columnSizes_[static_cast<std::size_t>(column)] =
-        std::max(digits * digit, header->fontMetrics().horizontalAdvance(name)) + padding;
-    header->resizeSection(column, columnSizes_[static_cast<std::size_t>(column)]);
+    const QString name = model()->headerData(column, Qt::Horizontal, Qt::DisplayRole).toString();
+    int& width = columnSizes_[static_cast<std::size_t>(column)];
+    width = std::max(digits * digit, horizontalHeader()->fontMetrics().horizontalAdvance(name)) +
+            kPadding;
+    horizontalHeader()->resizeSection(column, width);
   }
-  connect(model, &QAbstractItemModel::modelReset, this, &QWidget::updateGeometry);
+  hideColumns(width());
+  updateGeometry();
 }
 
 QSize MatrixTable::sizeHint() const {
@@ -311,12 +319,16 @@ QSize MatrixTable::minimumSizeHint() const {
   return {width, sizeHint().height()};
 }
 
-void MatrixTable::resizeEvent(QResizeEvent* event) {
-  int left = event->size().width() - nameWidth();
+void MatrixTable::hideColumns(int width) {
+  int left = width - nameWidth();
   for (int column = kFirstNumber; column < MatrixTableModel::kNumColumns; ++column) {
     left -= columnSizes_[static_cast<std::size_t>(column)];
     setColumnHidden(column, left < 0 && column > kLastAlways);
   }
+}
+
+void MatrixTable::resizeEvent(QResizeEvent* event) {
+  hideColumns(event->size().width());
   QTableView::resizeEvent(event);
 }
 

@@ -96,6 +96,9 @@ class MatrixTable : public QTableView {
 
  private:
   int nameWidth() const;
+  // As wide as their headings and figures, in the present size of text.
+  void fitColumns();
+  void hideColumns(int width);
   std::array<int, MatrixTableModel::kNumColumns> columnSizes_{};  // [px]
   TickDelegate* ticks_;
 };

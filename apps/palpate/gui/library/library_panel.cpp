@@ -20,12 +20,14 @@
 #include "gui/desktop/reveal_file.h"
 #include "gui/widgets/empty_page.h"
 #include "gui/widgets/fitting_pages.h"
+#include "gui/widgets/text_fit.h"
 
 namespace palpate::gui {
 namespace {
 
 constexpr const char* kLibraryPanelFolderKey = "library/folder";
 constexpr const char* kHeaderKey = "library/columns";
+constexpr const char* kChooseFolder = "Choose a folder…";
 // [ms] time without changes before the folder is scanned again
 constexpr int kLibraryPanelCalmMs = 1000;
 constexpr qsizetype kMostWatched = 500;   // folders
@@ -77,6 +79,12 @@ void LibraryPanel::buildTop() {
   folderButton_->setProperty("flat", true);
   folderButton_->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
   folderButton_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
+  // Paths are shortened, the words that stand there without a folder are not.
+  fitToText(*folderButton_, [button = folderButton_] {
+    constexpr int kIconAndPadding = 66;  // [px]
+    button->setMinimumWidth(button->fontMetrics().horizontalAdvance(kChooseFolder) +
+                            kIconAndPadding);
+  });
   refreshButton_ = new QToolButton(this);
   refreshButton_->setObjectName("libraryRefresh");
   refreshButton_->setText("Refresh");
@@ -86,7 +94,7 @@ void LibraryPanel::buildTop() {
   search_ = new QLineEdit(this);
   search_->setObjectName("librarySearch");
   search_->setClearButtonEnabled(true);
-  search_->setPlaceholderText("Search: foam object:ball date:2014-11");
+  search_->setPlaceholderText("foam object:ball date:2014-11");
   search_->setToolTip(
       "Every word must be found; \"several words\" in quotes are one.\n"
       "In one place only: name: path: operator: object: run: notes: label: date: form: state:");
@@ -248,7 +256,7 @@ void LibraryPanel::showFolder() {
   constexpr int kIconAndRefresh = 140;
   const QString shown = folderButton_->fontMetrics().elidedText(
       folder_, Qt::ElideMiddle, std::max(60, width() - kIconAndRefresh));
-  folderButton_->setText(" " + (folder_.isEmpty() ? QString("Choose a folder…") : shown));
+  folderButton_->setText(" " + (folder_.isEmpty() ? QString(kChooseFolder) : shown));
   folderButton_->setToolTip(folder_.isEmpty() ? QString("Choose a folder with recordings")
                                               : folder_ + "\nChoose another one");
 }
@@ -261,7 +269,7 @@ void LibraryPanel::showState() {
   refreshButton_->setEnabled(!folder_.isEmpty());
   search_->setEnabled(!folder_.isEmpty());
   QString text;
-  QString button = "Choose a folder…";
+  QString button = kChooseFolder;
   if (folder_.isEmpty()) {
     text = "Here you search and open the recordings of a folder and of its subfolders.";
   } else if (model_->numRecordings() > 0) {

@@ -19,6 +19,7 @@
 
 #include "gui/widgets/empty_page.h"
 #include "gui/widgets/fitting_pages.h"
+#include "gui/widgets/text_fit.h"
 
 namespace palpate::gui {
 
@@ -112,7 +113,9 @@ void LogPanel::buildTop() {
   words_->setClearButtonEnabled(true);
   words_->setPlaceholderText("Search");
   constexpr int kAroundWord = 24;  // [px]
-  words_->setMinimumWidth(words_->fontMetrics().horizontalAdvance("Search") + kAroundWord);
+  fitToText(*words_, [words = words_] {
+    words->setMinimumWidth(words->fontMetrics().horizontalAdvance("Search") + kAroundWord);
+  });
   auto* row = new QHBoxLayout;
   row->setContentsMargins(8, 6, 8, 6);
   row->setSpacing(6);

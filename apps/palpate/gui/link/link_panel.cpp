@@ -11,6 +11,7 @@
 #include <palpate/core/time.h>
 
 #include "gui/appearance/captions.h"
+#include "gui/widgets/text_fit.h"
 
 namespace palpate::gui {
 namespace {
@@ -148,7 +149,7 @@ LinkPanel::LinkPanel(QWidget* parent) : QWidget(parent) {
   log_->setLineWrapMode(QPlainTextEdit::WidgetWidth);
   log_->setFrameShape(QFrame::NoFrame);
   log_->setFocusPolicy(Qt::ClickFocus);
-  log_->setMinimumHeight(4 * fontMetrics().lineSpacing());
+  fitToText(*log_, [log = log_] { log->setMinimumHeight(4 * log->fontMetrics().lineSpacing()); });
   log_->setAccessibleName("What happened");
 
   auto* content = new QWidget(this);

@@ -14,6 +14,7 @@
 
 #include "gui/appearance/hand_unit.h"
 #include "gui/widgets/fitting_row.h"
+#include "gui/widgets/text_fit.h"
 
 namespace palpate::gui {
 namespace {
@@ -44,7 +45,9 @@ QDoubleSpinBox* rangeField(QWidget* parent, const char* name, const char* tip) {
   field->setObjectName(name);
   field->setButtonSymbols(QAbstractSpinBox::NoButtons);
   field->setAlignment(Qt::AlignRight | Qt::AlignVCenter);
-  field->setFixedWidth(field->fontMetrics().horizontalAdvance("0000000") + 18);
+  fitToText(*field, [field] {
+    field->setFixedWidth(field->fontMetrics().horizontalAdvance("0000000") + 18);
+  });
   field->setDecimals(0);
   field->setRange(0.0, 1e6);
   field->setSingleStep(50.0);

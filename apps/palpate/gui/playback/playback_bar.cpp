@@ -10,6 +10,7 @@
 
 #include "gui/playback/seek_bar.h"
 #include "gui/widgets/number_field.h"
+#include "gui/widgets/text_fit.h"
 
 namespace palpate::gui {
 namespace {
@@ -26,7 +27,9 @@ template <class Field>
 Field* makeField(QWidget* parent, const char* name, int digits) {
   auto* field = new Field(parent);
   field->setObjectName(name);
-  field->setFixedWidth(field->fontMetrics().horizontalAdvance(QString(digits, '0')) + 18);
+  fitToText(*field, [field, digits] {
+    field->setFixedWidth(field->fontMetrics().horizontalAdvance(QString(digits, '0')) + 18);
+  });
   return field;
 }
 

@@ -8,10 +8,12 @@
 #include <QMenu>
 #include <QPushButton>
 #include <QVBoxLayout>
+#include <algorithm>
 
 #include <palpate/recognition/training_choice.h>
 
 #include "gui/recognise/answer_view.h"
+#include "gui/widgets/text_fit.h"
 
 namespace palpate::gui {
 namespace {
@@ -41,10 +43,13 @@ AskPage::AskPage(RecognitionController& controller, QWidget* parent)
   ask_ = new QPushButton(this);
   ask_->setObjectName("whatIsIt");
   ask_->setProperty("primary", true);
-  ask_->setMinimumHeight(44);
   QFont large = ask_->font();
   large.setPointSizeF(kButtonScale * large.pointSizeF());
   ask_->setFont(large);
+  fitToText(*ask_, [ask = ask_] {
+    constexpr int kLeastHeight = 44;  // [px]
+    ask->setMinimumHeight(std::max(kLeastHeight, ask->sizeHint().height()));
+  });
   byItself_ = new QCheckBox("Automatic", this);
   byItself_->setObjectName("recogniseByItself");
   byItself_->setToolTip("Repeats while something is held");

@@ -155,7 +155,17 @@ void RecordFeature::connectActions() {
   on(actions.record, [this] { toggle(); });
   on(actions.recordingSettings, [this] {
     takeFolder();
-    if (const auto wanted = state().prompts.recording(settings_, "Keep")) use(*wanted);
+    const auto planned = plan_.nextSettings(settings_);
+    auto wanted = state().prompts.recording(planned.value_or(settings_), "Keep");
+    if (!wanted) return;
+    if (planned) {
+      // What the plan gives to its next recording is not for the others.
+      wanted->object = settings_.object;
+      wanted->run = settings_.run;
+      wanted->repetition = settings_.repetition;
+      if (wanted->notes == planned->notes) wanted->notes = settings_.notes;
+    }
+    use(*wanted);
   });
   for (QAction* action : {actions.openRecorded, actions.renameRecorded, actions.discardRecorded})
     action->setEnabled(false);
@@ -198,6 +208,14 @@ void RecordFeature::connectTake() {
 
 void RecordFeature::connectPlan() {
   on(actions_.recordingPlan, [this] { showPlan(); });
+  connect(&plan_, &PlanController::changed, this, [this] {
+    // It was repeated, discarded or forgotten somewhere else.
+    if (!doubted_) return;
+    const PlannedTake* take = plan_.plan().find(*doubted_);
+    if (take && !take->rejected) return;
+    doubted_.reset();
+    offer_->dismiss();
+  });
   connect(&plan_,
           &PlanController::checked,
           this,
@@ -205,6 +223,7 @@ void RecordFeature::connectPlan() {
             if (problem.isEmpty() || !offering_) return;
             const QString name = QString::fromStdString(file.filename().string());
             state().messages.logLink(name + ": " + problem);
+            doubted_ = file;
             offer_->offer(name + ": " + problem + ". Repeat it?", "Repeat", [this, file] {
               plan_.reject(file);
               state().messages.flash(plan_.nextText());
@@ -217,7 +236,11 @@ void RecordFeature::connectPlan() {
 }
 
 void RecordFeature::showPlan() {
-  if (!planDialog_) planDialog_ = new PlanDialog(state(), plan_, actions_.record, window());
+  if (!planDialog_) {
+    planDialog_ = new PlanDialog(state(), plan_, actions_.record, window());
+    // Their keys work there, too.
+    planDialog_->addActions({actions_.record, actions_.recordingSettings, actions_.recordingPlan});
+  }
   planDialog_->show();
   planDialog_->raise();
   planDialog_->activateWindow();
@@ -379,6 +402,7 @@ void RecordFeature::begin(const RecordingSettings& settings, bool planned) {
   LiveController& live = state().live;
   if (!live.source() || live.recording()) return;
   offer_->dismiss();
+  doubted_.reset();
   // A take may be a little shorter than it was to be: by the interval of two frames.
   constexpr double kNearlyWhole = 0.95;
   std::optional<double> leastS;
@@ -467,6 +491,7 @@ void RecordFeature::offer(const RecordingReport& report) {
 
 void RecordFeature::offerTake(const QString& text) {
   if (!offering_) return;
+  doubted_.reset();
   offer_->offer(text, "Open", [this] { state().open(take_.paths()); });
   offer_->offerAlso("Rename…", "Another name, with what belongs to it", [this] { take_.rename(); });
   offer_->offerAlso(

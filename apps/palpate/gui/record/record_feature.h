@@ -86,6 +86,8 @@ class RecordFeature : public Feature {
   PlanController plan_;
   // Made when it is asked for.
   PlanDialog* planDialog_ = nullptr;
+  // The planned take whose problem the line above the views tells.
+  std::optional<std::filesystem::path> doubted_;
   RecordedTake take_;
   RecordingCountdown countdown_;
   CountdownStrip* countdownStrip_;

@@ -10,6 +10,7 @@
 #include <palpate/recording/recording_files.h>
 
 #include "gui/appearance/captions.h"
+#include "gui/desktop/trash.h"
 
 namespace palpate::gui {
 namespace fs = std::filesystem;
@@ -33,9 +34,7 @@ std::string stemFromText(QString typed) {
 }  // namespace
 
 RecordedTake::RecordedTake(WindowState& windowState, QObject* parent)
-    : QObject(parent),
-      moveToTrash([](const QString& path) { return QFile::moveToTrash(path); }),
-      windowState_(windowState) {}
+    : QObject(parent), moveToTrash(moveFileToTrash), windowState_(windowState) {}
 
 void RecordedTake::set(const std::vector<fs::path>& paths) {
   paths_ = paths;

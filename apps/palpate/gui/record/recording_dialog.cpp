@@ -270,6 +270,13 @@ QWidget* RecordingDialog::makeFoot(const QString& okText) {
 void RecordingDialog::fill(const RecordingSettings& settings) {
   operator_->setText(settings.operatorName);
   object_->setText(settings.object);
+  run_ = settings.run;
+  repetition_ = settings.repetition;
+  // Only the plan of recordings gives a repetition.
+  if (!repetition_.isEmpty()) {
+    object_->setEnabled(false);
+    object_->setToolTip("The plan of recordings gives the object (Ctrl+Alt+P)");
+  }
   notes_->setPlainText(settings.notes);
   template_->setText(settings.nameTemplate);
   folder_->setText(settings.folder);
@@ -283,6 +290,8 @@ RecordingSettings RecordingDialog::settings() const {
   RecordingSettings settings;
   settings.operatorName = operator_->text().simplified();
   settings.object = object_->text().simplified();
+  settings.run = run_;
+  settings.repetition = repetition_;
   settings.notes = notes_->toPlainText().trimmed();
   settings.nameTemplate = template_->text().trimmed();
   settings.folder = folderFromText(folder_->text());

@@ -67,6 +67,9 @@ class RecordingDialog : public QDialog {
   QLineEdit* operator_ = nullptr;
   QLineEdit* object_ = nullptr;
   QPlainTextEdit* notes_ = nullptr;
+  // Of a recording of the plan; not to be changed here.
+  QString run_;
+  QString repetition_;
   QLineEdit* template_ = nullptr;
   QMenu* placeholders_ = nullptr;
   QLineEdit* folder_ = nullptr;

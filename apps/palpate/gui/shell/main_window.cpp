@@ -5,6 +5,7 @@
 #include <QStatusBar>
 #include <algorithm>
 
+#include "gui/appearance/text_size.h"
 #include "gui/desktop/application.h"
 #include "gui/export/export_feature.h"
 #include "gui/settings/settings_feature.h"
@@ -15,6 +16,7 @@
 #include "gui/widgets/dock.h"
 #include "gui/widgets/message_banner.h"
 #include "gui/widgets/status_strip.h"
+#include "gui/widgets/text_fit.h"
 
 namespace palpate::gui {
 
@@ -35,7 +37,8 @@ ShellActions::ShellActions(ActionRegistry& book) {
 namespace {
 
 constexpr QSize kUsualWindow(1440, 900);
-// Below this width of the window [px] buttons have no text.
+// Below this width of the window [px] buttons have no text. Both widths are those for text of the
+// desktop's size, and grow with it.
 constexpr int kCompactBelow = 1340;
 // Below this width the tool bar has no name of the program.
 constexpr int kNarrowBelow = 1120;
@@ -107,6 +110,7 @@ void MainWindow::addFeatures() {
   }
   centre_->add(std::move(strips));
   menus_->fill(windowState_->actions, docks_->toggles());
+  fitToText(*this, [this] { fitMenus(); });
   windowState_->menus = menus_->shared();
   std::vector<ExportedView> views;
   for (const auto& feature : features_)
@@ -266,8 +270,12 @@ void MainWindow::showEvent(QShowEvent* event) {
 
 void MainWindow::resizeEvent(QResizeEvent* event) {
   QMainWindow::resizeEvent(event);
-  menus_->setCompact(event->size().width() < kCompactBelow);
-  menus_->setNarrow(event->size().width() < kNarrowBelow);
+  fitMenus();
+}
+
+void MainWindow::fitMenus() {
+  menus_->setCompact(width() < textScale() * kCompactBelow);
+  menus_->setNarrow(width() < textScale() * kNarrowBelow);
 }
 
 }  // namespace palpate::gui

@@ -62,6 +62,8 @@ class MainWindow : public QMainWindow {
   void resizeEvent(QResizeEvent* event) override;
 
  private:
+  // Chooses how much text the tool bar has, for the width of the window and the size of text.
+  void fitMenus();
   void connectPlace();
   void connectActions();
   void connectMessages();

@@ -11,6 +11,7 @@
 #include <QToolButton>
 
 #include "gui/widgets/eliding_box.h"
+#include "gui/widgets/text_fit.h"
 #include "gui/window_state/action_registry.h"
 
 namespace palpate::gui {
@@ -272,6 +273,7 @@ QWidget* WindowMenus::makePlayback(QToolBar& bar, const ActionRegistry& book) {
   add(at("toStart"));
   add(at("stepBack"));
   play_ = add(at("play"));
+  fitToText(*play_, [this] { setPlayWidth(); });
   add(at("stepForward"));
   menus_.speed->setObjectName("speedBox");
   menus_.speed->setMinimumHeight(kWindowMenusControlHeight);
@@ -293,9 +295,13 @@ void WindowMenus::setCompact(bool on) {
   styleRecord();
   for (QToolButton* button : withText_)
     button->setToolButtonStyle(on ? Qt::ToolButtonIconOnly : Qt::ToolButtonTextBesideIcon);
+  setPlayWidth();
+}
+
+void WindowMenus::setPlayWidth() {
   // "Play" and "Pause" get the same width, so that nothing moves when the playback starts.
   const int textWidth = play_->fontMetrics().horizontalAdvance(" Pause");
-  play_->setMinimumWidth(on ? 0 : textWidth + kIconAndPadding);
+  play_->setMinimumWidth(compact_ ? 0 : textWidth + kIconAndPadding);
 }
 
 void WindowMenus::showLink(const QString& text, bool good) {

@@ -55,6 +55,7 @@ class WindowMenus {
   bool compact_ = false;
 
   void styleRecord();
+  void setPlayWidth();
   // Turns the button red.
   void showRecording(bool on);
   void buildMenuBar(const ActionRegistry& book, const QList<QAction*>& dockToggles);

@@ -9,6 +9,7 @@
 #include <QVBoxLayout>
 
 #include "gui/widgets/number_field.h"
+#include "gui/widgets/text_fit.h"
 
 namespace palpate::gui {
 namespace {
@@ -152,7 +153,8 @@ QDoubleSpinBox* SlipControls::field(const char* name,
   made->setSingleStep(step);
   made->setFocusPolicy(Qt::StrongFocus);
   made->setKeyboardTracking(false);
-  made->setFixedWidth(made->fontMetrics().horizontalAdvance("00.00") + 18);
+  fitToText(*made,
+            [made] { made->setFixedWidth(made->fontMetrics().horizontalAdvance("00.00") + 18); });
   bool good = false;
   const double kept = settings_.value(key).toDouble(&good);
   made->setValue(good && kept >= step && kept <= most ? kept : usual);

@@ -17,6 +17,7 @@
 #include "gui/slip/slip_tables.h"
 #include "gui/widgets/figures_table.h"
 #include "gui/widgets/notes_label.h"
+#include "gui/widgets/text_fit.h"
 
 namespace palpate::gui {
 namespace {
@@ -72,10 +73,12 @@ SlipPanel::SlipPanel(QSettings& settings, QWidget* parent) : ComputedPage("slip"
   list_->setSingleLine();
   list_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
   list_->setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Maximum);
+  fitToText(*list_, [this] { showAllRows(); });
   notes_ = notesLabel("slipNotes", left);
   notes_->setAlignment(Qt::AlignTop | Qt::AlignLeft);
   // The list gets its height first.
   notes_->setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Ignored);
+  fitToText(*notes_, [this] { notes_->setMinimumHeight(2 * notes_->fontMetrics().lineSpacing()); });
   auto* leftColumn = new QVBoxLayout(left);
   leftColumn->setContentsMargins(0, 0, 0, 0);
   leftColumn->setSpacing(0);
@@ -297,9 +300,10 @@ void SlipPanel::showRows() {
   const QSignalBlocker blocker(list_);
   list_->setRows(rows);
   list_->selectRow(static_cast<int>(chosen_));
-  // All rows are visible.
-  list_->setMinimumHeight(list_->sizeHint().height());
+  showAllRows();
 }
+
+void SlipPanel::showAllRows() { list_->setMinimumHeight(list_->sizeHint().height()); }
 
 void SlipPanel::showScene() {
   const SensorLayout& layout = *hand()->layout;

@@ -79,6 +79,7 @@ class SlipPanel : public ComputedPage {
   void showFrame();
   void showRows();
   void showScene();
+  void showAllRows();
   void showNotes(const SlipSample* sample);
   void changed();
   QString nameOfMatrix(std::size_t matrix) const;

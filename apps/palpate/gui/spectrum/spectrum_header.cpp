@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "gui/widgets/number_field.h"
+#include "gui/widgets/text_fit.h"
 
 namespace palpate::gui {
 namespace {
@@ -39,7 +40,8 @@ SpectrumHeader::SpectrumHeader(QWidget* parent) : QWidget(parent) {
     made->setObjectName(name);
     made->setAccessibleName(tip.section('\n', 0, 0));
     made->setToolTip(tip);
-    made->setFixedWidth(made->fontMetrics().horizontalAdvance("65536") + 18);
+    fitToText(*made,
+              [made] { made->setFixedWidth(made->fontMetrics().horizontalAdvance("65536") + 18); });
     made->setFocusPolicy(Qt::StrongFocus);
     return made;
   };

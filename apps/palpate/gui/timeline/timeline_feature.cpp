@@ -1,6 +1,7 @@
 #include "gui/timeline/timeline_feature.h"
 
 #include <QInputDialog>
+#include <QLabel>
 #include <QMenu>
 #include <QPainter>
 #include <QPicture>
@@ -93,10 +94,18 @@ TimelineFeature::TimelineFeature(WindowState& windowState, QWidget* window)
   crop_ = std::make_unique<CropJob>(windowState, *actions_.crop, *actions_.saveAs, window);
   windowState.prompts.text = [window](const QString& title,
                                       const QString& text) -> std::optional<QString> {
-    bool good = false;
-    const QString answer =
-        QInputDialog::getText(window, title, title + ":", QLineEdit::Normal, text, &good);
-    return good ? std::optional(answer.simplified()) : std::nullopt;
+    QInputDialog dialog(window);
+    dialog.setLabelText(title + ":");
+    dialog.setTextValue(text);
+    // The present text is seen whole, as far as it is not very long.
+    constexpr int kLeastWidth = 360, kMostWidth = 640, kAround = 60;  // [px]
+    const int widest = std::max(dialog.fontMetrics().horizontalAdvance(title),
+                                dialog.fontMetrics().horizontalAdvance(text));
+    dialog.resize(std::clamp(widest + kAround, kLeastWidth, kMostWidth),
+                  dialog.sizeHint().height());
+    if (auto* label = dialog.findChild<QLabel*>()) label->setWordWrap(true);
+    if (dialog.exec() != QDialog::Accepted) return std::nullopt;
+    return dialog.textValue().simplified();
   };
   connect(&windowState.appearance, &ViewAppearance::timeAxisChanged, this, [this, &windowState] {
     chart_->setRight(windowState.appearance.timeAxisRight());

@@ -8,6 +8,8 @@
 #include <numeric>
 #include <utility>
 
+#include "gui/widgets/text_fit.h"
+
 namespace palpate::gui {
 namespace {
 
@@ -76,7 +78,6 @@ FiguresTable::FiguresTable(const std::vector<FigureColumn>& columns, QWidget* pa
   setVerticalScrollMode(QAbstractItemView::ScrollPerPixel);
   setItemDelegate(new FigureDelegate(this));
   verticalHeader()->hide();
-  verticalHeader()->setDefaultSectionSize(2 * fontMetrics().height() + 2 * kFiguresTableAir);
   QHeaderView* header = horizontalHeader();
   header->setHighlightSections(false);
   header->setMinimumSectionSize(24);
@@ -87,10 +88,9 @@ FiguresTable::FiguresTable(const std::vector<FigureColumn>& columns, QWidget* pa
     item->setToolTip(column.tip);
     item->setTextAlignment((column.words ? Qt::AlignLeft : Qt::AlignRight) | Qt::AlignVCenter);
     setHorizontalHeaderItem(i, item);
-    widths_.push_back(column.letters * fontMetrics().horizontalAdvance('0') +
-                      2 * kFiguresTablePadding);
+    letters_.push_back(column.letters);
   }
-  needed_ = neededWidths();
+  fitToText(*this, [this] { fitTextSize(); });
   connect(this, &QTableWidget::itemSelectionChanged, this, [this] {
     if (const int row = chosenRow(); row >= 0) emit rowChosen(row);
   });
@@ -146,7 +146,19 @@ void FiguresTable::setTheme(Theme theme) {
 }
 
 void FiguresTable::setSingleLine() {
-  verticalHeader()->setDefaultSectionSize(fontMetrics().height() + 2 * kFiguresTableAir);
+  linesOfRow_ = 1;
+  fitTextSize();
+}
+
+void FiguresTable::fitTextSize() {
+  verticalHeader()->setDefaultSectionSize(linesOfRow_ * fontMetrics().height() +
+                                          2 * kFiguresTableAir);
+  widths_.clear();
+  for (const int letters : letters_)
+    widths_.push_back(letters * fontMetrics().horizontalAdvance('0') + 2 * kFiguresTablePadding);
+  needed_ = neededWidths();
+  fitColumns();
+  updateGeometry();
 }
 
 void FiguresTable::fitColumns() {

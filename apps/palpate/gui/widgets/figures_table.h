@@ -61,7 +61,13 @@ class FiguresTable : public QTableWidget {
   // The widths at which headings and figures aren't shortened [px].
   std::vector<int> neededWidths() const;
 
-  // Widths of the columns when there is room [px].
+  // Sizes of rows and columns for the present size of text.
+  void fitTextSize();
+
+  int linesOfRow_ = 2;
+  // Widths of the columns when there is room, in digits.
+  std::vector<int> letters_;
+  // The same [px].
   std::vector<int> widths_;
   std::vector<int> needed_;
 };

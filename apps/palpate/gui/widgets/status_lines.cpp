@@ -3,6 +3,8 @@
 #include <QFontMetrics>
 #include <QScrollBar>
 
+#include "gui/widgets/text_fit.h"
+
 namespace palpate::gui {
 
 StatusLines::StatusLines(int lines, const QString& name, QWidget* parent)
@@ -15,7 +17,7 @@ StatusLines::StatusLines(int lines, const QString& name, QWidget* parent)
   setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
   setFocusPolicy(Qt::NoFocus);
   setWidget(label_);
-  setFixedHeight(lines * fontMetrics().lineSpacing() + 2);
+  fitToText(*this, [this, lines] { setFixedHeight(lines * fontMetrics().lineSpacing() + 2); });
 }
 
 void StatusLines::setText(const QString& text, const QString& tip) {

@@ -10,6 +10,7 @@
 #include <cmath>
 
 #include "gui/widgets/number_field.h"
+#include "gui/widgets/text_fit.h"
 
 namespace palpate::gui {
 namespace {
@@ -38,7 +39,8 @@ ValueSlider::ValueSlider(const QString& name, const SliderRange& range, QWidget*
   if (!range.unit.isEmpty()) {
     auto* unit = new QLabel(range.unit, this);
     unit->setProperty("role", "muted");
-    unit->setFixedWidth(fontMetrics().horizontalAdvance(kWidestUnit));
+    fitToText(*unit,
+              [unit] { unit->setFixedWidth(unit->fontMetrics().horizontalAdvance(kWidestUnit)); });
     layout->addWidget(unit);
   }
   connect(slider_, &QSlider::valueChanged, this, [this](int ticks) {

@@ -1,0 +1,15 @@
+// Sizes of controls that follow from their text: they are computed anew when the size of the text
+// changes (dialog Settings).
+#pragma once
+
+#include <functional>
+
+class QWidget;
+
+namespace palpate::gui {
+
+// Calls `fit` at once, and again after each change of the font of `widget`, once all widgets have
+// their new font. `fit` may use what lives as long as `widget`.
+void fitToText(QWidget& widget, std::function<void()> fit);
+
+}  // namespace palpate::gui
