@@ -183,7 +183,7 @@ void MotionLink::work() {
     if (nowUs >= session_.nextTemperaturesUs) {
       session_.nextTemperaturesUs = nowUs + temperaturePeriodUs_;
       pollTemperatures();
-    } else if (session_.moving && nowUs >= session_.nextStatesUs) {
+    } else if (statesAreDue() && nowUs >= session_.nextStatesUs) {
       session_.nextStatesUs = nowUs + kStatesPeriodUs;
       pollStates();
     } else if (nowUs >= session_.nextAnglesUs) {
@@ -191,8 +191,8 @@ void MotionLink::work() {
       session_.nextAnglesUs = std::max(session_.nextAnglesUs + anglePeriodUs_, nowUs);
       pollAngles();
     } else {
-      waitForCommand(session_.moving ? std::min(session_.nextAnglesUs, session_.nextStatesUs)
-                                     : session_.nextAnglesUs);
+      waitForCommand(statesAreDue() ? std::min(session_.nextAnglesUs, session_.nextStatesUs)
+                                    : session_.nextAnglesUs);
     }
     session_.failures = 0;
   } catch (const DeviceError& error) {
@@ -233,7 +233,8 @@ void MotionLink::pollStates() {
     states_ = states;
   }
   if (moves) return;
-  session_.moving = false;
+  session_.settling = false;
+  if (!std::exchange(session_.moving, false)) return;
   event("motion", "motion ended", session_.motionFromUs, time_.nowUs());
 }
 
@@ -281,6 +282,7 @@ CommandAnswer MotionLink::move(const MoveJoints& move) {
 
 void MotionLink::stopMotion() {
   controller_->stop();
+  session_.settling = true;
   if (!std::exchange(session_.moving, false)) return;
   event("motion", "stopped", session_.motionFromUs, time_.nowUs());
 }
@@ -291,6 +293,7 @@ CommandAnswer MotionLink::execute(const DeviceCommand& command) {
     stopMotion();
   } else if (const auto* power = std::get_if<SetPower>(&command)) {
     controller_->setPower(power->on);
+    session_.settling = true;
     if (!power->on) session_.moving = false;
     eventNow("motion", power->on ? "axes powered" : "axes without power");
   }

@@ -38,6 +38,7 @@ class MotionLink : public PortLink {
   bool stopWaits() const;
   void pollAngles();
   void pollTemperatures();
+  bool statesAreDue() const noexcept { return session_.moving || session_.settling; }
   void pollStates();
   CommandAnswer move(const MoveJoints& move);
   void stopMotion();
@@ -54,7 +55,9 @@ class MotionLink : public PortLink {
   bool stopAfterReconnect_ = false;
   // State of one session, from begin() to finish().
   struct Session {
-    bool moving = false;            // a motion begun by us has not ended
+    bool moving = false;  // a motion begun by us has not ended
+    // After a stop or a change of power the states are read until no axis moves.
+    bool settling = false;
     std::int64_t motionFromUs = 0;  // host time
     std::int64_t nextAnglesUs = 0;  // monotonic time
     std::int64_t nextTemperaturesUs = 0;

@@ -153,13 +153,16 @@ RecoverReport recoverNative(const std::filesystem::path& in,
     report.message = "nothing can be saved: no intact block was found";
     return report;
   }
+  SaveExtras extras;
+  extras.meta = recovery.meta;
   saveRecording(*recovery.profile,
                 recovery.whole()
                     ? recovery.events
                     : withOrigin(recovery.events, *recovery.profile, in, damageText(recovery)),
                 out,
                 overwrite,
-                progress);
+                progress,
+                extras);
   report.state = recovery.whole() ? RecoverReport::State::kWhole : RecoverReport::State::kPart;
   report.message = "saved " + countsText(recovery.frames, recovery.angles, recovery.temperatures);
   if (!recovery.whole()) report.message += "; damage of the file: " + damageText(recovery);

@@ -236,5 +236,30 @@ TEST(SdhEmulatedHand, WhatAnswersAtTheOtherOnesPortIsSaidInItsStatus) {
   hand.stop();
 }
 
+// The states are read again after a stop, and after the motors went off in a motion: nobody waits
+// for the end of a motion that has ended.
+TEST(SdhEmulatedHand, AfterAStopAndWithoutPowerNoAxisIsSaidToMove) {
+  EmulatedHand emulated(std::make_unique<testing::StillHand>(), quick());
+  testing::CollectingSink sink;
+  LiveHandOptions options;
+  options.sdhPort = emulated.sdhPort();
+  LiveHand hand(options);
+  hand.start(sink);
+  const auto moves = [&hand] {
+    const std::vector<int> states = hand.axisStates();
+    return std::any_of(states.begin(), states.end(), [](int s) { return s == 1 || s == 2; });
+  };
+  const MoveJoints slowly{{0.0, -40.0, 40.0, -40.0, 40.0, -40.0, 40.0}, Values(7, 5.0), false};
+  for (const DeviceCommand& end : {DeviceCommand{StopMotion{}}, DeviceCommand{SetPower{}}}) {
+    ASSERT_TRUE(sink.await([&] { return hand.status().motion->state == PortState::kStreaming; }));
+    hand.submit(slowly).get();
+    ASSERT_TRUE(moves());
+    hand.submit(end).get();
+    EXPECT_TRUE(sink.await([&] { return !moves(); })) << "command " << end.index();
+    hand.submit(SetPower{true}).get();
+  }
+  hand.stop();
+}
+
 }  // namespace
 }  // namespace palpate::sdh_emulated_test

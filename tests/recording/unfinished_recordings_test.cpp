@@ -190,6 +190,29 @@ TEST(UnfinishedRecordings, anySampleOrNoteIsWorthRecovering) {
   EXPECT_EQ(readEvents(out).events.size(), 1u);
 }
 
+// Who recorded what, and the settings of the sensor, come along: forces and the Library need them.
+TEST(UnfinishedRecordings, whatIsSaidOfTheRecordingIsRecovered) {
+  const TemporaryFolder folder;
+  const fs::path in = folder / "run.palpate", out = folder / "whole.palpate";
+  const std::map<std::string, std::string> said{{"operator", "Ada"},
+                                                {"object", "pen"},
+                                                {"run", "left"},
+                                                {"notes", "pinch"},
+                                                {"settings", R"({"sensitivity":[0.5]})"},
+                                                {"sensor_serial", "1D9B0057"}};
+  {
+    PalpateWriter writer(in, sdh2().layout, said);
+    writer.addAngles(sampleAngles(0));
+  }
+  EXPECT_EQ(recoverRecording(in, out).state, RecoverReport::State::kWhole);
+  const std::map<std::string, std::string> kept = readRecordingMeta(out);
+  for (const auto& [key, value] : said) {
+    ASSERT_TRUE(kept.contains(key)) << key;
+    EXPECT_EQ(kept.at(key), value);
+  }
+  EXPECT_EQ(kept.at("finished"), "1") << "only the original is unfinished";
+}
+
 TEST(UnfinishedRecordings, whatWasRecoveredIsNotFoundAgain) {
   const TemporaryFolder folder;
   writeSamples(folder / "run.palpate", 40, false);

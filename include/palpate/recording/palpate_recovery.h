@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -19,6 +20,7 @@ struct PalpateRecovery {
   // Those of the recording, and one of kind "gap" for each span of items that is missing (behind
   // the last saved item: a moment at its time). In order of time.
   std::vector<RecordingEvent> events;
+  std::map<std::string, std::string> meta;  // as readRecordingMeta(), as far as it can be read
   std::size_t frames = 0;  // saved
   std::size_t angles = 0;
   std::size_t temperatures = 0;

@@ -12,6 +12,7 @@
 #include <optional>
 #include <span>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <unistd.h>
@@ -529,6 +530,7 @@ PalpateRecovery recoverPalpateProfile(const fs::path& path, const Progress& prog
   if (doubtful && !recovery.beingWritten) scanFile(path, found, recovery, progress);
   findLayout(found, recovery);
   buildProfile(path, found, recovery, progress);
+  recovery.meta = std::move(found.meta.values);
   return recovery;
 }
 
