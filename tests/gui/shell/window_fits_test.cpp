@@ -108,6 +108,11 @@ class TextSizeFitsTest : public WindowFitsTest, public ::testing::WithParamInter
  protected:
   TextSizeFitsTest() { applyTextPt(GetParam()); }
   ~TextSizeFitsTest() override { applyTextPt(0); }
+  // The largest text needs a window of the usual size.
+  static std::vector<QSize> sizes() {
+    if (GetParam() == kMostTextPt) return {{1440, 900}};
+    return {std::begin(kSizes), std::end(kSizes)};
+  }
 };
 INSTANTIATE_TEST_SUITE_P(Sizes,
                          TextSizeFitsTest,
@@ -136,23 +141,52 @@ TEST_F(WindowFitsTest, ALiveHandWithEveryPage) {
   expectEveryPageFits("live");
 }
 
-// Docks may scroll, but no word is cut.
+// Docks may scroll, but no word is cut, and the window keeps its size.
 TEST_P(TextSizeFitsTest, ARecordingWithEveryDock) {
   open({"rich.dsa"});
   window().settle();
   window().setAnimated(false);
-  window().resize(1440, 900);
-  for (const QString& name : window().docks().names()) {
-    window().docks().reset();
-    window().docks().show(name);
-    expectNoFaults(QString("text of %1 pt, %2").arg(GetParam()).arg(name));
-    EXPECT_EQ(window().size(), QSize(1440, 900)) << name.toStdString();
+  for (const QSize size : sizes()) {
+    window().resize(size);
+    for (const QString& name : window().docks().names()) {
+      window().docks().reset();
+      window().docks().show(name);
+      expectNoFaults(QString("text of %1 pt at %2x%3, %4")
+                         .arg(GetParam())
+                         .arg(size.width())
+                         .arg(size.height())
+                         .arg(name));
+      EXPECT_EQ(window().size(), size) << name.toStdString();
+    }
+  }
+}
+
+TEST_P(TextSizeFitsTest, TheStartPage) {
+  window().resize(kSizes[0]);
+  expectNoFaults(QString("start page, text of %1 pt").arg(GetParam()));
+  EXPECT_EQ(window().size(), kSizes[0]);
+}
+
+// Another size of text and back: all is as before.
+TEST_P(TextSizeFitsTest, BackToTheUsualSize) {
+  connectEmulated();
+  window().setAnimated(false);
+  window().resize(kSizes[0]);
+  window().docks().reset();
+  processAll();
+  applyTextPt(0);
+  expectNoFaults(QString("after text of %1 pt").arg(GetParam()));
+  for (const QSize size : {QSize(1024, 700), kSizes[0]}) {
+    window().resize(size);
+    expectNoFaults(QString("after text of %1 pt, %2 px wide").arg(GetParam()).arg(size.width()));
+    EXPECT_EQ(window().size(), size);
   }
 }
 
 TEST_P(TextSizeFitsTest, ALiveHandWithEveryPage) {
   connectEmulated();
-  expectEveryPageFits(QString("live, text of %1 pt").arg(GetParam()), {1440, 900});
+  for (const QSize size : sizes())
+    expectEveryPageFits(QString("live, text of %1 pt").arg(GetParam()), size);
 }
 
 TEST_F(WindowFitsTest, AMeasurementOfALiveHand) {

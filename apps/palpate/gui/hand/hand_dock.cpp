@@ -7,6 +7,7 @@
 #include <QScrollArea>
 #include <QScrollBar>
 #include <QTabBar>
+#include <QTimer>
 #include <QVBoxLayout>
 #include <algorithm>
 #include <cmath>
@@ -26,6 +27,7 @@
 #include "gui/widgets/facts_view.h"
 #include "gui/widgets/fitting_pages.h"
 #include "gui/widgets/status_lines.h"
+#include "gui/widgets/text_fit.h"
 
 namespace palpate::gui {
 namespace {
@@ -65,6 +67,12 @@ HandDock::HandDock(QSettings& settings, QWidget* parent) : QWidget(parent) {
   heat_->setWordWrap(true);
   heat_->setContentsMargins(kHandDockMargin, 6, kHandDockMargin, 8);
   column->addWidget(heat_);
+  body_->widget()->installEventFilter(this);
+  fitToText(*this, [this] {
+    textChanged_ = true;
+    constexpr int kSettledMs = 500;  // [ms] until all parts have their new sizes
+    QTimer::singleShot(kSettledMs, this, [this] { textChanged_ = false; });
+  });
   connect(stop_, &QPushButton::clicked, this, [this] {
     said_.clear();
     if (control_) control_->stop();
@@ -235,10 +243,20 @@ QWidget* HandDock::makeBody(QSettings& settings) {
   return area;
 }
 
-// Sets the minimum width, so that nothing is cut off at the side, where the dock does not scroll.
 // The width is known only when the dock is shown.
 void HandDock::showEvent(QShowEvent* event) {
   QWidget::showEvent(event);
+  fitWidth();
+}
+
+bool HandDock::eventFilter(QObject* watched, QEvent* event) {
+  if (watched == body_->widget() && event->type() == QEvent::LayoutRequest && textChanged_ &&
+      isVisible())
+    fitWidth();
+  return QWidget::eventFilter(watched, event);
+}
+
+void HandDock::fitWidth() {
   int widest = body_->widget()->minimumSizeHint().width();
   for (int i = 0; i < pages_->count(); ++i)
     widest = std::max(widest, pages_->widget(i)->minimumSizeHint().width() + 2 * kHandDockMargin);

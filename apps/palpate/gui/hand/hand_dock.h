@@ -79,8 +79,13 @@ class HandDock : public QWidget {
 
  protected:
   void showEvent(QShowEvent* event) override;
+  bool eventFilter(QObject* watched, QEvent* event) override;
 
  private:
+  // Sets the minimum width, so that nothing is cut off at the side, where the dock does not scroll.
+  void fitWidth();
+  // The size of text has just changed, and parts of the dock change their sizes.
+  bool textChanged_ = false;
   QWidget* makeHead();
   QWidget* makeBody(QSettings& settings);
   void makePages(QSettings& settings, QWidget* content);

@@ -11,12 +11,15 @@
 #include <QVBoxLayout>
 
 #include "gui/appearance/icons.h"
+#include "gui/appearance/text_size.h"
+#include "gui/widgets/text_fit.h"
 
 namespace palpate::gui {
 namespace {
 
 constexpr const char* kDropText =
     "or drop recordings (.dsa, .palpate, .h5, .mcap) or a folder anywhere in this window";
+// For text of the desktop's size.
 constexpr int kColumnWidth = 560;        // [px]
 constexpr int kStartPageRowHeight = 46;  // [px] of a recent file
 
@@ -31,7 +34,8 @@ class RecentRow : public QPushButton {
  public:
   RecentRow(const QString& path, bool exists, QWidget* parent) : QPushButton(parent) {
     setObjectName("RecentRow");
-    setFixedHeight(kStartPageRowHeight);
+    fitToText(*this,
+              [this] { setFixedHeight(qRound(textScale() * kStartPageRowHeight)); });
     setEnabled(exists);
     setAccessibleName(path);
     setToolTip(path);
@@ -107,6 +111,7 @@ StartPage::StartPage(RecentFiles& recent, bool withDemo, QWidget* parent)
   dropHint_ = new QLabel(kDropText, this);
   dropHint_->setObjectName("DropHint");
   dropHint_->setAlignment(Qt::AlignCenter);
+  dropHint_->setWordWrap(true);
   dropHint_->setMinimumHeight(64);
   recentHeading_ = new QLabel("RECENT", this);
   recentHeading_->setProperty("role", "heading");
@@ -115,7 +120,7 @@ StartPage::StartPage(RecentFiles& recent, bool withDemo, QWidget* parent)
   auto* content = new QWidget(this);
   content->setObjectName("StartPage");
   auto* middle = new QWidget(content);
-  middle->setFixedWidth(kColumnWidth);
+  fitToText(*middle, [middle] { middle->setFixedWidth(qRound(textScale() * kColumnWidth)); });
   column_ = new QVBoxLayout(middle);
   column_->setContentsMargins(0, 0, 0, 0);
   column_->setSpacing(8);

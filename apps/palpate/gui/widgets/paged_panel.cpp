@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "gui/widgets/fitting_pages.h"
+#include "gui/widgets/text_fit.h"
 
 namespace palpate::gui {
 
@@ -31,6 +32,9 @@ PagedPanel::PagedPanel(QSettings& settings, QString key, QWidget* parent)
   header_->installEventFilter(this);
   chooser_ = new QButtonGroup(this);
   pages_ = new FittingPages(this);
+  fitToText(*list_, [this] {
+    if (!chooser_->buttons().isEmpty()) fitHeader();
+  });
 }
 
 void PagedPanel::addPage(QWidget* page, const QString& name, const QString& tip) {
@@ -43,20 +47,32 @@ void PagedPanel::addPage(QWidget* page, const QString& name, const QString& tip)
   chooser_->addButton(button, pages_->addWidget(page));
   header_->layout()->addWidget(button);
   connect(list_->menu()->addAction(name), &QAction::triggered, button, &QToolButton::click);
-  // Without a least width of its own, the layout would ask for the width of all buttons.
   list_->setText(name);
-  header_->setMinimumWidth(std::max(header_->minimumWidth(), list_->sizeHint().width()));
+  fitHeader();
+}
+
+void PagedPanel::fitHeader() {
+  const QFontMetrics metrics = list_->fontMetrics();
+  int widest = 0;
+  for (const QString& name : pageNames())
+    widest = std::max(widest, metrics.horizontalAdvance(name));
+  // Without a least width of its own, the layout would ask for the width of all buttons.
+  header_->setMinimumWidth(list_->sizeHint().width() - metrics.horizontalAdvance(list_->text()) +
+                           widest);
+  chooseButtons();
+}
+
+void PagedPanel::chooseButtons() {
+  int needed = -header_->layout()->spacing();
+  for (const QAbstractButton* button : chooser_->buttons())
+    needed += button->sizeHint().width() + header_->layout()->spacing();
+  const bool narrow = header_->width() < needed;
+  list_->setVisible(narrow);
+  for (QAbstractButton* button : chooser_->buttons()) button->setVisible(!narrow);
 }
 
 bool PagedPanel::eventFilter(QObject* watched, QEvent* event) {
-  if (watched == header_ && event->type() == QEvent::Resize) {
-    int needed = -header_->layout()->spacing();
-    for (const QAbstractButton* button : chooser_->buttons())
-      needed += button->sizeHint().width() + header_->layout()->spacing();
-    const bool narrow = header_->width() < needed;
-    list_->setVisible(narrow);
-    for (QAbstractButton* button : chooser_->buttons()) button->setVisible(!narrow);
-  }
+  if (watched == header_ && event->type() == QEvent::Resize) chooseButtons();
   return QWidget::eventFilter(watched, event);
 }
 

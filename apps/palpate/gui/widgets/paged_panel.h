@@ -35,6 +35,9 @@ class PagedPanel : public QWidget {
   bool eventFilter(QObject* watched, QEvent* event) override;
 
  private:
+  void fitHeader();
+  void chooseButtons();
+
   QSettings& settings_;
   const QString key_;
   QWidget* header_;

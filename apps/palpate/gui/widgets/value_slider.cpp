@@ -10,12 +10,22 @@
 #include <cmath>
 
 #include "gui/widgets/number_field.h"
-#include "gui/widgets/text_fit.h"
 
 namespace palpate::gui {
 namespace {
 // All fields are as wide as with this unit, because several sliders are arranged below each other.
 constexpr const char* kWidestUnit = "counts";
+
+class UnitLabel : public QLabel {
+ public:
+  UnitLabel(const QString& unit, QWidget* parent) : QLabel(unit, parent) {
+    setSizePolicy(QSizePolicy::Fixed, QSizePolicy::Preferred);
+  }
+  QSize sizeHint() const override {
+    return {fontMetrics().horizontalAdvance(kWidestUnit), QLabel::sizeHint().height()};
+  }
+  QSize minimumSizeHint() const override { return sizeHint(); }
+};
 }  // namespace
 
 ValueSlider::ValueSlider(const QString& name, const SliderRange& range, QWidget* parent)
@@ -37,10 +47,8 @@ ValueSlider::ValueSlider(const QString& name, const SliderRange& range, QWidget*
   layout->addWidget(slider_, 1);
   layout->addWidget(field_);
   if (!range.unit.isEmpty()) {
-    auto* unit = new QLabel(range.unit, this);
+    auto* unit = new UnitLabel(range.unit, this);
     unit->setProperty("role", "muted");
-    fitToText(*unit,
-              [unit] { unit->setFixedWidth(unit->fontMetrics().horizontalAdvance(kWidestUnit)); });
     layout->addWidget(unit);
   }
   connect(slider_, &QSlider::valueChanged, this, [this](int ticks) {
