@@ -127,7 +127,9 @@ std::vector<RecordingEvent> withOrigin(std::vector<RecordingEvent> events,
 // the recording. Throws FileError.
 void requireReadableJournal(const std::filesystem::path& path) {
   std::error_code failure;
-  const std::filesystem::path file = std::filesystem::canonical(path, failure);
+  // The journal lies beside the file itself, not beside a link to it.
+  const std::filesystem::path file =
+      std::filesystem::is_symlink(path, failure) ? std::filesystem::canonical(path, failure) : path;
   if (!failure) (void)hasHotJournal(file);
 }
 
