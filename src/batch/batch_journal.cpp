@@ -10,6 +10,7 @@
 
 #include "palpate/core/error.h"
 #include "palpate/core/json.h"
+#include "palpate/core/output_file.h"
 
 namespace palpate {
 namespace fs = std::filesystem;
@@ -133,7 +134,7 @@ void BatchJournal::add(const JournalEntry& entry) {
   const std::lock_guard lock(mutex_);
   const ssize_t written = ::write(file_.get(), line.data(), line.size());
   if (written != static_cast<ssize_t>(line.size()))
-    throw FileError(path_, "can't be written: " + systemText(written < 0 ? errno : ENOSPC));
+    throw FileError(path_, "can't be written: " + writeFailureText(written < 0 ? errno : ENOSPC));
 }
 
 }  // namespace palpate

@@ -145,8 +145,8 @@ class BatchRun {
     BatchItem now = item;
     if (options_.resume) {
       const Known known = knownAs(journal_, entry, item);
-      if (known == Known::kWhole) return {State::kSkipped, item.target.string() + ": is whole"};
       const JournalEntry* before = journal_.find(item.target);
+      if (known == Known::kWhole) return skipped(item, *before);
       if (known == Known::kOurs && before->results.empty()) overwrite = Overwrite::kReplace;
       // Of several files only those that were written may be replaced.
       if (known == Known::kOurs)
@@ -170,7 +170,11 @@ class BatchRun {
     for (const fs::path& result : answer.results)
       entry.results.push_back({journal_.relative(result), stampOf(result).value_or(FileStamp())});
     journal_.add(entry);
-    if (!answer.problem.empty()) return {State::kInPart, answer.problem};
+    const std::vector<fs::path> files = isOne ? std::vector{item.target} : answer.results;
+    if (!answer.problem.empty())
+      return {State::kInPart,
+              answer.problem + (isOne || answer.said.empty() ? "" : "; " + answer.said),
+              files};
     const fs::path& named = isOne ? item.target : item.source;
     const auto left = static_cast<std::size_t>(
         std::count_if(now.earlier.begin(), now.earlier.end(), [&](const fs::path& file) {
@@ -179,7 +183,19 @@ class BatchRun {
         }));
     return {State::kDone,
             named.string() + (answer.said.empty() ? "" : ": ") + answer.said +
-                (left > 0 ? "; " + counted(left, "file") + " of an earlier run left over" : "")};
+                (left > 0 ? "; " + counted(left, "file") + " of an earlier run left over" : ""),
+            files};
+  }
+
+  BatchResult skipped(const BatchItem& item, const JournalEntry& before) const {
+    BatchResult result{.state = State::kSkipped};
+    for (const WrittenFile& file : filesOf(before))
+      result.files.push_back(journal_.pathOf(file.path));
+    result.text = before.results.empty()
+                      ? item.target.string() + ": is whole"
+                      : item.source.string() + ": " + counted(result.files.size(), "file") +
+                            (result.files.size() == 1 ? " is" : " are") + " whole";
+    return result;
   }
 
   static void makeFolder(const fs::path& folder) {
@@ -335,13 +351,17 @@ std::string summaryText(const BatchPlan& plan, const BatchReport& report, std::s
 }
 
 TextTable reportTable(const BatchPlan& plan, const BatchReport& report) {
-  return {.header = {"source", "result", "state", "text"},
+  return {.header = {"source", "result", "state", "text", "files"},
           .numRows = report.results.size(),
           .row = [&plan, &report](std::size_t i) -> std::vector<std::string> {
+            const BatchResult& result = report.results[i];
+            const fs::path& named =
+                result.files.empty() ? plan.items[i].target : result.files.front();
             return {plan.items[i].source.string(),
-                    plan.items[i].target.string(),
-                    nameOf(report.results[i].state),
-                    report.results[i].text};
+                    named.string(),
+                    nameOf(result.state),
+                    result.text,
+                    std::to_string(result.files.size())};
           }};
 }
 

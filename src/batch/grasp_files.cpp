@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "palpate/core/error.h"
+#include "palpate/core/number_text.h"
 #include "palpate/recognition/grasp_segments.h"
 #include "palpate/recording/crop.h"
 #include "palpate/recording/label_table.h"
@@ -124,15 +125,23 @@ void saveGrasps(const fs::path& source,
                                      static_cast<double>(grasps.size()));
       };
     };
-    const Profile part = cropped(profile, grasps[i].begin, grasps[i].end, partOf(0.0));
-    std::error_code ignored;
-    fs::create_directories(paths[i].parent_path(), ignored);  // saving says what is wrong
-    saveRecording(part,
-                  eventsWithin(events, part),
-                  paths[i],
-                  overwriteOf(paths[i]),
-                  partOf(0.5),
-                  options.extras ? options.extras(part, paths[i]) : SaveExtras());
+    try {
+      const Profile part = cropped(profile, grasps[i].begin, grasps[i].end, partOf(0.0));
+      std::error_code ignored;
+      fs::create_directories(paths[i].parent_path(), ignored);  // saving says what is wrong
+      saveRecording(part,
+                    eventsWithin(events, part),
+                    paths[i],
+                    overwriteOf(paths[i]),
+                    partOf(0.5),
+                    options.extras ? options.extras(part, paths[i]) : SaveExtras());
+    } catch (const Cancelled&) {
+      throw;
+    } catch (const Error& error) {
+      if (i == 0) throw;
+      throw Error(std::string(error.what()) + "; before it " + std::to_string(i) + " of " +
+                  counted(grasps.size(), "grasp") + (i == 1 ? " was" : " were") + " written");
+    }
   }
 }
 

@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 namespace {
 
 [[noreturn]] void throwCantWrite(const fs::path& path, int error) {
-  throw FileError(path, "can't be written: " + std::generic_category().message(error));
+  throw FileError(path, "can't be written: " + writeFailureText(error));
 }
 
 fs::path folderOf(const fs::path& path) {
@@ -50,6 +50,10 @@ fs::path followed(const fs::path& path) {
 }
 
 }  // namespace
+
+std::string writeFailureText(int error) {
+  return error == ENOSPC ? "the disk is full" : std::generic_category().message(error);
+}
 
 void requireWritable(const fs::path& path, Overwrite overwrite) {
   std::error_code ignored;

@@ -123,7 +123,18 @@ std::vector<RecordingEvent> withOrigin(std::vector<RecordingEvent> events,
   return events;
 }
 
+// A recovery would take what lies beside a recording under the name of its journal for damage of
+// the recording. Throws FileError.
+void requireReadableJournal(const std::filesystem::path& path) {
+  std::error_code failure;
+  // The journal lies beside the file itself, not beside a link to it.
+  const std::filesystem::path file =
+      std::filesystem::is_symlink(path, failure) ? std::filesystem::canonical(path, failure) : path;
+  if (!failure) (void)hasHotJournal(file);
+}
+
 VerifyReport verifyNative(const std::filesystem::path& path, const Progress& progress) {
+  requireReadableJournal(path);
   const PalpateRecovery recovery = recoverPalpateProfile(path, progress);
   VerifyReport report;
   report.message = countsText(recovery.frames, recovery.angles, recovery.temperatures);
@@ -144,6 +155,7 @@ RecoverReport recoverNative(const std::filesystem::path& in,
                             const std::filesystem::path& out,
                             Overwrite overwrite,
                             const Progress& progress) {
+  requireReadableJournal(in);
   std::error_code failure;
   if (std::filesystem::file_size(in, failure) == 0 && !failure && !hasHotJournal(in))
     throw FormatError(in, "is empty");
@@ -404,6 +416,7 @@ ReadableRecording readableRecording(const std::filesystem::path& path,
   if (container == Container::kHdf5) return readableHdf5(path, progress);
   if (container == Container::kMcap) return readableMcap(path, progress, threads);
   if (container == Container::kMat) throwOnlyWritten(path);
+  if (isNativeRecording(path)) requireReadableJournal(path);
   // From 0 to 1 once, also where a second way has to be taken.
   double reached = 0.0;
   const auto partOf = [&](double begin, double share) -> Progress {

@@ -98,6 +98,17 @@ std::optional<TimeSpan> commonSpan(const TimedProfile& a, const TimedProfile& b,
   return span;
 }
 
+std::optional<TimeSpan> graspsInCommon(const TimedProfile& a,
+                                       const FrameRange& graspOfA,
+                                       const TimedProfile& b,
+                                       const FrameRange& graspOfB,
+                                       double offsetS) {
+  const TimeSpan span{std::max(a.timeS(graspOfA.begin), b.timeS(graspOfB.begin) + offsetS),
+                      std::min(a.timeS(graspOfA.end), b.timeS(graspOfB.end) + offsetS)};
+  if (span.toS < span.fromS) return std::nullopt;
+  return span;
+}
+
 TimeSpan wholeSpan(const TimedProfile& a, const TimedProfile& b, double offsetS) {
   if (empty(a) && empty(b)) return {};
   if (empty(b)) return {0.0, a.timing.durationS};

@@ -97,13 +97,18 @@ double gapFromS(const TimingReport& timing) {
 CurveComparison compareCurves(const Series& a,
                               const Series& b,
                               double offsetS,
-                              const CurveGaps& gaps) {
+                              const CurveGaps& gaps,
+                              const std::optional<TimeSpan>& within) {
   checkCurveComparison(a);
   checkCurveComparison(b);
   CurveComparison report;
   if (a.timeS.empty() || b.timeS.empty()) return report;
   report.fromS = std::max(a.timeS.front(), b.timeS.front() + offsetS);
   report.toS = std::min(a.timeS.back(), b.timeS.back() + offsetS);
+  if (within) {
+    report.fromS = std::max(report.fromS, within->fromS);
+    report.toS = std::min(report.toS, within->toS);
+  }
   if (report.toS < report.fromS - kRoundingS) return report;
   const double span = std::max(0.0, report.toS - report.fromS);
   report.stepS = std::max(medianInterval(a), medianInterval(b));

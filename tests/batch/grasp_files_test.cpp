@@ -40,6 +40,24 @@ TEST(GraspFiles, AreOfTheGraspsThatAPersonHasCorrected) {
   EXPECT_TRUE(graspFrames(profile, none).empty());
 }
 
+// The third file can't be made: what was written before is told.
+TEST(GraspFiles, AFailureTellsHowManyWereWrittenBefore) {
+  const testing::TemporaryFolder folder;
+  const Profile profile = threeGrasps();
+  const std::vector<GraspFrames> grasps = {{10, 20}, {200, 300}, {310, 320}};
+  testing::writeFile(folder / "file", "no folder");
+  const std::vector<fs::path> paths = {
+      folder / "1.palpate", folder / "2.palpate", folder / "file/3.palpate"};
+  try {
+    saveGrasps(folder / "whole.palpate", profile, {}, grasps, paths);
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_TRUE(std::string(error.what()).ends_with("; before it 2 of 3 grasps were written"))
+        << error.what();
+  }
+  EXPECT_TRUE(fs::exists(paths[1]));
+}
+
 TEST(GraspFiles, AreNamedByATemplateWithTheirNumber) {
   const GraspTemplate names("out/{name}_{n}.palpate");
   EXPECT_EQ(names.pathFor({.name = "ball"}, 3, 12), "out/ball_03.palpate");

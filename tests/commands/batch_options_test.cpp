@@ -79,7 +79,7 @@ TEST_F(BatchOptionsTest, ResumesAndReports) {
   EXPECT_TRUE(fs::exists(out("a.csv")));
   const std::string table = testing::readFile(report);
   EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 4) << table;
-  EXPECT_EQ(table.rfind("source,result,state,text\n", 0), 0U) << table;
+  EXPECT_EQ(table.rfind("source,result,state,text,files\n", 0), 0U) << table;
   EXPECT_NE(table.find(",skipped,"), std::string::npos) << table;
   EXPECT_NE(table.find(",failed,"), std::string::npos) << table;
 }

@@ -101,7 +101,11 @@ TEST_F(CompareCommandTest, AlignsTwoGrasps) {
   const auto result = palpate({"compare", a, b, "--grasp", "2:1"});
   ASSERT_EQ(result.exitCode, 0) << result.err;
   const auto rows = lines(result.out);
-  // The second grasp of A begins with frame 45 at 4.5 s, that of B with frame 10.
+  // The second grasp of A is frames 45 to 69 from 4.5 s on, the only one of B 10 to 34.
+  EXPECT_NE(result.err.find("both grasps last from time_s 4.500000 to 6.900000;"),
+            std::string::npos)
+      << result.err;
+  EXPECT_EQ(palpate({"compare", a, b, "--grasp", "2:1", "--quiet"}).err, "");
   EXPECT_EQ(rows.at(1 + 1), "3.500000,35,0,1,0,0,0,0");
   EXPECT_EQ(rows.at(1 + 6 * 10 + 1), "4.500000,45,10,1,600,300,300,300");
   EXPECT_EQ(lines(palpate({"compare", a, a, "--grasp", "1"}).out).at(1 + 6 * 10 + 1),

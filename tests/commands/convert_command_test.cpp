@@ -284,9 +284,21 @@ TEST_F(ConvertCommand, MakesAFileOfEachGrasp) {
                                 "--report",
                                 report});
   EXPECT_EQ(resumed.exitCode, 0) << resumed.err;
-  EXPECT_NE(resumed.out.find("is whole"), std::string::npos) << resumed.out;
-  EXPECT_NE(testing::readFile(report).find(",skipped,"), std::string::npos)
-      << testing::readFile(report);
+  EXPECT_NE(resumed.out.find("run.palpate: 3 files are whole"), std::string::npos) << resumed.out;
+  // A row for the recording: its first file, what was made, how many files.
+  const std::string source = (folder / "in/day/run.palpate").string();
+  const std::string row = source + "," + (folder / "out/day/run_01.palpate").string();
+  EXPECT_EQ(
+      testing::readFile(report),
+      "source,result,state,text,files\n" + row + ",skipped," + source + ": 3 files are whole,3\n");
+  fs::remove(folder / "out/day/run_02.palpate");
+  EXPECT_EQ(
+      palpate(
+          {"convert", "--each-grasp", folder / "in", "-o", names, "--resume", "--report", report})
+          .exitCode,
+      0);
+  EXPECT_EQ(testing::readFile(report),
+            "source,result,state,text,files\n" + row + ",done," + source + ": 3 grasps,3\n");
   expectOneLineError(palpate({"convert", "--each-grasp", folder / "in"}), 2, {"needs -o"});
   expectOneLineError(
       palpate({"convert", "--each-grasp", folder / "in", "-o", "out/{name}.palpate"}), 2, {"{n}"});

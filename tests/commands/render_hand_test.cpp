@@ -129,7 +129,7 @@ TEST_F(RenderHandTest, ASeriesHasAPictureOfEachFrame) {
     EXPECT_TRUE(std::filesystem::exists(folder_ / "series" / name)) << name;
 }
 
-// Beside each other: the left half is the picture of the matrices of half the width.
+// Beside each other, with one title and one colour bar.
 TEST_F(RenderHandTest, BothViewsSideBySide) {
   const auto drawn = [&](const char* name, const char* view, const char* size) {
     const auto result = palpate({"render",
@@ -151,6 +151,16 @@ TEST_F(RenderHandTest, BothViewsSideBySide) {
   const std::string hand = drawn("hand.svg", "hand", "400x400");
   EXPECT_GT(both.size(), std::max(matrices.size(), hand.size()));
   EXPECT_NE(both, matrices);
+  const auto count = [](const std::string& text, const std::string& part) {
+    std::size_t found = 0;
+    for (auto at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++found;
+    return found;
+  };
+  for (const char* once : {">demo_grasps.dsa</text>", ">frame 90 ", ">counts<"}) {
+    EXPECT_EQ(count(matrices, once), 1u) << once;
+    EXPECT_EQ(count(hand, once), 1u) << once;
+    EXPECT_EQ(count(both, once), 1u) << once;
+  }
   EXPECT_EQ(draw("x.png", {"--view", "all"}).exitCode, 2);
 }
 

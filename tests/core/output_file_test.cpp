@@ -1,5 +1,8 @@
 #include "palpate/core/output_file.h"
 
+#include <cerrno>
+#include <system_error>
+
 #include <signal.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
@@ -125,6 +128,12 @@ TEST(OutputFile, AFullDiskIsAnErrorAndLeavesNothing) {
   };
   EXPECT_EXIT(write(), ::testing::ExitedWithCode(7), "");
   EXPECT_EQ(numFiles(folder.path()), 0u);
+}
+
+// O-A24: one way of saying it, whatever is written.
+TEST(OutputFile, AFullDiskIsSaidInPlainWords) {
+  EXPECT_EQ(writeFailureText(ENOSPC), "the disk is full");
+  EXPECT_EQ(writeFailureText(EACCES), std::generic_category().message(EACCES));
 }
 
 TEST(OutputFile, SaysWhatIsWrong) {

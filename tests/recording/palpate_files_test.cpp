@@ -326,6 +326,25 @@ TEST(PalpateFiles, aPipeNamedAsASideFileIsNotWaitedFor) {
   }
 }
 
+// The recording is as it was: what is beside it is named, not damage of the recording.
+TEST(PalpateFiles, aPipeNamedAsAJournalIsNoDamageOfTheRecording) {
+  const TemporaryFolder folder;
+  const fs::path path = folder / "r.palpate";
+  writeSamples(path, 20);
+  ASSERT_EQ(mkfifo((path.string() + "-journal").c_str(), 0600), 0);
+  for (const fs::path& name : {path, fs::path(folder / "link.palpate")}) {
+    if (name != path) fs::create_symlink(path, name);
+    const VerifyReport report = verifyRecording(name);
+    EXPECT_EQ(report.state, VerifyReport::State::kUnreadable);
+    EXPECT_TRUE(report.message.starts_with(path.string() + "-journal: is not a regular file"))
+        << report.message;
+    EXPECT_NE(report.message.find("move it away"), std::string::npos) << report.message;
+    EXPECT_THROW(recoverRecording(name, folder / "out.palpate"), FileError);
+  }
+  fs::remove(path.string() + "-journal");
+  EXPECT_EQ(verifyRecording(path).state, VerifyReport::State::kSound);
+}
+
 // O-A24: a message names the file that was asked for.
 TEST(PalpateFiles, aDiskThatIsFullIsToldUnderTheNameThatWasGiven) {
   const TemporaryFolder folder;

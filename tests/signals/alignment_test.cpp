@@ -69,6 +69,17 @@ TEST_F(AlignmentTest, ChosenGraspsComeOnTopOfEachOther) {
   EXPECT_THROW((void)offsetBetween(a_, b_, Alignment::kGrasp), std::out_of_range);
 }
 
+TEST_F(AlignmentTest, TwoGraspsHaveInCommonWhatTheShorterOneHas) {
+  // A's lasts from 0.50 to 1.50 s, B's from 0.30 to 0.70 s, which is 0.50 to 0.90 s of A.
+  const auto both = graspsInCommon(a_, {10, 30}, b_, {15, 35}, 0.20);
+  ASSERT_TRUE(both);
+  EXPECT_NEAR(both->fromS, 0.50, 1e-12);
+  EXPECT_NEAR(both->toS, 0.90, 1e-12);
+  // B's lies before A's.
+  EXPECT_EQ(graspsInCommon(a_, {10, 30}, b_, {15, 35}, -1.0), std::nullopt);
+  EXPECT_THROW((void)graspsInCommon(a_, {10, 40}, b_, {15, 35}, 0.2), std::out_of_range);
+}
+
 TEST_F(AlignmentTest, WithoutContactOrFrameThereIsNoOffset) {
   const TimedProfile untouched = timedProfile(recorded(every(50, 9), 9));
   EXPECT_EQ(untouched.contact, std::nullopt);

@@ -105,6 +105,23 @@ TEST(CurveComparison, WhatLiesInAGapIsLeftOut) {
   EXPECT_EQ(compareCurves(b, a, 0.0, {.bS = 1.0}).samples, 22u);
 }
 
+// Outside of the span A and B are equal, within it B is twice A: only that part counts.
+TEST(CurveComparison, ComparesOnlyAPart) {
+  const Series a = sampled(0.0, 10.0, 0.1, [](double t) { return t; });
+  const Series b =
+      sampled(0.0, 10.0, 0.1, [](double t) { return t > 1.95 && t < 3.05 ? -2.0 * t : t; });
+  const CurveComparison part = compareCurves(a, b, 0.0, {}, TimeSpan{2.0, 3.0});
+  EXPECT_NEAR(part.fromS, 2.0, 1e-12);
+  EXPECT_NEAR(part.toS, 3.0, 1e-12);
+  EXPECT_EQ(part.samples, 11u);
+  EXPECT_NEAR(*part.correlation, -1.0, 1e-12);
+  EXPECT_NEAR(part.meanDifference, 3.0 * 2.5, 1e-9);
+  EXPECT_GT(*compareCurves(a, b, 0.0).correlation, 0.0);
+  // What the curves don't have isn't compared either.
+  EXPECT_NEAR(compareCurves(a, b, 0.0, {}, TimeSpan{-5.0, 1.0}).fromS, 0.0, 1e-12);
+  EXPECT_EQ(compareCurves(a, b, 0.0, {}, TimeSpan{11.0, 12.0}).samples, 0u);
+}
+
 TEST(CurveComparison, SaysWhereThereIsNoCorrelation) {
   const Series constant = sampled(0.0, 2.0, 0.1, [](double) { return 812.3; });
   const Series rising = sampled(0.0, 2.0, 0.1, line);

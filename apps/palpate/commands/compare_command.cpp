@@ -42,7 +42,8 @@ std::vector<GraspFrames> graspsOf(const std::string& file, const Profile& profil
   return grasps;
 }
 
-// --grasp I:J, numbers from 1.
+// --grasp I:J, numbers from 1. Says where both grasps last: the rows are those of the whole
+// recordings.
 double offsetOfGrasps(const CommandLine& given, TimedProfile a, TimedProfile b) {
   const std::string text = *given.text("grasp");
   const auto colon = text.find(':');
@@ -54,6 +55,7 @@ double offsetOfGrasps(const CommandLine& given, TimedProfile a, TimedProfile b) 
   };
   const std::size_t i = numberOf(text.substr(0, colon));
   const std::size_t j = colon == std::string::npos ? i : numberOf(text.substr(colon + 1));
+  std::vector<FrameRange> ranges;
   for (const auto& [side, number, file] :
        {std::tuple(&a, i, given.words()[0]), std::tuple(&b, j, given.words()[1])}) {
     const auto grasps = graspsOf(file, side->profile, given.quiet());
@@ -61,8 +63,17 @@ double offsetOfGrasps(const CommandLine& given, TimedProfile a, TimedProfile b) 
       throw Error(file + ": has no grasp " + std::to_string(number) + ", only 1.." +
                   std::to_string(grasps.size()));
     side->grasp = grasps[number - 1].begin;
+    ranges.push_back({grasps[number - 1].begin, grasps[number - 1].end});
   }
-  return *offsetBetween(a, b, Alignment::kGrasp);
+  const double offsetS = *offsetBetween(a, b, Alignment::kGrasp);
+  const auto both = graspsInCommon(a, ranges[0], b, ranges[1], offsetS);
+  if (both && !given.quiet())
+    std::fprintf(stderr,
+                 "palpate: both grasps last from time_s %s to %s; the rows are of all frames that "
+                 "both recordings have\n",
+                 fixedText(both->fromS, kMicroseconds).c_str(),
+                 fixedText(both->toS, kMicroseconds).c_str());
+  return offsetS;
 }
 
 double offsetFor(const CommandLine& given, const TimedProfile& a, const TimedProfile& b) {
@@ -223,7 +234,10 @@ int compareCommand(const Arguments& words) {
            "time_s,curves,mean,low,high,.. The column curves tells how many have a value.",
        .options =
            {{"align", "HOW", "contact (default): first contacts; start; clock: by host time"},
-            {"grasp", "I:J", "instead: where grasp I of A and grasp J of B begin, numbers from 1"},
+            {"grasp",
+             "I:J",
+             "instead: where grasp I of A and grasp J of B begin, numbers from 1; says on standard "
+             "error where both last"},
             {"offset", "S", "instead: when B begins, in seconds from A's first frame"},
             {"average",
              "SIGNAL",

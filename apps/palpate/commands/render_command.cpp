@@ -1,7 +1,9 @@
 // The command `palpate render FILE --frame N -o OUT.{png,svg,pdf}` draws a picture of one frame;
 // --from N --to M -o FOLDER draws a picture of each, -o OUT.mp4 writes a movie; -o out/{name}.png
 // draws one of each of many recordings.
+#include <QFontMetricsF>
 #include <QGuiApplication>
+#include <QPainter>
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -23,6 +25,7 @@
 #include "commands/picture_size.h"
 #include "commands/render_hand.h"
 #include "commands/render_movie.h"
+#include "gui/matrices/matrices_frame_painter.h"
 #include "gui/picture/ffmpeg.h"
 #include "gui/picture/picture_export.h"
 #include "gui/picture/picture_series.h"
@@ -99,18 +102,14 @@ Sheet chosenSheet(const CommandLine& given, gui::MatricesPictureOptions& options
   return sheet;
 }
 
-// Paints one frame with its title.
+// Paints one frame, with its title if it has one.
 class FramePainter {
  public:
   FramePainter(Profile profile, gui::MatricesPictureOptions options)
       : profile_(std::move(profile)), options_(std::move(options)) {}
   void operator()(QPainter& painter, std::size_t frame) const {
-    const double seconds =
-        static_cast<double>(profile_.frameTimeUs(frame) - profile_.frameTimeUs(0)) * 1e-6;
     gui::MatricesPictureOptions options = options_;
-    options.caption = QString::fromStdString("frame " + std::to_string(frame) + " of " +
-                                             std::to_string(profile_.numFrames()) + ", " +
-                                             fixedText(seconds, 2) + " s");
+    if (!options.title.isEmpty()) options.caption = gui::captionOf(profile_, frame);
     gui::paintMatricesPicture(
         painter, QRectF(QPointF(), options.size), profile_.frame(frame), profile_.hand(), options);
   }
@@ -128,18 +127,37 @@ gui::FramePictures::Paint painterOf(const CommandLine& given,
   const std::string view = given.text("view").value_or("matrices");
   if (view == "hand") return handPainter(given, profile, span, options);
   if (view != "both") return FramePainter(profile, options);
-  // The hand beside the matrices, each in one half.
+  // The hand beside the matrices, each in one half, below one title; the colour bar of the matrices
+  // is that of both.
+  constexpr double kMargin = 12.0;  // [px]
+  const double titleHeight = QFontMetricsF(gui::pictureFont(options)).height();
+  const double top = titleHeight + 0.6 * kMargin;
   gui::MatricesPictureOptions half = options;
-  half.size.setWidth(options.size.width() / 2.0);
-  return [matrices = gui::FramePictures::Paint(FramePainter(profile, half)),
-          hand = handPainter(given, profile, span, half),
-          width = half.size.width()](QPainter& painter, std::size_t frame) {
-    matrices(painter, frame);
-    painter.save();
-    painter.translate(width, 0.0);
-    hand(painter, frame);
-    painter.restore();
-  };
+  half.size = QSizeF(options.size.width() / 2.0, options.size.height() - top);
+  half.title.clear();
+  gui::MatricesPictureOptions halfOfHand = half;
+  halfOfHand.colorBar = false;
+  return
+      [=,
+       matrices = gui::FramePictures::Paint(FramePainter(profile, half)),
+       hand = handPainter(given, profile, span, halfOfHand)](QPainter& painter, std::size_t frame) {
+        gui::MatricesPictureOptions titled = options;
+        titled.caption = gui::captionOf(profile, frame);
+        painter.save();
+        painter.fillRect(QRectF(0.0, 0.0, options.size.width(), top),
+                         gui::colorsOf(options.theme).window);
+        gui::paintTitle(
+            painter,
+            QRectF(kMargin, 0.6 * kMargin, options.size.width() - 2.0 * kMargin, titleHeight),
+            titled);
+        painter.restore();
+        painter.save();
+        painter.translate(0.0, top);
+        matrices(painter, frame);
+        painter.translate(half.size.width(), 0.0);
+        hand(painter, frame);
+        painter.restore();
+      };
 }
 
 // The requested frame, else the frame with the largest sum.

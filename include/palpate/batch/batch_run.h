@@ -61,6 +61,8 @@ struct BatchResult {
   State state = State::kNotDone;
   // What was done, or why it failed or was done in part, in one line.
   std::string text = {};
+  // The files that were written, or skipped because they are whole.
+  std::vector<std::filesystem::path> files = {};
 };
 // "done", "done in part", "skipped", "failed", "not done".
 const char* nameOf(BatchResult::State state) noexcept;
@@ -105,7 +107,8 @@ BatchReport runBatch(const BatchPlan& plan,
 std::string statusText(const BatchStatus& status);
 // A row per state with its number, then at most `maxReasons` of the reasons; ends in a line break.
 std::string summaryText(const BatchPlan& plan, const BatchReport& report, std::size_t maxReasons);
-// All items: source, result, state, text.
+// A row for each recording: source, result, state, text, files. `result` is the file (of several
+// the first one; of none the one that was planned), `files` is their number.
 TextTable reportTable(const BatchPlan& plan, const BatchReport& report);
 
 }  // namespace palpate

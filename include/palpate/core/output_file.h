@@ -5,9 +5,14 @@
 
 #include <filesystem>
 #include <span>
+#include <string>
 #include <string_view>
 
 namespace palpate {
+
+// Why a write failed, for messages: an error number of the system in its words, a full disk in
+// plain ones, the same for every kind of file.
+std::string writeFailureText(int error);
 
 // What happens when the file exists already.
 enum class Overwrite { kRefuse, kReplace };

@@ -62,6 +62,17 @@ std::optional<double> offsetBetween(const TimedProfile& a,
 // The span from the later start to the earlier end; empty when the recordings do not overlap or one
 // has no frame.
 std::optional<TimeSpan> commonSpan(const TimedProfile& a, const TimedProfile& b, double offsetS);
+// The span, on A's axis, in which a grasp of A and one of B both last, each from its first to its
+// last frame. Empty when they have no moment in common. Throws std::out_of_range.
+struct FrameRange {
+  std::size_t begin = 0;
+  std::size_t end = 0;  // inclusive
+};
+std::optional<TimeSpan> graspsInCommon(const TimedProfile& a,
+                                       const FrameRange& graspOfA,
+                                       const TimedProfile& b,
+                                       const FrameRange& graspOfB,
+                                       double offsetS);
 // The span from the earlier start to the later end; {0, 0} when neither has a frame.
 TimeSpan wholeSpan(const TimedProfile& a, const TimedProfile& b, double offsetS);
 

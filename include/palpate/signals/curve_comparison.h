@@ -1,4 +1,5 @@
-// Compares two curves over the span of time that both cover, for the comparison of two recordings.
+// Compares two curves over the span of time that both cover, or a part of it, for the comparison of
+// two recordings or grasps.
 //
 // Both are resampled on one time base: from the start of the common span in steps of the longer of
 // the two median intervals, so that no values are invented between the samples of the slower
@@ -18,7 +19,7 @@ namespace palpate {
 // Result of the comparison of two curves A and B.
 struct CurveComparison {
   std::size_t samples = 0;  // on the common time base
-  double fromS = 0.0;       // common span on A's time axis [s]
+  double fromS = 0.0;       // the span that is compared, on A's time axis [s]
   double toS = 0.0;
   // Step of the time base [s]; 0 when both curves have fewer than two samples.
   double stepS = 0.0;
@@ -34,7 +35,8 @@ struct CurveComparison {
 
 // Compares two curves. Times ascend [s]; `offsetS` is added to those of B to get A's axis.
 // Intervals longer than those in CurveGaps [s] are gaps; with 0 there are none. NaN counts as a
-// gap. Throws std::invalid_argument when the numbers of times and values differ.
+// gap. `within`: only this part of A's axis, of two grasps graspsInCommon(). Throws
+// std::invalid_argument when the numbers of times and values differ.
 struct CurveGaps {
   double aS = 0.0;
   double bS = 0.0;
@@ -42,7 +44,8 @@ struct CurveGaps {
 CurveComparison compareCurves(const Series& a,
                               const Series& b,
                               double offsetS,
-                              const CurveGaps& gaps = {});
+                              const CurveGaps& gaps = {},
+                              const std::optional<TimeSpan>& within = {});
 // Longest interval that is no gap (model/timing.h): max(1 s, 5 median intervals).
 double gapFromS(const TimingReport& timing);
 

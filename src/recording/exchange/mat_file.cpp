@@ -5,7 +5,6 @@
 #include <limits>
 #include <new>
 #include <stdexcept>
-#include <system_error>
 
 #include <unistd.h>
 #include <zlib.h>
@@ -305,7 +304,7 @@ void MatFile::add(const std::string& name, const MatValue& value) {
   const std::string known = tag(packedBytes);
   if (::pwrite(out_.descriptor(), known.data(), known.size(), static_cast<off_t>(tagAt)) !=
       static_cast<ssize_t>(known.size()))
-    throw FileError(out_.path(), "can't be written: " + std::generic_category().message(errno));
+    throw FileError(out_.path(), "can't be written: " + writeFailureText(errno));
 }
 
 void MatFile::commit() { out_.commit(); }

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
-#include <system_error>
 
 #include <fcntl.h>
 #include <sys/file.h>
@@ -161,8 +160,7 @@ Hdf5Output::Hdf5Output(const std::filesystem::path& path, Overwrite overwrite)
 }
 
 void Hdf5Output::requireWritten() const {
-  if (error_ != 0)
-    throw FileError(out_.path(), "can't be written: " + std::generic_category().message(error_));
+  if (error_ != 0) throw FileError(out_.path(), "can't be written: " + writeFailureText(error_));
 }
 
 void Hdf5Output::require(bool ok) const {

@@ -4,7 +4,6 @@
 #include <exception>
 #include <limits>
 #include <stdexcept>
-#include <system_error>
 #include <thread>
 #include <utility>
 
@@ -14,6 +13,7 @@
 #include "palpate/core/bounded_queue.h"
 #include "palpate/core/error.h"
 #include "palpate/core/file_descriptor.h"
+#include "palpate/core/output_file.h"
 #include "palpate/model/hand_file.h"
 #include "palpate/recording/mcap_recording.h"
 
@@ -93,7 +93,7 @@ class McapRunningSeries {
 };
 
 [[noreturn]] void throwMcapCantWrite(const fs::path& path, int error) {
-  throw FileError(path, "can't be written: " + std::generic_category().message(error));
+  throw FileError(path, "can't be written: " + writeFailureText(error));
 }
 
 }  // namespace

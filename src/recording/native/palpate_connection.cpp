@@ -116,7 +116,9 @@ bool hasHotJournal(const fs::path& recording) {
   const auto status = fs::status(path, failure);
   if (!fs::exists(status)) return false;
   if (!fs::is_regular_file(status))
-    throw FileError(path, "is not a regular file, and has the name of the recording's journal");
+    throw FileError(path,
+                    "is not a regular file, and has the name of the recording's journal: move it "
+                    "away first");
   const std::string first = beginningOfFile(path, 1);
   return !first.empty() && first[0] != '\0';
 }

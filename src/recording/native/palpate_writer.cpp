@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "palpate/core/error.h"
+#include "palpate/core/output_file.h"
 #include "palpate/core/progress.h"
 #include "palpate/recording/palpate_blocks.h"
 #include "palpate/recording/palpate_schema.h"
@@ -80,7 +81,7 @@ class TemporaryNeighbour {
     name += ".XXXXXX";
     std::string pattern = (folder / name).string();
     if (!mkdtemp(pattern.data()))
-      throw FileError(path, "can't be written: " + std::generic_category().message(errno));
+      throw FileError(path, "can't be written: " + writeFailureText(errno));
     folder_ = pattern;
   }
   ~TemporaryNeighbour() {

@@ -289,7 +289,7 @@ TEST_F(BatchDialogTest, WhatFailedIsListedWithItsReasonAndReported) {
   find<QPushButton>("batchSaveReport")->click();
   const std::string report = testing::readFile(folder_ / "report.csv");
   EXPECT_EQ(std::count(report.begin(), report.end(), '\n'), 4) << report;
-  EXPECT_EQ(report.rfind("source,result,state,text\n", 0), 0U) << report;
+  EXPECT_EQ(report.rfind("source,result,state,text,files\n", 0), 0U) << report;
   // Once more: what is whole is kept.
   look();
   run();

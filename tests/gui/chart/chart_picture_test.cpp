@@ -110,6 +110,38 @@ TEST_F(ChartPictureTest, GraphsWithNamesMakeALegend) {
   EXPECT_NE(svg().find(">thumb<"), std::string::npos);
 }
 
+// In the colour of the points, which is darker on paper where it could not be seen, and in their
+// form: no line.
+TEST_F(ChartPictureTest, PointsStandInTheLegendAsTheyAreDrawn) {
+  const QColor yellow("#e6e600");
+  const QCPScatterStyle points(QCPScatterStyle::ssSquare, yellow, yellow, 6.0);
+  plot_.graph(0)->setLineStyle(QCPGraph::lsNone);
+  plot_.graph(0)->setScatterStyle(points);
+  options_.legend = {{"pen", QPen(yellow), points}};
+  const auto area = [this](const QColor& color, const QImage& of) {
+    int below = 0, widest = 0;
+    for (int y = 0; y < 60; ++y) {
+      int row = 0;
+      for (int x = 0; x < of.width(); ++x) row += of.pixelColor(x, y) == color ? 1 : 0;
+      widest = std::max(widest, row);
+    }
+    for (int y = 60; y < of.height(); ++y)
+      for (int x = 0; x < of.width(); ++x) below += of.pixelColor(x, y) == color ? 1 : 0;
+    return std::pair(widest, below);
+  };
+  for (const bool forPrint : {false, true}) {
+    look_.forPrint = forPrint;
+    const auto [widest, below] = area(forPrint ? QColor(inkOf(yellow).rgb()) : yellow, image());
+    EXPECT_GE(widest, 5) << forPrint;
+    EXPECT_LE(widest, 8) << "a square of 6 px, no line";
+    EXPECT_GE(below, 25) << "the point that is seen";
+    if (forPrint) {
+      EXPECT_EQ(area(yellow, image()), std::pair(0, 0));
+    }
+  }
+  EXPECT_EQ(plot_.graph(0)->scatterStyle().pen().color(), yellow) << "the chart is as before";
+}
+
 TEST_F(ChartPictureTest, ALongLegendTakesMoreRows) {
   for (int i = 0; i < 7; ++i)
     options_.legend.push_back({QString("finger %1 proximal").arg(i), plot_.graph(0)->pen()});

@@ -225,6 +225,30 @@ TEST_F(ComparePanelTest, AlignsAGraspOfAWithAGraspOfB) {
   EXPECT_FALSE(find<QComboBox>("compareGraspB")->isVisible());
 }
 
+// Every moment of grasp 3 of A is 300 counts above grasp 2 of B; the rest of the recordings differs
+// in other ways.
+TEST_F(ComparePanelTest, TheFiguresOfGraspsAreOverWhatBothHave) {
+  open({"three.dsa", "two.dsa"});
+  compareNow();
+  choose("compareAlignment", "grasps");
+  choose("compareGraspA", "grasp 3");
+  choose("compareGraspB", "grasp 2");
+  const QString figures = compare().figures();
+  // The grasp is frames 80 to 104 of A.
+  EXPECT_TRUE(
+      figures.startsWith("correlation 1.000 · A − B: mean +300.0, rms 300.0, largest "
+                         "+300.0 counts"))
+      << figures.toStdString();
+  EXPECT_TRUE(figures.endsWith("over what both grasps have, 4.00 to 5.20 s"))
+      << figures.toStdString();
+  choose("compareOverlay", "grasps of A");
+  EXPECT_TRUE(compare().figures().endsWith(
+      "A and B: correlation 1.000 over what both grasps have, 4.00 to 5.20 s"))
+      << compare().figures().toStdString();
+  choose("compareAlignment", "start of both");
+  EXPECT_TRUE(compare().figures().endsWith(" s in common")) << compare().figures().toStdString();
+}
+
 TEST_F(ComparePanelTest, TheSameRecordingTwiceBeginsWithItsFirstTwoGrasps) {
   open({"three.dsa"});
   compareNow();

@@ -26,6 +26,27 @@ TEST_F(CompareWindowTest, TakesThePlaceOfTheMatricesAndGivesItBack) {
   EXPECT_TRUE(dock("Inspect")->isVisible());
 }
 
+// The comparison is wider than what is left beside this dock.
+TEST_F(CompareWindowTest, AWideDockHasItsWidthAgain) {
+  window().resize(1280, 800);
+  open({"early.dsa", "late.dsa"});
+  window().docks().show("Recognise");
+  QCoreApplication::processEvents();
+  window().resizeDocks({dock("Recognise")}, {760}, Qt::Horizontal);
+  QCoreApplication::processEvents();
+  const int width = dock("Recognise")->width();
+  ASSERT_GT(width, 700);
+  compareNow();
+  ASSERT_LT(window().width() - width, compare().minimumSizeHint().width())
+      << "there is no room for both";
+  EXPECT_FALSE(dock("Recognise")->isVisible());
+  press(Qt::Key_C, Qt::ControlModifier | Qt::ShiftModifier);
+  QCoreApplication::processEvents();
+  EXPECT_TRUE(dock("Recognise")->isVisible());
+  EXPECT_EQ(dock("Recognise")->width(), width);
+  EXPECT_EQ(window().size(), QSize(1280, 800));
+}
+
 TEST_F(CompareWindowTest, SwappingKeepsTheMoment) {
   open({"early.dsa", "late.dsa"});
   compareNow();

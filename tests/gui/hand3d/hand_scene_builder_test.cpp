@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include <gtest/gtest.h>
 
@@ -201,6 +202,34 @@ TEST_F(HandSceneBuilderTest, ASensorOfUnknownGeometryIsLaidFlat) {
   EXPECT_EQ(drawing_.extent(look_).size(), 64u);
   look_.only = 0;
   fill();
+}
+
+// O-A20: five taxels are 17 mm.
+TEST_F(HandSceneBuilderTest, SlipHasALengthOnlyInAPoseAndWordsOnlyOnTheSideThatIsSeen) {
+  look_.contacts = false;
+  look_.sphere = SphereLook::kNone;
+  drawing_.setSlip({{.matrix = 1, .x = 2.0, .y = 4.0, .dx = 0.0, .dy = 5.0, .slipping = true}});
+  const auto words = [&] {
+    QStringList all;
+    for (const SceneLabel& label : fill().labels) all << label.text;
+    return all;
+  };
+  const auto lookAlong = [&](const Eigen::Vector3d& normal) {
+    camera_.azimuthDeg = std::atan2(normal.y(), normal.x()) * 180.0 / std::numbers::pi;
+    camera_.elevationDeg = std::asin(normal.z()) * 180.0 / std::numbers::pi;
+  };
+  drawing_.setMoment(frame_, kPose);
+  const Eigen::Vector3d normal = geometry_.pose(kPose).normal(1, 4, 2);
+  lookAlong(normal);
+  EXPECT_EQ(words(), QStringList{"slip 17.0 mm"});
+  EXPECT_GT(scene_.lines.size(), 0u);
+  lookAlong(-normal);
+  EXPECT_EQ(words(), QStringList{});
+  // Without joint angles the hand is at rest, without sizes.
+  drawing_.setMoment(frame_, {});
+  ASSERT_FALSE(drawing_.posed());
+  lookAlong(geometry_.pose(std::vector<double>(7, 0.0)).normal(1, 4, 2));
+  EXPECT_EQ(words(), QStringList{"slip"});
 }
 
 TEST_F(HandSceneBuilderTest, FindsTheTaxelUnderARay) {

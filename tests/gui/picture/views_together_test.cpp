@@ -27,6 +27,7 @@ TEST(ViewsTogether, AreArrangedAsOnTheScreen) {
 FramePictures filled(const QColor& color, std::vector<PictureLook>* looks) {
   FramePictures pictures;
   pictures.numFrames = 3;
+  pictures.hasColorBar = color != QColor(Qt::green);
   pictures.painter = [color, looks](const PictureLook& look) {
     looks->push_back(look);
     return [color, size = look.size](QPainter& painter, std::size_t frame) {
@@ -60,6 +61,25 @@ TEST(ViewsTogether, EachPartIsPaintedInItsPlace) {
   EXPECT_EQ(image.pixelColor(60, 42), QColor(Qt::black));
   EXPECT_EQ(image.pixelColor(60, 10), QColor(Qt::gray)) << "a part stays in its place";
   EXPECT_EQ(image.pixelColor(10, 60), QColor(Qt::gray));
+}
+
+TEST(ViewsTogether, OnePartShowsTheColourBar) {
+  std::vector<PictureLook> looks;
+  const QRectF place(0, 0, 0.25, 1.0);
+  const FramePictures all = framesTogether({filled(Qt::green, &looks),
+                                            filled(Qt::red, &looks),
+                                            filled(Qt::green, &looks),
+                                            filled(Qt::blue, &looks)},
+                                           {place, place, place, place},
+                                           Qt::gray);
+  PictureLook look;
+  all.painter(look);
+  ASSERT_EQ(looks.size(), 4u);
+  EXPECT_TRUE(looks[1].colorBar) << "the first one that has one";
+  EXPECT_FALSE(looks[3].colorBar);
+  look.colorBar = false;
+  all.painter(look);
+  EXPECT_FALSE(looks[5].colorBar);
 }
 
 class ViewsTogetherWindowTest : public WindowTest {

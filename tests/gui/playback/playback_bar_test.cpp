@@ -32,10 +32,19 @@ class PlaybackBarTest : public WindowTest {
 TEST_F(PlaybackBarTest, TellsFrameAndTimeOfHowMany) {
   playback().seekFrame(7);
   EXPECT_EQ(frameField().value(), 7);
-  EXPECT_EQ(find<QLabel>("ofFrames")->text(), "of 20");
+  EXPECT_EQ(find<QLabel>("ofFrames")->text(), "last 19");
   EXPECT_EQ(timeField().text(), "0.35");
   EXPECT_EQ(find<QLabel>("ofTime")->text(), "/ 0.95 s");
   EXPECT_EQ(bar().value(), 7);
+}
+
+TEST_F(PlaybackBarTest, TheTipTellsTheTimeOfTheFrame) {
+  playback().seekSeconds(0.38);
+  EXPECT_EQ(timeField().text(), "0.38");
+  EXPECT_TRUE(timeField().toolTip().endsWith("Frame 7 itself was recorded at 0.35 s."))
+      << timeField().toolTip().toStdString();
+  playback().seekFrame(8);
+  EXPECT_TRUE(timeField().toolTip().endsWith("Frame 8 itself was recorded at 0.40 s."));
 }
 
 TEST_F(PlaybackBarTest, AClickOnTheBarJumpsThereADragScrubs) {

@@ -1,18 +1,23 @@
 // The page Grasps of the dock Recognise by itself: table, scatter plot, and what is left out.
 #include "gui/recognise/grasps_page.h"
 
+#include <QAction>
 #include <QApplication>
 #include <QClipboard>
 #include <QComboBox>
 #include <QLabel>
 #include <QListWidget>
+#include <QPainter>
 #include <QPushButton>
+#include <QSignalSpy>
+#include <QSortFilterProxyModel>
 #include <QTableView>
 #include <map>
 
 #include <palpate/recognition/plateau_features.h>
 
 #include "gui/chart/plot.h"
+#include "gui/picture/picture_export.h"
 #include "gui/recognise/feature_scatter.h"
 #include "gui/recognise/grasp_table_model.h"
 #include "gui/recognise/recognise_fixture.h"
@@ -35,6 +40,11 @@ class GraspsPageTest : public RecognisePanelTest {
   QTableView& table() { return page().table(); }
   QString cell(int row, int column) {
     return table().model()->index(row, column).data().toString();
+  }
+  void choose(const QString& object, int number) {
+    page().choose(dynamic_cast<const QSortFilterProxyModel&>(*table().model())
+                      .mapToSource(table().model()->index(rowOf(object, number), 0))
+                      .row());
   }
   // Row of the table with this object and number.
   int rowOf(const QString& object, int number) {
@@ -71,7 +81,7 @@ TEST_F(GraspsPageTest, TableAndPlotChooseTheSameGrasp) {
   FeatureScatter& scatter = page().scatter();
   ASSERT_EQ(scatter.names().count(), 2);
   table().sortByColumn(GraspTableModel::kNumber, Qt::DescendingOrder);
-  table().selectRow(rowOf("pen", 2));
+  choose("pen", 2);
   const FeatureRow& pen =
       panel_->teaching().table()->rows.at(static_cast<std::size_t>(scatter.chosen()));
   EXPECT_EQ(pen.className, "pen");
@@ -90,6 +100,10 @@ TEST_F(GraspsPageTest, TableAndPlotChooseTheSameGrasp) {
   EXPECT_TRUE(scatter.tipOf(5).contains("pen: pen.palpate, grasp 2"))
       << scatter.tipOf(5).toStdString();
   EXPECT_FALSE(scatter.rowAt(QPointF(-100, -100)));
+  // Also while Shift is held, and nothing was chosen before.
+  table().clearSelection();
+  QTest::mouseClick(&scatter.plot(), Qt::LeftButton, Qt::ShiftModifier, at);
+  EXPECT_EQ(table().selectionModel()->selectedRows(), rows);
 }
 
 TEST_F(GraspsPageTest, AxesAreChosenAndKept) {
@@ -107,7 +121,7 @@ TEST_F(GraspsPageTest, AxesAreChosenAndKept) {
 
 TEST_F(GraspsPageTest, WhatIsLeftOutDoesNotTrain) {
   EXPECT_FALSE(find<QPushButton>("graspsUndo")->isEnabled());
-  table().selectRow(rowOf("pen", 1));
+  choose("pen", 1);
   auto* leave = find<QPushButton>("graspsLeaveOut");
   leave->click();
   EXPECT_EQ(leave->text(), "Take in");
@@ -141,8 +155,67 @@ TEST_F(GraspsPageTest, WhatIsLeftOutDoesNotTrain) {
   EXPECT_FALSE(find<QPushButton>("graspsUndo")->isEnabled());
 }
 
+// With the focus anywhere on the page; a window's own action of these keys is not triggered.
+TEST_F(GraspsPageTest, KeysUndoAndRedoLeavingOut) {
+  QAction ofTheWindow;
+  ofTheWindow.setShortcuts({QKeySequence("Ctrl+Z"), QKeySequence("Ctrl+Shift+Z")});
+  panel_->addAction(&ofTheWindow);
+  QSignalSpy triggered(&ofTheWindow, &QAction::triggered);
+  QApplication::setActiveWindow(panel_.get());
+  const auto numOut = [&] { return panel_->teaching().leftOut().size(); };
+  for (const int number : {1, 2}) {
+    choose("pen", number);
+    QTest::keyClick(&table(), Qt::Key_Space);
+  }
+  ASSERT_EQ(numOut(), 2u);
+  QTest::keyClick(&table(), Qt::Key_Z, Qt::ControlModifier);
+  EXPECT_EQ(numOut(), 1u);
+  QTest::keyClick(find<QPushButton>("graspsCopy"), Qt::Key_Z, Qt::ControlModifier);
+  EXPECT_EQ(numOut(), 0u);
+  QTest::keyClick(&table(), Qt::Key_Z, Qt::ControlModifier);
+  EXPECT_EQ(numOut(), 0u) << "nothing is left to undo";
+  const auto redo = [&] {
+    QTest::keyClick(
+        find<QPushButton>("graspsCopy"), Qt::Key_Z, Qt::ControlModifier | Qt::ShiftModifier);
+  };
+  redo();
+  EXPECT_EQ(numOut(), 1u);
+  redo();
+  EXPECT_EQ(numOut(), 2u);
+  EXPECT_EQ(triggered.count(), 0);
+  // Elsewhere the keys are those of the window.
+  QTest::keyClick(panel_.get(), Qt::Key_Z, Qt::ControlModifier);
+  EXPECT_EQ(triggered.count(), 1);
+  EXPECT_EQ(numOut(), 2u);
+  // After another change there is nothing to do again.
+  QTest::keyClick(&table(), Qt::Key_Z, Qt::ControlModifier);
+  choose("ball", 1);
+  QTest::keyClick(&table(), Qt::Key_Space);
+  redo();
+  EXPECT_EQ(numOut(), 2u);
+}
+
+// The picture names the objects by the points that it draws, also on white paper.
+TEST_F(GraspsPageTest, ThePictureHasALegendOfTheObjects) {
+  choose("pen", 2);
+  find<QPushButton>("graspsLeaveOut")->click();
+  for (const bool forPrint : {false, true}) {
+    PictureLook look;
+    look.size = {600, 420};
+    look.forPrint = forPrint;
+    const std::string text = pictureBytes(
+                                 ImageFormat::kSvg,
+                                 [&](QPainter& painter) { page().paint(painter, look); },
+                                 {.size = look.size},
+                                 "a.svg")
+                                 .toStdString();
+    for (const char* name : {">ball<", ">pen<", ">left out<"})
+      EXPECT_NE(text.find(name), std::string::npos) << name << "\n" << text;
+  }
+}
+
 TEST_F(GraspsPageTest, RowsAreCopiedExportedAndOpened) {
-  table().selectRow(rowOf("pen", 2));
+  choose("pen", 2);
   find<QPushButton>("graspsCopy")->click();
   const QStringList lines = QApplication::clipboard()->text().split('\n', Qt::SkipEmptyParts);
   ASSERT_EQ(lines.size(), 2);

@@ -311,8 +311,16 @@ TEST_F(MainWindowTest, QuitCloses) {
 
 TEST_F(MainWindowTest, StatusNamesFrameTimeAndFigures) {
   playback().seekFrame(7);
-  EXPECT_EQ(status().right, "frame 7 of 20   0.35 s");
+  EXPECT_EQ(status().right, "frame 7, last 19   0.35 s");
   EXPECT_EQ(status().figures, (QStringList{"active 1", "max 80", "saturated 0"}));
+}
+
+// O-A19: the cursor can stand between two frames.
+TEST_F(MainWindowTest, StatusTellsTheTimeOfTheFrameAndOfTheCursor) {
+  playback().seekSeconds(0.38);
+  EXPECT_EQ(status().right, "frame 7, last 19   0.35 s, cursor 0.38 s");
+  playback().seekFrame(19);
+  EXPECT_EQ(status().right, "frame 19, last 19   0.95 s");
 }
 
 TEST_F(MainWindowTest, AGapIsSaidInTheStatus) {

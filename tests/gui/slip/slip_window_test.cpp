@@ -106,6 +106,18 @@ TEST_F(SlipWindowTest, ArrowsAreOnTheHandWhileItSlips) {
   plain.slip = false;
   hand.drawing().fill(without, plain, hand.camera());
   EXPECT_GT(with.lines.size(), without.lines.size() + 4);
+  // O-A20: in no frame has a matrix of which the dock says that it is invalid an arrow.
+  std::size_t invalid = 0;
+  for (std::size_t frame = 0; frame < playback().numFrames(); ++frame) {
+    playback().seekFrame(frame);
+    for (std::size_t m = 0; m < panel().found()->matrices.size(); ++m) {
+      const SlipSample* sample = panel().found()->at(m, frame);
+      if (!sample || sample->state != SlipState::kInvalid) continue;
+      ++invalid;
+      EXPECT_EQ(of(m), nullptr) << "frame " << frame << ", matrix " << m;
+    }
+  }
+  EXPECT_GT(invalid, 0u);
   press(Qt::Key_K, Qt::ShiftModifier);
   EXPECT_FALSE(hand.look().slip);
   EXPECT_FALSE(actions().at("slipArrows")->isChecked());

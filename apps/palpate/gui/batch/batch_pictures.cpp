@@ -12,7 +12,7 @@
 #include <palpate/signals/characteristic_signals.h>
 
 #include "gui/appearance/captions.h"
-#include "gui/matrices/matrices_painter.h"
+#include "gui/matrices/matrices_frame_painter.h"
 #include "gui/picture/ffmpeg.h"
 #include "gui/picture/movie_writer.h"
 #include "gui/picture/picture_export.h"
@@ -32,12 +32,8 @@ Progress batchPicturePart(const Progress& progress, double from, double to) {
 
 FramePictures::Paint batchPainter(const Profile& profile, const MatricesPictureOptions& options) {
   return [profile, options](QPainter& painter, std::size_t frame) {
-    constexpr double kSPerUs = 1e-6;
-    const double seconds =
-        kSPerUs * static_cast<double>(profile.frameTimeUs(frame) - profile.frameTimeUs(0));
     MatricesPictureOptions now = options;
-    now.caption =
-        QString("frame %1 of %2, %3 s").arg(frame).arg(profile.numFrames()).arg(figure(seconds, 2));
+    now.caption = captionOf(profile, frame);
     paintMatricesPicture(
         painter, QRectF(QPointF(), now.size), profile.frame(frame), profile.hand(), now);
   };

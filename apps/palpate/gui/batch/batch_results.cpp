@@ -123,7 +123,7 @@ BatchResults::BatchResults(QWidget* parent)
   copy_->setToolTip("Copy the selected rows, or all (Ctrl+C)");
   save_ = new QPushButton("Save re&port…");
   save_->setObjectName("batchSaveReport");
-  save_->setToolTip("A table of all recordings as CSV: source, result, state, text");
+  save_->setToolTip("A table as CSV, a row for each recording: source, result, state, text, files");
   show_ = new QPushButton("Sho&w recording");
   show_->setObjectName("batchReveal");
   show_->setToolTip("Show the recording in the file manager; also by a double click");

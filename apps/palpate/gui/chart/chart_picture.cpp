@@ -8,7 +8,6 @@
 #include <functional>
 
 #include "gui/appearance/theme.h"
-#include "gui/chart/plot.h"
 #include "gui/picture/picture_export.h"
 
 namespace palpate::gui {
@@ -79,6 +78,12 @@ class Restyled {
     undo_.emplace_back([&object, set, before] { (object.*set)(before); });
   }
 
+  QCPScatterStyle ink(QCPScatterStyle points) const {
+    if (points.isPenDefined()) points.setPen(ink(points.pen()));
+    points.setBrush(ink(points.brush()));
+    return points;
+  }
+
   void style(QCPAxis& axis) {
     change(axis, &QCPAxis::basePen, &QCPAxis::setBasePen, ink(axis.basePen()));
     change(axis, &QCPAxis::tickPen, &QCPAxis::setTickPen, ink(axis.tickPen()));
@@ -97,6 +102,9 @@ class Restyled {
     change(curve, &QCPAbstractPlottable::pen, &QCPAbstractPlottable::setPen, ink(curve.pen()));
     change(
         curve, &QCPAbstractPlottable::brush, &QCPAbstractPlottable::setBrush, ink(curve.brush()));
+    if (auto* graph = qobject_cast<QCPGraph*>(&curve))
+      change(
+          *graph, &QCPGraph::scatterStyle, &QCPGraph::setScatterStyle, ink(graph->scatterStyle()));
   }
 
   void style(QCPAbstractItem& item) {
@@ -105,6 +113,8 @@ class Restyled {
       change(*word, &QCPItemText::font, &QCPItemText::setFont, font_);
       change(*word, &QCPItemText::pen, &QCPItemText::setPen, ink(word->pen()));
       change(*word, &QCPItemText::brush, &QCPItemText::setBrush, ink(word->brush()));
+    } else if (auto* mark = qobject_cast<QCPItemTracer*>(&item)) {
+      change(*mark, &QCPItemTracer::pen, &QCPItemTracer::setPen, ink(mark->pen()));
     } else if (auto* rect = qobject_cast<QCPItemRect*>(&item)) {
       change(*rect, &QCPItemRect::pen, &QCPItemRect::setPen, ink(rect->pen()));
       change(*rect, &QCPItemRect::brush, &QCPItemRect::setBrush, ink(rect->brush()));
@@ -131,6 +141,28 @@ std::vector<ChartLegendEntry> ownNames(const QCustomPlot& plot) {
   return entries;
 }
 
+// QCustomPlot draws points with a painter of its own.
+void paintLegendPoint(QPainter& painter,
+                      QCPScatterStyle points,
+                      const PictureLook& look,
+                      const QPointF& at) {
+  if (look.forPrint) {
+    QPen pen = points.pen();
+    pen.setColor(inkOf(pen.color()));
+    points.setPen(pen);
+    if (points.brush().style() != Qt::NoBrush)
+      points.setBrush(QBrush(inkOf(points.brush().color())));
+  }
+  QPicture picture;
+  QCPPainter point(&picture);
+  point.setMode(QCPPainter::pmVectorized);
+  point.setMode(QCPPainter::pmNonCosmetic);
+  points.applyTo(&point, points.pen());
+  points.drawShape(&point, at);
+  point.end();
+  replay(painter, picture);
+}
+
 // Paints the legend from `top` downwards, in as many rows as it needs; returns its lower end.
 double paintLegend(QPainter& painter,
                    const std::vector<ChartLegendEntry>& entries,
@@ -150,10 +182,15 @@ double paintLegend(QPainter& painter,
       x = kChartPictureMargin;
       top += row;
     }
-    QPen pen = entry.pen;
-    if (look.forPrint) pen.setColor(inkOf(pen.color()));
-    painter.setPen(pen);
-    painter.drawLine(QPointF(x, top + row / 2), QPointF(x + kChartPictureLine, top + row / 2));
+    if (entry.points) {
+      paintLegendPoint(
+          painter, *entry.points, look, QPointF(x + kChartPictureLine / 2, top + row / 2));
+    } else {
+      QPen pen = entry.pen;
+      if (look.forPrint) pen.setColor(inkOf(pen.color()));
+      painter.setPen(pen);
+      painter.drawLine(QPointF(x, top + row / 2), QPointF(x + kChartPictureLine, top + row / 2));
+    }
     painter.setPen(text);
     painter.drawText(QRectF(x + kChartPictureLine + kChartPictureGap, top, width, row),
                      Qt::AlignLeft | Qt::AlignVCenter | Qt::TextDontClip,

@@ -5,11 +5,12 @@
 #include <QColor>
 #include <QPen>
 #include <QString>
+#include <optional>
 #include <vector>
 
+#include "gui/chart/plot.h"
 #include "gui/picture/exported_view.h"
 
-class QCustomPlot;
 class QPainter;
 
 namespace palpate::gui {
@@ -18,6 +19,8 @@ struct ChartLegendEntry {
   QString name;
   // The pen as on screen.
   QPen pen;
+  // Of points instead of a line: their form as on screen.
+  std::optional<QCPScatterStyle> points = {};
 };
 
 struct ChartPictureOptions {

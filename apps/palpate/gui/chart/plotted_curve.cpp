@@ -86,9 +86,14 @@ PlottedCurve taxelCurve(const HandDescription& hand,
                         std::size_t place,
                         Theme theme) {
   // The first curve has the accent colour, which marks selections in all views.
-  const QColor color = place == 0 ? colorsOf(theme).accent : matrixColor(place + 1, theme);
-  return curve(
-      hand, {.kind = PlottedCurveKind::kTaxels, .taxels = taxels}, name, color, Qt::SolidLine);
+  // The others have colours of matrices, but not their solid line; through its gaps the curve of
+  // the same taxels, when they are chosen, stays visible.
+  const bool first = place == 0;
+  return curve(hand,
+               {.kind = PlottedCurveKind::kTaxels, .taxels = taxels},
+               name,
+               first ? colorsOf(theme).accent : matrixColor(place + 1, theme),
+               first ? Qt::SolidLine : Qt::DashDotDotLine);
 }
 
 PlottedCurve angleCurve(const HandDescription& hand, std::size_t axis, Theme theme) {

@@ -33,7 +33,8 @@ PlottedCurve matrixCurve(const HandDescription& hand,
                          std::size_t row,
                          SignalKind signal,
                          Theme theme);
-// `place`: index among the taxel curves, which decides the colour.
+// `place`: index among the taxel curves, which decides the colour and, for all but the first, which
+// is that of the chosen taxels, a broken line.
 PlottedCurve taxelCurve(const HandDescription& hand,
                         const TaxelSelection& taxels,
                         const QString& name,

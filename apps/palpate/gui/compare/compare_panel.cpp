@@ -698,11 +698,17 @@ QString ComparePanel::figures() const {
   const QString unit = " " + unitOf(settings_.signal, handUnit());
   const QString correlation =
       "correlation " + (found.correlation ? figure(*found.correlation, 3) : QString("not defined"));
-  if (overlay_ != CompareOverlay::kPair) return overlaidText() + "A and B: " + correlation;
+  // Over which time the figures are.
+  const QString over = answer_.figuresOfGrasps
+                           ? "over what both grasps have, " + figure(found.fromS, 2) + " to " +
+                                 figure(found.toS, 2) + " s"
+                           : "over " + figure(found.toS - found.fromS, 2) + " s in common";
+  if (overlay_ != CompareOverlay::kPair)
+    return overlaidText() + "A and B: " + correlation + " " + over;
   return overlaidText() + correlation + " · A − B: mean " + signedText(found.meanDifference, 1) +
          ", rms " + figure(found.rmsDifference, 1) + ", largest " +
          signedText(found.largestDifference, 1) + unit + " at " + figure(found.largestAtS, 2) +
-         " s · over " + figure(found.toS - found.fromS, 2) + " s in common";
+         " s · " + over;
 }
 
 void ComparePanel::showNotice() {

@@ -43,6 +43,21 @@ SeriesChoice choiceFor(const CompareQuestion& question, const OpenedRecording& r
   return choice;
 }
 
+// What the two chosen grasps have in common; empty: no grasps are compared.
+std::optional<TimeSpan> graspSpanOf(const CompareQuestion& question, const CompareAnswer& answer) {
+  if (answer.alignment != Alignment::kGrasp || answer.graspsA.empty() || answer.graspsB.empty())
+    return std::nullopt;
+  const auto chosen = [](const std::vector<GraspFrames>& grasps, std::size_t index) {
+    const GraspFrames& grasp = grasps[std::min(index, grasps.size() - 1)];
+    return FrameRange{grasp.begin, grasp.end};
+  };
+  return graspsInCommon(*answer.a,
+                        chosen(answer.graspsA, question.graspA),
+                        *answer.b,
+                        chosen(answer.graspsB, question.graspB),
+                        answer.offsetS);
+}
+
 // The span of all drawn curves on A's time axis; empty: none is drawn.
 std::optional<TimeSpan> drawnSpanOf(const ComparedCurves& compared) {
   std::optional<TimeSpan> span;
@@ -293,11 +308,14 @@ void CompareWorker::work(const CompareQuestion& question, int generation) {
     answer.curveB = curve(question.b, choiceFor(question, *question.b), part(kCurveShare));
     answer.done = kTimedShare + 2 * kCurveShare;
     report();
+    const auto within = graspSpanOf(question, answer);
+    answer.figuresOfGrasps = within.has_value();
     if (answer.curveA && answer.curveB)
       answer.figures = compareCurves(*answer.curveA,
                                      *answer.curveB,
                                      offsetS,
-                                     {gapFromS(answer.a->timing), gapFromS(answer.b->timing)});
+                                     {gapFromS(answer.a->timing), gapFromS(answer.b->timing)},
+                                     within);
     if (question.overlay != CompareOverlay::kPair || question.band != CompareBand::kNone)
       answer.overlaid = overlaid(question, answer, part(0.0));
     report();

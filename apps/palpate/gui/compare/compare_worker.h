@@ -59,6 +59,9 @@ struct CompareAnswer {
   // Null in a complete answer when that recording does not have the chosen matrix.
   std::shared_ptr<const Series> curveA, curveB;
   std::optional<CurveComparison> figures;
+  // The figures are over the part of the two chosen grasps that both have, not over all that the
+  // recordings have in common.
+  bool figuresOfGrasps = false;
   // Largest difference of any taxel over the common span [counts].
   std::optional<double> largestDifference;
   // Largest value of both recordings in the frames that were read [counts].

@@ -270,6 +270,7 @@ std::vector<ExportedView> Hand3dFeature::views() {
   };
   view.fileName = [&windowState] { return windowState.frameStem() + "_hand"; };
   view.size = [this] { return QSizeF(panel_->view().size()); };
+  view.hasColorBar = true;
   view.paint = [this, &windowState](QPainter& painter, const PictureLook& look) {
     const HandView& shown = panel_->view();
     const MatricesPictureOptions page = fitted(pictureOptions(windowState, matrices_), look);
@@ -280,6 +281,7 @@ std::vector<ExportedView> Hand3dFeature::views() {
     std::optional<FramePictures> pictures = windowState.framePictures("_hand");
     if (!pictures) return pictures;
     const OpenedRecordingPtr recording = windowState.displayed.filteredRecording();
+    pictures->hasColorBar = true;
     pictures->painter = [recording,
                          options = pictureOptions(windowState, matrices_),
                          shown = &panel_->view()](const PictureLook& look) {

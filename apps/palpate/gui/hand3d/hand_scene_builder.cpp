@@ -364,7 +364,7 @@ void HandSceneBuilder::fill(HandScene& scene,
   if (look.axes && !flat) addAxes(scene, look);
   if (flat) return;
   if (look.contacts) addContacts(scene, look);
-  if (look.slip) addSlip(scene, look);
+  if (look.slip) addSlip(scene, look, camera);
   addSphere(scene, look, camera);
 }
 
@@ -591,7 +591,9 @@ void HandSceneBuilder::addAxes(HandScene& scene, const HandLook& look) const {
   }
 }
 
-void HandSceneBuilder::addSlip(HandScene& scene, const HandLook& look) const {
+void HandSceneBuilder::addSlip(HandScene& scene,
+                               const HandLook& look,
+                               const HandCamera& camera) const {
   if (slip_.empty() || !hand_ || !geometry_ || isFlat(look.taxels)) return;
   const ThemeColors& colors = colorsOf(look.theme);
   std::vector<SlipArrow> arrows;
@@ -609,8 +611,12 @@ void HandSceneBuilder::addSlip(HandScene& scene, const HandLook& look) const {
     const Vector3d from = arrow.originMm + kLiftMm * arrow.normal;
     const Vector3d way = static_cast<double>(kSlipEnlarged) * arrow.vectorMm;
     addArrow(scene, from, way, kContactPx, color.rgb());
-    scene.labels.push_back(
-        {from + way, (slip.slipping ? "slip " : "moved ") + figure(mm, 1) + " mm", color});
+    // The back of a finger hides the arrow: its words would seem to belong to what covers it.
+    if (arrow.normal.dot(camera.eyeMm() - from) <= 0.0) continue;
+    // A hand at rest, because nothing is known of its joints, is shown without sizes.
+    QString words = slip.slipping ? "slip" : "moved";
+    if (posed()) words += " " + figure(mm, 1) + " mm";
+    scene.labels.push_back({from + way, words, color});
   }
   // The motion of the object is drawn only while a contact slips; otherwise it is noise and the
   // effect of the load. It needs the pose of the fingers.

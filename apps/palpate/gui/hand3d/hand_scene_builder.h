@@ -80,7 +80,7 @@ class HandSceneBuilder {
   void addSphere(HandScene& scene, const HandLook& look, const HandCamera& camera) const;
   void addContacts(HandScene& scene, const HandLook& look) const;
   void addAxes(HandScene& scene, const HandLook& look) const;
-  void addSlip(HandScene& scene, const HandLook& look) const;
+  void addSlip(HandScene& scene, const HandLook& look, const HandCamera& camera) const;
   bool isShown(const HandBody& body, const HandLook& look) const;
   const Sphere* sphereOf(const HandLook& look) const;
 

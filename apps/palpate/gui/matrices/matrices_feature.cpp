@@ -167,6 +167,7 @@ std::vector<ExportedView> MatricesFeature::views() {
   };
   view.fileName = [&windowState] { return windowState.frameStem(); };
   view.size = [this] { return QSizeF(panel_->view().size()); };
+  view.hasColorBar = true;
   view.paint = [this, &windowState](QPainter& painter, const PictureLook& look) {
     paintMatricesPicture(painter,
                          QRectF(QPointF(), look.size),
@@ -190,6 +191,7 @@ std::vector<ExportedView> MatricesFeature::views() {
     if (windowState.appearance.view().range == RangeMode::kFrame)
       // Each frame gets its own range.
       options.rangeMax = options.rangeMin = 0.0;
+    pictures->hasColorBar = true;
     pictures->painter = [recording, options](const PictureLook& look) {
       return matricesFramePainter(recording, fitted(options, look));
     };

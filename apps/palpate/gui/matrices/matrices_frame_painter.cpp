@@ -9,6 +9,7 @@ MatricesPictureOptions fitted(MatricesPictureOptions options, const PictureLook&
   options.pixelRatio = look.pixelRatio;
   if (look.textUnits > 0) options.font.setPixelSize(look.textUnits);
   if (look.forPrint) options.theme = Theme::kLight;
+  options.colorBar = options.colorBar && look.colorBar;
   if (!look.titled) {
     options.title.clear();
     options.caption.clear();

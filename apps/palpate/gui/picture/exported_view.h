@@ -28,6 +28,8 @@ struct PictureLook {
   int textUnits = 0;
   // Whether the picture has a line with its subject and time.
   bool titled = true;
+  // Whether a picture of values has the bar of its colours.
+  bool colorBar = true;
   // Device pixels per unit; 0: a vector graphic, which has none.
   double pixelRatio = 0.0;
 };
@@ -51,6 +53,8 @@ struct FramePictures {
   std::size_t numFrames = 0;
   std::optional<FrameSpan> selected = {};
   std::function<Paint(const PictureLook&)> painter;
+  // The pictures have a colour bar, if the look wants one: that of the other such views, too.
+  bool hasColorBar = false;
   // Time stamp of a frame [us], ascending; called under the same conditions as Paint. Empty: no
   // movie can be made.
   using TimeUs = std::function<std::int64_t(std::size_t frame)>;
@@ -81,6 +85,8 @@ struct ExportedView {
   std::function<QSizeF()> size = {};
   // Empty: the view has no picture.
   std::function<void(QPainter&, const PictureLook&)> paint = {};
+  // As that of FramePictures.
+  bool hasColorBar = false;
   // Empty: the view has no tables.
   std::function<std::vector<ExportedTable>()> tables = {};
   // A picture of each frame as a part of several views (views_together.h), for a view that is not

@@ -10,11 +10,20 @@
 namespace palpate::gui {
 namespace {
 
-PictureLook partLook(const PictureLook& look, const QRectF& place, bool first) {
+// The look of a part in its place, of views or of pictures of frames. The first one names the
+// recording for all, and the first one that has a colour bar shows it for all.
+template <class Parts, class HasColorBar>
+PictureLook partLook(const PictureLook& look,
+                     const QRectF& place,
+                     const Parts& parts,
+                     std::size_t index,
+                     const HasColorBar& hasColorBar) {
   PictureLook own = look;
   own.size = QSizeF(look.size.width() * place.width(), look.size.height() * place.height());
-  // The first one names the recording for all.
-  own.titled = look.titled && first;
+  own.titled = look.titled && index == 0;
+  own.colorBar =
+      look.colorBar &&
+      std::none_of(parts.begin(), parts.begin() + static_cast<std::ptrdiff_t>(index), hasColorBar);
   return own;
 }
 
@@ -102,7 +111,8 @@ FramePictures framesTogether(std::vector<FramePictures> parts,
   all.painter = [parts = std::move(parts), places, ground](const PictureLook& look) {
     std::vector<FramePictures::Paint> paints;
     for (std::size_t i = 0; i < parts.size(); ++i)
-      paints.push_back(parts[i].painter(partLook(look, places[i], i == 0)));
+      paints.push_back(parts[i].painter(partLook(
+          look, places[i], parts, i, [](const FramePictures& each) { return each.hasColorBar; })));
     return FramePictures::Paint(
         [paints, places, ground, size = look.size, forPrint = look.forPrint](QPainter& painter,
                                                                              std::size_t frame) {
@@ -134,7 +144,10 @@ ExportedView viewsTogether(std::function<std::vector<const ExportedView*>()> par
                      look.forPrint ? QColor(Qt::white) : groundOf(*shown.front()));
     for (std::size_t i = 0; i < shown.size(); ++i)
       paintPart(painter, look.size, arranged.places[i], [&] {
-        shown[i]->paint(painter, partLook(look, arranged.places[i], i == 0));
+        shown[i]->paint(painter,
+                        partLook(look, arranged.places[i], shown, i, [](const ExportedView* each) {
+                          return each->hasColorBar;
+                        }));
       });
   };
   view.framePictures = [parts, groundOf]() -> std::optional<FramePictures> {

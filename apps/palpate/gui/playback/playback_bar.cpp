@@ -42,13 +42,12 @@ PlaybackBar::PlaybackBar(PlaybackController& playback, QWidget* parent)
   seekBar_ = new SeekBar(this);
   seekBar_->setObjectName("seekBar");
   frame_ = makeField<FrameField>(this, "frameField", 7);
-  frame_->setToolTip("Frame number, from 0: type one and press Enter (Ctrl+G)");
+  frame_->setToolTip("Number of the frame; the first is 0: type one and press Enter (Ctrl+G)");
   frame_->setAccessibleName("Frame");
   ofFrames_ = new QLabel(this);
   ofFrames_->setObjectName("ofFrames");
   time_ = makeField<SecondsField>(this, "timeField", 8);
   time_->setDecimals(kTimeDecimals);
-  time_->setToolTip("Time from the first frame in s: type one and press Enter");
   time_->setAccessibleName("Time in seconds");
   ofTime_ = new QLabel(this);
   ofTime_->setObjectName("ofTime");
@@ -103,7 +102,7 @@ void PlaybackBar::takeRecording() {
     frame_->setRange(0, last);
     time_->setRange(0.0, playback_.durationS());
   }
-  const QString ofFrames = "of " + QString::number(frames);
+  const QString ofFrames = "last " + QString::number(frames == 0 ? 0 : frames - 1);
   if (ofFrames_->text() != ofFrames) ofFrames_->setText(ofFrames);
   const QString ofTime =
       "/ " + QString::fromStdString(fixedText(playback_.durationS(), kTimeDecimals)) + " s";
@@ -116,6 +115,12 @@ void PlaybackBar::showFrame(std::size_t frame) {
   seekBar_->setValue(asInt(frame));
   // The playback does not overwrite what the user is typing.
   if (!frame_->hasFocus() || !playback_.playing()) frame_->setValue(asInt(frame));
+  const QString stamp =
+      QString::fromStdString(fixedText(playback_.frameTimeS(), kTimeDecimals)) + " s";
+  time_->setToolTip(
+      "Time of the cursor from the first frame in s: type one and press Enter.\n"
+      "Frame " +
+      QString::number(frame) + " itself was recorded at " + stamp + ".");
   showTime(playback_.positionS());
 }
 

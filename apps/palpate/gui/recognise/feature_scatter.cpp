@@ -239,9 +239,15 @@ void FeatureScatter::paintPicture(QPainter& painter, const PictureLook& look) {
   const Theme shown = theme_;
   if (look.forPrint) setTheme(Theme::kLight);
   ChartPictureOptions options{.title = look.titled ? "grasps" : ""};
-  for (int object = 0; object < names_->count(); ++object)
+  for (int object = 0; object < names_->count(); ++object) {
+    const QColor color = objectColor(object, names_->count(), theme_);
     options.legend.push_back(
-        {names_->item(object)->text(), QPen(objectColor(object, names_->count(), theme_), 2.0)});
+        {names_->item(object)->text(), QPen(color), scatterStyle(object, color, false)});
+  }
+  if (std::find(leftOut_.begin(), leftOut_.end(), true) != leftOut_.end()) {
+    const QColor color = colorsOf(theme_).text;
+    options.legend.push_back({"left out", QPen(color), scatterStyle(0, color, true)});
+  }
   paintChart(painter, look, *plot_, options);
   if (look.forPrint) setTheme(shown);
 }

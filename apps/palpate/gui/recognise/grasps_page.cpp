@@ -89,11 +89,7 @@ GraspsPage::GraspsPage(TrainingController& controller, QSettings& settings, QWid
     scatter_->choose(chosenRow());
     showState();
   });
-  connect(scatter_, &FeatureScatter::rowChosen, this, [this](int row) {
-    const QModelIndex index = sorted_->mapFromSource(model_->index(row, 0));
-    view_->selectRow(index.row());
-    view_->scrollTo(index);
-  });
+  connect(scatter_, &FeatureScatter::rowChosen, this, &GraspsPage::choose);
   for (QComboBox* box : {x_, y_}) connect(box, &QComboBox::activated, this, &GraspsPage::setAxes);
   connect(leave_, &QPushButton::clicked, this, &GraspsPage::leaveOutChosen);
   connect(undo_, &QPushButton::clicked, &controller_, &TrainingController::undoLeavingOut);
@@ -133,7 +129,9 @@ QWidget* GraspsPage::makeTable() {
   leave_ = button("graspsLeaveOut",
                   "Leave out",
                   "The chosen grasps neither train nor test; their recordings stay as they are");
-  undo_ = button("graspsUndo", "Undo", "Takes the last change of what is left out back");
+  undo_ = button("graspsUndo",
+                 "Undo",
+                 "Takes the last change of what is left out back (Ctrl+Z; again: Ctrl+Shift+Z)");
   copy_ = button("graspsCopy", "Copy", "The chosen rows, else all, for a spreadsheet (Ctrl+C)");
   state_ = new QLabel(part);
   state_->setObjectName("graspsState");
@@ -249,6 +247,15 @@ int GraspsPage::chosenRow() const {
   return rows.isEmpty() ? -1 : sorted_->mapToSource(rows.front()).row();
 }
 
+// Not by QTableView::selectRow(), which obeys the keys that are held: with Shift, and nothing
+// chosen before, it chooses nothing.
+void GraspsPage::choose(int row) {
+  const QModelIndex index = sorted_->mapFromSource(model_->index(row, 0));
+  view_->selectionModel()->setCurrentIndex(
+      index, QItemSelectionModel::ClearAndSelect | QItemSelectionModel::Rows);
+  view_->scrollTo(index);
+}
+
 std::vector<int> GraspsPage::shownRows() const {
   std::vector<int> rows;
   for (int row = 0; row < sorted_->rowCount(); ++row)
@@ -321,6 +328,21 @@ bool GraspsPage::eventFilter(QObject* watched, QEvent* event) {
     }
   }
   return QWidget::eventFilter(watched, event);
+}
+
+bool GraspsPage::event(QEvent* event) {
+  const bool override = event->type() == QEvent::ShortcutOverride;
+  if (override || event->type() == QEvent::KeyPress) {
+    const auto& key = static_cast<QKeyEvent&>(*event);
+    const bool undo = key.matches(QKeySequence::Undo);
+    if (undo || key.matches(QKeySequence::Redo)) {
+      if (!override && undo) controller_.undoLeavingOut();
+      if (!override && !undo) controller_.redoLeavingOut();
+      event->accept();
+      return true;
+    }
+  }
+  return QWidget::event(event);
 }
 
 bool GraspsPage::shown() const { return isVisible() && pages_->currentWidget() == parts_; }

@@ -33,6 +33,8 @@ class GraspsPage : public QWidget {
   void setTheme(Theme theme);
   FeatureScatter& scatter() noexcept { return *scatter_; }
   QTableView& table() noexcept { return *view_; }
+  // Chooses one row of the feature table, and no other.
+  void choose(int row);
   // Whether there are grasps, and they are visible.
   bool shown() const;
   std::vector<ExportedTable> tables() const;
@@ -45,6 +47,9 @@ class GraspsPage : public QWidget {
  protected:
   // Keys of the table aren't shortcuts of the playback.
   bool eventFilter(QObject* watched, QEvent* event) override;
+  // With the focus on this page, the keys of undo and redo are those of leaving out, not those of
+  // the recording's events.
+  bool event(QEvent* event) override;
 
  private:
   QWidget* makeTable();

@@ -122,6 +122,7 @@ FeatureSet TrainingController::set() const {
 void TrainingController::readLeftOut() {
   leftOut_.clear();
   leavingOut_.clear();
+  takenBack_.clear();
   const QVariantMap folders = settings_.value(kLeftOutKey).toMap();
   for (const QString& text :
        folders.value(QString::fromStdString(folder_.string())).toStringList()) {
@@ -162,6 +163,7 @@ void TrainingController::setLeftOut(const std::vector<std::size_t>& rows, bool o
   }
   if (changed.empty()) return;
   leavingOut_.emplace_back(changed, out);
+  takenBack_.clear();
   changeLeftOut(changed, out);
 }
 
@@ -169,7 +171,16 @@ void TrainingController::undoLeavingOut() {
   if (leavingOut_.empty()) return;
   const auto [grasps, out] = leavingOut_.back();
   leavingOut_.pop_back();
+  takenBack_.emplace_back(grasps, out);
   changeLeftOut(grasps, !out);
+}
+
+void TrainingController::redoLeavingOut() {
+  if (takenBack_.empty()) return;
+  const auto [grasps, out] = takenBack_.back();
+  takenBack_.pop_back();
+  leavingOut_.emplace_back(grasps, out);
+  changeLeftOut(grasps, out);
 }
 
 void TrainingController::look() {

@@ -88,6 +88,8 @@ class TrainingController : public QObject {
   // Takes the last change of setLeftOut() back.
   bool canUndoLeavingOut() const noexcept { return !leavingOut_.empty(); }
   void undoLeavingOut();
+  // Does again what undoLeavingOut() took back last, until the next change.
+  void redoLeavingOut();
   // The objects with their number of grasps that train, including those captured since the folder
   // was read.
   std::map<QString, int> counts() const;
@@ -135,6 +137,8 @@ class TrainingController : public QObject {
   std::set<LeftOutGrasp> leftOut_;
   // The changes, newest last, each with whether it left the grasps out.
   std::vector<std::pair<std::vector<LeftOutGrasp>, bool>> leavingOut_;
+  // The changes that were taken back, the last one last.
+  std::vector<std::pair<std::vector<LeftOutGrasp>, bool>> takenBack_;
   std::shared_ptr<const FeatureTable> table_;
   QString problem_;
   std::vector<TrainingClip> clips_;

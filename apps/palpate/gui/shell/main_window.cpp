@@ -136,8 +136,11 @@ void MainWindow::connectPlace() {
   connect(&displayed, &DisplayedSource::shown, this, &MainWindow::showTitle);
   connect(&windowState_->events, &EventController::changed, this, &MainWindow::showTitle);
   connect(&windowState_->comparison, &ComparisonMode::changed, this, [this](bool on) {
-    on ? docks_->hideAll() : docks_->bringBack();
+    // The comparison is shown only while the docks are hidden: it needs more width than the views
+    // that it replaces, and would take it from them.
+    if (on) docks_->hideAll();
     centre_->setComparing(on);
+    if (!on) docks_->bringBack();
   });
 }
 

@@ -11,6 +11,11 @@
 #include "gui/widgets/status_strip.h"
 
 namespace palpate::gui {
+namespace {
+
+QString secondsText(double seconds) { return QString::fromStdString(fixedText(seconds, 2)) + " s"; }
+
+}  // namespace
 
 StatusReport::StatusReport(WindowState& windowState, StatusStrip& strip, WindowMenus& menus)
     : windowState_(windowState), strip_(strip), menus_(menus) {
@@ -81,9 +86,12 @@ void StatusReport::report() {
     now.figures = {"active " + QString::number(all.active),
                    "max " + QString::number(all.maximum, 'f', decimalsOf(seen->profile.hand())),
                    "saturated " + QString::number(windowState_.currentFrame.saturated())};
-    now.right = "frame " + QString::number(playback.frame()) + " of " +
-                QString::number(playback.numFrames()) + "   " +
-                QString::fromStdString(fixedText(playback.positionS(), 2)) + " s";
+    const QString frameTime = secondsText(playback.frameTimeS());
+    const QString cursorTime = secondsText(playback.positionS());
+    now.right = "frame " + QString::number(playback.frame()) + ", last " +
+                QString::number(playback.numFrames() - 1) + "   " + frameTime;
+    // While it plays, the cursor only runs from one frame to the next, except in a gap.
+    if (cursorTime != frameTime && (!playing || inGap)) now.right += ", cursor " + cursorTime;
   }
   now.notice = notice();
   strip_.setStatus(now);

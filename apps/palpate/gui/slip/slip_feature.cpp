@@ -112,7 +112,8 @@ void SlipFeature::showArrows() {
     const SlipSample* now = series->at(m, panel_->frame());
     if (now == nullptr) continue;
     const RecentSlip recent = series->recent(m, panel_->frame(), kArrowS);
-    if (recent.steps == 0) continue;
+    // What the dock calls invalid has no length either.
+    if (recent.steps == 0 || now->state == SlipState::kInvalid) continue;
     slips.push_back({.matrix = m,
                      .x = static_cast<double>(now->x),
                      .y = static_cast<double>(now->y),

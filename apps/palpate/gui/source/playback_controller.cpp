@@ -59,6 +59,13 @@ double PlaybackController::positionS() const {
   return static_cast<double>(playback_->positionUs() - startUs) / kUsPerS;
 }
 
+double PlaybackController::frameTimeS() const {
+  if (!hasFrames()) return 0.0;
+  const Profile& profile = playback_->profile();
+  return static_cast<double>(profile.frameTimeUs(playback_->frame()) - profile.frameTimeUs(0)) /
+         kUsPerS;
+}
+
 double PlaybackController::durationS() const {
   return playback_ ? static_cast<double>(playback_->profile().durationUs()) / kUsPerS : 0.0;
 }

@@ -31,8 +31,10 @@ class PlaybackController : public QObject {
   bool hasFrames() const;
   std::size_t numFrames() const;
   std::size_t frame() const;
-  // Position from the first frame [s].
+  // Position of the cursor from the first frame [s]: at or after the stamp of frame().
   double positionS() const;
+  // Stamp of frame() from the first frame [s]; 0 without frames.
+  double frameTimeS() const;
   double durationS() const;
   bool playing() const { return playback_ && playback_->playing(); }
   double speed() const noexcept { return speed_; }

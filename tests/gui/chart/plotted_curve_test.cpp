@@ -1,0 +1,44 @@
+#include "gui/chart/plotted_curve.h"
+
+#include "palpate/device/sdh2.h"
+#include <palpate/model/hand_description.h>
+
+#include "testing/testing.h"
+
+namespace palpate::gui::plotted_curve_test {
+namespace {
+
+// O-A17: curves of the same colour have other lines, so that the legend tells them apart.
+TEST(PlottedCurve, KindsOfTheSameColourHaveOtherLines) {
+  const HandDescription& hand = sdh2();
+  TaxelSelection taxels(*hand.layout);
+  taxels.addAll(0);
+  for (const Theme theme : {Theme::kDark, Theme::kLight}) {
+    std::vector<PlottedCurve> curves;
+    for (std::size_t row = 0; row <= hand.layout->numMatrices(); ++row)
+      curves.push_back(matrixCurve(hand, row, SignalKind::kMean, theme));
+    for (std::size_t place = 0; place < 5; ++place)
+      curves.push_back(taxelCurve(hand, taxels, "group", place, theme));
+    for (std::size_t axis = 0; axis < hand.axes.size(); ++axis)
+      curves.push_back(angleCurve(hand, axis, theme));
+    for (std::size_t sensor = 0; sensor < hand.temperatureSensors.size(); ++sensor)
+      curves.push_back(temperatureCurve(hand, sensor, theme));
+    for (const PlottedCurve& a : curves)
+      for (const PlottedCurve& b : curves) {
+        if (a.choice.kind == b.choice.kind) continue;
+        EXPECT_FALSE(a.pen.color() == b.pen.color() && a.pen.style() == b.pen.style())
+            << a.name.toStdString() << ", " << b.name.toStdString();
+      }
+  }
+}
+
+// The chosen taxels are drawn first, and are seen through the gaps of a group of the same ones.
+TEST(PlottedCurve, AGroupOfTheChosenTaxelsDoesNotCoverThem) {
+  TaxelSelection taxels(*sdh2().layout);
+  taxels.addAll(0);
+  EXPECT_EQ(taxelCurve(sdh2(), taxels, "chosen", 0, Theme::kDark).pen.style(), Qt::SolidLine);
+  EXPECT_NE(taxelCurve(sdh2(), taxels, "group", 1, Theme::kDark).pen.style(), Qt::SolidLine);
+}
+
+}  // namespace
+}  // namespace palpate::gui::plotted_curve_test
