@@ -272,6 +272,24 @@ TEST_F(HandDockTest, WarnsOfAHotMotor) {
   EXPECT_FALSE(heat->text().contains("motor 2"));
 }
 
+TEST_F(HandDockTest, PresentValuesHaveTheChosenUnitsAndTargetsStayInDegrees) {
+  connectTo(std::make_unique<HotHand>());
+  auto* angles = find<FactsView>("liveAngles");
+  auto* temperatures = find<FactsView>("liveTemperatures");
+  ASSERT_TRUE(await([&] {
+    return angles->facts()[1].value == "-75.0°" && temperatures->facts()[3].value == "71.5 °C";
+  }));
+  dock_->showPage("Joints");
+  dock_->setUnits({.angle = AngleUnit::kRadian, .temperature = TemperatureUnit::kKelvin});
+  EXPECT_EQ(angles->facts()[1].value, "-1.309 rad");
+  EXPECT_TRUE(temperatures->facts()[3].value.startsWith("344."));
+  EXPECT_TRUE(temperatures->facts()[3].value.endsWith(" K"));
+  EXPECT_TRUE(find<QLabel>("handHeat")->text().endsWith(" K."));
+  // Beside its target, which is in degrees.
+  EXPECT_TRUE(await([&] { return find<QLabel>("presentAngle1")->text() == "-75.0°"; }));
+  EXPECT_EQ(find<ValueSlider>("targetAngle1")->value(), -75.0);
+}
+
 TEST_F(HandDockTest, AGoneMotionPortIsSaidAndNothingIsOffered) {
   connectTo(stillHand());
   ASSERT_TRUE(await([&] { return isEnabled("graspHand"); }));
