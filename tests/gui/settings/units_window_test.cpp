@@ -92,7 +92,7 @@ TEST_F(UnitsWindowTest, ChartsFollowAtOnce) {
   window().state().appearance.change(
       [](ViewSettings& view) { view.signal = PlottedSignal::kArea; });
   const PlottedCurve& area = chart().curves()[curve(SeriesChoice::Kind::kMatrix)];
-  EXPECT_EQ(area.axis, "area in cm²");
+  EXPECT_EQ(area.axis, "active area in cm²");
   EXPECT_EQ(readingOf(area, 1156.0), "11.56 cm²");
 }
 
@@ -218,9 +218,9 @@ TEST(TaxelTextUnits, AreThoseOfThePressure) {
 class UnitsComparedTest : public CompareWindowFixture {};
 
 TEST_F(UnitsComparedTest, AreasFollowAtOnce) {
-  open({"early.dsa", "late.dsa"});
+  open({"early.dsa", "untouched.dsa"});
   compareNow();
-  choose("compareSignal", "area");
+  choose("compareSignal", "active area");
   CompareChart& chart = compare().chart();
   const auto last = [&] { return (chart.graph(0)->data()->constEnd() - 1)->value; };
   EXPECT_NEAR(last(), 138.72, 1e-6) << "12 taxels of 11.56 mm²";

@@ -24,9 +24,10 @@
 namespace palpate::gui {
 namespace {
 
-constexpr int kSettingsMargin = 20;  // [px]
-constexpr int kSettingsWidth = 560;  // [px]
-constexpr int kSettingsFrame = 60;   // [px] of the window manager and of a panel
+constexpr int kSettingsMargin = 20;   // [px]
+constexpr int kSettingsWidth = 560;   // [px]
+constexpr int kSettingsBetween = 14;  // [px] between fields and their titles
+constexpr int kSettingsFrame = 60;    // [px] of the window manager and of a panel
 
 // Of all choices, the index of one.
 template <class Choices, class Choice>
@@ -81,7 +82,7 @@ SettingsDialog::SettingsDialog(const WindowChoices& choices,
   auto* fields = new QWidget;
   auto* form = new QFormLayout(fields);
   form->setContentsMargins(0, 0, 0, 0);
-  form->setHorizontalSpacing(14);
+  form->setHorizontalSpacing(kSettingsBetween);
   form->setVerticalSpacing(8);
   addLook(*form);
   addUnits(*form);
@@ -149,6 +150,7 @@ void SettingsDialog::addUnits(QFormLayout& form) {
         auto* rightTitle = new QLabel(right, this);
         rightTitle->setBuddy(rightBox);
         auto* row = new QHBoxLayout;
+        row->setSpacing(kSettingsBetween);
         row->addWidget(leftBox, 1);
         row->addWidget(rightTitle);
         row->addWidget(rightBox, 1);
@@ -166,18 +168,22 @@ void SettingsDialog::addUnits(QFormLayout& form) {
                   {"kPa", "N/cm²"},
                   "Pressures that Palpate computes with a calibration; values that a hand measures "
                   "keep the unit of its description");
-  QLabel* titles[] = {add("A&ngles", angle_, "Te&mperatures", temperature_),
-                      add("&Areas", area_, "&Pressures", pressure_)};
-  // The fields of both rows stand below each other.
-  titles[1]->setMinimumWidth(titles[0]->sizeHint().width());
+  unitTitles_ = {add("A&ngles", angle_, "Te&mperatures", temperature_),
+                 add("&Areas", area_, "&Pressures", pressure_)};
+  alignUnits();
   auto* note = new QLabel(
-      "Only for what is shown: typed values, files, tables and command lines keep °, °C, mm² and "
-      "kPa.",
-      this);
+      "Only what is shown: motions, files and command lines keep °, °C, mm² and kPa.", this);
   note->setObjectName("settingsUnitsNote");
   note->setProperty("role", "muted");
   note->setWordWrap(true);
   form.addRow(note);
+}
+
+// The right fields of both rows stand below each other.
+void SettingsDialog::alignUnits() {
+  int widest = 0;
+  for (const QLabel* title : unitTitles_) widest = std::max(widest, title->sizeHint().width());
+  for (QLabel* title : unitTitles_) title->setMinimumWidth(widest);
 }
 
 QLineEdit* SettingsDialog::addFolder(QFormLayout& form, const QString& label, const char* name) {
@@ -282,6 +288,8 @@ void SettingsDialog::tell() {
   problem_->setText(problem);
   buttons_->button(QDialogButtonBox::Ok)->setEnabled(problem.isEmpty());
   if (problem.isEmpty()) emit changed(now);
+  // The size of text may be another one now.
+  alignUnits();
 }
 
 void SettingsDialog::reject() {

@@ -5,6 +5,7 @@
 #include <QDialog>
 #include <QString>
 #include <QStringList>
+#include <array>
 #include <functional>
 #include <vector>
 
@@ -72,6 +73,7 @@ class SettingsDialog : public QDialog {
  private:
   void addLook(QFormLayout& form);
   void addUnits(QFormLayout& form);
+  void alignUnits();
   void addFolders(QFormLayout& form);
   void addMemory(QFormLayout& form);
   QLineEdit* addFolder(QFormLayout& form, const QString& label, const char* name);
@@ -89,6 +91,7 @@ class SettingsDialog : public QDialog {
   QComboBox* temperature_ = nullptr;
   QComboBox* area_ = nullptr;
   QComboBox* pressure_ = nullptr;
+  std::array<QLabel*, 2> unitTitles_ = {};
   QLineEdit* recordings_ = nullptr;
   QLineEdit* exports_ = nullptr;
   QLabel* problem_ = nullptr;
