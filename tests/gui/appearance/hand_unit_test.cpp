@@ -25,8 +25,6 @@ TEST(HandUnit, FullScaleHasThreeDigits) {
 TEST(HandUnit, IsThatOfTheDescription) {
   EXPECT_EQ(unitOf(builtInHand("sdh2")), "counts");
   EXPECT_EQ(unitOf(builtInHand("sole")), "kPa");
-  EXPECT_EQ(unitOf(builtInHand("sdh2").axes[0]), "°");
-  EXPECT_EQ(unitOf(builtInHand("parallel_gripper").axes[0]), " mm");
 }
 
 }  // namespace

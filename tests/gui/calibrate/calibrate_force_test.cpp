@@ -171,6 +171,26 @@ TEST_F(CalibrateForceTest, ForcesAreTheAppliedCalibrations) {
   EXPECT_EQ(appliedCalibration(settings_, sdh2().name), "");
 }
 
+TEST_F(CalibrateForceTest, PressuresAreShownInTheChosenUnitAndWrittenInKilopascals) {
+  const OpenedRecordingPtr recording = opened(loads(3, {500.0}));
+  applyCalibration(settings_, sdh2().name, QString::fromStdString(saved(tenth()).string()));
+  show("Force", recording);
+  ForcePage& page = panel_->force();
+  ASSERT_TRUE(page.shown()) << why().toStdString();
+  page.setPosition(5.0);
+  auto* table = find<FiguresTable>("forceTable");
+  EXPECT_EQ(table->horizontalHeaderItem(3)->text(), "kPa");
+  const double kpa = static_cast<double>(page.found()->at(page.found()->frameAt(5.0), 3).kpa);
+  ASSERT_GT(kpa, 1.0);
+  EXPECT_NEAR(cell("forceTable", 3, 3).toDouble(), kpa, 0.00501);
+  const QString newtons = cell("forceTable", 3, 4);
+  page.setUnits({.pressure = PressureUnit::kNewtonPerSquareCentimetre});
+  EXPECT_EQ(table->horizontalHeaderItem(3)->text(), "N/cm²");
+  EXPECT_NEAR(cell("forceTable", 3, 3).toDouble(), kpa / 10.0, 0.000501);
+  EXPECT_EQ(cell("forceTable", 3, 4), newtons);
+  EXPECT_EQ(page.tables()[0].make().header[5], "pressure_kpa");
+}
+
 TEST_F(CalibrateForceTest, AnAppliedFileThatIsGoneIsNamed) {
   applyCalibration(
       settings_, sdh2().name, QString::fromStdString((folder_ / "gone.json").string()));

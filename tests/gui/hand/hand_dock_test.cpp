@@ -272,6 +272,26 @@ TEST_F(HandDockTest, WarnsOfAHotMotor) {
   EXPECT_FALSE(heat->text().contains("motor 2"));
 }
 
+TEST_F(HandDockTest, PresentValuesHaveTheChosenUnitsAndTargetsStayInDegrees) {
+  connectTo(std::make_unique<HotHand>());
+  auto* angles = find<FactsView>("liveAngles");
+  auto* temperatures = find<FactsView>("liveTemperatures");
+  ASSERT_TRUE(await([&] {
+    return angles->facts()[1].value.endsWith("°") && temperatures->facts()[3].value == "71.5 °C";
+  }));
+  dock_->showPage("Joints");
+  const double deg = angles->facts()[1].value.chopped(1).toDouble();
+  dock_->setUnits({.angle = AngleUnit::kRadian, .temperature = TemperatureUnit::kKelvin});
+  const QString shown = angles->facts()[1].value;
+  ASSERT_TRUE(shown.endsWith(" rad")) << shown.toStdString();
+  EXPECT_NEAR(shown.chopped(4).toDouble(), deg * 3.141592653589793 / 180.0, 0.0015);
+  EXPECT_TRUE(temperatures->facts()[3].value.startsWith("344."));
+  EXPECT_TRUE(temperatures->facts()[3].value.endsWith(" K"));
+  EXPECT_TRUE(find<QLabel>("handHeat")->text().endsWith(" K."));
+  // Beside its target, which is in degrees.
+  EXPECT_TRUE(await([&] { return find<QLabel>("presentAngle1")->text().endsWith("°"); }));
+}
+
 TEST_F(HandDockTest, AGoneMotionPortIsSaidAndNothingIsOffered) {
   connectTo(stillHand());
   ASSERT_TRUE(await([&] { return isEnabled("graspHand"); }));

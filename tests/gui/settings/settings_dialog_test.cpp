@@ -7,6 +7,7 @@
 #include <QLineEdit>
 #include <QPushButton>
 #include <QSpinBox>
+#include <algorithm>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -23,6 +24,8 @@ class SettingsDialogTest : public ::testing::Test {
     begin_.textPt = 11;
     begin_.map = ColorMapName::kViridis;
     begin_.range = RangeMode::kFrame;
+    begin_.units.angle = AngleUnit::kRadian;
+    begin_.units.pressure = PressureUnit::kNewtonPerSquareCentimetre;
     begin_.recordings = "/gone/recordings";
     begin_.exports = "/gone/exports";
     begin_.reopen = false;
@@ -70,6 +73,37 @@ TEST_F(SettingsDialogTest, TellsEveryChangeAtOnceAndCancelTakesThemBack) {
   EXPECT_EQ(told_.back().forgotten, QStringList{"window"});
   dialog_->reject();
   EXPECT_EQ(told_.back(), begin_);
+}
+
+TEST_F(SettingsDialogTest, OffersUnitsAndSaysWhatTheyDontChange) {
+  EXPECT_EQ(find<QComboBox>("settingsAngle")->currentText(), "radians, rad");
+  EXPECT_EQ(find<QComboBox>("settingsTemperature")->currentText(), "Celsius, °C");
+  find<QComboBox>("settingsAngle")->setCurrentIndex(0);
+  find<QComboBox>("settingsTemperature")->setCurrentText("kelvin, K");
+  find<QComboBox>("settingsArea")->setCurrentText("cm²");
+  find<QComboBox>("settingsPressure")->setCurrentText("kPa");
+  ASSERT_EQ(told_.size(), 4u);
+  EXPECT_EQ(
+      told_.back().units,
+      (DisplayUnits{.temperature = TemperatureUnit::kKelvin, .area = AreaUnit::kSquareCentimetre}));
+  EXPECT_TRUE(find<QLabel>("settingsUnitsNote")->text().contains("files"));
+  dialog_->reject();
+  EXPECT_EQ(told_.back().units, begin_.units);
+}
+
+TEST_F(SettingsDialogTest, EveryAccessKeyIsOfOneField) {
+  std::vector<QString> keys;
+  const auto take = [&](const QString& text) {
+    const auto at = text.indexOf('&');
+    if (at >= 0) keys.push_back(text.mid(at + 1, 1).toLower());
+  };
+  for (const QLabel* label : dialog_->findChildren<QLabel*>())
+    if (label->buddy()) take(label->text());
+  for (const QAbstractButton* button : dialog_->findChildren<QAbstractButton*>())
+    take(button->text());
+  std::sort(keys.begin(), keys.end());
+  EXPECT_GE(keys.size(), 11u);
+  EXPECT_EQ(std::adjacent_find(keys.begin(), keys.end()), keys.end());
 }
 
 TEST_F(SettingsDialogTest, AFolderThatCantBeUsedIsRefused) {

@@ -211,6 +211,26 @@ TEST_F(LiveChartTest, TellsTheValuesUnderTheMouse) {
   EXPECT_EQ(chart_.valuesAt(-1.0), "");
 }
 
+TEST_F(LiveChartTest, ShowsTheChosenUnitAndWritesTheBaseUnit) {
+  framesTo(10.0);
+  chart_.setCurves({angleCurve(sdh2(), 1, Theme::kDark, {.angle = AngleUnit::kRadian})});
+  EXPECT_EQ(chart_.axes().units(), std::vector<QString>{"rad"});
+  EXPECT_NEAR(lastDrawn(0), 0.5235987755982988, 1e-12) << "30 degrees";
+  // The range is that of degrees, 10 of them: a small motion stays visible.
+  const QCPRange range = chart_.axes().of("rad")->range();
+  EXPECT_LE(range.lower, 20.0 * 0.017453292519943295 + 1e-12);
+  EXPECT_GE(range.upper, 0.5235987755982988 - 1e-12);
+  EXPECT_LT(range.size(), 0.5);
+  EXPECT_TRUE(chart_.valuesAt(4.04).contains("0.419 rad")) << chart_.valuesAt(4.04).toStdString();
+  chart_.setTimeCursor(0, 4.0);
+  chart_.setTimeCursor(1, 10.0);
+  chart_.replot();
+  const QString readings = chart_.findChild<QLabel*>("cursorReadings")->text();
+  EXPECT_TRUE(readings.endsWith("0.419 rad → 0.524 rad  Δ +0.105 rad")) << readings.toStdString();
+  EXPECT_EQ(chart_.cursorTable().row(1)[1], "°");
+  EXPECT_EQ(chart_.cursorTable().row(1)[4], "6");
+}
+
 TEST_F(LiveChartTest, MarksAndGraspsAreLinesAtTheirMoment) {
   frame(0.0, 1.0);
   frame(1.0, 1.0);

@@ -13,6 +13,4 @@ int decimalsOf(const HandDescription& hand) {
   return decimals;
 }
 
-QString unitOf(const AxisDescription& axis) { return axis.isSliding ? " mm" : "°"; }
-
 }  // namespace palpate::gui

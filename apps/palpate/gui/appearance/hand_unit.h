@@ -12,7 +12,5 @@ QString unitOf(const HandDescription& hand);
 // The number of decimals of shown values, 0..6: so many that full scale has three digits or more.
 // 0 for 4095 counts, 1 for 40 kPa, 2 for 1 N.
 int decimalsOf(const HandDescription& hand);
-// "deg" as "°"; an axis that slides: " mm". Follows the number directly.
-QString unitOf(const AxisDescription& axis);
 
 }  // namespace palpate::gui

@@ -48,6 +48,11 @@ QString unitOf(PlottedSignal signal, const QString& handUnit) {
   return handUnit;
 }
 
+ShownUnit shownUnit(PlottedSignal signal, const QString& handUnit, const DisplayUnits& units) {
+  if (signal == PlottedSignal::kArea) return shownUnit(units.area);
+  return {unitOf(signal, handUnit)};
+}
+
 PlottedSignal plottedSignalFrom(const QString& name) {
   for (const PlottedSignal signal : kAllPlottedSignals)
     if (name == nameOf(signal)) return signal;

@@ -5,6 +5,8 @@
 
 #include <palpate/signals/characteristic_signals.h>
 
+#include "gui/appearance/display_units.h"
+
 namespace palpate::gui {
 
 using PlottedSignal = SignalKind;
@@ -16,6 +18,8 @@ QString nameOf(PlottedSignal signal);
 QString meaningOf(PlottedSignal signal);
 // "taxels", "mm²", or the unit of the hand's values.
 QString unitOf(PlottedSignal signal, const QString& handUnit);
+// The same as it is shown: an area in the unit that the user chose.
+ShownUnit shownUnit(PlottedSignal signal, const QString& handUnit, const DisplayUnits& units);
 // The signal of this name; kMean for an unknown name.
 PlottedSignal plottedSignalFrom(const QString& name);
 

@@ -62,6 +62,7 @@ ViewSettings loadViewSettings(const QSettings& settings) {
     view.manualMax = usual.manualMax;
   }
   view.signal = plottedSignalFrom(settings.value("view/signal").toString());
+  view.units = loadDisplayUnits(settings);
   view.speed = windowSettingsNumberIn(
       settings, "playback/speed", Playback::kMinimumSpeed, Playback::kMaximumSpeed, usual.speed);
   view.loop = settings.value("playback/loop", usual.loop).toBool();
@@ -78,6 +79,7 @@ void saveViewSettings(const ViewSettings& view, QSettings& settings) {
   settings.setValue("view/manual_min", view.manualMin);
   settings.setValue("view/manual_max", view.manualMax);
   settings.setValue("view/signal", nameOf(view.signal));
+  saveDisplayUnits(view.units, settings);
   settings.setValue("playback/speed", view.speed);
   settings.setValue("playback/loop", view.loop);
   settings.setValue("playback/skip_gaps", view.skipGaps);

@@ -1,5 +1,5 @@
-// The appearance settings of the window (theme, colour map, range, plotted signal, playback),
-// stored from one start to the next.
+// The appearance settings of the window (theme, colour map, range, plotted signal, units,
+// playback), stored from one start to the next.
 #pragma once
 
 #include <QSettings>
@@ -7,6 +7,7 @@
 #include <array>
 
 #include "gui/appearance/color_map.h"
+#include "gui/appearance/display_units.h"
 #include "gui/appearance/plotted_signal.h"
 #include "gui/appearance/theme.h"
 
@@ -36,6 +37,7 @@ struct ViewSettings {
   double manualMin = 0.0;  // [counts]
   double manualMax = 1000.0;
   PlottedSignal signal = PlottedSignal::kMean;
+  DisplayUnits units = {};
   double speed = 1.0;
   bool loop = false;
   bool skipGaps = false;

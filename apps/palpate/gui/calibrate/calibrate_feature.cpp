@@ -39,6 +39,7 @@ CalibrateFeature::CalibrateFeature(WindowState& windowState, QWidget* window)
   connect(&windowState.displayed, &DisplayedSource::shown, this, &CalibrateFeature::takeSource);
   connect(&windowState.events, &EventController::changed, this, &CalibrateFeature::takeKept);
   followTheme(panel_);
+  followUnits(&panel_->force());
   connect(&windowState.playback,
           &PlaybackController::positionChanged,
           panel_,

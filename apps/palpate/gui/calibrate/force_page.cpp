@@ -36,9 +36,13 @@ std::vector<FigureColumn> forcePageColumns() {
           {"", "Why the value may be wrong", 18, true}};
 }
 
+constexpr int kPressureColumn = 3;  // of forcePageColumns()
+
 QString plusMinus(double sd) { return "± " + figure(kQuantile * sd, 2); }
 
-std::vector<FigureCell> forcePageRowOf(const QString& name, const MatrixForce& force) {
+std::vector<FigureCell> forcePageRowOf(const QString& name,
+                                       const MatrixForce& force,
+                                       const ShownUnit& pressure) {
   if (force.active == 0)
     return {{.text = name}, {.text = "0"}, {.text = "–"}, {.text = "–"}, {.text = "0"}, {}};
   QStringList flags;
@@ -49,8 +53,10 @@ std::vector<FigureCell> forcePageRowOf(const QString& name, const MatrixForce& f
   return {{.text = name},
           {.text = QString::number(force.active)},
           {.text = figure(static_cast<double>(force.staticResponseCounts), 1)},
-          {.text = figure(static_cast<double>(force.kpa), 2),
-           .detail = plusMinus(static_cast<double>(force.sdKpa))},
+          {.text = pressure.number(static_cast<double>(force.kpa), 2),
+           .detail = "± " + figure(pressure.conversion.ofDifference(
+                                       kQuantile * static_cast<double>(force.sdKpa)),
+                                   2 + pressure.conversion.moreDecimals)},
           {.text = figure(static_cast<double>(force.forceN), 2),
            .detail = plusMinus(static_cast<double>(force.sdForceN))},
           {.text = flags.value(0),
@@ -93,7 +99,7 @@ TextTable forceTable(const std::shared_ptr<const ForceSeries>& found) {
 }  // namespace
 
 ForcePage::ForcePage(QSettings& settings, QWidget* parent)
-    : ComputedPage("force", parent), settings_(settings) {
+    : ComputedPage("force", parent), settings_(settings), pressure_(shownUnit(PressureUnit{})) {
   makeTop();
   auto* content = new QWidget(this);
   chart_ = new ForceChart(content);
@@ -204,6 +210,7 @@ void ForcePage::setLiveHand(const HandDescription& hand) {
 
 void ForcePage::calibrationChanged() {
   found_.reset();
+  shownForces_.reset();
   showCalibration();
   renew();
 }
@@ -217,6 +224,7 @@ void ForcePage::setKept(const KeptWithRecording& kept) {
 
 void ForcePage::forget() {
   found_.reset();
+  shownForces_.reset();
   said_.reset();
   kept_ = {};
   showCalibration();
@@ -300,7 +308,7 @@ void ForcePage::showFrame() {
   const std::size_t frame = found_->frameAt(positionS_);
   std::vector<MatrixForce> forces;
   for (std::size_t m = 0; m < found_->numMatrices; ++m) forces.push_back(found_->at(frame, m));
-  showForces(forces, found_->forceN(frame), found_->sdForceN(frame));
+  showForces({std::move(forces), found_->forceN(frame), found_->sdForceN(frame)});
 }
 
 void ForcePage::showLive(const PressureFrame& pressure,
@@ -308,18 +316,20 @@ void ForcePage::showLive(const PressureFrame& pressure,
   if (!live() || !liveHand_ || !isVisible() || pressure.matrices.empty()) return;
   std::vector<MatrixForce> forces;
   for (const MatrixPressure& matrix : pressure.matrices) forces.push_back(matrixForce(matrix));
-  showForces(forces, pressure.forceN, pressure.sdForceN);
+  showForces({std::move(forces), pressure.forceN, pressure.sdForceN});
   const QString notes = linesOf(assumptions);
   if (notes_->text() != notes) notes_->setText(notes);
   if (!shown()) showContent();
 }
 
-void ForcePage::showForces(const std::vector<MatrixForce>& forces, double sumN, double sdN) {
+void ForcePage::showForces(const Shown& now) {
+  shownForces_ = now;
+  const auto& [forces, sumN, sdN] = *shownForces_;
   std::vector<std::vector<FigureCell>> rows;
   int active = 0;
   bool inRange = true;
   for (std::size_t m = 0; m < forces.size(); ++m) {
-    rows.push_back(forcePageRowOf(rowName(m), forces[m]));
+    rows.push_back(forcePageRowOf(rowName(m), forces[m], pressure_));
     active += forces[m].active;
     inRange = inRange && forces[m].inRange;
   }
@@ -330,6 +340,13 @@ void ForcePage::showForces(const std::vector<MatrixForce>& forces, double sumN, 
                   {.text = figure(sumN, 2), .detail = active > 0 ? plusMinus(sdN) : QString()},
                   {.text = inRange ? "" : "outside range", .warning = !inRange}});
   table_->setRows(rows);
+}
+
+void ForcePage::setUnits(const DisplayUnits& units) {
+  pressure_ = shownUnit(units.pressure);
+  table_->horizontalHeaderItem(kPressureColumn)->setText(pressure_.symbol);
+  if (shownForces_ && hand() && shownForces_->forces.size() == hand()->layout->numMatrices())
+    showForces(Shown(*shownForces_));
 }
 
 void ForcePage::setTheme(Theme theme) {

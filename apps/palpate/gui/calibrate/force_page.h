@@ -9,6 +9,7 @@
 
 #include <palpate/calibration/force_series.h>
 
+#include "gui/appearance/display_units.h"
 #include "gui/calibrate/applied_calibration.h"
 #include "gui/widgets/computed_page.h"
 
@@ -26,6 +27,8 @@ class ForcePage : public ComputedPage {
  public:
   explicit ForcePage(QSettings& settings, QWidget* parent = nullptr);
   void setTheme(Theme theme) override;
+  // The unit in which pressures are shown; tables() are in kPa.
+  void setUnits(const DisplayUnits& units);
   void setPosition(double seconds) override;
   std::vector<ExportedTable> tables() const override;
   void paint(QPainter& painter, const PictureLook& look, const QString& title) override;
@@ -58,7 +61,13 @@ class ForcePage : public ComputedPage {
   void makeTop();
   void take(const std::shared_ptr<const ForceSeries>& found, const SensorSettings& own);
   void showFrame();
-  void showForces(const std::vector<MatrixForce>& forces, double sumN, double sdN);
+  // The forces of the matrices and their sum.
+  struct Shown {
+    std::vector<MatrixForce> forces;
+    double sumN = 0.0;
+    double sdN = 0.0;
+  };
+  void showForces(const Shown& now);
   void showChosen(int row);
   void applyThis(const QString& path);
   void showCalibration();
@@ -73,6 +82,9 @@ class ForcePage : public ComputedPage {
   std::optional<SensorSettings> said_;
   std::optional<HandDescription> liveHand_;
   double positionS_ = 0.0;
+  ShownUnit pressure_;
+  // Nothing: no forces are shown.
+  std::optional<Shown> shownForces_;
   std::shared_ptr<const ForceSeries> found_;
   QLabel* name_ = nullptr;
   QWidget* recordedWith_ = nullptr;

@@ -93,9 +93,12 @@ QString fittingName(const QString& name, const QString& shortName, const QWidget
   return fits ? name : shortName;
 }
 
-QString signalAxisName(PlottedSignal signal, const QString& handUnit, const QWidget& plot) {
+QString signalAxisName(PlottedSignal signal,
+                       const QString& handUnit,
+                       const QWidget& plot,
+                       const DisplayUnits& units) {
   QString whole = nameOf(signal);
-  const QString unit = unitOf(signal, handUnit);
+  const QString unit = shownUnit(signal, handUnit, units).symbol;
   if (!whole.endsWith(unit)) whole += " in " + unit;
   return fittingName(whole, unit, plot);
 }

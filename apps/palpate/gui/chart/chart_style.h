@@ -32,7 +32,10 @@ void styleChart(QCustomPlot& plot, Theme theme);
 // The pen of a matrix; that of all matrices together (`whole`) is dashed.
 QPen curvePen(std::size_t matrix, bool whole, Theme theme);
 // "mean in counts"; in a low chart only the unit.
-QString signalAxisName(PlottedSignal signal, const QString& handUnit, const QWidget& plot);
+QString signalAxisName(PlottedSignal signal,
+                       const QString& handUnit,
+                       const QWidget& plot,
+                       const DisplayUnits& units = {});
 // The long name of an axis or, if the chart is too low for it, the short one.
 QString fittingName(const QString& name, const QString& shortName, const QWidget& plot);
 // Styles an additional vertical axis.

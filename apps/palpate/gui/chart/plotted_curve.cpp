@@ -20,11 +20,15 @@ PlottedCurve curve(const HandDescription& hand,
                    SeriesChoice choice,
                    const QString& name,
                    const QColor& color,
-                   Qt::PenStyle style) {
+                   Qt::PenStyle style,
+                   const DisplayUnits& units) {
   QPen pen(color, kPlottedCurveWidth, style);
-  PlottedCurve made{std::move(choice), name, {}, {}, pen};
-  made.unit = unitOf(made.choice, hand);
-  made.axis = axisNameOf(made.choice, hand);
+  PlottedCurve made{std::move(choice), name, {}, {}, pen, {}};
+  const ShownUnit shown = shownUnit(made.choice, hand, units);
+  made.unit = shown.symbol;
+  made.axis = axisNameOf(made.choice, hand, units);
+  made.baseUnit = unitOf(made.choice, hand);
+  made.conversion = shown.conversion;
   return made;
 }
 
@@ -48,36 +52,55 @@ QString unitOf(const SeriesChoice& choice, const HandDescription& hand) {
   return unitOf(choice.signal, unitOf(hand));
 }
 
-QString axisNameOf(const SeriesChoice& choice, const HandDescription& hand) {
+ShownUnit shownUnit(const SeriesChoice& choice,
+                    const HandDescription& hand,
+                    const DisplayUnits& units) {
   switch (choice.kind) {
     case PlottedCurveKind::kAngle:
-      return slides(hand, choice.index) ? "joint position in mm" : "joint angle in °";
+      return slides(hand, choice.index) ? ShownUnit{"mm"} : shownUnit(units.angle);
     case PlottedCurveKind::kTemperature:
-      return "temperature in °C";
+      return shownUnit(units.temperature);
+    case PlottedCurveKind::kMatrix:
+      return shownUnit(choice.signal, unitOf(hand), units);
+    default:
+      return {unitOf(choice, hand)};
+  }
+}
+
+QString axisNameOf(const SeriesChoice& choice,
+                   const HandDescription& hand,
+                   const DisplayUnits& units) {
+  const QString unit = shownUnit(choice, hand, units).symbol;
+  switch (choice.kind) {
+    case PlottedCurveKind::kAngle:
+      return (slides(hand, choice.index) ? "joint position in " : "joint angle in ") + unit;
+    case PlottedCurveKind::kTemperature:
+      return "temperature in " + unit;
     case PlottedCurveKind::kForce:
       return "force in N";
     case PlottedCurveKind::kFormula:
       return "formulas";
     case PlottedCurveKind::kTaxels:
-      return "taxels in " + unitOf(hand);
+      return "taxels in " + unit;
     case PlottedCurveKind::kMatrix:
       break;
   }
   const QString name = nameOf(choice.signal);
-  const QString unit = unitOf(choice.signal, unitOf(hand));
   return name.endsWith(unit) ? name : name + " in " + unit;
 }
 
 PlottedCurve matrixCurve(const HandDescription& hand,
                          std::size_t row,
                          SignalKind signal,
-                         Theme theme) {
+                         Theme theme,
+                         const DisplayUnits& units) {
   const bool whole = row == hand.layout->numMatrices();
   return curve(hand,
                {.kind = PlottedCurveKind::kMatrix, .index = row, .signal = signal},
                whole ? QString("all") : QString::fromStdString(hand.matrixName(row)),
                whole ? wholeColor(theme) : matrixColor(row, theme),
-               whole ? Qt::DashLine : Qt::SolidLine);
+               whole ? Qt::DashLine : Qt::SolidLine,
+               units);
 }
 
 PlottedCurve taxelCurve(const HandDescription& hand,
@@ -93,26 +116,35 @@ PlottedCurve taxelCurve(const HandDescription& hand,
                {.kind = PlottedCurveKind::kTaxels, .taxels = taxels},
                name,
                first ? colorsOf(theme).accent : matrixColor(place + 1, theme),
-               first ? Qt::SolidLine : Qt::DashDotDotLine);
+               first ? Qt::SolidLine : Qt::DashDotDotLine,
+               {});
 }
 
-PlottedCurve angleCurve(const HandDescription& hand, std::size_t axis, Theme theme) {
+PlottedCurve angleCurve(const HandDescription& hand,
+                        std::size_t axis,
+                        Theme theme,
+                        const DisplayUnits& units) {
   return curve(hand,
                {.kind = PlottedCurveKind::kAngle, .index = axis},
                axis < hand.axes.size() ? QString::fromStdString(hand.axes[axis].name) + " joint"
                                        : "joint " + QString::number(axis),
                matrixColor(axis + 3, theme),
-               Qt::DashLine);
+               Qt::DashLine,
+               units);
 }
 
-PlottedCurve temperatureCurve(const HandDescription& hand, std::size_t sensor, Theme theme) {
+PlottedCurve temperatureCurve(const HandDescription& hand,
+                              std::size_t sensor,
+                              Theme theme,
+                              const DisplayUnits& units) {
   const auto& sensors = hand.temperatureSensors;
   return curve(hand,
                {.kind = PlottedCurveKind::kTemperature, .index = sensor},
                sensor < sensors.size() ? QString::fromStdString(sensors[sensor].name)
                                        : "sensor " + QString::number(sensor),
                matrixColor(sensor + 1, theme),
-               Qt::DashDotLine);
+               Qt::DashDotLine,
+               units);
 }
 
 PlottedCurve forceCurve(const HandDescription& hand, std::size_t row, Theme theme) {
@@ -122,7 +154,8 @@ PlottedCurve forceCurve(const HandDescription& hand, std::size_t row, Theme them
       {.kind = PlottedCurveKind::kForce, .index = row},
       (whole ? QString("whole hand") : QString::fromStdString(hand.matrixName(row))) + " force",
       whole ? wholeColor(theme) : matrixColor(row, theme),
-      Qt::DotLine);
+      Qt::DotLine,
+      {});
   made.pen.setWidthF(kForceCurveWidth);
   return made;
 }
@@ -137,7 +170,8 @@ PlottedCurve formulaCurve(const SeriesChoice& choice,
           name,
           unit,
           unit.isEmpty() ? QString("formulas") : "formulas in " + unit,
-          QPen(matrixColor(place + 2, theme), kFormulaCurveWidth)};
+          QPen(matrixColor(place + 2, theme), kFormulaCurveWidth),
+          unit};
 }
 
 namespace {
@@ -160,13 +194,23 @@ QString readingOf(const PlottedCurve& curve, std::optional<double> value) {
   constexpr int kFormulaDigits = 5;
   if (curve.choice.kind == PlottedCurveKind::kFormula)
     return (QString::number(*value, 'g', kFormulaDigits) + " " + curve.unit).trimmed();
-  return QString::number(*value, 'f', decimalsOf(curve)) + " " + curve.unit;
+  const UnitConversion& to = curve.conversion;
+  return QString::number(to.of(*value), 'f', decimalsOf(curve) + to.moreDecimals) + " " +
+         curve.unit;
 }
 
 QString differenceOf(const PlottedCurve& curve, std::optional<double> difference) {
   if (!difference) return "–";
-  const QString size = readingOf(curve, std::abs(*difference));
+  PlottedCurve ofDifferences = curve;
+  ofDifferences.conversion.offset = 0.0;
+  const QString size = readingOf(ofDifferences, std::abs(*difference));
   return (*difference < 0.0 ? "−" : "+") + size;
+}
+
+PlottedCurve inBaseUnit(PlottedCurve curve) {
+  curve.unit = curve.baseUnit;
+  curve.conversion = {};
+  return curve;
 }
 
 QString readingsText(

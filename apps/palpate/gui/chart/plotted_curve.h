@@ -1,4 +1,5 @@
-// Describes a curve of the timeline: which series it shows, its name, unit, axis and colour.
+// Describes a curve of the timeline: which series it shows, its name, unit, axis and colour. Values
+// of the series are in base units; `conversion` makes what is shown.
 #pragma once
 
 #include <QPen>
@@ -10,6 +11,7 @@
 #include <palpate/model/hand_description.h>
 #include <palpate/signals/profile_series.h>
 
+#include "gui/appearance/display_units.h"
 #include "gui/appearance/theme.h"
 
 namespace palpate::gui {
@@ -17,22 +19,33 @@ namespace palpate::gui {
 struct PlottedCurve {
   SeriesChoice choice;
   QString name;  // "finger 0 distal", "thumb tip", "finger 1 distal (joint)", "motor 3"
-  // "counts", "°C", "N"; curves of one unit share an axis.
+  // As shown: "counts", "°C", "K", "N"; curves of one unit share an axis.
   QString unit;
   // Name of the axis: "mean in counts", "joint angle in °".
   QString axis;
   QPen pen;
+  // The unit of the series, which tables and files have: "°C", never "K".
+  QString baseUnit;
+  // From baseUnit to unit.
+  UnitConversion conversion = {};
 };
 
+// The base unit of a series: "counts", "mm²", "°", "°C", "N".
 QString unitOf(const SeriesChoice& choice, const HandDescription& hand);
+ShownUnit shownUnit(const SeriesChoice& choice,
+                    const HandDescription& hand,
+                    const DisplayUnits& units);
 // Name of the axis: "mean in counts", "taxels in counts", "joint angle in °", "joint position in
 // mm", "temperature in °C", "force in N".
-QString axisNameOf(const SeriesChoice& choice, const HandDescription& hand);
+QString axisNameOf(const SeriesChoice& choice,
+                   const HandDescription& hand,
+                   const DisplayUnits& units = {});
 
 PlottedCurve matrixCurve(const HandDescription& hand,
                          std::size_t row,
                          SignalKind signal,
-                         Theme theme);
+                         Theme theme,
+                         const DisplayUnits& units = {});
 // `place`: index among the taxel curves, which decides the colour and, for all but the first, which
 // is that of the chosen taxels, a broken line.
 PlottedCurve taxelCurve(const HandDescription& hand,
@@ -40,22 +53,31 @@ PlottedCurve taxelCurve(const HandDescription& hand,
                         const QString& name,
                         std::size_t place,
                         Theme theme);
-PlottedCurve angleCurve(const HandDescription& hand, std::size_t axis, Theme theme);
-PlottedCurve temperatureCurve(const HandDescription& hand, std::size_t sensor, Theme theme);
+PlottedCurve angleCurve(const HandDescription& hand,
+                        std::size_t axis,
+                        Theme theme,
+                        const DisplayUnits& units = {});
+PlottedCurve temperatureCurve(const HandDescription& hand,
+                              std::size_t sensor,
+                              Theme theme,
+                              const DisplayUnits& units = {});
 // `row`: a matrix, or the number of matrices for the whole hand.
 PlottedCurve forceCurve(const HandDescription& hand, std::size_t row, Theme theme);
 
-// A curve by a formula; `place`: index among these curves, which decides the colour.
+// A curve by a formula, which computes with base units; `place`: index among these curves, which
+// decides the colour.
 PlottedCurve formulaCurve(const SeriesChoice& choice,
                           const QString& name,
                           const QString& unit,
                           std::size_t place,
                           Theme theme);
 
-// "812 counts", "31.4 °", "0.52 N"; "–" for no value.
+// "812 counts", "31.4 °", "0.52 N"; "–" for no value. `value` is in the base unit.
 QString readingOf(const PlottedCurve& curve, std::optional<double> value);
 // As readingOf(), always with a sign: "+134 counts", "−2.0 °".
 QString differenceOf(const PlottedCurve& curve, std::optional<double> difference);
+// The curve in the base unit of its series, for tables and files.
+PlottedCurve inBaseUnit(PlottedCurve curve);
 // A heading and, below it, name and value of each curve; for tool tips.
 QString readingsText(const QString& heading,
                      const std::vector<PlottedCurve>& curves,

@@ -39,7 +39,7 @@ void UnitAxes::rebuild(const std::vector<PlottedCurve>& curves, Theme theme) {
     axis->setVisible(true);
     axis->setTickLabels(true);
     if (axis != plot_.yAxis) styleExtraAxis(*axis, plot_, theme);
-    axes_.push_back({curve.unit, curve.axis, fromZero, axis});
+    axes_.push_back({curve.unit, curve.axis, fromZero, axis, curve.conversion});
     // The axis may have been that of another unit.
     scale(axes_.back(), {axis->range().lower, axis->range().upper});
   }
@@ -74,6 +74,11 @@ std::vector<QString> UnitAxes::units() const {
 QString UnitAxes::nameOf(const QString& unit) const {
   const Axis* found = find(unit);
   return found ? found->name : unit;
+}
+
+UnitConversion UnitAxes::conversionOf(const QString& unit) const {
+  const Axis* found = find(unit);
+  return found ? found->conversion : UnitConversion();
 }
 
 bool UnitAxes::fromZero(const QString& unit) const {

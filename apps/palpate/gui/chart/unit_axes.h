@@ -41,6 +41,8 @@ class UnitAxes : public QObject {
   std::vector<QString> units() const;
   // "mean in counts"; the unit where several quantities share it.
   QString nameOf(const QString& unit) const;
+  // From the base unit to that of the axis.
+  UnitConversion conversionOf(const QString& unit) const;
   // Whether all curves of the unit count from 0: signals, taxels and forces do, angles and
   // temperatures don't.
   bool fromZero(const QString& unit) const;
@@ -78,6 +80,7 @@ class UnitAxes : public QObject {
     QString name;
     bool fromZero = true;
     QCPAxis* axis = nullptr;
+    UnitConversion conversion = {};
   };
   const Axis* find(const QString& unit) const;
   // Sets the kind of scale and the range.

@@ -103,7 +103,7 @@ void CompareChart::rebuild() {
   clearGraphs();
   clearItems();
   contact_ = nullptr;
-  yAxis->setLabel(signalAxisName(curves_.signal, curves_.handUnit, *this));
+  yAxis->setLabel(signalAxisName(curves_.signal, curves_.handUnit, *this, curves_.units));
   for (const CompareSide side : {CompareSide::kA, CompareSide::kB}) {
     QCPGraph* graph = addGraph();
     QPen pen(sideColor(side, theme_), 1.6);
@@ -121,7 +121,8 @@ void CompareChart::rebuild() {
   if (curves_.overlaid.average)
     for (const double high : curves_.overlaid.average->high)
       if (high > largest) largest = high;
-  yAxis->setRange(0.0, largest > 0.0 ? largest * kCompareChartHeadroom : 1.0);
+  const UnitConversion to = shown().conversion;
+  yAxis->setRange(0.0, to.of(largest > 0.0 ? largest * kCompareChartHeadroom : 1.0));
   if (curves_.a && curves_.a->contact) {
     contact_ = new QCPItemStraightLine(this);
     contact_->setPen(QPen(colorsOf(theme_).muted, 1.0, Qt::DotLine));
@@ -156,17 +157,19 @@ void CompareChart::addOverlaid() {
   averageGraphs_[1]->setChannelFillGraph(averageGraphs_[0]);
   averageGraphs_[2]->setPen(QPen(ink, kAverageWidth));
   const AverageCurve& average = *overlaid.average;
+  const UnitConversion to = shown().conversion;
   const std::array columns = {&average.low, &average.high, &average.middle};
   for (std::size_t which = 0; which < columns.size(); ++which) {
     QVector<QCPGraphData> samples;
     for (std::size_t i = 0; i < average.timeS.size(); ++i)
-      samples.append({average.timeS[i] + overlaid.zeroS, (*columns[which])[i]});
+      samples.append({average.timeS[i] + overlaid.zeroS, to.of((*columns[which])[i])});
     averageGraphs_[which]->data()->set(samples, true);
   }
 }
 
 void CompareChart::fillOverlaid() {
   const QCPRange range = xAxis->range();
+  const UnitConversion to = shown().conversion;
   for (const auto& [index, graph] : overlaidGraphs_) {
     const AlignedCurve& curve = curves_.overlaid.curves[index].curve;
     const double shiftS = curves_.overlaid.zeroS - curve.zeroS;
@@ -182,7 +185,7 @@ void CompareChart::fillOverlaid() {
     if (options.from < options.to)
       for (const SeriesPoint& point : minMaxDecimated(timeS, curve.series->values, options))
         if (std::isnan(point.x) || (point.x >= curve.fromS && point.x <= curve.toS))
-          samples.append({point.x + shiftS, point.y});
+          samples.append({point.x + shiftS, to.of(point.y)});
     graph->data()->set(samples, true);
   }
 }
@@ -210,6 +213,7 @@ std::vector<ChartLegendEntry> CompareChart::legendOf(const QString& nameA,
 
 void CompareChart::refill() {
   const QCPRange range = xAxis->range();
+  const UnitConversion to = shown().conversion;
   const auto fill = [&](int index,
                         const std::shared_ptr<const Series>& series,
                         const std::vector<std::size_t>& gaps,
@@ -222,7 +226,7 @@ void CompareChart::refill() {
                                       .breaks = gaps};
       const auto points = minMaxDecimated(series->timeS, series->values, options);
       samples.reserve(static_cast<qsizetype>(points.size()));
-      for (const SeriesPoint& point : points) samples.append({point.x + shiftS, point.y});
+      for (const SeriesPoint& point : points) samples.append({point.x + shiftS, to.of(point.y)});
     }
     // A single sample makes no line: it is drawn as a dot.
     const bool dot = series && series->timeS.size() == 1;
@@ -343,7 +347,7 @@ void CompareChart::wheelEvent(QWheelEvent* event) {
 
 void CompareChart::resizeEvent(QResizeEvent* event) {
   QCustomPlot::resizeEvent(event);
-  yAxis->setLabel(signalAxisName(curves_.signal, curves_.handUnit, *this));
+  yAxis->setLabel(signalAxisName(curves_.signal, curves_.handUnit, *this, curves_.units));
   constexpr int kLow = 130;  // [px]; lower: fewer ticks
   yAxis->ticker()->setTickCount(event->size().height() < kLow ? 2 : 4);
   refill();
@@ -352,6 +356,7 @@ void CompareChart::resizeEvent(QResizeEvent* event) {
 QString CompareChart::valuesAt(double seconds) const {
   if (!curves_.a || !curves_.b) return {};
   QString text = QString::number(seconds, 'f', 2) + " s";
+  const ShownUnit unit = shown();
   const auto line = [&](const char* name,
                         const TimedProfile& timed,
                         const std::shared_ptr<const Series>& series,
@@ -359,19 +364,16 @@ QString CompareChart::valuesAt(double seconds) const {
     text += "\n" + QString(name) + "  ";
     const auto frame = timed.frameAt(at);
     if (!frame || !series || *frame >= series->values.size()) return text += "no frame", void();
-    text += QString::number(series->values[*frame], 'f', 1) + " " +
-            unitOf(curves_.signal, curves_.handUnit) + " · frame " + QString::number(*frame);
+    text += unit.text(series->values[*frame], 1) + " · frame " + QString::number(*frame);
   };
   line("A", *curves_.a, curves_.curveA, seconds);
   line("B", *curves_.b, curves_.curveB, seconds - curves_.offsetS);
   const ComparedCurves& overlaid = curves_.overlaid;
-  const QString unit = " " + unitOf(curves_.signal, curves_.handUnit);
   const std::vector<double> now = {seconds - overlaid.zeroS};
   for (std::size_t i = 0; i < std::min(overlaidGraphs_.size(), kMostInTip); ++i) {
     const OverlaidCurve& each = overlaid.curves[overlaidGraphs_[i].first];
     const double value = alignedValues(each.curve, now).front();
-    if (std::isfinite(value))
-      text += "\n" + each.name + "  " + QString::number(value, 'f', 1) + unit;
+    if (std::isfinite(value)) text += "\n" + each.name + "  " + unit.text(value, 1);
   }
   if (overlaidGraphs_.size() > kMostInTip)
     text += "\n… " + QString::number(overlaidGraphs_.size()) + " curves";
@@ -380,11 +382,9 @@ QString CompareChart::valuesAt(double seconds) const {
     const double step = std::round((now.front() - average.timeS.front()) / average.stepS);
     const auto at = static_cast<std::size_t>(std::max(0.0, step));
     if (step >= 0.0 && at < average.middle.size() && std::isfinite(average.middle[at]))
-      text += "\n" + gui::nameOf(overlaid.band) + "  " +
-              QString::number(average.middle[at], 'f', 1) + " (" +
-              QString::number(average.low[at], 'f', 1) + " … " +
-              QString::number(average.high[at], 'f', 1) + ")" + unit + " of " +
-              QString::number(average.count[at]);
+      text += "\n" + gui::nameOf(overlaid.band) + "  " + unit.number(average.middle[at], 1) + " (" +
+              unit.number(average.low[at], 1) + " … " + unit.number(average.high[at], 1) + ") " +
+              unit.symbol + " of " + QString::number(average.count[at]);
   }
   return text;
 }

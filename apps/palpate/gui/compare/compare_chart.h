@@ -28,6 +28,8 @@ struct CompareCurves {
   PlottedSignal signal = PlottedSignal::kMean;
   // Unit of A's values.
   QString handUnit = "counts";
+  // The units that are shown; the series are in base units.
+  DisplayUnits units = {};
   ComparedCurves overlaid = {};
 };
 
@@ -86,6 +88,7 @@ class CompareChart : public ReadingChart {
   void setVisibleRange(double from, double to);
   void placeCursor();
   QString valuesAt(double seconds) const;
+  ShownUnit shown() const { return shownUnit(curves_.signal, curves_.handUnit, curves_.units); }
 
   CompareCurves curves_;
   Theme theme_ = Theme::kDark;

@@ -482,6 +482,7 @@ void ComparePanel::setTime(double seconds) {
 void ComparePanel::setSettings(const ViewSettings& settings, Theme theme) {
   const bool otherSignal = settings.signal != settings_.signal;
   const bool otherTheme = theme != theme_;
+  const bool otherUnits = settings.units != settings_.units;
   settings_ = settings;
   theme_ = theme;
   signal_->setCurrentText(gui::nameOf(settings.signal));
@@ -494,6 +495,7 @@ void ComparePanel::setSettings(const ViewSettings& settings, Theme theme) {
     asked_ = false;
     ask();
   }
+  if (otherUnits) showCurves();
   showFrames();
 }
 
@@ -517,6 +519,7 @@ void ComparePanel::showCurves() {
                      .offsetS = answer_.offsetS,
                      .signal = settings_.signal,
                      .handUnit = handUnit(),
+                     .units = settings_.units,
                      .overlaid = answer_.overlaid});
 }
 
@@ -695,7 +698,11 @@ QString ComparePanel::figures() const {
   }
   const CurveComparison& found = *answer_.figures;
   if (found.samples == 0) return overlaidText() + "no common time";
-  const QString unit = " " + unitOf(settings_.signal, handUnit());
+  const ShownUnit unit = shownUnit(settings_.signal, handUnit(), settings_.units);
+  const auto shown = [&unit](double difference) {
+    return unit.conversion.ofDifference(difference);
+  };
+  const int decimals = 1 + unit.conversion.moreDecimals;
   const QString correlation =
       "correlation " + (found.correlation ? figure(*found.correlation, 3) : QString("not defined"));
   // Over which time the figures are.
@@ -705,10 +712,11 @@ QString ComparePanel::figures() const {
                            : "over " + figure(found.toS - found.fromS, 2) + " s in common";
   if (overlay_ != CompareOverlay::kPair)
     return overlaidText() + "A and B: " + correlation + " " + over;
-  return overlaidText() + correlation + " · A − B: mean " + signedText(found.meanDifference, 1) +
-         ", rms " + figure(found.rmsDifference, 1) + ", largest " +
-         signedText(found.largestDifference, 1) + unit + " at " + figure(found.largestAtS, 2) +
-         " s · " + over;
+  return overlaidText() + correlation + " · A − B: mean " +
+         signedText(shown(found.meanDifference), decimals) + ", rms " +
+         figure(shown(found.rmsDifference), decimals) + ", largest " +
+         signedText(shown(found.largestDifference), decimals) + " " + unit.symbol + " at " +
+         figure(found.largestAtS, 2) + " s · " + over;
 }
 
 void ComparePanel::showNotice() {

@@ -299,11 +299,11 @@ void HandDock::updateHand() {
   const HandDescription hand = session_ ? session_->device().hand() : movableHand();
   tactile_->setMatrices(hand);
   std::vector<Fact> facts;
-  angleUnits_.clear();
-  for (const AxisDescription& axis : hand.axes) {
+  axes_ = hand.axes;
+  shownAngles_.reset();
+  shownTemperatures_.reset();
+  for (const AxisDescription& axis : hand.axes)
     facts.push_back({QString::fromStdString(axis.name), kHandDockNothing});
-    angleUnits_.emplace_back(axis.isSliding ? " mm" : "°");
-  }
   joints_->setVisible(!facts.empty());
   angles_->setFacts(std::move(facts));
   facts.clear();
@@ -493,28 +493,44 @@ void HandDock::showSamples() {
     if (const auto* frame = std::get_if<SharedFrame>(&item)) layout_ = (*frame)->layout;
   }
   tactile_->showScanned(layout_);
-  if (angles)
-    for (std::size_t i = 0; i < std::min(angles->deg.size(), angles_->facts().size()); ++i)
-      angles_->setValue(i, figure(angles->deg[i], 1) + angleUnits_[i]);
-  if (temperatures) showTemperatures(*temperatures);
+  if (angles) showAngles(*angles);
+  if (temperatures) {
+    const QString hot = showTemperatures(*temperatures);
+    if (!hot.isEmpty() && sequence_->running()) sequence_->end("too hot: " + hot);
+  }
   items_.clear();
 }
 
-void HandDock::showTemperatures(const Temperatures& temperatures) {
+void HandDock::showAngles(const JointAngles& angles) {
+  shownAngles_ = angles;
+  const std::size_t rows = std::min({angles.deg.size(), angles_->facts().size(), axes_.size()});
+  for (std::size_t i = 0; i < rows; ++i)
+    angles_->setValue(i, shownUnit(axes_[i], units_).text(angles.deg[i], 1));
+}
+
+QString HandDock::showTemperatures(const Temperatures& temperatures) {
+  shownTemperatures_ = temperatures;
+  const ShownUnit unit = shownUnit(units_.temperature);
   const double hottest = HealthOptions{}.maxTemperatureDegC;
   std::vector<Fact> facts = temperatures_->facts();
   QString hot;
   for (std::size_t i = 0; i < std::min(temperatures.degC.size(), facts.size()); ++i) {
     const double value = temperatures.degC[i];
-    facts[i].value = value == 0.0 ? QString(kHandDockNothing) : figure(value, 1) + " °C";
+    facts[i].value = value == 0.0 ? QString(kHandDockNothing) : unit.text(value, 1);
     facts[i].warning = value > hottest;
     if (facts[i].warning) hot += (hot.isEmpty() ? "" : ", ") + facts[i].name + " " + facts[i].value;
   }
   temperatures_->setFacts(std::move(facts));
-  if (!hot.isEmpty() && sequence_->running()) sequence_->end("too hot: " + hot);
   heat_->setVisible(!hot.isEmpty());
   heat_->setText("Too hot: " + hot + ". Relax the hand and let it cool below " +
-                 figure(hottest, 0) + " °C.");
+                 unit.text(hottest, 0) + ".");
+  return hot;
+}
+
+void HandDock::setUnits(const DisplayUnits& units) {
+  units_ = units;
+  if (shownAngles_) showAngles(JointAngles(*shownAngles_));
+  if (shownTemperatures_) showTemperatures(Temperatures(*shownTemperatures_));
 }
 
 void HandDock::setTheme(Theme theme) {

@@ -16,6 +16,7 @@
 #include <palpate/capture/capture_session.h>
 #include <palpate/control/grasp_control.h>
 
+#include "gui/appearance/display_units.h"
 #include "gui/appearance/theme.h"
 
 class QAction;
@@ -57,6 +58,8 @@ class HandDock : public QWidget {
   // Call it once.
   void bind(const HandActions& actions);
   void setTheme(Theme theme);
+  // The units of the present angles and temperatures; targets and velocities stay in degrees.
+  void setUnits(const DisplayUnits& units);
   TactileSettingsPanel& tactileSettings() noexcept { return *tactile_; }
   // As in unmeasurableChanged().
   const std::vector<QString>& unmeasurable() const noexcept { return unmeasurable_; }
@@ -100,7 +103,9 @@ class HandDock : public QWidget {
   QString motionBlockedReason(const GraspStatus& status) const;
   std::optional<QString> lastGraspText(const GraspReport& report, const GraspStatus& status) const;
   void showSamples();
-  void showTemperatures(const Temperatures& temperatures);
+  void showAngles(const JointAngles& angles);
+  // Returns the motors that are too hot, with their temperatures; empty: none.
+  QString showTemperatures(const Temperatures& temperatures);
 
   QScrollArea* body_ = nullptr;
   CaptureSession* session_ = nullptr;
@@ -123,7 +128,11 @@ class HandDock : public QWidget {
   // Joint angles with their heading; absent for a hand without axes.
   QWidget* joints_;
   FactsView* angles_;
-  std::vector<QString> angleUnits_;
+  DisplayUnits units_;
+  std::vector<AxisDescription> axes_;
+  // What is shown of them.
+  std::optional<JointAngles> shownAngles_;
+  std::optional<Temperatures> shownTemperatures_;
   // Temperatures with their heading; absent for a hand without temperature sensors.
   QWidget* heats_;
   FactsView* temperatures_;

@@ -49,6 +49,7 @@ HandFeature::HandFeature(WindowState& windowState, QWidget* window)
   connect(panel_, &HandDock::stopPressed, &windowState.handCommands, &HandCommands::stopped);
   connect(panel_, &HandDock::asked, &windowState.handCommands, &HandCommands::asked);
   followTheme(panel_);
+  followUnits(panel_);
   SensitivityModes& modes = panel_->sensitivity();
   modes.noiseLines = [&windowState](const std::string& hand) {
     const auto& lines = windowState.handCommands.noiseLines;

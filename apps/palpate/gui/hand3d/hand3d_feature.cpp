@@ -112,6 +112,7 @@ void Hand3dFeature::connectMoment() {
       &windowState.derivedResults, &DerivedResults::pressureChanged, this, [&windowState, &view] {
         view.setPressure(windowState.derivedResults.pressure());
       });
+  followUnits(&view);
   connect(&windowState.derivedResults, &DerivedResults::slipsChanged, this, [&windowState, &view] {
     view.setSlip(windowState.derivedResults.slips());
   });

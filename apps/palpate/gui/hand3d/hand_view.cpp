@@ -392,9 +392,14 @@ void HandView::setPressure(std::shared_ptr<const PressureFrame> pressure) {
   if (hover_) emit hovered(hoverText());
 }
 
+void HandView::setUnits(const DisplayUnits& units) {
+  units_ = units;
+  if (hover_) emit hovered(hoverText());
+}
+
 QString HandView::hoverText() const {
   if (!hover_ || !drawing_.hasHand()) return {};
-  return taxelText(drawing_.hand(), *hover_, drawing_.handState().frame, pressure_.get());
+  return taxelText(drawing_.hand(), *hover_, drawing_.handState().frame, pressure_.get(), units_);
 }
 
 }  // namespace palpate::gui

@@ -8,6 +8,7 @@
 #include <optional>
 #include <vector>
 
+#include "gui/appearance/display_units.h"
 #include "gui/hand3d/hand_picture.h"
 #include "gui/hand3d/hand_raster.h"
 #include "gui/hand3d/hand_scene_builder.h"
@@ -73,6 +74,8 @@ class HandView : public QWidget {
   void setSlip(std::vector<HandSlip> slip);
   // As in MatricesView.
   void setPressure(std::shared_ptr<const PressureFrame> pressure);
+  // The unit of these pressures.
+  void setUnits(const DisplayUnits& units);
   // Options for an exported picture of the view; `page` gives size and colours.
   HandPictureOptions pictureOptions(const MatricesPictureOptions& page) const;
   bool usesOpenGl() const noexcept { return canvas_ != nullptr; }
@@ -131,6 +134,7 @@ class HandView : public QWidget {
   TaxelSelection selection_;
   std::optional<TaxelPlace> hover_;
   std::shared_ptr<const PressureFrame> pressure_;
+  DisplayUnits units_;
   Drag drag_ = Drag::kNone;
   QPointF pressed_, last_;
   int numPaints_ = 0;

@@ -84,6 +84,7 @@ InspectFeature::InspectFeature(WindowState& windowState, QWidget* window)
   connect(&windowState.live, &LiveController::leaving, this, [this] { liveTicks_.clear(); });
   connect(&windowState.live, &LiveController::refreshed, this, &InspectFeature::showLinkFacts);
   followTheme(panel_);
+  followUnits(panel_);
   connect(&table, &MatrixTableModel::plottedChanged, this, &InspectFeature::showPlotted);
   makeActions();
   const auto last = plots_.size() - 1;

@@ -213,11 +213,11 @@ void InspectPanel::setHand(const HandDescription& hand) {
 
 void InspectPanel::listSensors(const HandDescription& hand, bool angles, bool temperatures) {
   std::vector<Fact> rows;
-  angleUnits_.clear();
-  for (const AxisDescription& axis : hand.axes) {
-    angleUnits_.push_back(unitOf(axis));
+  axes_ = hand.axes;
+  shownAngles_.reset();
+  shownTemperatures_.reset();
+  for (const AxisDescription& axis : hand.axes)
     if (angles) rows.push_back({QString::fromStdString(axis.name), "–"});
-  }
   const bool slides = std::all_of(
       hand.axes.begin(), hand.axes.end(), [](const auto& axis) { return axis.isSliding; });
   anglesHeading_->setText(slides ? "JOINT POSITIONS" : "JOINT ANGLES");
@@ -262,18 +262,27 @@ void InspectPanel::showFrame(std::size_t frame,
 }
 
 void InspectPanel::showAngles(const JointAngles& angles) {
-  const std::size_t rows =
-      std::min({angles.deg.size(), angles_->facts().size(), angleUnits_.size()});
+  shownAngles_ = angles;
+  const std::size_t rows = std::min({angles.deg.size(), angles_->facts().size(), axes_.size()});
   for (std::size_t i = 0; i < rows; ++i)
-    angles_->setValue(i, figure(angles.deg[i], 1) + angleUnits_[i]);
+    angles_->setValue(i, shownUnit(axes_[i], units_).text(angles.deg[i], 1));
 }
 
 void InspectPanel::showTemperatures(const Temperatures& temperatures) {
+  shownTemperatures_ = temperatures;
+  const ShownUnit unit = shownUnit(units_.temperature);
   const std::size_t rows = std::min(temperatures.degC.size(), temperatures_->facts().size());
   for (std::size_t i = 0; i < rows; ++i) {
     const double value = temperatures.degC[i];
-    temperatures_->setValue(i, value == 0.0 ? QString("–") : figure(value, 1) + " °C");
+    temperatures_->setValue(i, value == 0.0 ? QString("–") : unit.text(value, 1));
   }
+}
+
+void InspectPanel::setUnits(const DisplayUnits& units) {
+  units_ = units;
+  model_->setUnits(units);
+  if (shownAngles_) showAngles(JointAngles(*shownAngles_));
+  if (shownTemperatures_) showTemperatures(Temperatures(*shownTemperatures_));
 }
 
 void InspectPanel::setStale(bool old) {

@@ -45,6 +45,8 @@ class InspectPanel : public QScrollArea {
   // To be called when no results follow for now: shows the newest ones.
   void showLatest();
   void setTheme(Theme theme);
+  // The units of areas, joint angles and temperatures.
+  void setUnits(const DisplayUnits& units);
   MatrixTableModel& table() noexcept { return *model_; }
   // Whether the figures of the matrices, angles and temperatures are old: they are grey then.
   void setStale(bool old);
@@ -72,7 +74,11 @@ class InspectPanel : public QScrollArea {
   QLabel* eventsHeading_;
   QLabel* anglesHeading_;
   QLabel* temperaturesHeading_;
-  std::vector<QString> angleUnits_;
+  DisplayUnits units_;
+  // The axes of the hand, and the values that are shown.
+  std::vector<AxisDescription> axes_;
+  std::optional<JointAngles> shownAngles_;
+  std::optional<Temperatures> shownTemperatures_;
   FactsView* events_;
   FactsView* angles_;
   FactsView* temperatures_;

@@ -139,6 +139,13 @@ void MatrixTableModel::setTheme(Theme theme) {
   if (rowCount() > 0) emit dataChanged(index(0, 0), index(rowCount() - 1, kNumColumns - 1));
 }
 
+void MatrixTableModel::setUnits(const DisplayUnits& units) {
+  area_ = shownUnit(units.area);
+  emit headerDataChanged(Qt::Horizontal, kArea, kArea);
+  if (rowCount() > 0)
+    emit dataChanged(index(0, kArea), index(rowCount() - 1, kArea), {Qt::DisplayRole});
+}
+
 void MatrixTableModel::setPlotted(std::size_t row, bool on) {
   if (row >= plotted_.size() || plotted_[row] == on) return;
   plotted_[row] = on;
@@ -176,7 +183,7 @@ QString MatrixTableModel::text(std::size_t row, int column) const {
     case kSum:
       return QString::number(now.sum, 'f', decimals_);
     case kArea:
-      return QString::number(now.areaMm2, 'f', 0);
+      return area_.number(now.areaMm2, 0);
     default:
       return {};
   }
@@ -240,7 +247,7 @@ QVariant MatrixTableModel::headerData(int section, Qt::Orientation orientation, 
   if (role == Qt::TextAlignmentRole)
     return QVariant::fromValue(Qt::Alignment(section == kName ? Qt::AlignLeft | Qt::AlignVCenter
                                                               : Qt::AlignRight | Qt::AlignVCenter));
-  static const char* const names[] = {"matrix", "active", "mean", "max", "N", "min", "sum", "mm²"};
+  static const char* const names[] = {"matrix", "active", "mean", "max", "N", "min", "sum", "%2"};
   static const char* const tips[] = {"Sensor matrix; tick to plot it in the timeline",
                                      "Taxels with a value above 0",
                                      "Mean of the active taxels in %1",
@@ -248,10 +255,12 @@ QVariant MatrixTableModel::headerData(int section, Qt::Orientation orientation, 
                                      "Force in newtons; needs a calibration (Calibrate)",
                                      "Smallest value of the active taxels in %1",
                                      "Sum of all values in %1",
-                                     "Area of the active taxels in mm²"};
-  if (role == Qt::DisplayRole) return names[section];
+                                     "Area of the active taxels in %2"};
+  if (role == Qt::DisplayRole) return QString(names[section]).replace("%2", area_.symbol);
   if (role == Qt::ToolTipRole)
-    return QString(tips[section]).replace("%1", hand_.layout ? unitOf(hand_) : QString("counts"));
+    return QString(tips[section])
+        .replace("%1", hand_.layout ? unitOf(hand_) : QString("counts"))
+        .replace("%2", area_.symbol);
   return {};
 }
 

@@ -9,6 +9,7 @@
 
 #include <palpate/model/hand_description.h>
 
+#include "gui/appearance/display_units.h"
 #include "gui/appearance/theme.h"
 #include "gui/source/opened_recording.h"
 
@@ -45,6 +46,8 @@ class MatrixTableModel : public QAbstractTableModel {
   std::size_t numMatrices() const noexcept { return shown_.empty() ? 0 : shown_.size() - 1; }
   const HandDescription& hand() const noexcept { return hand_; }
   void setTheme(Theme theme);
+  // The unit of areas.
+  void setUnits(const DisplayUnits& units);
   // Which rows are plotted; the last one is the whole hand.
   const std::vector<bool>& plotted() const noexcept { return plotted_; }
   void setPlotted(std::size_t row, bool on);
@@ -69,6 +72,7 @@ class MatrixTableModel : public QAbstractTableModel {
   HandDescription hand_;
   // Of values, for this hand.
   int decimals_ = 0;
+  ShownUnit area_ = shownUnit(AreaUnit{});
   // Signals of the current frame, the whole hand last.
   std::vector<CharacteristicSignals> shown_;
   // In the order of shown_, or empty.

@@ -63,6 +63,7 @@ MatricesFeature::MatricesFeature(WindowState& windowState, QWidget* window)
   connect(&derivedResults, &DerivedResults::pressureChanged, this, [this, &derivedResults] {
     panel_->view().setPressure(derivedResults.pressure());
   });
+  followUnits(&panel_->view());
   connect(&derivedResults, &DerivedResults::unmeasurableChanged, this, [this, &derivedResults] {
     const std::vector<QString>& why = derivedResults.unmeasurable();
     if (this->state().displayed.isLive() || why.empty()) panel_->view().setUnmeasurable(why);

@@ -256,9 +256,14 @@ void MatricesView::mouseMoveEvent(QMouseEvent* event) {
 
 void MatricesView::leaveEvent(QEvent*) { setHover(std::nullopt); }
 
+void MatricesView::setUnits(const DisplayUnits& units) {
+  units_ = units;
+  if (hover_) emit hovered(hoverText());
+}
+
 QString MatricesView::hoverText() const {
   if (!hover_ || !hand_) return {};
-  const QString text = taxelText(*hand_, *hover_, frame_, pressure_.get());
+  const QString text = taxelText(*hand_, *hover_, frame_, pressure_.get(), units_);
   const std::size_t m = hover_->matrix;
   return m < unmeasurable_.size() && !unmeasurable_[m].isEmpty() ? text + " · " + unmeasurable_[m]
                                                                  : text;

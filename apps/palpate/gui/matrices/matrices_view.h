@@ -11,6 +11,7 @@
 
 #include <palpate/model/taxel_selection.h>
 
+#include "gui/appearance/display_units.h"
 #include "gui/matrices/matrices_painter.h"
 #include "gui/picture/stale_notice.h"
 
@@ -42,6 +43,8 @@ class MatricesView : public QWidget {
   // Pressures, shown with the counts of the taxel under the mouse pointer; null: no calibration is
   // applied.
   void setPressure(std::shared_ptr<const PressureFrame> pressure);
+  // The unit of these pressures.
+  void setUnits(const DisplayUnits& units);
   void setLook(const MatricesLook& look);
   const MatricesLook& look() const noexcept { return look_; }
   const MatricesGeometry& geometryOfMatrices() const noexcept { return geometry_; }
@@ -96,6 +99,7 @@ class MatricesView : public QWidget {
   std::optional<HandDescription> hand_;
   std::optional<TactileFrame> frame_;
   std::shared_ptr<const PressureFrame> pressure_;
+  DisplayUnits units_;
   MatricesLook look_;
   MatricesGeometry geometry_;
   QPixmap background_;

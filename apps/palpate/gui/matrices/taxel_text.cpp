@@ -11,12 +11,13 @@ namespace {
 
 QString pressureText(const HandDescription& hand,
                      const TaxelPlace& place,
-                     const PressureFrame* pressure) {
+                     const PressureFrame* pressure,
+                     const DisplayUnits& units) {
   const auto [m, y, x] = place;
   if (!pressure || pressure->kpa.size() != hand.layout->numCells()) return {};
   const std::size_t at =
       hand.layout->offset(m) + static_cast<std::size_t>(y * hand.layout->matrix(m).columns + x);
-  return " · " + figure(static_cast<double>(pressure->kpa[at]), 1) + " kPa · " +
+  return " · " + shownUnit(units.pressure).text(static_cast<double>(pressure->kpa[at]), 1) + " · " +
          figure(taxelForceN(*pressure, *hand.layout, m, y, x), 3) + " N" +
          (pressure->matrices[m].inRange ? "" : ", outside the measured range");
 }
@@ -26,7 +27,8 @@ QString pressureText(const HandDescription& hand,
 QString taxelText(const HandDescription& hand,
                   const TaxelPlace& place,
                   const std::optional<TactileFrame>& frame,
-                  const PressureFrame* pressure) {
+                  const PressureFrame* pressure,
+                  const DisplayUnits& units) {
   const auto [m, y, x] = place;
   const MatrixLayout& layout = hand.layout->matrix(m);
   const QString where = QString::fromStdString(hand.matrixName(m)) + " · x " + QString::number(x) +
@@ -40,7 +42,8 @@ QString taxelText(const HandDescription& hand,
           ? QString::number(std::lround(value))
           : QString::number(static_cast<double>(value), 'f', std::max(2, decimalsOf(hand)));
   return where + number + " " + unitOf(hand) +
-         (value >= hand.saturationOf(m) ? ", saturated" : "") + pressureText(hand, place, pressure);
+         (value >= hand.saturationOf(m) ? ", saturated" : "") +
+         pressureText(hand, place, pressure, units);
 }
 
 }  // namespace palpate::gui

@@ -8,6 +8,7 @@
 #include <palpate/model/hand_description.h>
 #include <palpate/model/tactile_frame.h>
 
+#include "gui/appearance/display_units.h"
 #include "gui/matrices/matrices_painter.h"
 
 namespace palpate::gui {
@@ -16,6 +17,7 @@ namespace palpate::gui {
 QString taxelText(const HandDescription& hand,
                   const TaxelPlace& place,
                   const std::optional<TactileFrame>& frame,
-                  const PressureFrame* pressure = nullptr);
+                  const PressureFrame* pressure = nullptr,
+                  const DisplayUnits& units = {});
 
 }  // namespace palpate::gui

@@ -24,9 +24,10 @@
 namespace palpate::gui {
 namespace {
 
-constexpr int kSettingsMargin = 20;  // [px]
-constexpr int kSettingsWidth = 560;  // [px]
-constexpr int kSettingsFrame = 60;   // [px] of the window manager and of a panel
+constexpr int kSettingsMargin = 20;   // [px]
+constexpr int kSettingsWidth = 560;   // [px]
+constexpr int kSettingsBetween = 14;  // [px] between fields and their titles
+constexpr int kSettingsFrame = 60;    // [px] of the window manager and of a panel
 
 // Of all choices, the index of one.
 template <class Choices, class Choice>
@@ -81,9 +82,10 @@ SettingsDialog::SettingsDialog(const WindowChoices& choices,
   auto* fields = new QWidget;
   auto* form = new QFormLayout(fields);
   form->setContentsMargins(0, 0, 0, 0);
-  form->setHorizontalSpacing(14);
+  form->setHorizontalSpacing(kSettingsBetween);
   form->setVerticalSpacing(8);
   addLook(*form);
+  addUnits(*form);
   addFolders(*form);
   addMemory(*form);
   buttons_ = new QDialogButtonBox(QDialogButtonBox::Ok | QDialogButtonBox::Cancel, this);
@@ -123,10 +125,65 @@ void SettingsDialog::addLook(QFormLayout& form) {
   range_->setObjectName("settingsRange");
   for (const RangeMode mode : kAllRangeModes) range_->addItem(nameOf(mode));
   range_->setToolTip("Upper end of the colour range of the heat maps");
-  form.addRow("Colour r&ange", range_);
+  form.addRow("Colour ran&ge", range_);
   for (QComboBox* box : {theme_, map_, range_})
     connect(box, &QComboBox::currentIndexChanged, this, &SettingsDialog::tell);
   connect(textPt_, &QSpinBox::valueChanged, this, &SettingsDialog::tell);
+}
+
+void SettingsDialog::addUnits(QFormLayout& form) {
+  form.addRow(sectionHeading("Units", this));
+  const auto box = [this](const char* name, const QStringList& units, const QString& tip) {
+    auto* made = new QComboBox(this);
+    made->setObjectName(name);
+    made->addItems(units);
+    made->setToolTip(tip);
+    connect(made, &QComboBox::currentIndexChanged, this, &SettingsDialog::tell);
+    return made;
+  };
+  // Two in a row.
+  const auto add =
+      [this, &form](
+          const QString& left, QComboBox* leftBox, const QString& right, QComboBox* rightBox) {
+        auto* leftTitle = new QLabel(left, this);
+        leftTitle->setBuddy(leftBox);
+        auto* rightTitle = new QLabel(right, this);
+        rightTitle->setBuddy(rightBox);
+        auto* row = new QHBoxLayout;
+        row->setSpacing(kSettingsBetween);
+        row->addWidget(leftBox, 1);
+        row->addWidget(rightTitle);
+        row->addWidget(rightBox, 1);
+        form.addRow(leftTitle, row);
+        return rightTitle;
+      };
+  angle_ = box("settingsAngle",
+               {"degrees, °", "radians, rad"},
+               "Joint angles, where they are only shown; targets of a motion stay in degrees");
+  temperature_ = box("settingsTemperature",
+                     {"Celsius, °C", "kelvin, K"},
+                     "Temperatures of the hand, where they are only shown");
+  area_ = box("settingsArea", {"mm²", "cm²"}, "Areas of contact");
+  pressure_ = box("settingsPressure",
+                  {"kPa", "N/cm²"},
+                  "Pressures that Palpate computes with a calibration; values that a hand measures "
+                  "keep the unit of its description");
+  unitTitles_ = {add("A&ngles", angle_, "Te&mperatures", temperature_),
+                 add("&Areas", area_, "&Pressures", pressure_)};
+  alignUnits();
+  auto* note = new QLabel(
+      "Only what is shown: motions, files and command lines keep °, °C, mm² and kPa.", this);
+  note->setObjectName("settingsUnitsNote");
+  note->setProperty("role", "muted");
+  note->setWordWrap(true);
+  form.addRow(note);
+}
+
+// The right fields of both rows stand below each other.
+void SettingsDialog::alignUnits() {
+  int widest = 0;
+  for (const QLabel* title : unitTitles_) widest = std::max(widest, title->sizeHint().width());
+  for (QLabel* title : unitTitles_) title->setMinimumWidth(widest);
 }
 
 QLineEdit* SettingsDialog::addFolder(QFormLayout& form, const QString& label, const char* name) {
@@ -188,6 +245,10 @@ void SettingsDialog::fill(const WindowChoices& choices) {
   textPt_->setValue(choices.textPt > 0 ? choices.textPt : kLeastTextPt - 1);
   map_->setCurrentIndex(indexOf(kAllColorMaps, choices.map));
   range_->setCurrentIndex(indexOf(kAllRangeModes, choices.range));
+  angle_->setCurrentIndex(indexOf(kAllAngleUnits, choices.units.angle));
+  temperature_->setCurrentIndex(indexOf(kAllTemperatureUnits, choices.units.temperature));
+  area_->setCurrentIndex(indexOf(kAllAreaUnits, choices.units.area));
+  pressure_->setCurrentIndex(indexOf(kAllPressureUnits, choices.units.pressure));
   recordings_->setText(choices.recordings);
   exports_->setText(choices.exports);
   reopen_->setChecked(choices.reopen);
@@ -202,6 +263,13 @@ WindowChoices SettingsDialog::choices() const {
   choices.textPt = textPt_->value() < kLeastTextPt ? 0 : textPt_->value();
   choices.map = kAllColorMaps.at(static_cast<std::size_t>(map_->currentIndex()));
   choices.range = kAllRangeModes.at(static_cast<std::size_t>(range_->currentIndex()));
+  const auto chosen = [](const auto& all, const QComboBox* box) {
+    return all.at(static_cast<std::size_t>(box->currentIndex()));
+  };
+  choices.units = {.angle = chosen(kAllAngleUnits, angle_),
+                   .temperature = chosen(kAllTemperatureUnits, temperature_),
+                   .area = chosen(kAllAreaUnits, area_),
+                   .pressure = chosen(kAllPressureUnits, pressure_)};
   choices.recordings = folderFromText(recordings_->text());
   choices.exports = folderFromText(exports_->text());
   choices.reopen = reopen_->isChecked();
@@ -220,6 +288,8 @@ void SettingsDialog::tell() {
   problem_->setText(problem);
   buttons_->button(QDialogButtonBox::Ok)->setEnabled(problem.isEmpty());
   if (problem.isEmpty()) emit changed(now);
+  // The size of text may be another one now.
+  alignUnits();
 }
 
 void SettingsDialog::reject() {

@@ -5,10 +5,12 @@
 #include <QDialog>
 #include <QString>
 #include <QStringList>
+#include <array>
 #include <functional>
 #include <vector>
 
 #include "gui/appearance/color_map.h"
+#include "gui/appearance/display_units.h"
 #include "gui/appearance/theme.h"
 #include "gui/appearance/window_settings.h"
 
@@ -28,6 +30,7 @@ struct WindowChoices {
   int textPt = 0;  // [pt]; 0: as the desktop
   ColorMapName map = ColorMapName::kInferno;
   RangeMode range = RangeMode::kRecording;
+  DisplayUnits units = {};
   // Absolute paths.
   QString recordings;
   QString exports;
@@ -69,6 +72,8 @@ class SettingsDialog : public QDialog {
 
  private:
   void addLook(QFormLayout& form);
+  void addUnits(QFormLayout& form);
+  void alignUnits();
   void addFolders(QFormLayout& form);
   void addMemory(QFormLayout& form);
   QLineEdit* addFolder(QFormLayout& form, const QString& label, const char* name);
@@ -82,6 +87,11 @@ class SettingsDialog : public QDialog {
   QSpinBox* textPt_ = nullptr;
   QComboBox* map_ = nullptr;
   QComboBox* range_ = nullptr;
+  QComboBox* angle_ = nullptr;
+  QComboBox* temperature_ = nullptr;
+  QComboBox* area_ = nullptr;
+  QComboBox* pressure_ = nullptr;
+  std::array<QLabel*, 2> unitTitles_ = {};
   QLineEdit* recordings_ = nullptr;
   QLineEdit* exports_ = nullptr;
   QLabel* problem_ = nullptr;

@@ -43,6 +43,7 @@ WindowChoices SettingsFeature::choices() const {
           .textPt = loadTextPt(settings),
           .map = view.map,
           .range = view.range,
+          .units = view.units,
           .recordings = loadRecordingSettings(settings).folder,
           .exports = loadExportRequest(settings).folder,
           .reopen = reopensSession(settings),
@@ -63,6 +64,7 @@ void SettingsFeature::apply(const WindowChoices& wanted) {
       view.map = wanted.map;
       view.range = wanted.range;
     });
+  all.appearance.setUnits(wanted.units);
   if (wanted.recordings != now.recordings) {
     RecordingSettings recording = loadRecordingSettings(all.settings);
     recording.folder = wanted.recordings;

@@ -15,11 +15,11 @@ namespace {
 
 constexpr double kFurthest = 1e9;
 
-SecondsField* endField(QWidget* parent, double value, const QString& name) {
+SecondsField* endField(QWidget* parent, double value, int decimals, const QString& name) {
   auto* field = new SecondsField(parent);
   field->setSuffix({});
   field->setRange(-kFurthest, kFurthest);
-  field->setDecimals(2);
+  field->setDecimals(decimals);
   field->setValue(value);
   field->setAccessibleName(name);
   field->setToolTip(name);
@@ -56,9 +56,11 @@ void AxisEditor::rebuild() {
     automatic->setChecked(!byHand);
     automatic->setAccessibleName(name + ": automatic");
     automatic->setToolTip("The axis follows the values that are visible");
-    auto* from = endField(rows_, range.lower, name + ": begin of the axis");
+    constexpr int kUsualDecimals = 2;
+    const int decimals = kUsualDecimals + axes_->conversionOf(unit).moreDecimals;
+    auto* from = endField(rows_, range.lower, decimals, name + ": begin of the axis");
     from->setObjectName("axisFrom");
-    auto* to = endField(rows_, range.upper, name + ": end of the axis");
+    auto* to = endField(rows_, range.upper, decimals, name + ": end of the axis");
     to->setObjectName("axisTo");
     grid->addWidget(new QLabel(name, rows_), row, 0);
     grid->addWidget(automatic, row, 1);

@@ -42,8 +42,12 @@ void CursorReadout::renew() {
                  (seconds > 0.0 ? " (" + readoutNumber(1.0 / seconds) + " Hz)" : QString()));
     const auto& curves = chart_.curves();
     for (std::size_t i = 0; i < std::min(curves.size(), kMostReadoutCurves); ++i) {
-      const auto from = chart_.store().valueAt(curves[i].choice, span->fromS);
-      const auto to = chart_.store().valueAt(curves[i].choice, span->toS);
+      const auto shown = [&](double atS) {
+        const auto value = chart_.store().valueAt(curves[i].choice, atS);
+        return value ? std::optional(curves[i].conversion.of(*value)) : std::nullopt;
+      };
+      const auto from = shown(span->fromS);
+      const auto to = shown(span->toS);
       QString line = curves[i].name + "  " + (from ? readoutNumber(*from) : QString("–")) + " → " +
                      (to ? readoutNumber(*to) : QString("–"));
       if (from && to) {

@@ -55,7 +55,8 @@ SelectedCurves selectedCurves(const OpenedRecordingPtr& recording,
     const std::vector<std::string> cells = values.row(i);
     selected.timeS.push_back(valueOfCell(cells[kTimeCell]));
     for (std::size_t c = 0; c < selected.curves.size(); ++c)
-      selected.curves[c].values.push_back(valueOfCell(cells[kTimeCells + c]));
+      selected.curves[c].values.push_back(
+          curves[c].conversion.of(valueOfCell(cells[kTimeCells + c])));
   }
   return selected;
 }
@@ -91,7 +92,9 @@ TextTable statisticsTable(const OpenedRecordingPtr& recording,
                           const std::vector<PlottedCurve>& curves,
                           const FrameSpan& span,
                           const Progress& progress) {
-  return statisticsTable(selectedCurves(recording, curves, span, progress));
+  std::vector<PlottedCurve> inFiles;
+  for (const PlottedCurve& curve : curves) inFiles.push_back(inBaseUnit(curve));
+  return statisticsTable(selectedCurves(recording, inFiles, span, progress));
 }
 
 TextTable differenceTable(const SelectedCurves& selected) {

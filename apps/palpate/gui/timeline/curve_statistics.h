@@ -27,7 +27,8 @@ struct SelectedCurves {
   // Longer intervals between frames are gaps [s].
   double gapS = 0.0;
 };
-// Reads every frame of the span. Throws Cancelled, FormatError (a damaged frame).
+// Values are in the units that are shown. Reads every frame of the span. Throws Cancelled,
+// FormatError (a damaged frame).
 SelectedCurves selectedCurves(const OpenedRecordingPtr& recording,
                               const std::vector<PlottedCurve>& curves,
                               const FrameSpan& span,
@@ -35,9 +36,10 @@ SelectedCurves selectedCurves(const OpenedRecordingPtr& recording,
 
 // A row per curve: its name and unit, the number of frames with a value, mean, standard deviation,
 // smallest and largest value, slope [unit/s], integral over time [unit s]; see
-// palpate/signals/range_statistics.h. Values are those of curveTable(). Reads every frame of the
-// span. Throws Cancelled, FormatError (a damaged frame).
+// palpate/signals/range_statistics.h.
 TextTable statisticsTable(const SelectedCurves& selected);
+// The same for files, in base units, as curveTable(). Reads every frame of the span. Throws
+// Cancelled, FormatError (a damaged frame).
 TextTable statisticsTable(const OpenedRecordingPtr& recording,
                           const std::vector<PlottedCurve>& curves,
                           const FrameSpan& span,

@@ -85,9 +85,9 @@ TextTable curveTable(const OpenedRecordingPtr& recording,
                            ? std::make_shared<FormulaColumn>(recording, curve.choice, span)
                            : nullptr);
     const bool ofMatrix = curve.choice.kind == SeriesChoice::Kind::kMatrix;
-    table.header.push_back(
-        (curve.name + (ofMatrix ? " " + nameOf(curve.choice.signal) : "") + " [" + curve.unit + "]")
-            .toStdString());
+    table.header.push_back((curve.name + (ofMatrix ? " " + nameOf(curve.choice.signal) : "") +
+                            " [" + curve.baseUnit + "]")
+                               .toStdString());
   }
   table.row = [recording, choices, formulas, first = span.first](std::size_t row) {
     const std::size_t frame = first + row;

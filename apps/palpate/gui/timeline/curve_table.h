@@ -11,7 +11,8 @@
 
 namespace palpate::gui {
 
-// One row per frame of the span: frame, time_ms, time_s, then one column per curve with its unit.
+// One row per frame of the span: frame, time_ms, time_s, then one column per curve with its base
+// unit: which units are shown changes no table.
 // Joint angles and temperatures are the last ones at or before the frame. Rows are computed on
 // demand, in any thread.
 TextTable curveTable(const OpenedRecordingPtr& recording,

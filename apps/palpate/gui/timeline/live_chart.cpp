@@ -222,7 +222,8 @@ void LiveChart::refill() {
     const auto points = series_.points(curves_[i].choice, options);
     QVector<QCPGraphData> samples;
     samples.reserve(static_cast<qsizetype>(points.size()));
-    for (const SeriesPoint& point : points) samples.append({point.x, point.y});
+    const UnitConversion& shown = curves_[i].conversion;
+    for (const SeriesPoint& point : points) samples.append({point.x, shown.of(point.y)});
     graph(static_cast<int>(i))->data()->set(samples, true);
   }
   for (Recorded& recording : recordings_) {
@@ -240,13 +241,18 @@ void LiveChart::scaleAxes() {
     for (const PlottedCurve& curve : curves_) {
       if (curve.unit != unit) continue;
       if (!endsAtSaturation(curve.choice)) options.ceiling.reset();
-      const auto its = series_.extremes(curve.choice, seen().lower, seen().upper);
+      auto its = series_.extremes(curve.choice, seen().lower, seen().upper);
       if (!its) continue;
+      its = {curve.conversion.of(its->first), curve.conversion.of(its->second)};
       if (!extent) extent = ValueExtent{its->first, its->second};
       extent->low = std::min(extent->low, its->first);
       extent->high = std::max(extent->high, its->second);
     }
-    axes_->setAutomatic(unit, ranges_[unit].update(extent, options));
+    // Ranges are fitted in base units: a chart looks the same in all units.
+    const UnitConversion shown = axes_->conversionOf(unit);
+    if (extent) extent = ValueExtent{shown.back(extent->low), shown.back(extent->high)};
+    const AxisRange range = ranges_[unit].update(extent, options);
+    axes_->setAutomatic(unit, {shown.of(range.from), shown.of(range.to)});
   }
 }
 
@@ -398,7 +404,7 @@ TextTable LiveChart::cursorTable() const {
     };
     for (const PlottedCurve& curve : curves_)
       rows.push_back({curve.name.toStdString(),
-                      curve.unit.toStdString(),
+                      curve.baseUnit.toStdString(),
                       cell(series_.valueAt(curve.choice, fromS)),
                       cell(series_.valueAt(curve.choice, toS)),
                       cell(differenceAtCursors(curve.choice))});

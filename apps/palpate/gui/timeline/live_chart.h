@@ -87,7 +87,7 @@ class LiveChart : public QCustomPlot {
   void clearTimeCursors();
   // "12.30 – 15.10 s · Δt 2.80 s"; of one cursor "12.30 s"; empty: none is set.
   QString cursorWords() const;
-  // Times and values at both cursors, and their differences; a row per curve.
+  // Times and values at both cursors, and their differences, in base units; a row per curve.
   TextTable cursorTable() const;
 
   // What the tool tip says at a time: time and values; empty where nothing was measured.

@@ -118,6 +118,12 @@ void SignalTree::setNumChosen(std::size_t taxels) {
   rebuild();
 }
 
+void SignalTree::setUnits(const DisplayUnits& units) {
+  if (units_ == units) return;
+  units_ = units;
+  rebuild();
+}
+
 void SignalTree::setExtras(const PlottedExtras& extras) {
   extras_ = extras;
   rebuild();
@@ -180,9 +186,11 @@ void SignalTree::rebuild() {
                       std::all_of(hand_.axes.begin(),
                                   hand_.axes.end(),
                                   [](const AxisDescription& axis) { return axis.isSliding; });
-  QTreeWidgetItem* angles = hand_.layout && hand_.axes.empty()
-                                ? nullptr
-                                : section(slides ? "Joint positions (mm)" : "Joint angles (°)");
+  QTreeWidgetItem* angles =
+      hand_.layout && hand_.axes.empty()
+          ? nullptr
+          : section(slides ? QString("Joint positions (mm)")
+                           : "Joint angles (" + shownUnit(units_.angle).symbol + ")");
   if (angles && !source_.hasAngles) nothing(angles, none);
   for (std::size_t i = 0; angles && source_.hasAngles && i < hand_.axes.size(); ++i)
     line(angles,
@@ -191,7 +199,9 @@ void SignalTree::rebuild() {
          static_cast<int>(i),
          extras_.angles.contains(static_cast<int>(i)));
   QTreeWidgetItem* temperatures =
-      hand_.layout && hand_.temperatureSensors.empty() ? nullptr : section("Temperatures (°C)");
+      hand_.layout && hand_.temperatureSensors.empty()
+          ? nullptr
+          : section("Temperatures (" + shownUnit(units_.temperature).symbol + ")");
   if (temperatures && !source_.hasTemperatures) nothing(temperatures, none);
   for (std::size_t i = 0;
        temperatures && source_.hasTemperatures && i < hand_.temperatureSensors.size();

@@ -12,6 +12,7 @@
 
 #include <palpate/model/hand_description.h>
 
+#include "gui/appearance/display_units.h"
 #include "gui/timeline/taxel_groups.h"
 #include "gui/window_state/formula_curves.h"
 
@@ -53,6 +54,8 @@ class SignalTree : public QFrame {
   // Sets which curves are available.
   void setSource(const HandDescription& hand, const SignalSource& source);
   void setNumChosen(std::size_t taxels);
+  // The units that the titles name.
+  void setUnits(const DisplayUnits& units);
   void setExtras(const PlottedExtras& extras);
   const PlottedExtras& extras() const noexcept { return extras_; }
   // Opens the list below a widget and gives it the keyboard focus.
@@ -80,6 +83,7 @@ class SignalTree : public QFrame {
   FormulaCurves& formulas_;
   HandDescription hand_;
   SignalSource source_;
+  DisplayUnits units_;
   std::size_t numChosen_ = 0;
   PlottedExtras extras_;
   bool building_ = false;

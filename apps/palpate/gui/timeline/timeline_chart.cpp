@@ -157,7 +157,7 @@ void TimelineChart::rebuildGraphs() {
 }
 
 // Axes begin at zero unless values are below; those of angles and temperatures begin at their
-// lowest value.
+// lowest value. Ranges are fitted in base units: a chart looks the same in all units.
 void TimelineChart::scaleAxes() {
   for (const QString& unit : axes_->units()) {
     std::optional<ValueExtent> extent;
@@ -167,11 +167,15 @@ void TimelineChart::scaleAxes() {
       if (!its) continue;
       if (const auto before = before_.extremes(curve.choice))
         its = {std::min(its->first, before->first), std::max(its->second, before->second)};
+      its = {curve.conversion.of(its->first), curve.conversion.of(its->second)};
       if (!extent) extent = ValueExtent{its->first, its->second};
       extent->low = std::min(extent->low, its->first);
       extent->high = std::max(extent->high, its->second);
     }
-    axes_->setAutomatic(unit, fittedRange(extent, axes_->fromZero(unit)));
+    const UnitConversion shown = axes_->conversionOf(unit);
+    if (extent) extent = ValueExtent{shown.back(extent->low), shown.back(extent->high)};
+    const AxisRange range = fittedRange(extent, axes_->fromZero(unit));
+    axes_->setAutomatic(unit, {shown.of(range.from), shown.of(range.to)});
   }
 }
 
@@ -185,7 +189,8 @@ void TimelineChart::refill() {
       const auto points = store.points(curves_[i].choice, options);
       QVector<QCPGraphData> samples;
       samples.reserve(static_cast<qsizetype>(points.size()));
-      for (const SeriesPoint& point : points) samples.append({point.x, point.y});
+      const UnitConversion& shown = curves_[i].conversion;
+      for (const SeriesPoint& point : points) samples.append({point.x, shown.of(point.y)});
       graph(static_cast<int>(first + i))->data()->set(samples, true);
     }
   };

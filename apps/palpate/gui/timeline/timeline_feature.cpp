@@ -146,6 +146,7 @@ void TimelineFeature::connectSubject() {
   ViewAppearance& look = state().appearance;
   followTheme(panel_);
   followTheme(liveChart_);
+  followUnits(signalTree_);
   connect(&look, &ViewAppearance::changed, this, [this, &look] {
     header_->setSignal(look.view().signal);
     checkChoice(actions_.signalsPlotted, kAllPlottedSignals, look.view().signal);
@@ -455,10 +456,11 @@ std::vector<PlottedCurve> TimelineFeature::curves() const {
   const HandDescription* hand = state().displayed.hand();
   if (!hand) return curves;
   const Theme theme = state().appearance.theme();
+  const DisplayUnits& units = state().appearance.view().units;
   const std::vector<bool>& plotted = state().selection.plotted();
   for (std::size_t row = 0; row < plotted.size(); ++row)
     if (plotted[row])
-      curves.push_back(matrixCurve(*hand, row, state().appearance.view().signal, theme));
+      curves.push_back(matrixCurve(*hand, row, state().appearance.view().signal, theme, units));
   const bool live = state().displayed.isLive();
   const OpenedRecordingPtr recording = state().displayed.recorded();
   if (!recording && !live) return curves;
@@ -485,10 +487,10 @@ std::vector<PlottedCurve> TimelineFeature::curves() const {
       add(formulaCurve(each.choice(), each.name, each.unit, place++, theme));
   for (const int axis : extras_.angles)
     if (axis < static_cast<int>(hand->axes.size()))
-      add(angleCurve(*hand, static_cast<std::size_t>(axis), theme));
+      add(angleCurve(*hand, static_cast<std::size_t>(axis), theme, units));
   for (const int sensor : extras_.temperatures)
     if (sensor < static_cast<int>(hand->temperatureSensors.size()))
-      add(temperatureCurve(*hand, static_cast<std::size_t>(sensor), theme));
+      add(temperatureCurve(*hand, static_cast<std::size_t>(sensor), theme, units));
   for (const int row : extras_.forces)
     if (live && hasForces_ && row <= static_cast<int>(hand->layout->numMatrices()))
       add(forceCurve(*hand, static_cast<std::size_t>(row), theme));

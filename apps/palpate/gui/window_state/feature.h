@@ -96,6 +96,13 @@ class Feature : public QObject {
       widget->setTheme(windowState_.appearance.theme());
     });
   }
+  // Keeps the values that a widget shows in the units that the user chose.
+  template <class Widget>
+  void followUnits(Widget* widget) {
+    const auto follow = [this, widget] { widget->setUnits(windowState_.appearance.view().units); };
+    follow();
+    connect(&windowState_.appearance, &ViewAppearance::unitsChanged, widget, follow);
+  }
   // Connects an action to what it does.
   template <class Do>
   void on(QAction* action, Do what) {

@@ -1,5 +1,5 @@
-// Holds how the window looks (theme, colours, range, the plotted signal) and stores it in the
-// settings for the next start.
+// Holds how the window looks (theme, colours, range, the plotted signal, units) and stores it in
+// the settings for the next start.
 #pragma once
 
 #include <QObject>
@@ -29,6 +29,12 @@ class ViewAppearance : public QObject {
     emit themeChanged();
     emit changed();
   }
+  void setUnits(const DisplayUnits& units) {
+    if (units == view_.units) return;
+    view_.units = units;
+    emit unitsChanged();
+    emit changed();
+  }
   // The space right of the time axis that the charts in one column leave [px], so that the axes end
   // at the same place; 0: each as it needs.
   int timeAxisRight() const noexcept { return timeAxisRight_; }
@@ -47,6 +53,8 @@ class ViewAppearance : public QObject {
 
  signals:
   void themeChanged();
+  // Values are shown in other units.
+  void unitsChanged();
   // Any member of view() has changed.
   void changed();
   void timeAxisChanged();
