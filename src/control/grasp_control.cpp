@@ -8,6 +8,7 @@
 #include <variant>
 
 #include "palpate/core/error.h"
+#include "palpate/core/json.h"
 
 #include "control/command_answers.h"
 
@@ -157,6 +158,7 @@ void GraspControl::processFrames() {
 void GraspControl::send() {
   while (auto command = machine_.takeCommand()) {
     const bool isStop = std::holds_alternative<StopMotion>(*command);
+    if (!isStop) motorsOff_ = false;
     sentCommand_ = SentCommand{session_.device().submit(std::move(*command)), isStop};
   }
 }
@@ -333,8 +335,20 @@ void GraspControl::relax() noexcept {
     try {
       stopResults_.push_back(session_.device().submit(StopMotion{}));
       stopResults_.push_back(session_.device().submit(SetPower{}));
+      motorsOff_ = true;
+      const bool ends = machine_.active();
       machine_.relax();
       report();
+      // Of a hand that stood still or held, too, a recording tells that it may have let go.
+      if (!ends) {
+        const std::int64_t nowUs = session_.nowUs();
+        note({nowUs,
+              nowUs,
+              "grasp",
+              {},
+              std::string(kRelaxedText),
+              Json::object().set("outcome", nameOf(GraspOutcome::kRelaxed)).text(-1)});
+      }
     } catch (const std::exception& failure) {
       fault(failure.what());
     } catch (...) {
@@ -381,6 +395,7 @@ GraspStatus GraspControl::status() const {
   status.last = last_;
   status.cannotMove = motionProblem(session_.device().status());
   if (!status.cannotMove.empty()) status.portGone = portGone_;
+  status.motorsOff = motorsOff_;
   status.stopsAsked = stopsAsked_;
   status.calibrated = calibrated_;
   status.anglesDeg = machine_.anglesDeg();

@@ -316,7 +316,9 @@ RecordingEvent endEvent(const GraspReport& report) {
         .set("counts", static_cast<double>(report.peak.counts));
   }
   if (report.forceFinger)
-    json.set("force_finger", *report.forceFinger).set("force_n", report.forceN);
+    json.set("force_finger", *report.forceFinger)
+        .set("force_n", report.forceN)
+        .set("reached_n", report.forceAfterStopN);
   if (report.peakAfterStop)
     json.set("reached_counts", static_cast<double>(report.peakAfterStop->counts))
         .set("reached_matrix", report.peakAfterStop->matrix);

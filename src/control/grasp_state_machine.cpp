@@ -265,7 +265,7 @@ void GraspStateMachine::onFrame(const TactileFrame& frame, std::int64_t monoUs) 
     // The limit in counts is named where both are exceeded in the same frame.
     if (!(loadCounts() > static_cast<float>(limit_))) {
       report_.forceFinger = fingerOverForce(report_.request);
-      report_.forceN = forces_->forcesN()[*report_.forceFinger];
+      report_.forceN = report_.forceAfterStopN = forces_->forcesN()[*report_.forceFinger];
       text = forceText(*report_.forceFinger);
     }
     if (isSlipAware() && phase_ == GraspPhase::kClosing)
@@ -365,9 +365,13 @@ void GraspStateMachine::measurePeakAfterStop() {
   const TaxelPeak& loaded = loadedTaxel(report_.request);
   if (commonCounts(loaded, report_.request) > commonCounts(*report_.peakAfterStop, report_.request))
     report_.peakAfterStop = loaded;
+  if (report_.forceFinger && forces_)
+    report_.forceAfterStopN =
+        std::max(report_.forceAfterStopN, forces_->forcesN()[*report_.forceFinger]);
 }
 
-// Text such as "; rose to 3222 after the stop, 16 times the limit: close more slowly", or empty.
+// Text such as "; rose to 3222 counts after the stop, 16 times the limit: close more slowly", or
+// empty. With a limit in newtons: "; rose to 23.1 N (2859 counts) after the stop, ..".
 std::string GraspStateMachine::riseText() const {
   if (!report_.peakAfterStop || report_.peakAfterStop->counts < report_.peak.counts + kRiseCounts)
     return {};
@@ -375,7 +379,18 @@ std::string GraspStateMachine::riseText() const {
                     limitOf(report_.request, fingerOf(hand_, report_.peakAfterStop->matrix));
   const double times =
       static_cast<double>(report_.peakAfterStop->counts) / std::max(limit_ - lower, 1);
-  std::string text = "; rose to " + numberText(report_.peakAfterStop->counts) + " after the stop";
+  const std::string counts = numberText(report_.peakAfterStop->counts) + " counts";
+  if (report_.forceFinger) {
+    const double limitN =
+        forceLimitOf(report_.request, *report_.forceFinger).value_or(report_.forceN);
+    const double timesN = report_.forceAfterStopN / limitN;
+    std::string text =
+        "; rose to " + fixedText(report_.forceAfterStopN, 1) + " N (" + counts + ") after the stop";
+    if (timesN >= kFarOverLimit)
+      text += ", " + fixedText(timesN, 1) + " times the limit: close more slowly";
+    return text;
+  }
+  std::string text = "; rose to " + counts + " after the stop";
   if (times >= kFarOverLimit)
     text += ", " + fixedText(times, 1) + " times the limit: close more slowly";
   return text;
@@ -460,7 +475,7 @@ void GraspStateMachine::stop(std::int64_t monoUs) {
 }
 
 void GraspStateMachine::relax() {
-  if (active()) end(GraspOutcome::kRelaxed, "relaxed by the user: the motors are off");
+  if (active()) end(GraspOutcome::kRelaxed, std::string(kRelaxedText));
 }
 
 void GraspStateMachine::onTime(std::int64_t monoUs) {
@@ -535,7 +550,7 @@ std::string GraspStateMachine::holdingText() const {
   if (!report_.peakAfterStop || report_.peakAfterStop->counts <= static_cast<float>(highest))
     return text + riseText();
   return text + "; rose to " + numberText(report_.peakAfterStop->counts) +
-         " after the stop, above its highest limit of " + std::to_string(highest) +
+         " counts after the stop, above its highest limit of " + std::to_string(highest) +
          ": close more slowly";
 }
 

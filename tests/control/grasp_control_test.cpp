@@ -254,6 +254,22 @@ TEST(GraspControl, RelaxStopsAndSwitchesTheMotorsOff) {
   EXPECT_FALSE(std::get<SetPower>(bench.hand->commands[2]).on);
   EXPECT_EQ(bench.control->status().last->outcome, GraspOutcome::kRelaxed);
   EXPECT_EQ(bench.control->status().phase, GraspPhase::kIdle);
+  EXPECT_TRUE(bench.control->status().motorsOff);
+}
+
+TEST(GraspControl, AHandThatStandsStillIsRelaxedNotSilently) {
+  GraspBench bench;
+  EXPECT_FALSE(bench.control->status().motorsOff);
+  bench.control->relax();
+  EXPECT_TRUE(bench.control->status().motorsOff);
+  std::vector<std::string> said;
+  for (const RecordingEvent& event : bench.session->takeEvents())
+    if (event.kind == "grasp") said.push_back(event.text);
+  EXPECT_EQ(said, std::vector<std::string>{"relaxed by the user: the motors are off"});
+  bench.control->stop();
+  EXPECT_TRUE(bench.control->status().motorsOff) << "a stop switches nothing on";
+  bench.control->grasp({});
+  EXPECT_FALSE(bench.control->status().motorsOff);
 }
 
 TEST(GraspControl, AMotionPortThatGoesAwayEndsTheGrasp) {

@@ -1,5 +1,8 @@
 // Tests of the limit of a grasp under tactile control: whether it can be measured, the reading
 // after the stop, and grasps with an unexpected exception.
+#include <algorithm>
+#include <array>
+#include <cstdio>
 #include <stdexcept>
 #include <string_view>
 
@@ -39,7 +42,7 @@ TEST(GraspStateMachine, WhatIsReachedAfterTheStopIsSaidBesideWhatWasAsked) {
   ASSERT_TRUE(report->peakAfterStop.has_value());
   EXPECT_EQ(report->peakAfterStop->counts, 1200.0F);
   EXPECT_EQ(report->text,
-            "limit reached: finger 0 distal, x 2, y 3: 250 counts; rose to 1200 after the stop, "
+            "limit reached: finger 0 distal, x 2, y 3: 250 counts; rose to 1200 counts after the stop, "
             "6.0 times the limit: close more slowly");
 }
 
@@ -242,6 +245,31 @@ TEST(GraspStateMachine, ALimitInNewtonsStopsTheHandAtTheForce) {
   EXPECT_TRUE(report.text.starts_with("limit reached: finger 2: 5.")) << report.text;
   EXPECT_EQ(report.forceFinger, 2u);
   EXPECT_EQ(report.forceN, now);
+  // It goes on rising after the stop: said in newtons, as the limit was.
+  bench.machine.onStopAcknowledged(bench.us);
+  double highest = now;
+  for (int i = 0; i < 17; ++i) {
+    bench.us += kPeriodUs;
+    TactileFrame felt(sdh2().layout);
+    felt.hostUs = 1'700'000'000'000'000 + bench.us;
+    felt.matrix(4).setConstant(3000.0F);
+    expected.apply(felt, {});
+    highest = std::max(highest, expected.forcesN()[2]);
+    bench.machine.onFrame(felt, bench.us);
+    bench.machine.onTime(bench.us);
+  }
+  const auto ended = bench.machine.takeReport();
+  ASSERT_TRUE(ended);
+  EXPECT_EQ(ended->forceAfterStopN, highest);
+  ASSERT_GT(highest, 1.5 * 5.0);
+  std::array<char, 128> rise{};
+  std::snprintf(rise.data(),
+                rise.size(),
+                "; rose to %.1f N (3000 counts) after the stop, %.1f times the limit: close more "
+                "slowly",
+                highest,
+                highest / 5.0);
+  EXPECT_TRUE(ended->text.ends_with(rise.data())) << ended->text;
 }
 
 TEST(GraspStateMachine, RefusesALimitInNewtonsThatItCannotMeasure) {

@@ -38,6 +38,8 @@ struct GraspStatus {
   // Report of the grasp during which the motion port disappeared. Kept until the port is back, even
   // if other grasps are refused meanwhile.
   std::optional<GraspReport> portGone;
+  // Whether relax() switched the motors off, and no motion has begun since.
+  bool motorsOff = false;
   // Number of calls of stop() and relax() so far, whether or not something was moving.
   std::uint64_t stopsAsked = 0;
   // Joint angles as last read [deg]; empty: not known.
@@ -150,6 +152,7 @@ class GraspControl {
   std::optional<GraspReport> last_;
   std::deque<GraspChange> changes_;
   std::optional<GraspReport> portGone_;  // see GraspStatus
+  bool motorsOff_ = false;
   std::uint64_t stopsAsked_ = 0;
   bool calibrated_ = false;
   // Last reported fault; the same fault is not reported again for a while in this grasp.

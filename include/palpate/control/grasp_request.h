@@ -167,6 +167,8 @@ struct GraspReport {
   // For kLimitReached by a force: the finger and its force in that frame [N].
   std::optional<std::size_t> forceFinger = {};
   double forceN = 0.0;
+  // The largest force of that finger in the 0.5 s after the stop [N].
+  double forceAfterStopN = 0.0;
   // For kFinished: axes that were blocked before their target.
   std::vector<int> heldAxes;
   // Largest taxel in the 0.5 s after the stop of a grasp under tactile control: the rubber responds
@@ -185,6 +187,8 @@ struct GraspReport {
   std::optional<double> countsAtSlip = {};
   std::optional<double> friction = {};
 };
+// What a report says of a hand that was relaxed.
+inline constexpr std::string_view kRelaxedText = "relaxed by the user: the motors are off";
 // The report as events of kind "grasp" in a recording: parameters at the begin, and the outcome at
 // the end, as JSON.
 RecordingEvent beginEvent(const GraspReport& report);

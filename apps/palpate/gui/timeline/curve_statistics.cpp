@@ -15,6 +15,7 @@
 #include <palpate/signals/curve_comparison.h>
 #include <palpate/signals/range_statistics.h>
 
+#include "gui/appearance/plotted_signal.h"
 #include "gui/timeline/curve_table.h"
 #include "gui/timeline/histogram_page.h"
 #include "gui/timeline/relation_page.h"
