@@ -56,11 +56,11 @@ PlaybackBar::PlaybackBar(PlaybackController& playback, QWidget* parent)
   row->setContentsMargins(12, 5, 12, 5);
   row->setSpacing(6);
   row->addWidget(seekBar_, 1);
-  row->addSpacing(8);
+  row->addSpacing(3);
   row->addWidget(new QLabel("frame", this));
   row->addWidget(frame_);
   row->addWidget(ofFrames_);
-  row->addSpacing(10);
+  row->addSpacing(5);
   row->addWidget(time_);
   row->addWidget(ofTime_);
 
