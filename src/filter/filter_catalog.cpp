@@ -1,5 +1,6 @@
 #include "palpate/filter/filter_catalog.h"
 
+#include <cctype>
 #include <limits>
 #include <stdexcept>
 
@@ -379,11 +380,35 @@ std::string FilterKind::optionKeys() const {
 
 std::span<const FilterKind> filterKinds() { return all(); }
 
+namespace {
+// The letters and digits of a name in lower case: "lowpass" of "Low-Pass".
+std::string lettersOf(std::string_view name) {
+  std::string letters;
+  for (const char letter : name)
+    if (std::isalnum(static_cast<unsigned char>(letter)) != 0)
+      letters += static_cast<char>(std::tolower(static_cast<unsigned char>(letter)));
+  return letters;
+}
+
+// The filter that is meant by a name that none has; empty: it can't be told.
+std::string meantBy(std::string_view name) {
+  const std::string letters = lettersOf(name);
+  for (const char* word : {"notch", "bandreject", "bandrejection"})
+    if (letters == word) return "band-stop";
+  if (letters == "butterworth" || letters == "butter") return "low-pass";
+  for (const FilterKind& kind : all())
+    if (lettersOf(kind.name) == letters) return kind.name;
+  return {};
+}
+}  // namespace
+
 const FilterKind& filterKind(std::string_view name) {
   for (const FilterKind& kind : all())
     if (kind.name == name) return kind;
-  throw std::invalid_argument("unknown filter \"" + std::string(name) +
-                              "\"; there are: " + filterNames());
+  const std::string meant = meantBy(name);
+  throw std::invalid_argument("unknown filter \"" + std::string(name) + "\"" +
+                              (meant.empty() ? std::string() : " (did you mean " + meant + "?)") +
+                              "; there are: " + filterNames());
 }
 
 std::string filterNames() {

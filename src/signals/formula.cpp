@@ -46,7 +46,15 @@ bool ofName(char letter) {
 }
 
 // A function of a whole series: muParser knows only functions of numbers.
-enum class SeriesFunctionKind { kDerivative, kSmooth, kMedian, kLowPass, kHighPass, kBandPass };
+enum class SeriesFunctionKind {
+  kDerivative,
+  kSmooth,
+  kMedian,
+  kLowPass,
+  kHighPass,
+  kBandPass,
+  kBandStop
+};
 struct SeriesFunction {
   std::string_view name;
   SeriesFunctionKind kind;
@@ -60,7 +68,8 @@ constexpr std::array kSeriesFunctions = {
     SeriesFunction{"median", SeriesFunctionKind::kMedian, 1, "median(x, samples)"},
     SeriesFunction{"lowpass", SeriesFunctionKind::kLowPass, 1, "lowpass(x, Hz)"},
     SeriesFunction{"highpass", SeriesFunctionKind::kHighPass, 1, "highpass(x, Hz)"},
-    SeriesFunction{"bandpass", SeriesFunctionKind::kBandPass, 2, "bandpass(x, low Hz, high Hz)"}};
+    SeriesFunction{"bandpass", SeriesFunctionKind::kBandPass, 2, "bandpass(x, low Hz, high Hz)"},
+    SeriesFunction{"bandstop", SeriesFunctionKind::kBandStop, 2, "bandstop(x, low Hz, high Hz)"}};
 
 // The next function of a series from `begin` on.
 struct FoundFunction {
@@ -105,7 +114,9 @@ ButterworthOptions bandOf(SeriesFunctionKind kind, const std::vector<double>& nu
     return {.band = Band::kLowPass, .highHz = numbers.at(0)};
   if (kind == SeriesFunctionKind::kHighPass)
     return {.band = Band::kHighPass, .lowHz = numbers.at(0)};
-  return {.band = Band::kBandPass, .lowHz = numbers.at(0), .highHz = numbers.at(1)};
+  return {.band = kind == SeriesFunctionKind::kBandStop ? Band::kBandStop : Band::kBandPass,
+          .lowHz = numbers.at(0),
+          .highHz = numbers.at(1)};
 }
 
 // Throws std::invalid_argument that says what is wrong with the numbers.
@@ -212,6 +223,29 @@ std::string messageOf(const mu::Parser::exception_type& error) {
   return message;
 }
 
+// muParser would speak of an unexpected bracket. `parsed`: without the functions of series.
+void refuseUnknownFunctions(const std::string& text, const std::string& parsed) {
+  const mu::funmap_type known = mu::Parser().GetFunDef();
+  for (std::size_t open = parsed.find('('); open != std::string::npos;
+       open = parsed.find('(', open + 1)) {
+    std::size_t end = open;
+    while (end > 0 && parsed[end - 1] == ' ') --end;
+    std::size_t begin = end;
+    while (begin > 0 && ofName(parsed[begin - 1])) --begin;
+    const std::string name = parsed.substr(begin, end - begin);
+    // A number is no name.
+    if (name.empty() || std::isdigit(static_cast<unsigned char>(name.front())) != 0 ||
+        known.contains(name))
+      continue;
+    std::string ours;
+    for (const SeriesFunction& function : kSeriesFunctions)
+      ours += (ours.empty() ? "" : ", ") + std::string(function.name);
+    refuseFormula(text,
+                  "there is no function " + name + "; of signals there are " + ours +
+                      ", of numbers abs, sqrt, min, max, exp, ln, sin and others");
+  }
+}
+
 }  // namespace
 
 std::vector<double> derivativeOf(std::span<const double> timeS,
@@ -292,6 +326,7 @@ Formula::Formula(const std::string& given) : text_(given) {
     for (const auto& [name, value] : parser.variables)
       if (name != kTime && name.rfind(kDerivativeVariable, 0) != 0) names.insert(name);
   } catch (const mu::Parser::exception_type& error) {
+    refuseUnknownFunctions(text, parsed_);
     refuseFormula(text, messageOf(error));
   }
   names_.assign(names.begin(), names.end());

@@ -41,9 +41,10 @@ TEST(GraspStateMachine, WhatIsReachedAfterTheStopIsSaidBesideWhatWasAsked) {
   EXPECT_EQ(report->peak.counts, 250.0F);
   ASSERT_TRUE(report->peakAfterStop.has_value());
   EXPECT_EQ(report->peakAfterStop->counts, 1200.0F);
-  EXPECT_EQ(report->text,
-            "limit reached: finger 0 distal, x 2, y 3: 250 counts; rose to 1200 counts after the stop, "
-            "6.0 times the limit: close more slowly");
+  EXPECT_EQ(
+      report->text,
+      "limit reached: finger 0 distal, x 2, y 3: 250 counts; rose to 1200 counts after the stop, "
+      "6.0 times the limit: close more slowly");
 }
 
 // The hand was not closing yet, so it holds nothing and must not close.

@@ -72,6 +72,8 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{"", "there are: box, gaussian"},
         Bad{"sharpen", "unknown filter \"sharpen\"; there are: box, gaussian"},
         Bad{"median3D", "unknown filter"},
+        Bad{"lowpass:cutoff=5", "unknown filter \"lowpass\" (did you mean low-pass?); there are:"},
+        Bad{"notch", "unknown filter \"notch\" (did you mean band-stop?)"},
         Bad{"median:radius=1", "unknown key \"radius\"; there are: size, masked"},
         Bad{"median:size", "isn't KEY=VALUE"},
         Bad{"median:", "isn't KEY=VALUE"},

@@ -81,6 +81,11 @@ TEST(Formula, FiltersAreButterworthsWithoutDelay) {
                 timeS,
                 values,
                 {.band = ButterworthOptions::Band::kBandPass, .lowHz = 0.3, .highHz = 5.0}));
+  EXPECT_EQ(Formula("bandstop(a, 25, 35)").evaluate(timeS, {values}, kEver),
+            butterworthZeroPhase(
+                timeS,
+                values,
+                {.band = ButterworthOptions::Band::kBandStop, .lowHz = 25.0, .highHz = 35.0}));
   for (std::size_t i = 100; i < 300; ++i) {
     EXPECT_NEAR(low[i], slow[i], 0.03) << i;
     EXPECT_NEAR(high[i], slow[i], 0.03) << i;
@@ -95,6 +100,24 @@ TEST(Formula, KnowsOnHowManyNeighboursItDepends) {
   EXPECT_EQ(Formula("der(a)").reach(50.0), 1u);
   EXPECT_EQ(Formula("der(smooth(a, 9))").reach(50.0), 6u);
   EXPECT_GT(Formula("lowpass(a, 1)").reach(50.0), 50u);
+}
+
+TEST(Formula, NamesAFunctionThatIsNone) {
+  const auto refusal = [](const std::string& text) {
+    try {
+      (void)Formula(text);
+    } catch (const std::invalid_argument& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_NE(refusal("notch(a, 2, 3)")
+                .find("there is no function notch; of signals there are der, "
+                      "smooth, median, lowpass, highpass, bandpass, bandstop"),
+            std::string::npos)
+      << refusal("notch(a, 2, 3)");
+  EXPECT_NE(refusal("1 + der(foo (a))").find("no function foo"), std::string::npos);
+  EXPECT_EQ(refusal("2 * (a + 1) + sqrt(a)"), "");
 }
 
 TEST(Formula, RefusesWhatIsNone) {

@@ -51,7 +51,7 @@ int deriveCommand(const Arguments& words) {
            "frames; t [s]. Operators + - * / ^ ( ), comparisons and a ? b : c; functions abs sqrt "
            "min max exp ln sin .., and of signals: der(x), the slope of x over time [1/s]; "
            "smooth(x,n) and median(x,n) over n samples; lowpass(x,hz), highpass(x,hz), "
-           "bandpass(x,low,high). A value that isn't known is an empty cell.",
+           "bandpass(x,low,high), bandstop(x,low,high). A value that isn't known is an empty cell.",
        .options = withFilterOptions(
            {{"from", "N", "first frame, default 0"}, {"to", "N", "last frame, inclusive"}}),
        .example = "palpate derive foam_ball.dsa grip=m1_sum-m3_sum > grip.csv",

@@ -21,7 +21,7 @@ struct PalpateRecovery {
   // the last saved item: a moment at its time). In order of time.
   std::vector<RecordingEvent> events;
   std::map<std::string, std::string> meta;  // as readRecordingMeta(), as far as it can be read
-  std::size_t frames = 0;  // saved
+  std::size_t frames = 0;                   // saved
   std::size_t angles = 0;
   std::size_t temperatures = 0;
   // Known to be missing before, between and (where the recording tells how many there were) behind

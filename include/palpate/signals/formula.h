@@ -6,7 +6,7 @@
 //   der(x)      slope of x over time [1/s]; x is any formula
 //   smooth(x, n), median(x, n)
 //               mean or median of n samples, odd, around each sample
-//   lowpass(x, hz), highpass(x, hz), bandpass(x, low, high)
+//   lowpass(x, hz), highpass(x, hz), bandpass(x, low, high), bandstop(x, low, high)
 //               Butterworth filter of order 2, forward and backward: without delay
 //               (filter/butterworth.h)
 //               All of these end on either side of a gap.

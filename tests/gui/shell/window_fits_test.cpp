@@ -176,6 +176,9 @@ TEST_P(TextSizeFitsTest, BackToTheUsualSize) {
   processAll();
   applyTextPt(0);
   expectNoFaults(QString("after text of %1 pt").arg(GetParam()));
+  // Parts take their sizes one after the other.
+  EXPECT_TRUE(QTest::qWaitFor([&] { return window().minimumSizeHint().width() <= 1024; }))
+      << window().minimumSizeHint().width();
   for (const QSize size : {QSize(1024, 700), kSizes[0]}) {
     window().resize(size);
     expectNoFaults(QString("after text of %1 pt, %2 px wide").arg(GetParam()).arg(size.width()));
@@ -252,6 +255,34 @@ TEST_F(WindowFitsTest, AHandBesideManyOpenDocksDoesNotEnlargeTheWindow) {
   processAll();
   EXPECT_EQ(window().size(), size);
   EXPECT_FALSE(find<QDockWidget>("Library")->visibleRegion().isEmpty());
+}
+
+// Compare takes the place of the views in the centre: what lies around it has its size again after
+// each visit.
+TEST_F(WindowFitsTest, AfterTheComparisonEverythingHasItsSizeAgain) {
+  const QSize size(1280, 740);
+  window().resize(size);
+  window().setAnimated(false);
+  open({"rich.dsa"});
+  for (const char* name : {"Inspect", "Library", "Spectrum"}) window().docks().show(name);
+  processAll();
+  ASSERT_EQ(window().size(), size);
+  std::map<std::string, QSize> before;
+  for (const QString& name : window().docks().names())
+    if (auto* dock = find<QDockWidget>(name.toUtf8()); !dock->visibleRegion().isEmpty())
+      before[name.toStdString()] = dock->size();
+  for (int visit = 0; visit < 3; ++visit) {
+    actions().at("compare")->trigger();
+    processAll();
+    EXPECT_EQ(window().size(), size) << "comparing, visit " << visit;
+    actions().at("compare")->trigger();
+    processAll();
+    EXPECT_EQ(window().size(), size) << "visit " << visit;
+    for (const auto& [name, was] : before) {
+      EXPECT_NEAR(find<QDockWidget>(name.c_str())->width(), was.width(), 2) << name;
+      EXPECT_NEAR(find<QDockWidget>(name.c_str())->height(), was.height(), 2) << name;
+    }
+  }
 }
 
 TEST_F(WindowFitsTest, TheWindowIsNoLargerThanTheScreen) {

@@ -81,6 +81,29 @@ TEST(EventMarks, GapsAreThoseOfTheStamps) {
   EXPECT_EQ(marks[0].lane, EventLane::kGaps);
   EXPECT_DOUBLE_EQ(marks[0].fromS, 0.15);
   EXPECT_DOUBLE_EQ(marks[0].toS, 9.0);
+  EXPECT_TRUE(marks[0].detail.contains("nothing was recorded"));
+}
+
+// A recovered recording notes what was lost, of frames and of joint angles.
+TEST(EventMarks, AGapTellsWhatTheRecordingSaysOfIt) {
+  OpenedRecording opened =
+      *makeOpenedRecording("x.palpate", profileWithStamps({0, 50, 100, 150, 9'000, 9'050}));
+  const std::int64_t startUs = opened.profile.frameTimeUs(0);
+  opened.events.events = {
+      {startUs + 60'000, startUs + 120'000, "gap", {}, "3 angle samples lost", {}},
+      {startUs + 160'000,
+       startUs + 8'990'000,
+       "gap",
+       {},
+       "177 frames lost: the file was damaged",
+       {}}};
+  const auto marks = marksOf(opened, opened.events.events, {});
+  ASSERT_EQ(marks.size(), 2u);
+  EXPECT_EQ(marks[0].lane, EventLane::kGaps);
+  EXPECT_TRUE(marks[0].detail.contains("3 angle samples lost")) << marks[0].detail.toStdString();
+  EXPECT_EQ(marks[1].lane, EventLane::kGaps);
+  EXPECT_TRUE(marks[1].detail.contains("177 frames lost: the file was damaged"));
+  EXPECT_FALSE(marks[1].detail.contains("nothing was recorded"));
 }
 
 }  // namespace

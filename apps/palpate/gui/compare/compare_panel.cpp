@@ -538,7 +538,7 @@ QString ComparePanel::absenceOf(bool ofB) const {
   if (at < 0.0) return name + " begins " + durationText(-at) + " later";
   const double durationS = timed.timing.durationS;
   if (at > durationS) return name + " ended " + durationText(at - durationS) + " ago";
-  return name + " has a gap here: nothing was recorded";
+  return name + " has a gap here";
 }
 
 void ComparePanel::showFrames() {

@@ -425,9 +425,10 @@ void HandDock::showState(const GraspStatus& status) {
     return say(motionBlockedReason(status), true, QString::fromStdString(status.cannotMove));
   if (!said_.isEmpty()) return say(said_, true);
   if (status.motorsOff)
-    return say("The motors are off: the fingers can be moved by hand, and an object may fall. The "
-               "next motion switches them on.",
-               false);
+    return say(
+        "The motors are off: the fingers can be moved by hand, and an object may fall. The "
+        "next motion switches them on.",
+        false);
   if (!status.last) return say("Ready.", false);
   if (const auto over = lastGraspText(*status.last, status)) return say(*over, false);
   const QString text = QString::fromStdString(status.last->text);

@@ -34,8 +34,7 @@ class RecentRow : public QPushButton {
  public:
   RecentRow(const QString& path, bool exists, QWidget* parent) : QPushButton(parent) {
     setObjectName("RecentRow");
-    fitToText(*this,
-              [this] { setFixedHeight(qRound(textScale() * kStartPageRowHeight)); });
+    fitToText(*this, [this] { setFixedHeight(qRound(textScale() * kStartPageRowHeight)); });
     setEnabled(exists);
     setAccessibleName(path);
     setToolTip(path);

@@ -150,8 +150,7 @@ QString StatusReport::notice() const {
   const OpenedRecordingPtr recording = windowState_.displayed.recorded();
   if (!recording) return {};
   if (const Gap* gap = recording->gapAt(windowState_.playback.positionS()))
-    return "gap of " + QString::number(gap->seconds, 'f', 1) + " s: " +
-           (recording->damage.empty() ? "nothing was recorded" : "lost, or nothing was recorded");
+    return "gap of " + QString::number(gap->seconds, 'f', 1) + " s: " + recording->reasonOf(*gap);
   const auto gaps = recording->timingNow().gaps.size();
   if (gaps == 1) return "1 gap";
   return gaps == 0 ? QString() : QString::number(gaps) + " gaps";

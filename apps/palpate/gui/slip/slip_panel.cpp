@@ -15,6 +15,7 @@
 #include "gui/slip/slip_controls.h"
 #include "gui/slip/slip_indicator.h"
 #include "gui/slip/slip_tables.h"
+#include "gui/widgets/content_scroll.h"
 #include "gui/widgets/figures_table.h"
 #include "gui/widgets/notes_label.h"
 #include "gui/widgets/text_fit.h"
@@ -76,14 +77,14 @@ SlipPanel::SlipPanel(QSettings& settings, QWidget* parent) : ComputedPage("slip"
   fitToText(*list_, [this] { showAllRows(); });
   notes_ = notesLabel("slipNotes", left);
   notes_->setAlignment(Qt::AlignTop | Qt::AlignLeft);
-  // The list gets its height first.
-  notes_->setSizePolicy(QSizePolicy::Preferred, QSizePolicy::Ignored);
-  fitToText(*notes_, [this] { notes_->setMinimumHeight(2 * notes_->fontMetrics().lineSpacing()); });
+  // The list gets its height first; the notes scroll in the rest.
+  constexpr int kLeastNotesHeight = 40;  // [px]
+  auto* notes = new ContentScroll(notes_, QSize(0, kLeastNotesHeight), left);
   auto* leftColumn = new QVBoxLayout(left);
   leftColumn->setContentsMargins(0, 0, 0, 0);
   leftColumn->setSpacing(0);
   leftColumn->addWidget(list_);
-  leftColumn->addWidget(notes_, 1);
+  leftColumn->addWidget(notes, 1);
   drawing_ = new SlipView(all);
   chart_ = new SlipChart(all);
   auto* beside = new QSplitter(Qt::Horizontal, all);

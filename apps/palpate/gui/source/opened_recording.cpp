@@ -207,6 +207,20 @@ std::optional<std::pair<std::size_t, std::size_t>> OpenedRecording::framesWithin
   return std::pair(first, last);
 }
 
+QString OpenedRecording::reasonOf(const Gap& gap) const {
+  const std::int64_t fromUs = profile.frameTimeUs(gap.frame);
+  const std::int64_t toUs = fromUs + std::llround(gap.seconds * 1e6);
+  QStringList reasons;
+  for (const RecordingEvent& event : events.events) {
+    if (event.kind != "gap" || event.text.empty() || event.tUs > toUs || event.t1Us < fromUs)
+      continue;
+    const QString reason = QString::fromStdString(event.text);
+    if (!reasons.contains(reason)) reasons.append(reason);
+  }
+  if (!reasons.isEmpty()) return reasons.join("; ");
+  return damage.empty() ? QString("nothing was recorded") : "lost, or nothing was recorded";
+}
+
 const Gap* OpenedRecording::gapAt(double seconds) const {
   for (const Gap& gap : timingNow().gaps) {
     const double begin = timeAt(gap.frame);

@@ -80,6 +80,9 @@ struct OpenedRecording {
   std::optional<std::pair<std::size_t, std::size_t>> framesWithin(double fromS, double toS) const;
   // The gap that contains this time; null outside of gaps.
   const Gap* gapAt(double seconds) const;
+  // Why there are no frames in this gap: what the recording notes about it, else "nothing was
+  // recorded".
+  QString reasonOf(const Gap& gap) const;
 };
 
 using OpenedRecordingPtr = std::shared_ptr<const OpenedRecording>;

@@ -36,6 +36,7 @@ constexpr std::array kOperations = {
     Operation{"low-pass", "lowpass(%1, 5)", "%1 · low-pass 5 Hz", ""},
     Operation{"high-pass", "highpass(%1, 0.5)", "%1 · high-pass 0.5 Hz", ""},
     Operation{"band-pass", "bandpass(%1, 1, 5)", "%1 · band-pass 1–5 Hz", ""},
+    Operation{"band-stop (notch)", "bandstop(%1, 4, 6)", "%1 · band-stop 4–6 Hz", ""},
     Operation{"running mean", "smooth(%1, 9)", "%1 · mean of 9", ""},
     Operation{"running median", "median(%1, 5)", "%1 · median of 5", ""}};
 
@@ -104,7 +105,8 @@ FormulaDialog::FormulaDialog(std::vector<FormulaSignal> from,
             "The formula\nSignals: m1_mean, hand_sum, m5_x2_y9 (matrix, column, row), angle3, "
             "temperature4, t [s]\nOperators + - * / ^ ( ), comparisons, a ? b : c; functions "
             "abs sqrt min max exp ln sin ..\nder(x), smooth(x, samples), median(x, samples), "
-            "lowpass(x, Hz), highpass(x, Hz), bandpass(x, low, high)",
+            "lowpass(x, Hz), highpass(x, Hz), bandpass(x, low, high), "
+            "bandstop(x, low, high)",
             before.formula);
   formula_->setMaxLength(1000);
   formula_->setMinimumWidth(formula_->fontMetrics().horizontalAdvance(QString(52, 'n')));

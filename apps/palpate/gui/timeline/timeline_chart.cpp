@@ -416,7 +416,8 @@ QString TimelineChart::valuesAt(double seconds) const {
   const QString text =
       QString::number(recording_->timeAt(frame), 'f', 2) + " s · frame " + QString::number(frame);
   if (const Gap* gap = recording_->gapAt(seconds))
-    return text + "\ngap of " + QString::number(gap->seconds, 'f', 1) + " s: nothing was recorded";
+    return text + "\ngap of " + QString::number(gap->seconds, 'f', 1) +
+           " s: " + recording_->reasonOf(*gap);
   return readingsText(
       text, curves_, [&](const SeriesChoice& choice) { return store_.valueAt(choice, seconds); });
 }

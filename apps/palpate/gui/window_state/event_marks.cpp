@@ -57,6 +57,14 @@ EventMark markOf(const OpenedRecording& recording, const RecordingEvent& event, 
   return mark;
 }
 
+bool touchesGap(const OpenedRecording& recording, const RecordingEvent& event) {
+  const std::vector<Gap>& gaps = recording.timingNow().gaps;
+  return std::any_of(gaps.begin(), gaps.end(), [&](const Gap& gap) {
+    const std::int64_t fromUs = recording.profile.frameTimeUs(gap.frame);
+    return event.tUs <= fromUs + std::llround(gap.seconds * 1e6) && event.t1Us >= fromUs;
+  });
+}
+
 void addGaps(const OpenedRecording& recording, std::vector<EventMark>& marks) {
   for (const Gap& gap : recording.timingNow().gaps) {
     EventMark mark;
@@ -64,7 +72,7 @@ void addGaps(const OpenedRecording& recording, std::vector<EventMark>& marks) {
     mark.fromS = recording.timeAt(gap.frame);
     mark.toS = mark.fromS + gap.seconds;
     mark.text = figure(gap.seconds, 1) + " s";
-    mark.detail = "gap: nothing was recorded\n" + spanText(mark.fromS, mark.toS);
+    mark.detail = "gap: " + recording.reasonOf(gap) + "\n" + spanText(mark.fromS, mark.toS);
     marks.push_back(std::move(mark));
   }
 }
@@ -207,8 +215,11 @@ std::vector<EventMark> marksOf(const OpenedRecording& recording,
                                std::span<const GraspSegment> grasps) {
   std::vector<EventMark> marks;
   for (std::size_t i = 0; i < events.size(); ++i)
-    // Gaps are exact from the time stamps; the gap events that the recorder wrote are left out.
-    if (events[i].kind != "gap" && !isRemovedGrasp(events[i]))
+    // Gaps of frames are exact from the time stamps and tell what the recorder wrote about them. A
+    // gap of angles or temperatures, and what was lost behind the last frame, is known from its
+    // event alone.
+    if (!isRemovedGrasp(events[i]) &&
+        (events[i].kind != "gap" || (!events[i].text.empty() && !touchesGap(recording, events[i]))))
       marks.push_back(markOf(recording, events[i], i));
   const bool corrected = std::any_of(
       events.begin(), events.end(), [](const auto& event) { return event.kind == kSegmentKind; });
