@@ -22,7 +22,11 @@ constexpr double kBlockedAlarmS = 1.0;
 
 double seconds(std::int64_t us) { return static_cast<double>(us) / 1e6; }
 
+// The same as in the dock Link.
 std::string hoursText(double hours) {
+  constexpr double kDayH = 24.0, kYearH = 8766.0;
+  if (hours > kYearH) return "over a year";
+  if (hours > 2 * kDayH) return fixedText(hours / kDayH, 0) + " days";
   return hours < 10.0 ? fixedText(hours, 1) + " h" : fixedText(hours, 0) + " h";
 }
 

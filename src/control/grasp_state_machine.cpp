@@ -600,10 +600,13 @@ void GraspStateMachine::onHoldingTime(std::int64_t monoUs) {
   if (phase_ != GraspPhase::kHolding) return;
   const HoldingOptions& holding = report_.request.holding;
   if (endUs_ != 0 && monoUs >= endUs_)
-    return end(GraspOutcome::kFinished,
-               "finished: held for " + numberText(holding.holdS) + " s, " +
-                   std::to_string(report_.slips) + " slips, limit " + std::to_string(limit_) +
-                   " counts; the hand keeps holding");
+    return end(
+        GraspOutcome::kFinished,
+        "finished: held for " + numberText(holding.holdS) + " s, " +
+            counted(static_cast<std::uint64_t>(report_.slips), "slip") + ", limit " +
+            std::to_string(limit_) + " counts" +
+            (report_.friction ? ", friction " + fixedText(*report_.friction, 2) : std::string()) +
+            "; the hand keeps holding");
   if (monoUs < lastSlipUs_ + microsecondsOf(holding.noSlipS)) return;
   lastSlipUs_ = monoUs;
   if (holding.weightN > 0.0 && !frictionTested_) {

@@ -271,7 +271,7 @@ TEST(CheckBeforeRun, saysReadyInOneLine) {
   inputs.temperatures = temperatures;
   const PreflightCheck check = checkPreflight(inputs, kGoodFolder);
   EXPECT_TRUE(check.ready);
-  EXPECT_EQ(check.text, "ready: 31.2 frames/s, up to 38 deg C, disk for 120 h");
+  EXPECT_EQ(check.text, "ready: 31.2 frames/s, up to 38 deg C, disk for 5 days");
 }
 
 TEST(CheckBeforeRun, namesTheFirstThingThatIsWrong) {

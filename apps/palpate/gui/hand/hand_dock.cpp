@@ -71,7 +71,10 @@ HandDock::HandDock(QSettings& settings, QWidget* parent) : QWidget(parent) {
   fitToText(*this, [this] {
     textChanged_ = true;
     constexpr int kSettledMs = 500;  // [ms] until all parts have their new sizes
-    QTimer::singleShot(kSettledMs, this, [this] { textChanged_ = false; });
+    QTimer::singleShot(kSettledMs, this, [this] {
+      textChanged_ = false;
+      if (isVisible()) fitWidth();
+    });
   });
   connect(stop_, &QPushButton::clicked, this, [this] {
     said_.clear();

@@ -482,7 +482,8 @@ void RecordFeature::offer(const RecordingReport& report) {
   messages.logLink("recorded " + summary);
   if (!report.complete)
     messages.fail(QString::fromStdString(report.paths.front().filename().string()) +
-                  ": something is missing: " + QString::fromStdString(report.message));
+                  (report.lost > 0 ? ": something is missing: " : ": ") +
+                  QString::fromStdString(report.message));
   const QString plan = plan_.plan().find(report.paths.front()) && plan_.followed()
                            ? " · " + plan_.progressText() + ", " + plan_.nextText()
                            : QString();
