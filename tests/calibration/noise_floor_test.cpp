@@ -94,6 +94,9 @@ TEST(NoiseFloor, SaysWhatOneTemperatureOrSilenceAllows) {
   EXPECT_FALSE(flat.valid);
   EXPECT_NEAR(flat.at(31.25), 40.04, 1e-9);
   EXPECT_NE(flat.notes.at(0).find("one temperature only"), std::string::npos);
+  // 49 times 40 and once 42: mean 40.04, standard deviation sqrt(0.08).
+  EXPECT_NE(flat.notes.at(0).find("the mean is 40.0 counts, sd 0.3."), std::string::npos)
+      << flat.notes.at(0);
   std::vector<double> rising, zeros(50, 0.0);
   for (int i = 0; i < 50; ++i) rising.push_back(30.0 + i);
   EXPECT_NE(fitNoiseLine(rising, zeros).notes.at(0).find("reads 0"), std::string::npos);
