@@ -33,6 +33,7 @@ DatagramSender::DatagramSender(std::uint16_t port) : port_(port) {
 bool DatagramSender::send(std::string_view bytes) noexcept {
   const ssize_t taken =
       ::send(socket_.get(), bytes.data(), bytes.size(), MSG_DONTWAIT | MSG_NOSIGNAL);
+  if (taken < 0 && errno == ECONNREFUSED && stats_.sent > stats_.unheard) ++stats_.unheard;
   stats_.delivered = taken >= 0 && lastTaken_;
   lastTaken_ = taken >= 0;
   ++(taken >= 0 ? stats_.sent : stats_.dropped);

@@ -1,5 +1,8 @@
 #include <algorithm>
 #include <csignal>
+#include <filesystem>
+#include <set>
+#include <sstream>
 
 #include "commands/palpate_program.h"
 #include "emulator/hand_session.h"
@@ -40,6 +43,27 @@ TEST(EmulateCommand, SaysWhereItIsAndServesBothPortsUntilInterrupted) {
     EXPECT_FALSE(fs::is_symlink(fs::symlink_status(tactilePort)));
     EXPECT_FALSE(fs::is_symlink(fs::symlink_status(motionPort)));
   }
+}
+
+TEST(EmulateCommand, TheHelpNamesTheScenesAndBreaksNoWord) {
+  const auto help = palpate({"emulate", "--help"});
+  ASSERT_EQ(help.exitCode, 0) << help.err;
+  std::set<std::string> words;
+  std::istringstream text(help.out);
+  for (std::string word; text >> word;) {
+    while (!word.empty() && (word.back() == ',' || word.back() == '.')) word.pop_back();
+    words.insert(word);
+  }
+  for (const auto& scene : fs::directory_iterator(fs::path(testing::dataFolder()) / "scenes"))
+    EXPECT_TRUE(words.contains(scene.path().stem().string())) << scene.path() << help.out;
+  for (const char* fault : {"crc=RATE",
+                            "drop=RATE",
+                            "insert=RATE",
+                            "stall=S@AT",
+                            "unplug=S@AT",
+                            "junk_start=BYTES",
+                            "boot=S"})
+    EXPECT_TRUE(words.contains(fault)) << fault << help.out;
 }
 
 TEST(EmulateCommand, WritesTheTruthOfEachFrameSent) {

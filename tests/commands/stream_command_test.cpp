@@ -129,6 +129,19 @@ TEST(StreamCommand, ARecordingIsPlayedInItsOwnTime) {
   EXPECT_EQ(program.wait(), 0) << program.err();
 }
 
+// It said "45 sent, 44 dropped" for nothing at all received.
+TEST(StreamCommand, SaysThatNobodyListened) {
+  UdpReceiver free;
+  const std::string port = std::to_string(free.port());
+  free.close();
+  const auto result =
+      palpate({"stream", demoFile(), "--to", "signals:" + port, "--duration", "0.5"});
+  EXPECT_EQ(result.exitCode, 0) << result.err;
+  EXPECT_TRUE(result.out.starts_with("signals to 127.0.0.1:" + port + ": nobody listened"))
+      << result.out;
+  EXPECT_EQ(result.out.find(" sent"), std::string::npos) << result.out;
+}
+
 TEST(StreamCommand, RecordingAndStreamingAtOnce) {
   const TemporaryFolder folder;
   const auto emulated = hand();

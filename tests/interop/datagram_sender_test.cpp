@@ -21,6 +21,7 @@ TEST(DatagramSender, WhatIsSentArrivesWhole) {
   EXPECT_EQ(receiver.receive(), large);
   EXPECT_EQ(sender.stats().sent, 2u);
   EXPECT_EQ(sender.stats().dropped, 0u);
+  EXPECT_FALSE(sender.stats().nobodyListened());
   EXPECT_TRUE(sender.stats().delivered);
 }
 
@@ -42,6 +43,7 @@ TEST(DatagramSender, WithoutAListenerItIsSaidAndNothingWaits) {
   // The system reports a missing receiver after a datagram: at least every second one is known as
   // dropped.
   EXPECT_GE(sender.stats().dropped, 499u);
+  EXPECT_TRUE(sender.stats().nobodyListened()) << sender.stats().unheard;
 }
 
 TEST(DatagramSender, AReceiverThatDoesNotReadHoldsNothingUp) {

@@ -109,6 +109,13 @@ std::unique_ptr<HandModel> modelOf(const CommandLine& given, std::uint64_t seed)
   return std::make_unique<PhysicalHand>(scene, options);
 }
 
+std::string joinedSceneNames() {
+  std::string joined;
+  for (const std::string& name : sceneNames(dataFolder() / "scenes"))
+    joined += (joined.empty() ? "" : ", ") + name;
+  return joined;
+}
+
 CommandSpec emulateSpec() {
   return {
       .synopsis = "palpate emulate [--dsa LINK] [--sdh LINK] [--scene NAME|FILE.json] ..",
@@ -129,14 +136,14 @@ CommandSpec emulateSpec() {
            {"format", "FORMAT", "form of the stream: binary (default), lines or json"},
            {"scene",
             "NAME|FILE.json",
-            "objects and events around the hand; default empty, for a stream a scene that "
-            "touches every matrix"},
+            "objects and events around the hand: " + joinedSceneNames() +
+                " (default empty), or a file; for a stream the default touches every matrix"},
            {"replay", "FILE", "plays a recording: each frame once, then nothing"},
            {"faults",
             "SPEC",
-            "faults to simulate: crc=RATE,drop=RATE,insert=RATE,stall=S@AT,unplug=S@AT,"
-            "junk_start=BYTES,boot=S; RATE: part of the packets (crc) or bytes, 0..1; S@AT: "
-            "for S seconds, AT seconds after the start"},
+            "faults to simulate, with commas and without blanks between them: crc=RATE drop=RATE "
+            "insert=RATE stall=S@AT unplug=S@AT junk_start=BYTES boot=S. RATE: part of the packets "
+            "(crc) or bytes, 0..1; S@AT: for S seconds, AT seconds after the start"},
            {"truth", "OUT.csv", "write true contacts, forces and slip of each frame"},
            {"rate",
             "real|max|HZ",

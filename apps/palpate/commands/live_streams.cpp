@@ -22,6 +22,13 @@ std::vector<SensorSettings> settingsOf(const CaptureSession& session) {
   return settings;
 }
 
+std::string countsText(const DatagramStats& stats) {
+  if (stats.nobodyListened())
+    return "nobody listened: none of the " + counted(stats.sent + stats.dropped, "datagram") +
+           " was received";
+  return std::to_string(stats.sent) + " sent, " + std::to_string(stats.dropped) + " dropped";
+}
+
 ChainOptions sendingTo(LiveStream& stream, FoxgloveStream& foxglove) {
   ChainOptions options;
   options.onResults = [&](const LiveResults& results) {
@@ -154,9 +161,8 @@ std::vector<std::string> LiveStreams::lines() const {
   std::vector<std::string> lines;
   for (const StreamTarget& target : targets_.datagrams)
     if (const auto stats = stream_.stats(target.kind))
-      lines.push_back(
-          std::string(nameOf(target.kind)) + " to 127.0.0.1:" + std::to_string(target.port) + ": " +
-          std::to_string(stats->sent) + " sent, " + std::to_string(stats->dropped) + " dropped");
+      lines.push_back(std::string(nameOf(target.kind)) +
+                      " to 127.0.0.1:" + std::to_string(target.port) + ": " + countsText(*stats));
   if (const auto stats = foxglove_.stats())
     lines.push_back(
         "foxglove at " + foxglove_.url() + ": " + counted(stats->accepted, "client") + ", " +

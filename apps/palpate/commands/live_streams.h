@@ -64,7 +64,8 @@ class LiveStreams {
   std::vector<std::string> places() const;
   // Why processing ended by itself; empty when it did not.
   std::string failure() const { return chain_.failure(); }
-  // One line for each target: "signals to 127.0.0.1:9870: 310 sent, 2 dropped".
+  // One line for each target: "signals to 127.0.0.1:9870: 310 sent, 2 dropped", or that nobody
+  // listened.
   std::vector<std::string> lines() const;
 
  private:

@@ -14,9 +14,14 @@ struct DatagramStats {
   // unknown, unless the system reports a closed port.
   std::uint64_t sent = 0;
   std::uint64_t dropped = 0;  // no receiver, no room, or too long
+  // Number of datagrams that the system accepted and then reported as without a receiver.
+  std::uint64_t unheard = 0;
   // Whether the last two datagrams were accepted: the system reports a missing receiver only
   // with the next datagram.
   bool delivered = false;
+
+  // Whether no datagram can have reached a program; the fate of the last one is unknown.
+  bool nobodyListened() const noexcept { return unheard > 0 && sent <= unheard + 1; }
 };
 
 // Not thread-safe.

@@ -208,6 +208,66 @@ TEST_F(HandDockTest, SettingsGoToTheMatrixThatWasChosen) {
   }));
 }
 
+// The row for all matrices showed the threshold of the first one.
+TEST_F(HandDockTest, TheRowForAllMatricesTellsThatTheyDiffer) {
+  connectTo(stillHand());
+  ASSERT_TRUE(await([&] { return find<ValueSlider>("threshold5")->value() == 300.0; }));
+  QDoubleSpinBox* all = find<ValueSlider>("threshold-1")->field();
+  auto* line = all->findChild<QLineEdit*>();
+  EXPECT_EQ(all->text(), "");
+  EXPECT_EQ(line->placeholderText(), "differ");
+  EXPECT_EQ(find<ValueSlider>("sensitivity-1")->field()->text(), "0.50") << "the same for all";
+  // Neither a look into the field nor a discarded number sets anything.
+  all->setFocus();
+  QTest::keyClick(all, Qt::Key_Return);
+  QTest::keyClicks(all, "0");
+  QTest::keyClick(all, Qt::Key_Escape);
+  QTest::keyClicks(all, "x");
+  all->clearFocus();
+  EXPECT_FALSE(isEnabled("undoSettings"));
+  EXPECT_EQ(onTheHand()[5].thresholdCounts, 300);
+  const auto allAre = [&](int threshold) {
+    const auto now = onTheHand();
+    return std::all_of(now.begin(), now.end(), [&](const auto& each) {
+      return each.thresholdCounts == threshold;
+    });
+  };
+  // The least value can be chosen, too.
+  type("threshold-1", "0");
+  EXPECT_TRUE(await([&] { return allAre(0); }));
+  EXPECT_TRUE(await([&] { return all->text() == "0" && line->placeholderText().isEmpty(); }));
+  type("threshold-1", "70");
+  EXPECT_TRUE(await([&] { return allAre(70) && all->text() == "70"; }));
+}
+
+// 5000 became 4095 without a word.
+TEST_F(HandDockTest, AThresholdOrLimitBeyondItsRangeIsSaid) {
+  connectTo(stillHand());
+  ASSERT_TRUE(await([&] { return find<ValueSlider>("threshold5")->value() == 300.0; }));
+  type("threshold5", "5000");
+  EXPECT_TRUE(await([&] { return onTheHand()[5].thresholdCounts == 4095; }));
+  EXPECT_TRUE(await([&] {
+    return state().contains(": 5000 is out of 0 .. 4095 counts; set to 4095") &&
+           state().contains("Threshold of ");
+  })) << state().toStdString();
+  type("limit", "5000");
+  EXPECT_TRUE(state().startsWith("Limit: 5000 is out of 3 .. 3300 counts; set to 3300"))
+      << state().toStdString();
+  // Also without Enter: the button accepts what is in the field.
+  QDoubleSpinBox* velocity = find<ValueSlider>("velocity")->field();
+  velocity->setFocus();
+  velocity->selectAll();
+  QTest::keyClicks(velocity, "500");
+  ASSERT_TRUE(await([&] { return isEnabled("graspHand"); }));
+  click("graspHand");
+  ASSERT_TRUE(await([&] { return bench_->control->status().request.has_value(); }));
+  EXPECT_EQ(bench_->control->status().request->velocityDegPerS, kMaxGraspDegPerS);
+  EXPECT_TRUE(state().startsWith("Velocity: 500 is out of 1 .. 100 deg/s; set to 100"))
+      << state().toStdString();
+  click("stopHand");
+  EXPECT_FALSE(state().contains("out of")) << state().toStdString();
+}
+
 TEST_F(HandDockTest, ASliderSendsWhenItIsLetGo) {
   connectTo(stillHand());
   ASSERT_TRUE(await([&] { return find<ValueSlider>("threshold2")->value() == 150.0; }));
@@ -237,6 +297,7 @@ TEST_F(HandDockTest, SettingsAreKeptByNameForEachHand) {
   auto* names = find<QComboBox>("savedSettings");
   EXPECT_EQ(names->currentText(), "soft / things");
   click("resetSettings");
+  EXPECT_EQ(names->currentIndex(), 0) << "the settings are no longer those that were saved";
   ASSERT_TRUE(await([&] { return onTheHand()[0].thresholdCounts == 150; }));
   ASSERT_TRUE(await([&] { return find<ValueSlider>("threshold0")->value() == 150.0; }));
   // As after a restart.
@@ -248,6 +309,7 @@ TEST_F(HandDockTest, SettingsAreKeptByNameForEachHand) {
   names->setCurrentIndex(1);
   emit names->activated(1);
   EXPECT_TRUE(await([&] { return onTheHand()[0].thresholdCounts == 42; }));
+  EXPECT_EQ(names->currentIndex(), 1);
   // Another hand has none of them.
   HandSettingsStore store(settings_);
   EXPECT_TRUE(store.names("another").isEmpty());

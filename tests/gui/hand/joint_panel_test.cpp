@@ -94,6 +94,26 @@ TEST_F(JointPanelTest, AFieldTakesNoAngleBeyondTheRange) {
   EXPECT_GE(find<ValueSlider>("targetAngle1")->value(), -90.0);
 }
 
+// 200 became 90 without a word.
+TEST_F(JointPanelTest, AnAngleBeyondTheRangeIsSaidAndMarked) {
+  connectAndOpen();
+  type("targetAngle2", "200");
+  QDoubleSpinBox* field = find<ValueSlider>("targetAngle2")->field();
+  EXPECT_EQ(field->value(), 90.0);
+  EXPECT_TRUE(state().contains("finger 0 distal: 200 is out of -90 .. 90°; set to 90"))
+      << state().toStdString();
+  EXPECT_TRUE(field->property("corrected").toBool());
+  type("targetAngle2", "80");
+  EXPECT_FALSE(field->property("corrected").toBool());
+  EXPECT_FALSE(state().contains("out of")) << state().toStdString();
+  // The range's own end is no correction; nor is the second time less of one than the first.
+  type("targetAngle2", "90");
+  EXPECT_FALSE(field->property("corrected").toBool());
+  type("targetAngle2", "91");
+  EXPECT_TRUE(field->property("corrected").toBool());
+  EXPECT_TRUE(state().contains("91 is out of")) << state().toStdString();
+}
+
 TEST_F(JointPanelTest, APoseIsSavedGoneToRenamedAndDeleted) {
   connectAndOpen();
   panel_->askForName = [](const QString&) { return QString("rest / soft"); };

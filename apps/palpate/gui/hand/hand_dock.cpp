@@ -1,5 +1,6 @@
 #include "gui/hand/hand_dock.h"
 
+#include <QAbstractSpinBox>
 #include <QAction>
 #include <QHBoxLayout>
 #include <QLabel>
@@ -17,6 +18,7 @@
 #include <palpate/device/stream_device.h>
 
 #include "gui/appearance/captions.h"
+#include "gui/desktop/button_keys.h"
 #include "gui/hand/grasp_panel.h"
 #include "gui/hand/hand_feature.h"
 #include "gui/hand/joint_panel.h"
@@ -26,6 +28,7 @@
 #include "gui/hand/tactile_settings_panel.h"
 #include "gui/widgets/facts_view.h"
 #include "gui/widgets/fitting_pages.h"
+#include "gui/widgets/number_field.h"
 #include "gui/widgets/status_lines.h"
 #include "gui/widgets/text_fit.h"
 
@@ -78,6 +81,7 @@ HandDock::HandDock(QSettings& settings, QWidget* parent) : QWidget(parent) {
   });
   connect(stop_, &QPushButton::clicked, this, [this] {
     said_.clear();
+    correction_.clear();
     if (control_) control_->stop();
     emit stopPressed();
     refresh();
@@ -86,6 +90,13 @@ HandDock::HandDock(QSettings& settings, QWidget* parent) : QWidget(parent) {
     said_.clear();
     emit stopPressed();
   });
+  // A button doesn't take the focus: what was typed in a field counts without Enter.
+  for (QPushButton* button : findChildren<QPushButton*>())
+    if (button->property(kMovesHand).toBool())
+      connect(button, &QPushButton::pressed, this, [this] {
+        correction_.clear();
+        if (auto* field = qobject_cast<QAbstractSpinBox*>(focusWidget())) field->clearFocus();
+      });
   const auto refused = [this](const QString& why) { said_ = why; };
   const auto asked = [this] { said_.clear(); };
   connectMotions();
@@ -270,6 +281,7 @@ void HandDock::setHand(CaptureSession* session, GraspControl* control) {
   session_ = session;
   control_ = control;
   said_.clear();
+  correction_.clear();
   judged_.reset();
   layout_.reset();
   goneUs_.reset();
@@ -301,6 +313,9 @@ void HandDock::updateHand() {
   renewCalibration();
   const HandDescription hand = session_ ? session_->device().hand() : movableHand();
   tactile_->setMatrices(hand);
+  // Those of the matrices are new ones for another hand.
+  for (SecondsField* field : findChildren<SecondsField*>())
+    connect(field, &SecondsField::corrected, this, &HandDock::showCorrection, Qt::UniqueConnection);
   std::vector<Fact> facts;
   axes_ = hand.axes;
   shownAngles_.reset();
@@ -399,7 +414,16 @@ void HandDock::showBound() {
   }
 }
 
-void HandDock::say(const QString& text, bool bad, const QString& more) {
+void HandDock::showCorrection(const QString& what) {
+  correction_ = what;
+  showState(control_ ? control_->status() : GraspStatus{});
+}
+
+void HandDock::say(const QString& what, bool bad, const QString& more) {
+  // A long text must not hide the correction; a danger comes before it.
+  const QString text = correction_.isEmpty() ? what
+                       : bad                 ? what + "\n" + correction_
+                                             : correction_ + "\n" + what;
   state_->setText(text, more.isEmpty() ? QString() : text + "\n" + more);
   const QColor color = bad ? colorsOf(theme_).danger : colorsOf(theme_).text;
   const QString style = "color: " + color.name() + ";";

@@ -95,7 +95,8 @@ class HandDock : public QWidget {
   void connectMotions();
   bool isReadOnly() const { return session_ && !control_; }
   // `more` is told by the tool tip only.
-  void say(const QString& text, bool bad, const QString& more = {});
+  void say(const QString& what, bool bad, const QString& more = {});
+  void showCorrection(const QString& what);
   void showState(const GraspStatus& status);
   void showBound();
   void showUnmeasurable(const std::vector<MatrixSettings>& settings);
@@ -143,6 +144,8 @@ class HandDock : public QWidget {
   std::optional<std::int64_t> goneUs_;
   // Why a motion was refused; shown until another motion is requested.
   QString said_;
+  // The number of a field that was out of range; shown below or above what the hand does.
+  QString correction_;
   std::vector<std::pair<QAction*, QPushButton*>> bound_;
   std::vector<QString> unmeasurable_;
   // The inputs that unmeasurable_ was computed from.

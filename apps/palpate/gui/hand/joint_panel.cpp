@@ -69,9 +69,10 @@ JointPanel::JointPanel(QSettings& settings, QWidget* parent)
   grid->setVerticalSpacing(4);
   grid->setColumnStretch(2, 1);
   makeRows(*grid);
-  velocity_ = new ValueSlider("Velocity of the joints",
-                              {kMinGraspDegPerS, kMaxGraspDegPerS, kMaxGraspDegPerS, 1.0, 0, {}},
-                              this);
+  velocity_ =
+      new ValueSlider("Velocity of the joints",
+                      {kMinGraspDegPerS, kMaxGraspDegPerS, kMaxGraspDegPerS, 1.0, 0, {}, " deg/s"},
+                      this);
   velocity_->setObjectName("jointVelocity");
   velocity_->setToolTip("deg/s; joints that are slower go as fast as they can");
   bool ok = false;
@@ -131,7 +132,9 @@ void JointPanel::makeRows(QGridLayout& grid) {
     });
     row.present->setToolTip("Present angle");
     row.target = new ValueSlider(
-        "Target of " + name, {is.minimumDeg, is.maximumDeg, is.maximumDeg, 0.5, 1, {}}, this);
+        "Target of " + name,
+        {is.minimumDeg, is.maximumDeg, is.maximumDeg, 0.5, 1, {}, is.isSliding ? " mm" : "°"},
+        this);
     row.target->setObjectName("targetAngle" + number);
     row.target->setToolTip(name + ": " + angleText(is.minimumDeg, is) + " .. " +
                            angleText(is.maximumDeg, is) + "; moves only with Move");

@@ -104,10 +104,10 @@ void TactileSettingsPanel::makeRow(int row, const QString& name) {
   made.sensitivity =
       new ValueSlider("Sensitivity of " + name, {0.0, 1.0, 1.0, 0.05, 2, {}}, table_);
   const double fullScale = fullScale_;
-  made.threshold =
-      new ValueSlider("Threshold of " + name,
-                      {0.0, fullScale, std::round(fullScale * kMostUsefulThreshold), 1.0, 0, {}},
-                      table_);
+  made.threshold = new ValueSlider(
+      "Threshold of " + name,
+      {0.0, fullScale, std::round(fullScale * kMostUsefulThreshold), 1.0, 0, {}, " counts"},
+      table_);
   made.sensitivity->setObjectName("sensitivity" + QString::number(row - 1));
   made.threshold->setObjectName("threshold" + QString::number(row - 1));
   made.sensitivity->setToolTip("0 lowest .. 1 highest; factory setting 0.5");
@@ -116,7 +116,10 @@ void TactileSettingsPanel::makeRow(int row, const QString& name) {
   for (QWidget* field : {made.sensitivity->field(), made.threshold->field()})
     fitToText(*field, [field] {
       constexpr int kFrame = 14;
-      field->setFixedWidth(4 * field->fontMetrics().horizontalAdvance('0') + kFrame);
+      const QFontMetrics metrics = field->fontMetrics();
+      field->setFixedWidth(
+          std::max(4 * metrics.horizontalAdvance('0'), metrics.horizontalAdvance("differ")) +
+          kFrame);
     });
   grid->addWidget(made.square, row + 1, kSquare);
   made.name = new QLabel(name, table_);
@@ -172,9 +175,10 @@ void TactileSettingsPanel::makeButtons() {
   });
   connect(names_, &QComboBox::activated, this, [this](int index) {
     if (index <= 0) return;
-    if (const auto values = store_.load(serial(), names_->currentText()))
+    if (const auto values = store_.load(serial(), names_->currentText())) {
       applySettings(*values);
-    else
+      names_->setCurrentIndex(index);
+    } else
       emit refused("the settings '" + names_->currentText() + "' can't be read");
   });
   connect(save_, &QPushButton::clicked, this, [this] {
@@ -217,7 +221,10 @@ void TactileSettingsPanel::listNames() {
 }
 
 void TactileSettingsPanel::send(const std::vector<DeviceCommand>& commands) {
-  if (!control_ || commands.empty()) return;
+  if (!control_) return;
+  // What is set now is no longer what was saved under the chosen name.
+  names_->setCurrentIndex(0);
+  if (commands.empty()) return;
   if (!restoring_) keepForUndo();
   emit changedByHand();
   try {
@@ -329,9 +336,18 @@ void TactileSettingsPanel::showValues(const TactileSettings& values) {
     rows_[m + 1].sensitivity->showValue(values[m].sensitivity);
     rows_[m + 1].threshold->showValue(values[m].thresholdCounts);
   }
-  // The row for all matrices shows the values of the first one.
-  rows_[0].sensitivity->showValue(values[0].sensitivity);
-  rows_[0].threshold->showValue(values[0].thresholdCounts);
+  const auto showAll = [&](ValueSlider& slider, const auto& valueOf) {
+    const bool same = std::all_of(values.begin(), values.end(), [&](const MatrixSettings& each) {
+      return valueOf(each) == valueOf(values[0]);
+    });
+    if (same)
+      slider.showValue(valueOf(values[0]));
+    else
+      slider.showDiffering();
+  };
+  showAll(*rows_[0].sensitivity, [](const MatrixSettings& each) { return each.sensitivity; });
+  showAll(*rows_[0].threshold,
+          [](const MatrixSettings& each) { return static_cast<double>(each.thresholdCounts); });
 }
 
 void TactileSettingsPanel::showUnmeasurable(const std::vector<QString>& why, int limitCounts) {

@@ -2,6 +2,8 @@
 
 #include <QKeyEvent>
 #include <QLineEdit>
+#include <QSignalBlocker>
+#include <QStyle>
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -78,13 +80,55 @@ void FrameField::keyPressEvent(QKeyEvent* event) {
   clearFocus();
 }
 
-SecondsField::SecondsField(QWidget* parent) : QDoubleSpinBox(parent) { setUp(*this); }
+SecondsField::SecondsField(QWidget* parent) : QDoubleSpinBox(parent) {
+  setUp(*this);
+  connect(lineEdit(), &QLineEdit::textEdited, this, [this] {
+    outOfRange_.clear();
+    endCorrection();
+  });
+  connect(this, &QDoubleSpinBox::valueChanged, this, &SecondsField::endCorrection);
+  // After the value has changed.
+  connect(this, &QDoubleSpinBox::editingFinished, this, &SecondsField::showCorrection);
+}
+
+void SecondsField::setPlaceholder(const QString& text) {
+  placeholder_ = text;
+  lineEdit()->setPlaceholderText(text);
+  const QSignalBlocker quiet(lineEdit());
+  lineEdit()->setText(textFromValue(value()));
+}
+
+void SecondsField::showCorrection() {
+  if (outOfRange_.isEmpty()) return;
+  const QString what = accessibleName() + ": " + outOfRange_ + " is out of " +
+                       QString::number(minimum(), 'g', 10) + " .. " +
+                       QString::number(maximum(), 'g', 10) + saidUnit_ + "; set to " +
+                       QString::number(value(), 'g', 10);
+  outOfRange_.clear();
+  if (!corrected_) usualToolTip_ = toolTip();
+  corrected_ = true;
+  setToolTip(what);
+  setProperty("corrected", true);
+  style()->polish(this);
+  emit corrected(what);
+}
+
+void SecondsField::endCorrection() {
+  if (!corrected_) return;
+  corrected_ = false;
+  setToolTip(usualToolTip_);
+  setProperty("corrected", false);
+  style()->polish(this);
+  emit corrected({});
+}
 
 QValidator::State SecondsField::validate(QString& text, int& /*position*/) const {
   return stateOf(*this, text, false);
 }
 
 void SecondsField::fixup(QString& text) const {
+  const auto number = numberFieldNumberIn(text);
+  if (number && (*number < minimum() || *number > maximum())) outOfRange_ = text.trimmed();
   text = written(*this, numberFieldNumberIn(text).value_or(value()));
 }
 
@@ -92,11 +136,17 @@ double SecondsField::valueFromText(const QString& text) const {
   return numberFieldNumberIn(text).value_or(value());
 }
 
+QString SecondsField::textFromValue(double value) const {
+  if (!placeholder_.isEmpty() && value == minimum()) return {};
+  return QDoubleSpinBox::textFromValue(value);
+}
+
 bool SecondsField::event(QEvent* event) { return keepsKey(event) || QDoubleSpinBox::event(event); }
 
 void SecondsField::keyPressEvent(QKeyEvent* event) {
   if (event->key() != Qt::Key_Escape) return QDoubleSpinBox::keyPressEvent(event);
-  lineEdit()->setText(written(*this, value()));
+  outOfRange_.clear();
+  lineEdit()->setText(placeholder_.isEmpty() ? written(*this, value()) : textFromValue(value()));
   clearFocus();
 }
 

@@ -41,6 +41,10 @@ ValueSlider::ValueSlider(const QString& name, const SliderRange& range, QWidget*
   field_->setRange(range.least, range.most);
   field_->setSingleStep(range.step);
   field_->setFocusPolicy(Qt::StrongFocus);
+  if (!range.saidUnit.isEmpty())
+    field_->setSaidUnit(range.saidUnit);
+  else if (!range.unit.trimmed().isEmpty())
+    field_->setSaidUnit(" " + range.unit);
   auto* layout = new QHBoxLayout(this);
   layout->setContentsMargins(0, 0, 0, 0);
   layout->setSpacing(6);
@@ -52,6 +56,7 @@ ValueSlider::ValueSlider(const QString& name, const SliderRange& range, QWidget*
     layout->addWidget(unit);
   }
   connect(slider_, &QSlider::valueChanged, this, [this](int ticks) {
+    field_->endCorrection();
     const QSignalBlocker quiet(field_);
     field_->setValue(range_.least + ticks * range_.step - ticksOf(range_.least) * range_.step);
     // Changed by keys.
@@ -63,8 +68,29 @@ ValueSlider::ValueSlider(const QString& name, const SliderRange& range, QWidget*
     slider_->setValue(ticksOf(value));
     choose();
   });
+  auto* line = field_->findChild<QLineEdit*>();
+  connect(line, &QLineEdit::textEdited, this, [this](QString text) {
+    bool isNumber = false;
+    text.replace(',', '.').toDouble(&isNumber);
+    edited_ = differing_ && isNumber;
+  });
+  // Escape discards it.
+  connect(line, &QLineEdit::textChanged, this, [this](const QString& text) {
+    if (text.isEmpty()) edited_ = false;
+  });
+  connect(field_, &QDoubleSpinBox::editingFinished, this, [this] {
+    if (!edited_) return;
+    edited_ = false;
+    // The least value was typed: for the field that is no change.
+    if (field_->value() != range_.least || shown_ != range_.least) return;
+    differing_ = false;
+    field_->setPlaceholder({});
+    emit chosen(shown_);
+  });
   shown_ = range.least;
 }
+
+QDoubleSpinBox* ValueSlider::field() const noexcept { return field_; }
 
 int ValueSlider::ticksOf(double value) const {
   return static_cast<int>(std::lround(value / range_.step));
@@ -78,11 +104,14 @@ void ValueSlider::showValue(double value) {
   const double rounded = QString::number(value, 'f', field_->decimals()).toDouble();
   if (rounded == field_->value() && field_->value() == shown_ &&
       slider_->value() == std::clamp(ticksOf(value), slider_->minimum(), slider_->maximum()) &&
-      field_->specialValueText().isEmpty())
+      field_->specialValueText().isEmpty() && !differing_)
     return;
+  if (rounded != field_->value()) field_->endCorrection();
   const QSignalBlocker quietField(field_);
   const QSignalBlocker quietSlider(slider_);
   if (!field_->specialValueText().isEmpty()) field_->setSpecialValueText({});
+  if (differing_) field_->setPlaceholder({});
+  differing_ = false;
   field_->setValue(value);
   slider_->setValue(ticksOf(value));
   shown_ = field_->value();
@@ -92,6 +121,16 @@ void ValueSlider::showUnknown() {
   showValue(range_.least);
   // Shown in place of the least value.
   field_->setSpecialValueText("–");
+}
+
+void ValueSlider::showDiffering() {
+  if (slider_->isSliderDown() || field_->hasFocus()) return;
+  if (differing_ && field_->value() == range_.least && slider_->value() == slider_->minimum())
+    return;
+  showValue(range_.least);
+  differing_ = true;
+  edited_ = false;
+  field_->setPlaceholder("differ");
 }
 
 void ValueSlider::choose() {

@@ -9,6 +9,8 @@ class QSlider;
 
 namespace palpate::gui {
 
+class SecondsField;
+
 struct SliderRange {
   double least = 0.0;
   // Largest value of the field.
@@ -19,6 +21,8 @@ struct SliderRange {
   int decimals = 2;
   // "deg/s"; may be a blank.
   QString unit = {};
+  // The unit in texts, as written after a number ("°"); empty: `unit`.
+  QString saidUnit = {};
 };
 
 class ValueSlider : public QWidget {
@@ -30,7 +34,10 @@ class ValueSlider : public QWidget {
   void showValue(double value);
   // Shows a dash.
   void showUnknown();
-  QDoubleSpinBox* field() const noexcept { return field_; }
+  // Shows that what it stands for has different values. A value is chosen as otherwise; the least
+  // one only in the field.
+  void showDiffering();
+  QDoubleSpinBox* field() const noexcept;
   QSlider* slider() const noexcept { return slider_; }
 
  signals:
@@ -42,9 +49,12 @@ class ValueSlider : public QWidget {
 
   const SliderRange range_;
   QSlider* slider_;
-  QDoubleSpinBox* field_;
+  SecondsField* field_;
   // The value that was shown or chosen last.
   double shown_ = 0.0;
+  bool differing_ = false;
+  // Whether a number was typed, and not yet accepted, in place of differing values.
+  bool edited_ = false;
 };
 
 }  // namespace palpate::gui
