@@ -275,7 +275,7 @@ TEST_F(BatchDialogTest, WhatFailedIsListedWithItsReasonAndReported) {
   EXPECT_EQ(rows.index(0, 1).data().toString(), "failed");
   EXPECT_TRUE(rows.index(0, 2).data().toString().startsWith("is not a .dsa"))
       << rows.index(0, 2).data().toString().toStdString();
-  EXPECT_EQ(find<QLabel>("batchSummary")->text(), "2 done, 1 failed.");
+  EXPECT_EQ(find<QLabel>("batchSummary")->text(), "2 done, 1 failed; 2 files.");
   EXPECT_EQ(find<QLabel>("batchSaid")->text(), "Ended: 2 done, 1 failed");
   find<QCheckBox>("batchShowAll")->setChecked(true);
   EXPECT_EQ(rows.rowCount(), 3);
@@ -293,7 +293,16 @@ TEST_F(BatchDialogTest, WhatFailedIsListedWithItsReasonAndReported) {
   // Once more: what is whole is kept.
   look();
   run();
-  EXPECT_EQ(find<QLabel>("batchSummary")->text(), "0 done, 2 skipped, 1 failed.");
+  EXPECT_EQ(find<QLabel>("batchSummary")->text(), "0 done, 2 skipped, 1 failed; 2 files.");
+}
+
+// Nothing failed: what was made is listed.
+TEST_F(BatchDialogTest, WhatWasMadeIsListedWhereNothingFailed) {
+  choose(both());
+  run();
+  EXPECT_EQ(find<QLabel>("batchSummary")->text(), "2 done; 2 files.");
+  EXPECT_EQ(find<QTableView>("batchTable")->model()->rowCount(), 2);
+  EXPECT_FALSE(find<QCheckBox>("batchShowAll")->isEnabled());
 }
 
 TEST_F(BatchDialogTest, AnHdf5FileIsReadAndAChangedOneFails) {
@@ -306,7 +315,7 @@ TEST_F(BatchDialogTest, AnHdf5FileIsReadAndAChangedOneFails) {
   choices.paths = {text(folder_ / "in/x.h5"), text(folder_ / "in/changed.h5")};
   choose(choices);
   run();
-  EXPECT_EQ(find<QLabel>("batchSummary")->text(), "1 done, 1 failed.");
+  EXPECT_EQ(find<QLabel>("batchSummary")->text(), "1 done, 1 failed; 1 file.");
   const QAbstractItemModel& rows = *find<QTableView>("batchTable")->model();
   ASSERT_EQ(rows.rowCount(), 1);
   EXPECT_TRUE(rows.index(0, 2).data().toString().contains("checksum"));

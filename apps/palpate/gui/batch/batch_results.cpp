@@ -17,6 +17,7 @@
 
 #include <palpate/core/error.h>
 #include <palpate/core/escaped_line.h>
+#include <palpate/core/number_text.h>
 #include <palpate/core/text_table.h>
 
 #include "gui/appearance/captions.h"
@@ -173,9 +174,17 @@ void BatchResults::show(const std::shared_ptr<const BatchOutcome>& outcome) {
 }
 
 void BatchResults::fill() {
-  model_->show(outcome_, all_->isChecked());
-  show_->setEnabled(false);
   const bool some = outcome_ != nullptr;
+  // Where everything went well there is nothing to hide.
+  const bool someWrong = some && std::any_of(outcome_->report.results.begin(),
+                                             outcome_->report.results.end(),
+                                             [](const BatchResult& result) {
+                                               return result.state != BatchResult::State::kDone &&
+                                                      result.state != BatchResult::State::kSkipped;
+                                             });
+  all_->setEnabled(someWrong);
+  model_->show(outcome_, all_->isChecked() || !someWrong);
+  show_->setEnabled(false);
   copy_->setEnabled(some && model_->rowCount() > 0);
   save_->setEnabled(some);
   if (running_)
@@ -183,7 +192,11 @@ void BatchResults::fill() {
                                   : "A batch is running.");
   if (!some) return summary_->setText("No batch has run yet.");
   QString text =
-      (outcome_->report.cancelled ? "Cancelled: " : "") + countsText(outcome_->report.status) + ".";
+      (outcome_->report.cancelled ? "Cancelled: " : "") + countsText(outcome_->report.status);
+  std::size_t files = 0;
+  for (const BatchResult& result : outcome_->report.results) files += result.files.size();
+  if (files > 0) text += "; " + QString::fromStdString(counted(files, "file"));
+  text += ".";
   if (outcome_->report.cancelled) text += " Start goes on with what is not done.";
   for (const std::string& problem : outcome_->plan.problems)
     text += "\n" + inWindowWords(QString::fromStdString(escapedLine(problem)));

@@ -78,8 +78,8 @@ SlipPanel::SlipPanel(QSettings& settings, QWidget* parent) : ComputedPage("slip"
   notes_ = notesLabel("slipNotes", left);
   notes_->setAlignment(Qt::AlignTop | Qt::AlignLeft);
   // The list gets its height first; the notes scroll in the rest.
-  constexpr int kLeastNotesHeight = 40;  // [px]
-  auto* notes = new ContentScroll(notes_, QSize(0, kLeastNotesHeight), left);
+  const int threeLines = 3 * notes_->fontMetrics().lineSpacing() + 2 * notes_->margin();
+  auto* notes = new ContentScroll(notes_, QSize(0, threeLines), left);
   auto* leftColumn = new QVBoxLayout(left);
   leftColumn->setContentsMargins(0, 0, 0, 0);
   leftColumn->setSpacing(0);
