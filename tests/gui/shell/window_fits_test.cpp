@@ -283,6 +283,31 @@ TEST_F(WindowFitsTest, AfterTheComparisonEverythingHasItsSizeAgain) {
   }
 }
 
+// A dock that needs more than the window has makes it grow; without the dock it has its size again,
+// also when the dock was opened beside the comparison.
+TEST_F(WindowFitsTest, AWindowThatHadToGrowHasItsSizeAgain) {
+  const QSize size(1000, 600);
+  window().resize(size);
+  window().setAnimated(false);
+  open({"rich.dsa"});
+  processAll();
+  auto* log = find<QDockWidget>("Log");
+  log->widget()->setMinimumHeight(900);
+  window().docks().show("Log");
+  processAll();
+  ASSERT_GT(window().height(), size.height());
+  log->close();
+  processAll();
+  EXPECT_EQ(window().size(), size) << "closed";
+  actions().at("compare")->trigger();
+  window().docks().show("Log");
+  processAll();
+  ASSERT_GT(window().height(), size.height());
+  actions().at("compare")->trigger();
+  processAll();
+  EXPECT_EQ(window().size(), size) << "after the comparison";
+}
+
 TEST_F(WindowFitsTest, TheWindowIsNoLargerThanTheScreen) {
   const QSize screen = QGuiApplication::primaryScreen()->availableSize();
   MainWindow fresh({.dataFolder = folder_.path(),

@@ -148,8 +148,10 @@ void DockArrangement::keepWindowSize(QSize most, Dock* inFront) {
   const auto shrink = [this, most] {
     const QSize now = window_.size();
     const bool larger = now.width() > most.width() || now.height() > most.height();
-    if (larger && !window_.isMaximized() && !window_.isFullScreen())
-      window_.resize(now.boundedTo(most));
+    if (!larger || window_.isMaximized() || window_.isFullScreen()) return;
+    window_.resize(now.boundedTo(most));
+    // Its content needs more: the window is to have its size again once it needs less.
+    if (window_.size() == now && !(grown_ && grown_->to == now)) grown_ = Growth{most, now};
   };
   if (!window_.isVisible()) return;
   shrink();
@@ -217,7 +219,20 @@ void DockArrangement::hideAll() {
   for (const DockSpec& offer : offers_) offer.dock->hide();
 }
 
-void DockArrangement::bringBack() { window_.restoreState(hidden_); }
+void DockArrangement::bringBack() {
+  window_.restoreState(hidden_);
+  giveSizeBack();
+}
+
+void DockArrangement::giveSizeBack() {
+  QTimer::singleShot(0, this, [this] {
+    // Not after somebody has chosen another size.
+    if (!grown_ || window_.size() != grown_->to) return grown_.reset();
+    window_.resize(grown_->from);
+    if (window_.size() == grown_->from) return grown_.reset();
+    grown_->to = window_.size();
+  });
+}
 
 void DockArrangement::remember() {
   for (const DockSpec& offer : offers_)
@@ -363,6 +378,7 @@ int DockArrangement::heightOfBottom(const Dock& dock) const {
 }
 
 void DockArrangement::giveRoomBack(const Dock& dock) {
+  giveSizeBack();
   const auto at = rooms_.find(&dock);
   if (at == rooms_.end()) return;
   const Room room = at->second;

@@ -9,6 +9,7 @@
 #include <QSettings>
 #include <QStringList>
 #include <map>
+#include <optional>
 #include <vector>
 
 #include "gui/appearance/theme.h"
@@ -59,6 +60,11 @@ class DockArrangement : public QObject {
     int lastWidth = 0, lastBottom = 0;
   };
 
+  // The window grew because its content didn't fit [px].
+  struct Growth {
+    QSize from, to;
+  };
+
   void placeDocks();
   void placeSides();
   const DockSpec* leftWhileLive() const;
@@ -73,6 +79,8 @@ class DockArrangement : public QObject {
   // enlarge it, beyond the screen. `most` is the size that the window may have [px]; `inFront` is
   // the tab to be seen, null: any.
   void keepWindowSize(QSize most, Dock* inFront);
+  // The window that had to grow nevertheless has its size again, as far as its content allows it.
+  void giveSizeBack();
   void makeRoomFor(const DockSpec& offer, const Room& before);
   // Gives the room back that makeRoomFor() took, unless the user has changed it since.
   // Height of the place at the bottom, whichever of its tabs is in front: that dock or `dock` [px].
@@ -93,6 +101,7 @@ class DockArrangement : public QObject {
   std::map<DisplayedSource::Kind, QByteArray> layouts_;
   std::map<const Dock*, Room> rooms_;
   // The layout before hideAll().
+  std::optional<Growth> grown_;
   QByteArray hidden_;
 };
 
