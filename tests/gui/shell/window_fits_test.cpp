@@ -306,6 +306,20 @@ TEST_F(WindowFitsTest, AWindowThatHadToGrowHasItsSizeAgain) {
   actions().at("compare")->trigger();
   processAll();
   EXPECT_EQ(window().size(), size) << "after the comparison";
+  // It grows twice.
+  auto* library = find<QDockWidget>("Library");
+  library->widget()->setMinimumHeight(700);
+  window().docks().show("Library");
+  processAll();
+  const int once = window().height();
+  ASSERT_GT(once, size.height());
+  window().docks().show("Log");
+  processAll();
+  ASSERT_GT(window().height(), once);
+  log->close();
+  library->close();
+  processAll();
+  EXPECT_EQ(window().size(), size) << "after both";
 }
 
 TEST_F(WindowFitsTest, TheWindowIsNoLargerThanTheScreen) {

@@ -151,7 +151,9 @@ void DockArrangement::keepWindowSize(QSize most, Dock* inFront) {
     if (!larger || window_.isMaximized() || window_.isFullScreen()) return;
     window_.resize(now.boundedTo(most));
     // Its content needs more: the window is to have its size again once it needs less.
-    if (window_.size() == now && !(grown_ && grown_->to == now)) grown_ = Growth{most, now};
+    if (window_.size() != now || (grown_ && grown_->to == now)) return;
+    // It may have grown for another dock before.
+    grown_ = Growth{grown_ && grown_->to == most ? grown_->from : most, now};
   };
   if (!window_.isVisible()) return;
   shrink();
