@@ -10,7 +10,10 @@ double DriftCompensation::gainOf(const Surface& driftOfGain,
                                  double reading,
                                  double degC) {
   compensating_ = false;
+  startUnknown_ = false;
   const bool loaded = reading > 0.0;
+  if (!anyReading_) loadedFromFirstReading_ = loaded;
+  anyReading_ = true;
   if (!beganS_ || timeS < *beganS_) {
     beganS_.reset();
     otherSinceS_.reset();
@@ -30,10 +33,12 @@ double DriftCompensation::gainOf(const Surface& driftOfGain,
       beganS_ = loaded ? otherSinceS_ : std::nullopt;
       otherSinceS_.reset();
       last_ = reading;
+      loadedFromFirstReading_ = false;
     }
   }
   if (!loaded || !beganS_) return 0.0;
   const double t = std::min(timeS - *beganS_, options_.maxDurationS);
+  startUnknown_ = loadedFromFirstReading_ && t < options_.maxDurationS;
   if (!driftOfGain.valid || t < options_.steadyS) return reading;
   double gain = reading;
   // Newton's steps for K + m(K) t = a; m is nearly linear in K.

@@ -26,7 +26,8 @@ MatrixForce matrixForce(const MatrixPressure& of) {
           .inRange = of.inRange,
           .temperatureKnown = of.temperatureKnown,
           .saturated = of.saturated,
-          .compensated = of.compensated};
+          .compensated = of.compensated,
+          .startUnknown = of.startUnknown};
 }
 
 double ForceSeries::forceN(std::size_t frame) const {
@@ -89,6 +90,14 @@ ForceSeries forceSeries(const Profile& profile,
       series.beyond += matrix.inRange ? 0 : 1;
     }
   }
+  std::size_t loadedFirst = 0;
+  for (std::size_t m = 0; m < series.numMatrices && numFrames > 0; ++m)
+    loadedFirst += series.at(0, m).startUnknown ? 1 : 0;
+  if (loadedFirst > 0)
+    series.assumptions.push_back(
+        std::to_string(loadedFirst) + (loadedFirst == 1 ? " matrix was" : " matrices were") +
+        " loaded in the first frame: how long before is not recorded, so creep counts from the "
+        "first frame, and the forces of the same moment shown live may be lower");
   return series;
 }
 

@@ -205,6 +205,7 @@ void PressureMap::apply(const TactileFrame& frame,
                   model.driftOfGain, timeS, reading, t.value_or(model.options.assumedDegC))
             : reading;
     result.compensated = options_.compensateDrift && drift_[m].compensating();
+    result.startUnknown = options_.compensateDrift && drift_[m].startUnknown();
     const PressureEstimate estimate = model.pressureAt(result.staticResponseCounts, t);
     result.kpa = estimate.kpa;
     result.sdKpa = matrix.extraSdCounts > 0.0

@@ -69,6 +69,36 @@ TEST(DriftCompensation, StopsWhereCreepWasNotMeasuredAnyMore) {
   EXPECT_NEAR(gain, 400.0 / 1.2, 1.0);
 }
 
+TEST(DriftCompensation, SaysThatALoadIsOlderThanTheFirstReading) {
+  const Surface drift = driftSurface();
+  DriftCompensation compensation({.steadyS = 1.0, .maxDurationS = 10.0});
+  compensation.gainOf(drift, 0.0, 400.0, 30.0);
+  EXPECT_TRUE(compensation.startUnknown());
+  for (double t = 0.1; t < 9.95; t += 0.1) {
+    compensation.gainOf(drift, t, 400.0, 30.0);
+    EXPECT_TRUE(compensation.startUnknown()) << t;
+  }
+  compensation.gainOf(drift, 10.1, 400.0, 30.0);
+  EXPECT_FALSE(compensation.startUnknown()) << "creep has ended, whenever the load began";
+  compensation.reset();
+  compensation.gainOf(drift, 11.0, 400.0, 30.0);
+  EXPECT_TRUE(compensation.startUnknown());
+  compensation.gainOf(drift, 13.0, 600.0, 30.0);
+  compensation.gainOf(drift, 13.2, 600.0, 30.0);
+  EXPECT_FALSE(compensation.startUnknown()) << "the start of the new load was seen";
+  compensation.gainOf(drift, 14.0, 0.0, 30.0);
+  compensation.gainOf(drift, 14.2, 0.0, 30.0);
+  compensation.gainOf(drift, 15.0, 600.0, 30.0);
+  EXPECT_FALSE(compensation.startUnknown()) << "so was the start of the next contact";
+}
+
+TEST(DriftCompensation, KnowsTheStartOfALoadAfterAnUnloadedReading) {
+  DriftCompensation compensation({.steadyS = 1.0});
+  compensation.gainOf(driftSurface(), 0.0, 0.0, 30.0);
+  compensation.gainOf(driftSurface(), 0.1, 400.0, 30.0);
+  EXPECT_FALSE(compensation.startUnknown());
+}
+
 TEST(DriftCompensation, LeavesTheReadingWhereDriftIsNotKnown) {
   DriftCompensation compensation({.steadyS = 1.0});
   for (double t = 0.0; t < 5.0; t += 0.5) EXPECT_EQ(compensation.gainOf({}, t, 400.0, 30.0), 400.0);

@@ -86,6 +86,27 @@ TEST(ForceSeries, SaysWhatIsAssumedAndBeyond) {
   EXPECT_TRUE(says("no temperatures"));
   EXPECT_TRUE(says("settings of the calibration"));
   EXPECT_FALSE(says("tare"));
+  EXPECT_FALSE(says("loaded in the first frame"));
+}
+
+TEST(ForceSeries, SaysThatALoadBeganBeforeTheRecording) {
+  ProfileBuilder builder(sdh2().layout);
+  for (int i = 0; i < 10; ++i) {
+    TactileFrame frame(sdh2().layout);
+    frame.matrix(2).setConstant(400.0F);
+    builder.addFrame(1'000'000 + i * 50'000, frame.values);
+  }
+  const Profile profile = builder.finish({});
+  const auto says = [](const ForceSeries& series) {
+    return std::any_of(series.assumptions.begin(), series.assumptions.end(), [](const auto& s) {
+      return s.find("1 matrix was loaded in the first frame") != std::string::npos;
+    });
+  };
+  const ForceSeries series = forceSeries(profile, tenth());
+  EXPECT_TRUE(says(series));
+  EXPECT_TRUE(series.at(9, 2).startUnknown);
+  EXPECT_FALSE(series.at(9, 1).startUnknown);
+  EXPECT_FALSE(says(forceSeries(profile, tenth(), {.compensateDrift = false})));
 }
 
 TEST(ForceSeries, TakesTheTareOff) {

@@ -29,16 +29,19 @@ class DriftCompensation {
   // gives m(K, T) [counts/s]; where it is not known, the result is the reading itself.
   double gainOf(const Surface& driftOfGain, double timeS, double reading, double degC);
   bool compensating() const noexcept { return compensating_; }  // whether the last call did
-  void reset() noexcept {
-    beganS_.reset();
-    otherSinceS_.reset();
-  }
+  // Whether the load of the last call was there at the first reading, so that its true start is not
+  // known and may make a difference: for maxDurationS after the first reading.
+  bool startUnknown() const noexcept { return startUnknown_; }
+  void reset() noexcept { *this = DriftCompensation(options_); }
 
  private:
   DriftCompensationOptions options_;
   std::optional<double> beganS_, otherSinceS_;
   double last_ = 0.0;
   bool compensating_ = false;
+  bool anyReading_ = false;              // whether there was a call since reset()
+  bool loadedFromFirstReading_ = false;  // the present load
+  bool startUnknown_ = false;
 };
 
 }  // namespace palpate

@@ -27,6 +27,7 @@ struct MatrixForce {
   bool temperatureKnown = true;
   bool saturated = false;
   bool compensated = false;
+  bool startUnknown = false;
 };
 
 // Converts the result for one matrix to the smaller type.

@@ -36,6 +36,9 @@ struct MatrixPressure {
   bool temperatureKnown = true;
   bool saturated = false;    // a taxel is saturated, so the true pressure is higher
   bool compensated = false;  // creep was removed
+  // The load was there in the first frame: creep counts from that frame, because it is not known
+  // how long the load had lasted. False without a removal of creep.
+  bool startUnknown = false;
 };
 
 // Pressures and forces of all matrices in one frame.

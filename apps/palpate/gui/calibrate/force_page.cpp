@@ -50,6 +50,7 @@ std::vector<FigureCell> forcePageRowOf(const QString& name,
   if (force.saturated) flags.append("saturated: the real value is higher");
   if (!force.temperatureKnown) flags.append("temperature assumed");
   if (force.compensated) flags.append("creep corrected");
+  if (force.startUnknown) flags.append("the load began before the first frame");
   return {{.text = name},
           {.text = QString::number(force.active)},
           {.text = figure(static_cast<double>(force.staticResponseCounts), 1)},
