@@ -32,6 +32,8 @@ constexpr int kSpeedMode = 2;
 constexpr int kBlockedClockwise = 4;
 constexpr int kBlockedCounterClockwise = 5;
 
+constexpr auto kNothingHeldText = "finished: nothing is held any more";
+
 std::string millisecondsText(std::int64_t us) {
   return fixedText(static_cast<double>(us) / 1e3, 0);
 }
@@ -315,7 +317,11 @@ void GraspStateMachine::motionEnded(const std::vector<int>& states, std::int64_t
   // A slip-aware grasp continues with the object that it touches.
   if (isSlipAware() && phase_ != GraspPhase::kPreshaping && grip_.touches())
     return pause(Next::kSettle, "closed as far as it goes", monoUs);
-  const std::string text = axes.empty() ? "finished: at its target" : "finished: held: " + axes;
+  // It closed again because something slipped, and touches nothing now.
+  const bool lost = isSlipAware() && held_;
+  const std::string text = !axes.empty() ? "finished: held: " + axes
+                           : lost        ? kNothingHeldText
+                                         : "finished: at its target";
   // Motors of blocked axes keep pushing. After the grasp the taxels are no longer monitored, so the
   // motion must be stopped.
   if (!axes.empty() && underTactileControl())
@@ -564,7 +570,7 @@ void GraspStateMachine::onHoldingFrame(std::int64_t monoUs) {
     held_ = report_.held = true;
     return;
   }
-  if (!grip_.touches()) return end(GraspOutcome::kFinished, "finished: nothing is held any more");
+  if (!grip_.touches()) return end(GraspOutcome::kFinished, kNothingHeldText);
   if (const auto slip = grip_.slip()) respondToSlip(*slip, monoUs);
 }
 

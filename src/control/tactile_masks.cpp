@@ -11,13 +11,13 @@ bool anyOf(const Mask& mask) {
 }
 
 Mask wanted(const MatrixLayout& matrix, const Mask& chosen, MaskChoice choice) {
-  if (choice == MaskChoice::kOnly && !anyOf(chosen)) return matrix.dynamicMask;
+  if (choice == MaskChoice::kOnlyInTheirMatrices && !anyOf(chosen)) return matrix.dynamicMask;
   Mask mask(matrix.numCells());
   for (std::size_t i = 0; i < mask.size(); ++i) {
     const bool isChosen = chosen[i] != 0;
     const bool isScanned = matrix.dynamicMask[i] != 0;
     bool scan = true;
-    if (choice == MaskChoice::kOnly) scan = isChosen;
+    if (choice == MaskChoice::kOnly || choice == MaskChoice::kOnlyInTheirMatrices) scan = isChosen;
     if (choice == MaskChoice::kWithout) scan = isScanned && !isChosen;
     if (choice == MaskChoice::kAlso) scan = isScanned || isChosen;
     mask[i] = scan && matrix.staticMask[i] != 0 ? 1 : 0;

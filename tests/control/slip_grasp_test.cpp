@@ -169,6 +169,35 @@ TEST(SlipGrasp, HoldsForAsLongAsItWasAsked) {
   EXPECT_NE(report->text.find("held for 2 s, 0 slips"), std::string::npos) << report->text;
 }
 
+// The handle is taken away while the hand closes after it. Runs are the same, so the first one
+// tells when that is.
+TEST(SlipGrasp, SaysThatItLostWhatItHeld) {
+  Scene scene = sceneOf("slipping_handle");
+  pull(scene, 8.0, {0.0, 0.0, 12.5}, 6.0);
+  GraspRequest request = slipAware("pinch-parallel", 400);
+  request.velocityDegPerS = 8.0;
+  double closesAgainS = 0.0;
+  {
+    HeldObject held(scene);
+    held.begin(request);
+    ASSERT_TRUE(held.run(22.0, [&] {
+      return held.machine().running().slips > 0 && held.machine().phase() == GraspPhase::kClosing;
+    }));
+    closesAgainS = held.timeS();
+  }
+  MoveObject away;
+  away.byMm = {0.0, 0.0, 300.0};
+  scene.script.push_back({closesAgainS, away});
+  HeldObject held(scene);
+  held.begin(request);
+  ASSERT_TRUE(held.run(60.0, [&] { return !held.machine().active(); }));
+  const auto report = held.machine().takeReport();
+  ASSERT_TRUE(report.has_value());
+  EXPECT_TRUE(report->held);
+  EXPECT_EQ(report->outcome, GraspOutcome::kFinished);
+  EXPECT_EQ(report->text, "finished: nothing is held any more");
+}
+
 TEST(SlipGrasp, NothingIsThereToHold) {
   HeldObject held(sceneOf("empty"));
   held.begin(slipAware("centrical", 400));

@@ -24,10 +24,19 @@ Mask maskOf(const DeviceCommand& command, int matrix) {
   return set.mask;
 }
 
-TEST(TactileMasks, ScanOnlyWhatIsChosenWhereSomethingIs) {
+TEST(TactileMasks, ScanOnlyWhatIsChosenOfTheWholeHand) {
   TaxelSelection chosen(sensor());
   chosen.add(0, 0, 0, 0, 1);
   const auto commands = maskCommands(sensor(), chosen, MaskChoice::kOnly);
+  ASSERT_EQ(commands.size(), 2u);
+  EXPECT_EQ(maskOf(commands[0], 0), (Mask{0, 1, 0, 0, 0, 0}));
+  EXPECT_EQ(maskOf(commands[1], 1), (Mask{0, 0}));
+}
+
+TEST(TactileMasks, ScanOnlyWhatIsChosenWhereSomethingIs) {
+  TaxelSelection chosen(sensor());
+  chosen.add(0, 0, 0, 0, 1);
+  const auto commands = maskCommands(sensor(), chosen, MaskChoice::kOnlyInTheirMatrices);
   ASSERT_EQ(commands.size(), 1u) << "the second pad stays as it is";
   EXPECT_EQ(maskOf(commands[0], 0), (Mask{0, 1, 0, 0, 0, 0}));
 }
@@ -51,7 +60,7 @@ TEST(TactileMasks, AllIsAllAndNothingToDoIsNothing) {
   ASSERT_EQ(commands.size(), 1u);
   EXPECT_EQ(maskOf(commands[0], 0), (Mask{0, 1, 1, 1, 1, 1}));
   EXPECT_TRUE(maskCommands(sensor(), none, MaskChoice::kWithout).empty());
-  EXPECT_TRUE(maskCommands(sensor(), none, MaskChoice::kOnly).empty());
+  EXPECT_TRUE(maskCommands(sensor(), none, MaskChoice::kOnlyInTheirMatrices).empty());
 }
 
 TEST(TactileMasks, NeverLeavesNothing) {
@@ -59,6 +68,8 @@ TEST(TactileMasks, NeverLeavesNothing) {
   everything.addAll(0);
   everything.addAll(1);
   EXPECT_THROW((void)maskCommands(sensor(), everything, MaskChoice::kWithout),
+               std::invalid_argument);
+  EXPECT_THROW((void)maskCommands(sensor(), TaxelSelection(sensor()), MaskChoice::kOnly),
                std::invalid_argument);
   EXPECT_THROW((void)maskCommands(*sdh2().layout, everything, MaskChoice::kAll),
                std::invalid_argument);

@@ -591,7 +591,7 @@ TEST_F(LiveWindowTest, ChosenTaxelsAreScannedAlone) {
   MatrixTableModel& table = window().findChild<InspectPanel*>()->table();
   table.setPlotted(2, false);
   const std::vector<bool> plotted = table.plotted();
-  actions().at("scanOnly")->trigger();
+  actions().at("scanOnlyInTheirMatrices")->trigger();
   const auto enabled = [&](std::size_t matrix) {
     return live().source()->session->device().hand().layout->matrix(matrix).numEnabled();
   };
@@ -606,6 +606,9 @@ TEST_F(LiveWindowTest, ChosenTaxelsAreScannedAlone) {
   }));
   EXPECT_EQ(table.hand().layout->matrix(1).numEnabled(), 16u);
   EXPECT_EQ(table.plotted(), plotted);
+  actions().at("scanOnly")->trigger();
+  EXPECT_TRUE(await([&] { return enabled(0) == 0; })) << "the rest of the hand";
+  EXPECT_EQ(enabled(1), 16);
   actions().at("scanAll")->trigger();
   ASSERT_TRUE(await([&] { return enabled(1) == sdh2().layout->matrix(1).numTaxels(); }));
 }

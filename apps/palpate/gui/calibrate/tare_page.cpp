@@ -160,8 +160,9 @@ TarePage::TarePage(QSettings& settings, QWidget* parent) : ComputedPage("tare", 
   table_->setObjectName("tareTable");
   notes_ = notesLabel("tareNotes", content);
   notes_->setText(
-      "The zero of a taxel is the median of its mean readings in these windows. Without a zero, a "
-      "taxel that reads something at rest counts as touched.");
+      "The zero of a taxel is the median of its mean readings in these windows. Only forces (page "
+      "Force, newtons in Inspect) use it: without it a taxel that reads something at rest adds to "
+      "the force. Heat maps, contacts and grasps show the readings as they were recorded.");
   auto* column = new QVBoxLayout(content);
   column->setContentsMargins(0, 0, 0, 0);
   column->setSpacing(0);

@@ -23,6 +23,10 @@ MatricesActions::MatricesActions(ActionRegistry& book) {
   nextMap = book.make("nextMap", "View", "Next colour map", {key("M")});
   nextRange = book.make("nextRange", "View", "Next colour ra&nge", {key("R")});
   scanOnly = book.make("scanOnly", "Hand", "Scan &only the chosen taxels", {});
+  scanOnly->setToolTip("No taxel of the other matrices is scanned: the most frames per second");
+  scanOnlyInTheirMatrices = book.make(
+      "scanOnlyInTheirMatrices", "Hand", "Scan only the chosen taxels of &these matrices", {});
+  scanOnlyInTheirMatrices->setToolTip("The other matrices stay as they are");
   scanWithout = book.make("scanWithout", "Hand", "&Leave the chosen taxels out", {});
   scanAlso = book.make("scanAlso", "Hand", "Scan the chosen taxels, &too", {});
   scanAll = book.make("scanAll", "Hand", "Scan &all taxels", {});

@@ -23,6 +23,7 @@ struct MatricesActions {
   QAction* nextRange = nullptr;
   // Set the mask of scanned taxels from the selected taxels.
   QAction* scanOnly = nullptr;
+  QAction* scanOnlyInTheirMatrices = nullptr;
   QAction* scanWithout = nullptr;
   QAction* scanAlso = nullptr;
   QAction* scanAll = nullptr;

@@ -13,6 +13,7 @@ ScanChoice::ScanChoice(WindowState& windowState, const MatricesActions& actions)
     connect(action, &QAction::triggered, this, what);
   };
   on(actions.scanOnly, [this] { scan(MaskChoice::kOnly); });
+  on(actions.scanOnlyInTheirMatrices, [this] { scan(MaskChoice::kOnlyInTheirMatrices); });
   on(actions.scanWithout, [this] { scan(MaskChoice::kWithout); });
   on(actions.scanAlso, [this] { scan(MaskChoice::kAlso); });
   on(actions.scanAll, [this] { scan(MaskChoice::kAll); });
@@ -21,7 +22,8 @@ ScanChoice::ScanChoice(WindowState& windowState, const MatricesActions& actions)
     const LiveSource* source = windowState_.displayed.source();
     const bool live = source && source->control;
     const bool chosen = !windowState_.selection.taxels().empty();
-    for (QAction* action : {actions.scanOnly, actions.scanWithout, actions.scanAlso})
+    for (QAction* action :
+         {actions.scanOnly, actions.scanOnlyInTheirMatrices, actions.scanWithout, actions.scanAlso})
       action->setEnabled(live && chosen);
     actions.scanAll->setEnabled(live);
     actions.chooseNone->setEnabled(chosen);

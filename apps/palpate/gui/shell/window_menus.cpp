@@ -161,7 +161,11 @@ void WindowMenus::buildMenuBar(const ActionRegistry& book, const QList<QAction*>
   hand->addSeparator();
   hand->addMenu(menus_.scanned);
   menus_.scanned->setToolTipsVisible(true);
-  menus_.scanned->addActions({at("scanOnly"), at("scanWithout"), at("scanAlso"), at("scanAll")});
+  menus_.scanned->addActions({at("scanOnly"),
+                              at("scanOnlyInTheirMatrices"),
+                              at("scanWithout"),
+                              at("scanAlso"),
+                              at("scanAll")});
   menus_.scanned->addSeparator();
   menus_.scanned->addAction(at("chooseNone"));
   QMenu* others = hand->addMenu("Other &programs");
