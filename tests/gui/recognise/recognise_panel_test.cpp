@@ -137,6 +137,29 @@ TEST_F(RecognisePanelTest, ATypedOffsetIsTaken) {
   EXPECT_FALSE(panel_->controller().answer().sure);
 }
 
+// Measuring the zero moves the hand: what it is good for is said before.
+TEST_F(RecognisePanelTest, AModelWithoutAZeroSaysSoBeforeTheHandMoves) {
+  panel_->controller().setEmulated(true);
+  settle();
+  ASSERT_TRUE(panel_->controller().session()->model().trainingZero.has_value());
+  auto* about = find<QLabel>("todayAboutZero");
+  EXPECT_EQ(about->text(), "");
+  panel_->controller().changeSession([](RecognitionSession& session) {
+    TrainedModel without = session.model();
+    without.trainingZero.reset();
+    session = RecognitionSession(std::move(without));
+  });
+  EXPECT_TRUE(about->text().startsWith("This model holds no zero")) << about->text().toStdString();
+  EmptyHandZero zero;
+  zero.mm = 0.31;
+  zero.sdMm = 0.12;
+  panel_->today().setMeasuredZero(zero);
+  EXPECT_TRUE(about->text().startsWith("The empty hand reads 0.3 ± 0.1 mm. This model"))
+      << about->text().toStdString();
+  panel_->today().setMeasuredZero(std::nullopt);
+  EXPECT_FALSE(about->text().contains("reads"));
+}
+
 TEST_F(RecognisePanelTest, AFolderTeachesAndIsChecked) {
   panel_->teaching().setFolder(teach({"ball", "pen"}, 5));
   settle();

@@ -165,6 +165,7 @@ void RecogniseFeature::listen(bool on) {
   lastGrasp_.reset();
   zeroRun_.reset();
   zero_.reset();
+  panel_->today().setMeasuredZero(std::nullopt);
   panel_->controller().contactEnded();
   if (!on) panel_->teach().setLive(false);
   LiveSource* source = state().live.source();
@@ -246,9 +247,14 @@ void RecogniseFeature::takeEnded(Profile grasp) {
   zero.origin = "the connected hand";
   if (!zero.problem.empty()) return sayNoZero(zero.problem);
   zero_ = zero;
+  panel_->today().setMeasuredZero(zero);
   state().messages.flash("the empty hand reads " + figure(zero.mm, 1) + " ± " +
                          figure(zero.sdMm, 1) + " mm");
-  panel_->controller().changeSession([&](RecognitionSession& session) { session.setZero(zero); });
+  RecognitionController& controller = panel_->controller();
+  // The page says that a model without a zero of its own can't use one.
+  if (const RecognitionSession* session = controller.session();
+      session && session->model().trainingZero)
+    controller.changeSession([&](RecognitionSession& changed) { changed.setZero(zero); });
 }
 
 void RecogniseFeature::beginZero() {

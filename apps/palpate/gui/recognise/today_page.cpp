@@ -6,7 +6,9 @@
 #include <QLabel>
 #include <QPushButton>
 #include <QSignalBlocker>
+#include <QStringList>
 #include <QVBoxLayout>
+#include <utility>
 
 #include <palpate/core/error.h>
 #include <palpate/core/time.h>
@@ -56,6 +58,10 @@ TodayPage::TodayPage(RecognitionController& controller, QWidget* parent)
   typed_->setSuffix(" mm");
   zero_ = new QPushButton("Zero: close the empty hand", this);
   zero_->setObjectName("todayZero");
+  aboutZero_ = new QLabel(this);
+  aboutZero_->setObjectName("todayAboutZero");
+  aboutZero_->setWordWrap(true);
+  aboutZero_->setProperty("role", "muted");
   grasps_ = new FiguresTable(todayPageColumns(), this);
   grasps_->setObjectName("todayGrasps");
   grasps_->setSingleLine();
@@ -79,6 +85,7 @@ TodayPage::TodayPage(RecognitionController& controller, QWidget* parent)
   column->addWidget(unsure_);
   column->addLayout(row);
   column->addWidget(zero_);
+  column->addWidget(aboutZero_);
   column->addWidget(grasps_, 1);
   column->addLayout(bottom);
   connect(source_, &QComboBox::activated, this, &TodayPage::choose);
@@ -125,7 +132,27 @@ void TodayPage::setZeroPossible(const QString& why, bool closing) {
   showDay();
 }
 
+void TodayPage::setMeasuredZero(std::optional<EmptyHandZero> zero) {
+  measured_ = std::move(zero);
+  showAboutZero();
+}
+
+void TodayPage::showAboutZero() {
+  const RecognitionSession* session = controller_.session();
+  QStringList lines;
+  if (measured_)
+    lines.append("The empty hand reads " + figure(measured_->mm, 1) + " ± " +
+                 figure(measured_->sdMm, 1) + " mm.");
+  if (session && session->model().adaptsToSession() && !session->model().trainingZero)
+    lines.append(
+        "This model holds no zero of the empty hand to compare with: measuring one does not change "
+        "its offset. The next training takes it into its model.");
+  aboutZero_->setText(lines.join(' '));
+  aboutZero_->setVisible(!lines.isEmpty());
+}
+
 void TodayPage::showDay() {
+  showAboutZero();
   RecognitionSession* session = controller_.session();
   const bool can = session && session->model().adaptsToSession();
   for (QWidget* each : std::initializer_list<QWidget*>{source_, typed_, forget_, save_})

@@ -5,6 +5,9 @@
 #include <QWidget>
 #include <filesystem>
 #include <functional>
+#include <optional>
+
+#include <palpate/recognition/empty_hand.h>
 
 #include "gui/appearance/theme.h"
 #include "gui/recognise/recognition_controller.h"
@@ -26,6 +29,8 @@ class TodayPage : public QWidget {
   // `why`: why the hand cannot be closed now; empty when it can. `closing`: the measurement is
   // running.
   void setZeroPossible(const QString& why, bool closing);
+  // The zero of the empty hand that was measured in this connection, or none.
+  void setMeasuredZero(std::optional<EmptyHandZero> zero);
 
   std::function<std::filesystem::path(const QString& suggestion)> askForPlace;
 
@@ -34,6 +39,7 @@ class TodayPage : public QWidget {
 
  private:
   void showDay();
+  void showAboutZero();
   void choose();
 
   RecognitionController& controller_;
@@ -42,6 +48,8 @@ class TodayPage : public QWidget {
   QComboBox* source_;
   QDoubleSpinBox* typed_;
   QPushButton* zero_;
+  QLabel* aboutZero_;
+  std::optional<EmptyHandZero> measured_;
   FiguresTable* grasps_;
   QPushButton* forget_;
   QPushButton* save_;
