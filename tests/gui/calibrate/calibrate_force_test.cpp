@@ -154,6 +154,7 @@ TEST_F(CalibrateForceTest, ForcesAreTheAppliedCalibrations) {
   find<QDoubleSpinBox>("forceSensitivity")->setValue(0.5);
   settle();
   EXPECT_NEAR(page.found()->at(frame, 3).staticResponseCounts, 2.0F * before, 0.02F * before);
+  EXPECT_FALSE(find<QDoubleSpinBox>("forceSensitivity")->parentWidget()->isHidden());
   QSignalSpy keep(&page, &ForcePage::keepRequested);
   find<QPushButton>("forceKeep")->click();
   ASSERT_EQ(keep.size(), 1);
@@ -168,6 +169,8 @@ TEST_F(CalibrateForceTest, ForcesAreTheAppliedCalibrations) {
   find<QPushButton>("forceDrop")->click();
   settle();
   EXPECT_TRUE(why().contains("No calibration"));
+  EXPECT_TRUE(find<QDoubleSpinBox>("forceSensitivity")->parentWidget()->isHidden())
+      << "settings that nobody told";
   EXPECT_EQ(appliedCalibration(settings_, sdh2().name), "");
 }
 

@@ -5,6 +5,8 @@
 #include <QMouseEvent>
 #include <QSignalSpy>
 #include <QTest>
+#include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -61,6 +63,19 @@ TEST_F(EventRowsTest, BarsLieWhereTheirTimeIs) {
   EXPECT_GE(rows_.barOf(3).width(), 3.0) << "a moment can be seen and clicked";
   rows_.setScale(2.5, 3.5, 100, 1100);
   EXPECT_TRUE(rows_.barOf(0).isEmpty()) << "out of sight";
+}
+
+TEST_F(EventRowsTest, TextsOfOneMomentAreNotPaintedOverEachOther) {
+  const auto rightOfTheBar = [&](std::vector<EventMark> marks) {
+    rows_.setMarks(std::move(marks));
+    const QRectF bar = rows_.barOf(0);
+    return rows_.grab().toImage().copy(
+        QRectF(bar.right() + 2, bar.top(), 300, bar.height()).toRect());
+  };
+  const EventMark later = mark(EventLane::kLabels, 3.0, 3.0, "stopped");
+  const QImage alone = rightOfTheBar({later});
+  EXPECT_EQ(rightOfTheBar({mark(EventLane::kLabels, 3.0, 3.0, "motion began"), later}), alone);
+  EXPECT_NE(rightOfTheBar({mark(EventLane::kLabels, 3.0, 3.0, "motion began")}), alone);
 }
 
 TEST_F(EventRowsTest, AClickChooses) {

@@ -237,10 +237,8 @@ void ForcePage::showCalibration() {
   name_->setToolTip(path);
   drop_->setVisible(!path.isEmpty());
   choose_->setEnabled(hand() != nullptr);
-  for (QWidget* each : std::initializer_list<QWidget*>{sensitivity_, threshold_, keep_})
-    each->setEnabled(!path.isEmpty());
-  // A live hand's controller reports its settings.
-  recordedWith_->setVisible(!live());
+  // A live hand's controller reports its settings. Without a calibration the fields have no values.
+  recordedWith_->setVisible(!live() && !path.isEmpty());
   chart_->setVisible(!live());
 }
 

@@ -10,6 +10,7 @@
 #include <QToolTip>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace palpate::gui {
 namespace {
@@ -140,9 +141,10 @@ void EventRows::paintMark(QPainter& painter, std::size_t index) const {
   }
   // A name that doesn't fit into its bar is painted after it, up to the next bar.
   double room = std::min<double>(right_ - bar.right(), kMaxTextLength) - kTextRoom;
-  for (const EventMark& other : marks_)
-    if (other.lane == mark.lane && other.fromS > mark.fromS)
-      room = std::min(room, pixelOf(other.fromS) - bar.right() - 2 * kTextRoom);
+  for (std::size_t i = 0; i < marks_.size(); ++i)
+    if (marks_[i].lane == mark.lane &&
+        std::pair(marks_[i].fromS, i) > std::pair(mark.fromS, index))  // also of the same moment
+      room = std::min(room, pixelOf(marks_[i].fromS) - bar.right() - 2 * kTextRoom);
   if (mark.lane == EventLane::kGrasps || mark.lane == EventLane::kSteps ||
       mark.lane == EventLane::kSlips || mark.lane == EventLane::kGaps)
     return;
