@@ -98,12 +98,15 @@ void DialogStop::showIn(QDialog& dialog) {
   row->setContentsMargins(12, 8, 12, 0);
   auto* state = new QLabel(bar);
   state->setObjectName(kDialogStopStateName);
-  showReached(*state);
   // Either text has room: a dialogue doesn't change its size while it is read.
   state->ensurePolished();
-  const QFontMetrics metrics = state->fontMetrics();
-  state->setMinimumWidth(std::max(metrics.horizontalAdvance(kDialogStopReached),
-                                  metrics.horizontalAdvance(kDialogStopNotReached)));
+  int width = 0;
+  for (const char* text : {kDialogStopReached, kDialogStopNotReached}) {
+    state->setText(text);
+    width = std::max(width, state->sizeHint().width());
+  }
+  state->setMinimumWidth(width);
+  showReached(*state);
   row->addWidget(state);
   row->addStretch(1);
   row->addWidget(button);
