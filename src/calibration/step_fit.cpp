@@ -351,7 +351,9 @@ void sayWhatIsMissing(const StepKnowledge& known, StepFit& fit) {
   if (fit.timesIdentifiable || !fit.identifiable) return;
   const double commonTimeSd = std::sqrt(known.covariance.commonTime);
   if (!oscillating && p.damping < kCritical && !(commonTimeSd >= 0.5 * p.timeConstantS))
-    fit.notes.push_back("critically damped: T1 and T2 can't be separated, K, m and T can");
+    fit.notes.push_back(
+        "T1 and T2 are so nearly equal (critically damped) that the data can't tell one from the "
+        "other: use T, their geometric mean; K and m hold");
   else if (slow && !oscillating)
     fit.notes.push_back("T2 is not identifiable (far below the frame period of " +
                         fixedText(1e3 * known.frameS, 0) +

@@ -10,25 +10,12 @@
 namespace palpate {
 namespace {
 
-std::string minutesText(double hours) {
-  const auto minutes = static_cast<std::uint64_t>(std::max(0.0, std::round(hours * 60.0)));
-  return minutes == 0 ? "less than a minute" : counted(minutes, "minute");
-}
-
 constexpr std::int64_t kWindowUs = 2'000'000;
 constexpr double kExpectationS = 5.0;  // minimum time before the mean rate is the expected one
 constexpr double kMeasuredS = 5.0;     // minimum recorded time before the size per second is used
 constexpr double kBlockedAlarmS = 1.0;
 
 double seconds(std::int64_t us) { return static_cast<double>(us) / 1e6; }
-
-// The same as in the dock Link.
-std::string hoursText(double hours) {
-  constexpr double kDayH = 24.0, kYearH = 8766.0;
-  if (hours > kYearH) return "over a year";
-  if (hours > 2 * kDayH) return fixedText(hours / kDayH, 0) + " days";
-  return hours < 10.0 ? fixedText(hours, 1) + " h" : fixedText(hours, 0) + " h";
-}
 
 std::string portFault(const PortStatus& port, const std::string& name) {
   const std::string where = name + (port.port.empty() ? "" : " " + port.port);
@@ -243,6 +230,15 @@ LinkMonitor::Reading LinkMonitor::readLocked(std::int64_t monoUs) const {
   return reading;
 }
 
+std::string diskTimeText(double hours) {
+  constexpr double kDayH = 24.0, kYearH = 8766.0, kMinutesPerH = 60.0;
+  if (hours > kYearH) return "over a year";
+  if (hours > 2 * kDayH) return fixedText(hours / kDayH, 0) + " days";
+  if (hours >= 1.0) return fixedText(hours, hours < 10.0 ? 1 : 0) + " h";
+  const auto minutes = static_cast<std::uint64_t>(std::max(0.0, std::round(hours * kMinutesPerH)));
+  return minutes == 0 ? "less than a minute" : counted(minutes, "minute");
+}
+
 std::string withoutPort(const PortStatus& port) {
   const std::string prefix = port.port + ": ";
   return port.message.starts_with(prefix) ? port.message.substr(prefix.size()) : port.message;
@@ -267,7 +263,7 @@ LinkHealth assessHealth(const LinkInputs& inputs, const HealthOptions& options) 
   addRecorderAlarms(inputs.recorder, options, health.alarms);
   if (health.diskHours && *health.diskHours < options.lowDiskHours)
     health.alarms.push_back({AlarmKind::kLowDisk,
-                             "the disk is full in " + minutesText(*health.diskHours) +
+                             "the disk is full in " + diskTimeText(*health.diskHours) +
                                  ": free some space, or record elsewhere"});
   if (const auto hottest = hottestOf(inputs); hottest && *hottest > options.maxTemperatureDegC)
     health.alarms.push_back({AlarmKind::kTooHot,
@@ -298,7 +294,8 @@ PreflightCheck checkPreflight(const LinkInputs& inputs,
   if (!folder.writable)
     return red(where + " can't be written: choose another folder, or change its permissions");
   if (hours && *hours < options.lowDiskHours)
-    return red("space for only " + minutesText(*hours) + " in " + where);
+    return red(where + " has space for " + diskTimeText(*hours) +
+               ": choose another folder, or free some space");
   std::string text = "ready: " + fixedText(frames.rateHz, 1) + " frames/s";
   if (const auto hottest = hottestOf(inputs)) {
     if (*hottest > options.maxTemperatureDegC)
@@ -307,7 +304,7 @@ PreflightCheck checkPreflight(const LinkInputs& inputs,
   } else if (inputs.device.motion) {
     return red("no temperature has been received yet");
   }
-  if (hours) text += ", disk for " + hoursText(*hours);
+  if (hours) text += ", disk for " + diskTimeText(*hours);
   return {true, text, folder.freeBytes, hours};
 }
 

@@ -197,8 +197,9 @@ void GraspControl::checkLinks() {
   if (const std::string why = motionProblem(status); !why.empty())
     return machine_.onMotionPortGone(why, nowUs);
   const PortStatus& tactile = status.tactile;
-  if (tactile.state == PortState::kLost || tactile.state == PortState::kFault ||
-      tactile.state == PortState::kClosed)
+  // Connecting: the port is there again, the controller hasn't answered yet.
+  if (tactile.state == PortState::kLost || tactile.state == PortState::kConnecting ||
+      tactile.state == PortState::kFault || tactile.state == PortState::kClosed)
     machine_.onTactilePortGone(tactile.message.empty() ? "closed" : tactile.message, nowUs);
   machine_.onAxisStates(session_.device().axisStates(), nowUs);
 }

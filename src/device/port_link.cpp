@@ -74,6 +74,7 @@ void PortLink::begin(DeviceSink& sink) {
   stopping_ = false;
   wasConnected_ = false;
   permanentlyFailed_ = false;
+  portMissing_ = false;
   nextTryUs_ = 0;
   lastFailure_.clear();
   status_ = PortStatus{};
@@ -113,6 +114,10 @@ void PortLink::round() {
     std::lock_guard lock(mutex_);
     channel_ = std::move(channel);
   }
+  // Looking for the controller may take seconds on a noisy line; what was said of a port that was
+  // not there is not true any more.
+  if (std::exchange(portMissing_, false))
+    setState(PortState::kConnecting, port_ + ": the port is there; looking for the " + what_);
   connect(*channel_);
   updateStatus([&](PortStatus& status) {
     status.state = PortState::kStreaming;
@@ -168,6 +173,7 @@ void PortLink::closeAfterError(const DeviceError& error) {
     eventNow("alarm", message);
     return;
   }
+  portMissing_ = isGone;
   setState(wasConnected_ ? PortState::kLost : PortState::kConnecting, error.what());
   if (const auto* other = dynamic_cast<const WrongControllerError*>(&error))
     updateStatus([&](PortStatus& status) { status.found = other->found(); });

@@ -113,6 +113,8 @@ class PortLink {
   PortStatus status_;
   // Replaced only by the port's thread, under mutex_.
   std::unique_ptr<ByteChannel> channel_;
+  // The last attempt found no port.
+  bool portMissing_ = false;
   bool wasConnected_ = false;
   bool permanentlyFailed_ = false;
   std::int64_t nextTryUs_ = 0;

@@ -87,6 +87,7 @@ void JointMotion::setVelocities(const std::vector<double>& degPerS) {
     least.push_back(controller_ == ControllerType::kPose ? 0.0 : -axis.maximumVelocityDegPerS);
   }
   require("velocity", degPerS, least, most);
+  if (controller_ != ControllerType::kPose) ++orderCount_;
   targetVelocityDegPerS_ = degPerS;
 }
 
@@ -99,6 +100,11 @@ void JointMotion::setAccelerations(const std::vector<double>& degPerS2) {
 
 void JointMotion::setPower(const std::vector<bool>& on) {
   requireSize("power", on.size());
+  ++orderCount_;
+  switchPower(on);
+}
+
+void JointMotion::switchPower(const std::vector<bool>& on) {
   for (std::size_t i = 0; i < axes_.size(); ++i) {
     if (on[i] == power_[i]) continue;
     power_[i] = on[i];
@@ -111,7 +117,8 @@ void JointMotion::setPower(const std::vector<bool>& on) {
 }
 
 void JointMotion::setController(ControllerType type) {
-  stop();
+  if (moving()) ++orderCount_;
+  halt();
   controller_ = type;
   std::fill(targetVelocityDegPerS_.begin(),
             targetVelocityDegPerS_.end(),
@@ -145,8 +152,8 @@ double JointMotion::durationOfPending() const {
 
 double JointMotion::startMotion() {
   if (controller_ != ControllerType::kPose) return 0.0;
-  ++motionCount_;
-  setPower(std::vector<bool>(axes_.size(), true));
+  ++orderCount_;
+  switchPower(std::vector<bool>(axes_.size(), true));
   durationS_ = durationOfPending();
   motionProfile_ = profile_;
   for (std::size_t i = 0; i < axes_.size(); ++i) {
@@ -159,7 +166,11 @@ double JointMotion::startMotion() {
 }
 
 void JointMotion::stop() {
-  if (moving()) ++motionCount_;
+  ++orderCount_;
+  halt();
+}
+
+void JointMotion::halt() {
   durationS_ = 0.0;
   for (std::size_t i = 0; i < axes_.size(); ++i) {
     paths_[i].active = false;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 #include <numeric>
+#include <optional>
 #include <stdexcept>
 
 #include <Eigen/Geometry>
@@ -88,6 +89,7 @@ struct PhysicalHand::Impl {
         joints(hand, startAngles(hand, preshape, scene.close)),
         sensor(hand, characteristics, given.seed),
         script(scene.script),
+        repeatS(given.repeatsScript ? scene.repeatS : 0.0),
         motorNmm(motorsOf(given)),
         riseDegC(risesAtRest(hand)),
         truth(hand.layout->numMatrices()),
@@ -217,13 +219,26 @@ struct PhysicalHand::Impl {
     }
   }
 
+  // Nobody but the script has ordered anything.
+  bool isOurs() const { return joints.orderCount() == ordersOfScript; }
+
+  // The time of the next step of the script; nothing: none follows.
+  std::optional<double> nextStepS() {
+    if (nextStep == script.size() && repeatS > 0.0 && !script.empty() && isOurs()) {
+      nextStep = 0;
+      passFromS += repeatS;
+    }
+    if (nextStep == script.size()) return std::nullopt;
+    return passFromS + script[nextStep].atS;
+  }
+
   void act(const SceneAction& action) {
     still = false;
     if (const auto* move = std::get_if<MoveObject>(&action)) objects.move(*move);
     if (const auto* turn = std::get_if<TurnObject>(&action)) objects.turn(*turn);
     if (const auto* load = std::get_if<LoadObject>(&action)) objects.load(*load);
     // Once a client moves the hand, the script no longer does.
-    const bool mayMove = joints.motionCount() == ordersOfScript;
+    const bool mayMove = isOurs();
     if (const auto* grasp = std::get_if<GraspAction>(&action); grasp && mayMove) {
       if (grasp->preshape) preshape = *grasp->preshape;
       go(grasp->close, grasp->velocityDegPerS);
@@ -245,6 +260,7 @@ struct PhysicalHand::Impl {
 
   void go(double close, double velocityDegPerS) {
     joints.setController(ControllerType::kPose);
+    ordersOfScript = joints.orderCount();
     if (preshape.empty()) return;  // nothing to open
     std::vector<double> velocities;
     for (const AxisDescription& axis : hand.axes)
@@ -252,7 +268,7 @@ struct PhysicalHand::Impl {
     joints.setVelocities(velocities);
     joints.setTargets(scenePreshape(hand, preshape).anglesDeg(close));
     joints.startMotion();
-    ordersOfScript = joints.motionCount();
+    ordersOfScript = joints.orderCount();
   }
 
   // Temperature for the noise of each matrix: that of its sensor, otherwise of the whole hand.
@@ -278,10 +294,12 @@ struct PhysicalHand::Impl {
   JointMotion joints;
   SensorModel sensor;
   std::vector<ScriptStep> script;
+  const double repeatS;  // 0: not repeated
   const std::vector<double> motorNmm;
   const std::vector<double> riseDegC;
   std::size_t nextStep = 0;
-  std::uint64_t ordersOfScript = 0;  // JointMotion::motionCount() after its last motion
+  double passFromS = 0.0;            // when the present pass of the script began
+  std::uint64_t ordersOfScript = 0;  // JointMotion::orderCount() after its last motion
   double nowS = 0.0;
   bool still = false;
   HandPose pose, before;
@@ -303,11 +321,11 @@ void PhysicalHand::advanceTo(double timeS) {
   Impl& hand = *impl_;
   if (!std::isfinite(timeS)) throw std::invalid_argument("PhysicalHand: time is not a number");
   while (hand.nowS < timeS) {
-    while (hand.nextStep < hand.script.size() && hand.script[hand.nextStep].atS <= hand.nowS)
+    std::optional<double> nextStepS = hand.nextStepS();
+    for (; nextStepS && *nextStepS <= hand.nowS; nextStepS = hand.nextStepS())
       hand.act(hand.script[hand.nextStep++].action);
     double untilS = timeS;
-    if (hand.nextStep < hand.script.size())
-      untilS = std::min(untilS, std::max(hand.script[hand.nextStep].atS, hand.nowS + 1e-9));
+    if (nextStepS) untilS = std::min(untilS, std::max(*nextStepS, hand.nowS + 1e-9));
     // While nothing moves the steps are large, unless the rubber still changes (exact at any step).
     const bool quiet = (hand.still || hand.objects.size() == 0) && !hand.joints.moving();
     const double most = quiet ? kQuietStepS : hand.options.stepS;

@@ -107,6 +107,7 @@ void requirePreshape(const JsonField& field, const HandDescription& hand) {
 }
 
 constexpr double kMostSeconds = 1e6;
+constexpr double kLeastRepeatS = 1.0;
 
 constexpr double kSceneMostVelocity = 1000.0;  // [deg/s, mm/s]
 constexpr double kSceneUsualVelocity = 30.0;
@@ -216,7 +217,7 @@ const Preshape& scenePreshape(const HandDescription& hand, std::string_view name
 
 Scene parseScene(std::string_view text, const fs::path& name, const HandDescription& hand) {
   const JsonField root = JsonField::parse(text, name, "the scene");
-  root.only({"objects", "hand", "script", "description"});
+  root.only({"objects", "hand", "script", "repeat_s", "description"});
   Scene scene;
   scene.name = name.stem().string();
   if (root.has("description")) scene.description = root.at("description").text();
@@ -250,6 +251,10 @@ Scene parseScene(std::string_view text, const fs::path& name, const HandDescript
   std::stable_sort(scene.script.begin(),
                    scene.script.end(),
                    [](const ScriptStep& a, const ScriptStep& b) { return a.atS < b.atS; });
+  if (root.has("repeat_s")) {
+    const double least = scene.script.empty() ? 0.0 : scene.script.back().atS;
+    scene.repeatS = root.required("repeat_s").number(std::max(least, kLeastRepeatS), kMostSeconds);
+  }
   return scene;
 }
 

@@ -231,7 +231,11 @@ TEST(StepFit, KeepsTheIntervalsOfKAndMOfACriticallyDampedStep) {
       EXPECT_TRUE(fit.identifiable);
       EXPECT_FALSE(fit.timesIdentifiable);
       ASSERT_EQ(fit.notes.size(), 1u);
-      EXPECT_NE(fit.notes[0].find("critically damped"), std::string::npos) << fit.notes[0];
+      EXPECT_NE(fit.notes[0].find("nearly equal"), std::string::npos) << fit.notes[0];
+      EXPECT_NE(fit.notes[0].find("use T, their geometric mean"), std::string::npos)
+          << fit.notes[0];
+      // T is what the note says it is.
+      EXPECT_NEAR(p.timeConstantS, std::sqrt(p.t1S() * p.t2S()), 1e-9);
       EXPECT_TRUE(std::isnan(fit.sd(2)) && std::isnan(fit.sd(3)));
       if (loss != StepLoss::kSquares) continue;
       const Eigen::MatrixX3d columns =

@@ -299,12 +299,27 @@ TEST(CheckBeforeRun, namesTheFirstThingThatIsWrong) {
   inputs = streaming();
   EXPECT_NE(textOf(inputs, {"/ro", false, 1u << 30}).find("/ro can't be written"),
             std::string::npos);
-  EXPECT_NE(textOf(inputs, {"/full", true, 18'000 * 60 * 12}).find("12 minutes"),
-            std::string::npos);
+  EXPECT_EQ(textOf(inputs, {"/full", true, 18'000 * 60 * 12}),
+            "not ready: /full has space for 12 minutes: choose another folder, or free some space");
+  EXPECT_EQ(textOf(inputs, {"/full", true, 18'000}),
+            "not ready: /full has space for less than a minute: choose another folder, or free "
+            "some space");
   inputs.temperatures = Temperatures{0, {30.0, 70.2}};
   const PreflightCheck hot = checkPreflight(inputs, kGoodFolder);
   EXPECT_FALSE(hot.ready);
   EXPECT_NE(hot.text.find("70 deg C"), std::string::npos);
+}
+
+TEST(LinkHealth, theTimeForWhichADiskLastsIsSaidInTheUnitThatSuitsIt) {
+  EXPECT_EQ(diskTimeText(-1.0), "less than a minute");
+  EXPECT_EQ(diskTimeText(0.004), "less than a minute");
+  EXPECT_EQ(diskTimeText(1.0 / 60.0), "1 minute");
+  EXPECT_EQ(diskTimeText(0.5), "30 minutes");
+  EXPECT_EQ(diskTimeText(1.0), "1.0 h");
+  EXPECT_EQ(diskTimeText(9.5), "9.5 h");
+  EXPECT_EQ(diskTimeText(30.0), "30 h");
+  EXPECT_EQ(diskTimeText(72.0), "3 days");
+  EXPECT_EQ(diskTimeText(9000.0), "over a year");
 }
 
 }  // namespace

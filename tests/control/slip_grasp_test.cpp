@@ -43,11 +43,11 @@ TEST(SlipGrasp, HoldsWhatRestsAndMovesNothing) {
   request.velocityDegPerS = 8.0;
   held.begin(request);
   ASSERT_TRUE(held.run(8.0, [&] { return held.machine().phase() == GraspPhase::kHolding; }));
-  const std::uint64_t motionCount = held.hand().joints().motionCount();
+  const std::uint64_t orderCount = held.hand().joints().orderCount();
   held.run(4.0);
   EXPECT_EQ(held.machine().phase(), GraspPhase::kHolding);
   EXPECT_EQ(held.machine().running().slips, 0);
-  EXPECT_EQ(held.hand().joints().motionCount(), motionCount);
+  EXPECT_EQ(held.hand().joints().orderCount(), orderCount);
   EXPECT_EQ(held.actions("holding"), 1);
   EXPECT_TRUE(held.machine().holdingText().starts_with("holding: limit 400 counts"))
       << held.machine().holdingText();

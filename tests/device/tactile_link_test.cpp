@@ -3,6 +3,7 @@
 #include "device/tactile_link.h"
 
 #include <cmath>
+#include <functional>
 
 #include <gtest/gtest.h>
 
@@ -24,13 +25,17 @@ struct Bench {
   CollectingSink sink;
   bool plugged = true;
   ScriptedChannel* line = nullptr;
+  std::function<void()> requested;  // called with each request
   TactileLink link{
       "port", [this](const std::string& port) { return open(port); }, true, time, clock};
 
   std::unique_ptr<ByteChannel> open(const std::string& port) {
     if (!plugged) throw DeviceError(DeviceFault::kNotFound, port, "no such port");
-    auto channel = std::make_unique<ScriptedChannel>(
-        clock, [this](const Bytes& request, ScriptedChannel& to) { dsa(request, to); });
+    auto channel =
+        std::make_unique<ScriptedChannel>(clock, [this](const Bytes& request, ScriptedChannel& to) {
+          if (requested) requested();
+          dsa(request, to);
+        });
     line = channel.get();
     return channel;
   }
@@ -102,6 +107,30 @@ TEST(TactileLink, TheGapOfAnUnplugSaysHowManyFramesAreMissingAndThatItIsAnEstima
   const PortStatus status = bench.link.status();
   EXPECT_EQ(static_cast<std::int64_t>(status.lost), json.at("lost").asInteger());
   EXPECT_EQ(status.estimatedLost, status.lost);
+}
+
+// On a noisy line, finding the controller may take seconds.
+TEST(TactileLink, WhileTheControllerIsLookedForNobodySaysThatThereIsNoPort) {
+  Bench bench;
+  bench.begin();
+  bench.frames(10);
+  bench.line->pullThePlug();
+  bench.plugged = bench.dsa.streaming = false;
+  for (int i = 0; i < 5; ++i) {
+    bench.link.step();
+    bench.clock.nowUs += 100'001;
+  }
+  ASSERT_EQ(bench.link.status().message, "port: no such port");
+  ASSERT_EQ(bench.link.status().state, PortState::kLost);
+  bench.plugged = true;
+  std::vector<PortStatus> seen;
+  bench.requested = [&] { seen.push_back(bench.link.status()); };
+  bench.connect();
+  ASSERT_FALSE(seen.empty());
+  EXPECT_EQ(seen.front().state, PortState::kConnecting);
+  EXPECT_EQ(seen.front().message, "port: the port is there; looking for the tactile controller");
+  EXPECT_EQ(bench.link.status().state, PortState::kStreaming);
+  EXPECT_EQ(bench.link.status().message, "");
 }
 
 TEST(TactileLink, AGapOnAnOpenPortIsCountedByTheControllersClock) {

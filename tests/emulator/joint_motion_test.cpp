@@ -1,6 +1,8 @@
 #include "palpate/emulator/joint_motion.h"
 
 #include <cmath>
+#include <cstdint>
+#include <functional>
 #include <limits>
 #include <numbers>
 
@@ -297,6 +299,33 @@ TEST(JointMotion, WrongValuesChangeNothing) {
   EXPECT_THROW(joints.setAccelerations(all(401.0)), std::out_of_range);
   EXPECT_THROW(joints.setPower(std::vector<bool>(3)), std::invalid_argument);
   EXPECT_THROW(JointMotion(sdh2(), all(-5.0)), std::out_of_range);
+}
+
+TEST(JointMotion, CountsEachOrderAlsoOneThatChangesNothing) {
+  JointMotion joints = hand();
+  std::uint64_t count = joints.orderCount();
+  const auto orders = [&](const char* what, const std::function<void()>& order) {
+    order();
+    EXPECT_EQ(joints.orderCount(), ++count) << what;
+  };
+  orders("a stop at rest", [&] { joints.stop(); });
+  orders("power on", [&] { joints.setPower(std::vector<bool>(7, true)); });
+  orders("power that is on already", [&] { joints.setPower(std::vector<bool>(7, true)); });
+  orders("a motion to where it is", [&] { joints.startMotion(); });
+  joints.setTargets(all(5.0));
+  joints.setVelocities(all(20.0));
+  joints.setController(ControllerType::kPose);
+  EXPECT_EQ(joints.orderCount(), count) << "values alone move nothing";
+  orders("a motion", [&] { joints.startMotion(); });
+  run(joints, 0.1);
+  orders("a stop in a motion", [&] { joints.stop(); });
+  joints.startMotion();
+  ++count;
+  orders("a controller that ends a motion",
+         [&] { joints.setController(ControllerType::kVelocity); });
+  orders("a velocity", [&] { joints.setVelocities(all(5.0)); });
+  EXPECT_THROW(joints.setPower({true}), std::invalid_argument);
+  EXPECT_EQ(joints.orderCount(), count) << "refused";
 }
 
 }  // namespace

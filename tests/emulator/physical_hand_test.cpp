@@ -453,5 +453,64 @@ TEST(PhysicalHand, WrongOptionsAreRefused) {
   EXPECT_EQ(hand.timeS(), 1.0) << "never back";
 }
 
+// The times at which a hand begins to touch and to be free again, looked at every 0.1 s.
+std::vector<double> touchesUntil(PhysicalHand& hand, double endS) {
+  std::vector<double> times;
+  bool touched = false;
+  for (int tenth = static_cast<int>(std::lround(10.0 * hand.timeS())) + 1; tenth <= 10.0 * endS;
+       ++tenth) {
+    const bool now = !activeFingers(scanAt(hand, tenth / 10.0)).empty();
+    if (now != touched) times.push_back(tenth / 10.0);
+    touched = now;
+  }
+  return times;
+}
+
+PhysicalHand demoHand() {
+  PhysicalHandOptions options;
+  options.repeatsScript = true;
+  return PhysicalHand(sceneOf("ball"), options);
+}
+
+// L-m29
+TEST(PhysicalHand, ARepeatedScriptGraspsAndReleasesAgainAndAgain) {
+  const double periodS = sceneOf("ball").repeatS;
+  ASSERT_GT(periodS, 0.0);
+  PhysicalHand hand = demoHand();
+  const std::vector<double> times = touchesUntil(hand, 3.0 * periodS);
+  ASSERT_EQ(times.size(), 6u) << "three grasps, each released";
+  for (std::size_t i = 2; i < times.size(); ++i)
+    EXPECT_NEAR(times[i], times[i - 2] + periodS, 0.3) << i;
+  PhysicalHand once(sceneOf("ball"));
+  EXPECT_EQ(touchesUntil(once, 3.0 * periodS).size(), 2u) << "nobody asked for a repetition";
+}
+
+TEST(PhysicalHand, AfterAnyOrderOfTheUserARepeatedScriptNeverMovesTheHand) {
+  const double periodS = sceneOf("ball").repeatS;
+  const std::pair<const char*, std::function<void(JointMotion&)>> orders[] = {
+      {"stop", [](JointMotion& joints) { joints.stop(); }},
+      {"motors off", [](JointMotion& joints) { joints.setPower(std::vector<bool>(7, false)); }},
+      {"motors on, which they are",
+       [](JointMotion& joints) { joints.setPower(std::vector<bool>(7, true)); }},
+      {"motion to where it is", [](JointMotion& joints) { joints.startMotion(); }}};
+  // At rest before the first grasp, while it closes, while it holds, at rest in the second pass.
+  for (const double atS : {0.5, 2.5, 7.0, 2.0 * periodS - 0.5})
+    for (const auto& [name, order] : orders) {
+      SCOPED_TRACE(std::string(name) + " at " + std::to_string(atS) + " s");
+      PhysicalHand hand = demoHand();
+      hand.advanceTo(atS);
+      order(hand.joints());
+      const std::uint64_t orderCount = hand.joints().orderCount();
+      // A motion that was ordered may end.
+      hand.advanceTo(atS + 6.0);
+      const std::vector<double> angles = hand.joints().angles();
+      for (double timeS = atS + 6.0; timeS < atS + 6.0 + 3.0 * periodS; timeS += 0.5) {
+        hand.advanceTo(timeS);
+        ASSERT_EQ(hand.joints().angles(), angles) << "at " << timeS << " s";
+      }
+      EXPECT_EQ(hand.joints().orderCount(), orderCount) << "the script ordered something";
+    }
+}
+
 }  // namespace
 }  // namespace palpate::testing::physical_hand_test

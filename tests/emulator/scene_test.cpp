@@ -91,6 +91,7 @@ TEST(Scene, SaysWhichFieldIsWrong) {
   expectFault(R"({"hand": {"close": 1.5}})", "hand.close");
   expectFault(R"({"script": [{"grasp": {}}]})", "at_s");
   expectFault(R"({"script": [{"at_s": 1}]})", "script[0]");
+  expectFault(R"({"script": [{"at_s": 5, "release": {}}], "repeat_s": 4})", "repeat_s");
   expectFault(R"({"script": [{"at_s": 1, "dance": {}}]})", "dance");
   expectFault(R"({"script": [{"at_s": 1, "move": {}}]})", "needs an object");
   expectFault(R"({"script": [{"at_s": 1, "threshold": {"matrix": 6}}]})", "matrix");
@@ -151,6 +152,7 @@ TEST(Scene, TheExampleOfTheDocumentIsOne) {
   const Scene scene = parseScene(page.substr(from, page.find("\n\n", from) - from), "emulator.md");
   EXPECT_EQ(scene.objects.size(), 1u);
   EXPECT_EQ(scene.script.size(), 2u);
+  EXPECT_EQ(scene.repeatS, 16.0);
 }
 
 TEST(Scene, AnUnknownNameListsThoseThatExist) {

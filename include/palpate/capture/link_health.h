@@ -139,6 +139,10 @@ struct LinkHealth {
 };
 LinkHealth assessHealth(const LinkInputs& inputs, const HealthOptions& options = {});
 
+// How long free space lasts: "less than a minute", "12 minutes", "9.5 h", "30 h", "57 days", "over
+// a year".
+std::string diskTimeText(double hours);
+
 // The port's message without its name at the front, for places where the name is shown already.
 std::string withoutPort(const PortStatus& port);
 

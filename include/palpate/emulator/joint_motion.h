@@ -76,9 +76,10 @@ class JointMotion {
   ControllerType controller() const noexcept { return controller_; }
   VelocityProfile profile() const noexcept { return profile_; }
   bool moving() const;
-  // Number of motions begun plus motions stopped early. A caller that counts its own motions can
-  // detect those started by others.
-  std::uint64_t motionCount() const noexcept { return motionCount_; }
+  // Number of orders so far: every startMotion(), stop() and setPower(), also those that change
+  // nothing, velocities of a velocity controller, and a setController() that ends a motion. A
+  // caller that counts its own orders notices those of others.
+  std::uint64_t orderCount() const noexcept { return orderCount_; }
 
  private:
   // Motion of one axis to a target; the velocity profile covers the distance within the duration.
@@ -90,6 +91,8 @@ class JointMotion {
     double timeS = 0.0;
     bool active = false;
   };
+  void switchPower(const std::vector<bool>& on);
+  void halt();
   void require(const char* what,
                const std::vector<double>& values,
                const std::vector<double>& least,
@@ -110,7 +113,7 @@ class JointMotion {
   std::vector<double> resistsClockwise_, resistsCounterClockwise_;
   std::vector<AxisState> states_;
   std::vector<Path> paths_;
-  std::uint64_t motionCount_ = 0;
+  std::uint64_t orderCount_ = 0;
   double durationS_ = 0.0;  // duration of the running motion; 0 when none runs
   VelocityProfile motionProfile_ = VelocityProfile::kSinSquare;
   ControllerType controller_ = ControllerType::kPose;

@@ -25,12 +25,18 @@ struct PhysicalHandOptions {
   std::vector<double> zeroErrorDeg = {};
   // Time step of the simulation while something moves [s].
   double stepS = 0.004;
+  // Whether the script of a scene that can be repeated (Scene::repeatS) begins again and again.
+  bool repeatsScript = false;
   // The hand. Its sensor characteristics are those of its file, otherwise assumedCharacteristics();
   // its geometry is emulatedGeometry(). An axis without a velocity moves with up to 100 per s. The
   // first temperature sensors are those of the axes' motors, the others those of electronics.
   HandDescription hand = defaultHand();
 };
 
+// The script moves the hand until somebody else gives its joints an order
+// (JointMotion::orderCount): a motion, a stop, also at rest, the power. From then on the script
+// doesn't move the hand and is not repeated; what it does to the objects in its present pass still
+// happens.
 class PhysicalHand final : public HandModel {
  public:
   // Throws std::invalid_argument (options, preshapes of the scene), and Error when the hand's

@@ -3,7 +3,7 @@
 //                 "mass_kg": 0.2, "pose": {"position_mm": [0,0,150], "rotation_deg": [0,0,0]}}],
 //    "hand": {"preshape": "centrical", "close": 0.0},
 //    "script": [{"at_s": 1, "grasp": {"close": 1, "velocity_deg_per_s": 30}}, ..],
-//    "description": "A soft ball in the middle"}
+//    "repeat_s": 15, "description": "A soft ball in the middle"}
 // Every key except "shape", "size_mm" and "at_s" is optional. A scene is one of a certain hand: its
 // preshapes, its matrices and its base frame. Positions are in the hand's base
 // frame; rotations are about its fixed axes x, y, z, in that order. An object keeps its pose until
@@ -100,6 +100,8 @@ struct Scene {
   std::string preshape;  // empty: startPreshape() of the hand
   double close = 0.0;
   std::vector<ScriptStep> script;  // in order of time
+  // Time after which the script can begin again [s]; 0: it isn't meant to be repeated.
+  double repeatS = 0.0;
 };
 
 // The preshape in which an emulated hand begins where a scene names none: the one with the name

@@ -121,5 +121,33 @@ TEST(DialogStop, ADialogueThatIsNotModalLeavesTheWindowsButtonUsable) {
   EXPECT_EQ(stopOf(keys), nullptr);
 }
 
+TEST(DialogStop, SaysWhetherAStopReachesTheHand) {
+  QAction stop("Stop");
+  DialogStop dialogs(stop, nullptr);
+  QMessageBox question(QMessageBox::Question, "Palpate", "Go on?", QMessageBox::Yes);
+  const auto shown = [&] {
+    const auto* label = question.findChild<QLabel*>("dialogStopState");
+    return label ? label->text() : QString("no label");
+  };
+  question.open();
+  QCoreApplication::processEvents();
+  EXPECT_EQ(shown(), "A hand is connected.");
+  const QSize size = question.size();
+  dialogs.setReached(false);
+  EXPECT_EQ(shown(), "No stop reaches the hand.");
+  QCoreApplication::processEvents();
+  const auto* label = question.findChild<QLabel*>("dialogStopState");
+  EXPECT_GE(label->width(), label->sizeHint().width()) << "it is read whole";
+  EXPECT_EQ(question.size(), size);
+  question.close();
+  QInputDialog name;
+  name.open();
+  QCoreApplication::processEvents();
+  EXPECT_EQ(name.findChild<QLabel*>("dialogStopState")->text(), "No stop reaches the hand.");
+  dialogs.setReached(true);
+  EXPECT_EQ(name.findChild<QLabel*>("dialogStopState")->text(), "A hand is connected.");
+  name.close();
+}
+
 }  // namespace
 }  // namespace palpate::gui::dialog_stop_test

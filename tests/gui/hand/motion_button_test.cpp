@@ -38,6 +38,18 @@ TEST_F(MotionButtonTest, DisabledItGivesTheFocusToNobody) {
   EXPECT_EQ(window_.focusWidget(), grasp_) << "the motion has ended";
 }
 
+// Activated again, a window without a focus gives it to its first button.
+TEST_F(MotionButtonTest, WhereThePartAroundItTakesTheFocusItIsKeptThere) {
+  window_.setFocusPolicy(Qt::ClickFocus);
+  QPushButton first("Show", &window_);
+  enableMotionButton(*grasp_, false);
+  EXPECT_EQ(window_.focusWidget(), &window_);
+  QTest::keyClick(&window_, Qt::Key_Return);
+  EXPECT_EQ(relaxed_, 0);
+  enableMotionButton(*grasp_, true);
+  EXPECT_EQ(window_.focusWidget(), grasp_);
+}
+
 TEST_F(MotionButtonTest, AFocusThatWentElsewhereStaysThere) {
   enableMotionButton(*grasp_, false);
   field_->setFocus();

@@ -1,5 +1,7 @@
 #include "gui/hand/motion_keys.h"
 
+#include <QApplication>
+#include <QDialog>
 #include <QLineEdit>
 #include <QSignalSpy>
 #include <QTest>
@@ -44,6 +46,33 @@ TEST_F(MotionKeysTest, OtherKeysAndOtherWindowsAreLeftAlone) {
   QLineEdit elsewhere;
   elsewhere.show();
   QTest::keyClick(&elsewhere, Qt::Key_O, Qt::ControlModifier | Qt::AltModifier);
+  EXPECT_EQ(refused_.size(), 0);
+}
+
+// A dock that was dragged out of the window.
+TEST_F(MotionKeysTest, AWindowThatFloatsSaysTheSame) {
+  open_.setEnabled(false);
+  QWidget floating(&window_, Qt::Tool);
+  QLineEdit field(&floating);
+  floating.show();
+  QTest::keyClick(&field, Qt::Key_O, Qt::ControlModifier | Qt::AltModifier);
+  ASSERT_EQ(refused_.size(), 1);
+  EXPECT_EQ(refused_[0][0].toString(), "Open the hand: The hand moves: stop it first (Esc)");
+  QDialog dialog(&window_);
+  QLineEdit other(&dialog);
+  dialog.show();
+  QTest::keyClick(&other, Qt::Key_O, Qt::ControlModifier | Qt::AltModifier);
+  EXPECT_EQ(refused_.size(), 1) << "a dialogue keeps its keys to itself";
+}
+
+TEST_F(MotionKeysTest, AWindowThatFloatsMovesTheHandLikeTheMainWindow) {
+  QWidget floating(&window_, Qt::Tool);
+  QLineEdit field(&floating);
+  floating.show();
+  QApplication::setActiveWindow(&floating);
+  const QSignalSpy opened(&open_, &QAction::triggered);
+  QTest::keyClick(&field, Qt::Key_O, Qt::ControlModifier | Qt::AltModifier);
+  EXPECT_EQ(opened.size(), 1);
   EXPECT_EQ(refused_.size(), 0);
 }
 

@@ -55,7 +55,7 @@ TEST(LinkPanel, WarnsOfWhatIsWrong) {
   EXPECT_EQ(fact(facts, "frame age").value, "2.3 s");
   for (const char* name : {"frame age", "lost", "bad checksums", "reconnects"})
     EXPECT_TRUE(fact(facts, name).warning) << name;
-  EXPECT_EQ(fact(facts, "disk").value, "118.0 GB free, 0.5 h");
+  EXPECT_EQ(fact(facts, "disk").value, "118.0 GB free, 30 minutes");
   health.frames.ageMs.reset();
   EXPECT_EQ(fact(factsOf(health), "frame age").value, "no frame yet");
 }

@@ -1,6 +1,10 @@
 // The dock Recognise in the real window, of recordings and live on the emulated hand.
+#include <QApplication>
 #include <QCheckBox>
 #include <QDockWidget>
+#include <QImage>
+#include <QLabel>
+#include <QPainter>
 #include <QPushButton>
 #include <QTableView>
 #include <chrono>
@@ -8,6 +12,7 @@
 
 #include <palpate/control/grasp_control.h>
 
+#include "gui/appearance/text_size.h"
 #include "gui/recognise/answer_view.h"
 #include "gui/recognise/ask_page.h"
 #include "gui/recognise/check_page.h"
@@ -234,6 +239,102 @@ TEST_F(RecogniseLiveTest, TheShowNamesWhatIsHeldNowAndNothingThatWasLetGo) {
   full = window().findChild<PresentationWindow*>("showWindow");
   ASSERT_NE(full, nullptr);
   EXPECT_EQ(full->view().answer().name(), "");
+}
+
+TEST_F(RecogniseLiveTest, TheShowHasAStopThatStopsTheHandAndSaysWhatItDoes) {
+  press(Qt::Key_Q, Qt::ShiftModifier);
+  auto* full = window().findChild<PresentationWindow*>("showWindow");
+  ASSERT_NE(full, nullptr);
+  QApplication::setActiveWindow(full);
+  auto* stop = full->findChild<QPushButton*>("showStop");
+  const auto* said = full->findChild<QLabel*>("showHandState");
+  ASSERT_TRUE(stop && said);
+  EXPECT_TRUE(stop->isVisible());
+  EXPECT_TRUE(full->rect().contains(QRect(stop->mapTo(full, QPoint()), stop->size())));
+  // The keys of motions work here, and what they do is said, also when they are refused.
+  const auto grasp = [&] {
+    QTest::keyClick(full, Qt::Key_G, Qt::ControlModifier | Qt::AltModifier);
+  };
+  grasp();
+  ASSERT_TRUE(await([&] { return control().status().phase != GraspPhase::kIdle; }));
+  EXPECT_TRUE(await([&] { return said->text().contains("deg/s"); })) << said->text().toStdString();
+  ASSERT_TRUE(await([&] { return !window().state().actions.at("graspHand")->isEnabled(); }));
+  grasp();
+  EXPECT_EQ(said->text().toStdString(), "Grasp: The hand moves: stop it first (Esc)");
+  QTest::mouseClick(stop, Qt::LeftButton);
+  EXPECT_TRUE(await([&] { return control().status().phase == GraspPhase::kIdle; }));
+  EXPECT_TRUE(await([&] { return said->text() == "stopped by the user"; }))
+      << said->text().toStdString();
+  EXPECT_TRUE(full->isVisible()) << "the show goes on";
+}
+
+TEST_F(RecogniseWindowTest, WithoutAHandTheShowHasNoStop) {
+  openIt(record("pen"));
+  window().docks().show("Recognise");
+  panel().controller().useEmulatedModel();
+  settle();
+  press(Qt::Key_Q, Qt::ShiftModifier);
+  const auto* full = window().findChild<PresentationWindow*>("showWindow");
+  ASSERT_NE(full, nullptr);
+  EXPECT_FALSE(full->findChild<QPushButton*>("showStop")->isVisible());
+}
+
+// Pixels of a colour, with the mixed ones at its edges.
+int pixelsLike(const QImage& picture, const QColor& color) {
+  int count = 0;
+  for (int y = 0; y < picture.height(); ++y)
+    for (int x = 0; x < picture.width(); ++x) {
+      const QColor here = picture.pixelColor(x, y);
+      count += std::abs(here.red() - color.red()) < 12 &&
+               std::abs(here.green() - color.green()) < 12 &&
+               std::abs(here.blue() - color.blue()) < 12;
+    }
+  return count;
+}
+
+TEST_F(RecogniseLiveTest, NoTextOfTheShowIsCut) {
+  press(Qt::Key_Q, Qt::ShiftModifier);
+  auto* full = window().findChild<PresentationWindow*>("showWindow");
+  ASSERT_NE(full, nullptr);
+  full->showNormal();
+  RecognitionAnswer answer;
+  answer.kind = RecognitionAnswer::Kind::kNamed;
+  answer.best = {{"slipping handle of the drawer", 0.52}, {"foam ball", 0.31}, {"pen", 0.1}};
+  answer.offset = "session offset 1.2 ± 0.4 mm, from 14 unnamed grasps, 3 objects";
+  answer.unsure =
+      "the session offset is not known well enough: it is 1.2 ± 0.9 mm; touch the empty hand, or "
+      "name some grasps; the object fits foam ball, too, as long as this isn't known";
+  for (const int pt : {0, 15})
+    for (const QSize size : {QSize(1280, 800), QSize(1366, 768), QSize(1024, 700)}) {
+      SCOPED_TRACE(std::to_string(pt) + " pt, " + std::to_string(size.width()));
+      applyTextPt(pt);
+      full->resize(size);
+      full->view().setAnswer(answer);
+      // Sizes that follow from the text are computed when all widgets have their font.
+      for (int round = 0; round < 3; ++round) QCoreApplication::processEvents();
+      const QStringList faults = layoutFaults(*full);
+      EXPECT_TRUE(faults.isEmpty()) << faults.join("\n").toStdString();
+      // The same with any height below it: if a line is cut, there is more of its colour.
+      const AnswerView& view = full->view();
+      const double unit = view.textHeight(), air = 0.9 * unit;
+      const auto painted = [&](int height) {
+        QImage picture(view.width(), height, QImage::Format_RGB32);
+        picture.fill(Qt::black);
+        QPainter painter(&picture);
+        painter.setFont(view.font());
+        paintAnswer(painter,
+                    QRectF(air, air, view.width() - 2 * air, height - 2 * air),
+                    answer,
+                    QPixmap(),
+                    Theme::kDark,
+                    unit);
+        painter.end();
+        return pixelsLike(picture, colorsOf(Theme::kDark).warning);
+      };
+      EXPECT_GT(painted(view.height()), 0);
+      EXPECT_EQ(painted(view.height()), painted(3 * view.height()));
+    }
+  applyTextPt(0);
 }
 
 }  // namespace

@@ -1,9 +1,11 @@
 // The window on a hand that isn't there: connect, watch, record, mark, stop, accidents, leaving.
+#include <QApplication>
 #include <QComboBox>
 #include <QDockWidget>
 #include <QDoubleSpinBox>
 #include <QLabel>
 #include <QMenu>
+#include <QMessageBox>
 #include <QPushButton>
 #include <QRegularExpression>
 #include <QSlider>
@@ -28,6 +30,7 @@
 #include "gui/testing/window_fixture.h"
 #include "gui/timeline/live_chart.h"
 #include "gui/timeline/timeline_chart.h"
+#include "gui/widgets/facts_view.h"
 #include "gui/widgets/offer_strip.h"
 #include "gui/widgets/status_strip.h"
 
@@ -678,6 +681,69 @@ TEST_F(LiveWindowTest, TheDemoGraspsByItself) {
                    .data()
                    .toInt() > 10;
   }));
+}
+
+// The first button of the window has the focus when nothing was clicked: a menu of a view.
+TEST_F(LiveWindowTest, AClickOnGraspTakesTheKeyboardFromTheMenusOfTheViews) {
+  connectEmulatedHand();
+  window().docks().show("Calibrate");
+  QApplication::setActiveWindow(&window());
+  auto* show = find<QToolButton>("handShowButton");
+  show->setFocus();
+  ASSERT_EQ(window().focusWidget(), show);
+  auto* dock = window().findChild<HandDock*>();
+  click("graspHand");
+  ASSERT_TRUE(await([&] { return !find<QPushButton>("graspHand")->isEnabled(); }));
+  EXPECT_EQ(window().focusWidget(), dock);
+  QTest::keyClick(window().focusWidget(), Qt::Key_Return);
+  EXPECT_EQ(QApplication::activePopupWidget(), nullptr);
+  click("stopHand");
+  ASSERT_TRUE(await([&] { return find<QPushButton>("graspHand")->isEnabled(); }));
+  EXPECT_EQ(window().focusWidget(), dock);
+  // By the keyboard: Grasp gives the focus away while it is disabled, and gets it back.
+  auto* grasp = find<QPushButton>("graspHand");
+  grasp->setFocus();
+  QTest::keyClick(grasp, Qt::Key_Return);
+  ASSERT_TRUE(await([&] { return !grasp->isEnabled(); }));
+  EXPECT_EQ(window().focusWidget(), dock);
+  QTest::keyClick(window().focusWidget(), Qt::Key_Escape);
+  ASSERT_TRUE(await([&] { return grasp->isEnabled(); }));
+  EXPECT_EQ(window().focusWidget(), grasp);
+}
+
+TEST_F(LiveWindowTest, ADialogueAndTheAnglesSayAtOnceThatTheMotionPortIsGone) {
+  connectEmulatedHand();
+  bench_->hand->unplug(false, true);
+  ASSERT_TRUE(await([&] { return live().motionGone(); }));
+  const auto* angles = window().findChild<InspectPanel*>()->findChild<FactsView*>("angleFacts");
+  ASSERT_NE(angles, nullptr);
+  EXPECT_TRUE(angles->isOld());
+  ASSERT_TRUE(await([&] { return !find<QPushButton>("graspHand")->isEnabled(); }));
+  QMessageBox question(QMessageBox::Question, "Palpate", "Go on?", QMessageBox::Yes, &window());
+  question.open();
+  QCoreApplication::processEvents();
+  const auto* state = question.findChild<QLabel*>("dialogStopState");
+  ASSERT_NE(state, nullptr);
+  EXPECT_EQ(state->text(), "No stop reaches the hand.");
+  bench_->hand->replug();
+  EXPECT_TRUE(await([&] { return state->text() == "A hand is connected."; }));
+  EXPECT_TRUE(await([&] { return !angles->isOld(); }));
+  question.close();
+}
+
+// L-m29: a scene that moves the hand again and again does so until the first order.
+TEST_F(LiveWindowTest, ConnectingIsNoOrderToTheEmulatedHandAndAStopAtRestIsOne) {
+  connectEmulated("empty");
+  ASSERT_TRUE(await([&] { return live().source()->control->status().cannotReact.empty(); }));
+  const auto orders = [&] {
+    std::uint64_t count = 0;
+    live().source()->emulated->withModel(
+        [&](HandModel& model) { count = model.joints().orderCount(); });
+    return count;
+  };
+  EXPECT_EQ(orders(), 0u);
+  click("stopHand");
+  EXPECT_TRUE(await([&] { return orders() > 0; }));
 }
 
 }  // namespace

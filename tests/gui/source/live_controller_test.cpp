@@ -218,5 +218,31 @@ TEST_F(LiveControllerTest, ARecordingIsReplayedWithItsEvents) {
   EXPECT_EQ(live_.source()->control, nullptr) << "nobody moves a recording";
 }
 
+// V9: in the first half second nothing shown was said to be old.
+TEST_F(LiveControllerTest, APulledCableIsKnownAtOnceAndSoIsItsReturn) {
+  live_.connectTo(state());
+  ASSERT_TRUE(await([&] {
+    return !live_.stale() && !live_.motionGone() && live_.preflight() && live_.preflight()->ready;
+  }));
+  double silentS = -1.0;
+  QString said;
+  QObject::connect(&live_, &LiveController::staleChanged, [&](bool stale) {
+    if (stale && silentS < 0.0) silentS = live_.silentS();
+  });
+  QObject::connect(&live_, &LiveController::refreshed, [&] {
+    if (live_.stale() && said.isEmpty())
+      said = QString::fromStdString(live_.health().device.tactile.message);
+  });
+  hand_->unplug();
+  ASSERT_TRUE(await([&] { return silentS >= 0.0; }));
+  EXPECT_LT(silentS, 0.001 * LiveController::kStaleMs) << "not only after the usual time";
+  EXPECT_NE(said, "") << "why is said in the same moment";
+  // The check before a run doesn't wait for its turn: it was made at the last change of a port.
+  ASSERT_TRUE(await([&] { return live_.motionGone(); }));
+  ASSERT_TRUE(await([&] { return !live_.preflight()->ready; }));
+  hand_->replug();
+  ASSERT_TRUE(await([&] { return !live_.stale() && !live_.motionGone(); }));
+}
+
 }  // namespace
 }  // namespace palpate::gui::live_controller_test

@@ -1,7 +1,10 @@
 #include "gui/widgets/status_lines.h"
 
-#include <QCoreApplication>
+#include <QAction>
+#include <QApplication>
 #include <QScrollBar>
+#include <QSignalSpy>
+#include <QTest>
 
 #include <gtest/gtest.h>
 
@@ -26,6 +29,41 @@ TEST(StatusLinesTest, ALongTextIsReadWholeInTheSamePlace) {
   lines.verticalScrollBar()->setValue(5);
   lines.setText(QString("another long sentence that needs several lines ").repeated(4));
   EXPECT_EQ(lines.verticalScrollBar()->value(), 0) << "from its begin";
+}
+
+TEST(StatusLinesTest, TheKeyboardReachesItOnlyWhileThereIsSomethingToScroll) {
+  QWidget window;
+  StatusLines lines(2, "state", &window);
+  lines.resize(150, lines.height());
+  // Keys that scroll mean something else in the window.
+  QAction slower("Slower");
+  slower.setShortcut(Qt::Key_Down);
+  window.addAction(&slower);
+  const QSignalSpy slowed(&slower, &QAction::triggered);
+  window.show();
+  QApplication::setActiveWindow(&window);
+  lines.setText("short");
+  QCoreApplication::processEvents();
+  EXPECT_EQ(lines.focusPolicy(), Qt::NoFocus);
+  lines.setText(QString("a long sentence that needs several lines ").repeated(4));
+  QCoreApplication::processEvents();
+  EXPECT_EQ(lines.focusPolicy(), Qt::TabFocus);
+  const auto* frame = lines.findChild<QFrame*>("FocusFrame");
+  ASSERT_NE(frame, nullptr);
+  EXPECT_FALSE(frame->isVisible());
+  lines.setFocus(Qt::TabFocusReason);
+  EXPECT_TRUE(frame->isVisible());
+  EXPECT_EQ(frame->geometry(), lines.rect());
+  QTest::keyClick(&lines, Qt::Key_Down);
+  EXPECT_GT(lines.verticalScrollBar()->value(), 0);
+  QTest::keyClick(&lines, Qt::Key_Up);
+  EXPECT_EQ(lines.verticalScrollBar()->value(), 0);
+  EXPECT_EQ(slowed.size(), 0);
+  lines.setText("short again");
+  QCoreApplication::processEvents();
+  EXPECT_EQ(lines.focusPolicy(), Qt::NoFocus);
+  EXPECT_FALSE(lines.hasFocus());
+  EXPECT_FALSE(frame->isVisible());
 }
 
 }  // namespace

@@ -16,6 +16,11 @@ namespace palpate::gui {
 namespace {
 
 constexpr const char* kDialogStopName = "dialogStop";
+constexpr const char* kDialogStopStateName = "dialogStopState";
+constexpr const char* kDialogStopReached = "A hand is connected.";
+constexpr const char* kDialogStopNotReached = "No stop reaches the hand.";
+constexpr const char* kDialogStopNotReachedTip =
+    "Its motion controller does not answer: use the emergency stop, or switch its power off";
 
 // No layout counts the width of its menu bar. A message box sizes itself, by the rows of its
 // layout.
@@ -30,6 +35,23 @@ void widen(QDialog& dialog, QWidget& bar) {
 
 DialogStop::DialogStop(QAction& stop, QObject* parent) : QObject(parent), stop_(stop) {
   qApp->installEventFilter(this);
+}
+
+void DialogStop::showReached(QLabel& state) const {
+  state.setText(reached_ ? kDialogStopReached : kDialogStopNotReached);
+  state.setToolTip(reached_ ? "" : kDialogStopNotReachedTip);
+}
+
+void DialogStop::setReached(bool reached) {
+  if (reached == reached_) return;
+  reached_ = reached;
+  for (QWidget* top : QApplication::topLevelWidgets()) {
+    auto* dialog = qobject_cast<QDialog*>(top);
+    if (!dialog) continue;
+    auto* bar = dialog->findChild<QWidget*>(kDialogStopName, Qt::FindDirectChildrenOnly);
+    if (!bar) continue;
+    showReached(*bar->findChild<QLabel*>(kDialogStopStateName));
+  }
 }
 
 bool DialogStop::eventFilter(QObject* watched, QEvent* event) {
@@ -74,7 +96,18 @@ void DialogStop::showIn(QDialog& dialog) {
   connect(button, &QPushButton::clicked, &stop_, &QAction::trigger);
   auto* row = new QHBoxLayout(bar);
   row->setContentsMargins(12, 8, 12, 0);
-  row->addWidget(new QLabel("A hand is connected.", bar));
+  auto* state = new QLabel(bar);
+  state->setObjectName(kDialogStopStateName);
+  // Either text has room: a dialogue doesn't change its size while it is read.
+  state->ensurePolished();
+  int width = 0;
+  for (const char* text : {kDialogStopReached, kDialogStopNotReached}) {
+    state->setText(text);
+    width = std::max(width, state->sizeHint().width());
+  }
+  state->setMinimumWidth(width);
+  showReached(*state);
+  row->addWidget(state);
   row->addStretch(1);
   row->addWidget(button);
   // A layout gives its menu bar a row of its own, whatever else the dialogue has. A message box

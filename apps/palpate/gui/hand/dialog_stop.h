@@ -1,11 +1,14 @@
 // While a modal dialogue is open, the window's buttons are dead, and a large dialogue may lie over
 // them; so each modal dialogue, and each other one that asks for it (kWantsStopProperty), gets a
-// button Stop of its own as long as a hand is connected that can be moved. (Esc works everywhere.)
+// button Stop of its own as long as a hand is connected that can be moved; the line beside it says
+// whether a stop can reach the hand. (Esc works everywhere.)
 #pragma once
 
 #include <QAction>
 #include <QDialog>
 #include <QObject>
+
+class QLabel;
 
 namespace palpate::gui {
 
@@ -14,6 +17,8 @@ class DialogStop : public QObject {
   // `stop`: the action that stops the hand; enabled while there is a hand to stop. It must outlive
   // this object.
   DialogStop(QAction& stop, QObject* parent);
+  // Whether the hand answers; false: its motion port is disconnected, for example.
+  void setReached(bool reached);
 
  protected:
   // Filters the events of the whole application.
@@ -24,7 +29,10 @@ class DialogStop : public QObject {
   // A dialogue that isn't modal stays open while a hand is connected or disconnected.
   void follow(QDialog& dialog);
 
+  void showReached(QLabel& state) const;
+
   QAction& stop_;
+  bool reached_ = true;
 };
 
 }  // namespace palpate::gui

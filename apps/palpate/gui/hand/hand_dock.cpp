@@ -59,6 +59,9 @@ CaptureQueueOptions smallFeed() {
 HandDock::HandDock(QSettings& settings, QWidget* parent) : QWidget(parent) {
   calibrationOf = [](const std::string&) { return std::optional<Calibration>(); };
   stopKey_ = new StopKey(this);
+  // A click on a button takes the focus from whatever had it: Return, pressed after a click on
+  // Grasp, must not press a button elsewhere in the window.
+  setFocusPolicy(Qt::ClickFocus);
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(0, 0, 0, 0);
   column->setSpacing(0);
@@ -347,6 +350,7 @@ void HandDock::refresh() {
   showSamples();
   const bool gone = control_ && !status.cannotMove.empty();
   if (gone) goneUs_ = session_->nowUs();
+  emit reachedChanged(!gone);
   for (FactsView* view : {angles_, temperatures_}) view->setStale(gone);
   showState(status);
   showBound();
@@ -428,6 +432,7 @@ void HandDock::say(const QString& what, bool bad, const QString& more) {
   const QColor color = bad ? colorsOf(theme_).danger : colorsOf(theme_).text;
   const QString style = "color: " + color.name() + ";";
   if (state_->label().styleSheet() != style) state_->label().setStyleSheet(style);
+  emit stateShown(text, bad);
 }
 
 void HandDock::showState(const GraspStatus& status) {

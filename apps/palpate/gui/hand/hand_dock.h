@@ -76,6 +76,10 @@ class HandDock : public QWidget {
   void stopPressed();
   // The dock started a motion, or it was refused.
   void asked();
+  // Whether the hand answers, so that a stop reaches it.
+  void reachedChanged(bool reached);
+  // What the hand does, or why it can't; `bad`: it needs attention.
+  void stateShown(const QString& text, bool bad);
   // Why matrices cannot detect the chosen limit: one text for each matrix, empty when it can; an
   // empty vector when all can.
   void unmeasurableChanged(const std::vector<QString>& why);

@@ -23,15 +23,19 @@ HandFeature::HandFeature(WindowState& windowState, QWidget* window)
       panel_(new HandDock(windowState.settings, window)) {
   dock_ = new Dock("Hand", panel_, nullptr, window);
   panel_->bind(actions_);
-  new DialogStop(*actions_.stopHand, this);
-  auto* keys = new MotionKeys({actions_.graspHand,
-                               actions_.reactiveGrasp,
-                               actions_.slipAwareGrasp,
-                               actions_.openHand,
-                               actions_.relaxHand},
-                              window,
-                              this);
+  auto* dialogs = new DialogStop(*actions_.stopHand, this);
+  connect(panel_, &HandDock::reachedChanged, dialogs, &DialogStop::setReached);
+  const QList<QAction*> motions{actions_.graspHand,
+                                actions_.reactiveGrasp,
+                                actions_.slipAwareGrasp,
+                                actions_.openHand,
+                                actions_.relaxHand};
+  auto* keys = new MotionKeys(motions, window, this);
   connect(keys, &MotionKeys::refused, &windowState.messages, &Messages::flash);
+  connect(keys, &MotionKeys::refused, &windowState.handCommands, &HandCommands::keyRefused);
+  windowState.handCommands.stop = actions_.stopHand;
+  windowState.handCommands.motions = motions;
+  connect(panel_, &HandDock::stateShown, &windowState.handCommands, &HandCommands::setHandState);
   LiveController& live = windowState.live;
   connect(&live, &LiveController::sourceOpened, this, [this, &live] {
     panel_->setHand(live.source()->session.get(), live.source()->control.get());

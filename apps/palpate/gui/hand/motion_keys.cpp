@@ -1,11 +1,23 @@
 #include "gui/hand/motion_keys.h"
 
 #include <QApplication>
+#include <QDialog>
 #include <QKeyEvent>
 #include <QWidget>
 #include <utility>
 
 namespace palpate::gui {
+namespace {
+
+// A dialogue keeps its keys to itself.
+bool isWindowOrPartOf(const QWidget& widget, const QWidget* window) {
+  const QWidget* top = widget.window();
+  while (top != window && top->parentWidget() && !qobject_cast<const QDialog*>(top))
+    top = top->parentWidget()->window();
+  return top == window;
+}
+
+}  // namespace
 
 MotionKeys::MotionKeys(QList<QAction*> actions, QWidget* window, QObject* parent)
     : QObject(parent), actions_(std::move(actions)), window_(window) {
@@ -17,7 +29,7 @@ bool MotionKeys::eventFilter(QObject* watched, QEvent* event) {
   if (event->type() != QEvent::KeyPress) return false;
   const auto* widget = qobject_cast<QWidget*>(watched);
   const auto* key = static_cast<QKeyEvent*>(event);
-  if (!widget || widget->window() != window_ || key->isAutoRepeat()) return false;
+  if (!widget || key->isAutoRepeat() || !isWindowOrPartOf(*widget, window_)) return false;
   const QKeySequence pressed(key->keyCombination());
   for (const QAction* action : actions_) {
     if (action->isEnabled() || !action->shortcuts().contains(pressed)) continue;

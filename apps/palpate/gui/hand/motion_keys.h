@@ -1,5 +1,6 @@
 // A key of a motion that can't begin now does nothing. This tells why, in the words of the tool tip
-// of the action.
+// of the action. It does so in the window and in all windows that belong to it: docks that float,
+// the answer on the whole screen.
 #pragma once
 
 #include <QAction>

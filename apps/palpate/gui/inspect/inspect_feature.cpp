@@ -67,7 +67,7 @@ InspectFeature::InspectFeature(WindowState& windowState, QWidget* window)
   connect(&windowState.currentFrame, &CurrentFrame::staleNoticeChanged, this, [this, &windowState] {
     if (!windowState.displayed.isLive()) return;
     panel_->showLatest();
-    panel_->setStale(!windowState.currentFrame.old().notice.isEmpty());
+    showStale();
   });
   connect(&windowState.events, &EventController::changed, this, [this, &windowState] {
     if (const EventEditor* editor = windowState.events.editor())
@@ -82,7 +82,10 @@ InspectFeature::InspectFeature(WindowState& windowState, QWidget* window)
           this,
           &InspectFeature::showForces);
   connect(&windowState.live, &LiveController::leaving, this, [this] { liveTicks_.clear(); });
-  connect(&windowState.live, &LiveController::refreshed, this, &InspectFeature::showLinkFacts);
+  connect(&windowState.live, &LiveController::refreshed, this, [this] {
+    showLinkFacts();
+    showStale();
+  });
   followTheme(panel_);
   followUnits(panel_);
   connect(&table, &MatrixTableModel::plottedChanged, this, &InspectFeature::showPlotted);
@@ -117,9 +120,15 @@ void InspectFeature::takeSource() {
   } else {
     panel_->setRecording(displayed.filteredRecording(), displayed.unfilteredRecording());
   }
-  panel_->setStale(displayed.isLive() && !state().currentFrame.old().notice.isEmpty());
+  showStale();
   showPlotted();
   showLinkFacts();
+}
+
+void InspectFeature::showStale() {
+  const bool live = state().displayed.isLive();
+  const bool old = live && !state().currentFrame.old().notice.isEmpty();
+  panel_->setStale(old, old || (live && state().live.motionGone()));
 }
 
 void InspectFeature::showLinkFacts() {

@@ -21,6 +21,7 @@ class InspectFeature : public Feature {
   void makeActions();
   void takeSource();
   void showLinkFacts();
+  void showStale();
   void showForces();
   void showPlotted();
 

@@ -285,9 +285,9 @@ void InspectPanel::setUnits(const DisplayUnits& units) {
   if (shownTemperatures_) showTemperatures(Temperatures(*shownTemperatures_));
 }
 
-void InspectPanel::setStale(bool old) {
-  model_->setStale(old);
-  for (FactsView* facts : {angles_, temperatures_}) facts->setStale(old);
+void InspectPanel::setStale(bool matrices, bool angles) {
+  model_->setStale(matrices);
+  for (FactsView* facts : {angles_, temperatures_}) facts->setStale(angles);
 }
 
 void InspectPanel::setTheme(Theme theme) {

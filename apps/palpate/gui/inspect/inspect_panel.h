@@ -48,8 +48,9 @@ class InspectPanel : public QScrollArea {
   // The units of areas, joint angles and temperatures.
   void setUnits(const DisplayUnits& units);
   MatrixTableModel& table() noexcept { return *model_; }
-  // Whether the figures of the matrices, angles and temperatures are old: they are grey then.
-  void setStale(bool old);
+  // Whether the figures of the matrices are old, and whether angles and temperatures are: they are
+  // grey then.
+  void setStale(bool matrices, bool angles);
   QSize sizeHint() const override { return {470, 400}; }
 
  protected:

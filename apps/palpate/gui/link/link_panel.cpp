@@ -29,12 +29,8 @@ QString bytes(double value) {
 QString diskText(const LinkHealth& health) {
   if (!health.freeBytes) return "not known";
   QString text = bytes(static_cast<double>(*health.freeBytes)) + " free";
-  constexpr double kDayH = 24.0, kYearH = 8766.0;
   if (!health.diskHours) return text;
-  if (*health.diskHours > kYearH) return text + ", over a year";
-  if (*health.diskHours > 2 * kDayH)
-    return text + ", " + figure(*health.diskHours / kDayH, 0) + " days";
-  return text + ", " + figure(*health.diskHours, 1) + " h";
+  return text + ", " + QString::fromStdString(diskTimeText(*health.diskHours));
 }
 
 QString portText(const PortStatus& port) {

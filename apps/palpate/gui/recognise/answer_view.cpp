@@ -9,6 +9,8 @@ namespace {
 constexpr double kAirUnits = 0.9;
 constexpr double kUnitsHigh = 19.0;  // size in text units when the text is as large as fits
 constexpr double kUnitsWide = 30.0;
+constexpr double kLeastAnswerUnit = 10.0;  // [px]
+constexpr double kSmallerAnswer = 0.97;    // a step of the search for the size that fits
 
 }  // namespace
 
@@ -28,19 +30,39 @@ void AnswerView::setTheme(Theme theme) {
   update();
 }
 
-void AnswerView::paintEvent(QPaintEvent*) {
-  QPainter painter(this);
-  const double unit = scale_ > 0.0
-                          ? scale_ * fontInfo().pixelSize()
-                          : std::max(10.0, std::min(height() / kUnitsHigh, width() / kUnitsWide));
-  const double air = kAirUnits * unit;
+double AnswerView::textHeight() const {
+  if (scale_ > 0.0) return scale_ * fontInfo().pixelSize();
+  double unit = std::max(kLeastAnswerUnit, std::min(height() / kUnitsHigh, width() / kUnitsWide));
+  // The last lines may need several rows: painted onto nothing, they tell their height.
+  QPixmap nothing(1, 1);
+  QPainter painter(&nothing);
+  painter.setFont(font());
+  constexpr double kAnyHeight = 1e6;
+  const auto needed = [&] {
+    const double air = kAirUnits * unit;
+    return air + paintAnswer(painter,
+                             QRectF(air, air, width() - 2.0 * air, kAnyHeight),
+                             answer_,
+                             photo(),
+                             theme_,
+                             unit);
+  };
+  while (unit > kLeastAnswerUnit && needed() > height())
+    unit = std::max(kLeastAnswerUnit, kSmallerAnswer * unit);
+  return unit;
+}
+
+const QPixmap& AnswerView::photo() const {
   static const QPixmap none;
-  paintAnswer(painter,
-              QRectF(rect()).adjusted(air, air, -air, -air),
-              answer_,
-              answer_.name().isEmpty() ? none : photos_.photo(answer_.name()),
-              theme_,
-              unit);
+  return answer_.name().isEmpty() ? none : photos_.photo(answer_.name());
+}
+
+void AnswerView::paintEvent(QPaintEvent*) {
+  const double unit = textHeight();
+  const double air = kAirUnits * unit;
+  QPainter painter(this);
+  paintAnswer(
+      painter, QRectF(rect()).adjusted(air, air, -air, -air), answer_, photo(), theme_, unit);
 }
 
 }  // namespace palpate::gui

@@ -11,11 +11,13 @@ namespace palpate::gui {
 class AnswerView : public QWidget {
   Q_OBJECT
  public:
-  // `scale`: text size relative to the window's; 0: as large as fits.
+  // `scale`: text size relative to the window's; 0: as large as fits with all of its lines.
   AnswerView(PhotoCache& photos, double scale, QWidget* parent = nullptr);
   void setAnswer(const RecognitionAnswer& answer);
   const RecognitionAnswer& answer() const noexcept { return answer_; }
   void setTheme(Theme theme);
+  // Height of plain text [px] with which the answer is painted now.
+  double textHeight() const;
   QSize sizeHint() const override { return {380, 300}; }
   QSize minimumSizeHint() const override { return {220, 180}; }
 
@@ -23,6 +25,8 @@ class AnswerView : public QWidget {
   void paintEvent(QPaintEvent* event) override;
 
  private:
+  const QPixmap& photo() const;
+
   PhotoCache& photos_;
   const double scale_;
   RecognitionAnswer answer_;

@@ -1,18 +1,33 @@
 #include "gui/recognise/presentation_window.h"
 
 #include <QCloseEvent>
+#include <QHBoxLayout>
 #include <QKeyEvent>
+#include <QLabel>
+#include <QPushButton>
 #include <QVBoxLayout>
 
 #include "gui/recognise/answer_view.h"
+#include "gui/widgets/text_fit.h"
 
 namespace palpate::gui {
+namespace {
 
-PresentationWindow::PresentationWindow(RecognitionController& controller,
-                                       bool live,
-                                       Theme theme,
-                                       QWidget* parent)
-    : QWidget(parent, Qt::Window), controller_(controller), live_(live) {
+constexpr int kShowRefusedMs = 5000;
+constexpr int kShowStateLines = 2;        // reserved, so that the answer seldom changes its size
+constexpr double kShowLargerText = 1.25;  // than in the window: it is read from further away
+constexpr int kShowStopLetters = 24;      // a large button is hit at once
+constexpr int kShowRowMargin = 16;
+
+}  // namespace
+
+PresentationWindow::PresentationWindow(
+    RecognitionController& controller, HandCommands& hand, bool live, Theme theme, QWidget* parent)
+    : QWidget(parent, Qt::Window),
+      controller_(controller),
+      hand_(hand),
+      theme_(theme),
+      live_(live) {
   setObjectName("showWindow");
   setWindowTitle("What is it? – Palpate");
   setAttribute(Qt::WA_DeleteOnClose);
@@ -27,7 +42,79 @@ PresentationWindow::PresentationWindow(RecognitionController& controller,
   connect(&controller, &RecognitionController::answered, this, &PresentationWindow::showAnswer);
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(0, 0, 0, 0);
-  column->addWidget(view_);
+  column->setSpacing(0);
+  column->addWidget(view_, 1);
+  column->addWidget(makeHandRow());
+  refusedTimer_.setSingleShot(true);
+  refusedTimer_.setInterval(kShowRefusedMs);
+  connect(&refusedTimer_, &QTimer::timeout, this, [this] {
+    refused_.clear();
+    showHand();
+  });
+  connect(&hand, &HandCommands::handStateChanged, this, &PresentationWindow::showHand);
+  connect(&hand, &HandCommands::asked, this, [this] {
+    refused_.clear();
+    showHand();
+  });
+  connect(&hand, &HandCommands::keyRefused, this, [this](const QString& why) {
+    refused_ = why;
+    refusedTimer_.start();
+    showHand();
+  });
+  // Qt gives keys to the actions of the window that has the focus only.
+  addActions(hand.motions);
+  showHand();
+}
+
+QWidget* PresentationWindow::makeHandRow() {
+  handRow_ = new QWidget(this);
+  handRow_->setObjectName("showHand");
+  handState_ = new QLabel(handRow_);
+  handState_->setObjectName("showHandState");
+  handState_->setTextFormat(Qt::PlainText);
+  handState_->setWordWrap(true);
+  auto* stop = new QPushButton("Stop  (Esc)", handRow_);
+  stop->setObjectName("showStop");
+  stop->setProperty("danger", true);
+  // Return and Space, pressed for something else, don't press it, and Q still asks.
+  stop->setFocusPolicy(Qt::NoFocus);
+  stop->setSizePolicy(QSizePolicy::Minimum, QSizePolicy::Expanding);
+  auto* row = new QHBoxLayout(handRow_);
+  row->setContentsMargins(kShowRowMargin, kShowRowMargin / 2, kShowRowMargin, kShowRowMargin);
+  row->setSpacing(kShowRowMargin);
+  row->addWidget(handState_, 1);
+  row->addWidget(stop);
+  fitToText(*this, [this, stop] {
+    QFont larger = font();
+    larger.setPointSizeF(kShowLargerText * fontInfo().pointSizeF());
+    handState_->setFont(larger);
+    larger.setBold(true);
+    stop->setFont(larger);
+    const QFontMetrics metrics(larger);
+    handState_->setMinimumHeight(kShowStateLines * metrics.lineSpacing());
+    stop->setMinimumSize(kShowStopLetters * metrics.averageCharWidth(), 3 * metrics.lineSpacing());
+  });
+  const auto offer = [this, stop] {
+    handRow_->setVisible(hand_.stop && hand_.stop->isEnabled());
+    if (hand_.stop) stop->setToolTip(hand_.stop->toolTip());
+  };
+  if (hand_.stop) {
+    connect(stop, &QPushButton::clicked, hand_.stop, &QAction::trigger);
+    connect(hand_.stop, &QAction::enabledChanged, handRow_, offer);
+  }
+  offer();
+  return handRow_;
+}
+
+void PresentationWindow::showHand() {
+  const bool refused = !refused_.isEmpty();
+  const ThemeColors& colors = colorsOf(theme_);
+  handState_->setText(refused ? refused_ : hand_.handState());
+  const QColor color = refused                ? colors.warning
+                       : hand_.handStateBad() ? colors.danger
+                                              : colors.text;
+  const QString style = "color: " + color.name() + ";";
+  if (handState_->styleSheet() != style) handState_->setStyleSheet(style);
 }
 
 void PresentationWindow::setLive(bool live) {

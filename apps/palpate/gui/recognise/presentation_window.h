@@ -1,10 +1,17 @@
 // The full-screen window that shows only the answer, for an audience. With a connected hand it
-// names only what is held now. Esc or the key that opened it closes it.
+// names only what is held now. While a hand is connected that can be moved, a row below the answer
+// has a large button Stop and what the hand does; the keys of its motions work here, too. Esc or
+// the key that opened it closes it.
 #pragma once
 
+#include <QTimer>
 #include <QWidget>
 
 #include "gui/recognise/recognition_controller.h"
+#include "gui/window_state/hand_commands.h"
+
+class QLabel;
+class QPushButton;
 
 namespace palpate::gui {
 
@@ -13,7 +20,9 @@ class AnswerView;
 class PresentationWindow : public QWidget {
   Q_OBJECT
  public:
+  // `hand` must outlive this.
   PresentationWindow(RecognitionController& controller,
+                     HandCommands& hand,
                      bool live,
                      Theme theme,
                      QWidget* parent = nullptr);
@@ -30,11 +39,20 @@ class PresentationWindow : public QWidget {
   void closeEvent(QCloseEvent* event) override;
 
  private:
+  QWidget* makeHandRow();
   void showAnswer();
+  // Shows why a key was refused, for some seconds; otherwise what the hand does.
+  void showHand();
 
   RecognitionController& controller_;
+  HandCommands& hand_;
+  const Theme theme_;
   bool live_;
   AnswerView* view_;
+  QWidget* handRow_;
+  QLabel* handState_;
+  QString refused_;
+  QTimer refusedTimer_;
 };
 
 }  // namespace palpate::gui

@@ -220,6 +220,7 @@ void RecogniseFeature::showFull() {
   panel_->controller().setEmulated(shown && shown->emulated);
   if (!panel_->controller().whyNoModel().isEmpty()) return showWhyNoModel();
   full_ = new PresentationWindow(panel_->controller(),
+                                 state().handCommands,
                                  state().displayed.source() != nullptr,
                                  state().appearance.theme(),
                                  window());

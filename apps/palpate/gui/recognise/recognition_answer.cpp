@@ -62,7 +62,11 @@ double paintWords(QPainter& painter,
   return used.bottom();
 }
 
-void paintPhoto(QPainter& painter, const QRectF& room, const QPixmap& photo, const QColor& border) {
+// Returns the lower end of the photo.
+double paintPhoto(QPainter& painter,
+                  const QRectF& room,
+                  const QPixmap& photo,
+                  const QColor& border) {
   const QSizeF size = QSizeF(photo.size()).scaled(room.size(), Qt::KeepAspectRatio);
   const QRectF at(room.right() - size.width(), room.top(), size.width(), size.height());
   painter.setRenderHint(QPainter::SmoothPixmapTransform);
@@ -70,6 +74,7 @@ void paintPhoto(QPainter& painter, const QRectF& room, const QPixmap& photo, con
   painter.setPen(border);
   painter.setBrush(Qt::NoBrush);
   painter.drawRect(at);
+  return at.bottom();
 }
 
 }  // namespace
@@ -129,21 +134,23 @@ QString offsetText(const SessionOffset& offset, bool emulated) {
   return "session offset " + value + " ± " + figure(offset.sdMm, 1) + " mm, from " + origin;
 }
 
-void paintAnswer(QPainter& painter,
-                 const QRectF& area,
-                 const RecognitionAnswer& answer,
-                 const QPixmap& photo,
-                 Theme theme,
-                 double unit) {
+double paintAnswer(QPainter& painter,
+                   const QRectF& area,
+                   const RecognitionAnswer& answer,
+                   const QPixmap& photo,
+                   Theme theme,
+                   double unit) {
   using Kind = RecognitionAnswer::Kind;
   const ThemeColors& colors = colorsOf(theme);
   painter.save();
   painter.setRenderHint(QPainter::Antialiasing);
   QRectF room = area;
+  double photoEnd = area.top();
   const bool answered = answer.kind == Kind::kNamed || answer.kind == Kind::kUnknown;
   if (answered && !photo.isNull() && answer.kind == Kind::kNamed) {
     const double side = std::min(kPhotoShare * room.width(), 12.0 * unit);
-    paintPhoto(painter, QRectF(room.right() - side, room.top(), side, side), photo, colors.border);
+    photoEnd = paintPhoto(
+        painter, QRectF(room.right() - side, room.top(), side, side), photo, colors.border);
     room.setRight(room.right() - side - unit);
   }
   if (!answered) {
@@ -153,13 +160,16 @@ void paintAnswer(QPainter& painter,
                                 answer.text,
                                 font,
                                 answer.kind == Kind::kProblem ? colors.text : colors.muted);
-    paintWords(painter,
-               QRectF(room.left(), y + 0.6 * unit, room.width(), room.height()),
-               answer.of,
-               fontOf(painter, 0.9 * unit),
-               colors.muted);
+    const double end =
+        answer.of.isEmpty()
+            ? y
+            : paintWords(painter,
+                         QRectF(room.left(), y + 0.6 * unit, room.width(), room.height()),
+                         answer.of,
+                         fontOf(painter, 0.9 * unit),
+                         colors.muted);
     painter.restore();
-    return;
+    return end;
   }
   const QColor color = recognitionAnswerColorOf(answer, colors);
   // The name is as large as fits.
@@ -236,11 +246,13 @@ void paintAnswer(QPainter& painter,
             painter, QRectF(area.left(), y, area.width(), area.bottom() - y), text, small, ink) +
         0.25 * unit;
   };
-  if (!photo.isNull()) y = std::max(y, std::min(area.bottom() - 4 * unit, room.top()));
+  // These lines are as wide as the area: they stand below the photo.
+  y = std::max(y, photoEnd + 0.25 * unit);
   line(answer.of, colors.muted);
   line(answer.offset, colors.muted);
   line(answer.unsure, colors.warning);
   painter.restore();
+  return y;
 }
 
 }  // namespace palpate::gui

@@ -59,12 +59,13 @@ RecognitionAnswer answerOf(const TrainedModel& model, const Prediction& predicti
 QString offsetText(const SessionOffset& offset, bool emulated);
 
 // Paints the name in large type, the certainty, a bar, two runners-up, and the photo if there is
-// one; `unit`: height of plain text [px].
-void paintAnswer(QPainter& painter,
-                 const QRectF& area,
-                 const RecognitionAnswer& answer,
-                 const QPixmap& photo,
-                 Theme theme,
-                 double unit);
+// one; `unit`: height of plain text [px]. Lines that begin below the area are left out. Returns the
+// lower end of what is painted.
+double paintAnswer(QPainter& painter,
+                   const QRectF& area,
+                   const RecognitionAnswer& answer,
+                   const QPixmap& photo,
+                   Theme theme,
+                   double unit);
 
 }  // namespace palpate::gui

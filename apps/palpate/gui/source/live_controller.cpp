@@ -1,5 +1,7 @@
 #include "gui/source/live_controller.h"
 
+#include <utility>
+
 #include <palpate/core/error.h>
 #include <palpate/core/time.h>
 
@@ -18,6 +20,11 @@ std::filesystem::path existingPartOf(std::filesystem::path folder) {
          !std::filesystem::is_directory(folder, ignored))
     folder = folder.parent_path();
   return folder.empty() ? std::filesystem::path(".") : folder;
+}
+
+// A port that ended in order, as that of a replay, is not gone.
+bool isPortGone(PortState state) {
+  return state == PortState::kLost || state == PortState::kConnecting || state == PortState::kFault;
 }
 
 }  // namespace
@@ -167,10 +174,17 @@ void LiveController::refresh() {
     lastFrameUs_ = nowUs;
     framesCame_ = true;
   }
-  const bool stale = !framesCame_ || nowUs - lastFrameUs_ > kStaleMs * kUsPerMs;
+  const bool stale = !framesCame_ || nowUs - lastFrameUs_ > kStaleMs * kUsPerMs ||
+                     isPortGone(source_->session->device().status().tactile.state);
   if (stale != stale_) {
     stale_ = stale;
     emit staleChanged(stale);
+    // What is said of the link changes with the picture. The looks of the timer are not counted
+    // faster by this.
+    const int looks = looks_;
+    refreshHealth();
+    if (!source_) return;
+    looks_ = looks;
   }
   if (frame) emit frameReceived(*frame);
   // A slot of the signals above may have closed the connection.
@@ -182,12 +196,21 @@ void LiveController::refreshHealth() {
   if (!source_) return;
   health_ = source_->session->health();
   const auto events = source_->session->takeEvents();
-  if (looks_++ % kLooksPerCheck == 0) check();
+  // What the last check found isn't true any more when a port has gone or is back.
+  const bool changed = portsChanged();
+  if (looks_++ % kLooksPerCheck == 0 || changed) check();
   if (!events.empty()) emit eventsReceived(events);
   emit refreshed();
   // The recording stopped by itself: at a limit, or at the end of its source.
   if (recording_ && !stopping_ && source_ && looks_ > 1 && !source_->session->recording())
     stopRecording();
+}
+
+bool LiveController::portsChanged() {
+  const auto& motion = health_.device.motion;
+  const std::pair now(health_.device.tactile.state, motion ? motion->state : PortState::kClosed);
+  motionGone_ = motion && isPortGone(now.second);
+  return std::exchange(portStates_, now) != now;
 }
 
 void LiveController::check() {

@@ -12,6 +12,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include <palpate/capture/link_health.h>
@@ -45,8 +46,10 @@ class LiveController : public QObject {
 
   // Link health, updated four times a second.
   const LinkHealth& health() const noexcept { return health_; }
-  // The newest frame is older than kStaleMs, or there is none.
+  // The newest frame is older than kStaleMs, or there is none, or its port is known to be gone.
   bool stale() const noexcept { return stale_; }
+  // The motion port is known to be gone: joint angles and temperatures are old.
+  bool motionGone() const noexcept { return motionGone_; }
   // Time since the newest frame arrived, or since connecting [s].
   double silentS() const;
   bool hasReceivedFrames() const noexcept { return framesCame_; }
@@ -95,6 +98,7 @@ class LiveController : public QObject {
   void setState(State state);
   void inWorker(std::function<void()> work);
   void check();
+  bool portsChanged();
 
   const std::filesystem::path dataFolder_;
   Connection connection_;
@@ -107,6 +111,9 @@ class LiveController : public QObject {
   QTimer lookTimer_;
   LinkHealth health_;
   bool stale_ = true;
+  bool motionGone_ = false;
+  // Of the tactile and the motion port, at the last look.
+  std::pair<PortState, PortState> portStates_ = {PortState::kClosed, PortState::kClosed};
   bool framesCame_ = false;
   // Monotonic time at which the newest frame was taken [us].
   std::int64_t lastFrameUs_ = 0;

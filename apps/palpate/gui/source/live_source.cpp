@@ -19,7 +19,9 @@ std::unique_ptr<EmulatedHand> emulatedHand(const Connection& connection,
                                            const std::filesystem::path& dataFolder) {
   Scene scene = loadScene(connection.scene.toStdString(), dataFolder / "scenes");
   if (!connection.sceneScriptRuns) scene.script.clear();
-  return std::make_unique<EmulatedHand>(std::make_unique<PhysicalHand>(scene));
+  PhysicalHandOptions options;
+  options.repeatsScript = true;
+  return std::make_unique<EmulatedHand>(std::make_unique<PhysicalHand>(scene, options));
 }
 
 std::unique_ptr<Device> streamOf(const StreamConnection& stream,

@@ -1,6 +1,7 @@
 #include "gui/widgets/status_lines.h"
 
 #include <QFontMetrics>
+#include <QKeyEvent>
 #include <QScrollBar>
 
 #include "gui/widgets/text_fit.h"
@@ -8,7 +9,7 @@
 namespace palpate::gui {
 
 StatusLines::StatusLines(int lines, const QString& name, QWidget* parent)
-    : QScrollArea(parent), label_(new QLabel(this)) {
+    : QScrollArea(parent), label_(new QLabel(this)), focusFrame_(new QFrame(this)) {
   label_->setObjectName(name);
   label_->setWordWrap(true);
   label_->setTextInteractionFlags(Qt::TextSelectableByMouse);
@@ -17,6 +18,13 @@ StatusLines::StatusLines(int lines, const QString& name, QWidget* parent)
   setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
   setFocusPolicy(Qt::NoFocus);
   setWidget(label_);
+  focusFrame_->setObjectName("FocusFrame");
+  focusFrame_->setAttribute(Qt::WA_TransparentForMouseEvents);
+  focusFrame_->hide();
+  connect(verticalScrollBar(), &QScrollBar::rangeChanged, this, [this](int, int last) {
+    setFocusPolicy(last > 0 ? Qt::TabFocus : Qt::NoFocus);
+    if (last <= 0) clearFocus();
+  });
   fitToText(*this, [this, lines] { setFixedHeight(lines * fontMetrics().lineSpacing() + 2); });
 }
 
@@ -27,6 +35,41 @@ void StatusLines::setText(const QString& text, const QString& tip) {
   }
   const QString wanted = tip.isEmpty() ? text : tip;
   if (label_->toolTip() != wanted) label_->setToolTip(wanted);
+}
+
+// The keys that scroll have other meanings in the window.
+bool StatusLines::event(QEvent* event) {
+  if (event->type() == QEvent::ShortcutOverride) {
+    const auto* key = static_cast<const QKeyEvent*>(event);
+    switch (key->key()) {
+      case Qt::Key_Up:
+      case Qt::Key_Down:
+      case Qt::Key_PageUp:
+      case Qt::Key_PageDown:
+        if (!(key->modifiers() & ~Qt::KeypadModifier)) event->accept();
+        return true;
+      default:
+        break;
+    }
+  }
+  return QScrollArea::event(event);
+}
+
+void StatusLines::focusInEvent(QFocusEvent* event) {
+  QScrollArea::focusInEvent(event);
+  focusFrame_->setGeometry(rect());
+  focusFrame_->raise();
+  focusFrame_->show();
+}
+
+void StatusLines::focusOutEvent(QFocusEvent* event) {
+  QScrollArea::focusOutEvent(event);
+  focusFrame_->hide();
+}
+
+void StatusLines::resizeEvent(QResizeEvent* event) {
+  QScrollArea::resizeEvent(event);
+  focusFrame_->setGeometry(rect());
 }
 
 }  // namespace palpate::gui

@@ -1,6 +1,8 @@
 // A text in a place of fixed height, so that nothing around it moves; a longer text is scrolled.
+// Tab stops here only while there is something to scroll; a frame shows that it has the keyboard.
 #pragma once
 
+#include <QFrame>
 #include <QLabel>
 #include <QScrollArea>
 
@@ -16,8 +18,15 @@ class StatusLines : public QScrollArea {
   // Begins at its first line. `tip` is the tool tip, if it isn't the text.
   void setText(const QString& text, const QString& tip = {});
 
+ protected:
+  bool event(QEvent* event) override;
+  void focusInEvent(QFocusEvent* event) override;
+  void focusOutEvent(QFocusEvent* event) override;
+  void resizeEvent(QResizeEvent* event) override;
+
  private:
   QLabel* label_;
+  QFrame* focusFrame_;
 };
 
 }  // namespace palpate::gui

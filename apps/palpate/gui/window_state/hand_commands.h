@@ -2,7 +2,10 @@
 // that react to it.
 #pragma once
 
+#include <QAction>
+#include <QList>
 #include <QObject>
+#include <QString>
 #include <functional>
 #include <optional>
 #include <string>
@@ -22,6 +25,21 @@ class HandCommands : public QObject {
   // Returns the calibration that is applied to the hand of this name. An empty function, or nothing
   // as its result: none is applied, or it can't be read.
   std::function<std::optional<Calibration>(const std::string& hand)> calibration;
+  // The action that stops the hand, enabled while there is a hand to stop, and the actions that
+  // move it; for windows in which the keys of the main window don't work. Null and empty: no dock
+  // Hand.
+  QAction* stop = nullptr;
+  QList<QAction*> motions;
+
+  // What the hand does, or why it can't, in the words of the dock Hand.
+  const QString& handState() const noexcept { return handState_; }
+  bool handStateBad() const noexcept { return handStateBad_; }
+  void setHandState(const QString& text, bool bad) {
+    if (text == handState_ && bad == handStateBad_) return;
+    handState_ = text;
+    handStateBad_ = bad;
+    emit handStateChanged();
+  }
 
  signals:
   // Another calibration was applied, or the applied one was removed.
@@ -32,6 +50,13 @@ class HandCommands : public QObject {
   void stopped();
   // High sensitivity begins or ends. With thresholds at the noise, ghost readings appear.
   void highSensitivityChanged(bool on);
+  void handStateChanged();
+  // The key of a motion was pressed that can't begin now: one line that tells why.
+  void keyRefused(const QString& why);
+
+ private:
+  QString handState_;
+  bool handStateBad_ = false;
 };
 
 }  // namespace palpate::gui
