@@ -16,7 +16,7 @@ TEST(GapEvents, AnEventTouchesAGapWithItsEndsToo) {
   const Profile profile = builder.finish({});
   const Gap gap{.frame = 1, .seconds = 3.0};
   const auto touches = [&](std::int64_t fromUs, std::int64_t toUs) {
-    return touchesGap({.tUs = fromUs, .t1Us = toUs, .kind = "gap"}, gap, profile);
+    return touchesGap({fromUs, toUs, "gap", {}, "lost", ""}, gap, profile);
   };
   EXPECT_TRUE(touches(3'000'000, 4'000'000)) << "within";
   EXPECT_TRUE(touches(0, 9'000'000)) << "around";
