@@ -40,7 +40,9 @@ class LogTest : public ::testing::Test {
     option.font = table()->font();
     option.widget = table();
     option.features |= QStyleOptionViewItem::WrapText;
-    option.rect = table()->visualRect(table()->model()->index(row, ActivityLog::kText));
+    // Without the padding of the theme, 6 px on both sides.
+    option.rect =
+        table()->visualRect(table()->model()->index(row, ActivityLog::kText)).adjusted(6, 0, -6, 0);
     return option;
   }
   QTableView* table() { return panel_.findChild<QTableView*>("logTable"); }

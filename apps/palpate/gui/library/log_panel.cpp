@@ -24,6 +24,12 @@
 
 namespace palpate::gui {
 
+namespace {
+
+constexpr int kAroundLine = 6;  // above and below the text of a row together [px]
+
+}  // namespace
+
 LogFilter::LogFilter(ActivityLog& log, QObject* parent) : QSortFilterProxyModel(parent), log_(log) {
   setSourceModel(&log);
 }
@@ -98,7 +104,6 @@ void LogTable::setModel(QAbstractItemModel* model) {
 }
 
 void LogTable::fitToFont() {
-  constexpr int kAroundLine = 6;  // [px]
   verticalHeader()->setDefaultSectionSize(fontMetrics().lineSpacing() + kAroundLine);
   const auto widthOf = [this](const QString& text) {
     constexpr int kAroundCell = 20;  // [px]
@@ -111,15 +116,21 @@ void LogTable::fitToFont() {
 
 void LogTable::fitAllRows() { fitRows(0, model()->rowCount() - 1); }
 
-// Most lines fit into one row of text, which is known faster than by a layout of the text.
+// Most lines fit into one row of text, which is known faster than by a layout of the text. The hint
+// of the table alone leaves the padding of the cells (theme.cpp) out of the width.
 void LogTable::fitRows(int first, int last) {
-  constexpr int kAroundText = 24;  // [px]
+  constexpr int kAroundText = 20;  // [px]
+  constexpr int kAnyHeight = 100'000;
   const int room = columnWidth(ActivityLog::kText) - kAroundText;
   const int usual = verticalHeader()->defaultSectionSize();
   for (int row = first; row <= last; ++row) {
     const QString text = model()->index(row, ActivityLog::kText).data().toString();
     const bool fits = fontMetrics().horizontalAdvance(text) <= room;
-    const int height = fits ? usual : std::max(usual, sizeHintForRow(row));
+    const auto wrapped = [&] {
+      const QRect within(0, 0, room, kAnyHeight);
+      return fontMetrics().boundingRect(within, Qt::TextWordWrap, text).height() + kAroundLine;
+    };
+    const int height = fits ? usual : std::max({usual, sizeHintForRow(row), wrapped()});
     if (rowHeight(row) != height) setRowHeight(row, height);
   }
 }
