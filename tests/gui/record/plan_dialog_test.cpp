@@ -148,6 +148,15 @@ TEST_F(PlanDialogTest, TheLastTakeIsRepeatedAndThePlanBegunAnew) {
   EXPECT_TRUE(controller_.plan().rows()[0].takes.empty());
 }
 
+// Where there is room, no column is smaller than its usual text.
+TEST_F(PlanDialogTest, TheColumnsHaveTheRoomThatIsThere) {
+  dialog_->resize(1400, 460);
+  QCoreApplication::processEvents();
+  const auto* table = find<QTableView>("planTable");
+  EXPECT_GE(table->columnWidth(PlanModel::kObject), 18 * table->fontMetrics().averageCharWidth());
+  EXPECT_GE(table->columnWidth(PlanModel::kNotes), 22 * table->fontMetrics().averageCharWidth());
+}
+
 // All columns are seen without scrolling, and the last one has room for what it says.
 TEST_F(PlanDialogTest, TheLastColumnIsWholeWithLargeText) {
   controller_.addRow({.object = "cup"});

@@ -34,6 +34,7 @@ namespace {
 
 constexpr QSize kPlanDialogSize(820, 460);  // [px]
 constexpr int kPlanDialogMargin = 16;       // [px]
+constexpr int kPlanTableBorder = 1;         // [px]
 constexpr const char* kPlanTables = "Tables (*.csv);;All files (*)";
 constexpr const char* kPlanDialogStyle = R"(
 QTableView { background: palette(base); border: 1px solid palette(mid); border-radius: 4px; }
@@ -198,11 +199,15 @@ std::array<int, PlanModel::kNumColumns> PlanDialog::wantedWidths() const {
   return widths;
 }
 
+// What the columns don't get of the width of the window.
+int PlanDialog::aroundColumns() const {
+  return 2 * (kPlanDialogMargin + kPlanTableBorder) + table_->verticalHeader()->sizeHint().width() +
+         table_->verticalScrollBar()->sizeHint().width();
+}
+
 void PlanDialog::fitSize() {
   const auto widths = wantedWidths();
-  const int whole = std::accumulate(widths.begin(), widths.end(), 2 * kPlanDialogMargin) +
-                    table_->verticalHeader()->sizeHint().width() +
-                    table_->verticalScrollBar()->sizeHint().width();
+  const int whole = std::accumulate(widths.begin(), widths.end(), aroundColumns());
   const QSize wanted(std::max(kPlanDialogSize.width(), whole),
                      qRound(textScale() * kPlanDialogSize.height()));
   const QSize room = screen() ? screen()->availableSize() : wanted;
@@ -213,8 +218,7 @@ void PlanDialog::fitSize() {
 void PlanDialog::fitColumns() {
   QHeaderView* header = table_->horizontalHeader();
   auto widths = wantedWidths();
-  const int missing =
-      std::accumulate(widths.begin(), widths.end(), 0) - table_->viewport()->width();
+  const int missing = std::accumulate(widths.begin(), widths.end(), aroundColumns()) - width();
   constexpr std::array kGiving = {PlanModel::kObject, PlanModel::kRun, PlanModel::kNotes};
   const auto spareOf = [&](int column) {
     return std::max(0,

@@ -48,6 +48,7 @@ class PlanDialog : public QDialog {
  private:
   QWidget* makeRows();
   std::array<int, PlanModel::kNumColumns> wantedWidths() const;
+  int aroundColumns() const;
   void fitSize();
   void fitColumns();
   QWidget* makeFoot();
