@@ -158,6 +158,7 @@ TEST_F(PlanControllerTest, IsRememberedAfterARestart) {
   controller_.begin(0.0);
   controller_.end(recorded("a.palpate"));
   controller_.settle();
+  controller_.keep(folder_ / "a.palpate");
   const PlanController again(settings_);
   EXPECT_TRUE(again.followed());
   EXPECT_EQ(again.plan(), controller_.plan());

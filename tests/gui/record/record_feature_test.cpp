@@ -160,6 +160,7 @@ TEST_F(RecordFeatureTest, ThePlanAsksAboutABadTakeAndItCountsOnceItIsKept) {
   endRecording();
   feature_.plan().settle();
   ASSERT_FALSE(question->isHidden());
+  QCoreApplication::processEvents();  // buttons of a visible line are shown then
   EXPECT_TRUE(question->text().startsWith("run_001.palpate: can't be checked"));
   EXPECT_TRUE(question->text().endsWith("Repeat it?")) << question->text().toStdString();
   QStringList buttons{question->findChild<QPushButton*>("offerAccept")->text()};

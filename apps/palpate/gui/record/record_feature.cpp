@@ -279,8 +279,9 @@ void RecordFeature::showPlan() {
 void RecordFeature::addKeysToPlan() {
   constexpr int kNavigation[] = {
       Qt::Key_Home, Qt::Key_End, Qt::Key_Left, Qt::Key_Right, Qt::Key_Up, Qt::Key_Down};
-  const QKeySequence copy(QKeySequence::Copy);
-  const QKeySequence close(QKeySequence::Close);
+  // What is closed or copied would be behind the plan.
+  const QKeySequence copy = key("Ctrl+C");
+  const QKeySequence close = key("Ctrl+W");
   for (QAction* action : window()->actions()) {
     const QString section = sectionOf(*action);
     const bool ofHand = section == "Hand";
@@ -288,12 +289,12 @@ void RecordFeature::addKeysToPlan() {
     const QList<QKeySequence> keys = action->shortcuts();
     const bool fits = std::all_of(keys.begin(), keys.end(), [&](const QKeySequence& each) {
       const QKeyCombination pressed = each[0];
-      const int key = pressed.key();
-      const bool function = key >= Qt::Key_F1 && key <= Qt::Key_F12;
+      const int code = pressed.key();
+      const bool function = code >= Qt::Key_F1 && code <= Qt::Key_F12;
       const bool plain = !pressed.keyboardModifiers().testFlag(Qt::ControlModifier) &&
                          !pressed.keyboardModifiers().testFlag(Qt::AltModifier) && !function;
-      if (std::ranges::find(kNavigation, key) != std::end(kNavigation)) return false;
-      return key != Qt::Key_Escape && each != copy && each != close && (!plain || ofHand);
+      if (std::ranges::find(kNavigation, code) != std::end(kNavigation)) return false;
+      return code != Qt::Key_Escape && each != copy && each != close && (!plain || ofHand);
     });
     if (fits && !keys.isEmpty()) planDialog_->addAction(action);
   }
