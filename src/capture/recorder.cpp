@@ -157,7 +157,7 @@ struct Recorder::Impl {
       const RoundTime time = now();
       parts->noteQueueLosses(lostInQueues() - lostAtStart.load());
       parts->round(time);
-      if (stopping || parts->ended(time)) finish(time);
+      if (stopping || parts->ended(time)) finish(time, stopping);
     }
     publish();
     roundBeganUs.store(-1);
@@ -175,9 +175,12 @@ struct Recorder::Impl {
                                                 std::max(kShortestWaitUs, intervalUs)));
   }
 
-  void finish(RoundTime time) {
+  void finish(RoundTime time, bool stopping) {
     finishing = true;
-    if (!parts->finish(time) && ++finishAttempts < kFinishAttempts) return;
+    if (!parts->finish(time)) {
+      if (!stopping && parts->waitsForDisk()) return;
+      if (++finishAttempts < kFinishAttempts) return;
+    }
     RecordingReport done = parts->report();
     parts.reset();  // tries again to commit
     end(std::move(done));
@@ -213,6 +216,7 @@ struct Recorder::Impl {
     }
     RecorderStatus next;
     if (parts) parts->describe(next);
+    next.waitsForDisk = parts && finishing && parts->waitsForDisk();
     const std::lock_guard lock(mutex);
     // A contact began it later than it was asked for.
     if (parts) requestTime.monoUs = parts->startMonoUs();

@@ -57,6 +57,8 @@ class RecordingParts {
   // Tries to finish; returns false after a failure, to be called again.
   bool finish(RoundTime time);
 
+  // RecordingOptions::waitForDisk.
+  bool waitsForDisk() const noexcept { return options_.waitForDisk; }
   // The oldest item that no commit has taken came after this monotonic time; empty: there is none.
   std::optional<std::int64_t> oldestUncommittedMonoUs() const noexcept { return dirtySinceMonoUs_; }
   // Number of items that the queues lost since the start; their gaps arrive as events.

@@ -66,14 +66,21 @@ Json takeJson(const PlannedTake& take) {
   return Json::object()
       .set("file", take.file.string())
       .set("problem", take.problem)
-      .set("rejected", take.rejected);
+      .set("rejected", take.rejected)
+      .set("kept", take.kept);
 }
 
 }  // namespace
 
 int PlanRow::numDone() const noexcept {
+  return static_cast<int>(std::count_if(takes.begin(), takes.end(), [](const PlannedTake& take) {
+    return !take.rejected && !take.undecided();
+  }));
+}
+
+int PlanRow::numUndecided() const noexcept {
   return static_cast<int>(std::count_if(
-      takes.begin(), takes.end(), [](const PlannedTake& take) { return !take.rejected; }));
+      takes.begin(), takes.end(), [](const PlannedTake& take) { return take.undecided(); }));
 }
 
 std::string problemOf(const PlanRow& row) {
@@ -122,10 +129,17 @@ int RecordingPlan::numDone() const noexcept {
   return done;
 }
 
+int RecordingPlan::numUndecided() const noexcept {
+  int undecided = 0;
+  for (const PlanRow& row : rows_) undecided += row.numUndecided();
+  return undecided;
+}
+
 std::optional<PlanStep> RecordingPlan::next() const noexcept {
-  for (std::size_t row = 0; row < rows_.size(); ++row)
-    if (const int done = rows_[row].numDone(); done < rows_[row].repetitions)
-      return PlanStep{row, done + 1};
+  for (std::size_t row = 0; row < rows_.size(); ++row) {
+    const int made = rows_[row].numDone() + rows_[row].numUndecided();
+    if (made < rows_[row].repetitions) return PlanStep{row, made + 1};
+  }
   return std::nullopt;
 }
 
@@ -153,6 +167,12 @@ bool RecordingPlan::setProblem(const std::filesystem::path& file, const std::str
 bool RecordingPlan::reject(const std::filesystem::path& file) {
   PlannedTake* const found = take(file);
   if (found) found->rejected = true;
+  return found != nullptr;
+}
+
+bool RecordingPlan::keep(const std::filesystem::path& file) {
+  PlannedTake* const found = take(file);
+  if (found) found->kept = true;
   return found != nullptr;
 }
 
@@ -200,10 +220,14 @@ RecordingPlan RecordingPlan::fromJson(std::string_view text) {
                      row.at("repetitions").asInteger(), 0, kMostRepetitions + 1)),
                  .notes = row.at("notes").asString()};
     const Json takes = row.at("takes");
-    for (std::size_t t = 0; t < takes.size(); ++t)
-      read.takes.push_back({takes.at(t).at("file").asString(),
-                            takes.at(t).at("problem").asString(),
-                            takes.at(t).at("rejected").asBool()});
+    for (std::size_t t = 0; t < takes.size(); ++t) {
+      const Json take = takes.at(t);
+      // Plans of earlier versions don't say whether a take was kept.
+      read.takes.push_back({take.at("file").asString(),
+                            take.at("problem").asString(),
+                            take.at("rejected").asBool(),
+                            take.contains("kept") && take.at("kept").asBool()});
+    }
     plan.addRow(std::move(read));
   }
   return plan;

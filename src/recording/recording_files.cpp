@@ -31,6 +31,16 @@ void requireFreeOfWriters(const fs::path& part) {
   if (isBeingWritten(part)) throw FileError(part, "is being written; end that first");
 }
 
+// Removes the lock that a killed writer has left, which would stay without its recording.
+void removeFreeLock(const fs::path& part) {
+  if (lowerEndingOf(part) != ".palpate" || !isThere(lockPathOf(part))) return;
+  try {
+    const RecordingLock released(part);
+  } catch (const Error&) {
+    // It is somebody's, or the folder can't be written: it stays.
+  }
+}
+
 // The new name of a file of a part: the stem of the first part, with which it begins, is replaced.
 fs::path renamed(const fs::path& file, const std::string& oldStem, const std::string& stem) {
   const std::string name = file.filename().string();
@@ -57,6 +67,10 @@ std::vector<fs::path> filesOfRecording(const fs::path& recording) {
     add(withMore(recording, ".notes.json"));
   }
   return files;
+}
+
+void removeFreeLocks(std::span<const fs::path> parts) {
+  for (const fs::path& part : parts) removeFreeLock(part);
 }
 
 std::vector<fs::path> renameRecording(std::span<const fs::path> parts, const std::string& stem) {
@@ -91,6 +105,7 @@ std::vector<fs::path> renameRecording(std::span<const fs::path> parts, const std
     }
     throw;
   }
+  removeFreeLocks(parts);
   return named;
 }
 
@@ -106,6 +121,7 @@ void deleteRecording(std::span<const fs::path> parts) {
       fs::remove(file, failure);
       if (failure) throw FileError(file, "can't be deleted: " + failure.message());
     }
+  removeFreeLocks(parts);
 }
 
 }  // namespace palpate

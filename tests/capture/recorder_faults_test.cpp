@@ -151,6 +151,83 @@ TEST(RecorderFaults, aRecordingGoesOnInAnotherFolderWithAllThatWaits) {
   EXPECT_EQ(verifyRecording(report.paths[1]).state, VerifyReport::State::kSound);
 }
 
+// The end by a limit is no reason to lose what waits: it is the same as for one that is stopped.
+TEST(RecorderFaults, aRecordingThatEndsByItselfOnAFailingDiskWaitsForAnotherFolder) {
+  const TemporaryFolder folder;
+  const fs::path other = folder / "other";
+  fs::create_directory(other);
+  FaultyVfs vfs;
+  ScriptedSession scripted(onFaultyDisk());
+  RecordingOptions options = to(folder / "a.palpate");
+  options.stopAfterFrames = 30;
+  options.waitForDisk = true;
+  scripted.session->startRecording(options);
+  scripted.run(0.3);
+  EXPECT_FALSE(scripted.session->recorderStatus().waitsForDisk);
+  vfs.failAt(Fault::kFull, vfs.operations() + 1);
+  scripted.run(30.0);
+  ASSERT_TRUE(scripted.session->recording()) << "half a minute after its end";
+  EXPECT_TRUE(scripted.session->recorderStatus().waitsForDisk);
+  EXPECT_LT(scripted.session->recorderStatus().framesOnDisk, 30);
+  vfs.heal();
+  scripted.session->continueRecordingIn(other);
+  scripted.run(0.2);
+  EXPECT_FALSE(scripted.session->recording());
+  const RecordingReport report = scripted.session->stopRecording();
+  EXPECT_EQ(report.lost, 0);
+  EXPECT_EQ(report.frames, 30);
+  ASSERT_FALSE(report.paths.empty());
+  EXPECT_EQ(report.paths.back(), other / "a.palpate");
+  std::size_t next = 0;
+  for (const fs::path& path : report.paths) {
+    const Profile profile = openRecording(path);
+    for (std::size_t i = 0; i < profile.numFrames(); ++i)
+      ASSERT_EQ(numberOf(profile.frame(i)), next++) << path;
+  }
+  EXPECT_EQ(next, 30u);
+}
+
+// Also when the very first write fails: nothing is on the disk yet.
+TEST(RecorderFaults, oneThatCouldNeverBeBegunWaitsAndIsWrittenWhenTheDiskWorks) {
+  const TemporaryFolder folder;
+  FaultyVfs vfs;
+  ScriptedSession scripted(onFaultyDisk());
+  RecordingOptions options = to(folder / "a.palpate");
+  options.stopAfterFrames = 30;
+  options.waitForDisk = true;
+  vfs.failAt(Fault::kFull, 1);
+  scripted.session->startRecording(options);
+  scripted.run(10.0);
+  ASSERT_TRUE(scripted.session->recording());
+  vfs.heal();
+  scripted.run(0.2);
+  EXPECT_FALSE(scripted.session->recording());
+  const RecordingReport report = scripted.session->stopRecording();
+  EXPECT_EQ(report.lost, 0);
+  ASSERT_FALSE(report.paths.empty());
+  EXPECT_EQ(openRecording(report.paths.back()).numFrames(), 30u);
+}
+
+TEST(RecorderFaults, oneThatWaitsIsEndedByAStopAndOneThatDoesntEndsItself) {
+  for (const bool waits : {true, false}) {
+    const TemporaryFolder folder;
+    FaultyVfs vfs;
+    ScriptedSession scripted(onFaultyDisk());
+    RecordingOptions options = to(folder / "a.palpate");
+    options.stopAfterFrames = 30;
+    options.waitForDisk = waits;
+    scripted.session->startRecording(options);
+    scripted.run(0.3);
+    vfs.failAt(Fault::kFull, vfs.operations() + 1);
+    scripted.run(10.0);
+    EXPECT_EQ(scripted.session->recording(), waits);
+    const RecordingReport report = scripted.session->stopRecording();
+    EXPECT_FALSE(report.complete);
+    EXPECT_FALSE(scripted.session->recording());
+    vfs.heal();
+  }
+}
+
 TEST(RecorderFaults, aFolderThatWasMovedAwayIsCalledGone) {
   const TemporaryFolder folder;
   const fs::path here = folder / "here", other = folder / "other";

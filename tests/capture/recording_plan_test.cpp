@@ -52,6 +52,30 @@ TEST(RecordingPlan, WhatIsRejectedOrDiscardedComesAgain) {
   EXPECT_FALSE(plan.reject("/r/none.palpate"));
 }
 
+TEST(RecordingPlan, ABadTakeThatNobodyDecidedIsNotDoneButKeepsItsPlace) {
+  RecordingPlan plan = ballAndCup();
+  plan.addTake(0, {.file = "/r/a.palpate"});
+  plan.setProblem("/r/a.palpate", "nothing was touched");
+  EXPECT_EQ(plan.numDone(), 0);
+  EXPECT_EQ(plan.numUndecided(), 1);
+  EXPECT_EQ(plan.next(), (PlanStep{0, 2}));
+  EXPECT_TRUE(planCsv(plan).ends_with("slowly,0\ncup,,1,,0\n")) << planCsv(plan);
+  EXPECT_TRUE(plan.keep("/r/a.palpate"));
+  EXPECT_EQ(plan.numDone(), 1);
+  EXPECT_EQ(plan.numUndecided(), 0);
+  EXPECT_EQ(RecordingPlan::fromJson(plan.json()), plan) << "that it is kept is kept";
+  EXPECT_TRUE(plan.reject("/r/a.palpate"));
+  EXPECT_EQ(plan.next(), (PlanStep{0, 1}));
+  EXPECT_FALSE(plan.keep("/r/none.palpate"));
+}
+
+TEST(RecordingPlan, ATakeOfAnEarlierVersionIsReadWithoutAWordWhetherItIsKept) {
+  const RecordingPlan plan = RecordingPlan::fromJson(
+      R"({"plan":1,"rows":[{"object":"ball","run":"","repetitions":1,"notes":"",)"
+      R"("takes":[{"file":"/r/a.palpate","problem":"1 gap","rejected":false}]}]})");
+  EXPECT_EQ(plan.numUndecided(), 1);
+}
+
 TEST(RecordingPlan, ATakeKeepsItsProblemUnderItsNewName) {
   RecordingPlan plan = ballAndCup();
   plan.addTake(0, {.file = "/r/a.palpate"});

@@ -107,6 +107,18 @@ TEST_F(RecordingFiles, AnUnfinishedOneKeepsItsName) {
   EXPECT_NE(refusal(parts, "b").find("was never finished"), std::string::npos);
 }
 
+// A killed writer leaves its lock, which nobody holds.
+TEST_F(RecordingFiles, ALockThatIsLeftDoesntStayWithoutItsRecording) {
+  const std::vector<fs::path> a{file("a.palpate")}, c{file("c.palpate")};
+  file("a.palpate.lock");
+  EXPECT_EQ(renameRecording(a, "b"), std::vector{folder_ / "b.palpate"});
+  EXPECT_FALSE(fs::exists(folder_ / "a.palpate.lock"));
+  EXPECT_FALSE(fs::exists(folder_ / "b.palpate.lock"));
+  file("c.palpate.lock");
+  deleteRecording(c);
+  EXPECT_FALSE(fs::exists(folder_ / "c.palpate.lock"));
+}
+
 TEST_F(RecordingFiles, IsDeletedWithAllThatBelongsToIt) {
   const std::array parts{file("a.palpate"), folder_ / "gone.palpate"};
   file("a.mcap");

@@ -65,6 +65,9 @@ struct RecordingOptions {
   // It ends after a contact, once there has been none for this time [s], 0.05..1e6. What is missing
   // (the stream was interrupted) doesn't count as released.
   std::optional<double> stopWithoutContactS = {};
+  // When it ends by itself and can't be written: it waits for the disk, Recorder::continueIn() or
+  // stop(), which finishes what can be written within 2 s. False: it does that at once.
+  bool waitForDisk = false;
   // Writes the same into NAME.mcap beside each part, too, on a thread of its own, to which nothing
   // waits. Where that can't keep up or its disk fails it stops, with an event "alarm"; the
   // recording goes on. What has been taken for a second is in the file at the latest.
@@ -145,6 +148,9 @@ struct RecorderStatus {
   std::int64_t refused = 0;
   // Last error of the disk; empty while writing works.
   std::string writeError;
+  // It has ended by itself and can't be finished (RecordingOptions::waitForDisk): what waits in
+  // memory is lost if it is stopped now.
+  bool waitsForDisk = false;
   // Why the MCAP file beside the recording stopped; empty: it did not.
   std::string mcapFailure;
   // Time for which a write has been blocked by the disk [s].

@@ -19,6 +19,10 @@ struct PlannedTake {
   std::string problem = {};
   // It was rejected: it counts no longer, and is to be repeated.
   bool rejected = false;
+  // It counts in spite of its problem.
+  bool kept = false;
+  // It has a problem, and nobody said yet whether it counts.
+  bool undecided() const noexcept { return !problem.empty() && !rejected && !kept; }
   bool operator==(const PlannedTake&) const = default;
 };
 
@@ -29,8 +33,9 @@ struct PlanRow {
   std::string notes = {};
   std::vector<PlannedTake> takes = {};  // in the order in which they were made
 
-  // Number of takes that count.
+  // Number of takes that count, and of those that are to be decided.
   int numDone() const noexcept;
+  int numUndecided() const noexcept;
   bool operator==(const PlanRow&) const = default;
 };
 
@@ -56,10 +61,13 @@ class RecordingPlan {
   // Removes a row; the files of its takes stay. Throws std::out_of_range.
   void removeRow(std::size_t row);
 
-  // Takes of the whole plan, and how many of them were made: "3 of 12".
+  // Takes of the whole plan, and how many of them were made and count: "3 of 12".
   int total() const noexcept;
   int numDone() const noexcept;
-  // The first row, from the top, of which not all takes were made; empty: the plan is done.
+  // Takes that are to be decided.
+  int numUndecided() const noexcept;
+  // The first row, from the top, of which not all takes were made. A take that is to be decided
+  // keeps its place until then. Empty: there is none.
   std::optional<PlanStep> next() const noexcept;
 
   // Adds a take. Throws std::out_of_range.
@@ -69,6 +77,8 @@ class RecordingPlan {
   // The following return false if the plan has no such take.
   bool setProblem(const std::filesystem::path& file, const std::string& problem);
   bool reject(const std::filesystem::path& file);
+  // The take counts in spite of its problem.
+  bool keep(const std::filesystem::path& file);
   bool rename(const std::filesystem::path& from, const std::filesystem::path& to);
   // The file was discarded: it is no take any more.
   bool forget(const std::filesystem::path& file);

@@ -30,6 +30,9 @@ std::vector<std::filesystem::path> renameRecording(std::span<const std::filesyst
 // Throws FileError if a part is being written; parts that aren't there are passed over.
 void requireNotBeingWritten(std::span<const std::filesystem::path> parts);
 
+// Removes NAME.palpate.lock of each part, where a killed writer has left it and nobody holds it.
+void removeFreeLocks(std::span<const std::filesystem::path> parts);
+
 // Deletes the parts with all files that belong to them, for good; parts that aren't there are
 // passed over. Throws FileError: a part is being written (then nothing is deleted), or a file can't
 // be deleted.

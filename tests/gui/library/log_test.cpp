@@ -9,6 +9,7 @@
 #include <QTableView>
 #include <QToolButton>
 
+#include "gui/appearance/text_size.h"
 #include "gui/library/log_panel.h"
 #include "gui/testing/fake_clock.h"
 #include "gui/testing/window_fixture.h"
@@ -31,6 +32,18 @@ class LogTest : public ::testing::Test {
     for (int row = 0; row < table()->model()->rowCount(); ++row)
       texts.append(table()->model()->index(row, ActivityLog::kText).data().toString());
     return texts;
+  }
+  // As the table draws a cell with wrapped text.
+  QStyleOptionViewItem optionOf(int row) {
+    QStyleOptionViewItem option;
+    option.initFrom(table());
+    option.font = table()->font();
+    option.widget = table();
+    option.features |= QStyleOptionViewItem::WrapText;
+    // Without the padding of the theme, 6 px on both sides.
+    option.rect =
+        table()->visualRect(table()->model()->index(row, ActivityLog::kText)).adjusted(6, 0, -6, 0);
+    return option;
   }
   QTableView* table() { return panel_.findChild<QTableView*>("logTable"); }
   template <class Widget>
@@ -127,6 +140,33 @@ TEST_F(LogTest, KeepsTheLastTenThousandLines) {
   EXPECT_EQ(log_.line(0).text, QString::number(25'000 - log_.rowCount()));
   log_.add(Severity::kInfo, QString(100'000, 'x'));
   EXPECT_EQ(log_.line(log_.rowCount() - 1).text.size(), ActivityLog::kMaxTextLength);
+}
+
+// Each line is seen whole, and its time, with text of every size.
+TEST_F(LogTest, RowsAndTheColumnOfTimeAreAsLargeAsTheirText) {
+  log_.add(Severity::kInfo, "opened a.dsa");
+  log_.add(Severity::kWarning, QString("frames are missing ").repeated(20));
+  for (const int pt : {12, 15, 18, 0}) {
+    applyTextPt(pt);
+    for (const int width : {500, 340}) {
+      panel_.resize(width, 160);
+      QCoreApplication::processEvents();
+      QCoreApplication::processEvents();
+      log_.add(Severity::kInfo, QString("one more of %1 ").arg(width + pt).repeated(12));
+      for (int row = 0; row < table()->model()->rowCount(); ++row) {
+        const int needed =
+            table()
+                ->itemDelegate()
+                ->sizeHint(optionOf(row), table()->model()->index(row, ActivityLog::kText))
+                .height();
+        EXPECT_GE(table()->rowHeight(row), needed) << row << ", " << pt << " pt, " << width;
+      }
+      EXPECT_GE(table()->columnWidth(ActivityLog::kTime),
+                table()->fontMetrics().horizontalAdvance("00:00:00") + 12)
+          << "padding of 6 px on both sides, " << pt << " pt";
+    }
+  }
+  EXPECT_GT(table()->rowHeight(1), 3 * table()->rowHeight(0)) << "more than three lines";
 }
 
 TEST_F(LogTest, StaysAtTheEndUnlessSomebodyReadsFurtherUp) {

@@ -48,6 +48,25 @@ QColor inferno(std::size_t index) {
   return QColor::fromRgb(colorTable(ColorMapName::kInferno)[index]);
 }
 
+// Two matrices of a finger stand one below the other: "0" alone would name both.
+TEST(MatricesPainter, ShortenedNamesStillTellMatricesApart) {
+  const auto nameWithin = [](std::size_t matrix, qsizetype letters) {
+    return matrixNameWithin(
+        sdh2(), matrix, [letters](const QString& name) { return name.size() <= letters; });
+  };
+  EXPECT_EQ(nameWithin(0, 40), "finger 0 proximal");
+  EXPECT_EQ(nameWithin(0, 10), "0 proximal");
+  EXPECT_EQ(nameWithin(0, 7), "0 prox.");
+  EXPECT_EQ(nameWithin(0, 6), "0 P");
+  EXPECT_EQ(nameWithin(1, 6), "0 D");
+  EXPECT_EQ(nameWithin(1, 2), "0D");
+  for (const qsizetype letters : {2, 3, 6, 7, 8, 10, 40}) {
+    QStringList names;
+    for (std::size_t m = 0; m < sdh2().matrices.size(); ++m) names << nameWithin(m, letters);
+    EXPECT_EQ(names.removeDuplicates(), 0) << letters;
+  }
+}
+
 TEST(MatricesGeometry, LiesLikeTheFingers) {
   const MatricesGeometry g = geometry();
   for (std::size_t finger = 0; finger < 3; ++finger) {

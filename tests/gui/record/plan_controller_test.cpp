@@ -70,7 +70,9 @@ TEST_F(PlanControllerTest, ATakeIsCheckedCountedAndRejected) {
   controller_.begin(2.0);
   controller_.end(recorded("a.palpate"));
   controller_.settle();
-  EXPECT_EQ(controller_.progressText(), "1 of 3");
+  EXPECT_EQ(controller_.progressText(), "0 of 3") << "nobody has decided yet";
+  EXPECT_EQ(controller_.nextText(), "next: ball, left, 2 of 2; 1 take is to be decided");
+  EXPECT_EQ(controller_.undecided(), folder_ / "a.palpate");
   ASSERT_EQ(checked_.size(), 1);
   EXPECT_TRUE(checked_[0].contains("long, not 2.0 s")) << checked_[0].toStdString();
   EXPECT_EQ(controller_.plan().rows()[0].takes[0].problem, checked_[0].toStdString());
@@ -78,6 +80,38 @@ TEST_F(PlanControllerTest, ATakeIsCheckedCountedAndRejected) {
   controller_.reject(folder_ / "a.palpate");
   EXPECT_EQ(controller_.progressText(), "0 of 3");
   EXPECT_FALSE(controller_.lastTake());
+}
+
+TEST_F(PlanControllerTest, ABadTakeThatIsKeptCounts) {
+  controller_.begin(2.0);
+  controller_.end(recorded("a.palpate"));
+  controller_.settle();
+  controller_.keep(folder_ / "a.palpate");
+  EXPECT_EQ(controller_.progressText(), "1 of 3");
+  EXPECT_EQ(controller_.nextText(), "next: ball, left, 2 of 2");
+  EXPECT_FALSE(controller_.undecided());
+}
+
+TEST_F(PlanControllerTest, TheLastTakeIsKnownAfterARestart) {
+  controller_.begin(0.0);
+  controller_.end(recorded("a.palpate"));
+  controller_.settle();
+  {
+    PlanController again(settings_);
+    ASSERT_EQ(again.lastTake(), folder_ / "a.palpate");
+    again.reject(*again.lastTake());
+    EXPECT_EQ(again.progressText(), "0 of 3");
+  }
+  EXPECT_FALSE(PlanController(settings_).lastTake()) << "it was repeated";
+}
+
+// Settings of an earlier version don't name the last take.
+TEST_F(PlanControllerTest, TheLastTakeIsTheLowestOfThePlanWhereNothingElseIsKnown) {
+  controller_.begin(0.0);
+  controller_.end(recorded("a.palpate"));
+  controller_.settle();
+  settings_.remove("recording/plan_last_take");
+  EXPECT_EQ(PlanController(settings_).lastTake(), folder_ / "a.palpate");
 }
 
 TEST_F(PlanControllerTest, TheLimitsOfTheCheckAreSetAndKept) {
@@ -124,6 +158,7 @@ TEST_F(PlanControllerTest, IsRememberedAfterARestart) {
   controller_.begin(0.0);
   controller_.end(recorded("a.palpate"));
   controller_.settle();
+  controller_.keep(folder_ / "a.palpate");
   const PlanController again(settings_);
   EXPECT_TRUE(again.followed());
   EXPECT_EQ(again.plan(), controller_.plan());

@@ -5,11 +5,13 @@
 #include <QDoubleSpinBox>
 #include <QLabel>
 #include <QPushButton>
+#include <QScrollBar>
 #include <QSpinBox>
 #include <QTableView>
 
 #include <palpate/core/error.h>
 
+#include "gui/appearance/text_size.h"
 #include "gui/record/plan_model.h"
 #include "gui/testing/layout_faults.h"
 #include "gui/window_state/window_state_fixture.h"
@@ -134,13 +136,46 @@ TEST_F(PlanDialogTest, TheLastTakeIsRepeatedAndThePlanBegunAnew) {
   controller_.begin(0.0);
   controller_.end(report);
   controller_.settle();
-  EXPECT_EQ(cell(0, PlanModel::kDone), "1 of 2");
-  EXPECT_TRUE(cell(0, PlanModel::kState).contains("can't be checked"));
+  EXPECT_EQ(cell(0, PlanModel::kDone), "0 of 2");
+  EXPECT_TRUE(
+      cell(0, PlanModel::kState).startsWith("to be decided: none.palpate: can't be checked"))
+      << cell(0, PlanModel::kState).toStdString();
+  EXPECT_TRUE(find<QPushButton>("planRepeat")->toolTip().startsWith("none.palpate"));
   click("planRepeat");
   EXPECT_EQ(cell(0, PlanModel::kDone), "0 of 2");
   EXPECT_EQ(cell(0, PlanModel::kState), "to be repeated");
   click("planAnew");
   EXPECT_TRUE(controller_.plan().rows()[0].takes.empty());
+}
+
+// Where there is room, no column is smaller than its usual text.
+TEST_F(PlanDialogTest, TheColumnsHaveTheRoomThatIsThere) {
+  dialog_->resize(1400, 460);
+  QCoreApplication::processEvents();
+  const auto* table = find<QTableView>("planTable");
+  EXPECT_GE(table->columnWidth(PlanModel::kObject), 18 * table->fontMetrics().averageCharWidth());
+  EXPECT_GE(table->columnWidth(PlanModel::kNotes), 22 * table->fontMetrics().averageCharWidth());
+}
+
+// All columns are seen without scrolling, and the last one has room for what it says.
+TEST_F(PlanDialogTest, TheLastColumnIsWholeWithLargeText) {
+  controller_.addRow({.object = "cup"});
+  RecordingReport report;
+  report.paths = {folder_ / "none.palpate"};
+  controller_.begin(0.0);
+  controller_.end(report);
+  controller_.settle();
+  controller_.reject(folder_ / "none.palpate");
+  auto* table = find<QTableView>("planTable");
+  for (const int pt : {15, 18, 0}) {
+    applyTextPt(pt);
+    QCoreApplication::processEvents();
+    QCoreApplication::processEvents();
+    EXPECT_EQ(table->horizontalScrollBar()->maximum(), 0) << pt;
+    EXPECT_GE(table->columnWidth(PlanModel::kState),
+              table->fontMetrics().horizontalAdvance("one is to be decided"))
+        << pt;
+  }
 }
 
 TEST_F(PlanDialogTest, NothingIsCutOff) {

@@ -7,6 +7,7 @@
 #include <QSignalSpy>
 
 #include "gui/record/countdown_strip.h"
+#include "gui/record/plan_dialog.h"
 #include "gui/widgets/offer_strip.h"
 #include "gui/window_state/window_state_fixture.h"
 
@@ -32,6 +33,19 @@ TEST_F(RecordFeatureTest, WhatWasRecordedIsOffered) {
   endRecording();
   EXPECT_TRUE(offered().startsWith("Recorded run_001.palpate")) << offered().toStdString();
   EXPECT_TRUE(windowState_->actions.at("openRecorded")->isEnabled());
+}
+
+// "Renamed: .." would otherwise stay over the next hand and the next recording.
+TEST_F(RecordFeatureTest, TheLineAboutTheLastRecordingGoesWhenSomethingNewBegins) {
+  QWidget* strip = feature_.strips().back().widget;
+  for (const auto begins : {&LiveController::recordingStarted, &LiveController::sourceOpened}) {
+    endRecording();
+    emit feature_.lastTake().renamed(folder_ / "run_001.palpate", folder_ / "good.palpate");
+    ASSERT_EQ(offered(), "Renamed: good.palpate");
+    ASSERT_FALSE(strip->isHidden());
+    emit(windowState_->live.*begins)();
+    EXPECT_TRUE(strip->isHidden());
+  }
 }
 
 TEST_F(RecordFeatureTest, ThatNothingIsLostIsNotSaidBesideAGap) {
@@ -134,6 +148,70 @@ TEST_F(RecordFeatureTest, TheQuestionAboutATakeGoesWhenItIsRepeatedElsewhere) {
   EXPECT_TRUE(strip->isHidden());
 }
 
+// The window of the plan may cover the line above the views.
+TEST_F(RecordFeatureTest, ThePlanAsksAboutABadTakeAndItCountsOnceItIsKept) {
+  feature_.plan().addRow({.object = "ball", .repetitions = 2});
+  windowState_->actions.at("recordingPlan")->trigger();
+  auto* dialog = actionsOf_.findChild<PlanDialog*>();
+  ASSERT_TRUE(dialog);
+  const auto* question = &dialog->question();
+  EXPECT_TRUE(question->isHidden());
+  feature_.plan().begin(std::nullopt);
+  endRecording();
+  feature_.plan().settle();
+  ASSERT_FALSE(question->isHidden());
+  QCoreApplication::processEvents();  // buttons of a visible line are shown then
+  EXPECT_TRUE(question->text().startsWith("run_001.palpate: can't be checked"));
+  EXPECT_TRUE(question->text().endsWith("Repeat it?")) << question->text().toStdString();
+  QStringList buttons{question->findChild<QPushButton*>("offerAccept")->text()};
+  for (const QPushButton* each : question->findChildren<QPushButton*>("offerOther"))
+    if (!each->isHidden()) buttons << each->text();
+  EXPECT_EQ(buttons, QStringList({"Repeat", "Keep", "Discard…"}));
+  EXPECT_EQ(feature_.plan().progressText(), "0 of 2");
+  question->findChildren<QPushButton*>("offerOther").front()->click();
+  EXPECT_EQ(feature_.plan().progressText(), "1 of 2");
+  EXPECT_TRUE(question->isHidden());
+  EXPECT_TRUE(feature_.strips().back().widget->isHidden()) << "decided there, too";
+}
+
+TEST_F(RecordFeatureTest, KeysOfTheWindowWorkInThePlanExceptThoseOfItsTable) {
+  QAction* open = windowState_->actions.make("openHand", "Hand", "Open", {key("Ctrl+Alt+O")});
+  QAction* theme = windowState_->actions.make("nextTheme", "View", "Theme", {key("Ctrl+T")});
+  QAction* newest = windowState_->actions.make("liveNewest", "Hand", "Newest", {key("End")});
+  QAction* erase = windowState_->actions.make("removeEvent", "Edit", "Delete", {key("Del")});
+  QAction* smooth = windowState_->actions.make("smooth", "View", "Smooth", {key("I")});
+  QAction* close = windowState_->actions.make("close", "File", "Close", {key("Ctrl+W")});
+  windowState_->actions.at("recordingPlan")->trigger();
+  const QList<QAction*> keys = actionsOf_.findChild<PlanDialog*>()->actions();
+  for (QAction* each : {open,
+                        theme,
+                        windowState_->actions.at("mark"),
+                        windowState_->actions.at("record"),
+                        windowState_->actions.at("recordingSettings")})
+    EXPECT_TRUE(keys.contains(each)) << each->text().toStdString();
+  for (QAction* each : {newest, erase, smooth, close})
+    EXPECT_FALSE(keys.contains(each)) << each->text().toStdString();
+}
+
+TEST_F(RecordFeatureTest, EscapeInThePlanEndsTheCountdownAndThenClosesThePlan) {
+  connectEmulated();
+  windowState_->prompts.recording = [this](RecordingSettings settings, const QString&) {
+    settings.folder = QString::fromStdString(folder_.path().string());
+    settings.countdownS = 30;
+    return settings;
+  };
+  windowState_->actions.at("recordingPlan")->trigger();
+  auto* dialog = actionsOf_.findChild<PlanDialog*>();
+  windowState_->actions.at("record")->trigger();
+  ASSERT_TRUE(feature_.countdown().running());
+  QTest::keyClick(dialog, Qt::Key_Escape);
+  EXPECT_FALSE(feature_.countdown().running());
+  EXPECT_TRUE(dialog->isVisible());
+  QTest::keyClick(dialog, Qt::Key_Escape);
+  EXPECT_FALSE(dialog->isVisible());
+  disconnect();
+}
+
 TEST_F(RecordFeatureTest, ACountdownIsSeenAndRecordOrEscapeCancelsIt) {
   connectEmulated();
   QWidget* strip = feature_.strips().front().widget;
@@ -188,6 +266,45 @@ TEST_F(RecordFeatureTest, AHandThatGoesCancelsTheCountdown) {
   windowState_->actions.at("record")->trigger();
   disconnect();
   EXPECT_FALSE(feature_.countdown().running());
+}
+
+// One that reached its own limit offers the same as one that the user stops.
+TEST_F(RecordFeatureTest, OneThatEndsByItselfOnAFailingDiskOffersAnotherFolder) {
+  namespace fs = std::filesystem;
+  const fs::path here = folder_ / "here", other = folder_ / "other";
+  fs::create_directory(here);
+  fs::create_directory(other);
+  connectEmulated();
+  windowState_->prompts.recording = [&](RecordingSettings settings, const QString&) {
+    settings.folder = QString::fromStdString(here.string());
+    settings.limits.stopAfterS = 2.0;
+    return settings;
+  };
+  std::optional<RecordingReport> report;
+  QObject::connect(&windowState_->live,
+                   &LiveController::recordingEnded,
+                   &feature_,
+                   [&](const RecordingReport& ended) { report = ended; });
+  LiveController& live = windowState_->live;
+  windowState_->actions.at("record")->trigger();
+  ASSERT_TRUE(QTest::qWaitFor([&] { return live.health().recorder.framesOnDisk > 0; }, 20'000));
+  fs::rename(here, folder_ / "there");
+  ASSERT_TRUE(QTest::qWaitFor([&] { return live.health().recorder.waitsForDisk; }, 20'000));
+  EXPECT_TRUE(offered().startsWith("The recording has reached its end, but can't be written"))
+      << offered().toStdString();
+  bool asked = false;
+  windowState_->prompts.endRecording = [&] {
+    asked = true;
+    live.continueRecordingIn(other);
+    return true;
+  };
+  feature_.strips().back().widget->findChild<QPushButton*>("offerAccept")->click();
+  EXPECT_TRUE(asked);
+  ASSERT_TRUE(QTest::qWaitFor([&] { return report.has_value(); }, 20'000));
+  EXPECT_EQ(report->lost, 0);
+  ASSERT_EQ(report->paths.size(), 1u);
+  EXPECT_EQ(report->paths[0].parent_path(), other);
+  disconnect();
 }
 
 TEST_F(RecordFeatureTest, AWindowThatClosesOffersNothingAnyMore) {

@@ -45,6 +45,7 @@ TEST_F(RecordedTakeTest, GetsANewNameWithWhatBelongsToIt) {
   answers_ = {" good ball.palpate "};
   QSignalSpy changed(&take_, &RecordedTake::changed);
   take_.rename();
+  EXPECT_EQ(titles_, QStringList("Rename run_001.palpate"));
   EXPECT_EQ(offered_, QStringList("run_001"));
   EXPECT_EQ(take_.paths().front(), folder_ / "good_ball.palpate");
   EXPECT_TRUE(there("good_ball.palpate"));
@@ -58,6 +59,7 @@ TEST_F(RecordedTakeTest, ATakenNameIsSaidAndAskedAgainWithWhatWasTyped) {
   answers_ = {"taken", "free"};
   take_.rename();
   ASSERT_EQ(titles_.size(), 2);
+  EXPECT_TRUE(titles_[1].startsWith("Rename run_001.palpate\n"));
   EXPECT_TRUE(titles_[1].contains("exists already; give another name"));
   EXPECT_EQ(offered_[1], "taken");
   EXPECT_TRUE(there("free.palpate"));

@@ -24,6 +24,7 @@
 #include "gui/timeline/timeline_feature.h"
 #include "gui/timeline/timeline_header.h"
 #include "gui/timeline/timeline_panel.h"
+#include "gui/widgets/offer_strip.h"
 
 namespace palpate::gui::events_window_test {
 namespace {
@@ -47,7 +48,10 @@ class EventsWindowTest : public WindowTest {
     QApplication::setActiveWindow(window_.get());
     window_->state().open({path_});
     waitUntilOpened();
-    window_->state().prompts.text = [this](const QString&, const QString&) { return answer_; };
+    window_->state().prompts.text = [this](const QString& title, const QString&) {
+      title_ = title;
+      return answer_;
+    };
     window_->state().prompts.cropped = [this](const QString& suggestion) {
       suggested_ = suggestion;
       return QString::fromStdString((folder_ / cropName_).string());
@@ -68,6 +72,7 @@ class EventsWindowTest : public WindowTest {
   std::filesystem::path path_;
   SyntheticTruth truth_;
   std::optional<QString> answer_ = "touch";
+  QString title_;  // of the last question for a text
   std::string cropName_ = "part.palpate";
   QString suggested_;
   UserPrompts::Unsaved unsaved_ = UserPrompts::Unsaved::kSave;
@@ -511,6 +516,10 @@ TEST_F(EventsWindowTest, TheWholeRecordingIsSavedAsAnotherWithItsLabels) {
   chosen = QString::fromStdString((folder_ / "copy.h5").string());
   saveAs->trigger();
   window().settle();
+  EXPECT_TRUE(window().windowTitle().startsWith("grasps.palpate"));
+  OfferStrip& offer = window().feature<TimelineFeature>().cropJob().offer();
+  EXPECT_TRUE(offer.isVisible());
+  EXPECT_EQ(offer.text(), "Saved as copy.h5. grasps.palpate stays open.");
   EXPECT_EQ(openRecording(folder_ / "copy.h5").numFrames(), all.numFrames());
   // The file may be gone since it was opened: what was read can still be saved.
   std::filesystem::rename(path_, folder_ / "elsewhere.palpate");
@@ -523,6 +532,32 @@ TEST_F(EventsWindowTest, TheWholeRecordingIsSavedAsAnotherWithItsLabels) {
   saveAs->trigger();
   window().settle();
   EXPECT_TRUE(bannerText().contains(".docx")) << bannerText().toStdString();
+}
+
+TEST_F(EventsWindowTest, WhatWasSavedAsAnotherIsOpenedOnDemand) {
+  window_->state().prompts.newFile = [&](const QString&, const QString&, const QString&) {
+    return QString::fromStdString((folder_ / "copy.palpate").string());
+  };
+  window().state().actions.at("saveAs")->trigger();
+  window().settle();
+  waitUntilOpened();
+  OfferStrip& offer = window().feature<TimelineFeature>().cropJob().offer();
+  ASSERT_TRUE(offer.isVisible());
+  offer.findChild<QPushButton*>("openSaved")->click();
+  waitUntilOpened();
+  EXPECT_TRUE(window().windowTitle().startsWith("copy.palpate"))
+      << window().windowTitle().toStdString();
+  EXPECT_FALSE(offer.isVisible());
+}
+
+TEST_F(EventsWindowTest, TheQuestionForALabelSaysWhatIsLabelled) {
+  playback().seekSeconds(2.0);
+  const double positionS = playback().positionS();
+  press(Qt::Key_B, Qt::ControlModifier);
+  EXPECT_EQ(title_, QString("Label at %1 s in grasps.palpate").arg(positionS, 0, 'f', 2));
+  chart().setSelection(TimeSpan{1.5, 2.5});
+  press(Qt::Key_B, Qt::ControlModifier | Qt::ShiftModifier);
+  EXPECT_EQ(title_, "Note from 1.50 s to 2.50 s in grasps.palpate");
 }
 
 TEST_F(EventsWindowTest, TheLabelsOfAPartGoWithIt) {

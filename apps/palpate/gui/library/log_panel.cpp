@@ -10,6 +10,7 @@
 #include <QLineEdit>
 #include <QScrollBar>
 #include <QStackedWidget>
+#include <QTimer>
 #include <QToolButton>
 #include <QVBoxLayout>
 #include <algorithm>
@@ -22,6 +23,12 @@
 #include "gui/widgets/text_fit.h"
 
 namespace palpate::gui {
+
+namespace {
+
+constexpr int kAroundLine = 6;  // above and below the text of a row together [px]
+
+}  // namespace
 
 LogFilter::LogFilter(ActivityLog& log, QObject* parent) : QSortFilterProxyModel(parent), log_(log) {
   setSourceModel(&log);
@@ -73,16 +80,59 @@ void LogTable::keyPressEvent(QKeyEvent* event) {
   }
 }
 
-// Of a narrow log, each line has two rows of text.
 void LogTable::resizeEvent(QResizeEvent* event) {
   QTableView::resizeEvent(event);
-  constexpr int kNarrowLetters = 70;
-  constexpr int kAroundLine = 6;  // [px]
-  const bool narrow = viewport()->width() < kNarrowLetters * fontMetrics().averageCharWidth();
-  const int height = (narrow ? 2 : 1) * fontMetrics().lineSpacing() + kAroundLine;
-  setWordWrap(narrow);
-  if (verticalHeader()->defaultSectionSize() != height)
-    verticalHeader()->setDefaultSectionSize(height);
+  // The width of the last column follows.
+  QTimer::singleShot(0, this, &LogTable::fitAllRows);
+}
+
+void LogTable::setModel(QAbstractItemModel* model) {
+  QTableView::setModel(model);
+  setWordWrap(true);
+  connect(model,
+          &QAbstractItemModel::rowsInserted,
+          this,
+          [this](const QModelIndex&, int first, int last) { fitRows(first, last); });
+  connect(
+      model,
+      &QAbstractItemModel::dataChanged,
+      this,
+      [this](const QModelIndex& from, const QModelIndex& to) { fitRows(from.row(), to.row()); });
+  connect(model, &QAbstractItemModel::modelReset, this, &LogTable::fitAllRows);
+  connect(model, &QAbstractItemModel::layoutChanged, this, &LogTable::fitAllRows);
+  fitToText(*this, [this] { fitToFont(); });
+}
+
+void LogTable::fitToFont() {
+  verticalHeader()->setDefaultSectionSize(fontMetrics().lineSpacing() + kAroundLine);
+  const auto widthOf = [this](const QString& text) {
+    constexpr int kAroundCell = 20;  // [px]
+    return fontMetrics().horizontalAdvance(text) + kAroundCell;
+  };
+  horizontalHeader()->resizeSection(ActivityLog::kTime, widthOf("00:00:00"));
+  horizontalHeader()->resizeSection(ActivityLog::kSeverity, widthOf("warning"));
+  fitAllRows();
+}
+
+void LogTable::fitAllRows() { fitRows(0, model()->rowCount() - 1); }
+
+// Most lines fit into one row of text, which is known faster than by a layout of the text. The hint
+// of the table alone leaves the padding of the cells (theme.cpp) out of the width.
+void LogTable::fitRows(int first, int last) {
+  constexpr int kAroundText = 20;  // [px]
+  constexpr int kAnyHeight = 100'000;
+  const int room = columnWidth(ActivityLog::kText) - kAroundText;
+  const int usual = verticalHeader()->defaultSectionSize();
+  for (int row = first; row <= last; ++row) {
+    const QString text = model()->index(row, ActivityLog::kText).data().toString();
+    const bool fits = fontMetrics().horizontalAdvance(text) <= room;
+    const auto wrapped = [&] {
+      const QRect within(0, 0, room, kAnyHeight);
+      return fontMetrics().boundingRect(within, Qt::TextWordWrap, text).height() + kAroundLine;
+    };
+    const int height = fits ? usual : std::max({usual, sizeHintForRow(row), wrapped()});
+    if (rowHeight(row) != height) setRowHeight(row, height);
+  }
 }
 
 LogPanel::LogPanel(ActivityLog& log, QWidget* parent)
@@ -152,7 +202,6 @@ void LogPanel::buildTable() {
   pages_ = new FittingPages(this);
   table_ = new LogTable(pages_);
   table_->setObjectName("logTable");
-  table_->setModel(filter_);
   table_->setSelectionBehavior(QAbstractItemView::SelectRows);
   table_->setSelectionMode(QAbstractItemView::ExtendedSelection);
   table_->setEditTriggers(QAbstractItemView::NoEditTriggers);
@@ -163,12 +212,7 @@ void LogPanel::buildTable() {
   table_->verticalHeader()->hide();
   table_->horizontalHeader()->hide();
   table_->horizontalHeader()->setStretchLastSection(true);
-  constexpr int kPadding = 16;
-  const auto widthOf = [this](const QString& text) {
-    return fontMetrics().horizontalAdvance(text) + kPadding;
-  };
-  table_->horizontalHeader()->resizeSection(ActivityLog::kTime, widthOf("00:00:00"));
-  table_->horizontalHeader()->resizeSection(ActivityLog::kSeverity, widthOf("warning"));
+  table_->setModel(filter_);
   empty_ = new EmptyPage("log", pages_);
   pages_->addWidget(table_);
   pages_->addWidget(empty_);

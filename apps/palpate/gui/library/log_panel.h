@@ -36,11 +36,14 @@ class LogFilter : public QSortFilterProxyModel {
   QStringList words_;
 };
 
-// The table of messages. Keys that navigate in it are not passed on as shortcuts of the window.
+// The table of messages; a long one has several rows of text. Keys that navigate in it are not
+// passed on as shortcuts of the window.
 class LogTable : public QTableView {
   Q_OBJECT
  public:
   using QTableView::QTableView;
+  // Called once.
+  void setModel(QAbstractItemModel* model) override;
 
  signals:
   void copyRequested();
@@ -49,6 +52,13 @@ class LogTable : public QTableView {
   bool event(QEvent* event) override;
   void keyPressEvent(QKeyEvent* event) override;
   void resizeEvent(QResizeEvent* event) override;
+
+ private:
+  // Widths of the columns and heights of the rows for the present size of text.
+  void fitToFont();
+  // Each row is as high as its text needs.
+  void fitAllRows();
+  void fitRows(int first, int last);
 };
 
 class LogPanel : public QWidget {

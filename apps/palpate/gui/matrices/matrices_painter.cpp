@@ -83,6 +83,13 @@ QString abbreviated(const QString& name) {
   return words.join(' ');
 }
 
+// Each word behind the first as its first letter: "0 proximal" becomes "0 P".
+QString withInitials(const QString& name) {
+  QStringList words = name.split(' ', Qt::SkipEmptyParts);
+  for (qsizetype i = 1; i < words.size(); ++i) words[i] = words[i].left(1).toUpper();
+  return words.join(' ');
+}
+
 void matricesPainterPaintNames(QPainter& painter,
                                const MatricesGeometry& geometry,
                                const HandDescription& hand,
@@ -94,17 +101,34 @@ void matricesPainterPaintNames(QPainter& painter,
   painter.setPen(colorsOf(options.theme).muted);
   for (std::size_t m = 0; m < geometry.numMatrices(); ++m) {
     const QRectF rect = geometry.nameRect(m);
-    QString name = QString::fromStdString(hand.matrixName(m));
-    if (!fits(name, rect)) name = QString::fromStdString(hand.matrices[m].shortName);
-    // Where there is no room, long words are abbreviated; where that isn't enough, whole words are
-    // left out.
-    if (!fits(name, rect)) name = abbreviated(name);
-    while (name.contains(' ') && !fits(name, rect)) name = name.section(' ', 0, -2);
+    const QString name =
+        matrixNameWithin(hand, m, [&](const QString& shortened) { return fits(shortened, rect); });
     painter.drawText(rect.adjusted(0, 0, 0, -3),
                      Qt::AlignHCenter | Qt::AlignBottom | Qt::TextDontClip,
                      metrics.elidedText(name, Qt::ElideRight, rect.width()));
   }
 }
+
+}  // namespace
+
+QString matrixNameWithin(const HandDescription& hand,
+                         std::size_t matrix,
+                         const std::function<bool(const QString&)>& fits) {
+  const QString name = QString::fromStdString(hand.matrices.at(matrix).shortName);
+  const QString initials = withInitials(name);
+  // Where there is no room, long words are abbreviated, then words become letters.
+  for (const QString& each : {QString::fromStdString(hand.matrixName(matrix)),
+                              name,
+                              abbreviated(name),
+                              initials,
+                              QString(initials).remove(' ')})
+    if (fits(each)) return each;
+  QString last = abbreviated(name);
+  while (last.contains(' ') && !fits(last)) last = last.section(' ', 0, -2);
+  return last;
+}
+
+namespace {
 
 // Paints two frames, one black and one white, which are visible on every colour of every map.
 void paintSaturated(QPainter& painter, const QRectF& square) {

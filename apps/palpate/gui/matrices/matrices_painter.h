@@ -8,6 +8,7 @@
 #include <QSizeF>
 #include <QString>
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -117,6 +118,12 @@ void paintMatrixValues(QPainter& painter,
                        const HandDescription& hand,
                        const ValueRange& range,
                        const MatricesPictureOptions& options);
+
+// The longest name of a matrix that fits; the names of the matrices differ as long as there is room
+// for a letter of each word: "finger 0 proximal", "0 proximal", "0 prox.", "0 P", "0P".
+QString matrixNameWithin(const HandDescription& hand,
+                         std::size_t matrix,
+                         const std::function<bool(const QString&)>& fits);
 
 // Paints the colour bar with its values and, above it, the unit; and title and caption in one line.
 void paintColorBar(QPainter& painter,

@@ -18,6 +18,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr const char* kPlanKey = "recording/plan";
+constexpr const char* kLastTakeKey = "recording/plan_last_take";
 constexpr const char* kFollowPlanKey = "recording/follow_plan";
 
 constexpr const char* kPlanLimitsKey = "recording/plan_limits/";
@@ -45,6 +46,14 @@ std::int64_t lostIn(const RecordingReport& report) {
   return report.lost + (fromHand == report.counters.end() ? 0 : fromHand->second);
 }
 
+// The take that was made last, where only the plan is known: rows are recorded from the top.
+std::optional<fs::path> lastTakeOf(const RecordingPlan& plan) {
+  for (auto row = plan.rows().rbegin(); row != plan.rows().rend(); ++row)
+    if (!row->takes.empty())
+      return row->takes.back().rejected ? std::nullopt : std::optional(row->takes.back().file);
+  return std::nullopt;
+}
+
 }  // namespace
 
 PlanController::PlanController(QSettings& settings, QObject* parent)
@@ -55,6 +64,13 @@ PlanController::PlanController(QSettings& settings, QObject* parent)
   } catch (const Error&) {
     // A settings file never stops the program.
   }
+  if (settings.contains(kLastTakeKey)) {
+    const fs::path last = settings.value(kLastTakeKey).toString().toStdString();
+    const PlannedTake* take = plan_.find(last);
+    if (take && !take->rejected) lastTake_ = last;
+  } else {
+    lastTake_ = lastTakeOf(plan_);
+  }
   followed_ = settings.value(kFollowPlanKey, false).toBool();
   limits_ = keptLimits(settings);
   // A take that can't be checked is one with a problem; see end().
@@ -63,6 +79,7 @@ PlanController::PlanController(QSettings& settings, QObject* parent)
 
 void PlanController::save() {
   settings_.setValue(kPlanKey, QString::fromStdString(plan_.json()));
+  settings_.setValue(kLastTakeKey, QString::fromStdString(lastTake_ ? lastTake_->string() : ""));
   emit changed();
 }
 
@@ -104,6 +121,7 @@ void PlanController::removeRow(std::size_t row) {
     row_.reset();
   else if (row_ && *row_ > row)
     --*row_;
+  if (lastTake_ && !plan_.find(*lastTake_)) lastTake_.reset();
   save();
 }
 
@@ -199,6 +217,20 @@ void PlanController::reject(const fs::path& file) {
   save();
 }
 
+void PlanController::keep(const fs::path& file) {
+  if (plan_.keep(file)) save();
+}
+
+std::optional<fs::path> PlanController::undecided() const {
+  if (lastTake_)
+    if (const PlannedTake* last = plan_.find(*lastTake_); last && last->undecided())
+      return lastTake_;
+  for (const PlanRow& row : plan_.rows())
+    for (const PlannedTake& take : row.takes)
+      if (take.undecided()) return take.file;
+  return std::nullopt;
+}
+
 void PlanController::rename(const fs::path& from, const fs::path& to) {
   if (!plan_.rename(from, to)) return;
   if (lastTake_ == from) lastTake_ = to;
@@ -219,12 +251,17 @@ QString PlanController::progressText() const {
 QString PlanController::nextText() const {
   if (plan_.rows().empty()) return {};
   const auto next = plan_.next();
-  if (!next) return "the plan is done";
+  const int undecided = plan_.numUndecided();
+  const QString open = undecided == 0
+                           ? QString()
+                           : QString::number(undecided) +
+                                 (undecided == 1 ? " take is" : " takes are") + " to be decided";
+  if (!next) return open.isEmpty() ? "the plan is done" : open;
   const PlanRow& row = plan_.rows()[next->row];
   QString text = "next: " + QString::fromStdString(row.object);
   if (!row.run.empty()) text += ", " + QString::fromStdString(row.run);
   if (row.repetitions > 1) text += QString(", %1 of %2").arg(next->repetition).arg(row.repetitions);
-  return text;
+  return open.isEmpty() ? text : text + "; " + open;
 }
 
 void PlanController::settle() {

@@ -52,12 +52,17 @@ class PlanController : public QObject {
 
   // Repeats a take: it counts no longer.
   void reject(const std::filesystem::path& file);
-  // The newest take that counts, made since the window was opened; nothing: none.
+  // Keeps a take in spite of its problem: it counts.
+  void keep(const std::filesystem::path& file);
+  // A take that is to be decided: the last one, or the first from the top; nothing: none.
+  std::optional<std::filesystem::path> undecided() const;
+  // The newest take, if it was not rejected; remembered with the plan. Nothing: none.
   const std::optional<std::filesystem::path>& lastTake() const noexcept { return lastTake_; }
   void rename(const std::filesystem::path& from, const std::filesystem::path& to);
   void forget(const std::filesystem::path& file);
 
-  // "3 of 12", "next: ball, left, 2 of 3" or "the plan is done"; empty: the plan has no row.
+  // "3 of 12", "next: ball, left, 2 of 3; 1 take is to be decided" or "the plan is done"; empty:
+  // the plan has no row.
   QString progressText() const;
   QString nextText() const;
 

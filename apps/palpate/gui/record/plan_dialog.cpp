@@ -5,27 +5,36 @@
 #include <QFrame>
 #include <QHBoxLayout>
 #include <QHeaderView>
+#include <QKeyEvent>
 #include <QLabel>
 #include <QProgressBar>
 #include <QPushButton>
+#include <QResizeEvent>
+#include <QScreen>
+#include <QScrollBar>
 #include <QTableView>
 #include <QVBoxLayout>
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <numeric>
 
 #include <palpate/core/error.h>
 
 #include "gui/appearance/captions.h"
+#include "gui/appearance/text_size.h"
 #include "gui/record/plan_limits.h"
-#include "gui/record/plan_model.h"
 #include "gui/widgets/dialog_properties.h"
 #include "gui/widgets/elided_text.h"
+#include "gui/widgets/offer_strip.h"
+#include "gui/widgets/text_fit.h"
 
 namespace palpate::gui {
 namespace {
 
 constexpr QSize kPlanDialogSize(820, 460);  // [px]
 constexpr int kPlanDialogMargin = 16;       // [px]
+constexpr int kPlanTableBorder = 1;         // [px]
 constexpr const char* kPlanTables = "Tables (*.csv);;All files (*)";
 constexpr const char* kPlanDialogStyle = R"(
 QTableView { background: palette(base); border: 1px solid palette(mid); border-radius: 4px; }
@@ -63,6 +72,7 @@ PlanDialog::PlanDialog(WindowState& windowState,
   said_->setObjectName("planSaid");
   said_->setTextFormat(Qt::PlainText);
   said_->setWordWrap(true);
+  question_ = new OfferStrip(this);
   auto* top = new QHBoxLayout;
   top->setContentsMargins(kPlanDialogMargin, 12, kPlanDialogMargin, 0);
   top->setSpacing(12);
@@ -73,6 +83,7 @@ PlanDialog::PlanDialog(WindowState& windowState,
   whole->setContentsMargins(0, 0, 0, 0);
   whole->setSpacing(10);
   whole->addLayout(top);
+  whole->addWidget(question_);
   whole->addWidget(makeRows(), 1);
   whole->addWidget(makeFoot());
   connect(model_, &PlanModel::refused, this, &PlanDialog::say);
@@ -85,7 +96,10 @@ PlanDialog::PlanDialog(WindowState& windowState,
           &PlanDialog::showState);
   connect(model_, &QAbstractItemModel::modelReset, this, &PlanDialog::showState);
   say({});
-  resize(kPlanDialogSize);
+  fitToText(*this, [this] {
+    fitSize();
+    fitColumns();
+  });
   showState();
 }
 
@@ -112,15 +126,13 @@ QWidget* PlanDialog::makeRows() {
   table_->setSelectionBehavior(QAbstractItemView::SelectRows);
   table_->setSelectionMode(QAbstractItemView::SingleSelection);
   table_->setTabKeyNavigation(false);
+  // Typed letters and digits are keys of the window.
+  table_->setEditTriggers(QAbstractItemView::DoubleClicked | QAbstractItemView::EditKeyPressed);
   table_->setWordWrap(false);
   table_->verticalHeader()->setDefaultAlignment(Qt::AlignCenter);
   QHeaderView* header = table_->horizontalHeader();
   header->setHighlightSections(false);
   header->setSectionResizeMode(QHeaderView::Interactive);
-  const int letter = fontMetrics().averageCharWidth();
-  const std::array letters = {18, 12, 13, 22, 10, 20};
-  for (int column = 0; column < PlanModel::kNumColumns; ++column)
-    header->resizeSection(column, letter * letters.at(static_cast<std::size_t>(column)));
   header->setStretchLastSection(true);
   auto* add = makeButton("planAdd", "&Add row", "One more row below");
   remove_ = makeButton("planRemove", "Re&move row", "Removes the chosen row; its files stay");
@@ -157,8 +169,7 @@ QWidget* PlanDialog::makeFoot() {
   follow_->setObjectName("planFollow");
   follow_->setToolTip("Record (Ctrl+R) makes the next recording of the plan, without asking");
   connect(follow_, &QCheckBox::toggled, &controller_, &PlanController::setFollowed);
-  repeat_ = makeButton(
-      "planRepeat", "Re&peat last take", "The last take counts no longer, and comes next again");
+  repeat_ = makeButton("planRepeat", "Re&peat last take", {});
   connect(repeat_, &QPushButton::clicked, this, &PlanDialog::repeatLast);
   auto* close = makeButton("planClose", "&Close", "The plan is kept");
   connect(close, &QPushButton::clicked, this, &QDialog::reject);
@@ -176,9 +187,62 @@ QWidget* PlanDialog::makeFoot() {
   return foot;
 }
 
+// Widths of the columns for text of the present size.
+std::array<int, PlanModel::kNumColumns> PlanDialog::wantedWidths() const {
+  constexpr std::array kLetters = {18, 12, 0, 22, 8, 22};
+  std::array<int, PlanModel::kNumColumns> widths{};
+  for (int column = 0; column < PlanModel::kNumColumns; ++column) {
+    const auto at = static_cast<std::size_t>(column);
+    widths.at(at) = std::max(table_->horizontalHeader()->sectionSizeHint(column),
+                             table_->fontMetrics().averageCharWidth() * kLetters.at(at));
+  }
+  return widths;
+}
+
+// What the columns don't get of the width of the window.
+int PlanDialog::aroundColumns() const {
+  return 2 * (kPlanDialogMargin + kPlanTableBorder) + table_->verticalHeader()->sizeHint().width() +
+         table_->verticalScrollBar()->sizeHint().width();
+}
+
+void PlanDialog::fitSize() {
+  const auto widths = wantedWidths();
+  const int whole = std::accumulate(widths.begin(), widths.end(), aroundColumns());
+  const QSize wanted(std::max(kPlanDialogSize.width(), whole),
+                     qRound(textScale() * kPlanDialogSize.height()));
+  const QSize room = screen() ? screen()->availableSize() : wanted;
+  resize(size().expandedTo(wanted).boundedTo(room.expandedTo(kPlanDialogSize)));
+}
+
+// Where the room is too small for all columns, those of free text give some of theirs.
+void PlanDialog::fitColumns() {
+  QHeaderView* header = table_->horizontalHeader();
+  auto widths = wantedWidths();
+  const int missing = std::accumulate(widths.begin(), widths.end(), aroundColumns()) - width();
+  constexpr std::array kGiving = {PlanModel::kObject, PlanModel::kRun, PlanModel::kNotes};
+  const auto spareOf = [&](int column) {
+    return std::max(0,
+                    widths.at(static_cast<std::size_t>(column)) - header->sectionSizeHint(column));
+  };
+  int spare = 0;
+  for (const int column : kGiving) spare += spareOf(column);
+  const double share = spare > 0 ? std::clamp(static_cast<double>(missing) / spare, 0.0, 1.0) : 0.0;
+  for (const int column : kGiving)
+    widths.at(static_cast<std::size_t>(column)) -=
+        static_cast<int>(std::ceil(share * spareOf(column)));
+  for (int column = 0; column < PlanModel::kNumColumns; ++column)
+    header->resizeSection(column, widths.at(static_cast<std::size_t>(column)));
+}
+
+void PlanDialog::keyPressEvent(QKeyEvent* event) {
+  if (event->key() == Qt::Key_Escape && escape && escape()) return event->accept();
+  QDialog::keyPressEvent(event);
+}
+
 void PlanDialog::resizeEvent(QResizeEvent* event) {
   QDialog::resizeEvent(event);
   layout()->activate();
+  if (event->size().width() != event->oldSize().width()) fitColumns();
   // What comes next is shortened to another width.
   showState();
 }
@@ -203,7 +267,10 @@ void PlanDialog::showState() {
   anew_->setEnabled(some && std::any_of(plan.rows().begin(),
                                         plan.rows().end(),
                                         [](const auto& row) { return !row.takes.empty(); }));
-  repeat_->setEnabled(controller_.lastTake().has_value());
+  const auto& last = controller_.lastTake();
+  repeat_->setEnabled(last.has_value());
+  repeat_->setToolTip((last ? pathText(last->filename()) : QString("The last take")) +
+                      " counts no longer, and comes next again");
   const bool on = record_->property(kRecordingProperty).toBool();
   recordNext_->setText(on ? "Stop &recording" : "&Record next");
   recordNext_->setEnabled(record_->isEnabled() && (on || plan.next().has_value()));

@@ -4,8 +4,11 @@
 #pragma once
 
 #include <QDialog>
+#include <array>
+#include <functional>
 
 #include "gui/record/plan_controller.h"
+#include "gui/record/plan_model.h"
 #include "gui/window_state/window_state.h"
 
 class QCheckBox;
@@ -16,8 +19,8 @@ class QTableView;
 
 namespace palpate::gui {
 
+class OfferStrip;
 class PlanLimits;
-class PlanModel;
 
 class PlanDialog : public QDialog {
   Q_OBJECT
@@ -29,15 +32,25 @@ class PlanDialog : public QDialog {
              QWidget* parent = nullptr);
   ~PlanDialog() override;
 
+  // The line for the question about a take.
+  OfferStrip& question() noexcept { return *question_; }
+  // What Escape ends before it closes this window: true if there was something; may be empty.
+  std::function<bool()> escape;
+
  public slots:
   // Shows what is present; called with every change.
   void showState();
 
  protected:
   void resizeEvent(QResizeEvent* event) override;
+  void keyPressEvent(QKeyEvent* event) override;
 
  private:
   QWidget* makeRows();
+  std::array<int, PlanModel::kNumColumns> wantedWidths() const;
+  int aroundColumns() const;
+  void fitSize();
+  void fitColumns();
   QWidget* makeFoot();
   QPushButton* makeButton(const char* name, const QString& text, const QString& tip);
   void addRow();
@@ -58,6 +71,7 @@ class PlanDialog : public QDialog {
   QLabel* next_;
   QProgressBar* bar_;
   QLabel* said_;
+  OfferStrip* question_;
   PlanLimits* limits_;
   QCheckBox* follow_;
   QPushButton* remove_;

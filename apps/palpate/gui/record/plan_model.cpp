@@ -18,7 +18,9 @@ QString stateOfRow(const PlanRow& row) {
   const PlannedTake& newest = row.takes.back();
   if (newest.rejected) return row.numDone() < row.repetitions ? "to be repeated" : QString();
   if (!newest.problem.empty())
-    return planText(newest.file.filename().string() + ": " + newest.problem);
+    return (newest.undecided() ? "to be decided: " : "") +
+           planText(newest.file.filename().string() + ": " + newest.problem);
+  if (row.numUndecided() > 0) return "one is to be decided";
   return row.numDone() >= row.repetitions ? "done" : QString();
 }
 

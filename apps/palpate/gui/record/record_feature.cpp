@@ -3,7 +3,10 @@
 #include <QMessageBox>
 #include <QPushButton>
 #include <QTimer>
+#include <algorithm>
+#include <iterator>
 #include <string_view>
+#include <utility>
 
 #include <palpate/core/number_text.h>
 
@@ -147,7 +150,7 @@ RecordFeature::RecordFeature(WindowState& windowState, QWidget* window)
 
 RecordFeature::~RecordFeature() {
   // The dialog refers to the plan.
-  delete planDialog_;
+  delete std::exchange(planDialog_, nullptr);
 }
 
 void RecordFeature::connectActions() {
@@ -209,10 +212,11 @@ void RecordFeature::connectTake() {
 void RecordFeature::connectPlan() {
   on(actions_.recordingPlan, [this] { showPlan(); });
   connect(&plan_, &PlanController::changed, this, [this] {
-    // It was repeated, discarded or forgotten somewhere else.
+    askInPlan();
+    // It was decided, discarded or forgotten somewhere else.
     if (!doubted_) return;
     const PlannedTake* take = plan_.plan().find(*doubted_);
-    if (take && !take->rejected) return;
+    if (take && take->undecided()) return;
     doubted_.reset();
     offer_->dismiss();
   });
@@ -221,29 +225,79 @@ void RecordFeature::connectPlan() {
           this,
           [this](const std::filesystem::path& file, const QString& problem) {
             if (problem.isEmpty() || !offering_) return;
-            const QString name = QString::fromStdString(file.filename().string());
-            state().messages.logLink(name + ": " + problem);
+            state().messages.logLink(pathText(file.filename()) + ": " + problem);
             doubted_ = file;
-            offer_->offer(name + ": " + problem + ". Repeat it?", "Repeat", [this, file] {
-              plan_.reject(file);
-              state().messages.flash(plan_.nextText());
-            });
-            offer_->offerAlso("Keep", "It counts as it is", [this] { offer_->dismiss(); });
-            offer_->offerAlso("Discard…",
-                              "Moves it to the trash, after a question, and repeats it",
-                              [this] { take_.discard(); });
+            askAbout(file, *offer_);
           });
+}
+
+void RecordFeature::askAbout(const std::filesystem::path& file, OfferStrip& line) {
+  const PlannedTake* take = plan_.plan().find(file);
+  if (!take) return;
+  line.offer(
+      pathText(file.filename()) + ": " + QString::fromStdString(take->problem) + ". Repeat it?",
+      "Repeat",
+      [this, file] {
+        plan_.reject(file);
+        state().messages.flash(plan_.nextText());
+      });
+  line.offerAlso("Keep", "It counts as it is", [this, file] { plan_.keep(file); });
+  if (!take_.paths().empty() && take_.paths().front() == file)
+    line.offerAlso("Discard…", "Moves it to the trash, after a question, and repeats it", [this] {
+      take_.discard();
+    });
+}
+
+void RecordFeature::askInPlan() {
+  if (!planDialog_) return;
+  const auto file = plan_.undecided();
+  if (file == askedInPlan_) return;
+  askedInPlan_ = file;
+  if (file)
+    askAbout(*file, planDialog_->question());
+  else
+    planDialog_->question().dismiss();
 }
 
 void RecordFeature::showPlan() {
   if (!planDialog_) {
     planDialog_ = new PlanDialog(state(), plan_, actions_.record, window());
-    // Their keys work there, too.
-    planDialog_->addActions({actions_.record, actions_.recordingSettings, actions_.recordingPlan});
+    planDialog_->escape = [this] { return escape(); };
+    planDialog_->question().setTheme(state().appearance.theme());
+    followTheme(&planDialog_->question());
+    addKeysToPlan();
   }
+  // Asked again where the user has closed the line.
+  askedInPlan_.reset();
+  askInPlan();
   planDialog_->show();
   planDialog_->raise();
   planDialog_->activateWindow();
+}
+
+// Keys of the window work in the plan, too, except those of its table and fields.
+void RecordFeature::addKeysToPlan() {
+  constexpr int kNavigation[] = {
+      Qt::Key_Home, Qt::Key_End, Qt::Key_Left, Qt::Key_Right, Qt::Key_Up, Qt::Key_Down};
+  // What is closed or copied would be behind the plan.
+  const QKeySequence copy = key("Ctrl+C");
+  const QKeySequence close = key("Ctrl+W");
+  for (QAction* action : window()->actions()) {
+    const QString section = sectionOf(*action);
+    const bool ofHand = section == "Hand";
+    if (!ofHand && section != "View" && section != "File" && section != "Help") continue;
+    const QList<QKeySequence> keys = action->shortcuts();
+    const bool fits = std::all_of(keys.begin(), keys.end(), [&](const QKeySequence& each) {
+      const QKeyCombination pressed = each[0];
+      const int code = pressed.key();
+      const bool function = code >= Qt::Key_F1 && code <= Qt::Key_F12;
+      const bool plain = !pressed.keyboardModifiers().testFlag(Qt::ControlModifier) &&
+                         !pressed.keyboardModifiers().testFlag(Qt::AltModifier) && !function;
+      if (std::ranges::find(kNavigation, code) != std::end(kNavigation)) return false;
+      return code != Qt::Key_Escape && each != copy && each != close && (!plain || ofHand);
+    });
+    if (fits && !keys.isEmpty()) planDialog_->addAction(action);
+  }
 }
 
 void RecordFeature::remember() {
@@ -260,17 +314,20 @@ void RecordFeature::connectCountdown() {
   connect(&state().handCommands, &HandCommands::stopped, this, [this] {
     if (countdown_.cancel()) escaped_.start();
   });
-  state().escapeHandler.add(EscapeHandler::Order::kShow, [this] {
-    if (countdown_.cancel()) return true;
-    constexpr qint64 kSamePressMs = 200;
-    const bool same = escaped_.isValid() && escaped_.elapsed() < kSamePressMs;
-    escaped_.invalidate();
-    return same;
-  });
+  state().escapeHandler.add(EscapeHandler::Order::kShow, [this] { return escape(); });
   // Something else started a recording, or the hand was disconnected.
   connect(&state().live, &LiveController::stateChanged, this, [this] {
     if (!state().live.source() || state().live.recording()) countdown_.cancel();
   });
+}
+
+// True if this press of Escape ended the countdown.
+bool RecordFeature::escape() {
+  if (countdown_.cancel()) return true;
+  constexpr qint64 kSamePressMs = 200;
+  const bool same = escaped_.isValid() && escaped_.elapsed() < kSamePressMs;
+  escaped_.invalidate();
+  return same;
 }
 
 void RecordFeature::connectRecorder() {
@@ -278,6 +335,8 @@ void RecordFeature::connectRecorder() {
   connect(&live, &LiveController::recordingStarted, this, [this] {
     state().messages.withdraw(kRecordingTopic);
     state().messages.logLink("recording begins");
+    // Other programs begin recordings, too.
+    dismissTake();
     showState();
   });
   connect(&live, &LiveController::recordingFailed, this, [this](const QString& message) {
@@ -287,9 +346,11 @@ void RecordFeature::connectRecorder() {
     showState();
   });
   connect(&live, &LiveController::recordingEnded, this, &RecordFeature::offer);
+  connect(&live, &LiveController::sourceOpened, this, &RecordFeature::dismissTake);
   connect(
       &live, &LiveController::ended, this, [this] { state().messages.withdraw(kRecordingTopic); });
   connect(&live, &LiveController::refreshed, this, &RecordFeature::showState);
+  connect(&live, &LiveController::refreshed, this, &RecordFeature::offerAnotherFolder);
   connect(&live, &LiveController::stateChanged, this, &RecordFeature::showState);
 }
 
@@ -390,6 +451,25 @@ void RecordFeature::toggle() {
     begin(next, isPlanned);
 }
 
+// A recording that has ended by itself waits while the disk fails.
+void RecordFeature::offerAnotherFolder() {
+  const LiveController& live = state().live;
+  const bool waits = live.recording() && live.health().recorder.waitsForDisk;
+  if (waits == waitsForDisk_) return;
+  waitsForDisk_ = waits;
+  if (!waits || !offering_) return;
+  doubted_.reset();
+  offer_->offer(
+      "The recording has reached its end, but can't be written: what is missing on the disk waits "
+      "in memory.",
+      "Another folder…",
+      [this] {
+        // Asked once more if the answer is to keep it.
+        waitsForDisk_ = false;
+        if (state().live.recording()) toggle();
+      });
+}
+
 bool RecordFeature::mayStop() {
   UserPrompts& prompts = state().prompts;
   prompts.ending = UserPrompts::Ending::kStop;
@@ -409,7 +489,11 @@ void RecordFeature::begin(const RecordingSettings& settings, bool planned) {
   if (settings.limits.stopAfterS) leastS = kNearlyWhole * *settings.limits.stopAfterS;
   if (planned) plan_.begin(leastS);
   live.startRecording([settings] {
-    return recordingOptions(settings, nextPath(settings, systemClock().wallUs()));
+    RecordingOptions options =
+        recordingOptions(settings, nextPath(settings, systemClock().wallUs()));
+    // Another folder is offered then; see offerAnotherFolder().
+    options.waitForDisk = true;
+    return options;
   });
   // Notes are about one recording.
   if (!settings_.notes.isEmpty()) {
@@ -452,7 +536,8 @@ void RecordFeature::showState() {
   } else if (on) {
     const RecorderStatus& recorder = state().live.health().recorder;
     const QString end = recorder.stopAfterS ? " of " + clockText(*recorder.stopAfterS) : QString();
-    text = recorder.state == RecorderStatus::State::kRecording
+    text = recorder.waitsForDisk ? QString(" waiting for the disk")
+           : recorder.state == RecorderStatus::State::kRecording
                ? " " + clockText(recorder.elapsedS) + end + " · " + megabytes(recorder.bytesOnDisk)
            : recorder.state == RecorderStatus::State::kArmed ? QString(" waiting for contact")
                                                              : QString(" waiting for a frame");
@@ -464,6 +549,7 @@ void RecordFeature::offer(const RecordingReport& report) {
   Messages& messages = state().messages;
   plan_.end(report);
   showState();
+  if (std::exchange(waitsForDisk_, false) && offering_) offer_->dismiss();
   if (report.paths.empty()) {
     if (report.nothingTouched) {
       // Stopped by the user's own wish: that is no alarm.
@@ -490,9 +576,17 @@ void RecordFeature::offer(const RecordingReport& report) {
   offerTake("Recorded " + summary + plan);
 }
 
+// The line about the last recording goes when something new begins.
+void RecordFeature::dismissTake() {
+  // Another line may have taken its place.
+  if (offering_ && !takeText_.isEmpty() && offer_->text() == takeText_) offer_->dismiss();
+  takeText_.clear();
+}
+
 void RecordFeature::offerTake(const QString& text) {
   if (!offering_) return;
   doubted_.reset();
+  takeText_ = text;
   offer_->offer(text, "Open", [this] { state().open(take_.paths()); });
   offer_->offerAlso("Rename…", "Another name, with what belongs to it", [this] { take_.rename(); });
   offer_->offerAlso(

@@ -67,28 +67,41 @@ class RecordFeature : public Feature {
   void connectCountdown();
   void connectPlan();
   void showPlan();
+  void addKeysToPlan();
+  // Asks about a take that is to be decided, in the line above the views or that of the plan.
+  void askAbout(const std::filesystem::path& file, OfferStrip& line);
+  void askInPlan();
+  bool escape();
   void use(const RecordingSettings& settings);
   void takeFolder();
   void toggle();
   bool mayStop();
+  void offerAnotherFolder();
   void begin(const RecordingSettings& settings, bool planned);
   void mark(const QString& label, std::optional<int> digit);
   void showState();
   void showCountdown();
   void offer(const RecordingReport& report);
   void offerTake(const QString& text);
+  void dismissTake();
 
   RecordActions actions_;
   OfferStrip* offer_;
+  // A recording that waits for the disk was seen, and another folder offered.
+  bool waitsForDisk_ = false;
   // False once something was announced that closes the window.
   bool offering_ = true;
   RecordingSettings settings_;
   PlanController plan_;
   // Made when it is asked for.
   PlanDialog* planDialog_ = nullptr;
+  // The take about which the plan asks.
+  std::optional<std::filesystem::path> askedInPlan_;
   // The planned take whose problem the line above the views tells.
   std::optional<std::filesystem::path> doubted_;
   RecordedTake take_;
+  // What the line about it says.
+  QString takeText_;
   RecordingCountdown countdown_;
   CountdownStrip* countdownStrip_;
   // When Escape cancelled the countdown; it then does nothing else.

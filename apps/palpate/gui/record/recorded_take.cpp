@@ -63,7 +63,8 @@ void RecordedTake::rename() {
   const std::vector<OpenedRecordingPtr> open = opened();
   if (!windowState_.events.settle(open)) return;
   const bool shown = !open.empty() && windowState_.displayed.recorded() == open.front();
-  QString title = "New name of the recording";
+  const QString heading = "Rename " + nameOfTake(paths_);
+  QString title = heading;
   QString name = pathText(paths_.front().stem());
   for (;;) {
     const auto typed = windowState_.prompts.text(title, name);
@@ -82,9 +83,10 @@ void RecordedTake::rename() {
       emit changed();
       return;
     } catch (const std::exception& refusal) {
-      title = QString::fromUtf8(refusal.what());
+      const QString why = QString::fromUtf8(refusal.what());
+      title = heading + "\n" + why;
       // Asked once more with what was typed; typed again, it is refused.
-      if (*typed == name) return windowState_.messages.fail(title);
+      if (*typed == name) return windowState_.messages.fail(why);
       name = *typed;
     }
   }
@@ -97,6 +99,7 @@ bool RecordedTake::discardFiles() {
     for (const fs::path& file : filesOfRecording(path))
       trashed = trashed && moveToTrash(pathText(file));
   if (trashed) {
+    removeFreeLocks(paths_);
     windowState_.messages.flash("moved to the trash: " + nameOfTake(paths_));
     return true;
   }

@@ -12,6 +12,7 @@
 #include <palpate/core/statistics.h>
 #include <palpate/core/time.h>
 #include <palpate/model/gap_detector.h>
+#include <palpate/recording/gap_events.h>
 #include <palpate/recording/recording.h>
 #include <palpate/recording/second_summary.h>
 
@@ -208,12 +209,9 @@ std::optional<std::pair<std::size_t, std::size_t>> OpenedRecording::framesWithin
 }
 
 QString OpenedRecording::reasonOf(const Gap& gap) const {
-  const std::int64_t fromUs = profile.frameTimeUs(gap.frame);
-  const std::int64_t toUs = fromUs + std::llround(gap.seconds * 1e6);
   QStringList reasons;
   for (const RecordingEvent& event : events.events) {
-    if (event.kind != "gap" || event.text.empty() || event.tUs > toUs || event.t1Us < fromUs)
-      continue;
+    if (event.kind != "gap" || event.text.empty() || !touchesGap(event, gap, profile)) continue;
     const QString reason = QString::fromStdString(event.text);
     if (!reasons.contains(reason)) reasons.append(reason);
   }

@@ -3,6 +3,8 @@
 #include <QFileDialog>
 #include <QFileInfo>
 #include <QPointer>
+#include <QPushButton>
+#include <QToolButton>
 #include <utility>
 
 #include <palpate/batch/export_extras.h>
@@ -11,6 +13,7 @@
 #include <palpate/recording/recording.h>
 
 #include "gui/appearance/captions.h"
+#include "gui/widgets/offer_strip.h"
 #include "gui/widgets/opening_strip.h"
 
 namespace palpate::gui {
@@ -43,7 +46,9 @@ bool holdsEvents(const QString& path) {
 }  // namespace
 
 CropJob::CropJob(WindowState& windowState, QAction& crop, QAction& saveAs, QWidget* window)
-    : windowState_(windowState), strip_(new OpeningStrip(window, "Saving", "working")) {
+    : windowState_(windowState),
+      strip_(new OpeningStrip(window, "Saving", "working")),
+      offer_(new OfferStrip(window)) {
   windowState.prompts.cropped = [window](const QString& suggestion) {
     return QFileDialog::getSaveFileName(
         window, "Crop to a new recording", suggestion, formatFilter());
@@ -51,6 +56,13 @@ CropJob::CropJob(WindowState& windowState, QAction& crop, QAction& saveAs, QWidg
   connect(&crop, &QAction::triggered, this, &CropJob::cropSelection);
   connect(&saveAs, &QAction::triggered, this, &CropJob::saveAs);
   connect(&job_, &BackgroundJob::started, strip_, &OpeningStrip::begin);
+  offer_->findChild<QPushButton*>("offerAccept")->setObjectName("openSaved");
+  offer_->findChild<QToolButton*>("offerClose")->setObjectName("openSavedClose");
+  connect(&job_, &BackgroundJob::started, offer_, &OfferStrip::dismiss);
+  connect(&windowState.displayed, &DisplayedSource::shown, offer_, &OfferStrip::dismiss);
+  connect(&windowState.appearance, &ViewAppearance::themeChanged, offer_, [this] {
+    offer_->setTheme(windowState_.appearance.theme());
+  });
   connect(&job_, &BackgroundJob::progressed, strip_, &OpeningStrip::setProgress);
   connect(&job_, &BackgroundJob::finished, strip_, &OpeningStrip::end);
   connect(strip_, &OpeningStrip::cancelRequested, &job_, &BackgroundJob::cancel);
@@ -153,6 +165,7 @@ void CropJob::start(const QString& path, const std::optional<Frames>& part) {
       [this,
        path,
        part,
+       saved = windowState_.displayed.unfilteredRecording(),
        editor = QPointer<EventEditor>(editor),
        state = editor ? editor->undoStack().index() : 0,
        count = part ? part->last - part->first + 1
@@ -166,6 +179,12 @@ void CropJob::start(const QString& path, const std::optional<Frames>& part) {
         emit written(path);
         if (!canBeOpened(path)) return;
         windowState_.recordings.open({{path.toStdString()}, OpenRequest::Then::kList});
+        // Another recording may be shown by now.
+        if (!part && windowState_.displayed.unfilteredRecording() == saved)
+          offer_->offer(
+              "Saved as " + QFileInfo(path).fileName() + ". " + fileNameOf(*saved) + " stays open.",
+              "Open the new one",
+              [this, path] { windowState_.open({path.toStdString()}); });
       });
 }
 

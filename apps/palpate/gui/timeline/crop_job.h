@@ -13,6 +13,7 @@
 
 namespace palpate::gui {
 
+class OfferStrip;
 class OpeningStrip;
 
 class CropJob : public QObject {
@@ -28,6 +29,8 @@ class CropJob : public QObject {
   void saveAs();
   // Shows the progress above the centre of the window.
   OpeningStrip& strip() noexcept { return *strip_; }
+  // Says that the displayed recording stays open, and offers to open the saved one.
+  OfferStrip& offer() noexcept { return *offer_; }
   bool busy() const noexcept { return job_.busy(); }
 
   // What is saved beside `profile`, which is `recording` or a part of it: what was said of the
@@ -51,6 +54,7 @@ class CropJob : public QObject {
 
   WindowState& windowState_;
   OpeningStrip* strip_;
+  OfferStrip* offer_;
   BackgroundJob job_;
 };
 

@@ -5,6 +5,7 @@
 #include <QUndoStack>
 #include <algorithm>
 
+#include "gui/appearance/captions.h"
 #include "gui/timeline/event_rows.h"
 
 namespace palpate::gui {
@@ -185,7 +186,10 @@ void EventEditing::add(const char* kind, const QString& title, const QString& na
   event.kind = kind;
   event.tUs = timeUsOf(*recording, span ? span->fromS : windowState_.playback.positionS());
   event.t1Us = span ? timeUsOf(*recording, span->toS) : event.tUs;
-  const auto text = windowState_.prompts.text(title, {});
+  const double fromS = span ? span->fromS : windowState_.playback.positionS();
+  const QString when = span ? " from " + figure(fromS, 2) + " s to " + figure(span->toS, 2) + " s"
+                            : " at " + figure(fromS, 2) + " s";
+  const auto text = windowState_.prompts.text(title + when + " in " + fileNameOf(*recording), {});
   if (!text) return;
   if (text->isEmpty()) return windowState_.messages.flash("a " + name + " needs a text");
   event.text = text->toStdString();

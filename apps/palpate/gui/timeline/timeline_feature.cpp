@@ -28,6 +28,7 @@
 #include "gui/timeline/timeline_panel.h"
 #include "gui/widgets/dock.h"
 #include "gui/widgets/fitting_pages.h"
+#include "gui/widgets/offer_strip.h"
 #include "gui/widgets/opening_strip.h"
 
 namespace palpate::gui {
@@ -95,11 +96,14 @@ TimelineFeature::TimelineFeature(WindowState& windowState, QWidget* window)
   windowState.prompts.text = [window](const QString& title,
                                       const QString& text) -> std::optional<QString> {
     QInputDialog dialog(window);
-    dialog.setLabelText(title + ":");
+    const QString heading = title.section('\n', 0, 0);
+    const QString question = title.contains('\n') ? title.section('\n', 1) : heading;
+    dialog.setWindowTitle(heading);
+    dialog.setLabelText(question + ":");
     dialog.setTextValue(text);
     // The present text is seen whole, as far as it is not very long.
     constexpr int kLeastWidth = 360, kMostWidth = 640, kAround = 60;  // [px]
-    const int widest = std::max(dialog.fontMetrics().horizontalAdvance(title),
+    const int widest = std::max(dialog.fontMetrics().horizontalAdvance(question),
                                 dialog.fontMetrics().horizontalAdvance(text));
     dialog.resize(std::clamp(widest + kAround, kLeastWidth, kMostWidth),
                   dialog.sizeHint().height());
@@ -603,6 +607,7 @@ std::vector<DockSpec> TimelineFeature::docks() {
 
 std::vector<BannerSpec> TimelineFeature::strips() {
   return {{BannerSpec::Order::kWork, &crop_->strip()},
+          {BannerSpec::Order::kWork, &crop_->offer()},
           {BannerSpec::Order::kWork, &graspExport_->strip()}};
 }
 

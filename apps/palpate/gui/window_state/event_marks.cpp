@@ -8,6 +8,7 @@
 
 #include <palpate/core/json.h>
 #include <palpate/core/time.h>
+#include <palpate/recording/gap_events.h>
 #include <palpate/slip/slip_series.h>
 
 #include "gui/appearance/captions.h"
@@ -57,11 +58,10 @@ EventMark markOf(const OpenedRecording& recording, const RecordingEvent& event, 
   return mark;
 }
 
-bool touchesGap(const OpenedRecording& recording, const RecordingEvent& event) {
+bool touchesAnyGap(const OpenedRecording& recording, const RecordingEvent& event) {
   const std::vector<Gap>& gaps = recording.timingNow().gaps;
   return std::any_of(gaps.begin(), gaps.end(), [&](const Gap& gap) {
-    const std::int64_t fromUs = recording.profile.frameTimeUs(gap.frame);
-    return event.tUs <= fromUs + std::llround(gap.seconds * 1e6) && event.t1Us >= fromUs;
+    return touchesGap(event, gap, recording.profile);
   });
 }
 
@@ -219,7 +219,8 @@ std::vector<EventMark> marksOf(const OpenedRecording& recording,
     // gap of angles or temperatures, and what was lost behind the last frame, is known from its
     // event alone.
     if (!isRemovedGrasp(events[i]) &&
-        (events[i].kind != "gap" || (!events[i].text.empty() && !touchesGap(recording, events[i]))))
+        (events[i].kind != "gap" ||
+         (!events[i].text.empty() && !touchesAnyGap(recording, events[i]))))
       marks.push_back(markOf(recording, events[i], i));
   const bool corrected = std::any_of(
       events.begin(), events.end(), [](const auto& event) { return event.kind == kSegmentKind; });

@@ -33,7 +33,7 @@ struct UserPrompts {
   // Asks whether the running batch may be ended now.
   std::function<bool()> endBatch;
   // Asks for the text of a label or a note; nothing: cancelled. `title` is the title of the
-  // dialogue, `text` the present text.
+  // dialogue, with the question in further lines; `text` is the present text.
   std::function<std::optional<QString>(const QString& title, const QString& text)> text;
   // Asks where to save a part of a recording; an empty answer: cancelled.
   std::function<QString(const QString& suggestion)> cropped;
