@@ -248,11 +248,11 @@ TEST(InfoCommand, SaysWhatWasLostBesideTheGaps) {
                            "lost              frames, how many is not known, in 1 span, 1.00 s\n",
                            "lost              9 angle samples in 1 span, 0.10 s\n"})
     EXPECT_NE(text.find(line), std::string::npos) << line << text;
-  const auto table = linesOf(palpate({"info", folder / "a.palpate", folder / "a.palpate"}).out);
-  ASSERT_EQ(table.size(), 3u);
-  EXPECT_TRUE(table[1].ends_with(
-      ",\"frames, how many is not known, in 1 span, 1.00 s; 9 angle samples in 1 span, 0.10 s\""))
-      << table[1];
+  const auto table = palpate({"info", folder / "a.palpate", folder / "a.palpate"});
+  EXPECT_TRUE(
+      table.out.ends_with(",3,\"frames, how many is not known, in 1 span, 1.00 s; 9 angle samples "
+                          "in 1 span, 0.10 s\"\n"))
+      << table.out;
 }
 
 TEST(InfoCommand, SaysWhoRecordedWhatAndWhatWasNoted) {
@@ -325,7 +325,7 @@ TEST(InfoCommand, OpensAKilledRecordingOnce) {
       palpate({"info", folder / "a.palpate", "--json"}, {{"TMPDIR", temporary.path().string()}});
   EXPECT_EQ(result.exitCode, 0) << result.err;
   EXPECT_EQ(Json::parse(result.out).at("operator").asString(), "Ada");
-  EXPECT_EQ(Json::parse(result.out).at("events").size(), 2u);
+  EXPECT_EQ(Json::parse(result.out).at("events").size(), 3u);
   EXPECT_EQ(copies.count(), 1);
 }
 
