@@ -42,7 +42,7 @@ SaveExtras exportExtras(const ExportChoices& choices,
   extras.provenance.program = "palpate " PALPATE_VERSION;
   extras.provenance.sourceFile = in.filename().string();
   extras.provenance.sourceSha256 = sha256OfFile(in);
-  extras.provenance.filters = recipeText(filters);
+  extras.provenance.filters = fullRecipeText(filters);
   extras.provenance.hand = profile.hand().name;
   extras.series =
       derivedSeries(profile, {.withSignals = choices.withSignals, .withSlip = choices.withSlip});

@@ -1,8 +1,11 @@
 #include "palpate/filter/filter_catalog.h"
 
+#include <algorithm>
 #include <cctype>
 #include <limits>
+#include <numeric>
 #include <stdexcept>
+#include <utility>
 
 #include "palpate/filter/savitzky_golay.h"
 
@@ -390,6 +393,21 @@ std::string lettersOf(std::string_view name) {
   return letters;
 }
 
+// How many letters must be changed, added or left out to make one word of the other.
+std::size_t lettersApart(std::string_view a, std::string_view b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), std::size_t{0});
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    std::size_t diagonal = std::exchange(row[0], i + 1);
+    for (std::size_t k = 0; k < b.size(); ++k) {
+      const std::size_t replaced = diagonal + (a[i] == b[k] ? 0 : 1);
+      diagonal = row[k + 1];
+      row[k + 1] = std::min({replaced, row[k] + 1, row[k + 1] + 1});
+    }
+  }
+  return row.back();
+}
+
 // The filter that is meant by a name that none has; empty: it can't be told.
 std::string meantBy(std::string_view name) {
   const std::string letters = lettersOf(name);
@@ -398,7 +416,17 @@ std::string meantBy(std::string_view name) {
   if (letters == "butterworth" || letters == "butter") return "low-pass";
   for (const FilterKind& kind : all())
     if (lettersOf(kind.name) == letters) return kind.name;
-  return {};
+  // A slip of the fingers: one letter of a short word, two of a long one.
+  constexpr std::size_t kLongWord = 6;
+  std::size_t least = letters.size() < kLongWord ? 2 : 3;
+  std::string nearest;
+  for (const FilterKind& kind : all()) {
+    const std::size_t apart = lettersApart(letters, lettersOf(kind.name));
+    if (apart >= least) continue;
+    least = apart;
+    nearest = kind.name;
+  }
+  return nearest;
 }
 }  // namespace
 

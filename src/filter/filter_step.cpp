@@ -216,14 +216,17 @@ FilterStep parseFilterStep(std::string_view text) {
   return step;
 }
 
-std::string filterText(const FilterStep& step) {
+namespace {
+std::string optionsTextOf(const FilterStep& step, bool withDefaults) {
   std::string text = step.name;
   char before = ':';
   for (const FilterOption& option : step.kind().options) {
     const double value = step.value(option.key);
-    if (same(value, option.defaultValue)) continue;
+    if (!withDefaults && same(value, option.defaultValue)) continue;
     text += before + option.key + '=';
-    if (option.kind == FilterStepKind::kChoice)
+    if (std::isnan(value))
+      text += "auto";
+    else if (option.kind == FilterStepKind::kChoice)
       text += option.choices.at(static_cast<std::size_t>(value));
     else
       appendNumber(text, value);
@@ -236,5 +239,10 @@ std::string filterText(const FilterStep& step) {
   }
   return text;
 }
+}  // namespace
+
+std::string filterText(const FilterStep& step) { return optionsTextOf(step, false); }
+
+std::string fullFilterText(const FilterStep& step) { return optionsTextOf(step, true); }
 
 }  // namespace palpate

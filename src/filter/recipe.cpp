@@ -126,14 +126,20 @@ bool Recipe::causal() const {
   });
 }
 
-std::string recipeText(const Recipe& recipe) {
+namespace {
+std::string joinedSteps(const Recipe& recipe, std::string (*textOf)(const FilterStep&)) {
   std::string text;
   for (const FilterStep& step : recipe.steps) {
     if (!text.empty()) text += " | ";
-    text += step.enabled ? filterText(step) : "(" + filterText(step) + ")";
+    text += step.enabled ? textOf(step) : "(" + textOf(step) + ")";
   }
   return text;
 }
+}  // namespace
+
+std::string recipeText(const Recipe& recipe) { return joinedSteps(recipe, filterText); }
+
+std::string fullRecipeText(const Recipe& recipe) { return joinedSteps(recipe, fullFilterText); }
 
 Recipe parseRecipe(std::span<const std::string> texts) {
   Recipe recipe;

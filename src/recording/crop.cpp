@@ -1,12 +1,35 @@
 #include "palpate/recording/crop.h"
 
+#include <algorithm>
+#include <cstdint>
+#include <ranges>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "palpate/core/error.h"
 #include "palpate/model/profile_builder.h"
 
 namespace palpate {
+namespace {
+
+// The samples from the last one at or before `beginUs` to the last one at `endUs`, or, without one
+// at this time, to the first one after it: the first of them, and the one behind the last.
+template <typename TimeUs>
+std::pair<std::size_t, std::size_t> samplesAround(std::size_t count,
+                                                  std::int64_t beginUs,
+                                                  std::int64_t endUs,
+                                                  const TimeUs& timeUs) {
+  const auto all = std::views::iota(std::size_t{0}, count);
+  const auto after = std::ranges::upper_bound(all, beginUs, {}, timeUs);
+  const auto later = std::ranges::upper_bound(all, endUs, {}, timeUs);
+  const auto first = static_cast<std::size_t>(after - all.begin());
+  const auto end = static_cast<std::size_t>(later - all.begin());
+  const bool exact = end > 0 && timeUs(end - 1) == endUs;
+  return {first > 0 ? first - 1 : 0, std::min(count, exact ? end : end + 1)};
+}
+
+}  // namespace
 
 Profile cropped(const Profile& profile,
                 std::size_t begin,
@@ -24,16 +47,17 @@ Profile cropped(const Profile& profile,
     profile.readFrame(i, frame);
     builder.addFrame(frame);
   }
-  const std::int64_t lastUs = profile.frameTimeUs(end);
-  // From the sample that belongs to the first frame: the last one at or before it.
-  if (const auto first = profile.angleSampleAt(profile.frameTimeUs(begin)))
-    for (std::size_t i = *first; i < profile.numAngles() && profile.angleTimeUs(i) <= lastUs; ++i)
-      builder.addAngles(profile.angleTimeUs(i), profile.angles(i).deg);
-  if (const auto first = profile.temperatureSampleAt(profile.frameTimeUs(begin)))
-    for (std::size_t i = *first;
-         i < profile.numTemperatures() && profile.temperatureTimeUs(i) <= lastUs;
-         ++i)
-      builder.addTemperatures(profile.temperatureTimeUs(i), profile.temperatures(i).degC);
+  const std::int64_t beginUs = profile.frameTimeUs(begin), endUs = profile.frameTimeUs(end);
+  const auto [firstAngle, endAngle] = samplesAround(
+      profile.numAngles(), beginUs, endUs, [&](std::size_t i) { return profile.angleTimeUs(i); });
+  for (std::size_t i = firstAngle; i < endAngle; ++i)
+    builder.addAngles(profile.angleTimeUs(i), profile.angles(i).deg);
+  const auto [firstTemperature, endTemperature] =
+      samplesAround(profile.numTemperatures(), beginUs, endUs, [&](std::size_t i) {
+        return profile.temperatureTimeUs(i);
+      });
+  for (std::size_t i = firstTemperature; i < endTemperature; ++i)
+    builder.addTemperatures(profile.temperatureTimeUs(i), profile.temperatures(i).degC);
   return builder.finish(profile.info());
 }
 

@@ -61,6 +61,12 @@ RecordingSearch::RecordingSearch(std::string_view text, const CaseFolding& folde
       if (key != kSearchKeys.end()) {
         made.key = static_cast<std::size_t>(key - kSearchKeys.begin());
         made.text.erase(0, colon + 1);
+      } else if (colon != std::string::npos) {
+        const std::string before = made.text.substr(0, colon);
+        const auto isLetter = [](char c) { return c >= 'a' && c <= 'z'; };
+        if (!before.empty() && std::ranges::all_of(before, isLetter) &&
+            std::ranges::find(unknownKeys_, before) == unknownKeys_.end())
+          unknownKeys_.push_back(before);
       }
       // "object:" while the word behind it is still being typed
       if (!made.text.empty()) words_.push_back(std::move(made));

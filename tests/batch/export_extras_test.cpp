@@ -31,7 +31,7 @@ TEST(ExportExtras, SaysWhereAnExportComesFrom) {
   EXPECT_EQ(all.meta.at("operator"), "A");
   EXPECT_EQ(all.exported.provenance.sourceFile, "a.palpate");
   EXPECT_EQ(all.exported.provenance.sourceSha256, sha256OfFile(in));
-  EXPECT_EQ(all.exported.provenance.filters, recipeText(median()));
+  EXPECT_EQ(all.exported.provenance.filters, fullRecipeText(median()));
   EXPECT_EQ(all.exported.provenance.hand, profile.hand().name);
   ASSERT_EQ(all.exported.series.size(), 2u);
   EXPECT_EQ(all.exported.series[0]->name(), "signals");

@@ -1,6 +1,7 @@
 #include "palpate/batch/grasp_files.h"
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 #include <gtest/gtest.h>
@@ -8,6 +9,7 @@
 #include "palpate/core/error.h"
 #include "palpate/emulator/synthetic_profile.h"
 #include "palpate/recognition/grasp_segments.h"
+#include "palpate/signals/formula.h"
 
 #include "testing/testing.h"
 
@@ -86,6 +88,32 @@ TEST(GraspFiles, HoldTheirFramesAndTheLabelsThatTouchThem) {
   ASSERT_EQ(labels.size(), 1u);
   EXPECT_EQ(labels[0].text, "second");
   EXPECT_EQ(readEvents(paths[0]).events.at(0).text, "first");
+}
+
+// A joint angle at a frame is interpolated between the samples around it, also at the first and at
+// the last frame.
+TEST(GraspFiles, HoldTheAnglesAndTemperaturesOfAllTheirFrames) {
+  const testing::TemporaryFolder folder;
+  const Profile profile = threeGrasps();
+  const std::vector<GraspFrames> grasps = {{10, 20}, {200, 300}, {750, profile.numFrames() - 1}};
+  const std::vector<fs::path> paths = {
+      folder / "a.palpate", folder / "b.palpate", folder / "c.palpate"};
+  saveGrasps(folder / "whole.palpate", profile, {}, grasps, paths);
+  for (const char* text : {"angle1", "temperature0"}) {
+    const Formula formula(text);
+    const Series whole = derivedSeries(profile, formula, 0.0, 100.0);
+    for (std::size_t i = 0; i < grasps.size(); ++i) {
+      const Series part = derivedSeries(openRecording(paths[i]), formula, 0.0, 100.0);
+      ASSERT_EQ(part.values.size(), grasps[i].end - grasps[i].begin + 1);
+      for (std::size_t k = 0; k < part.values.size(); ++k) {
+        const double expected = whole.values.at(grasps[i].begin + k);
+        if (std::isnan(expected))
+          EXPECT_TRUE(std::isnan(part.values[k])) << text << ", frame " << k;
+        else
+          EXPECT_NEAR(part.values[k], expected, 1e-6) << text << ", grasp " << i << ", frame " << k;
+      }
+    }
+  }
 }
 
 TEST(GraspFiles, NothingIsWrittenWhenOneExistsAlready) {

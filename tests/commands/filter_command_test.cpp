@@ -50,7 +50,8 @@ TEST(FilterCommand, WritesTheSameFramesAsTheLibrary) {
                                  folder / "r.json",
                                  "--force"});
     ASSERT_EQ(result.exitCode, 0) << result.err;
-    EXPECT_NE(result.out.find("median:masked=1 | kalman:q=0.2"), std::string::npos) << result.out;
+    EXPECT_NE(result.out.find("median:size=3,masked=1 | kalman:q=0.2,r=0.5"), std::string::npos)
+        << result.out;
     const Profile got = openRecording(out);
     expectFrames(got, expected);
     EXPECT_EQ(got.info().valueType, ValueType::kFloat);
@@ -59,6 +60,8 @@ TEST(FilterCommand, WritesTheSameFramesAsTheLibrary) {
     const auto events = readEvents(out).events;
     ASSERT_EQ(events.size(), 1u);
     EXPECT_EQ(events[0].kind, "filtered");
+    EXPECT_EQ(events[0].text.find("median:size=3,masked=1 | kalman:q=0.2,r=0.5"), 0u)
+        << events[0].text;
     EXPECT_EQ(recipeFromJson(Json::parse(events[0].json)), parseRecipe(chain));
   }
   const auto byRecipe = palpate(

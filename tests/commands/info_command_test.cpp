@@ -188,7 +188,7 @@ TEST(InfoCommand, OfSeveralItPrintsOneTable) {
       lines[0],
       "file,format,value_type,frames,duration_s,rate_hz,mean_rate_hz,gaps,temperatures,"
       "joint_angles,max_value,saturated_frames,serial,warnings,operator,object,run,notes,labels,"
-      "events");
+      "events,lost");
   const std::string quoted = "\"" + (folder / "one, frame.dsa").string() + "\"";
   EXPECT_EQ(lines[1].rfind(quoted + ",dsa,counts,1,0,,,0,0,0,100,0,00000001,", 0), 0u) << lines[1];
   EXPECT_NE(lines[1].find("says \"\"7\"\", found 1", quoted.size()), std::string::npos) << lines[1];
@@ -222,7 +222,37 @@ void writeWithNotes(const fs::path& path) {
   writer.addEvent(
       {kStartUs + 250'000, kStartUs + 250'000, "label", {}, "touched", "{\"digit\":3}"});
   writer.addEvent({kStartUs + 500'000, kStartUs + 1'500'000, "gap", 2, "no data", ""});
+  writer.addEvent({kStartUs + 600'000,
+                   kStartUs + 700'000,
+                   "gap",
+                   {},
+                   "9 angle samples lost: the file was damaged",
+                   R"({"stream":"angles","lost":9,"reason":"the file was damaged"})"});
   writer.finish();
+}
+
+// The gaps are those of the frames alone.
+TEST(InfoCommand, SaysWhatWasLostBesideTheGaps) {
+  const testing::TemporaryFolder folder;
+  writeWithNotes(folder / "a.palpate");
+  const Json lost = infoOf(folder / "a.palpate").at("lost");
+  ASSERT_EQ(lost.size(), 2u);
+  EXPECT_EQ(lost.at(0).at("stream").asString(), "tactile");
+  EXPECT_TRUE(lost.at(0).at("lost").isNull()) << "the event doesn't tell how many";
+  EXPECT_EQ(lost.at(1).at("stream").asString(), "angles");
+  EXPECT_EQ(lost.at(1).at("lost").asInteger(), 9);
+  EXPECT_EQ(lost.at(1).at("spans").asInteger(), 1);
+  EXPECT_NEAR(lost.at(1).at("seconds").asDouble(), 0.1, 1e-9);
+  const std::string text = palpate({"info", folder / "a.palpate"}).out;
+  for (const char* line : {"gaps              0 (of the frames)\n",
+                           "lost              frames, how many is not known, in 1 span, 1.00 s\n",
+                           "lost              9 angle samples in 1 span, 0.10 s\n"})
+    EXPECT_NE(text.find(line), std::string::npos) << line << text;
+  const auto table = palpate({"info", folder / "a.palpate", folder / "a.palpate"});
+  EXPECT_TRUE(
+      table.out.ends_with(",3,\"frames, how many is not known, in 1 span, 1.00 s; 9 angle samples "
+                          "in 1 span, 0.10 s\"\n"))
+      << table.out;
 }
 
 TEST(InfoCommand, SaysWhoRecordedWhatAndWhatWasNoted) {
@@ -235,7 +265,7 @@ TEST(InfoCommand, SaysWhoRecordedWhatAndWhatWasNoted) {
   EXPECT_EQ(info.at("notes").asString(), "first line\nsecond");
   ASSERT_EQ(info.at("labels").size(), 1u);
   EXPECT_EQ(info.at("labels").at(0).asString(), "touched");
-  ASSERT_EQ(info.at("events").size(), 2u);
+  ASSERT_EQ(info.at("events").size(), 3u);
   const Json label = info.at("events").at(0), gap = info.at("events").at(1);
   EXPECT_EQ(label.at("time_ms").asInteger(), 1'400'000'000'250);
   EXPECT_EQ(label.at("kind").asString(), "label");
@@ -251,6 +281,14 @@ TEST(InfoCommand, SaysWhoRecordedWhatAndWhatWasNoted) {
                            "  0.25 s          label: touched\n",
                            "  0.50 to 1.50 s  gap, matrix 2: no data\n"})
     EXPECT_NE(text.find(line), std::string::npos) << line << text;
+}
+
+TEST(InfoCommand, SaysHowATableBecomesARecording) {
+  const testing::TemporaryFolder folder;
+  testing::writeFile(folder / "x.CSV", "time,value\n1,2\n");
+  testing::writeFile(folder / "x.dsa", "time,value\n1,2\n");
+  expectOneLineError(palpate({"info", folder / "x.CSV"}), 1, {"File > Import", "palpate import"});
+  EXPECT_EQ(palpate({"info", folder / "x.dsa"}).err.find("Import"), std::string::npos);
 }
 
 // Folders that are made in a folder.
@@ -287,7 +325,7 @@ TEST(InfoCommand, OpensAKilledRecordingOnce) {
       palpate({"info", folder / "a.palpate", "--json"}, {{"TMPDIR", temporary.path().string()}});
   EXPECT_EQ(result.exitCode, 0) << result.err;
   EXPECT_EQ(Json::parse(result.out).at("operator").asString(), "Ada");
-  EXPECT_EQ(Json::parse(result.out).at("events").size(), 2u);
+  EXPECT_EQ(Json::parse(result.out).at("events").size(), 3u);
   EXPECT_EQ(copies.count(), 1);
 }
 

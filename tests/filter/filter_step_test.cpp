@@ -73,6 +73,8 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{"sharpen", "unknown filter \"sharpen\"; there are: box, gaussian"},
         Bad{"median3D", "unknown filter"},
         Bad{"lowpass:cutoff=5", "unknown filter \"lowpass\" (did you mean low-pass?); there are:"},
+        Bad{"lopass", "unknown filter \"lopass\" (did you mean low-pass?); there are:"},
+        Bad{"medain:size=3", "(did you mean median?)"},
         Bad{"notch", "unknown filter \"notch\" (did you mean band-stop?)"},
         Bad{"median:radius=1", "unknown key \"radius\"; there are: size, masked"},
         Bad{"median:size", "isn't KEY=VALUE"},

@@ -83,6 +83,13 @@ TEST(RecordingSearch, aKeyLooksInOnePlace) {
       RecordingSearch("weight:3", folded).matches(searchableText(details, "/data", folded)));
 }
 
+TEST(RecordingSearch, aWordThatIsNoKeyIsKnown) {
+  const RecordingSearch search("objct:ball foam 10:31 objct:cup date:2014 wieght:3 \"a b:c\"",
+                               folded);
+  EXPECT_EQ(search.unknownKeys(), (std::vector<std::string>{"objct", "wieght"}));
+  EXPECT_TRUE(RecordingSearch("object:ball name:x", folded).unknownKeys().empty());
+}
+
 TEST(RecordingSearch, theDateIsThatOfThisPlace) {
   const char* before = std::getenv("TZ");
   const std::string kept = before ? before : "";

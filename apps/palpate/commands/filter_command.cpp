@@ -25,7 +25,7 @@ std::string latencyText(const Recipe& recipe, double rateHz) {
 
 RecordingEvent filteredEvent(const Recipe& recipe, const Profile& profile) {
   const std::int64_t us = profile.numFrames() == 0 ? 0 : profile.frameTimeUs(0);
-  return {us, us, "filtered", std::nullopt, recipeText(recipe), recipeJson(recipe).text(-1)};
+  return {us, us, "filtered", std::nullopt, fullRecipeText(recipe), recipeJson(recipe).text(-1)};
 }
 
 }  // namespace
@@ -88,7 +88,7 @@ int filterCommand(const Arguments& words) {
     std::printf("%s: %s filtered by %s; %s\n",
                 out.c_str(),
                 counted(filtered.numFrames(), "frame").c_str(),
-                recipeText(recipe).c_str(),
+                fullRecipeText(recipe).c_str(),
                 latencyText(recipe, timingOf(profile).rateHz).c_str());
   if (events.damaged == 0) return kDone;
   std::fprintf(

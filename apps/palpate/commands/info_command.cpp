@@ -14,6 +14,7 @@
 #include "palpate/core/time.h"
 #include "palpate/model/timing.h"
 #include "palpate/recording/recording.h"
+#include "palpate/recording/recording_losses.h"
 
 #include "commands/command_line.h"
 #include "commands/commands.h"
@@ -116,6 +117,22 @@ Json matricesJson(const SensorLayout& layout) {
   return matrices;
 }
 
+Json lossesJson(const std::vector<RecordingEvent>& events) {
+  return jsonList(lossesOf(events), [](const RecordingLoss& loss) {
+    return Json::object()
+        .set("stream", loss.stream)
+        .set("lost", loss.counted ? Json(static_cast<std::int64_t>(loss.lost)) : Json())
+        .set("spans", loss.spans)
+        .set("seconds", loss.seconds);
+  });
+}
+
+std::vector<std::string> lossTexts(const std::vector<RecordingEvent>& events) {
+  std::vector<std::string> texts;
+  for (const RecordingLoss& loss : lossesOf(events)) texts.push_back(loss.text());
+  return texts;
+}
+
 // `report` contains the members that come first.
 Json infoJsonOf(Json report,
                 const ReadableRecording& recording,
@@ -135,6 +152,7 @@ Json infoJsonOf(Json report,
       .set("mean_rate_hz", infoRateJson(timing.meanRateHz))
       .set("gaps", timing.gaps.size())
       .set("gap_list", gaps)
+      .set("lost", lossesJson(recording.events))
       .set("matrices", matricesJson(profile.layout()))
       .set("temperatures", profile.numTemperatures())
       .set("joint_angles", profile.numAngles())
@@ -228,7 +246,8 @@ std::string plainText(const std::string& file,
   for (const Gap& gap : timing.gaps)
     gaps += (&gap == &timing.gaps.front() ? ": " : ", ") + fixedText(gap.seconds, 1) +
             " s after frame " + std::to_string(gap.frame);
-  text += row("gaps", gaps);
+  text += row("gaps", gaps + (profile.numFrames() > 0 ? " (of the frames)" : ""));
+  for (const std::string& loss : lossTexts(recording.events)) text += row("lost", loss);
   text += row("joint angles", counted(profile.numAngles(), "sample"));
   text += row("temperatures", counted(profile.numTemperatures(), "sample"));
   text += row("largest value",
@@ -243,7 +262,7 @@ std::string plainText(const std::string& file,
 
 constexpr const char* kTableHeader =
     "file,format,value_type,frames,duration_s,rate_hz,mean_rate_hz,gaps,temperatures,joint_angles,"
-    "max_value,saturated_frames,serial,warnings,operator,object,run,notes,labels,events\n";
+    "max_value,saturated_frames,serial,warnings,operator,object,run,notes,labels,events,lost\n";
 
 // One row of the table over several recordings; unknown values are empty.
 std::string tableRow(const std::filesystem::path& file,
@@ -272,7 +291,8 @@ std::string tableRow(const std::filesystem::path& file,
                   saidOf(recording, "run"),
                   saidOf(recording, "notes"),
                   joinedTexts(labelsOf(recording)),
-                  std::to_string(recording.events.size())});
+                  std::to_string(recording.events.size()),
+                  joinedTexts(lossTexts(recording.events))});
 }
 
 int infoOfOne(const RecordingList& recordings, bool quiet, bool json) {
@@ -325,7 +345,10 @@ int infoCommand(const Arguments& words) {
            "Shows what a recording contains: frames, rates, gaps, matrices, angles, temperatures, "
            "largest value, what was entered before recording (operator, object, run, notes), "
            "labels and events (of a .dsa those of its notes). The rate comes from the median "
-           "interval; a gap is longer than max(1 s, 5 median intervals). Of several PATHs or a "
+           "interval; a gap is longer than max(1 s, 5 median intervals), and only of frames; what "
+           "the "
+           "events tell of lost frames, angles and temperatures stands beside it. Of several PATHs "
+           "or a "
            "folder (every recording below it) it prints a table as CSV, a row each; a file that "
            "can't be read is reported, and the others are printed: exit code 3. Of a damaged "
            "recording it shows what can be read and what is missing: exit code 3, too.",

@@ -53,5 +53,8 @@ std::optional<ButterworthOptions> butterworthOf(const FilterStep& step);
 FilterStep parseFilterStep(std::string_view text);
 // Returns the shortest text that parses to the same step, except for `enabled`: "median:size=5".
 std::string filterText(const FilterStep& step);
+// Returns the text with the value of every option, also of those that have their default, so that
+// it says what was done: "low-pass:cutoff=10,order=2".
+std::string fullFilterText(const FilterStep& step);
 
 }  // namespace palpate

@@ -42,6 +42,9 @@ struct Recipe {
 // Returns the text of a recipe, "median:size=3 | kalman"; disabled steps are in round brackets:
 // "median | (kalman)".
 std::string recipeText(const Recipe& recipe);
+// Returns the text with the value of every option, as fullFilterText(): for what was done to a
+// recording.
+std::string fullRecipeText(const Recipe& recipe);
 // Parses one text, such as "median:size=3|kalman", or several, whose steps follow one another.
 // Throws std::invalid_argument.
 Recipe parseRecipe(std::span<const std::string> texts);

@@ -53,6 +53,8 @@ class RecordingSearch {
   RecordingSearch(std::string_view text, const CaseFolding& folded);
   bool empty() const noexcept { return words_.empty(); }
   bool matches(const SearchableText& text) const;
+  // The words in front of a colon that are no key ("objct" of "objct:ball"), each once.
+  const std::vector<std::string>& unknownKeys() const noexcept { return unknownKeys_; }
 
  private:
   struct Word {
@@ -60,6 +62,7 @@ class RecordingSearch {
     std::optional<std::size_t> key;
   };
   std::vector<Word> words_;
+  std::vector<std::string> unknownKeys_;
 };
 
 }  // namespace palpate

@@ -1,13 +1,16 @@
 #include "recording/dsa/dsa_xml_stream.h"
 
 #include <algorithm>
+#include <array>
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <system_error>
 #include <utility>
 
 #include "palpate/core/error.h"
+#include "palpate/core/file_name.h"
 #include "palpate/core/number_text.h"
 #include "palpate/recording/bzip2_blocks.h"
 
@@ -68,13 +71,22 @@ DsaEncoding dsaEncodingOf(std::string_view first) noexcept {
                                                                 : DsaEncoding::kOther;
 }
 
+namespace {
+// A table can't be opened, but imported.
+std::string tableHint(const std::filesystem::path& path) {
+  constexpr std::array<std::string_view, 5> kTables = {".csv", ".tsv", ".txt", ".npy", ".npz"};
+  if (std::ranges::find(kTables, std::string_view(lowerEndingOf(path))) == kTables.end()) return {};
+  return "; a table becomes a recording by File > Import (palpate import)";
+}
+}  // namespace
+
 DsaEncoding requireDsaEncoding(std::string_view first, const std::filesystem::path& path) {
   if (first.empty()) throw FormatError(path, "is empty");
   const DsaEncoding form = dsaEncodingOf(first);
   if (form == DsaEncoding::kOther)
     throw FormatError(path,
                       "is not a .dsa recording (neither bzip2 nor XML; it starts with " +
-                          shownStart(first) + ")");
+                          shownStart(first) + ")" + tableHint(path));
   return form;
 }
 

@@ -12,6 +12,7 @@
 #include <QSpinBox>
 #include <QTest>
 #include <QToolButton>
+#include <algorithm>
 
 #include <palpate/core/error.h>
 
@@ -45,6 +46,23 @@ class FilterPanelTest : public ::testing::Test {
   RecipeEditor editor_;
   FilterPanel panel_{editor_};
 };
+
+// Frequencies reach up to half of the rate of the frames.
+TEST_F(FilterPanelTest, ShowsTheTrueRangeOfAFrequency) {
+  trigger("Low-pass (Butterworth)");
+  list().choose(0);
+  const auto shows = [this](const QString& range) {
+    const auto labels = panel_.findChildren<QLabel*>();
+    return std::any_of(
+        labels.begin(), labels.end(), [&](const QLabel* label) { return label->text() == range; });
+  };
+  EXPECT_TRUE(shows("0.001 to below 15.63"));
+  EXPECT_TRUE(option<QDoubleSpinBox>("cutoff")->toolTip().contains("half of the 31.25 frames/s"));
+  panel_.setSource({"0 p"}, 230.0, false);
+  EXPECT_TRUE(shows("0.001 to below 115.00"));
+  panel_.setSource({"0 p"}, 0.0, false);
+  EXPECT_TRUE(shows("0.001–10000")) << "the rate is not known";
+}
 
 TEST_F(FilterPanelTest, AddsFiltersBehindTheChosenOne) {
   EXPECT_FALSE(panel_.on());

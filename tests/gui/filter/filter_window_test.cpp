@@ -165,7 +165,7 @@ TEST_F(FilterWindowTest, TheRecipeIsKeptWithTheRecordingAndFoundAgain) {
   const auto events = readEvents(path_).events;
   ASSERT_EQ(events.size(), 1u);
   EXPECT_EQ(events[0].kind, "recipe");
-  EXPECT_EQ(events[0].text, "median:masked=1 | kalman:q=0.2");
+  EXPECT_EQ(events[0].text, "median:size=3,masked=1 | kalman:q=0.2,r=0.5,centred=0");
   setRecipe("box");
   reopen();
   EXPECT_EQ(recipeText(window().feature<FilterFeature>().panel().editor().recipe()),
@@ -236,7 +236,7 @@ TEST_F(FilterWindowTest, ARecordingMadeThroughFiltersHoldsWhatCameAndTheRecipe) 
   EXPECT_EQ(std::count_if(events.begin(),
                           events.end(),
                           [](const RecordingEvent& event) {
-                            return event.kind == "recipe" && event.text == "median:size=5";
+                            return event.kind == "recipe" && event.text == "median:size=5,masked=0";
                           }),
             1);
   EXPECT_TRUE(openRecording(made).info().valueType == ValueType::kCounts);  // as it came

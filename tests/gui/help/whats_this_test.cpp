@@ -4,14 +4,16 @@
 #include <QHelpEvent>
 #include <QLabel>
 #include <QWhatsThis>
+#include <QWhatsThisClickedEvent>
 
+#include "gui/help/manual_window.h"
 #include "gui/testing/window_fixture.h"
 
 namespace palpate::gui::whats_this_test {
 namespace {
 
 TEST(WhatsThisTest, TellsTheToolTipOfTheControlOrOfWhatSurroundsIt) {
-  const WhatsThis what([](const QString& dock) { return "about " + dock; }, nullptr);
+  const WhatsThis what([](const QString& dock) { return "about " + dock; }, {}, nullptr);
   QDockWidget dock;
   dock.setObjectName("Slip");
   auto* page = new QWidget(&dock);
@@ -26,6 +28,13 @@ TEST(WhatsThisTest, TellsTheToolTipOfTheControlOrOfWhatSurroundsIt) {
   EXPECT_EQ(what.about(QWidget()), "");
 }
 
+TEST(WhatsThisTest, NamesOfPagesAreLinks) {
+  EXPECT_EQ(WhatsThis::withLinks("a < b\nMore: slip.md, docks.md#the-hand."),
+            "<p>a &lt; b<br>More: <a href=\"slip.md\">slip.md</a>, "
+            "<a href=\"docks.md#the-hand\">docks.md</a>.</p>");
+  EXPECT_EQ(WhatsThis::withLinks("a < b"), "a < b");
+}
+
 class WhatsThisWindowTest : public WindowTest {};
 
 TEST_F(WhatsThisWindowTest, AnswersForControlsOfTheWindow) {
@@ -38,6 +47,23 @@ TEST_F(WhatsThisWindowTest, AnswersForControlsOfTheWindow) {
   press(Qt::Key_F1, Qt::ShiftModifier);
   EXPECT_TRUE(QWhatsThis::inWhatsThisMode());
   QWhatsThis::leaveWhatsThisMode();
+}
+
+// The text of a dock is shown with links, and a click on one opens the manual there.
+TEST_F(WhatsThisWindowTest, ALinkOpensTheManualAtItsPage) {
+  std::filesystem::create_directory_symlink(testing::dataFolder().parent_path() / "docs",
+                                            folder_ / "docs");
+  auto* dock = window().findChild<QDockWidget*>("Slip");
+  ASSERT_NE(dock, nullptr);
+  QWhatsThisClickedEvent click("docks.md#slip");
+  QCoreApplication::sendEvent(dock, &click);
+  auto* manual = window().findChild<ManualWindow*>();
+  ASSERT_NE(manual, nullptr);
+  EXPECT_TRUE(manual->isVisible());
+  EXPECT_EQ(manual->page(), "docks.md");
+  QWhatsThisClickedEvent other("spectra.md");
+  QCoreApplication::sendEvent(dock, &other);
+  EXPECT_EQ(manual->page(), "spectra.md");
 }
 
 }  // namespace

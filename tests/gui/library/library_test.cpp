@@ -140,10 +140,22 @@ TEST_F(LibraryTest, IsSearchedAsItIsTyped) {
   EXPECT_EQ(names().size(), 4);
   search("object:cup");
   EXPECT_EQ(names(), QStringList{"run_10.palpate"});
+  search("objct:cup");
+  EXPECT_TRUE(empty().contains("objct: is no key")) << empty().toStdString();
+  EXPECT_TRUE(empty().contains("object:"));
   search("nowhere");
   EXPECT_TRUE(empty().contains("nowhere"));
+  EXPECT_FALSE(empty().contains("key"));
   find<QPushButton>("libraryEmptyButton")->click();
   EXPECT_EQ(names().size(), 4);
+}
+
+TEST_F(LibraryTest, ItsExampleOfASearchFindsSomething) {
+  look();
+  const QString example = find<QLineEdit>("librarySearch")->placeholderText();
+  ASSERT_TRUE(example.startsWith("Search, as ")) << example.toStdString();
+  search(example.mid(QString("Search, as ").size()));
+  EXPECT_GE(names().size(), 1);
 }
 
 TEST_F(LibraryTest, EveryColumnSorts) {

@@ -182,6 +182,10 @@ TEST_F(RecognisePanelTest, AFolderTeachesAndIsChecked) {
   EXPECT_EQ(confusion.matrix()->at(0, 0), 5u);
   EXPECT_EQ(confusion.matrix()->at(1, 1), 5u);
   EXPECT_TRUE(find<QLabel>("checkResult")->text().contains("0 of 10 answers wrong"));
+  EXPECT_TRUE(find<QLabel>("checkResult")
+                  ->text()
+                  .startsWith("right 100.0 ± 0.0 % (mean and deviation of 5 blocks)"))
+      << find<QLabel>("checkResult")->text().toStdString();
   confusion.choose(std::pair(1, 1));
   EXPECT_EQ(panel_->check().listed().size(), 5u);
   std::filesystem::path file;

@@ -81,6 +81,18 @@ TEST_F(WindowLayoutTest, ResetPutsEverythingBack) {
   EXPECT_EQ(window().dockWidgetArea(dock("Timeline")), Qt::BottomDockWidgetArea);
 }
 
+TEST_F(WindowLayoutTest, ResetGivesTheLibraryItsWidthBack) {
+  window().docks().show("Library");
+  QCoreApplication::processEvents();
+  const int usual = dock("Library")->width();
+  window().resizeDocks({dock("Library")}, {usual + 250}, Qt::Horizontal);
+  QCoreApplication::processEvents();
+  ASSERT_EQ(dock("Library")->width(), usual + 250);
+  press(Qt::Key_R, Qt::ControlModifier | Qt::ShiftModifier);
+  QCoreApplication::processEvents();
+  EXPECT_EQ(dock("Library")->width(), usual);
+}
+
 TEST_F(WindowLayoutTest, ABrokenSettingsFileDoesNotStopTheProgram) {
   window().close();
   window_.reset();

@@ -16,6 +16,7 @@
 #include "palpate/device/sdh2.h"
 #include <palpate/core/error.h>
 #include <palpate/model/profile_builder.h>
+#include <palpate/signals/welch.h>
 
 #include "gui/spectrum/spectrum_line_page.h"
 #include "gui/testing/sample_profiles.h"
@@ -149,6 +150,24 @@ TEST_F(SpectrumPanelTest, WindowAndOverlapAreTakenAndRemembered) {
   settings_.setValue("spectrum/overlap", 900);
   panel_ = std::make_unique<SpectrumPanel>(settings_);
   EXPECT_EQ(panel_->header().setting(), (SpectrumSetting{.window = 2, .overlap = 1}));
+}
+
+// As `palpate spectrum` and `palpate spectrum --welch`.
+TEST_F(SpectrumPanelTest, EachViewBeginsWithTheDefaultsOfTheCommand) {
+  auto* view = find<QComboBox>("spectrumView");
+  const auto choose = [&](SpectrumView wanted) {
+    view->setCurrentText(nameOf(wanted));
+    emit view->activated(view->currentIndex());
+  };
+  choose(SpectrumView::kLine);
+  EXPECT_EQ(panel_->header().setting().window, welchOptions().window);
+  EXPECT_EQ(panel_->header().setting().overlap, welchOptions().overlap);
+  choose(SpectrumView::kMap);
+  EXPECT_EQ(panel_->header().setting().window, SpectrumOptions{}.window);
+  EXPECT_EQ(panel_->header().setting().overlap, SpectrumOptions{}.overlap);
+  find<QSpinBox>("spectrumWindow")->setValue(64);
+  choose(SpectrumView::kCoherence);
+  EXPECT_EQ(panel_->header().setting().window, 64) << "what a person has chosen stays";
 }
 
 TEST_F(SpectrumPanelTest, SaysWhyThereIsNothing) {

@@ -3,6 +3,7 @@
 
 #include <QCheckBox>
 #include <QDoubleSpinBox>
+#include <QLabel>
 
 #include "gui/timeline/live_chart.h"
 #include "gui/timeline/timeline_panel.h"
@@ -102,6 +103,44 @@ TEST_F(TimelineFeatureTest, RangesByHandAreRemembered) {
   EXPECT_EQ(feature_.panel().chart().yAxis->range(), QCPRange(0.0, 250.0));
   feature_.panel().chart().axes().setByHand("counts", std::nullopt);
   EXPECT_TRUE(settings.value("plotted/axes").toStringList().isEmpty());
+}
+
+// A range that was set for the values of another recording would leave the chart empty.
+TEST_F(TimelineFeatureTest, ARangeByHandWithoutAnyValueOfANewRecordingIsDropped) {
+  TimelineChart& chart = feature_.panel().chart();
+  windowState_->displayed.show(recording("a"));
+  windowState_->selection.setPlotted({true, true});
+  chart.axes().setByHand("counts", AxisRange{5000.0, 6000.0});
+  EXPECT_EQ(chart.yAxis->range(), QCPRange(5000.0, 6000.0)) << "of this recording it is a choice";
+  windowState_->displayed.show(recording("b"));
+  EXPECT_TRUE(chart.axes().byHand().empty());
+  EXPECT_LT(chart.yAxis->range().upper, 5000.0);
+  EXPECT_TRUE(windowState_->messages.flashed().contains("automatic again"))
+      << windowState_->messages.flashed().toStdString();
+  EXPECT_TRUE(windowState_->messages.flashed().contains("5000 to 6000"));
+  EXPECT_TRUE(windowState_->settings.value("plotted/axes").toStringList().isEmpty());
+  chart.axes().setByHand("counts", AxisRange{0.0, 250.0});
+  windowState_->displayed.show(recording("c"));
+  EXPECT_EQ(chart.yAxis->range(), QCPRange(0.0, 250.0)) << "values are in it";
+}
+
+TEST_F(TimelineFeatureTest, TheChartSaysWhyAFormulaIsNotShown) {
+  ASSERT_TRUE(windowState_->formulas.keep({"far away", "m77_mean * 2", "counts"}));
+  ASSERT_TRUE(windowState_->formulas.keep({"twice", "m0_mean * 2", "counts"}));
+  windowState_->displayed.show(recording("a"));
+  windowState_->selection.setPlotted({false, false});
+  auto* notes = feature_.panel().chart().findChild<QLabel*>("chartNotes");
+  ASSERT_NE(notes, nullptr);
+  EXPECT_TRUE(notes->isHidden());
+  EXPECT_TRUE(feature_.signalTree().setTicked("twice", true));
+  EXPECT_TRUE(feature_.signalTree().setTicked("far away", true));
+  EXPECT_FALSE(notes->isHidden());
+  EXPECT_TRUE(
+      notes->text().startsWith("far away can't be computed: there is no signal \"m77_mean\""))
+      << notes->text().toStdString();
+  EXPECT_EQ(feature_.panel().chart().curves().size(), 1u) << "no axis without a curve";
+  feature_.signalTree().setTicked("far away", false);
+  EXPECT_TRUE(notes->isHidden());
 }
 
 TEST_F(TimelineFeatureTest, TheEndsOfAnAxisAreTyped) {

@@ -106,5 +106,33 @@ TEST(EventMarks, AGapTellsWhatTheRecordingSaysOfIt) {
   EXPECT_FALSE(marks[1].detail.contains("nothing was recorded"));
 }
 
+// A tool tip is read by people: what an event holds as JSON is told in words.
+TEST(EventMarks, DetailsOfAnEventAreToldInWords) {
+  const OpenedRecording opened = *makeOpenedRecording("x.palpate", profileWithStamps({0, 50, 100}));
+  const std::int64_t startUs = opened.profile.frameTimeUs(0);
+  const std::vector<RecordingEvent> events = {
+      {startUs + 10'000,
+       startUs + 40'000,
+       "gap",
+       {},
+       "3 angle samples lost: the file was damaged",
+       R"({"stream":"angles","lost":3,"reason":"the file was damaged"})"},
+      {startUs + 60'000,
+       startUs + 60'000,
+       "settings",
+       {},
+       "sensitivity changed",
+       R"({"by_hand":true,"matrices":[{"sensitivity":0.5,"threshold_counts":150},{"sensitivity":1}]})"},
+      {startUs + 70'000, startUs + 70'000, "link", {}, "lost", "{damaged"}};
+  const auto marks = marksOf(opened, events, {});
+  ASSERT_EQ(marks.size(), 3u);
+  EXPECT_EQ(marks[0].detail,
+            "gap: 3 angle samples lost: the file was damaged\n0.01 – 0.04 s (0.03 s)");
+  EXPECT_EQ(marks[1].detail,
+            "settings: sensitivity changed\nat 0.06 s\nby hand: yes\n"
+            "matrices: sensitivity 0.5, threshold counts 150; sensitivity 1");
+  EXPECT_EQ(marks[2].detail, "link: lost\nat 0.07 s");
+}
+
 }  // namespace
 }  // namespace palpate::gui::event_marks_test

@@ -20,6 +20,7 @@ namespace palpate::gui {
 namespace {
 
 constexpr const char* kTareKind = "tare";  // event kinds
+constexpr const char* kZeroAdded = "zero added to the recording: save with Ctrl+S";
 constexpr const char* kSettingsKind = "sensor_settings";
 // An event that comes before the file is begun may be left out.
 bool isBeingRecorded(const RecorderStatus& status) {
@@ -159,7 +160,7 @@ void CalibrateFeature::keepTare() {
   const OpenedRecordingPtr recording = windowState.displayed.recorded();
   if (!recording) return;
   windowState.events.keep(kTareKind, tareEvent(*page.found(), recording->profile), "the zero");
-  windowState.messages.flash("zero added to the recording: save with Ctrl+S");
+  windowState.messages.flash(kZeroAdded);
 }
 
 void CalibrateFeature::takeSource() {
@@ -175,6 +176,8 @@ void CalibrateFeature::takeKept() {
   const EventEditor* editor = state().events.editor();
   const KeptWithRecording kept =
       editor ? keptWith(*state().displayed.recorded(), editor->events()) : KeptWithRecording{};
+  // Undo has removed it.
+  if (!kept.tare) state().messages.takeBack(kZeroAdded);
   panel_->tare().setKept(kept.tare || !kept.problem.isEmpty());
   panel_->force().setKept(kept);
   pressures_->setKept(kept);

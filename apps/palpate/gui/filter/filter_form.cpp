@@ -41,6 +41,15 @@ QString filterFormRangeOf(const FilterOption& option) {
   return text;
 }
 
+bool isFrequency(const FilterOption& option) { return option.unit == "Hz"; }
+
+// A frequency can't be filtered at or above half of the rate of the frames [Hz].
+QString frequencyRangeOf(const FilterOption& option, double rateHz) {
+  if (!(rateHz > 0.0) || rateHz / 2.0 > option.maximum) return filterFormRangeOf(option);
+  return QString::fromStdString(numberText(option.minimum)) + " to below " +
+         figure(rateHz / 2.0, 2);
+}
+
 QString suffixOf(const FilterOption& option) {
   return option.unit.empty() ? QString() : " " + QString::fromStdString(option.unit);
 }
@@ -68,8 +77,23 @@ void FilterForm::setMatrixNames(const QStringList& shortNames) {
   kind_.clear();
 }
 
+void FilterForm::setRate(double rateHz) {
+  rateHz_ = rateHz;
+  for (const Frequency& frequency : frequencies_) showRange(frequency);
+}
+
+void FilterForm::showRange(const Frequency& frequency) const {
+  const QString range = frequencyRangeOf(frequency.option, rateHz_);
+  frequency.range->setText(range);
+  frequency.field->setToolTip(
+      QString::fromStdString(frequency.option.purpose) + "\n" + range +
+      (rateHz_ > 0.0 ? ", half of the " + figure(rateHz_, 2) + " frames/s" : QString()) +
+      "; change it with the arrow keys or the wheel");
+}
+
 void FilterForm::showStep(const FilterStep* step) {
   if (step == nullptr) {
+    frequencies_.clear();
     delete fields_;
     fields_ = nullptr;
     kind_.clear();
@@ -81,6 +105,7 @@ void FilterForm::showStep(const FilterStep* step) {
 }
 
 void FilterForm::build(const FilterKind& kind) {
+  frequencies_.clear();
   delete fields_;
   show_.clear();
   matrices_.clear();
@@ -189,7 +214,9 @@ void FilterForm::addField(QGridLayout& grid, int row, const FilterOption& option
             });
         grid.addWidget(automatic, row, 2);
       } else {
-        grid.addWidget(filterFormCaption(filterFormRangeOf(option), fields_), row, 2);
+        auto* range = filterFormCaption(filterFormRangeOf(option), fields_);
+        grid.addWidget(range, row, 2);
+        if (isFrequency(option)) frequencies_.push_back({option, range, box});
       }
       show_.push_back([box, automatic, key](const FilterStep& step) {
         const QSignalBlocker blocker(box);
@@ -208,6 +235,7 @@ void FilterForm::addField(QGridLayout& grid, int row, const FilterOption& option
   }
   field->setObjectName("option_" + QString::fromStdString(key));
   field->setToolTip(tip + "\n" + rangeTip);
+  if (!frequencies_.empty() && frequencies_.back().field == field) showRange(frequencies_.back());
   field->setAccessibleName(wordOf(option));
 }
 

@@ -23,6 +23,8 @@ class FilterForm : public QWidget {
   // filter differs.
   void showStep(const FilterStep* step);
   void setMatrixNames(const QStringList& shortNames);
+  // The rate of the frames [Hz]; 0: not known. Frequencies must be below half of it.
+  void setRate(double rateHz);
 
  signals:
   // `value`: NaN means automatic.
@@ -35,6 +37,16 @@ class FilterForm : public QWidget {
   void addMatrices(QGridLayout& grid, int row);
   void showMatrices(const std::vector<std::size_t>& matrices);
 
+  // The range of a frequency, which depends on the rate.
+  struct Frequency {
+    FilterOption option;
+    QLabel* range;
+    QWidget* field;
+  };
+  void showRange(const Frequency& frequency) const;
+
+  double rateHz_ = 0.0;
+  std::vector<Frequency> frequencies_;
   QStringList matrixNames_;
   // The kind of filter that the fields belong to; empty when there is none.
   std::string kind_;

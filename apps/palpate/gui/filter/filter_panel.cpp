@@ -254,6 +254,7 @@ void FilterPanel::setOn(bool on) {
 
 void FilterPanel::setSource(const QStringList& matrixNames, double rateHz, bool live) {
   form_->setMatrixNames(matrixNames);
+  form_->setRate(rateHz);
   rateHz_ = rateHz;
   live_ = live;
   renew();

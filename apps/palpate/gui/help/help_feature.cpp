@@ -59,7 +59,13 @@ HelpFeature::HelpFeature(WindowState& windowState, QWidget* window) : Feature(wi
   new WhatsThis(
       [pages = std::make_shared<ManualPages>(
            ManualPages::folderFor(windowState.environment.dataFolder))](const QString& dock) {
-        return pages->firstParagraph("docks.md", ManualPages::anchorOf(dock));
+        const QString anchor = ManualPages::anchorOf(dock);
+        const QString text = pages->firstParagraph("docks.md", anchor);
+        return text.isEmpty() ? text : text + "\nMore of it: docks.md#" + anchor;
+      },
+      [this](const QString& link) {
+        showManual();
+        manual_->follow(link);
       },
       this);
   on(about, [window] {

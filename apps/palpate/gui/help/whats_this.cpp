@@ -3,12 +3,18 @@
 #include <QCoreApplication>
 #include <QDockWidget>
 #include <QHelpEvent>
+#include <QRegularExpression>
+#include <QTextDocument>
+#include <QTimer>
 #include <QWhatsThis>
+#include <QWhatsThisClickedEvent>
 
 namespace palpate::gui {
 
-WhatsThis::WhatsThis(std::function<QString(const QString&)> aboutDock, QObject* parent)
-    : QObject(parent), aboutDock_(std::move(aboutDock)) {
+WhatsThis::WhatsThis(std::function<QString(const QString&)> aboutDock,
+                     std::function<void(const QString&)> openPage,
+                     QObject* parent)
+    : QObject(parent), aboutDock_(std::move(aboutDock)), openPage_(std::move(openPage)) {
   QCoreApplication::instance()->installEventFilter(this);
 }
 
@@ -22,7 +28,20 @@ QString WhatsThis::about(const QWidget& widget) const {
   return {};
 }
 
+QString WhatsThis::withLinks(const QString& text) {
+  static const QRegularExpression page(R"((\w+\.md)(#[\w-]+)?)");
+  if (Qt::mightBeRichText(text) || !text.contains(page)) return text;
+  QString rich = text.toHtmlEscaped().replace('\n', "<br>");
+  return "<p>" + rich.replace(page, R"(<a href="\1\2">\1</a>)") + "</p>";
+}
+
 bool WhatsThis::eventFilter(QObject* watched, QEvent* event) {
+  if (event->type() == QEvent::WhatsThisClicked && watched->isWidgetType()) {
+    openPage_(static_cast<QWhatsThisClickedEvent*>(event)->href());
+    // Its window is still handling the click.
+    QTimer::singleShot(0, this, [] { QWhatsThis::hideText(); });
+    return true;
+  }
   const bool asked = event->type() == QEvent::QueryWhatsThis;
   if (!asked && event->type() != QEvent::WhatsThis) return false;
   const auto* widget = qobject_cast<const QWidget*>(watched);
@@ -31,7 +50,10 @@ bool WhatsThis::eventFilter(QObject* watched, QEvent* event) {
   const QString text = about(*widget);
   if (text.isEmpty()) return false;
   event->accept();
-  if (!asked) QWhatsThis::showText(static_cast<QHelpEvent*>(event)->globalPos(), text);
+  if (!asked)
+    QWhatsThis::showText(static_cast<QHelpEvent*>(event)->globalPos(),
+                         withLinks(text),
+                         const_cast<QWidget*>(widget));
   return true;
 }
 

@@ -90,6 +90,7 @@ class LibraryFilter : public QSortFilterProxyModel {
   explicit LibraryFilter(LibraryModel& model, QObject* parent = nullptr);
   void setSearch(const QString& text);
   bool searching() const noexcept { return !search_.empty(); }
+  const RecordingSearch& search() const noexcept { return search_; }
 
  protected:
   bool filterAcceptsRow(int row, const QModelIndex& parent) const override;

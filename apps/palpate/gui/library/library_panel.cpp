@@ -37,6 +37,18 @@ QString countText(int count, const QString& what) {
   return QString::number(count) + " " + what + (count == 1 ? "" : "s");
 }
 
+// Says which words in front of a colon are no key, and which there are; empty: all are keys.
+QString unknownKeysText(const RecordingSearch& search) {
+  QStringList unknown, known;
+  for (const std::string& key : search.unknownKeys())
+    unknown.append(QString::fromStdString(key) + ":");
+  if (unknown.isEmpty()) return {};
+  for (const std::string_view key : kSearchKeys)
+    known.append(QString::fromUtf8(key.data(), static_cast<qsizetype>(key.size())) + ":");
+  return unknown.join(" ") + (unknown.size() == 1 ? " is no key" : " are no keys") +
+         " of a search; there are " + known.join(" ");
+}
+
 }  // namespace
 
 LibraryPanel::LibraryPanel(QSettings& settings,
@@ -94,7 +106,7 @@ void LibraryPanel::buildTop() {
   search_ = new QLineEdit(this);
   search_->setObjectName("librarySearch");
   search_->setClearButtonEnabled(true);
-  search_->setPlaceholderText("foam object:ball date:2014-11");
+  showExample();
   search_->setToolTip(
       "Every word must be found; \"several words\" in quotes are one.\n"
       "In one place only: name: path: operator: object: run: notes: label: date: form: state:");
@@ -261,8 +273,21 @@ void LibraryPanel::showFolder() {
                                               : folder_ + "\nChoose another one");
 }
 
+// An example of a search that finds something here.
+void LibraryPanel::showExample() {
+  QString example = "name:foam";
+  for (int row = 0; row < static_cast<int>(model_->numRecordings()); ++row) {
+    const QString name = QFileInfo(model_->path(row)).completeBaseName();
+    if (name.isEmpty() || name.contains(' ') || name.contains('"')) continue;
+    example = "name:" + name;
+    break;
+  }
+  search_->setPlaceholderText("Search, as " + example);
+}
+
 // Shows the table, or the reason why there is none.
 void LibraryPanel::showState() {
+  showExample();
   const bool busy = scanner_.busy();
   bar_->setVisible(busy);
   stop_->setVisible(busy);
@@ -275,6 +300,8 @@ void LibraryPanel::showState() {
   } else if (model_->numRecordings() > 0) {
     if (filter_->rowCount() == 0) {
       text = "Nothing here matches “" + search_->text().simplified() + "”.";
+      if (const QString unknown = unknownKeysText(filter_->search()); !unknown.isEmpty())
+        text += "\n\n" + unknown;
       button = "Clear the search";
     }
   } else if (busy) {

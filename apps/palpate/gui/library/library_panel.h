@@ -79,6 +79,7 @@ class LibraryPanel : public QWidget {
   void showMenu(const QPoint& at);
   void scanEnded(const CatalogReport* report);
   void showState();
+  void showExample();
   void showSummary();
   void showFolder();
   void rememberColumns();

@@ -195,7 +195,9 @@ void CheckPage::showCheck() {
   const ValidationReport& report = *checked->report;
   const auto wrong = report.confusion.total() - report.confusion.right();
   result_->setText("right " + figure(100.0 * report.accuracyMean, 1) + " ± " +
-                   figure(100.0 * report.accuracySd, 1) + " %, among the best three " +
+                   figure(100.0 * report.accuracySd, 1) + " % (mean and deviation of " +
+                   QString::number(report.accuracies.size()) +
+                   (checked->blocks ? " blocks" : " shuffles") + "), among the best three " +
                    figure(100.0 * report.top3, 1) + " %: " + QString::number(wrong) + " of " +
                    QString::number(report.confusion.total()) + " answers wrong; with " +
                    QString::fromStdString(madeWithText(checked->table->set, checked->options)));

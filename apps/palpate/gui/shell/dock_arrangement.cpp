@@ -197,6 +197,12 @@ void DockArrangement::placeSides() {
 }
 
 void DockArrangement::reset() {
+  // Docks that are shown everywhere keep their width also while they are hidden.
+  for (const DockSpec& offer : offers_) {
+    if (!offer.everywhere || offer.dock->isHidden() || offer.dock->isFloating()) continue;
+    const int usual = std::max(offer.preferredWidthPx, offer.dock->sizeHint().width());
+    window_.resizeDocks({offer.dock}, {usual}, Qt::Horizontal);
+  }
   if (place_ == Kind::kNothing) return layouts_.clear();
   const bool live = place_ == Kind::kLive;
   // A window grows at once when a dock doesn't fit.

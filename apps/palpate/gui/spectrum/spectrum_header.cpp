@@ -6,6 +6,8 @@
 #include <QSignalBlocker>
 #include <algorithm>
 
+#include <palpate/signals/welch.h>
+
 #include "gui/widgets/number_field.h"
 #include "gui/widgets/text_fit.h"
 
@@ -27,6 +29,10 @@ QString nameOf(SpectrumView view) {
       break;
   }
   return "coherence";
+}
+
+SpectrumOptions usualOptions(SpectrumView view) {
+  return view == SpectrumView::kMap ? SpectrumOptions{} : welchOptions();
 }
 
 SpectrumHeader::SpectrumHeader(QWidget* parent) : QWidget(parent) {
@@ -107,6 +113,11 @@ SpectrumHeader::SpectrumHeader(QWidget* parent) : QWidget(parent) {
   connect(view_, &QComboBox::activated, this, [this](int index) {
     SpectrumSetting setting = setting_;
     setting.view = kAllSpectrumViews[static_cast<std::size_t>(index)];
+    const SpectrumOptions before = usualOptions(setting_.view), now = usualOptions(setting.view);
+    if (setting.window == before.window && setting.overlap == before.overlap) {
+      setting.window = now.window;
+      setting.overlap = now.overlap;
+    }
     take(setting);
   });
   connect(scale_, &QComboBox::activated, this, [this](int index) {

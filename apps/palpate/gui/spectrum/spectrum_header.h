@@ -4,6 +4,8 @@
 
 #include <QWidget>
 
+#include <palpate/signals/spectrum.h>
+
 #include "gui/spectrum/spectrum_chart.h"
 
 class QComboBox;
@@ -23,10 +25,14 @@ inline constexpr std::array kAllSpectrumViews = {
 // The name of a view: "over time", "mean line", "coherence".
 QString nameOf(SpectrumView view);
 
+// What the window and the overlap of a view are until somebody changes them, as in `palpate
+// spectrum`: SpectrumOptions over time, welchOptions() of a mean and of a coherence.
+SpectrumOptions usualOptions(SpectrumView view);
+
 // The choices of the title row.
 struct SpectrumSetting {
-  int window = 32;   // [samples] 2..65,536
-  int overlap = 31;  // [samples] 0..window-1
+  int window = SpectrumOptions{}.window;    // [samples] 2..65,536
+  int overlap = SpectrumOptions{}.overlap;  // [samples] 0..window-1
   SpectrumScale scale = SpectrumScale::kDecibels;
   SpectrumView view = SpectrumView::kMap;
   bool operator==(const SpectrumSetting&) const = default;

@@ -1,6 +1,7 @@
 #include "gui/timeline/timeline_chart.h"
 
 #include <QContextMenuEvent>
+#include <QLabel>
 #include <QMouseEvent>
 #include <QWheelEvent>
 #include <algorithm>
@@ -42,6 +43,13 @@ TimelineChart::TimelineChart(QWidget* parent)
   clockTicker_->setTickCount(secondsTicker_->tickCount());
   nameTime();
   cursor_ = overlayOn(this, "cursor");
+  notes_ = new QLabel(this);
+  notes_->setObjectName("chartNotes");
+  notes_->setWordWrap(true);
+  notes_->setAlignment(Qt::AlignTop | Qt::AlignLeft);
+  notes_->setTextFormat(Qt::PlainText);
+  notes_->setAttribute(Qt::WA_TransparentForMouseEvents);
+  notes_->hide();
   const auto rescale = [this] {
     scaleAxes();
     replot(QCustomPlot::rpQueuedReplot);
@@ -52,6 +60,7 @@ TimelineChart::TimelineChart(QWidget* parent)
   connect(this, &QCustomPlot::afterReplot, this, [this] {
     placeCursor();
     placeSelection();
+    placeNotes();
     emit seenChanged();
   });
   connect(&before_, &SeriesStore::changed, this, [this] {
@@ -73,6 +82,8 @@ double TimelineChart::durationS() const {
 void TimelineChart::setRecording(const OpenedRecordingPtr& recording) {
   if (recording == recording_ && recording_) return;
   recording_ = recording;
+  rangesOfOther_.clear();
+  for (const auto& [unit, range] : axes_->byHand()) rangesOfOther_.insert(unit);
   positionS_ = 0.0;
   drag_ = Drag::kNone;
   curves_.clear();
@@ -101,6 +112,20 @@ void TimelineChart::setCurves(const std::vector<PlottedCurve>& curves) {
   rebuildGraphs();
 }
 
+void TimelineChart::setNotes(const QStringList& notes) {
+  notes_->setText(notes.join("\n"));
+  notes_->setVisible(!notes.isEmpty());
+  placeNotes();
+}
+
+void TimelineChart::placeNotes() {
+  constexpr int kAround = 6;  // [px]
+  const QRect plot = axisRect()->rect().adjusted(kAround, kAround, -kAround, -kAround);
+  if (notes_->isHidden() || plot.isEmpty()) return;
+  const int height = std::min(plot.height(), notes_->heightForWidth(plot.width()));
+  notes_->setGeometry(plot.left(), plot.top(), plot.width(), height);
+}
+
 void TimelineChart::setRight(int px) {
   QMargins margins = axisRect()->minimumMargins();
   constexpr int kUsualRight = 20;  // [px]
@@ -116,6 +141,7 @@ void TimelineChart::setTheme(Theme theme) {
   styleChart(*this, theme);
   span_.setTheme(theme);
   cursor_->setStyleSheet("background: " + colors.accent.name());
+  notes_->setStyleSheet("background: transparent; color: " + colors.warning.name());
   rebuildGraphs();
 }
 
@@ -172,11 +198,30 @@ void TimelineChart::scaleAxes() {
       extent->low = std::min(extent->low, its->first);
       extent->high = std::max(extent->high, its->second);
     }
+    if (extent) dropRangeOfOther(unit, *extent);
     const UnitConversion shown = axes_->conversionOf(unit);
     if (extent) extent = ValueExtent{shown.back(extent->low), shown.back(extent->high)};
     const AxisRange range = fittedRange(extent, axes_->fromZero(unit));
     axes_->setAutomatic(unit, {shown.of(range.from), shown.of(range.to)});
   }
+}
+
+void TimelineChart::dropRangeOfOther(const QString& unit, const ValueExtent& shown) {
+  if (!rangesOfOther_.contains(unit)) return;
+  const auto found = axes_->byHand().find(unit);
+  if (found == axes_->byHand().end()) {
+    rangesOfOther_.erase(unit);
+    return;
+  }
+  const AxisRange range = found->second;
+  const bool inside = shown.low <= range.to && range.from <= shown.high;
+  // Of a long recording more values follow.
+  if (!inside && recording_->isLong() && store_.progress() < 1.0) return;
+  rangesOfOther_.erase(unit);
+  if (inside) return;
+  const QString name = axes_->nameOf(unit);
+  axes_->setByHand(unit, std::nullopt);
+  emit rangeDropped(name, range);
 }
 
 void TimelineChart::refill() {

@@ -30,6 +30,8 @@ class TimelineChart : public ReadingChart {
   // Curves that the recording doesn't have stay empty.
   void setCurves(const std::vector<PlottedCurve>& curves);
   const std::vector<PlottedCurve>& curves() const noexcept { return curves_; }
+  // Says in the chart what it can't show, a line each; empty: nothing.
+  void setNotes(const QStringList& notes);
   UnitAxes& axes() noexcept { return *axes_; }
   SeriesStore& store() noexcept { return store_; }
   // The same recording without filters: its curves are drawn faintly behind. Null, or a long
@@ -70,6 +72,9 @@ class TimelineChart : public ReadingChart {
   // The visible span, or its position in pixels, has changed.
   void seenChanged();
   void menuRequested(const QPoint& globalPosition);
+  // No value of the new recording is in the range that was set by hand for this axis: it is
+  // automatic again. `name`: that of the axis.
+  void rangeDropped(const QString& name, const AxisRange& range);
 
  protected:
   void mousePressEvent(QMouseEvent* event) override;
@@ -89,6 +94,9 @@ class TimelineChart : public ReadingChart {
   void nameTime();
   void refill();
   void scaleAxes();
+  // Drops the range that was set by hand for another recording if no value of this one is in it.
+  void dropRangeOfOther(const QString& unit, const ValueExtent& shown);
+  void placeNotes();
   void placeCursor();
   void placeSelection();
   void showGapLabels();
@@ -104,6 +112,9 @@ class TimelineChart : public ReadingChart {
   bool hasBefore_ = false;
   std::vector<PlottedCurve> curves_;
   std::unique_ptr<UnitAxes> axes_;
+  // Units whose range was set by hand for another recording, not yet compared with this one.
+  std::set<QString> rangesOfOther_;
+  QLabel* notes_;
   Theme theme_ = Theme::kDark;
   QSharedPointer<QCPAxisTicker> secondsTicker_;
   QSharedPointer<QCPAxisTickerTime> clockTicker_;

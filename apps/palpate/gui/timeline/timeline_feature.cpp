@@ -147,6 +147,15 @@ void TimelineFeature::connectSubject() {
     state().menus.edit->popup(at);
   });
   connect(&chart_->store(), &SeriesStore::changed, this, &TimelineFeature::showReading);
+  connect(chart_,
+          &TimelineChart::rangeDropped,
+          this,
+          [this](const QString& name, const AxisRange& range) {
+            state().messages.flash("the axis " + name + " is automatic again: no value of this " +
+                                   "recording lies in the range set by hand, " +
+                                   QString::number(range.from) + " to " +
+                                   QString::number(range.to));
+          });
   ViewAppearance& look = state().appearance;
   followTheme(panel_);
   followTheme(liveChart_);
@@ -487,7 +496,7 @@ std::vector<PlottedCurve> TimelineFeature::curves() const {
       add(taxelCurve(*hand, group.taxels, group.name, place++, theme));
   place = 0;
   for (const FormulaCurve& each : state().formulas.all())
-    if (recording && !live && extras_.formulas.contains(each.name))
+    if (recording && !live && extras_.formulas.contains(each.name) && reasonAgainst(each).isEmpty())
       add(formulaCurve(each.choice(), each.name, each.unit, place++, theme));
   for (const int axis : extras_.angles)
     if (axis < static_cast<int>(hand->axes.size()))
@@ -510,6 +519,23 @@ void TimelineFeature::showCurves() {
     liveChart_->setCurves(now);
   else
     chart_->setCurves(now);
+  QStringList notes;
+  for (const FormulaCurve& each : state().formulas.all()) {
+    if (live || !extras_.formulas.contains(each.name)) continue;
+    if (const QString reason = reasonAgainst(each); !reason.isEmpty())
+      notes.append(each.name + " can't be computed: " + reason);
+  }
+  chart_->setNotes(notes);
+}
+
+QString TimelineFeature::reasonAgainst(const FormulaCurve& formula) const {
+  const OpenedRecordingPtr recording = state().displayed.recorded();
+  if (!recording || recording->profile.numFrames() == 0) return {};
+  if (reasonsFor_.lock() != recording) reasons_.clear();
+  reasonsFor_ = recording;
+  const auto known = reasons_.find(formula.formula);
+  if (known != reasons_.end()) return known->second;
+  return reasons_[formula.formula] = problemOf(formula.formula, &recording->profile);
 }
 
 void TimelineFeature::showReading() {

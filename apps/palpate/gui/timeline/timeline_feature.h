@@ -3,6 +3,7 @@
 #pragma once
 
 #include <QStackedWidget>
+#include <map>
 #include <memory>
 
 #include "gui/chart/plotted_curve.h"
@@ -53,6 +54,8 @@ class TimelineFeature : public Feature {
   void offerLiveCurves();
   std::vector<PlottedCurve> curves() const;
   void showCurves();
+  // Why a formula can't be computed on this recording; empty: it can.
+  QString reasonAgainst(const FormulaCurve& formula) const;
   void showReading();
   void showSelection();
   void selectEnd(bool begin);
@@ -79,6 +82,9 @@ class TimelineFeature : public Feature {
   // Computes the statistics of a selection.
   BackgroundJob statisticsJob_;
   std::unique_ptr<EventEditing> editing_;
+  // The reasons against formulas, by their text, and the recording that they are about.
+  mutable std::map<QString, QString> reasons_;
+  mutable std::weak_ptr<const OpenedRecording> reasonsFor_;
   // Identifies the source of the live chart; never dereferenced.
   const SignalHistory* history_ = nullptr;
   // Whether the live source has forces now: a calibration is applied.

@@ -115,7 +115,7 @@ void ActiveFilters::noteInLiveRecording() {
   if (!source || !live_.recording() || !applied()) return;
   const std::int64_t us = source->session->nowUs();
   source->session->note(
-      {us, us, kRecipeKind, std::nullopt, recipeText(recipe()), recipeJson(recipe()).text(-1)});
+      {us, us, kRecipeKind, std::nullopt, fullRecipeText(recipe()), recipeJson(recipe()).text(-1)});
 }
 
 bool ActiveFilters::applied() const {
@@ -179,7 +179,7 @@ void ActiveFilters::keepWithRecording() {
   const std::int64_t us =
       recording->profile.numFrames() > 0 ? recording->profile.frameTimeUs(0) : 0;
   const RecordingEvent event{
-      us, us, kRecipeKind, std::nullopt, recipeText(recipe()), recipeJson(recipe()).text(-1)};
+      us, us, kRecipeKind, std::nullopt, fullRecipeText(recipe()), recipeJson(recipe()).text(-1)};
   events_.keep(kRecipeKind, none ? std::nullopt : std::optional(event), "the recipe");
   keptTaken_ = recording;
   messages_.flash(none ? "the recording's filters are removed: save it with Ctrl+S"

@@ -6,7 +6,9 @@
 #include <iterator>
 #include <tuple>
 
+#include <palpate/core/error.h>
 #include <palpate/core/json.h>
+#include <palpate/core/number_text.h>
 #include <palpate/core/time.h>
 #include <palpate/recording/gap_events.h>
 #include <palpate/slip/slip_series.h>
@@ -33,6 +35,40 @@ QString fingersText(const std::vector<int>& fingers) {
   return "fingers " + words.join(", ");
 }
 
+QString keyWords(const std::string& key) { return QString::fromStdString(key).replace('_', ' '); }
+
+// A value of the details of an event in words; those of an object are joined by commas.
+QString detailWords(const Json& value) {
+  if (value.isBool()) return value.asBool() ? "yes" : "no";
+  if (value.isNull()) return "not known";
+  if (value.isString()) return QString::fromStdString(value.asString());
+  if (value.isNumber()) return QString::fromStdString(numberText(value.asDouble()));
+  QStringList parts;
+  if (value.isObject())
+    for (const std::string& key : value.keys())
+      parts.append(keyWords(key) + " " + detailWords(value.at(key)));
+  for (std::size_t i = 0; value.isArray() && i < value.size(); ++i)
+    parts.append(detailWords(value.at(i)));
+  return parts.join(value.isArray() ? "; " : ", ");
+}
+
+// The details of an event in words, a line for each of its members; empty: it has none, or none
+// that can be read.
+QString detailsText(const std::string& json) {
+  constexpr qsizetype kMostLetters = 400;
+  if (json.empty()) return {};
+  QStringList lines;
+  try {
+    const Json details = Json::parse(json);
+    for (const std::string& key : details.keys())
+      lines.append(keyWords(key) + ": " + detailWords(details.at(key)));
+  } catch (const Error&) {
+    return {};
+  }
+  const QString text = lines.join("\n");
+  return text.size() > kMostLetters ? text.left(kMostLetters) + "…" : text;
+}
+
 EventLane laneOf(const std::string& kind) {
   if (kind == kSegmentKind) return EventLane::kGrasps;
   if (kind == kLabelKind || kind == "mark") return EventLane::kLabels;
@@ -53,8 +89,10 @@ EventMark markOf(const OpenedRecording& recording, const RecordingEvent& event, 
                   mark.lane == EventLane::kNotes;
   mark.detail =
       QString::fromStdString(event.kind) + ": " + mark.text + "\n" + spanText(mark.fromS, mark.toS);
-  if (!mark.editable && !event.json.empty())
-    mark.detail += "\n" + QString::fromStdString(event.json).left(400);
+  // The text of a gap says all that its details hold.
+  if (!mark.editable && mark.lane != EventLane::kGaps)
+    if (const QString details = detailsText(event.json); !details.isEmpty())
+      mark.detail += "\n" + details;
   return mark;
 }
 

@@ -25,6 +25,13 @@ void Messages::flash(const QString& notice) {
   emit changed();
 }
 
+void Messages::takeBack(const QString& notice) {
+  if (flashed_.isEmpty() || flashed_ != inWindowWords(notice)) return;
+  flashTimer_.stop();
+  flashed_.clear();
+  emit changed();
+}
+
 void Messages::hover(const QString& text) {
   hovered_ = text;
   emit changed();

@@ -19,6 +19,8 @@ class Messages : public QObject {
 
   // Shows a notice in the status line for some seconds.
   void flash(const QString& notice);
+  // Takes a notice away that is no longer true; another one stays.
+  void takeBack(const QString& notice);
   const QString& flashed() const noexcept { return flashed_; }
   // Describes what is under the mouse pointer; empty: nothing.
   void hover(const QString& text);
