@@ -8,6 +8,8 @@
 #include "gui/appearance/text_size.h"
 #include "gui/calibrate/calibrate_feature.h"
 #include "gui/calibrate/calibrate_panel.h"
+#include "gui/compare/compare_feature.h"
+#include "gui/compare/compare_panel.h"
 #include "gui/hand/hand_dock.h"
 #include "gui/hand/hand_feature.h"
 #include "gui/recognise/recognise_feature.h"
@@ -280,6 +282,39 @@ TEST_F(WindowFitsTest, AfterTheComparisonEverythingHasItsSizeAgain) {
       EXPECT_NEAR(find<QDockWidget>(name.c_str())->width(), was.width(), 2) << name;
       EXPECT_NEAR(find<QDockWidget>(name.c_str())->height(), was.height(), 2) << name;
     }
+  }
+}
+
+// Screens of 768 and 800 pixels leave this much below the title of the window and a bar of the
+// desktop.
+TEST_F(WindowFitsTest, TheComparisonWithEveryDock) {
+  window().setAnimated(false);
+  open({"rich.dsa", "rich_of_another_object_2026-11-22_run_0123.dsa"});
+  auto& compare = window().feature<CompareFeature>().panel();
+  for (const QSize size : {QSize(1280, 732), QSize(1366, 700), QSize(1440, 868)}) {
+    window().resize(size);
+    window().docks().reset();
+    processAll();
+    actions().at("compare")->trigger();
+    ASSERT_TRUE(QTest::qWaitFor([&] { return compare.complete(); }, 20'000));
+    const QString at = QString("comparison at %1x%2").arg(size.width()).arg(size.height());
+    expectNoFaults(at);
+    EXPECT_EQ(window().size(), size);
+    for (const QString& name : window().docks().names()) {
+      window().docks().show(name);
+      expectNoFaults(at + ", " + name);
+      EXPECT_EQ(window().size(), size) << name.toStdString();
+      find<QDockWidget>(name.toUtf8())->close();
+      processAll();
+    }
+    for (const char* name : {"Timeline", "Spectrum", "Inspect"}) {
+      window().docks().show(name);
+      expectNoFaults(at + ", several docks, " + name);
+      EXPECT_EQ(window().size(), size) << name;
+    }
+    actions().at("compare")->trigger();
+    processAll();
+    EXPECT_EQ(window().size(), size);
   }
 }
 
