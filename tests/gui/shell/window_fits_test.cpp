@@ -1,9 +1,11 @@
 // The window fits small screens: with a recording and with a live hand, with each dock, at each
 // size and in both themes, nothing is cut off and nothing lies over something else.
+#include <QComboBox>
 #include <QDockWidget>
 #include <QLineEdit>
 #include <QPushButton>
 #include <QScreen>
+#include <QScrollBar>
 
 #include "gui/appearance/text_size.h"
 #include "gui/calibrate/calibrate_feature.h"
@@ -12,11 +14,14 @@
 #include "gui/compare/compare_panel.h"
 #include "gui/hand/hand_dock.h"
 #include "gui/hand/hand_feature.h"
+#include "gui/inspect/inspect_feature.h"
+#include "gui/inspect/inspect_panel.h"
 #include "gui/recognise/recognise_feature.h"
 #include "gui/recognise/recognise_panel.h"
 #include "gui/source/live_controller.h"
 #include "gui/testing/layout_faults.h"
 #include "gui/testing/window_fixture.h"
+#include "gui/timeline/timeline_header.h"
 
 namespace palpate::gui::window_fits_test {
 namespace {
@@ -411,6 +416,90 @@ TEST_F(WindowFitsTest, ADockThatTookRoomGivesItBack) {
     EXPECT_NEAR(timeline->height(), timelineBefore.height(), 2) << name;
     EXPECT_EQ(inspect->width(), inspectBefore.width()) << name;
   }
+}
+
+// The width before is that of the tab that was seen, not that of a tab behind it.
+TEST_F(WindowFitsTest, AClosedDockLeavesTheColumnAsWideAsBefore) {
+  open({"rich.dsa"});
+  window().resize(1600, 900);
+  window().setAnimated(false);
+  window().docks().reset();
+  processAll();
+  window().docks().show("Link");
+  processAll();
+  auto* link = find<QDockWidget>("Link");
+  window().resizeDocks({link}, {640}, Qt::Horizontal);
+  processAll();
+  const int before = link->width();
+  ASSERT_GT(before, find<QDockWidget>("Inspect")->width()) << "which is behind";
+  const QKeySequence key = find<QDockWidget>("Slip")->toggleViewAction()->shortcut();
+  press(key);
+  processAll();
+  ASSERT_FALSE(find<QDockWidget>("Slip")->visibleRegion().isEmpty());
+  press(key);
+  processAll();
+  ASSERT_TRUE(find<QDockWidget>("Slip")->isHidden());
+  EXPECT_EQ(find<QDockWidget>("Link")->width(), before);
+}
+
+// All six matrices are named, and Inspect isn't scrolled sideways.
+TEST_F(WindowFitsTest, TheLegendOfTheTimelineIsWhole) {
+  open({"rich.dsa"});
+  window().setAnimated(false);
+  for (QAction* plot : window().findChildren<QAction*>())
+    if (plot->text().startsWith("Plot finger") && !plot->isChecked()) plot->trigger();
+  for (const QSize size : {QSize(1024, 700), kSizes[0], kSizes[1], kSizes[2]}) {
+    window().resize(size);
+    window().docks().reset();
+    expectNoFaults(QString("legend at %1").arg(size.width()));
+    const auto* legend = window().findChild<Legend*>();
+    ASSERT_TRUE(legend->isVisible());
+    ASSERT_EQ(legend->entries().size(), 6u);
+    EXPECT_FALSE(legend->isCut()) << size.width();
+    EXPECT_GE(legend->height(), legend->sizeHint().height()) << size.width();
+  }
+}
+
+TEST_P(TextSizeFitsTest, InspectIsNotScrolledSideways) {
+  open({"rich.dsa"});
+  window().setAnimated(false);
+  for (const QSize size : sizes())
+    for (const int width : {0, 440, 480, 520}) {
+      if (GetParam() == kMostTextPt && width > 0 && width < 500) continue;
+      window().resize(size);
+      window().docks().reset();
+      window().docks().show("Inspect");
+      processAll();
+      auto* dock = find<QDockWidget>("Inspect");
+      if (width > 0) window().resizeDocks({dock}, {width}, Qt::Horizontal);
+      processAll();
+      EXPECT_EQ(window().feature<InspectFeature>().panel().horizontalScrollBar()->maximum(), 0)
+          << GetParam() << " pt at " << size.width() << ", dock " << dock->width();
+    }
+}
+
+// The dock Hand takes the width that larger text needs, and gives it back.
+TEST_F(WindowFitsTest, TheDockHandHasItsWidthAgainAfterLargerText) {
+  connectEmulated();
+  window().setAnimated(false);
+  window().resize(1440, 900);
+  window().docks().reset();
+  processAll();
+  auto* dock = find<QDockWidget>("Hand");
+  const auto hints = [&] {
+    std::map<std::string, int> widths;
+    for (const QComboBox* box : dock->findChildren<QComboBox*>())
+      widths[box->objectName().toStdString()] = box->minimumSizeHint().width();
+    return widths;
+  };
+  const int before = dock->width();
+  const auto hintsBefore = hints();
+  applyTextPt(kMostTextPt);
+  ASSERT_TRUE(QTest::qWaitFor([&] { return dock->width() > before; }));
+  applyTextPt(0);
+  EXPECT_TRUE(QTest::qWaitFor([&] { return dock->width() == before; }))
+      << dock->width() << " instead of " << before << ", least " << dock->minimumSizeHint().width();
+  EXPECT_EQ(hints(), hintsBefore);
 }
 
 TEST_F(WindowFitsTest, KeysOfTheWindowWorkWhileAFieldHasTheFocus) {
