@@ -6,6 +6,7 @@
 #include <QPushButton>
 #include <QScreen>
 #include <QScrollBar>
+#include <QTableView>
 
 #include "gui/appearance/text_size.h"
 #include "gui/calibrate/calibrate_feature.h"
@@ -478,6 +479,17 @@ TEST_P(TextSizeFitsTest, InspectIsNotScrolledSideways) {
     }
 }
 
+TEST_P(TextSizeFitsTest, InspectOfALiveHandIsNotScrolledSideways) {
+  // The dock Hand leaves too little beside it with the largest text.
+  if (GetParam() == kMostTextPt) return;
+  connectEmulated();
+  window().setAnimated(false);
+  window().resize(1366, 768);
+  window().docks().reset();
+  processAll();
+  EXPECT_EQ(window().feature<InspectFeature>().panel().horizontalScrollBar()->maximum(), 0);
+}
+
 // The dock Hand takes the width that larger text needs, and gives it back.
 TEST_F(WindowFitsTest, TheDockHandHasItsWidthAgainAfterLargerText) {
   connectEmulated();
@@ -500,6 +512,21 @@ TEST_F(WindowFitsTest, TheDockHandHasItsWidthAgainAfterLargerText) {
   EXPECT_TRUE(QTest::qWaitFor([&] { return dock->width() == before; }))
       << dock->width() << " instead of " << before << ", least " << dock->minimumSizeHint().width();
   EXPECT_EQ(hints(), hintsBefore);
+}
+
+TEST_F(WindowFitsTest, TheLogShowsItsTimesInFull) {
+  open({"rich.dsa"});
+  window().resize(1366, 768);
+  window().docks().show("Log");
+  processAll();
+  auto* table = find<QTableView>("logTable");
+  ASSERT_GT(table->model()->rowCount(), 0);
+  for (const int column : {0, 1})
+    // Beside the text Qt leaves three pixels on both sides.
+    EXPECT_GE(
+        table->columnWidth(column),
+        table->fontMetrics().horizontalAdvance(table->model()->index(0, column).data().toString()) +
+            6);
 }
 
 TEST_F(WindowFitsTest, KeysOfTheWindowWorkWhileAFieldHasTheFocus) {

@@ -83,6 +83,12 @@ void LogTable::resizeEvent(QResizeEvent* event) {
   setWordWrap(narrow);
   if (verticalHeader()->defaultSectionSize() != height)
     verticalHeader()->setDefaultSectionSize(height);
+  constexpr int kPadding = 16;
+  const auto widthOf = [this](const QString& text) {
+    return fontMetrics().horizontalAdvance(text) + kPadding;
+  };
+  horizontalHeader()->resizeSection(ActivityLog::kTime, widthOf("00:00:00"));
+  horizontalHeader()->resizeSection(ActivityLog::kSeverity, widthOf("warning"));
 }
 
 LogPanel::LogPanel(ActivityLog& log, QWidget* parent)
@@ -163,12 +169,6 @@ void LogPanel::buildTable() {
   table_->verticalHeader()->hide();
   table_->horizontalHeader()->hide();
   table_->horizontalHeader()->setStretchLastSection(true);
-  constexpr int kPadding = 16;
-  const auto widthOf = [this](const QString& text) {
-    return fontMetrics().horizontalAdvance(text) + kPadding;
-  };
-  table_->horizontalHeader()->resizeSection(ActivityLog::kTime, widthOf("00:00:00"));
-  table_->horizontalHeader()->resizeSection(ActivityLog::kSeverity, widthOf("warning"));
   empty_ = new EmptyPage("log", pages_);
   pages_->addWidget(table_);
   pages_->addWidget(empty_);

@@ -208,9 +208,11 @@ void DockArrangement::reset() {
   const double share = live ? kRightShareLive : kRightShare;
   const int narrowest = live ? kNarrowestRightLive : kNarrowestRight;
   if (front())
-    window_.resizeDocks({front()->dock},
-                        {std::max(narrowest, static_cast<int>(window_.width() * share))},
-                        Qt::Horizontal);
+    window_.resizeDocks(
+        {front()->dock},
+        {std::max(
+            {narrowest, front()->dock->contentWidth(), static_cast<int>(window_.width() * share)})},
+        Qt::Horizontal);
   if (live && leftWhileLive())
     window_.resizeDocks({leftWhileLive()->dock}, {kLeftLiveWidth}, Qt::Horizontal);
   if (bottom())
