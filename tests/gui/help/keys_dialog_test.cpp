@@ -2,9 +2,12 @@
 
 #include <QLabel>
 #include <QMenu>
+#include <QScrollArea>
+#include <QScrollBar>
 #include <algorithm>
 #include <set>
 
+#include "gui/appearance/text_size.h"
 #include "gui/testing/window_fixture.h"
 
 namespace palpate::gui::keys_dialog_test {
@@ -65,6 +68,23 @@ TEST_F(KeysDialogTest, ShowsTheListAndTheMouse) {
   QApplication::setActiveWindow(dialog);
   QTest::keyClick(dialog, Qt::Key_Escape);
   EXPECT_FALSE(dialog->isVisible());
+}
+
+// Only upwards and downwards, also on a small screen and with large text.
+TEST_F(KeysDialogTest, IsNotScrolledSideways) {
+  for (const int pt : {0, 12, 15, kMostTextPt})
+    for (const QSize size : {QSize(1024, 768), QSize(1280, 800), QSize(1366, 768)}) {
+      applyTextPt(pt);
+      window().resize(size);
+      QCoreApplication::processEvents();
+      KeysDialog dialog(window().actions(), &window());
+      dialog.show();
+      for (int i = 0; i < 4; ++i) QCoreApplication::processEvents();
+      EXPECT_LE(dialog.width(), size.width());
+      EXPECT_EQ(dialog.findChild<QScrollArea*>()->horizontalScrollBar()->maximum(), 0)
+          << pt << " pt at " << size.width();
+    }
+  applyTextPt(0);
 }
 
 TEST_F(KeysDialogTest, EveryMenuEntryIsAnActionOfTheWindow) {

@@ -1,20 +1,28 @@
 // The window fits small screens: with a recording and with a live hand, with each dock, at each
 // size and in both themes, nothing is cut off and nothing lies over something else.
+#include <QComboBox>
 #include <QDockWidget>
 #include <QLineEdit>
 #include <QPushButton>
 #include <QScreen>
+#include <QScrollBar>
+#include <QTableView>
 
 #include "gui/appearance/text_size.h"
 #include "gui/calibrate/calibrate_feature.h"
 #include "gui/calibrate/calibrate_panel.h"
+#include "gui/compare/compare_feature.h"
+#include "gui/compare/compare_panel.h"
 #include "gui/hand/hand_dock.h"
 #include "gui/hand/hand_feature.h"
+#include "gui/inspect/inspect_feature.h"
+#include "gui/inspect/inspect_panel.h"
 #include "gui/recognise/recognise_feature.h"
 #include "gui/recognise/recognise_panel.h"
 #include "gui/source/live_controller.h"
 #include "gui/testing/layout_faults.h"
 #include "gui/testing/window_fixture.h"
+#include "gui/timeline/timeline_header.h"
 
 namespace palpate::gui::window_fits_test {
 namespace {
@@ -283,6 +291,39 @@ TEST_F(WindowFitsTest, AfterTheComparisonEverythingHasItsSizeAgain) {
   }
 }
 
+// Screens of 768 and 800 pixels leave this much below the title of the window and a bar of the
+// desktop.
+TEST_F(WindowFitsTest, TheComparisonWithEveryDock) {
+  window().setAnimated(false);
+  open({"rich.dsa", "rich_of_another_object_2026-11-22_run_0123.dsa"});
+  auto& compare = window().feature<CompareFeature>().panel();
+  for (const QSize size : {QSize(1280, 732), QSize(1366, 700), QSize(1440, 868)}) {
+    window().resize(size);
+    window().docks().reset();
+    processAll();
+    actions().at("compare")->trigger();
+    ASSERT_TRUE(QTest::qWaitFor([&] { return compare.complete(); }, 20'000));
+    const QString at = QString("comparison at %1x%2").arg(size.width()).arg(size.height());
+    expectNoFaults(at);
+    EXPECT_EQ(window().size(), size);
+    for (const QString& name : window().docks().names()) {
+      window().docks().show(name);
+      expectNoFaults(at + ", " + name);
+      EXPECT_EQ(window().size(), size) << name.toStdString();
+      find<QDockWidget>(name.toUtf8())->close();
+      processAll();
+    }
+    for (const char* name : {"Timeline", "Spectrum", "Inspect"}) {
+      window().docks().show(name);
+      expectNoFaults(at + ", several docks, " + name);
+      EXPECT_EQ(window().size(), size) << name;
+    }
+    actions().at("compare")->trigger();
+    processAll();
+    EXPECT_EQ(window().size(), size);
+  }
+}
+
 // A dock that needs more than the window has makes it grow; without the dock it has its size again,
 // also when the dock was opened beside the comparison.
 TEST_F(WindowFitsTest, AWindowThatHadToGrowHasItsSizeAgain) {
@@ -376,6 +417,116 @@ TEST_F(WindowFitsTest, ADockThatTookRoomGivesItBack) {
     EXPECT_NEAR(timeline->height(), timelineBefore.height(), 2) << name;
     EXPECT_EQ(inspect->width(), inspectBefore.width()) << name;
   }
+}
+
+// The width before is that of the tab that was seen, not that of a tab behind it.
+TEST_F(WindowFitsTest, AClosedDockLeavesTheColumnAsWideAsBefore) {
+  open({"rich.dsa"});
+  window().resize(1600, 900);
+  window().setAnimated(false);
+  window().docks().reset();
+  processAll();
+  window().docks().show("Link");
+  processAll();
+  auto* link = find<QDockWidget>("Link");
+  window().resizeDocks({link}, {640}, Qt::Horizontal);
+  processAll();
+  const int before = link->width();
+  ASSERT_GT(before, find<QDockWidget>("Inspect")->width()) << "which is behind";
+  const QKeySequence key = find<QDockWidget>("Slip")->toggleViewAction()->shortcut();
+  press(key);
+  processAll();
+  ASSERT_FALSE(find<QDockWidget>("Slip")->visibleRegion().isEmpty());
+  press(key);
+  processAll();
+  ASSERT_TRUE(find<QDockWidget>("Slip")->isHidden());
+  EXPECT_EQ(find<QDockWidget>("Link")->width(), before);
+}
+
+// All six matrices are named, and Inspect isn't scrolled sideways.
+TEST_F(WindowFitsTest, TheLegendOfTheTimelineIsWhole) {
+  open({"rich.dsa"});
+  window().setAnimated(false);
+  for (QAction* plot : window().findChildren<QAction*>())
+    if (plot->text().startsWith("Plot finger") && !plot->isChecked()) plot->trigger();
+  for (const QSize size : {QSize(1024, 700), kSizes[0], kSizes[1], kSizes[2]}) {
+    window().resize(size);
+    window().docks().reset();
+    expectNoFaults(QString("legend at %1").arg(size.width()));
+    const auto* legend = window().findChild<Legend*>();
+    ASSERT_TRUE(legend->isVisible());
+    ASSERT_EQ(legend->entries().size(), 6u);
+    EXPECT_FALSE(legend->isCut()) << size.width();
+    EXPECT_GE(legend->height(), legend->sizeHint().height()) << size.width();
+  }
+}
+
+TEST_P(TextSizeFitsTest, InspectIsNotScrolledSideways) {
+  open({"rich.dsa"});
+  window().setAnimated(false);
+  for (const QSize size : sizes())
+    for (const int width : {0, 440, 480, 520}) {
+      if (GetParam() == kMostTextPt && width > 0 && width < 500) continue;
+      window().resize(size);
+      window().docks().reset();
+      window().docks().show("Inspect");
+      processAll();
+      auto* dock = find<QDockWidget>("Inspect");
+      if (width > 0) window().resizeDocks({dock}, {width}, Qt::Horizontal);
+      processAll();
+      EXPECT_EQ(window().feature<InspectFeature>().panel().horizontalScrollBar()->maximum(), 0)
+          << GetParam() << " pt at " << size.width() << ", dock " << dock->width();
+    }
+}
+
+TEST_P(TextSizeFitsTest, InspectOfALiveHandIsNotScrolledSideways) {
+  // The dock Hand leaves too little beside it with the largest text.
+  if (GetParam() == kMostTextPt) return;
+  connectEmulated();
+  window().setAnimated(false);
+  window().resize(1366, 768);
+  window().docks().reset();
+  processAll();
+  EXPECT_EQ(window().feature<InspectFeature>().panel().horizontalScrollBar()->maximum(), 0);
+}
+
+// The dock Hand takes the width that larger text needs, and gives it back.
+TEST_F(WindowFitsTest, TheDockHandHasItsWidthAgainAfterLargerText) {
+  connectEmulated();
+  window().setAnimated(false);
+  window().resize(1440, 900);
+  window().docks().reset();
+  processAll();
+  auto* dock = find<QDockWidget>("Hand");
+  const auto hints = [&] {
+    std::map<std::string, int> widths;
+    for (const QComboBox* box : dock->findChildren<QComboBox*>())
+      widths[box->objectName().toStdString()] = box->minimumSizeHint().width();
+    return widths;
+  };
+  const int before = dock->width();
+  const auto hintsBefore = hints();
+  applyTextPt(kMostTextPt);
+  ASSERT_TRUE(QTest::qWaitFor([&] { return dock->width() > before; }));
+  applyTextPt(0);
+  EXPECT_TRUE(QTest::qWaitFor([&] { return dock->width() == before; }))
+      << dock->width() << " instead of " << before << ", least " << dock->minimumSizeHint().width();
+  EXPECT_EQ(hints(), hintsBefore);
+}
+
+TEST_F(WindowFitsTest, TheLogShowsItsTimesInFull) {
+  open({"rich.dsa"});
+  window().resize(1366, 768);
+  window().docks().show("Log");
+  processAll();
+  auto* table = find<QTableView>("logTable");
+  ASSERT_GT(table->model()->rowCount(), 0);
+  for (const int column : {0, 1})
+    // Beside the text Qt leaves three pixels on both sides.
+    EXPECT_GE(
+        table->columnWidth(column),
+        table->fontMetrics().horizontalAdvance(table->model()->index(0, column).data().toString()) +
+            6);
 }
 
 TEST_F(WindowFitsTest, KeysOfTheWindowWorkWhileAFieldHasTheFocus) {

@@ -207,10 +207,13 @@ void checkContent(const QWidget& widget, QStringList& faults) {
   if (const auto* spin = qobject_cast<const QAbstractSpinBox*>(&widget)) {
     const auto* field = spin->findChild<const QLineEdit*>();
     const int room = field->width();
-    const int needed = field->fontMetrics().horizontalAdvance(spin->text()) + 2;
-    if (needed > room + kSlack)
-      faults.append(wanted(
-          widget, "'" + spin->text() + "'", {spin->width() + needed - room, spin->height()}));
+    // Qt shortens a placeholder that has no room beside its margins.
+    const bool empty = field->text().isEmpty();
+    const QString text = empty ? field->placeholderText() : spin->text();
+    const int needed = field->fontMetrics().horizontalAdvance(text) + (empty ? 4 : 2);
+    if (needed > room + (empty ? 0 : kSlack))
+      faults.append(
+          wanted(widget, "'" + text + "'", {spin->width() + needed - room, spin->height()}));
     return;
   }
   if (const auto* field = qobject_cast<const QLineEdit*>(&widget)) {

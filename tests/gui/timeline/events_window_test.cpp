@@ -4,6 +4,7 @@
 #include <QClipboard>
 #include <QCloseEvent>
 #include <QComboBox>
+#include <QDockWidget>
 #include <QDoubleSpinBox>
 #include <QLabel>
 #include <QPushButton>
@@ -297,6 +298,33 @@ TEST_F(EventsWindowTest, DifferencesStandBesideTheEndsOfTheSelection) {
   EXPECT_TRUE(chart().rect().contains(readout.geometry()));
   chart().setSelection(std::nullopt);
   EXPECT_TRUE(readout.isHidden());
+}
+
+// In a low chart the curves stand beside each other; those without room are counted, none is cut.
+TEST_F(EventsWindowTest, DifferencesOfManyCurvesAreNotCutInALowChart) {
+  auto& readout = *window().findChild<CursorReadout*>();
+  window().setAnimated(false);
+  window().resize(1280, 732);
+  for (QAction* plot : window().findChildren<QAction*>())
+    if (plot->text().startsWith("Plot finger") && !plot->isChecked()) plot->trigger();
+  actions().at("differences")->trigger();
+  chart().setSelection(TimeSpan{2.0, 4.5});
+  ASSERT_EQ(chart().curves().size(), 6u);
+  for (const int height : {90, 110, 140, 300}) {
+    window().resizeDocks({window().findChild<QDockWidget*>("Timeline")}, {height}, Qt::Vertical);
+    for (int i = 0; i < 4; ++i) QCoreApplication::processEvents();
+    ASSERT_FALSE(readout.isHidden());
+    EXPECT_FALSE(readout.text().contains("…")) << readout.text().toStdString();
+    EXPECT_GE(readout.width(), readout.sizeHint().width()) << height;
+    EXPECT_GE(readout.height(), readout.sizeHint().height()) << height;
+    const auto curves = readout.text().count(" → ");
+    EXPECT_GE(curves, height < 300 ? 1 : 6) << readout.text().toStdString();
+    if (curves < 6) {
+      EXPECT_TRUE(
+          readout.text().endsWith(QString::number(6 - curves) + " more: Statistics (Ctrl+Alt+A)"))
+          << readout.text().toStdString();
+    }
+  }
 }
 
 TEST_F(EventsWindowTest, AVerticalAxisIsLogarithmicAndRemembersIt) {

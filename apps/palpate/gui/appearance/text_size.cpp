@@ -1,6 +1,7 @@
 #include "gui/appearance/text_size.h"
 
 #include <QApplication>
+#include <QComboBox>
 #include <QEvent>
 #include <QPointer>
 #include <QWidget>
@@ -60,6 +61,12 @@ void applyTextPt(int pt) {
     QFont own = widget->font();
     own.setPointSizeF(sizePt * wantedPt / beforePt);
     widget->setFont(own);
+  }
+  // Qt keeps the least size of a combo box after a change of its font.
+  for (QWidget* widget : QApplication::allWidgets()) {
+    if (!qobject_cast<QComboBox*>(widget)) continue;
+    QEvent changed(QEvent::StyleChange);
+    QApplication::sendEvent(widget, &changed);
   }
 }
 

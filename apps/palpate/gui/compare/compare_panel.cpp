@@ -2,11 +2,14 @@
 
 #include <QAction>
 #include <QComboBox>
+#include <QGridLayout>
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QPainter>
 #include <QPushButton>
+#include <QResizeEvent>
 #include <QStackedWidget>
+#include <QStyle>
 #include <QVBoxLayout>
 #include <algorithm>
 #include <cmath>
@@ -20,6 +23,7 @@
 #include "gui/compare/compare_header.h"
 #include "gui/compare/compare_strip.h"
 #include "gui/compare/compare_view.h"
+#include "gui/widgets/content_scroll.h"
 #include "gui/widgets/fitting_pages.h"
 
 namespace palpate::gui {
@@ -28,6 +32,8 @@ namespace {
 constexpr int kComparePanelControlHeight = 26;  // [px]
 constexpr int kViewShare = 5;                   // shares of the height: heat maps and chart
 constexpr int kChartShare = 2;
+constexpr int kLeastHeight = 150;  // [px] of heat maps and chart together; they scroll then
+constexpr int kBesideBoxes = 16;   // [px] between the boxes above the chart and the figures
 
 bool contains(const std::vector<OpenedRecordingPtr>& all, const OpenedRecordingPtr& one) {
   return one && std::find(all.begin(), all.end(), one) != all.end();
@@ -101,7 +107,7 @@ void ComparePanel::build(QAction* leave, QAction* interpolated, QAction* values)
   parts->addWidget(chart_, kChartShare);
   stack_ = new FittingPages(this);
   stack_->addWidget(makeEmpty());
-  stack_->addWidget(content);
+  stack_->addWidget(new ContentScroll(content, {0, kLeastHeight}, this));
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(0, 0, 0, 0);
   column->setSpacing(0);
@@ -134,17 +140,22 @@ QWidget* ComparePanel::makeCurveHeader() {
   figures_->setObjectName("compareFigures");
   figures_->setTextFormat(Qt::PlainText);
   figures_->setTextInteractionFlags(Qt::TextSelectableByMouse);
+  figures_->setWordWrap(true);
   figures_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
-  auto* row = new QHBoxLayout(header);
-  row->setContentsMargins(12, 3, 10, 3);
-  row->setSpacing(6);
-  row->addWidget(signal_);
-  row->addWidget(matrix_);
-  row->addSpacing(10);
-  row->addWidget(overlayBox_);
-  row->addWidget(bandBox_);
-  row->addSpacing(10);
-  row->addWidget(figures_, 1);
+  boxes_ = new QHBoxLayout;
+  boxes_->setSpacing(6);
+  boxes_->addWidget(signal_);
+  boxes_->addWidget(matrix_);
+  boxes_->addSpacing(10);
+  boxes_->addWidget(overlayBox_);
+  boxes_->addWidget(bandBox_);
+  curveHeader_ = new QGridLayout(header);
+  curveHeader_->setContentsMargins(12, 3, 10, 3);
+  curveHeader_->setHorizontalSpacing(kBesideBoxes);
+  curveHeader_->setVerticalSpacing(3);
+  curveHeader_->setColumnStretch(1, 1);
+  curveHeader_->addLayout(boxes_, 0, 0);
+  curveHeader_->addWidget(figures_, 0, 1);
   return header;
 }
 
@@ -729,7 +740,33 @@ void ComparePanel::showNotice() {
   if (notice_->styleSheet() != style) notice_->setStyleSheet(style);
   const QString line = figures();
   if (figures_->text() != line) figures_->setText(line);
-  figures_->setToolTip(line);
+  placeFigures();
+}
+
+// The figures stand beside the boxes if there is room, else below them.
+void ComparePanel::placeFigures() {
+  if (!curveHeader_) return;
+  const QMargins around = curveHeader_->contentsMargins();
+  const int room = width() - around.left() - around.right() - boxes_->sizeHint().width() -
+                   kBesideBoxes - style()->pixelMetric(QStyle::PM_ScrollBarExtent);
+  const bool below = figures_->fontMetrics().horizontalAdvance(figures_->text()) > room;
+  if (below == figuresBelow_) return;
+  figuresBelow_ = below;
+  curveHeader_->removeWidget(figures_);
+  if (below)
+    curveHeader_->addWidget(figures_, 1, 0, 1, 2);
+  else
+    curveHeader_->addWidget(figures_, 0, 1);
+}
+
+void ComparePanel::resizeEvent(QResizeEvent* event) {
+  QWidget::resizeEvent(event);
+  placeFigures();
+}
+
+void ComparePanel::changeEvent(QEvent* event) {
+  QWidget::changeEvent(event);
+  if (event->type() == QEvent::FontChange) placeFigures();
 }
 
 void ComparePanel::paint(QPainter& painter, const PictureLook& look) const {

@@ -19,6 +19,8 @@
 
 class QAction;
 class QComboBox;
+class QGridLayout;
+class QHBoxLayout;
 class QLabel;
 class QPushButton;
 class QStackedWidget;
@@ -103,6 +105,10 @@ class ComparePanel : public QWidget {
   void openRequested();
   void hovered(const QString& text);
 
+ protected:
+  void resizeEvent(QResizeEvent* event) override;
+  void changeEvent(QEvent* event) override;
+
  private:
   // Building the panel, and which recordings it compares (compare_panel.cpp).
   void build(QAction* leave, QAction* interpolated, QAction* values);
@@ -127,6 +133,7 @@ class ComparePanel : public QWidget {
   void showFrames();
   void showLook();
   void showNotice();
+  void placeFigures();
   ComparePictureOptions pictureOptions() const;
   QString captionOf(bool ofB, const std::optional<std::size_t>& frame) const;
   QString absenceOf(bool ofB) const;
@@ -165,7 +172,10 @@ class ComparePanel : public QWidget {
   QComboBox* matrix_ = nullptr;
   QComboBox* overlayBox_ = nullptr;
   QComboBox* bandBox_ = nullptr;
+  QHBoxLayout* boxes_ = nullptr;
+  QGridLayout* curveHeader_ = nullptr;
   QLabel* figures_ = nullptr;
+  bool figuresBelow_ = false;
   CompareStrip* strip_ = nullptr;
   CompareChart* chart_ = nullptr;
   // Declared last, so that its thread ends before the other members are destroyed.

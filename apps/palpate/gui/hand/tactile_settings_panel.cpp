@@ -115,7 +115,7 @@ void TactileSettingsPanel::makeRow(int row, const QString& name) {
                              QString::number(fullScale_));
   for (QWidget* field : {made.sensitivity->field(), made.threshold->field()})
     fitToText(*field, [field] {
-      constexpr int kFrame = 14;
+      constexpr int kFrame = 20;
       const QFontMetrics metrics = field->fontMetrics();
       field->setFixedWidth(
           std::max(4 * metrics.horizontalAdvance('0'), metrics.horizontalAdvance("differ")) +

@@ -15,6 +15,7 @@ namespace palpate::gui {
 namespace {
 
 constexpr int kWidestWords = 190;     // [px]
+constexpr int kNarrowestWords = 120;  // [px]
 constexpr double kScreenPart = 0.95;  // largest part of the screen that the dialog covers
 
 // Mouse gestures have no actions, so they are listed here.
@@ -38,7 +39,10 @@ const std::vector<KeyEntry>& mouseEntries() {
   return entries;
 }
 
-QWidget* columnOf(const std::vector<KeyEntry>& entries, QWidget* parent) {
+// The sections of some entries; the labels of what the keys do are added to `words`.
+QWidget* columnOf(const std::vector<KeyEntry>& entries,
+                  std::vector<QLabel*>& words,
+                  QWidget* parent) {
   auto* column = new QWidget(parent);
   auto* grid = new QGridLayout(column);
   grid->setContentsMargins(0, 0, 0, 0);
@@ -62,12 +66,16 @@ QWidget* columnOf(const std::vector<KeyEntry>& entries, QWidget* parent) {
     what->setTextFormat(Qt::PlainText);
     what->setProperty("role", "muted");
     what->setWordWrap(true);
-    what->setFixedWidth(
-        std::min(kWidestWords, what->fontMetrics().horizontalAdvance(entry.what) + 4));
+    words.push_back(what);
     grid->addWidget(what, row++, 1);
   }
   grid->setRowStretch(row, 1);
   return column;
+}
+
+void setWidestWords(const std::vector<QLabel*>& words, int widest) {
+  for (QLabel* what : words)
+    what->setFixedWidth(std::min(widest, what->fontMetrics().horizontalAdvance(what->text()) + 4));
 }
 
 }  // namespace
@@ -102,11 +110,19 @@ KeysDialog::KeysDialog(const QList<QAction*>& actions, QWidget* parent) : QDialo
         .push_back(entry);
   space.insert(space.end(), mouseEntries().begin(), mouseEntries().end());
   auto* content = new QWidget(this);
-  auto* columns = new QHBoxLayout(content);
+  auto* columns = new QGridLayout(content);
   columns->setContentsMargins(18, 16, 18, 8);
-  columns->setSpacing(24);
+  columns->setHorizontalSpacing(24);
+  columns->setVerticalSpacing(12);
+  std::vector<QLabel*> words;
+  std::vector<QWidget*> parts;
   for (const std::vector<KeyEntry>& entries : {left, middle, right, space})
-    columns->addWidget(columnOf(entries, content), 1);
+    parts.push_back(columnOf(entries, words, content));
+  const auto arrange = [&](int beside) {
+    for (int i = 0; i < static_cast<int>(parts.size()); ++i)
+      columns->addWidget(parts[static_cast<std::size_t>(i)], i / beside, i % beside);
+  };
+  arrange(static_cast<int>(parts.size()));
   auto* scroll = new QScrollArea(this);
   scroll->setWidgetResizable(true);
   scroll->setWidget(content);
@@ -116,11 +132,25 @@ KeysDialog::KeysDialog(const QList<QAction*>& actions, QWidget* parent) : QDialo
   page->setContentsMargins(0, 0, 12, 12);
   page->addWidget(scroll, 1);
   page->addWidget(buttons);
-  const QSize wanted = content->sizeHint() + QSize(40, 80);
   // Without a desktop, pictures are taken of windows that are larger than the screen.
   const QWidget& shownOn = parent ? *parent->window() : *this;
   const QSize available = shownOn.screen()->availableSize().expandedTo(shownOn.size());
-  resize(wanted.boundedTo(QSize(1440, 860)).boundedTo(available * kScreenPart));
+  const QSize most = QSize(1440, 860).boundedTo(available * kScreenPart);
+  const QSize around(40, 80);  // [px]
+  // On a narrow screen what the keys do takes more lines; then the columns stand in two rows.
+  const auto narrowWords = [&] {
+    constexpr int kStep = 10;  // [px]
+    for (int widest = kWidestWords; widest >= kNarrowestWords; widest -= kStep) {
+      setWidestWords(words, widest);
+      if (content->sizeHint().width() + around.width() <= most.width()) return true;
+    }
+    return false;
+  };
+  if (!narrowWords()) {
+    arrange(2);
+    narrowWords();
+  }
+  resize((content->sizeHint() + around).boundedTo(most));
 }
 
 }  // namespace palpate::gui

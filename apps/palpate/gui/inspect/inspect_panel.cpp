@@ -158,6 +158,7 @@ InspectPanel::InspectPanel(QWidget* parent) : QScrollArea(parent) {
   column->addLayout(below);
   column->addStretch(1);
   setWidget(content);
+  content->installEventFilter(this);
 }
 
 void InspectPanel::setRecording(const OpenedRecordingPtr& recording,
@@ -296,13 +297,27 @@ void InspectPanel::setTheme(Theme theme) {
   for (FactsView* facts : {facts_, events_, angles_, temperatures_}) facts->setTheme(theme);
 }
 
-void InspectPanel::resizeEvent(QResizeEvent* event) {
-  const int needed =
-      facts_->minimumSizeHint().width() + columns_->spacing() +
-      std::max(angles_->minimumSizeHint().width(), temperatures_->minimumSizeHint().width());
-  const bool wide = event->size().width() >= std::max(kTwoColumnsFrom, needed);
+void InspectPanel::arrange() {
+  const QMargins around = widget()->layout()->contentsMargins();
+  const int needed = around.left() + facts_->minimumSizeHint().width() + columns_->spacing() +
+                     std::max({anglesHeading_->minimumSizeHint().width(),
+                               temperaturesHeading_->minimumSizeHint().width(),
+                               angles_->minimumSizeHint().width(),
+                               temperatures_->minimumSizeHint().width()}) +
+                     around.right();
+  const bool wide = viewport()->width() >= std::max(kTwoColumnsFrom, needed);
   columns_->setDirection(wide ? QBoxLayout::LeftToRight : QBoxLayout::TopToBottom);
+}
+
+void InspectPanel::resizeEvent(QResizeEvent* event) {
+  arrange();
   QScrollArea::resizeEvent(event);
+}
+
+bool InspectPanel::eventFilter(QObject* watched, QEvent* event) {
+  // The columns may need another width now.
+  if (watched == widget() && event->type() == QEvent::LayoutRequest) arrange();
+  return QScrollArea::eventFilter(watched, event);
 }
 
 }  // namespace palpate::gui

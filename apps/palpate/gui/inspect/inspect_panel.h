@@ -55,8 +55,12 @@ class InspectPanel : public QScrollArea {
 
  protected:
   void resizeEvent(QResizeEvent* event) override;
+  // Watches the content.
+  bool eventFilter(QObject* watched, QEvent* event) override;
 
  private:
+  // Two columns where there is room for both.
+  void arrange();
   void listSensors(const HandDescription& hand, bool angles, bool temperatures);
   void showAngles(const JointAngles& angles);
   void showTemperatures(const Temperatures& temperatures);

@@ -4,7 +4,6 @@
 #include <QChildEvent>
 #include <QLayout>
 #include <QTabBar>
-#include <QTimer>
 #include <algorithm>
 #include <cstdlib>
 
@@ -47,6 +46,10 @@ DockArrangement::DockArrangement(QMainWindow& window,
   window.setCorner(Qt::BottomRightCorner, Qt::BottomDockWidgetArea);
   window.setCorner(Qt::BottomLeftCorner, Qt::BottomDockWidgetArea);
   window.installEventFilter(this);
+  constexpr int kTextChangeMs = 700;
+  textChange_.setSingleShot(true);
+  textChange_.setInterval(kTextChangeMs);
+  connect(&textChange_, &QTimer::timeout, this, &DockArrangement::fitToNewText);
   window.setTabPosition(Qt::AllDockWidgetAreas, QTabWidget::North);
   // A tab that the user chooses may need more width than the one before.
   connect(&window, &QMainWindow::tabifiedDockWidgetActivated, this, [this](QDockWidget* activated) {
@@ -211,9 +214,11 @@ void DockArrangement::reset() {
   const double share = live ? kRightShareLive : kRightShare;
   const int narrowest = live ? kNarrowestRightLive : kNarrowestRight;
   if (front())
-    window_.resizeDocks({front()->dock},
-                        {std::max(narrowest, static_cast<int>(window_.width() * share))},
-                        Qt::Horizontal);
+    window_.resizeDocks(
+        {front()->dock},
+        {std::max(
+            {narrowest, front()->dock->contentWidth(), static_cast<int>(window_.width() * share)})},
+        Qt::Horizontal);
   if (live && leftWhileLive())
     window_.resizeDocks({leftWhileLive()->dock}, {kLeftLiveWidth}, Qt::Horizontal);
   if (bottom())
@@ -298,11 +303,16 @@ void DockArrangement::bringToFront(const DockSpec& offer) {
 }
 
 Dock* DockArrangement::neighbour(const Dock& dock) const {
-  for (const DockSpec& offer : offers_)
-    if (offer.dock != &dock && !offer.dock->isHidden() && !offer.dock->isFloating() &&
-        window_.dockWidgetArea(offer.dock) == window_.dockWidgetArea(const_cast<Dock*>(&dock)))
-      return offer.dock;
-  return nullptr;
+  Dock* found = nullptr;
+  for (const DockSpec& offer : offers_) {
+    if (offer.dock == &dock || offer.dock->isHidden() || offer.dock->isFloating() ||
+        window_.dockWidgetArea(offer.dock) != window_.dockWidgetArea(const_cast<Dock*>(&dock)))
+      continue;
+    // A tab behind another has the size that it had when it was seen.
+    if (!offer.dock->visibleRegion().isEmpty()) return offer.dock;
+    if (!found) found = offer.dock;
+  }
+  return found;
 }
 
 void DockArrangement::widen(Dock& dock, int widthPx) {
@@ -348,10 +358,34 @@ void DockArrangement::makeRoomFor(const DockSpec& offer, const Room& before) {
   });
 }
 
+void DockArrangement::noteTextChange() {
+  // While it changes step by step, the widths before the first step count.
+  if (!textChange_.isActive())
+    for (const DockSpec& offer : offers_) {
+      Dock* dock = offer.dock;
+      if (dock->isFloating() || dock->visibleRegion().isEmpty() ||
+          isAcross(window_.dockWidgetArea(dock)))
+        continue;
+      TextWidth& width = textWidths_[dock];
+      if (width.after != dock->width()) width.before = dock->width();
+    }
+  textChange_.start();
+}
+
+void DockArrangement::fitToNewText() {
+  for (auto& [dock, width] : textWidths_) {
+    if (dock->isFloating() || dock->visibleRegion().isEmpty()) continue;
+    if (dock->width() > width.before) window_.resizeDocks({dock}, {width.before}, Qt::Horizontal);
+    width.after = dock->width();
+  }
+}
+
 bool DockArrangement::eventFilter(QObject* watched, QEvent* event) {
   if (event->type() == QEvent::ChildAdded && watched == &window_) {
     QObject* child = static_cast<QChildEvent*>(event)->child();
     if (child->isWidgetType()) child->installEventFilter(this);
+  } else if (event->type() == QEvent::FontChange && watched == &window_) {
+    noteTextChange();
   } else if (event->type() == QEvent::Polish) {
     // Names of many tabs are scrolled: cut to a letter each they could not be told apart.
     if (auto* bar = qobject_cast<QTabBar*>(watched)) {

@@ -8,6 +8,7 @@
 #include <QObject>
 #include <QSettings>
 #include <QStringList>
+#include <QTimer>
 #include <map>
 #include <optional>
 #include <vector>
@@ -60,6 +61,11 @@ class DockArrangement : public QObject {
     int lastWidth = 0, lastBottom = 0;
   };
 
+  // The width of a dock before the text became larger, and the one that it has since [px].
+  struct TextWidth {
+    int before = 0, after = 0;
+  };
+
   // The window grew because its content didn't fit [px].
   struct Growth {
     QSize from, to;
@@ -81,6 +87,9 @@ class DockArrangement : public QObject {
   void keepWindowSize(QSize most, Dock* inFront);
   // The window that had to grow nevertheless has its size again, as far as its content allows it.
   void giveSizeBack();
+  // Docks that larger text made wider have their widths again, as far as the new text allows it.
+  void noteTextChange();
+  void fitToNewText();
   void makeRoomFor(const DockSpec& offer, const Room& before);
   // Gives the room back that makeRoomFor() took, unless the user has changed it since.
   // Height of the place at the bottom, whichever of its tabs is in front: that dock or `dock` [px].
@@ -100,6 +109,9 @@ class DockArrangement : public QObject {
   bool placed_ = false;
   std::map<DisplayedSource::Kind, QByteArray> layouts_;
   std::map<const Dock*, Room> rooms_;
+  std::map<Dock*, TextWidth> textWidths_;
+  // Ends when all parts have their sizes for another size of text.
+  QTimer textChange_;
   // The layout before hideAll().
   std::optional<Growth> grown_;
   QByteArray hidden_;

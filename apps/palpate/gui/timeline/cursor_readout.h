@@ -22,6 +22,13 @@ class CursorReadout : public QLabel {
  private:
   void renew();
   void place();
+  // The first `count` of the lines.
+  struct Part {
+    QString text;
+    qsizetype count = 0;
+  };
+  // As many of the lines as have room [px], `perLine` of them beside each other.
+  Part partFor(QSize room, qsizetype perLine) const;
 
   TimelineChart& chart_;
   bool on_ = false;

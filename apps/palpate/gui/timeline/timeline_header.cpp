@@ -5,6 +5,7 @@
 #include <QLabel>
 #include <QPainter>
 #include <QToolButton>
+#include <utility>
 
 namespace palpate::gui {
 namespace {
@@ -12,6 +13,7 @@ namespace {
 constexpr int kTimelineHeaderStroke = 18;  // [px] length of a stroke
 constexpr int kAfterStroke = 6;            // [px]
 constexpr int kAfterName = 16;             // [px]
+constexpr int kMostLegendLines = 2;
 
 }  // namespace
 
@@ -24,6 +26,7 @@ Legend::Legend(QWidget* parent) : QWidget(parent) {
 void Legend::setEntries(std::vector<Entry> entries, Theme theme) {
   entries_ = std::move(entries);
   theme_ = theme;
+  fit();
   updateGeometry();
   update();
 }
@@ -33,32 +36,72 @@ QSize Legend::sizeHint() const {
   for (const Entry& entry : entries_)
     width += kTimelineHeaderStroke + kAfterStroke + fontMetrics().horizontalAdvance(entry.name) +
              kAfterName;
-  return {width, fontMetrics().height() + 2};
+  return {width, lines_ * fontMetrics().height() + 2};
+}
+
+std::vector<QPoint> Legend::places(int roomPx) const {
+  std::vector<QPoint> places;
+  const int more = fontMetrics().horizontalAdvance("…");
+  QPoint at;
+  for (std::size_t i = 0; i < entries_.size(); ++i) {
+    const int needed =
+        kTimelineHeaderStroke + kAfterStroke + fontMetrics().horizontalAdvance(entries_[i].name);
+    if (at.x() > 0 && at.y() + 1 < kMostLegendLines && at.x() + needed > roomPx)
+      at = {0, at.y() + 1};
+    // The dots need room on the last line if something follows that has none.
+    const bool last = at.y() + 1 == kMostLegendLines;
+    const int reserved = last && i + 1 < entries_.size() ? more + kAfterName : 0;
+    if (at.x() + needed > roomPx - reserved && (last || at.x() == 0)) break;
+    places.push_back(at);
+    at.rx() += needed + kAfterName;
+  }
+  return places;
+}
+
+bool Legend::isCut() const { return places(width()).size() < entries_.size(); }
+
+void Legend::fit() {
+  const std::vector<QPoint> at = places(width());
+  const int lines = at.empty() ? 1 : at.back().y() + 1;
+  if (lines == std::exchange(lines_, lines)) return;
+  updateGeometry();
+}
+
+void Legend::resizeEvent(QResizeEvent* event) {
+  QWidget::resizeEvent(event);
+  fit();
+}
+
+void Legend::changeEvent(QEvent* event) {
+  QWidget::changeEvent(event);
+  if (event->type() == QEvent::FontChange) fit();
 }
 
 void Legend::paintEvent(QPaintEvent*) {
   QPainter painter(this);
-  const int more = fontMetrics().horizontalAdvance("…");
-  int x = 0;
-  for (std::size_t i = 0; i < entries_.size(); ++i) {
+  const std::vector<QPoint> at = places(width());
+  const int line = fontMetrics().height();
+  const int top = (height() - lines_ * line) / 2;
+  int end = 0;  // of the last name that has room
+  for (std::size_t i = 0; i < at.size(); ++i) {
     const Entry& entry = entries_[i];
     const int nameWidth = fontMetrics().horizontalAdvance(entry.name);
-    const int needed = kTimelineHeaderStroke + kAfterStroke + nameWidth;
-    if (x + needed > width() - (i + 1 < entries_.size() ? more + kAfterName : 0)) {
-      painter.setPen(colorsOf(theme_).muted);
-      painter.drawText(QRect(x, 0, width() - x, height()), Qt::AlignVCenter, "…");
-      return;
-    }
+    const int y = top + at[i].y() * line;
+    int x = at[i].x();
     QPen pen = entry.pen;
     pen.setWidthF(3.0);
     pen.setCapStyle(Qt::FlatCap);
     painter.setPen(pen);
-    painter.drawLine(x, height() / 2, x + kTimelineHeaderStroke, height() / 2);
+    painter.drawLine(x, y + line / 2, x + kTimelineHeaderStroke, y + line / 2);
     x += kTimelineHeaderStroke + kAfterStroke;
     painter.setPen(colorsOf(theme_).text);
-    painter.drawText(QRect(x, 0, nameWidth + 2, height()), Qt::AlignVCenter, entry.name);
-    x += nameWidth + kAfterName;
+    painter.drawText(QRect(x, y, nameWidth + 2, line), Qt::AlignVCenter, entry.name);
+    end = x + nameWidth + kAfterName;
   }
+  if (at.size() == entries_.size()) return;
+  painter.setPen(colorsOf(theme_).muted);
+  painter.drawText(
+      QRect(end, top + (lines_ - 1) * line, width() - end, line), Qt::AlignVCenter, "…");
 }
 
 TimelineHeader::TimelineHeader(const Actions& actions, QWidget* parent) : QWidget(parent) {

@@ -17,7 +17,7 @@ class QToolButton;
 
 namespace palpate::gui {
 
-// Shows strokes with names, as many as there is room for.
+// Shows strokes with names, in two lines if they don't fit in one, as many as there is room for.
 class Legend : public QWidget {
   Q_OBJECT
  public:
@@ -30,11 +30,21 @@ class Legend : public QWidget {
   const std::vector<Entry>& entries() const noexcept { return entries_; }
   QSize sizeHint() const override;
   QSize minimumSizeHint() const override { return {40, sizeHint().height()}; }
+  // Whether some names have no room.
+  bool isCut() const;
 
  protected:
   void paintEvent(QPaintEvent* event) override;
+  void resizeEvent(QResizeEvent* event) override;
+  void changeEvent(QEvent* event) override;
 
  private:
+  // Where the entries stand that have room in a width [px]: x [px], and the index of the line.
+  std::vector<QPoint> places(int roomPx) const;
+  // Takes the height that the entries need.
+  void fit();
+
+  int lines_ = 1;
   std::vector<Entry> entries_;
   Theme theme_ = Theme::kDark;
 };

@@ -2,6 +2,8 @@
 
 #include <QHBoxLayout>
 #include <QLabel>
+#include <QScrollArea>
+#include <QScrollBar>
 #include <QToolButton>
 #include <algorithm>
 
@@ -41,6 +43,10 @@ int Dock::contentWidth() const {
   int width = minimumSizeHint().width();
   if (const auto* area = qobject_cast<const ContentScroll*>(widget()))
     width = std::max(width, area->widget()->minimumSizeHint().width());
+  else if (const auto* plain = qobject_cast<const QScrollArea*>(widget()))
+    width = std::max(width,
+                     plain->widget()->minimumSizeHint().width() +
+                         plain->verticalScrollBar()->sizeHint().width());
   return std::max(width, titleBarWidget()->sizeHint().width());
 }
 
