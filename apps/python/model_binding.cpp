@@ -125,6 +125,23 @@ void bindModel(py::module_& module) {
           py::kw_only(),
           py::arg("force") = false,
           "Writes it. OSError when the file exists (unless force) or can't be written.")
+      // Models never change: a copy is the same one.
+      .def("__copy__", [](const py::object& self) { return self; })
+      .def("__deepcopy__", [](const py::object& self, const py::dict&) { return self; })
+      .def(py::pickle(
+          [](const TrainedModel& model) {
+            return py::make_tuple(py::bytes(jsonOf(model).text(-1)));
+          },
+          [](const py::tuple& state) {
+            if (state.size() != 1) throw py::value_error("this is no pickled palpate.Model");
+            const auto text = state[0].cast<std::string>();
+            try {
+              return trainedModelFrom(Json::parse(text));
+            } catch (const Error& error) {
+              throw py::value_error(std::string("this is no pickled palpate.Model: ") +
+                                    error.what());
+            }
+          }))
       .def("classify",
            &classify,
            py::arg("source"),

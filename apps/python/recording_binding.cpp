@@ -170,7 +170,9 @@ void bindRecordings(py::module_& module) {
       &load,
       py::arg("path"),
       "Reads a recording (.dsa or .palpate; detected from its content). OSError when it can't be "
-      "read, ValueError when it is damaged or no recording.");
+      "read, ValueError when it is damaged or no recording. Of a .palpate, .h5 or .mcap the frames "
+      "are read when they are asked for: damage within them is an Error only then; verify() reads "
+      "every byte at once.");
   module.def("info",
              &info,
              py::arg("profile"),

@@ -1,10 +1,17 @@
 """Grasps, features, moments and models against golden numbers and known truth."""
+import copy
 import json
+import multiprocessing
+import pickle
 
 import numpy as np
 import palpate
 import pytest
 from conftest import rows_of
+
+
+def classes_of(model):
+    return model.classes
 
 
 def test_golden_features(golden, recordings):
@@ -91,7 +98,18 @@ def test_models(emulated, tmp_path):
     assert model.classify(profile, session_offset="batch")["session_offset"]["origin"] == "batch"
     with pytest.raises(ValueError):
         model.classify(profile, session_offset="today")
+    again = pickle.loads(pickle.dumps(model))
+    assert again.classify(profile)["grasps"][0]["top"] == found["grasps"][0]["top"]
+    with multiprocessing.get_context("fork").Pool(1) as pool:
+        assert pool.map(classes_of, [model]) == [model.classes]
+    assert copy.copy(model) is model and copy.deepcopy(model) is model
     adapted = model.adapt(emulated / "two")
+    adapted.save(tmp_path / "a.json")
+    pickle.loads(pickle.dumps(adapted)).save(tmp_path / "b.json")
+    assert (tmp_path / "a.json").read_bytes() == (tmp_path / "b.json").read_bytes()
+    for state in ((b"nonsense",), (b"{}",), (b"", 1)):
+        with pytest.raises((ValueError, TypeError)):
+            palpate.Model.__new__(palpate.Model).__setstate__(state)
     assert adapted.session_offset["origin"] == "references" and adapted.session_offset["grasps"] >= 8
     assert model.session_offset["origin"] == "none"  # the old one is as it was
     table = palpate.features(emulated / "one")

@@ -56,8 +56,9 @@ TEST_F(FilterPanelTest, ShowsTheTrueRangeOfAFrequency) {
     return std::any_of(
         labels.begin(), labels.end(), [&](const QLabel* label) { return label->text() == range; });
   };
-  EXPECT_TRUE(shows("0.001 to below 15.63"));
-  EXPECT_TRUE(option<QDoubleSpinBox>("cutoff")->toolTip().contains("half of the 31.25 frames/s"));
+  panel_.setSource({"0 p"}, 31.0, false);
+  EXPECT_TRUE(shows("0.001 to below 15.50"));
+  EXPECT_TRUE(option<QDoubleSpinBox>("cutoff")->toolTip().contains("half of the 31.00 frames/s"));
   panel_.setSource({"0 p"}, 230.0, false);
   EXPECT_TRUE(shows("0.001 to below 115.00"));
   panel_.setSource({"0 p"}, 0.0, false);
