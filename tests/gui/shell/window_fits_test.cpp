@@ -6,6 +6,7 @@
 #include <QPushButton>
 #include <QScreen>
 #include <QScrollBar>
+#include <QTabBar>
 #include <QTableView>
 
 #include "gui/appearance/text_size.h"
@@ -512,6 +513,22 @@ TEST_F(WindowFitsTest, TheDockHandHasItsWidthAgainAfterLargerText) {
   EXPECT_TRUE(QTest::qWaitFor([&] { return dock->width() == before; }))
       << dock->width() << " instead of " << before << ", least " << dock->minimumSizeHint().width();
   EXPECT_EQ(hints(), hintsBefore);
+}
+
+// The style would draw it white in the dark theme.
+TEST_F(WindowFitsTest, TabsOfDocksHaveNoLineBelowThem) {
+  connectEmulated();
+  window().docks().reset();
+  processAll();
+  window().grab();
+  int bars = 0;
+  for (const QTabBar* bar :
+       window().findChildren<QTabBar*>(QString(), Qt::FindDirectChildrenOnly)) {
+    if (!bar->isVisible() || bar->count() == 0) continue;
+    ++bars;
+    EXPECT_FALSE(bar->drawBase());
+  }
+  EXPECT_GT(bars, 0);
 }
 
 TEST_F(WindowFitsTest, TheLogShowsItsTimesInFull) {

@@ -396,6 +396,8 @@ bool DockArrangement::eventFilter(QObject* watched, QEvent* event) {
     // Qt leaves tab bars without tabs over other widgets: they would draw a line across them, and
     // take their clicks.
     if (auto* bar = qobject_cast<QTabBar*>(watched)) {
+      // The style draws the line below the tabs white in the dark theme.
+      bar->setDrawBase(false);
       const bool empty = bar->count() == 0;
       bar->setAttribute(Qt::WA_TransparentForMouseEvents, empty);
       return empty;
