@@ -97,7 +97,8 @@ HandDock::HandDock(QSettings& settings, QWidget* parent) : QWidget(parent) {
   for (QPushButton* button : findChildren<QPushButton*>())
     if (button->property(kMovesHand).toBool())
       connect(button, &QPushButton::pressed, this, [this] {
-        correction_.clear();
+        // What this click itself corrected, by taking the focus from a field, stays.
+        if (!correctionIsNew_) correction_.clear();
         if (auto* field = qobject_cast<QAbstractSpinBox*>(focusWidget())) field->clearFocus();
       });
   const auto refused = [this](const QString& why) { said_ = why; };
@@ -420,6 +421,8 @@ void HandDock::showBound() {
 
 void HandDock::showCorrection(const QString& what) {
   correction_ = what;
+  correctionIsNew_ = true;
+  QTimer::singleShot(0, this, [this] { correctionIsNew_ = false; });
   showState(control_ ? control_->status() : GraspStatus{});
 }
 

@@ -150,6 +150,8 @@ class HandDock : public QWidget {
   QString said_;
   // The number of a field that was out of range; shown below or above what the hand does.
   QString correction_;
+  // It was found in the event that is being handled.
+  bool correctionIsNew_ = false;
   std::vector<std::pair<QAction*, QPushButton*>> bound_;
   std::vector<QString> unmeasurable_;
   // The inputs that unmeasurable_ was computed from.
