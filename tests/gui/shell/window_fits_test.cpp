@@ -12,7 +12,6 @@
 #include "gui/appearance/text_size.h"
 #include "gui/calibrate/calibrate_feature.h"
 #include "gui/calibrate/calibrate_panel.h"
-#include "gui/chart/chart_style.h"
 #include "gui/compare/compare_feature.h"
 #include "gui/compare/compare_panel.h"
 #include "gui/hand/hand_dock.h"
@@ -24,7 +23,6 @@
 #include "gui/source/live_controller.h"
 #include "gui/testing/layout_faults.h"
 #include "gui/testing/window_fixture.h"
-#include "gui/timeline/timeline_chart.h"
 #include "gui/timeline/timeline_header.h"
 
 namespace palpate::gui::window_fits_test {
@@ -515,20 +513,6 @@ TEST_F(WindowFitsTest, TheDockHandHasItsWidthAgainAfterLargerText) {
   EXPECT_TRUE(QTest::qWaitFor([&] { return dock->width() == before; }))
       << dock->width() << " instead of " << before << ", least " << dock->minimumSizeHint().width();
   EXPECT_EQ(hints(), hintsBefore);
-}
-
-TEST_F(WindowFitsTest, TheTimeAxisHasRoomForTheNumbersOfLargerTextAtOnce) {
-  open({"rich.dsa"});
-  processAll();
-  auto& chart = *window().findChild<TimelineChart*>();
-  const int usual = chart.axisRect()->minimumMargins().left();
-  applyTextPt(15);
-  processAll();
-  EXPECT_EQ(chart.axisRect()->minimumMargins().left(), timeAxisLeft(chart));
-  EXPECT_GT(chart.axisRect()->minimumMargins().left(), usual);
-  applyTextPt(0);
-  processAll();
-  EXPECT_EQ(chart.axisRect()->minimumMargins().left(), usual);
 }
 
 // The style would draw it white in the dark theme.

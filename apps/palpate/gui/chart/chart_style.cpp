@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "gui/chart/plot.h"
-#include "gui/widgets/text_fit.h"
 
 namespace palpate::gui {
 namespace {
@@ -66,15 +65,6 @@ void arrangeChart(QCustomPlot& plot) {
   plot.yAxis->setTickLengthIn(0);
   plot.xAxis->setTickLengthOut(4);
   plot.axisRect()->setMinimumMargins(QMargins(timeAxisLeft(plot), 10, 20, 10));
-  // A chart that has set another margin keeps it.
-  fitToText(plot, [&plot, left = timeAxisLeft(plot)]() mutable {
-    QMargins margins = plot.axisRect()->minimumMargins();
-    if (margins.left() != left || left == timeAxisLeft(plot)) return;
-    left = timeAxisLeft(plot);
-    margins.setLeft(left);
-    plot.axisRect()->setMinimumMargins(margins);
-    plot.replot(QCustomPlot::rpQueuedReplot);
-  });
   QObject::connect(&plot, &QCustomPlot::afterLayout, &plot, [&plot] { fitTicks(plot); });
 }
 

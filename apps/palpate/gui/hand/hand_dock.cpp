@@ -420,6 +420,9 @@ void HandDock::showBound() {
 }
 
 void HandDock::showCorrection(const QString& what) {
+  // A field that ends its correction later doesn't take away that of another one.
+  if (what.isEmpty() && sender() != correctedField_) return;
+  correctedField_ = what.isEmpty() ? nullptr : sender();
   correction_ = what;
   correctionIsNew_ = true;
   QTimer::singleShot(0, this, [this] { correctionIsNew_ = false; });

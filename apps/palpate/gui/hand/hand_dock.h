@@ -150,6 +150,7 @@ class HandDock : public QWidget {
   QString said_;
   // The number of a field that was out of range; shown below or above what the hand does.
   QString correction_;
+  const QObject* correctedField_ = nullptr;  // the field that it is about
   // It was found in the event that is being handled.
   bool correctionIsNew_ = false;
   std::vector<std::pair<QAction*, QPushButton*>> bound_;

@@ -25,7 +25,7 @@ MatricesActions::MatricesActions(ActionRegistry& book) {
   scanOnly = book.make("scanOnly", "Hand", "Scan &only the chosen taxels", {});
   scanOnly->setToolTip("No taxel of the other matrices is scanned: the most frames per second");
   scanOnlyInTheirMatrices = book.make(
-      "scanOnlyInTheirMatrices", "Hand", "Scan only the chosen taxels of &these matrices", {});
+      "scanOnlyInTheirMatrices", "Hand", "Scan only the chosen taxels of these &matrices", {});
   scanOnlyInTheirMatrices->setToolTip("The other matrices stay as they are");
   scanWithout = book.make("scanWithout", "Hand", "&Leave the chosen taxels out", {});
   scanAlso = book.make("scanAlso", "Hand", "Scan the chosen taxels, &too", {});
