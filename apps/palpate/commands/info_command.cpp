@@ -346,11 +346,10 @@ int infoCommand(const Arguments& words) {
            "largest value, what was entered before recording (operator, object, run, notes), "
            "labels and events (of a .dsa those of its notes). The rate comes from the median "
            "interval; a gap is longer than max(1 s, 5 median intervals), and only of frames; what "
-           "the "
-           "events tell of lost frames, angles and temperatures stands beside it. Of several PATHs "
-           "or a "
-           "folder (every recording below it) it prints a table as CSV, a row each; a file that "
-           "can't be read is reported, and the others are printed: exit code 3. Of a damaged "
+           "the events tell of lost frames, angles and temperatures stands beside it. Of several "
+           "PATHs or a folder (every recording below it) it prints a table as CSV, a row each; a "
+           "file that can't be read is reported, and the others are printed: exit code 3. Of a "
+           "damaged "
            "recording it shows what can be read and what is missing: exit code 3, too.",
        .options = {{"json", "", "one JSON object; of several: with a list, recordings"}},
        .example = "palpate info foam_ball.dsa --json",

@@ -136,6 +136,20 @@ TEST_F(EventRowsTest, ADoubleClickNamesEnterTakesEscapeLeaves) {
   EXPECT_FALSE(field->isVisible()) << "a gap has no name of a person's";
 }
 
+// The press of a double click has chosen the mark, whose input Return begins.
+TEST_F(EventRowsTest, ReturnEndsTheInputOfAChosenMark) {
+  QSignalSpy named(&rows_, &EventRows::textChanged);
+  QTest::mouseClick(&rows_, Qt::LeftButton, {}, middleOf(3));
+  QTest::mouseDClick(&rows_, Qt::LeftButton, {}, middleOf(3));
+  ASSERT_EQ(rows_.chosen(), 3u);
+  auto* field = rows_.findChild<QLineEdit*>("eventText");
+  ASSERT_TRUE(field && field->isVisible());
+  field->setText("first touch");
+  QTest::keyClick(field, Qt::Key_Return);
+  EXPECT_EQ(named.size(), 1);
+  EXPECT_FALSE(field->isVisible());
+}
+
 TEST_F(EventRowsTest, DeleteAsksForWhatCanBeDeleted) {
   QSignalSpy removed(&rows_, &EventRows::removeRequested);
   rows_.setFocus();

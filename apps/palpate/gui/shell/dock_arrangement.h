@@ -112,8 +112,8 @@ class DockArrangement : public QObject {
   std::map<Dock*, TextWidth> textWidths_;
   // Ends when all parts have their sizes for another size of text.
   QTimer textChange_;
-  // The layout before hideAll().
   std::optional<Growth> grown_;
+  // The layout before hideAll().
   QByteArray hidden_;
 };
 

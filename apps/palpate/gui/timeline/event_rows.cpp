@@ -15,6 +15,18 @@
 namespace palpate::gui {
 namespace {
 
+// QLineEdit leaves Return to its parent as well, where it would begin the next input.
+class EventTextField : public QLineEdit {
+ public:
+  using QLineEdit::QLineEdit;
+
+ protected:
+  void keyPressEvent(QKeyEvent* event) override {
+    QLineEdit::keyPressEvent(event);
+    if (event->key() == Qt::Key_Return || event->key() == Qt::Key_Enter) event->accept();
+  }
+};
+
 constexpr int kAboveText = 3;          // [px] above and below the text of a row
 constexpr double kEventRowsGap = 2.0;  // [px] between rows
 // Least width of a bar [px], also that of a moment.
@@ -305,7 +317,7 @@ void EventRows::contextMenuEvent(QContextMenuEvent* event) {
 void EventRows::editText(std::size_t index) {
   if (index >= marks_.size() || !marks_[index].editable) return;
   if (!field_) {
-    field_ = new QLineEdit(this);
+    field_ = new EventTextField(this);
     field_->setObjectName("eventText");
     field_->setMaxLength(kLongestText);
     connect(field_, &QLineEdit::returnPressed, this, [this] {
