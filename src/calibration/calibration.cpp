@@ -35,6 +35,7 @@ Json jsonOf(const PressureSample& sample) {
       .set("temperature_c", orNull(sample.nearestDegC))
       .set("study_temperature_c", orNull(sample.studyDegC))
       .set("active_area_mm2", sample.activeAreaMm2)
+      .set("duration_s", sample.durationS)
       .set("used", sample.used)
       .set("notes", std::move(notes));
 }
@@ -51,6 +52,7 @@ PressureSample sampleFrom(const Json& json) {
   sample.nearestDegC = numberIn(json, "temperature_c");
   sample.studyDegC = numberIn(json, "study_temperature_c");
   sample.activeAreaMm2 = numberIn(json, "active_area_mm2").value_or(0.0);
+  sample.durationS = numberIn(json, "duration_s").value_or(0.0);
   sample.used = json.at("used").isBool() && json.at("used").asBool();
   const Json notes = json.at("notes");
   for (std::size_t i = 0; i < notes.size(); ++i) sample.notes.push_back(notes.at(i).asString());

@@ -107,6 +107,7 @@ Json jsonOf(const PressureModel& model) {
       .set("area_share", model.areaFraction)
       .set("area_share_sd", model.areaFractionSd)
       .set("steady_s", model.steadyS)
+      .set("creep_measured_s", model.creepMeasuredS)
       .set("notes", jsonList(model.notes));
 }
 
@@ -123,10 +124,16 @@ PressureModel pressureModelFrom(const Json& json) {
   model.areaFraction = numberAt(json, "area_share", "the model");
   model.areaFractionSd = numberAt(json, "area_share_sd", "the model");
   model.steadyS = numberAt(json, "steady_s", "the model");
+  // Older files don't have it.
+  if (json.contains("creep_measured_s"))
+    model.creepMeasuredS = numberAt(json, "creep_measured_s", "the model");
   model.notes = pressureFilesTextsOf(json.at("notes"));
   model.options.validate();
-  if (!(model.areaFraction > 0.0) || !(model.areaFractionSd >= 0.0) || !(model.steadyS >= 0.0))
-    throw Error("pressure model: area_share must be above 0, its sd and steady_s not below");
+  if (!(model.areaFraction > 0.0) || !(model.areaFractionSd >= 0.0) || !(model.steadyS >= 0.0) ||
+      !(model.creepMeasuredS >= 0.0))
+    throw Error(
+        "pressure model: area_share must be above 0, its sd, steady_s and creep_measured_s not "
+        "below");
   return model;
 }
 

@@ -118,6 +118,9 @@ void PressureMap::prepare(const HandDescription& hand) {
 void PressureMap::reset() {
   DriftCompensationOptions drift;
   if (calibration_.pressure.steadyS > 0.0) drift.steadyS = calibration_.pressure.steadyS;
+  if (calibration_.pressure.creepMeasuredS > 0.0)
+    drift.maxDurationS =
+        std::min(calibration_.pressure.creepMeasuredS, DriftCompensationOptions::kLongestS);
   drift_.assign(matrices_.size(), DriftCompensation(drift));
   nextChange_ = 0;
   useSettings(options_.settings);

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "palpate/core/number_text.h"
+#include "palpate/core/statistics.h"
 
 namespace palpate {
 namespace {
@@ -42,6 +43,13 @@ void addAreaShare(std::span<const PressureSample> samples, PressureModel& model)
   model.areaFraction = mean;
   model.areaFractionSd =
       shares.size() > 1 ? std::sqrt(squares / static_cast<double>(shares.size() - 1)) : 0.0;
+}
+
+double medianDurationS(std::span<const PressureSample> samples) {
+  std::vector<double> durations;
+  for (const PressureSample& sample : samples)
+    if (plausible(sample) && sample.durationS > 0.0) durations.push_back(sample.durationS);
+  return durations.empty() ? 0.0 : upperMedian(std::move(durations));
 }
 
 void addNotes(const std::vector<SurfacePoint>& points,
@@ -121,6 +129,7 @@ PressureModel fitPressureModel(std::span<const PressureSample> samples,
   model.gain = fitSurface(byGain, surfaceTerms(1), selection);
   model.drift = fitSurface(byDrift, surfaceTerms(2), selection);
   model.driftOfGain = fitSurface(driftByGain, surfaceTerms(1), SurfaceSelection::kLeaveOneOut);
+  model.creepMeasuredS = medianDurationS(samples);
   addAreaShare(samples, model);
   addNotes(byGain, withoutTemperature, model);
   return model;

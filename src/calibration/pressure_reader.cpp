@@ -11,9 +11,9 @@
 namespace palpate {
 namespace {
 
-// Creep is compensated for maxDurationS; this time is a little longer.
+// Creep is compensated for kLongestS at most; this time is a little longer.
 constexpr std::int64_t kBeforeUs = 40'000'000;
-static_assert(DriftCompensationOptions{}.maxDurationS * 1e6 < static_cast<double>(kBeforeUs));
+static_assert(DriftCompensationOptions::kLongestS * 1e6 < static_cast<double>(kBeforeUs));
 
 }  // namespace
 

@@ -129,6 +129,7 @@ std::vector<PressureSample> samplesOf(const PressureTableRow& row,
                                             : step.allSensorsDegC;
     sample.studyDegC = row.temperatureC ? row.temperatureC : step.studyDegC;
     sample.activeAreaMm2 = step.activeAreaMm2;
+    sample.durationS = step.durationS;
     sample.notes = step.notes;
     sample.notes.insert(sample.notes.end(), step.fit.notes.begin(), step.fit.notes.end());
     // A few saturated taxels make K a little too small; a note says so and the sample is used. A

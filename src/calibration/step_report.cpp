@@ -63,6 +63,7 @@ void assess(const StepSignal& signal, double taxelAreaMm2, FittedStep& fitted) {
   const LoadingStep& step = fitted.step;
   const auto note = [&](std::string text) { fitted.notes.push_back(std::move(text)); };
   const std::size_t frames = step.end - step.begin + 1;
+  fitted.durationS = signal.timeS[step.end] - signal.timeS[step.begin];
   if (!step.beginSeen)
     note(
         "loaded from the first frame on: the time of loading is not known, so K is only "
@@ -148,6 +149,7 @@ Json jsonOf(const FittedStep& fitted) {
   json.set("nearest_temperature_c", orNull(fitted.nearestDegC));
   json.set("mean_temperature_c", orNull(fitted.allSensorsDegC));
   json.set("study_temperature_c", orNull(fitted.studyDegC));
+  json.set("duration_s", fitted.durationS);
   json.set("active_area_mm2", fitted.activeAreaMm2);
   json.set("saturated_frames", fitted.saturatedFrames);
   json.set("switched_taxels_per_frame", fitted.toggledPerFrame);

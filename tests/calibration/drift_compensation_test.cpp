@@ -19,7 +19,7 @@ Surface driftSurface() {
 
 TEST(DriftCompensation, TakesTheCreepOutAfterTheLag) {
   const Surface drift = driftSurface();
-  DriftCompensation compensation({.steadyS = 2.0});
+  DriftCompensation compensation({.steadyS = 2.0, .maxDurationS = 30.0});
   const StepParameters truth = StepParameters::ofTimes(400.0, 0.02 * 400.0 + 0.6, 0.3, 0.05);
   for (double t = 0.03; t < 20.0; t += 0.03) {
     const double gain = compensation.gainOf(drift, 100.0 + t, stepResponse(truth, t), 36.0);

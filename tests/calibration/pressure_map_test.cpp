@@ -74,6 +74,28 @@ TEST(PressureMap, UsesTheFilteredMeanAsTheStudyDoes) {
   }
 }
 
+TEST(PressureMap, SubtractsCreepForAsLongAsItWasMeasured) {
+  Calibration calibration = example();
+  for (PressureSample& sample : calibration.samples) {
+    sample.driftCountsPerS = 0.02 * sample.staticResponseCounts;
+    sample.durationS = 8.0;
+  }
+  calibration.pressure = fitPressureModel(calibration.samples);
+  PressureMap map(calibration, sdh2());
+  PressureFrame out;
+  const auto gainAt = [&](double seconds) {
+    map.apply(bump(2, 800.0F, std::llround(seconds * 1e6)), kWarm, out);
+    return out.matrices[2].staticResponseCounts;
+  };
+  map.apply(TactileFrame(sdh2().layout), kWarm, out);
+  const double reading = gainAt(1.0);
+  double gain = 0.0;
+  for (double t = 1.1; t < 5.05; t += 0.1) gain = gainAt(t);
+  EXPECT_NEAR(gain, reading / 1.08, 0.01 * reading) << "K + .02 K * 4 s is the reading";
+  for (double t = 5.1; t < 40.0; t += 0.1) gain = gainAt(t);
+  EXPECT_NEAR(gain, reading / 1.16, 0.01 * reading) << "not more than in the 8 s";
+}
+
 TEST(PressureMap, SpreadsAContactOverItsTaxelsInProportionToCounts) {
   PressureMap map(example(), sdh2());
   const TactileFrame frame = bump(2, 800.0F);

@@ -103,6 +103,7 @@ TEST(PressureModel, PassesThroughJson) {
   options.indenterAreaMm2 = 110.25;
   PressureModel model = fitPressureModel(samples(), options);
   model.steadyS = 1.62;
+  model.creepMeasuredS = 11.3;
   const PressureModel back = pressureModelFrom(Json::parse(jsonOf(model).text()));
   const PressureEstimate a = model.pressureAt(333.0, 31.0), b = back.pressureAt(333.0, 31.0);
   EXPECT_EQ(a.kpa, b.kpa);
@@ -110,7 +111,27 @@ TEST(PressureModel, PassesThroughJson) {
   EXPECT_EQ(a.inRange, b.inRange);
   EXPECT_EQ(back.areaFraction, model.areaFraction);
   EXPECT_EQ(back.steadyS, 1.62);
+  EXPECT_EQ(back.creepMeasuredS, 11.3);
   EXPECT_EQ(back.driftOfGain.at(300.0, 30.0).value, model.driftOfGain.at(300.0, 30.0).value);
+}
+
+TEST(PressureModel, KnowsForHowLongCreepWasMeasured) {
+  std::vector<PressureSample> some = samples();
+  EXPECT_EQ(fitPressureModel(some).creepMeasuredS, 0.0);
+  some[0].durationS = 8.0;
+  some[1].durationS = 12.0;
+  some[2].durationS = 13.0;
+  some[3].durationS = 100.0;
+  some[3].used = false;
+  EXPECT_EQ(fitPressureModel(some).creepMeasuredS, 12.0) << "the median of the used samples";
+  Json older = Json::object();
+  const Json json = jsonOf(fitPressureModel(some));
+  for (const std::string& key : json.keys())
+    if (key != "creep_measured_s") older.set(key, json.at(key));
+  EXPECT_EQ(pressureModelFrom(older).creepMeasuredS, 0.0);
+  Json wrong = json;
+  wrong.set("creep_measured_s", -1.0);
+  EXPECT_THROW(pressureModelFrom(wrong), Error);
 }
 
 TEST(PressureModel, RefusesJsonThatIsNone) {

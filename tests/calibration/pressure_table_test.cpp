@@ -66,12 +66,14 @@ TEST(PressureTable, TheTablesTemperatureGoesFirst) {
   step.fit.parameters = StepParameters::ofTimes(300.0, 8.0, 0.5, 0.1);
   step.characteristics.steadyS = 1.5;
   step.nearestDegC = 31.0;
+  step.durationS = 9.5;
   report.steps.push_back(step);
   EXPECT_EQ(samplesOf({.file = "A", .pressureKpa = 5.0}, report, "")[0].nearestDegC, 31.0);
   EXPECT_EQ(
       samplesOf({.file = "A", .pressureKpa = 5.0, .temperatureC = 40.0}, report, "")[0].nearestDegC,
       40.0);
   EXPECT_TRUE(samplesOf({.file = "A", .pressureKpa = 5.0}, report, "")[0].used);
+  EXPECT_EQ(samplesOf({.file = "A", .pressureKpa = 5.0}, report, "")[0].durationS, 9.5);
   EXPECT_EQ(medianSteadyS({report}), 1.5);
   EXPECT_EQ(medianSteadyS({}), 0.0);
 }

@@ -12,8 +12,10 @@ namespace palpate {
 struct DriftCompensationOptions {
   // Time from the start of contact to the end of the lag [s].
   double steadyS = 1.0;
-  // Creep was measured for this time; later it counts as ended [s].
-  double maxDurationS = 30.0;
+  static constexpr double kLongestS = 30.0;  // the largest maxDurationS of a PressureMap
+  // For how long the creep was measured [s]. It slows down, so what is subtracted doesn't grow any
+  // more afterwards. 10 s: most of the study's steps are a little longer (6 to 14 s).
+  double maxDurationS = 10.0;
   // Relative change of the reading above which the load is taken as changed, if the change lasts at
   // least debounceS: single frames change when a taxel at the edge becomes active or inactive.
   double sameLoadFraction = 0.15;

@@ -29,7 +29,8 @@ struct PressureSample {
       std::nullopt;  // temperature by the study's rule (step_report.h)
   // Active area of the steady contact [mm^2]; 0 when not known.
   double activeAreaMm2 = 0.0;
-  bool used = true;  // false: left out; `notes` gives the reason
+  double durationS = 0.0;  // for how long the load was measured [s]; 0 when not known
+  bool used = true;        // false: left out; `notes` gives the reason
   std::vector<std::string> notes = {};
 };
 
@@ -70,6 +71,8 @@ struct PressureModel {
   double areaFractionSd = 0.0;  // scatter from step to step
   // Time after which the lag has ended [s]: median of the steps; 0 when not known.
   double steadyS = 0.0;
+  // For how long the creep of a load was measured [s]: median of the samples; 0 when not known.
+  double creepMeasuredS = 0.0;
   std::vector<std::string> notes;
 
   bool valid() const noexcept { return gain.valid; }

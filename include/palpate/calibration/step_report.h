@@ -33,6 +33,7 @@ struct FittedStep {
   // Temperature by the study's rule: the mean of all sensors in the single sample of the recording
   // whose number is that of the matrix.
   std::optional<double> studyDegC;
+  double durationS = 0.0;           // from its first to its last frame [s]
   std::size_t saturatedFrames = 0;  // frames with a saturated taxel
   double activeAreaMm2 = 0.0;       // active area, mean of the second half [mm^2]
   // Taxels that become active or inactive, per frame of the second half.

@@ -89,6 +89,8 @@ std::vector<Fact> calibrationFacts(const Calibration& calibration) {
                        : QString("not known: the whole area of every active taxel is used"),
                    model.options.indenterAreaMm2 <= 0.0});
   if (model.steadyS > 0.0) facts.push_back({"steady after", figure(model.steadyS, 2) + " s"});
+  if (model.creepMeasuredS > 0.0)
+    facts.push_back({"creep measured for", figure(model.creepMeasuredS, 1) + " s"});
   facts.push_back({"sensor's settings",
                    "sensitivity " + figure(calibration.settings.sensitivity, 2) + ", threshold " +
                        figure(calibration.settings.thresholdCounts, 0) + " counts" +

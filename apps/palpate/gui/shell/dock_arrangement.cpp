@@ -238,6 +238,7 @@ void DockArrangement::bringBack() {
 }
 
 void DockArrangement::giveSizeBack() {
+  // Once the window's layout knows what the content needs now.
   QTimer::singleShot(0, this, [this] {
     // Not after somebody has chosen another size.
     if (!grown_ || window_.size() != grown_->to) return grown_.reset();
@@ -386,6 +387,9 @@ bool DockArrangement::eventFilter(QObject* watched, QEvent* event) {
     if (child->isWidgetType()) child->installEventFilter(this);
   } else if (event->type() == QEvent::FontChange && watched == &window_) {
     noteTextChange();
+  } else if (event->type() == QEvent::LayoutRequest && watched == &window_ && grown_) {
+    // The content may need less since the last attempt.
+    giveSizeBack();
   } else if (event->type() == QEvent::Polish) {
     // Names of many tabs are scrolled: cut to a letter each they could not be told apart.
     if (auto* bar = qobject_cast<QTabBar*>(watched)) {
