@@ -160,6 +160,19 @@ TEST_F(ChartPictureTest, WithoutTitleLineThereIsMoreRoom) {
   EXPECT_EQ(svg().find("ball.dsa"), std::string::npos);
 }
 
+TEST_F(ChartPictureTest, TheSpaceLeftOfTheAxisFitsTheSizeOfTheText) {
+  plot_.replot();
+  const int before = plot_.axisRect()->left();
+  QFont large = plot_.font();
+  large.setPointSizeF(1.8 * large.pointSizeF());
+  plot_.setFont(large);
+  plot_.replot();
+  plot_.replot(QCustomPlot::rpImmediateRefresh);
+  EXPECT_GE(plot_.axisRect()->left(), QFontMetrics(large).horizontalAdvance("00000"));
+  EXPECT_GT(plot_.axisRect()->left(), before);
+  EXPECT_EQ(plot_.axisRect()->minimumMargins().left(), timeAxisLeft(plot_));
+}
+
 TEST(InkOf, CanBeSeenOnWhite) {
   EXPECT_EQ(inkOf(matrixColor(4, Theme::kDark)), matrixColor(4, Theme::kLight));
   EXPECT_EQ(inkOf(matrixColor(4, Theme::kLight)), matrixColor(4, Theme::kLight));

@@ -42,6 +42,16 @@ void fitTicks(QCustomPlot& plot) {
   if (changed) plot.replot(QCustomPlot::rpQueuedReplot);
 }
 
+// Gives the space left of the chart another width with another size of text.
+void fitLeft(QCustomPlot& plot) {
+  QMargins margins = plot.axisRect()->minimumMargins();
+  const int left = timeAxisLeft(plot);
+  if (margins.left() == left) return;
+  margins.setLeft(left);
+  plot.axisRect()->setMinimumMargins(margins);
+  plot.replot(QCustomPlot::rpQueuedReplot);
+}
+
 // Makes x a time on the axis, and y a share of the height.
 void anchor(QCPItemPosition& position) {
   position.setTypeX(QCPItemPosition::ptPlotCoords);
@@ -65,7 +75,10 @@ void arrangeChart(QCustomPlot& plot) {
   plot.yAxis->setTickLengthIn(0);
   plot.xAxis->setTickLengthOut(4);
   plot.axisRect()->setMinimumMargins(QMargins(timeAxisLeft(plot), 10, 20, 10));
-  QObject::connect(&plot, &QCustomPlot::afterLayout, &plot, [&plot] { fitTicks(plot); });
+  QObject::connect(&plot, &QCustomPlot::afterLayout, &plot, [&plot] {
+    fitTicks(plot);
+    fitLeft(plot);
+  });
 }
 
 int timeAxisLeft(const QWidget& plot) {
