@@ -83,6 +83,15 @@ TEST(TextSizeTest, ReachesChildrenUnderTheStyleSheetOfTheTheme) {
     EXPECT_TRUE(bold->font().bold());
   }
   EXPECT_GT(button->sizeHint().height(), small.height());
+  for (const Theme theme : {Theme::kDark, Theme::kLight}) {
+    applyTheme(*qApp, theme);
+    QCoreApplication::processEvents();
+    for (QWidget* each : std::initializer_list<QWidget*>{menus, button, bold, field, list, heading})
+      EXPECT_NEAR(QFontInfo(each->font()).pointSizeF(), 16, 0.5)
+          << each->metaObject()->className() << " in the theme";
+    EXPECT_NEAR(caption->font().pointSizeF(), captionPt * 16 / before, 0.5);
+    EXPECT_TRUE(bold->font().bold());
+  }
   applyTextPt(0);
   QCoreApplication::processEvents();
   EXPECT_EQ(button->sizeHint(), small);

@@ -2,8 +2,12 @@
 
 #include <QApplication>
 #include <QPalette>
+#include <QPointer>
 #include <QStyleFactory>
+#include <QWidget>
 #include <array>
+#include <utility>
+#include <vector>
 
 namespace palpate::gui {
 namespace {
@@ -234,10 +238,21 @@ void applyTheme(QApplication& application, Theme theme) {
   systemTheme();
   // Setting the same style again would restyle every widget several times.
   if (application.styleSheet() == styleOf(theme)) return;
+  // A widget that the style sheet gives a font (bold) gets the size back that it had before the
+  // first style sheet, whatever size of text was chosen since.
+  std::vector<std::pair<QPointer<QWidget>, double>> sizesPt;
+  for (QWidget* widget : QApplication::allWidgets())
+    sizesPt.emplace_back(widget, widget->font().pointSizeF());
   QApplication::setStyle(QStyleFactory::create("Fusion"));
   QApplication::setPalette(paletteOf(theme));
   outlineFields(theme);
   application.setStyleSheet(styleOf(theme));
+  for (const auto& [widget, pt] : sizesPt) {
+    if (!widget || !(pt > 0.0) || widget->font().pointSizeF() == pt) continue;
+    QFont font = widget->font();
+    font.setPointSizeF(pt);
+    widget->setFont(font);
+  }
 }
 
 }  // namespace palpate::gui
