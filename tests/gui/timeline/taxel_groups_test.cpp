@@ -1,6 +1,8 @@
 #include "gui/timeline/taxel_groups.h"
 
 #include <QSignalSpy>
+#include <QTest>
+#include <QTreeWidget>
 
 #include "palpate/device/sdh2.h"
 #include <palpate/model/hand_description.h>
@@ -98,6 +100,29 @@ TEST_F(TaxelGroupsTest, TheListTicksThem) {
   EXPECT_TRUE(tree.extras().groups.empty());
   tree.setNumChosen(5);
   EXPECT_TRUE(tree.lines().contains("[x] the chosen taxels (5)"));
+}
+
+TEST_F(TaxelGroupsTest, AClickAnywhereOnALineTicksIt) {
+  TaxelGroups groups(settings());
+  FormulaCurves formulas(settings());
+  SignalTree tree(groups, formulas);
+  tree.setSource(sdh2(), {.hasAngles = true});
+  tree.resize(300, 500);
+  tree.show();
+  auto* list = tree.findChild<QTreeWidget*>("signalList");
+  const auto rectOf = [list](const char* name) {
+    return list->visualItemRect(list->findItems(name, Qt::MatchExactly | Qt::MatchRecursive).at(0));
+  };
+  QTest::mouseClick(list->viewport(), Qt::LeftButton, {}, rectOf("finger 1 distal").center());
+  EXPECT_EQ(tree.extras().angles, (std::set<int>{4}));
+  const QRect other = rectOf("finger 2 distal");
+  constexpr int kInTheBox = 8;  // [px]
+  QTest::mouseClick(
+      list->viewport(), Qt::LeftButton, {}, QPoint(other.left() + kInTheBox, other.center().y()));
+  EXPECT_EQ(tree.extras().angles, (std::set<int>{4, 6})) << "its box";
+  const QTreeWidgetItem* heading = list->topLevelItem(0);
+  QTest::mouseClick(list->viewport(), Qt::LeftButton, {}, list->visualItemRect(heading).center());
+  EXPECT_EQ(heading->data(0, Qt::CheckStateRole), QVariant()) << "a heading has no box";
 }
 
 TEST_F(TaxelGroupsTest, WhatIsTickedIsRemembered) {

@@ -144,7 +144,7 @@ QString styleOf(Theme theme) {
 void outlineFields(Theme theme) {
   QPalette palette = paletteOf(theme);
   if (theme == Theme::kDark) palette.setColor(QPalette::Window, colorsOf(theme).muted);
-  for (const char* field : {"QComboBox", "QCheckBox", "QRadioButton"})
+  for (const char* field : {"QComboBox", "QCheckBox", "QRadioButton", "QAbstractItemView"})
     QApplication::setPalette(palette, field);
 }
 

@@ -92,18 +92,32 @@ SignalTree::SignalTree(TaxelGroups& groups, FormulaCurves& formulas, QWidget* pa
     emit formulaRequested({});
   });
   connect(tree_, &QTreeWidget::itemDoubleClicked, this, [this](QTreeWidgetItem* item) {
+    pressedState_ = item->checkState(0);
     if (item->data(0, kSignalTreeKind).toInt() != kFormulaLine) return;
+    toggle(*item);  // back: its first click has ticked it
     hide();
     emit formulaRequested(item->data(0, kName).toString());
   });
   connect(&formulas_, &FormulaCurves::changed, this, &SignalTree::rebuild);
   connect(tree_, &QTreeWidget::itemChanged, this, &SignalTree::onItemChanged);
   // A click anywhere on a line ticks it; a click on the box has ticked it already.
+  connect(tree_, &QTreeWidget::itemPressed, this, [this](QTreeWidgetItem* item) {
+    if (item) pressedState_ = item->checkState(0);
+  });
+  connect(tree_, &QTreeWidget::itemClicked, this, [this](QTreeWidgetItem* item) {
+    // None when a tick has made the list anew.
+    if (item && item->checkState(0) == pressedState_) toggle(*item);
+  });
   connect(group_, &QPushButton::clicked, this, [this] {
     hide();
     emit groupRequested();
   });
   connect(&groups_, &TaxelGroups::changed, this, &SignalTree::rebuild);
+}
+
+void SignalTree::toggle(QTreeWidgetItem& item) {
+  if ((item.flags() & Qt::ItemIsUserCheckable) == 0) return;
+  item.setCheckState(0, item.checkState(0) == Qt::Checked ? Qt::Unchecked : Qt::Checked);
 }
 
 void SignalTree::setSource(const HandDescription& hand, const SignalSource& source) {

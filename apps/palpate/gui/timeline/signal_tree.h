@@ -77,6 +77,7 @@ class SignalTree : public QFrame {
  private:
   void rebuild();
   QTreeWidgetItem* section(const QString& title);
+  static void toggle(QTreeWidgetItem& item);
   void onItemChanged(QTreeWidgetItem* item);
 
   TaxelGroups& groups_;
@@ -87,6 +88,7 @@ class SignalTree : public QFrame {
   std::size_t numChosen_ = 0;
   PlottedExtras extras_;
   bool building_ = false;
+  Qt::CheckState pressedState_ = Qt::Unchecked;  // of the line that was pressed last, at that time
   QTreeWidget* tree_;
   QPushButton* group_;
   QPushButton* formula_;
