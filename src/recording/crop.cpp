@@ -67,8 +67,12 @@ std::vector<RecordingEvent> eventsWithin(std::span<const RecordingEvent> events,
   if (profile.numFrames() == 0) return within;
   const std::int64_t beginUs = profile.frameTimeUs(0);
   const std::int64_t endUs = profile.frameTimeUs(profile.numFrames() - 1);
-  for (const RecordingEvent& event : events)
-    if (event.tUs <= endUs && event.t1Us >= beginUs) within.push_back(event);
+  for (const RecordingEvent& event : events) {
+    if (event.tUs > endUs || event.t1Us < beginUs) continue;
+    within.push_back(event);
+    within.back().tUs = std::max(event.tUs, beginUs);
+    within.back().t1Us = std::min(event.t1Us, endUs);
+  }
   return within;
 }
 

@@ -396,6 +396,15 @@ std::size_t Formula::reach(double rateHz) const {
   return static_cast<std::size_t>(std::ceil(std::min(samples, kMostSamples)));
 }
 
+bool Formula::hasFrequencyFilter() const {
+  return std::any_of(derivatives_.begin(), derivatives_.end(), [](const Derivative& derivative) {
+    const SeriesFunctionKind kind = kSeriesFunctions[derivative.function].kind;
+    return (kind != SeriesFunctionKind::kDerivative && kind != SeriesFunctionKind::kSmooth &&
+            kind != SeriesFunctionKind::kMedian) ||
+           derivative.inside.hasFrequencyFilter();
+  });
+}
+
 Series derivedSeries(const Profile& profile,
                      const Formula& formula,
                      double fromS,
@@ -434,8 +443,15 @@ Series derivedSeries(const Profile& profile,
   if (first >= end) return {};
   // Slopes and filters need the samples around the span, too.
   const std::size_t reach = formula.reach(timing.rateHz);
-  const std::size_t begin = first - std::min(first, reach);
-  const std::size_t last = std::min(allTimesS.size() - 1, end - 1 + reach);
+  std::size_t begin = first - std::min(first, reach);
+  std::size_t last = std::min(allTimesS.size() - 1, end - 1 + reach);
+  if (formula.hasFrequencyFilter()) {
+    const auto isGap = [&](std::size_t after) {
+      return allTimesS[after] - allTimesS[after - 1] > longestS;
+    };
+    while (begin > 0 && !isGap(begin)) --begin;
+    while (last + 1 < allTimesS.size() && !isGap(last + 1)) ++last;
+  }
   const std::vector<double> timeS(allTimesS.begin() + static_cast<std::ptrdiff_t>(begin),
                                   allTimesS.begin() + static_cast<std::ptrdiff_t>(last) + 1);
   std::vector<std::vector<double>> values;

@@ -6,6 +6,7 @@
 
 #include "palpate/emulator/synthetic_profile.h"
 #include "palpate/filter/butterworth.h"
+#include "palpate/model/profile_builder.h"
 
 #include "testing/testing.h"
 
@@ -164,6 +165,32 @@ TEST(DerivedSeries, AreComputedAtTheFrames) {
     EXPECT_LE(value, *high);
   }
   EXPECT_EQ(derivedSeries(profile, Formula("t"), 0.0, 6.0).values, derived.timeS);
+}
+
+// Frames of a real hand are not evenly spaced, so the mean rate of a part is another one.
+TEST(DerivedSeries, ValuesDoNotDependOnTheSpan) {
+  const Profile even = synthesize({.durationS = 40.0, .grasps = 4});
+  ProfileBuilder builder(even.hand());
+  std::int64_t hostUs = even.frameTimeUs(0);
+  for (std::size_t i = 0; i < even.numFrames(); ++i) {
+    TactileFrame frame = even.frame(i);
+    frame.hostUs = hostUs;
+    hostUs += 28'000 + static_cast<std::int64_t>(i * 7919 % 6000 + i);
+    builder.addFrame(frame);
+  }
+  const Profile profile = builder.finish({});
+  for (const char* text : {"bandpass(hand_mean, 1, 5)",
+                           "der(lowpass(hand_sum, 4))",
+                           "smooth(hand_sum, 9)",
+                           "der(hand_max)"}) {
+    const Series whole = derivedSeries(profile, Formula(text), 0.0, 40.0);
+    const Series part = derivedSeries(profile, Formula(text), 12.0, 21.0);
+    const auto at = static_cast<std::size_t>(
+        std::lower_bound(whole.timeS.begin(), whole.timeS.end(), 12.0) - whole.timeS.begin());
+    ASSERT_GT(part.values.size(), 100u);
+    for (std::size_t i = 0; i < part.values.size(); ++i)
+      ASSERT_EQ(part.values[i], whole.values[at + i]) << text << " at " << part.timeS[i];
+  }
 }
 
 TEST(DerivedSeries, RefusesWhatTheHandLacks) {

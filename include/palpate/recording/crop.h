@@ -22,7 +22,8 @@ Profile cropped(const Profile& profile,
                 std::size_t end,
                 const Progress& progress = {});
 
-// The events that touch the span from the first to the last frame of a profile.
+// The events that touch the span from the first to the last frame of a profile; what is outside of
+// it is cut off.
 std::vector<RecordingEvent> eventsWithin(std::span<const RecordingEvent> events,
                                          const Profile& profile);
 

@@ -52,6 +52,9 @@ class Formula {
   // without a slope or filter, at most 20,000.
   std::size_t reach(double rateHz) const;
 
+  // Whether it has a frequency filter: its rate is that of all samples between two gaps.
+  bool hasFrequencyFilter() const;
+
   // Computes the curve at every time [s]; `values` has the signals in the order of names(), one
   // value per time. `longestS`: longer intervals are gaps for der(). Throws std::invalid_argument
   // for other sizes, and when the formula can't be computed.
@@ -69,7 +72,8 @@ class Formula {
 };
 
 // Computes the formula at every frame of fromS..toS. Angles and temperatures are interpolated at
-// the frames. Throws std::invalid_argument for a name that is not a signal or that the profile
+// the frames. The values don't depend on the span: a formula with a frequency filter is computed
+// from gap to gap. Throws std::invalid_argument for a name that is not a signal or that the profile
 // lacks, and as Formula; Cancelled; Error (a frame that can't be read).
 Series derivedSeries(const Profile& profile,
                      const Formula& formula,

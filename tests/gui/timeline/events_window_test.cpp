@@ -494,6 +494,21 @@ TEST_F(EventsWindowTest, WhatCantBeSavedIsSaidAndStays) {
   EXPECT_EQ(playback().frame(), 100u) << "what is open can be looked at further";
 }
 
+// After the request of a signal to end, which can't save it, the window asks again when it is
+// closed.
+TEST_F(EventsWindowTest, WhatCantBeSavedKeepsTheWindowOpenUntilItIsAnswered) {
+  press(Qt::Key_B, Qt::ControlModifier);
+  std::filesystem::remove(path_);
+  window().endNow();
+  ASSERT_TRUE(window().isVisible());
+  EXPECT_EQ(asked_, 0);
+  EXPECT_TRUE(bannerText().contains("not saved")) << bannerText().toStdString();
+  unsaved_ = UserPrompts::Unsaved::kDiscard;
+  window().close();
+  EXPECT_EQ(asked_, 1);
+  EXPECT_FALSE(window().isVisible());
+}
+
 TEST_F(EventsWindowTest, ASelectionOfNothingIsSaid) {
   press(Qt::Key_X, Qt::ControlModifier | Qt::ShiftModifier);
   EXPECT_TRUE(suggested_.isEmpty()) << "nothing selected: the action is off";
@@ -539,8 +554,8 @@ TEST_F(EventsWindowTest, TheWholeRecordingIsSavedAsAnotherWithItsLabels) {
     ASSERT_EQ(copy.frame(i).values, all.frame(i).values);
   ASSERT_EQ(readEvents(folder_ / "copy.palpate").events.size(), 1U);
   EXPECT_TRUE(readEvents(path_).events.empty()) << "the original stays as it was";
-  EXPECT_FALSE(window().state().actions.at("saveEvents")->isEnabled())
-      << "nothing is left that was not saved";
+  EXPECT_TRUE(window().state().actions.at("saveEvents")->isEnabled())
+      << "the open recording doesn't have the label";
   chosen = QString::fromStdString((folder_ / "copy.h5").string());
   saveAs->trigger();
   window().settle();

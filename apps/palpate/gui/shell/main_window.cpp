@@ -255,11 +255,13 @@ void MainWindow::closeEvent(QCloseEvent* event) {
 }
 
 void MainWindow::endNow() {
+  const UserPrompts asking = windowState_->prompts;
   windowState_->prompts.endRecording = [] { return true; };
   windowState_->prompts.endBatch = [] { return true; };
   windowState_->prompts.unsaved = [](const QString&) { return UserPrompts::Unsaved::kSave; };
   if (QWidget* dialog = QApplication::activeModalWidget()) dialog->close();
-  close();
+  // What can't be saved keeps the window open: it asks again when the user closes it.
+  if (!close() && !closing_) windowState_->prompts = asking;
 }
 
 void MainWindow::settle() {

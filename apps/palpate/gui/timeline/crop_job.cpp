@@ -2,7 +2,6 @@
 
 #include <QFileDialog>
 #include <QFileInfo>
-#include <QPointer>
 #include <QPushButton>
 #include <QToolButton>
 #include <utility>
@@ -35,12 +34,6 @@ bool canBeOpened(const QString& path) {
   const RecordingFormat format = formatOf(path.toStdString());
   return format == RecordingFormat::kPalpate || format == RecordingFormat::kDsa ||
          format == RecordingFormat::kHdf5 || format == RecordingFormat::kMcap;
-}
-
-// Whether a file of this format holds labels, notes and grasps.
-bool holdsEvents(const QString& path) {
-  const RecordingFormat format = formatOf(path.toStdString());
-  return format != RecordingFormat::kCsv && format != RecordingFormat::kJsonLines;
 }
 
 }  // namespace
@@ -166,13 +159,9 @@ void CropJob::start(const QString& path, const std::optional<Frames>& part) {
        path,
        part,
        saved = windowState_.displayed.unfilteredRecording(),
-       editor = QPointer<EventEditor>(editor),
-       state = editor ? editor->undoStack().index() : 0,
        count = part ? part->last - part->first + 1
                     : windowState_.displayed.unfilteredRecording()->profile.numFrames()] {
-        // What was changed meanwhile is not in the copy.
-        if (!part && editor && editor->undoStack().index() == state && holdsEvents(path))
-          editor->undoStack().setClean();
+        // The open recording doesn't have the labels of the copy: what was unsaved in it still is.
         windowState_.messages.flash("written: " + path + " (" + QString::number(count) +
                                     " frames)");
         if (canBeOpened(path)) windowState_.recent.add(path);
