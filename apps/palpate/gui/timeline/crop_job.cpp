@@ -173,8 +173,7 @@ void CropJob::start(const QString& path, const std::optional<Frames>& part) {
         // What was changed meanwhile is not in the copy.
         if (!part && editor && editor->undoStack().index() == state && holdsEvents(path))
           editor->undoStack().setClean();
-        windowState_.messages.flash("written: " + path + " (" + QString::number(count) +
-                                    " frames)");
+        windowState_.messages.flash("written: " + path + " (" + numberOf(count, "frame") + ")");
         if (canBeOpened(path)) windowState_.recent.add(path);
         emit written(path);
         if (!canBeOpened(path)) return;
