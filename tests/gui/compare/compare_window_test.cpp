@@ -50,10 +50,10 @@ TEST_F(CompareWindowTest, AWideDockHasItsWidthAgain) {
   EXPECT_EQ(window().size(), QSize(1280, 800));
 }
 
-// Heat maps and chart are seen without scrolling.
+// Heat maps and chart are seen without scrolling, below a notice, too.
 TEST_F(CompareWindowTest, BothFitIntoAWindowOfAUsualScreen) {
   window().resize(1280, 800);
-  open({"early.dsa", "late.dsa"});
+  open({"early.dsa", "untouched.dsa"});
   compareNow();
   for (const QString& each : window().docks().names()) dock(each.toUtf8())->hide();
   for (int i = 0; i < 4; ++i) settle();
@@ -61,6 +61,7 @@ TEST_F(CompareWindowTest, BothFitIntoAWindowOfAUsualScreen) {
   auto* chart = compare().findChild<CompareChart*>();
   auto* scroll = compare().findChild<QScrollArea*>();
   ASSERT_TRUE(chart && scroll);
+  ASSERT_TRUE(find<QLabel>("compareNotice")->isVisible());
   EXPECT_EQ(scroll->verticalScrollBar()->maximum(), 0);
   EXPECT_EQ(chart->visibleRegion().boundingRect(), chart->rect());
   EXPECT_GT(compare().view().height(), chart->height());
