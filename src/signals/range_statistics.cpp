@@ -47,4 +47,20 @@ RangeStatistics rangeStatistics(std::span<const double> timeS,
   return result;
 }
 
+std::optional<RangeChange> rangeChange(std::size_t numSamples,
+                                       const std::function<double(std::size_t)>& timeSAt,
+                                       const std::function<double(std::size_t)>& valueAt) {
+  std::size_t first = 0;
+  double from = 0.0;
+  for (; first < numSamples; ++first)
+    if (from = valueAt(first); std::isfinite(from)) break;
+  if (first == numSamples) return std::nullopt;
+  std::size_t last = numSamples - 1;
+  double to = from;
+  for (; last > first; --last)
+    if (to = valueAt(last); std::isfinite(to)) break;
+  if (last == first) to = from;
+  return RangeChange{.fromS = timeSAt(first), .toS = timeSAt(last), .from = from, .to = to};
+}
+
 }  // namespace palpate

@@ -24,6 +24,31 @@ TEST(RangeStatistics, AreThoseOfNumPy) {
   EXPECT_NEAR(found.integral, 831.6937499999999, 1e-11);
 }
 
+TEST(RangeStatistics, TheChangeIsThatBetweenTheFirstAndTheLastNumber) {
+  const double none = std::nan("");
+  const std::vector<double> values = {none, -1.5, 4.25, none, 1002.5, 7, none};
+  std::vector<std::size_t> asked;
+  const auto timeSAt = [](std::size_t i) { return kTimeS[i]; };
+  const auto change = rangeChange(values.size(), timeSAt, [&](std::size_t i) {
+    asked.push_back(i);
+    return values[i];
+  });
+  ASSERT_TRUE(change);
+  EXPECT_EQ(change->fromS, 0.1);
+  EXPECT_EQ(change->toS, 1.7);
+  EXPECT_EQ(change->from, -1.5);
+  EXPECT_EQ(change->to, 7.0);
+  EXPECT_EQ(change->difference(), 8.5);
+  EXPECT_DOUBLE_EQ(change->rate().value(), 8.5 / 1.6);
+  EXPECT_EQ(asked, (std::vector<std::size_t>{0, 1, 6, 5})) << "none is read that isn't needed";
+  const auto one = rangeChange(2, timeSAt, [&](std::size_t i) { return values[i]; });
+  ASSERT_TRUE(one);
+  EXPECT_EQ(one->to, -1.5);
+  EXPECT_FALSE(one->rate()) << "of one sample";
+  EXPECT_FALSE(rangeChange(1, timeSAt, [&](std::size_t i) { return values[i]; }));
+  EXPECT_FALSE(rangeChange(0, timeSAt, [&](std::size_t i) { return values[i]; }));
+}
+
 TEST(RangeStatistics, LeaveGapsOutOfTheIntegral) {
   EXPECT_NEAR(rangeStatistics(kTimeS, kValues, 1.0).integral, 225.99374999999998, 1e-11);
 }

@@ -4,6 +4,7 @@
 
 #include "palpate/calibration/tare.h"
 #include "palpate/core/error.h"
+#include "palpate/core/number_text.h"
 #include "palpate/recording/event_store.h"
 #include "palpate/recording/recording.h"
 
@@ -27,7 +28,7 @@ RecordingEvent eventOf(const Tare& tare, const Profile& profile) {
   event.kind = "tare";
   std::size_t raised = 0;
   for (const MatrixTare& matrix : tare.matrices) raised += matrix.raisedTaxels;
-  event.text = "zero of " + std::to_string(raised) + " taxels";
+  event.text = "zero of " + counted(raised, "taxel");
   event.json = jsonOf(tare, profile.layout()).text(-1);
   return event;
 }

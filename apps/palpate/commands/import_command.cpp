@@ -98,7 +98,7 @@ void printImportPreview(const ImportPreview& preview) {
     const TableColumn& column = preview.columns[c];
     text += "  #" + std::to_string(c + 1) + " " + column.name;
     if (!column.unit.empty()) text += " [" + column.unit + "]";
-    if (column.numRows) text += ", " + std::to_string(*column.numRows) + " rows";
+    if (column.numRows) text += ", " + counted(*column.numRows, "row");
     for (const std::size_t size : column.shape) text += " x " + std::to_string(size);
     text += ", " + column.type + ":";
     for (std::size_t r = 0; r < std::min<std::size_t>(4, preview.rows.size()); ++r)

@@ -183,7 +183,7 @@ std::string matricesText(const Profile& profile) {
   for (std::size_t m = 0; m < layout.numMatrices(); ++m) {
     const MatrixLayout& matrix = layout.matrix(m);
     std::string line = std::to_string(matrix.rows) + " x " + std::to_string(matrix.columns) +
-                       " places, " + std::to_string(matrix.numTaxels()) + " taxels of " +
+                       " places, " + counted(matrix.numTaxels(), "taxel") + " of " +
                        numberText(matrix.pitchMm) + " mm";
     if (matrix.numEnabled() != matrix.numTaxels())
       line += ", " + std::to_string(matrix.numEnabled()) + " enabled";

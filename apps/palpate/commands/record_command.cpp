@@ -50,8 +50,8 @@ class StatusLine {
         recorder.state == RecorderStatus::State::kArmed ? "waiting for contact"
         : recorder.state == RecorderStatus::State::kWaiting
             ? "waiting for the first frame"
-            : fixedText(recorder.recordedS, 1) + " s, " + std::to_string(recorder.frames) +
-                  " frames, " + fixedText(health.frames.rateHz, 1) + "/s, " +
+            : fixedText(recorder.recordedS, 1) + " s, " + counted(recorder.frames, "frame") + ", " +
+                  fixedText(health.frames.rateHz, 1) + "/s, " +
                   fixedText(static_cast<double>(recorder.bytesOnDisk) / 1e6, 1) + " MB";
     if (!health.alarms.empty()) line += " | " + escapedLine(health.alarms.front().text);
     std::fprintf(stderr, "\r\033[K%s", std::string(beginningOf(line, 118)).c_str());

@@ -46,8 +46,8 @@ void sayRemoteRecording(const RecordingReport& report, bool json) {
   else if (!answer.ok())
     line = "nothing was recorded: " + escapedLine(answer.message);
   else
-    line = escapedLine(report.paths.front().string()) + ": " + std::to_string(report.frames) +
-           " frames in " + fixedText(report.durationS, 1) + " s, " +
+    line = escapedLine(report.paths.front().string()) + ": " + counted(report.frames, "frame") +
+           " in " + fixedText(report.durationS, 1) + " s, " +
            std::to_string(report.lost + report.refused) + " lost" +
            (report.message.empty() ? "" : "; " + escapedLine(report.message));
   std::printf("%s\n", line.c_str());

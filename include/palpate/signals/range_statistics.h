@@ -1,8 +1,11 @@
-// What a signal does over a range of time, in seven numbers: for the selection in the timeline.
+// What a signal does over a range of time, in seven numbers, and its change between the ends: for
+// the selection in the timeline.
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <limits>
+#include <optional>
 #include <span>
 
 namespace palpate {
@@ -27,5 +30,25 @@ struct RangeStatistics {
 RangeStatistics rangeStatistics(std::span<const double> timeS,
                                 std::span<const double> values,
                                 double longestS = std::numeric_limits<double>::infinity());
+
+// The change of a signal over a range: between its first and its last finite sample there.
+struct RangeChange {
+  double fromS = 0.0;  // time of the first one [s]
+  double toS = 0.0;    // time of the last one [s]
+  double from = 0.0;
+  double to = 0.0;
+  double difference() const noexcept { return to - from; }
+  // [unit/s]; nothing: both are the same sample.
+  std::optional<double> rate() const noexcept {
+    return toS > fromS ? std::optional(difference() / (toS - fromS)) : std::nullopt;
+  }
+};
+
+// `numSamples`: samples in the range; `timeSAt`, `valueAt`: the time [s] and the value of each, in
+// the order of time; a value is NaN where there is none. Values are asked for from both ends, up to
+// a finite one. Nothing: no value is finite.
+std::optional<RangeChange> rangeChange(std::size_t numSamples,
+                                       const std::function<double(std::size_t)>& timeSAt,
+                                       const std::function<double(std::size_t)>& valueAt);
 
 }  // namespace palpate

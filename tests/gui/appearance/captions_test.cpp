@@ -16,5 +16,11 @@ TEST(Captions, MessagesNameMenusInsteadOfCommands) {
   EXPECT_EQ(inWindowWords("nothing to change"), "nothing to change");
 }
 
+TEST(Captions, ACountHasTheNumberOfItsNoun) {
+  EXPECT_EQ(numberOf(0, "frame"), "0 frames");
+  EXPECT_EQ(numberOf(1, "frame"), "1 frame");
+  EXPECT_EQ(numberOf(2, "frame"), "2 frames");
+}
+
 }  // namespace
 }  // namespace palpate::gui::captions_test

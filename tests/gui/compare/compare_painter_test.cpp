@@ -201,5 +201,21 @@ TEST_F(ComparePainterTest, PlacesAreFoundInEachGroup) {
   EXPECT_EQ(geometry_.placeAt({1.0, 1.0}), std::nullopt);
 }
 
+TEST(ComparePainter, ACaptionWithoutRoomGivesWayToAShorterOne) {
+  const QFontMetricsF metrics{QFont()};
+  CompareGroupContent content;
+  content.caption = "mean +1.0 · rms 2.0 · largest +3 at the palm, x 1, y 2";
+  content.shorterCaptions = {"mean +1.0 · rms 2.0 · largest +3", "mean +1.0 · rms 2.0"};
+  const auto in = [&](const QString& asWideAs, double more = 0.0) {
+    return fittingCaption(content, metrics.horizontalAdvance(asWideAs) + more, metrics);
+  };
+  EXPECT_EQ(in(content.caption), content.caption);
+  EXPECT_EQ(in(content.caption, -1.0), content.shorterCaptions[0]);
+  EXPECT_EQ(in(content.shorterCaptions[0], -1.0), content.shorterCaptions[1]);
+  EXPECT_EQ(in("mean"), content.shorterCaptions[1]);
+  content.shorterCaptions.clear();
+  EXPECT_EQ(in("mean"), content.caption);
+}
+
 }  // namespace
 }  // namespace palpate::gui::compare_painter_test

@@ -1,5 +1,8 @@
 // Comparing two recordings, in the window: which ones, how it comes and goes, what is said of odd
 // ones.
+#include <QScrollArea>
+#include <QScrollBar>
+
 #include "gui/compare/compare_feature.h"
 #include "gui/compare/compare_fixture.h"
 #include "gui/matrices/matrices_feature.h"
@@ -45,6 +48,43 @@ TEST_F(CompareWindowTest, AWideDockHasItsWidthAgain) {
   EXPECT_TRUE(dock("Recognise")->isVisible());
   EXPECT_EQ(dock("Recognise")->width(), width);
   EXPECT_EQ(window().size(), QSize(1280, 800));
+}
+
+// Heat maps and chart are seen without scrolling, below a notice, too.
+TEST_F(CompareWindowTest, BothFitIntoAWindowOfAUsualScreen) {
+  window().resize(1280, 800);
+  open({"early.dsa", "untouched.dsa"});
+  compareNow();
+  for (const QString& each : window().docks().names()) dock(each.toUtf8())->hide();
+  for (int i = 0; i < 4; ++i) settle();
+  ASSERT_EQ(window().size(), QSize(1280, 800));
+  auto* chart = compare().findChild<CompareChart*>();
+  auto* scroll = compare().findChild<QScrollArea*>();
+  ASSERT_TRUE(chart && scroll);
+  ASSERT_TRUE(find<QLabel>("compareNotice")->isVisible());
+  EXPECT_EQ(scroll->verticalScrollBar()->maximum(), 0);
+  EXPECT_EQ(chart->visibleRegion().boundingRect(), chart->rect());
+  EXPECT_GT(compare().view().height(), chart->height());
+  EXPECT_GE(chart->height(), 120);
+}
+
+// What the difference of a frame is stands above its heat map without an ellipsis.
+TEST_F(CompareWindowTest, TheCaptionOfTheDifferenceFitsBesideADock) {
+  window().resize(1280, 800);
+  open({"early.dsa", "late.dsa"});
+  compareNow();
+  dock("Inspect")->show();
+  settle();
+  playback().seekFrame(30);
+  settle();
+  const CompareView& view = compare().view();
+  const CompareGroupContent& between =
+      view.frames()[static_cast<std::size_t>(CompareGroup::kDifference)];
+  ASSERT_TRUE(between.caption.contains("largest")) << between.caption.toStdString();
+  const QFontMetricsF metrics(view.font());
+  const double room = view.geometryOfGroups().titleRect(CompareGroup::kDifference).width() - 17.0;
+  EXPECT_LE(metrics.horizontalAdvance(fittingCaption(between, room, metrics)), room);
+  EXPECT_TRUE(fittingCaption(between, room, metrics).contains("largest"));
 }
 
 TEST_F(CompareWindowTest, SwappingKeepsTheMoment) {

@@ -84,6 +84,16 @@ TEST_F(ImportWindowTest, WhatWasRefusedStaysInTheBanner) {
   EXPECT_TRUE(bannerText().contains("line 5 has 2 cells instead of 257"));
 }
 
+TEST_F(ImportWindowTest, AnImportTakesAnEarlierFailureAway) {
+  open({"bad.dsa"});
+  ASSERT_NE(bannerText(), "");
+  import(table("good_pad.csv", 20));
+  EXPECT_TRUE(QTest::qWaitFor(
+      [&] { return window().state().messages.flashed().contains("(20 frames)"); }, 30'000));
+  waitUntilOpened();
+  EXPECT_EQ(bannerText(), "");
+}
+
 TEST_F(ImportWindowTest, EscapeCancelsAndNothingIsWritten) {
   import(table("good_long.csv", 20'000));
   press(Qt::Key_Escape);

@@ -173,6 +173,36 @@ TEST_F(OpeningTest, TheSameFileAgainIsReadAgainButListedOnce) {
   EXPECT_EQ(playback().frame(), 0u);
 }
 
+// By a symbolic link, a hard link, and a path with a detour.
+TEST_F(OpeningTest, AFileThatIsOpenByAnotherPathIsShownAndListedOnce) {
+  namespace fs = std::filesystem;
+  const fs::path file = this->file("good.dsa");
+  fs::create_directories(folder_ / "runs");
+  fs::create_symlink(file, folder_ / "good_link.dsa");
+  fs::create_hard_link(file, folder_ / "good_hard.dsa");
+  open({"good.dsa"});
+  playback().seekFrame(7);
+  for (const char* other : {"good_link.dsa", "good_hard.dsa", "runs/../good.dsa"}) {
+    open({"good2.dsa"});
+    const int reads = reads_;
+    window().state().open({folder_ / other});
+    waitUntilOpened();
+    EXPECT_EQ(currentName(), "good.dsa") << other;
+    EXPECT_EQ(window().state().recordings.all().size(), 2u) << other;
+    EXPECT_EQ(playback().frame(), 7u) << "as it was left";
+    EXPECT_EQ(reads_, reads) << other;
+    const std::string name = fs::path(other).filename();
+    EXPECT_EQ(window().state().messages.flashed().toStdString(),
+              name + " is open already" + (name == "good.dsa" ? "" : " as good.dsa"));
+  }
+  // Both paths in one request.
+  start();
+  window().state().open({folder_ / "good_link.dsa", file});
+  waitUntilOpened();
+  EXPECT_EQ(window().state().recordings.all().size(), 1u);
+  EXPECT_EQ(window().state().recordings.at(file), window().state().recordings.all()[0]);
+}
+
 TEST_F(OpeningTest, AFailureIsSaidAndLosesNothing) {
   open({"good.dsa"});
   playback().seekFrame(7);

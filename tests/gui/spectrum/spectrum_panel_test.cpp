@@ -170,6 +170,17 @@ TEST_F(SpectrumPanelTest, EachViewBeginsWithTheDefaultsOfTheCommand) {
   EXPECT_EQ(panel_->header().setting().window, 64) << "what a person has chosen stays";
 }
 
+TEST_F(SpectrumPanelTest, OneSegmentIsNoMean) {
+  panel_->header().setSetting({.window = 64, .overlap = 32, .view = SpectrumView::kLine});
+  const auto note = [&](std::size_t frames) {
+    show(tones(frames));
+    panel_->settle();
+    return panel_->linePage().chart().note();
+  };
+  EXPECT_TRUE(note(64).startsWith("1 segment of 1.28 s")) << note(64).toStdString();
+  EXPECT_TRUE(note(96).startsWith("mean of 2 segments of 1.28 s")) << note(96).toStdString();
+}
+
 TEST_F(SpectrumPanelTest, SaysWhyThereIsNothing) {
   panel_->show();
   EXPECT_TRUE(panel_->emptyText().contains("Open a recording"));

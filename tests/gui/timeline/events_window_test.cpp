@@ -7,6 +7,7 @@
 #include <QDockWidget>
 #include <QDoubleSpinBox>
 #include <QLabel>
+#include <QLineEdit>
 #include <QPushButton>
 #include <QSpinBox>
 #include <QTabWidget>
@@ -22,6 +23,7 @@
 #include "gui/matrices/matrices_view.h"
 #include "gui/testing/window_fixture.h"
 #include "gui/timeline/cursor_readout.h"
+#include "gui/timeline/curve_statistics.h"
 #include "gui/timeline/timeline_feature.h"
 #include "gui/timeline/timeline_header.h"
 #include "gui/timeline/timeline_panel.h"
@@ -291,13 +293,67 @@ TEST_F(EventsWindowTest, DifferencesStandBesideTheEndsOfTheSelection) {
   ASSERT_FALSE(readout.isHidden());
   EXPECT_EQ(readout.lines()[0], "Δt 2.500 s (0.4 Hz)");
   const PlottedCurve& curve = chart().curves().front();
-  const double from = *chart().store().valueAt(curve.choice, 2.0);
-  const double to = *chart().store().valueAt(curve.choice, 4.5);
+  const OpenedRecordingPtr recording = window().state().displayed.recorded();
+  const auto frames = *recording->framesWithin(2.0, 4.5);
+  const double from = *chart().store().valueAt(curve.choice, recording->timeAt(frames.first));
+  const double to = *chart().store().valueAt(curve.choice, recording->timeAt(frames.second));
   EXPECT_TRUE(readout.lines()[1].contains("Δ " + QString::number(to - from, 'g', 5)))
       << readout.lines()[1].toStdString();
   EXPECT_TRUE(chart().rect().contains(readout.geometry()));
   chart().setSelection(std::nullopt);
   EXPECT_TRUE(readout.isHidden());
+}
+
+// The ends stand between two frames: the frame before the begin isn't in the selection.
+TEST_F(EventsWindowTest, TheBoxOfDifferencesAndTheTableHaveTheSameValues) {
+  auto& readout = *window().findChild<CursorReadout*>();
+  const OpenedRecordingPtr recording = window().state().displayed.recorded();
+  const std::size_t begin = truth_.grasps[0].begin;
+  const auto between = [&](std::size_t frame) {
+    return 0.5 * (recording->timeAt(frame) + recording->timeAt(frame + 1));
+  };
+  actions().at("differences")->trigger();
+  for (std::size_t frame = begin; frame < begin + 40; frame += 4) {
+    const TimeSpan span{between(frame), between(frame + 60)};
+    chart().setSelection(span);
+    const auto frames = *recording->framesWithin(span.fromS, span.toS);
+    ASSERT_EQ(frames.first, frame + 1);
+    const TextTable table = differenceTable(
+        selectedCurves(recording, chart().curves(), FrameSpan{frames.first, frames.second}));
+    ASSERT_EQ(static_cast<std::size_t>(readout.lines().size()), table.numRows + 1);
+    for (std::size_t row = 0; row < table.numRows; ++row) {
+      const std::vector<std::string> cells = table.row(row);
+      const auto number = [&](std::size_t cell) {
+        return QString::number(std::stod(cells.at(cell)), 'g', 5);
+      };
+      const QString line = readout.lines()[static_cast<qsizetype>(row) + 1];
+      EXPECT_TRUE(line.contains(number(2) + " → " + number(3) + "  Δ " + number(4)))
+          << cells[0] << " " << cells[2] << " " << cells[3] << ": " << line.toStdString();
+      EXPECT_TRUE(line.endsWith("(" + number(5) + "/s)")) << cells[5] << ": " << line.toStdString();
+    }
+  }
+}
+
+// The curves stay visible: the box takes a third of the height, but at least a line.
+TEST_F(EventsWindowTest, TheBoxOfDifferencesIsLowInALowChart) {
+  auto& readout = *window().findChild<CursorReadout*>();
+  window().setAnimated(false);
+  window().resize(1280, 800);
+  for (QAction* plot : window().findChildren<QAction*>())
+    if (plot->text().startsWith("Plot finger") && !plot->isChecked()) plot->trigger();
+  actions().at("differences")->trigger();
+  chart().setSelection(TimeSpan{2.0, 4.5});
+  for (const int height : {120, 160}) {
+    chart().setFixedHeight(height);
+    for (int i = 0; i < 4; ++i) QCoreApplication::processEvents();
+    ASSERT_EQ(chart().height(), height);
+    ASSERT_FALSE(readout.isHidden());
+    const int plot = chart().axisRect()->rect().height();
+    constexpr int kAround = 4;  // [px] margin and frame
+    EXPECT_LE(readout.height(), std::max(plot / 3, readout.fontMetrics().height() + kAround))
+        << height << ": " << readout.text().toStdString();
+    EXPECT_GE(readout.text().count(" → "), 1) << readout.text().toStdString();
+  }
 }
 
 // In a low chart the curves stand beside each other; those without room are counted, none is cut.
@@ -325,6 +381,48 @@ TEST_F(EventsWindowTest, DifferencesOfManyCurvesAreNotCutInALowChart) {
           << readout.text().toStdString();
     }
   }
+}
+
+TEST_F(EventsWindowTest, RenamingWithoutAChosenEventSaysWhatToDo) {
+  ASSERT_FALSE(rows().chosen());
+  press(Qt::Key_F2);
+  const QString& said = window().state().messages.flashed();
+  EXPECT_TRUE(said.startsWith("choose an event first: N, or click")) << said.toStdString();
+  press(Qt::Key_N);
+  press(Qt::Key_F2);
+  auto* field = rows().findChild<QLineEdit*>("eventText");
+  ASSERT_TRUE(field);
+  EXPECT_TRUE(field->isVisible());
+}
+
+TEST_F(EventsWindowTest, ANewLabelIsChosen) {
+  playback().seekSeconds(2.0);
+  press(Qt::Key_B, Qt::ControlModifier);
+  playback().seekSeconds(4.0);
+  press(Qt::Key_B, Qt::ControlModifier);
+  ASSERT_TRUE(rows().chosen());
+  const auto chosen = [&]() -> const EventMark& { return rows().marks().at(*rows().chosen()); };
+  EXPECT_EQ(chosen().lane, EventLane::kLabels);
+  EXPECT_NEAR(chosen().fromS, 4.0, 1e-6);
+  press(Qt::Key_N, Qt::ShiftModifier);
+  EXPECT_NEAR(chosen().fromS, 2.0, 1e-6) << "N goes on from it";
+  press(Qt::Key_N);
+  EXPECT_NEAR(chosen().fromS, 4.0, 1e-6);
+  press(Qt::Key_F2);
+  auto* field = rows().findChild<QLineEdit*>("eventText");
+  ASSERT_TRUE(field);
+  ASSERT_TRUE(field->isVisible());
+  EXPECT_EQ(field->text(), "touch");
+  field->setText("lifted");
+  QTest::keyClick(field, Qt::Key_Return);
+  ASSERT_EQ(marksIn(EventLane::kLabels), 2);
+  EXPECT_EQ(chosen().text, "lifted");
+  chart().setSelection(TimeSpan{6.0, 7.0});
+  press(Qt::Key_B, Qt::ControlModifier);
+  ASSERT_TRUE(rows().chosen());
+  EXPECT_NEAR(chosen().toS, 7.0, 1e-6);
+  actions().at("removeEvent")->trigger();
+  EXPECT_EQ(marksIn(EventLane::kLabels), 2);
 }
 
 TEST_F(EventsWindowTest, AVerticalAxisIsLogarithmicAndRemembersIt) {

@@ -5,6 +5,7 @@
 #include <QDoubleSpinBox>
 #include <QLabel>
 
+#include "gui/testing/sample_profiles.h"
 #include "gui/timeline/live_chart.h"
 #include "gui/timeline/timeline_panel.h"
 #include "gui/window_state/window_state_fixture.h"
@@ -163,6 +164,84 @@ TEST_F(TimelineFeatureTest, TheEndsOfAnAxisAreTyped) {
   automatic->setChecked(true);
   EXPECT_EQ(axis.range(), before);
   editor->hide();
+}
+
+TEST_F(TimelineFeatureTest, ABeginAboveTheEndOfAnAxisIsSaidAndNotUsed) {
+  windowState_->displayed.show(recording("a"));
+  windowState_->selection.setPlotted({true, true});
+  windowState_->actions.at("verticalAxes")->trigger();
+  auto* editor = actionsOf_.findChild<QFrame*>("AxisEditor");
+  ASSERT_NE(editor, nullptr);
+  auto* automatic = editor->findChild<QCheckBox*>("automaticAxis");
+  auto* from = editor->findChild<QDoubleSpinBox*>("axisFrom");
+  auto* to = editor->findChild<QDoubleSpinBox*>("axisTo");
+  auto* problem = editor->findChild<QLabel*>("axisProblem");
+  ASSERT_TRUE(automatic && from && to && problem);
+  const QCPAxis& axis = *feature_.panel().chart().yAxis;
+  const QCPRange before = axis.range();
+  EXPECT_TRUE(problem->isHidden());
+  from->setValue(9000.0);
+  ASSERT_FALSE(problem->isHidden());
+  EXPECT_TRUE(problem->text().contains("the begin 9000.00 isn't below the end"))
+      << problem->text().toStdString();
+  EXPECT_EQ(from->value(), 9000.0) << "what was typed stays";
+  EXPECT_EQ(axis.range(), before);
+  EXPECT_TRUE(automatic->isChecked());
+  automatic->click();
+  EXPECT_TRUE(automatic->isChecked()) << "nothing of it is used";
+  EXPECT_TRUE(feature_.panel().chart().axes().byHand().empty());
+  EXPECT_EQ(axis.range(), before);
+  to->setValue(9500.0);
+  EXPECT_TRUE(problem->isHidden());
+  EXPECT_FALSE(automatic->isChecked());
+  EXPECT_EQ(axis.range(), QCPRange(9000.0, 9500.0));
+  editor->hide();
+}
+
+TEST_F(TimelineFeatureTest, TabGoesThroughALineOfTheAxesAsItIsSeen) {
+  windowState_->displayed.show(recording("a"));
+  windowState_->selection.setPlotted({true, true});
+  windowState_->actions.at("verticalAxes")->trigger();
+  auto* editor = actionsOf_.findChild<QFrame*>("AxisEditor");
+  ASSERT_NE(editor, nullptr);
+  QStringList reached;
+  auto* first = editor->findChild<QCheckBox*>("automaticAxis");
+  for (QWidget* at = first; reached.size() < 4; at = at->nextInFocusChain()) {
+    if (at->focusPolicy() & Qt::TabFocus && at->isVisible() && at->focusProxy() == nullptr)
+      reached.append(at->objectName());
+    if (at->nextInFocusChain() == first) break;
+  }
+  EXPECT_EQ(reached, (QStringList{"automaticAxis", "axisFrom", "axisTo", "logAxis"}));
+  editor->hide();
+}
+
+// The label of a gap stands at the top of the chart.
+TEST_F(TimelineFeatureTest, TheReasonWhyAFormulaIsNotShownDoesNotCoverTheNameOfAGap) {
+  TimelineChart& chart = feature_.panel().chart();
+  ASSERT_TRUE(windowState_->formulas.keep({"far away", "m77_mean * 2", "counts"}));
+  windowState_->displayed.show(
+      makeOpenedRecording("gap.dsa", profileWithStamps({0, 50, 100, 150, 5150, 5200, 5250})));
+  windowState_->selection.setPlotted({true, true});
+  EXPECT_TRUE(feature_.signalTree().setTicked("far away", true));
+  auto* notes = chart.findChild<QLabel*>("chartNotes");
+  ASSERT_NE(notes, nullptr);
+  for (const int height : {120, 300}) {
+    chart.resize(900, height);
+    chart.setViewport(chart.rect());
+    chart.replot();
+    chart.fit();
+    chart.replot();
+    int numNames = 0;
+    for (int i = 0; i < chart.itemCount(); ++i) {
+      auto* name = qobject_cast<QCPItemText*>(chart.item(i));
+      if (!name || !name->visible()) continue;
+      ++numNames;
+      EXPECT_TRUE(name->text().startsWith("gap "));
+      EXPECT_GE(notes->y(), name->bottom->pixelPosition().y()) << height;
+    }
+    EXPECT_EQ(numNames, 1);
+    EXPECT_GE(notes->height(), notes->fontMetrics().height()) << height;
+  }
 }
 
 }  // namespace

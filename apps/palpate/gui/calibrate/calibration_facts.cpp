@@ -37,8 +37,8 @@ void addSurface(std::vector<Fact>& facts,
     facts.push_back({name, formulaOf(surface, x)});
     facts.push_back({name + " has an error of",
                      figure(surface.rmse, 2) + " kPa rmse, " + figure(surface.looRmse, 2) +
-                         " kPa leave-one-out; " + QString::number(surface.numPoints) + " steps, " +
-                         QString::number(surface.numTerms) + " terms"});
+                         " kPa leave-one-out; " + numberOf(surface.numPoints, "step") + ", " +
+                         numberOf(surface.numTerms, "term")});
   }
   for (const std::string& note : surface.notes)
     facts.push_back({name + ", note", QString::fromStdString(note), true});

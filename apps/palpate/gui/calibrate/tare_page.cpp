@@ -117,7 +117,7 @@ RecordingEvent tareEvent(const Tare& tare, const Profile& profile) {
   event.tUs = profile.frameTimeUs(0);
   event.t1Us = profile.frameTimeUs(profile.numFrames() - 1);
   event.kind = "tare";
-  event.text = "zero of " + std::to_string(raised) + " taxels";
+  event.text = "zero of " + counted(raised, "taxel");
   event.json = jsonOf(tare, profile.layout()).text(-1);
   return event;
 }

@@ -58,7 +58,8 @@ class CompareChart : public ReadingChart {
   // A legend for pictures: A and B, the others, and the average.
   std::vector<ChartLegendEntry> legendOf(const QString& nameA, const QString& nameB) const;
 
-  QSize sizeHint() const override { return {900, 190}; }
+  // The least height, as that of CompareView.
+  QSize sizeHint() const override { return {900, 90}; }
   QSize minimumSizeHint() const override { return {240, 90}; }
 
  signals:

@@ -66,9 +66,11 @@ void paintTitle(QPainter& painter,
   painter.setFont(pictureFont(options));
   painter.setPen(colors.muted);
   const QRectF second(first.left(), first.bottom() + 2, first.width(), line);
-  painter.drawText(second,
-                   Qt::AlignLeft | Qt::AlignVCenter,
-                   metrics.elidedText(content.caption, Qt::ElideRight, second.width()));
+  painter.drawText(
+      second,
+      Qt::AlignLeft | Qt::AlignVCenter,
+      metrics.elidedText(
+          fittingCaption(content, second.width(), metrics), Qt::ElideRight, second.width()));
 }
 
 // Paints the notice on a card in the middle of the group, so that it is legible over taxels.
@@ -94,6 +96,16 @@ void comparePainterPaintNotice(QPainter& painter,
 }
 
 }  // namespace
+
+const QString& fittingCaption(const CompareGroupContent& content,
+                              double width,
+                              const QFontMetricsF& metrics) {
+  if (content.shorterCaptions.empty() || metrics.horizontalAdvance(content.caption) <= width)
+    return content.caption;
+  for (const QString& shorter : content.shorterCaptions)
+    if (metrics.horizontalAdvance(shorter) <= width) return shorter;
+  return content.shorterCaptions.back();
+}
 
 const HandDescription& ComparedHands::of(CompareGroup group) const {
   if (group == CompareGroup::kA) return a;

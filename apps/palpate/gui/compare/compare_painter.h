@@ -7,12 +7,14 @@
 #include <QString>
 #include <array>
 #include <optional>
+#include <vector>
 
 #include <palpate/model/hand_description.h>
 #include <palpate/model/tactile_frame.h>
 
 #include "gui/matrices/matrices_painter.h"
 
+class QFontMetricsF;
 class QPainter;
 
 namespace palpate::gui {
@@ -39,9 +41,15 @@ struct CompareGroupContent {
   QString name;
   // "frame 241 · 7.60 s"
   QString caption;
+  // Shorter captions, ever shorter: the first one with room stands in place of a caption without.
+  std::vector<QString> shorterCaptions = {};
   // Text over the taxels when there is no frame: "ended at 12.31 s".
   QString notice;
 };
+// The caption, or the shorter one, that fits into `width` [px]; the last one if none does.
+const QString& fittingCaption(const CompareGroupContent& content,
+                              double width,
+                              const QFontMetricsF& metrics);
 using ComparedFrames = std::array<CompareGroupContent, 3>;
 
 // How a comparison is painted.

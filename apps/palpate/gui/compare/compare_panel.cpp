@@ -580,11 +580,15 @@ void ComparePanel::showFrames() {
     comparison_->difference(inA.frame, inB.frame, between.frame);
     const DifferenceStatistics whole = comparison_->statistics(inA.frame, inB.frame).back();
     between.caption = "both at rest";
-    if (whole.touched > 0)
-      between.caption = "mean " + signedText(whole.mean, 1) + " · rms " + figure(whole.rms, 1) +
-                        " · largest " + signedText(whole.largest, 0) + " at " +
-                        QString::fromStdString(a_->profile.hand().matrixName(whole.matrix)) +
-                        ", x " + QString::number(whole.x) + ", y " + QString::number(whole.y);
+    if (whole.touched > 0) {
+      const QString place = QString::fromStdString(a_->profile.hand().matrixName(whole.matrix)) +
+                            ", x " + QString::number(whole.x) + ", y " + QString::number(whole.y);
+      const QString mean = "mean " + signedText(whole.mean, 1);
+      const QString rms = " · rms " + figure(whole.rms, 1);
+      const QString largest = " · largest " + signedText(whole.largest, 0);
+      between.caption = mean + rms + largest + " at " + place;
+      between.shorterCaptions = {mean + rms + largest, mean + rms};
+    }
   } else {
     between.notice = "needs a frame of A and of B";
   }
@@ -655,7 +659,9 @@ QString ComparePanel::notice() const {
     if (!others.isEmpty())
       lines.append("Not compared, because they have other rows and columns in B: " +
                    others.join(", "));
-    if (inB > inA) lines.append("B has " + QString::number(inB - inA) + " matrices more than A");
+    if (inB > inA)
+      lines.append("B has " + QString::number(inB - inA) +
+                   (inB - inA == 1 ? " matrix" : " matrices") + " more than A");
   }
   if (!answer_.a || !answer_.b) return lines.join(". ");
   const TimedProfile &inA = *answer_.a, &inB = *answer_.b;

@@ -27,7 +27,9 @@ class CompareView : public QWidget {
   // "finger 0 distal · x 3, y 5 · A 812 · B 640 · A − B +172 counts"; empty outside the taxels.
   QString hoverText() const;
 
-  QSize sizeHint() const override { return {900, 340}; }
+  // The height is the least one: beside text that wraps, the area that scrolls both would take a
+  // larger wanted height for the least one. Stretch shares what there is.
+  QSize sizeHint() const override { return {900, 180}; }
   QSize minimumSizeHint() const override { return {420, 180}; }
 
  signals:

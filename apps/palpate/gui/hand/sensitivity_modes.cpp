@@ -133,10 +133,13 @@ QString SensitivityModes::describe(const SensitivityStatus& status) const {
             (status.noise.guardAtLimit ? " (no more is possible)." : ".");
   if (!status.noise.unknown.empty())
     text += " " + QString::number(status.noise.unknown.size()) +
-            " matrices without a temperature or line keep the reset value.";
+            (status.noise.unknown.size() == 1
+                 ? " matrix without a temperature or line keeps the reset value."
+                 : " matrices without a temperature or line keep the reset value.");
   else if (!status.noise.extrapolated.empty())
     text += " " + QString::number(status.noise.extrapolated.size()) +
-            " matrices are outside the measured temperatures.";
+            (status.noise.extrapolated.size() == 1 ? " matrix is" : " matrices are") +
+            " outside the measured temperatures.";
   return text;
 }
 

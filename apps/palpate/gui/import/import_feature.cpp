@@ -42,6 +42,7 @@ void ImportFeature::askAndImport() {
 }
 
 void ImportFeature::importNow(const ImportRequest& request) {
+  state().messages.dismissFailures();
   auto report = std::make_shared<ImportReport>();
   job_.start(
       request.data,

@@ -9,6 +9,8 @@
 #include <palpate/core/file_name.h>
 #include <palpate/core/time.h>
 
+#include "gui/appearance/captions.h"
+
 namespace palpate::gui {
 namespace {
 
@@ -207,7 +209,7 @@ QString LibraryModel::tip(const RecordingDetails& details) const {
   QStringList lines{libraryModelWide(details.path.string())};
   if (details.startUs) lines.append("begins " + dateText(*details.startUs, "yyyy-MM-dd HH:mm:ss"));
   QStringList facts;
-  if (details.numFrames) facts.append(QString::number(*details.numFrames) + " frames");
+  if (details.numFrames) facts.append(numberOf(*details.numFrames, "frame"));
   facts.append(QString::number(static_cast<double>(details.sizeBytes) / 1e6, 'f', 1) + " MB");
   lines.append(facts.join(", "));
   if (details.state != LibraryModelState::kFinished)

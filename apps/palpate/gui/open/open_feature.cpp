@@ -93,6 +93,15 @@ void OpenFeature::connectOpener() {
   connect(strip_, &OpeningStrip::cancelRequested, &opener, &RecordingOpener::cancel);
   connect(&windowState.recordings, &OpenRecordings::arrived, this, &OpenFeature::take);
   connect(&windowState.recordings,
+          &OpenRecordings::openAlready,
+          this,
+          [&windowState](const OpenedRecordingPtr& known, const std::filesystem::path& asked) {
+            const QString name = fileNameOf(*known);
+            const QString askedName = QFileInfo(pathText(asked)).fileName();
+            windowState.messages.flash(askedName + " is open already" +
+                                       (askedName == name ? QString() : " as " + name));
+          });
+  connect(&windowState.recordings,
           &OpenRecordings::gone,
           this,
           [&windowState](const OpenedRecordingPtr& gone) {

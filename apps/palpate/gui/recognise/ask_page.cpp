@@ -12,6 +12,7 @@
 
 #include <palpate/recognition/training_choice.h>
 
+#include "gui/appearance/captions.h"
 #include "gui/recognise/answer_view.h"
 #include "gui/widgets/text_fit.h"
 
@@ -141,7 +142,8 @@ void AskPage::showModel() {
   const QString file = QString::fromStdString(controller_.modelPath().filename().string());
   const QString with =
       model ? QString::fromStdString(madeWithText(model->set, model->pipeline)) : QString();
-  model_->setText(model ? file + " · " + QString::number(count) + " objects · " + with
+  model_->setText(model ? file + " · " + numberOf(static_cast<std::uint64_t>(count), "object") +
+                              " · " + with
                   : controller_.modelProblem().isEmpty() ? QString("no model")
                                                          : file + " can't be used");
   model_->setToolTip(model ? QString::fromStdString(controller_.modelPath().string()) +

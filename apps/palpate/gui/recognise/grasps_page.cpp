@@ -18,6 +18,7 @@
 #include <numeric>
 #include <utility>
 
+#include "gui/appearance/captions.h"
 #include "gui/recognise/feature_scatter.h"
 #include "gui/recognise/grasp_table_model.h"
 #include "gui/widgets/empty_page.h"
@@ -268,7 +269,7 @@ void GraspsPage::showState() {
   if (!table) return;
   const std::vector<bool> out = leftOut();
   const auto numOut = std::count(out.begin(), out.end(), true);
-  state_->setText(QString::number(table->rows.size()) + " grasps" +
+  state_->setText(numberOf(table->rows.size(), "grasp") +
                   (numOut > 0 ? ", " + QString::number(numOut) + " left out" : QString()));
   const QModelIndexList rows = view_->selectionModel()->selectedRows();
   const bool allOut =

@@ -3,6 +3,7 @@
 #include <QStackedWidget>
 #include <QVBoxLayout>
 
+#include "gui/appearance/captions.h"
 #include "gui/recognise/ask_page.h"
 #include "gui/recognise/check_page.h"
 #include "gui/recognise/grasps_page.h"
@@ -51,7 +52,7 @@ RecognisePanel::RecognisePanel(QSettings& settings,
           this,
           [this](const TrainedModel& model, const QString& path) {
             controller_->takeModel(model, path.toStdString());
-            emit said("trained with " + QString::number(model.classes.size()) + " objects (" +
+            emit said("trained with " + numberOf(model.classes.size(), "object") + " (" +
                       QString::fromStdString(madeWithText(model.set, model.pipeline)) +
                       "): " + path.section('/', -1));
           });

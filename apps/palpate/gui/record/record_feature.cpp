@@ -79,7 +79,7 @@ QString missingText(const RecordingReport& report) {
 QString summaryOf(const RecordingReport& report) {
   QString text = QString::fromStdString(report.paths.front().filename().string());
   if (report.paths.size() > 1) text += " and " + QString::number(report.paths.size() - 1) + " more";
-  text += ": " + QString::number(report.frames) + " frames";
+  text += ": " + countedText(static_cast<std::int64_t>(report.frames), "frame");
   if (report.complete) text += " in " + figure(report.durationS, 1) + " s";
   text += ", " + megabytes(report.bytes);
   const auto counter = [&report](const char* name) {

@@ -20,7 +20,9 @@ void OpenRecordings::open(const OpenRequest& request) {
   const auto running = std::make_shared<Running>(Running{request.then, 0});
   for (const std::filesystem::path& file : request.files) {
     const OpenedRecordingPtr known = at(file);
-    if (known && mayReadAnew && !mayReadAnew(known))
+    if (known && known->path != file)
+      arriveAgain(known, file, *running);
+    else if (known && mayReadAnew && !mayReadAnew(known))
       arrive(known, nullptr, *running);
     else
       running_[opener_.open(file)] = running;
@@ -34,6 +36,7 @@ void OpenRecordings::take(const OpenedRecordingPtr& recording, std::uint64_t tic
       asked != running_.end() ? asked->second : std::make_shared<Running>(Running{});
   if (asked != running_.end()) running_.erase(asked);
   const OpenedRecordingPtr known = at(recording->path);
+  if (known && known->path != recording->path) return arriveAgain(known, recording->path, *request);
   if (known && mayReplace && !mayReplace(known)) return arrive(known, nullptr, *request);
   if (known) {
     *std::find(all_.begin(), all_.end(), known) = recording;
@@ -51,6 +54,13 @@ void OpenRecordings::arrive(const OpenedRecordingPtr& recording,
   emit arrived(recording, arrival);
 }
 
+void OpenRecordings::arriveAgain(const OpenedRecordingPtr& known,
+                                 const std::filesystem::path& asked,
+                                 Running& request) {
+  arrive(known, nullptr, request);
+  emit openAlready(known, asked);
+}
+
 OpenedRecordingPtr OpenRecordings::close(const OpenedRecordingPtr& recording) {
   const auto at = std::find(all_.begin(), all_.end(), recording);
   if (at == all_.end()) return nullptr;
@@ -64,9 +74,13 @@ OpenedRecordingPtr OpenRecordings::close(const OpenedRecordingPtr& recording) {
 }
 
 OpenedRecordingPtr OpenRecordings::at(const std::filesystem::path& path) const {
-  const auto found = std::find_if(
-      all_.begin(), all_.end(), [&](const auto& recording) { return recording->path == path; });
-  return found == all_.end() ? nullptr : *found;
+  for (const OpenedRecordingPtr& recording : all_)
+    if (recording->path == path) return recording;
+  // The files are compared as they are now; one that is missing is none of them.
+  std::error_code missing;
+  for (const OpenedRecordingPtr& recording : all_)
+    if (std::filesystem::equivalent(recording->path, path, missing)) return recording;
+  return nullptr;
 }
 
 OpenedRecordingPtr OpenRecordings::neighbour(const OpenedRecordingPtr& of, int step) const {

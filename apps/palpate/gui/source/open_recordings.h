@@ -53,6 +53,7 @@ class OpenRecordings : public QObject {
   OpenedRecordingPtr close(const OpenedRecordingPtr& recording);
 
   const std::vector<OpenedRecordingPtr>& all() const noexcept { return all_; }
+  // The recording of this file, also when it was opened by another path (a link, a relative path).
   // Null: the file isn't open.
   OpenedRecordingPtr at(const std::filesystem::path& path) const;
   // The recording `step` places after `of`, cyclically; null when `of` isn't open.
@@ -67,6 +68,10 @@ class OpenRecordings : public QObject {
  signals:
   void arrived(const palpate::gui::OpenedRecordingPtr& recording,
                const palpate::gui::OpenArrival& arrival);
+  // A file was asked for by another path than that by which it is open: the open recording arrived
+  // unchanged.
+  void openAlready(const palpate::gui::OpenedRecordingPtr& recording,
+                   const std::filesystem::path& asked);
   // The recording was closed or is about to be replaced by the present content of its file: drop
   // everything stored for it.
   void gone(const palpate::gui::OpenedRecordingPtr& recording);
@@ -79,6 +84,9 @@ class OpenRecordings : public QObject {
     std::size_t numArrived = 0;
   };
   void take(const OpenedRecordingPtr& recording, std::uint64_t ticket);
+  void arriveAgain(const OpenedRecordingPtr& known,
+                   const std::filesystem::path& asked,
+                   Running& request);
   void arrive(const OpenedRecordingPtr& recording, OpenedRecordingPtr replaced, Running& request);
 
   RecordingOpener& opener_;

@@ -221,8 +221,10 @@ QString OpenedRecording::reasonOf(const Gap& gap) const {
 
 const Gap* OpenedRecording::gapAt(double seconds) const {
   for (const Gap& gap : timingNow().gaps) {
+    // Half a microsecond is left out so that the time of the frame after the gap isn't in it.
+    constexpr double kHalfUs = 0.5e-6;
     const double begin = timeAt(gap.frame);
-    if (seconds > begin && seconds < begin + gap.seconds) return &gap;
+    if (seconds > begin && seconds < begin + gap.seconds - kHalfUs) return &gap;
   }
   return nullptr;
 }

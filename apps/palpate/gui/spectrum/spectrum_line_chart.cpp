@@ -156,14 +156,14 @@ void SpectrumLineChart::writeNote() {
   std::vector<QString> notes = {QString()};
   if (answer_.coherence && !answer_.coherence->coherence.empty()) {
     const Coherence& found = *answer_.coherence;
-    const QString segments = QString::number(found.segments) + " segments of " +
+    const QString segments = numberOf(found.segments, "segment") + " of " +
                              figure(answer_.options.window / found.report.rateHz, 2) + " s";
     const QString level =
         "independent noise: below " + figure(found.level95(), 2) + " in 95 % of the bins";
     notes = {level + " · " + segments, level, segments};
   } else if (answer_.mean && !answer_.mean->mean.psd.empty()) {
-    const QString segments = "mean of " + QString::number(answer_.mean->mean.segments) +
-                             " segments of " +
+    const QString segments = (answer_.mean->mean.segments > 1 ? "mean of " : "") +
+                             numberOf(answer_.mean->mean.segments, "segment") + " of " +
                              figure(answer_.options.window / answer_.mean->report.rateHz, 2) + " s";
     notes = {segments + " · " + spectrumNotes(answer_.mean->report, answer_.options)[1], segments};
   }

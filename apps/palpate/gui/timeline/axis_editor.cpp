@@ -4,6 +4,7 @@
 #include <QGridLayout>
 #include <QLabel>
 #include <QScreen>
+#include <QStyle>
 #include <algorithm>
 #include <limits>
 
@@ -24,9 +25,17 @@ SecondsField* endField(QWidget* parent, double value, int decimals, const QStrin
   field->setAccessibleName(name);
   field->setToolTip(name);
   field->setKeyboardTracking(false);
+  // Tab comes to it, between the two boxes of its line.
+  field->setFocusPolicy(Qt::StrongFocus);
   constexpr int kFieldWidth = 110;  // [px]
   field->setMinimumWidth(kFieldWidth);
   return field;
+}
+
+// The mark of a number that isn't used.
+void markWrong(QWidget& field, bool wrong) {
+  field.setProperty("corrected", wrong);
+  field.style()->polish(&field);
 }
 
 }  // namespace
@@ -77,8 +86,18 @@ void AxisEditor::rebuild() {
     });
     grid->addWidget(log, row, 5);
     ++row;
-    const auto use = [this, unit, automatic, from, to] {
-      if (!axes_ || !(from->value() < to->value())) return;
+    const auto use = [this, unit, name, automatic, from, to] {
+      if (!axes_) return;
+      const bool good = from->value() < to->value();
+      markWrong(*from, !good);
+      markWrong(*to, !good);
+      say(good ? QString()
+               : name + ": the begin " + from->text() + " isn't below the end " + to->text() +
+                     ". The axis stays as it was: give a smaller begin or a larger end.");
+      if (!good) {
+        const QSignalBlocker quiet(automatic);
+        return automatic->setChecked(!axes_->byHand().contains(unit));
+      }
       automatic->setChecked(false);
       axes_->setByHand(unit, AxisRange{from->value(), to->value()});
     };
@@ -93,8 +112,27 @@ void AxisEditor::rebuild() {
       const QSignalBlocker quietTo(to);
       from->setValue(now.lower);
       to->setValue(now.upper);
+      markWrong(*from, false);
+      markWrong(*to, false);
+      say({});
     });
   }
+  problem_ = new QLabel(rows_);
+  problem_->setObjectName("axisProblem");
+  problem_->setTextFormat(Qt::PlainText);
+  problem_->setWordWrap(true);
+  problem_->hide();
+  constexpr int kColumns = 6;
+  grid->addWidget(problem_, row, 0, 1, kColumns);
+}
+
+void AxisEditor::say(const QString& problem) {
+  if (problem_->text() == problem) return;
+  problem_->setText(problem);
+  problem_->setVisible(!problem.isEmpty());
+  rows_->layout()->activate();
+  layout()->activate();
+  adjustSize();
 }
 
 void AxisEditor::openBeside(const QWidget& widget, UnitAxes& axes) {

@@ -1,6 +1,6 @@
 // A small list of the vertical axes of a chart, one line per unit: whether the range is automatic,
 // its ends, and whether it is logarithmic. A change acts at once; Escape or a click elsewhere
-// closes the list.
+// closes the list. A begin that isn't below its end is said and not used.
 #pragma once
 
 #include <QFrame>
@@ -8,7 +8,7 @@
 
 #include "gui/chart/unit_axes.h"
 
-class QGridLayout;
+class QLabel;
 
 namespace palpate::gui {
 
@@ -22,9 +22,12 @@ class AxisEditor : public QFrame {
 
  private:
   void rebuild();
+  // Tells below the lines what is wrong; empty: nothing.
+  void say(const QString& problem);
 
   QPointer<UnitAxes> axes_;
   QWidget* rows_ = nullptr;
+  QLabel* problem_ = nullptr;
 };
 
 }  // namespace palpate::gui

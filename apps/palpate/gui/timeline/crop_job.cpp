@@ -162,8 +162,7 @@ void CropJob::start(const QString& path, const std::optional<Frames>& part) {
        count = part ? part->last - part->first + 1
                     : windowState_.displayed.unfilteredRecording()->profile.numFrames()] {
         // The open recording doesn't have the labels of the copy: what was unsaved in it still is.
-        windowState_.messages.flash("written: " + path + " (" + QString::number(count) +
-                                    " frames)");
+        windowState_.messages.flash("written: " + path + " (" + numberOf(count, "frame") + ")");
         if (canBeOpened(path)) windowState_.recent.add(path);
         emit written(path);
         if (!canBeOpened(path)) return;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "gui/timeline/timeline_chart.h"
@@ -10,10 +11,13 @@ namespace palpate::gui {
 namespace {
 
 constexpr int kReadoutMargin = 5;              // [px] around the text
-constexpr int kLowLines = 4;                   // a plot with room for fewer lines is low
+constexpr int kLowLines = 8;                   // a plot with room for fewer lines is low
+constexpr int kLowShare = 3;                   // there the box takes the third part of the height
 constexpr int kLowAir = 1;                     // [px] around the text and the box there
 constexpr int kReadoutAir = 6;                 // [px] to the border of the plot
 constexpr std::size_t kMostReadoutCurves = 6;  // more would hide the curves
+// Of a long recording a value may have to be read from the file: so many frames are tried for one.
+constexpr std::size_t kMostReads = 64;
 
 QString readoutNumber(double value) { return QString::number(value, 'g', 5); }
 
@@ -46,17 +50,12 @@ void CursorReadout::renew() {
                  (seconds > 0.0 ? " (" + readoutNumber(1.0 / seconds) + " Hz)" : QString()));
     const auto& curves = chart_.curves();
     for (std::size_t i = 0; i < std::min(curves.size(), kMostReadoutCurves); ++i) {
-      const auto shown = [&](double atS) {
-        const auto value = chart_.store().valueAt(curves[i].choice, atS);
-        return value ? std::optional(curves[i].conversion.of(*value)) : std::nullopt;
-      };
-      const auto from = shown(span->fromS);
-      const auto to = shown(span->toS);
-      QString line = curves[i].name + "  " + (from ? readoutNumber(*from) : QString("–")) + " → " +
-                     (to ? readoutNumber(*to) : QString("–"));
-      if (from && to) {
-        line += "  Δ " + readoutNumber(*to - *from) + " " + curves[i].unit;
-        if (seconds > 0.0) line += "  (" + readoutNumber((*to - *from) / seconds) + "/s)";
+      const auto change = changeOf(curves[i], *span);
+      QString line = curves[i].name + "  " + (change ? readoutNumber(change->from) : QString("–")) +
+                     " → " + (change ? readoutNumber(change->to) : QString("–"));
+      if (change) {
+        line += "  Δ " + readoutNumber(change->difference()) + " " + curves[i].unit;
+        if (const auto rate = change->rate()) line += "  (" + readoutNumber(*rate) + "/s)";
       }
       lines.append(line);
     }
@@ -64,6 +63,27 @@ void CursorReadout::renew() {
   lines_ = lines;
   setVisible(!lines_.isEmpty());
   place();
+}
+
+// As in the table of the statistics.
+std::optional<RangeChange> CursorReadout::changeOf(const PlottedCurve& curve,
+                                                   const TimeSpan& span) const {
+  const OpenedRecordingPtr& recording = chart_.recording();
+  const SeriesStore& store = chart_.store();
+  // Nothing was read yet, or there is no value at all.
+  if (!recording || !store.extremes(curve.choice)) return std::nullopt;
+  const auto frames = recording->framesWithin(span.fromS, span.toS);
+  if (!frames) return std::nullopt;
+  const auto timeSAt = [&](std::size_t sample) {
+    return recording->timeAt(frames->first + sample);
+  };
+  const bool inMemory = store.samples(curve.choice) != nullptr;
+  std::size_t numReads = 0;
+  return rangeChange(frames->second - frames->first + 1, timeSAt, [&](std::size_t sample) {
+    if (!inMemory && ++numReads > kMostReads) return std::numeric_limits<double>::quiet_NaN();
+    const auto value = store.valueAt(curve.choice, timeSAt(sample));
+    return value ? curve.conversion.of(*value) : std::numeric_limits<double>::quiet_NaN();
+  });
 }
 
 // What doesn't fit is counted, and stands in the statistics.
@@ -94,15 +114,19 @@ void CursorReadout::place() {
   setMargin(low ? kLowAir : kReadoutMargin);
   const int around = 2 * (margin() + frameWidth());
   const QSize most = plot.size() - QSize(2 * air, 2 * air);
-  const QSize room = most - QSize(around, around);
-  // A low chart has room for few lines: as many curves as there is room for stand beside each
-  // other.
+  QSize room = most - QSize(around, around);
+  // The curves of a low chart stay visible: its box is low, too, but has a line; as many curves as
+  // there is room for stand beside each other.
+  if (low)
+    room.setHeight(std::min(room.height(),
+                            std::max(plot.height() / kLowShare - around,
+                                     fontMetrics().size(0, lines_.first()).height())));
   Part shown;
   for (qsizetype perLine = 1; perLine <= lines_.size(); ++perLine)
     if (Part part = partFor(room, perLine); part.count > shown.count) shown = std::move(part);
   const QString words = shown.count > 0 ? shown.text : lines_.first();
   if (words != text()) setText(words);
-  const QSize wanted = sizeHint().boundedTo(most);
+  const QSize wanted = sizeHint().boundedTo(room + QSize(around, around));
   const QRect at(
       plot.right() - air - wanted.width(), plot.top() + air, wanted.width(), wanted.height());
   if (geometry() != at) setGeometry(at);

@@ -1,8 +1,14 @@
 // The readout of two cursors in the timeline, which are the ends of the selection: the time between
-// them, and the values of the curves at both with their difference. An overlay of the chart.
+// them, and of each curve the first and the last value within the selection with their difference,
+// as in the statistics (rangeChange()). An overlay of the chart.
 #pragma once
 
 #include <QLabel>
+#include <optional>
+
+#include <palpate/signals/range_statistics.h>
+
+#include "gui/chart/plotted_curve.h"
 
 namespace palpate::gui {
 
@@ -22,6 +28,8 @@ class CursorReadout : public QLabel {
  private:
   void renew();
   void place();
+  // Of a curve, in its shown unit; nothing: no frame in the span has a value.
+  std::optional<RangeChange> changeOf(const PlottedCurve& curve, const TimeSpan& span) const;
   // The first `count` of the lines.
   struct Part {
     QString text;

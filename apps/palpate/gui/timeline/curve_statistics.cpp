@@ -102,23 +102,21 @@ TextTable differenceTable(const SelectedCurves& selected) {
   auto rows = std::make_shared<std::vector<std::vector<std::string>>>();
   for (const SelectedCurves::Curve& curve : selected.curves) {
     std::vector<std::string> cells = {curve.name.toStdString(), curve.unit.toStdString()};
-    const auto finite = [](double value) { return std::isfinite(value); };
-    const auto first = std::find_if(curve.values.begin(), curve.values.end(), finite);
-    const auto last = std::find_if(curve.values.rbegin(), curve.values.rend(), finite);
-    if (first == curve.values.end()) {
+    const auto change = rangeChange(
+        selected.timeS.size(),
+        [&](std::size_t frame) { return selected.timeS[frame]; },
+        [&](std::size_t frame) { return curve.values[frame]; });
+    if (!change) {
       cells.resize(6);
       rows->push_back(std::move(cells));
       continue;
     }
-    const auto from = static_cast<std::size_t>(first - curve.values.begin());
-    const auto to = static_cast<std::size_t>(curve.values.rend() - last) - 1;
-    const double change = *last - *first;
-    const double seconds = selected.timeS[to] - selected.timeS[from];
+    const auto rate = change->rate();
     cells.insert(cells.end(),
-                 {statisticsCell(*first),
-                  statisticsCell(*last),
-                  statisticsCell(change),
-                  seconds > 0.0 ? statisticsCell(change / seconds) : std::string()});
+                 {statisticsCell(change->from),
+                  statisticsCell(change->to),
+                  statisticsCell(change->difference()),
+                  rate ? statisticsCell(*rate) : std::string()});
     rows->push_back(std::move(cells));
   }
   return {.header = {"curve", "unit", "at begin", "at end", "dy", "dy/dt [unit/s]"},

@@ -45,9 +45,7 @@ void EventEditing::connectActions() {
   on(actions.addLabel, [this] { add(kLabelKind, "Label", "label"); });
   on(actions.addNote, [this] { add(kNoteKind, "Note", "note"); });
   on(actions.addGrasp, [this] { addGrasp(); });
-  on(actions.renameEvent, [this] {
-    if (rows_.chosen()) rows_.editText(*rows_.chosen());
-  });
+  on(actions.renameEvent, [this] { rename(); });
   on(actions.removeEvent, [this] {
     if (rows_.chosen()) windowState_.events.remove(*rows_.chosen());
   });
@@ -136,7 +134,9 @@ void EventEditing::addConditions() {
   actionEnabler.add({actions.addLabel, actions.addNote}, frames);
   actionEnabler.add({actions.nextEvent, actions.previousEvent, actions.toEvents},
                     [this, frames] { return frames() && !rows_.marks().empty(); });
-  actionEnabler.add({actions.renameEvent, actions.removeEvent}, editable);
+  actionEnabler.add({actions.removeEvent}, editable);
+  // Without a chosen event, renaming says so.
+  actionEnabler.add({actions.renameEvent}, frames);
   actionEnabler.add({actions.addGrasp}, [this, frames] {
     return frames() && windowState_.selection.span().has_value();
   });
@@ -152,6 +152,32 @@ void EventEditing::showUndo() {
       text("&Undo", stack && stack->canUndo(), stack ? stack->undoText() : QString()));
   actions_.redo->setText(
       text("&Redo", stack && stack->canRedo(), stack ? stack->redoText() : QString()));
+}
+
+void EventEditing::rename() {
+  Messages& messages = windowState_.messages;
+  const auto& marks = rows_.marks();
+  const auto chosen = rows_.chosen();
+  if (marks.empty())
+    return messages.flash("there is no event to rename: Ctrl+B makes a label of the selection");
+  if (!chosen || *chosen >= marks.size())
+    return messages.flash(
+        "choose an event first: N, or click one in the rows below the timeline; then F2 renames "
+        "it");
+  if (!marks[*chosen].editable)
+    return messages.flash(marks[*chosen].text +
+                          " can't be renamed: only grasps, labels and notes can");
+  rows_.editText(*chosen);
+}
+
+// Chooses the event that was made just now, so that the keys for events act on it.
+void EventEditing::choose(const RecordingEvent& made) {
+  const EventEditor* editor = windowState_.events.editor();
+  if (!editor) return;
+  const auto& marks = rows_.marks();
+  for (std::size_t i = 0; i < marks.size(); ++i)
+    if (marks[i].event && editor->events().at(*marks[i].event) == made) rows_.choose(i);
+  shownAtS_ = windowState_.playback.positionS();
 }
 
 void EventEditing::goToNext(int step) {
@@ -194,6 +220,7 @@ void EventEditing::add(const char* kind, const QString& title, const QString& na
   if (text->isEmpty()) return windowState_.messages.flash("a " + name + " needs a text");
   event.text = text->toStdString();
   windowState_.events.add(event, "a " + name);
+  choose(event);
 }
 
 void EventEditing::addGrasp() {
@@ -209,6 +236,7 @@ void EventEditing::addGrasp() {
   event.t1Us = timeUsOf(*recording, span->toS);
   event.text = kGraspText;
   windowState_.events.addGrasp(event);
+  choose(event);
 }
 
 }  // namespace palpate::gui

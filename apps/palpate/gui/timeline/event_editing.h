@@ -28,6 +28,8 @@ class EventEditing : public QObject {
   void addConditions();
   void add(const char* kind, const QString& title, const QString& name);
   void addGrasp();
+  void rename();
+  void choose(const RecordingEvent& made);
   void show(std::size_t mark);
   void showUndo();
   // Goes on from the chosen event as long as the cursor stands on it, else from the cursor.

@@ -9,6 +9,7 @@
 
 #include <palpate/core/number_text.h>
 
+#include "gui/appearance/captions.h"
 #include "gui/chart/chart_style.h"
 #include "gui/chart/plot.h"
 #include "gui/timeline/curve_statistics.h"
@@ -84,10 +85,10 @@ void HistogramPage::show() {
   plot_->xAxis->setRange(histogram_.low, std::max(high, histogram_.low + 1e-9));
   plot_->yAxis->setRange(0.0, std::max<double>(1.0, static_cast<double>(most)) * 1.05);
   plot_->xAxis->setLabel(curve_->currentText() + " in " + units_[index]);
-  QString words = QString::number(all) + " values in " + QString::number(histogram_.counts.size()) +
-                  " bins of " + QString::number(histogram_.width, 'g', 4) + " " + units_[index];
+  QString words = numberOf(all, "value") + " in " + numberOf(histogram_.counts.size(), "bin") +
+                  " of " + QString::number(histogram_.width, 'g', 4) + " " + units_[index];
   if (histogram_.notFinite > 0)
-    words += "; " + QString::number(histogram_.notFinite) + " frames without a value";
+    words += "; " + numberOf(histogram_.notFinite, "frame") + " without a value";
   words_->setText(all == 0 ? "No frame of the selection has a value." : words);
   plot_->replot(QCustomPlot::rpQueuedReplot);
 }

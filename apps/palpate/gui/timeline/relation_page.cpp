@@ -10,6 +10,7 @@
 
 #include <palpate/core/number_text.h>
 
+#include "gui/appearance/captions.h"
 #include "gui/chart/chart_style.h"
 #include "gui/chart/plot.h"
 #include "gui/timeline/curve_statistics.h"
@@ -118,7 +119,7 @@ void RelationPage::show() {
     words_->setText("x doesn't change.");
   else
     words_->setText(
-        QString::number(relation_.count) + " frames; correlation " +
+        numberOf(relation_.count, "frame") + "; correlation " +
         (std::isfinite(relation_.correlation) ? QString::number(relation_.correlation, 'f', 4)
                                               : QString("–")) +
         "; y = " + number(relation_.intercept) + (relation_.slope < 0.0 ? " − " : " + ") +

@@ -122,8 +122,12 @@ void TimelineChart::placeNotes() {
   constexpr int kAround = 6;  // [px]
   const QRect plot = axisRect()->rect().adjusted(kAround, kAround, -kAround, -kAround);
   if (notes_->isHidden() || plot.isEmpty()) return;
-  const int height = std::min(plot.height(), notes_->heightForWidth(plot.width()));
-  notes_->setGeometry(plot.left(), plot.top(), plot.width(), height);
+  int top = plot.top();
+  for (const QCPItemText* label : gapLabels_)
+    if (label->visible())
+      top = std::max(top, static_cast<int>(std::ceil(label->bottom->pixelPosition().y())));
+  const int height = std::min(plot.bottom() + 1 - top, notes_->heightForWidth(plot.width()));
+  notes_->setGeometry(plot.left(), top, plot.width(), std::max(0, height));
 }
 
 void TimelineChart::setRight(int px) {

@@ -27,6 +27,7 @@ class TimelineChart : public ReadingChart {
 
   // Null: the chart is empty.
   void setRecording(const OpenedRecordingPtr& recording);
+  const OpenedRecordingPtr& recording() const noexcept { return recording_; }
   // Curves that the recording doesn't have stay empty.
   void setCurves(const std::vector<PlottedCurve>& curves);
   const std::vector<PlottedCurve>& curves() const noexcept { return curves_; }

@@ -558,9 +558,7 @@ void TimelineFeature::showSelection() {
     const auto frames = state().selectedFrames();
     const std::size_t count = frames ? frames->count() : 0;
     words = figure(span->fromS, 2) + " – " + figure(span->toS, 2) + " s · " +
-            (count == 0   ? QString("no frame")
-             : count == 1 ? QString("1 frame")
-                          : QString::number(count) + " frames");
+            (count == 0 ? QString("no frame") : numberOf(count, "frame"));
   }
   header_->setSelection(words);
   state().actionEnabler.refresh();
@@ -619,7 +617,7 @@ void TimelineFeature::nameChosenTaxels() {
   extras_.groups.insert(*name);
   signalTree_->setExtras(extras_);
   showCurves();
-  messages.flash("kept: " + *name + ", " + QString::number(chosen.count()) + " taxels");
+  messages.flash("kept: " + *name + ", " + numberOf(chosen.count(), "taxel"));
 }
 
 std::vector<DockSpec> TimelineFeature::docks() {
