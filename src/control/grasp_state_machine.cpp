@@ -25,6 +25,7 @@ constexpr double kStartAndStopS = 0.5;
 // The rubber has a lag of 0.16 s: after three lags it has almost settled.
 constexpr std::int64_t kLookOnUs = 500'000;
 constexpr float kRiseCounts = 10.0F;   // a smaller rise is noise
+constexpr double kStillRisen = 0.5;    // of the rise: below it the rise is past
 constexpr double kFarOverLimit = 1.5;  // the report mentions a rise to this multiple of the limit
 
 // Axis states of the SDH-2.
@@ -564,16 +565,21 @@ std::string GraspStateMachine::holdingText(std::int64_t monoUs) const {
 }
 
 bool GraspStateMachine::isStillRisen() const {
+  if (!report_.peakAfterStop) return false;
   if (report_.forceFinger && forces_)
-    return forces_->forcesN()[*report_.forceFinger] > report_.forceN;
-  return loadCounts() >= commonCounts(report_.peak, report_.request) + kRiseCounts;
+    return forces_->forcesN()[*report_.forceFinger] - report_.forceN >
+           kStillRisen * (report_.forceAfterStopN - report_.forceN);
+  const float atStop = commonCounts(report_.peak, report_.request);
+  const float rise = commonCounts(*report_.peakAfterStop, report_.request) - atStop;
+  return static_cast<double>(loadCounts() - atStop) > kStillRisen * static_cast<double>(rise);
 }
 
 std::string GraspStateMachine::limitText() const {
   std::string text = "limit " + std::to_string(limit_) + " counts";
   if (!isStillRisen()) return text;
   const int highest = report_.request.holding.maxLimitCounts;
-  if (!report_.peakAfterStop || report_.peakAfterStop->counts <= static_cast<float>(highest))
+  if (report_.peakAfterStop->counts <= static_cast<float>(highest) ||
+      peak_.counts <= static_cast<float>(highest))
     return text + riseText();
   return text + "; rose to " + numberText(report_.peakAfterStop->counts) +
          " counts after the stop, above its highest limit of " + std::to_string(highest) +

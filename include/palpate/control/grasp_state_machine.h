@@ -130,7 +130,7 @@ class GraspStateMachine {
   void endOvershoot();
   void measurePeakAfterStop();
   std::string riseText() const;
-  // The reading, or the force, is still above what it was at the stop.
+  // Of the rise of the reading, or of the force, after the stop more than half is left.
   bool isStillRisen() const;
   std::string limitText() const;
   bool isOverLimit() const noexcept;
