@@ -391,7 +391,8 @@ GraspStatus GraspControl::status() const {
   if (!machine_.active() && pendingEndEvents_ > 0) status.phase = GraspPhase::kStopping;
   if (machine_.active()) {
     status.request = machine_.running().request;
-    if (machine_.phase() == GraspPhase::kHolding) status.holding = machine_.holdingText();
+    if (machine_.phase() == GraspPhase::kHolding)
+      status.holding = machine_.holdingText(clock_.monotonicUs());
   }
   status.last = last_;
   status.cannotMove = motionProblem(session_.device().status());

@@ -7,6 +7,7 @@
 
 #include "palpate/core/error.h"
 #include "palpate/core/number_text.h"
+#include "palpate/core/time.h"
 #include "palpate/model/preshape.h"
 
 namespace palpate {
@@ -24,6 +25,7 @@ constexpr double kStartAndStopS = 0.5;
 // The rubber has a lag of 0.16 s: after three lags it has almost settled.
 constexpr std::int64_t kLookOnUs = 500'000;
 constexpr float kRiseCounts = 10.0F;   // a smaller rise is noise
+constexpr double kStillRisen = 0.5;    // of the rise: below it the rise is past
 constexpr double kFarOverLimit = 1.5;  // the report mentions a rise to this multiple of the limit
 
 // Axis states of the SDH-2.
@@ -132,7 +134,8 @@ void GraspStateMachine::begin(const GraspRequest& request,
   stops_ = 0;
   next_ = Next::kEnd;
   held_ = frictionTestRunning_ = frictionTested_ = false;
-  endUs_ = 0;
+  endUs_ = heldFromUs_ = 0;
+  answeredSlips_ = 0;
   notes_.clear();
   grip_.reset();
   if (request.startRatio)
@@ -550,10 +553,33 @@ void GraspStateMachine::settle(std::int64_t monoUs) {
   if (endUs_ == 0 && holding.holdS > 0.0) endUs_ = settledUs_ + microsecondsOf(holding.holdS);
 }
 
-std::string GraspStateMachine::holdingText() const {
-  std::string text = "holding: limit " + std::to_string(limit_) + " counts";
+std::string GraspStateMachine::holdingText(std::int64_t monoUs) const {
+  const auto seconds =
+      static_cast<std::int64_t>(static_cast<double>(monoUs - heldFromUs_) / kUsPerS);
+  const auto slips = static_cast<std::uint64_t>(report_.slips);
+  const std::string answered =
+      report_.slips == answeredSlips_
+          ? counted(slips, "slip") + " answered"
+          : counted(slips, "slip") + ", " + std::to_string(answeredSlips_) + " answered";
+  return "holding for " + std::to_string(seconds) + " s, " + answered + ": " + limitText();
+}
+
+bool GraspStateMachine::isStillRisen() const {
+  if (!report_.peakAfterStop) return false;
+  if (report_.forceFinger && forces_)
+    return forces_->forcesN()[*report_.forceFinger] - report_.forceN >
+           kStillRisen * (report_.forceAfterStopN - report_.forceN);
+  const float atStop = commonCounts(report_.peak, report_.request);
+  const float rise = commonCounts(*report_.peakAfterStop, report_.request) - atStop;
+  return static_cast<double>(loadCounts() - atStop) > kStillRisen * static_cast<double>(rise);
+}
+
+std::string GraspStateMachine::limitText() const {
+  std::string text = "limit " + std::to_string(limit_) + " counts";
+  if (!isStillRisen()) return text;
   const int highest = report_.request.holding.maxLimitCounts;
-  if (!report_.peakAfterStop || report_.peakAfterStop->counts <= static_cast<float>(highest))
+  if (report_.peakAfterStop->counts <= static_cast<float>(highest) ||
+      peak_.counts <= static_cast<float>(highest))
     return text + riseText();
   return text + "; rose to " + numberText(report_.peakAfterStop->counts) +
          " counts after the stop, above its highest limit of " + std::to_string(highest) +
@@ -566,7 +592,10 @@ void GraspStateMachine::onHoldingFrame(std::int64_t monoUs) {
     grip_.setReference();
     phase_ = GraspPhase::kHolding;
     lastSlipUs_ = monoUs;
-    if (!held_) note("holding", holdingText());
+    if (!held_) {
+      heldFromUs_ = monoUs;
+      note("holding", "holding: " + limitText());
+    }
     held_ = report_.held = true;
     return;
   }
@@ -591,6 +620,7 @@ void GraspStateMachine::respondToSlip(const GripSlip& slip, std::int64_t monoUs)
   }
   limit_ = raised;
   report_.limitCounts = limit_;
+  ++answeredSlips_;
   note("slip",
        "slips: " + slip.why + "; closing to " + std::to_string(limit_) + " counts",
        slip.matrix);

@@ -285,6 +285,7 @@ void EmulatedHand::Loop::forwardMotion(std::int64_t nowUs) {
 void EmulatedHand::Loop::collect() {
   const std::int64_t hostUs = hostTime_.nowUs();
   working_.handTimeS = static_cast<double>(nowUs()) * 1e-6;
+  working_.ownMotion = model_->ownMotion();
   working_.faults = faultCounts_;
   working_.dsa = dsaLane_.counts();
   working_.sdh = sdhLane_.counts();

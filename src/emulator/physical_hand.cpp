@@ -90,6 +90,7 @@ struct PhysicalHand::Impl {
         sensor(hand, characteristics, given.seed),
         script(scene.script),
         repeatS(given.repeatsScript ? scene.repeatS : 0.0),
+        wantsOpen(scene.close == 0.0),
         motorNmm(motorsOf(given)),
         riseDegC(risesAtRest(hand)),
         truth(hand.layout->numMatrices()),
@@ -222,6 +223,16 @@ struct PhysicalHand::Impl {
   // Nobody but the script has ordered anything.
   bool isOurs() const { return joints.orderCount() == ordersOfScript; }
 
+  std::string_view ownMotion() const {
+    const bool ended = nextStep == script.size() && repeatS == 0.0;
+    if (script.empty() || ended || !isOurs()) return {};
+    if (joints.moving()) return wantsOpen ? "opening" : "closing";
+    if (wantsOpen) return "open";
+    const bool touches = std::any_of(
+        truth.begin(), truth.end(), [](const MatrixTruth& matrix) { return matrix.contact; });
+    return touches ? "holding an object" : "closed";
+  }
+
   // The time of the next step of the script; nothing: none follows.
   std::optional<double> nextStepS() {
     if (nextStep == script.size() && repeatS > 0.0 && !script.empty() && isOurs()) {
@@ -259,6 +270,7 @@ struct PhysicalHand::Impl {
   }
 
   void go(double close, double velocityDegPerS) {
+    wantsOpen = close == 0.0;
     joints.setController(ControllerType::kPose);
     ordersOfScript = joints.orderCount();
     if (preshape.empty()) return;  // nothing to open
@@ -295,6 +307,7 @@ struct PhysicalHand::Impl {
   SensorModel sensor;
   std::vector<ScriptStep> script;
   const double repeatS;  // 0: not repeated
+  bool wantsOpen;        // where the script moved the hand last
   const std::vector<double> motorNmm;
   const std::vector<double> riseDegC;
   std::size_t nextStep = 0;
@@ -351,6 +364,7 @@ void PhysicalHand::measure(std::span<float> values) {
   impl_->scanned = impl_->truth;
 }
 
+std::string_view PhysicalHand::ownMotion() const { return impl_->ownMotion(); }
 std::vector<double> PhysicalHand::temperatures() { return impl_->degC; }
 std::vector<MatrixTruth> PhysicalHand::truth() const { return impl_->scanned; }
 const std::vector<double>& PhysicalHand::pressureKpa() const noexcept { return impl_->pressure; }

@@ -6,6 +6,7 @@
 #include "palpate/device/sdh2.h"
 
 #include "control/held_object.h"
+#include "control/machine_bench.h"
 #include "testing/testing.h"
 
 namespace palpate::slip_grasp_test {
@@ -49,8 +50,34 @@ TEST(SlipGrasp, HoldsWhatRestsAndMovesNothing) {
   EXPECT_EQ(held.machine().running().slips, 0);
   EXPECT_EQ(held.hand().joints().orderCount(), orderCount);
   EXPECT_EQ(held.actions("holding"), 1);
-  EXPECT_TRUE(held.machine().holdingText().starts_with("holding: limit 400 counts"))
-      << held.machine().holdingText();
+  // The run went on for 4 s after the frame in which it began to hold.
+  EXPECT_TRUE(held.machine().holdingText(held.us()).starts_with(
+      "holding for 4 s, 0 slips answered: limit 400 counts"))
+      << held.machine().holdingText(held.us());
+  EXPECT_TRUE(held.machine()
+                  .holdingText(held.us() + 60'000'000)
+                  .starts_with("holding for 64 s, 0 slips answered: limit 400 counts"));
+}
+
+// The reading rises from 250 to 1200 counts after the stop, and falls again while it is held.
+TEST(SlipGrasp, TellsOfARiseOnlyWhileTheReadingIsThatHigh) {
+  testing::MachineBench bench;
+  bench.begin(slipAware("centrical", 200));
+  bench.take();
+  bench.frames(1, 250.0F);
+  ASSERT_TRUE(bench.takeStop());
+  bench.machine.onStopAcknowledged(bench.us);
+  bench.frames(20, 1200.0F);
+  ASSERT_EQ(bench.machine.phase(), GraspPhase::kHolding);
+  EXPECT_EQ(bench.machine.holdingText(bench.us),
+            "holding for 0 s, 0 slips answered: limit 200 counts; rose to 1200 counts after the "
+            "stop, 6.0 times the limit: close more slowly");
+  // Half of the rise of 950 counts is left at 725.
+  bench.frames(1, 730.0F);
+  EXPECT_NE(bench.machine.holdingText(bench.us).find("rose to 1200"), std::string::npos);
+  bench.frames(1, 720.0F);
+  EXPECT_EQ(bench.machine.holdingText(bench.us),
+            "holding for 0 s, 0 slips answered: limit 200 counts");
 }
 
 struct Pulled {
@@ -60,6 +87,7 @@ struct Pulled {
   GraspPhase phase = GraspPhase::kIdle;
   std::string holding;
   std::string log;
+  std::vector<std::string> actions;
 };
 
 // Pulls a smooth handle out of a pinch with increasing force, until the pull ends.
@@ -78,9 +106,13 @@ Pulled pullTheHandle(GraspMode mode, const HoldingOptions& holding = {}) {
                 held.machine().running().slips,
                 held.machine().running().limitCounts,
                 held.machine().phase(),
-                held.machine().holdingText(),
+                held.machine().holdingText(held.us()),
+                {},
                 {}};
-  for (const GraspStep& note : held.notes()) pulled.log += note.action + ": " + note.text + "\n";
+  for (const GraspStep& note : held.notes()) {
+    pulled.log += note.action + ": " + note.text + "\n";
+    pulled.actions.push_back(note.action);
+  }
   return pulled;
 }
 
@@ -93,8 +125,17 @@ TEST(SlipGrasp, ClosesAgainUponWhatSlipsAndItStays) {
   EXPECT_GT(aware.limit, 400) << aware.log;
   EXPECT_LE(aware.limit, kMaxSlipLimitCounts) << aware.log;
   // Whatever was the last step, it tells how it holds now.
-  EXPECT_TRUE(aware.holding.starts_with("holding: limit " + std::to_string(aware.limit)))
+  EXPECT_NE(aware.holding.find(": limit " + std::to_string(aware.limit)), std::string::npos)
       << aware.holding;
+  const auto closed =
+      static_cast<int>(std::count(aware.actions.begin(), aware.actions.end(), std::string("slip")));
+  const std::string slips = std::to_string(aware.slips) + " slips";
+  const std::string answered = std::to_string(closed) + " answered: limit";
+  EXPECT_NE(aware.holding.find(closed == aware.slips ? slips + " answered: limit"
+                                                     : slips + ", " + answered),
+            std::string::npos)
+      << aware.holding << "\n"
+      << aware.log;
 }
 
 TEST(SlipGrasp, LowersItsLimitWhenNothingSlipsAndOpensOnlyWhenTold) {

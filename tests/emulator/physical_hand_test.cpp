@@ -89,6 +89,29 @@ TEST(PhysicalHand, ScriptsGraspAndRelease) {
   }
 }
 
+// ball.json: grasps at 1.5 s, releases at 9 s, again after 16 s.
+TEST(PhysicalHand, ItTellsWhatTheScriptDoesUntilSomebodyElseOrders) {
+  PhysicalHandOptions options;
+  options.repeatsScript = true;
+  PhysicalHand hand(sceneOf("ball"), options);
+  const auto at = [&](double timeS) {
+    hand.advanceTo(timeS);
+    return hand.ownMotion();
+  };
+  EXPECT_EQ(at(1.0), "open");
+  EXPECT_EQ(at(1.7), "closing");
+  EXPECT_EQ(at(8.0), "holding an object");
+  EXPECT_EQ(at(9.3), "opening");
+  EXPECT_EQ(at(16.5), "open");
+  EXPECT_EQ(at(17.7), "closing");
+  hand.joints().stop();
+  EXPECT_EQ(at(18.0), "");
+  EXPECT_EQ(PhysicalHand(quietScene("ball")).ownMotion(), "") << "no script";
+  PhysicalHand once(sceneOf("ball"));
+  once.advanceTo(15.0);
+  EXPECT_EQ(once.ownMotion(), "") << "the script has ended";
+}
+
 TEST(PhysicalHand, FingersStopAtAHardObject) {
   const Scene scene = quietScene("box");
   PhysicalHand hand(scene);

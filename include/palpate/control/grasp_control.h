@@ -30,7 +30,8 @@ namespace palpate {
 struct GraspStatus {
   GraspPhase phase = GraspPhase::kIdle;
   std::optional<GraspRequest> request;  // the running grasp
-  // While a slip-aware grasp holds: its limit, and how far the reading rose above it. One line.
+  // While a slip-aware grasp holds: for how long, how many slips were answered, its limit, and how
+  // far the reading is above it. One line.
   std::string holding;
   std::optional<GraspReport> last;  // the grasp that ended last, including a refused one
   // Reason why no motion can begin, one line; empty when one can begin.

@@ -93,9 +93,10 @@ class GraspStateMachine {
     return active() && report_.request.mode != GraspMode::kPlain;
   }
   const GraspReport& running() const noexcept { return report_; }
-  // Text such as "holding: limit 200 counts; rose to 3331 after the stop, above its highest limit
-  // of 2200: close more slowly"; only of a slip-aware grasp.
-  std::string holdingText() const;
+  // Text such as "holding for 12 s, 1 slip answered: limit 200 counts; rose to 3331 counts after
+  // the stop, above its highest limit of 2200: close more slowly"; only of a slip-aware grasp. The
+  // rise is told for as long as the reading stays that high.
+  std::string holdingText(std::int64_t monoUs) const;
   const StreamMonitor& stream() const noexcept { return stream_; }
   const TaxelPeak& peak() const noexcept { return peak_; }  // of the newest frame
   // Joint angles as last read [deg]; empty: not known.
@@ -129,6 +130,9 @@ class GraspStateMachine {
   void endOvershoot();
   void measurePeakAfterStop();
   std::string riseText() const;
+  // Of the rise of the reading, or of the force, after the stop more than half is left.
+  bool isStillRisen() const;
+  std::string limitText() const;
   bool isOverLimit() const noexcept;
   // The taxel that is nearest to its limit, or farthest above it.
   const TaxelPeak& loadedTaxel(const GraspRequest& request) const noexcept;
@@ -188,6 +192,8 @@ class GraspStateMachine {
   int limit_ = 0;  // present limit [counts]
   // True once the object was held; the following rests are shorter.
   bool held_ = false;
+  std::int64_t heldFromUs_ = 0;       // when it was held first
+  int answeredSlips_ = 0;             // slips after which the hand closed
   bool frictionTestRunning_ = false;  // loosening measures friction
   bool frictionTested_ = false;       // friction was measured, or tried
   std::int64_t settledUs_ = 0;        // end of the rest or of loosening

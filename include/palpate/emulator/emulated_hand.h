@@ -9,6 +9,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <palpate/emulator/dsa_server.h>
@@ -86,6 +87,7 @@ struct EmulatedHandCounts {
   std::uint64_t framesWhole = 0;  // frames sent without a fault in them
   std::uint64_t framesLost = 0;   // frames of which some bytes were lost
   double handTimeS = 0.0;         // the hand's time since the start [s]
+  std::string_view ownMotion;     // HandModel::ownMotion(), a text that stays valid
   FaultCounts faults;
   EmulatedPortCounts dsa, sdh;
   // Reason why the hand stopped because of an error; empty while it runs.

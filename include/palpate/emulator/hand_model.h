@@ -7,6 +7,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <palpate/emulator/joint_motion.h>
@@ -52,6 +53,9 @@ class HandModel {
   virtual std::vector<double> temperatures() = 0;  // one per sensor [deg C]
   // Truth of the last scan, one entry per matrix; empty when it is unknown (a replay).
   virtual std::vector<MatrixTruth> truth() const = 0;
+  // What the hand does by itself, without an order: "closing", "holding an object", "closed",
+  // "opening", "open". Empty: it moves only on orders.
+  virtual std::string_view ownMotion() const { return {}; }
   // True when a replay has ended and has no more frames to scan.
   virtual bool finished() const { return false; }
   // Replay: time from the frame of the last scan() to the next frame [s], 0 before the first one.

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <string_view>
 #include <vector>
 
 #include <palpate/emulator/hand_model.h>
@@ -56,6 +57,8 @@ class PhysicalHand final : public HandModel {
   void measure(std::span<float> values);
   std::vector<double> temperatures() override;
   std::vector<MatrixTruth> truth() const override;
+  // By the script of the scene.
+  std::string_view ownMotion() const override;
 
   // Pressure on each place in the last step, before the effects of rubber and sensor [kPa].
   const std::vector<double>& pressureKpa() const noexcept;

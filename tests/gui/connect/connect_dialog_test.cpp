@@ -92,7 +92,16 @@ TEST_F(ConnectDialogTest, AConnectionIsSavedUnderANameChosenAndForgotten) {
   emit saved->activated(saved->currentIndex());
   EXPECT_EQ(dialog_->connection().kind, Connection::Kind::kEmulated);
   EXPECT_EQ(dialog_->connection().scene, "ball");
+  EXPECT_EQ(dialog_->connection().name, "the ball");
   EXPECT_TRUE(find<QRadioButton>("kindEmulated")->isChecked());
+  // With another source it is no longer the saved connection; the next time it is chosen again.
+  find<QRadioButton>("kindReplay")->setChecked(true);
+  EXPECT_EQ(dialog_->connection().name, "");
+  find<QRadioButton>("kindEmulated")->setChecked(true);
+  openWith(settings, dialog_->connection());
+  saved = find<QComboBox>("savedConnections");
+  EXPECT_EQ(saved->currentText(), "the ball");
+  EXPECT_EQ(dialog_->connection().name, "the ball");
   find<QPushButton>("forgetConnection")->click();
   EXPECT_TRUE(connectionNames(settings).isEmpty());
   EXPECT_FALSE(find<QPushButton>("forgetConnection")->isEnabled());

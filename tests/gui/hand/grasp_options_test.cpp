@@ -106,6 +106,44 @@ TEST_F(GraspOptionsTest, NewtonsNeedACalibrationAndSayWhy) {
   EXPECT_TRUE(find<ValueSlider>("limit")->isVisible());
 }
 
+TEST_F(GraspOptionsTest, NewtonsAreRememberedForAHandWithACalibration) {
+  const auto calibrated = [](const std::string&) {
+    return std::optional(testing::linearCalibration({0.5, 150.0, false}));
+  };
+  dock_->calibrationOf = calibrated;
+  connectTo(stillHand());
+  open();
+  EXPECT_FALSE(find<QLabel>("whyCounts")->isVisible());
+  auto* unit = find<QComboBox>("limitUnit");
+  ASSERT_TRUE(await([&] { return unit->isEnabled(); }));
+  unit->setCurrentIndex(1);
+  dock_->setHand(nullptr, nullptr);
+  EXPECT_EQ(unit->currentIndex(), 0);
+  // A hand without a calibration: it says why newtons don't return.
+  dock_->calibrationOf = [](const std::string&) { return std::optional<Calibration>(); };
+  dock_->setHand(bench_->session.get(), bench_->control.get());
+  EXPECT_EQ(unit->currentIndex(), 0);
+  EXPECT_TRUE(find<QLabel>("whyCounts")->isVisible());
+  find<QToolButton>("moreGraspOptions")->click();
+  EXPECT_EQ(find<QLabel>("graspOptionsSummary")->text(),
+            "limit in counts: newtons need a calibration of this hand");
+  // In the next session, with one.
+  dock_->setHand(nullptr, nullptr);
+  dock_ = std::make_unique<HandDock>(settings_);
+  dock_->show();
+  dock_->calibrationOf = calibrated;
+  dock_->setHand(bench_->session.get(), bench_->control.get());
+  unit = find<QComboBox>("limitUnit");
+  EXPECT_TRUE(await([&] { return unit->currentIndex() == 1; }));
+  EXPECT_TRUE(find<ValueSlider>("forceLimit")->isVisible());
+  // Counts are remembered, too.
+  unit->setCurrentIndex(0);
+  dock_->setHand(nullptr, nullptr);
+  dock_->setHand(bench_->session.get(), bench_->control.get());
+  ASSERT_TRUE(await([&] { return unit->isEnabled(); }));
+  EXPECT_EQ(unit->currentIndex(), 0);
+}
+
 TEST_F(GraspOptionsTest, AGraspStopsAtTheForce) {
   connectTo(testing::handWith("ball"));
   open();

@@ -17,6 +17,7 @@
 #include "calibration/sample_calibrations.h"
 #include "control/emulated_bench.h"
 #include "gui/hand/hand_dock_bench.h"
+#include "gui/hand/hand_feature.h"
 #include "gui/hand/sensitivity_modes.h"
 #include "gui/hand/tactile_settings_panel.h"
 #include "gui/widgets/facts_view.h"
@@ -567,9 +568,74 @@ TEST_F(HandDockTest, AButtonThatIsGreySaysWhy) {
   dock_->refresh();
   for (const char* name : names) {
     const QString tip = find<QPushButton>(name)->toolTip();
-    EXPECT_TRUE(isEnabled(name) || tip.contains("stop it first")) << name << tip.toStdString();
+    EXPECT_TRUE(isEnabled(name) || tip == "A plain grasp runs; Stop (Esc) ends it")
+        << name << tip.toStdString();
   }
   EXPECT_FALSE(isEnabled("openHand"));
+}
+
+TEST_F(HandDockTest, APressInVainIsAnsweredUntilTheButtonCanBePressed) {
+  connectTo(stillHand());
+  type("velocity", "5");
+  type("closeRatio", "1");
+  ASSERT_TRUE(await([&] { return isEnabled("graspHand"); }));
+  click("graspHand");
+  ASSERT_TRUE(bench_->awaitMotion());
+  dock_->refresh();
+  EXPECT_TRUE(state().startsWith("closing")) << state().toStdString();
+  click("openHand");
+  EXPECT_TRUE(state().startsWith("Open: A plain grasp runs; Stop (Esc) ends it.\nclosing"))
+      << state().toStdString();
+  click("moveJoint0");
+  EXPECT_TRUE(state().startsWith("Move ")) << state().toStdString();
+  EXPECT_TRUE(state().contains(": A plain grasp runs; Stop (Esc) ends it.\nclosing"))
+      << state().toStdString();
+  click("startSequence");
+  EXPECT_TRUE(state().startsWith("Start: A plain grasp runs; Stop (Esc) ends it.\nclosing"))
+      << state().toStdString();
+  QTest::mouseClick(find<QPushButton>("openHand"), Qt::RightButton);
+  EXPECT_TRUE(state().startsWith("Start: ")) << "that is no press";
+  click("graspHand");
+  bench_->control->stop();  // from elsewhere
+  EXPECT_TRUE(await([&] { return state() == "stopped by the user"; })) << state().toStdString();
+}
+
+TEST_F(HandDockTest, AKeyInVainIsAnsweredInTheDock) {
+  QWidget window;
+  ActionRegistry book(&window);
+  const HandActions actions(book);
+  dock_->bind(actions);
+  connectTo(stillHand());
+  type("velocity", "5");
+  ASSERT_TRUE(await([&] { return isEnabled("reactiveGrasp") && isEnabled("openHand"); }));
+  dock_->answerKey(actions.openHand);
+  EXPECT_EQ(state(), "Ready.") << "the button can be pressed";
+  click("reactiveGrasp");
+  ASSERT_TRUE(bench_->awaitMotion());
+  dock_->refresh();
+  dock_->answerKey(actions.openHand);
+  EXPECT_TRUE(state().startsWith("Open: A reactive grasp runs; Stop (Esc) ends it.\n"))
+      << state().toStdString();
+  click("stopHand");
+  EXPECT_FALSE(state().contains("Open: ")) << state().toStdString();
+  // The actions end before the dock of the bench.
+  dock_->setHand(nullptr, nullptr);
+  dock_.reset();
+  dock_ = std::make_unique<HandDock>(settings_);
+}
+
+TEST_F(HandDockTest, AHandThatActsByItselfIsNotReady) {
+  QString own = "closing";
+  connectTo(stillHand());
+  dock_->ownMotion = [&] { return own; };
+  dock_->refresh();
+  EXPECT_EQ(state(),
+            "The emulated hand acts by itself, as its scene says: closing. Stop (Esc) or a motion "
+            "of yours ends that.");
+  own.clear();
+  dock_->refresh();
+  EXPECT_EQ(state(), "Ready.");
+  dock_->ownMotion = [] { return QString(); };
 }
 
 // L-M10: what was refused is no state.

@@ -260,7 +260,7 @@ TEST_F(RecogniseLiveTest, TheShowHasAStopThatStopsTheHandAndSaysWhatItDoes) {
   EXPECT_TRUE(await([&] { return said->text().contains("deg/s"); })) << said->text().toStdString();
   ASSERT_TRUE(await([&] { return !window().state().actions.at("graspHand")->isEnabled(); }));
   grasp();
-  EXPECT_EQ(said->text().toStdString(), "Grasp: The hand moves: stop it first (Esc)");
+  EXPECT_EQ(said->text().toStdString(), "Grasp: A plain grasp runs; Stop (Esc) ends it");
   QTest::mouseClick(stop, Qt::LeftButton);
   EXPECT_TRUE(await([&] { return control().status().phase == GraspPhase::kIdle; }));
   EXPECT_TRUE(await([&] { return said->text() == "stopped by the user"; }))

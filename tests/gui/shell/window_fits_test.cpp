@@ -203,6 +203,31 @@ TEST_P(TextSizeFitsTest, ALiveHandWithEveryPage) {
     expectEveryPageFits(QString("live, text of %1 pt").arg(GetParam()), size);
 }
 
+// Beside a live hand the dock is narrow: its controls go on in more lines.
+TEST_P(TextSizeFitsTest, ThePagePressureIsNoWiderThanItsDock) {
+  connectEmulated();
+  window().setAnimated(false);
+  auto* panel = find<CalibratePanel>("CalibratePanel");
+  for (const QSize size : sizes()) {
+    window().resize(size);
+    window().docks().reset();
+    window().docks().show("Calibrate");
+    panel->showPage("Pressure");
+    processAll();
+    for (const char* name : {"pressureOpen",
+                             "pressureSave",
+                             "pressureApply",
+                             "pressureStudy",
+                             "pressureMatrix",
+                             "pressureAbove",
+                             "pressureThreshold"}) {
+      const auto* control = find<QWidget>(name);
+      const QRect seen = control->visibleRegion().boundingRect();
+      EXPECT_EQ(seen.width(), control->width()) << name << " at " << size.width();
+    }
+  }
+}
+
 TEST_F(WindowFitsTest, AMeasurementOfALiveHand) {
   connectEmulated();
   window().setAnimated(false);

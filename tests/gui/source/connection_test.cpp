@@ -53,8 +53,8 @@ TEST_F(ConnectionTest, ComesBackFromTheSettingsAsItWas) {
 }
 
 TEST_F(ConnectionTest, SeveralAreKeptUnderTheirNames) {
-  const Connection left = {.kind = Connection::Kind::kPorts, .dsaPort = "a", .sdhPort = "b"};
-  const Connection right = {.kind = Connection::Kind::kReplay, .recording = "/x.palpate"};
+  Connection left = {.kind = Connection::Kind::kPorts, .dsaPort = "a", .sdhPort = "b"};
+  Connection right = {.kind = Connection::Kind::kReplay, .recording = "/x.palpate"};
   {
     QSettings settings(path_, QSettings::IniFormat);
     EXPECT_TRUE(connectionNames(settings).isEmpty());
@@ -63,11 +63,14 @@ TEST_F(ConnectionTest, SeveralAreKeptUnderTheirNames) {
   }
   QSettings settings(path_, QSettings::IniFormat);
   EXPECT_EQ(connectionNames(settings), (QStringList{"bench 1/2, ü %", "left hand"}));
+  left.name = "left hand";
   EXPECT_EQ(namedConnection(settings, "left hand"), left);
+  right.name = "bench 1/2, ü %";
   EXPECT_EQ(namedConnection(settings, "bench 1/2, ü %"), right);
   EXPECT_EQ(namedConnection(settings, "other"), std::nullopt);
   EXPECT_EQ(loadConnection(settings), Connection{}) << "the last one is another matter";
   saveNamedConnection(settings, "left hand", right);
+  right.name = "left hand";
   EXPECT_EQ(namedConnection(settings, "left hand"), right);
   removeNamedConnection(settings, "left hand");
   EXPECT_EQ(connectionNames(settings), QStringList{"bench 1/2, ü %"});
@@ -117,6 +120,19 @@ TEST(Connection, IsDescribedInAFewWords) {
   connection.kind = Connection::Kind::kReplay;
   connection.recording = "/data/foam_ball.dsa";
   EXPECT_EQ(describe(connection), "replay of foam_ball.dsa");
+  connection.name = "left hand/2";
+  EXPECT_EQ(describe(connection), "left hand/2: replay of foam_ball.dsa");
+  connection.name = "replay of foam_ball.dsa";
+  EXPECT_EQ(describe(connection), "replay of foam_ball.dsa") << "not twice";
+}
+
+TEST(Connection, IsTheSameSourceByTheFieldsOfItsKind) {
+  const Connection ball = {.name = "mine", .scene = "ball"};
+  EXPECT_TRUE(isSameSource(ball, {.dsaPort = "a", .scene = "ball"}));
+  EXPECT_FALSE(isSameSource(ball, {.scene = "ball", .sceneScriptRuns = true}));
+  EXPECT_FALSE(isSameSource(ball, {.kind = Connection::Kind::kReplay, .scene = "ball"}));
+  const Connection ports = {.kind = Connection::Kind::kPorts, .dsaPort = "a", .sdhPort = "b"};
+  EXPECT_FALSE(isSameSource(ports, {.kind = Connection::Kind::kPorts, .dsaPort = "a"}));
 }
 
 TEST(Connection, SaysWhatIsMissing) {

@@ -31,6 +31,22 @@ TEST(StatusLinesTest, ALongTextIsReadWholeInTheSamePlace) {
   EXPECT_EQ(lines.verticalScrollBar()->value(), 0) << "from its begin";
 }
 
+// A time that runs on doesn't take the reader back to the begin.
+TEST(StatusLinesTest, ATextWhoseNumbersChangeStaysWhereItWasScrolled) {
+  StatusLines lines(2, "state");
+  lines.resize(150, lines.height());
+  lines.show();
+  const QString rest = QString(", a long sentence that needs several lines").repeated(4);
+  lines.setText("holding for 9 s" + rest);
+  QCoreApplication::processEvents();
+  lines.verticalScrollBar()->setValue(5);
+  lines.setText("holding for 10 s" + rest);
+  QCoreApplication::processEvents();
+  EXPECT_EQ(lines.verticalScrollBar()->value(), 5);
+  lines.setText("closing" + rest);
+  EXPECT_EQ(lines.verticalScrollBar()->value(), 0);
+}
+
 TEST(StatusLinesTest, TheKeyboardReachesItOnlyWhileThereIsSomethingToScroll) {
   QWidget window;
   StatusLines lines(2, "state", &window);

@@ -27,6 +27,7 @@
 #include "gui/widgets/notes_label.h"
 #include "gui/widgets/number_field.h"
 #include "gui/widgets/text_fit.h"
+#include "gui/widgets/wrapping_row.h"
 
 namespace palpate::gui {
 namespace {
@@ -133,8 +134,7 @@ PressurePage::PressurePage(QWidget* parent) : ComputedPage("pressure", parent) {
 }
 
 void PressurePage::makeTop() {
-  auto* files = new QHBoxLayout;
-  files->setSpacing(8);
+  auto* files = new WrappingRow(this);
   const auto button = [&](const char* name, const QString& text, const QString& tip) {
     auto* made = new QPushButton(text, this);
     made->setObjectName(name);
@@ -154,35 +154,31 @@ void PressurePage::makeTop() {
                   "Apply to this hand",
                   "Use this calibration for pressures and forces of this hand type");
   apply_->setProperty("primary", true);
-  files->addWidget(openIt);
-  files->addWidget(name_, 1);
-  files->addWidget(save_);
-  files->addWidget(apply_);
-  auto* options = new QHBoxLayout;
-  options->setSpacing(8);
+  files->add(openIt);
+  files->add(save_);
+  files->add(apply_);
+  auto* options = new WrappingRow(this);
   study_ = new QCheckBox("As in the study", this);
   study_->setObjectName("pressureStudy");
   study_->setToolTip(
       "All terms, and the study's temperatures; off: only terms that cross-validation keeps");
-  options->addWidget(study_);
+  options->add(study_);
   robust_ = new QCheckBox("Robust", this);
   robust_->setObjectName("pressureRobust");
   robust_->setToolTip("Outliers within a step count less (Huber's loss)");
-  options->addWidget(robust_);
+  options->add(robust_);
   matrix_ = new QComboBox(this);
   matrix_->setObjectName("pressureMatrix");
   matrix_->setAccessibleName("Matrix");
   matrix_->setToolTip("The matrix that was loaded");
   matrix_->addItem("loaded matrix");
-  options->addWidget(matrix_);
-  options->addStretch(1);
+  options->add(matrix_);
   above_ = new QCheckBox("From above", this);
   above_->setObjectName("pressureAbove");
   above_->setToolTip(
       "The surface over gain and temperature, pressure as colour; off: slices of it");
-  options->addWidget(above_);
-  auto* measured = new QHBoxLayout;
-  measured->setSpacing(8);
+  options->add(above_);
+  auto* measured = new WrappingRow(this);
   const auto field = [&](const char* name, const QString& label, const QString& tip, double most) {
     auto* made = new SecondsField(this);
     made->setObjectName(name);
@@ -193,10 +189,15 @@ void PressurePage::makeTop() {
     fitToText(*made, [made] {
       made->setFixedWidth(made->fontMetrics().horizontalAdvance("00000.00") + 18);
     });
-    auto* words = new QLabel(label, this);
+    auto* both = new QWidget(measured);
+    auto* words = new QLabel(label, both);
     words->setToolTip(tip);
-    measured->addWidget(words);
-    measured->addWidget(made);
+    auto* row = new QHBoxLayout(both);
+    row->setContentsMargins(0, 0, 0, 0);
+    row->setSpacing(8);
+    row->addWidget(words);
+    row->addWidget(made);
+    measured->add(both);
     return made;
   };
   area_ = field("pressureArea",
@@ -214,10 +215,10 @@ void PressurePage::makeTop() {
   threshold_->setDecimals(0);
   threshold_->setValue(SensorSettings{}.thresholdCounts);
   setHand(movableHand());
-  top().addLayout(files);
-  measured->addStretch(1);
-  top().addLayout(options);
-  top().addLayout(measured);
+  top().addWidget(files);
+  top().addWidget(name_);
+  top().addWidget(options);
+  top().addWidget(measured);
   connect(openIt, &QPushButton::clicked, this, [this] {
     if (const auto path = askForTable(); !path.empty()) open(path);
   });
@@ -260,8 +261,8 @@ void PressurePage::open(const std::filesystem::path& path) {
 
 QString PressurePage::emptyReason() const {
   if (!path_.empty()) return {};
-  return "Open a table of recordings that were made under known pressures "
-         "(file,pressure_kpa[,temperature_c]), or a calibration that was saved.";
+  return "Open a table of recordings that were made under known pressures (columns file, "
+         "pressure_kpa and, if known, temperature_c), or a calibration that was saved.";
 }
 
 void PressurePage::compute() {
@@ -301,6 +302,7 @@ void PressurePage::take(const ShownCalibrationPtr& shown) {
 void PressurePage::showOptions() {
   const bool there = now_ != nullptr;
   const bool fromTable = !there || now_->gathered;
+  name_->setVisible(!path_.empty());
   name_->setText(QString::fromStdString(path_.filename().string()));
   name_->setToolTip(QString::fromStdString(path_.string()));
   save_->setEnabled(there);

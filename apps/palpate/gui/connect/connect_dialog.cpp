@@ -176,7 +176,7 @@ QWidget* ConnectDialog::makeSaved() {
   column->addWidget(title);
   column->addWidget(saved_);
   column->addLayout(buttons);
-  listSaved({});
+  listSaved(last_.name);
   connect(saved_, &QComboBox::activated, this, [this] {
     const QString name = saved_->currentData().toString();
     forget_->setEnabled(!name.isEmpty());
@@ -277,6 +277,13 @@ Connection ConnectDialog::connection() const {
   connection.scene = scenes_->scene();
   connection.sceneScriptRuns = scenes_->runsScript();
   connection.recording = replay_->recording();
+  // The chosen saved connection, unless its fields were changed.
+  connection.name.clear();
+  if (saved_ && saved_->currentIndex() > 0) {
+    const QString name = saved_->currentData().toString();
+    const auto saved = namedConnection(*settings_, name);
+    if (saved && isSameSource(*saved, connection)) connection.name = name;
+  }
   return connection;
 }
 

@@ -6,6 +6,7 @@
 #include <QGridLayout>
 #include <QHBoxLayout>
 #include <QLabel>
+#include <QSignalBlocker>
 #include <QToolButton>
 #include <algorithm>
 #include <utility>
@@ -17,6 +18,7 @@ namespace palpate::gui {
 namespace {
 
 constexpr const char* kOptionsOpen = "grasp/more";
+constexpr const char* kInNewtons = "grasp/limit_in_newtons";
 constexpr const char* kEachFinger = "grasp/each_finger";
 constexpr const char* kMost = "grasp/most_counts";
 constexpr const char* kHold = "grasp/hold_s";
@@ -26,6 +28,8 @@ constexpr double kUsualForceN = 2.0;
 constexpr const char* kNoCalibrationTip =
     "Limits in newtons need a calibration of this hand: dock Calibrate, page Pressure, \"Apply to "
     "this hand\"";
+
+constexpr const char* kWhyCounts = "newtons need a calibration of this hand";
 
 QString fingerKey(const char* unit, std::size_t finger) {
   return QString("grasp/finger_%1_%2").arg(finger).arg(unit);
@@ -75,7 +79,7 @@ GraspOptions::GraspOptions(QSettings& settings, QWidget* parent)
   connect(header_, &QToolButton::toggled, this, &GraspOptions::open);
   header_->setChecked(settings.value(kOptionsOpen, false).toBool());
   open(header_->isChecked());
-  setCalibrated(false);
+  setCalibrated(false, false);
 }
 
 QDoubleSpinBox* GraspOptions::field(
@@ -97,6 +101,12 @@ void GraspOptions::makeLimits(QGridLayout& grid) {
   unit_->addItems({"counts", "newtons"});
   grid.addWidget(new QLabel("Limit in", body_), 0, 0);
   grid.addWidget(unit_, 0, 1);
+  whyCounts_ = new QLabel(kWhyCounts, body_);
+  whyCounts_->setObjectName("whyCounts");
+  whyCounts_->setProperty("role", "muted");
+  whyCounts_->setWordWrap(true);
+  whyCounts_->setToolTip(kNoCalibrationTip);
+  grid.addWidget(whyCounts_, 0, 2, 1, 2);
   eachFinger_ = new QCheckBox("Fingers 0, 1, 2", body_);
   eachFinger_->setObjectName("eachFinger");
   eachFinger_->setToolTip(
@@ -124,7 +134,10 @@ void GraspOptions::makeLimits(QGridLayout& grid) {
   }
   grid.addWidget(eachFinger_, 1, 0);
   grid.addLayout(fingers, 1, 1, 1, 3);
-  connect(unit_, &QComboBox::currentIndexChanged, this, &GraspOptions::showChoice);
+  connect(unit_, &QComboBox::currentIndexChanged, this, [this] {
+    settings_.setValue(kInNewtons, inNewtons());
+    showChoice();
+  });
   connect(eachFinger_, &QCheckBox::toggled, this, [this] {
     remember();
     showChoice();
@@ -181,8 +194,15 @@ void GraspOptions::open(bool on) {
 bool GraspOptions::inNewtons() const { return unit_->currentIndex() == 1; }
 bool GraspOptions::eachFinger() const { return eachFinger_->isChecked(); }
 
-void GraspOptions::setCalibrated(bool calibrated) {
-  if (!calibrated && inNewtons()) unit_->setCurrentIndex(0);
+void GraspOptions::setCalibrated(bool calibrated, bool connected) {
+  const int unit = calibrated && settings_.value(kInNewtons, false).toBool() ? 1 : 0;
+  const bool missed = connected && !calibrated;
+  if (unit != unit_->currentIndex() || whyCounts_->isHidden() == missed) {
+    const QSignalBlocker notChosen(unit_);
+    unit_->setCurrentIndex(unit);
+    whyCounts_->setVisible(missed);
+    showChoice();
+  }
   unit_->setEnabled(calibrated);
   const QString tip = calibrated
                           ? "Of one taxel in counts, or of a whole finger in newtons, by the "
@@ -208,6 +228,8 @@ void GraspOptions::showChoice() {
 QString GraspOptions::summary() const {
   QStringList parts;
   if (inNewtons()) parts += "limit in newtons";
+  if (!whyCounts_->isHidden() && settings_.value(kInNewtons, false).toBool())
+    parts += QString("limit in counts: ") + kWhyCounts;
   if (eachFinger()) parts += "a limit for each finger";
   if (hold_->value() > 0.0) parts += "holds " + figure(hold_->value(), 1) + " s";
   if (loosen_->isChecked()) parts += "loosens";

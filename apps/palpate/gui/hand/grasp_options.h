@@ -20,14 +20,16 @@ namespace palpate::gui {
 class GraspOptions : public QWidget {
   Q_OBJECT
  public:
-  // Stores choices in `settings`, which must outlive this. Not stored: the unit newtons, loosening
-  // and the object, which each session begins without.
+  // Stores choices in `settings`, which must outlive this. Not stored: loosening and the object,
+  // which each session begins without.
   GraspOptions(QSettings& settings, QWidget* parent);
 
   bool inNewtons() const;
   bool eachFinger() const;
-  // Whether a calibration is set, so that limits in newtons can be chosen.
-  void setCalibrated(bool calibrated);
+  // Whether a calibration is set, so that limits in newtons can be chosen. Without one the limit is
+  // in counts; the chosen unit returns with the next calibration. `connected`: there is a hand that
+  // could have one.
+  void setCalibrated(bool calibrated, bool connected);
   // Sets what is chosen here; `request` has its common limits already.
   void apply(GraspRequest& request) const;
 
@@ -50,6 +52,8 @@ class GraspOptions : public QWidget {
   QLabel* summary_;
   QWidget* body_;
   QComboBox* unit_;
+  // Why newtons can't be chosen.
+  QLabel* whyCounts_;
   QCheckBox* eachFinger_;
   // One per finger, in each unit.
   std::vector<QDoubleSpinBox*> fingerCounts_;

@@ -216,7 +216,7 @@ void GraspPanel::setControl(GraspControl* control, const QString& whyNot) {
 }
 
 void GraspPanel::showStatus(const GraspStatus& status) {
-  options_->setCalibrated(control_ && status.calibrated);
+  options_->setCalibrated(control_ && status.calibrated, control_ != nullptr);
   const bool idle = status.phase == GraspPhase::kIdle;
   const bool canMove = control_ && status.cannotMove.empty();
   const bool canReact = control_ && status.cannotReact.empty();
@@ -224,9 +224,7 @@ void GraspPanel::showStatus(const GraspStatus& status) {
     enableMotionButton(*which, enabled);
     if (which->toolTip() != tip) which->setToolTip(tip);
   };
-  const bool holds = status.phase == GraspPhase::kHolding || status.phase == GraspPhase::kSettling;
-  const QString busy = holds ? "The hand holds what it has grasped: stop it first (Esc)"
-                             : "The hand moves: stop it first (Esc)";
+  const QString busy = busyText(status);
   const auto why = [&](const std::string& problem) {
     return !control_ ? whyNot_ : QString::fromStdString(problem);
   };

@@ -4,6 +4,7 @@
 #include <QAction>
 #include <QHBoxLayout>
 #include <QLabel>
+#include <QMouseEvent>
 #include <QPushButton>
 #include <QScrollArea>
 #include <QScrollBar>
@@ -38,7 +39,8 @@ namespace {
 constexpr int kHandDockRefreshMs = 50;
 constexpr int kHandDockMargin = 12;
 constexpr const char* kPageKey = "hand/page";
-constexpr int kStateLines = 4;  // lines reserved for the status text
+constexpr int kStateLines = 4;   // lines reserved for the status text
+constexpr int kAnswerMs = 6000;  // for which the answer to a press stays
 constexpr const char* kStopTip =
     "Stops the hand now; the motors stay on and hold (Esc works everywhere)";
 constexpr const char* kNotInSightTip =
@@ -58,6 +60,7 @@ CaptureQueueOptions smallFeed() {
 
 HandDock::HandDock(QSettings& settings, QWidget* parent) : QWidget(parent) {
   calibrationOf = [](const std::string&) { return std::optional<Calibration>(); };
+  ownMotion = [] { return QString(); };
   stopKey_ = new StopKey(this);
   // A click on a button takes the focus from whatever had it: Return, pressed after a click on
   // Grasp, must not press a button elsewhere in the window.
@@ -82,25 +85,34 @@ HandDock::HandDock(QSettings& settings, QWidget* parent) : QWidget(parent) {
       if (isVisible()) fitWidth();
     });
   });
+  answerTimer_.setSingleShot(true);
+  answerTimer_.setInterval(kAnswerMs);
+  connect(&answerTimer_, &QTimer::timeout, this, [this] {
+    answer_.clear();
+    refresh();
+  });
   connect(stop_, &QPushButton::clicked, this, [this] {
-    said_.clear();
+    clearAnswers();
     correction_.clear();
     if (control_) control_->stop();
     emit stopPressed();
     refresh();
   });
   connect(stopKey_, &StopKey::pressed, this, [this] {
-    said_.clear();
+    clearAnswers();
     emit stopPressed();
   });
   // A button doesn't take the focus: what was typed in a field counts without Enter.
   for (QPushButton* button : findChildren<QPushButton*>())
-    if (button->property(kMovesHand).toBool())
+    if (button->property(kMovesHand).toBool()) {
+      // A disabled button tells nobody that it was pressed.
+      button->installEventFilter(this);
       connect(button, &QPushButton::pressed, this, [this] {
         // What this click itself corrected, by taking the focus from a field, stays.
         if (!correctionIsNew_) correction_.clear();
         if (auto* field = qobject_cast<QAbstractSpinBox*>(focusWidget())) field->clearFocus();
       });
+    }
   const auto refused = [this](const QString& why) { said_ = why; };
   const auto asked = [this] { said_.clear(); };
   connectMotions();
@@ -186,8 +198,12 @@ void HandDock::showPage(const QString& name) {
 void HandDock::connectMotions() {
   const auto common = [this](auto* panel) {
     using Panel = std::remove_pointer_t<decltype(panel)>;
-    connect(panel, &Panel::begins, this, [this] { said_.clear(); });
-    connect(panel, &Panel::refused, this, [this](const QString& why) { said_ = why; });
+    connect(panel, &Panel::begins, this, &HandDock::clearAnswers);
+    connect(panel, &Panel::refused, this, [this](const QString& why) {
+      said_ = why;
+      // What the hand does hides said_.
+      if (control_ && control_->status().phase != GraspPhase::kIdle) answer(why, nullptr);
+    });
     connect(panel, &Panel::asked, this, &HandDock::refresh);
     connect(panel, &Panel::asked, this, &HandDock::asked);
   };
@@ -271,7 +287,33 @@ bool HandDock::eventFilter(QObject* watched, QEvent* event) {
   if (watched == body_->widget() && event->type() == QEvent::LayoutRequest && textChanged_ &&
       isVisible())
     fitWidth();
+  const auto* button = qobject_cast<QAbstractButton*>(watched);
+  if (button && event->type() == QEvent::MouseButtonPress && !button->isEnabled() &&
+      static_cast<QMouseEvent*>(event)->button() == Qt::LeftButton) {
+    const QString name =
+        button->accessibleName().isEmpty() ? button->text() : button->accessibleName();
+    answer(name + ": " + button->toolTip(), button);
+  }
   return QWidget::eventFilter(watched, event);
+}
+
+void HandDock::answerKey(const QAction* action) {
+  for (const auto& [each, button] : bound_)
+    if (each == action && !button->isEnabled())
+      answer(button->text() + ": " + button->toolTip(), button);
+}
+
+void HandDock::answer(const QString& why, const QAbstractButton* button) {
+  answer_ = why + ".";
+  answeredButton_ = button;
+  answerTimer_.start();
+  showState(control_ ? control_->status() : GraspStatus{});
+}
+
+void HandDock::clearAnswers() {
+  said_.clear();
+  answer_.clear();
+  answeredButton_ = nullptr;
 }
 
 void HandDock::fitWidth() {
@@ -284,7 +326,7 @@ void HandDock::fitWidth() {
 void HandDock::setHand(CaptureSession* session, GraspControl* control) {
   session_ = session;
   control_ = control;
-  said_.clear();
+  clearAnswers();
   correction_.clear();
   judged_.reset();
   layout_.reset();
@@ -340,8 +382,10 @@ void HandDock::refresh() {
   const GraspStatus status = control_ ? control_->status() : GraspStatus{};
   // While a step of a sequence rests, the hand is not free for another motion.
   GraspStatus offered = status;
-  if (sequence_->running() && offered.phase == GraspPhase::kIdle)
+  if (sequence_->running()) {
     offered.phase = GraspPhase::kHolding;
+    offered.request.reset();
+  }
   grasp_->showStatus(offered);
   joint_->showStatus(offered);
   sensitivity_->refresh();
@@ -353,6 +397,11 @@ void HandDock::refresh() {
   if (gone) goneUs_ = session_->nowUs();
   emit reachedChanged(!gone);
   for (FactsView* view : {angles_, temperatures_}) view->setStale(gone);
+  // What was pressed in vain can be pressed now.
+  if (answeredButton_ && answeredButton_->isEnabled()) {
+    answer_.clear();
+    answeredButton_ = nullptr;
+  }
   showState(status);
   showBound();
 }
@@ -430,10 +479,13 @@ void HandDock::showCorrection(const QString& what) {
 }
 
 void HandDock::say(const QString& what, bool bad, const QString& more) {
-  // A long text must not hide the correction; a danger comes before it.
-  const QString text = correction_.isEmpty() ? what
-                       : bad                 ? what + "\n" + correction_
-                                             : correction_ + "\n" + what;
+  // A long text must not hide the correction, nor the answer to a press; a danger comes before
+  // them.
+  QStringList lines;
+  for (const QString& line : {answer_, correction_})
+    if (!line.isEmpty()) lines.append(line);
+  lines.insert(bad ? 0 : lines.size(), what);
+  const QString text = lines.join('\n');
   state_->setText(text, more.isEmpty() ? QString() : text + "\n" + more);
   const QColor color = bad ? colorsOf(theme_).danger : colorsOf(theme_).text;
   const QString style = "color: " + color.name() + ";";
@@ -462,6 +514,10 @@ void HandDock::showState(const GraspStatus& status) {
   if (!status.cannotMove.empty())
     return say(motionBlockedReason(status), true, QString::fromStdString(status.cannotMove));
   if (!said_.isEmpty()) return say(said_, true);
+  if (const QString own = ownMotion(); !own.isEmpty())
+    return say("The emulated hand acts by itself, as its scene says: " + own +
+                   ". Stop (Esc) or a motion of yours ends that.",
+               false);
   if (status.motorsOff)
     return say(
         "The motors are off: the fingers can be moved by hand, and an object may fall. The "

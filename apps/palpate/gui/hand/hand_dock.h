@@ -19,6 +19,7 @@
 #include "gui/appearance/display_units.h"
 #include "gui/appearance/theme.h"
 
+class QAbstractButton;
 class QAction;
 class QLabel;
 class QPushButton;
@@ -66,6 +67,11 @@ class HandDock : public QWidget {
   SensitivityModes& sensitivity() noexcept { return *sensitivity_; }
   // The calibration applied to the hand with this name, for limits in newtons; nothing: none.
   std::function<std::optional<Calibration>(const std::string& hand)> calibrationOf;
+  // What the connected hand does by itself, as HandModel::ownMotion(); empty: it moves on orders
+  // only.
+  std::function<QString()> ownMotion;
+  // The key of a bound action was pressed that can't begin now: says why.
+  void answerKey(const QAction* action);
   // Call this when another calibration was applied.
   void renewCalibration();
   // Updates the dock; a timer calls it while a hand is connected.
@@ -101,6 +107,10 @@ class HandDock : public QWidget {
   // `more` is told by the tool tip only.
   void say(const QString& what, bool bad, const QString& more = {});
   void showCorrection(const QString& what);
+  // Says for some seconds why `button` was pressed in vain, or until it can be pressed.
+  void answer(const QString& why, const QAbstractButton* button);
+  // The texts that belong to what was pressed before.
+  void clearAnswers();
   void showState(const GraspStatus& status);
   void showBound();
   void showUnmeasurable(const std::vector<MatrixSettings>& settings);
@@ -153,6 +163,10 @@ class HandDock : public QWidget {
   const QObject* correctedField_ = nullptr;  // the field that it is about
   // It was found in the event that is being handled.
   bool correctionIsNew_ = false;
+  // Why a button was pressed in vain, and that button; shown like correction_.
+  QString answer_;
+  const QAbstractButton* answeredButton_ = nullptr;
+  QTimer answerTimer_;
   std::vector<std::pair<QAction*, QPushButton*>> bound_;
   std::vector<QString> unmeasurable_;
   // The inputs that unmeasurable_ was computed from.

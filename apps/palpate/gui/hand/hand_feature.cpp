@@ -31,6 +31,7 @@ HandFeature::HandFeature(WindowState& windowState, QWidget* window)
                                 actions_.openHand,
                                 actions_.relaxHand};
   auto* keys = new MotionKeys(motions, window, this);
+  connect(keys, &MotionKeys::refusedAction, panel_, &HandDock::answerKey);
   connect(keys, &MotionKeys::refused, &windowState.messages, &Messages::flash);
   connect(keys, &MotionKeys::refused, &windowState.handCommands, &HandCommands::keyRefused);
   windowState.handCommands.stop = actions_.stopHand;
@@ -62,6 +63,12 @@ HandFeature::HandFeature(WindowState& windowState, QWidget* window)
   panel_->calibrationOf = [&windowState](const std::string& hand) {
     const auto& applied = windowState.handCommands.calibration;
     return applied ? applied(hand) : std::optional<Calibration>();
+  };
+  panel_->ownMotion = [&live] {
+    const LiveSource* source = live.source();
+    const std::string_view text =
+        source && source->emulated ? source->emulated->counts().ownMotion : std::string_view();
+    return QString::fromUtf8(text.data(), static_cast<qsizetype>(text.size()));
   };
   connect(&windowState.handCommands,
           &HandCommands::calibrationApplied,

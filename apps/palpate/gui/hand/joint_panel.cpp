@@ -363,7 +363,7 @@ void JointPanel::showStatus(const GraspStatus& status) {
   else if (!known)
     why = "The present angles are not known yet";
   else if (!idle)
-    why = "The hand moves or holds: stop it first (Esc)";
+    why = busyText(status);
   std::size_t changed = 0;
   for (std::size_t axis = 0; axis < rows_.size(); ++axis) {
     Row& row = rows_[axis];

@@ -35,4 +35,25 @@ void enableMotionButton(QWidget& button, bool on) {
   if (!window->focusWidget() || window->focusWidget() == keeperOf(button)) button.setFocus();
 }
 
+QString busyText(const GraspStatus& status) {
+  if (status.phase == GraspPhase::kIdle) return {};
+  if (!status.request)
+    return status.phase == GraspPhase::kHolding ? "A sequence runs; Stop (Esc) ends it"
+                                                : "A motion is ending; wait until it has ended";
+  const GraspRequest& request = *status.request;
+  const bool holds = status.phase == GraspPhase::kHolding || status.phase == GraspPhase::kSettling;
+  const QString how = holds ? " holds; Stop (Esc) ends it" : " runs; Stop (Esc) ends it";
+  if (isOpening(request)) return "The hand opens; Stop (Esc) ends it";
+  if (isJointMotion(request)) return "A motion of joints" + how;
+  switch (request.mode) {
+    case GraspMode::kSlip:
+      return "A slip-aware grasp" + how;
+    case GraspMode::kReactive:
+      return "A reactive grasp" + how;
+    case GraspMode::kPlain:
+      break;
+  }
+  return "A plain grasp" + how;
+}
+
 }  // namespace palpate::gui

@@ -1,6 +1,10 @@
 // Buttons that move the hand.
 #pragma once
 
+#include <QString>
+
+#include <palpate/control/grasp_control.h>
+
 class QWidget;
 
 namespace palpate::gui {
@@ -11,5 +15,10 @@ namespace palpate::gui {
 // what is held. Where there is no such part nobody has the focus. It gets the focus back when it is
 // enabled again, unless another widget has it.
 void enableMotionButton(QWidget& button, bool on);
+
+// Why no motion can begin while another one runs, for the tool tips of the buttons: "A reactive
+// grasp runs; Stop (Esc) ends it". Empty: the hand is free. A hand that holds without a request is
+// one between the steps of a sequence.
+QString busyText(const GraspStatus& status);
 
 }  // namespace palpate::gui

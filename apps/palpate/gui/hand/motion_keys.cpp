@@ -35,7 +35,10 @@ bool MotionKeys::eventFilter(QObject* watched, QEvent* event) {
     if (action->isEnabled() || !action->shortcuts().contains(pressed)) continue;
     const bool same = key->timestamp() != 0 && key->timestamp() == lastPress_;
     lastPress_ = key->timestamp();
-    if (!same) emit refused(action->text().remove('&') + ": " + action->toolTip());
+    if (!same) {
+      emit refusedAction(action);
+      emit refused(action->text().remove('&') + ": " + action->toolTip());
+    }
     // What has the focus must not take it for text.
     return true;
   }

@@ -16,8 +16,10 @@ class MotionKeys : public QObject {
   MotionKeys(QList<QAction*> actions, QWidget* window, QObject* parent = nullptr);
 
  signals:
-  // One line: "Reactive grasp: The hand holds what it has grasped: stop it first (Esc)".
+  // One line: "Reactive grasp: A slip-aware grasp holds; Stop (Esc) ends it".
   void refused(const QString& why);
+  // Before refused().
+  void refusedAction(const QAction* action);
 
  protected:
   bool eventFilter(QObject* watched, QEvent* event) override;

@@ -312,11 +312,11 @@ void SequencePanel::refresh(const GraspStatus& status) {
   if (!control_)
     why = whyNot_;
   else if (runs)
-    why = "The sequence runs: stop it first (Esc)";
+    why = "A sequence runs; Stop (Esc) ends it";
   else if (!status.cannotMove.empty())
     why = QString::fromStdString(status.cannotMove);
   else if (status.phase != GraspPhase::kIdle)
-    why = "The hand moves or holds: stop it first (Esc)";
+    why = busyText(status);
   else if (sequence_.steps.empty())
     why = "Add a step first";
   enableMotionButton(*start_, why.isEmpty());

@@ -10,6 +10,7 @@ namespace {
 constexpr const char* kLastConnection = "connection";
 constexpr const char* kNamedConnections = "connections";
 constexpr const char* kConnectionKind = "kind";
+constexpr const char* kConnectionName = "name";
 constexpr const char* kDsaPort = "tactile_port";
 constexpr const char* kSdhPort = "motion_port";
 constexpr const char* kScene = "scene";
@@ -49,14 +50,18 @@ QString connectionKeyOf(Connection::Kind kind) {
   return "emulated";
 }
 
-// A short name for a port: the last part of "/dev/ttyUSB0", the whole of "tcp:host:1". Long names
-// (of /dev/serial/by-id) lose their middle.
-QString connectionShortName(const QString& port) {
+// Long names lose their middle.
+QString withoutMiddle(const QString& name) {
   constexpr int kLongest = 28;
   // Letters kept at either end.
   constexpr int kKept = 13;
-  const QString name = port.startsWith('/') ? port.section('/', -1) : port;
   return name.size() <= kLongest ? name : name.left(kKept) + "…" + name.right(kKept);
+}
+
+// A short name for a port: the last part of "/dev/ttyUSB0", the whole of "tcp:host:1"; without the
+// middle of long names (of /dev/serial/by-id).
+QString connectionShortName(const QString& port) {
+  return withoutMiddle(port.startsWith('/') ? port.section('/', -1) : port);
 }
 
 Connection connectionIn(const QSettings& settings, const QString& group) {
@@ -65,6 +70,7 @@ Connection connectionIn(const QSettings& settings, const QString& group) {
   const QString kind = settings.value(at(kConnectionKind)).toString();
   for (const Connection::Kind each : kAllConnectionKinds)
     if (connectionKeyOf(each) == kind) connection.kind = each;
+  connection.name = settings.value(at(kConnectionName)).toString();
   connection.dsaPort = settings.value(at(kDsaPort)).toString();
   connection.sdhPort = settings.value(at(kSdhPort)).toString();
   connection.scene = settings.value(at(kScene), connection.scene).toString();
@@ -82,6 +88,7 @@ Connection connectionIn(const QSettings& settings, const QString& group) {
 void storeConnection(const Connection& connection, QSettings& settings, const QString& group) {
   const auto at = [&group](const char* key) { return group + "/" + key; };
   settings.setValue(at(kConnectionKind), connectionKeyOf(connection.kind));
+  settings.setValue(at(kConnectionName), connection.name);
   settings.setValue(at(kDsaPort), connection.dsaPort);
   settings.setValue(at(kSdhPort), connection.sdhPort);
   settings.setValue(at(kScene), connection.scene);
@@ -100,9 +107,7 @@ QString connectionGroupOf(const QString& name) {
   return QString(kNamedConnections) + "/" + QString::fromLatin1(QUrl::toPercentEncoding(name));
 }
 
-}  // namespace
-
-QString describe(const Connection& connection) {
+QString sourceText(const Connection& connection) {
   switch (connection.kind) {
     case Connection::Kind::kPorts: {
       QStringList ports;
@@ -119,6 +124,29 @@ QString describe(const Connection& connection) {
       break;
   }
   return "emulated hand · " + QFileInfo(connection.scene).completeBaseName();
+}
+
+}  // namespace
+
+QString describe(const Connection& connection) {
+  const QString source = sourceText(connection);
+  if (connection.name.isEmpty() || connection.name == source) return source;
+  return withoutMiddle(connection.name) + ": " + source;
+}
+
+bool isSameSource(const Connection& a, const Connection& b) {
+  if (a.kind != b.kind) return false;
+  switch (a.kind) {
+    case Connection::Kind::kPorts:
+      return a.dsaPort == b.dsaPort && a.sdhPort == b.sdhPort;
+    case Connection::Kind::kStream:
+      return a.stream == b.stream;
+    case Connection::Kind::kReplay:
+      return a.recording == b.recording;
+    case Connection::Kind::kEmulated:
+      break;
+  }
+  return a.scene == b.scene && a.sceneScriptRuns == b.sceneScriptRuns;
 }
 
 QString problemOf(const Connection& connection) {
@@ -169,7 +197,9 @@ QStringList connectionNames(QSettings& settings) {
 
 std::optional<Connection> namedConnection(QSettings& settings, const QString& name) {
   if (!connectionNames(settings).contains(name)) return std::nullopt;
-  return connectionIn(settings, connectionGroupOf(name));
+  Connection connection = connectionIn(settings, connectionGroupOf(name));
+  connection.name = name;
+  return connection;
 }
 
 void saveNamedConnection(QSettings& settings, const QString& name, const Connection& connection) {

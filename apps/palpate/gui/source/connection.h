@@ -29,6 +29,8 @@ struct StreamConnection {
 struct Connection {
   enum class Kind { kPorts, kStream, kEmulated, kReplay };
   Kind kind = Kind::kEmulated;
+  // Under which the user has saved it; empty: it isn't a saved one.
+  QString name = {};
   // For kPorts: addresses as openChannel() takes them. One of the two may be empty.
   // dsaPort is that of the tactile controller, sdhPort that of the motion controller.
   QString dsaPort = {};
@@ -49,8 +51,11 @@ inline constexpr std::array kAllConnectionKinds = {Connection::Kind::kPorts,
                                                    Connection::Kind::kReplay};
 
 // "hand on ttyUSB0 and ttyUSB1", "stream from ttyACM0 · my_pad", "emulated hand · ball", "replay of
-// foam_ball.dsa"
+// foam_ball.dsa"; of a saved connection "left hand: hand on ttyUSB0 and ttyUSB1".
 QString describe(const Connection& connection);
+// Whether both connect to the same source in the same way; the fields of other kinds, and the
+// names, are ignored.
+bool isSameSource(const Connection& a, const Connection& b);
 // What is missing before the connection can be tried, one line; empty: nothing.
 QString problemOf(const Connection& connection);
 
@@ -64,7 +69,7 @@ void saveConnection(const Connection& connection, QSettings& settings);
 // Connections that the user has saved under a name, in the order of the names. A name is any text
 // but an empty one.
 QStringList connectionNames(QSettings& settings);
-// Nothing: there is none of this name.
+// With its name. Nothing: there is none of this name.
 std::optional<Connection> namedConnection(QSettings& settings, const QString& name);
 // Replaces one of the same name.
 void saveNamedConnection(QSettings& settings, const QString& name, const Connection& connection);

@@ -7,6 +7,13 @@
 #include "gui/widgets/text_fit.h"
 
 namespace palpate::gui {
+namespace {
+
+QString withoutDigits(QString text) {
+  return text.removeIf([](QChar letter) { return letter.isDigit(); });
+}
+
+}  // namespace
 
 StatusLines::StatusLines(int lines, const QString& name, QWidget* parent)
     : QScrollArea(parent), label_(new QLabel(this)), focusFrame_(new QFrame(this)) {
@@ -30,8 +37,9 @@ StatusLines::StatusLines(int lines, const QString& name, QWidget* parent)
 
 void StatusLines::setText(const QString& text, const QString& tip) {
   if (label_->text() != text) {
+    const bool another = withoutDigits(label_->text()) != withoutDigits(text);
     label_->setText(text);
-    verticalScrollBar()->setValue(0);
+    if (another) verticalScrollBar()->setValue(0);
   }
   const QString wanted = tip.isEmpty() ? text : tip;
   if (label_->toolTip() != wanted) label_->setToolTip(wanted);

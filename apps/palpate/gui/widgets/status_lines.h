@@ -15,7 +15,8 @@ class StatusLines : public QScrollArea {
   StatusLines(int lines, const QString& name, QWidget* parent = nullptr);
   QLabel& label() noexcept { return *label_; }
   QString text() const { return label_->text(); }
-  // Begins at its first line. `tip` is the tool tip, if it isn't the text.
+  // Begins at its first line; a text of which only numbers changed stays scrolled as it is. `tip`
+  // is the tool tip, if it isn't the text.
   void setText(const QString& text, const QString& tip = {});
 
  protected:
