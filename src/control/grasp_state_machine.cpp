@@ -405,7 +405,18 @@ std::string GraspStateMachine::riseText() const {
   return text;
 }
 
-void GraspStateMachine::endOvershoot() { end(report_.outcome, report_.text + riseText()); }
+// Text such as "; finger 1: 5.78 N, above its limit of 3 N: close more slowly" of a grasp that its
+// limit in counts has stopped, or empty.
+std::string GraspStateMachine::overForceText() const {
+  const auto over = fingerOverForce(report_.request);
+  if (!over || report_.forceFinger) return {};
+  return "; " + forceText(*over) + ", above its limit of " +
+         numberText(*forceLimitOf(report_.request, *over)) + " N: close more slowly";
+}
+
+void GraspStateMachine::endOvershoot() {
+  end(report_.outcome, report_.text + riseText() + overForceText());
+}
 
 void GraspStateMachine::onCommandFailed(const std::string& why, bool sent, std::int64_t monoUs) {
   if (active() && !sent) return end(GraspOutcome::kRefused, "refused: " + why);
@@ -575,7 +586,7 @@ bool GraspStateMachine::isStillRisen() const {
 }
 
 std::string GraspStateMachine::limitText() const {
-  std::string text = "limit " + std::to_string(limit_) + " counts";
+  std::string text = "limit " + std::to_string(limit_) + " counts" + overForceText();
   if (!isStillRisen()) return text;
   const int highest = report_.request.holding.maxLimitCounts;
   if (report_.peakAfterStop->counts <= static_cast<float>(highest) ||
@@ -616,6 +627,8 @@ void GraspStateMachine::respondToSlip(const GripSlip& slip, std::int64_t monoUs)
     limit_ = std::max(limit_, std::min(felt, holding.maxLimitCounts));
     note("at_limit", "slips, and the limit can't rise: " + slip.why, slip.matrix);
     grip_.setReference();
+    // It must not open any further.
+    if (phase_ == GraspPhase::kLoosening) pause(Next::kSettle, "it slips", monoUs);
     return;
   }
   limit_ = raised;
@@ -649,11 +662,16 @@ void GraspStateMachine::onHoldingTime(std::int64_t monoUs) {
     frictionTested_ = frictionTestRunning_ = true;
     return loosen("friction", "opening slowly until it slips, for its friction", monoUs);
   }
-  if (limit_ <= report_.request.limitCounts) return;
+  // The force rises after the stop, because the rubber has a lag.
+  const bool overForce = holding.loosen && fingerOverForce(report_.request).has_value();
+  if (limit_ <= report_.request.limitCounts) {
+    if (overForce) loosen("loosen", "opening slowly to the limit in newtons", monoUs);
+    return;
+  }
   limit_ = std::max(limit_ - holding.raiseCounts, report_.request.limitCounts);
   report_.limitCounts = limit_;
   note("lower", "nothing slips: limit " + std::to_string(limit_) + " counts");
-  if (holding.loosen && loadCounts() > static_cast<float>(limit_))
+  if (overForce || (holding.loosen && loadCounts() > static_cast<float>(limit_)))
     loosen("loosen", "opening slowly to the lower limit", monoUs);
 }
 
@@ -673,7 +691,9 @@ void GraspStateMachine::onLooseningFrame(std::int64_t monoUs) {
     return respondToSlip(*slip, monoUs);
   }
   const double enough = frictionTestRunning_ ? kLeastOfLimit * report_.request.limitCounts : limit_;
-  if (static_cast<double>(loadCounts()) > enough && monoUs < settledUs_) return;
+  const bool tooMuch = static_cast<double>(loadCounts()) > enough ||
+                       (!frictionTestRunning_ && fingerOverForce(report_.request));
+  if (tooMuch && monoUs < settledUs_) return;
   if (!frictionTestRunning_) return pause(Next::kSettle, "loose enough", monoUs);
   frictionTestRunning_ = false;
   note("friction", "it doesn't slip at " + numberText(peak_.counts) + " counts: closing again");

@@ -273,6 +273,86 @@ TEST(GraspStateMachine, ALimitInNewtonsStopsTheHandAtTheForce) {
   EXPECT_TRUE(ended->text.ends_with(rise.data())) << ended->text;
 }
 
+// A finger pressed with `counts` on all taxels of a matrix, and its force.
+struct PressedFinger {
+  Bench bench;
+  FingerForces expected{kiloPascals(), sdh2(), std::vector<MatrixSettings>(6, {0.5, 100})};
+
+  PressedFinger() {
+    bench.machine.setCalibration(kiloPascals());
+    bench.machine.setSettings(std::vector<MatrixSettings>(6, {0.5, 100}));
+  }
+  double press(float counts) {
+    bench.us += kPeriodUs;
+    TactileFrame felt(sdh2().layout);
+    felt.hostUs = 1'700'000'000'000'000 + bench.us;
+    felt.matrix(4).setConstant(counts);  // finger 2
+    expected.apply(felt, {});
+    bench.machine.onFrame(felt, bench.us);
+    bench.machine.onTime(bench.us);
+    return expected.forcesN()[2];
+  }
+};
+
+TEST(GraspStateMachine, AForceThatRisesOverItsLimitAfterAStopByCountsIsSaid) {
+  PressedFinger finger;
+  GraspRequest request = reactive(50);
+  request.forceLimitsN = {10.0};
+  finger.bench.begin(request);
+  finger.bench.take();
+  EXPECT_LT(finger.press(60.0F), 10.0);
+  ASSERT_TRUE(finger.bench.takeStop());
+  finger.bench.machine.onStopAcknowledged(finger.bench.us);
+  double forceN = 0.0;
+  std::optional<GraspReport> ended;
+  for (int i = 0; i < 40 && !ended; ++i) {
+    forceN = finger.press(2000.0F);
+    ended = finger.bench.machine.takeReport();
+  }
+  ASSERT_TRUE(ended);
+  ASSERT_GT(forceN, 10.0);
+  std::array<char, 96> over{};
+  std::snprintf(over.data(), over.size(), "; finger 2: %.2f N, above its limit of 10 N", forceN);
+  EXPECT_NE(ended->text.find(over.data()), std::string::npos) << ended->text;
+}
+
+TEST(GraspStateMachine, AHandThatMayLoosenOpensToTheLimitInNewtons) {
+  for (const bool mayLoosen : {true, false}) {
+    PressedFinger finger;
+    GraspRequest request = reactive(50);
+    request.mode = GraspMode::kSlip;
+    request.forceLimitsN = {5.0};
+    request.holding.loosen = mayLoosen;
+    request.holding.noSlipS = 1.0;
+    finger.bench.begin(request);
+    finger.bench.take();
+    finger.press(60.0F);
+    ASSERT_TRUE(finger.bench.takeStop());
+    finger.bench.machine.onStopAcknowledged(finger.bench.us);
+    for (int i = 0; i < 20; ++i) finger.press(2000.0F);
+    ASSERT_EQ(finger.bench.machine.phase(), GraspPhase::kHolding);
+    EXPECT_NE(finger.bench.machine.holdingText(finger.bench.us).find("above its limit of 5 N"),
+              std::string::npos);
+    for (int i = 0; i < 40; ++i) finger.press(2000.0F);
+    const auto command = finger.bench.machine.takeCommand();
+    ASSERT_EQ(command.has_value(), mayLoosen);
+    if (!mayLoosen) continue;
+    EXPECT_TRUE(std::holds_alternative<MoveJoints>(*command));
+    EXPECT_EQ(finger.bench.machine.phase(), GraspPhase::kLoosening);
+    finger.bench.machine.onMoveAcknowledged(20.0, finger.bench.us);
+    bool stopped = false;
+    double forceN = 0.0, before = 0.0;
+    for (float counts = 2000.0F; !stopped && counts > 0.0F; counts -= 20.0F) {
+      before = forceN;
+      forceN = finger.press(counts);
+      stopped = finger.bench.takeStop();
+    }
+    ASSERT_TRUE(stopped);
+    EXPECT_GT(before, 5.0);
+    EXPECT_LE(forceN, 5.0);
+  }
+}
+
 TEST(GraspStateMachine, RefusesALimitInNewtonsThatItCannotMeasure) {
   Bench bench;
   GraspRequest request = reactive(3000);

@@ -130,6 +130,7 @@ class GraspStateMachine {
   void endOvershoot();
   void measurePeakAfterStop();
   std::string riseText() const;
+  std::string overForceText() const;
   // Of the rise of the reading, or of the force, after the stop more than half is left.
   bool isStillRisen() const;
   std::string limitText() const;
