@@ -323,6 +323,16 @@ TEST_F(LiveChartTest, FrozenItStaysWhileFramesArrive) {
   EXPECT_FALSE(words->isVisible());
 }
 
+// The axis still ends later than the newest frame.
+TEST_F(LiveChartTest, FrozenSoonItTellsHowFarBehindItIs) {
+  framesTo(10.0);
+  chart_.setFollowing(false);
+  for (int i = 101; i <= 150; ++i) frame(i / 10.0, 1.0);
+  chart_.refresh(0.0);
+  auto* words = chart_.findChild<QLabel*>("behindWords");
+  EXPECT_TRUE(words->text().contains("5.0 s behind")) << words->text().toStdString();
+}
+
 TEST_F(LiveChartTest, ScrollsBackThroughAllThatIsKept) {
   framesTo(120.0);
   chart_.scroll(-1.0);

@@ -218,6 +218,7 @@ void LiveChart::refill() {
       .from = range.lower,
       .to = range.upper,
       .columns = static_cast<std::size_t>(std::max(1, axisRect()->width()))};
+  if (!series_.empty()) drawnToS_ = std::min(range.upper, series_.newestS());
   for (std::size_t i = 0; i < curves_.size(); ++i) {
     const auto points = series_.points(curves_[i].choice, options);
     QVector<QCPGraphData> samples;
@@ -303,7 +304,7 @@ void LiveChart::showBehind() {
     behind_->hide();
     return;
   }
-  const double behindS = std::max(0.0, series_.newestS() - seen().upper);
+  const double behindS = std::max(0.0, series_.newestS() - drawnToS_);
   behind_->setText("frozen, " + figure(behindS, 1) + " s behind · End: newest");
   behind_->show();
   placeWords();

@@ -171,6 +171,7 @@ class LiveChart : public QCustomPlot {
   double windowS_ = kUsualS;
   bool held_ = false;
   bool following_ = true;
+  double drawnToS_ = 0.0;  // the newest time that is drawn
   // Right end of the axis when it was drawn last.
   double nowS_ = 0.0;
   // End of the last gap that is shaded.
