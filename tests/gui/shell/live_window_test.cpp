@@ -102,6 +102,20 @@ class LiveWindowTest : public WindowTest {
   bool mayEnd_ = true;
 };
 
+TEST_F(LiveWindowTest, ASavedConnectionIsNamed) {
+  Connection connection;
+  connection.name = "bench 2";
+  connection.scene = "ball";
+  window().state().connectTo(connection);
+  ASSERT_TRUE(await([&] { return window().state().live.source() != nullptr; }));
+  const QString named = "bench 2: emulated hand · ball";
+  EXPECT_TRUE(await([&] { return window().windowTitle() == named + " – Palpate"; }))
+      << window().windowTitle().toStdString();
+  EXPECT_TRUE(await([&] { return find<StatusStrip>("statusStrip")->status().right == named; }))
+      << find<StatusStrip>("statusStrip")->status().right.toStdString();
+  EXPECT_EQ(loadConnection(window().state().settings).name, "bench 2") << "for Again";
+}
+
 TEST_F(LiveWindowTest, ShowsWhatIsConnected) {
   connectEmulated();
   EXPECT_EQ(window().windowTitle(), "emulated hand · ball – Palpate");

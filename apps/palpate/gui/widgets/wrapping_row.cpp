@@ -6,8 +6,8 @@
 namespace palpate::gui {
 namespace {
 
-constexpr int kControlSpacing = 12;  // [px]
-constexpr int kLineSpacing = 6;      // [px]
+constexpr int kWrappedControlSpacing = 12;  // [px]
+constexpr int kWrappedLineSpacing = 6;      // [px]
 
 QSize wantedSize(const QWidget& control) {
   return control.sizeHint().expandedTo(control.minimumSize()).boundedTo(control.maximumSize());
@@ -41,12 +41,12 @@ QList<QRect> WrappingRow::places(int width) const {
     if (x > 0 && x + size.width() > width) {
       endLine();
       x = 0;
-      y += lineHeight + kLineSpacing;
+      y += lineHeight + kWrappedLineSpacing;
       lineHeight = 0;
     }
     places.append(QRect(QPoint(x, y), size));
     lineHeight = std::max(lineHeight, size.height());
-    x += size.width() + kControlSpacing;
+    x += size.width() + kWrappedControlSpacing;
   }
   endLine();
   return places;
