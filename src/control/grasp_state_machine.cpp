@@ -649,13 +649,13 @@ void GraspStateMachine::onHoldingTime(std::int64_t monoUs) {
   if (phase_ != GraspPhase::kHolding) return;
   const HoldingOptions& holding = report_.request.holding;
   if (endUs_ != 0 && monoUs >= endUs_)
-    return end(
-        GraspOutcome::kFinished,
-        "finished: held for " + numberText(holding.holdS) + " s, " +
-            counted(static_cast<std::uint64_t>(report_.slips), "slip") + ", limit " +
-            std::to_string(limit_) + " counts" +
-            (report_.friction ? ", friction " + fixedText(*report_.friction, 2) : std::string()) +
-            "; the hand keeps holding");
+    return end(GraspOutcome::kFinished,
+               "finished: held for " + numberText(holding.holdS) + " s, " +
+                   counted(static_cast<std::uint64_t>(report_.slips), "slip") + ", limit " +
+                   std::to_string(limit_) + " counts" +
+                   (report_.friction ? ", friction roughly " + fixedText(*report_.friction, 2)
+                                     : std::string()) +
+                   "; the hand keeps holding");
   if (monoUs < lastSlipUs_ + microsecondsOf(holding.noSlipS)) return;
   lastSlipUs_ = monoUs;
   if (holding.weightN > 0.0 && !frictionTested_) {
@@ -696,7 +696,10 @@ void GraspStateMachine::onLooseningFrame(std::int64_t monoUs) {
   if (tooMuch && monoUs < settledUs_) return;
   if (!frictionTestRunning_) return pause(Next::kSettle, "loose enough", monoUs);
   frictionTestRunning_ = false;
-  note("friction", "it doesn't slip at " + numberText(peak_.counts) + " counts: closing again");
+  note("friction",
+       grip_.touches()
+           ? "it doesn't slip at " + numberText(peak_.counts) + " counts: closing again"
+           : std::string("the object was lost before a slip was seen: closing again; no friction"));
   pause(Next::kClose, "loose enough", monoUs);
 }
 
@@ -707,7 +710,7 @@ void GraspStateMachine::reportFriction(const GripSlip& slip) {
   std::string text = "slips at " + numberText(grip_.sumCounts()) + " counts in sum";
   if (holding.newtonsPerCount > 0.0 && grip_.sumCounts() > 0.0) {
     report_.friction = holding.weightN / (holding.newtonsPerCount * grip_.sumCounts());
-    text += ": friction " + fixedText(*report_.friction, 2);
+    text += ": friction roughly " + fixedText(*report_.friction, 2);
   }
   note("friction", text, slip.matrix);
 }
