@@ -220,7 +220,8 @@ struct Recorder::Impl {
     const std::lock_guard lock(mutex);
     // A contact began it later than it was asked for.
     if (parts) requestTime.monoUs = parts->startMonoUs();
-    next.freeBytes = ask ? freeNow : status.freeBytes;
+    // Of a recording that has ended the disk says nothing any more.
+    if (parts) next.freeBytes = ask ? freeNow : status.freeBytes;
     status = std::move(next);
   }
 

@@ -424,6 +424,25 @@ TEST(Recorder, aRecordingBegunBefore1970HasItsDuration) {
   }
 }
 
+TEST(Recorder, tellsTheFreeSpaceOfARunningRecordingOnly) {
+  const TemporaryFolder folder;
+  CaptureOptions options;
+  options.recorder.freeBytes = [](const fs::path&) { return std::uint64_t{1'000'000}; };
+  ScriptedSession scripted(std::move(options));
+  scripted.session->startRecording(to(folder / "a.palpate"));
+  scripted.run(2.0);
+  const LinkHealth recording = scripted.session->health();
+  EXPECT_EQ(recording.freeBytes, 1'000'000u);
+  EXPECT_TRUE(std::any_of(recording.alarms.begin(), recording.alarms.end(), [](const Alarm& alarm) {
+    return alarm.kind == AlarmKind::kLowDisk;
+  }));
+  scripted.session->stopRecording();
+  scripted.run(1.0);
+  const LinkHealth ended = scripted.session->health();
+  EXPECT_FALSE(ended.freeBytes);
+  EXPECT_TRUE(ended.alarms.empty());
+}
+
 TEST(Recorder, freeSpaceIsThatOfTheFileSystem) {
   const TemporaryFolder folder;
   struct statvfs facts {};

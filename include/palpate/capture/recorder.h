@@ -155,7 +155,7 @@ struct RecorderStatus {
   std::string mcapFailure;
   // Time for which a write has been blocked by the disk [s].
   double blockedS = 0.0;
-  // On the recording's disk, updated once a second.
+  // On the disk of the running recording, updated once a second; empty without one.
   std::optional<std::uint64_t> freeBytes;
 };
 

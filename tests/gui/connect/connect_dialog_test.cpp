@@ -114,6 +114,15 @@ TEST_F(ConnectDialogTest, EscapeCancels) {
   EXPECT_EQ(dialog_->result(), QDialog::Rejected);
 }
 
+TEST_F(ConnectDialogTest, ReturnPressesTheButtonThatHasTheFocus) {
+  open({});
+  auto* cancel = find<QPushButton>("connectCancel");
+  cancel->setFocus();
+  QTest::keyClick(cancel, Qt::Key_Return);
+  EXPECT_FALSE(dialog_->isVisible());
+  EXPECT_EQ(dialog_->result(), QDialog::Rejected);
+}
+
 TEST_F(ConnectDialogTest, TheArrowKeysChooseTheKind) {
   open({});
   EXPECT_EQ(QApplication::focusWidget(), find<QRadioButton>("kindEmulated"));

@@ -157,6 +157,16 @@ TEST_F(RecordingDialogTest, EnterStartsEscapeCancels) {
   EXPECT_EQ(rejected.size(), 1);
 }
 
+TEST_F(RecordingDialogTest, ReturnPressesTheButtonThatHasTheFocus) {
+  QSignalSpy accepted(dialog_.get(), &QDialog::accepted);
+  QSignalSpy rejected(dialog_.get(), &QDialog::rejected);
+  auto* cancel = find<QPushButton>("recordingCancel");
+  cancel->setFocus();
+  QTest::keyClick(cancel, Qt::Key_Return);
+  EXPECT_EQ(accepted.size(), 0);
+  EXPECT_EQ(rejected.size(), 1);
+}
+
 TEST_F(RecordingDialogTest, EnterInTheNotesIsANewLineWithCtrlItStarts) {
   QSignalSpy accepted(dialog_.get(), &QDialog::accepted);
   auto* notes = find<QPlainTextEdit>("recordingNotes");

@@ -24,6 +24,7 @@
 #include "gui/testing/layout_faults.h"
 #include "gui/testing/window_fixture.h"
 #include "gui/timeline/timeline_header.h"
+#include "gui/widgets/offer_strip.h"
 
 namespace palpate::gui::window_fits_test {
 namespace {
@@ -504,6 +505,27 @@ TEST_F(WindowFitsTest, TheLegendOfTheTimelineIsWhole) {
     ASSERT_EQ(legend->entries().size(), 6u);
     EXPECT_FALSE(legend->isCut()) << size.width();
     EXPECT_GE(legend->height(), legend->sizeHint().height()) << size.width();
+  }
+}
+
+TEST_P(TextSizeFitsTest, ALongNameInALineAboveTheViewsLeavesTheWindowItsSize) {
+  open({"rich.dsa"});
+  window().setAnimated(false);
+  const QString name(80, 'm');
+  OfferStrip* offer = nullptr;
+  for (OfferStrip* each : window().findChildren<OfferStrip*>()) offer = each;
+  ASSERT_NE(offer, nullptr);
+  for (const QSize size : sizes()) {
+    window().resize(size);
+    window().docks().reset();
+    processAll();
+    ASSERT_EQ(window().size(), size);
+    offer->offer("Recorded " + name + ".palpate: 1234 frames", "Open", [] {});
+    window().state().messages.fail(name + ": can't be read");
+    processAll();
+    EXPECT_EQ(window().size(), size);
+    EXPECT_LE(window().minimumSizeHint().width(), size.width());
+    offer->dismiss();
   }
 }
 

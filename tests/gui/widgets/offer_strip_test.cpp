@@ -1,5 +1,6 @@
 #include "gui/widgets/offer_strip.h"
 
+#include <QImage>
 #include <QLabel>
 #include <QPushButton>
 #include <QTest>
@@ -45,6 +46,29 @@ TEST_F(OfferStripTest, ClosedIsDeclinedDismissedIsNeither) {
   strip_->dismiss();
   EXPECT_EQ(declined_, 1);
   EXPECT_EQ(accepted_, 0);
+}
+
+TEST_F(OfferStripTest, ALongNameIsBrokenAndSeenWhole) {
+  const QString name(120, 'm');
+  parent_.resize(400, 300);
+  strip_->resize(400, 100);
+  offer("Recorded " + name);
+  EXPECT_LE(strip_->minimumSizeHint().width(), 400);
+  const auto* text = strip_->findChild<QLabel*>("offerText");
+  const QFontMetrics metrics = text->fontMetrics();
+  // As many lines as its width needs, and ink in the last one.
+  const int lines = metrics.horizontalAdvance(name) / text->width();
+  ASSERT_GT(lines, 1);
+  EXPECT_GE(text->heightForWidth(text->width()), lines * metrics.height());
+  QLabel* whole = strip_->findChild<QLabel*>("offerText");
+  whole->resize(whole->width(), whole->heightForWidth(whole->width()));
+  const QImage picture = whole->grab().toImage();
+  const QColor ground = picture.pixelColor(0, 0);
+  bool inked = false;
+  for (int x = 0; x < picture.width(); ++x)
+    for (int y = picture.height() - metrics.height(); y < picture.height(); ++y)
+      inked = inked || picture.pixelColor(x, y) != ground;
+  EXPECT_TRUE(inked);
 }
 
 TEST_F(OfferStripTest, MayOfferAgainWhileItIsAccepted) {

@@ -230,7 +230,6 @@ QWidget* ConnectDialog::makeFoot() {
   problem_->setWordWrap(true);
   auto* cancel = new QPushButton("Cancel", foot);
   cancel->setObjectName("connectCancel");
-  cancel->setAutoDefault(false);
   connect(cancel, &QPushButton::clicked, this, &QDialog::reject);
   connect_ = new QPushButton("&Connect", foot);
   connect_->setObjectName("connectNow");

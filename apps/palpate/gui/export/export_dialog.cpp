@@ -174,7 +174,6 @@ QWidget* ExportDialog::makeFoot() {
   replace_->setObjectName("exportReplace");
   auto* cancel = new QPushButton("Cancel", foot);
   cancel->setObjectName("exportCancel");
-  cancel->setAutoDefault(false);
   connect(cancel, &QPushButton::clicked, this, &QDialog::reject);
   ok_ = new QPushButton("Export", foot);
   ok_->setObjectName("exportOk");

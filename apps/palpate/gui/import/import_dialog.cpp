@@ -248,7 +248,6 @@ QWidget* ImportDialog::makeFoot() {
   auto* buttons = new QHBoxLayout;
   problem_ = wrappedLabel("importProblem");
   auto* cancel = new QPushButton("Cancel");
-  cancel->setAutoDefault(false);
   connect(cancel, &QPushButton::clicked, this, &QDialog::reject);
   ok_ = new QPushButton("Import");
   ok_->setObjectName("importOk");

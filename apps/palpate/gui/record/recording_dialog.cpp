@@ -250,7 +250,6 @@ QWidget* RecordingDialog::makeFoot(const QString& okText) {
   ask_->setToolTip("Off: Record starts at once, with what is written here");
   auto* cancel = new QPushButton("Cancel", foot);
   cancel->setObjectName("recordingCancel");
-  cancel->setAutoDefault(false);
   connect(cancel, &QPushButton::clicked, this, &QDialog::reject);
   ok_ = new QPushButton(okText, foot);
   ok_->setObjectName("recordingOk");

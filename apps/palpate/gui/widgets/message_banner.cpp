@@ -5,6 +5,7 @@
 #include <QToolButton>
 
 #include "gui/appearance/icons.h"
+#include "gui/widgets/long_word_label.h"
 
 namespace palpate::gui {
 namespace {
@@ -17,12 +18,8 @@ MessageBanner::MessageBanner(QWidget* parent, const QString& name, const QString
     : QWidget(parent) {
   setObjectName(name);
   setAttribute(Qt::WA_StyledBackground);
-  text_ = new QLabel(this);
+  text_ = new LongWordLabel(this);
   text_->setObjectName(part + "Text");
-  // File names aren't to be read as HTML.
-  text_->setTextFormat(Qt::PlainText);
-  text_->setWordWrap(true);
-  text_->setTextInteractionFlags(Qt::TextSelectableByMouse);
   close_ = new QToolButton(this);
   close_->setObjectName(part + "Close");
   close_->setProperty("flat", true);

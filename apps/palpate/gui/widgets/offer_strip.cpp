@@ -8,18 +8,15 @@
 #include <utility>
 
 #include "gui/appearance/icons.h"
+#include "gui/widgets/long_word_label.h"
 
 namespace palpate::gui {
 
 OfferStrip::OfferStrip(QWidget* parent) : QWidget(parent) {
   setObjectName("OfferStrip");
   setAttribute(Qt::WA_StyledBackground);
-  text_ = new QLabel(this);
+  text_ = new LongWordLabel(this);
   text_->setObjectName("offerText");
-  // File names aren't to be read as HTML.
-  text_->setTextFormat(Qt::PlainText);
-  text_->setWordWrap(true);
-  text_->setTextInteractionFlags(Qt::TextSelectableByMouse);
   accept_ = new QPushButton(this);
   accept_->setObjectName("offerAccept");
   accept_->setFocusPolicy(Qt::TabFocus);
