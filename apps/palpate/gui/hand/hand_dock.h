@@ -64,6 +64,7 @@ class HandDock : public QWidget {
   // As in unmeasurableChanged().
   const std::vector<QString>& unmeasurable() const noexcept { return unmeasurable_; }
   SensitivityModes& sensitivity() noexcept { return *sensitivity_; }
+  JointPanel& joints() noexcept { return *joint_; }
   // The calibration applied to the hand with this name, for limits in newtons; nothing: none.
   std::function<std::optional<Calibration>(const std::string& hand)> calibrationOf;
   // Call this when another calibration was applied.
