@@ -102,6 +102,10 @@ QString connectionGroupOf(const QString& name) {
 
 }  // namespace
 
+QString sceneTitle(const QString& scene) {
+  return QFileInfo(scene).completeBaseName().replace('_', ' ');
+}
+
 QString describe(const Connection& connection) {
   switch (connection.kind) {
     case Connection::Kind::kPorts: {
@@ -118,7 +122,7 @@ QString describe(const Connection& connection) {
     case Connection::Kind::kEmulated:
       break;
   }
-  return "emulated hand · " + QFileInfo(connection.scene).completeBaseName();
+  return "emulated hand · " + sceneTitle(connection.scene);
 }
 
 QString problemOf(const Connection& connection) {
