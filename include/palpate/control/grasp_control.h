@@ -32,6 +32,8 @@ struct GraspStatus {
   std::optional<GraspRequest> request;  // the running grasp
   // While a slip-aware grasp holds: its limit, and how far the reading rose above it. One line.
   std::string holding;
+  // The friction that the running grasp has measured; empty: none yet.
+  std::optional<double> friction;
   std::optional<GraspReport> last;  // the grasp that ended last, including a refused one
   // Reason why no motion can begin, one line; empty when one can begin.
   std::string cannotMove;

@@ -69,6 +69,8 @@ class HandDock : public QWidget {
   std::function<std::optional<Calibration>(const std::string& hand)> calibrationOf;
   // Call this when another calibration was applied.
   void renewCalibration();
+  // `text` with the friction that the running or the last grasp has measured, in a line of its own.
+  static QString withFriction(const QString& text, const GraspStatus& status);
   // Updates the dock; a timer calls it while a hand is connected.
   void refresh();
   QSize sizeHint() const override { return {455, 640}; }
@@ -104,6 +106,7 @@ class HandDock : public QWidget {
   void showCorrection(const QString& what);
   void showState(const GraspStatus& status);
   void showBound();
+  void followRefusal(const GraspStatus& status, const std::vector<MatrixSettings>& settings);
   void showUnmeasurable(const std::vector<MatrixSettings>& settings);
   QString phaseText(const GraspStatus& status) const;
   QString motionBlockedReason(const GraspStatus& status) const;
@@ -149,6 +152,11 @@ class HandDock : public QWidget {
   std::optional<std::int64_t> goneUs_;
   // Why a motion was refused; shown until another motion is requested.
   QString said_;
+  // When the last grasp was refused [us since 1970]; whether because matrices can't measure its
+  // limit; whether they can by now.
+  std::int64_t refusedUs_ = 0;
+  bool limitRefused_ = false;
+  bool limitMeasurable_ = false;
   // The number of a field that was out of range; shown below or above what the hand does.
   QString correction_;
   const QObject* correctedField_ = nullptr;  // the field that it is about

@@ -71,6 +71,10 @@ HandFeature::HandFeature(WindowState& windowState, QWidget* window)
           &HandCommands::calibrationApplied,
           panel_,
           &HandDock::renewCalibration);
+  connect(&windowState.handCommands,
+          &HandCommands::noiseLinesApplied,
+          &modes,
+          &SensitivityModes::renewNoiseLines);
   connect(&modes,
           &SensitivityModes::highChanged,
           &windowState.handCommands,

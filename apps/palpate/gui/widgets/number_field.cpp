@@ -108,17 +108,22 @@ void SecondsField::showCorrection() {
   if (!corrected_) usualToolTip_ = toolTip();
   corrected_ = true;
   setToolTip(what);
-  setProperty("corrected", true);
-  style()->polish(this);
+  showMark(true);
   emit corrected(what);
+}
+
+void SecondsField::showMark(bool on) {
+  setProperty("corrected", on);
+  // Without unpolish() the font of the mark would stay.
+  style()->unpolish(this);
+  style()->polish(this);
 }
 
 void SecondsField::endCorrection() {
   if (!corrected_) return;
   corrected_ = false;
   setToolTip(usualToolTip_);
-  setProperty("corrected", false);
-  style()->polish(this);
+  showMark(false);
   emit corrected({});
 }
 
