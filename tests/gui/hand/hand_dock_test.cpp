@@ -475,6 +475,7 @@ TEST_F(HandDockTest, AnUndoneCorrectionLeavesNoMark) {
   EXPECT_TRUE(line->font().bold());
   click("undoSettings");
   ASSERT_TRUE(await([&] { return find<ValueSlider>("threshold5")->value() == 300.0; }));
+  EXPECT_FALSE(find<ValueSlider>("threshold5")->field()->font().bold());
   EXPECT_FALSE(line->font().bold());
   qApp->setStyleSheet({});
 }

@@ -114,9 +114,9 @@ void SecondsField::showCorrection() {
 
 void SecondsField::showMark(bool on) {
   setProperty("corrected", on);
-  // Without unpolish() the font of the mark would stay.
-  style()->unpolish(this);
   style()->polish(this);
+  // The text is that of the line within, which would keep the bold font of the mark.
+  if (!on) lineEdit()->setFont({});
 }
 
 void SecondsField::endCorrection() {
