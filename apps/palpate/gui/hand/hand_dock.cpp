@@ -492,7 +492,8 @@ void HandDock::showState(const GraspStatus& status) {
         "next motion switches them on.",
         false);
   if (!status.last) return say("Ready.", false);
-  if (const auto over = lastGraspText(*status.last, status)) return say(*over, false);
+  if (const auto over = lastGraspText(*status.last, status))
+    return say(withFriction(*over, status), false);
   const QString text = withFriction(QString::fromStdString(status.last->text), status);
   switch (status.last->outcome) {
     case GraspOutcome::kFinished:
@@ -511,7 +512,7 @@ QString HandDock::withFriction(const QString& text, const GraspStatus& status) {
   if (!friction) return text;
   const QString said = "friction " + figure(*friction, 2);
   // The text of a grasp that ended after its time has it already.
-  return text.contains(said) ? text : text + "\n" + said;
+  return text.contains(said) ? text : said + "\n" + text;
 }
 
 QString HandDock::phaseText(const GraspStatus& status) const {

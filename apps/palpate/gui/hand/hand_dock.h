@@ -69,7 +69,8 @@ class HandDock : public QWidget {
   std::function<std::optional<Calibration>(const std::string& hand)> calibrationOf;
   // Call this when another calibration was applied.
   void renewCalibration();
-  // `text` with the friction that the running or the last grasp has measured, in a line of its own.
+  // `text` below the friction that the running or the last grasp has measured: a line that is seen
+  // without scrolling.
   static QString withFriction(const QString& text, const GraspStatus& status);
   // Updates the dock; a timer calls it while a hand is connected.
   void refresh();
