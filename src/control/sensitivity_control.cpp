@@ -210,6 +210,7 @@ void SensitivityControl::step() {
   if (search_) {
     status_.sensitivity = search_->sensitivity();
     status_.settled = search_->settled();
+    status_.highest = status_.sensitivity + searchOptions_.resolution > searchOptions_.most;
     status_.saturated = search_->saturated();
   }
   applyWantedSettings();

@@ -33,6 +33,8 @@ struct GraspStatus {
   // While a slip-aware grasp holds: for how long, how many slips were answered, its limit, and how
   // far the reading is above it. One line.
   std::string holding;
+  // The friction that the running grasp has measured; empty: none yet.
+  std::optional<double> friction;
   std::optional<GraspReport> last;  // the grasp that ended last, including a refused one
   // Reason why no motion can begin, one line; empty when one can begin.
   std::string cannotMove;

@@ -37,6 +37,7 @@ struct SensitivityStatus {
   NoiseThresholdStatus noise;  // for high sensitivity
   double sensitivity = 0.0;    // for adaptive sensitivity: present value
   bool settled = false;        // no higher sensitivity is left to try
+  bool highest = false;        // the present value is as high as any that is tried
   bool saturated = false;      // no lower sensitivity is left to try
 };
 

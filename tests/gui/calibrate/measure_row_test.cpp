@@ -189,6 +189,21 @@ TEST_F(MeasureRowTest, ItCanBeCancelled) {
   EXPECT_EQ(settings.value("calibrate/tare_seconds").toInt(), 60) << "remembered";
 }
 
+// The order of docs/keys.md: a message first.
+TEST_F(MeasureRowTest, EscapeClosesAMessageBeforeItCancels) {
+  find<QSpinBox>("tareMeasureSeconds")->setValue(60);
+  showPage("Tare");
+  begin();
+  ASSERT_TRUE(tareRow().running());
+  EXPECT_EQ(find<QPushButton>("tareMeasureCancel")->toolTip(),
+            "Cancels the measurement (Esc; a message that is shown is closed before)");
+  window().state().messages.fail("something else failed");
+  press(Qt::Key_Escape);
+  EXPECT_TRUE(tareRow().running());
+  press(Qt::Key_Escape);
+  EXPECT_FALSE(tareRow().running());
+}
+
 TEST_F(MeasureRowTest, DisconnectingEndsItAndNothingIsHalfDone) {
   showPage("Tare");
   begin();

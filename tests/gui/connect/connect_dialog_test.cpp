@@ -3,6 +3,7 @@
 
 #include <QCheckBox>
 #include <QComboBox>
+#include <QLabel>
 #include <QListWidget>
 #include <QPushButton>
 #include <QRadioButton>
@@ -163,6 +164,28 @@ TEST_F(ConnectDialogTest, ASceneWithoutAScriptCannotAct) {
   find<QListWidget>("scenes")->setCurrentRow(0);
   EXPECT_EQ(dialog_->connection().scene, "busy");
   EXPECT_TRUE(find<QCheckBox>("sceneScriptRuns")->isEnabled());
+}
+
+// The handle of such a scene was never pulled, and nothing said why.
+TEST_F(ConnectDialogTest, ASceneWhoseScriptPullsSaysThatItPullsOnlyWhenTicked) {
+  testing::writeFile(folder_ / "pulled.json",
+                     R"({"objects": [{"shape": "sphere", "size_mm": 60}],
+                         "script": [{"at_s": 1, "load": {"object": 0, "force_n": [0, 0, 9],
+                                                         "duration_s": 1}}]})");
+  testing::writeFile(folder_ / "grasped.json", R"({"script": [{"at_s": 1, "grasp": {}}]})");
+  scenesFolder_ = folder_.path();
+  open({.scene = "pulled"});
+  ASSERT_TRUE(canConnect()) << text("connectProblem").toStdString();
+  const auto* note = find<QLabel>("sceneNote");
+  EXPECT_TRUE(note->isVisible());
+  EXPECT_TRUE(note->text().contains("nothing pulls or turns the object"));
+  find<QCheckBox>("sceneScriptRuns")->setChecked(true);
+  EXPECT_FALSE(note->isVisible());
+  find<QCheckBox>("sceneScriptRuns")->setChecked(false);
+  EXPECT_TRUE(note->isVisible());
+  find<QListWidget>("scenes")->setCurrentRow(0);
+  ASSERT_EQ(dialog_->connection().scene, "grasped");
+  EXPECT_FALSE(note->isVisible());
 }
 
 TEST_F(ConnectDialogTest, ABrokenSceneSaysWhatIsWrong) {

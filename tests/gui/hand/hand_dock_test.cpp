@@ -1,6 +1,7 @@
 // The dock Hand against the emulated hand: what is clicked is what arrives there.
 #include "gui/hand/hand_dock.h"
 
+#include <QApplication>
 #include <QComboBox>
 #include <QDoubleSpinBox>
 #include <QLabel>
@@ -12,6 +13,7 @@
 #include <QToolButton>
 
 #include "palpate/device/sdh2.h"
+#include <palpate/control/tactile_masks.h>
 #include <palpate/model/preshape.h>
 
 #include "calibration/sample_calibrations.h"
@@ -387,6 +389,98 @@ TEST_F(HandDockTest, AMatrixThatCannotTellTheLimitIsMarkedAndNamed) {
   EXPECT_TRUE(await([&] { return name->toolTip().isEmpty(); }));
 }
 
+// The refusal stayed, in red, after its cause was gone.
+TEST_F(HandDockTest, ARefusalGoesWhenTheLimitCanBeMeasured) {
+  connectTo(testing::handWith("ball"));
+  ASSERT_TRUE(await([&] { return isEnabled("reactiveGrasp"); }));
+  TaxelSelection distal(*sdh2().layout);
+  distal.addAll(1);
+  const auto scan = [&](MaskChoice choice) {
+    for (const DeviceCommand& command :
+         maskCommands(*bench_->session->device().hand().layout, distal, choice))
+      bench_->control->change(command);
+  };
+  scan(MaskChoice::kWithout);
+  ASSERT_TRUE(await([&] {
+    return bench_->session->device().hand().layout->matrix(1).numEnabled() == 0 &&
+           isEnabled("reactiveGrasp");
+  }));
+  click("reactiveGrasp");
+  ASSERT_TRUE(await([&] { return state().contains("no taxel of it is scanned"); }))
+      << state().toStdString();
+  dock_->refresh();
+  ASSERT_TRUE(state().contains("no taxel of it is scanned")) << "its cause is still there";
+  scan(MaskChoice::kAll);
+  EXPECT_TRUE(await([&] {
+    return state() ==
+           "Ready. The last grasp was refused: its limit couldn't be measured; now it can.";
+  })) << state().toStdString();
+}
+
+TEST_F(HandDockTest, TheRefusalOfHighSensitivityGoesWithItsNoiseLines) {
+  connectTo(testing::handWith("empty"));
+  SensitivityModes& modes = dock_->sensitivity();
+  find<QToolButton>("sensitivityHigh")->click();
+  ASSERT_TRUE(await([&] { return state().contains("noise lines"); }));
+  modes.renewNoiseLines();
+  dock_->refresh();
+  EXPECT_TRUE(state().contains("noise lines")) << "there are none yet";
+  modes.noiseLines = [](const std::string&) {
+    return std::optional(testing::evenNoise(0.3, 40.0, 2.0));
+  };
+  modes.renewNoiseLines();
+  dock_->refresh();
+  EXPECT_FALSE(state().contains("noise lines")) << state().toStdString();
+}
+
+TEST_F(HandDockTest, ARefusedModeLeavesRedo) {
+  connectTo(testing::handWith("empty"));
+  ASSERT_TRUE(await([&] { return find<ValueSlider>("threshold2")->value() == 150.0; }));
+  type("threshold2", "180");
+  ASSERT_TRUE(await([&] { return isEnabled("undoSettings"); }));
+  click("undoSettings");
+  ASSERT_TRUE(await([&] { return isEnabled("redoSettings"); }));
+  find<QToolButton>("sensitivityHigh")->click();
+  ASSERT_TRUE(await([&] { return state().contains("noise lines"); }));
+  dock_->refresh();
+  ASSERT_TRUE(isEnabled("redoSettings"));
+  click("redoSettings");
+  EXPECT_TRUE(await([&] { return onTheHand()[2].thresholdCounts == 180; }));
+}
+
+// The friction was to be seen for less than a second.
+TEST(HandDock, ShowsTheFrictionUntilTheNextGrasp) {
+  GraspStatus status;
+  status.request = GraspRequest{};
+  EXPECT_EQ(HandDock::withFriction("holding", status), "holding");
+  status.last = GraspReport{};
+  status.last->friction = 0.4;
+  EXPECT_EQ(HandDock::withFriction("closing", status), "closing") << "that was another grasp";
+  status.friction = 0.687;
+  EXPECT_EQ(HandDock::withFriction("holding", status), "friction 0.69\nholding");
+  // It has ended.
+  status.request.reset();
+  status.friction.reset();
+  EXPECT_EQ(HandDock::withFriction("stopped", status), "friction 0.40\nstopped");
+  EXPECT_EQ(HandDock::withFriction("finished, friction 0.40; it holds", status),
+            "finished, friction 0.40; it holds");
+}
+
+TEST_F(HandDockTest, AnUndoneCorrectionLeavesNoMark) {
+  applyTheme(*qApp, Theme::kDark);
+  connectTo(stillHand());
+  ASSERT_TRUE(await([&] { return find<ValueSlider>("threshold5")->value() == 300.0; }));
+  const auto* line = find<ValueSlider>("threshold5")->field()->findChild<QLineEdit*>();
+  type("threshold5", "5000");
+  ASSERT_TRUE(await([&] { return isEnabled("undoSettings"); }));
+  EXPECT_TRUE(line->font().bold());
+  click("undoSettings");
+  ASSERT_TRUE(await([&] { return find<ValueSlider>("threshold5")->value() == 300.0; }));
+  EXPECT_FALSE(find<ValueSlider>("threshold5")->field()->font().bold());
+  EXPECT_FALSE(line->font().bold());
+  qApp->setStyleSheet({});
+}
+
 // As the refusals: only fingers that the preshape moves, and of a slip-aware grasp the highest
 // limit that it may go to.
 TEST_F(HandDockTest, TheMarkOfAMatrixAgreesWithTheRefusals) {
@@ -693,6 +787,19 @@ TEST_F(HandDockTest, HighSensitivityNeedsNoiseLinesAndEndsByAHandOnTheValues) {
   EXPECT_EQ(off, 1);
   ASSERT_TRUE(await([&] { return settings()[1].thresholdCounts == 123; }));
   EXPECT_EQ(settings()[5].sensitivity, 1.0) << "the others stay";
+}
+
+// 1.00 is the largest: no higher one would saturate.
+TEST_F(HandDockTest, AdaptiveSensitivityAtTheHighestSaysThatNothingSaturates) {
+  auto hand =
+      std::make_unique<testing::StillHand>(std::vector<double>{60, -75, 75, -75, 75, -75, 75});
+  hand->values[0] = 200;
+  connectTo(std::move(hand));
+  find<QToolButton>("sensitivityAdaptive")->click();
+  EXPECT_TRUE(await([&] {
+    return dock_->sensitivity().statusText() ==
+           "Sensitivity 1.00: not saturated at the highest value.";
+  })) << dock_->sensitivity().statusText().toStdString();
 }
 
 TEST_F(HandDockTest, AdaptiveSensitivitySaysWhatItWaitsFor) {

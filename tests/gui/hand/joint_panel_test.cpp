@@ -22,6 +22,10 @@ class JointPanelTest : public HandDockBench {
     dock_->resize(520, 900);
     find<QTabBar>("handPages")->setCurrentIndex(1);
     panel_ = dock_->findChild<JointPanel*>();
+    panel_->confirmed = [this](const QString& text, const QString& button) {
+      questions_ += text + " / " + button;
+      return confirms_;
+    };
     ASSERT_TRUE(await([&] { return find<ValueSlider>("targetAngle1")->value() == -75.0; }));
   }
   std::vector<double> angles() {
@@ -29,7 +33,17 @@ class JointPanelTest : public HandDockBench {
     bench_->hand->withModel([&](HandModel& model) { now = model.joints().angles(); });
     return now;
   }
+  void save(const QString& name) {
+    panel_->askForName = [name](const QString&) { return name; };
+    click("savePose");
+  }
+  std::vector<double> saved(const QString& name) {
+    const auto pose = panel_->poses().load(sdh2().name, name);
+    return pose ? pose->anglesDeg : std::vector<double>{};
+  }
   JointPanel* panel_ = nullptr;
+  QStringList questions_;
+  bool confirms_ = true;
 };
 
 TEST_F(JointPanelTest, NothingMovesBeforeMoveIsPressed) {
@@ -138,6 +152,74 @@ TEST_F(JointPanelTest, APoseIsSavedGoneToRenamedAndDeleted) {
   EXPECT_EQ(names->itemText(1), "home");
   click("removePose");
   EXPECT_EQ(names->count(), 1);
+}
+
+TEST_F(JointPanelTest, AnOwnPoseIsLostOnlyAfterAQuestion) {
+  connectAndOpen();
+  save("wide open");
+  EXPECT_TRUE(questions_.isEmpty()) << "it is a new one";
+  const std::vector<double> before = saved("wide open");
+  ASSERT_EQ(before.size(), 7u);
+  type("jointVelocity", "100");
+  type("targetAngle4", "10");
+  ASSERT_TRUE(await([&] { return isEnabled("moveJoint4"); }));
+  click("moveJoint4");
+  ASSERT_TRUE(await([&] {
+    return std::abs(angles()[4] - 10.0) < 0.01 && isEnabled("savePose") &&
+           find<QLabel>("presentAngle4")->text() == "10.0°";
+  }));
+  confirms_ = false;
+  save("wide open");
+  EXPECT_EQ(questions_,
+            QStringList{"Replace the pose \"wide open\" by the present angles? / Replace"});
+  EXPECT_EQ(saved("wide open"), before);
+  confirms_ = true;
+  save("wide open");
+  EXPECT_NEAR(saved("wide open").at(4), 10.0, 0.05);
+  questions_.clear();
+  confirms_ = false;
+  click("removePose");
+  EXPECT_EQ(questions_, QStringList{"Delete the pose \"wide open\"? / Delete"});
+  EXPECT_FALSE(saved("wide open").empty());
+  confirms_ = true;
+  click("removePose");
+  EXPECT_TRUE(saved("wide open").empty());
+}
+
+// The angles of one moment of a motion were saved.
+TEST_F(JointPanelTest, NothingIsSavedWhileTheHandMoves) {
+  connectAndOpen();
+  type("jointVelocity", "5");
+  type("targetAngle3", "-10");
+  click("moveJoint3");
+  ASSERT_TRUE(bench_->awaitMotion());
+  EXPECT_TRUE(await([&] { return !isEnabled("savePose"); }));
+  EXPECT_EQ(find<QPushButton>("savePose")->toolTip(),
+            "The hand moves: angles are saved when it stands still");
+  click("stopHand");
+  EXPECT_TRUE(await([&] { return isEnabled("savePose"); }));
+  EXPECT_EQ(find<QPushButton>("savePose")->toolTip(), "Saves the present angles under a name");
+}
+
+TEST_F(JointPanelTest, TheListDropsTheNameWhenTargetsAreChanged) {
+  connectAndOpen();
+  save("rest");
+  auto* names = find<QComboBox>("ownPoses");
+  ASSERT_EQ(names->currentText(), "rest");
+  type("targetAngle4", "10");
+  EXPECT_EQ(names->currentIndex(), 0);
+  EXPECT_FALSE(isEnabled("removePose"));
+  names->setCurrentIndex(1);
+  emit names->activated(1);
+  EXPECT_EQ(names->currentText(), "rest") << "its angles are the targets";
+  QSlider* slider = find<ValueSlider>("targetAngle2")->slider();
+  slider->setSliderDown(true);
+  EXPECT_EQ(names->currentIndex(), 0);
+  slider->setSliderDown(false);
+  // The targets that were set stay, and are not those of the pose.
+  save("rest 2");
+  EXPECT_EQ(names->currentIndex(), 0);
+  EXPECT_NE(names->findText("rest 2"), -1);
 }
 
 TEST_F(JointPanelTest, APoseOfAnotherHandOrOutOfRangeIsRefusedInOneLine) {

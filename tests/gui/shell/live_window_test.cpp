@@ -3,6 +3,7 @@
 #include <QComboBox>
 #include <QDockWidget>
 #include <QDoubleSpinBox>
+#include <QElapsedTimer>
 #include <QLabel>
 #include <QMenu>
 #include <QMessageBox>
@@ -608,11 +609,17 @@ TEST_F(LiveWindowTest, ChosenTaxelsAreScannedAlone) {
   MatrixTableModel& table = window().findChild<InspectPanel*>()->table();
   table.setPlotted(2, false);
   const std::vector<bool> plotted = table.plotted();
+  QElapsedTimer sinceAsked;
+  sinceAsked.start();
   actions().at("scanOnlyInTheirMatrices")->trigger();
+  const QString changing = "changing which taxels are scanned: no frames until this is done";
+  EXPECT_EQ(window().state().messages.flashed(), changing);
   const auto enabled = [&](std::size_t matrix) {
     return live().source()->session->device().hand().layout->matrix(matrix).numEnabled();
   };
   ASSERT_TRUE(await([&] { return enabled(1) == 16; }));
+  ASSERT_TRUE(await([&] { return window().state().messages.flashed() != changing; }));
+  EXPECT_LT(sinceAsked.elapsed(), 4500) << "not after the 5 s of a notice, but when it is done";
   EXPECT_EQ(enabled(0), sdh2().layout->matrix(0).numTaxels());
   EXPECT_EQ(view().selection().count(), 16u) << "what is chosen stays chosen";
   // What is shown knows it, too, and what was plotted stays so.

@@ -105,6 +105,8 @@ TEST_F(ConnectionTest, ADamagedFileGivesTheDefault) {
 TEST(Connection, IsDescribedInAFewWords) {
   Connection connection;
   EXPECT_EQ(describe(connection), "emulated hand · ball");
+  connection.scene = "foam_ball";
+  EXPECT_EQ(describe(connection), "emulated hand · foam ball") << "as in the dialogue Connect";
   connection.scene = "/somewhere/my.first.scene.json";
   EXPECT_EQ(describe(connection), "emulated hand · my.first.scene");
   connection.kind = Connection::Kind::kPorts;

@@ -117,6 +117,7 @@ void CalibrateFeature::connectNoise() {
       &panel_->noise(), &NoisePage::applyRequested, this, [&windowState](const NoiseFloor& floor) {
         const HandDescription* hand = windowState.displayed.hand();
         applyNoise(windowState.settings, hand ? hand->name : movableHand().name, floor);
+        emit windowState.handCommands.noiseLinesApplied();
         windowState.messages.flash(
             "noise lines applied: \"High sensitivity\" in the dock Hand uses them");
       });

@@ -76,7 +76,7 @@ MeasureRow::MeasureRow(QSettings& settings, Setup setup, QWidget* parent)
   progress_->setSizePolicy(policy);
   cancel_ = new QPushButton("Cancel", this);
   cancel_->setObjectName(setup_.part + "MeasureCancel");
-  cancel_->setToolTip("Cancel the measurement (Esc)");
+  cancel_->setToolTip("Cancels the measurement (Esc; a message that is shown is closed before)");
   text_ = new QLabel(this);
   text_->setObjectName(setup_.part + "MeasureText");
   text_->setTextFormat(Qt::PlainText);

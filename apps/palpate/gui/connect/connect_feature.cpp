@@ -210,7 +210,7 @@ void ConnectFeature::fillMenu() {
     Connection connection;
     connection.kind = Connection::Kind::kEmulated;
     connection.scene = QString::fromStdString(name);
-    add(scenes, QString(connection.scene).replace('_', ' '), connection);
+    add(scenes, sceneTitle(connection.scene), connection);
   }
   QMenu* replays = menu->addMenu("&Replay of a recording");
   const auto replay = [&](const QString& path) {

@@ -7,10 +7,13 @@
 #include <QListWidget>
 #include <QPushButton>
 #include <QVBoxLayout>
+#include <algorithm>
+#include <variant>
 
 #include <palpate/core/error.h>
 #include <palpate/emulator/scene.h>
 
+#include "gui/source/connection.h"
 #include "gui/widgets/two_line_delegate.h"
 
 namespace palpate::gui {
@@ -19,6 +22,15 @@ namespace {
 constexpr int kSceneRole = Qt::UserRole + 2;    // in the form that loadScene() takes
 constexpr int kProblemRole = Qt::UserRole + 3;  // why the scene cannot be used
 constexpr int kScriptRole = Qt::UserRole + 4;   // whether the scene has a script
+constexpr int kMovesRole = Qt::UserRole + 5;  // whether its script pulls, turns or moves an object
+
+bool movesObjects(const Scene& scene) {
+  return std::any_of(scene.script.begin(), scene.script.end(), [](const ScriptStep& step) {
+    return std::holds_alternative<MoveObject>(step.action) ||
+           std::holds_alternative<LoadObject>(step.action) ||
+           std::holds_alternative<TurnObject>(step.action);
+  });
+}
 
 }  // namespace
 
@@ -38,6 +50,10 @@ ScenePage::ScenePage(const std::filesystem::path& folder, Theme theme, QWidget* 
   none_->setTextFormat(Qt::PlainText);
   acts_ = new QCheckBox("The scene moves the hand &by itself", this);
   acts_->setObjectName("sceneScriptRuns");
+  note_ = new QLabel("Without this, nothing pulls or turns the object: the script does it.", this);
+  note_->setObjectName("sceneNote");
+  note_->setProperty("role", "muted");
+  note_->setWordWrap(true);
   auto* other = new QPushButton("&Other scene…", this);
   other->setObjectName("otherScene");
   other->setAutoDefault(false);
@@ -52,10 +68,11 @@ ScenePage::ScenePage(const std::filesystem::path& folder, Theme theme, QWidget* 
   column->addWidget(list_, 1);
   column->addSpacing(2);
   column->addLayout(below);
+  column->addWidget(note_);
 
   for (const std::string& name : sceneNames(folder_)) {
     const QString scene = QString::fromStdString(name);
-    addScene(scene, QString(scene).replace('_', ' '));
+    addScene(scene, sceneTitle(scene));
   }
   none_->setText("No scenes were found in " + QString::fromStdString(folder_.string()) +
                  ". Choose a scene file.");
@@ -66,6 +83,7 @@ ScenePage::ScenePage(const std::filesystem::path& folder, Theme theme, QWidget* 
   };
   connect(list_, &QListWidget::currentRowChanged, this, &ScenePage::showChosen);
   connect(acts_, &QCheckBox::clicked, this, &ScenePage::changed);
+  connect(acts_, &QCheckBox::toggled, this, &ScenePage::showNote);
   connect(other, &QPushButton::clicked, this, [this] {
     const QString chosen = askForScene();
     if (!chosen.isEmpty()) setScene(chosen);
@@ -82,6 +100,7 @@ void ScenePage::addScene(const QString& scene, const QString& title) {
     const Scene loaded = loadScene(scene.toStdString(), folder_);
     item->setData(TwoLineDelegate::kDetailRole, QString::fromStdString(loaded.description));
     item->setData(kScriptRole, !loaded.script.empty());
+    item->setData(kMovesRole, movesObjects(loaded));
   } catch (const Error& error) {
     const QString problem = QString::fromStdString(error.what());
     item->setData(TwoLineDelegate::kDetailRole, problem);
@@ -115,7 +134,13 @@ void ScenePage::showChosen() {
   acts_->setToolTip(canAct
                         ? "The script of the scene closes and opens the hand; you watch and record"
                         : "This scene has no script");
+  showNote();
   emit changed();
+}
+
+void ScenePage::showNote() {
+  const QListWidgetItem* item = list_->currentItem();
+  note_->setVisible(item && item->data(kMovesRole).toBool() && !acts_->isChecked());
 }
 
 }  // namespace palpate::gui

@@ -39,11 +39,14 @@ class ScenePage : public QWidget {
  private:
   void addScene(const QString& scene, const QString& title);
   void showChosen();
+  void showNote();
 
   std::filesystem::path folder_;
   QListWidget* list_;
   QLabel* none_;
   QCheckBox* acts_;
+  // What a scene doesn't do whose script doesn't run.
+  QLabel* note_;
   QString problem_;
 };
 

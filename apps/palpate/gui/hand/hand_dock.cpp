@@ -122,7 +122,10 @@ HandDock::HandDock(QSettings& settings, QWidget* parent) : QWidget(parent) {
   connect(sensitivity_, &SensitivityModes::refused, this, refused);
   connect(tactile_, &TactileSettingsPanel::changedByHand, sensitivity_, &SensitivityModes::endMode);
   // A mode changes the settings, too: undo goes back to those from before it.
-  connect(sensitivity_, &SensitivityModes::asked, tactile_, &TactileSettingsPanel::keepForUndo);
+  connect(sensitivity_, &SensitivityModes::changing, tactile_, &TactileSettingsPanel::keepForUndo);
+  connect(sensitivity_, &SensitivityModes::refusalEnded, this, [this](const QString& why) {
+    if (said_ == why) said_.clear();
+  });
   grasp_->highestLimit = [this](const GraspRequest& request) {
     if (!session_) return kMaxGraspLimitCounts;
     const DeviceInfo facts = session_->device().facts();
@@ -391,6 +394,7 @@ void HandDock::refresh() {
   sensitivity_->refresh();
   const DeviceInfo facts = session_ ? session_->device().facts() : DeviceInfo{};
   showUnmeasurable(facts.matrices);
+  followRefusal(status, facts.matrices);
   tactile_->refresh(status, facts);
   showSamples();
   const bool gone = control_ && !status.cannotMove.empty();
@@ -454,6 +458,26 @@ void HandDock::showUnmeasurable(const std::vector<MatrixSettings>& settings) {
   emit unmeasurableChanged(unmeasurable_);
 }
 
+// Finds out when the reason of a refused grasp is gone: its limit can be measured now.
+void HandDock::followRefusal(const GraspStatus& status,
+                             const std::vector<MatrixSettings>& settings) {
+  if (!session_ || !status.last || status.last->outcome != GraspOutcome::kRefused ||
+      status.last->request.mode == GraspMode::kPlain || settings.empty())
+    return;
+  const GraspReport& refused = *status.last;
+  const bool isNew = refusedUs_ != refused.endUs;
+  if (!isNew && (!limitRefused_ || limitMeasurable_)) return;
+  const auto unfelt = unmeasurableLimits(session_->device().hand(), settings, refused.request);
+  if (isNew) {
+    refusedUs_ = refused.endUs;
+    limitMeasurable_ = false;
+    limitRefused_ = !unfelt.empty() && refused.text.find(unfelt[0].why) != std::string::npos;
+    return;
+  }
+  limitMeasurable_ = unfelt.empty();
+  if (limitMeasurable_ && said_ == QString::fromStdString(refused.text)) said_.clear();
+}
+
 void HandDock::setInSight(bool on) {
   inSight_ = on;
   showBound();
@@ -509,7 +533,7 @@ void HandDock::showState(const GraspStatus& status) {
   if (status.phase != GraspPhase::kIdle) {
     // Without a request, the phase is only the end of a motion.
     if (status.request) said_.clear();
-    return say(phaseText(status), false);
+    return say(withFriction(phaseText(status), status), false);
   }
   if (!status.cannotMove.empty())
     return say(motionBlockedReason(status), true, QString::fromStdString(status.cannotMove));
@@ -524,8 +548,9 @@ void HandDock::showState(const GraspStatus& status) {
         "next motion switches them on.",
         false);
   if (!status.last) return say("Ready.", false);
-  if (const auto over = lastGraspText(*status.last, status)) return say(*over, false);
-  const QString text = QString::fromStdString(status.last->text);
+  if (const auto over = lastGraspText(*status.last, status))
+    return say(withFriction(*over, status), false);
+  const QString text = withFriction(QString::fromStdString(status.last->text), status);
   switch (status.last->outcome) {
     case GraspOutcome::kFinished:
     case GraspOutcome::kLimitReached:
@@ -535,6 +560,15 @@ void HandDock::showState(const GraspStatus& status) {
     default:
       return say(text, true);
   }
+}
+
+QString HandDock::withFriction(const QString& text, const GraspStatus& status) {
+  std::optional<double> friction = status.friction;
+  if (!status.request && status.last) friction = status.last->friction;
+  if (!friction) return text;
+  const QString said = "friction " + figure(*friction, 2);
+  // The text of a grasp that ended after its time has it already.
+  return text.contains(said) ? text : said + "\n" + text;
 }
 
 QString HandDock::phaseText(const GraspStatus& status) const {
@@ -575,6 +609,8 @@ std::optional<QString> HandDock::lastGraspText(const GraspReport& report,
     return "Ready. The motion port was disconnected during a motion, and is connected again.";
   if (goneUs_ && *goneUs_ > report.endUs)
     return "Ready. The motion port was disconnected, and is back.";
+  if (report.outcome == GraspOutcome::kRefused && report.endUs == refusedUs_ && limitMeasurable_)
+    return "Ready. The last grasp was refused: its limit couldn't be measured; now it can.";
   if (report.outcome == GraspOutcome::kStreamLost && status.cannotReact.empty())
     return "Ready. The last grasp was stopped: no tactile frames arrived; they arrive again.";
   return std::nullopt;

@@ -65,6 +65,7 @@ class HandDock : public QWidget {
   // As in unmeasurableChanged().
   const std::vector<QString>& unmeasurable() const noexcept { return unmeasurable_; }
   SensitivityModes& sensitivity() noexcept { return *sensitivity_; }
+  JointPanel& joints() noexcept { return *joint_; }
   // The calibration applied to the hand with this name, for limits in newtons; nothing: none.
   std::function<std::optional<Calibration>(const std::string& hand)> calibrationOf;
   // What the connected hand does by itself, as HandModel::ownMotion(); empty: it moves on orders
@@ -74,6 +75,9 @@ class HandDock : public QWidget {
   void answerKey(const QAction* action);
   // Call this when another calibration was applied.
   void renewCalibration();
+  // `text` below the friction that the running or the last grasp has measured: a line that is seen
+  // without scrolling.
+  static QString withFriction(const QString& text, const GraspStatus& status);
   // Updates the dock; a timer calls it while a hand is connected.
   void refresh();
   QSize sizeHint() const override { return {455, 640}; }
@@ -113,6 +117,7 @@ class HandDock : public QWidget {
   void clearAnswers();
   void showState(const GraspStatus& status);
   void showBound();
+  void followRefusal(const GraspStatus& status, const std::vector<MatrixSettings>& settings);
   void showUnmeasurable(const std::vector<MatrixSettings>& settings);
   QString phaseText(const GraspStatus& status) const;
   QString motionBlockedReason(const GraspStatus& status) const;
@@ -158,6 +163,11 @@ class HandDock : public QWidget {
   std::optional<std::int64_t> goneUs_;
   // Why a motion was refused; shown until another motion is requested.
   QString said_;
+  // When the last grasp was refused [us since 1970]; whether because matrices can't measure its
+  // limit; whether they can by now.
+  std::int64_t refusedUs_ = 0;
+  bool limitRefused_ = false;
+  bool limitMeasurable_ = false;
   // The number of a field that was out of range; shown below or above what the hand does.
   QString correction_;
   const QObject* correctedField_ = nullptr;  // the field that it is about

@@ -2,6 +2,7 @@
 
 #include "gui/hand/dialog_stop.h"
 #include "gui/hand/hand_dock.h"
+#include "gui/hand/joint_panel.h"
 #include "gui/hand/motion_keys.h"
 #include "gui/hand/sensitivity_modes.h"
 #include "gui/widgets/dock.h"
@@ -55,6 +56,9 @@ HandFeature::HandFeature(WindowState& windowState, QWidget* window)
   connect(panel_, &HandDock::asked, &windowState.handCommands, &HandCommands::asked);
   followTheme(panel_);
   followUnits(panel_);
+  panel_->joints().confirmed = [&windowState](const QString& text, const QString& button) {
+    return windowState.prompts.confirmed && windowState.prompts.confirmed(text, button);
+  };
   SensitivityModes& modes = panel_->sensitivity();
   modes.noiseLines = [&windowState](const std::string& hand) {
     const auto& lines = windowState.handCommands.noiseLines;
@@ -74,6 +78,10 @@ HandFeature::HandFeature(WindowState& windowState, QWidget* window)
           &HandCommands::calibrationApplied,
           panel_,
           &HandDock::renewCalibration);
+  connect(&windowState.handCommands,
+          &HandCommands::noiseLinesApplied,
+          &modes,
+          &SensitivityModes::renewNoiseLines);
   connect(&modes,
           &SensitivityModes::highChanged,
           &windowState.handCommands,

@@ -31,6 +31,7 @@ namespace {
 constexpr const char* kJointVelocity = "joints/velocity_deg_per_s";
 constexpr const char* kJointContact = "joints/stop_at_contact";
 constexpr const char* kOwnPoses = "Own poses…";
+constexpr const char* kSaveTip = "Saves the present angles under a name";
 constexpr const char* kPoseFilter = "Poses (*.json)";
 constexpr qint64 kLargestPoseFile = 10'000'000;
 
@@ -62,6 +63,7 @@ JointPanel::JointPanel(QSettings& settings, QWidget* parent)
   askForFileToSave = [this] {
     return QFileDialog::getSaveFileName(this, "Export poses", "poses.json", kPoseFilter);
   };
+  confirmed = [](const QString&, const QString&) { return false; };
   reactiveLimits = [] { return GraspRequest{}; };
   auto* grid = new QGridLayout;
   grid->setContentsMargins(0, 0, 0, 0);
@@ -151,10 +153,10 @@ void JointPanel::makeRows(QGridLayout& grid) {
     rows_.push_back(row);
     // While a slider is dragged the field shows the value, and the row counts as changed.
     connect(row.target->slider(), &QSlider::sliderPressed, this, [this, axis] {
-      setChanged(rows_[axis]);
+      setChangedByHand(rows_[axis]);
     });
     connect(row.target, &ValueSlider::chosen, this, [this, axis] {
-      setChanged(rows_[axis]);
+      setChangedByHand(rows_[axis]);
       showStatus(control_ ? control_->status() : GraspStatus{});
     });
     connect(row.move, &QPushButton::clicked, this, [this, axis] { move(axis); });
@@ -168,7 +170,7 @@ QWidget* JointPanel::makePoses() {
   names_->setToolTip("Its angles become the targets; Move goes there");
   names_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
   names_->setMinimumContentsLength(8);
-  save_ = jointButton("Save…", "savePose", "Saves the present angles under a name", false, part);
+  save_ = jointButton("Save…", "savePose", kSaveTip, false, part);
   rename_ = jointButton("Rename…", "renamePose", "Renames the chosen pose", false, part);
   remove_ = jointButton("Delete", "removePose", "Deletes the chosen pose", false, part);
   file_ = jointButton("File", "poseFile", "Poses from a file, or into one", false, part);
@@ -187,11 +189,7 @@ QWidget* JointPanel::makePoses() {
   });
   connect(save_, &QPushButton::clicked, this, &JointPanel::savePose);
   connect(rename_, &QPushButton::clicked, this, &JointPanel::renamePose);
-  connect(remove_, &QPushButton::clicked, this, [this] {
-    if (names_->currentIndex() <= 0) return;
-    store_.remove(movableHand().name, names_->currentText());
-    listPoses();
-  });
+  connect(remove_, &QPushButton::clicked, this, &JointPanel::removePose);
   return part;
 }
 
@@ -220,6 +218,11 @@ void JointPanel::setChanged(Row& row) {
   row.underWay = false;
 }
 
+void JointPanel::setChangedByHand(Row& row) {
+  names_->setCurrentIndex(0);
+  setChanged(row);
+}
+
 void JointPanel::savePose() {
   if (!control_) return;
   const std::vector<double> angles = control_->status().anglesDeg;
@@ -235,8 +238,22 @@ void JointPanel::savePose() {
   }
   if (const std::string problem = problemOf(pose, movableHand()); !problem.empty())
     return emit refused(QString::fromStdString(problem));
+  if (store_.names(movableHand().name).contains(name) &&
+      !confirmed("Replace the pose \"" + name + "\" by the present angles?", "Replace"))
+    return;
   store_.save(pose);
-  listPoses(name);
+  // The name says what the targets are: those that were set before are other ones.
+  const bool targetsSet =
+      std::any_of(rows_.begin(), rows_.end(), [](const Row& row) { return row.changed; });
+  listPoses(targetsSet ? QString() : name);
+}
+
+void JointPanel::removePose() {
+  if (names_->currentIndex() <= 0) return;
+  const QString name = names_->currentText();
+  if (!confirmed("Delete the pose \"" + name + "\"?", "Delete")) return;
+  store_.remove(movableHand().name, name);
+  listPoses();
 }
 
 void JointPanel::renamePose() {
@@ -393,7 +410,12 @@ void JointPanel::showStatus(const GraspStatus& status) {
   if (move_->toolTip() != tip) move_->setToolTip(tip);
   reset_->setEnabled(changed > 0);
   velocity_->setEnabled(control_);
-  save_->setEnabled(known && status.cannotMove.empty());
+  // Angles of a motion are those of one moment, which is no pose.
+  const bool moves = !idle && status.phase != GraspPhase::kHolding;
+  save_->setEnabled(known && status.cannotMove.empty() && !moves);
+  const QString saveTip =
+      moves ? QString("The hand moves: angles are saved when it stands still") : kSaveTip;
+  if (save_->toolTip() != saveTip) save_->setToolTip(saveTip);
   rename_->setEnabled(names_->currentIndex() > 0);
   remove_->setEnabled(names_->currentIndex() > 0);
 }

@@ -41,6 +41,8 @@ class JointPanel : public QWidget {
   std::function<QString(const QString& suggestion)> askForName;
   std::function<QString()> askForFileToOpen;
   std::function<QString()> askForFileToSave;
+  // Asks before a pose is lost; `button`: what is done ("Replace"). Until it is set, none is lost.
+  std::function<bool(const QString& text, const QString& button)> confirmed;
 
  signals:
   void begins();
@@ -63,6 +65,7 @@ class JointPanel : public QWidget {
   void choosePose(const QString& name);
   void savePose();
   void renamePose();
+  void removePose();
   void importPoses();
   void exportPoses();
   void move(std::optional<std::size_t> axis);
@@ -70,6 +73,8 @@ class JointPanel : public QWidget {
   void showRow(Row& row);
   // A new target; the end of a motion that runs doesn't count as having reached it.
   static void setChanged(Row& row);
+  // The user set a target: the targets are no longer those of the chosen pose.
+  void setChangedByHand(Row& row);
 
   PoseStore store_;
   QSettings& settings_;

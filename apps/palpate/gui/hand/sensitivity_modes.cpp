@@ -9,6 +9,13 @@
 #include "gui/appearance/captions.h"
 
 namespace palpate::gui {
+namespace {
+
+constexpr const char* kNoNoiseLines =
+    "High sensitivity needs noise lines of this hand: dock Calibrate, page Noise, \"Apply to this "
+    "hand\".";
+
+}  // namespace
 
 SensitivityModes::SensitivityModes(QWidget* parent) : QWidget(parent) {
   noiseLines = [](const std::string&) { return std::optional<NoiseFloor>(); };
@@ -90,16 +97,16 @@ void SensitivityModes::choose(SensitivityMode mode) {
         break;
       case SensitivityMode::kAdaptive:
         control_->beginAdaptiveSensitivity();
+        emit changing();
         break;
       case SensitivityMode::kHigh: {
         const auto lines = noiseLines(session_->device().hand().name);
-        if (lines)
-          control_->beginHighSensitivity(*lines);
-        else
-          emit refused(
-              "High sensitivity needs noise lines of this hand: dock Calibrate, page Noise, "
-              "\"Apply "
-              "to this hand\".");
+        if (!lines) {
+          emit refused(kNoNoiseLines);
+          break;
+        }
+        control_->beginHighSensitivity(*lines);
+        emit changing();
         break;
       }
     }
@@ -107,6 +114,10 @@ void SensitivityModes::choose(SensitivityMode mode) {
     emit refused(error.what());
   }
   showMode(control_->status().mode);
+}
+
+void SensitivityModes::renewNoiseLines() {
+  if (session_ && noiseLines(session_->device().hand().name)) emit refusalEnded(kNoNoiseLines);
 }
 
 void SensitivityModes::endMode() {
@@ -124,7 +135,9 @@ QString SensitivityModes::describe(const SensitivityStatus& status) const {
   if (status.mode == SensitivityMode::kAdaptive) {
     const QString now = "Sensitivity " + figure(status.sensitivity, 2);
     if (status.saturated) return now + ": saturated at the lowest value.";
-    return now + (status.settled ? ": a higher one would saturate." : ": waiting for a contact.");
+    if (!status.settled) return now + ": waiting for a contact.";
+    return now + (status.highest ? ": not saturated at the highest value."
+                                 : ": a higher one would saturate.");
   }
   QString text = "Thresholds follow the temperatures.";
   if (status.noise.guarding)

@@ -26,6 +26,8 @@ class SensitivityModes : public QWidget {
   void refresh();
   // Switches to manual, because the user set a value.
   void endMode();
+  // Other noise lines were applied to the hand.
+  void renewNoiseLines();
   SensitivityMode mode() const;
   QString statusText() const;
 
@@ -35,7 +37,11 @@ class SensitivityModes : public QWidget {
  signals:
   // The user chose a mode.
   void asked();
+  // A mode begins, which changes the settings; they still have their present values.
+  void changing();
   void refused(const QString& why);
+  // What was refused with this text is possible now.
+  void refusalEnded(const QString& why);
   // High sensitivity was switched on or off; while it is on, a filter must remove ghosts.
   void highChanged(bool on);
 

@@ -6,6 +6,11 @@
 #include "gui/matrices/matrices_feature.h"
 
 namespace palpate::gui {
+namespace {
+
+constexpr const char* kChanging = "changing which taxels are scanned: no frames until this is done";
+
+}  // namespace
 
 ScanChoice::ScanChoice(WindowState& windowState, const MatricesActions& actions)
     : windowState_(windowState) {
@@ -33,7 +38,10 @@ ScanChoice::ScanChoice(WindowState& windowState, const MatricesActions& actions)
     actions.chooseNone->setEnabled(true);
   });
   connect(&windowState.live, &LiveController::refreshed, this, &ScanChoice::takeAnswers);
-  connect(&windowState.live, &LiveController::leaving, this, [this] { answers_.clear(); });
+  connect(&windowState.live, &LiveController::leaving, this, [this] {
+    answers_.clear();
+    windowState_.messages.takeBack(kChanging);
+  });
 }
 
 void ScanChoice::scan(MaskChoice choice) {
@@ -44,15 +52,14 @@ void ScanChoice::scan(MaskChoice choice) {
         *source->session->device().hand().layout, windowState_.selection.taxels(), choice);
     for (const DeviceCommand& command : commands)
       answers_.push_back(source->control->change(command));
-    windowState_.messages.flash(
-        commands.empty() ? "these taxels are scanned already"
-                         : "changing which taxels are scanned: no frames until this is done");
+    windowState_.messages.flash(commands.empty() ? "these taxels are scanned already" : kChanging);
   } catch (const std::exception& error) {
     windowState_.messages.fail(error.what());
   }
 }
 
 void ScanChoice::takeAnswers() {
+  if (answers_.empty()) return;
   const auto isReady = [](const auto& answer) {
     return answer.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
   };
@@ -66,6 +73,7 @@ void ScanChoice::takeAnswers() {
     }
   }
   std::erase_if(answers_, isReady);
+  if (answers_.empty()) windowState_.messages.takeBack(kChanging);
 }
 
 }  // namespace palpate::gui

@@ -123,10 +123,14 @@ QString sourceText(const Connection& connection) {
     case Connection::Kind::kEmulated:
       break;
   }
-  return "emulated hand · " + QFileInfo(connection.scene).completeBaseName();
+  return "emulated hand · " + sceneTitle(connection.scene);
 }
 
 }  // namespace
+
+QString sceneTitle(const QString& scene) {
+  return QFileInfo(scene).completeBaseName().replace('_', ' ');
+}
 
 QString describe(const Connection& connection) {
   const QString source = sourceText(connection);

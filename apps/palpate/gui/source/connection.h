@@ -50,6 +50,8 @@ inline constexpr std::array kAllConnectionKinds = {Connection::Kind::kPorts,
                                                    Connection::Kind::kEmulated,
                                                    Connection::Kind::kReplay};
 
+// What the window calls a scene: "foam ball" for "foam_ball" and "/somewhere/foam_ball.json".
+QString sceneTitle(const QString& scene);
 // "hand on ttyUSB0 and ttyUSB1", "stream from ttyACM0 · my_pad", "emulated hand · ball", "replay of
 // foam_ball.dsa"; of a saved connection "left hand: hand on ttyUSB0 and ttyUSB1".
 QString describe(const Connection& connection);

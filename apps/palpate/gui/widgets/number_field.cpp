@@ -108,17 +108,22 @@ void SecondsField::showCorrection() {
   if (!corrected_) usualToolTip_ = toolTip();
   corrected_ = true;
   setToolTip(what);
-  setProperty("corrected", true);
-  style()->polish(this);
+  showMark(true);
   emit corrected(what);
+}
+
+void SecondsField::showMark(bool on) {
+  setProperty("corrected", on);
+  style()->polish(this);
+  // The text is that of the line within, which would keep the bold font of the mark.
+  if (!on) lineEdit()->setFont({});
 }
 
 void SecondsField::endCorrection() {
   if (!corrected_) return;
   corrected_ = false;
   setToolTip(usualToolTip_);
-  setProperty("corrected", false);
-  style()->polish(this);
+  showMark(false);
   emit corrected({});
 }
 

@@ -47,6 +47,7 @@ class SecondsField : public QDoubleSpinBox {
 
  private:
   void showCorrection();
+  void showMark(bool on);
 
   QString saidUnit_;
   QString placeholder_;

@@ -44,6 +44,8 @@ class HandCommands : public QObject {
  signals:
   // Another calibration was applied, or the applied one was removed.
   void calibrationApplied();
+  // Other noise lines were applied.
+  void noiseLinesApplied();
   // The user commands a motion, or Stop.
   void asked();
   // The user commands Stop, by the button or by Escape.
