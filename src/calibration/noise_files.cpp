@@ -95,6 +95,7 @@ Json jsonOf(const NoiseFloor& floor) {
                       .set("rmse", line.rmse)
                       .set("rmse_true", line.rmseTrue)
                       .set("valid", line.valid)
+                      .set("at_rest", line.atRest)
                       .set("frames", line.numFrames)
                       .set("outliers", line.numOutliers)
                       .set("least_temperature_c", line.minDegC)
@@ -104,7 +105,10 @@ Json jsonOf(const NoiseFloor& floor) {
                       .set("bins", std::move(bins))
                       .set("notes", texts(line.notes)));
   }
-  return Json::object().set("matrices", std::move(matrices)).set("notes", texts(floor.notes));
+  return Json::object()
+      .set("matrices", std::move(matrices))
+      .set("notes", texts(floor.notes))
+      .set("not_at_rest", floor.notAtRest);
 }
 
 NoiseFloor noiseFloorFrom(const Json& json) {
@@ -126,6 +130,7 @@ NoiseFloor noiseFloorFrom(const Json& json) {
     line.rmse = one.at("rmse").asDouble();
     line.rmseTrue = number("rmse_true", line.rmse);
     line.valid = !one.at("valid").isBool() || one.at("valid").asBool();
+    line.atRest = !one.at("at_rest").isBool() || one.at("at_rest").asBool();
     line.numFrames = static_cast<std::size_t>(std::max(number("frames", 0.0), 0.0));
     line.minDegC = number("least_temperature_c", 0.0);
     line.maxDegC = number("most_temperature_c", 0.0);
@@ -133,6 +138,7 @@ NoiseFloor noiseFloorFrom(const Json& json) {
     line.spreadDegC2 = number("spread_c2", 0.0);
     floor.lines.push_back(line);
   }
+  if (json.at("not_at_rest").isString()) floor.notAtRest = json.at("not_at_rest").asString();
   return floor;
 }
 
@@ -159,7 +165,7 @@ NoiseFloor parseNoiseXml(std::string_view xml, const std::filesystem::path& name
   }
   if (handler.lines.empty())
     throw FormatError(name, "isn't a noise calibration: it has no <matrix>");
-  return {std::move(handler.lines), {}};
+  return {std::move(handler.lines), {}, {}};
 }
 
 }  // namespace palpate

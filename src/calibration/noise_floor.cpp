@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "palpate/calibration/student_t.h"
+#include "palpate/calibration/tare.h"
 #include "palpate/core/error.h"
 #include "palpate/core/number_text.h"
 #include "palpate/core/progress.h"
@@ -16,6 +17,11 @@ namespace palpate {
 namespace {
 
 constexpr double kOutlierSigmas = 6.0;
+// All frames are used, unlike in a tare: a matrix must be at rest nearly always.
+constexpr double kLeastRestShare = 0.9;
+// Below this range of temperatures the reading at rest stays the same.
+constexpr double kSameRestDegC = 5.0;
+constexpr double kFitShare = 0.5;  // part of the work; the rest is the search for touches
 
 struct Point {
   double t, y;
@@ -100,6 +106,23 @@ void settleForMean(const Sums& sums, std::size_t n, NoiseLine& line) {
   line.rmse = line.rmseTrue = n > 1 ? std::sqrt(sums.yy / static_cast<double>(n - 1)) : 0.0;
 }
 
+// Finds out which matrices were touched.
+void judgeRest(const Profile& profile, const Progress& progress, NoiseFloor& floor) {
+  TareOptions options;
+  const TareOptions usual;
+  for (const NoiseLine& line : floor.lines)
+    if (line.maxDegC - line.minDegC > kSameRestDegC) {
+      options.sameRestCounts = usual.maxRestCounts;
+      options.maxSdCounts = 2.0 * usual.maxSdCounts;
+    }
+  const Tare tare = findTare(profile, options, [&](double done) {
+    return !progress || progress(kFitShare + (1.0 - kFitShare) * done);
+  });
+  for (std::size_t m = 0; m < floor.lines.size(); ++m)
+    floor.lines[m].atRest = wasAtRest(tare.matrices[m], profile.numFrames(), kLeastRestShare);
+  floor.notAtRest = notAtRest(tare, profile, kLeastRestShare);
+}
+
 }  // namespace
 
 void NoiseFloorOptions::validate() const {
@@ -179,9 +202,10 @@ NoiseFloor fitNoiseFloor(const Profile& profile,
   const SensorLayout& layout = profile.layout();
   const auto& matrices = profile.hand().matrices;
   std::vector<std::vector<double>> degC(layout.numMatrices()), maxima(layout.numMatrices());
+  const Progress fitProgress = [&](double done) { return !progress || progress(kFitShare * done); };
   TactileFrame frame;
   for (std::size_t i = 0; i < profile.numFrames(); ++i) {
-    reportProgress(progress, i, profile.numFrames(), kFramesPerReport);
+    reportProgress(fitProgress, i, profile.numFrames(), kFramesPerReport);
     profile.readFrame(i, frame);
     const auto temperatures = profile.temperaturesAtFrame(i);
     for (std::size_t m = 0; m < layout.numMatrices(); ++m) {
@@ -197,7 +221,10 @@ NoiseFloor fitNoiseFloor(const Profile& profile,
     floor.lines.push_back(fitNoiseLine(degC[m], maxima[m], options));
     floor.lines.back().matrix = m;
   }
-  if (profile.numFrames() == 0) floor.notes.push_back("the recording has no frames");
+  if (profile.numFrames() == 0)
+    floor.notes.push_back("the recording has no frames");
+  else
+    judgeRest(profile, progress, floor);
   if (profile.numTemperatures() == 0)
     floor.notes.push_back("no temperatures were recorded: can't relate noise to temperature");
   return floor;

@@ -142,6 +142,13 @@ MatrixTare tareOf(const std::vector<Window>& windows,
   return tare;
 }
 
+// Share of the frames that lie in unloaded windows, 0..1.
+double shareAtRest(const MatrixTare& matrix, std::size_t numFrames) {
+  std::size_t frames = 0;
+  for (const UnloadedWindow& window : matrix.windows) frames += window.end - window.begin + 1;
+  return numFrames > 0 ? static_cast<double>(frames) / static_cast<double>(numFrames) : 0.0;
+}
+
 }  // namespace
 
 void TareOptions::validate() const {
@@ -170,6 +177,25 @@ Tare findTare(const Profile& profile, const TareOptions& options, const Progress
     tare.matrices.push_back(
         tareOf(windows, layout.offset(m), layout.matrix(m).numCells(), options, tare.zero));
   return tare;
+}
+
+bool wasAtRest(const MatrixTare& matrix, std::size_t numFrames, double leastShare) {
+  return matrix.valid && shareAtRest(matrix, numFrames) >= leastShare;
+}
+
+std::string notAtRest(const Tare& tare, const Profile& profile, double leastShare) {
+  std::string text;
+  for (std::size_t m = 0; m < tare.matrices.size(); ++m) {
+    const MatrixTare& matrix = tare.matrices[m];
+    if (wasAtRest(matrix, profile.numFrames(), leastShare)) continue;
+    const double touched = 1.0 - shareAtRest(matrix, profile.numFrames());
+    text += text.empty() ? "not at rest: " : "; ";
+    text += profile.hand().matrixName(m) + " (";
+    text += matrix.valid ? "touched or moved in " + fixedText(100.0 * touched, 0) + " % of the time"
+                         : matrix.note;
+    text += ")";
+  }
+  return text;
 }
 
 void applyTare(const Tare& tare, std::span<float> values) {

@@ -162,23 +162,4 @@ Profile LiveMeasurement::takeProfile(ProfileInfo info) {
   return builder_.finish(std::move(info));
 }
 
-std::string notAtRest(const Tare& tare, const Profile& profile, double leastShare) {
-  std::string text;
-  const auto total = static_cast<double>(profile.numFrames());
-  for (std::size_t m = 0; m < tare.matrices.size(); ++m) {
-    const MatrixTare& matrix = tare.matrices[m];
-    std::size_t frames = 0;
-    for (const UnloadedWindow& window : matrix.windows) frames += window.end - window.begin + 1;
-    const double share = total > 0.0 ? static_cast<double>(frames) / total : 0.0;
-    if (matrix.valid && share >= leastShare) continue;
-    text += text.empty() ? "not at rest: " : "; ";
-    text += profile.hand().matrixName(m) + " (";
-    text += matrix.valid
-                ? "touched or moved in " + fixedText(100.0 * (1.0 - share), 0) + " % of the time"
-                : matrix.note;
-    text += ")";
-  }
-  return text;
-}
-
 }  // namespace palpate

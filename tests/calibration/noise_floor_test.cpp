@@ -173,5 +173,49 @@ TEST(NoiseFloor, RefusesFilesThatAreNone) {
   EXPECT_THROW(fitNoiseLine(std::vector{1.0}, {}), std::invalid_argument);
 }
 
+// 100 s at 10 frames/s from 30 deg C to `lastDegC`; matrix 1 rests at 20 counts, which rise by 0.5
+// per deg C, and is touched with `load` in the last `touchedS` seconds.
+NoiseFloor floorOf(double lastDegC, float load, int touchedS) {
+  ProfileBuilder builder(sdh2().layout);
+  for (int i = 0; i < 1000; ++i) {
+    const std::int64_t us = 1'000'000 + 100'000LL * i;
+    const double degC = 30.0 + (lastDegC - 30.0) * i / 999.0;
+    TactileFrame frame(sdh2().layout);
+    frame.matrix(1)(7, 2) = static_cast<float>(20.0 + 0.5 * (degC - 30.0) + i % 2) +
+                            (i >= 1000 - 10 * touchedS ? load : 0.0F);
+    builder.addFrame(us, frame.values);
+    builder.addTemperatures(us, std::vector<double>(sdh2().temperatureSensors.size(), degC));
+  }
+  return fitNoiseFloor(builder.finish({}));
+}
+
+TEST(NoiseFloor, SaysWhichMatrixWasTouched) {
+  const NoiseFloor free = floorOf(31.0, 0.0F, 0);
+  EXPECT_EQ(free.notAtRest, "");
+  EXPECT_TRUE(free.lines.at(1).atRest);
+  const NoiseFloor touched = floorOf(31.0, 50.0F, 40);
+  EXPECT_NE(touched.notAtRest.find("touched or moved in 40 % of the time"), std::string::npos)
+      << touched.notAtRest;
+  EXPECT_FALSE(touched.lines.at(1).atRest);
+  EXPECT_TRUE(touched.lines.at(0).atRest);
+  EXPECT_EQ(floorOf(31.0, 50.0F, 5).notAtRest, "") << "nine tenths at rest are enough";
+  EXPECT_EQ(floorOf(70.0, 0.0F, 0).notAtRest, "") << "20 counts more, since it became warmer";
+  EXPECT_NE(floorOf(70.0, 500.0F, 40).notAtRest, "");
+  const NoiseFloor read = noiseFloorFrom(jsonOf(touched));
+  EXPECT_EQ(read.notAtRest, touched.notAtRest);
+  EXPECT_FALSE(read.lines.at(1).atRest);
+}
+
+TEST(NoiseFloor, TellsNoiseFromGraspsInRealRecordings) {
+  const auto recordings = testing::recordingsFolder();
+  PALPATE_NEED(recordings);
+  EXPECT_EQ(fitNoiseFloor(openRecording(*recordings / "calibration_noise/temperature-noise.dsa"))
+                .notAtRest,
+            "");
+  const NoiseFloor grasps = fitNoiseFloor(openRecording(*recordings / "grasps/foam_ball.dsa"));
+  for (std::size_t m = 0; m < grasps.lines.size(); ++m)
+    EXPECT_EQ(grasps.lines[m].atRest, m != 1 && m != 5) << m;
+}
+
 }  // namespace
 }  // namespace palpate::noise_floor_test

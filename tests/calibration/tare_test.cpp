@@ -119,5 +119,29 @@ TEST(Tare, RefusesBadOptions) {
   EXPECT_THROW(findTare(recording(), {.maxSdCounts = -1.0}), std::invalid_argument);
 }
 
+// 10 s at 10 frames/s; matrix 1 is loaded in the last `loadedS` seconds.
+Profile partlyLoaded(int loadedS) {
+  ProfileBuilder builder(sdh2().layout);
+  for (int i = 0; i < 100; ++i) {
+    TactileFrame frame(sdh2().layout);
+    frame.matrix(1)(7, 2) = i >= 100 - 10 * loadedS ? 500.0F : 20.0F;
+    builder.addFrame(1'000'000 + 100'000 * i, frame.values);
+  }
+  return builder.finish({});
+}
+
+TEST(Tare, SaysWhichMatrixIsNotAtRest) {
+  const auto why = [](const Profile& profile, double share) {
+    return notAtRest(findTare(profile), profile, share);
+  };
+  EXPECT_EQ(why(partlyLoaded(0), 1.0), "");
+  EXPECT_EQ(why(partlyLoaded(3), 0.0), "") << "seven seconds are enough for a tare";
+  const std::string name = partlyLoaded(0).hand().matrixName(1);
+  EXPECT_EQ(why(partlyLoaded(3), 0.9),
+            "not at rest: " + name + " (touched or moved in 30 % of the time)");
+  EXPECT_EQ(why(partlyLoaded(10), 0.0),
+            "not at rest: " + name + " (never unloaded: its calmest window reads 500 counts)");
+}
+
 }  // namespace
 }  // namespace palpate::tare_test

@@ -124,6 +124,26 @@ TEST(CalibrateCommand, NoiseWritesJsonAndXml) {
   EXPECT_EQ(Json::parse(testing::readFile(folder / "n.json")).at("matrices").size(), 6u);
 }
 
+TEST(CalibrateCommand, NoiseOfATouchedHandIsSaid) {
+  const TemporaryFolder folder;
+  ProfileBuilder builder(sdh2().layout);
+  for (int i = 0; i < 400; ++i) {
+    builder.addTemperatures(1'000'000 + 100'000 * i, std::vector<double>(9, 25.0 + 0.005 * i));
+    TactileFrame frame(sdh2().layout);
+    frame.matrix(1)(7, 2) = i < 200 ? 40.0F + static_cast<float>(i % 3) : 900.0F;
+    builder.addFrame(1'000'000 + 100'000 * i, frame.values);
+  }
+  saveRecording(builder.finish({}), {}, folder / "touched.dsa");
+  const auto result = palpate({"calibrate", "noise", folder / "touched.dsa"});
+  EXPECT_EQ(result.exitCode, 3);
+  EXPECT_NE(result.err.find("touched or moved in 50 % of the time"), std::string::npos)
+      << result.err;
+  const Json json = Json::parse(result.out);
+  EXPECT_NE(json.at("not_at_rest").asString(), "");
+  EXPECT_FALSE(json.at("matrices").at(1).at("at_rest").asBool());
+  EXPECT_TRUE(json.at("matrices").at(0).at("at_rest").asBool());
+}
+
 TEST(CalibrateCommand, PressureIsMadeAndApplied) {
   const TemporaryFolder folder;
   writeTable(folder);

@@ -188,26 +188,5 @@ TEST(LiveMeasurement, RefusesImpossibleOptions) {
   EXPECT_THROW(LiveMeasurement(HandDescription{}), std::invalid_argument);
 }
 
-// 10 s at 10 frames/s; matrix 1 is loaded in the last `loadedS` seconds.
-Profile partlyLoaded(int loadedS) {
-  LiveMeasurement measurement(sdh2(), {.seconds = 9.9});
-  for (int i = 0; i < 100; ++i)
-    measurement.add(frameAt(i * kPeriodUs, i >= 100 - 10 * loadedS ? 500.0F : 20.0F));
-  return measurement.takeProfile();
-}
-
-TEST(LiveMeasurement, SaysWhichMatrixIsNotAtRest) {
-  const auto why = [](const Profile& profile, double share) {
-    return notAtRest(findTare(profile), profile, share);
-  };
-  EXPECT_EQ(why(partlyLoaded(0), 1.0), "");
-  EXPECT_EQ(why(partlyLoaded(3), 0.0), "") << "seven seconds are enough for a tare";
-  const std::string name = sdh2().matrixName(1);
-  EXPECT_EQ(why(partlyLoaded(3), 0.9),
-            "not at rest: " + name + " (touched or moved in 30 % of the time)");
-  EXPECT_EQ(why(partlyLoaded(10), 0.0),
-            "not at rest: " + name + " (never unloaded: its calmest window reads 500 counts)");
-}
-
 }  // namespace
 }  // namespace palpate::live_measurement_test

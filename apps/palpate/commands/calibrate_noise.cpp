@@ -1,5 +1,6 @@
 // The command `palpate calibrate noise FILE [-o N.xml]` determines the noise floor of an unloaded
 // hand.
+#include <cstdio>
 #include <filesystem>
 
 #include "palpate/calibration/noise_floor.h"
@@ -49,6 +50,13 @@ int calibrateNoise(const Arguments& words) {
   const Json found = jsonOf(floor);
   for (const std::string& key : found.keys()) json.set(key, found.at(key));
   printJson(given, json, xml);
+  if (!floor.notAtRest.empty()) {
+    std::fprintf(
+        stderr,
+        "palpate: %s; these lines are no noise: record the hand while nothing touches it\n",
+        escapedLine(floor.notAtRest).c_str());
+    return kPartlyDone;
+  }
   for (const NoiseLine& line : floor.lines)
     if (!line.valid) return kPartlyDone;
   return kDone;

@@ -51,6 +51,7 @@ struct NoiseLine {
   double minDegC = 0.0, maxDegC = 0.0;  // range of the measured temperatures
   double meanDegC = 0.0;                // mean of all frames
   double spreadDegC2 = 0.0;             // Sxx: sum of (T - mean)^2 [deg C^2]
+  bool atRest = true;                   // nothing touched the matrix
   std::vector<std::string> notes;       // what is missing, and known limits of the result
 
   // The line at a temperature [counts].
@@ -68,6 +69,8 @@ struct NoiseLine {
 struct NoiseFloor {
   std::vector<NoiseLine> lines;  // one per matrix
   std::vector<std::string> notes;
+  // Which matrices were touched, in one line; their lines are no noise. Empty: none was touched.
+  std::string notAtRest;
 };
 
 // Fits the line from the maximum of a matrix and its temperature, frame by frame. Ignores values
@@ -76,8 +79,11 @@ NoiseLine fitNoiseLine(std::span<const double> degC,
                        std::span<const double> maximumCounts,
                        const NoiseFloorOptions& options = {});
 
-// Fits the lines of all matrices to an unloaded recording at threshold 0. Throws
-// std::invalid_argument (options), Cancelled.
+// Fits the lines of all matrices to an unloaded recording at threshold 0. A matrix was at rest when
+// at least nine tenths of its frames lie in unloaded windows (tare.h); where the temperature
+// changes by more than 5 deg C, a reading at rest may rise up to the limit of unloaded windows, and
+// its standard deviation may be twice theirs.
+// Throws std::invalid_argument (options), Cancelled.
 NoiseFloor fitNoiseFloor(const Profile& profile,
                          const NoiseFloorOptions& options = {},
                          const Progress& progress = {});

@@ -62,6 +62,14 @@ Tare findTare(const Profile& profile,
               const TareOptions& options = {},
               const Progress& progress = {});
 
+// Whether the unloaded windows of the matrix contain at least `leastShare` (0..1) of all
+// `numFrames` frames, and one frame.
+bool wasAtRest(const MatrixTare& matrix, std::size_t numFrames, double leastShare);
+
+// Why the hand of this profile isn't at rest, in one line that names the matrices; empty when it
+// is. `tare` is that of the profile.
+std::string notAtRest(const Tare& tare, const Profile& profile, double leastShare);
+
 // Subtracts the zero, but not below 0; a value of 0 stays 0. Throws std::invalid_argument (sizes).
 void applyTare(const Tare& tare, std::span<float> values);
 

@@ -92,9 +92,4 @@ class LiveMeasurement {
   std::uint64_t numUnusable_ = 0;
 };
 
-// Why the hand of this profile isn't at rest, in one line that names the matrices; empty when it
-// is. `tare` is that of the profile. A matrix is at rest when its unloaded windows contain at least
-// `leastShare` (0..1) of all frames, and one frame.
-std::string notAtRest(const Tare& tare, const Profile& profile, double leastShare);
-
 }  // namespace palpate

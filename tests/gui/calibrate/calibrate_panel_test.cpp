@@ -22,7 +22,8 @@ namespace palpate::gui::calibrate_panel_test {
 namespace {
 
 // Every matrix reads 10 + .5 T, by turns one more and one less, while T goes from 20 to 40 deg C.
-Profile warmingUp(ProfileInfo info = {}) {
+// Matrix 3 is touched in the last `touched` of the 2000 frames.
+Profile warmingUp(ProfileInfo info = {}, int touched = 0) {
   const HandDescription& hand = sdh2();
   ProfileBuilder builder(hand.layout);
   for (int i = 0; i < 2000; ++i) {
@@ -30,6 +31,7 @@ Profile warmingUp(ProfileInfo info = {}) {
     TactileFrame frame(hand.layout);
     for (std::size_t m = 0; m < hand.layout->numMatrices(); ++m)
       frame.matrix(m)(7, 2) = static_cast<float>(10.0 + 0.5 * degC + (i % 2 == 0 ? 1.0 : -1.0));
+    if (i >= 2000 - touched) frame.matrix(3)(7, 2) += 500.0F;
     const std::int64_t us = 1'400'000'000'000'000 + i * 100'000LL;
     builder.addFrame(us, frame.values);
     builder.addTemperatures(us, std::vector<double>(hand.temperatureSensors.size(), degC));
@@ -162,6 +164,27 @@ TEST_F(CalibratePanelTest, NoiseLinesAreShownAndSaved) {
   find<QPushButton>("noiseSave")->click();
   EXPECT_EQ(said.size(), 2);
   EXPECT_TRUE(said[1][0].toString().contains("n.json")) << "said that it can't be written";
+}
+
+TEST_F(CalibratePanelTest, LinesOfATouchedHandAreNoNoiseAndNotApplied) {
+  show("Noise", opened(warmingUp()));
+  EXPECT_TRUE(find<QPushButton>("noiseApply")->isEnabled());
+  show("Noise", opened(warmingUp({}, 800)));
+  ASSERT_TRUE(panel_->noise().shown()) << why().toStdString();
+  EXPECT_FALSE(find<QPushButton>("noiseApply")->isEnabled());
+  EXPECT_TRUE(find<QPushButton>("noiseApply")->toolTip().contains("touched or moved in 40 %"));
+  EXPECT_TRUE(find<QLabel>("noiseNotes")->text().contains("These lines are no noise"));
+  EXPECT_EQ(cell("noiseTable", 3, 7), "touched");
+  EXPECT_NE(cell("noiseTable", 2, 7), "touched");
+  panel_->noise().save(folder_ / "touched.json");
+  QSignalSpy applied(&panel_->noise(), &NoisePage::applyRequested);
+  panel_->noise().askForLines = [&] {
+    return QString::fromStdString((folder_ / "touched.json").string());
+  };
+  find<QPushButton>("noiseOpen")->click();
+  EXPECT_EQ(applied.size(), 0);
+  show("Noise", opened(warmingUp()));
+  EXPECT_TRUE(find<QPushButton>("noiseApply")->isEnabled());
 }
 
 TEST_F(CalibratePanelTest, NoiseThatWasMeasuredLiveIsSavedWithItsOrigin) {

@@ -261,6 +261,33 @@ TEST_F(ComparePanelTest, TheSameRecordingTwiceBeginsWithItsFirstTwoGrasps) {
   EXPECT_EQ(valueIn(CompareGroup::kB), 602.0F);
 }
 
+TEST_F(ComparePanelTest, SwapKeepsTheChosenGrasps) {
+  open({"three.dsa", "two.dsa"});
+  compareNow();
+  choose("compareAlignment", "grasps");
+  choose("compareGraspA", "grasp 3");
+  find<QToolButton>("compareSwap")->click();
+  settle();
+  EXPECT_EQ(find<QComboBox>("compareGraspA")->currentText(), "grasp 1");
+  EXPECT_EQ(find<QComboBox>("compareGraspB")->currentText(), "grasp 3");
+  EXPECT_NEAR(*compare().offsetS(), (10 - 80) * 0.05, 1e-9);
+}
+
+TEST_F(ComparePanelTest, AmongAllRecordingsARecordingComparedWithItselfCountsOnce) {
+  open({"three.dsa", "two.dsa", "early.dsa"});
+  compareNow();
+  choose("compareB", "three.dsa");
+  choose("compareAlignment", "grasps");
+  choose("compareBand", "mean ± sd");
+  const ComparedCurves& overlaid = compare().chart().curves().overlaid;
+  EXPECT_EQ(overlaid.curves.size(), 2u) << "A and B";
+  choose("compareOverlay", "all recordings");
+  QStringList names;
+  for (const OverlaidCurve& each : overlaid.curves) names.append(each.name);
+  EXPECT_EQ(names.count("three.dsa"), 1) << names.join(", ").toStdString();
+  EXPECT_FALSE(names.contains("B"));
+}
+
 TEST_F(ComparePanelTest, WithoutGraspsTheStartsAreUsedAndSaid) {
   open({"three.dsa", "third.dsa"});
   compareNow();

@@ -13,6 +13,7 @@
 
 #include <gtest/gtest.h>
 
+#include "gui/appearance/text_size.h"
 #include "gui/export/export_place.h"
 #include "gui/export/export_preview.h"
 #include "testing/fake_ffmpeg.h"
@@ -324,6 +325,25 @@ TEST_F(ExportDialogTest, BrowseBeginsWhereTheFolderIs) {
   click("exportBrowse");
   EXPECT_EQ(begin.toStdString(), folder_.path().string());
   EXPECT_EQ(find<QLineEdit>("exportFolder")->text(), "/chosen");
+}
+
+TEST_F(ExportDialogTest, LargerTextHasRoom) {
+  applyTextPt(15);
+  open();
+  for (const QToolButton* button :
+       find<QWidget>("exportFormPNG")->parentWidget()->findChildren<QToolButton*>())
+    EXPECT_GE(button->width(), button->sizeHint().width()) << button->text().toStdString();
+  const auto* colors = find<QComboBox>("exportColors");
+  EXPECT_GE(colors->width(), colors->sizeHint().width());
+  applyTextPt(0);
+}
+
+TEST_F(ExportDialogTest, TheFolderIsWrittenAsFarAsThereIsRoom) {
+  open();
+  const auto* target = find<QLabel>("exportTarget");
+  const QString whole = "in " + request_.folder;
+  ASSERT_LT(target->fontMetrics().horizontalAdvance(whole), target->width());
+  EXPECT_EQ(target->text(), whole);
 }
 
 TEST_F(ExportDialogTest, ThePreviewIsThePicture) {

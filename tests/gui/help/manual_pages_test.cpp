@@ -71,6 +71,24 @@ TEST_F(ManualPagesTest, TheFirstParagraphOfASection) {
   EXPECT_EQ(pages_->firstParagraph("nowhere.md", "a-b"), "");
 }
 
+// What's this tells this paragraph of a dock; the heading of a table explains nothing.
+TEST_F(ManualPagesTest, EveryDockBeginsWithASentence) {
+  const ManualPages pages(ManualPages::folderFor(testing::dataFolder()));
+  for (const char* anchor : {"matrices",
+                             "inspect",
+                             "timeline",
+                             "hand",
+                             "link",
+                             "filter",
+                             "spectrum",
+                             "calibrate",
+                             "slip",
+                             "library",
+                             "log",
+                             "recognise"})
+    EXPECT_GT(pages.firstParagraph("docks.md", anchor).size(), 30) << anchor;
+}
+
 TEST_F(ManualPagesTest, AFolderWithoutPagesIsAManualWithoutPages) {
   EXPECT_TRUE(ManualPages(folder_ / "nowhere").names().isEmpty());
 }

@@ -120,6 +120,28 @@ TEST_F(ConfusionViewTest, TheRowAndColumnUnderThePointerStandOut) {
   EXPECT_EQ(colorAt({3, 4}), row);
 }
 
+TEST_F(ConfusionViewTest, APictureOfManyObjectsHasNumbers) {
+  constexpr double kScale = 4.0;
+  const ConfusionMatrix matrix = matrixOf(36);
+  const QRectF area(0, 0, 480, 480);
+  QImage image((area.size() * kScale).toSize(), QImage::Format_RGB32);
+  image.fill(Qt::white);
+  QPainter painter(&image);
+  painter.scale(kScale, kScale);
+  const ConfusionGrid grid = confusionGrid(matrix, area, painter.font());
+  ASSERT_LT(grid.side, 13.0);
+  paintConfusion(painter, area, matrix, Theme::kLight);
+  painter.end();
+  const QRectF cell = grid.rectOf({20, 20});
+  const QRect pixels =
+      QRectF(cell.topLeft() * kScale, cell.size() * kScale).toRect().adjusted(4, 4, -4, -4);
+  int written = 0;
+  for (int y = pixels.top(); y <= pixels.bottom(); ++y)
+    for (int x = pixels.left(); x <= pixels.right(); ++x)
+      written += image.pixel(x, y) != image.pixel(pixels.topLeft()) ? 1 : 0;
+  EXPECT_GT(written, 20) << "the number 12";
+}
+
 TEST_F(ConfusionViewTest, NothingAndUnknownAreShown) {
   view_.show();
   view_.setMatrix(std::nullopt);

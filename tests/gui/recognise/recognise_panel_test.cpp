@@ -3,6 +3,7 @@
 #include <QImage>
 #include <QLabel>
 #include <QLineEdit>
+#include <QPainter>
 #include <QPushButton>
 
 #include "palpate/device/sdh2.h"
@@ -31,6 +32,7 @@ TEST_F(RecognisePanelTest, WithoutAModelItSaysSo) {
   EXPECT_TRUE(panel_->controller().answer().text.startsWith("No model is chosen."));
   EXPECT_EQ(find<QLabel>("recogniseModel")->text(), "no model");
   EXPECT_FALSE(find<QPushButton>("tell")->isEnabled());
+  EXPECT_TRUE(find<QPushButton>("tell")->toolTip().contains("without a model"));
 }
 
 TEST_F(RecognisePanelTest, NamesAGraspWithItsRunnersUp) {
@@ -119,6 +121,8 @@ TEST_F(RecognisePanelTest, WhatIsToldAdaptsTheDay) {
   EXPECT_TRUE(panel_->controller().answer().unsure.contains("one object only"));
   EXPECT_TRUE(find<QLabel>("todayOffset")->text().contains("1 named grasp, 1 object"));
   EXPECT_EQ(find<FiguresTable>("todayGrasps")->item(0, 3)->text(), "pen");
+  EXPECT_TRUE(find<FiguresTable>("todayGrasps")->item(0, 2)->text().endsWith(" %"))
+      << "as on the page Ask";
   find<QPushButton>("todayForget")->click();
   EXPECT_EQ(panel_->controller().session()->numLabelled(), 0u);
 }
@@ -186,6 +190,15 @@ TEST_F(RecognisePanelTest, AFolderTeachesAndIsChecked) {
                   ->text()
                   .startsWith("right 100.0 ± 0.0 % (mean and deviation of 5 blocks)"))
       << find<QLabel>("checkResult")->text().toStdString();
+  // In a narrow picture the title has more lines, the fourth of which is looked at here.
+  QImage picture(200, 400, QImage::Format_RGB32);
+  QPainter painter(&picture);
+  panel_->check().paint(painter, {.size = picture.size(), .forPrint = true, .textUnits = 12});
+  painter.end();
+  int ink = 0;
+  for (int y = 54; y < 66; ++y)
+    for (int x = 16; x < 60; ++x) ink += picture.pixelColor(x, y).lightness() < 128 ? 1 : 0;
+  EXPECT_GT(ink, 20);
   confusion.choose(std::pair(1, 1));
   EXPECT_EQ(panel_->check().listed().size(), 5u);
   std::filesystem::path file;
@@ -224,6 +237,8 @@ TEST_F(RecognisePanelTest, FeaturesAndClassifierCanBeChosen) {
   EXPECT_EQ(model.pipeline.classifier, ClassifierKind::kLda);
   EXPECT_EQ(model.features.size(), 54u);
   const QString said = find<QLabel>("recogniseModel")->text();
+  EXPECT_TRUE(find<QPushButton>("tell")->toolTip().contains("can't be adapted"));
+  EXPECT_TRUE(find<QComboBox>("tellClass")->toolTip().contains("can't be adapted"));
   EXPECT_TRUE(said.startsWith("mine.json · 2 objects · study, ") && said.endsWith("lda"))
       << said.toStdString();
   find<QPushButton>("checkNow")->click();

@@ -625,5 +625,18 @@ TEST_F(WindowFitsTest, KeysOfTheWindowWorkWhileAFieldHasTheFocus) {
   EXPECT_FALSE(spectrum->isHidden());
 }
 
+TEST_F(WindowFitsTest, KeysOfGreyedActionsSayWhy) {
+  open({"rich.dsa"});
+  const auto said = [this](const char* keys) {
+    const QKeyCombination key = QKeySequence(keys)[0];
+    QTest::keyClick(&window(), key.key(), key.keyboardModifiers());
+    return window().state().messages.flashed();
+  };
+  EXPECT_TRUE(said("Ctrl+Alt+A").startsWith("Statistics of the selection: Nothing is selected"));
+  EXPECT_TRUE(said("Ctrl+S").contains("There is nothing to save"));
+  EXPECT_EQ(said("Ctrl+Shift+K"), "Disconnect: No hand is connected");
+  EXPECT_TRUE(said("Ctrl+R").startsWith("Record: No hand is connected"));
+}
+
 }  // namespace
 }  // namespace palpate::gui::window_fits_test

@@ -5,6 +5,7 @@
 #include <QComboBox>
 #include <QCoreApplication>
 #include <QDoubleSpinBox>
+#include <QFontInfo>
 #include <QLabel>
 #include <QPushButton>
 #include <QSettings>
@@ -17,6 +18,7 @@
 #include "palpate/device/sdh2.h"
 #include <palpate/core/number_text.h>
 
+#include "gui/appearance/text_size.h"
 #include "gui/slip/slip_chart.h"
 #include "gui/slip/slip_controls.h"
 #include "gui/slip/slip_fixture.h"
@@ -276,6 +278,33 @@ TEST_F(SlipPanelTest, OfWhatIsLiveTheNewestIsShown) {
   find<QPushButton>("slipSetReference")->click();
   EXPECT_EQ(asked.size(), 1);
   EXPECT_EQ(find<QComboBox>("slipMethod")->currentText(), "centroid") << "live has its own";
+}
+
+TEST_F(SlipPanelTest, LargerTextHasShortNamesOfTheMatricesEarlier) {
+  show(slip());
+  auto* list = panel_->findChild<FiguresTable*>("slipList");
+  panel_->resize(panel_->width() + 500 - list->width(), panel_->height());
+  QCoreApplication::processEvents();
+  ASSERT_GT(list->width(), 440);
+  goTo(1);
+  EXPECT_EQ(list->item(kMoving, kName)->text(), QString::fromStdString(sdh2().matrixName(kMoving)));
+  const double usualPt = QFontInfo(QApplication::font()).pointSizeF() / textScale();
+  applyTextPt(static_cast<int>(std::ceil(1.5 * usualPt)));
+  goTo(2);
+  EXPECT_EQ(list->item(kMoving, kName)->text(),
+            QString::fromStdString(sdh2().matrices.at(kMoving).shortName));
+  applyTextPt(0);
+}
+
+TEST_F(SlipPanelTest, WithContestTheLimitsSayThatTheyDoNotDecide) {
+  auto* method = panel_->findChild<QComboBox*>("slipMethod");
+  const auto* step = panel_->findChild<QDoubleSpinBox*>("slipStep");
+  method->setCurrentText("contest");
+  emit method->activated(method->currentIndex());
+  EXPECT_TRUE(step->toolTip().contains("the comparison decides"));
+  method->setCurrentText("centroid");
+  emit method->activated(method->currentIndex());
+  EXPECT_FALSE(step->toolTip().contains("the comparison decides"));
 }
 
 }  // namespace

@@ -93,6 +93,7 @@ QProgressBar { background: @window; border: 1px solid @border; border-radius: 4p
 QProgressBar::chunk { background: @accent; border-radius: 3px; }
 QLabel[role="heading"] { color: @muted; font-weight: bold; }
 QLabel[role="muted"] { color: @muted; }
+QLabel[role="warning"] { color: @warning; }
 #MessageBanner { background: @dangerSoft; border-bottom: 1px solid @danger; }
 #AlarmStrip { background: @dangerSoft; border-bottom: 1px solid @danger; }
 #CountdownStrip { background: @dangerSoft; border-bottom: 1px solid @danger; }

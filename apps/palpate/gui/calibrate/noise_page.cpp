@@ -5,6 +5,7 @@
 #include <QLabel>
 #include <QPushButton>
 #include <QSignalBlocker>
+#include <QStyle>
 #include <QVBoxLayout>
 #include <algorithm>
 #include <cmath>
@@ -28,8 +29,8 @@ namespace {
 constexpr double kFitShare = 0.9;  // part of the work; the rest is the hash of the file
 constexpr int kMostBins = 1000;
 constexpr int kNoiseMeasureS = 60;
-// All frames are used, unlike in a tare: a matrix must be at rest nearly always.
-constexpr double kNoiseRestShare = 0.9;
+constexpr const char* kApplyTip =
+    "High sensitivity (dock Hand) keeps thresholds just above these lines";
 
 std::vector<FigureColumn> noisePageColumns() {
   return {{"matrix", {}, 15, true},
@@ -59,9 +60,11 @@ std::vector<FigureCell> noisePageRowOf(const NoiseLine& line, const QString& nam
                  .detail = line.numOutliers > 0 ? QString::number(line.numOutliers) + " far above"
                                                 : QString(),
                  .warning = line.numOutliers > 0});
-  row.push_back({.text = line.valid ? (notes.isEmpty() ? "" : "notes") : "missing",
-                 .tip = notes,
-                 .warning = !line.valid});
+  const QString state = !line.valid ? "missing" : !line.atRest ? "touched" : "notes";
+  row.push_back(
+      {.text = state == "notes" && notes.isEmpty() ? QString() : state,
+       .tip = line.valid && !line.atRest ? "The matrix was touched: this is no noise" : notes,
+       .warning = !line.valid || !line.atRest});
   return row;
 }
 
@@ -131,7 +134,7 @@ NoisePage::NoisePage(QSettings& settings, QWidget* parent) : ComputedPage("noise
   save_->setEnabled(false);
   apply_ = new QPushButton("Apply to this hand", this);
   apply_->setObjectName("noiseApply");
-  apply_->setToolTip("High sensitivity (dock Hand) keeps thresholds just above these lines");
+  apply_->setToolTip(kApplyTip);
   apply_->setProperty("primary", true);
   apply_->setEnabled(false);
   auto* openLines = new QPushButton("Apply a file…", this);
@@ -179,7 +182,11 @@ NoisePage::NoisePage(QSettings& settings, QWidget* parent) : ComputedPage("noise
     const QString path = askForLines();
     if (path.isEmpty()) return;
     try {
-      emit applyRequested(noiseFromFile(path));
+      const NoiseFloor floor = noiseFromFile(path);
+      if (!floor.notAtRest.empty())
+        return emit said("These lines are no noise: the hand was " +
+                         QString::fromStdString(floor.notAtRest) + ".");
+      emit applyRequested(floor);
     } catch (const Error& error) {
       emit said(error.what());
     }
@@ -227,8 +234,8 @@ void NoisePage::compute() {
         of->profile, options, [&](double done) { return progress(kFitShare * done); });
     if (isMeasured(*of)) {
       found->measured = of;
-      const auto why = notAtRest(findTare(of->profile), of->profile, kNoiseRestShare);
-      if (!why.empty()) return [this, why] { say(refusal(why)); };
+      if (const std::string why = found->floor.notAtRest; !why.empty())
+        return [this, why] { say(refusal(why)); };
       return [this, found] { take(found); };
     }
     // A recording that was never on disk has no hash.
@@ -250,7 +257,9 @@ void NoisePage::take(const std::shared_ptr<const FoundNoise>& found) {
   const bool any =
       std::any_of(lines.begin(), lines.end(), [](const NoiseLine& line) { return line.valid; });
   save_->setEnabled(any);
-  apply_->setEnabled(any);
+  const QString touched = QString::fromStdString(found->floor.notAtRest);
+  apply_->setEnabled(any && touched.isEmpty());
+  apply_->setToolTip(touched.isEmpty() ? QString(kApplyTip) : "Can't be applied: " + touched);
   if (!any) {
     QString why = linesOf(found->floor.notes);
     if (why.isEmpty() && !lines.empty()) why = linesOf(lines.front().notes);
@@ -271,7 +280,15 @@ void NoisePage::take(const std::shared_ptr<const FoundNoise>& found) {
 }
 
 void NoisePage::showNotes(std::size_t matrix) {
-  const QString lines = linesOf(found_->floor.notes, found_->floor.lines.at(matrix).notes);
+  QString lines = linesOf(found_->floor.notes, found_->floor.lines.at(matrix).notes);
+  const QString touched = QString::fromStdString(found_->floor.notAtRest);
+  if (!touched.isEmpty())
+    lines.prepend("The hand was " + touched +
+                  ".\nThese lines are no noise and can't be applied: record the hand while nothing "
+                  "touches it." +
+                  (lines.isEmpty() ? "" : "\n"));
+  notes_->setProperty("role", touched.isEmpty() ? "muted" : "warning");
+  notes_->style()->polish(notes_);
   notes_->setText(lines);
   notes_->setVisible(!lines.isEmpty());
 }

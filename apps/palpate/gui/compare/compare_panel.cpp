@@ -476,11 +476,15 @@ void ComparePanel::swap() {
   const double timeS = timeS_ - answer_.offsetS;
   const bool byHand = alignment_ == Alignment::kManual;
   const double offsetS = -answer_.offsetS;
+  const auto [graspA, graspB] = std::pair(graspB_, graspA_);
   emit swapRequested(b_, timeS);
-  if (!byHand) return;
-  handOffsetS_ = offsetS;
-  alignment_ = Alignment::kManual;
-  header_->setAlignment(alignment_);
+  graspA_ = graspA;
+  graspB_ = graspB;
+  if (byHand) {
+    handOffsetS_ = offsetS;
+    alignment_ = Alignment::kManual;
+    header_->setAlignment(alignment_);
+  }
   ask();
 }
 

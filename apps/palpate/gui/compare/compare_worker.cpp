@@ -232,8 +232,8 @@ ComparedCurves CompareWorker::overlaid(const CompareQuestion& question,
          number,
          other});
   }
-  // The same recording twice: B is a second curve of it.
-  if (!ofGrasps && question.a == question.b && answer.curveB)
+  // The same recording twice: B is a second curve of it. Among all recordings it counts once.
+  if (question.overlay == CompareOverlay::kPair && question.a == question.b && answer.curveB)
     compared.curves.push_back({"B",
                                {.series = answer.curveB,
                                 .zeroS = compared.zeroS - answer.offsetS,

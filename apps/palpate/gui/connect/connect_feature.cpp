@@ -177,9 +177,10 @@ void ConnectFeature::connectActions() {
     actions_.live->setChecked(windowState.displayed.isLive());
     windowState.actionEnabler.refresh();
   });
-  windowState.actionEnabler.add({actions.disconnectHand}, [&windowState] {
-    return windowState.live.state() != LiveController::State::kNone;
-  });
+  windowState.actionEnabler.add(
+      {actions.disconnectHand},
+      [&windowState] { return windowState.live.state() != LiveController::State::kNone; },
+      "No hand is connected");
   windowState.actionEnabler.add({actions.live},
                                 [&windowState] { return windowState.live.source() != nullptr; });
   windowState.actionEnabler.add({actions.hold},

@@ -2,6 +2,7 @@
 
 #include <QAbstractSpinBox>
 #include <QApplication>
+#include <QComboBox>
 #include <QKeyEvent>
 #include <QLineEdit>
 
@@ -11,7 +12,11 @@ FieldKeys::FieldKeys(QObject* parent) : QObject(parent) { qApp->installEventFilt
 
 bool FieldKeys::eventFilter(QObject* watched, QEvent* event) {
   if (event->type() != QEvent::ShortcutOverride) return false;
-  if (!qobject_cast<QLineEdit*>(watched) && !qobject_cast<QAbstractSpinBox*>(watched)) return false;
+  // A list that can be typed into has the focus in place of its field.
+  const auto* list = qobject_cast<QComboBox*>(watched);
+  if (!qobject_cast<QLineEdit*>(watched) && !qobject_cast<QAbstractSpinBox*>(watched) &&
+      !(list && list->isEditable()))
+    return false;
   const auto* key = static_cast<const QKeyEvent*>(event);
   const bool letter = key->key() >= Qt::Key_A && key->key() <= Qt::Key_Z;
   if (!letter || key->modifiers() != Qt::ControlModifier) return false;

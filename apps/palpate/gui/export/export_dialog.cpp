@@ -94,11 +94,11 @@ ExportDialog::ExportDialog(std::vector<const ExportedView*> views,
   connectFields();
   resize(kExportDialogUsualSize);
   refresh();
+  preview_->installEventFilter(this);
 }
 
 QWidget* ExportDialog::makeForm() {
   auto* form = new QWidget(this);
-  form->setFixedWidth(kFormWidth);
   fields_ = new QFormLayout(form);
   fields_->setContentsMargins(kExportDialogMargin, kExportDialogMargin, kExportDialogMargin, 14);
   fields_->setHorizontalSpacing(12);
@@ -144,6 +144,11 @@ QWidget* ExportDialog::makeForm() {
       label->widget()->setMinimumWidth(labelWidth);
   place_ = new ExportPlace(labelWidth, form);
   fields_->addRow(place_);
+  // Larger text needs more; a name of a view may be longer than that.
+  const int fieldWidth = std::max(form_->sizeHint().width(), colors_->sizeHint().width());
+  form->setFixedWidth(
+      std::max(kFormWidth,
+               labelWidth + fields_->horizontalSpacing() + fieldWidth + 2 * kExportDialogMargin));
   return form;
 }
 
@@ -370,10 +375,10 @@ void ExportDialog::accept() {
   if (problem().isEmpty()) QDialog::accept();
 }
 
-void ExportDialog::resizeEvent(QResizeEvent* event) {
-  QDialog::resizeEvent(event);
-  layout()->activate();
-  showProblem();
+// The lines below the preview are as wide as it.
+bool ExportDialog::eventFilter(QObject* watched, QEvent* event) {
+  if (watched == preview_ && event->type() == QEvent::Resize) showProblem();
+  return QDialog::eventFilter(watched, event);
 }
 
 }  // namespace palpate::gui

@@ -41,7 +41,7 @@ class ExportDialog : public QDialog {
   void accept() override;
 
  protected:
-  void resizeEvent(QResizeEvent* event) override;
+  bool eventFilter(QObject* watched, QEvent* event) override;
 
  private:
   QWidget* makeForm();

@@ -1,9 +1,9 @@
 #include "gui/hand/hand_feature.h"
 
+#include "gui/desktop/greyed_keys.h"
 #include "gui/hand/dialog_stop.h"
 #include "gui/hand/hand_dock.h"
 #include "gui/hand/joint_panel.h"
-#include "gui/hand/motion_keys.h"
 #include "gui/hand/sensitivity_modes.h"
 #include "gui/widgets/dock.h"
 
@@ -31,10 +31,11 @@ HandFeature::HandFeature(WindowState& windowState, QWidget* window)
                                 actions_.slipAwareGrasp,
                                 actions_.openHand,
                                 actions_.relaxHand};
-  auto* keys = new MotionKeys(motions, window, this);
-  connect(keys, &MotionKeys::refusedAction, panel_, &HandDock::answerKey);
-  connect(keys, &MotionKeys::refused, &windowState.messages, &Messages::flash);
-  connect(keys, &MotionKeys::refused, &windowState.handCommands, &HandCommands::keyRefused);
+  auto* keys = new GreyedKeys(
+      motions, [](const QAction& action) { return action.toolTip(); }, window, this);
+  connect(keys, &GreyedKeys::refusedAction, panel_, &HandDock::answerKey);
+  connect(keys, &GreyedKeys::refused, &windowState.messages, &Messages::flash);
+  connect(keys, &GreyedKeys::refused, &windowState.handCommands, &HandCommands::keyRefused);
   windowState.handCommands.stop = actions_.stopHand;
   windowState.handCommands.motions = motions;
   connect(panel_, &HandDock::stateShown, &windowState.handCommands, &HandCommands::setHandState);

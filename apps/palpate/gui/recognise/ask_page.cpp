@@ -65,10 +65,6 @@ AskPage::AskPage(RecognitionController& controller, QWidget* parent)
   classes_->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Preferred);
   tell_ = new QPushButton("Label", this);
   tell_->setObjectName("tell");
-  tell_->setToolTip(
-      "Labels the last grasp with this class, also when the answer was wrong: the model is "
-      "adapted\n"
-      "to today with it (undo: page Today)");
 
   auto* top = new QHBoxLayout;
   top->setSpacing(8);
@@ -157,10 +153,21 @@ void AskPage::showModel() {
 
 void AskPage::showTelling() {
   const RecognitionAnswer& answer = controller_.answer();
-  const bool can = controller_.model() && controller_.model()->adaptsToSession() && answer.grasp &&
+  const TrainedModel* model = controller_.model();
+  const bool can = model && model->adaptsToSession() && answer.grasp &&
                    *answer.grasp < controller_.session()->grasps().size();
   classes_->setEnabled(can);
   tell_->setEnabled(can);
+  const QString tip =
+      can ? "Labels the last grasp with this class, also when the answer was wrong: the model is "
+            "adapted\nto today with it (undo: page Today)"
+      : !model ? "No grasp can be labelled without a model"
+      : !model->adaptsToSession()
+          ? "This model can't be adapted to today: only models of the classifier gauss can (page "
+            "Teach)"
+          : "There is no grasp to label yet: ask first (Q)";
+  tell_->setToolTip(tip);
+  classes_->setToolTip(tip);
   if (!can || answer.best.empty()) return;
   const auto& labelledClass = controller_.session()->grasps()[*answer.grasp].labelledClass;
   classes_->setCurrentIndex(labelledClass ? *labelledClass

@@ -277,8 +277,11 @@ void CheckPage::paint(QPainter& painter, const PictureLook& look) {
   if (look.textUnits > 0) plain.setPixelSize(look.textUnits);
   painter.setFont(plain);
   painter.setPen(colorsOf(theme).text);
-  const double line = 1.6 * QFontMetricsF(plain).height();
-  painter.drawText(QRectF(16, 8, area.width() - 32, line), Qt::AlignVCenter, result_->text());
+  const QRectF room(16, 8, area.width() - 32, area.height() / 2);
+  const int wrapped = Qt::AlignTop | Qt::TextWordWrap;
+  const double text = painter.boundingRect(room, wrapped, result_->text()).height();
+  const double line = text + 0.6 * QFontMetricsF(plain).height();
+  painter.drawText(room, wrapped, result_->text());
   paintConfusion(painter,
                  QRectF(16, 12 + line, area.width() - 32, area.height() - line - 28),
                  controller_.checked()->report->confusion,

@@ -7,7 +7,7 @@ namespace palpate::gui {
 namespace {
 
 constexpr double kMostNames = 0.38;  // of the width
-constexpr double kLeastSideForText = 13.0;
+constexpr double kLeastSideInPicture = 6.0;
 constexpr double kNameOfSide = 0.86;  // font size relative to the side of a cell
 constexpr int kLeastNamePx = 6;       // smaller names are left out
 
@@ -135,7 +135,7 @@ void paintCells(QPainter& painter,
       QColor ground = mixed(colors.taxel, right ? colors.accent : colors.warning, tone);
       if (hovered(marks, row, grid.calledOf(column))) ground = mixed(ground, colors.text, 0.14);
       painter.fillRect(cell, ground);
-      if (count > 0 && grid.side >= kLeastSideForText) {
+      if (count > 0 && grid.side >= grid.leastSideForNumbers) {
         painter.setPen(tone > 0.5 ? colors.window : colors.text);
         painter.drawText(cell, Qt::AlignCenter, QString::number(count));
       }
@@ -218,7 +218,9 @@ void paintConfusion(QPainter& painter,
                     const QRectF& area,
                     const ConfusionMatrix& matrix,
                     Theme theme) {
-  paintConfusion(painter, area, confusionGrid(matrix, area, painter.font()), matrix, theme);
+  ConfusionGrid grid = confusionGrid(matrix, area, painter.font());
+  grid.leastSideForNumbers = kLeastSideInPicture;
+  paintConfusion(painter, area, grid, matrix, theme);
 }
 
 }  // namespace palpate::gui

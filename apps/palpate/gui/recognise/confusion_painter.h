@@ -35,6 +35,8 @@ struct ConfusionGrid {
   QRectF window;
   // The top left of the first cell; outside the window when scrolled.
   QPointF origin;
+  // Smaller cells have no numbers [px].
+  double leastSideForNumbers = 13.0;
   double wholeWidth() const { return side * columns; }
   double wholeHeight() const { return side * rows; }
   int calledOf(int column) const { return column < rows ? column : ConfusionMatrix::kUnknown; }
@@ -66,7 +68,8 @@ void paintConfusion(QPainter& painter,
                     const ConfusionMatrix& matrix,
                     Theme theme,
                     const ConfusionMarks& marks = {});
-// Paints the whole matrix as large as fits.
+// Paints the whole matrix as large as fits, for a picture: finer than a screen, so that numbers of
+// smaller cells are legible, too.
 void paintConfusion(QPainter& painter,
                     const QRectF& area,
                     const ConfusionMatrix& matrix,

@@ -17,11 +17,6 @@ constexpr double kLeastNameUnits = 1.2;
 constexpr double kPhotoShare = 0.36;            // of the width, at most
 constexpr double kRecognitionAnswerLine = 1.7;  // [units] height of a runner-up's line
 
-QString percent(double p) {
-  // Never shows 100 %.
-  return QString::number(std::clamp(static_cast<int>(std::lround(100.0 * p)), 0, 99)) + " %";
-}
-
 QFont fontOf(const QPainter& painter, double pixels, bool bold = false) {
   QFont font = painter.font();
   font.setPixelSize(std::max(6, static_cast<int>(std::lround(pixels))));
@@ -79,6 +74,10 @@ double paintPhoto(QPainter& painter,
 
 }  // namespace
 
+QString probabilityText(double p) {
+  return QString::number(std::clamp(static_cast<int>(std::lround(100.0 * p)), 0, 99)) + " %";
+}
+
 QString RecognitionAnswer::name() const {
   if (kind == Kind::kUnknown) return "unknown";
   return kind == Kind::kNamed && !best.empty() ? best.front().name : QString();
@@ -94,7 +93,7 @@ QString RecognitionAnswer::accessibleText() const {
   if (kind == Kind::kNothing || kind == Kind::kProblem) return text;
   if (kind == Kind::kUnknown)
     return "unknown" + (best.empty() ? QString() : "; most similar: " + best.front().name);
-  return name() + ", " + percent(best.front().p) + ", " + confidenceWord();
+  return name() + ", " + probabilityText(best.front().p) + ", " + confidenceWord();
 }
 
 RecognitionAnswer answerOf(const TrainedModel& model, const Prediction& prediction) {
@@ -197,7 +196,7 @@ double paintAnswer(QPainter& painter,
     painter.setPen(colors.text);
     painter.drawText(QRectF(bar.right(), y - 0.3 * unit, figureWidth, 1.5 * unit),
                      right,
-                     percent(answer.best.front().p));
+                     probabilityText(answer.best.front().p));
     y += 1.4 * unit;
     painter.setFont(bold);
     painter.setPen(color);
@@ -235,7 +234,7 @@ double paintAnswer(QPainter& painter,
              colors.muted,
              theme);
     painter.setPen(colors.muted);
-    painter.drawText(row, right, percent(place.p));
+    painter.drawText(row, right, probabilityText(place.p));
     y += kRecognitionAnswerLine * unit;
   }
   y += 0.5 * unit;

@@ -55,6 +55,8 @@ struct RecognitionAnswer {
 
 // The answer for a prediction of `model`.
 RecognitionAnswer answerOf(const TrainedModel& model, const Prediction& prediction);
+// The probability `p` (0..1) of a class: "97 %"; never 100 %.
+QString probabilityText(double p);
 // Describes an offset in words; `emulated`: the emulated hand has no offset.
 QString offsetText(const SessionOffset& offset, bool emulated);
 

@@ -192,7 +192,7 @@ void TodayPage::showDay() {
     rows.push_back(
         {{.text = QString::fromStdString(utcText(grasp->timeUs)).mid(11, 8)},
          {.text = answer.name(), .tip = answer.accessibleText(), .warning = !answer.sure},
-         {.text = figure(answer.best.front().p, 2)},
+         {.text = probabilityText(answer.best.front().p)},
          {.text =
               grasp->labelledClass
                   ? QString::fromStdString(

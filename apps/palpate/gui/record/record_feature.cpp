@@ -182,7 +182,10 @@ void RecordFeature::connectActions() {
       const auto key = static_cast<int>(digit);
       mark(label.isEmpty() ? "mark " + QString::number(key) : label, key);
     });
-  state().actionEnabler.add({actions.record}, [this] { return state().live.source() != nullptr; });
+  state().actionEnabler.add(
+      {actions.record},
+      [this] { return state().live.source() != nullptr; },
+      "No hand is connected: connect one first (Ctrl+K)");
   // Space bar and digits set marks while a live source is shown; otherwise they control the
   // playback.
   state().actionEnabler.add(actions.labels + QList<QAction*>{actions.mark},

@@ -7,6 +7,7 @@
 
 #include "gui/appearance/text_size.h"
 #include "gui/desktop/application.h"
+#include "gui/desktop/greyed_keys.h"
 #include "gui/export/export_feature.h"
 #include "gui/settings/settings_feature.h"
 #include "gui/shell/central_widget.h"
@@ -73,6 +74,8 @@ MainWindow::MainWindow(const WindowEnvironment& environment)
   connectActions();
   connectMessages();
   addFeatures();
+  const auto* greyed = new GreyedKeys(windowState_->actions.all(), &whyGreyed, this, this);
+  connect(greyed, &GreyedKeys::refused, &windowState_->messages, &Messages::flash);
   // Called after the features exist, so that the dock Hand with its Stop learns of a hand before
   // the window changes.
   windowState_->displayed.follow();

@@ -119,6 +119,7 @@ SlipControls::SlipControls(QSettings& settings, QWidget* parent)
 
   setLive(false);
   connect(method_, &QComboBox::activated, this, [this] {
+    showLimits();
     remember();
     emit changed();
   });
@@ -177,7 +178,19 @@ void SlipControls::setLive(bool live) {
       slipMethodNamed(kept.toStdString()).value_or(live ? kUsualLiveMethod : kUsualMethod);
   method_->setCurrentText(QString::fromUtf8(nameOf(method)));
   method_->setToolTip(tipOf(method));
+  showLimits();
   setReferenceFrame(std::nullopt);
+}
+
+// With the method contest the figures of a frame are no plain limits.
+void SlipControls::showLimits() {
+  const bool contest = options().method == SlipMethod::kHypotheses;
+  for (QDoubleSpinBox* each : {step_, whole_, rotation_})
+    each->setToolTip(each->accessibleName() +
+                     (contest ? "\nWith contest it only scales which motions of several frames are "
+                                "compared with a load shift;\nthe comparison decides, and a slip "
+                                "lasts until the contact is at rest"
+                              : ""));
 }
 
 void SlipControls::setReferenceFrame(std::optional<std::size_t> frame) {

@@ -40,6 +40,7 @@ class SlipControls : public QWidget {
                         int decimals,
                         double usual);
   void remember();
+  void showLimits();
   void showReference();
 
   QSettings& settings_;

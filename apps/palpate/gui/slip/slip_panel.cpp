@@ -11,6 +11,7 @@
 #include <palpate/core/time.h>
 
 #include "gui/appearance/captions.h"
+#include "gui/appearance/text_size.h"
 #include "gui/slip/slip_chart.h"
 #include "gui/slip/slip_controls.h"
 #include "gui/slip/slip_indicator.h"
@@ -26,7 +27,8 @@ namespace {
 constexpr std::size_t kSlipPanelMostKept = 8;
 constexpr std::size_t kMostLive = 20'000;             // frames of a live chart
 constexpr int kListWidth = 380, kDrawingWidth = 240;  // [px] widths in the default dock
-constexpr int kShortNames = 440;  // [px]; in a narrower list, matrices are "0 distal"
+// [px] of the first text size; in a narrower list, matrices are "0 distal"
+constexpr int kShortNames = 440;
 constexpr double kLiveSeenS = 30.0;
 constexpr double kPictureDrawing = 0.36;  // of the width of an exported picture
 
@@ -268,7 +270,7 @@ void SlipPanel::showRows() {
     const SlipSample* sample = sampleNow(m);
     const IndicatorLook indicator = indicatorOf(sample);
     const double pitchMm = hand()->layout->matrix(m).pitchMm;
-    const QString name = list_->width() < kShortNames
+    const QString name = list_->width() < textScale() * kShortNames
                              ? QString::fromStdString(hand()->matrices.at(m).shortName)
                              : nameOfMatrix(m);
     std::vector<FigureCell> row = {

@@ -127,10 +127,13 @@ void EventEditing::addConditions() {
   };
   actionEnabler.add({actions.undo}, [canUndo] { return canUndo(false); });
   actionEnabler.add({actions.redo}, [canUndo] { return canUndo(true); });
-  actionEnabler.add({actions.saveEvents}, [this] {
-    const EventEditor* editor = windowState_.events.editor();
-    return editor && editor->unsaved();
-  });
+  actionEnabler.add(
+      {actions.saveEvents},
+      [this] {
+        const EventEditor* editor = windowState_.events.editor();
+        return editor && editor->unsaved();
+      },
+      "There is nothing to save: no label, note or grasp has changed");
   actionEnabler.add({actions.addLabel, actions.addNote}, frames);
   actionEnabler.add({actions.nextEvent, actions.previousEvent, actions.toEvents},
                     [this, frames] { return frames() && !rows_.marks().empty(); });

@@ -407,7 +407,9 @@ void TimelineFeature::connectActions() {
   // Without a selection, cropping says so.
   actionEnabler.add({actions.selectAll, actions.saveAs, actions.differences, actions.crop}, frames);
   const auto selected = [frames, &selection] { return frames() && selection.span().has_value(); };
-  actionEnabler.add({actions.statistics}, selected);
+  actionEnabler.add({actions.statistics},
+                    selected,
+                    "Nothing is selected: drag over the timeline of a recording first");
   actionEnabler.add({actions.zoomSelection, actions.dropSelection}, [this, selected] {
     return state().displayed.isLive() ? !liveChart_->cursorWords().isEmpty() : selected();
   });

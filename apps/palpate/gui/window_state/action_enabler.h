@@ -4,28 +4,42 @@
 
 #include <QAction>
 #include <QList>
+#include <QString>
 #include <functional>
 #include <utility>
 #include <vector>
+
+#include "gui/window_state/action_registry.h"
 
 namespace palpate::gui {
 
 class ActionEnabler {
  public:
-  // The actions must outlive this object.
-  void add(const QList<QAction*>& actions, std::function<bool()> condition) {
-    all_.emplace_back(actions, std::move(condition));
+  // The actions must outlive this object. `whyNot` says what is missing while the condition is
+  // false, in one line (whyGreyed()).
+  void add(const QList<QAction*>& actions,
+           std::function<bool()> condition,
+           const QString& whyNot = {}) {
+    all_.push_back({actions, std::move(condition), whyNot});
   }
   void clear() { all_.clear(); }
   void refresh() const {
-    for (const auto& [actions, condition] : all_) {
-      const bool possible = condition();
-      for (QAction* action : actions) action->setEnabled(possible);
+    for (const Conditional& each : all_) {
+      const bool possible = each.condition();
+      for (QAction* action : each.actions) {
+        action->setEnabled(possible);
+        if (!each.whyNot.isEmpty()) setWhyGreyed(*action, possible ? QString() : each.whyNot);
+      }
     }
   }
 
  private:
-  std::vector<std::pair<QList<QAction*>, std::function<bool()>>> all_;
+  struct Conditional {
+    QList<QAction*> actions;
+    std::function<bool()> condition;
+    QString whyNot;
+  };
+  std::vector<Conditional> all_;
 };
 
 }  // namespace palpate::gui

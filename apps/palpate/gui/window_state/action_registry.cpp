@@ -9,6 +9,7 @@ constexpr const char* kSectionProperty = "section";
 constexpr const char* kKindProperty = "kind";
 constexpr const char* kNoMenuProperty = "noMenu";
 constexpr const char* kKindKeysProperty = "kindKeys";
+constexpr const char* kWhyGreyedProperty = "whyGreyed";
 
 template <class Value>
 const Value& known(const std::map<QString, Value>& all, const QString& id) {
@@ -41,6 +42,12 @@ std::optional<ActionKind> kindOf(const QAction& action) {
 void hideInMenus(QAction& action) { action.setProperty(kNoMenuProperty, true); }
 
 bool isHiddenInMenus(const QAction& action) { return action.property(kNoMenuProperty).toBool(); }
+
+void setWhyGreyed(QAction& action, const QString& why) {
+  action.setProperty(kWhyGreyedProperty, why);
+}
+
+QString whyGreyed(const QAction& action) { return action.property(kWhyGreyedProperty).toString(); }
 
 QString plainText(const QAction& action) {
   QString text = action.text();

@@ -98,6 +98,9 @@ std::optional<ActionKind> kindOf(const QAction& action);
 // Keeps the action out of the menus; its key still works.
 void hideInMenus(QAction& action);
 bool isHiddenInMenus(const QAction& action);
+// Why the action is greyed, in one line; empty: it is enabled, or no reason is known.
+void setWhyGreyed(QAction& action, const QString& why);
+QString whyGreyed(const QAction& action);
 // The text of the action without mnemonic and dots.
 QString plainText(const QAction& action);
 

@@ -1,19 +1,22 @@
-#include "gui/hand/motion_keys.h"
+#include "gui/desktop/greyed_keys.h"
 
 #include <QApplication>
 #include <QDialog>
+#include <QHelpEvent>
 #include <QLineEdit>
+#include <QMenu>
 #include <QSignalSpy>
 #include <QTest>
+#include <QToolTip>
 
 #include <gtest/gtest.h>
 
-namespace palpate::gui::motion_keys_test {
+namespace palpate::gui::greyed_keys_test {
 namespace {
 
-class MotionKeysTest : public ::testing::Test {
+class GreyedKeysTest : public ::testing::Test {
  protected:
-  MotionKeysTest() {
+  GreyedKeysTest() {
     open_.setShortcut(QKeySequence("Ctrl+Alt+O"));
     open_.setToolTip("The hand moves: stop it first (Esc)");
     window_.addAction(&open_);
@@ -27,11 +30,11 @@ class MotionKeysTest : public ::testing::Test {
   QWidget window_;
   QLineEdit field_{&window_};
   QAction open_{"&Open the hand"};
-  MotionKeys keys_{{&open_}, &window_};
-  QSignalSpy refused_{&keys_, &MotionKeys::refused};
+  GreyedKeys keys_{{&open_}, [](const QAction& action) { return action.toolTip(); }, &window_};
+  QSignalSpy refused_{&keys_, &GreyedKeys::refused};
 };
 
-TEST_F(MotionKeysTest, AKeyThatCannotBeTakenSaysWhyOnce) {
+TEST_F(GreyedKeysTest, AKeyThatCannotBeTakenSaysWhyOnce) {
   open_.setEnabled(false);
   press(Qt::Key_O, Qt::ControlModifier | Qt::AltModifier);
   ASSERT_EQ(refused_.size(), 1);
@@ -39,7 +42,7 @@ TEST_F(MotionKeysTest, AKeyThatCannotBeTakenSaysWhyOnce) {
   EXPECT_EQ(field_.text(), "");
 }
 
-TEST_F(MotionKeysTest, OtherKeysAndOtherWindowsAreLeftAlone) {
+TEST_F(GreyedKeysTest, OtherKeysAndOtherWindowsAreLeftAlone) {
   open_.setEnabled(false);
   press(Qt::Key_O, Qt::NoModifier);
   EXPECT_EQ(field_.text(), "o");
@@ -50,7 +53,7 @@ TEST_F(MotionKeysTest, OtherKeysAndOtherWindowsAreLeftAlone) {
 }
 
 // A dock that was dragged out of the window.
-TEST_F(MotionKeysTest, AWindowThatFloatsSaysTheSame) {
+TEST_F(GreyedKeysTest, AWindowThatFloatsSaysTheSame) {
   open_.setEnabled(false);
   QWidget floating(&window_, Qt::Tool);
   QLineEdit field(&floating);
@@ -65,7 +68,7 @@ TEST_F(MotionKeysTest, AWindowThatFloatsSaysTheSame) {
   EXPECT_EQ(refused_.size(), 1) << "a dialogue keeps its keys to itself";
 }
 
-TEST_F(MotionKeysTest, AWindowThatFloatsMovesTheHandLikeTheMainWindow) {
+TEST_F(GreyedKeysTest, AWindowThatFloatsMovesTheHandLikeTheMainWindow) {
   QWidget floating(&window_, Qt::Tool);
   QLineEdit field(&floating);
   floating.show();
@@ -76,10 +79,37 @@ TEST_F(MotionKeysTest, AWindowThatFloatsMovesTheHandLikeTheMainWindow) {
   EXPECT_EQ(refused_.size(), 0);
 }
 
-TEST_F(MotionKeysTest, AnEnabledActionIsLeftToQt) {
+TEST_F(GreyedKeysTest, AnEnabledActionIsLeftToQt) {
   press(Qt::Key_O, Qt::ControlModifier | Qt::AltModifier);
   EXPECT_EQ(refused_.size(), 0);
 }
 
+TEST_F(GreyedKeysTest, WithoutAReasonTheKeyIsLeftAlone) {
+  open_.setEnabled(false);
+  open_.setShortcut(QKeySequence("O"));
+  open_.setToolTip(" ");
+  GreyedKeys silent(
+      {&open_}, [](const QAction&) { return QString(); }, &window_);
+  QSignalSpy refused(&silent, &GreyedKeys::refused);
+  press(Qt::Key_O, Qt::NoModifier);
+  EXPECT_EQ(refused.size(), 0);
+}
+
+TEST_F(GreyedKeysTest, TheEntryOfAMenuSaysWhy) {
+  QMenu menu(&window_);
+  menu.addAction(&open_);
+  menu.popup(window_.pos());
+  const QPoint at = menu.actionGeometry(&open_).center();
+  const auto tip = [&] {
+    QToolTip::hideText();
+    QHelpEvent event(QEvent::ToolTip, at, menu.mapToGlobal(at));
+    QApplication::sendEvent(&menu, &event);
+    return QToolTip::text();
+  };
+  EXPECT_NE(tip(), "The hand moves: stop it first (Esc)") << "it isn't greyed";
+  open_.setEnabled(false);
+  EXPECT_EQ(tip(), "The hand moves: stop it first (Esc)");
+}
+
 }  // namespace
-}  // namespace palpate::gui::motion_keys_test
+}  // namespace palpate::gui::greyed_keys_test

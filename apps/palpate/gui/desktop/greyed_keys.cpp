@@ -1,0 +1,71 @@
+#include "gui/desktop/greyed_keys.h"
+
+#include <QApplication>
+#include <QDialog>
+#include <QHelpEvent>
+#include <QKeyEvent>
+#include <QMenu>
+#include <QToolTip>
+#include <QWidget>
+#include <utility>
+
+namespace palpate::gui {
+namespace {
+
+// A dialogue keeps its keys to itself.
+bool isWindowOrPartOf(const QWidget& widget, const QWidget* window) {
+  const QWidget* top = widget.window();
+  while (top != window && top->parentWidget() && !qobject_cast<const QDialog*>(top))
+    top = top->parentWidget()->window();
+  return top == window;
+}
+
+}  // namespace
+
+GreyedKeys::GreyedKeys(QList<QAction*> actions,
+                       std::function<QString(const QAction&)> why,
+                       QWidget* window,
+                       QObject* parent)
+    : QObject(parent), actions_(std::move(actions)), why_(std::move(why)), window_(window) {
+  qApp->installEventFilter(this);
+}
+
+bool GreyedKeys::eventFilter(QObject* watched, QEvent* event) {
+  // The key of an enabled action arrives as a shortcut, never as a KeyPress.
+  if (event->type() != QEvent::KeyPress && event->type() != QEvent::ToolTip) return false;
+  auto* widget = qobject_cast<QWidget*>(watched);
+  if (!widget || !isWindowOrPartOf(*widget, window_)) return false;
+  if (event->type() == QEvent::KeyPress) return refuse(*static_cast<QKeyEvent*>(event));
+  auto* menu = qobject_cast<QMenu*>(widget);
+  return menu && tell(*menu, *static_cast<QHelpEvent*>(event));
+}
+
+bool GreyedKeys::refuse(const QKeyEvent& key) {
+  if (key.isAutoRepeat()) return false;
+  const QKeySequence pressed(key.keyCombination());
+  for (const QAction* action : actions_) {
+    if (action->isEnabled() || !action->shortcuts().contains(pressed)) continue;
+    const QString why = why_(*action);
+    if (why.isEmpty()) continue;
+    const bool same = key.timestamp() != 0 && key.timestamp() == lastPress_;
+    lastPress_ = key.timestamp();
+    if (!same) {
+      emit refusedAction(action);
+      emit refused(action->text().remove('&').remove("…") + ": " + why);
+    }
+    // What has the focus must not take it for text.
+    return true;
+  }
+  return false;
+}
+
+bool GreyedKeys::tell(QMenu& menu, const QHelpEvent& event) const {
+  QAction* action = menu.actionAt(event.pos());
+  if (!action || action->isEnabled() || !actions_.contains(action)) return false;
+  const QString why = why_(*action);
+  if (why.isEmpty()) return false;
+  QToolTip::showText(event.globalPos(), why, &menu);
+  return true;
+}
+
+}  // namespace palpate::gui

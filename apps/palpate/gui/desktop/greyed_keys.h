@@ -1,0 +1,48 @@
+// The key of a greyed action does nothing. This tells why, and so does the tool tip of its entry in
+// a menu. It does so in the window and in all windows that belong to it: docks that float, the
+// answer on the whole screen.
+#pragma once
+
+#include <QAction>
+#include <QList>
+#include <QObject>
+#include <functional>
+
+class QHelpEvent;
+class QKeyEvent;
+class QMenu;
+class QWidget;
+
+namespace palpate::gui {
+
+class GreyedKeys : public QObject {
+  Q_OBJECT
+ public:
+  // `why` says why an action is greyed; empty: its key and its entry are left alone. `window` and
+  // the actions must outlive this.
+  GreyedKeys(QList<QAction*> actions,
+             std::function<QString(const QAction&)> why,
+             QWidget* window,
+             QObject* parent = nullptr);
+
+ signals:
+  // One line: "Reactive grasp: The hand holds what it has grasped: stop it first (Esc)".
+  void refused(const QString& why);
+  // Before refused().
+  void refusedAction(const QAction* action);
+
+ protected:
+  bool eventFilter(QObject* watched, QEvent* event) override;
+
+ private:
+  bool refuse(const QKeyEvent& key);
+  bool tell(QMenu& menu, const QHelpEvent& event) const;
+
+  QList<QAction*> actions_;
+  std::function<QString(const QAction&)> why_;
+  QWidget* window_;
+  // Time stamp of the last press [ms]: a press passes through several widgets.
+  quint64 lastPress_ = 0;
+};
+
+}  // namespace palpate::gui
