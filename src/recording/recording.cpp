@@ -244,8 +244,13 @@ RecoverReport recoverDsa(const std::filesystem::path& in,
       lost += ": " + std::to_string(recovery.intactBlocks) + " of " +
               counted(recovery.blocks, "bzip2 block") + " could be read, " +
               counted(recovery.cutSamples, "sample") + " at the edge of a lost block not";
+    if (!recovery.lossText.empty()) lost += "; " + recovery.lossText;
+    std::vector<RecordingEvent> all = events;
+    all.insert(all.end(), recovery.losses.begin(), recovery.losses.end());
+    std::stable_sort(
+        all.begin(), all.end(), [](const auto& a, const auto& b) { return a.tUs < b.tUs; });
     saveRecording(*recovery.profile,
-                  withOrigin(events, *recovery.profile, in, lost),
+                  withOrigin(std::move(all), *recovery.profile, in, lost),
                   out,
                   overwrite,
                   progress);
@@ -385,6 +390,7 @@ std::optional<ReadableRecording> recoveredDsa(const std::filesystem::path& path,
   addNotes(path, recording);
   recording.damage =
       "damaged; readable: " + countsText(recovery.frames, recovery.angles, recovery.temperatures);
+  if (!recovery.lossText.empty()) recording.damage += "; " + recovery.lossText;
   return recording;
 }
 

@@ -9,6 +9,7 @@
 #include "palpate/core/error.h"
 #include "palpate/recording/bzip2_blocks.h"
 #include "palpate/recording/recording.h"
+#include "palpate/recording/recording_losses.h"
 
 #include "recording/dsa_corpus.h"
 #include "testing/testing.h"
@@ -120,6 +121,57 @@ TEST(DsaRecovery, assumesTheHandWhenTheFirstBlockIsLost) {
   ASSERT_TRUE(saved.profile);
   expectTrueFrames(*saved.profile);
   EXPECT_NE(verifyRecording(folder / "a.dsa").message.find("SDH-2 is assumed"), std::string::npos);
+}
+
+// Frames are 32 ms apart, the first one at the time of the first angle (see longXml()).
+TEST(DsaRecovery, saysWhichFramesAreLostBeforeTheFirstOne) {
+  const testing::TemporaryFolder folder;
+  std::string damaged = longPacked();
+  damaged[5000] = static_cast<char>(damaged[5000] ^ 4);
+  testing::writeFile(folder / "a.dsa", damaged);
+  const DsaRecovery saved = recoverDsaProfile(folder / "a.dsa");
+  ASSERT_TRUE(saved.profile);
+  const std::int64_t firstUs = saved.profile->frameTimeUs(0);
+  const std::int64_t beginUs = 1'400'000'000'000'000;
+  const std::int64_t lost = (firstUs - beginUs) / 32'000;
+  ASSERT_GT(lost, 0);
+  ASSERT_EQ(saved.losses.size(), 1u);
+  EXPECT_EQ(saved.losses[0].kind, "gap");
+  EXPECT_EQ(saved.losses[0].tUs, beginUs);
+  EXPECT_EQ(saved.losses[0].t1Us, firstUs);
+  const std::string text = std::to_string(lost) + " frames before the first one that can be read";
+  EXPECT_TRUE(saved.losses[0].text.starts_with(text)) << saved.losses[0].text;
+  EXPECT_TRUE(saved.lossText.starts_with(text)) << saved.lossText;
+  EXPECT_NE(saved.lossText.find("the joint angles begin "), std::string::npos);
+  EXPECT_NE(readableRecording(folder / "a.dsa").damage.find(text), std::string::npos);
+  EXPECT_NE(verifyRecording(folder / "a.dsa").message.find(text), std::string::npos);
+
+  recoverRecording(folder / "a.dsa", folder / "saved.palpate", Overwrite::kRefuse);
+  const std::vector<RecordingLoss> losses =
+      lossesOf(readableRecording(folder / "saved.palpate").events);
+  ASSERT_EQ(losses.size(), 1u);
+  EXPECT_EQ(losses[0].stream, "tactile");
+  EXPECT_TRUE(losses[0].counted);
+  EXPECT_EQ(losses[0].lost, static_cast<std::uint64_t>(lost));
+  EXPECT_NEAR(losses[0].seconds, static_cast<double>(firstUs - beginUs) / 1e6, 1e-9);
+}
+
+TEST(DsaRecovery, tellsTheFramesLostBetweenOthers) {
+  std::string damaged = longPacked();
+  const Bzip2Block block = findBzip2Blocks(asBytes(damaged)).at(1);
+  const auto byte = static_cast<std::size_t>((block.beginBit + block.endBit) / 16);
+  damaged[byte] = static_cast<char>(damaged[byte] ^ 0x20);
+  const DsaRecovery saved = recoverDsaProfileBytes(asBytes(damaged), "a.dsa");
+  ASSERT_EQ(saved.losses.size(), 1u) << saved.lossText;
+  const std::vector<RecordingLoss> losses = lossesOf(saved.losses);
+  EXPECT_EQ(losses.at(0).lost, kNumFrames - saved.frames);
+  EXPECT_EQ(saved.losses[0].t1Us - saved.losses[0].tUs,
+            static_cast<std::int64_t>(kNumFrames - saved.frames + 1) * 32'000);
+  EXPECT_TRUE(saved.lossText.starts_with("lost between them: ")) << saved.lossText;
+}
+
+TEST(DsaRecovery, nothingIsSaidToBeLostOfASoundFile) {
+  EXPECT_TRUE(recoverDsaProfileBytes(asBytes(longPacked()), "a.dsa").losses.empty());
 }
 
 TEST(DsaRecovery, savesNothingOfALostLayoutThatIsNotTheHands) {

@@ -117,5 +117,20 @@ TEST(FrameTable, ARowPerTaxelThatIsScannedMatrixAfterMatrix) {
   EXPECT_EQ(table.row(5), (Row{"42", "1234", "1", "1", "0", "0.5"})) << "(0, 1) is not scanned";
 }
 
+// The first taxel was not active as recorded; the heat map draws its filtered value all the same.
+TEST(FrameTable, FilteredValuesAreThoseThatAreDrawn) {
+  MatrixLayout row;
+  row.rows = 1;
+  row.columns = 2;
+  row.pitchMm = 3.4;
+  row.staticMask = row.dynamicMask = {1, 1};
+  TactileFrame frame(std::make_shared<const SensorLayout>(std::vector{row}));
+  frame.setFiltered({188.5F, 12.0F}, {false, true});
+  ASSERT_EQ(frame.matrix(0)(0, 0), 0.0F);
+  const TextTable table = taxelTable(frame, "1200");
+  EXPECT_EQ(table.row(0), (Row{"1200", "0", "0", "0", "0", "188.5"}));
+  EXPECT_EQ(table.row(1), (Row{"1200", "0", "0", "0", "1", "12"}));
+}
+
 }  // namespace
 }  // namespace palpate::table_export_test

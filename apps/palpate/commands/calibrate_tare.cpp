@@ -28,7 +28,7 @@ RecordingEvent eventOf(const Tare& tare, const Profile& profile) {
   event.kind = "tare";
   std::size_t raised = 0;
   for (const MatrixTare& matrix : tare.matrices) raised += matrix.raisedTaxels;
-  event.text = "zero of " + counted(raised, "taxel");
+  event.text = "tare of " + counted(raised, "taxel");
   event.json = jsonOf(tare, profile.layout()).text(-1);
   return event;
 }

@@ -7,10 +7,13 @@
 #include <filesystem>
 #include <optional>
 #include <span>
+#include <string>
+#include <vector>
 
 #include <palpate/core/progress.h>
 #include <palpate/model/profile.h>
 #include <palpate/recording/dsa_reader.h>
+#include <palpate/recording/recording_event.h>
 
 namespace palpate {
 
@@ -26,6 +29,11 @@ struct DsaRecovery {
   std::size_t intactBlocks = 0;
   // The layout was lost: that of the SDH-2 is assumed, to which every saved frame fits.
   bool layoutAssumed = false;
+  // One event "gap" for each span of lost frames, known by the numbers of the frames and by joint
+  // angles where there are no frames. In order of time.
+  std::vector<RecordingEvent> losses;
+  // What the losses say, in one line; empty when there are none.
+  std::string lossText;
 };
 
 // Largest file that is searched: it is held in memory. [bytes]

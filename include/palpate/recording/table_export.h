@@ -38,7 +38,8 @@ void writeNpz(const Profile& profile,
 
 // The taxels of one frame as a table, for pasting and for CSV. Its columns are
 // `frame,time_ms,matrix,y,x,value`, with a row per taxel that is scanned, at rest or not, matrix
-// after matrix, row by row. `index` stands in the column frame; it is empty for a live frame.
+// after matrix, row by row. Filtered values are those that are drawn (TactileFrame::allValues()).
+// `index` stands in the column frame; it is empty for a live frame.
 TextTable taxelTable(const TactileFrame& frame, const std::string& index);
 
 }  // namespace palpate

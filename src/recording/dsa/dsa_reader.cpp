@@ -89,6 +89,7 @@ std::string describe(const DsaRecovery& saved) {
   if (saved.blocks > 0)
     text += "; " + std::to_string(saved.intactBlocks) + " of " +
             counted(saved.blocks, "bzip2 block") + " can be read";
+  if (!saved.lossText.empty()) text += "; " + saved.lossText;
   if (saved.layoutAssumed)
     text += "; the sensor's layout is lost: that of the SDH-2 is assumed, which fits the frames";
   return text;

@@ -1,16 +1,24 @@
 #include "palpate/recording/dsa_recovery.h"
 
 #include <algorithm>
+#include <cstdint>
+#include <iterator>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "palpate/core/error.h"
+#include "palpate/core/json.h"
+#include "palpate/core/number_text.h"
 #include "palpate/core/progress.h"
 #include "palpate/core/xml.h"
+#include "palpate/model/gap_detector.h"
 #include "palpate/model/hand_file.h"
+#include "palpate/model/timing.h"
 #include "palpate/recording/bzip2_blocks.h"
+#include "palpate/recording/recording_losses.h"
 
 #include "recording/dsa/dsa_document.h"
 #include "recording/dsa/dsa_xml_stream.h"
@@ -51,6 +59,16 @@ const Element* elementOf(std::string_view tag) {
   return nullptr;
 }
 
+// The number that a frame has in its file, of its opening tag; nothing when there is none.
+std::optional<std::int64_t> indexOf(std::string_view element) {
+  constexpr std::string_view kIndex = " index=\"";
+  const std::string_view tag = element.substr(0, element.find('>'));
+  const std::size_t at = tag.find(kIndex);
+  if (at == std::string_view::npos) return std::nullopt;
+  const std::string_view number = tag.substr(at + kIndex.size());
+  return parseInteger(number.substr(0, number.find('"')));
+}
+
 // Finds whole elements in stretches of text and hands them to the document, one by one: one that is
 // wrong harms no other.
 class ElementScanner {
@@ -67,6 +85,11 @@ class ElementScanner {
     position_ -= keep;
     openBegin_ = 0;
     if (pending_.size() > kMaxElementBytes) breakHere();
+  }
+
+  // Of each frame that was taken: its number in the file.
+  const std::vector<std::optional<std::int64_t>>& frameNumbers() const noexcept {
+    return frameNumbers_;
   }
 
   // The stretch ends: what follows is not its continuation.
@@ -138,6 +161,7 @@ class ElementScanner {
       XmlParser parser(document_);
       parser.push(text);
       parser.finish();
+      if (element.fragment == DsaDocument::Fragment::kFrame) frameNumbers_.push_back(indexOf(text));
     } catch (const XmlError&) {
       if (!isSensor) ++result_.badSamples;
     } catch (const Error&) {
@@ -147,6 +171,7 @@ class ElementScanner {
 
   DsaDocument& document_;
   DsaRecovery& result_;
+  std::vector<std::optional<std::int64_t>> frameNumbers_;
   std::string pending_;  // text from the element that is open, or not looked at yet
   std::size_t position_ = 0;
   const Element* open_ = nullptr;
@@ -213,6 +238,83 @@ void scanText(std::span<const std::byte> bytes, const Reporter& report, ElementS
   }
 }
 
+constexpr std::string_view kWasDamaged = "the file was damaged";
+
+RecordingEvent lossEvent(std::int64_t fromUs,
+                         std::int64_t toUs,
+                         std::optional<std::int64_t> count,
+                         const std::string& text) {
+  Json details = Json::object().set("stream", "tactile");
+  if (count) details.set("lost", *count);
+  details.set("reason", kWasDamaged);
+  return {fromUs, toUs, "gap", std::nullopt, text, details.text(-1)};
+}
+
+std::string lostFrames(std::optional<std::int64_t> count, std::string_view where) {
+  if (!count) return "the frames " + std::string(where) + " are lost";
+  return counted(static_cast<std::uint64_t>(*count), "frame") + " " + std::string(where) +
+         (*count == 1 ? " is lost" : " are lost");
+}
+
+std::string secondsText(std::int64_t us) {
+  constexpr int kDecimals = 1;
+  return fixedText(static_cast<double>(us) / 1e6, kDecimals) + " s";
+}
+
+// Finds the spans whose frames are lost. `numbers`: of the frames of the profile, in their file.
+void findLosses(const Profile& profile,
+                const std::vector<std::optional<std::int64_t>>& numbers,
+                DsaRecovery& result) {
+  const std::size_t numFrames = profile.numFrames();
+  const bool damaged = result.intactBlocks < result.blocks || result.cutSamples > 0 ||
+                       result.badSamples > 0 || result.layoutAssumed;
+  if (!damaged || numFrames == 0 || numbers.size() != numFrames) return;
+  std::vector<std::string> texts;
+  const auto add = [&](RecordingEvent loss) {
+    texts.push_back(loss.text);
+    result.losses.push_back(std::move(loss));
+  };
+
+  const std::int64_t firstUs = profile.frameTimeUs(0);
+  const std::optional<std::int64_t> before = numbers.front();
+  if (before ? *before > 0 : result.layoutAssumed) {
+    const std::int64_t fromUs =
+        profile.numAngles() > 0 ? std::min(firstUs, profile.angleTimeUs(0)) : firstUs;
+    std::string text = lostFrames(before, "before the first one that can be read") + ": ";
+    text += fromUs < firstUs
+                ? "the joint angles begin " + secondsText(firstUs - fromUs) + " earlier"
+                : std::string(kWasDamaged);
+    add(lossEvent(fromUs, firstUs, before, text));
+  }
+
+  std::vector<RecordingEvent> between;
+  for (std::size_t i = 1; i < numFrames; ++i) {
+    if (!numbers[i - 1] || !numbers[i] || *numbers[i] <= *numbers[i - 1] + 1) continue;
+    const std::int64_t count = *numbers[i] - *numbers[i - 1] - 1;
+    between.push_back(lossEvent(
+        profile.frameTimeUs(i - 1),
+        profile.frameTimeUs(i),
+        count,
+        counted(static_cast<std::uint64_t>(count), "frame") + " lost: the file was damaged"));
+  }
+  if (!between.empty()) texts.push_back("lost between them: " + lossesOf(between).front().text());
+  std::move(between.begin(), between.end(), std::back_inserter(result.losses));
+
+  const std::int64_t lastUs = profile.frameTimeUs(numFrames - 1);
+  const std::int64_t anglesEndUs =
+      profile.numAngles() > 0 ? profile.angleTimeUs(profile.numAngles() - 1) : lastUs;
+  const TimingReport timing = timingOf(profile);
+  const double usualS = timing.rateHz > 0.0 ? 1.0 / timing.rateHz : 0.0;
+  if (static_cast<double>(anglesEndUs - lastUs) / 1e6 > gapThresholdS(usualS))
+    add(lossEvent(lastUs,
+                  anglesEndUs,
+                  std::nullopt,
+                  lostFrames(std::nullopt, "behind the last one that can be read") +
+                      ": the joint angles end " + secondsText(anglesEndUs - lastUs) + " later"));
+  for (const std::string& text : texts)
+    result.lossText += (result.lossText.empty() ? "" : "; ") + text;
+}
+
 }  // namespace
 
 DsaRecovery recoverDsaProfile(const std::filesystem::path& path,
@@ -249,6 +351,7 @@ DsaRecovery recoverDsaProfileBytes(std::span<const std::byte> bytes,
   result.temperatures = foreign ? 0 : document.numTemperatures();
   if (result.frames + result.angles + result.temperatures > 0)
     result.profile = document.finishFragments();
+  if (result.profile && !foreign) findLosses(*result.profile, scanner.frameNumbers(), result);
   return result;
 }
 

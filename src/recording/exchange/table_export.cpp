@@ -144,7 +144,7 @@ TextTable taxelTable(const TactileFrame& frame, const std::string& index) {
   std::vector<Place> places;
   for (std::size_t m = 0; m < frame.layout->numMatrices(); ++m) {
     const MatrixLayout& layout = frame.layout->matrix(m);
-    const auto values = frame.matrix(m);
+    const auto values = frame.allValues(m);
     for (int y = 0; y < layout.rows; ++y)
       for (int x = 0; x < layout.columns; ++x)
         if (layout.enabled(y, x)) places.push_back({m, y, x, values(y, x)});

@@ -8,6 +8,7 @@
 #include <QListWidget>
 #include <QMimeData>
 #include <QPushButton>
+#include <QStyledItemDelegate>
 #include <QTableView>
 #include <QTest>
 #include <algorithm>
@@ -196,6 +197,19 @@ TEST_F(BatchDialogTest, WhatCanNotBeDoneIsSaidAndStartIsOff) {
   expect(choices, "no recording");
 }
 
+TEST_F(BatchDialogTest, WhatIsNotFilledInYetIsAHintAndNoProblem) {
+  look();
+  EXPECT_FALSE(find<QLabel>("batchSaid")->property("problem").toBool()) << "at first sight";
+  BatchChoices choices = both();
+  choices.folder.clear();
+  choose(choices);
+  EXPECT_EQ(find<QLabel>("batchSaid")->text(), "choose a folder for the results");
+  EXPECT_FALSE(find<QLabel>("batchSaid")->property("problem").toBool());
+  choices.folder = text(folder_ / "in/made");
+  choose(choices);
+  EXPECT_TRUE(find<QLabel>("batchSaid")->property("problem").toBool()) << "this is a mistake";
+}
+
 TEST_F(BatchDialogTest, OnlyFieldsWithAnEffectAreSeen) {
   const auto seen = [&](const char* name) { return find<QWidget>(name)->isVisible(); };
   BatchChoices choices = both();
@@ -303,6 +317,26 @@ TEST_F(BatchDialogTest, WhatWasMadeIsListedWhereNothingFailed) {
   EXPECT_EQ(find<QLabel>("batchSummary")->text(), "2 done; 2 files.");
   EXPECT_EQ(find<QTableView>("batchTable")->model()->rowCount(), 2);
   EXPECT_FALSE(find<QCheckBox>("batchShowAll")->isEnabled());
+}
+
+TEST_F(BatchDialogTest, ALongPathLosesItsFoldersAndNotItsName) {
+  choose(both());
+  run();
+  auto* table = find<QTableView>("batchTable");
+  const QModelIndex path = table->model()->index(0, 0);
+  const QModelIndex what = table->model()->index(0, 2);
+  struct Seen : QStyledItemDelegate {
+    using QStyledItemDelegate::initStyleOption;
+  };
+  const auto elided = [&](const QModelIndex& index) {
+    QStyleOptionViewItem option;
+    option.textElideMode = table->textElideMode();
+    auto* delegate = static_cast<QStyledItemDelegate*>(table->itemDelegateForIndex(index));
+    (delegate->*(&Seen::initStyleOption))(&option, index);
+    return option.textElideMode;
+  };
+  EXPECT_EQ(elided(path), Qt::ElideLeft);
+  EXPECT_EQ(elided(what), Qt::ElideMiddle);
 }
 
 TEST_F(BatchDialogTest, AnHdf5FileIsReadAndAChangedOneFails) {

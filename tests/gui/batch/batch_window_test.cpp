@@ -2,6 +2,7 @@
 #include <QAction>
 #include <QLabel>
 #include <QPushButton>
+#include <QTableView>
 #include <map>
 
 #include "palpate/emulator/synthetic_profile.h"
@@ -127,6 +128,8 @@ TEST_F(BatchWindowTest, CancelKeepsWhatIsDoneAndStartGoesOn) {
   const auto* said = dialog().findChild<QLabel*>("batchSaid");
   EXPECT_TRUE(said->text().startsWith("Cancelled: ")) << said->text().toStdString();
   EXPECT_TRUE(said->text().contains("not done"));
+  EXPECT_EQ(dialog().findChild<QTableView*>("batchTable")->model()->rowCount(), kFiles)
+      << "nothing failed: what is done and what isn't is listed";
   run(choices);
   EXPECT_EQ(filesIn(out).size(), static_cast<std::size_t>(kFiles));
   EXPECT_TRUE(said->text().contains(QString("%1 skipped").arg(made.size())))

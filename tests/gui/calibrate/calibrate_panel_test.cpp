@@ -232,6 +232,7 @@ TEST_F(CalibratePanelTest, TheTareIsProposed) {
   EXPECT_EQ(cell("tareTable", 1, 3), "1");
   EXPECT_EQ(cell("tareTable", 4, 4), "never unloaded");
   EXPECT_EQ(cell("tareTable", 0, 3), "0");
+  EXPECT_EQ(cell("tareTable", 0, 4), "0 (median)");
   QSignalSpy keep(&panel_->tare(), &TarePage::keepRequested);
   auto* button = find<QPushButton>("tareKeep");
   ASSERT_TRUE(button->isEnabled());
@@ -240,7 +241,7 @@ TEST_F(CalibratePanelTest, TheTareIsProposed) {
   EXPECT_FALSE(find<QPushButton>("tareRemove")->isVisible());
   panel_->tare().setKept(true);
   EXPECT_TRUE(find<QPushButton>("tareRemove")->isVisible());
-  EXPECT_TRUE(find<QLabel>("tareState")->text().contains("has a zero"));
+  EXPECT_TRUE(find<QLabel>("tareState")->text().contains("has a tare"));
 }
 
 TEST_F(CalibratePanelTest, ComputesOnlyWhileItIsSeenAndCanBeGivenUp) {

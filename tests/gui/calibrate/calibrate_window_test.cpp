@@ -67,10 +67,10 @@ TEST_F(CalibrateWindowTest, TheZeroIsAnEventThatCanBeUndone) {
   emit panel().tare().keepRequested();
   EXPECT_EQ(eventsOf("tare"), 1u);
   EXPECT_TRUE(find<QPushButton>("tareRemove")->isVisible());
-  EXPECT_TRUE(window().state().messages.flashed().contains("zero added"));
+  EXPECT_TRUE(window().state().messages.flashed().contains("tare added"));
   press(Qt::Key_Z, Qt::ControlModifier);
   EXPECT_EQ(eventsOf("tare"), 0u);
-  EXPECT_FALSE(window().state().messages.flashed().contains("zero added"));
+  EXPECT_FALSE(window().state().messages.flashed().contains("tare added"));
   emit panel().tare().keepRequested();
   emit panel().tare().keepRequested();
   EXPECT_EQ(eventsOf("tare"), 1u) << "instead of the first";

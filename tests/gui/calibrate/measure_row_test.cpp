@@ -135,7 +135,7 @@ TEST_F(MeasureRowTest, AMeasuredTareIsAddedToTheRecordingThatRuns) {
       tare = tareFrom(Json::parse(event.json), profile.layout());
       EXPECT_GE(event.tUs, profile.frameTimeUs(0));
       EXPECT_LE(event.tUs, profile.frameTimeUs(profile.numFrames() - 1));
-      EXPECT_TRUE(event.text.find("zero of 1 taxel, measured for 2.") == 0) << event.text;
+      EXPECT_TRUE(event.text.find("tare of 1 taxel, measured for 2.") == 0) << event.text;
     }
   ASSERT_TRUE(tare);
   EXPECT_EQ(tare->zero[ghostPlace()], 30.0F);

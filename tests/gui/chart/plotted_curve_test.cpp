@@ -40,5 +40,29 @@ TEST(PlottedCurve, AGroupOfTheChosenTaxelsDoesNotCoverThem) {
   EXPECT_NE(taxelCurve(sdh2(), taxels, "group", 1, Theme::kDark).pen.style(), Qt::SolidLine);
 }
 
+TEST(PlottedCurve, AFormulaLooksLikeNoCurveThatIsShown) {
+  const HandDescription& hand = sdh2();
+  for (const Theme theme : {Theme::kDark, Theme::kLight}) {
+    std::vector<PlottedCurve> curves;
+    for (std::size_t row = 0; row <= hand.layout->numMatrices(); ++row)
+      curves.push_back(matrixCurve(hand, row, SignalKind::kMean, theme));
+    constexpr std::size_t kFormulas = 12;
+    for (std::size_t place = 0; place < kFormulas; ++place) {
+      PlottedCurve formula = formulaCurve({}, "f", "counts", place, theme);
+      distinguish(formula, place, curves, theme);
+      for (const PlottedCurve& other : curves)
+        EXPECT_FALSE(other.pen.color() == formula.pen.color() &&
+                     other.pen.style() == formula.pen.style() &&
+                     other.pen.dashPattern() == formula.pen.dashPattern())
+            << place << ", " << other.name.toStdString();
+      curves.push_back(formula);
+    }
+  }
+  // Where its colour is free its line is solid.
+  PlottedCurve alone = formulaCurve({}, "f", "counts", 0, Theme::kDark);
+  distinguish(alone, 0, {}, Theme::kDark);
+  EXPECT_EQ(alone.pen, formulaCurve({}, "f", "counts", 0, Theme::kDark).pen);
+}
+
 }  // namespace
 }  // namespace palpate::gui::plotted_curve_test

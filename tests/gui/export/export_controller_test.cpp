@@ -294,6 +294,31 @@ TEST_F(ExportControllerTest, CopyTableTakesTheRowsAlone) {
   EXPECT_TRUE(notice().startsWith("copied: Matrices, taxels of the frame, "));
 }
 
+TEST_F(ExportControllerTest, ANameThatWasTypedIsForItsViewAndRecording) {
+  clickInto(find<MatricesView>("MatricesView"));
+  exportController().ask = [&](ExportRequest asked) -> std::optional<ExportRequest> {
+    asked.form = ExportFormat::kCsv;
+    asked.folder = QString::fromStdString(folder_.path().string());
+    asked.name = "whole";
+    asked.nameIsOwn = true;
+    return asked;
+  };
+  exportController().exportNow();
+  ASSERT_TRUE(QTest::qWaitFor([&] { return !exportController().busy(); }, 20'000));
+  playback().seekFrame(3);
+  EXPECT_EQ(exportController().suggestion().name, "whole") << "also of another frame";
+  clickInto(window().findChild<TimelineChart*>());
+  EXPECT_NE(exportController().suggestion().name, "whole");
+  EXPECT_FALSE(exportController().suggestion().nameIsOwn);
+  clickInto(find<MatricesView>("MatricesView"));
+  EXPECT_EQ(exportController().suggestion().name, "whole");
+  open({"good2.dsa"});
+  EXPECT_EQ(exportController().suggestion().name, "good2_frame_00000");
+  exportController().repeatLast();
+  ASSERT_TRUE(QTest::qWaitFor([&] { return !exportController().busy(); }, 20'000));
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "good2_frame_00000.csv"));
+}
+
 TEST_F(ExportControllerTest, NothingOpenNothingToTake) {
   start();
   EXPECT_FALSE(exportController().anything());

@@ -286,6 +286,22 @@ TEST_F(ExportDialogTest, ANameThatWasTypedStays) {
   EXPECT_TRUE(dialog_->request().nameIsOwn);
 }
 
+TEST_F(ExportDialogTest, ANameOfAnEarlierExportIsForItsViewOnly) {
+  request_.name = "figure 3";
+  request_.nameIsOwn = true;
+  open();
+  auto* name = find<QLineEdit>("exportName");
+  EXPECT_EQ(name->text(), "figure 3");
+  auto* view = find<QComboBox>("exportView");
+  view->setCurrentIndex(view->findText("Rows"));
+  EXPECT_EQ(name->text(), "ball_rows");
+  EXPECT_FALSE(dialog_->request().nameIsOwn);
+  name->selectAll();
+  QTest::keyClicks(name, "mine");
+  view->setCurrentIndex(view->findText("Pictures"));
+  EXPECT_EQ(name->text(), "mine") << "it was typed for this export";
+}
+
 TEST_F(ExportDialogTest, WhatStandsInTheWayIsSaid) {
   open();
   auto* name = find<QLineEdit>("exportName");

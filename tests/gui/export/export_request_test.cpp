@@ -31,6 +31,7 @@ TEST_F(ExportRequestTest, IsRememberedButNotThatFilesMayBeReplaced) {
   request.folder = QString::fromStdString(folder_.path().string());
   request.name = "figure 3";
   request.nameIsOwn = true;
+  request.source = "/recordings/ball.dsa";
   request.replace = true;
   {
     QSettings to = settings();

@@ -356,7 +356,35 @@ TEST_F(LibraryTest, ALongLookShowsHowFarItIsAndCanBeStopped) {
   find<QToolButton>("libraryStop")->click();
   EXPECT_FALSE(bar->isVisible());
   EXPECT_EQ(names().size(), 1) << "what was found stays";
+  EXPECT_EQ(find<QLabel>("librarySummary")->text(),
+            "reading stopped: 1 recording so far (Refresh reads all)");
+  search("a");
+  EXPECT_EQ(find<QLabel>("librarySummary")->text(),
+            "reading stopped: 1 of 1 recording so far (Refresh reads all)");
+  search("nowhere");
+  EXPECT_TRUE(empty().contains("Reading stopped: 1 recording so far. Refresh (F5) reads"))
+      << empty().toStdString();
   EXPECT_TRUE(QTest::qWaitFor([&] { return cancelled.load(); }, 10000));
+}
+
+TEST_F(LibraryTest, ASecondReturnAfterTheChoiceOfAFolderStopsNothing) {
+  std::atomic<bool> goOn = true;
+  start([&](const auto&, const auto&, const auto&, const Progress& progress) {
+    while (goOn)
+      if (!progress(0.25)) throw Cancelled();
+    return CatalogReport{};
+  });
+  panel_->askForFolder = [](const QString&) { return QString("/x"); };
+  auto* choose = find<QPushButton>("libraryEmptyButton");
+  choose->setFocus();
+  QTest::keyClick(choose, Qt::Key_Return);
+  ASSERT_TRUE(panel_->scanning());
+  EXPECT_TRUE(find<QLineEdit>("librarySearch")->hasFocus());
+  for (const Qt::Key key : {Qt::Key_Return, Qt::Key_Space})
+    QTest::keyClick(QApplication::focusWidget(), key);
+  EXPECT_TRUE(panel_->scanning());
+  goOn = false;
+  settle();
 }
 
 TEST(LibraryLength, IsReadAtAGlance) {

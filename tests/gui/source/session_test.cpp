@@ -69,6 +69,28 @@ TEST_F(SessionTest, WhereOneWasInEachRecordingIsKeptWhileItIsOpen) {
   EXPECT_EQ(window().feature<TimelineFeature>().panel().chart().selection(), (TimeSpan{0.2, 0.3}));
 }
 
+// As after palpate --demo.
+TEST_F(SessionTest, ARunWithoutRecordingsCanLeaveWhatWasOpenBefore) {
+  open({"good1.dsa", "good2.dsa"});
+  window().close();
+  start();
+  window().state().keepsSession = true;
+  window().close();
+  start();
+  restoreSession(window().state());
+  waitUntilOpened();
+  EXPECT_EQ(window().state().recordings.all().size(), 2u);
+  window().close();
+  start();
+  window().state().keepsSession = true;
+  open({"rich.dsa"});
+  window().close();
+  start();
+  restoreSession(window().state());
+  waitUntilOpened();
+  EXPECT_EQ(window().state().recordings.all().size(), 1u) << "one was opened";
+}
+
 TEST_F(SessionTest, WhatIsGoneIsSaid) {
   open({"good1.dsa", "good2.dsa"});
   window().close();

@@ -206,9 +206,14 @@ TEST_F(EventsWindowTest, LabelsGoOutAsATableAndComeBack) {
   EXPECT_EQ(window().state().events.editor()->events().size(), 1u);
   EXPECT_TRUE(bannerText().contains("line 3: begin_s 'x' is not a number"))
       << bannerText().toStdString();
+  press(Qt::Key_Z, Qt::ControlModifier);
+  EXPECT_EQ(bannerText(), "") << "nothing of the import is left";
   testing::writeFile(table.toStdString(), "no table");
   actions().at("importLabels")->trigger();
   EXPECT_TRUE(bannerText().contains("begin_s and text")) << bannerText().toStdString();
+  testing::writeFile(table.toStdString(), "begin_s,text\n1,good\n");
+  actions().at("importLabels")->trigger();
+  EXPECT_EQ(bannerText(), "") << "the next import was right";
 }
 
 TEST_F(EventsWindowTest, EachGraspIsExportedWithItsLabels) {
@@ -502,6 +507,22 @@ TEST_F(EventsWindowTest, AGraspIsCorrectedAndAllOthersAreKept) {
   EXPECT_FALSE(window().state().events.editor()->unsaved());
 }
 
+TEST_F(EventsWindowTest, AGraspThatWasDraggedIsChosenStill) {
+  ASSERT_EQ(marksIn(EventLane::kGrasps), 3);
+  press(Qt::Key_N);
+  const std::size_t first = rows().chosen().value();
+  for (const double byS : {0.2, 0.3}) {  // found automatically, then marked by the user
+    const EventMark before = rows().marks().at(rows().chosen().value());
+    emit rows().spanChanged(*rows().chosen(), before.fromS, before.toS + byS);
+    ASSERT_TRUE(rows().chosen());
+    EXPECT_EQ(rows().marks().at(*rows().chosen()).lane, EventLane::kGrasps);
+    EXPECT_NEAR(rows().marks().at(*rows().chosen()).toS, before.toS + byS, 1e-5);
+  }
+  EXPECT_EQ(*rows().chosen(), first);
+  press(Qt::Key_Delete);
+  EXPECT_EQ(marksIn(EventLane::kGrasps), 2);
+}
+
 TEST_F(EventsWindowTest, GraspsAreAddedAndDeletedToTheLast) {
   chart().setSelection(TimeSpan{0.1, 0.4});
   press(Qt::Key_P, Qt::ControlModifier | Qt::ShiftModifier);
@@ -590,6 +611,36 @@ TEST_F(EventsWindowTest, WhatCantBeSavedIsSaidAndStays) {
   EXPECT_EQ(marksIn(EventLane::kLabels), 1);
   playback().seekFrame(100);
   EXPECT_EQ(playback().frame(), 100u) << "what is open can be looked at further";
+}
+
+TEST_F(EventsWindowTest, WhatCouldntBeSavedIsNotSaidAnyMoreOnceItIsSavedElsewhere) {
+  press(Qt::Key_B, Qt::ControlModifier);
+  std::filesystem::rename(path_, folder_ / "elsewhere.palpate");
+  press(Qt::Key_S, Qt::ControlModifier);
+  ASSERT_TRUE(bannerText().contains("not saved")) << bannerText().toStdString();
+  window_->state().prompts.newFile = [&](const QString&, const QString&, const QString&) {
+    return QString::fromStdString((folder_ / "copy.palpate").string());
+  };
+  actions().at("saveAs")->trigger();
+  window().settle();
+  EXPECT_EQ(bannerText(), "");
+  EXPECT_TRUE(window().state().events.editor()->unsaved()) << "in the open recording they are";
+  press(Qt::Key_S, Qt::ControlModifier);
+  EXPECT_TRUE(bannerText().contains("not saved")) << "it can't be saved still";
+  std::filesystem::rename(folder_ / "elsewhere.palpate", path_);
+  press(Qt::Key_S, Qt::ControlModifier);
+  EXPECT_EQ(bannerText(), "") << "it is saved";
+}
+
+TEST_F(EventsWindowTest, WhatCouldntBeSavedIsNotSaidAnyMoreOnceTheRecordingIsClosed) {
+  press(Qt::Key_B, Qt::ControlModifier);
+  std::filesystem::remove(path_);
+  press(Qt::Key_S, Qt::ControlModifier);
+  ASSERT_TRUE(bannerText().contains("not saved")) << bannerText().toStdString();
+  unsaved_ = UserPrompts::Unsaved::kDiscard;
+  press(Qt::Key_W, Qt::ControlModifier);
+  EXPECT_EQ(asked_, 1);
+  EXPECT_EQ(bannerText(), "");
 }
 
 // After the request of a signal to end, which can't save it, the window asks again when it is

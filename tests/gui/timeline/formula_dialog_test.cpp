@@ -85,9 +85,25 @@ TEST_F(FormulaDialogTest, AFormulaOfOnesOwnIsItsName) {
   choose(dialog, "formulaOf", "finger 0 distal mean");
   QTest::keyClicks(&in<QLineEdit>(dialog, "formulaText"), "/20");
   EXPECT_EQ(dialog.curve(), (FormulaCurve{"m1_mean/20", "m1_mean/20", ""}));
+  EXPECT_EQ(in<QComboBox>(dialog, "formulaOperation").currentIndex(), -1) << "not \"itself\"";
+  EXPECT_TRUE(in<QLabel>(dialog, "formulaProblem").text().contains("unit isn't known"));
   QTest::keyClicks(&in<QLineEdit>(dialog, "formulaUnit"), "N");
+  EXPECT_FALSE(in<QLabel>(dialog, "formulaProblem").text().contains("unit"));
   QTest::keyClicks(&in<QLineEdit>(dialog, "formulaText"), "0");
   EXPECT_EQ(dialog.curve().unit, "N");
+}
+
+TEST_F(FormulaDialogTest, AnotherSignalIsProposedAndNotTheSame) {
+  windowState_->displayed.show(recording("a"));
+  FormulaDialog& dialog = open();
+  choose(dialog, "formulaOf", "finger 0 distal mean");
+  choose(dialog, "formulaOperation", "minus another");
+  EXPECT_EQ(dialog.curve().formula, "m1_mean - m2_mean") << "the next one in counts";
+  choose(dialog, "formulaOther", "finger 0 distal mean");
+  EXPECT_EQ(dialog.curve().formula, "m1_mean - m1_mean") << "what was chosen stays";
+  choose(dialog, "formulaOperation", "divided by another");
+  EXPECT_EQ(dialog.curve().formula, "m1_mean / m2_mean");
+  dialog.reject();
 }
 
 TEST_F(FormulaDialogTest, SaysInOneLineWhatIsWrongWhileTyping) {

@@ -444,7 +444,9 @@ void BatchDialog::showState() {
   remove_->setEnabled(!paths_->selectedItems().isEmpty());
   const QString text = problem();
   start_->setEnabled(text.isEmpty());
-  if (!busy) say(text, !text.isEmpty() && shown_ == change_);
+  // What isn't filled in yet is no mistake: then the text is a hint.
+  const bool missing = paths_->count() == 0 || folder_->text().trimmed().isEmpty();
+  if (!busy) say(text, !text.isEmpty() && shown_ == change_ && !missing);
 }
 
 void BatchDialog::showProgress(const BatchStatus& status) {

@@ -9,6 +9,7 @@
 #include <QHeaderView>
 #include <QLabel>
 #include <QPushButton>
+#include <QStyledItemDelegate>
 #include <QTableView>
 #include <QVBoxLayout>
 #include <algorithm>
@@ -44,6 +45,18 @@ QString textOfResult(const BatchItem& item, const BatchResult& result) {
   return inWindowWords(
       QString::fromStdString(escapedLine(std::string_view(result.text).substr(skipped))));
 }
+
+// Paths that are too long lose their folders, not the name at their end.
+class PathDelegate : public QStyledItemDelegate {
+ public:
+  using QStyledItemDelegate::QStyledItemDelegate;
+
+ protected:
+  void initStyleOption(QStyleOptionViewItem* option, const QModelIndex& index) const override {
+    QStyledItemDelegate::initStyleOption(option, index);
+    option->textElideMode = Qt::ElideLeft;
+  }
+};
 
 }  // namespace
 
@@ -110,6 +123,7 @@ BatchResults::BatchResults(QWidget* parent)
   table_->setShowGrid(false);
   table_->setWordWrap(false);
   table_->setTextElideMode(Qt::ElideMiddle);
+  table_->setItemDelegateForColumn(kRecording, new PathDelegate(table_));
   table_->verticalHeader()->hide();
   table_->verticalHeader()->setDefaultSectionSize(table_->fontMetrics().height() + 8);
   table_->horizontalHeader()->setStretchLastSection(true);
@@ -175,13 +189,10 @@ void BatchResults::show(const std::shared_ptr<const BatchOutcome>& outcome) {
 
 void BatchResults::fill() {
   const bool some = outcome_ != nullptr;
-  // Where everything went well there is nothing to hide.
-  const bool someWrong = some && std::any_of(outcome_->report.results.begin(),
-                                             outcome_->report.results.end(),
-                                             [](const BatchResult& result) {
-                                               return result.state != BatchResult::State::kDone &&
-                                                      result.state != BatchResult::State::kSkipped;
-                                             });
+  // Where nothing went wrong there is nothing to hide, also after a batch that was cancelled.
+  const bool someWrong =
+      some &&
+      std::any_of(outcome_->report.results.begin(), outcome_->report.results.end(), isBadResult);
   all_->setEnabled(someWrong);
   model_->show(outcome_, all_->isChecked() || !someWrong);
   show_->setEnabled(false);

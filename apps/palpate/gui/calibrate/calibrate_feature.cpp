@@ -20,7 +20,7 @@ namespace palpate::gui {
 namespace {
 
 constexpr const char* kTareKind = "tare";  // event kinds
-constexpr const char* kZeroAdded = "zero added to the recording: save with Ctrl+S";
+constexpr const char* kTareAdded = "tare added to the recording: save with Ctrl+S";
 constexpr const char* kSettingsKind = "sensor_settings";
 // An event that comes before the file is begun may be left out.
 bool isBeingRecorded(const RecorderStatus& status) {
@@ -75,8 +75,8 @@ void CalibrateFeature::connectPages() {
       &panel_->steps(), &StepPage::foundChanged, &windowState.events, &EventController::renewMarks);
   connect(&panel_->tare(), &TarePage::keepRequested, this, &CalibrateFeature::keepTare);
   connect(&panel_->tare(), &TarePage::removeRequested, this, [&windowState] {
-    windowState.events.keep(kTareKind, std::nullopt, "the zero");
-    windowState.messages.flash("zero removed from the recording: save with Ctrl+S");
+    windowState.events.keep(kTareKind, std::nullopt, "the tare");
+    windowState.messages.flash("tare removed from the recording: save with Ctrl+S");
   });
   connect(&panel_->force(),
           &ForcePage::keepRequested,
@@ -155,13 +155,13 @@ void CalibrateFeature::keepTare() {
     CaptureSession& session = *source->session;
     session.note(liveTareEvent(*page.found(), measured->profile, session.nowUs()));
     page.setAdded();
-    windowState.messages.flash("zero added to the recording that is running");
+    windowState.messages.flash("tare added to the recording that is running");
     return;
   }
   const OpenedRecordingPtr recording = windowState.displayed.recorded();
   if (!recording) return;
-  windowState.events.keep(kTareKind, tareEvent(*page.found(), recording->profile), "the zero");
-  windowState.messages.flash(kZeroAdded);
+  windowState.events.keep(kTareKind, tareEvent(*page.found(), recording->profile), "the tare");
+  windowState.messages.flash(kTareAdded);
 }
 
 void CalibrateFeature::takeSource() {
@@ -178,7 +178,7 @@ void CalibrateFeature::takeKept() {
   const KeptWithRecording kept =
       editor ? keptWith(*state().displayed.recorded(), editor->events()) : KeptWithRecording{};
   // Undo has removed it.
-  if (!kept.tare) state().messages.takeBack(kZeroAdded);
+  if (!kept.tare) state().messages.takeBack(kTareAdded);
   panel_->tare().setKept(kept.tare || !kept.problem.isEmpty());
   panel_->force().setKept(kept);
   pressures_->setKept(kept);

@@ -23,9 +23,9 @@ constexpr int kTareMeasureS = 5;
 std::vector<FigureColumn> tarePageColumns() {
   return {{"matrix", {}, 16, true},
           {"unloaded", "Time in which nothing touches it; below: windows", 10},
-          {"largest zero", "Largest zero of its taxels [counts]", 10},
-          {"taxels", "With a zero above 0", 8},
-          {"", "Why there is no zero", 16, true}};
+          {"largest tare", "Largest tare of its taxels [counts]", 10},
+          {"taxels", "With a tare above 0", 8},
+          {"", "Why there is no tare", 16, true}};
 }
 
 double tarePageSecondsOf(const UnloadedWindow& window, const OpenedRecording& of) {
@@ -60,8 +60,11 @@ std::vector<FigureCell> tarePageRowOf(std::size_t m,
            .detail = QString::number(count) + (count == 1 ? " window" : " windows")},
           {.text = figure(tare.largestZero, 1)},
           {.text = QString::number(tare.raisedTaxels)},
-          {.text = tare.raisedTaxels == 0 ? "no reading" : "",
-           .tip = QString::fromStdString(tare.note)}};
+          {.text = tare.raisedTaxels == 0 ? "0 (median)" : "",
+           .tip = tare.raisedTaxels == 0
+                      ? QString("The median of the readings of every taxel is 0 in these windows: "
+                                "there is nothing to subtract")
+                      : QString::fromStdString(tare.note)}};
 }
 
 TextTable matrixTable(const std::shared_ptr<const Tare>& tare, const OpenedRecordingPtr& of) {
@@ -69,7 +72,7 @@ TextTable matrixTable(const std::shared_ptr<const Tare>& tare, const OpenedRecor
                      "valid",
                      "windows",
                      "unloaded_s",
-                     "largest_zero [counts]",
+                     "largest_tare [counts]",
                      "raised_taxels",
                      "note"},
           .numRows = tare->matrices.size(),
@@ -85,7 +88,7 @@ TextTable matrixTable(const std::shared_ptr<const Tare>& tare, const OpenedRecor
           }};
 }
 
-// The zero of every place of the layout, as the event stores it.
+// The tare of every place of the layout, as the event stores it.
 TextTable zeroTable(const std::shared_ptr<const Tare>& tare, const OpenedRecordingPtr& of) {
   struct Place {
     std::size_t matrix;
@@ -97,7 +100,7 @@ TextTable zeroTable(const std::shared_ptr<const Tare>& tare, const OpenedRecordi
     for (int y = 0; y < layout.matrix(m).rows; ++y)
       for (int x = 0; x < layout.matrix(m).columns; ++x) places.push_back({m, y, x});
   const std::size_t count = std::min(places.size(), tare->zero.size());
-  return {.header = {"matrix", "y", "x", "zero [counts]"},
+  return {.header = {"matrix", "y", "x", "tare [counts]"},
           .numRows = count,
           .row = [tare, places = std::move(places)](std::size_t row) {
             const Place& place = places[row];
@@ -117,7 +120,7 @@ RecordingEvent tareEvent(const Tare& tare, const Profile& profile) {
   event.tUs = profile.frameTimeUs(0);
   event.t1Us = profile.frameTimeUs(profile.numFrames() - 1);
   event.kind = "tare";
-  event.text = "zero of " + counted(raised, "taxel");
+  event.text = "tare of " + counted(raised, "taxel");
   event.json = jsonOf(tare, profile.layout()).text(-1);
   return event;
 }
@@ -144,7 +147,7 @@ TarePage::TarePage(QSettings& settings, QWidget* parent) : ComputedPage("tare", 
   state_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
   remove_ = new QPushButton("Remove", this);
   remove_->setObjectName("tareRemove");
-  remove_->setToolTip("Forces use the recorded values without a zero again");
+  remove_->setToolTip("Forces use the recorded values without a tare again");
   keep_ = new QPushButton("Add to the recording", this);
   keep_->setObjectName("tareKeep");
   keep_->setToolTip("As an event: forces use it, values never change (undo: Ctrl+Z)");
@@ -160,7 +163,7 @@ TarePage::TarePage(QSettings& settings, QWidget* parent) : ComputedPage("tare", 
   table_->setObjectName("tareTable");
   notes_ = notesLabel("tareNotes", content);
   notes_->setText(
-      "The zero of a taxel is the median of its mean readings in these windows. Only forces (page "
+      "The tare of a taxel is the median of its mean readings in these windows. Only forces (page "
       "Force, newtons in Inspect) use it: without it a taxel that reads something at rest adds to "
       "the force. Heat maps, contacts and grasps show the readings as they were recorded.");
   auto* column = new QVBoxLayout(content);
@@ -215,7 +218,7 @@ void TarePage::take(const std::shared_ptr<const Tare>& found) {
   if (std::none_of(all.begin(), all.end(), [](const MatrixTare& each) { return each.valid; })) {
     const QString why = all.empty() ? QString() : QString::fromStdString(all.front().note);
     return say("No unloaded window was found: " + why +
-               "\n\nA zero needs a second in which nothing touches a matrix.");
+               "\n\nA tare needs a second in which nothing touches a matrix.");
   }
   std::vector<std::vector<FigureCell>> rows;
   for (std::size_t m = 0; m < all.size(); ++m)
@@ -247,10 +250,10 @@ void TarePage::showState() {
                                               [](const MatrixTare& each) { return each.valid; });
   const bool kept = kept_ && !live();
   const bool any = found_ && found_->any();
-  state_->setText(kept               ? "This recording has a zero."
-                  : unloaded && !any ? "At rest every taxel reads 0: nothing to subtract."
+  state_->setText(kept               ? "This recording has a tare."
+                  : unloaded && !any ? "The tare of every taxel is 0 (median): nothing to subtract."
                   : live() && added_ ? "Added to the recording that is running."
-                  : live() && any && !recordingRuns_ ? "Record (Ctrl+R) to add this zero."
+                  : live() && any && !recordingRuns_ ? "Record (Ctrl+R) to add this tare."
                                                      : "");
   keep_->setEnabled(any && (!live() || recordingRuns_));
   remove_->setVisible(kept);
@@ -263,15 +266,16 @@ void TarePage::setTheme(Theme theme) {
 
 std::vector<ExportedTable> TarePage::tables() const {
   if (!shown()) return {};
-  return {{"unloaded windows", [tare = found_, of = recording()] { return matrixTable(tare, of); }},
-          {"zeros", [tare = found_, of = recording()] { return zeroTable(tare, of); }}};
+  return {
+      {"unloaded windows", [tare = found_, of = recording()] { return matrixTable(tare, of); }},
+      {"tare of each taxel", [tare = found_, of = recording()] { return zeroTable(tare, of); }}};
 }
 
 void TarePage::paint(QPainter& painter, const PictureLook& look, const QString& title) {
   TablePicture picture{
       .title = title,
-      .caption = "zeros",
-      .header = {"matrix", "unloaded in s", "windows", "largest zero in counts", "taxels"}};
+      .caption = "tare",
+      .header = {"matrix", "unloaded in s", "windows", "largest tare in counts", "taxels"}};
   for (std::size_t m = 0; m < found_->matrices.size(); ++m) {
     const MatrixTare& tare = found_->matrices[m];
     picture.rows.push_back({tarePageNameOf(m, *recording()),

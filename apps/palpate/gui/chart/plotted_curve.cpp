@@ -174,6 +174,26 @@ PlottedCurve formulaCurve(const SeriesChoice& choice,
           unit};
 }
 
+void distinguish(PlottedCurve& formula,
+                 std::size_t place,
+                 const std::vector<PlottedCurve>& shown,
+                 Theme theme) {
+  constexpr std::size_t kMatrixColors = 6;
+  // Lengths of lines and gaps, in widths of the pen; the first is a solid line.
+  const QList<QList<qreal>> patterns = {{}, {10, 2}, {10, 2, 2, 2}, {10, 2, 2, 2, 2, 2}, {3, 1}};
+  for (const QList<qreal>& pattern : patterns)
+    for (std::size_t i = 0; i < kMatrixColors; ++i) {
+      QPen pen(matrixColor(place + 2 + i, theme), formula.pen.widthF());
+      if (!pattern.isEmpty()) pen.setDashPattern(pattern);
+      const bool taken = std::any_of(shown.begin(), shown.end(), [&](const PlottedCurve& each) {
+        return each.pen.color() == pen.color() && each.pen.style() == pen.style() &&
+               each.pen.dashPattern() == pen.dashPattern();
+      });
+      formula.pen = pen;
+      if (!taken) return;
+    }
+}
+
 namespace {
 
 int decimalsOf(const PlottedCurve& curve) {

@@ -71,6 +71,11 @@ PlottedCurve formulaCurve(const SeriesChoice& choice,
                           const QString& unit,
                           std::size_t place,
                           Theme theme);
+// Gives the curve of a formula a colour or a broken line that none of the shown curves has.
+void distinguish(PlottedCurve& formula,
+                 std::size_t place,
+                 const std::vector<PlottedCurve>& shown,
+                 Theme theme);
 
 // "812 counts", "31.4 °", "0.52 N"; "–" for no value. `value` is in the base unit.
 QString readingOf(const PlottedCurve& curve, std::optional<double> value);

@@ -37,7 +37,7 @@ QString rowsText(std::size_t rows) {
 }  // namespace
 
 ExportController::ExportController(QSettings& settings, QWidget* window)
-    : settings_(settings), window_(window) {
+    : source([] { return QString(); }), settings_(settings), window_(window) {
   worker_.setMaxThreadCount(1);
   ask = [this](const ExportRequest& suggested) -> std::optional<ExportRequest> {
     ExportDialog dialog(present(), suggested, window_);
@@ -100,7 +100,9 @@ ExportRequest ExportController::suggestion() const {
   ExportRequest request = loadExportRequest(settings_);
   const ExportedView* view = active();
   if (!view) return request;
+  if (request.view != view->name || request.source != source()) request.nameIsOwn = false;
   request.view = view->name;
+  request.source = source();
   const bool asTable = request.form == ExportFormat::kCsv;
   if (asTable && view->tablesNow().empty()) request.form = ExportFormat::kPng;
   const auto pictures = view->framePicturesNow();
@@ -124,6 +126,7 @@ void ExportController::repeatLast() {
   ExportRequest request = loadExportRequest(settings_);
   const ExportedView* view = viewNamed(request.view);
   if (!settings_.value(kHasExported, false).toBool() || !view) return exportNow();
+  if (request.source != source()) request.nameIsOwn = false;
   if (!request.nameIsOwn) request.name = suggestedName(request, *view);
   const std::filesystem::path free = freePath(pathOf(request));
   request.name =

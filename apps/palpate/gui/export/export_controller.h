@@ -54,6 +54,8 @@ class ExportController : public QObject {
 
   // Asks the user for a request; returns nothing when cancelled. Tests replace it.
   std::function<std::optional<ExportRequest>(const ExportRequest& suggestion)> ask;
+  // The recording that the views show; empty: none. It is set once.
+  std::function<QString()> source;
   // The request that the dialog would start with now.
   ExportRequest suggestion() const;
 

@@ -220,6 +220,9 @@ void ExportDialog::fill(const ExportRequest& suggestion) {
 
 void ExportDialog::connectFields() {
   connect(view_, &QComboBox::currentIndexChanged, this, [this] {
+    // A name from an earlier export is for the view that it was typed for; one that was typed just
+    // now is for this export.
+    if (first_.nameIsOwn && place_->name() == first_.name) place_->setName({}, false);
     useView();
     usePreset();
   });

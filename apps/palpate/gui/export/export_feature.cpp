@@ -20,6 +20,10 @@ ExportFeature::ExportFeature(WindowState& windowState, QWidget* window)
       actions_(windowState.actions),
       exportController_(windowState.settings, window),
       strip_(new OpeningStrip(window, "Exporting", "exporting")) {
+  exportController_.source = [&windowState] {
+    const OpenedRecordingPtr recording = windowState.displayed.unfilteredRecording();
+    return recording ? QString::fromStdString(recording->path.string()) : QString();
+  };
   ExportActions& actions = actions_;
   on(actions.exportPicture, [this] { exportController_.exportNow(); });
   on(actions.exportAgain, [this] { exportController_.repeatLast(); });

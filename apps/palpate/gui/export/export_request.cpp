@@ -117,6 +117,7 @@ ExportRequest loadExportRequest(const QSettings& settings) {
   request.nameIsOwn = value("name_is_own", false).toBool();
   if (request.nameIsOwn) request.name = value("name", "").toString();
   if (request.name.isEmpty()) request.nameIsOwn = false;
+  request.source = value("source", "").toString();
   return request;
 }
 
@@ -141,6 +142,7 @@ void saveExportRequest(const ExportRequest& request, QSettings& settings) {
   set("folder", request.folder);
   set("name", request.name);
   set("name_is_own", request.nameIsOwn);
+  set("source", request.source);
 }
 
 PicturePaper paperOf(const ExportRequest& request, const QSizeF& sizeOnScreen) {

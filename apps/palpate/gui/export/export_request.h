@@ -81,8 +81,11 @@ struct ExportRequest {
   QString folder = {};
   // File name without folder and ending.
   QString name = {};
-  // The user typed the name, so that it is kept when the frame changes.
+  // The user typed the name, so that it is kept when the frame changes. It is for `view` of
+  // `source` only.
   bool nameIsOwn = false;
+  // The recording that is exported from; empty: a connected hand.
+  QString source = {};
   // Overwrites existing files; never stored.
   bool replace = false;
 

@@ -203,7 +203,10 @@ void LibraryPanel::connectScanner() {
   connect(&scanner_, &LibraryScanner::finished, this, [this](const CatalogReport& report) {
     scanEnded(&report);
   });
-  connect(&scanner_, &LibraryScanner::cancelled, this, [this] { scanEnded(nullptr); });
+  connect(&scanner_, &LibraryScanner::cancelled, this, [this] {
+    stopped_ = true;
+    scanEnded(nullptr);
+  });
   connect(&scanner_, &LibraryScanner::failed, this, [this](const QString& message) {
     problems_ = {message};
     emit said(message);
@@ -218,6 +221,7 @@ void LibraryPanel::setFolder(const QString& folder) {
   model_->setFolder(folder_);
   problems_.clear();
   looked_ = false;
+  stopped_ = false;
   stale_ = true;
   showFolder();
   if (isVisible() || scanner_.busy()) refresh();
@@ -232,6 +236,7 @@ void LibraryPanel::refresh() {
   if (stale_) return scanner_.cancel();
   numListed_ = 0;
   numFound_ = 0;
+  stopped_ = false;
   problems_.clear();
   bar_->setValue(0);
   model_->beginScan();
@@ -302,6 +307,7 @@ void LibraryPanel::showState() {
       text = "Nothing here matches “" + search_->text().simplified() + "”.";
       if (const QString unknown = unknownKeysText(filter_->search()); !unknown.isEmpty())
         text += "\n\n" + unknown;
+      if (stopped_) text += "\n\n" + stoppedText();
       button = "Clear the search";
     }
   } else if (busy) {
@@ -309,6 +315,8 @@ void LibraryPanel::showState() {
     button.clear();
   } else if (!problems_.isEmpty()) {
     text = problems_.first();
+  } else if (stopped_) {
+    text = stoppedText();
   } else if (looked_) {
     text = "No recordings (.palpate, .dsa) in this folder or its subfolders.";
   }
@@ -318,6 +326,12 @@ void LibraryPanel::showState() {
   showSummary();
 }
 
+// Says that the list is not complete, and how it becomes so.
+QString LibraryPanel::stoppedText() const {
+  return "Reading stopped: " + countText(static_cast<int>(model_->numRecordings()), "recording") +
+         " so far. Refresh (F5) reads the whole folder.";
+}
+
 void LibraryPanel::showSummary() {
   const int all = static_cast<int>(model_->numRecordings());
   const int shown = filter_->rowCount();
@@ -325,6 +339,10 @@ void LibraryPanel::showSummary() {
   QStringList parts;
   if (scanner_.busy() && numListed_ > 0)
     parts.append(QString("%1 of %2 read").arg(numFound_).arg(numListed_));
+  else if (stopped_ && all > 0)
+    parts.append(
+        "reading stopped: " + (filter_->searching() ? QString("%1 of ").arg(shown) : QString()) +
+        countText(all, "recording") + " so far (Refresh reads all)");
   else if (all > 0)
     parts.append(filter_->searching()
                      ? QString("%1 of %2").arg(shown).arg(countText(all, "recording"))
@@ -333,12 +351,17 @@ void LibraryPanel::showSummary() {
   if (!problems_.isEmpty() && all > 0)
     parts.append(countText(static_cast<int>(problems_.size()), "folder") + " not readable");
   summary_->setText(parts.join(" · "));
-  summary_->setToolTip(problems_.mid(0, 10).join('\n'));
+  QStringList more = problems_.mid(0, 10);
+  if (stopped_ && !scanner_.busy()) more.prepend(stoppedText());
+  summary_->setToolTip(more.join('\n'));
 }
 
 void LibraryPanel::chooseFolder() {
   const QString folder = askForFolder(folder_);
-  if (!folder.isEmpty()) setFolder(QFileInfo(folder).absoluteFilePath());
+  if (folder.isEmpty()) return;
+  setFolder(QFileInfo(folder).absoluteFilePath());
+  // The button that had the keyboard may be hidden now: the next one is "Stop reading".
+  search_->setFocus(Qt::OtherFocusReason);
 }
 
 void LibraryPanel::setDamaged(const std::filesystem::path& path, const std::string& message) {

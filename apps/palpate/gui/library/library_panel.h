@@ -80,6 +80,7 @@ class LibraryPanel : public QWidget {
   void scanEnded(const CatalogReport* report);
   void showState();
   void showExample();
+  QString stoppedText() const;
   void showSummary();
   void showFolder();
   void rememberColumns();
@@ -101,6 +102,8 @@ class LibraryPanel : public QWidget {
   bool stale_ = true;
   // A scan of this folder has ended.
   bool looked_ = false;
+  // The user stopped the last scan of this folder: the list is not complete.
+  bool stopped_ = false;
 
   QToolButton* folderButton_ = nullptr;
   QToolButton* refreshButton_ = nullptr;

@@ -20,6 +20,7 @@ void rememberSession(WindowState& windowState) {
     session.files.push_back(
         {QFileInfo(pathText(recording->path)).absoluteFilePath(), left ? *left : ViewPosition()});
   }
+  if (windowState.keepsSession && session.files.empty()) return;
   saveSession(session, windowState.settings);
 }
 

@@ -60,12 +60,14 @@ int runWindow(int& argc, char** argv, const WindowOptions& options) {
     remote->setChecked(true);
   }
   // The window is visible before the first file is read.
-  if (options.demo)
+  if (options.demo) {
+    window.state().keepsSession = true;
     window.state().connectTo(emulatedBallConnection(true));
-  else if (!options.files.empty())
+  } else if (!options.files.empty()) {
     window.state().open(options.files);
-  else if (reopensSession(window.state().settings))
+  } else if (reopensSession(window.state().settings)) {
     restoreSession(window.state());
+  }
   return QGuiApplication::exec();
 }
 

@@ -166,6 +166,7 @@ void CropJob::start(const QString& path, const std::optional<Frames>& part) {
         if (canBeOpened(path)) windowState_.recent.add(path);
         emit written(path);
         if (!canBeOpened(path)) return;
+        if (!part) windowState_.events.savedElsewhere(saved);
         windowState_.recordings.open({{path.toStdString()}, OpenRequest::Then::kList});
         // Another recording may be shown by now.
         if (!part && windowState_.displayed.unfilteredRecording() == saved)

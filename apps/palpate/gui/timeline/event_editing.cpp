@@ -83,14 +83,18 @@ void EventEditing::connectRows() {
     const double end = windowState_.selection.durationS();
     const std::int64_t fromUs = timeUsOf(*recording, std::clamp(from, 0.0, end));
     const std::int64_t toUs = timeUsOf(*recording, std::clamp(to, 0.0, end));
+    std::optional<RecordingEvent> moved;
     windowState_.events.change(
         mark,
-        [=](RecordingEvent& event) {
+        [&](RecordingEvent& event) {
           event.tUs = fromUs;
           event.t1Us = toUs;
+          moved = event;
         },
         "moving an event");
     if (to > from) windowState_.selection.setSpan(TimeSpan{from, to});
+    // With its new span it is another mark.
+    if (moved) choose(*moved);
   });
   connect(&rows_, &EventRows::menuRequested, this, [this](auto, const QPoint& at) {
     windowState_.menus.edit->popup(at);

@@ -81,7 +81,6 @@ FormulaDialog::FormulaDialog(std::vector<FormulaSignal> from,
     made->setAccessibleName(tip);
     made->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
     made->setMinimumContentsLength(18);
-    connect(made, &QComboBox::activated, this, &FormulaDialog::write);
     return made;
   };
   of_ = box("formulaOf", "The signal that the curve is made of");
@@ -92,6 +91,11 @@ FormulaDialog::FormulaDialog(std::vector<FormulaSignal> from,
     other_->addItem(each.caption);
   }
   for (const Operation& each : kOperations) operation_->addItem(each.caption);
+  operation_->setPlaceholderText("own formula");
+  for (QComboBox* each : {of_, operation_})
+    connect(each, &QComboBox::activated, this, &FormulaDialog::proposeOther);
+  for (QComboBox* each : {of_, operation_, other_})
+    connect(each, &QComboBox::activated, this, &FormulaDialog::write);
   other_->setEnabled(false);
   const auto field = [this](const char* name, const QString& tip, const QString& text) {
     auto* made = new QLineEdit(text, this);
@@ -142,17 +146,25 @@ FormulaDialog::FormulaDialog(std::vector<FormulaSignal> from,
   connect(formula_, &QLineEdit::textChanged, this, &FormulaDialog::check);
   connect(name_, &QLineEdit::textChanged, this, &FormulaDialog::check);
   connect(name_, &QLineEdit::textEdited, this, [this] { ownName_ = true; });
-  connect(unit_, &QLineEdit::textEdited, this, [this] { ownUnit_ = true; });
+  connect(unit_, &QLineEdit::textEdited, this, [this] {
+    ownUnit_ = true;
+    check();
+  });
   // A formula of one's own isn't what the lists above have named.
   connect(formula_, &QLineEdit::textEdited, this, [this](const QString& text) {
     if (!ownName_) name_->setText(text.simplified().left(FormulaCurves::kMaxNameLength));
     if (!ownUnit_) unit_->clear();
+    operation_->setCurrentIndex(-1);
+    other_->setEnabled(false);
+    check();
   });
   ownName_ = ownUnit_ = !before.name.isEmpty();
-  if (before.formula.isEmpty())
+  if (before.formula.isEmpty()) {
     write();
-  else
+  } else {
+    operation_->setCurrentIndex(-1);
     check();
+  }
 }
 
 FormulaCurve FormulaDialog::curve() const {
@@ -165,7 +177,25 @@ QString FormulaDialog::problem() const {
   return now.name.isEmpty() ? "The curve needs a name." : QString();
 }
 
+// The other signal is not the signal itself: the next one of the same unit, else the next one.
+void FormulaDialog::proposeOther() {
+  const int count = static_cast<int>(from_.size());
+  const int of = of_->currentIndex();
+  if (count < 2 || other_->currentIndex() != of) return;
+  const auto unitAt = [&](int at) { return from_.at(static_cast<std::size_t>(at)).unit; };
+  int proposed = (of + 1) % count;
+  for (int step = 1; step < count; ++step) {
+    const int at = (of + step) % count;
+    if (unitAt(at) != unitAt(of)) continue;
+    proposed = at;
+    break;
+  }
+  other_->setCurrentIndex(proposed);
+}
+
 void FormulaDialog::write() {
+  // A choice in one of the lists replaces a formula of one's own.
+  if (operation_->currentIndex() < 0) operation_->setCurrentIndex(0);
   const Operation& operation = kOperations.at(static_cast<std::size_t>(operation_->currentIndex()));
   other_->setEnabled(operation.ofTwo);
   if (from_.empty()) return check();
@@ -183,7 +213,11 @@ void FormulaDialog::write() {
 
 void FormulaDialog::check() {
   const QString wrong = problem();
-  problem_->setText(wrong.isEmpty() ? "Computed at every frame." : wrong);
+  const bool withoutUnit = operation_->currentIndex() < 0 && unit_->text().simplified().isEmpty();
+  problem_->setText(!wrong.isEmpty() ? wrong
+                    : withoutUnit ? "Computed at every frame. Its unit isn't known: type it below "
+                                    "its name, if it has one."
+                                  : "Computed at every frame.");
   good_->setEnabled(wrong.isEmpty());
 }
 

@@ -47,6 +47,7 @@ class FormulaDialog : public QDialog {
  private:
   // Writes the formula of the chosen signals and operation.
   void write();
+  void proposeOther();
   void check();
 
   std::vector<FormulaSignal> from_;

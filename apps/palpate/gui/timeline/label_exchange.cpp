@@ -17,6 +17,8 @@ namespace {
 
 constexpr const char* kTableFilter = "Table (*.csv);;All files (*)";
 constexpr qsizetype kMostProblems = 3;
+// Topic of the message about an import.
+constexpr const char* kImportTopic = "import of labels";
 
 QString labelCount(std::size_t count) { return QString::fromStdString(counted(count, "label")); }
 
@@ -48,6 +50,7 @@ LabelExchange::LabelExchange(WindowState& windowState, QObject* parent)
   imported->setToolTip("Adds the labels of a table (CSV): begin_s, end_s, kind, text, matrix");
   connect(exported, &QAction::triggered, this, &LabelExchange::exportLabels);
   connect(imported, &QAction::triggered, this, &LabelExchange::importLabels);
+  connect(&windowState.events, &EventController::changed, this, &LabelExchange::withdrawWhenUndone);
   const auto editable = [this] {
     return windowState_.events.editor() && windowState_.displayed.hasFrames();
   };
@@ -85,6 +88,24 @@ void LabelExchange::exportLabels() {
   }
 }
 
+// Shows a failure until its import is undone, another one begins or the recording is not shown any
+// more.
+void LabelExchange::fail(const QString& message) {
+  failed_ = true;
+  failedIn_ = windowState_.events.editor();
+  failedAt_ = failedIn_ ? failedIn_->undoStack().index() : 0;
+  windowState_.messages.failAbout(kImportTopic, message);
+}
+
+void LabelExchange::withdrawWhenUndone() {
+  if (!failed_) return;
+  if (failedIn_ && failedIn_ == windowState_.events.editor() &&
+      failedIn_->undoStack().index() >= failedAt_)
+    return;
+  failed_ = false;
+  windowState_.messages.withdraw(kImportTopic);
+}
+
 void LabelExchange::importLabels() {
   const OpenedRecordingPtr recording = windowState_.displayed.recorded();
   if (!recording || !windowState_.events.editor()) return;
@@ -95,6 +116,7 @@ void LabelExchange::importLabels() {
   if (path.isEmpty() || !editor || windowState_.displayed.recorded() != recording) return;
   Messages& messages = windowState_.messages;
   const QString name = QFileInfo(path).fileName();
+  messages.withdraw(kImportTopic);
   try {
     const LabelTable table =
         readLabelTable(readTextFile(path.toStdString(), kMaxLabelTableBytes), recording->profile);
@@ -115,11 +137,11 @@ void LabelExchange::importLabels() {
     }
     const auto bad = static_cast<qsizetype>(table.problems.size());
     if (bad > kMostProblems) problems.append(QString::number(bad - kMostProblems) + " more");
-    messages.fail(said + "; left out: " + problems.join("; "));
+    fail(said + "; left out: " + problems.join("; "));
   } catch (const FileError& error) {
-    messages.fail(QString::fromUtf8(error.what()));
+    fail(QString::fromUtf8(error.what()));
   } catch (const Error& error) {
-    messages.fail(path + ": " + QString::fromUtf8(error.what()));
+    fail(path + ": " + QString::fromUtf8(error.what()));
   }
 }
 

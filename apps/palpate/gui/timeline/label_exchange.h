@@ -3,7 +3,10 @@
 #pragma once
 
 #include <QObject>
+#include <QPointer>
+#include <QString>
 
+#include "gui/source/event_editor.h"
 #include "gui/window_state/window_state.h"
 
 namespace palpate::gui {
@@ -18,7 +21,15 @@ class LabelExchange : public QObject {
   void importLabels();
 
  private:
+  void fail(const QString& message);
+  void withdrawWhenUndone();
+
   WindowState& windowState_;
+  // The events that the shown failure of an import is about, and the place in their undo stack
+  // behind the import.
+  bool failed_ = false;
+  QPointer<EventEditor> failedIn_;
+  int failedAt_ = 0;
 };
 
 }  // namespace palpate::gui

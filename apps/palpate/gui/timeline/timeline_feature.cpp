@@ -498,8 +498,12 @@ std::vector<PlottedCurve> TimelineFeature::curves() const {
       add(taxelCurve(*hand, group.taxels, group.name, place++, theme));
   place = 0;
   for (const FormulaCurve& each : state().formulas.all())
-    if (recording && !live && extras_.formulas.contains(each.name) && reasonAgainst(each).isEmpty())
-      add(formulaCurve(each.choice(), each.name, each.unit, place++, theme));
+    if (recording && !live && extras_.formulas.contains(each.name) &&
+        reasonAgainst(each).isEmpty()) {
+      PlottedCurve curve = formulaCurve(each.choice(), each.name, each.unit, place, theme);
+      distinguish(curve, place++, curves, theme);
+      add(std::move(curve));
+    }
   for (const int axis : extras_.angles)
     if (axis < static_cast<int>(hand->axes.size()))
       add(angleCurve(*hand, static_cast<std::size_t>(axis), theme, units));

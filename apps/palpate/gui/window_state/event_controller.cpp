@@ -7,6 +7,14 @@
 #include <palpate/recording/event_store.h>
 
 namespace palpate::gui {
+namespace {
+
+// Topic of the failure to save the events of a recording.
+QString unsavedTopic(const OpenedRecording& recording) {
+  return "events not saved: " + QString::fromStdString(recording.path.string());
+}
+
+}  // namespace
 
 EventController::EventController(DisplayedSource& displayed,
                                  OpenRecordings& recordings,
@@ -38,6 +46,7 @@ void EventController::forget(const OpenedRecordingPtr& recording) {
   editors_.erase(recording.get());
   grasps_.erase(recording.get());
   discarded_.erase(recording.get());
+  messages_.withdraw(unsavedTopic(*recording));
 }
 
 EventEditor* EventController::editor() {
@@ -52,6 +61,12 @@ EventEditor* EventController::editor() {
           palpate::saveEvents(path, asRead, now);
         });
     connect(editor.get(), &EventEditor::changed, this, &EventController::renewMarks);
+    connect(editor.get(),
+            &EventEditor::changed,
+            this,
+            [this, now = editor.get(), topic = unsavedTopic(*recording)] {
+              if (!now->unsaved()) messages_.withdraw(topic);
+            });
   }
   return editor.get();
 }
@@ -183,10 +198,16 @@ bool EventController::save(const OpenedRecordingPtr& recording) {
     editors_.at(recording.get())->save();
     return true;
   } catch (const std::exception& error) {
-    messages_.fail("Labels, notes and grasps were not saved: " + QString::fromUtf8(error.what()) +
-                   "; File > Save as… saves the recording with them under another name");
+    messages_.failAbout(
+        unsavedTopic(*recording),
+        "Labels, notes and grasps were not saved: " + QString::fromUtf8(error.what()) +
+            "; File > Save as… saves the recording with them under another name");
     return false;
   }
+}
+
+void EventController::savedElsewhere(const OpenedRecordingPtr& recording) {
+  messages_.withdraw(unsavedTopic(*recording));
 }
 
 bool EventController::settle(const std::vector<OpenedRecordingPtr>& recordings) {

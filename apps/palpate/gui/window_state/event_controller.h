@@ -66,8 +66,11 @@ class EventController : public QObject {
             const QString& name);
 
   bool hasUnsaved(const OpenedRecordingPtr& recording) const;
-  // Returns false when saving failed; the failure is shown to the user.
+  // Returns false when saving failed; the failure is shown to the user, until nothing is unsaved
+  // any more, the events are saved elsewhere or the recording is closed.
   bool save(const OpenedRecordingPtr& recording);
+  // The events of the recording were saved in another file: a shown failure has been dealt with.
+  void savedElsewhere(const OpenedRecordingPtr& recording);
   // Asks the user once about all unsaved events; returns false when the user cancels or saving
   // fails. Discarded events stay in the editor until their recording is closed, or until
   // discardAll().

@@ -93,6 +93,10 @@ struct WindowState {
   // Whether a batch runs; may be empty: none.
   std::function<bool()> batchRunning;
 
+  // The recordings that were open before this run stay those that the next start opens, until one
+  // is open in this run.
+  bool keepsSession = false;
+
   std::filesystem::path demoRecording() const;
 
   // Opens the files in the background; messages about earlier files are withdrawn. Of folders the
