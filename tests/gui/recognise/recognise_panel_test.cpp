@@ -378,6 +378,27 @@ TEST_F(RecognisePanelTest, ThePhotoOfTheFolderIsDrawn) {
   EXPECT_GT(painted(), 500);
 }
 
+// The reason of an answer that isn't sure stands at its end: it is scrolled to, not cut.
+TEST_F(RecognisePanelTest, TheViewOfAnAnswerAsksForTheHeightOfAllItsLines) {
+  PhotoCache photos;
+  AnswerView view(photos, 1.0);
+  view.resize(300, 180);
+  RecognitionAnswer answer;
+  answer.kind = Kind::kNamed;
+  answer.best = {{"foam ball", 0.5}, {"tennis ball", 0.3}, {"pen", 0.2}};
+  answer.of = "grasp 3";
+  view.setAnswer(answer);
+  const int without = view.minimumHeight();
+  answer.unsure = QString("The hand of today may differ from that of the training. ").repeated(6);
+  view.setAnswer(answer);
+  const int line = view.fontMetrics().lineSpacing();
+  const int lines = view.fontMetrics().horizontalAdvance(answer.unsure) / 300;
+  EXPECT_GE(view.minimumHeight(), without + (lines - 1) * line * 0.9);
+  const int before = view.minimumHeight();
+  view.resize(240, 180);
+  EXPECT_GT(view.minimumHeight(), before) << "narrower, it needs more rows";
+}
+
 TEST_F(RecognisePanelTest, EscGivesUpTrainingAndLeavesNoModel) {
   panel_->teaching().setFolder(teach({"ball", "pen"}, 3));
   settle();

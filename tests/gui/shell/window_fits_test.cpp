@@ -5,6 +5,7 @@
 #include <QLineEdit>
 #include <QPushButton>
 #include <QScreen>
+#include <QScrollArea>
 #include <QScrollBar>
 #include <QTabBar>
 #include <QTableView>
@@ -23,7 +24,10 @@
 #include "gui/source/live_controller.h"
 #include "gui/testing/layout_faults.h"
 #include "gui/testing/window_fixture.h"
+#include "gui/timeline/event_rows.h"
+#include "gui/timeline/timeline_chart.h"
 #include "gui/timeline/timeline_header.h"
+#include "gui/widgets/facts_view.h"
 #include "gui/widgets/offer_strip.h"
 
 namespace palpate::gui::window_fits_test {
@@ -466,6 +470,59 @@ TEST_F(WindowFitsTest, ADockThatTookRoomGivesItBack) {
   }
 }
 
+// Between the docks of both sides there is too little room: what the one at the other side lost, it
+// has again.
+TEST_F(WindowFitsTest, ADockThatTookRoomFromTheOtherSideGivesItBack) {
+  open({"rich.dsa"});
+  window().resize(1024, 700);
+  window().setAnimated(false);
+  window().docks().reset();
+  processAll();
+  const auto* calibrate = find<QDockWidget>("Calibrate");
+  const auto* library = find<QDockWidget>("Library");
+  press(calibrate->toggleViewAction()->shortcut());
+  processAll();
+  const int before = calibrate->width();
+  press(library->toggleViewAction()->shortcut());
+  processAll();
+  ASSERT_LT(calibrate->width(), before);
+  press(library->toggleViewAction()->shortcut());
+  processAll();
+  ASSERT_TRUE(library->isHidden());
+  EXPECT_EQ(calibrate->width(), before);
+}
+
+// Curves can be read whatever rows of events stand below them: those are scrolled.
+TEST_P(TextSizeFitsTest, TheTimelineLeavesItsChartRoomBesideTheRowsOfEvents) {
+  open({"rich.dsa"});
+  window().setAnimated(false);
+  window().resize(1280, 800);
+  window().docks().reset();
+  const auto& chart = *window().findChild<TimelineChart*>();
+  auto& rows = *window().findChild<EventRows*>();
+  std::vector<EventMark> marks;
+  for (const EventLane lane : {EventLane::kGrasps, EventLane::kLabels, EventLane::kNotes}) {
+    EventMark mark;
+    mark.lane = lane;
+    mark.fromS = 0.1;
+    mark.toS = 0.2;
+    marks.push_back(mark);
+  }
+  rows.setMarks(marks);
+  processAll();
+  window().resizeDocks({find<QDockWidget>("Timeline")}, {10}, Qt::Vertical);
+  processAll();
+  const int line = chart.fontMetrics().lineSpacing();
+  EXPECT_GE(chart.height(), 5 * line);
+  EXPECT_GE(chart.axisRect()->height(), 2 * line);
+  EXPECT_FALSE(rows.visibleRegion().isEmpty());
+  const auto& scroll = *find<QScrollArea>("eventRowsScroll");
+  EXPECT_GE(scroll.height(), rows.heightOfOne());
+  // The row of the chosen mark is brought into sight.
+  rows.choose(2);
+  EXPECT_TRUE(rows.visibleRegion().contains(rows.barOf(2).toRect().center()));
+}
+
 // The width before is that of the tab that was seen, not that of a tab behind it.
 TEST_F(WindowFitsTest, AClosedDockLeavesTheColumnAsWideAsBefore) {
   open({"rich.dsa"});
@@ -545,6 +602,28 @@ TEST_P(TextSizeFitsTest, InspectIsNotScrolledSideways) {
       EXPECT_EQ(window().feature<InspectFeature>().panel().horizontalScrollBar()->maximum(), 0)
           << GetParam() << " pt at " << size.width() << ", dock " << dock->width();
     }
+}
+
+// A number with its unit is never elided.
+TEST_P(TextSizeFitsTest, InspectShowsItsNumbersInFull) {
+  open({"rich.dsa"});
+  window().setAnimated(false);
+  DisplayUnits units;
+  units.angle = AngleUnit::kRadian;
+  window().state().appearance.setUnits(units);
+  for (const QSize size : {QSize(1024, 700), kSizes[0], kSizes[1]}) {
+    window().resize(size);
+    window().docks().reset();
+    processAll();
+    const auto* angles = find<FactsView>("angleFacts");
+    ASSERT_FALSE(angles->facts().empty());
+    for (std::size_t i = 0; i < angles->facts().size(); ++i) {
+      const Fact shown = angles->shown(i);
+      EXPECT_TRUE(shown.value.endsWith(" rad")) << shown.value.toStdString();
+      EXPECT_EQ(shown.value, angles->facts()[i].value);
+      EXPECT_LE(angles->fontMetrics().horizontalAdvance(shown.name + shown.value), angles->width());
+    }
+  }
 }
 
 TEST_P(TextSizeFitsTest, InspectOfALiveHandIsNotScrolledSideways) {

@@ -101,9 +101,38 @@ QPen curvePen(std::size_t matrix, bool whole, Theme theme) {
 }
 
 QString fittingName(const QString& name, const QString& shortName, const QWidget& plot) {
-  constexpr int kAroundAxis = 60;  // [px] above and below it
-  const bool fits = plot.fontMetrics().horizontalAdvance(name) < plot.height() - kAroundAxis;
-  return fits ? name : shortName;
+  constexpr int kAroundAxis = 26;  // [px] margins and ticks
+  // Below it are the numbers and the title of the other axis.
+  const int lines = isLow(plot) ? 1 : 2;
+  const QFontMetrics metrics = plot.fontMetrics();
+  const int room = plot.height() - kAroundAxis - lines * metrics.lineSpacing();
+  if (metrics.horizontalAdvance(name) < room) return name;
+  return metrics.horizontalAdvance(shortName) < room ? shortName : QString();
+}
+
+bool isLow(const QWidget& plot) {
+  constexpr int kLines = 7;
+  return plot.height() < kLines * plot.fontMetrics().lineSpacing();
+}
+
+QCPItemText* unitInCorner(QCustomPlot& plot,
+                          const QString& unit,
+                          Qt::Alignment corner,
+                          Theme theme) {
+  constexpr int kAround = 3;  // [px]
+  auto* word = new QCPItemText(&plot);
+  word->position->setType(QCPItemPosition::ptAxisRectRatio);
+  word->position->setCoords(corner & Qt::AlignRight ? 1.0 : 0.0,
+                            corner & Qt::AlignBottom ? 1.0 : 0.0);
+  word->setPositionAlignment(corner);
+  word->setPadding(QMargins(kAround, 0, kAround, 0));
+  word->setText(unit);
+  word->setFont(plot.font());
+  word->setColor(colorsOf(theme).muted);
+  QColor behind = colorsOf(theme).window;
+  behind.setAlphaF(0.7F);
+  word->setBrush(behind);
+  return word;
 }
 
 QString signalAxisName(PlottedSignal signal,

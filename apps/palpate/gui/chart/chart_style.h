@@ -22,6 +22,9 @@ inline constexpr double kWheelNotch = 120.0;
 // Zoom factor per notch.
 inline constexpr double kWheelZoom = 1.25;
 
+// Height of a chart in which curves can be read, with the numbers below it [lines of text].
+inline constexpr int kLeastChartLines = 5;
+
 // Sets up the numbers, ticks and margins of both axes; called once per chart.
 void arrangeChart(QCustomPlot& plot);
 // The space left of a chart over time [px]: the same in each chart, so that their time axes begin
@@ -36,8 +39,16 @@ QString signalAxisName(PlottedSignal signal,
                        const QString& handUnit,
                        const QWidget& plot,
                        const DisplayUnits& units = {});
-// The long name of an axis or, if the chart is too low for it, the short one.
+// The long name of an axis or, if the chart is too low for it, the short one; empty if that is cut,
+// too.
 QString fittingName(const QString& name, const QString& shortName, const QWidget& plot);
+// Whether the chart is too low for a title below its horizontal axis.
+bool isLow(const QWidget& plot);
+// Adds a unit in a corner of the plot, where the title of its axis has no room.
+QCPItemText* unitInCorner(QCustomPlot& plot,
+                          const QString& unit,
+                          Qt::Alignment corner,
+                          Theme theme);
 // Styles an additional vertical axis.
 void styleExtraAxis(QCPAxis& axis, const QWidget& plot, Theme theme);
 // Adds a shade over a span of time [s], behind the curves.

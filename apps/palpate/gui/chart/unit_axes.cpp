@@ -18,6 +18,7 @@ const UnitAxes::Axis* UnitAxes::find(const QString& unit) const {
 }
 
 void UnitAxes::rebuild(const std::vector<PlottedCurve>& curves, Theme theme) {
+  theme_ = theme;
   QCPAxisRect& rect = *plot_.axisRect();
   while (rect.axisCount(QCPAxis::atRight) > 1) rect.removeAxis(rect.axis(QCPAxis::atRight, 1));
   plot_.yAxis2->setVisible(false);
@@ -53,11 +54,22 @@ void UnitAxes::rebuild(const std::vector<PlottedCurve>& curves, Theme theme) {
 
 void UnitAxes::nameAxes() {
   plot_.yAxis->setLabel({});
+  QStringList left, right;
   for (const Axis& axis : axes_) {
     const QString how = QString(byHand_.contains(axis.unit) ? ", by hand" : "") +
                         (logarithmic_.contains(axis.unit) ? ", log" : "");
     axis.axis->setLabel(fittingName(axis.name + how, axis.unit + how, plot_));
+    if (axis.axis->label().isEmpty()) (axis.axis == plot_.yAxis ? left : right) << axis.unit + how;
   }
+  showInCorner(atLeft_, left.join(", "), Qt::AlignLeft | Qt::AlignTop);
+  showInCorner(atRight_, right.join(", "), Qt::AlignRight | Qt::AlignTop);
+}
+
+void UnitAxes::showInCorner(QPointer<QCPItemText>& word,
+                            const QString& text,
+                            Qt::Alignment corner) {
+  if (word) plot_.removeItem(word);
+  if (!text.isEmpty()) word = unitInCorner(plot_, text, corner, theme_);
 }
 
 QCPAxis* UnitAxes::of(const QString& unit) const {

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <QObject>
+#include <QPointer>
 #include <QString>
 #include <map>
 #include <optional>
@@ -16,6 +17,7 @@
 #include "gui/chart/plotted_curve.h"
 
 class QCPAxis;
+class QCPItemText;
 class QCustomPlot;
 class QMouseEvent;
 class QWheelEvent;
@@ -33,7 +35,8 @@ class UnitAxes : public QObject {
 
   // Makes the axes of these curves; the chart must have no graph. Ranges by hand stay.
   void rebuild(const std::vector<PlottedCurve>& curves, Theme theme);
-  // Names the axes, as the height of the chart permits; one that was set by hand says so.
+  // Names the axes, as the height of the chart permits: in a low one the units stand in the corners
+  // of the plot. An axis that was set by hand says so.
   void nameAxes();
   // The axis of a unit of the curves.
   QCPAxis* of(const QString& unit) const;
@@ -86,7 +89,12 @@ class UnitAxes : public QObject {
   // Sets the kind of scale and the range.
   void scale(const Axis& axis, const AxisRange& range);
 
+  // Shows a text in a corner of the plot; an empty one removes it.
+  void showInCorner(QPointer<QCPItemText>& word, const QString& text, Qt::Alignment corner);
+
   QCustomPlot& plot_;
+  Theme theme_ = Theme::kDark;
+  QPointer<QCPItemText> atLeft_, atRight_;
   std::vector<Axis> axes_;
   RangesByHand byHand_;
   std::set<QString> logarithmic_;

@@ -303,10 +303,14 @@ void InspectPanel::arrange() {
                      std::max({anglesHeading_->minimumSizeHint().width(),
                                temperaturesHeading_->minimumSizeHint().width(),
                                angles_->minimumSizeHint().width(),
-                               temperatures_->minimumSizeHint().width()}) +
+                               angles_->wholeWidth(),
+                               temperatures_->minimumSizeHint().width(),
+                               temperatures_->wholeWidth()}) +
                      around.right();
   const bool wide = viewport()->width() >= std::max(kTwoColumnsFrom, needed);
   columns_->setDirection(wide ? QBoxLayout::LeftToRight : QBoxLayout::TopToBottom);
+  for (FactsView* facts : {angles_, temperatures_})
+    facts->setMinimumWidth(wide ? facts->wholeWidth() : 0);
 }
 
 void InspectPanel::resizeEvent(QResizeEvent* event) {

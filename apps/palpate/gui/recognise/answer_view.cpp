@@ -1,7 +1,9 @@
 #include "gui/recognise/answer_view.h"
 
 #include <QPainter>
+#include <QResizeEvent>
 #include <algorithm>
+#include <cmath>
 
 namespace palpate::gui {
 namespace {
@@ -22,6 +24,7 @@ AnswerView::AnswerView(PhotoCache& photos, double scale, QWidget* parent)
 void AnswerView::setAnswer(const RecognitionAnswer& answer) {
   answer_ = answer;
   setAccessibleName(answer.accessibleText());
+  askForHeight();
   update();
 }
 
@@ -33,23 +36,41 @@ void AnswerView::setTheme(Theme theme) {
 double AnswerView::textHeight() const {
   if (scale_ > 0.0) return scale_ * fontInfo().pixelSize();
   double unit = std::max(kLeastAnswerUnit, std::min(height() / kUnitsHigh, width() / kUnitsWide));
+  while (unit > kLeastAnswerUnit && neededHeight(unit) > height())
+    unit = std::max(kLeastAnswerUnit, kSmallerAnswer * unit);
+  return unit;
+}
+
+double AnswerView::neededHeight(double unit) const {
   // The last lines may need several rows: painted onto nothing, they tell their height.
   QPixmap nothing(1, 1);
   QPainter painter(&nothing);
   painter.setFont(font());
   constexpr double kAnyHeight = 1e6;
-  const auto needed = [&] {
-    const double air = kAirUnits * unit;
-    return air + paintAnswer(painter,
-                             QRectF(air, air, width() - 2.0 * air, kAnyHeight),
-                             answer_,
-                             photo(),
-                             theme_,
-                             unit);
-  };
-  while (unit > kLeastAnswerUnit && needed() > height())
-    unit = std::max(kLeastAnswerUnit, kSmallerAnswer * unit);
-  return unit;
+  const double air = kAirUnits * unit;
+  return air + paintAnswer(painter,
+                           QRectF(air, air, width() - 2.0 * air, kAnyHeight),
+                           answer_,
+                           photo(),
+                           theme_,
+                           unit);
+}
+
+void AnswerView::askForHeight() {
+  // A view that has no place yet has no width to go by.
+  if (scale_ <= 0.0 || width() < minimumSizeHint().width()) return;
+  setMinimumHeight(std::max(minimumSizeHint().height(),
+                            static_cast<int>(std::ceil(neededHeight(textHeight())))));
+}
+
+void AnswerView::resizeEvent(QResizeEvent* event) {
+  QWidget::resizeEvent(event);
+  if (event->size().width() != event->oldSize().width()) askForHeight();
+}
+
+void AnswerView::changeEvent(QEvent* event) {
+  QWidget::changeEvent(event);
+  if (event->type() == QEvent::FontChange) askForHeight();
 }
 
 const QPixmap& AnswerView::photo() const {

@@ -23,9 +23,15 @@ class AnswerView : public QWidget {
 
  protected:
   void paintEvent(QPaintEvent* event) override;
+  void resizeEvent(QResizeEvent* event) override;
+  void changeEvent(QEvent* event) override;
 
  private:
   const QPixmap& photo() const;
+  // The height that all lines need with this height of text [px].
+  double neededHeight(double unit) const;
+  // Text of a given size is never cut: the view asks for the height of all lines.
+  void askForHeight();
 
   PhotoCache& photos_;
   const double scale_;

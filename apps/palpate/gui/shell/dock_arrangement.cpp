@@ -23,8 +23,9 @@ constexpr int kNarrowestRightLive = 330;
 constexpr double kRightShareLive = 0.24;
 constexpr int kLeftLiveWidth = 380;     // [px]
 constexpr double kBottomShare = 0.235;  // of the window's height
-// Lines of text that the bottom dock has room for, whatever its share.
-constexpr int kBottomLines = 9;
+// Lines of text that the bottom dock has room for, whatever its share; a recording has rows of
+// events, too.
+constexpr int kBottomLines = 11, kBottomLinesLive = 9;
 // Share of the height for the bottom dock below a dock that the user asked for.
 constexpr double kBottomBelow = 0.17;
 // Below this height of the window [px] there is no room for both docks.
@@ -226,7 +227,8 @@ void DockArrangement::reset() {
   if (bottom())
     window_.resizeDocks({bottom()->dock},
                         {std::max(static_cast<int>(window_.height() * kBottomShare),
-                                  kBottomLines * bottom()->dock->fontMetrics().lineSpacing())},
+                                  (live ? kBottomLinesLive : kBottomLines) *
+                                      bottom()->dock->fontMetrics().lineSpacing())},
                         Qt::Vertical);
   keepWindowSize(before, nullptr);
 }
@@ -299,12 +301,27 @@ void DockArrangement::bringToFront(const DockSpec& offer) {
   const QSize windowBefore = window_.size();
   Room before;
   if (const Dock* beside = neighbour(*offer.dock)) before.widthBefore = beside->width();
+  if (offer.dock->isHidden()) before.opposite = opposite(*offer.dock);
   if (offer.shareOfHeight > 0.0 && bottom()) before.bottomBefore = bottom()->dock->height();
   offer.dock->show();
   offer.dock->raise();
   offer.dock->toggleViewAction()->setChecked(true);
   keepWindowSize(windowBefore, offer.dock);
   makeRoomFor(offer, before);
+}
+
+std::vector<DockArrangement::Opposite> DockArrangement::opposite(const Dock& dock) const {
+  std::vector<Opposite> found;
+  const Qt::DockWidgetArea side = window_.dockWidgetArea(const_cast<Dock*>(&dock));
+  if (isAcross(side)) return found;
+  for (const DockSpec& offer : offers_) {
+    const Qt::DockWidgetArea its = window_.dockWidgetArea(offer.dock);
+    if (offer.dock->isFloating() || offer.dock->visibleRegion().isEmpty() || its == side ||
+        isAcross(its))
+      continue;
+    found.push_back({offer.dock, offer.dock->width(), 0});
+  }
+  return found;
 }
 
 Dock* DockArrangement::neighbour(const Dock& dock) const {
@@ -357,6 +374,7 @@ void DockArrangement::makeRoomFor(const DockSpec& offer, const Room& before) {
     QTimer::singleShot(0, this, [this, dock, below, room = before]() mutable {
       if (dock->isFloating() || dock->isHidden()) return;
       room.width = dock->width();
+      for (Opposite& other : room.opposite) other.after = other.dock->width();
       if (room.bottomBefore > 0) room.bottom = heightOfBottom(*dock);
       rooms_.try_emplace(dock, room);
     });
@@ -415,6 +433,9 @@ bool DockArrangement::eventFilter(QObject* watched, QEvent* event) {
     if (at != rooms_.end()) {
       at->second.lastWidth = at->first->width();
       at->second.lastBottom = heightOfBottom(*at->first);
+      // Who has chosen another width meanwhile keeps it.
+      std::erase_if(at->second.opposite,
+                    [](const Opposite& other) { return other.dock->width() != other.after; });
       giveRoomBack(*at->first);
     }
   }
@@ -442,6 +463,9 @@ void DockArrangement::giveRoomBack(const Dock& dock) {
                                            room.lastWidth == room.width &&
                                            room.width > room.widthBefore)
       window_.resizeDocks({beside}, {room.widthBefore}, Qt::Horizontal);
+    for (const Opposite& other : room.opposite)
+      if (!other.dock->visibleRegion().isEmpty() && other.after < other.before)
+        window_.resizeDocks({other.dock}, {other.before}, Qt::Horizontal);
     // A little less or more is no change by the user: rows of events come and go.
     constexpr int kAlike = 40;  // [px]
     if (below && room.bottomBefore > 0 && !below->isHidden() &&

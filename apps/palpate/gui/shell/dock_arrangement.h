@@ -53,12 +53,20 @@ class DockArrangement : public QObject {
   bool eventFilter(QObject* watched, QEvent* event) override;
 
  private:
+  // A dock at another side that became narrower for one that was opened: its width before and
+  // after [px].
+  struct Opposite {
+    Dock* dock;
+    int before = 0, after = 0;
+  };
+
   // Sizes before and after makeRoomFor() [px]; 0: unchanged.
   struct Room {
     int widthBefore = 0, width = 0;
     int bottomBefore = 0, bottom = 0;
     // When the dock was closed.
     int lastWidth = 0, lastBottom = 0;
+    std::vector<Opposite> opposite;
   };
 
   // The width of a dock before the text became larger, and the one that it has since [px].
@@ -98,6 +106,8 @@ class DockArrangement : public QObject {
   // Widens a dock up to `widthPx`, as far as the views in the centre stay side by side, but at
   // least so far that its content isn't cut.
   void widen(Dock& dock, int widthPx);
+  // The docks that are seen at other sides, and their widths.
+  std::vector<Opposite> opposite(const Dock& dock) const;
   // A visible dock at the same side; null: there is none.
   Dock* neighbour(const Dock& dock) const;
 

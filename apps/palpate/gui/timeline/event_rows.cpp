@@ -57,6 +57,8 @@ QSize EventRows::sizeHint() const {
   return {200, rows == 0 ? 0 : rows * rowHeight() + kAboveText};
 }
 
+int EventRows::heightOfOne() const { return rowHeight() + kAboveText; }
+
 void EventRows::setMarks(std::vector<EventMark> marks) {
   const bool had = chosen_ && *chosen_ < marks_.size();
   const auto before = had ? std::optional(marks_[*chosen_]) : std::nullopt;
@@ -75,6 +77,7 @@ void EventRows::setMarks(std::vector<EventMark> marks) {
   setVisible(!lanes_.empty());
   updateGeometry();
   update();
+  emit marksChanged();
 }
 
 void EventRows::setScale(double fromS, double toS, int leftPixel, int rightPixel) {

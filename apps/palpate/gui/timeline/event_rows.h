@@ -41,8 +41,11 @@ class EventRows : public QWidget {
 
   QSize sizeHint() const override;
   QSize minimumSizeHint() const override { return sizeHint(); }
+  // The height that one row needs [px].
+  int heightOfOne() const;
 
  signals:
+  void marksChanged();
   // The user chose a mark by mouse or key.
   void markChosen(std::size_t mark);
   void chosenChanged();

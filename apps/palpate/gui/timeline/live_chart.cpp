@@ -18,6 +18,7 @@
 #include "gui/appearance/captions.h"
 #include "gui/chart/chart_style.h"
 #include "gui/picture/stale_notice.h"
+#include "gui/widgets/text_fit.h"
 
 namespace palpate::gui {
 namespace {
@@ -79,7 +80,8 @@ LiveChart::LiveChart(QWidget* parent)
       "Wheel: how many seconds are shown; Shift+wheel: scroll back; drag: cursors with "
       "differences");
   setMouseTracking(true);
-  xAxis->setLabel("time since the first frame in s");
+  nameTime();
+  fitToText(*this, [this] { setMinimumHeight(kLeastChartLines * fontMetrics().lineSpacing()); });
   xAxis->setTicker(secondsTicker_);
   const auto rescale = [this] {
     scaleAxes();
@@ -167,6 +169,7 @@ void LiveChart::paintEvent(QPaintEvent* event) {
 void LiveChart::rebuildGraphs() {
   clearGraphs();
   axes_->rebuild(curves_, theme_);
+  nameTime();
   for (const PlottedCurve& curve : curves_) {
     QCPGraph* added = addGraph(xAxis, axes_->of(curve.unit));
     added->setPen(curve.pen);
@@ -210,6 +213,12 @@ void LiveChart::showRange(double fromS, double toS) {
   secondsTicker_->setTickStep(niceAbove(windowS_ / ticks));
   arrangeNames();
   refill();
+}
+
+void LiveChart::nameTime() {
+  xAxis->setLabel(isLow(*this) ? "" : "time since the first frame in s");
+  if (timeUnit_) removeItem(timeUnit_);
+  if (isLow(*this)) timeUnit_ = unitInCorner(*this, "s", Qt::AlignRight | Qt::AlignBottom, theme_);
 }
 
 void LiveChart::refill() {
@@ -722,6 +731,7 @@ void LiveChart::contextMenuEvent(QContextMenuEvent* event) {
 
 void LiveChart::resizeEvent(QResizeEvent* event) {
   QCustomPlot::resizeEvent(event);
+  nameTime();
   axes_->nameAxes();
   refill();
 }

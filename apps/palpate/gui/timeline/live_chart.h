@@ -5,6 +5,7 @@
 // button scroll, a drag sets both cursors, a double click returns to the newest frame.
 #pragma once
 
+#include <QPointer>
 #include <array>
 #include <cstdint>
 #include <deque>
@@ -146,6 +147,8 @@ class LiveChart : public QCustomPlot {
   void scrollTo(double fromS);
   void refill();
   void scaleAxes();
+  // The title of the axis of time; in a low chart only the unit.
+  void nameTime();
   void arrangeNames();
   void shadeNewGaps();
   void line(double atS, const QString& name, const QString& text, const QColor& color);
@@ -165,6 +168,8 @@ class LiveChart : public QCustomPlot {
   std::optional<double> saturation_;
   std::vector<PlottedCurve> curves_;
   std::unique_ptr<UnitAxes> axes_;
+  // The unit of time where the axis has no title.
+  QPointer<QCPItemText> timeUnit_;
   std::map<QString, RollingRange> ranges_;
   QSharedPointer<QCPAxisTickerFixed> secondsTicker_;
   Theme theme_ = Theme::kDark;

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "gui/chart/chart_style.h"
+#include "gui/widgets/text_fit.h"
 #include "gui/window_state/selection.h"
 
 namespace palpate::gui {
@@ -38,6 +39,7 @@ TimelineChart::TimelineChart(QWidget* parent)
   arrangeChart(*this);
   setAccessibleName("Timeline");
   setMouseTracking(true);
+  fitToText(*this, [this] { setMinimumHeight(kLeastChartLines * fontMetrics().lineSpacing()); });
   secondsTicker_ = xAxis->ticker();
   clockTicker_.reset(new QCPAxisTickerTime);
   clockTicker_->setTickCount(secondsTicker_->tickCount());
@@ -154,6 +156,7 @@ void TimelineChart::rebuildGraphs() {
   clearItems();
   gapLabels_.clear();
   axes_->rebuild(curves_, theme_);
+  nameTime();
   for (const PlottedCurve& curve : curves_) {
     QCPGraph* added = addGraph(xAxis, axes_->of(curve.unit));
     added->setPen(curve.pen);
@@ -320,8 +323,10 @@ void TimelineChart::nameTime() {
     xAxis->setTicker(clockTicker_);
   if (!seconds)
     clockTicker_->setTimeFormat(seen().size() < kFewSecondsS ? "%h:%m:%s.%z" : "%h:%m:%s");
-  xAxis->setLabel(seconds ? "time from the first frame in s"
-                          : "time from the first frame in h:min:s");
+  const QString unit = seconds ? "s" : "h:min:s";
+  xAxis->setLabel(isLow(*this) ? QString() : "time from the first frame in " + unit);
+  if (timeUnit_) removeItem(timeUnit_);
+  if (isLow(*this)) timeUnit_ = unitInCorner(*this, unit, Qt::AlignRight | Qt::AlignBottom, theme_);
 }
 
 void TimelineChart::fit() { setVisibleRange(0.0, durationS()); }
@@ -453,6 +458,7 @@ void TimelineChart::contextMenuEvent(QContextMenuEvent* event) {
 
 void TimelineChart::resizeEvent(QResizeEvent* event) {
   QCustomPlot::resizeEvent(event);
+  nameTime();
   axes_->nameAxes();
   refill();
 }

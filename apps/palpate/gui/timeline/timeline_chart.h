@@ -4,6 +4,7 @@
 // double click shows everything. Vertical axes are automatic, or set by hand (UnitAxes).
 #pragma once
 
+#include <QPointer>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -113,6 +114,8 @@ class TimelineChart : public ReadingChart {
   bool hasBefore_ = false;
   std::vector<PlottedCurve> curves_;
   std::unique_ptr<UnitAxes> axes_;
+  // The unit of time where the axis has no title.
+  QPointer<QCPItemText> timeUnit_;
   // Units whose range was set by hand for another recording, not yet compared with this one.
   std::set<QString> rangesOfOther_;
   QLabel* notes_;

@@ -1,23 +1,47 @@
 #include "gui/timeline/timeline_panel.h"
 
-#include <QScrollArea>
 #include <QVBoxLayout>
+#include <algorithm>
+
+#include "gui/widgets/text_fit.h"
 
 namespace palpate::gui {
 
 TimelinePanel::TimelinePanel(QWidget* parent) : QWidget(parent) {
   chart_ = new TimelineChart(this);
-  rows_ = new EventRows(this);
-  rows_->hide();
+  rowsScroll_ = new QScrollArea(this);
+  rowsScroll_->setObjectName("eventRowsScroll");
+  rowsScroll_->setFrameShape(QFrame::NoFrame);
+  rowsScroll_->setFocusPolicy(Qt::NoFocus);
+  rowsScroll_->setWidgetResizable(true);
+  rowsScroll_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+  rows_ = new EventRows;
+  rowsScroll_->setWidget(rows_);
+  rowsScroll_->hide();
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(0, 0, 0, 0);
   column->setSpacing(0);
   column->addWidget(chart_, 1);
-  column->addWidget(rows_);
+  column->addWidget(rowsScroll_);
+  fitToText(*rows_, [this] { fitRows(); });
+  connect(rows_, &EventRows::marksChanged, this, &TimelinePanel::fitRows);
+  connect(rows_, &EventRows::chosenChanged, this, [this] {
+    if (!rows_->chosen()) return;
+    const QRectF bar = rows_->barOf(*rows_->chosen());
+    if (!bar.isEmpty())
+      rowsScroll_->ensureVisible(0, qRound(bar.center().y()), 0, qRound(bar.height()));
+  });
   connect(chart_, &TimelineChart::seenChanged, this, [this] {
     const QRect plot = chart_->axisRect()->rect();
     rows_->setScale(chart_->seen().lower, chart_->seen().upper, plot.left(), plot.right() + 1);
   });
+}
+
+void TimelinePanel::fitRows() {
+  const int whole = rows_->sizeHint().height();
+  rowsScroll_->setVisible(whole > 0);
+  rowsScroll_->setMinimumHeight(std::min(whole, rows_->heightOfOne()));
+  rowsScroll_->setMaximumHeight(whole);
 }
 
 void TimelinePanel::setTheme(Theme theme) {

@@ -1,6 +1,8 @@
 // The timeline of a recording: the chart and, below it, the rows of events on the same time scale.
+// The rows are scrolled where the chart would become too low.
 #pragma once
 
+#include <QScrollArea>
 #include <QWidget>
 
 #include "gui/timeline/event_rows.h"
@@ -17,8 +19,11 @@ class TimelinePanel : public QWidget {
   void setTheme(Theme theme);
 
  private:
+  void fitRows();
+
   TimelineChart* chart_;
   EventRows* rows_;
+  QScrollArea* rowsScroll_;
 };
 
 }  // namespace palpate::gui

@@ -3,6 +3,7 @@
 #include <QHelpEvent>
 #include <QPaintEvent>
 #include <QPainter>
+#include <QRegularExpression>
 #include <QToolTip>
 #include <algorithm>
 
@@ -12,6 +13,12 @@ namespace {
 constexpr int kFactsViewPadding = 8;  // [px] above and below a row's text, together
 constexpr int kSpacing = 12;          // [px] between name and value
 
+// Whether a value is a number, with or without a unit.
+bool isNumber(const QString& value) {
+  static const QRegularExpression number("^[-+−]?\\d[\\d.]*( ?[^\\s\\d.]{1,6})?$");
+  return number.match(value).hasMatch();
+}
+
 }  // namespace
 
 FactsView::FactsView(QWidget* parent) : QWidget(parent) {
@@ -20,6 +27,9 @@ FactsView::FactsView(QWidget* parent) : QWidget(parent) {
 
 void FactsView::setFacts(std::vector<Fact> facts) {
   facts_ = std::move(facts);
+  numberWidth_ = 0;
+  for (const Fact& fact : facts_)
+    if (isNumber(fact.value)) numberWidth_ = std::max(numberWidth_, textWidth(fact.value));
   updateGeometry();
   update();
 }
@@ -27,6 +37,10 @@ void FactsView::setFacts(std::vector<Fact> facts) {
 void FactsView::setValue(std::size_t row, const QString& value) {
   if (row >= facts_.size() || facts_[row].value == value) return;
   facts_[row].value = value;
+  if (const int needed = textWidth(value); needed > numberWidth_ && isNumber(value)) {
+    numberWidth_ = needed;
+    updateGeometry();
+  }
   update(0, static_cast<int>(row) * rowHeight(), width(), rowHeight());
 }
 
@@ -45,9 +59,27 @@ int FactsView::rowHeight() const { return fontMetrics().height() + kFactsViewPad
 
 int FactsView::nameWidth() const {
   int widest = 0;
-  for (const Fact& fact : facts_)
-    widest = std::max(widest, fontMetrics().horizontalAdvance(fact.name));
+  for (const Fact& fact : facts_) widest = std::max(widest, textWidth(fact.name));
   return widest;
+}
+
+int FactsView::textWidth(const QString& text) const {
+  return fontMetrics().horizontalAdvance(text);
+}
+
+int FactsView::wholeWidth() const { return nameWidth() + kSpacing + numberWidth_; }
+
+Fact FactsView::shown(std::size_t row) const {
+  Fact fact = facts_.at(row);
+  const QFontMetrics metrics = fontMetrics();
+  if (isNumber(fact.value)) {
+    const int room = width() - kSpacing - textWidth(fact.value);
+    fact.name = metrics.elidedText(fact.name, Qt::ElideRight, std::max(0, room));
+  } else {
+    const int room = width() - kSpacing - textWidth(fact.name);
+    fact.value = metrics.elidedText(fact.value, Qt::ElideMiddle, room);
+  }
+  return fact;
 }
 
 QSize FactsView::sizeHint() const {
@@ -65,15 +97,11 @@ void FactsView::paintEvent(QPaintEvent* event) {
   for (std::size_t i = 0; i < facts_.size(); ++i) {
     const QRect row(0, static_cast<int>(i) * height, width(), height);
     if (!row.intersects(event->rect())) continue;
-    const Fact& fact = facts_[i];
+    const Fact fact = shown(i);
     painter.setPen(colors.muted);
     painter.drawText(row, Qt::AlignLeft | Qt::AlignVCenter, fact.name);
     painter.setPen(stale_ ? colors.muted : fact.warning ? colors.warning : colors.text);
-    const int used = fontMetrics().horizontalAdvance(fact.name) + kSpacing;
-    const QRect right = row.adjusted(used, 0, 0, 0);
-    painter.drawText(right,
-                     Qt::AlignRight | Qt::AlignVCenter,
-                     fontMetrics().elidedText(fact.value, Qt::ElideMiddle, right.width()));
+    painter.drawText(row, Qt::AlignRight | Qt::AlignVCenter, fact.value);
     painter.setPen(colors.border);
     if (i + 1 < facts_.size()) painter.drawLine(row.bottomLeft(), row.bottomRight());
   }

@@ -23,6 +23,11 @@ class FactsView : public QWidget {
   void setFacts(std::vector<Fact> facts);
   void setValue(std::size_t row, const QString& value);
   const std::vector<Fact>& facts() const noexcept { return facts_; }
+  // Name and value as they are painted in the present width: a number with its unit is always
+  // whole, and its name is elided instead; of other values the middle is left out.
+  Fact shown(std::size_t row) const;
+  // The width [px] with which no name beside a number is elided.
+  int wholeWidth() const;
   // The values are stale: no new data arrive.
   void setStale(bool old);
   bool isOld() const noexcept { return stale_; }
@@ -38,8 +43,11 @@ class FactsView : public QWidget {
  private:
   int rowHeight() const;
   int nameWidth() const;
+  int textWidth(const QString& text) const;
 
   std::vector<Fact> facts_;
+  // Width of the widest number since the rows are there [px].
+  int numberWidth_ = 0;
   bool stale_ = false;
   Theme theme_ = Theme::kDark;
 };
