@@ -391,7 +391,7 @@ GraspStatus GraspControl::status() const {
   if (!machine_.active() && pendingEndEvents_ > 0) status.phase = GraspPhase::kStopping;
   if (machine_.active()) {
     status.request = machine_.running().request;
-      status.friction = machine_.running().friction;
+    status.friction = machine_.running().friction;
     if (machine_.phase() == GraspPhase::kHolding)
       status.holding = machine_.holdingText(clock_.monotonicUs());
   }
