@@ -295,7 +295,7 @@ TEST_F(ExportControllerTest, CopyTableTakesTheRowsAlone) {
 }
 
 TEST_F(ExportControllerTest, ANameThatWasTypedIsForItsViewAndRecording) {
-  clickInto(find<MatricesView>("MatricesView"));
+  clickInto(&window().feature<MatricesFeature>().panel().view());
   exportController().ask = [&](ExportRequest asked) -> std::optional<ExportRequest> {
     asked.form = ExportFormat::kCsv;
     asked.folder = QString::fromStdString(folder_.path().string());
@@ -310,7 +310,7 @@ TEST_F(ExportControllerTest, ANameThatWasTypedIsForItsViewAndRecording) {
   clickInto(window().findChild<TimelineChart*>());
   EXPECT_NE(exportController().suggestion().name, "whole");
   EXPECT_FALSE(exportController().suggestion().nameIsOwn);
-  clickInto(find<MatricesView>("MatricesView"));
+  clickInto(&window().feature<MatricesFeature>().panel().view());
   EXPECT_EQ(exportController().suggestion().name, "whole");
   open({"good2.dsa"});
   EXPECT_EQ(exportController().suggestion().name, "good2_frame_00000");

@@ -98,7 +98,7 @@ TEST_F(FormulaDialogTest, AnotherSignalIsProposedAndNotTheSame) {
   FormulaDialog& dialog = open();
   choose(dialog, "formulaOf", "finger 0 distal mean");
   choose(dialog, "formulaOperation", "minus another");
-  EXPECT_EQ(dialog.curve().formula, "m1_mean - m2_mean") << "the next one in counts";
+  EXPECT_EQ(dialog.curve().formula, "m1_mean - m0_mean") << "the first one is another one already";
   choose(dialog, "formulaOther", "finger 0 distal mean");
   EXPECT_EQ(dialog.curve().formula, "m1_mean - m1_mean") << "what was chosen stays";
   choose(dialog, "formulaOperation", "divided by another");
