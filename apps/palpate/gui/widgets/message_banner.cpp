@@ -1,5 +1,6 @@
 #include "gui/widgets/message_banner.h"
 
+#include <QEvent>
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QToolButton>
@@ -22,6 +23,7 @@ MessageBanner::MessageBanner(QWidget* parent, const QString& name, const QString
   // File names aren't to be read as HTML.
   text_->setTextFormat(Qt::PlainText);
   text_->setWordWrap(true);
+  text_->installEventFilter(this);
   text_->setTextInteractionFlags(Qt::TextSelectableByMouse);
   close_ = new QToolButton(this);
   close_->setObjectName(part + "Close");
@@ -66,6 +68,20 @@ void MessageBanner::showLines() {
   for (const Line& line : lines_) texts.append(line.text);
   text_->setText(texts.join('\n'));
   setVisible(!texts.isEmpty());
+  askForHeight();
+}
+
+void MessageBanner::askForHeight() {
+  if (isHidden()) return;
+  // The height for a width is never below the least height.
+  text_->setMinimumHeight(0);
+  text_->setMinimumHeight(text_->heightForWidth(text_->width()));
+}
+
+bool MessageBanner::eventFilter(QObject* watched, QEvent* event) {
+  if (watched == text_ && (event->type() == QEvent::Resize || event->type() == QEvent::FontChange))
+    askForHeight();
+  return QWidget::eventFilter(watched, event);
 }
 
 QString MessageBanner::message() const { return text_->text(); }
