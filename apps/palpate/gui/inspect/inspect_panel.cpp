@@ -14,8 +14,6 @@
 namespace palpate::gui {
 namespace {
 
-// Usual shares that the columns have of the width.
-constexpr int kFactsShare = 6, kAnglesShare = 5;
 // From this width [px] the panel has two columns.
 constexpr int kTwoColumnsFrom = 430;  // [px]; with large text the width that both columns need
 // Least time between two live values that are shown [us].
@@ -145,8 +143,8 @@ InspectPanel::InspectPanel(QWidget* parent) : QScrollArea(parent) {
   right->addStretch(1);
   columns_ = new QBoxLayout(QBoxLayout::LeftToRight);
   columns_->setSpacing(20);
-  columns_->addLayout(left, kFactsShare);
-  columns_->addLayout(right, kAnglesShare);
+  columns_->addLayout(left, 6);
+  columns_->addLayout(right, 5);
 
   auto* column = new QVBoxLayout(content);
   column->setContentsMargins(12, 8, 12, 10);
@@ -311,15 +309,8 @@ void InspectPanel::arrange() {
                      around.right();
   const bool wide = viewport()->width() >= std::max(kTwoColumnsFrom, needed);
   columns_->setDirection(wide ? QBoxLayout::LeftToRight : QBoxLayout::TopToBottom);
-  // The right column is as wide as its names and numbers, at least.
-  const int whole = std::max(angles_->wholeWidth(), temperatures_->wholeWidth());
-  const int room = viewport()->width() - around.left() - around.right() - columns_->spacing();
-  const bool squeezed = wide && kAnglesShare * room < (kFactsShare + kAnglesShare) * whole;
-  const int left = squeezed ? room - whole : kFactsShare;
-  const int right = squeezed ? whole : kAnglesShare;
-  if (columns_->stretch(0) == left && columns_->stretch(1) == right) return;
-  columns_->setStretch(0, left);
-  columns_->setStretch(1, right);
+  for (FactsView* facts : {angles_, temperatures_})
+    facts->setMinimumWidth(wide ? facts->wholeWidth() : 0);
 }
 
 void InspectPanel::resizeEvent(QResizeEvent* event) {
