@@ -23,6 +23,19 @@ TEST_F(ComparePanelTest, LaysFirstContactsOnTopOfEachOther) {
   EXPECT_EQ(compare().notice(), "");
 }
 
+// Heat maps and curves are seen at once in a small window.
+TEST_F(ComparePanelTest, InASmallWindowTheChartIsSeenBesideTheHeatMaps) {
+  open({"early.dsa", "late.dsa"});
+  window().setAnimated(false);
+  window().resize(1024, 700);
+  window().docks().reset();
+  compareNow();
+  for (int i = 0; i < 4; ++i) QCoreApplication::processEvents();
+  ASSERT_EQ(window().size(), QSize(1024, 700));
+  EXPECT_EQ(compare().chart().visibleRegion().boundingRect().size(), compare().chart().size())
+      << compare().chart().height();
+}
+
 TEST_F(ComparePanelTest, TheOtherAlignments) {
   open({"early.dsa", "late.dsa"});
   compareNow();

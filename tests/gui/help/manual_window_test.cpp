@@ -2,6 +2,7 @@
 
 #include <QDir>
 #include <QRegularExpression>
+#include <QScreen>
 #include <QScrollBar>
 #include <QTextBlock>
 #include <QTextImageFormat>
@@ -106,6 +107,33 @@ TEST_F(ManualWindowTest, ShowsPicturesNoWiderThanThePage) {
     }
   EXPECT_GT(pictures, 3);
   EXPECT_EQ(browser().horizontalScrollBar()->maximum(), 0);
+}
+
+// A paragraph with the words several times is listed once for each part of it that is shown.
+TEST_F(ManualWindowTest, NoPartOfAParagraphIsListedTwice) {
+  manual_.findChild<QLineEdit*>()->setText("coherence");
+  const auto* found = manual_.findChild<QListWidget*>();
+  ASSERT_GT(found->count(), 1);
+  QStringList rows;
+  for (int i = 0; i < found->count(); ++i) {
+    rows << found->item(i)->text();
+    EXPECT_TRUE(rows.last().contains("coherence", Qt::CaseInsensitive));
+  }
+  EXPECT_EQ(rows.removeDuplicates(), 0);
+}
+
+// Over a small window in the corner of the screen, too.
+TEST_F(ManualWindowTest, ItsTitleBarIsOnTheScreen) {
+  QWidget corner;
+  corner.setGeometry(0, 0, 300, 200);
+  corner.show();
+  ManualWindow manual(folder_, Theme::kDark, &corner);
+  manual.QWidget::show();
+  QCoreApplication::processEvents();
+  const QRect available = manual.screen()->availableGeometry();
+  constexpr int kTitleBar = 24;  // [px] at least
+  EXPECT_GE(manual.geometry().top(), available.top() + kTitleBar);
+  EXPECT_GE(manual.geometry().left(), available.left());
 }
 
 TEST_F(ManualWindowTest, SearchGoesThroughAllPages) {

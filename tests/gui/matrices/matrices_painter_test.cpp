@@ -294,6 +294,22 @@ TEST(MatricesPainter, TheColourBarRunsFromLowBelowToHighAbove) {
   EXPECT_NEAR(share(0.5).red(), inferno(128).red(), 4);
 }
 
+// In a low view the matrices have all of the room: names would lie over them.
+TEST(MatricesPainter, NamesThatHaveNoRoomAreNotDrawn) {
+  HandDescription named = sdh2(), nameless = sdh2();
+  for (MatrixDescription& matrix : nameless.matrices) matrix.name = matrix.shortName = "";
+  const TactileFrame frame(named.layout);
+  const auto painted = [&](const HandDescription& hand, int height) {
+    QImage image(300, height, QImage::Format_RGB32);
+    QPainter painter(&image);
+    paintMatricesPicture(painter, QRectF(0, 0, 300, height), frame, hand, options());
+    return image;
+  };
+  ASSERT_EQ(geometry(options(), named, {300, 60}).nameRect(0).height(), 0.0);
+  EXPECT_EQ(painted(named, 60), painted(nameless, 60));
+  EXPECT_NE(painted(named, 400), painted(nameless, 400));
+}
+
 TEST(MatricesPainter, DrawsAnySensor) {
   for (const auto& [rows, columns] : {std::pair(1, 1), {4, 4}, {256, 256}, {2, 200}}) {
     const HandDescription hand =

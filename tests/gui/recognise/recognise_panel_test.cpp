@@ -383,6 +383,7 @@ TEST_F(RecognisePanelTest, TheViewOfAnAnswerAsksForTheHeightOfAllItsLines) {
   PhotoCache photos;
   AnswerView view(photos, 1.0);
   view.resize(300, 180);
+  view.show();
   RecognitionAnswer answer;
   answer.kind = Kind::kNamed;
   answer.best = {{"foam ball", 0.5}, {"tennis ball", 0.3}, {"pen", 0.2}};

@@ -626,6 +626,20 @@ TEST_P(TextSizeFitsTest, InspectShowsItsNumbersInFull) {
   }
 }
 
+// The bar that scrolls its height has room beside its content.
+TEST_F(WindowFitsTest, SlipOfALiveHandIsNotScrolledSideways) {
+  connectEmulated();
+  window().setAnimated(false);
+  window().resize(1366, 768);
+  window().docks().reset();
+  auto* slip = find<QDockWidget>("Slip");
+  press(slip->toggleViewAction()->shortcut());
+  processAll();
+  const auto* scroll = qobject_cast<QScrollArea*>(slip->widget());
+  ASSERT_NE(scroll, nullptr);
+  EXPECT_EQ(scroll->horizontalScrollBar()->maximum(), 0);
+}
+
 TEST_P(TextSizeFitsTest, InspectOfALiveHandIsNotScrolledSideways) {
   // The dock Hand leaves too little beside it with the largest text.
   if (GetParam() == kMostTextPt) return;

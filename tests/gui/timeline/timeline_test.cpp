@@ -236,6 +236,59 @@ TEST_F(TimelineTest, TheLegendNamesWhatIsPlotted) {
   EXPECT_EQ(legend->entries()[1].name, "all");
 }
 
+// However narrow it is, "…" tells that there are more curves.
+TEST(Legend, TheDotsForFurtherCurvesAlwaysHaveRoom) {
+  Legend legend;
+  std::vector<Legend::Entry> entries;
+  for (int i = 0; i < 6; ++i) entries.push_back({QPen(), "finger " + QString::number(i)});
+  legend.setEntries(entries, Theme::kDark);
+  for (int width = 60; width < legend.sizeHint().width() / 2 - 30; width += 3) {
+    legend.resize(width, 10);
+    legend.resize(width, legend.sizeHint().height());
+    legend.show();
+    QCoreApplication::processEvents();
+    ASSERT_TRUE(legend.isCut());
+    EXPECT_TRUE(legend.rect().contains(legend.dotsRect())) << width;
+  }
+}
+
+// In a low chart no title is cut: the units stand in the corners of the plot.
+TEST_F(TimelineTest, ALowChartHasUnitsInsteadOfTitles) {
+  TimelineChart low;
+  low.setRecording(window().state().displayed.recorded());
+  PlottedCurve curve;
+  curve.name = "a";
+  curve.unit = curve.baseUnit = "counts";
+  curve.axis = "mean in counts";
+  low.setCurves({curve});
+  low.resize(600, 400);
+  low.show();
+  low.replot();
+  EXPECT_EQ(low.yAxis->label(), "mean in counts");
+  EXPECT_EQ(low.xAxis->label(), "time from the first frame in s");
+  const auto words = [&] {
+    QStringList found;
+    for (int i = 0; i < low.itemCount(); ++i)
+      if (const auto* word = qobject_cast<QCPItemText*>(low.item(i))) found << word->text();
+    found.sort();
+    return found;
+  };
+  EXPECT_EQ(words(), QStringList());
+  const int line = low.fontMetrics().lineSpacing();
+  low.resize(600, 5 * line);
+  low.replot();
+  EXPECT_EQ(low.xAxis->label(), "");
+  EXPECT_GE(low.axisRect()->height(), 2 * line);
+  // The unit alone may be whole beside it.
+  if (low.yAxis->label().isEmpty())
+    EXPECT_EQ(words(), QStringList({"counts", "s"}));
+  else
+    EXPECT_LT(low.fontMetrics().horizontalAdvance(low.yAxis->label()), low.axisRect()->height());
+  low.resize(600, 400);
+  low.replot();
+  EXPECT_EQ(words(), QStringList());
+}
+
 TEST_F(TimelineTest, ClosedItIsEmpty) {
   press(Qt::Key_W, Qt::ControlModifier);
   EXPECT_EQ(chart().graphCount(), 0);

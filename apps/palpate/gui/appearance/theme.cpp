@@ -78,6 +78,7 @@ QAbstractSpinBox:focus { border-color: @accent; }
 #FocusFrame { border: 1px solid @accent; border-radius: 3px; background: transparent; }
 QAbstractSpinBox[corrected="true"] { border-color: @warning; color: @warning; font-weight: bold; }
 QAbstractSpinBox:disabled { color: @muted; }
+QListWidget:disabled { color: @muted; }
 QDockWidget { titlebar-close-icon: none; titlebar-normal-icon: none; }
 QStatusBar { background: @panel; border-top: 1px solid @border; }
 QStatusBar::item { border: 0; }

@@ -144,7 +144,8 @@ TarePage::TarePage(QSettings& settings, QWidget* parent) : ComputedPage("tare", 
   top().addWidget(measure_);
   state_ = new QLabel(this);
   state_->setObjectName("tareState");
-  state_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
+  state_->setWordWrap(true);
+  state_->hide();
   remove_ = new QPushButton("Remove", this);
   remove_->setObjectName("tareRemove");
   remove_->setToolTip("Forces use the recorded values without a tare again");
@@ -154,9 +155,10 @@ TarePage::TarePage(QSettings& settings, QWidget* parent) : ComputedPage("tare", 
   keep_->setProperty("primary", true);
   auto* row = new QHBoxLayout;
   row->setSpacing(8);
-  row->addWidget(state_, 1);
+  row->addStretch(1);
   row->addWidget(remove_);
   row->addWidget(keep_);
+  top().addWidget(state_);
   top().addLayout(row);
   auto* content = new QWidget(this);
   table_ = new FiguresTable(tarePageColumns(), content);
@@ -255,6 +257,7 @@ void TarePage::showState() {
                   : live() && added_ ? "Added to the recording that is running."
                   : live() && any && !recordingRuns_ ? "Record (Ctrl+R) to add this tare."
                                                      : "");
+  state_->setVisible(!state_->text().isEmpty());
   keep_->setEnabled(any && (!live() || recordingRuns_));
   remove_->setVisible(kept);
 }

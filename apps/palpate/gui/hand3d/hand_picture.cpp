@@ -65,10 +65,16 @@ double paintSphereText(QPainter& painter,
                     top,
                     area.width() - 2.0 * kHandPictureMargin,
                     metrics.height());
-  const QString shorter = text.section(", ", 1);
-  painter.drawText(line,
-                   Qt::AlignLeft | Qt::AlignVCenter,
-                   metrics.horizontalAdvance(text) <= line.width() ? text : shorter);
+  const QString shown =
+      metrics.horizontalAdvance(text) <= line.width() ? text : text.section(", ", 1);
+  // The hand may lie behind it.
+  constexpr double kAround = 4.0;  // [px]
+  QColor behind = colorsOf(options.page.theme).window;
+  behind.setAlphaF(0.8F);
+  painter.fillRect(QRectF(line.topLeft(), QSizeF(metrics.horizontalAdvance(shown), line.height()))
+                       .adjusted(-kAround, 0.0, kAround, 0.0),
+                   behind);
+  painter.drawText(line, Qt::AlignLeft | Qt::AlignVCenter, shown);
   return line.bottom() + 6.0;
 }
 

@@ -115,7 +115,8 @@ std::vector<ManualHit> ManualPages::search(const QString& words, std::size_t mos
                       .position = static_cast<int>(at),
                       .length = static_cast<int>(wanted.size()),
                       .title = title(name),
-                      .line = text.mid(from, end < 0 ? -1 : end - from)});
+                      .line = text.mid(from, end < 0 ? -1 : end - from),
+                      .inLine = static_cast<int>(at - from)});
     }
   }
   return hits;

@@ -32,6 +32,8 @@ struct ManualHit {
   // The title of the page, and the line in which it is.
   QString title;
   QString line;
+  // Where it is in the line [characters].
+  int inLine = 0;
 };
 
 class ManualPages {

@@ -122,8 +122,16 @@ ManualWindow::ManualWindow(const std::filesystem::path& folder, Theme theme, QWi
   page->setSpacing(0);
   page->addWidget(makeTop());
   page->addWidget(halves, 1);
-  const QSize available = screen()->availableSize();
-  resize(kUsualManual.boundedTo(available * kManualScreenPart));
+  const QRect available = screen()->availableGeometry();
+  resize(kUsualManual.boundedTo(available.size() * kManualScreenPart));
+  // Over the other window, but with its title bar on the screen: Qt counts that only once the
+  // window manager has drawn it.
+  constexpr int kTitleBar = 36;  // [px]
+  const QPoint wanted = (parent ? parent->window()->geometry() : available).center() -
+                        QPoint(width() / 2, height() / 2);
+  const QPoint last = available.bottomRight() - QPoint(width(), height());
+  move(std::max(available.left(), std::min(wanted.x(), last.x())),
+       std::max(available.top() + kTitleBar, std::min(wanted.y(), last.y())));
   halves->setSizes({width() / 4, width() - width() / 4});
   addKeys();
   buildContents();
@@ -271,19 +279,27 @@ void ManualWindow::follow(const QString& link) {
 
 void ManualWindow::search() {
   hits_ = pages_.search(words_->text());
+  rowHits_.clear();
   const QSignalBlocker quiet(results_);
   results_->clear();
-  for (const ManualHit& hit : hits_) {
+  int seenTo = 0;  // on the page of the last row [characters]
+  for (std::size_t i = 0; i < hits_.size(); ++i) {
+    const ManualHit& hit = hits_[i];
+    const bool samePage = i > 0 && hits_[i - 1].page == hit.page;
+    // The last row shows it already.
+    if (samePage && hit.position + hit.length <= seenTo) continue;
     constexpr int kShown = 120;  // characters of the line
-    const qsizetype in = hit.line.indexOf(words_->text().simplified(), 0, Qt::CaseInsensitive);
-    const qsizetype from = std::max<qsizetype>(0, in - kShown / 3);
-    results_->addItem(hit.title + "\n" + (from > 0 ? "… " : "") + hit.line.mid(from, kShown));
+    const int from = std::max(0, hit.inLine - kShown / 3);
+    const QString excerpt = hit.line.mid(from, kShown);
+    seenTo = hit.position - hit.inLine + from + static_cast<int>(excerpt.size());
+    results_->addItem(hit.title + "\n" + (from > 0 ? "… " : "") + excerpt);
+    rowHits_.push_back(i);
   }
   left_->setCurrentWidget(words_->text().isEmpty() ? static_cast<QWidget*>(contents_) : results_);
   markHits();
   if (words_->text().isEmpty()) return say({});
   say(hits_.empty() ? QString("Not found on any page")
-                    : "Found at " + QString::fromStdString(counted(hits_.size(), "place")));
+                    : "Found at " + QString::fromStdString(counted(rowHits_.size(), "place")));
 }
 
 // All places on this page are marked, the chosen one strongest.
@@ -295,7 +311,8 @@ void ManualWindow::markHits() {
     mark.cursor = QTextCursor(browser_->document());
     mark.cursor.setPosition(hits_[i].position);
     mark.cursor.setPosition(hits_[i].position + hits_[i].length, QTextCursor::KeepAnchor);
-    const bool chosen = static_cast<int>(i) == results_->currentRow();
+    const int row = results_->currentRow();
+    const bool chosen = row >= 0 && rowHits_[static_cast<std::size_t>(row)] == i;
     mark.format.setBackground(chosen ? colorsOf(theme_).accent : colorsOf(theme_).accentSoft);
     mark.format.setForeground(chosen ? colorsOf(theme_).window : colorsOf(theme_).text);
     marks.append(mark);
@@ -304,8 +321,8 @@ void ManualWindow::markHits() {
 }
 
 void ManualWindow::showHit(int row) {
-  if (row < 0 || row >= static_cast<int>(hits_.size())) return;
-  const ManualHit& hit = hits_[static_cast<std::size_t>(row)];
+  if (row < 0 || row >= static_cast<int>(rowHits_.size())) return;
+  const ManualHit& hit = hits_[rowHits_[static_cast<std::size_t>(row)]];
   if (hit.page != page_) {
     before_.push_back(here());
     after_.clear();
@@ -313,7 +330,7 @@ void ManualWindow::showHit(int row) {
   }
   markHits();
   browser_->scrollTo(hit.position);
-  say(QString("Place %1 of %2").arg(row + 1).arg(hits_.size()));
+  say(QString("Place %1 of %2").arg(row + 1).arg(rowHits_.size()));
 }
 
 void ManualWindow::nextHit() {

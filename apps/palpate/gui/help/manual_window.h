@@ -77,6 +77,8 @@ class ManualWindow : public QDialog {
   std::vector<Place> before_;
   std::vector<Place> after_;
   std::vector<ManualHit> hits_;
+  // For each row of the results its first hit; a row has all hits that its excerpt shows.
+  std::vector<std::size_t> rowHits_;
   ManualBrowser* browser_;
   QTreeWidget* contents_;
   QListWidget* results_;

@@ -101,6 +101,7 @@ void matricesPainterPaintNames(QPainter& painter,
   painter.setPen(colorsOf(options.theme).muted);
   for (std::size_t m = 0; m < geometry.numMatrices(); ++m) {
     const QRectF rect = geometry.nameRect(m);
+    if (rect.height() <= 0.0) continue;  // no room for names
     const QString name =
         matrixNameWithin(hand, m, [&](const QString& shortened) { return fits(shortened, rect); });
     painter.drawText(rect.adjusted(0, 0, 0, -3),

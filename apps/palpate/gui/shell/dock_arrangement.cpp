@@ -23,9 +23,9 @@ constexpr int kNarrowestRightLive = 330;
 constexpr double kRightShareLive = 0.24;
 constexpr int kLeftLiveWidth = 380;     // [px]
 constexpr double kBottomShare = 0.235;  // of the window's height
-// Lines of text that the bottom dock has room for, whatever its share; a recording has rows of
-// events, too.
-constexpr int kBottomLines = 11, kBottomLinesLive = 9;
+// Lines of text that the bottom dock has room for, whatever its share; below a recording there are
+// rows of events, too, unless the window is low.
+constexpr int kBottomLines = 11, kFewBottomLines = 9;
 // Share of the height for the bottom dock below a dock that the user asked for.
 constexpr double kBottomBelow = 0.17;
 // Below this height of the window [px] there is no room for both docks.
@@ -225,11 +225,12 @@ void DockArrangement::reset() {
   if (live && leftWhileLive())
     window_.resizeDocks({leftWhileLive()->dock}, {kLeftLiveWidth}, Qt::Horizontal);
   if (bottom())
-    window_.resizeDocks({bottom()->dock},
-                        {std::max(static_cast<int>(window_.height() * kBottomShare),
-                                  (live ? kBottomLinesLive : kBottomLines) *
-                                      bottom()->dock->fontMetrics().lineSpacing())},
-                        Qt::Vertical);
+    window_.resizeDocks(
+        {bottom()->dock},
+        {std::max(static_cast<int>(window_.height() * kBottomShare),
+                  (live || window_.height() < kLowWindow ? kFewBottomLines : kBottomLines) *
+                      bottom()->dock->fontMetrics().lineSpacing())},
+        Qt::Vertical);
   keepWindowSize(before, nullptr);
 }
 

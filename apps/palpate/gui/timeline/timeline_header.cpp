@@ -5,6 +5,7 @@
 #include <QLabel>
 #include <QPainter>
 #include <QToolButton>
+#include <algorithm>
 #include <utility>
 
 namespace palpate::gui {
@@ -62,9 +63,31 @@ bool Legend::isCut() const { return places(width()).size() < entries_.size(); }
 
 void Legend::fit() {
   const std::vector<QPoint> at = places(width());
-  const int lines = at.empty() ? 1 : at.back().y() + 1;
+  int lines = at.empty() ? 1 : at.back().y() + 1;
+  if (at.size() < entries_.size()) lines = std::max(lines, dotsPlace().y() + 1);
   if (lines == std::exchange(lines_, lines)) return;
   updateGeometry();
+}
+
+// Behind the last name or, where there is too little room, on the next line.
+QPoint Legend::dotsPlace() const {
+  const std::vector<QPoint> at = places(width());
+  if (at.empty()) return {};
+  const int end = at.back().x() + kTimelineHeaderStroke + kAfterStroke +
+                  fontMetrics().horizontalAdvance(entries_[at.size() - 1].name) + kAfterName;
+  const bool fits = end + fontMetrics().horizontalAdvance("…") <= width();
+  if (!fits && at.back().y() + 1 < kMostLegendLines) return {0, at.back().y() + 1};
+  return {end, at.back().y()};
+}
+
+QRect Legend::dotsRect() const {
+  if (!isCut()) return {};
+  const int line = fontMetrics().height();
+  const QPoint at = dotsPlace();
+  return {at.x(),
+          (height() - lines_ * line) / 2 + at.y() * line,
+          fontMetrics().horizontalAdvance("…"),
+          line};
 }
 
 void Legend::resizeEvent(QResizeEvent* event) {
@@ -82,7 +105,6 @@ void Legend::paintEvent(QPaintEvent*) {
   const std::vector<QPoint> at = places(width());
   const int line = fontMetrics().height();
   const int top = (height() - lines_ * line) / 2;
-  int end = 0;  // of the last name that has room
   for (std::size_t i = 0; i < at.size(); ++i) {
     const Entry& entry = entries_[i];
     const int nameWidth = fontMetrics().horizontalAdvance(entry.name);
@@ -96,12 +118,10 @@ void Legend::paintEvent(QPaintEvent*) {
     x += kTimelineHeaderStroke + kAfterStroke;
     painter.setPen(colorsOf(theme_).text);
     painter.drawText(QRect(x, y, nameWidth + 2, line), Qt::AlignVCenter, entry.name);
-    end = x + nameWidth + kAfterName;
   }
   if (at.size() == entries_.size()) return;
   painter.setPen(colorsOf(theme_).muted);
-  painter.drawText(
-      QRect(end, top + (lines_ - 1) * line, width() - end, line), Qt::AlignVCenter, "…");
+  painter.drawText(dotsRect(), Qt::AlignVCenter | Qt::TextDontClip, "…");
 }
 
 TimelineHeader::TimelineHeader(const Actions& actions, QWidget* parent) : QWidget(parent) {

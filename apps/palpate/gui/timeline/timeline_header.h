@@ -32,6 +32,8 @@ class Legend : public QWidget {
   QSize minimumSizeHint() const override { return {40, sizeHint().height()}; }
   // Whether some names have no room.
   bool isCut() const;
+  // Where "…" stands for the entries that have no room [px]; empty: all have some.
+  QRect dotsRect() const;
 
  protected:
   void paintEvent(QPaintEvent* event) override;
@@ -41,6 +43,8 @@ class Legend : public QWidget {
  private:
   // Where the entries stand that have room in a width [px]: x [px], and the index of the line.
   std::vector<QPoint> places(int roomPx) const;
+  // Where "…" stands: x [px], and the index of the line.
+  QPoint dotsPlace() const;
   // Takes the height that the entries need.
   void fit();
 

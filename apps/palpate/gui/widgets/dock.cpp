@@ -42,7 +42,9 @@ Dock::Dock(const QString& name, QWidget* content, QWidget* header, QWidget* pare
 int Dock::contentWidth() const {
   int width = minimumSizeHint().width();
   if (const auto* area = qobject_cast<const ContentScroll*>(widget()))
-    width = std::max(width, area->widget()->minimumSizeHint().width());
+    width = std::max(
+        width,
+        area->widget()->minimumSizeHint().width() + area->verticalScrollBar()->sizeHint().width());
   else if (const auto* plain = qobject_cast<const QScrollArea*>(widget()))
     width = std::max(width,
                      plain->widget()->minimumSizeHint().width() +

@@ -1,5 +1,6 @@
 #include "gui/widgets/elided_text.h"
 
+#include <QFontMetrics>
 #include <QLabel>
 
 namespace palpate::gui {
@@ -8,6 +9,17 @@ void showElided(QLabel* label, const QString& text, int widthPx) {
   label->setText(label->fontMetrics().elidedText(text, Qt::ElideMiddle, widthPx));
   label->setToolTip(label->text() == text ? QString() : text);
   label->setAccessibleName(text);
+}
+
+QString withShorterPath(const QString& text, const QFontMetrics& metrics, int widthPx) {
+  const qsizetype begin = text.indexOf('/'), name = text.lastIndexOf('/');
+  if (begin == name || metrics.horizontalAdvance(text) <= widthPx)
+    return metrics.elidedText(text, Qt::ElideRight, widthPx);
+  const QString before = text.left(begin), after = text.mid(name);
+  const int room = widthPx - metrics.horizontalAdvance(before + after);
+  if (room >= metrics.horizontalAdvance("…"))
+    return before + metrics.elidedText(text.mid(begin, name - begin), Qt::ElideRight, room) + after;
+  return metrics.elidedText("…" + after, Qt::ElideRight, widthPx);
 }
 
 }  // namespace palpate::gui

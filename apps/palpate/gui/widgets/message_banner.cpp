@@ -1,5 +1,6 @@
 #include "gui/widgets/message_banner.h"
 
+#include <QEvent>
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QToolButton>
@@ -20,6 +21,7 @@ MessageBanner::MessageBanner(QWidget* parent, const QString& name, const QString
   setAttribute(Qt::WA_StyledBackground);
   text_ = new LongWordLabel(this);
   text_->setObjectName(part + "Text");
+  text_->installEventFilter(this);
   close_ = new QToolButton(this);
   close_->setObjectName(part + "Close");
   close_->setProperty("flat", true);
@@ -63,6 +65,20 @@ void MessageBanner::showLines() {
   for (const Line& line : lines_) texts.append(line.text);
   text_->setText(texts.join('\n'));
   setVisible(!texts.isEmpty());
+  askForHeight();
+}
+
+void MessageBanner::askForHeight() {
+  if (isHidden()) return;
+  // The height for a width is never below the least height.
+  text_->setMinimumHeight(0);
+  text_->setMinimumHeight(text_->heightForWidth(text_->width()));
+}
+
+bool MessageBanner::eventFilter(QObject* watched, QEvent* event) {
+  if (watched == text_ && (event->type() == QEvent::Resize || event->type() == QEvent::FontChange))
+    askForHeight();
+  return QWidget::eventFilter(watched, event);
 }
 
 QString MessageBanner::message() const { return text_->text(); }

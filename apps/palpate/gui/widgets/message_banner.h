@@ -34,12 +34,17 @@ class MessageBanner : public QWidget {
   // Emitted for every message that is added.
   void said(const QString& message);
 
+ protected:
+  bool eventFilter(QObject* watched, QEvent* event) override;
+
  private:
   struct Line {
     QString topic;
     QString text;
   };
   void showLines();
+  // All lines are seen: other parts of the window are squeezed instead.
+  void askForHeight();
 
   QList<Line> lines_;
   QLabel* text_;

@@ -2,6 +2,8 @@
 
 #include <QPainter>
 
+#include "gui/widgets/elided_text.h"
+
 namespace palpate::gui {
 namespace {
 
@@ -55,7 +57,7 @@ void StatusStrip::paintEvent(QPaintEvent*) {
     painter.setPen(color);
     painter.drawText(QRect(x, 0, end - x, height()),
                      Qt::AlignLeft | Qt::AlignVCenter,
-                     fontMetrics().elidedText(text, Qt::ElideRight, end - x));
+                     withShorterPath(text, fontMetrics(), end - x));
     x += advance(text) + kStatusStripBetween;
   };
   item(status_.state, status_.lamp == Status::Lamp::kWarning ? colors.warning : colors.text);
