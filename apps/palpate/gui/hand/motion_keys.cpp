@@ -19,6 +19,10 @@ bool isWindowOrPartOf(const QWidget& widget, const QWidget* window) {
 
 }  // namespace
 
+QString refusalOf(const QAction& action) {
+  return action.property(kRefusalProperty).toString() + ": " + action.toolTip();
+}
+
 MotionKeys::MotionKeys(QList<QAction*> actions, QWidget* window, QObject* parent)
     : QObject(parent), actions_(std::move(actions)), window_(window) {
   qApp->installEventFilter(this);
@@ -37,7 +41,7 @@ bool MotionKeys::eventFilter(QObject* watched, QEvent* event) {
     lastPress_ = key->timestamp();
     if (!same) {
       emit refusedAction(action);
-      emit refused(action->text().remove('&') + ": " + action->toolTip());
+      emit refused(refusalOf(*action));
     }
     // What has the focus must not take it for text.
     return true;

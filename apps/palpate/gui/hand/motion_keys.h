@@ -9,6 +9,11 @@
 
 namespace palpate::gui {
 
+// The property of an action with the words for its refusal: "Can't open the hand".
+inline constexpr const char* kRefusalProperty = "refusal";
+// One line that tells why the action can't be taken now: "Can't open the hand: ..".
+QString refusalOf(const QAction& action);
+
 class MotionKeys : public QObject {
   Q_OBJECT
  public:
@@ -16,7 +21,7 @@ class MotionKeys : public QObject {
   MotionKeys(QList<QAction*> actions, QWidget* window, QObject* parent = nullptr);
 
  signals:
-  // One line: "Reactive grasp: A slip-aware grasp holds; Stop (Esc) ends it".
+  // refusalOf() the action.
   void refused(const QString& why);
   // Before refused().
   void refusedAction(const QAction* action);
