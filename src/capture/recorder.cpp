@@ -220,7 +220,7 @@ struct Recorder::Impl {
     const std::lock_guard lock(mutex);
     // A contact began it later than it was asked for.
     if (parts) requestTime.monoUs = parts->startMonoUs();
-    next.freeBytes = ask ? freeNow : status.freeBytes;
+    next.freeBytes = ask ? freeNow : parts ? status.freeBytes : std::nullopt;
     status = std::move(next);
   }
 
