@@ -55,6 +55,28 @@ TEST_F(OfferStripTest, MayOfferAgainWhileItIsAccepted) {
   EXPECT_TRUE(accept()->isHidden());
 }
 
+TEST_F(OfferStripTest, ALongNameNeedsNoMoreWidthThanAShortOne) {
+  offer("Recorded a");
+  const int least = strip_->minimumSizeHint().width();
+  const QString name = "2026-11-26_ceramic_coffee_mug_with_handle_001.palpate";
+  const QString text = "Recorded " + name + ": 108 frames";
+  offer(text);
+  EXPECT_EQ(strip_->minimumSizeHint().width(), least);
+  // All of it is seen: it wraps within the name.
+  auto* label = strip_->findChild<QLabel*>("offerText");
+  label->resize(label->fontMetrics().horizontalAdvance(name) / 2, 400);
+  EXPECT_GE(label->heightForWidth(label->width()), 3 * label->fontMetrics().lineSpacing());
+  EXPECT_EQ(strip_->text(), text);
+}
+
+TEST_F(OfferStripTest, AWarningIsOfOneLineOnly) {
+  offer("Recorded a: 108 frames lost");
+  strip_->warn(true);
+  EXPECT_TRUE(strip_->property("warning").toBool());
+  offer("Recorded b");
+  EXPECT_FALSE(strip_->property("warning").toBool());
+}
+
 TEST_F(OfferStripTest, FileNamesAreNoMarkUp) {
   offer("<b>bold</b>");
   EXPECT_EQ(strip_->findChild<QLabel*>("offerText")->textFormat(), Qt::PlainText);

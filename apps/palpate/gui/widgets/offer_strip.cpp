@@ -1,24 +1,24 @@
 #include "gui/widgets/offer_strip.h"
 
 #include <QHBoxLayout>
-#include <QLabel>
 #include <QPushButton>
+#include <QStyle>
 #include <QToolButton>
 #include <QVBoxLayout>
 #include <utility>
 
 #include "gui/appearance/icons.h"
+#include "gui/widgets/breaking_label.h"
 
 namespace palpate::gui {
 
 OfferStrip::OfferStrip(QWidget* parent) : QWidget(parent) {
   setObjectName("OfferStrip");
   setAttribute(Qt::WA_StyledBackground);
-  text_ = new QLabel(this);
+  text_ = new BreakingLabel(this);
   text_->setObjectName("offerText");
   // File names aren't to be read as HTML.
   text_->setTextFormat(Qt::PlainText);
-  text_->setWordWrap(true);
   text_->setTextInteractionFlags(Qt::TextSelectableByMouse);
   accept_ = new QPushButton(this);
   accept_->setObjectName("offerAccept");
@@ -65,7 +65,8 @@ void OfferStrip::offer(const QString& text,
                        std::function<void()> accept,
                        std::function<void()> decline) {
   removeOthers();
-  text_->setText(text);
+  text_->setWholeText(text);
+  warn(false);
   accept_->setText(button);
   accept_->show();
   onAccept_ = std::move(accept);
@@ -96,7 +97,8 @@ void OfferStrip::removeOthers() {
 
 void OfferStrip::say(const QString& text) {
   removeOthers();
-  text_->setText(text);
+  text_->setWholeText(text);
+  warn(false);
   accept_->hide();
   onAccept_ = {};
   onDecline_ = {};
@@ -109,7 +111,16 @@ void OfferStrip::dismiss() {
   hide();
 }
 
-QString OfferStrip::text() const { return text_->text(); }
+void OfferStrip::warn(bool on) {
+  if (property("warning").toBool() == on) return;
+  setProperty("warning", on);
+  for (QWidget* styled : {static_cast<QWidget*>(this), static_cast<QWidget*>(text_)}) {
+    style()->unpolish(styled);
+    style()->polish(styled);
+  }
+}
+
+QString OfferStrip::text() const { return text_->wholeText(); }
 
 void OfferStrip::setTheme(Theme theme) { close_->setIcon(makeIcon(IconShape::kClose, theme)); }
 
