@@ -158,6 +158,7 @@ TEST_F(RecordFeatureTest, TheQuestionAboutATakeGoesWhenItIsRepeatedElsewhere) {
   QWidget* strip = feature_.strips().back().widget;
   ASSERT_TRUE(offered().contains("Repeat it?")) << offered().toStdString();
   EXPECT_FALSE(strip->isHidden());
+  EXPECT_TRUE(strip->property("warning").toBool());
   feature_.plan().reject(folder_ / "run_001.palpate");
   EXPECT_TRUE(strip->isHidden());
 }

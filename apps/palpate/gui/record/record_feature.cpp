@@ -248,6 +248,7 @@ void RecordFeature::askAbout(const std::filesystem::path& file, OfferStrip& line
         plan_.reject(file);
         state().messages.flash(plan_.nextText());
       });
+  line.warn(true);
   line.offerAlso("Keep", "It counts as it is", [this, file] { plan_.keep(file); });
   if (!take_.paths().empty() && take_.paths().front() == file)
     line.offerAlso("Discard…", "Moves it to the trash, after a question, and repeats it", [this] {
@@ -380,7 +381,10 @@ void RecordFeature::connectUnfinished() {
           offer_->say("Recovering …");
           unfinished_.recover(paths);
         },
-        [this, paths] { unfinished_.ignore(paths); });
+        [this, paths] {
+          unfinished_.ignore(paths);
+          state().messages.flash("Not offered again; File > Recover… finishes it");
+        });
   });
   connect(&unfinished_, &RecoveryFinder::progressed, this, [this](double fraction) {
     offer_->say("Recovering … " + figure(100.0 * fraction, 0) + " %");
