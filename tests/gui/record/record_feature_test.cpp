@@ -103,6 +103,7 @@ TEST_F(RecordFeatureTest, AFileIsNamedOnce) {
   RecordingReport report;
   report.paths = {folder_ / "run_001.palpate", folder_ / "other" / "run_001.palpate"};
   report.frames = 316;
+  report.complete = false;
   report.message = "run_001.palpate could not be finished in /full, where it was begun";
   emit windowState_->live.recordingEnded(report);
   ASSERT_EQ(failed.count(), 1);
