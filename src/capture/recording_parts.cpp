@@ -311,11 +311,29 @@ std::unique_ptr<PalpateWriter> RecordingParts::replaced(
   return next;
 }
 
+// A recording of the same name that is there already would take the continuation for its next part.
+fs::path RecordingParts::freeBaseIn(const fs::path& folder) const {
+  // In the same folder it is the next part.
+  if (folder == folder_) return base_;
+  const auto taken = [this](const fs::path& path) {
+    std::error_code ignored;
+    return fs::exists(fs::symlink_status(path, ignored)) ||
+           (mcap_ && fs::exists(fs::symlink_status(mcapPathOf(path), ignored)));
+  };
+  fs::path base = folder / base_.filename();
+  for (int i = 1; taken(base); ++i) {
+    base = folder / base_.stem();
+    base += "_continued" + (i == 1 ? std::string() : std::to_string(i));
+    base += base_.extension();
+  }
+  return base;
+}
+
 void RecordingParts::continueIn(const fs::path& folder, RoundTime time) {
   const fs::path before = base_;
   const int partBefore = nextPart_;
   const std::vector<fs::path> pathsBefore = paths_;
-  base_ = folder / base_.filename();
+  base_ = freeBaseIn(folder);
   folder_ = folder;
   nextPart_ = 1;
   nextTryMonoUs_ = time.monoUs;
@@ -539,7 +557,9 @@ void RecordingParts::describe(RecorderStatus& status) const {
 std::string RecordingParts::abandonedText() const {
   std::string text = abandoned_.front().filename().string();
   if (abandoned_.size() > 1) text += " and " + std::to_string(abandoned_.size() - 1) + " more";
-  return text + " could not be finished where it was begun: 'palpate recover' finishes it; " +
+  const fs::path folder = abandoned_.front().parent_path();
+  return text + " could not be finished in " + (folder.empty() ? "." : folder.string()) +
+         ", where it was begun: 'palpate recover' finishes it; " +
          paths_.back().filename().string() + " in " + paths_.back().parent_path().string() +
          " continues it";
 }

@@ -77,6 +77,8 @@ class RecordingParts {
   void take(const CaptureItem& item, RoundTime time);
   void open(RoundTime time);
   bool isOfOtherLayout(const TactileFrame& frame) const;
+  // The name of the first part in another folder, as no file there has.
+  std::filesystem::path freeBaseIn(const std::filesystem::path& folder) const;
   std::unique_ptr<PalpateWriter> makeWriter(const std::shared_ptr<const SensorLayout>& layout);
   bool splitDue(const TactileFrame& frame) const;
   void split(const TactileFrame& frame, RoundTime time);

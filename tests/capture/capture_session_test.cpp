@@ -223,6 +223,11 @@ TEST(CaptureSession, linkHealthCountsWhatCame) {
   EXPECT_NEAR(*health.diskHours, 7.2e6 / bytesPerS / 3600.0, 1e-9);
   ASSERT_EQ(health.alarms.size(), 1u);
   EXPECT_EQ(health.alarms[0].kind, AlarmKind::kLowDisk);
+  // The space is that of a recording: without one it is not known any more.
+  scripted.session->stopRecording();
+  scripted.run(0.1);
+  EXPECT_FALSE(scripted.session->health().diskHours);
+  EXPECT_TRUE(scripted.session->health().alarms.empty());
   // No more frames arrive.
   scripted.clock.pass(1'500'000);
   const LinkHealth silent = scripted.session->health();

@@ -151,6 +151,26 @@ TEST(RecorderFaults, aRecordingGoesOnInAnotherFolderWithAllThatWaits) {
   EXPECT_EQ(verifyRecording(report.paths[1]).state, VerifyReport::State::kSound);
 }
 
+// Another recording of the same name is there: the rest isn't to be taken for its second part.
+TEST(RecorderFaults, whatGoesOnInAnotherFolderIsNoPartOfARecordingThatIsThere) {
+  const TemporaryFolder folder;
+  const fs::path other = folder / "other";
+  fs::create_directory(other);
+  writeFile(other / "a.palpate", "another one");
+  FaultyVfs vfs;
+  ScriptedSession scripted(onFaultyDisk());
+  scripted.session->startRecording(to(folder / "a.palpate"));
+  scripted.run(0.5);
+  scripted.session->continueRecordingIn(other);
+  scripted.run(0.5);
+  const RecordingReport report = scripted.session->stopRecording();
+  ASSERT_EQ(report.paths.size(), 2u);
+  EXPECT_EQ(report.paths[1], other / "a_continued.palpate");
+  EXPECT_NE(report.message.find("a.palpate could not be finished in " + folder.path().string()),
+            std::string::npos)
+      << report.message;
+}
+
 // The end by a limit is no reason to lose what waits: it is the same as for one that is stopped.
 TEST(RecorderFaults, aRecordingThatEndsByItselfOnAFailingDiskWaitsForAnotherFolder) {
   const TemporaryFolder folder;

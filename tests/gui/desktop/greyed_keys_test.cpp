@@ -19,6 +19,7 @@ class GreyedKeysTest : public ::testing::Test {
   GreyedKeysTest() {
     open_.setShortcut(QKeySequence("Ctrl+Alt+O"));
     open_.setToolTip("The hand moves: stop it first (Esc)");
+    open_.setProperty(kRefusalProperty, "Can't open the hand");
     window_.addAction(&open_);
     window_.show();
     field_.setFocus();
@@ -38,7 +39,7 @@ TEST_F(GreyedKeysTest, AKeyThatCannotBeTakenSaysWhyOnce) {
   open_.setEnabled(false);
   press(Qt::Key_O, Qt::ControlModifier | Qt::AltModifier);
   ASSERT_EQ(refused_.size(), 1);
-  EXPECT_EQ(refused_[0][0].toString(), "Open the hand: The hand moves: stop it first (Esc)");
+  EXPECT_EQ(refused_[0][0].toString(), "Can't open the hand: The hand moves: stop it first (Esc)");
   EXPECT_EQ(field_.text(), "");
 }
 
@@ -60,7 +61,7 @@ TEST_F(GreyedKeysTest, AWindowThatFloatsSaysTheSame) {
   floating.show();
   QTest::keyClick(&field, Qt::Key_O, Qt::ControlModifier | Qt::AltModifier);
   ASSERT_EQ(refused_.size(), 1);
-  EXPECT_EQ(refused_[0][0].toString(), "Open the hand: The hand moves: stop it first (Esc)");
+  EXPECT_EQ(refused_[0][0].toString(), "Can't open the hand: The hand moves: stop it first (Esc)");
   QDialog dialog(&window_);
   QLineEdit other(&dialog);
   dialog.show();

@@ -142,7 +142,8 @@ TEST_F(SequencePanelTest, ASlipAwareStepNeedsATimeToHold) {
   QObject::connect(
       panel_, &SequencePanel::refused, panel_, [&](const QString& said) { why = said; });
   add("addSlipAware");
-  EXPECT_TRUE(why.contains("needs a time to hold")) << why.toStdString();
+  EXPECT_TRUE(why.contains("needs a time to hold: set it on the page Grasp, More > Hold"))
+      << why.toStdString();
   EXPECT_EQ(find<QListWidget>("sequenceSteps")->count(), 0);
 }
 

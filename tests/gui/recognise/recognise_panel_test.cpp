@@ -5,6 +5,7 @@
 #include <QLineEdit>
 #include <QPainter>
 #include <QPushButton>
+#include <QStandardPaths>
 
 #include "palpate/device/sdh2.h"
 #include "palpate/model/hand_file.h"
@@ -164,6 +165,33 @@ TEST_F(RecognisePanelTest, AModelWithoutAZeroSaysSoBeforeTheHandMoves) {
   EXPECT_FALSE(about->text().contains("reads"));
 }
 
+// A model that was deleted, or lies on a disk that isn't there.
+TEST_F(RecognisePanelTest, AModelThatIsGoneIsSaid) {
+  const QString gone = QString::fromStdString((folder_ / "mine.json").string());
+  settings_.setValue("recognise/model", gone);
+  settings_.setValue("recognise/emulated_model", gone);
+  QStringList said;
+  QObject::connect(
+      &panel_->controller(), &RecognitionController::said, panel_.get(), [&](const QString& text) {
+        said.append(text);
+      });
+  panel_->controller().setEmulated(false);
+  settle();
+  EXPECT_EQ(panel_->controller().whyNoModel(),
+            "The model " + gone +
+                " isn't there any more. Open another one (Model), or train one on the page Teach.");
+  EXPECT_EQ(panel_->controller().answer().text, panel_->controller().whyNoModel());
+  EXPECT_EQ(find<QLabel>("recogniseModel")->text(), "mine.json can't be used");
+  panel_->controller().setEmulated(true);
+  settle();
+  ASSERT_NE(panel_->controller().model(), nullptr);
+  const QString instead =
+      "The model " + gone + " isn't there any more; in use is emulated_objects.json.";
+  EXPECT_EQ(said, QStringList(instead));
+  EXPECT_TRUE(panel_->controller().answer().text.startsWith(instead))
+      << panel_->controller().answer().text.toStdString();
+}
+
 TEST_F(RecognisePanelTest, AFolderTeachesAndIsChecked) {
   panel_->teaching().setFolder(teach({"ball", "pen"}, 5));
   settle();
@@ -172,7 +200,12 @@ TEST_F(RecognisePanelTest, AFolderTeachesAndIsChecked) {
   EXPECT_EQ(objects->item(1, 0)->text(), "pen");
   EXPECT_EQ(objects->item(1, 1)->text(), "5");
   const auto out = folder_ / "mine.json";
-  panel_->teach().askForPlace = [&](const QString&) { return out; };
+  panel_->teach().askForPlace = [&](const QString& suggestion) {
+    EXPECT_EQ(suggestion,
+              QStandardPaths::writableLocation(QStandardPaths::DocumentsLocation) + "/objects.json")
+        << "not beside the recordings";
+    return out;
+  };
   find<QPushButton>("teachTrain")->click();
   settle();
   EXPECT_EQ(find<QLabel>("recogniseModel")->text(), "mine.json · 2 objects · best, gauss");

@@ -241,6 +241,55 @@ TEST_F(RecogniseLiveTest, TheShowNamesWhatIsHeldNowAndNothingThatWasLetGo) {
   EXPECT_EQ(full->view().answer().name(), "");
 }
 
+// A name must not look like one of now when nothing arrives from the hand.
+TEST_F(RecogniseLiveTest, WithoutFramesNothingIsNamedAsHeldNow) {
+  window().docks().show("Recognise");
+  moveTo(1.0);
+  press(Qt::Key_Q, Qt::ShiftModifier);
+  auto* full = window().findChild<PresentationWindow*>("showWindow");
+  ASSERT_NE(full, nullptr);
+  const auto& dockView = panel().ask().view();
+  const auto* ask = find<QPushButton>("whatIsIt");
+  ASSERT_TRUE(await([&] { return full->view().answer().name() == "pen"; }));
+  EXPECT_EQ(full->view().stale(), "");
+  EXPECT_TRUE(ask->isEnabled());
+  EmulatedHand& hand = *window().state().live.source()->emulated;
+  hand.mute(true);
+  ASSERT_TRUE(await([&] { return !full->view().stale().isEmpty(); }));
+  EXPECT_TRUE(full->view().stale().startsWith("no frame for "))
+      << full->view().stale().toStdString();
+  EXPECT_EQ(full->view().accessibleName(), full->view().stale());
+  EXPECT_EQ(full->view().answer().name(), "pen") << "greyed, it stays";
+  EXPECT_EQ(dockView.stale(), full->view().stale());
+  EXPECT_EQ(answer().of, kLastGrasp);
+  EXPECT_FALSE(ask->isEnabled());
+  QTest::keyClick(full, Qt::Key_Q);
+  EXPECT_EQ(answer().text, "No frames arrive: what is held isn't known.");
+  // Asked again or felt again, it is named again.
+  QStringList named;
+  QObject::connect(&panel().controller(),
+                   &RecognitionController::answered,
+                   full,
+                   [&](const RecognitionAnswer& each) { named.append(each.of + each.name()); });
+  hand.mute(false);
+  ASSERT_TRUE(await([&] { return full->view().stale().isEmpty(); }));
+  EXPECT_EQ(full->view().answer().name(), "");
+  EXPECT_TRUE(ask->isEnabled());
+  EXPECT_TRUE(await([&] { return full->view().answer().name() == "pen"; }))
+      << named.join("; ").toStdString();
+}
+
+TEST_F(RecogniseWindowTest, TheButtonIsCalledAsInTheTextsAboutIt) {
+  window().docks().show("Recognise");
+  settle();
+  EXPECT_EQ(find<QPushButton>("whatIsIt")->text(), "What is it?  (Q)");
+  EXPECT_EQ(answer().text.toStdString(),
+            "No model is chosen. Open one (Model), or train one on the page Teach.");
+  panel().controller().useEmulatedModel();
+  settle();
+  EXPECT_TRUE(answer().text.endsWith("then press What is it? (Q).")) << answer().text.toStdString();
+}
+
 TEST_F(RecogniseLiveTest, TheShowHasAStopThatStopsTheHandAndSaysWhatItDoes) {
   press(Qt::Key_Q, Qt::ShiftModifier);
   auto* full = window().findChild<PresentationWindow*>("showWindow");
@@ -260,7 +309,7 @@ TEST_F(RecogniseLiveTest, TheShowHasAStopThatStopsTheHandAndSaysWhatItDoes) {
   EXPECT_TRUE(await([&] { return said->text().contains("deg/s"); })) << said->text().toStdString();
   ASSERT_TRUE(await([&] { return !window().state().actions.at("graspHand")->isEnabled(); }));
   grasp();
-  EXPECT_EQ(said->text().toStdString(), "Grasp: A plain grasp runs; Stop (Esc) ends it");
+  EXPECT_EQ(said->text().toStdString(), "Can't grasp: A plain grasp runs; Stop (Esc) ends it");
   QTest::mouseClick(stop, Qt::LeftButton);
   EXPECT_TRUE(await([&] { return control().status().phase == GraspPhase::kIdle; }));
   EXPECT_TRUE(await([&] { return said->text() == "stopped by the user"; }))

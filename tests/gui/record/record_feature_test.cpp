@@ -93,6 +93,21 @@ TEST_F(RecordFeatureTest, WhatTheConnectionLostIsSaid) {
   emit windowState_->live.recordingEnded(report);
   EXPECT_TRUE(offered().endsWith("6 frames lost on the way from the hand, 24 bad checksums"))
       << offered().toStdString();
+  EXPECT_TRUE(feature_.strips().back().widget->property("warning").toBool());
+  endRecording();
+  EXPECT_FALSE(feature_.strips().back().widget->property("warning").toBool());
+}
+
+TEST_F(RecordFeatureTest, AFileIsNamedOnce) {
+  QSignalSpy failed(&windowState_->messages, &Messages::failed);
+  RecordingReport report;
+  report.paths = {folder_ / "run_001.palpate", folder_ / "other" / "run_001.palpate"};
+  report.frames = 316;
+  report.complete = false;
+  report.message = "run_001.palpate could not be finished in /full, where it was begun";
+  emit windowState_->live.recordingEnded(report);
+  ASSERT_EQ(failed.count(), 1);
+  EXPECT_EQ(failed[0][1].toString(), QString::fromStdString(report.message));
 }
 
 TEST_F(RecordFeatureTest, TheLastRecordingCanBeRenamedAndDiscarded) {
@@ -144,6 +159,7 @@ TEST_F(RecordFeatureTest, TheQuestionAboutATakeGoesWhenItIsRepeatedElsewhere) {
   QWidget* strip = feature_.strips().back().widget;
   ASSERT_TRUE(offered().contains("Repeat it?")) << offered().toStdString();
   EXPECT_FALSE(strip->isHidden());
+  EXPECT_TRUE(strip->property("warning").toBool());
   feature_.plan().reject(folder_ / "run_001.palpate");
   EXPECT_TRUE(strip->isHidden());
 }

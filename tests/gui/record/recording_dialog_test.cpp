@@ -117,6 +117,30 @@ TEST_F(RecordingDialogTest, TheNextNameIsSeenWhileTyping) {
   EXPECT_FALSE(find<QLabel>("recordingProblem")->isVisible());
 }
 
+TEST_F(RecordingDialogTest, ReturnOnCancelCancels) {
+  type("recordingObject", "cup");
+  auto* cancel = find<QPushButton>("recordingCancel");
+  cancel->setFocus();
+  ASSERT_EQ(dialog_->focusWidget(), cancel);
+  QTest::keyClick(cancel, Qt::Key_Return);
+  EXPECT_FALSE(dialog_->isVisible());
+  EXPECT_EQ(dialog_->result(), QDialog::Rejected);
+}
+
+TEST_F(RecordingDialogTest, AFolderWithLittleSpaceSaysSo) {
+  dialog_->freeBytes = [](const fs::path&) { return std::uint64_t{200'000}; };
+  type("recordingObject", "cup");
+  EXPECT_EQ(place(), "in " + given_.folder + ": only 0.2 MB free");
+  dialog_->freeBytes = [](const fs::path&) { return std::uint64_t{65'000'000'000}; };
+  type("recordingObject", "mug");
+  EXPECT_EQ(place(), "in " + given_.folder);
+}
+
+TEST_F(RecordingDialogTest, WhatNeverHappensIsSaidInWords) {
+  for (const char* field : {"recordingSplitMinutes", "recordingSplitMb"})
+    EXPECT_EQ(find<QAbstractSpinBox>(field)->text(), "never");
+}
+
 TEST_F(RecordingDialogTest, WhatOthersRecordMeanwhileIsCounted) {
   testing::writeFile(folder_ / "2014-11-27_foam_ball_001.palpate", "");
   EXPECT_TRUE(

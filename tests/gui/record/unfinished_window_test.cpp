@@ -61,6 +61,7 @@ TEST_F(UnfinishedWindowTest, ClosedItIsNotOfferedAgain) {
   window().feature<RecordFeature>().offerUnfinished();
   ASSERT_TRUE(await([&] { return offered().contains("run.palpate"); }));
   QTest::mouseClick(find<QToolButton>("offerClose"), Qt::LeftButton);
+  EXPECT_EQ(window().state().messages.flashed(), "Not offered again; File > Recover… finishes it");
   start();
   EXPECT_EQ(look(), 0);
   EXPECT_EQ(offered(), "");

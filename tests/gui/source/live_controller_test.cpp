@@ -193,6 +193,22 @@ TEST_F(LiveControllerTest, GoneWithoutAWordItFinishesToo) {
   EXPECT_EQ(verifyRecording(folder_ / "run.palpate").state, VerifyReport::State::kSound);
 }
 
+// The folder in which nothing more is written isn't checked meanwhile.
+TEST_F(LiveControllerTest, ARecordingThatGoesOnElsewhereIsCheckedThere) {
+  live_.setFolder("/proc");
+  live_.connectTo(emulated("empty"));
+  const auto toldOfProc = [&] {
+    return live_.preflight() && live_.preflight()->text.find("/proc ") != std::string::npos;
+  };
+  ASSERT_TRUE(await(toldOfProc));
+  live_.startRecording(recordTo("run.palpate"));
+  ASSERT_TRUE(await([&] { return live_.health().recorder.framesOnDisk > 3; }));
+  const auto other = folder_ / "other";
+  std::filesystem::create_directory(other);
+  live_.continueRecordingIn(other);
+  EXPECT_TRUE(await([&] { return !toldOfProc(); }));
+}
+
 TEST_F(LiveControllerTest, SilenceMakesThePictureOldUntilFramesComeAgain) {
   live_.connectTo(state());
   ASSERT_TRUE(await([&] { return !live_.stale(); }));

@@ -79,6 +79,14 @@ TEST_F(OfferStripTest, MayOfferAgainWhileItIsAccepted) {
   EXPECT_TRUE(accept()->isHidden());
 }
 
+TEST_F(OfferStripTest, AWarningIsOfOneLineOnly) {
+  offer("Recorded a: 108 frames lost");
+  strip_->warn(true);
+  EXPECT_TRUE(strip_->property("warning").toBool());
+  offer("Recorded b");
+  EXPECT_FALSE(strip_->property("warning").toBool());
+}
+
 TEST_F(OfferStripTest, FileNamesAreNoMarkUp) {
   offer("<b>bold</b>");
   EXPECT_EQ(strip_->findChild<QLabel*>("offerText")->textFormat(), Qt::PlainText);

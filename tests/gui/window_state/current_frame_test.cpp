@@ -60,6 +60,17 @@ TEST_F(CurrentFrameTest, AHeldLivePictureStandsStillAndSaysSo) {
   EXPECT_EQ(first.count(), 0) << "it is the same source";
 }
 
+TEST_F(CurrentFrameTest, SilenceIsToldWithOneDuration) {
+  connectEmulated();
+  windowState_->live.source()->emulated->mute(true);
+  ASSERT_TRUE(QTest::qWaitFor(
+      [&] { return currentFrame_.old().notice.contains("check power and cable"); }, 20'000));
+  EXPECT_TRUE(currentFrame_.old().notice.startsWith("no frame for "));
+  EXPECT_EQ(currentFrame_.old().notice.count(" s:"), 1);
+  EXPECT_FALSE(currentFrame_.old().notice.contains("no frames for "))
+      << currentFrame_.old().notice.toStdString();
+}
+
 TEST_F(CurrentFrameTest, WhatIsNotConnectedAnyMoreDoesNotLookLikeNow) {
   connectEmulated();
   QStringList notices;

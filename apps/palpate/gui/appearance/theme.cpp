@@ -99,6 +99,8 @@ QLabel[role="warning"] { color: @warning; }
 #AlarmStrip { background: @dangerSoft; border-bottom: 1px solid @danger; }
 #CountdownStrip { background: @dangerSoft; border-bottom: 1px solid @danger; }
 #OfferStrip { background: @accentSoft; border-bottom: 1px solid @accent; }
+#OfferStrip[warning="true"] { background: @panel; border-bottom: 1px solid @warning; }
+#OfferStrip[warning="true"] QLabel { color: @warning; }
 #LinkPill { background: @dangerSoft; border: 1px solid @warning; border-radius: 10px; padding: 2px 10px; margin: 0 4px; color: @warning; }
 #LinkPill[good="true"] { background: @accentSoft; border-color: @accentSoft; color: @accent; }
 QToolButton[recording="true"] { background: @dangerSoft; border: 1px solid @danger; color: @danger; font-weight: bold; }

@@ -4,6 +4,7 @@
 #include <QApplication>
 #include <QDialog>
 #include <QKeyEvent>
+#include <QPushButton>
 #include <QToolButton>
 
 namespace palpate::gui {
@@ -18,8 +19,10 @@ bool ButtonKeys::eventFilter(QObject* watched, QEvent* event) {
   if (key->key() == Qt::Key_Space) return button->property(kMovesHand).toBool();
   const bool presses = key->key() == Qt::Key_Return || key->key() == Qt::Key_Enter;
   const bool plain = (key->modifiers() & ~Qt::KeypadModifier) == Qt::NoModifier;
-  // A dialogue handles these keys itself, by its default button.
-  if (!presses || !plain || qobject_cast<QDialog*>(button->window())) return false;
+  if (!presses || !plain) return false;
+  // In a dialogue a check box leaves these keys to the default button. A button that isn't meant
+  // for the default, such as Cancel, would do so, too, but the user sees the focus on it.
+  if (qobject_cast<QDialog*>(button->window()) && !qobject_cast<QPushButton*>(button)) return false;
   // A key that is held down presses the button only once.
   if (event->type() == QEvent::KeyPress && !key->isAutoRepeat() && button->isEnabled()) {
     auto* tool = qobject_cast<QToolButton*>(button);

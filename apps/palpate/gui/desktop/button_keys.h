@@ -1,5 +1,5 @@
-// Makes Return and Enter press the button that has the focus, everywhere in the window as in a
-// dialogue. Space marks a moment or plays; it never presses a button that moves the hand.
+// Makes Return and Enter press the button that has the focus, everywhere in the window and in
+// dialogues. Space marks a moment or plays; it never presses a button that moves the hand.
 #pragma once
 
 #include <QObject>

@@ -22,6 +22,11 @@ bool isWindowOrPartOf(const QWidget& widget, const QWidget* window) {
 
 }  // namespace
 
+QString refusalOf(const QAction& action, const QString& why) {
+  const QString own = action.property(kRefusalProperty).toString();
+  return (own.isEmpty() ? action.text().remove('&').remove("…") : own) + ": " + why;
+}
+
 GreyedKeys::GreyedKeys(QList<QAction*> actions,
                        std::function<QString(const QAction&)> why,
                        QWidget* window,
@@ -51,7 +56,7 @@ bool GreyedKeys::refuse(const QKeyEvent& key) {
     lastPress_ = key.timestamp();
     if (!same) {
       emit refusedAction(action);
-      emit refused(action->text().remove('&').remove("…") + ": " + why);
+      emit refused(refusalOf(*action, why));
     }
     // What has the focus must not take it for text.
     return true;

@@ -15,6 +15,12 @@ class QWidget;
 
 namespace palpate::gui {
 
+// The property of an action with the words for its refusal: "Can't open the hand"; without it the
+// action's own text is used.
+inline constexpr const char* kRefusalProperty = "refusal";
+// One line that tells why the action can't be taken now: "Can't open the hand: ..".
+QString refusalOf(const QAction& action, const QString& why);
+
 class GreyedKeys : public QObject {
   Q_OBJECT
  public:
@@ -26,7 +32,7 @@ class GreyedKeys : public QObject {
              QObject* parent = nullptr);
 
  signals:
-  // One line: "Reactive grasp: The hand holds what it has grasped: stop it first (Esc)".
+  // refusalOf() the action.
   void refused(const QString& why);
   // Before refused().
   void refusedAction(const QAction* action);

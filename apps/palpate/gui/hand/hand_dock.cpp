@@ -13,6 +13,7 @@
 #include <QVBoxLayout>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <palpate/capture/link_health.h>
 #include <palpate/core/time.h>
@@ -20,6 +21,7 @@
 
 #include "gui/appearance/captions.h"
 #include "gui/desktop/button_keys.h"
+#include "gui/desktop/greyed_keys.h"
 #include "gui/hand/grasp_panel.h"
 #include "gui/hand/hand_feature.h"
 #include "gui/hand/joint_panel.h"
@@ -204,6 +206,7 @@ void HandDock::connectMotions() {
     connect(panel, &Panel::begins, this, &HandDock::clearAnswers);
     connect(panel, &Panel::refused, this, [this](const QString& why) {
       said_ = why;
+      emit explained(why);
       // What the hand does hides said_.
       if (control_ && control_->status().phase != GraspPhase::kIdle) answer(why, nullptr);
     });
@@ -302,8 +305,7 @@ bool HandDock::eventFilter(QObject* watched, QEvent* event) {
 
 void HandDock::answerKey(const QAction* action) {
   for (const auto& [each, button] : bound_)
-    if (each == action && !button->isEnabled())
-      answer(button->text() + ": " + button->toolTip(), button);
+    if (each == action && !button->isEnabled()) answer(refusalOf(*action, action->toolTip()), button);
 }
 
 void HandDock::answer(const QString& why, const QAbstractButton* button) {
@@ -558,6 +560,8 @@ void HandDock::showState(const GraspStatus& status) {
     case GraspOutcome::kRelaxed:
       return say(text, false);
     default:
+      if (std::exchange(explainedEndUs_, status.last->endUs) != status.last->endUs)
+        emit explained(text);
       return say(text, true);
   }
 }

@@ -90,6 +90,8 @@ class HandDock : public QWidget {
   void reachedChanged(bool reached);
   // What the hand does, or why it can't; `bad`: it needs attention.
   void stateShown(const QString& text, bool bad);
+  // A motion was refused, or has ended by itself in another way than asked for: why. Once for each.
+  void explained(const QString& why);
   // Why matrices cannot detect the chosen limit: one text for each matrix, empty when it can; an
   // empty vector when all can.
   void unmeasurableChanged(const std::vector<QString>& why);
@@ -168,6 +170,8 @@ class HandDock : public QWidget {
   std::int64_t refusedUs_ = 0;
   bool limitRefused_ = false;
   bool limitMeasurable_ = false;
+  // GraspReport::endUs of the last motion that was told by explained().
+  std::int64_t explainedEndUs_ = 0;
   // The number of a field that was out of range; shown below or above what the hand does.
   QString correction_;
   const QObject* correctedField_ = nullptr;  // the field that it is about

@@ -15,6 +15,11 @@ HandActions::HandActions(ActionRegistry& book) {
   slipAwareGrasp = book.make("slipAwareGrasp", "Hand", "Slip-&aware grasp", {key("Ctrl+Alt+S")});
   openHand = book.make("openHand", "Hand", "&Open the hand", {key("Ctrl+Alt+O")});
   relaxHand = book.make("relaxHand", "Hand", "Rela&x", {key("Ctrl+Alt+X")});
+  graspHand->setProperty(kRefusalProperty, "Can't grasp");
+  reactiveGrasp->setProperty(kRefusalProperty, "Can't begin a reactive grasp");
+  slipAwareGrasp->setProperty(kRefusalProperty, "Can't begin a slip-aware grasp");
+  openHand->setProperty(kRefusalProperty, "Can't open the hand");
+  relaxHand->setProperty(kRefusalProperty, "Can't relax the hand");
   stopHand = book.make("stopHand", "Hand", "&Stop the hand (Esc)");
 }
 
@@ -39,6 +44,9 @@ HandFeature::HandFeature(WindowState& windowState, QWidget* window)
   windowState.handCommands.stop = actions_.stopHand;
   windowState.handCommands.motions = motions;
   connect(panel_, &HandDock::stateShown, &windowState.handCommands, &HandCommands::setHandState);
+  connect(panel_, &HandDock::explained, this, [this, &windowState](const QString& why) {
+    if (!panel_->isVisible()) windowState.messages.flash(why);
+  });
   LiveController& live = windowState.live;
   connect(&live, &LiveController::sourceOpened, this, [this, &live] {
     panel_->setHand(live.source()->session.get(), live.source()->control.get());

@@ -201,6 +201,12 @@ void SequencePanel::fillAddMenu() {
 
 // Behind the chosen step, if it can be done by this hand.
 void SequencePanel::add(SequenceStep step) {
+  // The time beside Add is that of a step Hold or Wait.
+  if (step.kind == StepKind::kGrasp && step.request.mode == GraspMode::kSlip &&
+      step.request.holding.holdS <= 0.0)
+    return emit refused(
+        "a slip-aware grasp in a sequence needs a time to hold: set it on the page Grasp, More > "
+        "Hold");
   MotionSequence alone;
   alone.hand = movableHand().name;
   alone.steps = {step};

@@ -23,9 +23,20 @@ AnswerView::AnswerView(PhotoCache& photos, double scale, QWidget* parent)
 
 void AnswerView::setAnswer(const RecognitionAnswer& answer) {
   answer_ = answer;
-  setAccessibleName(answer.accessibleText());
+  renewAccessibleName();
   askForHeight();
   update();
+}
+
+void AnswerView::setStale(const QString& reason) {
+  if (reason == stale_.notice) return;
+  stale_.notice = reason;
+  renewAccessibleName();
+  update();
+}
+
+void AnswerView::renewAccessibleName() {
+  setAccessibleName(stale_.notice.isEmpty() ? answer_.accessibleText() : stale_.notice);
 }
 
 void AnswerView::setTheme(Theme theme) {
@@ -84,6 +95,11 @@ void AnswerView::paintEvent(QPaintEvent*) {
   QPainter painter(this);
   paintAnswer(
       painter, QRectF(rect()).adjusted(air, air, -air, -air), answer_, photo(), theme_, unit);
+  if (stale_.notice.isEmpty()) return;
+  QFont large = font();
+  large.setPixelSize(std::max(1, static_cast<int>(unit)));
+  painter.setFont(large);
+  paintStaleNotice(painter, rect(), stale_, theme_);
 }
 
 }  // namespace palpate::gui

@@ -3,6 +3,7 @@
 
 #include <QWidget>
 
+#include "gui/picture/stale_notice.h"
 #include "gui/recognise/object_photo.h"
 #include "gui/recognise/recognition_answer.h"
 
@@ -15,6 +16,9 @@ class AnswerView : public QWidget {
   AnswerView(PhotoCache& photos, double scale, QWidget* parent = nullptr);
   void setAnswer(const RecognitionAnswer& answer);
   const RecognitionAnswer& answer() const noexcept { return answer_; }
+  // Greys the answer, with the reason why it isn't of now; empty: it is current.
+  void setStale(const QString& reason);
+  const QString& stale() const noexcept { return stale_.notice; }
   void setTheme(Theme theme);
   // Height of plain text [px] with which the answer is painted now.
   double textHeight() const;
@@ -32,10 +36,12 @@ class AnswerView : public QWidget {
   double neededHeight(double unit) const;
   // Text of a given size is never cut: the view asks for the height of all lines.
   void askForHeight();
+  void renewAccessibleName();
 
   PhotoCache& photos_;
   const double scale_;
   RecognitionAnswer answer_;
+  StaleNotice stale_;
   Theme theme_ = Theme::kDark;
 };
 

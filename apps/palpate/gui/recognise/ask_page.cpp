@@ -41,7 +41,7 @@ AskPage::AskPage(RecognitionController& controller, QWidget* parent)
           &QAction::triggered,
           &controller_,
           &RecognitionController::useEmulatedModel);
-  ask_ = new QPushButton(this);
+  ask_ = new QPushButton("What is it?  (Q)", this);
   ask_->setObjectName("whatIsIt");
   ask_->setProperty("primary", true);
   QFont large = ask_->font();
@@ -118,16 +118,15 @@ AskPage::AskPage(RecognitionController& controller, QWidget* parent)
             .toStdString());
   };
   view_->setAnswer(controller_.answer());
-  setLive(false, false);
+  setLive(false);
   showModel();
 }
 
-void AskPage::setLive(bool live, bool held) {
-  const QString text = !live  ? "What is it?  (Q)"
-                       : held ? "What do you hold?  (Q)"
-                              : "What was it?  (Q)";
-  if (ask_->text() != text) ask_->setText(text);
+void AskPage::setLive(bool live, const QString& silence) {
   byItself_->setVisible(live);
+  ask_->setEnabled(silence.isEmpty());
+  ask_->setToolTip(silence);
+  view_->setStale(silence);
 }
 
 bool AskPage::byItself() const { return byItself_->isChecked(); }

@@ -24,9 +24,9 @@ class AskPage : public QWidget {
  public:
   explicit AskPage(RecognitionController& controller, QWidget* parent = nullptr);
   void setTheme(Theme theme);
-  // `live`: a connected hand is shown; `held`: something is held. The label of the button depends
-  // on both.
-  void setLive(bool live, bool held);
+  // `live`: a connected hand is shown, which can be asked repeatedly. `silence`: why nothing
+  // arrives from it, so that it can't be asked; empty: frames arrive.
+  void setLive(bool live, const QString& silence = {});
   bool byItself() const;
   AnswerView& view() noexcept { return *view_; }
 

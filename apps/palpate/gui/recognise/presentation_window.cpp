@@ -107,7 +107,8 @@ QWidget* PresentationWindow::makeHandRow() {
 }
 
 void PresentationWindow::showHand() {
-  const bool refused = !refused_.isEmpty();
+  // What is wrong with the hand comes first; the dock Hand adds its answer to the key.
+  const bool refused = !refused_.isEmpty() && !hand_.handStateBad();
   const ThemeColors& colors = colorsOf(theme_);
   handState_->setText(refused ? refused_ : hand_.handState());
   const QColor color = refused                ? colors.warning
@@ -123,7 +124,17 @@ void PresentationWindow::setLive(bool live) {
   showAnswer();
 }
 
+void PresentationWindow::setSilence(const QString& why) {
+  if (why == view_->stale()) return;
+  view_->setStale(why);
+  // Only a name stays below the reason: what the audience is asked to do isn't possible.
+  if (view_->answer().name().isEmpty()) view_->setAnswer({});
+  showAnswer();
+}
+
 void PresentationWindow::showAnswer() {
+  // An answer that was of now stays below the reason why it isn't any more.
+  if (!view_->stale().isEmpty()) return;
   RecognitionAnswer answer = controller_.answer();
   const bool ofNow = answer.of.isEmpty() || answer.of == kHeldNow;
   if (answer.of == kLastGrasp || (live_ && !ofNow)) answer = {};

@@ -29,6 +29,9 @@ class PresentationWindow : public QWidget {
   AnswerView& view() noexcept { return *view_; }
   // `live`: a connected hand is shown, so that answers about recordings are left out.
   void setLive(bool live);
+  // Why nothing arrives from the hand; the answer is greyed and stays so long. Empty: frames
+  // arrive.
+  void setSilence(const QString& why);
 
  signals:
   void asked();

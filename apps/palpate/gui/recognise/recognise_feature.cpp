@@ -86,6 +86,10 @@ void RecogniseFeature::connectAll() {
   connect(&windowState.live, &LiveController::leaving, this, [this] { listen(false); });
   connect(&liveTimer_, &QTimer::timeout, this, &RecogniseFeature::readLiveGrasps);
   liveTimer_.setInterval(kHearingMs);
+  connect(&windowState.currentFrame,
+          &CurrentFrame::staleNoticeChanged,
+          this,
+          &RecogniseFeature::followSilence);
   windowState.escapeHandler.add(EscapeHandler::Order::kShow, [this] { return cancel(); });
 }
 
@@ -95,8 +99,9 @@ void RecogniseFeature::renew() {
   const LiveSource* source = state().live.source();
   const LiveSource* shown = state().displayed.source();
   if (full_) full_->setLive(shown != nullptr);
+  if (full_) full_->setSilence(silence());
   panel_->controller().setEmulated(shown && shown->emulated);
-  panel_->ask().setLive(shown != nullptr, collector_ && collector_->touched());
+  panel_->ask().setLive(shown != nullptr, silence());
   panel_->teach().setLive(source != nullptr);
   if (!source || !source->control)
     panel_->today().setZeroPossible(!source                  ? "No hand is connected."
@@ -149,6 +154,8 @@ void RecogniseFeature::askOfHand() {
   RecognitionController& controller = panel_->controller();
   if (!collector_) return controller.showProblem("No hand is connected.");
   sinceAsked_ = 0;
+  if (!silence().isEmpty())
+    return controller.showProblem("No frames arrive: what is held isn't known.", kHeldNow);
   if (auto held = collector_->now())
     return controller.ask({std::move(*held), std::nullopt, kHeldNow});
   if (collector_->touched())
@@ -156,6 +163,25 @@ void RecogniseFeature::askOfHand() {
                                   kHeldNow);
   if (lastGrasp_) return controller.ask({*lastGrasp_, std::nullopt, kLastGrasp});
   controller.showProblem("Nothing is held, and there is no last grasp.", kHeldNow);
+}
+
+QString RecogniseFeature::silence() const {
+  const LiveSource* shown = state().displayed.source();
+  if (!shown || shown->finished() || !state().live.stale()) return {};
+  const StaleNotice& old = state().currentFrame.old();
+  if (!old.held) return old.notice;
+  // The picture is held, and below it nothing arrives.
+  return QString(old.notice).remove(kHeldText).mid(2);
+}
+
+// What was held is not known to be held any more. When frames arrive again, nothing is named until
+// it is asked or felt again.
+void RecogniseFeature::followSilence() {
+  const QString why = silence();
+  const bool silent = !why.isEmpty();
+  if (full_) full_->setSilence(why);
+  if (silent != std::exchange(silent_, silent)) panel_->controller().contactEnded();
+  panel_->ask().setLive(state().displayed.isLive(), why);
 }
 
 void RecogniseFeature::listen(bool on) {
@@ -204,7 +230,7 @@ void RecogniseFeature::readLiveGrasps() {
   ++sinceAsked_;
   if (full_) full_->setLive(state().displayed.isLive());
   if (!state().displayed.isLive() || (!dock_->isVisible() && !full_)) return;
-  panel_->ask().setLive(true, collector_->touched());
+  if (silent_) return;
   if ((panel_->ask().byItself() || full_) && sinceAsked_ >= kAskAgainRounds &&
       collector_->touchedS() >= kSteadyS && !panel_->controller().busy())
     askOfHand();

@@ -53,6 +53,11 @@ class RecogniseFeature : public Feature {
   void askOfRecording();
   void askOfHand();
   void listen(bool on);
+  // Frames have ceased to arrive from the shown hand, or arrive again.
+  void followSilence();
+  // Why nothing arrives from the shown hand; empty: frames arrive, or no hand is shown. A replay
+  // that has ended can still be asked about its last grasp.
+  QString silence() const;
   // Processes the items that arrived from the hand since the last call, without asking a question.
   void takeItems();
   // Called by a timer: processes new items, continues a zero measurement, and asks repeatedly when
@@ -81,6 +86,8 @@ class RecogniseFeature : public Feature {
   std::vector<CaptureItem> items_;
   std::optional<Profile> lastGrasp_;
   QTimer liveTimer_;
+  // The contact ended because no frames arrive.
+  bool silent_ = false;
   // Calls of the timer since the last question.
   int sinceAsked_ = 0;
   // Null when the connected source cannot be moved.

@@ -23,7 +23,7 @@ RecognitionController::RecognitionController(QSettings& settings,
                                              std::filesystem::path dataFolder,
                                              QObject* parent)
     : QObject(parent), settings_(settings), emulatedModel_(dataFolder / kEmulatedModel) {
-  answer_.text = kHowToAsk;
+  answer_.text = hint();
   connect(&opening_, &BackgroundJob::failed, this, [this](const QString& message) {
     setModel(std::nullopt, path_);
     modelProblem_ = message;
@@ -54,13 +54,27 @@ void RecognitionController::setEmulated(bool emulated) {
 void RecognitionController::takeDefault() {
   std::error_code ignored;
   std::filesystem::path path = settings_.value(settingsKey()).toString().toStdString();
-  if (path.empty() || !std::filesystem::exists(path, ignored))
+  QString gone;
+  if (!path.empty() && !std::filesystem::exists(path, ignored))
+    gone = "The model " + QString::fromStdString(path.string()) + " isn't there any more";
+  const std::filesystem::path last = path;
+  if (path.empty() || !gone.isEmpty())
     path = emulated_ && std::filesystem::exists(emulatedModel_, ignored) ? emulatedModel_
                                                                          : std::filesystem::path();
-  if (path == path_ && (session_ || path.empty())) return;
-  if (!path.empty()) return openModel(path);
+  if (gone.isEmpty() && path == path_ && (session_ || path.empty())) return;
+  if (!path.empty()) {
+    openModel(path);
+    if (gone.isEmpty()) return;
+    fallback_ = gone + "; in use is " + QString::fromStdString(path.filename().string()) + ".";
+    emit said(fallback_);
+    return sayHowToAsk();
+  }
   path_.clear();
-  setModel(std::nullopt, {});
+  setModel(std::nullopt, gone.isEmpty() ? std::filesystem::path() : last);
+  if (gone.isEmpty()) return;
+  modelProblem_ = gone + ". Open another one (Model), or train one on the page Teach.";
+  emit modelChanged();
+  showProblem(modelProblem_);
 }
 
 void RecognitionController::useEmulatedModel() { openModel(emulatedModel_); }
@@ -68,6 +82,7 @@ void RecognitionController::useEmulatedModel() { openModel(emulatedModel_); }
 void RecognitionController::openModel(const std::filesystem::path& path) {
   path_ = path;
   modelProblem_.clear();
+  fallback_.clear();
   auto read = std::make_shared<std::optional<TrainedModel>>();
   opening_.cancel();
   opening_.start(
@@ -82,6 +97,7 @@ void RecognitionController::openModel(const std::filesystem::path& path) {
 
 void RecognitionController::takeModel(TrainedModel model, const std::filesystem::path& path) {
   opening_.cancel();
+  fallback_.clear();
   settings_.setValue(settingsKey(), QString::fromStdString(path.string()));
   setModel(std::move(model), path);
 }
@@ -99,7 +115,7 @@ void RecognitionController::setModel(std::optional<TrainedModel> model,
   ++generation_;
   // The answer of the previous model is removed.
   answer_ = {};
-  answer_.text = kHowToAsk;
+  answer_.text = hint();
   emit modelChanged();
   emit sessionChanged();
   emit answered(answer_);
@@ -218,9 +234,15 @@ void RecognitionController::contactEnded() {
   emit answered(answer_);
 }
 
+QString RecognitionController::hint() const {
+  const QString why = whyNoModel();
+  if (!why.isEmpty()) return why;
+  return fallback_.isEmpty() ? QString(kHowToAsk) : fallback_ + "\n" + kHowToAsk;
+}
+
 void RecognitionController::sayHowToAsk() {
   RecognitionAnswer answer;
-  answer.text = kHowToAsk;
+  answer.text = hint();
   showAnswer(answer);
 }
 

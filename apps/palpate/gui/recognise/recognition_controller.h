@@ -85,6 +85,8 @@ class RecognitionController : public QObject {
   void setModel(std::optional<TrainedModel> model, const std::filesystem::path& path);
   void takeDefault();
   void classify(const ChosenGrasp& chosen, const QString& of);
+  // What the user can do: ask, or choose a model first.
+  QString hint() const;
   void sayHowToAsk();
   void showAnswer(RecognitionAnswer answer);
   bool isEmulatedModel() const;
@@ -96,6 +98,8 @@ class RecognitionController : public QObject {
   bool started_ = false;
   std::filesystem::path path_, photoFolder_;
   QString modelProblem_;
+  // The model that was used last isn't there any more, and which one is used instead; may be empty.
+  QString fallback_;
   std::unique_ptr<RecognitionSession> session_;
   RecognitionAnswer answer_;
   // The last evaluated grasp, and its RecognitionAnswer::of.

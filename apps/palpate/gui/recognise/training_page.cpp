@@ -2,6 +2,7 @@
 
 #include <QComboBox>
 #include <QCompleter>
+#include <QDir>
 #include <QFileDialog>
 #include <QHBoxLayout>
 #include <QLabel>
@@ -9,6 +10,7 @@
 #include <QPushButton>
 #include <QSignalBlocker>
 #include <QStandardItemModel>
+#include <QStandardPaths>
 #include <QVBoxLayout>
 #include <array>
 
@@ -365,8 +367,10 @@ bool TrainingPage::undo() {
 
 void TrainingPage::train() {
   const auto& folder = controller_.folder();
-  const auto out = askForPlace(
-      QString::fromStdString((folder.parent_path() / folder.filename()).string()) + ".json");
+  // Not beside the recordings: they may be shared, or read-only.
+  const QString documents = QStandardPaths::writableLocation(QStandardPaths::DocumentsLocation);
+  const auto out = askForPlace((documents.isEmpty() ? QDir::homePath() : documents) + "/" +
+                               QString::fromStdString(folder.filename().string()) + ".json");
   if (out.empty()) {
     emit controller_.said("Nothing was trained: no file was chosen for the model");
     return;

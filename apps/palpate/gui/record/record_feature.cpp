@@ -76,18 +76,25 @@ QString missingText(const RecordingReport& report) {
   return missingS < kLeastToldS ? QString() : ": " + figure(missingS, 1) + " s are missing";
 }
 
+std::int64_t counterOf(const RecordingReport& report, const char* name) {
+  const auto at = report.counters.find(name);
+  return at == report.counters.end() ? std::int64_t{0} : at->second;
+}
+
+bool missesSomething(const RecordingReport& report) {
+  return !report.complete || report.lost > 0 || report.gaps > 0 || counterOf(report, "lost") > 0 ||
+         !report.mcapFailure.empty();
+}
+
 QString summaryOf(const RecordingReport& report) {
   QString text = QString::fromStdString(report.paths.front().filename().string());
   if (report.paths.size() > 1) text += " and " + QString::number(report.paths.size() - 1) + " more";
   text += ": " + countedText(static_cast<std::int64_t>(report.frames), "frame");
   if (report.complete) text += " in " + figure(report.durationS, 1) + " s";
   text += ", " + megabytes(report.bytes);
-  const auto counter = [&report](const char* name) {
-    const auto at = report.counters.find(name);
-    return at == report.counters.end() ? std::int64_t{0} : at->second;
-  };
-  const std::int64_t notReceived = counter("lost");
-  const std::int64_t badChecksums = counter("bad_checksums") + counter("motion_bad_checksums");
+  const std::int64_t notReceived = counterOf(report, "lost");
+  const std::int64_t badChecksums =
+      counterOf(report, "bad_checksums") + counterOf(report, "motion_bad_checksums");
   if (notReceived > 0)
     text += ", " + countedText(notReceived, "frame") + " lost on the way from the hand";
   if (badChecksums > 0) text += ", " + countedText(badChecksums, "bad checksum");
@@ -244,6 +251,7 @@ void RecordFeature::askAbout(const std::filesystem::path& file, OfferStrip& line
         plan_.reject(file);
         state().messages.flash(plan_.nextText());
       });
+  line.warn(true);
   line.offerAlso("Keep", "It counts as it is", [this, file] { plan_.keep(file); });
   if (!take_.paths().empty() && take_.paths().front() == file)
     line.offerAlso("Discard…", "Moves it to the trash, after a question, and repeats it", [this] {
@@ -376,7 +384,10 @@ void RecordFeature::connectUnfinished() {
           offer_->say("Recovering …");
           unfinished_.recover(paths);
         },
-        [this, paths] { unfinished_.ignore(paths); });
+        [this, paths] {
+          unfinished_.ignore(paths);
+          state().messages.flash("Not offered again; File > Recover… finishes it");
+        });
   });
   connect(&unfinished_, &RecoveryFinder::progressed, this, [this](double fraction) {
     offer_->say("Recovering … " + figure(100.0 * fraction, 0) + " %");
@@ -552,6 +563,9 @@ void RecordFeature::offer(const RecordingReport& report) {
   Messages& messages = state().messages;
   plan_.end(report);
   showState();
+  // It may have been continued in another folder than that of the next one.
+  takeFolder();
+  state().live.setFolder(settings_.folder.toStdString());
   if (std::exchange(waitsForDisk_, false) && offering_) offer_->dismiss();
   if (report.paths.empty()) {
     if (report.nothingTouched) {
@@ -569,14 +583,18 @@ void RecordFeature::offer(const RecordingReport& report) {
   take_.set(report.paths);
   const QString summary = summaryOf(report);
   messages.logLink("recorded " + summary);
-  if (!report.complete)
-    messages.fail(QString::fromStdString(report.paths.front().filename().string()) +
-                  (report.lost > 0 ? ": something is missing: " : ": ") +
-                  QString::fromStdString(report.message));
+  if (!report.complete) {
+    const QString name = QString::fromStdString(report.paths.front().filename().string());
+    const QString why = QString::fromStdString(report.message);
+    // The message may begin with the name.
+    messages.fail((why.startsWith(name) ? "" : name + ": ") +
+                  (report.lost > 0 ? "something is missing: " : "") + why);
+  }
   const QString plan = plan_.plan().find(report.paths.front()) && plan_.followed()
                            ? " · " + plan_.progressText() + ", " + plan_.nextText()
                            : QString();
   offerTake("Recorded " + summary + plan);
+  if (offering_ && missesSomething(report)) offer_->warn(true);
 }
 
 // The line about the last recording goes when something new begins.

@@ -17,6 +17,7 @@
 #include <QVBoxLayout>
 #include <algorithm>
 
+#include "gui/appearance/captions.h"
 #include "gui/record/key_labels.h"
 #include "gui/record/recording_timing.h"
 #include "gui/widgets/content_scroll.h"
@@ -36,6 +37,10 @@ constexpr int kRecordingDialogLeastScroll = 150;
 constexpr int kRecordingDialogFrame = 44;
 // [ms]; {time} changes, and other programs may write into the folder
 constexpr int kRecordingDialogRefreshMs = 1000;
+
+// Less free space than this is said [bytes].
+constexpr double kLittleSpace = 1e9;
+constexpr double kMegabyte = 1e6;
 
 // Style of the dialog's own parts, with palette colours so that it follows the theme.
 constexpr const char* kRecordingDialogStyle = R"(
@@ -351,9 +356,13 @@ void RecordingDialog::showTexts() {
   showElided(
       name_, QString::fromStdString(next_.path.filename().string()), name_->contentsRect().width());
   const QString folder = QString::fromStdString(next_.path.parent_path().string());
-  showElided(place_,
-             next_.folderWillBeMade ? "in " + folder + ", which will be created" : "in " + folder,
-             place_->contentsRect().width());
+  QString place = "in " + folder;
+  if (next_.folderWillBeMade) place += ", which will be created";
+  const auto free = freeBytes(next_.path.parent_path());
+  const bool isLittle = free && static_cast<double>(*free) < kLittleSpace;
+  if (isLittle) place += ": only " + figure(static_cast<double>(*free) / kMegabyte, 1) + " MB free";
+  place_->setStyleSheet(isLittle ? "color: palette(bright-text);" : "");
+  showElided(place_, place, place_->contentsRect().width());
 }
 
 void RecordingDialog::accept() {

@@ -5,8 +5,12 @@
 
 #include <QDialog>
 #include <QString>
+#include <cstdint>
+#include <filesystem>
 #include <functional>
+#include <optional>
 
+#include <palpate/capture/recorder.h>
 #include <palpate/core/time.h>
 
 #include "gui/source/recording_settings.h"
@@ -39,6 +43,9 @@ class RecordingDialog : public QDialog {
 
   // Asks the user for a folder; an empty answer changes nothing. Tests replace it.
   std::function<QString(const QString& begin)> askForFolder;
+  // The free space of the folder's disk, said while it is little; empty: not known. Tests replace
+  // it.
+  std::function<std::optional<std::uint64_t>(const std::filesystem::path&)> freeBytes = freeBytesOf;
 
  public slots:
   // Closes the dialog only when recordings can be made with these settings.

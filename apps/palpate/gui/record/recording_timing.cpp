@@ -132,7 +132,7 @@ RecordingTiming::RecordingTiming(QWidget* parent)
                               Limits::kMostSplitMinutes,
                               2,
                               " min",
-                              "any time",
+                              "never",
                               "After so many minutes the recording goes on in a new file: "
                               "NAME_002.palpate, .. Nothing is lost in between",
                               made);
@@ -141,7 +141,7 @@ RecordingTiming::RecordingTiming(QWidget* parent)
                          Limits::kMostSplitMb,
                          1,
                          " MB",
-                         "any size",
+                         "never",
                          "At about so many megabytes the recording goes on in a new file",
                          made);
   form->addRow("Ne&w file every",

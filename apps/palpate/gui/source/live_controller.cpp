@@ -261,9 +261,18 @@ void LiveController::startRecording(std::function<RecordingOptions()> make) {
 
 void LiveController::continueRecordingIn(const std::filesystem::path& folder) {
   if (!source_ || !recording_) return;
-  inWorker([this, folder, source = source_] {
+  inWorker([this, folder, source = source_, generation = generation_] {
     try {
       source->session->continueRecordingIn(folder);
+      // The folder that can't be written isn't checked meanwhile.
+      QMetaObject::invokeMethod(
+          this,
+          [this, folder, generation] {
+            if (generation != generation_ || !recording_) return;
+            folder_ = folder;
+            check();
+          },
+          Qt::QueuedConnection);
     } catch (const std::exception& failure) {
       const QString error = QString::fromUtf8(failure.what());
       QMetaObject::invokeMethod(

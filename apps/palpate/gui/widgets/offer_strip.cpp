@@ -1,8 +1,8 @@
 #include "gui/widgets/offer_strip.h"
 
 #include <QHBoxLayout>
-#include <QLabel>
 #include <QPushButton>
+#include <QStyle>
 #include <QToolButton>
 #include <QVBoxLayout>
 #include <utility>
@@ -63,6 +63,7 @@ void OfferStrip::offer(const QString& text,
                        std::function<void()> decline) {
   removeOthers();
   text_->setText(text);
+  warn(false);
   accept_->setText(button);
   accept_->show();
   onAccept_ = std::move(accept);
@@ -94,6 +95,7 @@ void OfferStrip::removeOthers() {
 void OfferStrip::say(const QString& text) {
   removeOthers();
   text_->setText(text);
+  warn(false);
   accept_->hide();
   onAccept_ = {};
   onDecline_ = {};
@@ -104,6 +106,15 @@ void OfferStrip::dismiss() {
   onAccept_ = {};
   onDecline_ = {};
   hide();
+}
+
+void OfferStrip::warn(bool on) {
+  if (property("warning").toBool() == on) return;
+  setProperty("warning", on);
+  for (QWidget* styled : {static_cast<QWidget*>(this), static_cast<QWidget*>(text_)}) {
+    style()->unpolish(styled);
+    style()->polish(styled);
+  }
 }
 
 QString OfferStrip::text() const { return text_->text(); }

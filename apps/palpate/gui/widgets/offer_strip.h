@@ -8,11 +8,12 @@
 #include "gui/appearance/theme.h"
 
 class QHBoxLayout;
-class QLabel;
 class QPushButton;
 class QToolButton;
 
 namespace palpate::gui {
+
+class QLabel;
 
 class OfferStrip : public QWidget {
   Q_OBJECT
@@ -30,6 +31,8 @@ class OfferStrip : public QWidget {
   void say(const QString& text);
   // Hides the line without calling `decline`.
   void dismiss();
+  // Shows the present line in the colours of a warning: something isn't as it should be.
+  void warn(bool on);
   QString text() const;
   void setTheme(Theme theme);
 

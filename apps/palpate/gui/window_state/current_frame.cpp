@@ -7,6 +7,17 @@
 #include "gui/appearance/captions.h"
 
 namespace palpate::gui {
+namespace {
+
+// A device says how long it heard nothing when it noticed that: "no frames for 0.5 s; check power".
+// The notice has a duration of its own, which goes on.
+QString withoutDuration(const QString& why) {
+  constexpr const char* kDuration = "no frames for ";
+  if (!why.startsWith(kDuration)) return why;
+  return why.contains("; ") ? why.section("; ", 1) : QString();
+}
+
+}  // namespace
 
 CurrentFrame::CurrentFrame(DisplayedSource& displayed,
                            ActiveFilters& activeFilters,
@@ -101,7 +112,8 @@ void CurrentFrame::renewLiveNotice() {
     const PortStatus& port = live_.health().device.tactile;
     notice = !live_.hasReceivedFrames() ? QString("waiting for the first frame")
                                         : "no frame for " + figure(live_.silentS(), 1) + " s";
-    if (!port.message.empty()) notice += ": " + QString::fromStdString(withoutPort(port));
+    const QString why = withoutDuration(QString::fromStdString(withoutPort(port)));
+    if (!why.isEmpty()) notice += ": " + why;
   }
   if (held_) notice = notice.isEmpty() ? QString(kHeldText) : kHeldText + ("; " + notice);
   setStale({notice, held_});
