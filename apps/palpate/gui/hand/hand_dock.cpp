@@ -305,7 +305,8 @@ bool HandDock::eventFilter(QObject* watched, QEvent* event) {
 
 void HandDock::answerKey(const QAction* action) {
   for (const auto& [each, button] : bound_)
-    if (each == action && !button->isEnabled()) answer(refusalOf(*action, action->toolTip()), button);
+    if (each == action && !button->isEnabled())
+      answer(refusalOf(*action, action->toolTip()), button);
 }
 
 void HandDock::answer(const QString& why, const QAbstractButton* button) {

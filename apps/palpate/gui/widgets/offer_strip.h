@@ -8,12 +8,11 @@
 #include "gui/appearance/theme.h"
 
 class QHBoxLayout;
+class QLabel;
 class QPushButton;
 class QToolButton;
 
 namespace palpate::gui {
-
-class QLabel;
 
 class OfferStrip : public QWidget {
   Q_OBJECT
