@@ -572,17 +572,22 @@ TEST_P(TextSizeFitsTest, ALongNameInALineAboveTheViewsLeavesTheWindowItsSize) {
   OfferStrip* offer = nullptr;
   for (OfferStrip* each : window().findChildren<OfferStrip*>()) offer = each;
   ASSERT_NE(offer, nullptr);
-  for (const QSize size : sizes()) {
-    window().resize(size);
-    window().docks().reset();
-    processAll();
-    ASSERT_EQ(window().size(), size);
-    offer->offer("Recorded " + name + ".palpate: 1234 frames", "Open", [] {});
-    window().state().messages.fail(name + ": can't be read");
-    processAll();
-    EXPECT_EQ(window().size(), size);
-    EXPECT_LE(window().minimumSizeHint().width(), size.width());
-    offer->dismiss();
+  for (const bool live : {false, true}) {
+    if (live) connectEmulated();
+    for (const QSize size : sizes()) {
+      window().resize(size);
+      window().docks().reset();
+      if (live) window().docks().show("Recognise");
+      processAll();
+      ASSERT_EQ(window().size(), size);
+      offer->offer("Recorded " + name + ".palpate: 1234 frames", "Open", [] {});
+      offer->offerAlso("Rename…", "", [] {});
+      offer->offerAlso("Discard…", "", [] {});
+      window().state().messages.fail(name + ": can't be read");
+      processAll();
+      EXPECT_EQ(window().size(), size) << (live ? "live" : "recording");
+      offer->dismiss();
+    }
   }
 }
 

@@ -9,6 +9,10 @@ namespace {
 // Below this width [px], views side by side would show less than below one another.
 constexpr int kComfortable = 460;
 
+// Views that are below one another stay so down to this share of the height that they need: a line
+// above them may take some of it, and the window must not become wider for that.
+constexpr double kSqueezed = 0.2;
+
 QSize leastOf(const QWidget& view) { return view.minimumSizeHint().expandedTo(view.minimumSize()); }
 
 }  // namespace
@@ -38,14 +42,18 @@ QSize ViewSplitter::largest() const {
 
 int ViewSplitter::widthSideBySide() const { return std::max(sum().width(), kComfortable); }
 
+bool ViewSplitter::mayStack() const {
+  const double share = orientation() == Qt::Vertical ? kSqueezed : 1.0;
+  return height() >= share * sum().height();
+}
+
 QSize ViewSplitter::minimumSizeHint() const {
   // A splitter that isn't high enough for views below one another needs the width of all.
-  const bool mayStack = height() >= sum().height();
-  return {mayStack ? largest().width() : sum().width(), largest().height()};
+  return {mayStack() ? largest().width() : sum().width(), largest().height()};
 }
 
 void ViewSplitter::arrange() {
-  const bool stacked = width() < widthSideBySide() && height() >= sum().height();
+  const bool stacked = width() < widthSideBySide() && mayStack();
   const Qt::Orientation wanted = stacked ? Qt::Vertical : Qt::Horizontal;
   if (orientation() == wanted) return;
   const QList<int> parts = sizes();

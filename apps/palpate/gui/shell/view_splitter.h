@@ -24,6 +24,8 @@ class ViewSplitter : public QSplitter {
   // largest of them.
   QSize sum() const;
   QSize largest() const;
+  // Whether there is room for the views below one another.
+  bool mayStack() const;
   void arrange();
 };
 

@@ -7,7 +7,7 @@
 namespace palpate::gui {
 namespace {
 
-constexpr int kLeastLetters = 24;  // of a line
+constexpr int kLeastLetters = 10;  // of a line
 constexpr int kHighest = 10'000;   // [px]
 constexpr int kFlags = Qt::AlignLeft | Qt::AlignVCenter | Qt::TextWrapAnywhere;
 
