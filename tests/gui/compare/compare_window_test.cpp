@@ -1,5 +1,7 @@
 // Comparing two recordings, in the window: which ones, how it comes and goes, what is said of odd
 // ones.
+#include <QApplication>
+#include <QComboBox>
 #include <QScrollArea>
 #include <QScrollBar>
 
@@ -171,6 +173,22 @@ TEST_F(CompareWindowTest, EscapeGoesBack) {
   press(Qt::Key_Escape);
   EXPECT_FALSE(window().state().comparison.on());
   EXPECT_FALSE(actions().at("compare")->isChecked());
+}
+
+TEST_F(CompareWindowTest, EscapeInAnOpenListClosesTheListAlone) {
+  open({"early.dsa", "late.dsa"});
+  compareNow();
+  QComboBox* box = nullptr;
+  for (auto* each : window().findChildren<QComboBox*>())
+    if (each->isVisible() && each->count() > 1) box = each;
+  ASSERT_NE(box, nullptr);
+  box->showPopup();
+  ASSERT_NE(QApplication::activePopupWidget(), nullptr);
+  actions().at("dismiss")->trigger();
+  EXPECT_EQ(QApplication::activePopupWidget(), nullptr);
+  EXPECT_TRUE(window().state().comparison.on());
+  press(Qt::Key_Escape);
+  EXPECT_FALSE(window().state().comparison.on());
 }
 
 TEST_F(CompareWindowTest, WithNothingOpenItAsksAndComparesWhatComes) {

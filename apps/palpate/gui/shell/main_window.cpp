@@ -2,6 +2,7 @@
 
 #include <QApplication>
 #include <QCloseEvent>
+#include <QComboBox>
 #include <QStatusBar>
 #include <algorithm>
 
@@ -164,7 +165,15 @@ void MainWindow::connectActions() {
     checkChoice(actions.themes, kAllThemeChoices, look.view().theme);
   });
   EscapeHandler& escapeHandler = windowState_->escapeHandler;
-  connect(actions.dismiss, &QAction::triggered, this, [&escapeHandler] { escapeHandler.press(); });
+  connect(actions.dismiss, &QAction::triggered, this, [&escapeHandler] {
+    // The list of a box that is open is closed, and nothing else.
+    QWidget* popup = QApplication::activePopupWidget();
+    if (!popup) return escapeHandler.press();
+    if (auto* box = qobject_cast<QComboBox*>(popup->parentWidget()))
+      box->hidePopup();
+    else
+      popup->close();
+  });
   escapeHandler.add(EscapeHandler::Order::kAlarm, [this] {
     if (QWidget* field = focusWidget()) field->clearFocus();
     return false;
