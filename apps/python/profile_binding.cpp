@@ -6,6 +6,7 @@
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
+#include "palpate/core/number_text.h"
 #include "palpate/model/timing.h"
 #include "palpate/recording/crop.h"
 #include "palpate/recording/recording.h"
@@ -218,10 +219,11 @@ void save(const Profile& profile,
 }
 
 std::string described(const Profile& profile) {
-  return "<palpate.Profile: " + std::to_string(profile.numFrames()) + " frames, " +
-         std::to_string(profile.layout().numMatrices()) + " matrices, " +
-         std::to_string(profile.numAngles()) + " angle samples, " +
-         std::to_string(profile.numTemperatures()) + " temperature samples>";
+  const std::size_t numMatrices = profile.layout().numMatrices();
+  return "<palpate.Profile: " + counted(profile.numFrames(), "frame") + ", " +
+         std::to_string(numMatrices) + (numMatrices == 1 ? " matrix, " : " matrices, ") +
+         counted(profile.numAngles(), "angle sample") + ", " +
+         counted(profile.numTemperatures(), "temperature sample") + ">";
 }
 
 using ProfileClass = py::class_<Profile>;

@@ -76,6 +76,29 @@ def pressure_series(recordings, out):
           "(study: 31.9 -0.625 0.0978 -3.86e-05, RMSE 2.75 over its 54)")
 
 
+def creep(recordings, _):
+    """How much the sum of the loaded matrix rises under a constant weight, from 1.3 s after the contact."""
+    rises, last_seconds = [], []
+    for path in sorted((recordings / "pressure_calibration").glob("*/[A-H]*.dsa")):
+        profile = palpate.load(path)
+        total = profile.matrix(MATRIX).sum(axis=(1, 2))
+        t = profile.time_s - profile.time_s[np.argmax(total > 0.1 * total.max())]
+        end = t[np.flatnonzero(total > 0.5 * total.max())[-1]]
+
+        def level(at, half):
+            return np.median(total[(t > at - half) & (t < at + half)])
+
+        if end < 11.5:
+            continue
+        rises.append(level(11, 0.5) / level(1.3, 0.3) - 1)
+        last_seconds.append(level(11, 0.5) / level(10, 0.5) - 1)
+    if rises:
+        print(f"creep: the sum rises by {100 * np.median(rises):.0f} % from 1.3 s to 11 s after the contact, by "
+              f"{100 * np.median(last_seconds):.1f} % in the last second (medians of {len(rises)} steps that last)")
+    else:
+        print("creep: no step lasts 11.5 s")
+
+
 def noise_lines(recordings, out):
     """Figure 3.12: the largest reading of unloaded matrices over the temperature nearby."""
     profile = palpate.load(recordings / "calibration_noise" / "temperature-noise.dsa")
@@ -110,7 +133,7 @@ def main():
     parser.add_argument("-o", "--output", type=Path, default=Path("."))
     given = parser.parse_args()
     given.output.mkdir(parents=True, exist_ok=True)
-    for part, work in (("grasps", exemplary_fits), ("pressure_calibration", pressure_series),
+    for part, work in (("grasps", exemplary_fits), ("pressure_calibration", pressure_series), ("pressure_calibration", creep),
                        ("calibration_noise", noise_lines)):
         if (given.recordings / part).is_dir():
             work(given.recordings, given.output)

@@ -93,7 +93,7 @@ void assess(const StepSignal& signal, double taxelAreaMm2, FittedStep& fitted) {
            "lower the threshold");
   }
   if (step.flickerFrames > 0)
-    note(std::to_string(step.flickerFrames) + " frames without any active taxel were bridged");
+    note("bridged: " + counted(step.flickerFrames, "frame") + " without any active taxel");
   const StepFit& fit = fitted.fit;
   if (fit.converged && fit.rmse > kBadRmseShare * std::abs(fit.parameters.staticResponseCounts))
     note("the residuals are " +

@@ -10,6 +10,7 @@
 
 #include "palpate/core/error.h"
 #include "palpate/core/json_field.h"
+#include "palpate/core/number_text.h"
 #include "palpate/core/text_file.h"
 
 #include "model/built_in_hands.h"
@@ -48,7 +49,7 @@ std::string textAt(const JsonField& field, std::string_view key, std::string oth
 Mask maskOf(const JsonField& field, int rows, int columns) {
   const std::vector<JsonField> lines = field.items(static_cast<std::size_t>(kMostSide));
   if (lines.size() != static_cast<std::size_t>(rows))
-    field.fail("has " + std::to_string(lines.size()) + " rows instead of " + std::to_string(rows));
+    field.fail("has " + counted(lines.size(), "row") + " instead of " + std::to_string(rows));
   Mask mask;
   for (const JsonField& line : lines) {
     const std::string row = line.text();
@@ -100,7 +101,7 @@ MatrixSurface surfaceOf(const JsonField& field, const MatrixLayout& layout) {
     const JsonField list = field.at("taxels");
     const std::vector<JsonField> taxels = list.items(layout.numCells());
     if (taxels.size() != layout.numCells())
-      list.fail("has " + std::to_string(taxels.size()) + " items instead of " +
+      list.fail("has " + counted(taxels.size(), "item") + " instead of " +
                 std::to_string(layout.numCells()) + " (one per place, row by row)");
     for (const JsonField& taxel : taxels) {
       taxel.only({"position_mm", "normal"});
@@ -237,7 +238,7 @@ void readPreshapes(const JsonField& root, const HandDescription& hand, HandFile&
     const JsonField list = item.required("joints");
     const std::vector<JsonField> joints = list.items(kMostAxes);
     if (joints.size() != hand.axes.size())
-      list.fail("has " + std::to_string(joints.size()) + " items for " +
+      list.fail("has " + counted(joints.size(), "item") + " for " +
                 std::to_string(hand.axes.size()) + " axes");
     for (std::size_t i = 0; i < joints.size(); ++i) {
       const std::vector<double> line = joints[i].numbers(2, -kFarMm, kFarMm);
@@ -300,7 +301,7 @@ SensorCharacteristics characteristicsOf(const JsonField& field, const SensorLayo
   const JsonField list = field.required("matrices");
   const std::vector<JsonField> items = list.items(kMostMatrices);
   if (items.size() != layout.numMatrices())
-    list.fail("has " + std::to_string(items.size()) + " items for " +
+    list.fail("has " + counted(items.size(), "item") + " for " +
               std::to_string(layout.numMatrices()) + " matrices");
   for (std::size_t m = 0; m < items.size(); ++m)
     sensor.matrices.push_back(matrixCharacteristicsOf(items[m], layout.matrix(m)));

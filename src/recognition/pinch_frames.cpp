@@ -4,6 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "palpate/core/number_text.h"
 #include "palpate/kinematics/joint_range.h"
 
 namespace palpate {
@@ -50,7 +51,7 @@ PinchFrames readPinch(const Profile& profile,
   const std::size_t count = grasp.end - grasp.begin + 1;
   out.problem = hand.mismatch(profile);
   if (out.problem.empty() && count < kMinPinchFrames)
-    out.problem = "half a grasp: " + std::to_string(count) + " frames, of at least " +
+    out.problem = "half a grasp: " + counted(count, "frame") + ", of at least " +
                   std::to_string(kMinPinchFrames);
   if (out.problem.empty() && profile.numAngles() == 0) out.problem = "no joint angles";
   if (!out.problem.empty()) return out;

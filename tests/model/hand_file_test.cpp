@@ -106,7 +106,7 @@ TEST(HandFile, NamesThePlaceOfAFault) {
   expectFault(R"({"format": "x"})", "format is not");
   expectFault(R"({"format": "palpate-hand", "version": 2})", "newer Palpate");
   expectFault(handText(R"(, "colour": 1)"), "unknown key 'colour'");
-  expectFault(handText("", R"(, "mask": ["###"])"), "matrices[0].mask has 1 rows instead of 2");
+  expectFault(handText("", R"(, "mask": ["###"])"), "matrices[0].mask has 1 row instead of 2");
   expectFault(handText("", R"(, "mask": ["##", "###"])"), "mask[0] has 2 characters instead of 3");
   expectFault(handText("", R"(, "mask": ["##x", "###"])"), "mask[0] contains something else");
   expectFault(handText("", R"(, "mask": ["...", "..."])"), "leaves no taxel");
@@ -117,7 +117,7 @@ TEST(HandFile, NamesThePlaceOfAFault) {
   expectFault(handText(R"(, "axes": [{"name": "x", "unit": "m", "minimum": 0, "maximum": 1}])"),
               "neither \"deg\" nor \"mm\"");
   expectFault(handText(R"(, "preshapes": [{"name": "x", "joints": [[0, 1]]}])"),
-              "preshapes[0].joints has 1 items for 0 axes");
+              "preshapes[0].joints has 1 item for 0 axes");
   expectFault(handText(R"(, "urdf": "hand.urdf")"), "urdf names a file");
   const std::string surface =
       R"(, "surface": {"origin_mm": [0, 0, 0], "x_axis": [1, 0, 0], "y_axis": )";

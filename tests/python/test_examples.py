@@ -40,7 +40,7 @@ def test_calibration_figures(tmp_path):
         folder = tmp_path / "pressure_calibration" / name
         folder.mkdir(parents=True)
         for k, letter in enumerate("ABC"):
-            loaded(150 + 80 * k + 20 * i).save(folder / f"{letter}1.dsa")
+            loaded(150 + 80 * k + 20 * i, seconds=12.5).save(folder / f"{letter}1.dsa")
     rng = np.random.default_rng(1)
     warm = np.linspace(25, 55, 200)
     frames = np.zeros((200, 486))
@@ -53,6 +53,10 @@ def test_calibration_figures(tmp_path):
     assert "no step could be fitted" not in said
     for figure in ("3_4", "3_7", "3_12"):
         assert (tmp_path / "out" / f"figure_{figure}.png").stat().st_size > 5000
+    # The middle one of nine responses; 0.05 s pass until it has 10 % of its end and counts as touched.
+    middle = palpate.step_response(np.array([1.35, 11.05]), 250, 5, T1=0.3, T2=0.08)
+    rise = float(said.split("creep: the sum rises by ")[1].split(" %")[0])
+    assert rise == pytest.approx(100 * (middle[1] / middle[0] - 1), abs=2)
     rmse = [float(word) for word in said.split("figure 3.12: RMSE ")[1].split(" (")[0].split()]
     np.testing.assert_allclose(rmse, 1.04, atol=0.2)
 

@@ -625,9 +625,9 @@ std::string shapeText(const SensorLayout& layout) {
       ++same->second;
   }
   for (std::size_t i = 0; i < shapes.size(); ++i) text += (i > 0 ? " and " : "") + shapes[i].first;
-  text += ", " + std::to_string(layout.numCells()) + " places";
+  text += ", " + counted(layout.numCells(), "place");
   if (layout.numTaxels() != layout.numCells())
-    text += " with " + std::to_string(layout.numTaxels()) + " taxels";
+    text += " with " + counted(layout.numTaxels(), "taxel");
   return text;
 }
 

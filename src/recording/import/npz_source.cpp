@@ -16,6 +16,7 @@
 #include "palpate/core/byte_order.h"
 #include "palpate/core/error.h"
 #include "palpate/core/escaped_line.h"
+#include "palpate/core/number_text.h"
 
 #include "recording/import/column_unit.h"
 
@@ -174,8 +175,7 @@ void NpzSource::addColumn(const std::string& name, Array array, std::uint64_t av
 }
 
 std::string NpzSource::form() const {
-  return isArchive_ ? "NumPy .npz, " + std::to_string(columns_.size()) + " arrays"
-                    : "NumPy .npy, one array";
+  return isArchive_ ? "NumPy .npz, " + counted(columns_.size(), "array") : "NumPy .npy, one array";
 }
 
 void NpzSource::open(std::size_t column) {

@@ -5,6 +5,7 @@
 #include <QComboBox>
 #include <QLineEdit>
 #include <QSignalSpy>
+#include <QSpinBox>
 #include <QTest>
 #include <QVBoxLayout>
 
@@ -51,6 +52,20 @@ TEST_F(FieldKeysTest, SoDoesAListThatCanBeTypedInto) {
   press(list_, Qt::Key_U);
   EXPECT_EQ(triggered_.size(), 1);
   EXPECT_EQ(list_.currentText(), "finger 0");
+}
+
+TEST_F(FieldKeysTest, ADoubleClickInANumberFieldSelectsTheNumber) {
+  QSpinBox number(&window_);
+  number.setValue(10);
+  number.setSuffix(" deg/s");
+  number.resize(200, 30);
+  number.show();
+  auto* line = number.findChild<QLineEdit*>();
+  // Right of the text.
+  QTest::mouseDClick(line, Qt::LeftButton, {}, {line->width() - 3, line->height() / 2});
+  EXPECT_EQ(line->selectedText(), "10");
+  QTest::keyClicks(line, "25");
+  EXPECT_EQ(number.value(), 25);
 }
 
 TEST_F(FieldKeysTest, ItKeepsItsOwnKeys) {

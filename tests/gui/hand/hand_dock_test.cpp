@@ -319,6 +319,23 @@ TEST_F(HandDockTest, SettingsAreKeptByNameForEachHand) {
   emit names->activated(1);
   EXPECT_TRUE(await([&] { return onTheHand()[0].thresholdCounts == 42; }));
   EXPECT_EQ(names->currentIndex(), 1);
+  // They are replaced and deleted only after a question.
+  QStringList questions;
+  bool answer = false;
+  dock_->tactileSettings().confirmed = [&](const QString& text, const QString&) {
+    questions.append(text);
+    return answer;
+  };
+  dock_->tactileSettings().askForName = [](const QString&) { return QString("soft / things"); };
+  click("saveSettings");
+  click("removeSettings");
+  EXPECT_EQ(questions,
+            QStringList({"Replace the settings \"soft / things\" by the present ones?",
+                         "Delete the settings \"soft / things\"?"}));
+  EXPECT_EQ(names->count(), 2);
+  answer = true;
+  click("removeSettings");
+  EXPECT_EQ(names->count(), 1);
   // Another hand has none of them.
   HandSettingsStore store(settings_);
   EXPECT_TRUE(store.names("another").isEmpty());

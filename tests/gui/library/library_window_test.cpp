@@ -62,6 +62,30 @@ TEST_F(LibraryWindowTest, ItsArrowsMoveInItAndNothingElse) {
   EXPECT_EQ(table()->currentIndex().row(), 1);
 }
 
+TEST_F(LibraryWindowTest, ReturnPressedTwiceReadsAFileOnceAndAsksNothing) {
+  int asked = 0;
+  window().state().prompts.unsaved = [&asked](const QString&) {
+    ++asked;
+    return UserPrompts::Unsaved::kSave;
+  };
+  toggle();
+  look({"good1.dsa", "good2.dsa"});
+  QTest::keyClick(find<QLineEdit>("librarySearch"), Qt::Key_Return);
+  QTest::keyClick(table(), Qt::Key_Return);
+  QTest::keyClick(table(), Qt::Key_Return);
+  waitUntilOpened();
+  EXPECT_EQ(reads_, 1);
+  ASSERT_TRUE(window().state().displayed.isRecording());
+  window().state().events.add({.kind = "label", .matrix = {}, .text = "cup", .json = {}}, "label");
+  ASSERT_TRUE(window().state().events.editor()->unsaved());
+  QTest::keyClick(table(), Qt::Key_Return);
+  QTest::keyClick(table(), Qt::Key_Return);
+  waitUntilOpened();
+  EXPECT_EQ(reads_, 1);
+  EXPECT_EQ(asked, 0);
+  EXPECT_TRUE(window().state().events.editor()->unsaved()) << "the mark is still there";
+}
+
 TEST_F(LibraryWindowTest, ComparesWithWhatIsShown) {
   toggle();
   look({"good1.dsa", "good2.dsa"});

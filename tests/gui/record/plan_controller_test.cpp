@@ -68,6 +68,7 @@ TEST_F(PlanControllerTest, ATakeIsCheckedCountedAndRejected) {
   EXPECT_EQ(controller_.nextText(), "next: ball, left, 1 of 2");
   // Twenty frames, 50 ms apart: 0.95 s.
   controller_.begin(2.0);
+  EXPECT_EQ(controller_.nextText(), "now: ball, left, 1 of 2") << "while it is recorded";
   controller_.end(recorded("a.palpate"));
   controller_.settle();
   EXPECT_EQ(controller_.progressText(), "0 of 3") << "nobody has decided yet";

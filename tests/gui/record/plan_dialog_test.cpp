@@ -143,7 +143,7 @@ TEST_F(PlanDialogTest, TheLastTakeIsRepeatedAndThePlanBegunAnew) {
   EXPECT_TRUE(find<QPushButton>("planRepeat")->toolTip().startsWith("none.palpate"));
   click("planRepeat");
   EXPECT_EQ(cell(0, PlanModel::kDone), "0 of 2");
-  EXPECT_EQ(cell(0, PlanModel::kState), "to be repeated");
+  EXPECT_EQ(cell(0, PlanModel::kState), "none.palpate: to be repeated");
   click("planAnew");
   EXPECT_TRUE(controller_.plan().rows()[0].takes.empty());
 }

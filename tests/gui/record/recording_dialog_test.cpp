@@ -117,16 +117,6 @@ TEST_F(RecordingDialogTest, TheNextNameIsSeenWhileTyping) {
   EXPECT_FALSE(find<QLabel>("recordingProblem")->isVisible());
 }
 
-TEST_F(RecordingDialogTest, ReturnOnCancelCancels) {
-  type("recordingObject", "cup");
-  auto* cancel = find<QPushButton>("recordingCancel");
-  cancel->setFocus();
-  ASSERT_EQ(dialog_->focusWidget(), cancel);
-  QTest::keyClick(cancel, Qt::Key_Return);
-  EXPECT_FALSE(dialog_->isVisible());
-  EXPECT_EQ(dialog_->result(), QDialog::Rejected);
-}
-
 TEST_F(RecordingDialogTest, AFolderWithLittleSpaceSaysSo) {
   dialog_->freeBytes = [](const fs::path&) { return std::uint64_t{200'000}; };
   type("recordingObject", "cup");

@@ -51,6 +51,19 @@ class WindowFitsTest : public WindowTest {
   bool hasSizeAgain(QSize size) {
     return QTest::qWaitFor([&] { return window().size() == size; }, 5'000);
   }
+  // Shows a recording and the dock Log, for which the window of this size has to grow.
+  QDockWidget* growForLog(QSize size) {
+    window().resize(size);
+    window().setAnimated(false);
+    open({"rich.dsa"});
+    processAll();
+    auto* log = find<QDockWidget>("Log");
+    log->widget()->setMinimumHeight(900);
+    window().docks().show("Log");
+    processAll();
+    EXPECT_GT(window().height(), size.height());
+    return log;
+  }
   void connectEmulated() {
     Connection connection;
     connection.kind = Connection::Kind::kEmulated;
@@ -363,15 +376,7 @@ TEST_F(WindowFitsTest, TheComparisonWithEveryDock) {
 // also when the dock was opened beside the comparison.
 TEST_F(WindowFitsTest, AWindowThatHadToGrowHasItsSizeAgain) {
   const QSize size(1000, 600);
-  window().resize(size);
-  window().setAnimated(false);
-  open({"rich.dsa"});
-  processAll();
-  auto* log = find<QDockWidget>("Log");
-  log->widget()->setMinimumHeight(900);
-  window().docks().show("Log");
-  processAll();
-  ASSERT_GT(window().height(), size.height());
+  QDockWidget* log = growForLog(size);
   log->close();
   processAll();
   EXPECT_TRUE(hasSizeAgain(size)) << "closed";
@@ -400,15 +405,7 @@ TEST_F(WindowFitsTest, AWindowThatHadToGrowHasItsSizeAgain) {
 
 TEST_F(WindowFitsTest, AWindowThatHadToGrowHasItsSizeAgainWhenItsContentNeedsLess) {
   const QSize size(1000, 600);
-  window().resize(size);
-  window().setAnimated(false);
-  open({"rich.dsa"});
-  processAll();
-  auto* log = find<QDockWidget>("Log");
-  log->widget()->setMinimumHeight(900);
-  window().docks().show("Log");
-  processAll();
-  ASSERT_GT(window().height(), size.height());
+  QDockWidget* log = growForLog(size);
   log->widget()->setMinimumHeight(0);
   processAll();
   EXPECT_TRUE(hasSizeAgain(size));

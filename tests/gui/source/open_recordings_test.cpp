@@ -126,6 +126,42 @@ TEST_F(OpenRecordingsTest, WhatMayNotBeReplacedWhenItWasReadStaysAsItIs) {
   EXPECT_EQ(heard_.back().arrival.replaced, nullptr);
 }
 
+TEST_F(OpenRecordingsTest, WhatIsOpenArrivesAsItIsWhenTheRequestSaysSo) {
+  open_.open({{"a"}});
+  wait();
+  const OpenedRecordingPtr before = open_.at("a");
+  open_.mayReadAnew = [](const OpenedRecordingPtr&) {
+    ADD_FAILURE() << "nothing is to be read, so nobody is asked";
+    return true;
+  };
+  open_.open({.files = {"a", "b"}, .readAnew = false});
+  EXPECT_EQ(heard_.back().name, "a") << "at once";
+  wait();
+  EXPECT_EQ(heard_.back().name, "b");
+  EXPECT_EQ(open_.at("a"), before);
+}
+
+TEST_F(OpenRecordingsTest, ARequestMadeTwiceIsReadOnce) {
+  open_.open({{"a", "b"}});
+  open_.open({{"a", "b"}});
+  EXPECT_EQ(opener_.numWaiting(), 1u);
+  open_.open({{"b"}});
+  EXPECT_EQ(opener_.numWaiting(), 2u) << "another request, which shows b";
+  wait();
+  EXPECT_EQ(heard_.size(), 3u);
+  open_.open({{"a", "b"}});
+  wait();
+  EXPECT_EQ(heard_.size(), 5u) << "once it has been read, it is read again";
+}
+
+TEST_F(OpenRecordingsTest, ACancelledRequestCanBeMadeAgain) {
+  open_.open({{"a"}});
+  opener_.cancel();
+  open_.open({{"a"}});
+  wait();
+  EXPECT_EQ(names(), (std::vector<std::string>{"a"}));
+}
+
 TEST_F(OpenRecordingsTest, NeighboursGoAroundAndClosingGoesToTheNext) {
   open_.open({{"a", "b", "c"}});
   wait();

@@ -7,10 +7,22 @@
 #include <QLineEdit>
 
 namespace palpate::gui {
+namespace {
+
+// Returns whether `clicked` is the line of a number field.
+bool selectNumber(const QObject& clicked) {
+  auto* field = qobject_cast<QAbstractSpinBox*>(clicked.parent());
+  if (!field || !qobject_cast<const QLineEdit*>(&clicked)) return false;
+  field->selectAll();
+  return true;
+}
+
+}  // namespace
 
 FieldKeys::FieldKeys(QObject* parent) : QObject(parent) { qApp->installEventFilter(this); }
 
 bool FieldKeys::eventFilter(QObject* watched, QEvent* event) {
+  if (event->type() == QEvent::MouseButtonDblClick) return selectNumber(*watched);
   if (event->type() != QEvent::ShortcutOverride) return false;
   // A list that can be typed into has the focus in place of its field.
   const auto* list = qobject_cast<QComboBox*>(watched);

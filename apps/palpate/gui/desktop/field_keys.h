@@ -1,6 +1,7 @@
 // Lets the window's keys with Ctrl work while a text field has the focus. A field takes Ctrl+E,
 // Ctrl+U, Ctrl+K and the like for itself (end of the line, delete the line); only the keys that
-// everybody knows from fields stay with it: undo, redo, select all, copy, cut, paste.
+// everybody knows from fields stay with it: undo, redo, select all, copy, cut, paste. A double
+// click in a number field selects the whole number, also right of its digits.
 #pragma once
 
 #include <QObject>

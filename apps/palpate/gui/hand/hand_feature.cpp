@@ -65,9 +65,11 @@ HandFeature::HandFeature(WindowState& windowState, QWidget* window)
   connect(panel_, &HandDock::asked, &windowState.handCommands, &HandCommands::asked);
   followTheme(panel_);
   followUnits(panel_);
-  panel_->joints().confirmed = [&windowState](const QString& text, const QString& button) {
+  const auto confirmed = [&windowState](const QString& text, const QString& button) {
     return windowState.prompts.confirmed && windowState.prompts.confirmed(text, button);
   };
+  panel_->joints().confirmed = confirmed;
+  panel_->tactileSettings().confirmed = confirmed;
   SensitivityModes& modes = panel_->sensitivity();
   modes.noiseLines = [&windowState](const std::string& hand) {
     const auto& lines = windowState.handCommands.noiseLines;

@@ -40,6 +40,7 @@ TactileSettingsPanel::TactileSettingsPanel(QSettings& settings, QWidget* parent)
   askForName = [this](const QString& suggestion) {
     return QInputDialog::getText(this, "Save settings", "Name", QLineEdit::Normal, suggestion);
   };
+  confirmed = [](const QString&, const QString&) { return false; };
   table_ = new QWidget(this);
   note_ = tactileSettingsPanelCaption({}, this);
   // Keeps room for one line, so that nothing moves when a note appears.
@@ -186,12 +187,17 @@ void TactileSettingsPanel::makeButtons() {
     const QString name =
         askForName(names_->currentIndex() > 0 ? names_->currentText() : QString()).trimmed();
     if (name.isEmpty()) return;
+    if (names_->findText(name, Qt::MatchExactly | Qt::MatchCaseSensitive) > 0 &&
+        !confirmed("Replace the settings \"" + name + "\" by the present ones?", "Replace"))
+      return;
     store_.save(serial(), name, session_->device().facts().matrices);
     listNames();
     names_->setCurrentText(name);
   });
   connect(remove_, &QPushButton::clicked, this, [this] {
-    if (names_->currentIndex() <= 0) return;
+    if (names_->currentIndex() <= 0 ||
+        !confirmed("Delete the settings \"" + names_->currentText() + "\"?", "Delete"))
+      return;
     store_.remove(serial(), names_->currentText());
     listNames();
   });

@@ -44,6 +44,9 @@ class TactileSettingsPanel : public QWidget {
   void showUnmeasurable(const std::vector<QString>& why, int limitCounts);
   // Asks the user for a name; an empty answer means cancelled. Tests replace it.
   std::function<QString(const QString& suggestion)> askForName;
+  // Asks before saved settings are lost; `button`: what is done ("Replace"). Until it is set, none
+  // are lost.
+  std::function<bool(const QString& text, const QString& button)> confirmed;
 
  signals:
   void refused(const QString& why);

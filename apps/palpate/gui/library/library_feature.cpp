@@ -28,7 +28,7 @@ LibraryFeature::LibraryFeature(WindowState& windowState, QWidget* window)
   connect(panel_, &LibraryPanel::openRequested, this, [&windowState](const QStringList& paths) {
     std::vector<std::filesystem::path> files;
     for (const QString& path : paths) files.emplace_back(path.toStdString());
-    windowState.open(files);
+    windowState.openOrShow(files);
   });
   connect(panel_, &LibraryPanel::compareRequested, this, [this](const QString& path) {
     compareWith(path.toStdString());

@@ -14,6 +14,7 @@
 
 #include "gui/appearance/captions.h"
 #include "gui/recognise/answer_view.h"
+#include "gui/widgets/long_word_label.h"
 #include "gui/widgets/text_fit.h"
 
 namespace palpate::gui {
@@ -26,10 +27,8 @@ constexpr double kButtonScale = 1.25;
 AskPage::AskPage(RecognitionController& controller, QWidget* parent)
     : QWidget(parent), controller_(controller) {
   setObjectName("askPage");
-  model_ = new QLabel(this);
+  model_ = new LongWordLabel(this);
   model_->setObjectName("recogniseModel");
-  model_->setTextFormat(Qt::PlainText);
-  model_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
   models_ = new QMenu(this);
   auto* choose = new QPushButton("Model", this);
   choose->setObjectName("recogniseModelButton");

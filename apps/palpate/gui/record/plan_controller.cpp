@@ -178,11 +178,15 @@ void PlanController::begin(std::optional<double> leastS) {
   const auto next = plan_.next();
   if (next) row_ = next->row;
   leastS_ = leastS;
+  emit changed();
 }
 
 void PlanController::end(const RecordingReport& report) {
   const auto row = std::exchange(row_, std::nullopt);
-  if (!row || report.paths.empty()) return;
+  if (!row || report.paths.empty()) {
+    emit changed();
+    return;
+  }
   const fs::path file = report.paths.front();
   plan_.addTake(*row, {.file = file});
   lastTake_ = file;
@@ -258,7 +262,8 @@ QString PlanController::nextText() const {
                                  (undecided == 1 ? " take is" : " takes are") + " to be decided";
   if (!next) return open.isEmpty() ? "the plan is done" : open;
   const PlanRow& row = plan_.rows()[next->row];
-  QString text = "next: " + QString::fromStdString(row.object);
+  // A take that is being recorded isn't counted yet, so it is still the next one of the plan.
+  QString text = (row_ == next->row ? "now: " : "next: ") + QString::fromStdString(row.object);
   if (!row.run.empty()) text += ", " + QString::fromStdString(row.run);
   if (row.repetitions > 1) text += QString(", %1 of %2").arg(next->repetition).arg(row.repetitions);
   return open.isEmpty() ? text : text + "; " + open;

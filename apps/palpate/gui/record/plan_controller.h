@@ -61,8 +61,8 @@ class PlanController : public QObject {
   void rename(const std::filesystem::path& from, const std::filesystem::path& to);
   void forget(const std::filesystem::path& file);
 
-  // "3 of 12", "next: ball, left, 2 of 3; 1 take is to be decided" or "the plan is done"; empty:
-  // the plan has no row.
+  // "3 of 12", "next: ball, left, 2 of 3; 1 take is to be decided" ("now: ..", while that take is
+  // recorded) or "the plan is done"; empty: the plan has no row.
   QString progressText() const;
   QString nextText() const;
 

@@ -12,16 +12,17 @@ namespace {
 
 QString planText(const std::string& text) { return QString::fromStdString(text); }
 
-// What the newest take shows: a problem of one that counts, or that it is to be repeated.
+// The name of the newest take, and what is to be done: a problem of one that counts, or that it is
+// to be repeated.
 QString stateOfRow(const PlanRow& row) {
   if (row.takes.empty()) return {};
   const PlannedTake& newest = row.takes.back();
-  if (newest.rejected) return row.numDone() < row.repetitions ? "to be repeated" : QString();
+  const QString name = planText(newest.file.filename().string());
+  if (newest.rejected)
+    return name + (row.numDone() < row.repetitions ? ": to be repeated" : ": rejected");
   if (!newest.problem.empty())
-    return (newest.undecided() ? "to be decided: " : "") +
-           planText(newest.file.filename().string() + ": " + newest.problem);
-  if (row.numUndecided() > 0) return "one is to be decided";
-  return row.numDone() >= row.repetitions ? "done" : QString();
+    return (newest.undecided() ? "to be decided: " : "") + name + ": " + planText(newest.problem);
+  return row.numUndecided() > 0 ? name + "; one before it is to be decided" : name;
 }
 
 }  // namespace

@@ -13,6 +13,7 @@
 #include <QPushButton>
 #include <QScreen>
 #include <QSpinBox>
+#include <QTimer>
 #include <QVBoxLayout>
 #include <algorithm>
 
@@ -99,8 +100,13 @@ SettingsDialog::SettingsDialog(const WindowChoices& choices,
   page->addWidget(new ContentScroll(fields, QSize(0, kLeastHeight)), 1);
   page->addWidget(buttons_);
   fill(choices);
+  resize(kSettingsWidth, 0);
+  grow();
+}
+
+void SettingsDialog::grow() {
   const QSize most = screen()->availableSize() - QSize(0, kSettingsFrame);
-  resize(QSize(std::max(kSettingsWidth, sizeHint().width()), sizeHint().height()).boundedTo(most));
+  resize(size().expandedTo(sizeHint()).boundedTo(most));
 }
 
 void SettingsDialog::addLook(QFormLayout& form) {
@@ -290,6 +296,7 @@ void SettingsDialog::tell() {
   if (problem.isEmpty()) emit changed(now);
   // The size of text may be another one now.
   alignUnits();
+  QTimer::singleShot(0, this, &SettingsDialog::grow);  // once the layout knows the new size
 }
 
 void SettingsDialog::reject() {

@@ -74,6 +74,8 @@ class SettingsDialog : public QDialog {
   void addLook(QFormLayout& form);
   void addUnits(QFormLayout& form);
   void alignUnits();
+  // To what its fields need at this size of text, within the screen.
+  void grow();
   void addFolders(QFormLayout& form);
   void addMemory(QFormLayout& form);
   QLineEdit* addFolder(QFormLayout& form, const QString& label, const char* name);

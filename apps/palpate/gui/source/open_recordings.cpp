@@ -4,6 +4,13 @@
 #include <utility>
 
 namespace palpate::gui {
+namespace {
+
+bool isWhole(const OpenedRecording& recording) {
+  return recording.damage.empty() && !isUnfinished(recording);
+}
+
+}  // namespace
 
 OpenRecordings::OpenRecordings(RecordingOpener& opener, QObject* parent)
     : QObject(parent), opener_(opener) {
@@ -17,12 +24,15 @@ OpenRecordings::OpenRecordings(RecordingOpener& opener, QObject* parent)
 }
 
 void OpenRecordings::open(const OpenRequest& request) {
-  const auto running = std::make_shared<Running>(Running{request.then, 0});
+  for (const auto& [ticket, running] : running_)
+    if (running->request == request && opener_.pending(ticket)) return;
+  const auto running = std::make_shared<Running>(Running{request});
   for (const std::filesystem::path& file : request.files) {
     const OpenedRecordingPtr known = at(file);
     if (known && known->path != file)
       arriveAgain(known, file, *running);
-    else if (known && mayReadAnew && !mayReadAnew(known))
+    else if (known &&
+             ((!request.readAnew && isWhole(*known)) || (mayReadAnew && !mayReadAnew(known))))
       arrive(known, nullptr, *running);
     else
       running_[opener_.open(file)] = running;
@@ -32,32 +42,32 @@ void OpenRecordings::open(const OpenRequest& request) {
 void OpenRecordings::take(const OpenedRecordingPtr& recording, std::uint64_t ticket) {
   const auto asked = running_.find(ticket);
   // A file requested directly from the opener forms a request of its own.
-  const auto request =
+  const auto running =
       asked != running_.end() ? asked->second : std::make_shared<Running>(Running{});
   if (asked != running_.end()) running_.erase(asked);
   const OpenedRecordingPtr known = at(recording->path);
-  if (known && known->path != recording->path) return arriveAgain(known, recording->path, *request);
-  if (known && mayReplace && !mayReplace(known)) return arrive(known, nullptr, *request);
+  if (known && known->path != recording->path) return arriveAgain(known, recording->path, *running);
+  if (known && mayReplace && !mayReplace(known)) return arrive(known, nullptr, *running);
   if (known) {
     *std::find(all_.begin(), all_.end(), known) = recording;
     emit gone(known);
   } else {
     all_.push_back(recording);
   }
-  arrive(recording, known, *request);
+  arrive(recording, known, *running);
 }
 
 void OpenRecordings::arrive(const OpenedRecordingPtr& recording,
                             OpenedRecordingPtr replaced,
-                            Running& request) {
-  const OpenArrival arrival{request.then, request.numArrived++, std::move(replaced)};
+                            Running& running) {
+  const OpenArrival arrival{running.request.then, running.numArrived++, std::move(replaced)};
   emit arrived(recording, arrival);
 }
 
 void OpenRecordings::arriveAgain(const OpenedRecordingPtr& known,
                                  const std::filesystem::path& asked,
-                                 Running& request) {
-  arrive(known, nullptr, request);
+                                 Running& running) {
+  arrive(known, nullptr, running);
   emit openAlready(known, asked);
 }
 

@@ -29,6 +29,10 @@ struct OpenRequest {
   };
   std::vector<std::filesystem::path> files;
   Then then = Then::kShowFirst;
+  // Whether a file that is open already is read again; otherwise its open recording arrives
+  // unchanged, unless it was damaged or unfinished: its file may hold more by now.
+  bool readAnew = true;
+  bool operator==(const OpenRequest&) const = default;
 };
 
 // Tells to which request an opened recording belongs.
@@ -46,7 +50,8 @@ class OpenRecordings : public QObject {
  public:
   explicit OpenRecordings(RecordingOpener& opener, QObject* parent = nullptr);
 
-  // Opens the files in the background; arrived() follows for each file that can be opened.
+  // Opens the files in the background; arrived() follows for each file that can be opened. A
+  // request that is equal to one whose files are still being read (a key pressed twice) is ignored.
   void open(const OpenRequest& request);
   // Closes a recording and returns the one to show instead: the next one, else the last; null: none
   // is left.
@@ -80,14 +85,14 @@ class OpenRecordings : public QObject {
 
  private:
   struct Running {
-    OpenRequest::Then then = OpenRequest::Then::kShowFirst;
+    OpenRequest request = {};
     std::size_t numArrived = 0;
   };
   void take(const OpenedRecordingPtr& recording, std::uint64_t ticket);
   void arriveAgain(const OpenedRecordingPtr& known,
                    const std::filesystem::path& asked,
-                   Running& request);
-  void arrive(const OpenedRecordingPtr& recording, OpenedRecordingPtr replaced, Running& request);
+                   Running& running);
+  void arrive(const OpenedRecordingPtr& recording, OpenedRecordingPtr replaced, Running& running);
 
   RecordingOpener& opener_;
   std::vector<OpenedRecordingPtr> all_;

@@ -1,6 +1,7 @@
 #include "gui/source/recording_opener.h"
 
 #include <QMetaObject>
+#include <algorithm>
 #include <new>
 #include <utility>
 
@@ -48,6 +49,13 @@ void RecordingOpener::cancel() {
   cancelRequested_ = true;
 }
 
+bool RecordingOpener::pending(std::uint64_t ticket) const {
+  if (busy_ && ticket == current_) return !cancelRequested_;
+  return std::any_of(waiting_.begin(), waiting_.end(), [ticket](const Asked& asked) {
+    return asked.ticket == ticket;
+  });
+}
+
 void RecordingOpener::startNext() {
   if (waiting_.empty()) {
     busy_ = false;
@@ -57,6 +65,7 @@ void RecordingOpener::startNext() {
   const Asked asked = waiting_.front();
   waiting_.pop_front();
   busy_ = true;
+  current_ = asked.ticket;
   cancelRequested_ = false;
   emit started(QString::fromStdString(asked.path.string()));
   // The thread has already reported its result: joining it takes no time.

@@ -36,6 +36,8 @@ class RecordingOpener : public QObject {
   // Cancels the file that is being read and all that wait; cancelled() follows if there was any.
   void cancel();
   bool busy() const noexcept { return busy_; }
+  // Whether the file of this ticket is being read or waits, and was not cancelled.
+  bool pending(std::uint64_t ticket) const;
   std::size_t numWaiting() const noexcept { return waiting_.size(); }
 
  signals:
@@ -68,6 +70,8 @@ class RecordingOpener : public QObject {
   std::deque<Asked> waiting_;
   // Number of tickets given.
   std::uint64_t tickets_ = 0;
+  // The ticket of the file that is being read, or was read last.
+  std::uint64_t current_ = 0;
   std::atomic<bool> cancelRequested_ = false;
   bool busy_ = false;
   std::jthread worker_;

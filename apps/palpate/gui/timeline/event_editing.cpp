@@ -129,7 +129,8 @@ void EventEditing::addConditions() {
     if (!editor) return false;
     return again ? editor->undoStack().canRedo() : editor->undoStack().canUndo();
   };
-  actionEnabler.add({actions.undo}, [canUndo] { return canUndo(false); });
+  actionEnabler.add(
+      {actions.undo}, [canUndo] { return canUndo(false); }, "nothing to undo");
   actionEnabler.add({actions.redo}, [canUndo] { return canUndo(true); });
   actionEnabler.add(
       {actions.saveEvents},

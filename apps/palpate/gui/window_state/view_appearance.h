@@ -24,8 +24,10 @@ class ViewAppearance : public QObject {
     change(view_);
     emit changed();
   }
+  // Written to the settings at once, so that it is there after a crash, too.
   void setTheme(ThemeChoice choice) {
     view_.theme = choice;
+    saveViewSettings(view_, settings_);
     emit themeChanged();
     emit changed();
   }

@@ -73,6 +73,12 @@ void WindowState::open(const std::vector<std::filesystem::path>& files, OpenRequ
   if (!request.files.empty()) recordings.open(request);
 }
 
+void WindowState::openOrShow(const std::vector<std::filesystem::path>& files) {
+  if (files.empty()) return;
+  messages.dismissFailures();
+  recordings.open({.files = files, .readAnew = false});
+}
+
 void WindowState::askAndOpen(OpenRequest::Then then) {
   std::vector<std::filesystem::path> files;
   for (const QString& path : prompts.recordings()) files.emplace_back(path.toStdString());

@@ -103,6 +103,9 @@ struct WindowState {
   // last one is shown in the Library.
   void open(const std::vector<std::filesystem::path>& files,
             OpenRequest::Then then = OpenRequest::Then::kShowFirst);
+  // Shows the recording of the first file and opens those that aren't open yet; an open one is not
+  // read again.
+  void openOrShow(const std::vector<std::filesystem::path>& files);
   // Asks the user for the files, then opens them.
   void askAndOpen(OpenRequest::Then then = OpenRequest::Then::kShowFirst);
   // Ends the previous connection first; never moves a hand.
