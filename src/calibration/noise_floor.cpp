@@ -108,16 +108,30 @@ void settleForMean(const Sums& sums, std::size_t n, NoiseLine& line) {
 
 // Finds out which matrices were touched.
 void judgeRest(const Profile& profile, const Progress& progress, NoiseFloor& floor) {
-  TareOptions options;
   const TareOptions usual;
-  for (const NoiseLine& line : floor.lines)
-    if (line.maxDegC - line.minDegC > kSameRestDegC) {
-      options.sameRestCounts = usual.maxRestCounts;
-      options.maxSdCounts = 2.0 * usual.maxSdCounts;
-    }
-  const Tare tare = findTare(profile, options, [&](double done) {
-    return !progress || progress(kFitShare + (1.0 - kFitShare) * done);
-  });
+  TareOptions wide;
+  wide.sameRestCounts = usual.maxRestCounts;
+  wide.maxSdCounts = 2.0 * usual.maxSdCounts;
+  const auto warms = [](const NoiseLine& line) {
+    return line.maxDegC - line.minDegC > kSameRestDegC;
+  };
+  const auto numWarm = std::count_if(floor.lines.begin(), floor.lines.end(), warms);
+  const auto rest = [&](const TareOptions& options, double from, double share) {
+    return findTare(profile, options, [&](double done) {
+      return !progress || progress(kFitShare + (1.0 - kFitShare) * (from + share * done));
+    });
+  };
+  Tare tare;
+  if (numWarm == 0) {
+    tare = rest(usual, 0.0, 1.0);
+  } else if (numWarm == std::ssize(floor.lines)) {
+    tare = rest(wide, 0.0, 1.0);
+  } else {
+    tare = rest(wide, 0.0, 0.5);
+    const Tare strict = rest(usual, 0.5, 0.5);
+    for (std::size_t m = 0; m < floor.lines.size(); ++m)
+      if (!warms(floor.lines[m])) tare.matrices[m] = strict.matrices[m];
+  }
   for (std::size_t m = 0; m < floor.lines.size(); ++m)
     floor.lines[m].atRest = wasAtRest(tare.matrices[m], profile.numFrames(), kLeastRestShare);
   floor.notAtRest = notAtRest(tare, profile, kLeastRestShare);

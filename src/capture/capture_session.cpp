@@ -1,7 +1,11 @@
 #include "palpate/capture/capture_session.h"
 
 #include <algorithm>
+#include <map>
+#include <memory>
 #include <stdexcept>
+#include <string>
+#include <utility>
 
 #include <unistd.h>
 
@@ -110,20 +114,24 @@ void CaptureSession::stop() noexcept {
 }
 
 void CaptureSession::startRecording(RecordingOptions options) {
-  // Counts from before the recording are subtracted.
-  const auto before = countersOf(device_->status());
+  // Counts from before the recording are subtracted. One that waits for a contact begins when its
+  // file is made; both functions below are called by the recorder alone.
+  const auto before =
+      std::make_shared<std::map<std::string, std::int64_t>>(countersOf(device_->status()));
+  const auto waits = std::make_shared<bool>(options.startOnContact);
   const auto given = options.counters;
   options.counters = [this, before, given] {
     auto counters = countersOf(device_->status());
     for (auto& [name, value] : counters) {
-      const auto earlier = before.find(name);
-      if (earlier != before.end() && earlier->second <= value) value -= earlier->second;
+      const auto earlier = before->find(name);
+      if (earlier != before->end() && earlier->second <= value) value -= earlier->second;
     }
     if (given)
       for (const auto& [name, value] : given()) counters[name] = value;
     return counters;
   };
-  options.describe = [this, more = options.describe] {
+  options.describe = [this, before, waits, more = options.describe] {
+    if (std::exchange(*waits, false)) *before = countersOf(device_->status());
     auto meta = describe(*device_);
     if (more)
       for (const auto& [key, value] : more()) meta[key] = value;

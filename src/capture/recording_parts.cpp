@@ -313,8 +313,9 @@ std::unique_ptr<PalpateWriter> RecordingParts::replaced(
 
 // A recording of the same name that is there already would take the continuation for its next part.
 fs::path RecordingParts::freeBaseIn(const fs::path& folder) const {
-  // In the same folder it is the next part.
-  if (folder == folder_) return base_;
+  // In the same folder, however it is written, it is the next part.
+  std::error_code missing;
+  if (folder == folder_ || fs::equivalent(folder, folder_, missing)) return base_;
   const auto taken = [this](const fs::path& path) {
     std::error_code ignored;
     return fs::exists(fs::symlink_status(path, ignored)) ||

@@ -133,7 +133,7 @@ void GraspStateMachine::begin(const GraspRequest& request,
   report_.limitCounts = limit_ = request.limitCounts;
   stops_ = 0;
   next_ = Next::kEnd;
-  held_ = frictionTestRunning_ = frictionTested_ = false;
+  held_ = slippedAtLimit_ = frictionTestRunning_ = frictionTested_ = false;
   endUs_ = heldFromUs_ = 0;
   answeredSlips_ = 0;
   notes_.clear();
@@ -175,11 +175,11 @@ const TaxelPeak& GraspStateMachine::loadedTaxel(const GraspRequest& request) con
 }
 
 std::optional<std::size_t> GraspStateMachine::fingerOverForce(
-    const GraspRequest& request) const noexcept {
+    const GraspRequest& request, std::optional<std::size_t> except) const noexcept {
   if (!forces_) return std::nullopt;
   for (std::size_t finger = 0; finger < forces_->forcesN().size(); ++finger)
     if (const auto limitN = forceLimitOf(request, finger);
-        limitN && !(forces_->forcesN()[finger] <= *limitN))
+        finger != except && limitN && !(forces_->forcesN()[finger] <= *limitN))
       return finger;
   return std::nullopt;
 }
@@ -408,8 +408,8 @@ std::string GraspStateMachine::riseText() const {
 // Text such as "; finger 1: 5.78 N, above its limit of 3 N: close more slowly" of a grasp that its
 // limit in counts has stopped, or empty.
 std::string GraspStateMachine::overForceText() const {
-  const auto over = fingerOverForce(report_.request);
-  if (!over || report_.forceFinger) return {};
+  const auto over = fingerOverForce(report_.request, report_.forceFinger);
+  if (!over) return {};
   return "; " + forceText(*over) + ", above its limit of " +
          numberText(*forceLimitOf(report_.request, *over)) + " N: close more slowly";
 }
@@ -627,12 +627,13 @@ void GraspStateMachine::respondToSlip(const GripSlip& slip, std::int64_t monoUs)
     limit_ = std::max(limit_, std::min(felt, holding.maxLimitCounts));
     note("at_limit", "slips, and the limit can't rise: " + slip.why, slip.matrix);
     grip_.setReference();
-    // It must not open any further.
+    slippedAtLimit_ = true;
     if (phase_ == GraspPhase::kLoosening) pause(Next::kSettle, "it slips", monoUs);
     return;
   }
   limit_ = raised;
   report_.limitCounts = limit_;
+  slippedAtLimit_ = false;
   ++answeredSlips_;
   note("slip",
        "slips: " + slip.why + "; closing to " + std::to_string(limit_) + " counts",
@@ -662,8 +663,9 @@ void GraspStateMachine::onHoldingTime(std::int64_t monoUs) {
     frictionTested_ = frictionTestRunning_ = true;
     return loosen("friction", "opening slowly until it slips, for its friction", monoUs);
   }
+  const bool mayLoosen = holding.loosen && !slippedAtLimit_;
   // The force rises after the stop, because the rubber has a lag.
-  const bool overForce = holding.loosen && fingerOverForce(report_.request).has_value();
+  const bool overForce = mayLoosen && fingerOverForce(report_.request).has_value();
   if (limit_ <= report_.request.limitCounts) {
     if (overForce) loosen("loosen", "opening slowly to the limit in newtons", monoUs);
     return;
@@ -671,7 +673,7 @@ void GraspStateMachine::onHoldingTime(std::int64_t monoUs) {
   limit_ = std::max(limit_ - holding.raiseCounts, report_.request.limitCounts);
   report_.limitCounts = limit_;
   note("lower", "nothing slips: limit " + std::to_string(limit_) + " counts");
-  if (overForce || (holding.loosen && loadCounts() > static_cast<float>(limit_)))
+  if (overForce || (mayLoosen && loadCounts() > static_cast<float>(limit_)))
     loosen("loosen", "opening slowly to the lower limit", monoUs);
 }
 

@@ -224,7 +224,7 @@ struct PhysicalHand::Impl {
   bool isOurs() const { return joints.orderCount() == ordersOfScript; }
 
   std::string_view ownMotion() const {
-    const bool ended = nextStep == script.size() && repeatS == 0.0;
+    const bool ended = nextStep == script.size() && repeatS == 0.0 && !joints.moving();
     if (script.empty() || ended || !isOurs()) return {};
     if (joints.moving()) return wantsOpen ? "opening" : "closing";
     if (wantsOpen) return "open";

@@ -374,11 +374,11 @@ ReadableRecording openReadable(const std::filesystem::path& path,
   PalpateContent content = readPalpateContent(path, progress);
   std::string damage = std::move(content.eventsFault);
   if (content.events.damaged > 0) damage = counted(content.events.damaged, "damaged row");
-  return {std::move(content.profile),
-          std::move(content.events.events),
-          std::move(damage),
-          content.events.damaged,
-          std::move(content.meta)};
+  return {.profile = std::move(content.profile),
+          .events = std::move(content.events.events),
+          .damage = std::move(damage),
+          .damagedEvents = content.events.damaged,
+          .meta = std::move(content.meta)};
 }
 
 // Nothing where nothing can be read.
@@ -402,11 +402,13 @@ std::optional<ReadableRecording> recoveredPalpate(const std::filesystem::path& p
       .profile = std::move(*recovery.profile),
       .events = std::move(recovery.events),
       .damage = damageText(recovery) + "; readable: " +
-                countsText(recovery.frames, recovery.angles, recovery.temperatures)};
+                countsText(recovery.frames, recovery.angles, recovery.temperatures),
+      .meta = recovery.meta};
   try {
     PalpateConnection access(path);
-    recording.meta = access.meta().values;
-    recording.damagedEvents = readEventRows(access.database()).damaged;
+    const EventsReport inFile = readEventRows(access.database());
+    recording.damagedEvents = inFile.damaged;
+    recording.notInFile = withoutEvents(recording.events, inFile.events);
   } catch (const FormatError&) {
     // What can be had of them is there.
   }

@@ -216,11 +216,13 @@ void visitSeries(const Profile& profile,
                  const Progress& progress) {
   requireSeries(profile, choice);
   if (choice.kind == ProfileSeriesKind::kFormula) {
-    // Long recordings are computed in parts.
+    // Long recordings are computed in parts, unless each part needs the others.
     constexpr std::size_t kPart = 200'000;
     const std::size_t frames = profile.numFrames();
-    for (std::size_t begin = 0; begin < frames; begin += kPart) {
-      const std::size_t end = std::min(frames, begin + kPart);
+    const std::size_t step =
+        Formula(choice.formula).hasFrequencyFilter() ? std::max<std::size_t>(frames, 1) : kPart;
+    for (std::size_t begin = 0; begin < frames; begin += step) {
+      const std::size_t end = std::min(frames, begin + step);
       const Progress part = [&](double done) {
         const double now = static_cast<double>(begin) + done * static_cast<double>(end - begin);
         return !progress || progress(now / static_cast<double>(frames));

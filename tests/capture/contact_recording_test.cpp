@@ -39,6 +39,16 @@ class ContactRecording : public ::testing::Test {
   RecordingOptions options_;
 };
 
+TEST_F(ContactRecording, WhatWasLostWhileItWaitedIsNotCounted) {
+  scripted_.session->startRecording(options_);
+  run(3.0, false);
+  scripted_.device->state.tactile.lost = 206;
+  run(3.0, false);
+  run(1.0, true);
+  scripted_.device->state.tactile.lost = 209;
+  EXPECT_EQ(scripted_.session->stopRecording().counters.at("lost"), 3);
+}
+
 TEST_F(ContactRecording, BeginsTwoSecondsBeforeTheContact) {
   run(1.0, false);
   scripted_.session->startRecording(options_);

@@ -8,6 +8,7 @@
 
 #include "palpate/core/error.h"
 #include "palpate/device/sdh2.h"
+#include "palpate/slip/synthetic_slip.h"
 
 #include "calibration/sample_calibrations.h"
 #include "control/machine_bench.h"
@@ -351,6 +352,53 @@ TEST(GraspStateMachine, AHandThatMayLoosenOpensToTheLimitInNewtons) {
     EXPECT_GT(before, 5.0);
     EXPECT_LE(forceN, 5.0);
   }
+}
+
+// What slips at its limit in newtons can't be held harder; opening again would lose it.
+TEST(GraspStateMachine, AHandThatSlippedAtItsLimitInNewtonsLoosensNoMore) {
+  Bench bench;
+  bench.machine.setCalibration(kiloPascals());
+  bench.machine.setSettings(std::vector<MatrixSettings>(6, {0.5, 100}));
+  SyntheticSensor sensor;
+  sensor.layout = sdh2().layout->matrix(3);  // finger 1
+  SyntheticSlip slip(sensor);
+  SyntheticContact contact;
+  contact.shape = SlipShape::kFlatEllipse;
+  contact.y = 6.0;
+  const auto frames = [&](int count) {
+    for (int i = 0; i < count; ++i) {
+      bench.us += kPeriodUs;
+      TactileFrame felt(sdh2().layout);
+      felt.hostUs = 1'700'000'000'000'000 + bench.us;
+      slip.read(contact, felt.matrix(3));
+      bench.machine.onFrame(felt, bench.us);
+      bench.machine.onTime(bench.us);
+    }
+  };
+  GraspRequest request = reactive(50);
+  request.mode = GraspMode::kSlip;
+  request.forceLimitsN = {0.2};
+  request.holding.loosen = true;
+  request.holding.noSlipS = 1.0;
+  bench.begin(request);
+  bench.take();
+  frames(1);
+  ASSERT_TRUE(bench.takeStop());
+  bench.machine.onStopAcknowledged(bench.us);
+  frames(60);
+  ASSERT_EQ(bench.machine.phase(), GraspPhase::kLoosening);
+  bench.take();
+  for (int i = 0; i < 7 && bench.machine.phase() == GraspPhase::kLoosening; ++i) {
+    contact.y += 0.1;
+    frames(1);
+  }
+  ASSERT_TRUE(bench.takeStop());
+  bench.machine.onStopAcknowledged(bench.us);
+  frames(200);
+  ASSERT_EQ(bench.machine.phase(), GraspPhase::kHolding);
+  EXPECT_NE(bench.machine.holdingText(bench.us).find("above its limit of 0.2 N"), std::string::npos)
+      << bench.machine.holdingText(bench.us);
+  EXPECT_FALSE(bench.machine.takeCommand().has_value()) << "neither opened nor closed";
 }
 
 TEST(GraspStateMachine, RefusesALimitInNewtonsThatItCannotMeasure) {

@@ -108,6 +108,8 @@ TEST(PhysicalHand, ItTellsWhatTheScriptDoesUntilSomebodyElseOrders) {
   EXPECT_EQ(at(18.0), "");
   EXPECT_EQ(PhysicalHand(quietScene("ball")).ownMotion(), "") << "no script";
   PhysicalHand once(sceneOf("ball"));
+  once.advanceTo(9.3);
+  EXPECT_EQ(once.ownMotion(), "opening") << "the last order is still under way";
   once.advanceTo(15.0);
   EXPECT_EQ(once.ownMotion(), "") << "the script has ended";
 }

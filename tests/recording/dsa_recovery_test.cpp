@@ -170,6 +170,19 @@ TEST(DsaRecovery, tellsTheFramesLostBetweenOthers) {
   EXPECT_TRUE(saved.lossText.starts_with("lost between them: ")) << saved.lossText;
 }
 
+// The number of a frame is damaged, too: no loss follows from it.
+TEST(DsaRecovery, aDamagedNumberIsNoLoss) {
+  const std::string cut = longText().substr(0, longText().rfind("<frame index"));
+  for (const char* number : {"9000", "9223372036854775807", "-9223372036854775808"}) {
+    const std::string damaged = testing::replaced(
+        cut, "<frame index=\"50\"", "<frame index=\"" + std::string(number) + "\"");
+    const DsaRecovery saved = recoverDsaProfileBytes(asBytes(damaged), "a.dsa");
+    EXPECT_EQ(saved.frames, kNumFrames - 1) << number;
+    for (const RecordingLoss& loss : lossesOf(saved.losses)) EXPECT_EQ(loss.lost, 0u) << number;
+    EXPECT_EQ(saved.lossText.find("between"), std::string::npos) << saved.lossText;
+  }
+}
+
 TEST(DsaRecovery, nothingIsSaidToBeLostOfASoundFile) {
   EXPECT_TRUE(recoverDsaProfileBytes(asBytes(longPacked()), "a.dsa").losses.empty());
 }

@@ -7,8 +7,10 @@
 #include <sys/resource.h>
 
 #include "palpate/device/sdh2.h"
+#include "palpate/emulator/synthetic_profile.h"
 #include "palpate/recording/palpate_recovery.h"
 #include "palpate/recording/palpate_schema.h"
+#include "palpate/recording/recording_losses.h"
 
 namespace palpate::palpate_damage_test {
 namespace {
@@ -286,10 +288,39 @@ TEST(PalpateDamage, whatIsReadableIsGivenAndTheRestTold) {
                           [](const RecordingEvent& event) { return event.kind == "gap"; }),
             1)
       << "the lost span, beside the two events of the file";
+  ASSERT_EQ(damaged.notInFile.size(), 1u);
+  EXPECT_EQ(damaged.notInFile[0].kind, "gap");
+  EXPECT_EQ(sound.notInFile.size(), 0u);
   EXPECT_NE(damaged.damage.find(std::to_string(block.n) + " lost frame"), std::string::npos)
       << damaged.damage;
   writeFile(path, bytes.substr(0, 3000));
   EXPECT_THROW(readableRecording(path), FormatError);
+}
+
+// SQLite refuses the whole file; its first pages tell how long it was.
+TEST(PalpateDamage, aFileThatWasCutOffTellsHowMuchIsLost) {
+  const TemporaryFolder folder;
+  const fs::path path = folder / "r.palpate";
+  const Profile whole = synthesize({.durationS = 60.0, .grasps = 4, .noiseCounts = 3.0});
+  saveRecording(whole, {}, path);
+  const std::string bytes = readFile(path);
+  for (const double share : {0.3, 0.6, 0.9}) {
+    writeFile(path,
+              bytes.substr(0, static_cast<std::size_t>(share * static_cast<double>(bytes.size()))));
+    const ReadableRecording readable = readableRecording(path);
+    const std::size_t frames = readable.profile.numFrames();
+    ASSERT_GT(frames, 0u) << share;
+    ASSERT_LT(frames, whole.numFrames()) << share;
+    const std::vector<RecordingLoss> losses = lossesOf(readable.events);
+    const auto ofFrames = std::find_if(
+        losses.begin(), losses.end(), [](const auto& loss) { return loss.stream == "tactile"; });
+    ASSERT_NE(ofFrames, losses.end()) << share;
+    EXPECT_EQ(ofFrames->lost, whole.numFrames() - frames) << share;
+    EXPECT_NE(readable.damage.find(std::to_string(whole.numFrames() - frames) + " lost frames"),
+              std::string::npos)
+        << readable.damage;
+    EXPECT_EQ(readable.meta.at("frames"), std::to_string(whole.numFrames())) << share;
+  }
 }
 
 // Notes that are no file, or may not be read, are no reason to refuse the recording beside them.

@@ -80,7 +80,7 @@ NoiseLine fitNoiseLine(std::span<const double> degC,
                        const NoiseFloorOptions& options = {});
 
 // Fits the lines of all matrices to an unloaded recording at threshold 0. A matrix was at rest when
-// at least nine tenths of its frames lie in unloaded windows (tare.h); where the temperature
+// at least nine tenths of its frames lie in unloaded windows (tare.h); where its temperature
 // changes by more than 5 deg C, a reading at rest may rise up to the limit of unloaded windows, and
 // its standard deviation may be twice theirs.
 // Throws std::invalid_argument (options), Cancelled.
@@ -94,7 +94,7 @@ Json jsonOf(const NoiseFloor& floor);
 NoiseFloor noiseFloorFrom(const Json& json);
 
 // The file format of the prior program: <calibration> of <matrix id="0"> with <slope>, <intercept>,
-// <RMSE>.
+// <RMSE>. It can't say that the hand was not at rest: throws Error for such lines.
 std::string noiseXml(const NoiseFloor& floor);
 // Throws FormatError with `name` as path when it is no such file.
 NoiseFloor parseNoiseXml(std::string_view xml, const std::filesystem::path& name);

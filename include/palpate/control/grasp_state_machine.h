@@ -143,7 +143,9 @@ class GraspStateMachine {
   float loadCounts() const noexcept {
     return commonCounts(loadedTaxel(report_.request), report_.request);
   }
-  std::optional<std::size_t> fingerOverForce(const GraspRequest& request) const noexcept;
+  // The first finger above its limit in newtons, other than `except`.
+  std::optional<std::size_t> fingerOverForce(const GraspRequest& request,
+                                             std::optional<std::size_t> except = {}) const noexcept;
   std::string forceText(std::size_t finger) const;
   std::optional<FingerForces> forcesFor(const GraspRequest& request) const;
   bool updateLayout(const TactileFrame& frame);
@@ -193,8 +195,10 @@ class GraspStateMachine {
   int limit_ = 0;  // present limit [counts]
   // True once the object was held; the following rests are shorter.
   bool held_ = false;
-  std::int64_t heldFromUs_ = 0;       // when it was held first
-  int answeredSlips_ = 0;             // slips after which the hand closed
+  std::int64_t heldFromUs_ = 0;  // when it was held first
+  int answeredSlips_ = 0;        // slips after which the hand closed
+  // It slipped where it can't be held harder: it isn't opened any further until it closes again.
+  bool slippedAtLimit_ = false;
   bool frictionTestRunning_ = false;  // loosening measures friction
   bool frictionTested_ = false;       // friction was measured, or tried
   std::int64_t settledUs_ = 0;        // end of the rest or of loosening

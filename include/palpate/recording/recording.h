@@ -39,6 +39,7 @@ bool isMcapRecording(const std::filesystem::path& path);
 struct ReadableRecording {
   Profile profile;                               // without what was lost to damage
   std::vector<RecordingEvent> events = {};       // in order of time
+  std::vector<RecordingEvent> notInFile = {};    // of events: what was found to be lost
   std::string damage = {};                       // one line: what is missing; empty if nothing is
   std::size_t damagedEvents = 0;                 // that can't be read
   std::map<std::string, std::string> meta = {};  // as readRecordingMeta(), as far as it can be read

@@ -29,6 +29,16 @@ struct EventsReport {
   std::size_t damaged = 0;
 };
 
+// The events without those of `others`; one that is there twice stays once, when `others` has it
+// once.
+inline std::vector<RecordingEvent> withoutEvents(std::vector<RecordingEvent> events,
+                                                 const std::vector<RecordingEvent>& others) {
+  for (const RecordingEvent& other : others)
+    if (const auto found = std::find(events.begin(), events.end(), other); found != events.end())
+      events.erase(found);
+  return events;
+}
+
 // The times at which the meaning of counts changed, that is of the events "settings", ascending [us
 // since 1970].
 inline std::vector<std::int64_t> settingsTimesUs(const std::vector<RecordingEvent>& events) {

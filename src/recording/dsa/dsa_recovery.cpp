@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <iterator>
+#include <limits>
 #include <optional>
 #include <span>
 #include <string>
@@ -263,8 +264,12 @@ std::string secondsText(std::int64_t us) {
 
 // Finds the spans whose frames are lost. `numbers`: of the frames of the profile, in their file.
 void findLosses(const Profile& profile,
-                const std::vector<std::optional<std::int64_t>>& numbers,
+                std::vector<std::optional<std::int64_t>> numbers,
                 DsaRecovery& result) {
+  // Numbers may be damaged themselves.
+  constexpr std::int64_t kMostFrames = std::numeric_limits<std::int32_t>::max();
+  for (std::optional<std::int64_t>& number : numbers)
+    if (number && (*number < 0 || *number > kMostFrames)) number.reset();
   const std::size_t numFrames = profile.numFrames();
   const bool damaged = result.intactBlocks < result.blocks || result.cutSamples > 0 ||
                        result.badSamples > 0 || result.layoutAssumed;
@@ -275,6 +280,8 @@ void findLosses(const Profile& profile,
     result.losses.push_back(std::move(loss));
   };
 
+  const TimingReport timing = timingOf(profile);
+  const double usualS = timing.rateHz > 0.0 ? 1.0 / timing.rateHz : 0.0;
   const std::int64_t firstUs = profile.frameTimeUs(0);
   const std::optional<std::int64_t> before = numbers.front();
   if (before ? *before > 0 : result.layoutAssumed) {
@@ -291,9 +298,13 @@ void findLosses(const Profile& profile,
   for (std::size_t i = 1; i < numFrames; ++i) {
     if (!numbers[i - 1] || !numbers[i] || *numbers[i] <= *numbers[i - 1] + 1) continue;
     const std::int64_t count = *numbers[i] - *numbers[i - 1] - 1;
+    const std::int64_t fromUs = profile.frameTimeUs(i - 1), toUs = profile.frameTimeUs(i);
+    // More frames than the hand can have sent meanwhile: a number is damaged, too.
+    if (static_cast<double>(count) * usualS > 2.0 * static_cast<double>(toUs - fromUs) / 1e6)
+      continue;
     between.push_back(lossEvent(
-        profile.frameTimeUs(i - 1),
-        profile.frameTimeUs(i),
+        fromUs,
+        toUs,
         count,
         counted(static_cast<std::uint64_t>(count), "frame") + " lost: the file was damaged"));
   }
@@ -303,8 +314,6 @@ void findLosses(const Profile& profile,
   const std::int64_t lastUs = profile.frameTimeUs(numFrames - 1);
   const std::int64_t anglesEndUs =
       profile.numAngles() > 0 ? profile.angleTimeUs(profile.numAngles() - 1) : lastUs;
-  const TimingReport timing = timingOf(profile);
-  const double usualS = timing.rateHz > 0.0 ? 1.0 / timing.rateHz : 0.0;
   if (static_cast<double>(anglesEndUs - lastUs) / 1e6 > gapThresholdS(usualS))
     add(lossEvent(lastUs,
                   anglesEndUs,

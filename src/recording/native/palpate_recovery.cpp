@@ -118,6 +118,32 @@ std::optional<Block> blockAt(std::span<const std::byte> page, std::size_t at) {
   return block;
 }
 
+// A row of the table of meta data: key, value and their checksum.
+std::optional<std::pair<std::string, std::string>> metaRowAt(std::span<const std::byte> page,
+                                                             std::size_t at) {
+  constexpr std::size_t kLeastHeader = 4, kMostHeader = 8;  // its size, and a type per column
+  constexpr std::size_t kFirstTextType = 13;                // of an empty text; odd
+  const auto headerSize = std::to_integer<std::size_t>(page[at]);
+  if (headerSize < kLeastHeader || headerSize > kMostHeader || headerSize > page.size() - at)
+    return std::nullopt;
+  Cursor types(page, at + 1);
+  const auto key = types.varint(), value = types.varint(), crc = types.varint();
+  const auto isText = [&page](const std::optional<std::uint64_t>& type) {
+    return type && *type % 2 == 1 && *type >= kFirstTextType && *type < 2 * page.size();
+  };
+  if (!isText(key) || !isText(value) || !crc || types.at() != at + headerSize) return std::nullopt;
+  Cursor body(page, at + headerSize);
+  const auto text = [&body](std::uint64_t type) {
+    const auto bytes = body.take((type - kFirstTextType) / 2);
+    return std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  };
+  std::string keyText = text(*key), valueText = text(*value);
+  const auto stored = body.integer(*crc);
+  if (keyText.empty() || stored != static_cast<std::int64_t>(metaCrc(keyText, valueText)))
+    return std::nullopt;
+  return std::pair(std::move(keyText), std::move(valueText));
+}
+
 // Finds rows of the block table in the raw bytes of an SQLite file, without SQLite: on pages that
 // its b-trees no longer reach, too. Calls `found` for every record in `page` that looks like a
 // block row and whose checksum is right (a wrong find is a matter of 2^-32). Records on overflow
@@ -301,6 +327,8 @@ void scanFile(const fs::path& path,
   if (!in) throw FileError(path, "can't be opened for reading");
   std::error_code ignored;
   const double size = static_cast<double>(fs::file_size(path, ignored));
+  // SQLite refuses a file that was cut off, though its first pages tell how long it was.
+  const bool needsMeta = found.meta.values.empty();
   std::vector<std::byte> window(kWindow);
   std::size_t kept = 0;
   double read = 0.0;
@@ -314,6 +342,9 @@ void scanFile(const fs::path& path,
     scanPage(std::span(window).first(filled), [&](const Block& block) {
       if (found.blocks->add(block)) ++recovery.blocksFromPages;
     });
+    for (std::size_t at = 0; needsMeta && at < filled; ++at)
+      if (auto row = metaRowAt(std::span(window).first(filled), at))
+        found.meta.values.insert(std::move(*row));
     kept = std::min(kOverlap, filled);
     std::copy(window.begin() + static_cast<std::ptrdiff_t>(filled - kept),
               window.begin() + static_cast<std::ptrdiff_t>(filled),

@@ -174,8 +174,8 @@ TEST_F(CalibratePanelTest, LinesOfATouchedHandAreNoNoiseAndNotApplied) {
   EXPECT_FALSE(find<QPushButton>("noiseApply")->isEnabled());
   EXPECT_TRUE(find<QPushButton>("noiseApply")->toolTip().contains("touched or moved in 40 %"));
   EXPECT_TRUE(find<QLabel>("noiseNotes")->text().contains("These lines are no noise"));
-  EXPECT_EQ(cell("noiseTable", 3, 7), "touched");
-  EXPECT_NE(cell("noiseTable", 2, 7), "touched");
+  EXPECT_EQ(cell("noiseTable", 3, 7), "not at rest");
+  EXPECT_NE(cell("noiseTable", 2, 7), "not at rest");
   panel_->noise().save(folder_ / "touched.json");
   QSignalSpy applied(&panel_->noise(), &NoisePage::applyRequested);
   panel_->noise().askForLines = [&] {

@@ -1,7 +1,9 @@
 // Comparing two recordings, in the window: which ones, how it comes and goes, what is said of odd
 // ones.
+#include <QAbstractItemView>
 #include <QApplication>
 #include <QComboBox>
+#include <QKeyEvent>
 #include <QScrollArea>
 #include <QScrollBar>
 
@@ -187,6 +189,15 @@ TEST_F(CompareWindowTest, EscapeInAnOpenListClosesTheListAlone) {
   actions().at("dismiss")->trigger();
   EXPECT_EQ(QApplication::activePopupWidget(), nullptr);
   EXPECT_TRUE(window().state().comparison.on());
+  // On a desktop Qt closes the list before the shortcut of the same press is triggered.
+  box->showPopup();
+  QKeyEvent pressed(QEvent::ShortcutOverride, Qt::Key_Escape, Qt::NoModifier);
+  QApplication::sendEvent(box->view(), &pressed);
+  box->hidePopup();
+  ASSERT_EQ(QApplication::activePopupWidget(), nullptr);
+  actions().at("dismiss")->trigger();
+  EXPECT_TRUE(window().state().comparison.on());
+  QTest::qWait(0);
   press(Qt::Key_Escape);
   EXPECT_FALSE(window().state().comparison.on());
 }

@@ -53,6 +53,17 @@ TEST_F(GreyedKeysTest, OtherKeysAndOtherWindowsAreLeftAlone) {
   EXPECT_EQ(refused_.size(), 0);
 }
 
+TEST_F(GreyedKeysTest, AFieldKeepsItsOwnUndo) {
+  open_.setShortcut(QKeySequence::Undo);
+  open_.setEnabled(false);
+  QTest::keyClicks(&field_, "word");
+  press(Qt::Key_Z, Qt::ControlModifier);
+  EXPECT_EQ(field_.text(), "");
+  EXPECT_EQ(refused_.size(), 0);
+  QTest::keyClick(&window_, Qt::Key_Z, Qt::ControlModifier);
+  EXPECT_EQ(refused_.size(), 1);
+}
+
 // A dock that was dragged out of the window.
 TEST_F(GreyedKeysTest, AWindowThatFloatsSaysTheSame) {
   open_.setEnabled(false);

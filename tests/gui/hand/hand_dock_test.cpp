@@ -480,13 +480,13 @@ TEST(HandDock, ShowsTheFrictionUntilTheNextGrasp) {
   status.last->friction = 0.4;
   EXPECT_EQ(HandDock::withFriction("closing", status), "closing") << "that was another grasp";
   status.friction = 0.687;
-  EXPECT_EQ(HandDock::withFriction("holding", status), "friction 0.69\nholding");
+  EXPECT_EQ(HandDock::withFriction("holding", status), "friction roughly 0.69\nholding");
   // It has ended.
   status.request.reset();
   status.friction.reset();
-  EXPECT_EQ(HandDock::withFriction("stopped", status), "friction 0.40\nstopped");
-  EXPECT_EQ(HandDock::withFriction("finished, friction 0.40; it holds", status),
-            "finished, friction 0.40; it holds");
+  EXPECT_EQ(HandDock::withFriction("stopped", status), "friction roughly 0.40\nstopped");
+  EXPECT_EQ(HandDock::withFriction("finished, friction roughly 0.40; it holds", status),
+            "finished, friction roughly 0.40; it holds");
 }
 
 TEST_F(HandDockTest, AnUndoneCorrectionLeavesNoMark) {

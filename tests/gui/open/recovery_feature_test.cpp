@@ -89,6 +89,40 @@ TEST_F(RecoveryFeatureTest, RecoversIntoANewFileAndOpensIt) {
   EXPECT_EQ(verifyRecording(proposed.toStdString()).state, VerifyReport::State::kSound);
 }
 
+// What was found to be lost is among the events that are shown, but not in the file.
+TEST_F(RecoveryFeatureTest, LabelsOfADamagedRecordingAreSavedAndRecovered) {
+  const fs::path path = folder_ / "run.palpate";
+  writeDamaged(path);
+  startReading();
+  open({"run.palpate"});
+  ASSERT_EQ(displayed()->notInFile.size(), 1u);
+  const std::int64_t us = displayed()->profile.frameTimeUs(20);
+  const auto label = [&](const char* text) {
+    window().state().events.add(
+        {.tUs = us, .t1Us = us, .kind = "label", .matrix = {}, .text = text, .json = {}}, "label");
+  };
+  const auto labelsOf = [](const fs::path& file) {
+    std::vector<std::string> texts;
+    for (const RecordingEvent& event : readEvents(file).events)
+      if (event.kind == "label") texts.push_back(event.text);
+    return texts;
+  };
+  label("first");
+  press(Qt::Key_S, Qt::ControlModifier);
+  EXPECT_EQ(bannerText(), "");
+  EXPECT_FALSE(window().state().events.editor()->unsaved());
+  EXPECT_EQ(labelsOf(path), std::vector<std::string>{"first"});
+  label("second");
+  QString proposed;
+  window().state().prompts.newFile = [&](const QString&,
+                                         const QString& suggestion,
+                                         const QString&) { return proposed = suggestion; };
+  QTest::mouseClick(find<QPushButton>("recoverAccept"), Qt::LeftButton);
+  ASSERT_TRUE(await([&] { return displayed() && displayed()->path.filename() != "run.palpate"; }));
+  EXPECT_EQ(labelsOf(folder_ / "run_recovered.palpate"),
+            (std::vector<std::string>{"first", "second"}));
+}
+
 TEST_F(RecoveryFeatureTest, ACutDsaOpensWithItsReadableFrames) {
   saveRecording(
       synthesize({.durationS = 60.0, .grasps = 8, .noiseCounts = 30.0}), {}, folder_ / "whole.dsa");

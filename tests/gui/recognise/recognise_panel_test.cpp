@@ -188,6 +188,8 @@ TEST_F(RecognisePanelTest, AModelThatIsGoneIsSaid) {
   const QString instead =
       "The model " + gone + " isn't there any more; in use is emulated_objects.json.";
   EXPECT_EQ(said, QStringList(instead));
+  EXPECT_EQ(settings_.value("recognise/emulated_model").toString(), gone)
+      << "its drive may be connected again";
   EXPECT_TRUE(panel_->controller().answer().text.startsWith(instead))
       << panel_->controller().answer().text.toStdString();
 }

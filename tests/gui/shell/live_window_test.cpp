@@ -107,6 +107,7 @@ TEST_F(LiveWindowTest, ASavedConnectionIsNamed) {
   Connection connection;
   connection.name = "bench 2";
   connection.scene = "ball";
+  saveNamedConnection(window().state().settings, connection.name, connection);
   window().state().connectTo(connection);
   ASSERT_TRUE(await([&] { return window().state().live.source() != nullptr; }));
   const QString named = "bench 2: emulated hand · ball";
@@ -341,6 +342,43 @@ TEST_F(LiveWindowTest, AskedToEndByASignalItStopsAndFinishesWithoutAsking) {
   ASSERT_TRUE(await([&] { return !window().isVisible(); }));
   EXPECT_EQ(askedToEnd_, 0);
   EXPECT_FALSE(bench_->handMoves());
+  EXPECT_EQ(verifyRecording(folder_ / "runs" / "ball_001.palpate").state,
+            VerifyReport::State::kSound);
+}
+
+// The window stays open with what can't be saved, but the hand doesn't go on.
+TEST_F(LiveWindowTest, AskedToEndByASignalItStopsTheHandAlsoWhenLabelsCannotBeSaved) {
+  open({"good.dsa"});
+  window().state().prompts.text = [](const QString&, const QString&) {
+    return std::optional<QString>("touch");
+  };
+  press(Qt::Key_B, Qt::ControlModifier);
+  ASSERT_TRUE(window().state().events.editor()->unsaved());
+  std::filesystem::remove(folder_ / "good.dsa");
+  connectEmulatedHand();
+  click("graspHand");
+  ASSERT_TRUE(await([&] { return bench_->handMoves(); }));
+  window().endNow();
+  EXPECT_TRUE(await([&] { return !bench_->handMoves(); }));
+  EXPECT_TRUE(live().source()) << "still connected";
+  ASSERT_TRUE(await([&] { return bannerText().contains("not saved"); }));
+  EXPECT_TRUE(window().isVisible());
+  window().state().prompts.unsaved = [](const QString&) { return UserPrompts::Unsaved::kDiscard; };
+}
+
+TEST_F(LiveWindowTest, AskedToEndByASignalWhileItAsksItEnds) {
+  connectEmulated();
+  press(Qt::Key_R, Qt::ControlModifier);
+  ASSERT_TRUE(await([&] { return live().health().recorder.framesOnDisk > 5; }));
+  window().state().prompts.endRecording = [this] {
+    ++askedToEnd_;
+    QDialog question(&window());
+    QTimer::singleShot(0, &question, [this] { window().endNow(); });
+    return question.exec() == QDialog::Accepted;
+  };
+  window().close();
+  ASSERT_TRUE(await([&] { return !window().isVisible(); }));
+  EXPECT_EQ(askedToEnd_, 1);
   EXPECT_EQ(verifyRecording(folder_ / "runs" / "ball_001.palpate").state,
             VerifyReport::State::kSound);
 }
@@ -655,7 +693,7 @@ TEST_F(LiveWindowTest, AConnectionThatFailsSaysWhyAndRemembersNothing) {
   window().state().connectTo(wrong);
   ASSERT_TRUE(await([&] { return bannerText().contains("no_such_scene"); }));
   EXPECT_EQ(live().state(), State::kNone);
-  const QSettings settings(settingsFile(), QSettings::IniFormat);
+  QSettings settings(settingsFile(), QSettings::IniFormat);
   EXPECT_EQ(loadConnection(settings), Connection{});
 }
 

@@ -728,7 +728,7 @@ TEST_F(WindowFitsTest, KeysOfGreyedActionsSayWhy) {
     return window().state().messages.flashed();
   };
   EXPECT_TRUE(said("Ctrl+Alt+A").startsWith("Statistics of the selection: Nothing is selected"));
-  EXPECT_TRUE(said("Ctrl+S").contains("There is nothing to save"));
+  EXPECT_TRUE(said("Ctrl+S").contains("No recording with an unsaved label"));
   EXPECT_EQ(said("Ctrl+Shift+K"), "Disconnect: No hand is connected");
   EXPECT_TRUE(said("Ctrl+R").startsWith("Record: No hand is connected"));
 }

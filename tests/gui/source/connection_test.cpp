@@ -11,7 +11,10 @@ class ConnectionTest : public ::testing::Test {
  protected:
   ConnectionTest() : path_(QString::fromStdString((folder_ / "palpate.ini").string())) {}
   // As another start of the program sees it.
-  Connection reloaded() { return loadConnection(QSettings(path_, QSettings::IniFormat)); }
+  Connection reloaded() {
+    QSettings settings(path_, QSettings::IniFormat);
+    return loadConnection(settings);
+  }
   void store(const Connection& connection) {
     QSettings settings(path_, QSettings::IniFormat);
     saveConnection(connection, settings);
@@ -69,9 +72,13 @@ TEST_F(ConnectionTest, SeveralAreKeptUnderTheirNames) {
   EXPECT_EQ(namedConnection(settings, "bench 1/2, ü %"), right);
   EXPECT_EQ(namedConnection(settings, "other"), std::nullopt);
   EXPECT_EQ(loadConnection(settings), Connection{}) << "the last one is another matter";
+  saveConnection(left, settings);
+  EXPECT_EQ(loadConnection(settings).name, "left hand");
   saveNamedConnection(settings, "left hand", right);
   right.name = "left hand";
   EXPECT_EQ(namedConnection(settings, "left hand"), right);
+  EXPECT_EQ(loadConnection(settings).dsaPort, "a");
+  EXPECT_EQ(loadConnection(settings).name, "") << "the name is that of another hand now";
   removeNamedConnection(settings, "left hand");
   EXPECT_EQ(connectionNames(settings), QStringList{"bench 1/2, ü %"});
 }

@@ -649,6 +649,7 @@ TEST_F(EventsWindowTest, WhatCantBeSavedKeepsTheWindowOpenUntilItIsAnswered) {
   press(Qt::Key_B, Qt::ControlModifier);
   std::filesystem::remove(path_);
   window().endNow();
+  ASSERT_TRUE(QTest::qWaitFor([this] { return !bannerText().isEmpty(); }));
   ASSERT_TRUE(window().isVisible());
   EXPECT_EQ(asked_, 0);
   EXPECT_TRUE(bannerText().contains("not saved")) << bannerText().toStdString();

@@ -129,6 +129,26 @@ TEST_F(SeriesStoreTest, ZoomedInEverySampleIsShown) {
   EXPECT_GE(found + 2, all.timeS.size()) << "all but the neighbours outside";
 }
 
+// The value of a signal is read from the file; a filter would have to be computed from gap to gap.
+TEST_F(SeriesStoreTest, OneValueOfAFilterIsNotComputedWhileTheWindowWaits) {
+  const auto recording = longOne();
+  store_.setRecording(recording);
+  const SeriesChoice plain{Kind::kMatrix, 1, SignalKind::kMean};
+  SeriesChoice filtered;
+  filtered.kind = Kind::kFormula;
+  filtered.formula = "lowpass(m1_mean, 2)";
+  store_.setVisibleRange(20.0, 30.0);
+  store_.setWanted({plain, filtered});
+  store_.waitUntilRead();
+  for (const SeriesChoice& choice : {plain, filtered}) {
+    EXPECT_TRUE(store_.holds(choice, 21.0, 29.0));
+    EXPECT_FALSE(store_.holds(choice, 21.0, 80.0));
+    EXPECT_TRUE(store_.valueAt(choice, 25.0));
+  }
+  EXPECT_TRUE(store_.valueAt(plain, 80.0));
+  EXPECT_FALSE(store_.valueAt(filtered, 80.0));
+}
+
 TEST_F(SeriesStoreTest, TheFirstLookComesBeforeTheWholeIsRead) {
   const auto recording = longOne();
   store_.setRecording(recording);

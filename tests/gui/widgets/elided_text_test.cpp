@@ -21,10 +21,20 @@ TEST(ElidedText, OfAPathTheFoldersAreLeftOutFirst) {
   EXPECT_EQ(withShorterPath(text, metrics, name + 1), "…/hockey_ball.csv (3 labels)");
 }
 
+TEST(ElidedText, OfTwoPathsTheFirstOneIsShortened) {
+  const QFontMetrics metrics{QFont()};
+  const QString text = "renamed /tmp/some/where/else/ball.csv to /tmp/cup.csv";
+  const int whole = metrics.horizontalAdvance(text);
+  const QString shorter = withShorterPath(text, metrics, whole - 20);
+  EXPECT_TRUE(shorter.endsWith("…/ball.csv to /tmp/cup.csv")) << shorter.toStdString();
+  EXPECT_LE(metrics.horizontalAdvance(shorter), whole - 20);
+}
+
 TEST(ElidedText, AnotherTextLosesItsEnd) {
   const QFontMetrics metrics{QFont()};
-  const QString text = "31.7 frames/s and much more that has no room";
-  EXPECT_EQ(withShorterPath(text, metrics, 90), metrics.elidedText(text, Qt::ElideRight, 90));
+  for (const char* text : {"31.7 frames/s and much more that has no room",
+                           "10 deg/s, closed until 3 counts/s of the finger"})
+    EXPECT_EQ(withShorterPath(text, metrics, 90), metrics.elidedText(text, Qt::ElideRight, 90));
 }
 
 }  // namespace

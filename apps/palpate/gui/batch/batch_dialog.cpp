@@ -27,6 +27,7 @@
 #include "gui/batch/batch_fields.h"
 #include "gui/batch/batch_results.h"
 #include "gui/widgets/dialog_properties.h"
+#include "gui/widgets/text_fit.h"
 
 namespace palpate::gui {
 namespace {
@@ -277,7 +278,7 @@ QWidget* BatchDialog::makeFoot() {
   close_->setToolTip("A running batch goes on");
   start_ = batchButton("batchStart", "&Start");
   start_->setProperty("primary", true);
-  start_->setMinimumWidth(110);
+  keepWide(*start_, 110);
   start_->setDefault(true);
   connect(cancel_, &QPushButton::clicked, &controller_, &BatchController::cancel);
   connect(close_, &QPushButton::clicked, this, &QDialog::close);

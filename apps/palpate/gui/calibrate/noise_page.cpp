@@ -60,10 +60,12 @@ std::vector<FigureCell> noisePageRowOf(const NoiseLine& line, const QString& nam
                  .detail = line.numOutliers > 0 ? QString::number(line.numOutliers) + " far above"
                                                 : QString(),
                  .warning = line.numOutliers > 0});
-  const QString state = !line.valid ? "missing" : !line.atRest ? "touched" : "notes";
+  const QString state = !line.valid ? "missing" : !line.atRest ? "not at rest" : "notes";
   row.push_back(
       {.text = state == "notes" && notes.isEmpty() ? QString() : state,
-       .tip = line.valid && !line.atRest ? "The matrix was touched: this is no noise" : notes,
+       .tip = line.valid && !line.atRest
+                  ? "The matrix was not at rest (touched, or a noisy taxel): this is no noise"
+                  : notes,
        .warning = !line.valid || !line.atRest});
   return row;
 }
@@ -213,6 +215,7 @@ void NoisePage::forget() {
   found_.reset();
   save_->setEnabled(false);
   apply_->setEnabled(false);
+  apply_->setToolTip(kApplyTip);
 }
 
 QStringList NoisePage::names() const {

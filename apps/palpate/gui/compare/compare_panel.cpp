@@ -476,7 +476,7 @@ void ComparePanel::swap() {
   const double timeS = timeS_ - answer_.offsetS;
   const bool byHand = alignment_ == Alignment::kManual;
   const double offsetS = -answer_.offsetS;
-  const auto [graspA, graspB] = std::pair(graspB_, graspA_);
+  const auto graspA = graspB_, graspB = graspA_;
   emit swapRequested(b_, timeS);
   graspA_ = graspA;
   graspB_ = graspB;

@@ -20,6 +20,7 @@
 #include "gui/connect/stream_page.h"
 #include "gui/widgets/content_scroll.h"
 #include "gui/widgets/state_mark.h"
+#include "gui/widgets/text_fit.h"
 
 namespace palpate::gui {
 namespace {
@@ -235,7 +236,7 @@ QWidget* ConnectDialog::makeFoot() {
   connect_->setObjectName("connectNow");
   connect_->setProperty("primary", true);
   connect_->setDefault(true);
-  connect_->setMinimumWidth(110);
+  keepWide(*connect_, 110);
   connect(connect_, &QPushButton::clicked, this, &QDialog::accept);
   auto* row = new QHBoxLayout(foot);
   row->setContentsMargins(16, 12, kConnectDialogMargin, 12);

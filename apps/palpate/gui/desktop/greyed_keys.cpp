@@ -1,10 +1,14 @@
 #include "gui/desktop/greyed_keys.h"
 
+#include <QAbstractSpinBox>
 #include <QApplication>
+#include <QComboBox>
 #include <QDialog>
 #include <QHelpEvent>
 #include <QKeyEvent>
+#include <QLineEdit>
 #include <QMenu>
+#include <QPlainTextEdit>
 #include <QToolTip>
 #include <QWidget>
 #include <utility>
@@ -18,6 +22,22 @@ bool isWindowOrPartOf(const QWidget& widget, const QWidget* window) {
   while (top != window && top->parentWidget() && !qobject_cast<const QDialog*>(top))
     top = top->parentWidget()->window();
   return top == window;
+}
+
+// Undo, copy and the like belong to the field that is typed into.
+bool belongsToField(const QWidget& widget, const QKeyEvent& key) {
+  const auto* list = qobject_cast<const QComboBox*>(&widget);
+  if (!qobject_cast<const QLineEdit*>(&widget) && !qobject_cast<const QAbstractSpinBox*>(&widget) &&
+      !qobject_cast<const QPlainTextEdit*>(&widget) && !(list && list->isEditable()))
+    return false;
+  for (const auto own : {QKeySequence::Undo,
+                         QKeySequence::Redo,
+                         QKeySequence::Copy,
+                         QKeySequence::Cut,
+                         QKeySequence::Paste,
+                         QKeySequence::SelectAll})
+    if (key.matches(own)) return true;
+  return false;
 }
 
 }  // namespace
@@ -40,7 +60,10 @@ bool GreyedKeys::eventFilter(QObject* watched, QEvent* event) {
   if (event->type() != QEvent::KeyPress && event->type() != QEvent::ToolTip) return false;
   auto* widget = qobject_cast<QWidget*>(watched);
   if (!widget || !isWindowOrPartOf(*widget, window_)) return false;
-  if (event->type() == QEvent::KeyPress) return refuse(*static_cast<QKeyEvent*>(event));
+  if (event->type() == QEvent::KeyPress) {
+    const auto& key = *static_cast<QKeyEvent*>(event);
+    return !belongsToField(*widget, key) && refuse(key);
+  }
   auto* menu = qobject_cast<QMenu*>(widget);
   return menu && tell(*menu, *static_cast<QHelpEvent*>(event));
 }

@@ -17,6 +17,7 @@
 #include "gui/export/export_place.h"
 #include "gui/export/export_preview.h"
 #include "gui/widgets/elided_text.h"
+#include "gui/widgets/text_fit.h"
 
 namespace palpate::gui {
 namespace {
@@ -184,7 +185,7 @@ QWidget* ExportDialog::makeFoot() {
   ok_->setObjectName("exportOk");
   ok_->setProperty("primary", true);
   ok_->setDefault(true);
-  ok_->setMinimumWidth(110);
+  keepWide(*ok_, 110);
   connect(ok_, &QPushButton::clicked, this, &ExportDialog::accept);
   auto* row = new QHBoxLayout(foot);
   row->setContentsMargins(kExportDialogMargin, 12, kExportDialogMargin, 12);

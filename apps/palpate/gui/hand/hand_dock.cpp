@@ -151,7 +151,7 @@ QWidget* HandDock::makeHead() {
   stop_->setFocusPolicy(Qt::TabFocus);
   // As high as the lines beside it.
   stop_->setSizePolicy(QSizePolicy::Minimum, QSizePolicy::Expanding);
-  stop_->setMinimumWidth(120);
+  keepWide(*stop_, 120);
   auto* row = new QHBoxLayout;
   row->setSpacing(12);
   row->addWidget(state_, 1);
@@ -207,6 +207,9 @@ void HandDock::connectMotions() {
     connect(panel, &Panel::refused, this, [this](const QString& why) {
       said_ = why;
       emit explained(why);
+      // Not told again as the end of the last grasp.
+      if (control_)
+        if (const auto last = control_->status().last) explainedEndUs_ = last->endUs;
       // What the hand does hides said_.
       if (control_ && control_->status().phase != GraspPhase::kIdle) answer(why, nullptr);
     });
@@ -310,7 +313,7 @@ void HandDock::answerKey(const QAction* action) {
 }
 
 void HandDock::answer(const QString& why, const QAbstractButton* button) {
-  answer_ = why + ".";
+  answer_ = why.endsWith('.') || why.endsWith('!') || why.endsWith('?') ? why : why + ".";
   answeredButton_ = button;
   answerTimer_.start();
   showState(control_ ? control_->status() : GraspStatus{});
@@ -393,7 +396,7 @@ void HandDock::refresh() {
     offered.request.reset();
   }
   grasp_->showStatus(offered);
-  joint_->showStatus(offered);
+  joint_->showStatus(offered, status.phase);
   sensitivity_->refresh();
   const DeviceInfo facts = session_ ? session_->device().facts() : DeviceInfo{};
   showUnmeasurable(facts.matrices);
@@ -469,7 +472,7 @@ void HandDock::followRefusal(const GraspStatus& status,
     return;
   const GraspReport& refused = *status.last;
   const bool isNew = refusedUs_ != refused.endUs;
-  if (!isNew && (!limitRefused_ || limitMeasurable_)) return;
+  if (!isNew && !limitRefused_) return;
   const auto unfelt = unmeasurableLimits(session_->device().hand(), settings, refused.request);
   if (isNew) {
     refusedUs_ = refused.endUs;
@@ -571,7 +574,7 @@ QString HandDock::withFriction(const QString& text, const GraspStatus& status) {
   std::optional<double> friction = status.friction;
   if (!status.request && status.last) friction = status.last->friction;
   if (!friction) return text;
-  const QString said = "friction " + figure(*friction, 2);
+  const QString said = "friction roughly " + figure(*friction, 2);
   // The text of a grasp that ended after its time has it already.
   return text.contains(said) ? text : said + "\n" + text;
 }

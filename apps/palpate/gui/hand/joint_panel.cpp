@@ -114,7 +114,7 @@ JointPanel::JointPanel(QSettings& settings, QWidget* parent)
   connect(move_, &QPushButton::clicked, this, [this] { move(std::nullopt); });
   connect(reset_, &QPushButton::clicked, this, &JointPanel::resetTargets);
   listPoses();
-  showStatus({});
+  showStatus({}, GraspPhase::kIdle);
 }
 
 void JointPanel::makeRows(QGridLayout& grid) {
@@ -157,7 +157,7 @@ void JointPanel::makeRows(QGridLayout& grid) {
     });
     connect(row.target, &ValueSlider::chosen, this, [this, axis] {
       setChangedByHand(rows_[axis]);
-      showStatus(control_ ? control_->status() : GraspStatus{});
+      showPresent();
     });
     connect(row.move, &QPushButton::clicked, this, [this, axis] { move(axis); });
   }
@@ -185,7 +185,7 @@ QWidget* JointPanel::makePoses() {
   for (QPushButton* each : {save_, rename_, remove_, file_}) row->addWidget(each);
   connect(names_, &QComboBox::activated, this, [this](int index) {
     if (index > 0) choosePose(names_->currentText());
-    showStatus(control_ ? control_->status() : GraspStatus{});
+    showPresent();
   });
   connect(save_, &QPushButton::clicked, this, &JointPanel::savePose);
   connect(rename_, &QPushButton::clicked, this, &JointPanel::renamePose);
@@ -198,7 +198,7 @@ void JointPanel::listPoses(const QString& chosen) {
   names_->addItem(kOwnPoses);
   names_->addItems(store_.names(movableHand().name));
   names_->setCurrentIndex(std::max(0, names_->findText(chosen)));
-  showStatus(control_ ? control_->status() : GraspStatus{});
+  showPresent();
   emit posesChanged();
 }
 
@@ -349,7 +349,7 @@ void JointPanel::move(std::optional<std::size_t> axis) {
 void JointPanel::resetTargets() {
   for (Row& row : rows_) row.changed = false;
   names_->setCurrentIndex(0);
-  showStatus(control_ ? control_->status() : GraspStatus{});
+  showPresent();
 }
 
 void JointPanel::setControl(GraspControl* control, const QString& whyNot) {
@@ -357,10 +357,15 @@ void JointPanel::setControl(GraspControl* control, const QString& whyNot) {
   whyNot_ = whyNot;
   moving_ = false;
   for (Row& row : rows_) row.changed = row.underWay = false;
-  showStatus(control ? control->status() : GraspStatus{});
+  showPresent();
 }
 
-void JointPanel::showStatus(const GraspStatus& status) {
+void JointPanel::showPresent() {
+  const GraspStatus status = control_ ? control_->status() : GraspStatus{};
+  showStatus(status, status.phase);
+}
+
+void JointPanel::showStatus(const GraspStatus& status, GraspPhase phase) {
   const bool idle = status.phase == GraspPhase::kIdle;
   const HandDescription& hand = movableHand();
   const bool known = control_ && status.anglesDeg.size() == rows_.size();
@@ -411,7 +416,7 @@ void JointPanel::showStatus(const GraspStatus& status) {
   reset_->setEnabled(changed > 0);
   velocity_->setEnabled(control_);
   // Angles of a motion are those of one moment, which is no pose.
-  const bool moves = !idle && status.phase != GraspPhase::kHolding;
+  const bool moves = phase != GraspPhase::kIdle && phase != GraspPhase::kHolding;
   save_->setEnabled(known && status.cannotMove.empty() && !moves);
   const QString saveTip =
       moves ? QString("The hand moves: angles are saved when it stands still") : kSaveTip;

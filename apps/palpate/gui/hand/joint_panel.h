@@ -29,8 +29,9 @@ class JointPanel : public QWidget {
   JointPanel(QSettings& settings, QWidget* parent);
   // As GraspPanel::setControl().
   void setControl(GraspControl* control, const QString& whyNot = "No hand is connected");
-  // Call this repeatedly: shows present angles, and what is possible now.
-  void showStatus(const GraspStatus& status);
+  // Call this repeatedly: shows present angles, and what is possible now. `phase`: what the hand
+  // does; status.phase may say that a sequence occupies it.
+  void showStatus(const GraspStatus& status, GraspPhase phase);
   // Own poses: names, and one by its name with the reason when the hand can't take it.
   PoseStore& poses() noexcept { return store_; }
   double velocityDegPerS() const;
@@ -51,6 +52,7 @@ class JointPanel : public QWidget {
   void posesChanged();
 
  private:
+  void showPresent();
   struct Row {
     QLabel* name;
     QLabel* present;

@@ -78,8 +78,7 @@ std::vector<Fact> factsOf(const LinkHealth& health) {
   facts.push_back({"bad checksums", count(health.badChecksums), health.badChecksums > 0});
   facts.push_back({"suspect", count(tactile.suspect), tactile.suspect > 0});
   facts.push_back({"saturated",
-                   count(health.frames.saturatedFrames) +
-                       (health.frames.saturatedFrames == 1 ? " frame, " : " frames, ") +
+                   numberOf(health.frames.saturatedFrames, "frame") + ", " +
                        figure(health.frames.saturatedFraction * 100.0, 0) + " % now",
                    health.frames.saturatedFraction > 0.0});
   const CaptureQueueStats::Port& queue = health.queues.tactile;

@@ -106,6 +106,10 @@ void RecoveryFeature::recover(const std::filesystem::path& path) {
       "Palpate recording (*.palpate);;MCAP (*.mcap);;DSA recording (*.dsa)");
   if (saved.isEmpty()) return offer();
   if (QFileInfo(saved).suffix().isEmpty()) saved += ".palpate";
+  // The file is recovered: labels that aren't in it yet would be missing in the new one.
+  if (const OpenedRecordingPtr open = state().recordings.at(path);
+      open && state().events.hasUnsaved(open))
+    state().events.save(open);
   auto report = std::make_shared<RecoverReport>();
   job_.start(
       pathText(path),

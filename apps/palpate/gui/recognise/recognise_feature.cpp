@@ -326,7 +326,8 @@ void RecogniseFeature::showGrasp(const std::filesystem::path& file,
 
 void RecogniseFeature::showWanted() {
   const OpenedRecordingPtr recording = state().displayed.recorded();
-  if (!wanted_ || !recording || recording->path != wanted_->file) return;
+  // It may be open by another path.
+  if (!wanted_ || !recording || state().recordings.at(wanted_->file) != recording) return;
   const Wanted wanted = *std::exchange(wanted_, std::nullopt);
   // The file has changed meanwhile.
   if (wanted.end >= recording->profile.numFrames()) return;

@@ -63,11 +63,7 @@ void RecognitionController::takeDefault() {
                                                                          : std::filesystem::path();
   if (gone.isEmpty() && path == path_ && (session_ || path.empty())) return;
   if (!path.empty()) {
-    openModel(path);
-    if (gone.isEmpty()) return;
-    fallback_ = gone + "; in use is " + QString::fromStdString(path.filename().string()) + ".";
-    emit said(fallback_);
-    return sayHowToAsk();
+    return readModel(path, gone);
   }
   path_.clear();
   setModel(std::nullopt, gone.isEmpty() ? std::filesystem::path() : last);
@@ -79,7 +75,9 @@ void RecognitionController::takeDefault() {
 
 void RecognitionController::useEmulatedModel() { openModel(emulatedModel_); }
 
-void RecognitionController::openModel(const std::filesystem::path& path) {
+void RecognitionController::openModel(const std::filesystem::path& path) { readModel(path, {}); }
+
+void RecognitionController::readModel(const std::filesystem::path& path, const QString& gone) {
   path_ = path;
   modelProblem_.clear();
   fallback_.clear();
@@ -88,10 +86,18 @@ void RecognitionController::openModel(const std::filesystem::path& path) {
   opening_.start(
       "the model",
       [read, path](const Progress&) { *read = loadModel(path); },
-      [this, read, path] {
+      [this, read, path, gone] {
         if (path != path_) return;
-        settings_.setValue(settingsKey(), QString::fromStdString(path.string()));
+        // A model that is gone stays the chosen one: its drive may be connected again.
+        if (gone.isEmpty())
+          settings_.setValue(settingsKey(), QString::fromStdString(path.string()));
+        else
+          fallback_ =
+              gone + "; in use is " + QString::fromStdString(path.filename().string()) + ".";
         setModel(std::move(*read), path);
+        if (gone.isEmpty()) return;
+        emit said(fallback_);
+        sayHowToAsk();
       });
 }
 

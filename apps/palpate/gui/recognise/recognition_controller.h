@@ -83,6 +83,8 @@ class RecognitionController : public QObject {
 
  private:
   void setModel(std::optional<TrainedModel> model, const std::filesystem::path& path);
+  // `gone`: what is missing, where this model takes its place; empty: nothing.
+  void readModel(const std::filesystem::path& path, const QString& gone);
   void takeDefault();
   void classify(const ChosenGrasp& chosen, const QString& of);
   // What the user can do: ask, or choose a model first.

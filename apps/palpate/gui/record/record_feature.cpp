@@ -386,7 +386,8 @@ void RecordFeature::connectUnfinished() {
         },
         [this, paths] {
           unfinished_.ignore(paths);
-          state().messages.flash("Not offered again; File > Recover… finishes it");
+          state().messages.flash(QString("Not offered again; File > Recover… finishes ") +
+                                 (paths.size() == 1 ? "it" : "them"));
         });
   });
   connect(&unfinished_, &RecoveryFinder::progressed, this, [this](double fraction) {

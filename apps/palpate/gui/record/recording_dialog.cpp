@@ -22,6 +22,7 @@
 #include "gui/record/recording_timing.h"
 #include "gui/widgets/content_scroll.h"
 #include "gui/widgets/elided_text.h"
+#include "gui/widgets/text_fit.h"
 
 namespace palpate::gui {
 namespace {
@@ -260,7 +261,7 @@ QWidget* RecordingDialog::makeFoot(const QString& okText) {
   ok_->setObjectName("recordingOk");
   ok_->setProperty("primary", true);
   ok_->setDefault(true);
-  ok_->setMinimumWidth(110);
+  keepWide(*ok_, 110);
   connect(ok_, &QPushButton::clicked, this, &RecordingDialog::accept);
   auto* row = new QHBoxLayout(foot);
   row->setContentsMargins(kRecordingDialogMargin, 12, kRecordingDialogMargin, 12);

@@ -4,11 +4,13 @@
 #include <QCloseEvent>
 #include <QComboBox>
 #include <QStatusBar>
+#include <QTimer>
 #include <algorithm>
 
 #include "gui/appearance/text_size.h"
 #include "gui/desktop/application.h"
 #include "gui/desktop/greyed_keys.h"
+#include "gui/desktop/popup_escape.h"
 #include "gui/export/export_feature.h"
 #include "gui/settings/settings_feature.h"
 #include "gui/shell/central_widget.h"
@@ -165,9 +167,11 @@ void MainWindow::connectActions() {
     checkChoice(actions.themes, kAllThemeChoices, look.view().theme);
   });
   EscapeHandler& escapeHandler = windowState_->escapeHandler;
-  connect(actions.dismiss, &QAction::triggered, this, [&escapeHandler] {
+  auto* escape = new PopupEscape(this);
+  connect(actions.dismiss, &QAction::triggered, this, [&escapeHandler, escape] {
     // The list of a box that is open is closed, and nothing else.
     QWidget* popup = QApplication::activePopupWidget();
+    if (!popup && escape->inPopup()) return;
     if (!popup) return escapeHandler.press();
     if (auto* box = qobject_cast<QComboBox*>(popup->parentWidget()))
       box->hidePopup();
@@ -267,11 +271,18 @@ void MainWindow::closeEvent(QCloseEvent* event) {
 }
 
 void MainWindow::endNow() {
+  // Whatever keeps the window open, the hand doesn't go on moving.
+  windowState_->live.stopMotion();
+  if (QWidget* dialog = QApplication::activeModalWidget()) dialog->close();
+  // The question of a window that is being closed has to be answered first: it asks no other way.
+  QTimer::singleShot(0, this, &MainWindow::closeUnasked);
+}
+
+void MainWindow::closeUnasked() {
   const UserPrompts asking = windowState_->prompts;
   windowState_->prompts.endRecording = [] { return true; };
   windowState_->prompts.endBatch = [] { return true; };
   windowState_->prompts.unsaved = [](const QString&) { return UserPrompts::Unsaved::kSave; };
-  if (QWidget* dialog = QApplication::activeModalWidget()) dialog->close();
   // What can't be saved keeps the window open: it asks again when the user closes it.
   if (!close() && !closing_) windowState_->prompts = asking;
 }

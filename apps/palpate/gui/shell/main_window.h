@@ -50,8 +50,8 @@ class MainWindow : public QMainWindow {
     throw std::logic_error("MainWindow: no such feature");
   }
 
-  // Closes without asking: unsaved events are saved, a recording is finished, a moving hand is
-  // stopped.
+  // Stops a moving hand at once, then closes without asking: unsaved events are saved, a recording
+  // is finished. The window stays open when events can't be saved.
   void endNow();
   // Waits until all reading, computing and writing has ended; for tests and pictures.
   void settle();
@@ -72,6 +72,7 @@ class MainWindow : public QMainWindow {
   void showTheme();
   void setFullScreen(bool on);
   void remember();
+  void closeUnasked();
 
   std::unique_ptr<WindowState> windowState_;
   ShellActions actions_;

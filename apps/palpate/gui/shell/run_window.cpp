@@ -2,6 +2,8 @@
 
 #include <QGuiApplication>
 #include <QScreen>
+#include <filesystem>
+#include <vector>
 
 #include "gui/connect/connect_feature.h"
 #include "gui/desktop/application.h"
@@ -64,7 +66,11 @@ int runWindow(int& argc, char** argv, const WindowOptions& options) {
     window.state().keepsSession = true;
     window.state().connectTo(emulatedBallConnection(true));
   } else if (!options.files.empty()) {
-    window.state().open(options.files);
+    // The Library and the menus name them by these paths, too.
+    std::vector<std::filesystem::path> files;
+    for (const std::filesystem::path& file : options.files)
+      files.push_back(std::filesystem::absolute(file).lexically_normal());
+    window.state().open(files);
   } else if (reopensSession(window.state().settings)) {
     restoreSession(window.state());
   }

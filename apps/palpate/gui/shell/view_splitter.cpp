@@ -9,10 +9,6 @@ namespace {
 // Below this width [px], views side by side would show less than below one another.
 constexpr int kComfortable = 460;
 
-// Views that are below one another stay so down to this share of the height that they need: a line
-// above them may take some of it, and the window must not become wider for that.
-constexpr double kSqueezed = 0.2;
-
 QSize leastOf(const QWidget& view) { return view.minimumSizeHint().expandedTo(view.minimumSize()); }
 
 }  // namespace
@@ -43,8 +39,9 @@ QSize ViewSplitter::largest() const {
 int ViewSplitter::widthSideBySide() const { return std::max(sum().width(), kComfortable); }
 
 bool ViewSplitter::mayStack() const {
-  const double share = orientation() == Qt::Vertical ? kSqueezed : 1.0;
-  return height() >= share * sum().height();
+  // Views that are below one another stay so: a line above them may take some of their height, and
+  // the window must not become wider for that.
+  return orientation() == Qt::Vertical || height() >= sum().height();
 }
 
 QSize ViewSplitter::minimumSizeHint() const {

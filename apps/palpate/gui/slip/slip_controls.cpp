@@ -177,14 +177,15 @@ void SlipControls::setLive(bool live) {
   const auto method =
       slipMethodNamed(kept.toStdString()).value_or(live ? kUsualLiveMethod : kUsualMethod);
   method_->setCurrentText(QString::fromUtf8(nameOf(method)));
-  method_->setToolTip(tipOf(method));
   showLimits();
   setReferenceFrame(std::nullopt);
 }
 
 // With the method contest the figures of a frame are no plain limits.
 void SlipControls::showLimits() {
-  const bool contest = options().method == SlipMethod::kHypotheses;
+  const SlipMethod method = options().method;
+  method_->setToolTip(tipOf(method));
+  const bool contest = method == SlipMethod::kHypotheses;
   for (QDoubleSpinBox* each : {step_, whole_, rotation_})
     each->setToolTip(each->accessibleName() +
                      (contest ? "\nWith contest it only scales which motions of several frames are "

@@ -174,8 +174,12 @@ QString problemOf(const Connection& connection) {
   return connection.scene.isEmpty() ? "Choose a scene." : "";
 }
 
-Connection loadConnection(const QSettings& settings) {
-  return connectionIn(settings, kLastConnection);
+Connection loadConnection(QSettings& settings) {
+  Connection last = connectionIn(settings, kLastConnection);
+  // The name may have been forgotten, or given to another hand, since.
+  const auto named = namedConnection(settings, last.name);
+  if (!named || !isSameSource(*named, last)) last.name.clear();
+  return last;
 }
 
 bool hasLastConnection(QSettings& settings) {

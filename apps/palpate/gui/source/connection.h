@@ -63,7 +63,7 @@ QString problemOf(const Connection& connection);
 
 // Loads the last connection from the settings. Values that can't be read are replaced by the
 // defaults.
-Connection loadConnection(const QSettings& settings);
+Connection loadConnection(QSettings& settings);
 // A connection has been made with these settings before.
 bool hasLastConnection(QSettings& settings);
 void saveConnection(const Connection& connection, QSettings& settings);

@@ -55,6 +55,11 @@ void LiveController::setState(State state) {
   emit stateChanged();
 }
 
+void LiveController::stopMotion() {
+  if (source_ && source_->control && source_->control->status().phase != GraspPhase::kIdle)
+    source_->control->stop();
+}
+
 void LiveController::release() {
   ++generation_;
   if (cancelled_) *cancelled_ = true;
@@ -62,9 +67,8 @@ void LiveController::release() {
   lookTimer_.stop();
   beforeRun_.reset();
   if (!source_) return;
-  // A motion stops at once, even while the worker is busy.
-  if (source_->control && source_->control->status().phase != GraspPhase::kIdle)
-    source_->control->stop();
+  // Even while the worker is busy.
+  stopMotion();
   emit leaving();
   const bool recorded = recording_;
   recording_ = stopping_ = false;

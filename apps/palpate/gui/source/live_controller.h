@@ -38,6 +38,8 @@ class LiveController : public QObject {
   // Closes the connection, or cancels one that is being opened. ended() follows when nothing is
   // connected any more.
   void end();
+  // Stops a motion of the connected hand at once; the connection stays.
+  void stopMotion();
   State state() const noexcept { return state_; }
   // The present connection, or the last one.
   const Connection& connection() const noexcept { return connection_; }

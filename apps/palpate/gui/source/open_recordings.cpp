@@ -29,13 +29,12 @@ void OpenRecordings::open(const OpenRequest& request) {
   const auto running = std::make_shared<Running>(Running{request});
   for (const std::filesystem::path& file : request.files) {
     const OpenedRecordingPtr known = at(file);
-    if (known && known->path != file)
+    const bool otherPath = known && known->path != file;
+    const bool shownAsItIs = known && isWhole(*known) && (otherPath || !request.readAnew);
+    if (shownAsItIs || (known && mayReadAnew && !mayReadAnew(known)))
       arriveAgain(known, file, *running);
-    else if (known &&
-             ((!request.readAnew && isWhole(*known)) || (mayReadAnew && !mayReadAnew(known))))
-      arrive(known, nullptr, *running);
     else
-      running_[opener_.open(file)] = running;
+      running_[opener_.open(known ? known->path : file)] = running;
   }
 }
 
@@ -68,7 +67,7 @@ void OpenRecordings::arriveAgain(const OpenedRecordingPtr& known,
                                  const std::filesystem::path& asked,
                                  Running& running) {
   arrive(known, nullptr, running);
-  emit openAlready(known, asked);
+  if (known->path != asked) emit openAlready(known, asked);
 }
 
 OpenedRecordingPtr OpenRecordings::close(const OpenedRecordingPtr& recording) {

@@ -292,6 +292,7 @@ OpenedRecordingPtr makeOpenedRecording(std::filesystem::path path,
   const auto opened = computed(
       std::move(path), std::move(readable.profile), std::move(readable.damage), progress, longFrom);
   opened->events = {std::move(readable.events), readable.damagedEvents};
+  opened->notInFile = std::move(readable.notInFile);
   opened->meta = std::move(readable.meta);
   addGapsOfEvents(*opened);
   return opened;

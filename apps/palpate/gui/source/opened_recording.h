@@ -53,6 +53,8 @@ struct OpenedRecording {
   std::vector<bool> touched;
   // The events as stored in the file.
   EventsReport events;
+  // Of events, those that aren't in the file: what was found to be lost of a damaged recording.
+  std::vector<RecordingEvent> notInFile = {};
   // The meta data, see recording.h; empty for a .dsa.
   std::map<std::string, std::string> meta = {};
   // Why the events couldn't be read; empty: they were read.

@@ -4,7 +4,6 @@
 #include <QGridLayout>
 #include <QLabel>
 #include <QScreen>
-#include <QStyle>
 #include <algorithm>
 #include <limits>
 
@@ -30,12 +29,6 @@ SecondsField* endField(QWidget* parent, double value, int decimals, const QStrin
   constexpr int kFieldWidth = 110;  // [px]
   field->setMinimumWidth(kFieldWidth);
   return field;
-}
-
-// The mark of a number that isn't used.
-void markWrong(QWidget& field, bool wrong) {
-  field.setProperty("corrected", wrong);
-  field.style()->polish(&field);
 }
 
 }  // namespace
@@ -89,8 +82,8 @@ void AxisEditor::rebuild() {
     const auto use = [this, unit, name, automatic, from, to] {
       if (!axes_) return;
       const bool good = from->value() < to->value();
-      markWrong(*from, !good);
-      markWrong(*to, !good);
+      from->showMark(!good);
+      to->showMark(!good);
       say(good ? QString()
                : name + ": the begin " + from->text() + " isn't below the end " + to->text() +
                      ". The axis stays as it was: give a smaller begin or a larger end.");
@@ -112,8 +105,8 @@ void AxisEditor::rebuild() {
       const QSignalBlocker quietTo(to);
       from->setValue(now.lower);
       to->setValue(now.upper);
-      markWrong(*from, false);
-      markWrong(*to, false);
+      from->showMark(false);
+      to->showMark(false);
       say({});
     });
   }

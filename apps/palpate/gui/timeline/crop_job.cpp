@@ -158,15 +158,18 @@ void CropJob::start(const QString& path, const std::optional<Frames>& part) {
       [this,
        path,
        part,
+       written = editor ? editor->events() : std::vector<RecordingEvent>(),
        saved = windowState_.displayed.unfilteredRecording(),
        count = part ? part->last - part->first + 1
                     : windowState_.displayed.unfilteredRecording()->profile.numFrames()] {
         // The open recording doesn't have the labels of the copy: what was unsaved in it still is.
         windowState_.messages.flash("written: " + path + " (" + numberOf(count, "frame") + ")");
         if (canBeOpened(path)) windowState_.recent.add(path);
-        emit written(path);
+        emit this->written(path);
         if (!canBeOpened(path)) return;
-        if (!part) windowState_.events.savedElsewhere(saved);
+        // Not when something was labelled while the copy was written.
+        if (!part && windowState_.events.eventsOf(saved) == written)
+          windowState_.events.savedElsewhere(saved);
         windowState_.recordings.open({{path.toStdString()}, OpenRequest::Then::kList});
         // Another recording may be shown by now.
         if (!part && windowState_.displayed.unfilteredRecording() == saved)

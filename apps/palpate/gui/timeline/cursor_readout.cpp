@@ -77,11 +77,12 @@ std::optional<RangeChange> CursorReadout::changeOf(const PlottedCurve& curve,
   const auto timeSAt = [&](std::size_t sample) {
     return recording->timeAt(frames->first + sample);
   };
-  const bool inMemory = store.samples(curve.choice) != nullptr;
-  std::size_t numReads = 0;
+  const bool inMemory = store.holds(curve.choice, span.fromS, span.toS);
+  std::size_t numReads = 0;  // at one end
   return rangeChange(frames->second - frames->first + 1, timeSAt, [&](std::size_t sample) {
     if (!inMemory && ++numReads > kMostReads) return std::numeric_limits<double>::quiet_NaN();
     const auto value = store.valueAt(curve.choice, timeSAt(sample));
+    if (value) numReads = 0;
     return value ? curve.conversion.of(*value) : std::numeric_limits<double>::quiet_NaN();
   });
 }

@@ -138,7 +138,7 @@ void EventEditing::addConditions() {
         const EventEditor* editor = windowState_.events.editor();
         return editor && editor->unsaved();
       },
-      "There is nothing to save: no label, note or grasp has changed");
+      "No recording with an unsaved label, note or grasp is shown");
   actionEnabler.add({actions.addLabel, actions.addNote}, frames);
   actionEnabler.add({actions.nextEvent, actions.previousEvent, actions.toEvents},
                     [this, frames] { return frames() && !rows_.marks().empty(); });

@@ -88,12 +88,12 @@ void LabelExchange::exportLabels() {
   }
 }
 
-// Shows a failure until its import is undone, another one begins or the recording is not shown any
-// more.
-void LabelExchange::fail(const QString& message) {
+// Shows a failure until another import begins or the recording is not shown any more; one that
+// added labels, until it is undone.
+void LabelExchange::fail(const QString& message, bool added) {
   failed_ = true;
   failedIn_ = windowState_.events.editor();
-  failedAt_ = failedIn_ ? failedIn_->undoStack().index() : 0;
+  failedAt_ = failedIn_ && added ? failedIn_->undoStack().index() : 0;
   windowState_.messages.failAbout(kImportTopic, message);
 }
 
@@ -137,7 +137,7 @@ void LabelExchange::importLabels() {
     }
     const auto bad = static_cast<qsizetype>(table.problems.size());
     if (bad > kMostProblems) problems.append(QString::number(bad - kMostProblems) + " more");
-    fail(said + "; left out: " + problems.join("; "));
+    fail(said + "; left out: " + problems.join("; "), !added.empty());
   } catch (const FileError& error) {
     fail(QString::fromUtf8(error.what()));
   } catch (const Error& error) {

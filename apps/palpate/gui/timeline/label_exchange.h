@@ -21,7 +21,7 @@ class LabelExchange : public QObject {
   void importLabels();
 
  private:
-  void fail(const QString& message);
+  void fail(const QString& message, bool added = false);
   void withdrawWhenUndone();
 
   WindowState& windowState_;

@@ -6,6 +6,7 @@
 
 #include <palpate/core/error.h>
 #include <palpate/core/time.h>
+#include <palpate/signals/formula.h>
 
 namespace palpate::gui {
 namespace {
@@ -339,8 +340,10 @@ std::optional<double> SeriesStore::valueAt(const SeriesChoice& choice, double ti
     return std::isnan(value) ? std::nullopt : std::optional(value);
   };
   if (entry->whole) return last(*entry->whole);
-  if (entry->exact && entry->exactFromS <= timeS && timeS <= entry->exactToS)
-    return last(*entry->exact);
+  if (holds(choice, timeS, timeS)) return last(*entry->exact);
+  // It would have to be computed from gap to gap, with the window standing still.
+  if (choice.kind == SeriesChoice::Kind::kFormula && Formula(choice.formula).hasFrequencyFilter())
+    return std::nullopt;
   try {
     const Series one = readSeries(recording_->profile, choice, timeS, timeS);
     if (!one.values.empty()) return last(one);
@@ -349,12 +352,17 @@ std::optional<double> SeriesStore::valueAt(const SeriesChoice& choice, double ti
   return std::nullopt;
 }
 
+bool SeriesStore::holds(const SeriesChoice& choice, double fromS, double toS) const {
+  const Entry* entry = find(choice);
+  if (!entry) return false;
+  return entry->whole || (entry->exact && entry->exactFromS <= fromS && toS <= entry->exactToS);
+}
+
 std::shared_ptr<const Series> SeriesStore::samples(const SeriesChoice& choice) const {
   const Entry* entry = find(choice);
   if (!entry) return nullptr;
   if (entry->whole) return entry->whole;
-  const bool fits = entry->exact && entry->exactFromS <= fromS_ && toS_ <= entry->exactToS;
-  return fits ? entry->exact : nullptr;
+  return holds(choice, fromS_, toS_) ? entry->exact : nullptr;
 }
 
 std::optional<std::pair<double, double>> SeriesStore::extremes(const SeriesChoice& choice) const {

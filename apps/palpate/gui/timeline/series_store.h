@@ -39,9 +39,11 @@ class SeriesStore : public QObject {
   // has been read yet.
   std::vector<SeriesPoint> points(const SeriesChoice& choice,
                                   const DecimationOptions& options) const;
-  // The value at a time: that of the last sample at or before it; nothing if there is none, or in a
-  // gap.
+  // The value at a time: that of the last sample at or before it; nothing if there is none, in a
+  // gap, or for a formula with a frequency filter that would have to be computed first.
   std::optional<double> valueAt(const SeriesChoice& choice, double timeS) const;
+  // Whether every sample of the span is in memory: valueAt() reads no file.
+  bool holds(const SeriesChoice& choice, double fromS, double toS) const;
   // Every sample of a short recording; of a long one those of the visible span once they are read.
   // Null: not read yet.
   std::shared_ptr<const Series> samples(const SeriesChoice& choice) const;

@@ -12,8 +12,11 @@ void showElided(QLabel* label, const QString& text, int widthPx) {
 }
 
 QString withShorterPath(const QString& text, const QFontMetrics& metrics, int widthPx) {
-  const qsizetype begin = text.indexOf('/'), name = text.lastIndexOf('/');
-  if (begin == name || metrics.horizontalAdvance(text) <= widthPx)
+  // A path begins a word ("10 deg/s" has none); of several paths the first one is shortened.
+  const qsizetype begin = text.startsWith('/') ? 0 : text.indexOf(" /") + 1;
+  const qsizetype next = text.indexOf(" /", begin + 1);
+  const qsizetype name = text.lastIndexOf('/', next < 0 ? -1 : next);
+  if (begin >= name || text[begin] != '/' || metrics.horizontalAdvance(text) <= widthPx)
     return metrics.elidedText(text, Qt::ElideRight, widthPx);
   const QString before = text.left(begin), after = text.mid(name);
   const int room = widthPx - metrics.horizontalAdvance(before + after);

@@ -27,6 +27,15 @@ FactsView::FactsView(QWidget* parent) : QWidget(parent) {
 
 void FactsView::setFacts(std::vector<Fact> facts) {
   facts_ = std::move(facts);
+  measure();
+}
+
+void FactsView::changeEvent(QEvent* event) {
+  QWidget::changeEvent(event);
+  if (event->type() == QEvent::FontChange) measure();
+}
+
+void FactsView::measure() {
   numberWidth_ = 0;
   for (const Fact& fact : facts_)
     if (isNumber(fact.value)) numberWidth_ = std::max(numberWidth_, textWidth(fact.value));

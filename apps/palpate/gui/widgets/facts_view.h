@@ -37,10 +37,12 @@ class FactsView : public QWidget {
 
  protected:
   void paintEvent(QPaintEvent* event) override;
+  void changeEvent(QEvent* event) override;
   // Shows tool tips for values that are too long.
   bool event(QEvent* event) override;
 
  private:
+  void measure();
   int rowHeight() const;
   int nameWidth() const;
   int textWidth(const QString& text) const;

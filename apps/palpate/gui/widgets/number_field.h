@@ -31,6 +31,8 @@ class SecondsField : public QDoubleSpinBox {
   void setPlaceholder(const QString& text);
   // Removes the mark of a corrected number.
   void endCorrection();
+  // Marks the field as one whose number isn't used, or ends that.
+  void showMark(bool on);
 
  signals:
   // The typed number was out of range: "Target of finger 0 distal: 200 is out of -90 .. 90°; set to
@@ -47,7 +49,6 @@ class SecondsField : public QDoubleSpinBox {
 
  private:
   void showCorrection();
-  void showMark(bool on);
 
   QString saidUnit_;
   QString placeholder_;

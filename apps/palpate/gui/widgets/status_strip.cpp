@@ -1,6 +1,8 @@
 #include "gui/widgets/status_strip.h"
 
+#include <QHelpEvent>
 #include <QPainter>
+#include <QToolTip>
 
 #include "gui/widgets/elided_text.h"
 
@@ -30,17 +32,31 @@ void StatusStrip::setTheme(Theme theme) {
   update();
 }
 
+// Leaves room for the state and for messages.
+QString StatusStrip::shownRight() const {
+  return fontMetrics().elidedText(status_.right, Qt::ElideMiddle, width() * 2 / 5);
+}
+
+bool StatusStrip::event(QEvent* event) {
+  if (event->type() != QEvent::ToolTip) return QWidget::event(event);
+  const bool whole = shownRight() == status_.right;
+  QToolTip::showText(
+      static_cast<QHelpEvent*>(event)->globalPos(), whole ? toolTip() : status_.right, this);
+  return true;
+}
+
 void StatusStrip::paintEvent(QPaintEvent*) {
   const ThemeColors& colors = colorsOf(theme_);
   QPainter painter(this);
   const auto advance = [this](const QString& text) {
     return fontMetrics().horizontalAdvance(text);
   };
-  const int rightWidth = advance(status_.right);
+  const QString right = shownRight();
+  const int rightWidth = advance(right);
   painter.setPen(colors.text);
   painter.drawText(QRect(width() - kStatusStripMargin - rightWidth, 0, rightWidth, height()),
                    Qt::AlignRight | Qt::AlignVCenter,
-                   status_.right);
+                   right);
   const int end = width() - kStatusStripMargin - rightWidth - kStatusStripBetween;
 
   const QColor lamp = status_.lamp == Status::Lamp::kGood      ? colors.accent

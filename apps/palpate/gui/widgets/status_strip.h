@@ -31,8 +31,12 @@ class StatusStrip : public QWidget {
 
  protected:
   void paintEvent(QPaintEvent* event) override;
+  // The tool tip has the whole text on the right, where it is shortened.
+  bool event(QEvent* event) override;
 
  private:
+  QString shownRight() const;
+
   Status status_;
   Theme theme_ = Theme::kDark;
 };

@@ -1,8 +1,10 @@
 #include "gui/widgets/text_fit.h"
 
+#include <QAbstractButton>
 #include <QEvent>
 #include <QTimer>
 #include <QWidget>
+#include <algorithm>
 #include <utility>
 
 namespace palpate::gui {
@@ -30,6 +32,12 @@ class TextFit : public QObject {
 void fitToText(QWidget& widget, std::function<void()> fit) {
   // The widget owns it.
   new TextFit(widget, std::move(fit));  // NOLINT(cppcoreguidelines-owning-memory)
+}
+
+void keepWide(QAbstractButton& button, int leastPx) {
+  fitToText(button, [&button, leastPx] {
+    button.setMinimumWidth(std::max(leastPx, button.sizeHint().width()));
+  });
 }
 
 }  // namespace palpate::gui

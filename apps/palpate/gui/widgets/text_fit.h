@@ -4,6 +4,7 @@
 
 #include <functional>
 
+class QAbstractButton;
 class QWidget;
 
 namespace palpate::gui {
@@ -11,5 +12,7 @@ namespace palpate::gui {
 // Calls `fit` at once, and again after each change of the font of `widget`, once all widgets have
 // their new font. `fit` may use what lives as long as `widget`.
 void fitToText(QWidget& widget, std::function<void()> fit);
+// Makes the button at least `leastPx` wide [px], or as wide as its text needs.
+void keepWide(QAbstractButton& button, int leastPx);
 
 }  // namespace palpate::gui

@@ -56,9 +56,11 @@ EventEditor* EventController::editor() {
   if (!editor) {
     editor = std::make_unique<EventEditor>(
         recording->events,
-        [path = recording->path](const EventsReport& asRead,
-                                 const std::vector<RecordingEvent>& now) {
-          palpate::saveEvents(path, asRead, now);
+        [path = recording->path, notInFile = recording->notInFile](
+            const EventsReport& asRead, const std::vector<RecordingEvent>& now) {
+          palpate::saveEvents(path,
+                              {withoutEvents(asRead.events, notInFile), asRead.damaged},
+                              withoutEvents(now, notInFile));
         });
     connect(editor.get(), &EventEditor::changed, this, &EventController::renewMarks);
     connect(editor.get(),
@@ -75,8 +77,10 @@ const std::vector<GraspSegment>& EventController::graspsOf(const OpenedRecording
   const auto known = grasps_.find(recording.get());
   if (known != grasps_.end()) return known->second;
   auto& found = grasps_[recording.get()];
+  // Without the gaps that only the events tell of: the commands, the comparison and the export of
+  // each grasp number the same grasps.
   if (!recording->isLong())
-    return found = findGrasps(recording->profile, recording->table, recording->timing);
+    return found = findGrasps(recording->profile, recording->table, timingOf(recording->profile));
   // The recording may last hours: its grasps are found in the background.
   auto result = std::make_shared<std::vector<GraspSegment>>();
   finder_.start(
