@@ -91,8 +91,8 @@ std::string filterList() {
     text += padded("", 18) + "Over " + domainText(kind.domain) + ". Border: " + kind.border +
             ". Source: " + kind.source + ".\n";
     for (const FilterOption& option : kind.options)
-      text += "    " + padded(option.key, 14) + padded(filterOptionsRangeOf(option), 28) +
-              "default " + padded(fallbackOf(option), 8) + option.purpose + "\n";
+      text += "    " + padded(option.key, 14) + padded(filterOptionsRangeOf(option), 27) +
+              " default " + padded(fallbackOf(option), 8) + option.purpose + "\n";
   }
   text += "Every filter takes matrices=A+B.. (only these). A filter in round brackets is off.\n";
   return text;

@@ -27,6 +27,7 @@
 #include "gui/timeline/event_rows.h"
 #include "gui/timeline/timeline_chart.h"
 #include "gui/timeline/timeline_header.h"
+#include "gui/widgets/dock.h"
 #include "gui/widgets/facts_view.h"
 #include "gui/widgets/offer_strip.h"
 
@@ -173,6 +174,22 @@ TEST_F(WindowFitsTest, ARecordingWithEveryPage) {
 TEST_F(WindowFitsTest, ALiveHandWithEveryPage) {
   connectEmulated();
   expectEveryPageFits("live");
+}
+
+TEST_F(WindowFitsTest, APageThatIsChosenHasTheWidthThatItNeeds) {
+  window().resize(1440, 900);
+  window().setAnimated(false);
+  connectEmulated();
+  window().docks().reset();
+  window().docks().show("Calibrate");
+  auto& panel = window().feature<CalibrateFeature>().panel();
+  const auto* dock = find<Dock>("Calibrate");
+  for (const QString& page : panel.pageNames()) {
+    panel.showPage(page);
+    window().settle();
+    processAll();
+    EXPECT_GE(dock->width(), dock->contentWidth()) << page.toStdString();
+  }
 }
 
 // Docks may scroll, but no word is cut, and the window keeps its size.

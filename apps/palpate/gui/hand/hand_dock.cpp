@@ -173,6 +173,7 @@ void HandDock::makePages(QSettings& settings, QWidget* content) {
   chooser_->setExpanding(false);
   chooser_->setFocusPolicy(Qt::TabFocus);
   pages_ = new FittingPages(content);
+  pages_->setObjectName(kDockPages);
   const auto page = [this](QWidget* panel, const QString& name, const QString& tip) {
     // What is left of the height of a page stays below its panel.
     pages_->addWidget(panel);

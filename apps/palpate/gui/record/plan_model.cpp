@@ -12,17 +12,17 @@ namespace {
 
 QString planText(const std::string& text) { return QString::fromStdString(text); }
 
-// The name of the newest take, and what is to be done: a problem of one that counts, or that it is
-// to be repeated.
+// What is to be done about the newest take, and its name: the end of a long text may be cut.
 QString stateOfRow(const PlanRow& row) {
   if (row.takes.empty()) return {};
   const PlannedTake& newest = row.takes.back();
   const QString name = planText(newest.file.filename().string());
+  const QString of = " · " + name;
   if (newest.rejected)
-    return name + (row.numDone() < row.repetitions ? ": to be repeated" : ": rejected");
+    return (row.numDone() < row.repetitions ? "to be repeated" : "rejected") + of;
   if (!newest.problem.empty())
-    return (newest.undecided() ? "to be decided: " : "") + name + ": " + planText(newest.problem);
-  return row.numUndecided() > 0 ? name + "; one before it is to be decided" : name;
+    return (newest.undecided() ? "to be decided: " : "") + planText(newest.problem) + of;
+  return row.numUndecided() > 0 ? "one before it is to be decided" + of : name;
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 
 #include "gui/shell/central_widget.h"
 #include "gui/widgets/dock.h"
+#include "gui/widgets/fitting_pages.h"
 #include "gui/window_state/action_registry.h"
 
 namespace palpate::gui {
@@ -54,17 +55,24 @@ DockArrangement::DockArrangement(QMainWindow& window,
   textChange_.setInterval(kTextChangeMs);
   connect(&textChange_, &QTimer::timeout, this, &DockArrangement::fitToNewText);
   window.setTabPosition(Qt::AllDockWidgetAreas, QTabWidget::North);
-  // A tab that the user chooses may need more width than the one before.
   connect(&window, &QMainWindow::tabifiedDockWidgetActivated, this, [this](QDockWidget* activated) {
-    auto* dock = qobject_cast<Dock*>(activated);
-    if (!dock || isAcross(window_.dockWidgetArea(dock))) return;
-    QTimer::singleShot(0, dock, [this, dock] {
-      if (!dock->isFloating() && !dock->visibleRegion().isEmpty()) widen(*dock, 0);
-    });
+    if (auto* dock = qobject_cast<Dock*>(activated)) fitChosen(*dock);
+  });
+}
+
+// A tab or page that the user chooses may need more width than the one before.
+void DockArrangement::fitChosen(Dock& dock) {
+  if (isAcross(window_.dockWidgetArea(&dock))) return;
+  QTimer::singleShot(0, &dock, [this, &dock] {
+    if (!dock.isFloating() && !dock.visibleRegion().isEmpty()) widen(dock, 0);
   });
 }
 
 void DockArrangement::add(const DockSpec& offer) {
+  for (const auto* pages : offer.dock->findChildren<FittingPages*>(kDockPages))
+    connect(pages, &FittingPages::currentChanged, this, [this, dock = offer.dock] {
+      fitChosen(*dock);
+    });
   QAction* toggle = offer.dock->toggleViewAction();
   setSection(*toggle, "View");
   toggle->setShortcut(offer.key);

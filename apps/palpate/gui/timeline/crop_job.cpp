@@ -176,7 +176,7 @@ void CropJob::start(const QString& path, const std::optional<Frames>& part) {
           offer_->offer(
               "Saved as " + QFileInfo(path).fileName() + ". " + fileNameOf(*saved) + " stays open.",
               "Open the new one",
-              [this, path] { windowState_.open({path.toStdString()}); });
+              [this, path] { windowState_.openOrShow({path.toStdString()}); });
       });
 }
 

@@ -6,6 +6,9 @@
 
 namespace palpate::gui {
 
+// Name of the stack of the pages that the user chooses in a dock.
+inline constexpr const char* kDockPages = "dockPages";
+
 class FittingPages : public QStackedWidget {
   Q_OBJECT
  public:

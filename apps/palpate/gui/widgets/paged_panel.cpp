@@ -32,6 +32,7 @@ PagedPanel::PagedPanel(QSettings& settings, QString key, QWidget* parent)
   header_->installEventFilter(this);
   chooser_ = new QButtonGroup(this);
   pages_ = new FittingPages(this);
+  pages_->setObjectName(kDockPages);
   fitToText(*list_, [this] {
     if (!chooser_->buttons().isEmpty()) fitHeader();
   });
