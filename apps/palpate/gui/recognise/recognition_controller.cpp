@@ -62,9 +62,7 @@ void RecognitionController::takeDefault() {
     path = emulated_ && std::filesystem::exists(emulatedModel_, ignored) ? emulatedModel_
                                                                          : std::filesystem::path();
   if (gone.isEmpty() && path == path_ && (session_ || path.empty())) return;
-  if (!path.empty()) {
-    return readModel(path, gone);
-  }
+  if (!path.empty()) return readModel(path, gone);
   path_.clear();
   setModel(std::nullopt, gone.isEmpty() ? std::filesystem::path() : last);
   if (gone.isEmpty()) return;

@@ -60,7 +60,6 @@ DockArrangement::DockArrangement(QMainWindow& window,
   });
 }
 
-// A tab or page that the user chooses may need more width than the one before.
 void DockArrangement::fitChosen(Dock& dock) {
   if (isAcross(window_.dockWidgetArea(&dock))) return;
   QTimer::singleShot(0, &dock, [this, &dock] {

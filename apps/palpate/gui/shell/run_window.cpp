@@ -3,6 +3,7 @@
 #include <QGuiApplication>
 #include <QScreen>
 #include <filesystem>
+#include <system_error>
 #include <vector>
 
 #include "gui/connect/connect_feature.h"
@@ -27,6 +28,14 @@ void fitOnScreen(MainWindow& window) {
   if (fitting == window.size()) return;
   window.resize(fitting);
   window.move(window.screen()->availableGeometry().topLeft());
+}
+
+// As the Library and the menus name a file, whatever the current folder is later.
+std::filesystem::path wholePath(const std::filesystem::path& file) {
+  std::error_code failed;
+  const auto folder =
+      std::filesystem::canonical(file.has_parent_path() ? file.parent_path() : ".", failed);
+  return failed ? file : folder / file.filename();
 }
 
 }  // namespace
@@ -66,10 +75,8 @@ int runWindow(int& argc, char** argv, const WindowOptions& options) {
     window.state().keepsSession = true;
     window.state().connectTo(emulatedBallConnection(true));
   } else if (!options.files.empty()) {
-    // The Library and the menus name them by these paths, too.
     std::vector<std::filesystem::path> files;
-    for (const std::filesystem::path& file : options.files)
-      files.push_back(std::filesystem::absolute(file).lexically_normal());
+    for (const std::filesystem::path& file : options.files) files.push_back(wholePath(file));
     window.state().open(files);
   } else if (reopensSession(window.state().settings)) {
     restoreSession(window.state());
