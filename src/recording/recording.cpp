@@ -388,6 +388,11 @@ std::optional<ReadableRecording> recoveredDsa(const std::filesystem::path& path,
   if (!recovery.profile) return std::nullopt;
   ReadableRecording recording{.profile = std::move(*recovery.profile)};
   addNotes(path, recording);
+  recording.events.insert(recording.events.end(), recovery.losses.begin(), recovery.losses.end());
+  std::stable_sort(recording.events.begin(),
+                   recording.events.end(),
+                   [](const auto& a, const auto& b) { return a.tUs < b.tUs; });
+  recording.notInFile = std::move(recovery.losses);
   recording.damage =
       "damaged; readable: " + countsText(recovery.frames, recovery.angles, recovery.temperatures);
   if (!recovery.lossText.empty()) recording.damage += "; " + recovery.lossText;
