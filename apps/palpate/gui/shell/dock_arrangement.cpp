@@ -56,11 +56,11 @@ DockArrangement::DockArrangement(QMainWindow& window,
   connect(&textChange_, &QTimer::timeout, this, &DockArrangement::fitToNewText);
   window.setTabPosition(Qt::AllDockWidgetAreas, QTabWidget::North);
   connect(&window, &QMainWindow::tabifiedDockWidgetActivated, this, [this](QDockWidget* activated) {
-    if (auto* dock = qobject_cast<Dock*>(activated)) fitChosen(*dock);
+    if (auto* dock = qobject_cast<Dock*>(activated)) fitShown(*dock);
   });
 }
 
-void DockArrangement::fitChosen(Dock& dock) {
+void DockArrangement::fitShown(Dock& dock) {
   if (isAcross(window_.dockWidgetArea(&dock))) return;
   QTimer::singleShot(0, &dock, [this, &dock] {
     if (!dock.isFloating() && !dock.visibleRegion().isEmpty()) widen(dock, 0);
@@ -69,9 +69,8 @@ void DockArrangement::fitChosen(Dock& dock) {
 
 void DockArrangement::add(const DockSpec& offer) {
   for (const auto* pages : offer.dock->findChildren<FittingPages*>(kDockPages))
-    connect(pages, &FittingPages::currentChanged, this, [this, dock = offer.dock] {
-      fitChosen(*dock);
-    });
+    connect(
+        pages, &FittingPages::currentChanged, this, [this, dock = offer.dock] { fitShown(*dock); });
   QAction* toggle = offer.dock->toggleViewAction();
   setSection(*toggle, "View");
   toggle->setShortcut(offer.key);

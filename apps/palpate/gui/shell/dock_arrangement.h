@@ -103,8 +103,8 @@ class DockArrangement : public QObject {
   // Height of the place at the bottom, whichever of its tabs is in front: that dock or `dock` [px].
   int heightOfBottom(const Dock& dock) const;
   void giveRoomBack(const Dock& dock);
-  // Widens a dock of which another tab or page was chosen, so that nothing of it is cut.
-  void fitChosen(Dock& dock);
+  // Widens a dock of which another tab or page is shown, so that nothing of it is cut.
+  void fitShown(Dock& dock);
   // Widens a dock up to `widthPx`, as far as the views in the centre stay side by side, but at
   // least so far that its content isn't cut.
   void widen(Dock& dock, int widthPx);

@@ -15,6 +15,8 @@ ComputedPage::ComputedPage(const QString& part, QWidget* parent) : QWidget(paren
   setObjectName(part + "Page");
   strip_ = new OpeningStrip(this, "Computing", part);
   pages_ = new FittingPages(this);
+  // What was computed may need a wider dock than the text before it.
+  pages_->setObjectName(kDockPages);
   empty_ = new EmptyPage(part, pages_);
   pages_->addWidget(empty_);
   auto* column = new QVBoxLayout(this);

@@ -6,7 +6,8 @@
 
 namespace palpate::gui {
 
-// Name of the stack of the pages that the user chooses in a dock.
+// Name of a stack in a dock whose pages need different widths: the dock is widened for the page
+// that is shown.
 inline constexpr const char* kDockPages = "dockPages";
 
 class FittingPages : public QStackedWidget {
