@@ -7,6 +7,7 @@
 
 #include "gui/desktop/button_keys.h"
 #include "gui/desktop/field_keys.h"
+#include "gui/desktop/file_dialog_look.h"
 #include "gui/desktop/wheel_guard.h"
 
 // Resources of a static library must be initialised explicitly, by a function outside of any
@@ -86,6 +87,7 @@ std::unique_ptr<QApplication> makeApplication(int& argc, char** argv) {
     new WheelGuard(application.get());
     new ButtonKeys(application.get());
     new FieldKeys(application.get());
+    new FileDialogLook(application.get());
   }
   QApplication::setApplicationName("palpate");
   QApplication::setApplicationDisplayName("Palpate");

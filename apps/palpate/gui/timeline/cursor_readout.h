@@ -6,6 +6,7 @@
 #include <QLabel>
 #include <optional>
 
+#include <palpate/model/timing.h>
 #include <palpate/signals/range_statistics.h>
 
 #include "gui/chart/plotted_curve.h"
