@@ -128,10 +128,14 @@ std::optional<std::pair<std::string, std::string>> metaRowAt(std::span<const std
     return std::nullopt;
   Cursor types(page, at + 1);
   const auto key = types.varint(), value = types.varint(), crc = types.varint();
-  const auto isText = [&page](const std::optional<std::uint64_t>& type) {
-    return type && *type % 2 == 1 && *type >= kFirstTextType && *type < 2 * page.size();
+  // Longer ones don't fit into a page; without the limits, damaged bytes would cost long copies.
+  constexpr std::size_t kMostKey = 256, kMostValue = 8192;  // [bytes]
+  const auto isText = [](const std::optional<std::uint64_t>& type, std::size_t most) {
+    return type && *type % 2 == 1 && *type >= kFirstTextType &&
+           (*type - kFirstTextType) / 2 <= most;
   };
-  if (!isText(key) || !isText(value) || !crc || types.at() != at + headerSize) return std::nullopt;
+  if (!isText(key, kMostKey) || !isText(value, kMostValue) || !crc || types.at() != at + headerSize)
+    return std::nullopt;
   Cursor body(page, at + headerSize);
   const auto text = [&body](std::uint64_t type) {
     const auto bytes = body.take((type - kFirstTextType) / 2);
