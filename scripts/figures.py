@@ -579,6 +579,13 @@ echo "bytes $(stat -c %s "$file") installed $(dpkg-deb -f "$file" Installed-Size
         "limit": (stops("frame_over_the_limit_to_stop", "worst_ms"), fixed(1, "ms")),
         "unplugged": (stops("unplugged_to_stop", "worst_ms"), fixed(1, "ms")),
         "silent": (stops("silent_to_stop", "worst_ms"), fixed(1, "ms"))}),
+    slow_test("blind_stops", 240, "control", "blind_stop_slow_test", {
+        f"{mode}_{key}": take for mode in ("plain", "reactive") for key, take in {
+            "answers": (stops(f"{mode}_decision_to_stop", "answers"), COUNT),
+            "decision_late": (stops(f"{mode}_decision_to_stop", "late"), COUNT),
+            **{f"{way}_{figure}": (stops(f"{mode}_{name}_to_stop", f"{figure}_ms"), fixed(1, "ms"))
+               for way, name in (("decision", "decision"), ("bad", "bad_answers"))
+               for figure in ("median", "p99", "worst")}}.items()}),
     slow_test("reach", 15, "control", "grasp_reach_test", {
         f"v{velocity}_limit{limit}_{key}": (
             stops(f"reach_{velocity}_deg_per_s_limit_{limit}", field), write)

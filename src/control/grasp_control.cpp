@@ -190,10 +190,12 @@ void GraspControl::checkLinks() {
   }
   const std::int64_t nowUs = clock_.monotonicUs();
   const DeviceStatus status = session_.device().status();
-  // The port's thread has tried to stop the hand, and opens the port again: the stop is repeated
-  // until it is answered.
+  // The port's thread has sent stops, and opens the port again: the stop is repeated until it is
+  // answered.
   if (status.motion && status.motion->state == PortState::kFault)
-    return machine_.fault("the motion port failed", nowUs);
+    return machine_.onMotionFault("the motion port failed", nowUs);
+  if (status.motion && status.motion->state == PortState::kLost && !status.motion->unplugged)
+    return machine_.onMotionFault(status.motion->message, nowUs);
   if (const std::string why = motionProblem(status); !why.empty())
     return machine_.onMotionPortGone(why, nowUs);
   const PortStatus& tactile = status.tactile;

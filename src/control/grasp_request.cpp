@@ -21,6 +21,8 @@ void requireRange(const char* field, double value, double least, double most, co
 
 // A joint a little beyond its range, as a real one can be, stays where it is within the range.
 constexpr double kBeyondRangeDeg = 1.0;
+// Under tactile control the hand may be pressing already: see MoveJoints::answerLimitS.
+constexpr double kTactileAnswerLimitS = 0.2;
 
 // The limits as text: "200 counts", "200, 150, 200 counts".
 template <typename Values>
@@ -196,6 +198,7 @@ MoveJoints motionTo(const GraspRequest& request,
     move.velocityDegPerS.push_back(std::min(request.velocityDegPerS, is.maximumVelocityDegPerS));
   }
   move.ramp = request.mode != GraspMode::kPlain;
+  if (request.mode != GraspMode::kPlain) move.answerLimitS = kTactileAnswerLimitS;
   return move;
 }
 

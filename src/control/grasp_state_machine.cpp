@@ -15,7 +15,8 @@ namespace {
 
 constexpr std::int64_t kAnswerUs = 5'000'000;   // time limit for the answer to a motion
 constexpr std::int64_t kStopAgainUs = 250'000;  // an unanswered stop is sent again after this time
-constexpr int kStops = 20;                      // number of stops before the grasp fails
+// Stops are repeated for as long as the motion could last, and for this time [s].
+constexpr double kStopMoreS = 10.0;
 // Limit of the motion time relative to the announced one: pressing fingers become slower.
 constexpr double kDurationFactor = 3.0;
 constexpr double kDurationMoreS = 5.0;
@@ -131,8 +132,8 @@ void GraspStateMachine::begin(const GraspRequest& request,
   forces_ = std::move(forces);
   report_ = report;
   report_.limitCounts = limit_ = request.limitCounts;
-  stops_ = 0;
   next_ = Next::kEnd;
+  stopsBlindly_ = reportedOverLimit_ = false;
   held_ = slippedAtLimit_ = frictionTestRunning_ = frictionTested_ = false;
   endUs_ = heldFromUs_ = 0;
   answeredSlips_ = 0;
@@ -259,6 +260,7 @@ void GraspStateMachine::onFrame(const TactileFrame& frame, std::int64_t monoUs) 
   if (report_.peakAfterStop && (phase_ == GraspPhase::kStopping || phase_ == GraspPhase::kSettling))
     measurePeakAfterStop();
   if (observesOvershoot()) return;
+  if (stopsBlindly_ && underTactileControl() && isOverLimit()) return onOverLimitUnanswered(monoUs);
   if (isHolding()) return onHoldingFrame(monoUs);
   if (!isMoving() || !underTactileControl()) return;
   if (phase_ == GraspPhase::kLoosening && !silence) return onLooseningFrame(monoUs);
@@ -281,6 +283,17 @@ void GraspStateMachine::onFrame(const TactileFrame& frame, std::int64_t monoUs) 
              "stopped: no tactile frames for " + millisecondsText(*silence) + " ms",
              monoUs);
   }
+}
+
+// Over the limit, and no stop has been answered.
+void GraspStateMachine::onOverLimitUnanswered(std::int64_t monoUs) {
+  if (std::exchange(reportedOverLimit_, true)) return;
+  stopAgain(monoUs);
+  const TaxelPeak& loaded = loadedTaxel(report_.request);
+  note("over_limit",
+       "over the limit at " + placeOf(loaded) +
+           ", and no stop is answered: use the power switch if the hand moves",
+       loaded.matrix);
 }
 
 void GraspStateMachine::onMoveAcknowledged(double durationS, std::int64_t monoUs) {
@@ -340,11 +353,17 @@ void GraspStateMachine::stopWith(GraspOutcome outcome,
   next_ = Next::kEnd;
   command_ = StopMotion{};  // replaces a motion that was not taken yet
   sentUs_ = monoUs;
-  ++stops_;
+  stoppingUntilUs_ = monoUs + microsecondsOf(remainingMotionS(monoUs) + kStopMoreS);
   report_.text = text;  // last, because it may find no memory
 }
 
+void GraspStateMachine::stopAgain(std::int64_t monoUs) {
+  command_ = StopMotion{};
+  sentUs_ = monoUs;
+}
+
 void GraspStateMachine::end(GraspOutcome outcome, const std::string& text) {
+  stopsBlindly_ = false;
   report_.outcome = outcome;
   report_.text = text;
   phase_ = GraspPhase::kIdle;
@@ -467,22 +486,34 @@ void GraspStateMachine::onTactilePortGone(const std::string& why, std::int64_t m
         "the tactile port is gone: " + why + "; the hand holds, without slip detection");
 }
 
-// The text is set last: it may find no memory, and the stop must be sent nevertheless.
+void GraspStateMachine::onMotionFault(const std::string& why, std::int64_t monoUs) {
+  failWith(why, ": stops are sent until one is answered", monoUs);
+  stopsBlindly_ = phase_ == GraspPhase::kStopping;
+}
+
 void GraspStateMachine::fault(std::string_view why, std::int64_t monoUs) {
+  failWith(why, ": stopped", monoUs);
+}
+
+// The text is set last: it may find no memory, and the stop must be sent nevertheless.
+void GraspStateMachine::failWith(std::string_view why,
+                                 std::string_view stoppedText,
+                                 std::int64_t monoUs) {
   if (observesOvershoot()) return endOvershoot();  // the motion has stopped already
   if (phase_ == GraspPhase::kStopping) {
     // The stop has been sent; no further motion may follow it.
     if (next_ == Next::kEnd && report_.outcome != GraspOutcome::kNone) return;
     next_ = Next::kEnd;
     report_.outcome = GraspOutcome::kFailed;
-    report_.text = "failed: " + std::string(why) + ": stopped";
+    report_.text = "failed: " + std::string(why) + std::string(stoppedText);
     return;
   }
   if (!active()) return;
   const bool held = isHolding();
   stopWith(GraspOutcome::kFailed, {}, monoUs);
-  report_.text = "failed: " + std::string(why) +
-                 (held ? ": the hand holds, without slip detection" : ": stopped");
+  report_.text =
+      "failed: " + std::string(why) +
+      (held ? ": the hand holds, without slip detection" : std::string(stoppedText));
 }
 
 void GraspStateMachine::stop(std::int64_t monoUs) {
@@ -500,12 +531,11 @@ void GraspStateMachine::relax() {
 
 void GraspStateMachine::onTime(std::int64_t monoUs) {
   if (phase_ == GraspPhase::kStopping) {
-    if (monoUs - sentUs_ < kStopAgainUs) return;
-    if (stops_ >= kStops)
-      return end(GraspOutcome::kFailed, report_.text + "; the hand doesn't answer the stop");
-    command_ = StopMotion{};
-    sentUs_ = monoUs;
-    ++stops_;
+    if (monoUs >= stoppingUntilUs_)
+      return end(GraspOutcome::kFailed,
+                 report_.text +
+                     "; the hand doesn't answer the stop, state unknown: use the power switch");
+    if (monoUs - sentUs_ >= kStopAgainUs) stopAgain(monoUs);
     return;
   }
   if (observesOvershoot()) {
@@ -527,7 +557,7 @@ void GraspStateMachine::onTime(std::int64_t monoUs) {
 }
 
 std::optional<std::int64_t> GraspStateMachine::nextUs() const {
-  if (phase_ == GraspPhase::kStopping) return sentUs_ + kStopAgainUs;
+  if (phase_ == GraspPhase::kStopping) return std::min(sentUs_ + kStopAgainUs, stoppingUntilUs_);
   if (observesOvershoot()) return settledUs_;
   if (isHolding()) return holdingNextUs();
   if (!isMoving()) return std::nullopt;
@@ -551,7 +581,6 @@ void GraspStateMachine::note(const char* action,
 
 // Stops the motion; the grasp continues afterwards.
 void GraspStateMachine::pause(Next next, const std::string& text, std::int64_t monoUs) {
-  stops_ = 0;
   stopWith(GraspOutcome::kNone, text, monoUs);
   next_ = next;
 }

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <span>
 #include <stdexcept>
+#include <string_view>
 #include <utility>
 #include <variant>
 
@@ -12,11 +14,16 @@
 #include "palpate/device/sdh2.h"
 #include "palpate/model/hand_description.h"
 
+#include "device/sdh_link.h"
+
 namespace palpate {
 namespace {
 
 // period of requests for the axis states while a motion runs
 constexpr std::int64_t kStatesPeriodUs = 50'000;
+constexpr int kBlindStops = 3;
+constexpr double kMinAnswerLimitS = 0.1;
+constexpr double kMaxAnswerLimitS = 3.0;
 constexpr int kMotionLinkPositioning = 1;  // axis states of the SDH-2
 constexpr int kMotionLinkSpeedMode = 2;
 constexpr int kSinSquareProfile = 0;
@@ -93,19 +100,49 @@ void MotionLink::enqueue(QueuedCommand order) {
   commandQueue_.push_front(std::move(order));
 }
 
+// Stops the hand, and answers all stops that wait.
+void MotionLink::confirmStops() {
+  controller_->stop();
+  while (true) {
+    std::optional<QueuedCommand> order;
+    {
+      std::lock_guard lock(mutex_);
+      if (commandQueue_.empty() ||
+          !std::holds_alternative<StopMotion>(commandQueue_.front().command))
+        return;
+      order = std::move(commandQueue_.front());
+      commandQueue_.pop_front();
+    }
+    order->answer.set_value({});
+  }
+}
+
+// Stops that come meanwhile go first.
+void MotionLink::openController() {
+  while (true) try {
+      controller_->open();
+      return;
+    } catch (const SdhInterrupted&) {
+      if (stopping()) throw;
+      confirmStops();
+    }
+}
+
 void MotionLink::connect(ByteChannel& channel) {
   SdhControllerOptions options;
   options.urgent = [this] { return stopping() || stopWaits(); };
   controller_ = std::make_unique<SdhController>(channel, clock_, options);
   const bool leftMoving = stopAfterReconnect_;
   if (leftMoving) {
-    // The port disappeared during a motion, which therefore ran without control. Send a stop before
-    // any other request.
-    controller_->stop();
+    // The controller was lost during a motion, which may have run without control. Send a stop
+    // before any other request.
+    confirmStops();
     stopAfterReconnect_ = false;
-    eventNow("motion", "stopped: the motion port had been gone during a motion");
+    eventNow("motion", "stopped: the motion controller had been lost during a motion");
   }
-  const SdhControllerInfo facts = controller_->open();
+  openController();
+  const SdhControllerInfo& facts = controller_->facts();
+  answered_ = true;
   if (const auto known = this->facts(); wasConnected() && known && known->serial != facts.serial)
     throw DeviceError(
         DeviceFault::kWrongDevice,
@@ -133,9 +170,27 @@ void MotionLink::disconnected() {
     session_.before.skippedBytes += stats.skippedBytes;
   }
   controller_.reset();
+  session_.answersLimited = false;
   if (std::exchange(session_.moving, false)) stopAfterReconnect_ = true;
   std::lock_guard lock(mutex_);
   states_.clear();
+}
+
+void MotionLink::stopBlindly(ByteChannel& channel, const std::string& why) noexcept {
+  if (!answered_) return;  // another device may be connected there
+  try {
+    const std::int64_t decidedUs = time_.nowUs();
+    const std::string_view stop = sdhStopBytes(!channel.isNetwork());
+    for (int i = 0; i < kBlindStops; ++i)
+      channel.write(std::as_bytes(std::span<const char>(stop.data(), stop.size())));
+    if (session_.moving)
+      event("motion",
+            "stops were sent without waiting for an answer: " + why,
+            decidedUs,
+            time_.nowUs());
+  } catch (...) {
+    // The port accepts no bytes, or no memory is left: nothing else can be sent.
+  }
 }
 
 void MotionLink::emergencyStop() {
@@ -147,6 +202,7 @@ void MotionLink::emergencyStop() {
 
 void MotionLink::forget() {
   session_ = {};
+  answered_ = false;
   std::lock_guard lock(mutex_);
   states_.clear();
 }
@@ -198,7 +254,10 @@ void MotionLink::work() {
   } catch (const DeviceError& error) {
     // An urgent command ends an exchange early; this is no failure of the connection.
     if (stopping() || stopWaits()) return;
-    if (error.fault() == DeviceFault::kDisconnected || ++session_.failures >= 2) throw;
+    // With a limit the exchange was repeated until the limit was over.
+    if (error.fault() == DeviceFault::kDisconnected || session_.answersLimited ||
+        ++session_.failures >= 2)
+      throw;
     setState(PortState::kSilent, error.what());
   }
   countBytes();
@@ -252,12 +311,19 @@ CommandAnswer MotionLink::move(const MoveJoints& move) {
               move.velocityDegPerS,
               std::vector<double>(axes.size(), 0.0),
               controller_->facts().maximumVelocity);
+  if (!(move.answerLimitS >= kMinAnswerLimitS && move.answerLimitS <= kMaxAnswerLimitS))
+    throw std::invalid_argument("answer limit: " + numberText(move.answerLimitS) + " s is not in " +
+                                numberText(kMinAnswerLimitS) + ".." +
+                                numberText(kMaxAnswerLimitS));
   controller_->setProfile(move.ramp ? kRampProfile : kSinSquareProfile);
   if (!move.velocityDegPerS.empty()) controller_->setVelocities(move.velocityDegPerS);
   controller_->setTargets(move.targetDeg);
   session_.motionFromUs = time_.nowUs();
   // Set even if the answer gets lost, because the hand may move then, too.
   session_.moving = true;
+  session_.answersLimited = true;
+  controller_->limitBadAnswers(
+      std::chrono::milliseconds(std::llround(move.answerLimitS * kMsPerS)));
   CommandAnswer answer;
   {
     // Until the states are read, so that a caller that waits for the end of the motion does not see

@@ -28,6 +28,7 @@ class MotionLink : public PortLink {
   void connect(ByteChannel& channel) override;
   void work() override;
   void disconnected() override;
+  void stopBlindly(ByteChannel& channel, const std::string& why) noexcept override;
   void emergencyStop() override;
   void forget() override;
   void closing() override;
@@ -36,6 +37,8 @@ class MotionLink : public PortLink {
 
  private:
   bool stopWaits() const;
+  void confirmStops();
+  void openController();
   void pollAngles();
   void pollTemperatures();
   bool statesAreDue() const noexcept { return session_.moving || session_.settling; }
@@ -51,13 +54,17 @@ class MotionLink : public PortLink {
   std::optional<SdhControllerInfo> known_;  // requires mutex_
   std::vector<int> states_;                 // requires mutex_
 
-  // True when the port disappeared during a motion.
+  // A motion controller has answered at this port since start().
+  bool answered_ = false;
+  // True when the controller was lost during a motion.
   bool stopAfterReconnect_ = false;
   // State of one session, from begin() to finish().
   struct Session {
     bool moving = false;  // a motion begun by us has not ended
     // After a stop or a change of power the states are read until no axis moves.
     bool settling = false;
+    // From the first motion on: see MoveJoints::answerLimitS.
+    bool answersLimited = false;
     std::int64_t motionFromUs = 0;  // host time
     std::int64_t nextAnglesUs = 0;  // monotonic time
     std::int64_t nextTemperaturesUs = 0;

@@ -119,10 +119,8 @@ void PortLink::round() {
   if (std::exchange(portMissing_, false))
     setState(PortState::kConnecting, port_ + ": the port is there; looking for the " + what_);
   connect(*channel_);
+  setState(PortState::kStreaming);
   updateStatus([&](PortStatus& status) {
-    status.state = PortState::kStreaming;
-    status.message.clear();
-    status.found.reset();
     if (wasConnected_) ++status.reconnects;
   });
   lastFailure_.clear();
@@ -153,8 +151,13 @@ void PortLink::fail(const char* what) noexcept {
   });
 }
 
+void PortLink::stopBlindly(ByteChannel&, const std::string&) noexcept {}
+
 void PortLink::closeAfterError(const DeviceError& error) {
+  const bool isGone =
+      error.fault() == DeviceFault::kDisconnected || error.fault() == DeviceFault::kNotFound;
   if (channel_) {
+    if (!isGone) stopBlindly(*channel_, error.what());
     disconnected();
     std::unique_ptr<ByteChannel> closed;
     std::lock_guard lock(mutex_);
@@ -162,19 +165,17 @@ void PortLink::closeAfterError(const DeviceError& error) {
   }
   if (stopping_) return;
   nextTryUs_ = clock_.monotonicUs() + kRetryUs;
-  const bool isGone =
-      error.fault() == DeviceFault::kDisconnected || error.fault() == DeviceFault::kNotFound;
   if (isGone && namesAPtyByNumber(port_)) {
     permanentlyFailed_ = true;
     const std::string message = port_ +
                                 ": there is no such pseudo-terminal (any more); connect anew (a "
                                 "link to it would be followed)";
-    setState(PortState::kLost, message);
+    setState(PortState::kLost, message, /*unplugged=*/true);
     eventNow("alarm", message);
     return;
   }
   portMissing_ = isGone;
-  setState(wasConnected_ ? PortState::kLost : PortState::kConnecting, error.what());
+  setState(wasConnected_ ? PortState::kLost : PortState::kConnecting, error.what(), isGone);
   if (const auto* other = dynamic_cast<const WrongControllerError*>(&error))
     updateStatus([&](PortStatus& status) { status.found = other->found(); });
   // Reported once, not ten times a second.
@@ -247,10 +248,11 @@ void PortLink::waitForCommand(std::int64_t untilUs) {
       lock, std::chrono::microseconds(leftUs), [&] { return stopping_ || !commandQueue_.empty(); });
 }
 
-void PortLink::setState(PortState state, const std::string& message) {
+void PortLink::setState(PortState state, const std::string& message, bool unplugged) {
   std::lock_guard lock(mutex_);
   status_.state = state;
   status_.message = message;
+  status_.unplugged = unplugged;
   status_.found.reset();
 }
 

@@ -55,6 +55,9 @@ class PortLink {
   virtual void work() = 0;
   // The port disappeared or is given up; the channel still exists.
   virtual void disconnected() = 0;
+  // The device does not answer, or its answers are not valid, and the channel will be closed: writes
+  // what stops every motion, without waiting for an answer. `why` is one line.
+  virtual void stopBlindly(ByteChannel& channel, const std::string& why) noexcept;
   // An unexpected exception occurred and the port will be closed: stops every motion.
   virtual void emergencyStop() {}
   // Called after the last round, whether the port is open or not.
@@ -70,12 +73,12 @@ class PortLink {
   void executeCommands();
   void rejectCommands(const std::string& why);
   bool hasQueuedCommands() const;
-  // Waits for a command, at most until a monotonic time [us].
-  void waitForCommand(std::int64_t untilUs);
+  // Waits for a command, at most until a monotonic time [us]. Tests replace it to advance a clock.
+  virtual void waitForCommand(std::int64_t untilUs);
   // Adds a command. StopMotion goes before all others, and waiting motions are dropped.
   virtual void enqueue(QueuedCommand order);
 
-  void setState(PortState state, const std::string& message = {});
+  void setState(PortState state, const std::string& message = {}, bool unplugged = false);
   template <typename Change>
   void updateStatus(Change&& apply) {
     std::lock_guard lock(mutex_);

@@ -23,6 +23,7 @@ using SdhControllerValues = SdhController::Values;
 // If an echoed target differs by more than this, the hand misunderstood the command. Lines have few
 // decimals, records 24 bits.
 constexpr double kEchoDeg = 0.5;
+constexpr int kMoveTries = 3;
 constexpr int kSdhControllerPositioning = 1;
 constexpr int kSdhControllerSpeedMode = 2;
 
@@ -88,6 +89,8 @@ SdhController::SdhController(ByteChannel& channel, const Clock& clock, SdhContro
 SdhController::~SdhController() = default;
 
 SdhStats SdhController::stats() const noexcept { return link_->stats(); }
+
+void SdhController::limitBadAnswers(milliseconds limit) noexcept { link_->limitBadAnswers(limit); }
 
 // --- Opening
 
@@ -334,20 +337,20 @@ double SdhController::move() {
   constexpr SdhRetryPolicy kOnce{.tries = 1};
   const SdhQuantity duration{SdhCommand::kMove, "duration", " s", 0.0, 3600.0};
   const auto start = [&] { return numbers("m", "M", std::nullopt, duration, 1, kOnce)[0]; };
-  try {
-    return start();
-  } catch (const DeviceError& error) {
-    if (error.fault() == DeviceFault::kDisconnected ||
-        dynamic_cast<const SdhInterrupted*>(&error) || !link_->mayBeLost())
-      throw;
-  }
-  // Either the request or only its answer was lost; a second `m` during the motion would cause a
-  // jerk.
-  const std::vector<int> now = states();
-  const bool moves = std::any_of(now.begin(), now.end(), [](int state) {
-    return state == kSdhControllerPositioning || state == kSdhControllerSpeedMode;
-  });
-  return moves ? pendingDuration() : start();
+  for (int tries = 1;; ++tries) try {
+      return start();
+    } catch (const DeviceError& error) {
+      if (error.fault() == DeviceFault::kDisconnected ||
+          dynamic_cast<const SdhInterrupted*>(&error) || !link_->mayBeLost() || tries == kMoveTries)
+        throw;
+      // Either the request or only its answer was lost; a second `m` during the motion would cause
+      // a jerk.
+      const std::vector<int> now = states();
+      if (std::any_of(now.begin(), now.end(), [](int state) {
+            return state == kSdhControllerPositioning || state == kSdhControllerSpeedMode;
+          }))
+        return pendingDuration();
+    }
 }
 
 double SdhController::pendingDuration() {
@@ -355,7 +358,10 @@ double SdhController::pendingDuration() {
   return numbers("get_duration", "GET_DURATION", std::nullopt, duration, 1, {})[0];
 }
 
-void SdhController::stop() { link_->stop(); }
+void SdhController::stop() {
+  // Another line than STOP may be an echo or noise: the hand must answer what is known of it.
+  if (!link_->stop()) states();
+}
 
 int SdhController::controller() {
   needFirmware("telling the controller type", 0, 0, 2, 6);

@@ -1,6 +1,7 @@
 #include "device/sdh_link.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "palpate/core/error.h"
 #include "palpate/core/time.h"
@@ -18,6 +19,7 @@ constexpr milliseconds kGap{150};  // a longer gap within an answer means that t
 constexpr milliseconds kUrgentAfter{10};
 constexpr milliseconds kSdhLinkSlice{4};  // period of calling `urgent` while waiting
 constexpr milliseconds kExchangeLimit{3500};
+constexpr std::size_t kLongestRecordBytes = 40;
 
 std::span<const std::byte> bytesOf(std::string_view text) {
   return std::as_bytes(std::span<const char>(text.data(), text.size()));
@@ -31,6 +33,15 @@ bool isTransmissionError(int code) {
 }
 
 }  // namespace
+
+std::string_view sdhStopBytes(bool record) {
+  // As many blanks as the longest record has bytes.
+  static constexpr std::string_view kStop =
+      "                                        "
+      " \r\nstop\r\n";
+  static_assert(kStop.size() == kLongestRecordBytes + std::string_view(" \r\nstop\r\n").size());
+  return record ? kStop : kStop.substr(kLongestRecordBytes);
+}
 
 SdhLink::SdhLink(ByteChannel& channel, const Clock& clock, std::function<bool()> urgent)
     : channel_(channel),
@@ -89,13 +100,15 @@ void SdhLink::resync(bool thorough) {
   parser_.reset();
   replies_.clear();
   needsResync_ = true;
-  drain(kSilence, kDrainLimit);
+  const milliseconds silence = watch_.isLimited() ? watch_.silence() : kSilence;
+  const milliseconds limit = watch_.isLimited() ? 2 * silence : kDrainLimit;
+  drain(silence, limit);
   // Blanks before a command have no meaning. As many as the longest record complete a record that
   // the hand received in part; it then fails by its checksum. Network records have no checksum:
   // there the hand would take the blanks for values.
-  if (thorough && !channel_.isNetwork()) sendText(std::string(40, ' '));
+  if (thorough && !channel_.isNetwork()) sendText(std::string(kLongestRecordBytes, ' '));
   sendText(" \r\n");
-  drain(kSilence, kDrainLimit);
+  drain(silence, limit);
   needsResync_ = false;
 }
 
@@ -105,7 +118,7 @@ void SdhLink::abortIfUrgent() {
   if (!urgent_ || !urgent_()) return;
   needsResync_ = true;
   ++stats_.stops;
-  sendText(" \r\nstop\r\n");
+  sendText(sdhStopBytes(false));
   throw SdhInterrupted(channel_.name());
 }
 
@@ -113,7 +126,7 @@ void SdhLink::abortIfUrgent() {
 void SdhLink::takeError(int code, const std::string& what) {
   errorCode_ = code;
   problem_ = FailureCause::kRefused;
-  if (isTransmissionError(code)) return;
+  if (isTransmissionError(code) || watch_.isLimited()) return;
   needsResync_ = false;
   failExchange(what);
 }
@@ -162,20 +175,24 @@ std::optional<SdhReply> SdhLink::attempt(Bytes request,
   needsResync_ = true;
   write(request);
   const std::int64_t sentUs = clock_.monotonicUs();
+  const milliseconds timeout =
+      watch_.isLimited() ? std::min(retryPolicy.timeout, watch_.timeout(sentUs))
+                         : retryPolicy.timeout;
   std::int64_t heardUs = sentUs;
+  bool looked = false;
   for (;;) {
     const std::int64_t nowUs = clock_.monotonicUs();
     if (retryPolicy.abortsForStop && nowUs - sentUs >= usOf(kUrgentAfter)) abortIfUrgent();
     const bool begun = quick && (parser_.pendingBytes() > 0 ||
                                  parser_.stats().skippedBytes != before.skippedBytes);
-    const std::int64_t leftUs = begun ? std::min(usOf(retryPolicy.timeout) - (nowUs - sentUs),
-                                                 usOf(kGap) - (nowUs - heardUs))
-                                      : usOf(retryPolicy.timeout) - (nowUs - sentUs);
-    if (leftUs <= 0) {
+    const std::int64_t restUs = usOf(timeout) - (nowUs - sentUs);
+    const std::int64_t leftUs = begun ? std::min(restUs, usOf(kGap) - (nowUs - heardUs)) : restUs;
+    // An answer that arrived while this process stood still is looked for before it counts as missing.
+    if (leftUs <= 0 && std::exchange(looked, true)) {
       if (begun) problem_ = FailureCause::kBroken;
       return std::nullopt;
     }
-    const milliseconds wait(leftUs / 1000 + 1);
+    const milliseconds wait(std::max<std::int64_t>(leftUs, 0) / 1000 + 1);
     // Before kUrgentAfter no look is due: a usual answer then costs one wait.
     const milliseconds slice(std::max<std::int64_t>(
         kSdhLinkSlice.count(), kUrgentAfter.count() - (nowUs - sentUs) / 1000));
@@ -223,8 +240,17 @@ SdhReply SdhLink::exchange(Bytes request,
   if (needsResync_) resync(false);
   const std::int64_t startUs = clock_.monotonicUs();
   for (int tries = 1;; ++tries) {
-    if (auto answer = attempt(request, what, match, retryPolicy)) return std::move(*answer);
-    if (tries >= retryPolicy.tries || clock_.monotonicUs() - startUs > usOf(kExchangeLimit)) break;
+    const std::int64_t attemptUs = clock_.monotonicUs();
+    if (auto answer = attempt(request, what, match, retryPolicy)) {
+      watch_.onGood();
+      return std::move(*answer);
+    }
+    watch_.onBad(attemptUs);
+    const std::int64_t nowUs = clock_.monotonicUs();
+    const bool isLast = watch_.isLimited() && retryPolicy.tries > 1
+                            ? watch_.isOver(nowUs)
+                            : tries >= retryPolicy.tries || nowUs - startUs > usOf(kExchangeLimit);
+    if (isLast) break;
     ++stats_.retries;
     resync(tries > 1);
   }
@@ -261,7 +287,7 @@ std::vector<double> SdhLink::askRecord(SdhCommand command,
 
 // --- Stop
 
-void SdhLink::stop() {
+bool SdhLink::stop() {
   ++stats_.stops;
   constexpr milliseconds kWaits[] = {milliseconds(150), milliseconds(300), milliseconds(500)};
   bool first = true, anyReply = false;
@@ -270,7 +296,7 @@ void SdhLink::stop() {
     parser_.reset();
     // Sent in one piece before anything else; later ones also end a record that the hand received
     // in part.
-    sendText((first || channel_.isNetwork() ? "" : std::string(40, ' ')) + " \r\nstop\r\n");
+    sendText(sdhStopBytes(!first && !channel_.isNetwork()));
     first = false;
     needsResync_ = true;
     const std::int64_t endUs = clock_.monotonicUs() + usOf(timeout);
@@ -283,7 +309,7 @@ void SdhLink::stop() {
           continue;
         if (line->text.starts_with("STOP") || line->name == "STOP") {
           needsResync_ = false;
-          return;
+          return true;
         }
         anyReply = true;
       }
@@ -292,7 +318,7 @@ void SdhLink::stop() {
     // Another line may be the answer to an earlier request, or this hand's form of confirmation. It
     // shows that the connection works, and the next exchange begins with a resync. But such a line
     // must not confirm a stop that was lost, so the first stop is not confirmed by it.
-    if (anyReply && timeout != kWaits[0]) return;
+    if (anyReply && timeout != kWaits[0]) return false;
   }
   fail(DeviceFault::kSilent,
        "'stop' was sent, but the hand doesn't confirm it: use its emergency stop if it moves");

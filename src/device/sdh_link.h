@@ -16,7 +16,15 @@
 #include "palpate/device/sdh_controller.h"
 #include "palpate/device/sdh_reply_parser.h"
 
+#include "device/answer_watch.h"
+
 namespace palpate {
+
+// The bytes that stop the hand whatever it has received before: they end a line, and with `record`
+// also complete a binary record, that it received in part (blanks before a command have no
+// meaning). Over a network, records have no checksum, and the hand would take blanks for values:
+// `record` must be false there.
+std::string_view sdhStopBytes(bool record);
 
 struct SdhRetryPolicy {
   std::chrono::milliseconds timeout{1000};  // time limit of one try
@@ -44,9 +52,9 @@ class SdhLink {
   std::vector<double> askRecord(SdhCommand command,
                                 std::span<const double> values,
                                 const RecordCheck& check);
-  // Sends `stop` before anything else and waits for STOP; if it doesn't arrive in time, any other
-  // line is accepted.
-  void stop();
+  // Sends `stop` before anything else and waits for STOP. Returns false if another line arrived
+  // instead: it may be this hand's form of confirmation, or an answer to something else.
+  bool stop();
   // Ends a command that the hand has received in part, and waits until no more bytes arrive.
   // `thorough` also completes a binary record that was received in part.
   void resync(bool thorough);
@@ -54,6 +62,11 @@ class SdhLink {
   // passed.
   void drain(std::chrono::milliseconds silence, std::chrono::milliseconds limit);
   void sendText(std::string_view text);
+
+  // Limits the time for which answers may be missing or not valid; 0: the retry policies alone
+  // decide. With a limit each request is repeated quickly until it is over, also one that the hand
+  // refuses; only requests with a single try are not repeated.
+  void limitBadAnswers(std::chrono::milliseconds limit) noexcept { watch_.setLimit(limit); }
 
   // While set, `watcher` is called with every byte that is read.
   void watch(std::function<void(Bytes)> watcher) { watcher_ = std::move(watcher); }
@@ -88,6 +101,7 @@ class SdhLink {
   std::function<bool()> urgent_;
   std::function<void(Bytes)> watcher_;
   SdhReplyParser parser_;
+  AnswerWatch watch_;
   std::vector<std::byte> buffer_;
   std::vector<SdhReply> replies_;  // from the last read
   SdhStats stats_;

@@ -189,9 +189,28 @@ TEST(GraspCommand, AHandThatIsUnpluggedIsSaid) {
   ASSERT_TRUE(program.awaitLine("closing").has_value()) << program.err();
   ASSERT_TRUE(bench.awaitMotion());
   bench.hand->unplug(false, true);
+  ASSERT_TRUE(program.awaitLine("waiting").has_value()) << program.err();
+  EXPECT_EQ(statesOf(program.out()).at(statesOf(program.out()).size() - 2), "port_gone");
+  bench.hand->replug();
   EXPECT_EQ(program.wait(), 1) << program.out();
-  EXPECT_EQ(statesOf(program.out()).back(), "port_gone");
   EXPECT_NE(program.err().find("the motion port is gone"), std::string::npos) << program.err();
+  EXPECT_NE(program.err().find("the port is back: stopped"), std::string::npos) << program.err();
+  EXPECT_FALSE(bench.handMoves());
+}
+
+TEST(GraspCommand, WhoDoesNotWaitForAPortIsToldThatTheStateIsUnknown) {
+  EmulatedBench bench(stillHand());
+  BackgroundProgram program(
+      PALPATE_PROGRAM,
+      {"grasp", "--sdh", bench.hand->sdhPort(), "--preshape", "centrical", "--close", "1"});
+  ASSERT_TRUE(program.awaitLine("closing").has_value()) << program.err();
+  ASSERT_TRUE(bench.awaitMotion());
+  bench.hand->unplug(false, true);
+  ASSERT_TRUE(program.awaitLine("waiting").has_value()) << program.err();
+  program.signal(SIGINT);
+  EXPECT_EQ(program.wait(), 1) << program.out();
+  EXPECT_NE(program.err().find("state unknown: use the power switch"), std::string::npos)
+      << program.err();
 }
 
 TEST(GraspCommand, WrongUsageMovesNothing) {

@@ -57,9 +57,10 @@ struct EmulatedBench {
     session.reset();
   }
 
-  // Connects, and waits until both ports stream.
-  void connect() {
+  // Connects, and waits until both ports stream. `open` opens a port instead of openChannel().
+  void connect(decltype(LiveHandOptions::open) open = {}) {
     LiveHandOptions ports;
+    ports.open = std::move(open);
     ports.dsaPort = hand->dsaPort();
     ports.sdhPort = hand->sdhPort();
     session = std::make_unique<CaptureSession>(std::make_unique<LiveHand>(ports));

@@ -276,6 +276,7 @@ TEST(GraspControl, AMotionPortThatGoesAwayEndsTheGrasp) {
   GraspBench bench;
   bench.control->grasp({});
   bench.hand->state.motion->state = PortState::kLost;
+  bench.hand->state.motion->unplugged = true;
   bench.hand->state.motion->message = "unplugged";
   bench.wait(5000);
   EXPECT_EQ(bench.control->status().last->outcome, GraspOutcome::kPortGone);

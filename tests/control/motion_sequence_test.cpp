@@ -147,6 +147,7 @@ TEST_F(SequenceRunTest, AMotionPortThatIsGoneInEachStepEndsTheSequence) {
     run_.begin(everyKind(), sdh2(), now());
     ASSERT_TRUE(reach(step)) << step;
     bench_.hand->state.motion->state = PortState::kLost;
+    bench_.hand->state.motion->unplugged = true;
     pass(0.3);
     EXPECT_FALSE(run_.running()) << step;
     EXPECT_TRUE(run_.status().failed);

@@ -158,6 +158,7 @@ TEST(PortGone, IsRememberedUntilThePortIsBackWhateverIsRefusedMeanwhile) {
   bench.feel(1);
   EXPECT_FALSE(bench.control->status().portGone.has_value());
   bench.hand->state.motion->state = PortState::kLost;
+  bench.hand->state.motion->unplugged = true;
   bench.wait(5000);
   EXPECT_THROW(bench.control->grasp({}), DeviceError);
   GraspStatus status = bench.control->status();
@@ -168,7 +169,8 @@ TEST(PortGone, IsRememberedUntilThePortIsBackWhateverIsRefusedMeanwhile) {
   bench.hand->state.motion->state = PortState::kStreaming;
   bench.wait(5000);
   EXPECT_FALSE(bench.control->status().portGone.has_value());
-  bench.hand->state.motion->state = PortState::kLost;  // while nothing moved
+  bench.hand->state.motion->state = PortState::kLost;
+  bench.hand->state.motion->unplugged = true;  // while nothing moved
   bench.wait(5000);
   EXPECT_FALSE(bench.control->status().portGone.has_value());
 }
@@ -182,6 +184,7 @@ TEST(PortGone, TheControlKnowsTheAngles) {
   bench.wait(5000);
   bench.control->grasp(request);
   bench.hand->state.motion->state = PortState::kLost;
+  bench.hand->state.motion->unplugged = true;
   bench.wait(5000);
   EXPECT_NEAR(
       bench.control->status().portGone->remainingMotionS.value(), 1.0 + kStartAndStopS, 1e-9);

@@ -58,6 +58,8 @@ class FakeSdhHand {
   std::string lateAnswer;     // old line before the next answer, once
   bool dead = false;          // neither answers nor acts
   bool swapsTargets = false;  // stores other targets than it received
+  int pollsPerMotion = 3;     // a motion ends when its states were asked for so many times
+  double announcedS = 4.51;   // duration of a motion, as announced
 
   // --- Log ---
   std::vector<std::string> log;  // "pos?" "p!" for records, lines as received
@@ -230,7 +232,7 @@ class FakeSdhHand {
     const std::string command = line.substr(0, line.find_first_of("(="));
     if (!dead && errorCode == 0 && command == "m") {
       ++moves;
-      pollsUntilIdle = 3;
+      pollsUntilIdle = pollsPerMotion;
       values["state"] = Axes(7, 1.0);
     }
     if (!dead && command == "stop") {
@@ -258,7 +260,7 @@ class FakeSdhHand {
         {"sn", "48"},
         {"numaxis", std::to_string(axes)},
         {"temp", "40.50,45.75,37.00,41.75,34.00,44.00,36.75,48.50,48.25"},
-        {"m", "4.51"},
+        {"m", number(announcedS)},
         {"get_duration", "3.25"}};
     const std::string name = upper(command);
     if (const auto word = words.find(command); word != words.end())

@@ -28,6 +28,7 @@ namespace palpate::commands {
 namespace {
 
 constexpr int kGraspLookMs = 20;
+constexpr double kPortBackS = 10.0;  // beyond the end of the motion
 constexpr std::size_t kMostSequenceBytes = 10'000'000;
 
 CommandSpec graspSpec() {
@@ -249,6 +250,19 @@ int runSequence(const MotionSequence& sequence,
   throw Error(run.status().text);
 }
 
+// The motion port was unplugged: the hand is stopped when the port is back, if that is soon enough.
+[[noreturn]] void awaitPort(const GraspControl& control,
+                            const GraspReport& report,
+                            const StateLines& lines,
+                            Interruption& interruption) {
+  const double limitS = report.remainingMotionS.value_or(0.0) + kPortBackS;
+  lines.show("waiting", "for the motion port, " + fixedText(limitS, 0) + " s");
+  const std::int64_t endUs = systemClock().monotonicUs() + std::llround(limitS * kUsPerS);
+  while (systemClock().monotonicUs() < endUs && !interruption.waitForSignal(kGraspLookMs))
+    if (!control.status().portGone) throw Error(report.text + "; the port is back: stopped");
+  throw Error(report.text + "; state unknown: use the power switch");
+}
+
 int exitCodeOf(const GraspReport& report) {
   switch (report.outcome) {
     case GraspOutcome::kFinished:
@@ -299,7 +313,9 @@ int graspCommand(const Arguments& words) {
   lines.show("ready");
   if (sequence) return runSequence(*sequence, session, control, lines, interruption);
   control.grasp(request);
-  return exitCodeOf(follow(control, lines, interruption));
+  const GraspReport report = follow(control, lines, interruption);
+  if (report.outcome == GraspOutcome::kPortGone) awaitPort(control, report, lines, interruption);
+  return exitCodeOf(report);
 }
 
 }  // namespace palpate::commands

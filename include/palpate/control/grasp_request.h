@@ -195,7 +195,8 @@ RecordingEvent beginEvent(const GraspReport& report);
 RecordingEvent endEvent(const GraspReport& report);
 // A step of a slip-aware grasp while it runs; also recorded as an event "grasp".
 struct GraspStep {
-  std::string action;  // "holding", "slip", "regrasp", "lower", "loosen", "friction", "at_limit"
+  std::string action;  // "holding", "slip", "regrasp", "lower", "loosen", "friction", "at_limit",
+                       // "over_limit" (and no stop was answered)
   std::string text;    // one line for the user
   std::optional<std::size_t> matrix = {};
   int limitCounts = 0;

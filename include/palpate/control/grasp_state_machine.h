@@ -64,6 +64,11 @@ class GraspStateMachine {
   void onAxisStates(const std::vector<int>& states, std::int64_t monoUs);
   // Joint angles as last read; they give the rest of a motion when the motion port disappears.
   void onAngles(const std::vector<double>& deg) { anglesDeg_ = deg; }
+  // The motion controller's answers are missing or not valid, or the program failed at its port, and
+  // the port's thread has sent stops: stops what runs until a stop is answered. A reading over the
+  // limit meanwhile is reported, once.
+  void onMotionFault(const std::string& why, std::int64_t monoUs);
+  // The motion port was unplugged: the hand finishes its motion by itself.
   void onMotionPortGone(const std::string& why, std::int64_t monoUs);
   void onTactilePortGone(const std::string& why, std::int64_t monoUs);
   // Stop by the user: stops what runs, no effect when idle (the caller sends a stop in either
@@ -107,6 +112,9 @@ class GraspStateMachine {
   void send(MoveJoints motion, GraspPhase phase, std::int64_t monoUs);
   double remainingMotionS(std::int64_t monoUs) const;
   void stopWith(GraspOutcome outcome, const std::string& text, std::int64_t monoUs);
+  void stopAgain(std::int64_t monoUs);
+  void onOverLimitUnanswered(std::int64_t monoUs);
+  void failWith(std::string_view why, std::string_view stoppedText, std::int64_t monoUs);
   void end(GraspOutcome outcome, const std::string& text);
   void motionEnded(const std::vector<int>& states, std::int64_t monoUs);
   bool isMoving() const noexcept {
@@ -187,7 +195,11 @@ class GraspStateMachine {
   std::int64_t announcedUs_ = 0;
   // Time limit of the motion; after it the grasp fails.
   std::int64_t motionTimeoutUs_ = 0;
-  int stops_ = 0;
+  // The grasp ends at this time if no stop was answered until then [monotonic us].
+  std::int64_t stoppingUntilUs_ = 0;
+  // Stops are sent to a controller that does not answer, and a reading over the limit was reported.
+  bool stopsBlindly_ = false;
+  bool reportedOverLimit_ = false;
 
   GripMonitor grip_;
   std::vector<GraspStep> notes_;

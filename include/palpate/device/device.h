@@ -76,6 +76,9 @@ struct PortStatus {
   PortState state = PortState::kClosed;
   // One line that says what is wrong and what to do; empty when nothing is wrong.
   std::string message;
+  // With kLost: whether the port itself has disappeared (unplugged). Otherwise it is there, but the
+  // device does not answer, or its answers are not valid.
+  bool unplugged = false;
   // The device found at this port instead of the expected one, that is, the hand's other
   // controller. Empty while the expected device answers or nothing is known yet.
   std::optional<PortAnswer> found = {};
@@ -126,6 +129,9 @@ struct MoveJoints {
   std::vector<double> velocityDegPerS;
   // Velocity profile: true for a ramp, false for sin-square.
   bool ramp = false;
+  // Longest time for which the controller's answers may be missing or not valid from this motion on,
+  // 0.1..3 [s]. Then the hand is stopped without waiting for an answer, and the port is opened again.
+  double answerLimitS = 0.5;
 };
 // Stops a motion; the axes stay powered. This command is executed before all waiting commands.
 struct StopMotion {};

@@ -1,0 +1,229 @@
+// The motion controller's answers are damaged, invalid or missing while the hand moves or holds: a
+// stop is on the wire in time, whatever the fault and the motion (docs/safety.md).
+#include <map>
+#include <tuple>
+
+#include "palpate/control/empty_hand_cycle.h"
+#include "palpate/control/motion_sequence.h"
+
+#include "control/answer_fault_bench.h"
+#include "testing/testing.h"
+
+namespace palpate::answer_fault_test {
+namespace {
+
+using testing::AnswerFault;
+using Bench = testing::AnswerFaultBench;
+
+enum class Motion {
+  kPlain,
+  kReactive,
+  kSlipAware,
+  kHolding,
+  kJoint,
+  kPose,
+  kSequence,
+  kOpening,
+  kEmptyHand
+};
+
+// docs/safety.md: from the first bad answer to the stop.
+double limitS(Motion motion) {
+  const bool isTactile = motion == Motion::kReactive || motion == Motion::kSlipAware ||
+                         motion == Motion::kHolding || motion == Motion::kEmptyHand;
+  return isTactile ? 0.2 : 0.5;
+}
+
+GraspRequest closing(GraspMode mode) {
+  GraspRequest request;
+  request.mode = mode;
+  request.closeRatio = 1.0;
+  request.limitCounts = 200;
+  return request;
+}
+
+// Brings the hand into the motion, and keeps what runs it.
+struct Mover {
+  Bench& bench;
+  SequenceRun sequence{*bench.control};
+  EmptyHandCycle cycle{*bench.control, {}};
+
+  void begin(Motion motion) {
+    switch (motion) {
+      case Motion::kPlain:
+        return grasp(closing(GraspMode::kPlain));
+      case Motion::kReactive:
+        return grasp(closing(GraspMode::kReactive));
+      case Motion::kSlipAware:
+        return grasp(closing(GraspMode::kSlip));
+      case Motion::kHolding:
+        grasp(closing(GraspMode::kSlip));
+        bench.counts = 250.0F;
+        ASSERT_TRUE(bench.awaitPhase(GraspPhase::kHolding));
+        return;
+      case Motion::kJoint: {
+        GraspRequest joint;
+        joint.targetDeg.resize(7);
+        joint.targetDeg[2] = 50.0;
+        return grasp(joint);
+      }
+      case Motion::kPose: {
+        GraspRequest pose;
+        pose.targetDeg = {10.0, -20.0, 30.0, -40.0, 50.0, -50.0, 60.0};
+        return grasp(pose);
+      }
+      case Motion::kSequence: {
+        MotionSequence steps;
+        steps.hand = bench.session->device().hand().name;
+        SequenceStep step;
+        step.kind = SequenceStep::Kind::kGrasp;
+        step.request = closing(GraspMode::kPlain);
+        steps.steps = {step, step};
+        sequence.begin(steps, bench.session->device().hand(), bench.session->nowUs());
+        return bench.pass(0.3);
+      }
+      case Motion::kOpening:
+        bench.control->preshape("centrical", 10.0);
+        return bench.pass(0.3);
+      case Motion::kEmptyHand:
+        cycle.begin(bench.session->nowUs());
+        return bench.pass(0.3);
+    }
+  }
+  void grasp(const GraspRequest& request) {
+    bench.control->grasp(request);
+    bench.pass(0.3);
+  }
+};
+
+class AnswerFaultTest : public ::testing::TestWithParam<std::tuple<AnswerFault, Motion>> {};
+
+TEST_P(AnswerFaultTest, AStopIsOnTheWireInTimeAndTheHandIsKnownToBeStillInTheEnd) {
+  const auto [fault, motion] = GetParam();
+  Bench bench;
+  Mover mover{bench};
+  mover.begin(motion);
+  if (::testing::Test::HasFatalFailure()) return;
+  bench.clearStops();
+  const int moves = bench.hand.moves;
+  bench.fault = fault;
+  const auto stopped = [&] { return bench.stops() > 0; };
+  ASSERT_TRUE(bench.passUntil(stopped, 3.0));
+  ASSERT_GT(bench.firstFaultUs, 0);
+  EXPECT_LE(static_cast<double>(bench.firstStopUs - bench.firstFaultUs) / kUsPerS, limitS(motion));
+  // It stays so for a while: stops go on, and nothing else moves the hand.
+  bench.pass(2.0);
+  EXPECT_GE(bench.stops(), 3);
+  // A controller whose states alone are wrong answers the stop.
+  EXPECT_EQ(bench.control->status().phase == GraspPhase::kIdle, fault == AnswerFault::kStateError);
+  bench.fault.reset();
+  ASSERT_TRUE(bench.awaitPhase(GraspPhase::kIdle));
+  EXPECT_EQ(bench.control->status().last->outcome, GraspOutcome::kFailed);
+  EXPECT_EQ(bench.control->status().last->text.find("state unknown"), std::string::npos);
+  bench.pass(1.0);
+  mover.sequence.step(bench.session->nowUs());
+  EXPECT_FALSE(mover.sequence.running());
+  EXPECT_TRUE(mover.cycle.step(bench.session->nowUs()).has_value() ||
+              motion != Motion::kEmptyHand);
+  EXPECT_EQ(bench.hand.moves, moves) << "nothing moves it again";
+}
+
+TEST_P(AnswerFaultTest, EndsWithoutAnAnswerAndSaysThatTheStateIsUnknown) {
+  const auto [fault, motion] = GetParam();
+  Bench bench;
+  Mover mover{bench};
+  mover.begin(motion);
+  if (::testing::Test::HasFatalFailure()) return;
+  bench.fault = fault;
+  const std::int64_t fromUs = bench.session->nowUs();
+  // A controller that answers the stop is still in reach: its states alone are wrong.
+  const bool answersStops = fault == AnswerFault::kStateError;
+  ASSERT_TRUE(bench.awaitPhase(GraspPhase::kIdle, 60.0));
+  const GraspReport last = *bench.control->status().last;
+  EXPECT_EQ(last.outcome, GraspOutcome::kFailed);
+  EXPECT_EQ(last.text.find("state unknown: use the power switch") != std::string::npos,
+            !answersStops)
+      << last.text;
+  // After the rest of the announced 4.51 s, half a second and 10 s.
+  EXPECT_LT(static_cast<double>(last.endUs - fromUs) / kUsPerS, 15.02);
+}
+
+std::string nameOf(const ::testing::TestParamInfo<std::tuple<AnswerFault, Motion>>& info) {
+  static const std::map<AnswerFault, std::string> faults{{AnswerFault::kChecksum, "BadChecksum"},
+                                                         {AnswerFault::kNan, "Nan"},
+                                                         {AnswerFault::kStateError, "StateError"},
+                                                         {AnswerFault::kGarbage, "Garbage"},
+                                                         {AnswerFault::kMute, "Mute"},
+                                                         {AnswerFault::kShort, "Short"},
+                                                         {AnswerFault::kEcho, "Echo"}};
+  static const std::map<Motion, std::string> motions{{Motion::kPlain, "Plain"},
+                                                     {Motion::kReactive, "Reactive"},
+                                                     {Motion::kSlipAware, "SlipAware"},
+                                                     {Motion::kHolding, "Holding"},
+                                                     {Motion::kJoint, "Joint"},
+                                                     {Motion::kPose, "Pose"},
+                                                     {Motion::kSequence, "Sequence"},
+                                                     {Motion::kOpening, "Opening"},
+                                                     {Motion::kEmptyHand, "EmptyHand"}};
+  return faults.at(std::get<0>(info.param)) + motions.at(std::get<1>(info.param));
+}
+
+std::vector<std::tuple<AnswerFault, Motion>> table() {
+  std::vector<std::tuple<AnswerFault, Motion>> rows;
+  for (int fault = 0; fault <= static_cast<int>(AnswerFault::kEcho); ++fault)
+    for (int motion = 0; motion <= static_cast<int>(Motion::kEmptyHand); ++motion)
+      rows.emplace_back(static_cast<AnswerFault>(fault), static_cast<Motion>(motion));
+  // A hand that holds is at rest, and its states are not asked for.
+  std::erase(rows, std::tuple(AnswerFault::kStateError, Motion::kHolding));
+  return rows;
+}
+
+INSTANTIATE_TEST_SUITE_P(Table, AnswerFaultTest, ::testing::ValuesIn(table()), nameOf);
+
+class OneInAHundredTest : public ::testing::TestWithParam<GraspMode> {};
+
+TEST_P(OneInAHundredTest, DamagedAnswersStopNothingInTenMinutes) {
+  Bench bench;
+  Mover{bench}.grasp(closing(GetParam()));
+  bench.clearStops();
+  bench.damagedShare = 0.01;
+  // The state machine's own time limit of a motion is 3 times the announced one, and 5 s.
+  bench.hand.announcedS = 3000.0;
+  bench.control->stop();
+  ASSERT_TRUE(bench.awaitPhase(GraspPhase::kIdle));
+  Mover{bench}.grasp(closing(GetParam()));
+  bench.clearStops();
+  bench.pass(600.0);
+  EXPECT_EQ(bench.stops(), 0);
+  EXPECT_EQ(bench.control->status().phase, GraspPhase::kClosing);
+  EXPECT_GT(bench.numBad, 200u);
+}
+
+INSTANTIATE_TEST_SUITE_P(Modes,
+                         OneInAHundredTest,
+                         ::testing::Values(GraspMode::kPlain, GraspMode::kReactive));
+
+TEST(AnswerFault, AReadingOverTheLimitSendsTheStopAgainAndIsReportedOnce) {
+  Bench bench;
+  Mover{bench}.grasp(closing(GraspMode::kReactive));
+  bench.fault = AnswerFault::kMute;
+  ASSERT_TRUE(bench.passUntil([&] { return bench.stops() > 0; }, 1.0));
+  ASSERT_TRUE(bench.awaitPhase(GraspPhase::kStopping));
+  bench.counts = 900.0F;
+  bench.pass(1.0);
+  bench.fault.reset();
+  ASSERT_TRUE(bench.awaitPhase(GraspPhase::kIdle));
+  EXPECT_EQ(bench.numReported("over the limit"), 1u);
+}
+
+// A port that is pulled takes no byte; what the hand does then is told as before.
+TEST(AnswerFault, AnUnpluggedPortEndsTheGraspAtOnce) {
+  Bench bench;
+  Mover{bench}.grasp(closing(GraspMode::kReactive));
+  bench.unplug();
+  ASSERT_TRUE(bench.awaitPhase(GraspPhase::kIdle, 0.5));
+  EXPECT_EQ(bench.control->status().last->outcome, GraspOutcome::kPortGone);
+}
+
+}  // namespace
+}  // namespace palpate::answer_fault_test
