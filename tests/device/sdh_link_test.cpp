@@ -195,6 +195,15 @@ TEST_F(SdhLinkTest, StopIsSentAgainUntilItIsConfirmed) {
   EXPECT_LT(clock.nowUs - before, 1'500'000);
 }
 
+// A line that echoes, or says something else, is no hand that has stopped: it must answer what is
+// known of it.
+TEST_F(SdhLinkTest, AnEchoDoesNotConfirmAStop) {
+  controller.open();
+  hand.dead = true;
+  for (int i = 0; i < 5; ++i) line.arrive(kStop, i * 200'000);
+  EXPECT_EQ(errorOf([&] { controller.stop(); }).fault(), DeviceFault::kSilent);
+}
+
 // The channel delivers another answer, while the stop got lost on its way to the hand.
 TEST_F(SdhLinkTest, AStopThatGotLostDoesNotPassForTakenByAnotherLine) {
   controller.open();
@@ -202,8 +211,10 @@ TEST_F(SdhLinkTest, AStopThatGotLostDoesNotPassForTakenByAnotherLine) {
   line.requests.clear();
   // "M=4.51", the answer to the request before
   line.arrive(bytesOf("4D 3D 34 2E 35 31 0D 0A"), 500);
-  controller.stop();
-  EXPECT_EQ(line.requests.size(), 2u) << "sent again";
+  EXPECT_EQ(errorOf([&] { controller.stop(); }).fault(), DeviceFault::kSilent);
+  ASSERT_GE(line.requests.size(), 2u);
+  EXPECT_EQ(line.requests[0], kStop);
+  EXPECT_TRUE(std::equal(kStop.rbegin(), kStop.rend(), line.requests[1].rbegin())) << "sent again";
   hand.dead = false;
   line.requests.clear();
   controller.stop();

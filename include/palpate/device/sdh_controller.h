@@ -142,7 +142,8 @@ class SdhController {
   double move();
   // Duration of the motion that move() would start [s].
   double pendingDuration();
-  // Stops a motion; power stays on. The command is sent at once, even during another exchange.
+  // Stops a motion; power stays on. The command is sent at once, even during another exchange. It
+  // is confirmed by STOP, or by another line and valid axis states.
   void stop();
 
   int controller();  // requires firmware 0.0.2.6
