@@ -531,7 +531,8 @@ void GraspStateMachine::relax() {
 
 void GraspStateMachine::onTime(std::int64_t monoUs) {
   if (phase_ == GraspPhase::kStopping) {
-    if (monoUs >= stoppingUntilUs_)
+    report_.stateUnknown = monoUs >= stoppingUntilUs_;
+    if (report_.stateUnknown)
       return end(GraspOutcome::kFailed,
                  report_.text +
                      "; the hand doesn't answer the stop, state unknown: use the power switch");

@@ -253,6 +253,7 @@ TEST(GraspStateMachine, AStopThatIsNotAnsweredIsSentAgain) {
   const auto report = bench.machine.takeReport();
   ASSERT_TRUE(report.has_value());
   EXPECT_EQ(report->outcome, GraspOutcome::kFailed);
+  EXPECT_TRUE(report->stateUnknown);
   EXPECT_NE(report->text.find("state unknown: use the power switch"), std::string::npos);
 }
 

@@ -177,6 +177,8 @@ struct GraspReport {
   // kPortGone: longest time from endUs for which the running motion can continue without control
   // [s]; 0 if no motion was running and the hand holds its position.
   std::optional<double> remainingMotionS = {};
+  // No stop was answered: whether the hand moves is not known.
+  bool stateUnknown = false;
   // The following fields belong to a slip-aware grasp.
   bool held = false;    // true once the phase "holding" was reached
   int limitCounts = 0;  // the last limit

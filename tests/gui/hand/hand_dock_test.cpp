@@ -552,6 +552,22 @@ TEST_F(HandDockTest, DuringAnUnplugInAMotionItSaysThatTheHandGoesOnAndNothingOfI
   EXPECT_TRUE(state().startsWith("Ready")) << state().toStdString();
 }
 
+TEST_F(HandDockTest, AControllerThatDoesNotAnswerInAMotionIsStoppedAndItSaysSo) {
+  connectTo(stillHand());
+  type("velocity", "10");
+  type("closeRatio", "1");
+  ASSERT_TRUE(await([&] { return isEnabled("graspHand"); }));
+  click("graspHand");
+  ASSERT_TRUE(bench_->awaitMotion());
+  bench_->hand->mute(true);
+  ASSERT_TRUE(await([&] { return state().startsWith("Stops are sent to the hand"); }))
+      << state().toStdString();
+  EXPECT_TRUE(state().contains("emergency stop")) << state().toStdString();
+  EXPECT_TRUE(await([&] { return !bench_->handMoves(); }));
+  bench_->hand->mute(false);
+  ASSERT_TRUE(await([&] { return state().startsWith("failed: "); })) << state().toStdString();
+}
+
 TEST_F(HandDockTest, AfterAnUnplugAtRestNothingOldLooksLikeNow) {
   connectTo(stillHand());
   type("velocity", "60");

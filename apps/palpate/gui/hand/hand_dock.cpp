@@ -537,6 +537,8 @@ void HandDock::showState(const GraspStatus& status) {
     return say(sequence_->stateText() + (phase.isEmpty() ? "" : "\n" + phase.section(" · ", 0, 0)),
                false);
   }
+  if (status.phase == GraspPhase::kStopping && !status.cannotMove.empty())
+    return say(motionBlockedReason(status), true, QString::fromStdString(status.cannotMove));
   if (status.phase != GraspPhase::kIdle) {
     // Without a request, the phase is only the end of a motion.
     if (status.request) said_.clear();
@@ -596,6 +598,11 @@ QString HandDock::phaseText(const GraspStatus& status) const {
 
 QString HandDock::motionBlockedReason(const GraspStatus& status) const {
   const QString why = QString::fromStdString(status.cannotMove);
+  const QString powerOff = "Use the emergency stop, or switch its power off, if it moves. ";
+  if (status.phase == GraspPhase::kStopping)
+    return "Stops are sent to the hand, and none is answered. " + powerOff + why;
+  if (!status.portGone && status.last && status.last->stateUnknown)
+    return "No stop was answered: what the hand does is not known. " + powerOff + why;
   if (!status.portGone) return "The hand can't be moved: " + why;
   // What the hand does comes first. The status is in red, and the hand is looked for all the time.
   const QString gone = " The motion port is disconnected: plug it in again.";
