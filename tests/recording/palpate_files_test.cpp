@@ -150,7 +150,9 @@ TEST(PalpateFiles, aLockThatIsALinkIsRefusedAndItsTargetIsNotMade) {
 TEST(PalpateFiles, aFileThatIsGoneIsWrittenNoMoreUntilItIsMoved) {
   const TemporaryFolder folder;
   const fs::path path = folder / "r.palpate";
-  PalpateWriter writer(path, sdh2().layout);
+  PalpateWriterOptions options;
+  options.commitIntervalUs = INT64_MAX;
+  PalpateWriter writer(path, sdh2().layout, {}, options);
   addSamples(writer, 0, 10);
   writer.commit();
   EXPECT_FALSE(writer.isGone());
@@ -160,6 +162,7 @@ TEST(PalpateFiles, aFileThatIsGoneIsWrittenNoMoreUntilItIsMoved) {
   expectContains(fileErrorOf([&] { writer.commit(); }), "is gone");
   addSamples(writer, 10, 20);
   expectContains(fileErrorOf([&] { writer.commit(); }), "is gone");
+  addSamples(writer, 20, 30);
   expectContains(fileErrorOf([&] { writer.finish(); }), "is gone");
   writeFile(folder / "taken.palpate", "somebody's");
   expectContains(fileErrorOf([&] { writer.moveTo(folder / "taken.palpate"); }), "exists already");
@@ -169,7 +172,6 @@ TEST(PalpateFiles, aFileThatIsGoneIsWrittenNoMoreUntilItIsMoved) {
   EXPECT_FALSE(writer.isGone());
   expectContains(fileErrorOf([&] { PalpateWriter second(path, sdh2().layout); }),
                  "is being written by another program");
-  addSamples(writer, 20, 30);
   writer.finish();
   // What is finished can go, too.
   fs::remove(path);
@@ -193,6 +195,7 @@ TEST(PalpateFiles, aFileThatGoesWithinAFailingCommitIsKeptWhole) {
     FaultyVfs vfs;
     PalpateWriterOptions options;
     options.vfs = FaultyVfs::name();
+    options.commitIntervalUs = INT64_MAX;
     PalpateWriter writer(folder / "r.palpate", sdh2().layout, {}, options);
     addSamples(writer, 0, 10);
     writer.commit();
