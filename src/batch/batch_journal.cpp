@@ -20,6 +20,26 @@ constexpr const char* kJournalName = ".palpate_batch";
 
 std::string systemText(int error) { return std::generic_category().message(error); }
 
+std::vector<WrittenFile> writtenFilesOf(const Json& json, const char* key) {
+  std::vector<WrittenFile> files;
+  if (!json.contains(key)) return files;
+  for (std::size_t i = 0; i < json.at(key).size(); ++i) {
+    const Json one = json.at(key).at(i);
+    files.push_back({one.at("path").asString(),
+                     {one.at("size").asInteger(), one.at("changed_ns").asInteger()}});
+  }
+  return files;
+}
+
+Json writtenFilesJson(const std::vector<WrittenFile>& files) {
+  return jsonList(files, [](const WrittenFile& file) {
+    return Json::object()
+        .set("path", file.path)
+        .set("size", file.stamp.size)
+        .set("changed_ns", file.stamp.changedNs);
+  });
+}
+
 std::optional<JournalEntry> entryOf(const std::string& line) {
   try {
     const Json json = Json::parse(line);
@@ -32,12 +52,8 @@ std::optional<JournalEntry> entryOf(const std::string& line) {
     if (json.contains("target_size"))
       entry.targetStamp = {json.at("target_size").asInteger(),
                            json.at("target_changed_ns").asInteger()};
-    if (json.contains("results"))
-      for (std::size_t i = 0; i < json.at("results").size(); ++i) {
-        const Json one = json.at("results").at(i);
-        entry.results.push_back({one.at("path").asString(),
-                                 {one.at("size").asInteger(), one.at("changed_ns").asInteger()}});
-      }
+    entry.results = writtenFilesOf(json, "results");
+    entry.replaceable = writtenFilesOf(json, "replaceable");
     return entry;
   } catch (const Error&) {
     return std::nullopt;  // a line that was not written to its end
@@ -53,13 +69,8 @@ std::string lineOf(const JournalEntry& entry) {
     json.set("target_size", entry.targetStamp->size);
     json.set("target_changed_ns", entry.targetStamp->changedNs);
   }
-  if (!entry.results.empty())
-    json.set("results", jsonList(entry.results, [](const WrittenFile& file) {
-               return Json::object()
-                   .set("path", file.path)
-                   .set("size", file.stamp.size)
-                   .set("changed_ns", file.stamp.changedNs);
-             }));
+  if (!entry.results.empty()) json.set("results", writtenFilesJson(entry.results));
+  if (!entry.replaceable.empty()) json.set("replaceable", writtenFilesJson(entry.replaceable));
   return json.text(-1) + "\n";
 }
 

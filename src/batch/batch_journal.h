@@ -33,6 +33,9 @@ struct JournalEntry {
   std::string source;  // absolute
   std::string options;
   FileStamp sourceStamp = {};
+  // Of one that was begun: the files of earlier batches that it may replace. Whatever else is there
+  // afterwards may be somebody's own.
+  std::vector<WrittenFile> replaceable = {};
   // Of the whole result; nothing: it was begun only.
   std::optional<FileStamp> targetStamp = {};
   // Where a recording has several results: all of them, and no targetStamp.

@@ -34,9 +34,13 @@ constexpr double kLeastFraction = 0.01;  // an estimate of less says nothing
 // What --resume does about a result. kOurs: files of an earlier run, which may be replaced.
 enum class Known { kNew, kWhole, kOurs };
 
-// The files of a finished entry, as they were written.
+bool isFinished(const JournalEntry& entry) { return entry.targetStamp || !entry.results.empty(); }
+
+// The files of an entry, as they were written: its own or, when it was begun only, those that it
+// was about to replace.
 std::vector<WrittenFile> filesOf(const JournalEntry& entry) {
-  if (!entry.results.empty() || !entry.targetStamp) return entry.results;
+  if (!isFinished(entry)) return entry.replaceable;
+  if (!entry.results.empty()) return entry.results;
   return {{entry.target, *entry.targetStamp}};
 }
 
@@ -50,8 +54,10 @@ Known knownAs(const BatchJournal& journal, const JournalEntry& now, const BatchI
   if (before->source != now.source || command(before->options) != command(now.options))
     return Known::kNew;
   const std::vector<WrittenFile> files = filesOf(*before);
-  if (files.empty()) return Known::kOurs;  // interrupted behind its last step
-  bool same = before->options == now.options && before->sourceStamp == now.sourceStamp;
+  // Begun, and nothing was there: a file that is there now may be somebody's.
+  if (files.empty()) return Known::kNew;
+  bool same = isFinished(*before) && before->options == now.options &&
+              before->sourceStamp == now.sourceStamp;
   for (const WrittenFile& file : files) {
     const std::optional<FileStamp> there = stampOf(journal.pathOf(file.path));
     if (there && *there != file.stamp) return Known::kNew;
@@ -147,16 +153,19 @@ class BatchRun {
       const Known known = knownAs(journal_, entry, item);
       const JournalEntry* before = journal_.find(item.target);
       if (known == Known::kWhole) return skipped(item, *before);
-      if (known == Known::kOurs && before->results.empty()) overwrite = Overwrite::kReplace;
-      // Of several files only those that were written may be replaced.
-      if (known == Known::kOurs)
-        for (const WrittenFile& file : before->results)
+      if (known == Known::kOurs) entry.replaceable = filesOf(*before);
+      // Only files that were written may be replaced.
+      for (const WrittenFile& file : entry.replaceable)
+        if (file.path == entry.target)
+          overwrite = Overwrite::kReplace;
+        else
           now.earlier.push_back(journal_.pathOf(file.path));
     }
     requireOther(item.source, item.target);
     makeFolder(item.target.parent_path());
     if (now.earlier.empty()) requireWritable(item.target, overwrite);
     journal_.add(entry);
+    entry.replaceable.clear();
     const BatchAnswer answer = task_.work(
         now,
         overwrite,

@@ -77,6 +77,7 @@ void addRecorderAlarms(const RecorderStatus& recorder,
   if (!recorder.writeError.empty())
     alarms.push_back({AlarmKind::kWriteError,
                       recorder.writeError + " (new data waits in memory, writing is tried again)"});
+  if (!recorder.relocation.empty()) alarms.push_back({AlarmKind::kWriteError, recorder.relocation});
   if (!recorder.mcapFailure.empty())
     alarms.push_back({AlarmKind::kMcapStopped,
                       "the MCAP file stopped, the recording goes on: " + recorder.mcapFailure +

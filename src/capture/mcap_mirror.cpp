@@ -3,6 +3,7 @@
 #include <exception>
 #include <utility>
 
+#include "palpate/core/error.h"
 #include "palpate/model/hand_file.h"
 
 namespace palpate {
@@ -42,6 +43,13 @@ void McapMirror::flushWhenDue(std::int64_t monoUs) {
 void McapMirror::finish() {
   queue_.close();
   if (thread_.joinable()) thread_.join();
+  for (const auto& [path, file] : files_) {
+    try {
+      if (file) requireLeadsTo(path, *file);
+    } catch (const FileError& error) {
+      fail(error.what());
+    }
+  }
 }
 
 std::string McapMirror::takeFailure() {
@@ -51,7 +59,10 @@ std::string McapMirror::takeFailure() {
 
 std::vector<std::filesystem::path> McapMirror::paths() const {
   const std::lock_guard lock(mutex_);
-  return paths_;
+  std::vector<std::filesystem::path> paths;
+  for (const auto& [path, file] : files_)
+    if (!file || leadsTo(path, *file)) paths.push_back(path);
+  return paths;
 }
 
 // The first reason is the one that is said.
@@ -88,7 +99,7 @@ void McapMirror::work(Task& task) {
     hand.layout = begin->layout;
     writer_ = std::make_unique<McapLiveWriter>(begin->path, hand, begin->meta, options_);
     const std::lock_guard lock(mutex_);
-    paths_.push_back(begin->path);
+    files_.emplace_back(begin->path, fileIdOf(begin->path));
     return;
   }
   if (!writer_) return;

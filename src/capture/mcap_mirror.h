@@ -12,11 +12,13 @@
 #include <optional>
 #include <string>
 #include <thread>
+#include <utility>
 #include <variant>
 #include <vector>
 
 #include "palpate/capture/capture_queue.h"
 #include "palpate/core/bounded_queue.h"
+#include "palpate/core/file_id.h"
 #include "palpate/recording/mcap_recording.h"
 
 namespace palpate {
@@ -36,12 +38,12 @@ class McapMirror {
   void add(const CaptureItem& item);
   // Writes what waits when the last time was a second ago.
   void flushWhenDue(std::int64_t monoUs);
-  // Ends the file and the thread.
+  // Ends the file and the thread, and looks whether all files are still there.
   void finish();
 
   // Why it stopped; empty: it did not, or this was asked before.
   std::string takeFailure();
-  // The files that were begun.
+  // The files that were begun and are there.
   std::vector<std::filesystem::path> paths() const;
 
  private:
@@ -65,7 +67,7 @@ class McapMirror {
   std::unique_ptr<McapLiveWriter> writer_;  // of the thread
   mutable std::mutex mutex_;
   std::string failure_;
-  std::vector<std::filesystem::path> paths_;
+  std::vector<std::pair<std::filesystem::path, std::optional<FileId>>> files_;
   std::jthread thread_;  // last: it ends before what it uses
 };
 

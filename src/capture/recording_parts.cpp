@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <stdexcept>
 #include <utility>
 
@@ -19,6 +20,35 @@ constexpr std::size_t kMostDirty = 4096;  // items of one commit
 constexpr std::int64_t kCountersUs = 1'000'000;
 // Without further frames, the end of the recording is detected after this time.
 constexpr std::int64_t kEndGraceUs = 1'000'000;
+
+constexpr int kMostRelocations = 3;  // of one part in a row
+constexpr std::int64_t kRelocationRetryUs = 1'000'000;
+
+bool isThere(const fs::path& path) {
+  std::error_code ignored;
+  return fs::exists(fs::symlink_status(path, ignored));
+}
+
+// The path, or one like it in the same folder, for which `taken` is false.
+template <typename Taken>
+fs::path freePathLike(const fs::path& path, Taken taken) {
+  fs::path free = path;
+  for (int i = 1; taken(free); ++i) {
+    free = path.parent_path() / path.stem();
+    free += "_continued" + (i == 1 ? std::string() : std::to_string(i));
+    free += path.extension();
+  }
+  return free;
+}
+
+// Where a recording goes on when its folder is gone or can't be written.
+std::vector<fs::path> usualEmergencyFolders() {
+  std::vector<fs::path> folders;
+  if (const char* home = std::getenv("HOME"); home && *home) folders.emplace_back(home);
+  std::error_code none;
+  if (const fs::path temporary = fs::temp_directory_path(none); !none) folders.push_back(temporary);
+  return folders;
+}
 
 std::int64_t microseconds(double seconds) {
   return static_cast<std::int64_t>(std::llround(seconds * 1e6));
@@ -46,6 +76,8 @@ RecordingParts::RecordingParts(RecordingOptions options,
     : options_(std::move(options)),
       commitIntervalUs_(static_cast<std::int64_t>(recorder.commitIntervalMs * 1000.0)),
       vfs_(recorder.vfs),
+      emergencyFolders_(recorder.emergencyFolders.empty() ? usualEmergencyFolders()
+                                                          : recorder.emergencyFolders),
       start_(start),
       notice_(std::move(notice)),
       base_(options_.path),
@@ -145,12 +177,8 @@ std::unique_ptr<PalpateWriter> RecordingParts::makeWriter(
     for (const auto& [key, value] : options_.describe())
       if (!isReservedMeta(key)) meta.insert_or_assign(key, value);
   // An existing file is skipped: nothing is ever replaced.
-  std::error_code ignored;
-  const auto exists = [&](const fs::path& path) {
-    return fs::exists(fs::symlink_status(path, ignored));
-  };
-  while (exists(partPath(base_, nextPart_)) ||
-         (mcap_ && exists(mcapPathOf(partPath(base_, nextPart_)))))
+  while (isThere(partPath(base_, nextPart_)) ||
+         (mcap_ && isThere(mcapPathOf(partPath(base_, nextPart_)))))
     ++nextPart_;
   const fs::path path = partPath(base_, nextPart_);
   if (!paths_.empty()) {
@@ -174,11 +202,23 @@ void RecordingParts::open(RoundTime time) {
   });
   if (first == held_.end()) return;
   const std::shared_ptr<const SensorLayout> layout = std::get<SharedFrame>(*first)->layout;
-  try {
-    writer_ = makeWriter(layout);
-  } catch (const std::exception& error) {  // error of the disk, or a sensor that can't be recorded
-    return onCommitFailed(error.what(), time);
+  const fs::path base = base_, folder = folder_;
+  std::string failure;
+  for (auto next = emergencyFolders_.begin(); !writer_; ++next) {
+    try {
+      writer_ = makeWriter(layout);
+    } catch (const std::exception& error) {  // of the disk, or a sensor that can't be recorded
+      if (failure.empty()) failure = error.what();
+      if (isThere(folder) || next == emergencyFolders_.end()) {
+        base_ = base;
+        folder_ = folder;
+        return onCommitFailed(failure, time);
+      }
+      leaveFolder(*next);
+    }
   }
+  if (!failure.empty())
+    noteRelocation(failure + "; it is recorded in " + paths_.back().string(), time);
   layout_ = layout;
   lastCounters_.clear();
   for (const CaptureItem& item : std::exchange(held_, {})) take(item, time);
@@ -215,16 +255,73 @@ void RecordingParts::split(const TactileFrame& frame, RoundTime time) {
   closeOldPart(time);
 }
 
+bool RecordingParts::succeeds(PalpateWriter& part,
+                              RoundTime time,
+                              const std::function<void()>& work) {
+  for (int relocations = 0;; ++relocations) {
+    try {
+      work();
+      return true;
+    } catch (const FileError& error) {
+      if (relocations < kMostRelocations && part.isGone() &&
+          keepElsewhere(part, error.what(), time, {}))
+        continue;
+      onCommitFailed(error.what(), time);
+      return false;
+    }
+  }
+}
+
+// Gives a part whose file was deleted, renamed or replaced a file again, with all that it
+// contained, under its own name where that is free: in the wanted folder or, without one, in its
+// own or an emergency folder.
+bool RecordingParts::keepElsewhere(PalpateWriter& part,
+                                   const std::string& why,
+                                   RoundTime time,
+                                   const std::optional<fs::path>& wanted) {
+  if (time.monoUs < nextRelocationMonoUs_) return false;
+  fs::path& path = paths_.at(paths_.size() - (&part == closing_.get() ? 2 : 1));
+  const fs::path own = path.parent_path();
+  std::vector<fs::path> folders{wanted.value_or(own)};
+  if (!wanted) folders.insert(folders.end(), emergencyFolders_.begin(), emergencyFolders_.end());
+  for (const fs::path& next : folders) {
+    const fs::path kept = freePathLike(next / path.filename(), isThere);
+    try {
+      part.moveTo(kept);
+    } catch (const std::exception&) {
+      continue;  // no such folder, not writable, no space
+    }
+    if (next != own) leaveFolder(next);
+    path = kept;
+    ++counts_.writeFailures;
+    noteRelocation(why + "; all that was recorded is in " + kept.string() + " now", time);
+    return true;
+  }
+  nextRelocationMonoUs_ = time.monoUs + kRelocationRetryUs;
+  return false;
+}
+
+// Further parts go into another folder.
+void RecordingParts::leaveFolder(const fs::path& folder) {
+  base_ = freeBaseIn(folder);
+  folder_ = folder;
+}
+
+void RecordingParts::noteRelocation(std::string text, RoundTime time) {
+  relocation_ = std::move(text);
+  addOwn({time.nowUs, time.nowUs, "alarm", {}, relocation_, ""});
+}
+
+void RecordingParts::noteFinished(const fs::path& path) {
+  if (const auto file = fileIdOf(path)) finished_.emplace_back(path, *file);
+}
+
 bool RecordingParts::closeOldPart(RoundTime time) {
   if (!closing_) return true;
-  try {
-    closing_->finish();
-  } catch (const FileError& error) {
-    onCommitFailed(error.what(), time);
-    return false;
-  }
+  if (!succeeds(*closing_, time, [this] { closing_->finish(); })) return false;
   framesInOldParts_ += closing_->framesOnDisk();
   bytesInOldParts_ += closing_->bytesOnDisk();
+  noteFinished(paths_.at(paths_.size() - 2));
   closing_.reset();
   uncommittedBefore_.clear();
   return true;
@@ -316,21 +413,17 @@ fs::path RecordingParts::freeBaseIn(const fs::path& folder) const {
   // In the same folder, however it is written, it is the next part.
   std::error_code missing;
   if (folder == folder_ || fs::equivalent(folder, folder_, missing)) return base_;
-  const auto taken = [this](const fs::path& path) {
-    std::error_code ignored;
-    return fs::exists(fs::symlink_status(path, ignored)) ||
-           (mcap_ && fs::exists(fs::symlink_status(mcapPathOf(path), ignored)));
-  };
-  fs::path base = folder / base_.filename();
-  for (int i = 1; taken(base); ++i) {
-    base = folder / base_.stem();
-    base += "_continued" + (i == 1 ? std::string() : std::to_string(i));
-    base += base_.extension();
-  }
-  return base;
+  return freePathLike(folder / base_.filename(), [this](const fs::path& path) {
+    return isThere(path) || (mcap_ && isThere(mcapPathOf(path)));
+  });
 }
 
 void RecordingParts::continueIn(const fs::path& folder, RoundTime time) {
+  nextRelocationMonoUs_ = time.monoUs;
+  // A file that is gone can still be read, unless its disk is gone, too: then it goes on whole.
+  if (writer_ && !closing_ && writer_->isGone() &&
+      keepElsewhere(*writer_, error_.empty() ? "the recording is gone" : error_, time, folder))
+    return commit(time);
   const fs::path before = base_;
   const int partBefore = nextPart_;
   const std::vector<fs::path> pathsBefore = paths_;
@@ -454,16 +547,15 @@ void RecordingParts::round(RoundTime time) {
 }
 
 void RecordingParts::commit(RoundTime time) {
-  try {
+  const bool done = succeeds(*writer_, time, [this] {
     writer_->commit();
     // Only now the disk has room for pending events.
     if (!unwrittenEvents_.empty()) {
       writePendingEvents();
       writer_->commit();
     }
-  } catch (const FileError& error) {
-    return onCommitFailed(error.what(), time);
-  }
+  });
+  if (!done) return;
   dirtySinceMonoUs_.reset();
   dirtyItems_ = 0;
   uncommitted_.clear();
@@ -503,18 +595,18 @@ bool RecordingParts::finish(RoundTime time) {
     unfinished_ = frameHeld_;
     return !frameHeld_;
   }
-  try {
-    if (!closeOldPart(time)) return !(unfinished_ = true);
+  if (!closeOldPart(time)) return !(unfinished_ = true);
+  const bool done = succeeds(*writer_, time, [&] {
     writer_->commit();
     onCommitSucceeded(time);
     endLossIntervals();
     writePendingEvents();
     updateCounters(time);
-    writer_->finish();
-  } catch (const FileError& error) {
-    onCommitFailed(error.what(), time);
+  });
+  // An event of this moment can't be in the file any more.
+  if (!done || !succeeds(*writer_, time, [this] { writer_->finish(); }))
     return !(unfinished_ = true);
-  }
+  noteFinished(paths_.back());
   if (mcap_) {
     mcap_->finish();
     const std::string failure = mcap_->takeFailure();
@@ -551,6 +643,7 @@ void RecordingParts::describe(RecorderStatus& status) const {
   status.lost = counts_.lost + lostInQueues_;
   status.refused = counts_.refused;
   status.writeError = error_;
+  status.relocation = relocation_;
   status.mcapFailure = mcapFailure_;
 }
 
@@ -568,12 +661,15 @@ std::string RecordingParts::abandonedText() const {
 RecordingReport RecordingParts::report() const {
   RecordingReport report = counts_;
   report.paths = paths_;
-  // What was moved away with its folder isn't found under its name.
-  std::error_code ignored;
-  std::erase_if(report.paths, [&](const fs::path& path) {
-    return std::find(abandoned_.begin(), abandoned_.end(), path) != abandoned_.end() &&
-           !fs::exists(path, ignored);
-  });
+  // What is told is there.
+  std::string missing;
+  for (const auto& [path, file] : finished_) {
+    if (leadsTo(path, file)) continue;
+    missing = path.string() + " was moved, deleted or replaced after it was finished";
+    std::erase(report.paths, path);
+  }
+  std::erase_if(report.paths, [](const fs::path& path) { return !isThere(path); });
+  if (writer_ && unfinished_ && writer_->isGone()) std::erase(report.paths, paths_.back());
   report.lost += lostInQueues_;
   report.gaps = intervals_.gaps();
   report.firstFrameUs = intervals_.firstUs();
@@ -590,13 +686,19 @@ RecordingReport RecordingParts::report() const {
     report.lost += counts_.frames - onDisk;
     report.frames = onDisk;
     report.message =
-        error_ + "; what was written before is safe: 'palpate recover' finishes the file";
+        error_ + (writer_ && writer_->isGone()
+                      ? "; it could not be kept elsewhere"
+                      : "; what was written before is safe: 'palpate recover' finishes the file");
   } else if (report.lost > 0)
     report.message = std::to_string(report.lost) + " items were lost; the gap events show where";
   else if (report.refused > 0)
     report.message = std::to_string(report.refused) + " items were refused: " + refusedWhy_;
   else if (paths_.empty())
     report.message = armed_ ? "nothing was touched" : "no frame arrived";
+  else if (!missing.empty())
+    report.message = missing;
+  else if (!relocation_.empty())
+    report.message = relocation_;
   else if (!abandoned_.empty())
     report.message = abandonedText();
   report.nothingTouched = armed_ && paths_.empty();

@@ -8,8 +8,11 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "palpate/capture/recorder.h"
+#include "palpate/core/file_id.h"
 #include "palpate/recording/palpate_writer.h"
 
 #include "capture/interval_statistics.h"
@@ -83,6 +86,16 @@ class RecordingParts {
   bool splitDue(const TactileFrame& frame) const;
   void split(const TactileFrame& frame, RoundTime time);
   bool closeOldPart(RoundTime time);
+  // Does the work on the open part or the previous one; a file that is gone is made anew, and the
+  // work repeated. False: it failed, and that is noted.
+  bool succeeds(PalpateWriter& part, RoundTime time, const std::function<void()>& work);
+  bool keepElsewhere(PalpateWriter& part,
+                     const std::string& why,
+                     RoundTime time,
+                     const std::optional<std::filesystem::path>& wanted);
+  void noteRelocation(std::string text, RoundTime time);
+  void leaveFolder(const std::filesystem::path& folder);
+  void noteFinished(const std::filesystem::path& path);
   void write(const CaptureItem& item, RoundTime time);
   void writeTo(const CaptureItem& item);
   void keepUncommitted(const CaptureItem& item);
@@ -106,6 +119,7 @@ class RecordingParts {
   const RecordingOptions options_;
   const std::int64_t commitIntervalUs_;
   const std::string vfs_;
+  const std::vector<std::filesystem::path> emergencyFolders_;
   RoundTime start_;
   const Notice notice_;
   // The path of the first part, or that of the first one in another folder.
@@ -126,6 +140,7 @@ class RecordingParts {
   std::shared_ptr<const SensorLayout> closingLayout_;
   std::int64_t partFirstUs_ = 0;
   bool partHasFrames_ = false;
+  std::vector<std::pair<std::filesystem::path, FileId>> finished_;
   std::int64_t framesInOldParts_ = 0;
   std::int64_t bytesInOldParts_ = 0;
   std::deque<CaptureItem> held_;  // items that wait for a file
@@ -140,6 +155,9 @@ class RecordingParts {
   std::deque<CaptureItem> uncommitted_;
   std::deque<CaptureItem> uncommittedBefore_;
   std::optional<CaptureLoss> forgottenFrames_;
+  // Why and where a part went on under another name; empty: none did.
+  std::string relocation_;
+  std::int64_t nextRelocationMonoUs_ = 0;
   // Parts that were left unfinished in another folder.
   std::vector<std::filesystem::path> abandoned_;
 

@@ -2,18 +2,39 @@
 
 #include <algorithm>
 #include <stdexcept>
+#include <string_view>
 
 #include "palpate/core/error.h"
+#include "palpate/core/escaped_line.h"
 
 namespace palpate {
 namespace {
 
 constexpr std::size_t kRowsPerPiece = 4096;  // rows between two reports of progress
 
+// Control characters would reach the terminal that shows the table; a cell may have tabs and line
+// breaks, nothing else.
+std::string withoutControls(const std::string& cell) {
+  constexpr unsigned char kDelete = 0x7F;
+  std::string safe;
+  for (std::size_t i = 0; i < cell.size(); ++i) {
+    const auto byte = static_cast<unsigned char>(cell[i]);
+    const auto next = i + 1 < cell.size() ? static_cast<unsigned char>(cell[i + 1]) : 0;
+    const bool isLater = byte == 0xC2 && next >= 0x80 && next <= 0x9F;  // U+0080 to U+009F
+    const bool isBreak = byte == '\n' || byte == '\t' || (byte == '\r' && next == '\n');
+    if (isLater || (byte < ' ' && !isBreak) || byte == kDelete)
+      safe += escapedLine(std::string_view(cell).substr(i, isLater ? 2 : 1));
+    else
+      safe += cell[i];
+    if (isLater) ++i;
+  }
+  return safe;
+}
+
 void appendCsv(const std::vector<std::string>& cells, std::string& out) {
   for (std::size_t i = 0; i < cells.size(); ++i) {
     if (i > 0) out += ',';
-    const std::string& cell = cells[i];
+    const std::string cell = withoutControls(cells[i]);
     if (cell.find_first_of(",\"\r\n") == std::string::npos) {
       out += cell;
       continue;

@@ -32,7 +32,9 @@ void setRecorderFields(Json& fields, const RecorderStatus& recorder) {
   fields.set("elapsed_s", recorder.elapsedS);
   fields.set("bytes", recorder.bytesOnDisk);
   fields.set("recorder_lost", recorder.lost + recorder.refused);
-  fields.set("write_error", recorder.writeError.empty() ? Json() : Json(recorder.writeError));
+  const std::string& error =
+      recorder.writeError.empty() ? recorder.relocation : recorder.writeError;
+  fields.set("write_error", error.empty() ? Json() : Json(error));
 }
 
 RemoteAnswer stopAnswer(const RecordingReport& report) {

@@ -152,7 +152,7 @@ void saveRows(const fs::path& given,
   requireWritableBy(path, path);
   requireFinished(path);
   const auto lock = locked(path, path);
-  const auto file = identityOf(path);
+  const auto file = fileIdOf(path);
   SqliteDatabase database(path, SqliteDatabase::Mode::kReadWrite, options.vfs);
   const std::uintmax_t size = fs::file_size(path, ignored);
   database.limitWork(ignored ? 0 : size);
@@ -174,7 +174,7 @@ void saveRows(const fs::path& given,
     database.rollBack();
     throw;
   }
-  if (identityOf(path) != file)
+  if (fileIdOf(path) != file)
     throw FileError(path, "was deleted or replaced while its notes were being saved");
 }
 

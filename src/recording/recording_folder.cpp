@@ -7,9 +7,8 @@
 #include <system_error>
 #include <utility>
 
-#include <sys/stat.h>
-
 #include "palpate/core/error.h"
+#include "palpate/core/file_id.h"
 #include "palpate/core/file_name.h"
 #include "palpate/core/text_file.h"
 
@@ -35,14 +34,6 @@ bool isNamedAsRecording(const fs::path& file) {
 
 bool isRecording(const fs::path& file) {
   return isNamedAsRecording(file) || (!file.has_extension() && beginsAsNativeRecording(file));
-}
-
-using FileId = std::pair<dev_t, ino_t>;
-
-std::optional<FileId> idOf(const fs::path& path) {
-  struct stat status {};
-  if (::stat(path.c_str(), &status) != 0) return std::nullopt;
-  return FileId(status.st_dev, status.st_ino);
 }
 
 // Whether a link leads to the folder it stands in, or to one above that.
@@ -80,7 +71,7 @@ class FolderWalk {
 
  private:
   void look(const fs::path& folder) {
-    if (const auto id = idOf(folder); id && !seen_.insert(*id).second) return;
+    if (const auto id = fileIdOf(folder); id && !seen_.insert(*id).second) return;
     seenPaths_.insert(folder);
     std::error_code failure;
     fs::directory_iterator entry(folder, failure);
@@ -116,11 +107,11 @@ class FolderWalk {
     if (linkedFiles_.empty()) return;
     std::set<FileId> known;
     for (const fs::path& file : files_)
-      if (const auto id = idOf(file)) known.insert(*id);
+      if (const auto id = fileIdOf(file)) known.insert(*id);
     for (const fs::path& link : linkedFiles_) {
       std::error_code failure;
       if (!fs::is_regular_file(link, failure) && fs::exists(link, failure)) continue;
-      const auto id = idOf(link);
+      const auto id = fileIdOf(link);
       if ((!id || !known.contains(*id)) && isRecording(link)) {
         files_.push_back(link);
         if (id) known.insert(*id);

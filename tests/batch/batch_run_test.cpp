@@ -118,6 +118,76 @@ TEST_F(BatchRuns, ResumesWithWhatIsMissingOrOutOfDate) {
   EXPECT_EQ(testing::readFile(folder_ / "out/r13.csv"), "somebody's");
 }
 
+// Whether the journal has the whole line of a result.
+bool isTold(const std::string& journal, const std::string& name) {
+  std::size_t begin = 0;
+  for (std::size_t end = 0; (end = journal.find('\n', begin)) != std::string::npos;
+       begin = end + 1) {
+    const std::string line = journal.substr(begin, end - begin);
+    if (line.find('"' + name + '"') != std::string::npos &&
+        line.find("target_size") != std::string::npos)
+      return true;
+  }
+  return false;
+}
+
+// F11 of the attack: without the line of the result the file in its place may be anybody's.
+TEST_F(BatchRuns, AFileWhoseResultIsNotInTheJournalIsNeverReplaced) {
+  worksOf({.threads = 1});
+  const fs::path journal = folder_ / "out/.palpate_batch";
+  const std::string whole = testing::readFile(journal);
+  const std::size_t end = whole.rfind("target_size");
+  ASSERT_NE(end, std::string::npos);
+  const std::size_t begin = whole.rfind('\n', end) + 1;
+  std::string damaged = whole;
+  damaged[end] = '#';
+  for (const std::string& text : {whole.substr(0, begin), whole.substr(0, end), damaged}) {
+    testing::writeFile(folder_ / "out/r29.csv", "somebody's");
+    testing::writeFile(journal, text);
+    EXPECT_EQ(worksOf({.resume = true}), 0U);
+    EXPECT_EQ(last_.status.skipped, 19U);
+    EXPECT_EQ(last_.status.failed, 1U);
+    EXPECT_EQ(testing::readFile(folder_ / "out/r29.csv"), "somebody's");
+    // Nor by a second attempt.
+    EXPECT_EQ(worksOf({.resume = true}), 0U);
+    EXPECT_EQ(testing::readFile(folder_ / "out/r29.csv"), "somebody's");
+  }
+  worksOf({.overwrite = Overwrite::kReplace});
+  EXPECT_EQ(testing::readFile(folder_ / "out/r29.csv"), "r29");
+}
+
+// What was about to be replaced is still known afterwards.
+TEST_F(BatchRuns, AResultThatWasBeingMadeAgainIsMadeAgainAfterAKill) {
+  worksOf({.threads = 1});
+  const fs::path journal = folder_ / "out/.palpate_batch";
+  testing::writeFile(folder_ / "in/r12.dsa", "longer");
+  const std::string old = testing::readFile(folder_ / "out/r12.csv");
+  const std::size_t before = testing::readFile(journal).size();
+  EXPECT_EQ(worksOf({.threads = 1, .resume = true}), 1U);
+  std::string text = testing::readFile(journal);
+  text.resize(text.find('\n', before) + 1);  // only the line that says it was begun
+  testing::writeFile(journal, text);
+  // The new one has come, but no line: it isn't what was to be replaced.
+  EXPECT_EQ(worksOf({.resume = true}), 0U);
+  EXPECT_EQ(last_.status.failed, 1U);
+  // Killed before it came.
+  fs::remove(folder_ / "out/r12.csv");
+  EXPECT_EQ(worksOf({.resume = true}), 1U);
+  EXPECT_EQ(last_.status.failed, 0U);
+  EXPECT_EQ(testing::readFile(folder_ / "out/r12.csv"), "longer");
+  testing::writeFile(folder_ / "in/r12.dsa", "longer still");
+  const std::size_t again = testing::readFile(journal).size();
+  const auto changed = fs::last_write_time(folder_ / "out/r12.csv");
+  EXPECT_EQ(worksOf({.threads = 1, .resume = true}), 1U);
+  text = testing::readFile(journal);
+  text.resize(text.find('\n', again) + 1);
+  testing::writeFile(journal, text);
+  testing::writeFile(folder_ / "out/r12.csv", "longer");
+  fs::last_write_time(folder_ / "out/r12.csv", changed);
+  EXPECT_EQ(worksOf({.resume = true}), 1U) << "the old result is still there";
+  EXPECT_EQ(testing::readFile(folder_ / "out/r12.csv"), "longer still");
+}
+
 TEST_F(BatchRuns, GoesOnBehindAJournalThatEndsAnywhere) {
   worksOf({.threads = 1});
   const std::string journal = testing::readFile(folder_ / "out/.palpate_batch");
@@ -125,12 +195,11 @@ TEST_F(BatchRuns, GoesOnBehindAJournalThatEndsAnywhere) {
     fs::remove_all(folder_ / "out");
     worksOf({.threads = 1});
     const std::string whole = testing::readFile(folder_ / "out/.palpate_batch");
-    // Killed here: the results behind the cut are not there yet.
+    // Killed here: the results whose lines are not whole are not there yet.
     const std::string cut = whole.substr(0, std::min(length, whole.size() - 1));
     testing::writeFile(folder_ / "out/.palpate_batch", cut);
     for (const BatchItem& item : plan_.items)
-      if (cut.find("\"" + item.target.filename().string()) == std::string::npos)
-        fs::remove(item.target);
+      if (!isTold(cut, item.target.filename().string())) fs::remove(item.target);
     worksOf({.resume = true});
     EXPECT_EQ(last_.status.failed, 0U) << length;
     EXPECT_EQ(last_.status.done + last_.status.skipped, 20U) << length;

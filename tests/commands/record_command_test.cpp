@@ -180,6 +180,67 @@ TEST(RecordCommand, OfAKilledProcessTheMcapFileHasItsWholeChunks) {
   }
 }
 
+// F2 of the attack. All is in the files that are named, and the exit code says that it isn't as it
+// was asked for.
+TEST(RecordCommand, AFileThatIsDeletedRenamedOrReplacedIsKeptAndToldOf) {
+  enum class What { kDeleted, kRenamed, kReplaced, kFolderDeleted, kFolderMoved };
+  for (const What what : {What::kDeleted,
+                          What::kRenamed,
+                          What::kReplaced,
+                          What::kFolderDeleted,
+                          What::kFolderMoved}) {
+    SCOPED_TRACE(static_cast<int>(what));
+    const TemporaryFolder folder;
+    const fs::path here = folder / "here", home = folder / "home", path = here / "a.palpate";
+    fs::create_directory(here);
+    fs::create_directory(home);
+    const auto hand = handAt(100.0);
+    BackgroundProgram program("/usr/bin/env",
+                              {"HOME=" + home.string(),
+                               PALPATE_PROGRAM,
+                               "record",
+                               "--dsa",
+                               hand->dsaPort(),
+                               "-o",
+                               path.string(),
+                               "--json"});
+    ASSERT_TRUE(awaitFrames(path, 20));
+    fs::path kept = path;
+    if (what == What::kDeleted) fs::remove(path);
+    if (what == What::kRenamed) fs::rename(path, here / "mine.palpate");
+    if (what == What::kReplaced) {
+      writeFile(here / "new", "somebody's");
+      fs::rename(here / "new", path);
+      kept = here / "a_continued.palpate";
+    }
+    if (what == What::kFolderDeleted) fs::remove_all(here);
+    if (what == What::kFolderMoved) fs::rename(here, folder / "there");
+    if (what == What::kFolderDeleted || what == What::kFolderMoved) kept = home / "a.palpate";
+    ASSERT_TRUE(awaitFrames(kept, 60)) << program.err();
+    program.signal(SIGINT);
+    EXPECT_EQ(program.wait(), 3) << program.err();
+    const Json json = Json::parse(program.out());
+    ASSERT_EQ(json.at("files").size(), 1u);
+    EXPECT_EQ(json.at("files").at(0).asString(), kept.string());
+    EXPECT_FALSE(json.at("complete").asBool());
+    EXPECT_EQ(json.at("recorder_lost").asInteger(), 0);
+    EXPECT_NE(json.at("message").asString().find("is gone"), std::string::npos);
+    EXPECT_NE(program.err().find(kept.string()), std::string::npos) << program.err();
+    EXPECT_EQ(verifyRecording(kept).state, VerifyReport::State::kSound);
+    EXPECT_EQ(json.at("frames").asInteger(),
+              static_cast<std::int64_t>(openRecording(kept).numFrames()));
+    expectConsecutive({kept});
+    if (what == What::kReplaced) {
+      EXPECT_EQ(readFile(path), "somebody's");
+    }
+    if (what == What::kRenamed) {
+      const fs::path whole = folder / "whole.palpate";
+      EXPECT_EQ(palpate({"recover", here / "mine.palpate", whole}).exitCode, 0);
+      expectConsecutive({whole});
+    }
+  }
+}
+
 TEST(RecordCommand, SplitPartsHoldEverythingOnce) {
   const TemporaryFolder folder;
   const auto hand = handAt(300.0);

@@ -24,6 +24,19 @@ TEST(TextTable, QuotesWhatWouldBreakALine) {
             "a,\"b,c\",\"say \"\"x\"\"\",\"two\nlines\",\n");
 }
 
+// A file may have any byte in its name, and the table may be read on a terminal.
+TEST(TextTable, ControlCharactersAreEscaped) {
+  EXPECT_EQ(csvLine({"a\x1b[31mb",
+                     "c\x7f",
+                     "d\ae",
+                     "\xc2\x9b"
+                     "f",
+                     "g\rh"}),
+            "a\\x1B[31mb,c\\x7F,d\\x07e,\\u{009B}f,g\\rh\n");
+  EXPECT_EQ(csvLine({"two\r\nlines", "a\ttab", "\xc3\xa4", "\xe2\x80\x8e"}),
+            "\"two\r\nlines\",a\ttab,\xc3\xa4,\xe2\x80\x8e\n");
+}
+
 TEST(TextTable, NumbersReadBackToTheSameDoubles) {
   const testing::TemporaryFolder folder;
   writeTable(numbers(10'000), folder / "a.csv");

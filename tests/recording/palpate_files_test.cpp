@@ -137,6 +137,81 @@ TEST(PalpateFiles, theJournalStaysOpenBetweenTwoCommits) {
   expectFrames(folder / "r.palpate", 20, 20);
 }
 
+TEST(PalpateFiles, aLockThatIsALinkIsRefusedAndItsTargetIsNotMade) {
+  const TemporaryFolder folder;
+  fs::create_symlink(folder / "target", folder / "r.palpate.lock");
+  expectContains(fileErrorOf([&] { PalpateWriter writer(folder / "r.palpate", sdh2().layout); }),
+                 "a symbolic link has the name of its lock file (r.palpate.lock)");
+  EXPECT_FALSE(fs::exists(folder / "target"));
+  EXPECT_FALSE(fs::exists(folder / "r.palpate"));
+  EXPECT_TRUE(fs::is_symlink(folder / "r.palpate.lock"));
+}
+
+TEST(PalpateFiles, aFileThatIsGoneIsWrittenNoMoreUntilItIsMoved) {
+  const TemporaryFolder folder;
+  const fs::path path = folder / "r.palpate";
+  PalpateWriterOptions options;
+  options.commitIntervalUs = INT64_MAX;
+  PalpateWriter writer(path, sdh2().layout, {}, options);
+  addSamples(writer, 0, 10);
+  writer.commit();
+  EXPECT_FALSE(writer.isGone());
+  fs::rename(path, folder / "mine.palpate");
+  EXPECT_TRUE(writer.isGone());
+  // Also when nothing waits.
+  expectContains(fileErrorOf([&] { writer.commit(); }), "is gone");
+  addSamples(writer, 10, 20);
+  expectContains(fileErrorOf([&] { writer.commit(); }), "is gone");
+  addSamples(writer, 20, 30);
+  expectContains(fileErrorOf([&] { writer.finish(); }), "is gone");
+  writeFile(folder / "taken.palpate", "somebody's");
+  expectContains(fileErrorOf([&] { writer.moveTo(folder / "taken.palpate"); }), "exists already");
+  expectContains(fileErrorOf([&] { writer.moveTo(folder / "no/r.palpate"); }), "can't be written");
+  EXPECT_TRUE(writer.isGone());
+  writer.moveTo(path);
+  EXPECT_FALSE(writer.isGone());
+  expectContains(fileErrorOf([&] { PalpateWriter second(path, sdh2().layout); }),
+                 "is being written by another program");
+  writer.finish();
+  // What is finished can go, too.
+  fs::remove(path);
+  expectContains(fileErrorOf([&] { writer.finish(); }), "is gone");
+  writer.moveTo(folder / "kept.palpate");
+  writer.finish();
+  expectFrames(folder / "kept.palpate", 30, 30);
+  std::vector<std::string> names;
+  for (const auto& entry : fs::directory_iterator(folder.path()))
+    names.push_back(entry.path().filename().string());
+  std::sort(names.begin(), names.end());
+  EXPECT_EQ(names, (std::vector<std::string>{"kept.palpate", "mine.palpate", "taken.palpate"}));
+  EXPECT_EQ(openRecording(folder / "mine.palpate").numFrames(), 10u);
+}
+
+// A commit that failed half way is undone before the file is copied.
+TEST(PalpateFiles, aFileThatGoesWithinAFailingCommitIsKeptWhole) {
+  for (std::int64_t n = 1; n < 40; ++n) {
+    SCOPED_TRACE(n);
+    const TemporaryFolder folder;
+    FaultyVfs vfs;
+    PalpateWriterOptions options;
+    options.vfs = FaultyVfs::name();
+    options.commitIntervalUs = INT64_MAX;
+    PalpateWriter writer(folder / "r.palpate", sdh2().layout, {}, options);
+    addSamples(writer, 0, 10);
+    writer.commit();
+    vfs.failAt(FaultyVfs::Fault::kError, vfs.operations() + n);
+    addSamples(writer, 10, 20);
+    fileErrorOf([&] { writer.commit(); });
+    vfs.heal();
+    fs::remove(folder / "r.palpate");
+    writer.moveTo(folder / "r.palpate");
+    addSamples(writer, 20, 30);
+    writer.finish();
+    expectFrames(folder / "r.palpate", 30, 30);
+    EXPECT_EQ(verifyRecording(folder / "r.palpate").state, VerifyReport::State::kSound);
+  }
+}
+
 // What the journal of a finished commit leaves when its process is killed keeps no name back.
 TEST(PalpateFiles, theJournalOfAFinishedCommitBelongsToNoRecording) {
   const TemporaryFolder folder;

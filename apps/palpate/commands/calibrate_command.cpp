@@ -8,6 +8,7 @@
 
 #include "palpate/calibration/calibration.h"
 #include "palpate/core/error.h"
+#include "palpate/core/escaped_line.h"
 #include "palpate/core/output_file.h"
 #include "palpate/core/time.h"
 
@@ -100,7 +101,7 @@ void printJson(const CommandLine& given, const Json& json, bool outputWritten) {
     OutputFile file(*out, given.has("force") ? Overwrite::kReplace : Overwrite::kRefuse);
     file.write(text);
     file.commit();
-    if (!given.quiet()) std::printf("%s\n", out->c_str());
+    if (!given.quiet()) std::printf("%s\n", escapedLine(*out).c_str());
     return;
   }
   StandardOutput out;

@@ -4,6 +4,7 @@
 
 #include "palpate/calibration/tare.h"
 #include "palpate/core/error.h"
+#include "palpate/core/escaped_line.h"
 #include "palpate/core/number_text.h"
 #include "palpate/recording/event_store.h"
 #include "palpate/recording/recording.h"
@@ -64,7 +65,7 @@ int calibrateTare(const Arguments& words) {
     const std::vector<RecordingEvent> kept = withoutTare(events);
     if (kept.size() == events.events.size()) throw FileError(file, "has no tare");
     saveEvents(file, events, kept);
-    if (!given.quiet()) std::printf("%s: tare removed\n", file.string().c_str());
+    if (!given.quiet()) std::printf("%s: tare removed\n", escapedLine(file.string()).c_str());
     return kDone;
   }
   TareOptions options;

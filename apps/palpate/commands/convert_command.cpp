@@ -69,7 +69,7 @@ int convertOne(const CommandLine& given, const std::string& in, const std::strin
     return saveRecording(profile, events.events, out, overwrite, progress.callback(), extras);
   }();
   if (!given.quiet())
-    std::printf("%s\n", (doneText(out, profile) + movedText(saved.movedStamps)).c_str());
+    std::printf("%s\n", escapedLine(doneText(out, profile) + movedText(saved.movedStamps)).c_str());
   if (events.damaged == 0) return kDone;
   std::fprintf(stderr, "palpate: %s\n", escapedLine(damagedText(in, events.damaged)).c_str());
   return kPartlyDone;

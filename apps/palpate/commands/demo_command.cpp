@@ -7,6 +7,7 @@
 #include <system_error>
 
 #include "palpate/core/error.h"
+#include "palpate/core/escaped_line.h"
 #include "palpate/core/interruption.h"
 
 #include "commands/command_line.h"
@@ -27,10 +28,10 @@ void runWholeDemo(DemoRun& run) {
 }
 
 void sayWhatIsNext(const fs::path& folder, bool failed) {
-  const std::string in = folder.string() + "/";
+  const std::string in = escapedLine(folder.string()) + "/";
   if (failed) {
     std::printf("A step failed; the results so far are in %s, see %sreport.html.\n",
-                folder.c_str(),
+                escapedLine(folder.string()).c_str(),
                 in.c_str());
     return;
   }

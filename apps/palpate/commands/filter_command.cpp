@@ -86,7 +86,7 @@ int filterCommand(const Arguments& words) {
   if (recipePath) writeRecipe(*recipePath, recipe, given.has("force"));
   if (!given.quiet())
     std::printf("%s: %s filtered by %s; %s\n",
-                out.c_str(),
+                escapedLine(out).c_str(),
                 counted(filtered.numFrames(), "frame").c_str(),
                 fullRecipeText(recipe).c_str(),
                 latencyText(recipe, timingOf(profile).rateHz).c_str());

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "palpate/core/error.h"
+#include "palpate/core/escaped_line.h"
 #include "palpate/core/json.h"
 #include "palpate/kinematics/hand_geometry.h"
 #include "palpate/kinematics/stl_mesh.h"
@@ -88,14 +89,14 @@ int checkFolders(const std::vector<std::string>& folders) {
       const HandDescription hand = readHandFolder(folder);
       checkHand(hand);
       std::printf("%s: %s: %s, %zu taxels, %zu axes, %s\n",
-                  folder.c_str(),
-                  hand.name.c_str(),
+                  escapedLine(folder).c_str(),
+                  escapedLine(hand.name).c_str(),
                   sizesText(*hand.layout).c_str(),
                   hand.layout->numTaxels(),
                   hand.axes.size(),
                   hasGeometry(hand) ? "with geometry" : "without geometry");
     } catch (const std::exception& error) {
-      std::fprintf(stderr, "palpate: %s\n", error.what());
+      std::fprintf(stderr, "palpate: %s\n", escapedLine(error.what()).c_str());
       ++failed;
     }
   }
@@ -128,13 +129,13 @@ int handsCommand(const Arguments& words) {
       std::printf("%s\n", handJson(listed).text(-1).c_str());
     } else if (listed.fault.empty()) {
       std::printf("%-18s %-46s %s (%s)\n",
-                  listed.key.c_str(),
-                  listed.hand.name.c_str(),
+                  escapedLine(listed.key).c_str(),
+                  escapedLine(listed.hand.name).c_str(),
                   sizesText(*listed.hand.layout).c_str(),
-                  listed.source.c_str());
+                  escapedLine(listed.source).c_str());
     }
     if (listed.fault.empty()) continue;
-    std::fprintf(stderr, "palpate: %s\n", listed.fault.c_str());
+    std::fprintf(stderr, "palpate: %s\n", escapedLine(listed.fault).c_str());
     failed = true;
   }
   return failed ? kFailed : kDone;

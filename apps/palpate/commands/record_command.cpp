@@ -178,11 +178,12 @@ std::string recordJsonText(const RecordingReport& report, const DeviceStatus& de
       .set("mean_rate_hz", recordRateJson(report.meanRateHz))
       .set("bytes", report.bytes)
       .set("complete", report.complete)
+      .set("message", report.message.empty() ? Json() : Json(report.message))
       .text();
 }
 
 std::string lineText(const RecordingReport& report, const DeviceStatus& device) {
-  std::string line = report.paths.front().string();
+  std::string line = escapedLine(report.paths.front().string());
   if (report.paths.size() > 1) line += " and " + std::to_string(report.paths.size() - 1) + " more";
   return line + ": " + counted(static_cast<std::uint64_t>(report.frames), "frame") + " in " +
          fixedText(report.durationS, 1) + " s (" + fixedText(report.meanRateHz, 1) + "/s), " +
@@ -278,7 +279,8 @@ int recordCommand(const Arguments& words) {
   std::unique_ptr<LiveStreams> streams;
   if (!targets.empty()) streams = std::make_unique<LiveStreams>(session, targets, calibration);
   if (streams && !given.quiet())
-    for (const std::string& place : streams->places()) std::fprintf(stderr, "%s\n", place.c_str());
+    for (const std::string& place : streams->places())
+      std::fprintf(stderr, "%s\n", escapedLine(place).c_str());
   if (given.has("remote")) return recordRemotely(given, session, interruption, std::move(options));
   session.startRecording(std::move(options));
   recordUntilDone(session, interruption, firstFrameS, given.quiet());

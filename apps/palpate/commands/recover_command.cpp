@@ -2,6 +2,7 @@
 #include <cstdio>
 
 #include "palpate/core/error.h"
+#include "palpate/core/escaped_line.h"
 #include "palpate/recording/recording.h"
 
 #include "commands/command_line.h"
@@ -31,7 +32,7 @@ int recoverCommand(const Arguments& words) {
                             progress.callback());
   }();
   if (report.state == RecoverReport::State::kNothing) throw Error(in + ": " + report.message);
-  if (!given.quiet()) std::printf("%s: %s\n", in.c_str(), report.message.c_str());
+  if (!given.quiet()) std::printf("%s\n", escapedLine(in + ": " + report.message).c_str());
   return report.state == RecoverReport::State::kWhole ? kDone : kPartlyDone;
 }
 

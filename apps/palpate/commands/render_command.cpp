@@ -12,6 +12,7 @@
 
 #include "palpate/batch/batch_run.h"
 #include "palpate/core/error.h"
+#include "palpate/core/escaped_line.h"
 #include "palpate/core/interruption.h"
 #include "palpate/core/number_text.h"
 #include "palpate/recording/recording.h"
@@ -229,12 +230,12 @@ int drawSeries(const CommandLine& given,
   if (!report.failure.empty())
     throw Error(report.failure + (report.written > 0 ? "; " + count : std::string()));
   if (report.cancelled) {
-    std::fprintf(stderr, "palpate: interrupted: %s\n", count.c_str());
+    std::fprintf(stderr, "palpate: interrupted: %s\n", escapedLine(count).c_str());
     return kPartlyDone;
   }
   if (!given.quiet())
     std::printf("%s: %zu pictures, frames %zu..%zu\n",
-                series.folder.c_str(),
+                escapedLine(series.folder.string()).c_str(),
                 report.written,
                 span.first,
                 span.last);
@@ -253,7 +254,7 @@ int drawOne(const CommandLine& given,
   const auto paint = painterOf(given, profile, {frame, frame}, options);
   gui::writePicture(
       out, [&](QPainter& painter) { paint(painter, frame); }, paper, overwrite);
-  if (!given.quiet()) std::printf("%s: frame %zu\n", out.c_str(), frame);
+  if (!given.quiet()) std::printf("%s: frame %zu\n", escapedLine(out).c_str(), frame);
   return kDone;
 }
 

@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "palpate/core/error.h"
+#include "palpate/core/escaped_line.h"
 #include "palpate/core/file_name.h"
 #include "palpate/core/interruption.h"
 #include "palpate/core/number_text.h"
@@ -28,7 +29,7 @@ MovieOptions chosenOptions(const CommandLine& given) {
 
 void printMovie(const std::string& out, const gui::Movie& movie) {
   std::printf("%s: %s s, %zu pictures, frames %zu..%zu",
-              out.c_str(),
+              escapedLine(out).c_str(),
               fixedText(movie.timing.seconds, 1).c_str(),
               movie.timing.numPictures,
               movie.frames.first,
@@ -90,7 +91,7 @@ int drawMovie(const CommandLine& given,
     };
     movie = writeChosenMovie(given, out, profile, span, paint, paper, overwrite, goOn);
   } catch (const Cancelled&) {
-    std::fprintf(stderr, "palpate: interrupted: %s was not written\n", out.c_str());
+    std::fprintf(stderr, "palpate: interrupted: %s was not written\n", escapedLine(out).c_str());
     return kPartlyDone;
   }
   if (!given.quiet()) printMovie(out, movie);

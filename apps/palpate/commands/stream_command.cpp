@@ -200,14 +200,14 @@ int streamToPrograms(const CommandLine& given, StreamTargets targets) {
   std::string damage;
   CaptureSession session(streamDeviceOf(given, damage));
   LiveStreams streams(session, targets, calibration);
-  for (const std::string& place : streams.places()) std::printf("%s\n", place.c_str());
+  for (const std::string& place : streams.places()) std::printf("%s\n", escapedLine(place).c_str());
   std::fflush(stdout);
   runSession(given, session, interruption, [&] { return !streams.failure().empty(); });
   requireFrames(session, given);
   session.stop();
   if (const std::string failure = streams.failure(); !failure.empty()) throw Error(failure);
   if (!given.quiet())
-    for (const std::string& line : streams.lines()) std::printf("%s\n", line.c_str());
+    for (const std::string& line : streams.lines()) std::printf("%s\n", escapedLine(line).c_str());
   return endOf(damage.empty() ? playedDamage(session, given) : damage);
 }
 

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "palpate/core/escaped_line.h"
 #include "palpate/emulator/scene.h"
 #include "palpate/emulator/simulated_recording.h"
 #include "palpate/emulator/synthetic_profile.h"
@@ -96,7 +97,8 @@ int synthesizeCommand(const Arguments& words) {
            *out,
            given.has("force") ? Overwrite::kReplace : Overwrite::kRefuse,
            progress.callback());
-  if (!given.quiet()) std::printf("%s: %zu frames\n", out->c_str(), profile.numFrames());
+  if (!given.quiet())
+    std::printf("%s: %zu frames\n", escapedLine(*out).c_str(), profile.numFrames());
   return kDone;
 }
 

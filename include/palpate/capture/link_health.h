@@ -102,7 +102,7 @@ enum class AlarmKind {
   kLowRate,
   kLowDisk,
   kOverflow,        // items were lost because the recorder could not keep up
-  kWriteError,      // the disk is full or fails; capture continues
+  kWriteError,      // the disk is full or fails, or the file is gone; capture continues
   kMcapStopped,     // the MCAP file beside the recording is not whole; the recording goes on
   kSlowDisk,        // the disk makes the recorder wait
   kEmptyRecording,  // a recording was started, but no frame arrives

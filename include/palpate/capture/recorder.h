@@ -31,6 +31,9 @@ struct RecorderOptions {
   double preTriggerS = 2.0;
   // Maximum age of an item that is not committed [ms], 1..10000.
   double commitIntervalMs = 80.0;
+  // Where a recording goes on when its folder is gone or can't be written, the first that can;
+  // empty: the home folder, and the one for temporary files.
+  std::vector<std::filesystem::path> emergencyFolders;
   std::string vfs;            // SQLite file system (VFS); empty: the default one
   CaptureQueueOptions queue;  // queues; wakeAtItems 1 means half of the tactile queue
   // Returns the free bytes on the disk of a folder, empty when unknown; if not set, statvfs is
@@ -84,7 +87,8 @@ std::filesystem::path mcapPathOf(const std::filesystem::path& path);
 std::filesystem::path partPath(const std::filesystem::path& path, int part);
 
 struct RecordingReport {
-  // Parts in order; empty when no frame arrived and so no file was created.
+  // Parts in order, those that are there now; empty when no frame arrived and so no file was
+  // created.
   std::vector<std::filesystem::path> paths;
   // Recorded in all parts; of a recording that could not be finished those that are on disk.
   std::int64_t frames = 0;
@@ -117,7 +121,8 @@ struct RecordingReport {
   // Of a recording that waited for contact (startOnContact): it was stopped before there was any,
   // as was asked for; `paths` is empty then.
   bool nothingTouched = false;
-  // True when every part is finished and nothing was lost, refused or left unwritten.
+  // True when every part is finished where it was begun, and nothing was lost, refused or left
+  // unwritten.
   bool complete = true;
   std::string message;  // one line that describes a problem; empty: none
 };
@@ -148,6 +153,9 @@ struct RecorderStatus {
   std::int64_t refused = 0;
   // Last error of the disk; empty while writing works.
   std::string writeError;
+  // Why and where it goes on under another name: its file was deleted, renamed or replaced, or its
+  // folder is gone. Empty: it did not. Stays until it ends.
+  std::string relocation;
   // It has ended by itself and can't be finished (RecordingOptions::waitForDisk): what waits in
   // memory is lost if it is stopped now.
   bool waitsForDisk = false;
@@ -187,8 +195,10 @@ class Recorder {
   // recording).
   void start(RecordingOptions options);
   // Continues the running recording in another folder, when the present one can't be written any
-  // more (it was moved away, the disk is full): the next part, under the name of the first, begins
-  // with all items that are not on the disk yet. The part before it stays unfinished where it is.
+  // more (the disk is full): the next part, under the name of the first, begins with all items that
+  // are not on the disk yet. The part before it stays unfinished where it is. A file that is no
+  // longer found under its name is copied whole instead, as it is without being asked where an
+  // emergency folder takes it.
   // Throws std::logic_error (not recording), FileError (no such folder, not writable).
   void continueIn(const std::filesystem::path& folder);
   // Writes all items pushed before and finishes the file. Returns the last report if no recording

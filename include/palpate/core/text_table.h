@@ -23,7 +23,8 @@ struct TextTable {
 };
 
 // Returns one line of CSV with its LF. Cells with commas, quotes or line breaks are quoted (RFC
-// 4180).
+// 4180); control characters other than tabs and line breaks become \xNN, as a file may have any in
+// its name.
 std::string csvLine(const std::vector<std::string>& cells);
 
 // Writes header and rows as CSV; a failure leaves no partial file. Throws FileError, Cancelled, and

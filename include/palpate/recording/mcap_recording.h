@@ -88,9 +88,10 @@ class McapLiveWriter {
   void addAngles(const JointAngles& angles);
   void addTemperatures(const Temperatures& temperatures);
   void addEvent(const RecordingEvent& event);
-  // Writes what waits for its chunk. Throws FileError.
+  // Writes what waits for its chunk. Throws FileError, also when the file is no longer found under
+  // its name.
   void flush();
-  // Writes what waits and the summary, and syncs the file. Throws FileError.
+  // Writes what waits and the summary, and syncs the file. Throws FileError as flush() does.
   void finish();
 
  private:

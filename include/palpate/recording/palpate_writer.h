@@ -63,8 +63,16 @@ class PalpateWriter {
   // Throws FileError; what is not on disk then stays in memory for the next commit.
   void commit();
   // Writes index and last summaries, syncs, turns the journal off: a finished recording. Throws
-  // FileError; then the recording is still an unfinished one, and finish() can be called again.
+  // FileError; then finish() can be called again.
   void finish();
+  // Whether the file was moved, renamed, deleted or replaced since it was created. Then commit()
+  // and finish() throw FileError and write nothing.
+  bool isGone() const noexcept;
+  // Goes on under another name after that (or the same one, when it is free): all that was
+  // committed is copied from the open file, and what waits is kept. Takes as long as copying the
+  // file. Throws FileError (PATH exists, can't be written, the open file can't be read): nothing
+  // has changed then.
+  void moveTo(const std::filesystem::path& path);
   // Gives the recording up: what no commit has taken is dropped, and the destructor writes nothing.
   // What was committed stays as an unfinished recording.
   void abandon() noexcept;

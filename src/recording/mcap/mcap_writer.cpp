@@ -13,6 +13,7 @@
 #include "palpate/core/bounded_queue.h"
 #include "palpate/core/error.h"
 #include "palpate/core/file_descriptor.h"
+#include "palpate/core/file_id.h"
 #include "palpate/core/output_file.h"
 #include "palpate/model/hand_file.h"
 #include "palpate/recording/mcap_recording.h"
@@ -213,6 +214,10 @@ struct McapLiveWriter::Impl {
     size += bytes.size();
   }
 
+  void requireFile() const {
+    if (const auto id = fileIdOf(file.get())) requireLeadsTo(path, *id);
+  }
+
   static void requireLater(std::optional<std::int64_t>& last, std::int64_t timeUs) {
     if (last && timeUs <= *last)
       throw std::invalid_argument("McapLiveWriter: a stamp is not later than the one before");
@@ -257,11 +262,15 @@ void McapLiveWriter::addTemperatures(const Temperatures& temperatures) {
 
 void McapLiveWriter::addEvent(const RecordingEvent& event) { impl_->writer->addEvent(event); }
 
-void McapLiveWriter::flush() { impl_->writer->file().flush(); }
+void McapLiveWriter::flush() {
+  impl_->requireFile();
+  impl_->writer->file().flush();
+}
 
 void McapLiveWriter::finish() {
   impl_->writer->file().finish();
   if (::fsync(impl_->file.get()) != 0) throwMcapCantWrite(impl_->path, errno);
+  impl_->requireFile();
 }
 
 }  // namespace palpate

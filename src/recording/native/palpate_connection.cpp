@@ -16,6 +16,7 @@
 
 #include "palpate/core/error.h"
 #include "palpate/core/file_descriptor.h"
+#include "palpate/core/file_id.h"
 #include "palpate/core/text_file.h"
 #include "palpate/recording/palpate_schema.h"
 
@@ -134,12 +135,14 @@ void refuseForeignJournal(const fs::path& recording) {
 
 RecordingLock::RecordingLock(const fs::path& recording) : path_(lockPathOf(recording)) {
   for (;;) {
-    FileDescriptor opened(
-        ::open(path_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NONBLOCK | O_NOCTTY, 0666));
+    FileDescriptor opened(::open(
+        path_.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC | O_NONBLOCK | O_NOCTTY, 0666));
     if (opened.get() < 0)
       throw FileError(recording,
-                      "can't be written: " + std::generic_category().message(errno) +
-                          " (its lock file " + path_.filename().string() + ")");
+                      "can't be written: " +
+                          (errno == ELOOP ? "a symbolic link has the name of its lock file"
+                                          : std::generic_category().message(errno)) +
+                          " (" + path_.filename().string() + ")");
     int attempt = 0;
     while (::flock(opened.get(), LOCK_EX | LOCK_NB) != 0) {
       const int reason = errno;
@@ -157,31 +160,25 @@ RecordingLock::RecordingLock(const fs::path& recording) : path_(lockPathOf(recor
     }
     // The former holder may have removed the file between our open and our flock: then we hold the
     // lock of a file that nobody else sees.
-    struct stat mine {};
-    struct stat named {};
-    if (::fstat(opened.get(), &mine) == 0 && ::stat(path_.c_str(), &named) == 0 &&
-        mine.st_ino == named.st_ino && mine.st_dev == named.st_dev) {
+    if (fileIdOf(opened.get()) == fileIdOf(path_)) {
       descriptor_ = std::move(opened);
       return;
     }
   }
 }
 
-RecordingLock::~RecordingLock() { ::unlink(path_.c_str()); }
+// Not the file of somebody else who recorded under that name after ours was deleted.
+RecordingLock::~RecordingLock() {
+  if (fileIdOf(descriptor_.get()) == fileIdOf(path_)) ::unlink(path_.c_str());
+}
 
 bool RecordingLock::isHeld(const fs::path& recording) {
   // Never waits, whatever has that name; a writer's lock is a file.
-  const FileDescriptor lock(
-      ::open(lockPathOf(recording).c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY));
+  const FileDescriptor lock(::open(lockPathOf(recording).c_str(),
+                                   O_RDONLY | O_NOFOLLOW | O_CLOEXEC | O_NONBLOCK | O_NOCTTY));
   struct stat facts {};
   return lock.get() >= 0 && ::fstat(lock.get(), &facts) == 0 && S_ISREG(facts.st_mode) &&
          ::flock(lock.get(), LOCK_SH | LOCK_NB) != 0 && errno == EWOULDBLOCK;
-}
-
-std::pair<std::uint64_t, std::uint64_t> identityOf(const fs::path& path) {
-  struct stat facts {};
-  if (::stat(path.c_str(), &facts) != 0) return {};
-  return {facts.st_dev, facts.st_ino};
 }
 
 PalpateConnection::PalpateConnection(const fs::path& path) {
@@ -205,7 +202,7 @@ void PalpateConnection::open(const fs::path& path) {
   const std::uintmax_t size = fs::file_size(path, failure);
   if (failure) throw FileError(path, "can't be read: " + failure.message());
   path_ = path;
-  file_ = identityOf(path);
+  file_ = fileIdOf(path);
   const bool isHeld = RecordingLock::isHeld(path) || !copyHot();
   if (!copyFolder_.empty()) {
     database_ = std::make_unique<SqliteDatabase>(copyFolder_ / "copy.palpate",
@@ -268,7 +265,7 @@ void PalpateConnection::readBlocksOnly() {
   database->limitWork(fs::file_size(path_, ignored));
   database->execute("PRAGMA cell_size_check=ON");
   database->prepare("SELECT 1 FROM block LIMIT 1").next();  // reads the schema while nobody writes
-  if (identityOf(path_) != file_)
+  if (fileIdOf(path_) != file_)
     throw FileError(path_, "was replaced while it was being opened; open it again");
   database_ = std::move(database);
 }

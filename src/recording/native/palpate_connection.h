@@ -6,9 +6,10 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
-#include <utility>
+#include <optional>
 
 #include "palpate/core/file_descriptor.h"
+#include "palpate/core/file_id.h"
 
 #include "recording/native/palpate_rows.h"
 #include "recording/native/sqlite_database.h"
@@ -45,9 +46,6 @@ class RecordingLock {
   FileDescriptor descriptor_;
 };
 
-// Device and inode of a file, 0 and 0: there is none. Another file under the same name has another.
-std::pair<std::uint64_t, std::uint64_t> identityOf(const std::filesystem::path& path);
-
 // A native recording opened for reading. One whose writer died within a commit is opened as a
 // temporary copy, into which SQLite plays the journal back: the file itself is never changed.
 class PalpateConnection {
@@ -76,7 +74,7 @@ class PalpateConnection {
 
   std::filesystem::path path_;  // no link
   std::filesystem::path copyFolder_;
-  std::pair<std::uint64_t, std::uint64_t> file_;  // its identity
+  std::optional<FileId> file_;
   std::unique_ptr<SqliteDatabase> database_;
   MetaRows meta_;
   bool unfinished_ = false;

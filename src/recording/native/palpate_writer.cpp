@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "palpate/core/error.h"
+#include "palpate/core/file_id.h"
 #include "palpate/core/output_file.h"
 #include "palpate/core/progress.h"
 #include "palpate/recording/palpate_blocks.h"
@@ -173,29 +174,79 @@ struct PalpateWriter::Impl {
        PalpateWriterOptions writerOptions)
       : options(std::move(writerOptions)),
         layout(std::move(sensorLayout)),
-        lock(std::make_unique<RecordingLock>(path)),
-        database((refuseExisting(path), publishEmpty(path, *layout, meta), path),
-                 SqliteDatabase::Mode::kReadWrite,
-                 options.vfs) {
-    try {
+        lock(std::make_unique<RecordingLock>(path)) {
+    refuseExisting(path);
+    publishEmpty(path, *layout, meta);
+    file = opened(path);
+  }
+
+  // The file of a recording, opened for writing.
+  struct OpenFile {
+    OpenFile(const fs::path& path, const PalpateWriterOptions& options)
+        : database(path, SqliteDatabase::Mode::kReadWrite, options.vfs) {
       database.execute("PRAGMA journal_mode=PERSIST");
       database.keepJournalOpen();
       database.execute(options.synced ? "PRAGMA synchronous=FULL" : "PRAGMA synchronous=OFF");
       rows.emplace(database);
       beginCommit.emplace(database.prepare("BEGIN IMMEDIATE"));
       endCommit.emplace(database.prepare("COMMIT"));
+    }
+    SqliteDatabase database;
+    std::optional<RowWriter> rows;
+    std::optional<SqliteStatement> beginCommit;
+    std::optional<SqliteStatement> endCommit;
+    std::optional<FileId> journal;  // once it is there
+  };
+
+  // Opens what was just given its name.
+  std::unique_ptr<OpenFile> opened(const fs::path& path) const {
+    const auto named = fileIdOf(path);
+    try {
+      return std::make_unique<OpenFile>(path, options);
     } catch (...) {
       // Nobody has seen the file yet: none is better than one that nobody writes.
       std::error_code ignored;
-      fs::remove(path, ignored);
+      if (named && leadsTo(path, *named)) fs::remove(path, ignored);
       throw;
     }
+  }
+
+  bool isGone() const {
+    const SqliteDatabase& database = file->database;
+    return database.file() && !leadsTo(database.path(), *database.file());
+  }
+  // SQLite itself looks only when it opens a journal, and this one stays open.
+  void requireFile() const {
+    const SqliteDatabase& database = file->database;
+    if (database.file()) requireLeadsTo(database.path(), *database.file());
+  }
+
+  void moveTo(const fs::path& path) {
+    // Under the same name the lock is our own.
+    if (path == file->database.path()) lock.reset();
+    auto newLock = std::make_unique<RecordingLock>(path);
+    OutputFile copy(path, Overwrite::kRefuse);
+    file->database.copyTo(copy);
+    removeJournal();
+    refuseForeignJournal(path);
+    copy.commit();
+    file = opened(path);
+    lock = std::move(newLock);
+  }
+
+  // The journal of a file that is gone belongs to nothing any more; what somebody else put in its
+  // place stays.
+  void removeJournal() {
+    const fs::path path = journalPathOf(file->database.path());
+    std::error_code ignored;
+    if (file->journal && fileIdOf(path) == file->journal) fs::remove(path, ignored);
+    file->journal.reset();
   }
 
   // Refuses a sample while too much waits for the disk.
   void requireRoom() const {
     if (pending.bytes >= kMaxPendingBytes)
-      throw FileError(database.path(),
+      throw FileError(file->database.path(),
                       "nothing could be written for too long; the memory for what waits is full");
   }
 
@@ -220,17 +271,20 @@ struct PalpateWriter::Impl {
   // and after a crash nobody would find it; so it makes a new one.
   void renewJournal() {
     std::error_code ignored;
-    if (fs::exists(fs::symlink_status(journalPathOf(database.path()), ignored))) return;
-    database.execute("PRAGMA journal_mode=DELETE; PRAGMA journal_mode=PERSIST");
+    if (fs::exists(fs::symlink_status(journalPathOf(file->database.path()), ignored))) return;
+    file->database.execute("PRAGMA journal_mode=DELETE; PRAGMA journal_mode=PERSIST");
+    file->journal.reset();
   }
 
   // Writes what waits; `last` is the end of the same transaction.
   template <typename Last>
   void commit(Last last) {
     flushPackers();
+    requireFile();
+    std::optional<RowWriter>& rows = file->rows;
     try {
       renewJournal();
-      beginCommit->run();
+      file->beginCommit->run();
       std::int64_t id = numBlocks;
       for (const Block& block : pending.blocks) rows->block(++id, block);
       id = numSeconds;
@@ -239,11 +293,12 @@ struct PalpateWriter::Impl {
       for (const RecordingEvent& event : pending.events) rows->event(++id, event);
       for (const auto& [name, value] : pending.counters) rows->counter(name, value);
       last();
-      endCommit->run();
+      file->endCommit->run();
     } catch (...) {
-      database.rollBack();
+      file->database.rollBack();
       throw;
     }
+    if (!file->journal) file->journal = fileIdOf(journalPathOf(file->database.path()));
     numBlocks += static_cast<std::int64_t>(pending.blocks.size());
     numSeconds += static_cast<std::int64_t>(pending.seconds.size());
     numEvents += static_cast<std::int64_t>(pending.events.size());
@@ -252,7 +307,8 @@ struct PalpateWriter::Impl {
     committedFrames = tactile.numItems();
   }
   void commit() {
-    if (pending.empty() && tactile.empty() && angles.empty() && temperatures.empty()) return;
+    if (pending.empty() && tactile.empty() && angles.empty() && temperatures.empty())
+      return requireFile();
     commit([] {});
   }
 
@@ -271,10 +327,7 @@ struct PalpateWriter::Impl {
   PalpateWriterOptions options;
   std::shared_ptr<const SensorLayout> layout;
   std::unique_ptr<RecordingLock> lock;
-  SqliteDatabase database;
-  std::optional<RowWriter> rows;
-  std::optional<SqliteStatement> beginCommit;
-  std::optional<SqliteStatement> endCommit;
+  std::unique_ptr<OpenFile> file;
   Pending pending;
   BlockPacker::Sink sink = [this](const Block& block) {
     pending.blocks.push_back(block);
@@ -375,25 +428,33 @@ void PalpateWriter::commit() { impl_->commit(); }
 
 void PalpateWriter::finish() {
   Impl& impl = *impl_;
-  if (impl.finished) return;
-  impl.seconds.flush();
-  impl.commit([&impl] {
-    SqliteDatabase& database = impl.database;
-    createBlockIndex(database);
-    insertMeta(
-        database, "seconds", std::to_string(writeOverview(database, impl.layout->numMatrices())));
-    insertMeta(database, "frames", std::to_string(impl.tactile.numItems()));
-    insertMeta(database, "angle_samples", std::to_string(impl.angles.numItems()));
-    insertMeta(database, "temperature_samples", std::to_string(impl.temperatures.numItems()));
-    insertMeta(database, "value_type", impl.allCounts ? "counts" : "float");
-    insertMeta(database, "finished", "1");
-  });
-  impl.finished = true;
-  impl.database.execute("PRAGMA synchronous=FULL; PRAGMA journal_mode=DELETE;");
+  if (!impl.finished) {
+    impl.seconds.flush();
+    impl.commit([&impl] {
+      SqliteDatabase& database = impl.file->database;
+      createBlockIndex(database);
+      insertMeta(
+          database, "seconds", std::to_string(writeOverview(database, impl.layout->numMatrices())));
+      insertMeta(database, "frames", std::to_string(impl.tactile.numItems()));
+      insertMeta(database, "angle_samples", std::to_string(impl.angles.numItems()));
+      insertMeta(database, "temperature_samples", std::to_string(impl.temperatures.numItems()));
+      insertMeta(database, "value_type", impl.allCounts ? "counts" : "float");
+      insertMeta(database, "finished", "1");
+    });
+    impl.finished = true;
+  }
+  // The journal is deleted by its name.
+  impl.requireFile();
+  impl.file->database.execute("PRAGMA synchronous=FULL; PRAGMA journal_mode=DELETE;");
+  impl.requireFile();
   impl.lock.reset();
 }
 
 void PalpateWriter::abandon() noexcept { impl_->finished = true; }
+
+bool PalpateWriter::isGone() const noexcept { return impl_->isGone(); }
+
+void PalpateWriter::moveTo(const fs::path& path) { impl_->moveTo(path); }
 
 bool PalpateWriter::pendingFull() const noexcept {
   return impl_->pending.bytes >= kMaxPendingBytes;
@@ -403,7 +464,7 @@ std::int64_t PalpateWriter::framesOnDisk() const noexcept { return impl_->commit
 
 std::int64_t PalpateWriter::bytesOnDisk() const {
   std::error_code failure;
-  const auto size = fs::file_size(impl_->database.path(), failure);
+  const auto size = fs::file_size(impl_->file->database.path(), failure);
   return failure ? 0 : static_cast<std::int64_t>(size);
 }
 

@@ -1,5 +1,6 @@
 #include "recording/native/sqlite_database.h"
 
+#include <algorithm>
 #include <utility>
 
 #include <sqlite3.h>
@@ -12,6 +13,7 @@ namespace {
 
 // Longest text or blob of a file, and most memory of the page cache.
 constexpr int kMaxValueBytes = 2 << 20;
+constexpr sqlite3_int64 kCopiedAtOnce = 1 << 20;
 constexpr int kOpsPerLook = 100'000;
 constexpr std::int64_t kFreeOps = 10'000'000;
 constexpr std::int64_t kOpsPerByte = 50;
@@ -178,6 +180,15 @@ SqliteDatabase::SqliteDatabase(std::filesystem::path path, Mode mode, const std:
     sqlite3_close(std::exchange(connection_, nullptr));
     throwSqliteError(nullptr, code, path_);
   }
+  // Between the opening and the look another file may have been given the name.
+  file_ = fileIdOf(path_);
+  int moved = 0;
+  if (mode == Mode::kReadWrite &&
+      sqlite3_file_control(connection_, "main", SQLITE_FCNTL_HAS_MOVED, &moved) == SQLITE_OK &&
+      moved != 0) {
+    sqlite3_close(std::exchange(connection_, nullptr));
+    throw FileError(path_, "is gone: it was moved, deleted or replaced while it was being opened");
+  }
   sqlite3_busy_timeout(connection_, 5000);
   // Files come from anywhere: nothing a file says may run code or be followed blindly.
   sqlite3_db_config(connection_, SQLITE_DBCONFIG_DEFENSIVE, 1, nullptr);
@@ -218,16 +229,37 @@ void SqliteDatabase::limitWork(std::uint64_t fileBytes) {
 
 void SqliteDatabase::unlimitWork() { sqlite3_progress_handler(connection_, 0, nullptr, nullptr); }
 
-void SqliteDatabase::keepJournalOpen() {
+sqlite3_file* SqliteDatabase::openFile() const {
   sqlite3_file* file = nullptr;
   const int code = sqlite3_file_control(connection_, "main", SQLITE_FCNTL_FILE_POINTER, &file);
   if (code != SQLITE_OK || !file || !file->pMethods) throwSqliteError(connection_, code, path_);
+  return file;
+}
+
+void SqliteDatabase::keepJournalOpen() {
+  sqlite3_file* const file = openFile();
   const auto own = std::make_shared<UndeletableFileMethods>();
   own->methods = *file->pMethods;
   own->characteristics = own->methods.xDeviceCharacteristics;
   own->methods.xDeviceCharacteristics = undeletableCharacteristics;
   file->pMethods = &own->methods;
   fileMethods_ = own;
+}
+
+void SqliteDatabase::copyTo(OutputFile& out) {
+  // Undoes a commit that failed half way.
+  integerOf("SELECT count(*) FROM sqlite_schema");
+  sqlite3_file* const file = openFile();
+  sqlite3_int64 size = 0;
+  int code = file->pMethods->xFileSize(file, &size);
+  std::string piece;
+  for (sqlite3_int64 at = 0; code == SQLITE_OK && at < size;
+       at += static_cast<sqlite3_int64>(piece.size())) {
+    piece.resize(static_cast<std::size_t>(std::min<sqlite3_int64>(kCopiedAtOnce, size - at)));
+    code = file->pMethods->xRead(file, piece.data(), static_cast<int>(piece.size()), at);
+    if (code == SQLITE_OK) out.write(piece);
+  }
+  if (code != SQLITE_OK) throw FileError(path_, "can't be copied: input/output error");
 }
 
 bool SqliteDatabase::inTransaction() const { return sqlite3_get_autocommit(connection_) == 0; }

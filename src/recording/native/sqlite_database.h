@@ -6,11 +6,16 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 
+#include "palpate/core/file_id.h"
+#include "palpate/core/output_file.h"
+
 struct sqlite3;
+struct sqlite3_file;
 struct sqlite3_stmt;
 
 namespace palpate {
@@ -78,13 +83,21 @@ class SqliteDatabase {
   void unlimitWork();
   // The whole database as the bytes of its file, what was committed. Throws FileError (no memory).
   std::string bytes() const;
+  // Appends the bytes of its file, what was committed, to another file: in little memory, and also
+  // when the file has lost its name. Nobody may write meanwhile. Throws FileError, FormatError.
+  void copyTo(OutputFile& out);
   const std::filesystem::path& path() const noexcept { return path_; }
+  // The file that was opened; empty for one in memory.
+  const std::optional<FileId>& file() const noexcept { return file_; }
 
  private:
+  sqlite3_file* openFile() const;
+
   std::filesystem::path path_;
   std::shared_ptr<const void> fileMethods_;  // of keepJournalOpen(); outlives the connection
   sqlite3* connection_ = nullptr;
   std::int64_t workLeft_ = 0;
+  std::optional<FileId> file_;
 };
 
 // Throws FileError (the world) or FormatError (damaged content) for a failed call.

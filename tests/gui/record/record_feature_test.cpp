@@ -14,6 +14,30 @@
 namespace palpate::gui::record_feature_test {
 namespace {
 
+// While it lives there is neither a home folder nor one for temporary files.
+class NoEmergencyFolder {
+ public:
+  NoEmergencyFolder() {
+    for (const char* name : kNames) {
+      before_.push_back(qgetenv(name));
+      qputenv(name, "/no/such/folder");
+    }
+  }
+  ~NoEmergencyFolder() {
+    for (std::size_t i = 0; i < kNames.size(); ++i)
+      if (before_[i].isNull())
+        qunsetenv(kNames[i]);
+      else
+        qputenv(kNames[i], before_[i]);
+  }
+  NoEmergencyFolder(const NoEmergencyFolder&) = delete;
+  NoEmergencyFolder& operator=(const NoEmergencyFolder&) = delete;
+
+ private:
+  static constexpr std::array<const char*, 2> kNames{"HOME", "TMPDIR"};
+  std::vector<QByteArray> before_;
+};
+
 class RecordFeatureTest : public WindowStateTest {
  protected:
   RecordFeatureTest() : feature_(*windowState_, &actionsOf_) {}
@@ -290,6 +314,7 @@ TEST_F(RecordFeatureTest, OneThatEndsByItselfOnAFailingDiskOffersAnotherFolder) 
   const fs::path here = folder_ / "here", other = folder_ / "other";
   fs::create_directory(here);
   fs::create_directory(other);
+  const NoEmergencyFolder nowhere;
   connectEmulated();
   windowState_->prompts.recording = [&](RecordingSettings settings, const QString&) {
     settings.folder = QString::fromStdString(here.string());
@@ -320,6 +345,42 @@ TEST_F(RecordFeatureTest, OneThatEndsByItselfOnAFailingDiskOffersAnotherFolder) 
   EXPECT_EQ(report->lost, 0);
   ASSERT_EQ(report->paths.size(), 1u);
   EXPECT_EQ(report->paths[0].parent_path(), other);
+  disconnect();
+}
+
+// Seen and heard while it records, and told with its true name at the end.
+TEST_F(RecordFeatureTest, OneWhoseFileIsReplacedSaysWhereItIs) {
+  namespace fs = std::filesystem;
+  connectEmulated();
+  std::optional<RecordingReport> report;
+  QObject::connect(&windowState_->live,
+                   &LiveController::recordingEnded,
+                   &feature_,
+                   [&](const RecordingReport& ended) { report = ended; });
+  windowState_->prompts.recording = [&](RecordingSettings settings, const QString&) {
+    settings.folder = QString::fromStdString(folder_.path().string());
+    return settings;
+  };
+  LiveController& live = windowState_->live;
+  windowState_->actions.at("record")->trigger();
+  ASSERT_TRUE(QTest::qWaitFor([&] { return live.health().recorder.framesOnDisk > 0; }, 20'000));
+  const fs::path path = live.health().recorder.path;
+  fs::rename(path, folder_ / "mine.palpate");
+  testing::writeFile(path, "somebody's");
+  ASSERT_TRUE(QTest::qWaitFor([&] { return !live.health().recorder.relocation.empty(); }, 20'000));
+  EXPECT_TRUE(std::any_of(live.health().alarms.begin(),
+                          live.health().alarms.end(),
+                          [](const Alarm& alarm) { return alarm.kind == AlarmKind::kWriteError; }));
+  live.stopRecording();
+  ASSERT_TRUE(QTest::qWaitFor([&] { return report.has_value(); }, 20'000));
+  ASSERT_EQ(report->paths.size(), 1u);
+  EXPECT_EQ(report->paths[0].filename().string(), path.stem().string() + "_continued.palpate");
+  EXPECT_FALSE(report->complete);
+  EXPECT_NE(report->message.find(report->paths[0].string()), std::string::npos);
+  EXPECT_TRUE(offered().startsWith("Recorded " +
+                                   QString::fromStdString(report->paths[0].filename().string())))
+      << offered().toStdString();
+  EXPECT_EQ(testing::readFile(path), "somebody's");
   disconnect();
 }
 

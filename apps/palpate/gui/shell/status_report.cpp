@@ -103,7 +103,8 @@ void StatusReport::reportLive() {
   const LinkHealth& health = live.health();
   const RecorderStatus& recorder = health.recorder;
   Status now;
-  const bool diskFails = !recorder.writeError.empty() || !recorder.mcapFailure.empty();
+  const bool diskFails =
+      !recorder.writeError.empty() || !recorder.relocation.empty() || !recorder.mcapFailure.empty();
   now.lamp = live.stale() || held || diskFails ? Status::Lamp::kWarning : Status::Lamp::kGood;
   if (live.source() && live.source()->finished())
     now.state = "the replay has ended";
@@ -122,6 +123,8 @@ void StatusReport::reportLive() {
   if (!recorder.writeError.empty())
     now.state +=
         " · " + QString::fromStdString(recorder.path.filename().string()) + " can't be written";
+  else if (!recorder.relocation.empty())
+    now.state += " · now in " + QString::fromStdString(recorder.path.filename().string());
   else if (!recorder.mcapFailure.empty())
     now.state += " · no MCAP file any more";
   if (windowState_.activeFilters.applied()) now.state += " · filtered";
