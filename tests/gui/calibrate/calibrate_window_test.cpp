@@ -13,6 +13,7 @@
 #include "gui/source/event_editor.h"
 #include "gui/testing/window_fixture.h"
 #include "gui/timeline/timeline_chart.h"
+#include "gui/testing/settle_files.h"
 
 namespace palpate::gui::calibrate_window_test {
 namespace {

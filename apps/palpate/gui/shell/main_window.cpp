@@ -18,6 +18,7 @@
 #include "gui/shell/features.h"
 #include "gui/shell/screen_room.h"
 #include "gui/shell/status_report.h"
+#include "gui/source/file_reading.h"
 #include "gui/widgets/dock.h"
 #include "gui/widgets/message_banner.h"
 #include "gui/widgets/status_strip.h"
@@ -289,6 +290,7 @@ void MainWindow::closeUnasked() {
 }
 
 void MainWindow::settle() {
+  for (FileReading* reading : findChildren<FileReading*>()) reading->settle();
   for (const auto& feature : features_) feature->settle();
 }
 
