@@ -38,7 +38,7 @@ TEST_F(SettingsFileTest, AGoodFileStaysAsItIs) {
 TEST_F(SettingsFileTest, ValuesThatAreObjectsAreRemovedHoweverTheyAreWritten) {
   // Type 9 is a list of values, here of 2^31 - 1.
   const std::string object = "\\0\\0\\0\\t\\0\\x7f\\xff\\xff\\xff)";
-  for (const std::string& begin : {"@Variant(",
+  for (const std::string begin : {"@Variant(",
                                    "\\x40Variant(",
                                    "\\100Variant(",
                                    "\\x10040Variant(",

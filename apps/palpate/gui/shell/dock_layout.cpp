@@ -15,8 +15,9 @@ constexpr quint8 kFloating = 0x02;
 constexpr qsizetype kLargestLayoutBytes = 1 << 16;
 constexpr int kMostItems = 100, kDeepest = 16, kLongestName = 100;
 constexpr int kLargestPx = 1 << 15;
-// QWIDGETSIZE_MAX, which a dock without limits has
-constexpr int kUnlimitedPx = (1 << 24) - 1;
+// Limits of sizes, which Qt passes over: docks without one have QWIDGETSIZE_MAX, and places have the
+// sum of those of their docks.
+constexpr int kLargestLimitPx = kMostItems * ((1 << 24) - 1);
 
 class LayoutCheck {
  public:
@@ -61,7 +62,9 @@ class LayoutCheck {
   // -1: none was given.
   bool size() { return pixels() && pixels(); }
   bool pixels() { return within(number(), -kLargestPx, kLargestPx); }
-  bool limits() { return within(number(), -1, kUnlimitedPx) && within(number(), -1, kUnlimitedPx); }
+  bool limits() {
+    return within(number(), -1, kLargestLimitPx) && within(number(), -1, kLargestLimitPx);
+  }
 
   bool widget() {
     // Two bytes each.
