@@ -176,8 +176,7 @@ TEST(RecordingPlanTable, ReadingEndsAtTheFirstRowTooMany) {
   const PlanTable table = readPlanTable(csv);
   EXPECT_EQ(table.rows.size(), 10'000u);
   // Only the first one is named.
-  EXPECT_EQ(table.problems,
-            std::vector<std::string>{"line 10002: a plan has at most 10000 rows"});
+  EXPECT_EQ(table.problems, std::vector<std::string>{"line 10002: a plan has at most 10000 rows"});
   EXPECT_FALSE(table.more);
 }
 
@@ -193,7 +192,8 @@ TEST(RecordingPlanTable, ReadingEndsAtAHundredProblems) {
 }
 
 TEST(RecordingPlanTable, AMessageRepeatsNoLongCell) {
-  const PlanTable table = readPlanTable("object,repetitions\na," + std::string(1 << 20, 'x') + "\n");
+  const PlanTable table =
+      readPlanTable("object,repetitions\na," + std::string(1 << 20, 'x') + "\n");
   ASSERT_EQ(table.problems.size(), 1u);
   EXPECT_LT(table.problems[0].size(), 200u);
 }

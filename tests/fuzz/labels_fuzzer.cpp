@@ -28,8 +28,7 @@ const Profile& recording() {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const Profile& profile = recording();
   try {
-    const LabelTable table =
-        readLabelTable({reinterpret_cast<const char*>(data), size}, profile);
+    const LabelTable table = readLabelTable({reinterpret_cast<const char*>(data), size}, profile);
     require(table.events.size() <= kMaximumLabels);
     require(table.problems.size() <= kMaximumTableProblems + 1);
     for (const RecordingEvent& event : table.events) {

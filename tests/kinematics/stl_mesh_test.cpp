@@ -1,12 +1,11 @@
 #include "palpate/kinematics/stl_mesh.h"
 
-#include <sys/stat.h>
-
 #include <cstdint>
 #include <fstream>
 #include <limits>
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include "palpate/core/error.h"
 

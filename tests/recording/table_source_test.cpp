@@ -1,8 +1,8 @@
 #include "palpate/recording/table_source.h"
 
-#include <sys/stat.h>
-
 #include <cmath>
+
+#include <sys/stat.h>
 
 #include "palpate/recording/hdf5_recording.h"
 

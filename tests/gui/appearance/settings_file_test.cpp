@@ -1,12 +1,11 @@
 #include "gui/appearance/settings_file.h"
 
-#include <sys/stat.h>
-
 #include <QHeaderView>
 #include <QStandardItemModel>
 #include <QTableView>
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include "testing/testing.h"
 
@@ -39,13 +38,13 @@ TEST_F(SettingsFileTest, ValuesThatAreObjectsAreRemovedHoweverTheyAreWritten) {
   // Type 9 is a list of values, here of 2^31 - 1.
   const std::string object = "\\0\\0\\0\\t\\0\\x7f\\xff\\xff\\xff)";
   for (const std::string begin : {"@Variant(",
-                                   "\\x40Variant(",
-                                   "\\100Variant(",
-                                   "\\x10040Variant(",
-                                   "\"@Var\"iant(",
-                                   "@Var\\qiant(",
-                                   "a, @Variant(",
-                                   "@DateTime("}) {
+                                  "\\x40Variant(",
+                                  "\\100Variant(",
+                                  "\\x10040Variant(",
+                                  "\"@Var\"iant(",
+                                  "@Var\\qiant(",
+                                  "a, @Variant(",
+                                  "@DateTime("}) {
     EXPECT_EQ(valueIn("[a]\nbad=" + begin + object + "\ngood=1\n", "a/good").toInt(), 1) << begin;
     EXPECT_FALSE(QSettings(path(), QSettings::IniFormat).contains("a/bad")) << begin;
   }

@@ -14,8 +14,8 @@
 #include "gui/connect/connect_fixture.h"
 #include "gui/connect/replay_page.h"
 #include "gui/connect/scene_page.h"
-#include "gui/widgets/two_line_delegate.h"
 #include "gui/testing/settle_files.h"
+#include "gui/widgets/two_line_delegate.h"
 
 namespace palpate::gui::connect_dialog_test {
 namespace {

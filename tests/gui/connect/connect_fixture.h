@@ -15,8 +15,8 @@
 
 #include "gui/connect/connect_dialog.h"
 #include "gui/connect/fake_ports.h"
-#include "testing/testing.h"
 #include "gui/testing/settle_files.h"
+#include "testing/testing.h"
 
 namespace palpate::gui {
 

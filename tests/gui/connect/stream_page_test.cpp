@@ -4,8 +4,8 @@
 #include <QSpinBox>
 
 #include "gui/connect/connect_fixture.h"
-#include "gui/widgets/two_line_delegate.h"
 #include "gui/testing/settle_files.h"
+#include "gui/widgets/two_line_delegate.h"
 
 namespace palpate::gui::stream_page_test {
 namespace {

@@ -17,8 +17,8 @@
 #include <palpate/core/error.h>
 
 #include "gui/filter/filter_list.h"
-#include "testing/testing.h"
 #include "gui/testing/settle_files.h"
+#include "testing/testing.h"
 
 namespace palpate::gui::filter_panel_test {
 namespace {

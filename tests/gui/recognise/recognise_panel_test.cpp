@@ -17,8 +17,8 @@
 #include "gui/recognise/recognise_fixture.h"
 #include "gui/recognise/today_page.h"
 #include "gui/recognise/training_page.h"
-#include "gui/widgets/figures_table.h"
 #include "gui/testing/settle_files.h"
+#include "gui/widgets/figures_table.h"
 
 namespace palpate::gui::recognise_panel_test {
 namespace {

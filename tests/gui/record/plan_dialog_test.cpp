@@ -105,6 +105,7 @@ TEST_F(PlanDialogTest, TablesAreReadAndWritten) {
   windowState_->prompts.file = [&](const QString&, const QString&, const QString&) { return path; };
   windowState_->prompts.newFile = windowState_->prompts.file;
   click("planImport");
+  EXPECT_EQ(said(), "reading plan.csv…") << "in the background";
   controller_.settle();
   EXPECT_EQ(said(),
             "plan.csv: line 2, repetitions: 'x' is not a whole number; the plan is as it was");

@@ -12,16 +12,31 @@ namespace {
 namespace fs = std::filesystem;
 
 // Of the documented groups whose keys contain a name of the user.
-const QStringList kNamedKeys = {
-    "session/files/size", "session/files/1/path", "session/files/1/frame",
-    "session/files/1/seen", "session/files/1/selection", "taxel_groups/size",
-    "taxel_groups/1/name", "taxel_groups/1/taxels", "poses/sdh2/x",
-    "hands/sdh2/x", "import/presets/x", "recognise/leftOut/x",
-    "recording/plan_limits/taxels", "recording/plan_limits/least_s",
-    "recording/plan_limits/most_lost", "recording/plan_limits/most_saturated",
-    "recording/plan_limits/least_quality", "recording/label0", "grasp/finger_0_counts",
-    "calibrate/noise_seconds", "calibrate/applied/sdh2", "calibrate/noise/sdh2",
-    "library/columns/widths", "library/columns/order", "library/columns/sorted"};
+const QStringList kNamedKeys = {"session/files/size",
+                                "session/files/1/path",
+                                "session/files/1/frame",
+                                "session/files/1/seen",
+                                "session/files/1/selection",
+                                "taxel_groups/size",
+                                "taxel_groups/1/name",
+                                "taxel_groups/1/taxels",
+                                "poses/sdh2/x",
+                                "hands/sdh2/x",
+                                "import/presets/x",
+                                "recognise/leftOut/x",
+                                "recording/plan_limits/taxels",
+                                "recording/plan_limits/least_s",
+                                "recording/plan_limits/most_lost",
+                                "recording/plan_limits/most_saturated",
+                                "recording/plan_limits/least_quality",
+                                "recording/label0",
+                                "grasp/finger_0_counts",
+                                "calibrate/noise_seconds",
+                                "calibrate/applied/sdh2",
+                                "calibrate/noise/sdh2",
+                                "library/columns/widths",
+                                "library/columns/order",
+                                "library/columns/sorted"};
 
 // Every text in the sources of the window that is a key of the settings.
 std::set<QString> keys() {

@@ -21,6 +21,7 @@
 #include "gui/matrices/matrices_feature.h"
 #include "gui/matrices/matrices_panel.h"
 #include "gui/matrices/matrices_view.h"
+#include "gui/testing/settle_files.h"
 #include "gui/testing/window_fixture.h"
 #include "gui/timeline/cursor_readout.h"
 #include "gui/timeline/curve_statistics.h"
@@ -28,7 +29,6 @@
 #include "gui/timeline/timeline_header.h"
 #include "gui/timeline/timeline_panel.h"
 #include "gui/widgets/offer_strip.h"
-#include "gui/testing/settle_files.h"
 
 namespace palpate::gui::events_window_test {
 namespace {

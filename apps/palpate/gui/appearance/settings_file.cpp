@@ -54,7 +54,8 @@ std::string unescaped(std::string_view text) {
       i = at - 1;
     } else if (kind == '\n' || kind == '\r') {
       // Two different ones end one line.
-      if (i + 1 < text.size() && text[i + 1] != kind && (text[i + 1] == '\n' || text[i + 1] == '\r'))
+      if (i + 1 < text.size() && text[i + 1] != kind &&
+          (text[i + 1] == '\n' || text[i + 1] == '\r'))
         ++i;
     } else if (kControls.find(kind) != std::string_view::npos) {
       plain += ' ';
@@ -168,9 +169,8 @@ void storeColumns(const QHeaderView& header, QSettings& settings, const QString&
   }
   storeNumbers(widths, settings, group + "/widths");
   storeNumbers(order, settings, group + "/order");
-  storeNumbers({header.sortIndicatorSection(), header.sortIndicatorOrder()},
-               settings,
-               group + "/sorted");
+  storeNumbers(
+      {header.sortIndicatorSection(), header.sortIndicatorOrder()}, settings, group + "/sorted");
 }
 
 void restorePlace(QWidget& window, const QSettings& settings, const QString& key) {
@@ -194,7 +194,7 @@ void storePlace(const QWidget& window, QSettings& settings, const QString& key) 
   const QRect place = normal.isValid() ? normal : window.geometry();
   storeNumbers({place.x(), place.y(), place.width(), place.height()}, settings, key);
   settings.setValue(key + "_state",
-                    window.isFullScreen()   ? "full_screen"
+                    window.isFullScreen()  ? "full_screen"
                     : window.isMaximized() ? "maximized"
                                            : "normal");
 }

@@ -15,7 +15,9 @@ void CalibrationCache::renew(const QString& path) {
       [know, path]() -> FileReading::Take {
         return [know, calibration = usableCalibration(path)] { know({calibration, {}}); };
       },
-      [know](const QString& problem) { know({std::nullopt, problem}); });
+      [know](const QString& problem) {
+        know({std::nullopt, problem});
+      });
 }
 
 const CalibrationCache::Known* CalibrationCache::find(const QString& path) {

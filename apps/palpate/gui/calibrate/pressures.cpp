@@ -50,8 +50,9 @@ void Pressures::renew() {
   if (of_ && *of_ == now) return;
   of_ = std::move(now);
   if (source) page_.setLiveHand(*displayed.hand());
-  show({}, path.isEmpty() ? noCalibration(displayed.hand())
-                          : QFileInfo(path).fileName() + " is being read");
+  show({},
+       path.isEmpty() ? noCalibration(displayed.hand())
+                      : QFileInfo(path).fileName() + " is being read");
   if (!path.isEmpty()) calibrations_.renew(path);
 }
 

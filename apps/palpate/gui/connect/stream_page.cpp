@@ -321,7 +321,9 @@ void StreamPage::read(const QString& nameOrFolder) {
       [know, name = nameOrFolder.toStdString(), folders = folders_]() -> FileReading::Take {
         return [know, summary = handSummaryOf(findHand(name, folders))] { know({summary, {}}); };
       },
-      [know](const QString& fault) { know({{}, fault.simplified()}); });
+      [know](const QString& fault) {
+        know({{}, fault.simplified()});
+      });
 }
 
 void StreamPage::setStream(const StreamConnection& stream) {

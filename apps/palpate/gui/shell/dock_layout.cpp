@@ -15,8 +15,8 @@ constexpr quint8 kFloating = 0x02;
 constexpr qsizetype kLargestLayoutBytes = 1 << 16;
 constexpr int kMostItems = 100, kDeepest = 16, kLongestName = 100;
 constexpr int kLargestPx = 1 << 15;
-// Limits of sizes, which Qt passes over: docks without one have QWIDGETSIZE_MAX, and places have the
-// sum of those of their docks.
+// Limits of sizes, which Qt passes over: docks without one have QWIDGETSIZE_MAX, and places have
+// the sum of those of their docks.
 constexpr int kLargestLimitPx = kMostItems * ((1 << 24) - 1);
 
 class LayoutCheck {

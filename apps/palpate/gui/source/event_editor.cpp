@@ -28,9 +28,8 @@ class EventEditor::Addition : public QUndoCommand {
  public:
   Addition(EventEditor& editor, std::vector<RecordingEvent> added, const QString& name)
       : QUndoCommand(name), editor_(editor), before_(editor.events_), after_(editor.events_) {
-    after_.insert(after_.end(),
-                  std::make_move_iterator(added.begin()),
-                  std::make_move_iterator(added.end()));
+    after_.insert(
+        after_.end(), std::make_move_iterator(added.begin()), std::make_move_iterator(added.end()));
     std::stable_sort(
         after_.begin(), after_.end(), [](const RecordingEvent& a, const RecordingEvent& b) {
           return a.tUs < b.tUs;
