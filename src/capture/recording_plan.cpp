@@ -53,7 +53,7 @@ PlanRow planRowOf(const std::vector<std::string>& cells,
   PlanRow row{.object = cell(0), .run = cell(1), .notes = cell(3)};
   if (const std::string text = cell(2); !text.empty()) {
     const auto number = parseInteger(text);
-    if (!number) throw Error(", repetitions: '" + text + "' is not a whole number");
+    if (!number) throw Error(", repetitions: " + quotedCell(text) + " is not a whole number");
     // What doesn't fit is out of range in any case.
     row.repetitions =
         static_cast<int>(std::clamp<std::int64_t>(*number, 0, RecordingPlan::kMostRepetitions + 1));
@@ -242,10 +242,17 @@ PlanTable readPlanTable(std::string_view csv) {
   PlanTable table;
   while (lines.next(cells)) {
     const std::string line = "line " + std::to_string(lines.line());
+    if (table.problems.size() == kMaximumTableProblems) {
+      table.more = true;
+      break;
+    }
+    if (table.rows.size() == RecordingPlan::kMostRows) {
+      table.problems.push_back(line + ": a plan has at most " +
+                               std::to_string(RecordingPlan::kMostRows) + " rows");
+      break;
+    }
     try {
       if (lines.unclosed()) throw Error(": a quote is never closed");
-      if (table.rows.size() >= RecordingPlan::kMostRows)
-        throw Error(": a plan has at most " + std::to_string(RecordingPlan::kMostRows) + " rows");
       table.rows.push_back(planRowOf(cells, columns, count));
     } catch (const Error& error) {
       table.problems.push_back(line + error.what());

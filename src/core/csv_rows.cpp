@@ -1,6 +1,17 @@
 #include "palpate/core/csv_rows.h"
 
+#include "palpate/core/error.h"
+
 namespace palpate {
+
+std::string quotedCell(std::string_view cell) {
+  constexpr std::size_t kMaximumBytes = 100;
+  if (cell.size() <= kMaximumBytes) return "'" + std::string(cell) + "'";
+  std::size_t end = kMaximumBytes;
+  // Not within a letter of several bytes.
+  while (end > 0 && (static_cast<unsigned char>(cell[end]) & 0xC0u) == 0x80u) --end;
+  return "'" + std::string(cell.substr(0, end)) + "...'";
+}
 
 CsvRows::CsvRows(std::string_view csv) : rest_(csv) {
   constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
@@ -36,6 +47,9 @@ void CsvRows::readRow(std::vector<std::string>& cells) {
     } else if (c == '"' && cells.back().empty()) {
       quoted = true;
     } else if (c == delimiter_) {
+      if (cells.size() == kMaximumCells)
+        throw Error("line " + std::to_string(line_) + " has more than " +
+                    std::to_string(kMaximumCells) + " cells");
       cells.emplace_back();
     } else if (c == '\n') {
       ++i;

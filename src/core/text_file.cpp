@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <fstream>
 #include <system_error>
 
+#include <unistd.h>
+
 #include "palpate/core/error.h"
+#include "palpate/core/file_descriptor.h"
 
 namespace palpate {
 namespace {
@@ -16,41 +18,41 @@ std::string sizeText(std::uint64_t bytes) {
                             : std::to_string(bytes) + " bytes";
 }
 
+// At most `byteLimit` bytes, read piece by piece: a file may grow while it is read.
+std::string firstBytes(const FileDescriptor& file,
+                       std::uint64_t byteLimit,
+                       const std::filesystem::path& path) {
+  constexpr std::uint64_t kPiece = 1u << 16;
+  std::string text;
+  while (text.size() < byteLimit) {
+    const std::size_t before = text.size();
+    text.resize(before + static_cast<std::size_t>(std::min(kPiece, byteLimit - before)));
+    const ssize_t count = ::read(file.get(), text.data() + before, text.size() - before);
+    const int reason = errno;
+    text.resize(before + static_cast<std::size_t>(std::max<ssize_t>(count, 0)));
+    if (count == 0) break;
+    if (count < 0 && reason != EINTR)
+      throw FileError(path, "can't be read: " + std::generic_category().message(reason));
+  }
+  return text;
+}
+
 }  // namespace
 
 std::string readTextFile(const std::filesystem::path& path, std::uint64_t byteLimit) {
-  constexpr std::uint64_t kPiece = 1u << 16;
-  std::error_code ignored;
-  if (std::filesystem::is_directory(path, ignored)) throw FileError(path, "is a folder");
-  errno = 0;
-  std::ifstream in(path, std::ios::binary);
-  if (!in) {
-    const int reason = errno;
-    throw FileError(
-        path,
-        "can't be opened" + (reason != 0 ? ": " + std::generic_category().message(reason) : ""));
-  }
-  // Read piece by piece, since the size of a file that is not regular is not known.
-  std::string text;
-  while (in && text.size() <= byteLimit) {
-    const std::size_t before = text.size();
-    const std::uint64_t room = byteLimit + 1 - before;
-    text.resize(before + static_cast<std::size_t>(std::min(kPiece, room)));
-    in.read(text.data() + before, static_cast<std::streamsize>(text.size() - before));
-    text.resize(before + static_cast<std::size_t>(in.gcount()));
-  }
-  if (in.bad()) throw FileError(path, "can't be read");
+  const FileDescriptor file = openRegularFile(path);
+  std::string text = firstBytes(file, byteLimit + 1, path);
   if (text.size() > byteLimit)
     throw FormatError(path, "is too large: more than " + sizeText(byteLimit));
   return text;
 }
 
 std::string beginningOfFile(const std::filesystem::path& path, std::size_t byteLimit) {
-  std::ifstream in(path, std::ios::binary);
-  std::string bytes(byteLimit, '\0');
-  in.read(bytes.data(), static_cast<std::streamsize>(byteLimit));
-  bytes.resize(static_cast<std::size_t>(in.gcount()));
-  return bytes;
+  try {
+    return firstBytes(openRegularFile(path), byteLimit, path);
+  } catch (const FileError&) {
+    return {};
+  }
 }
 
 }  // namespace palpate

@@ -170,6 +170,34 @@ TEST(RecordingPlanTable, BadRowsAreNamedByLineAndColumn) {
   EXPECT_EQ(table.rows[0].object, "good");
 }
 
+TEST(RecordingPlanTable, ReadingEndsAtTheFirstRowTooMany) {
+  std::string csv = "object\n";
+  for (int i = 0; i < 10'002; ++i) csv += "a\n";
+  const PlanTable table = readPlanTable(csv);
+  EXPECT_EQ(table.rows.size(), 10'000u);
+  // Only the first one is named.
+  EXPECT_EQ(table.problems, std::vector<std::string>{"line 10002: a plan has at most 10000 rows"});
+  EXPECT_FALSE(table.more);
+}
+
+TEST(RecordingPlanTable, ReadingEndsAtAHundredProblems) {
+  std::string csv = "object,repetitions\n";
+  for (int i = 0; i < 100; ++i) csv += "a,x\n";
+  EXPECT_EQ(readPlanTable(csv).problems.size(), 100u);
+  EXPECT_FALSE(readPlanTable(csv).more);
+  const PlanTable table = readPlanTable(csv + "good,1\n");
+  EXPECT_EQ(table.problems.size(), 100u);
+  EXPECT_TRUE(table.more);
+  EXPECT_TRUE(table.rows.empty());
+}
+
+TEST(RecordingPlanTable, AMessageRepeatsNoLongCell) {
+  const PlanTable table =
+      readPlanTable("object,repetitions\na," + std::string(1 << 20, 'x') + "\n");
+  ASSERT_EQ(table.problems.size(), 1u);
+  EXPECT_LT(table.problems[0].size(), 200u);
+}
+
 TEST(RecordingPlanTable, ATableOfSomethingElseIsRefused) {
   EXPECT_EQ(refusalOfTable(""), "the table is empty");
   EXPECT_EQ(refusalOfTable("time,value\n1,2\n"),

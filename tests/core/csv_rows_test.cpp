@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "palpate/core/error.h"
+
 namespace palpate::csv_rows_test {
 namespace {
 using Cells = std::vector<std::string>;
@@ -22,6 +24,18 @@ TEST(CsvRows, TheFirstLineTellsTheSeparator) {
 TEST(CsvRows, AQuotedCellHoldsEverything) {
   EXPECT_EQ(rowsOf("a,b\n\"x, \"\"y\"\"\nz\",2\n"),
             (std::vector<Cells>{{"a", "b"}, {"x, \"y\"\nz", "2"}}));
+}
+
+TEST(CsvRows, ARowHasAtMostAThousandCells) {
+  EXPECT_EQ(rowsOf(std::string(999, ',') + "\n")[0].size(), 1000u);
+  EXPECT_THROW(rowsOf("a,b\n" + std::string(1000, ',') + "\n"), Error);
+}
+
+TEST(CsvRows, AQuotedCellOfAMessageIsShort) {
+  EXPECT_EQ(quotedCell("a b"), "'a b'");
+  EXPECT_EQ(quotedCell(std::string(101, 'x')), "'" + std::string(100, 'x') + "...'");
+  // No letter of two bytes is cut.
+  EXPECT_EQ(quotedCell(std::string(99, 'x') + "\xC3\xA4x"), "'" + std::string(99, 'x') + "...'");
 }
 
 TEST(CsvRows, LinesAreCountedAcrossLineBreaksInCells) {

@@ -1,5 +1,7 @@
 #include "palpate/core/text_file.h"
 
+#include <sys/stat.h>
+
 #include "palpate/core/error.h"
 
 #include "testing/testing.h"
@@ -32,8 +34,19 @@ TEST(TextFile, RefusesWhatIsTooLargeWhateverItIs) {
   EXPECT_THROW(readTextFile(folder / "a", 1000), FormatError);
   EXPECT_EQ(messageOf(folder / "a", 1000),
             (folder / "a").string() + ": is too large: more than 1000 bytes");
-  // A device has no size, and no end.
-  EXPECT_EQ(messageOf("/dev/zero", 3 << 20), "/dev/zero: is too large: more than 3 MB");
+  testing::writeFile(folder / "a", std::string((3 << 20) + 1, 'x'));
+  EXPECT_EQ(messageOf(folder / "a", 3 << 20),
+            (folder / "a").string() + ": is too large: more than 3 MB");
+}
+
+TEST(TextFile, RefusesWhatIsNoRegularFile) {
+  const testing::TemporaryFolder folder;
+  const auto fifo = folder / "fifo";
+  ASSERT_EQ(::mkfifo(fifo.c_str(), 0600), 0);
+  EXPECT_EQ(messageOf(fifo, 10), fifo.string() + ": is not a regular file");
+  EXPECT_EQ(messageOf("/dev/zero", 10), "/dev/zero: is not a regular file");
+  EXPECT_EQ(beginningOfFile(fifo, 10), "");
+  EXPECT_EQ(beginningOfFile("/dev/zero", 10), "");
 }
 
 TEST(TextFile, SaysWhyItCanNotBeOpened) {

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include "palpate/core/error.h"
 
@@ -55,6 +56,8 @@ TEST_F(StlMesh, ReadsTextAndBinary) {
 TEST_F(StlMesh, RefusesWhatIsNoMesh) {
   const float nan = std::numeric_limits<float>::quiet_NaN();
   EXPECT_THROW(readStl(folder_.path() / "none.stl"), FileError);
+  ASSERT_EQ(::mkfifo((folder_.path() / "fifo.stl").c_str(), 0600), 0);
+  EXPECT_THROW(readStl(folder_.path() / "fifo.stl"), FileError);
   EXPECT_THROW(readStl(write("")), FormatError);
   EXPECT_THROW(readStl(write("no mesh")), FormatError);
   EXPECT_THROW(readStl(write(binaryOf(1, {0, 0, nan, 0, 0, 0, 0, 0, 0}))), FormatError);

@@ -331,7 +331,7 @@ TEST(TrainedModel, ASmallFileThatClaimsALargeMatrixIsRefused) {
     EXPECT_NE(what.find("'directions' has 0 entries instead of 60000"), std::string::npos) << what;
   }
   // A file without end is not read either.
-  EXPECT_THROW(loadModel("/dev/zero"), FormatError);
+  EXPECT_THROW(loadModel("/dev/zero"), FileError);
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <thread>
 
 #include <sqlite3.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -324,6 +325,9 @@ TEST(EventStoreDamage, aSidecarWithoutEventsGoes) {
   writeFile(sidecar, "nonsense");
   EXPECT_THROW(saveEvents(path, {}, std::vector{kNote}), FormatError);
   EXPECT_EQ(readFile(sidecar), "nonsense");
+  fs::remove(sidecar);
+  ASSERT_EQ(::mkfifo(sidecar.c_str(), 0600), 0);
+  EXPECT_THROW(readEvents(path), FileError) << "nobody may ever write into it";
 }
 
 }  // namespace

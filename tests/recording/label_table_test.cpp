@@ -83,6 +83,31 @@ TEST(LabelTable, NamesBadRowsByTheirLine) {
   EXPECT_EQ(table.problems[7], "line 11: a quote is never closed");
 }
 
+TEST(LabelTable, ReadingEndsAtTheFirstLabelTooManyAndAtAHundredProblems) {
+  const Profile profile = tenSeconds();
+  std::string csv = "begin_s,text\n";
+  for (int i = 0; i < 10'002; ++i) csv += "1," + std::to_string(i) + "\n";
+  const LabelTable full = readLabelTable(csv, profile);
+  EXPECT_EQ(full.events.size(), 10'000u);
+  EXPECT_EQ(full.problems,
+            std::vector<std::string>{"line 10002: a table has at most 10000 labels"});
+  csv = "begin_s,text\n";
+  for (int i = 0; i < 101; ++i) csv += "x,a\n";
+  const LabelTable bad = readLabelTable(csv, profile);
+  EXPECT_EQ(bad.problems.size(), 100u);
+  EXPECT_TRUE(bad.more);
+}
+
+TEST(LabelTable, ALabelThatStandsTwiceIsAddedOnce) {
+  const Profile profile = tenSeconds();
+  const LabelTable table =
+      readLabelTable("begin_s,text,matrix\n1,a,\n1,a,\n1,a,0\n2,a,\n1,b,\n", profile);
+  RecordingEvent there = table.events[3];
+  there.json = "{}";
+  EXPECT_EQ(newLabels(table, std::vector{there}),
+            (std::vector{table.events[0], table.events[2], table.events[4]}));
+}
+
 TEST(LabelTable, RefusesATableWithoutItsColumns) {
   EXPECT_THROW(readLabelTable("start,label\n1,a\n", tenSeconds()), Error);
   EXPECT_THROW(readLabelTable("", tenSeconds()), Error);

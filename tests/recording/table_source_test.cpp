@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include <sys/stat.h>
+
 #include "palpate/recording/hdf5_recording.h"
 
 #include "recording/import_samples.h"
@@ -335,6 +337,13 @@ with open(path, 'r+b') as f: f.write(b'MATLAB 7.3 MAT-file'.ljust(512))
   EXPECT_FALSE(isHdf5Table(folder / "nothing"));
   testing::writeFile(folder / "short", "\x89HD");
   EXPECT_FALSE(isHdf5Table(folder / "short"));
+}
+
+TEST(OpenTable, RefusesAFifoAndADevice) {
+  const testing::TemporaryFolder folder;
+  ASSERT_EQ(::mkfifo((folder / "fifo").c_str(), 0600), 0);
+  EXPECT_THROW(openTable(folder / "fifo", {}), FileError);
+  EXPECT_THROW(openTable("/dev/zero", {}), FileError);
 }
 
 TEST(TableColumn, WidthIsTheProductOfItsShape) {

@@ -49,6 +49,7 @@ int importLabels(const CommandLine& given, const std::string& file, const std::s
                  (known > 0 ? ", " + std::to_string(known) + " were there already" : ""))
                     .c_str());
   for (const std::string& problem : table.problems) sayLabels(from + ": " + problem);
+  if (table.more) sayLabels(from + ": has more wrong rows; the rest was not read");
   if (table.problems.empty()) return kDone;
   return table.events.empty() ? kFailed : kPartlyDone;
 }

@@ -105,6 +105,8 @@ struct PlanTable {
   // One line for each bad row: "line 3, repetitions: 'x' is not a whole number". Lines count from
   // 1.
   std::vector<std::string> problems;
+  // Reading ended at kMaximumTableProblems (core/csv_rows.h): there are more rows.
+  bool more = false;
 };
 
 // Largest table that is read [bytes].
@@ -112,8 +114,9 @@ inline constexpr std::size_t kMaxPlanTableBytes = 16u << 20;
 
 // Reads a table, separated by commas, semicolons or tabs. Columns are found by their names in the
 // first line, in any order; object must be there. Without repetitions a row is one take. Other
-// columns are passed over. Throws Error when the first line has no column object, or names one
-// twice.
+// columns are passed over. Reading ends at the first row beyond RecordingPlan::kMostRows, which is
+// a problem. Throws Error when the first line has no column object, or names one twice, or a row
+// has more than kMaximumCells cells.
 PlanTable readPlanTable(std::string_view csv);
 // The plan as CSV: object, run, repetitions, notes, and done (takes that count).
 std::string planCsv(const RecordingPlan& plan);

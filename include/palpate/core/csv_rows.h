@@ -9,11 +9,19 @@
 
 namespace palpate {
 
+// A table that a person made has no more of them: reading a file of something else ends early.
+inline constexpr std::size_t kMaximumCells = 1000;
+inline constexpr std::size_t kMaximumTableProblems = 100;
+
+// The cell in quotes for a message, without what is behind its first 100 bytes.
+std::string quotedCell(std::string_view cell);
+
 class CsvRows {
  public:
   // `csv` must outlive this object. A byte order mark at its begin is passed over.
   explicit CsvRows(std::string_view csv);
-  // Takes the next row that is not empty; false at the end.
+  // Takes the next row that is not empty; false at the end. Throws Error if the row has more than
+  // kMaximumCells cells.
   bool next(std::vector<std::string>& cells);
   // The line in which the row begins, from 1; 0 before the first one.
   std::size_t line() const noexcept { return line_; }

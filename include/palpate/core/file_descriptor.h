@@ -1,6 +1,7 @@
 // Owns a file descriptor of the operating system and closes it in its destructor.
 #pragma once
 
+#include <filesystem>
 #include <utility>
 
 namespace palpate {
@@ -23,5 +24,10 @@ class FileDescriptor {
  private:
   int fd_;
 };
+
+// Opens a file for reading. A FIFO, on which opening might wait for ever, a device, which may have
+// no end, and a folder are refused. Throws FileError (cannot be opened, with the reason; is a
+// folder; is not a regular file).
+FileDescriptor openRegularFile(const std::filesystem::path& path);
 
 }  // namespace palpate

@@ -31,18 +31,22 @@ struct LabelTable {
   std::vector<RecordingEvent> events;  // of the good rows, in order of the lines
   // One line for each bad row: "line 7: begin_s 'abc' is not a number". Lines count from 1.
   std::vector<std::string> problems;
+  // Reading ended at kMaximumTableProblems (core/csv_rows.h): there are more rows.
+  bool more = false;
 };
 
 // Largest table that is read [bytes].
 inline constexpr std::size_t kMaxLabelTableBytes = 16u << 20;
+inline constexpr std::size_t kMaximumLabels = 10'000;
 
 // Reads a table of labels, separated by commas, semicolons or tabs. Columns are found by their
 // names in the first line, in any order; begin_s and text must be there. Without end_s a label is a
 // moment, without kind it is a "label". Other columns are passed over. A row is bad when a number
 // is none, it ends before it begins, begins or ends outside of the recording, has an unknown kind,
 // no matrix of the recording, no text (a segment may have none), or another number of cells than
-// the first line. Throws Error when the first line has not these columns, or when the profile has
-// no frames.
+// the first line. Reading ends at the first row beyond kMaximumLabels, which is a problem. Throws
+// Error when the first line has not these columns, a row has more than kMaximumCells cells, or the
+// profile has no frames.
 LabelTable readLabelTable(std::string_view csv, const Profile& profile);
 
 // The events of `table` that `present` doesn't have yet (the JSON doesn't count): a table that is

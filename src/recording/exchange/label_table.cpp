@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <set>
+#include <tuple>
 
 #include "palpate/core/csv_rows.h"
 #include "palpate/core/error.h"
@@ -44,8 +46,6 @@ LabelColumns columnsOf(const std::vector<std::string>& names) {
   return columns;
 }
 
-std::string labelQuoted(const std::string& text) { return "'" + text + "'"; }
-
 // Reads rows of one recording. Throws Error with the problem of a row.
 class LabelReader {
  public:
@@ -65,7 +65,7 @@ class LabelReader {
     RecordingEvent event;
     event.kind = cell(columns_.kind).empty() ? "label" : cell(columns_.kind);
     if (!isLabelKind(event.kind))
-      throw Error("kind " + labelQuoted(event.kind) + " is none of label, note, mark, segment");
+      throw Error("kind " + quotedCell(event.kind) + " is none of label, note, mark, segment");
     event.tUs = timeOf("begin_s", cell(columns_.begin));
     event.t1Us = cell(columns_.end).empty() ? event.tUs : timeOf("end_s", cell(columns_.end));
     if (event.t1Us < event.tUs) throw Error("ends before it begins");
@@ -79,12 +79,12 @@ class LabelReader {
  private:
   std::int64_t timeOf(const std::string& name, const std::string& text) const {
     const auto seconds = parseDouble(text);
-    if (!seconds) throw Error(name + " " + labelQuoted(text) + " is not a number");
+    if (!seconds) throw Error(name + " " + quotedCell(text) + " is not a number");
     const double lengthS = static_cast<double>(endUs_ - beginUs_) / kUsPerS;
     // Half a microsecond: the last time is written with six decimals.
     constexpr double kRounding = 0.6e-6;
     if (*seconds < -kRounding || *seconds > lengthS + kRounding)
-      throw Error(name + " " + labelQuoted(text) + " lies outside of the recording, which lasts " +
+      throw Error(name + " " + quotedCell(text) + " lies outside of the recording, which lasts " +
                   fixedText(lengthS, 3) + " s");
     return beginUs_ + std::llround(*seconds * kUsPerS);
   }
@@ -92,7 +92,7 @@ class LabelReader {
     if (text.empty()) return std::nullopt;
     const auto matrix = parseInteger(text);
     if (!matrix || *matrix < 0 || static_cast<std::size_t>(*matrix) >= numMatrices_)
-      throw Error("matrix " + labelQuoted(text) + " is none of 0.." +
+      throw Error("matrix " + quotedCell(text) + " is none of 0.." +
                   std::to_string(numMatrices_ - 1));
     return static_cast<int>(*matrix);
   }
@@ -142,11 +142,21 @@ LabelTable readLabelTable(std::string_view csv, const Profile& profile) {
   const LabelReader reader(columnsOf(cells), profile);
   LabelTable table;
   while (lines.next(cells)) {
+    const std::string line = "line " + std::to_string(lines.line()) + ": ";
+    if (table.problems.size() == kMaximumTableProblems) {
+      table.more = true;
+      break;
+    }
+    if (table.events.size() == kMaximumLabels) {
+      table.problems.push_back(line + "a table has at most " + std::to_string(kMaximumLabels) +
+                               " labels");
+      break;
+    }
     try {
       if (lines.unclosed()) throw Error("a quote is never closed");
       table.events.push_back(reader.eventOf(cells));
     } catch (const Error& error) {
-      table.problems.push_back("line " + std::to_string(lines.line()) + ": " + error.what());
+      table.problems.push_back(line + error.what());
     }
   }
   return table;
@@ -154,17 +164,15 @@ LabelTable readLabelTable(std::string_view csv, const Profile& profile) {
 
 std::vector<RecordingEvent> newLabels(const LabelTable& table,
                                       std::span<const RecordingEvent> present) {
-  std::vector<RecordingEvent> added;
-  const auto isSame = [](const RecordingEvent& a, const RecordingEvent& b) {
-    return a.tUs == b.tUs && a.t1Us == b.t1Us && a.kind == b.kind && a.text == b.text &&
-           a.matrix == b.matrix;
+  // Everything but the JSON.
+  const auto keyOf = [](const RecordingEvent& event) {
+    return std::make_tuple(event.tUs, event.t1Us, event.kind, event.text, event.matrix);
   };
-  for (const RecordingEvent& event : table.events) {
-    const auto same = [&](const RecordingEvent& other) { return isSame(event, other); };
-    if (std::none_of(present.begin(), present.end(), same) &&
-        std::none_of(added.begin(), added.end(), same))
-      added.push_back(event);
-  }
+  std::set<decltype(keyOf(RecordingEvent{}))> known;
+  for (const RecordingEvent& event : present) known.insert(keyOf(event));
+  std::vector<RecordingEvent> added;
+  for (const RecordingEvent& event : table.events)
+    if (known.insert(keyOf(event)).second) added.push_back(event);
   return added;
 }
 

@@ -5,7 +5,6 @@
 #include <cstring>
 #include <system_error>
 
-#include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -22,12 +21,10 @@ constexpr std::size_t kLineReaderPieceBytes = 1u << 18;
 LineReader::LineReader(const std::filesystem::path& path) : path_(path) { restart(); }
 
 void LineReader::restart() {
-  file_ = FileDescriptor(::open(path_.c_str(), O_RDONLY | O_CLOEXEC));
-  if (file_.get() < 0)
-    throw FileError(path_, "can't be opened: " + std::generic_category().message(errno));
+  file_ = openRegularFile(path_);
   struct stat facts {};
-  if (::fstat(file_.get(), &facts) != 0 || S_ISDIR(facts.st_mode))
-    throw FileError(path_, "is a folder");
+  if (::fstat(file_.get(), &facts) != 0)
+    throw FileError(path_, "can't be read: " + std::generic_category().message(errno));
   size_ = static_cast<std::uint64_t>(std::max<off_t>(facts.st_size, 0));
   read_ = 0;
   buffer_.clear();

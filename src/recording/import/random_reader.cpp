@@ -3,7 +3,6 @@
 #include <cerrno>
 #include <system_error>
 
-#include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -12,12 +11,10 @@
 namespace palpate {
 
 RandomReader::RandomReader(const std::filesystem::path& path)
-    : path_(path), file_(::open(path.c_str(), O_RDONLY | O_CLOEXEC)) {
-  if (file_.get() < 0)
-    throw FileError(path, "can't be opened: " + std::generic_category().message(errno));
+    : path_(path), file_(openRegularFile(path)) {
   struct stat facts {};
-  if (::fstat(file_.get(), &facts) != 0 || !S_ISREG(facts.st_mode))
-    throw FileError(path, "is not a regular file");
+  if (::fstat(file_.get(), &facts) != 0)
+    throw FileError(path, "can't be read: " + std::generic_category().message(errno));
   size_ = static_cast<std::uint64_t>(facts.st_size);
 }
 

@@ -17,6 +17,7 @@
 #include "gui/calibrate/step_page.h"
 #include "gui/calibrate/tare_page.h"
 #include "gui/testing/sample_profiles.h"
+#include "gui/testing/settle_files.h"
 
 namespace palpate::gui::calibrate_panel_test {
 namespace {
@@ -182,6 +183,7 @@ TEST_F(CalibratePanelTest, LinesOfATouchedHandAreNoNoiseAndNotApplied) {
     return QString::fromStdString((folder_ / "touched.json").string());
   };
   find<QPushButton>("noiseOpen")->click();
+  settleFiles(*panel_);
   EXPECT_EQ(applied.size(), 0);
   show("Noise", opened(warmingUp()));
   EXPECT_TRUE(find<QPushButton>("noiseApply")->isEnabled());

@@ -4,6 +4,7 @@
 #include <QSpinBox>
 
 #include "gui/connect/connect_fixture.h"
+#include "gui/testing/settle_files.h"
 #include "gui/widgets/two_line_delegate.h"
 
 namespace palpate::gui::stream_page_test {
@@ -72,6 +73,7 @@ TEST_F(StreamPageTest, AFolderThatCannotBeUsedSaysWhyInOneLine) {
   const QString folder = addFolder("mine", wrong);
   page->askForFolder = [&] { return folder; };
   click("streamHandFolder");
+  settleFiles(*dialog_);
   EXPECT_EQ(chosen().hand, folder);
   EXPECT_FALSE(canConnect());
   EXPECT_TRUE(problem().contains("matrices[0].rows is 0, not in 1..256"))
@@ -80,15 +82,18 @@ TEST_F(StreamPageTest, AFolderThatCannotBeUsedSaysWhyInOneLine) {
   // The file is read anew when the folder is chosen again.
   addFolder("mine", kPad);
   click("streamHandFolder");
+  settleFiles(*dialog_);
   EXPECT_TRUE(canConnect());
   EXPECT_EQ(find<QComboBox>("streamHand")->currentText(), "mine");
   // Cancelled: nothing changes.
   page->askForFolder = [] { return QString(); };
   click("streamHandFolder");
+  settleFiles(*dialog_);
   EXPECT_EQ(chosen().hand, folder);
   // Without a hand.json.
   page->askForFolder = [&] { return QString::fromStdString(folder_.path().string()); };
   click("streamHandFolder");
+  settleFiles(*dialog_);
   EXPECT_FALSE(canConnect());
   EXPECT_TRUE(problem().contains("hand.json")) << problem().toStdString();
 }

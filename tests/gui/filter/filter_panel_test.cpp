@@ -17,6 +17,7 @@
 #include <palpate/core/error.h>
 
 #include "gui/filter/filter_list.h"
+#include "gui/testing/settle_files.h"
 #include "testing/testing.h"
 
 namespace palpate::gui::filter_panel_test {
@@ -160,11 +161,13 @@ TEST_F(FilterPanelTest, RecipesArePresetsAndFiles) {
   EXPECT_EQ(text(), "");
   panel_.askForRecipe = [&] { return folder.path() / "mine.json"; };
   trigger("Open a recipe…");
+  settleFiles(panel_);
   EXPECT_TRUE(panel_.editor().recipe().sameSteps(recipePresets()[2]));
   QSignalSpy message(&panel_, &FilterPanel::message);
   testing::writeFile(folder / "bad.json", "{}");
   panel_.askForRecipe = [&] { return folder.path() / "bad.json"; };
   trigger("Open a recipe…");
+  settleFiles(panel_);
   ASSERT_EQ(message.size(), 1);
   EXPECT_TRUE(message[0][0].toString().contains("bad.json"));
   EXPECT_TRUE(panel_.editor().recipe().sameSteps(recipePresets()[2]));

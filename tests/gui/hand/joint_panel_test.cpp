@@ -10,6 +10,7 @@
 #include "palpate/device/sdh2.h"
 
 #include "gui/hand/hand_dock_bench.h"
+#include "gui/testing/settle_files.h"
 
 namespace palpate::gui::joint_panel_test {
 namespace {
@@ -243,6 +244,7 @@ TEST_F(JointPanelTest, APoseOfAnotherHandOrOutOfRangeIsRefusedInOneLine) {
     panel_->askForFileToOpen = [&] { return path; };
     why.clear();
     dock_->findChild<QAction*>("importPoses")->trigger();
+    settleFiles(*panel_);
   };
   SavedPose good{"good", sdh2().name, {0, 0, 20, 0, 0, 0, 0}};
   SavedPose foreign{"foreign", "another", {0, 0, 20, 0, 0, 0, 0}};

@@ -11,6 +11,7 @@
 #include "palpate/device/sdh2.h"
 
 #include "gui/hand/hand_dock_bench.h"
+#include "gui/testing/settle_files.h"
 
 namespace palpate::gui::sequence_panel_test {
 namespace {
@@ -121,6 +122,7 @@ TEST_F(SequencePanelTest, FilesAreReadWholeOrNotAtAll) {
   dock_->findChild<QAction*>("saveSequence")->trigger();
   add("addWait");
   dock_->findChild<QAction*>("openSequence")->trigger();
+  settleFiles(*panel_);
   EXPECT_EQ(find<QListWidget>("sequenceSteps")->count(), 1);
   MotionSequence foreign = panel_->sequence();
   foreign.hand = "another";
@@ -132,6 +134,7 @@ TEST_F(SequencePanelTest, FilesAreReadWholeOrNotAtAll) {
   QObject::connect(
       panel_, &SequencePanel::refused, panel_, [&](const QString& said) { why = said; });
   dock_->findChild<QAction*>("openSequence")->trigger();
+  settleFiles(*panel_);
   EXPECT_TRUE(why.contains("of another hand: another")) << why.toStdString();
   EXPECT_EQ(panel_->sequence().hand, sdh2().name) << "the table stays";
 }

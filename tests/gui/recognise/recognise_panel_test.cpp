@@ -17,6 +17,7 @@
 #include "gui/recognise/recognise_fixture.h"
 #include "gui/recognise/today_page.h"
 #include "gui/recognise/training_page.h"
+#include "gui/testing/settle_files.h"
 #include "gui/widgets/figures_table.h"
 
 namespace palpate::gui::recognise_panel_test {
@@ -378,6 +379,10 @@ TEST_F(RecognisePanelTest, APhotoIsFoundByItsName) {
   EXPECT_EQ(photoOf("foam ball", {{}, folder_.path()}).filename(), "Foam_ball.jpg");
   PhotoCache shelf;
   shelf.setFolders({folder_.path()});
+  QSignalSpy changed(&shelf, &PhotoCache::changed);
+  EXPECT_TRUE(shelf.photo("foam ball").isNull()) << "it is being read";
+  settleFiles(shelf);
+  EXPECT_EQ(changed.count(), 1);
   EXPECT_EQ(shelf.photo("foam ball").size(), QSize(40, 20));
   EXPECT_TRUE(shelf.photo("pen").isNull());
 }
@@ -399,6 +404,9 @@ TEST_F(RecognisePanelTest, ThePhotoOfTheFolderIsDrawn) {
     panel_->controller().ask({graspsOf("pen", 1), std::nullopt, ""});
     settle();
     EXPECT_EQ(panel_->controller().answer().name(), "pen");
+    // The photo is looked for when the answer is drawn.
+    view->grab();
+    settle();
     const QImage image = view->grab().toImage();
     int count = 0;
     for (int y = 0; y < image.height(); ++y)

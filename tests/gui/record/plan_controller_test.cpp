@@ -31,12 +31,13 @@ class PlanControllerTest : public ::testing::Test {
   }
   std::string refusal(const std::string& csv) {
     testing::writeFile(folder_ / "plan.csv", csv);
-    try {
-      controller_.importCsv(folder_ / "plan.csv");
-    } catch (const Error& error) {
-      return error.what();
-    }
-    return "";
+    return refusalOf(folder_ / "plan.csv");
+  }
+  std::string refusalOf(const std::filesystem::path& path) {
+    QSignalSpy imported(&controller_, &PlanController::imported);
+    controller_.importCsv(path);
+    controller_.settle();
+    return imported.count() == 1 ? imported[0][0].toString().toStdString() : "no answer";
   }
 
   const testing::TemporaryFolder folder_;
@@ -175,7 +176,12 @@ TEST_F(PlanControllerTest, ATableReplacesThePlanOrChangesNothing) {
             "plan is as it was");
   EXPECT_EQ(refusal("object\n"), "plan.csv: has no rows; the plan is as it was");
   EXPECT_NE(refusal("nothing\n1\n").find("must name the column object"), std::string::npos);
-  EXPECT_THROW(controller_.importCsv(folder_ / "none.csv"), Error);
+  std::string many = "object,repetitions\n";
+  for (int i = 0; i < 200; ++i) many += "ball,x\n";
+  EXPECT_EQ(refusal(many),
+            "plan.csv: line 2, repetitions: 'x' is not a whole number, and more; the plan is as it "
+            "was");
+  EXPECT_NE(refusalOf(folder_ / "none.csv"), "");
   EXPECT_EQ(controller_.plan(), before);
   EXPECT_EQ(refusal("object,repetitions\npen,4\n"), "");
   EXPECT_EQ(controller_.progressText(), "0 of 4");

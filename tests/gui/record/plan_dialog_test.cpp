@@ -105,6 +105,8 @@ TEST_F(PlanDialogTest, TablesAreReadAndWritten) {
   windowState_->prompts.file = [&](const QString&, const QString&, const QString&) { return path; };
   windowState_->prompts.newFile = windowState_->prompts.file;
   click("planImport");
+  EXPECT_EQ(said(), "reading plan.csv…") << "in the background";
+  controller_.settle();
   EXPECT_EQ(said(),
             "plan.csv: line 2, repetitions: 'x' is not a whole number; the plan is as it was");
   EXPECT_EQ(table()->rowCount(), 2);
@@ -113,6 +115,7 @@ TEST_F(PlanDialogTest, TablesAreReadAndWritten) {
   EXPECT_EQ(testing::readFile(folder_ / "plan.csv"),
             "object,run,repetitions,notes,done\nball,left,2,slowly,0\ncup,,1,,0\n");
   click("planImport");
+  controller_.settle();
   EXPECT_EQ(table()->rowCount(), 2);
 }
 

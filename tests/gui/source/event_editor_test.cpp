@@ -68,6 +68,18 @@ TEST_F(EventEditorTest, ChangesTogetherAreUndoneTogether) {
   EXPECT_EQ(texts(), "ac");
 }
 
+TEST_F(EventEditorTest, ManyAddedAtOnceAreOneChange) {
+  editor_.add(std::vector{label(40, "d"), label(20, "b"), label(10, "A")}, "importing labels");
+  EXPECT_EQ(texts(), "aAbcd");
+  EXPECT_EQ(editor_.undoStack().count(), 1);
+  editor_.undoStack().undo();
+  EXPECT_EQ(texts(), "ac");
+  editor_.undoStack().redo();
+  EXPECT_EQ(texts(), "aAbcd");
+  editor_.add(std::vector<RecordingEvent>(), "importing labels");
+  EXPECT_EQ(editor_.undoStack().count(), 1);
+}
+
 TEST_F(EventEditorTest, AChangeThatChangesNothingIsNone) {
   editor_.change(0, editor_.events()[0], "nothing");
   EXPECT_FALSE(editor_.undoStack().canUndo());

@@ -21,6 +21,7 @@
 #include "gui/matrices/matrices_feature.h"
 #include "gui/matrices/matrices_panel.h"
 #include "gui/matrices/matrices_view.h"
+#include "gui/testing/settle_files.h"
 #include "gui/testing/window_fixture.h"
 #include "gui/timeline/cursor_readout.h"
 #include "gui/timeline/curve_statistics.h"
@@ -192,17 +193,20 @@ TEST_F(EventsWindowTest, LabelsGoOutAsATableAndComeBack) {
             "2.000000,2.000000,label,touch,\n"
             "3.000000,4.000000,note,\"slow, \"\"very\"\"\",\n");
   actions().at("importLabels")->trigger();
+  settleFiles(window());
   EXPECT_EQ(window().state().events.editor()->events().size(), 2u) << "they are there already";
   const auto before = window().state().events.editor()->events();
   press(Qt::Key_Z, Qt::ControlModifier);
   press(Qt::Key_Z, Qt::ControlModifier);
   EXPECT_EQ(window().state().events.editor()->events().size(), 0u);
   actions().at("importLabels")->trigger();
+  settleFiles(window());
   EXPECT_EQ(window().state().events.editor()->events(), before);
   press(Qt::Key_Z, Qt::ControlModifier);
   EXPECT_EQ(window().state().events.editor()->events().size(), 0u) << "undone at once";
   testing::writeFile(table.toStdString(), "begin_s,text\n1,good\nx,bad\n");
   actions().at("importLabels")->trigger();
+  settleFiles(window());
   EXPECT_EQ(window().state().events.editor()->events().size(), 1u);
   EXPECT_TRUE(bannerText().contains("line 3: begin_s 'x' is not a number"))
       << bannerText().toStdString();
@@ -210,9 +214,11 @@ TEST_F(EventsWindowTest, LabelsGoOutAsATableAndComeBack) {
   EXPECT_EQ(bannerText(), "") << "nothing of the import is left";
   testing::writeFile(table.toStdString(), "no table");
   actions().at("importLabels")->trigger();
+  settleFiles(window());
   EXPECT_TRUE(bannerText().contains("begin_s and text")) << bannerText().toStdString();
   testing::writeFile(table.toStdString(), "begin_s,text\n1,good\n");
   actions().at("importLabels")->trigger();
+  settleFiles(window());
   EXPECT_EQ(bannerText(), "") << "the next import was right";
 }
 

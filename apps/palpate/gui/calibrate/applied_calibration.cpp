@@ -1,12 +1,14 @@
 #include "gui/calibrate/applied_calibration.h"
 
-#include <QFile>
 #include <QFileInfo>
 
 #include <palpate/core/error.h>
+#include <palpate/core/text_file.h>
 
 namespace palpate::gui {
 namespace {
+
+constexpr std::uint64_t kLargestNoiseFile = 16u << 20;  // [bytes]
 
 QString appliedCalibrationKeyOf(const char* what, const std::string& hand) {
   return QString("calibrate/") + what + "/" + QString::fromStdString(hand).replace('/', '_');
@@ -43,9 +45,7 @@ void applyNoise(QSettings& settings, const std::string& hand, const NoiseFloor& 
 
 NoiseFloor noiseFromFile(const QString& path) {
   const std::string name = path.toStdString();
-  QFile file(path);
-  if (!file.open(QIODevice::ReadOnly)) throw FileError(name, file.errorString().toStdString());
-  const std::string text = file.readAll().toStdString();
+  const std::string text = readTextFile(name, kLargestNoiseFile);
   if (path.endsWith(".xml", Qt::CaseInsensitive)) return parseNoiseXml(text, name);
   try {
     return noiseFloorFrom(Json::parse(text));

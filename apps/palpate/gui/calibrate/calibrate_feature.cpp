@@ -33,10 +33,12 @@ constexpr int kCalibrateUsualWidth = 640;
 }  // namespace
 
 CalibrateFeature::CalibrateFeature(WindowState& windowState, QWidget* window)
-    : Feature(windowState, window), panel_(new CalibratePanel(windowState.settings, window)) {
+    : Feature(windowState, window),
+      panel_(new CalibratePanel(windowState.settings, window)),
+      calibrations_(new CalibrationCache(window)) {
   dock_ = new Dock(
       "Calibrate", new ContentScroll(panel_, kLeastDockContent), &panel_->header(), window);
-  pressures_ = std::make_unique<Pressures>(windowState, panel_->force());
+  pressures_ = std::make_unique<Pressures>(windowState, *calibrations_, panel_->force());
   connect(&windowState.displayed, &DisplayedSource::shown, this, &CalibrateFeature::takeSource);
   connect(&windowState.events, &EventController::changed, this, &CalibrateFeature::takeKept);
   followTheme(panel_);
@@ -99,15 +101,16 @@ void CalibrateFeature::connectPages() {
           &windowState.handCommands,
           &HandCommands::calibrationApplied);
   windowState.handCommands.calibration =
-      [&windowState](const std::string& hand) -> std::optional<Calibration> {
+      [this, &windowState](const std::string& hand) -> std::optional<Calibration> {
     const QString path = appliedCalibration(windowState.settings, hand);
-    if (path.isEmpty()) return std::nullopt;
-    try {
-      return usableCalibration(path);
-    } catch (const Error&) {
-      return std::nullopt;  // the page Force tells why
-    }
+    const CalibrationCache::Known* known = path.isEmpty() ? nullptr : calibrations_->find(path);
+    // The page Force tells why there is none.
+    return known ? known->calibration : std::nullopt;
   };
+  connect(calibrations_,
+          &CalibrationCache::read,
+          &windowState.handCommands,
+          &HandCommands::calibrationApplied);
   connect(&panel_->pressure(), &PressurePage::applyRequested, this, &CalibrateFeature::apply);
 }
 

@@ -40,6 +40,7 @@ class CalibrateFeature : public Feature {
   Dock* dock_;
   // Its dock was closed since the steps were found.
   bool stepsHidden_ = false;
+  CalibrationCache* calibrations_;
   std::unique_ptr<Pressures> pressures_;
   struct Filters {
     Recipe recipe;

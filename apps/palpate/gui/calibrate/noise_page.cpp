@@ -183,15 +183,14 @@ NoisePage::NoisePage(QSettings& settings, QWidget* parent) : ComputedPage("noise
   connect(openLines, &QPushButton::clicked, this, [this] {
     const QString path = askForLines();
     if (path.isEmpty()) return;
-    try {
-      const NoiseFloor floor = noiseFromFile(path);
-      if (!floor.notAtRest.empty())
-        return emit said("These lines are no noise: the hand was " +
-                         QString::fromStdString(floor.notAtRest) + ".");
-      emit applyRequested(floor);
-    } catch (const Error& error) {
-      emit said(error.what());
-    }
+    reading_.start(
+        [this, path]() -> FileReading::Take {
+          NoiseFloor floor = noiseFromFile(path);
+          if (!floor.notAtRest.empty())
+            throw Error("These lines are no noise: the hand was " + floor.notAtRest + ".");
+          return [this, floor = std::move(floor)] { emit applyRequested(floor); };
+        },
+        [this](const QString& why) { emit said(why); });
   });
   connect(bins_, &QSpinBox::valueChanged, this, &NoisePage::renew);
   connect(table_, &FiguresTable::rowChosen, this, [this](int chosen) {

@@ -9,6 +9,7 @@
 
 #include <palpate/calibration/noise_floor.h>
 
+#include "gui/source/file_reading.h"
 #include "gui/widgets/computed_page.h"
 
 class QLabel;
@@ -73,6 +74,7 @@ class NoisePage : public ComputedPage {
   FiguresTable* table_;
   QLabel* notes_;
   NoiseChart* chart_;
+  FileReading reading_{this};
 };
 
 }  // namespace palpate::gui

@@ -19,8 +19,9 @@ QString noCalibration(const HandDescription* hand) {
 
 }  // namespace
 
-Pressures::Pressures(WindowState& windowState, ForcePage& page)
-    : windowState_(windowState), page_(page) {
+Pressures::Pressures(WindowState& windowState, CalibrationCache& calibrations, ForcePage& page)
+    : windowState_(windowState), calibrations_(calibrations), page_(page) {
+  connect(&calibrations, &CalibrationCache::read, this, &Pressures::take);
   connect(&windowState.playback, &PlaybackController::positionChanged, this, &Pressures::showFrame);
   connect(&windowState.currentFrame, &CurrentFrame::resultsReceived, this, &Pressures::showLive);
 }
@@ -48,13 +49,28 @@ void Pressures::renew() {
          source ? KeptWithRecording{} : kept_};
   if (of_ && *of_ == now) return;
   of_ = std::move(now);
+  if (source) page_.setLiveHand(*displayed.hand());
+  show({},
+       path.isEmpty() ? noCalibration(displayed.hand())
+                      : QFileInfo(path).fileName() + " is being read");
+  if (!path.isEmpty()) calibrations_.renew(path);
+}
+
+void Pressures::take(const QString& path) {
+  if (!of_ || of_->path != path) return;
+  const CalibrationCache::Known& known = *calibrations_.find(path);
+  show(known.calibration,
+       known.calibration ? QFileInfo(path).fileName() : "can't be used: " + known.problem);
+}
+
+void Pressures::show(const std::optional<Calibration>& calibration, QString text) {
   reader_.reset();
-  QString text = path.isEmpty() ? noCalibration(displayed.hand()) : QFileInfo(path).fileName();
+  LiveSource* source = windowState_.displayed.source();
   try {
     if (source)
-      renewLive(path);
-    else if (displayed.isRecording() && !path.isEmpty())
-      renewRecording(path);
+      source->pressure->setCalibration(calibration);
+    else if (calibration && windowState_.displayed.isRecording())
+      renewRecording(*calibration);
   } catch (const Error& error) {
     text = QString("can't be used: ") + error.what();
   } catch (const std::invalid_argument& error) {
@@ -65,17 +81,10 @@ void Pressures::renew() {
   if (!source) showFrame();
 }
 
-void Pressures::renewLive(const QString& path) {
-  LiveSource& source = *windowState_.displayed.source();
-  source.pressure->setCalibration(std::nullopt);
-  page_.setLiveHand(*windowState_.displayed.hand());
-  if (!path.isEmpty()) source.pressure->setCalibration(usableCalibration(path));
-}
-
-void Pressures::renewRecording(const QString& path) {
+void Pressures::renewRecording(const Calibration& calibration) {
   if (!kept_.problem.isEmpty()) throw Error(kept_.problem.toStdString());
   reader_ = std::make_unique<PressureReader>(windowState_.displayed.unfilteredRecording()->profile,
-                                             usableCalibration(path),
+                                             calibration,
                                              pressureOptions(kept_, std::nullopt),
                                              kept_.tare);
 }

@@ -9,6 +9,7 @@
 #include <palpate/calibration/pressure_reader.h>
 
 #include "gui/calibrate/applied_calibration.h"
+#include "gui/calibrate/calibration_cache.h"
 #include "gui/window_state/window_state.h"
 
 namespace palpate::gui {
@@ -18,8 +19,8 @@ class ForcePage;
 class Pressures : public QObject {
   Q_OBJECT
  public:
-  // `windowState` and `page` must outlive this object.
-  Pressures(WindowState& windowState, ForcePage& page);
+  // The arguments must outlive this object.
+  Pressures(WindowState& windowState, CalibrationCache& calibrations, ForcePage& page);
 
   // Sets what the shown recording contains about its sensor.
   void setKept(const KeptWithRecording& kept);
@@ -31,12 +32,16 @@ class Pressures : public QObject {
   void reload();
 
  private:
-  void renewLive(const QString& path);
-  void renewRecording(const QString& path);
+  // The calibration of this file was read.
+  void take(const QString& path);
+  // `text`: what is said of the calibration, unless it can't be used.
+  void show(const std::optional<Calibration>& calibration, QString text);
+  void renewRecording(const Calibration& calibration);
   void showFrame();
   void showLive(const LiveResults& results);
 
   WindowState& windowState_;
+  CalibrationCache& calibrations_;
   ForcePage& page_;
   KeptWithRecording kept_;
   // Pressures of the shown recording; null when there are none.

@@ -14,6 +14,7 @@
 #include <palpate/emulator/scene.h>
 
 #include "gui/source/connection.h"
+#include "gui/source/file_reading.h"
 #include "gui/widgets/two_line_delegate.h"
 
 namespace palpate::gui {
@@ -96,17 +97,30 @@ ScenePage::~ScenePage() { list_->disconnect(this); }
 void ScenePage::addScene(const QString& scene, const QString& title) {
   auto* item = new QListWidgetItem(title, list_);
   item->setData(kSceneRole, scene);
-  try {
-    const Scene loaded = loadScene(scene.toStdString(), folder_);
-    item->setData(TwoLineDelegate::kDetailRole, QString::fromStdString(loaded.description));
-    item->setData(kScriptRole, !loaded.script.empty());
-    item->setData(kMovesRole, movesObjects(loaded));
-  } catch (const Error& error) {
-    const QString problem = QString::fromStdString(error.what());
-    item->setData(TwoLineDelegate::kDetailRole, problem);
-    item->setData(kProblemRole, "This scene can't be used: " + problem);
-  }
-  item->setToolTip(scene + "\n" + item->data(TwoLineDelegate::kDetailRole).toString());
+  item->setData(TwoLineDelegate::kDetailRole, "is being read…");
+  item->setData(kProblemRole, "The scene is being read.");
+  item->setToolTip(scene);
+  // The page never removes an item.
+  auto* reading = new FileReading(this);
+  const auto show = [this, item, scene](const QString& detail) {
+    item->setData(TwoLineDelegate::kDetailRole, detail);
+    item->setToolTip(scene + "\n" + detail);
+    if (item == list_->currentItem()) showChosen();
+  };
+  connect(reading, &FileReading::finished, reading, &QObject::deleteLater);
+  reading->start(
+      [item, show, file = scene.toStdString(), folder = folder_]() -> FileReading::Take {
+        return [item, show, loaded = loadScene(file, folder)] {
+          item->setData(kScriptRole, !loaded.script.empty());
+          item->setData(kMovesRole, movesObjects(loaded));
+          item->setData(kProblemRole, {});
+          show(QString::fromStdString(loaded.description));
+        };
+      },
+      [item, show](const QString& problem) {
+        item->setData(kProblemRole, "This scene can't be used: " + problem);
+        show(problem);
+      });
 }
 
 void ScenePage::setScene(const QString& scene) {

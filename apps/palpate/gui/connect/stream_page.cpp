@@ -19,6 +19,7 @@
 
 #include "gui/appearance/captions.h"
 #include "gui/connect/port_field.h"
+#include "gui/source/file_reading.h"
 #include "gui/widgets/state_mark.h"
 #include "gui/widgets/two_line_delegate.h"
 
@@ -291,9 +292,9 @@ void StreamPage::setSource(const QString& source) {
   port_->setPort(source);
 }
 
-// Reads the hand if it is not known yet, and adds it to the list.
+// Adds the hand to the list, and begins to read it if it is not known yet.
 int StreamPage::handIndex(const QString& nameOrFolder) {
-  if (!hands_.contains(nameOrFolder)) hands_.insert(nameOrFolder, read(nameOrFolder));
+  if (!hands_.contains(nameOrFolder)) read(nameOrFolder);
   const Choice& choice = hands_[nameOrFolder];
   int index = hand_->findData(nameOrFolder, kHandRole);
   if (index < 0) {
@@ -307,12 +308,22 @@ int StreamPage::handIndex(const QString& nameOrFolder) {
   return index;
 }
 
-StreamPage::Choice StreamPage::read(const QString& nameOrFolder) const {
-  try {
-    return {handSummaryOf(findHand(nameOrFolder.toStdString(), folders_)), {}};
-  } catch (const Error& error) {
-    return {{}, QString::fromUtf8(error.what()).simplified()};
-  }
+void StreamPage::read(const QString& nameOrFolder) {
+  hands_.insert(nameOrFolder, {{}, "it is being read"});
+  auto* reading = new FileReading(this);
+  connect(reading, &FileReading::finished, reading, &QObject::deleteLater);
+  const auto know = [this, nameOrFolder](const Choice& choice) {
+    hands_[nameOrFolder] = choice;
+    handIndex(nameOrFolder);
+    refresh();
+  };
+  reading->start(
+      [know, name = nameOrFolder.toStdString(), folders = folders_]() -> FileReading::Take {
+        return [know, summary = handSummaryOf(findHand(name, folders))] { know({summary, {}}); };
+      },
+      [know](const QString& fault) {
+        know({{}, fault.simplified()});
+      });
 }
 
 void StreamPage::setStream(const StreamConnection& stream) {

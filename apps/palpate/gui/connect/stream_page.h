@@ -68,7 +68,7 @@ class StreamPage : public QWidget {
   QString source() const;
   void setSource(const QString& source);
   int handIndex(const QString& nameOrFolder);
-  Choice read(const QString& nameOrFolder) const;
+  void read(const QString& nameOrFolder);
   QString sourceProblem() const;
   void refresh();
 

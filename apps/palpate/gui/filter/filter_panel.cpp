@@ -223,12 +223,14 @@ void FilterPanel::addStep(const std::string& name) {
 void FilterPanel::openRecipe() {
   const std::filesystem::path path = askForRecipe();
   if (path.empty()) return;
-  try {
-    editor_.setRecipe(readRecipe(path));
-    setOn(true);
-  } catch (const Error& error) {
-    emit message(error.what());
-  }
+  reading_.start(
+      [this, path]() -> FileReading::Take {
+        return [this, recipe = readRecipe(path)] {
+          editor_.setRecipe(recipe);
+          setOn(true);
+        };
+      },
+      [this](const QString& why) { emit message(why); });
 }
 
 void FilterPanel::saveRecipe() {

@@ -7,6 +7,7 @@
 #include <functional>
 #include <optional>
 
+#include "gui/source/file_reading.h"
 #include "gui/source/filter_worker.h"
 #include "gui/window_state/recipe_editor.h"
 
@@ -83,6 +84,7 @@ class FilterPanel : public QWidget {
   FilterForm* form_;
   QLabel* totals_;
   QProgressBar* progress_;
+  FileReading reading_{this};
 };
 
 }  // namespace palpate::gui

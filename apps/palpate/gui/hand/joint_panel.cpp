@@ -3,7 +3,6 @@
 #include <QCheckBox>
 #include <QComboBox>
 #include <QDoubleSpinBox>
-#include <QFile>
 #include <QFileDialog>
 #include <QGridLayout>
 #include <QHBoxLayout>
@@ -18,6 +17,7 @@
 
 #include <palpate/core/error.h>
 #include <palpate/core/output_file.h>
+#include <palpate/core/text_file.h>
 
 #include "gui/appearance/captions.h"
 #include "gui/desktop/button_keys.h"
@@ -33,7 +33,7 @@ constexpr const char* kJointContact = "joints/stop_at_contact";
 constexpr const char* kOwnPoses = "Own poses…";
 constexpr const char* kSaveTip = "Saves the present angles under a name";
 constexpr const char* kPoseFilter = "Poses (*.json)";
-constexpr qint64 kLargestPoseFile = 10'000'000;
+constexpr std::uint64_t kLargestPoseFile = 10'000'000;
 
 QPushButton* jointButton(
     const QString& text, const QString& name, const QString& tip, bool moves, QWidget* parent) {
@@ -275,23 +275,24 @@ void JointPanel::renamePose() {
 void JointPanel::importPoses() {
   const QString path = askForFileToOpen();
   if (path.isEmpty()) return;
-  QFile file(path);
-  if (!file.open(QIODevice::ReadOnly) || file.size() > kLargestPoseFile)
-    return emit refused(path + ": can't be read as a list of poses");
-  try {
-    const auto poses =
-        parsePoses(file.readAll().toStdString(), std::filesystem::path(path.toStdString()));
-    for (const SavedPose& pose : poses)
-      if (const std::string problem = problemOf(pose, movableHand()); !problem.empty())
-        return emit refused("nothing imported: " + QString::fromStdString(problem));
-    for (const SavedPose& pose : poses)
-      if (store_.names(movableHand().name).contains(QString::fromStdString(pose.name)))
-        return emit refused("nothing imported: a pose '" + QString::fromStdString(pose.name) +
-                            "' exists already");
-    for (const SavedPose& pose : poses) store_.save(pose);
-  } catch (const Error& error) {
-    return emit refused(error.what());
-  }
+  reading_.start(
+      [this, file = std::filesystem::path(path.toStdString())]() -> FileReading::Take {
+        auto poses = parsePoses(readTextFile(file, kLargestPoseFile), file);
+        for (const SavedPose& pose : poses)
+          if (const std::string problem = problemOf(pose, movableHand()); !problem.empty())
+            throw Error("nothing imported: " + problem);
+        return [this, poses = std::move(poses)] { takePoses(poses); };
+      },
+      [this](const QString& why) { emit refused(why); });
+}
+
+void JointPanel::takePoses(const std::vector<SavedPose>& poses) {
+  const QStringList there = store_.names(movableHand().name);
+  for (const SavedPose& pose : poses)
+    if (there.contains(QString::fromStdString(pose.name)))
+      return emit refused("nothing imported: a pose '" + QString::fromStdString(pose.name) +
+                          "' exists already");
+  for (const SavedPose& pose : poses) store_.save(pose);
   listPoses();
 }
 

@@ -11,6 +11,7 @@
 #include <palpate/control/grasp_control.h>
 
 #include "gui/hand/pose_store.h"
+#include "gui/source/file_reading.h"
 
 class QCheckBox;
 class QComboBox;
@@ -72,6 +73,7 @@ class JointPanel : public QWidget {
   void exportPoses();
   void move(std::optional<std::size_t> axis);
   void resetTargets();
+  void takePoses(const std::vector<SavedPose>& poses);
   void showRow(Row& row);
   // A new target; the end of a motion that runs doesn't count as having reached it.
   static void setChanged(Row& row);
@@ -93,6 +95,7 @@ class JointPanel : public QWidget {
   QPushButton* remove_;
   QPushButton* file_;
   bool moving_ = false;  // a motion of this page
+  FileReading reading_{this};
 };
 
 }  // namespace palpate::gui

@@ -1,7 +1,6 @@
 #include "gui/hand/sequence_panel.h"
 
 #include <QDoubleSpinBox>
-#include <QFile>
 #include <QFileDialog>
 #include <QHBoxLayout>
 #include <QLabel>
@@ -15,6 +14,7 @@
 
 #include <palpate/core/error.h>
 #include <palpate/core/output_file.h>
+#include <palpate/core/text_file.h>
 
 #include "gui/desktop/button_keys.h"
 #include "gui/hand/motion_button.h"
@@ -29,7 +29,7 @@ using StepKind = SequenceStep::Kind;
 
 constexpr const char* kStoredSequence = "sequence/last";
 constexpr const char* kSequenceFilter = "Sequences (*.json)";
-constexpr qint64 kLargestSequenceFile = 10'000'000;
+constexpr std::uint64_t kLargestSequenceFile = 10'000'000;
 constexpr int kSequenceLines = 6;
 
 QPushButton* sequenceButton(
@@ -263,21 +263,21 @@ void SequencePanel::start() {
 void SequencePanel::openFile() {
   const QString path = askForFileToOpen();
   if (path.isEmpty()) return;
-  QFile file(path);
-  if (!file.open(QIODevice::ReadOnly) || file.size() > kLargestSequenceFile)
-    return emit refused(path + ": can't be read as a sequence");
-  try {
-    MotionSequence read =
-        parseSequence(file.readAll().toStdString(), std::filesystem::path(path.toStdString()));
-    read.validate(movableHand());
-    sequence_ = std::move(read);
-  } catch (const Error& error) {
-    return emit refused(error.what());
-  } catch (const std::invalid_argument& error) {
-    return emit refused(path + ": " + error.what());
-  }
-  times_->setValue(sequence_.repetitions);
-  changed(0);
+  reading_.start(
+      [this, file = std::filesystem::path(path.toStdString())]() -> FileReading::Take {
+        MotionSequence read = parseSequence(readTextFile(file, kLargestSequenceFile), file);
+        try {
+          read.validate(movableHand());
+        } catch (const std::invalid_argument& error) {
+          throw FormatError(file, error.what());
+        }
+        return [this, read = std::move(read)] {
+          sequence_ = read;
+          times_->setValue(sequence_.repetitions);
+          changed(0);
+        };
+      },
+      [this](const QString& why) { emit refused(why); });
 }
 
 void SequencePanel::saveFile() {

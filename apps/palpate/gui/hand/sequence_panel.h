@@ -11,6 +11,8 @@
 #include <palpate/capture/capture_session.h>
 #include <palpate/control/motion_sequence.h>
 
+#include "gui/source/file_reading.h"
+
 class QDoubleSpinBox;
 class QListWidget;
 class QMenu;
@@ -84,6 +86,7 @@ class SequencePanel : public QWidget {
   StatusLines* state_;
   // What the page did last, until the sequence runs.
   QString said_;
+  FileReading reading_{this};
 };
 
 }  // namespace palpate::gui

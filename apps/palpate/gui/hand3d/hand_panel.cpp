@@ -32,7 +32,8 @@ std::vector<Eigen::Vector3d> handPanelExtentOf(const OpenedRecording& recording,
   const Profile& profile = recording.profile;
   if (profile.numFrames() == 0) return points;
   HandSceneBuilder drawing;
-  drawing.setHand(profile.hand());
+  // Without the bodies that files describe, which are read later.
+  drawing.setHand(profile.hand(), false);
   for (const std::size_t frame :
        {std::size_t{0}, recording.table.frameOfLargestSum(), profile.numFrames() - 1}) {
     try {

@@ -220,24 +220,37 @@ std::shared_ptr<const HandGeometry> geometryOf(const HandDescription& hand) {
   }
 }
 
-void HandSceneBuilder::setHand(const HandDescription& hand) {
+void HandSceneBuilder::setHand(const HandDescription& hand, bool withMeshes) {
   hand_ = hand;
   geometry_ = geometryOf(hand);
   slip_.clear();
   bodies_.clear();
+  missing_.reset();
   handState_ = {};
   onHand_.clear();
   patchesLaidFlat(hand, flat_);
   if (!selection_.sameSensor(TaxelSelection(*hand.layout))) selection_ = {};
   if (!geometry_) return;
-  bodies_ = handBodies(*geometry_);
+  const auto& shapes = geometry_->description().shapes;
+  if (!withMeshes && std::any_of(shapes.begin(), shapes.end(), [](const LinkShape& shape) {
+        return shape.kind == LinkShape::Kind::kMesh;
+      }))
+    missing_ = geometry_;
+  else
+    bodies_ = handBodies(*geometry_);
   geometry_->pose(std::vector<double>(geometry_->description().numAxes, 0.0), pose_);
   patchesOnHand(pose_, *hand.layout, onHand_);
+}
+
+void HandSceneBuilder::setBodies(std::vector<HandBody> bodies) {
+  bodies_ = std::move(bodies);
+  missing_.reset();
 }
 
 void HandSceneBuilder::clear() {
   hand_.reset();
   geometry_.reset();
+  missing_.reset();
   bodies_.clear();
   handState_ = {};
   slip_.clear();

@@ -39,7 +39,12 @@ class HandSceneBuilder {
  public:
   // Sets another hand. One whose geometry isn't known (a pad, another layout) can only be drawn
   // laid flat.
-  void setHand(const HandDescription& hand);
+  // `withMeshes` false: bodies that files describe are not read; see meshesMissing().
+  void setHand(const HandDescription& hand, bool withMeshes = true);
+  // The geometry whose bodies were not read; null: they all were. Its handBodies() are for
+  // setBodies().
+  const std::shared_ptr<const HandGeometry>& meshesMissing() const noexcept { return missing_; }
+  void setBodies(std::vector<HandBody> bodies);
   void clear();
   bool hasHand() const noexcept { return hand_.has_value(); }
   bool hasGeometry() const noexcept { return geometry_ != nullptr; }
@@ -86,6 +91,7 @@ class HandSceneBuilder {
 
   std::optional<HandDescription> hand_;
   std::shared_ptr<const HandGeometry> geometry_;
+  std::shared_ptr<const HandGeometry> missing_;
   std::vector<HandBody> bodies_;
   HandState handState_;
   HandPose pose_;

@@ -66,7 +66,18 @@ void HandView::setHand(const HandDescription& hand) {
   // When only the scanned taxels change, the hand is the same and the camera stays.
   const TaxelSelection fresh(*hand.layout);
   const bool same = drawing_.hasHand() && TaxelSelection(*drawing_.hand().layout).sameSensor(fresh);
-  drawing_.setHand(hand);
+  drawing_.setHand(hand, false);
+  meshes_.abandon();
+  if (const auto geometry = drawing_.meshesMissing())
+    meshes_.start(
+        [this, geometry]() -> FileReading::Take {
+          return [this, bodies = handBodies(*geometry)] {
+            drawing_.setBodies(bodies);
+            extent_.clear();
+            drawAnew();
+          };
+        },
+        [](const QString&) {});
   extent_.clear();
   if (!selection_.sameSensor(fresh)) selection_ = fresh;
   drawing_.setSelection(selection_);
@@ -76,6 +87,7 @@ void HandView::setHand(const HandDescription& hand) {
 }
 
 void HandView::clear() {
+  meshes_.abandon();
   drawing_.clear();
   stale_ = {};
   selection_ = {};

@@ -13,6 +13,7 @@
 #include "gui/hand3d/hand_raster.h"
 #include "gui/hand3d/hand_scene_builder.h"
 #include "gui/picture/stale_notice.h"
+#include "gui/source/file_reading.h"
 
 namespace palpate {
 struct PressureFrame;
@@ -117,6 +118,7 @@ class HandView : public QWidget {
 
   HandGlCanvas* canvas_ = nullptr;
   HandSceneBuilder drawing_;
+  FileReading meshes_{this};
   HandScene scene_;
   HandRaster raster_;
   bool sceneIsOld_ = true;

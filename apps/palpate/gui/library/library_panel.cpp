@@ -17,6 +17,7 @@
 #include <algorithm>
 
 #include "gui/appearance/icons.h"
+#include "gui/appearance/settings_file.h"
 #include "gui/desktop/reveal_file.h"
 #include "gui/widgets/empty_page.h"
 #include "gui/widgets/fitting_pages.h"
@@ -133,7 +134,7 @@ void LibraryPanel::buildTop() {
 void LibraryPanel::buildTable() {
   table_ = new LibraryTable(filter_, pages_);
   table_->sortByColumn(LibraryModel::kDate, Qt::DescendingOrder);
-  table_->horizontalHeader()->restoreState(settings_.value(kHeaderKey).toByteArray());
+  restoreColumns(*table_->horizontalHeader(), settings_, kHeaderKey);
   pages_->addWidget(table_);
   connect(table_, &LibraryTable::openRequested, this, &LibraryPanel::openChosen);
   connect(table_, &QTableView::doubleClicked, this, &LibraryPanel::openChosen);
@@ -418,7 +419,7 @@ void LibraryPanel::showMenu(const QPoint& at) {
 }
 
 void LibraryPanel::rememberColumns() {
-  settings_.setValue(kHeaderKey, table_->horizontalHeader()->saveState());
+  storeColumns(*table_->horizontalHeader(), settings_, kHeaderKey);
 }
 
 void LibraryPanel::showEvent(QShowEvent* event) {

@@ -19,6 +19,10 @@ constexpr double kSmallerAnswer = 0.97;    // a step of the search for the size 
 AnswerView::AnswerView(PhotoCache& photos, double scale, QWidget* parent)
     : QWidget(parent), photos_(photos), scale_(scale) {
   setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Expanding);
+  connect(&photos, &PhotoCache::changed, this, [this] {
+    askForHeight();
+    update();
+  });
 }
 
 void AnswerView::setAnswer(const RecognitionAnswer& answer) {

@@ -19,6 +19,7 @@
 #include <utility>
 
 #include "gui/appearance/captions.h"
+#include "gui/appearance/settings_file.h"
 #include "gui/recognise/feature_scatter.h"
 #include "gui/recognise/grasp_table_model.h"
 #include "gui/widgets/empty_page.h"
@@ -71,14 +72,14 @@ GraspsPage::GraspsPage(TrainingController& controller, QSettings& settings, QWid
   parts_->addWidget(makePlot());
   parts_->setStretchFactor(0, 1);
   parts_->setStretchFactor(1, 1);
-  parts_->restoreState(settings.value(kGraspsPartsKey).toByteArray());
+  restoreParts(*parts_, settings, kGraspsPartsKey);
   pages_->addWidget(empty_);
   pages_->addWidget(parts_);
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(12, 8, 12, 10);
   column->addWidget(pages_);
   connect(parts_, &QSplitter::splitterMoved, this, [this] {
-    settings_.setValue(kGraspsPartsKey, parts_->saveState());
+    storeParts(*parts_, settings_, kGraspsPartsKey);
   });
   connect(model_, &GraspTableModel::leavingOutAsked, this, [this](int row, bool out) {
     controller_.setLeftOut({static_cast<std::size_t>(row)}, out);

@@ -12,6 +12,17 @@ const QStringList kEndings = {"*.jpg", "*.jpeg", "*.png", "*.JPG", "*.JPEG", "*.
 
 QString objectPhotoPlain(QString name) { return name.replace('_', ' ').trimmed().toLower(); }
 
+// Null when there is none.
+QImage imageOf(const std::filesystem::path& path) {
+  if (path.empty()) return {};
+  QImageReader reader(QString::fromStdString(path.string()));
+  reader.setAutoTransform(true);
+  const QSize size = reader.size();
+  if (size.width() > kLargestSide || size.height() > kLargestSide)
+    reader.setScaledSize(size.scaled(kLargestSide, kLargestSide, Qt::KeepAspectRatio));
+  return reader.read();
+}
+
 }  // namespace
 
 std::filesystem::path photoOf(const QString& name,
@@ -36,26 +47,29 @@ std::filesystem::path photoOf(const QString& name,
 void PhotoCache::setFolders(std::vector<std::filesystem::path> folders) {
   if (folders == folders_) {
     // Photos that were missing may exist now.
-    std::erase_if(read_, [](const auto& one) { return one.second.isNull(); });
+    std::erase_if(photos_, [](const auto& one) {
+      return one.second.picture.isNull() && !one.second.reading->busy();
+    });
     return;
   }
   folders_ = std::move(folders);
-  read_.clear();
+  photos_.clear();
 }
 
 const QPixmap& PhotoCache::photo(const QString& name) {
-  const auto known = read_.find(name);
-  if (known != read_.end()) return known->second;
-  QPixmap& photo = read_[name];
-  const auto path = photoOf(name, folders_);
-  if (path.empty()) return photo;
-  QImageReader reader(QString::fromStdString(path.string()));
-  reader.setAutoTransform(true);
-  const QSize size = reader.size();
-  if (size.width() > kLargestSide || size.height() > kLargestSide)
-    reader.setScaledSize(size.scaled(kLargestSide, kLargestSide, Qt::KeepAspectRatio));
-  photo = QPixmap::fromImage(reader.read());
-  return photo;
+  Photo& photo = photos_[name];
+  if (photo.reading) return photo.picture;
+  photo.reading = std::make_unique<FileReading>(this);
+  photo.reading->start(
+      [this, &photo, name, folders = folders_]() -> FileReading::Take {
+        return [this, &photo, image = imageOf(photoOf(name, folders))] {
+          if (image.isNull()) return;
+          photo.picture = QPixmap::fromImage(image);
+          emit changed();
+        };
+      },
+      [](const QString&) {});
+  return photo.picture;
 }
 
 }  // namespace palpate::gui

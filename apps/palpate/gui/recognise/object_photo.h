@@ -3,11 +3,15 @@
 // of that name.
 #pragma once
 
+#include <QObject>
 #include <QPixmap>
 #include <QString>
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <vector>
+
+#include "gui/source/file_reading.h"
 
 namespace palpate::gui {
 
@@ -15,16 +19,28 @@ namespace palpate::gui {
 std::filesystem::path photoOf(const QString& name,
                               const std::vector<std::filesystem::path>& folders);
 
-// Reads each photo once and keeps it no larger than a screen needs.
-class PhotoCache {
+// Reads each photo once, in the background, and keeps it no larger than a screen needs.
+class PhotoCache : public QObject {
+  Q_OBJECT
  public:
+  using QObject::QObject;
+
   void setFolders(std::vector<std::filesystem::path> folders);
-  // Null when there is no photo or it cannot be read.
+  // Null when there is no photo or it cannot be read, and while it is being read; then changed()
+  // follows.
   const QPixmap& photo(const QString& name);
 
+ signals:
+  void changed();
+
  private:
+  struct Photo {
+    QPixmap picture;
+    std::unique_ptr<FileReading> reading;
+  };
+
   std::vector<std::filesystem::path> folders_;
-  std::map<QString, QPixmap> read_;
+  std::map<QString, Photo> photos_;
 };
 
 }  // namespace palpate::gui

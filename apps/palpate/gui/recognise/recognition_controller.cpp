@@ -274,6 +274,7 @@ bool RecognitionController::cancel() {
 }
 
 void RecognitionController::settle() {
+  for (FileReading* reading : photos_.findChildren<FileReading*>()) reading->settle();
   while (busy()) QCoreApplication::processEvents(QEventLoop::WaitForMoreEvents);
 }
 

@@ -2,6 +2,7 @@
 
 #include <QCoreApplication>
 #include <QEventLoop>
+#include <QUrl>
 #include <system_error>
 #include <utility>
 
@@ -25,6 +26,12 @@ constexpr std::size_t kBlocks = 5, kSplits = 10;
 constexpr const char* kTrainingSetKey = "recognise/featureSet";
 constexpr const char* kTrainingClassifierKey = "recognise/classifier";
 constexpr const char* kLeftOutKey = "recognise/leftOut";
+
+// Names of keys must not contain '/'.
+QString leftOutKeyOf(const fs::path& folder) {
+  return QString(kLeftOutKey) + "/" +
+         QString::fromLatin1(QUrl::toPercentEncoding(QString::fromStdString(folder.string())));
+}
 
 std::shared_ptr<const FeatureTable> gatherTraining(const fs::path& folder,
                                                    const TrainingChoice& choice,
@@ -123,9 +130,7 @@ void TrainingController::readLeftOut() {
   leftOut_.clear();
   leavingOut_.clear();
   takenBack_.clear();
-  const QVariantMap folders = settings_.value(kLeftOutKey).toMap();
-  for (const QString& text :
-       folders.value(QString::fromStdString(folder_.string())).toStringList()) {
+  for (const QString& text : settings_.value(leftOutKeyOf(folder_)).toStringList()) {
     bool isNumber = false;
     const auto begin = text.section(' ', 0, 0).toULongLong(&isNumber);
     const QString file = text.section(' ', 1);
@@ -140,17 +145,15 @@ void TrainingController::changeLeftOut(const std::vector<LeftOutGrasp>& grasps, 
     else
       leftOut_.erase(grasp);
   }
-  QVariantMap folders = settings_.value(kLeftOutKey).toMap();
   QStringList texts;
   for (const LeftOutGrasp& each : leftOut_)
     texts << QString::number(each.begin) + ' ' +
                  QString::fromStdString(each.file.lexically_relative(folder_).string());
-  const QString key = QString::fromStdString(folder_.string());
+  const QString key = leftOutKeyOf(folder_);
   if (texts.isEmpty())
-    folders.remove(key);
+    settings_.remove(key);
   else
-    folders.insert(key, texts);
-  settings_.setValue(kLeftOutKey, folders);
+    settings_.setValue(key, texts);
   emit leftOutChanged();
   emit folderChanged();
 }

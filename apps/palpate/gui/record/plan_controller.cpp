@@ -54,6 +54,29 @@ std::optional<fs::path> lastTakeOf(const RecordingPlan& plan) {
   return std::nullopt;
 }
 
+// The plan of a table. Throws Error with one line for the user.
+RecordingPlan planIn(const fs::path& path) {
+  const std::string name = path.filename().string() + ": ";
+  PlanTable table;
+  try {
+    table = readPlanTable(readTextFile(path, kMaxPlanTableBytes));
+  } catch (const FileError&) {
+    throw;
+  } catch (const Error& error) {
+    throw Error(name + error.what());
+  }
+  if (const std::size_t problems = table.problems.size(); problems > 0)
+    throw Error(name + table.problems.front() +
+                (table.more     ? ", and more"
+                 : problems > 1 ? ", and " + counted(problems - 1, "more problem")
+                                : "") +
+                "; the plan is as it was");
+  if (table.rows.empty()) throw Error(name + "has no rows; the plan is as it was");
+  RecordingPlan plan;
+  for (PlanRow& row : table.rows) plan.addRow(std::move(row));
+  return plan;
+}
+
 }  // namespace
 
 PlanController::PlanController(QSettings& settings, QObject* parent)
@@ -126,28 +149,17 @@ void PlanController::removeRow(std::size_t row) {
 }
 
 void PlanController::importCsv(const fs::path& path) {
-  const std::string name = path.filename().string() + ": ";
-  PlanTable table;
-  try {
-    table = readPlanTable(readTextFile(path, kMaxPlanTableBytes));
-  } catch (const FileError&) {
-    throw;
-  } catch (const Error& error) {
-    throw Error(name + error.what());
-  }
-  if (!table.problems.empty())
-    throw Error(name + table.problems.front() +
-                (table.problems.size() > 1
-                     ? ", and " + counted(table.problems.size() - 1, "more problem")
-                     : "") +
-                "; the plan is as it was");
-  if (table.rows.empty()) throw Error(name + "has no rows; the plan is as it was");
-  RecordingPlan plan;
-  for (PlanRow& row : table.rows) plan.addRow(std::move(row));
-  plan_ = std::move(plan);
-  row_.reset();
-  lastTake_.reset();
-  save();
+  reading_.start(
+      [this, path]() -> FileReading::Take {
+        return [this, plan = planIn(path)] {
+          plan_ = plan;
+          row_.reset();
+          lastTake_.reset();
+          save();
+          emit imported({});
+        };
+      },
+      [this](const QString& problem) { emit imported(problem); });
 }
 
 void PlanController::exportCsv(const fs::path& path) const {
@@ -270,6 +282,7 @@ QString PlanController::nextText() const {
 }
 
 void PlanController::settle() {
+  reading_.settle();
   while (checking_.busy()) QCoreApplication::processEvents(QEventLoop::WaitForMoreEvents);
 }
 

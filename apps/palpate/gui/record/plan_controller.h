@@ -13,6 +13,7 @@
 #include <palpate/recognition/take_quality.h>
 
 #include "gui/source/background_job.h"
+#include "gui/source/file_reading.h"
 #include "gui/source/recording_settings.h"
 
 namespace palpate::gui {
@@ -36,9 +37,10 @@ class PlanController : public QObject {
   // These throw Error with one line for the user; then nothing has changed.
   void addRow(const PlanRow& row);
   void setRow(std::size_t row, const PlanRow& now);
-  void importCsv(const std::filesystem::path& path);
   void exportCsv(const std::filesystem::path& path) const;
   void removeRow(std::size_t row);
+  // Replaces the plan by a table, which is read in the background; imported() follows.
+  void importCsv(const std::filesystem::path& path);
   // The takes are forgotten, their files stay.
   void beginAnew();
 
@@ -66,12 +68,14 @@ class PlanController : public QObject {
   QString progressText() const;
   QString nextText() const;
 
-  // Waits for the check that runs.
+  // Waits for the check and the import that run.
   void settle();
 
  signals:
   void changed();
   void followedChanged(bool on);
+  // `problem`: one line for the user, and the plan is as it was; empty: it is the table's.
+  void imported(const QString& problem);
   // `problem` is empty for a good take.
   void checked(const std::filesystem::path& file, const QString& problem);
 
@@ -87,6 +91,7 @@ class PlanController : public QObject {
   TakeCheckOptions limits_;
   std::optional<std::filesystem::path> lastTake_;
   BackgroundJob checking_;
+  FileReading reading_;
 };
 
 }  // namespace palpate::gui

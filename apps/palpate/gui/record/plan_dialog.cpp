@@ -2,6 +2,7 @@
 
 #include <QAction>
 #include <QCheckBox>
+#include <QFileInfo>
 #include <QFrame>
 #include <QHBoxLayout>
 #include <QHeaderView>
@@ -88,6 +89,7 @@ PlanDialog::PlanDialog(WindowState& windowState,
   whole->addWidget(makeFoot());
   connect(model_, &PlanModel::refused, this, &PlanDialog::say);
   connect(&controller, &PlanController::changed, this, &PlanDialog::showState);
+  connect(&controller, &PlanController::imported, this, &PlanDialog::say);
   connect(&windowState.live, &LiveController::stateChanged, this, &PlanDialog::showState);
   connect(record, &QAction::changed, this, &PlanDialog::showState);
   connect(table_->selectionModel(),
@@ -311,12 +313,8 @@ void PlanDialog::importTable() {
                           " takes is replaced by the table; files stay. Replace it?",
                       "Replace"))
     return;
-  try {
-    controller_.importCsv(path.toStdString());
-    say({});
-  } catch (const Error& error) {
-    say(QString::fromUtf8(error.what()));
-  }
+  say("reading " + QFileInfo(path).fileName() + "…");
+  controller_.importCsv(path.toStdString());
 }
 
 void PlanDialog::exportTable() {

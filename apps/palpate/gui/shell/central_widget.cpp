@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "gui/appearance/settings_file.h"
 #include "gui/widgets/fitting_pages.h"
 
 namespace palpate::gui {
@@ -61,7 +62,7 @@ void CentralWidget::add(std::vector<BannerSpec> strips) {
 void CentralWidget::begin() {
   constexpr int kAlike = 1000;
   lines_->addWidget(pages_, 1);
-  if (!views_->restoreState(settings_.value(kViewsKey).toByteArray()))
+  if (!restoreParts(*views_, settings_, kViewsKey))
     views_->setSizes(QList<int>(views_->count(), kAlike));
   setPlace(DisplayedSource::Kind::kNothing);
 }
@@ -73,6 +74,6 @@ void CentralWidget::setPlace(DisplayedSource::Kind place) {
 
 void CentralWidget::setComparing(bool on) { work_->setCurrentIndex(on ? 1 : 0); }
 
-void CentralWidget::remember() { settings_.setValue(kViewsKey, views_->saveState()); }
+void CentralWidget::remember() { storeParts(*views_, settings_, kViewsKey); }
 
 }  // namespace palpate::gui

@@ -8,6 +8,7 @@
 #include <cstdlib>
 
 #include "gui/shell/central_widget.h"
+#include "gui/shell/dock_layout.h"
 #include "gui/widgets/dock.h"
 #include "gui/widgets/fitting_pages.h"
 #include "gui/window_state/action_registry.h"
@@ -37,6 +38,12 @@ bool isAcross(Qt::DockWidgetArea side) {
   return side == Qt::BottomDockWidgetArea || side == Qt::TopDockWidgetArea;
 }
 
+// Empty: there is none that Qt can restore safely.
+QByteArray storedLayout(const QSettings& settings, const char* key) {
+  const QByteArray layout = settings.value(key).toByteArray();
+  return isDockLayout(layout) ? layout : QByteArray();
+}
+
 QString shownKey(const Dock& dock) { return dock.objectName().toLower() + "/shown"; }
 
 }  // namespace
@@ -45,8 +52,8 @@ DockArrangement::DockArrangement(QMainWindow& window,
                                  const CentralWidget& centre,
                                  QSettings& settings)
     : window_(window), centre_(centre), settings_(settings) {
-  layouts_[Kind::kRecording] = settings.value("window/layout").toByteArray();
-  layouts_[Kind::kLive] = settings.value("window/live_layout").toByteArray();
+  layouts_[Kind::kRecording] = storedLayout(settings, "window/layout");
+  layouts_[Kind::kLive] = storedLayout(settings, "window/live_layout");
   window.setCorner(Qt::BottomRightCorner, Qt::BottomDockWidgetArea);
   window.setCorner(Qt::BottomLeftCorner, Qt::BottomDockWidgetArea);
   window.installEventFilter(this);

@@ -7,6 +7,7 @@
 #include <QTimer>
 #include <algorithm>
 
+#include "gui/appearance/settings_file.h"
 #include "gui/appearance/text_size.h"
 #include "gui/desktop/application.h"
 #include "gui/desktop/greyed_keys.h"
@@ -17,6 +18,7 @@
 #include "gui/shell/features.h"
 #include "gui/shell/screen_room.h"
 #include "gui/shell/status_report.h"
+#include "gui/source/file_reading.h"
 #include "gui/widgets/dock.h"
 #include "gui/widgets/message_banner.h"
 #include "gui/widgets/status_strip.h"
@@ -83,7 +85,7 @@ MainWindow::MainWindow(const WindowEnvironment& environment)
   // the window changes.
   windowState_->displayed.follow();
   resize(firstSize());
-  restoreGeometry(windowState_->settings.value("window/geometry").toByteArray());
+  restorePlace(*this, windowState_->settings, "window/geometry");
   centre_->begin();
   docks_->begin();
   emit windowState_->appearance.themeChanged();
@@ -234,7 +236,7 @@ void MainWindow::remember() {
   for (const auto& feature : features_) feature->remember();
   centre_->remember();
   docks_->remember();
-  windowState_->settings.setValue("window/geometry", saveGeometry());
+  storePlace(*this, windowState_->settings, "window/geometry");
   forgetChosen(windowState_->settings);
   windowState_->settings.sync();
 }
@@ -288,6 +290,7 @@ void MainWindow::closeUnasked() {
 }
 
 void MainWindow::settle() {
+  for (FileReading* reading : findChildren<FileReading*>()) reading->settle();
   for (const auto& feature : features_) feature->settle();
 }
 

@@ -1,6 +1,7 @@
 #include "gui/source/event_editor.h"
 
 #include <algorithm>
+#include <iterator>
 #include <stdexcept>
 
 namespace palpate::gui {
@@ -20,6 +21,27 @@ class EventEditor::Change : public QUndoCommand {
   EventEditor& editor_;
   std::optional<RecordingEvent> before_;
   std::optional<RecordingEvent> after_;
+};
+
+// Undo command that adds any number of events: one after the other, each would move all others.
+class EventEditor::Addition : public QUndoCommand {
+ public:
+  Addition(EventEditor& editor, std::vector<RecordingEvent> added, const QString& name)
+      : QUndoCommand(name), editor_(editor), before_(editor.events_), after_(editor.events_) {
+    after_.insert(
+        after_.end(), std::make_move_iterator(added.begin()), std::make_move_iterator(added.end()));
+    std::stable_sort(
+        after_.begin(), after_.end(), [](const RecordingEvent& a, const RecordingEvent& b) {
+          return a.tUs < b.tUs;
+        });
+  }
+  void undo() override { editor_.events_ = before_; }
+  void redo() override { editor_.events_ = after_; }
+
+ private:
+  EventEditor& editor_;
+  std::vector<RecordingEvent> before_;
+  std::vector<RecordingEvent> after_;
 };
 
 EventEditor::EventEditor(EventsReport asRead, Save save, QObject* parent)
@@ -56,6 +78,10 @@ void EventEditor::push(std::optional<RecordingEvent> before,
 
 void EventEditor::add(const RecordingEvent& event, const QString& name) {
   push(std::nullopt, event, name);
+}
+
+void EventEditor::add(std::vector<RecordingEvent> events, const QString& name) {
+  if (!events.empty()) undo_.push(new Addition(*this, std::move(events), name));
 }
 
 void EventEditor::change(std::size_t index, const RecordingEvent& to, const QString& name) {

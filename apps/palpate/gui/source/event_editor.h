@@ -28,6 +28,8 @@ class EventEditor : public QObject {
   // `name` names the change in the menu Edit. change() and remove() throw std::out_of_range for an
   // event that doesn't exist.
   void add(const RecordingEvent& event, const QString& name);
+  // Several at once, which are undone together.
+  void add(std::vector<RecordingEvent> events, const QString& name);
   void change(std::size_t index, const RecordingEvent& to, const QString& name);
   void remove(std::size_t index, const QString& name);
   // Groups several changes, so that they are undone together.
@@ -43,6 +45,7 @@ class EventEditor : public QObject {
 
  private:
   class Change;
+  class Addition;
   void push(std::optional<RecordingEvent> before,
             std::optional<RecordingEvent> after,
             const QString& name);

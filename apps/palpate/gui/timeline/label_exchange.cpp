@@ -8,7 +8,6 @@
 #include <palpate/core/number_text.h>
 #include <palpate/core/text_file.h>
 #include <palpate/core/text_table.h>
-#include <palpate/recording/label_table.h>
 
 #include "gui/appearance/captions.h"
 
@@ -37,6 +36,16 @@ QString countsOf(const std::vector<RecordingEvent>& events) {
           QString::fromStdString(counted(static_cast<std::uint64_t>(number), std::string(noun))));
   }
   return counts.isEmpty() ? labelCount(0) : counts.join(", ");
+}
+
+// Throws Error with one line for the user, which names the file.
+LabelTable tableIn(const QString& path, const Profile& profile) {
+  const std::string text = readTextFile(path.toStdString(), kMaxLabelTableBytes);
+  try {
+    return readLabelTable(text, profile);
+  } catch (const Error& error) {
+    throw FormatError(path.toStdString(), error.what());
+  }
 }
 
 }  // namespace
@@ -114,35 +123,37 @@ void LabelExchange::importLabels() {
   // The dialogue runs an event loop: the recording may have been closed meanwhile.
   EventEditor* editor = windowState_.events.editor();
   if (path.isEmpty() || !editor || windowState_.displayed.recorded() != recording) return;
-  Messages& messages = windowState_.messages;
-  const QString name = QFileInfo(path).fileName();
-  messages.withdraw(kImportTopic);
-  try {
-    const LabelTable table =
-        readLabelTable(readTextFile(path.toStdString(), kMaxLabelTableBytes), recording->profile);
-    const std::vector<RecordingEvent> added = newLabels(table, editor->events());
-    if (!added.empty())
-      editor->changeTogether("importing labels", [&] {
-        for (const RecordingEvent& event : added) editor->add(event, "importing labels");
-      });
-    const std::size_t known = table.events.size() - added.size();
-    QString said = name + ": " + countsOf(added) + " added";
-    if (known > 0)
-      said += ", " + QString::number(known) + (known == 1 ? " was" : " were") + " there already";
-    if (table.problems.empty()) return messages.flash(said);
-    QStringList problems;
-    for (const std::string& problem : table.problems) {
-      if (problems.size() == kMostProblems) break;
-      problems.append(QString::fromStdString(problem));
-    }
-    const auto bad = static_cast<qsizetype>(table.problems.size());
-    if (bad > kMostProblems) problems.append(QString::number(bad - kMostProblems) + " more");
-    fail(said + "; left out: " + problems.join("; "), !added.empty());
-  } catch (const FileError& error) {
-    fail(QString::fromUtf8(error.what()));
-  } catch (const Error& error) {
-    fail(path + ": " + QString::fromUtf8(error.what()));
+  windowState_.messages.withdraw(kImportTopic);
+  reading_.start(
+      [this, path, recording, editor = QPointer(editor)]() -> FileReading::Take {
+        return [this, path, editor, table = tableIn(path, recording->profile)] {
+          // It may have been closed meanwhile.
+          if (editor && editor == windowState_.events.editor()) take(table, path);
+        };
+      },
+      [this](const QString& problem) { fail(problem); });
+}
+
+void LabelExchange::take(const LabelTable& table, const QString& path) {
+  EventEditor* editor = windowState_.events.editor();
+  const std::vector<RecordingEvent> added = newLabels(table, editor->events());
+  editor->add(added, "importing labels");
+  const std::size_t known = table.events.size() - added.size();
+  QString said = QFileInfo(path).fileName() + ": " + countsOf(added) + " added";
+  if (known > 0)
+    said += ", " + QString::number(known) + (known == 1 ? " was" : " were") + " there already";
+  if (table.problems.empty()) return windowState_.messages.flash(said);
+  QStringList problems;
+  for (const std::string& problem : table.problems) {
+    if (problems.size() == kMostProblems) break;
+    problems.append(QString::fromStdString(problem));
   }
+  const auto bad = static_cast<qsizetype>(table.problems.size());
+  if (table.more)
+    problems.append("and more");
+  else if (bad > kMostProblems)
+    problems.append(QString::number(bad - kMostProblems) + " more");
+  fail(said + "; left out: " + problems.join("; "), !added.empty());
 }
 
 }  // namespace palpate::gui

@@ -6,7 +6,10 @@
 #include <QPointer>
 #include <QString>
 
+#include <palpate/recording/label_table.h>
+
 #include "gui/source/event_editor.h"
+#include "gui/source/file_reading.h"
 #include "gui/window_state/window_state.h"
 
 namespace palpate::gui {
@@ -21,6 +24,7 @@ class LabelExchange : public QObject {
   void importLabels();
 
  private:
+  void take(const LabelTable& table, const QString& path);
   void fail(const QString& message, bool added = false);
   void withdrawWhenUndone();
 
@@ -30,6 +34,7 @@ class LabelExchange : public QObject {
   bool failed_ = false;
   QPointer<EventEditor> failedIn_;
   int failedAt_ = 0;
+  FileReading reading_{this};
 };
 
 }  // namespace palpate::gui

@@ -43,6 +43,9 @@ constexpr double kCursorAir = 0.1;
 constexpr const char* kAxesSetting = "plotted/axes";
 constexpr const char* kLiveAxesSetting = "live/axes";
 
+// In the unit of the axis.
+constexpr double kLargestAxisValue = 1e12;
+
 // Each range is a text "begin end unit".
 RangesByHand loadRanges(const QSettings& settings, const char* name) {
   RangesByHand ranges;
@@ -52,7 +55,9 @@ RangesByHand loadRanges(const QSettings& settings, const char* name) {
     const double from = text.section(' ', 0, 0).toDouble(&fromGood);
     const double to = text.section(' ', 1, 1).toDouble(&toGood);
     const QString unit = text.section(' ', 2);
-    if (fromGood && toGood && !unit.isEmpty()) ranges[unit] = {from, to};
+    if (fromGood && toGood && from < to && from >= -kLargestAxisValue && to <= kLargestAxisValue &&
+        !unit.isEmpty())
+      ranges[unit] = {from, to};
   }
   return ranges;
 }

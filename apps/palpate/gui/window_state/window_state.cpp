@@ -8,6 +8,7 @@
 #include <palpate/recording/recording.h>
 
 #include "gui/appearance/captions.h"
+#include "gui/appearance/settings_file.h"
 
 namespace palpate::gui {
 namespace {
@@ -37,7 +38,7 @@ RecordingOpener::ReadDamaged damagedReaderOf(const WindowEnvironment& environmen
 
 WindowState::WindowState(const WindowEnvironment& given, QWidget* window)
     : environment(given),
-      settings(given.settingsPath, QSettings::IniFormat),
+      settings(readableSettings(given.settingsPath), QSettings::IniFormat),
       recent(settings),
       appearance(settings),
       log(clockOf(given)),
