@@ -19,6 +19,11 @@ constexpr milliseconds kUrgentAfter{10};
 constexpr milliseconds kSdhLinkSlice{4};  // period of calling `urgent` while waiting
 constexpr milliseconds kExchangeLimit{3500};
 
+// 40 blanks, more than the longest record has bytes, then the line.
+constexpr std::string_view kSdhStopBytes = "                                         \r\nstop\r\n";
+constexpr std::size_t kSdhStopBlanks = 40;
+static_assert(kSdhStopBytes.find('\r') == kSdhStopBlanks + 1);
+
 std::span<const std::byte> bytesOf(std::string_view text) {
   return std::as_bytes(std::span<const char>(text.data(), text.size()));
 }
@@ -31,6 +36,10 @@ bool isTransmissionError(int code) {
 }
 
 }  // namespace
+
+std::string_view sdhStopBytes(bool isNetwork) noexcept {
+  return isNetwork ? kSdhStopBytes.substr(kSdhStopBlanks) : kSdhStopBytes;
+}
 
 SdhLink::SdhLink(ByteChannel& channel, const Clock& clock, std::function<bool()> urgent)
     : channel_(channel),
@@ -90,10 +99,9 @@ void SdhLink::resync(bool thorough) {
   replies_.clear();
   needsResync_ = true;
   drain(kSilence, kDrainLimit);
-  // Blanks before a command have no meaning. As many as the longest record complete a record that
-  // the hand received in part; it then fails by its checksum. Network records have no checksum:
-  // there the hand would take the blanks for values.
-  if (thorough && !channel_.isNetwork()) sendText(std::string(40, ' '));
+  // Completes a record that the hand received in part, which then fails by its checksum; as in
+  // sdhStopBytes().
+  if (thorough && !channel_.isNetwork()) sendText(kSdhStopBytes.substr(0, kSdhStopBlanks));
   sendText(" \r\n");
   drain(kSilence, kDrainLimit);
   needsResync_ = false;
@@ -105,7 +113,7 @@ void SdhLink::abortIfUrgent() {
   if (!urgent_ || !urgent_()) return;
   needsResync_ = true;
   ++stats_.stops;
-  sendText(" \r\nstop\r\n");
+  sendText(sdhStopBytes(true));
   throw SdhInterrupted(channel_.name());
 }
 
@@ -270,7 +278,7 @@ void SdhLink::stop() {
     parser_.reset();
     // Sent in one piece before anything else; later ones also end a record that the hand received
     // in part.
-    sendText((first || channel_.isNetwork() ? "" : std::string(40, ' ')) + " \r\nstop\r\n");
+    sendText(sdhStopBytes(first || channel_.isNetwork()));
     first = false;
     needsResync_ = true;
     const std::int64_t endUs = clock_.monotonicUs() + usOf(timeout);

@@ -24,6 +24,12 @@ struct SdhRetryPolicy {
   bool abortsForStop = true;  // ends the exchange early for a stop
 };
 
+// The bytes that stop the hand whatever it received before, for whoever doesn't wait for an answer.
+// Blanks before a command have no meaning; as many as the longest record end one that the hand has
+// received in part. Not over a network, where records have no checksum and the hand would take the
+// blanks for values. The text is static: a signal handler may send it.
+std::string_view sdhStopBytes(bool isNetwork) noexcept;
+
 class SdhLink {
  public:
   using Bytes = std::span<const std::byte>;
