@@ -74,6 +74,11 @@ std::filesystem::path& stopProgram() {
   return program;
 }
 
+std::string lastStopProblem(int error) {
+  return stopProgram().string() + ": can't be started (" + std::generic_category().message(error) +
+         "): if the program is killed in a motion, nothing stops the hand; install palpate again";
+}
+
 }  // namespace
 
 void stopHandsInACrash() {
@@ -87,6 +92,11 @@ void stopHandsInACrash() {
 }
 
 void stopHandsWhenKilled(std::filesystem::path program) { stopProgram() = std::move(program); }
+
+std::string stopProgramProblem() {
+  const bool missing = !stopProgram().empty() && ::access(stopProgram().c_str(), X_OK) != 0;
+  return missing ? lastStopProblem(errno) : std::string();
+}
 
 CrashStack::CrashStack() noexcept {
   stack_t before{};
@@ -158,10 +168,7 @@ void LastStop::start(const ByteChannel& channel) {
     return;
   }
   pid_ = -1;
-  problem_ = stopProgram().string() + ": can't be started (" +
-             std::generic_category().message(error) +
-             "): if the program is killed in a motion, nothing stops the hand; install palpate "
-             "again";
+  problem_ = lastStopProblem(error);
 }
 
 }  // namespace palpate

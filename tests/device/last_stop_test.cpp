@@ -232,6 +232,17 @@ TEST(LastStop, AHundredConnectionsLeaveNothingOpen) {
   EXPECT_TRUE(stopProgramsOf(pty.path()).empty());
 }
 
+TEST(StopProgram, IsMissingWhereItCannotBeExecuted) {
+  EXPECT_EQ(stopProgramProblem(), "") << "none was asked for";
+  stopHandsWhenKilled(kStopProgram);
+  EXPECT_EQ(stopProgramProblem(), "");
+  stopHandsWhenKilled("/no/such/palpate_stop");
+  EXPECT_EQ(stopProgramProblem(),
+            "/no/such/palpate_stop: can't be started (No such file or directory): if the program "
+            "is killed in a motion, nothing stops the hand; install palpate again");
+  stopHandsWhenKilled({});
+}
+
 TEST(StopProgram, LoadsTheCLibraryOnly) {
   if (!kMemoryIsOurs) GTEST_SKIP() << "a sanitizer is loaded, too";
   const ProgramResult result = runProgram("/usr/bin/ldd", {kStopProgram});

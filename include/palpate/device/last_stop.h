@@ -21,6 +21,9 @@ void stopHandsInACrash();
 // From now on, a LastStop starts `program`: palpate_stop; empty: none, as without this call. Called
 // by main(), before there are threads.
 void stopHandsWhenKilled(std::filesystem::path program);
+// What is wrong if that program is missing or can't be executed, with its path and what to do;
+// otherwise empty.
+std::string stopProgramProblem();
 
 // The stack on which a crash of this thread is handled: on its own stack there may be no room left.
 // A local variable of a thread's first function. A stack that was set before (by a sanitizer)
