@@ -56,7 +56,7 @@ extern "C" void handleCrash(int number, siginfo_t* facts, void*) {
   for (int times = 0; times < 3; ++times)
     for (const CrashPort& port : crashPorts)
       if (const int fd = port.fd; fd >= 0)
-        writeInACrash(fd, port.isNetwork, sdhStopBytes(port.isNetwork));
+        writeInACrash(fd, port.isNetwork, sdhStopBytes(!port.isNetwork));
   for (std::size_t i = 0; i < kCrashSignals.size(); ++i)
     if (kCrashSignals[i] == number) ::sigaction(number, &actionsBefore[i], nullptr);
   // A fault of the machine occurs again when the handler returns, with the same registers, for the
@@ -157,7 +157,7 @@ void LastStop::start(const ByteChannel& channel) {
     posix_spawnattr_t attributes;
     posix_spawnattr_init(&attributes);
     posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSID);
-    std::string name = "hand_stop", bytes(sdhStopBytes(channel.isNetwork()));
+    std::string name = "hand_stop", bytes(sdhStopBytes(!channel.isNetwork()));
     std::array<char*, 3> words = {name.data(), bytes.data(), nullptr};
     error = ::posix_spawn(&pid_, stopProgram().c_str(), &files, &attributes, words.data(), environ);
     posix_spawnattr_destroy(&attributes);

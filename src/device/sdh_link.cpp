@@ -18,11 +18,7 @@ constexpr milliseconds kGap{150};  // a longer gap within an answer means that t
 constexpr milliseconds kUrgentAfter{10};
 constexpr milliseconds kSdhLinkSlice{4};  // period of calling `urgent` while waiting
 constexpr milliseconds kExchangeLimit{3500};
-
-// 40 blanks, more than the longest record has bytes, then the line.
-constexpr std::string_view kSdhStopBytes = "                                         \r\nstop\r\n";
-constexpr std::size_t kSdhStopBlanks = 40;
-static_assert(kSdhStopBytes.find('\r') == kSdhStopBlanks + 1);
+constexpr std::size_t kLongestRecordBytes = 40;
 
 std::span<const std::byte> bytesOf(std::string_view text) {
   return std::as_bytes(std::span<const char>(text.data(), text.size()));
@@ -37,8 +33,13 @@ bool isTransmissionError(int code) {
 
 }  // namespace
 
-std::string_view sdhStopBytes(bool isNetwork) noexcept {
-  return isNetwork ? kSdhStopBytes.substr(kSdhStopBlanks) : kSdhStopBytes;
+std::string_view sdhStopBytes(bool record) {
+  // As many blanks as the longest record has bytes.
+  static constexpr std::string_view kStop =
+      "                                        "
+      " \r\nstop\r\n";
+  static_assert(kStop.size() == kLongestRecordBytes + std::string_view(" \r\nstop\r\n").size());
+  return record ? kStop : kStop.substr(kLongestRecordBytes);
 }
 
 SdhLink::SdhLink(ByteChannel& channel, const Clock& clock, std::function<bool()> urgent)
@@ -99,9 +100,10 @@ void SdhLink::resync(bool thorough) {
   replies_.clear();
   needsResync_ = true;
   drain(kSilence, kDrainLimit);
-  // Completes a record that the hand received in part, which then fails by its checksum; as in
-  // sdhStopBytes().
-  if (thorough && !channel_.isNetwork()) sendText(kSdhStopBytes.substr(0, kSdhStopBlanks));
+  // Blanks before a command have no meaning. As many as the longest record complete a record that
+  // the hand received in part; it then fails by its checksum. Network records have no checksum:
+  // there the hand would take the blanks for values.
+  if (thorough && !channel_.isNetwork()) sendText(std::string(kLongestRecordBytes, ' '));
   sendText(" \r\n");
   drain(kSilence, kDrainLimit);
   needsResync_ = false;
@@ -113,7 +115,7 @@ void SdhLink::abortIfUrgent() {
   if (!urgent_ || !urgent_()) return;
   needsResync_ = true;
   ++stats_.stops;
-  sendText(sdhStopBytes(true));
+  sendText(sdhStopBytes(false));
   throw SdhInterrupted(channel_.name());
 }
 
@@ -278,7 +280,7 @@ void SdhLink::stop() {
     parser_.reset();
     // Sent in one piece before anything else; later ones also end a record that the hand received
     // in part.
-    sendText(sdhStopBytes(first || channel_.isNetwork()));
+    sendText(sdhStopBytes(!first && !channel_.isNetwork()));
     first = false;
     needsResync_ = true;
     const std::int64_t endUs = clock_.monotonicUs() + usOf(timeout);

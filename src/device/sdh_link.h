@@ -18,17 +18,17 @@
 
 namespace palpate {
 
+// The bytes that stop the hand whatever it has received before: they end a line, and with `record`
+// also complete a binary record, that it received in part (blanks before a command have no
+// meaning). Over a network, records have no checksum, and the hand would take blanks for values:
+// `record` must be false there.
+std::string_view sdhStopBytes(bool record);
+
 struct SdhRetryPolicy {
   std::chrono::milliseconds timeout{1000};  // time limit of one try
   int tries = 3;
   bool abortsForStop = true;  // ends the exchange early for a stop
 };
-
-// The bytes that stop the hand whatever it received before, for whoever doesn't wait for an answer.
-// Blanks before a command have no meaning; as many as the longest record end one that the hand has
-// received in part. Not over a network, where records have no checksum and the hand would take the
-// blanks for values. The text is static: a signal handler may send it.
-std::string_view sdhStopBytes(bool isNetwork) noexcept;
 
 class SdhLink {
  public:
