@@ -181,7 +181,7 @@ TEST_F(Installed, WithoutTheProgramOfTheWindowTheOtherCommandsWork) {
 TEST_F(Installed, WithoutTheProgramOfTheLastStopAGraspSaysSo) {
   const fs::path stop = path("libexec/palpate/palpate_stop");
   const auto grasp = [] {
-    return palpate({"grasp", "--sdh", "/no/such/port", "--preshape", "pinch", "--wait", "0.1"});
+    return palpate({"grasp", "--sdh", "/no/such/port", "--preshape", "centrical", "--wait", "0.1"});
   };
   const std::string without = stop.string() + ": can't be started (No such file or directory)";
   EXPECT_EQ(grasp().err.find(without), std::string::npos);
