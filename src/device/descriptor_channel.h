@@ -16,6 +16,7 @@ class DescriptorChannel : public ByteChannel {
   void write(std::span<const std::byte> bytes) override;
   void interrupt() noexcept override;
   const std::string& name() const noexcept override { return name_; }
+  int descriptor() const noexcept override { return fd_; }
 
  protected:
   // Throws DeviceError when the system has no descriptor left.

@@ -131,6 +131,7 @@ void MotionLink::openController() {
 void MotionLink::connect(ByteChannel& channel) {
   SdhControllerOptions options;
   options.urgent = [this] { return stopping() || stopWaits(); };
+  opened_ = &channel;
   controller_ = std::make_unique<SdhController>(channel, clock_, options);
   const bool leftMoving = stopAfterReconnect_;
   if (leftMoving) {
@@ -160,6 +161,7 @@ void MotionLink::connect(ByteChannel& channel) {
 }
 
 void MotionLink::disconnected() {
+  lastStop_.reset();
   countBytes();
   if (controller_) {
     const SdhStats stats = controller_->stats();
@@ -213,6 +215,8 @@ void MotionLink::closing() {
     eventNow("motion", "stopped: the connection was closed during a motion");
   }
 }
+
+void MotionLink::ended() { lastStop_.reset(); }
 
 void MotionLink::countBytes() {
   if (!controller_) return;
@@ -297,6 +301,13 @@ void MotionLink::pollStates() {
   event("motion", "motion ended", session_.motionFromUs, time_.nowUs());
 }
 
+void MotionLink::prepareLastStop() {
+  if (lastStop_) return;
+  lastStop_.emplace(*opened_);
+  if (lastStop_->problem().empty() || std::exchange(session_.saidNoLastStop, true)) return;
+  eventNow("alarm", lastStop_->problem());
+}
+
 CommandAnswer MotionLink::move(const MoveJoints& move) {
   const std::vector<AxisDescription>& axes = sdh2().axes;
   std::vector<double> least, most;
@@ -318,6 +329,7 @@ CommandAnswer MotionLink::move(const MoveJoints& move) {
   controller_->setProfile(move.ramp ? kRampProfile : kSinSquareProfile);
   if (!move.velocityDegPerS.empty()) controller_->setVelocities(move.velocityDegPerS);
   controller_->setTargets(move.targetDeg);
+  prepareLastStop();
   session_.motionFromUs = time_.nowUs();
   // Set even if the answer gets lost, because the hand may move then, too.
   session_.moving = true;

@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include <palpate/device/last_stop.h>
 #include <palpate/device/sdh_controller.h>
 
 #include "device/port_link.h"
@@ -32,6 +33,7 @@ class MotionLink : public PortLink {
   void emergencyStop() override;
   void forget() override;
   void closing() override;
+  void ended() override;
   CommandAnswer execute(const DeviceCommand& command) override;
   void enqueue(QueuedCommand order) override;
 
@@ -45,11 +47,15 @@ class MotionLink : public PortLink {
   void pollStates();
   CommandAnswer move(const MoveJoints& move);
   void stopMotion();
+  void prepareLastStop();
   void countBytes();
 
   const std::int64_t anglePeriodUs_;
   const std::int64_t temperaturePeriodUs_;
   std::unique_ptr<SdhController> controller_;
+  ByteChannel* opened_ = nullptr;  // that of controller_
+  // From the first motion of a connection to its end.
+  std::optional<LastStop> lastStop_;
 
   std::optional<SdhControllerInfo> known_;  // requires mutex_
   std::vector<int> states_;                 // requires mutex_
@@ -72,6 +78,7 @@ class MotionLink : public PortLink {
     std::int64_t lastAngleStampUs = 0;
     std::int64_t lastTemperatureStampUs = 0;
     int failures = 0;  // consecutive failed exchanges
+    bool saidNoLastStop = false;
     SdhStats before;
     std::uint64_t samples = 0;
   };

@@ -70,8 +70,10 @@ bool makeRaw(int fd) noexcept {
   return ::tcsetattr(fd, TCSANOW, &settings) == 0;
 }
 
-TtyChannel::TtyChannel(std::string name, FileDescriptor fd)
-    : DescriptorChannel(std::move(name), fd.get(), false), fd_(std::move(fd)) {}
+TtyChannel::TtyChannel(std::string name, FileDescriptor fd, FileDescriptor lock)
+    : DescriptorChannel(std::move(name), fd.get(), false),
+      lock_(std::move(lock)),
+      fd_(std::move(fd)) {}
 
 std::unique_ptr<ByteChannel> TtyChannel::open(const std::string& path, const std::string& name) {
   FileDescriptor fd(::open(path.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC));
@@ -85,10 +87,12 @@ std::unique_ptr<ByteChannel> TtyChannel::open(const std::string& path, const std
         DeviceFault::kBusy, name, "this is the terminal the program runs in; name another port");
   // Uses flock only: TIOCEXCL persists on a pty as long as its other end is open, so that a killed
   // program would lock out its own successor.
-  lockLine(fd.get(), name);
+  FileDescriptor lock(::open(path.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC));
+  if (lock.get() < 0) throwOpenError(errno, name);
+  lockLine(lock.get(), name);
   if (!makeRaw(fd.get())) throwOpenError(errno, name);
   ::tcflush(fd.get(), TCIFLUSH);
-  return std::unique_ptr<ByteChannel>(new TtyChannel(name, std::move(fd)));
+  return std::unique_ptr<ByteChannel>(new TtyChannel(name, std::move(fd), std::move(lock)));
 }
 
 }  // namespace palpate

@@ -22,7 +22,9 @@ class TtyChannel final : public DescriptorChannel {
   static std::unique_ptr<ByteChannel> open(const std::string& path, const std::string& name);
 
  private:
-  TtyChannel(std::string name, FileDescriptor fd);
+  TtyChannel(std::string name, FileDescriptor fd, FileDescriptor lock);
+  // Lock on the device, apart from fd_: a duplicate of a locked descriptor holds the lock, too.
+  FileDescriptor lock_;
   FileDescriptor fd_;
 };
 

@@ -61,6 +61,7 @@ class Installed : public ::testing::Test {
 TEST_F(Installed, HasEverythingThatAPackageTakes) {
   for (const char* name : {"bin/palpate",
                            "libexec/palpate/palpate_window",
+                           "libexec/palpate/palpate_stop",
                            "share/applications/palpate.desktop",
                            "share/metainfo/palpate.metainfo.xml",
                            "share/mime/packages/palpate.xml",
@@ -95,7 +96,7 @@ TEST_F(Installed, HasNothingOfTheBuild) {
     const bool runs = (entry.status().permissions() & fs::perms::owner_exec) != fs::perms::none;
     EXPECT_EQ(runs,
               entry.path() == path("bin/palpate") ||
-                  entry.path() == path("libexec/palpate/palpate_window"))
+                  entry.path().parent_path() == path("libexec/palpate"))
         << entry.path();
   }
 }
@@ -175,6 +176,19 @@ TEST_F(Installed, WithoutTheProgramOfTheWindowTheOtherCommandsWork) {
                   ": the part of palpate with the window and this command can't be started: No "
                   "such file or directory; install palpate again\n");
   }
+}
+
+TEST_F(Installed, WithoutTheProgramOfTheLastStopAGraspSaysSo) {
+  const fs::path stop = path("libexec/palpate/palpate_stop");
+  const auto grasp = [] {
+    return palpate({"grasp", "--sdh", "/no/such/port", "--preshape", "centrical", "--wait", "0.1"});
+  };
+  const std::string without = stop.string() + ": can't be started (No such file or directory)";
+  EXPECT_EQ(grasp().err.find(without), std::string::npos);
+  fs::rename(stop, stop.string() + "_away");
+  const ProgramResult result = grasp();
+  fs::rename(stop.string() + "_away", stop);
+  EXPECT_TRUE(result.err.starts_with("palpate: " + without)) << result.err;
 }
 
 TEST_F(Installed, PythonModuleIsFound) {

@@ -16,6 +16,7 @@
 #include "palpate/core/number_text.h"
 #include "palpate/core/text_file.h"
 #include "palpate/core/time.h"
+#include "palpate/device/last_stop.h"
 #include "palpate/device/live_hand.h"
 #include "palpate/model/hand_file.h"
 #include "palpate/model/preshape.h"
@@ -301,6 +302,8 @@ int graspCommand(const Arguments& words) {
   const double waitS = given.number("wait", 0.1, 1e6).value_or(15.0);
   std::optional<Calibration> calibration;
   if (const auto file = given.text("calibration")) calibration = loadCalibration(*file);
+  if (const std::string problem = stopProgramProblem(); !problem.empty())
+    std::fprintf(stderr, "palpate: %s\n", escapedLine(problem).c_str());
   const StateLines lines(given.quiet());
   Interruption interruption;
   CaptureSession session(std::make_unique<LiveHand>(std::move(ports)));
