@@ -91,8 +91,8 @@ void SeriesStore::setRecording(const OpenedRecordingPtr& recording) {
     looked.wait();
     try {
       overview->compute([&](double) { return !*stop; });
-    } catch (const Cancelled&) {
-      // What has been read stays.
+    } catch (const std::exception&) {
+      // Cancelled, or no memory is left: what has been read stays. Damage is left out and counted.
     }
     --numJobs_;
     QMetaObject::invokeMethod(this, &SeriesStore::changed, Qt::QueuedConnection);
