@@ -241,8 +241,8 @@ TEST_F(DamagedSeriesStoreTest, TheOverviewEndsAndCountsWhatCannotBeRead) {
 // F6: what was read of another span is not shown as the values of the damaged one.
 TEST_F(DamagedSeriesStoreTest, ADamagedSpanHasNoValuesOfAnother) {
   const SeriesChoice choice{Kind::kMatrix, 1, SignalKind::kMean};
+  store_.setVisibleRange(5.0, 10.0);  // first: of all of it every sample would be read at once
   store_.setWanted({choice});
-  store_.setVisibleRange(5.0, 10.0);
   store_.waitUntilRead();
   ASSERT_TRUE(store_.valueAt(choice, 7.0));
   const double from = timeS(kFirst + 100), to = timeS(kLast - 100);
