@@ -28,8 +28,6 @@ std::int64_t Playback::lastUs() const {
   return profile_.numFrames() == 0 ? 0 : profile_.frameTimeUs(profile_.numFrames() - 1);
 }
 
-std::size_t Playback::frame() const { return profile_.frameAt(positionUs_).value_or(0); }
-
 void Playback::play() {
   if (lastUs() == firstUs()) return;  // nothing to play: at most one frame
   if (positionUs_ >= lastUs()) seekFrame(0);
@@ -44,11 +42,18 @@ void Playback::setSpeed(double factor) {
 
 void Playback::seekFrame(std::size_t frame) {
   if (profile_.numFrames() == 0) return;
-  seekTime(profile_.frameTimeUs(std::min(frame, profile_.numFrames() - 1)));
+  const std::size_t to = std::min(frame, profile_.numFrames() - 1);
+  moveTo(profile_.frameTimeUs(to), to);
 }
 
 void Playback::seekTime(std::int64_t timeUs) {
-  positionUs_ = std::clamp(timeUs, firstUs(), lastUs());
+  const std::int64_t toUs = std::clamp(timeUs, firstUs(), lastUs());
+  moveTo(toUs, profile_.frameAt(toUs).value_or(0));
+}
+
+void Playback::moveTo(std::int64_t timeUs, std::size_t frame) {
+  positionUs_ = timeUs;
+  frame_ = frame;
   remainderUs_ = 0.0;
 }
 
@@ -82,6 +87,7 @@ void Playback::advance(std::int64_t elapsedUs) {
     for (const auto& [begin, end] : gapsUs_)
       if (toUs > begin && toUs < end) toUs = end;
   }
+  if (toUs != positionUs_) frame_ = profile_.frameAt(toUs).value_or(0);
   positionUs_ = toUs;
   if (positionUs_ < lastUs()) return;
   remainderUs_ = 0.0;

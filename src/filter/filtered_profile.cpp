@@ -102,6 +102,15 @@ class BesideFrames : public ProfileStorage {
   Temperatures temperatures(std::size_t sample) const override {
     return source_.temperatures(sample);
   }
+  std::optional<std::size_t> frameAt(std::int64_t timeUs) const override {
+    return source_.frameAt(timeUs);
+  }
+  std::optional<std::size_t> angleSampleAt(std::int64_t timeUs) const override {
+    return source_.angleSampleAt(timeUs);
+  }
+  std::optional<std::size_t> temperatureSampleAt(std::int64_t timeUs) const override {
+    return source_.temperatureSampleAt(timeUs);
+  }
 
  protected:
   const Profile source_;

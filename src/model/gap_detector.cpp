@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <span>
+#include <utility>
 
 #include "palpate/core/statistics.h"
 
@@ -25,6 +26,7 @@ bool GapDetector::afterGap(std::int64_t stampUs) {
   lastUs_ = stampUs;
   any_ = true;
   if (!second) return false;
+  if (std::exchange(loss_, false)) return true;  // its interval is not that of two frames
   // The median is computed only when the interval is long enough to be a gap.
   const bool gap = intervalUs > kShortestGapUs && !intervalsUs_.empty() &&
                    intervalUs > gapThresholdUs(medianIntervalUs());
@@ -34,7 +36,7 @@ bool GapDetector::afterGap(std::int64_t stampUs) {
 }
 
 void GapDetector::reset() {
-  any_ = false;
+  any_ = loss_ = false;
   intervalsUs_.clear();
 }
 

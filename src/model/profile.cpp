@@ -2,6 +2,8 @@
 
 #include <stdexcept>
 
+#include "palpate/core/error.h"
+
 namespace palpate {
 namespace {
 
@@ -25,6 +27,27 @@ std::optional<std::size_t> lastAtOrBefore(std::size_t count, std::int64_t timeUs
 }
 
 }  // namespace
+
+void UnreadableSamples::add(std::size_t index, const char* fault) {
+  if (count++ == 0) firstFault = fault;
+  if (!runs.empty() && runs.back().last + 1 == index)
+    runs.back().last = index;
+  else
+    runs.push_back({index, index});
+}
+
+std::optional<std::size_t> ProfileStorage::frameAt(std::int64_t timeUs) const {
+  return lastAtOrBefore(numFrames(), timeUs, [&](std::size_t i) { return frameTimeUs(i); });
+}
+
+std::optional<std::size_t> ProfileStorage::angleSampleAt(std::int64_t timeUs) const {
+  return lastAtOrBefore(numAngles(), timeUs, [&](std::size_t i) { return angleTimeUs(i); });
+}
+
+std::optional<std::size_t> ProfileStorage::temperatureSampleAt(std::int64_t timeUs) const {
+  return lastAtOrBefore(
+      numTemperatures(), timeUs, [&](std::size_t i) { return temperatureTimeUs(i); });
+}
 
 Profile::Profile(ProfileInfo info,
                  HandDescription hand,
@@ -54,6 +77,17 @@ void Profile::readFrame(std::size_t frame, TactileFrame& out) const {
   data_->storage->readFrame(frame, out);
 }
 
+bool Profile::readFrame(std::size_t frame, TactileFrame& out, UnreadableSamples* unreadable) const {
+  try {
+    readFrame(frame, out);
+    return true;
+  } catch (const Error& error) {
+    if (!unreadable) throw;
+    unreadable->add(frame, error.what());
+    return false;
+  }
+}
+
 std::int64_t Profile::angleTimeUs(std::size_t sample) const {
   check("angle sample", sample, numAngles());
   return data_->storage->angleTimeUs(sample);
@@ -75,19 +109,15 @@ Temperatures Profile::temperatures(std::size_t sample) const {
 }
 
 std::optional<std::size_t> Profile::frameAt(std::int64_t timeUs) const {
-  return lastAtOrBefore(
-      numFrames(), timeUs, [&](std::size_t i) { return data_->storage->frameTimeUs(i); });
+  return data_->storage->frameAt(timeUs);
 }
 
 std::optional<std::size_t> Profile::angleSampleAt(std::int64_t timeUs) const {
-  return lastAtOrBefore(
-      numAngles(), timeUs, [&](std::size_t i) { return data_->storage->angleTimeUs(i); });
+  return data_->storage->angleSampleAt(timeUs);
 }
 
 std::optional<std::size_t> Profile::temperatureSampleAt(std::int64_t timeUs) const {
-  return lastAtOrBefore(numTemperatures(), timeUs, [&](std::size_t i) {
-    return data_->storage->temperatureTimeUs(i);
-  });
+  return data_->storage->temperatureSampleAt(timeUs);
 }
 
 std::optional<JointAngles> Profile::anglesAtFrame(std::size_t frame) const {

@@ -60,12 +60,13 @@ std::optional<std::size_t> TimedProfile::frameAt(double seconds) const {
 
 TimedProfile timedProfile(const Profile& profile,
                           const FirstContactOptions& options,
-                          const Progress& progress) {
+                          const Progress& progress,
+                          UnreadableSamples* unreadable) {
   TimedProfile timed{.profile = profile};
   timed.timing = timingOf(profile);
   std::vector<std::size_t> gapFrames;
   for (const Gap& gap : timed.timing.gaps) gapFrames.push_back(gap.frame);
-  timed.contact = firstContact(profile, gapFrames, options, progress);
+  timed.contact = firstContact(profile, gapFrames, options, progress, unreadable);
   return timed;
 }
 

@@ -73,15 +73,16 @@ std::optional<std::size_t> firstContact(std::span<const int> active,
 std::optional<std::size_t> firstContact(const Profile& profile,
                                         std::span<const std::size_t> gapFrames,
                                         const FirstContactOptions& options,
-                                        const Progress& progress) {
+                                        const Progress& progress,
+                                        UnreadableSamples* unreadable) {
   options.validate();
   Row row(gapFrames, options);
   TactileFrame frame;
   const std::size_t numFrames = profile.numFrames();
   for (std::size_t i = 0; i < numFrames; ++i) {
     reportProgress(progress, i, numFrames, kFirstContactFramesPerReport);
-    profile.readFrame(i, frame);
-    if (row.add(i, numActive(static_cast<const TactileFrame&>(frame)))) return row.begin(i);
+    const bool readable = profile.readFrame(i, frame, unreadable);
+    if (row.add(i, readable ? numActive(frame) : 0)) return row.begin(i);
   }
   return std::nullopt;
 }

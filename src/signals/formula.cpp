@@ -246,6 +246,27 @@ void refuseUnknownFunctions(const std::string& text, const std::string& parsed) 
   }
 }
 
+// The times of the last sample before a run of samples that can't be read and of the first one
+// behind it, from the first frame [s].
+TimeSpan readableAround(const Profile& profile,
+                        SeriesChoice::Kind kind,
+                        const UnreadableSamples::Run& run) {
+  const bool ofAngles = kind == SeriesChoice::Kind::kAngle;
+  const bool ofTemperatures = kind == SeriesChoice::Kind::kTemperature;
+  const std::size_t count = ofAngles         ? profile.numAngles()
+                            : ofTemperatures ? profile.numTemperatures()
+                                             : profile.numFrames();
+  const auto timeS = [&](std::size_t sample) {
+    const std::int64_t us = ofAngles         ? profile.angleTimeUs(sample)
+                            : ofTemperatures ? profile.temperatureTimeUs(sample)
+                                             : profile.frameTimeUs(sample);
+    return static_cast<double>(us - profile.frameTimeUs(0)) / 1e6;
+  };
+  constexpr double kForever = std::numeric_limits<double>::infinity();
+  return {run.first > 0 ? timeS(run.first - 1) : -kForever,
+          run.last + 1 < count ? timeS(run.last + 1) : kForever};
+}
+
 }  // namespace
 
 std::vector<double> derivativeOf(std::span<const double> timeS,
@@ -409,7 +430,8 @@ Series derivedSeries(const Profile& profile,
                      const Formula& formula,
                      double fromS,
                      double toS,
-                     const Progress& progress) {
+                     const Progress& progress,
+                     UnreadableSamples* unreadable) {
   if (profile.numFrames() == 0) throw std::invalid_argument("there are no frames");
   std::vector<SeriesChoice> choices;
   for (const std::string& name : formula.names()) {
@@ -455,16 +477,31 @@ Series derivedSeries(const Profile& profile,
   const std::vector<double> timeS(allTimesS.begin() + static_cast<std::ptrdiff_t>(begin),
                                   allTimesS.begin() + static_cast<std::ptrdiff_t>(last) + 1);
   std::vector<std::vector<double>> values;
-  for (std::size_t i = 0; i < choices.size(); ++i)
-    values.push_back(
-        resampled(readSeries(profile, choices[i], timeS.front(), timeS.back(), part(i)),
-                  timeS,
-                  std::numeric_limits<double>::infinity()));
+  std::vector<TimeSpan> lost;  // without their ends
+  std::string fault;
+  for (std::size_t i = 0; i < choices.size(); ++i) {
+    UnreadableSamples ofSignal;
+    const Series series = readSeries(profile,
+                                     choices[i],
+                                     timeS.front(),
+                                     timeS.back(),
+                                     part(i),
+                                     unreadable ? &ofSignal : nullptr);
+    if (fault.empty()) fault = ofSignal.firstFault;
+    for (const UnreadableSamples::Run& run : ofSignal.runs)
+      lost.push_back(readableAround(profile, choices[i].kind, run));
+    values.push_back(resampled(series, timeS, std::numeric_limits<double>::infinity()));
+  }
   const std::vector<double> computed = formula.evaluate(timeS, values, longestS);
   Series derived;
   for (std::size_t i = first; i < end; ++i) {
+    const bool isLost = std::any_of(lost.begin(), lost.end(), [&](const TimeSpan& span) {
+      return allTimesS[i] > span.fromS && allTimesS[i] < span.toS;
+    });
+    if (isLost) unreadable->add(i, fault.c_str());
     derived.timeS.push_back(allTimesS[i]);
-    derived.values.push_back(computed[i - begin]);
+    derived.values.push_back(isLost ? std::numeric_limits<double>::quiet_NaN()
+                                    : computed[i - begin]);
   }
   return derived;
 }

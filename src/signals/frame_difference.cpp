@@ -141,7 +141,8 @@ void visitFramePairs(
     double offsetS,
     std::size_t stride,
     const std::function<void(const FramePair&, const TactileFrame&, const TactileFrame&)>& sink,
-    const Progress& progress) {
+    const Progress& progress,
+    UnreadableSamples* unreadable) {
   if (stride == 0) throw std::invalid_argument("visitFramePairs: stride must be above 0");
   const auto span = commonSpan(a, b, offsetS);
   if (!span) return;
@@ -156,9 +157,16 @@ void visitFramePairs(
     const double timeS = a.timeS(i);
     const auto beside = b.frameAt(timeS - offsetS);
     if (!beside) continue;
-    a.profile.readFrame(i, inA);
-    if (readB != beside) b.profile.readFrame(*beside, inB);
-    readB = beside;
+    if (!a.profile.readFrame(i, inA, unreadable)) continue;
+    if (readB != beside) {
+      readB.reset();
+      UnreadableSamples ofB;
+      if (!b.profile.readFrame(*beside, inB, unreadable ? &ofB : nullptr)) {
+        unreadable->add(i, ofB.firstFault.c_str());
+        continue;
+      }
+      readB = beside;
+    }
     sink({timeS, i, *beside}, inA, inB);
   }
 }

@@ -56,6 +56,24 @@ class Reader {
   Reader(const Profile& profile, const SeriesChoice& choice)
       : profile_(profile), choice_(choice), originUs_(originUs(profile)) {}
 
+  // NaN, and the sample added to `unreadable`, where it can't be read.
+  std::pair<double, double> read(std::size_t sample, UnreadableSamples* unreadable) {
+    try {
+      return read(sample);
+    } catch (const Error& error) {
+      if (!unreadable) throw;
+      unreadable->add(sample, error.what());
+      return {seconds(timeUs(sample)), std::numeric_limits<double>::quiet_NaN()};
+    }
+  }
+
+ private:
+  std::int64_t timeUs(std::size_t sample) const {
+    if (choice_.kind == ProfileSeriesKind::kAngle) return profile_.angleTimeUs(sample);
+    if (choice_.kind == ProfileSeriesKind::kTemperature) return profile_.temperatureTimeUs(sample);
+    return profile_.frameTimeUs(sample);
+  }
+
   std::pair<double, double> read(std::size_t sample) {
     switch (choice_.kind) {
       case ProfileSeriesKind::kAngle: {
@@ -85,7 +103,6 @@ class Reader {
     return {seconds(frame_.hostUs), valueOf(values, choice_.signal)};
   }
 
- private:
   double seconds(std::int64_t us) const { return static_cast<double>(us - originUs_) / kUsPerS; }
 
   const Profile& profile_;
@@ -105,11 +122,12 @@ void readAll(const Profile& profile,
              std::size_t begin,
              std::size_t end,
              const Progress& progress,
+             UnreadableSamples* unreadable,
              Sink sink) {
   Reader reader(profile, choice);
   for (std::size_t i = begin; i < end; ++i) {
     reportProgress(progress, i - begin, end - begin, kSamplesPerReport);
-    const auto [timeS, value] = reader.read(i);
+    const auto [timeS, value] = reader.read(i, unreadable);
     sink(timeS, value);
   }
 }
@@ -132,13 +150,14 @@ Series readFormula(const Profile& profile,
                    const SeriesChoice& choice,
                    std::size_t begin,
                    std::size_t end,
-                   const Progress& progress) {
+                   const Progress& progress,
+                   UnreadableSamples* unreadable) {
   if (begin >= end) return {};
   const auto secondsAt = [&](std::size_t frame) {
     return static_cast<double>(profile.frameTimeUs(frame) - originUs(profile)) / kUsPerS;
   };
   return derivedSeries(
-      profile, Formula(choice.formula), secondsAt(begin), secondsAt(end - 1), progress);
+      profile, Formula(choice.formula), secondsAt(begin), secondsAt(end - 1), progress, unreadable);
 }
 
 }  // namespace
@@ -164,9 +183,9 @@ bool hasSeries(const Profile& profile, const SeriesChoice& choice) {
   if (countOf(profile, choice.kind) == 0) return false;
   switch (choice.kind) {
     case ProfileSeriesKind::kAngle:
-      return choice.index < profile.angles(0).deg.size();
+      return choice.index < profile.hand().axes.size();
     case ProfileSeriesKind::kTemperature:
-      return choice.index < profile.temperatures(0).degC.size();
+      return choice.index < profile.hand().temperatureSensors.size();
     case ProfileSeriesKind::kTaxels:
       return !choice.taxels.empty() && TaxelSelection(profile.layout()).sameSensor(choice.taxels);
     case ProfileSeriesKind::kForce:
@@ -192,7 +211,8 @@ Series readSeries(const Profile& profile,
                   const SeriesChoice& choice,
                   double fromS,
                   double toS,
-                  const Progress& progress) {
+                  const Progress& progress,
+                  UnreadableSamples* unreadable) {
   requireSeries(profile, choice);
   Series series;
   if (!(fromS <= toS)) return series;
@@ -200,10 +220,10 @@ Series readSeries(const Profile& profile,
   const std::size_t end = std::min(*sampleAt(profile, choice.kind, usOf(profile, toS)) + 2,
                                    countOf(profile, choice.kind));
   if (choice.kind == ProfileSeriesKind::kFormula)
-    return readFormula(profile, choice, begin, end, progress);
+    return readFormula(profile, choice, begin, end, progress, unreadable);
   series.timeS.reserve(end - begin);
   series.values.reserve(end - begin);
-  readAll(profile, choice, begin, end, progress, [&](double timeS, double value) {
+  readAll(profile, choice, begin, end, progress, unreadable, [&](double timeS, double value) {
     series.timeS.push_back(timeS);
     series.values.push_back(value);
   });
@@ -213,7 +233,8 @@ Series readSeries(const Profile& profile,
 void visitSeries(const Profile& profile,
                  const SeriesChoice& choice,
                  const std::function<void(double, double)>& sink,
-                 const Progress& progress) {
+                 const Progress& progress,
+                 UnreadableSamples* unreadable) {
   requireSeries(profile, choice);
   if (choice.kind == ProfileSeriesKind::kFormula) {
     // Long recordings are computed in parts, unless each part needs the others.
@@ -227,19 +248,20 @@ void visitSeries(const Profile& profile,
         const double now = static_cast<double>(begin) + done * static_cast<double>(end - begin);
         return !progress || progress(now / static_cast<double>(frames));
       };
-      const Series computed = readFormula(profile, choice, begin, end, part);
+      const Series computed = readFormula(profile, choice, begin, end, part, unreadable);
       for (std::size_t i = 0; i < computed.timeS.size(); ++i)
         sink(computed.timeS[i], computed.values[i]);
     }
     return;
   }
-  readAll(profile, choice, 0, countOf(profile, choice.kind), progress, sink);
+  readAll(profile, choice, 0, countOf(profile, choice.kind), progress, unreadable, sink);
 }
 
 Series readSpread(const Profile& profile,
                   const SeriesChoice& choice,
                   std::size_t numSteps,
-                  const Progress& progress) {
+                  const Progress& progress,
+                  UnreadableSamples* unreadable) {
   requireSeries(profile, choice);
   if (numSteps == 0) throw std::invalid_argument("readSpread: no step");
   Series series;
@@ -247,7 +269,8 @@ Series readSpread(const Profile& profile,
   for (std::size_t i = 0; i <= numSteps; ++i) {
     const double done = static_cast<double>(i) / static_cast<double>(numSteps);
     if (progress && !progress(done)) throw Cancelled();
-    const Series one = readSeries(profile, choice, durationS * done, durationS * done);
+    const Series one =
+        readSeries(profile, choice, durationS * done, durationS * done, {}, unreadable);
     if (one.values.empty()) continue;
     if (!series.timeS.empty() && one.timeS.front() <= series.timeS.back()) continue;
     series.timeS.push_back(one.timeS.front());

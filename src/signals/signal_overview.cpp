@@ -42,8 +42,9 @@ void SignalOverview::compute(const Progress& progress) {
   TactileFrame frame;
   for (std::size_t i = 0; i < frames; ++i) {
     reportProgress(progress, i, frames, framesPerReport);
-    profile_.readFrame(i, frame);
+    const bool readable = profile_.readFrame(i, frame, &unreadable_);
     stampsUs.push_back(frame.hostUs);
+    if (!readable) continue;
     const double timeS = static_cast<double>(frame.hostUs - stampsUs.front()) / kUsPerS;
     allSignals(frame, rows);
     auto series = series_.begin();

@@ -48,6 +48,10 @@ void SensorSlipDetector::reset() {
   collect();
 }
 
+void SensorSlipDetector::setLoss() noexcept {
+  for (SlipDetector& detector : detectors_) detector.setLoss();
+}
+
 void SensorSlipDetector::setOn(bool on) noexcept {
   for (SlipDetector& detector : detectors_) detector.setOn(on);
 }

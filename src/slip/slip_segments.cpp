@@ -14,7 +14,8 @@ namespace palpate {
 void runSlipDetector(const Profile& profile,
                      const SlipRunOptions& options,
                      const SlipSink& sink,
-                     const Progress& progress) {
+                     const Progress& progress,
+                     UnreadableSamples* unreadable) {
   const bool given = options.detector.reference == SlipReference::kGiven;
   if (given && options.referenceFrame >= profile.numFrames())
     throw std::invalid_argument("runSlipDetector: referenceFrame is " +
@@ -26,10 +27,18 @@ void runSlipDetector(const Profile& profile,
   std::optional<std::size_t> sample;
   for (std::size_t i = 0; i < profile.numFrames(); ++i) {
     reportProgress(progress, i, profile.numFrames());
-    profile.readFrame(i, frame);
+    if (!profile.readFrame(i, frame, unreadable)) {
+      detector.setLoss();
+      continue;
+    }
     if (const auto angles = profile.angleSampleAt(frame.hostUs); angles != sample) {
       sample = angles;
-      jointsDeg = profile.angles(*angles).deg;
+      try {
+        jointsDeg = profile.angles(*angles).deg;
+      } catch (const Error&) {
+        if (!unreadable) throw;
+        jointsDeg.clear();  // as in a recording without angles
+      }
     }
     detector.update(frame, jointsDeg);
     if (given && i == options.referenceFrame) detector.setReference();

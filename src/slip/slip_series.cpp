@@ -153,14 +153,25 @@ SlipSeries slipSeries(const Profile& profile,
                             .referenceFrame = options.referenceFrame.value_or(0)};
   SlipSegmenter segmenter(series.matrices.size());
   series.firstUs = profile.numFrames() > 0 ? profile.frameTimeUs(0) : 0;
+  const auto addTimesUntil = [&](std::size_t end) {
+    for (std::size_t i = series.timeS.size(); i < end; ++i)
+      series.timeS.push_back(static_cast<double>(profile.frameTimeUs(i) - series.firstUs) /
+                             kUsPerS);
+  };
   const auto take = [&](std::size_t frame, std::int64_t timeUs, const auto& detections) {
-    series.timeS.push_back(static_cast<double>(timeUs - series.firstUs) / kUsPerS);
+    addTimesUntil(frame + 1);  // also of frames before it that can't be read
     for (std::size_t m = 0; m < detections.size(); ++m)
       if (detections[m].motion.active > 0)
         series.matrices[m].push_back(sampleOf(detections[m], frame));
     segmenter.add(frame, timeUs, detections);
   };
-  runSlipDetector(profile, pass, take, [&](double done) { return !progress || progress(done); });
+  runSlipDetector(
+      profile,
+      pass,
+      take,
+      [&](double done) { return !progress || progress(done); },
+      &series.unreadable);
+  addTimesUntil(profile.numFrames());
   series.slips = segmenter.segments();
   return series;
 }

@@ -126,6 +126,39 @@ TEST(Playback, SeeksToFramesAndTimesClamped) {
   EXPECT_TRUE(playback.playing());  // seeking does not stop playback
 }
 
+// A storage in which nothing may be searched for.
+class UnsearchedStorage final : public ProfileStorage {
+ public:
+  std::size_t numFrames() const override { return 100; }
+  std::int64_t frameTimeUs(std::size_t i) const override {
+    return static_cast<std::int64_t>(i) * 10'000;
+  }
+  void readFrame(std::size_t, TactileFrame&) const override {}
+  std::size_t numAngles() const override { return 0; }
+  std::int64_t angleTimeUs(std::size_t) const override { return 0; }
+  JointAngles angles(std::size_t) const override { return {}; }
+  std::size_t numTemperatures() const override { return 0; }
+  std::int64_t temperatureTimeUs(std::size_t) const override { return 0; }
+  Temperatures temperatures(std::size_t) const override { return {}; }
+  std::optional<std::size_t> frameAt(std::int64_t) const override {
+    ADD_FAILURE() << "the frame was searched for";
+    return {};
+  }
+};
+
+TEST(Playback, ASeekToAFrameKnowsItsIndex) {
+  const auto layout = std::make_shared<SensorLayout>(std::vector{MatrixLayout::full(1, 1, 1.0)});
+  Playback playback(Profile({}, describeHand(*layout, 0, 0), std::make_shared<UnsearchedStorage>()),
+                    {});
+  for (const std::size_t frame : {70u, 3u, 99u, 0u}) {
+    playback.seekFrame(frame);
+    EXPECT_EQ(playback.frame(), frame);
+    EXPECT_EQ(playback.positionUs(), static_cast<std::int64_t>(frame) * 10'000);
+  }
+  playback.step(5);
+  EXPECT_EQ(playback.frame(), 5u);
+}
+
 TEST(Playback, CanJumpOverGaps) {
   Playback playback = playbackOf({0, 30, 60, 60'060, 60'090});
   playback.play();

@@ -40,5 +40,16 @@ TEST(GapDetector, ThresholdIsTheLongerOfASecondAndFiveIntervals) {
   EXPECT_EQ(gapThresholdUs(200'000.5), 1'000'002.5);
 }
 
+TEST(GapDetector, LostFramesAreAGapHoweverShort) {
+  GapDetector gaps;
+  std::int64_t us = 0;
+  gaps.setLoss();
+  EXPECT_FALSE(gaps.afterGap(us)) << "nothing was before";
+  EXPECT_FALSE(gaps.afterGap(us += 30'000));
+  gaps.setLoss();
+  EXPECT_TRUE(gaps.afterGap(us += 60'000));
+  EXPECT_FALSE(gaps.afterGap(us += 30'000));
+}
+
 }  // namespace
 }  // namespace palpate::gap_detector_test

@@ -4,6 +4,7 @@
 
 #include "palpate/model/profile_builder.h"
 
+#include "testing/damaged_profile.h"
 #include "testing/testing.h"
 
 namespace palpate::profile_test {
@@ -65,6 +66,26 @@ TEST(Profile, MayBeEmpty) {
   EXPECT_EQ(profile.frameAt(0), std::nullopt);
   EXPECT_EQ(profile.durationUs(), 0);
   EXPECT_EQ(profile.info().valueType, ValueType::kCounts);
+}
+
+TEST(Profile, FramesThatCannotBeReadAreCountedByThePassThatGoesOn) {
+  ProfileBuilder builder(smallLayout());
+  for (int i = 0; i < 10; ++i) builder.addFrame(1000 * (i + 1), frameOf(static_cast<float>(i)));
+  const Profile profile = testing::withDamage(builder.finish({}), 4, 6);
+  TactileFrame frame;
+  EXPECT_THROW(profile.readFrame(5, frame), FormatError);
+  EXPECT_THROW(profile.readFrame(5, frame, nullptr), FormatError);
+  UnreadableSamples unreadable;
+  for (std::size_t i = 0; i < 10; ++i) {
+    EXPECT_EQ(profile.readFrame(i, frame, &unreadable), i < 4 || i > 6) << i;
+    EXPECT_EQ(frame.hostUs, 1000 * (static_cast<std::int64_t>(i) + 1));
+  }
+  EXPECT_EQ(unreadable.count, 3u);
+  EXPECT_EQ(unreadable.runs, (std::vector<UnreadableSamples::Run>{{4, 6}}));
+  EXPECT_EQ(unreadable.firstFault, "x.palpate: block 7 is damaged");
+  unreadable.add(8, "other");
+  EXPECT_EQ(unreadable.runs, (std::vector<UnreadableSamples::Run>{{4, 6}, {8, 8}}));
+  EXPECT_EQ(unreadable.firstFault, "x.palpate: block 7 is damaged");
 }
 
 }  // namespace

@@ -27,6 +27,7 @@ int closeFile(sqlite3_file* file) {
   return realOf(file)->pMethods->xClose(realOf(file));
 }
 int readFileAt(sqlite3_file* file, void* bytes, int size, sqlite3_int64 offset) {
+  theOne->read(size);
   return realOf(file)->pMethods->xRead(realOf(file), bytes, size, offset);
 }
 int writeFileAt(sqlite3_file* file, const void* bytes, int size, sqlite3_int64 offset) {
@@ -93,7 +94,7 @@ int deleteFile(sqlite3_vfs*, const char* path, int syncFolder) {
 
 }  // namespace
 
-FaultyVfs::FaultyVfs() {
+FaultyVfs::FaultyVfs(bool asDefault) {
   theOne = this;
   under = sqlite3_vfs_find(nullptr);
   shim = *under;
@@ -102,7 +103,7 @@ FaultyVfs::FaultyVfs() {
   shim.szOsFile = under->szOsFile + static_cast<int>(sizeof(FaultyFile));
   shim.xOpen = openFile;
   shim.xDelete = deleteFile;
-  sqlite3_vfs_register(&shim, 0);
+  sqlite3_vfs_register(&shim, asDefault ? 1 : 0);
 }
 
 FaultyVfs::~FaultyVfs() {

@@ -23,8 +23,9 @@ class FaultyVfs {
     kPowerCut,   // from the n-th operation on nothing reaches the disk
   };
 
-  // Registers itself under name(); one at a time.
-  FaultyVfs();
+  // Registers itself under name(); one at a time. Readers, which choose no file system, use it only
+  // as the default one.
+  explicit FaultyVfs(bool asDefault = false);
   ~FaultyVfs();
   FaultyVfs(const FaultyVfs&) = delete;
   FaultyVfs& operator=(const FaultyVfs&) = delete;
@@ -35,6 +36,8 @@ class FaultyVfs {
   void heal() { fault_ = Fault::kNone; }
   // Called at the begin of every operation, by the thread that writes: a slow disk.
   void setHook(std::function<void()> hook) { hook_ = std::move(hook); }
+  // Called at every read, which is no operation.
+  void setReadHook(std::function<void(std::int64_t size)> hook) { readHook_ = std::move(hook); }
   std::int64_t operations() const { return operations_; }
   bool struck() const { return struck_; }
 
@@ -48,6 +51,9 @@ class FaultyVfs {
   int truncate(const std::string& path, std::int64_t size);
   int sync(const std::string& path);
   int remove(const std::string& path);
+  void read(std::int64_t size) const {
+    if (readHook_) readHook_(size);
+  }
 
  private:
   struct Change {
@@ -63,6 +69,7 @@ class FaultyVfs {
   static void apply(std::string& content, const Change& change);
 
   std::function<void()> hook_;
+  std::function<void(std::int64_t)> readHook_;
   Fault fault_ = Fault::kNone;
   std::int64_t failAt_ = 0;
   std::int64_t operations_ = 0;

@@ -8,6 +8,7 @@
 #include "palpate/model/profile_builder.h"
 #include "palpate/recording/recording.h"
 
+#include "testing/damaged_profile.h"
 #include "testing/testing.h"
 
 namespace palpate::alignment_test {
@@ -160,6 +161,17 @@ TEST(AlignmentOfRealGrasps, ContactsMeet) {
     EXPECT_EQ(std::llround(*byClock * 1e6),
               all[i].profile.frameTimeUs(0) - all[0].profile.frameTimeUs(0));
   }
+}
+
+// Three touched frames in a row are a contact; a frame that can't be read interrupts the row.
+TEST_F(AlignmentTest, AContactIsFoundBehindDamagedFrames) {
+  const Profile damaged = testing::withDamage(a_.profile, 8, 11);
+  EXPECT_THROW(timedProfile(damaged), FormatError);
+  UnreadableSamples unreadable;
+  const TimedProfile timed = timedProfile(damaged, {}, {}, &unreadable);
+  EXPECT_EQ(timed.contact, 12u);
+  EXPECT_EQ(unreadable.count, 4u);
+  EXPECT_EQ(timed.timing.durationS, a_.timing.durationS);
 }
 
 }  // namespace

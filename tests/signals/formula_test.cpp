@@ -8,6 +8,7 @@
 #include "palpate/filter/butterworth.h"
 #include "palpate/model/profile_builder.h"
 
+#include "testing/damaged_profile.h"
 #include "testing/testing.h"
 
 namespace palpate::formula_test {
@@ -197,6 +198,25 @@ TEST(DerivedSeries, RefusesWhatTheHandLacks) {
   const Profile profile = synthesize({.durationS = 1.0, .grasps = 1});
   for (const char* text : {"m9_mean", "angle77", "thumb"})
     EXPECT_THROW(derivedSeries(profile, Formula(text), 0.0, 1.0), std::invalid_argument) << text;
+}
+
+TEST(DerivedSeries, HasNoValueWhereASignalCannotBeRead) {
+  const Profile whole = synthesize({.durationS = 20.0, .grasps = 2, .noiseCounts = 5.0});
+  const Profile damaged = testing::withDamage(whole, 200, 279);
+  const Formula formula("hand_sum + 2 * m1_max");
+  EXPECT_THROW(derivedSeries(damaged, formula, 0.0, 20.0), FormatError);
+  UnreadableSamples unreadable;
+  const Series series = derivedSeries(damaged, formula, 0.0, 20.0, {}, &unreadable);
+  EXPECT_EQ(unreadable.count, 80u);
+  EXPECT_EQ(unreadable.runs, (std::vector<UnreadableSamples::Run>{{200, 279}}));
+  const Series expected = derivedSeries(whole, formula, 0.0, 20.0);
+  ASSERT_EQ(series.values.size(), expected.values.size());
+  for (std::size_t i = 0; i < series.values.size(); ++i)
+    if (i >= 200 && i <= 279) {
+      EXPECT_TRUE(std::isnan(series.values[i])) << i;
+    } else {
+      EXPECT_EQ(series.values[i], expected.values[i]) << i;
+    }
 }
 
 }  // namespace

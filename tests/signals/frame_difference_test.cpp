@@ -8,6 +8,7 @@
 #include "palpate/model/hand_description.h"
 #include "palpate/model/profile_builder.h"
 
+#include "testing/damaged_profile.h"
 #include "testing/testing.h"
 
 namespace palpate::frame_difference_test {
@@ -175,6 +176,32 @@ TEST(FramePairs, StrideApartNoneNegativeOffset) {
       visitFramePairs(
           a, b, 0.0, 1, [](const auto&, const auto&, const auto&) {}, [](double) { return false; }),
       Cancelled);
+}
+
+TEST(FramePairs, APairOfWhichOneCannotBeReadIsLeftOutAndCounted) {
+  const TimedProfile a = ramp(20, 100), b = ramp(20, 100);
+  TimedProfile damagedA = a, damagedB = b;
+  damagedA.profile = testing::withDamage(a.profile, 3, 4);
+  damagedB.profile = testing::withDamage(b.profile, 10, 12);
+  const auto nothing = [](const auto&, const auto&, const auto&) {};
+  EXPECT_THROW(visitFramePairs(damagedA, b, 0.0, 1, nothing), FormatError);
+  EXPECT_THROW(visitFramePairs(a, damagedB, 0.0, 1, nothing), FormatError);
+  UnreadableSamples unreadable;
+  std::vector<std::size_t> visited;
+  visitFramePairs(
+      damagedA,
+      damagedB,
+      0.0,
+      1,
+      [&](const FramePair& pair, const TactileFrame& inA, const TactileFrame& inB) {
+        EXPECT_EQ(inA.values, inB.values);
+        visited.push_back(pair.frameA);
+      },
+      {},
+      &unreadable);
+  EXPECT_EQ(visited,
+            (std::vector<std::size_t>{0, 1, 2, 5, 6, 7, 8, 9, 13, 14, 15, 16, 17, 18, 19}));
+  EXPECT_EQ(unreadable.runs, (std::vector<UnreadableSamples::Run>{{3, 4}, {10, 12}}));
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include "palpate/model/hand_description.h"
 #include "palpate/model/profile_builder.h"
 
+#include "testing/damaged_profile.h"
 #include "testing/testing.h"
 
 namespace palpate::profile_series_test {
@@ -169,6 +170,32 @@ TEST(ProfileSeries, AFormulaIsASeriesToo) {
     EXPECT_FALSE(hasSeries(profile, choice)) << text;
     EXPECT_THROW(readSeries(profile, choice, 0.0, 1.0), std::invalid_argument) << text;
   }
+}
+
+TEST(ProfileSeries, WhatCannotBeReadIsNoNumberAndCounted) {
+  const Profile damaged = testing::withDamage(small(), 3, 4);
+  const SeriesChoice choice{Kind::kMatrix, 1, SignalKind::kMaximum};
+  EXPECT_THROW(readSeries(damaged, choice, -1.0, 10.0), FormatError);
+  UnreadableSamples unreadable;
+  const Series series = readSeries(damaged, choice, -1.0, 10.0, {}, &unreadable);
+  EXPECT_EQ(unreadable.runs, (std::vector<UnreadableSamples::Run>{{3, 4}}));
+  ASSERT_EQ(series.values.size(), 10u);
+  for (std::size_t i = 0; i < 10; ++i) {
+    EXPECT_NEAR(series.timeS[i], 0.1 * static_cast<double>(i), 1e-9);
+    if (i == 3 || i == 4) {
+      EXPECT_TRUE(std::isnan(series.values[i]));
+    } else {
+      EXPECT_EQ(series.values[i], 10.0 * static_cast<double>(i + 1));
+    }
+  }
+  UnreadableSamples visited;
+  std::size_t numbers = 0;
+  visitSeries(
+      damaged, choice, [&](double, double value) { numbers += !std::isnan(value); }, {}, &visited);
+  EXPECT_EQ(numbers, 8u);
+  EXPECT_EQ(visited.count, 2u);
+  UnreadableSamples spread;
+  EXPECT_EQ(readSpread(damaged, choice, 9, {}, &spread).timeS.size(), 10u);
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include "palpate/model/hand_description.h"
 #include "palpate/model/profile_builder.h"
 
+#include "testing/damaged_profile.h"
 #include "testing/testing.h"
 
 namespace palpate::signal_overview_test {
@@ -94,6 +95,39 @@ TEST(SignalOverview, HasABoundWhateverTimeIsClaimed) {
   EXPECT_LE(sums.numReady() * 7 * 7, 8'388'608u + 49u);
   EXPECT_EQ(sums.maximum(0), 70.0F);
   EXPECT_EQ(sums.maximum(sums.numReady() - 1), 70.0F);
+}
+
+// Damage at the beginning, in the middle, at the end: the overview has all other frames, and ends.
+TEST(SignalOverview, LeavesOutAndCountsWhatCannotBeRead) {
+  const Profile whole = synthesize({.durationS = 60.0, .grasps = 5});
+  const std::size_t frames = whole.numFrames();
+  SignalOverview expected(whole);
+  expected.compute();
+  for (const std::size_t first : {std::size_t{0}, frames / 2, frames - 100}) {
+    SCOPED_TRACE(first);
+    const Profile damaged = testing::withDamage(whole, first, first + 99);
+    SignalOverview overview(damaged);
+    overview.compute();
+    ASSERT_TRUE(overview.complete());
+    EXPECT_EQ(overview.unreadable().count, 100u);
+    EXPECT_EQ(overview.unreadable().runs,
+              (std::vector<UnreadableSamples::Run>{{first, first + 99}}));
+    EXPECT_EQ(overview.unreadable().firstFault, "x.palpate: block 7 is damaged");
+    EXPECT_EQ(overview.timing().rateHz, expected.timing().rateHz);
+    const BucketSeries& now = overview.of(6, SignalKind::kSum);
+    const BucketSeries& before = expected.of(6, SignalKind::kSum);
+    const auto secondOf = [&](std::size_t frame) {
+      return static_cast<std::size_t>((whole.frameTimeUs(frame) - whole.frameTimeUs(0)) /
+                                      1'000'000);
+    };
+    for (std::size_t s = 0; s < now.numBuckets(); ++s) {
+      if (s > secondOf(first) && s < secondOf(first + 99)) {
+        EXPECT_TRUE(std::isnan(now.maximum(s))) << s;
+      } else if (s < secondOf(first) || s > secondOf(first + 99)) {
+        EXPECT_EQ(now.maximum(s), before.maximum(s)) << s;
+      }
+    }
+  }
 }
 
 }  // namespace

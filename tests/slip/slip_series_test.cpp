@@ -8,6 +8,7 @@
 #include "palpate/model/profile_builder.h"
 #include "palpate/slip/synthetic_slip.h"
 
+#include "testing/damaged_profile.h"
 #include "testing/testing.h"
 
 namespace palpate::slip_series_test {
@@ -141,6 +142,27 @@ TEST_F(SlipSeriesTest, AnEmptyRecordingHasNone) {
   EXPECT_TRUE(series.timeS.empty() && series.slips.empty());
   EXPECT_EQ(series.frameAt(3.0), 0U);
   EXPECT_EQ(series.matrices.size(), sdh2().layout->numMatrices());
+}
+
+// A block of damage may be shorter than a gap. What happened in it is not one large step.
+TEST_F(SlipSeriesTest, DamagedFramesAreLeftOutLikeAGap) {
+  const std::size_t first = kUntouched + kRests - 2, last = kUntouched + kRests + kMoves + 2;
+  const SlipSeries series =
+      slipSeries(testing::withDamage(profile(), first, last), {.method = SlipMethod::kRegister});
+  EXPECT_EQ(series.unreadable.count, last - first + 1);
+  ASSERT_EQ(series.timeS.size(), profile().numFrames());
+  EXPECT_NEAR(series.timeS[first + 1], static_cast<double>(first + 1) * 0.032, 1e-9);
+  EXPECT_TRUE(series.slips.empty()) << "all of the motion was in the damaged frames";
+  EXPECT_NE(series.at(kMatrix, first - 1), nullptr);
+  EXPECT_EQ(series.at(kMatrix, first), nullptr);
+  EXPECT_EQ(series.at(kMatrix, last), nullptr);
+  const SlipSample* behind = series.at(kMatrix, last + 1);
+  ASSERT_NE(behind, nullptr);
+  EXPECT_FALSE(behind->valid) << "motion since a frame that wasn't read";
+  EXPECT_TRUE(series.at(kMatrix, last + 3)->valid);
+
+  const SlipSeries atEnd = slipSeries(testing::withDamage(profile(), 90, 99), {});
+  EXPECT_EQ(atEnd.timeS.size(), profile().numFrames());
 }
 
 }  // namespace

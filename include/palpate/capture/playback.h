@@ -33,8 +33,8 @@ class Playback {
   double speed() const noexcept { return speed_; }
   // Position in the recording's time [us since 1970], between the first and the last stamp.
   std::int64_t positionUs() const noexcept { return positionUs_; }
-  // The last frame at or before the position.
-  std::size_t frame() const;
+  // The last frame at or before the position; 0 of an empty profile. It reads nothing.
+  std::size_t frame() const noexcept { return frame_; }
 
   // Starts at the position; at the end it starts over from the beginning.
   void play();
@@ -58,6 +58,7 @@ class Playback {
  private:
   std::int64_t firstUs() const;
   std::int64_t lastUs() const;
+  void moveTo(std::int64_t timeUs, std::size_t frame);
 
   Profile profile_;
   std::vector<std::pair<std::int64_t, std::int64_t>> gapsUs_;  // begin, end of each gap [us]
@@ -66,6 +67,7 @@ class Playback {
   bool skipGaps_ = false;
   double speed_ = 1.0;
   std::int64_t positionUs_ = 0;
+  std::size_t frame_ = 0;     // at positionUs_
   double remainderUs_ = 0.0;  // fraction of a microsecond not yet advanced
 };
 

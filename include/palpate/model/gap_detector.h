@@ -32,6 +32,8 @@ class GapDetector {
   // longer than max(1 s, 5 medians of the last 15 intervals). The first and the second frame never
   // follow a gap, since the frame rate is not known yet.
   bool afterGap(std::int64_t stampUs);
+  // Frames before the next stamp are lost: it follows a gap, however short the interval is.
+  void setLoss() noexcept { loss_ = any_; }
   // Forgets all stamps, for a new source.
   void reset();
 
@@ -40,6 +42,7 @@ class GapDetector {
 
   std::int64_t lastUs_ = 0;
   bool any_ = false;
+  bool loss_ = false;
   std::deque<std::int64_t> intervalsUs_;  // the last 15 intervals
 };
 

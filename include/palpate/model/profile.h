@@ -34,8 +34,27 @@ struct ProfileInfo {
   std::vector<std::string> warnings;
 };
 
+// What a pass over a profile could not read because the file is damaged there.
+struct UnreadableSamples {
+  // First and last index of samples that follow each other.
+  struct Run {
+    std::size_t first = 0;
+    std::size_t last = 0;
+    bool operator==(const Run&) const = default;
+  };
+  std::size_t count = 0;
+  std::vector<Run> runs;   // in order
+  std::string firstFault;  // why the first of them can't be read; empty if there is none
+  // Adds a sample; indices ascend.
+  void add(std::size_t index, const char* fault);
+};
+
 // Access to the data of a profile in memory or in a file. Profile checks the indices before it
 // calls. Const member functions must be safe to call from several threads at once.
+//
+// Damage to a part of a file costs the samples in it and nothing else: frame, angles and
+// temperatures that can't be read throw Error, their times don't. Where a time is lost, too, it is
+// estimated, so that times always ascend.
 class ProfileStorage {
  public:
   virtual ~ProfileStorage() = default;
@@ -49,10 +68,18 @@ class ProfileStorage {
   virtual std::size_t numTemperatures() const = 0;
   virtual std::int64_t temperatureTimeUs(std::size_t sample) const = 0;
   virtual Temperatures temperatures(std::size_t sample) const = 0;
+  // The last sample at or before a time, the first one before all; empty without samples. These
+  // search over the times. A storage that knows the times of whole parts of its file searches over
+  // those first, and reads only the part in which the sample lies.
+  virtual std::optional<std::size_t> frameAt(std::int64_t timeUs) const;
+  virtual std::optional<std::size_t> angleSampleAt(std::int64_t timeUs) const;
+  virtual std::optional<std::size_t> temperatureSampleAt(std::int64_t timeUs) const;
 };
 
 // A handle to shared, read-only data; cheap to copy. Const member functions may be called from
-// several threads at once. All accessors throw std::out_of_range for an index that does not exist.
+// several threads at once. All accessors throw std::out_of_range for an index that does not exist,
+// and those that read values throw Error where the file is damaged. Times are always known, see
+// ProfileStorage.
 class Profile {
  public:
   Profile(ProfileInfo info, HandDescription hand, std::shared_ptr<const ProfileStorage> storage);
@@ -66,6 +93,9 @@ class Profile {
   TactileFrame frame(std::size_t frame) const;
   // Does the same as frame() and reuses the memory of `out`.
   void readFrame(std::size_t frame, TactileFrame& out) const;
+  // The same for passes that go on where the file is damaged. With `unreadable`, a frame that can't
+  // be read is added to it, and false returned; only the time in `out` is valid then.
+  bool readFrame(std::size_t frame, TactileFrame& out, UnreadableSamples* unreadable) const;
 
   std::size_t numAngles() const { return data_->storage->numAngles(); }
   std::int64_t angleTimeUs(std::size_t sample) const;

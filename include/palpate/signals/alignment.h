@@ -47,10 +47,11 @@ struct TimedProfile {
   // and inside a gap.
   std::optional<std::size_t> frameAt(double seconds) const;
 };
-// Reads all time stamps, and frames until the first contact. Throws Cancelled.
+// Reads all time stamps, and frames until the first contact. Throws as firstContact().
 TimedProfile timedProfile(const Profile& profile,
                           const FirstContactOptions& options = {},
-                          const Progress& progress = {});
+                          const Progress& progress = {},
+                          UnreadableSamples* unreadable = nullptr);
 
 // Offset of B's first frame [s]. Empty for an empty profile, without a contact (kContact) or a
 // chosen grasp (kGrasp) in one of the two, and for kManual. Throws std::out_of_range for a frame

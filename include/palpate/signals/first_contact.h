@@ -29,10 +29,13 @@ struct FirstContactOptions {
 std::optional<std::size_t> firstContact(std::span<const int> active,
                                         std::span<const std::size_t> gapFrames = {},
                                         const FirstContactOptions& options = {});
-// Does the same for a profile and reads frames until the contact is found. Also throws Cancelled.
+// Does the same for a profile and reads frames until the contact is found. With `unreadable`,
+// frames that can't be read are added to it; they interrupt a contact. Also throws Cancelled, and
+// without `unreadable` Error.
 std::optional<std::size_t> firstContact(const Profile& profile,
                                         std::span<const std::size_t> gapFrames = {},
                                         const FirstContactOptions& options = {},
-                                        const Progress& progress = {});
+                                        const Progress& progress = {},
+                                        UnreadableSamples* unreadable = nullptr);
 
 }  // namespace palpate

@@ -74,11 +74,14 @@ class Formula {
 // Computes the formula at every frame of fromS..toS. Angles and temperatures are interpolated at
 // the frames. The values don't depend on the span: a formula with a frequency filter is computed
 // from gap to gap. Throws std::invalid_argument for a name that is not a signal or that the profile
-// lacks, and as Formula; Cancelled; Error (a frame that can't be read).
+// lacks, and as Formula; Cancelled; Error (a frame that can't be read). With `unreadable`, frames
+// at which a signal can't be read are added to it instead, and their values are NaN; slopes and
+// filters beside them are computed as if the signal ran straight from one side to the other.
 Series derivedSeries(const Profile& profile,
                      const Formula& formula,
                      double fromS,
                      double toS,
-                     const Progress& progress = {});
+                     const Progress& progress = {},
+                     UnreadableSamples* unreadable = nullptr);
 
 }  // namespace palpate

@@ -70,13 +70,15 @@ struct FramePair {
   std::size_t frameB = 0;
 };
 // Calls `sink` for every `stride`-th frame of A that has a frame of B at its time
-// (TimedProfile::frameAt), in order. Throws Cancelled.
+// (TimedProfile::frameAt), in order. With `unreadable`, the frames of A are added to it of which
+// one of the pair can't be read, and left out. Throws Cancelled, and without `unreadable` Error.
 void visitFramePairs(
     const TimedProfile& a,
     const TimedProfile& b,
     double offsetS,
     std::size_t stride,
     const std::function<void(const FramePair&, const TactileFrame&, const TactileFrame&)>& sink,
-    const Progress& progress = {});
+    const Progress& progress = {},
+    UnreadableSamples* unreadable = nullptr);
 
 }  // namespace palpate

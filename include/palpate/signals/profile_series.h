@@ -56,26 +56,30 @@ std::size_t numSamples(const Profile& profile,
                        double fromS,
                        double toS);
 
-// Returns all samples within fromS..toS, and the nearest sample on either side of that span. Throws
-// std::invalid_argument when the profile does not have the series, or the formula can't be
-// computed, and Cancelled.
+// Returns all samples within fromS..toS, and the nearest sample on either side of that span. With
+// `unreadable`, samples that can't be read because the recording is damaged are added to it, and
+// their values are NaN. Throws std::invalid_argument when the profile does not have the series, or
+// the formula can't be computed, Cancelled, and without `unreadable` Error.
 Series readSeries(const Profile& profile,
                   const SeriesChoice& choice,
                   double fromS,
                   double toS,
-                  const Progress& progress = {});
+                  const Progress& progress = {},
+                  UnreadableSamples* unreadable = nullptr);
 // Calls sink(timeS, value) for all samples in order and keeps none of them.
 void visitSeries(const Profile& profile,
                  const SeriesChoice& choice,
                  const std::function<void(double timeS, double value)>& sink,
-                 const Progress& progress = {});
+                 const Progress& progress = {},
+                 UnreadableSamples* unreadable = nullptr);
 
 // Returns about numSteps + 1 different samples, spread evenly over the time of the frames, for a
 // quick overview of a long recording. Throws as above.
 Series readSpread(const Profile& profile,
                   const SeriesChoice& choice,
                   std::size_t numSteps,
-                  const Progress& progress = {});
+                  const Progress& progress = {},
+                  UnreadableSamples* unreadable = nullptr);
 
 // Mean of the selected taxels [counts]; 0 when none is selected.
 double meanOf(const TactileFrame& frame, const TaxelSelection& taxels);

@@ -22,8 +22,8 @@ class SignalOverview {
   // Throws std::invalid_argument for an empty profile or a bucket that is not above 0.
   explicit SignalOverview(const Profile& profile, double bucketS = 1.0);
 
-  // Reads every frame once. Throws Cancelled (finished buckets stay), and FormatError when a block
-  // of the recording is damaged.
+  // Reads every frame once. Frames that can't be read because the recording is damaged are left out
+  // and counted. Throws Cancelled (finished buckets stay).
   void compute(const Progress& progress = {});
 
   // The series of a matrix or, with row = number of matrices, of the whole hand. Throws
@@ -33,8 +33,9 @@ class SignalOverview {
   // Time from the first frame that is ready [s].
   double readyS() const { return series_.front()->readyS(); }
 
-  // The next three are valid only when complete() is true.
+  // The next four are valid only when complete() is true.
   const TimingReport& timing() const noexcept { return timing_; }
+  const UnreadableSamples& unreadable() const noexcept { return unreadable_; }  // frames
   double maximum() const noexcept { return maximum_; }  // largest value of all frames [counts]
   std::size_t saturatedFrames() const noexcept { return saturatedFrames_; }
 
@@ -43,6 +44,7 @@ class SignalOverview {
   std::size_t numRows_;
   std::vector<std::unique_ptr<BucketSeries>> series_;  // row after row, kind after kind
   TimingReport timing_;
+  UnreadableSamples unreadable_;
   double maximum_ = 0.0;
   std::size_t saturatedFrames_ = 0;
 };

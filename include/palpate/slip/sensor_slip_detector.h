@@ -27,6 +27,7 @@ class SensorSlipDetector {
   void setReference();
   void clearReference();
   void reset();
+  void setLoss() noexcept;
   void setOn(bool on) noexcept;
 
   const std::vector<SlipDetection>& last() const noexcept { return detections_; }

@@ -94,6 +94,8 @@ class SlipDetector {
   void setReference();
   void clearReference();
   void reset();
+  // Frames before the next one are lost: there is a gap, however short it is.
+  void setLoss() noexcept { windows_.setLoss(); }
   // While it is off, the detector reports nothing but keeps its state up to date.
   void setOn(bool on) noexcept { on_ = on; }
 

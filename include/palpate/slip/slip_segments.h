@@ -20,14 +20,17 @@ struct SlipRunOptions {
 };
 
 // Runs the slip detector over a profile: `sink` receives every frame in order with one result per
-// matrix. Joint angles of the profile are used if it has any. Throws Cancelled;
-// std::invalid_argument (options, reference frame not in the profile).
+// matrix. Joint angles of the profile are used if it has any. With `unreadable`, frames that can't
+// be read because the recording is damaged are added to it and left out, as in a gap. Throws
+// Cancelled; std::invalid_argument (options, reference frame not in the profile); without
+// `unreadable` Error.
 using SlipSink = std::function<void(
     std::size_t frame, std::int64_t timeUs, const std::vector<SlipDetection>& detections)>;
 void runSlipDetector(const Profile& profile,
                      const SlipRunOptions& options,
                      const SlipSink& sink,
-                     const Progress& progress = {});
+                     const Progress& progress = {},
+                     UnreadableSamples* unreadable = nullptr);
 
 // One span of frames in which a matrix slips.
 struct SlipSegment {

@@ -111,6 +111,8 @@ struct SlipSeries {
   std::vector<std::vector<SlipSample>> matrices;
   // Slip segments, sorted by begin, then matrix.
   std::vector<SlipSegment> slips;
+  // Frames without samples because they can't be read.
+  UnreadableSamples unreadable = {};
 
   // Returns the sample of a matrix in a frame, or null if the matrix is not touched in it. Throws
   // std::out_of_range (matrix).
@@ -134,7 +136,8 @@ struct SlipSeries {
   std::size_t frameAt(double seconds) const noexcept;
 };
 
-// Runs the slip detector over a profile and keeps its results. Throws as runSlipDetector().
+// Runs the slip detector over a profile and keeps its results. Frames that can't be read because
+// the recording is damaged are left out and counted. Throws Cancelled, std::invalid_argument.
 SlipSeries slipSeries(const Profile& profile,
                       const SlipSeriesOptions& options = {},
                       const Progress& progress = {});

@@ -51,6 +51,8 @@ class SlipWindows {
   // of the short window, its comparison is made as well.
   void evaluateRecent();
   void reset();
+  // Frames before the next one are lost: there is a gap, however short it is.
+  void setLoss() noexcept { gaps_.setLoss(); }
 
   const SlipEvidence& evidence() const noexcept { return evidence_; }
   // The last frame; values that are not numbers or are below 0 are replaced by 0. All 0 before the

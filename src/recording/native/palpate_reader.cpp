@@ -38,7 +38,7 @@ class PalpateStorage final : public BlockStorage {
     setWidth(Stream::kTactile, layout_.numCells());
     for (Stream stream : {Stream::kAngles, Stream::kTemperatures}) {
       if (places(stream).empty()) continue;
-      setWidth(stream, sampleWidth(load(places(stream).front().id)));
+      setWidth(stream, widthOf(places(stream)));
       if (width(stream) == 0) throwMissing();
     }
   }
@@ -49,6 +49,18 @@ class PalpateStorage final : public BlockStorage {
  private:
   [[noreturn]] void throwMissing() const {
     throw FormatError(path_, "blocks are missing or damaged; 'palpate recover' saves the others");
+  }
+
+  // The number of values per item, of the first block that is sound; 0 if none is.
+  std::size_t widthOf(const std::vector<BlockEntry>& blocks) {
+    for (const BlockEntry& each : blocks) {
+      try {
+        return sampleWidth(load(each.id));
+      } catch (const FormatError&) {
+        // Its samples are lost; the next block has the same width.
+      }
+    }
+    return 0;
   }
 
   void addRow(const SqliteStatement& row) {

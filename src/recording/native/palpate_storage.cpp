@@ -1,6 +1,7 @@
 #include "recording/native/palpate_storage.h"
 
 #include <algorithm>
+#include <ranges>
 
 #include "palpate/core/error.h"
 
@@ -8,6 +9,21 @@ namespace palpate {
 namespace {
 
 constexpr std::size_t kCachedBytes = 2u << 20;  // of blocks, per profile
+
+// From the first to the last item of a block [us]. Unsigned, since a damaged index may claim any
+// two times.
+std::uint64_t spanUs(const BlockEntry& place) {
+  return static_cast<std::uint64_t>(place.t1Us) - static_cast<std::uint64_t>(place.t0Us);
+}
+
+// When an item of a block that can't be read was measured, if its items were evenly spaced.
+std::int64_t estimatedUs(const BlockEntry& place, std::int64_t item) {
+  if (place.n < 2) return place.t0Us;
+  const auto steps = static_cast<std::uint64_t>(place.n - 1);
+  const auto i = static_cast<std::uint64_t>(item);
+  const std::uint64_t sinceFirst = spanUs(place) / steps * i + spanUs(place) % steps * i / steps;
+  return static_cast<std::int64_t>(static_cast<std::uint64_t>(place.t0Us) + sinceFirst);
+}
 
 }  // namespace
 
@@ -18,6 +34,7 @@ bool BlockStorage::add(Stream stream, const BlockEntry& place) {
   Series& series = series_[static_cast<std::size_t>(stream)];
   if (place.n < 1 || place.n > static_cast<std::int64_t>(kMaxBlockBytes) ||
       place.first != static_cast<std::int64_t>(series.numItems) || place.t1Us < place.t0Us ||
+      spanUs(place) < static_cast<std::uint64_t>(place.n - 1) ||
       (!series.places.empty() && place.t0Us <= series.places.back().t1Us))
     return false;
   series.places.push_back(place);
@@ -39,6 +56,18 @@ void BlockStorage::readFrame(std::size_t frame, TactileFrame& out) const {
   lock.unlock();  // decoding needs none: the block is ours as long as we hold it
   out.deviceMs = block->index.deviceMs[item];
   readFrameValues(block->block, block->index.begin[item], out);
+}
+
+std::optional<std::size_t> BlockStorage::frameAt(std::int64_t timeUs) const {
+  return itemAt(Stream::kTactile, timeUs);
+}
+
+std::optional<std::size_t> BlockStorage::angleSampleAt(std::int64_t timeUs) const {
+  return itemAt(Stream::kAngles, timeUs);
+}
+
+std::optional<std::size_t> BlockStorage::temperatureSampleAt(std::int64_t timeUs) const {
+  return itemAt(Stream::kTemperatures, timeUs);
 }
 
 std::int64_t BlockStorage::angleTimeUs(std::size_t sample) const {
@@ -85,16 +114,29 @@ BlockStorage::OpenItem BlockStorage::open(Stream stream, std::size_t item) const
     last = cached->second;
     return {last, within};
   }
+  last = loaded(stream, place);
+  return {last, within};
+}
+
+std::shared_ptr<const BlockStorage::OpenBlock> BlockStorage::loaded(Stream stream,
+                                                                    const BlockEntry& place) const {
+  if (const auto damaged = damaged_.find(place.id); damaged != damaged_.end())
+    throw damaged->second;
   auto opened = std::make_shared<OpenBlock>();
-  opened->block = loader_(place.id);
-  opened->first = static_cast<std::size_t>(place.first);
-  const Block& block = opened->block;
-  if (block.stream != stream || block.n != place.n || block.t0Us != place.t0Us ||
-      block.t1Us != place.t1Us || !indexBlock(block, of(stream).numValues, opened->index))
-    throw FormatError(
-        path_,
-        "block " + std::to_string(place.id) + " is invalid; 'palpate recover' saves the others");
-  cachedBytes_ += block.data.size();
+  try {
+    opened->block = loader_(place.id);
+    opened->first = static_cast<std::size_t>(place.first);
+    const Block& block = opened->block;
+    if (block.stream != stream || block.n != place.n || block.t0Us != place.t0Us ||
+        block.t1Us != place.t1Us || !indexBlock(block, of(stream).numValues, opened->index))
+      throw FormatError(
+          path_,
+          "block " + std::to_string(place.id) + " is invalid; 'palpate recover' saves the others");
+  } catch (const FormatError& error) {
+    damaged_.emplace(place.id, error);
+    throw;
+  }
+  cachedBytes_ += opened->block.data.size();
   while (cachedBytes_ > kCachedBytes && !order_.empty()) {
     const auto oldest = cache_.find(order_.front());
     cachedBytes_ -= oldest->second->block.data.size();
@@ -103,8 +145,16 @@ BlockStorage::OpenItem BlockStorage::open(Stream stream, std::size_t item) const
   }
   order_.push_back(place.id);
   cache_.emplace(place.id, opened);
-  last = opened;
-  return {std::move(opened), within};
+  return opened;
+}
+
+std::shared_ptr<const BlockStorage::OpenBlock> BlockStorage::readable(Stream stream,
+                                                                      std::size_t item) const {
+  try {
+    return open(stream, item).block;
+  } catch (const Error&) {
+    return nullptr;
+  }
 }
 
 std::int64_t BlockStorage::timeUs(Stream stream, std::size_t item) const {
@@ -114,8 +164,31 @@ std::int64_t BlockStorage::timeUs(Stream stream, std::size_t item) const {
   // First and last stamps stand in the index: searching by time opens one block, not twenty.
   if (static_cast<std::int64_t>(item) == place.first) return place.t0Us;
   if (static_cast<std::int64_t>(item) == place.first + place.n - 1) return place.t1Us;
-  const auto [block, within] = open(stream, item);
-  return block->index.hostUs[within];
+  const std::int64_t within = static_cast<std::int64_t>(item) - place.first;
+  if (const auto block = readable(stream, item))
+    return block->index.hostUs[static_cast<std::size_t>(within)];
+  return estimatedUs(place, within);
+}
+
+std::optional<std::size_t> BlockStorage::itemAt(Stream stream, std::int64_t timeUs) const {
+  const std::vector<BlockEntry>& places = of(stream).places;
+  if (places.empty()) return std::nullopt;
+  const auto after = std::upper_bound(
+      places.begin(), places.end(), timeUs, [](std::int64_t us, const BlockEntry& place) {
+        return us < place.t0Us;
+      });
+  if (after == places.begin()) return 0;
+  const BlockEntry& place = *std::prev(after);
+  const auto first = static_cast<std::size_t>(place.first);
+  if (timeUs == place.t0Us) return first;
+  if (timeUs >= place.t1Us) return first + static_cast<std::size_t>(place.n) - 1;
+  const std::lock_guard lock(mutex_);
+  const auto block = readable(stream, first);
+  const auto items = std::views::iota(std::int64_t{0}, place.n);
+  const auto later = std::ranges::upper_bound(items, timeUs, {}, [&](std::int64_t item) {
+    return block ? block->index.hostUs[static_cast<std::size_t>(item)] : estimatedUs(place, item);
+  });
+  return first + static_cast<std::size_t>(later - items.begin()) - 1;
 }
 
 std::pair<std::int64_t, std::vector<double>> BlockStorage::sample(Stream stream,

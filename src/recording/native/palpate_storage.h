@@ -8,11 +8,13 @@
 #include <list>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <unordered_map>
 #include <utility>
 #include <vector>
 
+#include "palpate/core/error.h"
 #include "palpate/model/profile.h"
 #include "palpate/recording/palpate_blocks.h"
 #include "palpate/recording/palpate_schema.h"
@@ -54,6 +56,10 @@ class BlockStorage : public ProfileStorage {
   std::size_t numTemperatures() const override { return of(Stream::kTemperatures).numItems; }
   std::int64_t temperatureTimeUs(std::size_t sample) const override;
   Temperatures temperatures(std::size_t sample) const override;
+  // Search over the times of the blocks, and read at most the block that holds the sample.
+  std::optional<std::size_t> frameAt(std::int64_t timeUs) const override;
+  std::optional<std::size_t> angleSampleAt(std::int64_t timeUs) const override;
+  std::optional<std::size_t> temperatureSampleAt(std::int64_t timeUs) const override;
 
  private:
   struct Series {
@@ -74,9 +80,13 @@ class BlockStorage : public ProfileStorage {
   const Series& of(Stream stream) const { return series_[static_cast<std::size_t>(stream)]; }
   const BlockEntry& placeOf(Stream stream, std::size_t item) const;
   std::int64_t timeUs(Stream stream, std::size_t item) const;
+  std::optional<std::size_t> itemAt(Stream stream, std::int64_t timeUs) const;
   std::pair<std::int64_t, std::vector<double>> sample(Stream stream, std::size_t item) const;
-  // The lock is held in these two.
+  // The lock is held in these four.
   OpenItem open(Stream stream, std::size_t item) const;
+  std::shared_ptr<const OpenBlock> loaded(Stream stream, const BlockEntry& place) const;
+  // As open(); null where the block can't be read.
+  std::shared_ptr<const OpenBlock> readable(Stream stream, std::size_t item) const;
   const OpenBlock* lastWith(Stream stream, std::size_t item) const;
 
   std::filesystem::path path_;
@@ -86,7 +96,8 @@ class BlockStorage : public ProfileStorage {
   mutable std::unordered_map<std::int64_t, std::shared_ptr<const OpenBlock>> cache_;  // by id
   mutable std::list<std::int64_t> order_;                                             // of entering
   mutable std::size_t cachedBytes_ = 0;
-  mutable std::array<std::shared_ptr<const OpenBlock>, 3> last_;  // read last, per stream
+  mutable std::unordered_map<std::int64_t, FormatError> damaged_;  // by id: not read again
+  mutable std::array<std::shared_ptr<const OpenBlock>, 3> last_;   // read last, per stream
 };
 
 }  // namespace palpate

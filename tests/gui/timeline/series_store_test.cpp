@@ -11,6 +11,7 @@
 #include <palpate/recording/recording.h>
 
 #include "gui/testing/sample_profiles.h"
+#include "testing/damaged_profile.h"
 #include "testing/testing.h"
 
 namespace palpate::gui::series_store_test {
@@ -191,6 +192,71 @@ TEST_F(SeriesStoreTest, OfManyMatricesOrPlacesFewerFramesAreLong) {
   EXPECT_EQ(many->at(3, 5).sum, 7.0);
   EXPECT_NEAR(many->timingNow().meanRateHz, 1e6 / 30'000.0, 0.01);
   EXPECT_TRUE(opened({MatrixLayout::full(256, 256, 3.4)}, 1500)->isLong());
+}
+
+class DamagedSeriesStoreTest : public SeriesStoreTest {
+ protected:
+  static constexpr std::size_t kFirst = 1500, kLast = 1999;
+  DamagedSeriesStoreTest() {
+    const auto path = folder_ / "long.palpate";
+    const Profile sound = synthesize({.durationS = 120.0, .grasps = 4});
+    saveRecording(sound, {}, path);
+    recording_ = makeOpenedRecording(path, testing::withDamage(sound, kFirst, kLast), {}, 100);
+    store_.setRecording(recording_);
+  }
+  double timeS(std::size_t frame) const { return recording_->timeAt(frame); }
+  OpenedRecordingPtr recording_;
+};
+
+TEST_F(DamagedSeriesStoreTest, TheOverviewEndsAndCountsWhatCannotBeRead) {
+  const SeriesChoice choice{Kind::kMatrix, 1, SignalKind::kMaximum};
+  SeriesChoice formula;
+  formula.kind = Kind::kFormula;
+  formula.formula = "2 * m1_max";
+  TaxelSelection taxels(recording_->profile.layout());
+  taxels.addAll(1);
+  const SeriesChoice group{.kind = Kind::kTaxels, .taxels = taxels};
+  store_.setWanted({choice, formula, group});
+  store_.waitUntilRead();
+  EXPECT_EQ(store_.progress(), 1.0);
+  EXPECT_FALSE(store_.busy());
+  EXPECT_EQ(recording_->unreadableNow().count, kLast - kFirst + 1);
+  EXPECT_TRUE(recording_->saturatedFramesNow());
+  EXPECT_TRUE(recording_->unreadableAt(timeS(kFirst)));
+  EXPECT_TRUE(recording_->unreadableAt(timeS(kLast)));
+  EXPECT_FALSE(recording_->unreadableAt(timeS(kFirst - 1)));
+  EXPECT_FALSE(recording_->unreadableAt(timeS(kLast + 1)));
+  for (const SeriesChoice& each : {choice, formula, group}) {
+    bool before = false, behind = false;
+    for (const SeriesPoint& point : store_.points(each, seen(0.0, 120.0))) {
+      if (std::isnan(point.y)) continue;
+      before |= point.x < timeS(kFirst) - 1.0;
+      behind |= point.x > timeS(kLast) + 1.0;
+      EXPECT_FALSE(point.x > timeS(kFirst) + 1.0 && point.x < timeS(kLast) - 1.0) << point.x;
+    }
+    EXPECT_TRUE(before && behind);
+  }
+}
+
+// F6: what was read of another span is not shown as the values of the damaged one.
+TEST_F(DamagedSeriesStoreTest, ADamagedSpanHasNoValuesOfAnother) {
+  const SeriesChoice choice{Kind::kMatrix, 1, SignalKind::kMean};
+  store_.setVisibleRange(5.0, 10.0);  // first: of all of it every sample would be read at once
+  store_.setWanted({choice});
+  store_.waitUntilRead();
+  ASSERT_TRUE(store_.valueAt(choice, 7.0));
+  const double from = timeS(kFirst + 100), to = timeS(kLast - 100);
+  store_.setVisibleRange(from, to);
+  store_.waitUntilRead();
+  EXPECT_FALSE(store_.valueAt(choice, (from + to) / 2));
+  for (const SeriesPoint& point : store_.points(choice, seen(from, to)))
+    EXPECT_TRUE(std::isnan(point.y) || point.x < timeS(kFirst) || point.x > timeS(kLast));
+  // At the edge of the damage each side has its own values.
+  store_.setVisibleRange(timeS(kFirst - 50), timeS(kFirst + 50));
+  store_.waitUntilRead();
+  const Series sound = readSeries(recording_->profile, choice, 0.0, timeS(kFirst - 2));
+  EXPECT_EQ(store_.valueAt(choice, timeS(kFirst - 2)), sound.values[kFirst - 2]);
+  EXPECT_FALSE(store_.valueAt(choice, timeS(kFirst)));
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <palpate/model/profile_builder.h>
 
 #include "gui/window_state/window_state_fixture.h"
+#include "testing/damaged_profile.h"
 
 namespace palpate::gui::current_frame_test {
 namespace {
@@ -87,6 +88,30 @@ TEST_F(CurrentFrameTest, HoldingEndsWithItsSource) {
   currentFrame_.hold(true);
   disconnect();
   EXPECT_FALSE(currentFrame_.held());
+}
+
+// It plays on over the damaged part, says once what is wrong, and shows the frames behind it.
+TEST_F(CurrentFrameTest, PlayingGoesOnOverDamagedFrames) {
+  constexpr std::size_t kAlwaysLong =
+      1;  // short recordings are opened without their damaged frames
+  windowState_->displayed.show(
+      makeOpenedRecording("damaged", testing::withDamage(twentyFrames(), 8, 11), {}, kAlwaysLong));
+  QStringList notices;
+  QObject::connect(&currentFrame_, &CurrentFrame::staleNoticeChanged, [&] {
+    notices.append(currentFrame_.old().notice);
+  });
+  windowState_->playback.play();
+  for (std::size_t i = 1; i < 20; ++i) {
+    clock_.advanceMs(50);
+    windowState_->playback.tick();
+    ASSERT_EQ(windowState_->playback.frame(), i);
+    const bool lost = i >= 8 && i <= 11;
+    EXPECT_EQ(currentFrame_.old().notice.contains("block 7 is damaged"), lost) << i;
+    if (lost) continue;
+    EXPECT_EQ(value(), 10.0F * static_cast<float>(i + 1));
+  }
+  EXPECT_FALSE(windowState_->playback.playing()) << "it is at its end";
+  EXPECT_EQ(notices.size(), 2) << notices.join("; ").toStdString();
 }
 
 }  // namespace

@@ -364,7 +364,9 @@ QString CompareChart::valuesAt(double seconds) const {
     text += "\n" + QString(name) + "  ";
     const auto frame = timed.frameAt(at);
     if (!frame || !series || *frame >= series->values.size()) return text += "no frame", void();
-    text += unit.text(series->values[*frame], 1) + " · frame " + QString::number(*frame);
+    const double value = series->values[*frame];
+    text += (std::isfinite(value) ? unit.text(value, 1) : QString("damaged")) + " · frame " +
+            QString::number(*frame);
   };
   line("A", *curves_.a, curves_.curveA, seconds);
   line("B", *curves_.b, curves_.curveB, seconds - curves_.offsetS);

@@ -14,8 +14,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include <palpate/core/error.h>
 #include <palpate/core/number_text.h>
 
+#include "gui/appearance/captions.h"
 #include "gui/appearance/difference_map.h"
 #include "gui/appearance/hand_unit.h"
 #include "gui/chart/chart_picture.h"
@@ -46,10 +48,6 @@ int comparePanelIndexOf(const std::vector<OpenedRecordingPtr>& all, const Opened
 
 constexpr double kLeastRange = 1.0;     // [counts]
 constexpr double kHeatMapShare = 0.62;  // of the height of an exported picture
-
-QString figure(double value, int decimals) {
-  return QString::fromStdString(fixedText(value, decimals));
-}
 
 double comparePanelViewLargestOf(const TactileFrame& frame) {
   double largest = 0.0;
@@ -574,10 +572,16 @@ void ComparePanel::showFrames() {
     const TimedProfile& timed = sideOf(answer_, ofB);
     const auto frame = timed.frameAt(timeS_ - (ofB ? answer_.offsetS : 0.0));
     content.caption = captionOf(ofB, frame);
-    if (frame)
-      timed.profile.readFrame(*frame, content.frame);
-    else
+    if (!frame) {
       content.notice = absenceOf(ofB);
+      continue;
+    }
+    try {
+      timed.profile.readFrame(*frame, content.frame);
+    } catch (const Error& error) {
+      content.frame = {};
+      content.notice = inWindowWords(QString::fromUtf8(error.what()));
+    }
   }
   const bool both = !inA.frame.values.empty() && !inB.frame.values.empty();
   if (both) {
@@ -685,6 +689,11 @@ QString ComparePanel::notice() const {
                  ": the recordings are aligned at their starts");
   }
   if (!answer_.overlaid.leftOut.isEmpty()) lines.append(answer_.overlaid.leftOut);
+  for (const auto& [name, count] :
+       {std::pair("A", answer_.unreadableA), std::pair("B", answer_.unreadableB)})
+    if (count > 0)
+      lines.append(QString(name) + " is damaged: " +
+                   QString::fromStdString(counted(count, "frame")) + " can't be read");
   const bool frames = inA.profile.numFrames() > 0 && inB.profile.numFrames() > 0;
   if (frames && !commonSpan(inA, inB, answer_.offsetS)) {
     const double laterS = answer_.offsetS - inA.timing.durationS;

@@ -86,6 +86,7 @@ struct CompareWorker::Kept {
     std::weak_ptr<const OpenedRecording> of;
     SeriesChoice choice;
     std::shared_ptr<const Series> series;
+    std::size_t unreadable = 0;  // samples of it
   };
   struct Grasps {
     std::weak_ptr<const OpenedRecording> of;
@@ -135,7 +136,9 @@ std::shared_ptr<const TimedProfile> CompareWorker::timed(const OpenedRecordingPt
                                                          const Progress& progress) {
   for (const auto& each : kept_->timed)
     if (each.of.lock() == recording) return each.timed;
-  auto timed = std::make_shared<TimedProfile>(timedProfile(recording->profile, {}, progress));
+  UnreadableSamples unreadable;  // the curve counts them
+  auto timed =
+      std::make_shared<TimedProfile>(timedProfile(recording->profile, {}, progress, &unreadable));
   kept_->timed.push_back({recording, timed});
   if (kept_->timed.size() > kCompareWorkerMostKept) kept_->timed.pop_front();
   return timed;
@@ -143,14 +146,20 @@ std::shared_ptr<const TimedProfile> CompareWorker::timed(const OpenedRecordingPt
 
 std::shared_ptr<const Series> CompareWorker::curve(const OpenedRecordingPtr& recording,
                                                    const SeriesChoice& choice,
-                                                   const Progress& progress) {
+                                                   const Progress& progress,
+                                                   std::size_t* numUnreadable) {
   // The index that means "all matrices" differs between hands.
   if (!hasSeries(recording->profile, choice)) return nullptr;
   for (const auto& each : kept_->curves)
-    if (each.of.lock() == recording && each.choice == choice) return each.series;
+    if (each.of.lock() == recording && each.choice == choice) {
+      if (numUnreadable) *numUnreadable = each.unreadable;
+      return each.series;
+    }
+  UnreadableSamples unreadable;
   auto series = std::make_shared<Series>(
-      readSeries(recording->profile, choice, -kEndOfTimeS, kEndOfTimeS, progress));
-  kept_->curves.push_back({recording, choice, series});
+      readSeries(recording->profile, choice, -kEndOfTimeS, kEndOfTimeS, progress, &unreadable));
+  if (numUnreadable) *numUnreadable = unreadable.count;
+  kept_->curves.push_back({recording, choice, series, unreadable.count});
   if (kept_->curves.size() > kCompareWorkerMostKept) kept_->curves.pop_front();
   return series;
 }
@@ -303,9 +312,11 @@ void CompareWorker::work(const CompareQuestion& question, int generation) {
     answer.alignment = alignment;
     answer.offsetS = offsetS;
     report();
-    answer.curveA = curve(question.a, choiceFor(question, *question.a), part(kCurveShare));
+    answer.curveA =
+        curve(question.a, choiceFor(question, *question.a), part(kCurveShare), &answer.unreadableA);
     answer.done = kTimedShare + kCurveShare;
-    answer.curveB = curve(question.b, choiceFor(question, *question.b), part(kCurveShare));
+    answer.curveB =
+        curve(question.b, choiceFor(question, *question.b), part(kCurveShare), &answer.unreadableB);
     answer.done = kTimedShare + 2 * kCurveShare;
     report();
     const auto within = graspSpanOf(question, answer);
@@ -323,6 +334,7 @@ void CompareWorker::work(const CompareQuestion& question, int generation) {
                                      question.b->profile.hand().layout);
     double largest = 0.0;
     float largestValue = 0.0F;
+    UnreadableSamples unreadable;  // the curves count them
     const std::size_t stride =
         std::max<std::size_t>(1, framesInCommon(*answer.a, *answer.b, offsetS) / kPairsLookedAt);
     visitFramePairs(
@@ -335,7 +347,8 @@ void CompareWorker::work(const CompareQuestion& question, int generation) {
           for (const TactileFrame* frame : {&inA, &inB})
             for (const float value : frame->values) largestValue = std::max(largestValue, value);
         },
-        part(1.0 - answer.done));
+        part(1.0 - answer.done),
+        &unreadable);
     answer.largestDifference = largest;
     answer.largestValue = static_cast<double>(largestValue);
   } catch (const Cancelled&) {

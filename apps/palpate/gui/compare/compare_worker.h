@@ -66,6 +66,8 @@ struct CompareAnswer {
   std::optional<double> largestDifference;
   // Largest value of both recordings in the frames that were read [counts].
   double largestValue = 0.0;
+  // Frames of A and of B that can't be read because they are damaged.
+  std::size_t unreadableA = 0, unreadableB = 0;
   // Progress, 0..1.
   double done = 0.0;
   bool complete = false;
@@ -107,7 +109,8 @@ class CompareWorker : public QObject {
                                             const Progress& progress);
   std::shared_ptr<const Series> curve(const OpenedRecordingPtr& recording,
                                       const SeriesChoice& choice,
-                                      const Progress& progress);
+                                      const Progress& progress,
+                                      std::size_t* numUnreadable = nullptr);
   std::vector<GraspFrames> grasps(const ComparedRecording& of, const Progress& progress);
   ComparedCurves overlaid(const CompareQuestion& question,
                           const CompareAnswer& answer,

@@ -6,7 +6,11 @@
 #include <QFileInfo>
 #include <QMimeData>
 #include <QPainter>
+#include <memory>
 
+#include <palpate/core/error.h>
+
+#include "gui/appearance/captions.h"
 #include "gui/export/export_dialog.h"
 #include "gui/picture/views_together.h"
 
@@ -17,9 +21,10 @@ constexpr std::size_t kMostCopiedRows = 100'000;  // as many as a spreadsheet ca
 constexpr double kCopyDpi = 192.0;                // twice the screen's resolution
 constexpr const char* kHasExported = "export/done";
 
-QMimeData* dataOf(const ExportedTable& table, std::size_t& rows) {
+// Throws Error: a part of the recording that the table needs is damaged.
+std::unique_ptr<QMimeData> dataOf(const ExportedTable& table, std::size_t& rows) {
   const TextTable text = table.make();
-  auto* data = new QMimeData;
+  auto data = std::make_unique<QMimeData>();
   data->setText(QString::fromStdString(tabbedText(text, kMostCopiedRows)));
   data->setData("text/csv", QByteArray::fromStdString(csvText(text, kMostCopiedRows)));
   rows = text.numRows;
@@ -182,7 +187,7 @@ void ExportController::cancel() {
 
 void ExportController::waitForDone() { worker_.waitForDone(); }
 
-void ExportController::copyPicture() {
+void ExportController::copyPicture() try {
   const ExportedView* view = active();
   if (!view) return;
   const auto tables = view->tablesNow();
@@ -190,7 +195,7 @@ void ExportController::copyPicture() {
   // Heat maps are copied only as a picture; a program that accepts text would paste their rows
   // instead.
   const bool withRows = !tables.empty() && !view->framePictures;
-  QMimeData* data = withRows ? dataOf(tables.front(), rows) : new QMimeData;
+  auto data = withRows ? dataOf(tables.front(), rows) : std::make_unique<QMimeData>();
   if (view->paint) {
     ExportRequest request;
     request.forPrint = false;
@@ -200,18 +205,22 @@ void ExportController::copyPicture() {
     look.pixelRatio = paper.scale();
     data->setImageData(pictureImage([&](QPainter& painter) { view->paint(painter, look); }, paper));
   }
-  QApplication::clipboard()->setMimeData(data);
+  QApplication::clipboard()->setMimeData(data.release());
   emit said("copied: " + view->name +
             (withRows ? " as picture and " + rowsText(rows) : QString(" as picture")));
+} catch (const Error& error) {
+  emit failed(inWindowWords(QString::fromUtf8(error.what())));
 }
 
-void ExportController::copyTable() {
+void ExportController::copyTable() try {
   const ExportedView* view = active();
   const auto tables = view ? view->tablesNow() : std::vector<ExportedTable>();
   if (tables.empty()) return;
   std::size_t rows = 0;
-  QApplication::clipboard()->setMimeData(dataOf(tables.front(), rows));
+  QApplication::clipboard()->setMimeData(dataOf(tables.front(), rows).release());
   emit said("copied: " + view->name + ", " + tables.front().name + ", " + rowsText(rows));
+} catch (const Error& error) {
+  emit failed(inWindowWords(QString::fromUtf8(error.what())));
 }
 
 }  // namespace palpate::gui

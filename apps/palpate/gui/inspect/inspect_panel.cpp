@@ -42,6 +42,8 @@ std::vector<Fact> inspectPanelFactsOf(const OpenedRecording& recording,
     facts.push_back({"start (UTC)", QString::fromStdString(start).left(19)});
   }
   facts.push_back({"frames", QString::number(profile.numFrames())});
+  if (const UnreadableSamples& unreadable = recording.unreadableNow(); unreadable.count > 0)
+    facts.push_back({"unreadable frames", QString::number(unreadable.count), true});
   facts.push_back({"duration", figure(recording.timingNow().durationS, 2) + " s"});
   facts.push_back({"rate",
                    rate(recording.timingNow().rateHz) + " Hz (mean " +

@@ -6,6 +6,7 @@
 #include <memory>
 
 #include <palpate/core/error.h>
+#include <palpate/core/number_text.h>
 #include <palpate/recording/recording.h>
 #include <palpate/recording/unfinished_recordings.h>
 
@@ -40,6 +41,7 @@ RecoveryFeature::RecoveryFeature(WindowState& windowState, QWidget* window)
   followTheme(offer_);
   on(recover_, [this] { recoverChosen(); });
   connect(&windowState.displayed, &DisplayedSource::shown, this, &RecoveryFeature::offer);
+  connect(&windowState.displayed, &DisplayedSource::moreKnown, this, &RecoveryFeature::offer);
   connect(
       &windowState.currentFrame, &CurrentFrame::staleNoticeChanged, this, &RecoveryFeature::offer);
   connect(&job_, &BackgroundJob::started, strip_, &OpeningStrip::begin);
@@ -69,7 +71,11 @@ QString RecoveryFeature::damageOfDisplayed() const {
            how;
   if (isUnfinished(*recording))
     return name + " was never finished: the program that recorded it ended too early." + how;
-  // Of a long recording, and of angles and temperatures, damage shows when it is come to.
+  if (const std::size_t count = recording->unreadableNow().count; count > 0)
+    return name + " is damaged: " + QString::fromStdString(counted(count, "frame")) +
+           " can't be read." + how;
+  // Of angles and temperatures, and of a long recording until all of it has been read, damage shows
+  // when it is come to.
   if (!state().currentFrame.old().notice.isEmpty())
     return name + " is damaged: a part of it can't be read." + how;
   return {};

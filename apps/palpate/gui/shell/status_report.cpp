@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include <palpate/capture/link_health.h>
+#include <palpate/core/error.h>
 #include <palpate/core/number_text.h>
 
 #include "gui/appearance/captions.h"
@@ -82,10 +83,14 @@ void StatusReport::report() {
               (opening ? " · opening another" : "");
   if (playback.hasFrames()) {
     const OpenedRecordingPtr& seen = windowState_.displayed.filteredRecording();
-    const CharacteristicSignals all = seen->at(playback.frame(), seen->numMatrices());
-    now.figures = {"active " + QString::number(all.active),
-                   "max " + QString::number(all.maximum, 'f', decimalsOf(seen->profile.hand())),
-                   "saturated " + QString::number(windowState_.currentFrame.saturated())};
+    try {
+      const CharacteristicSignals all = seen->at(playback.frame(), seen->numMatrices());
+      now.figures = {"active " + QString::number(all.active),
+                     "max " + QString::number(all.maximum, 'f', decimalsOf(seen->profile.hand())),
+                     "saturated " + QString::number(windowState_.currentFrame.saturated())};
+    } catch (const Error&) {
+      now.figures = {"active –", "max –", "saturated –"};  // the views say why
+    }
     const QString frameTime = secondsText(playback.frameTimeS());
     const QString cursorTime = secondsText(playback.positionS());
     now.right = "frame " + QString::number(playback.frame()) + ", last " +

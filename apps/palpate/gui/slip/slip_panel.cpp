@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include <palpate/core/error.h>
+#include <palpate/core/number_text.h>
 #include <palpate/core/time.h>
 
 #include "gui/appearance/captions.h"
@@ -344,6 +345,9 @@ void SlipPanel::showNotes(const SlipSample* sample) {
       text +=
           "\nNo contact is at rest in this recording: motion is measured from the first contact.";
   }
+  if (const std::size_t count = found() ? found()->unreadable.count : 0; count > 0)
+    text += "\nThe recording is damaged: " + QString::fromStdString(counted(count, "frame")) +
+            " can't be read.";
   if (notes_->text() == text) return;
   notes_->setText(text);
   notes_->setToolTip(text);

@@ -55,14 +55,14 @@ FilterFigures figuresOf(const OpenedRecording& source, const Recipe& recipe) {
   const std::size_t loudest = source.isLong() ? numFrames / 2 : source.table.frameOfLargestSum();
   const std::size_t from = loudest > kMeasuredFrames / 2 ? loudest - kMeasuredFrames / 2 : 0;
   TactileFrame frame;
+  UnreadableSamples unreadable;
   chain.measureCosts(true);
   QElapsedTimer timer;
   timer.start();
   for (std::size_t i = from;
        i < std::min(numFrames, from + kMeasuredFrames) && timer.elapsed() < kMeasuredMs;
        ++i) {
-    source.profile.readFrame(i, frame);
-    chain.push(frame);
+    if (source.profile.readFrame(i, frame, &unreadable)) chain.push(frame);
   }
   chain.finish();
   figures.costsUs = chain.costsUs();

@@ -175,6 +175,21 @@ std::optional<std::size_t> OpenedRecording::saturatedFramesNow() const {
   return overview->saturatedFrames();
 }
 
+const UnreadableSamples& OpenedRecording::unreadableNow() const {
+  static const UnreadableSamples none;
+  return overview && overview->complete() ? overview->unreadable() : none;
+}
+
+bool OpenedRecording::unreadableAt(double seconds) const {
+  const auto& runs = unreadableNow().runs;
+  if (runs.empty() || !std::isfinite(seconds)) return false;
+  const auto frame =
+      profile.frameAt(profile.frameTimeUs(0) + std::llround(seconds * kUsPerS)).value_or(0);
+  return std::any_of(runs.begin(), runs.end(), [frame](const UnreadableSamples::Run& run) {
+    return run.first <= frame && frame <= run.last;
+  });
+}
+
 CharacteristicSignals OpenedRecording::at(std::size_t frame, std::size_t matrix) const {
   if (!isLong()) return matrix == numMatrices() ? whole.at(frame) : table.at(frame, matrix);
   const TactileFrame values = profile.frame(frame);

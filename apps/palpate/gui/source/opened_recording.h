@@ -71,8 +71,14 @@ struct OpenedRecording {
   const TimingReport& timingNow() const;
   std::optional<double> maximumNow() const;
   std::optional<std::size_t> saturatedFramesNow() const;
+  // The frames of a long recording that can't be read because they are damaged; none until all have
+  // been read. Of a short one they are left out when it is opened, see `damage`.
+  const UnreadableSamples& unreadableNow() const;
+  // Whether the frame at this time is one of them.
+  bool unreadableAt(double seconds) const;
 
-  // The signals of a matrix or, if matrix == numMatrices(), of the whole hand.
+  // The signals of a matrix or, if matrix == numMatrices(), of the whole hand. Throws Error for a
+  // frame of a long recording that can't be read.
   CharacteristicSignals at(std::size_t frame, std::size_t matrix) const;
   // Time from the first frame [s].
   double timeAt(std::size_t frame) const;

@@ -33,6 +33,16 @@ std::optional<std::pair<double, double>> extremesOf(const std::vector<double>& v
   return found;
 }
 
+// As readSeries(); NaN where the recording is damaged.
+Series readableSeries(const Profile& profile,
+                      const SeriesChoice& choice,
+                      double fromS,
+                      double toS,
+                      const Progress& progress = {}) {
+  UnreadableSamples unreadable;
+  return readSeries(profile, choice, fromS, toS, progress, &unreadable);
+}
+
 // The series of a matrix of a short recording, whose signals are all known already.
 Series fromTable(const OpenedRecording& recording, const SeriesChoice& choice) {
   Series series;
@@ -82,8 +92,7 @@ void SeriesStore::setRecording(const OpenedRecordingPtr& recording) {
     try {
       overview->compute([&](double) { return !*stop; });
     } catch (const std::exception&) {
-      // Cancelled, or a damaged block: what has been read stays; showing the damaged frame reports
-      // the damage.
+      // Cancelled, or no memory is left: what has been read stays. Damage is left out and counted.
     }
     --numJobs_;
     QMetaObject::invokeMethod(this, &SeriesStore::changed, Qt::QueuedConnection);
@@ -105,13 +114,13 @@ std::shared_future<void> SeriesStore::lookAtFrames() {
       const std::size_t spread =
           std::clamp<std::size_t>(kMostLookedAt / profile.layout().numCells(), 1, kSpread);
       TactileFrame frame;
+      UnreadableSamples unreadable;  // the overview counts them all
       for (std::size_t i = 0; i <= spread && !*stop; ++i) {
-        profile.readFrame((frames - 1) * i / spread, frame);
+        if (!profile.readFrame((frames - 1) * i / spread, frame, &unreadable)) continue;
         look->timeS.push_back(static_cast<double>(frame.hostUs - profile.frameTimeUs(0)) / kUsPerS);
         allSignals(frame, look->rows.emplace_back());
       }
     } catch (const std::exception&) {
-      // A damaged block: what has been read before it stays.
       look->rows.resize(look->timeS.size());
     }
     QMetaObject::invokeMethod(
@@ -192,12 +201,12 @@ void SeriesStore::begin(Entry& entry) {
   // A formula may be slow, and may not be computable: it is read in the background.
   if (choice.kind != SeriesChoice::Kind::kFormula &&
       numSamples(recording_->profile, choice, -kForever, kForever) <= kReadAtOnce)
-    return keep(entry, readSeries(recording_->profile, choice, -kForever, kForever));
+    return keep(entry, readableSeries(recording_->profile, choice, -kForever, kForever));
   ++numJobs_;
   reads_.start([this, stop = stop_, choice, keep, profile = recording_->profile] {
     try {
       auto series = std::make_shared<Series>(
-          readSeries(profile, choice, -kForever, kForever, [&](double) { return !stop->load(); }));
+          readableSeries(profile, choice, -kForever, kForever, [&](double) { return !*stop; }));
       deliver(choice, stop, [keep, series](Entry& to) { keep(to, std::move(*series)); });
     } catch (const std::exception&) {
     }
@@ -216,7 +225,9 @@ void SeriesStore::beginLong(Entry& entry) {
     ++numJobs_;
     reads_.start([this, stop = stop_, choice, goOn, profile = recording_->profile] {
       try {
-        auto series = std::make_shared<const Series>(readSpread(profile, choice, kSpread, goOn));
+        UnreadableSamples unreadable;
+        auto series =
+            std::make_shared<const Series>(readSpread(profile, choice, kSpread, goOn, &unreadable));
         deliver(choice, stop, [series](Entry& to) {
           to.sample = series;
           to.extremes = extremesOf(series->values);
@@ -230,10 +241,17 @@ void SeriesStore::beginLong(Entry& entry) {
   ++numJobs_;
   passes_.start([this, goOn, choice, buckets = entry.buckets, profile = recording_->profile] {
     try {
+      UnreadableSamples unreadable;
       visitSeries(
-          profile, choice, [&](double timeS, double value) { buckets->add(timeS, value); }, goOn);
+          profile,
+          choice,
+          [&](double timeS, double value) { buckets->add(timeS, value); },
+          goOn,
+          &unreadable);
       buckets->finish();
+    } catch (const Cancelled&) {
     } catch (const std::exception&) {
+      buckets->finish();  // a formula that can't be computed: nothing more will come
     }
     --numJobs_;
     QMetaObject::invokeMethod(this, &SeriesStore::changed, Qt::QueuedConnection);
@@ -266,17 +284,18 @@ void SeriesStore::askForExact() {
     ++numJobs_;
     reads_.start(
         [this, stop = stop_, choice = entry.choice, fromS, toS, profile = recording_->profile] {
-          std::shared_ptr<const Series> series;
+          // Where nothing can be read, it has no sample: those of another span would be wrong here.
+          auto series = std::make_shared<const Series>();
           try {
             series = std::make_shared<const Series>(
-                readSeries(profile, choice, fromS, toS, [&](double) { return !stop->load(); }));
+                readableSeries(profile, choice, fromS, toS, [&](double) { return !*stop; }));
           } catch (const std::exception&) {
           }
           deliver(choice, stop, [this, series, fromS, toS](Entry& to) {
             to.exactRequested = false;
             to.exactFromS = fromS;
             to.exactToS = toS;
-            if (series) to.exact = series;
+            to.exact = series;
             // The view may have moved meanwhile.
             askForExact();
           });
@@ -345,9 +364,10 @@ std::optional<double> SeriesStore::valueAt(const SeriesChoice& choice, double ti
   if (choice.kind == SeriesChoice::Kind::kFormula && Formula(choice.formula).hasFrequencyFilter())
     return std::nullopt;
   try {
-    const Series one = readSeries(recording_->profile, choice, timeS, timeS);
+    const Series one = readableSeries(recording_->profile, choice, timeS, timeS);
     if (!one.values.empty()) return last(one);
   } catch (const Error&) {
+    // A formula of signals that can't be read.
   }
   return std::nullopt;
 }

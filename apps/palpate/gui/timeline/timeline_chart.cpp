@@ -70,7 +70,9 @@ TimelineChart::TimelineChart(QWidget* parent)
     refill();
   });
   connect(&store_, &SeriesStore::changed, this, [this] {
-    if (recording_ && recording_->timingNow().gaps.size() != gaps_.size()) return rebuildGraphs();
+    if (recording_ && (recording_->timingNow().gaps.size() != gaps_.size() ||
+                       recording_->unreadableNow().count != numUnreadable_))
+      return rebuildGraphs();
     scaleAxes();
     refill();
   });
@@ -185,8 +187,21 @@ void TimelineChart::rebuildGraphs() {
                                 Qt::AlignHCenter,
                                 colorsOf(theme_).warning));
   }
+  numUnreadable_ = recording_ ? recording_->unreadableNow().count : 0;
+  if (numUnreadable_ > 0) shadeUnreadable();
   scaleAxes();
   refill();
+}
+
+// Damaged parts look like gaps: from the last frame before each to the first one behind it.
+void TimelineChart::shadeUnreadable() {
+  const auto& runs = recording_->unreadableNow().runs;
+  const std::size_t last = recording_->profile.numFrames() - 1;
+  for (std::size_t i = 0; i < std::min(runs.size(), kMostGapMarks); ++i)
+    shadeSpan(*this,
+              recording_->timeAt(runs[i].first > 0 ? runs[i].first - 1 : 0),
+              recording_->timeAt(std::min(runs[i].last + 1, last)),
+              theme_);
 }
 
 // Axes begin at zero unless values are below; those of angles and temperatures begin at their
@@ -473,6 +488,7 @@ QString TimelineChart::valuesAt(double seconds) const {
   if (const Gap* gap = recording_->gapAt(seconds))
     return text + "\ngap of " + QString::number(gap->seconds, 'f', 1) +
            " s: " + recording_->reasonOf(*gap);
+  if (recording_->unreadableAt(seconds)) return text + "\nthis frame is damaged and can't be read";
   return readingsText(
       text, curves_, [&](const SeriesChoice& choice) { return store_.valueAt(choice, seconds); });
 }

@@ -95,6 +95,7 @@ class TimelineChart : public ReadingChart {
   void rebuildGraphs();
   void nameTime();
   void refill();
+  void shadeUnreadable();
   void scaleAxes();
   // Drops the range that was set by hand for another recording if no value of this one is in it.
   void dropRangeOfOther(const QString& unit, const ValueExtent& shown);
@@ -123,6 +124,7 @@ class TimelineChart : public ReadingChart {
   QSharedPointer<QCPAxisTicker> secondsTicker_;
   QSharedPointer<QCPAxisTickerTime> clockTicker_;
   std::vector<Gap> gaps_;
+  std::size_t numUnreadable_ = 0;  // frames that were shaded as damaged
   // One per gap.
   std::vector<QCPItemText*> gapLabels_;
   QWidget* cursor_;

@@ -77,6 +77,8 @@ QString problemOf(const QString& formula, const Profile* profile) {
         static_cast<double>(profile->frameTimeUs(last) - profile->frameTimeUs(0)) / kUsPerS;
     (void)derivedSeries(cropped(*profile, 0, last), parsed, 0.0, toS);
     return {};
+  } catch (const Error&) {
+    return {};  // the beginning is damaged: it can't be tried there
   } catch (const std::exception& error) {
     // "formula "..": " only repeats what stands in the field.
     const std::string message = error.what();
