@@ -61,6 +61,7 @@ class Installed : public ::testing::Test {
 TEST_F(Installed, HasEverythingThatAPackageTakes) {
   for (const char* name : {"bin/palpate",
                            "libexec/palpate/palpate_window",
+                           "libexec/palpate/palpate_hdf5",
                            "share/applications/palpate.desktop",
                            "share/metainfo/palpate.metainfo.xml",
                            "share/mime/packages/palpate.xml",
@@ -95,7 +96,8 @@ TEST_F(Installed, HasNothingOfTheBuild) {
     const bool runs = (entry.status().permissions() & fs::perms::owner_exec) != fs::perms::none;
     EXPECT_EQ(runs,
               entry.path() == path("bin/palpate") ||
-                  entry.path() == path("libexec/palpate/palpate_window"))
+                  entry.path() == path("libexec/palpate/palpate_window") ||
+                  entry.path() == path("libexec/palpate/palpate_hdf5"))
         << entry.path();
   }
 }
@@ -175,6 +177,21 @@ TEST_F(Installed, WithoutTheProgramOfTheWindowTheOtherCommandsWork) {
                   ": the part of palpate with the window and this command can't be started: No "
                   "such file or directory; install palpate again\n");
   }
+}
+
+TEST_F(Installed, WithoutTheProgramThatReadsHdf5OneLineNamesIt) {
+  const TemporaryFolder folder;
+  const std::string recording = folder / "a.h5";
+  bytesOf(recording);
+  EXPECT_EQ(palpate({"verify", recording}).exitCode, 0);
+  const fs::path reader = path("libexec/palpate/palpate_hdf5");
+  fs::rename(reader, reader.string() + "_away");
+  const ProgramResult info = palpate({"info", recording});
+  fs::rename(reader.string() + "_away", reader);
+  EXPECT_EQ(info.exitCode, 1);
+  EXPECT_NE(info.err.find("palpate_hdf5 can't be started: No such file or directory"),
+            std::string::npos)
+      << info.err;
 }
 
 TEST_F(Installed, PythonModuleIsFound) {
