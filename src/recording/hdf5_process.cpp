@@ -9,55 +9,22 @@
 #include <system_error>
 #include <utility>
 
-#include <dlfcn.h>
 #include <poll.h>
 #include <sys/socket.h>
 
 #include "palpate/core/error.h"
 #include "palpate/core/escaped_line.h"
+#include "palpate/recording/hdf5_program.h"
 
 namespace palpate {
-namespace fs = std::filesystem;
 namespace {
 
 // A request takes kHdf5RequestCpuS of a processor at most; on a busy machine that is longer.
 constexpr int kPatienceMs = 60'000;
-constexpr const char* kHdf5ProgramName = "palpate_hdf5";
-
-fs::path& givenHdf5Program() {
-  static fs::path given;
-  return given;
-}
-
-// The file that this code was loaded from: the program, or the module that Python has loaded.
-fs::path thisBinary() {
-  std::error_code ignored;
-  Dl_info self{};
-  if (::dladdr(reinterpret_cast<const void*>(&hdf5Program), &self) != 0 && self.dli_fname &&
-      std::strstr(self.dli_fname, ".so"))
-    return fs::canonical(self.dli_fname, ignored);
-  return fs::read_symlink("/proc/self/exe", ignored);
-}
 
 }  // namespace
 
-fs::path hdf5Program() {
-  if (!givenHdf5Program().empty()) return givenHdf5Program();
-  const fs::path folder = thisBinary().parent_path();
-  // build/tests/MODULE/TESTS; PREFIX/lib/python3/dist-packages/MODULE.
-  constexpr int kLevels = 4;
-  fs::path place = folder;
-  for (int level = 0; level < kLevels; ++level, place = place.parent_path()) {
-    std::error_code ignored;
-    for (const fs::path& found : {place / kHdf5ProgramName, place / PALPATE_INSTALLED_HDF5})
-      if (fs::is_regular_file(found, ignored)) return found;
-  }
-  return folder / kHdf5ProgramName;
-}
-
-void setHdf5Program(const fs::path& program) { givenHdf5Program() = program; }
-
-Hdf5Process::Hdf5Process(fs::path path, int descriptor) : path_(std::move(path)) {
+Hdf5Process::Hdf5Process(std::filesystem::path path, int descriptor) : path_(std::move(path)) {
   std::array<int, 2> sockets{};
   if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, sockets.data()) != 0)
     throw FileError(path_, "can't be read: " + std::generic_category().message(errno));

@@ -66,10 +66,4 @@ class Hdf5Process {
   std::string end_;  // how the program ended; empty: it runs
 };
 
-// Where palpate_hdf5 lies: beside this program or this module of Python, in the folder of a build
-// that they lie in, or in libexec of their installation.
-std::filesystem::path hdf5Program();
-// Lets another program take its place, for tests; empty: none does.
-void setHdf5Program(const std::filesystem::path& program);
-
 }  // namespace palpate

@@ -5,7 +5,8 @@
 
 #include <gtest/gtest.h>
 
-#include "recording/hdf5_process.h"
+#include "palpate/recording/hdf5_program.h"
+
 #include "testing/testing.h"
 
 namespace palpate::testing::program_test {

@@ -1,5 +1,5 @@
-// Files that libhdf5 can't read, and a program that fails in its place.
-#include "recording/hdf5_process.h"
+// Files that libhdf5 can't read, and a program that fails in the place of palpate_hdf5.
+#include "palpate/recording/hdf5_program.h"
 
 #include <cerrno>
 #include <csignal>
@@ -20,7 +20,7 @@
 #include "testing/process_facts.h"
 #include "testing/testing.h"
 
-namespace palpate::hdf5_process_test {
+namespace palpate::hdf5_program_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -76,7 +76,7 @@ class InsteadOfTheProgram {
   InsteadOfTheProgram& operator=(const InsteadOfTheProgram&) = delete;
 };
 
-TEST(Hdf5Process, howTheProgramEndedIsOneLine) {
+TEST(Hdf5Program, howTheProgramEndedIsOneLine) {
   const TemporaryFolder folder;
   makeRecording(folder / "a.h5");
   testing::runPython(folder, R"(
@@ -105,7 +105,7 @@ with h5py.File(sys.argv[1] + '/table.h5', 'w') as f: f['x'] = [1, 2, 3]
   EXPECT_EQ(opening(folder / "a.h5"), "opened");
 }
 
-TEST(Hdf5Process, aMissingProgramIsOneLineThatNamesIt) {
+TEST(Hdf5Program, aMissingProgramIsOneLineThatNamesIt) {
   const TemporaryFolder folder;
   makeRecording(folder / "a.h5");
   setHdf5Program(folder / "nothing");
@@ -117,7 +117,7 @@ TEST(Hdf5Process, aMissingProgramIsOneLineThatNamesIt) {
   EXPECT_TRUE(hdf5Program().is_absolute());
 }
 
-TEST(Hdf5Process, aProgramThatDiesLaterIsToldOfByEachLaterCall) {
+TEST(Hdf5Program, aProgramThatDiesLaterIsToldOfByEachLaterCall) {
   const TemporaryFolder folder;
   makeRecording(folder / "a.h5");
   const std::size_t before = testing::leastProcessFacts().descriptors;
@@ -137,7 +137,7 @@ TEST(Hdf5Process, aProgramThatDiesLaterIsToldOfByEachLaterCall) {
 }
 
 // Of such files some crash libhdf5 1.10.8, and some hang it; this process reads on.
-TEST(Hdf5Process, changedBytesWithARightChecksumEndNothing) {
+TEST(Hdf5Program, changedBytesWithARightChecksumEndNothing) {
   const TemporaryFolder folder;
   makeRecording(folder / "a.h5");
   const std::string whole = testing::readFile(folder / "a.h5");
@@ -181,7 +181,7 @@ class changed:
                hashlib.sha256(rest).hexdigest().encode() + b'\n').ljust(512, b'\0'))
 )";
 
-TEST(Hdf5Process, aRecordingThatRefersToOtherFilesIsRefused) {
+TEST(Hdf5Program, aRecordingThatRefersToOtherFilesIsRefused) {
   const TemporaryFolder folder;
   makeRecording(folder / "a.h5");
   testing::runPython(folder, std::string(kChanged) + R"(
@@ -219,7 +219,7 @@ with changed('virtual.h5') as f:
   EXPECT_EQ(opening(folder / "a.h5"), "opened");
 }
 
-TEST(Hdf5Process, aTableThatRefersToOtherFilesIsRefused) {
+TEST(Hdf5Program, aTableThatRefersToOtherFilesIsRefused) {
   const TemporaryFolder folder;
   testing::runPython(folder, R"(
 import os, sys, numpy as np, h5py
@@ -259,7 +259,7 @@ with h5py.File(folder + 'unwritten.h5', 'w') as f:
 }
 
 // Small files that claim much: 2 GB of stamps, of texts, and of numbers in one chunk.
-TEST(Hdf5Process, whatAFileClaimsTakesLittleMemory) {
+TEST(Hdf5Program, whatAFileClaimsTakesLittleMemory) {
   const TemporaryFolder folder;
   makeRecording(folder / "a.h5");
   testing::runPython(folder, std::string(kChanged) + R"(
@@ -300,7 +300,7 @@ with changed('chunk.h5') as f:
 }
 
 // The stamps of a long recording don't lie in memory all at once; each is found.
-TEST(Hdf5Process, stampsOfALongRecordingAreReadWhenTheyAreWanted) {
+TEST(Hdf5Program, stampsOfALongRecordingAreReadWhenTheyAreWanted) {
   const TemporaryFolder folder;
   makeRecording(folder / "a.h5");
   testing::runPython(folder, std::string(kChanged) + R"(
@@ -319,4 +319,4 @@ with changed('long.h5') as f:
 }
 
 }  // namespace
-}  // namespace palpate::hdf5_process_test
+}  // namespace palpate::hdf5_program_test
