@@ -62,6 +62,7 @@ TEST_F(Installed, HasEverythingThatAPackageTakes) {
   for (const char* name : {"bin/palpate",
                            "libexec/palpate/palpate_window",
                            "libexec/palpate/palpate_stop",
+                           "libexec/palpate/palpate_hdf5",
                            "share/applications/palpate.desktop",
                            "share/metainfo/palpate.metainfo.xml",
                            "share/mime/packages/palpate.xml",
@@ -189,6 +190,21 @@ TEST_F(Installed, WithoutTheProgramOfTheLastStopAGraspSaysSo) {
   const ProgramResult result = grasp();
   fs::rename(stop.string() + "_away", stop);
   EXPECT_TRUE(result.err.starts_with("palpate: " + without)) << result.err;
+}
+
+TEST_F(Installed, WithoutTheProgramThatReadsHdf5OneLineNamesIt) {
+  const TemporaryFolder folder;
+  const std::string recording = folder / "a.h5";
+  bytesOf(recording);
+  EXPECT_EQ(palpate({"verify", recording}).exitCode, 0);
+  const fs::path reader = path("libexec/palpate/palpate_hdf5");
+  fs::rename(reader, reader.string() + "_away");
+  const ProgramResult info = palpate({"info", recording});
+  fs::rename(reader.string() + "_away", reader);
+  EXPECT_EQ(info.exitCode, 1);
+  EXPECT_NE(info.err.find("palpate_hdf5 can't be started: No such file or directory"),
+            std::string::npos)
+      << info.err;
 }
 
 TEST_F(Installed, PythonModuleIsFound) {

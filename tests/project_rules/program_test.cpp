@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include "palpate/recording/hdf5_program.h"
+
 #include "testing/testing.h"
 
 namespace palpate::testing::program_test {
@@ -35,6 +37,14 @@ TEST(Program, WithoutAWindowLoadsNeitherQtNorOpenCvNorCeresNorHdf5) {
   EXPECT_NE(libraries.find("libbz2"), std::string::npos) << libraries;
   for (const char* name :
        {"libQt", "opencv", "ceres", "glog", "lapack", "libGL", "hdf5", "libcurl", "not found"})
+    EXPECT_EQ(libraries.find(name), std::string::npos) << name << "\n" << libraries;
+}
+
+// HDF5 is read by a program of its own: it loads the library, and nothing of the window.
+TEST(Program, Hdf5IsReadByAProgramOfItsOwn) {
+  const std::string libraries = librariesOf(hdf5Program());
+  EXPECT_NE(libraries.find("libhdf5"), std::string::npos) << libraries;
+  for (const char* name : {"libQt", "opencv", "libsqlite3", "not found"})
     EXPECT_EQ(libraries.find(name), std::string::npos) << name << "\n" << libraries;
 }
 

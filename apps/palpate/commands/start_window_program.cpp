@@ -1,9 +1,7 @@
 #include "commands/start_window_program.h"
 
 #include <algorithm>
-#include <array>
 #include <cerrno>
-#include <fstream>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -13,7 +11,6 @@
 #include <unistd.h>
 
 #include "palpate/core/error.h"
-#include "palpate/recording/hdf5_recording.h"
 
 namespace palpate::commands {
 namespace fs = std::filesystem;
@@ -27,12 +24,6 @@ bool needsHdf5(const Arguments& words) {
     });
     if (last == "h5" || last == "hdf5" || last.ends_with(".h5") || last.ends_with(".hdf5"))
       return true;
-    // No pipe is opened: nobody may ever write into it.
-    std::error_code ignored;
-    if (!fs::is_regular_file(word, ignored)) continue;
-    std::array<char, kHdf5RecordingStart.size()> first{};
-    std::ifstream(word, std::ios::binary).read(first.data(), first.size());
-    if (startsLikeHdf5({first.data(), first.size()})) return true;
   }
   return false;
 }

@@ -14,8 +14,8 @@ namespace palpate::commands {
 // for OtherCommands.
 int startWindowProgram(const std::string& name, const Arguments& words);
 
-// Whether a word of a command line is about HDF5: it (or what follows its '=') is the ending of
-// such a file or ends so, or it names a file whose first bytes are those of HDF5.
+// Whether a command may write HDF5: a word of its line (or what follows the word's '=') is the
+// ending of such a file or ends so. To read HDF5 is the work of palpate_hdf5.
 bool needsHdf5(const Arguments& words);
 
 // Where palpate_window lies: beside `program` in a build folder, otherwise where the installation

@@ -3,8 +3,9 @@
 // said of it) bit by bit, so that it can be read back, and beside that where it comes from and
 // series that were computed of its frames.
 //
-// A program that does without HDF5 has these functions, too (CMake property PALPATE_WITHOUT_HDF5):
-// there they throw Error.
+// Files are read by a process of its own, palpate_hdf5, whose memory and processor time are limited:
+// libhdf5 crashes and hangs on files that anybody can make. A program that does without HDF5 (CMake
+// property PALPATE_WITHOUT_HDF5) has writeHdf5(), too: there it throws Error.
 #pragma once
 
 #include <cstddef>
@@ -57,8 +58,9 @@ void writeHdf5(const Hdf5Content& content,
                const Progress& progress = {},
                const Hdf5WriteOptions& options = {});
 
-// A recording in an HDF5 file. Stamps lie in memory; frames, angles and temperatures are read when
-// they are asked for, and the profile is safe from several threads.
+// A recording in an HDF5 file. A part of its stamps lies in memory; frames, angles and temperatures
+// are read when they are asked for, and the profile is safe from several threads. The process that
+// reads it lives as long as the profile.
 struct Hdf5Recording {
   Profile profile;
   std::vector<RecordingEvent> events;
@@ -66,11 +68,12 @@ struct Hdf5Recording {
   Provenance provenance;
 };
 
-// Opens what writeHdf5() has made. The whole file is read once for its checksum before the HDF5
-// library sees it: a damaged one could end the process there. While a profile of the file exists,
-// the file is not opened again. Throws FileError; FormatError where it is damaged, cut off or
-// changed, another program's (palpate import reads those), of a newer layout, or compressed by a
-// filter that is not there.
+// Opens what writeHdf5() has made. The whole file is read once for its checksum. While a profile of
+// the file exists, the file is not opened again. Throws FileError (also when palpate_hdf5 can't be
+// started); FormatError where it is damaged, cut off or changed, another program's (palpate import
+// reads those), of a newer layout, refers to other files, claims more than it holds, is compressed
+// by a filter that is not there, or libhdf5 could not read it: it crashed, took more than 2 s of a
+// processor for one step, or more than 256 MB of memory.
 Hdf5Recording readHdf5(const std::filesystem::path& path);
 
 }  // namespace palpate

@@ -1,10 +1,10 @@
-// The data sets of an HDF5 file, by their paths. The C library is used in this source only; it
-// allows one thread at a time, so that its calls are guarded by a mutex of the process.
+// The data sets of an HDF5 file, by their paths. Another process reads them (hdf5_process.h).
 #pragma once
 
 #include <memory>
 #include <vector>
 
+#include "recording/hdf5_process.h"
 #include "recording/import/array_source.h"
 
 namespace palpate {
@@ -12,7 +12,6 @@ namespace palpate {
 class Hdf5Source final : public ArraySource {
  public:
   explicit Hdf5Source(const std::filesystem::path& path);
-  ~Hdf5Source() override;
   std::string form() const override;
 
  protected:
@@ -27,8 +26,8 @@ class Hdf5Source final : public ArraySource {
                  std::vector<TimeCell>& times) override;
 
  private:
-  struct Impl;
-  std::unique_ptr<Impl> impl_;
+  std::unique_ptr<Hdf5Process> file_;
+  std::vector<Hdf5Facts> facts_;  // of the columns
 };
 
 }  // namespace palpate

@@ -5,9 +5,9 @@
 #include <cstdlib>
 #include <functional>
 
+#include <palpate/core/child_program.h>
 #include <palpate/core/error.h>
 
-#include "gui/picture/child_program.h"
 #include "gui/picture/ffmpeg.h"
 #include "testing/fake_ffmpeg.h"
 

@@ -68,12 +68,8 @@ QString sampleText(const ImportPreview& preview) {
 
 ImportDialog::ImportDialog(QSettings& settings,
                            std::vector<std::filesystem::path> folders,
-                           bool handConnected,
                            QWidget* parent)
-    : QDialog(parent),
-      settings_(settings),
-      folders_(std::move(folders)),
-      handConnected_(handConnected) {
+    : QDialog(parent), settings_(settings), folders_(std::move(folders)) {
   setWindowTitle("Import");
   const ImportRequest last = loadImportRequest(settings);
   auto* upper = new QHBoxLayout;
@@ -355,7 +351,6 @@ ImportRequest ImportDialog::request() const {
   request.out = out();
   request.strict = strict_->isChecked();
   request.replace = replace_->isChecked();
-  request.handConnected = handConnected_;
   return request;
 }
 

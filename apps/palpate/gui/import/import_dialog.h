@@ -28,10 +28,8 @@ class ImportDialog : public QDialog {
   Q_OBJECT
  public:
   // `settings` must outlive the dialog. `folders`: where hands are looked for by name.
-  // `handConnected`: as in ImportRequest.
   ImportDialog(QSettings& settings,
                std::vector<std::filesystem::path> folders,
-               bool handConnected = false,
                QWidget* parent = nullptr);
   ~ImportDialog() override;
 
@@ -74,7 +72,6 @@ class ImportDialog : public QDialog {
 
   QSettings& settings_;
   std::vector<std::filesystem::path> folders_;
-  bool handConnected_;
   // The mapping that the fields began with; they show a part of it.
   ImportMapping first_;
   ImportLook looked_;

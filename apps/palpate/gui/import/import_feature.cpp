@@ -32,10 +32,7 @@ ImportFeature::ImportFeature(WindowState& windowState, QWidget* window)
 }
 
 void ImportFeature::askAndImport() {
-  ImportDialog dialog(state().settings,
-                      handFolders(state().environment.dataFolder),
-                      state().live.state() != LiveController::State::kNone,
-                      window());
+  ImportDialog dialog(state().settings, handFolders(state().environment.dataFolder), window());
   if (dialog.exec() != QDialog::Accepted) return;
   saveImportRequest(dialog.request(), state().settings);
   importNow(dialog.request());

@@ -6,7 +6,6 @@
 #include <palpate/core/error.h>
 #include <palpate/core/number_text.h>
 #include <palpate/model/hand_file.h>
-#include <palpate/recording/table_source.h>
 
 namespace palpate::gui {
 namespace fs = std::filesystem;
@@ -35,14 +34,6 @@ QString jsonOf(const ImportMapping& mapping) {
   return QString::fromStdString(mappingJson(mapping).text(-1));
 }
 
-void requireHarmless(const ImportRequest& request) {
-  const fs::path data = request.data.toStdString();
-  if (request.handConnected && isHdf5Table(data))
-    throw FormatError(data,
-                      "is an HDF5 file, and a damaged one could end the program: disconnect the "
-                      "hand first, then import it");
-}
-
 }  // namespace
 
 ImportLook lookAtImport(const ImportRequest& request, const std::vector<fs::path>& folders) {
@@ -53,7 +44,6 @@ ImportLook lookAtImport(const ImportRequest& request, const std::vector<fs::path
       look.problem = "choose a file";
       return look;
     }
-    requireHarmless(request);
     look.preview = previewImport(request.data.toStdString(), *look.hand, request.mapping);
     look.problem = QString::fromStdString(look.preview->problem);
   } catch (const std::exception& error) {
@@ -65,7 +55,6 @@ ImportLook lookAtImport(const ImportRequest& request, const std::vector<fs::path
 ImportReport runImport(const ImportRequest& request,
                        const std::vector<fs::path>& folders,
                        const Progress& progress) {
-  requireHarmless(request);
   return importRecording(request.data.toStdString(),
                          findHand(request.hand.toStdString(), folders),
                          request.mapping,

@@ -21,9 +21,6 @@ struct ImportRequest {
   QString out;
   bool strict = false;
   bool replace = false;
-  // Whether HDF5 is refused because this process may be moving a hand: a damaged file could end it
-  // within the HDF5 library.
-  bool handConnected = false;
 };
 
 // The hand and what an import would do; computed by a worker.
@@ -37,7 +34,7 @@ struct ImportLook {
 ImportLook lookAtImport(const ImportRequest& request,
                         const std::vector<std::filesystem::path>& folders);
 
-// Throws as importRecording() and findHand(), and FormatError for HDF5 while a hand is connected.
+// Throws as importRecording() and findHand().
 ImportReport runImport(const ImportRequest& request,
                        const std::vector<std::filesystem::path>& folders,
                        const Progress& progress);

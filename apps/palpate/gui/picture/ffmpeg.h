@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "gui/picture/child_program.h"
+#include <palpate/core/child_program.h>
 
 namespace palpate::gui {
 

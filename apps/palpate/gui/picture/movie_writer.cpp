@@ -6,9 +6,9 @@
 
 #include <sys/stat.h>
 
+#include <palpate/core/child_program.h>
 #include <palpate/core/error.h>
 
-#include "gui/picture/child_program.h"
 #include "gui/picture/ffmpeg.h"
 
 namespace palpate::gui {
@@ -82,7 +82,7 @@ void writeMovie(const fs::path& path,
   ChildProgram program(
       *ffmpeg,
       ffmpegArguments(encoder, size, movie.picturesPerS, paper.title.toStdString()),
-      file.descriptor());
+      {file.descriptor()});
   const PicturePaper even = evenPaper(paper);
   std::size_t shown = 0;
   for (const MovieFrame& shot : movie.timing.shots) {

@@ -1,4 +1,4 @@
-#include "gui/picture/child_program.h"
+#include "palpate/core/child_program.h"
 
 #include <array>
 #include <cerrno>
@@ -13,11 +13,11 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <palpate/core/error.h>
+#include "palpate/core/error.h"
 
 extern char** environ;
 
-namespace palpate::gui {
+namespace palpate {
 namespace {
 
 constexpr int kPatienceMs = 50;
@@ -29,8 +29,8 @@ std::string childProgramMessageOf(int error) { return std::generic_category().me
 
 // Duplicates the descriptor under a higher number, which isn't overwritten when it becomes one of
 // the program's own.
-FileDescriptor movedUp(const FileDescriptor& descriptor) {
-  const int higher = ::fcntl(descriptor.get(), F_DUPFD_CLOEXEC, kFirstFree);
+FileDescriptor movedUp(int descriptor) {
+  const int higher = ::fcntl(descriptor, F_DUPFD_CLOEXEC, kFirstFree);
   if (higher < 0) throw Error("too many files are open: " + childProgramMessageOf(errno));
   return FileDescriptor(higher);
 }
@@ -72,7 +72,7 @@ void ask(const ChildProgram::KeepGoing& keepGoing) {
 
 ChildProgram::ChildProgram(const std::filesystem::path& program,
                            const std::vector<std::string>& arguments,
-                           int descriptor) {
+                           const std::vector<int>& descriptors) {
   std::array<int, 2> sockets{};
   if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, sockets.data()) != 0)
     throw Error(program.string() + " can't be started: " + childProgramMessageOf(errno));
@@ -83,16 +83,19 @@ ChildProgram::ChildProgram(const std::filesystem::path& program,
     throw Error(program.string() + " can't be started: " + childProgramMessageOf(errno));
   FileDescriptor output(pipe[0]);
   FileDescriptor theirOutput(pipe[1]);
-  theirInput = movedUp(theirInput);
-  theirOutput = movedUp(theirOutput);
+  theirInput = movedUp(theirInput.get());
+  theirOutput = movedUp(theirOutput.get());
   ::fcntl(output.get(), F_SETFL, O_NONBLOCK);
   SpawnPlan plan;
   plan.give(theirInput.get(), STDIN_FILENO);
   plan.give(theirOutput.get(), STDOUT_FILENO);
   plan.give(theirOutput.get(), STDERR_FILENO);
-  // This one comes last: its number may be one of those that are assigned above.
-  FileDescriptor passed(descriptor < 0 ? -1 : ::fcntl(descriptor, F_DUPFD_CLOEXEC, kFirstFree));
-  if (passed.get() >= 0) plan.give(passed.get(), kPassedAs);
+  // These come last: their numbers may be ones that are assigned above.
+  std::vector<FileDescriptor> passed;
+  for (const int each : descriptors) {
+    passed.push_back(movedUp(each));
+    plan.give(passed.back().get(), kPassedAs + static_cast<int>(passed.size()) - 1);
+  }
 
   std::string name = program.string();
   std::vector<std::string> words = arguments;
@@ -184,4 +187,4 @@ int ChildProgram::finish(const KeepGoing& keepGoing) {
   return WIFEXITED(status) ? WEXITSTATUS(status) : kKilled + WTERMSIG(status);
 }
 
-}  // namespace palpate::gui
+}  // namespace palpate

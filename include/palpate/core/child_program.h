@@ -1,6 +1,5 @@
 // Runs another program, writes bytes to its standard input and keeps its output. No shell is
 // involved, so no file name needs quoting. The program is killed when this object is destroyed.
-// ffmpeg.h and movie_writer.h use it.
 #pragma once
 
 #include <cstddef>
@@ -10,25 +9,22 @@
 #include <string>
 #include <vector>
 
-#include <sys/types.h>
-
 #include <palpate/core/file_descriptor.h>
 
-namespace palpate::gui {
+namespace palpate {
 
 class ChildProgram {
  public:
   // Called every 50 ms during a wait; when it returns false, the waiting function throws Cancelled.
   using KeepGoing = std::function<bool()>;
 
-  // Number under which the program finds `descriptor`.
+  // Number under which the program finds the first of `descriptors`; the others follow it.
   static constexpr int kPassedAs = 3;
   // Starts the program in a process group of its own, so that Ctrl-C in a terminal reaches only
-  // Palpate. descriptor: open in the program as kPassedAs; -1: none. Throws Error: no such program,
-  // not executable, ..
+  // Palpate. Throws Error: no such program, not executable, ..
   ChildProgram(const std::filesystem::path& program,
                const std::vector<std::string>& arguments,
-               int descriptor = -1);
+               const std::vector<int>& descriptors = {});
   // Unless finish() has returned, kills the program and all processes that it started, and waits
   // for it.
   ~ChildProgram();
@@ -51,8 +47,8 @@ class ChildProgram {
   void wait(bool toWrite);
   void kill();
 
-  // -1: the program has ended and was waited for.
-  pid_t pid_ = -1;
+  // The process id (pid_t); -1: the program has ended and was waited for.
+  int pid_ = -1;
   // A socket, since writing to it raises no SIGPIPE.
   FileDescriptor input_;
   // Invalid once the program has closed its output.
@@ -60,4 +56,4 @@ class ChildProgram {
   std::string said_;
 };
 
-}  // namespace palpate::gui
+}  // namespace palpate

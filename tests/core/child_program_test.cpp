@@ -1,4 +1,4 @@
-#include "gui/picture/child_program.h"
+#include "palpate/core/child_program.h"
 
 #include <cerrno>
 #include <chrono>
@@ -11,12 +11,12 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <palpate/core/error.h>
+#include "palpate/core/error.h"
 
 #include "testing/process_facts.h"
 #include "testing/testing.h"
 
-namespace palpate::gui::child_program_test {
+namespace palpate::child_program_test {
 namespace {
 
 std::span<const std::byte> bytesOf(const std::string& text) {
@@ -84,7 +84,7 @@ TEST(ChildProgram, GetsADescriptorOfOursAndNoOther) {
   const int ours = ::open((folder / "a").c_str(), O_CREAT | O_RDWR | O_CLOEXEC, 0600);
   {
     ChildProgram program(
-        "/bin/sh", {"-c", "printf 1 >&3; printf 23 >> /proc/self/fd/3; ls /proc/$$/fd; :"}, ours);
+        "/bin/sh", {"-c", "printf 1 >&3; printf 23 >> /proc/self/fd/3; ls /proc/$$/fd; :"}, {ours});
     EXPECT_EQ(program.finish(), 0);
     std::istringstream said(program.said());
     std::set<std::string> given;
@@ -150,4 +150,4 @@ TEST(ChildProgram, WhatItLeavesBehindIsEndedWithIt) {
 }
 
 }  // namespace
-}  // namespace palpate::gui::child_program_test
+}  // namespace palpate::child_program_test

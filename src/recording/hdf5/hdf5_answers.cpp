@@ -1,0 +1,437 @@
+#include "recording/hdf5/hdf5_answers.h"
+
+#include <algorithm>
+#include <bit>
+#include <cerrno>
+#include <csignal>
+#include <new>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <sys/resource.h>
+#include <sys/socket.h>
+#include <sys/time.h>
+#include <unistd.h>
+
+namespace palpate {
+namespace {
+
+constexpr std::size_t kMostDataSets = 10'000;
+constexpr std::size_t kMostNameBytes = 4096;
+constexpr hsize_t kMostReadChunkBytes = 32u << 20;
+constexpr std::size_t kTextsPerAnswerBytes = 1u << 20;
+
+struct Hdf5Fault {
+  std::string text;
+};
+[[noreturn]] void fault(std::string text) { throw Hdf5Fault{std::move(text)}; }
+
+herr_t collectName(hid_t, const char* name, const H5O_info_t* info, void* data) {
+  auto& names = *static_cast<std::vector<std::string>*>(data);
+  if (info->type == H5O_TYPE_DATASET) names.emplace_back(name);
+  return names.size() >= kMostDataSets ? 1 : 0;
+}
+
+Hdf5Kind kindOf(hid_t type) {
+  switch (H5Tget_class(type)) {
+    case H5T_INTEGER:
+      return Hdf5Kind::kInteger;
+    case H5T_FLOAT:
+      return Hdf5Kind::kFloat;
+    case H5T_STRING:
+      return Hdf5Kind::kText;
+    default:
+      return Hdf5Kind::kOther;
+  }
+}
+
+std::string hdf5TypeName(hid_t type) {
+  const std::string bits = std::to_string(8 * H5Tget_size(type));
+  switch (H5Tget_class(type)) {
+    case H5T_INTEGER:
+      return (H5Tget_sign(type) == H5T_SGN_NONE ? "uint" : "int") + bits;
+    case H5T_FLOAT:
+      return "float" + bits;
+    case H5T_STRING:
+      return "text";
+    case H5T_ENUM:
+      return "enum";
+    case H5T_COMPOUND:
+      return "structure";
+    default:
+      return "other";
+  }
+}
+
+hid_t memoryTypeOf(Hdf5Number type) {
+  switch (type) {
+    case Hdf5Number::kU8:
+      return H5T_NATIVE_UINT8;
+    case Hdf5Number::kI32:
+      return H5T_NATIVE_INT32;
+    case Hdf5Number::kI64:
+      return H5T_NATIVE_INT64;
+    case Hdf5Number::kF32:
+      return H5T_NATIVE_FLOAT;
+    case Hdf5Number::kF64:
+      break;
+  }
+  return H5T_NATIVE_DOUBLE;
+}
+
+// Why the values of a data set can't be read; empty: nothing is known.
+std::string filterFault(hid_t properties) {
+  const int numFilters = H5Pget_nfilters(properties);
+  for (int i = 0; i < numFilters; ++i) {
+    unsigned flags = 0;
+    std::size_t numValues = 0;
+    char name[64] = "";
+    const H5Z_filter_t filter = H5Pget_filter2(properties,
+                                               static_cast<unsigned>(i),
+                                               &flags,
+                                               &numValues,
+                                               nullptr,
+                                               sizeof name,
+                                               name,
+                                               nullptr);
+    if (filter < 0 || H5Zfilter_avail(filter) <= 0)
+      return "is compressed by a filter that is not there (" + std::to_string(filter) +
+             (name[0] ? ", " + std::string(name) : "") + "); write it with gzip or without";
+  }
+  return {};
+}
+
+// Number of chunks that a data set of this shape consists of.
+hsize_t chunksOf(const std::vector<hsize_t>& shape, const std::vector<hsize_t>& chunk) {
+  hsize_t count = 1;
+  for (std::size_t d = 0; d < shape.size(); ++d) {
+    const hsize_t along = chunk[d] == 0 ? 0 : (shape[d] - 1) / chunk[d] + 1;
+    if (shape[d] == 0) return 0;
+    if (__builtin_mul_overflow(count, along, &count)) return HSIZE_UNDEF;
+  }
+  return count;
+}
+
+// The same for what a data set claims to hold: values that were never written are not read as if
+// they were there.
+std::string storageFault(hid_t id, hid_t properties, hid_t space, Hdf5Facts& facts) {
+  constexpr const char* kMissing =
+      "claims more values than the file holds: some were never written";
+  const std::vector<hsize_t> shape(facts.shape.begin(), facts.shape.end());
+  const Hdf5Id type(H5Dget_type(id), H5Tclose);
+  hsize_t bytes = H5Tget_size(type.get());
+  if (H5Pget_layout(properties) != H5D_CHUNKED) {
+    for (const hsize_t length : shape)
+      if (__builtin_mul_overflow(bytes, length, &bytes)) return kMissing;
+    return H5Dget_storage_size(id) < bytes ? kMissing : "";
+  }
+  std::vector<hsize_t> chunk(shape.size());
+  H5Pget_chunk(properties, static_cast<int>(chunk.size()), chunk.data());
+  for (const hsize_t length : chunk)
+    if (__builtin_mul_overflow(bytes, length, &bytes) || bytes > kMostReadChunkBytes)
+      return "has chunks that are too large to be read";
+  if (!chunk.empty()) facts.chunkLength = chunk[0];
+  hsize_t stored = 0;
+  if (H5Dget_num_chunks(id, space, &stored) < 0) return "can't be read: damaged";
+  return stored < chunksOf(shape, chunk) ? kMissing : "";
+}
+
+Hdf5Facts factsOf(hid_t id) {
+  const Hdf5Id properties(H5Dget_create_plist(id), H5Pclose);
+  // Before the library looks for the other files.
+  if (H5Pget_layout(properties.get()) == H5D_VIRTUAL)
+    fault("is put together of other data sets (virtual layout), which is refused");
+  if (H5Pget_external_count(properties.get()) != 0)
+    fault("lies in other files (external storage), which is refused");
+  const Hdf5Id type(H5Dget_type(id), H5Tclose);
+  const Hdf5Id space(H5Dget_space(id), H5Sclose);
+  Hdf5Facts facts;
+  facts.kind = kindOf(type.get());
+  facts.typeName = hdf5TypeName(type.get());
+  const int rank = H5Sget_simple_extent_ndims(space.get());
+  if (rank < 0) fault("can't be opened: damaged");
+  std::vector<hsize_t> shape(static_cast<std::size_t>(rank));
+  H5Sget_simple_extent_dims(space.get(), shape.data(), nullptr);
+  facts.shape.assign(shape.begin(), shape.end());
+  facts.fault = filterFault(properties.get());
+  if (facts.fault.empty()) facts.fault = storageFault(id, properties.get(), space.get(), facts);
+  return facts;
+}
+
+void selectRows(hid_t space, const Hdf5Facts& facts, hsize_t first, hsize_t count, Hdf5Id& memory) {
+  std::vector<hsize_t> start(facts.shape.size(), 0);
+  std::vector<hsize_t> size(facts.shape.begin(), facts.shape.end());
+  if (size.empty() || first > size[0] || count > size[0] - first) fault("has fewer rows");
+  start[0] = first;
+  size[0] = count;
+  memory = Hdf5Id(H5Screate_simple(static_cast<int>(size.size()), size.data(), nullptr), H5Sclose);
+  if (H5Sselect_hyperslab(space, H5S_SELECT_SET, start.data(), nullptr, size.data(), nullptr) < 0)
+    fault("can't be read: damaged or cut off");
+}
+
+bool receiveAll(int socket, void* bytes, std::size_t count) {
+  auto* next = static_cast<char*>(bytes);
+  while (count > 0) {
+    const ssize_t got = ::recv(socket, next, count, 0);
+    if (got < 0 && errno == EINTR) continue;
+    if (got <= 0) return false;
+    next += got;
+    count -= static_cast<std::size_t>(got);
+  }
+  return true;
+}
+
+bool sendAll(int socket, std::string_view bytes) {
+  while (!bytes.empty()) {
+    const ssize_t sent = ::send(socket, bytes.data(), bytes.size(), MSG_NOSIGNAL);
+    if (sent < 0 && errno == EINTR) continue;
+    if (sent <= 0) return false;
+    bytes.remove_prefix(static_cast<std::size_t>(sent));
+  }
+  return true;
+}
+
+// The next request may use so much processor time; then the system ends the process (SIGXCPU).
+void limitNextRequest() {
+  rusage used{};
+  ::getrusage(RUSAGE_SELF, &used);
+  rlimit limit{};
+  ::getrlimit(RLIMIT_CPU, &limit);
+  limit.rlim_cur =
+      static_cast<rlim_t>(used.ru_utime.tv_sec + used.ru_stime.tv_sec + 1 + kHdf5RequestCpuS);
+  ::setrlimit(RLIMIT_CPU, &limit);
+}
+
+void limitHdf5Process() {
+  const rlimit none{0, 0};
+  ::setrlimit(RLIMIT_CORE, &none);
+  ::signal(SIGXCPU, SIG_DFL);
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // they need terabytes of it
+  const rlimit memory{kHdf5MemoryBytes, kHdf5MemoryBytes};
+  ::setrlimit(RLIMIT_AS, &memory);
+#endif
+}
+
+herr_t isOutOfMemory(unsigned, const H5E_error2_t* error, void* found) {
+  if (error->min_num == H5E_NOSPACE) *static_cast<bool*>(found) = true;
+  return 0;
+}
+
+// Whether the last call of the library failed for want of memory.
+bool ranOutOfMemory() {
+  bool found = false;
+  H5Ewalk2(H5E_DEFAULT, H5E_WALK_DOWNWARD, &isOutOfMemory, &found);
+  return found;
+}
+
+}  // namespace
+
+Hdf5Answers::Hdf5Answers(int descriptor) {
+  const auto lock = hdf5Lock();
+  // Wherever a path leads, it stays in this file.
+  H5Lunregister(H5L_TYPE_EXTERNAL);
+  const std::string path = "/proc/self/fd/" + std::to_string(descriptor);
+  file_ = Hdf5Id(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
+}
+
+std::string Hdf5Answers::answer(std::span<const std::byte> request) {
+  const auto lock = hdf5Lock();
+  ByteReader in(request);
+  const auto wanted = static_cast<Hdf5Request>(in.u8());
+  const std::string name = textFrom(in);
+  std::string value;
+  const auto put = [&](std::uint64_t number, int bytes) {
+    appendLittleEndian(value, number, bytes);
+  };
+  try {
+    if (!file_.ok()) fault("can't be opened as HDF5: it is cut off, damaged or being written");
+    if (name.size() > kMostNameBytes) fault("has too long a name");
+    switch (wanted) {
+      case Hdf5Request::kOpen:
+        break;
+      case Hdf5Request::kArrayNames:
+        value = arrayNames();
+        break;
+      case Hdf5Request::kHas:
+        put(has(name) ? 1 : 0, 1);
+        break;
+      case Hdf5Request::kFacts: {
+        const Hdf5Facts& facts = array(name).facts;
+        put(static_cast<std::uint8_t>(facts.kind), 1);
+        appendText(value, facts.typeName);
+        put(facts.shape.size(), 1);
+        for (const std::uint64_t length : facts.shape) put(length, 8);
+        put(facts.chunkLength, 8);
+        appendText(value, facts.fault);
+        break;
+      }
+      case Hdf5Request::kRead:
+        value = numbers(name, in);
+        break;
+      case Hdf5Request::kTexts:
+        value = texts(name, in);
+        break;
+      case Hdf5Request::kTextAttribute:
+        attribute(name, in, [&](hid_t object, const char* key) {
+          const auto text = readHdf5Text(object, key, static_cast<std::size_t>(in.u64()));
+          put(text ? 1 : 0, 1);
+          appendText(value, hdf5RestoredText(text.value_or("")));
+        });
+        break;
+      case Hdf5Request::kIntegerAttribute:
+        attribute(name, in, [&](hid_t object, const char* key) {
+          const auto number = readHdf5Integer(object, key);
+          put(number ? 1 : 0, 1);
+          put(static_cast<std::uint64_t>(number.value_or(0)), 8);
+        });
+        break;
+      case Hdf5Request::kNumberAttribute:
+        attribute(name, in, [&](hid_t object, const char* key) {
+          const auto number = readHdf5Number(object, key);
+          put(number ? 1 : 0, 1);
+          put(std::bit_cast<std::uint64_t>(number.value_or(0.0)), 8);
+        });
+        break;
+    }
+  } catch (const Hdf5Fault& found) {
+    if (ranOutOfMemory()) throw std::bad_alloc();
+    return static_cast<char>(Hdf5Answer::kFault) + found.text;
+  }
+  return static_cast<char>(Hdf5Answer::kValue) + value;
+}
+
+std::string Hdf5Answers::arrayNames() {
+  std::vector<std::string> names;
+  if (H5Ovisit2(file_.get(), H5_INDEX_NAME, H5_ITER_INC, &collectName, &names, H5O_INFO_BASIC) < 0)
+    fault("is damaged: the HDF5 data sets can't be listed");
+  std::string value;
+  appendLittleEndian(value, names.size(), 4);
+  for (const std::string& name : names) appendText(value, name);
+  return value;
+}
+
+// Of a path every part must be there.
+bool Hdf5Answers::has(const std::string& name) const {
+  for (std::size_t slash = name.find('/', 1);; slash = name.find('/', slash + 1)) {
+    if (H5Lexists(file_.get(), name.substr(0, slash).c_str(), H5P_DEFAULT) <= 0) return false;
+    requireInside(name.substr(0, slash));
+    if (slash == std::string::npos) return true;
+  }
+}
+
+void Hdf5Answers::requireInside(const std::string& name) const {
+  H5L_info_t link{};
+  if (H5Lget_info(file_.get(), name.c_str(), &link, H5P_DEFAULT) >= 0 &&
+      link.type != H5L_TYPE_HARD && link.type != H5L_TYPE_SOFT)
+    fault("is a link to another file (external link), which is refused");
+}
+
+Hdf5Answers::Array& Hdf5Answers::array(const std::string& name) {
+  const auto known = arrays_.find(name);
+  if (known != arrays_.end()) return known->second;
+  if (!has(name)) fault("is missing");
+  const Hdf5Id access(H5Pcreate(H5P_DATASET_ACCESS), H5Pclose);
+  H5Pset_chunk_cache(access.get(), 0, 0, 1.0);  // pieces are kept by who asks
+  Array opened{Hdf5Id(H5Dopen2(file_.get(), name.c_str(), access.get()), H5Dclose), {}};
+  if (!opened.id.ok()) fault("can't be opened: damaged, or no data set");
+  opened.facts = factsOf(opened.id.get());
+  return arrays_.emplace(name, std::move(opened)).first->second;
+}
+
+std::string Hdf5Answers::numbers(const std::string& name, ByteReader& in) {
+  const Array& from = array(name);
+  const hsize_t first = in.u64();
+  const hsize_t count = in.u64();
+  const auto type = static_cast<Hdf5Number>(in.u8());
+  if (!in.ok() || type > Hdf5Number::kF64) fault("was asked for in a wrong way");
+  if (!from.facts.fault.empty()) fault(from.facts.fault);
+  const Hdf5Id space(H5Dget_space(from.id.get()), H5Sclose);
+  Hdf5Id memory;
+  selectRows(space.get(), from.facts, first, count, memory);
+  hsize_t bytes = sizeOf(type) * count;
+  for (std::size_t d = 1; d < from.facts.shape.size(); ++d)
+    if (__builtin_mul_overflow(bytes, from.facts.shape[d], &bytes)) bytes = HSIZE_UNDEF;
+  if (bytes >= kMaxHdf5ReadBytes) fault("has too many numbers per row");
+  std::string value(static_cast<std::size_t>(bytes), '\0');
+  if (bytes > 0 &&
+      H5Dread(
+          from.id.get(), memoryTypeOf(type), memory.get(), space.get(), H5P_DEFAULT, value.data()) <
+          0)
+    fault("can't be read: damaged or cut off");
+  return value;
+}
+
+std::string Hdf5Answers::texts(const std::string& name, ByteReader& in) {
+  const Array& from = array(name);
+  const hsize_t first = in.u64();
+  const hsize_t count = in.u64();
+  const std::uint64_t longest = in.u64();
+  if (!from.facts.fault.empty()) fault(from.facts.fault);
+  const Hdf5Id type(H5Dget_type(from.id.get()), H5Tclose);
+  if (from.facts.shape.size() != 1 || H5Tis_variable_str(type.get()) <= 0)
+    fault("has texts of another type");
+  const Hdf5Id memoryType(H5Tcopy(H5T_C_S1), H5Tclose);
+  H5Tset_size(memoryType.get(), H5T_VARIABLE);
+  H5Tset_cset(memoryType.get(), H5Tget_cset(type.get()));
+  std::string all;
+  hsize_t read = 0;
+  // One after the other, so that a hostile file can't ask for all memory at once.
+  while (read < count && all.size() < kTextsPerAnswerBytes) {
+    const Hdf5Id space(H5Dget_space(from.id.get()), H5Sclose);
+    Hdf5Id memory;
+    selectRows(space.get(), from.facts, first + read, 1, memory);
+    char* pointer = nullptr;
+    if (H5Dread(from.id.get(),
+                memoryType.get(),
+                memory.get(),
+                space.get(),
+                H5P_DEFAULT,
+                static_cast<void*>(&pointer)) < 0)
+      fault("can't be read: damaged or cut off");
+    const std::string one = pointer ? pointer : "";
+    H5free_memory(pointer);
+    if (one.size() > longest) fault("has a text that is too long");
+    appendText(all, hdf5RestoredText(one));
+    ++read;
+  }
+  std::string value;
+  appendLittleEndian(value, read, 4);
+  return value + all;
+}
+
+template <typename Read>
+void Hdf5Answers::attribute(const std::string& name, ByteReader& in, Read read) {
+  const std::string key = textFrom(in);
+  if (!name.empty() && !has(name)) fault("is missing");
+  const Hdf5Id object(name.empty() ? H5Oopen(file_.get(), "/", H5P_DEFAULT)
+                                   : H5Oopen(file_.get(), name.c_str(), H5P_DEFAULT),
+                      H5Oclose);
+  if (!object.ok()) fault("can't be opened: damaged");
+  read(object.get(), key.c_str());
+}
+
+int serveHdf5(int socket, int file) {
+  limitHdf5Process();
+  limitNextRequest();
+  try {
+    Hdf5Answers answers(file);
+    std::vector<std::byte> request;
+    for (;;) {
+      std::uint32_t size = 0;
+      if (!receiveAll(socket, &size, sizeof size)) return 0;
+      if (size > kMaxHdf5RequestBytes) return 1;
+      request.resize(size);
+      if (!receiveAll(socket, request.data(), size)) return 0;
+      limitNextRequest();
+      const std::string answer = answers.answer(request);
+      std::string head;
+      appendLittleEndian(head, answer.size(), 4);
+      if (!sendAll(socket, head) || !sendAll(socket, answer)) return 0;
+    }
+  } catch (const std::bad_alloc&) {
+    return kHdf5MemoryExitCode;
+  }
+}
+
+}  // namespace palpate

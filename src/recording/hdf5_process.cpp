@@ -1,0 +1,198 @@
+#include "recording/hdf5_process.h"
+
+#include <array>
+#include <bit>
+#include <cerrno>
+#include <chrono>
+#include <csignal>
+#include <cstring>
+#include <system_error>
+#include <utility>
+
+#include <poll.h>
+#include <sys/socket.h>
+
+#include "palpate/core/error.h"
+#include "palpate/core/escaped_line.h"
+#include "palpate/recording/hdf5_program.h"
+
+namespace palpate {
+namespace {
+
+// A request takes kHdf5RequestCpuS of a processor at most; on a busy machine that is longer.
+constexpr int kPatienceMs = 60'000;
+
+}  // namespace
+
+Hdf5Process::Hdf5Process(std::filesystem::path path, int descriptor) : path_(std::move(path)) {
+  std::array<int, 2> sockets{};
+  if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, sockets.data()) != 0)
+    throw FileError(path_, "can't be read: " + std::generic_category().message(errno));
+  socket_ = FileDescriptor(sockets[0]);
+  {
+    // Closed before anything is asked: what the program has closed must be closed altogether.
+    const FileDescriptor theirs(sockets[1]);
+    try {
+      program_.emplace(
+          hdf5Program(), std::vector<std::string>{}, std::vector<int>{theirs.get(), descriptor});
+    } catch (const Error& error) {
+      throw FileError(
+          path_, std::string("HDF5 can't be read: ") + error.what() + "; install palpate again");
+    }
+  }
+  ask(Hdf5Request::kOpen, {});  // throws where the library can't open the file
+}
+
+bool Hdf5Process::receive(std::span<std::byte> bytes) {
+  while (!bytes.empty()) {
+    pollfd polled{socket_.get(), POLLIN, 0};
+    const int ready = ::poll(&polled, 1, kPatienceMs);
+    if (ready < 0 && errno == EINTR) continue;
+    if (ready == 0) end_ = "took too long";
+    if (ready <= 0) return false;
+    const ssize_t got = ::recv(socket_.get(), bytes.data(), bytes.size(), MSG_DONTWAIT);
+    if (got < 0 && (errno == EINTR || errno == EAGAIN)) continue;
+    if (got <= 0) return false;
+    bytes = bytes.subspan(static_cast<std::size_t>(got));
+  }
+  return true;
+}
+
+void Hdf5Process::throwEnded() {
+  if (program_ && end_.empty()) {
+    constexpr int kKilledBy = 128;
+    const int code = program_->finish();
+    if (code == kHdf5MemoryExitCode)
+      end_ = "needs more than " + std::to_string(kHdf5MemoryBytes >> 20) + " MB of memory";
+    else if (code == kKilledBy + SIGXCPU || code == kKilledBy + SIGKILL)
+      end_ = "took too long";
+    else
+      end_ = "crashed";
+  }
+  program_.reset();
+  throw FormatError(path_,
+                    "libhdf5 could not read it (" + end_ +
+                        "): it is damaged, or was made to do that; use the recording or the data "
+                        "that it was exported from");
+}
+
+std::vector<std::byte> Hdf5Process::ask(Hdf5Request wanted,
+                                        const std::string& name,
+                                        std::string_view rest) {
+  const std::lock_guard lock(mutex_);
+  if (!program_) throwEnded();
+  std::string request(1, static_cast<char>(wanted));
+  appendText(request, name);
+  request += rest;
+  std::string sized;
+  appendLittleEndian(sized, request.size(), 4);
+  sized += request;
+  // A request is smaller than the buffer of a socket, and there is one at a time.
+  if (sized.size() > kMaxHdf5RequestBytes) throw FormatError(path_, "has too long a name");
+  if (::send(socket_.get(), sized.data(), sized.size(), MSG_NOSIGNAL) !=
+      static_cast<ssize_t>(sized.size()))
+    throwEnded();
+  std::array<std::byte, 5> head{};
+  if (!receive(head)) throwEnded();
+  ByteReader in(head);
+  const std::uint32_t size = in.u32();
+  const auto answer = static_cast<Hdf5Answer>(in.u8());
+  if (size < 1 || size > kMaxHdf5AnswerBytes) throwEnded();
+  std::vector<std::byte> value(size - 1);
+  if (!receive(value)) throwEnded();
+  if (answer == Hdf5Answer::kValue) return value;
+  const std::string fault(reinterpret_cast<const char*>(value.data()), value.size());
+  throw FormatError(path_, name.empty() ? fault : inQuotes(name) + " " + fault);
+}
+
+std::vector<std::string> Hdf5Process::arrayNames() {
+  const std::vector<std::byte> value = ask(Hdf5Request::kArrayNames, {});
+  ByteReader in(value);
+  std::vector<std::string> names;
+  for (std::uint32_t count = in.u32(); count > 0 && in.ok(); --count) names.push_back(textFrom(in));
+  return names;
+}
+
+bool Hdf5Process::has(const std::string& name) {
+  const std::vector<std::byte> value = ask(Hdf5Request::kHas, name);
+  return ByteReader(value).u8() != 0;
+}
+
+Hdf5Facts Hdf5Process::facts(const std::string& name) {
+  const std::vector<std::byte> value = ask(Hdf5Request::kFacts, name);
+  ByteReader in(value);
+  Hdf5Facts facts;
+  facts.kind = static_cast<Hdf5Kind>(in.u8());
+  facts.typeName = textFrom(in);
+  facts.shape.resize(in.u8());
+  for (std::uint64_t& length : facts.shape) length = in.u64();
+  facts.chunkLength = in.u64();
+  facts.fault = textFrom(in);
+  return facts;
+}
+
+void Hdf5Process::read(const std::string& name,
+                       std::uint64_t first,
+                       std::uint64_t count,
+                       Hdf5Number type,
+                       std::span<std::byte> out) {
+  std::string rest;
+  appendLittleEndian(rest, first, 8);
+  appendLittleEndian(rest, count, 8);
+  appendLittleEndian(rest, static_cast<std::uint8_t>(type), 1);
+  const std::vector<std::byte> value = ask(Hdf5Request::kRead, name, rest);
+  if (value.size() != out.size())
+    throw FormatError(path_, inQuotes(name) + " can't be read: damaged or cut off");
+  if (!out.empty()) std::memcpy(out.data(), value.data(), out.size());
+}
+
+std::vector<std::string> Hdf5Process::texts(const std::string& name,
+                                            std::uint64_t first,
+                                            std::uint64_t count,
+                                            std::uint64_t longest) {
+  std::string rest;
+  appendLittleEndian(rest, first, 8);
+  appendLittleEndian(rest, count, 8);
+  appendLittleEndian(rest, longest, 8);
+  const std::vector<std::byte> value = ask(Hdf5Request::kTexts, name, rest);
+  ByteReader in(value);
+  std::vector<std::string> texts;
+  for (std::uint32_t number = in.u32(); number > 0 && in.ok(); --number)
+    texts.push_back(textFrom(in));
+  if (texts.empty()) throw FormatError(path_, inQuotes(name) + " can't be read: damaged");
+  return texts;
+}
+
+std::optional<std::string> Hdf5Process::textAttribute(const std::string& object,
+                                                      const std::string& name,
+                                                      std::uint64_t longest) {
+  std::string rest;
+  appendText(rest, name);
+  appendLittleEndian(rest, longest, 8);
+  const std::vector<std::byte> value = ask(Hdf5Request::kTextAttribute, object, rest);
+  ByteReader in(value);
+  if (in.u8() == 0) return std::nullopt;
+  return textFrom(in);
+}
+
+std::optional<std::int64_t> Hdf5Process::integerAttribute(const std::string& object,
+                                                          const std::string& name) {
+  std::string rest;
+  appendText(rest, name);
+  const std::vector<std::byte> value = ask(Hdf5Request::kIntegerAttribute, object, rest);
+  ByteReader in(value);
+  if (in.u8() == 0) return std::nullopt;
+  return in.i64();
+}
+
+std::optional<double> Hdf5Process::numberAttribute(const std::string& object,
+                                                   const std::string& name) {
+  std::string rest;
+  appendText(rest, name);
+  const std::vector<std::byte> value = ask(Hdf5Request::kNumberAttribute, object, rest);
+  ByteReader in(value);
+  if (in.u8() == 0) return std::nullopt;
+  return in.f64();
+}
+
+}  // namespace palpate

@@ -1,0 +1,69 @@
+// An HDF5 file that the program palpate_hdf5 reads for this process, which links no libhdf5 for
+// reading: a file on which the library crashes, hangs or takes too much memory costs one line.
+// Safe from several threads. Private to this module.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <mutex>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "palpate/core/child_program.h"
+#include "palpate/core/file_descriptor.h"
+
+#include "recording/hdf5_request.h"
+
+namespace palpate {
+
+// All functions throw FormatError: the file is damaged, refers to other files, or the library could
+// not read it. Once it has failed on the file, every later call says so.
+class Hdf5Process {
+ public:
+  // Starts the program. `path` is for messages; `descriptor`: of the file, open for reading. Throws
+  // FileError when the program can't be started.
+  Hdf5Process(std::filesystem::path path, int descriptor);
+
+  const std::filesystem::path& path() const noexcept { return path_; }
+  // The data sets that are in this file, by their paths; at most 10,000.
+  std::vector<std::string> arrayNames();
+  bool has(const std::string& name);
+  Hdf5Facts facts(const std::string& name);
+  // Reads rows of the first axis in C order; numbers out of the range of the type are cut to it.
+  void read(const std::string& name,
+            std::uint64_t first,
+            std::uint64_t count,
+            Hdf5Number type,
+            std::span<std::byte> out);
+  // Returns one or more of the texts first .. first + count - 1. Those longer than `longest` bytes
+  // are refused.
+  std::vector<std::string> texts(const std::string& name,
+                                 std::uint64_t first,
+                                 std::uint64_t count,
+                                 std::uint64_t longest);
+  // The value of an attribute of an object ("": of the file); nothing: there is none of this type.
+  std::optional<std::string> textAttribute(const std::string& object,
+                                           const std::string& name,
+                                           std::uint64_t longest);
+  std::optional<std::int64_t> integerAttribute(const std::string& object, const std::string& name);
+  std::optional<double> numberAttribute(const std::string& object, const std::string& name);
+
+ private:
+  // The value that is answered.
+  std::vector<std::byte> ask(Hdf5Request wanted,
+                             const std::string& name,
+                             std::string_view rest = {});
+  bool receive(std::span<std::byte> bytes);
+  [[noreturn]] void throwEnded();
+
+  std::filesystem::path path_;
+  std::mutex mutex_;
+  FileDescriptor socket_;
+  std::optional<ChildProgram> program_;
+  std::string end_;  // how the program ended; empty: it runs
+};
+
+}  // namespace palpate
