@@ -77,11 +77,16 @@ class WebSocketClient {
     return handshake(request(protocols)).find(" 101 ") != std::string::npos;
   }
 
-  // The next frame; nothing at the end of the connection, or when no byte arrives for this time.
+  // The next frame, pings apart, which it answers; nothing at the end of the connection, or when no
+  // byte arrives for this time.
   std::optional<WebSocketFrame> frame(int limitMs = 20'000) {
     while (true) {
-      if (auto found = takeFrame()) return found;
-      if (!receive(limitMs)) return std::nullopt;
+      if (auto found = takeFrame()) {
+        if (found->opcode != 9) return found;
+        send(masked(0x8A, found->payload));
+      } else if (!receive(limitMs)) {
+        return std::nullopt;
+      }
     }
   }
   // Waits until the other end closes the connection.
