@@ -61,7 +61,9 @@ TEST(FoxgloveServerSlow, EachMessageIsWholeOrCountedAsDropped) {
       ASSERT_GT(good.received, before);
     }
     for (PausingClient& client : clients)
-      if (random() % 100 == 0) ASSERT_TRUE(client.read(static_cast<int>(random() % 3000), 0));
+      if (random() % 100 == 0) {
+        ASSERT_TRUE(client.read(static_cast<int>(random() % 3000), 0));
+      }
   }
   std::uint64_t received = 0;
   for (PausingClient& client : clients) {
