@@ -21,10 +21,9 @@ constexpr double kStreamSilentPeriods = 3.0;  // or for three periods if that is
 constexpr std::int64_t kFaultShownUs = 2'000'000;
 constexpr std::int64_t kFaultAlarmEveryUs = 10'000'000;
 constexpr std::int64_t kStreamOffsetWindowUs = 30'000'000;
-// Datagrams that arrive this many numbers late were overtaken; further back the sender restarted.
-constexpr std::int32_t kMostLate = 64;
-// A step of the numbers that would have taken ten times as long is a restart with another number.
-constexpr std::int32_t kLargeStep = 1000;
+// Of two senders nearly each frame is another numbering: it is one event until this time passes
+// without any.
+constexpr std::int64_t kRenumberedAgainUs = 10'000'000;
 constexpr double kImplausibleSpeed = 10.0;
 constexpr double kSecondUs = 1e6;
 constexpr double kRateWeight = 0.05;
@@ -190,9 +189,8 @@ void StreamLink::takeFrame(const StreamItem& item) {
     return;
   }
   const std::int64_t nowUs = clock_.monotonicUs();
-  bool late = false;
-  const auto missing = missingBefore(item, nowUs, late);
-  if (late) {
+  const auto [missing, isLate, renumbered] = stepOf(item, nowUs);
+  if (isLate) {
     ++session_.refused;
     session_.refusedWhy = "frame " + std::to_string(item.sequence.value_or(0)) +
                           " arrived after later ones: it was left out";
@@ -203,7 +201,6 @@ void StreamLink::takeFrame(const StreamItem& item) {
   frame.values.assign(item.values.begin(), item.values.end());
   frame.hostUs = stampAfter(session_.lastStampUs);
   const std::int64_t hostUs = frame.hostUs;
-  session_.lastDeviceUs = item.deviceUs;
   const auto deviceUs = deviceTime(item, nowUs);
   if (deviceUs) {
     frame.deviceMs = floorMs(*deviceUs);
@@ -228,35 +225,20 @@ void StreamLink::takeFrame(const StreamItem& item) {
   sink_->onFrame(std::move(frame));
 }
 
-std::optional<std::uint64_t> StreamLink::missingBefore(const StreamItem& item,
-                                                       std::int64_t monotonicUs,
-                                                       bool& late) {
-  if (!item.sequence) return std::nullopt;
-  const std::uint32_t number = *item.sequence;
-  if (!session_.lastSequence) {
-    session_.lastSequence = number;
-    return std::nullopt;
-  }
-  const auto step = static_cast<std::int32_t>(number - *session_.lastSequence);
-  if (step == 0) return std::nullopt;  // a sender that does not count
-  if (step < 0 && step >= -kMostLate && channel_->isDatagrams() &&
-      session_.lateSequence != number - 1) {
-    session_.lateSequence = number;
-    late = true;
-    return std::nullopt;
-  }
-  session_.lateSequence.reset();
-  session_.lastSequence = number;
-  // What waited in a buffer arrives at once, also what was sent seconds apart: then the sender's
-  // clock says how much time passed.
-  auto passedUs = static_cast<double>(monotonicUs - session_.lastFrameUs);
-  if (item.deviceUs && session_.lastDeviceUs)
-    passedUs = std::max(passedUs, static_cast<double>(*item.deviceUs - *session_.lastDeviceUs));
-  const bool tooFar = step > kLargeStep && session_.periodUs > 0.0 &&
-                      step * session_.periodUs > 10.0 * passedUs + kSecondUs;
-  if (step > 0 && !tooFar) return static_cast<std::uint64_t>(step - 1);
-  eventNow("link", "the numbers of the frames started anew: the sender was restarted");
-  return std::nullopt;
+FrameNumbers::Step StreamLink::stepOf(const StreamItem& item, std::int64_t monotonicUs) {
+  if (!item.sequence) return {};
+  // An input may come faster than it was measured: then only the sender's clock says how much time
+  // passed.
+  const auto timeUs = options_.isInput ? item.deviceUs : std::optional<std::int64_t>(monotonicUs);
+  const FrameNumbers::Step step =
+      session_.numbers.next(*item.sequence, timeUs, channel_->isDatagrams());
+  if (!step.renumbered) return step;
+  const auto before = std::exchange(session_.renumberedUs, monotonicUs);
+  if (!before || monotonicUs - *before >= kRenumberedAgainUs)
+    eventNow("link",
+             "the numbers of the frames started anew: the sender was restarted, or a second one "
+             "sends");
+  return step;
 }
 
 std::optional<std::int64_t> StreamLink::deviceTime(const StreamItem& item,

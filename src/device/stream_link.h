@@ -14,6 +14,7 @@
 #include <palpate/device/stream_packets.h>
 #include <palpate/model/hand_description.h>
 
+#include "device/frame_numbers.h"
 #include "device/port_link.h"
 #include "device/stream_clock.h"
 
@@ -60,11 +61,8 @@ class StreamLink : public PortLink {
   void take(const StreamItem& item);
   void takeFrame(const StreamItem& item);
   void takeDescription(std::string_view text);
-  // Number of frames missing before this one; empty when it isn't known. Sets `late` when the frame
-  // was overtaken by later ones.
-  std::optional<std::uint64_t> missingBefore(const StreamItem& item,
-                                             std::int64_t monotonicUs,
-                                             bool& late);
+  // How its number follows that of the frame before; reports another numbering.
+  FrameNumbers::Step stepOf(const StreamItem& item, std::int64_t monotonicUs);
   std::optional<std::int64_t> deviceTime(const StreamItem& item, std::int64_t monotonicUs);
   void measureRate(std::int64_t monotonicUs);
   void measureAge(std::int64_t hostUs, std::int64_t deviceUs);
@@ -96,10 +94,9 @@ class StreamLink : public PortLink {
   struct Session {
     StreamClock clock;
     bool speedReported = false;
-    std::optional<std::uint32_t> lastSequence;
-    std::optional<std::int64_t> lastDeviceUs;  // of the last frame, by the sender's clock
-    std::optional<std::uint32_t> lateSequence;
-    double periodUs = 0.0;  // usual time between two frames; 0: not known
+    FrameNumbers numbers;
+    std::optional<std::int64_t> renumberedUs;  // monotonic time of the last other numbering
+    double periodUs = 0.0;                     // usual time between two frames; 0: not known
     std::uint64_t bytes = 0;
     std::uint64_t frames = 0;
     // Items that the parsers accepted and this link refused.

@@ -5,9 +5,9 @@
 #include <atomic>
 #include <chrono>
 #include <deque>
-#include <map>
+#include <list>
 #include <mutex>
-#include <set>
+#include <optional>
 #include <stdexcept>
 #include <thread>
 #include <utility>
@@ -27,6 +27,7 @@
 #include "palpate/core/number_text.h"
 
 #include "interop/foxglove_request.h"
+#include "interop/foxglove_subscriber.h"
 
 namespace palpate {
 namespace {
@@ -39,34 +40,13 @@ using BoostError = boost::system::error_code;
 
 constexpr std::size_t kMostHeaderBytes = 8192;
 constexpr std::size_t kMostClientBytes = 256U << 10;
-constexpr std::size_t kMostSubscriptions = 4096;
-// Connections whose handshake is not finished yet.
+// Connections whose handshake is not finished yet; the oldest one gives way to a new connection.
 constexpr std::size_t kMostHandshakes = 64;
 // Messages that may wait for the server's thread: a second of 60 channels at 30 Hz.
 constexpr std::size_t kMostPosted = 2048;
 constexpr auto kGoodbye = std::chrono::milliseconds(40);
 constexpr auto kAcceptRest = std::chrono::milliseconds(100);
 constexpr auto kSilence = std::chrono::seconds(60);
-constexpr std::size_t kMessageHeadBytes = 13;
-constexpr std::int64_t kServerNsPerUs = 1000;
-
-using SharedText = std::shared_ptr<const std::string>;
-
-// What waits to be sent to a client.
-struct Outgoing {
-  std::array<unsigned char, kMessageHeadBytes> head{};  // of a binary message
-  bool binary = false;
-  bool droppable = false;
-  SharedText content;
-
-  std::size_t size() const { return content->size() + (binary ? kMessageHeadBytes : 0); }
-};
-
-struct Posted {
-  std::size_t channel = 0;
-  std::int64_t timeUs = 0;
-  SharedText payload;
-};
 
 std::string advertisement(const std::vector<FoxgloveChannel>& channels) {
   Json list = Json::array();
@@ -79,10 +59,6 @@ std::string advertisement(const std::vector<FoxgloveChannel>& channels) {
                   .set("schema", channels[i].schema)
                   .set("schemaEncoding", "jsonschema"));
   return Json::object().set("op", "advertise").set("channels", std::move(list)).text(-1);
-}
-
-void putLittleEndian(unsigned char* at, std::uint64_t value, int bytes) {
-  for (int i = 0; i < bytes; ++i) at[i] = static_cast<unsigned char>(value >> (8 * i) & 0xFF);
 }
 
 }  // namespace
@@ -130,6 +106,7 @@ struct FoxgloveServer::Impl {
 
   void start();
   void accept();
+  void makeRoom();
   void stop();
   void run() noexcept;
   void sendPosted();
@@ -165,7 +142,7 @@ struct FoxgloveServer::Impl {
 
   mutable std::mutex mutex;  // protects the next three
   std::vector<int> subscribers;
-  std::deque<Posted> posted;
+  std::deque<FoxgloveMessage> posted;
   FoxgloveServerStats stats;
 
   // Its handlers own sessions, whose destructors use the members above.
@@ -173,8 +150,8 @@ struct FoxgloveServer::Impl {
   tcp::acceptor acceptor{context};
   asio::steady_timer timer{context};
   // Used by the server's thread only.
-  std::set<std::shared_ptr<Session>> sessions;
-  std::vector<Posted> latest;  // of latched channels; no payload: none yet
+  std::list<std::shared_ptr<Session>> sessions;  // the oldest first
+  std::vector<FoxgloveMessage> latest;           // of latched channels
   bool stopping = false;
 
   std::thread thread;
@@ -183,11 +160,16 @@ struct FoxgloveServer::Impl {
 // One connection: the handshake, then messages in both directions.
 class FoxgloveServer::Impl::Session : public std::enable_shared_from_this<Session> {
  public:
-  Session(Impl& server, tcp::socket socket) : server_(server), stream_(std::move(socket)) {
+  Session(Impl& server, tcp::socket socket)
+      : server_(server),
+        stream_(std::move(socket)),
+        subscriber_(
+            server.channels.size(),
+            server.options.maxWaitingBytes,
+            [&server](std::size_t channel, int change) { server.subscribed(channel, change); }) {
     beast::get_lowest_layer(stream_).socket().set_option(tcp::no_delay(true), ignored_);
   }
   ~Session() {
-    unsubscribeAll();
     if (connected_) server_.leave();
   }
   Session(const Session&) = delete;
@@ -208,9 +190,9 @@ class FoxgloveServer::Impl::Session : public std::enable_shared_from_this<Sessio
         [self = shared_from_this()](BoostError error, std::size_t) { self->onRequest(error); });
   }
 
-  void say(const Posted& message) {
-    for (const auto& [id, channel] : subscriptions_)
-      if (channel == message.channel) sayOne(id, message, true);
+  void publish(const FoxgloveMessage& message) {
+    subscriber_.publish(message);
+    write();
   }
 
   void close() {
@@ -225,6 +207,7 @@ class FoxgloveServer::Impl::Session : public std::enable_shared_from_this<Sessio
 
  private:
   void onRequest(BoostError error) {
+    if (error == asio::error::operation_aborted) return server_.ended(shared_from_this());
     if (error) {
       server_.refuse(error == beast::error::timeout
                          ? "a client did not finish its handshake in time"
@@ -291,8 +274,9 @@ class FoxgloveServer::Impl::Session : public std::enable_shared_from_this<Sessio
       }
       self->connected_ = true;
       self->server_.join();
-      self->queueText(std::make_shared<const std::string>(self->server_.info), false);
-      self->queueText(std::make_shared<const std::string>(self->server_.advertised), false);
+      self->subscriber_.queueText(self->server_.info);
+      self->subscriber_.queueText(self->server_.advertised);
+      self->write();
       self->read();
     });
   }
@@ -301,109 +285,30 @@ class FoxgloveServer::Impl::Session : public std::enable_shared_from_this<Sessio
     stream_.async_read(buffer_, [self = shared_from_this()](BoostError error, std::size_t) {
       if (error) return self->server_.ended(self);
       const std::string text = beast::buffers_to_string(self->buffer_.data());
-      const bool isText = self->stream_.got_text();
       self->buffer_.consume(self->buffer_.size());
-      self->onMessage(isText, text);
+      self->subscriber_.take(self->stream_.got_text(), text, self->server_.latest);
+      self->write();
       self->read();
     });
   }
 
-  void onMessage(bool isText, const std::string& text) {
-    const FoxgloveRequest request = isText ? readFoxgloveRequest(text, server_.channels.size())
-                                           : FoxgloveRequest{.problem = kNothingIsTaken};
-    for (const auto& [id, channel] : request.subscribe) subscribe(id, channel);
-    for (const std::uint32_t id : request.unsubscribe) {
-      const auto found = subscriptions_.find(id);
-      if (found == subscriptions_.end()) continue;
-      server_.subscribed(found->second, -1);
-      subscriptions_.erase(found);
-    }
-    if (!request.problem.empty()) sayStatus(request.problem);
-  }
-
-  void subscribe(std::uint32_t id, std::size_t channel) {
-    if (subscriptions_.size() >= kMostSubscriptions)
-      return sayStatus("too many subscriptions: the limit is " +
-                       std::to_string(kMostSubscriptions));
-    if (!subscriptions_.emplace(id, channel).second)
-      return sayStatus("subscription " + std::to_string(id) + " exists already");
-    server_.subscribed(channel, 1);
-    if (const Posted& latest = server_.latest[channel]; latest.payload) sayOne(id, latest, false);
-  }
-
-  void unsubscribeAll() {
-    for (const auto& [id, channel] : subscriptions_) server_.subscribed(channel, -1);
-    subscriptions_.clear();
-  }
-
-  // Level 1: a warning, shown among the problems of the connection.
-  void sayStatus(const std::string& message) {
-    queueText(
-        std::make_shared<const std::string>(
-            Json::object().set("op", "status").set("level", 1).set("message", message).text(-1)),
-        true);
-  }
-
-  void sayOne(std::uint32_t id, const Posted& message, bool droppable) {
-    Outgoing out;
-    out.binary = true;
-    out.droppable = droppable;
-    out.content = message.payload;
-    out.head[0] = 1;
-    putLittleEndian(out.head.data() + 1, id, 4);
-    putLittleEndian(
-        out.head.data() + 5,
-        static_cast<std::uint64_t>(std::max<std::int64_t>(message.timeUs, 0) * kServerNsPerUs),
-        8);
-    queue(std::move(out));
-  }
-
-  void queueText(SharedText text, bool droppable) {
-    Outgoing out;
-    out.droppable = droppable;
-    out.content = std::move(text);
-    queue(std::move(out));
-  }
-
-  // The message that is being sent stays where it is: the first one.
-  void queue(Outgoing out) {
-    if (closing_) return;
-    waitingBytes_ += out.size();
-    waiting_.push_back(std::move(out));
-    std::uint64_t dropped = 0;
-    auto oldest = waiting_.begin() + (writing_ ? 1 : 0);
-    while (waitingBytes_ > server_.options.maxWaitingBytes && oldest != waiting_.end()) {
-      if (!oldest->droppable) {
-        ++oldest;
-        continue;
-      }
-      waitingBytes_ -= oldest->size();
-      oldest = waiting_.erase(oldest);
-      ++dropped;
-    }
-    if (dropped > 0) server_.count(&FoxgloveServerStats::dropped, dropped);
-    // What can't be dropped is little, unless a client asks for it again and again.
-    if (waitingBytes_ > 2 * server_.options.maxWaitingBytes && waiting_.size() > 64) {
-      beast::get_lowest_layer(stream_).close();
-      return;
-    }
-    write();
-  }
-
+  // The message that is being sent has left the queue, from which others may be dropped meanwhile.
   void write() {
-    if (writing_ || closing_ || waiting_.empty()) return;
-    writing_ = true;
-    const Outgoing& out = waiting_.front();
-    stream_.binary(out.binary);
+    if (const std::uint64_t dropped = subscriber_.takeDropped(); dropped > 0)
+      server_.count(&FoxgloveServerStats::dropped, dropped);
+    if (subscriber_.isOverrun()) return beast::get_lowest_layer(stream_).close();
+    if (sending_ || closing_) return;
+    sending_ = subscriber_.next();
+    if (!sending_) return;
+    stream_.binary(sending_->binary);
     const std::array<asio::const_buffer, 2> buffers{
-        asio::const_buffer(out.head.data(), out.binary ? out.head.size() : 0),
-        asio::const_buffer(out.content->data(), out.content->size())};
+        asio::const_buffer(sending_->head.data(), sending_->binary ? sending_->head.size() : 0),
+        asio::const_buffer(sending_->content->data(), sending_->content->size())};
     stream_.async_write(buffers, [self = shared_from_this()](BoostError error, std::size_t) {
-      self->writing_ = false;
+      const bool isMessage = self->sending_->binary;
+      self->sending_.reset();
       if (error) return self->server_.ended(self);
-      if (self->waiting_.front().binary) self->server_.count(&FoxgloveServerStats::sent);
-      self->waitingBytes_ -= self->waiting_.front().size();
-      self->waiting_.pop_front();
+      if (isMessage) self->server_.count(&FoxgloveServerStats::sent);
       self->write();
     });
   }
@@ -417,10 +322,8 @@ class FoxgloveServer::Impl::Session : public std::enable_shared_from_this<Sessio
   bool admitted_ = false;
   bool connected_ = false;  // the handshake is finished
   bool closing_ = false;
-  bool writing_ = false;
-  std::map<std::uint32_t, std::size_t> subscriptions_;  // channel by id
-  std::deque<Outgoing> waiting_;
-  std::size_t waitingBytes_ = 0;
+  FoxgloveSubscriber subscriber_;
+  std::optional<FoxgloveOutgoing> sending_;
 };
 
 void FoxgloveServer::Impl::start() {
@@ -452,15 +355,10 @@ void FoxgloveServer::Impl::accept() {
       return;
     }
     try {
-      const auto unfinished = static_cast<std::size_t>(std::count_if(
-          sessions.begin(), sessions.end(), [](const auto& each) { return !each->admitted(); }));
-      if (unfinished >= kMostHandshakes) {
-        refuse("too many connections at once");
-      } else {
-        const auto session = std::make_shared<Session>(*this, std::move(socket));
-        sessions.insert(session);
-        session->start();
-      }
+      makeRoom();
+      const auto session = std::make_shared<Session>(*this, std::move(socket));
+      sessions.push_back(session);
+      session->start();
     } catch (...) {
       refuse("no memory for another client");
     }
@@ -468,26 +366,35 @@ void FoxgloveServer::Impl::accept() {
   });
 }
 
+void FoxgloveServer::Impl::makeRoom() {
+  const auto isUnfinished = [](const auto& each) { return !each->admitted(); };
+  const auto unfinished = std::count_if(sessions.begin(), sessions.end(), isUnfinished);
+  if (static_cast<std::size_t>(unfinished) < kMostHandshakes) return;
+  const auto oldest = *std::find_if(sessions.begin(), sessions.end(), isUnfinished);
+  refuse("an unfinished handshake gave way to a new connection: there were " +
+         std::to_string(unfinished));
+  oldest->close();
+  ended(oldest);
+}
+
 void FoxgloveServer::Impl::ended(const std::shared_ptr<Session>& session) {
-  sessions.erase(session);
+  sessions.remove(session);
   if (stopping && sessions.empty()) timer.cancel();
 }
 
+// Sends what was posted up to now. What is posted meanwhile waits until the thread has served its
+// connections: publish() calls it again.
 void FoxgloveServer::Impl::sendPosted() {
-  while (true) {
-    Posted next;
-    {
-      const std::lock_guard lock(mutex);
-      if (posted.empty()) return;
-      next = std::move(posted.front());
-      posted.pop_front();
-    }
-    if (channels[next.channel].latched) latest[next.channel] = next;
-    // A client whose connection fails leaves the set meanwhile.
-    const std::vector<std::shared_ptr<Session>> now(sessions.begin(), sessions.end());
-    for (const auto& session : now) {
+  std::deque<FoxgloveMessage> messages;
+  {
+    const std::lock_guard lock(mutex);
+    messages.swap(posted);
+  }
+  for (const FoxgloveMessage& message : messages) {
+    if (channels[message.channel].latched) latest[message.channel] = message;
+    for (const auto& session : sessions) {
       try {
-        session->say(next);
+        session->publish(message);
       } catch (...) {
         count(&FoxgloveServerStats::dropped);  // no memory: the next message may find some
       }
@@ -534,7 +441,7 @@ bool FoxgloveServer::wanted(std::size_t channel) const {
 
 void FoxgloveServer::publish(std::size_t channel, std::int64_t timeUs, std::string payload) {
   const bool latched = impl_->channels.at(channel).latched;
-  Posted next{channel, timeUs, std::make_shared<const std::string>(std::move(payload))};
+  FoxgloveMessage next{channel, timeUs, std::make_shared<const std::string>(std::move(payload))};
   {
     const std::lock_guard lock(impl_->mutex);
     if (!latched && impl_->subscribers[channel] == 0) return;

@@ -159,6 +159,23 @@ TEST(StreamDevice, ARestartedSenderLosesNothing) {
   EXPECT_NE(bench.lastEvent("link").text.find("restarted"), std::string::npos);
 }
 
+// F10: the frames of two senders are no loss of either, and one event says what is wrong.
+TEST(StreamDevice, TwoSendersAreOneEventAndNoLoss) {
+  Bench bench;
+  for (std::uint32_t n = 0; n < 1000; ++n) {
+    bench.frame(5'000 + n, 5'000);
+    bench.frame(17'000 + n, 5'000);
+  }
+  EXPECT_EQ(bench.status().items, 2000u);
+  EXPECT_EQ(bench.status().lost, 0u);
+  std::vector<std::string> told;
+  for (const DeviceEvent& event : bench.sink.events) told.push_back(event.kind + ": " + event.text);
+  EXPECT_EQ(told,
+            (std::vector<std::string>{"link: the stream is connected",
+                                      "link: the numbers of the frames started anew: the sender "
+                                      "was restarted, or a second one sends"}));
+}
+
 TEST(StreamDevice, LossOverABrokenConnectionIsCountedByTheNumbers) {
   Bench bench;
   for (std::uint32_t n = 0; n < 10; ++n) bench.frame(n);

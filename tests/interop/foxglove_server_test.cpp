@@ -1,48 +1,25 @@
 #include "palpate/interop/foxglove_server.h"
 
+#include <atomic>
+#include <cstdint>
+#include <list>
 #include <random>
 #include <stdexcept>
+#include <thread>
 
 #include "palpate/core/error.h"
 #include "palpate/core/json.h"
 
+#include "interop/foxglove_frames.h"
 #include "interop/listening_sockets.h"
-#include "interop/web_socket_client.h"
 #include "testing/testing.h"
 
 namespace palpate::foxglove_server_test {
 namespace {
-using testing::WebSocketClient;
-using testing::WebSocketFrame;
-
-FoxgloveServerOptions freePort() {
-  FoxgloveServerOptions options;
-  options.port = 0;
-  return options;
-}
+using namespace testing;
 
 std::vector<FoxgloveChannel> twoChannels() {
   return {{"/a", "test.A", R"({"type":"object"})"}, {"/b", "test.B", "{}", true}};
-}
-
-std::uint64_t littleEndian(const std::string& bytes, std::size_t at, int count) {
-  std::uint64_t value = 0;
-  for (int i = count - 1; i >= 0; --i)
-    value = value << 8 | static_cast<unsigned char>(bytes[at + static_cast<std::size_t>(i)]);
-  return value;
-}
-
-// Skips the two messages that every client receives first.
-void skipGreeting(WebSocketClient& client) {
-  client.frame();
-  client.frame();
-}
-
-// Answers come after all that was sent before: whatever the client said is done then.
-void awaitServer(WebSocketClient& client) {
-  client.say(R"({"op":"x"})");
-  while (const auto frame = client.frame())
-    if (frame->opcode == 1) return;
 }
 
 TEST(FoxgloveServer, GreetsAndAdvertises) {
@@ -324,6 +301,142 @@ TEST(FoxgloveServer, AClientThatNeverReadsLosesMessagesAndNobodyWaits) {
     ASSERT_TRUE(frame);
     last = littleEndian(frame->payload, 5, 8);
   }
+}
+
+// The message that waits for a client to read again must stay whole while later ones are dropped.
+TEST(FoxgloveServer, AClientThatPausesReadsWholeMessages) {
+  FoxgloveServerOptions options = freePort();
+  options.maxWaitingBytes = 64U << 10;
+  FoxgloveServer server(options, twoChannels());
+  WebSocketClient good(server.port()), pausing(server.port(), 4096);
+  ASSERT_TRUE(good.join() && pausing.join());
+  skipGreeting(good);
+  skipGreeting(pausing);
+  pausing.say(R"({"op":"subscribe","subscriptions":[{"id":16909060,"channelId":0}]})");
+  awaitServer(pausing);
+  good.say(R"({"op":"subscribe","subscriptions":[{"id":1,"channelId":0}]})");
+  awaitServer(good);
+  std::uint64_t published = 0;
+  std::optional<std::uint64_t> last;
+  for (int pause = 0; pause < 3; ++pause) {
+    const std::uint64_t droppedBefore = server.stats().dropped;
+    // More than 16 of them, so that the queue has given memory back.
+    for (int batch = 0; batch < 1000 && server.stats().dropped < droppedBefore + 200; ++batch) {
+      for (int i = 0; i < 500; ++i, ++published)
+        server.publish(0, static_cast<std::int64_t>(published), numberedPayload(published));
+      for (std::optional<std::uint64_t> read; read != published - 1;) {
+        const auto frame = good.frame();
+        ASSERT_TRUE(frame);
+        read = numberOfWhole(*frame, 1);
+        ASSERT_TRUE(read);
+      }
+    }
+    ASSERT_GE(server.stats().dropped, droppedBefore + 200);
+    while (last != published - 1) {
+      const auto frame = pausing.frame();
+      ASSERT_TRUE(frame);
+      const auto number = numberOfWhole(*frame, 16'909'060);
+      ASSERT_TRUE(number) << ::testing::PrintToString(frame->payload);
+      ASSERT_TRUE(!last || *number > *last) << *number << " after " << *last;
+      last = number;
+    }
+  }
+  EXPECT_EQ(server.stats().clients, 2u);
+}
+
+// What one client asks for must not keep the server from its other clients.
+TEST(FoxgloveServer, GreedyClientsTakeNothingFromAnother) {
+  FoxgloveServer server(freePort(), twoChannels());
+  WebSocketClient good(server.port());
+  ASSERT_TRUE(good.join());
+  skipGreeting(good);
+  good.say(R"({"op":"subscribe","subscriptions":[{"id":1,"channelId":0}]})");
+  awaitServer(good);
+  std::list<WebSocketClient> greedy;
+  for (int i = 0; i < 15; ++i) {
+    WebSocketClient& client = greedy.emplace_back(server.port());
+    ASSERT_TRUE(client.join());
+    std::string list;
+    for (int id = 0; id < 4096; ++id)
+      list += (id > 0 ? "," : "") + ("{\"id\":" + std::to_string(id)) + ",\"channelId\":0}";
+    client.say(R"({"op":"subscribe","subscriptions":[)" + list + "]}");
+    awaitServer(client);
+  }
+  std::atomic<bool> ends = false;
+  std::thread publisher([&] {  // faster than any client reads
+    for (std::uint64_t n = 0; !ends; ++n)
+      server.publish(0, static_cast<std::int64_t>(n), numberedPayload(n));
+  });
+  std::optional<std::uint64_t> last;
+  const auto readsAHundred = [&] {
+    for (int i = 0; i < 100; ++i) {
+      const auto frame = good.frame();
+      const auto number = frame ? numberOfWhole(*frame, 1) : std::nullopt;
+      if (!number || (last && *number <= *last)) return false;
+      last = number;
+    }
+    return true;
+  };
+  EXPECT_TRUE(readsAHundred());
+  WebSocketClient late(server.port());  // there are 16 clients already
+  EXPECT_NE(late.handshake(WebSocketClient::request("foxglove.sdk.v1")).find(" 503 "),
+            std::string::npos);
+  greedy.clear();
+  EXPECT_TRUE(readsAHundred());
+  ends = true;
+  publisher.join();
+  for (int i = 0; i < 1000 && server.stats().clients > 1; ++i) awaitServer(good);
+  EXPECT_EQ(server.stats().clients, 1u);
+  awaitServer(good);
+  // Nothing is left to do: what a further message causes is one message.
+  const FoxgloveServerStats before = server.stats();
+  server.publish(0, INT64_C(1) << 50, numberedPayload(UINT64_C(1) << 50));
+  awaitServer(good);
+  awaitServer(good);
+  EXPECT_EQ(server.stats().published, before.published + 1);
+  EXPECT_EQ(server.stats().sent, before.sent + 1);
+  EXPECT_EQ(server.stats().dropped, before.dropped);
+}
+
+// As the protocol says: "A client may only have one subscription for each channel at a time."
+TEST(FoxgloveServer, AClientHasOneSubscriptionOfAChannel) {
+  FoxgloveServer server(freePort(), twoChannels());
+  WebSocketClient client(server.port());
+  ASSERT_TRUE(client.join());
+  skipGreeting(client);
+  client.say(
+      R"({"op":"subscribe","subscriptions":[{"id":1,"channelId":0},{"id":2,"channelId":0}]})");
+  const Json status = Json::parse(client.frame().value().payload);
+  EXPECT_EQ(status.at("message").asString(), "channel 0 has the subscription 1 already");
+  server.publish(0, 1, "1");
+  server.publish(0, 2, "2");
+  for (const char* payload : {"1", "2"}) {
+    const WebSocketFrame frame = client.frame().value();
+    EXPECT_EQ(littleEndian(frame.payload, 1, 4), 1u);
+    EXPECT_EQ(frame.payload.substr(13), payload);
+  }
+  // After its end the channel may have another one.
+  client.say(R"({"op":"unsubscribe","subscriptionIds":[1,2]})");
+  client.say(R"({"op":"subscribe","subscriptions":[{"id":2,"channelId":0}]})");
+  awaitServer(client);
+  server.publish(0, 3, "3");
+  EXPECT_EQ(littleEndian(client.frame().value().payload, 1, 4), 2u);
+}
+
+// The oldest unfinished handshake gives way to a new connection: nobody waits for their limit.
+TEST(FoxgloveServer, HalfHandshakesKeepNobodyOut) {
+  FoxgloveServerOptions options = freePort();
+  options.handshakeS = 3600.0;
+  FoxgloveServer server(options, twoChannels());
+  std::list<WebSocketClient> half;
+  for (int i = 0; i < 64; ++i) half.emplace_back(server.port()).send("GET ");
+  WebSocketClient good(server.port());
+  EXPECT_TRUE(good.join());
+  EXPECT_TRUE(half.front().awaitEnd());
+  EXPECT_EQ(server.stats().refused, 1u);
+  EXPECT_NE(server.stats().lastRefusal.find("gave way"), std::string::npos);
+  half.back().send(WebSocketClient::request("foxglove.sdk.v1").substr(4));
+  EXPECT_NE(half.back().handshake("").find(" 101 "), std::string::npos);
 }
 
 TEST(FoxgloveServer, SaysGoodbye) {

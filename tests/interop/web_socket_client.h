@@ -22,7 +22,11 @@ struct WebSocketFrame {
 
 class WebSocketClient {
  public:
-  explicit WebSocketClient(std::uint16_t port) : socket_(::socket(AF_INET, SOCK_STREAM, 0)) {
+  // `receiveBytes`: size of the system's receive buffer; 0: the usual one.
+  explicit WebSocketClient(std::uint16_t port, int receiveBytes = 0)
+      : socket_(::socket(AF_INET, SOCK_STREAM, 0)) {
+    if (receiveBytes > 0)
+      ::setsockopt(socket_, SOL_SOCKET, SO_RCVBUF, &receiveBytes, sizeof receiveBytes);
     sockaddr_in address{};
     address.sin_family = AF_INET;
     address.sin_port = htons(port);
@@ -73,11 +77,16 @@ class WebSocketClient {
     return handshake(request(protocols)).find(" 101 ") != std::string::npos;
   }
 
-  // The next frame; nothing at the end of the connection, or after 20 s.
-  std::optional<WebSocketFrame> frame() {
+  // The next frame, pings apart, which it answers; nothing at the end of the connection, or when no
+  // byte arrives for this time.
+  std::optional<WebSocketFrame> frame(int limitMs = 20'000) {
     while (true) {
-      if (auto found = takeFrame()) return found;
-      if (!receive()) return std::nullopt;
+      if (auto found = takeFrame()) {
+        if (found->opcode != 9) return found;
+        send(masked(0x8A, found->payload));
+      } else if (!receive(limitMs)) {
+        return std::nullopt;
+      }
     }
   }
   // Waits until the other end closes the connection.
@@ -108,9 +117,9 @@ class WebSocketClient {
   bool say(const std::string& text) const { return send(masked(0x81, text)); }
 
  private:
-  bool receive() {
+  bool receive(int limitMs = 20'000) {
     pollfd waiting{socket_, POLLIN, 0};
-    if (::poll(&waiting, 1, 20'000) != 1) return false;
+    if (::poll(&waiting, 1, limitMs) != 1) return false;
     char piece[65'536];
     const ssize_t n = ::recv(socket_, piece, sizeof piece, 0);
     if (n <= 0) {

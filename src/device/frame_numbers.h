@@ -1,0 +1,38 @@
+// The numbers that a sender gives its frames: how many frames are missing before each.
+//
+// A step of the numbers counts as loss only if the sender could have sent that many frames in the
+// time: at the rate of its numbers, with twice the time that no number accounts for yet, and a few
+// frames more. Any other step is another numbering: the sender was restarted, or a second one
+// sends.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+namespace palpate {
+
+class FrameNumbers {
+ public:
+  struct Step {
+    std::optional<std::uint64_t> missing = {};  // empty: not known
+    bool late = false;                          // the frame was overtaken by later ones
+    bool renumbered = false;                    // the numbers do not continue those before
+  };
+  // `timeUs`: when the frame arrived or was sent [us], on one clock that doesn't go back; empty:
+  // not known, then up to 1000 frames may be missing. mayBeLate: frames may overtake each other.
+  Step next(std::uint32_t number, std::optional<std::int64_t> timeUs, bool mayBeLate);
+
+ private:
+  bool couldBeMissing(std::int32_t missing, std::optional<double> passedUs);
+
+  std::optional<std::uint32_t> last_;
+  std::optional<std::uint32_t> late_;
+  std::optional<std::int64_t> timeUs_;  // of the last frame
+  // Numbers and time of the last seconds; older ones weigh less.
+  double recentNumbers_ = 0.0;
+  double recentUs_ = 0.0;
+  // Numbers that the time could have held and that did not come yet; negative: too many came.
+  double outstanding_ = 0.0;
+};
+
+}  // namespace palpate
