@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "palpate/core/error.h"
+#include "palpate/core/escaped_line.h"
 #include "palpate/core/text_file.h"
 #include "palpate/recognition/trained_model.h"
 
@@ -107,7 +108,8 @@ TrainedModel trainedModelFrom(const Json& json) {
   model.sensor = js::text(json, "sensor");
   const std::string set = js::text(json, "feature_set");
   const auto known = featureSetNamed(set);
-  if (!known) throw Error("model: its feature set '" + set + "' isn't known to this version");
+  if (!known)
+    throw Error("model: its feature set '" + shortened(set) + "' isn't known to this version");
   model.set = *known;
   model.features = js::texts(json, "features");
   model.classes = js::texts(json, "classes");
