@@ -42,13 +42,38 @@ struct Json::Impl {
 namespace {
 
 // The parser does not use recursion, but destruction and dump() do, so the nesting is limited.
-constexpr int kMaxDepth = 512;
+constexpr std::size_t kMaxDepth = 512;
 // A value of two bytes ("0,") takes up to 100 bytes in memory. Models have some 100,000.
 constexpr std::size_t kMaxValues = 1'500'000;
 
 [[noreturn]] void throwWrongKind(const std::string& where, const char* wanted, const Value& value) {
   throw Error("JSON: " + (where.empty() ? where : "'" + shortened(where) + "': ") + "expected " +
               wanted + ", found " + value.type_name());
+}
+
+// Throws Error for a text that is nested too deep or has too many values. A callback of the parser
+// could tell, too, but with one it walks through all items of a list at the end of each.
+void requireBounded(std::string_view text) {
+  std::size_t depth = 0;
+  std::size_t values = 1;
+  bool quoted = false;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if (quoted) {
+      if (c == '\\') ++i;
+      if (c == '"') quoted = false;
+    } else if (c == '"') {
+      quoted = true;
+    } else if (c == '[' || c == '{') {
+      ++values;
+      if (++depth > kMaxDepth) throw Error("JSON: nested more than 512 levels deep");
+    } else if (c == ']' || c == '}') {
+      if (depth > 0) --depth;
+    } else if (c == ',') {
+      ++values;
+    }
+  }
+  if (values > kMaxValues) throw Error("JSON: more than " + std::to_string(kMaxValues) + " values");
 }
 
 // Without the first part of "[json.exception.parse_error.101] parse error at line 1, column 2: ..",
@@ -106,18 +131,9 @@ Json Json::array(std::span<const double> values) {
 }
 
 Json Json::parse(std::string_view text) {
-  std::size_t values = 0;
-  const auto bounded = [&](int depth, Value::parse_event_t event, Value&) {
-    if (depth > kMaxDepth) throw Error("JSON: nested more than 512 levels deep");
-    const bool begins = event == Value::parse_event_t::value ||
-                        event == Value::parse_event_t::object_start ||
-                        event == Value::parse_event_t::array_start;
-    if (begins && ++values > kMaxValues)
-      throw Error("JSON: more than " + std::to_string(kMaxValues) + " values");
-    return true;
-  };
+  requireBounded(text);
   try {
-    return Json(std::make_unique<Impl>(Value::parse(text, bounded)));
+    return Json(std::make_unique<Impl>(Value::parse(text)));
   } catch (const Value::exception& error) {
     throw Error("JSON: " + messageOf(error));
   }

@@ -70,6 +70,15 @@ TEST(Json, TheNumberOfValuesIsBounded) {
   EXPECT_THROW(Json::parse(list(1'500'000, "[]")), Error);
 }
 
+// Took minutes: the time grew with the square of the number of objects.
+TEST(Json, ALongListOfObjectsIsRead) {
+  std::string text = "[";
+  for (int i = 0; i < 200'000; ++i) text += R"({"a":"[\"{"},)";
+  const Json json = Json::parse(text + "{}]");
+  EXPECT_EQ(json.size(), 200'001u);
+  EXPECT_EQ(json.at(199'999).at("a").asString(), "[\"{");
+}
+
 TEST(Json, MessagesRepeatLittleOfTheText) {
   const auto messageOf = [](const std::string& text) {
     try {
