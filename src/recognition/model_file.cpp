@@ -134,7 +134,7 @@ TrainedModel trainedModelFrom(const Json& json) {
 
 TrainedModel loadModel(const fs::path& path) {
   // The largest one of the study's 36 objects has 0.3 MB.
-  constexpr std::uint64_t kMaxBytes = 64u << 20;
+  constexpr std::uint64_t kMaxBytes = 32u << 20;
   const std::string text = readTextFile(path, kMaxBytes);
   Json json;
   try {
