@@ -45,11 +45,11 @@ void requireFields(std::string_view text) {
     if (open == std::string_view::npos) return;
     const std::size_t close = text.find_first_of("{}", open + 1);
     if (text[open] == '}' || close == std::string_view::npos || text[close] == '{')
-      throw std::invalid_argument("template '" + escapedLine(text) +
+      throw std::invalid_argument("template '" + shortened(text) +
                                   "': a brace without its partner");
     const std::string_view field = text.substr(open + 1, close - open - 1);
     if (std::find(kFieldNames.begin(), kFieldNames.end(), field) == kFieldNames.end())
-      throw std::invalid_argument("template '" + escapedLine(text) + "': {" + escapedLine(field) +
+      throw std::invalid_argument("template '" + shortened(text) + "': {" + shortened(field) +
                                   "} isn't known; use {name}, {folder}, {ending}, {date}, {time}");
     at = close + 1;
   }
@@ -176,14 +176,14 @@ BatchNameFields nameFieldsOf(const BatchItem& item) {
 
 BatchTemplate::BatchTemplate(const std::string& text) {
   if (std::any_of(text.begin(), text.end(), [](unsigned char c) { return c < 0x20 || c == 0x7F; }))
-    throw std::invalid_argument("template '" + escapedLine(text) +
+    throw std::invalid_argument("template '" + shortened(text) +
                                 "': control characters aren't allowed in names");
   requireFields(text);
   const fs::path path(text);
   name_ = path.filename().string();
   if (name_.empty() || fs::path(name_).extension().string().size() < 2 ||
       ending().find_first_of("{}") != std::string::npos)
-    throw std::invalid_argument("template '" + escapedLine(text) +
+    throw std::invalid_argument("template '" + shortened(text) +
                                 "': it must end in a name with an ending, as out/{name}.csv");
   bool fixed = true;
   for (const fs::path& part : path.parent_path()) {
@@ -201,7 +201,7 @@ BatchTemplate::BatchTemplate(const fs::path& folder, const std::string& below)
     : BatchTemplate(below) {
   const fs::path path(below);
   if (path.is_absolute() || std::find(path.begin(), path.end(), "..") != path.end())
-    throw std::invalid_argument("template '" + escapedLine(below) +
+    throw std::invalid_argument("template '" + shortened(below) +
                                 "': it must lie below the folder of the results");
   folder_ = folder_ == "." ? folder : folder / folder_;
 }
@@ -217,7 +217,7 @@ fs::path BatchTemplate::pathFor(const BatchNameFields& fields) const {
   fs::path path = folder_;
   const auto addFolders = [&](const fs::path& folders) {
     for (const fs::path& part : folders) {
-      if (part == "..") throw Error("'" + escapedLine(folders.string()) + "' leaves its folder");
+      if (part == "..") throw Error("'" + shortened(folders.string()) + "' leaves its folder");
       if (!part.empty()) path /= part;
     }
   };
@@ -226,10 +226,10 @@ fs::path BatchTemplate::pathFor(const BatchNameFields& fields) const {
   const std::string name = filledText(name_, fields, false);
   const std::string stem = fs::path(name).stem().string();
   if (name.starts_with('.') || stem.empty())
-    throw Error("'" + escapedLine(name) +
+    throw Error("'" + shortened(name) +
                 "' isn't a name for a result: nothing in front of its ending");
   if (name.size() > kMostNameBytes)
-    throw Error("'" + escapedLine(name) + "' is longer than the 255 bytes of a name");
+    throw Error("'" + shortened(name) + "' is longer than the 255 bytes of a name");
   return path / name;
 }
 

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "palpate/core/error.h"
+#include "palpate/core/escaped_line.h"
 #include "palpate/core/number_text.h"
 #include "palpate/core/text_table.h"
 #include "palpate/filter/filtered_profile.h"
@@ -127,7 +128,7 @@ BatchTask convertTask(const ConvertOptions& options) {
                              "grow";
             if (events.damaged > 0)
               answer.problem = item.source.string() + ": " + std::to_string(events.damaged) +
-                               " damaged events were left out";
+                               " events were left out: damaged, or more than are read";
             return answer;
           }};
 }
@@ -168,7 +169,7 @@ BatchTask graspsTask(const GraspTemplate& names, const ConvertOptions& options) 
                    partOf(progress, 0.5, 1.0));
         if (events.damaged > 0)
           answer.problem = item.source.string() + ": " + std::to_string(events.damaged) +
-                           " damaged events were left out";
+                           " events were left out: damaged, or more than are read";
         return answer;
       }};
 }
@@ -203,8 +204,7 @@ BatchTask signalsTask(const SignalRowsOptions& table) {
 
 void setSlipMethod(SlipRowsOptions& table, std::string_view name) {
   const auto method = slipMethodNamed(name);
-  if (!method)
-    throw std::invalid_argument("there is no method '" + std::string(name) + "' of slip");
+  if (!method) throw std::invalid_argument("there is no method '" + shortened(name) + "' of slip");
   table.pass.detector.method = *method;
   table.pass.detector.hypothesisAlarm = *method == SlipMethod::kHypotheses;
 }
@@ -219,7 +219,8 @@ void setSlipReference(SlipRowsOptions& table, const std::string& word) {
     detector.reference = SlipReference::kGiven;
     table.pass.referenceFrame = static_cast<std::size_t>(*frame);
   } else {
-    throw std::invalid_argument("'" + word + "'; it is first, rest, or the number of a frame");
+    throw std::invalid_argument("'" + shortened(word) +
+                                "'; it is first, rest, or the number of a frame");
   }
 }
 

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "palpate/core/error.h"
+#include "palpate/core/escaped_line.h"
 #include "palpate/core/number_text.h"
 #include "palpate/recognition/grasp_segments.h"
 #include "palpate/recording/crop.h"
@@ -70,7 +71,7 @@ std::vector<GraspFrames> graspFrames(const Profile& profile,
 
 GraspTemplate::GraspTemplate(std::string text) : text_(std::move(text)) {
   if (fs::path(text_).filename().string().find(kNumberField) == std::string::npos)
-    throw std::invalid_argument("'" + text_ +
+    throw std::invalid_argument("'" + shortened(text_) +
                                 "' has no {n} in its name, the number of the grasp: as "
                                 "out/{name}_{n}.palpate");
   planned();

@@ -5,6 +5,7 @@
 
 #include "palpate/calibration/noise_floor.h"
 #include "palpate/core/error.h"
+#include "palpate/core/escaped_line.h"
 #include "palpate/core/number_text.h"
 #include "palpate/core/xml.h"
 
@@ -55,12 +56,12 @@ class NoiseXmlHandler final : public XmlHandler {
   [[noreturn]] void fail(const std::string& what) const { throw FormatError(name_, what); }
   std::size_t index(std::string_view text) const {
     const auto number = parseInteger(text);
-    if (!number || *number < 0) fail("<matrix id=\"" + std::string(text) + "\"> isn't a number");
+    if (!number || *number < 0) fail("<matrix id=\"" + shortened(text) + "\"> isn't a number");
     return static_cast<std::size_t>(*number);
   }
   void take(double& value) {
     const auto number = parseDouble(text_);
-    if (!number) fail("'" + text_ + "' isn't a number");
+    if (!number) fail("'" + shortened(text_) + "' isn't a number");
     value = *number;
     ++found_;
   }
@@ -119,7 +120,7 @@ NoiseFloor noiseFloorFrom(const Json& json) {
     const Json one = matrices.at(m);
     for (const char* key : {"slope", "intercept", "rmse"})
       if (!one.at(key).isNumber())
-        throw Error("noise line " + std::to_string(m) + " lacks '" + key + "'");
+        throw Error("noise line " + std::to_string(m) + " lacks '" + shortened(key) + "'");
     const auto number = [&](const char* key, double otherwise) {
       return one.at(key).isNumber() ? one.at(key).asDouble() : otherwise;
     };

@@ -7,6 +7,7 @@
 
 #include "palpate/calibration/pressure_model.h"
 #include "palpate/core/error.h"
+#include "palpate/core/escaped_line.h"
 
 namespace palpate {
 namespace {
@@ -48,7 +49,7 @@ double numberAt(const Json& json, const std::string& key, const std::string& whe
   const Json value = json.at(key);
   if (value.isNull() && json.contains(key)) return std::numeric_limits<double>::quiet_NaN();
   if (!value.isNumber())
-    throw Error("pressure model: " + where + " lacks the number '" + key + "'");
+    throw Error("pressure model: " + where + " lacks the number '" + shortened(key) + "'");
   return value.asDouble();
 }
 

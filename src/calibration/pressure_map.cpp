@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "palpate/core/escaped_line.h"
 #include "palpate/core/number_text.h"
 #include "palpate/core/time.h"
 #include "palpate/filter/gaussian.h"
@@ -235,8 +236,8 @@ void PressureMap::apply(const TactileFrame& frame,
 std::vector<std::string> PressureMap::assumptions() const {
   std::vector<std::string> said;
   if (!calibration_.hand.empty() && calibration_.hand != handName_)
-    said.push_back("measured on '" + calibration_.hand + "'; this is '" + handName_ +
-                   "', whose readings may stand for other pressures");
+    said.push_back("measured on '" + shortened(calibration_.hand) + "'; this is '" +
+                   shortened(handName_) + "', whose readings may stand for other pressures");
   else if (!calibration_.serial.empty() && !options_.serial.empty() &&
            calibration_.serial != options_.serial)
     said.push_back("measured on the sensor with serial number " + calibration_.serial +

@@ -50,13 +50,13 @@ PressureTableRow rowOf(const std::vector<std::string>& cells, const Columns& col
   if (row.file.empty()) row.problem = "names no file";
   const auto pressure = parseDouble(cell(columns.pressure));
   if (!pressure || *pressure < 0.0)
-    row.problem = "pressure_kpa '" + cell(columns.pressure) + "' isn't a pressure";
+    row.problem = "pressure_kpa '" + shortened(cell(columns.pressure)) + "' isn't a pressure";
   row.pressureKpa = pressure.value_or(std::nan(""));
   const std::string temperature = cell(columns.temperature);
   if (!temperature.empty()) {
     row.temperatureC = parseDouble(temperature);
     if (!row.temperatureC || std::abs(*row.temperatureC) > 200.0)
-      row.problem = "temperature_c '" + temperature + "' isn't a temperature";
+      row.problem = "temperature_c '" + shortened(temperature) + "' isn't a temperature";
   }
   return row;
 }

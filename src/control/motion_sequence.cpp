@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "palpate/core/error.h"
+#include "palpate/core/escaped_line.h"
 #include "palpate/core/number_text.h"
 #include "palpate/core/time.h"
 #include "palpate/model/preshape.h"
@@ -49,7 +50,7 @@ Kind kindFrom(const JsonField& field) {
   const std::string name = field.text();
   for (const Kind kind : {Kind::kOpen, Kind::kPose, Kind::kGrasp, Kind::kHold, Kind::kWait})
     if (name == nameOf(kind)) return kind;
-  field.fail("must be open, pose, grasp, hold or wait, not '" + name + "'");
+  field.fail("must be open, pose, grasp, hold or wait, not '" + shortened(name) + "'");
 }
 
 void validateStep(const SequenceStep& step, const HandDescription& hand) {
@@ -107,7 +108,8 @@ void readGrasp(const JsonField& field, GraspRequest& request) {
       request.mode = each;
       known = true;
     }
-  if (!known) field.at("mode").fail("must be plain, reactive or slip, not '" + mode + "'");
+  if (!known)
+    field.at("mode").fail("must be plain, reactive or slip, not '" + shortened(mode) + "'");
   const auto number = [&](const char* key, double usual) {
     return field.number(key, usual, -kAnyNumber, kAnyNumber);
   };

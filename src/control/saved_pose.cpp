@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "palpate/core/escaped_line.h"
 #include "palpate/core/number_text.h"
 
 namespace palpate {
@@ -23,7 +24,7 @@ std::string nameFrom(const JsonField& field) {
 }  // namespace
 
 std::string problemOf(const SavedPose& pose, const HandDescription& hand) {
-  const std::string who = "the pose '" + pose.name + "' ";
+  const std::string who = "the pose '" + shortened(pose.name) + "' ";
   if (pose.hand != hand.name) return who + "is of another hand: " + pose.hand;
   if (pose.anglesDeg.size() != hand.axes.size())
     return who + "has " + std::to_string(pose.anglesDeg.size()) + " angles, the hand has " +

@@ -78,6 +78,14 @@ std::string escapedLine(std::string_view text) {
   return line;
 }
 
+std::string shortened(std::string_view text) {
+  constexpr std::size_t kShownBytes = 100;
+  const std::string line = escapedLine(beginningOf(text, kShownBytes));
+  const std::string_view shown = beginningOf(line, kShownBytes);
+  const bool whole = text.size() <= kShownBytes && line.size() <= kShownBytes;
+  return std::string(shown) + (whole ? "" : "..");
+}
+
 std::string_view beginningOf(std::string_view text, std::size_t most) {
   if (text.size() <= most) return text;
   while (most > 0 && isContinuation(text[most])) --most;

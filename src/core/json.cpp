@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "palpate/core/error.h"
+#include "palpate/core/escaped_line.h"
 
 namespace palpate {
 
@@ -41,11 +42,50 @@ struct Json::Impl {
 namespace {
 
 // The parser does not use recursion, but destruction and dump() do, so the nesting is limited.
-constexpr int kMaxDepth = 512;
+constexpr std::size_t kMaxDepth = 512;
+// A value of two bytes ("0,") takes up to 100 bytes in memory. Models have some 100,000.
+constexpr std::size_t kMaxValues = 1'500'000;
 
 [[noreturn]] void throwWrongKind(const std::string& where, const char* wanted, const Value& value) {
-  throw Error("JSON: " + (where.empty() ? where : "'" + where + "': ") + "expected " + wanted +
-              ", found " + value.type_name());
+  throw Error("JSON: " + (where.empty() ? where : "'" + shortened(where) + "': ") + "expected " +
+              wanted + ", found " + value.type_name());
+}
+
+// Throws Error for a text that is nested too deep or has too many values. A callback of the parser
+// could tell, too, but with one it walks through all items of a list at the end of each.
+void requireBounded(std::string_view text) {
+  std::size_t depth = 0;
+  std::size_t values = 1;
+  bool quoted = false;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if (quoted) {
+      if (c == '\\') ++i;
+      if (c == '"') quoted = false;
+    } else if (c == '"') {
+      quoted = true;
+    } else if (c == '[' || c == '{') {
+      ++values;
+      if (++depth > kMaxDepth) throw Error("JSON: nested more than 512 levels deep");
+    } else if (c == ']' || c == '}') {
+      if (depth > 0) --depth;
+    } else if (c == ',') {
+      ++values;
+    }
+  }
+  if (values > kMaxValues) throw Error("JSON: more than " + std::to_string(kMaxValues) + " values");
+}
+
+// Without the first part of "[json.exception.parse_error.101] parse error at line 1, column 2: ..",
+// and with little of the text that it may repeat in quotes.
+std::string messageOf(const Value::exception& error) {
+  std::string what = error.what();
+  if (const auto blank = what.find("] "); blank != std::string::npos) what.erase(0, blank + 2);
+  const auto first = what.find('\'');
+  const auto last = what.rfind('\'');
+  if (first == last) return what;
+  const std::string repeated = what.substr(first + 1, last - first - 1);
+  return what.replace(first + 1, repeated.size(), shortened(repeated));
 }
 
 // JSON has no NaN and no infinity.
@@ -91,20 +131,11 @@ Json Json::array(std::span<const double> values) {
 }
 
 Json Json::parse(std::string_view text) {
-  const auto bounded = [](int depth, Value::parse_event_t, Value&) {
-    if (depth > kMaxDepth) throw Error("JSON: nested more than 512 levels deep");
-    return true;
-  };
+  requireBounded(text);
   try {
-    return Json(std::make_unique<Impl>(Value::parse(text, bounded)));
-  } catch (const Value::parse_error& error) {
-    // Shortens "[json.exception.parse_error.101] parse error at line 1, column 2: ..." by the part
-    // in brackets.
-    const std::string what = error.what();
-    const auto blank = what.find("] ");
-    throw Error("JSON: " + (blank == std::string::npos ? what : what.substr(blank + 2)));
+    return Json(std::make_unique<Impl>(Value::parse(text)));
   } catch (const Value::exception& error) {
-    throw Error(std::string("JSON: ") + error.what());
+    throw Error("JSON: " + messageOf(error));
   }
 }
 

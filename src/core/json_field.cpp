@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "palpate/core/error.h"
+#include "palpate/core/escaped_line.h"
 #include "palpate/core/number_text.h"
 
 namespace palpate {
@@ -38,7 +39,7 @@ void JsonField::only(std::initializer_list<std::string_view> known) const {
       std::string list;
       for (const std::string_view name : known)
         list += (list.empty() ? "" : ", ") + std::string(name);
-      fail("has an unknown key '" + key + "' (known: " + list + ")");
+      fail("has an unknown key '" + shortened(key) + "' (known: " + list + ")");
     }
 }
 
@@ -49,7 +50,7 @@ JsonField JsonField::at(std::string_view key) const {
 
 JsonField JsonField::required(std::string_view key) const {
   if (!json_.isObject()) fail("isn't a JSON object");
-  if (!has(key)) fail("has no \"" + std::string(key) + "\"");
+  if (!has(key)) fail("has no \"" + shortened(key) + "\"");
   return at(key);
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "palpate/core/error.h"
+#include "palpate/core/escaped_line.h"
 #include "palpate/core/number_text.h"
 #include "palpate/device/port_list.h"
 #include "palpate/device/sdh2.h"
@@ -31,7 +32,7 @@ void LiveHandOptions::validate() const {
   if (dsaPort.empty() && sdhPort.empty())
     throw std::invalid_argument("LiveHandOptions: neither a tactile nor a motion port is named");
   if (dsaPort == sdhPort)
-    throw std::invalid_argument("LiveHandOptions: both ports are '" + dsaPort + "'");
+    throw std::invalid_argument("LiveHandOptions: both ports are '" + shortened(dsaPort) + "'");
 }
 
 struct LiveHand::Impl {

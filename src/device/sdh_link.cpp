@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "palpate/core/error.h"
+#include "palpate/core/escaped_line.h"
 #include "palpate/core/time.h"
 
 namespace palpate {
@@ -212,19 +213,19 @@ void SdhLink::failExchange(const std::string& what) const {
     case FailureCause::kRefused: {
       const std::string advice = sdhErrorAdvice(errorCode_);
       fail(DeviceFault::kRefused,
-           "the hand refused '" + what + "': E" + std::to_string(errorCode_) + ", " +
+           "the hand refused '" + shortened(what) + "': E" + std::to_string(errorCode_) + ", " +
                sdhErrorText(errorCode_) + (advice.empty() ? "" : "; " + advice));
     }
     case FailureCause::kBroken:
       fail(DeviceFault::kProtocol,
-           "the answers to '" + what + "' arrive damaged; check cable and adapter");
+           "the answers to '" + shortened(what) + "' arrive damaged; check cable and adapter");
     case FailureCause::kImplausible:
-      fail(DeviceFault::kProtocol, "the answers to '" + what + "' are not valid");
+      fail(DeviceFault::kProtocol, "the answers to '" + shortened(what) + "' are not valid");
     case FailureCause::kSilence:
       break;
   }
   fail(DeviceFault::kSilent,
-       "the motion controller gave no answer to '" + what + "'; check cable and power");
+       "the motion controller gave no answer to '" + shortened(what) + "'; check cable and power");
 }
 
 bool SdhLink::mayBeLost() const noexcept {

@@ -14,6 +14,7 @@
 #include <unistd.h>
 
 #include "palpate/core/error.h"
+#include "palpate/core/escaped_line.h"
 #include "palpate/core/number_text.h"
 #include "palpate/device/port_list.h"
 
@@ -101,7 +102,7 @@ StreamSource::StreamSource(std::string name, int baud) : name_(std::move(name)),
   if (address_.size() > 2 && address_.front() == '[' && address_.back() == ']')
     address_ = address_.substr(1, address_.size() - 2);
   if (!port || *port < 0 || *port > 65'535 || !socketAddress(address_, 0))
-    throw std::invalid_argument("'" + name_ + "' is not " + prefix +
+    throw std::invalid_argument("'" + shortened(name_) + "' is not " + prefix +
                                 "[ADDRESS:]PORT, for example " + prefix + "9871 or " + prefix +
                                 "0.0.0.0:9871; ADDRESS is numeric, PORT 0..65535 (0: a free one)");
   port_ = static_cast<std::uint16_t>(*port);

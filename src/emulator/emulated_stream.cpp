@@ -20,6 +20,7 @@
 #include <unistd.h>
 
 #include "palpate/core/error.h"
+#include "palpate/core/escaped_line.h"
 #include "palpate/core/file_descriptor.h"
 #include "palpate/core/number_text.h"
 #include "palpate/core/time.h"
@@ -84,7 +85,7 @@ std::optional<std::vector<std::byte>> socketAddressOf(const ListenPlace& place) 
 
 void EmulatedStreamOptions::validate() const {
   if (!socketAddressOf(listenPlace(where)))
-    throw std::invalid_argument("'" + where +
+    throw std::invalid_argument("'" + shortened(where) +
                                 "' is not [ADDRESS:]PORT, for example 9871 or 0.0.0.0:9871; "
                                 "ADDRESS is numeric, PORT 0..65535 (0: a free one)");
   if (!(rateHz >= 0.1 && rateHz <= 5000.0))

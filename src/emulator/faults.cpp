@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "palpate/core/escaped_line.h"
 #include "palpate/core/number_text.h"
 
 namespace palpate {
@@ -14,7 +15,7 @@ constexpr double kMaxSeconds = 1e6;
 constexpr double kMaxJunkBytes = 1e9;
 
 [[noreturn]] void refuse(std::string_view word, const std::string& why) {
-  throw std::invalid_argument("fault '" + std::string(word) + "': " + why);
+  throw std::invalid_argument("fault '" + shortened(word) + "': " + why);
 }
 
 double numberIn(std::string_view word, std::string_view text, double most, const char* what) {

@@ -9,6 +9,7 @@
 #include <Eigen/Geometry>
 
 #include "palpate/core/error.h"
+#include "palpate/core/escaped_line.h"
 #include "palpate/core/json_field.h"
 #include "palpate/core/text_file.h"
 #include "palpate/model/hand_description.h"
@@ -148,7 +149,7 @@ SceneAction actionOf(const JsonField& step, std::size_t objects, const HandDescr
     const JsonField at = step.at("grasp");
     at.only({"preshape", "close", "velocity_deg_per_s"});
     if (startPreshape(hand).empty())
-      at.fail("needs preshapes, and the hand '" + hand.name + "' has none");
+      at.fail("needs preshapes, and the hand '" + shortened(hand.name) + "' has none");
     GraspAction grasp;
     if (at.has("preshape")) {
       requirePreshape(at.at("preshape"), hand);
@@ -211,8 +212,8 @@ const Preshape& scenePreshape(const HandDescription& hand, std::string_view name
       known += (known.empty() ? "" : ", ") + preshape.name;
     }
   throw std::invalid_argument(known.empty()
-                                  ? "the hand '" + hand.name + "' has no preshapes"
-                                  : "no preshape '" + std::string(name) + "'; there are: " + known);
+                                  ? "the hand '" + shortened(hand.name) + "' has no preshapes"
+                                  : "no preshape '" + shortened(name) + "'; there are: " + known);
 }
 
 Scene parseScene(std::string_view text, const fs::path& name, const HandDescription& hand) {
@@ -276,7 +277,7 @@ Scene loadScene(const std::string& nameOrFile,
   if (!isFile && !fs::exists(path, failure)) {
     std::string known;
     for (const std::string& name : sceneNames(folder)) known += (known.empty() ? "" : ", ") + name;
-    throw FileError(path, "no scene '" + nameOrFile + "'; there are: " + known);
+    throw FileError(path, "no scene '" + shortened(nameOrFile) + "'; there are: " + known);
   }
   if (!fs::is_regular_file(path, failure)) throw FileError(path, "no such file");
   return parseScene(readTextFile(path, kMaxBytes), path, hand);

@@ -96,7 +96,7 @@ FirmwareVersion parseFirmware(std::string_view text) {
   for (const char c : text)
     if (!((c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '.' ||
           c == '-'))
-      throw std::invalid_argument("firmware '" + std::string(text) +
+      throw std::invalid_argument("firmware '" + shortened(text) +
                                   "' has other characters than letters, digits, '.' and '-'");
   FirmwareVersion version{};
   const char* at = text.data();
@@ -104,7 +104,7 @@ FirmwareVersion parseFirmware(std::string_view text) {
   for (std::size_t i = 0; i < version.size(); ++i) {
     const auto [next, error] = std::from_chars(at, end, version[i]);
     if (error != std::errc() || (i < 3 && (next == end || *next != '.')))
-      throw std::invalid_argument("firmware '" + std::string(text) +
+      throw std::invalid_argument("firmware '" + shortened(text) +
                                   "' isn't a release such as 0.0.3.3");
     at = i < 3 ? next + 1 : next;
   }

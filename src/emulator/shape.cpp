@@ -7,6 +7,8 @@
 #include <string>
 #include <utility>
 
+#include "palpate/core/escaped_line.h"
+
 namespace palpate {
 namespace {
 
@@ -58,7 +60,7 @@ ShapeKind shapeKind(std::string_view name) {
        {"cone", ShapeKind::kCone}}};
   for (const auto& [known, kind] : kNames)
     if (known == name) return kind;
-  throw std::invalid_argument("'" + std::string(name) +
+  throw std::invalid_argument("'" + shortened(name) +
                               "' isn't a shape; there are sphere, cylinder, box, ellipsoid, cone");
 }
 

@@ -10,6 +10,7 @@
 #include <unistd.h>
 
 #include "palpate/core/error.h"
+#include "palpate/core/escaped_line.h"
 #include "palpate/core/file_descriptor.h"
 #include "palpate/core/number_text.h"
 #include "palpate/emulator/port_server.h"
@@ -110,7 +111,8 @@ std::unique_ptr<PortServer> openPortServer(const std::string& where) {
   const auto port = parseInteger(where.substr(colon + 1));
   if ((host != "127.0.0.1" && host != "localhost") || !port || *port < 0 || *port > 65'535)
     throw std::invalid_argument(
-        "'" + where + "' isn't a port of this machine: tcp:127.0.0.1:PORT, PORT 0..65535");
+        "'" + shortened(where) +
+        "' isn't a port of this machine: tcp:127.0.0.1:PORT, PORT 0..65535");
   return openTcpPort(static_cast<std::uint16_t>(*port));
 }
 

@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "palpate/core/escaped_line.h"
 #include "palpate/filter/savitzky_golay.h"
 
 namespace palpate {
@@ -434,7 +435,7 @@ const FilterKind& filterKind(std::string_view name) {
   for (const FilterKind& kind : all())
     if (kind.name == name) return kind;
   const std::string meant = meantBy(name);
-  throw std::invalid_argument("unknown filter \"" + std::string(name) + "\"" +
+  throw std::invalid_argument("unknown filter \"" + shortened(name) + "\"" +
                               (meant.empty() ? std::string() : " (did you mean " + meant + "?)") +
                               "; there are: " + filterNames());
 }

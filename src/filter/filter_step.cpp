@@ -60,7 +60,7 @@ std::string rangeOf(const FilterOption& option) {
 }
 
 std::string unknownKey(const FilterKind& kind, std::string_view key) {
-  return kind.name + ": unknown key \"" + std::string(key) + "\"; there are: " + kind.optionKeys() +
+  return kind.name + ": unknown key \"" + shortened(key) + "\"; there are: " + kind.optionKeys() +
          ", " + kMatrices;
 }
 
@@ -78,7 +78,7 @@ std::vector<std::size_t> parseMatrices(const FilterStep& step, std::string_view 
     if (!index || *index < 0 || *index >= static_cast<std::int64_t>(kMostMatrices))
       throw std::invalid_argument(step.name +
                                   ": matrices must be numbers joined by +, as 1+3, is \"" +
-                                  std::string(text) + "\"");
+                                  shortened(text) + "\"");
     matrices.push_back(static_cast<std::size_t>(*index));
   }
   std::sort(matrices.begin(), matrices.end());
@@ -89,12 +89,12 @@ std::vector<std::size_t> parseMatrices(const FilterStep& step, std::string_view 
 double parseValue(const FilterStep& step, const FilterOption& option, std::string_view text) {
   if (option.kind == FilterStepKind::kChoice) {
     const auto at = std::find(option.choices.begin(), option.choices.end(), text);
-    if (at == option.choices.end()) refuse(step, option, "\"" + std::string(text) + "\"");
+    if (at == option.choices.end()) refuse(step, option, "\"" + shortened(text) + "\"");
     return static_cast<double>(at - option.choices.begin());
   }
   if (option.automatic() && text == "auto") return option.defaultValue;
   const auto number = parseDouble(text);
-  if (!number || !fits(option, *number)) refuse(step, option, "\"" + std::string(text) + "\"");
+  if (!number || !fits(option, *number)) refuse(step, option, "\"" + shortened(text) + "\"");
   return *number;
 }
 
@@ -195,7 +195,7 @@ FilterStep parseFilterStep(std::string_view text) {
       const auto equals = part.find('=');
       const std::string_view key = trimmed(part.substr(0, equals));
       if (equals == std::string_view::npos || key.empty())
-        throw std::invalid_argument(step.name + ": \"" + std::string(part) +
+        throw std::invalid_argument(step.name + ": \"" + shortened(part) +
                                     "\" isn't KEY=VALUE; keys: " + kind.optionKeys() + ", " +
                                     kMatrices);
       if (std::find(seen.begin(), seen.end(), key) != seen.end())

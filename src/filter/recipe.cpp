@@ -59,7 +59,7 @@ FilterStep stepFromJson(const Json& json) {
       continue;
     const std::string value = valueText(json.at(key));
     if (key.find_first_of(",=") != std::string::npos || value.find(',') != std::string::npos)
-      throw std::invalid_argument("\"" + key + "\": a comma or = isn't allowed there");
+      throw std::invalid_argument("\"" + shortened(key) + "\": a comma or = isn't allowed there");
     text += before + key + '=' + value;
     before = ',';
   }

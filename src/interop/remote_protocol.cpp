@@ -23,7 +23,7 @@ ReadRequest refuse(std::string code, std::string why) {
 }
 
 std::string quoted(std::string_view text) {
-  return "'" + escapedLine(beginningOf(text, kMaxQuoted)) + "'";
+  return "'" + shortened(beginningOf(text, kMaxQuoted)) + "'";
 }
 
 }  // namespace

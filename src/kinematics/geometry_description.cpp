@@ -10,6 +10,7 @@
 #include <Eigen/LU>
 
 #include "palpate/core/error.h"
+#include "palpate/core/escaped_line.h"
 #include "palpate/model/hand_file.h"
 
 #include "kinematics/urdf_tree.h"
@@ -91,13 +92,13 @@ class GeometryBuilder {
         const auto joint = joints.find(name);
         const std::string place = "axes[" + std::to_string(axis) + "].joints";
         if (joint == joints.end())
-          fail(place + " names '" + name + "', which the URDF does not have");
+          fail(place + " names '" + shortened(name) + "', which the URDF does not have");
         if (joint->second->kind == UrdfJoint::Kind::kFixed)
-          fail(place + " names '" + name + "', which is a fixed joint");
+          fail(place + " names '" + shortened(name) + "', which is a fixed joint");
         const bool slides = joint->second->kind == UrdfJoint::Kind::kPrismatic;
         if (slides != hand_.axes[axis].isSliding)
-          fail(place + " names '" + name + "', whose values are in " + (slides ? "mm" : "deg") +
-               "; the axis is in " + hand_.axes[axis].unit());
+          fail(place + " names '" + shortened(name) + "', whose values are in " +
+               (slides ? "mm" : "deg") + "; the axis is in " + hand_.axes[axis].unit());
         drives_[name] = {axis, 1.0, 0.0};
       }
     // Joints that follow others, which may follow others again.
@@ -110,11 +111,11 @@ class GeometryBuilder {
         drive.factor *= follows->multiplier;
         const auto next = joints.find(follows->mimics);
         if (next == joints.end() || steps > joints.size())
-          fail("the URDF's joint '" + name + "' mimics '" + follows->mimics +
+          fail("the URDF's joint '" + shortened(name) + "' mimics '" + shortened(follows->mimics) +
                "', which does not exist or mimics it in turn");
         if (next->second->kind != joint->kind)
-          fail("the URDF's joint '" + name + "' mimics a joint of another type, '" +
-               follows->mimics + "'");
+          fail("the URDF's joint '" + shortened(name) + "' mimics a joint of another type, '" +
+               shortened(follows->mimics) + "'");
         follows = next->second;
         if (const auto known = drives_.find(follows->name); known != drives_.end()) {
           drive.axis = known->second.axis;
@@ -199,8 +200,8 @@ class GeometryBuilder {
       std::size_t i = 0;
       while (i < tree_.size() && tree_[i].name != from.link) ++i;
       if (i == tree_.size())
-        fail("matrices[" + std::to_string(matrix) + "].surface.link names '" + from.link +
-             "', which the URDF does not have");
+        fail("matrices[" + std::to_string(matrix) + "].surface.link names '" +
+             shortened(from.link) + "', which the URDF does not have");
       surface.place = places_[i];
       placeFromLink = linkFromUrdf_[i];
     }

@@ -18,7 +18,7 @@ namespace {
 constexpr std::size_t kMostTriangles = 1'000'000;
 constexpr std::size_t kHeaderBytes = 80;
 constexpr std::size_t kTriangleBytes = 50;
-constexpr std::uint64_t kMostBytes = 400u << 20;
+constexpr std::uint64_t kMaxBytes = 64u << 20;  // a million triangles, binary
 
 std::vector<StlTriangle> readBinary(const std::string& bytes, const std::filesystem::path& path) {
   ByteReader reader(std::as_bytes(std::span(bytes)));
@@ -89,7 +89,7 @@ std::vector<StlTriangle> readText(const std::string& text, const std::filesystem
 }  // namespace
 
 std::vector<StlTriangle> readStl(const std::filesystem::path& path) {
-  const std::string bytes = readTextFile(path, kMostBytes);
+  const std::string bytes = readTextFile(path, kMaxBytes);
   // A binary file may begin with "solid", too; its length then tells.
   if (bytes.size() >= kHeaderBytes + 4) {
     ByteReader reader(std::as_bytes(std::span(bytes)));

@@ -12,6 +12,7 @@
 #include <urdf_parser/urdf_parser.h>
 
 #include "palpate/core/error.h"
+#include "palpate/core/escaped_line.h"
 #include "palpate/core/xml.h"
 
 namespace palpate {
@@ -74,7 +75,7 @@ urdf::ModelInterfaceSharedPtr parseModel(const std::string& text, const fs::path
   console_bridge::restorePreviousOutputHandler();
   if (model && messages.first().empty() && thrown.empty()) return model;
   const std::string& why = messages.first().empty() ? thrown : messages.first();
-  throw FormatError(source, "no valid URDF" + (why.empty() ? why : ": " + why));
+  throw FormatError(source, "no valid URDF" + (why.empty() ? why : ": " + shortened(why)));
 }
 
 class UrdfTreeBuilder {
@@ -99,8 +100,8 @@ class UrdfTreeBuilder {
     if (tree_.size() != model_.links_.size()) {
       for (const auto& [name, link] : model_.links_)
         if (!known_.contains(name))
-          fail("has a link '" + name + "' that is not connected to the root link '" +
-               tree_.front().name + "'");
+          fail("has a link '" + shortened(name) + "' that is not connected to the root link '" +
+               shortened(tree_.front().name) + "'");
     }
     return std::move(tree_);
   }
@@ -132,7 +133,7 @@ class UrdfTreeBuilder {
   }
 
   UrdfJoint jointOf(const urdf::Joint& from) const {
-    const std::string where = "joint '" + from.name + "'";
+    const std::string where = "joint '" + shortened(from.name) + "'";
     UrdfJoint joint;
     joint.name = from.name;
     joint.parentFromJoint = frame(from.parent_to_joint_origin_transform, where);
@@ -222,24 +223,25 @@ class UrdfTreeBuilder {
     const fs::path path(name);
     const bool leaves = std::find(path.begin(), path.end(), "..") != path.end();
     if (name.empty() || path.is_absolute() || leaves)
-      fail("names a mesh in " + where + " that is not in the folder of the hand: '" + name + "'");
+      fail("names a mesh in " + where + " that is not in the folder of the hand: '" +
+           shortened(name) + "'");
     return folder_.empty() ? path : folder_ / path;
   }
 
   void add(const urdf::Link& from, std::optional<std::size_t> parent) {
     if (!known_.emplace(from.name, tree_.size()).second)
-      fail("has a link '" + from.name + "' with two parents, or in a cycle");
+      fail("has a link '" + shortened(from.name) + "' with two parents, or in a cycle");
     UrdfLink link;
     link.name = from.name;
     link.parent = parent;
     if (parent) {
-      if (!from.parent_joint) fail("has no joint for link '" + from.name + "'");
+      if (!from.parent_joint) fail("has no joint for link '" + shortened(from.name) + "'");
       link.joint = jointOf(*from.parent_joint);
       tree_[*parent].children.push_back(tree_.size());
     }
     for (const urdf::VisualSharedPtr& visual : from.visual_array)
       if (visual && visual->geometry)
-        link.shapes.push_back(shapeOf(*visual, "link '" + from.name + "'"));
+        link.shapes.push_back(shapeOf(*visual, "link '" + shortened(from.name) + "'"));
     tree_.push_back(std::move(link));
   }
 

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "palpate/core/error.h"
+#include "palpate/core/escaped_line.h"
 #include "palpate/core/json_field.h"
 #include "palpate/core/number_text.h"
 #include "palpate/core/text_file.h"
@@ -245,7 +246,7 @@ void readPreshapes(const JsonField& root, const HandDescription& hand, HandFile&
       const AxisDescription& axis = hand.axes[i];
       for (const double end : {line[0], line[0] + line[1]})
         if (end < axis.minimumDeg || end > axis.maximumDeg)
-          joints[i].fail("leaves the range of axis '" + axis.name + "'");
+          joints[i].fail("leaves the range of axis '" + shortened(axis.name) + "'");
       preshape.joints.push_back({line[0], line[1]});
     }
     file.preshapes.push_back(std::move(preshape));
@@ -421,7 +422,8 @@ HandDescription parseHand(const std::string& json,
   } else {
     for (const MatrixSurface& surface : file->surfaces)
       if (!surface.link.empty())
-        root.fail("mounts a matrix on link '" + surface.link + "' but names no \"urdf\"");
+        root.fail("mounts a matrix on link '" + shortened(surface.link) +
+                  "' but names no \"urdf\"");
     for (std::size_t i = 0; i < hand.axes.size(); ++i)
       if (!file->axisJoints[i].empty())
         root.at("axes").fail("name joints, but the hand names no \"urdf\"");
@@ -440,7 +442,9 @@ HandDescription readHandFolder(const fs::path& folder) {
   if (root.has("urdf")) {
     const JsonField name = root.at("urdf");
     const fs::path file = name.text();
-    if (file.empty() || file.has_root_path() || file.has_parent_path())
+    constexpr std::size_t kLongestName = 255;  // of a file
+    if (file.empty() || file.native().size() > kLongestName || file.has_root_path() ||
+        file.has_parent_path())
       name.fail("isn't the name of a file in the folder of the hand");
     urdf = readTextFile(path.parent_path() / file, kHandFileByteLimit);
   }
@@ -501,7 +505,7 @@ const HandDescription& builtInHand(std::string_view key) {
     if (each.key == key) return *each.hand;
     known += (known.empty() ? "" : ", ") + each.key;
   }
-  throw std::invalid_argument("no hand '" + std::string(key) + "'; there are: " + known);
+  throw std::invalid_argument("no hand '" + shortened(key) + "'; there are: " + known);
 }
 
 const HandDescription& defaultHand() {
@@ -550,7 +554,7 @@ HandDescription findHand(const std::string& name, const std::vector<fs::path>& f
       return each.folder.empty() ? builtInHand(name) : readHandFolder(each.folder);
     list += (list.empty() ? "" : ", ") + each.key;
   }
-  throw Error("no hand '" + name + "'; there are: " + list +
+  throw Error("no hand '" + shortened(name) + "'; there are: " + list +
               ". A folder with a hand.json is named by its path.");
 }
 

@@ -3,6 +3,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "palpate/core/escaped_line.h"
 #include "palpate/core/number_text.h"
 
 namespace palpate {
@@ -22,7 +23,7 @@ const Preshape& findPreshape(const std::vector<Preshape>& preshapes, std::string
     if (preshape.name == name) return preshape;
     known += (known.empty() ? "" : ", ") + preshape.name;
   }
-  throw std::invalid_argument("no preshape '" + std::string(name) +
+  throw std::invalid_argument("no preshape '" + shortened(name) +
                               "'; there are: " + (known.empty() ? "none" : known));
 }
 

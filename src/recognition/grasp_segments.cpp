@@ -6,6 +6,7 @@
 #include <string>
 
 #include "palpate/core/error.h"
+#include "palpate/core/escaped_line.h"
 #include "palpate/core/progress.h"
 #include "palpate/core/time.h"
 #include "palpate/model/hand_file.h"
@@ -58,7 +59,7 @@ struct MatrixContact {
 
 std::vector<std::size_t> pinchingPads(const HandDescription& hand) {
   if (!hand.file || !hand.file->pinch)
-    throw Error("the description of '" + hand.name + "' names no two pads that pinch");
+    throw Error("the description of '" + shortened(hand.name) + "' names no two pads that pinch");
   return {hand.file->pinch->pads[0], hand.file->pinch->pads[1]};
 }
 

@@ -4,6 +4,7 @@
 #include <span>
 
 #include "palpate/core/error.h"
+#include "palpate/core/escaped_line.h"
 
 namespace palpate::json_numbers {
 namespace {
@@ -44,7 +45,7 @@ Eigen::MatrixXd matrixIn(const Json& list,
 }  // namespace
 
 void refuse(std::string_view key, const std::string& what) {
-  throw Error("model: '" + std::string(key) + "' " + what);
+  throw Error("model: '" + shortened(key) + "' " + what);
 }
 
 Json of(const Eigen::VectorXd& vector) {

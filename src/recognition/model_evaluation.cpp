@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "palpate/core/error.h"
+#include "palpate/core/escaped_line.h"
 #include "palpate/core/number_text.h"
 
 namespace palpate {
@@ -81,7 +82,8 @@ OffsetChoice OffsetChoice::from(const std::string& text) {
   const auto mm = parseDouble(text);
   if (!mm || std::abs(*mm) > kFarthestMm)
     throw std::invalid_argument(
-        "'" + text + "' is neither model, none, batch nor a number of mm from -20 to 20");
+        "'" + shortened(text) +
+        "' is neither model, none, batch nor a number of mm from -20 to 20");
   return {Kind::kGiven, *mm};
 }
 

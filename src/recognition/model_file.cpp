@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "palpate/core/error.h"
+#include "palpate/core/escaped_line.h"
 #include "palpate/core/text_file.h"
 #include "palpate/recognition/trained_model.h"
 
@@ -107,7 +108,8 @@ TrainedModel trainedModelFrom(const Json& json) {
   model.sensor = js::text(json, "sensor");
   const std::string set = js::text(json, "feature_set");
   const auto known = featureSetNamed(set);
-  if (!known) throw Error("model: its feature set '" + set + "' isn't known to this version");
+  if (!known)
+    throw Error("model: its feature set '" + shortened(set) + "' isn't known to this version");
   model.set = *known;
   model.features = js::texts(json, "features");
   model.classes = js::texts(json, "classes");
@@ -132,7 +134,7 @@ TrainedModel trainedModelFrom(const Json& json) {
 
 TrainedModel loadModel(const fs::path& path) {
   // The largest one of the study's 36 objects has 0.3 MB.
-  constexpr std::uint64_t kMaxBytes = 64u << 20;
+  constexpr std::uint64_t kMaxBytes = 32u << 20;
   const std::string text = readTextFile(path, kMaxBytes);
   Json json;
   try {

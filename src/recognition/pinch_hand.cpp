@@ -5,6 +5,7 @@
 #include <mutex>
 #include <stdexcept>
 
+#include "palpate/core/escaped_line.h"
 #include "palpate/model/hand_file.h"
 
 namespace palpate {
@@ -119,7 +120,7 @@ std::shared_ptr<const PinchHand> pinchHandOf(const HandDescription& hand) {
 }
 
 std::string withoutPinchText(const HandDescription& hand) {
-  return "the description of '" + hand.name +
+  return "the description of '" + shortened(hand.name) +
          "' names no two pads that pinch, which these features need (the set 'statistics' needs "
          "none)";
 }

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "palpate/core/error.h"
+#include "palpate/core/escaped_line.h"
 #include "palpate/recognition/classifier_pipeline.h"
 
 #include "json_numbers.h"
@@ -32,7 +33,7 @@ GaussianClassifier gaussianFrom(const Json& json,
                                 Eigen::Index features) {
   const Json list = js::member(json, key);
   if (!list.isArray() || list.size() != numClasses)
-    refusePipelineFile("'" + std::string(key) + "' hasn't one entry per class");
+    refusePipelineFile("'" + shortened(key) + "' hasn't one entry per class");
   GaussianClassifier gaussian;
   gaussian.classes.resize(numClasses);
   for (std::size_t c = 0; c < numClasses; ++c) {
@@ -126,7 +127,8 @@ ClassifierPipeline pipelineFrom(const Json& json) {
   ClassifierPipeline pipeline;
   const std::string name = js::text(json, "classifier");
   const auto kind = classifierNamed(name);
-  if (!kind) refusePipelineFile("its classifier '" + name + "' isn't known to this version");
+  if (!kind)
+    refusePipelineFile("its classifier '" + shortened(name) + "' isn't known to this version");
   pipeline.classifier = *kind;
   pipeline.numClasses = js::count(json, "classes");
   if (*kind == ClassifierKind::kGauss) {

@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "palpate/core/error.h"
+#include "palpate/core/escaped_line.h"
 #include "palpate/recognition/study_features.h"
 
 namespace palpate {
@@ -80,7 +81,8 @@ SampleSet samplesOf(const FeatureTable& table, const std::vector<std::string>& c
     if (row.className.empty())
       throw FileError(row.file, "its class isn't known: name a folder with a folder per class");
     if (found == classes.end())
-      throw FileError(row.file, "its class '" + row.className + "' isn't one of the model's");
+      throw FileError(row.file,
+                      "its class '" + shortened(row.className) + "' isn't one of the model's");
     samples.y.push_back(static_cast<int>(found - classes.begin()));
   }
   return samples;

@@ -10,6 +10,7 @@
 #include <Eigen/Cholesky>
 
 #include "palpate/core/error.h"
+#include "palpate/core/escaped_line.h"
 #include "palpate/recognition/plateau_features.h"
 
 namespace palpate {
@@ -131,7 +132,8 @@ SessionAdaptiveClassifier SessionAdaptiveClassifier::learn(const Eigen::MatrixXd
   if (!x.allFinite()) throw Error("features that are not numbers");
   const Scatters scatters = scattersOf(x, y, classes.size());
   for (std::size_t c = 0; c < classes.size(); ++c)
-    if (scatters.counts[c] == 0.0) throw Error("class '" + classes[c] + "' has no sample");
+    if (scatters.counts[c] == 0.0)
+      throw Error("class '" + shortened(classes[c]) + "' has no sample");
   if (*std::max_element(scatters.counts.begin(), scatters.counts.end()) < 2.0)
     throw Error("every class has one sample only: record at least two grasps of an object");
 
@@ -193,13 +195,14 @@ SessionAdaptiveClassifier::SessionAdaptiveClassifier(SessionAdaptiveParameters d
     throw Error("a model with a scatter of another size than its features");
   for (std::size_t c = 0; c < data_.classComponents.size(); ++c)
     classComponents_.push_back(
-        prepare(data_.classComponents[c], "class '" + data_.classes[c] + "'"));
+        prepare(data_.classComponents[c], "class '" + shortened(data_.classes[c]) + "'"));
   background_ = prepare(data_.background, "the background");
   for (const SessionComponent& component : data_.today) {
     if (component.classIndex >= data_.classes.size())
       throw Error("a model that saw today what is none of its classes");
-    sessionComponents_.push_back(prepare(
-        component.distribution, "class '" + data_.classes[component.classIndex] + "' of today"));
+    sessionComponents_.push_back(
+        prepare(component.distribution,
+                "class '" + shortened(data_.classes[component.classIndex]) + "' of today"));
   }
 }
 
@@ -306,7 +309,7 @@ void SessionAdaptiveClassifier::addSessionComponents(const Eigen::MatrixXd& x,
     component.distribution = {sum / count,
                               data_.fewShotScatterScale * (1.0 + 1.0 / count) * data_.pooled};
     const Prepared prepared =
-        prepare(component.distribution, "class '" + data_.classes[c] + "' of today");
+        prepare(component.distribution, "class '" + shortened(data_.classes[c]) + "' of today");
     const auto same = std::find_if(data_.today.begin(), data_.today.end(), [&](const auto& known) {
       return known.classIndex == c;
     });

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "palpate/core/error.h"
+#include "palpate/core/escaped_line.h"
 #include "palpate/recognition/session_adaptive_classifier.h"
 #include "palpate/recognition/session_offset.h"
 
@@ -97,7 +98,7 @@ SessionOffset sessionOffsetFrom(const Json& json) {
       out.origin = one;
       known = true;
     }
-  if (!known) js::refuse("origin", "isn't known to this version: '" + origin + "'");
+  if (!known) js::refuse("origin", "isn't known to this version: '" + shortened(origin) + "'");
   out.grasps = js::count(json, "grasps");
   out.objects = js::count(json, "objects");
   out.trusted = js::flag(json, "trusted");

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "palpate/core/error.h"
+#include "palpate/core/escaped_line.h"
 #include "palpate/core/hash.h"
 #include "palpate/core/number_text.h"
 #include "palpate/core/progress.h"
@@ -160,7 +161,7 @@ std::string notKnownYetText(const TrainedModel& model, const SessionOffset& offs
                              : std::optional<OffsetReference>();
   touch += "label grasps of two objects that differ in size";
   if (reference)
-    touch += "; one of '" + model.classes[reference->classIndex] +
+    touch += "; one of '" + shortened(model.classes[reference->classIndex]) +
              "' determines the offset best, to +- " + fixedText(reference->sdMm, 1) + " mm";
   const double sdMm = offset.origin == OffsetSource::kBatch ? unknownOffset().sdMm : offset.sdMm;
   return "it can't be known yet whether the object is one of the trained ones, because the session "

@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::string_view kEventNotesFormat = "palpate notes";
 constexpr std::int64_t kEventNotesVersion = 1;
-constexpr std::uintmax_t kLargestSidecar = 64u << 20;
+constexpr std::uintmax_t kLargestSidecar = 32u << 20;
 
 RecordingEvent eventFrom(const Json& json) {
   RecordingEvent event;

@@ -533,7 +533,7 @@ RecordingFormat formatOf(const std::filesystem::path& path) {
 
 EventsReport readEvents(const std::filesystem::path& path) {
   if (isHdf5Recording(path)) return {readHdf5(path).events, 0};
-  if (isMcapRecording(path)) return {readMcapEvents(path), 0};
+  if (isMcapRecording(path)) return readMcapEvents(path);
   return isNativeRecording(path) ? readPalpateEvents(path) : readEventSidecar(path);
 }
 

@@ -28,7 +28,7 @@ namespace {
 
 constexpr std::string_view kRecordingCatalogFormat = "palpate library";
 constexpr std::int64_t kRecordingCatalogVersion = 1;
-constexpr std::uintmax_t kLargestCache = 256u << 20;
+constexpr std::uintmax_t kLargestCache = 64u << 20;
 
 // Tells whether a recording and its sidecar are what they were: size, time of change and of status
 // of both.

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "palpate/core/error.h"
+#include "palpate/core/escaped_line.h"
 #include "palpate/core/file_name.h"
 #include "palpate/core/output_file.h"
 
@@ -76,7 +77,7 @@ void removeFreeLocks(std::span<const fs::path> parts) {
 std::vector<fs::path> renameRecording(std::span<const fs::path> parts, const std::string& stem) {
   if (parts.empty()) throw std::invalid_argument("renameRecording: no parts");
   if (stem.empty() || stem.front() == '.' || stem.find('/') != std::string::npos)
-    throw std::invalid_argument("renameRecording: '" + stem + "' is no name");
+    throw std::invalid_argument("renameRecording: '" + shortened(stem) + "' is no name");
   const std::string oldStem = parts.front().stem().string();
   std::vector<std::pair<fs::path, fs::path>> moves;
   std::vector<fs::path> named;

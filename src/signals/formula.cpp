@@ -12,6 +12,7 @@
 
 #include <muParser.h>
 
+#include "palpate/core/escaped_line.h"
 #include "palpate/core/number_text.h"
 #include "palpate/filter/butterworth.h"
 #include "palpate/model/gap_detector.h"
@@ -42,7 +43,7 @@ bool ofName(char letter) {
 }
 
 [[noreturn]] void refuseFormula(const std::string& text, const std::string& why) {
-  throw std::invalid_argument("formula \"" + text + "\": " + why);
+  throw std::invalid_argument("formula \"" + shortened(text) + "\": " + why);
 }
 
 // A function of a whole series: muParser knows only functions of numbers.
@@ -218,6 +219,8 @@ struct FormulaParser {
 // The message of muParser in one line, without its final full stop.
 std::string messageOf(const mu::Parser::exception_type& error) {
   std::string message = error.GetMsg();
+  if (const auto at = message.find(error.GetToken()); at != std::string::npos)
+    message.replace(at, error.GetToken().size(), shortened(error.GetToken()));
   while (!message.empty() && (message.back() == '.' || message.back() == '\n')) message.pop_back();
   std::replace(message.begin(), message.end(), '\n', ' ');
   return message;
@@ -241,7 +244,7 @@ void refuseUnknownFunctions(const std::string& text, const std::string& parsed) 
     for (const SeriesFunction& function : kSeriesFunctions)
       ours += (ours.empty() ? "" : ", ") + std::string(function.name);
     refuseFormula(text,
-                  "there is no function " + name + "; of signals there are " + ours +
+                  "there is no function " + shortened(name) + "; of signals there are " + ours +
                       ", of numbers abs, sqrt, min, max, exp, ln, sin and others");
   }
 }
@@ -325,8 +328,9 @@ Formula::Formula(const std::string& given) : text_(given) {
                               ? std::nullopt
                               : parseDouble(parts[i].substr(first, last - first + 1));
       if (!number)
-        refuseFormula(given,
-                      std::string(function.form) + " takes a number, not \"" + parts[i] + "\"");
+        refuseFormula(
+            given,
+            std::string(function.form) + " takes a number, not \"" + shortened(parts[i]) + "\"");
       derivative.numbers.push_back(*number);
     }
     try {
@@ -361,13 +365,14 @@ std::vector<double> Formula::evaluate(std::span<const double> timeS,
                                       const std::vector<std::vector<double>>& values,
                                       double longestS) const {
   if (values.size() != names_.size())
-    throw std::invalid_argument("formula \"" + text_ + "\": " + std::to_string(values.size()) +
-                                " signals of " + std::to_string(names_.size()));
+    throw std::invalid_argument("formula \"" + shortened(text_) +
+                                "\": " + std::to_string(values.size()) + " signals of " +
+                                std::to_string(names_.size()));
   std::map<std::string, std::vector<double>> series;
   for (std::size_t i = 0; i < names_.size(); ++i) {
     if (values[i].size() != timeS.size())
-      throw std::invalid_argument("formula \"" + text_ + "\": " + names_[i] + " has " +
-                                  std::to_string(values[i].size()) + " values at " +
+      throw std::invalid_argument("formula \"" + shortened(text_) + "\": " + shortened(names_[i]) +
+                                  " has " + std::to_string(values[i].size()) + " values at " +
                                   std::to_string(timeS.size()) + " times");
     series[names_[i]] = values[i];
   }
@@ -437,13 +442,13 @@ Series derivedSeries(const Profile& profile,
   for (const std::string& name : formula.names()) {
     const auto choice = signalNamed(name, profile.layout());
     if (!choice)
-      throw std::invalid_argument("formula \"" + formula.text() + "\": there is no signal \"" +
-                                  name +
+      throw std::invalid_argument("formula \"" + shortened(formula.text()) +
+                                  "\": there is no signal \"" + shortened(name) +
                                   "\"; there are m0_mean, m0_sum, .., hand_max, m0_x2_y9, angle0, "
                                   "temperature0, t");
     if (!hasSeries(profile, *choice))
-      throw std::invalid_argument("formula \"" + formula.text() + "\": the recording has no " +
-                                  name);
+      throw std::invalid_argument("formula \"" + shortened(formula.text()) +
+                                  "\": the recording has no " + shortened(name));
     choices.push_back(*choice);
   }
   const double parts = static_cast<double>(choices.size()) + 1.0;

@@ -39,6 +39,19 @@ TEST(OneLine, BeginningNeverCutsACharacter) {
   EXPECT_EQ(beginningOf("\x80\x80\x80", 2), "");
 }
 
+TEST(OneLine, TextOfAFileIsShownByItsFirst100Bytes) {
+  const std::string longest(100, 'a');
+  EXPECT_EQ(shortened(longest), longest);
+  EXPECT_EQ(shortened(longest + "b"), longest + "..");
+  EXPECT_EQ(inQuotes(longest + "b"), "\"" + longest + "..\"");
+  EXPECT_EQ(shortened("a\nb"), "a\\nb");
+  // What is escaped takes no more room.
+  EXPECT_EQ(shortened(std::string(60, '\x1B')), shortened(std::string(100'000, '\x1B')));
+  EXPECT_EQ(shortened(std::string(60, '\x1B')).size(), 102u);
+  // No character is cut in two.
+  EXPECT_EQ(shortened(std::string(99, 'a') + "\xC3\xA4"), std::string(99, 'a') + "..");
+}
+
 TEST(OneLine, ErrorsAreOneLineWhateverTheyName) {
   EXPECT_STREQ(FileError("a\nb", "is\nodd").what(), "a\\nb: is\\nodd");
   EXPECT_STREQ(FormatError("x\ty", "bad", 7).what(), "x\\ty: bad (at byte 7)");

@@ -44,6 +44,9 @@ TEST(JsonField, NamesThePlaceOfAFault) {
                 },
                 R"({"c": 1})"),
             "x.json: the thing has an unknown key 'c' (known: a, b)");
+  EXPECT_EQ(faultOf([](const JsonField& root) { root.only({"a"}); },
+                    "{\"" + std::string(20'000, 'c') + "\": 1}"),
+            "x.json: the thing has an unknown key '" + std::string(100, 'c') + "..' (known: a)");
   EXPECT_EQ(faultOf([](const JsonField& root) { root.required("a"); }, "{}"),
             "x.json: the thing has no \"a\"");
   EXPECT_EQ(faultOf([](const JsonField& root) { root.at("a").integer(0, 9); }, R"({"a": 1.5})"),

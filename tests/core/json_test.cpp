@@ -58,6 +58,45 @@ TEST(Json, NestingIsBounded) {
   EXPECT_TRUE(Json::parse(fine).isArray());
 }
 
+// A file of 16 MB would take more than a gigabyte.
+TEST(Json, TheNumberOfValuesIsBounded) {
+  const auto list = [](std::size_t count, const std::string& value) {
+    std::string text = "[";
+    for (std::size_t i = 0; i < count; ++i) text += value + ",";
+    return text + "0]";
+  };
+  EXPECT_EQ(Json::parse(list(1'000'000, "0")).size(), 1'000'001u);
+  EXPECT_THROW(Json::parse(list(1'500'000, "0")), Error);
+  EXPECT_THROW(Json::parse(list(1'500'000, "[]")), Error);
+}
+
+// Took minutes: the time grew with the square of the number of objects.
+TEST(Json, ALongListOfObjectsIsRead) {
+  std::string text = "[";
+  for (int i = 0; i < 200'000; ++i) text += R"({"a":"[\"{"},)";
+  const Json json = Json::parse(text + "{}]");
+  EXPECT_EQ(json.size(), 200'001u);
+  EXPECT_EQ(json.at(199'999).at("a").asString(), "[\"{");
+}
+
+TEST(Json, MessagesRepeatLittleOfTheText) {
+  const auto messageOf = [](const std::string& text) {
+    try {
+      Json::parse(text);
+    } catch (const Error& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  const std::string message = messageOf("{\"" + std::string(20'000, 'a') + "\": b}");
+  EXPECT_NE(message.find("line 1, column 20006"), std::string::npos) << message;
+  EXPECT_LT(message.size(), 300u) << message;
+  EXPECT_LT(messageOf(std::string(20'000, '1') + "a").size(), 300u);
+  EXPECT_LT(messageOf("\"" + std::string(20'000, 'a') + "\x01").size(), 300u);
+  EXPECT_NE(messageOf("[1, x]").find("last read: '1, x'"), std::string::npos)
+      << messageOf("[1, x]");
+}
+
 TEST(Json, NoNumberBecomesNullAndBadUtf8IsReplaced) {
   EXPECT_EQ(Json(std::nan("")).text(), "null");
   EXPECT_EQ(Json(std::string("a\xFF")).text(), "\"a\xEF\xBF\xBD\"");

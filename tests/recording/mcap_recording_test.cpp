@@ -176,7 +176,7 @@ TEST(McapRecording, randomRecordingsComeBackBitByBit) {
           const McapRecording read = readMcap(folder / "a.mcap");
           expectSame(profile, read.profile);
           EXPECT_EQ(read.events, kEvents);
-          EXPECT_EQ(readMcapEvents(folder / "a.mcap"), kEvents);
+          EXPECT_EQ(readMcapEvents(folder / "a.mcap").events, kEvents);
           EXPECT_EQ(read.meta.at("operator"), "A. B.\xFF");
           EXPECT_EQ(read.meta, readMcapMeta(folder / "a.mcap"));
           EXPECT_FALSE(read.meta.contains("frames"));  // of the file of the source
@@ -428,7 +428,7 @@ for size in 1, 3:
     const McapRecording read = readMcap(folder / name);
     expectSame(profile, read.profile);
     EXPECT_EQ(read.events, kEvents);
-    EXPECT_EQ(readMcapEvents(folder / name), kEvents);
+    EXPECT_EQ(readMcapEvents(folder / name).events, kEvents);
     EXPECT_EQ(recoverMcap(folder / name).profile.numFrames(), 100u);
   }
 }

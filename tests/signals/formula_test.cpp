@@ -139,6 +139,10 @@ TEST(Formula, RefusesWhatIsNone) {
   EXPECT_NE(refusal("a, b").find("comma"), std::string::npos);
   EXPECT_NE(refusal("der(a").find("isn't closed"), std::string::npos);
   EXPECT_NE(refusal(std::string(1001, '1')).find("at most 1000"), std::string::npos);
+  for (const std::string& text : {std::string(990, 'a') + " b",
+                                  std::string(990, 'a') + "(1)",
+                                  "lowpass(a," + std::string(980, 'b') + ")"})
+    EXPECT_LT(refusal(text).size(), 500u) << refusal(text);
   EXPECT_NE(refusal("a == 3"), "");
   EXPECT_EQ(refusal("a >= 3"), "taken: a >= 3");
   EXPECT_THROW(Formula("a").evaluate(std::vector{1.0}, {}, kEver), std::invalid_argument);

@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
 namespace {
 
 std::string damagedText(const std::string& in, std::size_t damaged) {
-  return in + ": " + counted(damaged, "damaged event") + " left out";
+  return in + ": " + counted(damaged, "event") + " left out: damaged, or more than are read";
 }
 
 std::string doneText(const fs::path& out, const Profile& profile) {

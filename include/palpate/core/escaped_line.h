@@ -16,11 +16,12 @@ std::string escapedLine(std::string_view text);
 // Returns the first `most` bytes of `text`, or fewer so that no UTF-8 character is cut in two.
 std::string_view beginningOf(std::string_view text, std::size_t most);
 
-// Text of a file as shown in a message: in quotes, cut to a bearable length.
-inline std::string inQuotes(std::string_view text) {
-  constexpr std::size_t kShown = 40;
-  return "\"" + escapedLine(beginningOf(text, kShown)) + (text.size() > kShown ? "..\"" : "\"");
-}
+// Text of unknown origin (a name, a key, a formula) as messages repeat it: escaped, and where it has
+// more than 100 bytes its beginning and "..".
+std::string shortened(std::string_view text);
+
+// The same in quotes.
+inline std::string inQuotes(std::string_view text) { return "\"" + shortened(text) + "\""; }
 
 // Removes the blanks around a text.
 inline std::string_view trimmed(std::string_view text, std::string_view blanks = " \t") {

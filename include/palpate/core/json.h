@@ -41,8 +41,8 @@ class Json {
   // Arrays of numbers. They take one allocation, where push() of each number takes two per number.
   static Json array(std::span<const std::int64_t> values);
   static Json array(std::span<const double> values);  // NaN and infinities become null
-  // Throws palpate::Error with line and column when `text` is not one JSON value, or is nested more
-  // than 512 levels deep.
+  // Throws palpate::Error with line and column when `text` is not one JSON value; palpate::Error
+  // when it is nested more than 512 levels deep or has more than 1,500,000 values.
   static Json parse(std::string_view text);
 
   bool isNull() const;

@@ -103,10 +103,10 @@ class McapLiveWriter {
 // they are asked for, and the profile is safe from several threads.
 struct McapRecording {
   Profile profile;
-  std::vector<RecordingEvent> events;
+  std::vector<RecordingEvent> events;  // the first 16 MB
   std::map<std::string, std::string> meta;
   Provenance provenance;
-  std::string damage;  // of recoverMcap(), one line: what is missing; empty: nothing
+  std::string damage;  // one line: what is missing; empty: nothing
 };
 
 // Reads a whole MCAP file through, all its checksums, and opens it. Of another program's file each
@@ -126,8 +126,9 @@ McapRecording recoverMcap(const std::filesystem::path& path,
                           const Progress& progress = {},
                           std::size_t threads = 0);
 // The events, or the meta data, of a file that Palpate has written; of other files none.
-// Only what they need is read. Throw as readMcap().
-std::vector<RecordingEvent> readMcapEvents(const std::filesystem::path& path);
+// Only what they need is read. Throw as readMcap(). Events beyond the first 16 MB are left out and
+// counted.
+EventsReport readMcapEvents(const std::filesystem::path& path);
 std::map<std::string, std::string> readMcapMeta(const std::filesystem::path& path);
 
 }  // namespace palpate

@@ -23,7 +23,8 @@ struct RecordingEvent {
 
 constexpr std::size_t kMaxEventBytes = 256u << 10;  // of kind, text and json together
 
-// The events of a recording in order of time. What is damaged is left out and counted.
+// The events of a recording in order of time. What is damaged, or more than is read
+// (mcap_recording.h), is left out and counted.
 struct EventsReport {
   std::vector<RecordingEvent> events;
   std::size_t damaged = 0;

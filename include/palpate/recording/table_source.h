@@ -94,6 +94,9 @@ class TableSource {
 
 // The longest line of a text [bytes].
 constexpr std::size_t kMaxLineBytes = 4u << 20;
+// The most numbers that an array, or columns that a text has per row: twice as many as the largest
+// hand has taxels.
+constexpr std::size_t kMaxNumbersPerRow = 1u << 17;
 
 // Whether a file is HDF5 (MATLAB's files of version 7.3 are, too), as its bytes tell. False for what
 // can't be read.

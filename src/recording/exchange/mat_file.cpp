@@ -11,6 +11,7 @@
 
 #include "palpate/core/byte_order.h"
 #include "palpate/core/error.h"
+#include "palpate/core/escaped_line.h"
 #include "palpate/core/number_text.h"
 
 namespace palpate {
@@ -174,7 +175,7 @@ MatValue MatValue::structure(std::vector<std::pair<std::string, MatValue>> field
   value.dimensions_ = {1, 1};
   for (auto& [name, field] : fields) {
     if (name.size() >= kFieldNameBytes)
-      throw std::invalid_argument("MatValue: the name '" + name + "' is too long");
+      throw std::invalid_argument("MatValue: the name '" + shortened(name) + "' is too long");
     value.names_.push_back(name);
     value.values_.push_back(std::move(field));
   }
@@ -261,8 +262,8 @@ void MatFile::add(const std::string& name, const MatValue& value) {
   const std::uint64_t bytes = value.numBytes(name);
   if (bytes > kMostVariableBytes)
     throw FileError(out_.path(),
-                    "a MAT file holds at most 2 GB per variable, '" + name + "' would have " +
-                        fixedText(static_cast<double>(bytes) / 1e9, 1) +
+                    "a MAT file holds at most 2 GB per variable, '" + shortened(name) +
+                        "' would have " + fixedText(static_cast<double>(bytes) / 1e9, 1) +
                         " GB; write .h5, or a part with --from and --to");
   z_stream packer{};
   constexpr int kFastest = 1;

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "palpate/core/error.h"
+#include "palpate/core/escaped_line.h"
 #include "palpate/core/number_text.h"
 
 #include "recording/import/cell_text.h"
@@ -10,7 +11,8 @@
 namespace palpate {
 namespace {
 
-constexpr std::size_t kPieceNumbers = 1u << 18;  // 2 MB of doubles
+constexpr std::size_t kPieceNumbers = 1u << 18;       // 2 MB of doubles
+constexpr std::size_t kLargestRowNumbers = 1u << 20;  // of all columns that are read at once
 
 }  // namespace
 
@@ -32,12 +34,19 @@ void ArraySource::start(std::span<const std::size_t> columns, std::optional<std:
     const TableColumn& column = columns_[each];
     if (column.numRows.value_or(0) != numRows_)
       throw FormatError(path_,
-                        column.name + " has " + std::to_string(column.numRows.value_or(0)) +
-                            " rows, but " + columns_[all.front()].name + " has " +
+                        shortened(column.name) + " has " +
+                            std::to_string(column.numRows.value_or(0)) + " rows, but " +
+                            shortened(columns_[all.front()].name) + " has " +
                             std::to_string(numRows_));
     width += column.width();
-    open(each);
   }
+  if (width > kLargestRowNumbers)
+    throw FormatError(path_,
+                      "has rows of " + std::to_string(width) +
+                          " numbers in the columns that are "
+                          "taken; at most " +
+                          std::to_string(kLargestRowNumbers) + " are read");
+  for (const std::size_t each : all) open(each);
   pieceRows_ = std::max<std::size_t>(1, kPieceNumbers / std::max<std::size_t>(1, width));
 }
 
@@ -90,7 +99,7 @@ std::string ArraySource::placeOf(std::size_t index) const {
       indices = "[" + std::to_string(within % column.shape[d - 1]) + "]" + indices;
       within /= column.shape[d - 1];
     }
-    return column.name + indices + " is " + textOf(index);
+    return shortened(column.name) + indices + " is " + textOf(index);
   }
   return "a value";
 }

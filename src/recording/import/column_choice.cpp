@@ -34,6 +34,15 @@ std::string stemOf(std::string_view name, std::vector<std::int64_t>& numbers) {
   return stem;
 }
 
+// Adds the numbers of a column's elements to those before. Throws Error where they are too many for
+// a hand: 65,536 taxels of three indices take half a million.
+void countElements(const TableColumn& column, std::size_t firstIndices, std::size_t& counted) {
+  constexpr std::size_t kMaxNumbers = 1u << 22;
+  counted += column.width() * (4 + firstIndices + column.shape.size());
+  if (counted > kMaxNumbers)
+    throw Error("too many numbers per row could be taxels; choose the columns of each matrix");
+}
+
 // Appends the elements of a column, with these first indices.
 void appendElements(const std::vector<TableColumn>& columns,
                     std::size_t column,
@@ -41,6 +50,8 @@ void appendElements(const std::vector<TableColumn>& columns,
                     std::vector<TableElement>& elements) {
   const std::vector<std::size_t>& shape = columns[column].shape;
   const std::size_t width = columns[column].width();
+  std::size_t numbers = elements.size() * (4 + first.size() + shape.size());
+  countElements(columns[column], first.size(), numbers);
   for (std::size_t within = 0; within < width; ++within) {
     TableElement element{column, within, first};
     element.indices.resize(first.size() + shape.size());
@@ -243,7 +254,7 @@ std::size_t requireColumn(const std::vector<TableColumn>& columns, std::string_v
   const auto column = columnNamed(columns, name);
   if (column) return *column;
   if (name.starts_with('#') && parseInteger(name.substr(1)))
-    throw Error("there is no column " + std::string(name) + ": the file has " +
+    throw Error("there is no column " + shortened(name) + ": the file has " +
                 counted(columns.size(), "column"));
   throw Error("there is no column " + inQuotes(name) + "; there are " + namesText(columns));
 }
@@ -278,10 +289,12 @@ std::vector<ColumnGroup> groupColumns(const std::vector<TableColumn>& columns,
   std::vector<ColumnGroup> groups;
   // By stem and number of indices: a '#' in a name is like the stem of a digit.
   std::map<std::pair<std::string, std::size_t>, std::size_t> byStem;
+  std::size_t allNumbers = 0;
   for (const std::size_t c : chosen) {
     std::vector<std::int64_t> numbers;
     std::string stem = stemOf(nameWithoutUnit(columns[c].name), numbers);
     for (std::size_t d = 0; d < columns[c].shape.size(); ++d) stem += "[#]";
+    countElements(columns[c], numbers.size(), allNumbers);
     const auto [at, isNew] = byStem.try_emplace({stem, numbers.size()}, groups.size());
     if (isNew) groups.push_back({stem, {}, {}});
     groups[at->second].columns.push_back(c);
@@ -421,7 +434,7 @@ std::string namesText(const std::vector<TableColumn>& columns) {
   constexpr std::size_t kShown = 12;
   std::string text;
   for (std::size_t c = 0; c < std::min(kShown, columns.size()); ++c) {
-    text += (c > 0 ? ", " : "") + columns[c].name;
+    text += (c > 0 ? ", " : "") + shortened(columns[c].name);
     for (const std::size_t size : columns[c].shape) text += "[" + std::to_string(size) + "]";
   }
   if (columns.size() > kShown) text += " and " + std::to_string(columns.size() - kShown) + " more";

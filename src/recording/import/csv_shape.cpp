@@ -269,7 +269,7 @@ void splitCells(std::string_view line, char delimiter, std::vector<std::string_v
         end += line[end] == '"' ? 2 : 1;
     }
     const auto found = blanks ? line.find_first_of(" \t", end) : line.find(delimiter, end);
-    if (found == std::string_view::npos) {
+    if (found == std::string_view::npos || cells.size() == kMaxNumbersPerRow) {
       cells.push_back(line.substr(at));
       return;
     }
@@ -294,7 +294,7 @@ bool splitLabelled(std::string_view line,
         !name.empty() && name.find_first_of(",;\t") == std::string_view::npos &&
         (name[0] == '_' || name[0] == '/' ||
          (smallLetters(name.substr(0, 1))[0] >= 'a' && smallLetters(name.substr(0, 1))[0] <= 'z'));
-    if (!isName) return false;
+    if (!isName || names.size() == kMaxNumbersPerRow) return false;
     const auto value = line.find_first_not_of(" \t", colon + 1);
     const auto end = std::min(line.find_first_of(kBetween, value), line.size());
     names.push_back(name);
@@ -329,6 +329,8 @@ CsvShape detectCsvShape(const std::filesystem::path& path,
     if (auto labelled = labelledShape(kept, options.decimal)) return std::move(*labelled);
 
   const Candidate table = bestCandidate(kept, options);
+  if (table.numCells > kMaxNumbersPerRow)
+    throw FormatError(path, "has more than " + std::to_string(kMaxNumbersPerRow) + " columns");
   const std::vector<SampleRow> rows = fullRows(table, options.decimal);
   CsvShape shape;
   shape.delimiter = table.delimiter;

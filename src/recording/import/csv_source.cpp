@@ -31,7 +31,10 @@ std::vector<std::string> firstLines(LineReader& reader) {
 }  // namespace
 
 CsvSource::CsvSource(const std::filesystem::path& path, const TableOptions& options)
-    : path_(path), reader_(path), shape_(detectCsvShape(path, firstLines(reader_), options)) {}
+    : path_(path), reader_(path), shape_(detectCsvShape(path, firstLines(reader_), options)) {
+  for (std::size_t c = 0; shape_.labelled && c < shape_.columns.size(); ++c)
+    labelled_.try_emplace(shape_.columns[c].name, c);
+}
 
 std::string CsvSource::form() const {
   if (shape_.labelled) return "text, name:value in each line";
@@ -67,14 +70,12 @@ bool CsvSource::readCells(std::string_view line, TableRow& row) {
   row.numCells = names_.size();
   for (std::size_t i = 0; i < names_.size(); ++i) {
     // The names come in the same order in most lines.
-    const auto named = [&](const TableColumn& column) { return column.name == names_[i]; };
-    if (i < numColumns && named(shape_.columns[i])) {
+    if (i < numColumns && shape_.columns[i].name == names_[i]) {
       cells_[i] = values_[i];
       continue;
     }
-    const auto at = std::find_if(shape_.columns.begin(), shape_.columns.end(), named);
-    if (at != shape_.columns.end())
-      cells_[static_cast<std::size_t>(at - shape_.columns.begin())] = values_[i];
+    const auto at = labelled_.find(names_[i]);
+    if (at != labelled_.end()) cells_[at->second] = values_[i];
   }
   return true;
 }

@@ -1,6 +1,8 @@
 // A table in a text: see CsvShape for the forms.
 #pragma once
 
+#include <functional>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -31,6 +33,7 @@ class CsvSource final : public TableSource {
   std::filesystem::path path_;
   LineReader reader_;
   CsvShape shape_;
+  std::map<std::string, std::size_t, std::less<>> labelled_;  // column of each name of a line
   std::vector<std::size_t> selected_;
   std::optional<std::size_t> time_;
   std::vector<std::string_view> cells_;  // of the last line, by column

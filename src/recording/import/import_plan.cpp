@@ -180,9 +180,9 @@ std::string Planner::describe(const std::string& what,
                               const std::string& unit) const {
   std::set<std::size_t> columns;
   for (const TableElement& each : elements) columns.insert(each.column);
-  std::string text = what + ": " + columns_[elements.front().column].name;
+  std::string text = what + ": " + shortened(columns_[elements.front().column].name);
   if (columns.size() > 1)
-    text += " to " + columns_[elements.back().column].name + " (" +
+    text += " to " + shortened(columns_[elements.back().column].name) + " (" +
             counted(columns.size(), "column") + ")";
   for (const std::size_t size : columns_[elements.front().column].shape)
     text += (columns.size() == 1 ? " x " : "") + (columns.size() == 1 ? std::to_string(size) : "");
@@ -322,7 +322,7 @@ void Planner::findTime(PlannedSeries& series, const std::string& named) {
   if (!sameRows(columns_[*series.time], columns_[series.columns.front()]))
     fail(inQuotes(columns_[*series.time].name) + " has " +
          std::to_string(*columns_[*series.time].numRows) + " rows, but " +
-         columns_[series.columns.front()].name + " has " +
+         shortened(columns_[series.columns.front()].name) + " has " +
          std::to_string(*columns_[series.columns.front()].numRows));
   setTimeUnit(series);
 }
@@ -355,7 +355,7 @@ void Planner::setTimeUnit(PlannedSeries& series) {
   }
   if (series.kind == Kind::kFrames)
     plan_.timeDescription =
-        column.name + " [" + std::string(nameOf(series.timeUnit)) + ", " + origin + "]";
+        shortened(column.name) + " [" + std::string(nameOf(series.timeUnit)) + ", " + origin + "]";
 }
 
 PlannedSeries Planner::mappedFrames() {
@@ -419,7 +419,7 @@ std::vector<std::size_t> Planner::unnamedTimeColumn() {
   for (std::size_t i = 1; i < rows.size(); ++i) ascends = ascends && rows[i][0] > rows[i - 1][0];
   if (!ascends) return all;
   time_ = all.front();
-  plan_.notes.push_back(columns_[*time_].name + " ascends and is taken for the time");
+  plan_.notes.push_back(shortened(columns_[*time_].name) + " ascends and is taken for the time");
   all.erase(all.begin());
   return all;
 }
@@ -510,8 +510,9 @@ PlannedSeries Planner::frames() {
   PlannedSeries series = mapping_.matrices.empty() ? foundFrames() : mappedFrames();
   for (const std::size_t column : series.columns)
     if (!sameRows(columns_[column], columns_[series.columns.front()]))
-      refuse(columns_[column].name + " has " + std::to_string(*columns_[column].numRows) +
-             " rows, but " + columns_[series.columns.front()].name + " has " +
+      refuse(shortened(columns_[column].name) + " has " +
+             std::to_string(*columns_[column].numRows) + " rows, but " +
+             shortened(columns_[series.columns.front()].name) + " has " +
              std::to_string(*columns_[series.columns.front()].numRows));
   findTime(series, mapping_.time.column);
   time_ = series.time;

@@ -89,6 +89,9 @@ TimeCell timeOf(const NpyHeader& header, std::span<const std::byte> number) {
   return cell;
 }
 
+// Of all arrays of a file, as NumPy writes them 128 bytes each.
+constexpr std::size_t kNpyHeadersBytes = 16u << 20;
+
 bool isFortran(const NpyHeader& header) { return header.fortranOrder && header.shape.size() > 1; }
 
 }  // namespace
@@ -99,6 +102,7 @@ NpzSource::NpzSource(const std::filesystem::path& path) : ArraySource(path), fil
       0,
       std::span(magic).first(static_cast<std::size_t>(std::min<std::uint64_t>(4, file_.size()))));
   isArchive_ = magic[0] == std::byte{'P'} && magic[1] == std::byte{'K'};
+  std::size_t headerBytes = 0;
   // The header of an array, from its first bytes. `read` gives the bytes from the start of the
   // array.
   const auto headerFrom = [&](const std::string& name, std::uint64_t size, const auto& read) {
@@ -110,6 +114,9 @@ NpzSource::NpzSource(const std::filesystem::path& path) : ArraySource(path), fil
       head.resize(static_cast<std::size_t>(std::min<std::uint64_t>(needed, size)));
       read(std::span(head).subspan(before));
     }
+    headerBytes += head.size();
+    if (headerBytes > kNpyHeadersBytes)
+      throw FormatError(path_, "has too many arrays, or descriptions of them that are too long");
     try {
       return parseNpyHeader(head);
     } catch (const FormatError&) {
@@ -151,7 +158,6 @@ void NpzSource::addColumn(const std::string& name, Array array, std::uint64_t av
   column.isNumeric = header.kind != NumberKind::kOther && header.kind != NumberKind::kDate &&
                      !header.shape.empty();
   column.hasDates = header.kind == NumberKind::kDate;
-  constexpr std::uint64_t kLargestRow = 1u << 24;  // numbers
   if (header.kind != NumberKind::kOther) {
     const auto bytes = header.numBytes();
     if (!bytes || *bytes > available - header.dataOffset)
@@ -163,7 +169,7 @@ void NpzSource::addColumn(const std::string& name, Array array, std::uint64_t av
     for (std::size_t d = 1; d < header.shape.size(); ++d) {
       column.shape.push_back(static_cast<std::size_t>(header.shape[d]));
       // A dimension of 0 leaves the others unchecked by the number of bytes.
-      if (__builtin_mul_overflow(width, header.shape[d], &width) || width > kLargestRow)
+      if (__builtin_mul_overflow(width, header.shape[d], &width) || width > kMaxNumbersPerRow)
         throw FormatError(path_, inQuotes(name) + " has too many numbers per row");
     }
     if (!header.shape.empty()) column.numRows = header.shape[0];

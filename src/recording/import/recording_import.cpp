@@ -1,6 +1,7 @@
 #include "palpate/recording/recording_import.h"
 
 #include <algorithm>
+#include <numeric>
 #include <utility>
 
 #include "palpate/core/error.h"
@@ -23,6 +24,16 @@ void readPreviewRows(TableSource& source, ImportPreview& preview) {
   const std::size_t numColumns = std::min(kMostPreviewColumns, preview.columns.size());
   preview.rows.assign(kShownPreviewRows, std::vector<std::string>(numColumns));
   std::size_t numRows = 0;
+  if (!preview.columns.empty() && !preview.columns.front().numRows) {  // a text: all at once
+    std::vector<std::size_t> chosen(numColumns);
+    std::iota(chosen.begin(), chosen.end(), 0);
+    source.start(chosen, std::nullopt);
+    for (TableRow row; numRows < kShownPreviewRows && source.next(row); ++numRows)
+      for (std::size_t c = 0; row.complete && c < numColumns; ++c)
+        preview.rows[numRows][c] = source.textOf(c);
+    preview.rows.resize(numRows);
+    return;
+  }
   for (std::size_t c = 0; c < numColumns; ++c) {
     const TableColumn& column = preview.columns[c];
     const bool isDateArray = column.hasDates && column.numRows.has_value();

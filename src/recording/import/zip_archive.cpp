@@ -16,8 +16,8 @@ namespace {
 constexpr std::size_t kEndBytes = 22;  // end of central directory without its comment
 constexpr std::size_t kLongestZipComment = 65'535;
 constexpr std::size_t kLocatorBytes = 20;  // of the 64-bit end record
-constexpr std::uint64_t kMaxZipEntries = 65'536;
-constexpr std::uint64_t kMaxDirectoryBytes = 64u << 20;
+constexpr std::uint64_t kMaxZipEntries = 10'000;
+constexpr std::uint64_t kMaxDirectoryBytes = 16u << 20;
 constexpr std::uint32_t kNoSize32 = 0xFFFFFFFF;
 
 std::vector<std::byte> bytesAt(const RandomReader& file, std::uint64_t offset, std::size_t count) {

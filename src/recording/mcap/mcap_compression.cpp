@@ -51,6 +51,7 @@ std::string mcapDecompressBy(Step decompress,
                              std::size_t size,
                              std::string& raw) {
   raw.clear();
+  raw.reserve(size + 1);  // takes no memory before it is written to
   const std::size_t step =
       std::clamp(kMcapStepPerByte * packed.size(), kLeastMcapStep, kMostMcapStep);
   std::size_t used = 0;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <list>
+#include <mutex>
 #include <numbers>
 #include <optional>
 #include <utility>
@@ -10,7 +11,8 @@
 #include "palpate/core/error.h"
 #include "palpate/core/escaped_line.h"
 #include "palpate/core/number_text.h"
-#include "palpate/model/profile_builder.h"
+#include "palpate/model/frame_coding.h"
+#include "palpate/model/profile.h"
 #include "palpate/recording/palpate_schema.h"
 
 #include "recording/mcap/mcap_format.h"
@@ -20,16 +22,213 @@ namespace palpate {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr std::size_t kMostForeignMessages = 50'000'000;
-constexpr std::uint64_t kMostForeignBytes = std::uint64_t{4} << 30;  // of all values as floats
+constexpr std::size_t kForeignMessages = 50'000'000;
+// Unpacked chunks that are kept: those of topics that are written to chunks of their own.
+constexpr std::uint64_t kKeptForeignBytes = 64u << 20;
+// Chunks that have to be unpacked again while frames are read in order, in bytes: this, or four
+// times all chunks.
+constexpr std::uint64_t kForeignUnpackedAgain = 512u << 20;
 
 // Where a message is.
 struct ForeignPlace {
   std::int64_t timeUs = 0;
   std::uint32_t piece = 0;
-  std::uint16_t series = 0;
-  std::uint64_t offset = 0;  // of its data in the records of the piece
+  std::uint32_t offset = 0;  // of its data in the records of the piece
   std::uint32_t size = 0;
+  std::uint16_t series = 0;
+};
+
+// The unpacked chunks of a file, of which the latest used are kept. Not thread-safe.
+class ForeignChunks {
+ public:
+  using Records = std::shared_ptr<const std::string>;
+  ForeignChunks(McapFile file, std::vector<McapPiece> pieces, bool salvage)
+      : file_(std::move(file)),
+        pieces_(std::move(pieces)),
+        salvage_(salvage),
+        bad_(pieces_.size()) {}
+
+  const fs::path& path() const { return file_.path(); }
+  std::size_t size() const { return pieces_.size(); }
+  std::size_t numBad() const { return numBad_; }
+
+  // Records of a piece; nothing of a damaged one in a salvage.
+  Records of(std::size_t piece) {
+    if (bad_[piece]) return nullptr;
+    if (keeps(piece)) return kept_.front().second;
+    try {
+      kept_.front().second =
+          std::make_shared<const std::string>(readMcapPiece(file_, pieces_[piece], piece));
+    } catch (const Error& error) {
+      forgetFirst();
+      if (!salvage_ || !dynamic_cast<const FormatError*>(&error)) throw;
+      bad_[piece] = true;
+      ++numBad_;
+      return nullptr;
+    }
+    return kept_.front().second;
+  }
+
+  // Throws FormatError where messages in this order can't be read in a bearable time.
+  void requireOrder(const std::vector<ForeignPlace>& places) {
+    std::uint64_t all = 0;
+    for (const McapPiece& piece : pieces_) all += piece.rawSize;
+    std::uint64_t again = 0;
+    kept_.clear();
+    keptBytes_ = 0;
+    for (const ForeignPlace& place : places)
+      if (!keeps(place.piece)) again += pieces_[place.piece].rawSize;
+    kept_.clear();
+    keptBytes_ = 0;
+    if (again > std::max(kForeignUnpackedAgain, 4 * all))
+      throw FormatError(path(),
+                        "has its messages in too many chunks at a time to be read in order; write "
+                        "it anew with 'mcap sort'");
+  }
+
+ private:
+  // Puts a piece in front. Returns false where it was not kept: it is empty then.
+  bool keeps(std::size_t piece) {
+    for (auto it = kept_.begin(); it != kept_.end(); ++it)
+      if (it->first == piece) {
+        kept_.splice(kept_.begin(), kept_, it);
+        return true;
+      }
+    keptBytes_ += pieces_[piece].rawSize;
+    for (; !kept_.empty() && keptBytes_ > kKeptForeignBytes; kept_.pop_back())
+      keptBytes_ -= pieces_[kept_.back().first].rawSize;
+    kept_.emplace_front(piece, nullptr);
+    return false;
+  }
+  void forgetFirst() {
+    keptBytes_ -= pieces_[kept_.front().first].rawSize;
+    kept_.pop_front();
+  }
+
+  McapFile file_;
+  std::vector<McapPiece> pieces_;
+  bool salvage_ = false;
+  std::vector<bool> bad_;
+  std::size_t numBad_ = 0;
+  std::list<std::pair<std::size_t, Records>> kept_;  // the latest used first
+  std::uint64_t keptBytes_ = 0;
+};
+
+// Frames and angles as they are asked for.
+class ForeignStorage final : public ProfileStorage {
+ public:
+  // `places`: in order of time. `matrixOf`: by series; nothing: of the joints.
+  ForeignStorage(ForeignChunks chunks,
+                 std::shared_ptr<const SensorLayout> layout,
+                 std::vector<ForeignPlace> places,
+                 const std::vector<std::optional<std::size_t>>& matrixOf)
+      : chunks_(std::move(chunks)),
+        layout_(std::move(layout)),
+        places_(std::move(places)),
+        images_(layout_->numMatrices()),
+        shown_(layout_->numMatrices()),
+        values_(layout_->numCells()) {
+    for (std::size_t i = 0; i < places_.size(); ++i) {
+      const auto at = static_cast<std::uint32_t>(i);
+      const std::int64_t timeUs = places_[i].timeUs;
+      const auto matrix = matrixOf[places_[i].series];
+      if (!matrix) {
+        angles_.push_back(at);
+        continue;
+      }
+      images_[*matrix].push_back(at);
+      // Images of one stamp are one frame.
+      if (frames_.empty() || places_[frames_.back()].timeUs != timeUs)
+        frames_.push_back(at);
+      else
+        frames_.back() = at;
+    }
+  }
+
+  std::size_t numFrames() const override { return frames_.size(); }
+  std::int64_t frameTimeUs(std::size_t frame) const override {
+    return places_[frames_[frame]].timeUs;
+  }
+  void readFrame(std::size_t frame, TactileFrame& out) const override {
+    const std::lock_guard lock(mutex_);
+    for (std::size_t m = 0; m < images_.size(); ++m) show(m, frames_[frame]);
+    out.deviceMs.reset();
+    out.filtered.clear();
+    out.values = values_;
+  }
+  std::size_t numAngles() const override { return angles_.size(); }
+  std::int64_t angleTimeUs(std::size_t sample) const override {
+    return places_[angles_[sample]].timeUs;
+  }
+  JointAngles angles(std::size_t sample) const override {
+    const std::lock_guard lock(mutex_);
+    const ForeignPlace& place = places_[angles_[sample]];
+    const auto records = chunks_.of(place.piece);
+    auto angles = foreignAngles(dataOf(records, place));
+    if (!angles) throwChanged();
+    return {place.timeUs, std::move(*angles)};
+  }
+  std::size_t numTemperatures() const override { return 0; }
+  std::int64_t temperatureTimeUs(std::size_t) const override { return 0; }
+  Temperatures temperatures(std::size_t) const override { return {}; }
+
+  // Degrees of a message; empty: it is damaged.
+  static std::optional<std::vector<double>> foreignAngles(
+      std::string_view message,
+      std::int64_t* timeUs = nullptr,
+      std::vector<std::string>* names = nullptr) {
+    CdrReader reader(message);
+    const std::int64_t stampUs = reader.time();
+    reader.text();
+    std::vector<std::string> joints = reader.texts(kMaxSampleValues);
+    std::vector<double> angles = reader.doubles(kMaxSampleValues);
+    if (!reader.ok()) return std::nullopt;
+    for (double& angle : angles) angle *= 180.0 / std::numbers::pi;
+    if (timeUs) *timeUs = stampUs;
+    if (names) *names = std::move(joints);
+    return angles;
+  }
+
+ private:
+  [[noreturn]] void throwChanged() const {
+    throw FormatError(chunks_.path(), "was changed while it was read");
+  }
+  std::string_view dataOf(const ForeignChunks::Records& records, const ForeignPlace& place) const {
+    if (!records || place.offset > records->size() || place.size > records->size() - place.offset)
+      throwChanged();
+    return std::string_view(*records).substr(place.offset, place.size);
+  }
+
+  // Puts the last image of a matrix that is not behind a place into `values_`.
+  void show(std::size_t matrix, std::uint32_t last) const {
+    const std::vector<std::uint32_t>& images = images_[matrix];
+    const auto behind = std::upper_bound(images.begin(), images.end(), last);
+    const std::size_t offset = layout_->offset(matrix);
+    const std::size_t cells = layout_->matrix(matrix).numCells();
+    if (behind == images.begin()) {
+      std::fill_n(values_.begin() + static_cast<std::ptrdiff_t>(offset), cells, 0.0F);
+      shown_[matrix].reset();
+      return;
+    }
+    const std::uint32_t at = *std::prev(behind);
+    if (shown_[matrix] == at) return;
+    const ForeignPlace& place = places_[at];
+    const auto records = chunks_.of(place.piece);
+    const auto image = readRosImage(dataOf(records, place));
+    if (!image || std::size_t{image->rows} * image->columns != cells) throwChanged();
+    mcapPixels(*image, values_.data() + offset);
+    shown_[matrix] = at;
+  }
+
+  mutable std::mutex mutex_;
+  mutable ForeignChunks chunks_;
+  std::shared_ptr<const SensorLayout> layout_;
+  std::vector<ForeignPlace> places_;
+  std::vector<std::vector<std::uint32_t>> images_;           // places, by matrix
+  std::vector<std::uint32_t> frames_;                        // the last place of each
+  std::vector<std::uint32_t> angles_;                        // places
+  mutable std::vector<std::optional<std::uint32_t>> shown_;  // place of each matrix in `values_`
+  mutable std::vector<float> values_;
 };
 
 // A topic of images, or that of the joints.
@@ -44,18 +243,15 @@ struct ForeignTopic {
 
 class ForeignReader {
  public:
-  ForeignReader(const McapFile& file,
-                const McapStructure& structure,
-                const Progress& progress,
-                bool salvage)
-      : file_(file), structure_(structure), progress_(progress), salvage_(salvage) {
-    bad_.resize(structure.pieces.size());
-  }
+  ForeignReader(McapFile file, McapStructure structure, const Progress& progress, bool salvage)
+      : chunks_(std::move(file), std::move(structure.pieces), salvage),
+        channels_(std::move(structure.channels)),
+        damage_(std::move(structure.damage)),
+        progress_(progress) {}
 
   McapRecording read() {
-    channels_ = structure_.channels;
-    for (std::size_t i = 0; i < structure_.pieces.size(); ++i) {
-      reportProgress(progress_, i, 2 * structure_.pieces.size());
+    for (std::size_t i = 0; i < chunks_.size(); ++i) {
+      reportProgress(progress_, i, chunks_.size());
       findIn(i);
     }
     requireImages();
@@ -64,29 +260,8 @@ class ForeignReader {
   }
 
  private:
-  [[noreturn]] void fail(const std::string& fault) const { throw FormatError(file_.path(), fault); }
-
-  // Records of a piece; nothing of a damaged one in a salvage.
-  std::shared_ptr<const std::string> recordsOf(std::size_t piece) {
-    for (auto it = cache_.begin(); it != cache_.end(); ++it)
-      if (it->first == piece) {
-        cache_.splice(cache_.begin(), cache_, it);
-        return cache_.front().second;
-      }
-    if (bad_[piece]) return nullptr;
-    try {
-      cache_.emplace_front(piece,
-                           std::make_shared<const std::string>(
-                               readMcapPiece(file_, structure_.pieces[piece], piece)));
-    } catch (const FormatError&) {
-      if (!salvage_) throw;
-      bad_[piece] = true;
-      ++numBad_;
-      return nullptr;
-    }
-    constexpr std::size_t kCached = 4;
-    if (cache_.size() > kCached) cache_.pop_back();
-    return cache_.front().second;
+  [[noreturn]] void fail(const std::string& fault) const {
+    throw FormatError(chunks_.path(), fault);
   }
 
   // The topic of a channel: its number, or nothing where its messages are of another kind.
@@ -120,7 +295,7 @@ class ForeignReader {
   }
 
   void findIn(std::size_t piece) {
-    const auto records = recordsOf(piece);
+    const auto records = chunks_.of(piece);
     if (!records) return;
     const bool whole =
         forEachMcapRecord(*records, [&](std::uint8_t opcode, std::string_view content) {
@@ -145,17 +320,20 @@ class ForeignReader {
                 const std::string& records) {
     ForeignTopic& topic = topics_[series];
     std::int64_t timeUs = 0;
+    bool known = true;  // values of joints that were not known are none
     if (joints_ == series) {
-      CdrReader reader(message.data);
-      timeUs = reader.time();
-      reader.text();
-      const std::vector<std::string> names = reader.texts(kMaxSampleValues);
-      const std::vector<double> positions = reader.doubles(kMaxSampleValues);
-      if (!reader.ok()) fail("the topic " + inQuotes(topic.topic) + " has a damaged message");
+      std::vector<std::string> names;
+      const auto angles = ForeignStorage::foreignAngles(message.data, &timeUs, &names);
+      if (!angles) fail("the topic " + inQuotes(topic.topic) + " has a damaged message");
       if (topic.messages == 0) {
-        numAngles_ = positions.size();
-        jointNames_ = names;
+        numAngles_ = angles->size();
+        jointNames_ = std::move(names);
       }
+      if (angles->size() != numAngles_)
+        fail("the number of joints of the topic " + inQuotes(topic.topic) + " changes");
+      known = numAngles_ > 0 && std::all_of(angles->begin(), angles->end(), [](double v) {
+                return std::isfinite(v);
+              });
     } else {
       const auto image = readRosImage(message.data);
       if (!image) fail("the topic " + inQuotes(topic.topic) + " has a damaged image");
@@ -169,12 +347,13 @@ class ForeignReader {
            std::to_string(topic.messages));
     topic.lastUs = timeUs;
     ++topic.messages;
-    if (places_.size() == kMostForeignMessages) fail("has too many messages");
+    if (!known) return;
+    if (places_.size() == kForeignMessages) fail("has too many messages");
     places_.push_back({timeUs,
                        static_cast<std::uint32_t>(piece),
-                       series,
-                       static_cast<std::uint64_t>(message.data.data() - records.data()),
-                       static_cast<std::uint32_t>(message.data.size())});
+                       static_cast<std::uint32_t>(message.data.data() - records.data()),
+                       static_cast<std::uint32_t>(message.data.size()),
+                       series});
   }
 
   void takeImage(const McapImage& image, ForeignTopic& topic) {
@@ -193,14 +372,19 @@ class ForeignReader {
     topic.isBytes = mcapPixelBytes(image.encoding) == 1;
     pixels_.resize(std::size_t{image.rows} * image.columns);
     mcapPixels(image, pixels_.data());
-    for (const float value : pixels_)
+    for (const float value : pixels_) {
+      if (!std::isfinite(value))
+        fail("the topic " + inQuotes(topic.topic) +
+             " has an image with a value that is not a number");
       if (value > largest_) largest_ = value;
+    }
+    allCounts_ = allCounts_ && codingFor(std::span<const float>(pixels_)) == FrameCoding::kCounts;
   }
 
   void requireImages() const {
     for (std::size_t i = 0; i < topics_.size(); ++i)
       if (topics_[i].messages > 0 && joints_ != i) return;
-    fail((structure_.damage.empty() ? "" : structure_.damage + "; before that it ") +
+    fail((damage_.empty() ? "" : damage_ + "; before that it ") +
          std::string("has no images (sensor_msgs/msg/Image, CDR) that could be matrices"));
   }
 
@@ -212,8 +396,6 @@ class ForeignReader {
       return topics_[a].topic < topics_[b].topic;
     });
     if (order_.size() > kMaxMatrices) fail("has too many topics of images");
-    matrixOf_.resize(topics_.size());
-    for (std::size_t m = 0; m < order_.size(); ++m) matrixOf_[order_[m]] = m;
     std::stable_sort(places_.begin(), places_.end(), [](const auto& a, const auto& b) {
       return a.timeUs < b.timeUs;
     });
@@ -246,96 +428,49 @@ class ForeignReader {
     }
     if (cells > kMaxPlaces) fail("has too many pixels for one hand");
     const auto layout = std::make_shared<const SensorLayout>(std::move(matrices));
-    if (places_.size() * std::uint64_t{cells} * sizeof(float) > kMostForeignBytes)
-      fail("has too many images to be opened at once; take a part of it ('mcap filter')");
-    ProfileBuilder builder(handOf(layout));
-    TactileFrame frame(layout);
-    bool any = false;
-    for (std::size_t i = 0; i < places_.size(); ++i) {
-      reportProgress(progress_, places_.size() + i, 2 * places_.size(), 1024);
-      const ForeignPlace& place = places_[i];
-      const auto records = recordsOf(place.piece);
-      if (!records) continue;
-      const std::string_view data(records->data() + place.offset, place.size);
-      if (joints_ == place.series) {
-        addAngles(place, data, builder);
-        continue;
-      }
-      const auto image = readRosImage(data);
-      if (!image) fail("was changed while it was read");
-      const std::size_t matrix = matrixOf_[place.series];
-      mcapPixels(*image, frame.values.data() + layout->offset(matrix));
-      frame.hostUs = place.timeUs;
-      any = true;
-      // Images of one stamp are one frame.
-      bool last = true;
-      for (std::size_t k = i + 1; k < places_.size() && places_[k].timeUs == place.timeUs; ++k)
-        last = last && joints_ == places_[k].series;
-      if (last) addFrame(frame, builder);
-    }
-    if (!any) fail("has no images that can be read");
+    chunks_.requireOrder(places_);
+    std::vector<std::optional<std::size_t>> matrixOf(topics_.size());
+    for (std::size_t m = 0; m < order_.size(); ++m) matrixOf[order_[m]] = m;
+    HandDescription hand = handOf(layout);
     ProfileInfo info;
     info.format = "mcap";
-    std::string damage = structure_.damage;
-    if (numBad_ > 0)
-      damage += (damage.empty() ? "has " : "; ") + counted(numBad_, "damaged chunk") +
-                ", whose messages are lost";
-    return {builder.finish(std::move(info)), {}, {}, {}, std::move(damage)};
+    info.valueType = allCounts_ ? ValueType::kCounts : ValueType::kFloat;
+    if (chunks_.numBad() > 0)
+      damage_ += (damage_.empty() ? "has " : "; ") + counted(chunks_.numBad(), "damaged chunk") +
+                 ", whose messages are lost";
+    auto storage =
+        std::make_shared<ForeignStorage>(std::move(chunks_), layout, std::move(places_), matrixOf);
+    const std::size_t axes = storage->numAngles() > 0 ? numAngles_ : 0;
+    return {Profile(std::move(info), withSeriesOf(std::move(hand), axes, 0), std::move(storage)),
+            {},
+            {},
+            {},
+            std::move(damage_)};
   }
 
-  void addFrame(const TactileFrame& frame, ProfileBuilder& builder) const {
-    if (!std::all_of(
-            frame.values.begin(), frame.values.end(), [](float v) { return std::isfinite(v); }))
-      fail("has an image with a value that is not a number, " + std::to_string(frame.hostUs) +
-           " us after 1970");
-    builder.addFrame(frame);
-  }
-
-  void addAngles(const ForeignPlace& place, std::string_view data, ProfileBuilder& builder) {
-    CdrReader reader(data);
-    reader.time();
-    reader.text();
-    reader.texts(kMaxSampleValues);
-    std::vector<double> angles = reader.doubles(kMaxSampleValues);
-    if (!reader.ok()) fail("the topic " + inQuotes(topics_[place.series].topic) + " is damaged");
-    if (angles.empty() && numAngles_ == 0) return;
-    if (angles.size() != numAngles_)
-      fail("the number of joints of the topic " + inQuotes(topics_[place.series].topic) +
-           " changes");
-    for (double& angle : angles) {
-      angle *= 180.0 / std::numbers::pi;
-      if (!std::isfinite(angle)) return;  // an angle that was not known
-    }
-    builder.addAngles(place.timeUs, angles);
-  }
-
-  const McapFile& file_;
-  const McapStructure& structure_;
-  const Progress& progress_;
-  const bool salvage_;
+  ForeignChunks chunks_;
   McapChannels channels_;
+  std::string damage_;
+  const Progress& progress_;
   std::map<std::uint16_t, std::optional<std::uint16_t>> series_;  // by channel
   std::vector<ForeignTopic> topics_;
   std::optional<std::uint16_t> joints_;
   std::vector<ForeignPlace> places_;
-  std::vector<std::size_t> order_;     // topics of images
-  std::vector<std::size_t> matrixOf_;  // by topic
+  std::vector<std::size_t> order_;  // topics of images
   std::size_t numAngles_ = 0;
   std::vector<std::string> jointNames_;
   std::vector<float> pixels_;
   float largest_ = 0.0F;
-  std::vector<bool> bad_;
-  std::size_t numBad_ = 0;
-  std::list<std::pair<std::size_t, std::shared_ptr<const std::string>>> cache_;
+  bool allCounts_ = true;
 };
 
 }  // namespace
 
-McapRecording readForeignMcap(const McapFile& file,
-                              const McapStructure& structure,
+McapRecording readForeignMcap(McapFile file,
+                              McapStructure structure,
                               const Progress& progress,
                               bool salvage) {
-  return ForeignReader(file, structure, progress, salvage).read();
+  return ForeignReader(std::move(file), std::move(structure), progress, salvage).read();
 }
 
 }  // namespace palpate

@@ -10,8 +10,8 @@ namespace palpate {
 
 // As readMcap() says; in a salvage, damaged chunks are left out. Throws FormatError, FileError,
 // Cancelled.
-McapRecording readForeignMcap(const McapFile& file,
-                              const McapStructure& structure,
+McapRecording readForeignMcap(McapFile file,
+                              McapStructure structure,
                               const Progress& progress,
                               bool salvage);
 

@@ -29,7 +29,8 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::int64_t kMcapLatestUs = std::int64_t{1} << 60;  // as in a native recording
-constexpr std::size_t kMostMcapEvents = 1'000'000;
+// Of the events of a file, in memory: some 100,000. Those beyond it are left out and counted.
+constexpr std::size_t kKeptMcapEventBytes = 16u << 20;
 constexpr std::size_t kCachedMcapBlocks = 4;
 constexpr float kMostMcapCounts = 4095.0F;
 
@@ -43,6 +44,29 @@ std::int64_t mcapTextNumber(const std::map<std::string, std::string>& texts,
 
 // What a channel of Palpate's holds.
 enum class McapRole { kOther, kFrame, kImage, kAngles, kTemperatures, kEvent };
+
+// The first events of a file, or of a chunk.
+class McapEvents {
+ public:
+  void add(RecordingEvent event) {
+    bytes_ += sizeof event + event.kind.size() + event.text.size() + event.json.size();
+    if (bytes_ > kKeptMcapEventBytes)
+      ++leftOut_;
+    else
+      kept_.push_back(std::move(event));
+  }
+  void add(McapEvents&& others) {
+    for (RecordingEvent& event : others.kept_) add(std::move(event));
+    leftOut_ += others.leftOut_;
+  }
+  std::vector<RecordingEvent> take() { return std::move(kept_); }
+  std::size_t leftOut() const noexcept { return leftOut_; }
+
+ private:
+  std::vector<RecordingEvent> kept_;
+  std::size_t bytes_ = 0;
+  std::size_t leftOut_ = 0;
+};
 
 // The samples of a chunk.
 struct McapBlock {
@@ -58,7 +82,7 @@ struct McapBlock {
   std::vector<std::int64_t> temperatureUs;
   std::vector<double> temperatures;
   std::size_t temperatureWidth = 0;
-  std::vector<RecordingEvent> events;
+  McapEvents events;
   bool cutFrame = false;  // the last frame had not all of its images, and is left out
   // Other programs may put the images of a frame into two chunks.
   std::size_t leading = 0;    // images that belong to the last frame of the chunk before
@@ -90,7 +114,7 @@ class McapOwnFile {
   // Returns the records of the chunk so many behind; nothing where there is none.
   using Next = std::function<std::optional<std::string>(std::size_t ahead)>;
   // Throws FormatError, which begins with `place`. Of a salvage a frame that was cut is left out.
-  McapBlock block(std::string_view records,
+  McapBlock block(std::string records,
                   const std::string& place,
                   bool salvage,
                   const Next& next) const {
@@ -114,6 +138,7 @@ class McapOwnFile {
       if (!fault.empty()) fail("has an image that " + fault);
       ++images;
     };
+    reserveFrames(records, block);
     const bool whole = forEachMcapRecord(records, [&](std::uint8_t op, std::string_view content) {
       McapMessage message;
       if (!readRoleMessage(op, content, message)) return;
@@ -146,6 +171,7 @@ class McapOwnFile {
       }
     });
     if (!whole) fail("is damaged: its records don't fit");
+    records = {};
     // A frame may go on over several chunks where these are very small.
     for (std::size_t ahead = 1; images != layout_.numMatrices(); ++ahead) {
       const std::optional<std::string> more = next(ahead);
@@ -175,6 +201,18 @@ class McapOwnFile {
     std::size_t matrix = 0;
     bool protobuf = false;
   };
+
+  // A large chunk would have its values twice in memory while they grow.
+  void reserveFrames(std::string_view records, McapBlock& block) const {
+    std::size_t frames = 0;
+    forEachMcapRecord(records, [&](std::uint8_t op, std::string_view content) {
+      McapMessage message;
+      if (readRoleMessage(op, content, message) && roles_[message.channel].role == McapRole::kFrame)
+        ++frames;
+    });
+    // As many as the images of their bytes can be.
+    block.values.reserve(std::min(frames * layout_.numCells(), records.size() / sizeof(short)));
+  }
 
   // Returns false for records that are no message of a known channel.
   bool readRoleMessage(std::uint8_t opcode, std::string_view content, McapMessage& message) const {
@@ -344,7 +382,7 @@ class McapOwnFile {
     return true;
   }
 
-  static bool addEvent(std::string_view data, std::vector<RecordingEvent>& events) {
+  static bool addEvent(std::string_view data, McapEvents& events) {
     CdrReader reader(data);
     RecordingEvent event;
     event.tUs = reader.number<std::int64_t>();
@@ -356,7 +394,7 @@ class McapOwnFile {
     event.json = mcapRestoredText(reader.text());
     if (!reader.ok() || event.kind.size() + event.text.size() + event.json.size() > kMaxEventBytes)
       return false;
-    events.push_back(std::move(event));
+    events.add(std::move(event));
     return true;
   }
 
@@ -408,12 +446,17 @@ class McapStorage final : public ProfileStorage {
   // out; their number is returned.
   std::size_t scan(const Progress& progress, std::size_t threads, bool salvage) {
     if (threads == 0) threads = std::max(1u, std::thread::hardware_concurrency());
-    const std::size_t perBatch = 2 * threads;
+    const std::size_t largestBatch = 2 * threads;
     std::size_t damaged = 0;
     salvage_ = salvage;
-    for (std::size_t first = 0; first < pieces_.size(); first += perBatch) {
+    std::size_t count = 0;
+    for (std::size_t first = 0; first < pieces_.size(); first += count) {
       reportProgress(progress, first, pieces_.size());
-      const std::size_t count = std::min(perBatch, pieces_.size() - first);
+      std::uint64_t raw = pieces_[first].rawSize;
+      count = 1;
+      while (count < std::min(largestBatch, pieces_.size() - first) &&
+             areSmallMcapPieces(raw += pieces_[first + count].rawSize))
+        ++count;
       std::vector<McapBlock> blocks(count);
       std::vector<char> bad(count, 0);
       forEachInParallel(
@@ -441,7 +484,7 @@ class McapStorage final : public ProfileStorage {
   bool counts() const { return !anyFloat_ && !own_.saysFloat(); }
   std::size_t angleWidth() const { return angles_.width; }
   std::size_t temperatureWidth() const { return temperatures_.width; }
-  std::vector<RecordingEvent> takeEvents() { return std::move(events_); }
+  McapEvents& events() { return events_; }
   std::size_t cutFrames() const { return cutFrames_; }
 
   std::size_t numFrames() const override { return frames_.timesUs.size(); }
@@ -536,9 +579,7 @@ class McapStorage final : public ProfileStorage {
     append(temperatures_, block.temperatureUs, block.temperatureWidth, "temperatures", piece);
     anyFloat_ |= block.anyFloat;
     if (block.cutFrame) ++cutFrames_;
-    if (events_.size() + block.events.size() > kMostMcapEvents)
-      throw FormatError(file_.path(), "has too many events");
-    std::move(block.events.begin(), block.events.end(), std::back_inserter(events_));
+    events_.add(std::move(block.events));
   }
 
   // A block from the cache, or read now.
@@ -549,10 +590,16 @@ class McapStorage final : public ProfileStorage {
         cache_.splice(cache_.begin(), cache_, it);
         return cache_.front().second;
       }
-    auto block = std::make_shared<const McapBlock>(readBlock(piece));
-    cache_.emplace_front(piece, block);
-    if (cache_.size() > kCachedMcapBlocks) cache_.pop_back();
-    return block;
+    // Of large chunks one at a time is in memory.
+    std::uint64_t raw = pieces_[piece].rawSize;
+    for (const auto& [cached, block] : cache_) raw += pieces_[cached].rawSize;
+    for (; !cache_.empty() && (cache_.size() >= kCachedMcapBlocks || !areSmallMcapPieces(raw));
+         cache_.pop_back())
+      raw -= pieces_[cache_.back().first].rawSize;
+    auto block = std::make_shared<McapBlock>(readBlock(piece));
+    block->events = {};
+    cache_.emplace_front(piece, std::move(block));
+    return cache_.front().second;
   }
 
   McapFile file_;
@@ -562,7 +609,7 @@ class McapStorage final : public ProfileStorage {
   McapSeriesIndex frames_;
   McapSeriesIndex angles_;
   McapSeriesIndex temperatures_;
-  std::vector<RecordingEvent> events_;
+  McapEvents events_;
   std::size_t cutFrames_ = 0;
   std::size_t continued_ = 0;  // images that frames have taken from chunks to come
   bool anyFloat_ = false;
@@ -626,7 +673,11 @@ McapRecording openOwnMcap(McapFile file,
   if (damaged > 0)
     damage += (damage.empty() ? "has " : "; ") + counted(damaged, "damaged chunk") +
               ", whose samples are lost";
-  std::vector<RecordingEvent> events = storage->takeEvents();
+  const std::size_t leftOut = storage->events().leftOut();
+  if (leftOut > 0)
+    damage += (damage.empty() ? "has " : "; ") + counted(leftOut, "event") + " more than the " +
+              std::to_string(kKeptMcapEventBytes >> 20) + " MB that are read";
+  std::vector<RecordingEvent> events = storage->events().take();
   return {Profile(std::move(info), std::move(hand), std::move(storage)),
           std::move(events),
           std::move(meta),
@@ -656,7 +707,7 @@ McapRecording openMcap(const fs::path& path,
   if (isOwnMcap(structure))
     return openOwnMcap(
         std::move(file), std::move(structure), part(kWalk, 1.0 - kWalk), threads, salvage);
-  return readForeignMcap(file, structure, part(kWalk, 1.0 - kWalk), salvage);
+  return readForeignMcap(std::move(file), std::move(structure), part(kWalk, 1.0 - kWalk), salvage);
 }
 
 }  // namespace
@@ -669,14 +720,14 @@ McapRecording recoverMcap(const fs::path& path, const Progress& progress, std::s
   return openMcap(path, progress, threads, true);
 }
 
-std::vector<RecordingEvent> readMcapEvents(const fs::path& path) {
+EventsReport readMcapEvents(const fs::path& path) {
   const McapFile file(path);
   const McapStructure structure = readMcapStructure(file, false);
   if (!structure.damage.empty())
     throw FormatError(path, structure.damage + "; 'palpate recover' saves what can be read");
   if (!isOwnMcap(structure)) return {};
   const McapOwnFile own(path, structure);
-  std::vector<RecordingEvent> events;
+  McapEvents events;
   for (std::size_t i = 0; i < structure.pieces.size(); ++i) {
     const McapPiece& piece = structure.pieces[i];
     if (!piece.indexed.empty() && own.eventChannel() &&
@@ -684,10 +735,9 @@ std::vector<RecordingEvent> readMcapEvents(const fs::path& path) {
             piece.indexed.end())
       continue;
     McapBlock block = readMcapBlock(file, own, structure.pieces, i, false);
-    std::move(block.events.begin(), block.events.end(), std::back_inserter(events));
-    if (events.size() > kMostMcapEvents) throw FormatError(path, "has too many events");
+    events.add(std::move(block.events));
   }
-  return events;
+  return {events.take(), events.leftOut()};
 }
 
 std::map<std::string, std::string> readMcapMeta(const fs::path& path) {

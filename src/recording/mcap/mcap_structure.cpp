@@ -20,11 +20,18 @@ namespace fs = std::filesystem;
 namespace {
 
 // Bounds of what is read, so that a hostile file costs little time and memory.
-constexpr std::uint64_t kMostMcapChunkBytes = 256u << 20;
-constexpr std::uint64_t kMostMcapRecordBytes = 64u << 20;  // of other records that are read
-constexpr std::uint64_t kMostMcapKeptBytes = 256u << 20;   // of all of them together
-constexpr std::uint64_t kLoosePieceBytes = 1u << 20;       // messages outside of chunks
-constexpr std::size_t kMcapPieceOfFile = 1u << 20;         // read at once for a checksum
+// The largest chunk that Palpate writes (McapWriteOptions), and a message that passes its end. Such
+// a chunk and its samples take three times as much memory.
+constexpr std::uint64_t kLargestMcapChunkBytes = 65u << 20;
+constexpr std::uint64_t kLargestMcapRecordBytes = 16u << 20;  // of other records that are read
+// What the chunks unpack to may be the larger of these. Deflate, with which the other formats
+// compress, can't do more than 1032; frames of a hand compress to a twentieth.
+constexpr std::uint64_t kMcapUnpackedBytes = 512u << 20;
+constexpr std::uint64_t kMcapUnpackedPerByte = 1032;
+// Of chunks that are read at once.
+constexpr std::uint64_t kSmallMcapPiecesBytes = 16u << 20;
+constexpr std::uint64_t kLoosePieceBytes = 1u << 20;  // messages outside of chunks
+constexpr std::size_t kMcapPieceOfFile = 1u << 20;    // read at once for a checksum
 
 // A cursor over the content of a record.
 class McapContentReader {
@@ -49,15 +56,17 @@ class McapContentReader {
     bytes_.remove_prefix(taken.size());
     return taken;
   }
-  std::map<std::string, std::string> texts() {
-    std::map<std::string, std::string> values;
+  // Puts pairs of key and value into `values`. Returns false where the budget does not suffice.
+  bool texts(std::map<std::string, std::string>& values, McapTextBudget& budget) {
     McapContentReader entries(text());
     while (entries.ok() && !entries.rest().empty()) {
-      std::string key(entries.text());
-      values[std::move(key)] = entries.text();
+      const std::string_view key = entries.text();
+      const std::string_view value = entries.text();
+      if (!budget.take(key.size() + value.size())) return false;
+      values[std::string(key)] = value;
     }
     ok_ = ok_ && entries.ok();
-    return values;
+    return true;
   }
 
  private:
@@ -123,10 +132,8 @@ class McapWalk {
     position_ = contentAt + length;
   }
 
-  // Content of a record that is kept, or nothing.
   bool readContent(std::uint64_t at, std::uint64_t length) {
-    kept_ += length;
-    if (length > kMostMcapRecordBytes || kept_ > kMostMcapKeptBytes) {
+    if (length > kLargestMcapRecordBytes) {
       damage("has a record that is too large" + mcapAt(at));
       return false;
     }
@@ -164,10 +171,11 @@ class McapWalk {
       if (!fault.empty()) damage(fault + mcapAt(at));
     } else if (opcode == mcap_format::kMetadata) {
       const std::string name(content.text());
-      auto values = content.texts();
+      // Another program's is not read.
+      if (name != mcap_format::kAboutRecord && name != mcap_format::kMetaRecord) return;
+      if (!content.texts(result_.metadata[name], result_.channels.budget))
+        return damage("has too much metadata" + mcapAt(at));
       if (!content.ok()) return damage("has damaged metadata" + mcapAt(at));
-      auto& all = result_.metadata[name];
-      for (auto& [key, value] : values) all[key] = std::move(value);
     } else if (opcode == mcap_format::kDataEnd) {
       const auto crc = content.number<std::uint32_t>();
       if (!content.ok()) return damage("is damaged: the end of the data" + mcapAt(at));
@@ -190,7 +198,6 @@ class McapWalk {
 
   void takeAttachment(std::uint64_t at, std::uint64_t length) {
     constexpr std::uint64_t kMostHead = 64u << 10;
-    kept_ += std::min(length, kMostHead);
     file_.read(at, static_cast<std::size_t>(std::min(length, kMostHead)), content_);
     McapContentReader head(content_);
     head.number<std::uint64_t>();
@@ -209,11 +216,14 @@ class McapWalk {
     const std::string_view before(content_.data(), content_.size() - content.rest().size() - 4);
     if (checksums_ && crc != 0 && crc != mcap_format::addToCrc(0, before))
       return damage("has a damaged attachment" + mcapAt(at) + ": its checksum is wrong");
+    if (!result_.channels.budget.take(data.size()))
+      return damage("has an attachment that is too large" + mcapAt(at));
     result_.attachments[name] = data;
   }
 
   void takeLoose(std::uint64_t at, std::uint64_t length) {
-    if (length > kMostMcapChunkBytes) return damage("has a message that is too large" + mcapAt(at));
+    if (length > kLargestMcapChunkBytes)
+      return damage("has a message that is too large" + mcapAt(at));
     const std::uint64_t begin = at - mcap_format::kRecordHead;
     const std::uint64_t size = length + mcap_format::kRecordHead;
     if (loose_ && loose_->offset + loose_->packedSize == begin &&
@@ -247,8 +257,15 @@ class McapWalk {
     piece.offset = at + content_.size() - head.rest().size();
     if (!head.ok() || piece.packedSize > at + length - piece.offset)
       return damage("is damaged: the chunk" + mcapAt(at) + " has false lengths");
-    if (std::max(piece.packedSize, piece.rawSize) > kMostMcapChunkBytes)
-      return damage("has a chunk that is too large" + mcapAt(at));
+    if (std::max(piece.packedSize, piece.rawSize) > kLargestMcapChunkBytes)
+      return damage("has a chunk of " +
+                    std::to_string(std::max(piece.packedSize, piece.rawSize) >> 20) + " MB" +
+                    mcapAt(at) + "; at most " + std::to_string(kLargestMcapChunkBytes >> 20) +
+                    " MB are read");
+    unpacked_ += piece.rawSize;
+    if (unpacked_ > kMcapUnpackedBytes && unpacked_ / kMcapUnpackedPerByte > file_.size())
+      return damage("has chunks that unpack to more than " + std::to_string(kMcapUnpackedPerByte) +
+                    " times the size of the file" + mcapAt(at));
     if (result_.pieces.size() == INT32_MAX) return damage("has too many chunks");
     result_.pieces.push_back(std::move(piece));
   }
@@ -277,7 +294,7 @@ class McapWalk {
   McapStructure result_;
   std::uint64_t position_ = 0;
   std::uint64_t summaryAt_ = 0;
-  std::uint64_t kept_ = 0;
+  std::uint64_t unpacked_ = 0;  // bytes of all chunks
   std::size_t steps_ = 0;
   std::uint32_t crc_ = 0;
   const char* wrongChecksum_ = nullptr;  // of which part
@@ -319,6 +336,7 @@ void McapFile::read(std::uint64_t offset, std::size_t size, std::string& out) co
 }
 
 std::string McapChannels::add(std::uint8_t opcode, std::string_view content) {
+  constexpr const char* kTooManyTexts = "has too many texts in its schemas and channels";
   McapContentReader reader(content);
   const auto id = reader.number<std::uint16_t>();
   if (opcode == mcap_format::kSchema) {
@@ -326,6 +344,8 @@ std::string McapChannels::add(std::uint8_t opcode, std::string_view content) {
     schema.name = reader.text();
     schema.encoding = reader.text();
     if (!reader.ok()) return "has a damaged schema";
+    if (!schemas.contains(id) && !budget.take(schema.name.size() + schema.encoding.size()))
+      return kTooManyTexts;
     if (id != 0) schemas.emplace(id, std::move(schema));
     return "";
   }
@@ -333,7 +353,12 @@ std::string McapChannels::add(std::uint8_t opcode, std::string_view content) {
   channel.schema = reader.number<std::uint16_t>();
   channel.topic = reader.text();
   channel.encoding = reader.text();
-  channel.metadata = reader.texts();
+  // The summary has each again, which is not kept.
+  McapTextBudget ofRepeated;
+  McapTextBudget& used = channels.contains(id) ? ofRepeated : budget;
+  if (!used.take(channel.topic.size() + channel.encoding.size()) ||
+      !reader.texts(channel.metadata, used))
+    return kTooManyTexts;
   if (!reader.ok()) return "has a damaged channel";
   channels.emplace(id, std::move(channel));
   return "";
@@ -360,6 +385,10 @@ std::string readMcapPiece(const McapFile& file, const McapPiece& piece, std::siz
   if (piece.crc != 0 && piece.crc != mcap_format::addToCrc(0, raw))
     fail("is damaged: its checksum is wrong; 'palpate recover' saves the others");
   return raw;
+}
+
+bool areSmallMcapPieces(std::uint64_t rawBytes) noexcept {
+  return rawBytes <= kSmallMcapPiecesBytes;
 }
 
 bool forEachMcapRecord(std::string_view records,

@@ -55,18 +55,37 @@ struct McapChannel {
   std::map<std::string, std::string> metadata;
 };
 
+// Bounds of the texts that are kept of a file (metadata, schemas, channels, the hand's files), with
+// what each of them takes in memory beside its characters. A recording of Palpate's has some 100
+// KB.
+class McapTextBudget {
+ public:
+  // Returns whether a text of so many bytes may be kept.
+  bool take(std::size_t bytes) {
+    constexpr std::size_t kLargest = 16u << 20;
+    constexpr std::size_t kOfEach = 128;  // a node of a map, two strings
+    taken_ += bytes + kOfEach;
+    return taken_ <= kLargest;
+  }
+
+ private:
+  std::uint64_t taken_ = 0;
+};
+
 // Schemas and channels by their numbers.
 struct McapChannels {
   std::map<std::uint16_t, McapSchema> schemas;
   std::map<std::uint16_t, McapChannel> channels;
+  McapTextBudget budget;
   // Takes a record Schema or Channel. Returns what is wrong, or an empty text.
   std::string add(std::uint8_t opcode, std::string_view content);
 };
 
 struct McapStructure {
-  std::map<std::string, std::map<std::string, std::string>> metadata;  // by names of records
-  std::map<std::string, std::string> attachments;                      // of hand.json, hand.urdf
-  McapChannels channels;  // of those outside of chunks and in the summary
+  // Of kAboutRecord and kMetaRecord, by these names.
+  std::map<std::string, std::map<std::string, std::string>> metadata;
+  std::map<std::string, std::string> attachments;  // of hand.json, hand.urdf
+  McapChannels channels;                           // of those outside of chunks and in the summary
   std::vector<McapPiece> pieces;
   // All records are there, but a checksum of the whole is wrong.
   bool checksumWrong = false;
@@ -84,6 +103,10 @@ McapStructure readMcapStructure(const McapFile& file,
 // The records of a piece. Throws FormatError, which names the chunk by its number `index` and
 // place.
 std::string readMcapPiece(const McapFile& file, const McapPiece& piece, std::size_t index);
+
+// Returns whether unpacking some pieces at once takes little memory: of others one at a time is
+// read.
+bool areSmallMcapPieces(std::uint64_t rawBytes) noexcept;
 
 // Calls visit(opcode, content) for each record. Returns false where they are damaged.
 bool forEachMcapRecord(std::string_view records,

@@ -8,6 +8,7 @@
 #include "palpate/core/byte_order.h"
 #include "palpate/core/byte_reader.h"
 #include "palpate/core/error.h"
+#include "palpate/core/escaped_line.h"
 #include "palpate/core/number_text.h"
 #include "palpate/recording/palpate_schema.h"
 
@@ -106,7 +107,8 @@ void checkTables(SqliteDatabase& database) {
         throw FormatError(database.path(), "its table 'overview' is not as the format has it");
     } else if (known != kTables.end()) {
       if (!isTable || normalized(rows.text(3)) != normalized(known->second))
-        throw FormatError(database.path(), "its table '" + name + "' is not as the format has it");
+        throw FormatError(database.path(),
+                          "its table '" + shortened(name) + "' is not as the format has it");
       ++found;
     } else if (isIndex && !rows.isNull(3) && normalized(rows.text(3)) != normalized(kBlockIndex)) {
       throw FormatError(database.path(), "has an index that the format doesn't have");

@@ -258,9 +258,12 @@ struct PalpateWriter::Impl {
       if (options.synced) return commit();
       flushPackers();
     }
-    // Conversions need no commits, but what they hold in memory is bounded.
-    constexpr std::size_t kMostUnsynced = 1u << 20;
-    if (!options.synced && pending.bytes >= kMostUnsynced) commit();
+    commitIfLarge();
+  }
+  // Conversions need no commits, but what they hold in memory is bounded.
+  void commitIfLarge() {
+    constexpr std::size_t kLargestUnsynced = 1u << 20;
+    if (!options.synced && pending.bytes >= kLargestUnsynced) commit();
   }
 
   void flushPackers() {
@@ -418,6 +421,7 @@ void PalpateWriter::addEvent(const RecordingEvent& event) {
   impl_->requireRoom();
   impl_->pending.events.push_back(event);
   impl_->pending.bytes += sizeof event + bytes;
+  impl_->commitIfLarge();
 }
 
 void PalpateWriter::setCounter(const std::string& name, std::int64_t value) {
