@@ -1,12 +1,10 @@
 #include "palpate/interop/remote_server.h"
 
-#include <atomic>
 #include <cstdlib>
 #include <list>
 #include <mutex>
 #include <random>
 #include <stdexcept>
-#include <thread>
 
 #include <sys/stat.h>
 
@@ -188,29 +186,6 @@ TEST_F(RemoteServerTest, AClientThatHangsHoldsNobodyUp) {
   for (std::size_t now = 1; now > 0 && taken < enough; taken += now) now = deaf.send(flood, 50);
   EXPECT_LT(taken, enough);
   EXPECT_TRUE(ask("status").at("ok").asBool());
-}
-
-TEST_F(RemoteServerTest, ClientsThatAskWithoutEndHoldNobodyUp) {
-  serve();
-  std::atomic<bool> ends = false;
-  std::vector<std::jthread> greedy;
-  for (int i = 0; i < 10; ++i)
-    greedy.emplace_back([&] {
-      RawClient client(socket());
-      const std::string flood(4096, '\n');  // as many requests as bytes
-      while (!ends) {
-        client.send(flood);
-        client.line(1);  // it reads, too
-      }
-    });
-  EXPECT_TRUE(soon([&] { return server_->stats().refused > 10'000; }));
-  for (int i = 0; i < 20; ++i) EXPECT_TRUE(ask("status").at("ok").asBool());
-  ends = true;
-  greedy.clear();
-  EXPECT_TRUE(soon([&] { return server_->stats().clients == 0; }));
-  const std::uint64_t refused = server_->stats().refused;
-  EXPECT_TRUE(ask("status").at("ok").asBool());
-  EXPECT_EQ(server_->stats().refused, refused);
 }
 
 TEST_F(RemoteServerTest, AFarTooLongLineIsSaidAndSkipped) {
