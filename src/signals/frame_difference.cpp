@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <stdexcept>
 
 #include "palpate/core/error.h"
@@ -148,7 +149,8 @@ void visitFramePairs(
   if (!span) return;
   const std::size_t numFrames = a.profile.numFrames();
   TactileFrame inA, inB;
-  std::optional<std::size_t> readB;
+  constexpr std::size_t kNone = SIZE_MAX;
+  std::size_t readB = kNone;
   std::size_t pairs = 0;
   for (std::size_t i = 0; i < numFrames; i += stride) {
     if (progress && pairs++ % kPairsPerReport == 0 &&
@@ -158,14 +160,14 @@ void visitFramePairs(
     const auto beside = b.frameAt(timeS - offsetS);
     if (!beside) continue;
     if (!a.profile.readFrame(i, inA, unreadable)) continue;
-    if (readB != beside) {
-      readB.reset();
+    if (readB != *beside) {
+      readB = kNone;
       UnreadableSamples ofB;
       if (!b.profile.readFrame(*beside, inB, unreadable ? &ofB : nullptr)) {
         unreadable->add(i, ofB.firstFault.c_str());
         continue;
       }
-      readB = beside;
+      readB = *beside;
     }
     sink({timeS, i, *beside}, inA, inB);
   }
