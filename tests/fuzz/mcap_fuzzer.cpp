@@ -66,8 +66,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     frames = recording.profile.numFrames();
     // Only events may be more than are read.
     require(recording.damage.empty() ||
-            recording.damage.starts_with("has ") &&
-                recording.damage.find(" more than the ") != std::string::npos);
+            (recording.damage.starts_with("has ") &&
+             recording.damage.find(" more than the ") != std::string::npos));
   });
   attempt([&] { palpate::readMcapEvents(path); });
   attempt([&] { palpate::readMcapMeta(path); });
