@@ -9,9 +9,11 @@
 #include "commands/window_commands.h"
 
 int main(int argc, char** argv) {
-  std::error_code ignored;
+  std::error_code failed;
   palpate::stopHandsInACrash();
-  palpate::stopHandsWhenKilled(
-      std::filesystem::read_symlink("/proc/self/exe", ignored).replace_filename("palpate_stop"));
+  // Without /proc the path can't be known; one that doesn't exist is reported as such.
+  std::filesystem::path self = std::filesystem::read_symlink("/proc/self/exe", failed);
+  if (failed) self = "/palpate_window";
+  palpate::stopHandsWhenKilled(self.replace_filename("palpate_stop"));
   return palpate::commands::run(argc, argv, &palpate::commands::runWindowCommand);
 }

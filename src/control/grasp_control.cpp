@@ -235,6 +235,17 @@ void GraspControl::report() {
     sentCommand_.reset();
     note(endEvent(*ended), /*ends=*/true);
     reportPhase(GraspPhase::kIdle, ended->text, ended);
+    if (std::exchange(relaxWhenStopped_, false)) {
+      if (!ended->stateUnknown && ended->outcome != GraspOutcome::kPortGone)
+        switchMotorsOff(/*isNote=*/true);
+      else
+        note({ended->endUs,
+              ended->endUs,
+              "alarm",
+              {},
+              "the motors were not switched off: no stop was answered",
+              {}});
+    }
     if (ended->outcome == GraspOutcome::kPortGone) portGone_ = ended;
     last_ = std::move(ended);
   }
@@ -331,26 +342,32 @@ void GraspControl::stop() noexcept {
   queue_->wake();
 }
 
+void GraspControl::switchMotorsOff(bool isNote) {
+  stopResults_.push_back(session_.device().submit(SetPower{}));
+  motorsOff_ = true;
+  if (!isNote) return;
+  const std::int64_t nowUs = session_.nowUs();
+  note({nowUs,
+        nowUs,
+        "grasp",
+        {},
+        std::string(kRelaxedText),
+        Json::object().set("outcome", nameOf(GraspOutcome::kRelaxed)).text(-1)});
+}
+
 void GraspControl::relax() noexcept {
   {
     const std::lock_guard lock(mutex_);
     ++stopsAsked_;
     try {
       stopResults_.push_back(session_.device().submit(StopMotion{}));
-      stopResults_.push_back(session_.device().submit(SetPower{}));
-      motorsOff_ = true;
-      const bool ends = machine_.active();
-      machine_.relax();
-      report();
-      // Of a hand that stood still or held, too, a recording tells that it may have let go.
-      if (!ends) {
-        const std::int64_t nowUs = session_.nowUs();
-        note({nowUs,
-              nowUs,
-              "grasp",
-              {},
-              std::string(kRelaxedText),
-              Json::object().set("outcome", nameOf(GraspOutcome::kRelaxed)).text(-1)});
+      relaxWhenStopped_ = machine_.stopsBlindly();
+      if (!relaxWhenStopped_) {
+        const bool ends = machine_.active();
+        machine_.relax();
+        // Of a hand that stood still or held, too, a recording tells that it may have let go.
+        switchMotorsOff(/*isNote=*/!ends);
+        report();
       }
     } catch (const std::exception& failure) {
       fault(failure.what());

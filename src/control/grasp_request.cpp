@@ -199,6 +199,7 @@ MoveJoints motionTo(const GraspRequest& request,
   }
   move.ramp = request.mode != GraspMode::kPlain;
   if (request.mode != GraspMode::kPlain) move.answerLimitS = kTactileAnswerLimitS;
+  move.limitsAnswersAtRest = request.mode == GraspMode::kSlip;
   return move;
 }
 

@@ -8,6 +8,7 @@
 #include "palpate/core/error.h"
 #include "palpate/core/number_text.h"
 #include "palpate/core/time.h"
+#include "palpate/device/sdh_protocol.h"
 #include "palpate/model/preshape.h"
 
 namespace palpate {
@@ -17,6 +18,8 @@ constexpr std::int64_t kAnswerUs = 5'000'000;   // time limit for the answer to 
 constexpr std::int64_t kStopAgainUs = 250'000;  // an unanswered stop is sent again after this time
 // Stops are repeated for as long as the motion could last, and for this time [s].
 constexpr double kStopMoreS = 10.0;
+constexpr std::int64_t kMissedStops = 4;
+constexpr std::string_view kStopsAreSent = ": stops are sent until one is answered";
 // Limit of the motion time relative to the announced one: pressing fingers become slower.
 constexpr double kDurationFactor = 3.0;
 constexpr double kDurationMoreS = 5.0;
@@ -30,8 +33,6 @@ constexpr double kStillRisen = 0.5;    // of the rise: below it the rise is past
 constexpr double kFarOverLimit = 1.5;  // the report mentions a rise to this multiple of the limit
 
 // Axis states of the SDH-2.
-constexpr int kPositioning = 1;
-constexpr int kSpeedMode = 2;
 constexpr int kBlockedClockwise = 4;
 constexpr int kBlockedCounterClockwise = 5;
 
@@ -310,7 +311,7 @@ void GraspStateMachine::onAxisStates(const std::vector<int>& states, std::int64_
   if (!isMoving() || !acknowledged_ || states.empty()) return;
   bool held = false;
   for (const int state : states) {
-    if (state == kPositioning || state == kSpeedMode) return;
+    if (sdhAxisMoves(state)) return;
     held = held || state == kBlockedClockwise || state == kBlockedCounterClockwise;
   }
   // Old firmware reports "idle" too early.
@@ -374,6 +375,15 @@ void GraspStateMachine::end(GraspOutcome outcome, const std::string& text) {
 void GraspStateMachine::onStopAcknowledged(std::int64_t monoUs) {
   if (phase_ != GraspPhase::kStopping) return;
   underWay_.reset();
+  if (stopsBlindly_) {
+    if (report_.text.ends_with(kStopsAreSent))
+      report_.text.replace(
+          report_.text.size() - kStopsAreSent.size(), std::string::npos, ": stopped");
+    else
+      report_.text += "; the motion controller did not answer meanwhile";
+    // What was reached is not what was asked for: the hand was without control for a while.
+    if (report_.outcome != GraspOutcome::kStopped) report_.outcome = GraspOutcome::kFailed;
+  }
   if (next_ == Next::kSettle) return settle(monoUs);
   if (next_ == Next::kClose) return move(report_.request.closeRatio, GraspPhase::kClosing, monoUs);
   // A slip-aware grasp that was still moving to its start holds nothing, and must not close.
@@ -447,8 +457,6 @@ void GraspStateMachine::onCommandFailed(const std::string& why, bool sent, std::
 // Longest time for which the motion sent last can continue without control [s]; 0 if none runs.
 double GraspStateMachine::remainingMotionS(std::int64_t monoUs) const {
   if (!underWay_) return 0.0;
-  if (announcedUs_ > acknowledgedUs_)
-    return std::max(0.0, static_cast<double>(announcedUs_ - monoUs) / 1e6 + kStartAndStopS);
   double seconds = 0.0;
   for (std::size_t axis = 0; axis < underWay_->targetDeg.size(); ++axis) {
     const double target = underWay_->targetDeg[axis];
@@ -459,7 +467,10 @@ double GraspStateMachine::remainingMotionS(std::int64_t monoUs) const {
             : std::max(target - hand_.axes[axis].minimumDeg, hand_.axes[axis].maximumDeg - target);
     seconds = std::max(seconds, travel / std::max(1e-3, underWay_->velocityDegPerS[axis]));
   }
-  return seconds + kStartAndStopS;
+  if (announcedUs_ <= acknowledgedUs_) return seconds + kStartAndStopS;
+  // What was announced came in a line without a checksum.
+  const double announcedS = static_cast<double>(announcedUs_ - monoUs) / 1e6 + kStartAndStopS;
+  return std::clamp(announcedS, 0.0, seconds * kDurationFactor + kDurationMoreS);
 }
 
 void GraspStateMachine::onMotionPortGone(const std::string& why, std::int64_t monoUs) {
@@ -487,7 +498,7 @@ void GraspStateMachine::onTactilePortGone(const std::string& why, std::int64_t m
 }
 
 void GraspStateMachine::onMotionFault(const std::string& why, std::int64_t monoUs) {
-  failWith(why, ": stops are sent until one is answered", monoUs);
+  failWith(why, kStopsAreSent, monoUs);
   stopsBlindly_ = phase_ == GraspPhase::kStopping;
 }
 
@@ -531,11 +542,15 @@ void GraspStateMachine::relax() {
 
 void GraspStateMachine::onTime(std::int64_t monoUs) {
   if (phase_ == GraspPhase::kStopping) {
+    if (monoUs >= stoppingUntilUs_ && monoUs - sentUs_ > kMissedStops * kStopAgainUs) {
+      // This process stood still: the hand gets another second.
+      stoppingUntilUs_ = monoUs + 4 * kStopAgainUs;
+      return stopAgain(monoUs);
+    }
     report_.stateUnknown = monoUs >= stoppingUntilUs_;
     if (report_.stateUnknown)
       return end(GraspOutcome::kFailed,
-                 report_.text +
-                     "; the hand doesn't answer the stop, state unknown: use the power switch");
+                 report_.text + "; no stop was answered, state unknown: use the power switch");
     if (monoUs - sentUs_ >= kStopAgainUs) stopAgain(monoUs);
     return;
   }

@@ -91,7 +91,12 @@ void stopHandsInACrash() {
     ::sigaction(kCrashSignals[i], &action, &actionsBefore[i]);
 }
 
-void stopHandsWhenKilled(std::filesystem::path program) { stopProgram() = std::move(program); }
+void stopHandsWhenKilled(std::filesystem::path program) {
+  // Where SIGCHLD is ignored, as some launchers leave it, the number of a child that has ended may
+  // become that of another process.
+  std::signal(SIGCHLD, SIG_DFL);
+  stopProgram() = std::move(program);
+}
 
 std::string stopProgramProblem() {
   const bool missing = !stopProgram().empty() && ::access(stopProgram().c_str(), X_OK) != 0;
@@ -138,6 +143,13 @@ LastStop::~LastStop() {
   }
 }
 
+bool LastStop::isReady() const noexcept {
+  if (pid_ < 0) return problem_.empty();
+  siginfo_t ended{};
+  return ::waitid(P_PID, static_cast<id_t>(pid_), &ended, WEXITED | WNOHANG | WNOWAIT) == 0 &&
+         ended.si_pid == 0;
+}
+
 void LastStop::start(const ByteChannel& channel) {
   int error = 0;
   std::array<int, 2> ends{-1, -1};
@@ -150,16 +162,20 @@ void LastStop::start(const ByteChannel& channel) {
     // All that it inherits is the read end and the port; it closes whatever else is open.
     posix_spawn_file_actions_t files;
     posix_spawn_file_actions_init(&files);
-    posix_spawn_file_actions_adddup2(&files, death.get(), STDIN_FILENO);
-    posix_spawn_file_actions_adddup2(&files, port.get(), STDOUT_FILENO);
-    posix_spawn_file_actions_addopen(&files, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
+    error = posix_spawn_file_actions_adddup2(&files, death.get(), STDIN_FILENO);
+    if (error == 0)
+      error = posix_spawn_file_actions_adddup2(&files, port.get(), STDOUT_FILENO);
+    if (error == 0)
+      error =
+          posix_spawn_file_actions_addopen(&files, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
     // A session of its own: no signal of a terminal reaches it.
     posix_spawnattr_t attributes;
     posix_spawnattr_init(&attributes);
     posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSID);
     std::string name = "hand_stop", bytes(sdhStopBytes(!channel.isNetwork()));
     std::array<char*, 3> words = {name.data(), bytes.data(), nullptr};
-    error = ::posix_spawn(&pid_, stopProgram().c_str(), &files, &attributes, words.data(), environ);
+    if (error == 0)
+      error = ::posix_spawn(&pid_, stopProgram().c_str(), &files, &attributes, words.data(), environ);
     posix_spawnattr_destroy(&attributes);
     posix_spawn_file_actions_destroy(&files);
   }

@@ -1,6 +1,7 @@
 #include "device/motion_link.h"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <span>
@@ -12,6 +13,7 @@
 #include "palpate/core/json.h"
 #include "palpate/core/number_text.h"
 #include "palpate/device/sdh2.h"
+#include "palpate/device/sdh_protocol.h"
 #include "palpate/model/hand_description.h"
 
 #include "device/sdh_link.h"
@@ -22,10 +24,11 @@ namespace {
 // period of requests for the axis states while a motion runs
 constexpr std::int64_t kStatesPeriodUs = 50'000;
 constexpr int kBlindStops = 3;
+constexpr int kLastReads = 6;
 constexpr double kMinAnswerLimitS = 0.1;
 constexpr double kMaxAnswerLimitS = 3.0;
-constexpr int kMotionLinkPositioning = 1;  // axis states of the SDH-2
-constexpr int kMotionLinkSpeedMode = 2;
+// Axes that still move after a confirmed stop get another one.
+constexpr std::int64_t kStopAgainAfterUs = 1'000'000;
 constexpr int kSinSquareProfile = 0;
 constexpr int kRampProfile = 1;
 
@@ -46,9 +49,7 @@ void checkAxes(const char* what,
 }
 
 bool anyMoves(const std::vector<int>& states) {
-  return std::any_of(states.begin(), states.end(), [](int state) {
-    return state == kMotionLinkPositioning || state == kMotionLinkSpeedMode;
-  });
+  return std::any_of(states.begin(), states.end(), sdhAxisMoves);
 }
 
 }  // namespace
@@ -103,6 +104,8 @@ void MotionLink::enqueue(QueuedCommand order) {
 // Stops the hand, and answers all stops that wait.
 void MotionLink::confirmStops() {
   controller_->stop();
+  session_.settling = true;
+  session_.stoppedUs = clock_.monotonicUs();
   while (true) {
     std::optional<QueuedCommand> order;
     {
@@ -135,6 +138,7 @@ void MotionLink::connect(ByteChannel& channel) {
   controller_ = std::make_unique<SdhController>(channel, clock_, options);
   const bool leftMoving = stopAfterReconnect_;
   if (leftMoving) {
+    prepareLastStop();
     // The controller was lost during a motion, which may have run without control. Send a stop
     // before any other request.
     confirmStops();
@@ -150,10 +154,12 @@ void MotionLink::connect(ByteChannel& channel) {
         port_,
         "a hand with another serial number answers at this port; to use it, disconnect and "
         "connect again");
-  if (!leftMoving && anyMoves(controller_->states())) {
+  if (anyMoves(controller_->states())) {
     // The motion was left by a program that died, or by one on another port.
-    controller_->stop();
-    eventNow("motion", "stopped: the hand was moving when it was connected, watched by nobody");
+    prepareLastStop();
+    confirmStops();
+    if (!leftMoving)
+      eventNow("motion", "stopped: the hand was moving when it was connected, watched by nobody");
   }
   std::lock_guard lock(mutex_);
   known_ = facts;
@@ -185,6 +191,10 @@ void MotionLink::stopBlindly(ByteChannel& channel, const std::string& why) noexc
     const std::string_view stop = sdhStopBytes(!channel.isNetwork());
     for (int i = 0; i < kBlindStops; ++i)
       channel.write(std::as_bytes(std::span<const char>(stop.data(), stop.size())));
+    // A connection that is closed with unread bytes may drop what is on its way.
+    std::array<std::byte, 1024> unread;
+    for (int i = 0; channel.isNetwork() && i < kLastReads; ++i)
+      channel.read(unread, std::chrono::milliseconds(5));
     if (session_.moving)
       event("motion",
             "stops were sent without waiting for an answer: " + why,
@@ -255,6 +265,7 @@ void MotionLink::work() {
                                     : session_.nextAnglesUs);
     }
     session_.failures = 0;
+    relaxAnswerLimit();
   } catch (const DeviceError& error) {
     // An urgent command ends an exchange early; this is no failure of the connection.
     if (stopping() || stopWaits()) return;
@@ -288,6 +299,16 @@ void MotionLink::pollTemperatures() {
   sink_->onTemperatures(std::move(temperatures));
 }
 
+// At rest a single failure is no reason to give up the port: the limits of each call hold again.
+void MotionLink::relaxAnswerLimit() {
+  if (!session_.answersLimited || session_.answersLimitedAtRest || statesAreDue() ||
+      clock_.monotonicUs() < session_.motionUntilUs)
+    return;
+  session_.answersLimited = false;
+  session_.failures = 0;
+  controller_->limitBadAnswers({});
+}
+
 void MotionLink::pollStates() {
   const std::vector<int> states = controller_->states();
   const bool moves = anyMoves(states);
@@ -295,14 +316,22 @@ void MotionLink::pollStates() {
     std::lock_guard lock(mutex_);
     states_ = states;
   }
-  if (moves) return;
+  if (moves) {
+    const std::int64_t nowUs = clock_.monotonicUs();
+    if (session_.settling && session_.stoppedUs != 0 &&
+        nowUs - session_.stoppedUs > kStopAgainAfterUs) {
+      confirmStops();
+      eventNow("motion", "stopped again: axes moved a second after a stop");
+    }
+    return;
+  }
   session_.settling = false;
   if (!std::exchange(session_.moving, false)) return;
   event("motion", "motion ended", session_.motionFromUs, time_.nowUs());
 }
 
 void MotionLink::prepareLastStop() {
-  if (lastStop_) return;
+  if (lastStop_ && lastStop_->isReady()) return;
   lastStop_.emplace(*opened_);
   if (lastStop_->problem().empty() || std::exchange(session_.saidNoLastStop, true)) return;
   eventNow("alarm", lastStop_->problem());
@@ -334,6 +363,9 @@ CommandAnswer MotionLink::move(const MoveJoints& move) {
   // Set even if the answer gets lost, because the hand may move then, too.
   session_.moving = true;
   session_.answersLimited = true;
+  session_.answersLimitedAtRest = move.limitsAnswersAtRest;
+  session_.settling = false;
+  session_.stoppedUs = 0;
   controller_->limitBadAnswers(
       std::chrono::milliseconds(std::llround(move.answerLimitS * kMsPerS)));
   CommandAnswer answer;
@@ -341,9 +373,11 @@ CommandAnswer MotionLink::move(const MoveJoints& move) {
     // Until the states are read, so that a caller that waits for the end of the motion does not see
     // the states from before it.
     std::lock_guard lock(mutex_);
-    states_.assign(axes.size(), kMotionLinkPositioning);
+    states_.assign(axes.size(), kSdhAxisPositioning);
   }
   answer.durationS = controller_->move();
+  session_.motionUntilUs =
+      clock_.monotonicUs() + static_cast<std::int64_t>(answer.durationS * kUsPerS);
   session_.nextStatesUs = clock_.monotonicUs() + kStatesPeriodUs;
   event("motion",
         "motion began",
@@ -361,6 +395,7 @@ CommandAnswer MotionLink::move(const MoveJoints& move) {
 void MotionLink::stopMotion() {
   controller_->stop();
   session_.settling = true;
+  session_.motionUntilUs = session_.stoppedUs = clock_.monotonicUs();
   if (!std::exchange(session_.moving, false)) return;
   event("motion", "stopped", session_.motionFromUs, time_.nowUs());
 }

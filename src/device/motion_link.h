@@ -47,6 +47,7 @@ class MotionLink : public PortLink {
   void pollStates();
   CommandAnswer move(const MoveJoints& move);
   void stopMotion();
+  void relaxAnswerLimit();
   void prepareLastStop();
   void countBytes();
 
@@ -69,8 +70,13 @@ class MotionLink : public PortLink {
     bool moving = false;  // a motion begun by us has not ended
     // After a stop or a change of power the states are read until no axis moves.
     bool settling = false;
-    // From the first motion on: see MoveJoints::answerLimitS.
+    // See MoveJoints::answerLimitS.
     bool answersLimited = false;
+    bool answersLimitedAtRest = false;
+    // Before this time no state "idle" is believed, which old firmware reports too early [monotonic
+    // us].
+    std::int64_t motionUntilUs = 0;
+    std::int64_t stoppedUs = 0;  // when a stop was confirmed last [monotonic us]
     std::int64_t motionFromUs = 0;  // host time
     std::int64_t nextAnglesUs = 0;  // monotonic time
     std::int64_t nextTemperaturesUs = 0;

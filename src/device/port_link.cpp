@@ -73,6 +73,7 @@ void PortLink::begin(DeviceSink& sink) {
   sink_ = &sink;
   stopping_ = false;
   wasConnected_ = false;
+  gaveUp_ = false;
   permanentlyFailed_ = false;
   portMissing_ = false;
   nextTryUs_ = 0;
@@ -119,6 +120,7 @@ void PortLink::round() {
   if (std::exchange(portMissing_, false))
     setState(PortState::kConnecting, port_ + ": the port is there; looking for the " + what_);
   connect(*channel_);
+  gaveUp_ = false;
   setState(PortState::kStreaming);
   updateStatus([&](PortStatus& status) {
     if (wasConnected_) ++status.reconnects;
@@ -131,6 +133,7 @@ void PortLink::round() {
 void PortLink::fail(const char* what) noexcept {
   nextTryUs_ = clock_.monotonicUs() + kFaultRetryUs;
   if (channel_) {
+    stopBlindly(*channel_, what);
     whateverHappens([&] { emergencyStop(); });
     whateverHappens([&] { disconnected(); });
     std::unique_ptr<ByteChannel> closed;
@@ -154,10 +157,13 @@ void PortLink::fail(const char* what) noexcept {
 void PortLink::stopBlindly(ByteChannel&, const std::string&) noexcept {}
 
 void PortLink::closeAfterError(const DeviceError& error) {
-  const bool isGone =
-      error.fault() == DeviceFault::kDisconnected || error.fault() == DeviceFault::kNotFound;
+  // A port that can't be opened again after its device was given up need not be unplugged.
+  const bool isGone = error.fault() == DeviceFault::kDisconnected ||
+                      (error.fault() == DeviceFault::kNotFound && !gaveUp_);
   if (channel_) {
-    if (!isGone) stopBlindly(*channel_, error.what());
+    gaveUp_ = !isGone;
+    // Of a port that is gone nobody may be sure: writing fails at once where it is.
+    if (error.fault() != DeviceFault::kWrongDevice) stopBlindly(*channel_, error.what());
     disconnected();
     std::unique_ptr<ByteChannel> closed;
     std::lock_guard lock(mutex_);

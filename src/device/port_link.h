@@ -116,6 +116,8 @@ class PortLink {
   PortStatus status_;
   // Replaced only by the port's thread, under mutex_.
   std::unique_ptr<ByteChannel> channel_;
+  // The device was given up although its port was there; until it answers again.
+  bool gaveUp_ = false;
   // The last attempt found no port.
   bool portMissing_ = false;
   bool wasConnected_ = false;

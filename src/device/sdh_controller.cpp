@@ -24,8 +24,6 @@ using SdhControllerValues = SdhController::Values;
 // decimals, records 24 bits.
 constexpr double kEchoDeg = 0.5;
 constexpr int kMoveTries = 3;
-constexpr int kSdhControllerPositioning = 1;
-constexpr int kSdhControllerSpeedMode = 2;
 
 template <typename Get>
 SdhControllerValues ofAxes(Get get) {
@@ -210,17 +208,29 @@ SdhControllerValues SdhController::numbers(const std::string& request,
 }
 
 SdhControllerValues SdhController::exchange(const SdhQuantity& quantity,
-                                            const SdhControllerValues& values) {
+                                            const SdhControllerValues& values,
+                                            const SdhRetryPolicy& retryPolicy) {
   if (binary_ && sdhIsBinary(quantity.command))
-    return link_->askRecord(quantity.command, values, [&](const SdhControllerValues& answer) {
-      return quantity.plausible(answer, kSdhAxes);
-    });
+    return link_->askRecord(
+        quantity.command,
+        values,
+        [&](const SdhControllerValues& answer) { return quantity.plausible(answer, kSdhAxes); },
+        retryPolicy);
   const std::string name(sdhName(quantity.command));
   std::string upper = name;
   for (char& c : upper)
     if (c >= 'a' && c <= 'z') c = static_cast<char>(c - 'a' + 'A');
-  return numbers(
-      sdhLineRequest(name, std::nullopt, values), upper, std::nullopt, quantity, kSdhAxes, {});
+  return numbers(sdhLineRequest(name, std::nullopt, values),
+                 upper,
+                 std::nullopt,
+                 quantity,
+                 kSdhAxes,
+                 retryPolicy);
+}
+
+SdhControllerValues SdhController::exchange(const SdhQuantity& quantity,
+                                            const SdhControllerValues& values) {
+  return exchange(quantity, values, {});
 }
 
 SdhControllerValues SdhController::withAxis(std::size_t axis,
@@ -346,10 +356,7 @@ double SdhController::move() {
       // Either the request or only its answer was lost; a second `m` during the motion would cause
       // a jerk.
       const std::vector<int> now = states();
-      if (std::any_of(now.begin(), now.end(), [](int state) {
-            return state == kSdhControllerPositioning || state == kSdhControllerSpeedMode;
-          }))
-        return pendingDuration();
+      if (std::any_of(now.begin(), now.end(), sdhAxisMoves)) return pendingDuration();
     }
 }
 
@@ -359,8 +366,14 @@ double SdhController::pendingDuration() {
 }
 
 void SdhController::stop() {
-  // Another line than STOP may be an echo or noise: the hand must answer what is known of it.
-  if (!link_->stop()) states();
+  if (link_->stop()) return;
+  // Another line than STOP may be an echo or noise. This is asked also while another stop waits.
+  const SdhControllerValues states = exchange(sdh::kState, {}, {.abortsForStop = false});
+  if (std::any_of(states.begin(), states.end(), [](double state) {
+        return sdhAxisMoves(static_cast<int>(state));
+      }))
+    link_->fail(DeviceFault::kSilent,
+                "'stop' was sent, but the axes still move: use the emergency stop");
 }
 
 int SdhController::controller() {

@@ -102,7 +102,7 @@ void SdhLink::resync(bool thorough) {
   replies_.clear();
   needsResync_ = true;
   const milliseconds silence = watch_.isLimited() ? watch_.silence() : kSilence;
-  const milliseconds limit = watch_.isLimited() ? 2 * silence : kDrainLimit;
+  const milliseconds limit = watch_.isLimited() ? silence : kDrainLimit;
   drain(silence, limit);
   // Blanks before a command have no meaning. As many as the longest record complete a record that
   // the hand received in part; it then fails by its checksum. Network records have no checksum:
@@ -176,9 +176,9 @@ std::optional<SdhReply> SdhLink::attempt(Bytes request,
   needsResync_ = true;
   write(request);
   const std::int64_t sentUs = clock_.monotonicUs();
-  const milliseconds timeout =
-      watch_.isLimited() ? std::min(retryPolicy.timeout, watch_.timeout(sentUs))
-                         : retryPolicy.timeout;
+  const milliseconds timeout = quick && watch_.isLimited()
+                                   ? std::min(retryPolicy.timeout, watch_.timeout(sentUs))
+                                   : retryPolicy.timeout;
   std::int64_t heardUs = sentUs;
   bool looked = false;
   for (;;) {
@@ -275,7 +275,8 @@ SdhLine SdhLink::ask(const std::string& request,
 
 std::vector<double> SdhLink::askRecord(SdhCommand command,
                                        std::span<const double> values,
-                                       const RecordCheck& check) {
+                                       const RecordCheck& check,
+                                       const SdhRetryPolicy& retryPolicy) {
   const ReplyMatcher match = [&](SdhReply& reply) {
     const auto* record = std::get_if<SdhRecord>(&reply);
     if (!record || record->command != command) return ReplyMatch::kStray;
@@ -283,7 +284,8 @@ std::vector<double> SdhLink::askRecord(SdhCommand command,
     return check(record->values) ? ReplyMatch::kAnswer : ReplyMatch::kImplausible;
   };
   const auto request = sdhRecordRequest(command, values, !channel_.isNetwork());
-  return std::get<SdhRecord>(exchange(request, std::string(sdhName(command)), match, {})).values;
+  return std::get<SdhRecord>(exchange(request, std::string(sdhName(command)), match, retryPolicy))
+      .values;
 }
 
 // --- Stop

@@ -51,7 +51,8 @@ class SdhLink {
               const SdhRetryPolicy& retryPolicy = {});
   std::vector<double> askRecord(SdhCommand command,
                                 std::span<const double> values,
-                                const RecordCheck& check);
+                                const RecordCheck& check,
+                                const SdhRetryPolicy& retryPolicy = {});
   // Sends `stop` before anything else and waits for STOP. Returns false if another line arrived
   // instead: it may be this hand's form of confirmation, or an answer to something else.
   bool stop();

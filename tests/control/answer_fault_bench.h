@@ -20,7 +20,8 @@
 
 namespace palpate::testing {
 
-enum class AnswerFault { kChecksum, kNan, kStateError, kGarbage, kMute, kShort, kEcho };
+// kBabble: instead of answers random bytes arrive all the time.
+enum class AnswerFault { kChecksum, kNan, kStateError, kGarbage, kMute, kShort, kEcho, kBabble };
 
 class AnswerFaultBench {
  public:
@@ -115,7 +116,11 @@ class AnswerFaultBench {
         // In slices, so that frames and the control come in between.
         const std::int64_t leftUs = endUs - bench_.clock_.nowUs;
         const auto slice = std::min<std::int64_t>(leftUs / kUsPerMs, 1);
-        const std::size_t got = ScriptedChannel::read(into, std::chrono::milliseconds(slice));
+        std::size_t got = ScriptedChannel::read(into, std::chrono::milliseconds(slice));
+        if (got == 0 && slice > 0 && bench_.fault == AnswerFault::kBabble && !into.empty()) {
+          into[0] = static_cast<std::byte>(bench_.random_() & 0xFF);
+          got = 1;
+        }
         bench_.work();
         if (got > 0 || leftUs <= 0) return got;
       }
@@ -239,6 +244,7 @@ class AnswerFaultBench {
         for (std::byte& b : answer) b = static_cast<std::byte>(random_() & 0xFF);
         return answer;
       case AnswerFault::kMute:
+      case AnswerFault::kBabble:
         return {};
       case AnswerFault::kShort:
         answer.resize(answer.size() / 2);

@@ -58,6 +58,8 @@ class FakeSdhHand {
   std::string lateAnswer;     // old line before the next answer, once
   bool dead = false;          // neither answers nor acts
   bool swapsTargets = false;  // stores other targets than it received
+  int lostStops = 0;          // so many `stop` neither arrive nor are answered
+  int ignoredStops = 0;       // so many `stop` are answered, but the axes move on
   int pollsPerMotion = 3;     // a motion ends when its states were asked for so many times
   double announcedS = 4.51;   // duration of a motion, as announced
 
@@ -228,8 +230,12 @@ class FakeSdhHand {
   }
 
   void answerLine(const std::string& line) {
-    log.push_back(line);
     const std::string command = line.substr(0, line.find_first_of("(="));
+    if (command == "stop" && lostStops > 0) {
+      --lostStops;
+      return;
+    }
+    log.push_back(line);
     if (!dead && errorCode == 0 && command == "m") {
       ++moves;
       pollsUntilIdle = pollsPerMotion;
@@ -237,8 +243,12 @@ class FakeSdhHand {
     }
     if (!dead && command == "stop") {
       ++stops;
-      pollsUntilIdle = 0;
-      values["state"] = Axes(7, 0.0);
+      if (ignoredStops > 0) {
+        --ignoredStops;
+      } else {
+        pollsUntilIdle = 0;
+        values["state"] = Axes(7, 0.0);
+      }
     }
     if (!beginAnswer()) return;
     if (errorCode != 0) {

@@ -204,6 +204,27 @@ TEST_F(SdhLinkTest, AnEchoDoesNotConfirmAStop) {
   EXPECT_EQ(errorOf([&] { controller.stop(); }).fault(), DeviceFault::kSilent);
 }
 
+// The stops are lost, the hand moves on, and another line came meanwhile.
+TEST_F(SdhLinkTest, AxesThatStillMoveAreNotTakenForStopped) {
+  controller.open();
+  hand.pollsPerMotion = 1000;
+  controller.move();
+  hand.lostStops = 3;
+  line.arrive(bytesOf("4D 3D 34 2E 35 31 0D 0A"), 500);
+  const DeviceError error = errorOf([&] { controller.stop(); });
+  EXPECT_EQ(error.fault(), DeviceFault::kSilent);
+  EXPECT_NE(std::string(error.what()).find("the axes still move"), std::string::npos);
+}
+
+// GraspControl asks again every 250 ms: the confirmation must not be ended by the next stop.
+TEST_F(SdhLinkTest, AStopIsConfirmedByTheStatesAlsoWhileAnotherStopWaits) {
+  controller.open();
+  hand.lostStops = 3;
+  line.arrive(bytesOf("4D 3D 34 2E 35 31 0D 0A"), 500);
+  urgent = true;
+  EXPECT_NO_THROW(controller.stop());
+}
+
 // The channel delivers another answer, while the stop got lost on its way to the hand.
 TEST_F(SdhLinkTest, AStopThatGotLostDoesNotPassForTakenByAnotherLine) {
   controller.open();

@@ -211,6 +211,22 @@ GraspReport follow(GraspControl& control, const StateLines& lines, Interruption&
   }
 }
 
+// The motion port was unplugged: a hand that may move is stopped when the port is back, if that is
+// soon enough.
+[[noreturn]] void awaitPort(const GraspControl& control,
+                            const GraspReport& report,
+                            const StateLines& lines,
+                            Interruption& interruption) {
+  const double remainingS = report.remainingMotionS.value_or(0.0);
+  if (remainingS == 0.0) throw Error(report.text);
+  const double limitS = remainingS + kPortBackS;
+  lines.show("waiting", "for the motion port, " + fixedText(limitS, 0) + " s");
+  const std::int64_t endUs = systemClock().monotonicUs() + std::llround(limitS * kUsPerS);
+  while (systemClock().monotonicUs() < endUs && !interruption.waitForSignal(kGraspLookMs))
+    if (!control.status().portGone) throw Error(report.text + "; the port is back: stopped");
+  throw Error(report.text + "; state unknown: use the power switch");
+}
+
 MotionSequence sequenceOf(const CommandLine& given) {
   for (const char* option : {"preshape", "close", "velocity", "mode", "limit"})
     if (given.has(option))
@@ -248,20 +264,8 @@ int runSequence(const MotionSequence& sequence,
     lines.show("finished", run.status().text);
     return kDone;
   }
+  if (const auto gone = control.status().portGone) awaitPort(control, *gone, lines, interruption);
   throw Error(run.status().text);
-}
-
-// The motion port was unplugged: the hand is stopped when the port is back, if that is soon enough.
-[[noreturn]] void awaitPort(const GraspControl& control,
-                            const GraspReport& report,
-                            const StateLines& lines,
-                            Interruption& interruption) {
-  const double limitS = report.remainingMotionS.value_or(0.0) + kPortBackS;
-  lines.show("waiting", "for the motion port, " + fixedText(limitS, 0) + " s");
-  const std::int64_t endUs = systemClock().monotonicUs() + std::llround(limitS * kUsPerS);
-  while (systemClock().monotonicUs() < endUs && !interruption.waitForSignal(kGraspLookMs))
-    if (!control.status().portGone) throw Error(report.text + "; the port is back: stopped");
-  throw Error(report.text + "; state unknown: use the power switch");
 }
 
 int exitCodeOf(const GraspReport& report) {

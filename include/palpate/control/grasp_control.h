@@ -100,6 +100,8 @@ class GraspControl {
   // Sends a stop at once, whether or not the hand moves; no motion follows it.
   void stop() noexcept;
   // Stops, then switches the motors off: fingers can be moved by hand, and a held object may fall.
+  // While stops are sent to a controller that doesn't answer, the motors are switched off once one
+  // is answered; otherwise an event "alarm" says that they were not.
   void relax() noexcept;
   // Sets the calibration by which limits in newtons are measured; nothing: such a grasp is refused.
   // Holds from the next grasp on.
@@ -128,6 +130,7 @@ class GraspControl {
   void checkLinks();
   void send();
   void report();
+  void switchMotorsOff(bool isNote);
   void refused(const GraspRequest& request, const std::string& why);
   void reportPhase(GraspPhase phase,
                    const std::string& text,
@@ -156,6 +159,7 @@ class GraspControl {
   std::deque<GraspChange> changes_;
   std::optional<GraspReport> portGone_;  // see GraspStatus
   bool motorsOff_ = false;
+  bool relaxWhenStopped_ = false;
   std::uint64_t stopsAsked_ = 0;
   bool calibrated_ = false;
   // Last reported fault; the same fault is not reported again for a while in this grasp.

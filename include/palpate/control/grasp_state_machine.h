@@ -92,6 +92,8 @@ class GraspStateMachine {
 
   GraspPhase phase() const noexcept { return phase_; }
   bool active() const noexcept { return phase_ != GraspPhase::kIdle; }
+  // True while stops are sent to a motion controller that doesn't answer.
+  bool stopsBlindly() const noexcept { return stopsBlindly_; }
   // True while fingers move under tactile control, when no setting that changes the counts is
   // allowed.
   bool underTactileControl() const noexcept {

@@ -129,9 +129,11 @@ struct MoveJoints {
   std::vector<double> velocityDegPerS;
   // Velocity profile: true for a ramp, false for sin-square.
   bool ramp = false;
-  // Longest time for which the controller's answers may be missing or not valid from this motion on,
-  // 0.1..3 [s]. Then the hand is stopped without waiting for an answer, and the port is opened again.
+  // Longest time for which the controller's answers may be missing or not valid until the axes are at
+  // rest, 0.1..3 [s]. Then the hand is stopped without waiting for an answer, and the port is opened again.
   double answerLimitS = 0.5;
+  // Whether this limit also holds once the axes are at rest, since the hand holds an object then.
+  bool limitsAnswersAtRest = false;
 };
 // Stops a motion; the axes stay powered. This command is executed before all waiting commands.
 struct StopMotion {};

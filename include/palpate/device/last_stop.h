@@ -55,6 +55,8 @@ class LastStop {
   // Why the program doesn't run, with its path and what to do; empty if it runs or none was asked
   // for.
   const std::string& problem() const noexcept { return problem_; }
+  // Whether the program still runs, or none was asked for.
+  bool isReady() const noexcept;
 
  private:
   void start(const ByteChannel& channel);

@@ -143,7 +143,7 @@ class SdhController {
   // Duration of the motion that move() would start [s].
   double pendingDuration();
   // Stops a motion; power stays on. The command is sent at once, even during another exchange. It
-  // is confirmed by STOP, or by another line and valid axis states.
+  // is confirmed by STOP, or by another line and valid states of axes that don't move.
   void stop();
 
   int controller();  // requires firmware 0.0.2.6
@@ -173,6 +173,9 @@ class SdhController {
  private:
   // Executes one command with seven values in and seven out. Empty `values` mean a read request.
   Values exchange(const SdhQuantity& quantity, const Values& values);
+  Values exchange(const SdhQuantity& quantity,
+                  const Values& values,
+                  const SdhRetryPolicy& retryPolicy);
   Values withAxis(std::size_t axis, Values values, double value) const;
   std::string word(const std::string& command, const SdhRetryPolicy& retryPolicy);
   // The numbers of the answer NAME=.. or NAME(axis)=.. to a request.

@@ -138,4 +138,11 @@ struct SdhFirmware {
   bool atLeast(int a, int b, int c, int d) const noexcept;
 };
 
+// Axis states (command `state`): the axis moves in these two.
+inline constexpr int kSdhAxisPositioning = 1;
+inline constexpr int kSdhAxisSpeedMode = 2;
+constexpr bool sdhAxisMoves(int state) noexcept {
+  return state == kSdhAxisPositioning || state == kSdhAxisSpeedMode;
+}
+
 }  // namespace palpate
