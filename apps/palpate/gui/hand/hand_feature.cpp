@@ -5,6 +5,7 @@
 #include "gui/hand/hand_dock.h"
 #include "gui/hand/joint_panel.h"
 #include "gui/hand/sensitivity_modes.h"
+#include "gui/hand/tactile_settings_panel.h"
 #include "gui/widgets/dock.h"
 
 namespace palpate::gui {
