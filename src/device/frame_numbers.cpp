@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace palpate {
 namespace {
@@ -16,6 +17,9 @@ constexpr double kRateUs = 10e6;
 // Frames that waited in a buffer arrive together after a pause. The numbers lost behind them belong
 // to the time of the pause, so this time is remembered for a while.
 constexpr double kOutstandingUs = 5e6;
+// After so many frames and this time without their longest interval the rate is known.
+constexpr int kFirstFrames = 32;
+constexpr double kFirstUs = 1000.0;
 
 }  // namespace
 
@@ -57,6 +61,13 @@ bool FrameNumbers::couldBeMissing(std::int32_t missing, std::optional<double> pa
   const double kept = std::exp(-us / kRateUs);
   recentUs_ = recentUs_ * kept + us;
   recentNumbers_ = recentNumbers_ * kept + missing + 1.0;
+  if (numFirst_ < kFirstFrames) {
+    ++numFirst_;
+    pauseUs_ = std::max(pauseUs_, us);
+  } else if (pauseUs_ > 0.0 && recentUs_ > pauseUs_ + kFirstUs) {
+    recentUs_ -= pauseUs_;
+    outstanding_ += std::exchange(pauseUs_, 0.0) * recentNumbers_ / recentUs_;
+  }
   return true;
 }
 

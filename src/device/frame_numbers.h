@@ -31,6 +31,10 @@ class FrameNumbers {
   // Numbers and time of the last seconds; older ones weigh less.
   double recentNumbers_ = 0.0;
   double recentUs_ = 0.0;
+  // The longest interval of the first frames, until the rate beside it is known: it may be a pause,
+  // behind which frames waited in a buffer.
+  int numFirst_ = 0;
+  double pauseUs_ = 0.0;
   // Numbers that the time could have held and that did not come yet; negative: too many came.
   double outstanding_ = 0.0;
 };

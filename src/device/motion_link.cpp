@@ -101,23 +101,21 @@ void MotionLink::enqueue(QueuedCommand order) {
   commandQueue_.push_front(std::move(order));
 }
 
-// Stops the hand, and answers all stops that wait.
+// Stops the hand, also for all stops that wait.
 void MotionLink::confirmStops() {
   controller_->stop();
   session_.settling = true;
   session_.stoppedUs = clock_.monotonicUs();
-  while (true) {
-    std::optional<QueuedCommand> order;
-    {
-      std::lock_guard lock(mutex_);
-      if (commandQueue_.empty() ||
-          !std::holds_alternative<StopMotion>(commandQueue_.front().command))
-        return;
-      order = std::move(commandQueue_.front());
-      commandQueue_.pop_front();
-    }
-    order->answer.set_value({});
+  std::lock_guard lock(mutex_);
+  while (!commandQueue_.empty() &&
+         std::holds_alternative<StopMotion>(commandQueue_.front().command)) {
+    sentStops_.push_back(std::move(commandQueue_.front()));
+    commandQueue_.pop_front();
   }
+}
+
+void MotionLink::answerStops() {
+  for (QueuedCommand& order : std::exchange(sentStops_, {})) order.answer.set_value({});
 }
 
 // Stops that come meanwhile go first.
@@ -161,6 +159,7 @@ void MotionLink::connect(ByteChannel& channel) {
     if (!leftMoving)
       eventNow("motion", "stopped: the hand was moving when it was connected, watched by nobody");
   }
+  answerStops();
   std::lock_guard lock(mutex_);
   known_ = facts;
   session_.nextAnglesUs = session_.nextTemperaturesUs = clock_.monotonicUs();
@@ -180,6 +179,9 @@ void MotionLink::disconnected() {
   controller_.reset();
   session_.answersLimited = false;
   if (std::exchange(session_.moving, false)) stopAfterReconnect_ = true;
+  for (QueuedCommand& order : std::exchange(sentStops_, {}))
+    order.answer.set_exception(std::make_exception_ptr(DeviceError(
+        DeviceFault::kSilent, port_, "the stop was sent, and what the hand does is not known")));
   std::lock_guard lock(mutex_);
   states_.clear();
 }
@@ -321,6 +323,7 @@ void MotionLink::pollStates() {
     if (session_.settling && session_.stoppedUs != 0 &&
         nowUs - session_.stoppedUs > kStopAgainAfterUs) {
       confirmStops();
+      answerStops();
       eventNow("motion", "stopped again: axes moved a second after a stop");
     }
     return;

@@ -40,6 +40,7 @@ class MotionLink : public PortLink {
  private:
   bool stopWaits() const;
   void confirmStops();
+  void answerStops();
   void openController();
   void pollAngles();
   void pollTemperatures();
@@ -89,6 +90,8 @@ class MotionLink : public PortLink {
     std::uint64_t samples = 0;
   };
   Session session_;
+  // Stops that were sent; they are answered when the axes are known to be at rest.
+  std::vector<QueuedCommand> sentStops_;
 };
 
 }  // namespace palpate

@@ -116,7 +116,7 @@ void SdhLink::resync(bool thorough) {
 // --- One question
 
 void SdhLink::abortIfUrgent() {
-  if (!urgent_ || !urgent_()) return;
+  if (!abortsForStop_ || !urgent_ || !urgent_()) return;
   needsResync_ = true;
   ++stats_.stops;
   sendText(sdhStopBytes(false));
@@ -183,7 +183,7 @@ std::optional<SdhReply> SdhLink::attempt(Bytes request,
   bool looked = false;
   for (;;) {
     const std::int64_t nowUs = clock_.monotonicUs();
-    if (retryPolicy.abortsForStop && nowUs - sentUs >= usOf(kUrgentAfter)) abortIfUrgent();
+    if (nowUs - sentUs >= usOf(kUrgentAfter)) abortIfUrgent();
     const bool begun = quick && (parser_.pendingBytes() > 0 ||
                                  parser_.stats().skippedBytes != before.skippedBytes);
     const std::int64_t restUs = usOf(timeout) - (nowUs - sentUs);
@@ -236,7 +236,12 @@ SdhReply SdhLink::exchange(Bytes request,
                            const std::string& what,
                            const ReplyMatcher& match,
                            const SdhRetryPolicy& retryPolicy) {
-  if (retryPolicy.abortsForStop) abortIfUrgent();
+  const struct Restore {
+    bool& flag;
+    ~Restore() { flag = true; }
+  } restore{abortsForStop_};
+  abortsForStop_ = retryPolicy.abortsForStop;
+  abortIfUrgent();
   ++stats_.exchanges;
   if (needsResync_) resync(false);
   const std::int64_t startUs = clock_.monotonicUs();

@@ -106,6 +106,7 @@ class SdhLink {
   std::vector<std::byte> buffer_;
   std::vector<SdhReply> replies_;  // from the last read
   SdhStats stats_;
+  bool abortsForStop_ = true;  // see SdhRetryPolicy; of the present exchange
   // True when an answer may still arrive; the next exchange begins with a resync then.
   bool needsResync_ = false;
   // Reason why the last try failed.

@@ -114,8 +114,7 @@ TEST_P(AnswerFaultTest, AStopIsOnTheWireInTimeAndTheHandIsKnownToBeStillInTheEnd
   // It stays so for a while: stops go on, and nothing else moves the hand.
   bench.pass(2.0);
   EXPECT_GE(bench.stops(), 3);
-  // A controller whose states alone are wrong answers the stop.
-  EXPECT_EQ(bench.control->status().phase == GraspPhase::kIdle, fault == AnswerFault::kStateError);
+  EXPECT_NE(bench.control->status().phase, GraspPhase::kIdle) << "it is not known to be still";
   bench.fault.reset();
   ASSERT_TRUE(bench.awaitPhase(GraspPhase::kIdle));
   EXPECT_EQ(bench.control->status().last->outcome, GraspOutcome::kFailed);
@@ -136,13 +135,10 @@ TEST_P(AnswerFaultTest, EndsWithoutAnAnswerAndSaysThatTheStateIsUnknown) {
   if (::testing::Test::HasFatalFailure()) return;
   bench.fault = fault;
   const std::int64_t fromUs = bench.session->nowUs();
-  // A controller that answers the stop is still in reach: its states alone are wrong.
-  const bool answersStops = fault == AnswerFault::kStateError;
   ASSERT_TRUE(bench.awaitPhase(GraspPhase::kIdle, 60.0));
   const GraspReport last = *bench.control->status().last;
   EXPECT_EQ(last.outcome, GraspOutcome::kFailed);
-  EXPECT_EQ(last.text.find("state unknown: use the power switch") != std::string::npos,
-            !answersStops)
+  EXPECT_NE(last.text.find("state unknown: use the power switch"), std::string::npos)
       << last.text;
   // After the rest of the announced 4.51 s, half a second and 10 s.
   EXPECT_LT(static_cast<double>(last.endUs - fromUs) / kUsPerS, 15.02);

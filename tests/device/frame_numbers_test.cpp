@@ -71,6 +71,19 @@ TEST(FrameNumbers, LossBehindABufferBelongsToThePause) {
   EXPECT_EQ(receiver.renumbered, 0u);
 }
 
+// The same, and the pause comes with the first frame, when no rate is known.
+TEST(FrameNumbers, LossBehindAPauseAtTheBeginIsCounted) {
+  Receiver receiver;
+  std::uint32_t n = 0;
+  receiver.frame(n++, 0);
+  receiver.frame(n++, 2'000'000);
+  for (int i = 0; i < 1000; ++i) receiver.frame(n++, 20);
+  n += 15'000;
+  for (int i = 0; i < 1000; ++i) receiver.frame(n++, 100);
+  EXPECT_EQ(receiver.lost, 15'000u);
+  EXPECT_EQ(receiver.renumbered, 0u);
+}
+
 // Two senders of 100 frames/s each, one number ahead of the other by `offset`.
 TEST(FrameNumbers, TwoSendersLoseNothing) {
   for (const std::uint32_t offset : {200U, 500U, 12'000U, 1'000'000U, 2'000'000'000U}) {
