@@ -5,6 +5,7 @@
 #include "gui/hand/hand_dock.h"
 #include "gui/hand/joint_panel.h"
 #include "gui/hand/sensitivity_modes.h"
+#include "gui/hand/tactile_settings_panel.h"
 #include "gui/widgets/dock.h"
 
 namespace palpate::gui {
@@ -78,6 +79,10 @@ HandFeature::HandFeature(WindowState& windowState, QWidget* window)
   panel_->calibrationOf = [&windowState](const std::string& hand) {
     const auto& applied = windowState.handCommands.calibration;
     return applied ? applied(hand) : std::optional<Calibration>();
+  };
+  panel_->calibrationBeingRead = [&windowState](const std::string& hand) {
+    const auto& beingRead = windowState.handCommands.calibrationBeingRead;
+    return beingRead && beingRead(hand);
   };
   panel_->ownMotion = [&live] {
     const LiveSource* source = live.source();
