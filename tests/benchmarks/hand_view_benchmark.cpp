@@ -40,7 +40,7 @@ void handRaster(benchmark::State& state, RasterQuality quality, double distanceM
 // geometry, scene, picture.
 void handRepaint(benchmark::State& state) {
   HandSceneBuilder drawing;
-  drawing.setHand(palpate::sdh2());
+  drawing.setHand(palpate::sdh2(), true);
   palpate::TactileFrame frame(palpate::sdh2().layout);
   for (int y = 3; y < 9; ++y)
     for (int x = 0; x < 6; ++x) {

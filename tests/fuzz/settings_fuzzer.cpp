@@ -71,8 +71,8 @@ void readSettings(const std::string& text) {
   const fs::path file = folder / (std::to_string(++number) + ".ini");
   std::ofstream(file, std::ios::binary) << text;
   {
-    QSettings settings(readableSettings(QString::fromStdString(file.string())),
-                       QSettings::IniFormat);
+    const SettingsPlace place = readableSettings(QString::fromStdString(file.string()));
+    QSettings settings(place.path, QSettings::IniFormat);
     for (const QString& key : settings.allKeys()) settings.value(key).toString();
     const ViewSettings view = loadViewSettings(settings);
     require(view.manualMax > view.manualMin && std::isfinite(view.speed));

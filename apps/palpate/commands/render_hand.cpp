@@ -97,7 +97,7 @@ gui::FramePictures::Paint handPainter(const HandRendering& view,
   options.page = page;
   options.look = view.look;
   gui::HandSceneBuilder drawing;
-  drawing.setHand(profile.hand());
+  drawing.setHand(profile.hand(), true);
   std::vector<Eigen::Vector3d> seen;
   for (std::size_t i = 0; i <= std::min(kLooks, span.count() - 1); ++i) {
     const std::size_t frame = span.first + (span.count() - 1) * i / kLooks;

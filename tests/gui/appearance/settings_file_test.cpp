@@ -3,8 +3,11 @@
 #include <QHeaderView>
 #include <QStandardItemModel>
 #include <QTableView>
+#include <QTemporaryDir>
+#include <csignal>
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
 
 #include "testing/testing.h"
@@ -21,7 +24,7 @@ class SettingsFileTest : public ::testing::Test {
   // What QSettings reads after the file was made safe.
   QVariant valueIn(const std::string& text, const char* key) {
     testing::writeFile(file(), text);
-    return QSettings(readableSettings(path()), QSettings::IniFormat).value(key);
+    return QSettings(readableSettings(path()).path, QSettings::IniFormat).value(key);
   }
 
   testing::TemporaryFolder folder_;
@@ -59,19 +62,77 @@ TEST_F(SettingsFileTest, AnObjectOverSeveralLinesPutsTheFileAside) {
 
 TEST_F(SettingsFileTest, AFifoIsPutAside) {
   ASSERT_EQ(::mkfifo(file().c_str(), 0600), 0);
-  EXPECT_EQ(readableSettings(path()), path());
+  EXPECT_EQ(readableSettings(path()).path, path());
   EXPECT_FALSE(fs::exists(file()));
 }
 
 TEST_F(SettingsFileTest, AHugeFileIsPutAside) {
   testing::writeFile(file(), "");
   fs::resize_file(file(), (64u << 20) + 1);
-  EXPECT_EQ(readableSettings(path()), path());
+  EXPECT_EQ(readableSettings(path()).path, path());
   EXPECT_FALSE(fs::exists(file()));
 }
 
 TEST_F(SettingsFileTest, NoFileIsNoFault) {
-  EXPECT_EQ(readableSettings(path()), path());
+  EXPECT_EQ(readableSettings(path()).path, path());
+  EXPECT_FALSE(fs::exists(file().string() + ".damaged"));
+}
+
+// As the versions before wrote them, by Qt itself.
+TEST_F(SettingsFileTest, GraspsThatAnEarlierVersionLeftOutOfTrainingStayLeftOut) {
+  const QString folder = QString::fromUtf8("/home/a b/Übung, \"1\"/f");
+  const QStringList grasps{"12 a.dsa", "345 sub/b;c.palpate"}, other{"0 x.dsa"};
+  {
+    QSettings before(path(), QSettings::IniFormat);
+    before.setValue("recognise/leftOut", QVariantMap{{folder, grasps}, {"/abc", other}});
+    before.setValue("recognise/featureSet", "best");
+  }
+  ASSERT_NE(testing::readFile(file()).find("@Variant("), std::string::npos);
+  const SettingsPlace place = readableSettings(path());
+  EXPECT_EQ(place.problem, "");
+  const QSettings now(place.path, QSettings::IniFormat);
+  EXPECT_EQ(now.value(leftOutKeyOf(folder)).toStringList(), grasps);
+  EXPECT_EQ(now.value(leftOutKeyOf("/abc")).toStringList(), other);
+  EXPECT_EQ(now.value("recognise/featureSet").toString(), "best");
+  EXPECT_FALSE(now.contains("recognise/leftOut"));
+}
+
+TEST_F(SettingsFileTest, AnotherFileIsPutAsideUnderAnotherName) {
+  for (const char* text : {"1", "2"}) {
+    testing::writeFile(file(), std::string("[a]\nbad=@Var\\\niant(\\0)\nn=") + text);
+    const SettingsPlace place = readableSettings(path());
+    EXPECT_EQ(place.path, path());
+    EXPECT_NE(place.problem, "");
+  }
+  EXPECT_TRUE(testing::readFile(file().string() + ".damaged").ends_with("n=1"));
+  EXPECT_TRUE(testing::readFile(file().string() + ".damaged2").ends_with("n=2"));
+}
+
+TEST_F(SettingsFileTest, AFileThatCannotBeReadNowStays) {
+  // A regular file whose first byte can't be read, by anybody.
+  fs::create_symlink("/proc/self/mem", file());
+  const SettingsPlace place = readableSettings(path());
+  EXPECT_NE(place.path, path());
+  EXPECT_TRUE(place.problem.contains("palpate.ini")) << place.problem.toStdString();
+  EXPECT_TRUE(place.problem.contains("aren't kept")) << place.problem.toStdString();
+  EXPECT_TRUE(fs::is_symlink(file()));
+  EXPECT_FALSE(fs::exists(file().string() + ".damaged"));
+}
+
+TEST_F(SettingsFileTest, AFileThatCannotBeWrittenNowStays) {
+  const std::string text = "[a]\nn=1\nbad=@Variant(\\0)\n";
+  testing::writeFile(file(), text);
+  rlimit before{};
+  ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &before), 0);
+  const auto handler = std::signal(SIGXFSZ, SIG_IGN);
+  const rlimit none{0, before.rlim_max};
+  ::setrlimit(RLIMIT_FSIZE, &none);
+  const SettingsPlace place = readableSettings(path());
+  ::setrlimit(RLIMIT_FSIZE, &before);
+  std::signal(SIGXFSZ, handler);
+  EXPECT_NE(place.path, path());
+  EXPECT_TRUE(place.problem.contains("can't be written")) << place.problem.toStdString();
+  EXPECT_EQ(testing::readFile(file()), text);
   EXPECT_FALSE(fs::exists(file().string() + ".damaged"));
 }
 

@@ -16,8 +16,9 @@
 #include "gui/calibrate/step_chart.h"
 #include "gui/calibrate/step_page.h"
 #include "gui/calibrate/tare_page.h"
+#include "gui/source/file_reading.h"
+#include "gui/testing/held_readings.h"
 #include "gui/testing/sample_profiles.h"
-#include "gui/testing/settle_files.h"
 
 namespace palpate::gui::calibrate_panel_test {
 namespace {
@@ -183,10 +184,33 @@ TEST_F(CalibratePanelTest, LinesOfATouchedHandAreNoNoiseAndNotApplied) {
     return QString::fromStdString((folder_ / "touched.json").string());
   };
   find<QPushButton>("noiseOpen")->click();
-  settleFiles(*panel_);
+  FileReading::settleAll(*panel_);
   EXPECT_EQ(applied.size(), 0);
   show("Noise", opened(warmingUp()));
   EXPECT_TRUE(find<QPushButton>("noiseApply")->isEnabled());
+}
+
+TEST_F(CalibratePanelTest, LinesThatWereChosenForOneHandAreNotAppliedToAnother) {
+  show("Noise", opened(warmingUp()));
+  panel_->noise().save(folder_ / "n.json");
+  panel_->noise().askForLines = [&] {
+    return QString::fromStdString((folder_ / "n.json").string());
+  };
+  QSignalSpy applied(&panel_->noise(), &NoisePage::applyRequested);
+  QSignalSpy said(&panel_->noise(), &NoisePage::said);
+  {
+    HeldReadings held;
+    find<QPushButton>("noiseOpen")->click();
+    panel_->setSource(opened(warmingUp()), false);
+  }
+  FileReading::settleAll(*panel_);
+  QCoreApplication::processEvents();
+  EXPECT_EQ(applied.size(), 0);
+  ASSERT_EQ(said.size(), 1);
+  EXPECT_TRUE(said[0][0].toString().startsWith("noise lines not applied"));
+  find<QPushButton>("noiseOpen")->click();
+  FileReading::settleAll(*panel_);
+  EXPECT_EQ(applied.size(), 1);
 }
 
 TEST_F(CalibratePanelTest, NoiseThatWasMeasuredLiveIsSavedWithItsOrigin) {

@@ -11,7 +11,6 @@
 #include "gui/export/export_controller.h"
 #include "gui/export/export_feature.h"
 #include "gui/source/event_editor.h"
-#include "gui/testing/settle_files.h"
 #include "gui/testing/window_fixture.h"
 #include "gui/timeline/timeline_chart.h"
 

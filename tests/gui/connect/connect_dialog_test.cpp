@@ -14,7 +14,7 @@
 #include "gui/connect/connect_fixture.h"
 #include "gui/connect/replay_page.h"
 #include "gui/connect/scene_page.h"
-#include "gui/testing/settle_files.h"
+#include "gui/source/file_reading.h"
 #include "gui/widgets/two_line_delegate.h"
 
 namespace palpate::gui::connect_dialog_test {
@@ -210,7 +210,7 @@ TEST_F(ConnectDialogTest, ASceneOfOnesOwn) {
   const QString other = file("other.json", "{}");
   dialog_->findChild<ScenePage*>()->askForScene = [&] { return other; };
   click("otherScene");
-  settleFiles(*dialog_);
+  FileReading::settleAll(*dialog_);
   EXPECT_EQ(dialog_->connection().scene, other);
   EXPECT_TRUE(canConnect());
   // One that was deleted since.

@@ -15,7 +15,7 @@
 
 #include "gui/connect/connect_dialog.h"
 #include "gui/connect/fake_ports.h"
-#include "gui/testing/settle_files.h"
+#include "gui/source/file_reading.h"
 #include "testing/testing.h"
 
 namespace palpate::gui {
@@ -62,7 +62,7 @@ class ConnectDialogTest : public ::testing::Test {
                                               *scan_,
                                               nullptr);
     dialog_->show();
-    settleFiles(*dialog_);
+    FileReading::settleAll(*dialog_);
   }
   ConnectDialog& openPorts(const QString& tactile = {}, const QString& motion = {}) {
     open({.kind = Connection::Kind::kPorts, .dsaPort = tactile, .sdhPort = motion});

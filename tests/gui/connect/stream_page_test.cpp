@@ -4,7 +4,8 @@
 #include <QSpinBox>
 
 #include "gui/connect/connect_fixture.h"
-#include "gui/testing/settle_files.h"
+#include "gui/source/file_reading.h"
+#include "gui/testing/held_readings.h"
 #include "gui/widgets/two_line_delegate.h"
 
 namespace palpate::gui::stream_page_test {
@@ -73,7 +74,7 @@ TEST_F(StreamPageTest, AFolderThatCannotBeUsedSaysWhyInOneLine) {
   const QString folder = addFolder("mine", wrong);
   page->askForFolder = [&] { return folder; };
   click("streamHandFolder");
-  settleFiles(*dialog_);
+  FileReading::settleAll(*dialog_);
   EXPECT_EQ(chosen().hand, folder);
   EXPECT_FALSE(canConnect());
   EXPECT_TRUE(problem().contains("matrices[0].rows is 0, not in 1..256"))
@@ -82,20 +83,39 @@ TEST_F(StreamPageTest, AFolderThatCannotBeUsedSaysWhyInOneLine) {
   // The file is read anew when the folder is chosen again.
   addFolder("mine", kPad);
   click("streamHandFolder");
-  settleFiles(*dialog_);
+  FileReading::settleAll(*dialog_);
   EXPECT_TRUE(canConnect());
   EXPECT_EQ(find<QComboBox>("streamHand")->currentText(), "mine");
   // Cancelled: nothing changes.
   page->askForFolder = [] { return QString(); };
   click("streamHandFolder");
-  settleFiles(*dialog_);
+  FileReading::settleAll(*dialog_);
   EXPECT_EQ(chosen().hand, folder);
   // Without a hand.json.
   page->askForFolder = [&] { return QString::fromStdString(folder_.path().string()); };
   click("streamHandFolder");
-  settleFiles(*dialog_);
+  FileReading::settleAll(*dialog_);
   EXPECT_FALSE(canConnect());
   EXPECT_TRUE(problem().contains("hand.json")) << problem().toStdString();
+}
+
+TEST_F(StreamPageTest, AnAnswerFromBeforeTheFolderWasChosenAgainIsDropped) {
+  openStream({.source = "udp:9871", .hand = "sole"});
+  auto* page = dialog_->findChild<StreamPage*>();
+  const QString folder = addFolder("mine", kPad);
+  page->askForFolder = [&] { return folder; };
+  HeldReadings held(1);
+  click("streamHandFolder");
+  held.await(1);
+  EXPECT_EQ(page->problem(), "The hand is being read.");
+  click("streamHandFolder");
+  FileReading::settleAll(*page);
+  EXPECT_TRUE(canConnect());
+  addFolder("mine", "{");
+  held.release();
+  FileReading::settleAll(*page);
+  QCoreApplication::processEvents();
+  EXPECT_TRUE(canConnect()) << "what the first one reads is no answer any more";
 }
 
 TEST_F(StreamPageTest, ALastHandThatIsGoneIsSaid) {

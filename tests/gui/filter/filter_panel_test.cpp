@@ -17,7 +17,8 @@
 #include <palpate/core/error.h>
 
 #include "gui/filter/filter_list.h"
-#include "gui/testing/settle_files.h"
+#include "gui/source/file_reading.h"
+#include "gui/testing/held_readings.h"
 #include "testing/testing.h"
 
 namespace palpate::gui::filter_panel_test {
@@ -161,16 +162,32 @@ TEST_F(FilterPanelTest, RecipesArePresetsAndFiles) {
   EXPECT_EQ(text(), "");
   panel_.askForRecipe = [&] { return folder.path() / "mine.json"; };
   trigger("Open a recipe…");
-  settleFiles(panel_);
+  FileReading::settleAll(panel_);
   EXPECT_TRUE(panel_.editor().recipe().sameSteps(recipePresets()[2]));
   QSignalSpy message(&panel_, &FilterPanel::message);
   testing::writeFile(folder / "bad.json", "{}");
   panel_.askForRecipe = [&] { return folder.path() / "bad.json"; };
   trigger("Open a recipe…");
-  settleFiles(panel_);
+  FileReading::settleAll(panel_);
   ASSERT_EQ(message.size(), 1);
   EXPECT_TRUE(message[0][0].toString().contains("bad.json"));
   EXPECT_TRUE(panel_.editor().recipe().sameSteps(recipePresets()[2]));
+}
+
+TEST_F(FilterPanelTest, ARecipeThatWasChosenForOneSourceIsNotOpenedForAnother) {
+  const testing::TemporaryFolder folder;
+  writeRecipe(folder / "r.json", recipePresets()[2], false);
+  panel_.askForRecipe = [&] { return folder.path() / "r.json"; };
+  QSignalSpy message(&panel_, &FilterPanel::message);
+  {
+    HeldReadings held;
+    trigger("Open a recipe…");
+    panel_.setSource({"a"}, 30.0, false);
+  }
+  FileReading::settleAll(panel_);
+  QCoreApplication::processEvents();
+  EXPECT_TRUE(panel_.editor().recipe().empty());
+  EXPECT_EQ(message.size(), 1);
 }
 
 }  // namespace

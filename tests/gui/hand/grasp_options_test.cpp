@@ -6,6 +6,7 @@
 #include <QToolButton>
 
 #include "calibration/sample_calibrations.h"
+#include "gui/hand/grasp_panel.h"
 #include "gui/hand/hand_dock_bench.h"
 
 namespace palpate::gui::grasp_options_test {
@@ -142,6 +143,37 @@ TEST_F(GraspOptionsTest, NewtonsAreRememberedForAHandWithACalibration) {
   dock_->setHand(bench_->session.get(), bench_->control.get());
   ASSERT_TRUE(await([&] { return unit->isEnabled(); }));
   EXPECT_EQ(unit->currentIndex(), 0);
+}
+
+TEST_F(GraspOptionsTest, WhileTheCalibrationIsReadALimitInNewtonsIsNoneInCounts) {
+  settings_.setValue("grasp/limit_in_newtons", true);
+  settings_.setValue("grasp/limit_n", 2.0);
+  bool beingRead = true;
+  dock_->calibrationBeingRead = [&](const std::string&) { return beingRead; };
+  connectTo(stillHand());
+  ASSERT_TRUE(await([&] { return isEnabled("graspHand"); }));
+  for (const char* each : {"reactiveGrasp", "slipAwareGrasp"}) {
+    EXPECT_FALSE(isEnabled(each)) << each;
+    EXPECT_EQ(find<QPushButton>(each)->toolTip(), "The calibration is being read");
+  }
+  EXPECT_TRUE(find<ValueSlider>("forceLimit")->isVisible());
+  EXPECT_FALSE(find<ValueSlider>("limit")->isVisible());
+  const GraspRequest request = dock_->findChild<GraspPanel*>()->request(GraspMode::kReactive);
+  EXPECT_EQ(request.forceLimitsN, std::vector<double>{2.0}) << "also of a step that is added";
+  EXPECT_THROW(bench_->control->grasp(request), std::exception);
+  // It was read.
+  beingRead = false;
+  dock_->calibrationOf = [](const std::string&) {
+    return std::optional(testing::linearCalibration({0.5, 150.0, false}));
+  };
+  dock_->renewCalibration();
+  EXPECT_TRUE(await([&] { return isEnabled("reactiveGrasp"); }));
+  EXPECT_TRUE(find<ValueSlider>("forceLimit")->isVisible());
+  // It is read anew: at once, and not at the next refresh.
+  beingRead = true;
+  dock_->calibrationOf = [](const std::string&) { return std::optional<Calibration>(); };
+  dock_->renewCalibration();
+  EXPECT_FALSE(isEnabled("reactiveGrasp"));
 }
 
 TEST_F(GraspOptionsTest, AGraspStopsAtTheForce) {

@@ -10,7 +10,7 @@
 #include "palpate/device/sdh2.h"
 
 #include "gui/hand/hand_dock_bench.h"
-#include "gui/testing/settle_files.h"
+#include "gui/source/file_reading.h"
 
 namespace palpate::gui::joint_panel_test {
 namespace {
@@ -244,7 +244,7 @@ TEST_F(JointPanelTest, APoseOfAnotherHandOrOutOfRangeIsRefusedInOneLine) {
     panel_->askForFileToOpen = [&] { return path; };
     why.clear();
     dock_->findChild<QAction*>("importPoses")->trigger();
-    settleFiles(*panel_);
+    FileReading::settleAll(*panel_);
   };
   SavedPose good{"good", sdh2().name, {0, 0, 20, 0, 0, 0, 0}};
   SavedPose foreign{"foreign", "another", {0, 0, 20, 0, 0, 0, 0}};
@@ -254,6 +254,13 @@ TEST_F(JointPanelTest, APoseOfAnotherHandOrOutOfRangeIsRefusedInOneLine) {
   EXPECT_FALSE(panel_->poses().load(sdh2().name, "good")) << "all or none";
   import("{");
   EXPECT_TRUE(why.contains("poses.json")) << why.toStdString();
+  import(posesText({good, good}));
+  EXPECT_EQ(why, "nothing imported: the pose 'good' is there twice");
+  std::vector<SavedPose> many(1001, good);
+  for (std::size_t i = 0; i < many.size(); ++i) many[i].name += std::to_string(i);
+  import(posesText(many));
+  EXPECT_EQ(why, "nothing imported: more than 1000 poses");
+  EXPECT_FALSE(panel_->poses().load(sdh2().name, "good")) << "all or none";
   import(posesText({good}));
   EXPECT_EQ(why, "");
   EXPECT_TRUE(panel_->poses().load(sdh2().name, "good"));

@@ -11,7 +11,8 @@
 #include "palpate/device/sdh2.h"
 
 #include "gui/hand/hand_dock_bench.h"
-#include "gui/testing/settle_files.h"
+#include "gui/source/file_reading.h"
+#include "gui/testing/held_readings.h"
 
 namespace palpate::gui::sequence_panel_test {
 namespace {
@@ -122,7 +123,7 @@ TEST_F(SequencePanelTest, FilesAreReadWholeOrNotAtAll) {
   dock_->findChild<QAction*>("saveSequence")->trigger();
   add("addWait");
   dock_->findChild<QAction*>("openSequence")->trigger();
-  settleFiles(*panel_);
+  FileReading::settleAll(*panel_);
   EXPECT_EQ(find<QListWidget>("sequenceSteps")->count(), 1);
   MotionSequence foreign = panel_->sequence();
   foreign.hand = "another";
@@ -134,9 +135,40 @@ TEST_F(SequencePanelTest, FilesAreReadWholeOrNotAtAll) {
   QObject::connect(
       panel_, &SequencePanel::refused, panel_, [&](const QString& said) { why = said; });
   dock_->findChild<QAction*>("openSequence")->trigger();
-  settleFiles(*panel_);
+  FileReading::settleAll(*panel_);
   EXPECT_TRUE(why.contains("of another hand: another")) << why.toStdString();
   EXPECT_EQ(panel_->sequence().hand, sdh2().name) << "the table stays";
+}
+
+TEST_F(SequencePanelTest, ATableThatIsBeingReadTakesThePlaceOfThisOneOnlyWhileNoneRuns) {
+  connectAndOpen();
+  add("addOpen");
+  const QString path = QString::fromStdString((folder_ / "s.json").string());
+  panel_->askForFileToSave = panel_->askForFileToOpen = [&] { return path; };
+  dock_->findChild<QAction*>("saveSequence")->trigger();
+  find<QDoubleSpinBox>("stepSeconds")->setValue(60.0);
+  add("addHold");
+  ASSERT_TRUE(await([&] { return isEnabled("startSequence"); }));
+  QString why;
+  QObject::connect(
+      panel_, &SequencePanel::refused, panel_, [&](const QString& said) { why = said; });
+  {
+    HeldReadings held;
+    dock_->findChild<QAction*>("openSequence")->trigger();
+    for (const char* each : {"startSequence", "addStep", "removeStep", "sequenceFile"})
+      EXPECT_FALSE(isEnabled(each)) << each;
+    EXPECT_EQ(find<QPushButton>("startSequence")->toolTip(), "A sequence is being read");
+  }
+  FileReading::settleAll(*panel_);
+  EXPECT_EQ(panel_->sequence().steps.size(), 1u);
+  EXPECT_TRUE(isEnabled("addStep"));
+  add("addHold");
+  click("startSequence");
+  ASSERT_TRUE(await([&] { return panel_->running(); }));
+  dock_->findChild<QAction*>("openSequence")->trigger();
+  FileReading::settleAll(*panel_);
+  EXPECT_EQ(panel_->sequence().steps.size(), 2u) << "the one that runs";
+  EXPECT_EQ(why, "s.json: not opened: a sequence runs");
 }
 
 TEST_F(SequencePanelTest, ASlipAwareStepNeedsATimeToHold) {

@@ -32,8 +32,12 @@ class StopInTheWindow {
     window_->close();
     await([&] { return !window_->isVisible(); });
   }
-  // Escape, so long after the call of the grasp.
-  void pressAfter(std::int64_t pressUs, const GraspRequest& request) {
+  MainWindow& window() { return *window_; }
+  const std::filesystem::path& folder() const { return folder_.path(); }
+  // Escape, so long after the call of the grasp; `before` is called just before.
+  void pressAfter(std::int64_t pressUs,
+                  const GraspRequest& request,
+                  const std::function<void()>& before = {}) {
     bench_.log.clear();
     const std::int64_t askedUs = systemClock().monotonicUs();
     ASSERT_TRUE(await([&] { return canReact(); }));
@@ -48,6 +52,7 @@ class StopInTheWindow {
       QCoreApplication::processEvents();
       testing::sleepUntilUs(std::min(nowUs + 100, pressAtUs));
     }
+    if (before) before();
     const std::int64_t pressedUs = systemClock().monotonicUs();
     QTest::keyClick(window_.get(), Qt::Key_Escape);
     ASSERT_TRUE(await([&] { return bench_.log.firstSince("stop", pressedUs).has_value(); }))

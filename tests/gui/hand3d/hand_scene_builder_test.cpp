@@ -21,7 +21,7 @@ const std::vector<double> kPose = {0.0, -10.0, 20.0, -10.0, 20.0, -10.0, 20.0};
 class HandSceneBuilderTest : public ::testing::Test {
  protected:
   HandSceneBuilderTest() {
-    drawing_.setHand(sdh2());
+    drawing_.setHand(sdh2(), true);
     frame_.matrix(1)(4, 2) = 100.0F;
     frame_.matrix(1)(4, 3) = 200.0F;
     frame_.matrix(5)(5, 2) = 50.0F;
@@ -102,7 +102,7 @@ TEST_F(HandSceneBuilderTest, SphereAndContactsAreThoseOfTheContactGeometry) {
 // A hand without axes needs no angles, and none of an earlier hand are assumed.
 TEST_F(HandSceneBuilderTest, AHandWithoutAxesIsPosedByItsFrame) {
   const HandDescription& pad = builtInHand("flat_pad_16x16");
-  drawing_.setHand(pad);
+  drawing_.setHand(pad, true);
   EXPECT_FALSE(drawing_.posed());
   TactileFrame frame;
   frame.layout = pad.layout;
@@ -193,7 +193,7 @@ TEST_F(HandSceneBuilderTest, ABarIsAsHighAsItsShareOfTheRange) {
 
 TEST_F(HandSceneBuilderTest, ASensorOfUnknownGeometryIsLaidFlat) {
   const SensorLayout pad({MatrixLayout::full(8, 8, 4.0)});
-  drawing_.setHand(describeHand(pad, 0, 0));
+  drawing_.setHand(describeHand(pad, 0, 0), true);
   EXPECT_FALSE(drawing_.hasGeometry());
   TactileFrame frame(drawing_.hand().layout);
   frame.matrix(0)(3, 3) = 5.0F;

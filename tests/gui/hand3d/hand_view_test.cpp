@@ -6,14 +6,18 @@
 
 #include "palpate/device/sdh2.h"
 #include <palpate/emulator/synthetic_profile.h>
+#include <palpate/model/profile_builder.h>
 #include <palpate/recording/palpate_writer.h>
 
 #include "gui/export/export_controller.h"
 #include "gui/export/export_feature.h"
 #include "gui/hand3d/hand3d_feature.h"
+#include "gui/hand3d/hand_frame_painter.h"
 #include "gui/hand3d/hand_panel.h"
 #include "gui/matrices/matrices_feature.h"
 #include "gui/matrices/matrices_panel.h"
+#include "gui/testing/held_readings.h"
+#include "gui/testing/mesh_hand.h"
 #include "gui/testing/sample_profiles.h"
 #include "gui/testing/window_fixture.h"
 
@@ -165,6 +169,89 @@ TEST_F(HandViewTest, OtherTaxelsScannedAreTheSameHandSeenFromTheSamePlace) {
   masked.layout = std::make_shared<const SensorLayout>(matrices);
   view_.setHand(masked);
   EXPECT_EQ(view_.camera(), chosen);
+}
+
+class MeshHandTest : public HandViewTest {
+ protected:
+  MeshHandTest() : hand_(meshHand(folder_.path())) { writeMesh(folder_.path()); }
+  HandDescription withTaxels(std::uint8_t scanned) const {
+    std::vector<MatrixLayout> matrices = hand_.layout->matrices();
+    matrices[0].dynamicMask.assign(matrices[0].numCells(), scanned);
+    HandDescription masked = hand_;
+    masked.layout = std::make_shared<const SensorLayout>(matrices);
+    return masked;
+  }
+
+  const testing::TemporaryFolder folder_;
+  HandDescription hand_;
+};
+
+TEST_F(MeshHandTest, TheFirstViewHasTheBodyInItWhenItWasRead) {
+  HeldReadings held;
+  view_.setHand(hand_);
+  const double before = view_.camera().distanceMm;
+  held.release();
+  FileReading::settleAll(view_);
+  EXPECT_GT(view_.camera().distanceMm, 4.0 * before) << "300 mm instead of 8";
+}
+
+TEST_F(MeshHandTest, TheBodyComesIntoTheViewOfARecording) {
+  HeldReadings held;
+  view_.setHand(hand_);
+  const double small = view_.camera().distanceMm;
+  // What the recording needs.
+  view_.setExtent({{0, 0, 0}, {0, 0, 2000}});
+  const double before = view_.camera().distanceMm;
+  ASSERT_GT(before, small);
+  held.release();
+  FileReading::settleAll(view_);
+  EXPECT_GE(view_.camera().distanceMm, before) << "the recording's extent still counts";
+}
+
+TEST_F(MeshHandTest, AViewThatTheUserMovedStays) {
+  HeldReadings held;
+  view_.setHand(hand_);
+  view_.zoomBy(2.0);
+  const HandCamera chosen = view_.camera();
+  held.release();
+  FileReading::settleAll(view_);
+  EXPECT_EQ(view_.camera(), chosen);
+}
+
+TEST_F(MeshHandTest, OtherScannedTaxelsDoNotReadTheBodyAgain) {
+  view_.setHand(hand_);
+  FileReading::settleAll(view_);
+  ASSERT_TRUE(view_.drawing().drawsMeshes());
+  const HeldReadings held;
+  view_.setHand(withTaxels(0));
+  EXPECT_TRUE(view_.drawing().drawsMeshes());
+  for (const FileReading* reading : view_.findChildren<FileReading*>())
+    EXPECT_FALSE(reading->busy());
+}
+
+// An export is prepared in the window's thread, where no file is read.
+TEST_F(MeshHandTest, PicturesReadTheBodyWhenTheyArePainted) {
+  ProfileBuilder builder(hand_);
+  builder.addFrame(1'400'000'000'000'000, std::vector<float>(16, 0.0F));
+  const Profile profile = builder.finish({});
+  view_.setHand(hand_);
+  FileReading::settleAll(view_);
+  HandPictureOptions options = view_.pictureOptions({});
+  options.page.size = QSizeF(200, 150);
+  options.page.title.clear();
+  const auto painted = [&](const FramePictures::Paint& paint) {
+    QImage image(200, 150, QImage::Format_ARGB32_Premultiplied);
+    image.fill(Qt::white);
+    QPainter painter(&image);
+    paint(painter, 0);
+    return image;
+  };
+  const QImage whole = painted(handFramePainter(profile, options, {}));
+  std::filesystem::remove(folder_ / "body.stl");
+  EXPECT_NE(painted(handFramePainter(profile, options, {})), whole) << "the body is seen";
+  const auto paint = handFramePainter(profile, options, {});
+  writeMesh(folder_.path());
+  EXPECT_EQ(painted(paint), whole);
 }
 
 TEST_F(HandViewTest, SaysWhatIsUnderTheMouse) {

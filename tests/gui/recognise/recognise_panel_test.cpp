@@ -17,7 +17,7 @@
 #include "gui/recognise/recognise_fixture.h"
 #include "gui/recognise/today_page.h"
 #include "gui/recognise/training_page.h"
-#include "gui/testing/settle_files.h"
+#include "gui/source/file_reading.h"
 #include "gui/widgets/figures_table.h"
 
 namespace palpate::gui::recognise_panel_test {
@@ -381,7 +381,7 @@ TEST_F(RecognisePanelTest, APhotoIsFoundByItsName) {
   shelf.setFolders({folder_.path()});
   QSignalSpy changed(&shelf, &PhotoCache::changed);
   EXPECT_TRUE(shelf.photo("foam ball").isNull()) << "it is being read";
-  settleFiles(shelf);
+  FileReading::settleAll(shelf);
   EXPECT_EQ(changed.count(), 1);
   EXPECT_EQ(shelf.photo("foam ball").size(), QSize(40, 20));
   EXPECT_TRUE(shelf.photo("pen").isNull());

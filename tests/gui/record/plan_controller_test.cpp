@@ -5,6 +5,7 @@
 #include <palpate/core/error.h>
 #include <palpate/recording/recording.h>
 
+#include "gui/testing/held_readings.h"
 #include "gui/testing/sample_profiles.h"
 #include "testing/testing.h"
 
@@ -179,8 +180,8 @@ TEST_F(PlanControllerTest, ATableReplacesThePlanOrChangesNothing) {
   std::string many = "object,repetitions\n";
   for (int i = 0; i < 200; ++i) many += "ball,x\n";
   EXPECT_EQ(refusal(many),
-            "plan.csv: line 2, repetitions: 'x' is not a whole number, and more; the plan is as it "
-            "was");
+            "plan.csv: more than 100 problems, the first: line 2, repetitions: 'x' is not a whole "
+            "number; the plan is as it was");
   EXPECT_NE(refusalOf(folder_ / "none.csv"), "");
   EXPECT_EQ(controller_.plan(), before);
   EXPECT_EQ(refusal("object,repetitions\npen,4\n"), "");
@@ -188,6 +189,36 @@ TEST_F(PlanControllerTest, ATableReplacesThePlanOrChangesNothing) {
   controller_.exportCsv(folder_ / "out.csv");
   EXPECT_EQ(testing::readFile(folder_ / "out.csv"),
             "object,run,repetitions,notes,done\npen,,4,,0\n");
+}
+
+TEST_F(PlanControllerTest, ATableDoesNotReplaceAPlanThatChangedOrIsBeingRecorded) {
+  testing::writeFile(folder_ / "plan.csv", "object\npen\n");
+  QSignalSpy imported(&controller_, &PlanController::imported);
+  {
+    HeldReadings held;
+    controller_.importCsv(folder_ / "plan.csv");
+    EXPECT_TRUE(controller_.importing());
+    controller_.addRow({.object = "late"});
+  }
+  controller_.settle();
+  EXPECT_FALSE(controller_.importing());
+  ASSERT_EQ(controller_.plan().rows().size(), 3u);
+  EXPECT_EQ(controller_.plan().rows().back().object, "late");
+  ASSERT_EQ(imported.size(), 1);
+  EXPECT_EQ(imported[0][0].toString(), "plan.csv: not imported: the plan has changed meanwhile");
+  {
+    HeldReadings held;
+    controller_.importCsv(folder_ / "plan.csv");
+    controller_.begin(0.0);
+  }
+  controller_.settle();
+  EXPECT_EQ(controller_.plan().rows().size(), 3u);
+  ASSERT_EQ(imported.size(), 2);
+  EXPECT_EQ(imported[1][0].toString(),
+            "plan.csv: not imported: a take of the plan is being recorded");
+  controller_.end(recorded("a.palpate"));
+  controller_.settle();
+  EXPECT_EQ(controller_.progressText(), "1 of 4") << "the take is one of its row";
 }
 
 TEST_F(PlanControllerTest, RenamedAndDiscardedTakesAreFollowed) {

@@ -6,6 +6,7 @@
 #include <QLabel>
 #include <QPushButton>
 #include <QScrollBar>
+#include <QSignalSpy>
 #include <QSpinBox>
 #include <QTableView>
 
@@ -13,6 +14,7 @@
 
 #include "gui/appearance/text_size.h"
 #include "gui/record/plan_model.h"
+#include "gui/testing/held_readings.h"
 #include "gui/testing/layout_faults.h"
 #include "gui/window_state/window_state_fixture.h"
 
@@ -47,6 +49,26 @@ class PlanDialogTest : public WindowStateTest {
   int recorded_ = 0;
   std::unique_ptr<PlanDialog> dialog_;
 };
+
+TEST_F(PlanDialogTest, WhileATableIsReadThePlanIsNotEditedAndAFailureIsToldAnywhere) {
+  testing::writeFile(folder_ / "p.csv", "object,repetitions\nball,x\n");
+  QSignalSpy failed(&windowState_->messages, &Messages::failed);
+  {
+    HeldReadings held;
+    controller_.importCsv(folder_ / "p.csv");
+    for (const char* each : {"planAdd", "planImport"})
+      EXPECT_FALSE(find<QPushButton>(each)->isEnabled()) << each;
+    EXPECT_FALSE(table()->flags(table()->index(0, 0)).testFlag(Qt::ItemIsEditable));
+    EXPECT_FALSE(table()->setData(table()->index(0, 0), "cone"));
+    EXPECT_EQ(cell(0, PlanModel::kObject), "ball");
+    dialog_->hide();
+  }
+  controller_.settle();
+  EXPECT_TRUE(find<QPushButton>("planAdd")->isEnabled());
+  EXPECT_TRUE(table()->flags(table()->index(0, 0)).testFlag(Qt::ItemIsEditable));
+  ASSERT_EQ(failed.size(), 1);
+  EXPECT_TRUE(failed[0][1].toString().contains("'x' is not a whole number"));
+}
 
 TEST_F(PlanDialogTest, ShowsThePlanAndWhatComesNext) {
   EXPECT_EQ(find<QLabel>("planProgress")->text(), "0 of 3");

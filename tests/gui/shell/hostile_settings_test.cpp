@@ -112,7 +112,7 @@ TEST_P(HostileSettingsTest, TheWindowStartsAndShowsARecording) {
 INSTANTIATE_TEST_SUITE_P(AllValues,
                          HostileSettingsTest,
                          ::testing::ValuesIn(hostileValues()),
-                         [](const auto& instance) { return std::string(instance.param.name); });
+                         [](const auto& hostile) { return std::string(hostile.param.name); });
 
 TEST(HostileSettingsKeys, AreFound) {
   const std::set<QString> found = keys();

@@ -1,7 +1,10 @@
 // What the window remembers, and how it is put back.
 #include <QDockWidget>
+#include <QSplitter>
 #include <QToolButton>
+#include <cstdlib>
 
+#include "gui/appearance/settings_file.h"
 #include "gui/inspect/matrix_table.h"
 #include "gui/matrices/matrices_view.h"
 #include "gui/testing/window_fixture.h"
@@ -57,6 +60,30 @@ TEST_F(WindowLayoutTest, HiddenAndMovedDocksAreRemembered) {
   EXPECT_FALSE(dock("Inspect")->isVisible());
   EXPECT_TRUE(dock("Timeline")->isVisible());
   EXPECT_EQ(window().dockWidgetArea(dock("Timeline")), Qt::TopDockWidgetArea);
+}
+
+TEST_F(WindowLayoutTest, SizesOfTheViewsAreRememberedAlsoWhenOneIsHidden) {
+  open({"good.dsa"});
+  actions().at("matricesShown")->setChecked(true);
+  auto* views = find<QSplitter>("views");
+  actions().at("handShown")->trigger();
+  if (views->sizes().contains(0)) actions().at("handShown")->trigger();
+  QCoreApplication::processEvents();
+  ASSERT_FALSE(views->sizes().contains(0));
+  // As with the mouse.
+  QSplitterHandle* handle = views->handle(1);
+  QTest::mousePress(handle, Qt::LeftButton, {}, handle->rect().center());
+  QTest::mouseMove(handle, handle->rect().center() + QPoint(80, 0));
+  QTest::mouseRelease(handle, Qt::LeftButton, {}, handle->rect().center() + QPoint(80, 0));
+  QCoreApplication::processEvents();
+  const QList<int> chosen = views->sizes();
+  ASSERT_GT(std::abs(chosen[0] - chosen[1]), 60);
+  actions().at("handShown")->trigger();
+  QCoreApplication::processEvents();
+  ASSERT_TRUE(views->sizes().contains(0));
+  window().close();
+  const QSettings kept(settingsFile(), QSettings::IniFormat);
+  EXPECT_EQ(storedNumbers(kept, "window/views", 2, 1, 100'000), chosen);
 }
 
 TEST_F(WindowLayoutTest, TheStartPageBetweenDoesNotLoseTheLayout) {

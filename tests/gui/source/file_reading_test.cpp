@@ -3,9 +3,13 @@
 #include <QSignalSpy>
 #include <QThread>
 #include <future>
+#include <memory>
 #include <stdexcept>
+#include <vector>
 
 #include <gtest/gtest.h>
+
+#include "gui/testing/held_readings.h"
 
 namespace palpate::gui::file_reading_test {
 namespace {
@@ -21,29 +25,6 @@ class FileReadingTest : public ::testing::Test {
 
   FileReading reading_;
   QStringList said_;
-};
-
-// A file that doesn't answer, as one of a dead network folder.
-class DeadFile {
- public:
-  ~DeadFile() {
-    end();
-    ended_.get_future().wait();
-  }
-  FileReading::Work read(std::function<void()> taken) {
-    return [this, gate = gate_.get_future().share(), taken] {
-      gate.wait();
-      ended_.set_value();
-      return taken;
-    };
-  }
-  void end() {
-    if (!std::exchange(open_, true)) gate_.set_value();
-  }
-
- private:
-  std::promise<void> gate_, ended_;
-  bool open_ = false;
 };
 
 TEST_F(FileReadingTest, TheWorkRunsElsewhereAndTheAnswerComesHere) {
@@ -72,11 +53,12 @@ TEST_F(FileReadingTest, AFailureIsSaid) {
 }
 
 TEST_F(FileReadingTest, AReplacedQuestionIsNeverAnswered) {
-  DeadFile dead;
-  reading_.start(dead.read([this] { said_.append("old"); }), failed());
+  HeldReadings held(1);
+  reading_.start(reads("old"), failed());
+  held.await(1);
   reading_.start(reads("new"), failed());
   reading_.settle();
-  dead.end();
+  held.release();
   QCoreApplication::processEvents();
   EXPECT_EQ(said_, QStringList("new"));
 }
@@ -96,23 +78,60 @@ TEST_F(FileReadingTest, AnAnswerThatIsUnderWayWhileItsQuestionIsReplacedIsDroppe
 }
 
 TEST_F(FileReadingTest, LeavingDoesNotWaitForAFileThatDoesNotAnswer) {
-  DeadFile dead;
+  HeldReadings held;
   {
     FileReading left;
-    left.start(dead.read([this] { said_.append("old"); }), failed());
+    left.start(reads("old"), failed());
+    held.await(1);
   }
-  dead.end();
+  held.release();
   QCoreApplication::processEvents();
   EXPECT_TRUE(said_.isEmpty());
 }
 
 TEST_F(FileReadingTest, AbandonedItIsNotBusy) {
-  DeadFile dead;
-  reading_.start(dead.read([] {}), failed());
+  HeldReadings held;
+  reading_.start(reads("old"), failed());
   QSignalSpy finished(&reading_, &FileReading::finished);
   reading_.abandon();
   EXPECT_FALSE(reading_.busy());
   EXPECT_EQ(finished.count(), 1);
+}
+
+TEST_F(FileReadingTest, AllAreAwaitedAlsoWhenAnAnswerDestroysAnother) {
+  QObject root;
+  auto* first = new FileReading(&root);
+  auto* second = new FileReading(&root);
+  HeldReadings held(1);
+  second->start(reads("second"), failed());
+  held.await(1);
+  first->start([&] { return [&] { delete second; }; }, failed());
+  FileReading::settleAll(root);
+  EXPECT_FALSE(first->busy());
+  EXPECT_TRUE(said_.isEmpty());
+}
+
+TEST_F(FileReadingTest, TheEndOfTheProgramSeesThatAThreadStillReads) {
+  HeldReadings held;
+  reading_.start(reads("old"), failed());
+  reading_.abandon();
+  EXPECT_FALSE(FileReading::awaitThreads(std::chrono::milliseconds(1)));
+  held.release();
+  EXPECT_TRUE(FileReading::awaitThreads(std::chrono::milliseconds(1)));
+}
+
+TEST_F(FileReadingTest, MoreReadingsThanThereMayBeAreRefused) {
+  HeldReadings held;
+  std::vector<std::unique_ptr<FileReading>> all;
+  for (int i = 0; i < 256; ++i) {
+    all.push_back(std::make_unique<FileReading>());
+    all.back()->start(reads("read"), failed());
+  }
+  reading_.start(reads("read"), failed());
+  EXPECT_TRUE(said_.isEmpty()) << "not before the events are processed";
+  reading_.settle();
+  ASSERT_EQ(said_.size(), 1);
+  EXPECT_TRUE(said_[0].startsWith("nothing is read: too many files"));
 }
 
 }  // namespace

@@ -6,7 +6,7 @@
 #include <palpate/emulator/synthetic_profile.h>
 
 #include "gui/slip/slip_fixture.h"
-#include "gui/testing/settle_files.h"
+#include "gui/source/file_reading.h"
 #include "gui/widgets/message_banner.h"
 
 namespace palpate::gui {
@@ -66,7 +66,7 @@ void WindowTest::waitUntilOpened() {
   QSignalSpy finished(&window_->state().opener, &RecordingOpener::finished);
   while (window_->state().opener.busy())
     if (!finished.wait(10'000)) FAIL() << "opening doesn't end";
-  settleFiles(*window_);
+  FileReading::settleAll(*window_);
   QCoreApplication::processEvents();
 }
 

@@ -21,7 +21,8 @@
 #include "gui/matrices/matrices_feature.h"
 #include "gui/matrices/matrices_panel.h"
 #include "gui/matrices/matrices_view.h"
-#include "gui/testing/settle_files.h"
+#include "gui/source/file_reading.h"
+#include "gui/testing/held_readings.h"
 #include "gui/testing/window_fixture.h"
 #include "gui/timeline/cursor_readout.h"
 #include "gui/timeline/curve_statistics.h"
@@ -193,20 +194,20 @@ TEST_F(EventsWindowTest, LabelsGoOutAsATableAndComeBack) {
             "2.000000,2.000000,label,touch,\n"
             "3.000000,4.000000,note,\"slow, \"\"very\"\"\",\n");
   actions().at("importLabels")->trigger();
-  settleFiles(window());
+  FileReading::settleAll(window());
   EXPECT_EQ(window().state().events.editor()->events().size(), 2u) << "they are there already";
   const auto before = window().state().events.editor()->events();
   press(Qt::Key_Z, Qt::ControlModifier);
   press(Qt::Key_Z, Qt::ControlModifier);
   EXPECT_EQ(window().state().events.editor()->events().size(), 0u);
   actions().at("importLabels")->trigger();
-  settleFiles(window());
+  FileReading::settleAll(window());
   EXPECT_EQ(window().state().events.editor()->events(), before);
   press(Qt::Key_Z, Qt::ControlModifier);
   EXPECT_EQ(window().state().events.editor()->events().size(), 0u) << "undone at once";
   testing::writeFile(table.toStdString(), "begin_s,text\n1,good\nx,bad\n");
   actions().at("importLabels")->trigger();
-  settleFiles(window());
+  FileReading::settleAll(window());
   EXPECT_EQ(window().state().events.editor()->events().size(), 1u);
   EXPECT_TRUE(bannerText().contains("line 3: begin_s 'x' is not a number"))
       << bannerText().toStdString();
@@ -214,12 +215,40 @@ TEST_F(EventsWindowTest, LabelsGoOutAsATableAndComeBack) {
   EXPECT_EQ(bannerText(), "") << "nothing of the import is left";
   testing::writeFile(table.toStdString(), "no table");
   actions().at("importLabels")->trigger();
-  settleFiles(window());
+  FileReading::settleAll(window());
   EXPECT_TRUE(bannerText().contains("begin_s and text")) << bannerText().toStdString();
   testing::writeFile(table.toStdString(), "begin_s,text\n1,good\n");
   actions().at("importLabels")->trigger();
-  settleFiles(window());
+  FileReading::settleAll(window());
   EXPECT_EQ(bannerText(), "") << "the next import was right";
+}
+
+TEST_F(EventsWindowTest, LabelsComeIntoTheRecordingThatWasShownOrItIsSaid) {
+  const QString table = QString::fromStdString((folder_ / "x.csv").string());
+  testing::writeFile(table.toStdString(), "begin_s,text\n1,good\n");
+  window().state().prompts.file = [&](auto&&...) { return table; };
+  EventEditor* editor = window().state().events.editor();
+  {
+    HeldReadings held;
+    actions().at("importLabels")->trigger();
+    EXPECT_EQ(window().state().messages.flashed(), "reading x.csv…");
+    window().state().open({file("good.dsa")});
+    QSignalSpy finished(&window().state().opener, &RecordingOpener::finished);
+    while (window().state().opener.busy()) ASSERT_TRUE(finished.wait(10'000));
+    ASSERT_NE(window().state().events.editor(), editor);
+  }
+  FileReading::settleAll(window());
+  EXPECT_EQ(editor->events().size(), 1u);
+  EXPECT_TRUE(window().state().events.editor()->events().empty());
+  window().state().prompts.unsaved = [](const QString&) { return UserPrompts::Unsaved::kDiscard; };
+  {
+    HeldReadings held;
+    actions().at("importLabels")->trigger();
+    press(Qt::Key_W, Qt::ControlModifier);
+  }
+  FileReading::settleAll(window());
+  EXPECT_EQ(window().state().messages.flashed(),
+            "x.csv: no labels added, the recording was closed");
 }
 
 TEST_F(EventsWindowTest, EachGraspIsExportedWithItsLabels) {

@@ -2,10 +2,14 @@
 
 #include <QGuiApplication>
 #include <QHeaderView>
+#include <QMap>
 #include <QScreen>
 #include <QSplitter>
+#include <QTemporaryDir>
+#include <QUrl>
 #include <QWidget>
 #include <algorithm>
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -32,9 +36,10 @@ int digitOf(char c) {
   return 16;
 }
 
-// The text as QSettings reads values: without quotes, with escaped characters.
+// The text as QSettings reads values: without quotes, with escaped characters; those beyond Latin-1
+// become '?'.
 std::string unescaped(std::string_view text) {
-  constexpr std::string_view kControls = "abfnrtv";
+  constexpr std::string_view kControls = "abfnrtv", kControlBytes = "\a\b\f\n\r\t\v";
   std::string plain;
   for (std::size_t i = 0; i < text.size(); ++i) {
     if (text[i] == '"') continue;
@@ -50,15 +55,15 @@ std::string unescaped(std::string_view text) {
       for (; at < text.size() && digitOf(text[at]) < base; ++at)
         value = (value * static_cast<unsigned>(base) + static_cast<unsigned>(digitOf(text[at]))) &
                 0xffffu;
-      plain += value < 0x80u ? static_cast<char>(value) : '?';
+      plain += value < 0x100u ? static_cast<char>(value) : '?';
       i = at - 1;
     } else if (kind == '\n' || kind == '\r') {
       // Two different ones end one line.
       if (i + 1 < text.size() && text[i + 1] != kind &&
           (text[i + 1] == '\n' || text[i + 1] == '\r'))
         ++i;
-    } else if (kControls.find(kind) != std::string_view::npos) {
-      plain += ' ';
+    } else if (const std::size_t at = kControls.find(kind); at != std::string_view::npos) {
+      plain += kControlBytes[at];
     } else if (kind == '"' || kind == '?' || kind == '\'' || kind == '\\') {
       plain += kind;
     }
@@ -72,14 +77,111 @@ bool holdsObjects(std::string_view text) {
          plain.find("@DateTime(") != std::string::npos;
 }
 
-std::string withoutObjects(std::string_view text) {
+// Reads the bytes of a QVariantMap of lists of texts, as Qt wrote them into settings. Throws
+// FormatError when they are anything else.
+class OldMap {
+ public:
+  explicit OldMap(std::string_view bytes) : bytes_(bytes) {}
+
+  QMap<QString, QStringList> read() {
+    expect(kMapType);
+    QMap<QString, QStringList> map;
+    for (std::uint32_t count = number(); count > 0; --count) {
+      const QString key = text();
+      expect(kTextsType);
+      QStringList& texts = map[key];
+      for (std::uint32_t size = number(); size > 0; --size) texts.append(text());
+    }
+    return map;
+  }
+
+ private:
+  static constexpr std::uint32_t kMapType = 8, kTextsType = 11;
+
+  // Each text takes four bytes at least, so that a wrong count ends here.
+  std::string_view take(std::size_t size) {
+    if (size > bytes_.size()) throw FormatError("settings", "a value ends too early");
+    const std::string_view taken = bytes_.substr(0, size);
+    bytes_.remove_prefix(size);
+    return taken;
+  }
+  std::uint32_t number() {
+    std::uint32_t value = 0;
+    for (const char byte : take(4)) value = value << 8u | static_cast<unsigned char>(byte);
+    return value;
+  }
+  void expect(std::uint32_t type) {
+    if (number() != type) throw FormatError("settings", "a value is of another type");
+  }
+  QString text() {
+    const std::string_view utf16 = take(number());
+    QString text;
+    for (std::size_t i = 0; i + 1 < utf16.size(); i += 2)
+      text += QChar(static_cast<unsigned char>(utf16[i + 1]), static_cast<unsigned char>(utf16[i]));
+    return text;
+  }
+
+  std::string_view bytes_;
+};
+
+using LeftOut = QMap<QString, QStringList>;
+
+// The grasps that a version before left out of training, by folder.
+void addOldLeftOut(std::string_view line, LeftOut& leftOut) {
+  constexpr std::string_view kKey = "leftOut=", kObject = "@Variant(";
+  if (!line.starts_with(kKey)) return;
+  const std::string value = unescaped(line.substr(kKey.size()));
+  const std::size_t end = value.rfind(')');
+  if (!value.starts_with(kObject) || end == std::string::npos) return;
+  try {
+    leftOut.insert(OldMap(std::string_view(value).substr(0, end).substr(kObject.size())).read());
+  } catch (const FormatError&) {
+    // It is an object of another kind.
+  }
+}
+
+std::string withoutObjects(std::string_view text, LeftOut& leftOut) {
   std::string kept;
+  bool ofRecognition = false;
   while (!text.empty()) {
     const std::string_view line = text.substr(0, std::min(text.find('\n'), text.size() - 1) + 1);
-    if (!holdsObjects(line)) kept += line;
+    if (line.starts_with('[')) ofRecognition = line.starts_with("[recognise]");
+    if (!holdsObjects(line))
+      kept += line;
+    else if (ofRecognition)
+      addOldLeftOut(line, leftOut);
     text.remove_prefix(line.size());
   }
   return kept;
+}
+
+void writeSettings(const fs::path& file, const std::string& text, const LeftOut& leftOut) {
+  OutputFile out(file, Overwrite::kReplace);
+  out.write(text);
+  out.commit();
+  if (leftOut.isEmpty()) return;
+  QSettings settings(QString::fromStdString(file.string()), QSettings::IniFormat);
+  for (const auto& [folder, grasps] : leftOut.asKeyValueRange())
+    settings.setValue(leftOutKeyOf(folder), grasps);
+}
+
+SettingsPlace ofThisSession(const QString& why) {
+  auto folder = std::make_shared<QTemporaryDir>();
+  return {.path = folder->filePath("palpate.ini"),
+          .problem = why + "; changes of the settings aren't kept after this session",
+          .session = folder};
+}
+
+SettingsPlace putAside(const fs::path& file, const QString& why) {
+  std::error_code failed;
+  fs::path aside = file.string() + ".damaged";
+  for (int i = 2; fs::exists(fs::symlink_status(aside, failed)); ++i)
+    aside = file.string() + ".damaged" + std::to_string(i);
+  fs::rename(file, aside, failed);
+  if (failed) return ofThisSession(why);
+  return {.path = QString::fromStdString(file.string()),
+          .problem = why + "; it is " + QString::fromStdString(aside.filename().string()) +
+                     " now, and the settings are the usual ones"};
 }
 
 // An order of columns has each of them once.
@@ -92,26 +194,41 @@ bool isOrder(QList<int> order) {
 
 }  // namespace
 
-QString readableSettings(const QString& path) {
+QString leftOutKeyOf(const QString& folder) {
+  // Names of keys must not contain '/'.
+  return "recognise/leftOut/" + QString::fromLatin1(QUrl::toPercentEncoding(folder));
+}
+
+SettingsPlace readableSettings(const QString& path) {
   const fs::path file = path.toStdString();
   std::error_code failed;
   const fs::file_status status = fs::status(file, failed);
-  if (!fs::exists(status) || fs::is_directory(status)) return path;
+  if (!fs::exists(status) || fs::is_directory(status)) return {path};
+  if (!fs::is_regular_file(status)) return putAside(file, path + ": is no file");
+  std::string text;
   try {
-    const std::string text = readTextFile(file, kLargestSettingsBytes);
-    if (!holdsObjects(text)) return path;
-    if (const std::string kept = withoutObjects(text); !holdsObjects(kept)) {
-      OutputFile out(file, Overwrite::kReplace);
-      out.write(kept);
-      out.commit();
-      return path;
-    }
-  } catch (const Error&) {
-    // It can't be read, or not be written: it is put aside.
+    text = readTextFile(file, kLargestSettingsBytes);
+  } catch (const FormatError& error) {
+    return putAside(file, QString::fromUtf8(error.what()));
+  } catch (const FileError& error) {
+    return ofThisSession(QString::fromUtf8(error.what()));
   }
-  fs::rename(file, file.string() + ".damaged", failed);
-  // A file that can't even be renamed isn't read.
-  return failed ? path + "/unreadable" : path;
+  if (!holdsObjects(text)) return {path};
+  LeftOut leftOut;
+  const std::string kept = withoutObjects(text, leftOut);
+  if (holdsObjects(kept)) return putAside(file, path + ": can't be read as settings");
+  try {
+    writeSettings(file, kept, leftOut);
+    return {path};
+  } catch (const FileError& error) {
+    const SettingsPlace place = ofThisSession(QString::fromUtf8(error.what()));
+    try {
+      writeSettings(place.path.toStdString(), kept, leftOut);
+    } catch (const FileError&) {
+      // Then there is room for no file at all.
+    }
+    return place;
+  }
 }
 
 QList<int> storedNumbers(

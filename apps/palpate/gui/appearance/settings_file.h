@@ -5,20 +5,36 @@
 #include <QList>
 #include <QSettings>
 #include <QString>
+#include <memory>
 
 class QHeaderView;
 class QSplitter;
+class QTemporaryDir;
 class QWidget;
 
 namespace palpate::gui {
 
-// Returns the path that QSettings may read: `path` itself. What QSettings can't read safely is
-// put out of its way first:
-// * lines with values of the form "@Variant(..)", which Qt decodes into objects of any kind and
-//   size, are removed; Palpate writes none,
-// * what is no regular file (a FIFO would never end), or is larger than 64 MB, is renamed to
-//   "NAME.damaged", and the window begins with the defaults.
-QString readableSettings(const QString& path);
+// A file that QSettings may read.
+struct SettingsPlace {
+  QString path;
+  // What the user must know, one line; empty: nothing.
+  QString problem = {};
+  // The file is in it, and is removed with it; null: it stays.
+  std::shared_ptr<QTemporaryDir> session = {};
+};
+
+// Makes the file safe for QSettings:
+// * Lines with values of the form "@Variant(..)" and "@DateTime(..)" are removed: Qt decodes them
+//   into objects of any kind and size. Palpate writes none; versions before wrote the grasps that
+//   were left out of training so, which are kept in their present form.
+// * What is no regular file (a FIFO would never end), is larger than 64 MB, or can't be made safe,
+//   is renamed to "NAME.damaged", "NAME.damaged2", .., and the window begins with the defaults.
+// * A file that can't be read or written now stays as it is: this session has settings of its own,
+//   which aren't kept.
+SettingsPlace readableSettings(const QString& path);
+
+// Key of the grasps of a folder that are left out of training.
+QString leftOutKeyOf(const QString& folder);
 
 // The numbers of a list in the settings; empty: there is none, or one of them is no whole number
 // from `lowest` to `highest`, or there are not `count` of them.

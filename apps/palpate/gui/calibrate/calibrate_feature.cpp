@@ -107,8 +107,12 @@ void CalibrateFeature::connectPages() {
     // The page Force tells why there is none.
     return known ? known->calibration : std::nullopt;
   };
+  windowState.handCommands.calibrationBeingRead = [this, &windowState](const std::string& hand) {
+    const QString path = appliedCalibration(windowState.settings, hand);
+    return !path.isEmpty() && !calibrations_->find(path);
+  };
   connect(calibrations_,
-          &CalibrationCache::read,
+          &CalibrationCache::changed,
           &windowState.handCommands,
           &HandCommands::calibrationApplied);
   connect(&panel_->pressure(), &PressurePage::applyRequested, this, &CalibrateFeature::apply);
@@ -137,6 +141,9 @@ void CalibrateFeature::connectNoise() {
 void CalibrateFeature::connectLive() {
   LiveController& live = state().live;
   connect(&live, &LiveController::sourceOpened, this, [this, &live] {
+    const QString path =
+        appliedCalibration(state().settings, live.source()->session->device().hand().name);
+    if (!path.isEmpty()) calibrations_->renew(path);
     panel_->setSession(live.source()->session.get());
   });
   connect(&live, &LiveController::leaving, this, [this] {
@@ -195,6 +202,8 @@ void CalibrateFeature::apply(const QString& path) {
   applyCalibration(
       state().settings, recording ? recording->profile.hand().name : made->calibration.hand, path);
   panel_->force().calibrationChanged();
+  // The connected hand may be another one than the shown.
+  calibrations_->renew(path);
   pressures_->reload();
   emit state().handCommands.calibrationApplied();
   state().messages.flash("applied: " + QFileInfo(path).fileName());

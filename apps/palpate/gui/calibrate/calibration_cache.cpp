@@ -9,8 +9,9 @@ void CalibrationCache::renew(const QString& path) {
   if (!reading) reading = std::make_unique<FileReading>(this);
   const auto know = [this, path](const Known& known) {
     known_[path] = known;
-    emit read(path);
+    emit changed(path);
   };
+  if (known_.erase(path) > 0) emit changed(path);
   reading->start(
       [know, path]() -> FileReading::Take {
         return [know, calibration = usableCalibration(path)] { know({calibration, {}}); };

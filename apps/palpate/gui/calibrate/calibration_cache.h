@@ -23,13 +23,15 @@ class CalibrationCache : public QObject {
 
   explicit CalibrationCache(QObject* parent = nullptr) : QObject(parent) {}
 
-  // Reads the file, also if it has been read before: its content may have changed. read() follows.
+  // Reads the file, also if it has been read before: its content may have changed, and what was
+  // read is forgotten at once.
   void renew(const QString& path);
-  // What was read last. Null: it is being read; read() follows.
+  // What was read. Null: it is being read; changed() follows.
   const Known* find(const QString& path);
 
  signals:
-  void read(const QString& path);
+  // What find() returns was forgotten, or is known now.
+  void changed(const QString& path);
 
  private:
   std::map<QString, Known> known_;

@@ -211,6 +211,11 @@ NoisePage::NoisePage(QSettings& settings, QWidget* parent) : ComputedPage("noise
 }
 
 void NoisePage::forget() {
+  // Lines that were chosen for one hand aren't applied to another.
+  if (reading_.busy()) {
+    reading_.abandon();
+    emit said("noise lines not applied: another hand or recording is shown");
+  }
   found_.reset();
   save_->setEnabled(false);
   apply_->setEnabled(false);

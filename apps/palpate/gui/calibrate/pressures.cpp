@@ -21,7 +21,7 @@ QString noCalibration(const HandDescription* hand) {
 
 Pressures::Pressures(WindowState& windowState, CalibrationCache& calibrations, ForcePage& page)
     : windowState_(windowState), calibrations_(calibrations), page_(page) {
-  connect(&calibrations, &CalibrationCache::read, this, &Pressures::take);
+  connect(&calibrations, &CalibrationCache::changed, this, &Pressures::take);
   connect(&windowState.playback, &PlaybackController::positionChanged, this, &Pressures::showFrame);
   connect(&windowState.currentFrame, &CurrentFrame::resultsReceived, this, &Pressures::showLive);
 }
@@ -34,6 +34,7 @@ void Pressures::setKept(const KeptWithRecording& kept) {
 void Pressures::reload() {
   of_.reset();
   renew();
+  if (of_ && !of_->path.isEmpty()) calibrations_.renew(of_->path);
 }
 
 void Pressures::renew() {
@@ -50,17 +51,19 @@ void Pressures::renew() {
   if (of_ && *of_ == now) return;
   of_ = std::move(now);
   if (source) page_.setLiveHand(*displayed.hand());
-  show({},
-       path.isEmpty() ? noCalibration(displayed.hand())
-                      : QFileInfo(path).fileName() + " is being read");
-  if (!path.isEmpty()) calibrations_.renew(path);
+  if (path.isEmpty()) return show({}, noCalibration(displayed.hand()));
+  // That of the connected hand is read anew when it is connected: a look at a recording between
+  // mustn't take it from a hand that moves.
+  if (!source) calibrations_.renew(path);
+  take(path);
 }
 
 void Pressures::take(const QString& path) {
   if (!of_ || of_->path != path) return;
-  const CalibrationCache::Known& known = *calibrations_.find(path);
-  show(known.calibration,
-       known.calibration ? QFileInfo(path).fileName() : "can't be used: " + known.problem);
+  const QString name = QFileInfo(path).fileName();
+  const CalibrationCache::Known* known = calibrations_.find(path);
+  if (!known) return show({}, name + " is being read");
+  show(known->calibration, known->calibration ? name : "can't be used: " + known->problem);
 }
 
 void Pressures::show(const std::optional<Calibration>& calibration, QString text) {

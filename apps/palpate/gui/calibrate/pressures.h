@@ -32,7 +32,7 @@ class Pressures : public QObject {
   void reload();
 
  private:
-  // The calibration of this file was read.
+  // What is known of the calibration of this file has changed.
   void take(const QString& path);
   // `text`: what is said of the calibration, unless it can't be used.
   void show(const std::optional<Calibration>& calibration, QString text);

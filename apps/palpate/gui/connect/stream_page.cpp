@@ -19,7 +19,6 @@
 
 #include "gui/appearance/captions.h"
 #include "gui/connect/port_field.h"
-#include "gui/source/file_reading.h"
 #include "gui/widgets/state_mark.h"
 #include "gui/widgets/two_line_delegate.h"
 
@@ -30,6 +29,7 @@ constexpr int kUsualPort = 9871;
 constexpr int kHighestPort = 65'535;
 constexpr int kLeastBaud = 50, kMostBaud = 10'000'000;
 constexpr int kHandRole = Qt::UserRole + 2;  // in the form that findHand() takes
+constexpr const char* kHandBeingRead = "The hand is being read.";
 constexpr const char* kTcp = "tcp:";
 constexpr const char* kListenAt = "listen:";
 constexpr const char* kUdpAt = "udp:";
@@ -309,9 +309,9 @@ int StreamPage::handIndex(const QString& nameOrFolder) {
 }
 
 void StreamPage::read(const QString& nameOrFolder) {
-  hands_.insert(nameOrFolder, {{}, "it is being read"});
-  auto* reading = new FileReading(this);
-  connect(reading, &FileReading::finished, reading, &QObject::deleteLater);
+  hands_.insert(nameOrFolder, {{}, kHandBeingRead, true});
+  auto& reading = readings_[nameOrFolder];
+  if (!reading) reading = std::make_unique<FileReading>(this);
   const auto know = [this, nameOrFolder](const Choice& choice) {
     hands_[nameOrFolder] = choice;
     handIndex(nameOrFolder);
@@ -319,10 +319,12 @@ void StreamPage::read(const QString& nameOrFolder) {
   };
   reading->start(
       [know, name = nameOrFolder.toStdString(), folders = folders_]() -> FileReading::Take {
-        return [know, summary = handSummaryOf(findHand(name, folders))] { know({summary, {}}); };
+        return [know, summary = handSummaryOf(findHand(name, folders))] {
+          know({summary, {}, false});
+        };
       },
       [know](const QString& fault) {
-        know({{}, fault.simplified()});
+        know({{}, fault.simplified(), false});
       });
 }
 
@@ -368,8 +370,9 @@ QString StreamPage::sourceProblem() const {
 
 QString StreamPage::problem() const {
   if (const QString wrong = sourceProblem(); !wrong.isEmpty()) return wrong;
-  const QString fault = hands_.value(hand_->currentData(kHandRole).toString()).fault;
-  return fault.isEmpty() ? fault : "This hand can't be used: " + fault;
+  const Choice hand = hands_.value(hand_->currentData(kHandRole).toString());
+  if (hand.fault.isEmpty() || hand.beingRead) return hand.fault;
+  return "This hand can't be used: " + hand.fault;
 }
 
 void StreamPage::look() { scan_.listOnly(); }
@@ -418,6 +421,7 @@ void StreamPage::refresh() {
                      : choice.fault.isEmpty() ? choice.summary
                                               : choice.fault);
   handMark_->setState(name.isEmpty()           ? StateMark::State::kNone
+                      : choice.beingRead       ? StateMark::State::kNone
                       : choice.fault.isEmpty() ? StateMark::State::kGood
                                                : StateMark::State::kBad);
   emit changed();

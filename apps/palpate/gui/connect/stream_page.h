@@ -7,11 +7,14 @@
 #include <array>
 #include <filesystem>
 #include <functional>
+#include <map>
+#include <memory>
 #include <vector>
 
 #include "gui/appearance/theme.h"
 #include "gui/connect/port_scan.h"
 #include "gui/source/connection.h"
+#include "gui/source/file_reading.h"
 
 class QComboBox;
 class QFormLayout;
@@ -59,6 +62,8 @@ class StreamPage : public QWidget {
     QString summary;
     // What is wrong, in one line; empty when the hand can be used.
     QString fault;
+    // That is why it can't be used yet.
+    bool beingRead = false;
   };
 
   QWidget* makePlace(Theme theme);
@@ -75,6 +80,7 @@ class StreamPage : public QWidget {
   std::vector<std::filesystem::path> folders_;
   PortScan& scan_;
   QHash<QString, Choice> hands_;
+  std::map<QString, std::unique_ptr<FileReading>> readings_;
   QFormLayout* form_;
   QComboBox* place_;
   QStackedWidget* fields_;

@@ -255,6 +255,10 @@ void FilterPanel::setOn(bool on) {
 }
 
 void FilterPanel::setSource(const QStringList& matrixNames, double rateHz, bool live) {
+  if (reading_.busy()) {
+    reading_.abandon();
+    emit message("the recipe was not opened: another hand or recording is shown");
+  }
   form_->setMatrixNames(matrixNames);
   form_->setRate(rateHz);
   rateHz_ = rateHz;

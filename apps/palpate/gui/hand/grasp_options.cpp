@@ -79,7 +79,7 @@ GraspOptions::GraspOptions(QSettings& settings, QWidget* parent)
   connect(header_, &QToolButton::toggled, this, &GraspOptions::open);
   header_->setChecked(settings.value(kOptionsOpen, false).toBool());
   open(header_->isChecked());
-  setCalibrated(false, false);
+  setCalibrated(Calibrated::kNoHand);
 }
 
 QDoubleSpinBox* GraspOptions::field(
@@ -194,9 +194,10 @@ void GraspOptions::open(bool on) {
 bool GraspOptions::inNewtons() const { return unit_->currentIndex() == 1; }
 bool GraspOptions::eachFinger() const { return eachFinger_->isChecked(); }
 
-void GraspOptions::setCalibrated(bool calibrated, bool connected) {
-  const int unit = calibrated && settings_.value(kInNewtons, false).toBool() ? 1 : 0;
-  const bool missed = connected && !calibrated;
+void GraspOptions::setCalibrated(Calibrated state) {
+  const bool calibrated = state == Calibrated::kYes, beingRead = state == Calibrated::kBeingRead;
+  const int unit = (calibrated || beingRead) && settings_.value(kInNewtons, false).toBool() ? 1 : 0;
+  const bool missed = state == Calibrated::kNot;
   if (unit != unit_->currentIndex() || whyCounts_->isHidden() == missed) {
     const QSignalBlocker notChosen(unit_);
     unit_->setCurrentIndex(unit);
@@ -207,7 +208,8 @@ void GraspOptions::setCalibrated(bool calibrated, bool connected) {
   const QString tip = calibrated
                           ? "Of one taxel in counts, or of a whole finger in newtons, by the "
                             "calibration that is applied to this hand"
-                          : kNoCalibrationTip;
+                      : beingRead ? kCalibrationBeingRead
+                                  : kNoCalibrationTip;
   if (unit_->toolTip() != tip) unit_->setToolTip(tip);
 }
 

@@ -17,6 +17,8 @@ class QToolButton;
 
 namespace palpate::gui {
 
+inline constexpr const char* kCalibrationBeingRead = "The calibration is being read";
+
 class GraspOptions : public QWidget {
   Q_OBJECT
  public:
@@ -26,10 +28,12 @@ class GraspOptions : public QWidget {
 
   bool inNewtons() const;
   bool eachFinger() const;
-  // Whether a calibration is set, so that limits in newtons can be chosen. Without one the limit is
-  // in counts; the chosen unit returns with the next calibration. `connected`: there is a hand that
-  // could have one.
-  void setCalibrated(bool calibrated, bool connected);
+  // What is known of the calibration of the connected hand.
+  enum class Calibrated { kNoHand, kNot, kBeingRead, kYes };
+  // With a calibration limits in newtons can be chosen. Without one the limit is in counts; the
+  // chosen unit returns with the next calibration. While it is read, the limit is in the chosen
+  // unit.
+  void setCalibrated(Calibrated calibrated);
   // Sets what is chosen here; `request` has its common limits already.
   void apply(GraspRequest& request) const;
 

@@ -215,11 +215,25 @@ void GraspPanel::setControl(GraspControl* control, const QString& whyNot) {
   showStatus(control ? control->status() : GraspStatus{});
 }
 
+void GraspPanel::setCalibrationBeingRead(bool beingRead) {
+  calibrationBeingRead_ = beingRead;
+  GraspStatus now = shown_;
+  now.calibrated = control_ && control_->status().calibrated;
+  showStatus(now);
+}
+
 void GraspPanel::showStatus(const GraspStatus& status) {
-  options_->setCalibrated(control_ && status.calibrated, control_ != nullptr);
+  shown_ = status;
+  using Calibrated = GraspOptions::Calibrated;
+  options_->setCalibrated(!control_               ? Calibrated::kNoHand
+                          : status.calibrated     ? Calibrated::kYes
+                          : calibrationBeingRead_ ? Calibrated::kBeingRead
+                                                  : Calibrated::kNot);
   const bool idle = status.phase == GraspPhase::kIdle;
   const bool canMove = control_ && status.cannotMove.empty();
-  const bool canReact = control_ && status.cannotReact.empty();
+  const bool waits = calibrationBeingRead_ && !status.calibrated && options_->inNewtons();
+  const std::string cannotReact = waits ? kCalibrationBeingRead : status.cannotReact;
+  const bool canReact = control_ && cannotReact.empty();
   const auto set = [](QPushButton* which, bool enabled, const QString& tip) {
     enableMotionButton(*which, enabled);
     if (which->toolTip() != tip) which->setToolTip(tip);
@@ -247,13 +261,13 @@ void GraspPanel::showStatus(const GraspStatus& status) {
       canReact && idle,
       !idle      ? busy
       : canReact ? "Closes until the first taxel is over the limit"
-                 : why(status.cannotReact));
+                 : why(cannotReact));
   set(slipAware_,
       canReact && idle,
       !idle      ? busy
       : canReact ? "Closes to the limit and holds; when the object slips, closes to a higher "
                    "limit. Stop ends it; the hand keeps holding"
-                 : why(status.cannotReact));
+                 : why(cannotReact));
 }
 
 }  // namespace palpate::gui

@@ -25,6 +25,8 @@ class GraspPanel : public QWidget {
   // Null: no hand, or one that is read only; the tool tips then tell `whyNot`. `control` must
   // outlive this, or be replaced by null before it is destroyed.
   void setControl(GraspControl* control, const QString& whyNot = "No hand is connected");
+  // A grasp with a limit in newtons must wait for the calibration.
+  void setCalibrationBeingRead(bool beingRead);
   // Enables the motions that are possible now; the tool tips tell why others are not.
   void showStatus(const GraspStatus& status);
   GraspRequest request(GraspMode mode) const;
@@ -49,6 +51,9 @@ class GraspPanel : public QWidget {
   QSettings& settings_;
   GraspControl* control_ = nullptr;
   QString whyNot_ = "No hand is connected";
+  bool calibrationBeingRead_ = false;
+  // As it was given to showStatus() last.
+  GraspStatus shown_;
   QComboBox* preshape_;
   ValueSlider* close_;
   ValueSlider* velocity_;

@@ -62,6 +62,7 @@ CaptureQueueOptions smallFeed() {
 
 HandDock::HandDock(QSettings& settings, QWidget* parent) : QWidget(parent) {
   calibrationOf = [](const std::string&) { return std::optional<Calibration>(); };
+  calibrationBeingRead = [](const std::string&) { return false; };
   ownMotion = [] { return QString(); };
   stopKey_ = new StopKey(this);
   // A click on a button takes the focus from whatever had it: Return, pressed after a click on
@@ -362,7 +363,10 @@ void HandDock::setHand(CaptureSession* session, GraspControl* control) {
 }
 
 void HandDock::renewCalibration() {
-  if (control_) control_->setCalibration(calibrationOf(session_->device().hand().name));
+  if (!control_) return;
+  const std::string hand = session_->device().hand().name;
+  control_->setCalibration(calibrationOf(hand));
+  grasp_->setCalibrationBeingRead(calibrationBeingRead(hand));
 }
 
 void HandDock::updateHand() {

@@ -66,14 +66,16 @@ class HandDock : public QWidget {
   const std::vector<QString>& unmeasurable() const noexcept { return unmeasurable_; }
   SensitivityModes& sensitivity() noexcept { return *sensitivity_; }
   JointPanel& joints() noexcept { return *joint_; }
-  // The calibration applied to the hand with this name, for limits in newtons; nothing: none.
+  // The calibration applied to the hand with this name, for limits in newtons; nothing: none, or it
+  // is being read.
   std::function<std::optional<Calibration>(const std::string& hand)> calibrationOf;
+  std::function<bool(const std::string& hand)> calibrationBeingRead;
   // What the connected hand does by itself, as HandModel::ownMotion(); empty: it moves on orders
   // only.
   std::function<QString()> ownMotion;
   // The key of a bound action was pressed that can't begin now: says why.
   void answerKey(const QAction* action);
-  // Call this when another calibration was applied.
+  // Call this when another calibration was applied, or was read.
   void renewCalibration();
   // `text` below the friction that the running or the last grasp has measured: a line that is seen
   // without scrolling.

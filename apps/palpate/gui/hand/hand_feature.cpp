@@ -80,6 +80,10 @@ HandFeature::HandFeature(WindowState& windowState, QWidget* window)
     const auto& applied = windowState.handCommands.calibration;
     return applied ? applied(hand) : std::optional<Calibration>();
   };
+  panel_->calibrationBeingRead = [&windowState](const std::string& hand) {
+    const auto& beingRead = windowState.handCommands.calibrationBeingRead;
+    return beingRead && beingRead(hand);
+  };
   panel_->ownMotion = [&live] {
     const LiveSource* source = live.source();
     const std::string_view text =

@@ -10,10 +10,13 @@
 #include <QLabel>
 #include <QMenu>
 #include <QPushButton>
+#include <QSet>
 #include <QSlider>
 #include <algorithm>
 #include <initializer_list>
+#include <set>
 #include <stdexcept>
+#include <string_view>
 
 #include <palpate/core/error.h>
 #include <palpate/core/output_file.h>
@@ -34,6 +37,7 @@ constexpr const char* kOwnPoses = "Own poses…";
 constexpr const char* kSaveTip = "Saves the present angles under a name";
 constexpr const char* kPoseFilter = "Poses (*.json)";
 constexpr std::uint64_t kLargestPoseFile = 10'000'000;
+constexpr std::size_t kMaxImportedPoses = 1000;
 
 QPushButton* jointButton(
     const QString& text, const QString& name, const QString& tip, bool moves, QWidget* parent) {
@@ -278,16 +282,24 @@ void JointPanel::importPoses() {
   reading_.start(
       [this, file = std::filesystem::path(path.toStdString())]() -> FileReading::Take {
         auto poses = parsePoses(readTextFile(file, kLargestPoseFile), file);
-        for (const SavedPose& pose : poses)
+        if (poses.size() > kMaxImportedPoses)
+          throw Error("nothing imported: more than " + std::to_string(kMaxImportedPoses) +
+                      " poses");
+        std::set<std::string_view> names;
+        for (const SavedPose& pose : poses) {
           if (const std::string problem = problemOf(pose, movableHand()); !problem.empty())
             throw Error("nothing imported: " + problem);
+          if (!names.insert(pose.name).second)
+            throw Error("nothing imported: the pose '" + pose.name + "' is there twice");
+        }
         return [this, poses = std::move(poses)] { takePoses(poses); };
       },
       [this](const QString& why) { emit refused(why); });
 }
 
 void JointPanel::takePoses(const std::vector<SavedPose>& poses) {
-  const QStringList there = store_.names(movableHand().name);
+  const QStringList names = store_.names(movableHand().name);
+  const QSet<QString> there(names.begin(), names.end());
   for (const SavedPose& pose : poses)
     if (there.contains(QString::fromStdString(pose.name)))
       return emit refused("nothing imported: a pose '" + QString::fromStdString(pose.name) +

@@ -144,6 +144,9 @@ void SequencePanel::makeButtons() {
     settings_.setValue(kStoredSequence, QString::fromStdString(sequenceText(sequence_)));
   });
   connect(start_, &QPushButton::clicked, this, &SequencePanel::start);
+  connect(&reading_, &FileReading::finished, this, [this] {
+    refresh(control_ ? control_->status() : GraspStatus{});
+  });
   connect(steps_, &QListWidget::currentRowChanged, this, [this] {
     refresh(control_ ? control_->status() : GraspStatus{});
   });
@@ -271,13 +274,17 @@ void SequencePanel::openFile() {
         } catch (const std::invalid_argument& error) {
           throw FormatError(file, error.what());
         }
-        return [this, read = std::move(read)] {
+        return [this, file, read = std::move(read)] {
+          if (running())
+            return emit refused(QString::fromStdString(file.filename().string()) +
+                                ": not opened: a sequence runs");
           sequence_ = read;
           times_->setValue(sequence_.repetitions);
           changed(0);
         };
       },
       [this](const QString& why) { emit refused(why); });
+  refresh(control_ ? control_->status() : GraspStatus{});
 }
 
 void SequencePanel::saveFile() {
@@ -314,11 +321,15 @@ QString SequencePanel::stateText() const {
 void SequencePanel::refresh(const GraspStatus& status) {
   if (run_ && session_) run_->step(session_->nowUs());
   const bool runs = running();
+  // The table that is being read takes the place of this one.
+  const bool edits = !runs && !reading_.busy();
   QString why;
   if (!control_)
     why = whyNot_;
   else if (runs)
     why = "A sequence runs; Stop (Esc) ends it";
+  else if (!edits)
+    why = "A sequence is being read";
   else if (!status.cannotMove.empty())
     why = QString::fromStdString(status.cannotMove);
   else if (status.phase != GraspPhase::kIdle)
@@ -329,12 +340,12 @@ void SequencePanel::refresh(const GraspStatus& status) {
   const QString tip = why.isEmpty() ? "Does the steps in order; Stop or Esc ends all of it" : why;
   if (start_->toolTip() != tip) start_->setToolTip(tip);
   const int row = steps_->currentRow();
-  add_->setEnabled(!runs);
-  remove_->setEnabled(!runs && row >= 0);
-  up_->setEnabled(!runs && row > 0);
-  down_->setEnabled(!runs && row >= 0 && row + 1 < steps_->count());
-  times_->setEnabled(!runs);
-  file_->setEnabled(!runs);
+  add_->setEnabled(edits);
+  remove_->setEnabled(edits && row >= 0);
+  up_->setEnabled(edits && row > 0);
+  down_->setEnabled(edits && row >= 0 && row + 1 < steps_->count());
+  times_->setEnabled(edits);
+  file_->setEnabled(edits);
   steps_->setEnabled(!runs);
   if (runs && row != static_cast<int>(run_->status().step))
     steps_->setCurrentRow(static_cast<int>(run_->status().step));

@@ -209,6 +209,13 @@ void addTurn(HandScene& scene, const Vector3d& centre, const Vector3d& turn, QRg
   addHead(scene, at(sweep), -std::sin(sweep) * u + std::cos(sweep) * v, kObjectPx, color);
 }
 
+bool hasMeshes(const HandGeometry& geometry) {
+  const auto& shapes = geometry.description().shapes;
+  return std::any_of(shapes.begin(), shapes.end(), [](const LinkShape& shape) {
+    return shape.kind == LinkShape::Kind::kMesh;
+  });
+}
+
 }  // namespace
 
 std::shared_ptr<const HandGeometry> geometryOf(const HandDescription& hand) {
@@ -220,23 +227,26 @@ std::shared_ptr<const HandGeometry> geometryOf(const HandDescription& hand) {
   }
 }
 
+bool HandSceneBuilder::drawsMeshes() const {
+  return geometry_ && !missing_ && hasMeshes(*geometry_);
+}
+
 void HandSceneBuilder::setHand(const HandDescription& hand, bool withMeshes) {
+  // Other scanned taxels don't change the bodies.
+  const bool keeps = drawsMeshes() && hand_->file == hand.file && hand_->name == hand.name;
   hand_ = hand;
   geometry_ = geometryOf(hand);
   slip_.clear();
-  bodies_.clear();
+  if (!keeps) bodies_.clear();
   missing_.reset();
   handState_ = {};
   onHand_.clear();
   patchesLaidFlat(hand, flat_);
   if (!selection_.sameSensor(TaxelSelection(*hand.layout))) selection_ = {};
   if (!geometry_) return;
-  const auto& shapes = geometry_->description().shapes;
-  if (!withMeshes && std::any_of(shapes.begin(), shapes.end(), [](const LinkShape& shape) {
-        return shape.kind == LinkShape::Kind::kMesh;
-      }))
+  if (!keeps && !withMeshes && hasMeshes(*geometry_))
     missing_ = geometry_;
-  else
+  else if (!keeps)
     bodies_ = handBodies(*geometry_);
   geometry_->pose(std::vector<double>(geometry_->description().numAxes, 0.0), pose_);
   patchesOnHand(pose_, *hand.layout, onHand_);

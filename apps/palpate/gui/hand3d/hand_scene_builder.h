@@ -39,12 +39,15 @@ class HandSceneBuilder {
  public:
   // Sets another hand. One whose geometry isn't known (a pad, another layout) can only be drawn
   // laid flat.
-  // `withMeshes` false: bodies that files describe are not read; see meshesMissing().
-  void setHand(const HandDescription& hand, bool withMeshes = true);
+  // `withMeshes` false: bodies that files describe are not read; see meshesMissing(). Those of the
+  // same hand are kept.
+  void setHand(const HandDescription& hand, bool withMeshes);
   // The geometry whose bodies were not read; null: they all were. Its handBodies() are for
   // setBodies().
   const std::shared_ptr<const HandGeometry>& meshesMissing() const noexcept { return missing_; }
   void setBodies(std::vector<HandBody> bodies);
+  // Whether bodies that files describe are drawn.
+  bool drawsMeshes() const;
   void clear();
   bool hasHand() const noexcept { return hand_.has_value(); }
   bool hasGeometry() const noexcept { return geometry_ != nullptr; }

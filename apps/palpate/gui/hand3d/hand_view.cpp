@@ -73,7 +73,7 @@ void HandView::setHand(const HandDescription& hand) {
         [this, geometry]() -> FileReading::Take {
           return [this, bodies = handBodies(*geometry)] {
             drawing_.setBodies(bodies);
-            extent_.clear();
+            if (!moved_) fitFirstView();
             drawAnew();
           };
         },
@@ -202,7 +202,14 @@ void HandView::fitTo(const std::vector<Eigen::Vector3d>& pointsMm) {
 void HandView::fitFirstView() {
   const HandLook look = drawing_.effective(look_);
   const bool ofAll = !extent_.empty() && !isFlat(look.taxels) && !look.only;
-  fitTo(ofAll ? extent_ : drawing_.extent(look));
+  if (!ofAll) return fitTo(drawing_.extent(look));
+  auto pointsMm = extent_;
+  // The extent is without the bodies that files describe.
+  if (drawing_.drawsMeshes()) {
+    const auto now = drawing_.extent(look);
+    pointsMm.insert(pointsMm.end(), now.begin(), now.end());
+  }
+  fitTo(pointsMm);
 }
 
 void HandView::fit() { fitTo(drawing_.extent(look_)); }

@@ -274,7 +274,7 @@ bool RecognitionController::cancel() {
 }
 
 void RecognitionController::settle() {
-  for (FileReading* reading : photos_.findChildren<FileReading*>()) reading->settle();
+  FileReading::settleAll(photos_);
   while (busy()) QCoreApplication::processEvents(QEventLoop::WaitForMoreEvents);
 }
 

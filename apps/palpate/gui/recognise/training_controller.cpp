@@ -2,7 +2,6 @@
 
 #include <QCoreApplication>
 #include <QEventLoop>
-#include <QUrl>
 #include <system_error>
 #include <utility>
 
@@ -15,6 +14,8 @@
 #include <palpate/recognition/take_quality.h>
 #include <palpate/recording/recording.h>
 
+#include "gui/appearance/settings_file.h"
+
 namespace palpate::gui {
 namespace {
 
@@ -25,13 +26,6 @@ constexpr std::size_t kBlocks = 5, kSplits = 10;
 
 constexpr const char* kTrainingSetKey = "recognise/featureSet";
 constexpr const char* kTrainingClassifierKey = "recognise/classifier";
-constexpr const char* kLeftOutKey = "recognise/leftOut";
-
-// Names of keys must not contain '/'.
-QString leftOutKeyOf(const fs::path& folder) {
-  return QString(kLeftOutKey) + "/" +
-         QString::fromLatin1(QUrl::toPercentEncoding(QString::fromStdString(folder.string())));
-}
 
 std::shared_ptr<const FeatureTable> gatherTraining(const fs::path& folder,
                                                    const TrainingChoice& choice,
@@ -130,7 +124,8 @@ void TrainingController::readLeftOut() {
   leftOut_.clear();
   leavingOut_.clear();
   takenBack_.clear();
-  for (const QString& text : settings_.value(leftOutKeyOf(folder_)).toStringList()) {
+  for (const QString& text :
+       settings_.value(leftOutKeyOf(QString::fromStdString(folder_.string()))).toStringList()) {
     bool isNumber = false;
     const auto begin = text.section(' ', 0, 0).toULongLong(&isNumber);
     const QString file = text.section(' ', 1);
@@ -149,7 +144,7 @@ void TrainingController::changeLeftOut(const std::vector<LeftOutGrasp>& grasps, 
   for (const LeftOutGrasp& each : leftOut_)
     texts << QString::number(each.begin) + ' ' +
                  QString::fromStdString(each.file.lexically_relative(folder_).string());
-  const QString key = leftOutKeyOf(folder_);
+  const QString key = leftOutKeyOf(QString::fromStdString(folder_.string()));
   if (texts.isEmpty())
     settings_.remove(key);
   else

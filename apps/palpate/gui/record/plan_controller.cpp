@@ -66,11 +66,11 @@ RecordingPlan planIn(const fs::path& path) {
     throw Error(name + error.what());
   }
   if (const std::size_t problems = table.problems.size(); problems > 0)
-    throw Error(name + table.problems.front() +
-                (table.more     ? ", and more"
-                 : problems > 1 ? ", and " + counted(problems - 1, "more problem")
-                                : "") +
-                "; the plan is as it was");
+    throw Error(
+        name + (table.more ? "more than " + counted(problems, "problem") + ", the first: " : "") +
+        table.problems.front() +
+        (problems > 1 && !table.more ? ", and " + counted(problems - 1, "more problem") : "") +
+        "; the plan is as it was");
   if (table.rows.empty()) throw Error(name + "has no rows; the plan is as it was");
   RecordingPlan plan;
   for (PlanRow& row : table.rows) plan.addRow(std::move(row));
@@ -98,6 +98,7 @@ PlanController::PlanController(QSettings& settings, QObject* parent)
   limits_ = keptLimits(settings);
   // A take that can't be checked is one with a problem; see end().
   connect(&checking_, &BackgroundJob::finished, this, &PlanController::changed);
+  connect(&reading_, &FileReading::finished, this, &PlanController::changed);
 }
 
 void PlanController::save() {
@@ -149,17 +150,22 @@ void PlanController::removeRow(std::size_t row) {
 }
 
 void PlanController::importCsv(const fs::path& path) {
+  const std::string asked = plan_.json();
   reading_.start(
-      [this, path]() -> FileReading::Take {
-        return [this, plan = planIn(path)] {
+      [this, path, asked]() -> FileReading::Take {
+        return [this, path, asked, plan = planIn(path)] {
+          const QString name =
+              QString::fromStdString(path.filename().string()) + ": not imported: ";
+          if (row_) return emit imported(name + "a take of the plan is being recorded");
+          if (plan_.json() != asked) return emit imported(name + "the plan has changed meanwhile");
           plan_ = plan;
-          row_.reset();
           lastTake_.reset();
           save();
           emit imported({});
         };
       },
       [this](const QString& problem) { emit imported(problem); });
+  emit changed();
 }
 
 void PlanController::exportCsv(const fs::path& path) const {

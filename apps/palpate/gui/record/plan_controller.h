@@ -39,8 +39,10 @@ class PlanController : public QObject {
   void setRow(std::size_t row, const PlanRow& now);
   void exportCsv(const std::filesystem::path& path) const;
   void removeRow(std::size_t row);
-  // Replaces the plan by a table, which is read in the background; imported() follows.
+  // Replaces the plan by a table, which is read in the background; imported() follows. Refused
+  // when a take is being recorded then, or the plan has changed meanwhile.
   void importCsv(const std::filesystem::path& path);
+  bool importing() const noexcept { return reading_.busy(); }
   // The takes are forgotten, their files stay.
   void beginAnew();
 

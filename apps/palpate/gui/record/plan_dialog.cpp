@@ -89,7 +89,10 @@ PlanDialog::PlanDialog(WindowState& windowState,
   whole->addWidget(makeFoot());
   connect(model_, &PlanModel::refused, this, &PlanDialog::say);
   connect(&controller, &PlanController::changed, this, &PlanDialog::showState);
-  connect(&controller, &PlanController::imported, this, &PlanDialog::say);
+  connect(&controller, &PlanController::imported, this, [this](const QString& problem) {
+    say(problem);
+    if (!problem.isEmpty() && !isVisible()) windowState_.messages.fail(problem);
+  });
   connect(&windowState.live, &LiveController::stateChanged, this, &PlanDialog::showState);
   connect(record, &QAction::changed, this, &PlanDialog::showState);
   connect(table_->selectionModel(),
@@ -136,20 +139,20 @@ QWidget* PlanDialog::makeRows() {
   header->setHighlightSections(false);
   header->setSectionResizeMode(QHeaderView::Interactive);
   header->setStretchLastSection(true);
-  auto* add = makeButton("planAdd", "&Add row", "One more row below");
+  add_ = makeButton("planAdd", "&Add row", "One more row below");
   remove_ = makeButton("planRemove", "Re&move row", "Removes the chosen row; its files stay");
-  auto* take = makeButton(
+  import_ = makeButton(
       "planImport", "&Import…", "A table (CSV) with the columns object, run, repetitions, notes");
   export_ = makeButton("planExport", "&Export…", "The plan as a table (CSV)");
   anew_ = makeButton("planAnew", "&Begin anew…", "All takes are to be made again; files stay");
-  connect(add, &QPushButton::clicked, this, &PlanDialog::addRow);
+  connect(add_, &QPushButton::clicked, this, &PlanDialog::addRow);
   connect(remove_, &QPushButton::clicked, this, &PlanDialog::removeRow);
-  connect(take, &QPushButton::clicked, this, &PlanDialog::importTable);
+  connect(import_, &QPushButton::clicked, this, &PlanDialog::importTable);
   connect(export_, &QPushButton::clicked, this, &PlanDialog::exportTable);
   connect(anew_, &QPushButton::clicked, this, &PlanDialog::beginAnew);
   auto* buttons = new QHBoxLayout;
   buttons->setSpacing(8);
-  for (QPushButton* button : {add, remove_, take, export_, anew_}) buttons->addWidget(button);
+  for (QPushButton* button : {add_, remove_, import_, export_, anew_}) buttons->addWidget(button);
   buttons->addStretch(1);
   auto* column = new QVBoxLayout(part);
   column->setContentsMargins(kPlanDialogMargin, 0, kPlanDialogMargin, 0);
@@ -264,11 +267,16 @@ void PlanDialog::showState() {
   bar_->setMaximum(std::max(1, plan.total()));
   bar_->setValue(plan.numDone());
   follow_->setChecked(controller_.followed());
-  remove_->setEnabled(table_->selectionModel()->hasSelection());
+  // A table that is being read replaces the plan as it is now.
+  const bool free = !controller_.importing();
+  add_->setEnabled(free);
+  import_->setEnabled(free);
+  remove_->setEnabled(free && table_->selectionModel()->hasSelection());
   export_->setEnabled(some);
-  anew_->setEnabled(some && std::any_of(plan.rows().begin(),
-                                        plan.rows().end(),
-                                        [](const auto& row) { return !row.takes.empty(); }));
+  anew_->setEnabled(free && some &&
+                    std::any_of(plan.rows().begin(), plan.rows().end(), [](const auto& row) {
+                      return !row.takes.empty();
+                    }));
   const auto& last = controller_.lastTake();
   repeat_->setEnabled(last.has_value());
   repeat_->setToolTip((last ? pathText(last->filename()) : QString("The last take")) +

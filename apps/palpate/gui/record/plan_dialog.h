@@ -74,6 +74,8 @@ class PlanDialog : public QDialog {
   OfferStrip* question_;
   PlanLimits* limits_;
   QCheckBox* follow_;
+  QPushButton* add_;
+  QPushButton* import_;
   QPushButton* remove_;
   QPushButton* export_;
   QPushButton* anew_;

@@ -86,11 +86,15 @@ QVariant PlanModel::headerData(int section, Qt::Orientation orientation, int rol
 
 Qt::ItemFlags PlanModel::flags(const QModelIndex& index) const {
   const Qt::ItemFlags usual = QAbstractTableModel::flags(index);
-  return index.column() <= kNotes ? usual | Qt::ItemIsEditable : usual;
+  return index.column() <= kNotes && !controller_.importing() ? usual | Qt::ItemIsEditable : usual;
 }
 
 bool PlanModel::setData(const QModelIndex& index, const QVariant& value, int role) {
   if (!index.isValid() || role != Qt::EditRole || index.column() > kNotes) return false;
+  if (controller_.importing()) {
+    emit refused("a table is being read in place of the plan");
+    return false;
+  }
   const auto at = static_cast<std::size_t>(index.row());
   PlanRow row = controller_.plan().rows().at(at);
   const std::string text = value.toString().trimmed().toStdString();

@@ -28,6 +28,8 @@ CentralWidget::CentralWidget(QSettings& settings, QWidget* parent)
   work_ = new FittingPages(page);
   views_ = new ViewSplitter(work_);
   views_->setObjectName("views");
+  // When the window is closed, a view may be hidden.
+  connect(views_, &QSplitter::splitterMoved, this, &CentralWidget::remember);
   work_->addWidget(views_);
   column_->addWidget(work_, 1);
   pages_->addWidget(page);

@@ -92,6 +92,8 @@ MainWindow::MainWindow(const WindowEnvironment& environment)
   emit windowState_->appearance.changed();
   for (const auto& feature : features_) feature->start();
   emit windowState_->displayed.shown();
+  if (const QString& problem = windowState_->settingsPlace.problem; !problem.isEmpty())
+    windowState_->messages.fail(problem);
 }
 
 MainWindow::~MainWindow() {
@@ -290,7 +292,7 @@ void MainWindow::closeUnasked() {
 }
 
 void MainWindow::settle() {
-  for (FileReading* reading : findChildren<FileReading*>()) reading->settle();
+  FileReading::settleAll(*this);
   for (const auto& feature : features_) feature->settle();
 }
 

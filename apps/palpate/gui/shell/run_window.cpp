@@ -2,6 +2,9 @@
 
 #include <QGuiApplication>
 #include <QScreen>
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <system_error>
 #include <vector>
@@ -17,6 +20,7 @@
 #include "gui/settings/settings_feature.h"
 #include "gui/shell/main_window.h"
 #include "gui/shell/screen_room.h"
+#include "gui/source/file_reading.h"
 
 namespace palpate::gui {
 namespace {
@@ -38,9 +42,7 @@ std::filesystem::path wholePath(const std::filesystem::path& file) {
   return failed ? file : folder / file.filename();
 }
 
-}  // namespace
-
-int runWindow(int& argc, char** argv, const WindowOptions& options) {
+int showWindow(int& argc, char** argv, const WindowOptions& options) {
   const auto application = makeApplication(argc, argv);
   MainWindow window({.dataFolder = options.dataFolder,
                      .settingsPath = settingsPath(),
@@ -82,6 +84,17 @@ int runWindow(int& argc, char** argv, const WindowOptions& options) {
     restoreSession(window.state());
   }
   return QGuiApplication::exec();
+}
+
+}  // namespace
+
+int runWindow(int& argc, char** argv, const WindowOptions& options) {
+  const int code = showWindow(argc, argv, options);
+  using namespace std::chrono_literals;
+  if (FileReading::awaitThreads(500ms)) return code;
+  // A file doesn't answer: its thread must not see how the statics are destroyed.
+  std::fflush(nullptr);
+  std::_Exit(code);
 }
 
 }  // namespace palpate::gui

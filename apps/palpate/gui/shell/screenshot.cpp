@@ -27,6 +27,7 @@
 #include "gui/shell/main_window.h"
 #include "gui/shell/run_window.h"
 #include "gui/slip/slip_feature.h"
+#include "gui/source/file_reading.h"
 #include "gui/spectrum/spectrum_feature.h"
 #include "gui/timeline/timeline_feature.h"
 #include "gui/timeline/timeline_panel.h"
@@ -123,6 +124,8 @@ void useSettings(const QString& to, const ScreenshotOptions& options) {
 }
 
 void settle(MainWindow& window) {
+  // Files first: the rest computes from them.
+  window.settle();
   window.feature<FilterFeature>().settle();
   TimelineChart& timeline = window.feature<TimelineFeature>().panel().chart();
   timeline.store().waitForFirstLook();
@@ -204,6 +207,7 @@ int takeScreenshot(int& argc, char** argv, const ScreenshotOptions& options) {
   }
   if (options.comparedWith) showCompare(window, options);
   showDocks(window, options);
+  FileReading::settleAll(window);
   QImage image = pressAll(window, options);
   settle(window);
   if (image.isNull()) image = window.grab().toImage();

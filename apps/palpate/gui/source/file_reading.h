@@ -5,6 +5,7 @@
 
 #include <QObject>
 #include <QString>
+#include <chrono>
 #include <functional>
 #include <memory>
 
@@ -25,12 +26,20 @@ class FileReading : public QObject {
   ~FileReading() override;
 
   // Starts to read in place of what is being read; the answer to that never comes. Either the Take
-  // that `work` returns is called, or `failed` with the message of its exception.
+  // that `work` returns is called, or `failed` with the message of its exception, or of why it
+  // can't be begun; neither before start() returns.
   void start(Work work, Failed failed);
   void abandon();
   bool busy() const noexcept { return question_ != nullptr; }
-  // Waits for the answer, with events; for tests.
+  // Wait for the answer, or for all answers of readings below `root`, with events.
   void settle();
+  static void settleAll(const QObject& root);
+
+  // Waits until all threads that read have ended, at most so long; returns whether they have. Call
+  // it at the end of the program: what they use mustn't be destroyed under them.
+  static bool awaitThreads(std::chrono::milliseconds longest);
+  // Is called in the thread before each work; for tests, which hold it there. Null: nothing is.
+  static void setGate(std::function<void()> gate);
 
  signals:
   // The answer came, or nobody waits for it any more.

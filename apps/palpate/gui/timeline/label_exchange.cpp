@@ -99,9 +99,9 @@ void LabelExchange::exportLabels() {
 
 // Shows a failure until another import begins or the recording is not shown any more; one that
 // added labels, until it is undone.
-void LabelExchange::fail(const QString& message, bool added) {
+void LabelExchange::fail(const QString& message, EventEditor* in, bool added) {
   failed_ = true;
-  failedIn_ = windowState_.events.editor();
+  failedIn_ = in;
   failedAt_ = failedIn_ && added ? failedIn_->undoStack().index() : 0;
   windowState_.messages.failAbout(kImportTopic, message);
 }
@@ -127,17 +127,18 @@ void LabelExchange::importLabels() {
   reading_.start(
       [this, path, recording, editor = QPointer(editor)]() -> FileReading::Take {
         return [this, path, editor, table = tableIn(path, recording->profile)] {
-          // It may have been closed meanwhile.
-          if (editor && editor == windowState_.events.editor()) take(table, path);
+          if (editor) return take(table, path, *editor);
+          windowState_.messages.flash(QFileInfo(path).fileName() +
+                                      ": no labels added, the recording was closed");
         };
       },
-      [this](const QString& problem) { fail(problem); });
+      [this](const QString& problem) { fail(problem, windowState_.events.editor(), false); });
+  windowState_.messages.flash("reading " + QFileInfo(path).fileName() + "…");
 }
 
-void LabelExchange::take(const LabelTable& table, const QString& path) {
-  EventEditor* editor = windowState_.events.editor();
-  const std::vector<RecordingEvent> added = newLabels(table, editor->events());
-  editor->add(added, "importing labels");
+void LabelExchange::take(const LabelTable& table, const QString& path, EventEditor& editor) {
+  const std::vector<RecordingEvent> added = newLabels(table, editor.events());
+  editor.add(added, "importing labels");
   const std::size_t known = table.events.size() - added.size();
   QString said = QFileInfo(path).fileName() + ": " + countsOf(added) + " added";
   if (known > 0)
@@ -153,7 +154,7 @@ void LabelExchange::take(const LabelTable& table, const QString& path) {
     problems.append("and more");
   else if (bad > kMostProblems)
     problems.append(QString::number(bad - kMostProblems) + " more");
-  fail(said + "; left out: " + problems.join("; "), !added.empty());
+  fail(said + "; left out: " + problems.join("; "), &editor, !added.empty());
 }
 
 }  // namespace palpate::gui

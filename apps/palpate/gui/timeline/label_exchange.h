@@ -24,8 +24,8 @@ class LabelExchange : public QObject {
   void importLabels();
 
  private:
-  void take(const LabelTable& table, const QString& path);
-  void fail(const QString& message, bool added = false);
+  void take(const LabelTable& table, const QString& path, EventEditor& editor);
+  void fail(const QString& message, EventEditor* in, bool added);
   void withdrawWhenUndone();
 
   WindowState& windowState_;

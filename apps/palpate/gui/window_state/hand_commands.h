@@ -23,8 +23,11 @@ class HandCommands : public QObject {
   // An empty function, or nothing as its result: no noise lines are applied.
   std::function<std::optional<NoiseFloor>(const std::string& hand)> noiseLines;
   // Returns the calibration that is applied to the hand of this name. An empty function, or nothing
-  // as its result: none is applied, or it can't be read.
+  // as its result: none is applied, it is being read, or it can't be read.
   std::function<std::optional<Calibration>(const std::string& hand)> calibration;
+  // Whether the calibration that is applied to the hand of this name is being read;
+  // calibrationApplied() follows. An empty function: never.
+  std::function<bool(const std::string& hand)> calibrationBeingRead;
   // The action that stops the hand, enabled while there is a hand to stop, and the actions that
   // move it; for windows in which the keys of the main window don't work. Null and empty: no dock
   // Hand.
@@ -42,7 +45,7 @@ class HandCommands : public QObject {
   }
 
  signals:
-  // Another calibration was applied, or the applied one was removed.
+  // Another calibration was applied, or the applied one was removed, is being read, or was read.
   void calibrationApplied();
   // Other noise lines were applied.
   void noiseLinesApplied();

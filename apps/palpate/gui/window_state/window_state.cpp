@@ -38,7 +38,8 @@ RecordingOpener::ReadDamaged damagedReaderOf(const WindowEnvironment& environmen
 
 WindowState::WindowState(const WindowEnvironment& given, QWidget* window)
     : environment(given),
-      settings(readableSettings(given.settingsPath), QSettings::IniFormat),
+      settingsPlace(readableSettings(given.settingsPath)),
+      settings(settingsPlace.path, QSettings::IniFormat),
       recent(settings),
       appearance(settings),
       log(clockOf(given)),

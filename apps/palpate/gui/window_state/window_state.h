@@ -13,6 +13,7 @@
 #include <palpate/core/time.h>
 #include <palpate/filter/recipe.h>
 
+#include "gui/appearance/settings_file.h"
 #include "gui/picture/exported_view.h"
 #include "gui/source/live_controller.h"
 #include "gui/source/open_recordings.h"
@@ -63,6 +64,7 @@ struct WindowState {
   explicit WindowState(const WindowEnvironment& environment, QWidget* window);
 
   const WindowEnvironment environment;
+  const SettingsPlace settingsPlace;
   QSettings settings;
   RecentFiles recent;
   ViewAppearance appearance;
