@@ -106,7 +106,7 @@ struct Recorder::Impl {
     }
     if (!asked) return;
     parts = std::make_unique<RecordingParts>(
-        std::move(*asked), options, askedAt, [this](const RecordingEvent& event) {
+        std::move(*asked), options, askedAt, clock, [this](const RecordingEvent& event) {
           notify(event);
         });
     freeBytesMonoUs.reset();

@@ -21,8 +21,13 @@ constexpr std::int64_t kCountersUs = 1'000'000;
 // Without further frames, the end of the recording is detected after this time.
 constexpr std::int64_t kEndGraceUs = 1'000'000;
 
-constexpr int kMostRelocations = 3;  // of one part in a row
-constexpr std::int64_t kRelocationRetryUs = 1'000'000;
+constexpr int kMaxRelocations = 3;  // in a row, and into the folder in which it was
+// Between two copies of a whole part; doubled from one to the next.
+constexpr std::int64_t kFirstRestUs = 1'000'000;
+constexpr std::int64_t kLongestRestUs = 60'000'000;
+// Longer than finishing is tried: a copy that fails there is not made again.
+constexpr std::int64_t kRestAtEndUs = 8'000'000;
+constexpr std::uint64_t kFreeBeside = 64u << 20;  // bytes that a copy leaves free
 
 bool isThere(const fs::path& path) {
   std::error_code ignored;
@@ -50,6 +55,9 @@ std::vector<fs::path> usualEmergencyFolders() {
   return folders;
 }
 
+// Nobody but the recorder can have what is in it.
+bool isLost(const PalpateWriter& part) { return part.isGone() || part.isUnreadable(); }
+
 std::int64_t microseconds(double seconds) {
   return static_cast<std::int64_t>(std::llround(seconds * 1e6));
 }
@@ -72,13 +80,16 @@ bool isReservedMeta(std::string_view key) noexcept {
 RecordingParts::RecordingParts(RecordingOptions options,
                                const RecorderOptions& recorder,
                                RoundTime start,
+                               const Clock& clock,
                                Notice notice)
     : options_(std::move(options)),
       commitIntervalUs_(static_cast<std::int64_t>(recorder.commitIntervalMs * 1000.0)),
       vfs_(recorder.vfs),
       emergencyFolders_(recorder.emergencyFolders.empty() ? usualEmergencyFolders()
                                                           : recorder.emergencyFolders),
+      freeBytes_(recorder.freeBytes ? recorder.freeBytes : freeBytesOf),
       start_(start),
+      clock_(clock),
       notice_(std::move(notice)),
       base_(options_.path),
       folder_(base_.has_parent_path() ? base_.parent_path() : fs::path(".")),
@@ -255,7 +266,7 @@ void RecordingParts::split(const TactileFrame& frame, RoundTime time) {
   closeOldPart(time);
 }
 
-bool RecordingParts::succeeds(PalpateWriter& part,
+bool RecordingParts::succeeds(std::unique_ptr<PalpateWriter>& part,
                               RoundTime time,
                               const std::function<void()>& work) {
   for (int relocations = 0;; ++relocations) {
@@ -263,41 +274,100 @@ bool RecordingParts::succeeds(PalpateWriter& part,
       work();
       return true;
     } catch (const FileError& error) {
-      if (relocations < kMostRelocations && part.isGone() &&
-          keepElsewhere(part, error.what(), time, {}))
-        continue;
-      onCommitFailed(error.what(), time);
+      if (relocations < kMaxRelocations && isMended(part, error.what(), time)) continue;
+      const bool isKept = !isLost(*part) || whyNotKept_.empty();
+      onCommitFailed(isKept ? error.what() : error.what() + ("; " + whyNotKept_), time);
       return false;
     }
   }
 }
 
+// Gives a part whose file is gone or was overwritten a file again.
+bool RecordingParts::isMended(std::unique_ptr<PalpateWriter>& part,
+                              const std::string& why,
+                              RoundTime time) {
+  if (!isLost(*part)) return false;
+  const std::int64_t monoUs = clock_.monotonicUs();
+  const bool rests = monoUs < nextRelocationMonoUs_ && (!finishing_ || relocationFailed_);
+  if (rests) return false;
+  // One that was left alone for long begins anew.
+  if (monoUs >= nextRelocationMonoUs_ + 2 * kLongestRestUs) restUs_ = relocationsHere_ = 0;
+  Kept kept = part->isUnreadable() ? Kept::kUnreadable : keepElsewhere(*part, why, time, {});
+  if (kept == Kept::kUnreadable && goesOnAnew(part, why, time)) kept = Kept::kWhole;
+  relocationFailed_ = kept != Kept::kWhole;
+  if (!relocationFailed_) whyNotKept_.clear();
+  restUs_ = std::clamp(
+      2 * restUs_, finishing_ && relocationFailed_ ? kRestAtEndUs : kFirstRestUs, kLongestRestUs);
+  // A copy may have taken longer than a round.
+  nextRelocationMonoUs_ = clock_.monotonicUs() + restUs_;
+  return !relocationFailed_;
+}
+
+// Where a part goes on that can't stay as it is in its folder: there, unless its files vanish there
+// time and again, or in an emergency folder.
+std::vector<fs::path> RecordingParts::foldersAfter(const fs::path& own) const {
+  std::vector<fs::path> folders = emergencyFolders_;
+  folders.insert(relocationsHere_ < kMaxRelocations ? folders.begin() : folders.end(), own);
+  return folders;
+}
+
 // Gives a part whose file was deleted, renamed or replaced a file again, with all that it
-// contained, under its own name where that is free: in the wanted folder or, without one, in its
-// own or an emergency folder.
-bool RecordingParts::keepElsewhere(PalpateWriter& part,
-                                   const std::string& why,
-                                   RoundTime time,
-                                   const std::optional<fs::path>& wanted) {
-  if (time.monoUs < nextRelocationMonoUs_) return false;
-  fs::path& path = paths_.at(paths_.size() - (&part == closing_.get() ? 2 : 1));
-  const fs::path own = path.parent_path();
-  std::vector<fs::path> folders{wanted.value_or(own)};
-  if (!wanted) folders.insert(folders.end(), emergencyFolders_.begin(), emergencyFolders_.end());
-  for (const fs::path& next : folders) {
-    const fs::path kept = freePathLike(next / path.filename(), isThere);
+// contained, under its own name where that is free.
+RecordingParts::Kept RecordingParts::keepElsewhere(PalpateWriter& part,
+                                                   const std::string& why,
+                                                   RoundTime time,
+                                                   const std::optional<fs::path>& wanted) {
+  const fs::path before = part.path();
+  const fs::path own = before.parent_path();
+  const auto size = static_cast<std::uint64_t>(part.bytesOnDisk());
+  for (const fs::path& next : wanted ? std::vector{*wanted} : foldersAfter(own)) {
+    const auto freeNow = freeBytes_(next.empty() ? "." : next);
+    if (freeNow && *freeNow < size + kFreeBeside) {
+      whyNotKept_ = next.string() + ": no room there for the whole recording";
+      continue;
+    }
+    const fs::path kept = freePathLike(next / before.filename(), isThere);
     try {
       part.moveTo(kept);
-    } catch (const std::exception&) {
-      continue;  // no such folder, not writable, no space
+    } catch (const FormatError& error) {
+      whyNotKept_ = error.what();
+      return Kept::kUnreadable;
+    } catch (const std::exception& error) {  // no such folder, not writable, no space
+      whyNotKept_ = error.what();
+      continue;
     }
+    relocationsHere_ = next == own ? relocationsHere_ + 1 : 0;
     if (next != own) leaveFolder(next);
-    path = kept;
+    *std::find(paths_.begin(), paths_.end(), before) = kept;
     ++counts_.writeFailures;
     noteRelocation(why + "; all that was recorded is in " + kept.string() + " now", time);
-    return true;
+    return Kept::kWhole;
   }
-  nextRelocationMonoUs_ = time.monoUs + kRelocationRetryUs;
+  return Kept::kNowhere;
+}
+
+// Begins a new part for what the disk has not got of one whose file can't be read any more. False:
+// nothing has changed.
+bool RecordingParts::goesOnAnew(std::unique_ptr<PalpateWriter>& part,
+                                const std::string& why,
+                                RoundTime time) {
+  const fs::path base = base_, folder = folder_;
+  const std::int64_t lost = part->framesOnDisk();
+  for (const fs::path& next : foldersAfter(folder_)) {
+    try {
+      if (next != folder_) leaveFolder(next);
+      replace(part);
+      ++counts_.writeFailures;
+      const std::string told =
+          why + "; " + std::to_string(lost) + " frames that were in it are lost";
+      noteRelocation(told + ", and it goes on in " + part->path().string(), time);
+      return true;
+    } catch (const std::exception& error) {
+      whyNotKept_ = error.what();
+      base_ = base;
+      folder_ = folder;
+    }
+  }
   return false;
 }
 
@@ -318,10 +388,10 @@ void RecordingParts::noteFinished(const fs::path& path) {
 
 bool RecordingParts::closeOldPart(RoundTime time) {
   if (!closing_) return true;
-  if (!succeeds(*closing_, time, [this] { closing_->finish(); })) return false;
+  if (!succeeds(closing_, time, [this] { closing_->finish(); })) return false;
   framesInOldParts_ += closing_->framesOnDisk();
   bytesInOldParts_ += closing_->bytesOnDisk();
-  noteFinished(paths_.at(paths_.size() - 2));
+  noteFinished(closing_->path());
   closing_.reset();
   uncommittedBefore_.clear();
   return true;
@@ -394,18 +464,53 @@ void RecordingParts::keepUncommitted(const CaptureItem& item) {
   uncommitted_.pop_front();
 }
 
-// A part in the present folder that contains `items`, in place of `old`.
-std::unique_ptr<PalpateWriter> RecordingParts::replaced(
-    std::unique_ptr<PalpateWriter>& old,
-    const std::shared_ptr<const SensorLayout>& layout,
-    const std::deque<CaptureItem>& items) {
-  std::unique_ptr<PalpateWriter> next = makeWriter(layout);
-  for (const CaptureItem& item : items) append(*next, item);
-  next->commit();
-  framesInOldParts_ += old->framesOnDisk();
-  bytesInOldParts_ += old->bytesOnDisk();
-  old->abandon();
-  return next;
+// Puts a new part in the present folder, with what the disk has not got, in place of an open one.
+// Throws FileError: nothing has changed then, but a file that was begun in vain may remain.
+void RecordingParts::replace(std::unique_ptr<PalpateWriter>& part) {
+  const bool isLast = &part == &writer_;
+  std::deque<CaptureItem>& items = isLast ? uncommitted_ : uncommittedBefore_;
+  const std::size_t numPaths = paths_.size();
+  const int partBefore = nextPart_;
+  std::unique_ptr<PalpateWriter> next;
+  try {
+    next = makeWriter(isLast ? layout_ : closingLayout_);
+    for (const CaptureItem& item : items) append(*next, item);
+    next->commit();
+  } catch (const std::exception&) {
+    paths_.resize(numPaths);
+    nextPart_ = partBefore;
+    throw;
+  }
+  items.clear();
+  paths_.pop_back();
+  const auto old = std::find(paths_.begin(), paths_.end(), part->path());
+  if (isLost(*part)) {
+    // Nobody has what was in it.
+    counts_.lost += part->framesOnDisk();
+    counts_.frames -= part->framesOnDisk();
+    if (isLast && part->framesOnDisk() > 0)
+      addOwn(
+          gapEvent(CaptureStream::kTactile,
+                   {partFirstUs_, committedUs_, static_cast<std::uint64_t>(part->framesOnDisk())},
+                   "its file was overwritten or can't be read"));
+    *old = next->path();
+  } else {
+    framesInOldParts_ += part->framesOnDisk();
+    bytesInOldParts_ += part->bytesOnDisk();
+    abandoned_.push_back(part->path());
+    paths_.insert(std::next(old), next->path());
+  }
+  part->abandon();
+  part = std::move(next);
+  if (!isLast) return;
+  dirtySinceMonoUs_.reset();
+  dirtyItems_ = 0;
+  lastCounters_.clear();
+  if (const auto loss = std::exchange(forgottenFrames_, {})) {
+    counts_.lost += static_cast<std::int64_t>(loss->count);
+    counts_.frames -= static_cast<std::int64_t>(loss->count);
+    addOwn(gapEvent(CaptureStream::kTactile, *loss, "the disk could not be written"));
+  }
 }
 
 // A recording of the same name that is there already would take the continuation for its next part.
@@ -419,48 +524,40 @@ fs::path RecordingParts::freeBaseIn(const fs::path& folder) const {
 }
 
 void RecordingParts::continueIn(const fs::path& folder, RoundTime time) {
-  nextRelocationMonoUs_ = time.monoUs;
-  // A file that is gone can still be read, unless its disk is gone, too: then it goes on whole.
-  if (writer_ && !closing_ && writer_->isGone() &&
-      keepElsewhere(*writer_, error_.empty() ? "the recording is gone" : error_, time, folder))
-    return commit(time);
-  const fs::path before = base_;
+  nextTryMonoUs_ = time.monoUs;
+  // Nobody else has a file that is gone: it goes on whole, or stays as it is. It is left only where
+  // it can't be read any more.
+  bool movesClosing = closing_ != nullptr;
+  bool movesWriter = writer_ != nullptr;
+  for (auto& [part, moves] :
+       {std::pair(&closing_, &movesClosing), std::pair(&writer_, &movesWriter)}) {
+    if (!*part || !(*part)->isGone() || (*part)->isUnreadable()) continue;
+    const Kept kept =
+        keepElsewhere(**part, error_.empty() ? "the recording is gone" : error_, time, folder);
+    if (kept == Kept::kNowhere) return onCommitFailed(whyNotKept_, time);
+    *moves = kept == Kept::kUnreadable;
+  }
+  const fs::path base = base_, folderBefore = folder_;
   const int partBefore = nextPart_;
-  const std::vector<fs::path> pathsBefore = paths_;
   base_ = freeBaseIn(folder);
   folder_ = folder;
-  nextPart_ = 1;
-  nextTryMonoUs_ = time.monoUs;
+  if (!writer_ || movesClosing || movesWriter) nextPart_ = 1;
   if (!writer_) {
     if (frameHeld_) open(time);
     return;
   }
   try {
-    if (closing_) {
-      closing_ = replaced(closing_, closingLayout_, uncommittedBefore_);
-      abandoned_.push_back(pathsBefore.at(pathsBefore.size() - 2));
-      uncommittedBefore_.clear();
-    }
-    writer_ = replaced(writer_, layout_, uncommitted_);
-    abandoned_.push_back(pathsBefore.back());
+    if (movesClosing) replace(closing_);
+    if (movesWriter) replace(writer_);
   } catch (const std::exception& error) {
     // A part that was begun in vain remains, unfinished and without anything that is missing here.
-    base_ = before;
-    folder_ = before.has_parent_path() ? before.parent_path() : fs::path(".");
+    base_ = base;
+    folder_ = folderBefore;
     nextPart_ = partBefore;
     return onCommitFailed(error.what(), time);
   }
-  uncommitted_.clear();
-  dirtySinceMonoUs_.reset();
-  dirtyItems_ = 0;
-  lastCounters_.clear();
-  if (const auto loss = std::exchange(forgottenFrames_, {})) {
-    counts_.lost += static_cast<std::int64_t>(loss->count);
-    counts_.frames -= static_cast<std::int64_t>(loss->count);
-    addOwn(gapEvent(CaptureStream::kTactile, *loss, "the disk could not be written"));
-  }
-  onCommitSucceeded(time);
-  closeOldPart(time);
+  if (movesWriter) onCommitSucceeded(time);
+  if (closeOldPart(time) && !movesWriter) commit(time);
 }
 
 void RecordingParts::recordLoss(const CaptureItem& item) {
@@ -547,20 +644,25 @@ void RecordingParts::round(RoundTime time) {
 }
 
 void RecordingParts::commit(RoundTime time) {
-  const bool done = succeeds(*writer_, time, [this] {
-    writer_->commit();
+  const bool done = succeeds(writer_, time, [this] {
+    commitWriter();
     // Only now the disk has room for pending events.
     if (!unwrittenEvents_.empty()) {
       writePendingEvents();
-      writer_->commit();
+      commitWriter();
     }
   });
   if (!done) return;
   dirtySinceMonoUs_.reset();
   dirtyItems_ = 0;
+  if (!closing_) onCommitSucceeded(time);
+}
+
+void RecordingParts::commitWriter() {
+  writer_->commit();
+  committedUs_ = intervals_.lastUs();
   uncommitted_.clear();
   forgottenFrames_.reset();
-  if (!closing_) onCommitSucceeded(time);
 }
 
 void RecordingParts::onCommitFailed(const std::string& what, RoundTime time) {
@@ -590,23 +692,25 @@ bool RecordingParts::ended(RoundTime time) const {
 }
 
 bool RecordingParts::finish(RoundTime time) {
+  // One attempt at the end, whatever came before.
+  if (!std::exchange(finishing_, true)) relocationFailed_ = false;
   if (!writer_ && frameHeld_) open(time);
   if (!writer_) {
     unfinished_ = frameHeld_;
     return !frameHeld_;
   }
   if (!closeOldPart(time)) return !(unfinished_ = true);
-  const bool done = succeeds(*writer_, time, [&] {
-    writer_->commit();
+  const bool done = succeeds(writer_, time, [&] {
+    commitWriter();
     onCommitSucceeded(time);
     endLossIntervals();
     writePendingEvents();
     updateCounters(time);
   });
   // An event of this moment can't be in the file any more.
-  if (!done || !succeeds(*writer_, time, [this] { writer_->finish(); }))
+  if (!done || !succeeds(writer_, time, [this] { writer_->finish(); }))
     return !(unfinished_ = true);
-  noteFinished(paths_.back());
+  noteFinished(writer_->path());
   if (mcap_) {
     mcap_->finish();
     const std::string failure = mcap_->takeFailure();
@@ -624,6 +728,14 @@ std::int64_t RecordingParts::bytesOnDisk() const {
 std::int64_t RecordingParts::framesOnDisk() const {
   return framesInOldParts_ + (closing_ ? closing_->framesOnDisk() : 0) +
          (writer_ ? writer_->framesOnDisk() : 0);
+}
+
+// The open parts that end with this object: nobody can find what is in them.
+std::vector<const PalpateWriter*> RecordingParts::vanishing() const {
+  std::vector<const PalpateWriter*> parts;
+  for (const PalpateWriter* part : {closing_.get(), writer_.get()})
+    if (part && isLost(*part)) parts.push_back(part);
+  return parts;
 }
 
 void RecordingParts::describe(RecorderStatus& status) const {
@@ -669,7 +781,7 @@ RecordingReport RecordingParts::report() const {
     std::erase(report.paths, path);
   }
   std::erase_if(report.paths, [](const fs::path& path) { return !isThere(path); });
-  if (writer_ && unfinished_ && writer_->isGone()) std::erase(report.paths, paths_.back());
+  const auto vanished = unfinished_ ? vanishing() : std::vector<const PalpateWriter*>();
   report.lost += lostInQueues_;
   report.gaps = intervals_.gaps();
   report.firstFrameUs = intervals_.firstUs();
@@ -678,15 +790,20 @@ RecordingReport RecordingParts::report() const {
   report.rateHz = intervals_.rateHz();
   report.meanRateHz = intervals_.meanRateHz();
   report.bytes = bytesOnDisk();
+  for (const PalpateWriter* part : vanished) {
+    std::erase(report.paths, part->path());
+    report.bytes -= part->bytesOnDisk();
+  }
   if (mcap_) report.mcapPaths = mcap_->paths();
   report.mcapFailure = mcapFailure_;
   if (unfinished_) {
     // What waited in memory for the disk is gone.
-    const std::int64_t onDisk = framesOnDisk();
+    std::int64_t onDisk = framesOnDisk();
+    for (const PalpateWriter* part : vanished) onDisk -= part->framesOnDisk();
     report.lost += counts_.frames - onDisk;
     report.frames = onDisk;
     report.message =
-        error_ + (writer_ && writer_->isGone()
+        error_ + (!vanished.empty()
                       ? "; it could not be kept elsewhere"
                       : "; what was written before is safe: 'palpate recover' finishes the file");
   } else if (report.lost > 0)

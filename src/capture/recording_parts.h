@@ -13,6 +13,7 @@
 
 #include "palpate/capture/recorder.h"
 #include "palpate/core/file_id.h"
+#include "palpate/core/time.h"
 #include "palpate/recording/palpate_writer.h"
 
 #include "capture/interval_statistics.h"
@@ -41,10 +42,11 @@ struct RoundTime {
 class RecordingParts {
  public:
   using Notice = std::function<void(const RecordingEvent&)>;
-  // `start` is the time at which the recording was requested.
+  // `start` is the time at which the recording was requested. The clock must outlive it.
   RecordingParts(RecordingOptions options,
                  const RecorderOptions& recorder,
                  RoundTime start,
+                 const Clock& clock,
                  Notice notice);
 
   // Takes the item if it belongs to the recording. A failing disk causes no exception: it is noted,
@@ -88,20 +90,26 @@ class RecordingParts {
   bool closeOldPart(RoundTime time);
   // Does the work on the open part or the previous one; a file that is gone is made anew, and the
   // work repeated. False: it failed, and that is noted.
-  bool succeeds(PalpateWriter& part, RoundTime time, const std::function<void()>& work);
-  bool keepElsewhere(PalpateWriter& part,
+  bool succeeds(std::unique_ptr<PalpateWriter>& part,
+                RoundTime time,
+                const std::function<void()>& work);
+  bool isMended(std::unique_ptr<PalpateWriter>& part, const std::string& why, RoundTime time);
+  std::vector<std::filesystem::path> foldersAfter(const std::filesystem::path& own) const;
+  enum class Kept { kWhole, kNowhere, kUnreadable };
+  // Without a wanted folder it is the first of foldersAfter() that takes it. Unless it was kept,
+  // whyNotKept_ says why.
+  Kept keepElsewhere(PalpateWriter& part,
                      const std::string& why,
                      RoundTime time,
                      const std::optional<std::filesystem::path>& wanted);
+  bool goesOnAnew(std::unique_ptr<PalpateWriter>& part, const std::string& why, RoundTime time);
   void noteRelocation(std::string text, RoundTime time);
   void leaveFolder(const std::filesystem::path& folder);
   void noteFinished(const std::filesystem::path& path);
   void write(const CaptureItem& item, RoundTime time);
   void writeTo(const CaptureItem& item);
   void keepUncommitted(const CaptureItem& item);
-  std::unique_ptr<PalpateWriter> replaced(std::unique_ptr<PalpateWriter>& old,
-                                          const std::shared_ptr<const SensorLayout>& layout,
-                                          const std::deque<CaptureItem>& items);
+  void replace(std::unique_ptr<PalpateWriter>& part);
   void recordLoss(const CaptureItem& item);
   void endLossIntervals();
   void endLossInterval(std::size_t stream);
@@ -109,10 +117,12 @@ class RecordingParts {
   void writePendingEvents();
   void updateCounters(RoundTime time);
   void commit(RoundTime time);
+  void commitWriter();
   void onCommitFailed(const std::string& what, RoundTime time);
   void onCommitSucceeded(RoundTime time);
   std::int64_t bytesOnDisk() const;
   std::int64_t framesOnDisk() const;
+  std::vector<const PalpateWriter*> vanishing() const;
   std::string abandonedText() const;
   void lookAfterMcap(RoundTime time);
 
@@ -120,7 +130,9 @@ class RecordingParts {
   const std::int64_t commitIntervalUs_;
   const std::string vfs_;
   const std::vector<std::filesystem::path> emergencyFolders_;
+  const std::function<std::optional<std::uint64_t>(const std::filesystem::path&)> freeBytes_;
   RoundTime start_;
+  const Clock& clock_;
   const Notice notice_;
   // The path of the first part, or that of the first one in another folder.
   std::filesystem::path base_;
@@ -139,6 +151,7 @@ class RecordingParts {
   std::shared_ptr<const SensorLayout> layout_;
   std::shared_ptr<const SensorLayout> closingLayout_;
   std::int64_t partFirstUs_ = 0;
+  std::int64_t committedUs_ = 0;  // stamp of the last frame that a commit took
   bool partHasFrames_ = false;
   std::vector<std::pair<std::filesystem::path, FileId>> finished_;
   std::int64_t framesInOldParts_ = 0;
@@ -157,7 +170,12 @@ class RecordingParts {
   std::optional<CaptureLoss> forgottenFrames_;
   // Why and where a part went on under another name; empty: none did.
   std::string relocation_;
+  std::string whyNotKept_;  // at the last attempt
   std::int64_t nextRelocationMonoUs_ = 0;
+  std::int64_t restUs_ = 0;        // after the last one; 0: there was none for long
+  int relocationsHere_ = 0;        // in a row into the folder in which it was
+  bool relocationFailed_ = false;  // the last one
+  bool finishing_ = false;
   // Parts that were left unfinished in another folder.
   std::vector<std::filesystem::path> abandoned_;
 

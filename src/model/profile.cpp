@@ -1,6 +1,7 @@
 #include "palpate/model/profile.h"
 
 #include <stdexcept>
+#include <utility>
 
 #include "palpate/core/error.h"
 
@@ -70,11 +71,10 @@ TactileFrame Profile::frame(std::size_t frame) const {
 
 void Profile::readFrame(std::size_t frame, TactileFrame& out) const {
   check("frame", frame, numFrames());
-  out.layout = data_->hand.layout;
-  out.values.resize(layout().numCells());
-  out.filtered.clear();
-  out.hostUs = data_->storage->frameTimeUs(frame);
-  data_->storage->readFrame(frame, out);
+  TactileFrame read(data_->hand.layout);
+  read.hostUs = data_->storage->frameTimeUs(frame);
+  data_->storage->readFrame(frame, read);
+  out = std::move(read);
 }
 
 bool Profile::readFrame(std::size_t frame, TactileFrame& out, UnreadableSamples* unreadable) const {
@@ -84,6 +84,7 @@ bool Profile::readFrame(std::size_t frame, TactileFrame& out, UnreadableSamples*
   } catch (const Error& error) {
     if (!unreadable) throw;
     unreadable->add(frame, error.what());
+    out.hostUs = frameTimeUs(frame);
     return false;
   }
 }

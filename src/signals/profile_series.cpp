@@ -160,6 +160,25 @@ Series readFormula(const Profile& profile,
       profile, Formula(choice.formula), secondsAt(begin), secondsAt(end - 1), progress, unreadable);
 }
 
+// The samples begin..end, end exclusive.
+Series readSamples(const Profile& profile,
+                   const SeriesChoice& choice,
+                   std::size_t begin,
+                   std::size_t end,
+                   const Progress& progress,
+                   UnreadableSamples* unreadable) {
+  if (choice.kind == ProfileSeriesKind::kFormula)
+    return readFormula(profile, choice, begin, end, progress, unreadable);
+  Series series;
+  series.timeS.reserve(end - begin);
+  series.values.reserve(end - begin);
+  readAll(profile, choice, begin, end, progress, unreadable, [&](double timeS, double value) {
+    series.timeS.push_back(timeS);
+    series.values.push_back(value);
+  });
+  return series;
+}
+
 }  // namespace
 
 double meanOf(const TactileFrame& frame, const TaxelSelection& taxels) {
@@ -214,20 +233,11 @@ Series readSeries(const Profile& profile,
                   const Progress& progress,
                   UnreadableSamples* unreadable) {
   requireSeries(profile, choice);
-  Series series;
-  if (!(fromS <= toS)) return series;
+  if (!(fromS <= toS)) return {};
   const std::size_t begin = *sampleAt(profile, choice.kind, usOf(profile, fromS));
   const std::size_t end = std::min(*sampleAt(profile, choice.kind, usOf(profile, toS)) + 2,
                                    countOf(profile, choice.kind));
-  if (choice.kind == ProfileSeriesKind::kFormula)
-    return readFormula(profile, choice, begin, end, progress, unreadable);
-  series.timeS.reserve(end - begin);
-  series.values.reserve(end - begin);
-  readAll(profile, choice, begin, end, progress, unreadable, [&](double timeS, double value) {
-    series.timeS.push_back(timeS);
-    series.values.push_back(value);
-  });
-  return series;
+  return readSamples(profile, choice, begin, end, progress, unreadable);
 }
 
 void visitSeries(const Profile& profile,
@@ -266,13 +276,15 @@ Series readSpread(const Profile& profile,
   if (numSteps == 0) throw std::invalid_argument("readSpread: no step");
   Series series;
   const double durationS = static_cast<double>(profile.durationUs()) / kUsPerS;
+  std::optional<std::size_t> last;
   for (std::size_t i = 0; i <= numSteps; ++i) {
     const double done = static_cast<double>(i) / static_cast<double>(numSteps);
     if (progress && !progress(done)) throw Cancelled();
-    const Series one =
-        readSeries(profile, choice, durationS * done, durationS * done, {}, unreadable);
+    const std::size_t sample = *sampleAt(profile, choice.kind, usOf(profile, durationS * done));
+    if (last && sample <= *last) continue;
+    last = sample;
+    const Series one = readSamples(profile, choice, sample, sample + 1, {}, unreadable);
     if (one.values.empty()) continue;
-    if (!series.timeS.empty() && one.timeS.front() <= series.timeS.back()) continue;
     series.timeS.push_back(one.timeS.front());
     series.values.push_back(one.values.front());
   }

@@ -23,6 +23,13 @@ void runSlipDetector(const Profile& profile,
                                 std::to_string(profile.numFrames()));
   SensorSlipDetector detector(profile.hand(), options.detector);
   TactileFrame frame;
+  if (given) {
+    try {
+      profile.readFrame(options.referenceFrame, frame);
+    } catch (const Error& error) {
+      throw Error(std::string("the reference frame can't be read: ") + error.what());
+    }
+  }
   std::vector<double> jointsDeg;
   std::optional<std::size_t> sample;
   for (std::size_t i = 0; i < profile.numFrames(); ++i) {

@@ -1,12 +1,18 @@
 // F2 of the attack: files that are deleted, renamed or replaced while they are recorded. Each frame
 // of the session is in the files that the report names, which are whole; what others put in their
 // place stays.
+#include <csignal>
 #include <functional>
+#include <map>
+
+#include <sys/resource.h>
 
 #include "palpate/recording/palpate_recovery.h"
+#include "palpate/recording/palpate_writer.h"
 #include "palpate/recording/recording.h"
 
 #include "capture/scripted_device.h"
+#include "recording/faulty_vfs.h"
 #include "testing/testing.h"
 
 namespace palpate::recorder_gone_files_test {
@@ -20,17 +26,25 @@ struct GoneSession {
   fs::path here = folder / "here";
   fs::path emergency = folder / "emergency";
   fs::path path = here / "a.palpate";
-  ScriptedSession scripted;
+  std::map<fs::path, std::uint64_t> room;  // free bytes, of some folders
+  std::map<fs::path, int> asks;            // how often it was asked for that
+  std::string vfs;
   std::vector<std::string> told;  // alarms
+  ScriptedSession scripted;
 
-  GoneSession() : scripted(options()) {
+  explicit GoneSession(std::string files = {}) : vfs(std::move(files)), scripted(options()) {
     fs::create_directory(here);
     fs::create_directory(emergency);
   }
   CaptureOptions options() {
     CaptureOptions options;
     options.recorder.emergencyFolders = {emergency};
-    options.recorder.freeBytes = [](const fs::path&) { return std::uint64_t{1} << 40; };
+    options.recorder.freeBytes = [this](const fs::path& asked) {
+      ++asks[asked];
+      const auto found = room.find(asked);
+      return found == room.end() ? std::uint64_t{1} << 40 : found->second;
+    };
+    options.recorder.vfs = vfs;
     options.recorder.notice = [this](const RecordingEvent& event) {
       if (event.kind == "alarm") told.push_back(event.text);
     };
@@ -247,7 +261,9 @@ TEST(RecorderGoneFiles, whereNothingEverTakesItNoNameIsTold) {
   const RecordingReport report = session.stop();
   EXPECT_TRUE(report.paths.empty());
   EXPECT_FALSE(report.complete);
-  EXPECT_GT(report.lost, 0);
+  EXPECT_EQ(report.frames, 0) << "they exist nowhere";
+  EXPECT_EQ(report.lost, static_cast<std::int64_t>(session.scripted.frames));
+  EXPECT_EQ(report.bytes, 0);
   EXPECT_NE(report.message.find("could not be kept"), std::string::npos) << report.message;
 }
 
@@ -320,6 +336,233 @@ TEST(RecorderGoneFiles, theMcapFileBesideItIsMissedAndTheRecordingGoesOn) {
     EXPECT_TRUE(report.mcapPaths.empty());
     EXPECT_EQ(openRecording(session.path).numFrames(), session.scripted.frames);
   }
+}
+
+TEST(RecorderGoneFiles, whatGoesTwiceIsThereAgainTwice) {
+  for (const double after : {2.0, 0.0}) {
+    SCOPED_TRACE(after);
+    GoneSession session;
+    session.start();
+    session.scripted.run(0.5);
+    ASSERT_TRUE(fs::remove(session.path));
+    session.scripted.run(0.3);
+    ASSERT_TRUE(fs::remove(session.path));
+    session.scripted.run(after);
+    const RecordingReport report = session.stop();
+    EXPECT_EQ(report.paths, std::vector{session.path});
+    EXPECT_EQ(report.lost, 0);
+    EXPECT_EQ(openRecording(session.path).numFrames(), session.scripted.frames);
+    EXPECT_EQ(verifyRecording(session.path).state, VerifyReport::State::kSound);
+  }
+}
+
+// A program that moves each new file away doesn't make it copy all of it time and again.
+TEST(RecorderGoneFiles, oneThatGoesTimeAndAgainRestsBetweenItsCopiesAndLeavesItsFolder) {
+  GoneSession session;
+  session.start();
+  for (int i = 0; i < 150; ++i) {
+    session.scripted.run(0.2);
+    if (fs::exists(session.path))
+      fs::rename(session.path, session.here / ("moved" + std::to_string(i)));
+  }
+  const RecordingReport report = session.stop();
+  const auto copies =
+      std::count_if(session.told.begin(), session.told.end(), [](const std::string& text) {
+        return text.find("all that was recorded is in") != std::string::npos;
+      });
+  EXPECT_EQ(copies, 4) << "three into its own folder, after 0, 1 and 3 s, one to the other";
+  EXPECT_EQ(report.paths, std::vector{session.emergency / "a.palpate"});
+  EXPECT_EQ(report.lost, 0);
+  EXPECT_EQ(openRecording(session.emergency / "a.palpate").numFrames(), session.scripted.frames);
+}
+
+TEST(RecorderGoneFiles, aCopyThatFailsIsMadeAgainAfterGrowingRestsAndOnceAtTheEnd) {
+  GoneSession session;
+  session.room[session.emergency] = 1'000'000;
+  session.start();
+  session.scripted.run(0.5);
+  fs::remove_all(session.here);
+  session.scripted.run(30.0);
+  // After 0, 1, 3, 7 and 15 s.
+  EXPECT_EQ(session.asks[session.emergency], 5);
+  EXPECT_NE(session.scripted.session->recorderStatus().writeError.find("is gone"),
+            std::string::npos);
+  const RecordingReport report = session.stop();
+  EXPECT_EQ(session.asks[session.emergency], 6);
+  EXPECT_EQ(report.frames, 0);
+  GoneSession::expectNames(session.emergency, {});
+}
+
+// As on a disk that gets full meanwhile.
+TEST(RecorderGoneFiles, aCopyThatFailsHalfWayLeavesNothingAndIsMadeAgain) {
+  GoneSession session;
+  session.start();
+  session.scripted.run(3.0);
+  const std::uintmax_t size = fs::file_size(session.path);
+  fs::remove_all(session.here);
+  std::signal(SIGXFSZ, SIG_IGN);
+  rlimit before{};
+  ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &before), 0);
+  const rlimit limit{size / 2, before.rlim_max};
+  ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &limit), 0);
+  session.scripted.run(0.5);
+  setrlimit(RLIMIT_FSIZE, &before);
+  std::signal(SIGXFSZ, SIG_DFL);
+  EXPECT_FALSE(session.scripted.session->recorderStatus().writeError.empty());
+  GoneSession::expectNames(session.emergency, {});
+  session.scripted.run(2.0);
+  session.expectAllIn(session.stop(), {session.emergency / "a.palpate"});
+  GoneSession::expectNames(session.emergency, {"a.palpate"});
+}
+
+// Only the recorder still has it: it isn't given up for a folder that can't take all of it.
+TEST(RecorderGoneFiles, oneThatIsGoneStaysWhereTheChosenFolderHasNoRoomForAllOfIt) {
+  GoneSession session;
+  const fs::path other = session.folder / "other";
+  fs::create_directory(other);
+  fs::remove(session.emergency);
+  session.start();
+  session.scripted.run(0.5);
+  fs::remove_all(session.here);
+  session.scripted.run(0.5);
+  session.room[other] = 1'000'000;
+  session.scripted.session->continueRecordingIn(other);
+  session.scripted.run(0.5);
+  EXPECT_NE(session.scripted.session->recorderStatus().writeError.find(
+                other.string() + ": no room there for the whole recording"),
+            std::string::npos)
+      << session.scripted.session->recorderStatus().writeError;
+  GoneSession::expectNames(other, {});
+  session.scripted.run(0.5);
+  session.room.clear();
+  session.scripted.session->continueRecordingIn(other);
+  session.scripted.run(0.5);
+  session.expectAllIn(session.stop(), {other / "a.palpate"});
+}
+
+// The part before the open one can't be finished, and then both are gone.
+class TwoPartsGone {
+ public:
+  // `k`: which operation after the last moment before the split fails.
+  explicit TwoPartsGone(std::int64_t k) : session(FaultyVfs::name()) {
+    session.start([](RecordingOptions& options) { options.splitS = 1.0; });
+    session.scripted.run(1.0);
+    vfs.failAt(FaultyVfs::Fault::kErrorOnce, vfs.operations() + k);
+    session.scripted.run(0.06);
+    vfs.heal();
+  }
+  FaultyVfs vfs;
+  GoneSession session;
+};
+
+TEST(RecorderGoneFiles, aPartThatWasNotFinishedGoesAlongWithTheOpenOne) {
+  int both = 0;
+  for (std::int64_t k = 1; k < 40; ++k) {
+    SCOPED_TRACE(k);
+    TwoPartsGone of(k);
+    GoneSession& session = of.session;
+    const fs::path other = session.folder / "other";
+    fs::create_directory(other);
+    fs::remove(session.emergency);
+    fs::rename(session.here, session.folder / "there");
+    session.scripted.run(0.02);
+    session.room[other] = 1'000'000;
+    session.scripted.session->continueRecordingIn(other);
+    session.scripted.run(0.1);
+    GoneSession::expectNames(other, {});
+    session.room.clear();
+    session.scripted.session->continueRecordingIn(other);
+    session.scripted.run(0.3);
+    const RecordingReport report = session.stop();
+    EXPECT_EQ(report.lost, 0);
+    std::size_t next = 0;
+    if (report.paths.size() == 1)
+      next = openRecording(session.folder / "there/a.palpate").numFrames();
+    else
+      ++both;
+    for (const fs::path& file : report.paths) {
+      EXPECT_EQ(file.parent_path(), other);
+      const Profile profile = openRecording(file);
+      for (std::size_t i = 0; i < profile.numFrames(); ++i)
+        ASSERT_EQ(numberOf(profile.frame(i)), next++) << file;
+    }
+    EXPECT_EQ(next, session.scripted.frames);
+  }
+  EXPECT_GT(both, 3);
+}
+
+TEST(RecorderGoneFiles, aPartThatIsGoneIsNotToldUnderTheNameThatAnotherFileHasNow) {
+  for (std::int64_t k = 1; k < 40; ++k) {
+    SCOPED_TRACE(k);
+    TwoPartsGone of(k);
+    GoneSession& session = of.session;
+    session.room = {{session.here, 0}, {session.emergency, 0}};
+    for (const char* name : {"a.palpate", "a_002.palpate"}) {
+      writeFile(session.here / "other", "somebody's");
+      fs::rename(session.here / "other", session.here / name);
+    }
+    session.scripted.run(0.3);
+    const RecordingReport report = session.stop();
+    EXPECT_TRUE(report.paths.empty());
+    EXPECT_FALSE(report.complete);
+    for (const char* name : {"a.palpate", "a_002.palpate"})
+      EXPECT_EQ(readFile(session.here / name), "somebody's");
+  }
+}
+
+// cp other.palpate a.palpate: what was in it is lost, and nothing else.
+TEST(RecorderGoneFiles, oneThatIsOverwrittenInPlaceGoesOnInANewPart) {
+  const TemporaryFolder elsewhere;
+  PalpateWriter other(elsewhere / "other.palpate", sdh2().layout);
+  other.addFrame(numberedFrame(0, kWallStartUs));
+  other.commit();
+  for (const std::string& content :
+       {std::string(), std::string(50'000, 'x'), readFile(elsewhere / "other.palpate")}) {
+    for (const double after : {0.5, 0.0}) {
+      SCOPED_TRACE(std::to_string(content.size()) + " " + std::to_string(after));
+      GoneSession session;
+      session.start();
+      session.scripted.run(0.5);
+      const auto onDisk =
+          static_cast<std::size_t>(session.scripted.session->recorderStatus().framesOnDisk);
+      writeFile(session.path, content);
+      session.scripted.run(after);
+      const RecordingReport report = session.stop();
+      EXPECT_TRUE(readFile(session.path) == content) << "nothing was written into it";
+      EXPECT_EQ(report.paths, std::vector{session.here / "a_002.palpate"});
+      EXPECT_FALSE(report.complete);
+      EXPECT_EQ(report.lost, static_cast<std::int64_t>(onDisk));
+      EXPECT_EQ(report.frames, static_cast<std::int64_t>(session.scripted.frames - onDisk));
+      const Profile profile = openRecording(session.here / "a_002.palpate");
+      ASSERT_EQ(profile.numFrames(), session.scripted.frames - onDisk);
+      for (std::size_t i = 0; i < profile.numFrames(); ++i)
+        ASSERT_EQ(numberOf(profile.frame(i)), onDisk + i);
+      ASSERT_FALSE(session.told.empty());
+      EXPECT_NE(session.told.front().find(std::to_string(onDisk) +
+                                          " frames that were in it are lost, and it goes on in " +
+                                          (session.here / "a_002.palpate").string()),
+                std::string::npos)
+          << session.told.front();
+      if (after == 0.0) continue;  // no event of that moment can be in the file any more
+      std::size_t gaps = 0;
+      for (const RecordingEvent& event : readEvents(session.here / "a_002.palpate").events)
+        gaps += event.kind == "gap" ? 1 : 0;
+      EXPECT_EQ(gaps, 1u);
+    }
+  }
+}
+
+TEST(RecorderGoneFiles, theMcapFileBesideOneThatIsDeletedGoesOn) {
+  GoneSession session;
+  session.start([](RecordingOptions& options) { options.mcap.emplace(); });
+  session.scripted.run(0.5);
+  ASSERT_TRUE(fs::remove(session.path));
+  session.scripted.run(0.5);
+  const RecordingReport report = session.stop();
+  session.expectAllIn(report, {session.path});
+  EXPECT_EQ(report.mcapFailure, "");
+  EXPECT_EQ(report.mcapPaths, std::vector<fs::path>{session.here / "a.mcap"});
+  EXPECT_EQ(openRecording(session.here / "a.mcap").numFrames(), session.scripted.frames);
 }
 
 }  // namespace

@@ -68,6 +68,23 @@ TEST(Profile, MayBeEmpty) {
   EXPECT_EQ(profile.info().valueType, ValueType::kCounts);
 }
 
+// Such a frame is shown on: its time and its values belong together.
+TEST(Profile, AFrameThatCannotBeReadLeavesTheOneBeforeAsItWas) {
+  ProfileBuilder builder(smallLayout());
+  for (int i = 0; i < 4; ++i) builder.addFrame(1000 * (i + 1), frameOf(static_cast<float>(i)));
+  const Profile profile = testing::withDamage(builder.finish({}), 2, 2);
+  TactileFrame frame = profile.frame(1);
+  frame.filtered = frameOf(8.0F);
+  EXPECT_THROW(profile.readFrame(2, frame), FormatError);
+  EXPECT_EQ(frame.hostUs, 2000);
+  EXPECT_EQ(frame.values, frameOf(1.0F));
+  EXPECT_EQ(frame.filtered, frameOf(8.0F));
+  profile.readFrame(3, frame);
+  EXPECT_EQ(frame.hostUs, 4000);
+  EXPECT_EQ(frame.values, frameOf(3.0F));
+  EXPECT_TRUE(frame.filtered.empty());
+}
+
 TEST(Profile, FramesThatCannotBeReadAreCountedByThePassThatGoesOn) {
   ProfileBuilder builder(smallLayout());
   for (int i = 0; i < 10; ++i) builder.addFrame(1000 * (i + 1), frameOf(static_cast<float>(i)));

@@ -135,6 +135,21 @@ INSTANTIATE_TEST_SUITE_P(At,
                                                                : "last";
                          });
 
+TEST(DamagedBlockReads, AStreamWithoutASoundBlockIsLeftOut) {
+  const TemporaryFolder folder;
+  const fs::path path = folder / "r.palpate";
+  constexpr std::size_t kFew = 500;
+  writeLong(path, kFew, true);
+  for (const BlockRow& block : blocksOf(path, Stream::kAngles)) damage(path, block.id);
+  const Profile profile = readPalpate(path);
+  EXPECT_EQ(profile.numAngles(), 0u);
+  ASSERT_EQ(profile.numFrames(), kFew);
+  EXPECT_EQ(profile.frame(kFew - 1).values[0], longValue(kFew - 1));
+  EXPECT_EQ(profile.anglesAtFrame(0), std::nullopt);
+  EXPECT_EQ(profile.info().warnings,
+            std::vector<std::string>{"all joint angles are damaged and left out"});
+}
+
 // Each block fills about a page of the file.
 TEST(DamagedBlockReads, ASeekReadsTheBlockThatItShowsAndNoOther) {
   const TemporaryFolder folder;

@@ -81,10 +81,12 @@ const sqlite3_io_methods kMethods = methods();
 
 int openFile(sqlite3_vfs*, const char* path, sqlite3_file* file, int flags, int* outFlags) {
   FaultyFile& faulty = of(file);
+  const bool isRecording = path && (flags & SQLITE_OPEN_MAIN_DB) != 0;
+  if (isRecording) theOne->open(path);
   const int code = under->xOpen(under, path, faulty.real(), flags, outFlags);
   faulty.base.pMethods = code == SQLITE_OK ? &kMethods : nullptr;
   if (code == SQLITE_OK) faulty.path = new std::string(path ? path : "");
-  if (code == SQLITE_OK && path && (flags & SQLITE_OPEN_MAIN_DB) != 0) theOne->found(path);
+  if (code == SQLITE_OK && isRecording) theOne->found(path);
   return code;
 }
 int deleteFile(sqlite3_vfs*, const char* path, int syncFolder) {

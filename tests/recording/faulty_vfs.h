@@ -38,6 +38,10 @@ class FaultyVfs {
   void setHook(std::function<void()> hook) { hook_ = std::move(hook); }
   // Called at every read, which is no operation.
   void setReadHook(std::function<void(std::int64_t size)> hook) { readHook_ = std::move(hook); }
+  // Called just before a recording is opened, which is no operation.
+  void setOpenHook(std::function<void(const std::string& path)> hook) {
+    openHook_ = std::move(hook);
+  }
   std::int64_t operations() const { return operations_; }
   bool struck() const { return struck_; }
 
@@ -51,6 +55,9 @@ class FaultyVfs {
   int truncate(const std::string& path, std::int64_t size);
   int sync(const std::string& path);
   int remove(const std::string& path);
+  void open(const std::string& path) const {
+    if (const auto hook = openHook_) hook(path);  // which may set another one
+  }
   void read(std::int64_t size) const {
     if (readHook_) readHook_(size);
   }
@@ -70,6 +77,7 @@ class FaultyVfs {
 
   std::function<void()> hook_;
   std::function<void(std::int64_t)> readHook_;
+  std::function<void(const std::string&)> openHook_;
   Fault fault_ = Fault::kNone;
   std::int64_t failAt_ = 0;
   std::int64_t operations_ = 0;

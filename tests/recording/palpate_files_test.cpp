@@ -34,6 +34,15 @@ void expectContains(const std::string& text, const std::string& part) {
   EXPECT_NE(text.find(part), std::string::npos) << "'" << part << "' not in: " << text;
 }
 
+// Names of all that lies in a folder.
+std::vector<std::string> namesIn(const fs::path& folder) {
+  std::vector<std::string> names;
+  for (const auto& entry : fs::directory_iterator(folder))
+    names.push_back(entry.path().filename().string());
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
 // An unfinished recording whose writer died inside a commit: with a rollback journal to play back.
 // Returns how many frames were committed.
 std::size_t makeHot(const fs::path& folder) {
@@ -188,6 +197,92 @@ TEST(PalpateFiles, aFileThatIsGoneIsWrittenNoMoreUntilItIsMoved) {
 }
 
 // A commit that failed half way is undone before the file is copied.
+TEST(PalpateFiles, aMoveThatFailsKeepsTheLock) {
+  const TemporaryFolder folder;
+  const fs::path path = folder / "r.palpate";
+  PalpateWriter writer(path, sdh2().layout);
+  addSamples(writer, 0, 10);
+  writer.commit();
+  fs::rename(path, folder / "mine.palpate");
+  writeFile(path, "somebody's");
+  EXPECT_THROW(writer.moveTo(path), FileError);
+  fs::remove(path);
+  expectContains(fileErrorOf([&] { PalpateWriter second(path, sdh2().layout); }),
+                 "is being written by another program");
+  EXPECT_FALSE(fs::exists(path));
+  writer.moveTo(path);
+  addSamples(writer, 10, 20);
+  writer.finish();
+  expectFrames(path, 20, 20);
+  EXPECT_EQ(namesIn(folder.path()), (std::vector<std::string>{"mine.palpate", "r.palpate"}));
+}
+
+// Between the moment in which it gets its name and the one in which it is opened.
+TEST(PalpateFiles, whatIsPutInPlaceOfABrandNewFileIsNeverWrittenOrRemoved) {
+  const TemporaryFolder folder;
+  const fs::path path = folder / "r.palpate";
+  writeSamples(folder / "other.palpate", 5);
+  const std::string theirs = readFile(folder / "other.palpate");
+  FaultyVfs vfs;
+  PalpateWriterOptions options;
+  options.vfs = FaultyVfs::name();
+  const auto putTheirs = [&](const std::string& opened) {
+    vfs.setOpenHook({});
+    fs::copy_file(folder / "other.palpate", folder / "copy");
+    fs::rename(folder / "copy", opened);
+  };
+  vfs.setOpenHook(putTheirs);
+  expectContains(fileErrorOf([&] { PalpateWriter writer(path, sdh2().layout, {}, options); }),
+                 "is gone: something else was put in its place");
+  EXPECT_TRUE(readFile(path) == theirs);
+  fs::remove(path);
+  PalpateWriter writer(path, sdh2().layout, {}, options);
+  addSamples(writer, 0, 10);
+  writer.commit();
+  fs::remove(path);
+  vfs.setOpenHook(putTheirs);
+  expectContains(fileErrorOf([&] { writer.moveTo(path); }),
+                 "is gone: something else was put in its place");
+  EXPECT_TRUE(readFile(path) == theirs);
+  writer.moveTo(folder / "kept.palpate");
+  addSamples(writer, 10, 20);
+  writer.finish();
+  expectFrames(folder / "kept.palpate", 20, 20);
+  EXPECT_TRUE(readFile(path) == theirs);
+}
+
+// cp other.palpate r.palpate: the name leads to the same file, with other content.
+TEST(PalpateFiles, whatIsWrittenIntoTheFileInPlaceIsNoticedAndStays) {
+  const TemporaryFolder folder;
+  // Of the same size after as many commits.
+  PalpateWriter other(folder / "other.palpate", sdh2().layout, {{"serial", "2"}});
+  addSamples(other, 0, 10);
+  other.commit();
+  for (const std::string& content :
+       {std::string(), std::string(100'000, 'x'), readFile(folder / "other.palpate")}) {
+    SCOPED_TRACE(content.size());
+    const fs::path path = folder / "r.palpate";
+    {
+      PalpateWriterOptions options;
+      options.commitIntervalUs = INT64_MAX;
+      PalpateWriter writer(path, sdh2().layout, {{"serial", "1"}}, options);
+      addSamples(writer, 0, 10);
+      writer.commit();
+      writeFile(path, content);
+      addSamples(writer, 10, 20);
+      EXPECT_FALSE(writer.isUnreadable());
+      expectContains(fileErrorOf([&] { writer.commit(); }), "was overwritten or damaged");
+      EXPECT_TRUE(writer.isUnreadable());
+      EXPECT_FALSE(writer.isGone());
+      expectContains(fileErrorOf([&] { writer.finish(); }), "was overwritten or damaged");
+      fs::rename(path, folder / "mine.palpate");
+      EXPECT_THROW(writer.moveTo(path), FormatError) << "it isn't its own any more";
+    }
+    EXPECT_TRUE(readFile(folder / "mine.palpate") == content);
+    fs::remove(path.string() + "-journal");
+  }
+}
+
 TEST(PalpateFiles, aFileThatGoesWithinAFailingCommitIsKeptWhole) {
   for (std::int64_t n = 1; n < 40; ++n) {
     SCOPED_TRACE(n);
@@ -275,15 +370,6 @@ TEST(PalpateFiles, aFinishedRecordingOpensFromAReadOnlyFolder) {
   EXPECT_GE(openRecording(folder / "r.palpate").numFrames(), hot);
   EXPECT_NE(fileErrorOf([&] { PalpateWriter writer(folder / "b.palpate", sdh2().layout); }), "");
   fs::permissions(folder.path(), fs::perms::owner_all);
-}
-
-// Names of all that lies in a folder.
-std::vector<std::string> namesIn(const fs::path& folder) {
-  std::vector<std::string> names;
-  for (const auto& entry : fs::directory_iterator(folder))
-    names.push_back(entry.path().filename().string());
-  std::sort(names.begin(), names.end());
-  return names;
 }
 
 // C-A8: whoever replaces an unfinished recording and fails has taken nothing from it.

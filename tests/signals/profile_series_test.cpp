@@ -196,6 +196,15 @@ TEST(ProfileSeries, WhatCannotBeReadIsNoNumberAndCounted) {
   EXPECT_EQ(visited.count, 2u);
   UnreadableSamples spread;
   EXPECT_EQ(readSpread(damaged, choice, 9, {}, &spread).timeS.size(), 10u);
+  EXPECT_EQ(spread.count, 2u);
+  EXPECT_EQ(spread.runs, (std::vector<UnreadableSamples::Run>{{3, 4}}));
+  // Many steps come to each sample, and few to none but theirs.
+  UnreadableSamples dense;
+  EXPECT_EQ(readSpread(damaged, choice, 100, {}, &dense).timeS.size(), 10u);
+  EXPECT_EQ(dense.count, 2u);
+  UnreadableSamples sparse;
+  readSpread(damaged, choice, 2, {}, &sparse);
+  EXPECT_EQ(sparse.runs, (std::vector<UnreadableSamples::Run>{{4, 4}}));
 }
 
 }  // namespace

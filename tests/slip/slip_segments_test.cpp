@@ -12,6 +12,7 @@
 #include "palpate/model/profile_builder.h"
 #include "palpate/slip/synthetic_slip.h"
 
+#include "testing/damaged_profile.h"
 #include "testing/testing.h"
 
 namespace palpate::slip_segments_test {
@@ -102,6 +103,27 @@ TEST(PassSlip, TakesTheFrameThatIsGivenAsReference) {
   EXPECT_THROW(runSlipDetector(slipping(), options, [](auto, auto, const auto&) {}),
                std::invalid_argument);
   EXPECT_THROW(findSlips(slipping(), {}, [](double) { return false; }), Cancelled);
+}
+
+// Without it nothing would be compared with a reference, and no row would say so.
+TEST(PassSlip, SaysWhenTheReferenceCannotBeRead) {
+  SlipRunOptions options;
+  options.detector.reference = SlipReference::kGiven;
+  options.referenceFrame = 45;
+  const Profile damaged = testing::withDamage(slipping(), 45, 46);
+  UnreadableSamples unreadable;
+  try {
+    runSlipDetector(
+        damaged, options, [](auto, auto, const auto&) {}, {}, &unreadable);
+    ADD_FAILURE() << "the reference was left out";
+  } catch (const Error& error) {
+    EXPECT_EQ(std::string(error.what()),
+              "the reference frame can't be read: x.palpate: block 7 is damaged");
+  }
+  options.referenceFrame = 44;
+  runSlipDetector(
+      damaged, options, [](auto, auto, const auto&) {}, {}, &unreadable);
+  EXPECT_EQ(unreadable.count, 2U);
 }
 
 }  // namespace

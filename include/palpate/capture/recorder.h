@@ -198,7 +198,8 @@ class Recorder {
   // more (the disk is full): the next part, under the name of the first, begins with all items that
   // are not on the disk yet. The part before it stays unfinished where it is. A file that is no
   // longer found under its name is copied whole instead, as it is without being asked where an
-  // emergency folder takes it.
+  // emergency folder takes it; where this folder can't take all of it, it stays as it was, and
+  // status().writeError says so.
   // Throws std::logic_error (not recording), FileError (no such folder, not writable).
   void continueIn(const std::filesystem::path& folder);
   // Writes all items pushed before and finishes the file. Returns the last report if no recording

@@ -91,7 +91,7 @@ class Profile {
   std::size_t numFrames() const { return data_->storage->numFrames(); }
   std::int64_t frameTimeUs(std::size_t frame) const;  // [us since 1970], strictly increasing
   TactileFrame frame(std::size_t frame) const;
-  // Does the same as frame() and reuses the memory of `out`.
+  // Does the same as frame(). An exception leaves `out` as it was.
   void readFrame(std::size_t frame, TactileFrame& out) const;
   // The same for passes that go on where the file is damaged. With `unreadable`, a frame that can't
   // be read is added to it, and false returned; only the time in `out` is valid then.

@@ -68,10 +68,14 @@ class PalpateWriter {
   // Whether the file was moved, renamed, deleted or replaced since it was created. Then commit()
   // and finish() throw FileError and write nothing.
   bool isGone() const noexcept;
-  // Goes on under another name after that (or the same one, when it is free): all that was
+  // Whether something else was written into the file in place, or moveTo() couldn't read it: what
+  // was committed can't be had from it any more, and commit() and finish() throw FileError and
+  // write nothing into it.
+  bool isUnreadable() const noexcept;
+  // Goes on under another name after isGone() (or the same one, when it is free): all that was
   // committed is copied from the open file, and what waits is kept. Takes as long as copying the
-  // file. Throws FileError (PATH exists, can't be written, the open file can't be read): nothing
-  // has changed then.
+  // file. Throws FileError (PATH exists, can't be written), FormatError (the open file can't be
+  // read): nothing has changed then.
   void moveTo(const std::filesystem::path& path);
   // Gives the recording up: what no commit has taken is dropped, and the destructor writes nothing.
   // What was committed stays as an unfinished recording.
@@ -80,7 +84,8 @@ class PalpateWriter {
   bool pendingFull() const noexcept;
 
   std::int64_t framesOnDisk() const noexcept;  // committed
-  std::int64_t bytesOnDisk() const;
+  std::int64_t bytesOnDisk() const;            // of the open file, also when it is gone
+  const std::filesystem::path& path() const noexcept;
 
  private:
   struct Impl;

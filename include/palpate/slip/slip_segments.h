@@ -22,8 +22,8 @@ struct SlipRunOptions {
 // Runs the slip detector over a profile: `sink` receives every frame in order with one result per
 // matrix. Joint angles of the profile are used if it has any. With `unreadable`, frames that can't
 // be read because the recording is damaged are added to it and left out, as in a gap. Throws
-// Cancelled; std::invalid_argument (options, reference frame not in the profile); without
-// `unreadable` Error.
+// Cancelled; std::invalid_argument (options, reference frame not in the profile); Error (the
+// reference frame can't be read; without `unreadable`, any frame).
 using SlipSink = std::function<void(
     std::size_t frame, std::int64_t timeUs, const std::vector<SlipDetection>& detections)>;
 void runSlipDetector(const Profile& profile,

@@ -169,7 +169,11 @@ RecordingLock::RecordingLock(const fs::path& recording) : path_(lockPathOf(recor
 
 // Not the file of somebody else who recorded under that name after ours was deleted.
 RecordingLock::~RecordingLock() {
-  if (fileIdOf(descriptor_.get()) == fileIdOf(path_)) ::unlink(path_.c_str());
+  if (isThere()) ::unlink(path_.c_str());
+}
+
+bool RecordingLock::isThere() const noexcept {
+  return fileIdOf(descriptor_.get()) == fileIdOf(path_);
 }
 
 bool RecordingLock::isHeld(const fs::path& recording) {

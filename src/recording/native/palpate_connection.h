@@ -38,6 +38,8 @@ class RecordingLock {
   RecordingLock(const RecordingLock&) = delete;
   RecordingLock& operator=(const RecordingLock&) = delete;
 
+  // Whether the lock file is still found under its name.
+  bool isThere() const noexcept;
   // Whether another program (or another RecordingLock) holds it. Makes nothing.
   static bool isHeld(const std::filesystem::path& recording);
 

@@ -2,6 +2,8 @@
 
 #include <functional>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "palpate/core/error.h"
 #include "palpate/core/progress.h"
@@ -39,12 +41,17 @@ class PalpateStorage final : public BlockStorage {
     for (Stream stream : {Stream::kAngles, Stream::kTemperatures}) {
       if (places(stream).empty()) continue;
       setWidth(stream, widthOf(places(stream)));
-      if (width(stream) == 0) throwMissing();
+      if (width(stream) > 0) continue;
+      // Costs its own samples, and nothing else.
+      drop(stream);
+      dropped_.push_back(stream);
     }
   }
 
   const SensorLayout& layout() const { return layout_; }
   PalpateConnection& access() { return access_; }
+  // Streams that are left out because no block of theirs can be read.
+  const std::vector<Stream>& dropped() const { return dropped_; }
 
  private:
   [[noreturn]] void throwMissing() const {
@@ -122,6 +129,7 @@ class PalpateStorage final : public BlockStorage {
   PalpateConnection access_;
   SensorLayout layout_;
   std::optional<SqliteStatement> readBlock_;
+  std::vector<Stream> dropped_;
 };
 
 // A finished recording says it; of others every block must be looked at.
@@ -148,6 +156,10 @@ Profile profileOf(std::shared_ptr<PalpateStorage> storage) {
     info.warnings.emplace_back("unfinished: its writer stopped before the end");
   if (access.beingWritten())
     info.warnings.emplace_back("still being written: shown as far as it was when opened");
+  for (const Stream stream : storage->dropped())
+    info.warnings.emplace_back(std::string("all ") +
+                               (stream == Stream::kAngles ? "joint angles" : "temperatures") +
+                               " are damaged and left out");
   HandDescription hand = recordedHand(access.meta().values,
                                       storage->layout(),
                                       storage->width(Stream::kAngles),

@@ -42,6 +42,8 @@ class BlockStorage : public ProfileStorage {
   // Appends an entry to a stream. Returns false and appends nothing when the entry doesn't follow
   // the ones before it in index and time, or makes no sense.
   bool add(Stream stream, const BlockEntry& place);
+  // Takes all entries of a stream out again.
+  void drop(Stream stream) { series_[static_cast<std::size_t>(stream)] = {}; }
   // The number of values per item; it must be set before items are read.
   void setWidth(Stream stream, std::size_t numValues);
   std::size_t width(Stream stream) const { return of(stream).numValues; }

@@ -4,12 +4,16 @@
 #include <cmath>
 #include <cstdlib>
 #include <stdexcept>
+#include <string>
 #include <vector>
+
+#include <unistd.h>
 
 #include "palpate/core/error.h"
 #include "palpate/core/file_id.h"
 #include "palpate/core/output_file.h"
 #include "palpate/core/progress.h"
+#include "palpate/core/text_file.h"
 #include "palpate/recording/palpate_blocks.h"
 #include "palpate/recording/palpate_schema.h"
 
@@ -52,11 +56,37 @@ void requireLater(const char* what, std::optional<std::int64_t> last, std::int64
     throw std::invalid_argument(std::string(what) + ": time must be later than the last one's");
 }
 
+// Tells a file that was just given its name from one that somebody put there in the same moment.
+struct PublishedFile {
+  // Of a file that is complete, before it has its name.
+  explicit PublishedFile(const OutputFile& file) : id(fileIdOf(file.descriptor())) {
+    beginning.resize(kCompared);
+    const ssize_t got = ::pread(file.descriptor(), beginning.data(), beginning.size(), 0);
+    beginning.resize(static_cast<std::size_t>(std::max<ssize_t>(got, 0)));
+  }
+  // Some network file systems give a file another identity with its name: then the content decides.
+  bool isAt(const fs::path& path, const std::optional<FileId>& found) const {
+    return found == id || beginningOfFile(path, kCompared) == beginning;
+  }
+
+  static constexpr std::size_t kCompared = 1u << 20;
+  std::optional<FileId> id;
+  std::string beginning;
+};
+
+// As if there had been that many commits: so a copy of another recording in its place differs from
+// it even after equally many.
+void setNumCommits(std::string& database, std::uint32_t number) {
+  for (const std::size_t at : {24u, 92u})  // the counter, and the one for which the size is valid
+    for (std::size_t i = 0; i < 4; ++i)
+      database.at(at + i) = static_cast<char>(number >> (24 - 8 * i) & 0xFF);
+}
+
 // The recording without a sample: made in memory, so that the file appears whole or not at all, at
 // whatever moment the process is killed.
-void publishEmpty(const fs::path& path,
-                  const SensorLayout& layout,
-                  const std::map<std::string, std::string>& meta) {
+PublishedFile publishEmpty(const fs::path& path,
+                           const SensorLayout& layout,
+                           const std::map<std::string, std::string>& meta) {
   SqliteDatabase database(":memory:", SqliteDatabase::Mode::kCreate);
   database.execute("PRAGMA page_size=4096; PRAGMA auto_vacuum=NONE; PRAGMA application_id=" +
                    std::to_string(kPalpateApplicationId) +
@@ -67,9 +97,13 @@ void publishEmpty(const fs::path& path,
   for (const auto& [key, value] : meta) insertMeta(database, key, value);
   insertMatrices(database, layout);
   database.execute("COMMIT");
+  std::string bytes = database.bytes();
+  setNumCommits(bytes, RowCrc().text(bytes).value());
   OutputFile file(path, Overwrite::kRefuse);
-  file.write(database.bytes());
+  file.write(bytes);
+  const PublishedFile published(file);
   file.commit();
+  return published;
 }
 
 // A folder of its own beside PATH: SQLite needs its journal and lock next to the file.
@@ -176,14 +210,18 @@ struct PalpateWriter::Impl {
         layout(std::move(sensorLayout)),
         lock(std::make_unique<RecordingLock>(path)) {
     refuseExisting(path);
-    publishEmpty(path, *layout, meta);
-    file = opened(path);
+    file = opened(path, publishEmpty(path, *layout, meta));
   }
 
   // The file of a recording, opened for writing.
   struct OpenFile {
-    OpenFile(const fs::path& path, const PalpateWriterOptions& options)
+    OpenFile(const fs::path& path,
+             const PublishedFile& published,
+             const PalpateWriterOptions& options)
         : database(path, SqliteDatabase::Mode::kReadWrite, options.vfs) {
+      if (!published.isAt(path, database.file()))
+        throw FileError(path, "is gone: something else was put in its place");
+      version = database.version();
       database.execute("PRAGMA journal_mode=PERSIST");
       database.keepJournalOpen();
       database.execute(options.synced ? "PRAGMA synchronous=FULL" : "PRAGMA synchronous=OFF");
@@ -195,18 +233,19 @@ struct PalpateWriter::Impl {
     std::optional<RowWriter> rows;
     std::optional<SqliteStatement> beginCommit;
     std::optional<SqliteStatement> endCommit;
-    std::optional<FileId> journal;  // once it is there
+    std::optional<FileId> journal;                   // once it is there
+    std::optional<SqliteDatabase::Version> version;  // after the last commit
+    bool commitFailed = false;  // since then: it may have taken effect nevertheless
   };
 
-  // Opens what was just given its name.
-  std::unique_ptr<OpenFile> opened(const fs::path& path) const {
-    const auto named = fileIdOf(path);
+  // Opens what was just given its name. Throws FileError when something else is there by now.
+  std::unique_ptr<OpenFile> opened(const fs::path& path, const PublishedFile& published) const {
     try {
-      return std::make_unique<OpenFile>(path, options);
+      return std::make_unique<OpenFile>(path, published, options);
     } catch (...) {
       // Nobody has seen the file yet: none is better than one that nobody writes.
       std::error_code ignored;
-      if (named && leadsTo(path, *named)) fs::remove(path, ignored);
+      if (published.id && fileIdOf(path) == published.id) fs::remove(path, ignored);
       throw;
     }
   }
@@ -222,16 +261,37 @@ struct PalpateWriter::Impl {
   }
 
   void moveTo(const fs::path& path) {
-    // Under the same name the lock is our own.
-    if (path == file->database.path()) lock.reset();
-    auto newLock = std::make_unique<RecordingLock>(path);
+    // Under the same name the lock is our own, unless somebody removed that, too.
+    std::unique_ptr<RecordingLock> newLock;
+    const bool sameName = path == file->database.path();
+    if (!sameName || !lock || !lock->isThere()) newLock = std::make_unique<RecordingLock>(path);
     OutputFile copy(path, Overwrite::kRefuse);
-    file->database.copyTo(copy);
-    removeJournal();
-    refuseForeignJournal(path);
+    try {
+      file->database.copyTo(copy);
+      if (!isOwn()) throw FormatError(file->database.path(), "was overwritten");
+    } catch (const FormatError&) {
+      unreadable = true;
+      throw;
+    }
+    const auto journal = fileIdOf(journalPathOf(path));
+    if (!journal || journal != file->journal) refuseForeignJournal(path);
+    const PublishedFile published(copy);
     copy.commit();
-    file = opened(path);
-    lock = std::move(newLock);
+    removeJournal();
+    file = opened(path, published);
+    if (newLock) lock = std::move(newLock);
+  }
+
+  // Whether the file is as the last commit left it.
+  bool isOwn() const {
+    const auto found = file->database.version();
+    if (unreadable || !found || !file->version) return false;
+    if (*found == *file->version) return true;
+    return file->commitFailed && found->numCommits == file->version->numCommits + 1;
+  }
+  [[noreturn]] void throwOverwritten() {
+    unreadable = true;
+    throw FileError(file->database.path(), "was overwritten or damaged while it was being written");
   }
 
   // The journal of a file that is gone belongs to nothing any more; what somebody else put in its
@@ -288,6 +348,9 @@ struct PalpateWriter::Impl {
     try {
       renewJournal();
       file->beginCommit->run();
+      // Without this, blocks would be written into whatever was copied into the file.
+      if (!isOwn()) throwOverwritten();
+      file->version = file->database.version();
       std::int64_t id = numBlocks;
       for (const Block& block : pending.blocks) rows->block(++id, block);
       id = numSeconds;
@@ -297,10 +360,16 @@ struct PalpateWriter::Impl {
       for (const auto& [name, value] : pending.counters) rows->counter(name, value);
       last();
       file->endCommit->run();
+    } catch (const FormatError&) {
+      file->database.rollBack();
+      throwOverwritten();
     } catch (...) {
       file->database.rollBack();
+      file->commitFailed = true;
       throw;
     }
+    file->version = file->database.version();
+    file->commitFailed = false;
     if (!file->journal) file->journal = fileIdOf(journalPathOf(file->database.path()));
     numBlocks += static_cast<std::int64_t>(pending.blocks.size());
     numSeconds += static_cast<std::int64_t>(pending.seconds.size());
@@ -357,6 +426,7 @@ struct PalpateWriter::Impl {
   std::int64_t numEvents = 0;
   bool allCounts = true;  // every frame so far
   bool finished = false;
+  bool unreadable = false;
 };
 
 PalpateWriter::PalpateWriter(const fs::path& path,
@@ -449,7 +519,11 @@ void PalpateWriter::finish() {
   }
   // The journal is deleted by its name.
   impl.requireFile();
-  impl.file->database.execute("PRAGMA synchronous=FULL; PRAGMA journal_mode=DELETE;");
+  try {
+    impl.file->database.execute("PRAGMA synchronous=FULL; PRAGMA journal_mode=DELETE;");
+  } catch (const FormatError&) {
+    impl.throwOverwritten();
+  }
   impl.requireFile();
   impl.lock.reset();
 }
@@ -457,6 +531,10 @@ void PalpateWriter::finish() {
 void PalpateWriter::abandon() noexcept { impl_->finished = true; }
 
 bool PalpateWriter::isGone() const noexcept { return impl_->isGone(); }
+
+bool PalpateWriter::isUnreadable() const noexcept { return impl_->unreadable; }
+
+const fs::path& PalpateWriter::path() const noexcept { return impl_->file->database.path(); }
 
 void PalpateWriter::moveTo(const fs::path& path) { impl_->moveTo(path); }
 
@@ -466,11 +544,7 @@ bool PalpateWriter::pendingFull() const noexcept {
 
 std::int64_t PalpateWriter::framesOnDisk() const noexcept { return impl_->committedFrames; }
 
-std::int64_t PalpateWriter::bytesOnDisk() const {
-  std::error_code failure;
-  const auto size = fs::file_size(impl_->file->database.path(), failure);
-  return failure ? 0 : static_cast<std::int64_t>(size);
-}
+std::int64_t PalpateWriter::bytesOnDisk() const { return impl_->file->database.sizeBytes(); }
 
 void writePalpate(const fs::path& path,
                   std::shared_ptr<const SensorLayout> layout,

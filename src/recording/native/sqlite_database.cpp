@@ -1,6 +1,7 @@
 #include "recording/native/sqlite_database.h"
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 #include <sqlite3.h>
@@ -247,8 +248,13 @@ void SqliteDatabase::keepJournalOpen() {
 }
 
 void SqliteDatabase::copyTo(OutputFile& out) {
-  // Undoes a commit that failed half way.
-  integerOf("SELECT count(*) FROM sqlite_schema");
+  constexpr const char* kUnreadable = "can't be read any more: input/output error";
+  try {
+    // Undoes a commit that failed half way.
+    integerOf("SELECT count(*) FROM sqlite_schema");
+  } catch (const FileError&) {
+    throw FormatError(path_, kUnreadable);
+  }
   sqlite3_file* const file = openFile();
   sqlite3_int64 size = 0;
   int code = file->pMethods->xFileSize(file, &size);
@@ -259,7 +265,29 @@ void SqliteDatabase::copyTo(OutputFile& out) {
     code = file->pMethods->xRead(file, piece.data(), static_cast<int>(piece.size()), at);
     if (code == SQLITE_OK) out.write(piece);
   }
-  if (code != SQLITE_OK) throw FileError(path_, "can't be copied: input/output error");
+  if (code != SQLITE_OK) throw FormatError(path_, kUnreadable);
+}
+
+// Database file format of SQLite, section 1.3: the file change counter and the size in pages are
+// two numbers of four bytes, most significant first.
+std::optional<SqliteDatabase::Version> SqliteDatabase::version() const {
+  constexpr sqlite3_int64 kAt = 24;
+  std::array<unsigned char, 8> bytes{};
+  sqlite3_file* const file = openFile();
+  if (file->pMethods->xRead(file, bytes.data(), static_cast<int>(bytes.size()), kAt) != SQLITE_OK)
+    return std::nullopt;
+  const auto number = [&](std::size_t at) {
+    std::uint32_t value = 0;
+    for (std::size_t i = at; i < at + 4; ++i) value = value << 8 | bytes.at(i);
+    return value;
+  };
+  return Version{number(0), number(4)};
+}
+
+std::int64_t SqliteDatabase::sizeBytes() const {
+  sqlite3_int64 size = 0;
+  sqlite3_file* const file = openFile();
+  return file->pMethods->xFileSize(file, &size) == SQLITE_OK ? size : 0;
 }
 
 bool SqliteDatabase::inTransaction() const { return sqlite3_get_autocommit(connection_) == 0; }

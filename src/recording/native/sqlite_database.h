@@ -2,6 +2,7 @@
 // connection and its statements. Private to this module.
 #pragma once
 
+#include <compare>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -84,8 +85,18 @@ class SqliteDatabase {
   // The whole database as the bytes of its file, what was committed. Throws FileError (no memory).
   std::string bytes() const;
   // Appends the bytes of its file, what was committed, to another file: in little memory, and also
-  // when the file has lost its name. Nobody may write meanwhile. Throws FileError, FormatError.
+  // when the file has lost its name. Nobody may write meanwhile. Throws FileError (the other file
+  // can't be written), FormatError (this one can't be read).
   void copyTo(OutputFile& out);
+  // The part of the header that every commit changes, as it stands in the file: empty where the
+  // file is shorter. Within a transaction nobody else who keeps to SQLite's locks changes it.
+  struct Version {
+    std::uint32_t numCommits = 0;
+    std::uint32_t numPages = 0;
+    auto operator<=>(const Version&) const = default;
+  };
+  std::optional<Version> version() const;
+  std::int64_t sizeBytes() const;  // of its file; 0 where that can't be told
   const std::filesystem::path& path() const noexcept { return path_; }
   // The file that was opened; empty for one in memory.
   const std::optional<FileId>& file() const noexcept { return file_; }
