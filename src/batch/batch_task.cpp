@@ -127,8 +127,7 @@ BatchTask convertTask(const ConvertOptions& options) {
                              " time stamps moved behind the one before: whole milliseconds must "
                              "grow";
             if (events.damaged > 0)
-              answer.problem = item.source.string() + ": " + std::to_string(events.damaged) +
-                               " events were left out: damaged, or more than are read";
+              answer.problem = item.source.string() + ": " + eventsLeftOutText(events.damaged);
             return answer;
           }};
 }
@@ -168,8 +167,7 @@ BatchTask graspsTask(const GraspTemplate& names, const ConvertOptions& options) 
                    files,
                    partOf(progress, 0.5, 1.0));
         if (events.damaged > 0)
-          answer.problem = item.source.string() + ": " + std::to_string(events.damaged) +
-                           " events were left out: damaged, or more than are read";
+          answer.problem = item.source.string() + ": " + eventsLeftOutText(events.damaged);
         return answer;
       }};
 }

@@ -19,12 +19,29 @@
 namespace palpate {
 namespace {
 
-// A request takes kHdf5RequestCpuS of a processor at most; on a busy machine that is longer.
-constexpr int kPatienceMs = 60'000;
+using Clock = std::chrono::steady_clock;
+using std::chrono::milliseconds;
+
+// Of the processor for one request. A block of frames takes milliseconds; a piece of another
+// program's file may need all of its chunks.
+constexpr milliseconds kRecordingCpu{1'000};
+constexpr milliseconds kImportCpu{10'000};
+// Until the answer is there; on a busy machine that is longer.
+constexpr milliseconds kValuesPatience{2'000};
+constexpr milliseconds kOpeningPatience{10'000};
+constexpr milliseconds kImportPatience{60'000};
+// Until a program that is of no use any more has ended by itself.
+constexpr milliseconds kEndingPatience{1'000};
+
+milliseconds patienceFor(Hdf5Use use, Hdf5Request wanted) {
+  if (use == Hdf5Use::kImport) return kImportPatience;
+  return wanted == Hdf5Request::kRead ? kValuesPatience : kOpeningPatience;
+}
 
 }  // namespace
 
-Hdf5Process::Hdf5Process(std::filesystem::path path, int descriptor) : path_(std::move(path)) {
+Hdf5Process::Hdf5Process(std::filesystem::path path, int descriptor, Hdf5Use use)
+    : path_(std::move(path)), use_(use) {
   std::array<int, 2> sockets{};
   if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, sockets.data()) != 0)
     throw FileError(path_, "can't be read: " + std::generic_category().message(errno));
@@ -32,9 +49,11 @@ Hdf5Process::Hdf5Process(std::filesystem::path path, int descriptor) : path_(std
   {
     // Closed before anything is asked: what the program has closed must be closed altogether.
     const FileDescriptor theirs(sockets[1]);
+    const milliseconds cpu = use == Hdf5Use::kImport ? kImportCpu : kRecordingCpu;
     try {
-      program_.emplace(
-          hdf5Program(), std::vector<std::string>{}, std::vector<int>{theirs.get(), descriptor});
+      program_.emplace(hdf5Program(),
+                       std::vector<std::string>{std::to_string(cpu.count())},
+                       std::vector<int>{theirs.get(), descriptor});
     } catch (const Error& error) {
       throw FileError(
           path_, std::string("HDF5 can't be read: ") + error.what() + "; install palpate again");
@@ -43,13 +62,33 @@ Hdf5Process::Hdf5Process(std::filesystem::path path, int descriptor) : path_(std
   ask(Hdf5Request::kOpen, {});  // throws where the library can't open the file
 }
 
+bool Hdf5Process::waitFor(short event) {
+  for (;;) {
+    const auto left = std::chrono::ceil<milliseconds>(deadline_ - Clock::now());
+    pollfd polled{socket_.get(), event, 0};
+    const int ready =
+        left > milliseconds::zero() ? ::poll(&polled, 1, static_cast<int>(left.count())) : 0;
+    if (ready > 0) return true;
+    isLate_ = ready == 0;
+    if (isLate_ || errno != EINTR) return false;
+  }
+}
+
+bool Hdf5Process::send(std::string_view bytes) {
+  while (!bytes.empty()) {
+    if (!waitFor(POLLOUT)) return false;
+    const ssize_t sent =
+        ::send(socket_.get(), bytes.data(), bytes.size(), MSG_NOSIGNAL | MSG_DONTWAIT);
+    if (sent < 0 && (errno == EINTR || errno == EAGAIN)) continue;
+    if (sent <= 0) return false;
+    bytes.remove_prefix(static_cast<std::size_t>(sent));
+  }
+  return true;
+}
+
 bool Hdf5Process::receive(std::span<std::byte> bytes) {
   while (!bytes.empty()) {
-    pollfd polled{socket_.get(), POLLIN, 0};
-    const int ready = ::poll(&polled, 1, kPatienceMs);
-    if (ready < 0 && errno == EINTR) continue;
-    if (ready == 0) end_ = "took too long";
-    if (ready <= 0) return false;
+    if (!waitFor(POLLIN)) return false;
     const ssize_t got = ::recv(socket_.get(), bytes.data(), bytes.size(), MSG_DONTWAIT);
     if (got < 0 && (errno == EINTR || errno == EAGAIN)) continue;
     if (got <= 0) return false;
@@ -58,48 +97,67 @@ bool Hdf5Process::receive(std::span<std::byte> bytes) {
   return true;
 }
 
-void Hdf5Process::throwEnded() {
-  if (program_ && end_.empty()) {
-    constexpr int kKilledBy = 128;
-    const int code = program_->finish();
-    if (code == kHdf5MemoryExitCode)
-      end_ = "needs more than " + std::to_string(kHdf5MemoryBytes >> 20) + " MB of memory";
-    else if (code == kKilledBy + SIGXCPU || code == kKilledBy + SIGKILL)
-      end_ = "took too long";
-    else
-      end_ = "crashed";
+std::string Hdf5Process::ending(const std::string& name) {
+  constexpr int kKilledBy = 128;
+  constexpr int kNotByItself = -1;
+  int code = kNotByItself;
+  // Nobody asks any more: it ends, if it can.
+  socket_ = FileDescriptor();
+  if (!isLate_) {
+    const auto end = Clock::now() + kEndingPatience;
+    try {
+      code = program_->finish([&] { return Clock::now() < end; });
+    } catch (const Error&) {  // it is killed
+    }
   }
   program_.reset();
-  throw FormatError(path_,
-                    "libhdf5 could not read it (" + end_ +
-                        "): it is damaged, or was made to do that; use the recording or the data "
-                        "that it was exported from");
+  if (code == kKilledBy + SIGKILL)
+    return "can't be read: the program that reads it was ended by the system (out of memory?); try "
+           "again";
+  const bool tookTooLong = isLate_ || code == kKilledBy + SIGPROF;
+  if (tookTooLong && use_ == Hdf5Use::kImport && !name.empty())
+    return inQuotes(name) +
+           " takes too long to read: its chunks don't fit to rows; write it anew with larger "
+           "chunks";
+  std::string how = "crashed";
+  if (tookTooLong)
+    how = "took too long";
+  else if (code == kHdf5MemoryExitCode)
+    how = "needs more than " + std::to_string(kHdf5MemoryBytes >> 20) + " MB of memory";
+  else if (code == kNotByItself)
+    how = "gave no valid answer";
+  return "libhdf5 could not read it (" + how +
+         "): it is damaged, or was made to do that; use the recording or the data that it was "
+         "exported from";
+}
+
+void Hdf5Process::throwEnded(const std::string& name) {
+  if (program_) fault_ = ending(name);
+  throw FormatError(path_, fault_);
 }
 
 std::vector<std::byte> Hdf5Process::ask(Hdf5Request wanted,
                                         const std::string& name,
                                         std::string_view rest) {
   const std::lock_guard lock(mutex_);
-  if (!program_) throwEnded();
+  if (!program_) throwEnded(name);
   std::string request(1, static_cast<char>(wanted));
   appendText(request, name);
   request += rest;
   std::string sized;
   appendLittleEndian(sized, request.size(), 4);
   sized += request;
-  // A request is smaller than the buffer of a socket, and there is one at a time.
   if (sized.size() > kMaxHdf5RequestBytes) throw FormatError(path_, "has too long a name");
-  if (::send(socket_.get(), sized.data(), sized.size(), MSG_NOSIGNAL) !=
-      static_cast<ssize_t>(sized.size()))
-    throwEnded();
+  deadline_ = Clock::now() + patienceFor(use_, wanted);
+  if (!send(sized)) throwEnded(name);
   std::array<std::byte, 5> head{};
-  if (!receive(head)) throwEnded();
+  if (!receive(head)) throwEnded(name);
   ByteReader in(head);
   const std::uint32_t size = in.u32();
   const auto answer = static_cast<Hdf5Answer>(in.u8());
-  if (size < 1 || size > kMaxHdf5AnswerBytes) throwEnded();
+  if (size < 1 || size > kMaxHdf5AnswerBytes) throwEnded(name);
   std::vector<std::byte> value(size - 1);
-  if (!receive(value)) throwEnded();
+  if (!receive(value)) throwEnded(name);
   if (answer == Hdf5Answer::kValue) return value;
   const std::string fault(reinterpret_cast<const char*>(value.data()), value.size());
   throw FormatError(path_, name.empty() ? fault : inQuotes(name) + " " + fault);

@@ -3,6 +3,7 @@
 // Safe from several threads. Private to this module.
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <filesystem>
 #include <mutex>
@@ -19,16 +20,21 @@
 
 namespace palpate {
 
+// What a file is read for, and with that how long a request may take: the window waits for the
+// values of a recording, 2 s at most (10 s for what else is asked while it is opened); an import
+// waits 60 s.
+enum class Hdf5Use { kRecording, kImport };
+
 // All functions throw FormatError: the file is damaged, refers to other files, or the library could
-// not read it. Once it has failed on the file, every later call says so.
+// not read it in time. Once it has failed on the file, every later call says so.
 class Hdf5Process {
  public:
   // Starts the program. `path` is for messages; `descriptor`: of the file, open for reading. Throws
   // FileError when the program can't be started.
-  Hdf5Process(std::filesystem::path path, int descriptor);
+  Hdf5Process(std::filesystem::path path, int descriptor, Hdf5Use use);
 
   const std::filesystem::path& path() const noexcept { return path_; }
-  // The data sets that are in this file, by their paths; at most 10,000.
+  // The data sets that are in this file, by their paths; at most 10,000, and 4 MB of names.
   std::vector<std::string> arrayNames();
   bool has(const std::string& name);
   Hdf5Facts facts(const std::string& name);
@@ -56,14 +62,23 @@ class Hdf5Process {
   std::vector<std::byte> ask(Hdf5Request wanted,
                              const std::string& name,
                              std::string_view rest = {});
+  // Send or receive all bytes before the deadline. Return false where that can't be.
+  bool send(std::string_view bytes);
   bool receive(std::span<std::byte> bytes);
-  [[noreturn]] void throwEnded();
+  // Waits until the socket is ready for an event of poll().
+  bool waitFor(short event);
+  // Ends the program, unless it has ended. `name`: of what was asked for.
+  [[noreturn]] void throwEnded(const std::string& name);
+  std::string ending(const std::string& name);
 
   std::filesystem::path path_;
+  Hdf5Use use_;
   std::mutex mutex_;
   FileDescriptor socket_;
   std::optional<ChildProgram> program_;
-  std::string end_;  // how the program ended; empty: it runs
+  std::chrono::steady_clock::time_point deadline_;  // of the answer
+  bool isLate_ = false;                             // the deadline is over
+  std::string fault_;                               // why the program ended; empty: it runs
 };
 
 }  // namespace palpate

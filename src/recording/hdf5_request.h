@@ -57,10 +57,9 @@ constexpr std::size_t kMaxHdf5AnswerBytes = kMaxHdf5ReadBytes + (8u << 20);
 constexpr std::size_t kMaxHdf5RequestBytes = 64u << 10;
 // How the program ends when its memory doesn't suffice.
 constexpr int kHdf5MemoryExitCode = 12;
-// The limits of the program: address space [bytes], and processor time of one request [s]; the
-// system counts whole seconds, so that it is up to one more. A block of frames takes milliseconds.
+// The limit of the program's address space. Its argument is that of the processor time of one
+// request [ms].
 constexpr std::size_t kHdf5MemoryBytes = 256u << 20;
-constexpr int kHdf5RequestCpuS = 1;
 
 inline void appendText(std::string& out, std::string_view text) {
   appendLittleEndian(out, text.size(), 4);

@@ -195,10 +195,12 @@ RecoverReport recoverMcapFile(const std::filesystem::path& in,
   }
   SaveExtras extras;
   extras.meta = recording.meta;
-  const bool whole = recording.damage.empty();
+  std::string missing = recording.damage.empty() ? "" : "the file " + recording.damage;
+  if (recording.eventsLeftOut > 0)
+    missing += (missing.empty() ? "" : "; ") + mcapEventsLeftOutText(recording.eventsLeftOut);
+  const bool whole = missing.empty();
   saveRecording(profile,
-                whole ? recording.events
-                      : withOrigin(recording.events, profile, in, "the file " + recording.damage),
+                whole ? recording.events : withOrigin(recording.events, profile, in, missing),
                 out,
                 overwrite,
                 progress,
@@ -206,7 +208,7 @@ RecoverReport recoverMcapFile(const std::filesystem::path& in,
   report.state = whole ? RecoverReport::State::kWhole : RecoverReport::State::kPart;
   report.message = (whole ? "nothing was damaged; saved " : "saved ") +
                    countsText(profile.numFrames(), profile.numAngles(), profile.numTemperatures()) +
-                   (whole ? "" : "; the file " + recording.damage);
+                   (whole ? "" : "; " + missing);
   return report;
 }
 
@@ -360,6 +362,7 @@ ReadableRecording readableMcap(const std::filesystem::path& path,
   return {.profile = std::move(recording.profile),
           .events = std::move(recording.events),
           .damage = std::move(damage),
+          .damagedEvents = recording.eventsLeftOut,
           .meta = std::move(recording.meta)};
 }
 
@@ -476,6 +479,8 @@ VerifyReport verifyRecording(const std::filesystem::path& path,
                                                           mcap.profile.numAngles(),
                                                           mcap.profile.numTemperatures())
                                              : mcap.damage;
+        if (mcap.damagedEvents > 0)
+          report.message += "; " + mcapEventsLeftOutText(mcap.damagedEvents);
         return report;
       }
       case Container::kMat:

@@ -2,10 +2,15 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstdio>
+#include <exception>
 #include <filesystem>
 #include <fstream>
 #include <thread>
 
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 namespace palpate::testing {
@@ -43,6 +48,24 @@ ProcessFacts processFacts() {
   facts.descriptors = entriesOf("/proc/self/fd");
   facts.threads = entriesOf("/proc/self/task");
   return facts;
+}
+
+std::uint64_t memoryOf(const std::function<bool()>& work) {
+  const pid_t child = ::fork();
+  if (child == 0) {
+    bool done = false;
+    try {
+      done = work();
+    } catch (const std::exception& error) {
+      std::fprintf(stderr, "%s\n", error.what());
+    }
+    ::_exit(done ? 0 : 1);
+  }
+  int status = 0;
+  rusage usage{};
+  EXPECT_EQ(::wait4(child, &status, 0, &usage), child);
+  EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0);
+  return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
 }
 
 }  // namespace palpate::testing

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <functional>
 
 namespace palpate::testing {
 
@@ -17,6 +19,10 @@ ProcessFacts processFacts();
 // The minimum of each value over 50 ms, which excludes what is open only for a moment (a journal, a
 // folder being synced).
 ProcessFacts leastProcessFacts();
+
+// Runs work in a process of its own. Returns the highest memory of that process, or of one that it
+// has started and waited for [bytes]; fails unless the work returns true.
+std::uint64_t memoryOf(const std::function<bool()>& work);
 
 // False with sanitizers, which use memory of their own, so that residentBytes says nothing about
 // the program.

@@ -22,10 +22,6 @@ namespace palpate::commands {
 namespace fs = std::filesystem;
 namespace {
 
-std::string damagedText(const std::string& in, std::size_t damaged) {
-  return in + ": " + counted(damaged, "event") + " left out: damaged, or more than are read";
-}
-
 std::string doneText(const fs::path& out, const Profile& profile) {
   return out.string() + ": " + counted(profile.numFrames(), "frame");
 }
@@ -71,7 +67,8 @@ int convertOne(const CommandLine& given, const std::string& in, const std::strin
   if (!given.quiet())
     std::printf("%s\n", escapedLine(doneText(out, profile) + movedText(saved.movedStamps)).c_str());
   if (events.damaged == 0) return kDone;
-  std::fprintf(stderr, "palpate: %s\n", escapedLine(damagedText(in, events.damaged)).c_str());
+  std::fprintf(
+      stderr, "palpate: %s\n", escapedLine(in + ": " + eventsLeftOutText(events.damaged)).c_str());
   return kPartlyDone;
 }
 

@@ -91,11 +91,8 @@ int filterCommand(const Arguments& words) {
                 fullRecipeText(recipe).c_str(),
                 latencyText(recipe, timingOf(profile).rateHz).c_str());
   if (events.damaged == 0) return kDone;
-  std::fprintf(stderr,
-               "palpate: %s\n",
-               escapedLine(in + ": " + std::to_string(events.damaged) +
-                           " events were left out: damaged, or more than are read")
-                   .c_str());
+  std::fprintf(
+      stderr, "palpate: %s\n", escapedLine(in + ": " + eventsLeftOutText(events.damaged)).c_str());
   return kPartlyDone;
 }
 

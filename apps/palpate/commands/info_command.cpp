@@ -219,8 +219,7 @@ std::string notesText(const ReadableRecording& recording) {
   if (events.size() > kMostListed)
     text += row("", "and " + std::to_string(events.size() - kMostListed) + " more: --json has all");
   if (recording.damagedEvents > 0)
-    text +=
-        row("warning", std::to_string(recording.damagedEvents) + " damaged events are left out");
+    text += row("warning", eventsLeftOutText(recording.damagedEvents));
   return text;
 }
 

@@ -168,7 +168,10 @@ struct TextAhead {
 };
 
 std::string damageOf(const Profile&) { return {}; }
-std::string damageOf(const ReadableRecording& recording) { return recording.damage; }
+std::string damageOf(const ReadableRecording& recording) {
+  if (!recording.damage.empty() || recording.damagedEvents == 0) return recording.damage;
+  return eventsLeftOutText(recording.damagedEvents);
+}
 const Profile& profileOf(const Profile& profile) { return profile; }
 const Profile& profileOf(const ReadableRecording& recording) { return recording.profile; }
 

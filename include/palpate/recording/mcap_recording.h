@@ -99,14 +99,20 @@ class McapLiveWriter {
   std::unique_ptr<Impl> impl_;
 };
 
+// Of the events of a file, in memory: some 400,000. Those beyond it are left out and counted.
+constexpr std::size_t kMaxMcapEventsBytes = 64u << 20;
+// "32 events beyond the 64 MB that are read were left out".
+std::string mcapEventsLeftOutText(std::size_t count);
+
 // A recording in an MCAP file. Stamps lie in memory; frames, angles and temperatures are read when
 // they are asked for, and the profile is safe from several threads.
 struct McapRecording {
   Profile profile;
-  std::vector<RecordingEvent> events;  // the first 16 MB
+  std::vector<RecordingEvent> events;  // the first 64 MB
   std::map<std::string, std::string> meta;
   Provenance provenance;
-  std::string damage;  // one line: what is missing; empty: nothing
+  std::string damage;             // one line: what is missing; empty: nothing
+  std::size_t eventsLeftOut = 0;  // that are more than are read: no damage
 };
 
 // Reads a whole MCAP file through, all its checksums, and opens it. Of another program's file each
@@ -126,8 +132,8 @@ McapRecording recoverMcap(const std::filesystem::path& path,
                           const Progress& progress = {},
                           std::size_t threads = 0);
 // The events, or the meta data, of a file that Palpate has written; of other files none.
-// Only what they need is read. Throw as readMcap(). Events beyond the first 16 MB are left out and
-// counted.
+// Only what they need is read. Throw as readMcap(). Events beyond kMaxMcapEventsBytes are left out
+// and counted.
 EventsReport readMcapEvents(const std::filesystem::path& path);
 std::map<std::string, std::string> readMcapMeta(const std::filesystem::path& path);
 

@@ -41,7 +41,7 @@ struct ReadableRecording {
   std::vector<RecordingEvent> events = {};       // in order of time
   std::vector<RecordingEvent> notInFile = {};    // of events: what was found to be lost
   std::string damage = {};                       // one line: what is missing; empty if nothing is
-  std::size_t damagedEvents = 0;                 // that can't be read
+  std::size_t damagedEvents = 0;                 // that can't be read, or are more than are read
   std::map<std::string, std::string> meta = {};  // as readRecordingMeta(), as far as it can be read
 };
 // Opens a recording and reads it through: what verifyRecording() counts as readable, damaged or

@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include <palpate/core/number_text.h>
+
 namespace palpate {
 
 // An event at a time or over a span of time.
@@ -29,6 +31,10 @@ struct EventsReport {
   std::vector<RecordingEvent> events;
   std::size_t damaged = 0;
 };
+// "3 events left out: damaged, or more than are read".
+inline std::string eventsLeftOutText(std::size_t count) {
+  return counted(count, "event") + " left out: damaged, or more than are read";
+}
 
 // The events without those of `others`; one that is there twice stays once, when `others` has it
 // once.

@@ -20,17 +20,32 @@ namespace {
 constexpr std::size_t kMostDataSets = 10'000;
 constexpr std::size_t kMostNameBytes = 4096;
 constexpr hsize_t kMostReadChunkBytes = 32u << 20;
+constexpr std::size_t kAllNamesBytes = 4u << 20;
 constexpr std::size_t kTextsPerAnswerBytes = 1u << 20;
+constexpr hsize_t kTextsPerAnswer = 4096;
+// Chunks that are kept of one array, and of all.
+constexpr hsize_t kKeptChunksBytes = 32u << 20;
+constexpr std::size_t kAllKeptChunksBytes = 64u << 20;
+constexpr std::size_t kMostChunkSlots = 1u << 20;
 
 struct Hdf5Fault {
   std::string text;
 };
 [[noreturn]] void fault(std::string text) { throw Hdf5Fault{std::move(text)}; }
 
+struct CollectedNames {
+  std::vector<std::string> names;
+  std::size_t bytes = 0;
+};
+
 herr_t collectName(hid_t, const char* name, const H5O_info_t* info, void* data) {
-  auto& names = *static_cast<std::vector<std::string>*>(data);
-  if (info->type == H5O_TYPE_DATASET) names.emplace_back(name);
-  return names.size() >= kMostDataSets ? 1 : 0;
+  auto& collected = *static_cast<CollectedNames*>(data);
+  if (info->type != H5O_TYPE_DATASET) return 0;
+  const std::string_view text = name;
+  if (text.size() > kAllNamesBytes - collected.bytes) return 1;
+  collected.bytes += text.size();
+  collected.names.emplace_back(text);
+  return collected.names.size() >= kMostDataSets ? 1 : 0;
 }
 
 Hdf5Kind kindOf(hid_t type) {
@@ -170,6 +185,44 @@ void selectRows(hid_t space, const Hdf5Facts& facts, hsize_t first, hsize_t coun
     fault("can't be read: damaged or cut off");
 }
 
+// The chunks that a row of an array crosses; 0 bytes: it has none, or they are too large to be
+// counted.
+struct ChunkBand {
+  hsize_t bytes = 0;
+  std::size_t slots = 0;  // of a table of chunks in which those of a band have different places
+};
+
+ChunkBand chunkBandOf(hid_t id, const Hdf5Facts& facts) {
+  const Hdf5Id properties(H5Dget_create_plist(id), H5Pclose);
+  if (H5Pget_layout(properties.get()) != H5D_CHUNKED) return {};
+  const Hdf5Id type(H5Dget_type(id), H5Tclose);
+  std::vector<hsize_t> chunk(facts.shape.size());
+  H5Pget_chunk(properties.get(), static_cast<int>(chunk.size()), chunk.data());
+  // A text of any length is a length u32 and a place (u64, u32) in the file.
+  constexpr hsize_t kTextBytes = 16;
+  ChunkBand band{H5Tis_variable_str(type.get()) > 0 ? kTextBytes : H5Tget_size(type.get()), 1};
+  for (std::size_t d = 0; d < chunk.size(); ++d) {
+    if (chunk[d] == 0 || __builtin_mul_overflow(band.bytes, chunk[d], &band.bytes)) return {};
+    if (d == 0) continue;
+    const hsize_t along = (facts.shape[d] + chunk[d] - 1) / chunk[d];
+    if (__builtin_mul_overflow(band.bytes, along, &band.bytes) || band.bytes > kKeptChunksBytes)
+      return {};
+    // The library's places are bit fields of the numbers of a chunk.
+    band.slots *= std::bit_ceil(static_cast<std::size_t>(along));
+    if (band.slots > kMostChunkSlots) return {};
+  }
+  return band;
+}
+
+// With room for the chunks of a band.
+Hdf5Id openArray(hid_t file, const std::string& name, const ChunkBand& kept) {
+  const Hdf5Id access(H5Pcreate(H5P_DATASET_ACCESS), H5Pclose);
+  H5Pset_chunk_cache(access.get(), kept.slots, static_cast<std::size_t>(kept.bytes), 1.0);
+  Hdf5Id opened(H5Dopen2(file, name.c_str(), access.get()), H5Dclose);
+  if (!opened.ok()) fault("can't be opened: damaged, or no data set");
+  return opened;
+}
+
 bool receiveAll(int socket, void* bytes, std::size_t count) {
   auto* next = static_cast<char*>(bytes);
   while (count > 0) {
@@ -192,21 +245,19 @@ bool sendAll(int socket, std::string_view bytes) {
   return true;
 }
 
-// The next request may use so much processor time; then the system ends the process (SIGXCPU).
-void limitNextRequest() {
-  rusage used{};
-  ::getrusage(RUSAGE_SELF, &used);
-  rlimit limit{};
-  ::getrlimit(RLIMIT_CPU, &limit);
-  limit.rlim_cur =
-      static_cast<rlim_t>(used.ru_utime.tv_sec + used.ru_stime.tv_sec + 1 + kHdf5RequestCpuS);
-  ::setrlimit(RLIMIT_CPU, &limit);
+// The next request may use so much processor time; then the system ends the process (SIGPROF).
+// RLIMIT_CPU counts whole seconds only.
+void limitNextRequest(std::chrono::milliseconds cpu) {
+  itimerval limit{};
+  limit.it_value.tv_sec = static_cast<time_t>(cpu.count() / 1000);
+  limit.it_value.tv_usec = static_cast<suseconds_t>(cpu.count() % 1000 * 1000);
+  ::setitimer(ITIMER_PROF, &limit, nullptr);
 }
 
 void limitHdf5Process() {
   const rlimit none{0, 0};
   ::setrlimit(RLIMIT_CORE, &none);
-  ::signal(SIGXCPU, SIG_DFL);
+  ::signal(SIGPROF, SIG_DFL);
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)  // they need terabytes of it
   const rlimit memory{kHdf5MemoryBytes, kHdf5MemoryBytes};
   ::setrlimit(RLIMIT_AS, &memory);
@@ -227,7 +278,7 @@ bool ranOutOfMemory() {
 
 }  // namespace
 
-Hdf5Answers::Hdf5Answers(int descriptor) {
+Hdf5Answers::Hdf5Answers(int descriptor) : chunkBytesLeft_(kAllKeptChunksBytes) {
   const auto lock = hdf5Lock();
   // Wherever a path leads, it stays in this file.
   H5Lunregister(H5L_TYPE_EXTERNAL);
@@ -302,12 +353,12 @@ std::string Hdf5Answers::answer(std::span<const std::byte> request) {
 }
 
 std::string Hdf5Answers::arrayNames() {
-  std::vector<std::string> names;
-  if (H5Ovisit2(file_.get(), H5_INDEX_NAME, H5_ITER_INC, &collectName, &names, H5O_INFO_BASIC) < 0)
+  CollectedNames found;
+  if (H5Ovisit2(file_.get(), H5_INDEX_NAME, H5_ITER_INC, &collectName, &found, H5O_INFO_BASIC) < 0)
     fault("is damaged: the HDF5 data sets can't be listed");
   std::string value;
-  appendLittleEndian(value, names.size(), 4);
-  for (const std::string& name : names) appendText(value, name);
+  appendLittleEndian(value, found.names.size(), 4);
+  for (const std::string& name : found.names) appendText(value, name);
   return value;
 }
 
@@ -331,21 +382,31 @@ Hdf5Answers::Array& Hdf5Answers::array(const std::string& name) {
   const auto known = arrays_.find(name);
   if (known != arrays_.end()) return known->second;
   if (!has(name)) fault("is missing");
-  const Hdf5Id access(H5Pcreate(H5P_DATASET_ACCESS), H5Pclose);
-  H5Pset_chunk_cache(access.get(), 0, 0, 1.0);  // pieces are kept by who asks
-  Array opened{Hdf5Id(H5Dopen2(file_.get(), name.c_str(), access.get()), H5Dclose), {}};
-  if (!opened.id.ok()) fault("can't be opened: damaged, or no data set");
+  Array opened{openArray(file_.get(), name, {}), {}};
   opened.facts = factsOf(opened.id.get());
   return arrays_.emplace(name, std::move(opened)).first->second;
 }
 
+const Hdf5Answers::Array& Hdf5Answers::arrayToRead(const std::string& name) {
+  Array& found = array(name);
+  if (!found.facts.fault.empty()) fault(found.facts.fault);
+  if (found.isReading) return found;
+  found.isReading = true;
+  const ChunkBand band = chunkBandOf(found.id.get(), found.facts);
+  if (band.bytes == 0 || band.bytes > std::min<hsize_t>(kKeptChunksBytes, chunkBytesLeft_))
+    return found;
+  chunkBytesLeft_ -= static_cast<std::size_t>(band.bytes);
+  found.id.reset();  // as long as it is open, the library keeps to what it was opened with
+  found.id = openArray(file_.get(), name, band);
+  return found;
+}
+
 std::string Hdf5Answers::numbers(const std::string& name, ByteReader& in) {
-  const Array& from = array(name);
   const hsize_t first = in.u64();
   const hsize_t count = in.u64();
   const auto type = static_cast<Hdf5Number>(in.u8());
   if (!in.ok() || type > Hdf5Number::kF64) fault("was asked for in a wrong way");
-  if (!from.facts.fault.empty()) fault(from.facts.fault);
+  const Array& from = arrayToRead(name);
   const Hdf5Id space(H5Dget_space(from.id.get()), H5Sclose);
   Hdf5Id memory;
   selectRows(space.get(), from.facts, first, count, memory);
@@ -363,23 +424,22 @@ std::string Hdf5Answers::numbers(const std::string& name, ByteReader& in) {
 }
 
 std::string Hdf5Answers::texts(const std::string& name, ByteReader& in) {
-  const Array& from = array(name);
+  const Array& from = arrayToRead(name);
   const hsize_t first = in.u64();
   const hsize_t count = in.u64();
   const std::uint64_t longest = in.u64();
-  if (!from.facts.fault.empty()) fault(from.facts.fault);
   const Hdf5Id type(H5Dget_type(from.id.get()), H5Tclose);
   if (from.facts.shape.size() != 1 || H5Tis_variable_str(type.get()) <= 0)
     fault("has texts of another type");
   const Hdf5Id memoryType(H5Tcopy(H5T_C_S1), H5Tclose);
   H5Tset_size(memoryType.get(), H5T_VARIABLE);
   H5Tset_cset(memoryType.get(), H5Tget_cset(type.get()));
+  const Hdf5Id space(H5Dget_space(from.id.get()), H5Sclose);
+  Hdf5Id memory;
   std::string all;
   hsize_t read = 0;
   // One after the other, so that a hostile file can't ask for all memory at once.
-  while (read < count && all.size() < kTextsPerAnswerBytes) {
-    const Hdf5Id space(H5Dget_space(from.id.get()), H5Sclose);
-    Hdf5Id memory;
+  while (read < count && read < kTextsPerAnswer && all.size() < kTextsPerAnswerBytes) {
     selectRows(space.get(), from.facts, first + read, 1, memory);
     char* pointer = nullptr;
     if (H5Dread(from.id.get(),
@@ -411,9 +471,9 @@ void Hdf5Answers::attribute(const std::string& name, ByteReader& in, Read read) 
   read(object.get(), key.c_str());
 }
 
-int serveHdf5(int socket, int file) {
+int serveHdf5(int socket, int file, std::chrono::milliseconds requestCpu) {
   limitHdf5Process();
-  limitNextRequest();
+  limitNextRequest(requestCpu);
   try {
     Hdf5Answers answers(file);
     std::vector<std::byte> request;
@@ -423,7 +483,7 @@ int serveHdf5(int socket, int file) {
       if (size > kMaxHdf5RequestBytes) return 1;
       request.resize(size);
       if (!receiveAll(socket, request.data(), size)) return 0;
-      limitNextRequest();
+      limitNextRequest(requestCpu);
       const std::string answer = answers.answer(request);
       std::string head;
       appendLittleEndian(head, answer.size(), 4);

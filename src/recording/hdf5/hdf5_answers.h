@@ -4,6 +4,7 @@
 // data sets whose values were never written. Private to this module.
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 #include <map>
 #include <span>
@@ -27,6 +28,7 @@ class Hdf5Answers {
   struct Array {
     Hdf5Id id;
     Hdf5Facts facts;
+    bool isReading = false;  // its chunks are kept as far as there is room
   };
 
   std::string arrayNames();
@@ -34,6 +36,9 @@ class Hdf5Answers {
   // Throws Hdf5Fault, as all below.
   void requireInside(const std::string& name) const;
   Array& array(const std::string& name);
+  // The same of an array whose values are read: the chunks of a band of rows are kept, so that
+  // each is unpacked once when rows are read in order.
+  const Array& arrayToRead(const std::string& name);
   std::string numbers(const std::string& name, ByteReader& in);
   std::string texts(const std::string& name, ByteReader& in);
   // Opens the object and calls `read` with it and the name of the attribute, which comes next.
@@ -42,10 +47,12 @@ class Hdf5Answers {
 
   Hdf5Id file_;
   std::map<std::string, Array> arrays_;  // that were asked for, by name
+  std::size_t chunkBytesLeft_;           // that chunks of further arrays may take
 };
 
 // Sets the limits of this process and answers what comes over `socket` until nobody asks any more.
+// A request that takes more than `requestCpu` of processor time ends the process (SIGPROF).
 // Returns the exit code of the process.
-int serveHdf5(int socket, int file);
+int serveHdf5(int socket, int file, std::chrono::milliseconds requestCpu);
 
 }  // namespace palpate

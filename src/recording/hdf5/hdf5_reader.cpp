@@ -145,6 +145,7 @@ class StampSeries {
           array_->fail("does not ascend at sample " + std::to_string(first + i));
         before = piece[i];
       }
+      firstsUs_.push_back(piece.front());
     }
   }
 
@@ -152,6 +153,17 @@ class StampSeries {
   std::int64_t at(std::size_t index) const {
     const std::lock_guard lock(mutex_);
     return pieceWith(index)[index % kPiece];
+  }
+  // As ProfileStorage::frameAt(): reads one piece at most.
+  std::optional<std::size_t> indexAt(std::int64_t timeUs) const {
+    if (size_ == 0) return std::nullopt;
+    const auto behind = std::upper_bound(firstsUs_.begin(), firstsUs_.end(), timeUs);
+    if (behind == firstsUs_.begin()) return 0;
+    const auto first = static_cast<std::size_t>(behind - firstsUs_.begin() - 1) * kPiece;
+    const std::lock_guard lock(mutex_);
+    const std::vector<std::int64_t>& piece = pieceWith(first);
+    return first + static_cast<std::size_t>(std::upper_bound(piece.begin(), piece.end(), timeUs) -
+                                            piece.begin() - 1);
   }
 
  private:
@@ -173,6 +185,7 @@ class StampSeries {
 
   std::optional<ReadArray> array_;
   std::size_t size_ = 0;
+  std::vector<std::int64_t> firstsUs_;  // of the pieces
   mutable std::mutex mutex_;
   // First index and stamps; the last used one first.
   mutable std::list<std::pair<std::size_t, std::vector<std::int64_t>>> pieces_;
@@ -385,6 +398,15 @@ class Hdf5Storage final : public ProfileStorage {
   }
   Temperatures temperatures(std::size_t sample) const override {
     return {temperatures_.timesUs().at(sample), temperatures_.row(sample)};
+  }
+  std::optional<std::size_t> frameAt(std::int64_t timeUs) const override {
+    return timesUs_.indexAt(timeUs);
+  }
+  std::optional<std::size_t> angleSampleAt(std::int64_t timeUs) const override {
+    return angles_.timesUs().indexAt(timeUs);
+  }
+  std::optional<std::size_t> temperatureSampleAt(std::int64_t timeUs) const override {
+    return temperatures_.timesUs().indexAt(timeUs);
   }
 
  private:
@@ -611,7 +633,7 @@ std::shared_ptr<const Hdf5Storage> openedHdf5(const fs::path& path) {
   }
   requireUndamaged(path, descriptor.get());
   // The very file that was checked, whatever the name stands for by now.
-  auto file = std::make_unique<Hdf5Process>(path, descriptor.get());
+  auto file = std::make_unique<Hdf5Process>(path, descriptor.get(), Hdf5Use::kRecording);
   requirePalpateLayout(*file);
   auto storage = std::make_shared<const Hdf5Storage>(std::move(file));
   const std::lock_guard lock(mutex);

@@ -38,6 +38,8 @@ void ArraySource::start(std::span<const std::size_t> columns, std::optional<std:
                             std::to_string(column.numRows.value_or(0)) + " rows, but " +
                             shortened(columns_[all.front()].name) + " has " +
                             std::to_string(numRows_));
+    if (column.width() > kMaxNumbersPerRow)
+      throw FormatError(path_, inQuotes(column.name) + " has too many numbers per row");
     width += column.width();
   }
   if (width > kLargestRowNumbers)

@@ -17,8 +17,6 @@ namespace palpate {
 namespace {
 
 constexpr std::size_t kMostHdf5Dimensions = 8;
-constexpr std::uint64_t kLargestHdf5Row = 1u << 24;  // numbers
-constexpr std::uint64_t kLargestReadRow = 1u << 17;  // numbers; a hand has at most 65,536 taxels
 
 }  // namespace
 
@@ -26,7 +24,7 @@ Hdf5Source::Hdf5Source(const std::filesystem::path& path) : ArraySource(path) {
   const FileDescriptor descriptor(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
   if (descriptor.get() < 0)
     throw FileError(path, "can't be read: " + std::generic_category().message(errno));
-  file_ = std::make_unique<Hdf5Process>(path, descriptor.get());
+  file_ = std::make_unique<Hdf5Process>(path, descriptor.get(), Hdf5Use::kImport);
   for (const std::string& name : file_->arrayNames()) {
     Hdf5Facts facts = file_->facts(name);
     TableColumn column{.name = name, .type = facts.typeName};
@@ -36,7 +34,7 @@ Hdf5Source::Hdf5Source(const std::filesystem::path& path) : ArraySource(path) {
       column.numRows = facts.shape[0];
       std::uint64_t width = 1;
       for (std::size_t d = 1; d < facts.shape.size(); ++d) {
-        if (__builtin_mul_overflow(width, facts.shape[d], &width) || width > kLargestHdf5Row)
+        if (__builtin_mul_overflow(width, facts.shape[d], &width))
           throw FormatError(path, inQuotes(name) + " has too many numbers per row");
         column.shape.push_back(static_cast<std::size_t>(facts.shape[d]));
       }
@@ -59,9 +57,7 @@ std::string Hdf5Source::form() const {
 }
 
 void Hdf5Source::open(std::size_t column) {
-  std::string fault = facts_[column].fault;
-  if (fault.empty() && columns_[column].width() > kLargestReadRow)
-    fault = "has too many numbers per row";
+  const std::string& fault = facts_[column].fault;
   if (!fault.empty()) throw FormatError(path_, inQuotes(columns_[column].name) + " " + fault);
 }
 

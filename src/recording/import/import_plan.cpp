@@ -222,6 +222,7 @@ std::vector<std::size_t> Planner::candidates() const {
     const TableColumn& column = columns_[c];
     if (!column.isNumeric || column.type == "bool" || time_ == c || sampleColumns_.contains(c))
       continue;
+    if (column.width() > kMaxNumbersPerRow) continue;  // images of a camera
     if (timeScore(column, Kind::kFrames) > 0 || timeScore(column, Kind::kAngles) > 0 ||
         timeScore(column, Kind::kTemperatures) > 0 || hasWord(column, kOtherWords))
       continue;

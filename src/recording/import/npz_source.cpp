@@ -169,7 +169,7 @@ void NpzSource::addColumn(const std::string& name, Array array, std::uint64_t av
     for (std::size_t d = 1; d < header.shape.size(); ++d) {
       column.shape.push_back(static_cast<std::size_t>(header.shape[d]));
       // A dimension of 0 leaves the others unchecked by the number of bytes.
-      if (__builtin_mul_overflow(width, header.shape[d], &width) || width > kMaxNumbersPerRow)
+      if (__builtin_mul_overflow(width, header.shape[d], &width))
         throw FormatError(path_, inQuotes(name) + " has too many numbers per row");
     }
     if (!header.shape.empty()) column.numRows = header.shape[0];

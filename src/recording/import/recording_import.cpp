@@ -40,10 +40,14 @@ void readPreviewRows(TableSource& source, ImportPreview& preview) {
     if (column.numRows && !column.isNumeric && !isDateArray) continue;
     const std::vector<std::size_t> chosen = {c};
     TableRow row;
-    if (isDateArray)
-      source.start({}, c);
-    else
-      source.start(chosen, std::nullopt);
+    try {
+      if (isDateArray)
+        source.start({}, c);
+      else
+        source.start(chosen, std::nullopt);
+    } catch (const FormatError&) {
+      continue;  // it is refused where it is taken
+    }
     for (std::size_t r = 0; r < kShownPreviewRows && source.next(row); ++r) {
       if (row.complete && isDateArray)
         preview.rows[r][c] = utcText(row.time.whole.value_or(0));

@@ -6,6 +6,7 @@
 #include <mutex>
 #include <numbers>
 #include <optional>
+#include <unordered_map>
 #include <utility>
 
 #include "palpate/core/error.h"
@@ -25,6 +26,8 @@ namespace {
 constexpr std::size_t kForeignMessages = 50'000'000;
 // Unpacked chunks that are kept: those of topics that are written to chunks of their own.
 constexpr std::uint64_t kKeptForeignBytes = 64u << 20;
+// What an empty chunk takes of them.
+constexpr std::uint64_t kKeptForeignPieceBytes = 64;
 // Chunks that have to be unpacked again while frames are read in order, in bytes: this, or four
 // times all chunks.
 constexpr std::uint64_t kForeignUnpackedAgain = 512u << 20;
@@ -60,7 +63,7 @@ class ForeignChunks {
       kept_.front().second =
           std::make_shared<const std::string>(readMcapPiece(file_, pieces_[piece], piece));
     } catch (const Error& error) {
-      forgetFirst();
+      forget(kept_.begin());
       if (!salvage_ || !dynamic_cast<const FormatError*>(&error)) throw;
       bad_[piece] = true;
       ++numBad_;
@@ -69,17 +72,18 @@ class ForeignChunks {
     return kept_.front().second;
   }
 
-  // Throws FormatError where messages in this order can't be read in a bearable time.
-  void requireOrder(const std::vector<ForeignPlace>& places) {
+  // Throws FormatError where messages in this order can't be read in a bearable time; Cancelled.
+  void requireOrder(const std::vector<ForeignPlace>& places, const Progress& progress) {
+    constexpr std::size_t kPlacesPerReport = 1u << 16;
     std::uint64_t all = 0;
     for (const McapPiece& piece : pieces_) all += piece.rawSize;
     std::uint64_t again = 0;
-    kept_.clear();
-    keptBytes_ = 0;
-    for (const ForeignPlace& place : places)
-      if (!keeps(place.piece)) again += pieces_[place.piece].rawSize;
-    kept_.clear();
-    keptBytes_ = 0;
+    forgetAll();
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      if (progress && i % kPlacesPerReport == 0 && !progress(1.0)) throw Cancelled();
+      if (!keeps(places[i].piece)) again += pieces_[places[i].piece].rawSize;
+    }
+    forgetAll();
     if (again > std::max(kForeignUnpackedAgain, 4 * all))
       throw FormatError(path(),
                         "has its messages in too many chunks at a time to be read in order; write "
@@ -87,22 +91,32 @@ class ForeignChunks {
   }
 
  private:
+  using Kept = std::list<std::pair<std::size_t, Records>>;
+
   // Puts a piece in front. Returns false where it was not kept: it is empty then.
   bool keeps(std::size_t piece) {
-    for (auto it = kept_.begin(); it != kept_.end(); ++it)
-      if (it->first == piece) {
-        kept_.splice(kept_.begin(), kept_, it);
-        return true;
-      }
-    keptBytes_ += pieces_[piece].rawSize;
-    for (; !kept_.empty() && keptBytes_ > kKeptForeignBytes; kept_.pop_back())
-      keptBytes_ -= pieces_[kept_.back().first].rawSize;
+    if (const auto found = places_.find(piece); found != places_.end()) {
+      kept_.splice(kept_.begin(), kept_, found->second);
+      return true;
+    }
+    keptBytes_ += keptBytesOf(piece);
+    while (!kept_.empty() && keptBytes_ > kKeptForeignBytes) forget(std::prev(kept_.end()));
     kept_.emplace_front(piece, nullptr);
+    places_[piece] = kept_.begin();
     return false;
   }
-  void forgetFirst() {
-    keptBytes_ -= pieces_[kept_.front().first].rawSize;
-    kept_.pop_front();
+  std::uint64_t keptBytesOf(std::size_t piece) const {
+    return pieces_[piece].rawSize + kKeptForeignPieceBytes;
+  }
+  void forget(Kept::iterator entry) {
+    keptBytes_ -= keptBytesOf(entry->first);
+    places_.erase(entry->first);
+    kept_.erase(entry);
+  }
+  void forgetAll() {
+    kept_.clear();
+    places_.clear();
+    keptBytes_ = 0;
   }
 
   McapFile file_;
@@ -110,7 +124,8 @@ class ForeignChunks {
   bool salvage_ = false;
   std::vector<bool> bad_;
   std::size_t numBad_ = 0;
-  std::list<std::pair<std::size_t, Records>> kept_;  // the latest used first
+  Kept kept_;                                               // the latest used first
+  std::unordered_map<std::size_t, Kept::iterator> places_;  // of pieces in it
   std::uint64_t keptBytes_ = 0;
 };
 
@@ -428,7 +443,7 @@ class ForeignReader {
     }
     if (cells > kMaxPlaces) fail("has too many pixels for one hand");
     const auto layout = std::make_shared<const SensorLayout>(std::move(matrices));
-    chunks_.requireOrder(places_);
+    chunks_.requireOrder(places_, progress_);
     std::vector<std::optional<std::size_t>> matrixOf(topics_.size());
     for (std::size_t m = 0; m < order_.size(); ++m) matrixOf[order_[m]] = m;
     HandDescription hand = handOf(layout);

@@ -29,8 +29,6 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::int64_t kMcapLatestUs = std::int64_t{1} << 60;  // as in a native recording
-// Of the events of a file, in memory: some 100,000. Those beyond it are left out and counted.
-constexpr std::size_t kKeptMcapEventBytes = 16u << 20;
 constexpr std::size_t kCachedMcapBlocks = 4;
 constexpr float kMostMcapCounts = 4095.0F;
 
@@ -50,7 +48,7 @@ class McapEvents {
  public:
   void add(RecordingEvent event) {
     bytes_ += sizeof event + event.kind.size() + event.text.size() + event.json.size();
-    if (bytes_ > kKeptMcapEventBytes)
+    if (bytes_ > kMaxMcapEventsBytes)
       ++leftOut_;
     else
       kept_.push_back(std::move(event));
@@ -674,15 +672,13 @@ McapRecording openOwnMcap(McapFile file,
     damage += (damage.empty() ? "has " : "; ") + counted(damaged, "damaged chunk") +
               ", whose samples are lost";
   const std::size_t leftOut = storage->events().leftOut();
-  if (leftOut > 0)
-    damage += (damage.empty() ? "has " : "; ") + counted(leftOut, "event") + " more than the " +
-              std::to_string(kKeptMcapEventBytes >> 20) + " MB that are read";
   std::vector<RecordingEvent> events = storage->events().take();
   return {Profile(std::move(info), std::move(hand), std::move(storage)),
           std::move(events),
           std::move(meta),
           mcapProvenanceOf(structure),
-          std::move(damage)};
+          std::move(damage),
+          leftOut};
 }
 
 McapRecording openMcap(const fs::path& path,
@@ -718,6 +714,11 @@ McapRecording readMcap(const fs::path& path, const Progress& progress, std::size
 
 McapRecording recoverMcap(const fs::path& path, const Progress& progress, std::size_t threads) {
   return openMcap(path, progress, threads, true);
+}
+
+std::string mcapEventsLeftOutText(std::size_t count) {
+  return counted(count, "event") + " beyond the " + std::to_string(kMaxMcapEventsBytes >> 20) +
+         " MB that are read " + (count == 1 ? "was" : "were") + " left out";
 }
 
 EventsReport readMcapEvents(const fs::path& path) {
