@@ -167,8 +167,8 @@ std::vector<std::string> linesOf(const std::string& text) {
 
 TEST(InfoCommand, ControlCharactersOfNamesDoNotReachTheTerminal) {
   const testing::TemporaryFolder folder;
-  const std::string name = "x\x1b]0;title\ay.palpate";
-  for (const std::string& file : {name, std::string("z.palpate")}) {
+  const std::string name = "x\x1b]0;title\ay.dsa";
+  for (const std::string& file : {name, std::string("z.dsa")}) {
     const auto made = palpate({"synthesize", "-o", folder / file, "--duration", "1"});
     ASSERT_EQ(made.exitCode, 0) << made.err;
     EXPECT_EQ(made.out.find_first_of("\x1b\a"), std::string::npos);
@@ -177,7 +177,7 @@ TEST(InfoCommand, ControlCharactersOfNamesDoNotReachTheTerminal) {
     const auto result = palpate({"info", path});
     EXPECT_EQ(result.exitCode, 0) << result.err;
     EXPECT_EQ(result.out.find_first_of("\x1b\a"), std::string::npos);
-    EXPECT_NE(result.out.find("x\\x1B]0;title\\x07y.palpate"), std::string::npos) << result.out;
+    EXPECT_NE(result.out.find("x\\x1B]0;title\\x07y.dsa"), std::string::npos) << result.out;
   }
 }
 
