@@ -156,7 +156,7 @@ class BatchRun {
       if (known == Known::kOurs) entry.replaceable = filesOf(*before);
       // Only files that were written may be replaced.
       for (const WrittenFile& file : entry.replaceable)
-        if (file.path == entry.target)
+        if (!task_.namesResults && file.path == entry.target)
           overwrite = Overwrite::kReplace;
         else
           now.earlier.push_back(journal_.pathOf(file.path));

@@ -136,40 +136,42 @@ BatchTask graspsTask(const GraspTemplate& names, const ConvertOptions& options) 
   options.filters.validate();
   return {
       .options = "convert grasps; " + recipeText(options.filters) + choicesText(options.choices),
-      .work = [names, options](const BatchItem& item,
-                               Overwrite overwrite,
-                               const Progress& progress,
-                               std::size_t threads) {
-        formatOf(item.target);
-        const Profile whole = openRecording(item.source, partOf(progress, 0.0, 0.3), threads);
-        const EventsReport events = readEvents(item.source);
-        const std::vector<GraspFrames> grasps = graspFrames(whole, events.events);
-        if (grasps.empty()) throw FileError(item.source, "has no grasp");
-        const Profile profile =
-            filteredRecording(options.filters, whole, item.source, partOf(progress, 0.3, 0.5));
-        BatchNameFields fields = nameFieldsOf(item);
-        fields.timeUs = whole.frameTimeUs(0);
-        BatchAnswer answer{.said = counted(grasps.size(), "grasp")};
-        for (std::size_t i = 0; i < grasps.size(); ++i)
-          answer.results.push_back(names.pathFor(fields, i + 1, grasps.size()));
-        GraspFilesOptions files{.overwrite = overwrite, .replaceable = item.earlier};
-        files.extras = [&](const Profile& part, const fs::path& out) {
-          SaveExtras extras =
-              exportExtras(options.choices, item.source, out, part, options.filters);
-          extras.meta.erase("settings");  // those at the start of the whole recording
-          return extras;
-        };
-        saveGrasps(item.source,
-                   profile,
-                   events.events,
-                   grasps,
-                   answer.results,
-                   files,
-                   partOf(progress, 0.5, 1.0));
-        if (events.damaged > 0)
-          answer.problem = item.source.string() + ": " + eventsLeftOutText(events.damaged);
-        return answer;
-      }};
+      .work =
+          [names, options](const BatchItem& item,
+                           Overwrite overwrite,
+                           const Progress& progress,
+                           std::size_t threads) {
+            formatOf(item.target);
+            const Profile whole = openRecording(item.source, partOf(progress, 0.0, 0.3), threads);
+            const EventsReport events = readEvents(item.source);
+            const std::vector<GraspFrames> grasps = graspFrames(whole, events.events);
+            if (grasps.empty()) throw FileError(item.source, "has no grasp");
+            const Profile profile =
+                filteredRecording(options.filters, whole, item.source, partOf(progress, 0.3, 0.5));
+            BatchNameFields fields = nameFieldsOf(item);
+            fields.timeUs = whole.frameTimeUs(0);
+            BatchAnswer answer{.said = counted(grasps.size(), "grasp")};
+            for (std::size_t i = 0; i < grasps.size(); ++i)
+              answer.results.push_back(names.pathFor(fields, i + 1, grasps.size()));
+            GraspFilesOptions files{.overwrite = overwrite, .replaceable = item.earlier};
+            files.extras = [&](const Profile& part, const fs::path& out) {
+              SaveExtras extras =
+                  exportExtras(options.choices, item.source, out, part, options.filters);
+              extras.meta.erase("settings");  // those at the start of the whole recording
+              return extras;
+            };
+            saveGrasps(item.source,
+                       profile,
+                       events.events,
+                       grasps,
+                       answer.results,
+                       files,
+                       partOf(progress, 0.5, 1.0));
+            if (events.damaged > 0)
+              answer.problem = item.source.string() + ": " + eventsLeftOutText(events.damaged);
+            return answer;
+          },
+      .namesResults = true};
 }
 
 BatchTask signalsTask(const SignalRowsOptions& table) {

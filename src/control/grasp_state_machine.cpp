@@ -522,9 +522,8 @@ void GraspStateMachine::failWith(std::string_view why,
   if (!active()) return;
   const bool held = isHolding();
   stopWith(GraspOutcome::kFailed, {}, monoUs);
-  report_.text =
-      "failed: " + std::string(why) +
-      (held ? ": the hand holds, without slip detection" : std::string(stoppedText));
+  report_.text = "failed: " + std::string(why) +
+                 (held ? ": the hand holds, without slip detection" : std::string(stoppedText));
 }
 
 void GraspStateMachine::stop(std::int64_t monoUs) {

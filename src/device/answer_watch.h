@@ -1,5 +1,5 @@
-// How long the answers of a motion controller may be missing or not valid before its hand, which may
-// be moving, is stopped.
+// How long the answers of a motion controller may be missing or not valid before its hand, which
+// may be moving, is stopped.
 #pragma once
 
 #include <algorithm>
@@ -21,7 +21,8 @@ class AnswerWatch {
   }
   bool isLimited() const noexcept { return limit_.count() > 0; }
   void onGood() noexcept { numBad_ = 0; }
-  // The request that was sent at `requestUs` [monotonic us] got no answer, or one that is not valid.
+  // The request that was sent at `requestUs` [monotonic us] got no answer, or one that is not
+  // valid.
   void onBad(std::int64_t requestUs) noexcept {
     if (numBad_++ == 0) sinceUs_ = requestUs;
   }
@@ -31,8 +32,8 @@ class AnswerWatch {
     return isLimited() && numBad_ > 1 &&
            nowUs + usOf(2 * silence() + kAnswer) >= sinceUs_ + usOf(limit_);
   }
-  // With a limit: how long to wait for one answer, and for the silence that ends a damaged one (twice
-  // before the next request).
+  // With a limit: how long to wait for one answer, and for the silence that ends a damaged one
+  // (twice before the next request).
   Milliseconds timeout(std::int64_t nowUs) const noexcept {
     const Milliseconds usual = limit_ / 5;
     if (numBad_ < 2) return usual;

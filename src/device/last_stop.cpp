@@ -163,11 +163,9 @@ void LastStop::start(const ByteChannel& channel) {
     posix_spawn_file_actions_t files;
     posix_spawn_file_actions_init(&files);
     error = posix_spawn_file_actions_adddup2(&files, death.get(), STDIN_FILENO);
+    if (error == 0) error = posix_spawn_file_actions_adddup2(&files, port.get(), STDOUT_FILENO);
     if (error == 0)
-      error = posix_spawn_file_actions_adddup2(&files, port.get(), STDOUT_FILENO);
-    if (error == 0)
-      error =
-          posix_spawn_file_actions_addopen(&files, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
+      error = posix_spawn_file_actions_addopen(&files, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
     // A session of its own: no signal of a terminal reaches it.
     posix_spawnattr_t attributes;
     posix_spawnattr_init(&attributes);
@@ -175,7 +173,8 @@ void LastStop::start(const ByteChannel& channel) {
     std::string name = "hand_stop", bytes(sdhStopBytes(!channel.isNetwork()));
     std::array<char*, 3> words = {name.data(), bytes.data(), nullptr};
     if (error == 0)
-      error = ::posix_spawn(&pid_, stopProgram().c_str(), &files, &attributes, words.data(), environ);
+      error =
+          ::posix_spawn(&pid_, stopProgram().c_str(), &files, &attributes, words.data(), environ);
     posix_spawnattr_destroy(&attributes);
     posix_spawn_file_actions_destroy(&files);
   }

@@ -356,8 +356,7 @@ CommandAnswer MotionLink::move(const MoveJoints& move) {
               controller_->facts().maximumVelocity);
   if (!(move.answerLimitS >= kMinAnswerLimitS && move.answerLimitS <= kMaxAnswerLimitS))
     throw std::invalid_argument("answer limit: " + numberText(move.answerLimitS) + " s is not in " +
-                                numberText(kMinAnswerLimitS) + ".." +
-                                numberText(kMaxAnswerLimitS));
+                                numberText(kMinAnswerLimitS) + ".." + numberText(kMaxAnswerLimitS));
   controller_->setProfile(move.ramp ? kRampProfile : kSinSquareProfile);
   if (!move.velocityDegPerS.empty()) controller_->setVelocities(move.velocityDegPerS);
   controller_->setTargets(move.targetDeg);

@@ -77,7 +77,7 @@ class MotionLink : public PortLink {
     // Before this time no state "idle" is believed, which old firmware reports too early [monotonic
     // us].
     std::int64_t motionUntilUs = 0;
-    std::int64_t stoppedUs = 0;  // when a stop was confirmed last [monotonic us]
+    std::int64_t stoppedUs = 0;     // when a stop was confirmed last [monotonic us]
     std::int64_t motionFromUs = 0;  // host time
     std::int64_t nextAnglesUs = 0;  // monotonic time
     std::int64_t nextTemperaturesUs = 0;

@@ -55,8 +55,8 @@ class PortLink {
   virtual void work() = 0;
   // The port disappeared or is given up; the channel still exists.
   virtual void disconnected() = 0;
-  // The device does not answer, or its answers are not valid, and the channel will be closed: writes
-  // what stops every motion, without waiting for an answer. `why` is one line.
+  // The device does not answer, or its answers are not valid, and the channel will be closed:
+  // writes what stops every motion, without waiting for an answer. `why` is one line.
   virtual void stopBlindly(ByteChannel& channel, const std::string& why) noexcept;
   // An unexpected exception occurred and the port will be closed: stops every motion.
   virtual void emergencyStop() {}

@@ -188,7 +188,8 @@ std::optional<SdhReply> SdhLink::attempt(Bytes request,
                                  parser_.stats().skippedBytes != before.skippedBytes);
     const std::int64_t restUs = usOf(timeout) - (nowUs - sentUs);
     const std::int64_t leftUs = begun ? std::min(restUs, usOf(kGap) - (nowUs - heardUs)) : restUs;
-    // An answer that arrived while this process stood still is looked for before it counts as missing.
+    // An answer that arrived while this process stood still is looked for before it counts as
+    // missing.
     if (leftUs <= 0 && std::exchange(looked, true)) {
       if (begun) problem_ = FailureCause::kBroken;
       return std::nullopt;

@@ -90,7 +90,8 @@ std::unique_ptr<ByteChannel> TtyChannel::open(const std::string& path, const std
   // program would lock out its own successor.
   FileDescriptor lock(::open(path.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC));
   if (lock.get() < 0) throwOpenError(errno, name);
-  struct stat used{}, locked{};
+  struct stat used {
+  }, locked{};
   if (::fstat(fd.get(), &used) != 0 || ::fstat(lock.get(), &locked) != 0 ||
       used.st_rdev != locked.st_rdev || used.st_ino != locked.st_ino)
     throw DeviceError(DeviceFault::kNotFound, name, "the port changed while it was opened");

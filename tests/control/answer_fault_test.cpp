@@ -122,8 +122,7 @@ TEST_P(AnswerFaultTest, AStopIsOnTheWireInTimeAndTheHandIsKnownToBeStillInTheEnd
   bench.pass(1.0);
   mover.sequence.step(bench.session->nowUs());
   EXPECT_FALSE(mover.sequence.running());
-  EXPECT_TRUE(mover.cycle.step(bench.session->nowUs()).has_value() ||
-              motion != Motion::kEmptyHand);
+  EXPECT_TRUE(mover.cycle.step(bench.session->nowUs()).has_value() || motion != Motion::kEmptyHand);
   EXPECT_EQ(bench.hand.moves, moves) << "nothing moves it again";
 }
 
@@ -138,8 +137,7 @@ TEST_P(AnswerFaultTest, EndsWithoutAnAnswerAndSaysThatTheStateIsUnknown) {
   ASSERT_TRUE(bench.awaitPhase(GraspPhase::kIdle, 60.0));
   const GraspReport last = *bench.control->status().last;
   EXPECT_EQ(last.outcome, GraspOutcome::kFailed);
-  EXPECT_NE(last.text.find("state unknown: use the power switch"), std::string::npos)
-      << last.text;
+  EXPECT_NE(last.text.find("state unknown: use the power switch"), std::string::npos) << last.text;
   // After the rest of the announced 4.51 s, half a second and 10 s.
   EXPECT_LT(static_cast<double>(last.endUs - fromUs) / kUsPerS, 15.02);
 }
@@ -178,13 +176,10 @@ std::vector<std::tuple<AnswerFault, Motion>> table() {
   return rows;
 }
 
-INSTANTIATE_TEST_SUITE_P(Table,
-                         AnswerFaultTest,
-                         ::testing::ValuesIn(table()),
-                         [](const auto& instance) {
-                           return nameOf(std::get<0>(instance.param)) +
-                                  nameOf(std::get<1>(instance.param));
-                         });
+INSTANTIATE_TEST_SUITE_P(
+    Table, AnswerFaultTest, ::testing::ValuesIn(table()), [](const auto& instance) {
+      return nameOf(std::get<0>(instance.param)) + nameOf(std::get<1>(instance.param));
+    });
 
 class OneInAHundredTest : public ::testing::TestWithParam<Motion> {};
 

@@ -40,6 +40,8 @@ struct BatchTask {
   std::function<BatchAnswer(
       const BatchItem& item, Overwrite overwrite, const Progress& progress, std::size_t threads)>
       work;
+  // Whether it writes the files that its answer names instead of item.target.
+  bool namesResults = false;
 };
 
 struct BatchOptions {

@@ -64,9 +64,9 @@ class GraspStateMachine {
   void onAxisStates(const std::vector<int>& states, std::int64_t monoUs);
   // Joint angles as last read; they give the rest of a motion when the motion port disappears.
   void onAngles(const std::vector<double>& deg) { anglesDeg_ = deg; }
-  // The motion controller's answers are missing or not valid, or the program failed at its port, and
-  // the port's thread has sent stops: stops what runs until a stop is answered. A reading over the
-  // limit meanwhile is reported, once.
+  // The motion controller's answers are missing or not valid, or the program failed at its port,
+  // and the port's thread has sent stops: stops what runs until a stop is answered. A reading over
+  // the limit meanwhile is reported, once.
   void onMotionFault(const std::string& why, std::int64_t monoUs);
   // The motion port was unplugged: the hand finishes its motion by itself.
   void onMotionPortGone(const std::string& why, std::int64_t monoUs);

@@ -16,8 +16,8 @@ std::string escapedLine(std::string_view text);
 // Returns the first `most` bytes of `text`, or fewer so that no UTF-8 character is cut in two.
 std::string_view beginningOf(std::string_view text, std::size_t most);
 
-// Text of unknown origin (a name, a key, a formula) as messages repeat it: escaped, and where it has
-// more than 100 bytes its beginning and "..".
+// Text of unknown origin (a name, a key, a formula) as messages repeat it: escaped, and where it
+// has more than 100 bytes its beginning and "..".
 std::string shortened(std::string_view text);
 
 // The same in quotes.

@@ -129,8 +129,9 @@ struct MoveJoints {
   std::vector<double> velocityDegPerS;
   // Velocity profile: true for a ramp, false for sin-square.
   bool ramp = false;
-  // Longest time for which the controller's answers may be missing or not valid until the axes are at
-  // rest, 0.1..3 [s]. Then the hand is stopped without waiting for an answer, and the port is opened again.
+  // Longest time for which the controller's answers may be missing or not valid until the axes are
+  // at rest, 0.1..3 [s]. Then the hand is stopped without waiting for an answer, and the port is
+  // opened again.
   double answerLimitS = 0.5;
   // Whether this limit also holds once the axes are at rest, since the hand holds an object then.
   bool limitsAnswersAtRest = false;

@@ -99,10 +99,10 @@ class SdhController {
   // kWrongDevice (a tactile controller sends at this port: ports swapped; or the hand does not have
   // seven axes). An idle tactile controller causes kSilent.
   const SdhControllerInfo& open();
-  // From now on, answers of the hand may be missing or not valid for at most `limit` (0: no limit but
-  // those of each call): requests are repeated within it, also those that the hand refuses, and the
-  // call in which it is exceeded throws. The limit begins with the first such answer; a single one
-  // does not exceed it. For a hand that may be moving.
+  // From now on, answers of the hand may be missing or not valid for at most `limit` (0: no limit
+  // but those of each call): requests are repeated within it, also those that the hand refuses, and
+  // the call in which it is exceeded throws. The limit begins with the first such answer; a single
+  // one does not exceed it. For a hand that may be moving.
   void limitBadAnswers(std::chrono::milliseconds limit) noexcept;
   const SdhControllerInfo& facts() const noexcept { return facts_; }
   SdhStats stats() const noexcept;

@@ -3,9 +3,9 @@
 // said of it) bit by bit, so that it can be read back, and beside that where it comes from and
 // series that were computed of its frames.
 //
-// Files are read by a process of its own, palpate_hdf5, whose memory and processor time are limited:
-// libhdf5 crashes and hangs on files that anybody can make. A program that does without HDF5 (CMake
-// property PALPATE_WITHOUT_HDF5) has writeHdf5(), too: there it throws Error.
+// Files are read by a process of its own, palpate_hdf5, whose memory and processor time are
+// limited: libhdf5 crashes and hangs on files that anybody can make. A program that does without
+// HDF5 (CMake property PALPATE_WITHOUT_HDF5) has writeHdf5(), too: there it throws Error.
 #pragma once
 
 #include <cstddef>

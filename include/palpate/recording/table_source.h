@@ -98,8 +98,8 @@ constexpr std::size_t kMaxLineBytes = 4u << 20;
 // hand has taxels.
 constexpr std::size_t kMaxNumbersPerRow = 1u << 17;
 
-// Whether a file is HDF5 (MATLAB's files of version 7.3 are, too), as its bytes tell. False for what
-// can't be read.
+// Whether a file is HDF5 (MATLAB's files of version 7.3 are, too), as its bytes tell. False for
+// what can't be read.
 bool isHdf5Table(const std::filesystem::path& path) noexcept;
 // Opens a table; the first bytes of the file tell its kind. Throws FileError, FormatError.
 std::unique_ptr<TableSource> openTable(const std::filesystem::path& path,

@@ -602,7 +602,8 @@ QString HandDock::phaseText(const GraspStatus& status) const {
 
 QString HandDock::motionBlockedReason(const GraspStatus& status) const {
   const QString why = QString::fromStdString(status.cannotMove);
-  const QString powerOff = "Use the emergency stop, or switch the power of the hand off, if it moves. ";
+  const QString powerOff =
+      "Use the emergency stop, or switch the power of the hand off, if it moves. ";
   if (status.phase == GraspPhase::kStopping)
     return "Stops are sent to the hand, and none is answered. " + powerOff + why;
   if (!status.portGone && status.last && status.last->stateUnknown)
