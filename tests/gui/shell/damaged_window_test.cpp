@@ -142,10 +142,12 @@ TEST_F(DamagedWindowTest, ATableThatNeedsDamagedFramesIsNotCopied) {
   showDamaged(0.0);
   QApplication::clipboard()->setText("before");
   auto* chart = window().findChild<TimelineChart*>();
+  // Until a frame that can be read is shown there is nothing to be copied.
+  QTest::mouseClick(chart, Qt::LeftButton, {}, chart->rect().center());
   QTest::mouseClick(chart, Qt::LeftButton, {}, chart->rect().center());
   window().feature<ExportFeature>().exportController().copyTable();
   EXPECT_TRUE(bannerText().contains("damaged")) << bannerText().toStdString();
-  EXPECT_EQ(QApplication::clipboard()->text(), "before");
+  EXPECT_EQ(QApplication::clipboard()->text().left(300).toStdString(), "before");
 }
 
 TEST_F(DamagedWindowTest, APictureOfTheWindowIsMade) {

@@ -2,6 +2,7 @@
 
 #include <QDockWidget>
 #include <QMainWindow>
+#include <QToolBar>
 #include <random>
 
 #include <gtest/gtest.h>
@@ -28,6 +29,10 @@ class DockLayoutTest : public ::testing::Test {
     window_.addDockWidget(Qt::BottomDockWidgetArea, docks_[5]);
     window_.addDockWidget(Qt::TopDockWidgetArea, docks_[6]);
     window_.addDockWidget(Qt::TopDockWidgetArea, docks_[7]);
+    for (const char* name : {"tools", "moreTools"}) {
+      window_.addToolBar(name)->setObjectName(name);
+      window_.addToolBarBreak();
+    }
     docks_[6]->hide();
     docks_[7]->setFloating(true);
     window_.show();

@@ -67,6 +67,7 @@ TEST_F(WindowLayoutTest, SizesOfTheViewsAreRememberedAlsoWhenOneIsHidden) {
   actions().at("matricesShown")->setChecked(true);
   auto* views = find<QSplitter>("views");
   actions().at("handShown")->trigger();
+  QCoreApplication::processEvents();
   if (views->sizes().contains(0)) actions().at("handShown")->trigger();
   QCoreApplication::processEvents();
   ASSERT_FALSE(views->sizes().contains(0));

@@ -38,8 +38,7 @@ class LayoutCheck {
           side != Qt::TopDockWidgetArea && side != Qt::BottomDockWidgetArea)
         return false;
     }
-    return byte() == kToolBarsMark && number() == 0 && in_.status() == QDataStream::Ok &&
-           in_.atEnd();
+    return byte() == kToolBarsMark && toolBars() && in_.status() == QDataStream::Ok && in_.atEnd();
   }
 
  private:
@@ -66,10 +65,31 @@ class LayoutCheck {
     return within(number(), -1, kLargestLimitPx) && within(number(), -1, kLargestLimitPx);
   }
 
-  bool widget() {
+  bool name() {
     // Two bytes each.
     const int length = number();
-    if (!within(length, 2, 2 * kLongestName) || in_.skipRawData(length) != length) return false;
+    return within(length, 2, 2 * kLongestName) && in_.skipRawData(length) == length;
+  }
+
+  // Lines of tool bars, none of which floats.
+  bool toolBars() {
+    const int lines = number();
+    if (!within(lines, 0, kMostItems)) return false;
+    for (int line = 0; line < lines; ++line) {
+      if (!within(number(), 0, 3)) return false;
+      const int count = number();
+      if (!within(count, 0, kMostItems)) return false;
+      for (int i = 0; i < count; ++i) {
+        if (!name()) return false;
+        byte();  // whether it is shown
+        if (!size() || number() != 0 || number() != 0) return false;
+      }
+    }
+    return true;
+  }
+
+  bool widget() {
+    if (!name()) return false;
     return (byte() & kFloating) != 0 ? size() && size() : size() && limits();
   }
 
