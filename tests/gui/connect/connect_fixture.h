@@ -48,7 +48,7 @@ class ConnectDialogTest : public ::testing::Test {
                                                              .theme = Theme::kDark},
                                               *scan_,
                                               nullptr);
-    dialog_->show();
+    showRead();
     QApplication::setActiveWindow(dialog_.get());  // without a window manager nobody else does
     return *dialog_;
   }
@@ -61,8 +61,12 @@ class ConnectDialogTest : public ::testing::Test {
                                                              .settings = &settings},
                                               *scan_,
                                               nullptr);
-    dialog_->show();
+    showRead();
+  }
+  // With the hands and scenes already read; no port is asked before it is shown.
+  void showRead() {
     FileReading::settleAll(*dialog_);
+    dialog_->show();
   }
   ConnectDialog& openPorts(const QString& tactile = {}, const QString& motion = {}) {
     open({.kind = Connection::Kind::kPorts, .dsaPort = tactile, .sdhPort = motion});

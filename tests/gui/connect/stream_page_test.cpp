@@ -108,6 +108,7 @@ TEST_F(StreamPageTest, AnAnswerFromBeforeTheFolderWasChosenAgainIsDropped) {
   click("streamHandFolder");
   held.await(1);
   EXPECT_EQ(page->problem(), "The hand is being read.");
+  EXPECT_FALSE(canConnect());
   click("streamHandFolder");
   FileReading::settleAll(*page);
   EXPECT_TRUE(canConnect());

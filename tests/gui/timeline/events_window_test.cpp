@@ -226,13 +226,15 @@ TEST_F(EventsWindowTest, LabelsGoOutAsATableAndComeBack) {
 TEST_F(EventsWindowTest, LabelsComeIntoTheRecordingThatWasShownOrItIsSaid) {
   const QString table = QString::fromStdString((folder_ / "x.csv").string());
   testing::writeFile(table.toStdString(), "begin_s,text\n1,good\n");
+  const std::filesystem::path other = folder_ / "other.palpate";
+  saveRecording(synthesize({.durationS = 2.0, .grasps = 1}), {}, other);
   window().state().prompts.file = [&](auto&&...) { return table; };
   EventEditor* editor = window().state().events.editor();
   {
     HeldReadings held;
     actions().at("importLabels")->trigger();
     EXPECT_EQ(window().state().messages.flashed(), "reading x.csv…");
-    window().state().open({file("good.dsa")});
+    window().state().open({other});
     QSignalSpy finished(&window().state().opener, &RecordingOpener::finished);
     while (window().state().opener.busy()) ASSERT_TRUE(finished.wait(10'000));
     ASSERT_NE(window().state().events.editor(), editor);

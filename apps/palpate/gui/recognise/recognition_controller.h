@@ -111,7 +111,7 @@ class RecognitionController : public QObject {
   int generation_ = 0;
   // Counts contacts: contactEnded() adds one.
   int contact_ = 0;
-  PhotoCache photos_;
+  PhotoCache photos_{this};
   BackgroundJob opening_;
   BackgroundJob asking_;
 };

@@ -93,7 +93,7 @@ class PlanController : public QObject {
   TakeCheckOptions limits_;
   std::optional<std::filesystem::path> lastTake_;
   BackgroundJob checking_;
-  FileReading reading_;
+  FileReading reading_{this};
 };
 
 }  // namespace palpate::gui

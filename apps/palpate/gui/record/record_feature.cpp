@@ -118,7 +118,7 @@ RecordFeature::RecordFeature(WindowState& windowState, QWidget* window)
     : Feature(windowState, window),
       actions_(windowState.actions),
       offer_(new OfferStrip(window)),
-      plan_(windowState.settings),
+      plan_(windowState.settings, this),
       take_(windowState),
       countdownStrip_(new CountdownStrip(window)),
       unfinished_(windowState.settings) {

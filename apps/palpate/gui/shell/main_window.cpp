@@ -111,6 +111,8 @@ void MainWindow::addFeatures() {
   features_ = allFeatures(*windowState_, this);
   std::vector<BannerSpec> strips{{BannerSpec::Order::kMessage, banner_}};
   for (const auto& feature : features_) {
+    // What it reads is below the window then, where settle() looks for it.
+    feature->setParent(this);
     for (const DockSpec& dock : feature->docks()) docks_->add(dock);
     for (const CentralViewSpec& part : feature->centre()) centre_->add(part);
     for (const BannerSpec& strip : feature->strips()) strips.push_back(strip);
