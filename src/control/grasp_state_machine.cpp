@@ -353,7 +353,7 @@ void GraspStateMachine::stopWith(GraspOutcome outcome,
   phase_ = GraspPhase::kStopping;
   next_ = Next::kEnd;
   command_ = StopMotion{};  // replaces a motion that was not taken yet
-  sentUs_ = monoUs;
+  sentUs_ = stoppingSinceUs_ = monoUs;
   stoppingUntilUs_ = monoUs + microsecondsOf(remainingMotionS(monoUs) + kStopMoreS);
   report_.text = text;  // last, because it may find no memory
 }
@@ -377,12 +377,12 @@ void GraspStateMachine::onStopAcknowledged(std::int64_t monoUs) {
   underWay_.reset();
   if (stopsBlindly_) {
     if (report_.text.ends_with(kStopsAreSent))
-      report_.text.replace(
-          report_.text.size() - kStopsAreSent.size(), std::string::npos, ": stopped");
-    else
-      report_.text += "; the motion controller did not answer meanwhile";
-    // What was reached is not what was asked for: the hand was without control for a while.
-    if (report_.outcome != GraspOutcome::kStopped) report_.outcome = GraspOutcome::kFailed;
+      report_.text.resize(report_.text.size() - kStopsAreSent.size());
+    report_.text += "; no stop was answered for " +
+                    fixedText(static_cast<double>(monoUs - stoppingSinceUs_) / kUsPerS, 1) +
+                    " s, and the hand may have gone on until then";
+    // Whatever was asked for: the hand was without control for a while.
+    report_.outcome = GraspOutcome::kFailed;
   }
   if (next_ == Next::kSettle) return settle(monoUs);
   if (next_ == Next::kClose) return move(report_.request.closeRatio, GraspPhase::kClosing, monoUs);

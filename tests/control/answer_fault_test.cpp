@@ -119,6 +119,8 @@ TEST_P(AnswerFaultTest, AStopIsOnTheWireInTimeAndTheHandIsKnownToBeStillInTheEnd
   ASSERT_TRUE(bench.awaitPhase(GraspPhase::kIdle));
   EXPECT_EQ(bench.control->status().last->outcome, GraspOutcome::kFailed);
   EXPECT_EQ(bench.control->status().last->text.find("state unknown"), std::string::npos);
+  EXPECT_NE(bench.control->status().last->text.find("no stop was answered for"), std::string::npos)
+      << "how long the hand was without control is said";
   bench.pass(1.0);
   mover.sequence.step(bench.session->nowUs());
   EXPECT_FALSE(mover.sequence.running());

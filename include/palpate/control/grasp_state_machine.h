@@ -197,6 +197,7 @@ class GraspStateMachine {
   std::int64_t announcedUs_ = 0;
   // Time limit of the motion; after it the grasp fails.
   std::int64_t motionTimeoutUs_ = 0;
+  std::int64_t stoppingSinceUs_ = 0;  // when the first stop was sent [monotonic us]
   // The grasp ends at this time if no stop was answered until then [monotonic us].
   std::int64_t stoppingUntilUs_ = 0;
   // Stops are sent to a controller that does not answer, and a reading over the limit was reported.
