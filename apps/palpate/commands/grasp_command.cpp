@@ -29,7 +29,8 @@ namespace palpate::commands {
 namespace {
 
 constexpr int kGraspLookMs = 20;
-constexpr double kPortBackS = 10.0;  // beyond the end of the motion
+constexpr std::int64_t kNoticeUs = 5'000'000;  // while no stop is answered
+constexpr double kPortBackS = 10.0;            // beyond the end of the motion
 constexpr std::size_t kMostSequenceBytes = 10'000'000;
 
 CommandSpec graspSpec() {
@@ -195,14 +196,29 @@ void awaitHand(const GraspControl& control,
 }
 
 GraspReport follow(GraspControl& control, const StateLines& lines, Interruption& interruption) {
+  std::int64_t nextNoticeUs = 0;
   while (true) {
-    if (interruption.waitForSignal(kGraspLookMs)) control.stop();
+    if (interruption.waitForSignal(kGraspLookMs)) {
+      control.stop();
+      nextNoticeUs = 0;
+    }
+    const GraspStatus status = control.status();
+    if (status.phase == GraspPhase::kStopping && !status.cannotMove.empty() &&
+        systemClock().monotonicUs() >= nextNoticeUs) {
+      lines.show("stopping",
+                 "no stop is answered: if the hand moves, switch its power off; the command ends "
+                 "when the hand answers, or its motion must have ended");
+      nextNoticeUs = systemClock().monotonicUs() + kNoticeUs;
+    }
     for (const GraspChange& change : control.takeChanges()) {
       if (!change.report) {
         // A change without a report: a phase begins, or something happened in it.
         const std::string_view phase = nameOf(change.phase);
-        const bool begins = change.text.compare(0, phase.size(), phase) == 0;
-        lines.show(phase, begins ? std::string() : change.text);
+        const bool begins = change.text.starts_with(phase);
+        // "stopping: stopped by the user" begins a phase and says why.
+        lines.show(phase,
+                   !begins ? change.text
+                           : change.text.substr(std::min(change.text.size(), phase.size() + 2)));
         continue;
       }
       lines.show(nameOf(change.report->outcome), change.text);
