@@ -10,6 +10,7 @@
 #include <QToolTip>
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 namespace palpate::gui {
@@ -138,7 +139,24 @@ QColor EventRows::colorOf(const EventMark& mark) const {
   return colors.muted;
 }
 
-void EventRows::paintMark(QPainter& painter, std::size_t index) const {
+std::vector<EventRows::Neighbours> EventRows::neighbours() const {
+  std::vector<std::size_t> order(marks_.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  // Also of the same moment.
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return std::pair(marks_[a].lane, marks_[a].fromS) < std::pair(marks_[b].lane, marks_[b].fromS);
+  });
+  std::vector<Neighbours> found(marks_.size());
+  for (std::size_t i = order.size(); i-- > 1;) {
+    const EventMark& mark = marks_[order[i - 1]];
+    const EventMark& next = marks_[order[i]];
+    if (mark.lane != next.lane) continue;
+    found[order[i - 1]] = {next.fromS, found[order[i]].isLast && next.fromS == mark.fromS};
+  }
+  return found;
+}
+
+void EventRows::paintMark(QPainter& painter, std::size_t index, const Neighbours& beside) const {
   const QRectF bar = barOf(index);
   if (bar.isEmpty()) return;
   const EventMark& mark = marks_[index];
@@ -154,15 +172,13 @@ void EventRows::paintMark(QPainter& painter, std::size_t index) const {
     painter.drawText(bar, Qt::AlignCenter, mark.text);
     return;
   }
-  // A name that doesn't fit into its bar is painted after it, up to the next bar.
-  double room = std::min<double>(right_ - bar.right(), kMaxTextLength) - kTextRoom;
-  for (std::size_t i = 0; i < marks_.size(); ++i)
-    if (marks_[i].lane == mark.lane &&
-        std::pair(marks_[i].fromS, i) > std::pair(mark.fromS, index))  // also of the same moment
-      room = std::min(room, pixelOf(marks_[i].fromS) - bar.right() - 2 * kTextRoom);
   if (mark.lane == EventLane::kGrasps || mark.lane == EventLane::kSteps ||
       mark.lane == EventLane::kSlips || mark.lane == EventLane::kGaps)
     return;
+  // A name that doesn't fit into its bar is painted after it, up to the next bar.
+  double room = std::min<double>(right_ - bar.right(), kMaxTextLength) - kTextRoom;
+  if (beside.nextFromS)
+    room = std::min(room, pixelOf(*beside.nextFromS) - bar.right() - 2 * kTextRoom);
   const int narrowest = fontMetrics().averageCharWidth() * 3;
   const auto drawAt = [&](double x, double width, Qt::Alignment side) {
     painter.drawText(QRectF(x, bar.top(), width, bar.height()),
@@ -171,10 +187,10 @@ void EventRows::paintMark(QPainter& painter, std::size_t index) const {
   };
   if (room >= narrowest) return drawAt(bar.right() + kTextRoom, room, Qt::AlignLeft);
   // At the right border, where nothing follows, it is painted before the bar.
+  if (!beside.isLast) return;
   double before = std::min<double>(bar.left() - left_, kMaxTextLength) - kTextRoom;
   for (std::size_t i = 0; i < marks_.size(); ++i) {
     if (marks_[i].lane != mark.lane || i == index) continue;
-    if (marks_[i].fromS > mark.fromS) return;
     before = std::min(before, bar.left() - barOf(i).right() - 2 * kTextRoom);
   }
   if (before >= narrowest) drawAt(bar.left() - kTextRoom - before, before, Qt::AlignRight);
@@ -197,7 +213,8 @@ void EventRows::paintEvent(QPaintEvent*) {
                      nameOf(lanes_[row]));
   }
   painter.setClipRect(QRect(left_, 0, right_ - left_, height()));
-  for (std::size_t i = 0; i < marks_.size(); ++i) paintMark(painter, i);
+  const std::vector<Neighbours> beside = neighbours();
+  for (std::size_t i = 0; i < marks_.size(); ++i) paintMark(painter, i, beside[i]);
   if (!hasFocus()) return;
   painter.setClipping(false);
   painter.setPen(QPen(colors.accent, 1.0));

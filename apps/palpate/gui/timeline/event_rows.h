@@ -76,7 +76,13 @@ class EventRows : public QWidget {
   std::vector<std::size_t> rowOfChosen() const;
   std::optional<std::size_t> markAt(const QPointF& at) const;
   Part partAt(std::size_t mark, const QPointF& at) const;
-  void paintMark(QPainter& painter, std::size_t mark) const;
+  // What limits the name of a mark that is painted beside its bar.
+  struct Neighbours {
+    std::optional<double> nextFromS = {};  // of the next mark of its lane
+    bool isLast = true;                    // no mark of its lane begins later
+  };
+  std::vector<Neighbours> neighbours() const;
+  void paintMark(QPainter& painter, std::size_t index, const Neighbours& beside) const;
   QColor colorOf(const EventMark& mark) const;
 
   std::vector<EventMark> marks_;
