@@ -807,7 +807,8 @@ RecordingReport RecordingParts::report() const {
                       ? "; it could not be kept elsewhere"
                       : "; what was written before is safe: 'palpate recover' finishes the file");
   } else if (report.lost > 0)
-    report.message = std::to_string(report.lost) + " items were lost; the gap events show where";
+    report.message = std::to_string(report.lost) + " items were lost; the gap events show where" +
+                     (relocation_.empty() ? "" : "; " + relocation_);
   else if (report.refused > 0)
     report.message = std::to_string(report.refused) + " items were refused: " + refusedWhy_;
   else if (paths_.empty())

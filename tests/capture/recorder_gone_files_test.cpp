@@ -532,6 +532,9 @@ TEST(RecorderGoneFiles, oneThatIsOverwrittenInPlaceGoesOnInANewPart) {
       EXPECT_EQ(report.paths, std::vector{session.here / "a_002.palpate"});
       EXPECT_FALSE(report.complete);
       EXPECT_EQ(report.lost, static_cast<std::int64_t>(onDisk));
+      EXPECT_NE(report.message.find("goes on in " + (session.here / "a_002.palpate").string()),
+                std::string::npos)
+          << "the reason is told at the end, too: " << report.message;
       EXPECT_EQ(report.frames, static_cast<std::int64_t>(session.scripted.frames - onDisk));
       const Profile profile = openRecording(session.here / "a_002.palpate");
       ASSERT_EQ(profile.numFrames(), session.scripted.frames - onDisk);

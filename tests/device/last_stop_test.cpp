@@ -15,67 +15,23 @@
 #include "palpate/device/live_hand.h"
 
 #include "device/collecting_sink.h"
-#include "device/fake_sdh_hand.h"
-#include "device/pty_server.h"
+#include "device/last_stop_bench.h"
 #include "testing/awaited.h"
 #include "testing/background_program.h"
 #include "testing/process_facts.h"
 #include "testing/program.h"
-#include "testing/punctuality.h"
 #include "testing/testing.h"
 
 namespace palpate::testing::last_stop_test {
 namespace {
 namespace fs = std::filesystem;
 
-const std::string kStopProgram = PALPATE_STOP_PROGRAM;
 // docs of the SDH-2's protocol: blanks before a command have no meaning, the longest record has 36
 // bytes.
 const std::string kStopLine = " \r\nstop\r\n";
 const std::string kSerialStop = std::string(40, ' ') + kStopLine;
 
 std::string repeated(const std::string& text) { return text + text + text; }
-
-// The processes of palpate_stop that hold this port.
-std::set<pid_t> stopProgramsOf(const std::string& port) {
-  std::set<pid_t> found;
-  std::error_code ignored;
-  for (const auto& process : fs::directory_iterator("/proc")) {
-    if (fs::read_symlink(process.path() / "exe", ignored) == fs::path(kStopProgram) &&
-        fs::read_symlink(process.path() / "fd/1", ignored) == fs::path(port))
-      found.insert(std::stoi(process.path().filename()));
-  }
-  return found;
-}
-
-class LastStopTest : public ::testing::Test {
- protected:
-  FakeSdhHand hand;
-  PtyServer server{[this](const Bytes& request) { return hand.receive(request); }};
-
-  int stops() {
-    int count = 0;
-    server.between([&] { count = hand.stops; });
-    return count;
-  }
-  int moves() {
-    int count = 0;
-    server.between([&] { count = hand.moves; });
-    return count;
-  }
-  std::unique_ptr<BackgroundProgram> movedBy(const std::vector<std::string>& words) {
-    std::vector<std::string> all = {server.path()};
-    all.insert(all.end(), words.begin(), words.end());
-    auto program = std::make_unique<BackgroundProgram>(PALPATE_DYING_PROGRAM, all);
-    EXPECT_TRUE(program->awaitLine("moves").has_value()) << program->err();
-    return program;
-  }
-  pid_t stopProgram() {
-    const std::set<pid_t> found = stopProgramsOf(server.path());
-    EXPECT_EQ(found.size(), 1u);
-    return found.empty() ? -1 : *found.begin();
-  }
-};
 
 // Without palpate_stop: the stops come from the process that crashes.
 class Crash : public LastStopTest, public ::testing::WithParamInterface<const char*> {};
@@ -106,10 +62,8 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& given) { return std::string(given.param); });
 
 TEST_F(LastStopTest, AProgramThatIsKilledStopsTheHandAndLeavesThePort) {
-  Punctuality connected("connected_after_kill", {.usualUs = 1'000'000, .worstUs = 1'000'000});
   const auto program = movedBy({"kill", kStopProgram});
   EXPECT_EQ(stops(), 0);
-  const std::int64_t killedUs = systemClock().monotonicUs();
   program->signal(SIGKILL);
   EXPECT_EQ(program->wait(), 128 + SIGKILL);
   // The lock ended with the process, whatever palpate_stop still does.
@@ -120,11 +74,9 @@ TEST_F(LastStopTest, AProgramThatIsKilledStopsTheHandAndLeavesThePort) {
   LiveHand next(options);
   next.start(sink);
   EXPECT_TRUE(awaited([&] { return next.status().motion->state == PortState::kStreaming; }));
-  connected.took(killedUs, systemClock().monotonicUs());
   EXPECT_TRUE(awaited([this] { return stops() >= 3; })) << stops();
   EXPECT_TRUE(awaited([this] { return stopProgramsOf(server.path()).empty(); }));
   next.stop();
-  connected.judge();
 }
 
 TEST_F(LastStopTest, AProgramThatIsKilledIsFoundDeadWhileItsChildLives) {

@@ -195,6 +195,13 @@ void awaitHand(const GraspControl& control,
   }
 }
 
+// The text often begins with the state: "closing", "stopping: stopped by the user".
+void showState(const StateLines& lines, std::string_view state, const std::string& text) {
+  const std::string begin = std::string(state) + ": ";
+  if (text == state) return lines.show(state);
+  lines.show(state, text.starts_with(begin) ? text.substr(begin.size()) : text);
+}
+
 GraspReport follow(GraspControl& control, const StateLines& lines, Interruption& interruption) {
   std::int64_t nextNoticeUs = 0;
   while (true) {
@@ -202,28 +209,21 @@ GraspReport follow(GraspControl& control, const StateLines& lines, Interruption&
       control.stop();
       nextNoticeUs = 0;
     }
-    const GraspStatus status = control.status();
-    if (status.phase == GraspPhase::kStopping && !status.cannotMove.empty() &&
-        systemClock().monotonicUs() >= nextNoticeUs) {
-      lines.show("stopping",
-                 "no stop is answered: if the hand moves, switch its power off; the command ends "
-                 "when the hand answers, or its motion must have ended");
-      nextNoticeUs = systemClock().monotonicUs() + kNoticeUs;
-    }
     for (const GraspChange& change : control.takeChanges()) {
-      if (!change.report) {
-        // A change without a report: a phase begins, or something happened in it.
-        const std::string_view phase = nameOf(change.phase);
-        const bool begins = change.text.starts_with(phase);
-        // "stopping: stopped by the user" begins a phase and says why.
-        lines.show(phase,
-                   !begins ? change.text
-                           : change.text.substr(std::min(change.text.size(), phase.size() + 2)));
-        continue;
+      if (change.report) {
+        showState(lines, nameOf(change.report->outcome), change.text);
+        return *change.report;
       }
-      lines.show(nameOf(change.report->outcome), change.text);
-      return *change.report;
+      showState(lines, nameOf(change.phase), change.text);
     }
+    const GraspStatus status = control.status();
+    const std::int64_t nowUs = systemClock().monotonicUs();
+    if (status.phase != GraspPhase::kStopping || status.cannotMove.empty() || nowUs < nextNoticeUs)
+      continue;
+    lines.show("stopping",
+               "no stop is answered: if the hand moves, switch its power off; the command ends "
+               "when the hand answers, or 10 s after its motion must have ended");
+    nextNoticeUs = nowUs + kNoticeUs;
   }
 }
 
@@ -236,10 +236,15 @@ GraspReport follow(GraspControl& control, const StateLines& lines, Interruption&
   const double remainingS = report.remainingMotionS.value_or(0.0);
   if (remainingS == 0.0) throw Error(report.text);
   const double limitS = remainingS + kPortBackS;
-  lines.show("waiting", "for the motion port, " + fixedText(limitS, 0) + " s");
+  lines.show("waiting",
+             "up to " + fixedText(limitS, 0) +
+                 " s for the motion port: plug it in again, or switch the hand's power off; until "
+                 "then nothing can stop the motion");
   const std::int64_t endUs = systemClock().monotonicUs() + std::llround(limitS * kUsPerS);
   while (systemClock().monotonicUs() < endUs && !interruption.waitForSignal(kGraspLookMs))
-    if (!control.status().portGone) throw Error(report.text + "; the port is back: stopped");
+    if (!control.status().portGone)
+      throw Error(
+          "the motion port was unplugged in a motion; it is back, and the hand was stopped");
   throw Error(report.text + "; state unknown: use the power switch");
 }
 

@@ -204,7 +204,7 @@ SettingsPlace readableSettings(const QString& path) {
   std::error_code failed;
   const fs::file_status status = fs::status(file, failed);
   if (!fs::exists(status) || fs::is_directory(status)) return {path};
-  if (!fs::is_regular_file(status)) return putAside(file, path + ": is no file");
+  if (!fs::is_regular_file(status)) return putAside(file, path + ": isn't a file");
   std::string text;
   try {
     text = readTextFile(file, kLargestSettingsBytes);

@@ -27,17 +27,18 @@ struct SettingsPlace {
 // * Lines with values of the form "@Variant(..)" and "@DateTime(..)" are removed: Qt decodes them
 //   into objects of any kind and size. Palpate writes none; versions before wrote the grasps that
 //   were left out of training so, which are kept in their present form.
-// * What is no regular file (a FIFO would never end), is larger than 64 MB, or can't be made safe,
-//   is renamed to "NAME.damaged", "NAME.damaged2", .., and the window begins with the defaults.
-// * A file that can't be read or written now stays as it is: this session has settings of its own,
-//   which aren't kept.
+// * Anything that isn't a regular file (a FIFO would never end), is larger than 64 MB, or can't be
+//   made safe, is renamed to "NAME.damaged", "NAME.damaged2", .., and the window begins with the
+//   defaults.
+// * A file that can't be read or written at the moment is left alone. This session uses settings of
+//   its own, which aren't kept.
 SettingsPlace readableSettings(const QString& path);
 
 // Key of the grasps of a folder that are left out of training.
 QString leftOutKeyOf(const QString& folder);
 
-// The numbers of a list in the settings; empty: there is none, or one of them is no whole number
-// from `lowest` to `highest`, or there are not `count` of them.
+// The numbers of a list in the settings; empty if there is no list, if it doesn't have `count`
+// elements, or if one of them isn't a whole number from `lowest` to `highest`.
 QList<int> storedNumbers(
     const QSettings& settings, const QString& key, qsizetype count, int lowest, int highest);
 void storeNumbers(const QList<int>& numbers, QSettings& settings, const QString& key);

@@ -52,8 +52,8 @@ void Pressures::renew() {
   of_ = std::move(now);
   if (source) page_.setLiveHand(*displayed.hand());
   if (path.isEmpty()) return show({}, noCalibration(displayed.hand()));
-  // That of the connected hand is read anew when it is connected: a look at a recording between
-  // mustn't take it from a hand that moves.
+  // The calibration of a connected hand is read again only on connecting: looking at a recording
+  // meanwhile must not take it away from a hand that moves.
   if (!source) calibrations_.renew(path);
   take(path);
 }

@@ -26,8 +26,8 @@ class PhotoCache : public QObject {
   using QObject::QObject;
 
   void setFolders(std::vector<std::filesystem::path> folders);
-  // Null when there is no photo or it cannot be read, and while it is being read; then changed()
-  // follows.
+  // Null if there is no photo, if it can't be read, or until it has been read; changed() follows
+  // then.
   const QPixmap& photo(const QString& name);
 
  signals:
