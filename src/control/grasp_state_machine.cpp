@@ -84,6 +84,8 @@ std::string_view nameOf(GraspPhase phase) {
       return "stopping";
     case GraspPhase::kSettling:
       return "settling";
+    case GraspPhase::kEasing:
+      return "easing";
     case GraspPhase::kHolding:
       return "holding";
     case GraspPhase::kLoosening:

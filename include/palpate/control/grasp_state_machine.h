@@ -28,8 +28,17 @@
 
 namespace palpate {
 
-enum class GraspPhase { kIdle, kPreshaping, kClosing, kStopping, kSettling, kHolding, kLoosening };
-// Names: "idle", "preshaping", "closing", "stopping", "settling", "holding", "loosening".
+enum class GraspPhase {
+  kIdle,
+  kPreshaping,
+  kClosing,
+  kStopping,
+  kSettling,
+  kEasing,  // opens by small steps after the limit was reached
+  kHolding,
+  kLoosening
+};
+// Names: "idle", "preshaping", "closing", "stopping", "settling", "easing", "holding", "loosening".
 std::string_view nameOf(GraspPhase phase);
 
 class GraspStateMachine {
