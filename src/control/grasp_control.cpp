@@ -149,7 +149,7 @@ void GraspControl::processFrames() {
     if (const auto* frame = std::get_if<SharedFrame>(&item))
       machine_.onFrame(**frame, nowUs);
     else if (const auto* angles = std::get_if<JointAngles>(&item))
-      machine_.onAngles(angles->deg);
+      machine_.onAngles(angles->deg, nowUs);
     else if (const auto* temperatures = std::get_if<Temperatures>(&item))
       machine_.onTemperatures(temperatures->degC);
   items_.clear();
@@ -247,6 +247,7 @@ void GraspControl::report() {
               {}});
     }
     if (ended->outcome == GraspOutcome::kPortGone) portGone_ = ended;
+    if (touches_.learn(*ended)) ++touchesLearnt_;
     last_ = std::move(ended);
   }
   if (machine_.phase() == reportedPhase_) return;
@@ -298,7 +299,10 @@ void GraspControl::grasp(const GraspRequest& request, std::optional<std::uint64_
                           "grasp",
                           "refused: a tactile setting is being changed; try again in a second");
       machine_.setSettings(session_.device().facts().matrices);
-      machine_.begin(request, clock_.monotonicUs(), session_.nowUs());
+      machine_.begin(request,
+                     clock_.monotonicUs(),
+                     session_.nowUs(),
+                     touches_.find(request.preshape, request.object));
       lastFault_.clear();
       portGone_.reset();
     } catch (const std::exception& error) {
@@ -389,6 +393,21 @@ void GraspControl::setCalibration(std::optional<Calibration> calibration) {
   machine_.setCalibration(std::move(calibration));
 }
 
+void GraspControl::setTouches(TouchMemory touches) {
+  const std::lock_guard lock(mutex_);
+  touches_ = std::move(touches);
+}
+
+TouchMemory GraspControl::touches() const {
+  const std::lock_guard lock(mutex_);
+  return touches_;
+}
+
+GraspForecast GraspControl::forecast(const GraspRequest& request) const {
+  const std::lock_guard lock(mutex_);
+  return forecastOf(request, touches_.find(request.preshape, request.object), machine_.anglesDeg());
+}
+
 std::shared_future<CommandAnswer> GraspControl::change(const DeviceCommand& setting) {
   if (!isSetting(setting))
     throw std::invalid_argument("GraspControl::change: that is no tactile setting");
@@ -420,6 +439,7 @@ GraspStatus GraspControl::status() const {
   status.motorsOff = motorsOff_;
   status.stopsAsked = stopsAsked_;
   status.calibrated = calibrated_;
+  status.touchesLearnt = touchesLearnt_;
   status.anglesDeg = machine_.anglesDeg();
   status.cannotReact = status.cannotMove;
   if (status.cannotReact.empty() && !machine_.stream().alive(clock_.monotonicUs()))

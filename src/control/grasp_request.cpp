@@ -23,6 +23,7 @@ void requireRange(const char* field, double value, double least, double most, co
 constexpr double kBeyondRangeDeg = 1.0;
 // Under tactile control the hand may be pressing already: see MoveJoints::answerLimitS.
 constexpr double kTactileAnswerLimitS = 0.2;
+constexpr std::size_t kMostObjectBytes = 100;
 
 // The limits as text: "200 counts", "200, 150, 200 counts".
 template <typename Values>
@@ -52,6 +53,8 @@ Json parameters(const GraspRequest& request) {
     if (!request.fingerLimitCounts.empty())
       json.set("finger_limit_counts", jsonList(request.fingerLimitCounts));
     if (!request.forceLimitsN.empty()) json.set("force_limit_n", jsonList(request.forceLimitsN));
+    json.set("keeps_limit", keepsLimit(request));
+    if (!request.object.empty()) json.set("object", request.object);
   }
   if (request.mode == GraspMode::kSlip) {
     const HoldingOptions& holding = request.holding;
@@ -127,6 +130,10 @@ void GraspRequest::validate() const {
   requireRange("close ratio", closeRatio, 0.0, 1.0, "");
   requireRange("velocity", velocityDegPerS, kMinGraspDegPerS, kMaxGraspDegPerS, " deg/s");
   if (mode != GraspMode::kPlain) validateLimits(*this);
+  if (touchRatio) requireRange("touch ratio", *touchRatio, 0.0, 1.0, "");
+  if (object.size() > kMostObjectBytes || object.find('\n') != std::string::npos)
+    throw std::invalid_argument(
+        "grasp: the name of the object must be one line of at most 100 bytes");
   if (isJointMotion(*this)) {
     if (mode == GraspMode::kSlip)
       throw std::invalid_argument("grasp: a slip-aware grasp needs a preshape, not joint angles");
@@ -260,6 +267,10 @@ bool isOpening(const GraspRequest& request) {
          !isJointMotion(request);
 }
 
+bool keepsLimit(const GraspRequest& request) {
+  return request.keepsLimit && request.mode != GraspMode::kPlain && !isJointMotion(request);
+}
+
 bool isJointMotion(const GraspRequest& request) { return !request.targetDeg.empty(); }
 
 std::string kindOf(const GraspRequest& request) {
@@ -286,6 +297,8 @@ std::string describe(const GraspRequest& request) {
                                                : listText(request.fingerLimitCounts)) +
             " counts";
     if (!request.forceLimitsN.empty()) text += ", " + listText(request.forceLimitsN) + " N";
+    if (keepsLimit(request)) text += ", kept";
+    if (!request.object.empty()) text += ", of " + request.object;
   }
   if (request.mode == GraspMode::kSlip)
     text += ", up to " + std::to_string(request.holding.maxLimitCounts);
@@ -326,6 +339,8 @@ RecordingEvent endEvent(const GraspReport& report) {
   if (report.peakAfterStop)
     json.set("reached_counts", static_cast<double>(report.peakAfterStop->counts))
         .set("reached_matrix", report.peakAfterStop->matrix);
+  if (report.peakAtRest) json.set("kept_counts", static_cast<double>(report.peakAtRest->counts));
+  if (report.touch) json.set("touch_ratio", report.touch->ratio);
   if (report.request.mode == GraspMode::kSlip) {
     json.set("last_limit_counts", report.limitCounts).set("slips", report.slips);
     if (report.countsAtSlip) json.set("counts_at_slip", *report.countsAtSlip);

@@ -36,8 +36,7 @@ constexpr double kFarOverLimit = 1.5;  // the report mentions a rise to this mul
 constexpr int kBlockedClockwise = 4;
 constexpr int kBlockedCounterClockwise = 5;
 
-constexpr auto kNothingHeldText = "finished: nothing is held any more";
-
+constexpr std::string_view kNotEased = ": the hand holds, perhaps above its limit";
 std::string millisecondsText(std::int64_t us) {
   return fixedText(static_cast<double>(us) / 1e3, 0);
 }
@@ -49,10 +48,6 @@ constexpr double kLeastOfLimit = 0.25;
 constexpr double kLongestLooseningS = 20.0;
 
 std::int64_t microsecondsOf(double seconds) { return std::llround(seconds * 1e6); }
-
-int fingerOf(const HandDescription& hand, std::size_t matrix) {
-  return matrix < hand.matrices.size() ? hand.matrices[matrix].finger : -1;
-}
 
 // The largest taxel of each matrix, into `peaks`; returns the largest of all.
 TaxelPeak taxelPeaks(const TactileFrame& frame, std::vector<TaxelPeak>& peaks) {
@@ -98,6 +93,10 @@ void GraspStateMachine::refuse(const std::string& why) const {
   throw DeviceError(DeviceFault::kRefused, "grasp", why);
 }
 
+int GraspStateMachine::fingerOf(std::size_t matrix) const noexcept {
+  return matrix < hand_.matrices.size() ? hand_.matrices[matrix].finger : -1;
+}
+
 std::string GraspStateMachine::placeOf(const TaxelPeak& peak) const {
   return hand_.matrixName(peak.matrix) + ", x " + std::to_string(peak.column) + ", y " +
          std::to_string(peak.row) + ": " + numberText(peak.counts) + " counts";
@@ -105,7 +104,8 @@ std::string GraspStateMachine::placeOf(const TaxelPeak& peak) const {
 
 void GraspStateMachine::begin(const GraspRequest& request,
                               std::int64_t monoUs,
-                              std::int64_t hostUs) {
+                              std::int64_t hostUs,
+                              const std::optional<Touch>& touch) {
   request.validate();
   if (active()) refuse("refused: the hand is " + std::string(nameOf(phase_)) + "; stop it first");
   std::optional<FingerForces> forces;
@@ -122,7 +122,7 @@ void GraspStateMachine::begin(const GraspRequest& request,
     const TaxelPeak& loaded = loadedTaxel(request);
     if (commonCounts(loaded, request) > static_cast<float>(request.limitCounts))
       refuse("refused: over the limit of " +
-             std::to_string(limitOf(request, fingerOf(hand_, loaded.matrix))) + " already, at " +
+             std::to_string(limitOf(request, fingerOf(loaded.matrix))) + " already, at " +
              placeOf(loaded) + "; open the hand, or raise the limit");
     forces = forcesFor(request);
   }
@@ -142,10 +142,17 @@ void GraspStateMachine::begin(const GraspRequest& request,
   answeredSlips_ = 0;
   notes_.clear();
   grip_.reset();
+  approach_.reset();
+  if (keepsLimit(request)) approach_ = approachOf(request, touch);
+  approaching_ = isNear_ = false;
+  restCounts_ = peak_.counts;
+  timesPerDeg_ = steepest_ = 0.0;
+  follows_ = false;
+  easingUntilUs_ = 0;
   if (request.startRatio)
-    move(*request.startRatio, GraspPhase::kPreshaping, monoUs);
+    send(motionTo(request, *request.startRatio, hand_), GraspPhase::kPreshaping, monoUs);
   else
-    move(request.closeRatio, GraspPhase::kClosing, monoUs);
+    close(monoUs);
 }
 
 // Throws when a matrix that may come into contact can't measure the limit.
@@ -166,7 +173,7 @@ bool GraspStateMachine::isOverLimit() const noexcept {
 float GraspStateMachine::commonCounts(const TaxelPeak& peak,
                                       const GraspRequest& request) const noexcept {
   return peak.counts +
-         static_cast<float>(request.limitCounts - limitOf(request, fingerOf(hand_, peak.matrix)));
+         static_cast<float>(request.limitCounts - limitOf(request, fingerOf(peak.matrix)));
 }
 
 const TaxelPeak& GraspStateMachine::loadedTaxel(const GraspRequest& request) const noexcept {
@@ -236,10 +243,6 @@ bool GraspStateMachine::updateLayout(const TactileFrame& frame) {
   return another;
 }
 
-void GraspStateMachine::move(double closeRatio, GraspPhase phase, std::int64_t monoUs) {
-  send(motionTo(report_.request, closeRatio, hand_, anglesDeg_), phase, monoUs);
-}
-
 void GraspStateMachine::send(MoveJoints motion, GraspPhase phase, std::int64_t monoUs) {
   underWay_ = motion;
   command_ = std::move(motion);
@@ -260,14 +263,18 @@ void GraspStateMachine::onFrame(const TactileFrame& frame, std::int64_t monoUs) 
   if (active() && forces_) forces_->apply(frame, degC_);
   if (active() && isSlipAware()) grip_.onFrame(frame);
   // From the stop until the reading has settled.
-  if (report_.peakAfterStop && (phase_ == GraspPhase::kStopping || phase_ == GraspPhase::kSettling))
+  if (report_.peakAfterStop && (phase_ == GraspPhase::kStopping ||
+                                phase_ == GraspPhase::kSettling || phase_ == GraspPhase::kEasing))
     measurePeakAfterStop();
   if (observesOvershoot()) return;
   if (stopsBlindly_ && underTactileControl() && isOverLimit()) return onOverLimitUnanswered(monoUs);
   if (isHolding()) return onHoldingFrame(monoUs);
+  if (phase_ == GraspPhase::kEasing && !underWay_) return onEasingFrame(monoUs);
   if (!isMoving() || !underTactileControl()) return;
   if (phase_ == GraspPhase::kLoosening && !silence) return onLooseningFrame(monoUs);
-  if (phase_ != GraspPhase::kLoosening && isOverLimit()) {
+  const bool eases = phase_ == GraspPhase::kEasing;
+  const bool opens = phase_ == GraspPhase::kLoosening || (eases && !follows_);
+  if (!opens && isOverLimit()) {
     report_.peakAfterStop = report_.peak = loadedTaxel(report_.request);
     report_.limitUs = frame.hostUs;
     report_.forceFinger.reset();
@@ -278,13 +285,19 @@ void GraspStateMachine::onFrame(const TactileFrame& frame, std::int64_t monoUs) 
       report_.forceN = report_.forceAfterStopN = forces_->forcesN()[*report_.forceFinger];
       text = forceText(*report_.forceFinger);
     }
-    if (isSlipAware() && phase_ == GraspPhase::kClosing)
-      return pause(Next::kSettle, "limit reached: " + text, monoUs);
-    stopWith(GraspOutcome::kLimitReached, "limit reached: " + text, monoUs);
+    text = "limit reached: " + text;
+    if (approach_ && (eases || phase_ == GraspPhase::kClosing) && !held_) {
+      noteSlope(monoUs);
+      return pause(Next::kEase, text, monoUs);
+    }
+    if (isSlipAware() && phase_ == GraspPhase::kClosing) return pause(Next::kSettle, text, monoUs);
+    stopWith(GraspOutcome::kLimitReached, text, monoUs);
   } else if (silence) {
     stopWith(GraspOutcome::kStreamLost,
              "stopped: no tactile frames for " + millisecondsText(*silence) + " ms",
              monoUs);
+  } else if (approach_ && phase_ == GraspPhase::kClosing && !held_) {
+    watchTouch(monoUs);
   }
 }
 
@@ -324,6 +337,13 @@ void GraspStateMachine::onAxisStates(const std::vector<int>& states, std::int64_
 void GraspStateMachine::motionEnded(const std::vector<int>& states, std::int64_t monoUs) {
   std::string axes;
   underWay_.reset();
+  if (phase_ == GraspPhase::kEasing) {
+    // After a step that followed the slope is not known: the object moved.
+    if (follows_) return beginEasing(monoUs);
+    stillSinceUs_ = monoUs;
+    restFrames_ = stillFrames_ = 0;
+    return;
+  }
   report_.heldAxes.clear();
   for (std::size_t axis = 0; axis < states.size(); ++axis) {
     if (states[axis] != kBlockedClockwise && states[axis] != kBlockedCounterClockwise) continue;
@@ -331,15 +351,17 @@ void GraspStateMachine::motionEnded(const std::vector<int>& states, std::int64_t
     axes += (axes.empty() ? "" : ", ") +
             (axis < hand_.axes.size() ? hand_.axes[axis].name : std::to_string(axis));
   }
-  if (phase_ == GraspPhase::kPreshaping && axes.empty())
-    return move(report_.request.closeRatio, GraspPhase::kClosing, monoUs);
+  if (axes.empty() && (phase_ == GraspPhase::kPreshaping || approaching_)) {
+    isNear_ = approaching_;
+    return close(monoUs);
+  }
   // A slip-aware grasp continues with the object that it touches.
   if (isSlipAware() && phase_ != GraspPhase::kPreshaping && grip_.touches())
     return pause(Next::kSettle, "closed as far as it goes", monoUs);
   // It closed again because something slipped, and touches nothing now.
   const bool lost = isSlipAware() && held_;
   const std::string text = !axes.empty() ? "finished: held: " + axes
-                           : lost        ? kNothingHeldText
+                           : lost        ? std::string(kNothingHeldText)
                                          : "finished: at its target";
   // Motors of blocked axes keep pushing. After the grasp the taxels are no longer monitored, so the
   // motion must be stopped.
@@ -386,8 +408,9 @@ void GraspStateMachine::onStopAcknowledged(std::int64_t monoUs) {
     // Whatever was asked for: the hand was without control for a while.
     report_.outcome = GraspOutcome::kFailed;
   }
+  if (next_ == Next::kEase) return beginEasing(monoUs);
   if (next_ == Next::kSettle) return settle(monoUs);
-  if (next_ == Next::kClose) return move(report_.request.closeRatio, GraspPhase::kClosing, monoUs);
+  if (next_ == Next::kClose) return close(monoUs);
   // A slip-aware grasp that was still moving to its start holds nothing, and must not close.
   if (report_.outcome == GraspOutcome::kLimitReached && !isSlipAware())
     return observeOvershoot(monoUs);
@@ -416,7 +439,7 @@ std::string GraspStateMachine::riseText() const {
   if (!report_.peakAfterStop || report_.peakAfterStop->counts < report_.peak.counts + kRiseCounts)
     return {};
   const int lower = report_.request.limitCounts -
-                    limitOf(report_.request, fingerOf(hand_, report_.peakAfterStop->matrix));
+                    limitOf(report_.request, fingerOf(report_.peakAfterStop->matrix));
   const double times =
       static_cast<double>(report_.peakAfterStop->counts) / std::max(limit_ - lower, 1);
   const std::string counts = numberText(report_.peakAfterStop->counts) + " counts";
@@ -426,12 +449,12 @@ std::string GraspStateMachine::riseText() const {
     const double timesN = report_.forceAfterStopN / limitN;
     std::string text =
         "; rose to " + fixedText(report_.forceAfterStopN, 1) + " N (" + counts + ") after the stop";
-    if (timesN >= kFarOverLimit)
+    if (timesN >= kFarOverLimit && !approach_)
       text += ", " + fixedText(timesN, 1) + " times the limit: close more slowly";
     return text;
   }
   std::string text = "; rose to " + counts + " after the stop";
-  if (times >= kFarOverLimit)
+  if (times >= kFarOverLimit && !approach_)
     text += ", " + fixedText(times, 1) + " times the limit: close more slowly";
   return text;
 }
@@ -486,8 +509,9 @@ void GraspStateMachine::onMotionPortGone(const std::string& why, std::int64_t mo
                phase_ == GraspPhase::kStopping ? report_.text + ", but " + text : text);
   }
   end(GraspOutcome::kPortGone,
-      phase_ == GraspPhase::kStopping ? report_.text + ", and " + gone
-                                      : gone + "; the hand holds, without slip detection");
+      phase_ == GraspPhase::kStopping
+          ? report_.text + ", and " + gone
+          : gone + "; the hand holds" + (isSlipAware() ? ", without slip detection" : ""));
 }
 
 void GraspStateMachine::onTactilePortGone(const std::string& why, std::int64_t monoUs) {
@@ -497,6 +521,9 @@ void GraspStateMachine::onTactilePortGone(const std::string& why, std::int64_t m
   else if (isHolding())
     end(GraspOutcome::kStreamLost,
         "the tactile port is gone: " + why + "; the hand holds, without slip detection");
+  else if (phase_ == GraspPhase::kEasing)
+    end(GraspOutcome::kStreamLost,
+        report_.text + "; the tactile port is gone: " + why + std::string(kNotEased));
 }
 
 void GraspStateMachine::onMotionFault(const std::string& why, std::int64_t monoUs) {
@@ -532,9 +559,11 @@ void GraspStateMachine::stop(std::int64_t monoUs) {
   if (observesOvershoot()) return endOvershoot();
   if (isHolding() || (phase_ == GraspPhase::kStopping && next_ != Next::kEnd))
     return stopWith(GraspOutcome::kStopped,
-                    "stopped by the user: the hand holds, without slip detection",
+                    std::string("stopped by the user") +
+                        (isSlipAware() ? ": the hand holds, without slip detection" : ""),
                     monoUs);
-  if (isMoving()) stopWith(GraspOutcome::kStopped, "stopped by the user", monoUs);
+  if (isMoving() || phase_ == GraspPhase::kEasing)
+    stopWith(GraspOutcome::kStopped, "stopped by the user", monoUs);
 }
 
 void GraspStateMachine::relax() {
@@ -560,6 +589,9 @@ void GraspStateMachine::onTime(std::int64_t monoUs) {
     return;
   }
   if (isHolding()) return onHoldingTime(monoUs);
+  if (phase_ == GraspPhase::kEasing && !underWay_ && monoUs > stream_.deadAtUs())
+    return end(GraspOutcome::kStreamLost,
+               report_.text + "; no more tactile frames arrive" + std::string(kNotEased));
   if (!isMoving()) return;
   if (underTactileControl() && monoUs > stream_.deadAtUs())
     return stopWith(GraspOutcome::kStreamLost,
@@ -577,6 +609,7 @@ std::optional<std::int64_t> GraspStateMachine::nextUs() const {
   if (phase_ == GraspPhase::kStopping) return std::min(sentUs_ + kStopAgainUs, stoppingUntilUs_);
   if (observesOvershoot()) return settledUs_;
   if (isHolding()) return holdingNextUs();
+  if (phase_ == GraspPhase::kEasing && !underWay_) return stream_.deadAtUs() + 1;
   if (!isMoving()) return std::nullopt;
   return underTactileControl() ? std::min(motionTimeoutUs_, stream_.deadAtUs() + 1)
                                : motionTimeoutUs_;
@@ -656,7 +689,7 @@ void GraspStateMachine::onHoldingFrame(std::int64_t monoUs) {
     held_ = report_.held = true;
     return;
   }
-  if (!grip_.touches()) return end(GraspOutcome::kFinished, kNothingHeldText);
+  if (!grip_.touches()) return end(GraspOutcome::kFinished, std::string(kNothingHeldText));
   if (const auto slip = grip_.slip()) respondToSlip(*slip, monoUs);
 }
 
@@ -686,7 +719,7 @@ void GraspStateMachine::respondToSlip(const GripSlip& slip, std::int64_t monoUs)
        slip.matrix);
   // The loosening motion must stop first.
   if (phase_ == GraspPhase::kLoosening) return pause(Next::kClose, "it slips", monoUs);
-  move(report_.request.closeRatio, GraspPhase::kClosing, monoUs);
+  close(monoUs);
 }
 
 void GraspStateMachine::onHoldingTime(std::int64_t monoUs) {

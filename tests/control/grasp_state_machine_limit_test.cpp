@@ -441,7 +441,7 @@ TEST(GraspStateMachine, AMotionToJointAnglesUnderTactileControlStopsAtAContact) 
   request.targetDeg.assign(7, std::nullopt);
   request.targetDeg[4] = 10.0;
   EXPECT_THROW(bench.begin(request), std::invalid_argument) << "the present angles are not known";
-  bench.machine.onAngles({60, -75, 75, -75, 75, -75, 75});
+  bench.machine.onAngles({60, -75, 75, -75, 75, -75, 75}, 0);
   bench.begin(request);
   EXPECT_EQ(bench.take().targetDeg, (std::vector<double>{60, -75, 75, -75, 10, -75, 75}));
   bench.frames(1, 250.0F);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -48,7 +49,9 @@ class HeldObject {
     return found;
   }
 
-  void begin(const GraspRequest& request) { machine_.begin(request, us(), us()); }
+  void begin(const GraspRequest& request, const std::optional<Touch>& touch = {}) {
+    machine_.begin(request, us(), us(), touch);
+  }
   // Advances the time by `seconds`, or until `enough` returns true after a frame.
   bool run(double seconds, const std::function<bool()>& enough = {}) {
     const double endS = timeS_ + seconds;
@@ -60,6 +63,7 @@ class HeldObject {
       frame.hostUs = 1'700'000'000'000'000 + us();
       for (std::size_t i = 0; i < counts_.size(); ++i)
         frame.values[i] = static_cast<float>(counts_[i]);
+      machine_.onAngles(hand_.joints().angles(), us());
       machine_.onFrame(frame, us());
       obey();
       std::vector<int> states;

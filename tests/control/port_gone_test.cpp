@@ -69,7 +69,7 @@ TEST(PortGone, PreshapingGoesOnToItsStartByVelocityAndAnglesWhereNothingWasAnnou
     Bench bench;
     GraspRequest request = reactive();
     request.startRatio = 0.0;  // centrical: 60, -75, 75, -75, 75, -75, 75 deg
-    bench.machine.onAngles({60.0, -45.0, 75.0, -75.0, 65.0, -75.0, 75.0});
+    bench.machine.onAngles({60.0, -45.0, 75.0, -75.0, 65.0, -75.0, 75.0}, 0);
     bench.begin(request);
     if (answered)
       bench.take(std::numeric_limits<double>::quiet_NaN());
@@ -101,7 +101,7 @@ TEST(PortGone, LooseningGoesOnAtItsOwnVelocity) {
   }
   ASSERT_EQ(bench.machine.phase(), GraspPhase::kLoosening);
   // To the open hand at 1 deg/s, although 10 deg/s were requested for the grasp.
-  bench.machine.onAngles({60.0, -63.0, 75.0, -75.0, 65.0, -75.0, 75.0});
+  bench.machine.onAngles({60.0, -63.0, 75.0, -75.0, 65.0, -75.0, 75.0}, 0);
   const GraspReport report = gone(bench);
   EXPECT_NEAR(report.remainingMotionS.value(), 12.0 + kStartAndStopS, 1e-9);
 }

@@ -21,6 +21,7 @@
 #include <vector>
 
 #include <palpate/capture/capture_session.h>
+#include <palpate/control/grasp_approach.h>
 #include <palpate/control/grasp_request.h>
 #include <palpate/control/grasp_state_machine.h>
 #include <palpate/core/time.h>
@@ -47,6 +48,8 @@ struct GraspStatus {
   std::uint64_t stopsAsked = 0;
   // Joint angles as last read [deg]; empty: not known.
   std::vector<double> anglesDeg;
+  // Number of grasps so far from which touches() learnt.
+  std::uint64_t touchesLearnt = 0;
   // Whether a calibration is set, so that a grasp may have a limit in newtons.
   bool calibrated = false;
   // Reason why no reactive grasp can begin; empty when one can begin.
@@ -106,6 +109,12 @@ class GraspControl {
   // Sets the calibration by which limits in newtons are measured; nothing: such a grasp is refused.
   // Holds from the next grasp on.
   void setCalibration(std::optional<Calibration> calibration);
+  // What is remembered of named objects, for grasps that keep their limit; such grasps add to it.
+  void setTouches(TouchMemory touches);
+  TouchMemory touches() const;
+  // Of a grasp under tactile control, from the present angles. Throws std::invalid_argument for an
+  // unknown preshape.
+  GraspForecast forecast(const GraspRequest& request) const;
   // Changes sensitivity, threshold or mask. Throws DeviceError kRefused while fingers move under
   // tactile control; throws std::invalid_argument for a command that is no setting.
   std::shared_future<CommandAnswer> change(const DeviceCommand& setting);
@@ -162,6 +171,8 @@ class GraspControl {
   bool relaxWhenStopped_ = false;
   std::uint64_t stopsAsked_ = 0;
   bool calibrated_ = false;
+  TouchMemory touches_;
+  std::uint64_t touchesLearnt_ = 0;
   // Last reported fault; the same fault is not reported again for a while in this grasp.
   std::string lastFault_;
   std::int64_t lastFaultUs_ = 0;  // [monotonic us]

@@ -26,7 +26,7 @@ enum class GraspMode {
 };
 std::string_view nameOf(GraspMode mode);  // "plain", "reactive", "slip"
 
-constexpr double kMinGraspDegPerS = 1.0;
+constexpr double kMinGraspDegPerS = 0.2;
 constexpr double kMaxGraspDegPerS = 100.0;
 constexpr int kMinGraspLimitCounts = 3;
 constexpr int kMaxGraspLimitCounts = static_cast<int>(kSdh2SaturationCounts) - kLimitMarginCounts;
@@ -85,7 +85,7 @@ struct GraspRequest {
   std::optional<double> startRatio = {};
   // 0 (open) .. 1 (closed); for a reactive grasp the largest ratio.
   double closeRatio = 0.5;
-  // 1..100 [deg/s]; slower axes move as fast as they can.
+  // 0.2..100 [deg/s]; slower axes move as fast as they can.
   double velocityDegPerS = 10.0;
   // Limit of a reactive grasp, which stops above it, 3..3300 [counts]; first limit of a slip-aware
   // one.
@@ -97,6 +97,16 @@ struct GraspRequest {
   // Needs a calibration (GraspControl::setCalibration). The grasp stops at this force or at the
   // limit in counts, whichever is exceeded first. A slip raises no force limit.
   std::vector<double> forceLimitsN = {};
+  // A grasp under tactile control by a preshape keeps its limit: it touches slowly, and gives way
+  // after its stop (grasp_approach.h). Without this it closes at velocityDegPerS and stays where it
+  // stopped, above its limit.
+  bool keepsLimit = false;
+  // The object, as its user names it, one line of at most 100 bytes. Where grasps of it touched is
+  // remembered for later ones that keep their limit; empty: nothing is.
+  std::string object = {};
+  // The close ratio at which the object is expected to touch first, by its size, 0..1; empty: not
+  // known.
+  std::optional<double> touchRatio = {};
   HoldingOptions holding = {};  // used by a slip-aware grasp
 
   // Throws std::invalid_argument naming field, value and range; nothing may be sent then.
@@ -127,6 +137,8 @@ std::vector<UnmeasurableLimit> unmeasurableLimits(const HandDescription& hand,
 int highestMeasurableLimit(const HandDescription& hand,
                            const std::vector<MatrixSettings>& settings,
                            GraspRequest request);
+// Whether the grasp keeps its limit; never true for a plain one or a motion to joint angles.
+bool keepsLimit(const GraspRequest& request);
 // True for a plain motion to the open hand, which users see as "opening" and not as a grasp.
 bool isOpening(const GraspRequest& request);
 // True for a motion to joint angles instead of a preshape.
@@ -153,6 +165,16 @@ enum class GraspOutcome {
 // "refused".
 std::string_view nameOf(GraspOutcome outcome);
 
+// What a grasp that kept its limit has shown of its object.
+struct Touch {
+  double ratio = 0.0;  // close ratio at the first touch, 0..1
+  // Rise of the reading after the stop, per velocity [counts per deg/s], and of the force of a
+  // finger [N per deg/s]; empty: not measured.
+  std::optional<double> riseCounts = {};
+  std::optional<double> riseN = {};
+  int grasps = 1;  // from which it was learnt
+};
+
 struct GraspReport {
   GraspRequest request;
   GraspOutcome outcome = GraspOutcome::kNone;
@@ -174,6 +196,10 @@ struct GraspReport {
   // Largest taxel in the 0.5 s after the stop of a grasp under tactile control: the rubber responds
   // with a delay, so the reading rises after the stop [counts]. Empty if it was not measured.
   std::optional<TaxelPeak> peakAfterStop = {};
+  // For a grasp that keeps its limit: the largest taxel after the hand has given way [counts];
+  // empty if it didn't come so far.
+  std::optional<TaxelPeak> peakAtRest = {};
+  std::optional<Touch> touch = {};  // for TouchMemory
   // kPortGone: longest time from endUs for which the running motion can continue without control
   // [s]; 0 if no motion was running and the hand holds its position.
   std::optional<double> remainingMotionS = {};
@@ -198,7 +224,7 @@ RecordingEvent endEvent(const GraspReport& report);
 // A step of a slip-aware grasp while it runs; also recorded as an event "grasp".
 struct GraspStep {
   std::string action;  // "holding", "slip", "regrasp", "lower", "loosen", "friction", "at_limit",
-                       // "over_limit" (and no stop was answered)
+                       // "over_limit" (and no stop was answered), "touch" (before it was expected)
   std::string text;    // one line for the user
   std::optional<std::size_t> matrix = {};
   int limitCounts = 0;

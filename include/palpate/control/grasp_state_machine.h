@@ -4,8 +4,12 @@
 //   idle --begin--> preshaping --> closing --> idle        (preshaping only with a start ratio)
 //                        `------------`--> stopping --> idle
 // At the limit it stays in the state settling for 0.5 s and measures how far the reading rises
-// after the stop. A slip-aware grasp continues after its first stop (and can end in every state, as
-// the others):
+// after the stop. A grasp that keeps its limit closes in two motions, and eases after the stop:
+//
+//   closing (fast) --near, or touched--> closing (slow) --limit--> stopping --> easing --> idle
+//
+// While it eases it opens by small steps, or follows an object that gave way. A slip-aware grasp
+// continues after its first stop (and can end in every state, as the others):
 //
 //   closing --limit--> stopping --> settling --> holding --slips--> closing (limit raised) ..
 //                                      ^            `--told to open--> loosening --> stopping --'
@@ -19,6 +23,7 @@
 #include <vector>
 
 #include <palpate/control/finger_forces.h>
+#include <palpate/control/grasp_approach.h>
 #include <palpate/control/grasp_request.h>
 #include <palpate/control/grip_monitor.h>
 #include <palpate/control/stream_monitor.h>
@@ -28,13 +33,15 @@
 
 namespace palpate {
 
+inline constexpr std::string_view kNothingHeldText = "finished: nothing is held any more";
+
 enum class GraspPhase {
   kIdle,
   kPreshaping,
   kClosing,
   kStopping,
   kSettling,
-  kEasing,  // opens by small steps after the limit was reached
+  kEasing,  // small steps after the limit was reached, until the reading at rest is the limit
   kHolding,
   kLoosening
 };
@@ -57,8 +64,12 @@ class GraspStateMachine {
   // (request) and DeviceError kRefused; nothing must be sent then. Reasons to refuse: another grasp
   // runs; and, under tactile control, the tactile stream is not alive, a taxel or a finger is
   // already over its limit, a matrix on a moving finger can't measure the limit, or no calibration
-  // can measure a limit in newtons. hostUs is used in the report.
-  void begin(const GraspRequest& request, std::int64_t monoUs, std::int64_t hostUs);
+  // can measure a limit in newtons. hostUs is used in the report. `touch`: what is remembered of
+  // the object, for a grasp that keeps its limit.
+  void begin(const GraspRequest& request,
+             std::int64_t monoUs,
+             std::int64_t hostUs,
+             const std::optional<Touch>& touch = {});
 
   // Processes every frame, also between grasps, so that the period of the stream is known when a
   // grasp begins.
@@ -71,8 +82,12 @@ class GraspStateMachine {
   void onCommandFailed(const std::string& why, bool sent, std::int64_t monoUs);
   // Axis states as in Device::axisStates(); a motion ends when no axis moves.
   void onAxisStates(const std::vector<int>& states, std::int64_t monoUs);
-  // Joint angles as last read; they give the rest of a motion when the motion port disappears.
-  void onAngles(const std::vector<double>& deg) { anglesDeg_ = deg; }
+  // Joint angles as last read; they give the rest of a motion when the motion port disappears, and
+  // from where the hand gives way.
+  void onAngles(const std::vector<double>& deg, std::int64_t monoUs) {
+    anglesDeg_ = deg;
+    anglesUs_ = monoUs;
+  }
   // The motion controller's answers are missing or not valid, or the program failed at its port,
   // and the port's thread has sent stops: stops what runs until a stop is answered. A reading over
   // the limit meanwhile is reported, once.
@@ -119,7 +134,6 @@ class GraspStateMachine {
   const std::vector<double>& anglesDeg() const noexcept { return anglesDeg_; }
 
  private:
-  void move(double closeRatio, GraspPhase phase, std::int64_t monoUs);
   void send(MoveJoints motion, GraspPhase phase, std::int64_t monoUs);
   double remainingMotionS(std::int64_t monoUs) const;
   void stopWith(GraspOutcome outcome, const std::string& text, std::int64_t monoUs);
@@ -130,10 +144,24 @@ class GraspStateMachine {
   void motionEnded(const std::vector<int>& states, std::int64_t monoUs);
   bool isMoving() const noexcept {
     return phase_ == GraspPhase::kPreshaping || phase_ == GraspPhase::kClosing ||
-           phase_ == GraspPhase::kLoosening;
+           phase_ == GraspPhase::kLoosening || (phase_ == GraspPhase::kEasing && underWay_);
   }
+  enum class Next { kEnd, kEase, kSettle, kClose };  // after a confirmed stop
+  // The following functions belong to a grasp that keeps its limit.
+  std::optional<double> presentRatio() const;
+  bool isTouching() const noexcept;
+  void close(std::int64_t monoUs);
+  void watchTouch(std::int64_t monoUs);
+  void noteTouch(std::int64_t monoUs);
+  void noteSlope(std::int64_t monoUs);
+  void beginEasing(std::int64_t monoUs);
+  void onEasingFrame(std::int64_t monoUs);
+  void moveBy(double openingDeg, std::int64_t monoUs);
+  void endEasing(std::int64_t monoUs);
+  // The largest reading or force as a multiple of its limit.
+  double timesLimit() const noexcept;
+  std::string restText() const;
   // The following functions belong to a slip-aware grasp.
-  enum class Next { kEnd, kSettle, kClose };  // after a confirmed stop
   bool isHolding() const noexcept {
     return isSlipAware() && (phase_ == GraspPhase::kSettling || phase_ == GraspPhase::kHolding);
   }
@@ -176,6 +204,7 @@ class GraspStateMachine {
   void loosen(const char* action, const std::string& text, std::int64_t monoUs);
   void reportFriction(const GripSlip& slip);
   std::int64_t holdingNextUs() const;
+  int fingerOf(std::size_t matrix) const noexcept;
   std::string placeOf(const TaxelPeak& peak) const;
   void refuse(const std::string& why) const;
 
@@ -196,6 +225,7 @@ class GraspStateMachine {
   // Motion that was sent and, as far as known, has neither ended nor been stopped.
   std::optional<MoveJoints> underWay_;
   std::vector<double> anglesDeg_;  // empty: not known
+  std::int64_t anglesUs_ = 0;      // when they were read [monotonic us]
   std::optional<GraspReport> ended_;
   // Time of the motion command or of the last stop.
   std::int64_t sentUs_ = 0;
@@ -212,6 +242,26 @@ class GraspStateMachine {
   // Stops are sent to a controller that does not answer, and a reading over the limit was reported.
   bool stopsBlindly_ = false;
   bool reportedOverLimit_ = false;
+
+  // Of a grasp that keeps its limit.
+  std::optional<GraspApproach> approach_;
+  bool approaching_ = false;     // in the fast part of the approach
+  bool isNear_ = false;          // the fast part is over
+  float restCounts_ = 0.0F;      // largest reading when the grasp began
+  double closingDegPerS_ = 0.0;  // velocity of the last closing motion
+  std::int64_t touchedUs_ = 0;   // when it was felt first [monotonic us]
+  double touchedTimes_ = 0.0;    // the reading then, as a multiple of the limit
+  double timesPerDeg_ = 0.0;     // slope of that multiple over the angle [1/deg]; 0: not known
+  // Smallest and largest multiple since the reading hardly changes, and for how many frames.
+  std::pair<double, double> restTimes_;
+  int restFrames_ = 0;
+  int stillFrames_ = 0;             // since the joints are at rest
+  bool follows_ = false;            // a step under way closes
+  double steepest_ = 0.0;           // largest timesPerDeg_
+  double easedTimes_ = 0.0;         // the multiple before the last step
+  double easedDeg_ = 0.0;           // the last step [deg]; 0: none yet
+  std::int64_t easingUntilUs_ = 0;  // [monotonic us]
+  std::int64_t stillSinceUs_ = 0;   // since when the joints are at rest [monotonic us]
 
   GripMonitor grip_;
   std::vector<GraspStep> notes_;

@@ -16,6 +16,14 @@ namespace palpate {
 // in 1052 recordings is 3567.
 constexpr float kSdh2SaturationCounts = 3500.0F;
 
+// How far the reading of a taxel, and the force of a finger, rise after a stop, per velocity of the
+// joints [counts per deg/s, N per deg/s], and the most that its motors can press at their current
+// limits [counts, N]: on the hardest known object, docs/safety.md.
+constexpr double kSdh2RiseCounts = 800.0;
+constexpr double kSdh2RiseN = 6.5;
+constexpr double kSdh2StalledCounts = 3020.0;
+constexpr double kSdh2StalledN = 24.0;
+
 // Seven axes [deg]; six matrices: 14x6 proximal (0, 2, 4) and 13x6 distal (1, 3, 5), pitch 3.4 mm,
 // 12 bits. Sources: data/hands/sdh2/hand.json.
 const HandDescription& sdh2();

@@ -1,0 +1,190 @@
+#include "palpate/control/grasp_approach.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "palpate/core/json.h"
+#include "palpate/device/sdh2.h"
+#include "palpate/model/preshape.h"
+
+namespace palpate {
+namespace {
+
+// A learnt rise is taken larger than it was measured, because the next touch may be a harder one;
+// a rise of almost nothing is not believed.
+constexpr double kRiseMargin = 1.0;
+constexpr double kMinRiseShare = 0.05;
+// Part by which a later touch, or a smaller rise, changes what is remembered; an earlier touch or a
+// larger rise is remembered at once.
+constexpr double kLearningShare = 0.5;
+constexpr std::size_t kMostTouches = 10'000;
+constexpr std::size_t kMostTouchBytes = 1000;
+constexpr std::int64_t kTouchesVersion = 1;
+
+double largestSlopeDeg(const Preshape& preshape) {
+  double largest = 0.0;
+  for (const PreshapeJoint& joint : preshape.joints)
+    largest = std::max(largest, std::abs(joint.slopeDeg));
+  return largest;
+}
+
+int lowestLimit(const GraspRequest& request, int limitCounts) {
+  int lowest = limitCounts;
+  for (const int limit : request.fingerLimitCounts)
+    lowest = std::min(lowest, limitCounts - request.limitCounts + limit);
+  return std::max(lowest, kMinGraspLimitCounts);
+}
+
+std::optional<double> lowestForce(const GraspRequest& request) {
+  if (request.forceLimitsN.empty()) return std::nullopt;
+  return *std::min_element(request.forceLimitsN.begin(), request.forceLimitsN.end());
+}
+
+}  // namespace
+
+GraspApproach approachOf(const GraspRequest& request, const std::optional<Touch>& touch) {
+  GraspApproach approach{.riseCounts = kSdh2RiseCounts, .riseN = kSdh2RiseN};
+  std::optional<double> ratio = request.touchRatio;
+  if (touch) {
+    ratio = std::min(ratio.value_or(1.0), touch->ratio);
+    const auto learnt = [](double measured, double hardest) {
+      return std::clamp(kRiseMargin * measured, kMinRiseShare * hardest, hardest);
+    };
+    if (touch->riseCounts) approach.riseCounts = learnt(*touch->riseCounts, kSdh2RiseCounts);
+    if (touch->riseN) approach.riseN = learnt(*touch->riseN, kSdh2RiseN);
+  }
+  approach.touchKnown = ratio.has_value();
+  const double slope = largestSlopeDeg(sdh2Preshape(request.preshape));
+  if (ratio && slope > 0.0)
+    approach.fastToRatio = std::clamp(*ratio - kTouchMarginDeg / slope, 0.0, request.closeRatio);
+  return approach;
+}
+
+double slowDegPerS(const GraspRequest& request, const GraspApproach& approach, int limitCounts) {
+  // limit + rise * velocity = kWarnedLimit * limit
+  double slow = (kWarnedLimit - 1.0) * lowestLimit(request, limitCounts) / approach.riseCounts;
+  if (const auto forceN = lowestForce(request))
+    slow = std::min(slow, (kWarnedLimit - 1.0) * *forceN / approach.riseN);
+  return std::clamp(slow, kMinGraspDegPerS, request.velocityDegPerS);
+}
+
+std::optional<double> closeRatioOf(const Preshape& preshape, const std::vector<double>& anglesDeg) {
+  if (anglesDeg.size() != preshape.joints.size()) return std::nullopt;
+  double along = 0.0, squares = 0.0;
+  for (std::size_t axis = 0; axis < anglesDeg.size(); ++axis) {
+    const PreshapeJoint& joint = preshape.joints[axis];
+    along += joint.slopeDeg * (anglesDeg[axis] - joint.openDeg);
+    squares += joint.slopeDeg * joint.slopeDeg;
+  }
+  if (!(squares > 0.0) || !std::isfinite(along)) return std::nullopt;
+  return std::clamp(along / squares, 0.0, 1.0);
+}
+
+GraspForecast forecastOf(const GraspRequest& request,
+                         const std::optional<Touch>& touch,
+                         const std::vector<double>& presentDeg) {
+  const Preshape& preshape = sdh2Preshape(request.preshape);
+  const double slope = largestSlopeDeg(preshape);
+  const GraspApproach approach = approachOf(request, touch);
+  const bool keeps = keepsLimit(request);
+  const double slow =
+      keeps ? slowDegPerS(request, approach, request.limitCounts) : request.velocityDegPerS;
+  GraspForecast forecast;
+  forecast.touchKnown = approach.touchKnown;
+  const double present = closeRatioOf(preshape, presentDeg).value_or(0.0);
+  const double start = request.startRatio.value_or(present);
+  const double fastTo = keeps ? std::max(approach.fastToRatio, start) : start;
+  const double end =
+      approach.touchKnown && keeps
+          ? std::min(fastTo + kTouchMarginDeg / std::max(slope, 1e-9), request.closeRatio)
+          : request.closeRatio;
+  if (request.startRatio)
+    forecast.seconds += std::abs(start - present) * slope / request.velocityDegPerS;
+  forecast.seconds += (fastTo - start) * slope / request.velocityDegPerS +
+                      std::max(end - fastTo, 0.0) * slope / slow;
+  // Motors that press as hard as they can reach no more.
+  const auto reached = [](double limit, double rise, double most) {
+    return std::max(limit, std::min(limit + rise, most));
+  };
+  const int limit = lowestLimit(request, request.limitCounts);
+  forecast.counts = reached(request.limitCounts, approach.riseCounts * slow, kSdh2StalledCounts);
+  forecast.timesLimit = reached(limit, approach.riseCounts * slow, kSdh2StalledCounts) / limit;
+  if (const auto forceN = lowestForce(request)) {
+    forecast.newtons = reached(*forceN, approach.riseN * slow, kSdh2StalledN);
+    // The limit in counts is only the second one then.
+    forecast.timesLimit = *forecast.newtons / *forceN;
+  }
+  return forecast;
+}
+
+std::optional<Touch> TouchMemory::find(const std::string& preshape,
+                                       const std::string& object) const {
+  const auto found = touches_.find({preshape, object});
+  if (object.empty() || found == touches_.end()) return std::nullopt;
+  return found->second;
+}
+
+bool TouchMemory::learn(const GraspReport& report) {
+  const GraspRequest& request = report.request;
+  if (!report.touch || request.object.empty()) return false;
+  const auto [place, isNew] =
+      touches_.try_emplace({request.preshape, request.object}, *report.touch);
+  if (isNew) return true;
+  Touch& known = place->second;
+  const Touch& now = *report.touch;
+  known.ratio = std::min(now.ratio, known.ratio + kLearningShare * (now.ratio - known.ratio));
+  const auto rise = [](std::optional<double>& is, const std::optional<double>& measured) {
+    if (measured)
+      is = is ? std::max(*measured, *is + kLearningShare * (*measured - *is)) : *measured;
+  };
+  rise(known.riseCounts, now.riseCounts);
+  rise(known.riseN, now.riseN);
+  ++known.grasps;
+  return true;
+}
+
+bool TouchMemory::forget(const std::string& preshape, const std::string& object) {
+  return touches_.erase({preshape, object}) > 0;
+}
+
+std::string TouchMemory::text() const {
+  Json list = Json::array();
+  for (const auto& [key, touch] : touches_) {
+    Json each = Json::object();
+    each.set("preshape", key.first).set("object", key.second).set("ratio", touch.ratio);
+    if (touch.riseCounts) each.set("rise_counts_s_per_deg", *touch.riseCounts);
+    if (touch.riseN) each.set("rise_n_s_per_deg", *touch.riseN);
+    list.push(std::move(each.set("grasps", touch.grasps)));
+  }
+  Json json = Json::object();
+  json.set("format", "palpate-touches").set("version", kTouchesVersion);
+  json.set("touches", std::move(list));
+  return json.text() + "\n";
+}
+
+TouchMemory TouchMemory::parse(std::string_view text, const std::filesystem::path& file) {
+  const JsonField root = JsonField::parse(text, file, "the remembered touches");
+  if (!root.has("format") || root.at("format").text() != "palpate-touches")
+    root.fail("is no list of touches: 'format' must be \"palpate-touches\"");
+  root.required("version").integer(1, kTouchesVersion);
+  TouchMemory memory;
+  for (const JsonField& each : root.required("touches").items(kMostTouches)) {
+    const std::string preshape = each.required("preshape").text();
+    const std::string object = each.required("object").text();
+    if (object.empty() || preshape.size() + object.size() > kMostTouchBytes)
+      each.fail("has a name that is empty or too long");
+    const auto rise = [&](const char* key) {
+      std::optional<double> value;
+      if (each.has(key)) value = each.number(key, 0.0, 0.0, 1e6);
+      return value;
+    };
+    memory.touches_[{preshape, object}] = {
+        each.required("ratio").number(0.0, 1.0),
+        rise("rise_counts_s_per_deg"),
+        rise("rise_n_s_per_deg"),
+        static_cast<int>(each.required("grasps").integer(1, 1'000'000'000))};
+  }
+  return memory;
+}
+
+}  // namespace palpate
