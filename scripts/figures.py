@@ -591,7 +591,16 @@ echo "bytes $(stat -c %s "$file") installed $(dpkg-deb -f "$file" Installed-Size
             stops(f"reach_{velocity}_deg_per_s_limit_{limit}", field), write)
         for velocity in (10, 2) for limit in (200, 1000, 2000)
         for key, field, write in (("median", "median_counts", COUNT), ("worst", "worst_counts", COUNT),
-                                  ("times", "worst_times", fixed(1)))}, idle=False),
+                                  ("times", "worst_times", fixed(1)))} | {
+        f"{scene}_{key}": (stops(f"kept_{scene}", key), write)
+        for scene in ("ball", "foam_ball", "bottle")
+        for key, write in (("grasps", COUNT), ("kept", COUNT), ("dropped", COUNT),
+                           *((key, fixed(1)) for key in (
+                               "rest_min_times", "rest_max_times", "first_peak_times",
+                               "peak_median_times", "peak_worst_times", "before_peak_median_times",
+                               "before_peak_worst_times")),
+                           *((key, fixed(1, "s")) for key in ("median_s", "worst_s", "before_median_s")),
+                           ("first_s", fixed(0, "s")))}, idle=False),
     slow_test("kills", 900, "commands", "kill_recording_slow_test", {
         "kills": (number(r"(\d+) kills"), COUNT), "open": (number(r"(\d+) files open"), COUNT),
         "journals": (number(r"(\d+) journals"), COUNT),

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "palpate/core/json_field.h"
 #include "palpate/core/json.h"
+#include "palpate/core/number_text.h"
 #include "palpate/device/sdh2.h"
 #include "palpate/model/preshape.h"
 
@@ -115,6 +117,17 @@ GraspForecast forecastOf(const GraspRequest& request,
     forecast.timesLimit = *forecast.newtons / *forceN;
   }
   return forecast;
+}
+
+std::string describe(const GraspForecast& forecast) {
+  std::string text = "about ";
+  if (forecast.newtons) text += fixedText(*forecast.newtons, 1) + " N, ";
+  text += fixedText(forecast.counts, 0) + " counts, " + fixedText(forecast.timesLimit, 1) +
+          " times the limit; ";
+  const std::string seconds = fixedText(std::ceil(forecast.seconds), 0) + " s";
+  return text + (forecast.touchKnown ? "touches after about " + seconds
+                                     : "closes for up to " + seconds +
+                                           ": where it touches is not known");
 }
 
 std::optional<Touch> TouchMemory::find(const std::string& preshape,

@@ -206,7 +206,7 @@ MoveJoints motionTo(const GraspRequest& request,
   }
   move.ramp = request.mode != GraspMode::kPlain;
   if (request.mode != GraspMode::kPlain) move.answerLimitS = kTactileAnswerLimitS;
-  move.limitsAnswersAtRest = request.mode == GraspMode::kSlip;
+  move.limitsAnswersAtRest = request.mode == GraspMode::kSlip || keepsLimit(request);
   return move;
 }
 

@@ -20,6 +20,7 @@ enum class Motion {
   kReactive,
   kSlipAware,
   kHolding,
+  kEasing,
   kJoint,
   kPose,
   kSequence,
@@ -30,7 +31,8 @@ enum class Motion {
 // docs/safety.md: from the first bad answer to the stop.
 double limitS(Motion motion) {
   const bool isTactile = motion == Motion::kReactive || motion == Motion::kSlipAware ||
-                         motion == Motion::kHolding || motion == Motion::kEmptyHand;
+                         motion == Motion::kHolding || motion == Motion::kEasing ||
+                         motion == Motion::kEmptyHand;
   return isTactile ? 0.2 : 0.5;
 }
 
@@ -61,6 +63,17 @@ struct Mover {
         bench.counts = 250.0F;
         ASSERT_TRUE(bench.awaitPhase(GraspPhase::kHolding));
         return;
+      case Motion::kEasing: {
+        GraspRequest kept = closing(GraspMode::kReactive);
+        kept.keepsLimit = true;
+        grasp(kept);
+        bench.counts = 250.0F;
+        ASSERT_TRUE(bench.awaitPhase(GraspPhase::kEasing));
+        // The first step, which doesn't end.
+        const int moves = bench.hand.moves;
+        ASSERT_TRUE(bench.passUntil([&] { return bench.hand.moves > moves; }, 2.0));
+        return bench.pass(0.1);
+      }
       case Motion::kJoint: {
         GraspRequest joint;
         joint.targetDeg.resize(7);
@@ -160,6 +173,7 @@ std::string nameOf(Motion motion) {
                                                    {Motion::kReactive, "Reactive"},
                                                    {Motion::kSlipAware, "SlipAware"},
                                                    {Motion::kHolding, "Holding"},
+                                                   {Motion::kEasing, "Easing"},
                                                    {Motion::kJoint, "Joint"},
                                                    {Motion::kPose, "Pose"},
                                                    {Motion::kSequence, "Sequence"},

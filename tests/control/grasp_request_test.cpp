@@ -40,7 +40,7 @@ TEST(GraspRequest, RefusesWhatIsOutOfRangeOrNoNumber) {
     request.startRatio = value;
     EXPECT_THROW(request.validate(), std::invalid_argument) << value;
   }
-  for (const double value : {0.0, 0.99, 100.5, -10.0, kNan, kInf}) {
+  for (const double value : {0.0, 0.19, 100.5, -10.0, kNan, kInf}) {
     GraspRequest request;
     request.velocityDegPerS = value;
     EXPECT_THROW(request.validate(), std::invalid_argument) << value;
@@ -49,6 +49,16 @@ TEST(GraspRequest, RefusesWhatIsOutOfRangeOrNoNumber) {
     GraspRequest request = reactive();
     request.limitCounts = value;
     EXPECT_THROW(request.validate(), std::invalid_argument) << value;
+  }
+  for (const double value : {-0.01, 1.01, kNan}) {
+    GraspRequest request = reactive();
+    request.touchRatio = value;
+    EXPECT_THROW(request.validate(), std::invalid_argument) << value;
+  }
+  for (const std::string& name : {std::string("two\nlines"), std::string(101, 'x')}) {
+    GraspRequest request = reactive();
+    request.object = name;
+    EXPECT_THROW(request.validate(), std::invalid_argument) << name;
   }
   GraspRequest unknown;
   unknown.preshape = "fist";
@@ -63,7 +73,7 @@ TEST(GraspRequest, SaysWhatIsWrong) {
     FAIL();
   } catch (const std::invalid_argument& error) {
     const std::string text = error.what();
-    for (const char* word : {"velocity", "250", "1..100", "deg/s"})
+    for (const char* word : {"velocity", "250", "0.2..100", "deg/s"})
       EXPECT_NE(text.find(word), std::string::npos) << text;
   }
 }

@@ -18,6 +18,7 @@
 #include "palpate/core/time.h"
 #include "palpate/device/last_stop.h"
 #include "palpate/device/live_hand.h"
+#include "palpate/kinematics/preshape_opening.h"
 #include "palpate/model/hand_file.h"
 #include "palpate/model/preshape.h"
 
@@ -39,7 +40,8 @@ CommandSpec graspSpec() {
       .purpose =
           "Moves a hand. The mode 'plain' moves to the preshape at close ratio R (0 open .. 1 "
           "closed, default 0.5), without regard to contact. 'reactive' opens to the preshape, then "
-          "closes to R (default 1) and stops when the first taxel exceeds N counts. 'slip' does "
+          "closes to R (default 1), slowly where it is expected to touch, stops when the first "
+          "taxel exceeds N counts, and moves by small steps until the reading at rest is N. 'slip' does "
           "the same and then holds the object: when the object slips, the hand closes again, to a "
           "limit raised by 300 counts. It ends with Ctrl-C or after --hold seconds. Ctrl-C stops "
           "the hand. Prints a line per state: seconds, state, text. After the command the motors "
@@ -50,9 +52,16 @@ CommandSpec graspSpec() {
            {"dsa", "PORT", "tactile controller; 'reactive' and 'slip' need it"},
            {"preshape", "NAME", "preshape: pose of the fingers before they close"},
            {"close", "R", "close ratio, 0..1"},
-           {"velocity", "V", "velocity of the joints, 1..100 deg/s, default 10"},
+           {"velocity", "V", "velocity of the joints, 0.2..100 deg/s, default 10"},
            {"mode", "plain|reactive|slip", "default plain"},
            {"limit", "N", "limit of 'reactive' and 'slip', 3..3300 counts, default 200"},
+           {"object",
+            "NAME",
+            "of 'reactive' and 'slip': the object; where grasps of it touched is remembered"},
+           {"object-size", "MM", "its width: the hand closes fast until it is this narrow"},
+           {"quick",
+            "",
+            "closes at V deg/s all the way and stays where it stops: the limit isn't kept"},
            {"finger-limits", "N0,N1,..", "instead of --limit: a limit for each finger, in counts"},
            {"force-limit",
             "F[,F1,..]",
@@ -125,6 +134,26 @@ void fingerLimitsOf(const CommandLine& given, GraspRequest& request) {
     request.limitCounts = kMaxGraspLimitCounts;
 }
 
+// How the limit is kept.
+void approachOf(const CommandLine& given, GraspRequest& request) {
+  constexpr double kMostSizeMm = 1000.0;
+  const auto size = given.number("object-size", 0.1, kMostSizeMm);
+  for (const char* option : {"object", "object-size", "quick"})
+    if (given.has(option) && request.mode == GraspMode::kPlain)
+      throw UsageError("--" + std::string(option) + " needs --mode reactive or slip");
+  for (const char* option : {"object", "object-size"})
+    if (given.has(option) && given.has("quick"))
+      throw UsageError("--" + std::string(option) + " and --quick exclude one another");
+  request.keepsLimit = request.mode != GraspMode::kPlain && !given.has("quick");
+  request.object = given.text("object").value_or("");
+  if (!size) return;
+  const HandGeometry geometry(describeGeometry(movableHand()));
+  request.touchRatio = touchRatioOf(
+      geometry, findPreshape(movableHand().file->preshapes, request.preshape), *size);
+  if (!request.touchRatio)
+    throw UsageError("--object-size: the closed hand is wider than " + numberText(*size) + " mm");
+}
+
 GraspRequest graspRequestOf(const CommandLine& given) {
   GraspRequest request;
   const std::string mode = given.choice("mode", {"plain", "reactive", "slip"}).value_or("plain");
@@ -150,6 +179,7 @@ GraspRequest graspRequestOf(const CommandLine& given) {
   request.limitCounts = static_cast<int>(limit.value_or(request.limitCounts));
   fingerLimitsOf(given, request);
   holdingOf(given, request);
+  approachOf(given, request);
   try {
     request.validate();
   } catch (const std::invalid_argument& error) {
@@ -338,7 +368,7 @@ int graspCommand(const Arguments& words) {
   lines.show("connecting");
   session.start();
   awaitHand(control, request, waitS, interruption);
-  lines.show("ready");
+  lines.show("ready", request.keepsLimit ? describe(control.forecast(request)) : std::string());
   if (sequence) return runSequence(*sequence, session, control, lines, interruption);
   control.grasp(request);
   const GraspReport report = follow(control, lines, interruption);

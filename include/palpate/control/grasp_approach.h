@@ -61,6 +61,9 @@ struct GraspForecast {
 GraspForecast forecastOf(const GraspRequest& request,
                          const std::optional<Touch>& touch,
                          const std::vector<double>& presentDeg);
+// "about 400 counts, 2 times the limit; touches after about 15 s", "..; closes for up to 275 s:
+// where it touches is not known".
+std::string describe(const GraspForecast& forecast);
 // The close ratio to which the angles of all joints fit best, 0..1; empty for another number of
 // joints, or a preshape that moves none.
 std::optional<double> closeRatioOf(const Preshape& preshape, const std::vector<double>& anglesDeg);
