@@ -234,6 +234,7 @@ void GraspControl::report() {
     ended->endUs = session_.nowUs();
     sentCommand_.reset();
     note(endEvent(*ended), /*ends=*/true);
+    onEnded(*ended);
     reportPhase(GraspPhase::kIdle, ended->text, ended);
     if (std::exchange(relaxWhenStopped_, false)) {
       if (!ended->stateUnknown && ended->outcome != GraspOutcome::kPortGone)
@@ -246,9 +247,6 @@ void GraspControl::report() {
               "the motors were not switched off: no stop was answered",
               {}});
     }
-    if (ended->outcome == GraspOutcome::kPortGone) portGone_ = ended;
-    if (touches_.learn(*ended)) ++touchesLearnt_;
-    last_ = std::move(ended);
   }
   if (machine_.phase() == reportedPhase_) return;
   const bool stopping = machine_.phase() == GraspPhase::kStopping;
@@ -257,12 +255,24 @@ void GraspControl::report() {
       std::string(nameOf(machine_.phase())) + (stopping ? ": " + machine_.running().text : ""));
 }
 
+void GraspControl::onEnded(const GraspReport& ended) {
+  last_ = ended;
+  if (ended.outcome == GraspOutcome::kPortGone) portGone_ = ended;
+  if (touches_.learn(ended)) ++touchesLearnt_;
+  if (ended.outcome == GraspOutcome::kRefused) return;
+  lastMotion_ = ended;
+  if (!protectionEnded(ended)) return;
+  unprotected_ = ended.text;
+  note({ended.endUs, ended.endUs, "alarm", {}, "not protected: " + unprotected_, {}});
+}
+
 void GraspControl::reportPhase(GraspPhase phase,
                                const std::string& text,
                                std::optional<GraspReport> report) {
   reportedPhase_ = phase;
   if (changes_.size() == kMostChanges) changes_.pop_front();
-  changes_.push_back({session_.nowUs(), phase, text, std::move(report)});
+  changes_.push_back(
+      {session_.nowUs(), phase, text, std::move(report), conditionOf(presentStatus())});
 }
 
 void GraspControl::refused(const GraspRequest& request, const std::string& why) {
@@ -305,6 +315,7 @@ void GraspControl::grasp(const GraspRequest& request, std::optional<std::uint64_
                      touches_.find(request.preshape, request.object));
       lastFault_.clear();
       portGone_.reset();
+      unprotected_.clear();
     } catch (const std::exception& error) {
       refused(request, error.what());
       throw;
@@ -366,6 +377,7 @@ void GraspControl::relax() noexcept {
     try {
       stopResults_.push_back(session_.device().submit(StopMotion{}));
       relaxWhenStopped_ = machine_.stopsBlindly();
+      unprotected_.clear();
       if (!relaxWhenStopped_) {
         const bool ends = machine_.active();
         machine_.relax();
@@ -378,6 +390,17 @@ void GraspControl::relax() noexcept {
     } catch (...) {
       fault("an exception of no known kind");
     }
+  }
+  deliverHere();
+}
+
+void GraspControl::acknowledge() {
+  {
+    const std::lock_guard lock(mutex_);
+    if (unprotected_.empty()) return;
+    const std::int64_t nowUs = session_.nowUs();
+    note({nowUs, nowUs, "grasp", {}, "acknowledged: not protected: " + unprotected_, {}});
+    unprotected_.clear();
   }
   deliverHere();
 }
@@ -423,17 +446,27 @@ std::shared_future<CommandAnswer> GraspControl::change(const DeviceCommand& sett
 
 GraspStatus GraspControl::status() const {
   const std::lock_guard lock(mutex_);
-  GraspStatus status;
-  status.phase = machine_.phase();
+  GraspStatus status = presentStatus();
   // A grasp counts as ended only after its end was delivered to the session, too.
   if (!machine_.active() && pendingEndEvents_ > 0) status.phase = GraspPhase::kStopping;
+  return status;
+}
+
+GraspStatus GraspControl::presentStatus() const {
+  GraspStatus status;
+  status.phase = machine_.phase();
   if (machine_.active()) {
+    status.running = machine_.running();
     status.request = machine_.running().request;
     status.friction = machine_.running().friction;
     if (machine_.phase() == GraspPhase::kHolding)
       status.holding = machine_.holdingText(clock_.monotonicUs());
+    if (const auto unwatchedUs = machine_.unwatchedUs(clock_.monotonicUs()))
+      status.unwatchedMs = static_cast<double>(*unwatchedUs) / 1e3;
   }
   status.last = last_;
+  status.lastMotion = lastMotion_;
+  status.unprotected = unprotected_;
   status.cannotMove = motionProblem(session_.device().status());
   if (!status.cannotMove.empty()) status.portGone = portGone_;
   status.motorsOff = motorsOff_;

@@ -46,6 +46,8 @@ constexpr double kLooseningDegPerS = 1.0;
 // important than the result.
 constexpr double kLeastOfLimit = 0.25;
 constexpr double kLongestLooseningS = 20.0;
+// A hold ends after a longer silence of the stream.
+constexpr std::int64_t kLongestSilenceUs = 1'000'000;
 
 std::int64_t microsecondsOf(double seconds) { return std::llround(seconds * 1e6); }
 
@@ -136,9 +138,10 @@ void GraspStateMachine::begin(const GraspRequest& request,
   report_ = report;
   report_.limitCounts = limit_ = request.limitCounts;
   next_ = Next::kEnd;
-  stopsBlindly_ = reportedOverLimit_ = false;
+  stopsBlindly_ = reportedOverLimit_ = interrupted_ = false;
   held_ = slippedAtLimit_ = frictionTestRunning_ = frictionTested_ = false;
   endUs_ = heldFromUs_ = 0;
+  silenceLimitUs_ = stream_.silenceLimitUs();
   answeredSlips_ = 0;
   notes_.clear();
   grip_.reset();
@@ -254,6 +257,7 @@ void GraspStateMachine::send(MoveJoints motion, GraspPhase phase, std::int64_t m
 }
 
 void GraspStateMachine::onFrame(const TactileFrame& frame, std::int64_t monoUs) {
+  const auto noticed = unwatchedUs(monoUs);
   const auto silence = stream_.frame(frame.hostUs, monoUs);
   const bool anotherLayout = updateLayout(frame);
   peak_ = taxelPeaks(frame, matrixPeaks_);
@@ -268,6 +272,8 @@ void GraspStateMachine::onFrame(const TactileFrame& frame, std::int64_t monoUs) 
     measurePeakAfterStop();
   if (observesOvershoot()) return;
   if (stopsBlindly_ && underTactileControl() && isOverLimit()) return onOverLimitUnanswered(monoUs);
+  if (isHolding() && (noticed || silence))
+    return onFramesBack(std::max(noticed.value_or(0), silence.value_or(0)), monoUs);
   if (isHolding()) return onHoldingFrame(monoUs);
   if (phase_ == GraspPhase::kEasing && !underWay_) return onEasingFrame(monoUs);
   if (!isMoving() || !underTactileControl()) return;
@@ -373,6 +379,7 @@ void GraspStateMachine::motionEnded(const std::vector<int>& states, std::int64_t
 void GraspStateMachine::stopWith(GraspOutcome outcome,
                                  const std::string& text,
                                  std::int64_t monoUs) {
+  interrupted_ = false;
   report_.outcome = outcome;
   phase_ = GraspPhase::kStopping;
   next_ = Next::kEnd;
@@ -388,7 +395,7 @@ void GraspStateMachine::stopAgain(std::int64_t monoUs) {
 }
 
 void GraspStateMachine::end(GraspOutcome outcome, const std::string& text) {
-  stopsBlindly_ = false;
+  stopsBlindly_ = interrupted_ = false;
   report_.outcome = outcome;
   report_.text = text;
   phase_ = GraspPhase::kIdle;
@@ -689,7 +696,10 @@ void GraspStateMachine::onHoldingFrame(std::int64_t monoUs) {
     held_ = report_.held = true;
     return;
   }
-  if (!grip_.touches()) return end(GraspOutcome::kFinished, std::string(kNothingHeldText));
+  if (!grip_.touches()) {
+    report_.heldAxes.clear();
+    return end(GraspOutcome::kFinished, std::string(kNothingHeldText));
+  }
   if (const auto slip = grip_.slip()) respondToSlip(*slip, monoUs);
 }
 
@@ -723,12 +733,11 @@ void GraspStateMachine::respondToSlip(const GripSlip& slip, std::int64_t monoUs)
 }
 
 void GraspStateMachine::onHoldingTime(std::int64_t monoUs) {
-  if (monoUs > stream_.deadAtUs())
-    return end(GraspOutcome::kStreamLost,
-               "no more tactile frames arrive: the hand holds, without slip detection");
+  if (monoUs > holdingDeadAtUs()) return onHoldingSilence(stream_.silenceUs(monoUs).value_or(0));
   if (phase_ != GraspPhase::kHolding) return;
   const HoldingOptions& holding = report_.request.holding;
-  if (endUs_ != 0 && monoUs >= endUs_)
+  if (endUs_ != 0 && monoUs >= endUs_) {
+    report_.holdTimeOver = true;
     return end(GraspOutcome::kFinished,
                "finished: held for " + numberText(holding.holdS) + " s, " +
                    counted(static_cast<std::uint64_t>(report_.slips), "slip") + ", limit " +
@@ -736,6 +745,7 @@ void GraspStateMachine::onHoldingTime(std::int64_t monoUs) {
                    (report_.friction ? ", friction roughly " + fixedText(*report_.friction, 2)
                                      : std::string()) +
                    "; the hand keeps holding");
+  }
   if (monoUs < lastSlipUs_ + microsecondsOf(holding.noSlipS)) return;
   lastSlipUs_ = monoUs;
   if (holding.weightN > 0.0 && !frictionTested_) {
@@ -796,8 +806,38 @@ void GraspStateMachine::reportFriction(const GripSlip& slip) {
   note("friction", text, slip.matrix);
 }
 
+std::optional<std::int64_t> GraspStateMachine::unwatchedUs(std::int64_t monoUs) const {
+  return interrupted_ ? stream_.silenceUs(monoUs) : std::nullopt;
+}
+
+void GraspStateMachine::onHoldingSilence(std::int64_t silenceUs) {
+  if (!std::exchange(interrupted_, true))
+    note("interrupted",
+         "not protected: no tactile frames for " + millisecondsText(silenceUs) +
+             " ms; the hand holds, without slip detection");
+  if (silenceUs > kLongestSilenceUs)
+    end(GraspOutcome::kStreamLost,
+        "no more tactile frames arrive: the hand holds, without slip detection");
+}
+
+// What moved in the silence is not answered: the hand must not move because frames are back.
+void GraspStateMachine::onFramesBack(std::int64_t silenceUs, std::int64_t monoUs) {
+  onHoldingSilence(silenceUs);
+  if (!isHolding()) return;
+  interrupted_ = false;
+  if (phase_ == GraspPhase::kHolding) grip_.setReference();
+  lastSlipUs_ = monoUs;  // whether nothing slipped in the silence is not known
+  note("watched", "watched again after " + millisecondsText(silenceUs) + " ms without a frame");
+}
+
+// Time from which the stream counts as dead while it is held [monotonic us].
+std::int64_t GraspStateMachine::holdingDeadAtUs() const {
+  return stream_.deadAtUs() - std::max<std::int64_t>(0, stream_.silenceLimitUs() - silenceLimitUs_);
+}
+
 std::int64_t GraspStateMachine::holdingNextUs() const {
-  std::int64_t nextUs = stream_.deadAtUs() + 1;
+  if (interrupted_) return stream_.deadAtUs() - stream_.silenceLimitUs() + kLongestSilenceUs + 1;
+  std::int64_t nextUs = holdingDeadAtUs() + 1;
   if (phase_ != GraspPhase::kHolding) return nextUs;
   if (endUs_ != 0) nextUs = std::min(nextUs, endUs_);
   return std::min(nextUs, lastSlipUs_ + microsecondsOf(report_.request.holding.noSlipS));

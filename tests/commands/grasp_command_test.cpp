@@ -15,7 +15,7 @@ namespace palpate::grasp_command_test {
 namespace {
 using namespace testing;
 
-// The states of the lines "SECONDS STATE[: TEXT]", in order.
+// The states of the lines "SECONDS STATE[: TEXT]", in order, without those of the hand.
 std::vector<std::string> statesOf(const std::string& out) {
   std::vector<std::string> states;
   std::istringstream lines(out);
@@ -27,9 +27,22 @@ std::vector<std::string> statesOf(const std::string& out) {
     EXPECT_GE(seconds.value_or(-1.0), before) << line;
     before = seconds.value_or(before);
     const std::string rest = line.substr(blank + 1);
-    states.push_back(rest.substr(0, rest.find(':')));
+    if (!rest.starts_with("hand: ")) states.push_back(rest.substr(0, rest.find(':')));
   }
   return states;
+}
+
+// The words of the lines "SECONDS hand: WORD[: TEXT]".
+std::vector<std::string> handOf(const std::string& out) {
+  std::vector<std::string> words;
+  std::istringstream lines(out);
+  for (std::string line; std::getline(lines, line);) {
+    const std::size_t begin = line.find(" hand: ");
+    if (begin == std::string::npos) continue;
+    const std::string rest = line.substr(begin + 7);
+    words.push_back(rest.substr(0, rest.find(':')));
+  }
+  return words;
 }
 
 using States = std::vector<std::string>;
@@ -48,6 +61,7 @@ TEST(GraspCommand, PlainGraspGoesToThePreshape) {
   ASSERT_EQ(result.exitCode, 0) << result.err;
   EXPECT_EQ(result.err, "");
   EXPECT_EQ(statesOf(result.out), (States{"connecting", "ready", "closing", "finished"}));
+  EXPECT_EQ(handOf(result.out), (States{"moving", "ready"}));
   std::vector<double> angles;
   bench.hand->withModel([&](HandModel& model) { angles = model.joints().angles(); });
   // Table of the study: 0 | -30 + 30 c, 30 + 35 c.
@@ -83,6 +97,7 @@ TEST(GraspCommand, ReactiveGraspStopsAtTheBall) {
                     "stopping",
                     "settling",
                     "limit_reached"}));
+  EXPECT_EQ(handOf(result.out), (States{"moving", "holding"}));
   EXPECT_NE(result.out.find(" counts"), std::string::npos);
   EXPECT_NE(result.out.find(" after the stop"), std::string::npos) << "what was reached";
   EXPECT_FALSE(bench.log.named("stop").empty());
@@ -132,6 +147,7 @@ void stopBySignal(Punctuality& stops, int number) {
   EXPECT_EQ(program.wait(), 3) << program.err();
   EXPECT_EQ(statesOf(program.out()),
             (States{"connecting", "ready", "closing", "stopping", "stopped"}));
+  EXPECT_EQ(handOf(program.out()), (States{"moving", "stopped"}));
   EXPECT_NE(program.err().find("stopped before the grasp was done"), std::string::npos);
   EXPECT_FALSE(bench.handMoves());
   const auto stop = bench.log.firstSince("stop", pressedUs);

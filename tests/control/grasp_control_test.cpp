@@ -187,6 +187,89 @@ TEST(GraspControl, SilenceStopsAReactiveGrasp) {
   EXPECT_EQ(bench.control->status().last->outcome, GraspOutcome::kStreamLost);
 }
 
+// Holds with 250 counts on one taxel.
+void hold(GraspBench& bench) {
+  GraspRequest request = reactive(200);
+  request.mode = GraspMode::kSlip;
+  bench.control->grasp(request);
+  bench.feel(1, 250.0F);
+  bench.feel(20, 250.0F);
+  ASSERT_EQ(bench.control->condition().condition, HandCondition::kWatched);
+}
+
+std::vector<std::string> textsOf(CaptureSession& session, const std::string& kind) {
+  std::vector<std::string> texts;
+  for (const RecordingEvent& event : session.takeEvents())
+    if (event.kind == kind) texts.push_back(event.text);
+  return texts;
+}
+
+TEST(GraspControl, AProtectionThatEndedIsToldUntilItIsAcknowledged) {
+  GraspBench bench;
+  ASSERT_NO_FATAL_FAILURE(hold(bench));
+  bench.wait(101'000);
+  EXPECT_EQ(bench.control->condition().condition, HandCondition::kNotProtected);
+  EXPECT_TRUE(bench.control->condition().sentence.starts_with("no tactile frames for 101 ms"));
+  EXPECT_EQ(bench.control->status().phase, GraspPhase::kHolding);
+  bench.control->acknowledge();  // it still goes on
+  bench.session->takeEvents();
+  bench.wait(900'000);
+  const std::string why = "no more tactile frames arrive: the hand holds, without slip detection";
+  EXPECT_EQ(bench.control->status().phase, GraspPhase::kIdle);
+  EXPECT_EQ(bench.control->status().unprotected, why);
+  EXPECT_EQ(textsOf(*bench.session, "alarm"), std::vector<std::string>{"not protected: " + why});
+  bench.feel(20, 250.0F);
+  bench.control->stop();
+  EXPECT_THROW(bench.control->grasp(reactive(100)), DeviceError);  // over the limit already
+  EXPECT_EQ(bench.control->condition(), (ExplainedCondition{HandCondition::kNotProtected, why}));
+  bench.session->takeEvents();
+  bench.control->acknowledge();
+  EXPECT_EQ(textsOf(*bench.session, "grasp"),
+            std::vector<std::string>{"acknowledged: not protected: " + why});
+  EXPECT_EQ(bench.control->condition().condition, HandCondition::kHolding);
+  bench.control->acknowledge();
+  EXPECT_TRUE(bench.session->takeEvents().empty()) << "once";
+}
+
+TEST(GraspControl, TheNextMotionAndRelaxAcknowledge) {
+  for (const bool relaxes : {false, true}) {
+    GraspBench bench;
+    ASSERT_NO_FATAL_FAILURE(hold(bench));
+    bench.hand->state.tactile.state = PortState::kLost;
+    bench.hand->state.tactile.message = "unplugged";
+    bench.wait(1);
+    ASSERT_EQ(bench.control->condition().condition, HandCondition::kNotProtected);
+    if (relaxes)
+      bench.control->relax();
+    else
+      bench.control->preshape("centrical", 10.0);
+    EXPECT_TRUE(bench.control->status().unprotected.empty());
+    EXPECT_EQ(bench.control->condition().condition,
+              relaxes ? HandCondition::kReady : HandCondition::kMoving);
+  }
+}
+
+TEST(GraspControl, ChangesTellTheConditionOfTheHand) {
+  GraspBench bench;
+  ASSERT_NO_FATAL_FAILURE(hold(bench));
+  bench.wait(150'000);
+  bench.feel(2, 250.0F);
+  bench.control->stop();
+  bench.wait(1);
+  std::vector<std::string> words;
+  for (const GraspChange& change : bench.control->takeChanges())
+    if (const std::string word(nameOf(change.condition.condition));
+        words.empty() || words.back() != word)
+      words.push_back(word);
+  EXPECT_EQ(words,
+            (std::vector<std::string>{"moving",
+                                      "holding",
+                                      "holding and watched",
+                                      "not protected",
+                                      "holding and watched",
+                                      "stopped"}));
+}
+
 TEST(GraspControl, SettingsAreRefusedWhileFingersMoveUnderTactileControl) {
   GraspBench bench;
   bench.hand->states.assign(7, 1);

@@ -1,6 +1,7 @@
 // Slip-aware grasps of the emulated hand: the held object is pulled, and must stay.
 #include <algorithm>
 
+#include "palpate/control/hand_condition.h"
 #include "palpate/core/error.h"
 #include "palpate/core/json.h"
 #include "palpate/device/sdh2.h"
@@ -190,16 +191,190 @@ TEST(SlipGrasp, EndsWhereItStands) {
     EXPECT_NEAR(held.hand().joints().angles()[axis], angles[axis], 1e-6);
 }
 
-TEST(SlipGrasp, ADeadStreamEndsItWithoutAMotion) {
-  HeldObject held(sceneOf("bottle"));
-  GraspRequest request = slipAware("cylindrical", 400);
-  request.velocityDegPerS = 8.0;
-  held.begin(request);
-  ASSERT_TRUE(held.run(8.0, [&] { return held.machine().phase() == GraspPhase::kHolding; }));
-  held.machine().onTime(held.us() + 200'000);
-  EXPECT_FALSE(held.machine().active());
-  EXPECT_EQ(held.machine().takeReport()->outcome, GraspOutcome::kStreamLost);
-  EXPECT_FALSE(held.machine().takeCommand().has_value());
+// A pad of 3 x 3 taxels on one matrix, held by a slip-aware grasp.
+struct HeldPad : testing::MachineBench {
+  static constexpr std::int64_t kCycleUs = 5'000;
+  int column = 1;
+  std::vector<std::string> actions;
+
+  explicit HeldPad(const HoldingOptions& holding = {}) {
+    GraspRequest request = slipAware("centrical", 200);
+    request.holding = holding;
+    begin(request);
+    take();
+    pad();
+    EXPECT_TRUE(takeStop());
+    machine.onStopAcknowledged(us);
+    for (int i = 0; i < 20; ++i) pad();
+    EXPECT_EQ(machine.phase(), GraspPhase::kHolding);
+    actions.clear();
+  }
+  void pad(std::int64_t afterUs = testing::kPeriodUs) {
+    us += afterUs;
+    TactileFrame felt(sdh2().layout);
+    felt.hostUs = 1'700'000'000'000'000 + us;
+    felt.matrix(1).block(3, column, 3, 3).setConstant(250.0F);
+    machine.onFrame(felt, us);
+    machine.onTime(us);
+    note();
+  }
+  // The time goes on without a frame.
+  void silence(std::int64_t lastsUs) {
+    for (const std::int64_t endUs = us + lastsUs; us < endUs;) {
+      us = std::min(us + kCycleUs, endUs);
+      machine.onTime(us);
+      note();
+    }
+  }
+  void note() {
+    for (const GraspStep& note : machine.takeNotes()) actions.push_back(note.action);
+  }
+  bool commands() { return machine.takeCommand().has_value(); }
+};
+
+using Actions = std::vector<std::string>;
+
+// The stream counts as dead after 100 ms.
+TEST(SlipGrasp, AHiccupInterruptsTheWatchAndMovesNothing) {
+  for (const std::int64_t lastsUs : {105'000, 900'000, 1'000'000}) {
+    SCOPED_TRACE(lastsUs);
+    HeldPad held;
+    held.silence(100'000);
+    EXPECT_FALSE(held.machine.unwatchedUs(held.us));
+    held.silence(lastsUs - 100'000);
+    EXPECT_EQ(held.machine.unwatchedUs(held.us), lastsUs);
+    EXPECT_EQ(held.actions, Actions{"interrupted"});
+    EXPECT_EQ(held.machine.phase(), GraspPhase::kHolding);
+    held.pad(0);
+    EXPECT_FALSE(held.machine.unwatchedUs(held.us));
+    EXPECT_EQ(held.actions, (Actions{"interrupted", "watched"}));
+    for (int i = 0; i < 30; ++i) held.pad();
+    EXPECT_EQ(held.machine.phase(), GraspPhase::kHolding);
+    EXPECT_FALSE(held.commands());
+    // It is watched again.
+    ++held.column;
+    held.pad();
+    EXPECT_EQ(held.machine.phase(), GraspPhase::kClosing);
+    EXPECT_TRUE(held.commands());
+  }
+}
+
+TEST(SlipGrasp, WhatMovedInAHiccupMovesNothing) {
+  HeldPad held;
+  held.silence(300'000);
+  ++held.column;
+  held.pad(0);
+  for (int i = 0; i < 30; ++i) held.pad();
+  EXPECT_EQ(held.machine.phase(), GraspPhase::kHolding);
+  EXPECT_FALSE(held.commands());
+}
+
+TEST(SlipGrasp, TheTimeOfAHiccupIsNotOneWithoutSlip) {
+  HoldingOptions holding;
+  holding.noSlipS = 1.0;
+  holding.weightN = 1.0;  // opens after noSlipS
+  HeldPad held(holding);
+  held.silence(900'000);
+  held.pad(0);
+  for (int i = 0; i < 31; ++i) held.pad();  // 0.98 s
+  EXPECT_EQ(held.machine.phase(), GraspPhase::kHolding);
+  EXPECT_FALSE(held.commands());
+  held.pad();
+  EXPECT_EQ(held.machine.phase(), GraspPhase::kLoosening);
+}
+
+TEST(SlipGrasp, HiccupsInARowAreEachCounted) {
+  HeldPad held;
+  Actions each;
+  // So many that the usual period of the stream becomes 900 ms.
+  for (int i = 0; i < 20; ++i) {
+    held.silence(900'000);
+    EXPECT_TRUE(held.machine.unwatchedUs(held.us)) << i;
+    held.pad(0);
+    each.insert(each.end(), {"interrupted", "watched"});
+  }
+  EXPECT_EQ(held.actions, each);
+  EXPECT_EQ(held.machine.phase(), GraspPhase::kHolding);
+  EXPECT_FALSE(held.commands());
+}
+
+TEST(SlipGrasp, ASilenceOfASecondEndsItWithoutAMotion) {
+  HeldPad held;
+  held.silence(1'000'000);
+  EXPECT_TRUE(held.machine.active());
+  held.silence(100'000);
+  EXPECT_FALSE(held.machine.active());
+  const auto report = held.machine.takeReport();
+  ASSERT_TRUE(report);
+  EXPECT_EQ(report->outcome, GraspOutcome::kStreamLost);
+  EXPECT_TRUE(protectionEnded(*report));
+  held.pad(0);
+  EXPECT_EQ(held.actions, Actions{"interrupted"});
+  EXPECT_FALSE(held.machine.active()) << "it is not held again by itself";
+  EXPECT_FALSE(held.commands());
+}
+
+// The process itself stood still: only the frames tell of the silence.
+TEST(SlipGrasp, ASilenceThatIsFoundAfterwardsCountsAsWell) {
+  HeldPad held;
+  held.pad(900'000);
+  EXPECT_EQ(held.actions, (Actions{"interrupted", "watched"}));
+  EXPECT_TRUE(held.machine.active());
+  held.pad(1'100'000);
+  EXPECT_FALSE(held.machine.active());
+  EXPECT_EQ(held.machine.takeReport()->outcome, GraspOutcome::kStreamLost);
+  EXPECT_FALSE(held.commands());
+}
+
+TEST(SlipGrasp, AStopInAHiccupEndsIt) {
+  HeldPad held;
+  held.silence(300'000);
+  held.machine.stop(held.us);
+  EXPECT_FALSE(held.machine.unwatchedUs(held.us));
+  EXPECT_TRUE(held.takeStop());
+  held.machine.onStopAcknowledged(held.us);
+  const auto report = held.machine.takeReport();
+  ASSERT_TRUE(report);
+  EXPECT_EQ(report->outcome, GraspOutcome::kStopped);
+  EXPECT_FALSE(protectionEnded(*report));
+  for (int i = 0; i < 10; ++i) held.pad();
+  EXPECT_EQ(held.actions, Actions{"interrupted"});
+  EXPECT_FALSE(held.machine.active());
+  EXPECT_FALSE(held.commands());
+}
+
+TEST(SlipGrasp, AnUnpluggedTactilePortEndsItInAHiccup) {
+  HeldPad held;
+  held.silence(300'000);
+  held.machine.onTactilePortGone("unplugged", held.us);
+  const auto report = held.machine.takeReport();
+  ASSERT_TRUE(report);
+  EXPECT_EQ(report->outcome, GraspOutcome::kStreamLost);
+  held.pad(0);
+  EXPECT_FALSE(held.machine.active());
+  EXPECT_FALSE(held.commands());
+}
+
+TEST(SlipGrasp, AHiccupWhileItSettlesIsToldAndTheReferencesComeAfterIt) {
+  HoldingOptions holding;
+  holding.settleS = 0.5;
+  HeldPad held(holding);
+  ++held.column;
+  held.pad();  // slips
+  held.take();
+  held.pad();
+  for (int i = 0; i < 3 && !held.takeStop(); ++i) held.frames(1, 3000.0F);
+  held.machine.onStopAcknowledged(held.us);
+  ASSERT_EQ(held.machine.phase(), GraspPhase::kSettling);
+  held.actions.clear();
+  held.silence(300'000);
+  EXPECT_EQ(held.machine.unwatchedUs(held.us), 300'000);
+  EXPECT_EQ(held.machine.phase(), GraspPhase::kSettling) << "no frame gives a reference";
+  held.pad(0);
+  held.pad();
+  EXPECT_EQ(held.machine.phase(), GraspPhase::kHolding);
+  EXPECT_EQ(held.actions, (Actions{"interrupted", "watched"}));
+  EXPECT_FALSE(held.commands());
 }
 
 TEST(SlipGrasp, HoldsForAsLongAsItWasAsked) {

@@ -4,7 +4,9 @@
 #include <cmath>
 #include <cstdio>
 #include <memory>
+#include <optional>
 #include <string>
+#include <utility>
 
 #include "palpate/calibration/calibration.h"
 #include "palpate/capture/capture_session.h"
@@ -232,14 +234,27 @@ void showState(const StateLines& lines, std::string_view state, const std::strin
   lines.show(state, text.starts_with(begin) ? text.substr(begin.size()) : text);
 }
 
+// Shows the condition of the hand when it is another one, before the line that tells why: the last
+// line is how the grasp ended.
+void showHand(const StateLines& lines,
+              const ExplainedCondition& now,
+              std::optional<HandCondition>& shown) {
+  if (std::exchange(shown, now.condition) == now.condition) return;
+  const bool bad =
+      now.condition == HandCondition::kNotProtected || now.condition == HandCondition::kGone;
+  lines.show("hand", std::string(nameOf(now.condition)) + (bad ? ": " + now.sentence : ""));
+}
+
 GraspReport follow(GraspControl& control, const StateLines& lines, Interruption& interruption) {
   std::int64_t nextNoticeUs = 0;
+  std::optional<HandCondition> shown = HandCondition::kReady;
   while (true) {
     if (interruption.waitForSignal(kGraspLookMs)) {
       control.stop();
       nextNoticeUs = 0;
     }
     for (const GraspChange& change : control.takeChanges()) {
+      showHand(lines, change.condition, shown);
       if (change.report) {
         showState(lines, nameOf(change.report->outcome), change.text);
         return *change.report;
@@ -307,7 +322,9 @@ int runSequence(const MotionSequence& sequence,
                 Interruption& interruption) {
   SequenceRun run(control);
   run.begin(sequence, session.device().hand(), session.nowUs());
+  std::optional<HandCondition> hand = HandCondition::kReady;
   for (std::string shown; run.running(); run.step(session.nowUs())) {
+    for (const GraspChange& change : control.takeChanges()) showHand(lines, change.condition, hand);
     if (shown != run.status().text) lines.show("sequence", shown = run.status().text);
     if (interruption.waitForSignal(kGraspLookMs)) control.stop();
   }

@@ -24,6 +24,7 @@
 #include <palpate/control/grasp_approach.h>
 #include <palpate/control/grasp_request.h>
 #include <palpate/control/grasp_state_machine.h>
+#include <palpate/control/hand_condition.h>
 #include <palpate/core/time.h>
 
 namespace palpate {
@@ -31,12 +32,20 @@ namespace palpate {
 struct GraspStatus {
   GraspPhase phase = GraspPhase::kIdle;
   std::optional<GraspRequest> request;  // the running grasp
+  std::optional<GraspReport> running;   // what is known of it until now
   // While a slip-aware grasp holds: for how long, how many slips were answered, its limit, and how
   // far the reading is above it. One line.
   std::string holding;
   // The friction that the running grasp has measured; empty: none yet.
   std::optional<double> friction;
+  // While a slip-aware grasp holds and the tactile stream is silent: time without a frame [ms].
+  std::optional<double> unwatchedMs;
   std::optional<GraspReport> last;  // the grasp that ended last, including a refused one
+  // The grasp that ended last and was not refused.
+  std::optional<GraspReport> lastMotion;
+  // How the grasp ended whose protection ended with it (protectionEnded()), one line; empty once
+  // that was acknowledged, and without one.
+  std::string unprotected;
   // Reason why no motion can begin, one line; empty when one can begin.
   std::string cannotMove;
   // Report of the grasp during which the motion port disappeared. Kept until the port is back, even
@@ -71,6 +80,7 @@ struct GraspChange {
   // One line: "closing", "limit reached: finger 0 distal, x 2, y 3: 231 counts".
   std::string text;
   std::optional<GraspReport> report;
+  ExplainedCondition condition = {};  // of the hand, since this change
 };
 
 // Every function may be called from any thread, and none waits for the hand.
@@ -106,6 +116,9 @@ class GraspControl {
   // While stops are sent to a controller that doesn't answer, the motors are switched off once one
   // is answered; otherwise an event "alarm" says that they were not.
   void relax() noexcept;
+  // The user has seen that a protection ended (GraspStatus::unprotected). The next motion and
+  // relax() acknowledge it, too; a stop doesn't.
+  void acknowledge();
   // Sets the calibration by which limits in newtons are measured; nothing: such a grasp is refused.
   // Holds from the next grasp on.
   void setCalibration(std::optional<Calibration> calibration);
@@ -120,6 +133,7 @@ class GraspControl {
   std::shared_future<CommandAnswer> change(const DeviceCommand& setting);
 
   GraspStatus status() const;
+  ExplainedCondition condition() const { return conditionOf(status()); }
   // Changes since the last call, at most the last 1000.
   std::vector<GraspChange> takeChanges();
 
@@ -139,6 +153,8 @@ class GraspControl {
   void checkLinks();
   void send();
   void report();
+  void onEnded(const GraspReport& ended);
+  GraspStatus presentStatus() const;
   void switchMotorsOff(bool isNote);
   void refused(const GraspRequest& request, const std::string& why);
   void reportPhase(GraspPhase phase,
@@ -165,6 +181,8 @@ class GraspControl {
   std::vector<std::shared_future<CommandAnswer>> settings_;
   GraspPhase reportedPhase_ = GraspPhase::kIdle;
   std::optional<GraspReport> last_;
+  std::optional<GraspReport> lastMotion_;
+  std::string unprotected_;  // see GraspStatus
   std::deque<GraspChange> changes_;
   std::optional<GraspReport> portGone_;  // see GraspStatus
   bool motorsOff_ = false;

@@ -206,7 +206,9 @@ struct GraspReport {
   // No stop was answered: whether the hand moves is not known.
   bool stateUnknown = false;
   // The following fields belong to a slip-aware grasp.
-  bool held = false;    // true once the phase "holding" was reached
+  bool held = false;  // true once the phase "holding" was reached
+  // For kFinished: it was held for HoldingOptions::holdS; the hand keeps holding.
+  bool holdTimeOver = false;
   int limitCounts = 0;  // the last limit
   // Number of slips, including those that could no longer be answered.
   int slips = 0;
@@ -224,7 +226,8 @@ RecordingEvent endEvent(const GraspReport& report);
 // A step of a slip-aware grasp while it runs; also recorded as an event "grasp".
 struct GraspStep {
   std::string action;  // "holding", "slip", "regrasp", "lower", "loosen", "friction", "at_limit",
-                       // "over_limit" (and no stop was answered), "touch" (before it was expected)
+                       // "over_limit" (and no stop was answered), "touch" (before it was expected),
+                       // "interrupted" (no frames: nothing watches), "watched" (again)
   std::string text;    // one line for the user
   std::optional<std::size_t> matrix = {};
   int limitCounts = 0;

@@ -13,6 +13,9 @@
 //
 //   closing --limit--> stopping --> settling --> holding --slips--> closing (limit raised) ..
 //                                      ^            `--told to open--> loosening --> stopping --'
+//
+// While it settles or holds, a silence of the tactile stream of up to a second interrupts the watch
+// and moves nothing: with the first frame after it the references are taken anew.
 #pragma once
 
 #include <cstdint>
@@ -128,6 +131,9 @@ class GraspStateMachine {
   // the stop, above its highest limit of 2200: close more slowly"; only of a slip-aware grasp. The
   // rise is told for as long as the reading stays that high.
   std::string holdingText(std::int64_t monoUs) const;
+  // While a slip-aware grasp settles or holds and the tactile stream is silent: time without a
+  // frame [us].
+  std::optional<std::int64_t> unwatchedUs(std::int64_t monoUs) const;
   const StreamMonitor& stream() const noexcept { return stream_; }
   const TaxelPeak& peak() const noexcept { return peak_; }  // of the newest frame
   // Joint angles as last read [deg]; empty: not known.
@@ -200,6 +206,9 @@ class GraspStateMachine {
   void onHoldingFrame(std::int64_t monoUs);
   void onLooseningFrame(std::int64_t monoUs);
   void onHoldingTime(std::int64_t monoUs);
+  void onHoldingSilence(std::int64_t silenceUs);
+  void onFramesBack(std::int64_t silenceUs, std::int64_t monoUs);
+  std::int64_t holdingDeadAtUs() const;
   void respondToSlip(const GripSlip& slip, std::int64_t monoUs);
   void loosen(const char* action, const std::string& text, std::int64_t monoUs);
   void reportFriction(const GripSlip& slip);
@@ -273,6 +282,10 @@ class GraspStateMachine {
   int answeredSlips_ = 0;        // slips after which the hand closed
   // It slipped where it can't be held harder: it isn't opened any further until it closes again.
   bool slippedAtLimit_ = false;
+  // The stream fell silent while it was held, and no frame has come since.
+  bool interrupted_ = false;
+  // As the grasp began; silences while it holds must not make a longer one usual [us].
+  std::int64_t silenceLimitUs_ = 0;
   bool frictionTestRunning_ = false;  // loosening measures friction
   bool frictionTested_ = false;       // friction was measured, or tried
   std::int64_t settledUs_ = 0;        // end of the rest or of loosening

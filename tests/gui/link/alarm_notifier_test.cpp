@@ -50,6 +50,24 @@ TEST_F(AlarmNotifierTest, TellsWhatThereIsAndWhenItIsOver) {
   EXPECT_EQ(rings_, 2) << "it was over in between";
 }
 
+TEST_F(AlarmNotifierTest, AHandThatIsNotProtectedRingsUntilThatIsAcknowledged) {
+  QSignalSpy changed(&bell_, &AlarmNotifier::changed);
+  bell_.updateAlarms({kDisk}, 0);
+  bell_.updateAlarms({kDisk}, kSecondUs, "not protected: no frames");
+  EXPECT_EQ(rings_, 2);
+  EXPECT_EQ(changed.back()[0].toStringList(),
+            QStringList({"not protected: no frames", "the disk is nearly full"}));
+  bell_.updateAlarms({}, 2 * kSecondUs, "not protected: no frames");
+  EXPECT_EQ(rings_, 2);
+  bell_.updateAlarms({}, 11 * kSecondUs, "not protected: no frames");
+  EXPECT_EQ(rings_, 3) << "ten seconds after it was heard last";
+  bell_.updateAlarms({}, 30 * kSecondUs);
+  EXPECT_EQ(rings_, 3);
+  EXPECT_TRUE(changed.back()[0].toStringList().isEmpty());
+  bell_.updateAlarms({}, 31 * kSecondUs, "not protected: no frames");
+  EXPECT_EQ(rings_, 4);
+}
+
 TEST_F(AlarmNotifierTest, MutedItIsSeenOnly) {
   const QSignalSpy raised(&bell_, &AlarmNotifier::raised);
   bell_.setMuted(true);

@@ -187,7 +187,12 @@ TEST_F(OtherProgramsTest, ARecordingFromOutsideIsTheWindowsOwn) {
   switchRemoteOn();
   EXPECT_EQ(error("start a"), "no_hand");
   EXPECT_EQ(ask("status").at("state").asString(), "idle");
+  EXPECT_TRUE(ask("status").at("hand").isNull());
   connectEmulated();
+  ASSERT_TRUE(await([&] { return live().source()->control->status().cannotMove.empty(); }));
+  const Json ready = ask("status");
+  EXPECT_EQ(ready.at("hand").asString(), "ready");
+  EXPECT_EQ(ready.at("hand_text").asString(), "a motion can begin");
   ask("set object foam ball");
   const Json started = ask("start run 7");
   ASSERT_TRUE(started.at("ok").asBool()) << started.text();

@@ -342,6 +342,7 @@ void HandDock::setHand(CaptureSession* session, GraspControl* control) {
   judged_.reset();
   layout_.reset();
   goneUs_.reset();
+  toldCondition_.reset();
   queue_ = session ? session->subscribe("the dock Hand", smallFeed()) : nullptr;
   const QString whyNot = isReadOnly() ? kReadOnlyTip : "No hand is connected";
   grasp_->setControl(control, whyNot);
@@ -393,6 +394,8 @@ void HandDock::updateHand() {
 
 void HandDock::refresh() {
   if (control_) sequence_->refresh(control_->status());
+  // Before the status, which is newer.
+  const auto changes = control_ ? control_->takeChanges() : std::vector<GraspChange>();
   const GraspStatus status = control_ ? control_->status() : GraspStatus{};
   // While a step of a sequence rests, the hand is not free for another motion.
   GraspStatus offered = status;
@@ -418,7 +421,29 @@ void HandDock::refresh() {
     answeredButton_ = nullptr;
   }
   showState(status);
+  showCondition(status, changes);
   showBound();
+}
+
+void HandDock::acknowledge() {
+  if (control_) control_->acknowledge();
+  refresh();
+}
+
+void HandDock::showCondition(const GraspStatus& status, const std::vector<GraspChange>& changes) {
+  emit unacknowledged(!status.unprotected.empty());
+  if (!control_ || (!toldCondition_ && !status.cannotMove.empty()))
+    return emit conditionShown(std::nullopt);
+  const ExplainedCondition now = conditionOf(status);
+  const auto tell = [this](const ExplainedCondition& condition) {
+    if (toldCondition_ == condition.condition) return;
+    toldCondition_ = condition.condition;
+    emit conditionChanged(condition);
+  };
+  // A change that lasts shorter than a refresh is told, too.
+  for (const GraspChange& change : changes) tell(change.condition);
+  tell(now);
+  emit conditionShown(now);
 }
 
 void HandDock::bind(const HandActions& actions) {
@@ -546,10 +571,19 @@ void HandDock::showState(const GraspStatus& status) {
   if (status.phase != GraspPhase::kIdle) {
     // Without a request, the phase is only the end of a motion.
     if (status.request) said_.clear();
+    if (const ExplainedCondition now = conditionOf(status);
+        now.condition == HandCondition::kNotProtected)
+      return say("Not protected: " + QString::fromStdString(now.sentence), true);
     return say(withFriction(phaseText(status), status), false);
   }
   if (!status.cannotMove.empty())
     return say(motionBlockedReason(status), true, QString::fromStdString(status.cannotMove));
+  if (!status.unprotected.empty()) {
+    const QString text = QString::fromStdString(status.unprotected);
+    if (std::exchange(explainedEndUs_, status.lastMotion->endUs) != status.lastMotion->endUs)
+      emit explained(text);
+    return say("Not protected: " + text + (said_.isEmpty() ? "" : "\n" + said_), true);
+  }
   if (!said_.isEmpty()) return say(said_, true);
   if (const QString own = ownMotion(); !own.isEmpty())
     return say("The emulated hand acts by itself, as its scene says: " + own +
@@ -632,7 +666,7 @@ std::optional<QString> HandDock::lastGraspText(const GraspReport& report,
     return "Ready. The motion port was disconnected, and is back.";
   if (report.outcome == GraspOutcome::kRefused && report.endUs == refusedUs_ && limitMeasurable_)
     return "Ready. The last grasp was refused: its limit couldn't be measured; now it can.";
-  if (report.outcome == GraspOutcome::kStreamLost && status.cannotReact.empty())
+  if (report.outcome == GraspOutcome::kStreamLost && !report.held && status.cannotReact.empty())
     return "Ready. The last grasp was stopped: no tactile frames arrived; they arrive again.";
   return std::nullopt;
 }

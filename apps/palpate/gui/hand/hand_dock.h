@@ -73,6 +73,8 @@ class HandDock : public QWidget {
   // What the connected hand does by itself, as HandModel::ownMotion(); empty: it moves on orders
   // only.
   std::function<QString()> ownMotion;
+  // The user has seen that a protection ended.
+  void acknowledge();
   // The key of a bound action was pressed that can't begin now: says why.
   void answerKey(const QAction* action);
   // Call this when another calibration was applied, or was read.
@@ -92,6 +94,13 @@ class HandDock : public QWidget {
   void reachedChanged(bool reached);
   // What the hand does, or why it can't; `bad`: it needs attention.
   void stateShown(const QString& text, bool bad);
+  // The condition of the connected hand now; nothing: none is connected that can be moved, or it
+  // has not answered yet.
+  void conditionShown(const std::optional<ExplainedCondition>& condition);
+  // Another word became true, in the order in which that happened.
+  void conditionChanged(const ExplainedCondition& condition);
+  // Whether there is something that acknowledge() acknowledges.
+  void unacknowledged(bool on);
   // A motion was refused, or has ended by itself in another way than asked for: why. Once for each.
   void explained(const QString& why);
   // Why matrices cannot detect the chosen limit: one text for each matrix, empty when it can; an
@@ -120,6 +129,7 @@ class HandDock : public QWidget {
   // The texts that belong to what was pressed before.
   void clearAnswers();
   void showState(const GraspStatus& status);
+  void showCondition(const GraspStatus& status, const std::vector<GraspChange>& changes);
   void showBound();
   void followRefusal(const GraspStatus& status, const std::vector<MatrixSettings>& settings);
   void showUnmeasurable(const std::vector<MatrixSettings>& settings);
@@ -162,6 +172,8 @@ class HandDock : public QWidget {
   FactsView* temperatures_;
   StopKey* stopKey_;
   bool inSight_ = true;
+  // Of the connected hand, once it could be moved: the condition that was told last.
+  std::optional<HandCondition> toldCondition_;
   QTimer timer_;
   // When the motion port was last missing [us since 1970].
   std::optional<std::int64_t> goneUs_;

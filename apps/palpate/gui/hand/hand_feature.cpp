@@ -22,6 +22,9 @@ HandActions::HandActions(ActionRegistry& book) {
   openHand->setProperty(kRefusalProperty, "Can't open the hand");
   relaxHand->setProperty(kRefusalProperty, "Can't relax the hand");
   stopHand = book.make("stopHand", "Hand", "&Stop the hand (Esc)");
+  acknowledgeHand = book.make("acknowledgeHand", "Hand", "Acknow&ledge");
+  acknowledgeHand->setToolTip("The hand is not protected, and you have seen it");
+  acknowledgeHand->setEnabled(false);
 }
 
 HandFeature::HandFeature(WindowState& windowState, QWidget* window)
@@ -45,6 +48,17 @@ HandFeature::HandFeature(WindowState& windowState, QWidget* window)
   windowState.handCommands.stop = actions_.stopHand;
   windowState.handCommands.motions = motions;
   connect(panel_, &HandDock::stateShown, &windowState.handCommands, &HandCommands::setHandState);
+  connect(panel_, &HandDock::unacknowledged, actions_.acknowledgeHand, &QAction::setEnabled);
+  connect(
+      panel_, &HandDock::conditionShown, &windowState.handCommands, &HandCommands::setCondition);
+  connect(panel_, &HandDock::conditionChanged, this, [&windowState](const ExplainedCondition& now) {
+    const std::string line = "hand: " + std::string(nameOf(now.condition)) + ": " + now.sentence;
+    const bool bad =
+        now.condition == HandCondition::kNotProtected || now.condition == HandCondition::kGone;
+    windowState.log.add(bad ? LogLine::Severity::kWarning : LogLine::Severity::kInfo,
+                        QString::fromStdString(line));
+  });
+  on(actions_.acknowledgeHand, [this] { panel_->acknowledge(); });
   connect(panel_, &HandDock::explained, this, [this, &windowState](const QString& why) {
     if (!panel_->isVisible()) windowState.messages.flash(why);
   });

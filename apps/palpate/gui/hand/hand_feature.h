@@ -22,6 +22,8 @@ struct HandActions {
   QAction* relaxHand = nullptr;
   // Esc does the same, whichever window has the keyboard focus.
   QAction* stopHand = nullptr;
+  // Enabled while a protection has ended that nobody has acknowledged.
+  QAction* acknowledgeHand = nullptr;
 };
 
 class HandDock;

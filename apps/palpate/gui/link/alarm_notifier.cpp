@@ -1,13 +1,16 @@
 #include "gui/link/alarm_notifier.h"
 
 #include <QApplication>
+#include <utility>
 
 namespace palpate::gui {
 
 AlarmNotifier::AlarmNotifier(QObject* parent)
     : QObject(parent), playSound([] { QApplication::beep(); }) {}
 
-void AlarmNotifier::updateAlarms(const std::vector<Alarm>& alarms, std::int64_t monoUs) {
+void AlarmNotifier::updateAlarms(const std::vector<Alarm>& alarms,
+                                 std::int64_t monoUs,
+                                 const QString& hand) {
   std::set<AlarmKind> now;
   QStringList texts;
   bool isNew = false;
@@ -18,7 +21,12 @@ void AlarmNotifier::updateAlarms(const std::vector<Alarm>& alarms, std::int64_t 
     isNew = true;
     emit raised(texts.back());
   }
-  if (isNew || (!now.empty() && monoUs - lastUs_ >= kAgainUs)) {
+  if (!hand.isEmpty()) texts.prepend(hand);
+  if (std::exchange(hand_, hand) != hand && !hand.isEmpty()) {
+    isNew = true;
+    emit raised(hand);
+  }
+  if (isNew || (!texts.isEmpty() && monoUs - lastUs_ >= kAgainUs)) {
     lastUs_ = monoUs;
     if (!muted_) playSound();
   }

@@ -1,4 +1,5 @@
-// Sounds the alarms of the link: once when an alarm appears, and every ten seconds while one lasts.
+// Sounds the alarms of the link and of the hand: once when an alarm appears, and every ten seconds
+// while one lasts.
 #pragma once
 
 #include <QObject>
@@ -18,8 +19,11 @@ class AlarmNotifier : public QObject {
   static constexpr std::int64_t kAgainUs = 10'000'000;
 
   explicit AlarmNotifier(QObject* parent = nullptr);
-  // Sets the present alarms; `monoUs`: monotonic time [us].
-  void updateAlarms(const std::vector<Alarm>& alarms, std::int64_t monoUs);
+  // Sets the present alarms; `monoUs`: monotonic time [us]; `hand`: why the hand is not protected,
+  // one line; empty: it is, or that was acknowledged.
+  void updateAlarms(const std::vector<Alarm>& alarms,
+                    std::int64_t monoUs,
+                    const QString& hand = {});
   void setMuted(bool muted) { muted_ = muted; }
   bool muted() const noexcept { return muted_; }
   // Plays the sound: the desktop's bell; tests replace it.
@@ -33,6 +37,7 @@ class AlarmNotifier : public QObject {
 
  private:
   std::set<AlarmKind> activeAlarms_;
+  QString hand_;
   QStringList texts_;
   std::int64_t lastUs_ = 0;
   bool muted_ = false;

@@ -25,6 +25,12 @@ namespace {
 
 constexpr const char* kMutedKey = "alarms/muted";
 
+QString handAlarm(const LiveSource& source) {
+  if (!source.control) return {};
+  const std::string why = source.control->status().unprotected;
+  return why.empty() ? QString() : "not protected: " + QString::fromStdString(why);
+}
+
 }  // namespace
 
 LinkFeature::LinkFeature(WindowState& windowState, QWidget* window)
@@ -129,7 +135,8 @@ void LinkFeature::look() {
   if (!source) return;
   const LinkHealth& health = live.health();
   alarmNotifier_.updateAlarms(source->finished() ? std::vector<Alarm>() : health.alarms,
-                              systemClock().monotonicUs());
+                              systemClock().monotonicUs(),
+                              handAlarm(*source));
   const StreamDevice* stream = source->streamDevice();
   panel_->showHealth(health, live.preflight(), stream ? factsOf(*stream) : std::vector<Fact>());
   if (stream && !noticeLogged_ && !stream->notice().empty()) {

@@ -158,6 +158,12 @@ RemoteAnswer RemoteController::status() const {
                                          : "recording");
   answer.fields.set("source",
                     connected ? Json(describe(live_.connection()).toStdString()) : Json());
+  const LiveSource* source = live_.source();
+  std::optional<ExplainedCondition> condition;
+  if (source && source->control && source->session->device().status().motion)
+    condition = source->control->condition();
+  answer.fields.set("hand", condition ? Json(nameOf(condition->condition)) : Json())
+      .set("hand_text", condition ? Json(condition->sentence) : Json());
   if (live_.recording()) setRecorderFields(answer.fields, health.recorder);
   setLinkFields(answer.fields, health);
   return answer;

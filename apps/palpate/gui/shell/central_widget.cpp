@@ -1,5 +1,6 @@
 #include "gui/shell/central_widget.h"
 
+#include <QPainter>
 #include <algorithm>
 
 #include "gui/appearance/settings_file.h"
@@ -8,6 +9,7 @@
 namespace palpate::gui {
 namespace {
 
+constexpr int kViewsBorder = 2;  // [px]
 constexpr const char* kViewsKey = "window/views";
 
 QVBoxLayout* centreColumn(QWidget* parent) {
@@ -19,20 +21,46 @@ QVBoxLayout* centreColumn(QWidget* parent) {
 
 }  // namespace
 
+// What is shown of a source.
+class CentralWidget::BorderedPage : public QWidget {
+ public:
+  using QWidget::QWidget;
+  void setBorder(const QColor& color) {
+    if (color == color_) return;
+    color_ = color;
+    const int width = color.isValid() ? kViewsBorder : 0;
+    layout()->setContentsMargins(width, width, width, width);
+    update(QRegion(rect()).subtracted(
+        rect().adjusted(kViewsBorder, kViewsBorder, -kViewsBorder, -kViewsBorder)));
+  }
+
+ protected:
+  void paintEvent(QPaintEvent*) override {
+    if (!color_.isValid()) return;
+    QPainter painter(this);
+    painter.setClipRegion(QRegion(rect()).subtracted(
+        rect().adjusted(kViewsBorder, kViewsBorder, -kViewsBorder, -kViewsBorder)));
+    painter.fillRect(rect(), color_);
+  }
+
+ private:
+  QColor color_;
+};
+
 CentralWidget::CentralWidget(QSettings& settings, QWidget* parent)
     : QWidget(parent), settings_(settings) {
   lines_ = centreColumn(this);
   pages_ = new FittingPages(this);
-  auto* page = new QWidget(pages_);
-  column_ = centreColumn(page);
-  work_ = new FittingPages(page);
+  page_ = new BorderedPage(pages_);
+  column_ = centreColumn(page_);
+  work_ = new FittingPages(page_);
   views_ = new ViewSplitter(work_);
   views_->setObjectName("views");
   // When the window is closed, a view may be hidden.
   connect(views_, &QSplitter::splitterMoved, this, &CentralWidget::remember);
   work_->addWidget(views_);
   column_->addWidget(work_, 1);
-  pages_->addWidget(page);
+  pages_->addWidget(page_);
 }
 
 void CentralWidget::add(const CentralViewSpec& offer) {
@@ -75,6 +103,8 @@ void CentralWidget::setPlace(DisplayedSource::Kind place) {
 }
 
 void CentralWidget::setComparing(bool on) { work_->setCurrentIndex(on ? 1 : 0); }
+
+void CentralWidget::setBorder(const QColor& color) { page_->setBorder(color); }
 
 void CentralWidget::remember() { storeParts(*views_, settings_, kViewsKey); }
 

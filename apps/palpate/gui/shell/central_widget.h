@@ -2,6 +2,7 @@
 // displayed source with the playback bar.
 #pragma once
 
+#include <QColor>
 #include <QSettings>
 #include <QStackedWidget>
 #include <QVBoxLayout>
@@ -28,6 +29,8 @@ class CentralWidget : public QWidget {
 
   void setPlace(DisplayedSource::Kind place);
   void setComparing(bool on);
+  // The colour of the border around views and comparison; an invalid one: no border.
+  void setBorder(const QColor& color);
   void remember();
   // The width at which the views fit side by side [px].
   int comfortableWidth() const { return views_->widthSideBySide(); }
@@ -35,7 +38,9 @@ class CentralWidget : public QWidget {
  private:
   QSettings& settings_;
   QVBoxLayout* lines_;
-  // Start page, or work_.
+  class BorderedPage;
+  BorderedPage* page_;
+  // Start page, or page_.
   QStackedWidget* pages_;
   // Views, or the comparison of two recordings.
   QStackedWidget* work_;

@@ -7,6 +7,7 @@
 #include <QTimer>
 #include <algorithm>
 
+#include "gui/appearance/condition_color.h"
 #include "gui/appearance/settings_file.h"
 #include "gui/appearance/text_size.h"
 #include "gui/desktop/application.h"
@@ -78,6 +79,8 @@ MainWindow::MainWindow(const WindowEnvironment& environment)
   connectPlace();
   connectActions();
   connectMessages();
+  connect(
+      &windowState_->handCommands, &HandCommands::conditionChanged, this, &MainWindow::showBorder);
   addFeatures();
   const auto* greyed = new GreyedKeys(windowState_->actions.all(), &whyGreyed, this, this);
   connect(greyed, &GreyedKeys::refused, &windowState_->messages, &Messages::flash);
@@ -144,6 +147,7 @@ void MainWindow::connectPlace() {
     centre_->setPlace(displayed.kind());
     docks_->setPlace(displayed.kind());
     menus_->setPlaybackShown(!displayed.isLive());
+    fitMenus();
   });
   connect(&displayed, &DisplayedSource::shown, this, &MainWindow::showTitle);
   connect(&windowState_->events, &EventController::changed, this, &MainWindow::showTitle);
@@ -227,6 +231,15 @@ void MainWindow::showTheme() {
   windowState_->actions.setTheme(theme);
   banner_->setTheme(theme);
   docks_->setTheme(theme);
+  showBorder();
+}
+
+void MainWindow::showBorder() {
+  fitMenus();
+  const auto& condition = windowState_->handCommands.condition();
+  centre_->setBorder(condition
+                         ? conditionColor(condition->condition, windowState_->appearance.theme())
+                         : QColor());
 }
 
 void MainWindow::setFullScreen(bool on) {
@@ -309,7 +322,9 @@ void MainWindow::resizeEvent(QResizeEvent* event) {
 }
 
 void MainWindow::fitMenus() {
-  menus_->setCompact(width() < textScale() * kCompactBelow);
+  // Beside the buttons of a recording the chip of the hand needs its own room.
+  const int chip = windowState_->displayed.isLive() ? 0 : menus_->chipWidth();
+  menus_->setCompact(width() < textScale() * kCompactBelow + chip);
   menus_->setNarrow(width() < textScale() * kNarrowBelow);
 }
 

@@ -70,6 +70,7 @@ class MainWindow : public QMainWindow {
   void addFeatures();
   void showTitle();
   void showTheme();
+  void showBorder();
   void setFullScreen(bool on);
   void remember();
   void closeUnasked();

@@ -39,7 +39,10 @@ StatusReport::StatusReport(WindowState& windowState, StatusStrip& strip, WindowM
     reportLink();
     if (windowState_.displayed.isLive()) this->report();
   });
+  connect(
+      &windowState.handCommands, &HandCommands::conditionChanged, this, &StatusReport::reportHand);
   connect(&windowState.appearance, &ViewAppearance::themeChanged, this, [this] {
+    reportHand();
     strip_.setTheme(windowState_.appearance.theme());
   });
 }
@@ -55,6 +58,10 @@ void StatusReport::reportLink() {
                       : live.stale()     ? " · no data"
                                          : " · " + figure(live.health().frames.rateHz, 1) + " fps";
   menus_.showLink(describe(source->connection) + how, !live.stale());
+}
+
+void StatusReport::reportHand() {
+  menus_.showHand(windowState_.handCommands.condition(), windowState_.appearance.theme());
 }
 
 void StatusReport::report() {

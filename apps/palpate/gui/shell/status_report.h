@@ -1,5 +1,5 @@
-// Fills the status line, and the text beside the button Connect, with the state of the displayed
-// source.
+// Fills the status line, the text beside the button Connect and the chip of the hand, with the
+// state of the displayed source and of the connected hand.
 #pragma once
 
 #include <QObject>
@@ -21,6 +21,7 @@ class StatusReport : public QObject {
   void report();
   void reportLive();
   void reportLink();
+  void reportHand();
   QString notice() const;
   QString chosenTaxels() const;
 

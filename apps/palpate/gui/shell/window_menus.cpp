@@ -10,6 +10,7 @@
 #include <QToolBar>
 #include <QToolButton>
 
+#include "gui/shell/hand_chip.h"
 #include "gui/widgets/eliding_box.h"
 #include "gui/widgets/text_fit.h"
 #include "gui/window_state/action_registry.h"
@@ -137,7 +138,7 @@ void WindowMenus::buildMenuBar(const ActionRegistry& book, const QList<QAction*>
                     at("slipAwareGrasp"),
                     at("openHand"),
                     at("relaxHand")});
-  hand->addAction(at("stopHand"));
+  hand->addActions({at("stopHand"), at("acknowledgeHand")});
   hand->addSeparator();
   hand->addActions({at("whatIsIt"), at("showMode")});
   hand->addSeparator();
@@ -203,6 +204,9 @@ void WindowMenus::buildToolBar(const ActionRegistry& book) {
   brand->setContentsMargins(4, 0, 10, 0);
   brand_ = bar->addWidget(brand);
   addStop(*bar, at("stopHand"));
+  chip_ = new HandChip(*at("acknowledgeHand"), bar);
+  chipShown_ = bar->addWidget(chip_);
+  chipShown_->setVisible(false);
   bar->addActions({at("open"), at("exportPicture")});
   bar->addSeparator();
   menus_.connections->setToolTipsVisible(true);
@@ -316,6 +320,14 @@ void WindowMenus::showLink(const QString& text, bool good) {
   link_->style()->unpolish(link_);
   link_->style()->polish(link_);
 }
+
+void WindowMenus::showHand(const std::optional<ExplainedCondition>& condition, Theme theme) {
+  if (condition) chip_->setCondition(*condition, theme);
+  if (chipShown_->isVisible() != condition.has_value())
+    chipShown_->setVisible(condition.has_value());
+}
+
+int WindowMenus::chipWidth() const { return chipShown_->isVisible() ? chip_->width() : 0; }
 
 // While recording, the duration and size are always shown.
 void WindowMenus::styleRecord() {

@@ -4,7 +4,11 @@
 #include <QList>
 #include <QMap>
 #include <QString>
+#include <optional>
 
+#include <palpate/control/hand_condition.h>
+
+#include "gui/appearance/theme.h"
 #include "gui/window_state/menus.h"
 
 class QAction;
@@ -18,6 +22,7 @@ class QWidget;
 namespace palpate::gui {
 
 class ActionRegistry;
+class HandChip;
 
 class WindowMenus {
  public:
@@ -37,6 +42,9 @@ class WindowMenus {
   void setPlaybackShown(bool on);
   // Shows what is connected; empty: shows nothing. `good`: data arrive.
   void showLink(const QString& text, bool good);
+  int chipWidth() const;  // [px]; 0: there is no chip of a hand
+  // Shows the condition of the connected hand; nothing: no hand is connected that can be moved.
+  void showHand(const std::optional<ExplainedCondition>& condition, Theme theme);
 
  private:
   QMainWindow& window_;
@@ -45,6 +53,8 @@ class WindowMenus {
   Menus menus_;
   // Beside Connect: what is connected, in short.
   QLabel* link_ = nullptr;
+  HandChip* chip_ = nullptr;
+  QAction* chipShown_ = nullptr;
   // Red while recording.
   QToolButton* record_ = nullptr;
   QList<QToolButton*> withText_;

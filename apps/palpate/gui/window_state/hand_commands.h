@@ -11,6 +11,7 @@
 #include <string>
 
 #include <palpate/calibration/calibration.h>
+#include <palpate/control/hand_condition.h>
 
 namespace palpate::gui {
 
@@ -34,6 +35,14 @@ class HandCommands : public QObject {
   QAction* stop = nullptr;
   QList<QAction*> motions;
 
+  // The condition of the connected hand; nothing: no hand is connected that can be moved.
+  const std::optional<ExplainedCondition>& condition() const noexcept { return condition_; }
+  void setCondition(const std::optional<ExplainedCondition>& condition) {
+    if (condition == condition_) return;
+    condition_ = condition;
+    emit conditionChanged();
+  }
+
   // What the hand does, or why it can't, in the words of the dock Hand.
   const QString& handState() const noexcept { return handState_; }
   bool handStateBad() const noexcept { return handStateBad_; }
@@ -56,10 +65,12 @@ class HandCommands : public QObject {
   // High sensitivity begins or ends. With thresholds at the noise, ghost readings appear.
   void highSensitivityChanged(bool on);
   void handStateChanged();
+  void conditionChanged();
   // The key of a motion was pressed that can't begin now: one line that tells why.
   void keyRefused(const QString& why);
 
  private:
+  std::optional<ExplainedCondition> condition_;
   QString handState_;
   bool handStateBad_ = false;
 };

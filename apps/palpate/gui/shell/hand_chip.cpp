@@ -1,0 +1,71 @@
+#include "gui/shell/hand_chip.h"
+
+#include <QAction>
+#include <QToolTip>
+#include <algorithm>
+
+#include "gui/appearance/condition_color.h"
+#include "gui/widgets/text_fit.h"
+
+namespace palpate::gui {
+namespace {
+
+constexpr int kHandChipPadding = 8;  // [px] on either side
+constexpr int kHandChipHeight = 22;  // [px]
+constexpr int kSentenceMs = 15'000;  // for which a click shows it
+
+QString conditionWord(HandCondition condition) {
+  const std::string_view name = nameOf(condition);
+  return QString::fromUtf8(name.data(), static_cast<qsizetype>(name.size()));
+}
+
+}  // namespace
+
+HandChip::HandChip(QAction& acknowledge, QWidget* parent)
+    : QPushButton(parent), acknowledge_(acknowledge) {
+  setObjectName("handChip");
+  setFocusPolicy(Qt::NoFocus);  // its action is in the menu Hand
+  setMinimumHeight(kHandChipHeight);
+  fitToText(*this, [this] { fit(); });
+  connect(this, &QPushButton::clicked, this, [this] {
+    QToolTip::showText(mapToGlobal(rect().bottomLeft()), toolTip(), this, rect(), kSentenceMs);
+    acknowledge_.trigger();
+  });
+}
+
+void HandChip::fit() {
+  int widest = 0;
+  for (const HandCondition each : kAllHandConditions)
+    widest = std::max(widest, fontMetrics().horizontalAdvance(conditionWord(each)));
+  constexpr int kBorder = 1;
+  setFixedWidth(widest + 2 * (kHandChipPadding + kBorder));
+}
+
+void HandChip::setCondition(const ExplainedCondition& condition, Theme theme) {
+  const QString word = conditionWord(condition.condition);
+  if (text() != word) setText(word);
+  QString tip = "The hand is " + word + ": " + QString::fromStdString(condition.sentence) + ".";
+  if (acknowledge_.isEnabled()) tip += "\nA click acknowledges it.";
+  if (toolTip() != tip) setToolTip(tip);
+  if (styled_ && condition_ == condition.condition && theme_ == theme) return;
+  condition_ = condition.condition;
+  theme_ = theme;
+  styled_ = true;
+  style();
+}
+
+// What needs attention is filled.
+void HandChip::style() {
+  const QColor color = conditionColor(condition_, theme_);
+  const bool filled =
+      condition_ == HandCondition::kNotProtected || condition_ == HandCondition::kGone;
+  const ThemeColors& colors = colorsOf(theme_);
+  setStyleSheet(QString("#handChip { color: %1; background: %2; border: 1px solid %3; "
+                        "border-radius: 10px; padding: 2px %4px; }")
+                    .arg((filled ? colors.window : color).name(),
+                         (filled ? color : colors.panel).name(),
+                         color.name())
+                    .arg(kHandChipPadding));
+}
+
+}  // namespace palpate::gui

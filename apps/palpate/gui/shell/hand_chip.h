@@ -1,0 +1,33 @@
+// The chip in the tool bar that tells the condition of the connected hand by a word and a colour.
+// Its sentence is the tool tip; a click shows it, too, and acknowledges that a protection ended.
+#pragma once
+
+#include <QPushButton>
+
+#include <palpate/control/hand_condition.h>
+
+#include "gui/appearance/theme.h"
+
+class QAction;
+
+namespace palpate::gui {
+
+class HandChip : public QPushButton {
+  Q_OBJECT
+ public:
+  // `acknowledge`: enabled while there is something to acknowledge; must outlive this.
+  HandChip(QAction& acknowledge, QWidget* parent);
+  // The width stays the same: no button beside it moves.
+  void setCondition(const ExplainedCondition& condition, Theme theme);
+
+ private:
+  void fit();
+  void style();
+
+  QAction& acknowledge_;
+  HandCondition condition_ = HandCondition::kReady;
+  Theme theme_ = Theme::kDark;
+  bool styled_ = false;
+};
+
+}  // namespace palpate::gui

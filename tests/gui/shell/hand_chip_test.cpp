@@ -1,0 +1,156 @@
+// The chip of the hand in the window, on an emulated hand.
+#include "gui/shell/hand_chip.h"
+
+#include <QLabel>
+#include <QToolBar>
+#include <QToolTip>
+
+#include <palpate/control/grasp_control.h>
+
+#include "control/emulated_bench.h"
+#include "gui/appearance/condition_color.h"
+#include "gui/hand/hand_dock.h"
+#include "gui/testing/window_fixture.h"
+
+namespace palpate::gui::hand_chip_test {
+namespace {
+
+class HandChipTest : public WindowTest {
+ protected:
+  HandChipTest() { start(); }
+  static bool await(const std::function<bool()>& condition) {
+    return QTest::qWaitFor(condition, 20'000);
+  }
+  void connectHand(const char* scene = "ball") {
+    bench_ = std::make_unique<testing::EmulatedBench>(testing::handWith(scene));
+    Connection connection;
+    connection.kind = Connection::Kind::kPorts;
+    connection.dsaPort = QString::fromStdString(bench_->hand->dsaPort());
+    connection.sdhPort = QString::fromStdString(bench_->hand->sdhPort());
+    window().state().connectTo(connection);
+    ASSERT_TRUE(await([&] {
+      const LiveSource* source = window().state().live.source();
+      return source && source->control->status().cannotReact.empty();
+    }));
+    ASSERT_TRUE(await([&] { return chip().isVisible(); }));
+  }
+  GraspControl& control() { return *window().state().live.source()->control; }
+  HandChip& chip() { return *find<HandChip>("handChip"); }
+  bool says(const char* word) {
+    return await([&] { return chip().text() == word; });
+  }
+  QColor border() {
+    const QWidget* views = find<QWidget>("views");
+    const QImage image = window().grab().toImage();
+    // Left of the views, in the middle of their height.
+    const QPoint at = views->mapTo(&window(), QPoint(-1, views->height() / 2));
+    return image.pixelColor(at * image.devicePixelRatio());
+  }
+  bool isLogged(const QString& text) {
+    const ActivityLog& log = window().state().log;
+    for (int row = 0; row < log.rowCount(); ++row)
+      if (log.line(row).text.contains(text)) return true;
+    return false;
+  }
+  // A reactive grasp whose frames cease on the way.
+  void loseTheStream() {
+    control().grasp(testing::reactiveGrasp(3000, 5.0));
+    ASSERT_TRUE(bench_->awaitMotion());
+    bench_->hand->mute(true);
+    ASSERT_TRUE(await([&] { return !control().status().unprotected.empty(); }));
+    ASSERT_TRUE(await([&] { return control().status().phase == GraspPhase::kIdle; }));
+    ASSERT_TRUE(says("not protected"));
+    ASSERT_TRUE(await([&] { return actions().at("acknowledgeHand")->isEnabled(); }));
+    bench_->hand->mute(false);
+    ASSERT_TRUE(await([&] { return control().status().cannotReact.empty(); }));
+  }
+
+  std::unique_ptr<testing::EmulatedBench> bench_;
+};
+
+TEST_F(HandChipTest, IsThereOnlyWithAHandThatCanBeMoved) {
+  EXPECT_FALSE(chip().isVisible());
+  connectHand();
+  EXPECT_TRUE(says("ready"));
+  EXPECT_FALSE(find<QWidget>("handChip")->toolTip().isEmpty());
+  window().state().live.end();
+  EXPECT_TRUE(await([&] { return !chip().isVisible(); }));
+}
+
+// Live, and with a recording in sight while the hand is connected.
+TEST_F(HandChipTest, FitsIntoTheToolBarOfSmallWindows) {
+  connectHand();
+  for (const bool recording : {false, true}) {
+    if (recording) open({"good.dsa"});
+    for (const QSize size : {QSize(1280, 800), QSize(1366, 768), QSize(1440, 900)}) {
+      window().resize(size);
+      ASSERT_TRUE(await([&] { return window().size() == size; }));
+      for (int i = 0; i < 4; ++i) QCoreApplication::processEvents();
+      const auto* bar = find<QToolBar>("Toolbar");
+      EXPECT_TRUE(chip().isVisible()) << size.width() << ", " << recording;
+      EXPECT_TRUE(bar->rect().contains(chip().geometry()));
+      const auto* more = bar->findChild<QWidget*>("qt_toolbar_ext_button");
+      EXPECT_FALSE(more->isVisible())
+          << size.width() << ", " << recording << ": needs " << bar->sizeHint().width();
+    }
+  }
+}
+
+TEST_F(HandChipTest, FollowsTheHandInWordColourAndLogAndMovesNoButton) {
+  connectHand();
+  ASSERT_TRUE(says("ready"));
+  const int width = chip().width();
+  control().grasp(testing::reactiveGrasp(3000, 5.0));
+  ASSERT_TRUE(says("moving"));
+  EXPECT_EQ(border(), conditionColor(HandCondition::kMoving, Theme::kDark));
+  EXPECT_EQ(chip().width(), width);
+  control().stop();
+  ASSERT_TRUE(says("stopped"));
+  EXPECT_EQ(chip().width(), width);
+  EXPECT_EQ(border(), conditionColor(HandCondition::kStopped, Theme::kDark));
+  EXPECT_TRUE(isLogged("hand: moving: closing: reactive grasp"));
+  EXPECT_TRUE(isLogged("hand: stopped: stopped by the user"));
+  window().state().appearance.setTheme(ThemeChoice::kLight);
+  EXPECT_EQ(border(), conditionColor(HandCondition::kStopped, Theme::kLight));
+}
+
+TEST_F(HandChipTest, AProtectionThatEndedStaysUntilAClickOnTheChip) {
+  connectHand();
+  EXPECT_FALSE(actions().at("acknowledgeHand")->isEnabled());
+  ASSERT_NO_FATAL_FAILURE(loseTheStream());
+  EXPECT_EQ(chip().text(), "not protected") << "frames that are back take nothing away";
+  EXPECT_EQ(border(), conditionColor(HandCondition::kNotProtected, Theme::kDark));
+  EXPECT_TRUE(actions().at("acknowledgeHand")->isEnabled());
+  EXPECT_TRUE(isLogged("hand: not protected: stopped: no tactile frames"));
+  EXPECT_TRUE(await([&] { return isLogged("alarm: not protected: stopped: no tactile frames"); }));
+  EXPECT_TRUE(find<QLabel>("handState")->text().startsWith("Not protected: stopped: no tactile"));
+  // A stop is no acknowledgement.
+  control().stop();
+  QTest::mouseClick(&chip(), Qt::LeftButton);
+  ASSERT_TRUE(says("stopped"));
+  EXPECT_FALSE(actions().at("acknowledgeHand")->isEnabled());
+  EXPECT_TRUE(QToolTip::text().startsWith("The hand is not protected: stopped: no tactile frames"))
+      << QToolTip::text().toStdString();
+}
+
+TEST_F(HandChipTest, TheNextMotionAcknowledgesARefusedOneDoesNot) {
+  connectHand();
+  ASSERT_NO_FATAL_FAILURE(loseTheStream());
+  EXPECT_THROW(control().grasp(testing::reactiveGrasp(1)), std::invalid_argument);
+  find<HandDock>("")->refresh();
+  EXPECT_EQ(chip().text(), "not protected");
+  control().grasp(testing::reactiveGrasp(3000, 5.0));
+  EXPECT_TRUE(says("moving"));
+}
+
+TEST_F(HandChipTest, AHandWhosePortIsGoneIsGone) {
+  connectHand();
+  bench_->hand->unplug();
+  ASSERT_TRUE(says("gone"));
+  EXPECT_TRUE(chip().toolTip().startsWith("The hand is gone: the hand can't be moved: "));
+  bench_->hand->replug();
+  EXPECT_TRUE(says("ready"));
+}
+
+}  // namespace
+}  // namespace palpate::gui::hand_chip_test
