@@ -118,6 +118,7 @@ HandDock::HandDock(QSettings& settings, QWidget* parent) : QWidget(parent) {
         // Who typed another number than that which stays doesn't want this motion. This takes back
         // a press by the mouse; that by a key is not heard.
         refusedNumber_ += ", and nothing was started";
+        refresh();
         button->setDown(false);
         button->blockSignals(true);
         QTimer::singleShot(0, button, [button] { button->blockSignals(false); });
