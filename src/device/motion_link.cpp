@@ -156,8 +156,10 @@ void MotionLink::connect(ByteChannel& channel) {
     // The motion was left by a program that died, or by one on another port.
     prepareLastStop();
     confirmStops();
-    if (!leftMoving)
+    if (!leftMoving) {
       eventNow("motion", "stopped: the hand was moving when it was connected, watched by nobody");
+      updateStatus([&](PortStatus& status) { status.foundMovingUs = time_.nowUs(); });
+    }
   }
   answerStops();
   std::lock_guard lock(mutex_);

@@ -27,6 +27,10 @@ std::string EmulatedHand::sdhPort() const {
   return name;
 }
 
+std::string EmulatedHand::dsaSerial() const { return loop_->dsaSerial(); }
+
+std::string EmulatedHand::sdhSerial() const { return loop_->sdhSerial(); }
+
 EmulatedHandCounts EmulatedHand::counts() const { return loop_->counts(); }
 
 std::vector<SentFrame> EmulatedHand::sentFrames() const { return loop_->sentFrames(); }

@@ -24,7 +24,7 @@ constexpr int kFramesPerTurn = 16;
 constexpr std::size_t kRememberedFrames = 8192;
 constexpr double kLeastThinkUs = 2000.0, kMostThinkUs = 3000.0;
 
-EmulatedHandOptions completed(EmulatedHandOptions options) {
+EmulatedHandOptions completed(EmulatedHandOptions options, const HandModel& model) {
   const bool real = options.rate == EmulationRate::kReal;
   options.dsa.frameHz.reset();
   if (options.rate == EmulationRate::kFixed) options.dsa.frameHz = options.hz;
@@ -34,6 +34,10 @@ EmulatedHandOptions completed(EmulatedHandOptions options) {
   options.sdh.maxResponseDelayUs = real ? kMostThinkUs : 0.0;
   options.sdh.requestByteUs = real ? kSerialByteUs : 0.0;
   options.sdh.seed = options.seed;
+  options.dsa.serial =
+      options.serial.value_or(model.serial().value_or(emulatedSerial(options.seed)));
+  constexpr std::uint32_t kMotionSerials = 1'000'000;
+  options.sdh.serial = std::to_string(options.dsa.serial % kMotionSerials);
   options.sdh.checksum = !options.sdhPort.starts_with("tcp:");
   if (options.faults.bootS) options.dsa.bootS = options.sdh.bootS = *options.faults.bootS;
   return options;
@@ -45,10 +49,19 @@ double byteUs(const EmulatedHandOptions& options) {
 
 }  // namespace
 
+std::uint32_t emulatedSerial(std::uint64_t seed) {
+  // Mixes the bits as SplitMix64 does, a bijection, so that near seeds have numbers far apart.
+  std::uint64_t bits = seed + 0x9E3779B97F4A7C15;
+  bits = (bits ^ (bits >> 30)) * 0xBF58476D1CE4E5B9;
+  bits = (bits ^ (bits >> 27)) * 0x94D049BB133111EB;
+  constexpr int kOwnBits = 28;
+  return 0xE0000000 | static_cast<std::uint32_t>((bits ^ (bits >> 31)) >> (64 - kOwnBits));
+}
+
 EmulatedHand::Loop::Loop(std::unique_ptr<HandModel> model,
                          EmulatedHandOptions options,
                          FrameObserver observer)
-    : options_(completed(std::move(options))),
+    : options_(completed(std::move(options), *model)),
       observer_(std::move(observer)),
       model_(std::move(model)),
       startUs_(systemClock().monotonicUs()),

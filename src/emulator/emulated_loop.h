@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "palpate/core/file_descriptor.h"
+#include "palpate/core/number_text.h"
 #include "palpate/core/time.h"
 #include "palpate/emulator/emulated_hand.h"
 
@@ -28,6 +29,8 @@ class EmulatedHand::Loop {
   void call(std::function<void()> work);
   EmulatedHandCounts counts() const;
   std::vector<SentFrame> sentFrames() const;
+  std::string dsaSerial() const { return hexDigits(options_.dsa.serial, kSerialDigits); }
+  std::string sdhSerial() const { return options_.sdh.serial; }
 
   // To be used only within call().
   EmulatedPortChannel& dsaLane() noexcept { return dsaLane_; }
@@ -37,6 +40,7 @@ class EmulatedHand::Loop {
   void setFaults(const Faults& faults);
 
  private:
+  static constexpr int kSerialDigits = 8;
   // The end of an outage must undo exactly what its begin did, so both times are stored.
   struct ScheduledOutage {
     std::int64_t beginUs = 0, endUs = 0;

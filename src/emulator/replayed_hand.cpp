@@ -1,7 +1,10 @@
 #include "palpate/emulator/replayed_hand.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
+#include <string>
+#include <system_error>
 
 namespace palpate {
 namespace {
@@ -37,6 +40,17 @@ ReplayedHand::ReplayedHand(Profile profile)
     setting.dynamicMask.assign(description.layout->matrix(m).numCells(), 1);
     settings_.push_back(std::move(setting));
   }
+}
+
+std::optional<std::uint32_t> ReplayedHand::serial() const {
+  const std::string& text = profile_.info().serial;
+  std::uint32_t number = 0;
+  const char* end = text.data() + text.size();
+  constexpr int kHexadecimal = 16;
+  const auto [at, problem] = std::from_chars(text.data(), end, number, kHexadecimal);
+  // A .dsa of a hand whose number is not known has zeros.
+  if (problem != std::errc() || at != end || number == 0) return std::nullopt;
+  return number;
 }
 
 void ReplayedHand::advanceTo(double timeS) {

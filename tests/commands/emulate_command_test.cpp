@@ -30,6 +30,7 @@ TEST(EmulateCommand, SaysWhereItIsAndServesBothPortsUntilInterrupted) {
     const auto line = program.awaitLine("dsa=");
     ASSERT_TRUE(line) << program.err();
     EXPECT_EQ(*line, "dsa=" + tactilePort + " sdh=" + motionPort);
+    EXPECT_TRUE(program.awaitLine("serial=E")) << program.err();
     {
       LineClient tactile(tactilePort), motion(motionPort);
       tactile.send(kPush);
@@ -43,6 +44,22 @@ TEST(EmulateCommand, SaysWhereItIsAndServesBothPortsUntilInterrupted) {
     EXPECT_FALSE(fs::is_symlink(fs::symlink_status(tactilePort)));
     EXPECT_FALSE(fs::is_symlink(fs::symlink_status(motionPort)));
   }
+}
+
+// What a window keeps for a serial number is found again by whoever gives the seed.
+TEST(EmulateCommand, OnlyASeedGivesTheSameSerialNumbersAgain) {
+  const auto serialsOf = [](const std::vector<std::string>& more) {
+    std::vector<std::string> words{"emulate"};
+    words.insert(words.end(), more.begin(), more.end());
+    BackgroundProgram program(PALPATE_PROGRAM, words);
+    const auto line = program.awaitLine("serial=");
+    program.signal(SIGINT);
+    EXPECT_EQ(program.wait(), 0);
+    return line.value_or(program.err());
+  };
+  EXPECT_EQ(serialsOf({"--seed", "7"}), serialsOf({"--seed", "7"}));
+  EXPECT_NE(serialsOf({"--seed", "7"}), serialsOf({"--seed", "8"}));
+  EXPECT_NE(serialsOf({}), serialsOf({}));
 }
 
 TEST(EmulateCommand, TheHelpNamesTheScenesAndBreaksNoWord) {

@@ -73,6 +73,31 @@ TEST(GraspCommand, PlainGraspGoesToThePreshape) {
   EXPECT_TRUE(bench.log.named("stop").empty());
 }
 
+TEST(GraspCommand, SaysThatTheHandWasMovingWhenItWasConnected) {
+  EmulatedBench bench(stillHand(), {.rate = EmulationRate::kFixed, .hz = 30.0});
+  bench.hand->withModel([](HandModel& model) {
+    model.joints().setVelocities(std::vector<double>(7, 5.0));
+    model.joints().setTargets({60, 7, -7, 7, -7, 7, -7});
+    model.joints().startMotion();
+  });
+  const auto result = palpate({"grasp",
+                               "--sdh",
+                               bench.hand->sdhPort(),
+                               "--preshape",
+                               "centrical",
+                               "--close",
+                               "0",
+                               "--velocity",
+                               "83"});
+  ASSERT_EQ(result.exitCode, 0) << result.err;
+  EXPECT_EQ(statesOf(result.out), (States{"connecting", "stopped", "ready", "opening", "finished"}))
+      << result.out;
+  EXPECT_NE(
+      result.out.find("stopped: the hand was moving when it was connected, watched by nobody\n"),
+      std::string::npos)
+      << result.out;
+}
+
 TEST(GraspCommand, ReactiveGraspStopsAtTheBall) {
   EmulatedBench bench(handWith("ball"));
   const auto result = palpate({"grasp",

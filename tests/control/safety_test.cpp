@@ -251,6 +251,16 @@ TEST(Safety, AHandFoundMovingIsStopped) {
   EXPECT_TRUE(eventuallyTrue([&] { return !bench.handMoves(); }));
   EXPECT_EQ(bench.log.named("stop").size(), 1u);
   EXPECT_TRUE(bench.log.deeds().empty());
+  const auto motion = bench.session->device().status().motion;
+  ASSERT_TRUE(motion.has_value());
+  EXPECT_GT(motion->foundMovingUs, 0);
+  EXPECT_LE(motion->foundMovingUs, bench.session->nowUs());
+}
+
+TEST(Safety, AHandFoundAtRestIsNotSaidToHaveMoved) {
+  EmulatedBench bench(stillHand());
+  bench.connect();
+  EXPECT_EQ(bench.session->device().status().motion->foundMovingUs, 0);
 }
 
 TEST(Safety, ClosingTheSessionInAMotionStopsTheHand) {

@@ -57,7 +57,7 @@ TEST_P(SdhEmulated, MovesTheJointsToWhereTheyWereSent) {
   SdhController hand(*channel);
   const SdhControllerInfo facts = hand.open();
   EXPECT_EQ(facts.firmware, GetParam());
-  EXPECT_EQ(facts.serial, "48");
+  EXPECT_EQ(facts.serial, emulated.sdhSerial());
   expectNear(hand.angles(), Values(7, 0.0), 1e-3);
   const Values goal{5, -8, 7, 6.5, -5, 4, 8.25};
   hand.setPower(true);
@@ -191,10 +191,10 @@ TEST(SdhEmulatedHand, BothPortsAreToldApart) {
   EmulatedHand emulated(std::make_unique<testing::StillHand>(), options);
   const PortProbe motion = probePort(emulated.sdhPort());
   EXPECT_EQ(motion.answer, PortAnswer::kMotion) << motion.message;
-  EXPECT_EQ(motion.serial, "48");
+  EXPECT_EQ(motion.serial, emulated.sdhSerial());
   const PortProbe tactile = probePort(emulated.dsaPort());
   EXPECT_EQ(tactile.answer, PortAnswer::kTactile) << tactile.message;
-  EXPECT_EQ(tactile.serial, "1D9B0057");
+  EXPECT_EQ(tactile.serial, emulated.dsaSerial());
   EXPECT_NE(describeSwap(motion, tactile), "");
   EXPECT_EQ(describeSwap(tactile, motion), "");
 }

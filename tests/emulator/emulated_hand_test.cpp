@@ -2,8 +2,14 @@
 
 #include <algorithm>
 #include <atomic>
+#include <set>
+#include <utility>
 
+#include "palpate/core/number_text.h"
 #include "palpate/core/time.h"
+#include "palpate/emulator/replayed_hand.h"
+#include "palpate/emulator/synthetic_profile.h"
+#include "palpate/model/profile_builder.h"
 
 #include "emulator/hand_session.h"
 #include "emulator/still_hand.h"
@@ -39,7 +45,8 @@ std::string exchange(LineClient& client, const std::string& request, std::size_t
 // The vendor's sequence of section 4.1, byte by byte, over a pty at the real speed of the line.
 TEST(EmulatedHand, OpensAsTheVendorsTactileLibraryDoes) {
   const TemporaryFolder folder;
-  EmulatedHand hand(std::make_unique<StillHand>(), {.dsaPort = folder / "tactile"});
+  EmulatedHand hand(std::make_unique<StillHand>(),
+                    {.dsaPort = folder / "tactile", .serial = 0x1D9B0057});
   EXPECT_EQ(hand.dsaPort(), folder / "tactile");
   LineClient client(folder / "tactile");
   EXPECT_EQ(exchange(client, "AA AA AA 03 03 00 01 00 00 2F 6A", 10),
@@ -153,17 +160,73 @@ TEST(EmulatedHand, PullsOneFrameAtATime) {
   EXPECT_TRUE(client.receive(100ms).empty());
 }
 
+// The serial numbers that the controllers of a hand report.
+std::pair<std::string, std::string> serialsOf(const EmulatedHand& hand) {
+  LineClient motion(hand.sdhPort()), tactile(hand.dsaPort());
+  motion.send("sn\r\n");
+  tactile.send(octets("AA AA AA 01 00 00"));
+  const Octets info = tactile.receiveExactly(26);
+  std::string serial;
+  for (std::size_t i = 0; i < 4; ++i) serial += hexText({info.at(11 - i)});
+  return {serial, motion.receiveLine().value_or("")};
+}
+
+TEST(EmulatedHand, HasASerialNumberOfItsSeed) {
+  const auto hand = [](std::uint64_t seed) {
+    return std::make_unique<EmulatedHand>(std::make_unique<StillHand>(),
+                                          EmulatedHandOptions{.seed = seed});
+  };
+  const auto one = hand(1), again = hand(1), two = hand(2);
+  EXPECT_EQ(serialsOf(*one), serialsOf(*again));
+  EXPECT_NE(serialsOf(*one).first, serialsOf(*two).first);
+  EXPECT_NE(serialsOf(*one).second, serialsOf(*two).second);
+  EXPECT_EQ(serialsOf(*one), std::pair(one->dsaSerial(), "SN=" + one->sdhSerial()));
+  EXPECT_EQ(one->dsaSerial().size(), 8u);
+  EXPECT_EQ(one->dsaSerial().front(), 'E');
+  std::set<std::uint32_t> serials;
+  for (std::uint64_t seed = 0; seed < 1000; ++seed) serials.insert(emulatedSerial(seed));
+  EXPECT_EQ(serials.size(), 1000u);
+}
+
+TEST(EmulatedHand, KeepsItsSerialNumberWhenItIsUnpluggedOrSwitchedOff) {
+  EmulatedHand hand(std::make_unique<StillHand>(), fastHand());
+  const auto before = serialsOf(hand);
+  hand.unplug();
+  hand.replug();
+  EXPECT_EQ(serialsOf(hand), before);
+  hand.powerCycle(0.0);
+  EXPECT_EQ(serialsOf(hand), before);
+}
+
+TEST(EmulatedHand, ReplaysTheSerialNumberOfTheRecording) {
+  const auto serialOf = [](const std::string& recorded, std::optional<std::uint32_t> given = {}) {
+    const Profile sample = synthesize({.durationS = 2.0, .grasps = 1});
+    ProfileInfo info = sample.info();
+    info.serial = recorded;
+    ProfileBuilder builder(sample.hand());
+    builder.addFrame(sample.frame(0));
+    EmulatedHandOptions options;
+    options.serial = given;
+    return EmulatedHand(std::make_unique<ReplayedHand>(builder.finish(info)), options).dsaSerial();
+  };
+  EXPECT_EQ(serialOf("12AB34CD"), "12AB34CD");
+  EXPECT_EQ(serialOf("12AB34CD", 0xE5), "000000E5");
+  // That of a stream, of a .dsa of an unknown hand, and none.
+  for (const char* unusable : {"pad 7", "00000000", ""})
+    EXPECT_EQ(serialOf(unusable), hexDigits(emulatedSerial(1), 8)) << unusable;
+}
+
 // Section 3.4: the probe of DSA-Konqueror sends text and line end separately, and reads with 10 ms
 // between two bytes.
 TEST(EmulatedHand, AnswersTheProbeOfOtherPrograms) {
-  EmulatedHand hand(std::make_unique<StillHand>());
+  EmulatedHand hand(std::make_unique<StillHand>(), {.serial = 0x1D9B0057});
   LineClient motion(hand.sdhPort()), tactile(hand.dsaPort());
   Punctuality answers("probe_of_another_program");
   for (int i = 0; i < 10; ++i) {
     const std::int64_t askedUs = systemClock().monotonicUs();
     motion.send("sn");
     motion.send("\r\n");
-    EXPECT_EQ(motion.receiveLine(), "SN=48");
+    EXPECT_EQ(motion.receiveLine(), "SN=" + hand.sdhSerial());
     tactile.send(octets("AA AA AA 01 00 00"));
     const Octets answer = tactile.receive(1000ms);
     ASSERT_EQ(answer.size(), 26u);  // in one piece

@@ -5,9 +5,12 @@
 #include <memory>
 #include <stdexcept>
 
+#include <unistd.h>
+
 #include "palpate/core/error.h"
 #include "palpate/core/interruption.h"
 #include "palpate/core/number_text.h"
+#include "palpate/core/time.h"
 #include "palpate/emulator/default_scene.h"
 #include "palpate/emulator/emulated_hand.h"
 #include "palpate/emulator/emulated_stream.h"
@@ -66,6 +69,14 @@ EmulatedHandOptions emulateOptionsOf(const CommandLine& given) {
   return options;
 }
 
+// Without a seed, another one for each emulated hand that is started: a window that waits for one
+// of them takes no other in its place. `--seed` keeps what the window stores for a serial number.
+std::uint32_t serialOfThisProcess() {
+  constexpr int kProcessBits = 22;
+  const auto us = static_cast<std::uint64_t>(systemClock().wallUs());
+  return emulatedSerial((us << kProcessBits) ^ static_cast<std::uint64_t>(::getpid()));
+}
+
 EmulatedStreamOptions streamedOptionsOf(const CommandLine& given) {
   EmulatedStreamOptions options;
   options.where = *given.text("stream");
@@ -122,6 +133,7 @@ CommandSpec emulateSpec() {
       .purpose =
           "Runs an emulated hand: both controllers speak their protocols on two pseudo-terminals "
           "(or TCP ports of this machine). Prints one line 'dsa=PATH sdh=PATH' when it is ready, "
+          "then one 'serial=HEX sdh_serial=N' with the serial numbers of its controllers, "
           "and runs until it is interrupted (Ctrl-C). With --hand and --stream it emulates any "
           "hand, with contact physics on its surfaces, and sends packets or lines to every program "
           "that connects to a TCP port; the line is then 'stream=tcp:ADDRESS:PORT'.",
@@ -150,7 +162,10 @@ CommandSpec emulateSpec() {
             "real: a serial line at 115200 baud (default); HZ: frames per second, "
             "0.1..1000; max: as fast as the client reads. For a stream HZ, 0.1..5000 (default "
             "100), or max"},
-           {"seed", "N", "seed of noise and faults, default 1"},
+           {"seed",
+            "N",
+            "seed of noise and faults, default 1, and of the serial numbers; without it each start "
+            "has others, a replay those of its recording"},
            {"dsa-firmware", "N", "firmware of the tactile controller, default 10496 (2.9.0.0)"},
            {"sdh-firmware", "TEXT", "firmware of the motion controller, default 0.0.3.3"},
            {"force", "", "replace OUT.csv"}},
@@ -181,8 +196,9 @@ std::unique_ptr<TruthWriter> truthOf(const CommandLine& given) {
 }
 
 void emulatePorts(const CommandLine& given, Interruption& interruption) {
-  const EmulatedHandOptions options = emulateOptionsOf(given);
+  EmulatedHandOptions options = emulateOptionsOf(given);
   std::unique_ptr<HandModel> model = modelOf(given, options.seed);
+  if (!given.has("seed") && !model->serial()) options.serial = serialOfThisProcess();
   const std::unique_ptr<TruthWriter> truth = truthOf(given);
   FrameObserver observer;
   if (truth)
@@ -191,7 +207,8 @@ void emulatePorts(const CommandLine& given, Interruption& interruption) {
     };
   {
     EmulatedHand hand(std::move(model), options, observer);
-    printReady("dsa=" + hand.dsaPort() + " sdh=" + hand.sdhPort());
+    printReady("dsa=" + hand.dsaPort() + " sdh=" + hand.sdhPort() + "\nserial=" + hand.dsaSerial() +
+               " sdh_serial=" + hand.sdhSerial());
     waitForEnd(hand, interruption);
   }
   if (truth) truth->finish();

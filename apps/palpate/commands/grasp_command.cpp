@@ -385,6 +385,9 @@ int graspCommand(const Arguments& words) {
   lines.show("connecting");
   session.start();
   awaitHand(control, request, waitS, interruption);
+  // Nothing was asked for yet: what is said of the motion is that the hand moved when it was found.
+  for (const RecordingEvent& event : session.takeEvents())
+    if (event.kind == "motion") showState(lines, "stopped", event.text);
   lines.show("ready", request.keepsLimit ? describe(control.forecast(request)) : std::string());
   if (sequence) return runSequence(*sequence, session, control, lines, interruption);
   control.grasp(request);

@@ -100,6 +100,9 @@ struct PortStatus {
   // Delay of the newest frame, compared with the frame that arrived fastest [ms].
   double ageMs = 0.0;
   std::uint64_t retries = 0;  // requests sent again
+  // Host time when the hand was stopped because it moved when it was connected, watched by nobody
+  // [us since 1970]; 0: it was not. Of the motion port.
+  std::int64_t foundMovingUs = 0;
 };
 
 struct DeviceStatus {

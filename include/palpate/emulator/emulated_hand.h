@@ -44,12 +44,19 @@ struct EmulatedHandOptions {
   Faults faults = {};
   // Seed of the faults and of the response delays.
   std::uint64_t seed = 1;
-  DsaServerOptions dsa = {};  // frameHz and lineByteUs are set by `rate`
-  // `checksum` is set by the kind of port, the response delays by `rate`.
+  // Serial number of the tactile controller; that of the motion controller follows from it. Empty:
+  // that of the model, where it has one, else emulatedSerial(seed).
+  std::optional<std::uint32_t> serial = {};
+  DsaServerOptions dsa = {};  // frameHz and lineByteUs are set by `rate`, serial by `serial`
+  // `checksum` is set by the kind of port, the response delays by `rate`, serial by `serial`.
   SdhServerOptions sdh = {};
   // Called from the hand's thread with the bytes that a client sent, before they are parsed.
   ReceiveObserver received = {};
 };
+
+// The serial number of an emulated hand: the same for the same seed, others for other seeds (of
+// 2^28). Its first hexadecimal digit is E.
+std::uint32_t emulatedSerial(std::uint64_t seed);
 
 // A tactile frame as it was scanned and sent. Valid inside the call.
 struct EmulatedFrame {
@@ -111,6 +118,10 @@ class EmulatedHand {
   // Names of the ports, for a client to open.
   std::string dsaPort() const;
   std::string sdhPort() const;
+  // Serial numbers as clients show them: "E910A2DE" of the tactile controller, "181598" of the
+  // motion controller. They stay while the hand lives, also when it is unplugged.
+  std::string dsaSerial() const;
+  std::string sdhSerial() const;
 
   // The counts lag by a fraction of a millisecond behind what a client has read.
   EmulatedHandCounts counts() const;

@@ -56,6 +56,8 @@ class HandModel {
   // What the hand does by itself, without an order: "closing", "holding an object", "closed",
   // "opening", "open". Empty: it moves only on orders.
   virtual std::string_view ownMotion() const { return {}; }
+  // Serial number of the tactile controller, where a recorded hand had one.
+  virtual std::optional<std::uint32_t> serial() const { return std::nullopt; }
   // True when a replay has ended and has no more frames to scan.
   virtual bool finished() const { return false; }
   // Replay: time from the frame of the last scan() to the next frame [s], 0 before the first one.

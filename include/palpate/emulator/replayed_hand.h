@@ -28,6 +28,7 @@ class ReplayedHand final : public HandModel {
   void scan(std::span<std::uint16_t> counts) override;
   std::vector<double> temperatures() override;
   std::vector<MatrixTruth> truth() const override { return {}; }
+  std::optional<std::uint32_t> serial() const override;
   bool finished() const override { return nextFrame_ >= profile_.numFrames(); }
   std::optional<double> nextIntervalS() const override;
 

@@ -249,32 +249,70 @@ TEST_F(HandDockTest, TheRowForAllMatricesTellsThatTheyDiffer) {
   EXPECT_TRUE(await([&] { return allAre(70) && all->text() == "70"; }));
 }
 
-// 5000 became 4095 without a word.
-TEST_F(HandDockTest, AThresholdOrLimitBeyondItsRangeIsSaid) {
+TEST_F(HandDockTest, AThresholdOrLimitBeyondItsRangeIsRefusedAndSaid) {
   connectTo(stillHand());
   ASSERT_TRUE(await([&] { return find<ValueSlider>("threshold5")->value() == 300.0; }));
   type("threshold5", "5000");
-  EXPECT_TRUE(await([&] { return onTheHand()[5].thresholdCounts == 4095; }));
-  EXPECT_TRUE(await([&] {
-    return state().contains(": 5000 is out of 0 .. 4095 counts; set to 4095") &&
-           state().contains("Threshold of ");
-  })) << state().toStdString();
-  type("limit", "5000");
-  EXPECT_TRUE(state().startsWith("Limit: 5000 is out of 3 .. 3300 counts; set to 3300"))
+  EXPECT_TRUE(state().contains(": 5000 is out of 0 .. 4095 counts; 300 stays") &&
+              state().contains("Threshold of "))
       << state().toStdString();
-  // Also without Enter: the button accepts what is in the field.
+  type("limit", "5000");
+  EXPECT_TRUE(state().startsWith("Limit: 5000 is out of 3 .. 3300 counts; 200 stays"))
+      << state().toStdString();
+  // What was sent before another setting is on the hand with it.
+  type("threshold4", "444");
+  EXPECT_TRUE(await([&] { return onTheHand()[4].thresholdCounts == 444; }));
+  EXPECT_EQ(onTheHand()[5].thresholdCounts, 300);
+}
+
+// Who types 500 and presses Grasp wants no grasp at another velocity.
+TEST_F(HandDockTest, APressThatRefusesANumberMovesNothing) {
+  connectTo(stillHand());
+  ASSERT_TRUE(await([&] { return isEnabled("graspHand"); }));
   QDoubleSpinBox* velocity = find<ValueSlider>("velocity")->field();
+  QApplication::setActiveWindow(dock_.get());
+  const auto typeInVelocity = [&](const char* text) {
+    velocity->setFocus();
+    velocity->selectAll();
+    QTest::keyClicks(velocity, text);
+  };
+  const auto expectRefused = [&] {
+    EXPECT_FALSE(bench_->control->status().request.has_value());
+    EXPECT_FALSE(bench_->control->status().last.has_value());
+    EXPECT_TRUE(state().startsWith(
+        "Velocity: 500 is out of 1 .. 100 deg/s; 10 stays, and nothing was started"))
+        << state().toStdString();
+  };
+  typeInVelocity("500");
+  click("graspHand");
+  expectRefused();
+  QCoreApplication::processEvents();
+  // By its key.
+  typeInVelocity("500");
+  find<QPushButton>("graspHand")->click();
+  expectRefused();
+  QCoreApplication::processEvents();
+  // Without Enter a good number counts, and the press after a refusal is one as any other.
+  typeInVelocity("20");
+  click("graspHand");
+  ASSERT_TRUE(await([&] { return bench_->control->status().request.has_value(); }));
+  EXPECT_EQ(bench_->control->status().request->velocityDegPerS, 20.0);
+  EXPECT_FALSE(state().contains("out of")) << state().toStdString();
+  click("stopHand");
+}
+
+// Nothing that was typed is wrong for motors that are to be off.
+TEST_F(HandDockTest, RelaxIsNeverRefusedByANumber) {
+  connectTo(stillHand());
+  ASSERT_TRUE(await([&] { return isEnabled("relaxHand"); }));
+  QDoubleSpinBox* velocity = find<ValueSlider>("velocity")->field();
+  QApplication::setActiveWindow(dock_.get());
   velocity->setFocus();
   velocity->selectAll();
   QTest::keyClicks(velocity, "500");
-  ASSERT_TRUE(await([&] { return isEnabled("graspHand"); }));
-  click("graspHand");
-  ASSERT_TRUE(await([&] { return bench_->control->status().request.has_value(); }));
-  EXPECT_EQ(bench_->control->status().request->velocityDegPerS, kMaxGraspDegPerS);
-  EXPECT_TRUE(state().startsWith("Velocity: 500 is out of 1 .. 100 deg/s; set to 100"))
-      << state().toStdString();
-  click("stopHand");
-  EXPECT_FALSE(state().contains("out of")) << state().toStdString();
+  click("relaxHand");
+  EXPECT_TRUE(state().contains("500 is out of")) << state().toStdString();
+  EXPECT_TRUE(await([&] { return bench_->control->status().motorsOff; }));
 }
 
 TEST_F(HandDockTest, ASliderSendsWhenItIsLetGo) {
@@ -489,16 +527,14 @@ TEST(HandDock, ShowsTheFrictionUntilTheNextGrasp) {
             "finished, friction roughly 0.40; it holds");
 }
 
-TEST_F(HandDockTest, AnUndoneCorrectionLeavesNoMark) {
+TEST_F(HandDockTest, ARefusedNumberIsMarkedUntilTheNextOne) {
   applyTheme(*qApp, Theme::kDark);
   connectTo(stillHand());
   ASSERT_TRUE(await([&] { return find<ValueSlider>("threshold5")->value() == 300.0; }));
   const auto* line = find<ValueSlider>("threshold5")->field()->findChild<QLineEdit*>();
   type("threshold5", "5000");
-  ASSERT_TRUE(await([&] { return isEnabled("undoSettings"); }));
   EXPECT_TRUE(line->font().bold());
-  click("undoSettings");
-  ASSERT_TRUE(await([&] { return find<ValueSlider>("threshold5")->value() == 300.0; }));
+  type("threshold5", "200");
   EXPECT_FALSE(find<ValueSlider>("threshold5")->field()->font().bold());
   EXPECT_FALSE(line->font().bold());
   qApp->setStyleSheet({});
@@ -790,12 +826,51 @@ TEST_F(HandDockTest, ARefusalOfAModeGoesWithTheNextChoice) {
 
 TEST_F(HandDockTest, ChoicesAreRemembered) {
   find<QComboBox>("preshape")->setCurrentIndex(find<QComboBox>("preshape")->findData("parallel"));
-  type("velocity", "33");
   type("limit", "450");
   dock_ = std::make_unique<HandDock>(settings_);
   EXPECT_EQ(find<QComboBox>("preshape")->currentData().toString(), "parallel");
-  EXPECT_EQ(find<ValueSlider>("velocity")->value(), 33.0);
   EXPECT_EQ(find<ValueSlider>("limit")->value(), 450.0);
+}
+
+// The fast motions of one session are not those of the next one, on another hand perhaps.
+TEST_F(HandDockTest, ASessionBeginsWithTheSafeVelocity) {
+  // As earlier versions stored it.
+  settings_.setValue("grasp/velocity_deg_per_s", 60.0);
+  settings_.setValue("joints/velocity_deg_per_s", 60.0);
+  for (int session = 0; session < 2; ++session) {
+    dock_ = std::make_unique<HandDock>(settings_);
+    for (const char* velocity : {"velocity", "jointVelocity"}) {
+      EXPECT_EQ(find<ValueSlider>(velocity)->value(), 10.0) << velocity;
+      find<ValueSlider>(velocity)->field()->setValue(33.0);
+    }
+    for (const QString& key : settings_.allKeys())
+      EXPECT_FALSE(key.contains("velocity")) << key.toStdString();
+  }
+}
+
+TEST_F(HandDockTest, AHandFoundMovingIsSaidUntilTheNextMotion) {
+  bench_ = std::make_unique<testing::EmulatedBench>(stillHand());
+  bench_->hand->withModel([](HandModel& model) {
+    model.joints().setVelocities(std::vector<double>(7, 5.0));
+    model.joints().setTargets({0, 7, -7, 7, -7, 7, -7});
+    model.joints().startMotion();
+  });
+  bench_->connect();
+  dock_->setHand(bench_->session.get(), bench_->control.get());
+  const QString said =
+      "The hand was moving when it was connected, watched by nobody: it was stopped. Ready.";
+  EXPECT_TRUE(await([&] { return state() == said; })) << state().toStdString();
+  QSignalSpy shown(dock_.get(), &HandDock::stateShown);
+  dock_->refresh();
+  ASSERT_FALSE(shown.isEmpty());
+  EXPECT_TRUE(shown.back()[1].toBool()) << "it needs attention";
+  ASSERT_TRUE(await([&] { return isEnabled("openHand"); }));
+  click("openHand");
+  ASSERT_TRUE(await([&] { return bench_->control->status().request.has_value(); }));
+  click("stopHand");
+  ASSERT_TRUE(await([&] { return bench_->control->status().last.has_value(); }));
+  dock_->refresh();
+  EXPECT_FALSE(state().contains("was moving")) << state().toStdString();
 }
 
 TEST_F(HandDockTest, HighSensitivityNeedsNoiseLinesAndEndsByAHandOnTheValues) {

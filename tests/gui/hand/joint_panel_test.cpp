@@ -103,29 +103,38 @@ TEST_F(JointPanelTest, ATargetSetDuringAMotionStays) {
   EXPECT_EQ(find<ValueSlider>("targetAngle4")->value(), 50.0);
 }
 
-TEST_F(JointPanelTest, AFieldTakesNoAngleBeyondTheRange) {
+// 999 became 90, and Move would have gone there.
+TEST_F(JointPanelTest, AnAngleBeyondTheRangeIsRefusedAndArmsNothing) {
   connectAndOpen();
-  type("targetAngle1", "-300");
-  EXPECT_GE(find<ValueSlider>("targetAngle1")->value(), -90.0);
+  const double before = find<ValueSlider>("targetAngle2")->value();
+  for (const char* typed : {"999", "-300", "ninety", ""}) {
+    type("targetAngle2", typed);
+    EXPECT_EQ(find<ValueSlider>("targetAngle2")->value(), before) << typed;
+    dock_->refresh();
+    EXPECT_FALSE(isEnabled("moveJoint2")) << typed;
+    EXPECT_FALSE(isEnabled("moveJoints")) << typed;
+  }
 }
 
-// 200 became 90 without a word.
 TEST_F(JointPanelTest, AnAngleBeyondTheRangeIsSaidAndMarked) {
   connectAndOpen();
-  type("targetAngle2", "200");
   QDoubleSpinBox* field = find<ValueSlider>("targetAngle2")->field();
-  EXPECT_EQ(field->value(), 90.0);
-  EXPECT_TRUE(state().contains("finger 0 distal: 200 is out of -90 .. 90°; set to 90"))
-      << state().toStdString();
-  EXPECT_TRUE(field->property("corrected").toBool());
   type("targetAngle2", "80");
-  EXPECT_FALSE(field->property("corrected").toBool());
+  type("targetAngle2", "200");
+  EXPECT_EQ(field->value(), 80.0);
+  EXPECT_TRUE(state().contains("finger 0 distal: 200 is out of -90 .. 90°; 80.0 stays"))
+      << state().toStdString();
+  EXPECT_TRUE(field->property("refused").toBool());
+  dock_->refresh();
+  EXPECT_TRUE(isEnabled("moveJoint2")) << "as it was";
+  type("targetAngle2", "70");
+  EXPECT_FALSE(field->property("refused").toBool());
   EXPECT_FALSE(state().contains("out of")) << state().toStdString();
-  // The range's own end is no correction; nor is the second time less of one than the first.
+  // The range's own end is in it; the second time is no less refused than the first.
   type("targetAngle2", "90");
-  EXPECT_FALSE(field->property("corrected").toBool());
+  EXPECT_FALSE(field->property("refused").toBool());
   type("targetAngle2", "91");
-  EXPECT_TRUE(field->property("corrected").toBool());
+  EXPECT_TRUE(field->property("refused").toBool());
   EXPECT_TRUE(state().contains("91 is out of")) << state().toStdString();
 }
 

@@ -76,15 +76,19 @@ TEST_F(PlaybackBarTest, ATypedTimeIsSought) {
   EXPECT_FALSE(timeField().hasFocus());
 }
 
-TEST_F(PlaybackBarTest, ATypedNumberOutOfRangeIsTheNearestInRange) {
-  type(frameField(), "99");
-  EXPECT_EQ(playback().frame(), 19u);
-  EXPECT_EQ(frameField().value(), 19);
-  type(frameField(), "-5");
-  EXPECT_EQ(playback().frame(), 0u);
+// As in every number field: nearest would be a guess.
+TEST_F(PlaybackBarTest, ATypedNumberOutOfRangeIsRefused) {
+  playback().seekFrame(7);
+  for (const char* typed : {"99", "-5"}) {
+    type(frameField(), typed);
+    EXPECT_EQ(playback().frame(), 7u) << typed;
+    EXPECT_EQ(frameField().value(), 7) << typed;
+    EXPECT_TRUE(frameField().toolTip().contains("is out of 0 .. 19; 7 stays"))
+        << frameField().toolTip().toStdString();
+  }
   type(timeField(), "1e6");
-  EXPECT_EQ(playback().frame(), 19u);
-  EXPECT_EQ(timeField().text(), "0.95");
+  EXPECT_EQ(playback().frame(), 7u);
+  EXPECT_EQ(timeField().text(), "0.35");
 }
 
 TEST_F(PlaybackBarTest, ADecimalCommaIsAPoint) {

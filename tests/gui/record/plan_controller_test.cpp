@@ -170,6 +170,21 @@ TEST_F(PlanControllerTest, IsRememberedAfterARestart) {
   EXPECT_TRUE(PlanController(settings_).plan().rows().empty());
 }
 
+TEST_F(PlanControllerTest, WhetherItIsFollowedIsInDoubtInANewSessionAndWithAnotherHand) {
+  controller_.setFollowed(true);
+  EXPECT_EQ(controller_.doubt("a"), "");
+  EXPECT_EQ(controller_.doubt("b"), "") << "it was followed before there was a hand";
+  controller_.followWith("a");
+  EXPECT_EQ(controller_.doubt("a"), "");
+  EXPECT_EQ(controller_.doubt("b"), "with another hand");
+  controller_.setFollowed(true);
+  EXPECT_EQ(controller_.doubt("b"), "") << "followed anew";
+  PlanController again(settings_);
+  EXPECT_EQ(again.doubt("a"), "in an earlier session");
+  again.followWith("a");
+  EXPECT_EQ(again.doubt("a"), "");
+}
+
 TEST_F(PlanControllerTest, ATableReplacesThePlanOrChangesNothing) {
   const RecordingPlan before = controller_.plan();
   EXPECT_EQ(refusal("object,repetitions\nball,x\n,2\n"),

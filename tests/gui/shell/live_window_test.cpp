@@ -44,11 +44,12 @@ class LiveWindowTest : public WindowTest {
  protected:
   LiveWindowTest() {
     fs::create_directory_symlink(testing::dataFolder() / "scenes", folder_ / "scenes");
-    QSettings(settingsFile(), QSettings::IniFormat).setValue("grasp/velocity_deg_per_s", 40.0);
     ready();
   }
   void ready() {
     start();
+    // Not the safe velocity of a new session, with which everything takes longer.
+    find<QWidget>("velocity")->findChild<QDoubleSpinBox*>()->setValue(40.0);
     window().state().prompts.recording = [this](RecordingSettings settings, const QString&) {
       ++asked_;
       settings.folder = QString::fromStdString((folder_ / "runs").string());

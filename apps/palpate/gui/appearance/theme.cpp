@@ -76,7 +76,7 @@ QAbstractSpinBox { background: @window; border: 1px solid @border; border-radius
 QAbstractSpinBox::up-button, QAbstractSpinBox::down-button { width: 0; border: 0; }
 QAbstractSpinBox:focus { border-color: @accent; }
 #FocusFrame { border: 1px solid @accent; border-radius: 3px; background: transparent; }
-QAbstractSpinBox[corrected="true"] { border-color: @warning; color: @warning; font-weight: bold; }
+QAbstractSpinBox[refused="true"] { border-color: @warning; color: @warning; font-weight: bold; }
 QAbstractSpinBox:disabled { color: @muted; }
 QListWidget:disabled { color: @muted; }
 QDockWidget { titlebar-close-icon: none; titlebar-normal-icon: none; }

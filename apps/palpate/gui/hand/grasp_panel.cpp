@@ -23,7 +23,6 @@ namespace {
 
 constexpr const char* kPreshape = "grasp/preshape";
 constexpr const char* kClose = "grasp/close";
-constexpr const char* kVelocity = "grasp/velocity_deg_per_s";
 constexpr const char* kLimit = "grasp/limit_counts";
 constexpr const char* kForceLimit = "grasp/limit_n";
 constexpr double kUsualForceLimitN = 2.0;
@@ -73,8 +72,9 @@ GraspPanel::GraspPanel(QSettings& settings, QWidget* parent)
       "Velocity", {kMinGraspDegPerS, kMaxGraspDegPerS, kMaxGraspDegPerS, 1.0, 0, "deg/s"}, this);
   velocity_->setObjectName("velocity");
   velocity_->setToolTip("Velocity of the joints; slower joints move at their maximum");
-  velocity_->showValue(
-      remembered(settings, kVelocity, kMinGraspDegPerS, kMaxGraspDegPerS, usual.velocityDegPerS));
+  // A new session never begins with the fast motions of another one.
+  velocity_->showValue(usual.velocityDegPerS);
+  settings.remove("grasp/velocity_deg_per_s");
   limit_ = new ValueSlider(
       "Limit",
       {kMinGraspLimitCounts, kMaxGraspLimitCounts, kMaxGraspLimitCounts, 1.0, 0, "counts"},
@@ -174,7 +174,6 @@ void GraspPanel::showLimit() {
 void GraspPanel::remember() {
   settings_.setValue(kPreshape, preshape_->currentData());
   settings_.setValue(kClose, close_->value());
-  settings_.setValue(kVelocity, velocity_->value());
   settings_.setValue(kLimit, limit_->value());
   settings_.setValue(kForceLimit, forceLimit_->value());
 }

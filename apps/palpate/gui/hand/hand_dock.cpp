@@ -96,7 +96,7 @@ HandDock::HandDock(QSettings& settings, QWidget* parent) : QWidget(parent) {
   });
   connect(stop_, &QPushButton::clicked, this, [this] {
     clearAnswers();
-    correction_.clear();
+    refusedNumber_.clear();
     if (control_) control_->stop();
     emit stopPressed();
     refresh();
@@ -105,15 +105,23 @@ HandDock::HandDock(QSettings& settings, QWidget* parent) : QWidget(parent) {
     clearAnswers();
     emit stopPressed();
   });
-  // A button doesn't take the focus: what was typed in a field counts without Enter.
+  // A button doesn't take the focus: what was typed in a field counts without Enter, and what is
+  // refused moves nothing.
   for (QPushButton* button : findChildren<QPushButton*>())
     if (button->property(kMovesHand).toBool()) {
       // A disabled button tells nobody that it was pressed.
       button->installEventFilter(this);
-      connect(button, &QPushButton::pressed, this, [this] {
-        // What this click itself corrected, by taking the focus from a field, stays.
-        if (!correctionIsNew_) correction_.clear();
+      connect(button, &QPushButton::pressed, this, [this, button] {
+        if (!refusalIsNew_) refusedNumber_.clear();
         if (auto* field = qobject_cast<QAbstractSpinBox*>(focusWidget())) field->clearFocus();
+        if (!refusalIsNew_ || button == grasp_->buttons().back()) return;
+        // Who typed another number than that which stays doesn't want this motion. This takes back
+        // a press by the mouse; that by a key is not heard.
+        refusedNumber_ += ", and nothing was started";
+        refresh();
+        button->setDown(false);
+        button->blockSignals(true);
+        QTimer::singleShot(0, button, [button] { button->blockSignals(false); });
       });
     }
   const auto refused = [this](const QString& why) { said_ = why; };
@@ -338,7 +346,7 @@ void HandDock::setHand(CaptureSession* session, GraspControl* control) {
   session_ = session;
   control_ = control;
   clearAnswers();
-  correction_.clear();
+  refusedNumber_.clear();
   judged_.reset();
   layout_.reset();
   goneUs_.reset();
@@ -375,8 +383,9 @@ void HandDock::updateHand() {
   const HandDescription hand = session_ ? session_->device().hand() : movableHand();
   tactile_->setMatrices(hand);
   // Those of the matrices are new ones for another hand.
-  for (SecondsField* field : findChildren<SecondsField*>())
-    connect(field, &SecondsField::corrected, this, &HandDock::showCorrection, Qt::UniqueConnection);
+  for (RefusedNumber* each : findChildren<RefusedNumber*>())
+    connect(
+        each, &RefusedNumber::changed, this, &HandDock::showRefusedNumber, Qt::UniqueConnection);
   std::vector<Fact> facts;
   axes_ = hand.axes;
   shownAngles_.reset();
@@ -528,21 +537,21 @@ void HandDock::showBound() {
   }
 }
 
-void HandDock::showCorrection(const QString& what) {
-  // A field that ends its correction later doesn't take away that of another one.
-  if (what.isEmpty() && sender() != correctedField_) return;
-  correctedField_ = what.isEmpty() ? nullptr : sender();
-  correction_ = what;
-  correctionIsNew_ = true;
-  QTimer::singleShot(0, this, [this] { correctionIsNew_ = false; });
+void HandDock::showRefusedNumber(const QString& what) {
+  // A field whose mark goes later doesn't take away the text about another one.
+  if (what.isEmpty() && sender() != refusedBy_) return;
+  refusedBy_ = what.isEmpty() ? nullptr : sender();
+  refusedNumber_ = what;
+  refusalIsNew_ = !what.isEmpty();
+  QTimer::singleShot(0, this, [this] { refusalIsNew_ = false; });
   showState(control_ ? control_->status() : GraspStatus{});
 }
 
 void HandDock::say(const QString& what, bool bad, const QString& more) {
-  // A long text must not hide the correction, nor the answer to a press; a danger comes before
+  // A long text must not hide a refused number, nor the answer to a press; a danger comes before
   // them.
   QStringList lines;
-  for (const QString& line : {answer_, correction_})
+  for (const QString& line : {answer_, refusedNumber_})
     if (!line.isEmpty()) lines.append(line);
   lines.insert(bad ? 0 : lines.size(), what);
   const QString text = lines.join('\n');
@@ -594,6 +603,11 @@ void HandDock::showState(const GraspStatus& status) {
         "The motors are off: the fingers can be moved by hand, and an object may fall. The "
         "next motion switches them on.",
         false);
+  if (const std::int64_t foundUs = foundMovingUs();
+      foundUs > 0 && (!status.last || status.last->endUs < foundUs))
+    return say(
+        "The hand was moving when it was connected, watched by nobody: it was stopped. Ready.",
+        true);
   if (!status.last) return say("Ready.", false);
   if (const auto over = lastGraspText(*status.last, status))
     return say(withFriction(*over, status), false);
@@ -609,6 +623,11 @@ void HandDock::showState(const GraspStatus& status) {
         emit explained(text);
       return say(text, true);
   }
+}
+
+std::int64_t HandDock::foundMovingUs() const {
+  const auto motion = session_->device().status().motion;
+  return motion ? motion->foundMovingUs : 0;
 }
 
 QString HandDock::withFriction(const QString& text, const GraspStatus& status) {

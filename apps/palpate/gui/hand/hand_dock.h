@@ -123,13 +123,15 @@ class HandDock : public QWidget {
   bool isReadOnly() const { return session_ && !control_; }
   // `more` is told by the tool tip only.
   void say(const QString& what, bool bad, const QString& more = {});
-  void showCorrection(const QString& what);
+  void showRefusedNumber(const QString& what);
   // Says for some seconds why `button` was pressed in vain, or until it can be pressed.
   void answer(const QString& why, const QAbstractButton* button);
   // The texts that belong to what was pressed before.
   void clearAnswers();
   void showState(const GraspStatus& status);
   void showCondition(const GraspStatus& status, const std::vector<GraspChange>& changes);
+  // See PortStatus.
+  std::int64_t foundMovingUs() const;
   void showBound();
   void followRefusal(const GraspStatus& status, const std::vector<MatrixSettings>& settings);
   void showUnmeasurable(const std::vector<MatrixSettings>& settings);
@@ -186,12 +188,12 @@ class HandDock : public QWidget {
   bool limitMeasurable_ = false;
   // GraspReport::endUs of the last motion that was told by explained().
   std::int64_t explainedEndUs_ = 0;
-  // The number of a field that was out of range; shown below or above what the hand does.
-  QString correction_;
-  const QObject* correctedField_ = nullptr;  // the field that it is about
+  // What was typed into a field and isn't used; shown below or above what the hand does.
+  QString refusedNumber_;
+  const QObject* refusedBy_ = nullptr;  // the RefusedNumber of that field
   // It was found in the event that is being handled.
-  bool correctionIsNew_ = false;
-  // Why a button was pressed in vain, and that button; shown like correction_.
+  bool refusalIsNew_ = false;
+  // Why a button was pressed in vain, and that button; shown like refusedNumber_.
   QString answer_;
   const QAbstractButton* answeredButton_ = nullptr;
   QTimer answerTimer_;

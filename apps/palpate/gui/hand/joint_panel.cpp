@@ -31,7 +31,6 @@
 namespace palpate::gui {
 namespace {
 
-constexpr const char* kJointVelocity = "joints/velocity_deg_per_s";
 constexpr const char* kJointContact = "joints/stop_at_contact";
 constexpr const char* kOwnPoses = "Own poses…";
 constexpr const char* kSaveTip = "Saves the present angles under a name";
@@ -81,11 +80,8 @@ JointPanel::JointPanel(QSettings& settings, QWidget* parent)
                       this);
   velocity_->setObjectName("jointVelocity");
   velocity_->setToolTip("deg/s; joints that are slower go as fast as they can");
-  bool ok = false;
-  const double velocity = settings.value(kJointVelocity).toDouble(&ok);
-  velocity_->showValue(ok && velocity >= kMinGraspDegPerS && velocity <= kMaxGraspDegPerS
-                           ? velocity
-                           : GraspRequest{}.velocityDegPerS);
+  velocity_->showValue(GraspRequest{}.velocityDegPerS);
+  settings.remove("joints/velocity_deg_per_s");
   const int last = static_cast<int>(rows_.size());
   grid->addWidget(new QLabel("Velocity, deg/s", this), last, 0, 1, 2);
   grid->addWidget(velocity_, last, 2);
@@ -109,9 +105,6 @@ JointPanel::JointPanel(QSettings& settings, QWidget* parent)
   column->addLayout(row);
   column->addWidget(makePoses());
   column->addStretch(1);
-  connect(velocity_, &ValueSlider::chosen, this, [this](double value) {
-    settings_.setValue(kJointVelocity, value);
-  });
   connect(stopAtContact_, &QCheckBox::toggled, this, [this](bool on) {
     settings_.setValue(kJointContact, on);
   });

@@ -22,7 +22,10 @@ CountdownStrip::CountdownStrip(QWidget* parent) : QWidget(parent) {
   digits_->setFont(large);
   digits_->setMinimumWidth(QFontMetrics(large).horizontalAdvance("00"));
   digits_->setAlignment(Qt::AlignRight | Qt::AlignVCenter);
-  auto* text = new QLabel("Recording begins", this);
+  text_ = new QLabel(this);
+  text_->setObjectName("countdownText");
+  text_->setTextFormat(Qt::PlainText);
+  text_->setWordWrap(true);
   auto* cancel = new QPushButton("Cancel  (Esc)", this);
   cancel->setObjectName("countdownCancel");
   cancel->setToolTip("Nothing is recorded");
@@ -33,12 +36,14 @@ CountdownStrip::CountdownStrip(QWidget* parent) : QWidget(parent) {
   row->setContentsMargins(14, 4, 14, 4);
   row->setSpacing(12);
   row->addWidget(digits_);
-  row->addWidget(text, 1);
+  row->addWidget(text_, 1);
   row->addWidget(cancel);
   hide();
 }
 
-void CountdownStrip::setLeft(int leftS) {
+void CountdownStrip::setLeft(int leftS, const QString& what) {
+  text_->setText(what.isEmpty() ? QString("Recording begins")
+                                : what + ": recording begins in " + QString::number(leftS) + " s");
   digits_->setText(leftS > 0 ? QString::number(leftS) : QString());
   setVisible(leftS > 0);
 }

@@ -11,14 +11,15 @@ class CountdownStrip : public QWidget {
   Q_OBJECT
  public:
   explicit CountdownStrip(QWidget* parent = nullptr);
-  // Shows the seconds left; 0 hides the line.
-  void setLeft(int leftS);
+  // Shows the seconds left; 0 hides the line. `what`: what will be recorded; may be empty.
+  void setLeft(int leftS, const QString& what = {});
 
  signals:
   void cancelRequested();
 
  private:
   QLabel* digits_;
+  QLabel* text_;
 };
 
 }  // namespace palpate::gui

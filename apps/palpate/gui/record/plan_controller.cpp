@@ -108,11 +108,23 @@ void PlanController::save() {
 }
 
 void PlanController::setFollowed(bool on) {
+  followedNow_ = on;
+  followedWith_.reset();
   if (on == followed_) return;
   followed_ = on;
   settings_.setValue(kFollowPlanKey, on);
   emit followedChanged(on);
   emit changed();
+}
+
+QString PlanController::doubt(const QString& hand) const {
+  if (!followedNow_) return "in an earlier session";
+  return followedWith_.value_or(hand) == hand ? QString() : "with another hand";
+}
+
+void PlanController::followWith(const QString& hand) {
+  followedNow_ = true;
+  followedWith_ = hand;
 }
 
 void PlanController::setLimits(const TakeCheckOptions& limits) {
@@ -279,12 +291,19 @@ QString PlanController::nextText() const {
                            : QString::number(undecided) +
                                  (undecided == 1 ? " take is" : " takes are") + " to be decided";
   if (!next) return open.isEmpty() ? "the plan is done" : open;
-  const PlanRow& row = plan_.rows()[next->row];
   // A take that is being recorded isn't counted yet, so it is still the next one of the plan.
-  QString text = (row_ == next->row ? "now: " : "next: ") + QString::fromStdString(row.object);
+  const QString text = (row_ == next->row ? "now: " : "next: ") + nextTake();
+  return open.isEmpty() ? text : text + "; " + open;
+}
+
+QString PlanController::nextTake() const {
+  const auto next = plan_.next();
+  if (!next) return {};
+  const PlanRow& row = plan_.rows()[next->row];
+  QString text = QString::fromStdString(row.object);
   if (!row.run.empty()) text += ", " + QString::fromStdString(row.run);
   if (row.repetitions > 1) text += QString(", %1 of %2").arg(next->repetition).arg(row.repetitions);
-  return open.isEmpty() ? text : text + "; " + open;
+  return text;
 }
 
 void PlanController::settle() {

@@ -25,9 +25,13 @@ class PlanController : public QObject {
   explicit PlanController(QSettings& settings, QObject* parent = nullptr);
 
   const RecordingPlan& plan() const noexcept { return plan_; }
-  // Whether Record makes the next recording of the plan.
+  // Whether Record makes the next recording of the plan. It is remembered.
   bool followed() const noexcept { return followed_; }
   void setFollowed(bool on);
+  // Why it is to be asked whether the plan is followed with `hand`, too (any text that tells hands
+  // apart): "in an earlier session", "with another hand". Empty: it is.
+  QString doubt(const QString& hand) const;
+  void followWith(const QString& hand);
 
   // The limits of the check of a take; the settings keep them beside the plan. Values out of range
   // become the usual ones.
@@ -70,6 +74,9 @@ class PlanController : public QObject {
   QString progressText() const;
   QString nextText() const;
 
+  // The take that comes next: "ball, left, 2 of 3"; empty: none does.
+  QString nextTake() const;
+
   // Waits for the check and the import that run.
   void settle();
 
@@ -87,6 +94,9 @@ class PlanController : public QObject {
   QSettings& settings_;
   RecordingPlan plan_;
   bool followed_ = false;
+  // In this session; by which hand, if that is known already.
+  bool followedNow_ = false;
+  std::optional<QString> followedWith_;
   // The take that is being recorded.
   std::optional<std::size_t> row_;
   std::optional<double> leastS_;

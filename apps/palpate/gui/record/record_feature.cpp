@@ -68,6 +68,21 @@ QString countedText(std::int64_t count, std::string_view noun) {
   return QString::fromStdString(counted(static_cast<std::uint64_t>(count), noun));
 }
 
+// What tells hands apart for the plan: serial number and layout.
+QString handKey(const Device& device) {
+  const HandDescription hand = device.hand();
+  QString text = QString::fromStdString(device.facts().serial + "\n" + hand.name);
+  for (std::size_t m = 0; m < hand.layout->numMatrices(); ++m)
+    text += QString(" %1x%2").arg(hand.layout->matrix(m).rows).arg(hand.layout->matrix(m).columns);
+  return text;
+}
+
+// What Record does by the plan that is followed; empty: none is.
+QString plannedText(const PlanController& plan) {
+  if (!plan.followed()) return {};
+  return plan.nextTake().isEmpty() ? plan.nextText() : plan.nextTake();
+}
+
 // How much is missing, from the duration and the usual rate; empty: too little to say.
 QString missingText(const RecordingReport& report) {
   if (!(report.rateHz > 0.0) || report.frames < 2) return {};
@@ -136,6 +151,15 @@ RecordFeature::RecordFeature(WindowState& windowState, QWidget* window)
     box.exec();
     return box.clickedButton() == yes;
   };
+  windowState.prompts.plan = [window](const QString& text) {
+    QMessageBox box(QMessageBox::Question, "Palpate", text, QMessageBox::Cancel, window);
+    const QPushButton* follow = box.addButton("Follow the plan", QMessageBox::AcceptRole);
+    const QPushButton* leave = box.addButton("Don't follow it", QMessageBox::DestructiveRole);
+    box.setDefaultButton(QMessageBox::Cancel);
+    box.exec();
+    if (box.clickedButton() == follow) return UserPrompts::Plan::kFollow;
+    return box.clickedButton() == leave ? UserPrompts::Plan::kLeave : UserPrompts::Plan::kCancel;
+  };
   connectActions();
   connectTake();
   connectCountdown();
@@ -153,6 +177,7 @@ RecordFeature::RecordFeature(WindowState& windowState, QWidget* window)
     actions_.record->setIcon({});
     showState();
   });
+  showState();
 }
 
 RecordFeature::~RecordFeature() {
@@ -222,6 +247,7 @@ void RecordFeature::connectTake() {
 void RecordFeature::connectPlan() {
   on(actions_.recordingPlan, [this] { showPlan(); });
   connect(&plan_, &PlanController::changed, this, [this] {
+    showState();
     askInPlan();
     // It was decided, discarded or forgotten somewhere else.
     if (!doubted_) return;
@@ -451,6 +477,7 @@ void RecordFeature::toggle() {
     return live.stopRecording();
   }
   if (countdown_.cancel()) return;
+  if (!isPlanSure()) return;
   takeFolder();
   const auto planned = plan_.nextSettings(settings_);
   if (!planned && settings_.askEachTime) {
@@ -460,10 +487,30 @@ void RecordFeature::toggle() {
   }
   const RecordingSettings next = planned.value_or(settings_);
   const bool isPlanned = planned.has_value();
+  countedTake_ = isPlanned ? plan_.nextTake() : QString();
   if (next.countdownS > 0)
     countdown_.start(next.countdownS, [this, next, isPlanned] { begin(next, isPlanned); });
   else
     begin(next, isPlanned);
+}
+
+bool RecordFeature::isPlanSure() {
+  const LiveSource* source = state().live.source();
+  if (!source || plan_.nextTake().isEmpty() || !plan_.followed()) return true;
+  const QString hand = handKey(source->session->device());
+  if (const QString doubt = plan_.doubt(hand); !doubt.isEmpty()) {
+    const auto answer =
+        state().prompts.plan("The plan of recordings was followed " + doubt +
+                             ". Next in it: " + plan_.nextTake() + ". Is it still followed?");
+    if (answer == UserPrompts::Plan::kCancel) return false;
+    if (answer == UserPrompts::Plan::kLeave) {
+      plan_.setFollowed(false);
+      state().messages.flash("The plan is followed no longer");
+      return true;
+    }
+  }
+  plan_.followWith(hand);
+  return true;
 }
 
 // A recording that has ended by itself waits while the disk fails.
@@ -527,7 +574,7 @@ void RecordFeature::mark(const QString& label, std::optional<int> digit) {
 }
 
 void RecordFeature::showCountdown() {
-  countdownStrip_->setLeft(countdown_.leftS());
+  countdownStrip_->setLeft(countdown_.leftS(), countedTake_);
   if (countdown_.running()) offer_->dismiss();
   showState();
 }
@@ -542,10 +589,16 @@ void RecordFeature::showState() {
     action->setIcon(
         makeIcon(on ? IconShape::kStopRecording : IconShape::kRecord, state().appearance.theme()));
     action->setText(on ? "Stop &recording" : "&Record");
-    action->setToolTip(on ? "Stop and finish the recording (Ctrl+R)"
-                          : "Start recording, with the last two seconds (Ctrl+R)");
   }
+  const QString planned = on ? QString() : plannedText(plan_);
+  if (action->property(kPlannedProperty).toBool() == planned.isEmpty())
+    action->setProperty(kPlannedProperty, !planned.isEmpty());
+  const QString tip = on ? "Stop and finish the recording (Ctrl+R)"
+                         : "Start recording, with the last two seconds (Ctrl+R)" +
+                               (planned.isEmpty() ? QString() : "\n" + planned);
+  if (action->toolTip() != tip) action->setToolTip(tip);
   QString text = " Record";
+  if (!planned.isEmpty()) text += ": " + planned;
   if (counting) {
     text = " in " + QString::number(countdown_.leftS()) + " s";
   } else if (on) {

@@ -75,6 +75,8 @@ class RecordFeature : public Feature {
   void use(const RecordingSettings& settings);
   void takeFolder();
   void toggle();
+  // Asks whether a plan of another session or hand is still followed. False: nothing is recorded.
+  bool isPlanSure();
   bool mayStop();
   void offerAnotherFolder();
   void begin(const RecordingSettings& settings, bool planned);
@@ -104,6 +106,8 @@ class RecordFeature : public Feature {
   QString takeText_;
   RecordingCountdown countdown_;
   CountdownStrip* countdownStrip_;
+  // The take of the plan that it counts down to; empty: of no plan.
+  QString countedTake_;
   // When Escape cancelled the countdown; it then does nothing else.
   QElapsedTimer escaped_;
   RecoveryFinder unfinished_;

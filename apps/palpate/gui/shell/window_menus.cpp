@@ -9,6 +9,9 @@
 #include <QStyle>
 #include <QToolBar>
 #include <QToolButton>
+#include <algorithm>
+#include <functional>
+#include <utility>
 
 #include "gui/shell/hand_chip.h"
 #include "gui/widgets/eliding_box.h"
@@ -25,6 +28,22 @@ void addChoices(QMenu* menu, const QString& title, const QActionGroup* group) {
   QMenu* choices = menu->addMenu(title);
   choices->addActions(group->actions());
 }
+
+// Calls a function when the sizes within a widget may have changed.
+class SizeWatch : public QObject {
+ public:
+  SizeWatch(QWidget& widget, std::function<void()> changed)
+      : QObject(&widget), changed_(std::move(changed)) {
+    widget.installEventFilter(this);
+  }
+  bool eventFilter(QObject* watched, QEvent* event) override {
+    if (event->type() == QEvent::Resize || event->type() == QEvent::LayoutRequest) changed_();
+    return QObject::eventFilter(watched, event);
+  }
+
+ private:
+  std::function<void()> changed_;
+};
 
 }  // namespace
 
@@ -43,9 +62,13 @@ void WindowMenus::fill(const ActionRegistry& book, const QList<QAction*>& dockTo
   buildToolBar(book);
   addOthers(book);
   QAction* record = book.at("record");
-  QObject::connect(record, &QAction::changed, record_, [this, record] {
+  const auto follow = [this, record] {
     showRecording(record->property(kRecordingProperty).toBool());
-  });
+    record_->setProperty(kPlannedProperty, record->property(kPlannedProperty));
+    styleRecord();
+  };
+  QObject::connect(record, &QAction::changed, record_, follow);
+  follow();
 }
 
 // Adds the actions that no other line names to the end of the menu of their section.
@@ -243,6 +266,7 @@ void WindowMenus::buildToolBar(const ActionRegistry& book) {
   menus_.recordings->setMaximumWidth(420);
   menus_.recordingsShown = bar->addWidget(menus_.recordings);
   bar->addAction(at("keys"));
+  new SizeWatch(*bar, [this, bar] { fitRecord(*bar); });
 }
 
 // Stop is at the beginning of the tool bar, where nothing covers it, whatever the window shows, as
@@ -329,10 +353,22 @@ void WindowMenus::showHand(const std::optional<ExplainedCondition>& condition, T
 
 int WindowMenus::chipWidth() const { return chipShown_->isVisible() ? chip_->width() : 0; }
 
-// While recording, the duration and size are always shown.
+// While recording, the duration and size are always shown, and else what the plan says.
 void WindowMenus::styleRecord() {
-  const bool text = !compact_ || record_->property("recording").toBool();
+  const bool text = !compact_ || record_->property("recording").toBool() ||
+                    record_->property(kPlannedProperty).toBool();
   record_->setToolButtonStyle(text ? Qt::ToolButtonTextBesideIcon : Qt::ToolButtonIconOnly);
+}
+
+void WindowMenus::fitRecord(const QToolBar& bar) {
+  int room = QWIDGETSIZE_MAX;
+  if (record_->property(kPlannedProperty).toBool()) {
+    const QSize taken = record_->sizeHint().boundedTo(record_->maximumSize());
+    const int least = kIconAndPadding + record_->fontMetrics().horizontalAdvance(
+                                            " " + plainText(*record_->defaultAction()) + ": …");
+    room = std::max(least, bar.width() - (bar.sizeHint().width() - taken.width()));
+  }
+  if (record_->maximumWidth() != room) record_->setMaximumWidth(room);
 }
 
 void WindowMenus::showRecording(bool on) {

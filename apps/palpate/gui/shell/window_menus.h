@@ -65,6 +65,8 @@ class WindowMenus {
   bool compact_ = false;
 
   void styleRecord();
+  // The text that names the plan gets the room that is free in the bar.
+  void fitRecord(const QToolBar& bar);
   void setPlayWidth();
   // Turns the button red.
   void showRecording(bool on);

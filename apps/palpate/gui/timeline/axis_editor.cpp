@@ -82,8 +82,8 @@ void AxisEditor::rebuild() {
     const auto use = [this, unit, name, automatic, from, to] {
       if (!axes_) return;
       const bool good = from->value() < to->value();
-      from->showMark(!good);
-      to->showMark(!good);
+      from->refused().showMark(!good);
+      to->refused().showMark(!good);
       say(good ? QString()
                : name + ": the begin " + from->text() + " isn't below the end " + to->text() +
                      ". The axis stays as it was: give a smaller begin or a larger end.");
@@ -105,8 +105,8 @@ void AxisEditor::rebuild() {
       const QSignalBlocker quietTo(to);
       from->setValue(now.lower);
       to->setValue(now.upper);
-      from->showMark(false);
-      to->showMark(false);
+      from->refused().showMark(false);
+      to->refused().showMark(false);
       say({});
     });
   }

@@ -4,9 +4,10 @@
 #include <QLineEdit>
 #include <QSignalBlocker>
 #include <QStyle>
-#include <algorithm>
+#include <QToolTip>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include "palpate/core/number_text.h"
 
@@ -28,14 +29,17 @@ QValidator::State stateOf(const Field& field, const QString& text, bool whole) {
   return inRange ? QValidator::Acceptable : QValidator::Intermediate;
 }
 
-QString written(const QSpinBox& field, double value) {
-  return QString::number(std::lround(std::clamp(
-      value, static_cast<double>(field.minimum()), static_cast<double>(field.maximum()))));
+QString written(const QSpinBox& field) { return QString::number(field.value()); }
+
+QString written(const QDoubleSpinBox& field) {
+  return QString::fromStdString(fixedText(field.value(), field.decimals()));
 }
 
-QString written(const QDoubleSpinBox& field, double value) {
-  const double nearest = std::clamp(value, field.minimum(), field.maximum());
-  return QString::fromStdString(fixedText(nearest, field.decimals()));
+template <class Field>
+RefusedNumber* refusedBy(Field& field) {
+  auto* refused = new RefusedNumber(field);
+  QObject::connect(&field, &Field::valueChanged, refused, &RefusedNumber::end);
+  return refused;
 }
 
 void setUp(QAbstractSpinBox& field) {
@@ -58,14 +62,75 @@ bool keepsKey(QEvent* event) {
 
 }  // namespace
 
-FrameField::FrameField(QWidget* parent) : QSpinBox(parent) { setUp(*this); }
+RefusedNumber::RefusedNumber(QAbstractSpinBox& field) : QObject(&field), field_(field) {
+  connect(field.findChild<QLineEdit*>(), &QLineEdit::textEdited, this, &RefusedNumber::end);
+  // After the value has changed.
+  connect(&field, &QAbstractSpinBox::editingFinished, this, &RefusedNumber::tell);
+  constexpr int kMarkedMs = 10'000;
+  timer_.setSingleShot(true);
+  timer_.setInterval(kMarkedMs);
+  connect(&timer_, &QTimer::timeout, this, &RefusedNumber::end);
+}
+
+void RefusedNumber::keep(const QString& typed, double least, double most) {
+  const QString text = typed.trimmed();
+  const auto number = numberFieldNumberIn(text);
+  constexpr int kDigits = 10;
+  if (text.isEmpty())
+    why_ = "no number";
+  else if (!number)
+    why_ = text + " is no number";
+  else if (*number >= least && *number <= most)
+    why_ = text + " is no whole number";
+  else
+    why_ = text + " is out of " + QString::number(least, 'g', kDigits) + " .. " +
+           QString::number(most, 'g', kDigits) + saidUnit_;
+}
+
+void RefusedNumber::tell() {
+  if (why_.isEmpty()) return;
+  const QString name = field_.accessibleName();
+  const QString stays = field_.text().isEmpty() ? "nothing changes" : field_.text() + " stays";
+  const QString what = (name.isEmpty() ? "" : name + ": ") + std::exchange(why_, {}) + "; " + stays;
+  if (!marked_) usualToolTip_ = field_.toolTip();
+  marked_ = true;
+  timer_.start();
+  field_.setToolTip(what);
+  showMark(true);
+  if (receivers(SIGNAL(changed(QString))) > 0)
+    emit changed(what);
+  else if (field_.isVisible())
+    QToolTip::showText(field_.mapToGlobal(QPoint(0, field_.height() / 2)), what, &field_);
+}
+
+void RefusedNumber::showMark(bool on) {
+  field_.setProperty("refused", on);
+  field_.style()->polish(&field_);
+  // The text is that of the line within, which would keep the bold font of the mark.
+  if (!on) field_.findChild<QLineEdit*>()->setFont({});
+}
+
+void RefusedNumber::end() {
+  why_.clear();
+  if (!marked_) return;
+  marked_ = false;
+  timer_.stop();
+  field_.setToolTip(usualToolTip_);
+  showMark(false);
+  emit changed({});
+}
+
+FrameField::FrameField(QWidget* parent) : QSpinBox(parent), refused_(refusedBy(*this)) {
+  setUp(*this);
+}
 
 QValidator::State FrameField::validate(QString& text, int& /*position*/) const {
   return stateOf(*this, text, true);
 }
 
 void FrameField::fixup(QString& text) const {
-  text = written(*this, numberFieldNumberIn(text).value_or(value()));
+  refused_->keep(text, minimum(), maximum());
+  text = written(*this);
 }
 
 int FrameField::valueFromText(const QString& text) const {
@@ -76,19 +141,13 @@ bool FrameField::event(QEvent* event) { return keepsKey(event) || QSpinBox::even
 
 void FrameField::keyPressEvent(QKeyEvent* event) {
   if (event->key() != Qt::Key_Escape) return QSpinBox::keyPressEvent(event);
-  lineEdit()->setText(written(*this, value()));
+  refused_->end();
+  lineEdit()->setText(written(*this));
   clearFocus();
 }
 
-SecondsField::SecondsField(QWidget* parent) : QDoubleSpinBox(parent) {
+SecondsField::SecondsField(QWidget* parent) : QDoubleSpinBox(parent), refused_(refusedBy(*this)) {
   setUp(*this);
-  connect(lineEdit(), &QLineEdit::textEdited, this, [this] {
-    outOfRange_.clear();
-    endCorrection();
-  });
-  connect(this, &QDoubleSpinBox::valueChanged, this, &SecondsField::endCorrection);
-  // After the value has changed.
-  connect(this, &QDoubleSpinBox::editingFinished, this, &SecondsField::showCorrection);
 }
 
 void SecondsField::setPlaceholder(const QString& text) {
@@ -98,43 +157,16 @@ void SecondsField::setPlaceholder(const QString& text) {
   lineEdit()->setText(textFromValue(value()));
 }
 
-void SecondsField::showCorrection() {
-  if (outOfRange_.isEmpty()) return;
-  const QString what = accessibleName() + ": " + outOfRange_ + " is out of " +
-                       QString::number(minimum(), 'g', 10) + " .. " +
-                       QString::number(maximum(), 'g', 10) + saidUnit_ + "; set to " +
-                       QString::number(value(), 'g', 10);
-  outOfRange_.clear();
-  if (!corrected_) usualToolTip_ = toolTip();
-  corrected_ = true;
-  setToolTip(what);
-  showMark(true);
-  emit corrected(what);
-}
-
-void SecondsField::showMark(bool on) {
-  setProperty("corrected", on);
-  style()->polish(this);
-  // The text is that of the line within, which would keep the bold font of the mark.
-  if (!on) lineEdit()->setFont({});
-}
-
-void SecondsField::endCorrection() {
-  if (!corrected_) return;
-  corrected_ = false;
-  setToolTip(usualToolTip_);
-  showMark(false);
-  emit corrected({});
-}
-
 QValidator::State SecondsField::validate(QString& text, int& /*position*/) const {
   return stateOf(*this, text, false);
 }
 
 void SecondsField::fixup(QString& text) const {
-  const auto number = numberFieldNumberIn(text);
-  if (number && (*number < minimum() || *number > maximum())) outOfRange_ = text.trimmed();
-  text = written(*this, numberFieldNumberIn(text).value_or(value()));
+  // What the field shows in place of the least value was not typed.
+  const bool typed =
+      value() != minimum() || (text != textFromValue(value()) && text != specialValueText());
+  if (typed) refused_->keep(text, minimum(), maximum());
+  text = written(*this);
 }
 
 double SecondsField::valueFromText(const QString& text) const {
@@ -150,8 +182,8 @@ bool SecondsField::event(QEvent* event) { return keepsKey(event) || QDoubleSpinB
 
 void SecondsField::keyPressEvent(QKeyEvent* event) {
   if (event->key() != Qt::Key_Escape) return QDoubleSpinBox::keyPressEvent(event);
-  outOfRange_.clear();
-  lineEdit()->setText(placeholder_.isEmpty() ? written(*this, value()) : textFromValue(value()));
+  refused_->end();
+  lineEdit()->setText(placeholder_.isEmpty() ? written(*this) : textFromValue(value()));
   clearFocus();
 }
 

@@ -1,17 +1,54 @@
-// Input fields for a frame index and for seconds. A comma counts as a decimal point, a number out
-// of range becomes the nearest one in range, and anything else changes nothing. Enter accepts the
-// input, Escape discards it. A field for seconds serves for other measures too; it says which
-// number was out of range, and is marked until its value changes or is edited again.
+// Input fields for a whole number (a frame, a number of samples) and for a number with decimals
+// (seconds and other measures). A comma counts as a decimal point. Enter accepts the input, Escape
+// discards it. What is out of range or no number is refused: the value stays as it was, the field
+// says so, and is marked for ten seconds, or until it is edited again or gets a value by the user.
 #pragma once
 
 #include <QDoubleSpinBox>
 #include <QSpinBox>
+#include <QTimer>
 
 namespace palpate::gui {
+
+// What was typed into a number field and isn't used.
+class RefusedNumber : public QObject {
+  Q_OBJECT
+ public:
+  explicit RefusedNumber(QAbstractSpinBox& field);
+  // The unit in the texts of changed(), as written after a number: "°", " counts".
+  void setSaidUnit(const QString& unit) { saidUnit_ = unit; }
+  // `typed` is no number from `least` to `most` as the field takes it. It is said when the field is
+  // left, or with Enter.
+  void keep(const QString& typed, double least, double most);
+  // What was kept is not said, and the mark goes: the input was discarded, or goes on.
+  void end();
+  bool marked() const noexcept { return marked_; }
+  // Marks the field as one whose number isn't used, or ends that.
+  void showMark(bool on);
+
+ signals:
+  // "Target of finger 0 distal: 200 is out of -90 .. 90°; 12.5 stays". Empty: the mark ended. Where
+  // nobody takes it, it is shown beside the field.
+  void changed(const QString& what);
+
+ private:
+  void tell();
+
+  QAbstractSpinBox& field_;
+  QString saidUnit_;
+  // Why the input isn't used; empty: it is, or that was said.
+  QString why_;
+  bool marked_ = false;
+  // Ends the mark; a value that the field only shows, such as a measured angle, doesn't.
+  QTimer timer_{this};
+  // The tool tip without the mark.
+  QString usualToolTip_;
+};
 
 class FrameField : public QSpinBox {
  public:
   explicit FrameField(QWidget* parent);
+  RefusedNumber& refused() const noexcept { return *refused_; }
 
  protected:
   QValidator::State validate(QString& text, int& position) const override;
@@ -19,25 +56,17 @@ class FrameField : public QSpinBox {
   int valueFromText(const QString& text) const override;
   bool event(QEvent* event) override;
   void keyPressEvent(QKeyEvent* event) override;
+
+ private:
+  RefusedNumber* refused_;
 };
 
 class SecondsField : public QDoubleSpinBox {
-  Q_OBJECT
  public:
   explicit SecondsField(QWidget* parent);
-  // The unit in the texts of corrected(), as written after a number: "°", " counts".
-  void setSaidUnit(const QString& unit) { saidUnit_ = unit; }
   // Shows `text` in place of the least value, as long as nothing is typed; empty: shows the value.
   void setPlaceholder(const QString& text);
-  // Removes the mark of a corrected number.
-  void endCorrection();
-  // Marks the field as one whose number isn't used, or ends that.
-  void showMark(bool on);
-
- signals:
-  // The typed number was out of range: "Target of finger 0 distal: 200 is out of -90 .. 90°; set to
-  // 90". Empty: the mark of the field ended.
-  void corrected(const QString& what);
+  RefusedNumber& refused() const noexcept { return *refused_; }
 
  protected:
   QValidator::State validate(QString& text, int& position) const override;
@@ -48,15 +77,8 @@ class SecondsField : public QDoubleSpinBox {
   void keyPressEvent(QKeyEvent* event) override;
 
  private:
-  void showCorrection();
-
-  QString saidUnit_;
+  RefusedNumber* refused_;
   QString placeholder_;
-  // What was typed, if it was out of range and that was not said yet.
-  mutable QString outOfRange_;
-  bool corrected_ = false;
-  // The tool tip without the mark.
-  QString usualToolTip_;
 };
 
 }  // namespace palpate::gui

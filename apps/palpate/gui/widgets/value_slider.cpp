@@ -8,6 +8,7 @@
 #include <QSlider>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "gui/widgets/number_field.h"
 
@@ -42,9 +43,9 @@ ValueSlider::ValueSlider(const QString& name, const SliderRange& range, QWidget*
   field_->setSingleStep(range.step);
   field_->setFocusPolicy(Qt::StrongFocus);
   if (!range.saidUnit.isEmpty())
-    field_->setSaidUnit(range.saidUnit);
+    field_->refused().setSaidUnit(range.saidUnit);
   else if (!range.unit.trimmed().isEmpty())
-    field_->setSaidUnit(" " + range.unit);
+    field_->refused().setSaidUnit(" " + range.unit);
   auto* layout = new QHBoxLayout(this);
   layout->setContentsMargins(0, 0, 0, 0);
   layout->setSpacing(6);
@@ -56,7 +57,7 @@ ValueSlider::ValueSlider(const QString& name, const SliderRange& range, QWidget*
     layout->addWidget(unit);
   }
   connect(slider_, &QSlider::valueChanged, this, [this](int ticks) {
-    field_->endCorrection();
+    field_->refused().end();
     const QSignalBlocker quiet(field_);
     field_->setValue(range_.least + ticks * range_.step - ticksOf(range_.least) * range_.step);
     // Changed by keys.
@@ -79,8 +80,7 @@ ValueSlider::ValueSlider(const QString& name, const SliderRange& range, QWidget*
     if (text.isEmpty()) edited_ = false;
   });
   connect(field_, &QDoubleSpinBox::editingFinished, this, [this] {
-    if (!edited_) return;
-    edited_ = false;
+    if (!std::exchange(edited_, false) || field_->refused().marked()) return;
     // The least value was typed: for the field that is no change.
     if (field_->value() != range_.least || shown_ != range_.least) return;
     differing_ = false;
@@ -106,7 +106,6 @@ void ValueSlider::showValue(double value) {
       slider_->value() == std::clamp(ticksOf(value), slider_->minimum(), slider_->maximum()) &&
       field_->specialValueText().isEmpty() && !differing_)
     return;
-  if (rounded != field_->value()) field_->endCorrection();
   const QSignalBlocker quietField(field_);
   const QSignalBlocker quietSlider(slider_);
   if (!field_->specialValueText().isEmpty()) field_->setSpecialValueText({});

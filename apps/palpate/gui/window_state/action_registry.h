@@ -83,6 +83,8 @@ void checkChoice(const QActionGroup* group, const Choices& all, Choice now) {
 
 // Property of the action "record": true while the action would stop a recording.
 inline constexpr const char* kRecordingProperty = "recording";
+// Property of the action "record": whether its text names what the plan says.
+inline constexpr const char* kPlannedProperty = "planned";
 
 // The section of the list of keys to which an action belongs ("File", ..); empty: the action isn't
 // listed.

@@ -30,6 +30,9 @@ struct UserPrompts {
   std::function<QString(const QString& title, const QString& folder)> folder;
   // Asks before something is done that can't be undone; `button`: what is done ("Discard").
   std::function<bool(const QString& text, const QString& button)> confirmed;
+  // Asks whether the plan of recordings is still followed, before its next recording begins.
+  enum class Plan { kFollow, kLeave, kCancel };
+  std::function<Plan(const QString& text)> plan;
   // Asks whether the running batch may be ended now.
   std::function<bool()> endBatch;
   // Asks for the text of a label or a note; nothing: cancelled. `title` is the title of the
