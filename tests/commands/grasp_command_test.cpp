@@ -1,10 +1,12 @@
 // The real program on an emulated hand that runs in the test: what it says, and what arrives at the
 // hand.
+#include <algorithm>
 #include <csignal>
 #include <fstream>
 
 #include "palpate/control/motion_sequence.h"
 #include "palpate/core/number_text.h"
+#include "palpate/device/sdh2.h"
 
 #include "commands/palpate_program.h"
 #include "control/emulated_bench.h"
@@ -109,6 +111,7 @@ TEST(GraspCommand, ReactiveGraspStopsAtTheBall) {
                                "centrical",
                                "--mode",
                                "reactive",
+                               "--quick",
                                "--velocity",
                                "60",
                                "--limit",
@@ -129,6 +132,58 @@ TEST(GraspCommand, ReactiveGraspStopsAtTheBall) {
   EXPECT_FALSE(bench.handMoves());
 }
 
+TEST(GraspCommand, AReactiveGraspKeepsItsLimit) {
+  EmulatedBench bench(handWith("ball"));
+  const auto result = palpate({"grasp",
+                               "--sdh",
+                               bench.hand->sdhPort(),
+                               "--dsa",
+                               bench.hand->dsaPort(),
+                               "--preshape",
+                               "centrical",
+                               "--mode",
+                               "reactive",
+                               "--object-size",
+                               "70",
+                               "--velocity",
+                               "60",
+                               "--limit",
+                               "1000"});
+  ASSERT_EQ(result.exitCode, 0) << result.err << result.out;
+  // 1000 counts and a rise of as many at 1000 / 800 deg/s.
+  EXPECT_NE(result.out.find("ready: about 2000 counts, 2.0 times the limit; touches after about"),
+            std::string::npos)
+      << result.out;
+  const std::vector<std::string> states = statesOf(result.out);
+  EXPECT_NE(std::find(states.begin(), states.end(), "easing"), states.end()) << result.out;
+  EXPECT_EQ(states.back(), "limit_reached") << result.out;
+  float largest = 0.0F;
+  std::vector<std::uint16_t> counts(sdh2().layout->numCells());
+  bench.hand->withModel([&](HandModel& model) { model.scan(counts); });
+  for (const std::uint16_t each : counts) largest = std::max(largest, static_cast<float>(each));
+  EXPECT_GE(largest, 800.0F);
+  EXPECT_LE(largest, 1200.0F);
+}
+
+TEST(GraspCommand, WhatBelongsToKeepingTheLimitIsChecked) {
+  const auto wrong = [](std::vector<std::string> more) {
+    std::vector<std::string> words{
+        "grasp", "--sdh", "/dev/null", "--dsa", "/dev/null", "--preshape", "centrical"};
+    words.insert(words.end(), more.begin(), more.end());
+    const auto result = palpate(words);
+    EXPECT_EQ(result.exitCode, 2) << result.out;
+    return result.err;
+  };
+  EXPECT_NE(wrong({"--object", "pen"}).find("needs --mode reactive or slip"), std::string::npos);
+  EXPECT_NE(wrong({"--quick"}).find("needs --mode reactive or slip"), std::string::npos);
+  EXPECT_NE(wrong({"--mode", "reactive", "--quick", "--object-size", "70"}).find("exclude"),
+            std::string::npos);
+  EXPECT_NE(wrong({"--mode", "reactive", "--object-size", "0"}).find("object-size"),
+            std::string::npos);
+  EXPECT_NE(wrong({"--mode", "reactive", "--object", std::string(101, 'x')}).find("100 bytes"),
+            std::string::npos);
+}
+
 TEST(GraspCommand, ReactiveGraspOfNothingCloses) {
   EmulatedBench bench(stillHand(), {.rate = EmulationRate::kFixed, .hz = 60.0});
   const auto result = palpate({"grasp",
@@ -140,6 +195,7 @@ TEST(GraspCommand, ReactiveGraspOfNothingCloses) {
                                "centrical",
                                "--mode",
                                "reactive",
+                               "--quick",
                                "--close",
                                "0.5",
                                "--velocity",
@@ -357,6 +413,7 @@ TEST(GraspCommand, AGraspStopsAtTheLimitOfAFinger) {
                                "centrical",
                                "--mode",
                                "reactive",
+                               "--quick",
                                "--velocity",
                                "60",
                                "--finger-limits",
