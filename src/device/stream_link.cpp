@@ -215,7 +215,7 @@ void StreamLink::takeFrame(const StreamItem& item) {
   session_.silent = false;
   ++session_.frames;
   const bool showsFault = session_.faultUs != 0 && nowUs - session_.faultUs < kFaultShownUs;
-  updateStatus([&](PortStatus& status) {
+  updateStatus([&, missing = missing](PortStatus& status) {
     if (missing) status.lost += *missing;
     status.items = session_.frames;
     status.lastItemUs = hostUs;
