@@ -2,7 +2,6 @@
 // reports.
 #include <cstdlib>
 #include <filesystem>
-#include <utility>
 
 #include <gtest/gtest-spi.h>
 #include <gtest/gtest.h>
@@ -31,15 +30,6 @@ class CountTestsOfProcesses : public ::testing::Test {
     writeFile(folder_ / "report.xml", "<testsuite>\n" + entries_ + "</testsuite>\n");
     return runProgram((projectFolder() / "scripts/count_tests").string(),
                       {(folder_ / "report.xml").string(), folder_.path().string(), "2"});
-  }
-  // With a report of a second run of what failed.
-  ProgramResult countAgain(const std::string& entries) {
-    writeFile(folder_ / "report.xml", "<testsuite>\n" + entries_ + "</testsuite>\n");
-    writeFile(folder_ / "again.xml", "<testsuite>\n" + entries + "</testsuite>\n");
-    const std::string reports =
-        (folder_ / "report.xml").string() + "," + (folder_ / "again.xml").string();
-    return runProgram((projectFolder() / "scripts/count_tests").string(),
-                      {reports, folder_.path().string(), "2"});
   }
   static std::string lastLine(const std::string& text) {
     const std::vector<std::string> lines = linesOf(text);
@@ -76,28 +66,6 @@ TEST_F(CountTestsOfProcesses, AFailedTestCountsOnceAndIsNamed) {
   const ProgramResult result = count();
   EXPECT_EQ(lastLine(result.out), "1 passed, 1 failed, 0 skipped");
   EXPECT_NE(result.out.find("failed: core/a_test.S.B"), std::string::npos) << result.out;
-  EXPECT_EQ(result.exitCode, 1);
-}
-
-TEST_F(CountTestsOfProcesses, WhatFailedAtTheFirstTryOnlyIsNamed) {
-  entry("core/a_test", false);
-  entry("core/b_test", false);
-  entry("core/c_test", true);
-  // The reports of the processes are those of the second run.
-  own("core.a_test", good_);
-  own("core.b_test", bad_);
-  own("core.c_test", good_);
-  const std::string first = entries_;
-  entries_.clear();
-  entry("core/a_test", true);
-  entry("core/b_test", false);
-  const std::string again = std::exchange(entries_, first);
-  const ProgramResult result = countAgain(again);
-  EXPECT_EQ(lastLine(result.out), "2 passed, 1 failed, 0 skipped");
-  EXPECT_NE(result.out.find("failed at the first try, not alone: core/a_test\n"),
-            std::string::npos)
-      << result.out;
-  EXPECT_NE(result.out.find("failed: core/b_test.S.B"), std::string::npos) << result.out;
   EXPECT_EQ(result.exitCode, 1);
 }
 
