@@ -69,7 +69,7 @@ GraspPanel::GraspPanel(QSettings& settings, QWidget* parent)
       "How far the hand closes: 0 open, 1 closed. A reactive grasp goes to 1 at most");
   close_->showValue(remembered(settings, kClose, 0.0, 1.0, usual.closeRatio));
   velocity_ = new ValueSlider(
-      "Velocity", {kMinGraspDegPerS, kMaxGraspDegPerS, kMaxGraspDegPerS, 1.0, 0, "deg/s"}, this);
+      "Velocity", {kMinGraspDegPerS, kMaxGraspDegPerS, kMaxGraspDegPerS, 0.2, 1, "deg/s"}, this);
   velocity_->setObjectName("velocity");
   velocity_->setToolTip("Velocity of the joints; slower joints move at their maximum");
   // A new session never begins with the fast motions of another one.

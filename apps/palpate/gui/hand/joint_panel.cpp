@@ -76,7 +76,7 @@ JointPanel::JointPanel(QSettings& settings, QWidget* parent)
   makeRows(*grid);
   velocity_ =
       new ValueSlider("Velocity of the joints",
-                      {kMinGraspDegPerS, kMaxGraspDegPerS, kMaxGraspDegPerS, 1.0, 0, {}, " deg/s"},
+                      {kMinGraspDegPerS, kMaxGraspDegPerS, kMaxGraspDegPerS, 0.2, 1, {}, " deg/s"},
                       this);
   velocity_->setObjectName("jointVelocity");
   velocity_->setToolTip("deg/s; joints that are slower go as fast as they can");
