@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <ranges>
 #include <stdexcept>
 #include <string>
 #include <utility>
 
 #include "palpate/core/error.h"
+#include "palpate/core/first_where.h"
 #include "palpate/model/profile_builder.h"
 
 namespace palpate {
@@ -20,11 +20,8 @@ std::pair<std::size_t, std::size_t> samplesAround(std::size_t count,
                                                   std::int64_t beginUs,
                                                   std::int64_t endUs,
                                                   const TimeUs& timeUs) {
-  const auto all = std::views::iota(std::size_t{0}, count);
-  const auto after = std::ranges::upper_bound(all, beginUs, {}, timeUs);
-  const auto later = std::ranges::upper_bound(all, endUs, {}, timeUs);
-  const auto first = static_cast<std::size_t>(after - all.begin());
-  const auto end = static_cast<std::size_t>(later - all.begin());
+  const std::size_t first = firstWhere(count, [&](std::size_t i) { return timeUs(i) > beginUs; });
+  const std::size_t end = firstWhere(count, [&](std::size_t i) { return timeUs(i) > endUs; });
   const bool exact = end > 0 && timeUs(end - 1) == endUs;
   return {first > 0 ? first - 1 : 0, std::min(count, exact ? end : end + 1)};
 }

@@ -247,10 +247,10 @@ void MatValue::write(const std::string& name, const MatSink& sink) const {
 
 MatFile::MatFile(const std::filesystem::path& path, Overwrite overwrite, std::string_view program)
     : out_(path, overwrite) {
-  constexpr std::size_t kTextBytes = 116;
+  constexpr std::size_t kMatTextBytes = 116;
   std::string head = "MATLAB 5.0 MAT-file, Platform: GLNXA64, Created by: ";
   head += program;
-  head.resize(kTextBytes, ' ');
+  head.resize(kMatTextBytes, ' ');
   appendLittleEndian(head, 0, 8);       // no data of subsystems
   appendLittleEndian(head, 0x0100, 2);  // version
   head += "IM";                         // little-endian

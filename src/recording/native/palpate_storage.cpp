@@ -1,9 +1,9 @@
 #include "recording/native/palpate_storage.h"
 
 #include <algorithm>
-#include <ranges>
 
 #include "palpate/core/error.h"
+#include "palpate/core/first_where.h"
 
 namespace palpate {
 namespace {
@@ -184,11 +184,12 @@ std::optional<std::size_t> BlockStorage::itemAt(Stream stream, std::int64_t time
   if (timeUs >= place.t1Us) return first + static_cast<std::size_t>(place.n) - 1;
   const std::lock_guard lock(mutex_);
   const auto block = readable(stream, first);
-  const auto items = std::views::iota(std::int64_t{0}, place.n);
-  const auto later = std::ranges::upper_bound(items, timeUs, {}, [&](std::int64_t item) {
-    return block ? block->index.hostUs[static_cast<std::size_t>(item)] : estimatedUs(place, item);
-  });
-  return first + static_cast<std::size_t>(later - items.begin()) - 1;
+  const std::size_t later =
+      firstWhere(static_cast<std::size_t>(place.n), [&](std::size_t item) {
+        return timeUs < (block ? block->index.hostUs[item]
+                               : estimatedUs(place, static_cast<std::int64_t>(item)));
+      });
+  return first + later - 1;
 }
 
 std::pair<std::int64_t, std::vector<double>> BlockStorage::sample(Stream stream,
