@@ -4,7 +4,10 @@
 #include <cmath>
 
 #include "palpate/core/json.h"
+#include "palpate/core/output_file.h"
+#include "palpate/core/text_file.h"
 #include "palpate/device/sdh2.h"
+#include "palpate/model/hand_file.h"
 #include "palpate/model/preshape.h"
 
 namespace palpate {
@@ -20,6 +23,7 @@ constexpr double kLearningShare = 0.5;
 constexpr std::size_t kMostTouches = 10'000;
 constexpr std::size_t kMostTouchBytes = 1000;
 constexpr std::int64_t kTouchesVersion = 1;
+constexpr std::uint64_t kLargestTouchesFile = 20'000'000;  // [bytes]
 
 double largestSlopeDeg(const Preshape& preshape) {
   double largest = 0.0;
@@ -147,6 +151,13 @@ bool TouchMemory::forget(const std::string& preshape, const std::string& object)
   return touches_.erase({preshape, object}) > 0;
 }
 
+std::vector<std::string> TouchMemory::objects(const std::string& preshape) const {
+  std::vector<std::string> names;
+  for (const auto& [key, touch] : touches_)
+    if (key.first == preshape) names.push_back(key.second);
+  return names;
+}
+
 std::string TouchMemory::text() const {
   Json list = Json::array();
   for (const auto& [key, touch] : touches_) {
@@ -185,6 +196,26 @@ TouchMemory TouchMemory::parse(std::string_view text, const std::filesystem::pat
         static_cast<int>(each.required("grasps").integer(1, 1'000'000'000))};
   }
   return memory;
+}
+
+std::filesystem::path touchesFile(TouchedBy hand) {
+  const std::filesystem::path folder = userDataFolder();
+  if (folder.empty()) return {};
+  return folder / (hand == TouchedBy::kHand ? "touches.json" : "touches_emulated.json");
+}
+
+TouchMemory loadTouches(const std::filesystem::path& file) {
+  std::error_code failure;
+  if (!std::filesystem::exists(file, failure) && !failure) return {};
+  return TouchMemory::parse(readTextFile(file, kLargestTouchesFile), file);
+}
+
+void saveTouches(const TouchMemory& touches, const std::filesystem::path& file) {
+  std::error_code failure;
+  std::filesystem::create_directories(file.parent_path(), failure);  // writing says what is wrong
+  OutputFile out(file, Overwrite::kReplace);
+  out.write(touches.text());
+  out.commit();
 }
 
 }  // namespace palpate

@@ -73,6 +73,8 @@ class TouchMemory {
   bool learn(const GraspReport& report);
   bool forget(const std::string& preshape, const std::string& object);
   bool empty() const noexcept { return touches_.empty(); }
+  // The names of the objects that are remembered with this preshape, in alphabetical order.
+  std::vector<std::string> objects(const std::string& preshape) const;
 
   // As JSON, "palpate-touches".
   std::string text() const;
@@ -82,5 +84,16 @@ class TouchMemory {
  private:
   std::map<std::pair<std::string, std::string>, Touch> touches_;
 };
+
+// Whether the hand that is moved is one of rubber and motors or an emulated one: what is remembered
+// of an emulated one's objects must not be believed of real ones.
+enum class TouchedBy { kHand, kEmulatedHand };
+// The file that the window and `palpate grasp` share: touches.json, or touches_emulated.json, in
+// userDataFolder(); empty: there is no such folder, and nothing is stored.
+std::filesystem::path touchesFile(TouchedBy hand = TouchedBy::kHand);
+// Empty when the file doesn't exist. Throws FileError (unreadable) or FormatError (damaged).
+TouchMemory loadTouches(const std::filesystem::path& file);
+// Makes the folder, and replaces the file. Throws FileError.
+void saveTouches(const TouchMemory& touches, const std::filesystem::path& file);
 
 }  // namespace palpate
