@@ -3,10 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "palpate/core/json_field.h"
 #include "palpate/core/json.h"
+#include "palpate/core/json_field.h"
 #include "palpate/core/number_text.h"
+#include "palpate/core/output_file.h"
+#include "palpate/core/text_file.h"
 #include "palpate/device/sdh2.h"
+#include "palpate/model/hand_file.h"
 #include "palpate/model/preshape.h"
 
 namespace palpate {
@@ -22,6 +25,7 @@ constexpr double kLearningShare = 0.5;
 constexpr std::size_t kMostTouches = 10'000;
 constexpr std::size_t kMostTouchBytes = 1000;
 constexpr std::int64_t kTouchesVersion = 1;
+constexpr std::uint64_t kLargestTouchesFile = 20'000'000;  // [bytes]
 
 double largestSlopeDeg(const Preshape& preshape) {
   double largest = 0.0;
@@ -119,15 +123,16 @@ GraspForecast forecastOf(const GraspRequest& request,
   return forecast;
 }
 
-std::string describe(const GraspForecast& forecast) {
-  std::string text = "about ";
-  if (forecast.newtons) text += fixedText(*forecast.newtons, 1) + " N, ";
-  text += fixedText(forecast.counts, 0) + " counts, " + fixedText(forecast.timesLimit, 1) +
-          " times the limit; ";
+std::string describe(const GraspForecast& forecast, const GraspRequest& request) {
+  std::string text = "expect up to " +
+                     (forecast.newtons ? fixedText(*forecast.newtons, 1) + " N"
+                                       : fixedText(forecast.counts, 0) + " counts") +
+                     ", " + fixedText(forecast.timesLimit, 1) + " times the limit";
+  if (!keepsLimit(request)) return text + ", and that it stays so";
   const std::string seconds = fixedText(std::ceil(forecast.seconds), 0) + " s";
-  return text + (forecast.touchKnown ? "touches after about " + seconds
-                                     : "closes for up to " + seconds +
-                                           ": where it touches is not known");
+  if (forecast.touchKnown) return text + "; touches in about " + seconds;
+  return text + ". Where it touches isn't known: up to " + seconds +
+         (request.object.empty() ? "; give its size or name" : "; later grasps are faster");
 }
 
 std::optional<Touch> TouchMemory::find(const std::string& preshape,
@@ -158,6 +163,13 @@ bool TouchMemory::learn(const GraspReport& report) {
 
 bool TouchMemory::forget(const std::string& preshape, const std::string& object) {
   return touches_.erase({preshape, object}) > 0;
+}
+
+std::vector<std::string> TouchMemory::objects(const std::string& preshape) const {
+  std::vector<std::string> names;
+  for (const auto& [key, touch] : touches_)
+    if (key.first == preshape) names.push_back(key.second);
+  return names;
 }
 
 std::string TouchMemory::text() const {
@@ -198,6 +210,26 @@ TouchMemory TouchMemory::parse(std::string_view text, const std::filesystem::pat
         static_cast<int>(each.required("grasps").integer(1, 1'000'000'000))};
   }
   return memory;
+}
+
+std::filesystem::path touchesFile(TouchedBy hand) {
+  const std::filesystem::path folder = userDataFolder();
+  if (folder.empty()) return {};
+  return folder / (hand == TouchedBy::kHand ? "touches.json" : "touches_emulated.json");
+}
+
+TouchMemory loadTouches(const std::filesystem::path& file) {
+  std::error_code failure;
+  if (!std::filesystem::exists(file, failure) && !failure) return {};
+  return TouchMemory::parse(readTextFile(file, kLargestTouchesFile), file);
+}
+
+void saveTouches(const TouchMemory& touches, const std::filesystem::path& file) {
+  std::error_code failure;
+  std::filesystem::create_directories(file.parent_path(), failure);  // writing says what is wrong
+  OutputFile out(file, Overwrite::kReplace);
+  out.write(touches.text());
+  out.commit();
 }
 
 }  // namespace palpate

@@ -23,7 +23,6 @@ void requireRange(const char* field, double value, double least, double most, co
 constexpr double kBeyondRangeDeg = 1.0;
 // Under tactile control the hand may be pressing already: see MoveJoints::answerLimitS.
 constexpr double kTactileAnswerLimitS = 0.2;
-constexpr std::size_t kMostObjectBytes = 100;
 
 // The limits as text: "200 counts", "200, 150, 200 counts".
 template <typename Values>

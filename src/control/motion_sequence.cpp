@@ -87,6 +87,9 @@ Json jsonOf(const SequenceStep& step) {
   if (!request.fingerLimitCounts.empty())
     json.set("finger_limit_counts", jsonList(request.fingerLimitCounts));
   if (!request.forceLimitsN.empty()) json.set("force_limit_n", jsonList(request.forceLimitsN));
+  json.set("keeps_limit", request.keepsLimit);
+  if (!request.object.empty()) json.set("object", request.object);
+  if (request.touchRatio) json.set("touch_ratio", *request.touchRatio);
   if (request.mode != GraspMode::kSlip) return json;
   const HoldingOptions& holding = request.holding;
   json.set("hold_s", holding.holdS)
@@ -125,6 +128,9 @@ void readGrasp(const JsonField& field, GraspRequest& request) {
   if (field.has("force_limit_n"))
     for (const JsonField& each : field.at("force_limit_n").items(100))
       request.forceLimitsN.push_back(each.number(-kAnyNumber, kAnyNumber));
+  if (field.has("keeps_limit")) request.keepsLimit = field.at("keeps_limit").flag();
+  if (field.has("object")) request.object = field.at("object").text();
+  if (field.has("touch_ratio")) request.touchRatio = number("touch_ratio", 0.0);
   HoldingOptions& holding = request.holding;
   holding.holdS = number("hold_s", holding.holdS);
   holding.maxLimitCounts = whole("most_limit_counts", holding.maxLimitCounts);

@@ -514,14 +514,16 @@ const HandDescription& defaultHand() {
   throw std::logic_error("no built-in hand has a tactile controller");
 }
 
-std::vector<fs::path> handFolders(const fs::path& dataFolder) {
-  std::vector<fs::path> folders;
+fs::path userDataFolder() {
   const char* data = std::getenv("XDG_DATA_HOME");
   const char* home = std::getenv("HOME");
-  if (data && *data)
-    folders.push_back(fs::path(data) / "palpate/hands");
-  else if (home && *home)
-    folders.push_back(fs::path(home) / ".local/share/palpate/hands");
+  if (data && *data) return fs::path(data) / "palpate";
+  return home && *home ? fs::path(home) / ".local/share/palpate" : fs::path();
+}
+
+std::vector<fs::path> handFolders(const fs::path& dataFolder) {
+  std::vector<fs::path> folders;
+  if (const fs::path own = userDataFolder(); !own.empty()) folders.push_back(own / "hands");
   folders.push_back(dataFolder / "hands");
   return folders;
 }

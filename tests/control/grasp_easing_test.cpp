@@ -41,8 +41,7 @@ struct EasingBench {
 
   EasingBench() {
     held.begin(keeping(), touchOfBall());
-    EXPECT_TRUE(
-        held.run(60.0, [&] { return held.machine().phase() == GraspPhase::kEasing; }));
+    EXPECT_TRUE(held.run(60.0, [&] { return held.machine().phase() == GraspPhase::kEasing; }));
   }
   double fastestDeg() { return held.hand().joints().angles()[1]; }
 };
@@ -243,12 +242,16 @@ TEST(TouchMemory, IsWrittenAndReadBack) {
 }
 
 TEST(TouchMemory, RefusesWhatIsNoSuchFile) {
-  for (const char* text :
-       {"", "{}", "[1]", R"({"format":"palpate-poses","version":1,"touches":[]})",
-        R"({"format":"palpate-touches","version":2,"touches":[]})",
-        R"({"format":"palpate-touches","version":1,"touches":[{"preshape":"a","object":"","ratio":0.5,"grasps":1}]})",
-        R"({"format":"palpate-touches","version":1,"touches":[{"preshape":"a","object":"b","ratio":1.5,"grasps":1}]})",
-        R"({"format":"palpate-touches","version":1,"touches":[{"preshape":"a","object":"b","ratio":0.5,"grasps":0}]})"})
+  for (
+      const char* text :
+      {"",
+       "{}",
+       "[1]",
+       R"({"format":"palpate-poses","version":1,"touches":[]})",
+       R"({"format":"palpate-touches","version":2,"touches":[]})",
+       R"({"format":"palpate-touches","version":1,"touches":[{"preshape":"a","object":"","ratio":0.5,"grasps":1}]})",
+       R"({"format":"palpate-touches","version":1,"touches":[{"preshape":"a","object":"b","ratio":1.5,"grasps":1}]})",
+       R"({"format":"palpate-touches","version":1,"touches":[{"preshape":"a","object":"b","ratio":0.5,"grasps":0}]})"})
     EXPECT_THROW(TouchMemory::parse(text, "touches.json"), Error) << text;
 }
 

@@ -280,6 +280,9 @@ TEST(MotionSequence, IsReadAsItWasWritten) {
   slip.request.holding.holdS = 3.0;
   slip.request.holding.loosen = true;
   slip.request.holding.weightN = 1.5;
+  slip.request.keepsLimit = true;
+  slip.request.object = "tin \"A\"";
+  slip.request.touchRatio = 0.75;
   sequence.steps.push_back(slip);
   sequence.steps.push_back(grasping(GraspMode::kPlain, 0.3));
   const std::string text = sequenceText(sequence);
@@ -291,7 +294,41 @@ TEST(MotionSequence, IsReadAsItWasWritten) {
     EXPECT_EQ(describe(read.steps[i]), describe(sequence.steps[i]));
   EXPECT_EQ(read.steps[5].request.fingerLimitCounts, (std::vector<int>{400, 300, 200}));
   EXPECT_TRUE(read.steps[5].request.holding.loosen);
+  EXPECT_TRUE(read.steps[5].request.keepsLimit);
+  EXPECT_EQ(read.steps[5].request.object, "tin \"A\"");
+  EXPECT_EQ(read.steps[5].request.touchRatio, 0.75);
+  for (std::size_t i = 0; i < 5; ++i) {
+    EXPECT_FALSE(read.steps[i].request.keepsLimit) << i;
+    EXPECT_EQ(read.steps[i].request.object, "") << i;
+    EXPECT_EQ(read.steps[i].request.touchRatio, std::nullopt) << i;
+  }
   EXPECT_NO_THROW(read.validate(sdh2()));
+}
+
+// As they were recorded: grasps of such tables stayed above their limit.
+TEST(MotionSequence, TablesOfEarlierVersionsKeepNoLimit) {
+  const MotionSequence read = parseSequence(
+      R"({"format": "palpate-sequence", "version": 1, "hand": "SCHUNK SDH-2", "steps": [
+           {"step": "grasp", "mode": "reactive", "preshape": "parallel", "close": 1,
+            "velocity_deg_per_s": 10, "limit_counts": 200}]})",
+      "s.json");
+  ASSERT_EQ(read.steps.size(), 1u);
+  EXPECT_EQ(read.steps[0].request.limitCounts, 200);
+  EXPECT_FALSE(read.steps[0].request.keepsLimit);
+  EXPECT_EQ(read.steps[0].request.object, "");
+}
+
+TEST(MotionSequence, AStepThatKeepsItsLimitIsChecked) {
+  MotionSequence sequence = everyKind();
+  SequenceStep kept = grasping(GraspMode::kReactive, 0.9);
+  kept.request.keepsLimit = true;
+  sequence.steps = {kept};
+  EXPECT_NO_THROW(sequence.validate(sdh2()));
+  sequence.steps[0].request.object = std::string(101, 'x');
+  EXPECT_THROW(sequence.validate(sdh2()), std::invalid_argument);
+  sequence.steps[0].request.object = "";
+  sequence.steps[0].request.touchRatio = 1.5;
+  EXPECT_THROW(sequence.validate(sdh2()), std::invalid_argument);
 }
 
 TEST(MotionSequence, BadFilesAreRefusedWithTheirPlace) {

@@ -205,12 +205,14 @@ TEST(HandFile, HandsAreLookedForInTheUsersFolderFirst) {
   const Variable home("HOME", "/home/me");
   {
     const Variable data("XDG_DATA_HOME", "/my/data");
+    EXPECT_EQ(userDataFolder(), "/my/data/palpate");
     EXPECT_EQ(handFolders("/program"), (Paths{"/my/data/palpate/hands", "/program/hands"}));
   }
   const Variable data("XDG_DATA_HOME", nullptr);
   EXPECT_EQ(handFolders("/program"),
             (Paths{"/home/me/.local/share/palpate/hands", "/program/hands"}));
   const Variable nobody("HOME", nullptr);
+  EXPECT_EQ(userDataFolder(), "");
   EXPECT_EQ(handFolders("/program"), (Paths{"/program/hands"}));
 }
 

@@ -43,7 +43,8 @@ CommandSpec graspSpec() {
           "Moves a hand. The mode 'plain' moves to the preshape at close ratio R (0 open .. 1 "
           "closed, default 0.5), without regard to contact. 'reactive' opens to the preshape, then "
           "closes to R (default 1), slowly where it is expected to touch, stops when the first "
-          "taxel exceeds N counts, and moves by small steps until the reading at rest is N. 'slip' does "
+          "taxel exceeds N counts, and moves by small steps until the reading at rest is N. 'slip' "
+          "does "
           "the same and then holds the object: when the object slips, the hand closes again, to a "
           "limit raised by 300 counts. It ends with Ctrl-C or after --hold seconds. Ctrl-C stops "
           "the hand. Prints a line per state: seconds, state, text. After the command the motors "
@@ -150,8 +151,8 @@ void approachOf(const CommandLine& given, GraspRequest& request) {
   request.object = given.text("object").value_or("");
   if (!size) return;
   const HandGeometry geometry(describeGeometry(movableHand()));
-  request.touchRatio = touchRatioOf(
-      geometry, findPreshape(movableHand().file->preshapes, request.preshape), *size);
+  request.touchRatio =
+      touchRatioOf(geometry, findPreshape(movableHand().file->preshapes, request.preshape), *size);
   if (!request.touchRatio)
     throw UsageError("--object-size: the closed hand is wider than " + numberText(*size) + " mm");
 }
@@ -293,6 +294,17 @@ GraspReport follow(GraspControl& control, const StateLines& lines, Interruption&
   throw Error(report.text + "; state unknown: use the power switch");
 }
 
+// A grasp is done whether or not its touch can be remembered.
+void remember(const GraspControl& control) {
+  try {
+    saveTouches(control.touches(), touchesFile());
+  } catch (const Error& error) {
+    std::fprintf(stderr,
+                 "palpate: where the object was touched is not remembered: %s\n",
+                 escapedLine(error.what()).c_str());
+  }
+}
+
 MotionSequence sequenceOf(const CommandLine& given) {
   for (const char* option : {"preshape", "close", "velocity", "mode", "limit"})
     if (given.has(option))
@@ -381,6 +393,7 @@ int graspCommand(const Arguments& words) {
   CaptureSession session(std::make_unique<LiveHand>(std::move(ports)));
   GraspControl control(session);
   control.setCalibration(std::move(calibration));
+  if (!request.object.empty()) control.setTouches(loadTouches(touchesFile()));
   control.run();
   lines.show("connecting");
   session.start();
@@ -388,10 +401,12 @@ int graspCommand(const Arguments& words) {
   // Nothing was asked for yet: what is said of the motion is that the hand moved when it was found.
   for (const RecordingEvent& event : session.takeEvents())
     if (event.kind == "motion") showState(lines, "stopped", event.text);
-  lines.show("ready", request.keepsLimit ? describe(control.forecast(request)) : std::string());
+  const bool feelsObject = !sequence && request.mode != GraspMode::kPlain;
+  lines.show("ready", feelsObject ? describe(control.forecast(request), request) : std::string());
   if (sequence) return runSequence(*sequence, session, control, lines, interruption);
   control.grasp(request);
   const GraspReport report = follow(control, lines, interruption);
+  if (control.status().touchesLearnt > 0) remember(control);
   if (report.outcome == GraspOutcome::kPortGone) awaitPort(control, report, lines, interruption);
   return exitCodeOf(report);
 }

@@ -61,9 +61,8 @@ struct GraspForecast {
 GraspForecast forecastOf(const GraspRequest& request,
                          const std::optional<Touch>& touch,
                          const std::vector<double>& presentDeg);
-// "about 400 counts, 2 times the limit; touches after about 15 s", "..; closes for up to 275 s:
-// where it touches is not known".
-std::string describe(const GraspForecast& forecast);
+// "expect up to 400 counts, 2.0 times the limit; touches in about 15 s".
+std::string describe(const GraspForecast& forecast, const GraspRequest& request);
 // The close ratio to which the angles of all joints fit best, 0..1; empty for another number of
 // joints, or a preshape that moves none.
 std::optional<double> closeRatioOf(const Preshape& preshape, const std::vector<double>& anglesDeg);
@@ -76,6 +75,8 @@ class TouchMemory {
   bool learn(const GraspReport& report);
   bool forget(const std::string& preshape, const std::string& object);
   bool empty() const noexcept { return touches_.empty(); }
+  // The names of the objects that are remembered with this preshape, in alphabetical order.
+  std::vector<std::string> objects(const std::string& preshape) const;
 
   // As JSON, "palpate-touches".
   std::string text() const;
@@ -85,5 +86,16 @@ class TouchMemory {
  private:
   std::map<std::pair<std::string, std::string>, Touch> touches_;
 };
+
+// Whether the hand that is moved is one of rubber and motors or an emulated one: what is remembered
+// of an emulated one's objects must not be believed of real ones.
+enum class TouchedBy { kHand, kEmulatedHand };
+// The file that the window and `palpate grasp` share: touches.json, or touches_emulated.json, in
+// userDataFolder(); empty: there is no such folder, and nothing is stored.
+std::filesystem::path touchesFile(TouchedBy hand = TouchedBy::kHand);
+// Empty when the file doesn't exist. Throws FileError (unreadable) or FormatError (damaged).
+TouchMemory loadTouches(const std::filesystem::path& file);
+// Makes the folder, and replaces the file. Throws FileError.
+void saveTouches(const TouchMemory& touches, const std::filesystem::path& file);
 
 }  // namespace palpate

@@ -1,6 +1,7 @@
 // Request of a grasp and report of its result. GraspControl takes requests and returns reports.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -68,6 +69,8 @@ const HandDescription& movableHand();
 // MatrixDescription::finger.
 std::size_t numMovableFingers();
 
+// Length of the name of an object [bytes].
+constexpr std::size_t kMostObjectBytes = 100;
 constexpr double kMinForceLimitN = 0.05;
 constexpr double kMaxForceLimitN = 500.0;
 

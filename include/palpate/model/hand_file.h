@@ -120,8 +120,11 @@ struct KnownHand {
   std::string key;               // name of its folder: "my_pad"
   std::filesystem::path folder;  // empty: built in
 };
-// The folders in which hands are looked for by name: the user's ($XDG_DATA_HOME/palpate/hands, or
-// $HOME/.local/share/palpate/hands without the former), then `dataFolder`/hands.
+// The user's folder of what the program keeps: $XDG_DATA_HOME/palpate, or
+// $HOME/.local/share/palpate without the former; empty: neither is set.
+std::filesystem::path userDataFolder();
+// The folders in which hands are looked for by name: userDataFolder()/hands, then
+// `dataFolder`/hands.
 std::vector<std::filesystem::path> handFolders(const std::filesystem::path& dataFolder);
 // The hands in `folders` and the built-in ones, by name in alphabetical order. Of hands with the
 // same name the first folder's is taken, a built-in one last. Folders that can't be read are left

@@ -184,11 +184,10 @@ std::optional<std::size_t> BlockStorage::itemAt(Stream stream, std::int64_t time
   if (timeUs >= place.t1Us) return first + static_cast<std::size_t>(place.n) - 1;
   const std::lock_guard lock(mutex_);
   const auto block = readable(stream, first);
-  const std::size_t later =
-      firstWhere(static_cast<std::size_t>(place.n), [&](std::size_t item) {
-        return timeUs < (block ? block->index.hostUs[item]
-                               : estimatedUs(place, static_cast<std::int64_t>(item)));
-      });
+  const std::size_t later = firstWhere(static_cast<std::size_t>(place.n), [&](std::size_t item) {
+    return timeUs < (block ? block->index.hostUs[item]
+                           : estimatedUs(place, static_cast<std::int64_t>(item)));
+  });
   return first + later - 1;
 }
 

@@ -1,5 +1,6 @@
 // The window on a hand that isn't there: connect, watch, record, mark, stop, accidents, leaving.
 #include <QApplication>
+#include <QCheckBox>
 #include <QComboBox>
 #include <QDockWidget>
 #include <QDoubleSpinBox>
@@ -9,14 +10,17 @@
 #include <QMessageBox>
 #include <QPushButton>
 #include <QRegularExpression>
+#include <QSignalSpy>
 #include <QSlider>
 #include <QToolButton>
+#include <fstream>
 #include <set>
 
 #include "palpate/device/sdh2.h"
 #include <palpate/recording/recording.h>
 
 #include "control/emulated_bench.h"
+#include "gui/appearance/captions.h"
 #include "gui/connect/connect_feature.h"
 #include "gui/hand/hand_dock.h"
 #include "gui/hand3d/hand3d_feature.h"
@@ -182,6 +186,8 @@ TEST_F(LiveWindowTest, StopStaysInSightAndNoKeyMovesAHandThatIsNotShown) {
 TEST_F(LiveWindowTest, AReactiveGraspIsFeltSeenAndStopped) {
   connectEmulatedHand();
   EXPECT_FALSE(bench_->handMoves()) << "connecting moves nothing";
+  // With the limit kept an unknown object is touched after minutes.
+  find<QCheckBox>("keepLimit")->setChecked(false);
   click("reactiveGrasp");
   ASSERT_TRUE(await([&] { return bench_->handMoves(); }));
   auto* table = window().findChild<MatrixTableModel*>();
@@ -193,6 +199,21 @@ TEST_F(LiveWindowTest, AReactiveGraspIsFeltSeenAndStopped) {
   ASSERT_TRUE(await([&] { return active() > 0; })) << "the ball is felt";
   ASSERT_TRUE(await([&] { return !bench_->handMoves(); }));
   EXPECT_TRUE(find<QLabel>("handState")->text().contains("limit"));
+}
+
+// What an emulated hand touches is in a file of its own.
+TEST_F(LiveWindowTest, ADamagedFileOfTouchesIsSaidWhenItsHandIsConnected) {
+  const fs::path file = touchesFile(TouchedBy::kEmulatedHand);
+  fs::create_directories(file.parent_path());
+  std::ofstream(file) << "no touches";
+  QSignalSpy failed(&window().state().messages, &Messages::failed);
+  connectEmulatedHand();
+  EXPECT_EQ(failed.count(), 0) << "a hand at ports has another file";
+  connectEmulated();
+  ASSERT_TRUE(await([&] { return failed.count() == 1; }));
+  EXPECT_TRUE(failed[0][1].toString().contains(pathText(file)))
+      << failed[0][1].toString().toStdString();
+  fs::remove(file);
 }
 
 TEST_F(LiveWindowTest, EscapeStopsTheHandWhateverIsShown) {

@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "gui/appearance/captions.h"
+#include "gui/hand/object_fields.h"
 #include "gui/widgets/number_field.h"
 
 namespace palpate::gui {
@@ -49,7 +50,8 @@ GraspOptions::GraspOptions(QSettings& settings, QWidget* parent)
   header_ = new QToolButton(this);
   header_->setObjectName("moreGraspOptions");
   header_->setText("More");
-  header_->setToolTip("Limits of single fingers and in newtons; how a slip-aware grasp holds");
+  header_->setToolTip(
+      "The object, limits of single fingers and in newtons; how a slip-aware grasp holds");
   header_->setCheckable(true);
   header_->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
   header_->setProperty("flat", true);
@@ -57,14 +59,21 @@ GraspOptions::GraspOptions(QSettings& settings, QWidget* parent)
   summary_ = new QLabel(this);
   summary_->setObjectName("graspOptionsSummary");
   summary_->setProperty("role", "muted");
+  summary_->setTextFormat(Qt::PlainText);
   summary_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
   body_ = new QWidget(this);
   auto* head = new QHBoxLayout;
   head->setSpacing(8);
   head->addWidget(header_);
   head->addWidget(summary_, 1);
-  auto* grid = new QGridLayout(body_);
-  grid->setContentsMargins(0, 0, 0, 0);
+  object_ = new ObjectFields(body_);
+  connect(object_, &ObjectFields::changed, this, &GraspOptions::showChoice);
+  auto* rows = new QVBoxLayout(body_);
+  rows->setContentsMargins(0, 0, 0, 0);
+  rows->setSpacing(4);
+  rows->addWidget(object_);
+  auto* grid = new QGridLayout;
+  rows->addLayout(grid);
   grid->setHorizontalSpacing(8);
   grid->setVerticalSpacing(4);
   grid->setColumnStretch(1, 1);
@@ -229,6 +238,7 @@ void GraspOptions::showChoice() {
 
 QString GraspOptions::summary() const {
   QStringList parts;
+  if (const QString object = object_->text(); !object.isEmpty()) parts += object;
   if (inNewtons()) parts += "limit in newtons";
   if (!whyCounts_->isHidden() && settings_.value(kInNewtons, false).toBool())
     parts += QString("limit in counts: ") + kWhyCounts;

@@ -1,5 +1,5 @@
-// The part of the dock Hand below the grasp buttons that folds: the unit of the limit, limits of
-// single fingers, and how a slip-aware grasp holds, with the words of `palpate grasp`.
+// The part of the dock Hand below the grasp buttons that folds: the object, the unit of the limit,
+// limits of single fingers, and how a slip-aware grasp holds, with the words of `palpate grasp`.
 #pragma once
 
 #include <QSettings>
@@ -17,6 +17,8 @@ class QToolButton;
 
 namespace palpate::gui {
 
+class ObjectFields;
+
 inline constexpr const char* kCalibrationBeingRead = "The calibration is being read";
 
 class GraspOptions : public QWidget {
@@ -28,6 +30,7 @@ class GraspOptions : public QWidget {
 
   bool inNewtons() const;
   bool eachFinger() const;
+  ObjectFields& object() noexcept { return *object_; }
   // What is known of the calibration of the connected hand.
   enum class Calibrated { kNoHand, kNot, kBeingRead, kYes };
   // With a calibration limits in newtons can be chosen. Without one the limit is in counts; the
@@ -55,6 +58,7 @@ class GraspOptions : public QWidget {
   QToolButton* header_;
   QLabel* summary_;
   QWidget* body_;
+  ObjectFields* object_;
   QComboBox* unit_;
   // Why newtons can't be chosen.
   QLabel* whyCounts_;

@@ -1,5 +1,6 @@
 #include "gui/hand/grasp_panel.h"
 
+#include <QCheckBox>
 #include <QComboBox>
 #include <QDoubleSpinBox>
 #include <QFormLayout>
@@ -7,14 +8,19 @@
 #include <QLabel>
 #include <QPushButton>
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 #include <palpate/core/error.h>
 #include <palpate/model/hand_file.h>
 
+#include "gui/appearance/captions.h"
 #include "gui/desktop/button_keys.h"
 #include "gui/hand/grasp_options.h"
 #include "gui/hand/motion_button.h"
+#include "gui/hand/object_fields.h"
+#include "gui/hand/touch_store.h"
+#include "gui/widgets/status_lines.h"
 #include "gui/widgets/text_fit.h"
 #include "gui/widgets/value_slider.h"
 
@@ -27,12 +33,24 @@ constexpr const char* kLimit = "grasp/limit_counts";
 constexpr const char* kForceLimit = "grasp/limit_n";
 constexpr double kUsualForceLimitN = 2.0;
 constexpr double kSliderForceLimitN = 20.0;
+constexpr const char* kKeepLimit = "grasp/keep_limit";
+constexpr const char* kKeepTip =
+    "Touches slowly, where the object is expected, and then gives way until the reading is 0.8 .. "
+    "1.2 times the limit. Off: closes at the velocity, and stays where it stopped, above the limit";
 constexpr const char* kLimitTip =
     "A reactive grasp stops at the first taxel above it, a slip-aware one starts with it; an "
     "SDH-2 saturates at 3500";
 constexpr const char* kForceLimitTip =
     "A grasp stops when a finger presses harder, by the calibration. A slip-aware grasp begins "
-    "with its limit in counts, and never exceeds this one";
+    "with its limit in counts, and closes no further while a finger is above this one";
+constexpr int kForecastLines = 2;
+constexpr int kForecastMs = 250;
+constexpr double kForecastDeg = 0.5;  // a joint that moves less changes no forecast
+
+// As it is shown.
+bool isWarned(const GraspForecast& forecast) {
+  return std::round(10.0 * forecast.timesLimit) > 10.0 * kWarnedLimit;
+}
 
 double remembered(
     const QSettings& settings, const char* key, double least, double most, double usual) {
@@ -52,8 +70,8 @@ QPushButton* button(const QString& text, const QString& name, QWidget* parent) {
 
 }  // namespace
 
-GraspPanel::GraspPanel(QSettings& settings, QWidget* parent)
-    : QWidget(parent), settings_(settings) {
+GraspPanel::GraspPanel(QSettings& settings, TouchStore& touches, QWidget* parent)
+    : QWidget(parent), settings_(settings), touches_(touches) {
   highestLimit = [](const GraspRequest&) { return kMaxGraspLimitCounts; };
   const GraspRequest usual;
   preshape_ = new QComboBox(this);
@@ -93,7 +111,6 @@ GraspPanel::GraspPanel(QSettings& settings, QWidget* parent)
   limitsRow->setContentsMargins(0, 0, 0, 0);
   limitsRow->addWidget(limit_);
   limitsRow->addWidget(forceLimit_);
-  options_ = new GraspOptions(settings, this);
 
   auto* form = new QFormLayout;
   form->setContentsMargins(0, 0, 0, 0);
@@ -102,7 +119,9 @@ GraspPanel::GraspPanel(QSettings& settings, QWidget* parent)
   form->addRow("Preshape", preshape_);
   form->addRow("Close ratio", close_);
   form->addRow("Velocity", velocity_);
-  form->addRow("Limit", limits);
+  limitLabel_ = new QLabel(this);
+  form->addRow(limitLabel_, limits);
+  makeForecast(*form);
   // Aligns the right edges of the fields.
   fitToText(*this, [this] {
     int widest = 0;
@@ -118,6 +137,7 @@ GraspPanel::GraspPanel(QSettings& settings, QWidget* parent)
   slipAware_ = button("Slip-aware", "slipAwareGrasp", this);
   open_ = button("Open", "openHand", this);
   relax_ = button("Relax", "relaxHand", this);
+  options_ = new GraspOptions(settings, this);
   auto* grasps = new QHBoxLayout;
   grasps->setSpacing(6);
   for (QPushButton* each : {grasp_, reactive_, slipAware_}) grasps->addWidget(each, 1);
@@ -136,7 +156,6 @@ GraspPanel::GraspPanel(QSettings& settings, QWidget* parent)
   // Below the buttons, which don't move when it unfolds.
   column->addWidget(options_);
   column->addStretch(1);
-  setTabOrder(relax_, options_);
 
   connect(open_, &QPushButton::clicked, this, [this] {
     GraspRequest request = this->request(GraspMode::kPlain);
@@ -151,7 +170,20 @@ GraspPanel::GraspPanel(QSettings& settings, QWidget* parent)
     if (control_) control_->relax();
     emit asked();
   });
-  connect(preshape_, &QComboBox::currentIndexChanged, this, &GraspPanel::remember);
+  connect(preshape_, &QComboBox::currentIndexChanged, this, [this] {
+    options_->object().setPreshape(preshape_->currentData().toString().toStdString());
+    remember();
+  });
+  options_->object().setPreshape(preshape_->currentData().toString().toStdString());
+  connect(keep_, &QCheckBox::toggled, this, [this] {
+    remember();
+    showLimit();
+  });
+  connect(&options_->object(), &ObjectFields::forgets, &touches_, &TouchStore::forget);
+  connect(&touches_, &TouchStore::changed, this, [this] {
+    options_->object().setTouches(touches_.touches());
+    renewForecast();
+  });
   for (ValueSlider* each : {close_, velocity_, limit_, forceLimit_})
     connect(each, &ValueSlider::chosen, this, &GraspPanel::remember);
   connect(options_, &GraspOptions::limitsChanged, this, &GraspPanel::showLimit);
@@ -159,7 +191,63 @@ GraspPanel::GraspPanel(QSettings& settings, QWidget* parent)
   showStatus({});
 }
 
+void GraspPanel::makeForecast(QFormLayout& form) {
+  keep_ = new QCheckBox("Keep the limit", this);
+  keep_->setObjectName("keepLimit");
+  keep_->setToolTip(kKeepTip);
+  keep_->setChecked(settings_.value(kKeepLimit, true).toBool());
+  forecast_ = new StatusLines(kForecastLines, "graspForecast", this);
+  forecast_->label().setTextFormat(Qt::PlainText);
+  forecast_->label().setAccessibleDescription("What a reactive grasp is expected to reach");
+  form.addRow(QString(), keep_);
+  form.addRow(forecast_);
+  forecastTimer_.setSingleShot(true);
+  forecastTimer_.setInterval(kForecastMs);
+  connect(&forecastTimer_, &QTimer::timeout, this, &GraspPanel::showForecast);
+}
+
+void GraspPanel::showEvent(QShowEvent* event) {
+  QWidget::showEvent(event);
+  showForecast();
+}
+
+void GraspPanel::renewForecast() {
+  if (isVisible() && !forecastTimer_.isActive()) forecastTimer_.start();
+}
+
+void GraspPanel::showForecast() {
+  if (!isVisible()) return;
+  forecastDeg_ = shown_.anglesDeg;
+  QString text;
+  QColor color = colorsOf(theme_).text;
+  if (control_) {
+    const GraspRequest request = this->request(GraspMode::kReactive);
+    const GraspForecast forecast = control_->forecast(request);
+    text = QString::fromStdString(describe(forecast, request));
+    text[0] = text[0].toUpper();
+    if (isWarned(forecast)) color = colorsOf(theme_).warning;
+  }
+  forecast_->setText(text);
+  const QString style = "color: " + color.name() + ";";
+  if (forecast_->label().styleSheet() != style) forecast_->label().setStyleSheet(style);
+}
+
+void GraspPanel::setTheme(Theme theme) {
+  theme_ = theme;
+  showForecast();
+}
+
+void GraspPanel::setHand(const HandDescription& hand) {
+  options_->object().setHand(hand);
+  renewForecast();
+}
+
 void GraspPanel::showLimit() {
+  const QString name = keep_->isChecked() ? "Limit" : "Stop at";
+  limitLabel_->setText(name);
+  for (QWidget* each : std::initializer_list<QWidget*>{limit_->field(), limit_->slider()})
+    each->setAccessibleName(name);
+  renewForecast();
   const bool inNewtons = options_->inNewtons();
   limit_->setVisible(!inNewtons);
   forceLimit_->setVisible(inNewtons);
@@ -176,6 +264,8 @@ void GraspPanel::remember() {
   settings_.setValue(kClose, close_->value());
   settings_.setValue(kLimit, limit_->value());
   settings_.setValue(kForceLimit, forceLimit_->value());
+  settings_.setValue(kKeepLimit, keep_->isChecked());
+  renewForecast();
 }
 
 GraspRequest GraspPanel::request(GraspMode mode) const {
@@ -192,6 +282,10 @@ GraspRequest GraspPanel::request(GraspMode mode) const {
     if (highest > 0) request.limitCounts = highest;
   }
   options_->apply(request);
+  if (mode != GraspMode::kPlain && keep_->isChecked()) {
+    request.keepsLimit = true;
+    options_->object().apply(request);
+  }
   return request;
 }
 
@@ -212,6 +306,7 @@ void GraspPanel::setControl(GraspControl* control, const QString& whyNot) {
   control_ = control;
   whyNot_ = whyNot;
   showStatus(control ? control->status() : GraspStatus{});
+  renewForecast();
 }
 
 void GraspPanel::setCalibrationBeingRead(bool beingRead) {
@@ -223,12 +318,19 @@ void GraspPanel::setCalibrationBeingRead(bool beingRead) {
 
 void GraspPanel::showStatus(const GraspStatus& status) {
   shown_ = status;
+  if (!std::equal(status.anglesDeg.begin(),
+                  status.anglesDeg.end(),
+                  forecastDeg_.begin(),
+                  forecastDeg_.end(),
+                  [](double a, double b) { return std::abs(a - b) < kForecastDeg; }))
+    renewForecast();
   using Calibrated = GraspOptions::Calibrated;
   options_->setCalibrated(!control_               ? Calibrated::kNoHand
                           : status.calibrated     ? Calibrated::kYes
                           : calibrationBeingRead_ ? Calibrated::kBeingRead
                                                   : Calibrated::kNot);
   const bool idle = status.phase == GraspPhase::kIdle;
+  options_->object().setIdle(idle);
   const bool canMove = control_ && status.cannotMove.empty();
   const bool waits = calibrationBeingRead_ && !status.calibrated && options_->inNewtons();
   const std::string cannotReact = waits ? kCalibrationBeingRead : status.cannotReact;

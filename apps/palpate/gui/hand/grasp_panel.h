@@ -3,28 +3,38 @@
 #pragma once
 
 #include <QSettings>
+#include <QTimer>
 #include <QWidget>
 #include <functional>
 
 #include <palpate/control/grasp_control.h>
 
+#include "gui/appearance/theme.h"
+
+class QCheckBox;
 class QComboBox;
+class QFormLayout;
 class QLabel;
 class QPushButton;
 
 namespace palpate::gui {
 
 class GraspOptions;
+class StatusLines;
+class TouchStore;
 class ValueSlider;
 
 class GraspPanel : public QWidget {
   Q_OBJECT
  public:
-  // Stores the chosen values in `settings`, which must outlive this.
-  GraspPanel(QSettings& settings, QWidget* parent);
+  // Stores the chosen values in `settings`, which must outlive this, as must `touches`.
+  GraspPanel(QSettings& settings, TouchStore& touches, QWidget* parent);
   // Null: no hand, or one that is read only; the tool tips then tell `whyNot`. `control` must
   // outlive this, or be replaced by null before it is destroyed.
   void setControl(GraspControl* control, const QString& whyNot = "No hand is connected");
+  // The connected hand is another one.
+  void setHand(const HandDescription& hand);
+  void setTheme(Theme theme);
   // A grasp with a limit in newtons must wait for the calibration.
   void setCalibrationBeingRead(bool beingRead);
   // Enables the motions that are possible now; the tool tips tell why others are not.
@@ -43,12 +53,20 @@ class GraspPanel : public QWidget {
   // A motion was started or refused.
   void asked();
 
+ protected:
+  void showEvent(QShowEvent* event) override;
+
  private:
   void begin(const GraspRequest& request);
   void remember();
+  void makeForecast(QFormLayout& form);
   void showLimit();
+  // Soon, and only while the panel is seen.
+  void renewForecast();
+  void showForecast();
 
   QSettings& settings_;
+  TouchStore& touches_;
   GraspControl* control_ = nullptr;
   QString whyNot_ = "No hand is connected";
   bool calibrationBeingRead_ = false;
@@ -59,6 +77,13 @@ class GraspPanel : public QWidget {
   ValueSlider* velocity_;
   ValueSlider* limit_;
   ValueSlider* forceLimit_;
+  QLabel* limitLabel_;
+  QCheckBox* keep_;
+  StatusLines* forecast_;
+  QTimer forecastTimer_;
+  // The angles of which the forecast is [deg].
+  std::vector<double> forecastDeg_;
+  Theme theme_ = Theme::kDark;
   GraspOptions* options_;
   QPushButton* open_;
   QPushButton* grasp_;

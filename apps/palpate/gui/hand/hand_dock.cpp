@@ -29,6 +29,7 @@
 #include "gui/hand/sequence_panel.h"
 #include "gui/hand/stop_key.h"
 #include "gui/hand/tactile_settings_panel.h"
+#include "gui/hand/touch_store.h"
 #include "gui/widgets/facts_view.h"
 #include "gui/widgets/fitting_pages.h"
 #include "gui/widgets/number_field.h"
@@ -173,7 +174,8 @@ QWidget* HandDock::makeHead() {
 }
 
 void HandDock::makePages(QSettings& settings, QWidget* content) {
-  grasp_ = new GraspPanel(settings, content);
+  touches_ = new TouchStore(this);
+  grasp_ = new GraspPanel(settings, *touches_, content);
   joint_ = new JointPanel(settings, content);
   sequence_ = new SequencePanel(settings, content);
   chooser_ = new QTabBar(content);
@@ -229,7 +231,14 @@ void HandDock::connectMotions() {
   common(grasp_);
   common(joint_);
   common(sequence_);
-  joint_->reactiveLimits = [this] { return grasp_->request(GraspMode::kReactive); };
+  joint_->reactiveLimits = [this] {
+    GraspRequest request = grasp_->request(GraspMode::kReactive);
+    // A motion of joints stops at its limit, and doesn't give way.
+    request.keepsLimit = false;
+    request.object.clear();
+    request.touchRatio.reset();
+    return request;
+  };
   sequence_->graspRequest = [this](GraspMode mode) { return grasp_->request(mode); };
   sequence_->poseVelocity = [this] { return joint_->velocityDegPerS(); };
   sequence_->poses = [this] {
@@ -353,6 +362,7 @@ void HandDock::setHand(CaptureSession* session, GraspControl* control) {
   toldCondition_.reset();
   queue_ = session ? session->subscribe("the dock Hand", smallFeed()) : nullptr;
   const QString whyNot = isReadOnly() ? kReadOnlyTip : "No hand is connected";
+  touches_->setControl(control);
   grasp_->setControl(control, whyNot);
   joint_->setControl(control, whyNot);
   sequence_->setHand(session, control, whyNot);
@@ -381,6 +391,7 @@ void HandDock::renewCalibration() {
 void HandDock::updateHand() {
   renewCalibration();
   const HandDescription hand = session_ ? session_->device().hand() : movableHand();
+  grasp_->setHand(hand);
   tactile_->setMatrices(hand);
   // Those of the matrices are new ones for another hand.
   for (RefusedNumber* each : findChildren<RefusedNumber*>())
@@ -412,6 +423,7 @@ void HandDock::refresh() {
     offered.phase = GraspPhase::kHolding;
     offered.request.reset();
   }
+  touches_->follow(status);
   grasp_->showStatus(offered);
   joint_->showStatus(offered, status.phase);
   sensitivity_->refresh();
@@ -744,6 +756,7 @@ void HandDock::setUnits(const DisplayUnits& units) {
 
 void HandDock::setTheme(Theme theme) {
   theme_ = theme;
+  grasp_->setTheme(theme);
   tactile_->setTheme(theme);
   angles_->setTheme(theme);
   temperatures_->setTheme(theme);

@@ -38,6 +38,7 @@ class SensitivityModes;
 class StatusLines;
 class StopKey;
 class TactileSettingsPanel;
+class TouchStore;
 
 class HandDock : public QWidget {
   Q_OBJECT
@@ -66,6 +67,8 @@ class HandDock : public QWidget {
   const std::vector<QString>& unmeasurable() const noexcept { return unmeasurable_; }
   SensitivityModes& sensitivity() noexcept { return *sensitivity_; }
   JointPanel& joints() noexcept { return *joint_; }
+  // What is remembered of named objects.
+  TouchStore& touches() noexcept { return *touches_; }
   // The calibration applied to the hand with this name, for limits in newtons; nothing: none, or it
   // is being read.
   std::function<std::optional<Calibration>(const std::string& hand)> calibrationOf;
@@ -156,6 +159,7 @@ class HandDock : public QWidget {
   // The pages Grasp, Joints and Sequence.
   QTabBar* chooser_;
   FittingPages* pages_;
+  TouchStore* touches_;
   GraspPanel* grasp_;
   JointPanel* joint_;
   SequencePanel* sequence_;

@@ -6,9 +6,15 @@
 #include "gui/hand/joint_panel.h"
 #include "gui/hand/sensitivity_modes.h"
 #include "gui/hand/tactile_settings_panel.h"
+#include "gui/hand/touch_store.h"
 #include "gui/widgets/dock.h"
 
 namespace palpate::gui {
+namespace {
+
+constexpr const char* kTouchesTopic = "touches of objects";
+
+}  // namespace
 
 HandActions::HandActions(ActionRegistry& book) {
   graspHand = book.make("graspHand", "Hand", "&Grasp", {key("Ctrl+Alt+G")});
@@ -104,6 +110,17 @@ HandFeature::HandFeature(WindowState& windowState, QWidget* window)
         source && source->emulated ? source->emulated->counts().ownMotion : std::string_view();
     return QString::fromUtf8(text.data(), static_cast<qsizetype>(text.size()));
   };
+  TouchStore& touches = panel_->touches();
+  touches.file = [&live] {
+    const LiveSource* source = live.source();
+    return touchesFile(source && source->emulated ? TouchedBy::kEmulatedHand : TouchedBy::kHand);
+  };
+  connect(&touches, &TouchStore::failed, this, [&windowState](const QString& why) {
+    windowState.messages.failAbout(kTouchesTopic, why);
+  });
+  connect(&touches, &TouchStore::recovered, this, [&windowState] {
+    windowState.messages.withdraw(kTouchesTopic);
+  });
   connect(&windowState.handCommands,
           &HandCommands::calibrationApplied,
           panel_,
