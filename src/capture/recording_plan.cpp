@@ -6,6 +6,7 @@
 
 #include "palpate/core/csv_rows.h"
 #include "palpate/core/error.h"
+#include "palpate/core/escaped_line.h"
 #include "palpate/core/json.h"
 #include "palpate/core/number_text.h"
 #include "palpate/core/text_table.h"
@@ -87,10 +88,13 @@ std::string problemOf(const PlanRow& row) {
   if (row.object.empty()) return "object: is empty";
   for (const auto& [name, text] : {std::pair("object", &row.object),
                                    std::pair("run", &row.run),
-                                   std::pair("notes", &row.notes)})
+                                   std::pair("notes", &row.notes)}) {
     if (text->size() > RecordingPlan::kMostTextBytes)
       return std::string(name) + ": is longer than " +
              std::to_string(RecordingPlan::kMostTextBytes) + " bytes";
+    // A plan is kept as JSON, which can't hold other bytes.
+    if (!isUtf8(*text)) return std::string(name) + ": is not UTF-8; save the table as UTF-8";
+  }
   if (row.repetitions < 1 || row.repetitions > RecordingPlan::kMostRepetitions)
     return "repetitions: must be 1.." + std::to_string(RecordingPlan::kMostRepetitions);
   return {};

@@ -57,6 +57,15 @@ std::string escaped(std::uint32_t code) {
 
 }  // namespace
 
+bool isUtf8(std::string_view text) {
+  while (!text.empty()) {
+    const Character character = firstCharacter(text);
+    if (character.bytes == 0) return false;
+    text.remove_prefix(character.bytes);
+  }
+  return true;
+}
+
 std::string escapedLine(std::string_view text) {
   std::string line;
   line.reserve(text.size());

@@ -149,6 +149,15 @@ TEST(RecordingPlanTable, ColumnsStandInAnyOrderAndOthersArePassedOver) {
   EXPECT_EQ(table.rows[1], (PlanRow{.object = "cup"})) << "one repetition";
 }
 
+// Its JSON would hold other texts.
+TEST(RecordingPlanTable, TextThatIsNotUtf8IsRefused) {
+  const PlanTable table = readPlanTable("object,notes\npen,f\xC3\xBCr rechts\nball,\x92s\n");
+  ASSERT_EQ(table.rows.size(), 1u);
+  EXPECT_EQ(table.rows[0].notes, "f\xC3\xBCr rechts");
+  ASSERT_EQ(table.problems.size(), 1u);
+  EXPECT_NE(table.problems[0].find("notes: is not UTF-8"), std::string::npos) << table.problems[0];
+}
+
 TEST(RecordingPlanTable, BadRowsAreNamedByLineAndColumn) {
   const PlanTable table = readPlanTable(
       "object,run,repetitions\n"

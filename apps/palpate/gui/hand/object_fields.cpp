@@ -54,7 +54,7 @@ ObjectFields::ObjectFields(QWidget* parent) : QWidget(parent), hand_(movableHand
   size_ = new SecondsField(this);
   size_->setObjectName("objectSize");
   size_->setAccessibleName("Size of the object");
-  size_->setSaidUnit(" mm");
+  size_->refused().setSaidUnit(" mm");
   size_->setDecimals(1);
   size_->setRange(0.0, kLargestObjectMm);
   size_->setFocusPolicy(Qt::StrongFocus);
