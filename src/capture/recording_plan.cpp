@@ -10,6 +10,7 @@
 #include "palpate/core/json.h"
 #include "palpate/core/number_text.h"
 #include "palpate/core/text_table.h"
+#include "palpate/core/utf8.h"
 
 namespace palpate {
 namespace {

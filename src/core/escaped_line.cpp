@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <cstdio>
 
+#include "palpate/core/utf8.h"
+
 namespace palpate {
 namespace {
 

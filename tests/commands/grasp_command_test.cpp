@@ -92,7 +92,7 @@ TEST(GraspCommand, SaysThatTheHandWasMovingWhenItWasConnected) {
                                "--velocity",
                                "83"});
   ASSERT_EQ(result.exitCode, 0) << result.err;
-  EXPECT_EQ(statesOf(result.out), (States{"connecting", "stopped", "ready", "opening", "finished"}))
+  EXPECT_EQ(statesOf(result.out), (States{"connecting", "stopped", "ready", "closing", "finished"}))
       << result.out;
   EXPECT_NE(
       result.out.find("stopped: the hand was moving when it was connected, watched by nobody\n"),

@@ -1,6 +1,7 @@
 #include "palpate/core/escaped_line.h"
 
 #include "palpate/core/error.h"
+#include "palpate/core/utf8.h"
 
 #include "testing/testing.h"
 

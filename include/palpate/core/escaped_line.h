@@ -13,9 +13,6 @@ namespace palpate {
 // bytes that are not UTF-8 become \xNN.
 std::string escapedLine(std::string_view text);
 
-// Returns whether all of `text` is UTF-8 (Unicode 15, table 3-7).
-bool isUtf8(std::string_view text);
-
 // Returns the first `most` bytes of `text`, or fewer so that no UTF-8 character is cut in two.
 std::string_view beginningOf(std::string_view text, std::size_t most);
 
