@@ -52,7 +52,7 @@ GraspApproach approachOf(const GraspRequest& request, const std::optional<Touch>
   GraspApproach approach{.riseCounts = kSdh2RiseCounts, .riseN = kSdh2RiseN};
   std::optional<double> ratio = request.touchRatio;
   if (touch) {
-    ratio = std::min(ratio.value_or(1.0), touch->ratio);
+    ratio = touch->ratio;
     const auto learnt = [](double measured, double hardest) {
       return std::clamp(kRiseMargin * measured, kMinRiseShare * hardest, hardest);
     };

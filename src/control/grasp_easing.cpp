@@ -187,7 +187,7 @@ void GraspStateMachine::endEasing(std::int64_t monoUs) {
 }
 
 std::string GraspStateMachine::restText() const {
-  std::string text = "; now ";
+  std::string text = "; at its end ";
   if (report_.forceFinger) text += fixedText(forces_->forcesN()[*report_.forceFinger], 2) + " N, ";
   text += numberText(report_.peakAtRest->counts) + " counts";
   const double times = timesLimit();

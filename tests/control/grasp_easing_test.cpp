@@ -4,9 +4,11 @@
 
 #include "palpate/control/grasp_approach.h"
 #include "palpate/device/sdh2.h"
+#include "palpate/kinematics/preshape_opening.h"
 #include "palpate/model/preshape.h"
 
 #include "control/held_object.h"
+#include "testing/sdh2.h"
 #include "testing/testing.h"
 
 namespace palpate::grasp_easing_test {
@@ -75,9 +77,9 @@ TEST(GraspEasing, TheSlowPartBeginsBeforeTheTouchThatIsExpected) {
   const double margin = kTouchMarginDeg / largest;
   EXPECT_NEAR(approachOf(request, Touch{0.8}).fastToRatio, 0.8 - margin, 1e-12);
   request.touchRatio = 0.6;
-  EXPECT_NEAR(approachOf(request, Touch{0.8}).fastToRatio, 0.6 - margin, 1e-12)
-      << "the size given by the user says that it touches earlier";
-  EXPECT_NEAR(approachOf(request, Touch{0.5}).fastToRatio, 0.5 - margin, 1e-12);
+  EXPECT_NEAR(approachOf(request, {}).fastToRatio, 0.6 - margin, 1e-12);
+  EXPECT_NEAR(approachOf(request, Touch{0.8}).fastToRatio, 0.8 - margin, 1e-12)
+      << "where it touched counts more than its size";
 }
 
 TEST(GraspEasing, WhatIsToBeExpectedIsSaidBefore) {
@@ -200,6 +202,21 @@ TEST(GraspEasing, ASlipAwareGraspHoldsAfterIt) {
   const double times = static_cast<double>(held.machine().peak().counts) / kLimit;
   EXPECT_GE(times, kKeptFromLimit);
   EXPECT_LE(times, kKeptToLimit);
+}
+
+// The ball of the scene lies in the middle between the fingertips.
+TEST(GraspEasing, TheSizeOfTheObjectTellsWhereItTouches) {
+  const HandGeometry geometry(sdh2Geometry());
+  for (const double sizeMm : {60.0, 70.0, 80.0}) {
+    GraspRequest request = keeping();
+    request.limitCounts = 1000;
+    request.touchRatio = touchRatioOf(geometry, sdh2Preshape("centrical"), sizeMm);
+    HeldObject held(ballOf(sizeMm));
+    held.begin(request);
+    ASSERT_TRUE(held.run(120.0, [&] { return !held.machine().active(); }));
+    ASSERT_TRUE(held.machine().running().touch) << sizeMm;
+    EXPECT_NEAR(held.machine().running().touch->ratio, request.touchRatio.value(), 0.03) << sizeMm;
+  }
 }
 
 TEST(TouchMemory, RemembersTheEarlierTouchAndTheLargerRiseAtOnce) {

@@ -39,8 +39,9 @@ struct GraspApproach {
   double riseN = 0.0;
 };
 
-// `touch`: what is remembered of the object with this preshape. Without it the rise is that of the
-// hardest object known, and the touch where the request expects it.
+// `touch`: what is remembered of the object with this preshape; it counts more than its size.
+// Without it the rise is that of the hardest object known, and the touch where the request expects
+// it.
 GraspApproach approachOf(const GraspRequest& request, const std::optional<Touch>& touch);
 // The velocity of the slow part, for a limit of all fingers of `limitCounts` (a slip raises it)
 // [deg/s]: kMinGraspDegPerS..velocityDegPerS.

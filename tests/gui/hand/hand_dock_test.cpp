@@ -283,7 +283,7 @@ TEST_F(HandDockTest, APressThatRefusesANumberMovesNothing) {
     EXPECT_FALSE(bench_->control->status().request.has_value());
     EXPECT_FALSE(bench_->control->status().last.has_value());
     EXPECT_TRUE(state().startsWith(
-        "Velocity: 500 is out of 1 .. 100 deg/s; 10 stays, and nothing was started"))
+        "Velocity: 500 is out of 0.2 .. 100 deg/s; 10.0 stays, and nothing was started"))
         << state().toStdString();
   };
   typeInVelocity("500");

@@ -17,7 +17,10 @@ namespace {
 
 class HandChipTest : public WindowTest {
  protected:
-  HandChipTest() { start(); }
+  HandChipTest() {
+    start();
+    window().state().appearance.setTheme(ThemeChoice::kDark);
+  }
   static bool await(const std::function<bool()>& condition) {
     return QTest::qWaitFor(condition, 20'000);
   }
@@ -56,12 +59,12 @@ class HandChipTest : public WindowTest {
   void loseTheStream() {
     control().grasp(testing::reactiveGrasp(3000, 5.0));
     ASSERT_TRUE(bench_->awaitMotion());
-    bench_->hand->mute(true);
+    bench_->hand->unplug(true, false);
     ASSERT_TRUE(await([&] { return !control().status().unprotected.empty(); }));
     ASSERT_TRUE(await([&] { return control().status().phase == GraspPhase::kIdle; }));
     ASSERT_TRUE(says("not protected"));
     ASSERT_TRUE(await([&] { return actions().at("acknowledgeHand")->isEnabled(); }));
-    bench_->hand->mute(false);
+    bench_->hand->replug();
     ASSERT_TRUE(await([&] { return control().status().cannotReact.empty(); }));
   }
 
@@ -121,15 +124,18 @@ TEST_F(HandChipTest, AProtectionThatEndedStaysUntilAClickOnTheChip) {
   EXPECT_EQ(chip().text(), "not protected") << "frames that are back take nothing away";
   EXPECT_EQ(border(), conditionColor(HandCondition::kNotProtected, Theme::kDark));
   EXPECT_TRUE(actions().at("acknowledgeHand")->isEnabled());
-  EXPECT_TRUE(isLogged("hand: not protected: stopped: no tactile frames"));
-  EXPECT_TRUE(await([&] { return isLogged("alarm: not protected: stopped: no tactile frames"); }));
-  EXPECT_TRUE(find<QLabel>("handState")->text().startsWith("Not protected: stopped: no tactile"));
+  EXPECT_TRUE(isLogged("hand: not protected: stopped: the tactile port is gone"));
+  EXPECT_TRUE(
+      await([&] { return isLogged("alarm: not protected: stopped: the tactile port is gone"); }));
+  EXPECT_TRUE(
+      find<QLabel>("handState")->text().startsWith("Not protected: stopped: the tactile port"));
   // A stop is no acknowledgement.
   control().stop();
   QTest::mouseClick(&chip(), Qt::LeftButton);
   ASSERT_TRUE(says("stopped"));
   EXPECT_FALSE(actions().at("acknowledgeHand")->isEnabled());
-  EXPECT_TRUE(QToolTip::text().startsWith("The hand is not protected: stopped: no tactile frames"))
+  EXPECT_TRUE(
+      QToolTip::text().startsWith("The hand is not protected: stopped: the tactile port is gone"))
       << QToolTip::text().toStdString();
 }
 

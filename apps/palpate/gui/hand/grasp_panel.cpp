@@ -89,6 +89,7 @@ GraspPanel::GraspPanel(QSettings& settings, TouchStore& touches, QWidget* parent
   velocity_ = new ValueSlider(
       "Velocity", {kMinGraspDegPerS, kMaxGraspDegPerS, kMaxGraspDegPerS, 0.2, 1, "deg/s"}, this);
   velocity_->setObjectName("velocity");
+  velocity_->field()->setSingleStep(1.0);
   velocity_->setToolTip("Velocity of the joints; slower joints move at their maximum");
   // A new session never begins with the fast motions of another one.
   velocity_->showValue(usual.velocityDegPerS);

@@ -79,6 +79,7 @@ JointPanel::JointPanel(QSettings& settings, QWidget* parent)
                       {kMinGraspDegPerS, kMaxGraspDegPerS, kMaxGraspDegPerS, 0.2, 1, {}, " deg/s"},
                       this);
   velocity_->setObjectName("jointVelocity");
+  velocity_->field()->setSingleStep(1.0);
   velocity_->setToolTip("deg/s; joints that are slower go as fast as they can");
   velocity_->showValue(GraspRequest{}.velocityDegPerS);
   settings.remove("joints/velocity_deg_per_s");

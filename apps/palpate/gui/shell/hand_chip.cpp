@@ -38,12 +38,21 @@ void HandChip::fit() {
   for (const HandCondition each : kAllHandConditions)
     widest = std::max(widest, fontMetrics().horizontalAdvance(conditionWord(each)));
   constexpr int kBorder = 1;
-  setFixedWidth(widest + 2 * (kHandChipPadding + kBorder));
+  setFixedWidth(narrow_ ? kHandChipHeight : widest + 2 * (kHandChipPadding + kBorder));
+}
+
+void HandChip::setNarrow(bool on) {
+  if (narrow_ == on) return;
+  narrow_ = on;
+  setText(on ? QString() : conditionWord(condition_));
+  fit();
+  style();
 }
 
 void HandChip::setCondition(const ExplainedCondition& condition, Theme theme) {
   const QString word = conditionWord(condition.condition);
-  if (text() != word) setText(word);
+  if (!narrow_ && text() != word) setText(word);
+  if (accessibleName() != word) setAccessibleName(word);
   QString tip = "The hand is " + word + ": " + QString::fromStdString(condition.sentence) + ".";
   if (acknowledge_.isEnabled()) tip += "\nA click acknowledges it.";
   if (toolTip() != tip) setToolTip(tip);
@@ -54,11 +63,11 @@ void HandChip::setCondition(const ExplainedCondition& condition, Theme theme) {
   style();
 }
 
-// What needs attention is filled.
+// What needs attention is filled, and what has no word.
 void HandChip::style() {
   const QColor color = conditionColor(condition_, theme_);
   const bool filled =
-      condition_ == HandCondition::kNotProtected || condition_ == HandCondition::kGone;
+      narrow_ || condition_ == HandCondition::kNotProtected || condition_ == HandCondition::kGone;
   const ThemeColors& colors = colorsOf(theme_);
   setStyleSheet(QString("#handChip { color: %1; background: %2; border: 1px solid %3; "
                         "border-radius: 10px; padding: 2px %4px; }")

@@ -19,6 +19,8 @@ class HandChip : public QPushButton {
   HandChip(QAction& acknowledge, QWidget* parent);
   // The width stays the same: no button beside it moves.
   void setCondition(const ExplainedCondition& condition, Theme theme);
+  // Where there is no room for the word: its colour alone.
+  void setNarrow(bool on);
 
  private:
   void fit();
@@ -28,6 +30,7 @@ class HandChip : public QPushButton {
   HandCondition condition_ = HandCondition::kReady;
   Theme theme_ = Theme::kDark;
   bool styled_ = false;
+  bool narrow_ = false;
 };
 
 }  // namespace palpate::gui

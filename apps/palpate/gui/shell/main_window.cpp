@@ -323,9 +323,10 @@ void MainWindow::resizeEvent(QResizeEvent* event) {
 
 void MainWindow::fitMenus() {
   // Beside the buttons of a recording the chip of the hand needs its own room.
-  const int chip = windowState_->displayed.isLive() ? 0 : menus_->chipWidth();
+  const bool isRecordingShown = !windowState_->displayed.isLive();
+  const int chip = isRecordingShown ? menus_->chipWidth() : 0;
   menus_->setCompact(width() < textScale() * kCompactBelow + chip);
-  menus_->setNarrow(width() < textScale() * kNarrowBelow);
+  menus_->setNarrow(width() < textScale() * kNarrowBelow, isRecordingShown);
 }
 
 }  // namespace palpate::gui

@@ -320,7 +320,10 @@ QWidget* WindowMenus::makePlayback(QToolBar& bar, const ActionRegistry& book) {
 
 void WindowMenus::setPlaybackShown(bool on) { playback_->setVisible(on); }
 
-void WindowMenus::setNarrow(bool on) { brand_->setVisible(!on); }
+void WindowMenus::setNarrow(bool on, bool isRecordingShown) {
+  brand_->setVisible(!on);
+  chip_->setNarrow(on && isRecordingShown);
+}
 
 void WindowMenus::setCompact(bool on) {
   compact_ = on;

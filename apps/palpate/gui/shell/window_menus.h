@@ -38,7 +38,7 @@ class WindowMenus {
   // Shows buttons without text, for a narrow window.
   void setCompact(bool on);
   // Leaves the name of the program out of the tool bar.
-  void setNarrow(bool on);
+  void setNarrow(bool on, bool isRecordingShown);
   void setPlaybackShown(bool on);
   // Shows what is connected; empty: shows nothing. `good`: data arrive.
   void showLink(const QString& text, bool good);
