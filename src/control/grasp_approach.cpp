@@ -53,6 +53,7 @@ GraspApproach approachOf(const GraspRequest& request, const std::optional<Touch>
   std::optional<double> ratio = request.touchRatio;
   if (touch) {
     ratio = touch->ratio;
+    approach.touchFelt = true;
     const auto learnt = [](double measured, double hardest) {
       return std::clamp(kRiseMargin * measured, kMinRiseShare * hardest, hardest);
     };
@@ -97,6 +98,7 @@ GraspForecast forecastOf(const GraspRequest& request,
       keeps ? slowDegPerS(request, approach, request.limitCounts) : request.velocityDegPerS;
   GraspForecast forecast;
   forecast.touchKnown = approach.touchKnown;
+  forecast.touchFelt = approach.touchFelt;
   const double present = closeRatioOf(preshape, presentDeg).value_or(0.0);
   const double start = request.startRatio.value_or(present);
   const double fastTo = keeps ? std::max(approach.fastToRatio, start) : start;
@@ -130,7 +132,8 @@ std::string describe(const GraspForecast& forecast, const GraspRequest& request)
                      ", " + fixedText(forecast.timesLimit, 1) + " times the limit";
   if (!keepsLimit(request)) return text + ", and that it stays so";
   const std::string seconds = fixedText(std::ceil(forecast.seconds), 0) + " s";
-  if (forecast.touchKnown) return text + "; touches in about " + seconds;
+  if (forecast.touchFelt) return text + "; touches in about " + seconds;
+  if (forecast.touchKnown) return text + "; touches in " + seconds + " at the earliest";
   return text + ". Where it touches isn't known: up to " + seconds +
          (request.object.empty() ? "; give its size or name" : "; later grasps are faster");
 }

@@ -1,11 +1,9 @@
 #include "palpate/kinematics/preshape_opening.h"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
-
-#include "palpate/kinematics/object_size.h"
+#include <vector>
 
 namespace palpate {
 namespace {
@@ -15,27 +13,23 @@ constexpr int kRatioSteps = 100;
 // fingers round an object do, those of fingers side by side don't.
 constexpr double kFacing = -0.3;
 
-// The diameter of the smallest sphere that touches the same rows of two pads in their middle.
 double openingMm(const HandPose& pose, const GeometryDescription& hand) {
   const SensorLayout& layout = hand.layout;
   double smallest = std::numeric_limits<double>::infinity();
   for (std::size_t a = 0; a < layout.numMatrices(); ++a)
     for (std::size_t b = a + 1; b < layout.numMatrices(); ++b) {
-      const LinkPlace& one = hand.surfaces[a].place;
-      const LinkPlace& other = hand.surfaces[b].place;
-      if (one.finger == other.finger || one.link != other.link) continue;
-      const int rows = std::min(layout.matrix(a).rows, layout.matrix(b).rows);
-      for (int row = 0; row < rows; ++row) {
-        const int i = layout.matrix(a).columns / 2, j = layout.matrix(b).columns / 2;
-        const Eigen::Vector3d& from = pose.positionMm(a, row, i);
-        const Eigen::Vector3d& normal = pose.normal(a, row, i);
-        if (normal.dot(pose.normal(b, row, j)) > kFacing) continue;
-        const auto chord =
-            chordDistanceMm(from, normal, pose.positionMm(b, row, j), pose.normal(b, row, j));
-        if (chord && *chord > 0.0) smallest = std::min(smallest, *chord);
-      }
+      if (hand.surfaces[a].place.finger == hand.surfaces[b].place.finger) continue;
+      for (std::size_t i = layout.offset(a); i < layout.offset(a) + layout.matrix(a).numCells();
+           ++i)
+        for (std::size_t j = layout.offset(b); j < layout.offset(b) + layout.matrix(b).numCells();
+             ++j) {
+          const Eigen::Vector3d between = pose.positionsMm()[j] - pose.positionsMm()[i];
+          if (pose.normals()[i].dot(pose.normals()[j]) < kFacing &&
+              between.dot(pose.normals()[i]) > 0.0)
+            smallest = std::min(smallest, between.squaredNorm());
+        }
     }
-  return smallest;
+  return std::sqrt(smallest);
 }
 
 }  // namespace

@@ -204,8 +204,9 @@ TEST(GraspEasing, ASlipAwareGraspHoldsAfterIt) {
   EXPECT_LE(times, kKeptToLimit);
 }
 
-// The ball of the scene lies in the middle between the fingertips.
-TEST(GraspEasing, TheSizeOfTheObjectTellsWhereItTouches) {
+// Wherever along the fingers the object is: the ball of the scene is between their tips, which
+// touch it later than the proximal pads would.
+TEST(GraspEasing, TheSizeOfTheObjectTellsWhereItTouchesAtTheEarliest) {
   const HandGeometry geometry(sdh2Geometry());
   for (const double sizeMm : {60.0, 70.0, 80.0}) {
     GraspRequest request = keeping();
@@ -215,7 +216,8 @@ TEST(GraspEasing, TheSizeOfTheObjectTellsWhereItTouches) {
     held.begin(request);
     ASSERT_TRUE(held.run(120.0, [&] { return !held.machine().active(); }));
     ASSERT_TRUE(held.machine().running().touch) << sizeMm;
-    EXPECT_NEAR(held.machine().running().touch->ratio, request.touchRatio.value(), 0.03) << sizeMm;
+    EXPECT_GE(held.machine().running().touch->ratio, request.touchRatio.value()) << sizeMm;
+    EXPECT_EQ(held.actions("touch"), 0) << sizeMm << ": not in the fast part";
   }
 }
 

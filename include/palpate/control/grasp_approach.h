@@ -33,6 +33,7 @@ constexpr double kTouchMarginDeg = 1.5;
 struct GraspApproach {
   double fastToRatio = 0.0;  // 0: slow from the beginning
   bool touchKnown = false;
+  bool touchFelt = false;  // it is known by an earlier grasp, not by the size
   // Rise of the largest reading after a stop, per velocity [counts per deg/s], > 0; and of the
   // force of a finger [N per deg/s], > 0.
   double riseCounts = 0.0;
@@ -56,13 +57,15 @@ struct GraspForecast {
   // Duration until it touches [s]; with touchKnown false: until it has closed without touching.
   double seconds = 0.0;
   bool touchKnown = false;
+  bool touchFelt = false;  // otherwise it touches after these seconds at the earliest
 };
 // `presentDeg`: the joint angles; empty: not known, then it starts open. Meaningless for a plain
 // grasp.
 GraspForecast forecastOf(const GraspRequest& request,
                          const std::optional<Touch>& touch,
                          const std::vector<double>& presentDeg);
-// "expect up to 400 counts, 2.0 times the limit; touches in about 15 s".
+// "expect up to 400 counts, 2.0 times the limit; touches in about 15 s"; by its size alone "..;
+// touches in 15 s at the earliest".
 std::string describe(const GraspForecast& forecast, const GraspRequest& request);
 // The close ratio to which the angles of all joints fit best, 0..1; empty for another number of
 // joints, or a preshape that moves none.

@@ -8,12 +8,11 @@
 
 namespace palpate {
 
-// The close ratio at which a sphere or cylinder of `sizeMm` in the middle between the fingers is
-// touched, wherever along the fingers it is: the smallest one that touches the middles of the same
-// rows of two pads that face each other (chordDistanceMm()) is no larger, in steps of 0.01 [0..1];
-// 0: the open hand is narrower. Empty: the closed hand is still wider, or no pads face each other.
-// Throws std::invalid_argument for a preshape with another number of joints, and for a size that is
-// negative or not finite.
+// The close ratio at which the distance between two sensor surfaces of different fingers that face
+// each other falls to `sizeMm`, in steps of 0.01 [0..1]; 0: the open hand is narrower. An object
+// with this width or less between the fingers, in their middle, isn't touched before. Empty: the
+// closed hand is still wider, or no surfaces face each other. Throws std::invalid_argument for a
+// preshape with another number of joints, and for a size that is negative or not finite.
 std::optional<double> touchRatioOf(const HandGeometry& geometry,
                                    const Preshape& preshape,
                                    double sizeMm);

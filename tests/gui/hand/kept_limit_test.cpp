@@ -254,7 +254,7 @@ TEST_F(KeptLimitTest, WhatIsToBeExpectedIsSaidBefore) {
   EXPECT_TRUE(forecast().contains("its size or name")) << forecast().toStdString();
   EXPECT_EQ(shownColor(), colorsOf(Theme::kDark).text);
   size("70");
-  EXPECT_TRUE(await([&] { return forecast().contains("limit; touches in about "); }))
+  EXPECT_TRUE(await([&] { return forecast().contains("at the earliest"); }))
       << forecast().toStdString();
   // At 10 deg/s the rubber of the hardest object rises by 8000 counts, of which the motors reach
   // 3020.

@@ -150,7 +150,7 @@ void ObjectFields::showRemembered() {
     text = "touched at " + figure(touch->ratio, 2) + ", " +
            numberOf(static_cast<std::uint64_t>(touch->grasps), "grasp");
   else if (touchRatio_)
-    text = "touched at " + figure(*touchRatio_, 2) + ", by its size";
+    text = "expected at " + figure(*touchRatio_, 2) + " at the earliest, by its size";
   else if (size_->value() > 0.0)
     text = "this preshape doesn't close to its size";
   else if (!name().empty())
