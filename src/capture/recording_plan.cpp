@@ -72,6 +72,12 @@ Json takeJson(const PlannedTake& take) {
       .set("kept", take.kept);
 }
 
+// Line ends and tabs are text.
+bool isControl(char c) {
+  const auto code = static_cast<unsigned char>(c);
+  return code == 0x7F || (code < 0x20 && c != '\t' && c != '\n' && c != '\r');
+}
+
 }  // namespace
 
 int PlanRow::numDone() const noexcept {
@@ -95,6 +101,8 @@ std::string problemOf(const PlanRow& row) {
              std::to_string(RecordingPlan::kMostTextBytes) + " bytes";
     // A plan is kept as JSON, which can't hold other bytes.
     if (!isUtf8(*text)) return std::string(name) + ": is not UTF-8; save the table as UTF-8";
+    if (std::any_of(text->begin(), text->end(), isControl))
+      return std::string(name) + ": has a control character";
   }
   if (row.repetitions < 1 || row.repetitions > RecordingPlan::kMostRepetitions)
     return "repetitions: must be 1.." + std::to_string(RecordingPlan::kMostRepetitions);

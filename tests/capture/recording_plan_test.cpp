@@ -156,6 +156,10 @@ TEST(RecordingPlanTable, TextThatIsNotUtf8IsRefused) {
   EXPECT_EQ(table.rows[0].notes, "f\xC3\xBCr rechts");
   ASSERT_EQ(table.problems.size(), 1u);
   EXPECT_NE(table.problems[0].find("notes: is not UTF-8"), std::string::npos) << table.problems[0];
+  PlanRow row{.object = std::string("pen\0", 4)};
+  EXPECT_EQ(problemOf(row), "object: has a control character");
+  row.object = "pen\tblue\nlong";
+  EXPECT_EQ(problemOf(row), "");
 }
 
 TEST(RecordingPlanTable, BadRowsAreNamedByLineAndColumn) {
