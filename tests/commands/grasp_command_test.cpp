@@ -151,9 +151,8 @@ TEST(GraspCommand, AReactiveGraspKeepsItsLimit) {
                                "1000"});
   ASSERT_EQ(result.exitCode, 0) << result.err << result.out;
   // 1000 counts and a rise of as many at 1000 / 800 deg/s.
-  EXPECT_NE(
-      result.out.find("ready: expect up to 2000 counts, 2.0 times the limit; touches in "),
-      std::string::npos)
+  EXPECT_NE(result.out.find("ready: expect up to 2000 counts, 2.0 times the limit; touches in "),
+            std::string::npos)
       << result.out;
   const std::vector<std::string> states = statesOf(result.out);
   EXPECT_NE(std::find(states.begin(), states.end(), "easing"), states.end()) << result.out;

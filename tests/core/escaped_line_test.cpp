@@ -1,7 +1,6 @@
 #include "palpate/core/escaped_line.h"
 
 #include "palpate/core/error.h"
-#include "palpate/core/utf8.h"
 
 #include "testing/testing.h"
 
@@ -31,14 +30,6 @@ TEST(OneLine, ShowsBytesThatAreNoUtf8) {
   EXPECT_EQ(escapedLine("\xC0\x80"), "\\xC0\\x80");           // overlong
   EXPECT_EQ(escapedLine("\xED\xA0\x80"), "\\xED\\xA0\\x80");  // a surrogate
   EXPECT_EQ(escapedLine("\xE2\x80"), "\\xE2\\x80");           // cut
-}
-
-TEST(OneLine, KnowsUtf8) {
-  for (const char* text : {"", "a", "\xC3\xBC", "\xE2\x82\xAC", "\xF0\x9F\x98\x80"})
-    EXPECT_TRUE(isUtf8(text)) << text;
-  // A byte that continues nothing, a cut character, an overlong one, a surrogate, Latin-1.
-  for (const char* text : {"\x92", "a\xC3", "\xC0\x80", "\xED\xA0\x80", "gr\xFC\xDF"})
-    EXPECT_FALSE(isUtf8(text)) << text;
 }
 
 TEST(OneLine, BeginningNeverCutsACharacter) {

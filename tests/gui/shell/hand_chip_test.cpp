@@ -65,7 +65,11 @@ class HandChipTest : public WindowTest {
     ASSERT_TRUE(says("not protected"));
     ASSERT_TRUE(await([&] { return actions().at("acknowledgeHand")->isEnabled(); }));
     bench_->hand->replug();
-    ASSERT_TRUE(await([&] { return control().status().cannotReact.empty(); }));
+    ASSERT_TRUE(await([&] {
+      const CaptureSession& session = *window().state().live.source()->session;
+      return session.device().status().tactile.state == PortState::kStreaming &&
+             control().status().cannotReact.empty();
+    }));
   }
 
   std::unique_ptr<testing::EmulatedBench> bench_;

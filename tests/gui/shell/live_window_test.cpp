@@ -457,6 +457,7 @@ TEST_F(LiveWindowTest, ThePictureIsHeldAndGoesOn) {
   ASSERT_TRUE(await([&] { return live().health().frames.frames > frames + 10; }));
   EXPECT_EQ(view().paintedUs(), held);
   press(Qt::Key_P);
+  find<QCheckBox>("keepLimit")->setChecked(false);  // it touches soon
   click("reactiveGrasp");
   EXPECT_TRUE(await([&] { return view().paintedUs() > held; }));
 }

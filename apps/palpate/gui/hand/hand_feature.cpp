@@ -28,7 +28,7 @@ HandActions::HandActions(ActionRegistry& book) {
   openHand->setProperty(kRefusalProperty, "Can't open the hand");
   relaxHand->setProperty(kRefusalProperty, "Can't relax the hand");
   stopHand = book.make("stopHand", "Hand", "&Stop the hand (Esc)");
-  acknowledgeHand = book.make("acknowledgeHand", "Hand", "Ac&knowledge");
+  acknowledgeHand = book.make("acknowledgeHand", "Hand", "Acknowledge");
   acknowledgeHand->setToolTip("The hand is not protected, and you have seen it");
   acknowledgeHand->setEnabled(false);
 }
