@@ -6,7 +6,6 @@
 
 #include "palpate/core/csv_rows.h"
 #include "palpate/core/error.h"
-#include "palpate/core/escaped_line.h"
 #include "palpate/core/json.h"
 #include "palpate/core/number_text.h"
 #include "palpate/core/text_table.h"

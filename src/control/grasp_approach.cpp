@@ -15,24 +15,15 @@
 namespace palpate {
 namespace {
 
-// A learnt rise is taken larger than it was measured, because the next touch may be a harder one;
-// a rise of almost nothing is not believed.
-constexpr double kRiseMargin = 1.0;
+// A learnt rise below this part of the hardest object's is not believed.
 constexpr double kMinRiseShare = 0.05;
 // Part by which a later touch, or a smaller rise, changes what is remembered; an earlier touch or a
 // larger rise is remembered at once.
 constexpr double kLearningShare = 0.5;
-constexpr std::size_t kMostTouches = 10'000;
+constexpr std::size_t kMostTouches = 1000;
 constexpr std::size_t kMostTouchBytes = 1000;
 constexpr std::int64_t kTouchesVersion = 1;
-constexpr std::uint64_t kLargestTouchesFile = 20'000'000;  // [bytes]
-
-double largestSlopeDeg(const Preshape& preshape) {
-  double largest = 0.0;
-  for (const PreshapeJoint& joint : preshape.joints)
-    largest = std::max(largest, std::abs(joint.slopeDeg));
-  return largest;
-}
+constexpr std::uint64_t kLargestTouchesFile = 2'000'000;  // [bytes]
 
 int lowestLimit(const GraspRequest& request, int limitCounts) {
   int lowest = limitCounts;
@@ -48,6 +39,13 @@ std::optional<double> lowestForce(const GraspRequest& request) {
 
 }  // namespace
 
+double fastestSlopeDeg(const Preshape& preshape) {
+  double fastest = 0.0;
+  for (const PreshapeJoint& joint : preshape.joints)
+    fastest = std::max(fastest, std::abs(joint.slopeDeg));
+  return fastest;
+}
+
 GraspApproach approachOf(const GraspRequest& request, const std::optional<Touch>& touch) {
   GraspApproach approach{.riseCounts = kSdh2RiseCounts, .riseN = kSdh2RiseN};
   std::optional<double> ratio = request.touchRatio;
@@ -55,13 +53,13 @@ GraspApproach approachOf(const GraspRequest& request, const std::optional<Touch>
     ratio = touch->ratio;
     approach.touchFelt = true;
     const auto learnt = [](double measured, double hardest) {
-      return std::clamp(kRiseMargin * measured, kMinRiseShare * hardest, hardest);
+      return std::clamp(measured, kMinRiseShare * hardest, hardest);
     };
     if (touch->riseCounts) approach.riseCounts = learnt(*touch->riseCounts, kSdh2RiseCounts);
     if (touch->riseN) approach.riseN = learnt(*touch->riseN, kSdh2RiseN);
   }
   approach.touchKnown = ratio.has_value();
-  const double slope = largestSlopeDeg(sdh2Preshape(request.preshape));
+  const double slope = fastestSlopeDeg(sdh2Preshape(request.preshape));
   if (ratio && slope > 0.0)
     approach.fastToRatio = std::clamp(*ratio - kTouchMarginDeg / slope, 0.0, request.closeRatio);
   return approach;
@@ -91,7 +89,7 @@ GraspForecast forecastOf(const GraspRequest& request,
                          const std::optional<Touch>& touch,
                          const std::vector<double>& presentDeg) {
   const Preshape& preshape = sdh2Preshape(request.preshape);
-  const double slope = largestSlopeDeg(preshape);
+  const double slope = fastestSlopeDeg(preshape);
   const GraspApproach approach = approachOf(request, touch);
   const bool keeps = keepsLimit(request);
   const double slow =
@@ -148,6 +146,7 @@ std::optional<Touch> TouchMemory::find(const std::string& preshape,
 bool TouchMemory::learn(const GraspReport& report) {
   const GraspRequest& request = report.request;
   if (!report.touch || request.object.empty()) return false;
+  if (touches_.size() >= kMostTouches && !find(request.preshape, request.object)) return false;
   const auto [place, isNew] =
       touches_.try_emplace({request.preshape, request.object}, *report.touch);
   if (isNew) return true;

@@ -198,12 +198,24 @@ void GraspControl::checkLinks() {
     return machine_.onMotionFault(status.motion->message, nowUs);
   if (const std::string why = motionProblem(status); !why.empty())
     return machine_.onMotionPortGone(why, nowUs);
-  const PortStatus& tactile = status.tactile;
-  // Connecting: the port is there again, the controller hasn't answered yet.
-  if (tactile.state == PortState::kLost || tactile.state == PortState::kConnecting ||
-      tactile.state == PortState::kFault || tactile.state == PortState::kClosed)
-    machine_.onTactilePortGone(tactile.message.empty() ? "closed" : tactile.message, nowUs);
+  if (isTactilePortGone(status))
+    machine_.onTactilePortGone(status.tactile.message.empty() ? "closed" : status.tactile.message,
+                               nowUs);
   machine_.onAxisStates(session_.device().axisStates(), nowUs);
+}
+
+bool GraspControl::isTactilePortGone(const DeviceStatus& status) {
+  switch (status.tactile.state) {
+    case PortState::kStreaming:
+    case PortState::kSilent:
+      return false;
+    case PortState::kConnecting:  // it is there again, the controller hasn't answered yet
+    case PortState::kLost:
+    case PortState::kFault:
+    case PortState::kClosed:
+      break;
+  }
+  return true;
 }
 
 std::string GraspControl::motionProblem(const DeviceStatus& status) {
@@ -467,7 +479,8 @@ GraspStatus GraspControl::presentStatus() const {
   status.last = last_;
   status.lastMotion = lastMotion_;
   status.unprotected = unprotected_;
-  status.cannotMove = motionProblem(session_.device().status());
+  const DeviceStatus device = session_.device().status();
+  status.cannotMove = motionProblem(device);
   if (!status.cannotMove.empty()) status.portGone = portGone_;
   status.motorsOff = motorsOff_;
   status.stopsAsked = stopsAsked_;
@@ -475,7 +488,8 @@ GraspStatus GraspControl::presentStatus() const {
   status.touchesLearnt = touchesLearnt_;
   status.anglesDeg = machine_.anglesDeg();
   status.cannotReact = status.cannotMove;
-  if (status.cannotReact.empty() && !machine_.stream().alive(clock_.monotonicUs()))
+  if (status.cannotReact.empty() &&
+      (isTactilePortGone(device) || !machine_.stream().alive(clock_.monotonicUs())))
     status.cannotReact = "no tactile frames come";
   if (status.cannotReact.empty() && settingsPending()) {
     status.cannotReact = "a tactile setting is being changed";

@@ -36,13 +36,6 @@ constexpr int kRestFrames = 12;
 constexpr int kSteadyFrames = 4;  // are enough to go on giving way
 constexpr std::int64_t kEasingUs = 30'000'000;
 
-double fastestSlope(const Preshape& preshape) {
-  double fastest = 0.0;
-  for (const PreshapeJoint& joint : preshape.joints)
-    fastest = std::max(fastest, std::abs(joint.slopeDeg));
-  return std::max(fastest, 1e-9);
-}
-
 }  // namespace
 
 std::optional<double> GraspStateMachine::presentRatio() const {
@@ -83,7 +76,7 @@ void GraspStateMachine::watchTouch(std::int64_t monoUs) {
 void GraspStateMachine::noteTouch(std::int64_t monoUs) {
   touchedUs_ = monoUs;
   touchedTimes_ = timesLimit();
-  const double slope = fastestSlope(sdh2Preshape(report_.request.preshape));
+  const double slope = std::max(fastestSlopeDeg(sdh2Preshape(report_.request.preshape)), 1e-9);
   if (const auto present = presentRatio())
     report_.touch =
         Touch{.ratio = std::max(*present - closingDegPerS_ * kTouchDelayS / slope, 0.0)};
@@ -157,7 +150,7 @@ void GraspStateMachine::onEasingFrame(std::int64_t monoUs) {
 // No joint closes while the others open, whatever holds it.
 void GraspStateMachine::moveBy(double openingDeg, std::int64_t monoUs) {
   const Preshape& preshape = sdh2Preshape(report_.request.preshape);
-  const double ratio = openingDeg / fastestSlope(preshape);
+  const double ratio = openingDeg / std::max(fastestSlopeDeg(preshape), 1e-9);
   GraspRequest request = report_.request;
   follows_ = openingDeg < 0.0;
   request.velocityDegPerS = follows_ ? slowDegPerS(request, *approach_, limit_) : kEasingDegPerS;
@@ -181,7 +174,8 @@ void GraspStateMachine::endEasing(std::int64_t monoUs) {
                    0.0) /
           closingDegPerS_;
   }
-  if (!isTouching()) return end(GraspOutcome::kFinished, std::string(kNothingHeldText));
+  if (peak_.counts <= restCounts_)
+    return end(GraspOutcome::kFinished, std::string(kNothingHeldText));
   if (isSlipAware()) return settle(monoUs);
   end(GraspOutcome::kLimitReached, report_.text + riseText() + restText());
 }
@@ -191,9 +185,11 @@ std::string GraspStateMachine::restText() const {
   if (report_.forceFinger) text += fixedText(forces_->forcesN()[*report_.forceFinger], 2) + " N, ";
   text += numberText(report_.peakAtRest->counts) + " counts";
   const double times = timesLimit();
-  if (times > kKeptToLimit || times < kKeptFromLimit)
-    text += ", " + fixedText(times, 1) + " times the limit";
-  return text;
+  return times > kKeptToLimit || times < kKeptFromLimit ? text + ", " + timesText() : text;
+}
+
+std::string GraspStateMachine::timesText() const {
+  return fixedText(timesLimit(), 1) + " times the limit";
 }
 
 }  // namespace palpate

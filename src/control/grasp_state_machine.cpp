@@ -294,6 +294,9 @@ void GraspStateMachine::onFrame(const TactileFrame& frame, std::int64_t monoUs) 
     text = "limit reached: " + text;
     if (approach_ && (eases || phase_ == GraspPhase::kClosing) && !held_) {
       noteSlope(monoUs);
+      // What closes from here on is slow, wherever the hand is.
+      isNear_ = true;
+      approaching_ = false;
       return pause(Next::kEase, text, monoUs);
     }
     if (isSlipAware() && phase_ == GraspPhase::kClosing) return pause(Next::kSettle, text, monoUs);
@@ -569,8 +572,10 @@ void GraspStateMachine::stop(std::int64_t monoUs) {
                     std::string("stopped by the user") +
                         (isSlipAware() ? ": the hand holds, without slip detection" : ""),
                     monoUs);
-  if (isMoving() || phase_ == GraspPhase::kEasing)
-    stopWith(GraspOutcome::kStopped, "stopped by the user", monoUs);
+  if (phase_ == GraspPhase::kEasing)
+    return stopWith(
+        GraspOutcome::kStopped, "stopped by the user: the hand holds, at " + timesText(), monoUs);
+  if (isMoving()) stopWith(GraspOutcome::kStopped, "stopped by the user", monoUs);
 }
 
 void GraspStateMachine::relax() {

@@ -1,5 +1,6 @@
 // A grasp that keeps its limit: the slow part of its approach, the steps after its stop, and what
 // ends it meanwhile. grasp_reach_test measures how well the limit is kept.
+#include <algorithm>
 #include <cmath>
 
 #include "palpate/control/grasp_approach.h"
@@ -115,6 +116,7 @@ TEST(GraspEasing, APersonsStopLeavesTheFingersWhereTheyAre) {
   const auto report = bench.held.machine().takeReport();
   ASSERT_TRUE(report);
   EXPECT_EQ(report->outcome, GraspOutcome::kStopped);
+  EXPECT_NE(report->text.find(" times the limit"), std::string::npos) << report->text;
   const std::vector<double> angles = bench.held.hand().joints().angles();
   bench.held.run(2.0);
   EXPECT_EQ(bench.held.hand().joints().angles(), angles);
@@ -193,6 +195,36 @@ TEST(GraspEasing, ATouchBeforeItWasExpectedEndsTheFastPart) {
   ASSERT_TRUE(held.run(120.0, [&] { return !held.machine().active(); }));
   EXPECT_EQ(held.actions("touch"), 1);
   EXPECT_LT(held.machine().running().touch.value().ratio, 0.8);
+}
+
+// A hard object, larger than the one that was remembered: its limit is reached in the fast part.
+// When it slips then, the hand closes slowly, though it is still before the expected touch.
+TEST(GraspEasing, NothingIsFastAfterTheLimit) {
+  Scene scene = ballOf(85.0);
+  scene.script = {{60.0, LoadObject{.object = 0, .forceN = {0.0, 0.0, -8.0}, .durationS = 0.5}}};
+  HeldObject held(scene);
+  GraspRequest request = keeping(GraspMode::kSlip);
+  request.limitCounts = 400;
+  held.begin(request, touchOfBall());
+  ASSERT_TRUE(held.run(50.0, [&] { return held.machine().phase() == GraspPhase::kHolding; }));
+  const std::size_t before = held.moves().size();
+  ASSERT_TRUE(held.run(60.0, [&] { return held.moves().size() > before; })) << "it slips";
+  const MoveJoints& answer = held.moves()[before];
+  EXPECT_LE(*std::max_element(answer.velocityDegPerS.begin(), answer.velocityDegPerS.end()), 5.0)
+      << "not at the 10 deg/s of the fast part";
+}
+
+// Smaller than the rise that counts as a touch.
+TEST(GraspEasing, ALimitOfAFewCountsIsHeld) {
+  HeldObject held(ballOf(70.0));
+  GraspRequest request = keeping();
+  request.limitCounts = 8;
+  held.begin(request, touchOfBall());
+  ASSERT_TRUE(held.run(120.0, [&] { return !held.machine().active(); }));
+  const auto report = held.machine().takeReport();
+  ASSERT_TRUE(report);
+  EXPECT_EQ(report->outcome == GraspOutcome::kLimitReached, held.machine().peak().counts > 0.0F)
+      << report->text;
 }
 
 TEST(GraspEasing, ASlipAwareGraspHoldsAfterIt) {

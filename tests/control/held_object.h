@@ -31,6 +31,8 @@ class HeldObject {
   double timeS() const { return timeS_; }
   std::int64_t us() const { return static_cast<std::int64_t>(std::llround(timeS_ * 1e6)); }
   const std::vector<GraspStep>& notes() const { return notes_; }
+  // All motions that were commanded.
+  const std::vector<MoveJoints>& moves() const { return moves_; }
   int actions(const std::string& action) const {
     int found = 0;
     for (const GraspStep& note : notes_) found += note.action == action ? 1 : 0;
@@ -83,6 +85,7 @@ class HeldObject {
     while (auto command = machine_.takeCommand()) {
       JointMotion& joints = hand_.joints();
       if (const auto* move = std::get_if<MoveJoints>(&*command)) {
+        moves_.push_back(*move);
         joints.setTargets(move->targetDeg);
         joints.setVelocities(move->velocityDegPerS);
         joints.setProfile(move->ramp ? VelocityProfile::kRamp : VelocityProfile::kSinSquare);
@@ -98,6 +101,7 @@ class HeldObject {
   GraspStateMachine machine_;
   std::vector<std::uint16_t> counts_;
   std::vector<GraspStep> notes_;
+  std::vector<MoveJoints> moves_;
   double timeS_ = 0.0;
 };
 

@@ -139,8 +139,7 @@ void fingerLimitsOf(const CommandLine& given, GraspRequest& request) {
 
 // How the limit is kept.
 void approachOf(const CommandLine& given, GraspRequest& request) {
-  constexpr double kMostSizeMm = 1000.0;
-  const auto size = given.number("object-size", 0.1, kMostSizeMm);
+  const auto size = given.number("object-size", 0.1, kLargestObjectMm);
   for (const char* option : {"object", "object-size", "quick"})
     if (given.has(option) && request.mode == GraspMode::kPlain)
       throw UsageError("--" + std::string(option) + " needs --mode reactive or slip");
@@ -294,10 +293,12 @@ GraspReport follow(GraspControl& control, const StateLines& lines, Interruption&
   throw Error(report.text + "; state unknown: use the power switch");
 }
 
-// A grasp is done whether or not its touch can be remembered.
-void remember(const GraspControl& control) {
+// A grasp is done whether or not its touch can be remembered. The file is read again: another
+// program may have written it meanwhile.
+void remember(const GraspReport& report) {
   try {
-    saveTouches(control.touches(), touchesFile());
+    TouchMemory touches = loadTouches(touchesFile());
+    if (touches.learn(report)) saveTouches(touches, touchesFile());
   } catch (const Error& error) {
     std::fprintf(stderr,
                  "palpate: where the object was touched is not remembered: %s\n",
@@ -406,7 +407,7 @@ int graspCommand(const Arguments& words) {
   if (sequence) return runSequence(*sequence, session, control, lines, interruption);
   control.grasp(request);
   const GraspReport report = follow(control, lines, interruption);
-  if (control.status().touchesLearnt > 0) remember(control);
+  remember(report);
   if (report.outcome == GraspOutcome::kPortGone) awaitPort(control, report, lines, interruption);
   return exitCodeOf(report);
 }

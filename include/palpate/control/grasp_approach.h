@@ -4,7 +4,8 @@
 // the velocity at the touch decides how far: reached = limit + rise * velocity. The hand moves at
 // GraspRequest::velocityDegPerS only to a margin before the place where it is expected to touch,
 // and from there on so slowly that twice the limit is not exceeded, not below kMinGraspDegPerS.
-// After the stop it opens by small steps until the reading is 0.8..1.2 times the limit.
+// After the stop it moves by small steps until the reading at rest is 0.8..1.2 times the limit: it
+// opens, or follows an object that gave way.
 //
 // Ratios are close ratios of the preshape, 0 (open) .. 1 (closed). Velocities and margins are those
 // of its fastest joint.
@@ -40,6 +41,8 @@ struct GraspApproach {
   double riseN = 0.0;
 };
 
+// By how much the fastest joint closes with the ratio from 0 to 1 [deg]; 0: none moves.
+double fastestSlopeDeg(const Preshape& preshape);
 // `touch`: what is remembered of the object with this preshape; it counts more than its size.
 // Without it the rise is that of the hardest object known, and the touch where the request expects
 // it.
@@ -75,7 +78,8 @@ std::optional<double> closeRatioOf(const Preshape& preshape, const std::vector<d
 class TouchMemory {
  public:
   std::optional<Touch> find(const std::string& preshape, const std::string& object) const;
-  // Learns from a grasp that touched a named object; returns whether anything was learnt.
+  // Learns from a grasp that touched a named object; returns whether anything was learnt. Of more
+  // than 1000 objects nothing is.
   bool learn(const GraspReport& report);
   bool forget(const std::string& preshape, const std::string& object);
   bool empty() const noexcept { return touches_.empty(); }

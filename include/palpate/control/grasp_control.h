@@ -160,6 +160,7 @@ class GraspControl {
   void reportPhase(GraspPhase phase,
                    const std::string& text,
                    std::optional<GraspReport> report = {});
+  static bool isTactilePortGone(const DeviceStatus& status);
   static std::string motionProblem(const DeviceStatus& status);
   bool settingsPending() const;
 

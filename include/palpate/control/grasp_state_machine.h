@@ -166,6 +166,8 @@ class GraspStateMachine {
   void endEasing(std::int64_t monoUs);
   // The largest reading or force as a multiple of its limit.
   double timesLimit() const noexcept;
+  // "1.9 times the limit".
+  std::string timesText() const;
   std::string restText() const;
   // The following functions belong to a slip-aware grasp.
   bool isHolding() const noexcept {

@@ -8,6 +8,9 @@
 
 namespace palpate {
 
+// A larger object isn't asked for [mm].
+constexpr double kLargestObjectMm = 1000.0;
+
 // The close ratio at which the distance between two sensor surfaces of different fingers that face
 // each other falls to `sizeMm`, in steps of 0.01 [0..1]; 0: the open hand is narrower. An object
 // with this width or less between the fingers, in their middle, isn't touched before. Empty: the

@@ -19,9 +19,8 @@
 namespace palpate::gui {
 namespace {
 
-constexpr double kLargestObjectMm = 1000.0;
 
-// A name that GraspRequest accepts: one line of at most so many bytes.
+// A name that GraspRequest accepts: one line of up to so many bytes.
 class ObjectName : public QValidator {
  public:
   using QValidator::QValidator;

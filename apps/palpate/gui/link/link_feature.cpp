@@ -115,7 +115,9 @@ void LinkFeature::connectAlarms() {
   on(actions_.muteAlarms, [this](bool muted) { mute(muted); });
   mute(state().settings.value(kMutedKey, false).toBool());
   state().escapeHandler.add(EscapeHandler::Order::kAlarm, [this] {
-    if (alarms_->isHidden()) return false;
+    const LiveSource* source = state().live.source();
+    // A hand that is not protected is acknowledged, not passed over.
+    if (alarms_->isHidden() || (source && !handAlarm(*source).isEmpty())) return false;
     alarms_->hide();
     return true;
   });

@@ -28,9 +28,10 @@ HandChip::HandChip(QAction& acknowledge, QWidget* parent)
   setMinimumHeight(kHandChipHeight);
   fitToText(*this, [this] { fit(); });
   connect(this, &QPushButton::clicked, this, [this] {
-    QToolTip::showText(mapToGlobal(rect().bottomLeft()), toolTip(), this, rect(), kSentenceMs);
+    QToolTip::showText(mapToGlobal(rect().bottomLeft()), sentence_, this, rect(), kSentenceMs);
     acknowledge_.trigger();
   });
+  connect(&acknowledge_, &QAction::changed, this, &HandChip::explain);
 }
 
 void HandChip::fit() {
@@ -53,14 +54,19 @@ void HandChip::setCondition(const ExplainedCondition& condition, Theme theme) {
   const QString word = conditionWord(condition.condition);
   if (!narrow_ && text() != word) setText(word);
   if (accessibleName() != word) setAccessibleName(word);
-  QString tip = "The hand is " + word + ": " + QString::fromStdString(condition.sentence) + ".";
-  if (acknowledge_.isEnabled()) tip += "\nA click acknowledges it.";
-  if (toolTip() != tip) setToolTip(tip);
+  sentence_ = "The hand is " + word + ": " + QString::fromStdString(condition.sentence) + ".";
+  explain();
   if (styled_ && condition_ == condition.condition && theme_ == theme) return;
   condition_ = condition.condition;
   theme_ = theme;
   styled_ = true;
   style();
+}
+
+void HandChip::explain() {
+  const QString tip =
+      acknowledge_.isEnabled() ? sentence_ + "\nA click acknowledges it." : sentence_;
+  if (toolTip() != tip) setToolTip(tip);
 }
 
 // What needs attention is filled, and what has no word.

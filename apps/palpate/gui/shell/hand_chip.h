@@ -25,9 +25,11 @@ class HandChip : public QPushButton {
  private:
   void fit();
   void style();
+  void explain();
 
   QAction& acknowledge_;
   HandCondition condition_ = HandCondition::kReady;
+  QString sentence_;
   Theme theme_ = Theme::kDark;
   bool styled_ = false;
   bool narrow_ = false;
