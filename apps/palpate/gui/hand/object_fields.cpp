@@ -19,7 +19,6 @@
 namespace palpate::gui {
 namespace {
 
-
 // A name that GraspRequest accepts: one line of up to so many bytes.
 class ObjectName : public QValidator {
  public:
