@@ -184,6 +184,27 @@ TEST(GraspCommand, WhatBelongsToKeepingTheLimitIsChecked) {
             std::string::npos);
 }
 
+TEST(GraspCommand, DamagedMemoryOfTouchesIsRefusedBeforeAnythingMoves) {
+  EmulatedBench bench(stillHand());
+  const TemporaryFolder home;
+  std::filesystem::create_directories(home / "palpate");
+  writeFile(home / "palpate/touches.json", "{}");
+  const auto result = palpate({"grasp",
+                               "--sdh",
+                               bench.hand->sdhPort(),
+                               "--dsa",
+                               bench.hand->dsaPort(),
+                               "--preshape",
+                               "centrical",
+                               "--mode",
+                               "reactive",
+                               "--object",
+                               "ball"},
+                              {{"XDG_DATA_HOME", home.path().string()}});
+  expectOneLineError(result, 1, {"touches.json", "delete or repair it"});
+  EXPECT_TRUE(bench.log.deeds().empty());
+}
+
 TEST(GraspCommand, ReactiveGraspOfNothingCloses) {
   EmulatedBench bench(stillHand(), {.rate = EmulationRate::kFixed, .hz = 60.0});
   const auto result = palpate({"grasp",

@@ -293,6 +293,14 @@ GraspReport follow(GraspControl& control, const StateLines& lines, Interruption&
   throw Error(report.text + "; state unknown: use the power switch");
 }
 
+TouchMemory knownTouches() {
+  try {
+    return loadTouches(touchesFile());
+  } catch (const Error& error) {
+    throw Error(std::string(error.what()) + "; delete or repair it, or leave out --object");
+  }
+}
+
 // A grasp is done whether or not its touch can be remembered. The file is read again: another
 // program may have written it meanwhile.
 void remember(const GraspReport& report) {
@@ -394,7 +402,7 @@ int graspCommand(const Arguments& words) {
   CaptureSession session(std::make_unique<LiveHand>(std::move(ports)));
   GraspControl control(session);
   control.setCalibration(std::move(calibration));
-  if (!request.object.empty()) control.setTouches(loadTouches(touchesFile()));
+  if (!request.object.empty()) control.setTouches(knownTouches());
   control.run();
   lines.show("connecting");
   session.start();
