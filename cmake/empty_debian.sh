@@ -1,7 +1,7 @@
-# Read by cmake/package/try_package and cmake/fresh_machine: an empty Debian 12 in a folder, and commands inside it.
+# Read by cmake/package/try_package and cmake/fresh_machine: an empty Debian in a folder, and commands inside it.
 # Nothing of this machine gets into it but the network: its proxies, its name servers, its way to trust an archive.
 #
-# Expects $place, the folder of the new system, and $log. PALPATE_MIRROR is where Debian comes from.
+# Expects $place, the folder of the new system, $release (bookworm or trixie), and $log. PALPATE_MIRROR is where Debian comes from.
 mirror=${PALPATE_MIRROR:-http://deb.debian.org/debian}
 
 say() { printf 'palpate: %s\n' "$*" >&2; }
@@ -37,8 +37,8 @@ makeEmptyDebian() { # FILE
   if [ -f "$base" ]; then
     tar -C "$place" -xzf "$base" || fail "$base can't be unpacked: remove it"
   else
-    say "an empty Debian 12, by debootstrap from $mirror"
-    debootstrap --variant=minbase bookworm "$place" "$mirror" >>"$log" 2>&1 || fail "debootstrap failed"
+    say "an empty Debian ($release), by debootstrap from $mirror"
+    debootstrap --variant=minbase "$release" "$place" "$mirror" >>"$log" 2>&1 || fail "debootstrap failed"
     tar -C "$place" -czf "$base.part" . && mv "$base.part" "$base" || fail "can't keep $base"
   fi
   mount -t proc proc "$place/proc" && mount -t sysfs -o ro sysfs "$place/sys" &&

@@ -124,7 +124,7 @@ void RecordingPlan::setRow(std::size_t row, const PlanRow& now) {
 }
 
 void RecordingPlan::removeRow(std::size_t row) {
-  rows_.at(row);
+  static_cast<void>(rows_.at(row));
   rows_.erase(rows_.begin() + static_cast<std::ptrdiff_t>(row));
 }
 

@@ -1,6 +1,7 @@
 #include "palpate/core/xml.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <exception>
 
 #include <expat.h>
@@ -17,6 +18,15 @@ constexpr std::size_t kPieceBytes = 64u << 10;
 bool endsEarly(XML_Error code) {
   return code == XML_ERROR_NO_ELEMENTS || code == XML_ERROR_UNCLOSED_TOKEN ||
          code == XML_ERROR_PARTIAL_CHAR || code == XML_ERROR_UNCLOSED_CDATA_SECTION;
+}
+
+// Where the current event begins [bytes]; negative where there is none.
+std::int64_t eventIndex(XML_Parser parser) {
+#if XML_MAJOR_VERSION > 2 || (XML_MAJOR_VERSION == 2 && XML_MINOR_VERSION >= 9)
+  return XML_GetCurrentByteIndex64(parser);
+#else
+  return XML_GetCurrentByteIndex(parser);
+#endif
 }
 
 }  // namespace
@@ -94,7 +104,7 @@ struct XmlParser::Impl {
   }
 
   std::uint64_t eventOffset() const noexcept {
-    const XML_Index index = XML_GetCurrentByteIndex(parser);
+    const std::int64_t index = eventIndex(parser);
     return index < 0 ? scanner.position() : origin + static_cast<std::uint64_t>(index);
   }
 

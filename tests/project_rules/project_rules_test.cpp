@@ -124,8 +124,9 @@ TEST(ProjectRules, EveryTestIsBuilt) {
 
 TEST(ProjectRules, PackageListsAreWellFormed) {
   const std::regex entry(
-      "[a-z0-9][a-z0-9+.-]+( \\[(fuzz|coverage|tidy|asan|tsan|slow|fresh)\\]|  # at least "
-      "[0-9.]+)?");
+      "[a-z0-9][a-z0-9+.-]+( \\[(bookworm|trixie|fuzz|coverage|tidy|asan|tsan|slow|fresh)\\]|  # "
+      "at "
+      "least [0-9.:]+)?");
   std::set<std::string> seen;
   for (const char* list : {"debian-packages.txt", "debian-test-packages.txt"}) {
     const std::string text = readFile(projectFolder() / "cmake" / list);

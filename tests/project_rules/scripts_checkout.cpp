@@ -17,17 +17,15 @@ void Scripts::SetUp() {
   writeFile(checkout_ / "CMakePresets.json", "{}");
   writeFile(checkout_ / "cmake/debian-packages.txt", "# a comment\nfirst  # why\n\nsecond\n");
   fs::create_directories(tools_);
-  for (const char* name : {"awk",      "bash",  "cat",  "chmod", "cp",     "dirname", "du",
-                           "env",      "flock", "grep", "mkdir", "mktemp", "nproc",   "pwd",
-                           "readlink", "rm",    "sed",  "sh",    "tail",   "tee",     "touch"})
+  for (const char* name : {"awk",  "bash", "cat",   "chmod",  "cp",    "dirname", "env", "flock",
+                           "grep", "head", "mkdir", "mktemp", "nproc", "paste",   "pwd", "readlink",
+                           "rm",   "sed",  "sh",    "tail",   "tee",   "touch"})
     fs::create_symlink(
         fs::exists(fs::path("/bin") / name) ? fs::path("/bin") / name : fs::path("/usr/bin") / name,
         tools_ / name);
   standIn("id", "echo 0");
-  // Free blocks and their size, or the number of a file system.
-  standIn("stat", "case \"$1\" in -f) echo 1000000 1000000;; *) echo 1;; esac");
-  writeFile(folder_ / "os-release", "ID=debian\nVERSION_ID=\"12\"\n");
-  standIn("dpkg-query", "echo 'installed first'; echo 'not-installed second'; exit 1");
+  standIn("stat", "echo 1000000 1000000");  // free blocks and their size
+  writeFile(folder_ / "os-release", "ID=debian\nVERSION_ID=\"12\"\nVERSION_CODENAME=bookworm\n");
   standInApt(log("apt-get"));
   // "cmake --preset release" makes the folder, ninja the program.
   standIn("cmake",
@@ -52,8 +50,10 @@ void Scripts::standIn(const std::string& name, const std::string& body) {
   fs::permissions(tools_ / name, fs::perms::owner_all);
 }
 
-void Scripts::standInApt(const std::string& body, const std::string& plan) {
-  standIn("apt-get", "case \"$*\" in *--assume-no*) printf '" + plan + "'; exit 1;; esac\n" + body);
+void Scripts::standInApt(const std::string& body, const std::string& plan, int planExit) {
+  standIn("apt-get",
+          "case \"$*\" in *--assume-no*) printf '" + plan + "'; exit " + std::to_string(planExit) +
+              ";; esac\n" + body);
 }
 
 ProgramResult Scripts::call(const std::string& script,

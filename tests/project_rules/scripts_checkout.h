@@ -24,7 +24,7 @@ class Scripts : public ::testing::Test {
   // Puts a program into the only folder where the scripts look for programs.
   void standIn(const std::string& name, const std::string& body);
   // apt-get that answers the question what it would do with `plan`, and does `body` else.
-  void standInApt(const std::string& body, const std::string& plan = "");
+  void standInApt(const std::string& body, const std::string& plan = "", int planExit = 1);
   // Calls a script in a folder that isn't the checkout; the log starts anew.
   ProgramResult call(const std::string& script,
                      std::vector<std::string> arguments = {},

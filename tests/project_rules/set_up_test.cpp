@@ -40,7 +40,8 @@ TEST_F(ScriptsSetUp, FailureOfAptNamesThePackagesAndStopsTheRun) {
   EXPECT_EQ(result.exitCode, 1);
   EXPECT_EQ(result.out, "");
   EXPECT_NE(result.err.find("E: no archive"), std::string::npos) << result.err;
-  EXPECT_NE(result.err.find("--no-install-recommends second"), std::string::npos) << result.err;
+  EXPECT_NE(result.err.find("satisfy --no-install-recommends 'first' 'second'"), std::string::npos)
+      << result.err;
   EXPECT_EQ(logged(), "");
 }
 
@@ -82,33 +83,28 @@ TEST_F(ScriptsSetUp, SaysHowMuchItInstallsAndHowLongThatTookTheLastTime) {
   writeFile(checkout_ / "cmake/first_time.txt",
             "cores 8\npackages_minutes 3\nprogram_minutes 7\nprogram_mb 9\n");
   const ProgramResult result = call("run", {"info"});
-  EXPECT_NE(
-      result.err.find("installing 1 packages and what they need (319 together, 12 MB to fetch, "
-                      "1211 MB on disk; 3 min the last time): second\n"),
-      std::string::npos)
+  EXPECT_NE(result.err.find(
+                "installing 319 packages (12 MB to fetch, 1211 MB on disk; 3 min the last time)\n"),
+            std::string::npos)
       << result.err;
   EXPECT_NE(result.err.find("from nothing: 7 min on 8 cores"), std::string::npos) << result.err;
 }
 
-TEST_F(ScriptsSetUp, TooLittleSpaceForPackagesIsToldBeforeAnyIsInstalled) {
-  standInApt(log("apt-get"), kPlan);
-  standIn("stat", "case \"$1\" in -f) echo 1200 1000000;; *) echo 1;; esac");  // 1200 MB are free
-  expectFailure(call("run"),
-                "not enough space: the packages take 1223 MB in /usr, 1200 MB are free there.");
-  EXPECT_EQ(logged(), "");
-  // Where what is fetched lies on another file system, 1211 MB and 12 MB are asked for by
-  // themselves.
-  standIn("stat",
-          "case \"$1 $4\" in '-f /var'*) echo 13 1000000;; '-f '*) echo 1211 1000000;; "
-          "*) echo \"$3\";; esac");
-  writeFile(checkout_ / "cmake/first_time.txt", "");
-  const ProgramResult enough = call("run");
-  EXPECT_EQ(enough.exitCode, 3) << enough.err;
+TEST_F(ScriptsSetUp, TooLittleSpaceForPackagesIsNamed) {
+  for (const char* said : {"cannot copy extracted data: No space left on device",
+                           "You do not have enough free space in /var/cache/apt/archives/."}) {
+    standInApt("echo 'E: " + std::string(said) + "'; exit 100");
+    expectFailure(call("run"), "no space left for the packages");
+  }
+  // Where the log itself can't be written.
+  standInApt("exit 100");
+  standIn("stat", "echo 1 1000000");
+  expectFailure(call("run"), "no space left for the packages: 1 MB are free");
 }
 
-TEST_F(ScriptsSetUp, SpaceThatRunsOutWhilePackagesAreInstalledIsNamed) {
-  standInApt("echo 'cannot copy extracted data: No space left on device'; exit 100");
-  expectFailure(call("run"), "no space left for the packages");
+TEST_F(ScriptsSetUp, AnotherInstallationThatRunsIsNamed) {
+  standInApt("echo 'E: Could not get lock /var/lib/dpkg/lock-frontend'; exit 100");
+  expectFailure(call("run"), "another program installs packages at the moment");
 }
 
 TEST_F(ScriptsSetUp, MissingNetworkIsNamed) {
@@ -122,7 +118,8 @@ TEST_F(ScriptsSetUp, MissingNetworkIsNamed) {
 // apt-get update succeeds without a network; then no package is known.
 TEST_F(ScriptsSetUp, MissingNetworkIsNamedWhereNoPackageListsAreThere) {
   standInApt("echo \"W: Temporary failure resolving 'deb.debian.org'\"",
-             "E: Unable to locate package second\\n");
+             "E: Unable to locate package second\\n",
+             100);
   expectFailure(call("run"), "no network: Temporary failure resolving 'deb.debian.org'.");
 }
 
@@ -137,7 +134,7 @@ TEST_F(ScriptsSetUp, InterruptedInstallationIsFinishedFirst) {
   ASSERT_GE(lines.size(), 4u) << logged();
   EXPECT_TRUE(lines[1].starts_with("dpkg ") && lines[1].ends_with("--configure -a")) << lines[1];
   EXPECT_TRUE(lines[2].ends_with("-f install")) << lines[2];
-  EXPECT_TRUE(lines[3].ends_with("--no-install-recommends second")) << lines[3];
+  EXPECT_TRUE(lines[3].ends_with("--no-install-recommends first second")) << lines[3];
 }
 
 TEST_F(ScriptsSetUp, InstallationThatCannotBeFinishedIsNotTriedForever) {
@@ -150,30 +147,43 @@ TEST_F(ScriptsSetUp, InstallationThatCannotBeFinishedIsNotTriedForever) {
 TEST_F(ScriptsSetUp, RefusalOfSudoIsPassedOn) {
   standIn("id", "echo 1000");
   standIn("sudo", "echo 'sudo: a password is required' >&2; exit 1");
-  expectFailure(call("run"), "sudo: a password is required; as root: apt-get install");
+  expectFailure(call("run"), "sudo: a password is required; as root: apt-get satisfy");
 }
 
+// As apt 2.6 writes it.
 TEST_F(ScriptsSetUp, OtherSystemIsToldWhatItLacksBeforeAnythingIsInstalled) {
-  writeFile(folder_ / "os-release", "ID=ubuntu\nVERSION_ID=\"22.04\"\n");
-  writeFile(checkout_ / "cmake/debian-packages.txt",
-            "first  # at least 3.25\nsecond\nthird  # at least 12\n");
-  standIn("dpkg-query", "exit 1");
-  standIn("apt-cache",
-          "case $2 in first) echo '  Candidate: 3.22.1-1ubuntu1';; *) echo '  Candidate: "
-          "4:12.2.0-3';; esac");
-  standInApt(log("apt-get"), "E: Unable to locate package second\\n");
-  const ProgramResult result = call("run");
-  expectFailure(result,
-                "this is ubuntu 22.04, not Debian 12, and nothing was installed: it has no second; "
-                "first 3.22.1-1ubuntu1 (wanted: 3.25);");
+  writeFile(folder_ / "os-release", "ID=ubuntu\nVERSION_ID=\"22.04\"\nVERSION_CODENAME=jammy\n");
+  writeFile(checkout_ / "cmake/debian-packages.txt", "first  # at least 3.25\nsecond\n");
+  standInApt(log("apt-get"),
+             "The following packages have unmet dependencies:\\n"
+             " satisfy:command-line : Depends: second but it is not installable\\n"
+             "                        Depends: first (>= 3.25) but 3.22.1 is to be installed\\n",
+             100);
+  expectFailure(call("run"),
+                "this system (ubuntu 22.04 jammy) lacks: second but it is not installable; "
+                "first (>= 3.25) but 3.22.1 is to be installed. ");
   EXPECT_EQ(logged(), "apt-get -q -y -o DPkg::Lock::Timeout=300 update\n");
 }
 
-TEST_F(ScriptsSetUp, OtherSystemWhereAnotherPackageProvidesWhatIsAskedForInstallsNothing) {
-  writeFile(folder_ / "os-release", "ID=debian\nVERSION_ID=\"13\"\n");
-  standIn("dpkg-query",
-          "case \"$*\" in *Provides*) echo 'installed, other (= 6), second (= 6)';; "
-          "*) echo 'installed first'; exit 1;; esac");
+TEST_F(ScriptsSetUp, PackagesOfOtherReleasesAreLeftOut) {
+  writeFile(checkout_ / "cmake/debian-packages.txt",
+            "first  # at least 4:12\nsecond [bookworm]  # why\nthird [trixie]\n");
+  call("run");
+  EXPECT_NE(logged().find("--no-install-recommends first (>= 4:12) second\n"), std::string::npos)
+      << logged();
+  writeFile(folder_ / "os-release", "ID=debian\nVERSION_ID=\"13\"\nVERSION_CODENAME=trixie\n");
+  const ProgramResult moved = call("run");
+  EXPECT_NE(logged().find("--no-install-recommends first (>= 4:12) third\n"), std::string::npos)
+      << logged();
+  // A home that moved with its build folder to another release.
+  EXPECT_NE(
+      moved.err.find("build/release was made elsewhere (debian 12 bookworm): building anew\n"),
+      std::string::npos)
+      << moved.err;
+}
+
+TEST_F(ScriptsSetUp, NothingIsInstalledWhereNothingIsMissing) {
+  standInApt(log("apt-get"), "", 0);
   EXPECT_EQ(call("run").exitCode, 3);
   EXPECT_EQ(logged().find("apt-get"), std::string::npos) << logged();
 }
@@ -201,7 +211,10 @@ TEST_F(ScriptsSetUp, VersionsOfPackageListAreThoseOfCMake) {
     ++found;
     const std::size_t colon = at->second.find(':');
     const std::string text = readFile(projectFolder() / at->second.substr(0, colon));
-    const std::string wanted = at->second.substr(colon + 1) + line.substr(end + atLeast.size());
+    std::string version = line.substr(end + atLeast.size());
+    if (const std::size_t epoch = version.find(':'); epoch != std::string::npos)
+      version.erase(0, epoch + 1);
+    const std::string wanted = at->second.substr(colon + 1) + version;
     const std::size_t place = text.find(wanted);
     ASSERT_NE(place, std::string::npos) << at->second.substr(0, colon) << " lacks " << wanted;
     const char behind = text[place + wanted.size()];
@@ -213,11 +226,11 @@ TEST_F(ScriptsSetUp, VersionsOfPackageListAreThoseOfCMake) {
 
 // ---- Configuring and building
 
-TEST_F(ScriptsSetUp, ToolsThatAreMissingOrTooOldAreNamedBeforeTheyAreCalled) {
-  writeFile(checkout_ / "cmake/debian-packages.txt", "first\ncmake  # at least 3.25\n");
-  standIn("dpkg-query", "echo 'installed first'; echo 'installed cmake'");
-  standIn("cmake", "echo cmake version 3.22.1");
-  expectFailure(call("run"), "cmake 3.22.1 is too old: 3.25 or newer is wanted");
+TEST_F(ScriptsSetUp, ToolsThatAreMissingOrTooOldAreNamed) {
+  standIn("cmake",
+          "[ \"$1\" != --version ] || { echo cmake version 3.22.1; exit 0; }\n"
+          "echo 'CMake Error: Could not read presets: Unrecognized \"version\" field'; exit 1");
+  expectFailure(call("run"), "cmake version 3.22.1 is too old: Debian 12 has 3.25");
   fs::remove(tools_ / "cmake");
   expectFailure(call("run"), "cmake is missing");
 }
@@ -233,13 +246,6 @@ TEST_F(ScriptsSetUp, ReasonOfCMakeIsTheLastLine) {
   EXPECT_EQ(call("run").exitCode, 3) << "the next call goes on";
 }
 
-TEST_F(ScriptsSetUp, TooLittleSpaceForTheBuildIsToldBefore) {
-  standIn("stat", "case \"$1\" in -f) echo 30 1000000;; *) echo 1;; esac");
-  writeFile(checkout_ / "cmake/first_time.txt", "program_mb 400\ntests_mb 900\n");
-  expectFailure(call("run"), "not enough space: the files of the build take ");
-  EXPECT_EQ(logged().find("ninja"), std::string::npos) << logged();
-}
-
 TEST_F(ScriptsSetUp, SpaceThatRunsOutWhileBuildingIsNamedAndTheNextCallGoesOn) {
   writeFile(checkout_ / "cmake/first_time.txt", "");
   standIn("stat",
@@ -249,49 +255,11 @@ TEST_F(ScriptsSetUp, SpaceThatRunsOutWhileBuildingIsNamedAndTheNextCallGoesOn) {
   standIn("ninja",
           "case \"$*\" in *' -n '*) exit 0;; esac\n" + make("full") +
               "; echo 'No space left on device'; exit 1");
-  standIn("dpkg-query", "echo 'installed first'; echo 'installed second'");
   expectFailure(call("run"), "no space left in ");
   fs::remove(folder_ / "full");
   standIn("ninja", ninja);
   EXPECT_EQ(call("run").exitCode, 3);
   EXPECT_EQ(logged().find("cmake"), std::string::npos) << "configured anew: " << logged();
-}
-
-TEST_F(ScriptsSetUp, SmallFolderOfTemporaryFilesIsNotUsedByTheBuild) {
-  const fs::path small = folder_ / "small";
-  fs::create_directories(small);
-  standIn(
-      "stat",
-      "case \"$4\" in '" + small.string() + "') echo 60 1000000;; *) echo 900000 1000000;; esac");
-  standIn("ninja",
-          "case \"$*\" in *' -n '*) exit 0;; esac\necho \"$TMPDIR\" >> '" +
-              (folder_ / "log").string() +
-              "'; printf '#!/bin/sh\\nprintf %%s \"$TMPDIR\"\\n' > \"$2/palpate\"; chmod +x "
-              "\"$2/palpate\"");
-  const ProgramResult result = call("run", {"info"}, {{"TMPDIR", small.string()}});
-  EXPECT_EQ(result.exitCode, 0) << result.err;
-  EXPECT_NE(logged().find((checkout_ / "build/tmp").string() + "\n"), std::string::npos)
-      << logged();
-  EXPECT_EQ(result.out, small.string()) << "the program's own folder";
-  EXPECT_NE(result.err.find(small.string() + " can't be used or is small (60 MB free)"),
-            std::string::npos)
-      << result.err;
-  fs::remove_all(checkout_ / "build");
-  const ProgramResult missing = call("run", {"info"}, {{"TMPDIR", "/no/such/folder"}});
-  EXPECT_EQ(missing.exitCode, 0) << missing.err;
-}
-
-TEST_F(ScriptsSetUp, CacheOfTheCompilerMovesIntoTheBuildWhereHomeIsReadOnly) {
-  standIn("ccache", "echo /proc/none/ccache");  // nobody writes there, root neither
-  standIn("ninja",
-          "case \"$*\" in *' -n '*) exit 0;; esac\necho \"cache $CCACHE_DIR\" >> '" +
-              (folder_ / "log").string() + "'; exit 1");
-  call("run");
-  EXPECT_NE(logged().find("cache " + (checkout_ / "build/ccache").string()), std::string::npos)
-      << logged();
-  standIn("ccache", "echo '" + (folder_ / "cache").string() + "'");
-  call("run");
-  EXPECT_NE(logged().find("cache \n"), std::string::npos) << logged();
 }
 
 TEST_F(ScriptsSetUp, CheckoutThatCannotBeWrittenIsNamed) {
@@ -301,19 +269,14 @@ TEST_F(ScriptsSetUp, CheckoutThatCannotBeWrittenIsNamed) {
 
 // ---- What is shown
 
-TEST_F(ScriptsSetUp, BuildShowsALinePerTenthAndEverythingThatIsNoProgress) {
+TEST_F(ScriptsSetUp, BuildWithoutATerminalShowsOnlyWhatIsNoProgress) {
   standIn("ninja",
-          "case \"$*\" in *' -n '*) echo '[1/40] x'; echo '[40/40] x'; exit 0;; esac\n"
-          "i=1; while [ $i -le 40 ]; do echo \"[$i/40] Building x$i\"; i=$((i + 1)); done\n"
+          "case \"$*\" in *' -n '*) exit 0;; *--quiet*) ;; *) echo '[1/40] Building x1';; esac\n"
           "echo 'FAILED: x'; echo 'x.cpp:1: error: no'; exit 1");
   const ProgramResult result = call("run");
   expectFailure(result, "the build failed");
-  EXPECT_NE(result.err.find("building build/release, 40 steps"), std::string::npos) << result.err;
   EXPECT_EQ(result.err.find("Building x"), std::string::npos) << result.err;
-  EXPECT_NE(result.err.find("palpate: 20 of 40 steps\n"), std::string::npos) << result.err;
   EXPECT_NE(result.err.find("FAILED: x\nx.cpp:1: error: no\n"), std::string::npos) << result.err;
-  const std::string log = readFile(checkout_ / "build/release/build.log");
-  EXPECT_NE(log.find("[17/40] Building x17"), std::string::npos) << log;
 }
 
 // script (bsdutils) gives its command a terminal.
@@ -337,7 +300,6 @@ TEST_F(ScriptsSetUp, AfterABuildItSaysWhatToTryNextAndNeverOnStandardOutput) {
   const ProgramResult built = call("run", {"info"});
   EXPECT_NE(built.err.find("To try next:"), std::string::npos) << built.err;
   EXPECT_EQ(built.out, (folder_ / "elsewhere").string() + "\n[info]");
-  standIn("dpkg-query", "echo 'installed first'; echo 'installed second'");
   EXPECT_EQ(call("run", {"info"}).err, "");
 }
 
@@ -367,7 +329,7 @@ TEST_F(ScriptsSetUp, TrialThatCannotBeginSaysSoInItsLastLine) {
   const std::string count = "0 passed, 1 failed, 0 skipped\n";
   writeFile(folder_ / "file", "");
   const ProgramResult place = call("../cmake/fresh_machine",
-                                   {(folder_ / "file/trial").string()},
+                                   {"trixie", (folder_ / "file/trial").string()},
                                    {{"PALPATE_PACKAGES", "keep"}});
   EXPECT_EQ(place.exitCode, 1);
   EXPECT_EQ(place.out, count) << place.err;
@@ -376,8 +338,9 @@ TEST_F(ScriptsSetUp, TrialThatCannotBeginSaysSoInItsLastLine) {
   fs::create_directories(folder_ / "trial");
   const int lock = ::open((folder_ / "trial/.lock").c_str(), O_CREAT | O_RDWR | O_CLOEXEC, 0600);
   ASSERT_EQ(::flock(lock, LOCK_EX), 0);
-  const ProgramResult other = call(
-      "../cmake/fresh_machine", {(folder_ / "trial").string()}, {{"PALPATE_PACKAGES", "keep"}});
+  const ProgramResult other = call("../cmake/fresh_machine",
+                                   {"bookworm", (folder_ / "trial").string()},
+                                   {{"PALPATE_PACKAGES", "keep"}});
   ::close(lock);
   EXPECT_EQ(other.exitCode, 1);
   EXPECT_EQ(other.out, count) << other.err;

@@ -38,7 +38,9 @@ struct CollectedNames {
   std::size_t bytes = 0;
 };
 
-herr_t collectName(hid_t, const char* name, const H5O_info_t* info, void* data) {
+// `Info`: HDF5 1.12 has other records of an object than 1.10.
+template <typename Info>
+herr_t collectName(hid_t, const char* name, const Info* info, void* data) {
   auto& collected = *static_cast<CollectedNames*>(data);
   if (info->type != H5O_TYPE_DATASET) return 0;
   const std::string_view text = name;
