@@ -658,17 +658,17 @@ STOP_FIGURES = ("median {%s.median}, p99 {%s.p99}, worst {%s.worst}; {%s.late} o
 
 SECTIONS = {
     "building": [
-        Row("first call on an empty Debian 12: packages, program", "{first_time.packages_minutes} min, "
-            "{first_time.program_minutes} min, {first_time.program_mb}", "first_time", True),
+        Row("first call on an empty Debian: packages, program", "{first_time.packages_minutes} min, "
+            "{first_time.program_minutes} min, {first_time.program_mb}", "first_time"),
         Row("the rest of the build for the tests; the suite", "{first_time.tests_minutes} min, "
             "{first_time.tests_mb}; {first_time.suite_minutes} min", "first_time"),
         Row("call when nothing has changed", "{call.unchanged}", "call"),
-        Row("fast suite", "{suite.passed} tests in {suite.wall}", "suite", True),
+        Row("fast suite", "{suite.passed} tests in {suite.wall}", "suite"),
     ],
     "files": [
         Row("reading `.dsa` file by file beside `bzip2 -dc` on the same files, wall time on two cores, times as "
             "long: the large ones (target 0.7); the small ones; all shared files",
-            "{dsa.large}; {dsa.small}; {dsa.all}", "dsa", True),
+            "{dsa.large}; {dsa.small}; {dsa.all}", "dsa"),
         Row("the large ones beside `lbzip2 -dc`, times as long (target 1.2)", "{lbzip2.large}", "lbzip2"),
         Row("all shared files as a folder beside `bzip2 -dc`, times as long (target 0.65): `info`, `verify`, "
             "`signals`; `grasps`, `features`; the library's first look; `train`, which also chooses a model",
@@ -703,7 +703,7 @@ SECTIONS = {
     "window": [
         Row("from process start to the first paint of the window (target 200 ms); to a picture of the window "
             "with a recording open; `--version` alone (10 ms); `info` of a recording of two frames (15 ms)",
-            "{start.first_paint}; {start.picture}; {start.version}; {start.info}", "start", True),
+            "{start.first_paint}; {start.picture}; {start.version}; {start.info}", "start"),
         Row("playback, every one of {playback.repaints} repaints/s another frame: part of one core "
             "(target 15 %); repainting everything instead; paused",
             "{playback.playback}; {playback.everything}; {playback.paused}", "playback"),
@@ -729,7 +729,7 @@ SECTIONS = {
     "disk": [
         Row("recording one emulated hand at 31.7 frames/s and 110 samples of the angles per second for "
             "20 s (target 3 % of a core)", "{record.core} of a core, {record.frames} frames, "
-            "{record.lost} lost", "record", True),
+            "{record.lost} lost", "record"),
         Row("two emulated hands at 300 frames/s, recorded for 20 s (target: nothing lost)",
             "{record_fast.frames} frames, {record_fast.lost} lost", "record_fast"),
         Row("a frame packet, framing to counts (target 3 us), beside its checksum alone in the textbook "
@@ -754,7 +754,7 @@ SECTIONS = {
             "ncc-gauss3 (60), phase (150), register (150); one contest of slip and load shift (25 per "
             "matrix); the study's way, two full convolutions", "{slip_time.centroid}, "
             "{slip_time.ncc-gauss3}, {slip_time.phase}, {slip_time.register}; {slip_time.contest}; "
-            "{slip_time.study}", "slip_time", True),
+            "{slip_time.study}", "slip_time"),
         Row("features of a grasp of 46 frames: study, best, session; an answer in another session",
             "{features_time.study}, {features_time.best}, {features_time.session}; "
             "{features_time.verdict}", "features_time"),
@@ -780,9 +780,9 @@ SECTIONS = {
             "{evaluate_study-lda-svm_S.mean}, {evaluate_study-lda-qda_S.mean}", "evaluate_best-gauss_S",
             True),
         Row("another day, offset estimated unlabelled", "{another_day_batch.right} of "
-            "{another_day_batch.grasps}", "another_day_batch", True),
+            "{another_day_batch.grasps}", "another_day_batch"),
         Row("another day, one labelled grasp each", "{another_day_adapt.right} of "
-            "{another_day_adapt.grasps}", "another_day_adapt", True),
+            "{another_day_adapt.grasps}", "another_day_adapt"),
     ],
     "reliability": [
         Row("recorder killed at random moments: recordings that open; lost at most", "{kills.open} of "
@@ -798,31 +798,21 @@ SECTIONS = {
         Row("stops at random moments, each measured once (target 20 ms)",
             STOP_FIGURES.replace("%s", "stops"), "stops", True),
         Row("Esc in the window at random moments, each measured once (target 20 ms)",
-            STOP_FIGURES.replace("%s", "escapes"), "escapes", True),
+            STOP_FIGURES.replace("%s", "escapes"), "escapes"),
     ],
 }
 
 
-def rows_table(rows):
+def rows_table(rows, commands=True):
     """rows_table(rows)(book): the lines of a table of figures."""
     def write(book):
-        lines = ["| what | figure | command | measured |", "|---|---|---|---|"]
+        lines = ["| what | figure | command | measured |", "|---|---|---|---|"] if commands else \
+            ["| what | figure | measured |", "|---|---|---|"]
         for row in rows:
-            command = book.part(row.part).shown() + (f" {row.more}" if row.more else "")
-            lines.append(f"| {book.fill(row.what)} | {book.fill(row.figure)} | {command} | "
-                         f"{book.when(row.part)} |")
+            command = f"{book.part(row.part).shown()}{' ' + row.more if row.more else ''} | " if commands else ""
+            lines.append(f"| {book.fill(row.what)} | {book.fill(row.figure)} | {command}{book.when(row.part)} |")
         return lines
     return write
-
-
-def slip_table(book):
-    lines = ["| method | step, rms | x bound | after 100 frames | over a side edge, of 1.5 | tilt |",
-             "|---|---|---|---|---|---|"]
-    for method in METHODS:
-        cells = " | ".join(book.text(f"slip.{method}.{key}") for key in
-                           ("rmse", "of_bound", "drift_100", "edge_1_5", "tilt_40"))
-        lines.append(f"| `{method}` | {cells} |")
-    return lines
 
 
 def slip_both_noises_table(book):
@@ -944,8 +934,7 @@ def growth_picture(book):
 # Files that are written anew with the pages.
 PICTURES = {"docs/pictures/growth.svg": growth_picture}
 TABLES = {name: rows_table(rows) for name, rows in SECTIONS.items()}
-TABLES["readme"] = rows_table([row for rows in SECTIONS.values() for row in rows if row.readme])
-TABLES["slip_methods"] = slip_table
+TABLES["readme"] = rows_table([row for rows in SECTIONS.values() for row in rows if row.readme], commands=False)
 TABLES["slip_both_noises"] = slip_both_noises_table
 TABLES["recognition_pipelines"] = recognition_table
 TABLES["another_day"] = another_day_table
