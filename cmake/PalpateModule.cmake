@@ -16,14 +16,17 @@ function(palpate_module name)
   set_property(GLOBAL APPEND PROPERTY PALPATE_MODULES palpate::${name})
 endfunction()
 
-# palpate_tests(MODULE [GUI] FILES file... [DISPLAY file...] [SLOW file...] [SOURCES extra...] [LIBS lib...])
+# palpate_tests(MODULE [GUI] FILES file... [DISPLAY file...] [SLOW file...] [LIVE file...] [TIMED file...]
+#   [SOURCES extra...] [LIBS lib...])
 # One test program per module, MODULE_tests, of tests/MODULE/FILE.cpp (FILE may lie in a folder: slip/slip_panel_test); it is linked to the whole core library,
 # of which the linker takes what the tests use. Each FILE is one ctest entry MODULE/FILE: a process of its
 # own, which runs the tests of that file (tests/testing/test_selection.h). Labels: fast, or slow for the
-# files called *_slow_test and those after SLOW. GUI: main() is in the sources; Qt draws to memory but for
+# files called *_slow_test and those after SLOW. LIVE: files that drive an emulated hand in real time (tests/testing/test_run.h).
+# TIMED: files that run once more in the slow suite, which judges real time (tests/testing/time_limit.h), as MODULE/FILE_timed. Files
+# of both stand in another list, too. GUI: main() is in the sources; Qt draws to memory but for
 # the files after DISPLAY, which get a display of their own (tests/testing/on_display).
 function(palpate_tests module)
-  cmake_parse_arguments(tests "GUI" "" "FILES;DISPLAY;SLOW;SOURCES;LIBS" ${ARGN})
+  cmake_parse_arguments(tests "GUI" "" "FILES;DISPLAY;SLOW;LIVE;TIMED;SOURCES;LIBS" ${ARGN})
   set(target ${module}_tests)
   set(files ${tests_FILES} ${tests_DISPLAY} ${tests_SLOW})
   list(TRANSFORM files APPEND .cpp OUTPUT_VARIABLE sources)
@@ -50,7 +53,14 @@ function(palpate_tests module)
       list(APPEND options SLOW)
     endif()
     get_filename_component(name ${file} NAME)
-    palpate_test_entry(${module} ${file} ${name} ${options})
+    set(environment "")
+    if(file IN_LIST tests_LIVE)
+      set(environment ENVIRONMENT PALPATE_EXCUSE_STANDSTILL=1)
+    endif()
+    palpate_test_entry(${module} ${file} ${name} ${options} ${environment})
+    if(file IN_LIST tests_TIMED)
+      palpate_test_entry(${module} ${file}_timed ${name} ${options} SLOW)
+    endif()
   endforeach()
 endfunction()
 
@@ -63,6 +73,7 @@ function(palpate_test_entry module name)
   set(label fast)
   if(entry_SLOW)
     set(label slow)
+    list(APPEND entry_ENVIRONMENT PALPATE_JUDGE_TIME=1)
   endif()
   if(NOT entry_TIMEOUT)
     set(entry_TIMEOUT 300)
@@ -82,16 +93,8 @@ function(palpate_test_entry module name)
       list(APPEND entry_ENVIRONMENT QT_QPA_PLATFORM=offscreen)
     endif()
   endif()
-  # ctest starts the dearest first: windows and whole programs, which take longest.
-  set(cost 1)
-  if(entry_GUI OR module MATCHES "^(commands|emulator|control|device)$")
-    set(cost 10)
-    if(name MATCHES "live|hand_dock|recognise|screenshot|slip_window|demo_command|emulated_hand|safety|sdh_emulated")
-      set(cost 100)
-    endif()
-  endif()
   add_test(NAME ${module}/${name} COMMAND ${command})
-  set_tests_properties(${module}/${name} PROPERTIES LABELS "${labels}" TIMEOUT ${entry_TIMEOUT} COST ${cost}
+  set_tests_properties(${module}/${name} PROPERTIES LABELS "${labels}" TIMEOUT ${entry_TIMEOUT}
                        ENVIRONMENT "${entry_ENVIRONMENT}")
 endfunction()
 

@@ -11,6 +11,7 @@
 #include "capture/scripted_device.h"
 #include "recording/palpate_damage.h"
 #include "testing/testing.h"
+#include "testing/time_limit.h"
 
 namespace palpate::replay_test {
 namespace {
@@ -162,7 +163,7 @@ TEST(Replay, keepsTimeTimesItsSpeed) {
     EXPECT_EQ(listener.frames.size(), profile.numFrames());
     // Never early; late only by the delay of a busy machine.
     EXPECT_GE(took.count(), static_cast<double>(profile.durationUs()) / 1e6 / speed - 0.001);
-    EXPECT_LT(took.count(), 10.0);
+    EXPECT_LT(took.count(), testing::timeLimit(10.0));
   }
   EXPECT_THROW(Replay(shortProfile(), {ReplayPace::kRecorded, 17.0}), std::invalid_argument);
   Replay replay(shortProfile());
@@ -185,7 +186,7 @@ TEST(Replay, itsSpeedChangesWhileItWaits) {
   while (replay.status().tactile.items < 1) std::this_thread::yield();
   replay.setSpeed(16.0);  // 0.2 s
   while (!replay.finished()) std::this_thread::yield();
-  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(15));
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, testing::timeLimit(std::chrono::seconds(15)));
   EXPECT_EQ(listener.frames.size(), 2u);
 }
 
@@ -196,7 +197,7 @@ TEST(Replay, stopsAtOnceThoughItWaits) {
   replay.start(listener);
   while (replay.status().tactile.items < 1) std::this_thread::yield();
   replay.stop();
-  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(2));
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, testing::timeLimit(std::chrono::seconds(2)));
   EXPECT_EQ(listener.frames.size(), 1u);
 }
 

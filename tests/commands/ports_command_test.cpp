@@ -7,6 +7,7 @@
 #include "device/fake_sdh_hand.h"
 #include "device/fake_tactile_answers.h"
 #include "device/pty_server.h"
+#include "testing/time_limit.h"
 
 namespace palpate::ports_command_test {
 namespace {
@@ -46,7 +47,8 @@ class PortsCommand : public ::testing::Test {
 TEST_F(PortsCommand, SaysWhichControllerIsWhere) {
   const auto start = std::chrono::steady_clock::now();
   const auto result = palpate({"ports", motion.path(), tactile.path(), silent.path()});
-  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(6)) << "one by one?";
+  EXPECT_LT(std::chrono::steady_clock::now() - start, testing::timeLimit(std::chrono::seconds(6)))
+      << "one by one?";
   EXPECT_EQ(result.exitCode, 0) << result.err;
   EXPECT_EQ(result.out.rfind("port ", 0), 0u) << result.out;
   const std::string motionLine = lineOf(result.out, motion.path());

@@ -6,6 +6,7 @@
 
 #include "device/babbling_channel.h"
 #include "device/collecting_sink.h"
+#include "testing/time_limit.h"
 
 namespace palpate::testing::live_hand_test {
 namespace {
@@ -207,7 +208,7 @@ TEST_F(LiveHandTest, StopsSoonWhateverTheStateOfThePort) {
     controls.behaviour = behaviour;
     const auto from = std::chrono::steady_clock::now();
     hand.stop();
-    EXPECT_LT(std::chrono::steady_clock::now() - from, milliseconds(2000))
+    EXPECT_LT(std::chrono::steady_clock::now() - from, timeLimit(milliseconds(2000)))
         << static_cast<int>(behaviour);
   }
 }
@@ -220,7 +221,7 @@ TEST_F(LiveHandTest, StopsSoonWhileItLooksForAControllerThatIsSilent) {
       << "an order doesn't wait for the controller to appear";
   const auto from = std::chrono::steady_clock::now();
   hand.stop();
-  EXPECT_LT(std::chrono::steady_clock::now() - from, milliseconds(2000));
+  EXPECT_LT(std::chrono::steady_clock::now() - from, timeLimit(milliseconds(2000)));
 }
 
 TEST(LiveHandOptions, AreChecked) {

@@ -10,6 +10,7 @@
 #include "device/fake_tactile_answers.h"
 #include "device/pty_server.h"
 #include "device/scripted_channel.h"
+#include "testing/time_limit.h"
 
 namespace palpate::port_probe_test {
 namespace {
@@ -69,7 +70,7 @@ TEST_F(PortProbeTest, RecognisesAMotionControllerAndSendsItNoTactileByte) {
   EXPECT_EQ(found.port, "some port");
   EXPECT_NE(found.message.find("motion controller"), std::string::npos);
   for (const std::byte b : sent) EXPECT_LT(std::to_integer<int>(b), 0x80);
-  EXPECT_LT(seconds(), 0.1);
+  EXPECT_LT(seconds(), testing::timeLimit(0.1));
 }
 
 TEST_F(PortProbeTest, EndsACommandThatSomebodyLeftHalfWay) {
@@ -93,7 +94,7 @@ TEST_F(PortProbeTest, RecognisesATactileControllerThatIsIdle) {
   EXPECT_EQ(found.answerName(), "tactile");
   EXPECT_EQ(found.serial, "1D9B0057");
   EXPECT_EQ(found.firmware, "2.9.0.0");
-  EXPECT_LT(seconds(), 2.5);
+  EXPECT_LT(seconds(), testing::timeLimit(2.5));
 }
 
 TEST_F(PortProbeTest, ATactileStreamLeftRunningIsEndedFirst) {
@@ -113,7 +114,7 @@ TEST_F(PortProbeTest, ATactileStreamLeftRunningIsEndedFirst) {
   EXPECT_EQ(found.serial, "1D9B0057");
   EXPECT_EQ(controller.stops, 1);
   EXPECT_FALSE(controller.streaming);
-  EXPECT_LT(seconds(), 0.5) << "frames say at once who it is";
+  EXPECT_LT(seconds(), testing::timeLimit(0.5)) << "frames say at once who it is";
 }
 
 TEST_F(PortProbeTest, ATactileControllerThatStartsIsNamed) {
@@ -136,7 +137,7 @@ TEST_F(PortProbeTest, AnswersWithoutAConfigurationAreStillATactileControllers) {
 TEST_F(PortProbeTest, SilenceIsNothingWithinTheLimit) {
   const PortProbe found = probe();
   EXPECT_EQ(found.answer, PortAnswer::kNothing);
-  EXPECT_LE(seconds(), 2.5);
+  EXPECT_LE(seconds(), testing::timeLimit(2.5));
   // The exact bytes: `ver` twice, then stop and query of the protocol document.
   const Bytes ver = bytesOf("20 0D 0A 76 65 72 0D 0A");
   const Bytes stop = bytesOf("AA AA AA 03 03 00 01 00 00 2F 6A");
@@ -153,7 +154,7 @@ TEST_F(PortProbeTest, OtherBytesAreSomethingElse) {
   };
   const PortProbe found = probe();
   EXPECT_EQ(found.answer, PortAnswer::kUnknownDevice);
-  EXPECT_LE(seconds(), 2.6);
+  EXPECT_LE(seconds(), testing::timeLimit(2.6));
 }
 
 TEST_F(PortProbeTest, GivesUpWhenTold) {
@@ -163,7 +164,7 @@ TEST_F(PortProbeTest, GivesUpWhenTold) {
   };
   options.isCancelled = [&] { return clock.nowUs > 200'000; };
   EXPECT_EQ(probePort("x", options, clock).answer, PortAnswer::kNothing);
-  EXPECT_LT(seconds(), 0.3);
+  EXPECT_LT(seconds(), testing::timeLimit(0.3));
 }
 
 TEST(PortProbe, ErrorsAreAnswers) {

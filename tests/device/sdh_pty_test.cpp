@@ -12,6 +12,7 @@
 #include "device/pty_server.h"
 #include "testing/punctuality.h"
 #include "testing/testing.h"
+#include "testing/time_limit.h"
 
 namespace palpate::sdh_pty_test {
 namespace {
@@ -74,7 +75,7 @@ TEST_F(SdhPtyTest, AMissingByteIsGotOverInUnderASecond) {
     server.between([&] { hand.dropByteAt = at; });
     const auto start = SteadyClock::now();
     EXPECT_EQ(controller.angles(), seen().pos) << "byte " << at;
-    EXPECT_LT(msSince(start), 900.0) << "byte " << at;
+    EXPECT_LT(msSince(start), testing::timeLimit(900.0)) << "byte " << at;
   }
   EXPECT_EQ(controller.stats().retries, 5u);
 }
@@ -120,7 +121,7 @@ TEST_F(SdhPtyTest, UnpluggingIsNoticedWithin500Ms) {
   } catch (const DeviceError& error) {
     EXPECT_EQ(error.fault(), DeviceFault::kDisconnected) << error.what();
   }
-  EXPECT_LT(msSince(start), 500.0);
+  EXPECT_LT(msSince(start), testing::timeLimit(500.0));
   other.join();
 }
 

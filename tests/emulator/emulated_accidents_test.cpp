@@ -302,8 +302,8 @@ TEST(EmulatedAccidents, ReplaysEachFrameOnceAcrossPausesThenFallsSilent) {
   client.send(kPush);
   for (DecodedFrame& frame : readFrames(client, profile.numFrames() - frames.size()))
     frames.push_back(std::move(frame));
-  // No frame follows. All may have been on their way before the pause: then the answer to the second
-  // request still comes.
+  // No frame follows. All may have been on their way before the pause: then the answer to the
+  // second request still comes.
   while (const auto packet = client.packet(200ms)) EXPECT_NE(packet->id, 0);
   ASSERT_EQ(frames.size(), profile.numFrames());
   for (std::size_t i = 0; i < frames.size(); ++i) {

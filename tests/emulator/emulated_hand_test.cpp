@@ -15,6 +15,7 @@
 #include "emulator/still_hand.h"
 #include "testing/punctuality.h"
 #include "testing/testing.h"
+#include "testing/time_limit.h"
 
 namespace palpate::emulated_hand_test {
 namespace {
@@ -130,7 +131,7 @@ TEST(EmulatedHand, PacesBytesInRealTime) {
   const double seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   EXPECT_GE(seconds, 7 * 985 * 10 / 115200.0);
-  EXPECT_LT(seconds, 7 * 985 * 10 / 115200.0 + 1.0);
+  EXPECT_LT(seconds, 7 * 985 * 10 / 115200.0 + testing::timeLimit(1.0));
 }
 
 TEST(EmulatedHand, StopReallyStops) {

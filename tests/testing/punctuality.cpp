@@ -6,6 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include "testing/time_limit.h"
+
 namespace palpate::testing {
 namespace {
 
@@ -77,7 +79,9 @@ void Punctuality::lost(std::int64_t beginUs,
               name_.c_str(),
               why.c_str(),
               milliseconds(standstillUs));
-  EXPECT_GE(standstillUs, forUs) << name_ << ": " << why << ", while the machine ran";
+  if (judgesTime()) {
+    EXPECT_GE(standstillUs, forUs) << name_ << ": " << why << ", while the machine ran";
+  }
 }
 
 PunctualityReport Punctuality::judge(const std::string& moreJson) {
@@ -97,7 +101,9 @@ PunctualityReport Punctuality::judge(const std::string& moreJson) {
       lost_,
       moreJson.empty() ? "" : ", ",
       moreJson.c_str());
-  EXPECT_EQ(report.faults, "") << name_;
+  if (judgesTime()) {
+    EXPECT_EQ(report.faults, "") << name_;
+  }
   return report;
 }
 

@@ -1,6 +1,7 @@
 // Checks in tests that answers come in time. Each answer is measured once, without repetition. A
 // late answer is excused only when a heartbeat shows that the machine stood still for as long as
-// the answer was late; it is still counted and reported.
+// the answer was late; it is still counted and reported. Judged where time is
+// (testing/time_limit.h).
 #pragma once
 
 #include <cstdint>

@@ -176,27 +176,6 @@ TEST_F(GraspOptionsTest, WhileTheCalibrationIsReadALimitInNewtonsIsNoneInCounts)
   EXPECT_FALSE(isEnabled("reactiveGrasp"));
 }
 
-TEST_F(GraspOptionsTest, AGraspStopsAtTheForce) {
-  connectTo(testing::handWith("ball"));
-  open();
-  dock_->calibrationOf = [](const std::string&) {
-    return std::optional(testing::linearCalibration({0.5, 150.0, false}));
-  };
-  dock_->renewCalibration();
-  auto* unit = find<QComboBox>("limitUnit");
-  ASSERT_TRUE(await([&] { return unit->isEnabled(); }));
-  unit->setCurrentIndex(1);
-  type("forceLimit", "1");
-  type("velocity", "30");
-  // What stops it is tested, not how slowly it touches.
-  find<QCheckBox>("keepLimit")->setChecked(false);
-  ASSERT_TRUE(await([&] { return isEnabled("reactiveGrasp"); }));
-  click("reactiveGrasp");
-  EXPECT_TRUE(await([&] { return state().startsWith("limit reached: finger "); }))
-      << state().toStdString();
-  EXPECT_TRUE(state().contains(" N")) << state().toStdString();
-}
-
 // The buttons that move a hand stay where they are when the options unfold.
 TEST_F(GraspOptionsTest, UnfoldingMovesNoButton) {
   connectTo(stillHand());

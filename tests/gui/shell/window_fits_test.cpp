@@ -1,179 +1,60 @@
-// The window fits small screens: with a recording and with a live hand, with each dock, at each
-// size and in both themes, nothing is cut off and nothing lies over something else.
+// The window fits small screens: nothing is cut off and nothing lies over something else. Every
+// size, theme, dock, page and size of text: window_fits_slow_test.cpp.
 #include <QComboBox>
-#include <QDockWidget>
 #include <QLineEdit>
-#include <QPushButton>
 #include <QScreen>
 #include <QScrollArea>
 #include <QScrollBar>
 #include <QTabBar>
 #include <QTableView>
 
-#include "gui/appearance/text_size.h"
-#include "gui/calibrate/calibrate_feature.h"
-#include "gui/calibrate/calibrate_panel.h"
-#include "gui/compare/compare_feature.h"
-#include "gui/compare/compare_panel.h"
-#include "gui/hand/hand_dock.h"
-#include "gui/hand/hand_feature.h"
-#include "gui/inspect/inspect_feature.h"
-#include "gui/inspect/inspect_panel.h"
-#include "gui/recognise/recognise_feature.h"
-#include "gui/recognise/recognise_panel.h"
-#include "gui/source/live_controller.h"
-#include "gui/testing/layout_faults.h"
-#include "gui/testing/window_fixture.h"
+#include "gui/shell/window_fits_fixture.h"
 #include "gui/timeline/event_rows.h"
 #include "gui/timeline/timeline_chart.h"
 #include "gui/timeline/timeline_header.h"
 #include "gui/widgets/dock.h"
-#include "gui/widgets/facts_view.h"
-#include "gui/widgets/offer_strip.h"
 
 namespace palpate::gui::window_fits_test {
 namespace {
-namespace fs = std::filesystem;
 
-constexpr QSize kSizes[] = {{1280, 800}, {1366, 768}, {1440, 900}};
-
-class WindowFitsTest : public WindowTest {
- protected:
-  WindowFitsTest() {
-    fs::create_directory_symlink(testing::dataFolder() / "scenes", folder_ / "scenes");
-  }
-
-  void processAll() {
-    // Docks reach their places at once.
-    window().setAnimated(false);
-    for (int i = 0; i < 4; ++i) QCoreApplication::processEvents();
-  }
-  // Within the time that its layout takes on a loaded machine.
-  bool hasSizeAgain(QSize size) {
-    return QTest::qWaitFor([&] { return window().size() == size; }, 5'000);
-  }
-  // Shows a recording and the dock Log, for which the window of this size has to grow.
-  QDockWidget* growForLog(QSize size) {
-    window().resize(size);
-    window().setAnimated(false);
-    open({"rich.dsa"});
-    processAll();
-    auto* log = find<QDockWidget>("Log");
-    log->widget()->setMinimumHeight(900);
-    window().docks().show("Log");
-    processAll();
-    EXPECT_GT(window().height(), size.height());
-    return log;
-  }
-  void connectEmulated() {
-    Connection connection;
-    connection.kind = Connection::Kind::kEmulated;
-    connection.scene = "ball";
-    window().state().connectTo(connection);
-    ASSERT_TRUE(QTest::qWaitFor(
-        [&] { return window().state().displayed.isLive() && !window().state().live.stale(); },
-        20'000));
-  }
-  void expectNoFaults(const QString& where) {
-    window().settle();
-    processAll();
-    // A live value that has just changed takes its width.
-    for (int nested = 0; nested < 4; ++nested)
-      QCoreApplication::sendPostedEvents(nullptr, QEvent::LayoutRequest);
-    QStringList faults = layoutFaults(window());
-    // With large text the names of many tabs don't fit beside each other: they can be scrolled.
-    if (textScale() > 1.0)
-      faults.removeIf([](const QString& fault) { return fault.startsWith("QTabBar"); });
-    EXPECT_TRUE(faults.isEmpty()) << where.toStdString() << ":\n  "
-                                  << faults.join("\n  ").toStdString();
-  }
-  void press(const QKeySequence& key) {
-    WindowTest::press(static_cast<Qt::Key>(key[0].key()), key[0].keyboardModifiers());
-  }
-  // Every dock in turn, by its key, in the layout of the first start.
-  void expectEveryDockFits(const char* source) {
-    for (const QSize size : kSizes)
-      for (const ThemeChoice theme : {ThemeChoice::kDark, ThemeChoice::kLight}) {
-        window().state().appearance.setTheme(theme);
-        window().resize(size);
-        const QString at = QString("%1 at %2x%3, %4")
-                               .arg(source)
-                               .arg(size.width())
-                               .arg(size.height())
-                               .arg(nameOf(theme));
-        window().setAnimated(false);
-        window().docks().reset();
-        expectNoFaults(at);
-        EXPECT_EQ(window().size(), size) << at.toStdString();
-        // The theme changes colours, not sizes: what is usually shown is enough for the second.
-        if (theme == ThemeChoice::kLight) continue;
-        for (QAction* toggle : window().docks().toggles()) {
-          window().docks().reset();
-          QCoreApplication::processEvents();
-          auto* dock = find<QDockWidget>(toggle->text().toUtf8());
-          if (dock->isVisible()) dock->close();
-          toggle->trigger();
-          expectNoFaults(at + ", " + toggle->text());
-          if (dock->objectName() == "Library" || dock->objectName() == "Log") dock->close();
-        }
-      }
-  }
-  template <class Panel>
-  void expectPagesFit(Panel& panel, const QString& dock, const QString& source, QSize size) {
-    for (const QString& page : panel.pageNames()) {
-      window().docks().reset();
-      window().docks().show(dock);
-      panel.showPage(page);
-      expectNoFaults(QString("%1, %2, page %3").arg(source, dock, page));
-      EXPECT_EQ(window().size(), size) << page.toStdString();
-    }
-  }
-  // Each page of each dock that has pages.
-  void expectEveryPageFits(const QString& source, QSize size = kSizes[0]) {
-    window().setAnimated(false);
-    window().resize(size);
-    expectPagesFit(window().feature<HandFeature>().panel(), "Hand", source, size);
-    expectPagesFit(window().feature<CalibrateFeature>().panel(), "Calibrate", source, size);
-    expectPagesFit(window().feature<RecogniseFeature>().panel(), "Recognise", source, size);
-  }
-};
-
-// The size of text [pt] is that of the whole program.
-class TextSizeFitsTest : public WindowFitsTest, public ::testing::WithParamInterface<int> {
- protected:
-  TextSizeFitsTest() { applyTextPt(GetParam()); }
-  ~TextSizeFitsTest() override { applyTextPt(0); }
-  // The largest text needs a window of the usual size.
-  static std::vector<QSize> sizes() {
-    if (GetParam() == kMostTextPt) return {{1440, 900}};
-    return {std::begin(kSizes), std::end(kSizes)};
-  }
-};
 INSTANTIATE_TEST_SUITE_P(Sizes,
                          TextSizeFitsTest,
-                         ::testing::Values(12, 15, kMostTextPt),
+                         ::testing::Values(kMostTextPt),
                          ::testing::PrintToStringParamName());
 
-TEST_F(WindowFitsTest, ARecordingWithEveryDock) {
+TEST_P(TextSizeFitsTest, EveryDockInTheLargestText) {
   open({"rich.dsa"});
   window().settle();
-  expectEveryDockFits("recording");
+  window().setAnimated(false);
+  window().resize(sizes().front());
+  for (const QString& name : window().docks().names()) {
+    window().docks().reset();
+    window().docks().show(name);
+    expectNoFaults(name);
+    EXPECT_EQ(window().size(), sizes().front()) << name.toStdString();
+  }
 }
 
-TEST_F(WindowFitsTest, ALiveHandWithEveryDock) {
-  connectEmulated();
-  expectEveryDockFits("live");
-}
-
-TEST_F(WindowFitsTest, ARecordingWithEveryPage) {
+TEST_F(WindowFitsTest, ARecordingWithEveryDockOnASmallScreen) {
   open({"rich.dsa"});
   window().settle();
-  expectEveryPageFits("recording");
+  window().setAnimated(false);
+  window().resize(kSizes[0]);
+  for (const QString& name : window().docks().names()) {
+    window().docks().reset();
+    window().docks().show(name);
+    expectNoFaults(name);
+    EXPECT_EQ(window().size(), kSizes[0]) << name.toStdString();
+  }
 }
 
-TEST_F(WindowFitsTest, ALiveHandWithEveryPage) {
+TEST_F(WindowFitsTest, ALiveHandOnASmallScreen) {
   connectEmulated();
-  expectEveryPageFits("live");
+  window().setAnimated(false);
+  window().resize(kSizes[0]);
+  window().docks().reset();
+  expectNoFaults("live");
+  EXPECT_EQ(window().size(), kSizes[0]);
 }
 
 TEST_F(WindowFitsTest, APageThatIsChosenHasTheWidthThatItNeeds) {
@@ -192,99 +73,10 @@ TEST_F(WindowFitsTest, APageThatIsChosenHasTheWidthThatItNeeds) {
   }
 }
 
-// Docks may scroll, but no word is cut, and the window keeps its size.
-TEST_P(TextSizeFitsTest, ARecordingWithEveryDock) {
-  open({"rich.dsa"});
-  window().settle();
-  window().setAnimated(false);
-  for (const QSize size : sizes()) {
-    window().resize(size);
-    for (const QString& name : window().docks().names()) {
-      window().docks().reset();
-      window().docks().show(name);
-      expectNoFaults(QString("text of %1 pt at %2x%3, %4")
-                         .arg(GetParam())
-                         .arg(size.width())
-                         .arg(size.height())
-                         .arg(name));
-      EXPECT_EQ(window().size(), size) << name.toStdString();
-    }
-  }
-}
-
 TEST_P(TextSizeFitsTest, TheStartPage) {
   window().resize(kSizes[0]);
   expectNoFaults(QString("start page, text of %1 pt").arg(GetParam()));
   EXPECT_EQ(window().size(), kSizes[0]);
-}
-
-// Another size of text and back: nothing is cut, and the window has its size.
-TEST_P(TextSizeFitsTest, BackToTheUsualSize) {
-  connectEmulated();
-  window().setAnimated(false);
-  window().resize(kSizes[0]);
-  window().docks().reset();
-  processAll();
-  applyTextPt(0);
-  expectNoFaults(QString("after text of %1 pt").arg(GetParam()));
-  window().resize(kSizes[0]);
-  expectNoFaults(QString("after text of %1 pt, at its size again").arg(GetParam()));
-  EXPECT_EQ(window().size(), kSizes[0]);
-}
-
-TEST_P(TextSizeFitsTest, ALiveHandWithEveryPage) {
-  connectEmulated();
-  for (const QSize size : sizes())
-    expectEveryPageFits(QString("live, text of %1 pt").arg(GetParam()), size);
-}
-
-// Beside a live hand the dock is narrow: its controls go on in more lines.
-TEST_P(TextSizeFitsTest, ThePagePressureIsNoWiderThanItsDock) {
-  connectEmulated();
-  window().setAnimated(false);
-  auto* panel = find<CalibratePanel>("CalibratePanel");
-  for (const QSize size : sizes()) {
-    window().resize(size);
-    window().docks().reset();
-    window().docks().show("Calibrate");
-    panel->showPage("Pressure");
-    processAll();
-    for (const char* name : {"pressureOpen",
-                             "pressureSave",
-                             "pressureApply",
-                             "pressureStudy",
-                             "pressureMatrix",
-                             "pressureAbove",
-                             "pressureThreshold"}) {
-      const auto* control = find<QWidget>(name);
-      const QRect seen = control->visibleRegion().boundingRect();
-      EXPECT_EQ(seen.width(), control->width()) << name << " at " << size.width();
-    }
-  }
-}
-
-TEST_F(WindowFitsTest, AMeasurementOfALiveHand) {
-  connectEmulated();
-  window().setAnimated(false);
-  auto* panel = find<CalibratePanel>("CalibratePanel");
-  for (const QSize size : {QSize(1280, 800), QSize(1024, 700)})
-    for (const ThemeChoice theme : {ThemeChoice::kDark, ThemeChoice::kLight}) {
-      window().state().appearance.setTheme(theme);
-      window().resize(size);
-      window().docks().reset();
-      window().docks().show("Calibrate");
-      for (const char* page : {"Tare", "Noise"}) {
-        panel->showPage(page);
-        const QString part = QString(page).toLower();
-        const QString at = QString("%1 at %2x%3").arg(page).arg(size.width()).arg(size.height());
-        expectNoFaults(at);
-        find<QPushButton>((part + "Measure").toUtf8())->click();
-        processAll();
-        expectNoFaults(at + ", measuring or refused");
-        panel->cancel();
-        expectNoFaults(at + ", ended");
-      }
-    }
 }
 
 TEST_F(WindowFitsTest, ARecordingBesideALiveHand) {
@@ -353,39 +145,6 @@ TEST_F(WindowFitsTest, AfterTheComparisonEverythingHasItsSizeAgain) {
       EXPECT_NEAR(find<QDockWidget>(name.c_str())->width(), was.width(), 2) << name;
       EXPECT_NEAR(find<QDockWidget>(name.c_str())->height(), was.height(), 2) << name;
     }
-  }
-}
-
-// Screens of 768 and 800 pixels leave this much below the title of the window and a bar of the
-// desktop.
-TEST_F(WindowFitsTest, TheComparisonWithEveryDock) {
-  window().setAnimated(false);
-  open({"rich.dsa", "rich_of_another_object_2026-11-22_run_0123.dsa"});
-  auto& compare = window().feature<CompareFeature>().panel();
-  for (const QSize size : {QSize(1280, 732), QSize(1366, 700), QSize(1440, 868)}) {
-    window().resize(size);
-    window().docks().reset();
-    processAll();
-    actions().at("compare")->trigger();
-    ASSERT_TRUE(QTest::qWaitFor([&] { return compare.complete(); }, 20'000));
-    const QString at = QString("comparison at %1x%2").arg(size.width()).arg(size.height());
-    expectNoFaults(at);
-    EXPECT_EQ(window().size(), size);
-    for (const QString& name : window().docks().names()) {
-      window().docks().show(name);
-      expectNoFaults(at + ", " + name);
-      EXPECT_EQ(window().size(), size) << name.toStdString();
-      find<QDockWidget>(name.toUtf8())->close();
-      processAll();
-    }
-    for (const char* name : {"Timeline", "Spectrum", "Inspect"}) {
-      window().docks().show(name);
-      expectNoFaults(at + ", several docks, " + name);
-      EXPECT_EQ(window().size(), size) << name;
-    }
-    actions().at("compare")->trigger();
-    processAll();
-    EXPECT_EQ(window().size(), size);
   }
 }
 
@@ -579,72 +338,6 @@ TEST_F(WindowFitsTest, TheLegendOfTheTimelineIsWhole) {
   }
 }
 
-TEST_P(TextSizeFitsTest, ALongNameInALineAboveTheViewsLeavesTheWindowItsSize) {
-  open({"rich.dsa"});
-  window().setAnimated(false);
-  const QString name(80, 'm');
-  OfferStrip* offer = nullptr;
-  for (OfferStrip* each : window().findChildren<OfferStrip*>()) offer = each;
-  ASSERT_NE(offer, nullptr);
-  for (const bool live : {false, true}) {
-    if (live) connectEmulated();
-    for (const QSize size : sizes()) {
-      window().resize(size);
-      window().docks().reset();
-      if (live) window().docks().show("Recognise");
-      processAll();
-      ASSERT_EQ(window().size(), size);
-      offer->offer("Recorded " + name + ".palpate: 1234 frames", "Open", [] {});
-      offer->offerAlso("Rename…", "", [] {});
-      offer->offerAlso("Discard…", "", [] {});
-      window().state().messages.fail(name + ": can't be read");
-      processAll();
-      EXPECT_EQ(window().size(), size) << (live ? "live" : "recording");
-      offer->dismiss();
-    }
-  }
-}
-
-TEST_P(TextSizeFitsTest, InspectIsNotScrolledSideways) {
-  open({"rich.dsa"});
-  window().setAnimated(false);
-  for (const QSize size : sizes())
-    for (const int width : {0, 440, 480, 520}) {
-      if (GetParam() == kMostTextPt && width > 0 && width < 500) continue;
-      window().resize(size);
-      window().docks().reset();
-      window().docks().show("Inspect");
-      processAll();
-      auto* dock = find<QDockWidget>("Inspect");
-      if (width > 0) window().resizeDocks({dock}, {width}, Qt::Horizontal);
-      processAll();
-      EXPECT_EQ(window().feature<InspectFeature>().panel().horizontalScrollBar()->maximum(), 0)
-          << GetParam() << " pt at " << size.width() << ", dock " << dock->width();
-    }
-}
-
-// A number with its unit is never elided.
-TEST_P(TextSizeFitsTest, InspectShowsItsNumbersInFull) {
-  open({"rich.dsa"});
-  window().setAnimated(false);
-  DisplayUnits units;
-  units.angle = AngleUnit::kRadian;
-  window().state().appearance.setUnits(units);
-  for (const QSize size : {QSize(1024, 700), kSizes[0], kSizes[1]}) {
-    window().resize(size);
-    window().docks().reset();
-    processAll();
-    const auto* angles = find<FactsView>("angleFacts");
-    ASSERT_FALSE(angles->facts().empty());
-    for (std::size_t i = 0; i < angles->facts().size(); ++i) {
-      const Fact shown = angles->shown(i);
-      EXPECT_TRUE(shown.value.endsWith(" rad")) << shown.value.toStdString();
-      EXPECT_EQ(shown.value, angles->facts()[i].value);
-      EXPECT_LE(angles->fontMetrics().horizontalAdvance(shown.name + shown.value), angles->width());
-    }
-  }
-}
-
 // The bar that scrolls its height has room beside its content.
 TEST_F(WindowFitsTest, SlipOfALiveHandIsNotScrolledSideways) {
   connectEmulated();
@@ -657,17 +350,6 @@ TEST_F(WindowFitsTest, SlipOfALiveHandIsNotScrolledSideways) {
   const auto* scroll = qobject_cast<QScrollArea*>(slip->widget());
   ASSERT_NE(scroll, nullptr);
   EXPECT_EQ(scroll->horizontalScrollBar()->maximum(), 0);
-}
-
-TEST_P(TextSizeFitsTest, InspectOfALiveHandIsNotScrolledSideways) {
-  // The dock Hand leaves too little beside it with the largest text.
-  if (GetParam() == kMostTextPt) return;
-  connectEmulated();
-  window().setAnimated(false);
-  window().resize(1366, 768);
-  window().docks().reset();
-  processAll();
-  EXPECT_EQ(window().feature<InspectFeature>().panel().horizontalScrollBar()->maximum(), 0);
 }
 
 // The dock Hand takes the width that larger text needs, and gives it back.

@@ -3,13 +3,16 @@
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
+#include <vector>
 
 #include "gui/desktop/application.h"
 #include "gui/testing/thrown_at_events.h"
+#include "testing/test_run.h"
 #include "testing/test_selection.h"
 #include "testing/testing.h"
 
 int main(int argc, char** argv) {
+  std::vector<char*> arguments(argv, argv + argc + 1);
   try {
     // Without a test to run no window system is asked for anything.
     if (!palpate::testing::selectTests(argc, argv)) return RUN_ALL_TESTS();
@@ -30,5 +33,5 @@ int main(int argc, char** argv) {
     ::setenv("QT_QPA_PLATFORM", "offscreen", 1);
   const auto application = palpate::gui::makeApplication(argc, argv);
   ::testing::UnitTest::GetInstance()->listeners().Append(new palpate::testing::ThrownAtEvents);
-  return RUN_ALL_TESTS();
+  return palpate::testing::runTests(arguments.data());
 }
