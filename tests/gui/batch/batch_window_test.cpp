@@ -39,8 +39,8 @@ class BatchWindowTest : public WindowTest {
                            folder_ / ("many/" + std::to_string(i) + ".dsa"));
   }
   BatchDialog& dialog() {
-    if (!window_->findChild<BatchDialog*>()) actions().at("batch")->trigger();
-    return *window_->findChild<BatchDialog*>();
+    if (!window().findChild<BatchDialog*>()) actions().at("batch")->trigger();
+    return *window().findChild<BatchDialog*>();
   }
   static QString text(const fs::path& path) { return QString::fromStdString(path.string()); }
   bool busy() { return window().state().batchRunning(); }

@@ -36,7 +36,6 @@ class MeasureRowTest : public WindowTest {
   MeasureRowTest() {
     fs::create_directory_symlink(testing::dataFolder() / "scenes", folder_ / "scenes");
     QSettings(settingsFile(), QSettings::IniFormat).setValue("calibrate/tare_seconds", 2);
-    start();
     window().state().prompts.recording = [this](RecordingSettings settings, const QString&) {
       settings.folder = QString::fromStdString((folder_ / "runs").string());
       settings.nameTemplate = "{object}_{run}";

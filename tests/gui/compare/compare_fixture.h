@@ -73,27 +73,19 @@ inline Profile pad() {
 class CompareWindowFixture : public WindowTest {
  protected:
   CompareWindowFixture() {
-    window_.reset();
-    window_ = std::make_unique<MainWindow>(
-        WindowEnvironment{.dataFolder = folder_.path(),
-                          .settingsPath = settingsFile(),
-                          .clock = &clock_,
-                          .read = [](const std::filesystem::path& path, const Progress&) {
-                            const std::string name = path.stem().string();
-                            if (name == "early") return grasped(60, 10, 500.0F);
-                            if (name == "late") return grasped(80, 30, 300.0F, 3'600'000);
-                            if (name == "third") return grasped(40, 5, 100.0F);
-                            if (name == "untouched") return grasped(20, 20, 0.0F);
-                            if (name == "one") return grasped(1, 0, 50.0F);
-                            if (name == "three") return manyGrasps({500.0F, 600.0F, 700.0F});
-                            if (name == "two") return manyGrasps({300.0F, 400.0F});
-                            if (name == "pad") return pad();
-                            if (name == "empty") return profileWithStamps({});
-                            return twentyFrames();
-                          }});
-    window_->show();
-    QApplication::setActiveWindow(window_.get());
-    QCoreApplication::processEvents();
+    environment_.read = [](const std::filesystem::path& path, const Progress&) {
+      const std::string name = path.stem().string();
+      if (name == "early") return grasped(60, 10, 500.0F);
+      if (name == "late") return grasped(80, 30, 300.0F, 3'600'000);
+      if (name == "third") return grasped(40, 5, 100.0F);
+      if (name == "untouched") return grasped(20, 20, 0.0F);
+      if (name == "one") return grasped(1, 0, 50.0F);
+      if (name == "three") return manyGrasps({500.0F, 600.0F, 700.0F});
+      if (name == "two") return manyGrasps({300.0F, 400.0F});
+      if (name == "pad") return pad();
+      if (name == "empty") return profileWithStamps({});
+      return twentyFrames();
+    };
   }
   ComparePanel& compare() { return window().feature<CompareFeature>().panel(); }
   void compareNow() {

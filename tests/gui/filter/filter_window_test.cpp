@@ -29,21 +29,16 @@ class FilterWindowTest : public WindowTest {
   FilterWindowTest() : path_(folder_ / "grasps.palpate") {
     saveRecording(synthesize({.durationS = 8.0, .grasps = 2, .noiseCounts = 10.0}), {}, path_);
     std::filesystem::create_directory_symlink(testing::dataFolder() / "scenes", folder_ / "scenes");
+    environment_.read = {};
     reopen();
   }
   void reopen() {
-    if (window_) window_->close();
-    window_.reset();
-    window_ = std::make_unique<MainWindow>(WindowEnvironment{.dataFolder = folder_.path(),
-                                                             .settingsPath = settingsFile(),
-                                                             .clock = &clock_,
-                                                             .read = {}});
-    window_->show();
-    QApplication::setActiveWindow(window_.get());
-    window_->state().open({path_});
+    if (window_) window().close();
+    start();
+    window().state().open({path_});
     waitUntilOpened();
-    window_->settle();
-    window_->state().prompts.unsaved = [](const QString&) {
+    window().settle();
+    window().state().prompts.unsaved = [](const QString&) {
       return UserPrompts::Unsaved::kDiscard;
     };
   }

@@ -409,9 +409,8 @@ TEST_F(HandWindowTest, ADamagedBlockIsSaidAndTheWindowGoesOn) {
   std::string bytes = testing::readFile(path);
   for (std::size_t i = bytes.size() / 2; i < bytes.size() / 2 + 200; ++i) bytes[i] ^= 0x5a;
   testing::writeFile(path, bytes);
-  window_ = std::make_unique<MainWindow>(WindowEnvironment{
-      .dataFolder = folder_.path(), .settingsPath = settingsFile(), .clock = &clock_});
-  window_->show();
+  environment_.read = {};
+  start();
   open({"damaged.palpate"});
   ASSERT_TRUE(window().state().displayed.unfilteredRecording());
   std::size_t numSaid = 0;

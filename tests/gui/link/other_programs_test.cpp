@@ -31,7 +31,6 @@ class OtherProgramsTest : public WindowTest {
     set("recording/template", "take_{run}");
     set("recording/operator", "Ada");
     set("recording/ask", false);
-    start();
   }
   void set(const char* key, const QVariant& value) {
     QSettings(settingsFile(), QSettings::IniFormat).setValue(key, value);

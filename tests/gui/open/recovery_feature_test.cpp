@@ -18,13 +18,7 @@ namespace fs = std::filesystem;
 
 class RecoveryFeatureTest : public WindowTest {
  protected:
-  // A window that reads real files.
-  void startReading() {
-    window_ = std::make_unique<MainWindow>(WindowEnvironment{
-        .dataFolder = folder_.path(), .settingsPath = settingsFile(), .clock = &clock_});
-    window_->show();
-    QApplication::setActiveWindow(window_.get());
-  }
+  RecoveryFeatureTest() { environment_.read = {}; }
   // A recording of 24 s in which the values of a block are changed; its frames.
   std::size_t writeDamaged(const fs::path& path) {
     const Profile profile = synthesize({.durationS = 24.0, .grasps = 4, .noiseCounts = 3.0});
@@ -53,7 +47,6 @@ class RecoveryFeatureTest : public WindowTest {
 
 TEST_F(RecoveryFeatureTest, ADamagedRecordingIsShownAsFarAsItCanBeRead) {
   const std::size_t all = writeDamaged(folder_ / "run.palpate");
-  startReading();
   open({"run.palpate"});
   ASSERT_TRUE(displayed());
   EXPECT_LT(displayed()->profile.numFrames(), all);
@@ -73,7 +66,6 @@ TEST_F(RecoveryFeatureTest, RecoversIntoANewFileAndOpensIt) {
   const fs::path path = folder_ / "run.palpate";
   writeDamaged(path);
   const std::string before = testing::readFile(path);
-  startReading();
   open({"run.palpate"});
   QString proposed;
   window().state().prompts.newFile = [&](const QString&,
@@ -93,7 +85,6 @@ TEST_F(RecoveryFeatureTest, RecoversIntoANewFileAndOpensIt) {
 TEST_F(RecoveryFeatureTest, LabelsOfADamagedRecordingAreSavedAndRecovered) {
   const fs::path path = folder_ / "run.palpate";
   writeDamaged(path);
-  startReading();
   open({"run.palpate"});
   ASSERT_EQ(displayed()->notInFile.size(), 1u);
   const std::int64_t us = displayed()->profile.frameTimeUs(20);
@@ -128,7 +119,6 @@ TEST_F(RecoveryFeatureTest, ACutDsaOpensWithItsReadableFrames) {
       synthesize({.durationS = 60.0, .grasps = 8, .noiseCounts = 30.0}), {}, folder_ / "whole.dsa");
   const std::string bytes = testing::readFile(folder_ / "whole.dsa");
   testing::writeFile(folder_ / "cut.dsa", bytes.substr(0, bytes.size() * 3 / 4));
-  startReading();
   open({"cut.dsa"});
   ASSERT_TRUE(displayed()) << bannerText().toStdString();
   EXPECT_GT(displayed()->profile.numFrames(), 300u);
@@ -137,7 +127,6 @@ TEST_F(RecoveryFeatureTest, ACutDsaOpensWithItsReadableFrames) {
 
 TEST_F(RecoveryFeatureTest, AnUnfinishedRecordingSaysSo) {
   testing::writeSamples(folder_ / "run.palpate", 70, false);
-  startReading();
   open({"run.palpate"});
   ASSERT_TRUE(displayed());
   EXPECT_TRUE(offered().contains("was never finished")) << offered().toStdString();
@@ -146,7 +135,6 @@ TEST_F(RecoveryFeatureTest, AnUnfinishedRecordingSaysSo) {
 TEST_F(RecoveryFeatureTest, ClosedItIsNotOfferedAgainAndASoundOneNever) {
   writeDamaged(folder_ / "run.palpate");
   writePalpate(synthesize({.durationS = 4.0, .grasps = 1}), {}, folder_ / "sound.palpate");
-  startReading();
   open({"run.palpate", "sound.palpate"});
   EXPECT_NE(offered(), "");
   actions().at("nextRecording")->trigger();
@@ -161,7 +149,6 @@ TEST_F(RecoveryFeatureTest, ClosedItIsNotOfferedAgainAndASoundOneNever) {
 
 TEST_F(RecoveryFeatureTest, WithoutADamagedOneTheActionAsksForAFile) {
   writeDamaged(folder_ / "bad.palpate");
-  startReading();
   window().state().prompts.file = [&](auto&&...) {
     return QString::fromStdString((folder_ / "bad.palpate").string());
   };
@@ -175,7 +162,6 @@ TEST_F(RecoveryFeatureTest, WithoutADamagedOneTheActionAsksForAFile) {
 
 TEST_F(RecoveryFeatureTest, NothingReadableIsSaidInTheWordsOfTheWindow) {
   testing::writeFile(folder_ / "text.palpate", "no recording at all");
-  startReading();
   open({"text.palpate"});
   EXPECT_FALSE(displayed());
   EXPECT_NE(bannerText(), "");

@@ -59,18 +59,14 @@ void compare(const QImage& picture, const std::string& name) {
 
 class GoldenPicturesTest : public WindowTest {
  protected:
-  void show(const QSize& size, ThemeChoice theme) {
-    window_.reset();
-    const auto read = [](const std::filesystem::path&, const Progress&) {
+  GoldenPicturesTest() {
+    environment_.read = [](const std::filesystem::path&, const Progress&) {
       return synthesize({.durationS = 12.0, .grasps = 3});
     };
-    window_ = std::make_unique<MainWindow>(WindowEnvironment{.dataFolder = folder_.path(),
-                                                             .settingsPath = settingsFile(),
-                                                             .clock = &clock_,
-                                                             .read = read});
-    window_->state().appearance.setTheme(theme);
-    window_->setFixedSize(size);
-    window_->show();
+  }
+  void show(const QSize& size, ThemeChoice theme) {
+    window().state().appearance.setTheme(theme);
+    window().setFixedSize(size);
     open({"any.dsa"});
     playback().seekFrame(
         window().state().displayed.unfilteredRecording()->table.frameOfLargestSum());

@@ -63,14 +63,9 @@ class RecognisePanelTest : public ::testing::Test {
 class RecogniseWindowTest : public WindowTest {
  protected:
   RecogniseWindowTest() {
-    // Recordings are read as they are.
-    window_.reset();
-    WindowEnvironment environment;
-    environment.dataFolder = testing::dataFolder();
-    environment.settingsPath = settingsFile();
-    window_ = std::make_unique<MainWindow>(environment);
-    window_->resize(1280, 800);
-    window_->show();
+    environment_ = {};
+    environment_.dataFolder = testing::dataFolder();
+    environment_.settingsPath = settingsFile();
   }
   QDockWidget* dock() { return window().findChild<QDockWidget*>("Recognise"); }
   RecognisePanel& panel() { return *find<RecognisePanel>("RecognisePanel"); }

@@ -26,10 +26,7 @@ class PlanWindowTest : public WindowTest {
     fs::create_directory_symlink(testing::dataFolder() / "scenes", folder_ / "scenes");
     begin();
   }
-  // As after a start of the program.
   void begin() {
-    start();
-    window().resize(1440, 900);
     window().state().prompts.plan = [this](const QString& text) {
       asked_.append(text);
       return answer_;
@@ -103,6 +100,7 @@ TEST_F(PlanWindowTest, ThatThePlanIsDoneIsOnTheButton) {
 
 TEST_F(PlanWindowTest, ANewSessionAsksOnce) {
   planPen();
+  start();
   begin();
   EXPECT_EQ(record()->iconText(), " Record: pen, right, 1 of 3");
   connectScene();
@@ -121,6 +119,7 @@ TEST_F(PlanWindowTest, ANewSessionAsksOnce) {
 
 TEST_F(PlanWindowTest, NoUnticksThePlanAndCancelRecordsNothing) {
   planPen();
+  start();
   begin();
   connectScene();
   answer_ = UserPrompts::Plan::kCancel;

@@ -24,15 +24,12 @@ constexpr std::size_t kFrames = OpenedRecording::kLongFrom + 1'000;
 
 class DamagedWindowTest : public WindowTest {
  protected:
+  DamagedWindowTest() { environment_.read = {}; }
   // Shows the recording with damage behind this share of its file, once all of it has been read.
   void showDamaged(double share) {
     const std::filesystem::path path = folder_ / "long.palpate";
     testing::writeLong(path, kFrames, false);
     lost_ = testing::damageBlock(path, share);
-    window_ = std::make_unique<MainWindow>(WindowEnvironment{
-        .dataFolder = folder_.path(), .settingsPath = settingsFile(), .clock = &clock_});
-    window_->show();
-    QApplication::setActiveWindow(window_.get());
     open({"long.palpate"});
     ASSERT_TRUE(displayed() && displayed()->isLong());
     ASSERT_TRUE(await([&] { return displayed()->overview->complete(); }));

@@ -17,10 +17,7 @@ namespace {
 
 class HandChipTest : public WindowTest {
  protected:
-  HandChipTest() {
-    start();
-    window().state().appearance.setTheme(ThemeChoice::kDark);
-  }
+  HandChipTest() { window().state().appearance.setTheme(ThemeChoice::kDark); }
   static bool await(const std::function<bool()>& condition) {
     return QTest::qWaitFor(condition, 20'000);
   }

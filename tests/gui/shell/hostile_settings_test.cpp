@@ -85,20 +85,21 @@ std::vector<Hostile> hostileValues() {
           {"two_numbers", "1e308, -1e308"}};
 }
 
-class HostileSettingsTest : public WindowTest, public ::testing::WithParamInterface<Hostile> {};
+class HostileSettingsTest : public WindowTest, public ::testing::WithParamInterface<Hostile> {
+ protected:
+  HostileSettingsTest() {
+    std::string text;
+    for (const QString& key : keys()) {
+      QString name = key;
+      text += "[" + key.section('/', 0, 0).toStdString() + "]\n" +
+              name.remove(0, name.indexOf('/') + 1).replace('/', '\\').toStdString() + "=" +
+              GetParam().value + "\n";
+    }
+    testing::writeFile(folder_ / "palpate.ini", text);
+  }
+};
 
 TEST_P(HostileSettingsTest, TheWindowStartsAndShowsARecording) {
-  window().close();
-  window_.reset();
-  std::string text;
-  for (const QString& key : keys()) {
-    QString name = key;
-    text += "[" + key.section('/', 0, 0).toStdString() + "]\n" +
-            name.remove(0, name.indexOf('/') + 1).replace('/', '\\').toStdString() + "=" +
-            GetParam().value + "\n";
-  }
-  testing::writeFile(folder_ / "palpate.ini", text);
-  start();
   EXPECT_LE(window().width(), 4000);
   open({"rich.dsa"});
   EXPECT_EQ(playback().numFrames() > 0, true);

@@ -10,12 +10,7 @@
 #include "gui/widgets/message_banner.h"
 
 namespace palpate::gui {
-WindowTest::WindowTest() { start(); }
-
-WindowTest::~WindowTest() { window_.reset(); }
-
-MainWindow& WindowTest::start() {
-  window_.reset();
+WindowTest::WindowTest() {
   const auto read = [this](const std::filesystem::path& path, const Progress& progress) {
     ++reads_;
     const std::string name = path.filename().string();
@@ -32,10 +27,15 @@ MainWindow& WindowTest::start() {
       if (!progress(0.5)) throw Cancelled();
     throw FormatError(path, "is not a recording: <b>no frames</b>", 17);
   };
-  window_ = std::make_unique<MainWindow>(WindowEnvironment{.dataFolder = folder_.path(),
-                                                           .settingsPath = settingsFile(),
-                                                           .clock = &clock_,
-                                                           .read = read});
+  environment_ = {
+      .dataFolder = folder_.path(), .settingsPath = settingsFile(), .clock = &clock_, .read = read};
+}
+
+WindowTest::~WindowTest() { window_.reset(); }
+
+MainWindow& WindowTest::start() {
+  window_.reset();
+  window_ = std::make_unique<MainWindow>(environment_);
   // The screen that draws to memory is smaller than a usual one.
   if (!QSettings(settingsFile(), QSettings::IniFormat).contains("window/geometry"))
     window_->resize(1440, 900);
@@ -58,7 +58,7 @@ std::string WindowTest::file(const std::string& name) {
 void WindowTest::open(const std::vector<std::string>& names) {
   std::vector<std::filesystem::path> paths;
   for (const std::string& name : names) paths.emplace_back(file(name));
-  window_->state().open(paths);
+  window().state().open(paths);
   waitUntilOpened();
 }
 
@@ -71,12 +71,12 @@ void WindowTest::waitUntilOpened() {
 }
 
 void WindowTest::press(Qt::Key key, Qt::KeyboardModifiers modifiers) {
-  QApplication::setActiveWindow(window_.get());
-  QTest::keyClick(window_.get(), key, modifiers);
+  QApplication::setActiveWindow(&window());
+  QTest::keyClick(&window(), key, modifiers);
 }
 
 QString WindowTest::bannerText() {
-  const auto* banner = window_->findChild<MessageBanner*>("MessageBanner");
+  const auto* banner = window().findChild<MessageBanner*>("MessageBanner");
   return banner->isVisible() ? banner->message() : QString();
 }
 

@@ -29,9 +29,10 @@ class WindowTest : public ::testing::Test {
 
   // Makes the window anew, as after a restart of the program.
   MainWindow& start();
-  MainWindow& window() { return *window_; }
-  const ActionRegistry& actions() { return window_->state().actions; }
-  PlaybackController& playback() { return window_->state().playback; }
+  // Made when it is first asked for: `environment_`, the settings and files can be changed before.
+  MainWindow& window() { return window_ ? *window_ : start(); }
+  const ActionRegistry& actions() { return window().state().actions; }
+  PlaybackController& playback() { return window().state().playback; }
   // Makes an empty file, so that it exists; returns its path.
   std::string file(const std::string& name);
   // Opens by WindowState::open() and waits for the end of it.
@@ -40,7 +41,7 @@ class WindowTest : public ::testing::Test {
   void press(Qt::Key key, Qt::KeyboardModifiers modifiers = Qt::NoModifier);
   template <class Widget>
   Widget* find(const char* name) {
-    return window_->findChild<Widget*>(name);
+    return window().findChild<Widget*>(name);
   }
   QString bannerText();
   QString settingsFile() const;
@@ -48,6 +49,7 @@ class WindowTest : public ::testing::Test {
   testing::TemporaryFolder folder_;
   FakeClock clock_;
   std::atomic<int> reads_ = 0;
+  WindowEnvironment environment_;  // without `read` files are read as they are
   std::unique_ptr<MainWindow> window_;
 };
 

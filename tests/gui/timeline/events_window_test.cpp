@@ -39,29 +39,23 @@ class EventsWindowTest : public WindowTest {
  protected:
   EventsWindowTest() : path_(folder_ / "grasps.palpate") {
     saveRecording(synthesize({.durationS = 12.0, .grasps = 3}, &truth_), {}, path_);
-    window_.reset();
+    environment_.read = {};
     reopen();
   }
   void reopen() {
-    if (window_) window_->close();
-    window_.reset();
-    window_ = std::make_unique<MainWindow>(WindowEnvironment{.dataFolder = folder_.path(),
-                                                             .settingsPath = settingsFile(),
-                                                             .clock = &clock_,
-                                                             .read = {}});
-    window_->show();
-    QApplication::setActiveWindow(window_.get());
-    window_->state().open({path_});
+    if (window_) window().close();
+    start();
+    window().state().open({path_});
     waitUntilOpened();
-    window_->state().prompts.text = [this](const QString& title, const QString&) {
+    window().state().prompts.text = [this](const QString& title, const QString&) {
       title_ = title;
       return answer_;
     };
-    window_->state().prompts.cropped = [this](const QString& suggestion) {
+    window().state().prompts.cropped = [this](const QString& suggestion) {
       suggested_ = suggestion;
       return QString::fromStdString((folder_ / cropName_).string());
     };
-    window_->state().prompts.unsaved = [this](const QString&) {
+    window().state().prompts.unsaved = [this](const QString&) {
       ++asked_;
       return unsaved_;
     };
@@ -655,7 +649,7 @@ TEST_F(EventsWindowTest, WhatCouldntBeSavedIsNotSaidAnyMoreOnceItIsSavedElsewher
   std::filesystem::rename(path_, folder_ / "elsewhere.palpate");
   press(Qt::Key_S, Qt::ControlModifier);
   ASSERT_TRUE(bannerText().contains("not saved")) << bannerText().toStdString();
-  window_->state().prompts.newFile = [&](const QString&, const QString&, const QString&) {
+  window().state().prompts.newFile = [&](const QString&, const QString&, const QString&) {
     return QString::fromStdString((folder_ / "copy.palpate").string());
   };
   actions().at("saveAs")->trigger();
@@ -721,7 +715,7 @@ TEST_F(EventsWindowTest, TheWholeRecordingIsSavedAsAnotherWithItsLabels) {
   press(Qt::Key_B, Qt::ControlModifier);
   QString suggested, filter;
   QString chosen = QString::fromStdString((folder_ / "copy").string());
-  window_->state().prompts.newFile =
+  window().state().prompts.newFile =
       [&](const QString&, const QString& suggestion, const QString& formats) {
         suggested = suggestion;
         filter = formats;
@@ -765,7 +759,7 @@ TEST_F(EventsWindowTest, TheWholeRecordingIsSavedAsAnotherWithItsLabels) {
 }
 
 TEST_F(EventsWindowTest, WhatWasSavedAsAnotherIsOpenedOnDemand) {
-  window_->state().prompts.newFile = [&](const QString&, const QString&, const QString&) {
+  window().state().prompts.newFile = [&](const QString&, const QString&, const QString&) {
     return QString::fromStdString((folder_ / "copy.palpate").string());
   };
   window().state().actions.at("saveAs")->trigger();
