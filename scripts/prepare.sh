@@ -3,8 +3,8 @@
 # the next call goes on where this one stopped.
 #
 # Expects $root, the checkout. PALPATE_PACKAGES=keep installs nothing: for machines without apt, or where somebody else looks
-# after the packages. PALPATE_WERROR=ON makes warnings errors. PALPATE_TIMES=FILE gets a line "STAGE SECONDS" per stage, and
-# what is installed: "planned PACKAGES MB_TO_FETCH MB_ON_DISK". PALPATE_OS_RELEASE takes the place of /etc/os-release.
+# after the packages. PALPATE_WERROR=ON makes warnings errors. PALPATE_TIMES=FILE gets a line "STAGE SECONDS" per stage.
+# PALPATE_OS_RELEASE takes the place of /etc/os-release.
 
 # Without a standard error messages go nowhere, and no file that is opened later takes its place.
 (: >&2) 2>/dev/null || exec 2>/dev/null
@@ -21,14 +21,11 @@ took() { # STAGE SECONDS_AT_BEGIN
 firstTime() { # NAME
   awk -v name="$1" '$1 == name { print $2 }' "$root/cmake/first_time.txt" 2>/dev/null
 }
-# Free space [MB] for ordinary users where PATH lies; nothing when that can't be told.
-freeMb() { # PATH
-  stat -f -c '%a %S' "$1" 2>/dev/null | awk '{ printf "%d", $1 * $2 / 1e6 }'
-}
-isFull() { # PATH
+# Ends where PATH has no space left, which commands tell in many words or can't tell at all.
+failIfFull() { # WHAT PATH [MINIMUM_MB]
   local free
-  free=$(freeMb "$1")
-  [ "${free:-20}" -lt 20 ]
+  free=$(stat -f -c '%a %S' "$2" 2>/dev/null | awk '{ printf "%d", $1 * $2 / 1e6 }')
+  [ "${free:-999999}" -ge "${3-20}" ] || fail "no space left for $1: $free MB are free in $2. Make room and call again"
 }
 # "debian 12 bookworm", "ubuntu 24.04 noble"
 system() {
@@ -64,7 +61,7 @@ planOf() { # DEPENDENCY...
 
 installPackages() { # DEPENDENCY...
   [ "${PALPATE_PACKAGES-}" != keep ] || return 0
-  local mark begin=$SECONDS plan lacks byHand tried= minutes= packages fetch disk
+  local mark begin=$SECONDS plan lacks tried=
   mark="$(system): $*"
   ! grep -sqxF "$mark" "$root/build/.packages" || return 0
   command -v apt-get >/dev/null || fail "this system has no apt-get: install what cmake/debian-packages.txt lists by its own" \
@@ -87,18 +84,8 @@ installPackages() { # DEPENDENCY...
   fi
   if [ "$plan" -eq 1 ]; then
     requireRoot
-    read -r packages fetch disk < <(awk '
-      function mb(number, unit) {
-        gsub(",", "", number)
-        return number * (unit == "GB" ? 1000 : unit == "MB" ? 1 : unit == "kB" ? 0.001 : 0)
-      }
-      / newly installed/ { packages = $3 }
-      /^Need to get / { split($5, unit, "/"); fetch = mb($4, unit[1]) }
-      /^After this operation, .* additional disk space/ { disk = mb($4, $5) }
-      END { printf "%d %d %d\n", packages, fetch + 0.5, disk + 0.5 }' "$aptLog")
-    [ "$packages" -lt 100 ] || minutes=$(firstTime packages_minutes)
-    [ "$packages" -eq 0 ] || [ -z "${PALPATE_TIMES-}" ] || echo "planned $packages $fetch $disk" >>"$PALPATE_TIMES"
-    say "installing $packages packages ($fetch MB to fetch, $disk MB on disk${minutes:+; $minutes min the last time})"
+    say "installing packages: $(sed -n 's/.* \([0-9]*\) newly installed.*/\1/p; s/^Need to get \(.*\) of archives.*/\1 to fetch/p
+      s/^After this operation, \(.*\) of additional disk.*/\1 on disk/p' "$aptLog" | paste -s -d ';' | sed 's/;/, /g')"
     until aptGet satisfy --no-install-recommends "$@"; do
       if [ -z "$tried" ] && grep -qE 'dpkg --configure -a|--fix-broken install' "$aptLog"; then
         say "an installation was interrupted on this machine: finishing that first"
@@ -124,12 +111,10 @@ requireRoot() {
 }
 # Says why apt failed, and ends.
 explainApt() {
-  ! isFull /usr || fail "no space left for the packages: $(freeMb /usr) MB are free. Make room and call again"
+  failIfFull "the packages" /usr
   case "$(cat "$aptLog" 2>/dev/null)" in
     *'sudo: '*) fail "$(grep '^sudo: ' "$aptLog" | grep -vm 1 'resolve host'); as root: $byHand" ;;
-    *'No space left on device'* | *'enough free space'*)
-      fail "no space left for the packages: $(freeMb /usr) MB are free. Make room and call again"
-      ;;
+    *'No space left on device'* | *'enough free space'*) failIfFull "the packages" /usr 99999999 ;;
     *'Could not get lock'* | *'Unable to acquire the dpkg'*)
       fail "another program installs packages at the moment. Call again when it is done"
       ;;
@@ -203,7 +188,7 @@ build() { # PRESET [TARGET...]
     "${minutes:+(the last time from nothing: $minutes min on $(firstTime cores) cores, this machine has $(nproc))}"
   [ ! -t 2 ] || quiet=
   NINJA_STATUS='palpate: %f of %t  ' ninja -C "$folder" $quiet "$@" </dev/null >&2 9>&- || {
-    ! isFull "$folder" || fail "no space left in $folder. Make room and call again: what is built already stays"
+    failIfFull "the build" "$folder"
     fail "the build failed: its first error stands above"
   }
   built=1
