@@ -290,8 +290,9 @@ int SvgDevice::metric(PaintDeviceMetric metric) const {
       return INT_MAX;
     case PdmDepth:
       return kDepth;
+    default:  // what a later Qt asks for, such as its own form of the pixel ratio
+      return QPaintDevice::metric(metric);
   }
-  return 0;
 }
 
 QByteArray SvgDevice::bytes() const {

@@ -96,7 +96,7 @@ void RecipeEditor::insert(std::size_t index, const FilterStep& step) {
 
 void RecipeEditor::remove(std::size_t index) {
   Recipe changed = recipe_;
-  changed.steps.at(index);
+  static_cast<void>(changed.steps.at(index));
   changed.steps.erase(changed.steps.begin() + static_cast<std::ptrdiff_t>(index));
   put(std::move(changed));
 }
@@ -104,7 +104,7 @@ void RecipeEditor::remove(std::size_t index) {
 void RecipeEditor::move(std::size_t from, std::size_t to) {
   Recipe changed = recipe_;
   const FilterStep step = changed.steps.at(from);
-  changed.steps.at(to);
+  static_cast<void>(changed.steps.at(to));
   changed.steps.erase(changed.steps.begin() + static_cast<std::ptrdiff_t>(from));
   changed.steps.insert(changed.steps.begin() + static_cast<std::ptrdiff_t>(to), step);
   put(std::move(changed));
