@@ -68,6 +68,7 @@ ProgramResult Scripts::call(const std::string& script,
                     (checkout_ / "scripts" / script).string()});
   for (const char* name : {"DISPLAY", "WAYLAND_DISPLAY", "PALPATE_PACKAGES", "PALPATE_TIMES"})
     environment.try_emplace(name, "");
+  environment.try_emplace("PALPATE_WERROR", "");  // CI sets it
   environment.try_emplace("PALPATE_OS_RELEASE", (folder_ / "os-release").string());
   environment["PATH"] = tools_.string();
   return runProgram("/bin/bash", arguments, environment);
