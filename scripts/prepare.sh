@@ -22,10 +22,10 @@ firstTime() { # NAME
   awk -v name="$1" '$1 == name { print $2 }' "$root/cmake/first_time.txt" 2>/dev/null
 }
 # Ends where PATH has no space left, which commands tell in many words or can't tell at all.
-failIfFull() { # WHAT PATH [MINIMUM_MB]
+failIfFull() { # WHAT PATH
   local free
   free=$(stat -f -c '%a %S' "$2" 2>/dev/null | awk '{ printf "%d", $1 * $2 / 1e6 }')
-  [ "${free:-999999}" -ge "${3-20}" ] || fail "no space left for $1: $free MB are free in $2. Make room and call again"
+  [ "${free:-20}" -ge 20 ] || fail "no space left for $1: $free MB are free in $2. Make room and call again"
 }
 # "debian 12 bookworm", "ubuntu 24.04 noble"
 system() {
@@ -114,7 +114,9 @@ explainApt() {
   failIfFull "the packages" /usr
   case "$(cat "$aptLog" 2>/dev/null)" in
     *'sudo: '*) fail "$(grep '^sudo: ' "$aptLog" | grep -vm 1 'resolve host'); as root: $byHand" ;;
-    *'No space left on device'* | *'enough free space'*) failIfFull "the packages" /usr 99999999 ;;
+    *'No space left on device'* | *'enough free space'*)
+      fail "no space left for the packages: $(grep -m 1 -oE "[^: ][^:]*(No space left|enough free space).*" "$aptLog"). Make room and call again"
+      ;;
     *'Could not get lock'* | *'Unable to acquire the dpkg'*)
       fail "another program installs packages at the moment. Call again when it is done"
       ;;

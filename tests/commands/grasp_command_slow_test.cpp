@@ -9,28 +9,28 @@
 #include "commands/grasp_lines.h"
 #include "commands/palpate_program.h"
 #include "control/emulated_bench.h"
-#include "testing/background_program.h"
 
 namespace palpate::grasp_command_slow_test {
 namespace {
 using namespace testing;
 
+ProgramResult graspReactively(EmulatedBench& bench, const std::vector<std::string>& more) {
+  std::vector<std::string> words{"grasp",
+                                 "--sdh",
+                                 bench.hand->sdhPort(),
+                                 "--dsa",
+                                 bench.hand->dsaPort(),
+                                 "--preshape",
+                                 "centrical",
+                                 "--mode",
+                                 "reactive"};
+  words.insert(words.end(), more.begin(), more.end());
+  return palpate(words);
+}
+
 TEST(GraspCommand, ReactiveGraspStopsAtTheBall) {
   EmulatedBench bench(handWith("ball"));
-  const auto result = palpate({"grasp",
-                               "--sdh",
-                               bench.hand->sdhPort(),
-                               "--dsa",
-                               bench.hand->dsaPort(),
-                               "--preshape",
-                               "centrical",
-                               "--mode",
-                               "reactive",
-                               "--quick",
-                               "--velocity",
-                               "60",
-                               "--limit",
-                               "400"});
+  const auto result = graspReactively(bench, {"--quick", "--velocity", "60", "--limit", "400"});
   ASSERT_EQ(result.exitCode, 0) << result.err << result.out;
   EXPECT_EQ(statesOf(result.out),
             (States{"connecting",
@@ -49,21 +49,8 @@ TEST(GraspCommand, ReactiveGraspStopsAtTheBall) {
 
 TEST(GraspCommand, AReactiveGraspKeepsItsLimit) {
   EmulatedBench bench(handWith("ball"));
-  const auto result = palpate({"grasp",
-                               "--sdh",
-                               bench.hand->sdhPort(),
-                               "--dsa",
-                               bench.hand->dsaPort(),
-                               "--preshape",
-                               "centrical",
-                               "--mode",
-                               "reactive",
-                               "--object-size",
-                               "70",
-                               "--velocity",
-                               "60",
-                               "--limit",
-                               "1000"});
+  const auto result =
+      graspReactively(bench, {"--object-size", "70", "--velocity", "60", "--limit", "1000"});
   ASSERT_EQ(result.exitCode, 0) << result.err << result.out;
   // 1000 counts and a rise of as many at 1000 / 800 deg/s.
   EXPECT_NE(result.out.find("ready: expect up to 2000 counts, 2.0 times the limit; touches in "),
@@ -82,20 +69,7 @@ TEST(GraspCommand, AReactiveGraspKeepsItsLimit) {
 
 TEST(GraspCommand, ReactiveGraspOfNothingCloses) {
   EmulatedBench bench(stillHand(), {.rate = EmulationRate::kFixed, .hz = 60.0});
-  const auto result = palpate({"grasp",
-                               "--sdh",
-                               bench.hand->sdhPort(),
-                               "--dsa",
-                               bench.hand->dsaPort(),
-                               "--preshape",
-                               "centrical",
-                               "--mode",
-                               "reactive",
-                               "--quick",
-                               "--close",
-                               "0.5",
-                               "--velocity",
-                               "100"});
+  const auto result = graspReactively(bench, {"--quick", "--close", "0.5", "--velocity", "100"});
   ASSERT_EQ(result.exitCode, 0) << result.err;
   EXPECT_EQ(statesOf(result.out),
             (States{"connecting", "ready", "preshaping", "closing", "finished"}));
@@ -106,20 +80,8 @@ TEST(GraspCommand, ReactiveGraspOfNothingCloses) {
 
 TEST(GraspCommand, AGraspStopsAtTheLimitOfAFinger) {
   EmulatedBench bench(handWith("ball"));
-  const auto result = palpate({"grasp",
-                               "--sdh",
-                               bench.hand->sdhPort(),
-                               "--dsa",
-                               bench.hand->dsaPort(),
-                               "--preshape",
-                               "centrical",
-                               "--mode",
-                               "reactive",
-                               "--quick",
-                               "--velocity",
-                               "60",
-                               "--finger-limits",
-                               "3000,3000,50"});
+  const auto result =
+      graspReactively(bench, {"--quick", "--velocity", "60", "--finger-limits", "3000,3000,50"});
   ASSERT_EQ(result.exitCode, 0) << result.err << result.out;
   EXPECT_NE(result.out.find("limit_reached: limit reached: finger 2"), std::string::npos)
       << result.out;
