@@ -1,6 +1,7 @@
 #include "python/table_binding.h"
 
 #include <array>
+#include <set>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -131,6 +132,17 @@ py::dict attributesOf(const py::object& profile, const std::string& unit) {
   return attributes;
 }
 
+// "deg", or "mm" where all axes slide; one for each axis where they differ: "mm, deg".
+std::string angleUnitOf(const py::object& profile) {
+  std::string each;
+  std::set<std::string> units;
+  for (const AxisDescription& axis : profile.cast<const Profile&>().hand().axes) {
+    units.insert(axis.unit());
+    each += (each.empty() ? "" : ", ") + std::string(axis.unit());
+  }
+  return units.empty() ? "deg" : units.size() == 1 ? *units.begin() : each;
+}
+
 std::string taxelUnitOf(const py::object& profile) {
   return profile.cast<const Profile&>().hand().unit;
 }
@@ -168,7 +180,7 @@ py::object seriesArray(const py::module_& xarray,
                        const char* timeMs,
                        const char* dim,
                        const py::object& names,
-                       const char* unit) {
+                       const std::string& unit) {
   const py::object values = profile.attr(series);
   py::dict coordinates;
   coordinates["time"] = millisecondInstants(profile.attr(timeMs));
@@ -226,8 +238,13 @@ py::object profileToXarray(const py::object& profile, std::optional<std::int64_t
     all[one["name"]] = matrixArray(xarray, profile, one);
   }
   if (py::len(profile.attr("angle_time_ms")) > 0)
-    all["angles"] = seriesArray(
-        xarray, profile, "angles", "angle_time_ms", "axis", profile.attr("axes"), "deg");
+    all["angles"] = seriesArray(xarray,
+                                profile,
+                                "angles",
+                                "angle_time_ms",
+                                "axis",
+                                profile.attr("axes"),
+                                angleUnitOf(profile));
   if (py::len(profile.attr("temperature_time_ms")) > 0)
     all["temperatures"] = seriesArray(xarray,
                                       profile,

@@ -147,7 +147,7 @@ TEST_F(ConvertCommand, csvHasARowPerActiveTaxelAndItsNeighbours) {
     for (const float value : profile.frame(i).values) active += value > 0.0F ? 1 : 0;
   const std::string table = testing::readFile(in("a.csv"));
   EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), active + 1);
-  EXPECT_EQ(table.substr(0, table.find('\n')), "frame,time_ms,matrix,y,x,value");
+  EXPECT_EQ(table.substr(0, table.find('\n')), "frame,time_ms,matrix,y,x,value,time_us");
   const std::string angles = testing::readFile(in("a.csv.angles.csv"));
   EXPECT_EQ(std::count(angles.begin(), angles.end(), '\n'),
             static_cast<std::ptrdiff_t>(profile.numAngles()) + 1);

@@ -38,7 +38,7 @@ Profile original(bool withEmptyFrame) {
   return builder.finish({});
 }
 
-// Equal values and times, these in whole milliseconds, as exports hold them.
+// Equal values and times.
 void expectSame(const Profile& expected, const Profile& found) {
   ASSERT_EQ(found.numFrames(), expected.numFrames());
   for (std::size_t i = 0; i < expected.numFrames(); ++i) {
@@ -72,6 +72,56 @@ TEST(RecordingImport, OurOwnExportsComeBack) {
     EXPECT_EQ(verifyRecording(folder / "b.palpate").state, VerifyReport::State::kSound);
     EXPECT_EQ(readRecordingMeta(folder / "b.palpate").at("imported_from"), name);
   }
+}
+
+// arrays A1: two frames share each millisecond.
+TEST(RecordingImport, OurOwnExportsOf2kHzComeBack) {
+  HandDescription hand = handOf({MatrixLayout::full(1, 2, 2.0)}, 1, 1);
+  hand.axes[0].isSliding = true;
+  ProfileBuilder builder(hand);
+  for (int i = 0; i < 400; ++i) {
+    const std::int64_t us = 1'417'084'265'000'250 + i * 500;
+    builder.addFrame(us, std::vector<float>{static_cast<float>(1 + i), 0.0F});
+    builder.addAngles(us + 100, std::vector<double>{0.5 * i});
+    builder.addTemperatures(us + 200, std::vector<double>{20.0 + i});
+  }
+  const Profile before = builder.finish({});
+  for (const char* name : {"a.npz", "a.csv"}) {
+    const TemporaryFolder folder;
+    saveRecording(before, {}, folder / name);
+    const ImportReport report = importRecording(folder / name, hand, {}, folder / "b.palpate");
+    expectSame(before, openRecording(folder / "b.palpate"));
+    EXPECT_EQ(report.refused.total(), 0u) << report.refused.first;
+    EXPECT_EQ(report.absentFrames, 0u);
+    EXPECT_EQ(report.notes, std::vector<std::string>()) << name;
+  }
+}
+
+// arrays A1: a list without time_us, as earlier releases wrote it.
+TEST(RecordingImport, ARefusedFrameOfAListIsNotAFrameWithoutContact) {
+  const TemporaryFolder folder;
+  const auto made = importText(folder,
+                               "frame,time_ms,matrix,y,x,value\n"
+                               "0,10,0,0,0,1\n"
+                               "1,10,0,0,0,2\n1,10,0,0,1,2\n"
+                               "2,11,0,0,0,3\n"
+                               "4,12,0,0,0,4\n",
+                               pad(1, 2));
+  EXPECT_EQ(made.report.frames, 3u);
+  EXPECT_EQ(made.report.refused.notLater, 2u) << "both rows of frame 1";
+  EXPECT_EQ(made.report.absentFrames, 1u) << "frame 3";
+}
+
+TEST(RecordingImport, OfTwoColumnsOfTheSameTimesTheFinerIsTaken) {
+  const TemporaryFolder folder;
+  const char* table = "stamp_ms,stamp_us,p0,p1\n10,10250,1,2\n10,10750,3,4\n";
+  const auto made = importText(folder, table, pad(1, 2));
+  ASSERT_EQ(made.profile.numFrames(), 2u) << made.report.refused.first;
+  EXPECT_EQ(made.profile.frameTimeUs(1), 10'750);
+  // The parts of a time: seconds, and nanoseconds within the second.
+  const char* parts = "stamp_s,stamp_ns,p0,p1\n10,250000000,1,2\n11,500000000,3,4\n";
+  const auto seconds = importText(folder, parts, pad(1, 2));
+  EXPECT_EQ(seconds.profile.frameTimeUs(1), 11'000'000);
 }
 
 TEST(RecordingImport, AFrameThatAListOfTaxelsDoesNotHoldIsCounted) {

@@ -30,13 +30,34 @@ TEST(CsvExport, WritesActiveTaxelsAndTheSamplesBeside) {
   const testing::TemporaryFolder folder;
   writeCsv(twoFrames(), folder / "a.csv");
   EXPECT_EQ(testing::readFile(folder / "a.csv"),
-            "frame,time_ms,matrix,y,x,value\n"
-            "1,1400000000032,1,8,2,7\n"
-            "1,1400000000032,5,12,5,2.5\n");
+            "frame,time_ms,matrix,y,x,value,time_us\n"
+            "1,1400000000032,1,8,2,7,1400000000032000\n"
+            "1,1400000000032,5,12,5,2.5,1400000000032000\n");
   EXPECT_EQ(testing::readFile(folder / "a.csv.angles.csv").find("sample,time_ms,"), 0u);
-  EXPECT_NE(testing::readFile(folder / "a.csv.angles.csv").find("0,1400000000001,60,-10.5\n"),
+  EXPECT_NE(testing::readFile(folder / "a.csv.angles.csv")
+                .find("0,1400000000001,60,-10.5,1400000000001000\n"),
             std::string::npos);
   EXPECT_FALSE(std::filesystem::exists(folder / "a.csv.temperatures.csv"));
+}
+
+// arrays A9
+TEST(CsvExport, ASlidingAxisIsInMillimetres) {
+  HandDescription hand;
+  hand.name = "gripper";
+  hand.layout = std::make_shared<const SensorLayout>(
+      std::vector<MatrixLayout>{MatrixLayout::full(1, 1, 1.0)});
+  hand.axes.resize(2);
+  hand.axes[0].isSliding = true;
+  ProfileBuilder builder(hand);
+  builder.addFrame(0, std::vector<float>{1.0F});
+  builder.addAngles(1500, std::vector<double>{41.5, 10.0});
+  builder.addTemperatures(2500, std::vector<double>{30.5});
+  const testing::TemporaryFolder folder;
+  writeCsv(builder.finish({}), folder / "a.csv", Overwrite::kRefuse, {}, true);
+  EXPECT_EQ(testing::readFile(folder / "a.csv.angles.csv"),
+            "sample,time_ms,axis0_mm,axis1_deg,time_us\n,ms,mm,deg,us\n0,1,41.5,10,1500\n");
+  EXPECT_EQ(testing::readFile(folder / "a.csv.temperatures.csv"),
+            "sample,time_ms,sensor0_degc,time_us\n,ms,degC,us\n0,2,30.5,2500\n");
 }
 
 TEST(CsvExport, ReplacesNothingUnasked) {
@@ -53,7 +74,7 @@ TEST(NpzExport, IsAZipOfArrays) {
   writeNpz(twoFrames(), {}, folder / "a.npz");
   const std::string bytes = testing::readFile(folder / "a.npz");
   EXPECT_EQ(bytes.substr(0, 4), "PK\x03\x04");
-  for (const char* name : {"time_ms.npy", "m5.npy", "static_mask.npy", "meta.npy"})
+  for (const char* name : {"time_ms.npy", "time_us.npy", "m5.npy", "static_mask.npy", "meta.npy"})
     EXPECT_NE(bytes.find(name), std::string::npos) << name;
   EXPECT_NE(bytes.find("'descr': '<f4'"), std::string::npos);  // fractional values
   EXPECT_NE(bytes.find("'shape': (2, 13, 6, )"), std::string::npos);
@@ -69,7 +90,8 @@ TEST(CsvExport, RoundsTimesBefore1970Down) {
   builder.addFrame(-500, values);
   writeCsv(builder.finish({}), folder / "a.csv");
   EXPECT_EQ(testing::readFile(folder / "a.csv"),
-            "frame,time_ms,matrix,y,x,value\n0,-2,0,0,0,3\n1,-1,0,0,0,3\n");
+            "frame,time_ms,matrix,y,x,value,time_us\n"
+            "0,-2,0,0,0,3,-1500\n1,-1,0,0,0,3,-500\n");
 }
 
 // C-A14: of the files of one export none appears when one can't be written.

@@ -45,7 +45,7 @@ struct PlannedSeries {
 struct ImportPlan {
   std::vector<PlannedSeries> series;  // frames first
   // The rows are active taxels, as `palpate convert` writes them to .csv:
-  // frame,time_ms,matrix,y,x,value.
+  // frame,time_ms,matrix,y,x,value,time_us.
   bool isTaxelList = false;
   std::string timeDescription;
   std::vector<std::string> notes;  // what was not imported, or was guessed

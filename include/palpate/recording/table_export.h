@@ -14,21 +14,23 @@
 
 namespace palpate {
 
-// PATH.csv: `frame,time_ms,matrix,y,x,value` for active taxels; beside it PATH.angles.csv and
-// PATH.temperatures.csv with a column per axis or sensor, where there are any. Every file is whole
-// or not there; an existing one is only replaced when asked. `unitsRow`: below the names a row with
-// the unit of each column, empty where it has none. Throws FileError, Cancelled.
+// PATH.csv: `frame,time_ms,matrix,y,x,value,time_us` for active taxels; beside it PATH.angles.csv
+// and PATH.temperatures.csv with a column per axis (deg; mm where it slides) or sensor, where there
+// are any. time_ms: whole milliseconds since 1970, rounded down; time_us: exact. Every file is
+// whole or not there; an existing one is only replaced when asked. `unitsRow`: below the names a
+// row with the unit of each column, empty where it has none. Throws FileError, Cancelled.
 void writeCsv(const Profile& profile,
               const std::filesystem::path& path,
               Overwrite overwrite = Overwrite::kRefuse,
               const Progress& progress = {},
               bool unitsRow = false);
 
-// PATH.npz (stored zip of .npy arrays; numpy.load opens it with allow_pickle=False): `time_ms` (T,
-// int64), `m0`.. (T, rows, columns; uint16 for counts, float32 otherwise), of a filtered recording
-// also `m0_active`.. (bool, of the same shape: which taxels are active, see
-// TactileFrame::filtered), `angles` (n, axes; float64, deg), `angle_time_ms`, `temperatures` (n,
-// sensors; float64, deg C), `temperature_time_ms`, `static_mask` (places, uint8), `meta` (JSON text
+// PATH.npz (stored zip of .npy arrays; numpy.load opens it with allow_pickle=False): `time_ms` and
+// `time_us` (T, int64), `m0`.. (T, rows, columns; uint16 for counts, float32 otherwise), of a
+// filtered recording also `m0_active`.. (bool, of the same shape: which taxels are active, see
+// TactileFrame::filtered), `angles` (n, axes; float64, deg; mm where the axis slides),
+// `angle_time_ms`, `angle_time_us`, `temperatures` (n, sensors; float64, deg C),
+// `temperature_time_ms`, `temperature_time_us`, `static_mask` (places, uint8), `meta` (JSON text
 // in ASCII, with the events). Throws FileError, Cancelled.
 void writeNpz(const Profile& profile,
               std::span<const RecordingEvent> events,

@@ -210,11 +210,15 @@ class NpyArray {
   std::string buffer_;
 };
 
+// NAME_ms, whole milliseconds, and NAME_us.
 template <typename TimeOf>
 void writeTimes(ZipWriter& zip, const std::string& name, std::size_t count, TimeOf timeOf) {
-  NpyArray array(zip, name, "<i8", 8, {count});
-  for (std::size_t i = 0; i < count; ++i) array.i64(floorMs(timeOf(i)));
-  array.end();
+  NpyArray ms(zip, name + "_ms", "<i8", 8, {count});
+  for (std::size_t i = 0; i < count; ++i) ms.i64(floorMs(timeOf(i)));
+  ms.end();
+  NpyArray us(zip, name + "_us", "<i8", 8, {count});
+  for (std::size_t i = 0; i < count; ++i) us.i64(timeOf(i));
+  us.end();
 }
 
 template <typename ValuesOf>
@@ -309,7 +313,7 @@ void writeNpz(const Profile& profile,
   OutputFile out(path, overwrite);
   ZipWriter zip(out);
   writeTimes(
-      zip, "time_ms", profile.numFrames(), [&](std::size_t i) { return profile.frameTimeUs(i); });
+      zip, "time", profile.numFrames(), [&](std::size_t i) { return profile.frameTimeUs(i); });
   bool filtered = false;
   for (std::size_t m = 0; m < profile.layout().numMatrices(); ++m)
     filtered = writeMatrix(zip, profile, m, progress) || filtered;
@@ -319,7 +323,7 @@ void writeNpz(const Profile& profile,
   npzExportWriteSamples(zip, "angles", profile.numAngles(), axes, [&](std::size_t i) {
     return profile.angles(i).deg;
   });
-  writeTimes(zip, "angle_time_ms", profile.numAngles(), [&](std::size_t i) {
+  writeTimes(zip, "angle_time", profile.numAngles(), [&](std::size_t i) {
     return profile.angleTimeUs(i);
   });
   const std::size_t sensors =
@@ -328,7 +332,7 @@ void writeNpz(const Profile& profile,
       zip, "temperatures", profile.numTemperatures(), sensors, [&](std::size_t i) {
         return profile.temperatures(i).degC;
       });
-  writeTimes(zip, "temperature_time_ms", profile.numTemperatures(), [&](std::size_t i) {
+  writeTimes(zip, "temperature_time", profile.numTemperatures(), [&](std::size_t i) {
     return profile.temperatureTimeUs(i);
   });
   NpyArray mask(zip, "static_mask", "|u1", 1, {profile.layout().numCells()});

@@ -1,5 +1,6 @@
 #include "palpate/recording/table_export.h"
 
+#include <algorithm>
 #include <vector>
 
 #include "palpate/core/number_text.h"
@@ -23,7 +24,7 @@ void appendInteger(std::string& text, std::int64_t value) {
   text += ',';
 }
 
-// One row per sample: time and a column per value, named with its unit.
+// One row per sample: time [ms], a column per value, named with its unit, and the time [us].
 template <typename TimeOf, typename ValuesOf>
 void tableExportWriteSamples(OutputFile& out,
                              const std::string& header,
@@ -39,31 +40,52 @@ void tableExportWriteSamples(OutputFile& out,
       text += ',';
       appendNumber(text, value);
     }
+    text += ',';
+    appendNumber(text, timeOf(i));
     text += '\n';
     writePiece(out, text);
   }
   writePiece(out, text, true);
 }
 
-std::string sampleHeader(std::size_t columns, const char* name, const char* unit) {
-  std::string header = "sample,time_ms";
-  for (std::size_t i = 0; i < columns; ++i)
-    header += "," + std::string(name) + std::to_string(i) + "_" + unit;
-  return header + "\n";
+// "sample,time_ms,axis0_deg,..,time_us", and the row of units below it.
+std::string sampleHeader(const std::vector<std::string>& columns,
+                         const std::vector<std::string>& units,
+                         bool unitsRow) {
+  std::vector<std::string> names{"sample", "time_ms"};
+  names.insert(names.end(), columns.begin(), columns.end());
+  names.emplace_back("time_us");
+  if (!unitsRow) return csvLine(names);
+  std::vector<std::string> below{"", "ms"};
+  below.insert(below.end(), units.begin(), units.end());
+  below.emplace_back("us");
+  return csvLine(names) + csvLine(below);
 }
 
-std::string angleUnits(const Profile& profile) {
-  std::vector<std::string> units{"", "ms"};
+std::string numberedName(const char* name, std::size_t index, const std::string& unit) {
+  return name + std::to_string(index) + "_" + unit;
+}
+
+// "deg", or "mm" of a sliding axis.
+std::vector<std::string> angleUnits(const Profile& profile) {
+  std::vector<std::string> units(profile.angles(0).deg.size(), "deg");
   const std::vector<AxisDescription>& axes = profile.hand().axes;
-  for (std::size_t i = 0; i < profile.angles(0).deg.size(); ++i)
-    units.emplace_back(i < axes.size() ? axes[i].unit() : "deg");
-  return csvLine(units);
+  for (std::size_t i = 0; i < std::min(units.size(), axes.size()); ++i) units[i] = axes[i].unit();
+  return units;
 }
 
-std::string temperatureUnits(const Profile& profile) {
-  std::vector<std::string> units{"", "ms"};
-  units.resize(2 + profile.temperatures(0).degC.size(), "degC");
-  return csvLine(units);
+std::string angleHeader(const Profile& profile, bool unitsRow) {
+  const std::vector<std::string> units = angleUnits(profile);
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < units.size(); ++i) names.push_back(numberedName("axis", i, units[i]));
+  return sampleHeader(names, units, unitsRow);
+}
+
+std::string temperatureHeader(const Profile& profile, bool unitsRow) {
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < profile.temperatures(0).degC.size(); ++i)
+    names.push_back(numberedName("sensor", i, "degc"));
+  return sampleHeader(names, std::vector<std::string>(names.size(), "degC"), unitsRow);
 }
 
 fs::path tableExportWithEnding(const fs::path& path, const char* ending) {
@@ -88,8 +110,8 @@ void writeCsv(const Profile& profile,
   if (profile.numTemperatures() > 0)
     temperatures.emplace(tableExportWithEnding(path, ".temperatures.csv"), overwrite);
 
-  std::string text = "frame,time_ms,matrix,y,x,value\n";
-  if (unitsRow) text += csvLine({"", "ms", "", "", "", profile.hand().unit});
+  std::string text = "frame,time_ms,matrix,y,x,value,time_us\n";
+  if (unitsRow) text += csvLine({"", "ms", "", "", "", profile.hand().unit, "us"});
   TactileFrame frame;
   for (std::size_t i = 0; i < profile.numFrames(); ++i) {
     reportProgress(progress, i, profile.numFrames(), kFramesPerReport);
@@ -105,6 +127,8 @@ void writeCsv(const Profile& profile,
           appendInteger(text, y);
           appendInteger(text, x);
           appendNumber(text, values(y, x));
+          text += ',';
+          appendNumber(text, frame.hostUs);
           text += '\n';
         }
       }
@@ -115,16 +139,14 @@ void writeCsv(const Profile& profile,
   if (angles)
     tableExportWriteSamples(
         *angles,
-        sampleHeader(profile.angles(0).deg.size(), "axis", "deg") +
-            (unitsRow ? angleUnits(profile) : ""),
+        angleHeader(profile, unitsRow),
         profile.numAngles(),
         [&](std::size_t i) { return profile.angleTimeUs(i); },
         [&](std::size_t i) { return profile.angles(i).deg; });
   if (temperatures)
     tableExportWriteSamples(
         *temperatures,
-        sampleHeader(profile.temperatures(0).degC.size(), "sensor", "degc") +
-            (unitsRow ? temperatureUnits(profile) : ""),
+        temperatureHeader(profile, unitsRow),
         profile.numTemperatures(),
         [&](std::size_t i) { return profile.temperatureTimeUs(i); },
         [&](std::size_t i) { return profile.temperatures(i).degC; });

@@ -110,6 +110,7 @@ class Planner {
   std::optional<PlannedSeries> samples(Kind kind);
   std::vector<TableElement> foundSamples(Kind kind, std::size_t count);
   void findTime(PlannedSeries& series, const std::string& named);
+  std::size_t finestOf(std::size_t time);
   void setTimeUnit(PlannedSeries& series);
   std::vector<std::size_t> unnamedTimeColumn();
   PlannedValue conversion(const ValueMapping& values,
@@ -291,6 +292,32 @@ std::optional<PlannedSeries> Planner::samples(Kind kind) {
   return series;
 }
 
+// Of columns with one name and the same times in several units, as time_ms and time_us, the one
+// with the finest unit.
+std::size_t Planner::finestOf(std::size_t time) {
+  const auto usPerUnit = [&](std::size_t column) -> double {
+    const auto unit = timeUnitNamed(columns_[column].unit);
+    if (!columns_[column].isNumeric || !unit || *unit > TimeUnit::kNanoseconds) return 0.0;
+    constexpr double kUs[] = {1e6, 1e3, 1.0, 1e-3};
+    return kUs[static_cast<std::size_t>(*unit)];
+  };
+  std::size_t finest = time;
+  for (std::size_t c = 0; c < columns_.size(); ++c) {
+    const double coarse = usPerUnit(finest);
+    const double fine = usPerUnit(c);
+    if (fine == 0.0 || fine >= coarse || !isScalar(columns_[c]) ||
+        nameWithoutUnit(columns_[c].name) != nameWithoutUnit(columns_[time].name) ||
+        !sameRows(columns_[c], columns_[time]))
+      continue;
+    const auto rows = sampleValues({finest, c});
+    const bool same = !rows.empty() && std::all_of(rows.begin(), rows.end(), [&](const auto& row) {
+      return std::abs(row[0] * coarse - row[1] * fine) < coarse;
+    });
+    if (same) finest = c;
+  }
+  return finest;
+}
+
 // Finds the time of a series, unless the rows have a rate.
 void Planner::findTime(PlannedSeries& series, const std::string& named) {
   const bool isFrames = series.kind == Kind::kFrames;
@@ -311,6 +338,7 @@ void Planner::findTime(PlannedSeries& series, const std::string& named) {
       series.time = c;
     }
     if (!series.time && isFrames && time_) series.time = time_;
+    if (series.time) series.time = finestOf(*series.time);
   }
   if (!series.time && !isFrames && time_ &&
       sameRows(columns_[*time_], columns_[series.columns.front()]))
@@ -565,13 +593,17 @@ ImportPlan Planner::plan() {
   return std::move(plan_);
 }
 
+constexpr std::string_view kTaxelListColumns[] = {
+    "frame", "time_ms", "matrix", "y", "x", "value", "time_us"};
+
+// Older lists have no time_us.
 bool isTaxelList(const std::vector<TableColumn>& columns) {
-  constexpr std::string_view kNames[] = {"frame", "time_ms", "matrix", "y", "x", "value"};
-  return columns.size() == std::size(kNames) &&
+  constexpr std::size_t kAll = std::size(kTaxelListColumns);
+  return (columns.size() == kAll || columns.size() == kAll - 1) &&
          std::equal(
              columns.begin(),
              columns.end(),
-             std::begin(kNames),
+             std::begin(kTaxelListColumns),
              [](const TableColumn& column, std::string_view name) { return column.name == name; });
 }
 
@@ -586,13 +618,14 @@ ImportPlan planTaxelList(TableSource& source,
                       "be chosen");
   ImportPlan plan;
   plan.isTaxelList = true;
-  plan.timeDescription = "time_ms [ms, by the file]";
   PlannedSeries frames;
   frames.file = source.path();
   frames.columns = {0, 2, 3, 4, 5};
   frames.values.resize(frames.columns.size());
-  frames.time = 1;
-  frames.timeUnit = TimeUnit::kMilliseconds;
+  const bool hasUs = source.columns().size() == std::size(kTaxelListColumns);
+  frames.time = hasUs ? 6 : 1;
+  frames.timeUnit = hasUs ? TimeUnit::kMicroseconds : TimeUnit::kMilliseconds;
+  plan.timeDescription = hasUs ? "time_us [us, by the file]" : "time_ms [ms, by the file]";
   frames.description = {"matrices: active taxels, one in each line"};
   plan.series.push_back(std::move(frames));
   for (const auto& [kind, ending] : {std::pair(Kind::kAngles, ".angles.csv"),

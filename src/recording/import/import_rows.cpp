@@ -249,6 +249,15 @@ void ImportRows::finishListedFrame() {
   std::fill(frame_.values.begin(), frame_.values.end(), 0.0F);
 }
 
+// Counts the frames that the list leaves out. A row that is refused lists its frame, too.
+void ImportRows::countAbsent(const TableRow& row) {
+  if (row.states[0] != CellState::kNumber || !(row.values[0] < 1e15)) return;
+  const auto number = static_cast<std::int64_t>(std::floor(row.values[0]));
+  if (number <= lastNumber_) return;
+  report_.absentFrames += static_cast<std::uint64_t>(number - lastNumber_ - 1);
+  lastNumber_ = number;
+}
+
 // A row `frame,time_ms,matrix,y,x,value`.
 void ImportRows::takeTaxel(const TableSource& source, const TableRow& row, std::int64_t us) {
   const auto whole = [&](std::size_t at) {
@@ -262,7 +271,6 @@ void ImportRows::takeTaxel(const TableSource& source, const TableRow& row, std::
   const std::int64_t frame = whole(0);
   if (frame != listedFrame_) {
     finishListedFrame();
-    report_.absentFrames += static_cast<std::uint64_t>(frame - listedFrame_.value_or(-1) - 1);
     listedFrame_ = frame;
     listedUs_ = us;
     lastUs_ = us;
@@ -284,7 +292,7 @@ void ImportRows::runTaxelList(TableSource& source,
                               const Pass& pass,
                               std::uint64_t mostRows,
                               const Progress& progress) {
-  timeReader_.emplace(TimeUnit::kMilliseconds, mapping_.time.startUs, mapping_.text.decimal);
+  timeReader_.emplace(pass.timeUnit, mapping_.time.startUs, mapping_.text.decimal);
   source.start(pass.series.front()->columns, pass.time);
   PlannedSeries all = *pass.series.front();
   for (PlannedValue& value : all.values) value.target = 0;  // each number is needed
@@ -298,9 +306,11 @@ void ImportRows::runTaxelList(TableSource& source,
       refuse(source,
              row,
              report_.refused.wrongCount,
-             " has " + counted(row.numCells, "cell") + " instead of 6");
+             " has " + counted(row.numCells, "cell") + " instead of " +
+                 std::to_string(source.columns().size()));
       continue;
     }
+    countAbsent(row);
     if (!examine(source, all, row, 0, isThere) || !isThere) continue;
     // The rows of one frame have one time.
     const bool sameFrame = listedFrame_ && row.values[0] == static_cast<double>(*listedFrame_);

@@ -61,6 +61,7 @@ class ImportRows {
                bool& isThere);
   void add(const PlannedSeries& series, std::int64_t us, const TableRow& row, std::size_t begin);
   void addFrame(std::int64_t us);
+  void countAbsent(const TableRow& row);
   void takeTaxel(const TableSource& source, const TableRow& row, std::int64_t us);
   void finishListedFrame();
   void refuse(const TableSource& source,
@@ -86,6 +87,7 @@ class ImportRows {
   std::uint64_t rowIndex_ = 0;
   // Of the frame of a list of taxels that is being read.
   std::optional<std::int64_t> listedFrame_;
+  std::int64_t lastNumber_ = -1;  // of a listed frame, also of a refused one
   std::int64_t listedUs_ = 0;
 };
 
