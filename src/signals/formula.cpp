@@ -4,9 +4,10 @@
 #include <array>
 #include <cctype>
 #include <cmath>
-#include <deque>
+#include <iterator>
 #include <limits>
 #include <map>
+#include <ranges>
 #include <set>
 #include <stdexcept>
 
@@ -36,6 +37,7 @@ namespace {
 
 constexpr double kFormulaNan = std::numeric_limits<double>::quiet_NaN();
 constexpr const char* kTime = "t";
+constexpr std::size_t kValuesPerReport = 4096;
 constexpr const char* kDerivativeVariable = "derivative_";
 
 bool ofName(char letter) {
@@ -131,32 +133,85 @@ void validateNumbers(SeriesFunctionKind kind, const std::vector<double>& numbers
     throw std::invalid_argument("needs an odd number of samples, 1 to 100001");
 }
 
+// The values of a window that moves along a series, and their mean.
+class MovingMean {
+ public:
+  void add(double value) {
+    addToSum(value);
+    ++count_;
+  }
+  void remove(double value) {
+    addToSum(-value);
+    --count_;
+  }
+  std::size_t count() const { return count_; }
+  double value() const { return (sum_ + rest_) / static_cast<double>(count_); }
+
+ private:
+  // With the rounding error of each sum (Knuth's two-sum), so that the result does not depend on
+  // what has left the window.
+  void addToSum(double value) {
+    const double sum = sum_ + value;
+    const double added = sum - sum_;
+    rest_ += (sum_ - (sum - added)) + (value - added);
+    sum_ = sum;
+  }
+
+  double sum_ = 0.0;
+  double rest_ = 0.0;
+  std::size_t count_ = 0;
+};
+
+// The same for the median: the lower half of the values, which has the middle one, and the upper.
+class MovingMedian {
+ public:
+  void add(double value) {
+    (lower_.empty() || value <= *lower_.rbegin() ? lower_ : upper_).insert(value);
+    balance();
+  }
+  void remove(double value) {
+    auto& half = value <= *lower_.rbegin() ? lower_ : upper_;
+    half.erase(half.find(value));
+    balance();
+  }
+  std::size_t count() const { return lower_.size() + upper_.size(); }
+  double value() const {
+    const double middle = *lower_.rbegin();
+    return lower_.size() > upper_.size() ? middle : (middle + *upper_.begin()) / 2.0;
+  }
+
+ private:
+  void balance() {
+    if (lower_.size() > upper_.size() + 1)
+      upper_.insert(lower_.extract(std::prev(lower_.end())));
+    else if (upper_.size() > lower_.size())
+      lower_.insert(upper_.extract(upper_.begin()));
+  }
+
+  std::multiset<double> lower_, upper_;
+};
+
 // Mean or median of the finite values within half a window on either side of each sample, but not
 // beyond a gap; NaN where there is none.
-std::vector<double> windowed(SeriesFunctionKind kind,
-                             std::span<const double> values,
+template <typename Window>
+std::vector<double> windowed(std::span<const double> values,
                              std::span<const std::size_t> gapSamples,
-                             std::size_t samples) {
+                             std::size_t samples,
+                             const Progress& progress) {
   const std::size_t half = samples / 2;
   std::vector<double> result(values.size(), kFormulaNan);
-  std::vector<double> here;
   std::size_t begin = 0;
   for (std::size_t stretch = 0; stretch <= gapSamples.size(); ++stretch) {
     const std::size_t end = stretch < gapSamples.size() ? gapSamples[stretch] + 1 : values.size();
+    Window window;
+    std::size_t next = begin;  // the first one that was not added
     for (std::size_t i = begin; i < end; ++i) {
-      here.clear();
-      for (std::size_t k = std::max(begin + half, i) - half; k < std::min(end, i + half + 1); ++k)
-        if (std::isfinite(values[k])) here.push_back(values[k]);
-      if (here.empty()) continue;
-      if (kind == SeriesFunctionKind::kSmooth) {
-        double sum = 0.0;
-        for (const double value : here) sum += value;
-        result[i] = sum / static_cast<double>(here.size());
-      } else {
-        const std::size_t middle = here.size() / 2;
-        std::sort(here.begin(), here.end());
-        result[i] = here.size() % 2 == 1 ? here[middle] : (here[middle - 1] + here[middle]) / 2.0;
-      }
+      reportProgress(progress, i, values.size(), kValuesPerReport);
+      for (; next < std::min(end, i + half + 1); ++next)
+        if (std::isfinite(values[next])) window.add(values[next]);
+      if (i > begin + half && std::isfinite(values[i - half - 1]))
+        window.remove(values[i - half - 1]);
+      if (window.count() > 0) result[i] = window.value();
     }
     begin = end;
   }
@@ -176,13 +231,19 @@ std::vector<double> appliedTo(std::span<const double> timeS,
                               const std::vector<double>& values,
                               double longestS,
                               SeriesFunctionKind kind,
-                              const std::vector<double>& numbers) {
+                              const std::vector<double>& numbers,
+                              const Progress& progress) {
   if (kind == SeriesFunctionKind::kDerivative) return derivativeOf(timeS, values, longestS);
   std::vector<std::size_t> gapSamples;
   for (std::size_t i = 0; i + 1 < timeS.size(); ++i)
     if (timeS[i + 1] - timeS[i] > longestS) gapSamples.push_back(i);
   if (kind == SeriesFunctionKind::kSmooth || kind == SeriesFunctionKind::kMedian)
-    return windowed(kind, values, gapSamples, static_cast<std::size_t>(numbers.at(0)));
+    return (kind == SeriesFunctionKind::kSmooth
+                ? windowed<MovingMean>
+                : windowed<MovingMedian>)(values,
+                                          gapSamples,
+                                          static_cast<std::size_t>(numbers.at(0)),
+                                          progress);
   const bool any =
       std::any_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); });
   if (!any || values.size() < 2) return values;
@@ -363,7 +424,12 @@ Formula& Formula::operator=(const Formula& other) = default;
 
 std::vector<double> Formula::evaluate(std::span<const double> timeS,
                                       const std::vector<std::vector<double>>& values,
-                                      double longestS) const {
+                                      double longestS,
+                                      const Progress& progress) const {
+  // The series functions, each after what is inside, and then the formula itself.
+  const auto part = [&](std::size_t step) {
+    return progressOfPart(progress, step, 2 * derivatives_.size() + 1);
+  };
   if (values.size() != names_.size())
     throw std::invalid_argument("formula \"" + shortened(text_) +
                                 "\": " + std::to_string(values.size()) + " signals of " +
@@ -376,15 +442,18 @@ std::vector<double> Formula::evaluate(std::span<const double> timeS,
                                   std::to_string(timeS.size()) + " times");
     series[names_[i]] = values[i];
   }
-  for (const Derivative& derivative : derivatives_) {
+  for (std::size_t d = 0; d < derivatives_.size(); ++d) {
+    const Derivative& derivative = derivatives_[d];
     std::vector<std::vector<double>> inside;
     for (const std::string& name : derivative.inside.names_) inside.push_back(series.at(name));
     try {
-      series[derivative.variable] = appliedTo(timeS,
-                                              derivative.inside.evaluate(timeS, inside, longestS),
-                                              longestS,
-                                              kSeriesFunctions[derivative.function].kind,
-                                              derivative.numbers);
+      series[derivative.variable] =
+          appliedTo(timeS,
+                    derivative.inside.evaluate(timeS, inside, longestS, part(2 * d)),
+                    longestS,
+                    kSeriesFunctions[derivative.function].kind,
+                    derivative.numbers,
+                    part(2 * d + 1));
     } catch (const std::invalid_argument& error) {
       refuseFormula(text_, error.what());
     }
@@ -397,7 +466,9 @@ std::vector<double> Formula::evaluate(std::span<const double> timeS,
     parser.parser.Eval();  // makes the variables
     std::vector<std::pair<double*, const std::vector<double>*>> bound;
     for (auto& [name, value] : parser.variables) bound.emplace_back(&value, &series.at(name));
+    const Progress last = part(2 * derivatives_.size());
     for (std::size_t i = 0; i < timeS.size(); ++i) {
+      reportProgress(last, i, timeS.size(), kValuesPerReport);
       for (const auto& [variable, of] : bound) *variable = (*of)[i];
       result.push_back(parser.parser.Eval());
     }
@@ -408,7 +479,8 @@ std::vector<double> Formula::evaluate(std::span<const double> timeS,
 }
 
 std::size_t Formula::reach(double rateHz) const {
-  constexpr double kMostSamples = 20'000.0;
+  // A frequency filter is computed from gap to gap (hasFrequencyFilter()).
+  constexpr double kLongestFilter = 20'000.0;
   double samples = 0.0;
   for (const Derivative& derivative : derivatives_) {
     const SeriesFunctionKind kind = kSeriesFunctions[derivative.function].kind;
@@ -416,10 +488,10 @@ std::size_t Formula::reach(double rateHz) const {
     if (kind == SeriesFunctionKind::kSmooth || kind == SeriesFunctionKind::kMedian)
       own = derivative.numbers.at(0) / 2.0;
     else if (kind != SeriesFunctionKind::kDerivative && rateHz > 0.0)
-      own = butterworthLength(bandOf(kind, derivative.numbers), rateHz);
+      own = std::min(butterworthLength(bandOf(kind, derivative.numbers), rateHz), kLongestFilter);
     samples = std::max(samples, own + static_cast<double>(derivative.inside.reach(rateHz)));
   }
-  return static_cast<std::size_t>(std::ceil(std::min(samples, kMostSamples)));
+  return static_cast<std::size_t>(std::ceil(samples));
 }
 
 bool Formula::hasFrequencyFilter() const {
@@ -451,36 +523,33 @@ Series derivedSeries(const Profile& profile,
                                   "\": the recording has no " + shortened(name));
     choices.push_back(*choice);
   }
-  const double parts = static_cast<double>(choices.size()) + 1.0;
-  const auto part = [&](std::size_t which) -> Progress {
-    if (!progress) return {};
-    return [&progress, which, parts](double done) {
-      return progress((static_cast<double>(which) + done) / parts);
-    };
+  const auto part = [&](std::size_t which) {
+    return progressOfPart(progress, which, choices.size() + 1);
   };
   const TimingReport timing = timingOf(profile);
   const double longestS = gapThresholdS(timing.rateHz > 0.0 ? 1.0 / timing.rateHz : 0.0);
-  std::vector<double> allTimesS;
-  for (std::size_t i = 0; i < profile.numFrames(); ++i)
-    allTimesS.push_back(static_cast<double>(profile.frameTimeUs(i) - profile.frameTimeUs(0)) / 1e6);
-  const auto first = static_cast<std::size_t>(
-      std::lower_bound(allTimesS.begin(), allTimesS.end(), fromS) - allTimesS.begin());
-  const auto end = static_cast<std::size_t>(
-      std::upper_bound(allTimesS.begin(), allTimesS.end(), toS) - allTimesS.begin());
+  const auto frameS = [&](std::size_t frame) {
+    return static_cast<double>(profile.frameTimeUs(frame) - profile.frameTimeUs(0)) / 1e6;
+  };
+  const auto frames = std::views::iota(std::size_t{0}, profile.numFrames());
+  const auto first = static_cast<std::size_t>(std::ranges::lower_bound(frames, fromS, {}, frameS) -
+                                              frames.begin());
+  const auto end =
+      static_cast<std::size_t>(std::ranges::upper_bound(frames, toS, {}, frameS) - frames.begin());
   if (first >= end) return {};
   // Slopes and filters need the samples around the span, too.
   const std::size_t reach = formula.reach(timing.rateHz);
   std::size_t begin = first - std::min(first, reach);
-  std::size_t last = std::min(allTimesS.size() - 1, end - 1 + reach);
+  std::size_t last = std::min(profile.numFrames() - 1, end - 1 + reach);
   if (formula.hasFrequencyFilter()) {
     const auto isGap = [&](std::size_t after) {
-      return allTimesS[after] - allTimesS[after - 1] > longestS;
+      return frameS(after) - frameS(after - 1) > longestS;
     };
     while (begin > 0 && !isGap(begin)) --begin;
-    while (last + 1 < allTimesS.size() && !isGap(last + 1)) ++last;
+    while (last + 1 < profile.numFrames() && !isGap(last + 1)) ++last;
   }
-  const std::vector<double> timeS(allTimesS.begin() + static_cast<std::ptrdiff_t>(begin),
-                                  allTimesS.begin() + static_cast<std::ptrdiff_t>(last) + 1);
+  std::vector<double> timeS;
+  for (std::size_t i = begin; i <= last; ++i) timeS.push_back(frameS(i));
   std::vector<std::vector<double>> values;
   std::vector<TimeSpan> lost;  // without their ends
   std::string fault;
@@ -497,14 +566,15 @@ Series derivedSeries(const Profile& profile,
       lost.push_back(readableAround(profile, choices[i].kind, run));
     values.push_back(resampled(series, timeS, std::numeric_limits<double>::infinity()));
   }
-  const std::vector<double> computed = formula.evaluate(timeS, values, longestS);
+  const std::vector<double> computed =
+      formula.evaluate(timeS, values, longestS, part(choices.size()));
   Series derived;
   for (std::size_t i = first; i < end; ++i) {
     const bool isLost = std::any_of(lost.begin(), lost.end(), [&](const TimeSpan& span) {
-      return allTimesS[i] > span.fromS && allTimesS[i] < span.toS;
+      return timeS[i - begin] > span.fromS && timeS[i - begin] < span.toS;
     });
     if (isLost) unreadable->add(i, fault.c_str());
-    derived.timeS.push_back(allTimesS[i]);
+    derived.timeS.push_back(timeS[i - begin]);
     derived.values.push_back(isLost ? std::numeric_limits<double>::quiet_NaN()
                                     : computed[i - begin]);
   }

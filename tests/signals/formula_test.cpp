@@ -1,7 +1,10 @@
 #include "palpate/signals/formula.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
+#include <numeric>
 #include <stdexcept>
 
 #include "palpate/emulator/synthetic_profile.h"
@@ -102,6 +105,68 @@ TEST(Formula, KnowsOnHowManyNeighboursItDepends) {
   EXPECT_EQ(Formula("der(a)").reach(50.0), 1u);
   EXPECT_EQ(Formula("der(smooth(a, 9))").reach(50.0), 6u);
   EXPECT_GT(Formula("lowpass(a, 1)").reach(50.0), 50u);
+  // core F4: half of the windows, however long they are.
+  EXPECT_EQ(Formula("smooth(a, 100001)").reach(50.0), 50'001u);
+  EXPECT_EQ(Formula("median(smooth(a, 50001), 50001)").reach(50.0), 50'002u);
+}
+
+// core F5: against means and medians of each window by themselves.
+TEST(Formula, AMovingWindowHoldsTheValuesAroundEachSample) {
+  constexpr std::size_t kSamples = 500;
+  constexpr int kHalf = 10;
+  std::vector<double> timeS, values;
+  std::uint32_t state = 1;
+  for (std::size_t i = 0; i < kSamples; ++i) {
+    state = state * 1'664'525U + 1'013'904'223U;
+    timeS.push_back(static_cast<double>(i) + (i >= 200 ? 100.0 : 0.0));
+    values.push_back(state >> 29U == 0 ? std::nan("") : static_cast<double>(state >> 24U) / 3.0);
+  }
+  const auto means = Formula("smooth(a, 21)").evaluate(timeS, {values}, 50.0);
+  const auto medians = Formula("median(a, 21)").evaluate(timeS, {values}, 50.0);
+  for (int i = 0; i < static_cast<int>(kSamples); ++i) {
+    const int begin = std::max(i >= 200 ? 200 : 0, i - kHalf);
+    const int end = std::min(i < 200 ? 200 : static_cast<int>(kSamples), i + kHalf + 1);
+    std::vector<double> here;
+    for (int k = begin; k < end; ++k)
+      if (std::isfinite(values[static_cast<std::size_t>(k)]))
+        here.push_back(values[static_cast<std::size_t>(k)]);
+    std::sort(here.begin(), here.end());
+    const std::size_t n = here.size();
+    const auto at = static_cast<std::size_t>(i);
+    EXPECT_NEAR(
+        means[at], std::accumulate(here.begin(), here.end(), 0.0) / static_cast<double>(n), 1e-12);
+    EXPECT_EQ(medians[at], (here[(n - 1) / 2] + here[n / 2]) / 2.0) << i;
+  }
+}
+
+// core F5: sorting each window anew would take an hour.
+TEST(Formula, LongWindowsAreComputedInShortTime) {
+  std::vector<double> timeS, values;
+  for (int i = 0; i < 100'000; ++i) {
+    timeS.push_back(i);
+    values.push_back(i * 7919 % 10'007);
+  }
+  const auto medians = Formula("median(a, 50001)").evaluate(timeS, {values}, kEver);
+  EXPECT_NEAR(medians[50'000], 5003.0, 5.0);
+  // The mean of a straight line is its middle, whatever has left the window.
+  const auto means = Formula("smooth(t / 3, 50001)").evaluate(timeS, {}, kEver);
+  EXPECT_DOUBLE_EQ(means[60'000], 20'000.0);
+}
+
+TEST(Formula, IsCancelled) {
+  const std::vector<double> timeS = {0.0, 1.0, 2.0};
+  const std::vector<double> values = {1.0, 2.0, 3.0};
+  for (const char* text : {"a + 1", "median(a, 3)", "smooth(smooth(a, 3), 3)"}) {
+    std::vector<double> reported;
+    (void)Formula(text).evaluate(timeS, {values}, kEver, [&](double fraction) {
+      reported.push_back(fraction);
+      return true;
+    });
+    EXPECT_TRUE(std::is_sorted(reported.begin(), reported.end())) << text;
+    EXPECT_THROW((void)Formula(text).evaluate(timeS, {values}, kEver, [](double) { return false; }),
+                 Cancelled)
+        << text;
+  }
 }
 
 TEST(Formula, NamesAFunctionThatIsNone) {
@@ -196,6 +261,30 @@ TEST(DerivedSeries, ValuesDoNotDependOnTheSpan) {
     for (std::size_t i = 0; i < part.values.size(); ++i)
       ASSERT_EQ(part.values[i], whole.values[at + i]) << text << " at " << part.timeS[i];
   }
+}
+
+// core F4
+TEST(DerivedSeries, LongWindowsDoNotDependOnTheSpan) {
+  constexpr int kFrames = 60'000;
+  HandDescription hand;
+  hand.layout = std::make_shared<const SensorLayout>(
+      std::vector<MatrixLayout>{MatrixLayout::full(1, 1, 1.0)});
+  ProfileBuilder builder(hand);
+  for (int i = 0; i < kFrames; ++i)
+    builder.addFrame(std::int64_t{i} * 10'000,
+                     std::vector<float>{static_cast<float>(i < kFrames / 2 ? 1 : 101)});
+  const Profile profile = builder.finish({});
+  for (const char* text : {"smooth(m0_sum, 50001)", "median(m0_sum, 50001)"}) {
+    const Series whole = derivedSeries(profile, Formula(text), 0.0, 600.0);
+    const Series part = derivedSeries(profile, Formula(text), 50.0, 51.0);
+    ASSERT_EQ(part.values.size(), 101u);
+    for (std::size_t i = 0; i < part.values.size(); ++i)
+      ASSERT_EQ(part.values[i], whole.values[5000 + i]) << text << " at " << part.timeS[i];
+  }
+  // By hand: frame 5000 has 5000 + 1 + 25,000 neighbours, of which one is 101.
+  EXPECT_DOUBLE_EQ(
+      derivedSeries(profile, Formula("smooth(m0_sum, 50001)"), 50.0, 50.0).values.at(0),
+      (30'000.0 + 101.0) / 30'001.0);
 }
 
 TEST(DerivedSeries, RefusesWhatTheHandLacks) {

@@ -49,7 +49,7 @@ class Formula {
   const std::vector<std::string>& names() const noexcept { return names_; }
 
   // Number of samples before and after a sample on which its value depends, at a rate [Hz]: 0
-  // without a slope or filter, at most 20,000.
+  // without a slope or filter; of a frequency filter at most 20,000.
   std::size_t reach(double rateHz) const;
 
   // Whether it has a frequency filter: its rate is that of all samples between two gaps.
@@ -57,10 +57,11 @@ class Formula {
 
   // Computes the curve at every time [s]; `values` has the signals in the order of names(), one
   // value per time. `longestS`: longer intervals are gaps for der(). Throws std::invalid_argument
-  // for other sizes, and when the formula can't be computed.
+  // for other sizes, and when the formula can't be computed; Cancelled.
   std::vector<double> evaluate(std::span<const double> timeS,
                                const std::vector<std::vector<double>>& values,
-                               double longestS) const;
+                               double longestS,
+                               const Progress& progress = {}) const;
 
  private:
   struct Derivative;
