@@ -4,13 +4,14 @@
     palpate stream --dsa PORT --sdh PORT --to tactile --to signals
     python3 ros2_bridge.py [TACTILE_PORT SIGNALS_PORT]
 """
-import json, math, select, socket, sys
+import array, json, math, select, socket, sys
 import rclpy
 from sensor_msgs.msg import Image, JointState
 
 rclpy.init()
 node = rclpy.create_node("palpate")
-images, joints = {}, node.create_publisher(JointState, "joint_states", 10)
+images, fractions = {}, set()
+joints = node.create_publisher(JointState, "joint_states", 10)
 ports = [socket.socket(socket.AF_INET, socket.SOCK_DGRAM) for _ in range(2)]
 for port, number in zip(ports, sys.argv[1:] or (9871, 9870)):
     port.bind(("127.0.0.1", int(number)))
@@ -23,8 +24,12 @@ while rclpy.ok():
             image.header.stamp.sec, image.header.stamp.nanosec = stamp["secs"], stamp["nsecs"]
             image.header.frame_id = name
             image.width, image.height = matrix["cells_x"], matrix["cells_y"]
-            image.encoding, image.step = "mono16", 2 * image.width
-            image.data = b"".join(v.to_bytes(2, "little") for v in matrix["tactile_array"])
+            values = matrix["tactile_array"]
+            if not all(isinstance(v, int) and 0 <= v < 2**16 for v in values):
+                fractions.add(name)  # newtons, kPa, filtered values
+            image.encoding = "32FC1" if name in fractions else "mono16"
+            image.step = (4 if name in fractions else 2) * image.width
+            image.data = array.array("f" if name in fractions else "H", values).tobytes()
             if name not in images:
                 images[name] = node.create_publisher(Image, name, 10)
             images[name].publish(image)

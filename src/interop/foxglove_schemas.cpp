@@ -190,7 +190,8 @@ std::string foxgloveSignalsSchema(const HandDescription& hand) {
            schemaObject({{"matrix", schemaWhole()},
                          {"y", schemaWhole("row, 0 is the fingertip")},
                          {"x", schemaWhole("column")},
-                         {"counts", schemaNumber(hand.unit)}}));
+                         {"value", schemaNumber(hand.unit)},
+                         {"counts", schemaNumber(hand.unit + ", the same as value")}}));
   keys.set("angles_deg", schemaList(schemaNumber("deg; mm where the axis slides")));
   keys.set("temperatures_degc", schemaList(schemaNumber("deg C")));
   keys.set("link",

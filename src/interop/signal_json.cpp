@@ -90,7 +90,8 @@ void appendSignalJson(std::string& out,
     json.integer("matrix", static_cast<std::int64_t>(results.peak.matrix));
     json.integer("y", results.peak.row);
     json.integer("x", results.peak.column);
-    json.number("counts", static_cast<double>(results.peak.counts));
+    json.number("value", static_cast<double>(results.peak.counts));
+    json.number("counts", static_cast<double>(results.peak.counts));  // its older name
     json.end();
   }
   if (results.angles) json.numbers("angles_deg", results.angles->deg);

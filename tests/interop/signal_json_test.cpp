@@ -39,7 +39,8 @@ TEST(SignalJson, SaysTheSignalsOfEveryMatrix) {
   EXPECT_EQ(json.at("peak").at("matrix").asInteger(), 1);
   EXPECT_EQ(json.at("peak").at("y").asInteger(), 8);
   EXPECT_EQ(json.at("peak").at("x").asInteger(), 2);
-  EXPECT_EQ(json.at("peak").at("counts").asDouble(), 300.0);
+  EXPECT_EQ(json.at("peak").at("value").asDouble(), 300.0);
+  EXPECT_EQ(json.at("peak").at("counts").asDouble(), 300.0) << "its older name";
 }
 
 // An unknown value is neither null nor zero, because a curve would show it.

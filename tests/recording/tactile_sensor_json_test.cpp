@@ -33,7 +33,7 @@ TEST(TactileSensorJson, HasTheFieldsOfTheMessage) {
   EXPECT_EQ(header.at("seq").asInteger(), 7);
   EXPECT_EQ(header.at("stamp").at("secs").asInteger(), 1'416'996'123);
   EXPECT_EQ(header.at("stamp").at("nsecs").asInteger(), 250'007'000);
-  EXPECT_EQ(header.at("frame_id").asString(), "sdh");
+  EXPECT_EQ(header.at("frame_id").asString(), "hand");
   const Json matrices = message.at("tactile_matrix");
   ASSERT_EQ(matrices.size(), 6u);
   for (std::size_t m = 0; m < 6; ++m) {
@@ -51,18 +51,21 @@ TEST(TactileSensorJson, HasTheFieldsOfTheMessage) {
   EXPECT_EQ(matrices.at(0).at("tactile_array").at(0).asInteger(), 0);
 }
 
-TEST(TactileSensorJson, ValuesThatAreNoInt16AreMadeSome) {
+// arrays A4: newtons, kilopascals and filtered values are not rounded.
+TEST(TactileSensorJson, ValuesKeepTheirDecimalsAndSigns) {
   TactileFrame frame(sdh2().layout);
   auto matrix = frame.matrix(0);
-  matrix(0, 0) = 2.5F;
+  matrix(0, 0) = 12.766F;
   matrix(0, 1) = -3.0F;
-  matrix(0, 2) = 1e9F;
+  matrix(0, 2) = 0.45F;
   matrix(0, 3) = std::numeric_limits<float>::quiet_NaN();
-  const Json values = parsed(frame).at("tactile_matrix").at(std::size_t{0}).at("tactile_array");
-  EXPECT_EQ(values.at(std::size_t{0}).asInteger(), 3);
-  EXPECT_EQ(values.at(1).asInteger(), 0);
-  EXPECT_EQ(values.at(2).asInteger(), 32767);
-  EXPECT_EQ(values.at(3).asInteger(), 0);
+  matrix(0, 4) = 100000.0F;
+  matrix(0, 5) = -0.125F;
+  std::string text;
+  appendTactileSensorJson(text, frame, 0);
+  EXPECT_NE(text.find("\"tactile_array\":[12.766,-3,0.45,null,100000,-0.125,0,"), std::string::npos)
+      << text.substr(0, 200);
+  EXPECT_NO_THROW(Json::parse(text));
 }
 
 TEST(TactileSensorJson, NanosecondsCountUpwardsBefore1970) {

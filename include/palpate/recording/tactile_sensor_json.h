@@ -1,7 +1,7 @@
 // Tactile frames in the shape of the ROS message schunk_sdh/TactileSensor, as JSON, one line per
 // frame:
 //
-//   {"header":{"seq":0,"stamp":{"secs":1416996123,"nsecs":250000000},"frame_id":"sdh"},
+//   {"header":{"seq":0,"stamp":{"secs":1416996123,"nsecs":250000000},"frame_id":"hand"},
 //    "tactile_matrix":[{"matrix_id":0,"cells_x":6,"cells_y":14,"tactile_array":[0,0,..]},..]}
 //
 // Source: schunk_modular_robotics, schunk_sdh/msg/TactileSensor.msg (Header header; TactileMatrix[]
@@ -24,8 +24,10 @@ namespace palpate {
 
 // Appends one message without a line end. `stamp` is the frame's host time [s, ns since 1970];
 // matrix_id the number of the matrix in wire order; tactile_array row by row, row 0 at the
-// fingertip, cells_x values each [counts]: 0 where there is no taxel. Values are rounded to whole
-// counts and kept in 0..32767, which changes none that a sensor sent.
+// fingertip, cells_x values each in the hand's unit: 0 where there is no taxel, null where a value
+// is not finite. Values are as in the frame, with their decimals and signs; whole ones are
+// integers. Fractions don't fit into the int16[] of the ROS message. frame_id is "hand", the frame
+// of the whole hand, as for Foxglove.
 void appendTactileSensorJson(std::string& out, const TactileFrame& frame, std::uint64_t sequence);
 
 // The same frame as several messages with the same header: each has as many whole matrices, in

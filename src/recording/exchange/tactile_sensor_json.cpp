@@ -1,11 +1,11 @@
 #include "palpate/recording/tactile_sensor_json.h"
 
 #include <cmath>
-#include <span>
 #include <string_view>
 #include <utility>
 
 #include "palpate/core/json.h"
+#include "palpate/core/number_text.h"
 #include "palpate/core/progress.h"
 
 namespace palpate {
@@ -15,24 +15,31 @@ constexpr std::int64_t kSecondUs = 1'000'000;
 constexpr std::int64_t kNsPerUs = 1000;
 constexpr std::size_t kTactileSensorJsonPieceBytes = 1U << 16;
 
-// As int16[] has it.
-std::int64_t wholeCounts(float value) {
-  if (!(value > 0.0F)) return 0;
-  return value >= static_cast<float>(INT16_MAX) ? INT16_MAX : std::lround(value);
+// Whole numbers without a point, so that receivers get integers.
+void appendJsonNumber(std::string& out, float value) {
+  constexpr float kLargestWhole = 1e9F;
+  if (!std::isfinite(value))
+    out += "null";
+  else if (value == std::floor(value) && std::abs(value) < kLargestWhole)
+    appendNumber(out, static_cast<std::int64_t>(value));
+  else
+    appendNumber(out, value);
 }
 
-Json matrixJson(const TactileFrame& frame, std::size_t m) {
+void appendMatrix(std::string& out, const TactileFrame& frame, std::size_t m) {
   const auto values = frame.matrix(m);
-  return Json::object()
-      .set("matrix_id", m)
-      .set("cells_x", frame.layout->matrix(m).columns)
-      .set("cells_y", frame.layout->matrix(m).rows)
-      .set(
-          "tactile_array",
-          jsonList(std::span(values.data(), static_cast<std::size_t>(values.size())), wholeCounts));
+  out += "{\"matrix_id\":" + std::to_string(m) +
+         ",\"cells_x\":" + std::to_string(frame.layout->matrix(m).columns) +
+         ",\"cells_y\":" + std::to_string(frame.layout->matrix(m).rows) + ",\"tactile_array\":[";
+  for (Eigen::Index k = 0; k < values.size(); ++k) {
+    if (k > 0) out += ',';
+    appendJsonNumber(out, values.data()[k]);
+  }
+  out += "]}";
 }
 
-Json messageJson(const TactileFrame& frame, std::uint64_t sequence, Json matrices) {
+// The message up to its matrices.
+std::string messageHead(const TactileFrame& frame, std::uint64_t sequence) {
   std::int64_t seconds = frame.hostUs / kSecondUs;
   std::int64_t restUs = frame.hostUs % kSecondUs;
   if (restUs < 0) {  // before 1970: nanoseconds count upwards all the same
@@ -40,40 +47,44 @@ Json messageJson(const TactileFrame& frame, std::uint64_t sequence, Json matrice
     restUs += kSecondUs;
   }
   Json stamp = Json::object().set("secs", seconds).set("nsecs", restUs * kNsPerUs);
-  Json header = Json::object()
-                    .set("seq", static_cast<std::int64_t>(sequence))
-                    .set("stamp", std::move(stamp))
-                    .set("frame_id", "sdh");
-  return Json::object().set("header", std::move(header)).set("tactile_matrix", std::move(matrices));
+  const Json header = Json::object()
+                          .set("seq", static_cast<std::int64_t>(sequence))
+                          .set("stamp", std::move(stamp))
+                          .set("frame_id", "hand");
+  return "{\"header\":" + header.text(-1) + ",\"tactile_matrix\":[";
 }
+
+constexpr std::string_view kMessageEnd = "]}";
 
 }  // namespace
 
 void appendTactileSensorJson(std::string& out, const TactileFrame& frame, std::uint64_t sequence) {
-  Json matrices = Json::array();
-  for (std::size_t m = 0; m < frame.layout->numMatrices(); ++m) matrices.push(matrixJson(frame, m));
-  out += messageJson(frame, sequence, std::move(matrices)).text(-1);
+  out += messageHead(frame, sequence);
+  for (std::size_t m = 0; m < frame.layout->numMatrices(); ++m) {
+    if (m > 0) out += ',';
+    appendMatrix(out, frame, m);
+  }
+  out += kMessageEnd;
 }
 
 std::vector<std::string> tactileSensorMessages(const TactileFrame& frame,
                                                std::uint64_t sequence,
                                                std::size_t maxBytes) {
-  constexpr std::string_view kEnd = "]}";
-  std::string head = messageJson(frame, sequence, Json::array()).text(-1);
-  head.resize(head.size() - kEnd.size());
+  const std::string head = messageHead(frame, sequence);
   std::vector<std::string> messages;
   std::string message = head;
   for (std::size_t m = 0; m < frame.layout->numMatrices(); ++m) {
-    const std::string matrix = matrixJson(frame, m).text(-1);
+    std::string matrix;
+    appendMatrix(matrix, frame, m);
     if (message.size() > head.size() &&
-        message.size() + 1 + matrix.size() + kEnd.size() > maxBytes) {
-      messages.push_back(message + std::string(kEnd));
+        message.size() + 1 + matrix.size() + kMessageEnd.size() > maxBytes) {
+      messages.push_back(message + std::string(kMessageEnd));
       message = head;
     }
     if (message.size() > head.size()) message += ',';
     message += matrix;
   }
-  messages.push_back(message + std::string(kEnd));
+  messages.push_back(message + std::string(kMessageEnd));
   return messages;
 }
 
