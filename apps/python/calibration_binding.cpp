@@ -1,7 +1,10 @@
 // Binds palpate.calibrate_noise(), calibrate_sensitivity(), calibrate_tare(), calibrate_pressure()
 // and Calibration.
+#include <cmath>
 #include <filesystem>
+#include <limits>
 #include <string>
+#include <utility>
 
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
@@ -98,8 +101,8 @@ Calibration calibratePressure(const py::object& table,
   model.validate();
   if (!(sensitivity > 0.0 && sensitivity <= 1.0))
     throw py::value_error("sensitivity is not above 0, at most 1");
-  if (!(threshold >= 0.0 && threshold <= 4095.0))
-    throw py::value_error("threshold is not in 0 .. 4095");
+  if (!(threshold >= 0.0 && std::isfinite(threshold)))
+    throw py::value_error("threshold is not 0 or above");
   CalibrationSampleOptions gather;
   gather.matrix = matrix;
   return unlocked([&](const Progress& progress) {
@@ -176,14 +179,20 @@ py::dict applyTo(const Calibration& calibration,
   number("K", &MatrixForce::staticResponseCounts);
   number("pressure_kpa", &MatrixForce::kpa);
   number("pressure_sd_kpa", &MatrixForce::sdKpa);
-  number("force_n", &MatrixForce::forceN);
-  number("force_sd_n", &MatrixForce::sdForceN);
+  // Upper limits are not forces.
+  const double known = series.areaKnown ? 1.0 : std::numeric_limits<double>::quiet_NaN();
+  for (const auto& [name, member] : {std::pair("force_n", &MatrixForce::forceN),
+                                     std::pair("force_sd_n", &MatrixForce::sdForceN)})
+    table[name] = grid<double>(frames, matrices, [&](std::size_t i, std::size_t m) {
+      return static_cast<double>(series.at(i, m).*member) * known;
+    });
   flag("in_range", &MatrixForce::inRange);
   flag("temperature_known", &MatrixForce::temperatureKnown);
   flag("saturated", &MatrixForce::saturated);
-  table["hand_force_n"] = column<double>(frames, [&](std::size_t i) { return series.forceN(i); });
+  table["hand_force_n"] =
+      column<double>(frames, [&](std::size_t i) { return series.forceN(i) * known; });
   table["hand_force_sd_n"] =
-      column<double>(frames, [&](std::size_t i) { return series.sdForceN(i); });
+      column<double>(frames, [&](std::size_t i) { return series.sdForceN(i) * known; });
   table["assumptions"] = series.assumptions;
   return table;
 }
@@ -240,7 +249,9 @@ void bindClass(py::module_& module) {
            "Pressures and forces of all frames: dict time_s (T,); (T, matrices): active, K "
            "[counts], pressure_kpa, pressure_sd_kpa [kPa], force_n, force_sd_n [N], in_range (not "
            "to be relied on where False), temperature_known, saturated; hand_force_n, "
-           "hand_force_sd_n (T,) [N]; assumptions. sensitivity, threshold [counts]: the recording "
+           "hand_force_sd_n (T,) [N]; assumptions. Forces are NaN where the calibration was made "
+           "without area, the area of the indenter [mm^2]. sensitivity, threshold [counts]: the "
+           "recording "
            "was made with (default: as the calibration); tare: take off what the taxels read "
            "unloaded; drift: take the creep out of contacts that last. Error for filtered values.")
       .def("pressure_at",

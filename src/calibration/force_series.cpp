@@ -1,6 +1,7 @@
 #include "palpate/calibration/force_series.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "palpate/core/error.h"
@@ -11,7 +12,6 @@ namespace palpate {
 namespace {
 
 constexpr std::size_t kForceSeriesProgressEvery = 1024;  // frames
-constexpr double kFullScaleCounts = 4095.0;
 
 }  // namespace
 
@@ -60,6 +60,7 @@ ForceSeries forceSeries(const Profile& profile,
   ForceSeries series;
   series.numMatrices = profile.layout().numMatrices();
   series.assumptions = map.assumptions();
+  series.areaKnown = calibration.pressure.knowsArea();
   if (tare)
     series.assumptions.emplace_back("the zeros of the recording's tare event are taken off");
   if (profile.numTemperatures() == 0)
@@ -112,8 +113,8 @@ SensorSettings sensorSettingsFrom(const Json& json) {
   if (!sensitivity.isNumber() || !(sensitivity.asDouble() > 0.0) || sensitivity.asDouble() > 1.0)
     throw Error("sensor settings: 'sensitivity' isn't in (0..1]");
   if (!threshold.isNumber() || !(threshold.asDouble() >= 0.0) ||
-      threshold.asDouble() > kFullScaleCounts)
-    throw Error("sensor settings: 'threshold_counts' isn't in 0..4095");
+      !std::isfinite(threshold.asDouble()))
+    throw Error("sensor settings: 'threshold_counts' is not 0 or above");
   return {sensitivity.asDouble(), threshold.asDouble(), true};
 }
 

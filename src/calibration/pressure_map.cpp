@@ -51,6 +51,7 @@ PressureMap::PressureMap(Calibration calibration,
                          PressureMapOptions options)
     : calibration_(std::move(calibration)),
       handName_(hand.name),
+      fullScale_(static_cast<double>(hand.maximumCounts)),
       layout_(hand.layout),
       options_(std::move(options)) {
   if (!calibration_.pressure.valid())
@@ -69,6 +70,11 @@ void PressureMap::requireFitting(const std::vector<SensorSettings>& settings) co
     if (!(used.sensitivity > 0.0))
       throw std::invalid_argument("PressureMap: sensitivity must be above 0, is " +
                                   numberText(used.sensitivity));
+  for (const SensorSettings& used : settings)
+    if (!(used.thresholdCounts <= fullScale_))
+      throw std::invalid_argument("a threshold of " + numberText(used.thresholdCounts) +
+                                  " counts is above the hand's full scale, " +
+                                  numberText(fullScale_));
 }
 
 void PressureMap::useSettings(const std::vector<SensorSettings>& settings) {
@@ -182,6 +188,7 @@ void PressureMap::apply(const TactileFrame& frame,
   out.matrices.assign(matrices_.size(), {});
   out.forceN = out.sdForceN = 0.0;
   out.inRange = out.temperatureKnown = true;
+  out.areaKnown = model.knowsArea();
   const double timeS = static_cast<double>(frame.hostUs) / kUsPerS;
   for (std::size_t m = 0; m < matrices_.size(); ++m) {
     const Prepared& matrix = matrices_[m];
@@ -244,6 +251,7 @@ std::vector<std::string> PressureMap::assumptions() const {
                    "; that this one (" + options_.serial + ") answers alike is assumed");
   said.push_back("measured on matrix " + std::to_string(calibration_.matrix) +
                  "; that the others answer alike is assumed");
+  if (!calibration_.pressure.knowsArea()) said.emplace_back(kUnknownAreaText);
   const auto settingsText = [](const SensorSettings& s) {
     return "sensitivity " + numberText(s.sensitivity) + ", threshold " +
            numberText(s.thresholdCounts);

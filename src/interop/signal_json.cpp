@@ -46,8 +46,10 @@ void addMatrix(JsonLine& json, const LiveResults& results, std::size_t matrix) {
   if (results.pressure && matrix < results.pressure->matrices.size()) {
     const MatrixPressure& pressure = results.pressure->matrices[matrix];
     json.number("pressure_kpa", pressure.kpa);
-    json.number("force_n", pressure.forceN);
-    json.number("force_sd_n", pressure.sdForceN);
+    if (results.pressure->areaKnown) {
+      json.number("force_n", pressure.forceN);
+      json.number("force_sd_n", pressure.sdForceN);
+    }
     json.flag("in_range", pressure.inRange);
   }
   if (matrix < results.slip.size()) addSlip(json, results.slip[matrix]);
@@ -84,7 +86,8 @@ void appendSignalJson(std::string& out,
   if (!results.matrixSignals.empty()) {
     json.begin("whole");
     addSignals(json, results.wholeSignals);
-    if (results.pressure) json.number("force_n", results.pressure->forceN);
+    if (results.pressure && results.pressure->areaKnown)
+      json.number("force_n", results.pressure->forceN);
     json.end();
     json.begin("peak");
     json.integer("matrix", static_cast<std::int64_t>(results.peak.matrix));

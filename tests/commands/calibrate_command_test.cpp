@@ -147,8 +147,14 @@ TEST(CalibrateCommand, NoiseOfATouchedHandIsSaid) {
 TEST(CalibrateCommand, PressureIsMadeAndApplied) {
   const TemporaryFolder folder;
   writeTable(folder);
-  const auto made =
-      palpate({"calibrate", "pressure", folder / "table.csv", "-o", folder / "c.json"});
+  // Half of the 12 taxels that are active, 11.56 mm^2 each.
+  const auto made = palpate({"calibrate",
+                             "pressure",
+                             folder / "table.csv",
+                             "--area",
+                             "69.36",
+                             "-o",
+                             folder / "c.json"});
   ASSERT_EQ(made.exitCode, 0) << made.err;
   const Json json = Json::parse(testing::readFile(folder / "c.json"));
   for (const char* surface : {"K", "m"}) {
@@ -178,14 +184,15 @@ TEST(CalibrateCommand, PressureIsMadeAndApplied) {
   ASSERT_EQ(cells.size(), 12u);
   EXPECT_EQ(cells[3], 12.0);
   EXPECT_NEAR(cells[5], 7.85, 2.0 * cells[6]);
-  EXPECT_NEAR(cells[7], cells[5] * 12 * 11.56e-3, 1e-6);
+  EXPECT_NEAR(cells[7], cells[5] * 6 * 11.56e-3, 1e-6);
 
   // contact fills force_n with the same.
   const auto contact =
       palpate({"contact", folder / "step4.dsa", "--calibration", folder / "c.json"});
-  ASSERT_EQ(contact.exitCode, 0) << contact.err;
+  EXPECT_EQ(contact.exitCode, 3) << "the load is out of range while it rises";
   const std::string end = contact.out.substr(contact.out.rfind(',') + 1);
   EXPECT_NEAR(parseDouble(end.substr(0, end.size() - 1)).value(), cells[7], 1e-9);
+  EXPECT_NE(contact.err.find("outside the measured range"), std::string::npos) << contact.err;
 
   const auto written = palpate({"calibrate",
                                 "apply",
@@ -205,12 +212,91 @@ TEST(CalibrateCommand, PressureIsMadeAndApplied) {
       {"needs counts"});
 }
 
-TEST(CalibrateCommand, SettingsThatTheRecordingNotesAreTaken) {
+// analyst M5
+TEST(CalibrateCommand, ForcesAreNotKnownWithoutTheAreaOfTheIndenter) {
   const TemporaryFolder folder;
   writeTable(folder);
   ASSERT_EQ(
       palpate({"calibrate", "pressure", folder / "table.csv", "-o", folder / "c.json"}).exitCode,
       0);
+  const std::string said = "the area of the indenter is not known (calibrate pressure --area MM2)";
+  const auto applied = palpate({"calibrate",
+                                "apply",
+                                folder / "step4.dsa",
+                                "--calibration",
+                                folder / "c.json",
+                                "--quiet"});
+  EXPECT_EQ(applied.exitCode, 3);
+  EXPECT_EQ(applied.err.find("palpate: " + said), 0u) << applied.err;
+  EXPECT_EQ(std::count(applied.err.begin(), applied.err.end(), '\n'), 1) << applied.err;
+  // frame,time_ms,matrix,active,K,pressure_kpa,pressure_sd_kpa,,,in_range,..
+  const std::string row = applied.out.substr(applied.out.find("\n349,") + 1);
+  EXPECT_NE(row.find(",,,1,"), std::string::npos) << row;
+  EXPECT_EQ(std::count(row.begin(), row.end(), ','), 11) << row;
+
+  const auto contact =
+      palpate({"contact", folder / "step4.dsa", "--calibration", folder / "c.json", "--quiet"});
+  EXPECT_EQ(contact.exitCode, 3);
+  EXPECT_NE(contact.err.find("have no force_n: " + said), std::string::npos) << contact.err;
+  EXPECT_EQ(contact.out.substr(contact.out.size() - 2), ",\n");
+
+  // Pressures need no area.
+  const auto written = palpate({"calibrate",
+                                "apply",
+                                folder / "step4.dsa",
+                                "--calibration",
+                                folder / "c.json",
+                                "-o",
+                                folder / "kpa.palpate"});
+  EXPECT_EQ(written.exitCode, 0) << written.err;
+}
+
+// analyst M5: what is outside of the measured range is not a force of the hand.
+TEST(CalibrateCommand, ContactHasNoForceOutsideTheMeasuredRange) {
+  const TemporaryFolder folder;
+  writeTable(folder);
+  ASSERT_EQ(palpate({"calibrate",
+                     "pressure",
+                     folder / "table.csv",
+                     "--area",
+                     "69.36",
+                     "-o",
+                     folder / "c.json"})
+                .exitCode,
+            0);
+  ProfileBuilder builder(sdh2().layout);
+  for (int i = 0; i < 3; ++i) {
+    TactileFrame frame(sdh2().layout);
+    if (i == 1) frame.matrix(1).block(3, 1, 4, 3).setConstant(4000.0F);
+    builder.addFrame(1'000'000 + 30'000 * i, frame.values);
+    builder.addAngles(1'000'000 + 30'000 * i, std::vector<double>(7, 0.0));
+  }
+  saveRecording(builder.finish({}), {}, folder / "strong.dsa");
+  const auto contact =
+      palpate({"contact", folder / "strong.dsa", "--calibration", folder / "c.json"});
+  EXPECT_EQ(contact.exitCode, 3);
+  EXPECT_NE(contact.err.find("1 of 3 frames have no force_n: a contact is outside the measured "
+                             "range of the calibration"),
+            std::string::npos)
+      << contact.err;
+  std::istringstream lines(contact.out);
+  std::vector<std::string> ends;
+  for (std::string line; std::getline(lines, line);) ends.push_back(line.substr(line.rfind(',')));
+  EXPECT_EQ(ends, (std::vector<std::string>{",force_n", ",0", ",", ",0"}));
+}
+
+TEST(CalibrateCommand, SettingsThatTheRecordingNotesAreTaken) {
+  const TemporaryFolder folder;
+  writeTable(folder);
+  ASSERT_EQ(palpate({"calibrate",
+                     "pressure",
+                     folder / "table.csv",
+                     "--area",
+                     "69.36",
+                     "-o",
+                     folder / "c.json"})
+                .exitCode,
+            0);
   const std::vector<std::string> apply = {
       "calibrate", "apply", folder / "step4.dsa", "--calibration", folder / "c.json"};
   const auto note = [&](const std::string& json) {

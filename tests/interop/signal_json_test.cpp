@@ -110,6 +110,13 @@ TEST(SignalJson, SaysSlipForceAndTheHand) {
   EXPECT_EQ(json.at("m1").at("force_n").asDouble(), 1.5);
   EXPECT_EQ(json.at("m1").at("in_range").asInteger(), 0);
   EXPECT_EQ(json.at("whole").at("force_n").asDouble(), 1.75);
+  // analyst M5: upper limits are not sent as forces.
+  pressure->areaKnown = false;
+  const Json limits = parsed(results, &link);
+  for (const char* key : {"force_n", "force_sd_n"})
+    EXPECT_FALSE(limits.at("m1").contains(key)) << key;
+  EXPECT_FALSE(limits.at("whole").contains("force_n"));
+  EXPECT_EQ(limits.at("m1").at("pressure_kpa").asDouble(), 12.5);
   const Json angles = json.at("angles_deg");
   ASSERT_EQ(angles.size(), 3u);
   EXPECT_EQ(angles.at(1).asDouble(), -60.5);

@@ -34,8 +34,12 @@ void calibrateApplyAppendRow(std::string& line,
     appendNumber(line, whole);
     line += ',';
   }
-  for (const double value : {p.staticResponseCounts, p.kpa, p.sdKpa, p.forceN, p.sdForceN}) {
+  for (const double value : {p.staticResponseCounts, p.kpa, p.sdKpa}) {
     appendNumber(line, value);
+    line += ',';
+  }
+  for (const double value : {p.forceN, p.sdForceN}) {
+    if (pressures.areaKnown) appendNumber(line, value);
     line += ',';
   }
   for (const bool flag : {p.inRange, p.temperatureKnown, p.saturated}) {
@@ -68,9 +72,12 @@ int calibrateApply(const Arguments& words) {
   options.push_back({"force", "", "replace OUT"});
   const CommandLine given(
       {.synopsis = "palpate calibrate apply FILE --calibration C.json [-o OUT.palpate]",
-       .purpose = "Computes pressure and force by a calibration. Prints CSV, a row per frame and "
-                  "matrix that is touched: K [counts], pressure [kPa] and force [N] with their "
-                  "standard deviations; in_range 0: outside the measured range, not reliable.",
+       .purpose =
+           "Computes pressure and force by a calibration. Prints CSV, a row per frame and "
+           "matrix that is touched: K [counts], pressure [kPa] and force [N] with their "
+           "standard deviations; in_range 0: outside the measured range, not reliable. Forces "
+           "are empty, and the exit code is 3, where the calibration was made without "
+           "--area.",
        .options = options,
        .example = "palpate calibrate apply grasp.palpate --calibration hand.json > force.csv",
        .minArguments = 1,
@@ -87,8 +94,10 @@ int calibrateApply(const Arguments& words) {
   const Profile profile = openRecording(file, progress.callback());
   progress.wipe();
   CalibratedFrames frames(*choice, file, profile);
-  if (!given.quiet())
-    for (const std::string& sentence : frames.assumptions())
+  // Without the pressures' forces the result is not whole: that is said with --quiet, too.
+  const bool noForces = !frames.areaKnown() && !outPath;
+  for (const std::string& sentence : frames.assumptions())
+    if (!given.quiet() || (noForces && sentence == kUnknownAreaText))
       std::fprintf(stderr, "palpate: %s\n", escapedLine(sentence).c_str());
   StandardOutput out;
   if (!outPath) out.write(kCalibrateApplyColumns);
@@ -129,7 +138,7 @@ int calibrateApply(const Arguments& words) {
                   given.has("force") ? Overwrite::kReplace : Overwrite::kRefuse,
                   report);
   }
-  return kDone;
+  return noForces && touched > 0 ? kPartlyDone : kDone;
 }
 
 }  // namespace palpate::commands

@@ -14,6 +14,7 @@
 #include "palpate/recording/recording.h"
 
 #include "commands/calibrate_commands.h"
+#include "commands/hand_options.h"
 
 namespace palpate::commands {
 namespace {
@@ -78,9 +79,10 @@ int calibratePressure(const Arguments& words) {
   }
   Calibration calibration = calibrationOf(all, model);
   calibration.settings = {given.number("sensitivity", 0.01, 1.0).value_or(1.0),
-                          given.number("threshold", 0.0, 4095.0).value_or(100.0),
+                          given.number("threshold", 0.0, kLargestFullScale).value_or(100.0),
                           true};
-  calibration.sensitivityOffset = given.number("sensitivity-offset", -4095.0, 4095.0);
+  calibration.sensitivityOffset =
+      given.number("sensitivity-offset", -kLargestFullScale, kLargestFullScale);
   calibration.noise = noise;
   calibration.programVersion = PALPATE_VERSION;
   calibration.madeAt = utcStamp();

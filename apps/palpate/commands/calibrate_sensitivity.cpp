@@ -59,10 +59,11 @@ int calibrateSensitivity(const Arguments& words) {
   StepReportOptions options;
   options.steps.signal = signalGiven(given);
   options.fit.loss = lossGiven(given);
-  const double threshold = given.number("threshold", 0.0, 4095.0).value_or(100.0);
+  const double threshold = given.number("threshold", 0.0, kLargestFullScale).value_or(100.0);
   ProgressLine progress("reading " + file.string(), given.quiet());
   const Profile profile = openRecording(file, progress.callback());
   requireMatrix(file, profile.layout().numMatrices(), matrix);
+  requireWithinFullScale("threshold", threshold, profile.hand());
   const StepReport report = reportSteps(profile, matrix, options, progress.callback());
   progress.wipe();
   const std::size_t n = report.steps.size();

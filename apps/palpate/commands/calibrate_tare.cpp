@@ -10,6 +10,7 @@
 #include "palpate/recording/recording.h"
 
 #include "commands/calibrate_commands.h"
+#include "commands/hand_options.h"
 
 namespace palpate::commands {
 namespace {
@@ -70,9 +71,11 @@ int calibrateTare(const Arguments& words) {
   }
   TareOptions options;
   options.windowS = given.number("window", 0.05, 3600.0).value_or(options.windowS);
-  options.maxRestCounts = given.number("most", 0.0, 4095.0).value_or(options.maxRestCounts);
+  options.maxRestCounts =
+      given.number("most", 0.0, kLargestFullScale).value_or(options.maxRestCounts);
   ProgressLine progress("reading " + file.string(), given.quiet());
   const Profile profile = openRecording(file, progress.callback());
+  requireWithinFullScale("most", options.maxRestCounts, profile.hand());
   const Tare tare = findTare(profile, options, progress.callback());
   progress.wipe();
   std::size_t found = 0;

@@ -4,6 +4,8 @@
 #include "palpate/core/error.h"
 #include "palpate/recording/recording.h"
 
+#include "commands/hand_options.h"
+
 namespace palpate::commands {
 namespace {
 
@@ -90,7 +92,7 @@ std::optional<CalibrationChoice> calibrationGiven(const CommandLine& given) {
     throw FileError(*path, "has no P(K, T), so it can't give forces; its notes say why");
   choice.options.compensateDrift = !given.has("no-drift");
   const auto sensitivity = given.number("sensor-sensitivity", 0.01, 1.0),
-             threshold = given.number("sensor-threshold", 0.0, 4095.0);
+             threshold = given.number("sensor-threshold", 0.0, kLargestFullScale);
   if (sensitivity || threshold) {
     SensorSettings settings = choice.calibration.settings;
     settings.assumed = true;

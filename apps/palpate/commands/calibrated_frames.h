@@ -42,6 +42,8 @@ class CalibratedFrames {
   const PressureFrame& of(const TactileFrame& frame);
   // The assumptions that were made, one sentence each.
   std::vector<std::string> assumptions() const;
+  // Whether forces are known, not only their upper limits (PressureFrame::areaKnown).
+  bool areaKnown() const { return map_.calibration().pressure.knowsArea(); }
 
  private:
   const Profile& profile_;

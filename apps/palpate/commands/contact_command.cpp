@@ -1,5 +1,6 @@
 // The command `palpate contact PATH...` computes where a hand touches in space, frame by frame, as
 // CSV.
+#include <algorithm>
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
@@ -60,6 +61,7 @@ struct AngleProblems {
   std::size_t unusable = 0;
   std::string firstOutOfRange = {}, firstUnusable = {};
   std::size_t notFinite = 0;  // frames with values that are not finite
+  std::size_t noForce = 0;    // frames whose force is not known
 };
 
 void appendVector(std::string& line, const Eigen::Vector3d& vector) {
@@ -77,7 +79,17 @@ void appendStart(std::string& line, std::size_t frame, std::int64_t hostUs) {
   line += ',';
 }
 
-// `forceN`: nothing without a calibration.
+// The force of the hand [N]; nothing where a contact is outside the measured range, or the area of
+// the indenter isn't known.
+std::optional<double> knownForceN(const PressureFrame& pressures) {
+  const bool touched = std::any_of(pressures.matrices.begin(),
+                                   pressures.matrices.end(),
+                                   [](const MatrixPressure& each) { return each.active > 0; });
+  if (touched && !(pressures.areaKnown && pressures.inRange)) return std::nullopt;
+  return pressures.forceN;
+}
+
+// `forceN`: nothing without a calibration, and where it isn't known.
 void appendFrame(std::string& line,
                  const HandContact& contact,
                  bool posed,
@@ -197,16 +209,18 @@ AngleProblems writeContact(StandardOutput& out,
     contactOf(frame, poses.pose(), request.options, contact);
     ++problems.frames;
     if (contact.numNotFinite > 0) ++problems.notFinite;
+    std::optional<double> forceN;
+    if (calibrated) {
+      forceN = knownForceN(calibrated->of(frame));
+      if (!forceN) ++problems.noForce;
+    }
     const std::size_t rows = request.matrices ? contact.matrices.size() : 1;
     for (std::size_t m = 0; m < rows; ++m) {
       appendStart(line, i, frame.hostUs);
       if (request.matrices)
         appendMatrix(line, m, contact.matrices[m], posed);
       else
-        appendFrame(line,
-                    contact,
-                    posed,
-                    calibrated ? std::optional(calibrated->of(frame).forceN) : std::nullopt);
+        appendFrame(line, contact, posed, forceN);
       out.write(line += lineEnd);
     }
   }
@@ -214,7 +228,10 @@ AngleProblems writeContact(StandardOutput& out,
 }
 
 // Prints the problems; returns false when rows lack values because of them.
-bool reportProblems(const std::filesystem::path& file, const AngleProblems& problems, bool quiet) {
+bool reportProblems(const std::filesystem::path& file,
+                    const AngleProblems& problems,
+                    bool areaKnown,
+                    bool quiet) {
   const auto say = [&](std::size_t frames, const std::string& what) {
     std::fprintf(stderr,
                  "palpate: %s: %zu of %zu frames %s\n",
@@ -228,11 +245,16 @@ bool reportProblems(const std::filesystem::path& file, const AngleProblems& prob
         "have joint angles that the hand can't take: " + problems.firstOutOfRange);
   if (problems.notFinite > 0)
     say(problems.notFinite, "have values that are not numbers; these were left out");
+  if (problems.noForce > 0)
+    say(problems.noForce,
+        areaKnown ? "have no force_n: a contact is outside the measured range of the calibration "
+                    "(palpate calibrate apply prints it with in_range 0)"
+                  : std::string("have no force_n: ") + kUnknownAreaText);
   if (problems.unusable > 0)
     say(problems.unusable,
         "have no usable joint angles, and no sphere: " + problems.firstUnusable +
             "; give some with --angles");
-  return problems.unusable + problems.notFinite == 0;
+  return problems.unusable + problems.notFinite + problems.noForce == 0;
 }
 
 }  // namespace
@@ -243,7 +265,9 @@ int contactCommand(const Arguments& words) {
        .purpose = "Prints for every frame, as CSV, how many taxels are active (value > 0) and the "
                   "smallest sphere around them in the hand's base frame [mm]; the sphere is empty "
                   "where nothing touches. The column force_n [N] is filled with --calibration "
-                  "only; `palpate calibrate apply` also prints its standard deviation. With "
+                  "only, and empty where the force isn't known: outside the measured range, or "
+                  "with a calibration made without --area; `palpate calibrate apply` also prints "
+                  "pressures and standard deviations. With "
                   "--matrices there is a row per matrix instead: its contact centroid, mean "
                   "normal, principal axes and the standard deviations along them. With --size "
                   "there is a row per grasp: diameter and compression of the object. PATH is a "
@@ -268,7 +292,7 @@ int contactCommand(const Arguments& words) {
   if (given.has("size")) return contactSizes(given);
   ContactRequest request{.anglesDeg = anglesOf(given)};
   request.matrices = given.has("matrices");
-  request.options.threshold = given.number("threshold", 0.0, 4095.0).value_or(0.0);
+  request.options.threshold = given.number("threshold", 0.0, kLargestFullScale).value_or(0.0);
   request.calibration = calibrationGiven(given);
   if (request.calibration && request.matrices)
     throw UsageError(
@@ -288,6 +312,7 @@ int contactCommand(const Arguments& words) {
       given.quiet(),
       [&](const std::filesystem::path& file, const Profile& whole, const Progress& progress) {
         const Profile profile = filteredBy(recipe, whole, file, progress);
+        requireWithinFullScale("threshold", request.options.threshold, profile.hand());
         const HandGeometry geometry(geometryOf(given, file, profile));
         const bool isRigid = profile.hand().axes.empty();
         request.anglesDeg = isRigid ? std::vector<double>() : anglesOf(given, profile.hand());
@@ -318,7 +343,9 @@ int contactCommand(const Arguments& words) {
           throw;
         }
         out.finish();
-        allThere = reportProblems(file, problems, given.quiet()) && allThere;
+        const bool areaKnown =
+            !request.calibration || request.calibration->calibration.pressure.knowsArea();
+        allThere = reportProblems(file, problems, areaKnown, given.quiet()) && allThere;
       });
   return code == kDone && !allThere ? kPartlyDone : code;
 }

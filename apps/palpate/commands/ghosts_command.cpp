@@ -16,6 +16,7 @@
 #include "commands/commands.h"
 #include "commands/filter_options.h"
 #include "commands/ghosts_table.h"
+#include "commands/hand_options.h"
 #include "commands/recording_list.h"
 
 namespace palpate::commands {
@@ -153,6 +154,7 @@ int recorded(const CommandLine& given,
   Rows rows(given.has("json"), false);
   const auto work =
       [&](const std::filesystem::path& file, const Profile& profile, const Progress& progress) {
+        requireWithinFullScale("above", options.activeAboveCounts, profile.hand());
         GhostingOptions ofFile = options;
         ofFile.restartsUs = settingsTimesUs(readEvents(file).events);
         std::size_t part = 0;
@@ -213,7 +215,7 @@ int ghostsCommand(const Arguments& words) {
   const std::vector<Recipe> recipes =
       given.has("filter") || given.has("recipe") ? std::vector{own} : ghostCandidates();
   GhostingOptions options;
-  options.activeAboveCounts = given.number("above", 0.0, 4095.0).value_or(0.0);
+  options.activeAboveCounts = given.number("above", 0.0, kLargestFullScale).value_or(0.0);
   return given.words().empty() ? emulated(given, recipes, options)
                                : recorded(given, recipes, options);
 }

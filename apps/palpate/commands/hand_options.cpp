@@ -1,6 +1,7 @@
 #include "commands/hand_options.h"
 
 #include "palpate/core/error.h"
+#include "palpate/core/escaped_line.h"
 #include "palpate/core/number_text.h"
 #include "palpate/kinematics/joint_range.h"
 #include "palpate/model/hand_file.h"
@@ -84,6 +85,13 @@ GeometryDescription geometryOf(const CommandLine& given,
   } catch (const Error& error) {
     throw FileError(file, error.what());
   }
+}
+
+void requireWithinFullScale(const std::string& option, double value, const HandDescription& hand) {
+  const auto most = static_cast<double>(hand.maximumCounts);
+  if (value > most)
+    throw UsageError("--" + option + " " + numberText(value) + " is above the full scale of " +
+                     shortened(hand.name) + ", " + numberText(most) + " " + hand.unit);
 }
 
 }  // namespace palpate::commands

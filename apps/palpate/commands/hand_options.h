@@ -44,4 +44,11 @@ GeometryDescription geometryOf(const CommandLine& given,
                                const Profile& profile,
                                const std::string& defaultName = "study");
 
+// Largest full scale that a hand may have, in its unit: bound of options that are values of taxels
+// before the hand is known.
+inline constexpr double kLargestFullScale = 1e9;
+// Throws UsageError that names the option unless a value of a taxel is within the hand's full
+// scale.
+void requireWithinFullScale(const std::string& option, double value, const HandDescription& hand);
+
 }  // namespace palpate::commands

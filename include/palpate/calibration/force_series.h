@@ -40,6 +40,7 @@ struct ForceSeries {
   std::vector<MatrixForce> rows;  // frame after frame, matrix after matrix
   std::size_t contacts = 0;       // rows with an active taxel
   std::size_t beyond = 0;         // rows of these that are outside of the measured range
+  bool areaKnown = true;          // as in PressureFrame
   std::vector<std::string> assumptions;
 
   const MatrixForce& at(std::size_t frame, std::size_t matrix) const {

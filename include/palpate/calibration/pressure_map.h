@@ -51,7 +51,15 @@ struct PressureFrame {
   double sdForceN = 0.0;
   bool inRange = true;  // for every contact
   bool temperatureKnown = true;
+  // Whether the calibration knows the area of its indenter (PressureModel::knowsArea()). If not,
+  // all forces are upper limits.
+  bool areaKnown = true;
 };
+
+// What tables say where the area of the indenter is not known.
+inline constexpr const char* kUnknownAreaText =
+    "the area of the indenter is not known (calibrate pressure --area MM2): forces are upper "
+    "limits, 2.3 times the true ones with the study's indenter; tables leave them empty";
 
 // Settings that hold for frames from a certain time on.
 struct SettingsChange {
@@ -96,8 +104,8 @@ class PressureMap {
   void setSettings(const std::vector<SensorSettings>& settings);
 
   // The assumptions of the result that a reader must know, one sentence each: a calibration that
-  // was measured on another hand, sensor or matrix, settings that are not recorded, a converted
-  // sensitivity.
+  // was measured on another hand, sensor or matrix, with an indenter of unknown area; settings that
+  // are not recorded, a converted sensitivity.
   std::vector<std::string> assumptions() const;
   const Calibration& calibration() const noexcept { return calibration_; }
 
@@ -129,6 +137,7 @@ class PressureMap {
 
   Calibration calibration_;
   std::string handName_;
+  double fullScale_ = 0.0;  // [counts]
   std::shared_ptr<const SensorLayout> layout_;
   PressureMapOptions options_;
   std::vector<Prepared> matrices_;

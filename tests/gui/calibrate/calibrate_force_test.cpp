@@ -28,7 +28,7 @@ class CalibrateForceTest : public CalibratePanelTest {
 };
 
 // P = .1 K, made from samples of 50 to 850 counts and 28 to 44 deg C.
-Calibration tenth() {
+Calibration tenth(double indenterAreaMm2 = 50.0) {
   Calibration calibration;
   calibration.programVersion = "0.1.0";
   calibration.madeAt = "2014-11-27T10:31:05Z";
@@ -44,7 +44,7 @@ Calibration tenth() {
                                      .driftCountsPerS = 0.0,
                                      .nearestDegC = t,
                                      .activeAreaMm2 = 100.0});
-  calibration.pressure = fitPressureModel(calibration.samples, {});
+  calibration.pressure = fitPressureModel(calibration.samples, {.indenterAreaMm2 = indenterAreaMm2});
   return calibration;
 }
 
@@ -172,6 +172,25 @@ TEST_F(CalibrateForceTest, ForcesAreTheAppliedCalibrations) {
   EXPECT_TRUE(find<QDoubleSpinBox>("forceSensitivity")->parentWidget()->isHidden())
       << "settings that nobody told";
   EXPECT_EQ(appliedCalibration(settings_, sdh2().name), "");
+}
+
+// analyst M5
+TEST_F(CalibrateForceTest, WithoutTheAreaOfTheIndenterForcesAreUpperLimits) {
+  const OpenedRecordingPtr recording = opened(loads(3, {500.0}));
+  applyCalibration(settings_, sdh2().name, QString::fromStdString(saved(tenth(0.0)).string()));
+  show("Force", recording);
+  ForcePage& page = panel_->force();
+  ASSERT_TRUE(page.shown()) << why().toStdString();
+  page.setPosition(5.0);
+  for (const int row : {3, 6})
+    EXPECT_TRUE(cell("forceTable", row, 4).startsWith("≤ ")) << row;
+  const QString notes = find<QLabel>("forceNotes")->text();
+  EXPECT_TRUE(notes.contains("the area of the indenter is not known")) << notes.toStdString();
+  const std::size_t row = 6 * page.found()->frameAt(5.0) + 3;
+  const std::vector<std::string> cells = page.tables()[0].make().row(row);
+  EXPECT_NE(cells[5], "") << "a pressure";
+  EXPECT_EQ(cells[7], "");
+  EXPECT_EQ(cells[8], "");
 }
 
 TEST_F(CalibrateForceTest, PressuresAreShownInTheChosenUnitAndWrittenInKilopascals) {

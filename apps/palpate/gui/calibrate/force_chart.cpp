@@ -98,7 +98,9 @@ void ForceChart::setTheme(Theme theme) {
 void ForceChart::style() {
   const ThemeColors& colors = colorsOf(theme_);
   styleChart(*this, theme_);
-  yAxis->setLabel(fittingName("force in N", "N", *this));
+  const bool isLimit = series_ && !series_->areaKnown;
+  yAxis->setLabel(isLimit ? fittingName("upper limit of the force in N", "≤ N", *this)
+                          : fittingName("force in N", "N", *this));
   const bool whole = !series_ || matrix_ >= series_->numMatrices;
   const QColor color = whole ? wholeColor(theme_) : matrixColor(matrix_, theme_);
   QColor shade = color;

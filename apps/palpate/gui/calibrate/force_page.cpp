@@ -24,7 +24,6 @@ namespace palpate::gui {
 namespace {
 
 constexpr double kQuantile = 1.96;  // normal quantile for 95 %
-constexpr double kFullScaleCounts = 4095.0;
 constexpr double kLeastSensitivity = 0.01;
 
 std::vector<FigureColumn> forcePageColumns() {
@@ -42,11 +41,13 @@ QString plusMinus(double sd) { return "± " + figure(kQuantile * sd, 2); }
 
 std::vector<FigureCell> forcePageRowOf(const QString& name,
                                        const MatrixForce& force,
+                                       bool areaKnown,
                                        const ShownUnit& pressure) {
   if (force.active == 0)
     return {{.text = name}, {.text = "0"}, {.text = "–"}, {.text = "–"}, {.text = "0"}, {}};
   QStringList flags;
   if (!force.inRange) flags.append("outside range");
+  if (!areaKnown) flags.append("upper limit: area of the indenter unknown");
   if (force.saturated) flags.append("saturated: the real value is higher");
   if (!force.temperatureKnown) flags.append("temperature assumed");
   if (force.compensated) flags.append("creep corrected");
@@ -58,12 +59,12 @@ std::vector<FigureCell> forcePageRowOf(const QString& name,
            .detail = "± " + figure(pressure.conversion.ofDifference(
                                        kQuantile * static_cast<double>(force.sdKpa)),
                                    2 + pressure.conversion.moreDecimals)},
-          {.text = figure(static_cast<double>(force.forceN), 2),
+          {.text = (areaKnown ? "" : "≤ ") + figure(static_cast<double>(force.forceN), 2),
            .detail = plusMinus(static_cast<double>(force.sdForceN))},
           {.text = flags.value(0),
            .detail = flags.mid(1).join(", "),
            .tip = flags.join("\n"),
-           .warning = !force.inRange || force.saturated}};
+           .warning = !force.inRange || force.saturated || !areaKnown}};
 }
 
 // The same columns as `palpate calibrate apply` prints, with times in seconds.
@@ -88,9 +89,10 @@ TextTable forceTable(const std::shared_ptr<const ForceSeries>& found) {
                                               numberText(found->timeS[frame]),
                                               std::to_string(row % found->numMatrices),
                                               std::to_string(force.active)};
-            for (const float value :
-                 {force.staticResponseCounts, force.kpa, force.sdKpa, force.forceN, force.sdForceN})
+            for (const float value : {force.staticResponseCounts, force.kpa, force.sdKpa})
               cells.push_back(numberText(value));
+            for (const float value : {force.forceN, force.sdForceN})
+              cells.push_back(found->areaKnown ? numberText(value) : std::string());
             for (const bool flag : {force.inRange, force.temperatureKnown, force.saturated})
               cells.emplace_back(flag ? "1" : "0");
             return cells;
@@ -154,7 +156,7 @@ void ForcePage::makeTop() {
     return made;
   };
   sensitivity_ = field("forceSensitivity", "Sensitivity", kLeastSensitivity, 1.0);
-  threshold_ = field("forceThreshold", "Threshold in counts", 0.0, kFullScaleCounts);
+  threshold_ = field("forceThreshold", "Threshold in counts", 0.0, 0.0);  // showCalibration()
   threshold_->setDecimals(0);
   keep_ = button("forceKeep", "Keep", "Add these settings to the recording (undo: Ctrl+Z)");
   recordedWith_ = new QWidget(this);
@@ -239,6 +241,8 @@ void ForcePage::showCalibration() {
   choose_->setEnabled(hand() != nullptr);
   // A live hand's controller reports its settings. Without a calibration the fields have no values.
   recordedWith_->setVisible(!live() && !path.isEmpty());
+  const QSignalBlocker blocker(threshold_);
+  if (hand()) threshold_->setMaximum(static_cast<double>(hand()->maximumCounts));
   chart_->setVisible(!live());
 }
 
@@ -307,7 +311,8 @@ void ForcePage::showFrame() {
   const std::size_t frame = found_->frameAt(positionS_);
   std::vector<MatrixForce> forces;
   for (std::size_t m = 0; m < found_->numMatrices; ++m) forces.push_back(found_->at(frame, m));
-  showForces({std::move(forces), found_->forceN(frame), found_->sdForceN(frame)});
+  showForces(
+      {std::move(forces), found_->forceN(frame), found_->sdForceN(frame), found_->areaKnown});
 }
 
 void ForcePage::showLive(const PressureFrame& pressure,
@@ -315,7 +320,7 @@ void ForcePage::showLive(const PressureFrame& pressure,
   if (!live() || !liveHand_ || !isVisible() || pressure.matrices.empty()) return;
   std::vector<MatrixForce> forces;
   for (const MatrixPressure& matrix : pressure.matrices) forces.push_back(matrixForce(matrix));
-  showForces({std::move(forces), pressure.forceN, pressure.sdForceN});
+  showForces({std::move(forces), pressure.forceN, pressure.sdForceN, pressure.areaKnown});
   const QString notes = linesOf(assumptions);
   if (notes_->text() != notes) notes_->setText(notes);
   if (!shown()) showContent();
@@ -323,12 +328,12 @@ void ForcePage::showLive(const PressureFrame& pressure,
 
 void ForcePage::showForces(const Shown& now) {
   shownForces_ = now;
-  const auto& [forces, sumN, sdN] = *shownForces_;
+  const auto& [forces, sumN, sdN, areaKnown] = *shownForces_;
   std::vector<std::vector<FigureCell>> rows;
   int active = 0;
   bool inRange = true;
   for (std::size_t m = 0; m < forces.size(); ++m) {
-    rows.push_back(forcePageRowOf(rowName(m), forces[m], pressure_));
+    rows.push_back(forcePageRowOf(rowName(m), forces[m], areaKnown, pressure_));
     active += forces[m].active;
     inRange = inRange && forces[m].inRange;
   }
@@ -336,7 +341,8 @@ void ForcePage::showForces(const Shown& now) {
                   {.text = QString::number(active)},
                   {},
                   {},
-                  {.text = figure(sumN, 2), .detail = active > 0 ? plusMinus(sdN) : QString()},
+                  {.text = (areaKnown || active == 0 ? "" : "≤ ") + figure(sumN, 2),
+                   .detail = active > 0 ? plusMinus(sdN) : QString()},
                   {.text = inRange ? "" : "outside range", .warning = !inRange}});
   table_->setRows(rows);
 }

@@ -66,6 +66,7 @@ class ForcePage : public ComputedPage {
     std::vector<MatrixForce> forces;
     double sumN = 0.0;
     double sdN = 0.0;
+    bool areaKnown = true;
   };
   void showForces(const Shown& now);
   void showChosen(int row);

@@ -141,8 +141,8 @@ void InspectFeature::showForces() {
   std::vector<MatrixTableModel::Force> rows;
   if (pressure) {
     for (const MatrixPressure& matrix : pressure->matrices)
-      rows.push_back({matrix.forceN, matrix.sdForceN, matrix.inRange});
-    rows.push_back({pressure->forceN, pressure->sdForceN, pressure->inRange});
+      rows.push_back({matrix.forceN, matrix.sdForceN, matrix.inRange, pressure->areaKnown});
+    rows.push_back({pressure->forceN, pressure->sdForceN, pressure->inRange, pressure->areaKnown});
   }
   panel_->table().showForces(rows, "no calibration: Calibrate, Ctrl+Shift+N");
 }

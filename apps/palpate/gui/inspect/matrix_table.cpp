@@ -24,6 +24,11 @@ bool sameText(const CharacteristicSignals& a, const CharacteristicSignals& b) {
   return a.active == b.active && a.sum == b.sum && a.maximum == b.maximum && a.minimum == b.minimum;
 }
 
+QString forceNumber(const MatrixTableModel::Force& force, int decimals) {
+  const bool isLimit = !force.areaKnown && force.newtons > 0.0;
+  return (isLimit ? "≤ " : "") + figure(force.newtons, decimals);
+}
+
 }  // namespace
 
 // Draws check boxes in the colours of the theme, so that an empty box is visible, too.
@@ -177,7 +182,7 @@ QString MatrixTableModel::text(std::size_t row, int column) const {
     case kMaximum:
       return now.active == 0 ? "–" : QString::number(now.maximum, 'f', decimals_);
     case kForce:
-      return row < forces_.size() ? figure(forces_[row].newtons, 2) : QString("–");
+      return row < forces_.size() ? forceNumber(forces_[row], 2) : QString("–");
     case kMinimum:
       return now.active == 0 ? "–" : QString::number(now.minimum, 'f', decimals_);
     case kSum:
@@ -193,8 +198,9 @@ QString MatrixTableModel::forceText(std::size_t row) const {
   if (row >= forces_.size()) return forceTip_;
   constexpr double kQuantile = 1.96;
   const Force& force = forces_[row];
-  return figure(force.newtons, 3) + " ± " + figure(kQuantile * force.sd, 3) + " N (95 %)" +
-         (force.inRange ? "" : "\noutside the calibrated range");
+  return forceNumber(force, 3) + " ± " + figure(kQuantile * force.sd, 3) + " N (95 %)" +
+         (force.inRange ? "" : "\noutside the calibrated range") +
+         (force.areaKnown ? "" : "\nupper limit: the area of the indenter is not known");
 }
 
 QVariant MatrixTableModel::data(const QModelIndex& index, int role) const {

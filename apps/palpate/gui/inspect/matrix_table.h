@@ -36,6 +36,7 @@ class MatrixTableModel : public QAbstractTableModel {
     double newtons = 0.0;
     double sd = 0.0;
     bool inRange = true;
+    bool areaKnown = true;  // false: an upper limit
     bool operator==(const Force&) const = default;
   };
   // One entry per matrix, the whole hand last; empty: no calibration is applied. `why`: tells that
