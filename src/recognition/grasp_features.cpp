@@ -72,7 +72,7 @@ std::string_view featureUnit(FeatureSet set, std::string_view name) noexcept {
     if (name == "diameter" || name == "compressibility") return "mm";
     return name.starts_with("std_") ? "full scale" : std::string_view();
   }
-  if (name == "size_z" || name == "compression_mm") return "mm";
+  if (name == "closing_mm") return "mm";
   if (set == FeatureSet::kBest) return {};
   if (name.starts_with("angle_")) return "deg";
   return name.ends_with("_row") || name.ends_with("_column") ? "taxels" : std::string_view();

@@ -6,6 +6,7 @@
 #include "palpate/core/error.h"
 #include "palpate/core/escaped_line.h"
 #include "palpate/core/text_file.h"
+#include "palpate/recognition/plateau_features.h"
 #include "palpate/recognition/trained_model.h"
 
 #include "json_numbers.h"
@@ -112,6 +113,7 @@ TrainedModel trainedModelFrom(const Json& json) {
     throw Error("model: its feature set '" + shortened(set) + "' isn't known to this version");
   model.set = *known;
   model.features = js::texts(json, "features");
+  useCurrentFeatureNames(model.features);
   model.classes = js::texts(json, "classes");
   model.options = js::member(json, "options");
   model.validation = js::member(json, "validation");

@@ -227,8 +227,13 @@ const std::vector<std::string>& plateauFeatureNames() {
                                                  "entropy",
                                                  "ln_active",
                                                  "ln_sum",
-                                                 "compression_mm"};
+                                                 "closing_mm"};
   return names;
+}
+
+void useCurrentFeatureNames(std::vector<std::string>& names) {
+  std::replace(
+      names.begin(), names.end(), std::string("compression_mm"), std::string("closing_mm"));
 }
 
 PlateauFeatures plateauFeatures(const Profile& profile,

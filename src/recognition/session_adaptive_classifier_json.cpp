@@ -4,6 +4,7 @@
 
 #include "palpate/core/error.h"
 #include "palpate/core/escaped_line.h"
+#include "palpate/recognition/plateau_features.h"
 #include "palpate/recognition/session_adaptive_classifier.h"
 #include "palpate/recognition/session_offset.h"
 
@@ -53,6 +54,7 @@ SessionAdaptiveClassifier sessionAdaptiveFrom(const Json& json) {
     throw Error("a model of another version of the program");
   SessionAdaptiveParameters data;
   data.features = js::texts(json, "features");
+  useCurrentFeatureNames(data.features);
   data.classes = js::texts(json, "classes");
   if (json.contains("size_column")) data.sizeColumn = js::count(json, "size_column");
   data.degreesOfFreedom = js::number(json, "degrees_of_freedom");

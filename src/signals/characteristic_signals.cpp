@@ -15,6 +15,10 @@
 namespace palpate {
 namespace {
 
+// Part of the largest filtered value of a matrix from which on a taxel holds a value: what a Kalman
+// filter leaves of a load after a second is less.
+constexpr float kHeldPart = 0.01F;
+
 // Sums over the active taxels; several matrices can be added before the means are computed.
 struct ActiveTaxels {
   double sum = 0.0;
@@ -44,52 +48,79 @@ struct ActiveTaxels {
   double mean() const { return count == 0 ? 0.0 : sum / count; }
 };
 
-CharacteristicSignals signalsFrom(const ActiveTaxels& raw,
-                                  const ActiveTaxels& filtered,
-                                  double areaMm2) {
-  return {raw.mean(), filtered.mean(), raw.minimum, raw.maximum, raw.sum, raw.count, areaMm2};
+// The taxels of one or several matrices, from which the signals are computed.
+struct SignalTaxels {
+  ActiveTaxels active;
+  ActiveTaxels averaged;  // those of the mean
+  ActiveTaxels filtered;  // after the Gaussian filter
+  double areaMm2 = 0.0;
+
+  void add(const SignalTaxels& other) {
+    active.add(other.active);
+    averaged.add(other.averaged);
+    filtered.add(other.filtered);
+    areaMm2 += other.areaMm2;
+  }
+  CharacteristicSignals signals() const {
+    return {averaged.mean(),
+            filtered.mean(),
+            active.minimum,
+            active.maximum,
+            active.sum,
+            active.count,
+            areaMm2};
+  }
+};
+
+// `averaged`: the values of the mean and the filtered mean. An unloaded matrix stays unloaded and
+// is skipped, which saves most of the work.
+SignalTaxels taxelsOf(const Eigen::Ref<const MatrixValues>& values,
+                      const Eigen::Ref<const MatrixValues>& averaged,
+                      const MatrixLayout& layout) {
+  SignalTaxels taxels;
+  taxels.active.add(values);
+  taxels.areaMm2 = taxels.active.count * layout.taxelAreaMm2();
+  if (taxels.active.count == 0) return taxels;
+  taxels.averaged.add(averaged);
+  taxels.filtered.add(gaussianFiltered(averaged, layout));
+  return taxels;
 }
 
-// Adds the Gaussian-filtered matrix. An unloaded matrix stays unloaded and is skipped, which saves
-// most of the work.
-void addFiltered(ActiveTaxels& filtered,
-                 const Eigen::Ref<const MatrixValues>& values,
-                 const MatrixLayout& layout,
-                 int active) {
-  if (active > 0) filtered.add(gaussianFiltered(values, layout));
+// The values of filters over time lag: when a contact ends, its taxels leave one after the other
+// and still hold values. A mean over those that are left, the strong ones, would exceed everything
+// that was measured; so the others count as long as they hold a part of the largest value.
+SignalTaxels taxelsOf(const TactileFrame& frame, std::size_t matrix) {
+  const MatrixLayout& layout = frame.layout->matrix(matrix);
+  const ConstMatrixMap values = frame.matrix(matrix);
+  if (frame.filtered.empty()) return taxelsOf(values, values, layout);
+  const ConstMatrixMap all = frame.allValues(matrix);
+  const float held = kHeldPart * all.maxCoeff();
+  const MatrixValues averaged = (values.array() > 0.0F || all.array() > held).select(all, 0.0F);
+  return taxelsOf(values, averaged, layout);
 }
 
 }  // namespace
 
 CharacteristicSignals characteristicSignals(const Eigen::Ref<const MatrixValues>& values,
                                             const MatrixLayout& layout) {
-  ActiveTaxels raw;
-  ActiveTaxels filtered;
-  raw.add(values);
-  addFiltered(filtered, values, layout, raw.count);
-  return signalsFrom(raw, filtered, raw.count * layout.taxelAreaMm2());
+  return taxelsOf(values, values, layout).signals();
+}
+
+CharacteristicSignals characteristicSignals(const TactileFrame& frame, std::size_t matrix) {
+  return taxelsOf(frame, matrix).signals();
 }
 
 std::vector<CharacteristicSignals> characteristicSignals(const TactileFrame& frame) {
   std::vector<CharacteristicSignals> signals;
   for (std::size_t m = 0; m < frame.layout->numMatrices(); ++m)
-    signals.push_back(characteristicSignals(frame.matrix(m), frame.layout->matrix(m)));
+    signals.push_back(characteristicSignals(frame, m));
   return signals;
 }
 
 CharacteristicSignals wholeFrameSignals(const TactileFrame& frame) {
-  ActiveTaxels raw;
-  ActiveTaxels filtered;
-  double areaMm2 = 0.0;
-  for (std::size_t m = 0; m < frame.layout->numMatrices(); ++m) {
-    const MatrixLayout& layout = frame.layout->matrix(m);
-    const int before = raw.count;
-    raw.add(frame.matrix(m));
-    const int active = raw.count - before;
-    addFiltered(filtered, frame.matrix(m), layout, active);
-    areaMm2 += active * layout.taxelAreaMm2();
-  }
-  return signalsFrom(raw, filtered, areaMm2);
+  SignalTaxels whole;
+  for (std::size_t m = 0; m < frame.layout->numMatrices(); ++m) whole.add(taxelsOf(frame, m));
+  return whole.signals();
 }
 
 bool isSaturated(std::span<const CharacteristicSignals> rows, const HandDescription& hand) {
@@ -101,21 +132,13 @@ bool isSaturated(std::span<const CharacteristicSignals> rows, const HandDescript
 
 void allSignals(const TactileFrame& frame, std::vector<CharacteristicSignals>& rows) {
   rows.clear();
-  ActiveTaxels wholeRaw;
-  ActiveTaxels wholeFiltered;
-  double wholeAreaMm2 = 0.0;
+  SignalTaxels whole;
   for (std::size_t m = 0; m < frame.layout->numMatrices(); ++m) {
-    const MatrixLayout& layout = frame.layout->matrix(m);
-    ActiveTaxels raw;
-    ActiveTaxels filtered;
-    raw.add(frame.matrix(m));
-    addFiltered(filtered, frame.matrix(m), layout, raw.count);
-    rows.push_back(signalsFrom(raw, filtered, raw.count * layout.taxelAreaMm2()));
-    wholeRaw.add(raw);
-    wholeFiltered.add(filtered);
-    wholeAreaMm2 += rows.back().areaMm2;
+    const SignalTaxels taxels = taxelsOf(frame, m);
+    rows.push_back(taxels.signals());
+    whole.add(taxels);
   }
-  rows.push_back(signalsFrom(wholeRaw, wholeFiltered, wholeAreaMm2));
+  rows.push_back(whole.signals());
 }
 
 double valueOf(const CharacteristicSignals& values, SignalKind which) {
@@ -183,7 +206,7 @@ SignalTable SignalTable::of(const Profile& profile, const Progress& progress) {
     reportProgress(progress, i, table.numFrames_, kFramesPerReport);
     profile.readFrame(i, frame);
     for (std::size_t m = 0; m < table.numMatrices_; ++m)
-      table.rows_.push_back(characteristicSignals(frame.matrix(m), profile.layout().matrix(m)));
+      table.rows_.push_back(characteristicSignals(frame, m));
   }
   return table;
 }

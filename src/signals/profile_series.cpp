@@ -96,10 +96,9 @@ class Reader {
     }
     profile_.readFrame(sample, frame_);
     const std::size_t m = choice_.index;
-    const CharacteristicSignals values =
-        m == frame_.layout->numMatrices()
-            ? wholeFrameSignals(frame_)
-            : characteristicSignals(frame_.matrix(m), frame_.layout->matrix(m));
+    const CharacteristicSignals values = m == frame_.layout->numMatrices()
+                                             ? wholeFrameSignals(frame_)
+                                             : characteristicSignals(frame_, m);
     return {seconds(frame_.hostUs), valueOf(values, choice_.signal)};
   }
 

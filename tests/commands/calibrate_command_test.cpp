@@ -148,13 +148,8 @@ TEST(CalibrateCommand, PressureIsMadeAndApplied) {
   const TemporaryFolder folder;
   writeTable(folder);
   // Half of the 12 taxels that are active, 11.56 mm^2 each.
-  const auto made = palpate({"calibrate",
-                             "pressure",
-                             folder / "table.csv",
-                             "--area",
-                             "69.36",
-                             "-o",
-                             folder / "c.json"});
+  const auto made = palpate(
+      {"calibrate", "pressure", folder / "table.csv", "--area", "69.36", "-o", folder / "c.json"});
   ASSERT_EQ(made.exitCode, 0) << made.err;
   const Json json = Json::parse(testing::readFile(folder / "c.json"));
   for (const char* surface : {"K", "m"}) {
@@ -220,12 +215,8 @@ TEST(CalibrateCommand, ForcesAreNotKnownWithoutTheAreaOfTheIndenter) {
       palpate({"calibrate", "pressure", folder / "table.csv", "-o", folder / "c.json"}).exitCode,
       0);
   const std::string said = "the area of the indenter is not known (calibrate pressure --area MM2)";
-  const auto applied = palpate({"calibrate",
-                                "apply",
-                                folder / "step4.dsa",
-                                "--calibration",
-                                folder / "c.json",
-                                "--quiet"});
+  const auto applied = palpate(
+      {"calibrate", "apply", folder / "step4.dsa", "--calibration", folder / "c.json", "--quiet"});
   EXPECT_EQ(applied.exitCode, 3);
   EXPECT_EQ(applied.err.find("palpate: " + said), 0u) << applied.err;
   EXPECT_EQ(std::count(applied.err.begin(), applied.err.end(), '\n'), 1) << applied.err;
@@ -283,6 +274,30 @@ TEST(CalibrateCommand, ContactHasNoForceOutsideTheMeasuredRange) {
   std::vector<std::string> ends;
   for (std::string line; std::getline(lines, line);) ends.push_back(line.substr(line.rfind(',')));
   EXPECT_EQ(ends, (std::vector<std::string>{",force_n", ",0", ",", ",0"}));
+}
+
+// core F8
+TEST(CalibrateCommand, AThresholdIsBoundedByTheFullScaleOfTheHand) {
+  const TemporaryFolder folder;
+  for (const float fullScale : {4095.0F, 65535.0F}) {
+    HandDescription hand;
+    hand.name = "pad";
+    hand.maximumCounts = hand.saturationCounts = fullScale;
+    hand.layout = std::make_shared<const SensorLayout>(
+        std::vector<MatrixLayout>{MatrixLayout::full(2, 2, 1.0)});
+    hand.matrices.resize(1);
+    ProfileBuilder builder(hand);
+    for (int i = 0; i < 100; ++i)
+      builder.addFrame(i * 30'000, std::vector<float>{5000.5F, 0.0F, 0.0F, 0.0F});
+    const std::string file = folder / (numberText(fullScale) + ".palpate");
+    saveRecording(builder.finish({}), {}, file);
+    const auto tare = palpate({"calibrate", "tare", file, "--most", "6000"});
+    if (fullScale > 6000.0F) {
+      EXPECT_EQ(tare.exitCode, 0) << tare.err;
+    } else {
+      expectOneLineError(tare, 2, {"--most 6000 is above the full scale of pad, 4095 counts"});
+    }
+  }
 }
 
 TEST(CalibrateCommand, SettingsThatTheRecordingNotesAreTaken) {

@@ -57,8 +57,8 @@ TEST(GraspFeatures, SetsHaveNames) {
 
 // Units by the headers of the sets: plateau_features.h, study_features.h, contact_statistics.h.
 TEST(GraspFeatures, HaveUnits) {
-  EXPECT_EQ(featureUnit(FeatureSet::kBest, "size_z"), "mm");
-  EXPECT_EQ(featureUnit(FeatureSet::kSession, "compression_mm"), "mm");
+  EXPECT_EQ(featureUnit(FeatureSet::kBest, "size_z"), "") << "40 ln(1 + D / 40)";
+  EXPECT_EQ(featureUnit(FeatureSet::kSession, "closing_mm"), "mm");
   EXPECT_EQ(featureUnit(FeatureSet::kBest, "ln_sum"), "");
   EXPECT_EQ(featureUnit(FeatureSet::kSession, "angle_5"), "deg");
   EXPECT_EQ(featureUnit(FeatureSet::kSession, "m1_row"), "taxels");

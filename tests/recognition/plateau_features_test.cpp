@@ -75,7 +75,7 @@ TEST(PlateauFeatures, OfAGraspComputedByHand) {
   // Load 235 i of 2350; five-frame mean at the edge (i = 1: frames 1 1 1 2 3) 376, then 517: a
   // quarter is 587.5, reached at i = 3 with 705. There D is 53.5.
   EXPECT_EQ(features.startFrame, 2u);
-  EXPECT_NEAR(values["compression_mm"], 3.5, 1e-9);
+  EXPECT_NEAR(values["closing_mm"], 3.5, 1e-9);
   // Nine tenths of the load: i = 9 with (7 + 8 + 9 + 10 + 10) / 50 = .88, i = 10 with .94.
   EXPECT_EQ(features.plateauFrame, 9u);
   EXPECT_EQ(features.plateauEndFrame, 39u);

@@ -281,6 +281,21 @@ TEST(TrainedModel, RefusesAnotherSensorAndOtherFeatures) {
   EXPECT_THROW(requireFits(model, table), Error);
 }
 
+// analyst M9: the feature has another name than the quantity of `contact --size` now.
+TEST(TrainedModel, ModelsOfEarlierReleasesAreRead) {
+  SampleSet samples = things(3, 6, 0.0, 1);
+  samples.features = {"size_z", "closing_mm"};
+  std::string text = jsonOf(modelOf(samples, ClassifierKind::kGauss)).text();
+  std::size_t renamed = 0;
+  const std::string now = "closing_mm";
+  for (std::size_t at = text.find(now); at != std::string::npos; at = text.find(now, at)) {
+    text.replace(at, now.size(), "compression_mm");
+    ++renamed;
+  }
+  ASSERT_GE(renamed, 2u) << "of the model and of its classifier";
+  EXPECT_EQ(trainedModelFrom(Json::parse(text)).features, samples.features);
+}
+
 TEST(TrainedModel, HashesEveryInputOnce) {
   const TemporaryFolder folder;
   testing::writeFile(folder / "x.dsa", "abc");

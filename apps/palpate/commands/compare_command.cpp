@@ -278,7 +278,7 @@ int compareCommand(const Arguments& words) {
         for (std::size_t m = 0; m + 1 < differences.size(); ++m) {
           if (!comparison.compared(m)) continue;
           const auto mean = [m](const TactileFrame& frame) {
-            return characteristicSignals(frame.matrix(m), frame.layout->matrix(m)).mean;
+            return characteristicSignals(frame, m).mean;
           };
           compareAppendRow(line, pair, m, mean(inA), mean(inB), differences[m]);
         }

@@ -2,7 +2,8 @@
 // load plateau of two opposite finger pads. The phases of contact and release are left out, because
 // they are not repeatable. They are the set `best` (grasp_features.h).
 //
-//   size_z           40 ln(1 + D / 40): D is the distance of the pads with the chord corrected
+//   size_z           40 ln(1 + D / 40), without a unit: D [mm] is the distance of the pads with the
+//   chord corrected
 //                    (kinematics/object_size.h), at the effective fingertip radius, of the mean
 //                    plateau frame's centroids and the plateau's median angles
 //   ln_major         ln(l1 + .15), l1 >= l2: principal second moments of the pressure [taxel^2]
@@ -12,7 +13,9 @@
 //   entropy          - sum p ln p
 //   ln_active        ln(active taxels + 1)
 //   ln_sum           ln(sum of counts)
-//   compression_mm   D at a quarter of the load, less D on the plateau
+//   closing_mm       D at a quarter of the load, less D on the plateau [mm]: how far the pads close
+//                    while the load rises, foam and object together (the compression of the object
+//                    alone: kinematics/object_size.h)
 //
 // All features except the two that depend on D are means over both pads of the mean plateau frame;
 // a taxel is active above 3 % of the largest value of its pad. Load: sum of both pads [counts], the
@@ -46,13 +49,14 @@ struct PlateauFeatureOptions {
   void validate() const;
 };
 
-// Conversion between D [mm] and size_z [mm], which is nearly linear for small objects and
-// logarithmic for large ones. sizeZ() throws nothing; a D of -40 or less (no hand has it) is
-// treated as -39.9.
+// Conversion between D [mm] and size_z, which is nearly linear for small objects and logarithmic
+// for large ones. sizeZ() throws nothing; a D of -40 or less (no hand has it) is treated as -39.9.
 double sizeZ(double distanceMm) noexcept;
 double distanceOfSizeZ(double sizeZ) noexcept;
 
 const std::vector<std::string>& plateauFeatureNames();
+// Replaces names in models of earlier releases by the present ones: closing_mm was compression_mm.
+void useCurrentFeatureNames(std::vector<std::string>& names);
 // Index of size_z in plateauFeatureNames().
 constexpr std::size_t kSizeZColumn = 0;
 

@@ -40,7 +40,7 @@ struct SessionAdaptiveOptions {
   double sessionVarianceFraction = 1.0;
   // Standard deviation between sessions of the features named here, in the unit of the feature.
   std::vector<std::pair<std::string, double>> sessionSd = {
-      {"size_z", 0.225}, {"ln_sum", 0.175}, {"compression_mm", 0.6}};
+      {"size_z", 0.225}, {"ln_sum", 0.175}, {"closing_mm", 0.6}};
   // Name of the feature that the size offset shifts. If no feature has this name, the offset
   // has no effect.
   std::string sizeFeature = "size_z";

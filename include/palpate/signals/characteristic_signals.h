@@ -49,6 +49,11 @@ CharacteristicSignals characteristicSignals(const Eigen::Ref<const MatrixValues>
                                             const MatrixLayout& layout);
 // The signals of every matrix of a frame, in wire order.
 std::vector<CharacteristicSignals> characteristicSignals(const TactileFrame& frame);
+// The signals of one matrix of a frame. In a filtered frame the means are over the active taxels
+// and those that hold a filtered value of at least 1 % of the largest one of the matrix: the value
+// of a filter over time outlasts the contact of a taxel. All other signals are over the active
+// ones. Throws std::out_of_range for a matrix that does not exist.
+CharacteristicSignals characteristicSignals(const TactileFrame& frame, std::size_t matrix);
 // The signals of the whole frame: mean, minimum and maximum over the active taxels of all matrices
 // (each taxel has the same weight); filteredMean likewise over all filtered matrices.
 CharacteristicSignals wholeFrameSignals(const TactileFrame& frame);

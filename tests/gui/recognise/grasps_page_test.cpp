@@ -64,7 +64,7 @@ TEST_F(GraspsPageTest, ListsEachGraspWithItsFeatures) {
   const auto header = [&](int column) {
     return table().model()->headerData(column, Qt::Horizontal).toString();
   };
-  EXPECT_EQ(header(GraspTableModel::kFirstFeature), "size_z in mm");
+  EXPECT_EQ(header(GraspTableModel::kFirstFeature), "size_z");
   EXPECT_EQ(header(GraspTableModel::kFirstFeature + 1), "ln_major");
   EXPECT_EQ(cell(rowOf("pen", 3), GraspTableModel::kRecording), "pen.palpate");
   EXPECT_TRUE(cell(0, GraspTableModel::kTime).startsWith("20"));
@@ -108,15 +108,15 @@ TEST_F(GraspsPageTest, TableAndPlotChooseTheSameGrasp) {
 
 TEST_F(GraspsPageTest, AxesAreChosenAndKept) {
   auto* y = find<QComboBox>("scatterY");
-  const int index = y->findText("compression_mm in mm");
+  const int index = y->findText("closing_mm in mm");
   ASSERT_GE(index, 0);
   y->setCurrentIndex(index);
   emit y->activated(index);
-  EXPECT_EQ(page().scatter().plot().yAxis->label(), "compression_mm in mm");
+  EXPECT_EQ(page().scatter().plot().yAxis->label(), "closing_mm in mm");
   panel_ = std::make_unique<RecognisePanel>(settings_, testing::dataFolder());
   panel_->show();
   settle();
-  EXPECT_EQ(find<QComboBox>("scatterY")->currentText(), "compression_mm in mm");
+  EXPECT_EQ(find<QComboBox>("scatterY")->currentText(), "closing_mm in mm");
 }
 
 TEST_F(GraspsPageTest, WhatIsLeftOutDoesNotTrain) {
@@ -221,7 +221,7 @@ TEST_F(GraspsPageTest, RowsAreCopiedExportedAndOpened) {
   ASSERT_EQ(lines.size(), 2);
   EXPECT_TRUE(lines[0].startsWith("object\trecording\tgrasp\tbegin\tend\ttime\tquality\t"))
       << lines[0].toStdString();
-  EXPECT_TRUE(lines[0].contains("\tsize_z [mm]\tln_major\t")) << lines[0].toStdString();
+  EXPECT_TRUE(lines[0].contains("\tsize_z\tln_major\t")) << lines[0].toStdString();
   EXPECT_TRUE(lines[1].startsWith("pen\t")) << lines[1].toStdString();
   const auto tables = page().tables();
   ASSERT_EQ(tables.size(), 1u);

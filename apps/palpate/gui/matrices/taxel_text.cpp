@@ -17,8 +17,10 @@ QString pressureText(const HandDescription& hand,
   if (!pressure || pressure->kpa.size() != hand.layout->numCells()) return {};
   const std::size_t at =
       hand.layout->offset(m) + static_cast<std::size_t>(y * hand.layout->matrix(m).columns + x);
+  const double forceN = taxelForceN(*pressure, *hand.layout, m, y, x);
+  const bool isLimit = !pressure->areaKnown && forceN > 0.0;
   return " · " + shownUnit(units.pressure).text(static_cast<double>(pressure->kpa[at]), 1) + " · " +
-         figure(taxelForceN(*pressure, *hand.layout, m, y, x), 3) + " N" +
+         (isLimit ? "≤ " : "") + figure(forceN, 3) + " N" +
          (pressure->matrices[m].inRange ? "" : ", outside the measured range");
 }
 

@@ -15,7 +15,7 @@
 
 namespace palpate::gui {
 
-// "size_z in mm", or the name alone of a feature without unit.
+// "closing_mm in mm", or the name alone of a feature without unit.
 QString featureLabel(FeatureSet set, const std::string& name);
 
 class GraspTableModel : public QAbstractTableModel {

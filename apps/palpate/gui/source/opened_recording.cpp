@@ -193,9 +193,8 @@ bool OpenedRecording::unreadableAt(double seconds) const {
 CharacteristicSignals OpenedRecording::at(std::size_t frame, std::size_t matrix) const {
   if (!isLong()) return matrix == numMatrices() ? whole.at(frame) : table.at(frame, matrix);
   const TactileFrame values = profile.frame(frame);
-  return matrix == numMatrices()
-             ? wholeFrameSignals(values)
-             : characteristicSignals(values.matrix(matrix), values.layout->matrix(matrix));
+  return matrix == numMatrices() ? wholeFrameSignals(values)
+                                 : characteristicSignals(values, matrix);
 }
 
 double OpenedRecording::timeAt(std::size_t frame) const {

@@ -1,0 +1,59 @@
+// Every column that a table of the analysis prints is defined on its page of the manual.
+#include <map>
+#include <regex>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "commands/palpate_program.h"
+
+namespace palpate::column_docs_test {
+namespace {
+
+using testing::palpate;
+
+struct Table {
+  std::vector<std::string> command;  // without the recording
+  const char* page;
+};
+
+// "m1_T02" and "angle_5" as the manual writes them: "mM_Tpq", "angle_N".
+std::string writtenName(std::string name) {
+  static const std::vector<std::pair<std::regex, std::string>> kForms = {
+      {std::regex("^m[0-9]+_T[0-9]+$"), "mM_Tpq"},
+      {std::regex("^m[0-9]+_"), "mM_"},
+      {std::regex("^angle_[0-9]+$"), "angle_N"},
+      {std::regex("^std_[0-9]+$"), "std_M"}};
+  for (const auto& [form, written] : kForms) name = std::regex_replace(name, form, written);
+  return name;
+}
+
+// analyst M9, m5
+TEST(ColumnDocs, EveryColumnIsDefinedOnItsPage) {
+  const std::string recording = testing::dataFolder() / "demo_grasps.dsa";
+  const std::vector<Table> tables = {{{"signals"}, "commands.md"},
+                                     {{"slip"}, "slip.md"},
+                                     {{"slip", "--segments"}, "slip.md"},
+                                     {{"contact"}, "contact.md"},
+                                     {{"contact", "--matrices"}, "contact.md"},
+                                     {{"contact", "--size"}, "contact.md"},
+                                     {{"features", "--set", "best"}, "recognition.md"},
+                                     {{"features", "--set", "session"}, "recognition.md"},
+                                     {{"features", "--set", "statistics"}, "recognition.md"},
+                                     {{"features", "--set", "study"}, "recognition.md"}};
+  for (const Table& table : tables) {
+    std::vector<std::string> words = table.command;
+    words.push_back(recording);
+    const auto result = palpate(words);
+    const std::string page = testing::readFile(testing::projectFolder() / "docs" / table.page);
+    std::istringstream header(result.out.substr(0, result.out.find('\n')));
+    std::size_t columns = 0;
+    for (std::string name; std::getline(header, name, ','); ++columns)
+      EXPECT_NE(page.find("`" + writtenName(name) + "`"), std::string::npos)
+          << table.page << " does not define " << name << " of " << table.command.front();
+    EXPECT_GT(columns, 7u) << table.command.front() << ": " << result.err;
+  }
+}
+
+}  // namespace
+}  // namespace palpate::column_docs_test
