@@ -17,6 +17,7 @@ namespace fs = std::filesystem;
 namespace {
 
 [[noreturn]] void throwCantWrite(const fs::path& path, int error) {
+  if (error == ENOENT) throw FileError(path, "can't be written: its folder does not exist");
   throw FileError(path, "can't be written: " + writeFailureText(error));
 }
 

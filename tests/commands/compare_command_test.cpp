@@ -127,8 +127,14 @@ TEST_F(CompareCommandTest, PrintsTheAverageOverGrasps) {
   const auto result = palpate({"compare", a, b, "--average", "m1_mean"});
   ASSERT_EQ(result.exitCode, 0) << result.err;
   const auto rows = lines(result.out);
-  EXPECT_EQ(rows.at(0),
-            "time_s,curves,mean,low,high," + a + " grasp 1," + a + " grasp 2," + b + " grasp 1");
+  EXPECT_EQ(rows.at(0), "time_s,curves,mean,low,high,a.dsa grasp 1,a.dsa grasp 2,b.dsa grasp 1");
+  // analyst m12: with one name in two folders, the paths.
+  std::filesystem::create_directory(folder_ / "other");
+  const auto other = withGrasps(folder_ / "other" / "a.dsa", {300});
+  const auto paths = palpate({"compare", a, other, "--average", "m1_mean"});
+  EXPECT_EQ(
+      lines(paths.out).at(0),
+      "time_s,curves,mean,low,high," + a + " grasp 1," + a + " grasp 2," + other + " grasp 1");
   // From 0.5 s before to the end of the recording or 0.5 s behind the grasp.
   EXPECT_EQ(rows.at(1), "-0.500000,3,0,0,0,0,0,0");
   std::vector<double> cells;

@@ -33,7 +33,7 @@ TEST(SynthesizeCommand, NeverReplacesAFileUnlessForced) {
 TEST(SynthesizeCommand, RefusesBadOptions) {
   expectOneLineError(palpate({"synthesize"}), 2, {"-o"});
   expectOneLineError(palpate({"synthesize", "-o", "x.dsa", "--duration", "-1"}), 2, {"--duration"});
-  expectOneLineError(palpate({"synthesize", "-o", "x.png"}), 2, {".dsa"});
+  expectOneLineError(palpate({"synthesize", "-o", "x.png"}), 2, {".dsa", ".palpate"});
   expectOneLineError(
       palpate({"synthesize", "-o", "x.dsa", "--duration", "1", "--grasps", "9"}), 1, {"9 grasps"});
   expectOneLineError(palpate({"synthesize", "-o", "/nowhere/x.dsa"}), 1, {"/nowhere/x.dsa"});

@@ -3,7 +3,9 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
+#include <filesystem>
 #include <memory>
+#include <set>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -143,8 +145,23 @@ AverageOptions averageOptionsOf(const CommandLine& given) {
 // Curves with their names.
 struct NamedCurves {
   std::vector<AlignedCurve> curves;
-  std::vector<std::string> names;
+  std::vector<std::string> files;   // one per curve
+  std::vector<std::string> grasps;  // " grasp 1", or empty
 };
+
+// Names of the columns: of files with different names these, else their paths.
+std::vector<std::string> shownNames(const std::vector<std::string>& files, const NamedCurves& all) {
+  std::set<std::string> names;
+  for (const std::string& file : files)
+    names.insert(std::filesystem::path(file).filename().string());
+  const bool differ = names.size() == std::set<std::string>(files.begin(), files.end()).size();
+  std::vector<std::string> shown;
+  for (std::size_t i = 0; i < all.files.size(); ++i)
+    shown.push_back(
+        (differ ? std::filesystem::path(all.files[i]).filename().string() : all.files[i]) +
+        all.grasps[i]);
+  return shown;
+}
 
 void addCurvesOf(const CommandLine& given, const std::string& file, NamedCurves& all) {
   const TimedProfile timed = opened(file, given.quiet());
@@ -162,13 +179,15 @@ void addCurvesOf(const CommandLine& given, const std::string& file, NamedCurves&
     all.curves.push_back({.series = series,
                           .zeroS = how == "contact" ? timed.timeS(*timed.contact) : 0.0,
                           .longestS = longestS});
-    all.names.push_back(file);
+    all.files.push_back(file);
+    all.grasps.emplace_back();
     return;
   }
   std::vector<TimeSpan> spans;
   for (const GraspFrames& grasp : graspsOf(file, timed.profile, given.quiet())) {
     spans.push_back({timed.timeS(grasp.begin), timed.timeS(grasp.end)});
-    all.names.push_back(file + " grasp " + std::to_string(spans.size()));
+    all.files.push_back(file);
+    all.grasps.push_back(" grasp " + std::to_string(spans.size()));
   }
   constexpr double kUsualMarginS = 0.5;
   const double marginS = given.number("margin", 0.0, kFurthestS).value_or(kUsualMarginS);
@@ -193,7 +212,7 @@ int writeAverage(const CommandLine& given) {
   for (const auto& [sign, percent] :
        {std::pair("low", options.lowPercent), std::pair("high", options.highPercent)})
     header.push_back(percentiles ? "p" + numberText(percent) : std::string(sign));
-  header.insert(header.end(), all.names.begin(), all.names.end());
+  for (const std::string& name : shownNames(given.words(), all)) header.push_back(name);
   std::vector<std::vector<double>> columns = {average.middle, average.low, average.high};
   for (const AlignedCurve& curve : all.curves)
     columns.push_back(alignedValues(curve, average.timeS));

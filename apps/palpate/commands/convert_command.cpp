@@ -40,6 +40,7 @@ int convertOne(const CommandLine& given, const std::string& in, const std::strin
   requireWritable(out, overwrite);
   const auto from = given.integer("from", 0, INT64_MAX);
   const auto to = given.integer("to", 0, INT64_MAX);
+  if (from && to && *from > *to) throw UsageError("--from is after --to");
   const Recipe recipe = recipeOf(given);
   const ExportChoices choices = exportChoicesOf(given, recipe, out);
   Profile profile = [&] {

@@ -180,6 +180,7 @@ gui::FrameSpan chosenSpan(const CommandLine& given,
   const auto from = given.integer("from", 0, INT64_MAX).value_or(0);
   const auto last = static_cast<std::int64_t>(profile.numFrames()) - 1;
   const auto to = given.integer("to", 0, INT64_MAX).value_or(last);
+  if (given.has("to") && from > to) throw UsageError("--from is after --to");
   if (from > to || to > last)
     throw Error(file + ": has no frames " + std::to_string(from) + ".." + std::to_string(to) +
                 ", only 0.." + std::to_string(last));

@@ -359,6 +359,8 @@ int spectrumCommand(const Arguments& words) {
   if (given.helpShown()) return kDone;
   const bool twoSignals = given.has("coherence");
   const bool oneLine = given.has("welch") || given.has("peaks");
+  if (given.has("welch") && given.has("peaks"))
+    throw UsageError("--welch and --peaks are two tables of one spectrum: give one of them");
   if (twoSignals && oneLine) throw UsageError("give --coherence, or --welch and --peaks, not both");
   if (twoSignals)
     for (const char* one : {"matrix", "x", "y", "signal"})

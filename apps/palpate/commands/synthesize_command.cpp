@@ -1,13 +1,14 @@
-// The command `palpate synthesize -o OUT.dsa` makes a synthetic recording with known content.
+// The command `palpate synthesize -o OUT` makes a synthetic recording with known content.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 
+#include "palpate/core/error.h"
 #include "palpate/core/escaped_line.h"
 #include "palpate/emulator/scene.h"
 #include "palpate/emulator/simulated_recording.h"
 #include "palpate/emulator/synthetic_profile.h"
-#include "palpate/recording/dsa_writer.h"
+#include "palpate/recording/recording.h"
 
 #include "commands/command_line.h"
 #include "commands/commands.h"
@@ -52,7 +53,7 @@ Profile fromOptions(const CommandLine& given) {
 
 int synthesizeCommand(const Arguments& words) {
   const CommandLine given(
-      {.synopsis = "palpate synthesize -o OUT.dsa [--scene NAME] [--duration S] [--grasps N] "
+      {.synopsis = "palpate synthesize -o OUT [--scene NAME] [--duration S] [--grasps N] "
                    "[--noise SD] ..",
        .purpose =
            "Makes a synthetic recording of pinch grasps: the same options give the same frames. "
@@ -62,7 +63,9 @@ int synthesizeCommand(const Arguments& words) {
            "different places. --zero-error gives its joints an error of their zero, as after a new "
            "referencing: the scene empty_touch with the same error makes the recording of the "
            "empty hand for palpate adapt --empty-hand-zero.",
-       .options = {{"output,o", "OUT.dsa", "where to write it"},
+       .options = {{"output,o",
+                    "OUT",
+                    "where to write it: .palpate, .dsa and the other endings of palpate convert"},
                    {"scene", "NAME", "of data/scenes, or a JSON file"},
                    {"duration", "S", "length [s] (of a scene: of each run), default 12"},
                    {"rate", "HZ", "tactile frames per second, default 31.7"},
@@ -74,15 +77,18 @@ int synthesizeCommand(const Arguments& words) {
                     "DEG",
                     "of a scene: error of the proximal joints' zero, default 0"},
                    {"days-later", "N", "of a scene: host time N days later, default 0"},
-                   {"force", "", "replace OUT.dsa"}},
+                   {"force", "", "replace OUT"}},
        .example = "palpate synthesize -o grasps.dsa --grasps 4 --noise 8",
        .maxArguments = 0},
       words);
   if (given.helpShown()) return kDone;
   const auto out = given.text("output");
-  if (!out) throw UsageError("synthesize needs -o OUT.dsa");
-  if (std::filesystem::path(*out).extension() != ".dsa")
-    throw UsageError("the recording's name must end in .dsa, not '" + *out + "'");
+  if (!out) throw UsageError("synthesize needs -o OUT");
+  try {
+    formatOf(*out);
+  } catch (const Error& error) {
+    throw UsageError(error.what());
+  }
   const auto scene = given.text("scene");
   for (const char* name : {"peak", "noise"})
     if (scene && given.has(name))
@@ -93,10 +99,11 @@ int synthesizeCommand(const Arguments& words) {
   const Profile profile =
       scene ? fromScene(given, *scene, progress.callback()) : fromOptions(given);
   progress.setLabel("writing " + *out);
-  writeDsa(profile,
-           *out,
-           given.has("force") ? Overwrite::kReplace : Overwrite::kRefuse,
-           progress.callback());
+  saveRecording(profile,
+                {},
+                *out,
+                given.has("force") ? Overwrite::kReplace : Overwrite::kRefuse,
+                progress.callback());
   if (!given.quiet())
     std::printf("%s: %zu frames\n", escapedLine(*out).c_str(), profile.numFrames());
   return kDone;

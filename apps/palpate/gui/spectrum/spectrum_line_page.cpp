@@ -38,8 +38,8 @@ TextTable meanLineTable(const SpectrumAnswer& answer) {
 TextTable peakTable(const SpectrumAnswer& answer) {
   const std::string unit = answer.unit.toStdString();
   return {.header = {"frequency_hz",
-                     "psd [" + unit + "^2/Hz]",
-                     "amplitude [" + unit + "]",
+                     unit.empty() ? "psd [1/Hz]" : "psd [" + unit + "^2/Hz]",
+                     unit.empty() ? "amplitude" : "amplitude [" + unit + "]",
                      "width_hz",
                      "prominence_db"},
           .numRows = answer.peaks.size(),

@@ -86,7 +86,7 @@ TextTable curveTable(const OpenedRecordingPtr& recording,
                            : nullptr);
     const bool ofMatrix = curve.choice.kind == SeriesChoice::Kind::kMatrix;
     table.header.push_back((curve.name + (ofMatrix ? " " + nameOf(curve.choice.signal) : "") +
-                            " [" + curve.baseUnit + "]")
+                            (curve.baseUnit.isEmpty() ? "" : " [" + curve.baseUnit + "]"))
                                .toStdString());
   }
   table.row = [recording, choices, formulas, first = span.first](std::size_t row) {
