@@ -31,6 +31,7 @@ std::string writtenName(std::string name) {
 // analyst M9, m5
 TEST(ColumnDocs, EveryColumnIsDefinedOnItsPage) {
   const std::string recording = testing::dataFolder() / "demo_grasps.dsa";
+  const auto manual = testing::dataFolder().parent_path() / "docs";
   const std::vector<Table> tables = {{{"signals"}, "commands.md"},
                                      {{"slip"}, "slip.md"},
                                      {{"slip", "--segments"}, "slip.md"},
@@ -45,7 +46,7 @@ TEST(ColumnDocs, EveryColumnIsDefinedOnItsPage) {
     std::vector<std::string> words = table.command;
     words.push_back(recording);
     const auto result = palpate(words);
-    const std::string page = testing::readFile(testing::projectFolder() / "docs" / table.page);
+    const std::string page = testing::readFile(manual / table.page);
     std::istringstream header(result.out.substr(0, result.out.find('\n')));
     std::size_t columns = 0;
     for (std::string name; std::getline(header, name, ','); ++columns)

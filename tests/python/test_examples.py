@@ -1,5 +1,6 @@
 """The worked examples of docs/python run and make their figures: of small data that is made here, in the study's folders."""
 import os
+import re
 import subprocess
 import sys
 
@@ -91,3 +92,35 @@ def test_recognition_figures(tmp_path):
         assert (tmp_path / "out" / f"figure_{figure}.png").stat().st_size > 5000
     (line,) = [one for one in said.splitlines() if "table 6.1, study:" in one]
     assert float(line.split()[3]) > 0.9
+
+
+NUMBER = r"-?\d+(?:\.\d+)?(?:e-?\d+)?"
+# Of each row of python.md, "The study's figures", where the scripts print its numbers, in the order of the page.
+PRINTED = {
+    "3.4": rf"3\.4: steady after ({NUMBER}) s \(hockey ball\) and ({NUMBER}) s",
+    "3.7/3.8": rf"3\.8: P\(K, T\) has c ({NUMBER}) ({NUMBER}) ({NUMBER}) ({NUMBER}) kPa, RMSE ({NUMBER})",
+    "creep": rf"rises by ({NUMBER}) % from (1\.3) s to (11) s after the contact, by ({NUMBER}) %",
+    "3.12": rf"3\.12: RMSE" + rf" ({NUMBER})" * 6,
+    "5.7, turn": rf"5\.7, turn: ({NUMBER}) deg",
+    "5.7, way": r".*?".join(rf"5\.7, {name}: \(({NUMBER}), ({NUMBER})\)" for name in ("alcazar", "register", "contest")),
+    "table 6.1": r".*?".join(rf"6\.1, {name}: ({NUMBER})" for name in ("diameter", "first4", "moments", "study", "study and lda")),
+    "table 6.2": rf"6\.2: F ({NUMBER})",
+}
+
+
+def test_the_figures_of_the_manual_are_those_that_the_scripts_print(recordings, tmp_path):
+    said = "".join(run(name, recordings, tmp_path) for name in
+                   ("calibration_figures", "slip_figures", "recognition_figures"))
+    page = (SOURCE / "docs/python.md").read_text().split("## The study's figures")[1].split("\n## ")[0]
+    rows = [row.strip("| ").split(" | ") for row in page.splitlines() if row.startswith("| ")][1:]  # without the names
+    left = dict(PRINTED)
+    for section, ours, *_ in rows:
+        (key,) = [key for key in left if section.startswith(key)]
+        found = re.search(left.pop(key), said, re.DOTALL)
+        assert found, f"{section}: {said}"
+        told = re.findall(NUMBER, ours.replace("- ", "-"))
+        assert len(told) == len(found.groups()), (section, told, found.groups())
+        for number, printed in zip(told, found.groups()):
+            last_digit = 10.0 ** -len(number.partition(".")[2])
+            assert float(number) == pytest.approx(float(printed), abs=0.51 * last_digit), section
+    assert not left, f"python.md has no row for {list(left)}"

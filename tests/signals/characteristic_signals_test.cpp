@@ -1,5 +1,8 @@
 #include "palpate/signals/characteristic_signals.h"
 
+#include <algorithm>
+#include <cmath>
+#include <memory>
 #include <set>
 #include <stdexcept>
 #include <string>
@@ -8,6 +11,8 @@
 
 #include "palpate/core/error.h"
 #include "palpate/device/sdh2.h"
+#include "palpate/filter/filtered_profile.h"
+#include "palpate/filter/recipe.h"
 #include "palpate/model/hand_description.h"
 #include "palpate/model/profile_builder.h"
 #include <palpate/model/hand_description.h>
@@ -89,6 +94,59 @@ TEST(SignalTable, HoldsEveryFrameAndFindsTheLargestSum) {
   EXPECT_EQ(table.frameOfLargestSum(), 1u);
   EXPECT_THROW(table.at(3, 0), std::out_of_range);
   EXPECT_THROW(table.at(0, 6), std::out_of_range);
+}
+
+// analyst M7. By hand: taxels that have left the contact hold 100, 100 and 1 (less than 1 % of
+// 600).
+TEST(CharacteristicSignals, MeansOfAFilteredFrameCountTheTaxelsThatStillHoldAValue) {
+  MatrixLayout layout = MatrixLayout::full(1, 4, 2.0);
+  TactileFrame frame(std::make_shared<const SensorLayout>(std::vector<MatrixLayout>{layout}));
+  frame.setFiltered({600.0F, 100.0F, 100.0F, 1.0F}, {true, false, false, false});
+  const CharacteristicSignals signals = characteristicSignals(frame, 0);
+  EXPECT_DOUBLE_EQ(signals.mean, 800.0 / 3.0);
+  EXPECT_DOUBLE_EQ(signals.sum, 600.0) << "of the contact";
+  EXPECT_EQ(signals.active, 1);
+  EXPECT_EQ(signals.areaMm2, 4.0);
+  EXPECT_EQ(signals.minimum, 600.0);
+  EXPECT_EQ(signals.maximum, 600.0);
+  EXPECT_DOUBLE_EQ(wholeFrameSignals(frame).mean, 800.0 / 3.0);
+  // A contact is never longer than the recorded one.
+  frame.setFiltered({600.0F, 100.0F, 100.0F, 1.0F}, {false, false, false, false});
+  EXPECT_EQ(characteristicSignals(frame, 0).mean, 0.0);
+  EXPECT_EQ(characteristicSignals(frame, 0).filteredMean, 0.0);
+}
+
+// analyst M7: the weak taxels leave a contact first; what a filter over time still holds of the
+// strong ones must not become a mean that was never measured.
+TEST(CharacteristicSignals, TheMeanOfFilteredValuesNeverExceedsWhatWasMeasured) {
+  HandDescription hand;
+  hand.layout = std::make_shared<const SensorLayout>(
+      std::vector<MatrixLayout>{MatrixLayout::full(5, 4, 2.0)});
+  ProfileBuilder builder(hand);
+  for (int i = 0; i < 90; ++i) {
+    std::vector<float> values(20, 0.0F);
+    const float load = i < 10   ? 0.0F
+                       : i < 50 ? 1.0F
+                                : std::max(0.0F, 1.0F - 0.12F * static_cast<float>(i - 50));
+    // Each taxel has a threshold of 60 counts, as a sensor has.
+    for (std::size_t k = 0; k < values.size(); ++k)
+      values[k] = std::max(0.0F, std::round(load * 50.0F * static_cast<float>(k + 1) - 60.0F));
+    builder.addFrame(i * 31'000, values);
+  }
+  const Profile profile = builder.finish({});
+  const SignalTable measured = SignalTable::of(profile);
+  for (const char* filter : {"kalman", "kalman:q=0.1", "running-mean:window=7", "rts"}) {
+    const Recipe recipe = parseRecipe(std::vector<std::string>{filter});
+    const SignalTable table = SignalTable::of(filteredProfile(profile, recipe));
+    for (const SignalKind kind : {SignalKind::kMean, SignalKind::kFilteredMean}) {
+      double largest = 0.0;
+      for (std::size_t i = 0; i < 90; ++i)
+        largest = std::max(largest, valueOf(measured.at(i, 0), kind));
+      for (std::size_t i = 0; i < 90; ++i)
+        EXPECT_LE(valueOf(table.at(i, 0), kind), largest)
+            << filter << ", frame " << i << ", " << signalName(kind);
+    }
+  }
 }
 
 TEST(SignalTable, CanBeCancelled) {
