@@ -155,19 +155,20 @@ class Saving(unittest.TestCase):
             profile.save(Path(folder) / "a.npz")
             arrays = np.load(Path(folder) / "a.npz", allow_pickle=False)
             self.assertEqual(set(arrays.files), {
-                "time_ms", "m0", "m1", "m2", "m3", "m4", "m5", "angles", "angle_time_ms",
-                "temperatures", "temperature_time_ms", "static_mask", "meta"})
+                "time_ms", "time_us", "m0", "m1", "m2", "m3", "m4", "m5", "angles", "angle_time_ms", "angle_time_us",
+                "temperatures", "temperature_time_ms", "temperature_time_us", "static_mask", "meta"})
             for m in range(6):
                 self.assertEqual(arrays[f"m{m}"].dtype, np.uint16)
                 np.testing.assert_array_equal(arrays[f"m{m}"], profile.matrix(m))
             np.testing.assert_array_equal(arrays["angles"], profile.angles)
             np.testing.assert_array_equal(arrays["time_ms"], profile.time_ms)
+            np.testing.assert_array_equal(arrays["time_us"], profile.time_us)
             self.assertEqual(arrays["static_mask"].sum(), 456)
             self.assertEqual(json.loads(str(arrays["meta"]))["serial"], "1D9B0057")
             profile.save(Path(folder) / "a.csv")
             table = np.loadtxt(Path(folder) / "a.csv", delimiter=",", skiprows=1)
             matrix = profile.matrix(0)
-            for frame, _, m, y, x, value in table:
+            for frame, _, m, y, x, value, _ in table:
                 if m == 0:
                     self.assertEqual(matrix[int(frame), int(y), int(x)], value)
             self.assertEqual(len(table), np.count_nonzero(profile.frames() > 0))

@@ -63,6 +63,10 @@ def test_all_series_of_a_recording():
     assert angles.dims == ("time", "axis") and list(angles.axis.values) == profile.axes
     np.testing.assert_array_equal(angles, profile.angles)
     assert angles.attrs["units"] == "deg"
+    gripper = palpate.Hand("parallel_gripper")  # arrays A9: its axis slides
+    parts = [np.zeros((2, matrix["rows"], matrix["columns"])) for matrix in gripper.matrices]
+    grip = palpate.record(parts, gripper, rate=30, angles=[[1.0], [2.0]])
+    assert grip.to_xarray()["angles"].attrs["units"] == "mm"
     pad = sample("flat_pad_16x16").to_xarray()
     assert len(pad) == 1 and "angles" not in pad
 
