@@ -218,6 +218,14 @@ std::vector<double> windowed(std::span<const double> values,
   return result;
 }
 
+// The progress of one of `count` steps of equal weight.
+Progress progressOfStep(const Progress& progress, std::size_t step, std::size_t count) {
+  if (!progress) return {};
+  return [&progress, step, count](double done) {
+    return progress((static_cast<double>(step) + done) / static_cast<double>(count));
+  };
+}
+
 double medianIntervalOf(std::span<const double> timeS) {
   if (timeS.size() < 2) return 0.0;
   std::vector<double> intervals;
@@ -428,7 +436,7 @@ std::vector<double> Formula::evaluate(std::span<const double> timeS,
                                       const Progress& progress) const {
   // The series functions, each after what is inside, and then the formula itself.
   const auto part = [&](std::size_t step) {
-    return progressOfPart(progress, step, 2 * derivatives_.size() + 1);
+    return progressOfStep(progress, step, 2 * derivatives_.size() + 1);
   };
   if (values.size() != names_.size())
     throw std::invalid_argument("formula \"" + shortened(text_) +
@@ -524,7 +532,7 @@ Series derivedSeries(const Profile& profile,
     choices.push_back(*choice);
   }
   const auto part = [&](std::size_t which) {
-    return progressOfPart(progress, which, choices.size() + 1);
+    return progressOfStep(progress, which, choices.size() + 1);
   };
   const TimingReport timing = timingOf(profile);
   const double longestS = gapThresholdS(timing.rateHz > 0.0 ? 1.0 / timing.rateHz : 0.0);

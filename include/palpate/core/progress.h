@@ -23,12 +23,4 @@ inline void reportProgress(const Progress& progress,
     throw Cancelled();
 }
 
-// The progress of part `part` (from 0) of `count` parts of equal weight. Refers to `progress`.
-inline Progress progressOfPart(const Progress& progress, std::size_t part, std::size_t count) {
-  if (!progress) return {};
-  return [&progress, part, count](double fraction) {
-    return progress((static_cast<double>(part) + fraction) / static_cast<double>(count));
-  };
-}
-
 }  // namespace palpate
